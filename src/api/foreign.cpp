@@ -39,7 +39,7 @@ vox_result vox_suggest_for(const vox_foreign_grid* grid, vox_foreign_suggestion*
         check_out_struct(out, "out");
         const ForeignGrid described(grid);
         CallerMemory memory(described.desc.allocator);
-        ForeignWork work(described, quick_look, &memory);
+        ForeignWork work(described, quick_look(described), &memory);
         write_struct(out, suggest_for(described, work), "out");
     });
 }

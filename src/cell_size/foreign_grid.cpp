@@ -30,15 +30,14 @@ constexpr struct {
     const char* name;
     double vox_grid_weights::*field;
 } weight_fields[] = {
-    {"fixed", &vox_grid_weights::fixed},       {"entries", &vox_grid_weights::entries},
-    {"visits", &vox_grid_weights::visits},     {"found", &vox_grid_weights::found},
-    {"reads", &vox_grid_weights::reads},       {"occupied", &vox_grid_weights::occupied},
+    {"fixed", &vox_grid_weights::fixed},   {"entries", &vox_grid_weights::entries},
+    {"visits", &vox_grid_weights::visits}, {"found", &vox_grid_weights::found},
+    {"reads", &vox_grid_weights::reads},   {"occupied", &vox_grid_weights::occupied},
     {"cells", &vox_grid_weights::cells},
 };
 
 void check_grid_number(bool good, double value, const char* name, const char* expected) {
-    if (!good || !std::isfinite(value))
-        refuse(format("grid %s is %.9g, expected %s", name, value, expected));
+    if (!good || !std::isfinite(value)) refuse(format("grid %s is %.9g, expected %s", name, value, expected));
 }
 
 vox_foreign_grid checked(vox_foreign_grid grid, bool& weights_known) {
@@ -46,7 +45,8 @@ vox_foreign_grid checked(vox_foreign_grid grid, bool& weights_known) {
     check_enum(grid.look, VOX_LOOK_PAIRS, "grid look");
     check_enum(grid.known, VOX_KNOWN_GRID_NUMPY, "grid known");
     if (grid.look == VOX_LOOK_AROUND && grid.content != VOX_CELLS_HOLD_CENTRES)
-        refuse("grid look is AROUND and content HOLD_BOXES: 27 cells around are looked at where cells hold centres");
+        refuse("grid look is AROUND and content HOLD_BOXES: 27 cells around are looked at where cells hold "
+               "centres");
     constexpr std::uint32_t known_flags = VOX_FOREIGN_DENSE;
     if (grid.flags & ~known_flags)
         refuse(format("grid flags is 0x%" PRIx32 ", of which 0x%" PRIx32 " is unknown", grid.flags,
@@ -55,19 +55,19 @@ vox_foreign_grid checked(vox_foreign_grid grid, bool& weights_known) {
     check_grid_number(grid.radius >= 0, grid.radius, "radius", "0 or a length");
     check_grid_number(grid.least_cell_size >= 0, grid.least_cell_size, "least_cell_size", "0 or a length");
     check_grid_number(grid.zone_loss >= 0 && grid.zone_loss <= 1e6, grid.zone_loss, "zone_loss",
-                 "a number from 0 to 1e6");
+                      "a number from 0 to 1e6");
     weights_known = false;
     for (const auto& [name, field] : weight_fields) {
         const double weight = grid.weights.*field;
-        check_grid_number(weight >= 0, weight, (std::string("weights.") + name).c_str(), "0 or more nanoseconds");
+        check_grid_number(weight >= 0, weight, (std::string("weights.") + name).c_str(),
+                          "0 or more nanoseconds");
         weights_known |= weight > 0;
     }
     if (!weights_known) grid.weights = known_grid(grid.known).weights;
     // Those of nothing known may come from vox_foreign_grid_set_known, too.
     const vox_grid_weights& unknown = known_grid(VOX_KNOWN_GRID_ANY).weights;
-    weights_known = !std::all_of(std::begin(weight_fields), std::end(weight_fields), [&](const auto& f) {
-        return grid.weights.*f.field == unknown.*f.field;
-    });
+    weights_known = !std::all_of(std::begin(weight_fields), std::end(weight_fields),
+                                 [&](const auto& f) { return grid.weights.*f.field == unknown.*f.field; });
     if (!(grid.flags & VOX_FOREIGN_DENSE)) grid.weights.cells = 0;
     check_allocator(grid.allocator, "grid.allocator");
     require(grid.held, "grid.held");
@@ -90,7 +90,8 @@ double share_of(const BoxSample& sample, const Primitives& primitives) {
     return static_cast<double>(sample.boxes.size()) / static_cast<double>(primitives.count());
 }
 
-constexpr double per_octave = 1; // sizes of the table of shares
+constexpr double per_octave = 1;        // sizes of the table of shares
+constexpr double curve_octaves = 3;     // that a curve goes beyond the range
 constexpr std::uint64_t measured = 512; // primitives whose edges and sides make the rules
 
 double mean_edge(const Primitives& primitives) {
@@ -129,7 +130,8 @@ void set_sides(const BoxSample& sample, vox_foreign_rules& rules, std::pmr::memo
 
 } // namespace
 
-ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, std::pmr::memory_resource* memory)
+ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget,
+                         std::pmr::memory_resource* memory)
     : ForeignWork(grid, budget, sample_boxes(grid.held, grid.held_grown(), budget.held, 1, memory),
                   sample_boxes(grid.those_asking(), grid.desc.radius, budget.asking, 2, memory), memory) {}
 
@@ -143,13 +145,15 @@ ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, c
       read_(sum_pairs(asking_, asking_chosen_, held_, around_ ? Meeting::in_neighbours : Meeting::in_cells,
                       same_set_, memory)),
       table_{std::pmr::vector<double>(memory), std::pmr::vector<double>(memory)} {
-    // The largest side must not be missed where it decides what is legal.
+    held_sums_ = sum_boxes(grid.held, grid.held_grown(), centres_, budget.summed);
+    asking_sums_ = same_set_
+                       ? grown_sums(held_sums_, grid.desc.radius - grid.held_grown())
+                       : sum_boxes(grid.those_asking(), grid.desc.radius, centres_ && pairs_, budget.summed);
     least_ = grid.desc.least_cell_size;
-    const std::uint64_t summed = around_ && least_ == 0 ? ~std::uint64_t{0} : budget.summed;
-    held_sums_ = sum_boxes(grid.held, grid.held_grown(), centres_, summed);
-    asking_sums_ = same_set_ ? grown_sums(held_sums_, grid.desc.radius - grid.held_grown())
-                             : sum_boxes(grid.those_asking(), grid.desc.radius, centres_ && pairs_, summed);
-    if (around_ && least_ == 0) least_ = (held_sums_.longest + asking_sums_.longest) / 2;
+    if (around_ && least_ == 0) { // of all: it must not be missed
+        const double longest = longest_side(grid.held);
+        least_ = grid.desc.radius + (longest + (same_set_ ? longest : longest_side(*grid.asking))) / 2;
+    }
     PlainBox bounds = held_sums_.bounds;
     bounds.include(asking_sums_.bounds);
     bounds.include(held_.bounds());
@@ -167,7 +171,8 @@ ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, c
     const PlainBox& all = held_sums_.bounds;
     rules_.spacing = std::cbrt(all.side(0) * all.side(1) * all.side(2) / held_sums_.count);
     rules_.radius = asking_sums_.radius;
-    const auto nodes = static_cast<std::size_t>(per_octave * std::log2(range_.max / range_.min)) + 3;
+    const auto nodes =
+        static_cast<std::size_t>(per_octave * (std::log2(range_.max / range_.min) + 2 * curve_octaves)) + 3;
     for (auto& share : table_) share.resize(nodes, -1);
     never_empty_ = same_set_ && !centres_ && grid.desc.radius == 0; // each finds itself
 }
@@ -203,27 +208,27 @@ vox_grid_work ForeignWork::with_shares(double d, double empty_part, double occup
     return work;
 }
 
-vox_grid_work ForeignWork::exactly_at(double d) {
-    return with_shares(d, empty_share(d), occupied_share(d));
-}
+vox_grid_work ForeignWork::exactly_at(double d) { return with_shares(d, empty_share(d), occupied_share(d)); }
 
 vox_grid_work ForeignWork::at(double d, CellsWanted wanted) {
     const auto share = [&](Share which) {
-        const double place = per_octave * std::log2(d / range_.min);
+        const double place = per_octave * (std::log2(d / range_.min) + curve_octaves);
         if (!(place >= 0 && place < static_cast<double>(table_[which].size() - 1)))
             return which == empty ? empty_share(d) : occupied_share(d);
         const auto node = static_cast<std::size_t>(place);
         const auto known = [&](std::size_t i) {
             double& value = table_[which][i];
             if (value < 0) {
-                const double size = range_.min * std::exp2(static_cast<double>(i) / per_octave);
+                const double size =
+                    range_.min * std::exp2(static_cast<double>(i) / per_octave - curve_octaves);
                 value = which == empty ? empty_share(size) : occupied_share(size);
             }
             return value;
         };
         const double below = known(node), above = known(node + 1), part = place - static_cast<double>(node);
         // The logarithm is more nearly straight, where there is one.
-        return below > 0 && above > 0 ? below * std::pow(above / below, part) : below + part * (above - below);
+        return below > 0 && above > 0 ? below * std::pow(above / below, part)
+                                      : below + part * (above - below);
     };
     return with_shares(d, wanted.empty ? share(empty) : 0, wanted.occupied ? share(occupied) : 0);
 }
@@ -231,7 +236,7 @@ vox_grid_work ForeignWork::at(double d, CellsWanted wanted) {
 namespace {
 
 // Of a lattice, for counting the cells in it one by one.
-constexpr double least_positions = 4;
+constexpr double least_positions = 64;
 
 // One of the cells that a box meets in a lattice of some position, all equally likely.
 struct SomeCell {
@@ -262,9 +267,9 @@ SomeCell some_cell(const PlainBox& box, double d, bool around, std::uint64_t& ra
 
 namespace {
 
-// How many are in a cell, N, from cells in which only a part of all was counted. A count of a part p of them has p times
-// the mean of N, and p^2 times the mean of N (N - 1). With these two, N is taken to follow a negative binomial
-// distribution, or a binomial one where it varies less than by chance.
+// How many are in a cell, N, from cells in which only a part of all was counted. A count of a part p of them
+// has p times the mean of N, and p^2 times the mean of N (N - 1). With these two, N is taken to follow a
+// negative binomial distribution, or a binomial one where it varies less than by chance.
 class CellCounts {
 public:
     void add(double weight, double n, double n_times_less_one) noexcept {
@@ -289,7 +294,8 @@ public:
     }
 
 private:
-    // The variance over the mean, less 1; at least what a number of things can have that are in the cell or not.
+    // The variance over the mean, less 1; at least what a number of things can have that are in the cell or
+    // not.
     double excess() const noexcept {
         const double m = mean_ / weight_;
         return m > 0 ? std::max(factorial_ / weight_ / m - m, -0.9) : 0;
@@ -320,7 +326,8 @@ double ForeignWork::empty_share(double d) const {
     return share == 1 ? empty_ones / all : counts.none();
 }
 
-// Where all lie in a few cells, these are looked at one by one, in as many positions of the lattice as there is time for.
+// Where all lie in a few cells, these are looked at one by one, in as many positions of the lattice as there
+// is time for.
 double ForeignWork::occupied_of_few(double d, double cells_there) const {
     const bool both = pairs_ && !same_set_;
     PlainBox all = held_.bounds();
@@ -346,7 +353,8 @@ double ForeignWork::occupied_of_few(double d, double cells_there) const {
 }
 
 double ForeignWork::occupied_share(double d) {
-    if (held_chosen_.empty()) held_chosen_ = choose_asking(held_, asking_chosen_.size(), table_[0].get_allocator().resource());
+    if (held_chosen_.empty())
+        held_chosen_ = choose_asking(held_, asking_chosen_.size(), table_[0].get_allocator().resource());
     const vox_grid_work smooth = smooth_at(d);
     if (smooth.cells * least_positions <= static_cast<double>(looked_cells_))
         return occupied_of_few(d, smooth.cells) / smooth.entries;
@@ -359,7 +367,8 @@ double ForeignWork::occupied_share(double d) {
             const Asking& one = chosen[i * chosen.size() / looked_cells_];
             const SomeCell cell = some_cell(own.box(one.index), d, false, random);
             const double weight = one.weight * cell.of * static_cast<double>(chosen.size());
-            const double a = std::max(own.count_meeting(cell.lo, d) - 1, 0.0), p = own.share(); // beside itself
+            const double a = std::max(own.count_meeting(cell.lo, d) - 1, 0.0),
+                         p = own.share(); // beside itself
             const double b = other ? other->count_meeting(cell.lo, d) : 0, q = other ? other->share() : 1;
             entries += weight;
             cells += weight / (1 + a + b);

@@ -1,8 +1,7 @@
-// Groups of far boxes are represented by one as in J. Barnes, P. Hut, A hierarchical O(N log N) force-calculation
-// algorithm, Nature 324, 1986, but by one that is drawn from them, so that no sum is biased. The order of boxes is that
-// of G. M. Morton, A computer oriented geodetic data base, IBM 1966.
+// Groups of far boxes are represented by one as in J. Barnes, P. Hut, A hierarchical O(N log N)
+// force-calculation algorithm, Nature 324, 1986, but by one that is drawn from them, so that no sum is
+// biased. The order of boxes is that of G. M. Morton, A computer oriented geodetic data base, IBM 1966.
 #include "cell_size/foreign_pairs.hpp"
-
 
 #include <algorithm>
 #include <array>
@@ -33,7 +32,7 @@ double PiecewiseMoments::at(double d) const noexcept {
 
 namespace {
 
-constexpr std::size_t longest_run = 8;   // of boxes whose order does not matter
+constexpr std::size_t longest_run = 8; // of boxes whose order does not matter
 constexpr std::size_t least_for_radix = 256;
 
 struct Keyed {
@@ -65,7 +64,8 @@ void sort_keys(Keyed* keys, Keyed* other, std::size_t count) {
     std::copy_n(keys, count, other);
 }
 
-// Sorts by place, and those that are so close together that they have one key by their place among themselves.
+// Sorts by place, and those that are so close together that they have one key by their place among
+// themselves.
 void sort_by_place(const PlainBox* boxes, Keyed* keys, Keyed* other, std::size_t count) {
     if (count <= 1) return;
     PlainBox bounds = boxes[keys[0].index].centre();
@@ -81,7 +81,8 @@ void sort_by_place(const PlainBox* boxes, Keyed* keys, Keyed* other, std::size_t
     }
     sort_keys(keys, other, count);
     for (std::size_t i = 0, end; i < count; i = end) {
-        for (end = i + 1; end < count && keys[end].key == keys[i].key; ++end) {}
+        for (end = i + 1; end < count && keys[end].key == keys[i].key; ++end) {
+        }
         if (end - i > longest_run) sort_by_place(boxes, keys + i, other + i, end - i);
     }
 }
@@ -152,7 +153,7 @@ double BoxTree::count_meeting(const double (&lo)[3], double side) const noexcept
             continue;
         }
         const double most = static_cast<double>(std::size_t{1} << (2 * p.level));
-        if (most * 64 <= count)
+        if (most * 16 <= count)
             count += most / 2;
         else
             push_children(p, stack, top);
@@ -214,12 +215,12 @@ std::pmr::vector<Asking> choose_asking(const BoxTree& tree, std::size_t wanted,
     std::uint64_t random = 1;
     std::size_t first = 0;
     for (const Kind& kind : kinds) {
-        // Half of the places go to the kinds by their number, half evenly: a few large boxes, or few that are close
-        // together, can cost as much as many others.
+        // Half of the places go to the kinds by their number, half evenly: a few large boxes, or few that are
+        // close together, can cost as much as many others.
         const auto there = static_cast<double>(kind.count);
         const double part = (there / static_cast<double>(count) + 1 / static_cast<double>(kinds.size())) / 2;
-        const auto places =
-            std::min(std::size_t{kind.count}, static_cast<std::size_t>(static_cast<double>(wanted) * part) + 1);
+        const auto places = std::min(std::size_t{kind.count},
+                                     static_cast<std::size_t>(static_cast<double>(wanted) * part) + 1);
         const double step = there / static_cast<double>(places);
         for (std::size_t k = 0; k < places; ++k) {
             const double place = static_cast<double>(next_random(random) >> 11) * 0x1p-53;

@@ -1,14 +1,14 @@
-// How many cells two boxes have in common in a lattice of cubic cells, on average over all its positions and summed
-// over all pairs of a box that asks and a box that is held, as a function of the cell size d.
+// How many cells two boxes have in common in a lattice of cubic cells, on average over all its positions and
+// summed over all pairs of a box that asks and a box that is held, as a function of the cell size d.
 //
-// Along an axis, two intervals that overlap by o have o/d + 1 cells in common. Two that are apart by g have one where
-// no plane of the lattice is between them: with probability 1 - g/d, or 0. With the signed gap e, which is -o or
-// g, both are max(0, 1 - e/d), and the axes are independent. Centres at a distance x along an axis are in the same cell
-// with probability max(0, 1 - x/d), and in cells that are the same or neighbours with max(0, 2 - x/d) -
-// max(0, 1 - x/d): 2 - x/d from d = x/2 on, and 1 from d = x on.
+// Along an axis, two intervals that overlap by o have o/d + 1 cells in common. Two that are apart by g have
+// one where no plane of the lattice is between them: with probability 1 - g/d, or 0. With the signed gap e,
+// which is -o or g, both are max(0, 1 - e/d), and the axes are independent. Centres at a distance x along an
+// axis are in the same cell with probability max(0, 1 - x/d), and in cells that are the same or neighbours
+// with max(0, 2 - x/d) - max(0, 1 - x/d): 2 - x/d from d = x/2 on, and 1 from d = x on.
 //
-// So every pair is a polynomial in 1/d that changes at some sizes. Sums of such polynomials, in narrow classes of the
-// size where they change, give the sum over all pairs at every d at once.
+// So every pair is a polynomial in 1/d that changes at some sizes. Sums of such polynomials, in narrow
+// classes of the size where they change, give the sum over all pairs at every d at once.
 #pragma once
 
 #include "base/sampling.hpp"
@@ -66,8 +66,8 @@ public:
     // Longest side of the box of the 16 or fewer boxes that this one is kept with.
     double crowd_side(std::size_t i) const noexcept;
 
-    // Calls visit(index, weight) for boxes of which each stands for `weight` like it: all that are near the given
-    // box, and one out of each group that is small for its distance or for the given box.
+    // Calls visit(index, weight) for boxes of which each stands for `weight` like it: all that are near the
+    // given box, and one out of each group that is small for its distance or for the given box.
     template <class Visit>
     void sample_around(const PlainBox& box, std::uint64_t& random, Visit&& visit) const {
         const double half = box.longest_side() / 2;
@@ -92,7 +92,8 @@ public:
         }
     }
 
-    // How many boxes meet a cube [lo, lo + side) along each axis; to within a sixteenth where they are many.
+    // How many boxes meet a cube [lo, lo + side) along each axis;
+    // to within some per cent where they are many.
     double count_meeting(const double (&lo)[3], double side) const noexcept;
     bool meets_any(const double (&lo)[3], double side) const noexcept;
 
@@ -131,17 +132,18 @@ struct Asking {
     double weight;
 };
 
-// About `wanted` boxes of a tree, so that each kind of size and of surroundings has its part. The weights add up to the
-// number that the tree stands for.
-std::pmr::vector<Asking> choose_asking(const BoxTree& tree, std::size_t wanted, std::pmr::memory_resource* memory);
+// About `wanted` boxes of a tree, so that each kind of size and of surroundings has its part. The weights add
+// up to the number that the tree stands for.
+std::pmr::vector<Asking> choose_asking(const BoxTree& tree, std::size_t wanted,
+                                       std::pmr::memory_resource* memory);
 
 enum class Meeting : std::uint8_t {
     in_cells,      // of boxes: cells in common
     in_neighbours, // of points: whether their cells are the same or neighbours
 };
 
-// Sums over all pairs of boxes in `asking`, a part of those in `from`, and boxes in `held`. With `same_set`, pairs of a
-// box with itself (the same id) are left out.
+// Sums over all pairs of boxes in `asking`, a part of those in `from`, and boxes in `held`. With `same_set`,
+// pairs of a box with itself (the same id) are left out.
 PiecewiseMoments sum_pairs(const BoxTree& from, const std::pmr::vector<Asking>& asking, const BoxTree& held,
                            Meeting meeting, bool same_set, std::pmr::memory_resource* memory);
 

@@ -30,11 +30,12 @@ std::size_t checked_stride(std::uint64_t stride, std::uint64_t size, std::uint64
                            const char* name) {
     if (stride == 0) stride = size;
     if (stride < size)
-        refuse(
-            format("%s%s is %" PRIu64 ", expected 0 or at least %" PRIu64 " bytes", where, name, stride, size));
+        refuse(format("%s%s is %" PRIu64 ", expected 0 or at least %" PRIu64 " bytes", where, name, stride,
+                      size));
     constexpr std::uint64_t most_bytes = std::numeric_limits<std::ptrdiff_t>::max();
     if (stride > most_bytes / count)
-        refuse(format("%s%s is %" PRIu64 ", too large for %" PRIu64 " primitives", where, name, stride, count));
+        refuse(
+            format("%s%s is %" PRIu64 ", too large for %" PRIu64 " primitives", where, name, stride, count));
     return static_cast<std::size_t>(stride);
 }
 
@@ -66,9 +67,9 @@ Primitives::Primitives(const vox_primitives& desc, const char* where) : where_(w
     index_stride_ = checked_stride(desc.index_byte_stride, corners * sizeof(std::uint32_t), count_, where,
                                    "index_byte_stride");
     if (!indices_ && vertex_count_ / corners < count_)
-        throw Error(VOX_ERROR_INVALID_MESH,
-                    format("%s%" PRIu64 " primitives of %" PRIu64 " vertices each, but vertex_count is %" PRIu64,
-                           where, count_, corners, vertex_count_));
+        throw Error(VOX_ERROR_INVALID_MESH, format("%s%" PRIu64 " primitives of %" PRIu64
+                                                   " vertices each, but vertex_count is %" PRIu64,
+                                                   where, count_, corners, vertex_count_));
     radii_ = static_cast<const std::byte*>(desc.radii);
     double_radii_ = enum_value(desc.radius_format) == VOX_FORMAT_DOUBLE3;
     radius_stride_ = checked_stride(desc.radius_byte_stride, double_radii_ ? sizeof(double) : sizeof(float),
@@ -109,8 +110,8 @@ void Primitives::refuse_position(std::uint64_t primitive, std::uint64_t v) const
     const Vec3d p = positions_.exact(static_cast<std::size_t>(v));
     const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
     throw Error(finite ? VOX_ERROR_LIMIT : VOX_ERROR_NON_FINITE,
-                format("%sprimitive %" PRIu64 " has vertex %" PRIu64 " at (%g, %g, %g), %s", where_, primitive,
-                       v, p.x, p.y, p.z, finite ? "too large for a float" : "not finite"));
+                format("%sprimitive %" PRIu64 " has vertex %" PRIu64 " at (%g, %g, %g), %s", where_,
+                       primitive, v, p.x, p.y, p.z, finite ? "too large for a float" : "not finite"));
 }
 
 Vec3d Primitives::corner(std::uint64_t primitive, int corner) const {
@@ -126,8 +127,8 @@ PlainBox Primitives::box(std::uint64_t primitive) const {
         const std::uint64_t v = vertex(primitive, c);
         if (v >= vertex_count_)
             throw Error(VOX_ERROR_INVALID_MESH,
-                        format("%sprimitive %" PRIu64 " names vertex %" PRIu64 " of %" PRIu64, where_, primitive,
-                               v, vertex_count_));
+                        format("%sprimitive %" PRIu64 " names vertex %" PRIu64 " of %" PRIu64, where_,
+                               primitive, v, vertex_count_));
         const Vec3d p = positions_.exact(static_cast<std::size_t>(v));
         if (!(std::abs(p.x) < most && std::abs(p.y) < most && std::abs(p.z) < most))
             refuse_position(primitive, v);
@@ -203,24 +204,33 @@ struct PackedPrimitives {
         return !p.positions_.doubles && p.positions_.component_gap == 0;
     }
 
-    // Its box, and the sum of its coordinates times 0, which is not 0 where one is not finite. False where it must be read in
-    // another way: four floats are read at a time, one of them from the next position.
+    // Its box, by reading four floats at a time, one of them of the next position. False where there is none.
     template <int corners>
-    bool read(std::uint64_t primitive, Four& lo, Four& hi, Four& zero) const noexcept {
+    bool corners_of(std::uint64_t primitive, Four& lo, Four& hi) const noexcept {
+        return read<corners>(primitive, [&](int corner, Four p) {
+            lo = corner == 0 ? p : least_of(lo, p);
+            hi = corner == 0 ? p : most_of(hi, p);
+        });
+    }
+    // Also the sum of its coordinates times 0, which is not 0 where one is not finite.
+    template <int corners>
+    bool corners_of(std::uint64_t primitive, Four& lo, Four& hi, Four& zero) const noexcept {
+        return read<corners>(primitive, [&](int corner, Four p) {
+            const Four nothing = product(p, all_equal(0));
+            zero = corner == 0 ? nothing : sum_of(zero, nothing);
+            lo = corner == 0 ? p : least_of(lo, p);
+            hi = corner == 0 ? p : most_of(hi, p);
+        });
+    }
+    template <int corners, class Take>
+    bool read(std::uint64_t primitive, Take&& take) const noexcept {
         std::uint64_t v[corners], last = 0;
         for (int c = 0; c < corners; ++c) {
             v[c] = indexed ? index(primitive, c) : primitive * corners + static_cast<std::uint64_t>(c);
             last = std::max(last, v[c]);
         }
         if (last >= safe) return false;
-        lo = hi = Four::read(data + v[0] * stride);
-        zero = product(lo, all_equal(0));
-        for (int c = 1; c < corners; ++c) {
-            const Four p = Four::read(data + v[c] * stride);
-            zero = sum_of(zero, product(p, all_equal(0)));
-            lo = least_of(lo, p);
-            hi = most_of(hi, p);
-        }
+        for (int c = 0; c < corners; ++c) take(c, Four::read(data + v[c] * stride));
         return true;
     }
 
@@ -228,7 +238,7 @@ struct PackedPrimitives {
     template <int corners>
     void box(std::uint64_t primitive, Four& lo, Four& hi) const {
         Four zero;
-        if (read<corners>(primitive, lo, hi, zero) && is_zero(zero)) return;
+        if (corners_of<corners>(primitive, lo, hi, zero) && is_zero(zero)) return;
         const PlainBox exact = all.box(primitive);
         float single[2][4]{};
         for (int a = 0; a < 3; ++a) {
@@ -247,7 +257,8 @@ struct PackedPrimitives {
 
     std::uint32_t index(std::uint64_t primitive, int corner) const noexcept {
         std::uint32_t i;
-        std::memcpy(&i, indexed + primitive * index_stride + static_cast<std::size_t>(corner) * sizeof i, sizeof i);
+        std::memcpy(&i, indexed + primitive * index_stride + static_cast<std::size_t>(corner) * sizeof i,
+                    sizeof i);
         return i;
     }
 
@@ -265,9 +276,9 @@ constexpr std::uint64_t run_length = 32;
 template <class Visit>
 void for_runs(std::uint64_t count, std::uint64_t wanted, Visit&& visit) {
     const std::uint64_t runs = (count + run_length - 1) / run_length;
-    for_stratified(runs, (std::min(count, wanted) + run_length - 1) / run_length, 0.5, [&](std::uint64_t run) {
-        visit(run * run_length, std::min((run + 1) * run_length, count));
-    });
+    for_stratified(
+        runs, (std::min(count, wanted) + run_length - 1) / run_length, 0.5,
+        [&](std::uint64_t run) { visit(run * run_length, std::min((run + 1) * run_length, count)); });
 }
 
 // Sums in double of runs that are summed in single precision.
@@ -282,12 +293,13 @@ void sum_packed(const PackedPrimitives& packed, double radius, bool centres, std
         Four one = all_equal(0), two = one, three = one, zeros = one;
         for (std::uint64_t i = first; i < last; ++i) {
             Four lo, hi, zero;
-            if (!packed.read<corners>(i, lo, hi, zero)) {
+            if (!packed.corners_of<corners>(i, lo, hi, zero)) {
                 packed.box<corners>(i, lo, hi);
                 zero = all_equal(0);
             }
             zeros = sum_of(zeros, zero);
-            const Four sides = sum_of(difference(hi, lo), grown), next = turned(sides), both = product(sides, next);
+            const Four sides = sum_of(difference(hi, lo), grown), next = turned(sides),
+                       both = product(sides, next);
             one = sum_of(one, sides);
             two = sum_of(two, both);
             three = sum_of(three, product(both, turned(next)));
@@ -350,10 +362,18 @@ PrimitiveSums sum_boxes(const Primitives& primitives, double grown, bool centres
         const PackedPrimitives packed(primitives);
         const double radius = primitives.common_radius() + grown;
         switch (primitives.corners()) {
-        case 1: sum_packed<1>(packed, radius, centres, wanted, sums); break;
-        case 2: sum_packed<2>(packed, radius, centres, wanted, sums); break;
-        case 3: sum_packed<3>(packed, radius, centres, wanted, sums); break;
-        default: sum_packed<4>(packed, radius, centres, wanted, sums); break;
+        case 1:
+            sum_packed<1>(packed, radius, centres, wanted, sums);
+            break;
+        case 2:
+            sum_packed<2>(packed, radius, centres, wanted, sums);
+            break;
+        case 3:
+            sum_packed<3>(packed, radius, centres, wanted, sums);
+            break;
+        default:
+            sum_packed<4>(packed, radius, centres, wanted, sums);
+            break;
         }
     }
     // Products of very large or very small sides are out of the range of floats.
@@ -405,6 +425,39 @@ void sample_packed(const PackedPrimitives& packed, double radius, std::uint64_t 
 
 } // namespace
 
+namespace {
+
+template <int corners>
+double longest_packed(const PackedPrimitives& packed) {
+    Four longest = all_equal(0);
+    for (std::uint64_t i = 0; i < packed.all.count(); ++i) {
+        Four lo, hi;
+        if (!packed.corners_of<corners>(i, lo, hi)) packed.box<corners>(i, lo, hi);
+        longest = most_of(difference(hi, lo), longest); // leaves out a side that is not a number
+    }
+    float side[4];
+    longest.write(side);
+    return std::max(std::max(double{side[0]}, double{side[1]}), double{side[2]});
+}
+
+} // namespace
+
+double longest_side(const Primitives& primitives) {
+    if (PackedPrimitives::fits(primitives) && !primitives.has_radii()) {
+        const PackedPrimitives packed(primitives);
+        const int corners = primitives.corners();
+        const double longest = corners == 1   ? longest_packed<1>(packed)
+                               : corners == 2 ? longest_packed<2>(packed)
+                               : corners == 3 ? longest_packed<3>(packed)
+                                              : longest_packed<4>(packed);
+        if (std::isfinite(longest)) return longest + 2 * primitives.common_radius();
+    }
+    double longest = 0;
+    for (std::uint64_t i = 0; i < primitives.count(); ++i)
+        longest = std::max(longest, primitives.box(i).longest_side() + 2 * primitives.radius(i));
+    return longest;
+}
+
 PrimitiveSums grown_sums(PrimitiveSums sums, double by) noexcept {
     const double w = 2 * by, (&m)[4] = sums.cells.sum;
     sums.cells = {{m[0], m[1] + 3 * w * m[0], m[2] + w * (2 * m[1] + 3 * w * m[0]),
@@ -424,10 +477,18 @@ BoxSample sample_boxes(const Primitives& primitives, double grown, std::uint64_t
         const PackedPrimitives packed(primitives);
         const double radius = primitives.common_radius() + grown;
         switch (primitives.corners()) {
-        case 1: sample_packed<1>(packed, radius, wanted, seed, sample); break;
-        case 2: sample_packed<2>(packed, radius, wanted, seed, sample); break;
-        case 3: sample_packed<3>(packed, radius, wanted, seed, sample); break;
-        default: sample_packed<4>(packed, radius, wanted, seed, sample); break;
+        case 1:
+            sample_packed<1>(packed, radius, wanted, seed, sample);
+            break;
+        case 2:
+            sample_packed<2>(packed, radius, wanted, seed, sample);
+            break;
+        case 3:
+            sample_packed<3>(packed, radius, wanted, seed, sample);
+            break;
+        default:
+            sample_packed<4>(packed, radius, wanted, seed, sample);
+            break;
         }
         return sample;
     }

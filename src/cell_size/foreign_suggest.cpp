@@ -22,8 +22,8 @@ CellsWanted cells_wanted(const ForeignGrid& grid) {
     return {w.found > 0, w.occupied > 0};
 }
 
-// The sizes among which the least cost must be, as no cell costs less than an empty one that was never made, or more
-// than one of its own for each entry.
+// The sizes among which the least cost must be, as no cell costs less than an empty one that was never made,
+// or more than one of its own for each entry.
 CellSizeRange bracket(const ForeignGrid& grid, const ForeignWork& work) {
     const vox_grid_weights& weights = grid.desc.weights;
     const CellSizeRange& range = work.range();
@@ -40,11 +40,12 @@ CellSizeRange bracket(const ForeignGrid& grid, const ForeignWork& work) {
     };
     const CostMinimum best = minimise(most, range, foreign_fineness);
     const double limit = best.cost * (1 + 1e-6); // beyond rounding
-    return zone_around({best.cell_size, least(std::log2(best.cell_size))}, limit, least, range, foreign_fineness);
+    return zone_around({best.cell_size, least(std::log2(best.cell_size))}, limit, least, range,
+                       foreign_fineness);
 }
 
-// Where nothing has a size, smaller cells are never worse. Below the size where one other in sixteen is found, they are
-// hardly better.
+// Where nothing has a size, smaller cells are never worse. Below the size where one other in sixteen is
+// found, they are hardly better.
 double smallest_useful(const ForeignWork& work) {
     const CellSizeRange& range = work.range();
     const double own = work.smooth_at(range.min).reads;
@@ -86,7 +87,9 @@ vox_foreign_suggestion suggest_for(const ForeignGrid& grid, ForeignWork& work) {
 
     const CellsWanted cells = cells_wanted(grid);
     const auto work_at = [&](double d) { return work.at(d, cells); };
-    const CostFunction cost = [&](double log_size) { return grid_cost(work_at(std::exp2(log_size)), weights); };
+    const CostFunction cost = [&](double log_size) {
+        return grid_cost(work_at(std::exp2(log_size)), weights);
+    };
 
     CellSizeRange range = work.range();
     if (work.in_one_place()) {
@@ -95,7 +98,8 @@ vox_foreign_suggestion suggest_for(const ForeignGrid& grid, ForeignWork& work) {
         if (work.without_size()) {
             range.min = std::max(range.min, smallest_useful(work));
             warn(VOX_FOREIGN_NO_SIZE,
-                 format("no primitive has a size: below %g cells hold one each, and cost the same", range.min));
+                 format("no primitive has a size: below %g cells hold one each, and cost the same",
+                        range.min));
         }
         if (cells.empty || cells.occupied) {
             const CellSizeRange near = bracket(grid, work);
@@ -104,7 +108,8 @@ vox_foreign_suggestion suggest_for(const ForeignGrid& grid, ForeignWork& work) {
     }
     CostMinimum best = minimise(cost, range, foreign_fineness);
     if (!std::isfinite(best.cost)) best = {range.max, cost(std::log2(range.max))};
-    const CellSizeRange zone = zone_around(best, (1 + grid.desc.zone_loss) * best.cost, cost, range, foreign_fineness);
+    const CellSizeRange zone =
+        zone_around(best, (1 + grid.desc.zone_loss) * best.cost, cost, range, foreign_fineness);
 
     result.cell_size = best.cell_size;
     result.zone_min = zone.min;

@@ -23,6 +23,8 @@ constexpr std::array<KnownGrid, VOX_KNOWN_GRID_NUMPY + 1> known_grids{{
 
 } // namespace
 
-const KnownGrid& known_grid(vox_known_grid known) noexcept { return known_grids[static_cast<std::size_t>(known)]; }
+const KnownGrid& known_grid(vox_known_grid known) noexcept {
+    return known_grids[static_cast<std::size_t>(known)];
+}
 
 } // namespace vox
