@@ -1458,8 +1458,8 @@ static inline vox_suggest_desc vox_default_suggest_desc(void) {
     return desc;
 }
 
-/* Geometry of all meshes together. Lengths, areas and volumes in the caller's unit. A tet that names a vertex twice
- * adds no edges and facets, but counts in the means over tets. */
+/* Geometry of all meshes together, in the caller's unit. Above 5000 tets, and in grids, the means and the counts of
+ * edges, facets and flat tets are estimates from samples. Tets that name a vertex twice have no edges and facets. */
 typedef struct vox_geometry_stats {
     uint64_t vertices;
     uint64_t tets;
@@ -1539,8 +1539,8 @@ typedef struct vox_suggestion {
  * desc null: defaults. Set out->struct_size first; the fields it covers are written.
  * `meshes` is an array whose elements are meshes[0].struct_size bytes apart, a multiple of 8, and all have that
  * struct_size. Of their flags, only VOX_MESH_SELF_COLLISION is used, by REFERENCE and FAST. Errors name a mesh by its
- * index in the array and its user data. Time and memory (from desc->allocator, released at the end of the call) are
- * proportional to vertices and tets.
+ * index in the array and its user data. All tets and vertices are checked; the models look at samples of them
+ * (docs/cell-size.md has times). Memory is from desc->allocator until the end of the call.
  * Errors: INVALID_ARGUMENT (also if there is no tetrahedron, or all have zero size), INVALID_MESH, NON_FINITE, LIMIT,
  * OUT_OF_MEMORY. */
 VOX_API vox_result vox_suggest_cell_size(VOX_OPTIONAL const vox_suggest_desc* desc,
@@ -1550,8 +1550,8 @@ VOX_API vox_result vox_suggest_cell_size(VOX_OPTIONAL const vox_suggest_desc* de
 /* The same for the meshes of a grid. With desc null, the model is that of the grid's engine, with the grid's storage
  * and byte budget. PAPER takes p_nc from the last step if that had contacts and desc is null or has the default p_nc.
  * FAST takes from the last step which meshes are at rest and which need no cells for self-collision; both cost nothing.
- * It is quicker than vox_suggest_cell_size because it works on samples, whose means are accurate to a few per cent.
- * The first call after a mesh was inserted or edited reads all of that mesh, and keeps up to 10 KB on the C++ runtime's
+ * It is quicker than vox_suggest_cell_size because its samples are smaller: means are accurate to a few per cent.
+ * The first call after a mesh was inserted or edited reads all of that mesh, and keeps up to 11 KB on the C++ runtime's
  * heap (docs/cell-size.md lists what each costs). Positions must be bound. Errors: as vox_suggest_cell_size, and
  * INVALID_STATE for a mesh without positions. */
 VOX_API vox_result vox_grid_suggest_cell_size(const vox_grid* grid, VOX_OPTIONAL const vox_suggest_desc* desc,

@@ -29,8 +29,11 @@ vox_suggest_desc read_suggest_desc(const vox_suggest_desc* desc) {
     return settings;
 }
 
-// Reads the caller's array, whose elements are as far apart as the caller's own vox_mesh_desc is large.
-void read_bodies(const vox_mesh_desc* meshes, std::uint64_t count, std::pmr::vector<Body>& bodies) {
+// Reads the caller's array, whose elements are as far apart as the caller's own vox_mesh_desc is large. A model
+// is to look at samples of the bodies.
+void read_bodies(const vox_mesh_desc* meshes, std::uint64_t count, vox_cost_model model,
+                 CellSizeScene& scene) {
+    std::pmr::vector<Body>& bodies = scene.bodies;
     if (count == 0) return;
     require(meshes, "meshes");
     if (count > VOX_MAX_MESHES)
@@ -45,6 +48,7 @@ void read_bodies(const vox_mesh_desc* meshes, std::uint64_t count, std::pmr::vec
     vox_mesh_desc defaults{};
     defaults.struct_size = sizeof defaults;
     bodies.reserve(static_cast<std::size_t>(count));
+    std::uint64_t tets = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
         const auto* element = reinterpret_cast<const vox_mesh_desc*>(
             reinterpret_cast<const std::byte*>(meshes) + std::size_t{i} * stride);
@@ -60,7 +64,9 @@ void read_bodies(const vox_mesh_desc* meshes, std::uint64_t count, std::pmr::vec
         body.mesh_id = i;
         check_not_doubles(body);
         bodies.push_back(body);
+        tets += body.tets.size();
     }
+    scene.budget = usual(model, tets);
 }
 
 vox_cost_bounds read_bounds(const vox_cost_bounds* bounds) {
@@ -85,7 +91,7 @@ vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_de
         const vox_suggest_desc settings = read_suggest_desc(desc);
         CallerMemory memory(settings.allocator);
         CellSizeScene scene(&memory);
-        read_bodies(meshes, mesh_count, scene.bodies);
+        read_bodies(meshes, mesh_count, settings.model, scene);
         write_struct(out, suggest(settings, scene, weights_in_use()), "out");
     });
 }
@@ -112,7 +118,7 @@ vox_result vox_cost_predict(const vox_suggest_desc* desc, const vox_mesh_desc* m
         check_cells(cell_size, "cell_size");
         CallerMemory memory(settings.allocator);
         CellSizeScene scene(&memory);
-        read_bodies(meshes, mesh_count, scene.bodies);
+        read_bodies(meshes, mesh_count, settings.model, scene);
         write_struct(out, predict(settings, scene, weights_in_use(), cell_size), "out");
     });
 }

@@ -7,7 +7,6 @@
 #include "fast/last_positions.hpp"
 #include "fast/stream.hpp"
 #include "mesh/check.hpp"
-#include "mesh/facets.hpp"
 #include "mesh/sample.hpp"
 
 #include <algorithm>
@@ -57,8 +56,7 @@ struct Bounds {
     }
 };
 
-// `facets` gets the areas of the facets opposite each corner.
-void add_tet(const Vec3d (&p)[4], double weight, Means& means, double (&facets)[4]) {
+void add_tet(const Vec3d (&p)[4], double weight, Means& means) {
     const Vec3d a = p[1] - p[0], b = p[2] - p[0], c = p[3] - p[0];
     const auto extent = [](double first, double second, double third) { // of three numbers and 0
         return std::max(std::max(first, second), std::max(third, 0.0)) -
@@ -74,11 +72,8 @@ void add_tet(const Vec3d (&p)[4], double weight, Means& means, double (&facets)[
                  std::max(dot(ac, ac), dot(bc, bc)));
     means.longest_edge.add(std::sqrt(longest), weight);
     const Vec3d base = cross(a, b);
-    facets[0] = length(cross(ab, ac)) / 2;
-    facets[1] = length(cross(b, c)) / 2;
-    facets[2] = length(cross(a, c)) / 2;
-    facets[3] = length(base) / 2;
-    means.tet_facet.add((facets[0] + facets[1] + facets[2] + facets[3]) / 4, weight);
+    means.tet_facet.add(
+        (length(cross(ab, ac)) + length(cross(b, c)) + length(cross(a, c)) + length(base)) / 8, weight);
     const double volume = std::abs(dot(base, c));
     means.volume.add(volume / 6, weight);
     // The exact test is only needed where rounding may have changed the sign.
@@ -110,61 +105,6 @@ double median(std::span<std::pair<double, double>> values) {
     return (first->first + std::min_element(last, values.end())->first) / 2;
 }
 
-// ---- all of a body --------------------------------------------------------------------------------
-
-constexpr int edge_corners[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
-
-// Calls visit(a, b) once for every edge, a < b, of tetrahedra that name no vertex twice: a counting sort by
-// `a` makes short lists, which are then sorted by `b`.
-template <class Visit>
-void for_each_edge(std::span<const Tet> tets, std::uint32_t vertex_count, std::pmr::memory_resource* memory,
-                   Visit&& visit) {
-    std::pmr::vector<std::uint64_t> ends(std::size_t{vertex_count} + 1, 0, memory);
-    const auto for_all = [&](auto&& emit) {
-        for (Tet tet : tets) {
-            if (names_a_vertex_twice(tet)) continue;
-            std::sort(tet.v, tet.v + 4);
-            for (const auto& edge : edge_corners) emit(tet.v[edge[0]], tet.v[edge[1]]);
-        }
-    };
-    for_all([&](std::uint32_t a, std::uint32_t) { ++ends[std::size_t{a} + 1]; });
-    for (std::size_t v = 0; v < vertex_count; ++v) ends[v + 1] += ends[v];
-    std::pmr::vector<std::uint32_t> others(static_cast<std::size_t>(ends[vertex_count]), memory);
-    // Placing moves ends[a] from the start of list a to its end, the start of list a + 1.
-    for_all([&](std::uint32_t a, std::uint32_t b) { others[static_cast<std::size_t>(ends[a]++)] = b; });
-    auto first = others.begin();
-    for (std::uint32_t v = 0; v < vertex_count; ++v) {
-        const auto last = others.begin() + static_cast<std::ptrdiff_t>(ends[v]);
-        std::sort(first, last);
-        std::for_each(first, std::unique(first, last), [&](std::uint32_t b) { visit(v, b); });
-        first = last;
-    }
-}
-
-// Returns the box of the vertices that tetrahedra use. Those that are off name one vertex four times, and so
-// have no edges and facets.
-Bounds add_all(const Body& body, std::pmr::memory_resource* memory, Means& means) {
-    const auto at = [&](std::uint64_t v) { return body.positions.exact(v); };
-    Bounds bounds;
-    for (std::size_t t = 0; t < body.tets.size(); ++t) {
-        if (has_bit(body.off, t)) continue;
-        const std::uint32_t* v = body.tets[t].v;
-        const Vec3d p[4] = {at(v[0]), at(v[1]), at(v[2]), at(v[3])};
-        double facets[4];
-        add_tet(p, 1, means, facets);
-        bounds.add(min(min(p[0], p[1]), min(p[2], p[3])), max(max(p[0], p[1]), max(p[2], p[3])));
-    }
-    for_each_edge(body.tets, body.vertex_count, memory,
-                  [&](std::uint32_t a, std::uint32_t b) { means.edge.add(length(at(b) - at(a)), 1); });
-    for_each_facet(
-        body.tets, body.vertex_count, memory, [&](std::uint32_t v, std::span<const TetFacet> same) {
-            const double size = area(at(v), at(same[0].others >> 32), at(same[0].others & 0xffffffffu));
-            means.facet.add(size, 1);
-            if (same.size() == 1) means.boundary_facet.add(size, 1);
-        });
-    return bounds;
-}
-
 // ---- samples of meshes ----------------------------------------------------------------------------
 
 // Calls visit(item, weight) for about `wanted` of the items, which together stand for `count` of their kind.
@@ -177,8 +117,8 @@ void for_sample(const Items& items, std::uint64_t count, double wanted, double p
                    [&](std::uint64_t i) { visit(items[static_cast<std::size_t>(i)], weight); });
 }
 
-// Adds the part of a mesh's samples that it has of the scene's tetrahedra, edges and boundary facets
-// (`stats`). at(v) is the exact position of a vertex.
+// Adds the part of a mesh's sample that it has of the scene's tetrahedra, edges and facets (`stats`). at(v) is
+// the exact position of a vertex.
 template <class At>
 void add_sample(const Body& body, const MeshSample& sample, const vox_geometry_stats& stats, double samples,
                 double place, Means& means, At&& at) {
@@ -186,30 +126,22 @@ void add_sample(const Body& body, const MeshSample& sample, const vox_geometry_s
         return samples * (static_cast<double>(own) / static_cast<double>(std::max<std::uint64_t>(all, 1)));
     };
     const std::uint64_t tets = body.tets.size() - body.off_count;
-    for_sample(sample.tets, tets, share(tets, stats.tets), place,
-               [&](const MeshSample::SampledTet& sampled, double weight) {
-                   const std::uint32_t* v = sampled.tet.v;
-                   double facets[4];
-                   add_tet({at(v[0]), at(v[1]), at(v[2]), at(v[3])}, weight, means, facets);
-                   if (sampled.shared == MeshSample::SampledTet::no_facets) return;
-                   // A facet of two tetrahedra is met from both.
-                   double sum = 0, count = 0;
-                   for (std::uint32_t f = 0; f < 4; ++f) {
-                       const double part = (sampled.shared >> f & 1) != 0 ? 0.5 : 1.0;
-                       sum += facets[f] * part;
-                       count += part;
-                   }
-                   means.facet.add(sum / count, weight * count);
-               });
+    for_sample(sample.tets, tets, share(tets, stats.tets), place, [&](const Tet& tet, double weight) {
+        const std::uint32_t* v = tet.v;
+        add_tet({at(v[0]), at(v[1]), at(v[2]), at(v[3])}, weight, means);
+    });
     for_sample(sample.edges, sample.edge_count, share(sample.edge_count, stats.edges), place,
                [&](const MeshSample::Edge& edge, double weight) {
                    means.edge.add(length(at(edge[1]) - at(edge[0])), weight);
                });
-    for_sample(sample.facets, sample.boundary_facet_count,
-               share(sample.boundary_facet_count, stats.boundary_facets) / 2, place,
-               [&](const MeshSample::Facet& facet, double weight) {
-                   means.boundary_facet.add(area(at(facet[0]), at(facet[1]), at(facet[2])), weight);
-               });
+    const auto add_facets = [&](const auto& facets, std::uint64_t count, double wanted, Mean& mean) {
+        for_sample(facets, count, wanted, place, [&](const MeshSample::Facet& facet, double weight) {
+            mean.add(area(at(facet[0]), at(facet[1]), at(facet[2])), weight);
+        });
+    };
+    add_facets(sample.facets, sample.facet_count, share(sample.facet_count, stats.facets), means.facet);
+    add_facets(sample.boundary_facets, sample.boundary_facet_count,
+               share(sample.boundary_facet_count, stats.boundary_facets) / 2, means.boundary_facet);
 }
 
 // The box of the vertices of a body without `unused` ones (bits; empty: all are used). `known` is the box of
@@ -239,6 +171,27 @@ Bounds bounds_of(const Body& body, std::span<const std::uint64_t> unused, const 
     return bounds;
 }
 
+// Scenes of at most so many tetrahedra are measured in full. Of larger ones that are not a grid's,
+// tetrahedra are sampled, and vertices whose edges and facets are.
+constexpr std::uint64_t measured_tets = 5000;
+constexpr double everything = 1e18;
+
+std::uint64_t some_vertices(std::uint64_t tets) { return std::clamp<std::uint64_t>(tets / 40, 512, 2048); }
+std::uint64_t some_tets(std::uint64_t tets) { return std::clamp<std::uint64_t>(tets / 16, 1024, 4096); }
+std::size_t most_measured(std::uint64_t tets) {
+    return static_cast<std::size_t>(std::min(tets, std::max(some_tets(tets), measured_tets)));
+}
+
+// Of a body in such a scene: its part of the scene's tetrahedra.
+SampleSize sample_size(const Body& body, const vox_geometry_stats& stats) {
+    if (stats.tets <= measured_tets) return {body.vertex_count, body.tets.size()};
+    const auto part = [&](std::uint64_t of_all) {
+        const double own = static_cast<double>(body.tets.size()) / static_cast<double>(stats.tets);
+        return static_cast<std::size_t>(static_cast<double>(of_all) * own) + 8;
+    };
+    return {part(some_vertices(stats.tets)), part(some_tets(stats.tets))};
+}
+
 } // namespace
 
 Geometry measure(const CellSizeScene& scene) {
@@ -248,42 +201,27 @@ Geometry measure(const CellSizeScene& scene) {
         stats.vertices += body.vertex_count;
         stats.tets += body.tets.size() - body.off_count;
     }
-    const std::size_t samples = sampled_tets(stats.tets);
-    const bool sampled =
-        !scene.meshes.empty() && stats.tets > 2 * samples &&
-        std::ranges::all_of(scene.meshes, [](const Mesh* mesh) { return mesh->may_sample(); });
-    if (sampled) {
-        for (const Mesh* mesh : scene.meshes) {
-            stats.edges += mesh->sample().edge_count;
-            stats.boundary_facets += mesh->sample().boundary_facet_count;
-        }
-    } else {
-        for (const Body& body : scene.bodies) check_finite(body);
-    }
+    const bool kept = !scene.meshes.empty() && stats.tets > 2 * sampled_tets(stats.tets);
+    const double samples = kept ? static_cast<double>(sampled_tets(stats.tets)) : everything;
 
     Means means(scene.memory);
-    means.box_sides.reserve(sampled ? samples + scene.bodies.size() : static_cast<std::size_t>(stats.tets));
+    means.box_sides.reserve(std::max(sampled_tets(stats.tets), most_measured(stats.tets)) +
+                            scene.bodies.size());
+    // Where the boxes of the bodies are not known yet, this finds positions that are not finite.
+    std::pmr::vector<MeshSample> made(scene.memory);
+    made.reserve(kept ? 0 : scene.bodies.size());
+    const auto sample_of = [&](std::size_t b) -> const MeshSample& {
+        return kept ? scene.meshes[b]->sample() : made[b];
+    };
     Bounds bounds;
-    double place = 0.5; // another one for each mesh, since many may be alike
-    for (std::size_t b = 0; b < scene.bodies.size(); ++b, place = next_place(place)) {
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const Body& body = scene.bodies[b];
-        Bounds own;
-        if (sampled) {
-            const MeshSample& sample = scene.meshes[b]->sample();
-            const Positions& positions = body.positions;
-            const auto add = [&](auto&& at) {
-                add_sample(body, sample, stats, static_cast<double>(samples), place, means, at);
-            };
-            if (positions.rounded()) // a third of the time is reading positions, so floats are read as such
-                add([&](std::size_t v) { return positions.exact(v); });
-            else
-                add([&](std::size_t v) { return Vec3d(positions.floats(v)); });
-            own = bounds_of(body, sample.unused_vertices, scene.box(b));
-        } else if (body.tets.size() == body.off_count) {
-            own = bounds_of(body, {}, nullptr);
-        } else {
-            own = add_all(body, scene.memory, means);
-        }
+        if (!kept) made.push_back(make_sample(body, sample_size(body, stats), scene.memory));
+        const MeshSample& sample = sample_of(b);
+        stats.edges += sample.edge_count;
+        stats.facets += sample.facet_count;
+        stats.boundary_facets += sample.boundary_facet_count;
+        const Bounds own = bounds_of(body, sample.unused_vertices, scene.box(b));
         if (own.empty()) continue;
         bounds.add(own.lo, own.hi);
         const Vec3d sides = own.hi - own.lo;
@@ -291,14 +229,17 @@ Geometry measure(const CellSizeScene& scene) {
         if (volume > 0) means.object_side.add(std::cbrt(volume), 1);
     }
 
-    if (sampled) {
-        // Each facet of a tetrahedron is on the boundary or shared by two, but for the few that more share.
-        stats.facets = (4 * stats.tets + stats.boundary_facets) / 2;
-    } else {
-        stats.edges = static_cast<std::uint64_t>(means.edge.weight);
-        stats.facets = static_cast<std::uint64_t>(means.facet.weight);
-        stats.boundary_facets = static_cast<std::uint64_t>(means.boundary_facet.weight);
+    double place = 0.5; // another one for each mesh, since many may be alike
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b, place = next_place(place)) {
+        const Body& body = scene.bodies[b];
+        const Positions& positions = body.positions;
+        const auto add = [&](auto&& at) { add_sample(body, sample_of(b), stats, samples, place, means, at); };
+        if (positions.rounded()) // a third of the time is reading positions, so floats are read as such
+            add([&](std::size_t v) { return positions.exact(v); });
+        else
+            add([&](std::size_t v) { return Vec3d(positions.floats(v)); });
     }
+
     stats.degenerate_tets = static_cast<std::uint64_t>(std::llround(means.degenerate));
     stats.mean_edge = means.edge.value();
     stats.mean_longest_edge = means.longest_edge.value();

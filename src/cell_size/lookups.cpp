@@ -129,6 +129,16 @@ double gather(const Lookup& l, const BranchMisses& changes, double most, const B
 
 } // namespace
 
+// The tests hold the loss in the model's own cost to 4 % for the reference engine, and 2 % for the fast one.
+SampleBudget usual(vox_cost_model model, std::uint64_t tets) noexcept {
+    if (model != VOX_COST_MODEL_FAST) {
+        SampleBudget budget = quick(model, tets);
+        budget.listed = std::max<std::size_t>(budget.listed, 64); // there is time for it
+        return budget;
+    }
+    return {0, std::clamp<std::size_t>(static_cast<std::size_t>(tets) / 512, 32, 128), 96, 32, 0, 64};
+}
+
 // Sample sizes are what keeps a suggestion below the time of a step (docs/cell-size.md, "What a suggestion
 // costs") with a regret within a few per cent of the thorough look: the tests hold the loss in the model's
 // own cost to 2 % (4 % with lists) for the reference engine and 3 % for the fast one.

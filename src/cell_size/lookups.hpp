@@ -33,8 +33,11 @@ struct SampleBudget {
     std::size_t most_looks;  // looks of tiles into windows, gone through for each cell size
 };
 
-// For vox_suggest_cell_size. The tests hold its counts to within 10 % of the engines' own.
+// As closely as a model looks at all. The tests hold its counts to within 10 % of the engines' own.
 inline constexpr SampleBudget thorough{std::size_t{1} << 18, 4096, 4096, 1024, 512, 4096};
+
+// For vox_suggest_cell_size, of a scene of so many tetrahedra.
+SampleBudget usual(vox_cost_model model, std::uint64_t tets) noexcept;
 
 // For a grid, where choosing has to cost less than a step of `tets` tetrahedra.
 SampleBudget quick(vox_cost_model model, std::uint64_t tets) noexcept;

@@ -9,8 +9,15 @@
 
 namespace vox {
 
+namespace {
+
+// At least so many tetrahedra of each body give its tiles.
+constexpr std::size_t least_sketched = 64;
+
+} // namespace
+
 CellSizeScene::CellSizeScene(std::pmr::memory_resource* m)
-    : memory(m), bodies(m), meshes(m), tiles(m), at_rest(m), cleared(m), made_tiles_(m), step_(m), boxes_(m),
+    : memory(m), bodies(m), meshes(m), tiles(m), at_rest(m), cleared(m), sketches_(m), step_(m), boxes_(m),
       stream_(m), broad_phase_(m) {}
 
 void CellSizeScene::prepare(vox_cost_model model) {
@@ -40,26 +47,48 @@ bool CellSizeScene::moved_since_last_step() const {
     return false;
 }
 
-void CellSizeScene::make_missing_tiles() {
-    tiles.resize(bodies.size(), nullptr);
-    made_tiles_.reserve(bodies.size());
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-        if (tiles[b]) continue;
-        const Body& body = bodies[b];
-        make_tiles(body.tets, body.vertex_count, body.positions, made_tiles_.emplace_back(memory), body.off);
-        tiles[b] = &made_tiles_.back();
-    }
-}
-
 void CellSizeScene::find_near_bodies() {
-    make_missing_tiles();
+    tiles.resize(bodies.size(), nullptr);
     fast::begin_step(bodies, nullptr, step_);
-    for (std::size_t b = 0; b < bodies.size(); ++b) step_.of[b].tiles = tiles[b];
+    const bool some_missing = std::ranges::find(tiles, nullptr) != tiles.end();
+    if (some_missing) sketches_.reserve(bodies.size());
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        if (some_missing) sketches_.emplace_back(memory);
+        if (!tiles[b] && bodies[b].vertex_count > 0)
+            cut_blocks(bodies[b].vertex_count, bodies[b].positions, sketches_[b].tiles);
+        step_.of[b].tiles = tiles[b] ? tiles[b] : &sketches_[b].tiles;
+    }
     fast::lay_out(step_, boxes_);
     fast::stream(step_, boxes_, stream_);
+    if (some_missing) sketch_missing_tiles();
     for (std::size_t b = 0; b < bodies.size(); ++b) step_.of[b].moved = at_rest.empty() || !at_rest[b];
     fast::find_regions(step_, boxes_, broad_phase_);
     for (std::size_t b = 0; b < bodies.size(); ++b) make_tile_boxes(b);
+}
+
+// From the positions as stream() has packed them. The boxes are known then, and nothing is asked of the tiles
+// themselves.
+void CellSizeScene::sketch_missing_tiles() {
+    std::uint64_t tets = 0;
+    for (const Body& body : bodies) tets += body.tets.size();
+    const auto wanted = static_cast<double>(std::clamp<std::uint64_t>(tets / 8, 1024, 8192));
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        if (tiles[b] || bodies[b].tets.empty()) continue;
+        Body packed = bodies[b];
+        packed.positions = {reinterpret_cast<const std::byte*>(step_.of[b].positions), sizeof(Vec3f)};
+        const double part = static_cast<double>(packed.tets.size()) / static_cast<double>(tets);
+        sketch_tiles(packed, static_cast<std::size_t>(wanted * part) + least_sketched, sketches_[b]);
+    }
+    fast::lay_out(step_, boxes_); // now with tiles; the boxes of blocks stay as they are
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        if (tiles[b]) continue;
+        fast::StepBody& body = step_.of[b];
+        const TileSketch& sketch = sketches_[b];
+        std::ranges::copy(sketch.boxes, boxes_.tiles.begin() + body.first_tile);
+        std::ranges::copy(sketch.super_tiles, boxes_.super_tiles.begin() + body.first_super);
+        std::fill_n(boxes_.tile_known.begin() + body.first_tile, sketch.boxes.size(), std::uint8_t{1});
+        body.has_super_boxes = true;
+    }
 }
 
 // Of the tiles that would be looked up in a step.

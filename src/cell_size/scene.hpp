@@ -3,6 +3,7 @@
 
 #include "base/scene.hpp"
 #include "cell_size/lookups.hpp"
+#include "cell_size/tile_sketch.hpp"
 #include "fast/engine.hpp"
 #include "mesh/mesh.hpp"
 #include "mesh/tiles.hpp"
@@ -35,7 +36,7 @@ struct CellSizeScene {
     SampleBudget budget = thorough; // prepare() makes it a small one where the scene is a grid's
     // What a grid has prepared of each body, and found in its last step. All empty where there is no grid.
     std::pmr::vector<const Mesh*> meshes;
-    std::pmr::vector<const Tiles*> tiles;   // null where they were not made
+    std::pmr::vector<const Tiles*> tiles;   // null where they were not made: they are then sketched
     std::pmr::vector<std::uint8_t> at_rest; // the body did not move before the last step
     std::pmr::vector<std::uint8_t> cleared; // winding numbers excluded most of its self-collision
     const FastEngine* last_step = nullptr; // null unless it was a step of these bodies, wherever they are now
@@ -62,26 +63,24 @@ struct CellSizeScene {
 
 private:
     bool moved_since_last_step() const;
-    void make_missing_tiles();
     void find_near_bodies();
+    void sketch_missing_tiles();
     void make_tile_boxes(std::size_t body);
 
-    std::pmr::vector<Tiles> made_tiles_;
+    std::pmr::vector<TileSketch> sketches_; // of all bodies, where some have no tiles
     fast::Step step_;
     fast::StepBoxes boxes_;
     fast::StreamBuffers stream_;
     fast::BroadPhase broad_phase_;
 };
 
-// Measures the positions as they are now. Of a large scene whose meshes have samples (mesh/sample.hpp) these
-// are measured: counts of edges and facets are then the topology's, and the means estimates, good to a few
-// per cent where sizes are not widely spread. Other scenes are measured in full.
+// Measures the positions as they are now: all of a small scene, samples of a large one (mesh/sample.hpp). Then
+// the counts of edges and facets and the means are estimates.
 //
 // The bounds are those of the vertices that tetrahedra use, and of all vertices for a body without
 // tetrahedra; every vertex must be finite all the same. A tetrahedron that names a vertex twice has no edges
 // and facets of its own but counts in the means over tetrahedra; one that is off does not count. Means of
-// nothing are 0. Time, and bytes of memory until it returns, in proportion to the tetrahedra. Throws
-// Error(NON_FINITE) naming mesh_id and vertex.
+// nothing are 0. Throws Error(NON_FINITE) naming mesh_id and vertex.
 Geometry measure(const CellSizeScene& scene);
 
 } // namespace vox

@@ -97,7 +97,10 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
     body.positions = positions;
     body.tets = {reinterpret_cast<const Tet*>(desc.tets), static_cast<std::size_t>(desc.tet_count)};
     body.self_collision = (desc.flags & VOX_MESH_SELF_COLLISION) != 0;
-    for (std::size_t tet = 0; tet < body.tets.size(); ++tet)
+    std::uint32_t largest = 0; // without a branch, several at a time
+    for (const Tet& tet : body.tets)
+        for (const std::uint32_t vertex : tet.v) largest = std::max(largest, vertex);
+    for (std::size_t tet = 0; tet < body.tets.size() && largest >= body.vertex_count; ++tet)
         for (const std::uint32_t vertex : body.tets[tet].v)
             if (vertex >= body.vertex_count)
                 throw Error(VOX_ERROR_INVALID_MESH, format("%stet %zu names vertex %" PRIu32 " of %" PRIu32,

@@ -88,20 +88,6 @@ void for_equal_facets(std::span<const TetFacet> facets, Visit&& visit) {
 IndexLists list_by_lowest(std::span<const Tet> tets, std::uint32_t vertex_count,
                           std::pmr::memory_resource* memory);
 
-// Calls visit(vertex, same) for each facet of the tetrahedra, in the order of their keys. `vertex` is its
-// lowest one, `same` as above. Throws what the memory throws.
-template <class Visit>
-void for_each_facet(std::span<const Tet> tets, std::uint32_t vertex_count, std::pmr::memory_resource* memory,
-                    Visit&& visit) {
-    const IndexLists around = list_by_lowest(tets, vertex_count, memory);
-    std::pmr::vector<TetFacet> room(memory);
-    for (std::uint32_t v = 0; v < vertex_count; ++v) {
-        const std::span<TetFacet> facets = list_facets_at(v, tets, around[v], room);
-        sort_facets(facets);
-        for_equal_facets(facets, [&](std::span<const TetFacet> same) { visit(v, same); });
-    }
-}
-
 // A facet of one tetrahedron only, in the order of facet_corners of that tetrahedron.
 struct Triangle {
     std::uint32_t v[3];

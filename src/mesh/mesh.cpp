@@ -105,9 +105,7 @@ void Mesh::drop_topology() noexcept {
 // From the heap, as a const call must not use the memory of the grid.
 const MeshSample& Mesh::sample() const {
     return sample_.get([this] {
-        std::pmr::memory_resource* heap = std::pmr::new_delete_resource();
-        const Body own = body(VOX_NULL_MESH);
-        return has_topology_ ? make_sample(own, topology(), heap) : make_sample(own, heap);
+        return make_sample(body(VOX_NULL_MESH), kept_sample(tets().size()), std::pmr::new_delete_resource());
     });
 }
 

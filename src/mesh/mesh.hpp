@@ -65,9 +65,8 @@ public:
     // Gives its memory back.
     void drop_topology() noexcept;
 
-    // What suggestions of a cell size look at, made at the first call, from the topology where that is made.
+    // What suggestions of a cell size look at, made at the first call.
     const MeshSample& sample() const;
-    bool may_sample() const noexcept { return tets().size() <= most_tets; }
 
     // Makes the tiles, unless that is done; needs positions.
     void make_tiles();

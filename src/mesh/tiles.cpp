@@ -29,9 +29,6 @@ struct Item {
     std::uint32_t tet;
 };
 
-// Aimed at when a range is cut: a little below 64, so that the tiles of an uneven cut still fit.
-constexpr std::uint32_t target_tets = 60;
-
 // The longest side of the centroids' box.
 struct LongestSide {
     explicit LongestSide(std::span<const Item> items) {
@@ -125,8 +122,7 @@ public:
 
 private:
     void cut(Item* items, Item* other, std::uint32_t count, bool in_super_tile) {
-        const std::uint32_t parts = std::max(2u, (count + target_tets - 1) / target_tets);
-        const auto middle = static_cast<std::uint32_t>(std::uint64_t{count} * (parts / 2) / parts);
+        const std::uint32_t middle = lower_part(count);
         if (divide({items, count}, middle, other)) std::swap(items, other);
         split(items, other, middle, in_super_tile);
         split(items + middle, other + middle, count - middle, in_super_tile);
@@ -182,6 +178,31 @@ private:
     std::uint32_t stamp_ = 0;
 };
 
+void list_blocks(std::uint32_t vertex_count, Tiles& out) {
+    std::pmr::memory_resource* memory = out.tiles.get_allocator().resource();
+    std::pmr::vector<std::uint32_t> seen(out.block_count(), 0, memory), block_of(vertex_count, memory);
+    for (std::uint32_t b = 0; b < out.block_count(); ++b)
+        std::fill(block_of.begin() + out.block_first[b], block_of.begin() + out.block_first[b + 1], b);
+    const std::uint32_t super_tiles = out.super_tile_count();
+    out.blocks.reserve(super_tiles);
+    for (std::uint32_t s = 0; s < super_tiles; ++s) {
+        out.blocks.begin_list();
+        for (std::uint32_t t = out.super_first[s]; t < out.super_first[s + 1]; ++t) {
+            const Tile& tile = out.tiles[t];
+            for (std::uint32_t i = 0; i < tile.vertex_count; ++i) {
+                const std::uint32_t block = block_of[out.vertices[tile.first_vertex + i]];
+                if (seen[block] == s + 1) continue;
+                seen[block] = s + 1;
+                out.blocks.push(block);
+            }
+        }
+        const std::span<std::uint32_t> blocks = out.blocks[s];
+        std::sort(blocks.begin(), blocks.end());
+    }
+}
+
+} // namespace
+
 // Cuts the vertices into blocks: at eight, and earlier where the numbering jumps (from the end of a row of a
 // lattice to the start of the next, say), so that the box of a block is no larger than it must be.
 void cut_blocks(std::uint32_t vertex_count, Positions positions, Tiles& out) {
@@ -210,31 +231,6 @@ void cut_blocks(std::uint32_t vertex_count, Positions positions, Tiles& out) {
     out.block_first.push_back(vertex_count);
     out.block_first.shrink_to_fit();
 }
-
-void list_blocks(std::uint32_t vertex_count, Tiles& out) {
-    std::pmr::memory_resource* memory = out.tiles.get_allocator().resource();
-    std::pmr::vector<std::uint32_t> seen(out.block_count(), 0, memory), block_of(vertex_count, memory);
-    for (std::uint32_t b = 0; b < out.block_count(); ++b)
-        std::fill(block_of.begin() + out.block_first[b], block_of.begin() + out.block_first[b + 1], b);
-    const std::uint32_t super_tiles = out.super_tile_count();
-    out.blocks.reserve(super_tiles);
-    for (std::uint32_t s = 0; s < super_tiles; ++s) {
-        out.blocks.begin_list();
-        for (std::uint32_t t = out.super_first[s]; t < out.super_first[s + 1]; ++t) {
-            const Tile& tile = out.tiles[t];
-            for (std::uint32_t i = 0; i < tile.vertex_count; ++i) {
-                const std::uint32_t block = block_of[out.vertices[tile.first_vertex + i]];
-                if (seen[block] == s + 1) continue;
-                seen[block] = s + 1;
-                out.blocks.push(block);
-            }
-        }
-        const std::span<std::uint32_t> blocks = out.blocks[s];
-        std::sort(blocks.begin(), blocks.end());
-    }
-}
-
-} // namespace
 
 void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions, Tiles& out,
                 std::span<const std::uint64_t> off) {

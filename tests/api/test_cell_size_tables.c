@@ -55,10 +55,11 @@ START_TEST(table_2_cells_per_axis) {
     const row* r = &table[_i];
     const vox_suggestion found = suggest_for_ball(r->tets, VOX_SIZE_MEAN_EDGE);
     ck_assert_double_eq_tol((double)found.stats.tets, (double)r->tets, 0.01 * (double)r->tets);
-    ck_assert_double_eq_tol(4 / found.rules.mean_edge, r->ours_trad, 0.006);
-    ck_assert_double_eq_tol(found.cells_per_axis, r->ours_a, 0.006);
-    ck_assert_double_eq_tol(4 / found.rules.mean_edge, r->n_trad, 0.006 * r->n_trad);
-    ck_assert_double_eq_tol(found.cells_per_axis, r->n_a, 0.006 * r->n_a);
+    /* Ours are from all edges and facets; a suggestion looks at a sample of them. */
+    ck_assert_double_eq_tol(4 / found.rules.mean_edge, r->ours_trad, 0.006 * r->ours_trad);
+    ck_assert_double_eq_tol(found.cells_per_axis, r->ours_a, 0.006 * r->ours_a);
+    ck_assert_double_eq_tol(4 / found.rules.mean_edge, r->n_trad, 0.01 * r->n_trad);
+    ck_assert_double_eq_tol(found.cells_per_axis, r->n_a, 0.01 * r->n_a);
     ck_assert_double_eq_tol(found.cells_per_axis * found.cell_size, 4, 1e-12);
 }
 END_TEST

@@ -108,6 +108,12 @@ void ck_near(const Named& scene, double size, const char* what, double predicted
                   "%s, cell size %g: %s %.0f, counted %.0f", scene.name, size, what, predicted, counted);
 }
 
+std::uint64_t tets_of(Scene& scene) {
+    std::uint64_t tets = 0;
+    for (const Body& body : scene.bodies()) tets += body.tets.size();
+    return tets;
+}
+
 // What the models see of a scene, prepared for one of them.
 struct Described : CellSizeScene {
     explicit Described(Scene& scene, const SampleBudget& with = thorough) : CellSizeScene(heap) {
@@ -176,8 +182,7 @@ START_TEST(reference_quick_look) {
     Scene scene;
     named.fill(scene);
     scene.prepare();
-    std::uint64_t tets = 0;
-    for (const Body& body : scene.bodies()) tets += body.tets.size();
+    const std::uint64_t tets = tets_of(scene);
     for (const bool large : {false, true}) {
         const ReferenceModel all(Described(scene, large ? thorough : smooth(thorough)), VOX_STORAGE_HASHED,
                                  shipped_weights());
@@ -191,6 +196,23 @@ START_TEST(reference_quick_look) {
                       "%s: quick %g, thorough %g, cost %g over %g", named.name, found.cell_size,
                       best.cell_size, all(found.cell_size), best.cost);
     }
+}
+END_TEST
+
+// What vox_suggest_cell_size loses by looking at samples, by the thorough model.
+START_TEST(reference_usual_look) {
+    const Named& named = scenes[_i];
+    Scene scene;
+    named.fill(scene);
+    scene.prepare();
+    const ReferenceModel all(Described(scene), VOX_STORAGE_HASHED, shipped_weights());
+    const ReferenceModel some(Described(scene, usual(VOX_COST_MODEL_REFERENCE, tets_of(scene))),
+                              VOX_STORAGE_HASHED, shipped_weights());
+    const CellSizeRange range = all.range().value();
+    const CostMinimum best = minimise(of_size(all), range, {.scans_per_octave = 16});
+    const CostMinimum found = minimise(of_size(some), range, {.scans_per_octave = 16});
+    ck_assert_msg(all(found.cell_size) <= 1.04 * best.cost, "%s: %g, thorough %g, cost %g over %g",
+                  named.name, found.cell_size, best.cell_size, all(found.cell_size), best.cost);
 }
 END_TEST
 
@@ -343,8 +365,7 @@ START_TEST(fast_quick_look) {
     Scene scene;
     named.fill(scene);
     scene.prepare();
-    std::uint64_t tets = 0;
-    for (const Body& body : scene.bodies()) tets += body.tets.size();
+    const std::uint64_t tets = tets_of(scene);
     const FastModel all(Described(scene, thorough, {}), shipped_weights());
     const FastModel some(Described(scene, quick(VOX_COST_MODEL_FAST, tets), {}), shipped_weights());
     const CellSizeRange range = all.range().value();
@@ -354,6 +375,36 @@ START_TEST(fast_quick_look) {
     const CostMinimum found = minimise([&](double x) { return table(x); }, range);
     ck_assert_msg(all(found.cell_size) <= 1.03 * best.cost, "%s: quick %g, thorough %g, cost %g over %g",
                   named.name, found.cell_size, best.cell_size, all(found.cell_size), best.cost);
+}
+END_TEST
+
+// The same with tiles that are sketched from a sample of the tetrahedra, as vox_suggest_cell_size does it. Their
+// counts are near those of the tiles themselves.
+START_TEST(fast_usual_look) {
+    const Named& named = scenes[_i];
+    Scene scene;
+    named.fill(scene);
+    scene.prepare();
+    const FastModel all(Described(scene, thorough, {}), shipped_weights());
+    Described sketched(scene, usual(VOX_COST_MODEL_FAST, tets_of(scene)));
+    sketched.prepare(VOX_COST_MODEL_FAST);
+    const FastModel some(sketched, shipped_weights());
+    const CellSizeRange range = all.range().value();
+    const CostMinimum best = minimise(of_size(all), range);
+    const CostFunction cost = of_size(some);
+    CostTable table(cost, range, heap);
+    const CostMinimum found = minimise([&](double x) { return table(x); }, range);
+    ck_assert_msg(all(found.cell_size) <= 1.02 * best.cost, "%s: %g, thorough %g, cost %g over %g",
+                  named.name, found.cell_size, best.cell_size, all(found.cell_size), best.cost);
+    const auto counts = [&](const FastModel& model) {
+        return model.counts(best.cell_size, FastModel::Alignment::average);
+    };
+    const FastModel::Counts sketch = counts(some), real = counts(all);
+    ck_near(named, best.cell_size, "vertices binned", sketch.vertices, real.vertices, 0.1);
+    if (real.looks < 60) return; // of a small body: too few to be estimated from a sample
+    ck_near(named, best.cell_size, "looks of tiles", sketch.looks, real.looks, 0.15);
+    ck_near(named, best.cell_size, "rows", sketch.rows, real.rows, 0.15);
+    ck_near(named, best.cell_size, "vertices read", sketch.read, real.read, 0.2);
 }
 END_TEST
 
@@ -529,11 +580,13 @@ int main() {
     const int scene_count = sizeof scenes / sizeof scenes[0];
     tcase_add_loop_test(tests, reference_counts, 0, scene_count);
     tcase_add_loop_test(tests, reference_quick_look, 0, scene_count);
+    tcase_add_loop_test(tests, reference_usual_look, 0, scene_count);
     tcase_add_loop_test(tests, reference_lists_of_other_length, 0, scene_count);
     tcase_add_test(tests, tets_in_no_order_fetch_their_vertices);
     tcase_add_test(tests, cells_as_large_as_those_of_a_lattice);
     tcase_add_loop_test(tests, fast_counts, 0, scene_count);
     tcase_add_loop_test(tests, fast_quick_look, 0, scene_count);
+    tcase_add_loop_test(tests, fast_usual_look, 0, scene_count);
     tcase_add_test(tests, fast_bodies_at_rest);
     tcase_add_test(tests, levels_where_they_pay);
     tcase_add_test(tests, levels_are_one_engine);

@@ -2,6 +2,7 @@
 // scene takes ten microseconds, and a suggestion should take less.
 #include <thread> // first: a macro of Check is named as a function there
 
+#include "base/vectors.hpp"
 #include "cell_size/fast_model.hpp"
 #include "cell_size/weights.hpp"
 #include "internal/fast_scenes.hpp"
@@ -10,10 +11,14 @@
 
 #include <vox/vox.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstdlib>
+#include <map>
 #include <new>
+#include <set>
 #include <vector>
 
 namespace {
@@ -117,16 +122,100 @@ START_TEST(samples_of_meshes_are_small) {
     for (const std::size_t tets : sizes) {
         Scene scene;
         fill(scene, tets, 3, false);
-        const MeshSample sample = make_sample(scene.bodies()[0], heap);
-        ck_assert_uint_eq(sample.tets.size(), sampled_tets(scene.bodies()[0].tets.size()));
+        const std::size_t all = scene.bodies()[0].tets.size();
+        const MeshSample sample = make_sample(scene.bodies()[0], kept_sample(all), heap);
+        ck_assert_uint_eq(sample.tets.size(), sampled_tets(all));
         ck_assert_uint_le(sample.tets.size(), 256);
         ck_assert_uint_le(sample.edges.size(), sample.tets.size());
-        ck_assert_uint_le(sample.facets.size(), sample.tets.size() / 2);
+        ck_assert_uint_le(sample.facets.size(), sample.tets.size());
+        ck_assert_uint_le(sample.boundary_facets.size(), sample.tets.size() / 2);
         ck_assert_uint_ge(sample.edges.size(), 96);
-        ck_assert_uint_ge(sample.facets.size(), 48);
+        ck_assert_uint_ge(sample.facets.size(), 96);
+        ck_assert_uint_ge(sample.boundary_facets.size(), 24);
     }
     ck_assert_uint_eq(sampled_tets(0), sampled_tets(4000));
     ck_assert_uint_eq(sampled_tets(1u << 30), 256);
+}
+END_TEST
+
+// Counts and means over all edges and facets, each once.
+struct Exact {
+    double edges = 0, facets = 0, boundary = 0;
+    double mean_edge = 0, mean_facet = 0, mean_boundary = 0;
+};
+
+Exact exact(const Mesh& mesh) {
+    using Facet = std::array<std::uint32_t, 3>;
+    std::set<std::array<std::uint32_t, 2>> edges;
+    std::map<Facet, int> facets;
+    const auto at = [&](std::uint32_t v) { return Vec3d(mesh.positions[v]); };
+    for (Tet tet : mesh.tets) {
+        std::sort(tet.v, tet.v + 4);
+        for (int i = 0; i < 4; ++i)
+            for (int j = i + 1; j < 4; ++j) edges.insert({tet.v[i], tet.v[j]});
+        for (int i = 0; i < 4; ++i) {
+            Facet facet{};
+            for (std::size_t j = 0, n = 0; j < 4; ++j)
+                if (j != std::size_t(i)) facet[n++] = tet.v[j];
+            ++facets[facet];
+        }
+    }
+    Exact all;
+    all.edges = double(edges.size());
+    all.facets = double(facets.size());
+    for (const auto& [a, b] : edges) all.mean_edge += length(at(b) - at(a)) / all.edges;
+    for (const auto& [f, tets] : facets) {
+        const double area = length(cross(at(f[1]) - at(f[0]), at(f[2]) - at(f[0]))) / 2;
+        all.mean_facet += area / all.facets;
+        all.boundary += tets == 1;
+        all.mean_boundary += tets == 1 ? area : 0;
+    }
+    all.mean_boundary /= all.boundary;
+    return all;
+}
+
+void ck_share(double estimate, double value, double tolerance, const char* what, std::size_t tets) {
+    ck_assert_msg(std::abs(estimate - value) <= tolerance * value, "%zu tets, %s: %g for %g", tets, what,
+                  estimate, value);
+}
+
+// vox_suggest_cell_size measures all of a small mesh, and samples a large one: whatever the order of its
+// tetrahedra, where few of its vertices are used, and where it is finer in its middle, too. A grid's samples
+// are smaller.
+START_TEST(samples_are_near_the_whole) {
+    for (const std::size_t tets : {std::size_t{4500}, std::size_t{12000}, std::size_t{60000}})
+        for (int kind = 0; kind < 4; ++kind) {
+            Mesh mesh = jittered_ball(double(tets), 0, 1);
+            Random random{9};
+            if (kind == 1)
+                for (std::size_t t = mesh.tets.size() - 1; t > 0; --t)
+                    std::swap(mesh.tets[t], mesh.tets[random.next() % (t + 1)]);
+            if (kind == 2)
+                for (Vec3f& p : mesh.positions) {
+                    const float far = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
+                    p = {p.x * far, p.y * far, p.z * far};
+                }
+            if (kind == 3) mesh.positions.resize(mesh.positions.size() * 40, mesh.positions[0]);
+            const Exact all = exact(mesh);
+            Scene scene;
+            scene.add(std::move(mesh), false);
+            scene.prepare();
+            CellSizeScene described(heap);
+            described.bodies.assign(scene.bodies().begin(), scene.bodies().end());
+            const vox_geometry_stats found = measure(described).stats;
+            const std::size_t count = scene.bodies()[0].tets.size();
+            const double near = count <= 5000 ? 1e-12 : kind == 2 ? 0.04 : 0.015;
+            ck_share(double(found.edges), all.edges, near, "edges", count);
+            ck_share(double(found.facets), all.facets, near, "facets", count);
+            ck_share(double(found.boundary_facets), all.boundary, 10 * near, "boundary facets", count);
+            ck_share(found.mean_edge, all.mean_edge, near, "mean edge", count);
+            ck_share(found.mean_facet_area, all.mean_facet, 2 * near, "mean facet area", count);
+            ck_share(found.mean_boundary_facet_area, all.mean_boundary, 4 * near, "mean boundary facet", count);
+
+            const MeshSample kept = make_sample(scene.bodies()[0], kept_sample(count), heap);
+            ck_share(double(kept.edge_count), all.edges, 0.05, "edges by a grid", count);
+            ck_share(double(kept.facet_count), all.facets, 0.02, "facets by a grid", count);
+        }
 }
 END_TEST
 
@@ -257,6 +346,7 @@ int main() {
     tcase_set_timeout(tests, 0);
     tcase_add_test(tests, the_model_looks_at_few);
     tcase_add_test(tests, samples_of_meshes_are_small);
+    tcase_add_test(tests, samples_are_near_the_whole);
     tcase_add_test(tests, a_suggestion_allocates_little);
     tcase_add_test(tests, what_changed_since_the_step_counts);
     tcase_add_test(tests, many_ask_at_once);
