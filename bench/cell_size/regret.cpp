@@ -360,8 +360,8 @@ double seconds_of_call(const vox_suggest_desc& desc, const std::vector<vox_mesh_
 }
 
 // What suggestions cost: of vox_suggest_cell_size, for the paper's model and the engine's; in a grid with the
-// depth stage, and without, the first one and later ones, in steps. And how far the grid's is from the former:
-// the cost at its size over the least one, both by what vox_suggest_cell_size has looked at.
+// depth stage, and without, the first one and later ones, in steps. And how far the grid's is from the
+// former: the cost at its size over the least one, both by what vox_suggest_cell_size has looked at.
 std::string suggestions(Scene& scene, vox_engine engine) {
     scene.pose(0);
     const std::vector<vox_mesh_desc> meshes = Grid::descs(scene);
@@ -381,7 +381,8 @@ std::string suggestions(Scene& scene, vox_engine engine) {
         for (int i = 0; i < 3; ++i) first.push_back(Grid(engine, scene, flags).first_suggestion());
         char part[120];
         std::snprintf(part, sizeof part, ",%.2f,%.3f,%.3f,%.3f,%.3f", found.step_seconds * 1e6, found.steps,
-                      median(first), size / model.cell_size, predicted(model, size) / model.predicted_cost - 1);
+                      median(first), size / model.cell_size,
+                      predicted(model, size) / model.predicted_cost - 1);
         text += part;
     }
     return text + "\n";

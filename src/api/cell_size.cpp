@@ -29,8 +29,8 @@ vox_suggest_desc read_suggest_desc(const vox_suggest_desc* desc) {
     return settings;
 }
 
-// Reads the caller's array, whose elements are as far apart as the caller's own vox_mesh_desc is large. A model
-// is to look at samples of the bodies.
+// Reads the caller's array, whose elements are as far apart as the caller's own vox_mesh_desc is large. A
+// model is to look at samples of the bodies.
 void read_bodies(const vox_mesh_desc* meshes, std::uint64_t count, vox_cost_model model,
                  CellSizeScene& scene) {
     std::pmr::vector<Body>& bodies = scene.bodies;

@@ -117,8 +117,8 @@ void for_sample(const Items& items, std::uint64_t count, double wanted, double p
                    [&](std::uint64_t i) { visit(items[static_cast<std::size_t>(i)], weight); });
 }
 
-// Adds the part of a mesh's sample that it has of the scene's tetrahedra, edges and facets (`stats`). at(v) is
-// the exact position of a vertex.
+// Adds the part of a mesh's sample that it has of the scene's tetrahedra, edges and facets (`stats`). at(v)
+// is the exact position of a vertex.
 template <class At>
 void add_sample(const Body& body, const MeshSample& sample, const vox_geometry_stats& stats, double samples,
                 double place, Means& means, At&& at) {

@@ -133,7 +133,9 @@ double gather(const Lookup& l, const BranchMisses& changes, double most, const B
 SampleBudget usual(vox_cost_model model, std::uint64_t tets) noexcept {
     if (model != VOX_COST_MODEL_FAST) {
         SampleBudget budget = quick(model, tets);
-        budget.listed = std::max<std::size_t>(budget.listed, 64); // there is time for it
+        budget.most_tets = std::min<std::size_t>(budget.most_tets, 8192);
+        budget.listed =
+            std::max<std::size_t>(budget.listed, 64); // in small scenes, too: there is time for it
         return budget;
     }
     return {0, std::clamp<std::size_t>(static_cast<std::size_t>(tets) / 512, 32, 128), 96, 32, 0, 64};

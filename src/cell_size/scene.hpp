@@ -48,9 +48,9 @@ struct CellSizeScene {
     // a step. Throws Error(NON_FINITE) naming mesh_id and vertex.
     void prepare(vox_cost_model model);
 
-    // For the fast engine's model, which bodies are near each other: from the last step where the boxes of all
-    // bodies are what they were then (prepare() sets `last_step` to null otherwise), else found by the same
-    // functions that the engine calls.
+    // For the fast engine's model, which bodies are near each other: from the last step where the boxes of
+    // all bodies are what they were then (prepare() sets `last_step` to null otherwise), else found by the
+    // same functions that the engine calls.
     const fast::Step& step() const noexcept { return last_step ? last_step->last_step() : step_; }
     const fast::StepBoxes& boxes() const noexcept { return last_step ? last_step->boxes() : boxes_; }
     const fast::BroadPhase& broad_phase() const noexcept {
@@ -74,8 +74,8 @@ private:
     fast::BroadPhase broad_phase_;
 };
 
-// Measures the positions as they are now: all of a small scene, samples of a large one (mesh/sample.hpp). Then
-// the counts of edges and facets and the means are estimates.
+// Measures the positions as they are now: all of a small scene, samples of a large one (mesh/sample.hpp).
+// Then the counts of edges and facets and the means are estimates.
 //
 // The bounds are those of the vertices that tetrahedra use, and of all vertices for a body without
 // tetrahedra; every vertex must be finite all the same. A tetrahedron that names a vertex twice has no edges

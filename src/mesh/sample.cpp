@@ -118,8 +118,8 @@ void keep(std::size_t wanted, std::pmr::vector<Item>& items) {
 // any. Exact where everything was listed.
 std::uint64_t of_all(std::uint64_t listed, std::uint64_t met, double met_in_all) {
     return met == 0 ? 0
-                    : static_cast<std::uint64_t>(
-                          std::llround(static_cast<double>(listed) * (met_in_all / static_cast<double>(met))));
+                    : static_cast<std::uint64_t>(std::llround(static_cast<double>(listed) *
+                                                              (met_in_all / static_cast<double>(met))));
 }
 
 } // namespace

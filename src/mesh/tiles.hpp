@@ -76,7 +76,8 @@ void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions
 void cut_blocks(std::uint32_t vertex_count, Positions positions, Tiles& out);
 
 // How a range of the tree's items is cut, by their number, until a tile holds them.
-inline constexpr std::uint32_t target_tets = 60; // a little below 64, so that tiles of an uneven cut still fit
+inline constexpr std::uint32_t target_tets =
+    60; // a little below 64, so that tiles of an uneven cut still fit
 constexpr std::uint32_t lower_part(std::uint32_t count) noexcept {
     const std::uint32_t parts = std::max(2u, (count + target_tets - 1) / target_tets);
     return static_cast<std::uint32_t>(std::uint64_t{count} * (parts / 2) / parts);
