@@ -118,6 +118,35 @@ START_TEST(the_model_looks_at_few) {
 }
 END_TEST
 
+void ck_share(double estimate, double value, double tolerance, const char* what, std::size_t tets) {
+    ck_assert_msg(std::abs(estimate - value) <= tolerance * value, "%zu tets, %s: %g for %g", tets, what,
+                  estimate, value);
+}
+
+// vox_suggest_cell_size makes no tiles: a sketch has about as many, and what the model looks at is bounded.
+START_TEST(a_suggestion_looks_at_samples) {
+    for (const std::size_t tets : sizes) {
+        Scene scene;
+        fill(scene, tets, 1.9, true);
+        CellSizeScene described(heap);
+        described.bodies.assign(scene.bodies().begin(), scene.bodies().end());
+        described.budget = usual(VOX_COST_MODEL_FAST, 2 * tets);
+        described.prepare(VOX_COST_MODEL_FAST);
+        const FastModel cost(described, shipped_weights());
+        ck_assert_uint_gt(cost.points_looked_at(), 0);
+        ck_assert_msg(cost.points_looked_at() <= 50000, "%zu tets: %llu points", tets,
+                      static_cast<unsigned long long>(cost.points_looked_at()));
+        for (std::size_t b = 0; b < 2; ++b) {
+            const double sketched = double(described.tiles[b] ? 0 : described.step().of[b].tiles->tiles.size());
+            ck_share(sketched, double(scene.tiles()[b]->tiles.size()), 0.1, "tiles", tets);
+        }
+    }
+    ck_assert_uint_le(usual(VOX_COST_MODEL_REFERENCE, 1u << 30).most_tets, 8192);
+    ck_assert_uint_le(usual(VOX_COST_MODEL_REFERENCE, 1u << 30).lookups, 256);
+    ck_assert_uint_le(usual(VOX_COST_MODEL_FAST, 1u << 30).lookups, 128);
+}
+END_TEST
+
 START_TEST(samples_of_meshes_are_small) {
     for (const std::size_t tets : sizes) {
         Scene scene;
@@ -172,11 +201,6 @@ Exact exact(const Mesh& mesh) {
     }
     all.mean_boundary /= all.boundary;
     return all;
-}
-
-void ck_share(double estimate, double value, double tolerance, const char* what, std::size_t tets) {
-    ck_assert_msg(std::abs(estimate - value) <= tolerance * value, "%zu tets, %s: %g for %g", tets, what,
-                  estimate, value);
 }
 
 // vox_suggest_cell_size measures all of a small mesh, and samples a large one: whatever the order of its
@@ -345,6 +369,7 @@ int main() {
     TCase* tests = tcase_create("suggest_work");
     tcase_set_timeout(tests, 0);
     tcase_add_test(tests, the_model_looks_at_few);
+    tcase_add_test(tests, a_suggestion_looks_at_samples);
     tcase_add_test(tests, samples_of_meshes_are_small);
     tcase_add_test(tests, samples_are_near_the_whole);
     tcase_add_test(tests, a_suggestion_allocates_little);
