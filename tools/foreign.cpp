@@ -1,6 +1,5 @@
 #include "foreign.hpp"
 
-#include "body.hpp"
 #include "curve_svg.hpp"
 #include "failure.hpp"
 #include "output_file.hpp"
@@ -47,19 +46,15 @@ struct Primitives {
     const char* word = "points";
 };
 
-// The primitives of all files together: tetrahedra, else triangles, else points; or the kind that was asked
+// The primitives of all bodies together: tetrahedra, else triangles, else points; or the kind that was asked
 // for.
-void gather(const std::vector<std::string>& files, const ForeignOptions& options, Primitives& out) {
-    std::vector<Mesh> meshes;
-    std::vector<vox_io_mesh_view> views;
+void gather(const std::vector<Body>& bodies, const ForeignOptions& options, Primitives& out) {
     bool tets = false, triangles = false;
-    for (const std::string& file : files) {
-        meshes.push_back(load_mesh(file));
-        vox_io_mesh_view& view = views.emplace_back();
-        check(vox_io_mesh_get(meshes.back().get(), &view));
-        tets = tets || view.tet_count > 0;
-        triangles = triangles || view.triangle_count > 0;
-        if (options.triangles && view.triangle_count == 0) throw Failure(file + " has no triangles");
+    for (const Body& body : bodies) {
+        tets = tets || body.view.tet_count > 0;
+        triangles = triangles || body.view.triangle_count > 0;
+        if (options.triangles && body.view.triangle_count == 0)
+            throw Failure(body.name + " has no triangles");
     }
     if (options.points)
         tets = triangles = false;
@@ -67,7 +62,8 @@ void gather(const std::vector<std::string>& files, const ForeignOptions& options
         tets = false;
     const std::uint32_t corners = tets ? 4 : 3;
     std::uint64_t first = 0;
-    for (const vox_io_mesh_view& view : views) {
+    for (const Body& body : bodies) {
+        const vox_io_mesh_view& view = body.view;
         out.positions.insert(out.positions.end(), view.positions, view.positions + 3 * view.vertex_count);
         const std::uint32_t* from = tets ? view.tets : view.triangles;
         const std::uint64_t count = tets ? view.tet_count : triangles ? view.triangle_count : 0;
@@ -263,34 +259,29 @@ void add_foreign(Command& command, ForeignOptions& options) {
         .positive();
 }
 
-bool without_tets(const std::vector<std::string>& files) {
-    return std::none_of(files.begin(), files.end(), [](const std::string& file) {
-        const Mesh mesh = load_mesh(file);
-        vox_io_mesh_view view{};
-        check(vox_io_mesh_get(mesh.get(), &view));
-        return view.tet_count > 0;
-    });
-}
-
-void suggest_foreign(const ForeignOptions& options, const std::vector<std::string>& files, double zone_loss,
+void suggest_foreign(const ForeignOptions& options, const std::vector<Body>& bodies, double zone_loss,
                      const std::string& svg, bool json) {
     if (options.points && options.triangles) throw WrongUsage("--points and --triangles exclude each other");
     if (!options.tune.empty() && options.tune.find("{}") == std::string::npos)
         throw WrongUsage("--tune: the command does not say where the cell size goes: {}");
-    if (files.empty() && !(options.first > 0)) throw WrongUsage("--tune without a MESH needs --first SIZE");
+    if (bodies.empty() && !(options.first > 0)) throw WrongUsage("--tune without a MESH needs --first SIZE");
     Primitives held, asking;
     vox_foreign_grid grid = vox_default_foreign_grid();
     check(vox_foreign_grid_set_known(&grid, options.known));
     grid.radius = options.radius;
     grid.zone_loss = zone_loss;
-    if (!files.empty()) {
-        gather(files, options, held);
+    if (!bodies.empty()) {
+        gather(bodies, options, held);
         grid.held = &held.desc;
     }
     if (!options.asking.empty()) {
-        gather(options.asking, options, asking);
+        std::vector<Body> those;
+        for (const std::string& file : options.asking) those.push_back(load_body(file));
+        gather(those, options, asking);
         grid.asking = &asking.desc;
     }
+    std::vector<std::string> files;
+    for (const Body& body : bodies) files.push_back(body.name);
     const std::string names = short_names(files);
     if (!options.tune.empty()) {
         vox_tune_desc desc = vox_default_tune_desc();
@@ -300,7 +291,7 @@ void suggest_foreign(const ForeignOptions& options, const std::vector<std::strin
         vox_tuning found{};
         found.struct_size = sizeof found;
         Program program{options.tune};
-        check(vox_cost_tune(files.empty() ? nullptr : &grid, &desc, run_program, &program, &found));
+        check(vox_cost_tune(bodies.empty() ? nullptr : &grid, &desc, run_program, &program, &found));
         const CostCurve curve{{found.curve, found.curve_count},
                               found.cell_size,
                               found.seconds,

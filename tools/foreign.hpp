@@ -2,6 +2,7 @@
 // sizes.
 #pragma once
 
+#include "body.hpp"
 #include "command_line.hpp"
 
 #include <vox/vox.h>
@@ -28,12 +29,8 @@ struct ForeignOptions {
 
 void add_foreign(Command& command, ForeignOptions& options);
 
-// Whether none of these files has a tetrahedron: then there is nothing that vox's own grids could be tuned
-// for.
-bool without_tets(const std::vector<std::string>& files);
-
-// Prints the suggestion for what these files hold, or what tuning found.
-void suggest_foreign(const ForeignOptions& options, const std::vector<std::string>& files, double zone_loss,
+// Prints the suggestion for what these bodies hold, or what tuning found. There may be none for tuning.
+void suggest_foreign(const ForeignOptions& options, const std::vector<Body>& bodies, double zone_loss,
                      const std::string& svg, bool json);
 
 } // namespace tool

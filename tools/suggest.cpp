@@ -109,12 +109,13 @@ void print_text(const vox_suggestion& found, std::size_t mesh_count) {
 void run(const Options& options) {
     if (!options.svg.empty()) check_output(options.svg);
     if (options.files.empty() && options.foreign.tune.empty()) throw WrongUsage("MESH is required");
-    if (options.foreign.any() || (!options.fill.surfaces && without_tets(options.files)))
-        return suggest_foreign(options.foreign, options.files, options.desc.zone_loss, options.svg,
-                               options.json);
     std::vector<Body> bodies;
     std::vector<vox_mesh_desc> meshes;
     for (const std::string& file : options.files) bodies.push_back(load_body(file, {}, options.fill));
+    const bool has_tets =
+        std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.view.tet_count > 0; });
+    if (options.foreign.any() || !has_tets) // nothing that a grid of vox's own could be tuned for
+        return suggest_foreign(options.foreign, bodies, options.desc.zone_loss, options.svg, options.json);
     for (const Body& body : bodies) meshes.push_back(mesh_desc(body));
     if (options.self)
         for (vox_mesh_desc& mesh : meshes) mesh.flags |= VOX_MESH_SELF_COLLISION;

@@ -107,7 +107,6 @@ class CommandLine(Files):
             self.refused(1, re.escape(garbage), *command, garbage)
             self.refused(1, re.escape(empty), *command, empty)
             self.refused(1, re.escape(self.folder.name), *command, self.folder.name)
-        self.refused(1, "tet", "suggest", self.surface)  # no tetrahedron
         self.refused(1, ".", "suggest", flat)            # none that has a size
 
     def test_coordinates_beyond_float(self):
@@ -270,6 +269,46 @@ class CommandLine(Files):
         run_json("suggest", odd, "--svg", path)
         self.assertIn("a&b <c>.msh", "".join(xml.etree.ElementTree.parse(path).getroot().itertext()))
         self.refused(1, "cannot be written", "suggest", self.two, "--svg", self.path("no/such.svg"))
+
+    def test_suggest_for_other_grids(self):
+        surface = run_json("suggest", self.surface)
+        self.assertEqual(surface["primitives"]["type"], "triangles")
+        self.assertLessEqual(surface["zone"]["min"], surface["cell_size"])
+        self.assertGreaterEqual(surface["zone"]["max"], surface["cell_size"])
+        cost = sum(term["cost"] for term in surface["terms"])
+        self.assertAlmostEqual(cost / surface["predicted_ns"], 1, 9)
+        self.assertEqual(run_json("suggest", self.two, "--grid", "ipc")["primitives"],
+                         {"type": "tetrahedra", "count": 2})
+        balls = run_json("suggest", self.two, "--points", "--radius", 0.25, "--grid", "warp")
+        self.assertEqual(balls["primitives"], {"type": "points", "count": 5})
+        self.assertEqual(balls["rules"]["radius"], 0.25)
+        asked = run_json("suggest", self.two, "--grid", "vtk", "--asked-by", self.one)
+        self.assertGreater(asked["work"]["visits"], 0)
+        text = run("suggest", self.surface, "--svg", self.path("surface.svg")).stdout.decode()
+        self.assertIn("Suggested cell size", text)
+        self.assertIn("What the cost is made of", text)
+        words = "".join(xml.etree.ElementTree.parse(self.path("surface.svg")).getroot().itertext())
+        self.assertIn("a grid of triangles", words)
+        self.refused(1, "no triangles", "suggest", self.two, "--triangles")
+        self.refused(2, "exclude", "suggest", self.two, "--triangles", "--points")
+
+    def test_suggest_tunes_a_command(self):
+        """A command whose time is (d - 0.5)^2 + 1, which it prints, at the cell size d."""
+        prints = "echo cells; echo {} | awk '{print ($1-0.5)*($1-0.5)+1; print \"\"}'"
+        found = run_json("suggest", "--tune", prints, "--first", 0.3)
+        self.assertLessEqual(len(found["runs"]), 7)
+        self.assertLess((found["cell_size"] - 0.5) ** 2, 0.05)
+        for r in found["runs"]:
+            self.assertAlmostEqual((r["cell_size"] - 0.5) ** 2 + 1, r["seconds"], 4)
+        self.assertEqual(len(run_json("suggest", "--tune", prints, "--first", 0.3, "--runs", 3)["runs"]), 3)
+        timed = run_json("suggest", self.two, "--tune", "echo nothing like a number {}")
+        self.assertTrue(all(0 < r["seconds"] < 60 for r in timed["runs"]))
+        text = run("suggest", "--tune", prints, "--first", 0.3, "--svg", self.path("tuned.svg")).stdout.decode()
+        self.assertIn("Best cell size", text)
+        self.refused(1, "no run|run", "suggest", "--tune", "exit {}", "--first", 0.3)
+        self.refused(2, "{}", "suggest", "--tune", "true", "--first", 0.3)
+        self.refused(2, "--first", "suggest", "--tune", prints)
+        self.refused(2, "MESH", "suggest")
 
     def test_suggest_solves_the_cubic(self):
         """4 K d^3 - s K d^2 - 3 s p_nc = 0 with K = (1 - p_nc) r 3 sqrt(3) / (2 A), Sect. 4, for each reading."""
