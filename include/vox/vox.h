@@ -1876,7 +1876,7 @@ VOX_API vox_result vox_count_for(const vox_foreign_grid* grid, double cell_size,
 /* One timing of a grid: a run at this cell size took so long. */
 typedef struct vox_grid_timing {
     double cell_size; /* > 0 */
-    double seconds;   /* > 0 */
+    double seconds;   /* 1e-30 to 1e30 */
 } vox_grid_timing;
 
 /* Weights from timings, and the cell size they lead to. */
@@ -1897,16 +1897,17 @@ typedef struct vox_grid_fit {
 } vox_grid_fit;
 
 /* Fits the weights of a grid to timings of the whole run at three different cell sizes or more (0.6, 1.2 and 2.4
- * mean edges do), by non-negative least squares, and minimises the cost. Of several timings at one cell size the
- * shortest counts. What few timings cannot tell apart is divided as in the weights that the grid has (`weights`, else
- * `known`). Errors: as vox_suggest_for; also INVALID_ARGUMENT for fewer than three different cell sizes, sizes below the
- * least legal one, and timings that are not finite numbers above 0. */
+ * mean edges do), by non-negative least squares, and minimises the cost, from the smallest size timed over 1.5 to 1.5
+ * times the largest. Of several timings at one cell size the shortest counts. Slow timings count less than fast ones, and
+ * less still if they are far above the fit. What few timings cannot tell apart is divided as in the weights that the grid
+ * has (`weights`, else `known`). Errors: as vox_suggest_for; also INVALID_ARGUMENT for fewer than three different cell
+ * sizes (those within a millionth are one), sizes below the least legal one, and timings out of their range. */
 VOX_API vox_result vox_cost_fit(const vox_foreign_grid* grid, VOX_ARRAY(count) const vox_grid_timing* timings,
                                 uint64_t count, vox_grid_fit* out);
 
-/* Runs the caller's grid once at a cell size. Returns how many seconds that took, infinity if it cannot run at this
- * size (it is then tried at others), or a negative number or NaN to stop. Called on the thread that calls
- * vox_cost_tune. Must not throw. */
+/* Runs the caller's grid once at a cell size. Returns how many seconds that took, at least 1e-30; infinity, or more
+ * than 1e30, if it cannot run at this size (it is then tried at others, none of them further away); or a negative number
+ * or NaN to stop. Called on the thread that calls vox_cost_tune. Must not throw. */
 typedef double vox_grid_run(double cell_size, void* user);
 
 #define VOX_TUNE_RUN_CAPACITY 32u /* most runs of vox_cost_tune */
@@ -1942,7 +1943,8 @@ typedef struct vox_tuning {
     double zone_max;
     double seconds;       /* of a run at cell_size, as fitted */
     double expected_loss; /* how much longer a run may take than at the best cell size, as far as it can tell: 0.03
-                             for 3 % */
+                             for 3 %. The most by any of several fits: without each of the timings, and with each moved
+                             by the noise. Infinite if only one cell size of several was timed */
     double noise;         /* relative: how far timings are from the fitted curve, root mean square */
     vox_grid_weights weights; /* as in vox_grid_fit; all 0 where there is no grid */
     vox_grid_timing runs[VOX_TUNE_RUN_CAPACITY]; /* run_count runs, in order; seconds may be infinite */
@@ -1952,10 +1954,14 @@ typedef struct vox_tuning {
     char note[VOX_NOTE_CAPACITY];
 } vox_tuning;
 
-/* Finds the best cell size by running the grid: at three cell sizes first, then where the fit to all timings so far is
- * lowest or least sure, until that is sure enough (desc->wanted_loss) or desc->most_runs are made.
+/* Finds the best cell size by running the grid: at three cell sizes an octave apart first, then where the fit to all
+ * timings so far is lowest or least sure, which may be where it was run before, until that is sure enough
+ * (desc->wanted_loss, after four runs at the earliest) or desc->most_runs are made. The answer is never beyond the sizes
+ * that were run. The same times give the same runs and the same answer, bit for bit.
  * grid: what is known of it; null: nothing, so the curve is a sum of powers of the cell size, and desc->first must be
- * set. desc null: defaults. Errors: as vox_suggest_for; also INVALID_STATE if no run succeeded. */
+ * set. desc null: defaults. If the callback stops, or cannot run at a size, the answer is from the other runs, with a
+ * warning. Errors: as vox_suggest_for; also INVALID_STATE if no run succeeded, INVALID_ARGUMENT for a run of less than
+ * 1e-30 seconds, as a clock that is too coarse gives. */
 VOX_API vox_result vox_cost_tune(VOX_OPTIONAL const vox_foreign_grid* grid, VOX_OPTIONAL const vox_tune_desc* desc,
                                  vox_grid_run* run, void* user, vox_tuning* out);
 

@@ -1,6 +1,6 @@
-// Weighted least squares that is repeated with weights from its own errors: P. J. Huber, Robust Statistics, 1981,
-// ch. 7, with the weights of a Cauchy distribution, on the slow side alone: a timing can be disturbed, which makes it
-// longer, never shorter.
+// Weighted least squares that is repeated with weights from its own errors: P. J. Huber, Robust Statistics,
+// 1981, ch. 7, with the weights of a Cauchy distribution, on the slow side alone: a timing can be disturbed,
+// which makes it longer, never shorter.
 #include "cell_size/fit.hpp"
 
 #include "base/error.hpp"
@@ -21,7 +21,8 @@ CostBasis described_basis(const WorkAt& work, const vox_grid_weights& expected) 
         return Coefficients{1,       w.entries,  w.visits, std::max(w.visits - w.empty, 0.0),
                             w.reads, w.occupied, w.cells};
     };
-    return {7, values,
+    return {7,
+            values,
             {expected.fixed, expected.entries, expected.visits, expected.found, expected.reads,
              expected.occupied, expected.cells}};
 }
@@ -61,7 +62,8 @@ CostFit::CostFit(const CostBasis& basis, const Coefficients& middle) noexcept : 
 
 Coefficients CostFit::operator()(std::span<const TimedTerms> timings) const noexcept {
     constexpr double pull = 0.1;
-    // What a run would take at `middle` if the expected shares were right: the geometric mean over the timings.
+    // What a run would take at `middle` if the expected shares were right: the geometric mean over the
+    // timings.
     double logs = 0, weights = 0;
     for (const TimedTerms& timing : timings) {
         double expected = 0;
@@ -227,8 +229,9 @@ vox_grid_fit fit_timings(const CostBasis& described, const FitSettings& settings
     result.predicted_seconds = best.cost;
     draw_curve(cost, {best.cell_size / 8, best.cell_size * 8}, result.curve, result.curve_count);
     if (widest > disagreeing_timings)
-        notes.add(VOX_FOREIGN_TIMINGS_DISAGREE,
-                  format("timings at cell size %g differ %.2f times; the shortest counts", widest_at, widest));
+        notes.add(
+            VOX_FOREIGN_TIMINGS_DISAGREE,
+            format("timings at cell size %g differ %.2f times; the shortest counts", widest_at, widest));
     if (result.residual > disagreeing_model)
         notes.add(VOX_FOREIGN_MODEL_DISAGREES,
                   format("the counts of this grid miss the timings by %.0f %%, expected at most %.0f %%",

@@ -1,5 +1,5 @@
-// A cost as a sum of terms with coefficients >= 0, fitted to timings. The terms are the counts of a grid that is
-// described, and their coefficients its weights, or powers of the cell size where nothing is known.
+// A cost as a sum of terms with coefficients >= 0, fitted to timings. The terms are the counts of a grid that
+// is described, and their coefficients its weights, or powers of the cell size where nothing is known.
 #pragma once
 
 #include "cell_size/grid_cost.hpp"
@@ -27,8 +27,8 @@ struct CostBasis {
 // The terms of vox_grid_weights, in its order.
 CostBasis described_basis(const WorkAt& work, const vox_grid_weights& expected);
 
-// Powers -3 to 3 of the cell size. A sum of them is convex in the logarithm. That of the expected coefficients is
-// least at `middle`, and costs 5 % more at 0.78 and 1.29 of it, as the paper's cost does.
+// Powers -3 to 3 of the cell size. A sum of them is convex in the logarithm. That of the expected
+// coefficients is least at `middle`, and costs 5 % more at 0.78 and 1.29 of it, as the paper's cost does.
 CostBasis power_basis(double middle);
 
 double cost_of(const Coefficients& values, const Coefficients& coefficients) noexcept;
@@ -47,8 +47,8 @@ inline constexpr double least_seconds = 1e-30, most_seconds = 1e30;
 // Coefficients by least squares of the relative errors (fitted / measured - 1).
 class CostFit {
 public:
-    // The share of each term at `middle` is pulled weakly towards the expected one, as a tenth of a timing would. This
-    // settles what timings cannot tell apart. `middle` has the terms at one cell size.
+    // The share of each term at `middle` is pulled weakly towards the expected one, as a tenth of a timing
+    // would. This settles what timings cannot tell apart. `middle` has the terms at one cell size.
     CostFit(const CostBasis& basis, const Coefficients& middle) noexcept;
 
     // In seconds. At least one timing.
@@ -60,8 +60,9 @@ private:
     Coefficients expected_{}; // shares at `middle`; for terms that are 0 there, of the whole for each one
 };
 
-// Sets the weights of the timings. Slow ones count less, as only the curve around its minimum matters, and so do those
-// far above the curve, as something else was running then. Returns the noise: the relative error of a timing.
+// Sets the weights of the timings. Slow ones count less, as only the curve around its minimum matters, and so
+// do those far above the curve, as something else was running then. Returns the noise: the relative error of
+// a timing.
 double weigh(const CostFit& fit, std::span<TimedTerms> timings) noexcept;
 
 // Root mean square of the relative errors, by weight or of all alike.

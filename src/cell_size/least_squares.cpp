@@ -97,7 +97,8 @@ Coefficients NonNegativeLeastSquares::solve() const noexcept {
             refused[entering] = true;
             continue;
         }
-        // As far towards the solution as no coefficient becomes negative; those that become 0 are fixed there.
+        // As far towards the solution as no coefficient becomes negative; those that become 0 are fixed
+        // there.
         for (;;) {
             double step = 1;
             std::size_t leaving = columns;

@@ -6,7 +6,8 @@
 
 namespace vox {
 
-// Rows are added one by one; then solve() finds the x >= 0 for which the sum of (row . x - target)^2 is least.
+// Rows are added one by one; then solve() finds the x >= 0 for which the sum of (row . x - target)^2 is
+// least.
 class NonNegativeLeastSquares {
 public:
     static constexpr int most_columns = 16;

@@ -1,11 +1,11 @@
-// The fit to all timings so far says where the cost is least, and other fits say how sure that is: one without each
-// timing (the jackknife: M. Quenouille, Biometrika 43, 1956), and two with each of n timings moved up and down by
-// sqrt(n) times the noise, which together have the variance of the noise in all of them (S. Julier, J. Uhlmann, A new
-// extension of the Kalman filter to nonlinear systems, AeroSense 1997). The size that loses least on average, with each
-// fit taken for the truth, is the best so far. It is run next. Where it was already run, that size is whose timing would
-// lower the average most: for each fit, a timing is taken from it, and what is chosen then is judged by it
-// (P. Frazier, W. Powell, S. Dayanik, The knowledge-gradient policy for correlated normal beliefs, INFORMS J. on
-// Computing 21, 2009).
+// The fit to all timings so far says where the cost is least, and other fits say how sure that is: one
+// without each timing (the jackknife: M. Quenouille, Biometrika 43, 1956), and two with each of n timings
+// moved up and down by sqrt(n) times the noise, which together have the variance of the noise in all of them
+// (S. Julier, J. Uhlmann, A new extension of the Kalman filter to nonlinear systems, AeroSense 1997). The
+// size that loses least on average, with each fit taken for the truth, is the best so far. It is run next.
+// Where it was already run, that size is whose timing would lower the average most: for each fit, a timing is
+// taken from it, and what is chosen then is judged by it (P. Frazier, W. Powell, S. Dayanik, The
+// knowledge-gradient policy for correlated normal beliefs, INFORMS J. on Computing 21, 2009).
 #include "cell_size/tune.hpp"
 
 #include "base/error.hpp"
@@ -40,7 +40,8 @@ void check_tune_desc(const vox_tune_desc& desc) {
     at_least_0("max", desc.max);
     at_least_0("first", desc.first);
     if ((desc.min > 0) != (desc.max > 0) || desc.min > desc.max)
-        refuse(format("desc.min and max are %g and %g, expected 0 < min <= max, or both 0", desc.min, desc.max));
+        refuse(
+            format("desc.min and max are %g and %g, expected 0 < min <= max, or both 0", desc.min, desc.max));
     if (desc.first > 0 && desc.max > 0 && !(desc.first >= desc.min && desc.first <= desc.max))
         refuse(format("desc.first is %g, expected from min, %g, to max, %g", desc.first, desc.min, desc.max));
     if (!(desc.zone_loss >= 0 && desc.zone_loss <= 1e6))
@@ -95,8 +96,8 @@ public:
                         format("no run succeeded: %u could not run, the first at cell size %g%s", run_count_,
                                settings_.first, stopped_ ? ", then the callback stopped" : ""));
         for (judge(); !stopped_ && run_count_ < settings_.most_runs; judge()) {
-            const bool within = chosen_ >= smallest() && chosen_ <= largest();
-            if (run_count_ >= least_runs && within && loss_ <= settings_.wanted_loss) break;
+            if (run_count_ >= least_runs && open_side() == 0 && !doubtful_ && loss_ <= settings_.wanted_loss)
+                break;
             if (low_ == high_) break;
             time(next());
         }
@@ -138,16 +139,18 @@ private:
             return;
         }
         if (seconds < least_seconds)
-            refuse(format("run %u, at cell size %g, returned %g seconds, expected at least %g: a run must take "
-                          "longer than the clock's resolution",
-                          run_count_ + 1, cell_size, seconds, least_seconds));
+            refuse(
+                format("run %u, at cell size %g, returned %g seconds, expected at least %g: a run must take "
+                       "longer than the clock's resolution",
+                       run_count_ + 1, cell_size, seconds, least_seconds));
         const bool ran = seconds <= most_seconds;
         runs_[run_count_++] = {cell_size, ran ? seconds : without_end};
         if (ran) {
             timed_.push_back({seconds, {}});
             nodes_.push_back(node);
         } else {
-            if (failed_.empty()) notes_.add(VOX_FOREIGN_STOPPED, format("it cannot run at cell size %g", cell_size));
+            if (failed_.empty())
+                notes_.add(VOX_FOREIGN_STOPPED, format("it cannot run at cell size %g", cell_size));
             failed_.push_back(node);
         }
         if (!timed_.empty()) narrow();
@@ -159,7 +162,8 @@ private:
         for (const int node : failed_) {
             int nearest = best; // to it, of those that ran
             for (const int ran : nodes_)
-                if ((ran < node) == (best < node) && std::abs(ran - node) < std::abs(nearest - node)) nearest = ran;
+                if ((ran < node) == (best < node) && std::abs(ran - node) < std::abs(nearest - node))
+                    nearest = ran;
             if (node < best) low_ = std::max(low_, nearest - (nearest - node) / 2);
             if (node > best) high_ = std::min(high_, nearest + (node - nearest) / 2);
         }
@@ -236,7 +240,7 @@ private:
     void judge() {
         recentre();
         const auto count = static_cast<double>(timed_.size());
-        const double move = std::exp(weigh(*fit_, timed_) * std::sqrt(count));
+        const double noise = weigh(*fit_, timed_), move = std::exp(noise * std::sqrt(count));
         const double left_out = timed_.size() > 1 ? 0.5 / count : 0, moved = (0.5 / count) - left_out / 2;
         opinions_.clear();
         for (std::size_t i = 0; i < timed_.size(); ++i) {
@@ -249,12 +253,30 @@ private:
             trial_.erase(trial_.begin() + static_cast<std::ptrdiff_t>(i));
             add_opinion(left_out);
         }
-        // The average of the relative costs is a sum of the terms too.
+        // The average of the relative costs is a sum of the terms too. Its level is that of the least costs.
+        double level = 0;
+        for (const Opinion& opinion : opinions_) level += opinion.weight * opinion.least;
         mean_ = {};
         for (const Opinion& opinion : opinions_)
             for (std::size_t i = 0; i < mean_.size(); ++i)
-                mean_[i] += opinion.weight / opinion.least * opinion.coefficients[i];
+                mean_[i] += opinion.weight * level / opinion.least * opinion.coefficients[i];
         chosen_ = cheapest(mean_);
+        // A run can be slower than the fit by accident, but hardly faster, nor do two accidents happen at one
+        // place. Otherwise the fit is wrong, as where there are two minima.
+        const double much_faster = std::exp(-std::clamp(2 * noise, 0.1, 0.25));
+        double nearby = without_end, fastest_run = without_end;
+        int runs_nearby = 0;
+        for (std::size_t i = 0; i < timed_.size(); ++i) {
+            fastest_run = std::min(fastest_run, timed_[i].seconds);
+            if (!is_near(nodes_[i])) continue;
+            nearby = std::min(nearby, timed_[i].seconds);
+            ++runs_nearby;
+        }
+        const double fitted = cost_of(values(chosen_), mean_);
+        doubtful_ = runs_nearby == 1 && fitted < much_faster * nearby;
+        doubt_ = doubtful_ ? nearby / fastest_run - 1 : 0;
+        surprised_ = fastest_run < much_faster * (runs_nearby > 1 ? std::max(fitted, nearby) : fitted);
+        if (surprised_) chosen_ = fastest();
         loss_ = greatest_loss(values(chosen_));
     }
 
@@ -264,11 +286,21 @@ private:
         return greatest;
     }
 
+    bool is_near(int node) const { return std::abs(node - chosen_) <= nodes_per_octave / 6; }
+
+    // On which side of the chosen node nothing was run, though it could be: -1, 1, or 0 for none.
+    int open_side() const {
+        if (chosen_ <= smallest() && smallest() > low_) return -1;
+        return chosen_ >= largest() && largest() < high_ ? 1 : 0;
+    }
+
     // Where to run next.
     int next() {
-        constexpr int near = nodes_per_octave / 6, step = nodes_per_octave / 4;
-        if (std::none_of(nodes_.begin(), nodes_.end(), [&](int node) { return std::abs(node - chosen_) <= near; }))
-            return chosen_;
+        constexpr int step = nodes_per_octave / 4;
+        const auto near = [&](int node) { return is_near(node); };
+        if (doubtful_ || std::none_of(nodes_.begin(), nodes_.end(), near)) return chosen_;
+        if (const int side = open_side())
+            return std::clamp((side < 0 ? smallest() : largest()) + side * nodes_per_octave / 2, low_, high_);
         double shortest = without_end, least = without_end;
         for (const TimedTerms& timing : timed_) shortest = std::min(shortest, timing.seconds);
         int best = chosen_;
@@ -296,16 +328,17 @@ private:
     vox_tuning answer() {
         // Nothing is known beyond the sizes that were run.
         const int node = std::clamp(chosen_, smallest(), largest());
-        double level = 0;
-        for (const Opinion& opinion : opinions_) level += opinion.weight * opinion.least;
         const CostFunction cost = [&](double log_size) {
-            return level * cost_of(values_at(std::exp2(log_size)), mean_);
+            return cost_of(values_at(std::exp2(log_size)), mean_);
         };
         const Fineness fineness{.least_scans = 3, .tolerance = 1e-4};
         const CellSizeRange around{size(std::max(node - 1, smallest())), size(std::min(node + 1, largest()))};
         const CellSizeRange view{size(view_low_), size(view_high_)};
         CostMinimum best = minimise(cost, around, fineness);
-        prefer_run(best, cost);
+        if (surprised_)
+            best = {size(node), cost(std::log2(size(node)))};
+        else
+            prefer_run(best, cost);
         const CellSizeRange zone =
             zone_around(best, (1 + settings_.zone_loss) * best.cost, cost, view, fineness);
 
@@ -316,7 +349,7 @@ private:
         result.seconds = best.cost;
         result.expected_loss = smallest() == largest() && low_ != high_
                                    ? without_end
-                                   : greatest_loss(values_at(best.cell_size));
+                                   : std::max(greatest_loss(values_at(best.cell_size)), doubt_);
         result.noise = plain_error(timed_, (*fit_)(timed_));
         std::copy_n(runs_.begin(), run_count_, result.runs);
         result.run_count = run_count_;
@@ -338,7 +371,8 @@ private:
         double least = without_end;
         const double limit = best.cost * (1 + settings_.wanted_loss / 2);
         for (std::size_t i = 0; i < timed_.size(); ++i)
-            if (const double fitted = cost(std::log2(size(nodes_[i]))); fitted <= limit && timed_[i].seconds < least) {
+            if (const double fitted = cost(std::log2(size(nodes_[i])));
+                fitted <= limit && timed_[i].seconds < least) {
                 least = timed_[i].seconds;
                 best = {size(nodes_[i]), fitted};
             }
@@ -376,9 +410,11 @@ private:
         const Coefficients coefficients = fit(trial_);
         const double error = weighted_error(trial_, coefficients);
         if (error > disagreeing_model && error > 2 * error_of_both)
-            notes_.add(VOX_FOREIGN_MODEL_DISAGREES,
-                       format("the counts of this grid miss the times by %.0f %%, powers of the cell size by %.0f %%",
-                              100 * error, 100 * error_of_both));
+            notes_.add(
+                VOX_FOREIGN_MODEL_DISAGREES,
+                format(
+                    "the counts of this grid miss the times by %.0f %%, powers of the cell size by %.0f %%",
+                    100 * error, 100 * error_of_both));
         return weights_of(coefficients);
     }
 
@@ -388,9 +424,9 @@ private:
     Notes notes_;
     bool stopped_ = false;
 
-    const int first_known_; // node of known_[0]
-    int low_, high_;        // nodes that may be run
-    int view_low_ = 0, view_high_ = 0; // those up to an octave beyond what was run
+    const int first_known_;                               // node of known_[0]
+    int low_, high_;                                      // nodes that may be run
+    int view_low_ = 0, view_high_ = 0;                    // those up to an octave beyond what was run
     std::pmr::vector<std::optional<Coefficients>> known_; // values of the terms
 
     std::array<vox_grid_timing, VOX_TUNE_RUN_CAPACITY> runs_{};
@@ -403,9 +439,12 @@ private:
     std::optional<CostFit> fit_;
     std::pmr::vector<TimedTerms> trial_;
     std::pmr::vector<Opinion> opinions_;
-    Coefficients mean_{}; // of the opinions, of relative costs
+    Coefficients mean_{}; // of the opinions, relative to the least cost of each
     int chosen_ = 0;
-    double loss_ = 0; // greatest at chosen_
+    bool doubtful_ = false;  // one run near chosen_, much slower than the fits say
+    double doubt_ = 0;       // what chosen_ loses if that is no accident
+    bool surprised_ = false; // chosen_ was run much faster than the fits say
+    double loss_ = 0;        // greatest at chosen_
 };
 
 } // namespace

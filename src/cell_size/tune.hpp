@@ -17,8 +17,8 @@ vox_tune_desc tune_defaults();
 // Throws INVALID_ARGUMENT for what vox.h does not allow, whatever the grid.
 void check_tune_desc(const vox_tune_desc& desc);
 
-// Where to look, from a desc that was checked. `suggested`: the first cell size where the caller has set none; 0: none.
-// `least`: the least legal size, or 0. Throws INVALID_ARGUMENT where no cell size is left.
+// Where to look, from a desc that was checked. `suggested`: the first cell size where the caller has set
+// none; 0: none. `least`: the least legal size, or 0. Throws INVALID_ARGUMENT where no cell size is left.
 struct TuneSettings {
     TuneSettings(const vox_tune_desc& desc, double suggested, double least);
 
@@ -33,8 +33,8 @@ struct TuneSettings {
 // As vox_grid_run.
 using GridRun = std::function<double(double cell_size)>;
 
-// `described` is null where nothing is known of the grid. Throws INVALID_STATE if no run succeeded, INVALID_ARGUMENT
-// for times that cannot be.
+// `described` is null where nothing is known of the grid. Throws INVALID_STATE if no run succeeded,
+// INVALID_ARGUMENT for times that cannot be.
 vox_tuning tune(const CostBasis* described, const TuneSettings& settings, const GridRun& run,
                 std::pmr::memory_resource* memory);
 

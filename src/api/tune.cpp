@@ -1,0 +1,89 @@
+// The C border of vox.h's section on the cell size of any grid, as far as timings go in.
+
+#include "cell_size/tune.hpp"
+#include "base/border.hpp"
+#include "base/caller_memory.hpp"
+#include "base/structs.hpp"
+#include "cell_size/fit.hpp"
+#include "cell_size/foreign_grid.hpp"
+#include "cell_size/foreign_suggest.hpp"
+
+#include <cinttypes>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+
+using namespace vox;
+
+namespace {
+
+// A described grid, and its terms. Only a dense grid touches all cells.
+struct DescribedGrid {
+    explicit DescribedGrid(const vox_foreign_grid* from_caller)
+        : grid(from_caller), memory(grid.desc.allocator), work(grid, quick_look, &memory),
+          basis(described_basis(
+              [this](double cell_size) {
+                  vox_grid_work counts = work.at(cell_size);
+                  if (!(grid.desc.flags & VOX_FOREIGN_DENSE)) counts.cells = 0;
+                  return counts;
+              },
+              grid.desc.weights)) {}
+    DescribedGrid(const DescribedGrid&) = delete;
+    DescribedGrid& operator=(const DescribedGrid&) = delete;
+
+    ForeignGrid grid;
+    CallerMemory memory;
+    ForeignWork work;
+    CostBasis basis;
+};
+
+vox_tune_desc read_tune_desc(const vox_tune_desc* desc) {
+    const vox_tune_desc settings = desc ? read_struct(desc, tune_defaults(), "desc") : tune_defaults();
+    check_tune_desc(settings);
+    return settings;
+}
+
+} // namespace
+
+vox_result vox_cost_fit(const vox_foreign_grid* grid, const vox_grid_timing* timings, uint64_t count,
+                        vox_grid_fit* out) {
+    return border([&] {
+        check_out_struct(out, "out");
+        if (count > 0) require(timings, "timings");
+        if (count > UINT32_MAX)
+            throw Error(VOX_ERROR_LIMIT,
+                        format("count is %" PRIu64 ", the limit is %" PRIu32, count, UINT32_MAX));
+        DescribedGrid described(grid);
+        const FitSettings settings{described.work.least_cell_size(), described.grid.desc.zone_loss};
+        write_struct(out,
+                     fit_timings(described.basis, settings, {timings, static_cast<std::size_t>(count)},
+                                 &described.memory),
+                     "out");
+    });
+}
+
+vox_result vox_tune_desc_init(vox_tune_desc* desc, uint32_t struct_size) {
+    return border([&] { init_struct(desc, struct_size, tune_defaults(), "vox_tune_desc"); });
+}
+
+vox_result vox_cost_tune(const vox_foreign_grid* grid, const vox_tune_desc* desc, vox_grid_run* run,
+                         void* user, vox_tuning* out) {
+    return border([&] {
+        check_out_struct(out, "out");
+        if (!run) refuse("run is null");
+        const vox_tune_desc asked = read_tune_desc(desc);
+        const GridRun run_of_caller = [&](double cell_size) {
+            const CallersFloats floats;
+            return run(cell_size, user);
+        };
+        if (!grid) {
+            const TuneSettings settings(asked, 0, 0);
+            write_struct(out, tune(nullptr, settings, run_of_caller, std::pmr::new_delete_resource()), "out");
+            return;
+        }
+        DescribedGrid described(grid);
+        const double suggested = asked.first > 0 ? 0 : suggest_for(described.grid, described.work).cell_size;
+        const TuneSettings settings(asked, suggested, described.work.least_cell_size());
+        write_struct(out, tune(&described.basis, settings, run_of_caller, &described.memory), "out");
+    });
+}
