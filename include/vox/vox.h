@@ -1781,7 +1781,8 @@ typedef struct vox_foreign_grid {
     vox_cell_look look;       /* default BOX */
     const vox_primitives* held;                 /* what is put into cells */
     VOX_OPTIONAL const vox_primitives* asking;  /* null: those held ask themselves, each of all, itself included */
-    double radius;          /* boxes that ask are larger by this on all sides, >= 0; default 0 */
+    double radius;          /* boxes that ask are larger by this on all sides, >= 0; default 0. With PAIRS, the boxes
+                               of `asking` are, or those held where it is null */
     /* The smallest cell size that gives right answers. 0 (the default): with AROUND, half the longest side of a box
      * held, and half that of one that asks with its radius; otherwise none. */
     double least_cell_size;
@@ -1863,8 +1864,8 @@ typedef struct vox_foreign_suggestion {
 } vox_foreign_suggestion;
 
 /* The cell size that costs this grid least. Set out->struct_size first; the fields it covers are written.
- * Works on a sample of the primitives where there are many (docs/your-own-grid.md has its loss). Memory (from
- * grid->allocator, released at the end of the call) in proportion to the sample.
+ * Works on a sample of the primitives where there are many (docs/your-own-grid.md has its loss): those that are not in
+ * it are not checked either. Memory (from grid->allocator, released at the end of the call) in proportion to it.
  * Errors: INVALID_ARGUMENT (also for no primitive, or AROUND with HOLD_BOXES), INVALID_MESH (a primitive names a vertex
  * that does not exist), NON_FINITE, LIMIT, OUT_OF_MEMORY. */
 VOX_API vox_result vox_suggest_for(const vox_foreign_grid* grid, vox_foreign_suggestion* out);

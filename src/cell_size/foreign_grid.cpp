@@ -138,7 +138,7 @@ ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget,
 ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, const BoxSample& held,
                          const BoxSample& asking, std::pmr::memory_resource* memory)
     : centres_(grid.centres()), pairs_(grid.pairs()), same_set_(grid.same_set()),
-      around_(grid.desc.look == VOX_LOOK_AROUND), looked_cells_(budget.cells),
+      around_(grid.desc.look == VOX_LOOK_AROUND), looked_cells_(budget.cells), rough_(budget.rough),
       held_(held, centres_, share_of(held, grid.held), memory),
       asking_(asking, around_ || (pairs_ && centres_), share_of(asking, grid.those_asking()), memory),
       asking_chosen_(choose_asking(asking_, budget.chosen, memory)), held_chosen_(memory),
@@ -236,7 +236,7 @@ vox_grid_work ForeignWork::at(double d, CellsWanted wanted) {
 namespace {
 
 // Of a lattice, for counting the cells in it one by one.
-constexpr double least_positions = 64;
+constexpr double least_positions = 32;
 
 // One of the cells that a box meets in a lattice of some position, all equally likely.
 struct SomeCell {
@@ -319,7 +319,7 @@ double ForeignWork::empty_share(double d) const {
             all += weight;
             if (!held_.meets_any(cell.lo, d)) empty_ones += weight;
         } else {
-            const double n = held_.count_meeting(cell.lo, d);
+            const double n = held_.count_meeting(cell.lo, d, rough_);
             counts.add(weight, n / share, n * (n - 1) / (share * share));
         }
     }
@@ -367,9 +367,10 @@ double ForeignWork::occupied_share(double d) {
             const Asking& one = chosen[i * chosen.size() / looked_cells_];
             const SomeCell cell = some_cell(own.box(one.index), d, false, random);
             const double weight = one.weight * cell.of * static_cast<double>(chosen.size());
-            const double a = std::max(own.count_meeting(cell.lo, d) - 1, 0.0),
+            const double a = std::max(own.count_meeting(cell.lo, d, rough_) - 1, 0.0),
                          p = own.share(); // beside itself
-            const double b = other ? other->count_meeting(cell.lo, d) : 0, q = other ? other->share() : 1;
+            const double b = other ? other->count_meeting(cell.lo, d, rough_) : 0,
+                         q = other ? other->share() : 1;
             entries += weight;
             cells += weight / (1 + a + b);
             counts.add(weight, a / p + b / q,

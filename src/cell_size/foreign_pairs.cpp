@@ -138,7 +138,7 @@ Overlap overlap_of(const PlainBox& box, const double (&lo)[3], double side) noex
 
 } // namespace
 
-double BoxTree::count_meeting(const double (&lo)[3], double side) const noexcept {
+double BoxTree::count_meeting(const double (&lo)[3], double side, double rough) const noexcept {
     double count = 0;
     Place stack[most_stacked];
     int top = 0;
@@ -153,7 +153,7 @@ double BoxTree::count_meeting(const double (&lo)[3], double side) const noexcept
             continue;
         }
         const double most = static_cast<double>(std::size_t{1} << (2 * p.level));
-        if (most * 16 <= count)
+        if (most <= rough * count)
             count += most / 2;
         else
             push_children(p, stack, top);

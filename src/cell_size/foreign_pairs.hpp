@@ -31,6 +31,7 @@ public:
 
     // Adds (c[0] - s[0]/d) (c[1] - s[1]/d) (c[2] - s[2]/d) for d >= from, `weight` times.
     void add(double from, const double (&c)[3], const double (&s)[3], double weight) noexcept {
+        ++added_;
         const std::size_t index = class_of_ratio(from * inverse_least_, step_bits);
         if (index >= classes) return;
         Moments& m = sums_[index];
@@ -40,6 +41,7 @@ public:
         m.sum[2] += weight * (two * c[2] + one * s[2]);
         m.sum[3] -= weight * two * s[2];
     }
+    std::uint64_t added() const noexcept { return added_; } // how often add() was called
     // Call once, after the last add(): turns each class into the sum of all up to it.
     void finish() noexcept;
     double at(double d) const noexcept;
@@ -49,6 +51,7 @@ private:
     static constexpr std::size_t classes = (std::size_t{34} << step_bits) + 1;
 
     double inverse_least_;
+    std::uint64_t added_ = 0;
     std::pmr::vector<Moments> sums_;
 };
 
@@ -92,9 +95,9 @@ public:
         }
     }
 
-    // How many boxes meet a cube [lo, lo + side) along each axis;
-    // to within some per cent where they are many.
-    double count_meeting(const double (&lo)[3], double side) const noexcept;
+    // How many boxes meet a cube [lo, lo + side) along each axis. Of groups on its boundary that are smaller
+    // than `rough` times what was found before, half are taken to meet it.
+    double count_meeting(const double (&lo)[3], double side, double rough) const noexcept;
     bool meets_any(const double (&lo)[3], double side) const noexcept;
 
 private:
