@@ -336,7 +336,7 @@ double ForeignWork::occupied_of_few(double d, double cells_there) const {
     double place[3] = {0.5, 0.5, 0.5};
     constexpr double step[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
     const auto positions = static_cast<std::size_t>(static_cast<double>(looked_cells_) / cells_there);
-    double occupied = 0;
+    double found = 0;
     for (std::size_t p = 0; p < positions; ++p) {
         double first[3];
         for (int a = 0; a < 3; ++a) {
@@ -347,9 +347,9 @@ double ForeignWork::occupied_of_few(double d, double cells_there) const {
         for (lo[0] = first[0]; lo[0] <= all.hi[0]; lo[0] += d)
             for (lo[1] = first[1]; lo[1] <= all.hi[1]; lo[1] += d)
                 for (lo[2] = first[2]; lo[2] <= all.hi[2]; lo[2] += d)
-                    occupied += held_.meets_any(lo, d) || (both && asking_.meets_any(lo, d));
+                    found += held_.meets_any(lo, d) || (both && asking_.meets_any(lo, d));
     }
-    return occupied / static_cast<double>(positions);
+    return found / static_cast<double>(positions);
 }
 
 double ForeignWork::occupied_share(double d) {
@@ -362,7 +362,7 @@ double ForeignWork::occupied_share(double d) {
     double entries = 0, cells = 0;
     CellCounts counts;
     const bool both = pairs_ && !same_set_, all_kept = held_.share() == 1 && (!both || asking_.share() == 1);
-    const auto count_from = [&](const BoxTree& own, const BoxTree* other, const auto& chosen) {
+    const auto count_from = [&](const SampleTree& own, const SampleTree* other, const auto& chosen) {
         for (std::size_t i = 0; i < looked_cells_; ++i) {
             const Asking& one = chosen[i * chosen.size() / looked_cells_];
             const SomeCell cell = some_cell(own.box(one.index), d, false, random);

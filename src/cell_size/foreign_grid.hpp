@@ -45,7 +45,7 @@ struct ForeignBudget {
     std::uint64_t asking; // and of those that ask, of which
     std::size_t chosen;   // so many are looked at with what is around them
     std::size_t cells;    // cells looked at for what is in them, at each size
-    double rough;         // how roughly it is counted (BoxTree::count_meeting)
+    double rough;         // how roughly it is counted (SampleTree::count_meeting)
 };
 // For vox_suggest_for: a look at 20,000 primitives takes half a millisecond, at a million a few.
 inline ForeignBudget quick_look(const ForeignGrid& grid) noexcept {
@@ -103,7 +103,7 @@ private:
     std::size_t looked_cells_;
     double rough_;
     PrimitiveSums held_sums_, asking_sums_;
-    BoxTree held_, asking_;
+    SampleTree held_, asking_;
     std::pmr::vector<Asking> asking_chosen_, held_chosen_;
     PiecewiseMoments read_; // by pairs of unlike ones
     double extent_ = 0, least_ = 0;

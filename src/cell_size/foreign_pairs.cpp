@@ -89,7 +89,7 @@ void sort_by_place(const PlainBox* boxes, Keyed* keys, Keyed* other, std::size_t
 
 } // namespace
 
-BoxTree::BoxTree(const BoxSample& sample, bool centres, double share, std::pmr::memory_resource* memory)
+SampleTree::SampleTree(const BoxSample& sample, bool centres, double share, std::pmr::memory_resource* memory)
     : levels_(memory), ids_(memory), share_(share) {
     const std::size_t count = sample.boxes.size();
     std::pmr::vector<Keyed> keys(count, memory), other(count, memory);
@@ -117,7 +117,7 @@ BoxTree::BoxTree(const BoxSample& sample, bool centres, double share, std::pmr::
     }
 }
 
-double BoxTree::crowd_side(std::size_t i) const noexcept {
+double SampleTree::crowd_side(std::size_t i) const noexcept {
     const std::size_t level = std::min<std::size_t>(2, levels_.size() - 1);
     return levels_[level].boxes[i >> (2 * level)].longest_side();
 }
@@ -138,7 +138,7 @@ Overlap overlap_of(const PlainBox& box, const double (&lo)[3], double side) noex
 
 } // namespace
 
-double BoxTree::count_meeting(const double (&lo)[3], double side, double rough) const noexcept {
+double SampleTree::count_meeting(const double (&lo)[3], double side, double rough) const noexcept {
     double count = 0;
     Place stack[most_stacked];
     int top = 0;
@@ -161,7 +161,7 @@ double BoxTree::count_meeting(const double (&lo)[3], double side, double rough) 
     return count;
 }
 
-bool BoxTree::meets_any(const double (&lo)[3], double side) const noexcept {
+bool SampleTree::meets_any(const double (&lo)[3], double side) const noexcept {
     Place stack[most_stacked];
     int top = 0;
     stack[top++] = {levels_.size() - 1, 0};
@@ -177,7 +177,7 @@ bool BoxTree::meets_any(const double (&lo)[3], double side) const noexcept {
 
 // ---- asking ---------------------------------------------------------------------------------------
 
-std::pmr::vector<Asking> choose_asking(const BoxTree& tree, std::size_t wanted,
+std::pmr::vector<Asking> choose_asking(const SampleTree& tree, std::size_t wanted,
                                        std::pmr::memory_resource* memory) {
     std::pmr::vector<Asking> chosen(memory);
     const std::size_t count = tree.size();
@@ -269,8 +269,9 @@ void add_neighbours(const PlainBox& a, const PlainBox& b, double weight, Piecewi
 
 } // namespace
 
-PiecewiseMoments sum_pairs(const BoxTree& from, const std::pmr::vector<Asking>& asking, const BoxTree& held,
-                           Meeting meeting, bool same_set, std::pmr::memory_resource* memory) {
+PiecewiseMoments sum_pairs(const SampleTree& from, const std::pmr::vector<Asking>& asking,
+                           const SampleTree& held, Meeting meeting, bool same_set,
+                           std::pmr::memory_resource* memory) {
     PlainBox bounds = from.bounds();
     bounds.include(held.bounds());
     const double longest = bounds.longest_side();

@@ -56,10 +56,10 @@ private:
 };
 
 // Boxes in an order along which neighbours are near, with the boxes of each 4, 16, 64, ... of them.
-class BoxTree {
+class SampleTree {
 public:
     // Of boxes that are `share` of all there are. With `centres`, of their centres.
-    BoxTree(const BoxSample& sample, bool centres, double share, std::pmr::memory_resource* memory);
+    SampleTree(const BoxSample& sample, bool centres, double share, std::pmr::memory_resource* memory);
 
     std::size_t size() const noexcept { return levels_[0].boxes.size(); }
     double share() const noexcept { return share_; }
@@ -137,7 +137,7 @@ struct Asking {
 
 // About `wanted` boxes of a tree, so that each kind of size and of surroundings has its part. The weights add
 // up to the number that the tree stands for.
-std::pmr::vector<Asking> choose_asking(const BoxTree& tree, std::size_t wanted,
+std::pmr::vector<Asking> choose_asking(const SampleTree& tree, std::size_t wanted,
                                        std::pmr::memory_resource* memory);
 
 enum class Meeting : std::uint8_t {
@@ -147,7 +147,8 @@ enum class Meeting : std::uint8_t {
 
 // Sums over all pairs of boxes in `asking`, a part of those in `from`, and boxes in `held`. With `same_set`,
 // pairs of a box with itself (the same id) are left out.
-PiecewiseMoments sum_pairs(const BoxTree& from, const std::pmr::vector<Asking>& asking, const BoxTree& held,
-                           Meeting meeting, bool same_set, std::pmr::memory_resource* memory);
+PiecewiseMoments sum_pairs(const SampleTree& from, const std::pmr::vector<Asking>& asking,
+                           const SampleTree& held, Meeting meeting, bool same_set,
+                           std::pmr::memory_resource* memory);
 
 } // namespace vox

@@ -226,7 +226,8 @@ struct PackedPrimitives {
     bool read(std::uint64_t primitive, Take&& take) const noexcept {
         std::uint64_t v[corners], last = 0;
         for (int c = 0; c < corners; ++c) {
-            v[c] = indexed ? index(primitive, c) : primitive * corners + static_cast<std::uint64_t>(c);
+            v[c] = indexed ? index(primitive, c)
+                           : primitive * std::uint64_t{corners} + static_cast<std::uint64_t>(c);
             last = std::max(last, v[c]);
         }
         if (last >= safe) return false;
