@@ -90,7 +90,7 @@ double share_of(const BoxSample& sample, const Primitives& primitives) {
     return static_cast<double>(sample.boxes.size()) / static_cast<double>(primitives.count());
 }
 
-constexpr double per_octave = 1;        // sizes of the table of shares
+constexpr double shares_per_octave = 1; // sizes of the table of shares
 constexpr double curve_octaves = 3;     // that a curve goes beyond the range
 constexpr std::uint64_t measured = 512; // primitives whose edges and sides make the rules
 
@@ -171,8 +171,9 @@ ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, c
     const PlainBox& all = held_sums_.bounds;
     rules_.spacing = std::cbrt(all.side(0) * all.side(1) * all.side(2) / held_sums_.count);
     rules_.radius = asking_sums_.radius;
-    const auto nodes =
-        static_cast<std::size_t>(per_octave * (std::log2(range_.max / range_.min) + 2 * curve_octaves)) + 3;
+    const auto nodes = static_cast<std::size_t>(shares_per_octave *
+                                                (std::log2(range_.max / range_.min) + 2 * curve_octaves)) +
+                       3;
     for (auto& share : table_) share.resize(nodes, -1);
     never_empty_ = same_set_ && !centres_ && grid.desc.radius == 0; // each finds itself
 }
@@ -212,7 +213,7 @@ vox_grid_work ForeignWork::exactly_at(double d) { return with_shares(d, empty_sh
 
 vox_grid_work ForeignWork::at(double d, CellsWanted wanted) {
     const auto share = [&](Share which) {
-        const double place = per_octave * (std::log2(d / range_.min) + curve_octaves);
+        const double place = shares_per_octave * (std::log2(d / range_.min) + curve_octaves);
         if (!(place >= 0 && place < static_cast<double>(table_[which].size() - 1)))
             return which == empty ? empty_share(d) : occupied_share(d);
         const auto node = static_cast<std::size_t>(place);
@@ -220,7 +221,7 @@ vox_grid_work ForeignWork::at(double d, CellsWanted wanted) {
             double& value = table_[which][i];
             if (value < 0) {
                 const double size =
-                    range_.min * std::exp2(static_cast<double>(i) / per_octave - curve_octaves);
+                    range_.min * std::exp2(static_cast<double>(i) / shares_per_octave - curve_octaves);
                 value = which == empty ? empty_share(size) : occupied_share(size);
             }
             return value;

@@ -224,7 +224,7 @@ struct PackedPrimitives {
     }
     template <int corners, class Take>
     bool read(std::uint64_t primitive, Take&& take) const noexcept {
-        std::uint64_t v[corners], last = 0;
+        std::uint64_t v[static_cast<std::size_t>(corners)], last = 0;
         for (int c = 0; c < corners; ++c) {
             v[c] = indexed ? index(primitive, c)
                            : primitive * std::uint64_t{corners} + static_cast<std::uint64_t>(c);
