@@ -20,7 +20,7 @@ namespace {
 // A described grid, and its terms. Only a dense grid touches all cells.
 struct DescribedGrid {
     explicit DescribedGrid(const vox_foreign_grid* from_caller)
-        : grid(from_caller), memory(grid.desc.allocator), work(grid, quick_look, &memory),
+        : grid(from_caller), memory(grid.desc.allocator), work(grid, quick_look(grid), &memory),
           basis(described_basis(
               [this](double cell_size) {
                   vox_grid_work counts = work.at(cell_size);

@@ -268,7 +268,7 @@ private:
         int runs_nearby = 0;
         for (std::size_t i = 0; i < timed_.size(); ++i) {
             fastest_run = std::min(fastest_run, timed_[i].seconds);
-            if (!is_near(nodes_[i])) continue;
+            if (std::abs(nodes_[i] - chosen_) > 1) continue;
             nearby = std::min(nearby, timed_[i].seconds);
             ++runs_nearby;
         }
