@@ -1898,17 +1898,18 @@ typedef struct vox_grid_fit {
 } vox_grid_fit;
 
 /* Fits the weights of a grid to timings of the whole run at three different cell sizes or more (0.6, 1.2 and 2.4
- * mean edges do), by non-negative least squares, and minimises the cost, from the smallest size timed over 1.5 to 1.5
- * times the largest. Of several timings at one cell size the shortest counts. Slow timings count less than fast ones, and
- * less still if they are far above the fit. What few timings cannot tell apart is divided as in the weights that the grid
- * has (`weights`, else `known`). Errors: as vox_suggest_for; also INVALID_ARGUMENT for fewer than three different cell
- * sizes (those within a millionth are one), sizes below the least legal one, and timings out of their range. */
+ * mean edges do), by non-negative least squares, and minimises the cost, from the smallest size timed over 1.2 to 1.2
+ * times the largest. Of several timings at one cell size the shortest counts. Slow timings count less than fast ones,
+ * and less still if they are far above the fit. What few timings cannot tell apart is divided as in the weights that
+ * the grid has (`weights`, else `known`). Errors: as vox_suggest_for; also INVALID_ARGUMENT for fewer than three
+ * different cell sizes (those within a millionth are one), sizes below the least legal one, and timings out of their
+ * range. */
 VOX_API vox_result vox_cost_fit(const vox_foreign_grid* grid, VOX_ARRAY(count) const vox_grid_timing* timings,
                                 uint64_t count, vox_grid_fit* out);
 
 /* Runs the caller's grid once at a cell size. Returns how many seconds that took, at least 1e-30; infinity, or more
- * than 1e30, if it cannot run at this size (it is then tried at others, none of them further away); or a negative number
- * or NaN to stop. Called on the thread that calls vox_cost_tune. Must not throw. */
+ * than 1e30, if it cannot run at this size (it is then tried at others, none of them further away); or a negative
+ * number or NaN to stop. Called on the thread that calls vox_cost_tune. Must not throw. */
 typedef double vox_grid_run(double cell_size, void* user);
 
 #define VOX_TUNE_RUN_CAPACITY 32u /* most runs of vox_cost_tune */

@@ -153,7 +153,7 @@ namespace {
 // Cell sizes that differ by less, relatively, are one.
 constexpr double same_size = 1e-6;
 // How far beyond the sizes timed the least cost is looked for.
-constexpr double beyond = 1.5;
+constexpr double beyond = 1.2;
 
 void check_timings(std::span<const vox_grid_timing> timings, double least_cell_size) {
     for (std::size_t i = 0; i < timings.size(); ++i) {
