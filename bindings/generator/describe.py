@@ -20,7 +20,9 @@ COUNT = re.compile(r"([^s]s|(^|_)(began|begin|budget|capacity|cell|contact|count
 # Pointers that are handed back and that nobody looks behind.
 OPAQUE = re.compile(r"(^|_)(user|context|handle)$")
 # What a void* with a length points to.
-ELEMENTS = {"positions": "position", "points": "position", "bytes": "byte", "data": "byte", "memory": "byte"}
+ELEMENTS = {"positions": "position", "points": "position", "bytes": "byte", "radii": "number",
+            "data": "byte", "memory": "byte"}
+SINGULAR_OF = {"indices": "index", "radii": "radius"}  # of the others, without the s
 # Names that end in s and stand for one thing: a task system, a struct of arrays.
 SINGULAR = {"flags", "ns", "tasks", "arrays"}
 
@@ -229,8 +231,9 @@ class Describer:
             if element is None:
                 self.fault(owner, member, "what does this void* point to?")
             found["element"] = element
-        strides = [n for n in (stem[:-1] + "_byte_stride", "byte_stride", "out_byte_stride") if n in names]
-        if strides and (found.get("element") == "position" or stem == "data"):
+        one = SINGULAR_OF.get(stem, stem[:-1])
+        strides = [n for n in (one + "_byte_stride", "byte_stride", "out_byte_stride") if n in names]
+        if strides and (found.get("element") in ("position", "number") or stem in ("data", "indices")):
             found["stride"] = strides[0]
         asked = {}
         for word in re.findall(r"[a-z]\w*(?:(?:\.|->)\w+)*", length):
@@ -293,7 +296,7 @@ class Describer:
 
     def flags_of(self, owner, member):
         """The enum of flags that a number is combined from: named by a field's comment, or that of the object."""
-        named = re.match(r"(vox_\w+_flags)[,:]", member.comment)
+        named = re.match(r"(vox_\w+_(?:flags|warnings))(?:[,:]|$)", member.comment)
         if named:
             return named[1]
         if re.fullmatch(r"(out_)?flags", member[1]):
@@ -332,7 +335,7 @@ class Describer:
             yield {"name": name, "value": number, "limit": limit, "section": section, "doc": parsed.constants[name]}
 
     def enum(self, d):
-        return {"name": d.name, "section": d.section, "flags": d.name.endswith("_flags"), "doc": d.comment,
+        return {"name": d.name, "section": d.section, "flags": d.name.endswith(("_flags", "_warnings")), "doc": d.comment,
                 "values": [{"name": name, "value": number, "doc": comment} for name, number, comment in d.values
                            if not name.endswith("FORCE_32_BITS")]}
 

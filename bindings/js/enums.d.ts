@@ -207,6 +207,111 @@ export declare const AreaReading: Readonly<{
 }>;
 export type AreaReading = (typeof AreaReading)[keyof typeof AreaReading];
 
+export declare const PrimitiveType: Readonly<{
+  /** one vertex */
+  POINT: 0;
+  /** two */
+  EDGE: 1;
+  /** three */
+  TRIANGLE: 2;
+  /** four */
+  TET: 3;
+  /** two: opposite corners of a box along the axes, in any order */
+  BOX: 4;
+}>;
+export type PrimitiveType = (typeof PrimitiveType)[keyof typeof PrimitiveType];
+
+/** Which cells hold a primitive. */
+export declare const CellContent: Readonly<{
+  /** the one with the centre of its box; for a point, with the point */
+  CELLS_HOLD_CENTRES: 0;
+  /** all that its box meets */
+  CELLS_HOLD_BOXES: 1;
+}>;
+export type CellContent = (typeof CellContent)[keyof typeof CellContent];
+
+/** Which cells a primitive that asks looks at. */
+export declare const CellLook: Readonly<{
+  /** those that its box meets: one for a point, those of the ball's box for one with a radius */
+  BOX: 0;
+  /**
+   * 27: the one with the centre of its box, and those around. Only with HOLD_CENTRES, and only legal where a cell is as
+   * large as the distance that matters along any axis
+   */
+  AROUND: 1;
+  /**
+   * nobody asks: the grid goes through the cells and pairs what is in each. With two sets, both are put into cells, and
+   * pairs are of one of each
+   */
+  PAIRS: 2;
+}>;
+export type CellLook = (typeof CellLook)[keyof typeof CellLook];
+
+/** Grids that weights are shipped for, each measured by bench/foreign. */
+export declare const KnownGrid: Readonly<{
+  /** nothing is known: weights that lose least in the worst of the grids below */
+  ANY: 0;
+  /** a plain grid in C++: a counting sort into a dense lattice */
+  SORTED: 1;
+  /** a plain grid in C++: std::unordered_map from cell to list */
+  HASHED: 2;
+  /** NVIDIA Warp's HashGrid on the processor: points, asked by balls */
+  WARP: 3;
+  /** IPC Toolkit's SpatialHash: boxes in all their cells, asked by boxes */
+  IPC: 4;
+  /** IPC Toolkit's HashGrid: boxes in all their cells, paired cell by cell */
+  IPC_PAIRS: 5;
+  /** VTK's vtkStaticCellLocator: boxes in all their cells, asked by points */
+  VTK: 6;
+  /** PBAT's HashGrid3: centres of boxes, asked from 27 cells */
+  PBAT: 7;
+  /** hashed voxels of points asked by balls, as in PCL and Open3D */
+  POINT_VOXELS: 8;
+  /** a grid of sorted keys in numpy */
+  NUMPY: 9;
+}>;
+export type KnownGrid = (typeof KnownGrid)[keyof typeof KnownGrid];
+
+export declare const ForeignFlags: Readonly<{
+  /** the grid keeps a list for each cell of the box of all that it holds */
+  DENSE: 1;
+}>;
+export type ForeignFlags = number;
+
+/** What an answer was based on, combined with |. `note` says the same in words, with numbers. */
+export declare const ForeignWarnings: Readonly<{
+  /** nothing is known of the grid's times: a few timings would help */
+  WEIGHTS_UNKNOWN: 1;
+  /** the model says too little here: cell_size is that of `rule` */
+  BY_RULE: 2;
+  /** the least legal size; a smaller one would be faster */
+  AT_LEAST_SIZE: 4;
+  /** the primitives have no size: the cell size follows from their distances */
+  NO_SIZE: 8;
+  /** all are in one place: any cell size that is large enough does */
+  ONE_PLACE: 16;
+  /** the timings do not follow the counts of the described grid */
+  MODEL_DISAGREES: 32;
+  /** timings at the same cell size differ widely */
+  TIMINGS_DISAGREE: 64;
+  /** the best cell size is beyond those timed */
+  OUT_OF_RANGE: 128;
+  /** the callback stopped, or failed at a cell size */
+  STOPPED: 256;
+}>;
+export type ForeignWarnings = number;
+
+export declare const ForeignRule: Readonly<{
+  /** the model's minimum */
+  NONE: 0;
+  MEAN_EDGE: 1;
+  MEAN_BOX_SIDE: 2;
+  MEDIAN_BOX_SIDE: 3;
+  SPACING: 4;
+  RADIUS: 5;
+}>;
+export type ForeignRule = (typeof ForeignRule)[keyof typeof ForeignRule];
+
 /**
  * Version of the stable interface. A program runs with every library that has the ABI version it was built with. It is
  * part of the shared libraries' names (docs/abi.md).
@@ -240,3 +345,7 @@ export declare const COST_CURVE_CAPACITY: 64;
 export declare const COST_TERM_CAPACITY: 12;
 /** most entries of vox_suggestion.levels */
 export declare const CELL_SIZE_LEVEL_CAPACITY: 4;
+/** bytes of a note, its zero included */
+export declare const NOTE_CAPACITY: 256;
+/** most runs of vox_cost_tune */
+export declare const TUNE_RUN_CAPACITY: 32;

@@ -15,6 +15,8 @@ export const NO_PAIR = 4294967295;
 export const COST_CURVE_CAPACITY = 64;
 export const COST_TERM_CAPACITY = 12;
 export const CELL_SIZE_LEVEL_CAPACITY = 4;
+export const NOTE_CAPACITY = 256;
+export const TUNE_RUN_CAPACITY = 32;
 
 export const Result = Object.freeze({
   OK: 0,
@@ -114,4 +116,61 @@ export const AreaReading = Object.freeze({
   UNIQUE_FACETS: 0,
   TET_FACETS: 1,
   BOUNDARY_FACETS: 2,
+});
+
+export const PrimitiveType = Object.freeze({
+  POINT: 0,
+  EDGE: 1,
+  TRIANGLE: 2,
+  TET: 3,
+  BOX: 4,
+});
+
+export const CellContent = Object.freeze({
+  CELLS_HOLD_CENTRES: 0,
+  CELLS_HOLD_BOXES: 1,
+});
+
+export const CellLook = Object.freeze({
+  BOX: 0,
+  AROUND: 1,
+  PAIRS: 2,
+});
+
+export const KnownGrid = Object.freeze({
+  ANY: 0,
+  SORTED: 1,
+  HASHED: 2,
+  WARP: 3,
+  IPC: 4,
+  IPC_PAIRS: 5,
+  VTK: 6,
+  PBAT: 7,
+  POINT_VOXELS: 8,
+  NUMPY: 9,
+});
+
+export const ForeignFlags = Object.freeze({
+  DENSE: 1,
+});
+
+export const ForeignWarnings = Object.freeze({
+  WEIGHTS_UNKNOWN: 1,
+  BY_RULE: 2,
+  AT_LEAST_SIZE: 4,
+  NO_SIZE: 8,
+  ONE_PLACE: 16,
+  MODEL_DISAGREES: 32,
+  TIMINGS_DISAGREE: 64,
+  OUT_OF_RANGE: 128,
+  STOPPED: 256,
+});
+
+export const ForeignRule = Object.freeze({
+  NONE: 0,
+  MEAN_EDGE: 1,
+  MEAN_BOX_SIDE: 2,
+  MEDIAN_BOX_SIDE: 3,
+  SPACING: 4,
+  RADIUS: 5,
 });

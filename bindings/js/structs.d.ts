@@ -1,7 +1,7 @@
 // Written by bindings/generate.py from bindings/api.json. Do not edit.
 
-import type { AreaReading, CostModel, Engine, Format, Hash, PenetrationState, Result, Side, SizeReading, Storage, Touch
-} from "./enums.js";
+import type { AreaReading, CellContent, CellLook, CostModel, Engine, ForeignRule, Format, Hash, KnownGrid,
+PenetrationState, PrimitiveType, Result, Side, SizeReading, Storage, Touch } from "./enums.js";
 
 /**
  * Settings of a grid. One whose fields are all 0 after struct_size is valid but not the default: it has no
@@ -838,4 +838,188 @@ export interface CostMinimum {
   zoneMax: number;
   /** over the bounds, evenly spaced in the logarithm */
   curve: CostSample[];
+}
+
+/** What a run of a grid does at one cell size. The means over all positions of the lattice. */
+export interface GridWork {
+  /** primitives put into a cell */
+  entries: number;
+  /** cells looked at; with PAIRS, those that hold something */
+  visits: number;
+  /** visits of a cell that holds nothing */
+  empty: number;
+  /** entries of the cells looked at; with PAIRS, pairs in a cell */
+  reads: number;
+  /** cells that hold something */
+  occupied: number;
+  /** of the box of all that is held: cells of a dense grid */
+  cells: number;
+}
+
+/** Columns of GridWork: of an array field, its elements one after the other. */
+export interface GridWorkColumns {
+  readonly entries: Float64Array;
+  readonly visits: Float64Array;
+  readonly empty: Float64Array;
+  readonly reads: Float64Array;
+  readonly occupied: Float64Array;
+  readonly cells: Float64Array;
+}
+
+/** Nanoseconds for one of each, >= 0. */
+export interface GridWeights {
+  /** a run, whatever the cell size */
+  fixed: number;
+  entries: number;
+  visits: number;
+  /** what a visit of a cell that holds something takes more than one of an empty cell */
+  found: number;
+  reads: number;
+  /** making and forgetting a cell */
+  occupied: number;
+  /** for grids with dense storage: clearing one */
+  cells: number;
+}
+
+/** Columns of GridWeights: of an array field, its elements one after the other. */
+export interface GridWeightsColumns {
+  readonly fixed: Float64Array;
+  readonly entries: Float64Array;
+  readonly visits: Float64Array;
+  readonly found: Float64Array;
+  readonly reads: Float64Array;
+  readonly occupied: Float64Array;
+  readonly cells: Float64Array;
+}
+
+/** Cell sizes that other rules would choose; 0 where a rule does not apply. */
+export interface ForeignRules {
+  /** mean length of the edges of the primitives held, shared ones counted each time */
+  meanEdge: number;
+  /** mean of the longest sides of their boxes */
+  meanBoxSide: number;
+  /** median of these */
+  medianBoxSide: number;
+  /** cube root of the volume of the box of all, over their number */
+  spacing: number;
+  /** mean radius of those that ask */
+  radius: number;
+}
+
+/** Columns of ForeignRules: of an array field, its elements one after the other. */
+export interface ForeignRulesColumns {
+  readonly meanEdge: Float64Array;
+  readonly meanBoxSide: Float64Array;
+  readonly medianBoxSide: Float64Array;
+  readonly spacing: Float64Array;
+  readonly radius: Float64Array;
+}
+
+/** A cell size for a foreign grid, and the reasons for it. Costs are nanoseconds of a run. */
+export interface ForeignSuggestion {
+  /** vox_foreign_warnings */
+  warnings: number;
+  cellSize: number;
+  /** as in vox_suggestion, and not below least_cell_size */
+  zoneMin: number;
+  zoneMax: number;
+  /** at cell_size */
+  predictedCost: number;
+  /** the smallest legal size; 0: any */
+  leastCellSize: number;
+  /** at cell_size */
+  work: GridWork;
+  /** that were used */
+  weights: GridWeights;
+  rules: ForeignRules;
+  /** predicted cost at the cell size of each rule; 0 if it does not apply */
+  ruleCosts: ForeignRules;
+  /** ascending in cell_size, evenly spaced in its logarithm */
+  curve: CostSample[];
+  curveCount: number;
+  termCount: number;
+  /** at cell_size; their costs add up to predicted_cost */
+  terms: CostShare[];
+  /** whose size it is */
+  rule: ForeignRule;
+  /** zero-terminated; "" if there is no warning */
+  note: string;
+}
+
+/** One timing of a grid: a run at this cell size took so long. */
+export interface GridTiming {
+  /** > 0 */
+  cellSize: number;
+  /** 1e-30 to 1e30 */
+  seconds: number;
+}
+
+/** Columns of GridTiming: of an array field, its elements one after the other. */
+export interface GridTimingColumns {
+  readonly cellSize: Float64Array;
+  readonly seconds: Float64Array;
+}
+
+/** Weights from timings, and the cell size they lead to. */
+export interface GridFit {
+  /** vox_foreign_warnings */
+  warnings: number;
+  /**
+   * >= 0; the best fit to the timings. To be put into vox_foreign_grid.weights, also for other scenes of the same grid
+   */
+  weights: GridWeights;
+  /** root mean square of (fitted time / measured time - 1) over the timings */
+  residual: number;
+  cellSize: number;
+  zoneMin: number;
+  zoneMax: number;
+  /** at cell_size */
+  predictedSeconds: number;
+  /** in seconds */
+  curve: CostSample[];
+  curveCount: number;
+  note: string;
+}
+
+/** How to tune. */
+export interface TuneDesc {
+  /** 3 to VOX_TUNE_RUN_CAPACITY; default 7 */
+  mostRuns: number;
+  /** cell sizes to try, 0 < min <= max; both 0 (the default): an eighth to eight times the first */
+  min: number;
+  max: number;
+  /** the cell size to begin with; 0 (the default): what vox_suggest_for says. Must be set where there is no grid */
+  first: number;
+  /** as vox_suggest_desc.zone_loss; default 0.05 */
+  zoneLoss: number;
+  /** stops where the cell size is within this of the best one, as far as it can tell; default 0.02 */
+  wantedLoss: number;
+}
+
+/** What tuning found. */
+export interface Tuning {
+  /** vox_foreign_warnings */
+  warnings: number;
+  cellSize: number;
+  zoneMin: number;
+  zoneMax: number;
+  /** of a run at cell_size, as fitted */
+  seconds: number;
+  /**
+   * how much longer a run may take than at the best cell size, as far as it can tell: 0.03 for 3 %. The most by any of
+   * several fits: without each of the timings, and with each moved by the noise. Infinite if only one cell size of
+   * several was timed
+   */
+  expectedLoss: number;
+  /** relative: how far timings are from the fitted curve, root mean square */
+  noise: number;
+  /** as in vox_grid_fit; all 0 where there is no grid */
+  weights: GridWeights;
+  /** run_count runs, in order; seconds may be infinite */
+  runs: GridTiming[];
+  runCount: number;
+  curveCount: number;
+  /** in seconds */
+  curve: CostSample[];
+  note: string;
 }

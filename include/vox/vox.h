@@ -1698,7 +1698,7 @@ typedef struct vox_primitives {
     vox_format radius_format; /* FLOAT3 stands for one single, DOUBLE3 for one double */
     /* The vertices of each primitive: two numbers an edge or a box, three a triangle, four a tetrahedron, one a point.
      * Null: 0, 1, 2, and so on, without sharing. */
-    VOX_OPTIONAL VOX_ARRAY(count times the vertices of one) const uint32_t* indices;
+    VOX_OPTIONAL VOX_ARRAY(count or 2 * count or 3 * count or 4 * count) const uint32_t* indices;
     uint64_t index_byte_stride; /* from one primitive to the next; 0: tightly packed */
     uint64_t count;             /* primitives, at most 2^32 - 1 */
     VOX_OPTIONAL VOX_ARRAY(count) const void* radii; /* of each primitive, >= 0 */

@@ -194,6 +194,107 @@ namespace Voxtet
         BoundaryFacets = 2,
     }
 
+    public enum PrimitiveType : int
+    {
+        /// <summary>one vertex</summary>
+        Point = 0,
+        /// <summary>two</summary>
+        Edge = 1,
+        /// <summary>three</summary>
+        Triangle = 2,
+        /// <summary>four</summary>
+        Tet = 3,
+        /// <summary>two: opposite corners of a box along the axes, in any order</summary>
+        Box = 4,
+    }
+
+    /// <summary>Which cells hold a primitive.</summary>
+    public enum CellContent : int
+    {
+        /// <summary>the one with the centre of its box; for a point, with the point</summary>
+        CellsHoldCentres = 0,
+        /// <summary>all that its box meets</summary>
+        CellsHoldBoxes = 1,
+    }
+
+    /// <summary>Which cells a primitive that asks looks at.</summary>
+    public enum CellLook : int
+    {
+        /// <summary>those that its box meets: one for a point, those of the ball's box for one with a radius</summary>
+        Box = 0,
+        /// <summary>27: the one with the centre of its box, and those around.</summary>
+        Around = 1,
+        /// <summary>nobody asks: the grid goes through the cells and pairs what is in each.</summary>
+        Pairs = 2,
+    }
+
+    /// <summary>Grids that weights are shipped for, each measured by bench/foreign.</summary>
+    public enum KnownGrid : int
+    {
+        /// <summary>nothing is known: weights that lose least in the worst of the grids below</summary>
+        Any = 0,
+        /// <summary>a plain grid in C++: a counting sort into a dense lattice</summary>
+        Sorted = 1,
+        /// <summary>a plain grid in C++: std::unordered_map from cell to list</summary>
+        Hashed = 2,
+        /// <summary>NVIDIA Warp's HashGrid on the processor: points, asked by balls</summary>
+        Warp = 3,
+        /// <summary>IPC Toolkit's SpatialHash: boxes in all their cells, asked by boxes</summary>
+        Ipc = 4,
+        /// <summary>IPC Toolkit's HashGrid: boxes in all their cells, paired cell by cell</summary>
+        IpcPairs = 5,
+        /// <summary>VTK's vtkStaticCellLocator: boxes in all their cells, asked by points</summary>
+        Vtk = 6,
+        /// <summary>PBAT's HashGrid3: centres of boxes, asked from 27 cells</summary>
+        Pbat = 7,
+        /// <summary>hashed voxels of points asked by balls, as in PCL and Open3D</summary>
+        PointVoxels = 8,
+        /// <summary>a grid of sorted keys in numpy</summary>
+        Numpy = 9,
+    }
+
+    [Flags]
+    public enum ForeignFlags : uint
+    {
+        /// <summary>the grid keeps a list for each cell of the box of all that it holds</summary>
+        Dense = 1,
+    }
+
+    /// <summary>What an answer was based on, combined with |.</summary>
+    [Flags]
+    public enum ForeignWarnings : uint
+    {
+        /// <summary>nothing is known of the grid's times: a few timings would help</summary>
+        WeightsUnknown = 1,
+        /// <summary>the model says too little here: cell_size is that of `rule`</summary>
+        ByRule = 2,
+        /// <summary>the least legal size; a smaller one would be faster</summary>
+        AtLeastSize = 4,
+        /// <summary>the primitives have no size: the cell size follows from their distances</summary>
+        NoSize = 8,
+        /// <summary>all are in one place: any cell size that is large enough does</summary>
+        OnePlace = 16,
+        /// <summary>the timings do not follow the counts of the described grid</summary>
+        ModelDisagrees = 32,
+        /// <summary>timings at the same cell size differ widely</summary>
+        TimingsDisagree = 64,
+        /// <summary>the best cell size is beyond those timed</summary>
+        OutOfRange = 128,
+        /// <summary>the callback stopped, or failed at a cell size</summary>
+        Stopped = 256,
+    }
+
+    public enum ForeignRule : int
+    {
+        /// <summary>the model's minimum</summary>
+        None = 0,
+        MeanEdge = 1,
+        MeanBoxSide = 2,
+        MedianBoxSide = 3,
+        Spacing = 4,
+        Radius = 5,
+    }
+
     public enum IoFormat : int
     {
         /// <summary>determined from the content or, failing that, from the name's extension</summary>
@@ -374,6 +475,55 @@ namespace Voxtet
         {
             get { Check(i); fixed (double* p = &x) return p[i]; }
             set { Check(i); fixed (double* p = &x) p[i] = value; }
+        }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Byte256
+    {
+        public byte e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11, e12, e13, e14, e15, e16, e17, e18, e19, e20, e21,
+            e22, e23, e24, e25, e26, e27, e28, e29, e30, e31, e32, e33, e34, e35, e36, e37, e38, e39, e40, e41, e42,
+            e43, e44, e45, e46, e47, e48, e49, e50, e51, e52, e53, e54, e55, e56, e57, e58, e59, e60, e61, e62, e63,
+            e64, e65, e66, e67, e68, e69, e70, e71, e72, e73, e74, e75, e76, e77, e78, e79, e80, e81, e82, e83, e84,
+            e85, e86, e87, e88, e89, e90, e91, e92, e93, e94, e95, e96, e97, e98, e99, e100, e101, e102, e103, e104,
+            e105, e106, e107, e108, e109, e110, e111, e112, e113, e114, e115, e116, e117, e118, e119, e120, e121, e122,
+            e123, e124, e125, e126, e127, e128, e129, e130, e131, e132, e133, e134, e135, e136, e137, e138, e139, e140,
+            e141, e142, e143, e144, e145, e146, e147, e148, e149, e150, e151, e152, e153, e154, e155, e156, e157, e158,
+            e159, e160, e161, e162, e163, e164, e165, e166, e167, e168, e169, e170, e171, e172, e173, e174, e175, e176,
+            e177, e178, e179, e180, e181, e182, e183, e184, e185, e186, e187, e188, e189, e190, e191, e192, e193, e194,
+            e195, e196, e197, e198, e199, e200, e201, e202, e203, e204, e205, e206, e207, e208, e209, e210, e211, e212,
+            e213, e214, e215, e216, e217, e218, e219, e220, e221, e222, e223, e224, e225, e226, e227, e228, e229, e230,
+            e231, e232, e233, e234, e235, e236, e237, e238, e239, e240, e241, e242, e243, e244, e245, e246, e247, e248,
+            e249, e250, e251, e252, e253, e254, e255;
+        public const int Length = 256;
+        public byte this[int i]
+        {
+            get { Check(i); fixed (byte* p = &e0) return p[i]; }
+            set { Check(i); fixed (byte* p = &e0) p[i] = value; }
+        }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
+        public override string ToString()
+        {
+            fixed (byte* p = &e0)
+            {
+                int end = 0;
+                while (end < 256 && p[end] != 0) ++end;
+                return System.Text.Encoding.UTF8.GetString(p, end);
+            }
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct GridTiming32
+    {
+        public GridTiming e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11, e12, e13, e14, e15, e16, e17, e18, e19, e20,
+            e21, e22, e23, e24, e25, e26, e27, e28, e29, e30, e31;
+        public const int Length = 32;
+        public GridTiming this[int i]
+        {
+            get { Check(i); fixed (GridTiming* p = &e0) return p[i]; }
+            set { Check(i); fixed (GridTiming* p = &e0) p[i] = value; }
         }
         static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
@@ -1223,6 +1373,234 @@ namespace Voxtet
         public CostSample64 curve;
     }
 
+    /// <summary>Primitives: each is a few vertices.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct Primitives
+    {
+        public uint struct_size;
+        public PrimitiveType type;
+        /// <summary>as in vox_mesh_desc</summary>
+        public IntPtr positions;
+        public ulong position_byte_stride;
+        public ulong position_component_byte_stride;
+        public ulong vertex_count;
+        public Format position_format;
+        /// <summary>FLOAT3 stands for one single, DOUBLE3 for one double</summary>
+        public Format radius_format;
+        /// <summary>The vertices of each primitive: two numbers an edge or a box, three a triangle, four a tetrahedron,
+        /// one a point.</summary>
+        public uint* indices;
+        /// <summary>from one primitive to the next; 0: tightly packed</summary>
+        public ulong index_byte_stride;
+        /// <summary>primitives, at most 2^32 - 1</summary>
+        public ulong count;
+        /// <summary>of each primitive, &gt;= 0</summary>
+        public IntPtr radii;
+        /// <summary>0: tightly packed</summary>
+        public ulong radius_byte_stride;
+        /// <summary>of all primitives, added to their own, &gt;= 0; default 0</summary>
+        public double radius;
+    }
+
+    /// <summary>What a run of a grid does at one cell size.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 48)]
+    public struct GridWork
+    {
+        /// <summary>primitives put into a cell</summary>
+        public double entries;
+        /// <summary>cells looked at; with PAIRS, those that hold something</summary>
+        public double visits;
+        /// <summary>visits of a cell that holds nothing</summary>
+        public double empty;
+        /// <summary>entries of the cells looked at; with PAIRS, pairs in a cell</summary>
+        public double reads;
+        /// <summary>cells that hold something</summary>
+        public double occupied;
+        /// <summary>of the box of all that is held: cells of a dense grid</summary>
+        public double cells;
+    }
+
+    /// <summary>Nanoseconds for one of each, &gt;= 0.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 56)]
+    public struct GridWeights
+    {
+        /// <summary>a run, whatever the cell size</summary>
+        public double @fixed;
+        public double entries;
+        public double visits;
+        /// <summary>what a visit of a cell that holds something takes more than one of an empty cell</summary>
+        public double found;
+        public double reads;
+        /// <summary>making and forgetting a cell</summary>
+        public double occupied;
+        /// <summary>for grids with dense storage: clearing one</summary>
+        public double cells;
+    }
+
+    /// <summary>A uniform grid that is not this library's.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct ForeignGrid
+    {
+        public uint struct_size;
+        /// <summary>vox_foreign_flags, combined with |</summary>
+        public ForeignFlags flags;
+        /// <summary>default HOLD_BOXES</summary>
+        public CellContent content;
+        /// <summary>default BOX</summary>
+        public CellLook look;
+        /// <summary>what is put into cells</summary>
+        public Primitives* held;
+        /// <summary>null: those held ask themselves, each of all, itself included</summary>
+        public Primitives* asking;
+        /// <summary>boxes that ask are larger by this on all sides, &gt;= 0; default 0</summary>
+        public double radius;
+        /// <summary>The smallest cell size that gives right answers. 0 (the default): with AROUND, half the longest
+        /// side of a box held, and half that of one that asks with its radius; otherwise none.</summary>
+        public double least_cell_size;
+        /// <summary>as vox_suggest_desc.zone_loss; default 0.05</summary>
+        public double zone_loss;
+        /// <summary>whose weights are used where `weights` are all 0; default ANY</summary>
+        public KnownGrid known;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>all 0 (the default): those of `known`</summary>
+        public GridWeights weights;
+        /// <summary>where the memory of the call comes from; default: the C++ runtime's heap</summary>
+        public Allocator allocator;
+    }
+
+    /// <summary>Cell sizes that other rules would choose; 0 where a rule does not apply.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 40)]
+    public struct ForeignRules
+    {
+        /// <summary>mean length of the edges of the primitives held, shared ones counted each time</summary>
+        public double mean_edge;
+        /// <summary>mean of the longest sides of their boxes</summary>
+        public double mean_box_side;
+        /// <summary>median of these</summary>
+        public double median_box_side;
+        /// <summary>cube root of the volume of the box of all, over their number</summary>
+        public double spacing;
+        /// <summary>mean radius of those that ask</summary>
+        public double radius;
+    }
+
+    /// <summary>A cell size for a foreign grid, and the reasons for it.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 2104)]
+    public struct ForeignSuggestion
+    {
+        public uint struct_size;
+        /// <summary>vox_foreign_warnings</summary>
+        public ForeignWarnings warnings;
+        public double cell_size;
+        /// <summary>as in vox_suggestion, and not below least_cell_size</summary>
+        public double zone_min;
+        public double zone_max;
+        /// <summary>at cell_size</summary>
+        public double predicted_cost;
+        /// <summary>the smallest legal size; 0: any</summary>
+        public double least_cell_size;
+        /// <summary>at cell_size</summary>
+        public GridWork work;
+        /// <summary>that were used</summary>
+        public GridWeights weights;
+        public ForeignRules rules;
+        /// <summary>predicted cost at the cell size of each rule; 0 if it does not apply</summary>
+        public ForeignRules rule_costs;
+        /// <summary>ascending in cell_size, evenly spaced in its logarithm</summary>
+        public CostSample64 curve;
+        public uint curve_count;
+        public uint term_count;
+        /// <summary>at cell_size; their costs add up to predicted_cost</summary>
+        public CostShare12 terms;
+        /// <summary>whose size it is</summary>
+        public ForeignRule rule;
+        public uint reserved;
+        /// <summary>zero-terminated; "" if there is no warning</summary>
+        public Byte256 note;
+    }
+
+    /// <summary>One timing of a grid: a run at this cell size took so long.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 16)]
+    public struct GridTiming
+    {
+        /// <summary>&gt; 0</summary>
+        public double cell_size;
+        /// <summary>1e-30 to 1e30</summary>
+        public double seconds;
+    }
+
+    /// <summary>Weights from timings, and the cell size they lead to.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 1392)]
+    public struct GridFit
+    {
+        public uint struct_size;
+        /// <summary>vox_foreign_warnings</summary>
+        public ForeignWarnings warnings;
+        /// <summary>&gt;= 0; the best fit to the timings.</summary>
+        public GridWeights weights;
+        /// <summary>root mean square of (fitted time / measured time - 1) over the timings</summary>
+        public double residual;
+        public double cell_size;
+        public double zone_min;
+        public double zone_max;
+        /// <summary>at cell_size</summary>
+        public double predicted_seconds;
+        /// <summary>in seconds</summary>
+        public CostSample64 curve;
+        public uint curve_count;
+        public uint reserved;
+        public Byte256 note;
+    }
+
+    /// <summary>How to tune.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 48)]
+    public struct TuneDesc
+    {
+        public uint struct_size;
+        /// <summary>3 to VOX_TUNE_RUN_CAPACITY; default 7</summary>
+        public uint most_runs;
+        /// <summary>cell sizes to try, 0 &lt; min &lt;= max; both 0 (the default): an eighth to eight times the
+        /// first</summary>
+        public double min;
+        public double max;
+        /// <summary>the cell size to begin with; 0 (the default): what vox_suggest_for says.</summary>
+        public double first;
+        /// <summary>as vox_suggest_desc.zone_loss; default 0.05</summary>
+        public double zone_loss;
+        /// <summary>stops where the cell size is within this of the best one, as far as it can tell; default
+        /// 0.02</summary>
+        public double wanted_loss;
+    }
+
+    /// <summary>What tuning found.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 1912)]
+    public struct Tuning
+    {
+        public uint struct_size;
+        /// <summary>vox_foreign_warnings</summary>
+        public ForeignWarnings warnings;
+        public double cell_size;
+        public double zone_min;
+        public double zone_max;
+        /// <summary>of a run at cell_size, as fitted</summary>
+        public double seconds;
+        /// <summary>how much longer a run may take than at the best cell size, as far as it can tell: 0.03 for 3
+        /// %.</summary>
+        public double expected_loss;
+        /// <summary>relative: how far timings are from the fitted curve, root mean square</summary>
+        public double noise;
+        /// <summary>as in vox_grid_fit; all 0 where there is no grid</summary>
+        public GridWeights weights;
+        /// <summary>run_count runs, in order; seconds may be infinite</summary>
+        public GridTiming32 runs;
+        public uint run_count;
+        public uint curve_count;
+        /// <summary>in seconds</summary>
+        public CostSample64 curve;
+        public Byte256 note;
+    }
+
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct IoLoadDesc
     {
@@ -1643,6 +2021,9 @@ namespace Voxtet
     internal delegate double CostFunction(double cell_size, IntPtr user);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    internal delegate double GridRun(double cell_size, IntPtr user);
+
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal delegate IntPtr AllocatorAllocate(UIntPtr size, UIntPtr alignment, IntPtr user);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
@@ -1698,6 +2079,10 @@ namespace Voxtet
         internal const uint VOX_COST_TERM_CAPACITY = 12;
         /// <summary>most entries of vox_suggestion.levels</summary>
         internal const uint VOX_CELL_SIZE_LEVEL_CAPACITY = 4;
+        /// <summary>bytes of a note, its zero included</summary>
+        internal const uint VOX_NOTE_CAPACITY = 256;
+        /// <summary>most runs of vox_cost_tune</summary>
+        internal const uint VOX_TUNE_RUN_CAPACITY = 32;
         /// <summary>for vox_io_load_desc.mesh_index: joins all meshes of the scene</summary>
         internal const uint VOX_IO_ALL_MESHES = 4294967295;
         /// <summary>most coefficients of a fit</summary>
@@ -2202,6 +2587,45 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_zone_distance(double n, double n_min, double n_opt, double n_max, double*
             out_epsilon);
+
+        /// <summary>Fills `primitives` with the defaults for the fields that `struct_size` covers.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_primitives_init(Primitives* primitives, uint struct_size);
+
+        /// <summary>Fills `grid` with the defaults for the fields that `struct_size` covers; `held` is null and must be
+        /// set.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_foreign_grid_init(ForeignGrid* grid, uint struct_size);
+
+        /// <summary>Sets what is known of a grid that people have: content, look, flags, known, weights.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_foreign_grid_set_known(ForeignGrid* grid, KnownGrid known);
+
+        /// <summary>The cell size that costs this grid least.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_suggest_for(ForeignGrid* grid, ForeignSuggestion* @out);
+
+        /// <summary>What a run of this grid does at one cell size.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_count_for(ForeignGrid* grid, double cell_size, GridWork* @out);
+
+        /// <summary>Fits the weights of a grid to timings of the whole run at three different cell sizes or more (0.6,
+        /// 1.2 and 2.4 mean edges do), by non-negative least squares, and minimises the cost, from the smallest size
+        /// timed over 1.5 to 1.5 times the largest.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_cost_fit(ForeignGrid* grid, GridTiming* timings, ulong count, GridFit* @out);
+
+        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_tune_desc_init(TuneDesc* desc, uint struct_size);
+
+        /// <summary>Finds the best cell size by running the grid: at three cell sizes an octave apart first, then where
+        /// the fit to all timings so far is lowest or least sure, which may be where it was run before, until that is
+        /// sure enough (desc-&gt;wanted_loss, after four runs at the earliest) or desc-&gt;most_runs are
+        /// made.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_cost_tune(ForeignGrid* grid, TuneDesc* desc, IntPtr run, IntPtr user, Tuning*
+            @out);
 
         /// <summary>Fills `desc` with the defaults (AUTO, all meshes) for the fields that `struct_size`
         /// covers.</summary>
@@ -3098,6 +3522,174 @@ namespace Voxtet
             entries.Add(Entry("vox_cost_minimum.curve", (byte*)&s.curve - begin, 40, 40));
         }
 
+        static void AddPrimitives(List<LayoutEntry> entries)
+        {
+            Primitives s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_primitives", sizeof(Primitives), 96, 96));
+            entries.Add(Entry("vox_primitives.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_primitives.type", (byte*)&s.type - begin, 4, 4));
+            entries.Add(Entry("vox_primitives.positions", (byte*)&s.positions - begin, 8, 8));
+            entries.Add(Entry("vox_primitives.position_byte_stride", (byte*)&s.position_byte_stride - begin, 16, 16));
+            entries.Add(Entry("vox_primitives.position_component_byte_stride", (byte*)&s.position_component_byte_stride - begin, 24, 24));
+            entries.Add(Entry("vox_primitives.vertex_count", (byte*)&s.vertex_count - begin, 32, 32));
+            entries.Add(Entry("vox_primitives.position_format", (byte*)&s.position_format - begin, 40, 40));
+            entries.Add(Entry("vox_primitives.radius_format", (byte*)&s.radius_format - begin, 44, 44));
+            entries.Add(Entry("vox_primitives.indices", (byte*)&s.indices - begin, 48, 48));
+            entries.Add(Entry("vox_primitives.index_byte_stride", (byte*)&s.index_byte_stride - begin, 56, 56));
+            entries.Add(Entry("vox_primitives.count", (byte*)&s.count - begin, 64, 64));
+            entries.Add(Entry("vox_primitives.radii", (byte*)&s.radii - begin, 72, 72));
+            entries.Add(Entry("vox_primitives.radius_byte_stride", (byte*)&s.radius_byte_stride - begin, 80, 80));
+            entries.Add(Entry("vox_primitives.radius", (byte*)&s.radius - begin, 88, 88));
+        }
+
+        static void AddGridWork(List<LayoutEntry> entries)
+        {
+            GridWork s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_grid_work", sizeof(GridWork), 48, 48));
+            entries.Add(Entry("vox_grid_work.entries", (byte*)&s.entries - begin, 0, 0));
+            entries.Add(Entry("vox_grid_work.visits", (byte*)&s.visits - begin, 8, 8));
+            entries.Add(Entry("vox_grid_work.empty", (byte*)&s.empty - begin, 16, 16));
+            entries.Add(Entry("vox_grid_work.reads", (byte*)&s.reads - begin, 24, 24));
+            entries.Add(Entry("vox_grid_work.occupied", (byte*)&s.occupied - begin, 32, 32));
+            entries.Add(Entry("vox_grid_work.cells", (byte*)&s.cells - begin, 40, 40));
+        }
+
+        static void AddGridWeights(List<LayoutEntry> entries)
+        {
+            GridWeights s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_grid_weights", sizeof(GridWeights), 56, 56));
+            entries.Add(Entry("vox_grid_weights.fixed", (byte*)&s.@fixed - begin, 0, 0));
+            entries.Add(Entry("vox_grid_weights.entries", (byte*)&s.entries - begin, 8, 8));
+            entries.Add(Entry("vox_grid_weights.visits", (byte*)&s.visits - begin, 16, 16));
+            entries.Add(Entry("vox_grid_weights.found", (byte*)&s.found - begin, 24, 24));
+            entries.Add(Entry("vox_grid_weights.reads", (byte*)&s.reads - begin, 32, 32));
+            entries.Add(Entry("vox_grid_weights.occupied", (byte*)&s.occupied - begin, 40, 40));
+            entries.Add(Entry("vox_grid_weights.cells", (byte*)&s.cells - begin, 48, 48));
+        }
+
+        static void AddForeignGrid(List<LayoutEntry> entries)
+        {
+            ForeignGrid s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_foreign_grid", sizeof(ForeignGrid), 144, 128));
+            entries.Add(Entry("vox_foreign_grid.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_foreign_grid.flags", (byte*)&s.flags - begin, 4, 4));
+            entries.Add(Entry("vox_foreign_grid.content", (byte*)&s.content - begin, 8, 8));
+            entries.Add(Entry("vox_foreign_grid.look", (byte*)&s.look - begin, 12, 12));
+            entries.Add(Entry("vox_foreign_grid.held", (byte*)&s.held - begin, 16, 16));
+            entries.Add(Entry("vox_foreign_grid.asking", (byte*)&s.asking - begin, 24, 20));
+            entries.Add(Entry("vox_foreign_grid.radius", (byte*)&s.radius - begin, 32, 24));
+            entries.Add(Entry("vox_foreign_grid.least_cell_size", (byte*)&s.least_cell_size - begin, 40, 32));
+            entries.Add(Entry("vox_foreign_grid.zone_loss", (byte*)&s.zone_loss - begin, 48, 40));
+            entries.Add(Entry("vox_foreign_grid.known", (byte*)&s.known - begin, 56, 48));
+            entries.Add(Entry("vox_foreign_grid.reserved", (byte*)&s.reserved - begin, 60, 52));
+            entries.Add(Entry("vox_foreign_grid.weights", (byte*)&s.weights - begin, 64, 56));
+            entries.Add(Entry("vox_foreign_grid.allocator", (byte*)&s.allocator - begin, 120, 112));
+        }
+
+        static void AddForeignRules(List<LayoutEntry> entries)
+        {
+            ForeignRules s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_foreign_rules", sizeof(ForeignRules), 40, 40));
+            entries.Add(Entry("vox_foreign_rules.mean_edge", (byte*)&s.mean_edge - begin, 0, 0));
+            entries.Add(Entry("vox_foreign_rules.mean_box_side", (byte*)&s.mean_box_side - begin, 8, 8));
+            entries.Add(Entry("vox_foreign_rules.median_box_side", (byte*)&s.median_box_side - begin, 16, 16));
+            entries.Add(Entry("vox_foreign_rules.spacing", (byte*)&s.spacing - begin, 24, 24));
+            entries.Add(Entry("vox_foreign_rules.radius", (byte*)&s.radius - begin, 32, 32));
+        }
+
+        static void AddForeignSuggestion(List<LayoutEntry> entries)
+        {
+            ForeignSuggestion s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_foreign_suggestion", sizeof(ForeignSuggestion), 2104, 2104));
+            entries.Add(Entry("vox_foreign_suggestion.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_foreign_suggestion.warnings", (byte*)&s.warnings - begin, 4, 4));
+            entries.Add(Entry("vox_foreign_suggestion.cell_size", (byte*)&s.cell_size - begin, 8, 8));
+            entries.Add(Entry("vox_foreign_suggestion.zone_min", (byte*)&s.zone_min - begin, 16, 16));
+            entries.Add(Entry("vox_foreign_suggestion.zone_max", (byte*)&s.zone_max - begin, 24, 24));
+            entries.Add(Entry("vox_foreign_suggestion.predicted_cost", (byte*)&s.predicted_cost - begin, 32, 32));
+            entries.Add(Entry("vox_foreign_suggestion.least_cell_size", (byte*)&s.least_cell_size - begin, 40, 40));
+            entries.Add(Entry("vox_foreign_suggestion.work", (byte*)&s.work - begin, 48, 48));
+            entries.Add(Entry("vox_foreign_suggestion.weights", (byte*)&s.weights - begin, 96, 96));
+            entries.Add(Entry("vox_foreign_suggestion.rules", (byte*)&s.rules - begin, 152, 152));
+            entries.Add(Entry("vox_foreign_suggestion.rule_costs", (byte*)&s.rule_costs - begin, 192, 192));
+            entries.Add(Entry("vox_foreign_suggestion.curve", (byte*)&s.curve - begin, 232, 232));
+            entries.Add(Entry("vox_foreign_suggestion.curve_count", (byte*)&s.curve_count - begin, 1256, 1256));
+            entries.Add(Entry("vox_foreign_suggestion.term_count", (byte*)&s.term_count - begin, 1260, 1260));
+            entries.Add(Entry("vox_foreign_suggestion.terms", (byte*)&s.terms - begin, 1264, 1264));
+            entries.Add(Entry("vox_foreign_suggestion.rule", (byte*)&s.rule - begin, 1840, 1840));
+            entries.Add(Entry("vox_foreign_suggestion.reserved", (byte*)&s.reserved - begin, 1844, 1844));
+            entries.Add(Entry("vox_foreign_suggestion.note", (byte*)&s.note - begin, 1848, 1848));
+        }
+
+        static void AddGridTiming(List<LayoutEntry> entries)
+        {
+            GridTiming s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_grid_timing", sizeof(GridTiming), 16, 16));
+            entries.Add(Entry("vox_grid_timing.cell_size", (byte*)&s.cell_size - begin, 0, 0));
+            entries.Add(Entry("vox_grid_timing.seconds", (byte*)&s.seconds - begin, 8, 8));
+        }
+
+        static void AddGridFit(List<LayoutEntry> entries)
+        {
+            GridFit s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_grid_fit", sizeof(GridFit), 1392, 1392));
+            entries.Add(Entry("vox_grid_fit.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_grid_fit.warnings", (byte*)&s.warnings - begin, 4, 4));
+            entries.Add(Entry("vox_grid_fit.weights", (byte*)&s.weights - begin, 8, 8));
+            entries.Add(Entry("vox_grid_fit.residual", (byte*)&s.residual - begin, 64, 64));
+            entries.Add(Entry("vox_grid_fit.cell_size", (byte*)&s.cell_size - begin, 72, 72));
+            entries.Add(Entry("vox_grid_fit.zone_min", (byte*)&s.zone_min - begin, 80, 80));
+            entries.Add(Entry("vox_grid_fit.zone_max", (byte*)&s.zone_max - begin, 88, 88));
+            entries.Add(Entry("vox_grid_fit.predicted_seconds", (byte*)&s.predicted_seconds - begin, 96, 96));
+            entries.Add(Entry("vox_grid_fit.curve", (byte*)&s.curve - begin, 104, 104));
+            entries.Add(Entry("vox_grid_fit.curve_count", (byte*)&s.curve_count - begin, 1128, 1128));
+            entries.Add(Entry("vox_grid_fit.reserved", (byte*)&s.reserved - begin, 1132, 1132));
+            entries.Add(Entry("vox_grid_fit.note", (byte*)&s.note - begin, 1136, 1136));
+        }
+
+        static void AddTuneDesc(List<LayoutEntry> entries)
+        {
+            TuneDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_tune_desc", sizeof(TuneDesc), 48, 48));
+            entries.Add(Entry("vox_tune_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_tune_desc.most_runs", (byte*)&s.most_runs - begin, 4, 4));
+            entries.Add(Entry("vox_tune_desc.min", (byte*)&s.min - begin, 8, 8));
+            entries.Add(Entry("vox_tune_desc.max", (byte*)&s.max - begin, 16, 16));
+            entries.Add(Entry("vox_tune_desc.first", (byte*)&s.first - begin, 24, 24));
+            entries.Add(Entry("vox_tune_desc.zone_loss", (byte*)&s.zone_loss - begin, 32, 32));
+            entries.Add(Entry("vox_tune_desc.wanted_loss", (byte*)&s.wanted_loss - begin, 40, 40));
+        }
+
+        static void AddTuning(List<LayoutEntry> entries)
+        {
+            Tuning s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_tuning", sizeof(Tuning), 1912, 1912));
+            entries.Add(Entry("vox_tuning.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_tuning.warnings", (byte*)&s.warnings - begin, 4, 4));
+            entries.Add(Entry("vox_tuning.cell_size", (byte*)&s.cell_size - begin, 8, 8));
+            entries.Add(Entry("vox_tuning.zone_min", (byte*)&s.zone_min - begin, 16, 16));
+            entries.Add(Entry("vox_tuning.zone_max", (byte*)&s.zone_max - begin, 24, 24));
+            entries.Add(Entry("vox_tuning.seconds", (byte*)&s.seconds - begin, 32, 32));
+            entries.Add(Entry("vox_tuning.expected_loss", (byte*)&s.expected_loss - begin, 40, 40));
+            entries.Add(Entry("vox_tuning.noise", (byte*)&s.noise - begin, 48, 48));
+            entries.Add(Entry("vox_tuning.weights", (byte*)&s.weights - begin, 56, 56));
+            entries.Add(Entry("vox_tuning.runs", (byte*)&s.runs - begin, 112, 112));
+            entries.Add(Entry("vox_tuning.run_count", (byte*)&s.run_count - begin, 624, 624));
+            entries.Add(Entry("vox_tuning.curve_count", (byte*)&s.curve_count - begin, 628, 628));
+            entries.Add(Entry("vox_tuning.curve", (byte*)&s.curve - begin, 632, 632));
+            entries.Add(Entry("vox_tuning.note", (byte*)&s.note - begin, 1656, 1656));
+        }
+
         static void AddIoLoadDesc(List<LayoutEntry> entries)
         {
             IoLoadDesc s;
@@ -3452,6 +4044,16 @@ namespace Voxtet
             AddCostTerm(entries);
             AddCostBounds(entries);
             AddCostMinimum(entries);
+            AddPrimitives(entries);
+            AddGridWork(entries);
+            AddGridWeights(entries);
+            AddForeignGrid(entries);
+            AddForeignRules(entries);
+            AddForeignSuggestion(entries);
+            AddGridTiming(entries);
+            AddGridFit(entries);
+            AddTuneDesc(entries);
+            AddTuning(entries);
             AddIoLoadDesc(entries);
             AddIoSource(entries);
             AddIoMeshView(entries);

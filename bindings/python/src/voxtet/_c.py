@@ -22,6 +22,8 @@ VOX_NO_PAIR = 4294967295
 VOX_COST_CURVE_CAPACITY = 64
 VOX_COST_TERM_CAPACITY = 12
 VOX_CELL_SIZE_LEVEL_CAPACITY = 4
+VOX_NOTE_CAPACITY = 256
+VOX_TUNE_RUN_CAPACITY = 32
 VOX_IO_ALL_MESHES = 4294967295
 VOX_FIT_CAPACITY = 9
 
@@ -126,6 +128,63 @@ class AreaReading(enum.IntEnum):
     BOUNDARY_FACETS = 2
 
 
+class PrimitiveType(enum.IntEnum):
+    POINT = 0
+    EDGE = 1
+    TRIANGLE = 2
+    TET = 3
+    BOX = 4
+
+
+class CellContent(enum.IntEnum):
+    CELLS_HOLD_CENTRES = 0
+    CELLS_HOLD_BOXES = 1
+
+
+class CellLook(enum.IntEnum):
+    BOX = 0
+    AROUND = 1
+    PAIRS = 2
+
+
+class KnownGrid(enum.IntEnum):
+    ANY = 0
+    SORTED = 1
+    HASHED = 2
+    WARP = 3
+    IPC = 4
+    IPC_PAIRS = 5
+    VTK = 6
+    PBAT = 7
+    POINT_VOXELS = 8
+    NUMPY = 9
+
+
+class ForeignFlags(enum.IntFlag):
+    DENSE = 1
+
+
+class ForeignWarnings(enum.IntFlag):
+    WEIGHTS_UNKNOWN = 1
+    BY_RULE = 2
+    AT_LEAST_SIZE = 4
+    NO_SIZE = 8
+    ONE_PLACE = 16
+    MODEL_DISAGREES = 32
+    TIMINGS_DISAGREE = 64
+    OUT_OF_RANGE = 128
+    STOPPED = 256
+
+
+class ForeignRule(enum.IntEnum):
+    NONE = 0
+    MEAN_EDGE = 1
+    MEAN_BOX_SIDE = 2
+    MEDIAN_BOX_SIDE = 3
+    SPACING = 4
+    RADIUS = 5
+
+
 class IoFormat(enum.IntEnum):
     AUTO = 0
     GMSH = 1
@@ -165,6 +224,7 @@ dtypes: dict[str, Any] = {}
 
 vox_task = CFUNCTYPE(None, c_uint64, c_uint64, c_uint32, c_void_p)
 vox_cost_function = CFUNCTYPE(c_double, c_double, c_void_p)
+vox_grid_run = CFUNCTYPE(c_double, c_double, c_void_p)
 
 vox_allocator_allocate = CFUNCTYPE(c_void_p, c_size_t, c_size_t, c_void_p)
 vox_allocator_release = CFUNCTYPE(None, c_void_p, c_size_t, c_size_t, c_void_p)
@@ -945,6 +1005,210 @@ dtypes["vox_cost_minimum"] = dtype({
     "itemsize": 1064})
 
 
+class vox_primitives(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("type", c_int32),
+        ("positions", c_void_p),
+        ("position_byte_stride", c_uint64),
+        ("position_component_byte_stride", c_uint64),
+        ("vertex_count", c_uint64),
+        ("position_format", c_int32),
+        ("radius_format", c_int32),
+        ("indices", c_void_p),
+        ("index_byte_stride", c_uint64),
+        ("count", c_uint64),
+        ("radii", c_void_p),
+        ("radius_byte_stride", c_uint64),
+        ("radius", c_double),
+    ]
+
+
+class vox_grid_work(Structure):
+    _fields_ = [
+        ("entries", c_double),
+        ("visits", c_double),
+        ("empty", c_double),
+        ("reads", c_double),
+        ("occupied", c_double),
+        ("cells", c_double),
+    ]
+
+dtypes["vox_grid_work"] = dtype({
+    "names": ["entries", "visits", "empty", "reads", "occupied", "cells"],
+    "formats": ["f8", "f8", "f8", "f8", "f8", "f8"],
+    "offsets": [0, 8, 16, 24, 32, 40],
+    "itemsize": 48})
+
+
+class vox_grid_weights(Structure):
+    _fields_ = [
+        ("fixed", c_double),
+        ("entries", c_double),
+        ("visits", c_double),
+        ("found", c_double),
+        ("reads", c_double),
+        ("occupied", c_double),
+        ("cells", c_double),
+    ]
+
+dtypes["vox_grid_weights"] = dtype({
+    "names": ["fixed", "entries", "visits", "found", "reads", "occupied", "cells"],
+    "formats": ["f8", "f8", "f8", "f8", "f8", "f8", "f8"],
+    "offsets": [0, 8, 16, 24, 32, 40, 48],
+    "itemsize": 56})
+
+
+class vox_foreign_grid(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("flags", c_uint32),
+        ("content", c_int32),
+        ("look", c_int32),
+        ("held", POINTER(vox_primitives)),
+        ("asking", POINTER(vox_primitives)),
+        ("radius", c_double),
+        ("least_cell_size", c_double),
+        ("zone_loss", c_double),
+        ("known", c_int32),
+        ("reserved", c_uint32),
+        ("weights", vox_grid_weights),
+        ("allocator", vox_allocator),
+    ]
+
+
+class vox_foreign_rules(Structure):
+    _fields_ = [
+        ("mean_edge", c_double),
+        ("mean_box_side", c_double),
+        ("median_box_side", c_double),
+        ("spacing", c_double),
+        ("radius", c_double),
+    ]
+
+dtypes["vox_foreign_rules"] = dtype({
+    "names": ["mean_edge", "mean_box_side", "median_box_side", "spacing", "radius"],
+    "formats": ["f8", "f8", "f8", "f8", "f8"],
+    "offsets": [0, 8, 16, 24, 32],
+    "itemsize": 40})
+
+
+class vox_foreign_suggestion(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("warnings", c_uint32),
+        ("cell_size", c_double),
+        ("zone_min", c_double),
+        ("zone_max", c_double),
+        ("predicted_cost", c_double),
+        ("least_cell_size", c_double),
+        ("work", vox_grid_work),
+        ("weights", vox_grid_weights),
+        ("rules", vox_foreign_rules),
+        ("rule_costs", vox_foreign_rules),
+        ("curve", vox_cost_sample * 64),
+        ("curve_count", c_uint32),
+        ("term_count", c_uint32),
+        ("terms", vox_cost_share * 12),
+        ("rule", c_int32),
+        ("reserved", c_uint32),
+        ("note", c_char * 256),
+    ]
+
+dtypes["vox_foreign_suggestion"] = dtype({
+    "names": ["struct_size", "warnings", "cell_size", "zone_min", "zone_max", "predicted_cost", "least_cell_size",
+        "work", "weights", "rules", "rule_costs", "curve", "curve_count", "term_count", "terms", "rule", "reserved",
+        "note"],
+    "formats": ["u4", "u4", "f8", "f8", "f8", "f8", "f8", dtypes["vox_grid_work"], dtypes["vox_grid_weights"],
+        dtypes["vox_foreign_rules"], dtypes["vox_foreign_rules"], (dtypes["vox_cost_sample"], (64,)), "u4", "u4",
+        (dtypes["vox_cost_share"], (12,)), "i4", "u4", "S256"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 96, 152, 192, 232, 1256, 1260, 1264, 1840, 1844, 1848],
+    "itemsize": 2104})
+
+
+class vox_grid_timing(Structure):
+    _fields_ = [
+        ("cell_size", c_double),
+        ("seconds", c_double),
+    ]
+
+dtypes["vox_grid_timing"] = dtype({
+    "names": ["cell_size", "seconds"],
+    "formats": ["f8", "f8"],
+    "offsets": [0, 8],
+    "itemsize": 16})
+
+
+class vox_grid_fit(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("warnings", c_uint32),
+        ("weights", vox_grid_weights),
+        ("residual", c_double),
+        ("cell_size", c_double),
+        ("zone_min", c_double),
+        ("zone_max", c_double),
+        ("predicted_seconds", c_double),
+        ("curve", vox_cost_sample * 64),
+        ("curve_count", c_uint32),
+        ("reserved", c_uint32),
+        ("note", c_char * 256),
+    ]
+
+dtypes["vox_grid_fit"] = dtype({
+    "names": ["struct_size", "warnings", "weights", "residual", "cell_size", "zone_min", "zone_max",
+        "predicted_seconds", "curve", "curve_count", "reserved", "note"],
+    "formats": ["u4", "u4", dtypes["vox_grid_weights"], "f8", "f8", "f8", "f8", "f8", (dtypes["vox_cost_sample"],
+        (64,)), "u4", "u4", "S256"],
+    "offsets": [0, 4, 8, 64, 72, 80, 88, 96, 104, 1128, 1132, 1136],
+    "itemsize": 1392})
+
+
+class vox_tune_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("most_runs", c_uint32),
+        ("min", c_double),
+        ("max", c_double),
+        ("first", c_double),
+        ("zone_loss", c_double),
+        ("wanted_loss", c_double),
+    ]
+
+dtypes["vox_tune_desc"] = dtype({
+    "names": ["struct_size", "most_runs", "min", "max", "first", "zone_loss", "wanted_loss"],
+    "formats": ["u4", "u4", "f8", "f8", "f8", "f8", "f8"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40],
+    "itemsize": 48})
+
+
+class vox_tuning(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("warnings", c_uint32),
+        ("cell_size", c_double),
+        ("zone_min", c_double),
+        ("zone_max", c_double),
+        ("seconds", c_double),
+        ("expected_loss", c_double),
+        ("noise", c_double),
+        ("weights", vox_grid_weights),
+        ("runs", vox_grid_timing * 32),
+        ("run_count", c_uint32),
+        ("curve_count", c_uint32),
+        ("curve", vox_cost_sample * 64),
+        ("note", c_char * 256),
+    ]
+
+dtypes["vox_tuning"] = dtype({
+    "names": ["struct_size", "warnings", "cell_size", "zone_min", "zone_max", "seconds", "expected_loss", "noise",
+        "weights", "runs", "run_count", "curve_count", "curve", "note"],
+    "formats": ["u4", "u4", "f8", "f8", "f8", "f8", "f8", "f8", dtypes["vox_grid_weights"], (dtypes["vox_grid_timing"],
+        (32,)), "u4", "u4", (dtypes["vox_cost_sample"], (64,)), "S256"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 112, 624, 628, 632, 1656],
+    "itemsize": 1912})
+
+
 vox_io_load_desc_progress = CFUNCTYPE(c_int32, c_double, c_void_p)
 class vox_io_load_desc(Structure):
     _fields_ = [
@@ -1378,6 +1642,15 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_cost_minimise_terms": (vox_result, (c_void_p, c_uint64, POINTER(vox_cost_bounds),
             POINTER(vox_cost_minimum))),
         "vox_zone_distance": (vox_result, (c_double, c_double, c_double, c_double, POINTER(c_double))),
+        "vox_primitives_init": (vox_result, (POINTER(vox_primitives), c_uint32)),
+        "vox_foreign_grid_init": (vox_result, (POINTER(vox_foreign_grid), c_uint32)),
+        "vox_foreign_grid_set_known": (vox_result, (POINTER(vox_foreign_grid), c_int32)),
+        "vox_suggest_for": (vox_result, (POINTER(vox_foreign_grid), POINTER(vox_foreign_suggestion))),
+        "vox_count_for": (vox_result, (POINTER(vox_foreign_grid), c_double, POINTER(vox_grid_work))),
+        "vox_cost_fit": (vox_result, (POINTER(vox_foreign_grid), c_void_p, c_uint64, POINTER(vox_grid_fit))),
+        "vox_tune_desc_init": (vox_result, (POINTER(vox_tune_desc), c_uint32)),
+        "vox_cost_tune": (vox_result, (POINTER(vox_foreign_grid), POINTER(vox_tune_desc), vox_grid_run, c_void_p,
+            POINTER(vox_tuning))),
     },
     "vox_io": {
         "vox_io_load_desc_init": (vox_result, (POINTER(vox_io_load_desc), c_uint32)),

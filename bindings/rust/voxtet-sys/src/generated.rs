@@ -35,6 +35,10 @@ pub const VOX_COST_CURVE_CAPACITY: u32 = 64;
 pub const VOX_COST_TERM_CAPACITY: u32 = 12;
 /// most entries of vox_suggestion.levels
 pub const VOX_CELL_SIZE_LEVEL_CAPACITY: u32 = 4;
+/// bytes of a note, its zero included
+pub const VOX_NOTE_CAPACITY: u32 = 256;
+/// most runs of vox_cost_tune
+pub const VOX_TUNE_RUN_CAPACITY: u32 = 32;
 /// for vox_io_load_desc.mesh_index: joins all meshes of the scene
 pub const VOX_IO_ALL_MESHES: u32 = 4294967295;
 /// most coefficients of a fit
@@ -201,6 +205,93 @@ pub const VOX_AREA_TET_FACETS: vox_area_reading = 1;
 /// mean over the facets of exactly one tet
 pub const VOX_AREA_BOUNDARY_FACETS: vox_area_reading = 2;
 
+pub type vox_primitive_type = i32;
+/// one vertex
+pub const VOX_PRIMITIVE_POINT: vox_primitive_type = 0;
+/// two
+pub const VOX_PRIMITIVE_EDGE: vox_primitive_type = 1;
+/// three
+pub const VOX_PRIMITIVE_TRIANGLE: vox_primitive_type = 2;
+/// four
+pub const VOX_PRIMITIVE_TET: vox_primitive_type = 3;
+/// two: opposite corners of a box along the axes, in any order
+pub const VOX_PRIMITIVE_BOX: vox_primitive_type = 4;
+
+/// Which cells hold a primitive.
+pub type vox_cell_content = i32;
+/// the one with the centre of its box; for a point, with the point
+pub const VOX_CELLS_HOLD_CENTRES: vox_cell_content = 0;
+/// all that its box meets
+pub const VOX_CELLS_HOLD_BOXES: vox_cell_content = 1;
+
+/// Which cells a primitive that asks looks at.
+pub type vox_cell_look = i32;
+/// those that its box meets: one for a point, those of the ball's box for one with a radius
+pub const VOX_LOOK_BOX: vox_cell_look = 0;
+/// 27: the one with the centre of its box, and those around. Only with HOLD_CENTRES, and only legal where a cell is as
+/// large as the distance that matters along any axis
+pub const VOX_LOOK_AROUND: vox_cell_look = 1;
+/// nobody asks: the grid goes through the cells and pairs what is in each. With two sets, both are put into cells, and
+/// pairs are of one of each
+pub const VOX_LOOK_PAIRS: vox_cell_look = 2;
+
+/// Grids that weights are shipped for, each measured by bench/foreign.
+pub type vox_known_grid = i32;
+/// nothing is known: weights that lose least in the worst of the grids below
+pub const VOX_KNOWN_GRID_ANY: vox_known_grid = 0;
+/// a plain grid in C++: a counting sort into a dense lattice
+pub const VOX_KNOWN_GRID_SORTED: vox_known_grid = 1;
+/// a plain grid in C++: std::unordered_map from cell to list
+pub const VOX_KNOWN_GRID_HASHED: vox_known_grid = 2;
+/// NVIDIA Warp's HashGrid on the processor: points, asked by balls
+pub const VOX_KNOWN_GRID_WARP: vox_known_grid = 3;
+/// IPC Toolkit's SpatialHash: boxes in all their cells, asked by boxes
+pub const VOX_KNOWN_GRID_IPC: vox_known_grid = 4;
+/// IPC Toolkit's HashGrid: boxes in all their cells, paired cell by cell
+pub const VOX_KNOWN_GRID_IPC_PAIRS: vox_known_grid = 5;
+/// VTK's vtkStaticCellLocator: boxes in all their cells, asked by points
+pub const VOX_KNOWN_GRID_VTK: vox_known_grid = 6;
+/// PBAT's HashGrid3: centres of boxes, asked from 27 cells
+pub const VOX_KNOWN_GRID_PBAT: vox_known_grid = 7;
+/// hashed voxels of points asked by balls, as in PCL and Open3D
+pub const VOX_KNOWN_GRID_POINT_VOXELS: vox_known_grid = 8;
+/// a grid of sorted keys in numpy
+pub const VOX_KNOWN_GRID_NUMPY: vox_known_grid = 9;
+
+pub type vox_foreign_flags = u32;
+/// the grid keeps a list for each cell of the box of all that it holds
+pub const VOX_FOREIGN_DENSE: vox_foreign_flags = 1;
+
+/// What an answer was based on, combined with |. `note` says the same in words, with numbers.
+pub type vox_foreign_warnings = u32;
+/// nothing is known of the grid's times: a few timings would help
+pub const VOX_FOREIGN_WEIGHTS_UNKNOWN: vox_foreign_warnings = 1;
+/// the model says too little here: cell_size is that of `rule`
+pub const VOX_FOREIGN_BY_RULE: vox_foreign_warnings = 2;
+/// the least legal size; a smaller one would be faster
+pub const VOX_FOREIGN_AT_LEAST_SIZE: vox_foreign_warnings = 4;
+/// the primitives have no size: the cell size follows from their distances
+pub const VOX_FOREIGN_NO_SIZE: vox_foreign_warnings = 8;
+/// all are in one place: any cell size that is large enough does
+pub const VOX_FOREIGN_ONE_PLACE: vox_foreign_warnings = 16;
+/// the timings do not follow the counts of the described grid
+pub const VOX_FOREIGN_MODEL_DISAGREES: vox_foreign_warnings = 32;
+/// timings at the same cell size differ widely
+pub const VOX_FOREIGN_TIMINGS_DISAGREE: vox_foreign_warnings = 64;
+/// the best cell size is beyond those timed
+pub const VOX_FOREIGN_OUT_OF_RANGE: vox_foreign_warnings = 128;
+/// the callback stopped, or failed at a cell size
+pub const VOX_FOREIGN_STOPPED: vox_foreign_warnings = 256;
+
+pub type vox_foreign_rule = i32;
+/// the model's minimum
+pub const VOX_RULE_NONE: vox_foreign_rule = 0;
+pub const VOX_RULE_MEAN_EDGE: vox_foreign_rule = 1;
+pub const VOX_RULE_MEAN_BOX_SIDE: vox_foreign_rule = 2;
+pub const VOX_RULE_MEDIAN_BOX_SIDE: vox_foreign_rule = 3;
+pub const VOX_RULE_SPACING: vox_foreign_rule = 4;
+pub const VOX_RULE_RADIUS: vox_foreign_rule = 5;
+
 pub type vox_io_format = i32;
 /// determined from the content or, failing that, from the name's extension
 pub const VOX_IO_FORMAT_AUTO: vox_io_format = 0;
@@ -302,6 +393,12 @@ pub type vox_task = Option<unsafe extern "C" fn(begin: u64, end: u64, worker: u3
 /// vox_cost_minimise.
 #[rustfmt::skip]
 pub type vox_cost_function = Option<unsafe extern "C" fn(cell_size: f64, user: *mut c_void) -> f64>;
+
+/// Runs the caller's grid once at a cell size. Returns how many seconds that took, at least 1e-30; infinity, or more
+/// than 1e30, if it cannot run at this size (it is then tried at others, none of them further away); or a negative
+/// number or NaN to stop. Called on the thread that calls vox_cost_tune. Must not throw.
+#[rustfmt::skip]
+pub type vox_grid_run = Option<unsafe extern "C" fn(cell_size: f64, user: *mut c_void) -> f64>;
 
 /// Per-grid allocator. `allocate` returns memory of at least `size` bytes at `alignment` (a power of two), or null;
 /// `release` gets the same size and alignment back. If both are null, the C++ runtime's heap is used. They are called
@@ -1230,6 +1327,234 @@ pub struct vox_cost_minimum {
     pub zone_max: f64,
     /// over the bounds, evenly spaced in the logarithm
     pub curve: [vox_cost_sample; 64],
+}
+
+/// Primitives: each is a few vertices. Only its box counts: that of its vertices, grown by its radius on all sides.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_primitives {
+    pub struct_size: u32,
+    pub r#type: vox_primitive_type,
+    /// as in vox_mesh_desc
+    pub positions: *const c_void,
+    pub position_byte_stride: u64,
+    pub position_component_byte_stride: u64,
+    pub vertex_count: u64,
+    pub position_format: vox_format,
+    /// FLOAT3 stands for one single, DOUBLE3 for one double
+    pub radius_format: vox_format,
+    /// The vertices of each primitive: two numbers an edge or a box, three a triangle, four a tetrahedron, one a point.
+    /// Null: 0, 1, 2, and so on, without sharing.
+    pub indices: *const u32,
+    /// from one primitive to the next; 0: tightly packed
+    pub index_byte_stride: u64,
+    /// primitives, at most 2^32 - 1
+    pub count: u64,
+    /// of each primitive, >= 0
+    pub radii: *const c_void,
+    /// 0: tightly packed
+    pub radius_byte_stride: u64,
+    /// of all primitives, added to their own, >= 0; default 0
+    pub radius: f64,
+}
+
+/// What a run of a grid does at one cell size. The means over all positions of the lattice.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_grid_work {
+    /// primitives put into a cell
+    pub entries: f64,
+    /// cells looked at; with PAIRS, those that hold something
+    pub visits: f64,
+    /// visits of a cell that holds nothing
+    pub empty: f64,
+    /// entries of the cells looked at; with PAIRS, pairs in a cell
+    pub reads: f64,
+    /// cells that hold something
+    pub occupied: f64,
+    /// of the box of all that is held: cells of a dense grid
+    pub cells: f64,
+}
+
+/// Nanoseconds for one of each, >= 0.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_grid_weights {
+    /// a run, whatever the cell size
+    pub fixed: f64,
+    pub entries: f64,
+    pub visits: f64,
+    /// what a visit of a cell that holds something takes more than one of an empty cell
+    pub found: f64,
+    pub reads: f64,
+    /// making and forgetting a cell
+    pub occupied: f64,
+    /// for grids with dense storage: clearing one
+    pub cells: f64,
+}
+
+/// A uniform grid that is not this library's.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_foreign_grid {
+    pub struct_size: u32,
+    /// vox_foreign_flags, combined with |
+    pub flags: u32,
+    /// default HOLD_BOXES
+    pub content: vox_cell_content,
+    /// default BOX
+    pub look: vox_cell_look,
+    /// what is put into cells
+    pub held: *const vox_primitives,
+    /// null: those held ask themselves, each of all, itself included
+    pub asking: *const vox_primitives,
+    /// boxes that ask are larger by this on all sides, >= 0; default 0
+    pub radius: f64,
+    /// The smallest cell size that gives right answers. 0 (the default): with AROUND, half the longest side of a box
+    /// held, and half that of one that asks with its radius; otherwise none.
+    pub least_cell_size: f64,
+    /// as vox_suggest_desc.zone_loss; default 0.05
+    pub zone_loss: f64,
+    /// whose weights are used where `weights` are all 0; default ANY
+    pub known: vox_known_grid,
+    /// 0
+    pub reserved: u32,
+    /// all 0 (the default): those of `known`
+    pub weights: vox_grid_weights,
+    /// where the memory of the call comes from; default: the C++ runtime's heap
+    pub allocator: vox_allocator,
+}
+
+/// Cell sizes that other rules would choose; 0 where a rule does not apply.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_foreign_rules {
+    /// mean length of the edges of the primitives held, shared ones counted each time
+    pub mean_edge: f64,
+    /// mean of the longest sides of their boxes
+    pub mean_box_side: f64,
+    /// median of these
+    pub median_box_side: f64,
+    /// cube root of the volume of the box of all, over their number
+    pub spacing: f64,
+    /// mean radius of those that ask
+    pub radius: f64,
+}
+
+/// A cell size for a foreign grid, and the reasons for it. Costs are nanoseconds of a run.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_foreign_suggestion {
+    pub struct_size: u32,
+    /// vox_foreign_warnings
+    pub warnings: u32,
+    pub cell_size: f64,
+    /// as in vox_suggestion, and not below least_cell_size
+    pub zone_min: f64,
+    pub zone_max: f64,
+    /// at cell_size
+    pub predicted_cost: f64,
+    /// the smallest legal size; 0: any
+    pub least_cell_size: f64,
+    /// at cell_size
+    pub work: vox_grid_work,
+    /// that were used
+    pub weights: vox_grid_weights,
+    pub rules: vox_foreign_rules,
+    /// predicted cost at the cell size of each rule; 0 if it does not apply
+    pub rule_costs: vox_foreign_rules,
+    /// ascending in cell_size, evenly spaced in its logarithm
+    pub curve: [vox_cost_sample; 64],
+    pub curve_count: u32,
+    pub term_count: u32,
+    /// at cell_size; their costs add up to predicted_cost
+    pub terms: [vox_cost_share; 12],
+    /// whose size it is
+    pub rule: vox_foreign_rule,
+    pub reserved: u32,
+    /// zero-terminated; "" if there is no warning
+    pub note: [c_char; 256],
+}
+
+/// One timing of a grid: a run at this cell size took so long.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_grid_timing {
+    /// > 0
+    pub cell_size: f64,
+    /// 1e-30 to 1e30
+    pub seconds: f64,
+}
+
+/// Weights from timings, and the cell size they lead to.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_grid_fit {
+    pub struct_size: u32,
+    /// vox_foreign_warnings
+    pub warnings: u32,
+    /// >= 0; the best fit to the timings. To be put into vox_foreign_grid.weights, also for other scenes of the same
+    /// grid
+    pub weights: vox_grid_weights,
+    /// root mean square of (fitted time / measured time - 1) over the timings
+    pub residual: f64,
+    pub cell_size: f64,
+    pub zone_min: f64,
+    pub zone_max: f64,
+    /// at cell_size
+    pub predicted_seconds: f64,
+    /// in seconds
+    pub curve: [vox_cost_sample; 64],
+    pub curve_count: u32,
+    pub reserved: u32,
+    pub note: [c_char; 256],
+}
+
+/// How to tune.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_tune_desc {
+    pub struct_size: u32,
+    /// 3 to VOX_TUNE_RUN_CAPACITY; default 7
+    pub most_runs: u32,
+    /// cell sizes to try, 0 < min <= max; both 0 (the default): an eighth to eight times the first
+    pub min: f64,
+    pub max: f64,
+    /// the cell size to begin with; 0 (the default): what vox_suggest_for says. Must be set where there is no grid
+    pub first: f64,
+    /// as vox_suggest_desc.zone_loss; default 0.05
+    pub zone_loss: f64,
+    /// stops where the cell size is within this of the best one, as far as it can tell; default 0.02
+    pub wanted_loss: f64,
+}
+
+/// What tuning found.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_tuning {
+    pub struct_size: u32,
+    /// vox_foreign_warnings
+    pub warnings: u32,
+    pub cell_size: f64,
+    pub zone_min: f64,
+    pub zone_max: f64,
+    /// of a run at cell_size, as fitted
+    pub seconds: f64,
+    /// how much longer a run may take than at the best cell size, as far as it can tell: 0.03 for 3 %. The most by any
+    /// of several fits: without each of the timings, and with each moved by the noise. Infinite if only one cell size
+    /// of several was timed
+    pub expected_loss: f64,
+    /// relative: how far timings are from the fitted curve, root mean square
+    pub noise: f64,
+    /// as in vox_grid_fit; all 0 where there is no grid
+    pub weights: vox_grid_weights,
+    /// run_count runs, in order; seconds may be infinite
+    pub runs: [vox_grid_timing; 32],
+    pub run_count: u32,
+    pub curve_count: u32,
+    /// in seconds
+    pub curve: [vox_cost_sample; 64],
+    pub note: [c_char; 256],
 }
 
 #[repr(C)]
@@ -2355,6 +2680,62 @@ extern "C" {
         n_max: f64,
         out_epsilon: *mut f64,
     ) -> vox_result;
+    /// Fills `primitives` with the defaults for the fields that `struct_size` covers.
+    pub fn vox_primitives_init(primitives: *mut vox_primitives, struct_size: u32) -> vox_result;
+    /// Fills `grid` with the defaults for the fields that `struct_size` covers; `held` is null and must be set.
+    pub fn vox_foreign_grid_init(grid: *mut vox_foreign_grid, struct_size: u32) -> vox_result;
+    /// Sets what is known of a grid that people have: content, look, flags, known, weights. Other fields keep their
+    /// values. Set grid->struct_size first, e.g. by vox_foreign_grid_init. Errors: INVALID_ARGUMENT.
+    pub fn vox_foreign_grid_set_known(
+        grid: *mut vox_foreign_grid,
+        known: vox_known_grid,
+    ) -> vox_result;
+    /// The cell size that costs this grid least. Set out->struct_size first; the fields it covers are written. Works on
+    /// a sample of the primitives where there are many (docs/your-own-grid.md has its loss). Memory (from
+    /// grid->allocator, released at the end of the call) in proportion to the sample. Errors: INVALID_ARGUMENT (also
+    /// for no primitive, or AROUND with HOLD_BOXES), INVALID_MESH (a primitive names a vertex that does not exist),
+    /// NON_FINITE, LIMIT, OUT_OF_MEMORY.
+    pub fn vox_suggest_for(
+        grid: *const vox_foreign_grid,
+        out: *mut vox_foreign_suggestion,
+    ) -> vox_result;
+    /// What a run of this grid does at one cell size. Errors: as vox_suggest_for; also INVALID_ARGUMENT for a cell size
+    /// that is not a finite number above 0.
+    pub fn vox_count_for(
+        grid: *const vox_foreign_grid,
+        cell_size: f64,
+        out: *mut vox_grid_work,
+    ) -> vox_result;
+    /// Fits the weights of a grid to timings of the whole run at three different cell sizes or more (0.6, 1.2 and 2.4
+    /// mean edges do), by non-negative least squares, and minimises the cost, from the smallest size timed over 1.5 to
+    /// 1.5 times the largest. Of several timings at one cell size the shortest counts. Slow timings count less than
+    /// fast ones, and less still if they are far above the fit. What few timings cannot tell apart is divided as in the
+    /// weights that the grid has (`weights`, else `known`). Errors: as vox_suggest_for; also INVALID_ARGUMENT for fewer
+    /// than three different cell sizes (those within a millionth are one), sizes below the least legal one, and timings
+    /// out of their range.
+    pub fn vox_cost_fit(
+        grid: *const vox_foreign_grid,
+        timings: *const vox_grid_timing,
+        count: u64,
+        out: *mut vox_grid_fit,
+    ) -> vox_result;
+    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
+    pub fn vox_tune_desc_init(desc: *mut vox_tune_desc, struct_size: u32) -> vox_result;
+    /// Finds the best cell size by running the grid: at three cell sizes an octave apart first, then where the fit to
+    /// all timings so far is lowest or least sure, which may be where it was run before, until that is sure enough
+    /// (desc->wanted_loss, after four runs at the earliest) or desc->most_runs are made. The answer is never beyond the
+    /// sizes that were run. The same times give the same runs and the same answer, bit for bit. grid: what is known of
+    /// it; null: nothing, so the curve is a sum of powers of the cell size, and desc->first must be set. desc null:
+    /// defaults. If the callback stops, or cannot run at a size, the answer is from the other runs, with a warning.
+    /// Errors: as vox_suggest_for; also INVALID_STATE if no run succeeded, INVALID_ARGUMENT for a run of less than
+    /// 1e-30 seconds, as a clock that is too coarse gives.
+    pub fn vox_cost_tune(
+        grid: *const vox_foreign_grid,
+        desc: *const vox_tune_desc,
+        run: vox_grid_run,
+        user: *mut c_void,
+        out: *mut vox_tuning,
+    ) -> vox_result;
 }
 
 #[cfg(feature = "io")]
@@ -2777,6 +3158,34 @@ layouts! {
         max: [16, 16], zone_loss: [24, 24] }
     vox_cost_minimum: size [1064, 1064], alignment [8, 8], { struct_size: [0, 0], curve_count: [4, 4],
         cell_size: [8, 8], cost: [16, 16], zone_min: [24, 24], zone_max: [32, 32], curve: [40, 40] }
+    vox_primitives: size [96, 96], alignment [8, 8], { struct_size: [0, 0], r#type: [4, 4], positions: [8, 8],
+        position_byte_stride: [16, 16], position_component_byte_stride: [24, 24], vertex_count: [32, 32],
+        position_format: [40, 40], radius_format: [44, 44], indices: [48, 48], index_byte_stride: [56, 56],
+        count: [64, 64], radii: [72, 72], radius_byte_stride: [80, 80], radius: [88, 88] }
+    vox_grid_work: size [48, 48], alignment [8, 8], { entries: [0, 0], visits: [8, 8], empty: [16, 16], reads: [24, 24],
+        occupied: [32, 32], cells: [40, 40] }
+    vox_grid_weights: size [56, 56], alignment [8, 8], { fixed: [0, 0], entries: [8, 8], visits: [16, 16],
+        found: [24, 24], reads: [32, 32], occupied: [40, 40], cells: [48, 48] }
+    vox_foreign_grid: size [144, 128], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], content: [8, 8],
+        look: [12, 12], held: [16, 16], asking: [24, 20], radius: [32, 24], least_cell_size: [40, 32],
+        zone_loss: [48, 40], known: [56, 48], reserved: [60, 52], weights: [64, 56], allocator: [120, 112] }
+    vox_foreign_rules: size [40, 40], alignment [8, 8], { mean_edge: [0, 0], mean_box_side: [8, 8],
+        median_box_side: [16, 16], spacing: [24, 24], radius: [32, 32] }
+    vox_foreign_suggestion: size [2104, 2104], alignment [8, 8], { struct_size: [0, 0], warnings: [4, 4],
+        cell_size: [8, 8], zone_min: [16, 16], zone_max: [24, 24], predicted_cost: [32, 32], least_cell_size: [40, 40],
+        work: [48, 48], weights: [96, 96], rules: [152, 152], rule_costs: [192, 192], curve: [232, 232],
+        curve_count: [1256, 1256], term_count: [1260, 1260], terms: [1264, 1264], rule: [1840, 1840],
+        reserved: [1844, 1844], note: [1848, 1848] }
+    vox_grid_timing: size [16, 16], alignment [8, 8], { cell_size: [0, 0], seconds: [8, 8] }
+    vox_grid_fit: size [1392, 1392], alignment [8, 8], { struct_size: [0, 0], warnings: [4, 4], weights: [8, 8],
+        residual: [64, 64], cell_size: [72, 72], zone_min: [80, 80], zone_max: [88, 88], predicted_seconds: [96, 96],
+        curve: [104, 104], curve_count: [1128, 1128], reserved: [1132, 1132], note: [1136, 1136] }
+    vox_tune_desc: size [48, 48], alignment [8, 8], { struct_size: [0, 0], most_runs: [4, 4], min: [8, 8],
+        max: [16, 16], first: [24, 24], zone_loss: [32, 32], wanted_loss: [40, 40] }
+    vox_tuning: size [1912, 1912], alignment [8, 8], { struct_size: [0, 0], warnings: [4, 4], cell_size: [8, 8],
+        zone_min: [16, 16], zone_max: [24, 24], seconds: [32, 32], expected_loss: [40, 40], noise: [48, 48],
+        weights: [56, 56], runs: [112, 112], run_count: [624, 624], curve_count: [628, 628], curve: [632, 632],
+        note: [1656, 1656] }
     vox_io_load_desc: size [56, 36], alignment [8, 4], { struct_size: [0, 0], format: [4, 4], mesh_index: [8, 8],
         reserved: [12, 12], allocator: [16, 16], progress: [40, 28], progress_user: [48, 32] }
     vox_io_source: size [24, 12], alignment [8, 4], { name: [0, 0], data: [8, 4], size: [16, 8] }
