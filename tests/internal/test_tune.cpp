@@ -144,7 +144,7 @@ START_TEST(fit_of_three_timings) {
             ck_assert_double_ge(fit.curve[i].cost, 0);
         losses.push_back(cost(fit.cell_size) / least_cost(cost, 1) - 1);
         // Where the best size is beyond those timed, it says so.
-        ck_assert_double_le(losses.back(), fit.warnings & VOX_FOREIGN_OUT_OF_RANGE ? 0.15 : 0.04);
+        ck_assert_double_le(losses.back(), fit.warnings & VOX_FOREIGN_OUT_OF_RANGE ? 0.25 : 0.04);
     }
     std::sort(losses.begin(), losses.end());
     ck_assert_double_le(losses[losses.size() / 2], 0.01);
