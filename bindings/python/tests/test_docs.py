@@ -14,7 +14,7 @@ OPTIONAL = {"matplotlib", "meshio", "pyvista", "trimesh"}
 
 
 def modules():
-    for name in ("errors", "grid", "mesh", "queries", "results", "suggest", "locate", "io", "sim", "experiment"):
+    for name in ("errors", "grid", "mesh", "queries", "results", "suggest", "foreign", "locate", "io", "sim", "experiment"):
         try:
             yield importlib.import_module("voxtet." + name)
         except ImportError as missing:

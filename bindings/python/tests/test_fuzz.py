@@ -77,7 +77,14 @@ FREE = [lambda v: voxtet.Grid(v()), lambda v: voxtet.Grid(workers=v()), lambda v
         lambda v: voxtet.Grid.from_snapshot(v()), lambda v: voxtet.suggest_cell_size(v(), v(), model=v()),
         lambda v: voxtet.suggest_cell_size(v()), lambda v: voxtet.predict(v(), v(), v()), lambda v: voxtet.minimise(v(), v(), v()),
         lambda v: voxtet.zone_distance(v(), v(), v(), v()), lambda v: voxtet.locate(v(), v(), v()), lambda v: voxtet.step_all(v()),
-        lambda v: voxtet.contacts_of_all(v()), lambda v: voxtet.set_weights(v())]
+        lambda v: voxtet.contacts_of_all(v()), lambda v: voxtet.set_weights(v()),
+        lambda v: voxtet.suggest_for(v()), lambda v: voxtet.suggest_for(v(), v(), radius=v()), lambda v: voxtet.count_for(v(), v()),
+        lambda v: voxtet.suggest_for((v(), v()), known=v()), lambda v: voxtet.Primitives.boxes(v(), v(), radii=v()),
+        lambda v: voxtet.suggest_for(voxtet.Primitives(v(), v(), radii=v(), radius=v()), content=v(), look=v(), dense=v()),
+        lambda v: voxtet.suggest_for(v(), weights=v(), least_cell_size=v(), zone_loss=v()),
+        lambda v: voxtet.cost_fit(v(), v()), lambda v: voxtet.cost_fit([(v(), v()) for _ in range(3)], v()),
+        lambda v: voxtet.tune(v(), v(), first=v()), lambda v: voxtet.tune(lambda size: v(), first=v() or 1, most_runs=v()),
+        lambda v: voxtet.tune(lambda size: v(), first=1)]
 
 
 class Fuzz(unittest.TestCase):

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ._c import (AreaReading, CostModel, Engine, GridFlags, Hash, PenetrationState, ReadingFlags, Result, Side, SizeReading,
-                 Storage, Touch)
+from ._c import (AreaReading, CellLook, CostModel, Engine, ForeignRule, ForeignWarnings, GridFlags, Hash, KnownGrid,
+                 PenetrationState, ReadingFlags, Result, Side, SizeReading, Storage, Touch)
 from ._library import vox as _vox
 from .errors import (BudgetError, FileError, FormatError, InternalError, InvalidArgumentError, InvalidHandleError,
                      InvalidMeshError, InvalidStateError, LimitError, MissingFileError, NonFiniteError, OutOfMemoryError,
                      UnsupportedError, VoxError)
+from .foreign import (CostFit, ForeignGrid, ForeignRules, ForeignSuggestion, GridWeights, GridWork, Primitives, Timing, Tuning,
+                      cost_fit, count_for, suggest_for, tune)
 from .grid import Counters, Failure, Grid, Profile, contacts_of_all, step_all
 from .locate import Located, Locator, locate
 from .mesh import Filter, Mesh, MeshInfo

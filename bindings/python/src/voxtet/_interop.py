@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from .mesh import Mesh
 
+_VTK_TRIANGLE = 5
 _VTK_TETRA = 10
 
 
@@ -45,3 +46,23 @@ def triangles_of(mesh: Any) -> tuple[Any, Any]:
 
 def _three_columns(points: Any) -> Any:
     return points if points.dtype in (np.float32, np.float64) else points.astype(np.float64)
+
+
+def primitives_of(mesh: Any) -> tuple[Any, Any]:
+    """Positions and indices: tetrahedra, else triangles, else None, for a cloud of points."""
+    if isinstance(mesh, Mesh) or hasattr(mesh, "positions") and hasattr(mesh, "tets"):
+        points, tets, _ = arrays_of(mesh)
+        triangles = getattr(mesh, "triangles", ())
+        return points, tets if len(tets) else triangles if len(triangles) else None
+    if hasattr(mesh, "regular_faces"):  # pyvista.PolyData
+        return triangles_of(mesh) if len(mesh.faces) else (np.asarray(mesh.points), None)
+    if hasattr(mesh, "celltypes") and hasattr(mesh, "points"):  # pyvista.UnstructuredGrid
+        cells = mesh.cells_dict
+        return np.asarray(mesh.points), next((cells[kind] for kind in (_VTK_TETRA, _VTK_TRIANGLE) if kind in cells), None)
+    if hasattr(mesh, "cells_dict") and hasattr(mesh, "points"):  # meshio.Mesh
+        cells = mesh.cells_dict
+        return _three_columns(mesh.points), next((cells[kind] for kind in ("tetra", "triangle") if kind in cells), None)
+    if hasattr(mesh, "vertices"):  # trimesh
+        return triangles_of(mesh) if hasattr(mesh, "faces") else (np.asarray(mesh.vertices, np.float64), None)
+    raise TypeError(f"{type(mesh).__name__} is not known; give points, positions and indices, voxtet.Primitives, or a mesh of "
+                    "pyvista, meshio, trimesh or voxtet.io")

@@ -74,16 +74,18 @@ class Stats(NamedTuple):
     bounds_max: tuple[float, float, float]
 
 
-def _curve(out: Any) -> Curve:
+def curve_of(out: Any) -> Curve:
+    """The curve of an answer of the library."""
     return np.ctypeslib.as_array(out.curve)[:out.curve_count].astype(_DTYPE_SAMPLE).view(Curve)
 
 
-def _terms(out: Any) -> Terms:
+def terms_of(out: Any) -> Terms:
+    """The terms of an answer of the library."""
     return np.array([(t.name.decode(), t.count, t.cost, t.share) for t in out.terms[:out.term_count]],
                     _DTYPE_TERM).view(Terms)
 
 
-class _Plotted:
+class Plotted:
     """Draws a cost curve with its minimum and zone."""
 
     cell_size: float
@@ -109,6 +111,12 @@ class _Plotted:
         ax.set_ylabel(self._unit())
         ax.legend()
 
+    @staticmethod
+    def _draw_rules(ax: Axes, rules: Any, costs: Any) -> None:
+        for name, size, cost in zip(rules._fields, rules, costs):
+            if size > 0 and cost > 0:
+                ax.plot([size], [cost], "o", markersize=4, label=name.replace("_", " "))
+
     def _repr_png_(self) -> Optional[bytes]:
         """For notebooks; nothing where matplotlib is not installed."""
         try:
@@ -124,7 +132,7 @@ class _Plotted:
         return png.getvalue()
 
 
-class Suggestion(_Plotted):
+class Suggestion(Plotted):
     """A cell size and the reasons for it. Costs are in cell visits for each tetrahedron (paper), or nanoseconds of a
     step."""
 
@@ -137,8 +145,8 @@ class Suggestion(_Plotted):
         self.rules = values_of(Rules, out.rules)
         self.rule_costs = values_of(Rules, out.rule_costs)
         self.stats = values_of(Stats, out.stats)
-        self.curve = _curve(out)
-        self.terms = _terms(out)
+        self.curve = curve_of(out)
+        self.terms = terms_of(out)
         self.budget_cell_size: float = out.budget_cell_size
         self.uniform_loss: float = out.uniform_loss
         self.levels: tuple[float, ...] = tuple(out.levels[:out.level_count])
@@ -151,20 +159,18 @@ class Suggestion(_Plotted):
         return "cell visits a tetrahedron" if self.model == _c.CostModel.PAPER else "nanoseconds of a step"
 
     def _draw(self, ax: Axes) -> None:
-        for name, size, cost in zip(Rules._fields, self.rules, self.rule_costs):
-            if size > 0 and cost > 0:
-                ax.plot([size], [cost], "o", markersize=4, label=name.replace("_", " "))
+        self._draw_rules(ax, self.rules, self.rule_costs)
         super()._draw(ax)
 
 
-class Minimum(_Plotted):
+class Minimum(Plotted):
     """The cell size of least cost, and the zone around it."""
 
     def __init__(self, out: Any) -> None:
         self.cell_size: float = out.cell_size
         self.cost: float = out.cost
         self.zone: tuple[float, float] = (out.zone_min, out.zone_max)
-        self.curve = _curve(out)
+        self.curve = curve_of(out)
 
     def __repr__(self) -> str:
         return (f"<voxtet.Minimum: cell size {self.cell_size:.6g}, cost {self.cost:.6g}, zone {self.zone[0]:.6g} to "
@@ -177,7 +183,7 @@ class Prediction:
     def __init__(self, out: Any) -> None:
         self.cell_size: float = out.cell_size
         self.cost: float = out.cost
-        self.terms = _terms(out)
+        self.terms = terms_of(out)
 
     def __repr__(self) -> str:
         return f"<voxtet.Prediction: cost {self.cost:.6g} at cell size {self.cell_size:.6g}>"
