@@ -340,17 +340,20 @@ double ForeignWork::occupied_of_few(double d, double cells_there) const {
     double found = 0;
     for (std::size_t p = 0; p < positions; ++p) {
         double first[3];
+        int along[3]; // few: steps of d itself may be below the rounding of a position
         for (int a = 0; a < 3; ++a) {
             place[a] += step[a] - static_cast<double>(place[a] + step[a] >= 1);
             first[a] = all.lo[a] - place[a] * d;
+            along[a] = static_cast<int>((all.hi[a] - first[a]) / d) + 1;
         }
-        double lo[3];
-        for (lo[0] = first[0]; lo[0] <= all.hi[0]; lo[0] += d)
-            for (lo[1] = first[1]; lo[1] <= all.hi[1]; lo[1] += d)
-                for (lo[2] = first[2]; lo[2] <= all.hi[2]; lo[2] += d)
+        for (int x = 0; x < along[0]; ++x)
+            for (int y = 0; y < along[1]; ++y)
+                for (int z = 0; z < along[2]; ++z) {
+                    const double lo[3] = {first[0] + x * d, first[1] + y * d, first[2] + z * d};
                     found += held_.meets_any(lo, d) || (both && asking_.meets_any(lo, d));
+                }
     }
-    return found / static_cast<double>(positions);
+    return std::max(found / static_cast<double>(positions), 1.0);
 }
 
 double ForeignWork::occupied_share(double d) {

@@ -254,6 +254,9 @@ START_TEST(all_in_one_place) {
         const vox_grid_work work = count(&grid, found.cell_size);
         ck_assert_double_eq(work.occupied, 1);
         ck_assert_double_eq(work.entries, 50);
+        const vox_grid_work tiny = count(&grid, 1e-300); /* far below the rounding of the positions */
+        ck_assert_double_eq(tiny.occupied, 1);
+        ck_assert_double_eq(tiny.entries, 50);
     }
 }
 END_TEST
