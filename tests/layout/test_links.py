@@ -1,5 +1,5 @@
 """Every link in the Markdown files leads to a file of the repository, and to a heading that is there; every path of the
-repository that a document names exists."""
+repository that a document names exists. A program that a page quotes from a file, <!-- FILE --> before it, is that file."""
 
 import os
 import re
@@ -83,6 +83,12 @@ def unknown_names(text, code):
             yield text.count("\n", 0, match.start()) + 1, match[0][1:]
 
 
+def quotes_that_differ(path, text, text_at):
+    for match in re.finditer(r"^<!-- (\S+\.\w+) -->\n```\w*\n(.*?)^```$", text, flags=re.S | re.M):
+        if match[2] != text_at(match[1]):
+            yield f"{path}:{text.count(chr(10), 0, match.start()) + 1}: what is quoted is not {match[1]}"
+
+
 class Links(unittest.TestCase):
     def test_repository(self):
         found = [fault for path in files(".md") for fault in faults_of(path, text_of(path), in_repository, text_or_names)]
@@ -90,6 +96,14 @@ class Links(unittest.TestCase):
         found += faults_of("docs/paper.md.in", text_of("bench/paper/paper.md.in"), in_repository, text_or_names)
         if found:
             self.fail("\n" + "\n".join(found))
+
+    def test_quotes(self):
+        found = [fault for path in files(".md") for fault in quotes_that_differ(path, text_of(path), text_of)]
+        self.assertEqual(found, [])
+        page, tree = "x\n<!-- a/b.c -->\n```c\nint a;\n```\n", {"a/b.c": "int a;\n", "c.c": "int b;\n"}
+        self.assertEqual(list(quotes_that_differ("d.md", page, tree.__getitem__)), [])
+        self.assertEqual(list(quotes_that_differ("d.md", page.replace("a/b.c", "c.c"), tree.__getitem__)),
+                         ["d.md:2: what is quoted is not c.c"])
 
     def test_names_of_code_exist(self):
         code = "".join(text_of(path) for folder in ("src", "include") for path in files(".hpp", ".cpp", under=folder))
