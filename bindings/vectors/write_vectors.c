@@ -373,6 +373,163 @@ static void suggest(const scene* s, vox_cost_model model) {
     end_call();
 }
 
+/* ---- grids of other programs ---- */
+
+/* The arrays of many calls are the same, and are stored once. */
+static uint64_t store_once(const void* data, size_t size) {
+    enum { most = 32 };
+    static struct { uint64_t hash, size, offset; } stored[most];
+    static int count;
+    const uint64_t hash = hash_words(data, size);
+    for (int i = 0; i < count; ++i)
+        if (stored[i].hash == hash && stored[i].size == size) return stored[i].offset;
+    const uint64_t offset = store(data, size);
+    if (count < most) {
+        stored[count].hash = hash;
+        stored[count].size = size;
+        stored[count++].offset = offset;
+    }
+    return offset;
+}
+
+/* What is put into a grid, or asks it. */
+static void primitives_field(const char* name, const vox_primitives* p) {
+    static const uint64_t vertices_of[] = {1, 2, 3, 4, 2};
+    const uint64_t number = p->position_format == VOX_FORMAT_DOUBLE3 ? sizeof(double) : sizeof(float);
+    fprintf(script,
+            ", \"%s\": {\"type\": %d, \"format\": %d, \"positions\": %" PRIu64 ", \"vertices\": %" PRIu64,
+            name, (int)p->type, (int)p->position_format,
+            store_once(p->positions, 3 * number * p->vertex_count), p->vertex_count);
+    if (p->indices) {
+        const uint64_t size = p->count * vertices_of[p->type];
+        field("indices", "%" PRIu64, store_once(p->indices, sizeof(uint32_t) * size));
+        field("count", "%" PRIu64, size);
+    }
+    if (p->radii) field("radii", "%" PRIu64, store_once(p->radii, sizeof(double) * p->count));
+    field("radius", "%.17g", p->radius);
+    fprintf(script, "}");
+}
+
+/* What differs from what is known of the grid. */
+static void foreign_fields(const vox_foreign_grid* g) {
+    primitives_field("held", g->held);
+    if (g->asking) primitives_field("asking", g->asking);
+    vox_foreign_grid known = vox_default_foreign_grid();
+    expect(vox_foreign_grid_set_known(&known, g->known), "known");
+    field("known", "%d", (int)g->known);
+    if (g->content != known.content) field("content", "%d", (int)g->content);
+    if (g->look != known.look) field("look", "%d", (int)g->look);
+    if (g->flags != known.flags) field("dense", "%d", g->flags & VOX_FOREIGN_DENSE ? 1 : 0);
+    const vox_grid_weights* w = &g->weights;
+    const double weights[7] = {w->fixed, w->entries, w->visits, w->found, w->reads, w->occupied, w->cells};
+    if (memcmp(w, &known.weights, sizeof *w) != 0) numbers_field("weights", weights, 7);
+    field("radius", "%.17g", g->radius);
+    field("least_cell_size", "%.17g", g->least_cell_size);
+    field("zone_loss", "%.17g", g->zone_loss);
+}
+
+/* Numbers to nine digits, as those of suggest(). */
+static void size_fields(double cell_size, double zone_min, double zone_max, uint32_t warnings,
+                        const char* note) {
+    field("cell_size", "%.9g", cell_size);
+    field("zone_min", "%.9g", zone_min);
+    field("zone_max", "%.9g", zone_max);
+    field("warnings", "%u", warnings);
+    field("note", "\"%s\"", note);
+}
+
+static void suggest_for(const vox_foreign_grid* g) {
+    vox_foreign_suggestion found;
+    found.struct_size = sizeof found;
+    begin_call("suggest_for");
+    foreign_fields(g);
+    const vox_result result = vox_suggest_for(g, &found);
+    if (result == VOX_OK) {
+        size_fields(found.cell_size, found.zone_min, found.zone_max, found.warnings, found.note);
+        field("predicted_cost", "%.9g", found.predicted_cost);
+        field("legal_cell_size", "%.9g", found.least_cell_size);
+        field("rule", "%d", (int)found.rule);
+        field("mean_box_side", "%.9g", found.rules.mean_box_side);
+        field("curve_count", "%u", found.curve_count);
+    }
+    finish(result);
+}
+
+static void count_for(const vox_foreign_grid* g, double at) {
+    vox_grid_work work = {0, 0, 0, 0, 0, 0};
+    begin_call("count_for");
+    foreign_fields(g);
+    field("at", "%.17g", at);
+    const vox_result result = vox_count_for(g, at, &work);
+    if (result == VOX_OK) {
+        const double counts[6] = {work.entries, work.visits,   work.empty,
+                                  work.reads,   work.occupied, work.cells};
+        fprintf(script, ", \"work\": [");
+        for (int i = 0; i < 6; ++i) fprintf(script, "%s%.9g", i ? ", " : "", counts[i]);
+        fprintf(script, "]");
+    }
+    finish(result);
+}
+
+static void cost_fit(const vox_foreign_grid* g, const vox_grid_timing* timings, int count) {
+    vox_grid_fit fit;
+    fit.struct_size = sizeof fit;
+    begin_call("cost_fit");
+    foreign_fields(g);
+    fprintf(script, ", \"timings\": [");
+    for (int i = 0; i < count; ++i)
+        fprintf(script, "%s[%.17g, %.17g]", i ? ", " : "", timings[i].cell_size, timings[i].seconds);
+    fprintf(script, "]");
+    const vox_result result = vox_cost_fit(g, timings, (uint64_t)count, &fit);
+    if (result == VOX_OK) {
+        size_fields(fit.cell_size, fit.zone_min, fit.zone_max, fit.warnings, fit.note);
+        field("predicted_seconds", "%.9g", fit.predicted_seconds);
+        field("curve_count", "%u", fit.curve_count);
+    }
+    finish(result);
+}
+
+/* Stands for a program that is timed. */
+typedef struct made_up_run {
+    double fixed, falls, grows; /* seconds: fixed + falls / d^2 + grows * d^2 */
+    double fails_below;         /* it cannot run at smaller cell sizes */
+    int stops_after;            /* so many runs; 0: never */
+    int runs;
+} made_up_run;
+
+static double run_made_up(double d, void* user) {
+    made_up_run* r = (made_up_run*)user;
+    if (r->stops_after && ++r->runs > r->stops_after) return -1;
+    if (d < r->fails_below) return INFINITY;
+    return r->fixed + r->falls / (d * d) + r->grows * (d * d);
+}
+
+/* grid null: nothing is known of it. */
+static void cost_tune(const vox_foreign_grid* g, double first, uint32_t most_runs, made_up_run run) {
+    vox_tuning found;
+    vox_tune_desc desc = vox_default_tune_desc();
+    found.struct_size = sizeof found;
+    desc.first = first;
+    desc.most_runs = most_runs;
+    begin_call("cost_tune");
+    if (g) foreign_fields(g);
+    field("first", "%.17g", first);
+    field("most_runs", "%u", most_runs);
+    field("run", "[%.17g, %.17g, %.17g]", run.fixed, run.falls, run.grows);
+    field("fails_below", "%.17g", run.fails_below);
+    field("stops_after", "%d", run.stops_after);
+    const vox_result result = vox_cost_tune(g, &desc, run_made_up, &run, &found);
+    if (result == VOX_OK) {
+        size_fields(found.cell_size, found.zone_min, found.zone_max, found.warnings, found.note);
+        field("seconds", "%.9g", found.seconds);
+        fprintf(script, ", \"runs\": [");
+        for (uint32_t i = 0; i < found.run_count; ++i)
+            fprintf(script, "%s%.9g", i ? ", " : "", found.runs[i].cell_size);
+        fprintf(script, "]");
+    }
+    finish(result);
+}
+
 static void transform(vox_mesh mesh, const double matrix[12]) {
     begin_call("set_transform");
     field("mesh", "%u", mesh);
@@ -681,6 +838,118 @@ static void suggestions(void) {
     free_scene(&s);
 }
 
+static vox_primitives primitives_of(const body* b, vox_primitive_type type) {
+    vox_primitives p = vox_default_primitives();
+    p.type = type;
+    p.positions = b->positions;
+    p.vertex_count = b->vertex_count;
+    p.count = b->vertex_count;
+    if (type == VOX_PRIMITIVE_TET) {
+        p.indices = b->tets;
+        p.count = b->tet_count;
+    }
+    return p;
+}
+
+/* The cell size for grids that are not this library's, and what is refused there. */
+static void foreign_grids(void) {
+    enum { grids = 4 };
+    static const vox_known_grid known[grids] = {VOX_KNOWN_GRID_SORTED, VOX_KNOWN_GRID_WARP,
+                                                VOX_KNOWN_GRID_IPC_PAIRS, VOX_KNOWN_GRID_ANY};
+    static scene s;
+    vox_grid_timing timings[4] = {{1.5, 7.25e-5}, {3, 5.04e-5}, {6, 9.98e-5}, {12, 2.51e-4}};
+    double radii[16];
+    begin_scene("foreign grids",
+                "the cell size for grids of other programs, by description, timings and runs", 0, 0);
+    make_pair(&s, 3);
+    pose_scene(&s, 0);
+    body* first = &s.bodies[0];
+    vox_primitives tets = primitives_of(first, VOX_PRIMITIVE_TET);
+    vox_primitives points = primitives_of(&s.bodies[1], VOX_PRIMITIVE_POINT);
+    vox_foreign_grid g = vox_default_foreign_grid();
+    g.held = &tets;
+    g.asking = &points;
+    expect(vox_foreign_grid_set_known(&g, VOX_KNOWN_GRID_HASHED), "known");
+    const vox_grid_weights weights = {100, 20, 9, 5, 3, 40, 0};
+    g.weights = weights;
+    suggest_for(&g);
+    count_for(&g, 0.75);
+    count_for(&g, 3);
+    cost_fit(&g, timings, 4);
+    timings[2].seconds *= 3;
+    cost_fit(&g, timings, 4);
+    g.flags = VOX_FOREIGN_DENSE;
+    g.weights.cells = 0.5;
+    suggest_for(&g);
+    for (int i = 0; i < grids; ++i) {
+        g.radius = 0.25 * i;
+        g.asking = i == 2 ? NULL : &points;
+        expect(vox_foreign_grid_set_known(&g, known[i]), "known");
+        suggest_for(&g);
+    }
+    /* Points with radii, in doubles, from 27 cells. */
+    double* doubles = as_doubles(&s.bodies[1]);
+    points.positions = doubles;
+    points.position_format = VOX_FORMAT_DOUBLE3;
+    points.count = points.vertex_count = 16;
+    for (int i = 0; i < 16; ++i) radii[i] = 0.125 * (i % 3);
+    points.radii = radii;
+    points.radius_format = VOX_FORMAT_DOUBLE3;
+    points.radius = 0.5;
+    g = vox_default_foreign_grid();
+    g.held = &points;
+    expect(vox_foreign_grid_set_known(&g, VOX_KNOWN_GRID_PBAT), "known");
+    suggest_for(&g);
+
+    g.held = &tets;
+    expect(vox_foreign_grid_set_known(&g, VOX_KNOWN_GRID_HASHED), "known");
+    g.weights = weights;
+    const made_up_run run = {1e-3, 2e-3, 1e-3, 0, 0, 0};
+    made_up_run other = run;
+    cost_tune(NULL, 0.5, 7, run);
+    cost_tune(&g, 0, 7, run);
+    other.fails_below = 0.75;
+    cost_tune(NULL, 1, 9, other);
+    other.fails_below = 0;
+    other.stops_after = 3;
+    cost_tune(NULL, 1, 9, other);
+
+    /* What is refused. */
+    other.stops_after = 0;
+    other.fails_below = 1e30;
+    cost_tune(NULL, 1, 7, other);
+    cost_tune(NULL, 0, 7, run);
+    cost_tune(NULL, 1, 2, run);
+    other.fails_below = other.fixed = other.falls = other.grows = 0;
+    cost_tune(NULL, 1, 7, other);
+    cost_fit(&g, timings, 2);
+    timings[1].seconds = 0;
+    cost_fit(&g, timings, 3);
+    count_for(&g, 0);
+    g.radius = -1;
+    suggest_for(&g);
+    g.radius = 0;
+    g.look = VOX_LOOK_AROUND;
+    suggest_for(&g);
+    g.look = VOX_LOOK_BOX;
+    g.zone_loss = -0.5;
+    suggest_for(&g);
+    g.zone_loss = 0.05;
+    const uint32_t corner = first->tets[70];
+    first->tets[70] = first->vertex_count;
+    suggest_for(&g);
+    first->tets[70] = corner;
+    radii[7] = -2;
+    g.held = &points;
+    suggest_for(&g);
+    radii[7] = 0;
+    doubles[10] = NAN;
+    suggest_for(&g);
+    free(doubles);
+    end_scene();
+    free_scene(&s);
+}
+
 static FILE* create(const char* folder, const char* name) {
     char path[4096];
     snprintf(path, sizeof path, "%s/%s", folder, name);
@@ -717,6 +986,7 @@ int main(int argc, char** argv) {
     snapshot();
     errors();
     suggestions();
+    foreign_grids();
     fprintf(script, "]}\n");
     const int failed = ferror(script) | ferror(arrays);
     return (fclose(script) | fclose(arrays) | failed) ? EXIT_FAILURE : EXIT_SUCCESS;

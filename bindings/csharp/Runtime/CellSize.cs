@@ -105,10 +105,29 @@ namespace Voxtet
             {
                 return caller.Cost(cellSize);
             }
-            catch (Exception error) // goes on in Minimise
+            catch (Exception error) // goes on in Calling
             {
                 caller.Error = error;
                 return double.NaN;
+            }
+        }
+
+        delegate Result Use(IntPtr function, IntPtr user);
+
+        /// <summary>Makes a call of the library that calls the function, whose exception goes on here.</summary>
+        static void Calling(Func<double, double> function, Use use)
+        {
+            var caller = new Caller { Cost = function };
+            GCHandle user = GCHandle.Alloc(caller);
+            try
+            {
+                Result result = use(Marshal.GetFunctionPointerForDelegate(call), GCHandle.ToIntPtr(user));
+                if (caller.Error != null) throw caller.Error;
+                VoxException.Check(result);
+            }
+            finally
+            {
+                user.Free();
             }
         }
 
@@ -117,27 +136,85 @@ namespace Voxtet
         public static CostMinimum Minimise(Func<double, double> cost, double min, double max, double zoneLoss = 0.05)
         {
             if (cost == null) throw new ArgumentNullException("cost");
-            var caller = new Caller { Cost = cost };
-            GCHandle user = GCHandle.Alloc(caller);
-            try
+            CostBounds bounds;
+            VoxException.Check(Native.vox_cost_bounds_init(&bounds, (uint)sizeof(CostBounds)));
+            bounds.min = min;
+            bounds.max = max;
+            bounds.zone_loss = zoneLoss;
+            CostMinimum minimum;
+            minimum.struct_size = (uint)sizeof(CostMinimum);
+            CostBounds* b = &bounds;
+            CostMinimum* m = &minimum;
+            Calling(cost, (function, user) => Native.vox_cost_minimise(function, user, b, m));
+            return minimum;
+        }
+
+        /// <summary>The best cell size for a grid that is described.</summary>
+        public static ForeignSuggestion SuggestFor(GridDescription grid)
+        {
+            using (var described = new DescribedGrid(grid))
             {
-                CostBounds bounds;
-                VoxException.Check(Native.vox_cost_bounds_init(&bounds, (uint)sizeof(CostBounds)));
-                bounds.min = min;
-                bounds.max = max;
-                bounds.zone_loss = zoneLoss;
-                CostMinimum minimum;
-                minimum.struct_size = (uint)sizeof(CostMinimum);
-                Result result = Native.vox_cost_minimise(Marshal.GetFunctionPointerForDelegate(call),
-                                                         GCHandle.ToIntPtr(user), &bounds, &minimum);
-                if (caller.Error != null) throw caller.Error;
-                VoxException.Check(result);
-                return minimum;
+                ForeignSuggestion suggestion;
+                suggestion.struct_size = (uint)sizeof(ForeignSuggestion);
+                VoxException.Check(Native.vox_suggest_for(described.Grid, &suggestion));
+                return suggestion;
             }
-            finally
+        }
+
+        /// <summary>What a run of a grid does at one cell size.</summary>
+        public static GridWork CountFor(GridDescription grid, double cellSize)
+        {
+            using (var described = new DescribedGrid(grid))
             {
-                user.Free();
+                GridWork work;
+                VoxException.Check(Native.vox_count_for(described.Grid, cellSize, &work));
+                return work;
             }
+        }
+
+        /// <summary>The weights of a grid, and its best cell size, from timings at three cell sizes or more.</summary>
+        public static GridFit Fit(GridDescription grid, params GridTiming[] timings)
+        {
+            if (timings == null) throw new ArgumentNullException("timings");
+            using (var described = new DescribedGrid(grid))
+            fixed (GridTiming* t = timings)
+            {
+                GridFit fit;
+                fit.struct_size = (uint)sizeof(GridFit);
+                VoxException.Check(Native.vox_cost_fit(described.Grid, t, (ulong)timings.Length, &fit));
+                return fit;
+            }
+        }
+
+        /// <summary>How Tune tunes by default, to be changed and given to it.</summary>
+        public static TuneDesc DefaultTuning
+        {
+            get
+            {
+                TuneDesc desc;
+                VoxException.Check(Native.vox_tune_desc_init(&desc, (uint)sizeof(TuneDesc)));
+                return desc;
+            }
+        }
+
+        /// <summary>Runs a grid at the cell sizes that tell most about the best one. The function runs it once and returns
+        /// how many seconds that took: infinity if it cannot run at this size, NaN to stop. What it throws goes on here.
+        /// Without a description the first cell size must be set: var desc = CellSize.DefaultTuning; desc.first = 0.1;
+        /// </summary>
+        public static Tuning Tune(Func<double, double> run, GridDescription grid = null, TuneDesc? settings = null)
+        {
+            if (run == null) throw new ArgumentNullException("run");
+            TuneDesc desc = settings ?? DefaultTuning;
+            Tuning tuning;
+            tuning.struct_size = (uint)sizeof(Tuning);
+            TuneDesc* d = &desc;
+            Tuning* t = &tuning;
+            using (DescribedGrid described = grid == null ? null : new DescribedGrid(grid))
+            {
+                ForeignGrid* g = described == null ? null : described.Grid;
+                Calling(run, (function, user) => Native.vox_cost_tune(g, d, function, user, t));
+            }
+            return tuning;
         }
     }
 

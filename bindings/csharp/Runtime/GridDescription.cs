@@ -1,0 +1,176 @@
+using System;
+using System.Runtime.InteropServices;
+
+namespace Voxtet
+{
+    /// <summary>What is put into a grid, or asks it: each primitive is a few vertices, of which only the box counts.</summary>
+    public sealed class PrimitiveArrays
+    {
+        readonly Array positions;
+        readonly uint[] indices;
+
+        /// <summary>Three numbers a vertex. The vertices of each primitive: two indices an edge or a box, three a triangle, four
+        /// a tetrahedron, one a point; without indices, the vertices in their order. The arrays are used, not copied.</summary>
+        public PrimitiveArrays(PrimitiveType type, float[] positions, uint[] indices = null)
+            : this(type, (Array)positions, indices)
+        {
+        }
+
+        /// <summary>The same in doubles.</summary>
+        public PrimitiveArrays(PrimitiveType type, double[] positions, uint[] indices = null)
+            : this(type, (Array)positions, indices)
+        {
+        }
+
+        PrimitiveArrays(PrimitiveType type, Array positions, uint[] indices)
+        {
+            if (positions == null) throw new ArgumentNullException("positions");
+            if (positions.Length % 3 != 0)
+                throw new ArgumentException(positions.Length + " numbers, expected 3 a vertex", "positions");
+            Type = type;
+            this.positions = positions;
+            this.indices = indices;
+            int vertices = indices == null ? positions.Length / 3 : indices.Length, width = Width;
+            if (vertices % width != 0)
+                throw new ArgumentException(vertices + " vertices, expected " + width + " for each primitive",
+                                            indices == null ? "positions" : "indices");
+        }
+
+        public PrimitiveType Type { get; private set; }
+
+        /// <summary>Of all primitives, added to their own.</summary>
+        public double Radius { get; set; }
+
+        /// <summary>One for each primitive, or null.</summary>
+        public double[] Radii { get; set; }
+
+        int Width
+        {
+            get
+            {
+                switch (Type)
+                {
+                    case PrimitiveType.Edge:
+                    case PrimitiveType.Box: return 2;
+                    case PrimitiveType.Triangle: return 3;
+                    case PrimitiveType.Tet: return 4;
+                    default: return 1;
+                }
+            }
+        }
+
+        internal unsafe Primitives Describe(Func<Array, IntPtr> pin)
+        {
+            Primitives desc;
+            VoxException.Check(Native.vox_primitives_init(&desc, (uint)sizeof(Primitives)));
+            int count = (indices == null ? positions.Length / 3 : indices.Length) / Width;
+            if (Radii != null && Radii.Length != count)
+                throw new ArgumentException(Radii.Length + " radii, expected " + count, "Radii");
+            desc.type = Type;
+            desc.positions = pin(positions);
+            desc.position_format = positions is double[] ? Format.Double3 : Format.Float3;
+            desc.vertex_count = (ulong)positions.Length / 3;
+            desc.indices = (uint*)pin(indices);
+            desc.count = (ulong)count;
+            desc.radii = pin(Radii);
+            desc.radius_format = Format.Double3;
+            desc.radius = Radius;
+            return desc;
+        }
+    }
+
+    /// <summary>A uniform grid that is not this library's. What is null is as `Known` has it.</summary>
+    public sealed class GridDescription
+    {
+        public GridDescription(PrimitiveArrays held, KnownGrid known = KnownGrid.Any)
+        {
+            if (held == null) throw new ArgumentNullException("held");
+            Held = held;
+            Known = known;
+        }
+
+        /// <summary>What is put into cells.</summary>
+        public PrimitiveArrays Held { get; private set; }
+
+        /// <summary>What asks; null: those held ask themselves.</summary>
+        public PrimitiveArrays Asking { get; set; }
+
+        public KnownGrid Known { get; private set; }
+        public CellContent? Content { get; set; }
+        public CellLook? Look { get; set; }
+        public ForeignFlags? Flags { get; set; }
+
+        /// <summary>Nanoseconds, as in GridFit.weights.</summary>
+        public GridWeights? Weights { get; set; }
+
+        /// <summary>Boxes that ask are larger by this on all sides.</summary>
+        public double Radius { get; set; }
+
+        /// <summary>The smallest that gives right answers; 0: follows from the look.</summary>
+        public double LeastCellSize { get; set; }
+
+        /// <summary>null: the library's default.</summary>
+        public double? ZoneLoss { get; set; }
+    }
+
+    /// <summary>A description as C has it, while a call lasts.</summary>
+    sealed unsafe class DescribedGrid : IDisposable
+    {
+        readonly GCHandle[] pins = new GCHandle[6];
+        int pinned;
+        IntPtr memory;
+
+        internal DescribedGrid(GridDescription grid)
+        {
+            if (grid == null) throw new ArgumentNullException("grid");
+            VoxException.CheckLibrary();
+            try
+            {
+                // The structs point to each other, so they lie outside of the collector's memory.
+                memory = Marshal.AllocHGlobal(sizeof(ForeignGrid) + 2 * sizeof(Primitives));
+                ForeignGrid* desc = Grid;
+                var primitives = (Primitives*)(desc + 1);
+                VoxException.Check(Native.vox_foreign_grid_init(desc, (uint)sizeof(ForeignGrid)));
+                VoxException.Check(Native.vox_foreign_grid_set_known(desc, grid.Known));
+                primitives[0] = grid.Held.Describe(Pin);
+                desc->held = primitives;
+                if (grid.Asking != null)
+                {
+                    primitives[1] = grid.Asking.Describe(Pin);
+                    desc->asking = primitives + 1;
+                }
+                desc->content = grid.Content ?? desc->content;
+                desc->look = grid.Look ?? desc->look;
+                desc->flags = grid.Flags ?? desc->flags;
+                desc->weights = grid.Weights ?? desc->weights;
+                desc->zone_loss = grid.ZoneLoss ?? desc->zone_loss;
+                desc->radius = grid.Radius;
+                desc->least_cell_size = grid.LeastCellSize;
+            }
+            catch
+            {
+                Dispose();
+                throw;
+            }
+        }
+
+        internal ForeignGrid* Grid
+        {
+            get { return (ForeignGrid*)memory; }
+        }
+
+        IntPtr Pin(Array array)
+        {
+            if (array == null) return IntPtr.Zero;
+            pins[pinned] = GCHandle.Alloc(array, GCHandleType.Pinned);
+            return pins[pinned++].AddrOfPinnedObject();
+        }
+
+        public void Dispose()
+        {
+            while (pinned > 0) pins[--pinned].Free();
+            Marshal.FreeHGlobal(memory);
+            memory = IntPtr.Zero;
+        }
+    }
+}
