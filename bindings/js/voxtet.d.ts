@@ -1,17 +1,19 @@
 /// <reference lib="esnext.disposable" />
 // voxtet: vox in WebAssembly. Fields of options and results are those of the structs of vox.h, whose comments they have.
-import type { LogLevel, Result } from "./enums.js";
+import type { CellContent, CellLook, KnownGrid, LogLevel, PrimitiveType, Result } from "./enums.js";
 import type {
   ClosestHit, ClosestHitColumns, Contact, ContactColumns, ContactEvent, ContactEventColumns, CostBounds, CostMinimum,
-  CostPrediction, CostTerm, CostWeights, Counters, Depth, DepthColumns, FacetHit, FacetHitColumns, Failure, Filter, GridDesc,
+  CostPrediction, CostTerm, CostWeights, Counters, Depth, DepthColumns, FacetHit, FacetHitColumns, Failure, Filter,
+  ForeignSuggestion as ForeignSuggestionStruct, GridDesc, GridFit as GridFitStruct, GridTiming, GridWeights, GridWork,
   MeshInfo, Pair, PairColumns, Penetration, PenetrationColumns, PointHit, PointHitColumns, Profile, RayHit, Reading,
   ReadingColumns, SuggestDesc, Suggestion as SuggestionStruct, SurfaceHit, TetHit, TetHitColumns, TouchEvent, TouchEventColumns,
+  TuneDesc, Tuning as TuningStruct,
 } from "./structs.js";
 
 export * from "./enums.js";
 export type {
   CellSizeRules, ClosestHit, Contact, ContactEvent, CostSample, CostShare, CostTerm, CostWeights, Counters, Depth, FacetHit,
-  Failure, Filter, GeometryStats, MeshInfo, Pair, Penetration, PointHit, Profile, RayHit, Reading, SurfaceHit, TetHit, TouchEvent,
+  Failure, Filter, ForeignRules, GeometryStats, GridTiming, GridWeights, GridWork, MeshInfo, Pair, Penetration, PointHit, Profile, RayHit, Reading, SurfaceHit, TetHit, TouchEvent,
 } from "./structs.js";
 
 /** A call that vox refused. The message says what was wrong, with numbers in it; `code` is one of `Result`. */
@@ -76,6 +78,19 @@ export interface Vox {
   minimiseCost(cost: (cellSize: number) => number, bounds: Bounds): Omit<CostMinimum, "curveCount">;
   /** The same for a sum of terms coefficient * cellSize ** power. */
   minimiseCostTerms(terms: readonly CostTerm[], bounds: Bounds): Omit<CostMinimum, "curveCount">;
+
+  /** The cell size that costs a grid of another program least. Costs are nanoseconds of a run. */
+  suggestFor(grid: ForeignGridOptions): ForeignSuggestion;
+  /** What a run of that grid does at one cell size. */
+  countFor(grid: ForeignGridOptions, cellSize: number): GridWork;
+  /** Its weights and best cell size from timings at three cell sizes or more. Costs are seconds of a run. */
+  costFit(grid: ForeignGridOptions, timings: readonly GridTiming[]): GridFit;
+  /**
+   * Its best cell size by running it: `run` runs it once at a cell size and returns how many seconds that took, Infinity if it
+   * cannot run at this size, NaN to stop. What it throws is thrown here. Without a `grid`, `first` must be set.
+   */
+  tune(run: (cellSize: number) => number, options?: TuneOptions): Tuning;
+
   /** Eq. 9: the distance of n from the optimum, in units of the optimal zone. */
   zoneDistance(n: number, nMin: number, nOpt: number, nMax: number): number;
 }
@@ -165,6 +180,46 @@ export interface SuggestMesh {
 export type SuggestOptions = Partial<SuggestDesc>;
 export type Suggestion = Omit<SuggestionStruct, "curveCount" | "termCount" | "levelCount">;
 export type Bounds = Pick<CostBounds, "min" | "max"> & Partial<CostBounds>;
+
+/** What a grid holds, or what asks it. Of each primitive only the box counts. */
+export interface Primitives {
+  /** Default: points. */
+  type?: PrimitiveType;
+  positions: Positions;
+  /** The vertices of each primitive: two an edge or a box, three a triangle, four a tetrahedron. Without them, the vertices in
+   * their order. */
+  indices?: Indices;
+  /** Each is larger by its radius. */
+  radii?: Vector;
+  /** All are larger by this, too. */
+  radius?: number;
+}
+
+/** A uniform grid of another program. What is missing is as `known` has it. */
+export interface ForeignGridOptions {
+  /** What is put into cells. */
+  held: Primitives;
+  /** What asks; missing: those held ask themselves. */
+  asking?: Primitives;
+  /** The grid that it is like; default: any. */
+  known?: KnownGrid;
+  content?: CellContent;
+  look?: CellLook;
+  /** ForeignFlags, combined with |. */
+  flags?: number;
+  /** Boxes that ask are larger by this on all sides. */
+  radius?: number;
+  /** The smallest that gives right answers; 0: follows from the look. */
+  leastCellSize?: number;
+  zoneLoss?: number;
+  /** In nanoseconds; those that are missing are those of `known`. */
+  weights?: Partial<GridWeights>;
+}
+
+export type ForeignSuggestion = Omit<ForeignSuggestionStruct, "curveCount" | "termCount">;
+export type GridFit = Omit<GridFitStruct, "curveCount">;
+export type TuneOptions = Partial<TuneDesc> & { grid?: ForeignGridOptions };
+export type Tuning = Omit<TuningStruct, "curveCount" | "runCount">;
 
 export interface ReadingOptions {
   /** ReadingFlags, combined with |; default: all. */

@@ -1,11 +1,13 @@
 import { MeshFlags } from "../enums.js";
 import { structs } from "../layout.js";
 import { callback, camel, fields, float, list, options } from "./check.js";
+import { foreignGrid } from "./foreign.js";
 import { meshArrays, meshFields } from "./mesh_arrays.js";
 
 const SUGGEST = ["model", "sizeReading", "areaReading", "pNc", "costRatio", "worldEdge", "zoneLoss", "meanEdgeFactor",
   "resolution", "byteBudget", "storage"];
 const BOUNDS = ["min", "max", "zoneLoss"];
+const TUNE = ["mostRuns", "min", "max", "first", "zoneLoss", "wantedLoss"];
 const WEIGHTS = Object.keys(structs.vox_cost_weights.fields);
 
 export function suggestFields(settings) {
@@ -13,11 +15,12 @@ export function suggestFields(settings) {
 }
 
 /** Arrays that C fills in part, cut to what there is. */
-export function suggestion({ curveCount, termCount, levelCount, ...found }) {
-  const { curve, terms, levels } = found;
+export function suggestion({ curveCount, termCount, levelCount, runCount, ...found }) {
+  const { curve, terms, levels, runs } = found;
   if (curve) found.curve = curve.slice(0, curveCount);
   if (terms) found.terms = terms.slice(0, termCount);
   if (levels) found.levels = levels.slice(0, levelCount);
+  if (runs) found.runs = runs.slice(0, runCount);
   return found;
 }
 
@@ -48,6 +51,16 @@ export function cellSizes(memory) {
       return suggestion(memory.read("vox_cost_minimum", out));
     });
   };
+  /** Runs `use` with the number of a function that C may call. */
+  const calling = (given, what, use) => {
+    callback(given, what);
+    const id = memory.addCallback((cellSize) => float(given(cellSize), `what ${what} returned`));
+    try {
+      return use(id);
+    } finally {
+      memory.removeCallback(id);
+    }
+  };
   return {
     suggestCellSize: (meshes, settings) =>
       withMeshes(memory, meshes, settings, (desc, list, count) =>
@@ -76,15 +89,8 @@ export function cellSizes(memory) {
       });
     },
 
-    minimiseCost(cost, bounds) {
-      callback(cost, "cost");
-      const id = memory.addCallback(cost);
-      try {
-        return minimum(bounds, (_, desc, out) => call.voxtet_cost_minimise(id, desc, out));
-      } finally {
-        memory.removeCallback(id);
-      }
-    },
+    minimiseCost: (cost, bounds) =>
+      calling(cost, "cost", (id) => minimum(bounds, (_, desc, out) => call.voxtet_cost_minimise(id, desc, out))),
 
     minimiseCostTerms(terms, bounds) {
       const numbers = list(terms, "terms", "{ coefficient, power }").flatMap((term, i) => {
@@ -93,6 +99,46 @@ export function cellSizes(memory) {
       });
       return minimum(bounds, (frame, desc, out) =>
         call.vox_cost_minimise_terms(frame.numbers(numbers), numbers.length / 2, desc, out),
+      );
+    },
+
+    suggestFor(grid) {
+      const described = foreignGrid(grid, memory);
+      return memory.frame((frame) =>
+        suggestion(memory.get("vox_foreign_suggestion", (out) => call.vox_suggest_for(described(frame), out))),
+      );
+    },
+
+    countFor(grid, cellSize) {
+      const described = foreignGrid(grid, memory);
+      const size = float(cellSize, "cellSize");
+      return memory.frame((frame) => memory.get("vox_grid_work", (out) => call.vox_count_for(described(frame), size, out)));
+    },
+
+    costFit(grid, timings) {
+      const described = foreignGrid(grid, memory);
+      const numbers = list(timings, "timings", "{ cellSize, seconds }").flatMap((timing, i) => {
+        const { cellSize, seconds } = options(timing, `timings[${i}]`, ["cellSize", "seconds"]);
+        return [float(cellSize, `timings[${i}].cellSize`), float(seconds, `timings[${i}].seconds`)];
+      });
+      return memory.frame((frame) => {
+        const given = frame.numbers(numbers);
+        return suggestion(
+          memory.get("vox_grid_fit", (out) => call.vox_cost_fit(described(frame), given, numbers.length / 2, out)),
+        );
+      });
+    },
+
+    tune(run, settings) {
+      const { grid, ...rest } = options(settings, "options", ["grid", ...TUNE]);
+      const described = grid === undefined ? () => 0 : foreignGrid(grid, memory);
+      const given = fields(rest, "options", "vox_tune_desc", TUNE);
+      return calling(run, "run", (id) =>
+        memory.frame((frame) => {
+          const out = frame.struct("vox_tuning");
+          call.voxtet_cost_tune(described(frame), frame.struct("vox_tune_desc", given), id, out);
+          return suggestion(memory.read("vox_tuning", out));
+        }),
       );
     },
 

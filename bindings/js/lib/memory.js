@@ -172,7 +172,7 @@ export class Memory {
     if (found !== ABI_VERSION)
       throw new VoxError(Result.ERROR_UNSUPPORTED, `the module has ABI version ${found}, voxtet was made for ${ABI_VERSION}`);
     for (const [name, [result, parameters]] of Object.entries(functions)) this.call[name] = this.#wrap(name, result, parameters);
-    for (const name of ["voxtet_cost_minimise"]) this.call[name] = this.#wrap(name, "result", []);
+    for (const name of ["voxtet_cost_minimise", "voxtet_cost_tune"]) this.call[name] = this.#wrap(name, "result", []);
     this.#out = exports.malloc(OUT_BYTES) >>> 0;
   }
 
@@ -249,7 +249,9 @@ export class Memory {
     else if (layout.struct_size) this.data.setUint32(at, size, true);
     for (const [name, offset, type, count] of shownFields[struct]) {
       const given = fields[name];
-      if (given === undefined || !(type in writers)) continue;
+      if (given === undefined) continue;
+      if (type in structs) this.fill(at + offset, type, given);
+      if (!(type in writers)) continue;
       for (let i = 0; i < count; ++i) writers[type](this.data, at + offset + 8 * i, count > 1 ? given[i] : given);
     }
   }

@@ -43,6 +43,16 @@ test("errors say what was wrong", () => {
     [() => grid.queryPoint([0, 0, NaN]), VoxError, /point is \(0, 0, nan\)/],
     [() => grid.queryRay([0, 0, 0], [1, 1, "1"]), TypeError, /to\[2\]: expected a number, got "1"/],
     [() => vox.minimiseCost(7, { min: 1, max: 2 }), TypeError, /cost: expected a function/],
+    [() => vox.minimiseCost(() => "1", { min: 1, max: 2 }), TypeError, /what cost returned: expected a number, got "1"/],
+    [() => vox.suggestFor({ hold: {} }), TypeError, /"hold" is not known; there are held, asking/],
+    [() => vox.suggestFor({}), TypeError, /grid.held.positions: expected a Float32Array or Float64Array/],
+    [() => vox.suggestFor({ held: { positions: new Float32Array(9), type: 3 } }), RangeError, /3 vertices, which is not a multiple of 4/],
+    [() => vox.suggestFor({ held: { positions: new Float32Array(9), radii: [1] } }), RangeError, /radii: expected 3 numbers, got 1/],
+    [() => vox.suggestFor({ held: { positions: new Float32Array(9), type: 9 } }), VoxError, /type is 9/],
+    [() => vox.suggestFor({ held: { positions: new Float32Array(9) }, weights: { read: 1 } }), TypeError, /grid.weights: "read" is not known/],
+    [() => vox.costFit({ held: { positions: new Float32Array(9) } }, [[1, 2]]), TypeError, /timings\[0\]/],
+    [() => vox.tune(() => 1n, { first: 1 }), TypeError, /what run returned: expected a number, got 1n/],
+    [() => vox.tune(() => 1, { firs: 1 }), TypeError, /"firs" is not known/],
   ];
   for (const [call, Kind, text] of cases)
     assert.throws(call, (error) => {
@@ -125,6 +135,9 @@ test("garbage in every argument", (t) => {
     () => ({ category: value(), selfRings: value(), selfRestDistance: value() }), () => ({ maxDistance: value(), excluded: value() }),
     () => ({ copiesOf: value(), positions: value() }), () => ({ what: value(), meshA: value(), meshB: value() }), () => ({ min: value(), max: value() }),
     () => ({ engine: value(), cellSize: value(), flags: value(), log: value(), worldMin: value() }), () => ({ model: value(), pNc: value() }),
+    () => ({ held: value(), asking: value(), known: value(), look: value(), weights: value(), radius: value() }),
+    () => ({ held: { positions: block(1).positions, radius: value(), radii: value() }, leastCellSize: value() }),
+    () => ({ first: value(), mostRuns: value(), grid: value() }), () => [{ cellSize: value(), seconds: value() }], () => value,
     () => [{ coefficient: value(), power: value() }], () => [{ positions: block(1).positions, tets: block(1).tets, selfCollision: value() }],
   ];
   const value = () => pick(values)();

@@ -34,6 +34,38 @@ export function replay(vox, script, arrays, assert) {
   let grid;
   const indices = (call, name) => array(Uint32Array, call[name], call.count);
   const corners = (call) => array(Uint32Array, call.corners, 4 * call.count);
+  /** Within one part in a million. */
+  const near = (found, call) => {
+    for (const [name, value] of Object.entries(found))
+      assert.ok(Math.abs(value - call[name]) <= 1e-6 * Math.abs(call[name]), `${name}: ${value}, expected ${call[name]}`);
+  };
+  const primitivesOf = (given) => ({
+    type: given.type,
+    positions: positionsOf(given),
+    indices: given.indices === undefined ? undefined : array(Uint32Array, given.indices, given.count),
+    radii: given.radii === undefined ? undefined : array(Float64Array, given.radii, given.vertices),
+    radius: given.radius,
+  });
+  const foreignGridOf = (call) => {
+    const [fixed, entries, visits, found, reads, occupied, cells] = call.weights ?? [];
+    return {
+      held: primitivesOf(call.held),
+      asking: call.asking && primitivesOf(call.asking),
+      known: call.known,
+      content: call.content,
+      look: call.look,
+      flags: call.dense,
+      weights: call.weights && { fixed, entries, visits, found, reads, occupied, cells },
+      radius: call.radius,
+      leastCellSize: call.least_cell_size,
+      zoneLoss: call.zone_loss,
+    };
+  };
+  /** What the answers for such grids have in common. */
+  const answer = (found, call) => {
+    near({ cell_size: found.cellSize, zone_min: found.zoneMin, zone_max: found.zoneMax }, call);
+    return { warnings: found.warnings, note: found.note };
+  };
   const calls = {
     create(call) {
       grid?.dispose();
@@ -159,8 +191,39 @@ export function replay(vox, script, arrays, assert) {
         mean_edge: found.stats.meanEdge,
         curve_count: found.curve.length,
       };
-      for (const [name, value] of Object.entries(numbers))
-        assert.ok(Math.abs(value - call[name]) <= 1e-6 * Math.abs(call[name]), `${name}: ${value}, expected ${call[name]}`);
+      near(numbers, call);
+    },
+    suggest_for(call) {
+      const found = vox.suggestFor(foreignGridOf(call));
+      near({
+        predicted_cost: found.predictedCost,
+        legal_cell_size: found.leastCellSize,
+        mean_box_side: found.rules.meanBoxSide,
+      }, call);
+      return { ...answer(found, call), rule: found.rule, curve_count: found.curve.length };
+    },
+    count_for(call) {
+      const { entries, visits, empty, reads, occupied, cells } = vox.countFor(foreignGridOf(call), call.at);
+      near([entries, visits, empty, reads, occupied, cells], call.work);
+    },
+    cost_fit(call) {
+      const timings = call.timings.map(([cellSize, seconds]) => ({ cellSize, seconds }));
+      const found = vox.costFit(foreignGridOf(call), timings);
+      near({ predicted_seconds: found.predictedSeconds }, call);
+      return { ...answer(found, call), curve_count: found.curve.length };
+    },
+    cost_tune(call) {
+      let count = 0;
+      const run = (d) => {
+        if (call.stops_after && ++count > call.stops_after) return -1;
+        return d < call.fails_below ? Infinity : call.run[0] + call.run[1] / (d * d) + call.run[2] * (d * d);
+      };
+      const grid = call.held && foreignGridOf(call);
+      const found = vox.tune(run, { grid, first: call.first, mostRuns: call.most_runs });
+      near({ seconds: found.seconds }, call);
+      assert.equal(found.runs.length, call.runs.length);
+      near(found.runs.map((one) => one.cellSize), call.runs);
+      return answer(found, call);
     },
   };
   let count = 0;

@@ -1,5 +1,5 @@
 // Compiled by tsc --strict, and never run: the types are those that a program can use.
-import { GridFlags, load, PenetrationState, Result, VoxError, type Contacts, type Grid, type Vox } from "voxtet";
+import { GridFlags, KnownGrid, load, PenetrationState, PrimitiveType, Result, VoxError, type Contacts, type Grid, type Tuning, type Vox } from "voxtet";
 
 export async function program(): Promise<number> {
   const vox: Vox = await load({ simd: false });
@@ -18,6 +18,9 @@ export async function program(): Promise<number> {
   const hash: bigint = grid.hash;
   grid.takeQueryView().dispose();
   const size: number = vox.suggestCellSize([{ positions: new Float32Array(12), tets: new Uint32Array(4) }], { pNc: 0.5 }).cellSize;
+  const grids = { held: { type: PrimitiveType.TET, positions: new Float32Array(12), radii: [1] }, known: KnownGrid.VTK };
+  const tuned: Tuning = vox.tune((cell) => 1 + cell, { grid: grids, mostRuns: 5 });
+  const note: string = vox.costFit(grids, tuned.runs).note + vox.suggestFor({ ...grids, weights: { reads: 2 } }).note;
   const copy: Grid = vox.Grid.load(grid.save());
   vox.stepGrids([grid, copy]);
   try {
@@ -25,7 +28,7 @@ export async function program(): Promise<number> {
   } catch (error) {
     if (error instanceof VoxError && error.code === Result.ERROR_INVALID_HANDLE) return -1;
   }
-  return sum + (last ?? 0) + (hit?.distance ?? 0) + Number(hash) + size + copy.epoch;
+  return sum + (last ?? 0) + (hit?.distance ?? 0) + Number(hash) + size + note.length + copy.epoch;
 }
 
 export async function mistakes(): Promise<void> {

@@ -263,6 +263,41 @@ test("costs and cell sizes", () => {
   vox.costWeights = null;
 });
 
+test("the cell size of a grid of another program", () => {
+  const { positions, tets } = block(4);
+  const grid = {
+    held: { type: PrimitiveType.TET, positions, indices: tets },
+    asking: { positions: new Float64Array(positions), radius: 0.2, radii: new Float32Array(positions.length / 3).fill(0.1) },
+    known: KnownGrid.HASHED,
+  };
+  const found = vox.suggestFor(grid);
+  assert.ok(found.zoneMin <= found.cellSize && found.cellSize <= found.zoneMax && found.terms.length > 1);
+  assert.ok(Math.abs(found.rules.radius - 0.3) < 1e-6);
+  assert.deepEqual([found.warnings, found.note], [0, ""]);
+  assert.deepEqual(vox.suggestFor({ ...grid, weights: { reads: 3 } }).weights, { ...found.weights, reads: 3 });
+  const unknown = vox.suggestFor({ held: grid.held });
+  assert.ok(unknown.warnings & ForeignWarnings.WEIGHTS_UNKNOWN && unknown.note.length > 0);
+
+  // A grid that takes as long as its counts say.
+  const seconds = (size) => {
+    const work = vox.countFor(grid, size);
+    return 1e-9 * (20 * work.entries + 9 * work.visits + 3 * work.reads);
+  };
+  const fit = vox.costFit(grid, [0.3, 0.6, 1.2, 2.4].map((cellSize) => ({ cellSize, seconds: seconds(cellSize) })));
+  assert.ok(fit.residual < 0.02 && fit.weights.entries > 0);
+  const sizes = [];
+  const tuning = vox.tune((size) => (sizes.push(size), seconds(size)), { grid });
+  assert.deepEqual(tuning.runs.map((run) => run.cellSize), sizes);
+  assert.ok(seconds(tuning.cellSize) <= 1.1 * seconds(fit.cellSize) && tuning.expectedLoss < 0.1);
+
+  const calls = sizes.length;
+  assert.throws(() => vox.tune((size) => { throw new Error(`at ${sizes.push(size)}`); }, { first: 1 }), /^Error: at \d+$/);
+  assert.equal(sizes.length, calls + 1);
+  assert.throws(() => vox.tune(() => 1), failure(Result.ERROR_INVALID_ARGUMENT));
+  assert.throws(() => vox.tune(() => Infinity, { first: 1 }), failure(Result.ERROR_INVALID_STATE));
+  assert.throws(() => vox.countFor(grid, NaN), failure(Result.ERROR_INVALID_ARGUMENT));
+});
+
 test("many grids", () => {
   const grids = [touching(), touching()].map(({ grid }) => grid);
   grids.push(new vox.Grid());

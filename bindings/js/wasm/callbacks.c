@@ -26,3 +26,8 @@ EXPORT void voxtet_set_log(vox_grid_desc* desc, void* user) {
 EXPORT vox_result voxtet_cost_minimise(void* user, const vox_cost_bounds* bounds, vox_cost_minimum* out) {
     return vox_cost_minimise(cost, user, bounds, out);
 }
+
+/* vox_cost_tune with the function `user`. */
+EXPORT vox_result voxtet_cost_tune(const vox_foreign_grid* grid, const vox_tune_desc* desc, void* user, vox_tuning* out) {
+    return vox_cost_tune(grid, desc, cost, user, out);
+}

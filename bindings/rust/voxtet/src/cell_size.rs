@@ -157,7 +157,7 @@ impl Suggestion {
 
     /// Cell sizes and their costs.
     pub fn curve(&self) -> impl ExactSizeIterator<Item = (f64, f64)> + '_ {
-        self.0.curve[..self.0.curve_count as usize].iter().map(|sample| (sample.cell_size, sample.cost))
+        samples(&self.0.curve[..self.0.curve_count as usize])
     }
 
     /// What the cost is made of: name of a piece of work, how often it is done, what that costs.
@@ -176,7 +176,11 @@ impl Suggestion {
     }
 }
 
-fn terms(terms: &[sys::vox_cost_share]) -> impl ExactSizeIterator<Item = (String, f64, f64)> + '_ {
+pub(crate) fn samples(curve: &[sys::vox_cost_sample]) -> impl ExactSizeIterator<Item = (f64, f64)> + '_ {
+    curve.iter().map(|sample| (sample.cell_size, sample.cost))
+}
+
+pub(crate) fn terms(terms: &[sys::vox_cost_share]) -> impl ExactSizeIterator<Item = (String, f64, f64)> + '_ {
     terms.iter().map(|term| {
         // SAFETY: zero-terminated within its 24 bytes.
         let name = unsafe { CStr::from_ptr(term.name.as_ptr()) };
@@ -253,43 +257,58 @@ pub struct Minimum {
     pub curve: Vec<(f64, f64)>,
 }
 
-/// The method for any algorithm: the cell size between `min` and `max` of least `cost`. A panic of `cost` goes on here.
-pub fn minimise(mut cost: impl FnMut(f64) -> f64, min: f64, max: f64, zone_loss: f64) -> Result<Minimum> {
-    struct Call<'f> {
-        cost: &'f mut dyn FnMut(f64) -> f64,
-        panic: Option<Box<dyn std::any::Any + Send>>,
+/// A closure that C calls, and its panic.
+pub(crate) struct Call<'f> {
+    function: &'f mut dyn FnMut(f64) -> f64,
+    panic: Option<Box<dyn std::any::Any + Send>>,
+}
+
+type CallFunction = unsafe extern "C" fn(f64, *mut c_void) -> f64;
+
+impl<'f> Call<'f> {
+    /// Makes a call of the library with the function, and `user` for it. A panic of the function goes on here.
+    pub(crate) fn make(
+        function: &'f mut dyn FnMut(f64) -> f64,
+        call: impl FnOnce(CallFunction, *mut c_void) -> sys::vox_result,
+    ) -> Result<()> {
+        let mut user = Self { function, panic: None };
+        let result = call(Self::run, std::ptr::from_mut(&mut user).cast());
+        if let Some(panic) = user.panic {
+            resume_unwind(panic);
+        }
+        check(result)
     }
-    unsafe extern "C" fn call(cell_size: f64, user: *mut c_void) -> f64 {
-        // SAFETY: the struct below, which nobody else uses meanwhile.
+
+    unsafe extern "C" fn run(cell_size: f64, user: *mut c_void) -> f64 {
+        // SAFETY: the struct above, which nobody else uses meanwhile.
         let call = unsafe { &mut *user.cast::<Call<'_>>() };
         if call.panic.is_some() {
             return f64::NAN;
         }
-        catch_unwind(AssertUnwindSafe(|| (call.cost)(cell_size))).unwrap_or_else(|panic| {
+        catch_unwind(AssertUnwindSafe(|| (call.function)(cell_size))).unwrap_or_else(|panic| {
             call.panic = Some(panic);
             f64::NAN
         })
     }
-    let mut user = Call { cost: &mut cost, panic: None };
-    // SAFETY: structs of their own size; `user` lives during the call.
-    let (result, minimum) = unsafe {
+}
+
+/// The method for any algorithm: the cell size between `min` and `max` of least `cost`. A panic of `cost` goes on here.
+pub fn minimise(mut cost: impl FnMut(f64) -> f64, min: f64, max: f64, zone_loss: f64) -> Result<Minimum> {
+    // SAFETY: structs of their own size; the closure lives during the call.
+    let minimum = unsafe {
         let mut bounds: sys::vox_cost_bounds = std::mem::zeroed();
         sys::vox_cost_bounds_init(&mut bounds, struct_size::<sys::vox_cost_bounds>());
         (bounds.min, bounds.max, bounds.zone_loss) = (min, max, zone_loss);
         let mut minimum: sys::vox_cost_minimum = std::mem::zeroed();
         minimum.struct_size = struct_size::<sys::vox_cost_minimum>();
-        let user = std::ptr::from_mut(&mut user).cast();
-        (sys::vox_cost_minimise(Some(call), user, &bounds, &mut minimum), minimum)
+        Call::make(&mut cost, |call, user| sys::vox_cost_minimise(Some(call), user, &bounds, &mut minimum))?;
+        minimum
     };
-    if let Some(panic) = user.panic {
-        resume_unwind(panic);
-    }
-    check(result)?;
     Ok(Minimum {
         cell_size: minimum.cell_size,
         cost: minimum.cost,
         zone: (minimum.zone_min, minimum.zone_max),
-        curve: minimum.curve[..minimum.curve_count as usize].iter().map(|s| (s.cell_size, s.cost)).collect(),
+        curve: samples(&minimum.curve[..minimum.curve_count as usize]).collect(),
     })
 }
 

@@ -4,6 +4,7 @@
 mod callbacks;
 mod cell_size;
 mod error;
+mod foreign;
 mod grid;
 #[cfg(feature = "io")]
 pub mod io;
@@ -17,6 +18,10 @@ pub use cell_size::{
     Minimum, Prediction, SuggestOptions, Suggestion,
 };
 pub use error::{Error, ErrorCode, Result};
+pub use foreign::{
+    count_for, fit, suggest_for, tune, CellContent, CellLook, ForeignGrid, ForeignSuggestion, GridFit, KnownGrid,
+    Primitives, TuneOptions, Tuning,
+};
 pub use grid::{step_grids, Counters, Failure, Grid, MeshInfo, Profile};
 pub use options::{Engine, Filter, GridOptions, Mesh, MeshOptions, Storage};
 pub use query::{Queries, QueryView};
@@ -57,6 +62,10 @@ pub type FacetHit = sys::vox_facet_hit;
 pub type GeometryStats = sys::vox_geometry_stats;
 /// The weights of the cost models, in nanoseconds.
 pub type CostWeights = sys::vox_cost_weights;
+/// What a run of a grid does at one cell size.
+pub type GridWork = sys::vox_grid_work;
+/// Nanoseconds of each piece of a grid's work.
+pub type GridWeights = sys::vox_grid_weights;
 
 /// Values of [`Penetration::state`].
 pub mod penetration_state {
@@ -79,6 +88,16 @@ pub mod reading {
     };
     /// All of them.
     pub const ALL: u32 = POSITION | SURFACE | DEPTH;
+}
+
+/// What [`ForeignSuggestion::warnings`] combines; `vox_foreign_warnings` in vox.h explains each.
+pub mod foreign_warning {
+    pub use voxtet_sys::{
+        VOX_FOREIGN_AT_LEAST_SIZE as AT_LEAST_SIZE, VOX_FOREIGN_BY_RULE as BY_RULE,
+        VOX_FOREIGN_MODEL_DISAGREES as MODEL_DISAGREES, VOX_FOREIGN_NO_SIZE as NO_SIZE,
+        VOX_FOREIGN_ONE_PLACE as ONE_PLACE, VOX_FOREIGN_OUT_OF_RANGE as OUT_OF_RANGE, VOX_FOREIGN_STOPPED as STOPPED,
+        VOX_FOREIGN_TIMINGS_DISAGREE as TIMINGS_DISAGREE, VOX_FOREIGN_WEIGHTS_UNKNOWN as WEIGHTS_UNKNOWN,
+    };
 }
 
 /// Version of the C library that is linked, as "major.minor.patch".

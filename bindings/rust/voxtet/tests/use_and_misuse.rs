@@ -316,6 +316,60 @@ fn cell_sizes() {
     assert!(grid.suggest_cell_size(None).unwrap().cell_size() > 0.0);
 }
 
+#[test]
+fn grids_of_others() {
+    let (positions, tets) = block(4, 0.0);
+    let held = Primitives::tets(&positions, &tets);
+    let radii = vec![0.1f32; positions.len()];
+    let asking = Primitives::points(&positions).with_radii(&radii).unwrap().with_radius(0.2);
+    let grid = ForeignGrid { asking: Some(asking), ..ForeignGrid::new(KnownGrid::Hashed, held) };
+    let suggestion = suggest_for(&grid).unwrap();
+    let (low, high) = suggestion.zone();
+    assert!(low <= suggestion.cell_size() && suggestion.cell_size() <= high);
+    assert!((suggestion.raw().rules.radius - 0.3).abs() < 1e-6);
+    assert_eq!((suggestion.warnings(), suggestion.note().as_str()), (0, ""));
+    let unknown = suggest_for(&ForeignGrid::new(KnownGrid::Any, held)).unwrap();
+    assert_ne!(unknown.warnings() & voxtet::foreign_warning::WEIGHTS_UNKNOWN, 0);
+    assert!(!unknown.note().is_empty());
+
+    // A grid that takes as long as its counts say.
+    let seconds = |size: f64| {
+        let work = count_for(&grid, size).unwrap();
+        1e-9 * (20.0 * work.entries + 9.0 * work.visits + 3.0 * work.reads)
+    };
+    let timings = [0.3, 0.6, 1.2, 2.4].map(|size| (size, seconds(size)));
+    let fitted = fit(&grid, &timings).unwrap();
+    assert!(fitted.residual() < 0.02 && fitted.weights().entries > 0.0);
+    let mut sizes = Vec::new();
+    let run = |size| {
+        sizes.push(size);
+        seconds(size)
+    };
+    let tuning = tune(Some(&grid), run, TuneOptions::default()).unwrap();
+    assert_eq!(tuning.runs().map(|(size, _)| size).collect::<Vec<_>>(), sizes);
+    assert!(seconds(tuning.cell_size()) <= 1.1 * seconds(fitted.cell_size()));
+    assert!(tuning.expected_loss() < 0.1 && tuning.curve().len() > 1);
+
+    // What is wrong.
+    let first = TuneOptions { first: 1.0, ..TuneOptions::default() };
+    assert!(std::panic::catch_unwind(|| tune(None, |_| panic!("of a run"), first)).is_err());
+    assert_eq!(code(tune(None, |_| 1.0, TuneOptions::default())), ErrorCode::InvalidArgument);
+    assert_eq!(code(tune(None, |_| f64::INFINITY, first)), ErrorCode::InvalidState);
+    assert_eq!(code(fit(&grid, &timings[..2])), ErrorCode::InvalidArgument);
+    assert_eq!(code(count_for(&grid, f64::NAN)), ErrorCode::InvalidArgument);
+    assert_eq!(code(held.with_radii(&[1.0])), ErrorCode::InvalidArgument);
+    assert_eq!(
+        code(suggest_for(&ForeignGrid::new(KnownGrid::Any, Primitives::boxes::<f64>(&[])))),
+        ErrorCode::InvalidArgument
+    );
+    for wrong in [Primitives::edges(&positions, &[[0, 9999]]), Primitives::triangles(&positions, &[[0, 1, 9999]])] {
+        assert_eq!(code(suggest_for(&ForeignGrid::new(KnownGrid::Any, wrong))), ErrorCode::InvalidMesh);
+    }
+    let boxes = [[[0.0, 0.0, 0.0], [1.0, 1.0, f64::NAN]]];
+    let grid = ForeignGrid::new(KnownGrid::Any, Primitives::boxes(&boxes));
+    assert_eq!(code(suggest_for(&grid)), ErrorCode::NonFinite);
+}
+
 /// Calls with arguments at random: each succeeds or fails with a text, and the grid still steps.
 #[test]
 fn anything_goes() {

@@ -3,7 +3,8 @@
 use serde_json::Value;
 use std::path::PathBuf;
 use voxtet::{
-    suggest_cell_size, CostModel, Filter, Grid, GridOptions, Mesh, MeshArrays, MeshOptions, Queries, SuggestOptions,
+    suggest_cell_size, CellContent, CellLook, CostModel, Filter, ForeignGrid, Grid, GridOptions, GridWeights,
+    KnownGrid, Mesh, MeshArrays, MeshOptions, Primitives, Queries, SuggestOptions, TuneOptions,
 };
 
 fn bytes_of<T: Copy>(items: &[T]) -> &[u8] {
@@ -184,6 +185,7 @@ impl Replay {
                 self.grid = Grid::load(bytes, GridOptions::default())?;
             }
             "suggest" => self.suggest(call)?,
+            "suggest_for" | "count_for" | "cost_fit" | "cost_tune" => self.foreign(name, call)?,
             other => panic!("a call that is not known: {other}"),
         }
         Ok(())
@@ -252,19 +254,170 @@ impl Replay {
         let meshes: Vec<MeshArrays> = arrays.iter().map(|(p, t)| MeshArrays::new(p, t)).collect();
         let found = suggest_cell_size(&meshes, SuggestOptions { model, ..SuggestOptions::default() })?;
         let (zone_min, zone_max) = found.zone();
-        for (name, value) in [
-            ("cell_size", found.cell_size()),
-            ("zone_min", zone_min),
-            ("zone_max", zone_max),
-            ("predicted_cost", found.predicted_cost()),
-            ("mean_edge", found.stats().mean_edge),
-            ("curve_count", found.curve().len() as f64),
-        ] {
-            let expected = call[name].as_f64().unwrap();
-            assert!((value - expected).abs() <= 1e-6 * expected.abs(), "{name}: {value}, expected {expected}");
+        check_near(
+            call,
+            &[
+                ("cell_size", found.cell_size()),
+                ("zone_min", zone_min),
+                ("zone_max", zone_max),
+                ("predicted_cost", found.predicted_cost()),
+                ("mean_edge", found.stats().mean_edge),
+                ("curve_count", found.curve().len() as f64),
+            ],
+        );
+        Ok(())
+    }
+
+    /// The arrays of primitives: positions as singles and doubles, of which one is empty, indices, radii.
+    fn primitive_arrays(&self, value: &Value) -> PrimitiveArrays {
+        let mut arrays = PrimitiveArrays::default();
+        if value.is_null() {
+            return arrays;
+        }
+        if value["format"] == 1 {
+            arrays.doubles = self.array(value, "positions", "vertices", f64_of);
+        } else {
+            arrays.singles = self.array(value, "positions", "vertices", f32_of);
+        }
+        if let Some(offset) = value["indices"].as_u64() {
+            assert_eq!(value["type"], 3, "only tetrahedra have indices");
+            arrays.tets = self.array_at(offset as usize, value["count"].as_u64().unwrap() as usize / 4, u32_of);
+        }
+        if let Some(offset) = value["radii"].as_u64() {
+            let radii: Vec<[f64; 1]> = self.array_at(offset as usize, arrays.doubles.len(), f64_of);
+            arrays.radii = radii.into_iter().flatten().collect();
+        }
+        arrays
+    }
+
+    fn foreign(&self, name: &str, call: &Value) -> voxtet::Result<()> {
+        let [held, asking] = ["held", "asking"].map(|name| self.primitive_arrays(&call[name]));
+        let known = [
+            KnownGrid::Any,
+            KnownGrid::Sorted,
+            KnownGrid::Hashed,
+            KnownGrid::Warp,
+            KnownGrid::Ipc,
+            KnownGrid::IpcPairs,
+            KnownGrid::Vtk,
+            KnownGrid::Pbat,
+        ];
+        let number = |name: &str| call[name].as_f64();
+        let grid = |held| ForeignGrid {
+            asking: call.get("asking").map(|value| asking.primitives(value)),
+            content: call["content"].as_u64().map(|n| [CellContent::Centres, CellContent::Boxes][n as usize]),
+            look: call["look"].as_u64().map(|n| [CellLook::Box, CellLook::Around, CellLook::Pairs][n as usize]),
+            dense: call["dense"].as_u64().map(|n| n == 1),
+            weights: call["weights"].as_array().map(|w| {
+                let [fixed, entries, visits, found, reads, occupied, cells] =
+                    std::array::from_fn(|i| w[i].as_f64().unwrap());
+                GridWeights { fixed, entries, visits, found, reads, occupied, cells }
+            }),
+            radius: number("radius").unwrap(),
+            least_cell_size: number("least_cell_size").unwrap(),
+            zone_loss: number("zone_loss").unwrap(),
+            ..ForeignGrid::new(known[call["known"].as_u64().unwrap() as usize], held)
+        };
+        let grid = call.get("held").map(|value| grid(held.primitives(value)));
+        match name {
+            "suggest_for" => {
+                let found = voxtet::suggest_for(&grid.unwrap())?;
+                self.check_answer(call, found.cell_size(), found.zone(), found.warnings(), found.note());
+                self.check(call, "rule", found.raw().rule.into());
+                self.check(call, "curve_count", found.curve().len().into());
+                check_near(
+                    call,
+                    &[
+                        ("predicted_cost", found.predicted_cost()),
+                        ("legal_cell_size", found.raw().least_cell_size),
+                        ("mean_box_side", found.raw().rules.mean_box_side),
+                        ("predicted_cost", found.terms().map(|(_, _, cost)| cost).sum()),
+                    ],
+                );
+            }
+            "count_for" => {
+                let work = voxtet::count_for(&grid.unwrap(), number("at").unwrap())?;
+                let found = [work.entries, work.visits, work.empty, work.reads, work.occupied, work.cells];
+                found.iter().enumerate().for_each(|(i, &value)| check_number(&call["work"][i], value, call));
+            }
+            "cost_fit" => {
+                let timings: Vec<_> = call["timings"].as_array().unwrap().iter().map(pair_of).collect();
+                let found = voxtet::fit(&grid.unwrap(), &timings)?;
+                self.check_answer(call, found.cell_size(), found.zone(), found.warnings(), found.note());
+                self.check(call, "curve_count", found.curve().len().into());
+                check_near(call, &[("predicted_seconds", found.seconds())]);
+            }
+            _ => {
+                let [first, below] = ["first", "fails_below"].map(|name| number(name).unwrap());
+                let [fixed, falls, grows]: [f64; 3] = std::array::from_fn(|i| call["run"][i].as_f64().unwrap());
+                let [most_runs, most] = ["most_runs", "stops_after"].map(|name| call[name].as_u64().unwrap());
+                let options = TuneOptions { first, most_runs: most_runs as u32, ..TuneOptions::default() };
+                let mut runs = 0;
+                let run = |d: f64| {
+                    runs += 1;
+                    if most != 0 && runs > most {
+                        -1.0
+                    } else if d < below {
+                        f64::INFINITY
+                    } else {
+                        fixed + falls / (d * d) + grows * (d * d)
+                    }
+                };
+                let found = voxtet::tune(grid.as_ref(), run, options)?;
+                self.check_answer(call, found.cell_size(), found.zone(), found.warnings(), found.note());
+                check_near(call, &[("seconds", found.seconds())]);
+                assert_eq!(found.runs().len(), call["runs"].as_array().unwrap().len(), "{call}");
+                found.runs().enumerate().for_each(|(i, (size, _))| check_number(&call["runs"][i], size, call));
+            }
         }
         Ok(())
     }
+
+    fn check_answer(&self, call: &Value, cell_size: f64, zone: (f64, f64), warnings: u32, note: String) {
+        self.check(call, "warnings", warnings.into());
+        self.check(call, "note", note.into());
+        check_near(call, &[("cell_size", cell_size), ("zone_min", zone.0), ("zone_max", zone.1)]);
+    }
+}
+
+#[derive(Default)]
+struct PrimitiveArrays {
+    singles: Vec<[f32; 3]>,
+    doubles: Vec<[f64; 3]>,
+    tets: Vec<[u32; 4]>,
+    radii: Vec<f64>,
+}
+
+impl PrimitiveArrays {
+    fn primitives(&self, value: &Value) -> Primitives<'_> {
+        let primitives = match (value["type"].as_u64().unwrap(), self.doubles.is_empty()) {
+            (0, true) => Primitives::points(&self.singles),
+            (0, false) => Primitives::points(&self.doubles),
+            (3, true) => Primitives::tets(&self.singles, &self.tets),
+            (type_of, _) => panic!("primitives of type {type_of}"),
+        };
+        let primitives = primitives.with_radius(value["radius"].as_f64().unwrap());
+        if self.radii.is_empty() {
+            primitives
+        } else {
+            primitives.with_radii(&self.radii).unwrap()
+        }
+    }
+}
+
+fn check_number(expected: &Value, found: f64, call: &Value) {
+    let expected = expected.as_f64().unwrap();
+    assert!((found - expected).abs() <= 1e-6 * expected.abs(), "{found}, expected {expected}: {call}");
+}
+
+fn check_near(call: &Value, found: &[(&str, f64)]) {
+    for &(name, value) in found {
+        check_number(&call[name], value, call);
+    }
+}
+
+fn pair_of(value: &Value) -> (f64, f64) {
+    (value[0].as_f64().unwrap(), value[1].as_f64().unwrap())
 }
 
 fn u32_of(bytes: &[u8]) -> u32 {
