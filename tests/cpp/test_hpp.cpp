@@ -997,6 +997,95 @@ START_TEST(meshes_are_cut_as_in_c) {
 }
 END_TEST
 
+// Boxes of two corners each, triangles as flat indices and as a matrix, tets by their corners: as C is given them.
+START_TEST(primitives_are_those_of_c) {
+    Stepped with;
+    const std::vector<float>& xyz = with.scene.a;
+    const std::vector<std::uint32_t> flat = {0, 1, 2, 3, 4, 5};
+    const std::vector<std::array<std::uint32_t, 3>> triples = {{0, 1, 2}, {3, 4, 5}};
+    Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor> rows(2, 3);
+    rows << 0, 1, 2, 3, 4, 5;
+    const Eigen::MatrixXi columns = rows;
+    for (const vox_primitives& found :
+         {vox::primitives(VOX_PRIMITIVE_TRIANGLE, xyz, flat), vox::primitives(VOX_PRIMITIVE_TRIANGLE, xyz, triples),
+          vox::primitives(VOX_PRIMITIVE_TRIANGLE, xyz, rows)}) {
+        ck_assert_int_eq(found.type, VOX_PRIMITIVE_TRIANGLE);
+        ck_assert_ptr_eq(found.positions, xyz.data());
+        ck_assert_uint_eq(found.vertex_count, 64);
+        ck_assert_uint_eq(found.count, 2);
+        ck_assert_mem_eq(found.indices, flat.data(), 6 * sizeof flat[0]);
+    }
+    ck_assert_uint_eq(vox::primitives(VOX_PRIMITIVE_BOX, xyz).count, 32);
+    ck_assert_ptr_null(vox::primitives(VOX_PRIMITIVE_POINT, xyz).indices);
+    const Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Random(3, 10);
+    ck_assert_int_eq(vox::primitives(VOX_PRIMITIVE_POINT, points).position_format, VOX_FORMAT_DOUBLE3);
+    throws([&] { (void)vox::primitives(VOX_PRIMITIVE_TRIANGLE, xyz, columns); }, VOX_ERROR_INVALID_ARGUMENT, "2 x 3");
+    throws([&] { (void)vox::primitives(VOX_PRIMITIVE_TET, xyz, triples); }, VOX_ERROR_INVALID_ARGUMENT,
+           "3 for each primitive, expected 4");
+    throws([&] { (void)vox::primitives(VOX_PRIMITIVE_TET, xyz, flat); }, VOX_ERROR_INVALID_ARGUMENT,
+           "6 vertices are not 4 for each");
+    throws([&] { (void)vox::primitives(VOX_PRIMITIVE_TRIANGLE, xyz); }, VOX_ERROR_INVALID_ARGUMENT, "64 vertices");
+    static_assert(!std::is_constructible_v<vox::borrowed_indices, std::vector<std::uint32_t>>);
+    static_assert(std::is_constructible_v<vox::borrowed_indices, vox::span<const std::uint32_t>>);
+    static_assert(!std::is_constructible_v<vox::borrowed_indices, const std::vector<float>&>);
+    // None are given, which is not the same as that none are needed.
+    const vox_primitives none = vox::primitives(VOX_PRIMITIVE_EDGE, xyz, vox::span<const std::uint32_t>());
+    throws([&] { (void)vox::suggest_for(vox::foreign_grid(none)); }, VOX_ERROR_INVALID_ARGUMENT, "count is 0");
+}
+END_TEST
+
+START_TEST(cell_sizes_of_any_grid_equal_those_of_c) {
+    Stepped with;
+    const vox_primitives held = vox::primitives(VOX_PRIMITIVE_TET, with.scene.a, with.scene.tets),
+                         asking = vox::primitives(VOX_PRIMITIVE_POINT, with.scene.b);
+    vox_foreign_grid grid = vox::foreign_grid(held, VOX_KNOWN_GRID_SORTED);
+    grid.asking = &asking;
+    ck_assert_uint_eq(grid.flags, VOX_FOREIGN_DENSE);
+    vox_foreign_suggestion suggestion = sized_struct<vox_foreign_suggestion>();
+    ck_ok(vox_suggest_for(&grid, &suggestion));
+    const vox_foreign_suggestion suggested = vox::suggest_for(grid);
+    ck_assert_mem_eq(&suggested, &suggestion, sizeof suggestion);
+    ck_assert_uint_eq(vox::curve(suggested).size(), suggestion.curve_count);
+    ck_assert_uint_eq(vox::terms(suggested).size(), suggestion.term_count);
+    vox_grid_work work;
+    ck_ok(vox_count_for(&grid, 0.5, &work));
+    const vox_grid_work counted = vox::count_for(grid, 0.5);
+    ck_assert_mem_eq(&counted, &work, sizeof work);
+    throws([&] { (void)vox::count_for(grid, 0); }, VOX_ERROR_INVALID_ARGUMENT, "cell_size is 0");
+
+    const auto run = [](double d) { return 1e-3 * (d + 1 / d); };
+    std::vector<vox_grid_timing> timings;
+    for (double d : {0.25, 0.5, 1.0, 2.0}) timings.push_back({d, run(d)});
+    vox_grid_fit fit = sized_struct<vox_grid_fit>();
+    ck_ok(vox_cost_fit(&grid, timings.data(), timings.size(), &fit));
+    const vox_grid_fit fitted = vox::cost_fit(grid, timings);
+    ck_assert_mem_eq(&fitted, &fit, sizeof fit);
+    throws([&] { (void)vox::cost_fit(grid, {timings.data(), 2}); }, VOX_ERROR_INVALID_ARGUMENT, "2 different");
+
+    vox_tuning tuning = sized_struct<vox_tuning>();
+    ck_ok(vox_cost_tune(&grid, nullptr, [](double d, void*) { return 1e-3 * (d + 1 / d); }, nullptr, &tuning));
+    const vox_tuning tuned = vox::cost_tune(&grid, run);
+    ck_assert_mem_eq(&tuned, &tuning, sizeof tuning);
+    ck_assert_uint_eq(vox::runs(tuned).size(), tuning.run_count);
+    vox_tune_desc desc = vox_default_tune_desc();
+    desc.first = 0.5;
+    const vox_tuning begun = vox::cost_tune(nullptr, run, desc);
+    ck_assert_double_eq(vox::runs(begun)[0].cell_size, 0.5);
+    throws([&] { (void)vox::cost_tune(nullptr, run); }, VOX_ERROR_INVALID_ARGUMENT, "desc.first is 0");
+    int calls = 0;
+    try {
+        vox::cost_tune(&grid, [&](double) -> double {
+            ++calls;
+            throw std::out_of_range("no time");
+        });
+        ck_abort_msg("nothing was thrown");
+    } catch (const std::out_of_range& error) {
+        ck_assert_str_eq(error.what(), "no time");
+        ck_assert_int_eq(calls, 1);
+    }
+}
+END_TEST
+
 START_TEST(cell_sizes_equal_those_of_c) {
     Stepped with;
     const std::vector<vox_mesh_desc> meshes = {vox::describe(with.scene.a, with.scene.tets),
@@ -1092,7 +1181,9 @@ int main() {
     Suite* suite = suite_create("vox.hpp");
     tcase_add_each(add_case(suite, "results"), results_equal_those_of_c, readings_equal_those_of_c,
                    meshes_tell_what_c_tells, transforms, queries_equal_those_of_c, meshes_are_cut_as_in_c,
-                   cell_sizes_equal_those_of_c, snapshots_hold_the_grid, many_grids_in_one_call, versions);
+                   cell_sizes_equal_those_of_c, primitives_are_those_of_c,
+                   cell_sizes_of_any_grid_equal_those_of_c, snapshots_hold_the_grid, many_grids_in_one_call,
+                   versions);
     tcase_add_each(add_case(suite, "errors"), errors_have_code_and_text, errors_are_the_same_in_every_mode,
                    arrays_of_another_size_are_errors);
     tcase_add_each(add_case(suite, "ownership"), grids_move_and_release, meshes_are_removed_by_their_owner,

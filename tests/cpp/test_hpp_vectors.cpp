@@ -185,6 +185,8 @@ private:
             grid_ = vox::grid::load(array<std::byte>(call["bytes"], call["size"]));
         } else if (name == "suggest") {
             suggest(call);
+        } else if (name == "suggest_for" || name == "count_for" || name == "cost_fit" || name == "cost_tune") {
+            foreign(name, call);
         } else {
             ck_abort_msg("a call that is not known: %s", place_.c_str());
         }
@@ -256,16 +258,124 @@ private:
         vox_suggest_desc desc = vox_default_suggest_desc();
         desc.model = call["model"];
         const vox_suggestion found = vox::suggest_cell_size(meshes, desc);
-        const std::pair<const char*, double> values[] = {
-            {"cell_size", found.cell_size},
-            {"zone_min", found.zone_min},
-            {"zone_max", found.zone_max},
-            {"predicted_cost", found.predicted_cost},
-            {"mean_edge", found.stats.mean_edge},
-            {"curve_count", static_cast<double>(vox::curve(found).size())}};
-        for (const auto& [name, value] : values)
-            ck_assert_msg(std::abs(value - call[name].get<double>()) <= 1e-6 * std::abs(value),
-                          "%s is %.9g: %s", name, value, place_.c_str());
+        check_near(call, {{"cell_size", found.cell_size},
+                          {"zone_min", found.zone_min},
+                          {"zone_max", found.zone_max},
+                          {"predicted_cost", found.predicted_cost},
+                          {"mean_edge", found.stats.mean_edge},
+                          {"curve_count", static_cast<double>(vox::curve(found).size())}});
+    }
+
+    void check_near(const json& expected, const char* name, double value) const {
+        ck_assert_msg(std::abs(value - expected.get<double>()) <= 1e-6 * std::abs(value), "%s is %.9g: %s",
+                      name, value, place_.c_str());
+    }
+    void check_near(const json& call, std::initializer_list<std::pair<const char*, double>> values) const {
+        for (const auto& [name, value] : values) check_near(call.at(name), name, value);
+    }
+
+    // Primitives, and the arrays that they are of.
+    struct primitives {
+        std::vector<std::array<float, 3>> singles;
+        std::vector<std::array<double, 3>> doubles;
+        std::vector<std::uint32_t> indices;
+        std::vector<double> radii;
+        vox_primitives of;
+    };
+
+    void read(const json& given, primitives& to) const {
+        const vox_primitive_type type = given["type"];
+        const bool doubles = given["format"] == 1;
+        const json &at = given["positions"], &count = given["vertices"];
+        if (doubles)
+            to.doubles = array<std::array<double, 3>>(at, count);
+        else
+            to.singles = array<std::array<float, 3>>(at, count);
+        if (given.contains("indices")) {
+            to.indices = array<std::uint32_t>(given["indices"], given["count"]);
+            to.of = doubles ? vox::primitives(type, to.doubles, to.indices)
+                            : vox::primitives(type, to.singles, to.indices);
+        } else {
+            to.of = doubles ? vox::primitives(type, to.doubles) : vox::primitives(type, to.singles);
+        }
+        if (given.contains("radii")) {
+            to.radii = array<double>(given["radii"], to.of.count);
+            to.of.radii = to.radii.data();
+            to.of.radius_format = VOX_FORMAT_DOUBLE3;
+        }
+        to.of.radius = given["radius"];
+    }
+
+    // What the answers have in common.
+    template <class A>
+    void check_answer(const json& call, const A& found) const {
+        check(call, "warnings", found.warnings);
+        check(call, "note", found.note);
+        check_near(call, {{"cell_size", found.cell_size},
+                          {"zone_min", found.zone_min},
+                          {"zone_max", found.zone_max}});
+    }
+
+    void foreign(const std::string& name, const json& call) const {
+        primitives held, asking;
+        vox_foreign_grid grid = vox_default_foreign_grid();
+        const bool described = call.contains("held");
+        if (described) {
+            read(call["held"], held);
+            grid = vox::foreign_grid(held.of, call["known"]);
+            if (call.contains("asking")) {
+                read(call["asking"], asking);
+                grid.asking = &asking.of;
+            }
+            if (call.contains("content")) grid.content = call["content"];
+            if (call.contains("look")) grid.look = call["look"];
+            if (call.contains("dense")) grid.flags = call["dense"] == 1 ? VOX_FOREIGN_DENSE : 0;
+            if (call.contains("weights")) {
+                const std::array<double, 7> w = call["weights"];
+                grid.weights = {w[0], w[1], w[2], w[3], w[4], w[5], w[6]};
+            }
+            grid.radius = call["radius"];
+            grid.least_cell_size = call["least_cell_size"];
+            grid.zone_loss = call["zone_loss"];
+        }
+        if (name == "suggest_for") {
+            const vox_foreign_suggestion found = vox::suggest_for(grid);
+            check_answer(call, found);
+            check(call, "rule", found.rule);
+            check(call, "curve_count", vox::curve(found).size());
+            check_near(call, {{"predicted_cost", found.predicted_cost},
+                              {"legal_cell_size", found.least_cell_size},
+                              {"mean_box_side", found.rules.mean_box_side}});
+        } else if (name == "count_for") {
+            const vox_grid_work w = vox::count_for(grid, call["at"]);
+            const double counts[] = {w.entries, w.visits, w.empty, w.reads, w.occupied, w.cells};
+            for (std::size_t i = 0; i < std::size(counts); ++i) check_near(call["work"][i], "work", counts[i]);
+        } else if (name == "cost_fit") {
+            std::vector<vox_grid_timing> timings;
+            for (const json& timing : call["timings"]) timings.push_back({timing[0], timing[1]});
+            const vox_grid_fit found = vox::cost_fit(grid, timings);
+            check_answer(call, found);
+            check(call, "curve_count", vox::curve(found).size());
+            check_near(call, {{"predicted_seconds", found.predicted_seconds}});
+        } else {
+            vox_tune_desc desc = vox_default_tune_desc();
+            desc.first = call["first"];
+            desc.most_runs = call["most_runs"];
+            const std::array<double, 3> seconds = call["run"];
+            const double fails_below = call["fails_below"];
+            int left = call["stops_after"] == 0 ? -1 : call["stops_after"].get<int>();
+            const auto run = [&](double d) {
+                if (left-- == 0) return -1.0;
+                return d < fails_below ? std::numeric_limits<double>::infinity()
+                                       : seconds[0] + seconds[1] / (d * d) + seconds[2] * (d * d);
+            };
+            const vox_tuning found = vox::cost_tune(described ? &grid : nullptr, run, desc);
+            check_answer(call, found);
+            check_near(call, {{"seconds", found.seconds}});
+            const auto runs = vox::runs(found);
+            ck_assert_uint_eq(runs.size(), call["runs"].size());
+            for (std::size_t i = 0; i < runs.size(); ++i) check_near(call["runs"][i], "runs", runs[i].cell_size);
+        }
     }
 };
 

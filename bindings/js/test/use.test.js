@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { once } from "node:events";
 import test from "node:test";
 import { Worker } from "node:worker_threads";
-import { GridFlags, LogLevel, PenetrationState, ReadingFlags, Result, VoxError } from "../voxtet.js";
+import { ForeignWarnings, GridFlags, KnownGrid, LogLevel, PenetrationState, PrimitiveType, ReadingFlags, Result, VoxError } from "../voxtet.js";
 import { block, loaded } from "./scenes.js";
 
 const vox = await loaded();
