@@ -634,8 +634,8 @@ export interface SuggestDesc {
 }
 
 /**
- * Geometry of all meshes together. Lengths, areas and volumes in the caller's unit. A tet that names a vertex twice
- * adds no edges and facets, but counts in the means over tets.
+ * Geometry of all meshes together, in the caller's unit. Above 5000 tets, and in grids, the means and the counts of
+ * edges, facets and flat tets are estimates from samples. Tets that name a vertex twice have no edges and facets.
  */
 export interface GeometryStats {
   vertices: number;

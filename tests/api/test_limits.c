@@ -1,5 +1,6 @@
 /* Limits that no other test comes near: each is passed by one, which is an error with both numbers in it, and
  * changes nothing. */
+#include <math.h>
 #include <string.h>
 
 #include "scenes/bodies.h"
@@ -171,13 +172,69 @@ START_TEST(capacities) {
 }
 END_TEST
 
+static double one_run(double cell_size, void* user) {
+    ++*(uint32_t*)user;
+    return cell_size < 0.4 ? INFINITY : cell_size + 1 / cell_size + 1e-3 * (*(uint32_t*)user % 7);
+}
+
+/* The same of described grids: counts, terms, notes, runs. */
+START_TEST(any_grid) {
+    body box = make_box(3, 1, 0, 0, 0);
+    vox_primitives held = vox_default_primitives();
+    held.type = VOX_PRIMITIVE_TET;
+    held.positions = box.positions;
+    held.vertex_count = box.vertex_count;
+    held.indices = box.tets;
+    held.count = box.tet_count;
+    vox_foreign_grid grid = vox_default_foreign_grid();
+    grid.held = &held;
+    for (int known = VOX_KNOWN_GRID_ANY; known <= VOX_KNOWN_GRID_NUMPY; ++known) {
+        vox_foreign_suggestion found;
+        memset(&found, 0, sizeof found);
+        found.struct_size = sizeof found;
+        ck_ok(vox_foreign_grid_set_known(&grid, (vox_known_grid)known));
+        ck_ok(vox_suggest_for(&grid, &found));
+        ck_assert_uint_gt(found.curve_count, 1);
+        ck_assert_uint_le(found.curve_count, VOX_COST_CURVE_CAPACITY);
+        ck_assert_uint_le(found.term_count, VOX_COST_TERM_CAPACITY);
+        ck_assert_ptr_nonnull(memchr(found.note, 0, VOX_NOTE_CAPACITY));
+        double sum = 0;
+        for (uint32_t i = 0; i < found.term_count; ++i) sum += found.terms[i].cost;
+        ck_assert_double_eq_tol(sum / found.predicted_cost, 1, 1e-9);
+    }
+
+    vox_tune_desc desc = vox_default_tune_desc();
+    vox_tuning tuning;
+    uint32_t runs = 0;
+    memset(&tuning, 0, sizeof tuning);
+    tuning.struct_size = sizeof tuning;
+    desc.most_runs = VOX_TUNE_RUN_CAPACITY + 1;
+    ck_fails(vox_cost_tune(&grid, &desc, one_run, &runs, &tuning), VOX_ERROR_INVALID_ARGUMENT, "most_runs is 33");
+    ck_assert_uint_eq(runs, 0);
+    desc.most_runs = VOX_TUNE_RUN_CAPACITY;
+    desc.wanted_loss = 0;
+    ck_ok(vox_cost_tune(&grid, &desc, one_run, &runs, &tuning));
+    ck_assert_uint_eq(tuning.run_count, runs);
+    ck_assert_uint_le(runs, VOX_TUNE_RUN_CAPACITY);
+    ck_assert_ptr_nonnull(memchr(tuning.note, 0, VOX_NOTE_CAPACITY));
+
+    vox_grid_fit fit;
+    fit.struct_size = sizeof fit;
+    ck_fails(vox_cost_fit(&grid, tuning.runs, (uint64_t)1 << 32, &fit), VOX_ERROR_LIMIT, "4294967296");
+    held.count = (uint64_t)1 << 32;
+    ck_fails(vox_suggest_for(&grid, &(vox_foreign_suggestion){.struct_size = sizeof(vox_foreign_suggestion)}),
+             VOX_ERROR_LIMIT, "2^32 - 1");
+    free_body(&box);
+}
+END_TEST
+
 static void add_tests(TCase* tests) { tcase_add_each(tests, vertices_of_a_grid, buffers_grow); }
 
 int main(void) {
     Suite* suite = suite_create("limits");
     add_for_each_engine(suite, add_tests);
     TCase* once = add_case(suite, "one engine");
-    tcase_add_each(once, cells_of_dense_storage, buckets_and_workers, capacities);
+    tcase_add_each(once, cells_of_dense_storage, buckets_and_workers, capacities, any_grid);
     TCase* large = add_tagged_case(suite, "large", "large");
     tcase_add_test(large, meshes_of_a_grid);
     return run_suite(suite);

@@ -1188,7 +1188,7 @@ namespace Voxtet
         public Allocator allocator;
     }
 
-    /// <summary>Geometry of all meshes together.</summary>
+    /// <summary>Geometry of all meshes together, in the caller's unit.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 160)]
     public struct GeometryStats
     {
@@ -1452,7 +1452,7 @@ namespace Voxtet
         public Primitives* held;
         /// <summary>null: those held ask themselves, each of all, itself included</summary>
         public Primitives* asking;
-        /// <summary>boxes that ask are larger by this on all sides, &gt;= 0; default 0</summary>
+        /// <summary>boxes that ask are larger by this on all sides, &gt;= 0; default 0.</summary>
         public double radius;
         /// <summary>The smallest cell size that gives right answers. 0 (the default): with AROUND, half the longest
         /// side of a box held, and half that of one that asks with its radius; otherwise none.</summary>
@@ -2611,7 +2611,7 @@ namespace Voxtet
 
         /// <summary>Fits the weights of a grid to timings of the whole run at three different cell sizes or more (0.6,
         /// 1.2 and 2.4 mean edges do), by non-negative least squares, and minimises the cost, from the smallest size
-        /// timed over 1.5 to 1.5 times the largest.</summary>
+        /// timed over 1.2 to 1.2 times the largest.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_cost_fit(ForeignGrid* grid, GridTiming* timings, ulong count, GridFit* @out);
 

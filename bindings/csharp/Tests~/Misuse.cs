@@ -255,6 +255,56 @@ namespace Voxtet.Tests
                 Test.That(grid.SuggestCellSize().cell_size > 0 && grid.SuggestCellSize(CostModel.Paper).cell_size > 0, "a grid");
         }
 
+        public static void GridsOfOthers()
+        {
+            float[] positions;
+            uint[] tets;
+            Block(4, 0, out positions, out tets);
+            var held = new PrimitiveArrays(PrimitiveType.Tet, positions, tets);
+            var asking = new PrimitiveArrays(PrimitiveType.Point, Array.ConvertAll(positions, x => (double)x)) { Radius = 0.2 };
+            var grid = new GridDescription(held, KnownGrid.Hashed) { Asking = asking };
+            ForeignSuggestion suggestion = CellSize.SuggestFor(grid);
+            Test.That(suggestion.zone_min <= suggestion.cell_size && suggestion.cell_size <= suggestion.zone_max, "the zone");
+            Test.That(suggestion.terms[0].name.ToString().Length > 0, "a term");
+            Test.Same(suggestion.note.ToString(), "", "note");
+            ForeignSuggestion unknown = CellSize.SuggestFor(new GridDescription(held));
+            Test.That((unknown.warnings & ForeignWarnings.WeightsUnknown) != 0 && unknown.note.ToString() != "", "a warning");
+
+            // A grid that takes as long as its counts say.
+            Func<double, double> seconds = d =>
+            {
+                GridWork work = CellSize.CountFor(grid, d);
+                return 1e-9 * (20 * work.entries + 9 * work.visits + 3 * work.reads);
+            };
+            GridTiming[] timings = Array.ConvertAll(new[] { 0.3, 0.6, 1.2, 2.4 },
+                                                    d => new GridTiming { cell_size = d, seconds = seconds(d) });
+            GridFit fit = CellSize.Fit(grid, timings);
+            Test.That(fit.residual < 0.02 && fit.weights.entries > 0, "residual " + fit.residual);
+            grid.Weights = fit.weights;
+            Test.Same(CellSize.SuggestFor(grid).weights.entries, fit.weights.entries, "weights");
+            int runs = 0;
+            Tuning tuning = CellSize.Tune(d => { ++runs; return seconds(d); }, grid);
+            Test.Same((double)tuning.run_count, (double)runs, "runs");
+            Test.That(seconds(tuning.cell_size) <= 1.1 * seconds(fit.cell_size), "tuned to " + tuning.cell_size);
+
+            runs = 0;
+            Test.Throws<FormatException>(() => CellSize.Tune(d => { ++runs; throw new FormatException("of a run"); }, grid), "of a run");
+            Test.Same(runs, 1, "runs");
+            Test.Throws<VoxArgumentException>(() => CellSize.Tune(d => 1), "desc.first is 0");
+            Test.Throws<VoxArgumentException>(() => CellSize.Fit(grid, timings[0]), "expected at least 3");
+            Test.Throws<VoxArgumentException>(() => CellSize.CountFor(grid, 0), "cell_size is 0");
+            Test.Throws<ArgumentNullException>(() => CellSize.SuggestFor(null), "grid");
+            Test.Throws<ArgumentNullException>(() => new GridDescription(null), "held");
+            Test.Throws<ArgumentException>(() => new PrimitiveArrays(PrimitiveType.Triangle, positions, new uint[4]),
+                                           "4 vertices, expected 3 for each");
+            Test.Throws<ArgumentException>(() => new PrimitiveArrays(PrimitiveType.Point, new float[4]), "4 numbers");
+            asking.Radii = new double[3];
+            Test.Throws<ArgumentException>(() => CellSize.SuggestFor(grid), "3 radii, expected");
+            Test.Throws<VoxArgumentException>(() => CellSize.SuggestFor(new GridDescription(held, (KnownGrid)99)), "known is 99");
+            var wrong = new PrimitiveArrays(PrimitiveType.Edge, positions, new uint[] { 0, 9999 });
+            Test.Throws<VoxArgumentException>(() => CellSize.SuggestFor(new GridDescription(wrong)), "names vertex 9999");
+        }
+
         public static void Files()
         {
             string folder = System.IO.Path.Combine(System.IO.Path.GetTempPath(), "voxtet-" + Guid.NewGuid());

@@ -249,6 +249,21 @@ namespace Voxtet.Tests
                 case "suggest":
                     Suggest(call);
                     break;
+                case "suggest_for":
+                    SuggestFor(call);
+                    break;
+                case "count_for":
+                {
+                    GridWork w = CellSize.CountFor(GridOf(call), call.Number("at"));
+                    Near(call, "work", w.entries, w.visits, w.empty, w.reads, w.occupied, w.cells);
+                    break;
+                }
+                case "cost_fit":
+                    Fit(call);
+                    break;
+                case "cost_tune":
+                    Tune(call);
+                    break;
                 default:
                     throw new ArgumentException("a call that is not known: " + call.Text("call"));
             }
@@ -322,9 +337,104 @@ namespace Voxtet.Tests
                 { "predicted_cost", found.predicted_cost }, { "mean_edge", found.stats.mean_edge },
                 { "curve_count", found.curve_count }
             };
-            foreach (KeyValuePair<string, double> pair in pairs)
-                Test.That(Math.Abs(pair.Value - call.Number(pair.Key)) <= 1e-6 * Math.Abs(call.Number(pair.Key)),
-                          place + ": " + pair.Key + " is " + pair.Value + ", expected " + call.Number(pair.Key));
+            foreach (KeyValuePair<string, double> pair in pairs) Near(call, pair.Key, pair.Value);
+        }
+
+        /// <summary>Within one part in a million: a number, or a list of them.</summary>
+        void Near(Call call, string name, params double[] found)
+        {
+            object field = call.Fields[name];
+            List<object> expected = field as List<object> ?? new List<object> { field };
+            Test.Same((double)found.Length, (double)expected.Count, place + ": " + name);
+            for (int i = 0; i < found.Length; ++i)
+                Test.That(Math.Abs(found[i] - (double)expected[i]) <= 1e-6 * Math.Abs((double)expected[i]),
+                          place + ": " + name + " is " + found[i] + ", expected " + expected[i]);
+        }
+
+        PrimitiveArrays PrimitivesOf(Call call, string name)
+        {
+            var given = new Call((Dictionary<string, object>)call.Fields[name]);
+            var type = (PrimitiveType)given.Uint("type");
+            uint vertices = given.Uint("vertices");
+            uint[] indices = given.Has("indices") ? Array<uint>(given, "indices", given.Uint("count")) : null;
+            PrimitiveArrays primitives = given.Uint("format") == 1
+                                             ? new PrimitiveArrays(type, Array<double>(given, "positions", 3 * vertices), indices)
+                                             : new PrimitiveArrays(type, Array<float>(given, "positions", 3 * vertices), indices);
+            primitives.Radius = given.Number("radius");
+            if (given.Has("radii")) primitives.Radii = Array<double>(given, "radii", vertices);
+            return primitives;
+        }
+
+        GridDescription GridOf(Call call)
+        {
+            var grid = new GridDescription(PrimitivesOf(call, "held"), (KnownGrid)call.Uint("known"))
+            {
+                Radius = call.Number("radius"), LeastCellSize = call.Number("least_cell_size"), ZoneLoss = call.Number("zone_loss")
+            };
+            if (call.Has("asking")) grid.Asking = PrimitivesOf(call, "asking");
+            if (call.Has("content")) grid.Content = (CellContent)call.Uint("content");
+            if (call.Has("look")) grid.Look = (CellLook)call.Uint("look");
+            if (call.Has("dense")) grid.Flags = (ForeignFlags)call.Uint("dense");
+            if (!call.Has("weights")) return grid;
+            List<double> w = ((List<object>)call.Fields["weights"]).ConvertAll(x => (double)x);
+            grid.Weights = new GridWeights
+            {
+                @fixed = w[0], entries = w[1], visits = w[2], found = w[3], reads = w[4], occupied = w[5], cells = w[6]
+            };
+            return grid;
+        }
+
+        /// <summary>What the answers have in common.</summary>
+        void CheckAnswer(Call call, double cellSize, double zoneMin, double zoneMax, ForeignWarnings warnings, Byte256 note)
+        {
+            Near(call, "cell_size", cellSize);
+            Near(call, "zone_min", zoneMin);
+            Near(call, "zone_max", zoneMax);
+            Check(call, "warnings", (uint)warnings);
+            Test.Same(note.ToString(), call.Text("note"), place);
+        }
+
+        void SuggestFor(Call call)
+        {
+            ForeignSuggestion found = CellSize.SuggestFor(GridOf(call));
+            CheckAnswer(call, found.cell_size, found.zone_min, found.zone_max, found.warnings, found.note);
+            Check(call, "rule", (int)found.rule);
+            Check(call, "curve_count", found.curve_count);
+            Near(call, "predicted_cost", found.predicted_cost);
+            Near(call, "legal_cell_size", found.least_cell_size);
+            Near(call, "mean_box_side", found.rules.mean_box_side);
+        }
+
+        void Fit(Call call)
+        {
+            var timings = new List<GridTiming>();
+            foreach (List<object> pair in (List<object>)call.Fields["timings"])
+                timings.Add(new GridTiming { cell_size = (double)pair[0], seconds = (double)pair[1] });
+            GridFit found = CellSize.Fit(GridOf(call), timings.ToArray());
+            CheckAnswer(call, found.cell_size, found.zone_min, found.zone_max, found.warnings, found.note);
+            Check(call, "curve_count", found.curve_count);
+            Near(call, "predicted_seconds", found.predicted_seconds);
+        }
+
+        void Tune(Call call)
+        {
+            TuneDesc desc = CellSize.DefaultTuning;
+            desc.first = call.Number("first");
+            desc.most_runs = call.Uint("most_runs");
+            List<double> seconds = ((List<object>)call.Fields["run"]).ConvertAll(x => (double)x);
+            double most = call.Number("stops_after"), below = call.Number("fails_below");
+            int runs = 0;
+            Func<double, double> run = d =>
+            {
+                if (++runs > most && most != 0) return -1;
+                return d < below ? double.PositiveInfinity : seconds[0] + seconds[1] / (d * d) + seconds[2] * (d * d);
+            };
+            Tuning found = CellSize.Tune(run, call.Has("held") ? GridOf(call) : null, desc);
+            CheckAnswer(call, found.cell_size, found.zone_min, found.zone_max, found.warnings, found.note);
+            Near(call, "seconds", found.seconds);
+            var sizes = new double[found.run_count];
+            for (int i = 0; i < sizes.Length; ++i) sizes[i] = found.runs[i].cell_size;
+            Near(call, "runs", sizes);
         }
     }
 }

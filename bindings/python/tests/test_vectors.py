@@ -1,6 +1,7 @@
 """The vectors that every language replays (bindings/vectors): the same results, bit for bit."""
 
 import json
+import math
 import os
 import unittest
 
@@ -174,8 +175,67 @@ class Vectors(unittest.TestCase):
         s = voxtet.suggest_cell_size(meshes, model=voxtet.CostModel(call["model"]))
         found = {"cell_size": s.cell_size, "zone_min": s.zone[0], "zone_max": s.zone[1], "predicted_cost": s.predicted_cost,
                  "mean_edge": s.stats.mean_edge, "curve_count": len(s.curve)}
+        self.near(found, call)
+
+    def near(self, found, call):
         for name, value in found.items():
-            self.assertAlmostEqual(value / call[name], 1, delta=1e-6)
+            np.testing.assert_allclose(value, call[name], rtol=1e-6, err_msg=name)
+
+    # ---- grids of other programs ----
+
+    def primitives(self, given):
+        indices = self.array(given["indices"], "<u4", given["count"] // 4, 4) if "indices" in given else None
+        radii = self.array(given["radii"], "<f8", given["vertices"]) if "radii" in given else None
+        found = voxtet.Primitives(self.positions(given), indices, radii=radii, radius=given["radius"])
+        self.assertEqual(found._struct.type, given["type"])
+        return found
+
+    def foreign_grid(self, call):
+        description = {name: call[name] for name in ("radius", "least_cell_size", "zone_loss")}
+        if "content" in call:
+            description["content"] = ("centres", "boxes")[call["content"]]
+        if "look" in call:
+            description["look"] = voxtet.CellLook(call["look"])
+        if "dense" in call:
+            description["dense"] = bool(call["dense"])
+        if "weights" in call:
+            description["weights"] = voxtet.GridWeights(*call["weights"])
+        asking = self.primitives(call["asking"]) if "asking" in call else None
+        return voxtet.ForeignGrid(self.primitives(call["held"]), asking, known=voxtet.KnownGrid(call["known"]), **description)
+
+    def answer(self, found, call):
+        """What the answers have in common."""
+        self.near({"cell_size": found.cell_size, "zone_min": found.zone[0], "zone_max": found.zone[1]}, call)
+        return {"warnings": found.warnings, "note": found.note}
+
+    def suggest_for(self, call):
+        found = voxtet.suggest_for(self.foreign_grid(call))
+        self.near({"predicted_cost": found.predicted_cost, "legal_cell_size": found.least_cell_size,
+                   "mean_box_side": found.rules.mean_box_side}, call)
+        return {**self.answer(found, call), "rule": found.rule, "curve_count": len(found.curve)}
+
+    def count_for(self, call):
+        self.near({"work": voxtet.count_for(call["at"], self.foreign_grid(call))}, call)
+
+    def cost_fit(self, call):
+        found = voxtet.cost_fit(call["timings"], self.foreign_grid(call))
+        self.near({"predicted_seconds": found.predicted_seconds}, call)
+        return {**self.answer(found, call), "curve_count": len(found.curve)}
+
+    def cost_tune(self, call):
+        sizes = []
+
+        def run(d):
+            sizes.append(d)
+            if call["stops_after"] and len(sizes) > call["stops_after"]:
+                return -1
+            fixed, falls, grows = call["run"]
+            return math.inf if d < call["fails_below"] else fixed + falls / (d * d) + grows * (d * d)
+
+        found = voxtet.tune(run, self.foreign_grid(call) if "held" in call else None, first=call["first"],
+                            most_runs=call["most_runs"])
+        self.near({"seconds": found.seconds, "runs": [timing.cell_size for timing in found.runs]}, call)
+        return self.answer(found, call)
 
     def test_all(self):
         self.assertEqual(self.script["abi"], voxtet._c.VOX_ABI_VERSION)

@@ -1142,8 +1142,8 @@ pub struct vox_suggest_desc {
     pub allocator: vox_allocator,
 }
 
-/// Geometry of all meshes together. Lengths, areas and volumes in the caller's unit. A tet that names a vertex twice
-/// adds no edges and facets, but counts in the means over tets.
+/// Geometry of all meshes together, in the caller's unit. Above 5000 tets, and in grids, the means and the counts of
+/// edges, facets and flat tets are estimates from samples. Tets that name a vertex twice have no edges and facets.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_geometry_stats {
@@ -1408,7 +1408,8 @@ pub struct vox_foreign_grid {
     pub held: *const vox_primitives,
     /// null: those held ask themselves, each of all, itself included
     pub asking: *const vox_primitives,
-    /// boxes that ask are larger by this on all sides, >= 0; default 0
+    /// boxes that ask are larger by this on all sides, >= 0; default 0. With PAIRS, the boxes of `asking` are, or those
+    /// held where it is null
     pub radius: f64,
     /// The smallest cell size that gives right answers. 0 (the default): with AROUND, half the longest side of a box
     /// held, and half that of one that asks with its radius; otherwise none.
@@ -2610,9 +2611,9 @@ extern "C" {
     /// defaults. Set out->struct_size first; the fields it covers are written. `meshes` is an array whose elements are
     /// meshes[0].struct_size bytes apart, a multiple of 8, and all have that struct_size. Of their flags, only
     /// VOX_MESH_SELF_COLLISION is used, by REFERENCE and FAST. Errors name a mesh by its index in the array and its
-    /// user data. Time and memory (from desc->allocator, released at the end of the call) are proportional to vertices
-    /// and tets. Errors: INVALID_ARGUMENT (also if there is no tetrahedron, or all have zero size), INVALID_MESH,
-    /// NON_FINITE, LIMIT, OUT_OF_MEMORY.
+    /// user data. All tets and vertices are checked; the models look at samples of them (docs/cell-size.md has times).
+    /// Memory is from desc->allocator until the end of the call. Errors: INVALID_ARGUMENT (also if there is no
+    /// tetrahedron, or all have zero size), INVALID_MESH, NON_FINITE, LIMIT, OUT_OF_MEMORY.
     pub fn vox_suggest_cell_size(
         desc: *const vox_suggest_desc,
         meshes: *const vox_mesh_desc,
@@ -2622,10 +2623,10 @@ extern "C" {
     /// The same for the meshes of a grid. With desc null, the model is that of the grid's engine, with the grid's
     /// storage and byte budget. PAPER takes p_nc from the last step if that had contacts and desc is null or has the
     /// default p_nc. FAST takes from the last step which meshes are at rest and which need no cells for self-collision;
-    /// both cost nothing. It is quicker than vox_suggest_cell_size because it works on samples, whose means are
-    /// accurate to a few per cent. The first call after a mesh was inserted or edited reads all of that mesh, and keeps
-    /// up to 10 KB on the C++ runtime's heap (docs/cell-size.md lists what each costs). Positions must be bound.
-    /// Errors: as vox_suggest_cell_size, and INVALID_STATE for a mesh without positions.
+    /// both cost nothing. It is quicker than vox_suggest_cell_size because its samples are smaller: means are accurate
+    /// to a few per cent. The first call after a mesh was inserted or edited reads all of that mesh, and keeps up to 11
+    /// KB on the C++ runtime's heap (docs/cell-size.md lists what each costs). Positions must be bound. Errors: as
+    /// vox_suggest_cell_size, and INVALID_STATE for a mesh without positions.
     pub fn vox_grid_suggest_cell_size(
         grid: *const vox_grid,
         desc: *const vox_suggest_desc,
@@ -2691,10 +2692,10 @@ extern "C" {
         known: vox_known_grid,
     ) -> vox_result;
     /// The cell size that costs this grid least. Set out->struct_size first; the fields it covers are written. Works on
-    /// a sample of the primitives where there are many (docs/your-own-grid.md has its loss). Memory (from
-    /// grid->allocator, released at the end of the call) in proportion to the sample. Errors: INVALID_ARGUMENT (also
-    /// for no primitive, or AROUND with HOLD_BOXES), INVALID_MESH (a primitive names a vertex that does not exist),
-    /// NON_FINITE, LIMIT, OUT_OF_MEMORY.
+    /// a sample of the primitives where there are many (docs/your-own-grid.md has its loss): those that are not in it
+    /// are not checked either. Memory (from grid->allocator, released at the end of the call) in proportion to it.
+    /// Errors: INVALID_ARGUMENT (also for no primitive, or AROUND with HOLD_BOXES), INVALID_MESH (a primitive names a
+    /// vertex that does not exist), NON_FINITE, LIMIT, OUT_OF_MEMORY.
     pub fn vox_suggest_for(
         grid: *const vox_foreign_grid,
         out: *mut vox_foreign_suggestion,
@@ -2707,8 +2708,8 @@ extern "C" {
         out: *mut vox_grid_work,
     ) -> vox_result;
     /// Fits the weights of a grid to timings of the whole run at three different cell sizes or more (0.6, 1.2 and 2.4
-    /// mean edges do), by non-negative least squares, and minimises the cost, from the smallest size timed over 1.5 to
-    /// 1.5 times the largest. Of several timings at one cell size the shortest counts. Slow timings count less than
+    /// mean edges do), by non-negative least squares, and minimises the cost, from the smallest size timed over 1.2 to
+    /// 1.2 times the largest. Of several timings at one cell size the shortest counts. Slow timings count less than
     /// fast ones, and less still if they are far above the fit. What few timings cannot tell apart is divided as in the
     /// weights that the grid has (`weights`, else `known`). Errors: as vox_suggest_for; also INVALID_ARGUMENT for fewer
     /// than three different cell sizes (those within a millionth are one), sizes below the least legal one, and timings
