@@ -1019,7 +1019,8 @@ START_TEST(primitives_are_those_of_c) {
     ck_assert_ptr_null(vox::primitives(VOX_PRIMITIVE_POINT, xyz).indices);
     const Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Random(3, 10);
     ck_assert_int_eq(vox::primitives(VOX_PRIMITIVE_POINT, points).position_format, VOX_FORMAT_DOUBLE3);
-    throws([&] { (void)vox::primitives(VOX_PRIMITIVE_TRIANGLE, xyz, columns); }, VOX_ERROR_INVALID_ARGUMENT, "2 x 3");
+    throws([&] { (void)vox::primitives(VOX_PRIMITIVE_TRIANGLE, xyz, columns); }, VOX_ERROR_INVALID_ARGUMENT,
+           "2 for each primitive, expected 3");
     throws([&] { (void)vox::primitives(VOX_PRIMITIVE_TET, xyz, triples); }, VOX_ERROR_INVALID_ARGUMENT,
            "3 for each primitive, expected 4");
     throws([&] { (void)vox::primitives(VOX_PRIMITIVE_TET, xyz, flat); }, VOX_ERROR_INVALID_ARGUMENT,
