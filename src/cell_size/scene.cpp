@@ -50,7 +50,7 @@ bool CellSizeScene::moved_since_last_step() const {
 void CellSizeScene::find_near_bodies() {
     tiles.resize(bodies.size(), nullptr);
     fast::begin_step(bodies, nullptr, step_);
-    const bool some_missing = std::ranges::find(tiles, nullptr) != tiles.end();
+    const bool some_missing = std::find(tiles.begin(), tiles.end(), nullptr) != tiles.end();
     if (some_missing) sketches_.reserve(bodies.size());
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         if (some_missing) sketches_.emplace_back(memory);
