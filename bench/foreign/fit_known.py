@@ -1,0 +1,160 @@
+#!/usr/bin/env python3
+"""Fits the weights that are shipped for each grid to the curves, and prints them for src/cell_size/known_grids.cpp.
+
+usage: fit_known.py CURVES.json [--only 1,3]
+
+Weights of a grid are those with the least loss over its scenes, found from the non-negative least squares fit to all of
+its times. What a scene loses with weights fitted without it is printed too. Weights for ANY are those with which the worst loss
+of all grids is least."""
+
+import argparse
+import math
+import random
+import statistics
+import sys
+
+import losses
+
+NAMES = ("ANY", "SORTED", "HASHED", "WARP", "IPC", "IPC_PAIRS", "VTK", "PBAT", "POINT_VOXELS", "NUMPY")
+STEPS = 96  # sizes among which the least cost is looked for
+
+
+class Table:
+    """Counts and losses of a curve at many sizes."""
+
+    def __init__(self, curve):
+        self.curve = curve
+        low, high = curve.sizes[0], curve.sizes[-1]
+        self.sizes = [low * (high / low) ** (k / (STEPS - 1)) for k in range(STEPS)]
+        self.counts = [curve.counts(s) for s in self.sizes]
+        self.losses = [curve.loss(s) for s in self.sizes]
+        # Rows of the least squares fit: times of the sweep.
+        self.rows = [(curve.counts(curve.sizes[i]), min(r[i] for r in curve.rounds) * 1e9) for i in curve.record["sweep"]]
+
+    def chosen(self, weights):
+        costs = [sum(w * c for w, c in zip(weights, counts)) for counts in self.counts]
+        return min(range(STEPS), key=costs.__getitem__)
+
+    def loss(self, weights):
+        return self.losses[self.chosen(weights)]
+
+
+def least_squares(tables):
+    """Weights >= 0 for which the sum of (fitted / measured - 1)^2 is least, by coordinate descent. Every scene has its own
+    fixed part."""
+    rows = []
+    for k, table in enumerate(tables):
+        for counts, ns in table.rows:
+            row = [0.0] * len(tables)
+            row[k] = 1 / ns
+            rows.append(row + [c / ns for c in counts[1:]])
+    columns = list(zip(*rows))
+    squares = [sum(v * v for v in column) for column in columns]
+    x = [0.0] * len(columns)
+    rest = [-1.0] * len(rows)
+    for _ in range(400):
+        for j, column in enumerate(columns):
+            if squares[j] == 0:
+                continue
+            step = max(-sum(v * r for v, r in zip(column, rest)) / squares[j], -x[j])
+            if step != 0:
+                x[j] += step
+                rest = [r + step * v for r, v in zip(rest, column)]
+    return [0.0] + x[len(tables):]
+
+
+def aim(tables, weights):
+    found = [max(t.loss(weights), -0.01) for t in tables]
+    return statistics.mean(found) + 0.3 * max(found)
+
+
+def search(tables, start, objective, rng, tries):
+    """Random steps of single weights; only their proportions matter."""
+    best, value = list(start), objective(tables, start)
+    total = sum(w * c for w, c in zip(start, [statistics.mean(c[j] for t in tables for c in t.counts) for j in range(7)]))
+    scale = [total / max(statistics.mean(c[j] for t in tables for c in t.counts), 1e-9) for j in range(7)]
+    for i in range(tries):
+        spread = 2.0 if i % 3 == 0 else 0.5
+        trial = list(best)
+        j = rng.randrange(1, 7)
+        if scale[j] > 1e6 * total:
+            continue
+        if trial[j] == 0:
+            trial[j] = scale[j] * math.exp(rng.uniform(-7, 0))
+        else:
+            trial[j] *= math.exp(rng.gauss(0, spread))
+            if rng.random() < 0.1:
+                trial[j] = 0.0
+        found = objective(tables, trial)
+        if found < value - 1e-6:
+            best, value = trial, found
+    return best, value
+
+
+def fitted(tables, rng, tries=400):
+    return search(tables, least_squares(tables), aim, rng, tries)[0]
+
+
+def in_per_cent(found):
+    return f"median {100 * statistics.median(found):5.1f} %, worst {100 * max(found):5.1f} %"
+
+
+def line(name, weights):
+    # Two digits are enough.
+    largest = max(weights)
+    unit = 1 if largest <= 0 else 1
+    return f"    /* {name} */ {{" + ", ".join(f"{w * unit:.2g}" for w in weights) + "},"
+
+
+def worst_of_all(tables, weights):
+    """Also counts how much worse than the mean edge it is."""
+    found = [t.loss(weights) for t in tables]
+    beside = [(1 + f) / (1 + t.edge_loss) - 1 for t, f in zip(tables, found)]
+    return max(found) + 2 * max(max(beside) - 0.05, 0) + 0.5 * statistics.mean(found)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("curves")
+    parser.add_argument("--only", help="numbers of vox_known_grid")
+    parser.add_argument("--tries", type=int, default=400)
+    options = parser.parse_args()
+    _, curves = losses.load(options.curves)
+    tables = {}
+    for curve in curves:
+        tables.setdefault(curve.known, []).append(Table(curve))
+    rng = random.Random(1)
+    wanted = [int(k) for k in options.only.split(",")] if options.only else sorted(tables)
+    lines = {}
+    for known in wanted:
+        own = tables[known]
+        start = least_squares(own)
+        found = fitted(own, rng, options.tries)
+        without = []
+        for scene in sorted({t.curve.scene for t in own}):
+            rest = [t for t in own if t.curve.scene != scene]
+            weights = fitted(rest, rng, options.tries // 4)
+            without += [t.loss(weights) for t in own if t.curve.scene == scene]
+        print(f"{NAMES[known]}: least squares {in_per_cent([t.loss(start) for t in own])}; least loss "
+              f"{in_per_cent([t.loss(found) for t in own])}; without the scene {in_per_cent(without)}; "
+              f"best of the sweep by noise {in_per_cent([min(t.losses) for t in own])}", file=sys.stderr, flush=True)
+        lines[known] = line(NAMES[known], found)
+    if not options.only:
+        every = [t for own in tables.values() for t in own]
+        for t in every:
+            t.edge_loss = t.curve.loss(t.curve.record["rules"]["mean_edge"])
+        start = least_squares(every)
+        value = None
+        for attempt in ([start] + [fitted(own, rng, 50) for own in tables.values()]):
+            trial, got = search(every, attempt, worst_of_all, rng, options.tries)
+            if value is None or got < value:
+                found, value = trial, got
+        print(f"ANY: {in_per_cent([t.loss(found) for t in every])}; the mean edge {in_per_cent([t.edge_loss for t in every])}; "
+              f"worst beside the mean edge {100 * max((1 + t.loss(found)) / (1 + t.edge_loss) - 1 for t in every):.1f} %", file=sys.stderr)
+        lines[0] = line("ANY", found)
+    for known in sorted(lines):
+        print(lines[known])
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,174 @@
+"""vox_suggest_for, vox_count_for, vox_cost_fit and vox_cost_tune by ctypes. The structs are those of include/vox/vox.h."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+from ctypes import (CFUNCTYPE, POINTER, Structure, byref, c_char, c_char_p, c_double, c_int, c_uint32, c_uint64, c_void_p,
+                    sizeof)
+
+CURVE, TERMS, NOTE, RUNS = 64, 12, 256, 32
+DOUBLE3 = 1
+DENSE = 1
+WORK = ("entries", "visits", "empty", "reads", "occupied", "cells")
+WEIGHTS = ("fixed", "entries", "visits", "found", "reads", "occupied", "cells")
+
+
+class Primitives(Structure):
+    _fields_ = [("struct_size", c_uint32), ("type", c_int), ("positions", c_void_p), ("position_byte_stride", c_uint64),
+                ("position_component_byte_stride", c_uint64), ("vertex_count", c_uint64), ("position_format", c_int),
+                ("radius_format", c_int), ("indices", c_void_p), ("index_byte_stride", c_uint64), ("count", c_uint64),
+                ("radii", c_void_p), ("radius_byte_stride", c_uint64), ("radius", c_double)]
+
+
+class Work(Structure):
+    _fields_ = [(name, c_double) for name in WORK]
+
+
+class Weights(Structure):
+    _fields_ = [(name, c_double) for name in WEIGHTS]
+
+
+class Allocator(Structure):
+    _fields_ = [("allocate", c_void_p), ("release", c_void_p), ("user", c_void_p)]
+
+
+class Grid(Structure):
+    _fields_ = [("struct_size", c_uint32), ("flags", c_uint32), ("content", c_int), ("look", c_int),
+                ("held", POINTER(Primitives)), ("asking", POINTER(Primitives)), ("radius", c_double),
+                ("least_cell_size", c_double), ("zone_loss", c_double), ("known", c_int), ("reserved", c_uint32),
+                ("weights", Weights), ("allocator", Allocator)]
+
+
+class Rules(Structure):
+    _fields_ = [(name, c_double) for name in ("mean_edge", "mean_box_side", "median_box_side", "spacing", "radius")]
+
+
+class Sample(Structure):
+    _fields_ = [("cell_size", c_double), ("cost", c_double)]
+
+
+class Share(Structure):
+    _fields_ = [("name", c_char * 24), ("count", c_double), ("cost", c_double), ("share", c_double)]
+
+
+class Suggestion(Structure):
+    _fields_ = [("struct_size", c_uint32), ("warnings", c_uint32), ("cell_size", c_double), ("zone_min", c_double),
+                ("zone_max", c_double), ("predicted_cost", c_double), ("least_cell_size", c_double), ("work", Work),
+                ("weights", Weights), ("rules", Rules), ("rule_costs", Rules), ("curve", Sample * CURVE),
+                ("curve_count", c_uint32), ("term_count", c_uint32), ("terms", Share * TERMS), ("rule", c_int),
+                ("reserved", c_uint32), ("note", c_char * NOTE)]
+
+
+class Timing(Structure):
+    _fields_ = [("cell_size", c_double), ("seconds", c_double)]
+
+
+class Fit(Structure):
+    _fields_ = [("struct_size", c_uint32), ("warnings", c_uint32), ("weights", Weights), ("residual", c_double),
+                ("cell_size", c_double), ("zone_min", c_double), ("zone_max", c_double), ("predicted_seconds", c_double),
+                ("curve", Sample * CURVE), ("curve_count", c_uint32), ("reserved", c_uint32), ("note", c_char * NOTE)]
+
+
+class TuneDesc(Structure):
+    _fields_ = [("struct_size", c_uint32), ("most_runs", c_uint32), ("min", c_double), ("max", c_double),
+                ("first", c_double), ("zone_loss", c_double), ("wanted_loss", c_double)]
+
+
+class Tuning(Structure):
+    _fields_ = [("struct_size", c_uint32), ("warnings", c_uint32), ("cell_size", c_double), ("zone_min", c_double),
+                ("zone_max", c_double), ("seconds", c_double), ("expected_loss", c_double), ("noise", c_double),
+                ("weights", Weights), ("runs", Timing * RUNS), ("run_count", c_uint32), ("curve_count", c_uint32),
+                ("curve", Sample * CURVE), ("note", c_char * NOTE)]
+
+
+Run = CFUNCTYPE(c_double, c_double, c_void_p)
+
+
+class Failed(Exception):
+    pass
+
+
+def address(array):
+    """Of the values of an array of numpy or of the standard library's array module."""
+    return array.ctypes.data if hasattr(array, "ctypes") else array.buffer_info()[0]
+
+
+class Described:
+    """A vox_foreign_grid, with the arrays that it points to."""
+
+    def __init__(self, vox, held, asking, content=None, look=None, dense=False, least=0.0):
+        """held, asking: {type, count, vertex_count, positions, indices, radii}, asking None for the same set; content and
+        look None: the library's defaults."""
+        self.vox, self.kept = vox, (held, asking)
+        self.grid = Grid()
+        vox.call("vox_foreign_grid_init", self.grid, sizeof(Grid))
+        self.held = self.primitives(held)
+        self.grid.held = ctypes.pointer(self.held)
+        if asking is not None:
+            self.asking = self.primitives(asking)
+            self.grid.asking = ctypes.pointer(self.asking)
+        if content is not None:
+            self.grid.content, self.grid.look, self.grid.flags = content, look, DENSE if dense else 0
+        self.grid.least_cell_size = least
+
+    def primitives(self, values):
+        p = Primitives()
+        self.vox.call("vox_primitives_init", p, sizeof(Primitives))
+        p.type, p.count, p.vertex_count = values["type"], values["count"], values["vertex_count"]
+        p.positions, p.position_format = address(values["positions"]), DOUBLE3
+        p.position_byte_stride = 24
+        if values.get("indices") is not None:
+            p.indices = address(values["indices"])
+        if values.get("radii") is not None:
+            p.radii, p.radius_format = address(values["radii"]), DOUBLE3
+        return p
+
+    def weigh(self, known, weights=None):
+        """Takes the weights of a known grid, or given ones; the description stays. Returns itself."""
+        self.grid.known = known
+        self.grid.weights = Weights(*(weights or [0] * len(WEIGHTS)))
+        return self
+
+    def suggest(self):
+        found = Suggestion(struct_size=sizeof(Suggestion))
+        self.vox.call("vox_suggest_for", self.grid, found)
+        return found
+
+    def count(self, size):
+        found = Work()
+        self.vox.call("vox_count_for", self.grid, c_double(size), found)
+        return {name: getattr(found, name) for name in WORK}
+
+    def fit(self, timings):
+        found = Fit(struct_size=sizeof(Fit))
+        given = (Timing * len(timings))(*timings)
+        self.vox.call("vox_cost_fit", self.grid, given, c_uint64(len(timings)), found)
+        return found
+
+    def tune(self, run, **desc):
+        return self.vox.tune(self.grid, run, **desc)
+
+
+class Vox:
+    def __init__(self, path):
+        self.library = ctypes.CDLL(path)
+        self.library.vox_last_error.restype = c_char_p
+
+    def call(self, name, *arguments):
+        function = getattr(self.library, name)
+        function.restype = c_int
+        given = [byref(a) if isinstance(a, Structure) else a for a in arguments]
+        result = function(*(c_uint32(a) if isinstance(a, int) else a for a in given))
+        if result:
+            raise Failed(f"{name}: {result}, {self.library.vox_last_error().decode()}")
+
+    def tune(self, grid, run, **desc):
+        """run(size) returns seconds. grid may be None; then `first` must be given."""
+        described, found = TuneDesc(), Tuning(struct_size=sizeof(Tuning))
+        self.call("vox_tune_desc_init", described, sizeof(TuneDesc))
+        for name, value in desc.items():
+            setattr(described, name, value)
+        callback = Run(lambda size, _: run(size) if math.isfinite(size) else math.nan)
+        self.call("vox_cost_tune", grid if grid is not None else c_void_p(), described, callback, c_void_p(), found)
+        return found

@@ -1,0 +1,97 @@
+"""Measured curves of grids, and what a cell size loses on them. Nothing but Python is needed."""
+
+from __future__ import annotations
+
+import bisect
+import json
+import math
+import statistics
+
+WORK = ("entries", "visits", "empty", "reads", "occupied", "cells")
+WEIGHTS = ("fixed", "entries", "visits", "found", "reads", "occupied", "cells")  # the fields of vox_grid_weights
+
+
+class Through:
+    """A smooth function through points without overshooting (Fritsch and Carlson 1980, with the slopes of Fritsch and
+    Butland 1984), in logarithms of both; straight beyond the ends."""
+
+    def __init__(self, sizes, values):
+        self.x = [math.log(s) for s in sizes]
+        self.y = [math.log(v) for v in values]
+        n = len(self.x)
+        steps = [self.x[i + 1] - self.x[i] for i in range(n - 1)]
+        rises = [(self.y[i + 1] - self.y[i]) / steps[i] for i in range(n - 1)]
+        self.slopes = [rises[0]]
+        for i in range(1, n - 1):
+            a, b = rises[i - 1], rises[i]
+            w, v = 2 * steps[i] + steps[i - 1], steps[i] + 2 * steps[i - 1]
+            self.slopes.append((w + v) / (w / a + v / b) if a * b > 0 else 0.0)
+        self.slopes.append(rises[-1])
+
+    def __call__(self, size):
+        x = math.log(size)
+        if x <= self.x[0] or x >= self.x[-1]:
+            end = 0 if x <= self.x[0] else -1
+            return math.exp(self.y[end] + self.slopes[end] * (x - self.x[end]))
+        i = bisect.bisect_right(self.x, x) - 1
+        step = self.x[i + 1] - self.x[i]
+        t = (x - self.x[i]) / step
+        return math.exp((1 + 2 * t) * (1 - t) ** 2 * self.y[i] + t * t * (3 - 2 * t) * self.y[i + 1] +
+                        step * t * (1 - t) * ((1 - t) * self.slopes[i] - t * self.slopes[i + 1]))
+
+
+class Curve:
+    """One grid on one scene."""
+
+    def __init__(self, record):
+        self.record = record
+        self.grid, self.scene, self.known = record["grid"], record["scene"], record["known"]
+        self.sizes, self.unit, self.least = record["sizes"], record["unit"], record["least"]
+        self.rounds = record["seconds"]
+        self.halves = [[min(times) for times in zip(*self.rounds[h::2])] for h in (0, 1)]
+        self.smooth = [Through(self.sizes, half) for half in self.halves]
+        self.work = [Through(self.sizes, [max(w[name], 1e-9) for w in record["work"]]) for name in WORK]
+
+    def legal(self, size):
+        return max(size, self.least)
+
+    def loss(self, size):
+        """How much longer a run takes than at the best size of the sweep. One half of the rounds says which that is, the
+        other measures both, and the other way round; the mean."""
+        losses = []
+        for chosen_by, measured_by in ((0, 1), (1, 0)):
+            best = min(self.record["sweep"], key=self.halves[chosen_by].__getitem__)
+            losses.append(self.smooth[measured_by](self.legal(size)) / self.halves[measured_by][best] - 1)
+        return statistics.mean(losses)
+
+    def best_size(self):
+        whole = [min(a, b) for a, b in zip(*self.halves)]
+        return self.sizes[min(self.record["sweep"], key=whole.__getitem__)]
+
+    def noise(self):
+        """The median over sizes of how far a round is from the least."""
+        return statistics.median(statistics.median(times) / min(times) for times in zip(*self.rounds)) - 1
+
+    def draw(self, size, rng):
+        """A run at that size, as noisy as those that were measured: the curve, times what one round was above the least
+        of all at the nearest size."""
+        nearest = min(range(len(self.sizes)), key=lambda i: abs(math.log(self.sizes[i] / size)))
+        times = [r[nearest] for r in self.rounds]
+        return min(self.smooth[0](size), self.smooth[1](size)) * rng.choice(times) / min(times)
+
+    def timing_sizes(self):
+        """The three that vox_cost_fit is given: 0.6, 1.2 and 2.4 units, or as far apart from the least legal size."""
+        first = max(0.6 * self.unit, self.least)
+        return [first, 2 * first, 4 * first] if first == 0.6 * self.unit else [first, 1.5 * first, 2.25 * first]
+
+    def counts(self, size):
+        """What each weight is multiplied with, counted at the measured sizes."""
+        w = dict(zip(WORK, (f(size) for f in self.work)))
+        return [1, w["entries"], w["visits"], max(w["visits"] - w["empty"], 0), w["reads"], w["occupied"],
+                w["cells"] if self.record["dense"] else 0]
+
+
+def load(path):
+    with open(path, encoding="utf-8") as file:
+        record = json.load(file)
+    return record, [Curve(c) for c in record["curves"]]
