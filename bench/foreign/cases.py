@@ -1,5 +1,5 @@
 """Grids that are not ours, on the scenes: each case is one of them on one scene, described as vox_foreign_grid does, and
-can be run at any cell size."""
+can be run at any cell size. Functions NAME_cases(library, source): library is that of plain_grids.cpp, source of scenes.py."""
 
 from __future__ import annotations
 
@@ -105,8 +105,8 @@ def held_and_asking(scene):
 
 # ---- the plain grids in C++
 
-def plain_cases(library, run, name, known, dense, scale):
-    for scene in scenes.meshes(scale):
+def plain_cases(source, run, name, known, dense):
+    for scene in source.meshes():
         body, other = held_and_asking(scene)
         edge = scenes.mean_edge(body)
         for content, held in ((BOXES, tets(body)), (CENTRES, Primitives(POINT, body.vertices))):
@@ -119,19 +119,19 @@ def plain_cases(library, run, name, known, dense, scale):
             yield Case(title, known, scene.name, content, BOX, dense, held, asking, edge, at)
 
 
-def sorted_cases(library, scale):
-    yield from plain_cases(library, library.plain_run_sorted, "C++, sorted", SORTED, True, scale)
+def sorted_cases(library, source):
+    yield from plain_cases(source, library.plain_run_sorted, "C++, sorted", SORTED, True)
 
 
-def hashed_cases(library, scale):
-    yield from plain_cases(library, library.plain_run_hashed, "C++, unordered_map", HASHED, False, scale)
+def hashed_cases(library, source):
+    yield from plain_cases(source, library.plain_run_hashed, "C++, unordered_map", HASHED, False)
 
 
-def voxel_cases(library, scale):
+def voxel_cases(library, source):
     """Each point asks for the others in a ball of 1.5 or 3 spacings; the default of Open3D is the radius."""
-    found = [(s.name, s.points, scenes.cloud_spacing(s.points)) for s in scenes.clouds(scale)]
-    for scene in scenes.meshes(scale):
-        if scene.name in ("half", "graded", "coil"):
+    found = [(s.name, s.points, scenes.cloud_spacing(s.points)) for s in source.clouds()]
+    for scene in source.meshes():
+        if scene.name in source.some:
             found.append((scene.name, scene.bodies[0].vertices, scenes.mean_edge(scene.bodies[0])))
     for name, points, spacing in found:
         for multiple in (1.5, 3):
@@ -186,8 +186,8 @@ def run_numpy(held, asked, size):
     return found
 
 
-def numpy_cases(library, scale):
-    for scene in scenes.meshes(0.2 * scale):
+def numpy_cases(_, source):
+    for scene in source.meshes(0.12):
         body, other = held_and_asking(scene)
         held, asking = tets(body), tets(other) if other else None
         boxes, asked = held.boxes(), (asking or held).boxes()
@@ -197,7 +197,7 @@ def numpy_cases(library, scale):
 
 # ---- NVIDIA Warp
 
-def warp_cases(library, scale):
+def warp_cases(_, source):
     """Vertices in cells; a tetrahedron asks for those around it and tests them against its box. Points of a cloud ask for
     their neighbours."""
     import warp as wp
@@ -205,10 +205,10 @@ def warp_cases(library, scale):
     wp.init()
     kernel = warp_kernel(wp)
     found = []
-    for scene in scenes.meshes(scale):
+    for scene in source.meshes():
         body, other = held_and_asking(scene)
         found.append((scene.name, body.vertices, tets(other if other else body).boxes(), scenes.mean_edge(body), None))
-    for scene in scenes.clouds(scale):
+    for scene in source.clouds():
         spacing = scenes.cloud_spacing(scene.points)
         radius = 2 * spacing
         found.append((scene.name, scene.points, np.concatenate([scene.points - radius, scene.points + radius], 1), spacing, radius))
@@ -263,11 +263,11 @@ def lows_and_highs(vertices, *indices, grown):
     return np.concatenate([e.min(1) for e in each]) - grown, np.concatenate([e.max(1) for e in each]) + grown
 
 
-def ipc_cases(library, scale):
+def ipc_cases(_, source):
     """All candidates of the surfaces: edges against edges, vertices against faces, boxes a twentieth of an edge larger."""
     import ipctk
     ipctk.set_num_threads(1)
-    for scene in scenes.meshes(scale):
+    for scene in source.meshes():
         vertices, edges, faces = surfaces(scene)
         edge = float(np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1).mean())
         grown = 0.05 * edge
@@ -286,12 +286,12 @@ def ipc_cases(library, scale):
                    of_boxes(*lows_and_highs(vertices, alone, edges, grown=grown)), edge, at, default)
 
 
-def ipc_pairs_cases(library, scale):
+def ipc_pairs_cases(_, source):
     """Vertices and faces, paired cell by cell. The grid takes its cell size from the boxes of the edges, so one edge of the
     length that gives the wanted size stands for them."""
     import ipctk
     ipctk.set_num_threads(1)
-    for scene in scenes.meshes(scale):
+    for scene in source.meshes():
         vertices, edges, faces = surfaces(scene)
         edge = float(np.linalg.norm(vertices[edges[:, 0]] - vertices[edges[:, 1]], axis=1).mean())
         grown = 0.02 * edge
@@ -315,12 +315,12 @@ def ipc_pairs_cases(library, scale):
 
 # ---- VTK
 
-def vtk_cases(library, scale):
+def vtk_cases(_, source):
     """Tetrahedra in all cells that they meet; the vertices of the other body (or its own) that are in its box ask in which
     tetrahedron they are."""
     import vtk
     from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
-    for scene in scenes.meshes(scale):
+    for scene in source.meshes():
         body, other = held_and_asking(scene)
         low, high = body.vertices.min(0), body.vertices.max(0)
         points = (other if other else body).vertices
@@ -351,10 +351,10 @@ def vtk_cases(library, scale):
 
 # ---- PBAT
 
-def pbat_cases(library, scale):
+def pbat_cases(_, source):
     """Centres of boxes in cells; vertices of the other body (or its own) look at 27."""
     from pbatoolkit import pbat
-    for scene in scenes.meshes(0.1 * scale):
+    for scene in source.meshes(0.1):
         body, other = held_and_asking(scene)
         points = (other if other else body).vertices
         held = tets(body)

@@ -2,6 +2,7 @@
 """Times grids that are not ours at a sweep of cell sizes.
 
 usage: measure.py PLAIN_GRIDS CURVES.json [--seconds 300] [--scale 1] [--grids sorted,warp] [--primitives FOLDER]
+                  [--meshes FOLDER]
 
 PLAIN_GRIDS is the library made of plain_grids.cpp. Each grid on each scene is run at 14 sizes from 0.42 to 4 mean edges
 (or radii, where balls ask), further ones where the best is at an end, and those that rules choose, in random order within
@@ -20,6 +21,7 @@ import time
 import numpy as np
 
 import cases
+import scenes
 
 SWEEP = [0.6 * 2 ** (k / 4) for k in range(-2, 12)]  # mean edges
 COUNTED = ("entries", "visits", "empty", "reads", "occupied", "cells", "inside")
@@ -39,6 +41,13 @@ def rules(case):
     if case.default:
         found["default"] = case.default
     return {name: size for name, size in found.items() if size > 0}
+
+
+def counted(library, case, size):
+    """The mean over as many positions of the lattice as take little time: counts in few cells vary much."""
+    once = dict(zip(COUNTED, cases.count(library, case, size, 1)))
+    positions = min(max(round(5e6 / (once["entries"] + once["visits"] + once["cells"])), 2), 64)
+    return dict(zip(COUNTED, cases.count(library, case, size, positions)))
 
 
 def timed(run, size):
@@ -85,7 +94,7 @@ def measure(case, seconds, rng, library):
         "dense": case.dense, "held": len(case.held.boxes()), "asking": len(case.asked().boxes()),
         "mean_edge": case.mean_edge, "unit": unit, "least": least, "rules": chosen, "sweep": [sizes.index(s) for s in sweep],
         "sizes": sizes, "seconds": rounds,  # [round][size]
-        "work": [dict(zip(COUNTED, cases.count(library, case, s))) for s in sizes]}
+        "work": [counted(library, case, s) for s in sizes]}
 
 
 def save_primitives(folder, name, case):
@@ -120,18 +129,20 @@ def main():
     parser.add_argument("curves")
     parser.add_argument("--seconds", type=float, default=300, help="of all runs together")
     parser.add_argument("--scale", type=float, default=1, help="of the number of primitives")
+    parser.add_argument("--meshes", help="a folder with .msh files: these instead of the generated scenes")
     parser.add_argument("--grids", default=",".join(cases.GRIDS))
     parser.add_argument("--primitives")
     options = parser.parse_args()
     library = cases.plain(os.path.abspath(options.plain_grids))
     grids = options.grids.split(",")
+    source = scenes.Real(options.meshes) if options.meshes else scenes.Generated(options.scale)
     if options.primitives:
         os.makedirs(options.primitives, exist_ok=True)
     result = {"cpu": processor(), "date": time.strftime("%Y-%m-%d"), "versions": versions(grids), "curves": []}
     rng = random.Random(1)
     for name in grids:
         began = time.perf_counter()
-        found = list(cases.GRIDS[name](library, options.scale))
+        found = list(cases.GRIDS[name](library, source))
         for case in found:
             curve = measure(case, options.seconds / len(grids) / len(found), rng, library)
             if options.primitives:

@@ -53,10 +53,10 @@ def lattice(shape, keep=None, jitter=0.18, seed=1):
 
 
 def ball(across, seed=1):
-    """A ball of `across` cubes, its centre at 0."""
+    """A ball of `across` cubes, its centre at 0, turned anyhow."""
     across = round(across)
     body = lattice([across] * 3, lambda c: ((c - across / 2) ** 2).sum(1) <= (across / 2) ** 2, seed=seed)
-    return body.moved(-across / 2)
+    return turned(body.moved(-across / 2), seed)
 
 
 def joined(bodies):
@@ -65,13 +65,11 @@ def joined(bodies):
                 np.concatenate([b.tets + np.int32(f) for b, f in zip(bodies, first)]))
 
 
-def rotated(body, axis, angle):
-    c, s = np.cos(angle), np.sin(angle)
-    i, j = [k for k in range(3) if k != axis]
-    turned = body.vertices.copy()
-    turned[:, i], turned[:, j] = (c * body.vertices[:, i] - s * body.vertices[:, j],
-                                  s * body.vertices[:, i] + c * body.vertices[:, j])
-    return Body(turned, body.tets)
+def turned(body, seed):
+    """By an arbitrary rotation, so that no lattice lies along that of a grid: with it, some cell sizes would fit
+    particularly well."""
+    axes, _ = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
+    return Body(np.ascontiguousarray(body.vertices @ axes.T), body.tets)
 
 
 def coil(scale):
@@ -103,7 +101,7 @@ def pile(scale):
     rng = np.random.default_rng(5)
     across, side = 5, max(round(4 * scale ** (1 / 3)), 2)
     places = np.stack(np.meshgrid(*[np.arange(side)] * 3, indexing="ij"), -1).reshape(-1, 3)
-    return joined([rotated(ball(across, seed=10 + i), i % 3, rng.uniform(0, 3)).moved(0.93 * across * place + rng.uniform(-.4, .4, 3))
+    return joined([ball(across, seed=10 + i).moved(0.93 * across * place + rng.uniform(-.4, .4, 3))
                    for i, place in enumerate(rng.permutation(places))])
 
 
@@ -117,12 +115,9 @@ def graded(scale):
 
 
 def stretched(scale):
-    """Balls four times as long as wide, turned, half in each other."""
-    def one(seed):
-        body = ball(16 * scale ** (1 / 3), seed)
-        return rotated(rotated(Body(body.vertices * [1, 1, 4], body.tets), 0, 0.6), 2, 0.5)
-    first, second = one(1), one(2)
-    return [first, second.moved([0, 8 * scale ** (1 / 3), 0])]
+    """Balls of tetrahedra four times as long as wide, half in each other."""
+    first, second = (ball(16 * scale ** (1 / 3), seed) for seed in (1, 2))
+    return [Body(body.vertices * [1, 1, 4], body.tets) for body in (first, second.moved([0, 8 * scale ** (1 / 3), 0]))]
 
 
 def meshes(scale=1.0):
@@ -133,7 +128,7 @@ def meshes(scale=1.0):
     coarse = lattice([round(9 * size), round(9 * size), round(5 * size)], seed=8)
     coarse = Body(3 * coarse.vertices, coarse.tets)
     top = coarse.vertices.max(0)
-    return [
+    found = [
         Scene("light", "two balls in light contact", [ball(across), ball(across, 2).moved([0.93 * across, 1.3, 0.7])]),
         Scene("half", "two balls, half overlap", [ball(across), ball(across, 2).moved([0.35 * across, 0.4, 0.3])]),
         Scene("unlike", "a ball in a block three times as coarse", [coarse, ball(fine).moved([0.5 * top[0], 0.4 * top[1], 0.8 * top[2]])]),
@@ -143,6 +138,9 @@ def meshes(scale=1.0):
         Scene("graded", "sizes that grow sevenfold", graded(scale)),
         Scene("stretched", "tetrahedra four times as long as wide", stretched(scale)),
     ]
+    for scene in found:
+        scene.bodies = [turned(body, 4) for body in scene.bodies]
+    return found
 
 
 def clouds(scale=1.0):
@@ -161,6 +159,73 @@ def clouds(scale=1.0):
         ("sphere", "points on a sphere", scan),
         ("clusters", "points in clusters", clusters),
         ("ground", "a scan of a ground", ground))]
+
+
+class Generated:
+    """All scenes, `scale` times the usual number of primitives."""
+    some = ("half", "coil", "graded")  # whose vertices are clouds too
+
+    def __init__(self, scale=1.0):
+        self.scale = scale
+
+    def meshes(self, part=1.0):
+        return meshes(part * self.scale)
+
+    def clouds(self):
+        return clouds(self.scale)
+
+
+class Real:
+    """Each mesh of a folder (.msh, version 2.2, text, at most 60,000 tetrahedra) against itself, moved by a third of its
+    longest side. To check what was found in generated scenes."""
+    some = ("bunny",)
+    most = 60000
+
+    def __init__(self, folder):
+        import glob
+        import os
+        self.found = []
+        for path in sorted(glob.glob(os.path.join(folder, "*.msh"))):
+            body = read_msh(path)
+            if body and len(body.tets) <= self.most:
+                extent = body.vertices.max(0) - body.vertices.min(0)
+                other = body.moved(np.where(extent == extent.max(), extent / 3, 0))
+                self.found.append(Scene(os.path.splitext(os.path.basename(path))[0], path, [body, other]))
+
+    def meshes(self, part=1.0):
+        """part: a slice with so many of the tetrahedra."""
+        return [Scene(s.name, s.title, [sliced(body, part) for body in s.bodies]) for s in self.found]
+
+    def clouds(self):
+        return [Scene(s.name, s.title, [], s.bodies[0].vertices) for s in self.found]
+
+
+def sliced(body, part):
+    axis = np.ptp(body.vertices, axis=0).argmin()
+    along = body.vertices[body.tets, axis].mean(1)
+    return compact(body.vertices, body.tets[along <= np.quantile(along, part)])
+
+
+def read_msh(path):
+    """None if it is of another version, or binary."""
+    with open(path, encoding="utf-8", errors="replace") as file:
+        words = file.read().split()
+    if words[:4] != ["$MeshFormat", "2.2", "0", "8"]:
+        return None
+    at = words.index("$Nodes") + 1
+    count = int(words[at])
+    nodes = np.array(words[at + 1:at + 1 + 4 * count]).reshape(count, 4)
+    number = {name: i for i, name in enumerate(nodes[:, 0])}
+    at = words.index("$Elements") + 2
+    tets = []
+    corners = {"1": 2, "2": 3, "4": 4, "15": 1}
+    for _ in range(int(words[at - 1])):
+        first = at + 3 + int(words[at + 2])
+        after = first + corners[words[at + 1]]
+        if words[at + 1] == "4":
+            tets.append([number[name] for name in words[first:after]])
+        at = after
+    return compact(nodes[:, 1:].astype(float), np.array(tets)) if tets else None
 
 
 def edges_of(tets):
