@@ -163,12 +163,12 @@ def table_of_counts(rows):
 
 
 def notes(record, rows):
-    beside = [(1 + row["losses"]["unknown"][0]) / (1 + row["losses"]["mean_edge"][0]) - 1 for row in rows if "mean_edge" in row["losses"]]
-    worst = max(range(len(beside)), key=beside.__getitem__)
+    beside, worst = max(((1 + row["losses"]["unknown"][0]) / (1 + row["losses"]["mean_edge"][0]) - 1, f"{row['grid']}, {row['scene']}")
+                        for row in rows if "mean_edge" in row["losses"])
     noise = statistics.median(row["noise"] for row in rows)
     versions = ", ".join(f"{name} {version}" for name, version in sorted(record.get("versions", {}).items()))
     return (f"{record['cpu']}, {record['date']}; {versions or 'plain grids alone'}. Of a run to the least at that size: {per_cent(noise)} % in the median. "
-            f"Beside the mean edge the default call loses {per_cent(beside[worst])} % at most ({rows[worst]['grid']}, {rows[worst]['scene']}).\n")
+            f"Beside the mean edge the default call loses {per_cent(beside)} % at most ({worst}).\n")
 
 
 def report_text(record, rows):

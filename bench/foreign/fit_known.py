@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fits the weights that are shipped for each grid to the curves, and prints them for src/cell_size/known_grids.cpp.
 
-usage: fit_known.py CURVES.json [--only 1,3]
+usage: fit_known.py CURVES.json [--only 1,3] [--tries 400]
 
 Weights of a grid are those with the least loss over its scenes, found from the non-negative least squares fit to all of
 its times. What a scene loses with weights fitted without it is printed too. Weights for ANY are those with which the worst loss
@@ -27,7 +27,8 @@ class Table:
         low, high = curve.sizes[0], curve.sizes[-1]
         self.sizes = [low * (high / low) ** (k / (STEPS - 1)) for k in range(STEPS)]
         self.counts = [curve.counts(s) for s in self.sizes]
-        self.losses = [curve.loss(s) for s in self.sizes]
+        # Of sizes about that one: weights shall not depend on a size that happens to be good.
+        self.losses = [statistics.mean(curve.loss(s * f) for f in (0.9, 1, 1.1)) for s in self.sizes]
         # Rows of the least squares fit: times of the sweep.
         self.rows = [(curve.counts(curve.sizes[i]), min(r[i] for r in curve.rounds) * 1e9) for i in curve.record["sweep"]]
 
@@ -99,24 +100,34 @@ def in_per_cent(found):
     return f"median {100 * statistics.median(found):5.1f} %, worst {100 * max(found):5.1f} %"
 
 
-def line(name, weights):
-    # Two digits are enough.
-    largest = max(weights)
-    unit = 1 if largest <= 0 else 1
-    return f"    /* {name} */ {{" + ", ".join(f"{w * unit:.2g}" for w in weights) + "},"
+def in_nanoseconds(tables, weights):
+    """The search leaves their proportions. Scaled so that predicted times are as long as measured ones in the median; what
+    is less than a thousandth of the cost everywhere is 0."""
+    ratios, shares = [], [0.0] * len(weights)
+    for table in tables:
+        for counts, ns in table.rows:
+            cost = sum(w * c for w, c in zip(weights, counts))
+            ratios.append(ns / cost)
+            shares = [max(share, w * c / cost) for share, w, c in zip(shares, weights, counts)]
+    unit = statistics.median(ratios)
+    return [w * unit if share > 1e-3 else 0.0 for w, share in zip(weights, shares)]
+
+
+def line(name, tables, weights):
+    return f"    /* {name} */ {{" + ", ".join(f"{w:.2g}" for w in in_nanoseconds(tables, weights)) + "},"
 
 
 def worst_of_all(tables, weights):
     """Also counts how much worse than the mean edge it is."""
     found = [t.loss(weights) for t in tables]
-    beside = [(1 + f) / (1 + t.edge_loss) - 1 for t, f in zip(tables, found)]
-    return max(found) + 2 * max(max(beside) - 0.05, 0) + 0.5 * statistics.mean(found)
+    beside = [(1 + f) / (1 + t.edge_loss) - 1 for t, f in zip(tables, found) if t.edge_loss is not None]
+    return max(found) + 2 * max(max(beside, default=0) - 0.05, 0) + 0.5 * statistics.mean(found)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("curves")
-    parser.add_argument("--only", help="numbers of vox_known_grid")
+    parser.add_argument("--only", help="numbers of vox_known_grid; 0: weights for ANY alone")
     parser.add_argument("--tries", type=int, default=400)
     options = parser.parse_args()
     _, curves = losses.load(options.curves)
@@ -124,7 +135,7 @@ def main():
     for curve in curves:
         tables.setdefault(curve.known, []).append(Table(curve))
     rng = random.Random(1)
-    wanted = [int(k) for k in options.only.split(",")] if options.only else sorted(tables)
+    wanted = [] if options.only == "0" else [int(k) for k in options.only.split(",")] if options.only else sorted(tables)
     lines = {}
     for known in wanted:
         own = tables[known]
@@ -138,22 +149,31 @@ def main():
         print(f"{NAMES[known]}: least squares {in_per_cent([t.loss(start) for t in own])}; least loss "
               f"{in_per_cent([t.loss(found) for t in own])}; without the scene {in_per_cent(without)}; "
               f"best of the sweep by noise {in_per_cent([min(t.losses) for t in own])}", file=sys.stderr, flush=True)
-        lines[known] = line(NAMES[known], found)
-    if not options.only:
-        every = [t for own in tables.values() for t in own]
-        for t in every:
-            t.edge_loss = t.curve.loss(t.curve.record["rules"]["mean_edge"])
-        start = least_squares(every)
-        value = None
-        for attempt in ([start] + [fitted(own, rng, 50) for own in tables.values()]):
-            trial, got = search(every, attempt, worst_of_all, rng, options.tries)
-            if value is None or got < value:
-                found, value = trial, got
-        print(f"ANY: {in_per_cent([t.loss(found) for t in every])}; the mean edge {in_per_cent([t.edge_loss for t in every])}; "
-              f"worst beside the mean edge {100 * max((1 + t.loss(found)) / (1 + t.edge_loss) - 1 for t in every):.1f} %", file=sys.stderr)
-        lines[0] = line("ANY", found)
+        lines[known] = line(NAMES[known], own, found)
     for known in sorted(lines):
         print(lines[known])
+    if options.only and options.only != "0":
+        return
+    # Where nothing is known of the times, what is described decides: what cells hold, how they are looked at and kept.
+    every = [t for own in tables.values() for t in own]
+    kinds = {}
+    for t in every:
+        edge = t.curve.record["rules"].get("mean_edge")
+        t.edge_loss = edge and t.curve.loss(edge)
+        kinds.setdefault((t.curve.record["content"], t.curve.record["look"], t.curve.record["dense"]), []).append(t)
+    for kind, own in [("all", every), *sorted(kinds.items())]:
+        starts = [least_squares(own)] + [fitted([t for t in own if t.curve.grid == grid], rng, 50)
+                                         for grid in dict.fromkeys(t.curve.grid for t in own)]
+        found, _ = min((search(own, start, worst_of_all, rng, options.tries) for start in starts), key=lambda pair: pair[1])
+        title = kind if kind == "all" else ", ".join((("centres", "boxes")[kind[0]], ("box", "around", "pairs")[kind[1]],
+                                                      "dense" if kind[2] else "hashed"))
+        print(line("ANY: " + title, own, found), flush=True)
+        print(f"{title}: {in_per_cent([t.loss(found) for t in own])}", file=sys.stderr)
+        for grid in dict.fromkeys(t.curve.grid for t in own):
+            some = [t for t in own if t.curve.grid == grid]
+            beside = [(1 + t.loss(found)) / (1 + t.edge_loss) - 1 for t in some if t.edge_loss is not None]
+            print(f"  {grid}: {in_per_cent([t.loss(found) for t in some])}"
+                  + (f"; beside the mean edge {100 * max(beside):.1f} % at worst" if beside else ""), file=sys.stderr, flush=True)
 
 
 if __name__ == "__main__":

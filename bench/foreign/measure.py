@@ -34,8 +34,10 @@ def rules(case):
     held, asked = case.held.boxes(), case.asked().boxes()
     sides = (held[:, 3:] - held[:, :3]).max(1)
     extent = held[:, 3:].max(0) - held[:, :3].min(0)
-    found = {"mean_edge": case.mean_edge, "mean_edge_multiple": 2 * case.mean_edge, "mean_box_side": float(sides.mean()),
-             "median_box_side": float(np.median(sides)), "spacing": float((extent.prod() / len(held)) ** (1 / 3))}
+    found = {"mean_box_side": float(sides.mean()), "median_box_side": float(np.median(sides)),
+             "spacing": float((extent.prod() / len(held)) ** (1 / 3))}
+    if case.unit is None:  # there are edges
+        found.update(mean_edge=case.mean_edge, mean_edge_multiple=2 * case.mean_edge)
     if case.asking is not None and case.asking.radii is not None:
         found["radius"] = float(case.asking.radii.mean())
     if case.default:
