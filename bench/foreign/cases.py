@@ -187,7 +187,7 @@ def run_numpy(held, asked, size):
 
 
 def numpy_cases(_, source):
-    for scene in source.meshes(0.12):
+    for scene in source.meshes(0.08):
         body, other = held_and_asking(scene)
         held, asking = tets(body), tets(other) if other else None
         boxes, asked = held.boxes(), (asking or held).boxes()

@@ -5,10 +5,9 @@ usage: measure.py PLAIN_GRIDS CURVES.json [--seconds 300] [--scale 1] [--grids s
                   [--meshes FOLDER]
 
 PLAIN_GRIDS is the library made of plain_grids.cpp. Each grid on each scene is run at 14 sizes from 0.42 to 4 mean edges
-(or radii, where balls ask), further ones where the best is at an end, and those that rules choose, in random order within
-each of several rounds. Times are of the thread, so that other
-programs on the machine disturb little. The file is written after each grid. --primitives also writes what is held and
-what asks, for tests of other methods."""
+(or radii, where balls ask), further ones where the ends are not clearly worse than the best, and those that rules choose, in random
+order within each of several rounds. Times are of the thread, so that other programs on the machine disturb little. The file is
+written after each grid. --primitives also writes what is held and what asks, for evaluate.py."""
 
 import argparse
 import json
@@ -58,15 +57,16 @@ def timed(run, size):
     return (time.thread_time_ns() - began) * 1e-9
 
 
-def extend(case, sweep, end, step, least):
-    """Adds sizes, at most two octaves of them, where the best one is at that end of the sweep."""
-    before, last = (min(timed(case.run, s) for _ in range(3)) for s in (sweep[end + 1 if end == 0 else end - 1], sweep[end]))
-    for _ in range(8):
-        size = sweep[end] * step
-        if last > 0.99 * before or size < least:
-            break
-        before, last = last, min(timed(case.run, size) for _ in range(3))
-        sweep.insert(0 if end == 0 else len(sweep), size)
+def extended(case, sweep, least):
+    """With further sizes, at most two octaves of them, until both ends take clearly longer than the best size."""
+    times = {size: min(timed(case.run, size) for _ in range(2)) for size in sweep}
+    for end, step in ((0, 2 ** -0.25), (-1, 2 ** 0.25)):
+        for _ in range(8):
+            size = sorted(times)[end] * step
+            if times[sorted(times)[end]] > 1.1 * min(times.values()) or size < least:
+                break
+            times[size] = min(timed(case.run, size) for _ in range(2))
+    return sorted(times)
 
 
 def measure(case, seconds, rng, library):
@@ -77,9 +77,8 @@ def measure(case, seconds, rng, library):
         sweep = [least * 2.5 ** (k / 13) for k in range(14)]
     chosen = {name: max(size, least) for name, size in rules(case).items()}
     # Far outside of the sweep a run may take for ever.
-    for end, step in ((0, 2 ** -0.25), (-1, 2 ** 0.25)):
-        extend(case, sweep, end, step, least)
-    sizes = sorted(sweep)
+    sweep = extended(case, sweep, least)
+    sizes = list(sweep)
     for size in chosen.values():
         if 0.5 * sweep[0] <= size <= 2 * sweep[-1] and min(abs(size / s - 1) for s in sizes) > 0.005:
             sizes.append(size)
