@@ -144,7 +144,8 @@ def table_of_ways(rows):
             # The aims hold for every grid.
             medians = [statistics.median(of_way([r for r in rows if r["grid"] == grid], way)) for grid in grids_of(rows)]
             met = (aims[0] is None or max(medians) <= aims[0]) and max(found) <= aims[1]
-            text = f"{'' if aims[0] is None else f'{100 * aims[0]:.0f} % in every grid, '}{100 * aims[1]:.0f} %: {'met' if met else '**missed**'}"
+            first = "" if aims[0] is None else f"{100 * aims[0]:.0f} % in every grid, "
+            text = f"{first}{100 * aims[1]:.0f} %: {'met' if met else '**missed**'}"
         lines.append(f"| {title} | {per_cent(statistics.median(found))} | {per_cent(statistics.mean(found))} | "
                      f"{per_cent(quantile(found, 0.95))} | {per_cent(max(found))} | {text} |")
     return "\n".join(lines) + "\n"
@@ -167,13 +168,14 @@ def notes(record, rows):
                         for row in rows if "mean_edge" in row["losses"])
     noise = statistics.median(row["noise"] for row in rows)
     versions = ", ".join(f"{name} {version}" for name, version in sorted(record.get("versions", {}).items()))
-    return (f"{record['cpu']}, {record['date']}; {versions or 'plain grids alone'}. Of a run to the least at that size: {per_cent(noise)} % in the median. "
-            f"Beside the mean edge the default call loses {per_cent(beside)} % at most ({worst}).\n")
+    return (f"{record['cpu']}, {record['date']}; {versions or 'plain grids alone'}. A run takes {per_cent(noise)} % longer in the "
+            f"median than the fastest one at its size. Beside the mean edge the default call loses {per_cent(beside)} % at most ({worst}).\n")
 
 
 def report_text(record, rows):
     return ("Loss in per cent beside the best size of the sweep: median, worst.\n\n" + table_of_grids(rows) + "\n" + table_of_ways(rows) +
-            "\nPredicted counts, difference from counted ones in per cent: median, worst.\n\n" + table_of_counts(rows) + "\n" + notes(record, rows))
+            "\nPredicted counts, difference from counted ones in per cent: median, worst.\n\n" + table_of_counts(rows) + "\n" +
+            notes(record, rows))
 
 
 def print_scenes(rows):
@@ -205,7 +207,8 @@ def draw(path, curves, rows):
             row = next(r for r in rows if r["grid"] == grid and r["scene"] == curve.scene)
             for way, mark in (("shipped", "o"), ("tuned", "v")):
                 if way in row["sizes"]:
-                    axis.plot(row["sizes"][way][0], 1 + row["losses"][way][0], mark, color=colour, ms=4, mfc="white" if way == "tuned" else colour)
+                    axis.plot(row["sizes"][way][0], 1 + row["losses"][way][0], mark, color=colour, ms=4,
+                              mfc="white" if way == "tuned" else colour)
         axis.axvline(1, color="#bbbbbb", lw=0.8, zorder=0)
         axis.set_title(grid, fontsize=9)
         axis.set_xscale("log")

@@ -1,5 +1,5 @@
-// Three plain grids as anybody writes them, and a count of what a grid does. A library for bench/foreign's Python, which
-// times the calls. Boxes are six doubles: the low corner, then the high one.
+// Three plain grids as anybody writes them, and a count of what a grid does. A library for bench/foreign's
+// Python, which times the calls. Boxes are six doubles: the low corner, then the high one.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +17,7 @@
 
 namespace {
 
-enum Content { CENTRES = 0, BOXES = 1 }; // as vox_cell_content
+enum Content { CENTRES = 0, BOXES = 1 };      // as vox_cell_content
 enum Look { BOX = 0, AROUND = 1, PAIRS = 2 }; // as vox_cell_look
 
 using Point = std::array<double, 3>;
@@ -53,7 +53,8 @@ bool meet(const Box& a, const Box& b) {
 }
 
 Point centre(const Box& box) {
-    return {0.5 * (box.low[0] + box.high[0]), 0.5 * (box.low[1] + box.high[1]), 0.5 * (box.low[2] + box.high[2])};
+    return {0.5 * (box.low[0] + box.high[0]), 0.5 * (box.low[1] + box.high[1]),
+            0.5 * (box.low[2] + box.high[2])};
 }
 
 Box bounds_of(Boxes boxes) {
@@ -123,7 +124,9 @@ struct DenseLattice {
     }
 
     std::size_t cells() const { return static_cast<std::size_t>(size[0] * size[1] * size[2]); }
-    std::size_t number(const Cell& c) const { return static_cast<std::size_t>((c[2] * size[1] + c[1]) * size[0] + c[0]); }
+    std::size_t number(const Cell& c) const {
+        return static_cast<std::size_t>((c[2] * size[1] + c[1]) * size[0] + c[0]);
+    }
 
     Range clipped(Range range) const {
         for (std::size_t a = 0; a < 3; ++a) {
@@ -136,7 +139,8 @@ struct DenseLattice {
 
 // Of a pair that shares several cells, the one in which it is reported: the first.
 bool reports(const Cell& first_of_a, const Cell& first_of_b, const Cell& here) {
-    return std::max(first_of_a[0], first_of_b[0]) == here[0] && std::max(first_of_a[1], first_of_b[1]) == here[1] &&
+    return std::max(first_of_a[0], first_of_b[0]) == here[0] &&
+           std::max(first_of_a[1], first_of_b[1]) == here[1] &&
            std::max(first_of_a[2], first_of_b[2]) == here[2];
 }
 
@@ -169,7 +173,8 @@ public:
                 const std::size_t cell = dense.number(c);
                 for (std::size_t k = cell == 0 ? 0 : ends_[cell - 1]; k < ends_[cell]; ++k) {
                     const std::uint32_t i = entries_[k];
-                    found += meet(box, held.data[i]) && (content == CENTRES || reports(range.first, ranges_[i].first, c));
+                    found += meet(box, held.data[i]) &&
+                             (content == CENTRES || reports(range.first, ranges_[i].first, c));
                 }
             });
         }
@@ -205,7 +210,8 @@ std::uint64_t run_hashed(Boxes held, Boxes asking, double cell_size, Content con
             const auto list = lists.find(c);
             if (list != lists.end()) {
                 for (const std::uint32_t i : list->second) {
-                    found += meet(box, held.data[i]) && (content == CENTRES || reports(range.first, firsts[i], c));
+                    found +=
+                        meet(box, held.data[i]) && (content == CENTRES || reports(range.first, firsts[i], c));
                 }
             }
         });
@@ -215,25 +221,26 @@ std::uint64_t run_hashed(Boxes held, Boxes asking, double cell_size, Content con
 
 } // namespace
 
-// A run of a grid: all of `held` are put into cells, all of `asking` look for those they meet. Returns how many pairs that
-// are. look is BOX or AROUND.
+// A run of a grid: all of `held` are put into cells, all of `asking` look for those they meet. Returns how
+// many pairs that are. look is BOX or AROUND.
 EXPORTED std::uint64_t plain_run_sorted(const double* held, std::size_t held_count, const double* asking,
                                         std::size_t asking_count, double cell_size, int content, int look) {
     static SortedGrid grid;
     return grid.run({reinterpret_cast<const Box*>(held), held_count},
-                    {reinterpret_cast<const Box*>(asking), asking_count}, cell_size, static_cast<Content>(content),
-                    static_cast<Look>(look));
+                    {reinterpret_cast<const Box*>(asking), asking_count}, cell_size,
+                    static_cast<Content>(content), static_cast<Look>(look));
 }
 
 EXPORTED std::uint64_t plain_run_hashed(const double* held, std::size_t held_count, const double* asking,
                                         std::size_t asking_count, double cell_size, int content, int look) {
     return run_hashed({reinterpret_cast<const Box*>(held), held_count},
-                      {reinterpret_cast<const Box*>(asking), asking_count}, cell_size, static_cast<Content>(content),
-                      static_cast<Look>(look));
+                      {reinterpret_cast<const Box*>(asking), asking_count}, cell_size,
+                      static_cast<Content>(content), static_cast<Look>(look));
 }
 
 // Points (three doubles) in hashed voxels, each asked for all others within `radius`.
-EXPORTED std::uint64_t plain_run_voxels(const double* points, std::size_t count, double radius, double cell_size) {
+EXPORTED std::uint64_t plain_run_voxels(const double* points, std::size_t count, double radius,
+                                        double cell_size) {
     const Point* p = reinterpret_cast<const Point*>(points);
     const Lattice lattice{{0, 0, 0}, 1 / cell_size};
     Lists lists;
@@ -258,8 +265,8 @@ EXPORTED std::uint64_t plain_run_voxels(const double* points, std::size_t count,
     return found;
 }
 
-// What a run does (the fields of vox_grid_work), the mean over `samples` positions of the lattice; last, the visits of
-// cells inside the box of all that are held.
+// What a run does (the fields of vox_grid_work), the mean over `samples` positions of the lattice; last, the
+// visits of cells inside the box of all that are held.
 EXPORTED void plain_count(const double* held_data, std::size_t held_count, const double* asking_data,
                           std::size_t asking_count, double cell_size, int content, int look, int samples,
                           double* work) {
@@ -279,10 +286,11 @@ EXPORTED void plain_count(const double* held_data, std::size_t held_count, const
         const DenseLattice dense(bounds, cell_size, origin);
         lengths.assign(dense.cells(), 0);
         for (const Box& box : held) {
-            for_each_cell(dense.clipped(dense.lattice.held(box, static_cast<Content>(content))), [&](const Cell& c) {
-                ++lengths[dense.number(c)];
-                ++entries;
-            });
+            for_each_cell(dense.clipped(dense.lattice.held(box, static_cast<Content>(content))),
+                          [&](const Cell& c) {
+                              ++lengths[dense.number(c)];
+                              ++entries;
+                          });
         }
         cells += static_cast<double>(dense.cells());
         for (const std::uint32_t length : lengths) {
