@@ -197,6 +197,8 @@ def draw(path, curves, rows):
     figure, axes = plt.subplots(down, across, figsize=(3.1 * across, 2.5 * down), sharex=True, squeeze=False)
     for axis in axes.flat[len(grids):]:
         axis.set_visible(False)
+    for axis in axes.flat[max(len(grids) - across, 0):len(grids)]:
+        axis.tick_params(labelbottom=True)
     for axis, grid in zip(axes.flat, grids):
         for k, curve in enumerate(c for c in curves if c.grid == grid):
             sizes = [s / curve.unit for s in curve.sizes]

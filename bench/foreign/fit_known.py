@@ -114,7 +114,7 @@ def in_nanoseconds(tables, weights):
 
 
 def line(name, tables, weights):
-    return f"    /* {name} */ {{" + ", ".join(f"{w:.2g}" for w in in_nanoseconds(tables, weights)) + "},"
+    return f"    /* {name} */ {{" + ", ".join(f"{float(f'{w:.2g}'):g}" for w in in_nanoseconds(tables, weights)) + "},"
 
 
 def worst_of_all(tables, weights):

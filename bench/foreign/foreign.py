@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Does vox choose good cell sizes for grids that are not its own? Times them, and says what each way of choosing loses.
 
-usage: foreign.py LIBVOX [--docs] [--seconds 240] [--meshes FOLDER] [--grids sorted,warp,...] [--out build/foreign] [--known]
+usage: foreign.py LIBVOX [--docs] [--seconds 150] [--meshes FOLDER] [--grids sorted,warp,...] [--out build/foreign] [--known]
 
     python3 -m venv build/foreign/venv
     build/foreign/venv/bin/pip install -r bench/foreign/requirements.txt
@@ -30,7 +30,7 @@ def main():
     parser.add_argument("libvox")
     parser.add_argument("--docs", action="store_true")
     parser.add_argument("--known", action="store_true")
-    parser.add_argument("--seconds", default="240", help="of all timed runs")
+    parser.add_argument("--seconds", default="150", help="of all timed runs")
     parser.add_argument("--out", default=os.path.join(ROOT, "build", "foreign"))
     for name in ("--meshes", "--grids", "--scale"):
         parser.add_argument(name)
