@@ -40,7 +40,7 @@ void check_grid_number(bool good, double value, const char* name, const char* ex
     if (!good || !std::isfinite(value)) refuse(format("grid %s is %.9g, expected %s", name, value, expected));
 }
 
-vox_foreign_grid checked(vox_foreign_grid grid, bool& weights_known) {
+vox_foreign_grid checked(vox_foreign_grid grid) {
     check_enum(grid.content, VOX_CELLS_HOLD_BOXES, "grid content");
     check_enum(grid.look, VOX_LOOK_PAIRS, "grid look");
     check_enum(grid.known, VOX_KNOWN_GRID_NUMPY, "grid known");
@@ -56,19 +56,11 @@ vox_foreign_grid checked(vox_foreign_grid grid, bool& weights_known) {
     check_grid_number(grid.least_cell_size >= 0, grid.least_cell_size, "least_cell_size", "0 or a length");
     check_grid_number(grid.zone_loss >= 0 && grid.zone_loss <= 1e6, grid.zone_loss, "zone_loss",
                       "a number from 0 to 1e6");
-    weights_known = false;
     for (const auto& [name, field] : weight_fields) {
         const double weight = grid.weights.*field;
         check_grid_number(weight >= 0, weight, (std::string("weights.") + name).c_str(),
                           "0 or more nanoseconds");
-        weights_known |= weight > 0;
     }
-    if (!weights_known) grid.weights = known_grid(grid.known).weights;
-    // Those of nothing known may come from vox_foreign_grid_set_known, too.
-    const vox_grid_weights& unknown = known_grid(VOX_KNOWN_GRID_ANY).weights;
-    weights_known = !std::all_of(std::begin(weight_fields), std::end(weight_fields),
-                                 [&](const auto& f) { return grid.weights.*f.field == unknown.*f.field; });
-    if (!(grid.flags & VOX_FOREIGN_DENSE)) grid.weights.cells = 0;
     check_allocator(grid.allocator, "grid.allocator");
     require(grid.held, "grid.held");
     return grid;
@@ -77,9 +69,21 @@ vox_foreign_grid checked(vox_foreign_grid grid, bool& weights_known) {
 } // namespace
 
 ForeignGrid::ForeignGrid(const vox_foreign_grid* from_caller)
-    : desc(checked(read_struct(from_caller, foreign_grid_defaults(), "grid"), weights_known)),
+    : desc(checked(read_struct(from_caller, foreign_grid_defaults(), "grid"))),
       held(read_struct(desc.held, primitives_defaults(), "held"), "held: ") {
     if (desc.asking) asking.emplace(read_struct(desc.asking, primitives_defaults(), "asking"), "asking: ");
+    const bool given = std::any_of(std::begin(weight_fields), std::end(weight_fields),
+                                   [&](const auto& f) { return desc.weights.*f.field > 0; });
+    const bool dense = desc.flags & VOX_FOREIGN_DENSE;
+    weights_known = given || desc.known != VOX_KNOWN_GRID_ANY;
+    if (!weights_known) {
+        // A point is in one cell, whatever cells hold.
+        const bool points = held.corners() == 1 && !held.has_radii() && held.common_radius() == 0;
+        desc.weights = weights_of_any(points ? VOX_CELLS_HOLD_CENTRES : desc.content, desc.look, dense);
+    } else if (!given) {
+        desc.weights = known_grid(desc.known).weights;
+    }
+    if (!dense) desc.weights.cells = 0;
 }
 
 // ---- looking at the primitives --------------------------------------------------------------------

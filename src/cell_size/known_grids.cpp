@@ -7,28 +7,35 @@ namespace vox {
 
 namespace {
 
-// In nanoseconds: fixed, entries, visits, found, reads, occupied, cells. Those of the two plain grids are
-// fitted, by non-negative least squares of the relative error, to the times of such grids with gcc 12 at -O2
-// on a Zen 4: irregular boxes in a cube and on a sphere, 20,000 and 60,000, asked by themselves, by as many
-// or by a twentieth of others, at six sizes from 0.4 to 3 mean sides. The best of these sizes by the fit was
-// that by the clock in 15 of 16 cases, and 6 % slower in one.
+// In nanoseconds: fixed, entries, visits, found, reads, occupied, cells. bench/foreign/fit_known.py finds and
+// prints them; only their proportions matter.
 constexpr std::array<KnownGrid, VOX_KNOWN_GRID_NUMPY + 1> known_grids{{
-    /* ANY */ {VOX_CELLS_HOLD_BOXES, VOX_LOOK_BOX, 0, {0, 12, 4, 0, 2.5, 0, 0}},
-    /* SORTED */ {VOX_CELLS_HOLD_BOXES, VOX_LOOK_BOX, VOX_FOREIGN_DENSE, {0, 5.8, 0, 0, 2.8, 0, 5.6}},
-    /* HASHED */ {VOX_CELLS_HOLD_BOXES, VOX_LOOK_BOX, 0, {0, 29, 5.1, 0, 2.2, 580, 0}},
-    /* WARP */ {VOX_CELLS_HOLD_CENTRES, VOX_LOOK_BOX, 0, {0, 20, 3, 3, 3, 0, 0}},
-    /* IPC */ {VOX_CELLS_HOLD_BOXES, VOX_LOOK_BOX, 0, {0, 40, 10, 10, 4, 0, 0}},
-    /* IPC_PAIRS */ {VOX_CELLS_HOLD_BOXES, VOX_LOOK_PAIRS, 0, {0, 40, 0, 10, 4, 0, 0}},
-    /* VTK */ {VOX_CELLS_HOLD_BOXES, VOX_LOOK_BOX, VOX_FOREIGN_DENSE, {0, 10, 10, 10, 20, 0, 1}},
-    /* PBAT */ {VOX_CELLS_HOLD_CENTRES, VOX_LOOK_AROUND, 0, {0, 20, 3, 3, 3, 0, 0}},
-    /* POINT_VOXELS */ {VOX_CELLS_HOLD_CENTRES, VOX_LOOK_BOX, 0, {0, 29, 5.1, 0, 2.2, 580, 0}},
-    /* NUMPY */ {VOX_CELLS_HOLD_BOXES, VOX_LOOK_BOX, 0, {0, 100, 100, 0, 20, 0, 0}},
+    /* ANY */ {VOX_CELLS_HOLD_BOXES, VOX_LOOK_BOX, 0, {0, 0, 0, 0, 0, 0, 0}},
+    /* SORTED */ {VOX_CELLS_HOLD_BOXES, VOX_LOOK_BOX, VOX_FOREIGN_DENSE, {0, 21, 0.34, 0, 3.6, 0, 0.53}},
+    /* HASHED */ {VOX_CELLS_HOLD_BOXES, VOX_LOOK_BOX, 0, {0, 100, 1.3, 0.92, 2.5, 700, 0}},
+    /* WARP */ {VOX_CELLS_HOLD_CENTRES, VOX_LOOK_BOX, 0, {0, 0, 5.2, 10, 3.1, 110, 0}},
+    /* IPC */ {VOX_CELLS_HOLD_BOXES, VOX_LOOK_BOX, 0, {0, 0, 0, 0, 15, 3.4, 0}},
+    /* IPC_PAIRS */ {VOX_CELLS_HOLD_BOXES, VOX_LOOK_PAIRS, 0, {0, 73, 36, 0, 6.2, 2.6, 0}},
+    /* VTK */ {VOX_CELLS_HOLD_BOXES, VOX_LOOK_BOX, VOX_FOREIGN_DENSE, {0, 49, 0, 220, 3.6, 0, 0}},
+    /* PBAT */ {VOX_CELLS_HOLD_CENTRES, VOX_LOOK_AROUND, 0, {0, 0, 0, 0, 150, 0, 0}},
+    /* POINT_VOXELS */ {VOX_CELLS_HOLD_CENTRES, VOX_LOOK_BOX, 0, {0, 0, 21, 0, 1.8, 1100, 0}},
+    /* NUMPY */ {VOX_CELLS_HOLD_BOXES, VOX_LOOK_BOX, 0, {0, 140, 150, 260, 87, 0, 0}},
 }};
 
 } // namespace
 
 const KnownGrid& known_grid(vox_known_grid known) noexcept {
     return known_grids[static_cast<std::size_t>(known)];
+}
+
+vox_grid_weights weights_of_any(vox_cell_content content, vox_cell_look look, bool dense) noexcept {
+    if (look == VOX_LOOK_PAIRS) return {0, 73, 36, 0, 6.2, 2.6, 0};
+    if (look == VOX_LOOK_AROUND) return {0, 0, 0, 0, 150, 0, 0};
+    if (content == VOX_CELLS_HOLD_BOXES)
+        return dense ? vox_grid_weights{0, 23, 0, 110, 2.8, 7.9, 12}
+                     : vox_grid_weights{0, 45, 20, 87, 11, 0, 0};
+    return dense ? vox_grid_weights{0, 0, 0.67, 0.15, 7.6, 0, 1.6}
+                 : vox_grid_weights{0, 0, 15, 0.14, 2.5, 120, 0};
 }
 
 } // namespace vox

@@ -10,11 +10,15 @@ namespace vox {
 struct KnownGrid {
     vox_cell_content content;
     vox_cell_look look;
-    std::uint32_t flags; // vox_foreign_flags
-    vox_grid_weights weights;
+    std::uint32_t flags;      // vox_foreign_flags
+    vox_grid_weights weights; // all 0 for ANY: below
 };
 
 // `known` must be one of vox_known_grid.
 const KnownGrid& known_grid(vox_known_grid known) noexcept;
+
+// Where nothing is known of the times: what loses least in the worst of the known grids that hold, look and
+// keep their cells in this way.
+vox_grid_weights weights_of_any(vox_cell_content content, vox_cell_look look, bool dense) noexcept;
 
 } // namespace vox
