@@ -25,7 +25,7 @@ namespace vox {
 // A sum of polynomials in 1/d, each from a cell size on.
 class PiecewiseMoments {
 public:
-    // Sizes are told apart from `largest` down to 2^-32 of it.
+    // Sizes from `largest` down to 2^-32 of it differ; smaller ones count as that.
     PiecewiseMoments(double largest, std::pmr::memory_resource* memory)
         : inverse_least_(0x1p32 / largest), sums_(classes, memory) {}
 
