@@ -70,10 +70,12 @@ public:
     double crowd_side(std::size_t i) const noexcept;
 
     // Calls visit(index, weight) for boxes of which each stands for `weight` like it: all that are near the
-    // given box, and one out of each group that is small for its distance or for the given box.
+    // given box, and one out of each group that is small for its distance or for the given box. Of few
+    // boxes all are visited.
     template <class Visit>
     void sample_around(const PlainBox& box, std::uint64_t& random, Visit&& visit) const {
         const double half = box.longest_side() / 2;
+        const bool is_small = size() <= exact_size;
         Place stack[most_stacked];
         int top = 0;
         stack[top++] = {levels_.size() - 1, 0};
@@ -84,7 +86,7 @@ public:
                 visit(p.index, 1.0);
                 continue;
             }
-            if (node.longest_side() <= coarse * std::max(gap(node, box), half)) {
+            if (!is_small && node.longest_side() <= coarse * std::max(gap(node, box), half)) {
                 const std::size_t first = p.index << (2 * p.level),
                                   last = std::min((p.index + 1) << (2 * p.level), size());
                 visit(first + static_cast<std::size_t>(next_below(random, last - first)),
@@ -110,7 +112,8 @@ private:
     };
     // A group is represented by one of it where its longest side is at most this multiple of the distance.
     static constexpr double coarse = 2;
-    static constexpr int most_stacked = 4 * 20; // three of each level stay while the fourth is looked at
+    static constexpr std::size_t exact_size = 256; // of so few boxes, each is looked at
+    static constexpr int most_stacked = 4 * 20;    // three of each level stay while the fourth is looked at
 
     static double gap(const PlainBox& a, const PlainBox& b) noexcept {
         double most = std::max(a.lo[0], b.lo[0]) - std::min(a.hi[0], b.hi[0]);

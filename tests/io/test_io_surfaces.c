@@ -51,6 +51,30 @@ static bytes with_line_ends(const bytes* file, const char* end, size_t last) {
 }
 
 /* Windows and old Macintosh: every text format gives the same mesh, and so do headers of binary ones. */
+/* Files of points alone: all of them, repeated ones too. */
+START_TEST(points_alone) {
+    static const char* const files[] = {
+        "v 0 0 0\nv 1 0 0\nv 1 0 0\np 1 2\n",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+        "0 0 0\n1 0 0\n1 0 0\n",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face 0\nproperty list uchar int vertex_index\nend_header\n0 0 0\n1 0 0\n1 0 0\n"};
+    for (int i = 0; i < 3; ++i) {
+        const vox_io_source source = {i == 0 ? "cloud.obj" : "cloud.ply", files[i], strlen(files[i])};
+        vox_io_mesh* mesh = NULL;
+        ck_assert_msg(vox_io_read(&source, 1, NULL, &mesh) == VOX_OK, "%s", vox_last_error());
+        vox_io_mesh_view view;
+        ck_assert_int_eq(vox_io_mesh_get(mesh, &view), VOX_OK);
+        ck_assert_uint_eq(view.vertex_count, 3);
+        ck_assert_uint_eq(view.triangle_count, 0);
+        ck_assert_double_eq(view.positions[6], 1);
+        vox_io_mesh_destroy(mesh);
+    }
+    refused("a.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
+            "end_header\n", VOX_ERROR_FORMAT, "expected triangles, found none");
+}
+END_TEST
+
 START_TEST(line_ends) {
     static const char* const files[] = {
         "cube.obj",        "cube.off",    "cube.ply",   "cube_strips.ply", "cube_text.stl",
@@ -481,6 +505,7 @@ int main(void) {
                    assimp);
 #ifdef __unix__
     tcase_add_test(tests, files_beside);
+    tcase_add_test(tests, points_alone);
 #endif
     return run_suite(suite);
 }

@@ -4,6 +4,7 @@
 #include "io/formats/surface_builder.hpp"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace vox::io {
@@ -32,6 +33,12 @@ public:
     std::uint32_t vertex(std::uint32_t point) {
         if (vertices_[point] == none) vertices_[point] = surface_.vertex(&positions_[3 * std::size_t{point}]);
         return vertices_[point];
+    }
+    // The mesh: the surface or, where the file has no element at all, the points.
+    MeshData finish() {
+        if (surface_.has_elements() || size() == 0) return surface_.finish();
+        vertices_ = {};
+        return surface_.finish_points(std::move(positions_));
     }
 
 private:

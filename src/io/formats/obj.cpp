@@ -22,13 +22,15 @@ public:
                 read_face();
             else if (keyword == "o" || keyword == "g" || keyword == "usemtl")
                 name_mesh(keyword[0]);
-            else if (keyword == "l" || keyword == "p")
+            else if (keyword == "l")
                 skip_element();
+            else if (keyword == "p") // of a cloud, which is its vertices
+                surface_.skip(1);
             else if (!is_letter(keyword[0]))
                 refuse_keyword(keyword);
             skip_line();
         }
-        return surface_.finish();
+        return points_.finish();
     }
 
 private:

@@ -68,7 +68,7 @@ public:
         }
         if (text_) in_.skip_space();
         if (!in_.done()) in_.expected("the end of the file after the last element");
-        return surface_.finish();
+        return points_.finish();
     }
 
 private:

@@ -140,4 +140,10 @@ MeshData SurfaceBuilder::finish() {
     return std::move(data_);
 }
 
+MeshData SurfaceBuilder::finish_points(std::vector<double> positions) {
+    data_.positions = std::move(positions);
+    data_.notes.push_back("there are no triangles: points alone");
+    return std::move(data_);
+}
+
 } // namespace vox::io

@@ -54,6 +54,7 @@ public:
     void begin_mesh() noexcept { begins_ = true; }
     // Begins an element. Returns whether it belongs to a mesh that was asked for; if not, leave it out.
     bool begin_element() noexcept {
+        has_elements_ = true;
         meshes_ += begins_;
         begins_ = false;
         return mesh_index_ == VOX_IO_ALL_MESHES || meshes_ == mesh_index_ + std::uint64_t{1};
@@ -73,8 +74,12 @@ public:
     void end_polygon();
     void skip(std::uint64_t elements) noexcept { data_.skipped_elements += elements; }
 
+    bool has_elements() const noexcept { return has_elements_; }
+
     // Throws if there is no triangle, or no mesh with the index that was asked for.
     MeshData finish();
+    // A file without elements: points alone, which are not merged.
+    MeshData finish_points(std::vector<double> positions);
 
 private:
     struct Plane { // of two axes, in which a polygon is seen
@@ -91,7 +96,7 @@ private:
     std::string name_;
     SurfaceLimits limits_;
     std::uint32_t mesh_index_;
-    bool begins_ = true;
+    bool begins_ = true, has_elements_ = false;
     std::uint64_t meshes_ = 0;
     std::uint64_t work_left_;            // how many corners may still be compared with ears
     std::uint64_t uncut_ = 0;            // polygons for which that did not suffice
