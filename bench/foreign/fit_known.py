@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Fits the weights that are shipped for each grid to the curves, and prints them for src/cell_size/known_grids.cpp.
+"""Fits the weights that are shipped for each grid to the curves, and prints them for src/cell_size/foreign/known_grids.cpp.
 
 usage: fit_known.py CURVES.json [--only 1,3] [--tries 400]
 

@@ -3,9 +3,9 @@
 #include "base/border.hpp"
 #include "base/caller_memory.hpp"
 #include "base/structs.hpp"
-#include "cell_size/foreign_grid.hpp"
-#include "cell_size/foreign_suggest.hpp"
-#include "cell_size/known_grids.hpp"
+#include "cell_size/foreign/grid.hpp"
+#include "cell_size/foreign/known_grids.hpp"
+#include "cell_size/foreign/suggest.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -1,12 +1,12 @@
 // The C border of vox.h's section on the cell size of any grid, as far as timings go in.
 
-#include "cell_size/tune.hpp"
+#include "cell_size/foreign/tune.hpp"
 #include "base/border.hpp"
 #include "base/caller_memory.hpp"
 #include "base/structs.hpp"
-#include "cell_size/fit.hpp"
-#include "cell_size/foreign_grid.hpp"
-#include "cell_size/foreign_suggest.hpp"
+#include "cell_size/foreign/fit.hpp"
+#include "cell_size/foreign/grid.hpp"
+#include "cell_size/foreign/suggest.hpp"
 
 #include <cinttypes>
 #include <cstddef>

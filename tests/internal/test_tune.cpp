@@ -1,8 +1,8 @@
 // Least squares without negative coefficients, costs fitted to timings, and tuning: over grids whose costs are known,
 // with timings that are as noisy and as wrong as those of machines.
-#include "cell_size/fit.hpp"
-#include "cell_size/least_squares.hpp"
-#include "cell_size/tune.hpp"
+#include "cell_size/foreign/fit.hpp"
+#include "cell_size/foreign/least_squares.hpp"
+#include "cell_size/foreign/tune.hpp"
 #include "internal/random.hpp"
 #include "support/suite.h"
 

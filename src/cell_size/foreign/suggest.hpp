@@ -1,7 +1,7 @@
 // The cell size of a described grid that costs a run least, and the reasons for it.
 #pragma once
 
-#include "cell_size/foreign_grid.hpp"
+#include "cell_size/foreign/grid.hpp"
 
 #include <vox/vox.h>
 

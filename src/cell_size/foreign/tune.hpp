@@ -1,7 +1,7 @@
 // The best cell size of a grid, by running it at few of them.
 #pragma once
 
-#include "cell_size/fit.hpp"
+#include "cell_size/foreign/fit.hpp"
 #include "cell_size/search.hpp"
 
 #include <vox/vox.h>

@@ -6,7 +6,7 @@
 // Where it was already run, that size is whose timing would lower the average most: for each fit, a timing is
 // taken from it, and what is chosen then is judged by it (P. Frazier, W. Powell, S. Dayanik, The
 // knowledge-gradient policy for correlated normal beliefs, INFORMS J. on Computing 21, 2009).
-#include "cell_size/tune.hpp"
+#include "cell_size/foreign/tune.hpp"
 
 #include "base/error.hpp"
 

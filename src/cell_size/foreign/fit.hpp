@@ -2,8 +2,8 @@
 // is described, and their coefficients its weights, or powers of the cell size where nothing is known.
 #pragma once
 
-#include "cell_size/grid_cost.hpp"
-#include "cell_size/least_squares.hpp"
+#include "cell_size/foreign/cost.hpp"
+#include "cell_size/foreign/least_squares.hpp"
 
 #include <vox/vox.h>
 

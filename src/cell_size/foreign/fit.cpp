@@ -1,7 +1,7 @@
 // Weighted least squares that is repeated with weights from its own errors: P. J. Huber, Robust Statistics,
 // 1981, ch. 7, with the weights of a Cauchy distribution, on the slow side alone: a timing can be disturbed,
 // which makes it longer, never shorter.
-#include "cell_size/fit.hpp"
+#include "cell_size/foreign/fit.hpp"
 
 #include "base/error.hpp"
 #include "cell_size/search.hpp"

@@ -1,9 +1,9 @@
-#include "cell_size/foreign_grid.hpp"
+#include "cell_size/foreign/grid.hpp"
 
 #include "base/caller_memory.hpp"
 #include "base/sampling.hpp"
 #include "base/structs.hpp"
-#include "cell_size/known_grids.hpp"
+#include "cell_size/foreign/known_grids.hpp"
 
 #include <algorithm>
 #include <cinttypes>

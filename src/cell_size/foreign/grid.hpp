@@ -2,8 +2,8 @@
 // it does at a cell size.
 #pragma once
 
-#include "cell_size/foreign_pairs.hpp"
-#include "cell_size/foreign_primitives.hpp"
+#include "cell_size/foreign/pairs.hpp"
+#include "cell_size/foreign/primitives.hpp"
 #include "cell_size/search.hpp"
 
 #include <vox/vox.h>

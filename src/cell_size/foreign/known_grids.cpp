@@ -1,4 +1,4 @@
-#include "cell_size/known_grids.hpp"
+#include "cell_size/foreign/known_grids.hpp"
 
 #include <array>
 #include <cstddef>

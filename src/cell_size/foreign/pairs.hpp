@@ -12,7 +12,7 @@
 #pragma once
 
 #include "base/sampling.hpp"
-#include "cell_size/foreign_primitives.hpp"
+#include "cell_size/foreign/primitives.hpp"
 #include "cell_size/lookups.hpp"
 
 #include <cstddef>

@@ -1,7 +1,7 @@
 // The active-set method of C. L. Lawson, R. J. Hanson, Solving Least Squares Problems, 1974, ch. 23, on the
 // normal equations (R. Bro, S. De Jong, A fast non-negativity-constrained least squares algorithm, J. of
 // Chemometrics 11, 1997), which are scaled to a diagonal of ones.
-#include "cell_size/least_squares.hpp"
+#include "cell_size/foreign/least_squares.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -1,7 +1,7 @@
 // Groups of far boxes are represented by one as in J. Barnes, P. Hut, A hierarchical O(N log N)
 // force-calculation algorithm, Nature 324, 1986, but by one that is drawn from them, so that no sum is
 // biased. The order of boxes is that of G. M. Morton, A computer oriented geodetic data base, IBM 1966.
-#include "cell_size/foreign_pairs.hpp"
+#include "cell_size/foreign/pairs.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
-#include "cell_size/foreign_suggest.hpp"
+#include "cell_size/foreign/suggest.hpp"
 
 #include "base/error.hpp"
-#include "cell_size/grid_cost.hpp"
+#include "cell_size/foreign/cost.hpp"
 #include "cell_size/search.hpp"
 
 #include <algorithm>

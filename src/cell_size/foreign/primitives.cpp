@@ -1,4 +1,4 @@
-#include "cell_size/foreign_primitives.hpp"
+#include "cell_size/foreign/primitives.hpp"
 
 #include "base/sampling.hpp"
 #include "base/structs.hpp"
