@@ -64,6 +64,10 @@ class Nulls:
             value.a = ctypes.pointer(a)
         elif name == "vox_closest_desc" and not is_empty:
             value.points, value.point_count = ctypes.addressof(POSITIONS), 1
+        elif name == "vox_primitives":
+            value.position_format, value.count = _c.Format.DOUBLE3, 4
+        elif name == "vox_foreign_grid":
+            value.held = ctypes.pointer(self.struct("vox_primitives"))
         elif name == "vox_cost_bounds":
             value.min, value.max = 1, 2
         elif name == "vox_io_write_desc":

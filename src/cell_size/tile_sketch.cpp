@@ -95,8 +95,10 @@ private:
         out_.tiles.super_first.push_back(static_cast<std::uint32_t>(out_.boxes.size()));
     }
 
-    void cut_box(std::span<const SampledTet> items, std::uint32_t count, const Box& cell,
-                 bool in_super_tile) {
+    void cut_box(std::span<SampledTet> items, std::uint32_t count, const Box& cell, bool in_super_tile) {
+        // Standard libraries leave them in different orders, and sums below depend on it.
+        std::sort(items.begin(), items.end(),
+                  [](const SampledTet& a, const SampledTet& b) { return a.tet < b.tet; });
         // The box of n evenly distributed points is smaller than where they may be by (n - 1)/(n + 1).
         Box box = box_of_centroids(items);
         const float more = items.size() > 1 ? 1 / static_cast<float>(items.size() - 1) : 0;

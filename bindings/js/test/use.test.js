@@ -267,12 +267,12 @@ test("the cell size of a grid of another program", () => {
   const { positions, tets } = block(4);
   const grid = {
     held: { type: PrimitiveType.TET, positions, indices: tets },
-    asking: { positions: new Float64Array(positions), radius: 0.2, radii: new Float32Array(positions.length / 3).fill(0.1) },
+    asking: { positions: new Float64Array(positions), radius: 0.0625, radii: new Float32Array(positions.length / 3).fill(0.03125) },
     known: KnownGrid.HASHED,
   };
   const found = vox.suggestFor(grid);
   assert.ok(found.zoneMin <= found.cellSize && found.cellSize <= found.zoneMax && found.terms.length > 1);
-  assert.ok(Math.abs(found.rules.radius - 0.3) < 1e-6);
+  assert.ok(Math.abs(found.rules.radius - 0.09375) < 1e-6);
   assert.deepEqual([found.warnings, found.note], [0, ""]);
   assert.deepEqual(vox.suggestFor({ ...grid, weights: { reads: 3 } }).weights, { ...found.weights, reads: 3 });
   const unknown = vox.suggestFor({ held: grid.held });
@@ -283,7 +283,7 @@ test("the cell size of a grid of another program", () => {
     const work = vox.countFor(grid, size);
     return 1e-9 * (20 * work.entries + 9 * work.visits + 3 * work.reads);
   };
-  const fit = vox.costFit(grid, [0.3, 0.6, 1.2, 2.4].map((cellSize) => ({ cellSize, seconds: seconds(cellSize) })));
+  const fit = vox.costFit(grid, [0.075, 0.15, 0.3, 0.6].map((cellSize) => ({ cellSize, seconds: seconds(cellSize) })));
   assert.ok(fit.residual < 0.02 && fit.weights.entries > 0);
   const sizes = [];
   const tuning = vox.tune((size) => (sizes.push(size), seconds(size)), { grid });
