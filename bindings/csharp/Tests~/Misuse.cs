@@ -266,7 +266,7 @@ namespace Voxtet.Tests
             ForeignSuggestion suggestion = CellSize.SuggestFor(grid);
             Test.That(suggestion.zone_min <= suggestion.cell_size && suggestion.cell_size <= suggestion.zone_max, "the zone");
             Test.That(suggestion.terms[0].name.ToString().Length > 0, "a term");
-            Test.Same(suggestion.note.ToString(), "", "note");
+            Test.That((suggestion.note.ToString() == "") == (suggestion.warnings == 0), "note");
             ForeignSuggestion unknown = CellSize.SuggestFor(new GridDescription(held));
             Test.That((unknown.warnings & ForeignWarnings.WeightsUnknown) != 0 && unknown.note.ToString() != "", "a warning");
 
