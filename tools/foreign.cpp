@@ -107,6 +107,7 @@ std::optional<double> last_number(const std::string& output) {
 
 struct Program {
     const std::string& command;
+    bool quiet; // only failures are shown
     std::uint32_t runs = 0;
 };
 
@@ -133,7 +134,9 @@ double run_program(double cell_size, void* user) {
         return std::numeric_limits<double>::infinity();
     }
     const double seconds = last_number(text).value_or(taken);
-    std::fprintf(stderr, "vox: run %u, cell size %.6g: %.6g s\n", ++program.runs, cell_size, seconds);
+    ++program.runs;
+    if (!program.quiet)
+        std::fprintf(stderr, "vox: run %u, cell size %.6g: %.6g s\n", program.runs, cell_size, seconds);
     return seconds;
 }
 
@@ -267,7 +270,8 @@ void suggest_foreign(const ForeignOptions& options, const std::vector<Body>& bod
     if (bodies.empty() && !(options.first > 0)) throw WrongUsage("--tune without a MESH needs --first SIZE");
     Primitives held, asking;
     vox_foreign_grid grid = vox_default_foreign_grid();
-    check(vox_foreign_grid_set_known(&grid, options.known));
+    check(vox_foreign_grid_set_known(&grid, options.known == ForeignOptions::not_named ? VOX_KNOWN_GRID_ANY
+                                                                                       : options.known));
     grid.radius = options.radius;
     grid.zone_loss = zone_loss;
     if (!bodies.empty()) {
@@ -290,7 +294,7 @@ void suggest_foreign(const ForeignOptions& options, const std::vector<Body>& bod
         desc.zone_loss = zone_loss;
         vox_tuning found{};
         found.struct_size = sizeof found;
-        Program program{options.tune};
+        Program program{options.tune, json};
         check(vox_cost_tune(bodies.empty() ? nullptr : &grid, &desc, run_program, &program, &found));
         const CostCurve curve{{found.curve, found.curve_count},
                               found.cell_size,

@@ -14,8 +14,9 @@
 namespace tool {
 
 struct ForeignOptions {
-    vox_known_grid known = VOX_KNOWN_GRID_ANY;
-    std::string given_known; // as the user named it; empty: not named
+    static constexpr vox_known_grid not_named = VOX_KNOWN_GRID_FORCE_32_BITS;
+
+    vox_known_grid known = not_named;
     bool points = false, triangles = false;
     std::vector<std::string> asking; // files whose primitives ask; none: those held ask themselves
     double radius = 0, first = 0;
@@ -23,7 +24,7 @@ struct ForeignOptions {
     std::uint32_t most_runs = 7;
 
     bool any() const {
-        return !given_known.empty() || points || triangles || !asking.empty() || radius > 0 || !tune.empty();
+        return known != not_named || points || triangles || !asking.empty() || radius > 0 || !tune.empty();
     }
 };
 

@@ -360,7 +360,7 @@ START_TEST(surfaces_from_path_and_memory) {
         vox_io_mesh_destroy(again);
         free(file.data);
     }
-    const char nothing[] = "# no faces\nv 0 0 0\n";
+    const char nothing[] = "# a normal alone\nvn 0 0 1\n";
     const vox_io_source source = {"nothing.obj", nothing, sizeof nothing - 1};
     mesh = NULL;
     ck_fails(vox_io_read(&source, 1, NULL, &mesh), VOX_ERROR_FORMAT, "nothing.obj");

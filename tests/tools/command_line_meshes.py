@@ -70,10 +70,11 @@ class Suggest(unittest.TestCase):
         for name in "bunny", "cow", "armadillo":
             stats = run_json("suggest", mesh(f"paper/{name}.msh"))["stats"]
             info = run_json("info", mesh(f"paper/{name}.msh"))["meshes"][0]
-            self.assertEqual((stats["vertices"], stats["tets"], stats["boundary_facets"]),
-                             (info["vertices"], info["tets"], info["surface_triangles"]))
+            self.assertEqual((stats["vertices"], stats["tets"]), (info["vertices"], info["tets"]))
+            # Above 5000 tetrahedra these are of samples.
             for key in "mean_edge", "mean_longest_edge", "mean_facet_area", "mean_volume":
-                self.assertAlmostEqual(stats[key] / info[key], 1, delta=1e-6)
+                self.assertAlmostEqual(stats[key] / info[key], 1, delta=0.02)
+            self.assertAlmostEqual(stats["boundary_facets"] / info["surface_triangles"], 1, delta=0.1)
 
 
 class Info(unittest.TestCase):

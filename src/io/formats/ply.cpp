@@ -308,7 +308,7 @@ private:
     }
 
     void read_faces(const Element& element) {
-        const bool wanted = surface_.begin_element();
+        const bool wanted = element.count > 0 && surface_.begin_element();
         read_lists(
             element, false,
             [&](std::int64_t point) {
