@@ -282,7 +282,7 @@ export type ForeignFlags = number;
 export declare const ForeignWarnings: Readonly<{
   /** nothing is known of the grid's times: a few timings would help */
   WEIGHTS_UNKNOWN: 1;
-  /** the model says too little here: cell_size is that of `rule` */
+  /** cell_size is that of `rule`: it is in the zone, and the weights are a guess */
   BY_RULE: 2;
   /** the least legal size; a smaller one would be faster */
   AT_LEAST_SIZE: 4;

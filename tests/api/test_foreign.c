@@ -274,6 +274,28 @@ START_TEST(points_that_ask_points) {
 }
 END_TEST
 
+/* Times that are a guess: the mean edge where the guess has it in the zone, else the least cost. */
+START_TEST(a_guess_prefers_the_mean_edge) {
+    vox_primitives held = boxes();
+    int by_rule = 0;
+    for (int i = 0; i < 40; ++i) {
+        held.radius = 0.02 * i; /* boxes grow, their edges do not */
+        vox_foreign_grid grid = with_held(&held);
+        const vox_foreign_suggestion found = suggest(&grid);
+        const int in_zone = found.rules.mean_edge >= found.zone_min && found.rules.mean_edge <= found.zone_max;
+        ck_assert_int_eq(found.rule == VOX_RULE_MEAN_EDGE, in_zone);
+        ck_assert_int_eq((found.warnings & VOX_FOREIGN_BY_RULE) != 0, in_zone);
+        ck_assert_int_eq(strstr(found.note, "mean edge") != NULL, in_zone);
+        if (in_zone) ck_assert_double_eq(found.cell_size, found.rules.mean_edge);
+        by_rule += in_zone;
+        ck_assert_int_eq(vox_foreign_grid_set_known(&grid, VOX_KNOWN_GRID_IPC), VOX_OK);
+        ck_assert_int_eq(suggest(&grid).rule, VOX_RULE_NONE);
+    }
+    ck_assert_int_gt(by_rule, 0);
+    ck_assert_int_lt(by_rule, 40);
+}
+END_TEST
+
 START_TEST(sizes_from_one_to_a_million) {
     static float wide[COUNT][2][3];
     uint64_t random = 1;
@@ -509,6 +531,7 @@ int main(void) {
     tcase_add_test(tests, one_primitive);
     tcase_add_test(tests, all_in_one_place);
     tcase_add_test(tests, points_that_ask_points);
+    tcase_add_test(tests, a_guess_prefers_the_mean_edge);
     tcase_add_test(tests, sizes_from_one_to_a_million);
     tcase_add_test(tests, bad_numbers);
     tcase_add_test(tests, bad_grids);

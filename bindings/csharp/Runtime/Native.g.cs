@@ -266,7 +266,7 @@ namespace Voxtet
     {
         /// <summary>nothing is known of the grid's times: a few timings would help</summary>
         WeightsUnknown = 1,
-        /// <summary>the model says too little here: cell_size is that of `rule`</summary>
+        /// <summary>cell_size is that of `rule`: it is in the zone, and the weights are a guess</summary>
         ByRule = 2,
         /// <summary>the least legal size; a smaller one would be faster</summary>
         AtLeastSize = 4,

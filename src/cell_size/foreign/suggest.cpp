@@ -44,6 +44,10 @@ CellSizeRange bracket(const ForeignGrid& grid, const ForeignWork& work) {
                        foreign_fineness);
 }
 
+bool in_zone(const CellSizeRange& zone, double cell_size) {
+    return cell_size >= zone.min && cell_size <= zone.max;
+}
+
 // Where nothing has a size, smaller cells are never worse. Below the size where one other in sixteen is
 // found, they are hardly better.
 double smallest_useful(const ForeignWork& work) {
@@ -108,8 +112,24 @@ vox_foreign_suggestion suggest_for(const ForeignGrid& grid, ForeignWork& work) {
     }
     CostMinimum best = minimise(cost, range, foreign_fineness);
     if (!std::isfinite(best.cost)) best = {range.max, cost(std::log2(range.max))};
+    const double least = best.cost;
     const CellSizeRange zone =
         zone_around(best, (1 + grid.desc.zone_loss) * best.cost, cost, range, foreign_fineness);
+
+    result.rules = work.rules();
+    const auto cost_of = [&](double cell_size) { return cell_size > 0 ? cost(std::log2(cell_size)) : 0; };
+    result.rule_costs = {cost_of(result.rules.mean_edge), cost_of(result.rules.mean_box_side),
+                         cost_of(result.rules.median_box_side), cost_of(result.rules.spacing),
+                         cost_of(result.rules.radius)};
+    if (!grid.weights_known)
+        warn(VOX_FOREIGN_WEIGHTS_UNKNOWN, "nothing is known of the grid's times: three timings would help");
+    // Weights that are a guess say little within the zone: there, what most people use is as good.
+    if (!grid.weights_known && in_zone(zone, result.rules.mean_edge)) {
+        best = {result.rules.mean_edge, result.rule_costs.mean_edge};
+        result.rule = VOX_RULE_MEAN_EDGE;
+        warn(VOX_FOREIGN_BY_RULE,
+             format("so the mean edge, %g, is as good as any size in the zone", best.cell_size));
+    }
 
     result.cell_size = best.cell_size;
     result.zone_min = zone.min;
@@ -118,20 +138,13 @@ vox_foreign_suggestion suggest_for(const ForeignGrid& grid, ForeignWork& work) {
     result.least_cell_size = work.least_cell_size();
     result.work = work.exactly_at(best.cell_size);
     result.weights = weights;
-    if (!grid.weights_known)
-        warn(VOX_FOREIGN_WEIGHTS_UNKNOWN, "nothing is known of the grid's times: three timings would help");
     if (result.least_cell_size > 0 && best.cell_size <= result.least_cell_size * 1.001)
         warn(VOX_FOREIGN_AT_LEAST_SIZE, format("%g is the least legal size", result.least_cell_size));
     if (!work.in_one_place() && best.cell_size >= work.range().max * 0.999)
         warn(VOX_FOREIGN_ONE_PLACE, "one cell that holds all costs least: any larger one does");
 
-    result.rules = work.rules();
-    const auto cost_of = [&](double cell_size) { return cell_size > 0 ? cost(std::log2(cell_size)) : 0; };
-    result.rule_costs = {cost_of(result.rules.mean_edge), cost_of(result.rules.mean_box_side),
-                         cost_of(result.rules.median_box_side), cost_of(result.rules.spacing),
-                         cost_of(result.rules.radius)};
     // Sizes between those of the search may cost a little less.
-    const CostFunction curve = [&](double log_size) { return std::max(cost(log_size), best.cost); };
+    const CostFunction curve = [&](double log_size) { return std::max(cost(log_size), least); };
     draw_curve(curve, {best.cell_size / 8, best.cell_size * 8}, result.curve, result.curve_count);
 
     const CostTerms terms = terms_of(work_at(best.cell_size), weights);
