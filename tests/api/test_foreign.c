@@ -277,6 +277,7 @@ END_TEST
 /* Times that are a guess: the mean edge where the guess has it in the zone, else the least cost. */
 START_TEST(a_guess_prefers_the_mean_edge) {
     vox_primitives held = boxes();
+    held.type = VOX_PRIMITIVE_EDGE;
     int by_rule = 0;
     for (int i = 0; i < 40; ++i) {
         held.radius = 0.02 * i; /* boxes grow, their edges do not */
