@@ -53,47 +53,66 @@ Boxes make(Scene scene, std::size_t count, std::uint64_t seed) {
     const auto unit = [&] { return random.unit(); };
     Boxes boxes;
     const double edge = std::cbrt(1.0 / static_cast<double>(count));
+    struct Point {
+        double x, y, z;
+    };
+    // One after the other: compilers evaluate arguments in orders of their own.
+    const auto in_cube = [&] {
+        const double z = unit(), y = unit(), x = unit();
+        return Point{x, y, z};
+    };
     const auto around = [&](double x, double y, double z, double size) {
-        boxes.add(x, y, z, size * (0.5 + unit()), size * (0.5 + unit()), size * (0.5 + unit()));
+        const Point sides = in_cube();
+        boxes.add(x, y, z, size * (0.5 + sides.x), size * (0.5 + sides.y), size * (0.5 + sides.z));
     };
     for (std::size_t i = 0; i < count; ++i) {
         const double part = static_cast<double>(i) / static_cast<double>(count);
+        const auto spread_out = [&](double s, double size) {
+            const Point p = in_cube();
+            around(s * p.x, s * p.y, s * p.z, size);
+        };
         switch (scene) {
         case body:
-            around(unit(), unit(), unit(), 1.7 * edge);
+            spread_out(1, 1.7 * edge);
             break;
         case shell: {
             const double z = 2 * unit() - 1, a = 6.2831853 * unit(), r = std::sqrt(1 - z * z);
             around(r * std::cos(a), r * std::sin(a), z, 4 / std::sqrt(static_cast<double>(count)));
             break;
         }
-        case cloud:
-            boxes.add(unit(), unit(), unit(), 0, 0, 0);
+        case cloud: {
+            const Point p = in_cube();
+            boxes.add(p.x, p.y, p.z, 0, 0, 0);
             break;
+        }
         case clumps: {
             const double c = std::floor(unit() * 10), r = 0.02 * unit();
-            around(0.1 * c + r * unit(), std::fmod(c * 0.37, 1) + r * unit(),
-                   std::fmod(c * 0.61, 1) + r * unit(), 0.002);
+            const Point p = in_cube();
+            around(0.1 * c + r * p.x, std::fmod(c * 0.37, 1) + r * p.y, std::fmod(c * 0.61, 1) + r * p.z, 0.002);
             break;
         }
         case graded: {
             const double s = std::pow(10, -2 * part);
-            around(s * unit(), unit(), unit(), 0.3 * s * std::sqrt(edge));
+            const Point p = in_cube();
+            around(s * p.x, p.y, p.z, 0.3 * s * std::sqrt(edge));
             break;
         }
         case wide: {
             const double s = std::pow(10, -6 * part);
-            around(s * unit(), s * unit(), s * unit(), 0.1 * s);
+            spread_out(s, 0.1 * s);
             break;
         }
-        case flat:
-            boxes.add(unit(), unit(), 0.5, 1.5 * std::sqrt(1 / double(count)),
-                      1.5 * std::sqrt(1 / double(count)), 0);
+        case flat: {
+            const double y = unit(), x = unit(), side = 1.5 * std::sqrt(1 / double(count));
+            boxes.add(x, y, 0.5, side, side, 0);
             break;
-        case sticks:
-            boxes.add(unit(), unit(), unit(), i % 3 == 0 ? 6 * edge : 0.1 * edge,
+        }
+        case sticks: {
+            const Point p = in_cube();
+            boxes.add(p.x, p.y, p.z, i % 3 == 0 ? 6 * edge : 0.1 * edge,
                       i % 3 == 1 ? 6 * edge : 0.1 * edge, i % 3 == 2 ? 6 * edge : 0.1 * edge);
             break;
+        }
         default: {
             const auto n = static_cast<std::size_t>(std::cbrt(double(count))) + 1;
             boxes.add(double(i % n) / double(n), double(i / n % n) / double(n), double(i / n / n) / double(n),

@@ -5,6 +5,7 @@ import signal
 import threading
 import time
 import unittest
+import warnings
 from types import SimpleNamespace
 
 import numpy as np
@@ -245,7 +246,9 @@ class Suggestions(unittest.TestCase):
             axes = answer.plot()
             self.assertEqual(axes.get_xlabel(), "cell size")
             self.assertIn("of a run", axes.get_ylabel())
-            self.assertTrue(answer._repr_png_().startswith(b"\x89PNG"))
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # of what matplotlib is made of, about each other
+                self.assertTrue(answer._repr_png_().startswith(b"\x89PNG"))
 
 
 class Fits(unittest.TestCase):
