@@ -15,6 +15,7 @@ import sys
 from collections import namedtuple
 
 from figures import AVX2, CONTACTS, F1, F2, REFERENCE, SUBJECT, read
+from page import put
 
 # What is aimed at in a scene; None: nothing. The default step takes at most `over` times as long as contacts alone, and is
 # at least `peer` times as fast as the best peer, which finds contacts alone. Contacts alone are found at least so many
@@ -236,14 +237,6 @@ def headlines(scenes):
                  f"algorithm at its best cell size takes {number(scene.times_faster(SUBJECT, REFERENCE), 2)} and "
                  f"{number(scene.times_faster(CONTACTS, REFERENCE), 2)} times as long.")
     return {"fast": fast, "how-fast": text + "\n"}
-
-
-def put(page, name, text):
-    begin, end = f"<!-- bench/{name} -->", f"<!-- /bench/{name} -->"
-    with open(page, encoding="utf-8") as file:
-        head, rest = file.read().split(begin)
-    with open(page, "w", encoding="utf-8") as file:
-        file.write(head + begin + text + end + rest.split(end)[1])
 
 
 def main():

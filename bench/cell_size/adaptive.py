@@ -8,6 +8,7 @@ The best fixed size is that of each window of steps, found in one half of them (
 half, and the other way round.
 """
 import csv
+import os
 import statistics
 import sys
 
@@ -15,7 +16,10 @@ import matplotlib
 
 matplotlib.use("svg")
 matplotlib.rcParams["svg.hashsalt"] = "vox"
-import matplotlib.pyplot as plt
+import matplotlib.pyplot as plt  # noqa: E402
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from page import put  # noqa: E402
 
 WINDOW = 10
 COLOURS = {"chosen": "#1f5fa8", "best": "#b0762b"}
@@ -110,15 +114,6 @@ def draw(runs, path):
     figure.savefig(path, metadata={"Date": None})
 
 
-def put(page, text):
-    begin, end = "<!-- bench/adaptive -->\n", "<!-- /bench/adaptive -->"
-    with open(page, encoding="utf-8") as file:
-        old = file.read()
-    head, rest = old.split(begin)
-    with open(page, "w", encoding="utf-8") as file:
-        file.write(head + begin + text + end + rest.split(end)[1])
-
-
 def main():
     if len(sys.argv) not in (3, 4):
         raise SystemExit(__doc__)
@@ -134,7 +129,7 @@ def main():
     print(text, end="")
     draw(runs, sys.argv[2])
     if len(sys.argv) == 4:
-        put(sys.argv[3], text)
+        put(sys.argv[3], "adaptive", "\n" + text)
 
 
 if __name__ == "__main__":

@@ -6,8 +6,12 @@ usage: regret.py PAGE.md RESULTS.csv...   Puts them between the lines of the pag
 """
 import csv
 import math
+import os
 import statistics
 import sys
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from page import put  # noqa: E402
 
 RULES = {"model": "model", "grid": "grid", "mean_edge": "mean edge", "paper": "paper", "median_box": "median box"}
 ENGINES = ("reference", "fast")
@@ -121,14 +125,8 @@ def main():
         print(text)
         print(details(ordered))
         return
-    begin, end = "<!-- bench/regret -->\n", "<!-- /bench/regret -->"
-    with open(page, encoding="utf-8") as file:
-        old = file.read()
-    head, rest = old.split(begin)
-    tail = rest.split(end)[1]
     text += f"\nScene by scene: {len(ordered)} rows in [regret.md](regret.md).\n"
-    with open(page, "w", encoding="utf-8") as file:
-        file.write(head + begin + text + end + tail)
+    put(page, "regret", "\n" + text)
     with open(page.rsplit("/", 1)[0] + "/regret.md", "w", encoding="utf-8") as file:
         file.write("# What each rule for the cell size loses, scene by scene\n\n"
                    "Regrets, and sizes in mean edges, written by `bench/cell_size/regret.py`; [cell-size.md](cell-size.md) explains both.\n"

@@ -15,9 +15,11 @@ import random
 import statistics
 import sys
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path[:0] = [HERE, os.path.dirname(HERE)]
 import library  # noqa: E402
 import losses  # noqa: E402
+from page import put  # noqa: E402
 
 ANY = 0
 FIXED = {"default": "its own default", "mean_edge": "mean edge", "mean_edge_multiple": "two mean edges",
@@ -225,15 +227,6 @@ def draw(path, curves, rows):
     figure.savefig(path, metadata={"Date": None})
 
 
-def put(page, text):
-    begin, end = "<!-- bench/foreign -->\n", "<!-- /bench/foreign -->"
-    with open(page, encoding="utf-8") as file:
-        old = file.read()
-    head, rest = old.split(begin)
-    with open(page, "w", encoding="utf-8") as file:
-        file.write(head + begin + text + end + rest.split(end)[1])
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("curves")
@@ -254,7 +247,7 @@ def main():
     if options.picture:
         draw(options.picture, curves, rows)
     if options.page:
-        put(options.page, text)
+        put(options.page, "foreign", "\n" + text)
     else:
         print(text, end="")
 

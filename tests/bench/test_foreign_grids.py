@@ -125,7 +125,7 @@ class ForeignGrids(unittest.TestCase):
             page = os.path.join(folder, "page.md")
             with open(page, "w", encoding="utf-8") as file:
                 file.write("before\n<!-- bench/foreign -->\nold\n<!-- /bench/foreign -->\nafter\n")
-            evaluate.put(page, evaluate.report_text(of, rows))
+            evaluate.put(page, "foreign", "\n" + evaluate.report_text(of, rows))
             with open(page, encoding="utf-8") as file:
                 text = file.read()
         self.assertTrue(text.startswith("before\n<!-- bench/foreign -->\n") and text.endswith("<!-- /bench/foreign -->\nafter\n"))
