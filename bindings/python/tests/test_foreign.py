@@ -1,6 +1,7 @@
 """Cell sizes of grids that are not the library's: what they hold, timings, runs."""
 
 import math
+import mmap
 import signal
 import threading
 import time
@@ -86,6 +87,28 @@ class Held(unittest.TestCase):
         grid_of_twice = suggest_for(ForeignGrid(points, radius=0.1))
         self.assertEqual(suggest_for(grid).cell_size, grid_of_twice.cell_size)
         self.assertNotEqual(before, grid_of_twice.cell_size)
+
+    def test_memory_that_would_be_freed(self):
+        edges, radii = np.array([[0, 1], [1, 2], [2, 3]], np.uint32), np.array([0.1, 0.2, 0.3])
+        for name, values in (("indices", edges), ("radii", radii), ("positions", CLOUD[:4].copy())):
+            mapped = mmap.mmap(-1, values.nbytes)
+            arrays = {"positions": CLOUD[:4], "indices": edges, "radii": radii}
+            arrays[name] = np.ndarray(values.shape, values.dtype, mapped)
+            arrays[name][:] = values
+            held = Primitives(**arrays)
+            del arrays
+            with self.assertRaises(BufferError, msg=name):
+                mapped.close()
+            self.same(held, Primitives(CLOUD[:4], edges, radii=radii))
+            del held
+            mapped.close()
+
+    def test_what_a_grid_points_to_stays(self):
+        grid = ForeignGrid(CLOUD, CLOUD[:9])
+        for name in ("held", "asking"):
+            with self.assertRaises(AttributeError):
+                setattr(grid, name, None)
+        self.assertEqual((len(grid.held), len(grid.asking)), (500, 9))
 
     def test_boxes(self):
         both = np.empty((len(CLOUD), 6))

@@ -182,6 +182,18 @@ class KeptAlive(GridCase):
             self.a.positions = self.first
             mapped.close()
 
+    def test_tetrahedra_that_would_be_freed(self):
+        mapped = mmap.mmap(-1, self.tets.nbytes)
+        tets = np.ndarray(self.tets.shape, np.uint32, mapped)
+        tets[:] = self.tets
+        mesh = self.grid.add(self.first, tets, borrow_tets=True)
+        del tets
+        with self.assertRaises(BufferError):
+            mapped.close()
+        self.grid.step()
+        mesh.remove()
+        mapped.close()
+
     def test_shared_memory(self):
         from multiprocessing import shared_memory
         memory = shared_memory.SharedMemory(create=True, size=self.first.nbytes)

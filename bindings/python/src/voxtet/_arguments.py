@@ -131,8 +131,8 @@ def array_of(value: Any, name: str) -> NDArray[Any]:
     return found
 
 
-def _pinned(array: NDArray[Any]) -> Any:
-    """numpy holds the object that memory comes from (a mapping, shared memory), but does not keep it from being closed."""
+def pinned(array: NDArray[Any]) -> Any:
+    """To be kept with an array that the library goes on reading. numpy holds the object that memory comes from (a mapping, shared memory), but does not keep it from being closed."""
     base: Any = array
     while isinstance(base, np.ndarray):
         base = base.base
@@ -164,7 +164,7 @@ def rows(value: Any, name: str) -> Rows:
             f"{name} has the strides {array.strides} (shape {array.shape}, {array.dtype}); the library reads rows "
             f"(n or more, {size}) or whole columns ({size} or more, n times that). Copy it with numpy.ascontiguousarray")
     return Rows(array, array.ctypes.data, int(_c.Format.FLOAT3 if size == 4 else _c.Format.DOUBLE3), row, component,
-                count, _pinned(array))
+                count, pinned(array))
 
 
 def _array_or_sequence(value: Any, name: str) -> NDArray[Any]:

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _c
-from ._arguments import U32, choice, indices, integer, points, real, rows, switch
+from ._arguments import U32, choice, indices, integer, pinned, points, real, rows, switch
 from ._interop import primitives_of
 from ._library import Relay, described, sized, values_of, vox
 from .errors import InvalidArgumentError
@@ -161,7 +161,7 @@ class Primitives:
                     and array.strides[0] >= 4 * width)
         if not followed:
             array = indices(array, "indices", width)
-        self._kept.append(array)
+        self._kept += [array, pinned(array)]
         struct = self._struct
         struct.type, struct.indices, struct.count = _TYPES[width], array.ctypes.data, len(array)
         struct.index_byte_stride = array.strides[0] if followed else 0
@@ -176,7 +176,7 @@ class Primitives:
                     and array.strides[0] >= array.itemsize)
         if not followed:
             array = np.ascontiguousarray(array, np.float32 if array.dtype == np.float32 else np.float64)
-        self._kept.append(array)
+        self._kept += [array, pinned(array)]
         struct = self._struct
         struct.radii = array.ctypes.data
         struct.radius_format = _c.Format.FLOAT3 if array.itemsize == 4 else _c.Format.DOUBLE3
@@ -223,7 +223,7 @@ class ForeignGrid:
     Nothing is computed here, and what is in the arrays is read in each call. Any thread.
     """
 
-    __slots__ = ("_struct", "asking", "held")
+    __slots__ = ("_asking", "_held", "_struct")
 
     def __init__(self, held: Any, asking: Any = None, *, known: Union[str, _c.KnownGrid] = "any",
                  content: Optional[str] = None, look: Union[str, _c.CellLook, None] = None, dense: Optional[bool] = None,
@@ -254,11 +254,22 @@ class ForeignGrid:
             struct.weights = _c.vox_grid_weights(**{name: real(value, f"weights[{name!r}]") for name, value in given.items()})
         struct.radius, struct.zone_loss = real(radius, "radius"), real(zone_loss, "zone_loss")
         struct.least_cell_size = real(least_cell_size, "least_cell_size")
-        self.held = _primitives(held)
-        self.asking = None if asking is None else _primitives(asking)
-        struct.held = ctypes.pointer(self.held._struct)
-        if self.asking is not None:
-            struct.asking = ctypes.pointer(self.asking._struct)
+        self._held = _primitives(held)
+        self._asking = None if asking is None else _primitives(asking)
+        struct.held = ctypes.pointer(self._held._struct)
+        if self._asking is not None:
+            struct.asking = ctypes.pointer(self._asking._struct)
+
+    # Not to be set: the struct points into their arrays.
+    @property
+    def held(self) -> Primitives:
+        """What is put into cells."""
+        return self._held
+
+    @property
+    def asking(self) -> Optional[Primitives]:
+        """What asks; None: those held."""
+        return self._asking
 
     @property
     def weights(self) -> GridWeights:
@@ -266,7 +277,7 @@ class ForeignGrid:
         return values_of(GridWeights, self._struct.weights)
 
     def __repr__(self) -> str:
-        return f"<voxtet.ForeignGrid of {self.held!r}" + (f", asked by {self.asking!r}>" if self.asking else ">")
+        return f"<voxtet.ForeignGrid of {self._held!r}" + (">" if self._asking is None else f", asked by {self._asking!r}>")
 
 
 def _grid(held: Any, asking: Any, description: dict[str, Any]) -> ForeignGrid:

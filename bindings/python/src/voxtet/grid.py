@@ -220,7 +220,7 @@ class Grid(Queries, Results):
         self._pointer = handle.pointer
         # By id: the arrays of positions and of tets that the mesh borrows, and the caller's tags. Meshes themselves are
         # made when asked for, so that nothing here refers to the grid, and a grid that is dropped goes at once.
-        self._kept: dict[int, tuple[Optional[Rows], Optional[NDArray[Any]]]] = {}
+        self._kept: dict[int, tuple[Optional[Rows], Any]] = {}
         self._lent: list[Any] = []
         self._tags: dict[int, Any] = {}
         self._borrowed = Exports()

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _c
-from ._arguments import NOTHING, U32, U64, Rows, array_of, copied_rows, indices, integer, matrix, real, rows, switch
+from ._arguments import NOTHING, U32, U64, Rows, array_of, copied_rows, indices, integer, matrix, pinned, real, rows, switch
 from ._library import described, sized, vox
 from .errors import InvalidArgumentError
 from .results import Contacts, Lease, Readings, borrow_of
@@ -93,10 +93,10 @@ class Topology:
             desc.rest_positions, desc.rest_position_byte_stride = self.rest.address, self.rest.stride
             desc.rest_position_component_byte_stride = self.rest.component
 
-    def kept(self) -> tuple[Optional[Rows], Optional[NDArray[Any]]]:
+    def kept(self) -> tuple[Optional[Rows], Any]:
         """What the library goes on reading after the call: positions and tets."""
         return (None if self.desc.flags & _c.MeshFlags.COPY_POSITIONS or self.rows.array is None else self.rows,
-                self.tets if self.desc.flags & _c.MeshFlags.BORROW_TETS else None)
+                (self.tets, pinned(self.tets)) if self.tets is not None and self.desc.flags & _c.MeshFlags.BORROW_TETS else None)
 
 
 class Mesh:
