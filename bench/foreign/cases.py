@@ -10,14 +10,13 @@ from typing import Callable, Optional
 
 import numpy as np
 
+import losses
 import scenes
 
 CENTRES, BOXES = 0, 1  # vox_cell_content
 BOX, AROUND, PAIRS = 0, 1, 2  # vox_cell_look
 POINT, EDGE, TRIANGLE, TET, BOX_TYPE = range(5)  # vox_primitive_type
 SORTED, HASHED, WARP, IPC, IPC_PAIRS, VTK, PBAT, POINT_VOXELS, NUMPY = range(1, 10)  # vox_known_grid
-KNOWN = {SORTED: "SORTED", HASHED: "HASHED", WARP: "WARP", IPC: "IPC", IPC_PAIRS: "IPC_PAIRS", VTK: "VTK", PBAT: "PBAT",
-         POINT_VOXELS: "POINT_VOXELS", NUMPY: "NUMPY"}
 
 
 @dataclasses.dataclass
@@ -86,12 +85,12 @@ def plain(path):
 
 
 def count(library, case, cell_size, samples=2):
-    """The fields of vox_grid_work, counted, and the visits inside the box of all that are held."""
+    """The fields of vox_grid_work, counted."""
     held, asked = case.held.boxes(), case.asked().boxes()
-    work = (ctypes.c_double * 7)()
+    work = (ctypes.c_double * len(losses.WORK))()
     library.plain_count(doubles(held), len(held), doubles(asked), len(asked), cell_size, case.content, case.look,
                         samples, work)
-    return list(work)
+    return dict(zip(losses.WORK, work))
 
 
 def tets(body):

@@ -67,17 +67,13 @@ def choices(vox, curve, folder, draws):
     found["bare"] = [bare.suggest().cell_size]
     found["unknown"] = [told.weigh(ANY).suggest().cell_size]
     found["shipped"] = [told.weigh(curve.known).suggest().cell_size]
-    runs = []
     told.weigh(ANY)
-    if hasattr(vox.library, "vox_cost_fit"):
-        rng = random.Random(curve.grid + curve.scene)
-        found["fitted"] = [told.fit([(s, curve.draw(s, rng)) for s in curve.timing_sizes()]).cell_size for _ in range(draws)]
-    if hasattr(vox.library, "vox_cost_tune"):
-        rng = random.Random(curve.scene + curve.grid)
-        tuned = [told.tune(lambda size: curve.draw(size, rng)) for _ in range(draws)]
-        found["tuned"] = [t.cell_size for t in tuned]
-        runs = [t.run_count for t in tuned]
-    return found, runs, told
+    rng = random.Random(curve.grid + curve.scene)
+    found["fitted"] = [told.fit([(s, curve.draw(s, rng)) for s in curve.timing_sizes()]).cell_size for _ in range(draws)]
+    rng = random.Random(curve.scene + curve.grid)
+    tuned = [told.tune(lambda size: curve.draw(size, rng)) for _ in range(draws)]
+    found["tuned"] = [t.cell_size for t in tuned]
+    return found, [t.run_count for t in tuned], told
 
 
 def count_errors(curve, told):

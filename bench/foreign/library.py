@@ -1,17 +1,17 @@
-"""vox_suggest_for, vox_count_for, vox_cost_fit and vox_cost_tune by ctypes. The structs are those of include/vox/vox.h."""
+"""vox_suggest_for, vox_count_for, vox_cost_fit and vox_cost_tune by ctypes. The structs are those of include/vox/vox.h.
+Nothing but Python is needed, so that the test of the plain grids runs without numpy, which voxtet needs."""
 
 from __future__ import annotations
 
 import ctypes
-import math
 from ctypes import (CFUNCTYPE, POINTER, Structure, byref, c_char, c_char_p, c_double, c_int, c_uint32, c_uint64, c_void_p,
                     sizeof)
+
+from losses import WEIGHTS, WORK
 
 CURVE, TERMS, NOTE, RUNS = 64, 12, 256, 32
 DOUBLE3 = 1
 DENSE = 1
-WORK = ("entries", "visits", "empty", "reads", "occupied", "cells")
-WEIGHTS = ("fixed", "entries", "visits", "found", "reads", "occupied", "cells")
 
 
 class Primitives(Structure):
@@ -97,7 +97,7 @@ def address(array):
 class Described:
     """A vox_foreign_grid, with the arrays that it points to."""
 
-    def __init__(self, vox, held, asking, content=None, look=None, dense=False, least=0.0):
+    def __init__(self, vox, held, asking, content=None, look=None, dense=False):
         """held, asking: {type, count, vertex_count, positions, indices, radii}, asking None for the same set; content and
         look None: the library's defaults."""
         self.vox, self.kept = vox, (held, asking)
@@ -110,7 +110,6 @@ class Described:
             self.grid.asking = ctypes.pointer(self.asking)
         if content is not None:
             self.grid.content, self.grid.look, self.grid.flags = content, look, DENSE if dense else 0
-        self.grid.least_cell_size = least
 
     def primitives(self, values):
         p = Primitives()
@@ -124,10 +123,9 @@ class Described:
             p.radii, p.radius_format = address(values["radii"]), DOUBLE3
         return p
 
-    def weigh(self, known, weights=None):
-        """Takes the weights of a known grid, or given ones; the description stays. Returns itself."""
+    def weigh(self, known):
+        """Takes the weights of a known grid; the description stays. Returns itself."""
         self.grid.known = known
-        self.grid.weights = Weights(*(weights or [0] * len(WEIGHTS)))
         return self
 
     def suggest(self):
@@ -146,8 +144,13 @@ class Described:
         self.vox.call("vox_cost_fit", self.grid, given, c_uint64(len(timings)), found)
         return found
 
-    def tune(self, run, **desc):
-        return self.vox.tune(self.grid, run, **desc)
+    def tune(self, run):
+        """run(size) returns seconds."""
+        described, found = TuneDesc(), Tuning(struct_size=sizeof(Tuning))
+        self.vox.call("vox_tune_desc_init", described, sizeof(TuneDesc))
+        callback = Run(lambda size, _: run(size))
+        self.vox.call("vox_cost_tune", self.grid, described, callback, c_void_p(), found)
+        return found
 
 
 class Vox:
@@ -162,13 +165,3 @@ class Vox:
         result = function(*(c_uint32(a) if isinstance(a, int) else a for a in given))
         if result:
             raise Failed(f"{name}: {result}, {self.library.vox_last_error().decode()}")
-
-    def tune(self, grid, run, **desc):
-        """run(size) returns seconds. grid may be None; then `first` must be given."""
-        described, found = TuneDesc(), Tuning(struct_size=sizeof(Tuning))
-        self.call("vox_tune_desc_init", described, sizeof(TuneDesc))
-        for name, value in desc.items():
-            setattr(described, name, value)
-        callback = Run(lambda size, _: run(size) if math.isfinite(size) else math.nan)
-        self.call("vox_cost_tune", grid if grid is not None else c_void_p(), described, callback, c_void_p(), found)
-        return found

@@ -23,7 +23,6 @@ import cases
 import scenes
 
 SWEEP = [0.6 * 2 ** (k / 4) for k in range(-2, 12)]  # mean edges
-COUNTED = ("entries", "visits", "empty", "reads", "occupied", "cells", "inside")
 MOST_ROUNDS = 24
 FEWEST_ROUNDS = 4
 
@@ -46,9 +45,9 @@ def rules(case):
 
 def counted(library, case, size):
     """The mean over as many positions of the lattice as take little time: counts in few cells vary much."""
-    once = dict(zip(COUNTED, cases.count(library, case, size, 1)))
+    once = cases.count(library, case, size, 1)
     positions = min(max(round(5e6 / (once["entries"] + once["visits"] + once["cells"])), 2), 64)
-    return dict(zip(COUNTED, cases.count(library, case, size, positions)))
+    return cases.count(library, case, size, positions)
 
 
 def timed(run, size):

@@ -265,15 +265,14 @@ EXPORTED std::uint64_t plain_run_voxels(const double* points, std::size_t count,
     return found;
 }
 
-// What a run does (the fields of vox_grid_work), the mean over `samples` positions of the lattice; last, the
-// visits of cells inside the box of all that are held.
+// What a run does (the fields of vox_grid_work), the mean over `samples` positions of the lattice.
 EXPORTED void plain_count(const double* held_data, std::size_t held_count, const double* asking_data,
                           std::size_t asking_count, double cell_size, int content, int look, int samples,
                           double* work) {
     const Boxes held{reinterpret_cast<const Box*>(held_data), held_count};
     const Boxes asking{reinterpret_cast<const Box*>(asking_data), asking_count};
     const Box bounds = bounds_of(held);
-    double entries = 0, visits = 0, empty = 0, reads = 0, occupied = 0, cells = 0, visits_inside = 0;
+    double entries = 0, visits = 0, empty = 0, reads = 0, occupied = 0, cells = 0;
     std::vector<std::uint32_t> lengths;
     for (int s = 0; s < samples; ++s) {
         // Positions that fill the cell evenly: multiples of the generalised golden ratio.
@@ -297,7 +296,6 @@ EXPORTED void plain_count(const double* held_data, std::size_t held_count, const
             occupied += length > 0;
             if (look == PAIRS && length > 0) {
                 ++visits;
-                ++visits_inside;
                 reads += 0.5 * length * (length - 1.0);
             }
         }
@@ -309,7 +307,6 @@ EXPORTED void plain_count(const double* held_data, std::size_t held_count, const
             const Range inside = dense.clipped(wanted);
             visits += static_cast<double>(wanted.count() - inside.count());
             empty += static_cast<double>(wanted.count() - inside.count());
-            visits_inside += static_cast<double>(inside.count());
             for_each_cell(inside, [&](const Cell& c) {
                 const std::uint32_t length = lengths[dense.number(c)];
                 ++visits;
@@ -318,7 +315,7 @@ EXPORTED void plain_count(const double* held_data, std::size_t held_count, const
             });
         }
     }
-    const double sums[] = {entries, visits, empty, reads, occupied, cells, visits_inside};
+    const double sums[] = {entries, visits, empty, reads, occupied, cells};
     for (std::size_t i = 0; i < std::size(sums); ++i) {
         work[i] = sums[i] / samples;
     }

@@ -55,7 +55,7 @@ def run(name, held, asking, size, content, look=BOX):
 
 
 def counted(held, asking, size, content, look):
-    work = (ctypes.c_double * 7)()
+    work = (ctypes.c_double * len(losses.WORK))()
     PLAIN.plain_count(*pointer(held), *pointer(asking), ctypes.c_double(size), content, look, POSITIONS, work)
     return dict(zip(losses.WORK, work))
 
