@@ -1,7 +1,7 @@
 """What Python costs over C, and point location beside VTK. Runs that are compared are interleaved, and the least times of many are
 taken, so that a busy machine changes little; for point location, of the processor time.
 
-usage: bench.py [calls] [locate] [warp] [scenes]   (VOXTET_LIBRARY_DIR and PYTHONPATH as in ../check)
+usage: bench.py [calls] [locate] [warp] [scenes] [suggest]   (VOXTET_LIBRARY_DIR and PYTHONPATH as in ../check)
 """
 
 import ctypes
@@ -134,6 +134,19 @@ def locate():
     print(f"points on facets: {np.count_nonzero((found < 0) | ~beside | (found > own))} of {len(points)} wrong")
 
 
+def suggest():
+    """Of the library; Python adds less than 0.1 ms."""
+    names = ("any", "sorted", "hashed", "ipc", "ipc_pairs", "vtk", "numpy", "pbat", "warp", "point_voxels")
+    for count, rounds in ((20000, 30), (1000000, 8)):
+        ball = voxtet.make_lattice_ball(count, 1)
+        positions, tets = np.asarray(ball.positions, np.float32), np.asarray(ball.tets, np.uint32)
+        of_tets, of_points = voxtet.Primitives(positions, tets), voxtet.Primitives(positions, radius=0.05)
+        times = least([lambda name=name: voxtet.suggest_for(of_points if name in names[-2:] else of_tets, known=name)
+                       for name in names], 1, rounds)
+        print(f"suggest_for, {len(tets)} tetrahedra, the last two their {len(positions)} vertices: "
+              + ", ".join(f"{name} {us / 1000:.2f}" for name, us in zip(names, times)) + " ms")
+
+
 def warp():
     """Points in tetrahedra beside Warp's BVH on the processor, which runs its kernels on one thread: in single precision,
     with the tetrahedron found last."""
@@ -187,4 +200,4 @@ def warp():
 
 if __name__ == "__main__":
     for name in sys.argv[1:] or ["calls", "locate", "scenes"]:
-        {"calls": calls, "locate": locate, "warp": warp, "scenes": scenes}[name]()
+        {"calls": calls, "locate": locate, "warp": warp, "scenes": scenes, "suggest": suggest}[name]()
