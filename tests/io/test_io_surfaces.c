@@ -50,7 +50,6 @@ static bytes with_line_ends(const bytes* file, const char* end, size_t last) {
     return out;
 }
 
-/* Windows and old Macintosh: every text format gives the same mesh, and so do headers of binary ones. */
 /* Files of points alone: all of them, repeated ones too. */
 START_TEST(points_alone) {
     static const char* const files[] = {
@@ -58,11 +57,19 @@ START_TEST(points_alone) {
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
         "0 0 0\n1 0 0\n1 0 0\n",
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-        "element face 0\nproperty list uchar int vertex_index\nend_header\n0 0 0\n1 0 0\n1 0 0\n"};
-    for (int i = 0; i < 3; ++i) {
+        "element face 0\nproperty list uchar int vertex_index\nend_header\n0 0 0\n1 0 0\n1 0 0\n",
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+        "element tristrips 0\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 0 0\n"};
+    vox_io_load_desc desc;
+    ck_ok(vox_io_load_desc_init(&desc, (uint32_t)sizeof desc));
+    for (int i = 0; i < 4; ++i) {
         const vox_io_source source = {i == 0 ? "cloud.obj" : "cloud.ply", files[i], strlen(files[i])};
         vox_io_mesh* mesh = NULL;
-        ck_assert_msg(vox_io_read(&source, 1, NULL, &mesh) == VOX_OK, "%s", vox_last_error());
+        desc.mesh_index = 1; /* they are one mesh, that of index 0 */
+        ck_fails(vox_io_read(&source, 1, &desc, &mesh), VOX_ERROR_INVALID_ARGUMENT,
+                 "mesh 1 was asked for, but the file holds 1");
+        desc.mesh_index = i % 2 ? 0 : VOX_IO_ALL_MESHES;
+        ck_assert_msg(vox_io_read(&source, 1, &desc, &mesh) == VOX_OK, "%s", vox_last_error());
         vox_io_mesh_view view;
         ck_assert_int_eq(vox_io_mesh_get(mesh, &view), VOX_OK);
         ck_assert_uint_eq(view.vertex_count, 3);
@@ -75,6 +82,7 @@ START_TEST(points_alone) {
 }
 END_TEST
 
+/* Windows and old Macintosh: every text format gives the same mesh, and so do headers of binary ones. */
 START_TEST(line_ends) {
     static const char* const files[] = {
         "cube.obj",        "cube.off",    "cube.ply",   "cube_strips.ply", "cube_text.stl",
@@ -501,11 +509,10 @@ END_TEST
 int main(void) {
     Suite* suite = suite_create("io_surfaces");
     TCase* tests = add_case(suite, "surfaces");
-    tcase_add_each(tests, line_ends, first_byte_of_binary_data, content_alone, obj, stl, ply, polygons, gltf,
+    tcase_add_each(tests, points_alone, line_ends, first_byte_of_binary_data, content_alone, obj, stl, ply, polygons, gltf,
                    assimp);
 #ifdef __unix__
     tcase_add_test(tests, files_beside);
-    tcase_add_test(tests, points_alone);
 #endif
     return run_suite(suite);
 }

@@ -322,7 +322,7 @@ private:
     // In a strip every vertex makes a triangle with the two before it. The one of even number comes first,
     // which turns every other triangle over.
     void read_strips(const Element& element) {
-        const bool wanted = surface_.begin_element();
+        const bool wanted = element.count > 0 && surface_.begin_element();
         std::uint32_t last[2] = {0, 0};
         std::uint64_t length = 0;
         read_lists(

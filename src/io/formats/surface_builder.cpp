@@ -126,10 +126,14 @@ void SurfaceBuilder::cut_ears(const Plane& plane) {
     }
 }
 
-MeshData SurfaceBuilder::finish() {
-    if (mesh_index_ != VOX_IO_ALL_MESHES && mesh_index_ >= meshes_)
+void SurfaceBuilder::check_mesh_index(std::uint64_t meshes) const {
+    if (mesh_index_ != VOX_IO_ALL_MESHES && mesh_index_ >= meshes)
         refuse(format("%s: mesh %u was asked for, but the file holds %llu", name_.c_str(), mesh_index_,
-                      llu(meshes_)));
+                      llu(meshes)));
+}
+
+MeshData SurfaceBuilder::finish() {
+    check_mesh_index(meshes_);
     if (data_.triangles.empty())
         throw Error(VOX_ERROR_FORMAT, format("%s: expected triangles, found none", name_.c_str()));
     if (uncut_ > 0)
@@ -141,6 +145,7 @@ MeshData SurfaceBuilder::finish() {
 }
 
 MeshData SurfaceBuilder::finish_points(std::vector<double> positions) {
+    check_mesh_index(1);
     data_.positions = std::move(positions);
     data_.notes.push_back("there are no triangles: points alone");
     return std::move(data_);

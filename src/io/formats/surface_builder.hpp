@@ -78,7 +78,8 @@ public:
 
     // Throws if there is no triangle, or no mesh with the index that was asked for.
     MeshData finish();
-    // A file without elements: points alone, which are not merged.
+    // A file without elements: points alone, which are one mesh and not merged. Throws if another one was
+    // asked for.
     MeshData finish_points(std::vector<double> positions);
 
 private:
@@ -88,6 +89,7 @@ private:
     };
 
     [[noreturn]] void too_many(const char* what, std::uint64_t limit) const;
+    void check_mesh_index(std::uint64_t meshes) const; // how many the file holds
     double area(const Plane& plane, std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
     Plane plane_of_polygon() const;
     bool is_convex(const Plane& plane) const;
