@@ -8,8 +8,8 @@ include: Highway's and, for vox_io and vox_sim, Eigen's, with their licences. On
 
     c++ -std=c++20 -O3 -DNDEBUG -DVOX_STATIC -ffp-contract=off -Iinclude -Isrc -Ithird_party -c $(cat core.txt)
 
-`core.txt`, `io.txt` and `sim.txt` list the sources; vox_io is the one without pugixml, zlib and assimp. The crate and the source distribution for Python are made from it. The same
-commit gives the same bytes wherever the same versions of Highway and Eigen are installed.
+`core.txt`, `io.txt` and `sim.txt` list the sources; vox_io is the one without pugixml, zlib and assimp. The same commit gives
+the same bytes wherever the same versions of Highway and Eigen are installed.
 """
 import argparse
 import io
@@ -59,8 +59,7 @@ def headers_of(folder, include_dir, sources):
 
 def tracked(*paths):
     listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", "-z", "--", *paths], check=True, capture_output=True)
-    names = [name for name in listed.stdout.decode().split("\0") if name]
-    return names or [str(path.relative_to(ROOT)) for given in paths for path in (ROOT / given).rglob("*") if path.is_file()]
+    return [name for name in listed.stdout.decode().split("\0") if name]
 
 
 def contents(core_only):

@@ -207,7 +207,6 @@ Geometry measure(const CellSizeScene& scene) {
     Means means(scene.memory);
     means.box_sides.reserve(std::max(sampled_tets(stats.tets), most_measured(stats.tets)) +
                             scene.bodies.size());
-    // Where the boxes of the bodies are not known yet, this finds positions that are not finite.
     std::pmr::vector<MeshSample> made(scene.memory);
     made.reserve(kept ? 0 : scene.bodies.size());
     const auto sample_of = [&](std::size_t b) -> const MeshSample& {
@@ -221,6 +220,7 @@ Geometry measure(const CellSizeScene& scene) {
         stats.edges += sample.edge_count;
         stats.facets += sample.facet_count;
         stats.boundary_facets += sample.boundary_facet_count;
+        // Where the boxes of the bodies are not known yet, this finds positions that are not finite.
         const Bounds own = bounds_of(body, sample.unused_vertices, scene.box(b));
         if (own.empty()) continue;
         bounds.add(own.lo, own.hi);
