@@ -3,6 +3,9 @@
 #define VOX_TESTS_SUITE_H
 
 #include <check.h>
+/* Check writes every assertion that holds into a file, to name the last one before a crash: half of the time of tests that
+ * assert something of each tetrahedron. A debugger names it too. */
+#define _mark_point(file, line) ((void)0)
 #include <stdlib.h>
 #include <vox/vox.h>
 
