@@ -6,6 +6,8 @@
 // rounded (D. E. Knuth, The Art of Computer Programming 2, 1997, Sect. 4.3.1).
 #include "exact/predicates.hpp"
 
+#include "exact/fixed_point.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cfloat>
@@ -187,6 +189,10 @@ bool products_may_underflow(std::span<const Vec3d> points) {
 } // namespace
 
 int exact_orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
+#if defined(VOX_FIXED_POINT)
+    FixedPoints<4> fixed;
+    if (fixed.read({&a, &b, &c, &d})) return fixed.volume(0, 1, 2, 3).sign();
+#endif
     const auto p = in_units(std::array{a, b, c, d});
     return exact_volume(p[0], p[1], p[2], p[3]).sign();
 }
