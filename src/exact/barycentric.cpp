@@ -1,5 +1,5 @@
 // The arithmetic of barycentric() and corner_volumes() (predicates.hpp) for many points at once, operation by
-// operation, so that the bits are the same. Hits that need exact arithmetic are left to barycentric() itself.
+// operation, so that the bits are the same. What needs exact arithmetic is left to those functions.
 //
 // The tetrahedra and positions of hits are anywhere in memory, and waiting for them takes longer than the
 // arithmetic. So each is prefetched some hits before it is needed.
@@ -56,6 +56,36 @@ HWY_INLINE D LoadDoubles(const float* values) {
 }
 HWY_INLINE D LoadDoubles(const double* values) { return hn::LoadU(Doubles(), values); }
 
+struct VolumesOf {
+    D volume[4], error[4]; // without underflow_error
+};
+
+// corner_volumes() of the points from i on; `e` are the corners relative to them.
+template <class Coordinate>
+HWY_INLINE VolumesOf CornerVolumes(const BarycentricBlock<Coordinate>& block, std::size_t i, D (&e)[4][3]) {
+    for (int a = 0; a < 3; ++a) {
+        const D p = LoadDoubles(block.point[a] + i);
+        for (int c = 0; c < 4; ++c) e[c][a] = hn::Sub(LoadDoubles(block.corner[c][a] + i), p);
+    }
+    const D *u = e[0], *v = e[1], *w = e[2], *x = e[3];
+    const MinorOf uv = Minor(u, v), uw = Minor(u, w), ux = Minor(u, x);
+    const MinorOf vw = Minor(v, w), vx = Minor(v, x), wx = Minor(w, x);
+    VolumesOf of;
+    Determinant(v[2], wx, w[2], vx, x[2], vw, of.volume[0], of.error[0]);
+    Determinant(u[2], wx, w[2], ux, x[2], uw, of.volume[1], of.error[1]);
+    Determinant(u[2], vx, v[2], ux, x[2], uv, of.volume[2], of.error[2]);
+    Determinant(u[2], vw, v[2], uw, w[2], uv, of.volume[3], of.error[3]);
+    of.volume[1] = hn::Neg(of.volume[1]);
+    of.volume[3] = hn::Neg(of.volume[3]);
+    return of;
+}
+
+HWY_INLINE std::uint64_t BitsFrom(hn::Mask<Doubles> mask, std::size_t i) {
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(Doubles(), mask, bits);
+    return std::uint64_t{bits[0]} << i;
+}
+
 // Bit i of the result is set when the weights of point i are uncertain; they are unspecified then. Computes
 // whole registers.
 template <class Coordinate>
@@ -66,30 +96,14 @@ HWY_INLINE std::uint64_t Weights(const BarycentricBlock<Coordinate>& block, std:
     std::uint64_t uncertain = 0;
     for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
         D e[4][3];
-        for (int a = 0; a < 3; ++a) {
-            const D p = LoadDoubles(block.point[a] + i);
-            for (int c = 0; c < 4; ++c) e[c][a] = hn::Sub(LoadDoubles(block.corner[c][a] + i), p);
-        }
-        const D *u = e[0], *v = e[1], *w = e[2], *x = e[3];
-        const MinorOf uv = Minor(u, v), uw = Minor(u, w), ux = Minor(u, x);
-        const MinorOf vw = Minor(v, w), vx = Minor(v, x), wx = Minor(w, x);
-        D v0, v1, v2, v3, e0, e1, e2, e3;
-        Determinant(v[2], wx, w[2], vx, x[2], vw, v0, e0);
-        Determinant(u[2], wx, w[2], ux, x[2], uw, v1, e1);
-        Determinant(u[2], vx, v[2], ux, x[2], uv, v2, e2);
-        Determinant(u[2], vw, v[2], uw, w[2], uv, v3, e3);
-        v1 = hn::Neg(v1);
-        v3 = hn::Neg(v3);
+        const VolumesOf of = CornerVolumes(block, i, e);
+        const D v0 = of.volume[0], v1 = of.volume[1], v2 = of.volume[2], v3 = of.volume[3];
         const D total = hn::Add(hn::Add(hn::Add(v0, v1), v2), v3);
-        D error = hn::Max(hn::Max(e0, e1), hn::Max(e2, e3));
+        D error = hn::Max(hn::Max(of.error[0], of.error[1]), hn::Max(of.error[2], of.error[3]));
         // With floats no product underflows, and no total other than zero is that small.
         if constexpr (std::is_same_v<Coordinate, double>) error = hn::Add(error, hn::Set(d, underflow_error));
         const auto certain = hn::Lt(error, hn::Mul(hn::Set(d, 0x1p-24), hn::Abs(total)));
-        if (!hn::AllTrue(d, certain)) {
-            std::uint8_t bits[8] = {};
-            hn::StoreMaskBits(d, hn::Not(certain), bits);
-            uncertain |= std::uint64_t{bits[0]} << i;
-        }
+        if (!hn::AllTrue(d, certain)) uncertain |= BitsFrom(hn::Not(certain), i);
         const D zero = hn::Zero(d), one = hn::Set(d, 1.0);
         const auto weight = [&](D volume) HWY_ATTR {
             const D t = hn::Div(volume, total);
@@ -101,11 +115,58 @@ HWY_INLINE std::uint64_t Weights(const BarycentricBlock<Coordinate>& block, std:
     return uncertain;
 }
 
-#else // without registers of doubles, every point is left to barycentric() of predicates.hpp
+// locate_in_solid() as far as no exact arithmetic is needed.
+HWY_INLINE CertainLocations Locations(const BarycentricBlock<double>& block, std::size_t count,
+                                      VolumeBlock& volumes) {
+    const Doubles d;
+    const D zero = hn::Zero(d);
+    CertainLocations certain;
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+        D e[4][3];
+        const VolumesOf of = CornerVolumes(block, i, e);
+        auto positive = hn::Gt(zero, zero), negative = positive, all_positive = hn::Eq(zero, zero),
+             all_negative = all_positive, at_corner = positive;
+        for (int c = 0; c < 4; ++c) {
+            const D error = hn::Add(of.error[c], hn::Set(d, underflow_error));
+            hn::Store(of.volume[c], d, volumes.volume[c] + i);
+            hn::Store(error, d, volumes.error[c] + i);
+            const auto above = hn::Gt(of.volume[c], error), below = hn::Gt(hn::Neg(of.volume[c]), error);
+            positive = hn::Or(positive, above);
+            negative = hn::Or(negative, below);
+            all_positive = hn::And(all_positive, above);
+            all_negative = hn::And(all_negative, below);
+            const auto same = [&](int axis) HWY_ATTR { return hn::Eq(e[c][axis], zero); };
+            at_corner = hn::Or(at_corner, hn::And(hn::And(same(0), same(1)), same(2)));
+        }
+        certain.outside |= BitsFrom(hn::And(positive, negative), i);
+        certain.interior |= BitsFrom(hn::Or(all_positive, all_negative), i);
+        // The volumes that the corner is part of are zero, exactly. So the certain one is the fourth.
+        certain.boundary |= BitsFrom(hn::And(at_corner, hn::Or(positive, negative)), i);
+    }
+    return certain;
+}
+
+#else // without registers of doubles, every point is left to predicates.hpp
 
 template <class Coordinate>
 std::uint64_t Weights(const BarycentricBlock<Coordinate>&, std::size_t, float*) {
     return ~std::uint64_t{0};
+}
+
+CertainLocations Locations(const BarycentricBlock<double>& block, std::size_t count, VolumeBlock& volumes) {
+    for (std::size_t i = 0; i < count; ++i) {
+        Vec3d at[5];
+        for (int c = 0; c < 5; ++c) {
+            const double(&from)[3][barycentric_block] = c < 4 ? block.corner[c] : block.point;
+            at[c] = {from[0][i], from[1][i], from[2][i]};
+        }
+        const auto of = corner_volumes(at[4], at[0], at[1], at[2], at[3]);
+        for (std::size_t c = 0; c < 4; ++c) {
+            volumes.volume[c][i] = of[c].volume;
+            volumes.error[c][i] = of[c].error;
+        }
+    }
+    return {};
 }
 
 #endif
@@ -116,6 +177,10 @@ std::uint64_t WeightsOfFloats(const BarycentricBlock<float>& block, std::size_t 
 
 std::uint64_t WeightsOfDoubles(const BarycentricBlock<double>& block, std::size_t count, float* weights) {
     return Weights(block, count, weights);
+}
+
+CertainLocations Locate(const BarycentricBlock<double>& block, std::size_t count, VolumeBlock& volumes) {
+    return Locations(block, count, volumes);
 }
 
 } // namespace HWY_NAMESPACE
@@ -131,6 +196,10 @@ std::uint64_t barycentric(const BarycentricBlock<float>& block, std::size_t coun
 
 std::uint64_t barycentric(const BarycentricBlock<double>& block, std::size_t count, float* weights) {
     return VOX_SIMD_DISPATCH(WeightsOfDoubles)(block, count, weights);
+}
+
+CertainLocations locate(const BarycentricBlock<double>& block, std::size_t count, VolumeBlock& volumes) {
+    return VOX_SIMD_DISPATCH(Locate)(block, count, volumes);
 }
 
 namespace {

@@ -1,10 +1,12 @@
-// Barycentric coordinates of many hits, a block at a time.
+// Barycentric coordinates of many hits, and the exact location of many points, a block at a time.
 #pragma once
 
 #include "base/scene.hpp"
+#include "exact/predicates.hpp"
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace vox {
@@ -23,6 +25,27 @@ struct BarycentricBlock {
 // then.
 std::uint64_t barycentric(const BarycentricBlock<float>& block, std::size_t count, float* weights);
 std::uint64_t barycentric(const BarycentricBlock<double>& block, std::size_t count, float* weights);
+
+// corner_volumes() of each point of a block, with the same bits.
+struct VolumeBlock {
+    alignas(64) double volume[4][barycentric_block], error[4][barycentric_block];
+
+    std::array<BoundedVolume, 4> of(std::size_t i) const {
+        return {{{volume[0][i], error[0][i]},
+                 {volume[1][i], error[1][i]},
+                 {volume[2][i], error[2][i]},
+                 {volume[3][i], error[3][i]}}};
+    }
+};
+
+// Where points of a block are, a bit for each, with the meaning of locate_in_solid(). Points without a bit
+// need exact arithmetic.
+struct CertainLocations {
+    std::uint64_t outside = 0, interior = 0, boundary = 0;
+};
+
+// For the first `count` points; what there is of others is unspecified. Reads and writes whole registers.
+CertainLocations locate(const BarycentricBlock<double>& block, std::size_t count, VolumeBlock& volumes);
 
 using BarycentricWeights = std::array<std::array<float, 4>, barycentric_block>;
 

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <bit>
 #include <cfloat>
-#include <span>
 
 #if defined(FLT_EVAL_METHOD)
 static_assert(FLT_EVAL_METHOD == 0 || FLT_EVAL_METHOD == 1, "doubles must be rounded to double");
@@ -179,11 +178,13 @@ double scaled(const Integer& i, int bits) {
 
 // Coordinates that are 0 or at least 2^-240 are multiples of 2^-292. So the product of three differences of
 // them is 0 or at least 2^-876.
-bool products_may_underflow(std::span<const Vec3d> points) {
-    return std::any_of(points.begin(), points.end(), [](const Vec3d& p) {
-        const auto tiny = [](double value) { return value != 0 && std::abs(value) < 0x1p-240; };
-        return tiny(p.x) || tiny(p.y) || tiny(p.z);
-    });
+bool products_may_underflow(const std::array<Vec3d, 4>& points) {
+    constexpr std::uint64_t least = std::bit_cast<std::uint64_t>(0x1p-240);
+    bool any = false;
+    for (const Vec3d& p : points)
+        for (const double value : {p.x, p.y, p.z}) // all of them, which is quicker than a branch for each
+            any |= (std::bit_cast<std::uint64_t>(value) & ~std::uint64_t{0} >> 1) - 1 < least - 1;
+    return any;
 }
 
 } // namespace

@@ -92,11 +92,12 @@ inline std::array<BoundedVolume, 4> corner_volumes(const Vec3d& p, const Vec3d& 
     return volumes;
 }
 
-// Like locate(), but for a tetrahedron of non-zero volume. The volume is the sum of the four corner volumes.
-// So p is in the closed tetrahedron exactly when no two of them have opposite signs, whatever the winding.
-inline Containment locate_in_solid(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
-                                   const Vec3d& d, std::uint64_t& exact_tests) {
-    const std::array<BoundedVolume, 4> volumes = corner_volumes(p, a, b, c, d);
+// Like locate(), but for a tetrahedron of non-zero volume. That is the sum of the four corner volumes, which
+// are given. So p is in the closed tetrahedron exactly when no two of them have opposite signs, whatever the
+// winding.
+inline Containment locate_in_solid(const std::array<BoundedVolume, 4>& volumes, const Vec3d& p,
+                                   const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d,
+                                   std::uint64_t& exact_tests) {
     bool positive = false, negative = false, zero = false;
     for (const BoundedVolume& v : volumes) {
         positive |= v.volume > v.error;
@@ -114,6 +115,11 @@ inline Containment locate_in_solid(const Vec3d& p, const Vec3d& a, const Vec3d& 
     }
     if (!positive && !negative) return Containment::degenerate;
     return zero ? Containment::boundary : Containment::interior;
+}
+
+inline Containment locate_in_solid(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
+                                   const Vec3d& d, std::uint64_t& exact_tests) {
+    return locate_in_solid(corner_volumes(p, a, b, c, d), p, a, b, c, d, exact_tests);
 }
 
 // Where p lies with respect to the closed tetrahedron abcd, of either winding.

@@ -4,7 +4,7 @@
 #include "exact/predicates.hpp"
 
 #include <algorithm>
-#include <bit>
+#include <utility>
 
 namespace vox {
 
@@ -35,6 +35,8 @@ void Queries::Batch::find(std::span<const Vec3d> points) {
     for (std::uint32_t m = 0; m < queries_.meshes_.size(); ++m)
         if (wants(queries_.meshes_[m], which_) && overlap(queries_.meshes_[m].box, around))
             find_in_mesh(m, root);
+    locate_all();
+    weigh_all();
 }
 
 // Rounds the points to floats and drops those that are in no mesh's box. Returns whether any are left.
@@ -84,34 +86,83 @@ void Queries::Batch::find_in_mesh(std::uint32_t m, std::uint32_t root) {
     fast::flush(scratch_[0], *this);
 }
 
+template <class Item>
+Item& Queries::Batch::Waiting<Item>::add(const Vec3d& p, const LeafTets& tets, std::size_t place) {
+    block.point[0][count] = p.x;
+    block.point[1][count] = p.y;
+    block.point[2][count] = p.z;
+    for (std::size_t c = 0; c < 4; ++c) {
+        const Vec3d& q = tets.corner(place, c);
+        block.corner[c][0][count] = q.x;
+        block.corner[c][1][count] = q.y;
+        block.corner[c][2][count] = q.z;
+    }
+    return items[count++];
+}
+
+template <class Item>
+std::size_t Queries::Batch::Waiting<Item>::end() {
+    for (std::size_t i = count; i % 8; ++i)
+        for (std::size_t a = 0; a < 3; ++a) {
+            block.point[a][i] = block.point[a][0];
+            for (std::size_t c = 0; c < 4; ++c) block.corner[c][a][i] = block.corner[c][a][0];
+        }
+    return std::exchange(count, 0);
+}
+
 // The lookup goes from tile to tile, so that the tile of a finding is that of the one before, or one of the
 // next.
 void Queries::Batch::take(std::span<const fast::Finding> findings) {
     const Mesh& mesh = queries_.meshes_[mesh_];
     const std::pmr::vector<Tile>& tiles = mesh.tets->tiles.tiles;
-    std::uint64_t exact_tests = 0;
     for (const fast::Finding& f : findings) {
         const std::uint32_t before = tile_;
         while (f.tet - tiles[tile_].first_tet >= tiles[tile_].tet_count) ++tile_;
         const auto leaf = static_cast<std::uint32_t>(mesh.first_leaf) + tile_;
         if (!tets_ || tile_ != before) tets_.emplace(queries_.tets_of(queries_.leaves_[leaf]));
         const LeafTets& tets = *tets_;
-        const std::uint32_t i = f.tet - tiles[tile_].first_tet;
-        const Vec3d& p = points_[f.vertex];
-        Containment where = Containment::interior;
+        const std::uint32_t place = f.tet - tiles[tile_].first_tet;
         if (!f.certain) {
-            where = locate_in_solid(p, tets.corner(i, 0), tets.corner(i, 1), tets.corner(i, 2),
-                                    tets.corner(i, 3), exact_tests);
-            if (where == Containment::outside || where == Containment::degenerate) continue;
-        }
-        if (where == Containment::boundary) {
-            keep_lowest({f.vertex, mesh_, tets.index(i), false, leaf, i});
+            // Member by member, as one that is copied at once would be read before it is written.
+            Unlocated& one = unlocated_.add(points_[f.vertex], tets, place);
+            one.point = f.vertex;
+            one.mesh = mesh_;
+            one.leaf = leaf;
+            one.place = place;
+            if (unlocated_.full()) locate_all();
             continue;
         }
-        found_.push_back({f.vertex, mesh_, tets.index(i), true, leaf, i, f.weights});
-        if (!f.weights.known()) weigh(static_cast<std::uint32_t>(found_.size() - 1), p, tets);
+        found_.push_back({f.vertex, mesh_, tets.index(place), true, leaf, place, f.weights});
+        if (!f.weights.known()) weigh_last(tets);
     }
-    weigh_all();
+}
+
+void Queries::Batch::locate_all() {
+    const std::size_t count = unlocated_.end();
+    if (count == 0) return;
+    std::uint64_t exact_tests = 0;
+    VolumeBlock volumes;
+    const CertainLocations certain = locate(unlocated_.block, count, volumes);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (certain.outside >> i & 1) continue;
+        const Unlocated& one = unlocated_.items[i];
+        const LeafTets tets = queries_.tets_of(queries_.leaves_[one.leaf]);
+        bool interior = certain.interior >> i & 1;
+        if (!interior && !(certain.boundary >> i & 1)) {
+            const Containment where = locate_in_solid(
+                volumes.of(i), points_[one.point], tets.corner(one.place, 0), tets.corner(one.place, 1),
+                tets.corner(one.place, 2), tets.corner(one.place, 3), exact_tests);
+            if (where == Containment::outside || where == Containment::degenerate) continue;
+            interior = where == Containment::interior;
+        }
+        const PointHit hit{one.point, one.mesh, tets.index(one.place), interior, one.leaf, one.place};
+        if (!interior) {
+            keep_lowest(hit);
+            continue;
+        }
+        found_.push_back(hit);
+        weigh_last(tets);
+    }
 }
 
 // Of the tetrahedra of a mesh that have a point on their boundary, no more than the lowest is asked for: a
@@ -126,35 +177,21 @@ void Queries::Batch::keep_lowest(const PointHit& hit) {
     }
 }
 
-void Queries::Batch::weigh(std::uint32_t hit, const Vec3d& p, const LeafTets& tets) {
-    const std::size_t i = waiting_count_++;
-    waiting_[i] = hit;
-    block_.point[0][i] = p.x;
-    block_.point[1][i] = p.y;
-    block_.point[2][i] = p.z;
-    for (std::size_t c = 0; c < 4; ++c) {
-        const Vec3d& q = tets.corner(found_[hit].place, c);
-        block_.corner[c][0][i] = q.x;
-        block_.corner[c][1][i] = q.y;
-        block_.corner[c][2][i] = q.z;
-    }
-    if (waiting_count_ == barycentric_block) weigh_all();
+// The last of found_ waits for its weights.
+void Queries::Batch::weigh_last(const LeafTets& tets) {
+    const PointHit& hit = found_.back();
+    unweighed_.add(points_[hit.point], tets, hit.place) = static_cast<std::uint32_t>(found_.size() - 1);
+    if (unweighed_.full()) weigh_all();
 }
 
 // What is uncertain stays unknown.
 void Queries::Batch::weigh_all() {
-    const std::size_t count = waiting_count_;
-    waiting_count_ = 0;
+    const std::size_t count = unweighed_.end();
     if (count == 0) return;
-    for (std::size_t i = count; i % 8; ++i) // whole registers are computed
-        for (std::size_t a = 0; a < 3; ++a) {
-            block_.point[a][i] = block_.point[a][0];
-            for (std::size_t c = 0; c < 4; ++c) block_.corner[c][a][i] = block_.corner[c][a][0];
-        }
     Weights weights[barycentric_block];
-    const std::uint64_t uncertain = barycentric(block_, count, weights[0].of);
+    const std::uint64_t uncertain = barycentric(unweighed_.block, count, weights[0].of);
     for (std::size_t i = 0; i < count; ++i)
-        if (!(uncertain >> i & 1)) found_[waiting_[i]].weights = weights[i];
+        if (!(uncertain >> i & 1)) found_[unweighed_.items[i]].weights = weights[i];
 }
 
 } // namespace vox

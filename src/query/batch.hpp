@@ -29,7 +29,8 @@ private:
     void find_in_mesh(std::uint32_t mesh, std::uint32_t root);
     void take(std::span<const fast::Finding> findings) override;
     void keep_lowest(const PointHit& hit);
-    void weigh(std::uint32_t hit, const Vec3d& p, const LeafTets& tets);
+    void locate_all();
+    void weigh_last(const LeafTets& tets);
     void weigh_all();
 
     const Queries& queries_;
@@ -48,10 +49,25 @@ private:
     // While findings are taken, in the order of tiles: where they are.
     std::uint32_t mesh_ = 0, tile_ = 0;
     std::optional<LeafTets> tets_;
-    // Hits that wait for their weights.
-    std::uint32_t waiting_[barycentric_block];
-    std::size_t waiting_count_ = 0;
-    BarycentricBlock<double> block_;
+    // Points and tetrahedra that wait until there are enough of them for whole registers: for their location,
+    // or in found_, for their weights.
+    template <class Item>
+    struct Waiting {
+        Item items[barycentric_block];
+        std::size_t count = 0;
+        BarycentricBlock<double> block;
+
+        // The item is to be written.
+        Item& add(const Vec3d& p, const LeafTets& tets, std::size_t place);
+        bool full() const { return count == barycentric_block; }
+        // Fills up the last register, and returns how many items there were.
+        std::size_t end();
+    };
+    struct Unlocated {
+        std::uint32_t point, mesh, leaf, place; // as in PointHit
+    };
+    Waiting<Unlocated> unlocated_;
+    Waiting<std::uint32_t> unweighed_;
 };
 
 } // namespace vox
