@@ -51,6 +51,11 @@ vox_result vox_count_for(const vox_foreign_grid* grid, double cell_size, vox_gri
         if (!(cell_size > 0) || !std::isfinite(cell_size))
             refuse(format("cell_size is %.9g, expected a number above 0", cell_size));
         CallerMemory memory(described.desc.allocator);
-        *out = ForeignWork(described, thorough_look, &memory).exactly_at(cell_size);
+        ForeignWork work(described, thorough_look, &memory);
+        if (!work.is_countable(cell_size))
+            throw Error(VOX_ERROR_LIMIT,
+                        format("cell_size is %g, so small that there would be more than %g cells or entries",
+                               cell_size, most_counted));
+        *out = work.exactly_at(cell_size);
     });
 }

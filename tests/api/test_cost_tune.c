@@ -116,6 +116,9 @@ START_TEST(bad_timings) {
     grid.least_cell_size = 1;
     fit_fails(&grid, timings, 3, VOX_ERROR_INVALID_ARGUMENT, "timings[0].cell_size is 0.6, expected at least the least legal one, 1");
     make_timings();
+    timings[1].cell_size = 1e-150;
+    fit_fails(&grid, timings, 3, VOX_ERROR_LIMIT, "the smallest cell size timed is 1e-150, so small");
+    make_timings();
     grid.held = NULL;
     fit_fails(&grid, timings, 3, VOX_ERROR_INVALID_ARGUMENT, "held");
 }
@@ -273,6 +276,8 @@ START_TEST(bad_tune_arguments) {
     ck_fails(vox_cost_tune(NULL, NULL, run, NULL, &out), VOX_ERROR_INVALID_ARGUMENT, "first is 0, and no grid is described");
     out.struct_size = 2;
     ck_fails(vox_cost_tune(&grid, NULL, run, NULL, &out), VOX_ERROR_INVALID_ARGUMENT, "out.struct_size is 2");
+    desc.first = 1e-150;
+    tune_fails(&desc, VOX_ERROR_LIMIT, "the smallest cell size to be tried is 1.25e-151, so small", 0);
     desc.struct_size = 0;
     tune_fails(&desc, VOX_ERROR_INVALID_ARGUMENT, "desc.struct_size is 0", 0);
     boxes.count = 0;

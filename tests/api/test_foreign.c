@@ -297,6 +297,24 @@ START_TEST(a_guess_prefers_the_mean_edge) {
 }
 END_TEST
 
+/* Its mean edge is so small that no run with it could be counted. */
+START_TEST(a_rule_far_from_any_run) {
+    static const double both[4][3] = {{0, 0, 0}, {1e-200, 1e-200, 1e-200}, {1, 1, 1}, {1, 1, 1}};
+    vox_primitives held = vox_default_primitives();
+    held.type = VOX_PRIMITIVE_BOX;
+    held.positions = both;
+    held.position_format = VOX_FORMAT_DOUBLE3;
+    held.vertex_count = 4;
+    held.count = 2;
+    held.radius = 0.25;
+    const vox_foreign_grid grid = with_held(&held);
+    const vox_foreign_suggestion found = suggest(&grid);
+    ck_assert_double_lt(found.rules.mean_edge, 1e-199);
+    ck_assert_double_eq(found.rule_costs.mean_edge, 0);
+    ck_assert_double_gt(found.rule_costs.mean_box_side, 0);
+}
+END_TEST
+
 START_TEST(sizes_from_one_to_a_million) {
     static float wide[COUNT][2][3];
     uint64_t random = 1;
@@ -356,6 +374,8 @@ START_TEST(bad_numbers) {
     ck_fails(vox_count_for(&grid, 0, &work), VOX_ERROR_INVALID_ARGUMENT, "cell_size is 0,");
     ck_fails(vox_count_for(&grid, -1, &work), VOX_ERROR_INVALID_ARGUMENT, "cell_size is -1,");
     ck_fails(vox_count_for(&grid, NAN, &work), VOX_ERROR_INVALID_ARGUMENT, "cell_size is nan,");
+    ck_fails(vox_count_for(&grid, 1e-200, &work), VOX_ERROR_LIMIT, "cell_size is 1e-200, so small");
+    ck_assert_double_gt(count(&grid, 1e-24).entries, 1e70);
     ck_fails(vox_count_for(&grid, 1, NULL), VOX_ERROR_INVALID_ARGUMENT, "out is null");
     ck_fails(vox_count_for(NULL, 1, &work), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
 }
@@ -533,6 +553,7 @@ int main(void) {
     tcase_add_test(tests, all_in_one_place);
     tcase_add_test(tests, points_that_ask_points);
     tcase_add_test(tests, a_guess_prefers_the_mean_edge);
+    tcase_add_test(tests, a_rule_far_from_any_run);
     tcase_add_test(tests, sizes_from_one_to_a_million);
     tcase_add_test(tests, bad_numbers);
     tcase_add_test(tests, bad_grids);

@@ -8,8 +8,11 @@
 
 namespace vox {
 
-// What a run of a grid does at a cell size. Counts are 0 or more, and finite for the sizes that are asked.
+// What a run of a grid does at a cell size. Counts are 0 or more.
 using WorkAt = std::function<vox_grid_work(double cell_size)>;
+
+// Beyond this a count is of no use: products of such counts and of times leave the range of doubles.
+inline constexpr double most_counted = 1e80;
 
 inline double grid_cost(const vox_grid_work& work, const vox_grid_weights& weights) noexcept {
     return weights.fixed + weights.entries * work.entries + weights.visits * work.visits +

@@ -35,6 +35,14 @@ CostBasis power_basis(double middle) {
     return {7, values, {0.05, 0.075, 0.1, 0.55, 0.1, 0.075, 0.05}};
 }
 
+void check_countable(const CostBasis& basis, double cell_size, const char* what) {
+    for (const double value : basis.values(cell_size))
+        if (!(value <= most_counted))
+            throw Error(VOX_ERROR_LIMIT,
+                        format("%s is %.9g, so small that there would be more than %g cells or entries", what,
+                               cell_size, most_counted));
+}
+
 double cost_of(const Coefficients& values, const Coefficients& coefficients) noexcept {
     double sum = 0;
     for (std::size_t i = 0; i < values.size(); ++i) sum += values[i] * coefficients[i];
@@ -202,6 +210,7 @@ vox_grid_fit fit_timings(const CostBasis& described, const FitSettings& settings
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("timings are at %zu different cell sizes, expected at least 3", sizes));
 
+    check_countable(described, sorted.front().cell_size, "the smallest cell size timed");
     std::pmr::vector<TimedTerms> timed(memory);
     timed.reserve(sizes);
     for (const vox_grid_timing& timing : sorted)

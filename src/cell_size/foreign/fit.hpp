@@ -31,6 +31,9 @@ CostBasis described_basis(const WorkAt& work, const vox_grid_weights& expected);
 // coefficients is least at `middle`, and costs 5 % more at 0.78 and 1.29 of it, as the paper's cost does.
 CostBasis power_basis(double middle);
 
+// Throws LIMIT where a term is more than most_counted at that size. `what` the size is, for the text.
+void check_countable(const CostBasis& basis, double cell_size, const char* what);
+
 double cost_of(const Coefficients& values, const Coefficients& coefficients) noexcept;
 vox_grid_weights weights_of(const Coefficients& seconds) noexcept; // of described_basis; in nanoseconds
 

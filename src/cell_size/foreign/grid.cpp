@@ -205,6 +205,12 @@ vox_grid_work ForeignWork::smooth_at(double d) const noexcept {
     return work;
 }
 
+bool ForeignWork::is_countable(double d) const noexcept {
+    const vox_grid_work work = smooth_at(d);
+    return work.entries <= most_counted && work.visits <= most_counted && work.reads <= most_counted &&
+           work.cells <= most_counted;
+}
+
 vox_grid_work ForeignWork::with_shares(double d, double empty_part, double occupied_part) const noexcept {
     vox_grid_work work = smooth_at(d);
     work.occupied = occupied_part * work.entries;

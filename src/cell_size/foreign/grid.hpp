@@ -2,6 +2,7 @@
 // it does at a cell size.
 #pragma once
 
+#include "cell_size/foreign/cost.hpp"
 #include "cell_size/foreign/pairs.hpp"
 #include "cell_size/foreign/primitives.hpp"
 #include "cell_size/search.hpp"
@@ -78,6 +79,8 @@ public:
     vox_grid_work exactly_at(double cell_size);
     // All but occupied and empty cells, of which the former are 0 here and the latter as many as visits.
     vox_grid_work smooth_at(double cell_size) const noexcept;
+    // Whether all counts are numbers of at most most_counted; those at larger sizes are, too.
+    bool is_countable(double cell_size) const noexcept;
 
     double least_cell_size() const noexcept { return least_; } // that is legal; 0: any
     // Cell sizes that can matter, none below the least one: from tiny ones to one cell that holds all. Where

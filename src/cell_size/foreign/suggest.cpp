@@ -117,7 +117,9 @@ vox_foreign_suggestion suggest_for(const ForeignGrid& grid, ForeignWork& work) {
         zone_around(best, (1 + grid.desc.zone_loss) * best.cost, cost, range, foreign_fineness);
 
     result.rules = work.rules();
-    const auto cost_of = [&](double cell_size) { return cell_size > 0 ? cost(std::log2(cell_size)) : 0; };
+    const auto cost_of = [&](double cell_size) {
+        return cell_size > 0 && work.is_countable(cell_size) ? cost(std::log2(cell_size)) : 0;
+    };
     result.rule_costs = {cost_of(result.rules.mean_edge), cost_of(result.rules.mean_box_side),
                          cost_of(result.rules.median_box_side), cost_of(result.rules.spacing),
                          cost_of(result.rules.radius)};

@@ -87,7 +87,9 @@ public:
         : described_(described), settings_(settings), run_(run), first_known_(node_of(settings.range.min)),
           low_(first_known_), high_(node_of(settings.range.max)),
           known_(static_cast<std::size_t>(high_ - low_ + 1), memory), timed_(memory), nodes_(memory),
-          failed_(memory), trial_(memory), opinions_(memory) {}
+          failed_(memory), trial_(memory), opinions_(memory) {
+        if (described_) check_countable(*described_, size(low_), "the smallest cell size to be tried");
+    }
 
     vox_tuning operator()() {
         run_first();
