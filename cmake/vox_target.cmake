@@ -1,3 +1,11 @@
+# gcc for Windows aligns the stack to 16 bytes and reads what it spills there as if it were to 32 or 64 (gcc bug 54412):
+# AVX crashes. binutils 2.38 and newer can write the moves so that alignment does not matter, at the same speed. Without
+# that, base/simd.hpp leaves AVX out.
+if(MINGW AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  include(CheckCXXCompilerFlag)
+  check_cxx_compiler_flag(-Wa,-muse-unaligned-vector-move VOX_HAS_UNALIGNED_MOVES)
+endif()
+
 # Settings shared by every target of this project.
 function(vox_target name)
   if(MSVC)
@@ -6,6 +14,10 @@ function(vox_target name)
     # No contraction into fused multiply-adds: results must not depend on compiler or instruction set.
     target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wconversion
       $<$<BOOL:${VOX_WERROR}>:-Werror> -ffp-contract=off)
+  endif()
+  if(VOX_HAS_UNALIGNED_MOVES)
+    target_compile_options(${name} PRIVATE -Wa,-muse-unaligned-vector-move)
+    target_compile_definitions(${name} PRIVATE VOX_UNALIGNED_MOVES)
   endif()
   if(VOX_SANITIZE)
     target_compile_options(${name} PRIVATE -fsanitize=${VOX_SANITIZE} -fno-sanitize-recover=all
@@ -19,8 +31,10 @@ endfunction()
 # What makes an overflow, should there be one, harder to exploit. The libraries read files and snapshots of strangers.
 option(VOX_HARDEN "Compile and link libraries and tool with stack protector, fortified C functions, control-flow
 protection and read-only relocations; off: where a packager's own flags say it" ON)
-if(VOX_SANITIZE OR MSVC)
-  set(VOX_HARDEN OFF) # the sanitizers see more
+if(VOX_SANITIZE OR WIN32)
+  # The sanitizers see more. MinGW's protector is a library of its own, gcc does not compile large frames with probes of
+  # the stack there, and its linker's defaults are random addresses and no execution of data.
+  set(VOX_HARDEN OFF)
 endif()
 if(VOX_HARDEN)
   include(CheckCXXCompilerFlag)

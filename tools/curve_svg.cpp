@@ -1,12 +1,12 @@
 #include "curve_svg.hpp"
 
+#include "paths.hpp"
 #include "report.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
-#include <filesystem>
 #include <vector>
 
 namespace tool {
@@ -87,7 +87,7 @@ std::string short_names(const std::vector<std::string>& files) {
     constexpr std::size_t most = 3;
     std::string names;
     for (std::size_t i = 0; i < std::min(files.size(), most); ++i)
-        names += (i == 0 ? "" : ", ") + std::filesystem::path(files[i]).filename().string();
+        names += (i == 0 ? "" : ", ") + utf8_of(path_of(files[i]).filename());
     if (files.size() > most) names += " and " + std::to_string(files.size() - most) + " more";
     return names;
 }

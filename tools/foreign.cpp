@@ -16,8 +16,7 @@
 #include <optional>
 
 #if defined(_WIN32)
-#define popen _popen
-#define pclose _pclose
+#include "paths.hpp"
 #else
 #include <sys/wait.h>
 #endif
@@ -111,12 +110,20 @@ struct Program {
     std::uint32_t runs = 0;
 };
 
+#if defined(_WIN32)
+std::FILE* open_output(const std::string& command) { return _wpopen(path_of(command).c_str(), L"r"); }
+int close_output(std::FILE* output) { return _pclose(output); }
+#else
+std::FILE* open_output(const std::string& command) { return popen(command.c_str(), "r"); }
+int close_output(std::FILE* output) { return pclose(output); }
+#endif
+
 // Runs the command once. The seconds are those on the last line that it prints, or else those that it took.
 double run_program(double cell_size, void* user) {
     Program& program = *static_cast<Program*>(user);
     std::fflush(nullptr);
     const auto begin = std::chrono::steady_clock::now();
-    std::FILE* output = popen(with_cell_size(program.command, cell_size).c_str(), "r");
+    std::FILE* output = open_output(with_cell_size(program.command, cell_size));
     if (!output) {
         std::fprintf(stderr, "vox: the command cannot be run\n");
         return -1;
@@ -124,7 +131,7 @@ double run_program(double cell_size, void* user) {
     std::string text;
     char part[4096];
     while (const std::size_t size = std::fread(part, 1, sizeof part, output)) text.append(part, size);
-    const int status = pclose(output);
+    const int status = close_output(output);
     const double taken = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 #if !defined(_WIN32)
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGINT) return -1; // the user stops

@@ -3,11 +3,17 @@
 #include "failure.hpp"
 #include "manual.hpp"
 #include "report.hpp"
+#include "terminal.hpp"
 
 #include <cstdio>
 #include <memory>
 #include <new>
 #include <string>
+#ifdef _WIN32
+#include "paths.hpp"
+
+#include <vector>
+#endif
 
 namespace {
 
@@ -55,9 +61,22 @@ int run(int argc, char** argv) {
 
 } // namespace
 
+#ifdef _WIN32
+int wmain(int argc, wchar_t** argv) {
+#else
 int main(int argc, char** argv) {
+#endif
     try {
+#ifdef _WIN32
+        const tool::Console console;
+        std::vector<std::string> texts;
+        for (int i = 0; i < argc; ++i) texts.push_back(tool::utf8_of(argv[i]));
+        std::vector<char*> arguments;
+        for (std::string& text : texts) arguments.push_back(text.data());
+        return run(argc, arguments.data());
+#else
         return run(argc, argv);
+#endif
     } catch (const std::bad_alloc&) {
         return fail("out of memory");
     } catch (const std::exception& error) {

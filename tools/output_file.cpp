@@ -1,6 +1,7 @@
 #include "output_file.hpp"
 
 #include "failure.hpp"
+#include "paths.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -34,21 +35,21 @@ void check_output(const std::string& path, std::initializer_list<const char*> en
         throw Failure(path + ": expected a name that ends with " + words);
     }
     std::error_code error;
-    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    const std::filesystem::file_status status = std::filesystem::status(path_of(path), error);
     if (std::filesystem::is_directory(status)) fail(path, std::strerror(EISDIR));
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
         return; // a pipe, a terminal
     // Nothing but opening a file tells whether one can be made; one that is there is opened and not changed.
     const bool existed = std::filesystem::exists(status);
-    std::FILE* const file = std::fopen(path.c_str(), "ab");
+    std::FILE* const file = open_file(path, "ab");
     if (!file) fail(path, std::strerror(errno));
     std::fclose(file);
     // Of a symbolic link that led nowhere, the file that is there now is removed, and not the link.
-    if (!existed) std::filesystem::remove(std::filesystem::canonical(path, error), error);
+    if (!existed) std::filesystem::remove(std::filesystem::canonical(path_of(path), error), error);
 }
 
 void write_file(const std::string& path, const std::string& text) {
-    std::FILE* file = std::fopen(path.c_str(), "wb");
+    std::FILE* file = open_file(path, "wb");
     const bool written = file && std::fwrite(text.data(), 1, text.size(), file) == text.size();
     const bool closed = file && std::fclose(file) == 0;
     if (!written || !closed) fail(path, std::strerror(errno));

@@ -3,6 +3,7 @@
 #include "failure.hpp"
 #include "options.hpp"
 #include "output_file.hpp"
+#include "paths.hpp"
 #include "report.hpp"
 #include "results_file.hpp"
 #include "snapshot_file.hpp"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <functional>
 #include <numeric>
 
@@ -81,7 +81,7 @@ void run(const Options& options) {
         if (!options.out.empty()) {
             const std::string drawing = is_series(options.out) ? file_in_series(options.out, i) : options.out;
             write_results(drawing, drawn_meshes(snapshot.bytes), grid);
-            series.push_back(std::filesystem::path(drawing).filename().string());
+            series.push_back(utf8_of(path_of(drawing).filename()));
             times.push_back(epoch);
         }
         if (!options.json) {

@@ -1,6 +1,7 @@
 #include "snapshot_file.hpp"
 
 #include "failure.hpp"
+#include "paths.hpp"
 
 #include <array>
 #include <bit>
@@ -73,14 +74,14 @@ void save_snapshot(const vox_grid* grid, const std::string& path) {
     check(vox_grid_save(grid, nullptr, 0, &size));
     std::vector<unsigned char> bytes(static_cast<std::size_t>(size));
     check(vox_grid_save(grid, bytes.data(), bytes.size(), &size));
-    File file(std::fopen(path.c_str(), "wb"));
+    File file(open_file(path, "wb"));
     if (!file) fail(path, "be written");
     if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) fail(path, "be written");
     if (std::fclose(file.release()) != 0) fail(path, "be written");
 }
 
 Snapshot load_snapshot(const std::string& path, const vox_grid_desc& machine) {
-    const File file(std::fopen(path.c_str(), "rb"));
+    const File file(open_file(path, "rb"));
     if (!file) fail(path, "be opened");
     std::vector<unsigned char> bytes;
     for (;;) {

@@ -5,6 +5,7 @@
 #include "failure.hpp"
 #include "options.hpp"
 #include "output_file.hpp"
+#include "paths.hpp"
 #include "report.hpp"
 #include "stepping.hpp"
 #include "sweep_log.hpp"
@@ -409,7 +410,7 @@ void check_usage(const Options& options) {
     if (options.a.empty() == (options.ball == 0)) throw WrongUsage("sweep needs a mesh file, or --ball");
     check_range(options.cell_sizes, "--cell-sizes");
     check_range(options.cells_per_axis, "--cells-per-axis");
-    if (!options.csv.empty() && !options.force && std::filesystem::exists(options.csv))
+    if (!options.csv.empty() && !options.force && std::filesystem::exists(path_of(options.csv)))
         throw Failure(options.csv + ": there is such a file; --resume continues it, --force replaces it");
     for (const std::string& path : {options.csv, options.resume})
         if (!path.empty()) check_output(path);

@@ -1,6 +1,7 @@
 #include "sweep_log.hpp"
 
 #include "failure.hpp"
+#include "paths.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -51,10 +52,10 @@ bool parse_sample(const std::vector<std::string>& fields, SweepSample& sample) {
 SweepLog::SweepLog(const std::string& path, const std::string& experiment, std::size_t frames, bool resume)
     : path_(path), experiment_(experiment) {
     std::string text;
-    if (resume && std::filesystem::exists(path)) {
-        if (!std::filesystem::is_regular_file(path))
+    if (resume && std::filesystem::exists(path_of(path))) {
+        if (!std::filesystem::is_regular_file(path_of(path)))
             throw Failure(path + ": cannot be written: it is not a file");
-        std::ifstream in(path, std::ios::binary);
+        std::ifstream in(path_of(path), std::ios::binary);
         text.assign(std::istreambuf_iterator<char>(in), {});
         const std::size_t whole =
             text.find_last_of('\n') == std::string::npos ? 0 : text.find_last_of('\n') + 1;
@@ -62,11 +63,11 @@ SweepLog::SweepLog(const std::string& path, const std::string& experiment, std::
             if (whole == 0) throw Failure(path + ": line 1 is not the header of a sweep");
             text.resize(whole);
             in.close();
-            std::filesystem::resize_file(path, whole);
+            std::filesystem::resize_file(path_of(path), whole);
         }
         if (!text.empty()) read(text, frames);
     }
-    file_.reset(std::fopen(path.c_str(), text.empty() ? "wb" : "ab"));
+    file_.reset(open_file(path, text.empty() ? "wb" : "ab"));
     if (!file_) throw Failure(path + ": cannot be written: " + std::strerror(errno));
     if (text.empty()) write(header);
 }

@@ -1,5 +1,7 @@
 #include "terminal.hpp"
 
+#include "paths.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +10,11 @@
 #include <string_view>
 
 #ifdef _WIN32
+#define NOMINMAX
+#define WIN32_LEAN_AND_MEAN
+#include <windows.h>
+
+#include <fcntl.h>
 #include <io.h>
 #else
 #include <unistd.h>
@@ -40,6 +47,24 @@ constexpr const char* rows_utf8[8] = {"", "▏", "▎", "▍", "▌", "▋", "�
 
 } // namespace
 
+#ifdef _WIN32
+
+Console::Console() : code_page_(GetConsoleOutputCP()) {
+    SetConsoleOutputCP(CP_UTF8);
+    (void)_setmode(_fileno(stdout), _O_BINARY);
+    const HANDLE terminal = GetStdHandle(STD_ERROR_HANDLE);
+    DWORD mode = 0;
+    if (GetConsoleMode(terminal, &mode))
+        SetConsoleMode(terminal, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING); // Progress erases its line
+}
+
+Console::~Console() {
+    std::fflush(stdout);
+    SetConsoleOutputCP(code_page_);
+}
+
+#endif
+
 Progress::Progress() : begin_(std::chrono::steady_clock::now()) {}
 
 Progress::~Progress() { hide(); }
@@ -57,7 +82,7 @@ void Progress::show(const std::string& where) {
 void Progress::begin_reading(const std::string& path) {
     reading_ = "reading " + path;
     std::error_code error;
-    const double bytes = static_cast<double>(std::filesystem::file_size(path, error));
+    const double bytes = static_cast<double>(std::filesystem::file_size(path_of(path), error));
     if (error) return; // of a pipe the size is not known; of what cannot be read, the reader says why
     char words[48];
     if (bytes < 1e6)
@@ -87,6 +112,9 @@ void Progress::print(const std::string& where) {
 }
 
 bool locale_is_utf8() {
+#ifdef _WIN32
+    return true; // see Console
+#else
     // The first of these that is set and not empty decides, as POSIX specifies.
     for (const char* variable : {"LC_ALL", "LC_CTYPE", "LANG"}) {
         const char* value = std::getenv(variable);
@@ -97,6 +125,7 @@ bool locale_is_utf8() {
         return name.find("utf-8") != std::string::npos || name.find("utf8") != std::string::npos;
     }
     return false;
+#endif
 }
 
 std::string bar(double fraction, int width) {

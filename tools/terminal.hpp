@@ -10,6 +10,20 @@
 
 namespace tool {
 
+#ifdef _WIN32
+// As long as it lives, what is printed is UTF-8, and as everywhere else to the byte, without carriage returns.
+class Console {
+public:
+    Console();
+    ~Console();
+    Console(const Console&) = delete;
+    Console& operator=(const Console&) = delete;
+
+private:
+    unsigned code_page_;
+};
+#endif
+
 // A line on standard error that overwrites itself, e.g. "vox: step 3 of 100". It is shown only on a terminal,
 // and only after half a second, so that short work shows nothing. The destructor erases it. After
 // show_always() it is shown elsewhere, too, as lines of their own: the first at once, the next ones after a

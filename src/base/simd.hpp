@@ -16,7 +16,13 @@
 // for instructions that are of no use here, or for vectors of unknown length.
 #if defined(__x86_64__) || defined(_M_X64)
 // SSSE3 is rare and slow; such machines run the portable code.
+#if defined(__MINGW32__) && !defined(__clang__) && !defined(VOX_UNALIGNED_MOVES)
+// gcc for Windows aligns the stack to 16 bytes only, and AVX crashes (gcc bug 54412), unless the assembler is told
+// (cmake/vox_target.cmake).
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX2 | HWY_AVX3 | (HWY_AVX3 - 1))
+#else
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | (HWY_AVX3 - 1))
+#endif
 #else
 #if defined(__aarch64__)
 #define HWY_DISABLED_TARGETS (HWY_NEON - 1)
