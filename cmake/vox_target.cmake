@@ -19,6 +19,10 @@ function(vox_target name)
     target_compile_options(${name} PRIVATE -Wa,-muse-unaligned-vector-move)
     target_compile_definitions(${name} PRIVATE VOX_UNALIGNED_MOVES)
   endif()
+  if(MINGW)
+    # A program or DLL holds the runtimes of gcc, so that it needs none of its DLLs.
+    target_link_options(${name} PRIVATE -static)
+  endif()
   if(VOX_SANITIZE)
     target_compile_options(${name} PRIVATE -fsanitize=${VOX_SANITIZE} -fno-sanitize-recover=all
       -fno-omit-frame-pointer)

@@ -41,7 +41,9 @@ const char* vox_build_info(void) {
         ", msvc " VOX_STRING(_MSC_FULL_VER)
 #endif
         ", C++ " VOX_STRING(__cplusplus)
-#if defined(__x86_64__) || defined(_M_X64)
+#if defined(__MINGW32__) && !defined(__clang__) && !defined(VOX_UNALIGNED_MOVES)
+        ", SIMD portable SSE4" // base/simd.hpp
+#elif defined(__x86_64__) || defined(_M_X64)
         ", SIMD portable SSE4 AVX2 AVX-512"
 #elif defined(__aarch64__)
         ", SIMD NEON"

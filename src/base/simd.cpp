@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <atomic>
 
-#if defined(_M_X64)
+// Not by _M_X64 alone, which MinGW's headers define, too. clang for MSVC compiles what gcc does.
+#if defined(_M_X64) && defined(_MSC_VER) && !defined(__clang__)
+#define VOX_MSVC_X64 1
 #include <intrin.h>
 #elif defined(__x86_64__)
 #include <cpuid.h>
@@ -22,7 +24,7 @@ constexpr std::uint32_t bmi = 1u << 3, avx2 = 1u << 5, bmi2 = 1u << 8, avx512f =
 // Of XCR0: registers of 16 and 32 bytes; masks, registers of 64 bytes and the second 16 registers.
 constexpr std::uint64_t avx_state = 0x06, avx512_state = 0xe6;
 
-#if defined(_M_X64)
+#if defined(VOX_MSVC_X64)
 
 Processor this_processor() noexcept {
     Processor p;

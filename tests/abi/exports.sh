@@ -1,7 +1,11 @@
 #!/bin/sh
-# usage: exports.sh NM LIBRARY HEADER: every exported symbol is declared in the header, and the reverse.
+# usage: exports.sh NM LIBRARY HEADER: every exported symbol is declared in the header, and the reverse. Of a DLL it is objdump
+# that lists them.
 set -eu
-exported=$("$1" -D --defined-only "$2" | awk '$2 ~ /[A-Z]/ && $2 != "A" {print $3}' | sort)
+case $2 in
+*.dll) exported=$("$1" -p "$2" | sed -n '/Ordinal.Name Pointer/,/^$/ s/^\t\[.*\] *//p' | sed 's/.* //' | sort) ;;
+*) exported=$("$1" -D --defined-only "$2" | awk '$2 ~ /[A-Z]/ && $2 != "A" {print $3}' | sort) ;;
+esac
 declared=$(sed -nE 's/^VOX_(API|EXPERIMENTAL) .*[ *](vox_[a-z0-9_]+)\(.*/\2/p' "$3" | sort)
 [ -n "$declared" ]
 if [ "$exported" != "$declared" ]; then

@@ -1,7 +1,8 @@
 """Runs the program `hashes` in many configurations, none of which may change a letter of what it prints, and compares
 that with the checked-in hashes.txt.
-usage: matrix.py PROGRAM [--few] [--renew]
---few: those that compiler and optimisation can matter to. --renew: writes hashes.txt anew, if all are the same."""
+usage: matrix.py PROGRAM [--few] [--renew] [--emulator COMMAND]
+--few: those that compiler and optimisation can matter to. --renew: writes hashes.txt anew, if all are the same.
+--emulator: the command that runs the program on this machine."""
 
 import os
 import subprocess
@@ -29,7 +30,7 @@ MANY = FEW + [
 
 
 def hashes(program, arguments):
-    done = subprocess.run([program, *arguments.split()], capture_output=True, text=True, check=False)
+    done = subprocess.run([*program, *arguments.split()], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         sys.exit(f"hashes {arguments}: ends with {done.returncode}\n{done.stderr}")
     return done.stdout.splitlines(), done.stderr.strip()
@@ -47,7 +48,9 @@ def differences(expected, found):
 
 
 def main():
-    program, options = sys.argv[1], sys.argv[2:]
+    program, options = sys.argv[1:2], sys.argv[2:]
+    if "--emulator" in options:
+        program = [*options[options.index("--emulator") + 1].split(), *program]
     first, _ = hashes(program, "")
     expected = first
     if "--renew" not in options:
