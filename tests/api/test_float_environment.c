@@ -3,6 +3,7 @@
 #include <pthread.h>
 
 #include "scenes/bodies.h"
+#include "support/aligned.h"
 #include "support/float_modes.h"
 #include "support/suite.h"
 
@@ -37,15 +38,12 @@ static void note(callbacks* c, int which) {
 }
 
 static void* noted_allocate(size_t size, size_t alignment, void* user) {
-    void* memory = NULL;
     note((callbacks*)user, in_allocator);
-    if (posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, size ? size : 1) != 0)
-        return NULL;
-    return memory;
+    return allocate_aligned(size, alignment);
 }
 static void noted_release(void* memory, size_t size, size_t alignment, void* user) {
     (void)size, (void)alignment, (void)user;
-    free(memory);
+    free_aligned(memory);
 }
 static void noted_log(vox_log_level level, const char* text, void* user) {
     (void)level, (void)text;

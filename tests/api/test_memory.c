@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "scenes/bodies.h"
+#include "support/aligned.h"
 #include "support/suite.h"
 
 /* Counts what is held, checks that it comes back as it was given, and fails at a chosen call. */
@@ -20,10 +21,8 @@ static void* counted_allocate(size_t size, size_t alignment, void* user) {
     ledger* l = (ledger*)user;
     if (++l->calls == l->fail_at) return NULL;
     const size_t head = alignment > sizeof(block) ? alignment : sizeof(block);
-    unsigned char* memory = NULL;
-    ck_assert_int_eq(posix_memalign((void**)&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment,
-                                    (head + size + alignment - 1) / alignment * alignment),
-                     0);
+    unsigned char* memory = (unsigned char*)allocate_aligned((head + size + alignment - 1) / alignment * alignment, alignment);
+    ck_assert_ptr_nonnull(memory);
     block* b = (block*)(void*)(memory + head - sizeof(block));
     b->size = size;
     b->alignment = alignment;
@@ -41,7 +40,7 @@ static void counted_release(void* memory, size_t size, size_t alignment, void* u
     ck_assert_uint_eq(b->alignment, alignment);
     l->bytes -= size;
     l->blocks -= 1;
-    free((unsigned char*)memory - head);
+    free_aligned((unsigned char*)memory - head);
 }
 
 static vox_grid_desc counted_desc(ledger* l) {

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "scenes/bodies.h"
+#include "support/aligned.h"
 #include "support/suite.h"
 
 /* A grid with two boxes that overlap; the tetrahedra of the second, which collides with itself, are `tets`.
@@ -161,15 +162,12 @@ START_TEST(snapshot_has_its_own) {
 END_TEST
 
 static void* allocate_if_allowed(size_t size, size_t alignment, void* user) {
-    void* memory = NULL;
-    if (!*(const int*)user) return NULL;
-    (void)posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, size);
-    return memory;
+    return *(const int*)user ? allocate_aligned(size, alignment) : NULL;
 }
 
 static void release_always(void* memory, size_t size, size_t alignment, void* user) {
     (void)size, (void)alignment, (void)user;
-    free(memory);
+    free_aligned(memory);
 }
 
 /* Without memory for the copy an edit fails, and the mesh goes on as before, with what it borrows. */

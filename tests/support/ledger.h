@@ -3,8 +3,9 @@
 #define VOX_TESTS_LEDGER_H
 
 #include <stdint.h>
-#include <stdlib.h>
 #include <vox/vox.h>
+
+#include "support/aligned.h"
 
 typedef struct ledger {
     uint64_t bytes;   /* held now */
@@ -16,10 +17,9 @@ typedef struct ledger {
 
 static inline void* ledger_allocate(size_t size, size_t alignment, void* user) {
     ledger* l = (ledger*)user;
-    void* memory = NULL;
     if (++l->calls == l->fail_at) return NULL;
-    if (posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, size ? size : 1) != 0)
-        return NULL;
+    void* memory = allocate_aligned(size, alignment);
+    if (!memory) return NULL;
     l->bytes += size;
     l->taken += size;
     if (l->bytes > l->peak) l->peak = l->bytes;
@@ -29,7 +29,7 @@ static inline void* ledger_allocate(size_t size, size_t alignment, void* user) {
 static inline void ledger_release(void* memory, size_t size, size_t alignment, void* user) {
     (void)alignment;
     ((ledger*)user)->bytes -= size;
-    free(memory);
+    free_aligned(memory);
 }
 
 /* For vox_grid_desc.allocator. */
