@@ -15,10 +15,10 @@ constexpr double cell_in_tile_sides = 0.6;
 
 } // namespace
 
-Queries::Batch::Batch(const Queries& queries, QueryMeshes which, std::pmr::memory_resource* memory,
-                      std::pmr::vector<PointHit>& found)
-    : queries_(queries), which_(which), found_(found), collected_(memory), bins_(memory), near_(memory),
-      on_boundary_(memory), scratch_(1, memory) {
+Queries::Batch::Batch(const Queries& queries, QueryMeshes which, bool weigh,
+                      std::pmr::memory_resource* memory, std::pmr::vector<PointHit>& found)
+    : queries_(queries), which_(which), weigh_(weigh), found_(found), collected_(memory), bins_(memory),
+      near_(memory), on_boundary_(memory), scratch_(1, memory) {
     for (const Mesh& mesh : queries.meshes_)
         if (wants(mesh, which)) add(region_, mesh.box);
 }
@@ -133,7 +133,7 @@ void Queries::Batch::take(std::span<const fast::Finding> findings) {
             continue;
         }
         found_.push_back({f.vertex, mesh_, tets.index(place), true, leaf, place, f.weights});
-        if (!f.weights.known()) weigh_last(tets);
+        weigh_last(tets);
     }
 }
 
@@ -177,9 +177,10 @@ void Queries::Batch::keep_lowest(const PointHit& hit) {
     }
 }
 
-// The last of found_ waits for its weights.
+// The last of found_ waits for its weights, if it has none and they are wanted.
 void Queries::Batch::weigh_last(const LeafTets& tets) {
     const PointHit& hit = found_.back();
+    if (!weigh_ || hit.weights.known()) return;
     unweighed_.add(points_[hit.point], tets, hit.place) = static_cast<std::uint32_t>(found_.size() - 1);
     if (unweighed_.full()) weigh_all();
 }

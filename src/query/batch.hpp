@@ -18,8 +18,8 @@ namespace vox {
 class Queries::Batch final : public fast::Findings {
 public:
     // Appends what it finds to `found`, in no particular order; of tetrahedra of a mesh with a point on their
-    // boundary, the lowest only.
-    Batch(const Queries& queries, QueryMeshes which, std::pmr::memory_resource* memory,
+    // boundary, the lowest only. `weigh` says whether barycentric coordinates are wanted.
+    Batch(const Queries& queries, QueryMeshes which, bool weigh, std::pmr::memory_resource* memory,
           std::pmr::vector<PointHit>& found);
 
     void find(std::span<const Vec3d> points);
@@ -35,6 +35,7 @@ private:
 
     const Queries& queries_;
     const QueryMeshes which_;
+    const bool weigh_;
     std::pmr::vector<PointHit>& found_;
     Box region_ = empty_box;        // around the meshes
     std::span<const Vec3d> points_; // those asked for

@@ -63,8 +63,8 @@ void Queries::sort_found(std::pmr::vector<PointHit>& found, std::size_t points) 
 }
 
 template <class Visit>
-void Queries::for_found(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
-                        Visit&& visit) const {
+void Queries::for_found(std::span<const Vec3d> points, QueryMeshes which, bool weigh,
+                        std::pmr::memory_resource* memory, Visit&& visit) const {
     std::pmr::vector<PointHit> found(memory);
     const auto visit_all = [&](std::span<const Vec3d> some, std::size_t first) {
         sort_found(found, some.size());
@@ -79,7 +79,7 @@ void Queries::for_found(std::span<const Vec3d> points, QueryMeshes which, std::p
         find_few(points, which, memory, found);
         return visit_all(points, 0);
     }
-    Batch batch(*this, which, memory, found);
+    Batch batch(*this, which, weigh, memory, found);
     const std::size_t at_once = std::max(points_at_once, points_a_tile * leaves_.size());
     for (std::size_t first = 0; first < points.size(); first += at_once) {
         const std::span<const Vec3d> some = points.subspan(first, std::min(at_once, points.size() - first));
@@ -93,7 +93,7 @@ std::uint64_t Queries::points(std::span<const Vec3d> points, QueryMeshes which,
                               std::pmr::memory_resource* memory, vox_point_hit* hits,
                               std::uint64_t capacity) const {
     std::uint64_t count = 0;
-    for_found(points, which, memory, [&](std::size_t point, std::span<const PointHit> found) {
+    for_found(points, which, true, memory, [&](std::size_t point, std::span<const PointHit> found) {
         const bool any_interior =
             std::any_of(found.begin(), found.end(), [](const PointHit& hit) { return hit.interior; });
         // Report every tetrahedron with the point in its interior, or if there is none, the first with the
@@ -121,7 +121,7 @@ std::uint64_t Queries::points(std::span<const Vec3d> points, QueryMeshes which,
 
 void Queries::count_inside(std::span<const Vec3d> points, QueryMeshes which,
                            std::pmr::memory_resource* memory, vox_closest_hit* hits) const {
-    for_found(points, which, memory, [&](std::size_t point, std::span<const PointHit> found) {
+    for_found(points, which, false, memory, [&](std::size_t point, std::span<const PointHit> found) {
         vox_closest_hit& hit = hits[point];
         ++hit.inside;
         if (hit.mesh == meshes_[found[0].mesh].id && hit.distance > 0) hit.distance = -hit.distance;

@@ -109,10 +109,11 @@ private:
     LeafTets tets_of(const Leaf& leaf) const noexcept;
     void join_tiles() noexcept;
     // Calls visit(point, found) for each mesh that each point is in, in canonical order. Of tetrahedra with
-    // the point on their boundary, some after the lowest may be missing.
+    // the point on their boundary, some after the lowest may be missing. `weigh` says whether weights are
+    // wanted, where they are found at little cost.
     template <class Visit>
-    void for_found(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
-                   Visit&& visit) const;
+    void for_found(std::span<const Vec3d> points, QueryMeshes which, bool weigh,
+                   std::pmr::memory_resource* memory, Visit&& visit) const;
     static void sort_found(std::pmr::vector<PointHit>& found, std::size_t points);
     // Sets what `hits`, of the closest points, say of meshes that the points are in.
     void count_inside(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
