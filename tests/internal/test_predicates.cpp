@@ -1,5 +1,8 @@
 // Compares every sign, containment and weight of the predicates with those that GMP gives, on points of many
 // kinds, floats and doubles.
+#include "base/simd.hpp"
+#include "exact/barycentric.hpp"
+#include "exact/fixed_point.hpp"
 #include "exact/predicates.hpp"
 #include "internal/random.hpp"
 #include "support/float_modes.h"
@@ -60,6 +63,13 @@ double vanishing_d(Random& r) { return std::ldexp(between(r, -1, 1), -358 + stat
 double near_bound_d(Random& r) {
     return std::ldexp(static_cast<double>(r.below(5)), -242 - static_cast<int>(r.below(60)));
 }
+// As far apart as volumes of three words can be, and a little farther.
+double words_apart(Random& r) {
+    return r.uniform(-1, 1) * std::ldexp(1.0f, -static_cast<int>(r.below(39)));
+}
+double words_apart_d(Random& r) { return std::ldexp(between(r, -1, 1), -static_cast<int>(r.below(9))); }
+// The largest of these volumes.
+double full_words_d(Random& r) { return (r.below(2) ? 1 : -1) * nudge(2.0, -1 - static_cast<int>(r.below(3))); }
 double few_ulps_d(Random& r) { return nudge(0.5, static_cast<int>(r.below(5))); }
 
 struct Coordinate {
@@ -85,6 +95,9 @@ constexpr Coordinate coordinates[] = {{unit_range, true},
                                       {few_ulps, true},
                                       {exponents_apart, true},
                                       {one_huge_among_small, true},
+                                      {words_apart, true},
+                                      {words_apart_d, false},
+                                      {full_words_d, false},
                                       {unit_range_d, false},
                                       {far_away_d, false},
                                       {denormal_d, false},
@@ -190,6 +203,95 @@ START_TEST(orientation_has_the_exact_sign) {
 }
 END_TEST
 
+#if defined(VOX_FIXED_POINT)
+START_TEST(volumes_of_three_words_have_the_exact_sign) {
+    int seen[3] = {}, apart = 0;
+    for_each_case([&](const Case& c) {
+        const Vec3d q[5] = {vec(c.corner[0]), vec(c.corner[1]), vec(c.corner[2]), vec(c.corner[3]), vec(c.p)};
+        FixedPoints<5> points;
+        if (!points.read({&q[0], &q[1], &q[2], &q[3], &q[4]})) {
+            ++apart;
+            return;
+        }
+        const int expected = oracle_orientation_d(c.corner[0].data(), c.corner[1].data(), c.corner[2].data(),
+                                                  c.corner[3].data());
+        ck_assert_int_eq(points.volume(0, 1, 2, 3).sign(), expected);
+        ck_assert_int_eq(points.volume(3, 1, 2, 0).sign(), -expected);
+        ck_assert_int_eq(points.volume(4, 1, 2, 3).sign(),
+                         oracle_orientation_d(c.p.data(), c.corner[1].data(), c.corner[2].data(),
+                                              c.corner[3].data()));
+        ++seen[expected + 1];
+    });
+    for (const int count : seen) ck_assert_int_gt(count, 10000);
+    ck_assert_int_gt(apart, 10000);
+}
+END_TEST
+
+START_TEST(three_words_take_what_they_say) {
+    const auto read = [](double x, double y) {
+        const Vec3d a{x, 0, 1}, b{y, 0, 1};
+        return FixedPoints<2>().read({&a, &b});
+    };
+    const double least_float = double{std::nextafter(1.0f, 2.0f)}, least_double = std::nextafter(1.0, 2.0);
+    for (const double size : {1.0, 0x1p127, 0x1p-900}) { // exponents as such are of no account
+        ck_assert(read(size, 0x1p-36 * least_float * size));
+        ck_assert(!read(size, 0x1p-37 * least_float * size));
+        ck_assert(read(size, -0x1p-7 * least_double * size));
+        ck_assert(!read(size, -0x1p-8 * least_double * size));
+    }
+    ck_assert(read(DBL_TRUE_MIN, 3 * DBL_TRUE_MIN) && read(DBL_MIN, DBL_TRUE_MIN) && read(0, -0.0));
+    ck_assert(!read(1, DBL_TRUE_MIN) && read(0x1p-1000, 0));
+}
+END_TEST
+#endif
+
+// What a block says of its points is right at every level of SIMD, and its volumes have the bits of
+// corner_volumes().
+START_TEST(blocks_are_located_exactly) {
+    static BarycentricBlock<double> block;
+    static VolumeBlock volumes;
+    static Case cases[barycentric_block];
+    std::size_t filled = 0;
+    int outside = 0, interior = 0, boundary = 0;
+    for_each_case([&](const Case& c) {
+        for (std::size_t a = 0; a < 3; ++a) {
+            block.point[a][filled] = c.p[a];
+            for (std::size_t n = 0; n < 4; ++n) block.corner[n][a][filled] = c.corner[n][a];
+        }
+        cases[filled++] = c;
+        if (filled < barycentric_block) return;
+        filled = 0;
+        Containment where[barycentric_block];
+        for (std::size_t i = 0; i < barycentric_block; ++i) where[i] = containment(oracle(cases[i]));
+        for (int level = 0; level <= int(simd::best_level()); ++level) {
+            if (simd::force_level(simd::Level(level)) != simd::Level(level)) continue;
+            const CertainLocations certain = locate(block, barycentric_block, volumes);
+            for (std::size_t i = 0; i < barycentric_block; ++i) {
+                const Case& at = cases[i];
+                const auto expected = corner_volumes(vec(at.p), vec(at.corner[0]), vec(at.corner[1]),
+                                                     vec(at.corner[2]), vec(at.corner[3]));
+                const auto found = volumes.of(i);
+                for (std::size_t n = 0; n < 4; ++n) {
+                    ck_assert(found[n].volume == expected[n].volume);
+                    ck_assert(found[n].error == expected[n].error);
+                }
+                if (certain.interior >> i & 1) ck_assert(where[i] == Containment::interior);
+                if (certain.boundary >> i & 1) ck_assert(where[i] == Containment::boundary);
+                if (certain.outside >> i & 1)
+                    ck_assert(where[i] == Containment::outside || where[i] == Containment::degenerate);
+                outside += certain.outside >> i & 1;
+                interior += certain.interior >> i & 1;
+                boundary += certain.boundary >> i & 1;
+            }
+        }
+        simd::force_level(simd::best_level());
+    });
+    ck_assert_int_gt(outside, 2000);
+    ck_assert_int_gt(interior, 2000);
+    ck_assert_int_gt(boundary, 2000);
+}
+END_TEST
+
 START_TEST(orientation_sign_follows_its_definition) {
     std::uint64_t exact_tests = 0;
     const Vec3d a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}; // counter-clockwise seen from +z
@@ -287,6 +389,10 @@ int main() {
     TCase* tests = add_case(suite, "exactness");
     tcase_add_each(tests, orientation_has_the_exact_sign, orientation_sign_follows_its_definition,
                    filter_decides_clear_cases_alone, locate_is_exact, barycentric_is_near_the_true_weights,
-                   barycentric_of_corners_is_one, exact_sign_in_any_float_environment);
+                   barycentric_of_corners_is_one, exact_sign_in_any_float_environment,
+                   blocks_are_located_exactly);
+#if defined(VOX_FIXED_POINT)
+    tcase_add_each(tests, volumes_of_three_words_have_the_exact_sign, three_words_take_what_they_say);
+#endif
     return run_suite(suite);
 }
