@@ -98,12 +98,16 @@ inline std::array<BoundedVolume, 4> corner_volumes(const Vec3d& p, const Vec3d& 
 inline Containment locate_in_solid(const std::array<BoundedVolume, 4>& volumes, const Vec3d& p,
                                    const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d,
                                    std::uint64_t& exact_tests) {
-    bool positive = false, negative = false, zero = false;
+    int above = 0, below = 0;
     for (const BoundedVolume& v : volumes) {
-        positive |= v.volume > v.error;
-        negative |= -v.volume > v.error;
+        above += v.volume > v.error;
+        below += -v.volume > v.error;
     }
+    bool positive = above > 0, negative = below > 0, zero = false;
     if (positive && negative) return Containment::outside; // decided without exact arithmetic
+    // At a corner: the volumes that this is part of are zero, exactly, so that the certain one is the fourth.
+    const auto is_p = [&p](const Vec3d& q) { return p.x == q.x && p.y == q.y && p.z == q.z; };
+    if (above + below == 1 && (is_p(a) || is_p(b) || is_p(c) || is_p(d))) return Containment::boundary;
     for (int i = 0; i < 4; ++i) {
         if (volumes[std::size_t(i)].certain()) continue;
         const int sign = uncertain_orientation(volumes[std::size_t(i)], i == 0 ? p : a, i == 1 ? p : b,
