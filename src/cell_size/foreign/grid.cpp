@@ -134,6 +134,16 @@ void set_sides(const BoxSample& sample, vox_foreign_rules& rules, std::pmr::memo
 
 } // namespace
 
+namespace {
+
+// What is around fewer boxes is looked at more closely: the boxes seen around one are as coarse^-3.
+double coarseness(const ForeignBudget& budget, std::size_t chosen) {
+    const double part = static_cast<double>(chosen) / static_cast<double>(budget.chosen);
+    return budget.coarse * std::cbrt(std::min(part, 1.0));
+}
+
+} // namespace
+
 ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget,
                          std::pmr::memory_resource* memory)
     : ForeignWork(grid, budget, sample_boxes(grid.held, grid.held_grown(), budget.held, 1, memory),
@@ -142,12 +152,12 @@ ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget,
 ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, const BoxSample& held,
                          const BoxSample& asking, std::pmr::memory_resource* memory)
     : centres_(grid.centres()), pairs_(grid.pairs()), same_set_(grid.same_set()),
-      around_(grid.desc.look == VOX_LOOK_AROUND), looked_cells_(budget.cells), rough_(budget.rough),
-      held_(held, centres_, share_of(held, grid.held), memory),
+      around_(grid.desc.look == VOX_LOOK_AROUND), chosen_(budget.chosen), looked_cells_(budget.cells),
+      rough_(budget.rough), held_(held, centres_, share_of(held, grid.held), memory),
       asking_(asking, around_ || (pairs_ && centres_), share_of(asking, grid.those_asking()), memory),
       asking_chosen_(choose_asking(asking_, budget.chosen, memory)), held_chosen_(memory),
-      read_(sum_pairs(asking_, asking_chosen_, held_, around_ ? Meeting::in_neighbours : Meeting::in_cells,
-                      same_set_, memory)),
+      read_(sum_pairs(asking_, asking_chosen_, held_, coarseness(budget, asking_chosen_.size()),
+                      around_ ? Meeting::in_neighbours : Meeting::in_cells, same_set_, memory)),
       table_{std::pmr::vector<double>(memory), std::pmr::vector<double>(memory)} {
     held_sums_ = sum_boxes(grid.held, grid.held_grown(), centres_, budget.summed);
     asking_sums_ = same_set_
@@ -368,7 +378,7 @@ double ForeignWork::occupied_of_few(double d, double cells_there) const {
 
 double ForeignWork::occupied_share(double d) {
     if (held_chosen_.empty())
-        held_chosen_ = choose_asking(held_, asking_chosen_.size(), table_[0].get_allocator().resource());
+        held_chosen_ = choose_asking(held_, chosen_, table_[0].get_allocator().resource());
     const vox_grid_work smooth = smooth_at(d);
     if (smooth.cells * least_positions <= static_cast<double>(looked_cells_))
         return occupied_of_few(d, smooth.cells) / smooth.entries;

@@ -44,19 +44,20 @@ struct ForeignBudget {
     std::uint64_t summed; // primitives whose boxes are summed up
     std::uint64_t held;   // boxes that are kept, of those held
     std::uint64_t asking; // and of those that ask, of which
-    std::size_t chosen;   // so many are looked at with what is around them
+    std::size_t chosen;   // so many are looked at with what is around them,
+    double coarse;        // and so coarsely (SampleTree::sample_around)
     std::size_t cells;    // cells looked at for what is in them, at each size
     double rough;         // how roughly it is counted (SampleTree::count_meeting)
 };
 // For vox_suggest_for: a look at 20,000 primitives takes half a millisecond, at a million a few.
 inline ForeignBudget quick_look(const ForeignGrid& grid) noexcept {
     const std::uint64_t count = std::max(grid.held.count(), grid.those_asking().count());
-    if (count <= 1 << 16) return {1 << 16, 4096, 1024, 64, 32, 0.125};
-    return {1 << 15, 8192, 2048, 128, 32, 0.125};
+    if (count <= 1 << 16) return {1 << 16, 4096, 1024, 64, 2, 32, 0.125};
+    return {1 << 15, 8192, 2048, 128, 2, 32, 0.125};
 }
 // For vox_count_for. The tests hold its counts to within 5 % of those in a filled grid.
 inline constexpr ForeignBudget thorough_look{
-    ~std::uint64_t{0}, std::uint64_t{1} << 18, std::uint64_t{1} << 15, 4096, 16384, 0};
+    ~std::uint64_t{0}, std::uint64_t{1} << 18, std::uint64_t{1} << 15, 4096, 1, 16384, 0};
 
 // Counts that take longer than the others.
 struct CellsWanted {
@@ -103,7 +104,7 @@ private:
     vox_grid_work with_shares(double cell_size, double empty_part, double occupied_part) const noexcept;
 
     bool centres_, pairs_, same_set_, around_;
-    std::size_t looked_cells_;
+    std::size_t chosen_, looked_cells_; // of a ForeignBudget
     double rough_;
     PrimitiveSums held_sums_, asking_sums_;
     SampleTree held_, asking_;

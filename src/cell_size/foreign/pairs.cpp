@@ -270,7 +270,7 @@ void add_neighbours(const PlainBox& a, const PlainBox& b, double weight, Piecewi
 } // namespace
 
 PiecewiseMoments sum_pairs(const SampleTree& from, const std::pmr::vector<Asking>& asking,
-                           const SampleTree& held, Meeting meeting, bool same_set,
+                           const SampleTree& held, double coarse, Meeting meeting, bool same_set,
                            std::pmr::memory_resource* memory) {
     PlainBox bounds = from.bounds();
     bounds.include(held.bounds());
@@ -281,7 +281,7 @@ PiecewiseMoments sum_pairs(const SampleTree& from, const std::pmr::vector<Asking
         const PlainBox& box = from.box(ask.index);
         const std::uint32_t id = from.id(ask.index);
         const double each = ask.weight / held.share();
-        held.sample_around(box, random, [&](std::size_t i, double weight) {
+        held.sample_around(box, coarse, random, [&](std::size_t i, double weight) {
             if (same_set && held.id(i) == id) return;
             if (meeting == Meeting::in_cells)
                 add_common_cells(box, held.box(i), each * weight, sums);

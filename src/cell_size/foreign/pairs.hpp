@@ -70,10 +70,10 @@ public:
     double crowd_side(std::size_t i) const noexcept;
 
     // Calls visit(index, weight) for boxes of which each stands for `weight` like it: all that are near the
-    // given box, and one out of each group that is small for its distance or for the given box. Of few
-    // boxes all are visited.
+    // given box, and one out of each group whose longest side is at most `coarse` times its distance, or half
+    // of the given box. Of few boxes all are visited.
     template <class Visit>
-    void sample_around(const PlainBox& box, std::uint64_t& random, Visit&& visit) const {
+    void sample_around(const PlainBox& box, double coarse, std::uint64_t& random, Visit&& visit) const {
         const double half = box.longest_side() / 2;
         const bool is_small = size() <= exact_size;
         Place stack[most_stacked];
@@ -110,8 +110,6 @@ private:
         explicit Level(std::pmr::memory_resource* memory) : boxes(memory) {}
         std::pmr::vector<PlainBox> boxes;
     };
-    // A group is represented by one of it where its longest side is at most this multiple of the distance.
-    static constexpr double coarse = 2;
     static constexpr std::size_t exact_size = 256; // of so few boxes, each is looked at
     static constexpr int most_stacked = 4 * 20;    // three of each level stay while the fourth is looked at
 
@@ -148,10 +146,10 @@ enum class Meeting : std::uint8_t {
     in_neighbours, // of points: whether their cells are the same or neighbours
 };
 
-// Sums over all pairs of boxes in `asking`, a part of those in `from`, and boxes in `held`. With `same_set`,
-// pairs of a box with itself (the same id) are left out.
+// Sums over all pairs of boxes in `asking`, a part of those in `from`, and boxes in `held`, as coarsely as
+// SampleTree::sample_around. With `same_set`, pairs of a box with itself (the same id) are left out.
 PiecewiseMoments sum_pairs(const SampleTree& from, const std::pmr::vector<Asking>& asking,
-                           const SampleTree& held, Meeting meeting, bool same_set,
+                           const SampleTree& held, double coarse, Meeting meeting, bool same_set,
                            std::pmr::memory_resource* memory);
 
 } // namespace vox
