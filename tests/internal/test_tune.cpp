@@ -469,6 +469,29 @@ START_TEST(unusual_costs) {
 }
 END_TEST
 
+// Costs that rise or fall at some size, as where a table no longer fits into a cache. Where the fits promise more than any
+// run has shown, it is run there; and what was fast is not given up for what is only fitted.
+START_TEST(costs_with_a_jump) {
+    int slower_than_a_run = 0;
+    std::vector<double> losses;
+    for (const double jump : {0.75, 1.3}) {
+        for (std::uint64_t trial = 0; trial < 100; ++trial) {
+            Random random{trial};
+            const double at = std::exp2(3 * random.unit() - 1.5), first = std::exp2(2 * random.unit() - 1);
+            const Cost cost = [&](double size) { return 1e-3 * (size + 1 / size) * (size > at ? jump : 1); };
+            const vox_tuning tuning = tune(nullptr, settings_for(first), cost, heap);
+            double best = infinity;
+            for (std::uint32_t i = 0; i < tuning.run_count; ++i) best = std::min(best, tuning.runs[i].seconds);
+            slower_than_a_run += cost(tuning.cell_size) > 1.06 * best;
+            losses.push_back(cost(tuning.cell_size) / std::min(least_cost(cost, 1), best) - 1);
+        }
+    }
+    std::sort(losses.begin(), losses.end());
+    ck_assert_int_le(slower_than_a_run, 2);
+    ck_assert_double_le(losses[losses.size() * 9 / 10], 0.15);
+}
+END_TEST
+
 // Noise is seen, and a run that contradicts another at the same size is said.
 START_TEST(what_is_said_of_noise) {
     int said = 0;
@@ -512,6 +535,7 @@ int main() {
     tcase_add_test(tests, stopped_and_too_short);
     tcase_add_test(tests, ends_of_the_range);
     tcase_add_test(tests, unusual_costs);
+    tcase_add_test(tests, costs_with_a_jump);
     tcase_add_test(tests, what_is_said_of_noise);
     tcase_add_test(tests, wrong_description);
     suite_add_tcase(suite, tests);

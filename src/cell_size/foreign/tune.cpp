@@ -98,7 +98,8 @@ public:
                         format("no run succeeded: %u could not run, the first at cell size %g%s", run_count_,
                                settings_.first, stopped_ ? ", then the callback stopped" : ""));
         for (judge(); !stopped_ && run_count_ < settings_.most_runs; judge()) {
-            if (run_count_ >= least_runs && open_side() == 0 && !doubtful_ && loss_ <= settings_.wanted_loss)
+            if (run_count_ >= least_runs && open_side() == 0 && !doubtful_ && !unproven_ &&
+                loss_ <= settings_.wanted_loss)
                 break;
             if (low_ == high_) break;
             time(next());
@@ -109,10 +110,13 @@ public:
 private:
     static constexpr std::uint32_t least_runs = 4;
 
+    double nodes_from_first(double cell_size) const {
+        return nodes_per_octave * (std::log2(cell_size) - std::log2(settings_.first));
+    }
     // The last node may be closer to the one before, at the end of the range.
     int node_of(double end) const {
         constexpr double most = nodes_per_octave * most_octaves_away;
-        const double nodes = nodes_per_octave * (std::log2(end) - std::log2(settings_.first));
+        const double nodes = nodes_from_first(end);
         return static_cast<int>(std::clamp(nodes < 0 ? std::floor(nodes) : std::ceil(nodes), -most, most));
     }
     double size(int node) const {
@@ -176,6 +180,11 @@ private:
         for (std::size_t i = 1; i < timed_.size(); ++i)
             if (timed_[i].seconds < timed_[best].seconds) best = i;
         return nodes_[best];
+    }
+    double shortest_run() const {
+        double least = without_end;
+        for (const TimedTerms& timing : timed_) least = std::min(least, timing.seconds);
+        return least;
     }
     int smallest() const { return *std::min_element(nodes_.begin(), nodes_.end()); }
     int largest() const { return *std::max_element(nodes_.begin(), nodes_.end()); }
@@ -266,10 +275,10 @@ private:
         // A run can be slower than the fit by accident, but hardly faster, nor do two accidents happen at one
         // place. Otherwise the fit is wrong, as where there are two minima.
         const double much_faster = std::exp(-std::clamp(2 * noise, 0.1, 0.25));
-        double nearby = without_end, fastest_run = without_end;
+        const double fastest_run = shortest_run();
+        double nearby = without_end;
         int runs_nearby = 0;
         for (std::size_t i = 0; i < timed_.size(); ++i) {
-            fastest_run = std::min(fastest_run, timed_[i].seconds);
             if (std::abs(nodes_[i] - chosen_) > 1) continue;
             nearby = std::min(nearby, timed_[i].seconds);
             ++runs_nearby;
@@ -277,6 +286,7 @@ private:
         const double fitted = cost_of(values(chosen_), mean_);
         doubtful_ = runs_nearby == 1 && fitted < much_faster * nearby;
         doubt_ = doubtful_ ? nearby / fastest_run - 1 : 0;
+        unproven_ = none_near_chosen() && fitted < (1 - settings_.wanted_loss) * fastest_run;
         surprised_ = fastest_run < much_faster * (runs_nearby > 1 ? std::max(fitted, nearby) : fitted);
         if (surprised_) chosen_ = fastest();
         loss_ = greatest_loss(values(chosen_));
@@ -288,7 +298,10 @@ private:
         return greatest;
     }
 
-    bool is_near(int node) const { return std::abs(node - chosen_) <= nodes_per_octave / 6; }
+    bool none_near_chosen() const {
+        return std::none_of(nodes_.begin(), nodes_.end(),
+                            [&](int node) { return std::abs(node - chosen_) <= nodes_per_octave / 6; });
+    }
 
     // On which side of the chosen node nothing was run, though it could be: -1, 1, or 0 for none.
     int open_side() const {
@@ -299,12 +312,11 @@ private:
     // Where to run next.
     int next() {
         constexpr int step = nodes_per_octave / 4;
-        const auto near = [&](int node) { return is_near(node); };
-        if (doubtful_ || std::none_of(nodes_.begin(), nodes_.end(), near)) return chosen_;
+        if (doubtful_ || none_near_chosen()) return chosen_;
         if (const int side = open_side())
             return std::clamp((side < 0 ? smallest() : largest()) + side * nodes_per_octave / 2, low_, high_);
-        double shortest = without_end, least = without_end;
-        for (const TimedTerms& timing : timed_) shortest = std::min(shortest, timing.seconds);
+        const double shortest = shortest_run();
+        double least = without_end;
         int best = chosen_;
         trial_ = timed_;
         trial_.emplace_back();
@@ -339,8 +351,10 @@ private:
         CostMinimum best = minimise(cost, around, fineness);
         if (surprised_)
             best = {size(node), cost(std::log2(size(node)))};
-        else
+        else {
             prefer_run(best, cost);
+            prefer_fastest(best, cost);
+        }
         const CellSizeRange zone =
             zone_around(best, (1 + settings_.zone_loss) * best.cost, cost, view, fineness);
 
@@ -378,6 +392,24 @@ private:
                 least = timed_[i].seconds;
                 best = {size(nodes_[i]), fitted};
             }
+    }
+
+    // The fastest run, where those nearest to the answer were clearly slower: the fit is smoother than the
+    // costs.
+    void prefer_fastest(CostMinimum& best, const CostFunction& cost) const {
+        constexpr double clearly_faster = 0.96;
+        const auto answer = static_cast<int>(std::lround(nodes_from_first(best.cell_size)));
+        int nearest = std::numeric_limits<int>::max();
+        double there = without_end;
+        for (std::size_t i = 0; i < timed_.size(); ++i) {
+            const int away = std::abs(nodes_[i] - answer);
+            if (away > nearest) continue;
+            there = away < nearest ? timed_[i].seconds : std::min(there, timed_[i].seconds);
+            nearest = away;
+        }
+        if (!(shortest_run() < clearly_faster * there)) return;
+        const double cell_size = size(fastest());
+        best = {cell_size, cost(std::log2(cell_size))};
     }
 
     void compare_timings(double noise) {
@@ -444,6 +476,7 @@ private:
     Coefficients mean_{}; // of the opinions, relative to the least cost of each
     int chosen_ = 0;
     bool doubtful_ = false;  // one run near chosen_, much slower than the fits say
+    bool unproven_ = false;  // nothing was run near chosen_, which is to be faster than all that was
     double doubt_ = 0;       // what chosen_ loses if that is no accident
     bool surprised_ = false; // chosen_ was run much faster than the fits say
     double loss_ = 0;        // greatest at chosen_
