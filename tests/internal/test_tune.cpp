@@ -12,6 +12,7 @@
 #include <functional>
 #include <limits>
 #include <memory_resource>
+#include <utility>
 #include <vector>
 
 using namespace vox;
@@ -492,6 +493,45 @@ START_TEST(costs_with_a_jump) {
 }
 END_TEST
 
+// One run is many times faster than all others, as one that did nothing, and hardly anything is read there: some fits are of
+// reads alone, and 0 where there are none.
+START_TEST(one_run_did_nothing) {
+    for (double fast = 1e-5; fast < 1; fast *= 1.7) {
+        for (const double few : {0.3, 0.03, 0.003}) {
+            const WorkAt work = [&](double size) {
+                vox_grid_work w{};
+                w.entries = 12;
+                w.reads = size < 0.9 ? 0 : size < 1.1 ? few : 3.4;
+                w.visits = w.occupied = 2 - 0.04 * w.reads;
+                return w;
+            };
+            const CostBasis basis = described_basis(work, {0, 73, 36, 0, 6.2, 2.6, 0});
+            const double seconds[] = {fast, 2.5, 2.5, 4.25, 8.125, 8.125, 8.125};
+            int run = 0;
+            const vox_tuning tuning = tune(&basis, settings_for(1), [&](double) { return seconds[run++]; }, heap);
+            ck_assert(std::isfinite(tuning.seconds) && std::isfinite(tuning.expected_loss));
+            ck_assert_double_gt(tuning.seconds, 0);
+        }
+    }
+}
+END_TEST
+
+// A weight beyond all measure, of what is not there at the size that was fastest.
+START_TEST(expected_beyond_measure) {
+    const WorkAt work = [](double size) {
+        vox_grid_work w{};
+        w.visits = 10 / size;
+        w.empty = size < 2 ? 0 : w.visits;
+        w.reads = size;
+        return w;
+    };
+    const CostBasis basis = described_basis(work, {1, 1, 1, 1e38, 1, 0, 0});
+    const vox_tuning tuning = tune(&basis, settings_for(4), [](double size) { return size / 4 + 4 / size; }, heap);
+    ck_assert(std::isfinite(tuning.seconds) && std::isfinite(tuning.noise));
+    ck_assert_double_lt(tuning.seconds, 100);
+}
+END_TEST
+
 // Noise is seen, and a run that contradicts another at the same size is said.
 START_TEST(what_is_said_of_noise) {
     int said = 0;
@@ -536,6 +576,8 @@ int main() {
     tcase_add_test(tests, ends_of_the_range);
     tcase_add_test(tests, unusual_costs);
     tcase_add_test(tests, costs_with_a_jump);
+    tcase_add_test(tests, one_run_did_nothing);
+    tcase_add_test(tests, expected_beyond_measure);
     tcase_add_test(tests, what_is_said_of_noise);
     tcase_add_test(tests, wrong_description);
     suite_add_tcase(suite, tests);

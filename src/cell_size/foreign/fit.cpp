@@ -62,7 +62,7 @@ CostFit::CostFit(const CostBasis& basis, const Coefficients& middle) noexcept : 
     for (std::size_t i = 0; i < count_; ++i) {
         if (middle[i] > 0) scale_[i] = 1 / middle[i];
         if (total > 0)
-            expected_[i] = (middle[i] > 0 ? middle[i] : 1) * basis.expected[i] / total;
+            expected_[i] = std::min((middle[i] > 0 ? middle[i] : 1) * basis.expected[i] / total, 1.0);
         else
             expected_[i] = middle[i] > 0 ? 1 / static_cast<double>(count_) : 0;
     }

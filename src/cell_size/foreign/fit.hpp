@@ -59,8 +59,9 @@ public:
 
 private:
     std::size_t count_;
-    Coefficients scale_{};    // of a term, so that it is 1 at `middle`; 0 where it is 0 there
-    Coefficients expected_{}; // shares at `middle`; for terms that are 0 there, of the whole for each one
+    Coefficients scale_{}; // of a term, so that it is 1 at `middle`; 0 where it is 0 there
+    Coefficients
+        expected_{}; // shares at `middle`; for terms that are 0 there, of the whole for each one, at most all
 };
 
 // Sets the weights of the timings. Slow ones count less, as only the curve around its minimum matters, and so

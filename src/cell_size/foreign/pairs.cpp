@@ -20,8 +20,8 @@ void PiecewiseMoments::finish() noexcept {
 double PiecewiseMoments::at(double d) const noexcept {
     const double ratio = d * inverse_least_;
     const std::size_t c = class_of_ratio(ratio, step_bits);
-    if (c == 0) return sums_[0].at(d);
-    if (c >= classes) return sums_.back().at(d);
+    if (c == 0) return std::max(sums_[0].at(d), 0.0); // rounding can leave a little less
+    if (c >= classes) return std::max(sums_.back().at(d), 0.0);
     constexpr std::uint64_t rest = std::uint64_t{1} << (52 - step_bits);
     const double part = static_cast<double>(std::bit_cast<std::uint64_t>(ratio) & (rest - 1)) / double{rest};
     const double below = sums_[c - 1].at(d);

@@ -244,14 +244,17 @@ private:
 
     void add_opinion(double weight) {
         const Coefficients coefficients = (*fit_)(trial_);
-        opinions_.push_back({coefficients, weight, cost_of(values(cheapest(coefficients)), coefficients)});
+        // A fit to counts that are 0 at some sizes can be 0 there, which no run is.
+        const double least = cost_of(values(cheapest(coefficients)), coefficients);
+        opinions_.push_back({coefficients, weight, std::max(least, 1e-3 * shortest_run())});
     }
 
     // Fits to the timings so far, and the node that loses least on average.
     void judge() {
         recentre();
         const auto count = static_cast<double>(timed_.size());
-        const double noise = weigh(*fit_, timed_), move = std::exp(noise * std::sqrt(count));
+        // Where one run is far faster than the others, the fit can be many times off there.
+        const double noise = std::min(weigh(*fit_, timed_), 1.0), move = std::exp(noise * std::sqrt(count));
         const double left_out = timed_.size() > 1 ? 0.5 / count : 0, moved = (0.5 / count) - left_out / 2;
         opinions_.clear();
         for (std::size_t i = 0; i < timed_.size(); ++i) {
