@@ -301,6 +301,7 @@ export declare const ForeignWarnings: Readonly<{
 }>;
 export type ForeignWarnings = number;
 
+/** The rules of vox_foreign_rules, in its order. Suggestions are by NONE or MEAN_EDGE so far. */
 export declare const ForeignRule: Readonly<{
   /** the model's minimum */
   NONE: 0;

@@ -932,7 +932,9 @@ export interface ForeignSuggestion {
   /** that were used */
   weights: GridWeights;
   rules: ForeignRules;
-  /** predicted cost at the cell size of each rule; 0 if it does not apply */
+  /**
+   * predicted cost at the cell size of each rule; 0 if it does not apply, or that size is too small for vox_count_for
+   */
   ruleCosts: ForeignRules;
   /** ascending in cell_size, evenly spaced in its logarithm */
   curve: CostSample[];

@@ -1829,6 +1829,7 @@ typedef struct vox_foreign_rules {
     double radius;          /* mean radius of those that ask */
 } vox_foreign_rules;
 
+/* The rules of vox_foreign_rules, in its order. Suggestions are by NONE or MEAN_EDGE so far. */
 typedef enum vox_foreign_rule {
     VOX_RULE_NONE = 0, /* the model's minimum */
     VOX_RULE_MEAN_EDGE = 1,
@@ -1853,7 +1854,8 @@ typedef struct vox_foreign_suggestion {
     vox_grid_work work;     /* at cell_size */
     vox_grid_weights weights; /* that were used */
     vox_foreign_rules rules;
-    vox_foreign_rules rule_costs; /* predicted cost at the cell size of each rule; 0 if it does not apply */
+    vox_foreign_rules rule_costs; /* predicted cost at the cell size of each rule; 0 if it does not apply, or that size
+                                     is too small for vox_count_for */
     vox_cost_sample curve[VOX_COST_CURVE_CAPACITY]; /* ascending in cell_size, evenly spaced in its logarithm */
     uint32_t curve_count;
     uint32_t term_count;
@@ -1871,7 +1873,7 @@ typedef struct vox_foreign_suggestion {
 VOX_API vox_result vox_suggest_for(const vox_foreign_grid* grid, vox_foreign_suggestion* out);
 
 /* What a run of this grid does at one cell size. Errors: as vox_suggest_for; also INVALID_ARGUMENT for a cell size that
- * is not a finite number above 0. */
+ * is not a finite number above 0, LIMIT for one so small that a count is beyond 1e80. */
 VOX_API vox_result vox_count_for(const vox_foreign_grid* grid, double cell_size, vox_grid_work* out);
 
 /* One timing of a grid: a run at this cell size took so long. */
@@ -1903,7 +1905,7 @@ typedef struct vox_grid_fit {
  * and less still if they are far above the fit. What few timings cannot tell apart is divided as in the weights that
  * the grid has (`weights`, else `known`). Errors: as vox_suggest_for; also INVALID_ARGUMENT for fewer than three
  * different cell sizes (those within a millionth are one), sizes below the least legal one, and timings out of their
- * range. */
+ * range, and LIMIT as vox_count_for. */
 VOX_API vox_result vox_cost_fit(const vox_foreign_grid* grid, VOX_ARRAY(count) const vox_grid_timing* timings,
                                 uint64_t count, vox_grid_fit* out);
 
@@ -1963,7 +1965,7 @@ typedef struct vox_tuning {
  * grid: what is known of it; null: nothing, so the curve is a sum of powers of the cell size, and desc->first must be
  * set. desc null: defaults. If the callback stops, or cannot run at a size, the answer is from the other runs, with a
  * warning. Errors: as vox_suggest_for; also INVALID_STATE if no run succeeded, INVALID_ARGUMENT for a run of less than
- * 1e-30 seconds, as a clock that is too coarse gives. */
+ * 1e-30 seconds, as a clock that is too coarse gives, LIMIT as vox_count_for at the smallest size to be tried. */
 VOX_API vox_result vox_cost_tune(VOX_OPTIONAL const vox_foreign_grid* grid, VOX_OPTIONAL const vox_tune_desc* desc,
                                  vox_grid_run* run, void* user, vox_tuning* out);
 

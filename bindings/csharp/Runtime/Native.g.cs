@@ -284,6 +284,7 @@ namespace Voxtet
         Stopped = 256,
     }
 
+    /// <summary>The rules of vox_foreign_rules, in its order.</summary>
     public enum ForeignRule : int
     {
         /// <summary>the model's minimum</summary>
@@ -1505,7 +1506,8 @@ namespace Voxtet
         /// <summary>that were used</summary>
         public GridWeights weights;
         public ForeignRules rules;
-        /// <summary>predicted cost at the cell size of each rule; 0 if it does not apply</summary>
+        /// <summary>predicted cost at the cell size of each rule; 0 if it does not apply, or that size is too small for
+        /// vox_count_for</summary>
         public ForeignRules rule_costs;
         /// <summary>ascending in cell_size, evenly spaced in its logarithm</summary>
         public CostSample64 curve;

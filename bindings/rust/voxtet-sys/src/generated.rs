@@ -283,6 +283,7 @@ pub const VOX_FOREIGN_OUT_OF_RANGE: vox_foreign_warnings = 128;
 /// the callback stopped, or failed at a cell size
 pub const VOX_FOREIGN_STOPPED: vox_foreign_warnings = 256;
 
+/// The rules of vox_foreign_rules, in its order. Suggestions are by NONE or MEAN_EDGE so far.
 pub type vox_foreign_rule = i32;
 /// the model's minimum
 pub const VOX_RULE_NONE: vox_foreign_rule = 0;
@@ -1462,7 +1463,8 @@ pub struct vox_foreign_suggestion {
     /// that were used
     pub weights: vox_grid_weights,
     pub rules: vox_foreign_rules,
-    /// predicted cost at the cell size of each rule; 0 if it does not apply
+    /// predicted cost at the cell size of each rule; 0 if it does not apply, or that size is too small for
+    /// vox_count_for
     pub rule_costs: vox_foreign_rules,
     /// ascending in cell_size, evenly spaced in its logarithm
     pub curve: [vox_cost_sample; 64],
@@ -2701,7 +2703,7 @@ extern "C" {
         out: *mut vox_foreign_suggestion,
     ) -> vox_result;
     /// What a run of this grid does at one cell size. Errors: as vox_suggest_for; also INVALID_ARGUMENT for a cell size
-    /// that is not a finite number above 0.
+    /// that is not a finite number above 0, LIMIT for one so small that a count is beyond 1e80.
     pub fn vox_count_for(
         grid: *const vox_foreign_grid,
         cell_size: f64,
@@ -2713,7 +2715,7 @@ extern "C" {
     /// fast ones, and less still if they are far above the fit. What few timings cannot tell apart is divided as in the
     /// weights that the grid has (`weights`, else `known`). Errors: as vox_suggest_for; also INVALID_ARGUMENT for fewer
     /// than three different cell sizes (those within a millionth are one), sizes below the least legal one, and timings
-    /// out of their range.
+    /// out of their range, and LIMIT as vox_count_for.
     pub fn vox_cost_fit(
         grid: *const vox_foreign_grid,
         timings: *const vox_grid_timing,
@@ -2729,7 +2731,7 @@ extern "C" {
     /// it; null: nothing, so the curve is a sum of powers of the cell size, and desc->first must be set. desc null:
     /// defaults. If the callback stops, or cannot run at a size, the answer is from the other runs, with a warning.
     /// Errors: as vox_suggest_for; also INVALID_STATE if no run succeeded, INVALID_ARGUMENT for a run of less than
-    /// 1e-30 seconds, as a clock that is too coarse gives.
+    /// 1e-30 seconds, as a clock that is too coarse gives, LIMIT as vox_count_for at the smallest size to be tried.
     pub fn vox_cost_tune(
         grid: *const vox_foreign_grid,
         desc: *const vox_tune_desc,
