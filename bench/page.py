@@ -1,4 +1,11 @@
-"""Text that programs write into pages of docs/, between two marks there."""
+"""What programs need that write tables into pages of docs/."""
+
+import math
+
+
+def quantile(values, part):
+    """The smallest value that so large a part of all is not above."""
+    return sorted(values)[max(math.ceil(part * len(values)), 1) - 1]
 
 
 def put(page, name, text):

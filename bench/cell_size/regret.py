@@ -5,21 +5,15 @@ usage: regret.py PAGE.md RESULTS.csv...   Puts them between the lines of the pag
        regret.py PICTURE.svg CURVES.csv   Draws sweeps and what the models predicted; CURVES.csv is of bench_regret --curves.
 """
 import csv
-import math
 import os
 import statistics
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from page import put  # noqa: E402
+from page import put, quantile  # noqa: E402
 
 RULES = {"model": "model", "grid": "grid", "mean_edge": "mean edge", "paper": "paper", "median_box": "median box"}
 ENGINES = ("reference", "fast")
-
-
-def quantile(values, part):
-    """The smallest value that so large a part of all is not above."""
-    return sorted(values)[max(math.ceil(part * len(values)), 1) - 1]
 
 
 def per_cent(value, digits=1):

@@ -16,7 +16,7 @@ import scenes
 CENTRES, BOXES = 0, 1  # vox_cell_content
 BOX, AROUND, PAIRS = 0, 1, 2  # vox_cell_look
 POINT, EDGE, TRIANGLE, TET, BOX_TYPE = range(5)  # vox_primitive_type
-SORTED, HASHED, WARP, IPC, IPC_PAIRS, VTK, PBAT, POINT_VOXELS, NUMPY = range(1, 10)  # vox_known_grid
+_, SORTED, HASHED, WARP, IPC, IPC_PAIRS, VTK, PBAT, POINT_VOXELS, NUMPY = range(len(losses.KNOWN))
 
 
 @dataclasses.dataclass

@@ -19,7 +19,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.dirname(HERE)]
 import library  # noqa: E402
 import losses  # noqa: E402
-from page import put  # noqa: E402
+from page import put, quantile  # noqa: E402
 
 ANY = 0
 FIXED = {"default": "its own default", "mean_edge": "mean edge", "mean_edge_multiple": "two mean edges",
@@ -108,10 +108,6 @@ def per_cent(value):
 
 def median_and_worst(found):
     return f"{per_cent(statistics.median(found))}, {per_cent(max(found))}" if found else "-"
-
-
-def quantile(values, part):
-    return sorted(values)[max(-int(-part * len(values) // 1), 1) - 1]
 
 
 def grids_of(rows):

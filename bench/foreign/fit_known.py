@@ -15,7 +15,6 @@ import sys
 
 import losses
 
-NAMES = ("ANY", "SORTED", "HASHED", "WARP", "IPC", "IPC_PAIRS", "VTK", "PBAT", "POINT_VOXELS", "NUMPY")
 STEPS = 96  # sizes among which the least cost is looked for
 
 
@@ -146,10 +145,10 @@ def main():
             rest = [t for t in own if t.curve.scene != scene]
             weights = fitted(rest, rng, options.tries // 4)
             without += [t.loss(weights) for t in own if t.curve.scene == scene]
-        print(f"{NAMES[known]}: least squares {in_per_cent([t.loss(start) for t in own])}; least loss "
+        print(f"{losses.KNOWN[known]}: least squares {in_per_cent([t.loss(start) for t in own])}; least loss "
               f"{in_per_cent([t.loss(found) for t in own])}; without the scene {in_per_cent(without)}; "
               f"best of the sweep by noise {in_per_cent([min(t.losses) for t in own])}", file=sys.stderr, flush=True)
-        lines[known] = line(NAMES[known], own, found)
+        lines[known] = line(losses.KNOWN[known], own, found)
     for known in sorted(lines):
         print(lines[known])
     if options.only and options.only != "0":

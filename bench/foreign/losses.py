@@ -10,6 +10,8 @@ import statistics
 WORK = ("entries", "visits", "empty", "reads", "occupied", "cells")
 WEIGHTS = ("fixed", "entries", "visits", "found", "reads", "occupied", "cells")  # the fields of vox_grid_weights
 
+KNOWN = ("ANY", "SORTED", "HASHED", "WARP", "IPC", "IPC_PAIRS", "VTK", "PBAT", "POINT_VOXELS", "NUMPY")  # vox_known_grid, in its order
+
 
 class Through:
     """A smooth function through points without overshooting (Fritsch and Carlson 1980, with the slopes of Fritsch and
