@@ -1,5 +1,5 @@
 # gcc for Windows aligns the stack to 16 bytes and reads what it spills there as if it were to 32 or 64 (gcc bug 54412):
-# AVX crashes. binutils 2.38 and newer can write the moves so that alignment does not matter, at the same speed. Without
+# AVX may crash. binutils 2.38 and newer can write the moves so that alignment does not matter, at the same speed. Without
 # that, base/simd.hpp leaves AVX out.
 if(MINGW AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   include(CheckCXXCompilerFlag)

@@ -17,7 +17,7 @@
 #if defined(__x86_64__) || defined(_M_X64)
 // SSSE3 is rare and slow; such machines run the portable code.
 #if defined(__MINGW32__) && !defined(__clang__) && !defined(VOX_UNALIGNED_MOVES)
-// gcc for Windows aligns the stack to 16 bytes only, and AVX crashes (gcc bug 54412), unless the assembler is told
+// gcc for Windows aligns the stack to 16 bytes only, and AVX may crash (gcc bug 54412), unless the assembler helps
 // (cmake/vox_target.cmake).
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX2 | HWY_AVX3 | (HWY_AVX3 - 1))
 #else

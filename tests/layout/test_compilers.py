@@ -8,7 +8,7 @@ from repository import files, text_of
 
 FOLDERS = ["include", "src", "tools", "examples", "scenes"]
 # What an enclosing #if has to name.
-ASKS = re.compile(r"__GNUC__|__clang__|_MSC_VER|_WIN32|__MINGW32__|__unix__|__linux__|__APPLE__|VOX_MSVC_X64|VOX_IO_POSIX|__MINGW_PRINTF_FORMAT")
+ASKS = re.compile(r"__GNUC__|__clang__|_MSC_VER|_WIN32|__MINGW32__|__unix__|__linux__|__APPLE__|VOX_MSVC_X64|VOX_IO_POSIX|__SIZEOF_INT128__|__MINGW_PRINTF_FORMAT")
 RULES = {
     "an attribute of gcc: [[...]], or a macro that is empty elsewhere": r"__attribute__",
     "a function built into gcc: <bit>, <cmath> or a fallback": r"__builtin_\w+",
