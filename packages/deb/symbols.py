@@ -16,7 +16,7 @@ ROOT = HERE.parent.parent
 
 def symbols(text):
     """Each symbol with its version, of the text of a symbols file."""
-    return dict(line.removeprefix(" ").split("@Base ") for line in text.splitlines()[1:])
+    return dict(line.removeprefix(" ").split("@Base ") for line in text.splitlines() if line.startswith(" "))
 
 
 def main():
@@ -29,7 +29,7 @@ def main():
         path = HERE / "debian" / f"{package}.symbols"
         had = path.read_text(encoding="ascii") if path.exists() else ""
         since = symbols(had)
-        text = f"{library}.so.{api['abi_version']} {package} #MINVER#\n" + "".join(
+        text = f"{library}.so.{api['abi_version']} {package} #MINVER#\n* Build-Depends-Package: libvox-dev\n" + "".join(
             f" {name}@Base {since.get(name, api['version'])}\n" for name in sorted(f["name"] for f in header["functions"]))
         if text == had:
             continue
