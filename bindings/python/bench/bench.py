@@ -138,7 +138,7 @@ def suggest():
     """Of the library; Python adds less than 0.1 ms."""
     names = ("any", "sorted", "hashed", "ipc", "ipc_pairs", "vtk", "numpy", "pbat", "warp", "point_voxels")
     for count, rounds in ((20000, 30), (1000000, 8)):
-        ball = voxtet.make_lattice_ball(count, 1)
+        ball = voxtet.io.make_lattice_ball(count, 1)
         positions, tets = np.asarray(ball.positions, np.float32), np.asarray(ball.tets, np.uint32)
         of_tets, of_points = voxtet.Primitives(positions, tets), voxtet.Primitives(positions, radius=0.05)
         times = least([lambda name=name: voxtet.suggest_for(of_points if name in names[-2:] else of_tets, known=name)
