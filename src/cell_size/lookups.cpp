@@ -135,7 +135,7 @@ SampleBudget usual(vox_cost_model model, std::uint64_t tets) noexcept {
         SampleBudget budget = quick(model, tets);
         budget.most_tets = std::min<std::size_t>(budget.most_tets, 8192);
         budget.listed =
-            std::max<std::size_t>(budget.listed, 64); // in small scenes, too: there is time for it
+            std::max<std::size_t>(budget.listed, 24); // in small scenes, too: there is time for it
         return budget;
     }
     return {0, std::clamp<std::size_t>(static_cast<std::size_t>(tets) / 512, 32, 128), 96, 32, 0, 64};
