@@ -282,7 +282,7 @@ export type ForeignFlags = number;
 export declare const ForeignWarnings: Readonly<{
   /** nothing is known of the grid's times: a few timings would help */
   WEIGHTS_UNKNOWN: 1;
-  /** cell_size is that of `rule`: it is in the zone, and the weights are a guess */
+  /** cell_size is that of `rule`: by the weights, a guess, no gain over it is sure */
   BY_RULE: 2;
   /** the least legal size; a smaller one would be faster */
   AT_LEAST_SIZE: 4;

@@ -1809,7 +1809,7 @@ VOX_API vox_result vox_foreign_grid_set_known(vox_foreign_grid* grid, vox_known_
 /* What an answer was based on, combined with |. `note` says the same in words, with numbers. */
 typedef enum vox_foreign_warnings {
     VOX_FOREIGN_WEIGHTS_UNKNOWN = 1,   /* nothing is known of the grid's times: a few timings would help */
-    VOX_FOREIGN_BY_RULE = 2,           /* cell_size is that of `rule`: it is in the zone, and the weights are a guess */
+    VOX_FOREIGN_BY_RULE = 2,           /* cell_size is that of `rule`: by the weights, a guess, no gain over it is sure */
     VOX_FOREIGN_AT_LEAST_SIZE = 4,     /* the least legal size; a smaller one would be faster */
     VOX_FOREIGN_NO_SIZE = 8,           /* the primitives have no size: the cell size follows from their distances */
     VOX_FOREIGN_ONE_PLACE = 16,        /* all are in one place: any cell size that is large enough does */

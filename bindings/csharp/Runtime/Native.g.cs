@@ -266,7 +266,7 @@ namespace Voxtet
     {
         /// <summary>nothing is known of the grid's times: a few timings would help</summary>
         WeightsUnknown = 1,
-        /// <summary>cell_size is that of `rule`: it is in the zone, and the weights are a guess</summary>
+        /// <summary>cell_size is that of `rule`: by the weights, a guess, no gain over it is sure</summary>
         ByRule = 2,
         /// <summary>the least legal size; a smaller one would be faster</summary>
         AtLeastSize = 4,

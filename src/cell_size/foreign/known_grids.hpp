@@ -21,4 +21,8 @@ const KnownGrid& known_grid(vox_known_grid known) noexcept;
 // keep their cells in this way.
 vox_grid_weights weights_of_any(vox_cell_content content, vox_cell_look look, bool dense) noexcept;
 
+// With those weights a gain over another size may be none where it is smaller than this: the known grids of
+// that kind differ so much.
+double doubtful_gain(vox_cell_content content, vox_cell_look look, bool dense) noexcept;
+
 } // namespace vox

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "cell_size/foreign/cost.hpp"
+#include "cell_size/foreign/known_grids.hpp"
 #include "cell_size/search.hpp"
 
 #include <algorithm>
@@ -105,16 +106,17 @@ vox_foreign_suggestion suggest_for(const ForeignGrid& grid, ForeignWork& work) {
                  format("no primitive has a size: below %g cells hold one each, and cost the same",
                         range.min));
         }
-        if (cells.empty || cells.occupied) {
-            const CellSizeRange near = bracket(grid, work);
-            range = {std::max(range.min, near.min), std::max(std::max(range.min, near.min), near.max)};
-        }
+    }
+    const CellSizeRange whole = range;
+    if (!work.in_one_place() && (cells.empty || cells.occupied)) {
+        const CellSizeRange near = bracket(grid, work);
+        range = {std::max(range.min, near.min), std::max(std::max(range.min, near.min), near.max)};
     }
     CostMinimum best = minimise(cost, range, foreign_fineness);
     if (!std::isfinite(best.cost)) best = {range.max, cost(std::log2(range.max))};
     const double least = best.cost;
-    const CellSizeRange zone =
-        zone_around(best, (1 + grid.desc.zone_loss) * best.cost, cost, range, foreign_fineness);
+    CellSizeRange zone =
+        zone_around(best, (1 + grid.desc.zone_loss) * best.cost, cost, whole, foreign_fineness);
 
     result.rules = work.rules();
     const auto cost_of = [&](double cell_size) {
@@ -125,12 +127,22 @@ vox_foreign_suggestion suggest_for(const ForeignGrid& grid, ForeignWork& work) {
                          cost_of(result.rules.radius)};
     if (!grid.weights_known)
         warn(VOX_FOREIGN_WEIGHTS_UNKNOWN, "nothing is known of the grid's times: three timings would help");
-    // Weights that are a guess say little within the zone: there, what most people use is as good.
-    if (!grid.weights_known && in_zone(zone, result.rules.mean_edge)) {
+    // Weights that are a guess say little within the zone, and in some grids little about small gains: then
+    // what most people use is as good.
+    const double doubt =
+        doubtful_gain(grid.desc.content, grid.desc.look, (grid.desc.flags & VOX_FOREIGN_DENSE) != 0);
+    CellSizeRange doubtful = zone;
+    if (!grid.weights_known && doubt > grid.desc.zone_loss)
+        doubtful = zone_around(best, (1 + doubt) * best.cost, cost, whole, foreign_fineness);
+    if (!grid.weights_known && in_zone(doubtful, result.rules.mean_edge)) {
         best = {result.rules.mean_edge, result.rule_costs.mean_edge};
         result.rule = VOX_RULE_MEAN_EDGE;
         warn(VOX_FOREIGN_BY_RULE,
-             format("so the mean edge, %g, is as good as any size in the zone", best.cell_size));
+             format(in_zone(zone, best.cell_size)
+                        ? "so the mean edge, %g, is as good as any size in the zone"
+                        : "so it is in doubt whether any size is better than the mean edge, %g",
+                    best.cell_size));
+        zone = {std::min(zone.min, best.cell_size), std::max(zone.max, best.cell_size)};
     }
 
     result.cell_size = best.cell_size;

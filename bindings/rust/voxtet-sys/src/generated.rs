@@ -266,7 +266,7 @@ pub const VOX_FOREIGN_DENSE: vox_foreign_flags = 1;
 pub type vox_foreign_warnings = u32;
 /// nothing is known of the grid's times: a few timings would help
 pub const VOX_FOREIGN_WEIGHTS_UNKNOWN: vox_foreign_warnings = 1;
-/// cell_size is that of `rule`: it is in the zone, and the weights are a guess
+/// cell_size is that of `rule`: by the weights, a guess, no gain over it is sure
 pub const VOX_FOREIGN_BY_RULE: vox_foreign_warnings = 2;
 /// the least legal size; a smaller one would be faster
 pub const VOX_FOREIGN_AT_LEAST_SIZE: vox_foreign_warnings = 4;
