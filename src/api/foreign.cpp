@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <memory_resource>
 
 using namespace vox;
 
@@ -38,7 +39,10 @@ vox_result vox_suggest_for(const vox_foreign_grid* grid, vox_foreign_suggestion*
     return border([&] {
         check_out_struct(out, "out");
         const ForeignGrid described(grid);
-        CallerMemory memory(described.desc.allocator);
+        CallerMemory caller(described.desc.allocator);
+        // In one piece: an allocator that gives what is free back to the system would fetch it anew each
+        // time.
+        std::pmr::monotonic_buffer_resource memory(quick_look_bytes, &caller);
         ForeignWork work(described, quick_look(described), &memory);
         write_struct(out, suggest_for(described, work), "out");
     });

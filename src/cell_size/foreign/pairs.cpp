@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace vox {
 
@@ -89,88 +90,133 @@ void sort_by_place(const PlainBox* boxes, Keyed* keys, Keyed* other, std::size_t
 
 } // namespace
 
+namespace {
+
+constexpr double endless = std::numeric_limits<double>::infinity();
+// They are away from everything, and add nothing to a box.
+constexpr FourBoxes no_boxes{{{endless, endless, endless, endless},
+                              {endless, endless, endless, endless},
+                              {endless, endless, endless, endless}},
+                             {{-endless, -endless, -endless, -endless},
+                              {-endless, -endless, -endless, -endless},
+                              {-endless, -endless, -endless, -endless}}};
+
+PlainBox box_of(const FourBoxes& boxes) noexcept {
+    PlainBox box = boxes.get(0);
+    for (std::size_t i = 1; i < 4; ++i) box.include(boxes.get(i));
+    return box;
+}
+
+} // namespace
+
 SampleTree::SampleTree(const BoxSample& sample, bool centres, double share, std::pmr::memory_resource* memory)
-    : levels_(memory), ids_(memory), share_(share) {
+    : groups_(memory), ids_(memory), share_(share) {
     const std::size_t count = sample.boxes.size();
     std::pmr::vector<Keyed> keys(count, memory), other(count, memory);
     for (std::size_t i = 0; i < count; ++i) keys[i].index = static_cast<std::uint32_t>(i);
     sort_by_place(sample.boxes.data(), keys.data(), other.data(), count);
-    levels_.reserve(static_cast<std::size_t>(std::bit_width(count)) / 2 + 2);
-    levels_.emplace_back(memory);
-    levels_[0].boxes.reserve(count);
     ids_.reserve(count);
-    for (const Keyed& k : keys) {
-        const PlainBox& box = sample.boxes[k.index];
-        levels_[0].boxes.push_back(centres ? box.centre() : box);
-        ids_.push_back(sample.ids[k.index]);
+    groups_.reserve((count + 3) / 4 * 4 / 3 + most_levels);
+    for (std::size_t i = 0; i < count; ++i) {
+        const PlainBox& box = sample.boxes[keys[i].index];
+        if (i % 4 == 0) groups_.push_back(no_boxes);
+        groups_.back().set(i % 4, centres ? box.centre() : box);
+        ids_.push_back(sample.ids[keys[i].index]);
     }
-    while (levels_.back().boxes.size() > 1) {
-        levels_.emplace_back(memory);
-        const auto& below = levels_[levels_.size() - 2].boxes;
-        auto& boxes = levels_.back().boxes;
-        boxes.reserve((below.size() + 3) / 4);
-        for (std::size_t i = 0; i < below.size(); i += 4) {
-            PlainBox box = below[i];
-            for (std::size_t k = i + 1; k < std::min(i + 4, below.size()); ++k) box.include(below[k]);
-            boxes.push_back(box);
+    // A level has a box for each group of the one below.
+    for (levels_ = 1;; ++levels_) {
+        const std::size_t below = first_[levels_ - 1], end = groups_.size();
+        first_[levels_] = end;
+        if (end - below == 1) break;
+        for (std::size_t g = below; g < end; ++g) {
+            if ((g - below) % 4 == 0) groups_.push_back(no_boxes);
+            groups_.back().set((g - below) % 4, box_of(groups_[g]));
         }
     }
+    bounds_ = box_of(groups_.back());
 }
 
 double SampleTree::crowd_side(std::size_t i) const noexcept {
-    const std::size_t level = std::min<std::size_t>(2, levels_.size() - 1);
-    return levels_[level].boxes[i >> (2 * level)].longest_side();
+    const std::size_t level = std::min<std::size_t>(2, levels_ - 1), at = i >> (2 * level);
+    return groups_[first_[level] + at / 4].get(at % 4).longest_side();
 }
 
 namespace {
 
-enum class Overlap : std::uint8_t { none, some, inside };
+// How far four boxes are from a cube [lo, hi) along the axis where that is most: those meet it that end at lo
+// or above and begin below hi.
+struct FourDistances {
+    double end_below[4], begin_above[4];
 
-Overlap overlap_of(const PlainBox& box, const double (&lo)[3], double side) noexcept {
-    bool inside = true;
-    for (int a = 0; a < 3; ++a) {
-        const double hi = lo[a] + side;
-        if (!(box.lo[a] < hi && box.hi[a] >= lo[a])) return Overlap::none;
-        inside &= box.lo[a] >= lo[a] && box.hi[a] < hi;
+    FourDistances(const FourBoxes& boxes, const double (&lo)[3], const double (&hi)[3]) noexcept {
+        for (std::size_t i = 0; i < 4; ++i) end_below[i] = begin_above[i] = -endless;
+        for (int a = 0; a < 3; ++a)
+            for (std::size_t i = 0; i < 4; ++i) {
+                end_below[i] = std::max(end_below[i], lo[a] - boxes.hi[a][i]);
+                begin_above[i] = std::max(begin_above[i], boxes.lo[a][i] - hi[a]);
+            }
     }
-    return inside ? Overlap::inside : Overlap::some;
+    bool meets(std::size_t i) const noexcept { return end_below[i] <= 0 && begin_above[i] < 0; }
+    std::size_t meeting() const noexcept {
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            count +=
+                static_cast<std::size_t>(end_below[i] <= 0) & static_cast<std::size_t>(begin_above[i] < 0);
+        return count;
+    }
+};
+
+bool is_inside(const PlainBox& box, const double (&lo)[3], const double (&hi)[3]) noexcept {
+    bool inside = true;
+    for (int a = 0; a < 3; ++a) inside &= box.lo[a] >= lo[a] && box.hi[a] < hi[a];
+    return inside;
 }
 
 } // namespace
 
 double SampleTree::count_meeting(const double (&lo)[3], double side, double rough) const noexcept {
+    const double hi[3] = {lo[0] + side, lo[1] + side, lo[2] + side};
     double count = 0;
     Place stack[most_stacked];
     int top = 0;
-    stack[top++] = {levels_.size() - 1, 0};
+    stack[top++] = {levels_ - 1, 0};
     while (top > 0) {
         const Place p = stack[--top];
-        const Overlap overlap = overlap_of(levels_[p.level].boxes[p.index], lo, side);
-        if (overlap == Overlap::none) continue;
-        if (overlap == Overlap::inside || p.level == 0) {
-            const std::size_t first = p.index << (2 * p.level), last = (p.index + 1) << (2 * p.level);
-            count += static_cast<double>(std::min(last, size()) - first);
+        const FourBoxes& group = groups_[first_[p.level] + p.group];
+        const FourDistances distances(group, lo, hi);
+        if (p.level == 0) {
+            count += static_cast<double>(distances.meeting());
             continue;
         }
-        const double most = static_cast<double>(std::size_t{1} << (2 * p.level));
-        if (most <= rough * count)
-            count += most / 2;
-        else
-            push_children(p, stack, top);
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (!distances.meets(i)) continue;
+            const Place child{p.level - 1, 4 * p.group + i};
+            const auto most = static_cast<double>(boxes_in(child));
+            if (most <= rough * count)
+                count += most / 2;
+            else if (is_inside(group.get(i), lo, hi))
+                count += most;
+            else
+                stack[top++] = child;
+        }
     }
     return count;
 }
 
 bool SampleTree::meets_any(const double (&lo)[3], double side) const noexcept {
+    const double hi[3] = {lo[0] + side, lo[1] + side, lo[2] + side};
     Place stack[most_stacked];
     int top = 0;
-    stack[top++] = {levels_.size() - 1, 0};
+    stack[top++] = {levels_ - 1, 0};
     while (top > 0) {
         const Place p = stack[--top];
-        const Overlap overlap = overlap_of(levels_[p.level].boxes[p.index], lo, side);
-        if (overlap == Overlap::none) continue;
-        if (overlap == Overlap::inside || p.level == 0) return true;
-        push_children(p, stack, top);
+        const FourBoxes& group = groups_[first_[p.level] + p.group];
+        const FourDistances distances(group, lo, hi);
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (!distances.meets(i)) continue;
+            if (p.level == 0 || is_inside(group.get(i), lo, hi)) return true;
+            stack[top++] = {p.level - 1, 4 * p.group + i};
+        }
     }
     return false;
 }
@@ -188,18 +234,23 @@ std::pmr::vector<Asking> choose_asking(const SampleTree& tree, std::size_t wante
         return chosen;
     }
     // By the octaves of the own size and of that of 16 neighbours; the order in a kind is that of places.
-    const auto octave = [](double size) { return size > 0 ? std::clamp(std::ilogb(size), -512, 511) : -513; };
+    const auto octave = [](double size) {
+        return static_cast<int>(std::bit_cast<std::uint64_t>(size) >> 52);
+    };
     struct Kind {
         int own, crowd;
         std::uint32_t count;
     };
     std::pmr::vector<Kind> kinds(memory);
     std::pmr::vector<std::uint32_t> kind_of(count, memory);
+    std::size_t k = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const int own = octave(tree.box(i).longest_side()), crowd = octave(tree.crowd_side(i));
-        std::size_t k = 0;
-        while (k < kinds.size() && !(kinds[k].own == own && kinds[k].crowd == crowd)) ++k;
-        if (k == kinds.size()) kinds.push_back({own, crowd, 0});
+        const auto is_same = [&](const Kind& kind) { return kind.own == own && kind.crowd == crowd; };
+        if (kinds.empty() || !is_same(kinds[k])) { // often that of the box before
+            k = static_cast<std::size_t>(std::find_if(kinds.begin(), kinds.end(), is_same) - kinds.begin());
+            if (k == kinds.size()) kinds.push_back({own, crowd, 0});
+        }
         ++kinds[k].count;
         kind_of[i] = static_cast<std::uint32_t>(k);
     }
@@ -237,10 +288,23 @@ std::pmr::vector<Asking> choose_asking(const SampleTree& tree, std::size_t wante
 
 namespace {
 
-void add_common_cells(const PlainBox& a, const PlainBox& b, double weight, PiecewiseMoments& sums) noexcept {
-    double gap[3];
-    for (int k = 0; k < 3; ++k) gap[k] = std::max(a.lo[k], b.lo[k]) - std::min(a.hi[k], b.hi[k]);
-    sums.add(std::max(std::max(gap[0], gap[1]), gap[2]), {1, 1, 1}, gap, weight);
+// Of four boxes, of which each counts `weights` times.
+void add_common_cells(const PlainBox& box, const FourBoxes& others, const double (&weights)[4],
+                      PiecewiseMoments& sums) noexcept {
+    double gap[3][4], most[4], moments[4][4];
+    for (int k = 0; k < 3; ++k)
+        for (std::size_t i = 0; i < 4; ++i)
+            gap[k][i] = std::max(box.lo[k], others.lo[k][i]) - std::min(box.hi[k], others.hi[k][i]);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double x = gap[0][i], y = gap[1][i], z = gap[2][i], w = weights[i];
+        most[i] = std::max(std::max(x, y), z);
+        moments[0][i] = w; // (1 - x/d) (1 - y/d) (1 - z/d)
+        moments[1][i] = -w * (x + y + z);
+        moments[2][i] = w * (x * y + (x + y) * z);
+        moments[3][i] = -w * (x * y * z);
+    }
+    for (std::size_t i = 0; i < 4; ++i)
+        if (weights[i] > 0) sums.add(most[i], {{moments[0][i], moments[1][i], moments[2][i], moments[3][i]}});
 }
 
 void add_neighbours(const PlainBox& a, const PlainBox& b, double weight, PiecewiseMoments& sums) noexcept {
@@ -278,16 +342,34 @@ PiecewiseMoments sum_pairs(const SampleTree& from, const std::pmr::vector<Asking
     PiecewiseMoments sums(longest > 0 ? longest : 1, memory);
     std::uint64_t random = 2;
     for (const Asking& ask : asking) {
-        const PlainBox& box = from.box(ask.index);
+        const PlainBox box = from.box(ask.index);
         const std::uint32_t id = from.id(ask.index);
         const double each = ask.weight / held.share();
-        held.sample_around(box, coarse, random, [&](std::size_t i, double weight) {
-            if (same_set && held.id(i) == id) return;
-            if (meeting == Meeting::in_cells)
-                add_common_cells(box, held.box(i), each * weight, sums);
-            else
-                add_neighbours(box, held.box(i), each * weight, sums);
-        });
+        const auto weight = [&](std::size_t i) { return same_set && held.id(i) == id ? 0 : each; };
+        const auto add = [&](const FourBoxes& others, const double(&weights)[4]) {
+            if (meeting == Meeting::in_cells) return add_common_cells(box, others, weights, sums);
+            for (std::size_t i = 0; i < 4; ++i)
+                if (weights[i] > 0) add_neighbours(box, others.get(i), weights[i], sums);
+        };
+        FourBoxes some; // those that stand for others, until there are four
+        double weights_of_some[4];
+        std::size_t count_of_some = 0;
+        held.sample_around(
+            box, coarse, random,
+            [&](std::size_t first, std::size_t count) {
+                double weights[4] = {0, 0, 0, 0};
+                for (std::size_t i = 0; i < count; ++i) weights[i] = weight(first + i);
+                add(held.four(first), weights);
+            },
+            [&](std::size_t i, double number) {
+                some.set(count_of_some, held.box(i));
+                weights_of_some[count_of_some] = number * weight(i);
+                if (++count_of_some < 4) return;
+                add(some, weights_of_some);
+                count_of_some = 0;
+            });
+        std::fill(weights_of_some + count_of_some, weights_of_some + 4, 0.0);
+        if (count_of_some > 0) add(some, weights_of_some);
     }
     sums.finish();
     return sums;

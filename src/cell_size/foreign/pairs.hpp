@@ -15,6 +15,8 @@
 #include "cell_size/foreign/primitives.hpp"
 #include "cell_size/lookups.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -31,15 +33,14 @@ public:
 
     // Adds (c[0] - s[0]/d) (c[1] - s[1]/d) (c[2] - s[2]/d) for d >= from, `weight` times.
     void add(double from, const double (&c)[3], const double (&s)[3], double weight) noexcept {
+        const double one = c[0] * s[1] + s[0] * c[1], two = s[0] * s[1], none = c[0] * c[1];
+        add(from, {{weight * none * c[2], -weight * (one * c[2] + none * s[2]),
+                    weight * (two * c[2] + one * s[2]), -weight * two * s[2]}});
+    }
+    void add(double from, const Moments& polynomial) noexcept {
         ++added_;
         const std::size_t index = class_of_ratio(from * inverse_least_, step_bits);
-        if (index >= classes) return;
-        Moments& m = sums_[index];
-        const double one = c[0] * s[1] + s[0] * c[1], two = s[0] * s[1], none = c[0] * c[1];
-        m.sum[0] += weight * none * c[2];
-        m.sum[1] -= weight * (one * c[2] + none * s[2]);
-        m.sum[2] += weight * (two * c[2] + one * s[2]);
-        m.sum[3] -= weight * two * s[2];
+        if (index < classes) sums_[index].add(polynomial);
     }
     std::uint64_t added() const noexcept { return added_; } // how often add() was called
     // Call once, after the last add(): turns each class into the sum of all up to it.
@@ -55,45 +56,76 @@ private:
     std::pmr::vector<Moments> sums_;
 };
 
+// Four boxes side by side: compilers make vectors of loops over them.
+struct FourBoxes {
+    double lo[3][4], hi[3][4];
+
+    PlainBox get(std::size_t i) const noexcept {
+        return {{lo[0][i], lo[1][i], lo[2][i]}, {hi[0][i], hi[1][i], hi[2][i]}};
+    }
+    void set(std::size_t i, const PlainBox& box) noexcept {
+        for (int a = 0; a < 3; ++a) {
+            lo[a][i] = box.lo[a];
+            hi[a][i] = box.hi[a];
+        }
+    }
+};
+
 // Boxes in an order along which neighbours are near, with the boxes of each 4, 16, 64, ... of them.
 class SampleTree {
 public:
     // Of boxes that are `share` of all there are. With `centres`, of their centres.
     SampleTree(const BoxSample& sample, bool centres, double share, std::pmr::memory_resource* memory);
 
-    std::size_t size() const noexcept { return levels_[0].boxes.size(); }
+    std::size_t size() const noexcept { return ids_.size(); }
     double share() const noexcept { return share_; }
-    const PlainBox& box(std::size_t i) const noexcept { return levels_[0].boxes[i]; }
+    PlainBox box(std::size_t i) const noexcept { return groups_[i / 4].get(i % 4); }
+    const FourBoxes& four(std::size_t first) const noexcept { return groups_[first / 4]; }
     std::uint32_t id(std::size_t i) const noexcept { return ids_[i]; }
-    const PlainBox& bounds() const noexcept { return levels_.back().boxes[0]; }
+    const PlainBox& bounds() const noexcept { return bounds_; }
     // Longest side of the box of the 16 or fewer boxes that this one is kept with.
     double crowd_side(std::size_t i) const noexcept;
 
-    // Calls visit(index, weight) for boxes of which each stands for `weight` like it: all that are near the
-    // given box, and one out of each group whose longest side is at most `coarse` times its distance, or half
-    // of the given box. Of few boxes all are visited.
-    template <class Visit>
-    void sample_around(const PlainBox& box, double coarse, std::uint64_t& random, Visit&& visit) const {
+    // Visits boxes of which each stands for a number like it: all that are near the given box, and one out of
+    // each group whose longest side is at most `coarse` times its distance or half the given box. Of few
+    // boxes all are visited. Calls four(first, count) for boxes that stand for themselves, and one(index,
+    // number) for the others.
+    template <class Four, class One>
+    void sample_around(const PlainBox& box, double coarse, std::uint64_t& random, Four&& four,
+                       One&& one) const {
         const double half = box.longest_side() / 2;
         const bool is_small = size() <= exact_size;
         Place stack[most_stacked];
         int top = 0;
-        stack[top++] = {levels_.size() - 1, 0};
+        stack[top++] = {levels_ - 1, 0};
         while (top > 0) {
             const Place p = stack[--top];
-            const PlainBox& node = levels_[p.level].boxes[p.index];
             if (p.level == 0) {
-                visit(p.index, 1.0);
+                four(4 * p.group, count_in(p));
                 continue;
             }
-            if (!is_small && node.longest_side() <= coarse * std::max(gap(node, box), half)) {
-                const std::size_t first = p.index << (2 * p.level),
-                                  last = std::min((p.index + 1) << (2 * p.level), size());
-                visit(first + static_cast<std::size_t>(next_below(random, last - first)),
-                      static_cast<double>(last - first));
-                continue;
+            const FourBoxes& group = groups_[first_[p.level] + p.group];
+            double gap[4], side[4];
+            for (std::size_t i = 0; i < 4; ++i) {
+                gap[i] = half;
+                side[i] = 0;
             }
-            push_children(p, stack, top);
+            for (int k = 0; k < 3; ++k)
+                for (std::size_t i = 0; i < 4; ++i) {
+                    const double lo = group.lo[k][i], hi = group.hi[k][i];
+                    gap[i] = std::max(gap[i], std::max(lo, box.lo[k]) - std::min(hi, box.hi[k]));
+                    side[i] = std::max(side[i], hi - lo);
+                }
+            for (std::size_t i = 0; i < count_in(p); ++i) {
+                const Place child{p.level - 1, 4 * p.group + i};
+                if (!is_small && side[i] <= coarse * gap[i]) {
+                    const std::size_t boxes = boxes_in(child);
+                    const std::uint64_t drawn = (next_random(random) >> 32) * boxes >> 32;
+                    one(first_box(child) + static_cast<std::size_t>(drawn), static_cast<double>(boxes));
+                } else {
+                    stack[top++] = child;
+                }
+            }
         }
     }
 
@@ -103,30 +135,28 @@ public:
     bool meets_any(const double (&lo)[3], double side) const noexcept;
 
 private:
-    struct Place {
-        std::size_t level, index;
-    };
-    struct Level {
-        explicit Level(std::pmr::memory_resource* memory) : boxes(memory) {}
-        std::pmr::vector<PlainBox> boxes;
+    struct Place { // a group of four boxes, each of which holds a group of the level below
+        std::size_t level, group;
     };
     static constexpr std::size_t exact_size = 256; // of so few boxes, each is looked at
-    static constexpr int most_stacked = 4 * 20;    // three of each level stay while the fourth is looked at
+    static constexpr std::size_t most_levels = 16;
+    static constexpr int most_stacked = 4 * 16; // three of each level stay while the fourth is looked at
 
-    static double gap(const PlainBox& a, const PlainBox& b) noexcept {
-        double most = std::max(a.lo[0], b.lo[0]) - std::min(a.hi[0], b.hi[0]);
-        for (int k = 1; k < 3; ++k)
-            most = std::max(most, std::max(a.lo[k], b.lo[k]) - std::min(a.hi[k], b.hi[k]));
-        return most;
+    static std::size_t first_box(const Place& p) noexcept { return p.group << (2 * (p.level + 1)); }
+    std::size_t boxes_in(const Place& p) const noexcept {
+        return std::min(size() - first_box(p), std::size_t{4} << (2 * p.level));
     }
-    void push_children(const Place& p, Place (&stack)[most_stacked], int& top) const noexcept {
-        const std::size_t below = levels_[p.level - 1].boxes.size();
-        for (std::size_t c = 4 * p.index; c < std::min(4 * p.index + 4, below); ++c)
-            stack[top++] = {p.level - 1, c};
+    // Boxes of its own level in a group.
+    std::size_t count_in(const Place& p) const noexcept {
+        const std::size_t all = p.level == 0 ? size() : first_[p.level] - first_[p.level - 1];
+        return std::min<std::size_t>(all - 4 * p.group, 4);
     }
 
-    std::pmr::vector<Level> levels_; // the boxes themselves first
+    std::size_t levels_ = 0;
+    std::array<std::size_t, most_levels + 1> first_{}; // group of each level; those of the boxes come first
+    std::pmr::vector<FourBoxes> groups_;
     std::pmr::vector<std::uint32_t> ids_;
+    PlainBox bounds_{};
     double share_;
 };
 
