@@ -60,6 +60,6 @@ if(VOX_BUILD_TESTS) # built by its own rules, which know the system
   FetchContent_GetProperties(check)
   if(NOT check_POPULATED)
     FetchContent_Populate(check)
-    add_subdirectory(${check_SOURCE_DIR} ${check_BINARY_DIR} EXCLUDE_FROM_ALL)
+    add_subdirectory(${check_SOURCE_DIR} ${check_BINARY_DIR} EXCLUDE_FROM_ALL SYSTEM)
   endif()
 endif()

@@ -10,7 +10,9 @@
 #include <string_view>
 
 #ifdef _WIN32
+#if !defined(NOMINMAX) // MinGW's C++ library defines it
 #define NOMINMAX
+#endif
 #define WIN32_LEAN_AND_MEAN
 #include <windows.h>
 
