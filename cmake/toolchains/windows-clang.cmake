@@ -8,9 +8,9 @@ set(CMAKE_CXX_COMPILER_TARGET x86_64-w64-mingw32)
 # clang does not look for gcc where Debian has it. Thread-local variables are gcc's, as in its library, which needs the one of
 # threads; lld finds that wherever it stands in the line.
 file(GLOB gcc_library /usr/lib/gcc/x86_64-w64-mingw32/*-posix)
-set(CMAKE_C_FLAGS_INIT "-nostdlibinc -isystem /usr/x86_64-w64-mingw32/include -femulated-tls")
+set(CMAKE_C_FLAGS_INIT "-nostdlibinc -isystem /usr/x86_64-w64-mingw32/include -femulated-tls -Wno-unused-command-line-argument")
 set(CMAKE_CXX_FLAGS_INIT "-nostdinc++ -nostdlibinc -isystem ${gcc_library}/include/c++ \
--isystem ${gcc_library}/include/c++/x86_64-w64-mingw32 -isystem /usr/x86_64-w64-mingw32/include -femulated-tls")
+-isystem ${gcc_library}/include/c++/x86_64-w64-mingw32 -isystem /usr/x86_64-w64-mingw32/include -femulated-tls -Wno-unused-command-line-argument")
 foreach(kind EXE SHARED MODULE)
   set(CMAKE_${kind}_LINKER_FLAGS_INIT
     "-fuse-ld=lld -B${gcc_library} -L${gcc_library} -L/usr/x86_64-w64-mingw32/lib -rtlib=libgcc -lpthread")
