@@ -52,6 +52,9 @@ static inline uint64_t float_state(void) {
 /* No flag is raised afterwards. */
 static inline void set_float_mode(const float_mode* mode) {
     (void)fesetenv(FE_DFL_ENV);
+#if defined(__x86_64__)
+    _mm_setcsr(0x1f80); /* which fesetenv of MinGW-w64 10 leaves as it is */
+#endif
     (void)fesetround(mode->rounding);
 #if defined(__x86_64__)
     _mm_setcsr((_mm_getcsr() | mode->on) & ~mode->off);
