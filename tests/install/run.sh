@@ -31,6 +31,11 @@ LD_LIBRARY_PATH=$(pkg-config --variable=libdir vox) "$scratch/consumer"
 "$cxx" -std=c++17 "$scratch/consumer_cpp.cpp" $(pkg-config --cflags --libs vox) -o "$scratch/consumer_cpp"
 LD_LIBRARY_PATH=$(pkg-config --variable=libdir vox) "$scratch/consumer_cpp"
 
+# Shared libraries have what they need linked in: nobody installs its development files to use them.
+for component in $(echo "$components" | tr ';' ' '); do
+    [ -z "$(pkg-config --print-requires-private "vox_$component")" ] || { echo "vox_$component.pc requires what is linked in"; exit 1; }
+done
+
 # What vox.pc names for static linking is all that the core needs besides itself.
 "$cc" -std=c99 -DVOX_STATIC "$scratch/consumer.c" $(pkg-config --cflags vox) "$archive" \
     $(pkg-config --static --libs vox | sed 's/-lvox\b//') -o "$scratch/consumer_static"
