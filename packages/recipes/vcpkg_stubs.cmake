@@ -1,0 +1,87 @@
+# The functions of vcpkg that the port calls, so that `cmake -P vcpkg_stubs.cmake` configures, builds and installs the port as vcpkg
+# would: DROP, PORT_DIR, WORK, VERSION and FEATURES say what. It checks what each call is given. An argument that a function of
+# vcpkg does not know is an error.
+foreach(name IN ITEMS DROP PORT_DIR WORK VERSION)
+  if(NOT DEFINED ${name})
+    message(FATAL_ERROR "vcpkg_stubs.cmake: -D${name}=...")
+  endif()
+endforeach()
+set(PORT voxtet)
+set(CURRENT_PACKAGES_DIR ${WORK}/packages)
+set(CURRENT_INSTALLED_DIR ${WORK}/installed)
+
+macro(stub_arguments one many)
+  cmake_parse_arguments(arg "" "${one}" "${many}" ${ARGN})
+  if(arg_UNPARSED_ARGUMENTS OR arg_KEYWORDS_MISSING_VALUES)
+    message(FATAL_ERROR "${CMAKE_CURRENT_FUNCTION}: ${arg_UNPARSED_ARGUMENTS} ${arg_KEYWORDS_MISSING_VALUES}")
+  endif()
+endmacro()
+
+function(stub_run)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
+endfunction()
+
+function(vcpkg_download_distfile out)
+  stub_arguments("FILENAME;SHA512" "URLS" ${ARGN})
+  file(SHA512 ${DROP} found)
+  if(NOT found STREQUAL arg_SHA512)
+    message(FATAL_ERROR "the port's checksum is not that of ${DROP}")
+  endif()
+  set(${out} ${DROP} PARENT_SCOPE)
+endfunction()
+
+function(vcpkg_extract_source_archive out)
+  stub_arguments("ARCHIVE" "" ${ARGN})
+  file(ARCHIVE_EXTRACT INPUT ${arg_ARCHIVE} DESTINATION ${WORK}/source)
+  file(GLOB folder ${WORK}/source/*)
+  set(${out} ${folder} PARENT_SCOPE)
+endfunction()
+
+function(vcpkg_check_features)
+  stub_arguments("OUT_FEATURE_OPTIONS" "FEATURES" ${ARGN})
+  set(options)
+  while(arg_FEATURES)
+    list(POP_FRONT arg_FEATURES feature option)
+    if(feature IN_LIST FEATURES)
+      list(APPEND options -D${option}=ON)
+    else()
+      list(APPEND options -D${option}=OFF)
+    endif()
+  endwhile()
+  set(${arg_OUT_FEATURE_OPTIONS} ${options} PARENT_SCOPE)
+endfunction()
+
+function(vcpkg_cmake_configure)
+  stub_arguments("SOURCE_PATH" "OPTIONS" ${ARGN})
+  stub_run(${CMAKE_COMMAND} -S ${arg_SOURCE_PATH} -B ${WORK}/build -G Ninja -DBUILD_SHARED_LIBS=OFF
+    -DCMAKE_INSTALL_PREFIX=${CURRENT_PACKAGES_DIR} -DCMAKE_INSTALL_LIBDIR=lib ${arg_OPTIONS})
+  # An option that the project does not know: CMake only says it.
+  file(STRINGS ${WORK}/build/CMakeCache.txt unknown REGEX "^VOX_[A-Z_]*:UNINITIALIZED=")
+  if(unknown)
+    message(FATAL_ERROR "the project has no such option: ${unknown}")
+  endif()
+endfunction()
+
+function(vcpkg_cmake_install)
+  stub_arguments("" "" ${ARGN})
+  stub_run(${CMAKE_COMMAND} --build ${WORK}/build)
+  stub_run(${CMAKE_COMMAND} --install ${WORK}/build)
+endfunction()
+
+function(vcpkg_cmake_config_fixup)
+  stub_arguments("PACKAGE_NAME;CONFIG_PATH" "" ${ARGN})
+  if(NOT EXISTS ${CURRENT_PACKAGES_DIR}/${arg_CONFIG_PATH}/${arg_PACKAGE_NAME}Config.cmake)
+    message(FATAL_ERROR "there is no ${arg_CONFIG_PATH}/${arg_PACKAGE_NAME}Config.cmake")
+  endif()
+endfunction()
+
+function(vcpkg_fixup_pkgconfig)
+  stub_arguments("" "" ${ARGN})
+endfunction()
+
+function(vcpkg_install_copyright)
+  stub_arguments("" "FILE_LIST" ${ARGN})
+  file(INSTALL ${arg_FILE_LIST} DESTINATION ${CURRENT_PACKAGES_DIR}/share/${PORT})
+endfunction()
+
+include(${PORT_DIR}/portfile.cmake)
