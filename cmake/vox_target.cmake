@@ -11,9 +11,10 @@ function(vox_target name)
   if(MSVC)
     target_compile_options(${name} PRIVATE /W4 $<$<BOOL:${VOX_WERROR}>:/WX> /fp:precise)
   else()
-    # No contraction into fused multiply-adds: results must not depend on compiler or instruction set.
+    # No contraction into fused multiply-adds: results must not depend on compiler or instruction set, nor on -ffast-math
+    # of a parent project or in CXXFLAGS.
     target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wconversion
-      $<$<BOOL:${VOX_WERROR}>:-Werror> -ffp-contract=off)
+      $<$<BOOL:${VOX_WERROR}>:-Werror> -fno-fast-math -ffp-contract=off)
   endif()
   if(VOX_HAS_UNALIGNED_MOVES)
     target_compile_options(${name} PRIVATE -Wa,-muse-unaligned-vector-move)
@@ -102,6 +103,7 @@ endfunction()
 # (hwy/foreach_target.h), stay apart.
 function(vox_unity name)
   if(NOT VOX_UNITY)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD OFF) # whatever CMAKE_UNITY_BUILD of a parent is
     return()
   endif()
   set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)

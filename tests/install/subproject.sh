@@ -14,6 +14,14 @@ configure parent parent
 "$cmake" --install "$scratch/parent" --prefix "$scratch/prefix" >"$scratch/log"
 [ ! -e "$scratch/prefix" ] || { echo "the parent installs what is not its own:"; find "$scratch/prefix"; exit 1; }
 
+# So it is however the parent gets it, and whatever the parent's settings are.
+configure parent fetched -DVOX_BY_FETCH="$source"
+configure parent merged -DCMAKE_UNITY_BUILD=ON -DVOX_UNITY=OFF
+if command -v git >/dev/null && git -C "$source" rev-parse --git-dir >/dev/null 2>&1 && command -v python3 >/dev/null; then
+    python3 -B "$source/packages/source_drop.py" "$scratch/drop.tar.xz" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
+    configure parent unpacked -DVOX_BY_FETCH="file://$scratch/drop.tar.xz"
+fi
+
 # Where the parent asks for it, vox is installed, and can be found.
 configure parent parent -DVOX_INSTALL=ON
 configure consumer consumer -Dvox_DIR="$scratch/parent/vox"
