@@ -1,6 +1,7 @@
 # The functions of vcpkg that the port calls, so that `cmake -P vcpkg_stubs.cmake` configures, builds and installs the port as vcpkg
 # would: DROP, PORT_DIR, WORK, VERSION and FEATURES say what. It checks what each call is given. An argument that a function of
 # vcpkg does not know is an error.
+cmake_minimum_required(VERSION 3.25)
 foreach(name IN ITEMS DROP PORT_DIR WORK VERSION)
   if(NOT DEFINED ${name})
     message(FATAL_ERROR "vcpkg_stubs.cmake: -D${name}=...")
