@@ -21,6 +21,10 @@ install(EXPORT voxTargets NAMESPACE vox:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cm
 # With vox_DIR set to it, find_package takes a build folder too.
 export(EXPORT voxTargets NAMESPACE vox::)
 
+set(VOX_IO_FINDS_XML ${VOX_IO_XML})
+if(VOX_FETCH_DEPENDENCIES OR TARGET vox_xml) # inside vox_io
+  set(VOX_IO_FINDS_XML OFF)
+endif()
 configure_package_config_file(cmake/voxConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/voxConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vox)
 # Until version 1.0 a minor version may break the ABI.
@@ -47,7 +51,7 @@ if(VOX_BUILD_IO)
     if(VOX_IO_ASSIMP)
       string(APPEND VOX_IO_PC_REQUIRES " assimp")
     endif()
-    if(VOX_IO_XML AND NOT VOX_FETCH_DEPENDENCIES)
+    if(VOX_IO_FINDS_XML)
       string(APPEND VOX_IO_PC_REQUIRES " pugixml zlib")
     endif()
   endif()

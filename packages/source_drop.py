@@ -1,15 +1,19 @@
 #!/usr/bin/env python3
 """The source drop: all that the libraries are compiled from, without a build system and without dependencies.
 
-usage: source_drop.py OUT [--core]    OUT: a folder that does not exist yet, or FILE.tar.xz. --core: without vox_io, vox_sim
+usage: source_drop.py OUT [--core | --all]    OUT: a folder that does not exist yet, or FILE.tar.xz
+--core: without vox_io and vox_sim. --all: also the tool, the reader of .vtu and the Python package; what pip takes.
 
-It holds include/, src/, CMakeLists.txt and cmake/ of this repository, LICENSE, and in third_party/ the headers that the sources
-include: Highway's and, for vox_io and vox_sim, Eigen's, with their licences. One line compiles the core:
+It holds include/, src/, CMakeLists.txt and cmake/ of this repository, LICENSE, and in third_party/ what the sources include:
+Highway's headers; for vox_io and vox_sim Eigen's; for --all those of CLI11 and nlohmann-json, and the sources of pugixml and
+zlib (from Debian's source packages, build/third_party), each with its licence. One line compiles the core, and another links a
+program with it:
 
-    c++ -std=c++20 -O3 -DNDEBUG -DVOX_STATIC -ffp-contract=off -Iinclude -Isrc -Ithird_party -c $(cat core.txt)
+    c++ -std=c++20 -O2 -DVOX_STATIC -ffp-contract=off -Iinclude -Isrc -Ithird_party -c all/core/*.cpp
+    cc -DVOX_STATIC -Iinclude program.c *.o -lstdc++ -lm -pthread
 
-`core.txt`, `io.txt` and `sim.txt` list the sources; vox_io is the one without pugixml, zlib and assimp. The same commit gives
-the same bytes wherever the same versions of Highway and Eigen are installed.
+The files of all/core, all/io and all/sim include the sources, those of a folder together, which takes half the time. CMake takes
+the drop too, and needs nothing else. The same commit gives the same bytes wherever the same versions of the others' are installed.
 """
 import argparse
 import io
@@ -23,8 +27,16 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]+(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
 # What is taken along: the folder of the headers below an include folder, and where its licence lies.
 THIRD_PARTY = {
-    "hwy": ("/usr/include", ["/usr/share/doc/libhwy-dev/copyright"]),
-    "Eigen": ("/usr/include/eigen3", ["/usr/share/doc/libeigen3-dev/copyright"]),
+    "hwy": ("/usr/include", "/usr/share/doc/libhwy-dev/copyright"),
+    "Eigen": ("/usr/include/eigen3", "/usr/share/doc/libeigen3-dev/copyright"),
+    "CLI": ("/usr/include", "/usr/share/doc/libcli11-dev/copyright"),
+    "nlohmann": ("/usr/include", "/usr/share/doc/nlohmann-json3-dev/copyright"),
+}
+# Of other libraries, what the reader of .vtu needs: the Debian source package, its files and its licence.
+SOURCES = {
+    "pugixml": (["src/pugiconfig.hpp", "src/pugixml.hpp", "src/pugixml.cpp"], "LICENSE.md"),
+    "zlib": (["adler32.c", "crc32.c", "crc32.h", "inffast.c", "inffast.h", "inffixed.h", "inflate.c", "inflate.h", "inftrees.c",
+              "inftrees.h", "uncompr.c", "zconf.h", "zlib.h", "zutil.c", "zutil.h"], "LICENSE"),
 }
 # Sources of vox_io that need libraries which are not headers alone; no_xml.cpp and no_assimp.cpp stand in for them.
 NEED_LIBRARIES = {"src/io/formats/vtu.cpp", "src/io/formats/assimp.cpp"}
@@ -62,30 +74,73 @@ def tracked(*paths):
     return [name for name in listed.stdout.decode().split("\0") if name]
 
 
-def contents(core_only):
+def debian_sources(name):
+    """The folder of a Debian source package, as its authors gave it out: in build/third_party, fetched once, as any user."""
+    base = ROOT / "build" / "third_party"
+    found = sorted(path for path in base.glob(f"{name}-*") if path.is_dir())
+    if found:
+        return found[-1]
+    for folder in ("lists/partial", "cache/archives/partial", "parts"):
+        (base / "apt" / folder).mkdir(parents=True, exist_ok=True)
+    for listed in pathlib.Path("/etc/apt").glob("sources.list*/**/*.sources"):
+        text = re.sub(r"^Types:.*$", "Types: deb-src", listed.read_text(), flags=re.MULTILINE)
+        (base / "apt/parts" / listed.name).write_text(text)
+    for listed in [pathlib.Path("/etc/apt/sources.list"), *pathlib.Path("/etc/apt/sources.list.d").glob("*.list")]:
+        if listed.is_file():
+            text = re.sub(r"^deb ", "deb-src ", listed.read_text(), flags=re.MULTILINE)
+            (base / "apt/parts" / f"{listed.stem}.list").write_text(text)
+    apt = base / "apt"
+    options = [f"-oDir::State::lists={apt}/lists", f"-oDir::Cache={apt}/cache", f"-oDir::Etc::sourceparts={apt}/parts",
+               "-oDir::Etc::sourcelist=/dev/null"]
+    log = subprocess.DEVNULL
+    subprocess.run(["apt-get", "-qq", *options, "update"], cwd=base, check=True, stdout=log)
+    subprocess.run(["apt-get", "-qq", *options, "--download-only", "source", name], cwd=base, check=True, stdout=log)
+    (archive,) = base.glob(f"{name}_*.orig.tar.*")
+    subprocess.run(["tar", "-xf", archive.name], cwd=base, check=True)
+    (folder,) = (path for path in base.glob(f"{name}-*") if path.is_dir())
+    return folder
+
+
+def compiled_together(sources):
+    """Files that include the sources: those of a folder in one, and alone those that Highway includes several times."""
+    groups = {}
+    for name, text in sources.items():
+        path = pathlib.PurePosixPath(name.removeprefix("src/"))
+        group = path.with_suffix("") if "hwy/foreach_target.h" in text else path.parent
+        groups.setdefault("_".join(group.parts), []).append(f'#include "{path}"\n')
+    return {f"{group}.cpp": "".join(lines).encode() for group, lines in groups.items()}
+
+
+def contents(core_only, everything):
     """Every file of the drop: its name, and its bytes."""
-    names = tracked("include/vox", "src", "cmake", "CMakeLists.txt", "LICENSE")
+    paths = ["include/vox", "src", "cmake", "CMakeLists.txt", "LICENSE"]
+    if everything:
+        paths += ["tools", "pyproject.toml", "bindings/python/CMakeLists.txt", "bindings/python/README.md", "bindings/python/src"]
+    names = tracked(*paths)
     if core_only:
         names = [name for name in names if not re.match(r"src/(io|sim)/|include/vox/vox_(io|sim)", name)]
     files = {name: (ROOT / name).read_bytes() for name in names}
-    sources = {part: [] for part in ("core", "io", "sim")}
-    for name in sorted(files):
-        if name.endswith(".cpp") and name not in NEED_LIBRARIES:
-            part = name.split("/")[1]
-            sources[part if part in ("io", "sim") else "core"].append(name)
-    texts = [data.decode() for name, data in files.items() if name.startswith("src/")]
-    for folder, (include_dir, licences) in THIRD_PARTY.items():
-        headers = headers_of(folder, include_dir, texts)
+    texts = {name: data.decode() for name, data in files.items() if name.startswith(("src/", "tools/"))}
+    for folder, (include_dir, licence) in THIRD_PARTY.items():
+        headers = headers_of(folder, include_dir, texts.values())
         if not headers:
-            if any(include.startswith(folder + "/") for text in texts for include in includes(text)):
+            if any(include.startswith(folder + "/") for text in texts.values() for include in includes(text)):
                 sys.exit(f"source_drop.py: no headers of {folder} in {include_dir}")
             continue
         files.update({f"third_party/{name}": data for name, data in headers.items()})
-        for licence in licences:
-            files[f"third_party/{folder}/LICENSE"] = pathlib.Path(licence).read_bytes()
-    for part, listed in sources.items():
-        if listed:
-            files[f"{part}.txt"] = "".join(f"{name}\n" for name in listed).encode()
+        files[f"third_party/{folder}/LICENSE"] = pathlib.Path(licence).read_bytes()
+    for package, (wanted, licence) in SOURCES.items() if everything else ():
+        folder = debian_sources(package)
+        for name in wanted:
+            files[f"third_party/{package}/{pathlib.PurePosixPath(name).name}"] = (folder / name).read_bytes()
+        files[f"third_party/{package}/LICENSE"] = (folder / licence).read_bytes()
+    parts = {"core": {}, "io": {}, "sim": {}}
+    for name in sorted(texts):
+        if name.startswith("src/") and name.endswith(".cpp") and name not in NEED_LIBRARIES:
+            part = name.split("/")[1]
+            parts[part if part in parts else "core"][name] = texts[name]
+    for part, sources in parts.items():
+        files.update({f"all/{part}/{name}": data for name, data in compiled_together(sources).items()})
     return files
 
 
@@ -103,10 +158,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--core", action="store_true")
+    parser.add_argument("--all", action="store_true")
     options = parser.parse_args()
     if options.out.exists():
         sys.exit(f"source_drop.py: {options.out} exists already")
-    files = contents(options.core)
+    files = contents(options.core, options.all)
     if options.out.name.endswith(".tar.xz"):
         write_tar(options.out, files)
     else:

@@ -1,7 +1,7 @@
 /* Steps built-in scenes and prints hashes of what every frame gives: contacts, and as further parts
  * penetrations, pairs and events, readings, answers of queries. The text is the same on every machine, with
  * every compiler and instruction set, engine, number of workers and format of positions: matrix.py, `./dev
- * hashes`, `./dev portability`. hashes [--engine fast|reference] [--workers N] [--doubles] [--moved] [--level
+ * hashes`, `./dev cross`. hashes [--engine fast|reference] [--workers N] [--doubles] [--moved] [--level
  * 0..3] [--cell-size FACTOR] */
 #include "portability/simd_level.h"
 #include "scenes/scenes.h"

@@ -1,7 +1,26 @@
-//! Finds the libraries: VOXTET_LIBRARY_DIR names the folders that hold libvox and, with the features io and sim, libvox_io and
-//! libvox_sim, separated as in PATH; without it pkg-config is asked. VOXTET_STATIC=1 links them statically.
+//! Compiles the libraries from vendor/, which the published crate has (packages/crate), with a C++ compiler and nothing else.
+//! Installed ones instead: VOXTET_LIBRARY_DIR names the folders that hold libvox and, with the features io and sim, libvox_io and
+//! libvox_sim, separated as in PATH; VOXTET_SYSTEM=1, or no vendor/, asks pkg-config. VOXTET_STATIC=1 links those statically.
 
-use std::{env, process::Command};
+use std::{env, path::Path, process::Command};
+
+/// The source drop in vendor/ (packages/source_drop.py), compiled as it says.
+fn compile(io: bool, sim: bool) {
+    println!("cargo:rerun-if-changed=vendor");
+    let mut build = cc::Build::new();
+    build.cpp(true).std("c++20").opt_level(3); // in debug builds too: a step is to take the time it takes
+    build.includes(["vendor/include", "vendor/src", "vendor/third_party"]).define("VOX_STATIC", None);
+    build.flag_if_supported("-ffp-contract=off").warnings(false);
+    for part in [Some("core"), io.then_some("io"), sim.then_some("sim")].into_iter().flatten() {
+        let mut files: Vec<_> = std::fs::read_dir(format!("vendor/all/{part}"))
+            .unwrap_or_else(|error| panic!("vendor/all/{part}: {error}"))
+            .map(|entry| entry.expect("a readable folder").path())
+            .collect();
+        files.sort();
+        build.files(files);
+    }
+    build.compile("vox");
+}
 
 fn main() {
     println!("cargo:rerun-if-env-changed=VOXTET_LIBRARY_DIR");
@@ -12,6 +31,12 @@ fn main() {
     }
     if env::var_os("CARGO_FEATURE_SIM").is_some() {
         names.push("vox_sim");
+    }
+    println!("cargo:rerun-if-env-changed=VOXTET_SYSTEM");
+    let is_asked_for = |name| env::var_os(name).is_some();
+    if Path::new("vendor").is_dir() && !is_asked_for("VOXTET_LIBRARY_DIR") && !is_asked_for("VOXTET_SYSTEM") {
+        compile(names.contains(&"vox_io"), names.contains(&"vox_sim"));
+        return;
     }
     let is_static = env::var("VOXTET_STATIC").is_ok_and(|value| value == "1");
     let kind = if is_static { "static" } else { "dylib" };
