@@ -35,7 +35,7 @@ THIRD_PARTY = {
 # Of other libraries, what the reader of .vtu needs: the Debian source package, its files and its licence.
 SOURCES = {
     "pugixml": (["src/pugiconfig.hpp", "src/pugixml.hpp", "src/pugixml.cpp"], "LICENSE.md"),
-    "zlib": (["adler32.c", "crc32.c", "crc32.h", "inffast.c", "inffast.h", "inffixed.h", "inflate.c", "inflate.h", "inftrees.c",
+    "zlib": (["adler32.c", "crc32.c", "crc32.h", "gzguts.h", "inffast.c", "inffast.h", "inffixed.h", "inflate.c", "inflate.h", "inftrees.c",
               "inftrees.h", "uncompr.c", "zconf.h", "zlib.h", "zutil.c", "zutil.h"], "LICENSE"),
 }
 # Sources of vox_io that need libraries which are not headers alone; no_xml.cpp and no_assimp.cpp stand in for them.

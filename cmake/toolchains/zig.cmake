@@ -21,6 +21,8 @@ foreach(language C CXX)
   set(CMAKE_${language}_ARCHIVE_APPEND "\"${VOX_ZIG}\" ar q <TARGET> <LINK_FLAGS> <OBJECTS>")
   set(CMAKE_${language}_ARCHIVE_FINISH "\"${VOX_ZIG}\" ranlib <TARGET>")
 endforeach()
+set(CMAKE_EXE_LINKER_FLAGS_INIT -s) # zig writes what debuggers want, asked or not: 20 MB
+set(CMAKE_SHARED_LINKER_FLAGS_INIT -s)
 
 # Nothing of the machine at hand, and no tool of the other one's, which installing would change paths of search with.
 set(CMAKE_FIND_ROOT_PATH /nothing)
