@@ -56,6 +56,9 @@ def build(place, names):
     if place.exists():
         shutil.rmtree(place)
     run("git", "clone", "--quiet", "--local", ROOT, place)
+    if not names or "csharp" in names:
+        wheels = subprocess.run(["packages/cross", "--wheels"], check=True, capture_output=True, text=True, cwd=ROOT).stdout
+        run("packages/cross", *wheels.split(), cwd=place) # whose libraries the C# package takes, too
     run("./dev", "packages", *names, cwd=place)
     files = {}
     for path in sorted(place.glob("build/packages/*/dist/*")):
