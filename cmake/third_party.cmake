@@ -28,7 +28,8 @@ function(vox_xml target)
   endif()
   file(GLOB sources CONFIGURE_DEPENDS ${VOX_THIRD_PARTY}/zlib/*.c)
   add_library(vox_xml OBJECT ${VOX_THIRD_PARTY}/pugixml/pugixml.cpp ${sources})
-  target_compile_definitions(vox_xml PRIVATE PUGIXML_NO_XPATH)
+  target_compile_definitions(vox_xml PRIVATE PUGIXML_NO_XPATH
+    $<$<BOOL:${APPLE}>:fdopen=fdopen>) # zlib 1.2.13 takes macOS for a system that has none
   target_compile_options(vox_xml PRIVATE $<IF:$<BOOL:${MSVC}>,/w,-w>)
   target_sources(${target} PRIVATE $<TARGET_OBJECTS:vox_xml>)
   target_include_directories(${target} SYSTEM PRIVATE ${VOX_THIRD_PARTY}/pugixml ${VOX_THIRD_PARTY}/zlib)

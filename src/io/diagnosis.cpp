@@ -11,8 +11,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cfloat>
 #include <cmath>
+#include <limits>
 
 namespace vox::io {
 namespace {
@@ -275,16 +275,18 @@ std::string warnings_of(const MeshData& data, const vox_io_report& r) {
         farthest = std::max({farthest, std::fabs(r.bounds_min[k]), std::fabs(r.bounds_max[k])});
         extent = std::max(extent, r.bounds_max[k] - r.bounds_min[k]);
     }
-    if (farthest > FLT_MAX)
+    if (farthest > std::numeric_limits<float>::max())
         say(format("coordinates reach %g, beyond single precision (%g)", farthest,
-                   static_cast<double>(FLT_MAX)));
-    else if (farthest > 0 && extent < static_cast<double>(FLT_MIN) / FLT_EPSILON)
+                   static_cast<double>(std::numeric_limits<float>::max())));
+    else if (farthest > 0 && extent < static_cast<double>(std::numeric_limits<float>::min()) /
+                                          std::numeric_limits<float>::epsilon())
         say(format("the whole mesh is %g wide, too small for single precision", extent));
     else if (extent < 1e-3 * farthest)
         say(format(
             "the mesh is %g wide but lies %g from the origin, so single precision keeps few of its digits",
             extent, farthest));
-    if (r.tets > 0 && r.degenerate_tets < r.tets && (std::isinf(r.volume) || r.volume < DBL_MIN))
+    if (r.tets > 0 && r.degenerate_tets < r.tets &&
+        (std::isinf(r.volume) || r.volume < std::numeric_limits<double>::min()))
         say("the volume does not fit a double");
     return out;
 }
