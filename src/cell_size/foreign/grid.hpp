@@ -55,8 +55,7 @@ inline ForeignBudget quick_look(const ForeignGrid& grid) noexcept {
     const std::uint64_t count = std::max(grid.held.count(), grid.those_asking().count());
     const std::uint64_t held = std::clamp<std::uint64_t>(count / 10, 2048, 8192);
     const std::uint64_t chosen = std::min<std::uint64_t>(held / 32, 128);
-    const std::size_t cells = held > 2048 ? 32 : 24;
-    return {4 * held, held, held / 4, static_cast<std::size_t>(chosen), 3, cells, 0.5};
+    return {4 * held, held, held / 4, static_cast<std::size_t>(chosen), 3, 48, 0.5};
 }
 // What that takes, about.
 inline constexpr std::size_t quick_look_bytes = std::size_t{1} << 19;
