@@ -59,7 +59,7 @@ def build(place, names):
     if not names or "csharp" in names:
         wheels = subprocess.run(["packages/cross", "--wheels"], check=True, capture_output=True, text=True, cwd=ROOT).stdout
         run("packages/cross", *wheels.split(), cwd=place) # whose libraries the C# package takes, too
-    run("./dev", "packages", *names, cwd=place)
+    run("./dev", "packages", "--required", *names, cwd=place)
     files = {}
     for path in sorted(place.glob("build/packages/*/dist/*")):
         if path.name in files:
