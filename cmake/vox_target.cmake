@@ -14,6 +14,7 @@ function(vox_target name)
     # No contraction into fused multiply-adds: results must not depend on compiler or instruction set, nor on -ffast-math
     # of a parent project or in CXXFLAGS.
     target_compile_options(${name} PRIVATE -Wall -Wextra -Wpedantic -Wconversion
+      $<$<BOOL:${EMSCRIPTEN}>:-Wno-shorten-64-to-32> # size_t has 32 bits there
       $<$<BOOL:${VOX_WERROR}>:-Werror> -fno-fast-math -ffp-contract=off)
   endif()
   if(VOX_HAS_UNALIGNED_MOVES)
@@ -36,9 +37,9 @@ endfunction()
 # What makes an overflow, should there be one, harder to exploit. The libraries read files and snapshots of strangers.
 option(VOX_HARDEN "Compile and link libraries and tool with stack protector, fortified C functions, control-flow
 protection and read-only relocations; off: where a packager's own flags say it" ON)
-if(VOX_SANITIZE OR WIN32)
+if(VOX_SANITIZE OR WIN32 OR EMSCRIPTEN)
   # The sanitizers see more. MinGW's protector is a library of its own, gcc does not compile large frames with probes of
-  # the stack there, and its linker's defaults are random addresses and no execution of data.
+  # the stack there, and its linker's defaults are random addresses and no execution of data. A WebAssembly module cannot leave its memory.
   set(VOX_HARDEN OFF)
 endif()
 if(VOX_HARDEN)
