@@ -30,12 +30,10 @@ set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
-# Libraries find each other as they will when installed. On macOS that is CMake's default, but not for it from elsewhere.
 set(CMAKE_BUILD_WITH_INSTALL_RPATH ON)
 if(CMAKE_SYSTEM_NAME STREQUAL Darwin)
-  set(CMAKE_SHARED_LIBRARY_RUNTIME_CXX_FLAG -Wl,-rpath,)
-  set(CMAKE_EXECUTABLE_RUNTIME_C_FLAG -Wl,-rpath,)
-  set(CMAKE_INSTALL_NAME_DIR @rpath)
+  # Libraries find each other as they will when installed.
   set(CMAKE_BUILD_WITH_INSTALL_NAME_DIR ON)
+  set(CMAKE_USER_MAKE_RULES_OVERRIDE ${CMAKE_CURRENT_LIST_DIR}/zig_macos.cmake)
   set(CMAKE_INSTALL_NAME_TOOL ${VOX_ZIG}) # CMake asks for one, and does not call it then
 endif()
