@@ -100,6 +100,8 @@ struct Frame {
     D origin[3], dz, shear_x, shear_y;
     M z_is_0, z_is_1;
 
+    HWY_INLINE Frame() {} // one that gcc makes by itself is not for these instructions: on Arm an error
+
     // Coordinates in the order of the frame's axes.
     HWY_INLINE void Turn(const D* v, D& x, D& y, D& z) const {
         x = hn::IfThenElse(z_is_0, v[1], hn::IfThenElse(z_is_1, v[2], v[0]));
