@@ -58,6 +58,8 @@ HWY_INLINE D LoadDoubles(const double* values) { return hn::LoadU(Doubles(), val
 
 struct VolumesOf {
     D volume[4], error[4]; // without underflow_error
+
+    HWY_INLINE VolumesOf() {} // one that gcc makes by itself is not for these instructions: on Arm an error
 };
 
 // corner_volumes() of the points from i on; `e` are the corners relative to them.
