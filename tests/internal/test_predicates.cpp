@@ -150,7 +150,7 @@ Case flattened(Random& r, Coordinate coordinate) {
 
 using Kind = Case (*)(Random&, Coordinate);
 constexpr Kind kinds[] = {independent_points, point_on_part, flattened};
-constexpr int cases_per_kind = 4000;
+constexpr int cases_per_kind = 1500;
 
 template <class Function>
 void for_each_case(Function&& function) {
@@ -198,8 +198,8 @@ START_TEST(orientation_has_the_exact_sign) {
             expected);
         ++seen[expected + 1];
     });
-    for (const int count : seen) ck_assert_int_gt(count, 10000); // the cases have every sign
-    ck_assert_uint_gt(exact_tests, 1000);                        // and the exact path was taken
+    for (const int count : seen) ck_assert_int_gt(count, cases_per_kind * 5 / 2); // the cases have every sign
+    ck_assert_uint_gt(exact_tests, cases_per_kind / 4);                        // and the exact path was taken
 }
 END_TEST
 
@@ -222,8 +222,8 @@ START_TEST(volumes_of_three_words_have_the_exact_sign) {
                                               c.corner[3].data()));
         ++seen[expected + 1];
     });
-    for (const int count : seen) ck_assert_int_gt(count, 10000);
-    ck_assert_int_gt(apart, 10000);
+    for (const int count : seen) ck_assert_int_gt(count, cases_per_kind * 5 / 2);
+    ck_assert_int_gt(apart, cases_per_kind * 5 / 2);
 }
 END_TEST
 
@@ -328,8 +328,8 @@ START_TEST(locate_is_exact) {
             ck_assert(locate_in_solid(p, q[0], q[1], q[2], q[3], exact_tests) == expected);
         ++seen[static_cast<int>(expected)];
     });
-    for (const int count : seen) ck_assert_int_gt(count, 2000);
-    ck_assert_uint_gt(exact_tests, 1000);
+    for (const int count : seen) ck_assert_int_gt(count, cases_per_kind / 2);
+    ck_assert_uint_gt(exact_tests, cases_per_kind / 4);
 }
 END_TEST
 

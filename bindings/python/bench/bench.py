@@ -177,10 +177,7 @@ def warp():
                 best = t
         found[i] = best
 
-    for cells in [14, 20, 34]:
-        positions, tets = box(cells)
-        positions += np.random.default_rng(0).uniform(-.2, .2, positions.shape).astype(np.float32) / cells
-        points = np.random.default_rng(1).uniform(0, 1, (100000, 3)).astype(np.float32)
+    def beside(positions, tets, points):
         locator = voxtet.Locator(positions, tets)
         corners = positions[tets]
         bvh = wp.Bvh(wp.array(corners.min(axis=1), dtype=wp.vec3, device="cpu"),
@@ -193,9 +190,26 @@ def warp():
                                      lambda: wp.launch(find, len(points), inputs, device="cpu")], 1, 9,
                                     time.process_time_ns)
         ours, query, theirs = ours / len(points), query / len(points), theirs / len(points)
-        other = np.count_nonzero(locator.locate(points).tet != found.numpy())
         print(f"{len(tets)} tets, us a point: locate {ours:.3f}, query_points {query:.3f}, Warp's BVH {theirs:.3f} "
-              f"({theirs / ours:.1f} and {theirs / query:.1f} times); {other} of {len(points)} found in another one")
+              f"({theirs / ours:.1f} and {theirs / query:.1f} times)", end="; ")
+        return locator.locate(points).tet, found.numpy()
+
+    for cells in [14, 20, 34]:
+        positions, tets = box(cells)
+        positions += np.random.default_rng(0).uniform(-.2, .2, positions.shape).astype(np.float32) / cells
+        points = np.random.default_rng(1).uniform(0, 1, (100000, 3)).astype(np.float32)
+        ours, theirs = beside(positions, tets, points)
+        print(f"{np.count_nonzero(ours != theirs)} of {len(points)} found in another one")
+    for cells in [16, 32]:
+        # Points on facets, exactly: multiples of 1/128.
+        positions, tets = box(cells)
+        sides = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]]
+        facets = np.random.default_rng(1).permutation(tets[:, sides].reshape(-1, 3))[:100000]
+        points = np.einsum("fcx,c->fx", positions[facets], np.array([.25, .25, .5], np.float32))
+        wrong = [np.count_nonzero((found < 0) | ~(np.sort(tets[found][:, sides], axis=2) ==
+                                                  np.sort(facets, axis=1)[:, None]).all(axis=2).any(axis=1))
+                 for found in beside(positions, tets, points)]
+        print(f"of {len(points)} points on facets {wrong[0]} and {wrong[1]} wrong")
 
 
 if __name__ == "__main__":
