@@ -1,5 +1,6 @@
 // Queries for the closest point of the surface, by branch and bound over the tree (N. Roussopoulos, S.
 // Kelley, F. Vincent, Nearest neighbor queries, SIGMOD 1995).
+#include "base/bits.hpp"
 #include "base/boxes.hpp"
 #include "base/vectors.hpp"
 #include "exact/closest_point.hpp"
@@ -17,6 +18,41 @@ void write(double (&out)[3], const Vec3d& v) noexcept {
     out[0] = v.x;
     out[1] = v.y;
     out[2] = v.z;
+}
+
+constexpr std::size_t least_points_to_sort = 256;
+constexpr std::size_t least_leaves_to_sort = 16; // below, a search costs little more than its place in a sort
+
+// The indices of the points along a Z-shaped curve, in the low 32 bits, or none where points that follow each
+// other are close together already, or too few.
+[[gnu::noinline]] std::pmr::vector<std::uint64_t>
+order_along_curve(std::span<const Vec3d> points, double max_distance, std::pmr::memory_resource* memory) {
+    std::pmr::vector<std::uint64_t> order(memory);
+    if (points.size() < least_points_to_sort) return order;
+    Vec3d low = points[0], high = low;
+    double steps = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        low = min(low, points[i]);
+        high = max(high, points[i]);
+        const Vec3d step = points[i] - points[i - 1];
+        steps += std::abs(step.x) + std::abs(step.y) + std::abs(step.z);
+    }
+    const Vec3d side = high - low;
+    // Points at random have steps of a third of the box on each axis. The facet before is no better a bound
+    // than a small max_distance.
+    const double near = (side.x + side.y + side.z) / 16;
+    if (!(steps > near * static_cast<double>(points.size())) || !(max_distance > near)) return order;
+    const double cells = 1023 / std::max({side.x, side.y, side.z}); // an axis
+    order.reserve(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec3d at = points[i] - low;
+        const auto cell = [cells](double x) {
+            return static_cast<std::uint32_t>(std::min(x * cells, 1023.0));
+        };
+        order.push_back(std::uint64_t{morton_code(cell(at.x), cell(at.y), cell(at.z))} << 32 | i);
+    }
+    std::ranges::sort(order);
+    return order;
 }
 
 } // namespace
@@ -74,8 +110,13 @@ vox_surface_hit Queries::closest(const Vec3d& p, double radius, QueryMeshes whic
 void Queries::closest_points(std::span<const Vec3d> points, double max_distance, QueryMeshes which,
                              std::pmr::memory_resource* memory, vox_closest_hit* hits) const {
     const double most = max_distance * max_distance;
+    // The facet found is the least by (distance, key) of all, as no bound is greater than the distance: what
+    // a search begins with, and so the order of points, changes its cost alone.
+    std::pmr::vector<std::uint64_t> order(memory);
+    if (leaves_.size() >= least_leaves_to_sort) order = order_along_curve(points, max_distance, memory);
     ClosestFacet closest{.squared = most};
-    for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        const std::size_t i = order.empty() ? n : static_cast<std::uint32_t>(order[n]);
         const Vec3d& p = points[i];
         const ClosestFacet before = closest;
         closest = {.squared = most};

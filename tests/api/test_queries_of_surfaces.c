@@ -577,9 +577,58 @@ START_TEST(arguments) {
 }
 END_TEST
 
+/* A batch visits its points in an order of its own; each answer must be that of a call for the point alone. The body is a
+ * lattice of cubes, and the points are on half cells, so that most have several closest facets. */
+START_TEST(batches_answer_as_single_calls) {
+    enum { cells = 12, corners = cells + 1, n = 2000 };
+    static float positions[corners * corners * corners][3];
+    static uint32_t tets[cells * cells * cells * 6][4];
+    static const uint32_t paths[6][3] = {{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}};
+    const uint32_t strides[3] = {1, corners, corners * corners};
+    uint32_t tet_count = 0;
+    for (uint32_t v = 0; v < corners * corners * corners; ++v)
+        for (int i = 0; i < 3; ++i) positions[v][i] = (float)(v / strides[i] % corners);
+    for (uint32_t c = 0; c < cells * cells * cells; ++c)
+        for (int path = 0; path < 6; ++path, ++tet_count) {
+            uint32_t v = c % cells + c / cells % cells * corners + c / (cells * cells) * corners * corners;
+            tets[tet_count][0] = v;
+            for (int i = 0; i < 3; ++i) tets[tet_count][i + 1] = v += strides[paths[path][i]];
+        }
+    vox_grid* grid = engine_grid();
+    vox_mesh_desc mesh_desc = vox_default_mesh_desc();
+    mesh_desc.positions = positions;
+    mesh_desc.vertex_count = corners * corners * corners;
+    mesh_desc.tets = tets[0];
+    mesh_desc.tet_count = tet_count;
+    vox_mesh mesh = VOX_NULL_MESH;
+    ck_ok(vox_mesh_insert(grid, &mesh_desc, &mesh));
+    ck_ok(vox_grid_prepare_queries(grid));
+    static float points[n][3];
+    static vox_closest_hit hits[n];
+    uint64_t random = 5;
+    for (int i = 0; i < n; ++i)
+        for (int c = 0; c < 3; ++c) points[i][c] = floorf(random_float(&random, -4, 2 * cells + 5)) / 2;
+    vox_closest_desc desc = vox_default_closest_desc();
+    for (int bounded = 0; bounded < 2; ++bounded) {
+        desc.max_distance = bounded ? 1 : INFINITY; /* 1: exactly as far as some points are */
+        desc.points = points;
+        desc.point_count = n;
+        ck_ok(vox_grid_query_closest_points(grid, &desc, hits));
+        desc.point_count = 1;
+        for (int i = 0; i < n; ++i) {
+            vox_closest_hit alone;
+            desc.points = points[i];
+            ck_ok(vox_grid_query_closest_points(grid, &desc, &alone));
+            ck_assert_mem_eq(&alone, &hits[i], sizeof alone);
+        }
+    }
+    vox_grid_destroy(grid);
+}
+END_TEST
+
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, closest_by_definition, rays_by_definition, closest_points_by_definition,
-                   all_hits_by_definition, normals_without_volume, arguments);
+                   all_hits_by_definition, normals_without_volume, batches_answer_as_single_calls, arguments);
 }
 
 int main(void) {

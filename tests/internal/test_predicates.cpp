@@ -199,7 +199,7 @@ START_TEST(orientation_has_the_exact_sign) {
         ++seen[expected + 1];
     });
     for (const int count : seen) ck_assert_int_gt(count, cases_per_kind * 5 / 2); // the cases have every sign
-    ck_assert_uint_gt(exact_tests, cases_per_kind / 4);                        // and the exact path was taken
+    ck_assert_uint_gt(exact_tests, cases_per_kind / 4);                           // and the exact path was taken
 }
 END_TEST
 
