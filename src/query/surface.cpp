@@ -115,8 +115,7 @@ void Queries::closest_points(std::span<const Vec3d> points, double max_distance,
     std::pmr::vector<std::uint64_t> order(memory);
     if (leaves_.size() >= least_leaves_to_sort) order = order_along_curve(points, max_distance, memory);
     ClosestFacet closest{.squared = most};
-    for (std::size_t n = 0; n < points.size(); ++n) {
-        const std::size_t i = order.empty() ? n : static_cast<std::uint32_t>(order[n]);
+    const auto answer = [&](std::size_t i) {
         const Vec3d& p = points[i];
         const ClosestFacet before = closest;
         closest = {.squared = most};
@@ -135,7 +134,10 @@ void Queries::closest_points(std::span<const Vec3d> points, double max_distance,
                                            tets.corner(closest.place, hit.facet), p, closest.seen.way));
         }
         hits[i] = hit;
-    }
+    };
+    if (order.empty())
+        for (std::size_t i = 0; i < points.size(); ++i) answer(i);
+    for (const std::uint64_t place : order) answer(static_cast<std::uint32_t>(place));
     count_inside(points, which, memory, hits);
 }
 
