@@ -17,20 +17,50 @@ namespace vox {
 
 #if defined(__GNUC__) && defined(__x86_64__)
 
-// MXCSR, and the control word of the x87, which C libraries ask for the direction of rounding.
+// MXCSR, and the control word of the x87, which C libraries ask for the direction of rounding. That of
+// MinGW-w64 also computes by the x87, so that ldexp or log2 raises flags there; elsewhere only long double
+// would, which vox does not use.
 struct FloatEnvironment {
     std::uint32_t mxcsr = 0x1f80; // the defaults: to nearest, with denormals, no traps, no flags
-    std::uint16_t x87 = 0x037f;
+    std::uint16_t x87_control = 0x037f, x87_flags = 0;
 
     static FloatEnvironment of_thread() noexcept {
         FloatEnvironment e;
-        asm volatile("stmxcsr %0\n\tfnstcw %1" : "=m"(e.mxcsr), "=m"(e.x87) : : "memory");
+        asm volatile("stmxcsr %0\n\tfnstcw %1" : "=m"(e.mxcsr), "=m"(e.x87_control) : : "memory");
+        if constexpr (x87_computes) e.x87_flags = flags_of_x87();
         return e;
     }
     void set() const noexcept { // ten times as fast as reading
-        asm volatile("ldmxcsr %0\n\tfldcw %1" : : "m"(mxcsr), "m"(x87) : "memory");
+        if constexpr (x87_computes) {
+            if (flags_of_x87() != x87_flags) set_flags_of_x87(x87_flags); // while they do not trap
+        }
+        set_control();
     }
-    static void set_default() noexcept { FloatEnvironment{}.set(); }
+    static void set_default() noexcept {
+        FloatEnvironment{}.set_control();
+    } // flags of the x87 can stay: none traps now
+
+private:
+#if defined(_WIN32)
+    static constexpr bool x87_computes = true;
+#else
+    static constexpr bool x87_computes = false; // reading its flags costs as much as all else here
+#endif
+
+    void set_control() const noexcept {
+        asm volatile("ldmxcsr %0\n\tfldcw %1" : : "m"(mxcsr), "m"(x87_control) : "memory");
+    }
+    static std::uint16_t flags_of_x87() noexcept {
+        std::uint16_t status;
+        asm volatile("fnstsw %0" : "=a"(status) : : "memory");
+        return status & 0x7f;
+    }
+    static void set_flags_of_x87(std::uint16_t flags) noexcept {
+        std::uint16_t environment[14]; // the third is the status
+        asm volatile("fnstenv %0" : "=m"(environment) : : "memory");
+        environment[2] = static_cast<std::uint16_t>((environment[2] & ~0xff) | flags);
+        asm volatile("fldenv %0" : : "m"(environment) : "memory");
+    }
 };
 
 #elif defined(__GNUC__) && defined(__aarch64__)

@@ -37,9 +37,9 @@ enum { float_mode_count = sizeof float_modes / sizeof *float_modes };
 /* Control and flags of this thread. */
 static inline uint64_t float_state(void) {
 #if defined(__x86_64__)
-    uint16_t x87;
-    __asm__ volatile("fnstcw %0" : "=m"(x87));
-    return (uint64_t)x87 << 32 | _mm_getcsr();
+    uint16_t control, status;
+    __asm__ volatile("fnstcw %0\n\tfnstsw %1" : "=m"(control), "=m"(status));
+    return (uint64_t)(status & 0x7f) << 48 | (uint64_t)control << 32 | _mm_getcsr();
 #elif defined(__aarch64__)
     uint64_t control, status;
     __asm__ volatile("mrs %0, fpcr\n\tmrs %1, fpsr" : "=r"(control), "=r"(status));

@@ -27,7 +27,8 @@ def file_name(name: str) -> str:
 def find(name: str) -> str:
     """The file to load: the package's own; else that of a folder in VOXTET_LIBRARY_DIR (a build tree, for development);
     else whatever the system finds by that name."""
-    folders = [os.path.join(_HERE, "lib"), *filter(None, os.environ.get("VOXTET_LIBRARY_DIR", "").split(os.pathsep))]
+    own = os.path.join(_HERE, "bin" if sys.platform == "win32" else "lib")  # DLLs lie beside the tool, which finds them there
+    folders = [own, *filter(None, os.environ.get("VOXTET_LIBRARY_DIR", "").split(os.pathsep))]
     for folder in folders:
         path = os.path.join(folder, file_name(name))
         if os.path.exists(path):
