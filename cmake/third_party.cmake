@@ -14,15 +14,28 @@ function(vox_headers target folder)
   endif()
 endfunction()
 
+# vox_inside(TARGET LIBRARIES...): libraries that end up within the target, headers or objects. Not linked with it: what a static
+# library links with is named in what is exported from a build folder, for others to find.
+function(vox_inside target)
+  foreach(library IN LISTS ARGN)
+    target_include_directories(${target} SYSTEM PRIVATE $<TARGET_PROPERTY:${library},INTERFACE_INCLUDE_DIRECTORIES>)
+    target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:${library},INTERFACE_COMPILE_DEFINITIONS>)
+    target_sources(${target} PRIVATE $<TARGET_PROPERTY:${library},INTERFACE_SOURCES>)
+  endforeach()
+endfunction()
+
 # vox_xml(TARGET): pugixml and zlib for it, compiled in where the drop has them.
 function(vox_xml target)
   if(NOT EXISTS ${VOX_THIRD_PARTY}/pugixml)
     find_package(pugixml REQUIRED)
     find_package(ZLIB REQUIRED)
-    if(VOX_FETCH_DEPENDENCIES) # then they are inside, and nobody needs to find them
-      target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:pugixml::pugixml> $<BUILD_INTERFACE:ZLIB::ZLIB>)
-    else()
+    if(NOT VOX_FETCH_DEPENDENCIES)
       target_link_libraries(${target} PRIVATE pugixml::pugixml ZLIB::ZLIB)
+    elseif(ZLIB_LIBRARY) # somebody's own
+      vox_inside(${target} pugixml::pugixml)
+      target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:ZLIB::ZLIB>)
+    else()
+      vox_inside(${target} pugixml::pugixml ZLIB::ZLIB)
     endif()
     return()
   endif()
