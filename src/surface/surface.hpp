@@ -1,7 +1,12 @@
-// A surface: vertices, edges and faces without tetrahedra, and the motion that it is asked about (vox_pairs.h).
+// A surface: vertices, edges and faces, with or without tetrahedra behind them, and the motion that it is
+// asked about (vox_pairs.h).
 #pragma once
 
-#include "base/scene.hpp"
+#include "base/memory.hpp"
+#include "base/parallel.hpp"
+#include "surface/motion.hpp"
+#include "surface/pairs.hpp"
+#include "surface/topology.hpp"
 
 #include <vox/vox_pairs.h>
 
@@ -11,27 +16,46 @@
 #include <span>
 #include <vector>
 
-namespace vox {
+struct vox_surface {
+public:
+    // Throws as SurfaceTopology; INVALID_ARGUMENT for the other fields.
+    vox_surface(const vox_surface_desc& desc, const vox::MemoryShare& memory);
 
-using SurfaceEdge = std::array<std::uint32_t, 2>;
-using SurfaceFace = std::array<std::uint32_t, 3>;
+    const vox::SurfaceTopology& topology() const noexcept { return topology_; }
+    const vox::MemoryShare& memory() const noexcept { return share_; }
+    vox::Workers& workers() noexcept { return workers_; }
 
-// Every vertex moves from one position to another along a straight line, at constant speed. Boxes reach
-// further by `radius`, outward to the next number of the caller's format.
-struct SurfaceMotion {
-    std::span<const Vec3d> from, to; // the same span where everything stands still
-    double radius = 0;
-    bool doubles = false; // the caller's format; else every coordinate is a float
-    bool cull = false;    // leave out pairs that stay further apart than 2 * radius
+    // Throws as vox_surface_move, and has changed nothing then.
+    void move(const vox_motion& motion);
+    // Throws INVALID_STATE before the first move().
+    const vox::SurfaceMotion& motion() const;
+    // The end of the motion, as one that stands still: for what is asked about positions.
+    vox::SurfaceMotion at_end(double radius) const;
+
+    void set_cell_size(double cell_size);
+
+    // The partners of features [first, first + count) of kind a, which exist, for any motion of this surface:
+    // as vox_surface_pairs, but all of them or, where they do not fit into the byte budget, an error. The
+    // buffers behind it are the surface's: one call at a time.
+    void find_pairs(const vox::SurfaceMotion& motion, vox_feature a, vox_feature b, std::uint32_t first,
+                    std::uint32_t count, vox::FeaturePairs& out);
+    // As many of them as fit, at least one; the answer lives until the next call or move().
+    const vox::FeaturePairs& pairs(vox_feature a, vox_feature b, std::uint64_t first, std::uint64_t count);
+
+    vox_suggestion suggest_cell_size(vox_feature a, vox_feature b);
+    vox_surface_counters counters() const;
+
+private:
+    vox::FeatureTiles& tiles_of(vox_feature feature, const vox::SurfaceMotion& motion);
+    double cell_size_for(vox_feature a, vox_feature b);
+
+    vox::MemoryShare share_; // first, as all else is released to it
+    vox::Workers workers_;
+    vox::SurfaceTopology topology_;
+    double cell_size_; // 0: chosen
+    bool has_motion_ = false;
+    std::array<std::pmr::vector<vox::Vec3d>, 2> positions_; // at time 0 and 1; the latter empty: stands still
+    vox::SurfaceMotion motion_;
+    vox::PairSearch search_;
+    vox::FeaturePairs answer_;
 };
-
-// The partners of a range of features: those of feature first + i are partners[offsets[i], offsets[i + 1]).
-struct FeaturePairs {
-    explicit FeaturePairs(std::pmr::memory_resource* memory) noexcept : offsets(memory), partners(memory) {}
-
-    std::uint64_t first = 0, count = 0;
-    std::pmr::vector<std::uint64_t> offsets;
-    std::pmr::vector<std::uint32_t> partners;
-};
-
-} // namespace vox

@@ -1,0 +1,114 @@
+// The C border of vox_pairs.h: surfaces, motion, pairs.
+
+#include "surface/surface.hpp"
+#include "base/border.hpp"
+#include "base/caller_memory.hpp"
+#include "base/memory.hpp"
+#include "base/structs.hpp"
+
+#include <cmath>
+#include <memory_resource>
+
+using namespace vox;
+
+namespace {
+
+vox_surface_desc surface_defaults() {
+    vox_surface_desc desc{};
+    desc.struct_size = sizeof desc;
+    desc.worker_count = 1;
+    desc.byte_budget = 4ull << 30;
+    return desc;
+}
+
+vox_motion motion_defaults() {
+    vox_motion motion{};
+    motion.struct_size = sizeof motion;
+    return motion;
+}
+
+void check_surface_desc(const vox_surface_desc& desc) {
+    check_allocator(desc.allocator, "allocator");
+    check_workers(desc.tasks, desc.worker_count);
+    if (!(desc.cell_size >= 0) || !std::isfinite(desc.cell_size))
+        refuse(format("cell_size is %g, expected 0 or a length", desc.cell_size));
+}
+
+} // namespace
+
+vox_result vox_surface_desc_init(vox_surface_desc* desc, uint32_t struct_size) {
+    return border([&] { init_struct(desc, struct_size, surface_defaults(), "desc"); });
+}
+
+vox_result vox_surface_create(const vox_surface_desc* desc, vox_surface** out_surface) {
+    return border([&] {
+        require(desc, "desc");
+        require(out_surface, "out_surface");
+        const vox_surface_desc settings = read_struct(desc, surface_defaults(), "desc");
+        check_surface_desc(settings);
+        constexpr std::size_t least = sizeof(GridMemory) + sizeof(vox_surface);
+        if (settings.byte_budget != 0 && settings.byte_budget < least)
+            throw Error(VOX_ERROR_BUDGET, format("an empty surface needs %zu bytes, its byte budget is %llu", least,
+                                                 static_cast<unsigned long long>(settings.byte_budget)));
+        const MemoryShare memory(settings.allocator, settings.byte_budget);
+        std::pmr::polymorphic_allocator<> allocator(&*memory);
+        *out_surface = allocator.new_object<vox_surface>(settings, memory);
+    });
+}
+
+void vox_surface_destroy(vox_surface* surface) {
+    if (!surface) return;
+    const MemoryShare memory = surface->memory();
+    std::pmr::polymorphic_allocator<> allocator(&*memory);
+    allocator.delete_object(surface);
+}
+
+vox_result vox_surface_features(const vox_surface* surface, vox_feature feature, vox_feature_view* out_view) {
+    return border(surface, "surface", [&] {
+        check_out_struct(out_view, "out_view");
+        check_enum(feature, VOX_FEATURE_FACE, "feature");
+        if (feature == VOX_FEATURE_VERTEX) refuse("feature is VOX_FEATURE_VERTEX, expected edges or faces");
+        const SurfaceTopology& topology = surface->topology();
+        vox_feature_view view{};
+        view.vertices_each = corners_of(feature);
+        view.count = topology.count(feature);
+        if (view.count > 0) view.vertices = topology.corners(feature, 0);
+        write_struct(out_view, view, "out_view");
+    });
+}
+
+vox_result vox_motion_init(vox_motion* motion, uint32_t struct_size) {
+    return border([&] { init_struct(motion, struct_size, motion_defaults(), "motion"); });
+}
+
+vox_result vox_surface_move(vox_surface* surface, const vox_motion* motion) {
+    return border(surface, "surface", [&] { surface->move(read_struct(motion, motion_defaults(), "motion")); });
+}
+
+vox_result vox_surface_pairs(vox_surface* surface, vox_feature a, vox_feature b, uint64_t first, uint64_t count,
+                             vox_pair_lists* out_lists) {
+    return border(surface, "surface", [&] {
+        check_out_struct(out_lists, "out_lists");
+        check_enum(a, VOX_FEATURE_FACE, "a");
+        check_enum(b, VOX_FEATURE_FACE, "b");
+        const FeaturePairs& pairs = surface->pairs(a, b, first, count);
+        vox_pair_lists lists{};
+        lists.first = pairs.first;
+        lists.count = pairs.count;
+        lists.pair_count = pairs.partners.size();
+        lists.offsets = pairs.offsets.data();
+        lists.partners = pairs.partners.data();
+        write_struct(out_lists, lists, "out_lists");
+    });
+}
+
+vox_result vox_surface_set_cell_size(vox_surface* surface, double cell_size) {
+    return border(surface, "surface", [&] { surface->set_cell_size(cell_size); });
+}
+
+vox_result vox_surface_get_counters(const vox_surface* surface, vox_surface_counters* out_counters) {
+    return border(surface, "surface", [&] {
+        check_out_struct(out_counters, "out_counters");
+        write_struct(out_counters, surface->counters(), "out_counters");
+    });
+}

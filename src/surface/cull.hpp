@@ -1,0 +1,44 @@
+// Pairs whose boxes overlap, but that provably stay apart: by axes that separate them during the whole motion.
+#pragma once
+
+#include "surface/motion.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace vox {
+
+// A frame in which single precision suffices for what is near a tile: coordinates are taken from its middle
+// and scaled by a power of two, so that the tile's own are at most 1.
+struct CullFrame {
+    Vec3d middle;
+    double scale;
+};
+
+// Positions of the corners of features at both ends of the motion, as floats in a frame: of each lane, for time 0,
+// then 1: corner after corner x, y, z.
+inline constexpr std::size_t cull_lanes = 64;
+struct alignas(64) CullTile {
+    float at[2][3][3][cull_lanes]; // time, corner, axis, lane
+};
+struct CullPartner {
+    float at[2][3][3];
+    float largest; // magnitude of a number, at least 1: that of the tile's
+};
+
+// Of the lanes given, those that are not proven to stay further than `apart` (in the frame) from the partner.
+using CullLanes = std::uint64_t(const CullTile& tile, unsigned corners, const CullPartner& partner,
+                                unsigned partner_corners, std::uint64_t lanes, float apart);
+
+CullLanes* cull_lanes_function() noexcept;
+
+CullFrame frame_around(const SurfaceMotion& motion, std::span<const std::uint32_t> vertices) noexcept;
+// 2 * radius in the frame, rounded up.
+float apart_in(const CullFrame& frame, const SurfaceMotion& motion) noexcept;
+void set_lane(const CullFrame& frame, const SurfaceMotion& motion, std::span<const std::uint32_t> corners,
+              std::size_t lane, CullTile& tile) noexcept;
+CullPartner partner_in(const CullFrame& frame, const SurfaceMotion& motion,
+                       std::span<const std::uint32_t> corners) noexcept;
+
+} // namespace vox

@@ -1,0 +1,179 @@
+// Tiles by recursive median splits along the longest side of the middles' box (J. L. Bentley, Multidimensional
+// binary search trees used for associative searching, CACM 18, 1975), cut so that all but the last are full.
+#include "surface/feature_tiles.hpp"
+
+#include "base/vectors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace vox {
+
+namespace {
+
+// The float before f, in the order of floats. Without a call, and without a branch.
+float float_before(float f) noexcept {
+    const std::uint32_t bits = f == 0 ? 0x80000000u : std::bit_cast<std::uint32_t>(f);
+    const std::uint32_t is_negative = bits >> 31, is_lowest = bits == 0xff800000u;
+    return std::bit_cast<float>(bits + (2 * is_negative - 1) * (1 - is_lowest));
+}
+
+// At most two floats below lower_side() for doubles, and the same as it for floats.
+float float_below(double at) noexcept { return float_before(static_cast<float>(at)); }
+
+struct Middle {
+    float at[3]; // as seen from the first vertex
+    std::uint32_t feature;
+};
+
+// A feature that is more than 4 times as large as the median one gets into tiles of its size, within a factor
+// of 4: else it would blow up the box of a tile.
+constexpr float size_ratio = 4;
+constexpr int size_classes = 12;
+
+int size_class(float size, float median) noexcept {
+    if (!(size > size_ratio * median) || !(median > 0)) return 0;
+    return std::min(size_classes - 1, 1 + static_cast<int>(std::log2(size / (size_ratio * median)) / 2));
+}
+
+void cut_into_tiles(std::span<Middle> items, std::pmr::vector<std::uint32_t>& features) {
+    if (items.size() > features_a_tile) {
+        float lo[3], hi[3];
+        for (int a = 0; a < 3; ++a) lo[a] = hi[a] = items[0].at[a];
+        for (const Middle& item : items)
+            for (int a = 0; a < 3; ++a) {
+                lo[a] = std::min(lo[a], item.at[a]);
+                hi[a] = std::max(hi[a], item.at[a]);
+            }
+        int axis = 0;
+        for (int a = 1; a < 3; ++a)
+            if (hi[a] - lo[a] > hi[axis] - lo[axis]) axis = a;
+        const std::size_t tiles = (items.size() + features_a_tile - 1) / features_a_tile;
+        const std::size_t left = tiles / 2 * features_a_tile;
+        // By number where middles are the same, so that the order never depends on how they are sorted.
+        std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(left), items.end(),
+                         [axis](const Middle& x, const Middle& y) {
+                             return x.at[axis] != y.at[axis] ? x.at[axis] < y.at[axis] : x.feature < y.feature;
+                         });
+        cut_into_tiles(items.first(left), features);
+        cut_into_tiles(items.subspan(left), features);
+        return;
+    }
+    const std::size_t first = features.size();
+    for (const Middle& item : items) features.push_back(item.feature);
+    std::sort(features.begin() + static_cast<std::ptrdiff_t>(first), features.end());
+    features.resize(first + features_a_tile, no_feature);
+}
+
+} // namespace
+
+void make_vertex_boxes(const SurfaceMotion& motion, std::pmr::vector<Box>& out) {
+    out.resize(motion.from.size());
+    const double r = motion.radius;
+    for (std::size_t v = 0; v < out.size(); ++v) {
+        const Vec3d p = motion.from[v], q = motion.to[v];
+        const Vec3d lo = min(p, q), hi = max(p, q);
+        out[v] = {{float_below(lo.x - r), float_below(lo.y - r), float_below(lo.z - r), 0},
+                  {-float_below(-hi.x - r), -float_below(-hi.y - r), -float_below(-hi.z - r), 0}};
+    }
+}
+
+void make_feature_tiles(const SurfaceTopology& topology, vox_feature feature, std::span<const Vec3d> from,
+                        FeatureTiles& out) {
+    std::pmr::memory_resource* const memory = out.features.get_allocator().resource();
+    const std::uint32_t count = topology.count(feature);
+    const unsigned corners = corners_of(feature);
+    out.tile_boxes.clear();
+    out.features.clear();
+    out.corner_count = corners;
+
+    std::pmr::vector<Middle> items(count, memory);
+    std::pmr::vector<float> sizes(count, memory);
+    const Vec3d origin = from.empty() ? Vec3d{0, 0, 0} : from[0];
+    for (std::uint32_t f = 0; f < count; ++f) {
+        const std::uint32_t* const v = feature == VOX_FEATURE_VERTEX ? &f : topology.corners(feature, f);
+        Vec3d lo = from[v[0]] - origin, hi = lo;
+        for (unsigned c = 1; c < corners; ++c) {
+            const Vec3d p = from[v[c]] - origin;
+            lo = min(lo, p);
+            hi = max(hi, p);
+        }
+        const Vec3d sides = hi - lo, middle = 0.5 * lo + 0.5 * hi;
+        items[f] = {{static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)}, f};
+        sizes[f] = static_cast<float>(std::max({sides.x, sides.y, sides.z}));
+    }
+    float median = 0;
+    if (feature != VOX_FEATURE_VERTEX && count > 0) {
+        std::pmr::vector<float> sorted(sizes, memory);
+        const auto half = sorted.begin() + count / 2;
+        std::nth_element(sorted.begin(), half, sorted.end());
+        median = *half;
+    }
+    // A counting sort by class: mostly there is one.
+    std::array<std::size_t, size_classes + 1> first{};
+    for (std::uint32_t f = 0; f < count; ++f) ++first[static_cast<std::size_t>(size_class(sizes[f], median)) + 1];
+    for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
+    out.features.reserve((count / features_a_tile + size_classes) * features_a_tile);
+    if (first[1] < count) {
+        std::pmr::vector<Middle> sorted(count, memory);
+        auto next = first;
+        for (std::uint32_t f = 0; f < count; ++f)
+            sorted[next[static_cast<std::size_t>(size_class(sizes[f], median))]++] = items[f];
+        items.swap(sorted);
+    }
+    for (std::size_t i = 0; i + 1 < first.size(); ++i)
+        if (first[i + 1] > first[i])
+            cut_into_tiles(std::span(items).subspan(first[i], first[i + 1] - first[i]), out.features);
+
+    const std::size_t slots = out.features.size();
+    out.slots.resize(count);
+    out.corners.resize(slots * corners);
+    for (std::size_t s = 0; s < slots; ++s) {
+        const std::uint32_t f = out.features[s];
+        if (f == no_feature) {
+            std::fill_n(out.corners.begin() + static_cast<std::ptrdiff_t>(s * corners), corners, 0u);
+            continue;
+        }
+        out.slots[f] = static_cast<std::uint32_t>(s);
+        const std::uint32_t* const v = feature == VOX_FEATURE_VERTEX ? &f : topology.corners(feature, f);
+        std::copy_n(v, corners, out.corners.begin() + static_cast<std::ptrdiff_t>(s * corners));
+    }
+    out.boxes.resize(slots * 6);
+    out.tile_boxes.resize(slots / features_a_tile);
+}
+
+void make_boxes(std::span<const Box> vertex_boxes, FeatureTiles& tiles) noexcept {
+    for (std::uint32_t t = 0; t < tiles.tile_count(); ++t) {
+        float* const out = tiles.boxes.data() + std::size_t{t} * 6 * features_a_tile;
+        Box all = empty_box;
+        for (std::uint32_t lane = 0; lane < features_a_tile; ++lane) {
+            const std::uint32_t slot = t * features_a_tile + lane;
+            Box box = empty_box;
+            if (tiles.features[slot] != no_feature)
+                for (const std::uint32_t v : tiles.corners_at(slot)) add(box, vertex_boxes[v]);
+            for (unsigned a = 0; a < 3; ++a) {
+                out[a * features_a_tile + lane] = box.lo[a];
+                out[(a + 3) * features_a_tile + lane] = box.hi[a];
+            }
+            add(all, box);
+        }
+        tiles.tile_boxes[t] = all;
+    }
+}
+
+double looseness_of(const FeatureTiles& tiles) noexcept {
+    double of_tiles = 0, of_features = 0;
+    const auto sides = [](float x, float y, float z) { return double{x} + double{y} + double{z}; };
+    for (std::uint32_t t = 0; t < tiles.tile_count(); ++t) {
+        const Box& box = tiles.tile_boxes[t];
+        of_tiles += sides(box.hi[0] - box.lo[0], box.hi[1] - box.lo[1], box.hi[2] - box.lo[2]);
+        const float* const b = tiles.boxes_of(t); // the first lane is never empty
+        constexpr std::size_t n = features_a_tile;
+        of_features += sides(b[3 * n] - b[0], b[4 * n] - b[n], b[5 * n] - b[2 * n]);
+    }
+    return of_features > 0 && of_tiles < 1e300 ? of_tiles / of_features : 0;
+}
+
+} // namespace vox

@@ -1,0 +1,331 @@
+// Each tile of kind a collects the features of kind b near it, ascending, and compares its own 64 boxes with
+// each of them at once. What it finds are bits; when all tiles have counted theirs, they know where their
+// lists go.
+#include "surface/pairs.hpp"
+
+#include "base/bits.hpp"
+#include "base/vectors.hpp"
+#include "surface/compare_boxes.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace vox {
+
+namespace {
+
+constexpr std::size_t word_bits = 64;
+constexpr std::size_t least_tiles = 8; // that a worker takes at once
+
+unsigned lowest_lane(std::uint64_t lanes) noexcept { return static_cast<unsigned>(std::countr_zero(lanes)); }
+
+// The float `steps` floats above f; NaN beyond the last one.
+float stepped(float f, std::int32_t steps) noexcept {
+    const auto bits = std::bit_cast<std::int32_t>(f);
+    const std::int32_t place = (bits < 0 ? std::numeric_limits<std::int32_t>::min() - bits : bits) + steps;
+    return std::bit_cast<float>(place < 0 ? std::numeric_limits<std::int32_t>::min() - place : place);
+}
+
+// The box of a feature as vox_motion.radius has it.
+struct ExactBox {
+    ExactBox(const SurfaceMotion& motion, std::span<const std::uint32_t> corners) noexcept {
+        Vec3d low = motion.from[corners[0]], high = low;
+        for (const std::uint32_t v : corners) {
+            low = min(low, min(motion.from[v], motion.to[v]));
+            high = max(high, max(motion.from[v], motion.to[v]));
+        }
+        const double r = motion.radius;
+        const bool d = motion.doubles;
+        lo = {lower_side(low.x, r, d), lower_side(low.y, r, d), lower_side(low.z, r, d)};
+        hi = {upper_side(high.x, r, d), upper_side(high.y, r, d), upper_side(high.z, r, d)};
+    }
+    bool overlaps(const ExactBox& other) const noexcept {
+        return lo.x <= other.hi.x && lo.y <= other.hi.y && lo.z <= other.hi.z && other.lo.x <= hi.x &&
+               other.lo.y <= hi.y && other.lo.z <= hi.z;
+    }
+
+    Vec3d lo, hi;
+};
+
+// How often each lane occurs in masks that are added, as 64 binary numbers side by side.
+class LaneCounts {
+public:
+    void add(std::uint64_t lanes) noexcept {
+        for (unsigned k = 0; lanes != 0; ++k) {
+            const std::uint64_t carry = digits_[k] & lanes;
+            digits_[k] ^= lanes;
+            lanes = carry;
+        }
+    }
+    std::uint32_t of(unsigned lane) const noexcept {
+        std::uint32_t count = 0;
+        for (unsigned k = 0; k < 32; ++k) count |= static_cast<std::uint32_t>(digits_[k] >> lane & 1) << k;
+        return count;
+    }
+
+private:
+    std::uint64_t digits_[33] = {};
+};
+
+} // namespace
+
+struct PairSearch::Task {
+    const SurfaceTopology& topology;
+    const SurfaceMotion& motion;
+    const FeatureTiles &a, &b;
+    bool same; // kind
+    std::uint32_t first, count;
+    CompareBoxes* compare;
+    CullLanes* cull;
+};
+
+PairSearch::PairSearch(std::pmr::memory_resource* memory) noexcept
+    : tiles_{FeatureTiles(memory), FeatureTiles(memory), FeatureTiles(memory)}, vertex_boxes_(memory),
+      grid_(memory), workers_(memory), found_of_(memory), counts_(memory) {}
+
+void PairSearch::release_buffers() noexcept {
+    const auto release = [](auto& vector) {
+        vector.clear();
+        vector.shrink_to_fit();
+    };
+    for (Worker& worker : workers_) std::apply([&](auto&... buffers) { (release(buffers), ...); }, worker.buffers());
+    release(found_of_);
+    release(counts_);
+}
+
+const FeatureTiles& PairSearch::tiles(const SurfaceTopology& topology, const SurfaceMotion& motion,
+                                      vox_feature kind) {
+    const auto k = static_cast<std::size_t>(kind);
+    const auto is_same = [](const SurfaceMotion& x, const SurfaceMotion& y) {
+        return x.from.data() == y.from.data() && x.to.data() == y.to.data() && x.radius == y.radius &&
+               x.doubles == y.doubles;
+    };
+    if (!is_same(boxes_are_of_, motion)) {
+        boxes_are_of_ = {};
+        has_boxes_ = {};
+        make_vertex_boxes(motion, vertex_boxes_);
+        boxes_are_of_ = motion;
+    }
+    FeatureTiles& tiles = tiles_[k];
+    if (has_boxes_[k]) return tiles;
+    const bool is_new = tiles.tile_count() == 0;
+    if (is_new) make_feature_tiles(topology, kind, motion.from, tiles);
+    make_boxes(vertex_boxes_, tiles);
+    const double looseness = looseness_of(tiles);
+    if (is_new) {
+        tiles.looseness = looseness;
+    } else if (looseness > 2 * tiles.looseness) { // what was close together has parted
+        make_feature_tiles(topology, kind, motion.from, tiles);
+        make_boxes(vertex_boxes_, tiles);
+        tiles.looseness = std::max(looseness / 2, looseness_of(tiles));
+    }
+    has_boxes_[k] = true;
+    return tiles;
+}
+
+double PairSearch::choose_cell_size(const FeatureTiles& a, const FeatureTiles& b) const noexcept {
+    double sum = 0;
+    std::size_t count = 0;
+    for (const FeatureTiles* tiles : {&a, &b})
+        for (const Box& box : tiles->tile_boxes) {
+            const double side = std::max({box.hi[0] - box.lo[0], box.hi[1] - box.lo[1], box.hi[2] - box.lo[2]});
+            if (!(side < 1e300)) continue;
+            sum += side;
+            ++count;
+        }
+    return sum > 0 ? sum / static_cast<double>(count) : 1;
+}
+
+void PairSearch::search_tile(const Task& task, std::uint32_t tile, Worker& worker) {
+    const FeatureTiles &a = task.a, &b = task.b;
+    const std::uint32_t* const features = a.features.data() + std::size_t{tile} * features_a_tile;
+    std::uint64_t asked = 0;
+    for (unsigned lane = 0; lane < features_a_tile; ++lane)
+        asked |= std::uint64_t{features[lane] - task.first < task.count} << lane;
+    if (asked == 0) return;
+    unsigned filled = features_a_tile; // lanes
+    while (features[filled - 1] == no_feature) --filled;
+    const std::uint32_t lowest = features[lowest_lane(asked)];
+
+    // Features of b near this tile, as bits, so that they come out ascending.
+    const Box& box = a.tile_boxes[tile];
+    const float six[6] = {box.lo[0], box.lo[1], box.lo[2], box.hi[0], box.hi[1], box.hi[2]};
+    const float* const of_tile = six;
+    std::size_t first_word = worker.listed_words.size(), last_word = 0;
+    grid_.around(box, [&](std::uint32_t other) {
+        if (worker.seen[other] == tile + 1) return;
+        worker.seen[other] = tile + 1;
+        if (!overlap(box, b.tile_boxes[other])) return;
+        ++worker.tile_pairs;
+        std::uint64_t near;
+        task.compare(b.boxes_of(other), &of_tile, 1, 1, &near);
+        const std::uint32_t* const others = b.features.data() + std::size_t{other} * features_a_tile;
+        for (; near != 0; near &= near - 1) {
+            const std::uint32_t f = others[lowest_lane(near)];
+            if (f == no_feature) break; // an endless box overlaps empty ones too
+            if (task.same && f <= lowest) continue;
+            worker.listed[f / word_bits] |= std::uint64_t{1} << f % word_bits;
+            const std::size_t word = f / (word_bits * word_bits);
+            worker.listed_words[word] |= std::uint64_t{1} << f / word_bits % word_bits;
+            first_word = std::min(first_word, word);
+            last_word = std::max(last_word, word);
+        }
+    });
+    worker.near.clear();
+    worker.boxes.clear();
+    for (std::size_t w = first_word; w <= last_word; ++w) {
+        for (std::uint64_t words = worker.listed_words[w]; words != 0; words &= words - 1) {
+            const std::size_t word = w * word_bits + lowest_lane(words);
+            for (std::uint64_t bits = worker.listed[word]; bits != 0; bits &= bits - 1) {
+                const auto f = static_cast<std::uint32_t>(word * word_bits + lowest_lane(bits));
+                worker.near.push_back(f);
+                worker.boxes.push_back(b.boxes_of(b.slots[f] / features_a_tile) + b.slots[f] % features_a_tile);
+            }
+            worker.listed[word] = 0;
+        }
+        worker.listed_words[w] = 0;
+    }
+    if (worker.near.empty()) return;
+    worker.boxes_compared += worker.near.size();
+    worker.masks.resize(worker.near.size());
+    task.compare(a.boxes_of(tile), worker.boxes.data(), features_a_tile, worker.near.size(), worker.masks.data());
+
+    const auto mark_corners = [&](bool on) {
+        for (std::uint64_t lanes = asked; lanes != 0; lanes &= lanes - 1) {
+            const unsigned lane = lowest_lane(lanes);
+            for (const std::uint32_t v : a.corners_at(tile * features_a_tile + lane))
+                worker.around[v] = on ? worker.around[v] | std::uint64_t{1} << lane : 0;
+        }
+    };
+    mark_corners(true);
+    CullFrame frame{};
+    float apart = 0;
+    bool is_framed = false;
+    const auto frame_tile = [&] {
+        const auto own = std::span(a.corners).subspan(std::size_t{tile} * features_a_tile * a.corner_count);
+        frame = frame_around(task.motion, own.first(std::size_t{filled} * a.corner_count));
+        apart = apart_in(frame, task.motion);
+        for (std::uint64_t lanes = asked; lanes != 0; lanes &= lanes - 1) {
+            const unsigned lane = lowest_lane(lanes);
+            set_lane(frame, task.motion, a.corners_at(tile * features_a_tile + lane), lane, worker.tile);
+        }
+        is_framed = true;
+    };
+    LaneCounts counts;
+    unsigned below = 0; // lanes with features below the partner
+    for (std::size_t i = 0; i < worker.near.size(); ++i) {
+        std::uint64_t lanes = worker.masks[i] & asked;
+        if (lanes == 0) continue;
+        const std::uint32_t partner = worker.near[i];
+        if (task.same) { // each pair once
+            while (below < features_a_tile && features[below] < partner) ++below;
+            if (below < features_a_tile) lanes &= (std::uint64_t{1} << below) - 1;
+        }
+        const auto corners = b.corners_at(b.slots[partner]);
+        for (const std::uint32_t v : corners) lanes &= ~worker.around[v];
+        if (lanes == 0) continue;
+        if (task.topology.has_patches())
+            for (std::uint64_t left = lanes; left != 0; left &= left - 1)
+                if (!task.topology.may_meet(a.corners_at(tile * features_a_tile + lowest_lane(left)), corners))
+                    lanes &= ~(left & -left);
+        if (task.motion.doubles && lanes != 0) {
+            // Each side of a box is less than 2 floats inside the float that bounds it.
+            const float* const from = worker.boxes[i];
+            float inner[6];
+            for (int k = 0; k < 6; ++k) inner[k] = stepped(from[k * int{features_a_tile}], k < 3 ? 4 : -4);
+            const float* const at = inner;
+            std::uint64_t certain;
+            task.compare(a.boxes_of(tile), &at, 1, 1, &certain);
+            if (const std::uint64_t unsure = lanes & ~certain; unsure != 0) {
+                const ExactBox exact(task.motion, corners);
+                for (std::uint64_t left = unsure; left != 0; left &= left - 1) {
+                    const auto own = a.corners_at(tile * features_a_tile + lowest_lane(left));
+                    if (!exact.overlaps(ExactBox(task.motion, own))) lanes &= ~(left & -left);
+                }
+            }
+        }
+        if (lanes == 0) continue;
+        worker.overlaps += bit_count(lanes);
+        if (task.motion.cull) {
+            if (!is_framed) frame_tile();
+            const std::uint64_t kept = task.cull(worker.tile, a.corner_count, partner_in(frame, task.motion, corners),
+                                                 b.corner_count, lanes, apart);
+            worker.culled += bit_count(lanes & ~kept);
+            lanes = kept;
+            if (lanes == 0) continue;
+        }
+        worker.found.push_back({lanes, partner});
+        counts.add(lanes);
+    }
+    mark_corners(false);
+    for (std::uint64_t lanes = asked; lanes != 0; lanes &= lanes - 1) {
+        const unsigned lane = lowest_lane(lanes);
+        counts_[tile * features_a_tile + lane] = counts.of(lane);
+    }
+}
+
+void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motion, vox_feature a, vox_feature b,
+                     std::uint32_t first, std::uint32_t count, double cell_size, Workers& workers,
+                     FeaturePairs& out) {
+    counters_ = {};
+    out.first = first;
+    out.count = 0;
+    out.partners.clear();
+    out.offsets.assign(std::size_t{count} + 1, 0u);
+    const FeatureTiles &tiles_a = tiles(topology, motion, a), &tiles_b = tiles(topology, motion, b);
+    out.count = count;
+    if (tiles_a.tile_count() == 0 || tiles_b.tile_count() == 0 || count == 0) return;
+    grid_.fill(tiles_b.tile_boxes, cell_size > 0 ? cell_size : choose_cell_size(tiles_a, tiles_b));
+    counters_.cell_size = grid_.cell_size();
+    counters_.cells = grid_.occupied();
+
+    workers_.grow(workers.count());
+    const std::size_t words = topology.count(b) / word_bits + 1;
+    for (Worker& worker : workers_) {
+        worker.seen.assign(tiles_b.tile_count(), 0u);
+        worker.listed.assign(words, 0u);
+        worker.listed_words.assign(words / word_bits + 1, 0u);
+        worker.around.assign(topology.vertex_count, 0u);
+        worker.found.clear();
+        worker.tile_pairs = worker.boxes_compared = worker.overlaps = worker.culled = 0;
+    }
+    counts_.assign(tiles_a.features.size(), 0u);
+    found_of_.resize(tiles_a.tile_count());
+    const Task task{topology, motion, tiles_a, tiles_b, a == b, first, count, compare_boxes(), cull_lanes_function()};
+    workers.for_ranges(tiles_a.tile_count(), least_tiles, [&](std::size_t begin, std::size_t end, std::uint32_t w) {
+        Worker& worker = workers_[w];
+        for (std::size_t t = begin; t < end; ++t) {
+            const std::uint64_t before = worker.found.size();
+            search_tile(task, static_cast<std::uint32_t>(t), worker);
+            found_of_[t] = {w, before, worker.found.size() - before};
+        }
+    });
+    for (const Worker& worker : workers_) {
+        counters_.tile_pairs += worker.tile_pairs;
+        counters_.boxes_compared += worker.boxes_compared;
+        counters_.overlaps += worker.overlaps;
+        counters_.culled += worker.culled;
+    }
+    for (std::uint32_t i = 0; i < count; ++i)
+        out.offsets[i + 1] = out.offsets[i] + counts_[tiles_a.slots[first + i]];
+    out.partners.resize(static_cast<std::size_t>(out.offsets[count]));
+    workers.for_ranges(tiles_a.tile_count(), least_tiles, [&](std::size_t begin, std::size_t end, std::uint32_t) {
+        for (std::size_t t = begin; t < end; ++t) {
+            const TileFound& of = found_of_[t];
+            if (of.count == 0) continue;
+            std::uint32_t* next[features_a_tile];
+            for (unsigned lane = 0; lane < features_a_tile; ++lane) {
+                const std::uint32_t f = tiles_a.features[t * features_a_tile + lane];
+                next[lane] = f - first < count ? out.partners.data() + out.offsets[f - first] : nullptr;
+            }
+            const Found* const found = workers_[of.worker].found.data() + of.first;
+            for (std::size_t i = 0; i < of.count; ++i)
+                for (std::uint64_t lanes = found[i].lanes; lanes != 0; lanes &= lanes - 1)
+                    *next[lowest_lane(lanes)]++ = found[i].partner;
+        }
+    });
+    workers_.level();
+}
+
+} // namespace vox

@@ -1,0 +1,97 @@
+// Pairs of features whose boxes overlap: tiles of one kind against a grid of tiles of the other, 64 boxes
+// against one at once.
+#pragma once
+
+#include "base/parallel.hpp"
+#include "base/per_worker.hpp"
+#include "surface/cull.hpp"
+#include "surface/feature_tiles.hpp"
+#include "surface/motion.hpp"
+#include "surface/tile_grid.hpp"
+#include "surface/topology.hpp"
+
+#include <vox/vox_pairs.h>
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <tuple>
+#include <vector>
+
+namespace vox {
+
+// The partners of a range of features: those of feature first + i are partners[offsets[i]] to
+// partners[offsets[i + 1] - 1], ascending.
+struct FeaturePairs {
+    explicit FeaturePairs(std::pmr::memory_resource* memory) noexcept : offsets(memory), partners(memory) {}
+
+    std::uint64_t first = 0, count = 0;
+    std::pmr::vector<std::uint64_t> offsets;
+    std::pmr::vector<std::uint32_t> partners;
+};
+
+struct PairCounters {
+    double cell_size = 0;
+    std::uint64_t cells = 0, tile_pairs = 0, boxes_compared = 0, overlaps = 0, culled = 0;
+};
+
+class PairSearch {
+public:
+    explicit PairSearch(std::pmr::memory_resource* memory) noexcept;
+
+    // All partners of features [first, first + count) of kind a. `cell_size` 0: chosen.
+    void run(const SurfaceTopology& topology, const SurfaceMotion& motion, vox_feature a, vox_feature b,
+             std::uint32_t first, std::uint32_t count, double cell_size, Workers& workers, FeaturePairs& out);
+
+    // The tiles of a kind, with the boxes of this motion.
+    const FeatureTiles& tiles(const SurfaceTopology& topology, const SurfaceMotion& motion, vox_feature kind);
+    // The positions behind the motion that was asked about last have changed.
+    void forget_boxes() noexcept { boxes_are_of_ = {}; }
+    // Gives back all memory but the tiles.
+    void release_buffers() noexcept;
+
+    const PairCounters& counters() const noexcept { return counters_; }
+
+private:
+    // A feature of kind b and the lanes of a tile of kind a that it makes a pair with.
+    struct Found {
+        std::uint64_t lanes;
+        std::uint32_t partner;
+    };
+    struct Worker {
+        explicit Worker(std::pmr::memory_resource* memory)
+            : seen(memory), listed(memory), listed_words(memory), near(memory), boxes(memory), masks(memory),
+              around(memory), found(memory) {}
+        auto buffers() { return std::tie(seen, listed, listed_words, near, boxes, masks, around, found); }
+
+        std::pmr::vector<std::uint32_t> seen; // of each tile of b: 1 + the last tile of a that met it
+        std::pmr::vector<std::uint64_t> listed, listed_words; // features of b as bits, words of these as bits
+        std::pmr::vector<std::uint32_t> near;                 // features of b near a tile, ascending
+        std::pmr::vector<const float*> boxes;                 // of these
+        std::pmr::vector<std::uint64_t> masks;                // and the lanes that they overlap
+        std::pmr::vector<std::uint64_t> around;               // of each vertex: the lanes that it is a corner of
+        std::pmr::vector<Found> found;
+        CullTile tile; // of the tile, where pairs are culled
+        std::uint64_t tile_pairs = 0, boxes_compared = 0, overlaps = 0, culled = 0;
+    };
+    struct TileFound {
+        std::uint32_t worker;
+        std::uint64_t first, count;
+    };
+    struct Task;
+
+    void search_tile(const Task& task, std::uint32_t tile, Worker& worker);
+    double choose_cell_size(const FeatureTiles& a, const FeatureTiles& b) const noexcept;
+
+    std::array<FeatureTiles, feature_kinds> tiles_;
+    std::array<bool, feature_kinds> has_boxes_{};
+    SurfaceMotion boxes_are_of_;
+    std::pmr::vector<Box> vertex_boxes_;
+    TileGrid grid_;
+    PerWorker<Worker> workers_;
+    std::pmr::vector<TileFound> found_of_;
+    std::pmr::vector<std::uint32_t> counts_; // of each slot of a: its partners
+    PairCounters counters_;
+};
+
+} // namespace vox

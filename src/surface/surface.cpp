@@ -1,0 +1,103 @@
+#include "surface/surface.hpp"
+
+#include "base/error.hpp"
+#include "mesh/check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace vox;
+
+vox_surface::vox_surface(const vox_surface_desc& desc, const MemoryShare& memory)
+    : share_(memory), workers_(desc.tasks, desc.worker_count), topology_(desc, &*memory),
+      cell_size_(desc.cell_size),
+      positions_{std::pmr::vector<Vec3d>(&*memory), std::pmr::vector<Vec3d>(&*memory)}, search_(&*memory),
+      answer_(&*memory) {}
+
+void vox_surface::move(const vox_motion& motion) {
+    const std::uint32_t count = topology_.vertex_count;
+    check_format(motion.format, "");
+    require(motion.from, "from");
+    if (motion.flags & ~std::uint32_t{VOX_MOTION_CULL})
+        refuse(format("flags is %u, expected vox_motion_flags", motion.flags));
+    if (!(motion.radius >= 0)) refuse(format("radius is %g, expected 0 or a length", motion.radius));
+    const auto view = [&](const void* data) {
+        return check_positions(data, motion.format, motion.byte_stride, motion.component_byte_stride, count, "");
+    };
+    // All that can fail comes first: copies, which are then swapped in.
+    std::array<std::pmr::vector<Vec3d>, 2> copies{std::pmr::vector<Vec3d>(&*share_),
+                                                  std::pmr::vector<Vec3d>(&*share_)};
+    const auto copy = [&](const void* data, const char* name, std::pmr::vector<Vec3d>& out) {
+        const Positions positions = view(data);
+        out.resize(count);
+        for (std::uint32_t v = 0; v < count; ++v) {
+            const Vec3d p = out[v] = positions.exact(v);
+            const auto is_good = [](double x) { return std::isfinite(static_cast<float>(x)); };
+            if (!is_good(p.x) || !is_good(p.y) || !is_good(p.z))
+                throw Error(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)
+                                ? VOX_ERROR_LIMIT
+                                : VOX_ERROR_NON_FINITE,
+                            format("%s: vertex %u is at %g, %g, %g", name, v, p.x, p.y, p.z));
+        }
+    };
+    copy(motion.from, "from", copies[0]);
+    if (motion.to) copy(motion.to, "to", copies[1]);
+    positions_.swap(copies);
+    motion_ = {positions_[0], motion.to ? positions_[1] : positions_[0], motion.radius,
+               motion.format == VOX_FORMAT_DOUBLE3, (motion.flags & VOX_MOTION_CULL) != 0};
+    has_motion_ = true;
+    search_.forget_boxes();
+    answer_.count = 0;
+}
+
+const SurfaceMotion& vox_surface::motion() const {
+    if (!has_motion_) throw Error(VOX_ERROR_INVALID_STATE, "the surface has no positions yet: call vox_surface_move");
+    return motion_;
+}
+
+SurfaceMotion vox_surface::at_end(double radius) const {
+    const SurfaceMotion& moving = motion();
+    return {moving.to, moving.to, radius, moving.doubles, false};
+}
+
+void vox_surface::set_cell_size(double cell_size) {
+    if (!(cell_size >= 0) || !std::isfinite(cell_size))
+        refuse(format("cell_size is %g, expected 0 or a length", cell_size));
+    cell_size_ = cell_size;
+}
+
+void vox_surface::find_pairs(const SurfaceMotion& motion, vox_feature a, vox_feature b, std::uint32_t first,
+                             std::uint32_t count, FeaturePairs& out) {
+    search_.run(topology_, motion, a, b, first, count, cell_size_, workers_, out);
+}
+
+const FeaturePairs& vox_surface::pairs(vox_feature a, vox_feature b, std::uint64_t first, std::uint64_t count) {
+    const SurfaceMotion& moving = motion();
+    const std::uint64_t all = topology_.count(a);
+    if (first > all) refuse(format("first is %llu of %llu", static_cast<unsigned long long>(first), static_cast<unsigned long long>(all)));
+    for (std::uint64_t wanted = std::min(count, all - first);; wanted = (wanted + 1) / 2) {
+        try {
+            find_pairs(moving, a, b, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(wanted), answer_);
+            return answer_;
+        } catch (const Error& error) {
+            if (error.result() != VOX_ERROR_BUDGET || wanted <= 1) throw;
+            search_.release_buffers(); // grown for more than there is room for
+            answer_ = FeaturePairs(&*share_);
+        }
+    }
+}
+
+vox_surface_counters vox_surface::counters() const {
+    const PairCounters& last = search_.counters();
+    vox_surface_counters out{};
+    out.struct_size = sizeof out;
+    out.cell_size = last.cell_size;
+    out.cells = last.cells;
+    out.tile_pairs = last.tile_pairs;
+    out.boxes_compared = last.boxes_compared;
+    out.overlaps = last.overlaps;
+    out.culled = last.culled;
+    out.bytes = share_->bytes();
+    out.peak_bytes = share_->peak_bytes();
+    return out;
+}

@@ -1,0 +1,247 @@
+// Pairs of surface features against loops over all of them, in the numbers of the caller's format.
+#include "base/simd.hpp"
+#include "internal/random.hpp"
+
+#include <vox/vox_pairs.h>
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "support/suite.h" // last: it defines macros with common names
+
+using namespace vox;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Scene {
+    std::uint32_t vertex_count = 0;
+    std::vector<std::uint32_t> edges, faces, patches;
+    std::vector<std::uint64_t> categories, masks;
+    std::vector<double> from, to; // rounded to floats where the format is
+    bool doubles = false, moves = false, columns = false, no_edges_given = false;
+    double radius = 0;
+
+    std::uint32_t count(int kind) const {
+        return kind == 0 ? vertex_count : std::uint32_t(kind == 1 ? edges.size() / 2 : faces.size() / 3);
+    }
+    std::vector<std::uint32_t> corners(int kind, std::uint32_t i) const {
+        if (kind == 0) return {i};
+        const auto& all = kind == 1 ? edges : faces;
+        return {all.begin() + (kind + 1) * i, all.begin() + (kind + 1) * (i + 1)};
+    }
+};
+
+struct TestBox {
+    double lo[3], hi[3];
+};
+
+// As vox_motion.radius has it.
+TestBox box_of(const Scene& s, int kind, std::uint32_t i) {
+    TestBox box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+    for (const std::uint32_t v : s.corners(kind, i))
+        for (int a = 0; a < 3; ++a)
+            for (const std::vector<double>* at : {&s.from, &s.to}) {
+                if (at == &s.to && !s.moves) continue;
+                const double x = (*at)[3 * v + std::uint32_t(a)];
+                const double lo = s.doubles ? std::nextafter(x - s.radius, -infinity)
+                                            : double{std::nextafter(float(x - s.radius), -float(infinity))};
+                const double hi = s.doubles ? std::nextafter(x + s.radius, infinity)
+                                            : double{std::nextafter(float(x + s.radius), float(infinity))};
+                box.lo[a] = std::min(box.lo[a], lo);
+                box.hi[a] = std::max(box.hi[a], hi);
+            }
+    return box;
+}
+
+bool make_a_pair(const Scene& s, int a, std::uint32_t i, const TestBox& p, int b, std::uint32_t j, const TestBox& q) {
+    for (int k = 0; k < 3; ++k)
+        if (!(p.lo[k] <= q.hi[k] && q.lo[k] <= p.hi[k])) return false;
+    bool may_meet = s.patches.empty();
+    for (const std::uint32_t v : s.corners(a, i))
+        for (const std::uint32_t w : s.corners(b, j)) {
+            if (v == w) return false;
+            if (s.patches.empty()) continue;
+            const std::uint32_t x = s.patches[v], y = s.patches[w];
+            may_meet |= (s.categories[x] & s.masks[y]) != 0 && (s.categories[y] & s.masks[x]) != 0;
+        }
+    return may_meet;
+}
+
+std::vector<std::vector<std::uint32_t>> by_definition(const Scene& s, int a, int b) {
+    std::vector<std::vector<std::uint32_t>> lists(s.count(a));
+    std::vector<TestBox> boxes;
+    for (std::uint32_t j = 0; j < s.count(b); ++j) boxes.push_back(box_of(s, b, j));
+    for (std::uint32_t i = 0; i < s.count(a); ++i) {
+        const TestBox box = box_of(s, a, i);
+        for (std::uint32_t j = a == b ? i + 1 : 0; j < s.count(b); ++j)
+            if (make_a_pair(s, a, i, box, b, j, boxes[j])) lists[i].push_back(j);
+    }
+    return lists;
+}
+
+// Positions as the caller has them: floats or doubles, rows or columns.
+struct CallerPositions {
+    CallerPositions(const Scene& s, const std::vector<double>& from) {
+        const std::size_t size = s.doubles ? 8 : 4, n = s.vertex_count;
+        bytes.resize(from.size() * size);
+        for (std::size_t v = 0; v < n; ++v)
+            for (std::size_t c = 0; c < 3; ++c) {
+                const std::size_t at = s.columns ? c * n + v : 3 * v + c;
+                const double x = from[3 * v + c];
+                const float f = float(x);
+                if (s.doubles)
+                    std::memcpy(bytes.data() + at * size, &x, size);
+                else
+                    std::memcpy(bytes.data() + at * size, &f, size);
+            }
+    }
+    std::vector<char> bytes;
+};
+
+vox_surface* surface_of(const Scene& s, std::uint32_t workers, double cell_size, std::uint64_t budget) {
+    vox_surface_desc desc = vox_default_surface_desc();
+    desc.worker_count = workers;
+    desc.vertex_count = s.vertex_count;
+    desc.edge_count = s.no_edges_given ? 0 : s.edges.size() / 2;
+    desc.face_count = s.faces.size() / 3;
+    desc.edges = s.no_edges_given ? nullptr : s.edges.data();
+    desc.faces = s.faces.data();
+    if (!s.patches.empty()) {
+        desc.patches = s.patches.data();
+        desc.patch_categories = s.categories.data();
+        desc.patch_masks = s.masks.data();
+        desc.patch_count = s.categories.size();
+    }
+    desc.cell_size = cell_size;
+    desc.byte_budget = budget;
+    vox_surface* surface = nullptr;
+    ck_assert_msg(vox_surface_create(&desc, &surface) == VOX_OK, "%s", vox_last_error());
+    return surface;
+}
+
+void move(vox_surface* surface, const Scene& s, std::uint32_t flags = 0) {
+    const CallerPositions from(s, s.from), to(s, s.to);
+    vox_motion motion = vox_default_motion();
+    motion.flags = flags;
+    motion.from = from.bytes.data();
+    motion.to = s.moves ? to.bytes.data() : nullptr;
+    motion.format = s.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
+    if (s.columns) {
+        motion.byte_stride = s.doubles ? 8 : 4;
+        motion.component_byte_stride = motion.byte_stride * s.vertex_count;
+    }
+    motion.radius = s.radius;
+    ck_assert_msg(vox_surface_move(surface, &motion) == VOX_OK, "%s", vox_last_error());
+}
+
+// All lists of a kind, asked for in as many pieces as it takes.
+std::vector<std::vector<std::uint32_t>> asked(vox_surface* surface, int a, int b, std::uint64_t step = ~0ull) {
+    std::vector<std::vector<std::uint32_t>> lists;
+    for (;;) {
+        vox_pair_lists view{};
+        view.struct_size = sizeof view;
+        ck_assert_msg(vox_surface_pairs(surface, vox_feature(a), vox_feature(b), lists.size(), step, &view) == VOX_OK,
+                      "%s", vox_last_error());
+        ck_assert_uint_eq(view.first, lists.size());
+        ck_assert_uint_eq(view.offsets[view.count], view.pair_count);
+        if (view.count == 0) return lists;
+        for (std::uint64_t i = 0; i < view.count; ++i)
+            lists.emplace_back(view.partners + view.offsets[i], view.partners + view.offsets[i + 1]);
+    }
+}
+
+// A number that others often have too, so that boxes touch, or differ in the last place.
+double coordinate(Random& random, bool doubles, double scale) {
+    double x = scale * double(random.below(9)) / 8;
+    if (random.below(3) == 0) x += scale * random.unit() / 4;
+    if (random.below(4) == 0) x = doubles ? std::nextafter(x, infinity) : double{std::nextafter(float(x), 1e30f)};
+    return doubles ? x : double{float(x)};
+}
+
+Scene random_scene(Random& random) {
+    Scene s;
+    s.vertex_count = 1 + std::uint32_t(random.below(random.below(4) == 0 ? 400 : 40));
+    s.doubles = random.below(2) == 0;
+    s.moves = random.below(2) == 0;
+    s.columns = s.vertex_count > 1 && random.below(3) == 0;
+    const double scale = random.below(8) == 0 ? 1e-30 : random.below(8) == 0 ? 1e30 : 1;
+    s.radius = random.below(3) == 0 ? 0 : random.below(20) == 0 ? infinity : scale * random.unit() / 16;
+    for (std::uint32_t i = 0; i < 3 * s.vertex_count; ++i) s.from.push_back(coordinate(random, s.doubles, scale));
+    for (const double x : s.from)
+        s.to.push_back(random.below(3) == 0 ? coordinate(random, s.doubles, scale) : x);
+    const auto vertex = [&] { return std::uint32_t(random.below(s.vertex_count)); };
+    for (std::uint64_t i = random.below(2 * s.vertex_count + 1); i > 0; --i) {
+        const std::uint32_t v = vertex();
+        s.edges.insert(s.edges.end(), {v, random.below(3) == 0 ? vertex() : std::min(v + 1, s.vertex_count - 1)});
+    }
+    for (std::uint64_t i = random.below(2 * s.vertex_count + 1); i > 0; --i) {
+        const std::uint32_t v = vertex(), w = std::min(v + 1, s.vertex_count - 1);
+        s.faces.insert(s.faces.end(), {v, random.below(9) == 0 ? vertex() : w, std::min(w + 1, s.vertex_count - 1)});
+    }
+    if (s.edges.empty()) { // those of the faces, then
+        s.no_edges_given = true;
+        std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+        for (std::size_t f = 0; f < s.faces.size(); f += 3)
+            for (std::size_t i = 0; i < 3; ++i)
+                edges.insert(std::minmax({s.faces[f + i], s.faces[f + (i + 1) % 3]}));
+        for (const auto& [v, w] : edges) s.edges.insert(s.edges.end(), {v, w});
+    }
+    if (random.below(3) == 0) {
+        const std::uint32_t patches = 1 + random.below(4);
+        for (std::uint64_t p = 0; p < patches; ++p) {
+            s.categories.push_back(std::uint64_t{1} << random.below(3));
+            s.masks.push_back(random.below(8));
+        }
+        const std::uint32_t run = 1 + random.below(20);
+        for (std::uint32_t v = 0; v < s.vertex_count; ++v)
+            s.patches.push_back(std::uint32_t(run < 10 ? v / run % patches : random.below(std::uint32_t(patches))));
+    }
+    return s;
+}
+
+std::uint64_t scenes_wanted() {
+    const char* wanted = std::getenv("VOX_SURFACE_SCENES");
+    return wanted ? std::strtoull(wanted, nullptr, 10) : 600;
+}
+
+START_TEST(pairs_are_those_whose_boxes_overlap) {
+    Random random(1);
+    std::uint64_t pairs = 0;
+    for (std::uint64_t n = 0; n < scenes_wanted(); ++n) {
+        const Scene s = random_scene(random);
+        simd::force_level(static_cast<simd::Level>(random.below(4)));
+        const double cell_size = random.below(2) == 0 ? 0 : std::pow(10.0, double(random.below(12)) - 6);
+        const auto workers = std::uint32_t(1 + random.below(8));
+        vox_surface* const surface = surface_of(s, workers, cell_size, 1u << 30);
+        move(surface, s);
+        for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < 3; ++b) {
+                const auto expected = by_definition(s, a, b);
+                const auto found = asked(surface, a, b, random.below(2) == 0 ? ~0ull : 1 + random.below(50));
+                ck_assert_msg(found == expected, "scene %llu, kinds %d and %d", static_cast<unsigned long long>(n), a, b);
+                for (const auto& list : found) pairs += list.size();
+            }
+        vox_surface_destroy(surface);
+    }
+    simd::force_level(simd::best_level());
+    ck_assert_uint_gt(pairs, 1000);
+}
+END_TEST
+
+} // namespace
+
+int main() {
+    Suite* suite = suite_create("surface_pairs");
+    TCase* tests = add_case(suite, "surface_pairs");
+    tcase_add_each(tests, pairs_are_those_whose_boxes_overlap);
+    return run_suite(suite);
+}
