@@ -6,10 +6,11 @@
 
 namespace vox {
 
-// `tile` is 6 * 64 floats, as in FeatureTiles::boxes. Bit k of the result: lane k overlaps the box, whose six
-// numbers are `stride` floats apart, low x, y, z, then high x, y, z.
+// `tile` is 6 * 64 floats, as in FeatureTiles::boxes. Bit k of masks[i]: lane k overlaps box i, whose six numbers are
+// `stride` floats apart, low x, y, z, then high x, y, z. Bit k of close[i]: but by no more than `close_by` along some axis.
+// Empty lanes have any bits.
 using CompareBoxes = void(const float* tile, const float* const* boxes, std::size_t stride, std::size_t count,
-                          std::uint64_t* masks);
+                          float close_by, std::uint64_t* masks, std::uint64_t* close);
 
 // For the instructions of this machine.
 CompareBoxes* compare_boxes() noexcept;

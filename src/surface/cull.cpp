@@ -162,75 +162,96 @@ HWY_INLINE CV3 Between(const CV3* a, const CV3* b) {
         return CSub(MiddleOf<kA>(a), MiddleOf<kB>(b));
 }
 
+// The axes, the most promising one first.
 template <int kA, int kB>
-HWY_INLINE CM StayApart(const CullPair<kA, kB>& pair) {
-    CM apart = hn::Or(pair.StayApart(Between<kA, kB>(pair.a[0], pair.b[0])),
-                      pair.StayApart(Between<kA, kB>(pair.a[1], pair.b[1])));
-    // Halfway, for what passes by.
-    CV3 a[kA], b[kB];
-    for (int i = 0; i < kA; ++i) a[i] = CAddScaled(pair.a[0][i], CSet(1), pair.a[1][i]);
-    for (int j = 0; j < kB; ++j) b[j] = CAddScaled(pair.b[0][j], CSet(1), pair.b[1][j]);
-    apart = hn::Or(apart, pair.StayApart(Between<kA, kB>(a, b)));
-    if constexpr (kA >= 2 && kB >= 2) {
-        // The axes of two polygons: their normals, and products of an edge of each.
-        for (int i = 0; i < (kA == 2 ? 1 : 3); ++i)
-            for (int j = 0; j < (kB == 2 ? 1 : 3); ++j)
-                apart = hn::Or(apart, pair.StayApart(CCross(CSub(pair.a[0][(i + 1) % kA], pair.a[0][i]),
-                                                            CSub(pair.b[0][(j + 1) % kB], pair.b[0][j]))));
-    }
-    if constexpr (kA == 3)
-        apart = hn::Or(apart, pair.StayApart(CCross(CSub(pair.a[0][1], pair.a[0][0]),
-                                                    CSub(pair.a[0][2], pair.a[0][0]))));
-    if constexpr (kB == 3)
-        apart = hn::Or(apart, pair.StayApart(CCross(CSub(pair.b[0][1], pair.b[0][0]),
-                                                    CSub(pair.b[0][2], pair.b[0][0]))));
-    return apart;
-}
+struct CullAxes {
+    static constexpr int kEdgesA = kA == 3 ? 3 : kA - 1, kEdgesB = kB == 3 ? 3 : kB - 1; // each without a repetition
+    static constexpr int kProducts = kEdgesA * kEdgesB, kCount = 3 + kProducts + (kA == 3) + (kB == 3);
 
+    static HWY_INLINE CV3 Normal(const CV3* c) { return CCross(CSub(c[1], c[0]), CSub(c[2], c[0])); }
+
+    static HWY_INLINE CV3 At(int axis, const CullPair<kA, kB>& pair) {
+        if (axis < 2) return Between<kA, kB>(pair.a[axis], pair.b[axis]);
+        if (axis == 2) { // halfway, for what passes by
+            CV3 a[kA], b[kB];
+            for (int i = 0; i < kA; ++i) a[i] = CAddScaled(pair.a[0][i], CSet(1), pair.a[1][i]);
+            for (int j = 0; j < kB; ++j) b[j] = CAddScaled(pair.b[0][j], CSet(1), pair.b[1][j]);
+            return Between<kA, kB>(a, b);
+        }
+        axis -= 3;
+        if constexpr (kProducts > 0) {
+            if (axis < kProducts) {
+                const int i = axis % kEdgesA, j = axis / kEdgesA;
+                return CCross(CSub(pair.a[0][(i + 1) % kA], pair.a[0][i]), CSub(pair.b[0][(j + 1) % kB], pair.b[0][j]));
+            }
+            axis -= kProducts;
+        }
+        if constexpr (kA == 3) {
+            if (axis == 0 || kB < 3) return Normal(pair.a[0]);
+        }
+        if constexpr (kB == 3) return Normal(pair.b[0]);
+        return pair.a[0][0]; // not reached
+    }
+};
+
+// One axis after the other, each with all pairs that are left, so that lanes are full.
 template <int kA, int kB>
-HWY_INLINE std::uint64_t CullSome(const CullTile& tile, const CullPartner& partner, std::uint64_t lanes, float apart) {
+HWY_INLINE std::size_t CullPairsOf(const CullPairs& pairs) {
     const CullFloats d;
     const hn::RebindToSigned<CullFloats> di;
     const std::size_t width = hn::Lanes(d);
+    constexpr int kPartner = sizeof(CullPartner) / sizeof(float);
+    const float* const of_partners = &pairs.partners->at[0][0][0];
     CullPair<kA, kB> pair;
-    pair.apart = CSet(apart);
-    pair.error = CSet(partner.largest * (1.125f * 0x1p-20f));
-    for (int t = 0; t < 2; ++t)
-        for (int j = 0; j < kB; ++j) {
-            const float* p = partner.at[t][j];
-            pair.b[t][j] = {CSet(p[0]), CSet(p[1]), CSet(p[2])};
+    pair.apart = CSet(pairs.apart);
+    std::size_t count = pairs.count;
+    for (int axis = 0; axis < CullAxes<kA, kB>::kCount && count > 0; ++axis) {
+        std::size_t kept = 0;
+        for (std::size_t first = 0; first < count; first += width) {
+            const std::size_t some = count - first < width ? count - first : width;
+            alignas(64) std::int32_t lanes[16], partner[16];
+            for (std::size_t i = 0; i < width; ++i) {
+                const std::size_t at = i < some ? first + i : first;
+                lanes[i] = static_cast<std::int32_t>(pairs.lanes[at]);
+                partner[i] = static_cast<std::int32_t>(pairs.partner[at]) * kPartner;
+            }
+            const auto lane = hn::Load(di, lanes), other = hn::Load(di, partner);
+            for (int t = 0; t < 2; ++t) {
+                for (int i = 0; i < kA; ++i)
+                    pair.a[t][i] = {hn::GatherIndex(d, pairs.tile.at[t][i][0], lane),
+                                    hn::GatherIndex(d, pairs.tile.at[t][i][1], lane),
+                                    hn::GatherIndex(d, pairs.tile.at[t][i][2], lane)};
+                for (int j = 0; j < kB; ++j) {
+                    const float* const from = of_partners + (t * 3 + j) * 3;
+                    pair.b[t][j] = {hn::GatherIndex(d, from, other), hn::GatherIndex(d, from + 1, other),
+                                    hn::GatherIndex(d, from + 2, other)};
+                }
+            }
+            pair.error = hn::Mul(hn::GatherIndex(d, of_partners + 18, other), CSet(1.125f * 0x1p-20f));
+            const std::uint64_t gone = BitsOfMask(d, pair.StayApart(CullAxes<kA, kB>::At(axis, pair)));
+            for (std::size_t i = 0; i < some; ++i) {
+                const std::uint32_t own = pairs.lanes[first + i], their = pairs.partner[first + i];
+                pairs.lanes[kept] = own;
+                pairs.partner[kept] = their;
+                kept += ~gone >> i & 1;
+            }
         }
-    std::uint64_t left = lanes, kept = 0;
-    while (left != 0) {
-        alignas(64) std::int32_t picked[16];
-        std::size_t count = 0;
-        for (; left != 0 && count < width; left &= left - 1)
-            picked[count++] = static_cast<std::int32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(left));
-        for (std::size_t i = count; i < width; ++i) picked[i] = picked[0];
-        const auto index = hn::Load(di, picked);
-        for (int t = 0; t < 2; ++t)
-            for (int i = 0; i < kA; ++i)
-                pair.a[t][i] = {hn::GatherIndex(d, tile.at[t][i][0], index), hn::GatherIndex(d, tile.at[t][i][1], index),
-                                hn::GatherIndex(d, tile.at[t][i][2], index)};
-        const std::uint64_t gone = BitsOfMask(d, StayApart<kA, kB>(pair));
-        for (std::size_t i = 0; i < count; ++i)
-            kept |= static_cast<std::uint64_t>(~gone >> i & 1) << picked[i];
+        count = kept;
     }
-    return kept;
+    return count;
 }
 
-std::uint64_t Cull(const CullTile& tile, unsigned corners, const CullPartner& partner, unsigned partner_corners,
-                   std::uint64_t lanes, float apart) {
-    switch (3 * (corners - 1) + partner_corners - 1) {
-    case 0: return CullSome<1, 1>(tile, partner, lanes, apart);
-    case 1: return CullSome<1, 2>(tile, partner, lanes, apart);
-    case 2: return CullSome<1, 3>(tile, partner, lanes, apart);
-    case 3: return CullSome<2, 1>(tile, partner, lanes, apart);
-    case 4: return CullSome<2, 2>(tile, partner, lanes, apart);
-    case 5: return CullSome<2, 3>(tile, partner, lanes, apart);
-    case 6: return CullSome<3, 1>(tile, partner, lanes, apart);
-    case 7: return CullSome<3, 2>(tile, partner, lanes, apart);
-    default: return CullSome<3, 3>(tile, partner, lanes, apart);
+std::size_t Cull(const CullPairs& pairs) {
+    switch (3 * (pairs.corners - 1) + pairs.partner_corners - 1) {
+    case 0: return CullPairsOf<1, 1>(pairs);
+    case 1: return CullPairsOf<1, 2>(pairs);
+    case 2: return CullPairsOf<1, 3>(pairs);
+    case 3: return CullPairsOf<2, 1>(pairs);
+    case 4: return CullPairsOf<2, 2>(pairs);
+    case 5: return CullPairsOf<2, 3>(pairs);
+    case 6: return CullPairsOf<3, 1>(pairs);
+    case 7: return CullPairsOf<3, 2>(pairs);
+    default: return CullPairsOf<3, 3>(pairs);
     }
 }
 
@@ -256,7 +277,7 @@ void put_corners(const CullFrame& frame, std::span<const Vec3d> positions, std::
 
 } // namespace
 
-CullLanes* cull_lanes_function() noexcept { return VOX_SIMD_DISPATCH(Cull); }
+CullSome* cull_some() noexcept { return VOX_SIMD_DISPATCH(Cull); }
 
 CullFrame frame_around(const SurfaceMotion& motion, std::span<const std::uint32_t> vertices) noexcept {
     Vec3d lo = motion.from[vertices[0]], hi = lo;

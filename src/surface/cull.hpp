@@ -27,11 +27,20 @@ struct CullPartner {
     float largest; // magnitude of a number, at least 1: that of the tile's
 };
 
-// Of the lanes given, those that are not proven to stay further than `apart` (in the frame) from the partner.
-using CullLanes = std::uint64_t(const CullTile& tile, unsigned corners, const CullPartner& partner,
-                                unsigned partner_corners, std::uint64_t lanes, float apart);
+// Pairs of a lane of a tile and a partner.
+struct CullPairs {
+    const CullTile& tile;
+    const CullPartner* partners;
+    unsigned corners, partner_corners;
+    float apart; // in the frame
+    std::uint32_t *lanes, *partner; // of each pair
+    std::size_t count;
+};
 
-CullLanes* cull_lanes_function() noexcept;
+// Keeps the pairs that are not proven to stay further than `apart` from each other, in their order, and returns their
+// number.
+using CullSome = std::size_t(const CullPairs& pairs);
+CullSome* cull_some() noexcept;
 
 CullFrame frame_around(const SurfaceMotion& motion, std::span<const std::uint32_t> vertices) noexcept;
 // 2 * radius in the frame, rounded up.

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
+#include <cmath>
 
 namespace vox {
 
@@ -19,13 +19,6 @@ constexpr std::size_t word_bits = 64;
 constexpr std::size_t least_tiles = 8; // that a worker takes at once
 
 unsigned lowest_lane(std::uint64_t lanes) noexcept { return static_cast<unsigned>(std::countr_zero(lanes)); }
-
-// The float `steps` floats above f; NaN beyond the last one.
-float stepped(float f, std::int32_t steps) noexcept {
-    const auto bits = std::bit_cast<std::int32_t>(f);
-    const std::int32_t place = (bits < 0 ? std::numeric_limits<std::int32_t>::min() - bits : bits) + steps;
-    return std::bit_cast<float>(place < 0 ? std::numeric_limits<std::int32_t>::min() - place : place);
-}
 
 // The box of a feature as vox_motion.radius has it.
 struct ExactBox {
@@ -52,20 +45,23 @@ struct ExactBox {
 class LaneCounts {
 public:
     void add(std::uint64_t lanes) noexcept {
-        for (unsigned k = 0; lanes != 0; ++k) {
+        unsigned k = 0;
+        for (; lanes != 0; ++k) {
             const std::uint64_t carry = digits_[k] & lanes;
             digits_[k] ^= lanes;
             lanes = carry;
         }
+        used_ = std::max(used_, k);
     }
     std::uint32_t of(unsigned lane) const noexcept {
         std::uint32_t count = 0;
-        for (unsigned k = 0; k < 32; ++k) count |= static_cast<std::uint32_t>(digits_[k] >> lane & 1) << k;
+        for (unsigned k = 0; k < used_; ++k) count |= static_cast<std::uint32_t>(digits_[k] >> lane & 1) << k;
         return count;
     }
 
 private:
     std::uint64_t digits_[33] = {};
+    unsigned used_ = 0;
 };
 
 } // namespace
@@ -77,7 +73,7 @@ struct PairSearch::Task {
     bool same; // kind
     std::uint32_t first, count;
     CompareBoxes* compare;
-    CullLanes* cull;
+    CullSome* cull;
 };
 
 PairSearch::PairSearch(std::pmr::memory_resource* memory) noexcept
@@ -137,6 +133,44 @@ double PairSearch::choose_cell_size(const FeatureTiles& a, const FeatureTiles& b
     return sum > 0 ? sum / static_cast<double>(count) : 1;
 }
 
+// Drops those of found[before] and after that provably stay apart.
+void PairSearch::cull_found(const Task& task, std::uint32_t tile, std::uint64_t asked, std::size_t before,
+                            Worker& worker) {
+    if (worker.found.size() == before) return;
+    const FeatureTiles &a = task.a, &b = task.b;
+    const std::size_t first_slot = std::size_t{tile} * features_a_tile;
+    const auto filled = static_cast<std::size_t>(
+        std::find(a.features.data() + first_slot, a.features.data() + first_slot + features_a_tile, no_feature) -
+        (a.features.data() + first_slot));
+    const CullFrame frame = frame_around(
+        task.motion, std::span(a.corners).subspan(first_slot * a.corner_count, filled * a.corner_count));
+    for (std::uint64_t lanes = asked; lanes != 0; lanes &= lanes - 1) {
+        const unsigned lane = lowest_lane(lanes);
+        set_lane(frame, task.motion, a.corners_at(tile * features_a_tile + lane), lane, worker.tile);
+    }
+    worker.partners.clear();
+    worker.pair_lanes.clear();
+    worker.pair_partners.clear();
+    for (std::size_t i = before; i < worker.found.size(); ++i) {
+        Found& found = worker.found[i];
+        worker.partners.push_back(partner_in(frame, task.motion, b.corners_at(b.slots[found.partner])));
+        for (std::uint64_t lanes = found.lanes; lanes != 0; lanes &= lanes - 1) {
+            worker.pair_lanes.push_back(lowest_lane(lanes));
+            worker.pair_partners.push_back(static_cast<std::uint32_t>(i - before));
+        }
+        found.lanes = 0;
+    }
+    const std::size_t kept = task.cull({worker.tile, worker.partners.data(), a.corner_count, b.corner_count,
+                                        apart_in(frame, task.motion), worker.pair_lanes.data(),
+                                        worker.pair_partners.data(), worker.pair_lanes.size()});
+    worker.culled += worker.pair_lanes.size() - kept;
+    for (std::size_t i = 0; i < kept; ++i)
+        worker.found[before + worker.pair_partners[i]].lanes |= std::uint64_t{1} << worker.pair_lanes[i];
+    const auto from = worker.found.begin() + static_cast<std::ptrdiff_t>(before);
+    worker.found.erase(std::remove_if(from, worker.found.end(), [](const Found& found) { return found.lanes == 0; }),
+                       worker.found.end());
+}
+
 void PairSearch::search_tile(const Task& task, std::uint32_t tile, Worker& worker) {
     const FeatureTiles &a = task.a, &b = task.b;
     const std::uint32_t* const features = a.features.data() + std::size_t{tile} * features_a_tile;
@@ -144,8 +178,6 @@ void PairSearch::search_tile(const Task& task, std::uint32_t tile, Worker& worke
     for (unsigned lane = 0; lane < features_a_tile; ++lane)
         asked |= std::uint64_t{features[lane] - task.first < task.count} << lane;
     if (asked == 0) return;
-    unsigned filled = features_a_tile; // lanes
-    while (features[filled - 1] == no_feature) --filled;
     const std::uint32_t lowest = features[lowest_lane(asked)];
 
     // Features of b near this tile, as bits, so that they come out ascending.
@@ -158,8 +190,8 @@ void PairSearch::search_tile(const Task& task, std::uint32_t tile, Worker& worke
         worker.seen[other] = tile + 1;
         if (!overlap(box, b.tile_boxes[other])) return;
         ++worker.tile_pairs;
-        std::uint64_t near;
-        task.compare(b.boxes_of(other), &of_tile, 1, 1, &near);
+        std::uint64_t near, close;
+        task.compare(b.boxes_of(other), &of_tile, 1, 1, 0, &near, &close);
         const std::uint32_t* const others = b.features.data() + std::size_t{other} * features_a_tile;
         for (; near != 0; near &= near - 1) {
             const std::uint32_t f = others[lowest_lane(near)];
@@ -179,8 +211,9 @@ void PairSearch::search_tile(const Task& task, std::uint32_t tile, Worker& worke
             const std::size_t word = w * word_bits + lowest_lane(words);
             for (std::uint64_t bits = worker.listed[word]; bits != 0; bits &= bits - 1) {
                 const auto f = static_cast<std::uint32_t>(word * word_bits + lowest_lane(bits));
-                worker.near.push_back(f);
-                worker.boxes.push_back(b.boxes_of(b.slots[f] / features_a_tile) + b.slots[f] % features_a_tile);
+                const std::uint32_t slot = b.slots[f];
+                worker.near.push_back(slot);
+                worker.boxes.push_back(b.boxes_of(slot / features_a_tile) + slot % features_a_tile);
             }
             worker.listed[word] = 0;
         }
@@ -189,76 +222,58 @@ void PairSearch::search_tile(const Task& task, std::uint32_t tile, Worker& worke
     if (worker.near.empty()) return;
     worker.boxes_compared += worker.near.size();
     worker.masks.resize(worker.near.size());
-    task.compare(a.boxes_of(tile), worker.boxes.data(), features_a_tile, worker.near.size(), worker.masks.data());
+    worker.close.resize(worker.near.size());
+    // Each side of a box of doubles is less than 2 floats inside the float that bounds it.
+    float largest = 0;
+    for (const float side : six) largest = std::max(largest, std::abs(side));
+    task.compare(a.boxes_of(tile), worker.boxes.data(), features_a_tile, worker.near.size(),
+                 largest * 0x1p-20f + 0x1p-140f, worker.masks.data(), worker.close.data());
 
     const auto mark_corners = [&](bool on) {
         for (std::uint64_t lanes = asked; lanes != 0; lanes &= lanes - 1) {
             const unsigned lane = lowest_lane(lanes);
-            for (const std::uint32_t v : a.corners_at(tile * features_a_tile + lane))
-                worker.around[v] = on ? worker.around[v] | std::uint64_t{1} << lane : 0;
+            for (const std::uint32_t v : a.corners_at(tile * features_a_tile + lane)) {
+                std::uint64_t &exact = worker.around[v], &folded = worker.around_folded[v % folded_vertices];
+                exact = on ? exact | std::uint64_t{1} << lane : 0;
+                folded = on ? folded | std::uint64_t{1} << lane : 0;
+            }
         }
     };
     mark_corners(true);
-    CullFrame frame{};
-    float apart = 0;
-    bool is_framed = false;
-    const auto frame_tile = [&] {
-        const auto own = std::span(a.corners).subspan(std::size_t{tile} * features_a_tile * a.corner_count);
-        frame = frame_around(task.motion, own.first(std::size_t{filled} * a.corner_count));
-        apart = apart_in(frame, task.motion);
-        for (std::uint64_t lanes = asked; lanes != 0; lanes &= lanes - 1) {
-            const unsigned lane = lowest_lane(lanes);
-            set_lane(frame, task.motion, a.corners_at(tile * features_a_tile + lane), lane, worker.tile);
-        }
-        is_framed = true;
-    };
-    LaneCounts counts;
+    const std::size_t before = worker.found.size();
     unsigned below = 0; // lanes with features below the partner
     for (std::size_t i = 0; i < worker.near.size(); ++i) {
         std::uint64_t lanes = worker.masks[i] & asked;
         if (lanes == 0) continue;
-        const std::uint32_t partner = worker.near[i];
+        const std::uint32_t slot = worker.near[i], partner = b.features[slot];
         if (task.same) { // each pair once
             while (below < features_a_tile && features[below] < partner) ++below;
             if (below < features_a_tile) lanes &= (std::uint64_t{1} << below) - 1;
         }
-        const auto corners = b.corners_at(b.slots[partner]);
-        for (const std::uint32_t v : corners) lanes &= ~worker.around[v];
-        if (lanes == 0) continue;
+        const auto corners = b.corners_at(slot);
+        std::uint64_t maybe_around = 0;
+        for (const std::uint32_t v : corners) maybe_around |= worker.around_folded[v % folded_vertices];
+        if (lanes & maybe_around)
+            for (const std::uint32_t v : corners) lanes &= ~worker.around[v];
         if (task.topology.has_patches())
             for (std::uint64_t left = lanes; left != 0; left &= left - 1)
                 if (!task.topology.may_meet(a.corners_at(tile * features_a_tile + lowest_lane(left)), corners))
                     lanes &= ~(left & -left);
-        if (task.motion.doubles && lanes != 0) {
-            // Each side of a box is less than 2 floats inside the float that bounds it.
-            const float* const from = worker.boxes[i];
-            float inner[6];
-            for (int k = 0; k < 6; ++k) inner[k] = stepped(from[k * int{features_a_tile}], k < 3 ? 4 : -4);
-            const float* const at = inner;
-            std::uint64_t certain;
-            task.compare(a.boxes_of(tile), &at, 1, 1, &certain);
-            if (const std::uint64_t unsure = lanes & ~certain; unsure != 0) {
-                const ExactBox exact(task.motion, corners);
-                for (std::uint64_t left = unsure; left != 0; left &= left - 1) {
-                    const auto own = a.corners_at(tile * features_a_tile + lowest_lane(left));
-                    if (!exact.overlaps(ExactBox(task.motion, own))) lanes &= ~(left & -left);
-                }
+        if (const std::uint64_t unsure = lanes & worker.close[i]; unsure != 0 && task.motion.doubles) {
+            const ExactBox exact(task.motion, corners);
+            for (std::uint64_t left = unsure; left != 0; left &= left - 1) {
+                const auto own = a.corners_at(tile * features_a_tile + lowest_lane(left));
+                if (!exact.overlaps(ExactBox(task.motion, own))) lanes &= ~(left & -left);
             }
         }
         if (lanes == 0) continue;
         worker.overlaps += bit_count(lanes);
-        if (task.motion.cull) {
-            if (!is_framed) frame_tile();
-            const std::uint64_t kept = task.cull(worker.tile, a.corner_count, partner_in(frame, task.motion, corners),
-                                                 b.corner_count, lanes, apart);
-            worker.culled += bit_count(lanes & ~kept);
-            lanes = kept;
-            if (lanes == 0) continue;
-        }
         worker.found.push_back({lanes, partner});
-        counts.add(lanes);
     }
     mark_corners(false);
+    if (task.motion.cull) cull_found(task, tile, asked, before, worker);
+    LaneCounts counts;
+    for (std::size_t i = before; i < worker.found.size(); ++i) counts.add(worker.found[i].lanes);
     for (std::uint64_t lanes = asked; lanes != 0; lanes &= lanes - 1) {
         const unsigned lane = lowest_lane(lanes);
         counts_[tile * features_a_tile + lane] = counts.of(lane);
@@ -271,11 +286,13 @@ void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motio
     counters_ = {};
     out.first = first;
     out.count = 0;
-    out.partners.clear();
     out.offsets.assign(std::size_t{count} + 1, 0u);
     const FeatureTiles &tiles_a = tiles(topology, motion, a), &tiles_b = tiles(topology, motion, b);
     out.count = count;
-    if (tiles_a.tile_count() == 0 || tiles_b.tile_count() == 0 || count == 0) return;
+    if (tiles_a.tile_count() == 0 || tiles_b.tile_count() == 0 || count == 0) {
+        out.partners.clear();
+        return;
+    }
     grid_.fill(tiles_b.tile_boxes, cell_size > 0 ? cell_size : choose_cell_size(tiles_a, tiles_b));
     counters_.cell_size = grid_.cell_size();
     counters_.cells = grid_.occupied();
@@ -287,12 +304,13 @@ void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motio
         worker.listed.assign(words, 0u);
         worker.listed_words.assign(words / word_bits + 1, 0u);
         worker.around.assign(topology.vertex_count, 0u);
+        worker.around_folded.fill(0);
         worker.found.clear();
         worker.tile_pairs = worker.boxes_compared = worker.overlaps = worker.culled = 0;
     }
     counts_.assign(tiles_a.features.size(), 0u);
     found_of_.resize(tiles_a.tile_count());
-    const Task task{topology, motion, tiles_a, tiles_b, a == b, first, count, compare_boxes(), cull_lanes_function()};
+    const Task task{topology, motion, tiles_a, tiles_b, a == b, first, count, compare_boxes(), cull_some()};
     workers.for_ranges(tiles_a.tile_count(), least_tiles, [&](std::size_t begin, std::size_t end, std::uint32_t w) {
         Worker& worker = workers_[w];
         for (std::size_t t = begin; t < end; ++t) {
@@ -309,6 +327,7 @@ void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motio
     }
     for (std::uint32_t i = 0; i < count; ++i)
         out.offsets[i + 1] = out.offsets[i] + counts_[tiles_a.slots[first + i]];
+    // What is there already need not be set to 0 again.
     out.partners.resize(static_cast<std::size_t>(out.offsets[count]));
     workers.for_ranges(tiles_a.tile_count(), least_tiles, [&](std::size_t begin, std::size_t end, std::uint32_t) {
         for (std::size_t t = begin; t < end; ++t) {
