@@ -98,10 +98,11 @@ def read_ply(path):
         rows = body.decode().splitlines()
         return (np.array([row.split()[:3] for row in rows[:vertices]], float),
                 np.array([row.split()[1:4] for row in rows[vertices:vertices + faces]], np.uint32))
-    width = np.dtype(order + kind).itemsize * 3
-    points = np.frombuffer(body[:vertices * width], order + kind).reshape(-1, 3).astype(float)
+    colours = header.count(b"property uchar ")
+    row = np.dtype([("at", order + kind, 3), ("colour", "u1", colours)])
+    points = np.frombuffer(body, row, vertices)["at"].astype(float)
     record = np.dtype([("n", "u1"), ("v", order + "i4", 3)])
-    return points, np.frombuffer(body[vertices * width:], record, faces)["v"].astype(np.uint32)
+    return points, np.frombuffer(body, record, faces, vertices * row.itemsize)["v"].astype(np.uint32)
 
 
 def edges_of(faces):

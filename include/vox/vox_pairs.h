@@ -172,12 +172,13 @@ VOX_EXPERIMENTAL vox_result vox_surface_pairs(vox_surface* surface, vox_feature 
  * infinite or NaN. */
 VOX_EXPERIMENTAL vox_result vox_surface_set_cell_size(vox_surface* surface, double cell_size);
 
-/* The cell size that minimises the cost of finding the pairs of kind `a` with kind `b` for the motion that is set
- * (docs/surface-pairs.md has the model). Set out->struct_size first; curve, zone and terms are filled, costs are in
- * nanoseconds. Errors: INVALID_ARGUMENT (also where there are no such features, or all have boxes of no size),
- * INVALID_STATE (no positions yet), OUT_OF_MEMORY. */
+/* The cell size that minimises the cost of finding the pairs of kind `a` with kind `b` for the motion that is set. The grid
+ * holds the boxes of tiles (at most 64 neighbouring features each) of kind b in all cells that they meet, and is asked by
+ * those of kind a: described as a vox_foreign_grid, with weights of its own (docs/surface-pairs.md). Set out->struct_size
+ * first. Errors: INVALID_ARGUMENT (also where there are no such features), INVALID_STATE (no positions yet), BUDGET,
+ * OUT_OF_MEMORY. */
 VOX_EXPERIMENTAL vox_result vox_surface_suggest_cell_size(vox_surface* surface, vox_feature a, vox_feature b,
-                                                          vox_suggestion* out);
+                                                          vox_foreign_suggestion* out);
 
 /* What the last vox_surface_pairs did, and what the surface holds. */
 typedef struct vox_surface_counters {

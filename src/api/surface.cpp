@@ -106,6 +106,16 @@ vox_result vox_surface_set_cell_size(vox_surface* surface, double cell_size) {
     return border(surface, "surface", [&] { surface->set_cell_size(cell_size); });
 }
 
+vox_result vox_surface_suggest_cell_size(vox_surface* surface, vox_feature a, vox_feature b,
+                                         vox_foreign_suggestion* out) {
+    return border(surface, "surface", [&] {
+        check_out_struct(out, "out");
+        check_enum(a, VOX_FEATURE_FACE, "a");
+        check_enum(b, VOX_FEATURE_FACE, "b");
+        write_struct(out, surface->suggest_cell_size(a, b), "out");
+    });
+}
+
 vox_result vox_surface_get_counters(const vox_surface* surface, vox_surface_counters* out_counters) {
     return border(surface, "surface", [&] {
         check_out_struct(out_counters, "out_counters");

@@ -6,6 +6,7 @@
 #include "base/bits.hpp"
 #include "base/vectors.hpp"
 #include "surface/compare_boxes.hpp"
+#include "surface/suggest.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -120,17 +121,29 @@ const FeatureTiles& PairSearch::tiles(const SurfaceTopology& topology, const Sur
     return tiles;
 }
 
-double PairSearch::choose_cell_size(const FeatureTiles& a, const FeatureTiles& b) const noexcept {
+// By the model, again when the tiles have grown or shrunk by a tenth. The cost is flat around its minimum.
+double PairSearch::choose_cell_size(vox_feature a, vox_feature b) {
+    const FeatureTiles &tiles_a = tiles_[static_cast<std::size_t>(a)], &tiles_b = tiles_[static_cast<std::size_t>(b)];
     double sum = 0;
     std::size_t count = 0;
-    for (const FeatureTiles* tiles : {&a, &b})
+    for (const FeatureTiles* tiles : {&tiles_a, &tiles_b})
         for (const Box& box : tiles->tile_boxes) {
-            const double side = std::max({box.hi[0] - box.lo[0], box.hi[1] - box.lo[1], box.hi[2] - box.lo[2]});
+            const double side = std::max({double{box.hi[0]} - box.lo[0], double{box.hi[1]} - box.lo[1], double{box.hi[2]} - box.lo[2]});
             if (!(side < 1e300)) continue;
             sum += side;
             ++count;
         }
-    return sum > 0 ? sum / static_cast<double>(count) : 1;
+    if (!(sum > 0)) return 1;
+    const double side = sum / static_cast<double>(count);
+    constexpr std::size_t few_tiles = 64; // for which any size does, and the model takes longer than they do
+    if (tiles_a.tile_count() + tiles_b.tile_count() < few_tiles || count < tiles_a.tile_count() + tiles_b.tile_count())
+        return side;
+    ChosenSize& chosen = chosen_[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)];
+    if (!(side < 1.1 * chosen.side && chosen.side < 1.1 * side)) {
+        chosen.cell_size = suggest_for_tiles(tiles_a, tiles_b, vertex_boxes_.get_allocator().resource()).cell_size;
+        chosen.side = side;
+    }
+    return chosen.cell_size;
 }
 
 // Drops those of found[before] and after that provably stay apart.
@@ -293,7 +306,7 @@ void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motio
         out.partners.clear();
         return;
     }
-    grid_.fill(tiles_b.tile_boxes, cell_size > 0 ? cell_size : choose_cell_size(tiles_a, tiles_b));
+    grid_.fill(tiles_b.tile_boxes, cell_size > 0 ? cell_size : choose_cell_size(a, b));
     counters_.cell_size = grid_.cell_size();
     counters_.cells = grid_.occupied();
 

@@ -90,11 +90,15 @@ private:
 
     void cull_found(const Task& task, std::uint32_t tile, std::uint64_t asked, std::size_t before, Worker& worker);
     void search_tile(const Task& task, std::uint32_t tile, Worker& worker);
-    double choose_cell_size(const FeatureTiles& a, const FeatureTiles& b) const noexcept;
+    double choose_cell_size(vox_feature a, vox_feature b);
 
     std::array<FeatureTiles, feature_kinds> tiles_;
     std::array<bool, feature_kinds> has_boxes_{};
     SurfaceMotion boxes_are_of_;
+    struct ChosenSize {
+        double side = 0, cell_size = 0; // the mean side of the tiles that it was chosen for
+    };
+    std::array<std::array<ChosenSize, feature_kinds>, feature_kinds> chosen_;
     std::pmr::vector<Box> vertex_boxes_;
     TileGrid grid_;
     PerWorker<Worker> workers_;

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "mesh/check.hpp"
+#include "surface/suggest.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -85,6 +86,13 @@ const FeaturePairs& vox_surface::pairs(vox_feature a, vox_feature b, std::uint64
             answer_ = FeaturePairs(&*share_);
         }
     }
+}
+
+vox_foreign_suggestion vox_surface::suggest_cell_size(vox_feature a, vox_feature b) {
+    const SurfaceMotion& moving = motion();
+    for (const vox_feature kind : {a, b})
+        if (topology_.count(kind) == 0) refuse("there are no features of one of the kinds");
+    return suggest_for_tiles(search_.tiles(topology_, moving, a), search_.tiles(topology_, moving, b), &*share_);
 }
 
 vox_surface_counters vox_surface::counters() const {

@@ -42,13 +42,11 @@ public:
     // As many of them as fit, at least one; the answer lives until the next call or move().
     const vox::FeaturePairs& pairs(vox_feature a, vox_feature b, std::uint64_t first, std::uint64_t count);
 
-    vox_suggestion suggest_cell_size(vox_feature a, vox_feature b);
+    // Throws as vox_surface_suggest_cell_size.
+    vox_foreign_suggestion suggest_cell_size(vox_feature a, vox_feature b);
     vox_surface_counters counters() const;
 
 private:
-    vox::FeatureTiles& tiles_of(vox_feature feature, const vox::SurfaceMotion& motion);
-    double cell_size_for(vox_feature a, vox_feature b);
-
     vox::MemoryShare share_; // first, as all else is released to it
     vox::Workers workers_;
     vox::SurfaceTopology topology_;
