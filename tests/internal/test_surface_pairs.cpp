@@ -129,7 +129,7 @@ vox_surface* surface_of(const Scene& s, std::uint32_t workers, double cell_size,
 }
 
 void move(vox_surface* surface, const Scene& s, std::uint32_t flags = 0) {
-    const CallerPositions from(s, s.from), to(s, s.to);
+    const CallerPositions from(s, s.from), to(s, s.moves ? s.to : s.from);
     vox_motion motion = vox_default_motion();
     motion.flags = flags;
     motion.from = from.bytes.data();
@@ -237,11 +237,118 @@ START_TEST(pairs_are_those_whose_boxes_overlap) {
 }
 END_TEST
 
+// A point of a feature at a time, by weights that may be anything that adds up to 1.
+void point_of(const Scene& s, const std::vector<std::uint32_t>& corners, const double* weights, double time,
+              double (&out)[3]) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        out[k] = 0;
+        for (std::size_t c = 0; c < corners.size(); ++c) {
+            const std::uint32_t at = 3 * corners[c] + k;
+            const double from = s.from[at], to = s.moves ? s.to[at] : from;
+            out[k] += weights[c] * (from + time * (to - from));
+        }
+    }
+}
+
+// An upper bound of the distance between two features during the motion: by points in a raster, at some times.
+double raster_distance(const Scene& s, const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
+    static constexpr double raster[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {.5, .5, 0}, {.5, 0, .5}, {0, .5, .5},
+                                           {1. / 3, 1. / 3, 1. / 3}, {.25, .75, 0}, {.75, .25, 0}, {.25, .25, .5}};
+    double least = infinity;
+    for (int t = 0; t <= 8; ++t)
+        for (const auto& u : raster) {
+            bool fits = true;
+            for (std::size_t c = a.size(); c < 3; ++c) fits = fits && u[c] == 0;
+            if (!fits) continue;
+            double p[3];
+            point_of(s, a, u, t / 8., p);
+            for (const auto& w : raster) {
+                fits = true;
+                for (std::size_t c = b.size(); c < 3; ++c) fits = fits && w[c] == 0;
+                if (!fits) continue;
+                double q[3];
+                point_of(s, b, w, t / 8., q);
+                least = std::min(least, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+            }
+        }
+    return least;
+}
+
+// Culling leaves pairs out, but none whose thickened features touch; the same ones at every SIMD level.
+START_TEST(culling_loses_no_pair_that_touches) {
+    Random random(2);
+    std::uint64_t kept = 0, all = 0, touching = 0;
+    for (std::uint64_t n = 0; n < scenes_wanted() / 2; ++n) {
+        const Scene s = random_scene(random);
+        vox_surface* const surface = surface_of(s, 1 + random.below(3), 0, 1u << 30);
+        for (int a = 0; a < 3; ++a)
+            for (int b = 0; b < 3; ++b) {
+                move(surface, s);
+                const auto overlapping = asked(surface, a, b);
+                move(surface, s, VOX_MOTION_CULL);
+                simd::force_level(simd::best_level());
+                const auto found = asked(surface, a, b);
+                simd::force_level(static_cast<simd::Level>(random.below(4)));
+                ck_assert(asked(surface, a, b) == found);
+                for (std::uint32_t i = 0; i < found.size(); ++i) {
+                    ck_assert(std::includes(overlapping[i].begin(), overlapping[i].end(), found[i].begin(),
+                                            found[i].end()));
+                    all += overlapping[i].size();
+                    kept += found[i].size();
+                    if (overlapping[i].size() > 20) continue; // it takes long
+                    for (const std::uint32_t j : overlapping[i])
+                        if (raster_distance(s, s.corners(a, i), s.corners(b, j)) <= 2 * s.radius * (1 - 1e-9)) {
+                            ++touching;
+                            ck_assert_msg(std::binary_search(found[i].begin(), found[i].end(), j),
+                                          "scene %llu, kinds %d and %d: %u and %u are lost",
+                                          static_cast<unsigned long long>(n), a, b, i, j);
+                        }
+                }
+            }
+        vox_surface_destroy(surface);
+    }
+    simd::force_level(simd::best_level());
+    ck_assert_uint_gt(touching, 100);
+    ck_assert_uint_lt(kept, all - all / 10);
+}
+END_TEST
+
+// Answers that do not fit into the budget come in pieces, and are the same.
+START_TEST(a_budget_is_kept_in_pieces) {
+    Random random(3);
+    Scene s;
+    s.vertex_count = 4000;
+    for (std::uint32_t i = 0; i < 3 * s.vertex_count; ++i) s.from.push_back(random.unit());
+    s.doubles = true;
+    s.radius = 0.1;
+    vox_surface* const whole = surface_of(s, 1, 0, 0);
+    move(whole, s);
+    const auto expected = asked(whole, 0, 0);
+    vox_surface_counters counters{};
+    counters.struct_size = sizeof counters;
+    ck_ok(vox_surface_get_counters(whole, &counters));
+    const std::uint64_t budget = counters.peak_bytes / 3;
+    vox_surface* const tight = surface_of(s, 1, 0, budget);
+    move(tight, s);
+    vox_pair_lists first{};
+    first.struct_size = sizeof first;
+    ck_ok(vox_surface_pairs(tight, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, ~0ull, &first));
+    ck_assert_uint_gt(first.count, 0);
+    ck_assert_uint_lt(first.count, s.vertex_count);
+    ck_assert(asked(tight, 0, 0) == expected);
+    ck_ok(vox_surface_get_counters(tight, &counters));
+    ck_assert_uint_le(counters.peak_bytes, budget);
+    vox_surface_destroy(tight);
+    vox_surface_destroy(whole);
+}
+END_TEST
+
 } // namespace
 
 int main() {
     Suite* suite = suite_create("surface_pairs");
     TCase* tests = add_case(suite, "surface_pairs");
-    tcase_add_each(tests, pairs_are_those_whose_boxes_overlap);
+    tcase_add_each(tests, pairs_are_those_whose_boxes_overlap, culling_loses_no_pair_that_touches,
+                   a_budget_is_kept_in_pieces);
     return run_suite(suite);
 }
