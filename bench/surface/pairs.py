@@ -30,7 +30,7 @@ class Desc(ctypes.Structure):
 
 class Motion(ctypes.Structure):
     _fields_ = [("struct_size", ctypes.c_uint32), ("flags", ctypes.c_uint32), ("start", ctypes.c_void_p),
-                ("end", ctypes.c_void_p), ("format", ctypes.c_int32), ("reserved", ctypes.c_uint32),
+                ("end", ctypes.c_void_p), ("vertex_count", ctypes.c_uint64), ("format", ctypes.c_int32), ("reserved", ctypes.c_uint32),
                 ("byte_stride", ctypes.c_uint64), ("component_byte_stride", ctypes.c_uint64), ("radius", ctypes.c_double)]
 
 
@@ -61,8 +61,8 @@ class Surface:
 
     def move(self, start, end, radius, cull):
         """Columns, as Eigen has them."""
-        motion = Motion(ctypes.sizeof(Motion), int(cull), start.ctypes.data, end.ctypes.data, 1, 0, 8, 8 * len(start),
-                        radius)
+        motion = Motion(ctypes.sizeof(Motion), int(cull), start.ctypes.data, end.ctypes.data, len(start), 1, 0, 8,
+                        8 * len(start), radius)
         self.ok(self.vox.vox_surface_move(self.handle, ctypes.byref(motion)))
 
     def pairs(self, a, b):

@@ -8,19 +8,20 @@ import re
 import header
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
-HEADERS = ["vox", "vox_io", "vox_sim"]
+HEADERS = ["vox", "vox_pairs", "vox_io", "vox_sim"]
+LIBRARY_OF = {"vox_pairs": "vox"}  # of the others: the library of the same name
 
 MODELS = {"lp64": 8, "wasm32": 4}  # bytes of a pointer; everything is aligned to its own size
 NUMBERS = {"uint8_t": 1, "char": 1, "int32_t": 4, "uint32_t": 4, "int64_t": 8, "uint64_t": 8, "float": 4, "double": 8}
 
 # 64-bit numbers all of whose bits may be in use, and those that are counts, sizes, indices or times, below 2^53.
 BITS = re.compile(r"(^|_)(hash|mask|category|user_data(_[ab])?|seed)$")
-COUNT = re.compile(r"([^s]s|(^|_)(began|begin|budget|capacity|cell|contact|count|end|ended|epoch|filtered|first|order|"
-                   r"persisted|range|round|size|skipped_degenerate|softened|stride)|_in_[ab])$")
+COUNT = re.compile(r"([^s]s|(^|_)(began|begin|budget|capacity|cell|compared|contact|count|culled|end|ended|epoch|filtered|first|order|"
+                   r"persisted|range|round|size|skipped_degenerate|softened|stride|unfinished)|_in_[ab])$")
 # Pointers that are handed back and that nobody looks behind.
 OPAQUE = re.compile(r"(^|_)(user|context|handle)$")
 # What a void* with a length points to.
-ELEMENTS = {"positions": "position", "points": "position", "bytes": "byte", "radii": "number",
+ELEMENTS = {"positions": "position", "from": "position", "to": "position", "points": "position", "bytes": "byte", "radii": "number",
             "data": "byte", "memory": "byte"}
 SINGULAR_OF = {"indices": "index", "radii": "radius"}  # of the others, without the s
 # Names that end in s and stand for one thing: a task system, a struct of arrays.
@@ -364,7 +365,7 @@ class Describer:
         for name, parsed in self.headers.items():
             of = parsed.of_kind
             found["headers"].append({
-                "name": name, "doc": header.words_of(parsed.conventions),
+                "name": name, "library": LIBRARY_OF.get(name, name), "doc": header.words_of(parsed.conventions),
                 "sections": [{"name": s, "doc": words.strip()} for s, words in parsed.sections.items()],
                 "constants": list(self.constants(parsed)),
                 "enums": [self.enum(d) for d in of("enum")],

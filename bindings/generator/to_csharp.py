@@ -178,17 +178,18 @@ class CSharp:
             yield f"        internal const uint {c['name']} = {c['value']};"
         yield ""
         yield "#if (UNITY_IOS || UNITY_WEBGL) && !UNITY_EDITOR"
-        for part in self.api["headers"]:
-            yield f"        const string {part['name']} = \"__Internal\";"
+        libraries = list(dict.fromkeys(part["library"] for part in self.api["headers"]))
+        for library in libraries:
+            yield f"        const string {library} = \"__Internal\";"
         yield "#else"
-        for part in self.api["headers"]:
-            yield f"        const string {part['name']} = \"{part['name']}\";"
+        for library in libraries:
+            yield f"        const string {library} = \"{library}\";"
         yield "#endif"
         for part in self.api["headers"]:
             for f in part["functions"]:
                 yield ""
                 yield from self.summary(f["doc"], "        ")
-                yield (f"        [DllImport({part['name']}, CallingConvention = CallingConvention.Cdecl, "
+                yield (f"        [DllImport({part['library']}, CallingConvention = CallingConvention.Cdecl, "
                        "ExactSpelling = true)]")
                 prototype = f"{self.result(f['result'])} {f['name']}({self.parameters(f)})"
                 yield from wrapped(f"internal static extern {prototype};", "        ", further=" " * 12)
@@ -197,7 +198,7 @@ class CSharp:
     def text(self):
         lines = [f"// {GENERATED}", "using System;", "using System.Collections.Generic;",
                  "using System.Runtime.InteropServices;", "", "namespace Voxtet", "{"]
-        lines.append("    // Names and layouts are those of vox.h, vox_io.h and vox_sim.h.")
+        lines.append("    // Names and layouts are those of vox.h, vox_pairs.h, vox_io.h and vox_sim.h.")
         for e in sections(self.api, "enums"):
             lines += self.enum(e)
         structs = [line for s in sections(self.api, "structs") for line in self.struct(s)]

@@ -18,7 +18,7 @@ from numpy import dtype
 END = '''
 
 def declare(library: Any, name: str, check: Any = None) -> None:
-    """Gives the functions of the ctypes library `name` (vox, vox_io, vox_sim) their types. `check` becomes the errcheck
+    """Gives the functions of the header `name` (vox, vox_pairs, vox_io, vox_sim) in a ctypes library their types. `check` becomes the errcheck
     of those whose result is a vox_result: a failure unless it is 0."""
     for function, (result, parameters) in FUNCTIONS[name].items():
         found = getattr(library, function)
@@ -127,7 +127,7 @@ class Python:
         whole = whole_structs(self.api)
         for s in sections(self.api, "structs"):
             lines += self.struct(s, whole)
-        lines += ["# Of each library: name, type of the result, types of the parameters.",
+        lines += ["# Of each header: name, type of the result, types of the parameters.",
                   "FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {"]
         for part in self.api["headers"]:
             lines.append(f'    "{part["name"]}": {{')

@@ -110,8 +110,8 @@ class Rust:
             lines.append("}")
         for part in self.api["headers"]:
             lines.append("")
-            if part["name"] != "vox":
-                lines.append(f'#[cfg(feature = "{part["name"][4:]}")]')
+            if part["library"] != "vox":
+                lines.append(f'#[cfg(feature = "{part["library"][4:]}")]')
             lines += ["#[rustfmt::skip]", 'extern "C" {']
             for f in part["functions"]:
                 lines += wrapped(f["doc"], "    /// ") + self.declaration(f)

@@ -117,8 +117,9 @@ typedef enum vox_motion_flags {
 typedef struct vox_motion {
     uint32_t struct_size;
     uint32_t flags; /* vox_motion_flags, combined with | */
-    VOX_ARRAY(vertex_count) const void* from;             /* one position for each vertex of the surface, copied */
+    VOX_ARRAY(vertex_count) const void* from;             /* at time 0, copied */
     VOX_OPTIONAL VOX_ARRAY(vertex_count) const void* to;  /* the same, at time 1; null: everything stands still */
+    uint64_t vertex_count;          /* that of the surface; another number is an INVALID_ARGUMENT */
     vox_format format;
     uint32_t reserved;              /* 0 */
     uint64_t byte_stride;           /* from one position to the next; 0: tightly packed (columns: one number) */
@@ -263,10 +264,10 @@ VOX_EXPERIMENTAL vox_result vox_surface_close(vox_surface* surface, vox_feature 
 /* For each vertex a distance, at most `most`: while no vertex has moved further than its own, from the end of the motion,
  * no two features touch that do not touch now (Chen et al. 2025, Offset Geometric Contact, Sect. 3.3). It is half of the
  * least distance between the features that the vertex is part of and those that they could touch, rounded downwards.
- * per_vertex has room for one number for each vertex. Errors: INVALID_ARGUMENT (`most` is not above 0, or not finite),
- * INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
+ * vertex_count must be that of the surface. Errors: INVALID_ARGUMENT (another vertex_count; `most` is not above 0, or not
+ * finite), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
 VOX_EXPERIMENTAL vox_result vox_surface_clearance(vox_surface* surface, double most,
-                                                  VOX_ARRAY(vertex_count) double* per_vertex);
+                                                  VOX_ARRAY(vertex_count) double* per_vertex, uint64_t vertex_count);
 
 /* ---- time of contact -------------------------------------------------------------------------- */
 

@@ -1,6 +1,7 @@
 #include "surface/surface.hpp"
 
 #include "base/error.hpp"
+#include "base/llu.hpp"
 #include "mesh/check.hpp"
 #include "surface/suggest.hpp"
 
@@ -17,33 +18,38 @@ vox_surface::vox_surface(const vox_surface_desc& desc, const MemoryShare& memory
 
 void vox_surface::move(const vox_motion& motion) {
     const std::uint32_t count = topology_.vertex_count;
+    if (motion.vertex_count != count)
+        refuse(format("vertex_count is %llu, but the surface has %u vertices",
+                      llu(motion.vertex_count), count));
     check_format(motion.format, "");
     require(motion.from, "from");
     if (motion.flags & ~std::uint32_t{VOX_MOTION_CULL})
         refuse(format("flags is %u, expected vox_motion_flags", motion.flags));
     if (!(motion.radius >= 0)) refuse(format("radius is %g, expected 0 or a length", motion.radius));
-    const auto view = [&](const void* data) {
-        return check_positions(data, motion.format, motion.byte_stride, motion.component_byte_stride, count, "");
-    };
-    // All that can fail comes first: copies, which are then swapped in.
-    std::array<std::pmr::vector<Vec3d>, 2> copies{std::pmr::vector<Vec3d>(&*share_),
-                                                  std::pmr::vector<Vec3d>(&*share_)};
-    const auto copy = [&](const void* data, const char* name, std::pmr::vector<Vec3d>& out) {
-        const Positions positions = view(data);
-        out.resize(count);
+    // All that can fail comes first.
+    const auto checked = [&](const void* data, const char* name) {
+        const Positions positions =
+            check_positions(data, motion.format, motion.byte_stride, motion.component_byte_stride, count, "");
+        const auto is_good = [](double x) { return std::isfinite(static_cast<float>(x)); };
         for (std::uint32_t v = 0; v < count; ++v) {
-            const Vec3d p = out[v] = positions.exact(v);
-            const auto is_good = [](double x) { return std::isfinite(static_cast<float>(x)); };
-            if (!is_good(p.x) || !is_good(p.y) || !is_good(p.z))
-                throw Error(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)
-                                ? VOX_ERROR_LIMIT
-                                : VOX_ERROR_NON_FINITE,
-                            format("%s: vertex %u is at %g, %g, %g", name, v, p.x, p.y, p.z));
+            const Vec3d p = positions.exact(v);
+            if (is_good(p.x) && is_good(p.y) && is_good(p.z)) continue;
+            const bool is_finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+            throw Error(is_finite ? VOX_ERROR_LIMIT : VOX_ERROR_NON_FINITE,
+                        format("%s: vertex %u is at %g, %g, %g", name, v, p.x, p.y, p.z));
         }
+        return positions;
     };
-    copy(motion.from, "from", copies[0]);
-    if (motion.to) copy(motion.to, "to", copies[1]);
-    positions_.swap(copies);
+    const Positions from = checked(motion.from, "from");
+    const Positions to = motion.to ? checked(motion.to, "to") : from;
+    positions_[0].reserve(count);
+    if (motion.to) positions_[1].reserve(count);
+    const auto copy = [count](const Positions& positions, std::pmr::vector<Vec3d>& out) {
+        out.resize(count);
+        for (std::uint32_t v = 0; v < count; ++v) out[v] = positions.exact(v);
+    };
+    copy(from, positions_[0]);
+    if (motion.to) copy(to, positions_[1]);
     motion_ = {positions_[0], motion.to ? positions_[1] : positions_[0], motion.radius,
                motion.format == VOX_FORMAT_DOUBLE3, (motion.flags & VOX_MOTION_CULL) != 0};
     has_motion_ = true;
@@ -75,7 +81,7 @@ void vox_surface::find_pairs(const SurfaceMotion& motion, vox_feature a, vox_fea
 const FeaturePairs& vox_surface::pairs(vox_feature a, vox_feature b, std::uint64_t first, std::uint64_t count) {
     const SurfaceMotion& moving = motion();
     const std::uint64_t all = topology_.count(a);
-    if (first > all) refuse(format("first is %llu of %llu", static_cast<unsigned long long>(first), static_cast<unsigned long long>(all)));
+    if (first > all) refuse(format("first is %llu of %llu", llu(first), llu(all)));
     for (std::uint64_t wanted = std::min(count, all - first);; wanted = (wanted + 1) / 2) {
         try {
             find_pairs(moving, a, b, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(wanted), answer_);

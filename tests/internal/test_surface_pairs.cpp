@@ -134,6 +134,7 @@ void move(vox_surface* surface, const Scene& s, std::uint32_t flags = 0) {
     motion.flags = flags;
     motion.from = from.bytes.data();
     motion.to = s.moves ? to.bytes.data() : nullptr;
+    motion.vertex_count = s.vertex_count;
     motion.format = s.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
     if (s.columns) {
         motion.byte_stride = s.doubles ? 8 : 4;

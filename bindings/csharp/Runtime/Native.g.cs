@@ -5,7 +5,7 @@ using System.Runtime.InteropServices;
 
 namespace Voxtet
 {
-    // Names and layouts are those of vox.h, vox_io.h and vox_sim.h.
+    // Names and layouts are those of vox.h, vox_pairs.h, vox_io.h and vox_sim.h.
 
     public enum Result : int
     {
@@ -296,6 +296,35 @@ namespace Voxtet
         Radius = 5,
     }
 
+    /// <summary>What a surface consists of.</summary>
+    public enum Feature : int
+    {
+        Vertex = 0,
+        /// <summary>of 2 vertices</summary>
+        Edge = 1,
+        /// <summary>a triangle, of 3 vertices</summary>
+        Face = 2,
+    }
+
+    [Flags]
+    public enum MotionFlags : uint
+    {
+        /// <summary>Leave out pairs that are proven to stay further apart than twice the radius, that is, whose
+        /// features thickened by the radius never touch.</summary>
+        Cull = 1,
+    }
+
+    /// <summary>How an edge meets a face.</summary>
+    public enum CrossingKind : int
+    {
+        /// <summary>it passes through the interior of the face, with an end on either side</summary>
+        Through = 0,
+        /// <summary>an end is on the face, or it passes through an edge or a corner of the face</summary>
+        Touching = 1,
+        /// <summary>it lies in the plane of the face and meets it, or one of them is degenerate and they meet</summary>
+        Coplanar = 2,
+    }
+
     public enum IoFormat : int
     {
         /// <summary>determined from the content or, failing that, from the name's extension</summary>
@@ -525,6 +554,19 @@ namespace Voxtet
         {
             get { Check(i); fixed (GridTiming* p = &e0) return p[i]; }
             set { Check(i); fixed (GridTiming* p = &e0) p[i] = value; }
+        }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Double2
+    {
+        public double x, y;
+        public const int Length = 2;
+        public double this[int i]
+        {
+            get { Check(i); fixed (double* p = &x) return p[i]; }
+            set { Check(i); fixed (double* p = &x) p[i] = value; }
         }
         static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
@@ -1603,6 +1645,230 @@ namespace Voxtet
         public Byte256 note;
     }
 
+    /// <summary>What a surface is made of.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct SurfaceDesc
+    {
+        public uint struct_size;
+        /// <summary>Threads that work, as in vox_grid_desc: 1 (the default): the calling one; 0: one per
+        /// core.</summary>
+        public uint worker_count;
+        /// <summary>at least 1</summary>
+        public ulong vertex_count;
+        public ulong edge_count;
+        public ulong face_count;
+        /// <summary>2 * edge_count indices of vertices, copied.</summary>
+        public uint* edges;
+        /// <summary>3 * face_count indices of vertices, copied</summary>
+        public uint* faces;
+        /// <summary>The patch of each vertex, below patch_count, copied; null: all vertices are in one patch.</summary>
+        public uint* patches;
+        /// <summary>copied; null: 1 each</summary>
+        public ulong* patch_categories;
+        /// <summary>copied; null: all bits</summary>
+        public ulong* patch_masks;
+        public ulong patch_count;
+        /// <summary>Edge length of a cell of the grid in which pairs are looked for, &gt; 0. 0 (the default): chosen at
+        /// every motion by the cost model.</summary>
+        public double cell_size;
+        /// <summary>Most bytes the surface may hold at any time, its answers included.</summary>
+        public ulong byte_budget;
+        /// <summary>called only from functions of this surface, one call at a time</summary>
+        public Allocator allocator;
+        /// <summary>default: the built-in scheduler</summary>
+        public TaskSystem tasks;
+    }
+
+    /// <summary>The vertices of the edges or faces of a surface.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct FeatureView
+    {
+        public uint struct_size;
+        /// <summary>2 of an edge, 3 of a face</summary>
+        public uint vertices_each;
+        /// <summary>edges or faces</summary>
+        public ulong count;
+        public uint* vertices;
+    }
+
+    /// <summary>Positions of all vertices of a surface, or two, between which each vertex moves along a straight line
+    /// at constant speed.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct Motion
+    {
+        public uint struct_size;
+        /// <summary>vox_motion_flags, combined with |</summary>
+        public MotionFlags flags;
+        /// <summary>at time 0, copied</summary>
+        public IntPtr from;
+        /// <summary>the same, at time 1; null: everything stands still</summary>
+        public IntPtr to;
+        /// <summary>that of the surface; another number is an INVALID_ARGUMENT</summary>
+        public ulong vertex_count;
+        public Format format;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>from one position to the next; 0: tightly packed (columns: one number)</summary>
+        public ulong byte_stride;
+        /// <summary>from one coordinate of a position to the next; 0: the size of a number</summary>
+        public ulong component_byte_stride;
+        /// <summary>The box of a vertex holds both its positions and reaches further by this on each side, rounded
+        /// outward: to the next number of `format` below and above.</summary>
+        public double radius;
+    }
+
+    /// <summary>The partners of features [first, first + count): those of feature first + i are partners[offsets[i]] to
+    /// partners[offsets[i + 1] - 1], ascending.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct PairLists
+    {
+        public uint struct_size;
+        /// <summary>0</summary>
+        public uint reserved;
+        public ulong first;
+        /// <summary>features answered; fewer than asked where more would exceed the byte budget</summary>
+        public ulong count;
+        /// <summary>offsets[count]</summary>
+        public ulong pair_count;
+        public ulong* offsets;
+        public uint* partners;
+    }
+
+    /// <summary>What the last vox_surface_pairs did, and what the surface holds.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 72)]
+    public struct SurfaceCounters
+    {
+        public uint struct_size;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>that was used; 0 where no grid was needed</summary>
+        public double cell_size;
+        /// <summary>with something in them</summary>
+        public ulong cells;
+        /// <summary>tiles (at most 64 features each) whose boxes overlap those of tiles of the other kind</summary>
+        public ulong tile_pairs;
+        /// <summary>features compared with the 64 of a tile at once</summary>
+        public ulong boxes_compared;
+        /// <summary>pairs whose boxes overlap, before VOX_MOTION_CULL</summary>
+        public ulong overlaps;
+        /// <summary>of these, left out by VOX_MOTION_CULL</summary>
+        public ulong culled;
+        /// <summary>held now</summary>
+        public ulong bytes;
+        public ulong peak_bytes;
+    }
+
+    /// <summary>An edge and a face that have a point in common.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 80)]
+    public struct Crossing
+    {
+        public uint edge;
+        public uint face;
+        public CrossingKind kind;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>of a common point; they add up to 1</summary>
+        public Double2 edge_weights;
+        /// <summary>of the same point</summary>
+        public Double3 face_weights;
+        /// <summary>of the point, rounded</summary>
+        public Double3 position;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct CrossingView
+    {
+        public uint struct_size;
+        /// <summary>from one element to the next</summary>
+        public uint byte_stride;
+        public ulong count;
+        /// <summary>by edge, then face</summary>
+        public Crossing* crossings;
+    }
+
+    /// <summary>Two features and their closest points.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 112)]
+    public struct ClosePair
+    {
+        public uint a;
+        public uint b;
+        public double distance;
+        /// <summary>of the closest point on a: one for each of its vertices, then 0</summary>
+        public Double3 weights_a;
+        public Double3 weights_b;
+        /// <summary>the closest points, rounded</summary>
+        public Double3 point_a;
+        public Double3 point_b;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct CloseView
+    {
+        public uint struct_size;
+        /// <summary>from one element to the next</summary>
+        public uint byte_stride;
+        public ulong count;
+        /// <summary>by a, then b</summary>
+        public ClosePair* pairs;
+    }
+
+    /// <summary>How the time of contact is computed.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 24)]
+    public struct ContactTimeDesc
+    {
+        public uint struct_size;
+        /// <summary>of one pair; &gt;= 1, default 10000.</summary>
+        public uint most_iterations;
+        /// <summary>contact is where two features come this close, &gt;= 0; default 0</summary>
+        public double distance;
+        /// <summary>The time is right where the features are still further apart than `distance` by at most this part
+        /// of their distance at time 0; above 0 and below 1, default 0.1.</summary>
+        public double slack;
+    }
+
+    /// <summary>A safe part of the motion, and the pair that ends it.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 48)]
+    public struct SafeStep
+    {
+        public uint struct_size;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>in [0, 1]: up to this time no two features touch. 1: not within the motion</summary>
+        public double step;
+        /// <summary>that were examined</summary>
+        public ulong pairs;
+        /// <summary>of these, given up after most_iterations</summary>
+        public ulong unfinished;
+        /// <summary>the pair with the first time of contact, where step is below 1: FACE and VERTEX, or EDGE
+        /// and</summary>
+        public Feature kind_a;
+        /// <summary>EDGE.</summary>
+        public Feature kind_b;
+        public uint a;
+        public uint b;
+    }
+
+    /// <summary>Two features that come into contact, and when at the earliest.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 16)]
+    public struct TimedPair
+    {
+        public uint a;
+        public uint b;
+        /// <summary>in [0, 1], not later than the exact one</summary>
+        public double time;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct TimedView
+    {
+        public uint struct_size;
+        /// <summary>from one element to the next</summary>
+        public uint byte_stride;
+        public ulong count;
+        /// <summary>by a, then b</summary>
+        public TimedPair* pairs;
+    }
+
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct IoLoadDesc
     {
@@ -2085,6 +2351,10 @@ namespace Voxtet
         internal const uint VOX_NOTE_CAPACITY = 256;
         /// <summary>most runs of vox_cost_tune</summary>
         internal const uint VOX_TUNE_RUN_CAPACITY = 32;
+        /// <summary>vertices, edges or faces of a surface; each.</summary>
+        internal const uint VOX_MAX_FEATURES = 2147483647;
+        /// <summary>patches of a surface.</summary>
+        internal const uint VOX_MAX_PATCHES = 65536;
         /// <summary>for vox_io_load_desc.mesh_index: joins all meshes of the scene</summary>
         internal const uint VOX_IO_ALL_MESHES = 4294967295;
         /// <summary>most coefficients of a fit</summary>
@@ -2628,6 +2898,83 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_cost_tune(ForeignGrid* grid, TuneDesc* desc, IntPtr run, IntPtr user, Tuning*
             @out);
+
+        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_surface_desc_init(SurfaceDesc* desc, uint struct_size);
+
+        /// <summary>Creates a surface without positions.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_surface_create(SurfaceDesc* desc, IntPtr* out_surface);
+
+        /// <summary>Destroys a surface.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void vox_surface_destroy(IntPtr surface);
+
+        /// <summary>The edges or faces of a surface, numbered as everywhere in this header.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_surface_features(IntPtr surface, Feature feature, FeatureView* out_view);
+
+        /// <summary>Fills `motion` with the defaults for the fields that `struct_size` covers.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_motion_init(Motion* motion, uint struct_size);
+
+        /// <summary>Sets the motion that the other functions answer for.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_surface_move(IntPtr surface, Motion* motion);
+
+        /// <summary>All features `b` whose boxes overlap those of the features [first, first + count) of kind `a`;
+        /// boxes that touch overlap.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_surface_pairs(IntPtr surface, Feature a, Feature b, ulong first, ulong count,
+            PairLists* out_lists);
+
+        /// <summary>Sets vox_surface_desc.cell_size, from the next call on.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_surface_set_cell_size(IntPtr surface, double cell_size);
+
+        /// <summary>The cell size that minimises the cost of finding the pairs of kind `a` with kind `b` for the motion
+        /// that is set.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_surface_suggest_cell_size(IntPtr surface, Feature a, Feature b,
+            ForeignSuggestion* @out);
+
+        /// <summary>Writes the fields that out_counters-&gt;struct_size covers (set it first).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_surface_get_counters(IntPtr surface, SurfaceCounters* out_counters);
+
+        /// <summary>All edges and faces that have a point in common and no vertex, at the end of the motion: whether
+        /// the surface is free of intersections, and where it is not.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_surface_crossings(IntPtr surface, CrossingView* out_view);
+
+        /// <summary>All pairs of features of kinds a and b that are at most `distance` apart, at the end of the motion:
+        /// face and vertex, edge and edge, edge and vertex, vertex and vertex.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_surface_close(IntPtr surface, Feature a, Feature b, double distance,
+            CloseView* out_view);
+
+        /// <summary>For each vertex a distance, at most `most`: while no vertex has moved further than its own, from
+        /// the end of the motion, no two features touch that do not touch now (Chen et al. 2025, Offset Geometric
+        /// Contact, Sect. 3.3).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_surface_clearance(IntPtr surface, double most, double* per_vertex, ulong
+            vertex_count);
+
+        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_contact_time_desc_init(ContactTimeDesc* desc, uint struct_size);
+
+        /// <summary>How much of the motion is free of contact: the least time of first contact of all pairs of faces
+        /// and vertices, and of edges and edges.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_surface_safe_step(IntPtr surface, ContactTimeDesc* desc, SafeStep* @out);
+
+        /// <summary>All pairs of FACE and VERTEX, or of EDGE and EDGE, that may come into contact within the motion,
+        /// each with its time; pairs that are left out are proven to stay apart. desc null: defaults.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_surface_contact_times(IntPtr surface, Feature a, Feature b, ContactTimeDesc*
+            desc, TimedView* out_view);
 
         /// <summary>Fills `desc` with the defaults (AUTO, all meshes) for the fields that `struct_size`
         /// covers.</summary>
@@ -3692,6 +4039,185 @@ namespace Voxtet
             entries.Add(Entry("vox_tuning.note", (byte*)&s.note - begin, 1656, 1656));
         }
 
+        static void AddSurfaceDesc(List<LayoutEntry> entries)
+        {
+            SurfaceDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_surface_desc", sizeof(SurfaceDesc), 144, 104));
+            entries.Add(Entry("vox_surface_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_surface_desc.worker_count", (byte*)&s.worker_count - begin, 4, 4));
+            entries.Add(Entry("vox_surface_desc.vertex_count", (byte*)&s.vertex_count - begin, 8, 8));
+            entries.Add(Entry("vox_surface_desc.edge_count", (byte*)&s.edge_count - begin, 16, 16));
+            entries.Add(Entry("vox_surface_desc.face_count", (byte*)&s.face_count - begin, 24, 24));
+            entries.Add(Entry("vox_surface_desc.edges", (byte*)&s.edges - begin, 32, 32));
+            entries.Add(Entry("vox_surface_desc.faces", (byte*)&s.faces - begin, 40, 36));
+            entries.Add(Entry("vox_surface_desc.patches", (byte*)&s.patches - begin, 48, 40));
+            entries.Add(Entry("vox_surface_desc.patch_categories", (byte*)&s.patch_categories - begin, 56, 44));
+            entries.Add(Entry("vox_surface_desc.patch_masks", (byte*)&s.patch_masks - begin, 64, 48));
+            entries.Add(Entry("vox_surface_desc.patch_count", (byte*)&s.patch_count - begin, 72, 56));
+            entries.Add(Entry("vox_surface_desc.cell_size", (byte*)&s.cell_size - begin, 80, 64));
+            entries.Add(Entry("vox_surface_desc.byte_budget", (byte*)&s.byte_budget - begin, 88, 72));
+            entries.Add(Entry("vox_surface_desc.allocator", (byte*)&s.allocator - begin, 96, 80));
+            entries.Add(Entry("vox_surface_desc.tasks", (byte*)&s.tasks - begin, 120, 92));
+        }
+
+        static void AddFeatureView(List<LayoutEntry> entries)
+        {
+            FeatureView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_feature_view", sizeof(FeatureView), 24, 24));
+            entries.Add(Entry("vox_feature_view.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_feature_view.vertices_each", (byte*)&s.vertices_each - begin, 4, 4));
+            entries.Add(Entry("vox_feature_view.count", (byte*)&s.count - begin, 8, 8));
+            entries.Add(Entry("vox_feature_view.vertices", (byte*)&s.vertices - begin, 16, 16));
+        }
+
+        static void AddMotion(List<LayoutEntry> entries)
+        {
+            Motion s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_motion", sizeof(Motion), 64, 56));
+            entries.Add(Entry("vox_motion.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_motion.flags", (byte*)&s.flags - begin, 4, 4));
+            entries.Add(Entry("vox_motion.from", (byte*)&s.from - begin, 8, 8));
+            entries.Add(Entry("vox_motion.to", (byte*)&s.to - begin, 16, 12));
+            entries.Add(Entry("vox_motion.vertex_count", (byte*)&s.vertex_count - begin, 24, 16));
+            entries.Add(Entry("vox_motion.format", (byte*)&s.format - begin, 32, 24));
+            entries.Add(Entry("vox_motion.reserved", (byte*)&s.reserved - begin, 36, 28));
+            entries.Add(Entry("vox_motion.byte_stride", (byte*)&s.byte_stride - begin, 40, 32));
+            entries.Add(Entry("vox_motion.component_byte_stride", (byte*)&s.component_byte_stride - begin, 48, 40));
+            entries.Add(Entry("vox_motion.radius", (byte*)&s.radius - begin, 56, 48));
+        }
+
+        static void AddPairLists(List<LayoutEntry> entries)
+        {
+            PairLists s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_pair_lists", sizeof(PairLists), 48, 40));
+            entries.Add(Entry("vox_pair_lists.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_pair_lists.reserved", (byte*)&s.reserved - begin, 4, 4));
+            entries.Add(Entry("vox_pair_lists.first", (byte*)&s.first - begin, 8, 8));
+            entries.Add(Entry("vox_pair_lists.count", (byte*)&s.count - begin, 16, 16));
+            entries.Add(Entry("vox_pair_lists.pair_count", (byte*)&s.pair_count - begin, 24, 24));
+            entries.Add(Entry("vox_pair_lists.offsets", (byte*)&s.offsets - begin, 32, 32));
+            entries.Add(Entry("vox_pair_lists.partners", (byte*)&s.partners - begin, 40, 36));
+        }
+
+        static void AddSurfaceCounters(List<LayoutEntry> entries)
+        {
+            SurfaceCounters s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_surface_counters", sizeof(SurfaceCounters), 72, 72));
+            entries.Add(Entry("vox_surface_counters.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_surface_counters.reserved", (byte*)&s.reserved - begin, 4, 4));
+            entries.Add(Entry("vox_surface_counters.cell_size", (byte*)&s.cell_size - begin, 8, 8));
+            entries.Add(Entry("vox_surface_counters.cells", (byte*)&s.cells - begin, 16, 16));
+            entries.Add(Entry("vox_surface_counters.tile_pairs", (byte*)&s.tile_pairs - begin, 24, 24));
+            entries.Add(Entry("vox_surface_counters.boxes_compared", (byte*)&s.boxes_compared - begin, 32, 32));
+            entries.Add(Entry("vox_surface_counters.overlaps", (byte*)&s.overlaps - begin, 40, 40));
+            entries.Add(Entry("vox_surface_counters.culled", (byte*)&s.culled - begin, 48, 48));
+            entries.Add(Entry("vox_surface_counters.bytes", (byte*)&s.bytes - begin, 56, 56));
+            entries.Add(Entry("vox_surface_counters.peak_bytes", (byte*)&s.peak_bytes - begin, 64, 64));
+        }
+
+        static void AddCrossing(List<LayoutEntry> entries)
+        {
+            Crossing s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_crossing", sizeof(Crossing), 80, 80));
+            entries.Add(Entry("vox_crossing.edge", (byte*)&s.edge - begin, 0, 0));
+            entries.Add(Entry("vox_crossing.face", (byte*)&s.face - begin, 4, 4));
+            entries.Add(Entry("vox_crossing.kind", (byte*)&s.kind - begin, 8, 8));
+            entries.Add(Entry("vox_crossing.reserved", (byte*)&s.reserved - begin, 12, 12));
+            entries.Add(Entry("vox_crossing.edge_weights", (byte*)&s.edge_weights - begin, 16, 16));
+            entries.Add(Entry("vox_crossing.face_weights", (byte*)&s.face_weights - begin, 32, 32));
+            entries.Add(Entry("vox_crossing.position", (byte*)&s.position - begin, 56, 56));
+        }
+
+        static void AddCrossingView(List<LayoutEntry> entries)
+        {
+            CrossingView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_crossing_view", sizeof(CrossingView), 24, 24));
+            entries.Add(Entry("vox_crossing_view.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_crossing_view.byte_stride", (byte*)&s.byte_stride - begin, 4, 4));
+            entries.Add(Entry("vox_crossing_view.count", (byte*)&s.count - begin, 8, 8));
+            entries.Add(Entry("vox_crossing_view.crossings", (byte*)&s.crossings - begin, 16, 16));
+        }
+
+        static void AddClosePair(List<LayoutEntry> entries)
+        {
+            ClosePair s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_close_pair", sizeof(ClosePair), 112, 112));
+            entries.Add(Entry("vox_close_pair.a", (byte*)&s.a - begin, 0, 0));
+            entries.Add(Entry("vox_close_pair.b", (byte*)&s.b - begin, 4, 4));
+            entries.Add(Entry("vox_close_pair.distance", (byte*)&s.distance - begin, 8, 8));
+            entries.Add(Entry("vox_close_pair.weights_a", (byte*)&s.weights_a - begin, 16, 16));
+            entries.Add(Entry("vox_close_pair.weights_b", (byte*)&s.weights_b - begin, 40, 40));
+            entries.Add(Entry("vox_close_pair.point_a", (byte*)&s.point_a - begin, 64, 64));
+            entries.Add(Entry("vox_close_pair.point_b", (byte*)&s.point_b - begin, 88, 88));
+        }
+
+        static void AddCloseView(List<LayoutEntry> entries)
+        {
+            CloseView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_close_view", sizeof(CloseView), 24, 24));
+            entries.Add(Entry("vox_close_view.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_close_view.byte_stride", (byte*)&s.byte_stride - begin, 4, 4));
+            entries.Add(Entry("vox_close_view.count", (byte*)&s.count - begin, 8, 8));
+            entries.Add(Entry("vox_close_view.pairs", (byte*)&s.pairs - begin, 16, 16));
+        }
+
+        static void AddContactTimeDesc(List<LayoutEntry> entries)
+        {
+            ContactTimeDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_contact_time_desc", sizeof(ContactTimeDesc), 24, 24));
+            entries.Add(Entry("vox_contact_time_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_contact_time_desc.most_iterations", (byte*)&s.most_iterations - begin, 4, 4));
+            entries.Add(Entry("vox_contact_time_desc.distance", (byte*)&s.distance - begin, 8, 8));
+            entries.Add(Entry("vox_contact_time_desc.slack", (byte*)&s.slack - begin, 16, 16));
+        }
+
+        static void AddSafeStep(List<LayoutEntry> entries)
+        {
+            SafeStep s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_safe_step", sizeof(SafeStep), 48, 48));
+            entries.Add(Entry("vox_safe_step.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_safe_step.reserved", (byte*)&s.reserved - begin, 4, 4));
+            entries.Add(Entry("vox_safe_step.step", (byte*)&s.step - begin, 8, 8));
+            entries.Add(Entry("vox_safe_step.pairs", (byte*)&s.pairs - begin, 16, 16));
+            entries.Add(Entry("vox_safe_step.unfinished", (byte*)&s.unfinished - begin, 24, 24));
+            entries.Add(Entry("vox_safe_step.kind_a", (byte*)&s.kind_a - begin, 32, 32));
+            entries.Add(Entry("vox_safe_step.kind_b", (byte*)&s.kind_b - begin, 36, 36));
+            entries.Add(Entry("vox_safe_step.a", (byte*)&s.a - begin, 40, 40));
+            entries.Add(Entry("vox_safe_step.b", (byte*)&s.b - begin, 44, 44));
+        }
+
+        static void AddTimedPair(List<LayoutEntry> entries)
+        {
+            TimedPair s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_timed_pair", sizeof(TimedPair), 16, 16));
+            entries.Add(Entry("vox_timed_pair.a", (byte*)&s.a - begin, 0, 0));
+            entries.Add(Entry("vox_timed_pair.b", (byte*)&s.b - begin, 4, 4));
+            entries.Add(Entry("vox_timed_pair.time", (byte*)&s.time - begin, 8, 8));
+        }
+
+        static void AddTimedView(List<LayoutEntry> entries)
+        {
+            TimedView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_timed_view", sizeof(TimedView), 24, 24));
+            entries.Add(Entry("vox_timed_view.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_timed_view.byte_stride", (byte*)&s.byte_stride - begin, 4, 4));
+            entries.Add(Entry("vox_timed_view.count", (byte*)&s.count - begin, 8, 8));
+            entries.Add(Entry("vox_timed_view.pairs", (byte*)&s.pairs - begin, 16, 16));
+        }
+
         static void AddIoLoadDesc(List<LayoutEntry> entries)
         {
             IoLoadDesc s;
@@ -4056,6 +4582,19 @@ namespace Voxtet
             AddGridFit(entries);
             AddTuneDesc(entries);
             AddTuning(entries);
+            AddSurfaceDesc(entries);
+            AddFeatureView(entries);
+            AddMotion(entries);
+            AddPairLists(entries);
+            AddSurfaceCounters(entries);
+            AddCrossing(entries);
+            AddCrossingView(entries);
+            AddClosePair(entries);
+            AddCloseView(entries);
+            AddContactTimeDesc(entries);
+            AddSafeStep(entries);
+            AddTimedPair(entries);
+            AddTimedView(entries);
             AddIoLoadDesc(entries);
             AddIoSource(entries);
             AddIoMeshView(entries);

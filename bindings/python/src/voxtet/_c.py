@@ -24,6 +24,8 @@ VOX_COST_TERM_CAPACITY = 12
 VOX_CELL_SIZE_LEVEL_CAPACITY = 4
 VOX_NOTE_CAPACITY = 256
 VOX_TUNE_RUN_CAPACITY = 32
+VOX_MAX_FEATURES = 2147483647
+VOX_MAX_PATCHES = 65536
 VOX_IO_ALL_MESHES = 4294967295
 VOX_FIT_CAPACITY = 9
 
@@ -183,6 +185,22 @@ class ForeignRule(enum.IntEnum):
     MEDIAN_BOX_SIDE = 3
     SPACING = 4
     RADIUS = 5
+
+
+class Feature(enum.IntEnum):
+    VERTEX = 0
+    EDGE = 1
+    FACE = 2
+
+
+class MotionFlags(enum.IntFlag):
+    CULL = 1
+
+
+class CrossingKind(enum.IntEnum):
+    THROUGH = 0
+    TOUCHING = 1
+    COPLANAR = 2
 
 
 class IoFormat(enum.IntEnum):
@@ -1209,6 +1227,196 @@ dtypes["vox_tuning"] = dtype({
     "itemsize": 1912})
 
 
+class vox_surface_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("worker_count", c_uint32),
+        ("vertex_count", c_uint64),
+        ("edge_count", c_uint64),
+        ("face_count", c_uint64),
+        ("edges", c_void_p),
+        ("faces", c_void_p),
+        ("patches", c_void_p),
+        ("patch_categories", c_void_p),
+        ("patch_masks", c_void_p),
+        ("patch_count", c_uint64),
+        ("cell_size", c_double),
+        ("byte_budget", c_uint64),
+        ("allocator", vox_allocator),
+        ("tasks", vox_task_system),
+    ]
+
+
+class vox_feature_view(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("vertices_each", c_uint32),
+        ("count", c_uint64),
+        ("vertices", c_void_p),
+    ]
+
+
+class vox_motion(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("flags", c_uint32),
+        ("from", c_void_p),
+        ("to", c_void_p),
+        ("vertex_count", c_uint64),
+        ("format", c_int32),
+        ("reserved", c_uint32),
+        ("byte_stride", c_uint64),
+        ("component_byte_stride", c_uint64),
+        ("radius", c_double),
+    ]
+
+
+class vox_pair_lists(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("first", c_uint64),
+        ("count", c_uint64),
+        ("pair_count", c_uint64),
+        ("offsets", c_void_p),
+        ("partners", c_void_p),
+    ]
+
+
+class vox_surface_counters(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("cell_size", c_double),
+        ("cells", c_uint64),
+        ("tile_pairs", c_uint64),
+        ("boxes_compared", c_uint64),
+        ("overlaps", c_uint64),
+        ("culled", c_uint64),
+        ("bytes", c_uint64),
+        ("peak_bytes", c_uint64),
+    ]
+
+dtypes["vox_surface_counters"] = dtype({
+    "names": ["struct_size", "reserved", "cell_size", "cells", "tile_pairs", "boxes_compared", "overlaps", "culled",
+        "bytes", "peak_bytes"],
+    "formats": ["u4", "u4", "f8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64],
+    "itemsize": 72})
+
+
+class vox_crossing(Structure):
+    _fields_ = [
+        ("edge", c_uint32),
+        ("face", c_uint32),
+        ("kind", c_int32),
+        ("reserved", c_uint32),
+        ("edge_weights", c_double * 2),
+        ("face_weights", c_double * 3),
+        ("position", c_double * 3),
+    ]
+
+dtypes["vox_crossing"] = dtype({
+    "names": ["edge", "face", "kind", "reserved", "edge_weights", "face_weights", "position"],
+    "formats": ["u4", "u4", "i4", "u4", ("f8", (2,)), ("f8", (3,)), ("f8", (3,))],
+    "offsets": [0, 4, 8, 12, 16, 32, 56],
+    "itemsize": 80})
+
+
+class vox_crossing_view(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("byte_stride", c_uint32),
+        ("count", c_uint64),
+        ("crossings", c_void_p),
+    ]
+
+
+class vox_close_pair(Structure):
+    _fields_ = [
+        ("a", c_uint32),
+        ("b", c_uint32),
+        ("distance", c_double),
+        ("weights_a", c_double * 3),
+        ("weights_b", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+    ]
+
+dtypes["vox_close_pair"] = dtype({
+    "names": ["a", "b", "distance", "weights_a", "weights_b", "point_a", "point_b"],
+    "formats": ["u4", "u4", "f8", ("f8", (3,)), ("f8", (3,)), ("f8", (3,)), ("f8", (3,))],
+    "offsets": [0, 4, 8, 16, 40, 64, 88],
+    "itemsize": 112})
+
+
+class vox_close_view(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("byte_stride", c_uint32),
+        ("count", c_uint64),
+        ("pairs", c_void_p),
+    ]
+
+
+class vox_contact_time_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("most_iterations", c_uint32),
+        ("distance", c_double),
+        ("slack", c_double),
+    ]
+
+dtypes["vox_contact_time_desc"] = dtype({
+    "names": ["struct_size", "most_iterations", "distance", "slack"],
+    "formats": ["u4", "u4", "f8", "f8"],
+    "offsets": [0, 4, 8, 16],
+    "itemsize": 24})
+
+
+class vox_safe_step(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("step", c_double),
+        ("pairs", c_uint64),
+        ("unfinished", c_uint64),
+        ("kind_a", c_int32),
+        ("kind_b", c_int32),
+        ("a", c_uint32),
+        ("b", c_uint32),
+    ]
+
+dtypes["vox_safe_step"] = dtype({
+    "names": ["struct_size", "reserved", "step", "pairs", "unfinished", "kind_a", "kind_b", "a", "b"],
+    "formats": ["u4", "u4", "f8", "u8", "u8", "i4", "i4", "u4", "u4"],
+    "offsets": [0, 4, 8, 16, 24, 32, 36, 40, 44],
+    "itemsize": 48})
+
+
+class vox_timed_pair(Structure):
+    _fields_ = [
+        ("a", c_uint32),
+        ("b", c_uint32),
+        ("time", c_double),
+    ]
+
+dtypes["vox_timed_pair"] = dtype({
+    "names": ["a", "b", "time"],
+    "formats": ["u4", "u4", "f8"],
+    "offsets": [0, 4, 8],
+    "itemsize": 16})
+
+
+class vox_timed_view(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("byte_stride", c_uint32),
+        ("count", c_uint64),
+        ("pairs", c_void_p),
+    ]
+
+
 vox_io_load_desc_progress = CFUNCTYPE(c_int32, c_double, c_void_p)
 class vox_io_load_desc(Structure):
     _fields_ = [
@@ -1527,7 +1735,7 @@ dtypes["vox_time_fit"] = dtype({
     "itemsize": 136})
 
 
-# Of each library: name, type of the result, types of the parameters.
+# Of each header: name, type of the result, types of the parameters.
 FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
     "vox": {
         "vox_result_string": (c_char_p, (c_int32,)),
@@ -1652,6 +1860,25 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_cost_tune": (vox_result, (POINTER(vox_foreign_grid), POINTER(vox_tune_desc), vox_grid_run, c_void_p,
             POINTER(vox_tuning))),
     },
+    "vox_pairs": {
+        "vox_surface_desc_init": (vox_result, (POINTER(vox_surface_desc), c_uint32)),
+        "vox_surface_create": (vox_result, (POINTER(vox_surface_desc), POINTER(c_void_p))),
+        "vox_surface_destroy": (None, (c_void_p,)),
+        "vox_surface_features": (vox_result, (c_void_p, c_int32, POINTER(vox_feature_view))),
+        "vox_motion_init": (vox_result, (POINTER(vox_motion), c_uint32)),
+        "vox_surface_move": (vox_result, (c_void_p, POINTER(vox_motion))),
+        "vox_surface_pairs": (vox_result, (c_void_p, c_int32, c_int32, c_uint64, c_uint64, POINTER(vox_pair_lists))),
+        "vox_surface_set_cell_size": (vox_result, (c_void_p, c_double)),
+        "vox_surface_suggest_cell_size": (vox_result, (c_void_p, c_int32, c_int32, POINTER(vox_foreign_suggestion))),
+        "vox_surface_get_counters": (vox_result, (c_void_p, POINTER(vox_surface_counters))),
+        "vox_surface_crossings": (vox_result, (c_void_p, POINTER(vox_crossing_view))),
+        "vox_surface_close": (vox_result, (c_void_p, c_int32, c_int32, c_double, POINTER(vox_close_view))),
+        "vox_surface_clearance": (vox_result, (c_void_p, c_double, c_void_p, c_uint64)),
+        "vox_contact_time_desc_init": (vox_result, (POINTER(vox_contact_time_desc), c_uint32)),
+        "vox_surface_safe_step": (vox_result, (c_void_p, POINTER(vox_contact_time_desc), POINTER(vox_safe_step))),
+        "vox_surface_contact_times": (vox_result, (c_void_p, c_int32, c_int32, POINTER(vox_contact_time_desc),
+            POINTER(vox_timed_view))),
+    },
     "vox_io": {
         "vox_io_load_desc_init": (vox_result, (POINTER(vox_io_load_desc), c_uint32)),
         "vox_io_load": (vox_result, (c_char_p, POINTER(vox_io_load_desc), POINTER(c_void_p))),
@@ -1706,7 +1933,7 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
 
 
 def declare(library: Any, name: str, check: Any = None) -> None:
-    """Gives the functions of the ctypes library `name` (vox, vox_io, vox_sim) their types. `check` becomes the errcheck
+    """Gives the functions of the header `name` (vox, vox_pairs, vox_io, vox_sim) in a ctypes library their types. `check` becomes the errcheck
     of those whose result is a vox_result: a failure unless it is 0."""
     for function, (result, parameters) in FUNCTIONS[name].items():
         found = getattr(library, function)

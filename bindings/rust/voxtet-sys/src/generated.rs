@@ -39,6 +39,10 @@ pub const VOX_CELL_SIZE_LEVEL_CAPACITY: u32 = 4;
 pub const VOX_NOTE_CAPACITY: u32 = 256;
 /// most runs of vox_cost_tune
 pub const VOX_TUNE_RUN_CAPACITY: u32 = 32;
+/// vertices, edges or faces of a surface; each. More: VOX_ERROR_LIMIT
+pub const VOX_MAX_FEATURES: u32 = 2147483647;
+/// patches of a surface. More: VOX_ERROR_LIMIT
+pub const VOX_MAX_PATCHES: u32 = 65536;
 /// for vox_io_load_desc.mesh_index: joins all meshes of the scene
 pub const VOX_IO_ALL_MESHES: u32 = 4294967295;
 /// most coefficients of a fit
@@ -293,6 +297,28 @@ pub const VOX_RULE_MEDIAN_BOX_SIDE: vox_foreign_rule = 3;
 pub const VOX_RULE_SPACING: vox_foreign_rule = 4;
 pub const VOX_RULE_RADIUS: vox_foreign_rule = 5;
 
+/// What a surface consists of.
+pub type vox_feature = i32;
+pub const VOX_FEATURE_VERTEX: vox_feature = 0;
+/// of 2 vertices
+pub const VOX_FEATURE_EDGE: vox_feature = 1;
+/// a triangle, of 3 vertices
+pub const VOX_FEATURE_FACE: vox_feature = 2;
+
+pub type vox_motion_flags = u32;
+/// Leave out pairs that are proven to stay further apart than twice the radius, that is, whose features thickened by
+/// the radius never touch. No other pair is left out.
+pub const VOX_MOTION_CULL: vox_motion_flags = 1;
+
+/// How an edge meets a face.
+pub type vox_crossing_kind = i32;
+/// it passes through the interior of the face, with an end on either side
+pub const VOX_CROSSING_THROUGH: vox_crossing_kind = 0;
+/// an end is on the face, or it passes through an edge or a corner of the face
+pub const VOX_CROSSING_TOUCHING: vox_crossing_kind = 1;
+/// it lies in the plane of the face and meets it, or one of them is degenerate and they meet
+pub const VOX_CROSSING_COPLANAR: vox_crossing_kind = 2;
+
 pub type vox_io_format = i32;
 /// determined from the content or, failing that, from the name's extension
 pub const VOX_IO_FORMAT_AUTO: vox_io_format = 0;
@@ -354,6 +380,13 @@ pub struct vox_grid {
 /// What vox_grid_take_query_view takes.
 #[repr(C)]
 pub struct vox_query_view {
+    _data: [u8; 0],
+    _marker: PhantomData<(*mut u8, PhantomPinned)>,
+}
+
+/// Vertices, edges and faces, and the positions of the last vox_surface_move.
+#[repr(C)]
+pub struct vox_surface {
     _data: [u8; 0],
     _marker: PhantomData<(*mut u8, PhantomPinned)>,
 }
@@ -1560,6 +1593,236 @@ pub struct vox_tuning {
     pub note: [c_char; 256],
 }
 
+/// What a surface is made of. Faces may have any winding; edges and faces may be degenerate (name a vertex twice) and
+/// duplicated. A feature never makes a pair with itself, nor with one that has a vertex in common with it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_surface_desc {
+    pub struct_size: u32,
+    /// Threads that work, as in vox_grid_desc: 1 (the default): the calling one; 0: one per core.
+    pub worker_count: u32,
+    /// at least 1
+    pub vertex_count: u64,
+    pub edge_count: u64,
+    pub face_count: u64,
+    /// 2 * edge_count indices of vertices, copied. Null, with edge_count 0: the edges are those of the faces, each
+    /// once, lower vertex first, ascending (vox_surface_features lists them).
+    pub edges: *const u32,
+    /// 3 * face_count indices of vertices, copied
+    pub faces: *const u32,
+    /// The patch of each vertex, below patch_count, copied; null: all vertices are in one patch. Two features make no
+    /// pair unless some vertex of one and some vertex of the other may meet (as in IPC Toolkit). Two vertices may meet
+    /// if the category of the patch of each has a bit in common with the mask of the patch of the other. So static
+    /// obstacles are patches of a category that their own masks leave out.
+    pub patches: *const u32,
+    /// copied; null: 1 each
+    pub patch_categories: *const u64,
+    /// copied; null: all bits
+    pub patch_masks: *const u64,
+    pub patch_count: u64,
+    /// Edge length of a cell of the grid in which pairs are looked for, > 0. 0 (the default): chosen at every motion by
+    /// the cost model. No answer depends on it.
+    pub cell_size: f64,
+    /// Most bytes the surface may hold at any time, its answers included. A call that would exceed it fails with
+    /// VOX_ERROR_BUDGET. 0: no limit. Default 4 GiB.
+    pub byte_budget: u64,
+    /// called only from functions of this surface, one call at a time
+    pub allocator: vox_allocator,
+    /// default: the built-in scheduler
+    pub tasks: vox_task_system,
+}
+
+/// The vertices of the edges or faces of a surface.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_feature_view {
+    pub struct_size: u32,
+    /// 2 of an edge, 3 of a face
+    pub vertices_each: u32,
+    /// edges or faces
+    pub count: u64,
+    pub vertices: *const u32,
+}
+
+/// Positions of all vertices of a surface, or two, between which each vertex moves along a straight line at constant
+/// speed. Strides, formats and ranges of numbers are those of vox_mesh_desc, so columns as well as rows can be read.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_motion {
+    pub struct_size: u32,
+    /// vox_motion_flags, combined with |
+    pub flags: u32,
+    /// at time 0, copied
+    pub from: *const c_void,
+    /// the same, at time 1; null: everything stands still
+    pub to: *const c_void,
+    /// that of the surface; another number is an INVALID_ARGUMENT
+    pub vertex_count: u64,
+    pub format: vox_format,
+    /// 0
+    pub reserved: u32,
+    /// from one position to the next; 0: tightly packed (columns: one number)
+    pub byte_stride: u64,
+    /// from one coordinate of a position to the next; 0: the size of a number
+    pub component_byte_stride: u64,
+    /// The box of a vertex holds both its positions and reaches further by this on each side, rounded outward: to the
+    /// next number of `format` below and above. That of an edge or a face holds those of its vertices. >= 0, may be
+    /// infinite; default 0.
+    pub radius: f64,
+}
+
+/// The partners of features [first, first + count): those of feature first + i are partners[offsets[i]] to
+/// partners[offsets[i + 1] - 1], ascending.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_pair_lists {
+    pub struct_size: u32,
+    /// 0
+    pub reserved: u32,
+    pub first: u64,
+    /// features answered; fewer than asked where more would exceed the byte budget
+    pub count: u64,
+    /// offsets[count]
+    pub pair_count: u64,
+    pub offsets: *const u64,
+    pub partners: *const u32,
+}
+
+/// What the last vox_surface_pairs did, and what the surface holds.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_surface_counters {
+    pub struct_size: u32,
+    /// 0
+    pub reserved: u32,
+    /// that was used; 0 where no grid was needed
+    pub cell_size: f64,
+    /// with something in them
+    pub cells: u64,
+    /// tiles (at most 64 features each) whose boxes overlap those of tiles of the other kind
+    pub tile_pairs: u64,
+    /// features compared with the 64 of a tile at once
+    pub boxes_compared: u64,
+    /// pairs whose boxes overlap, before VOX_MOTION_CULL
+    pub overlaps: u64,
+    /// of these, left out by VOX_MOTION_CULL
+    pub culled: u64,
+    /// held now
+    pub bytes: u64,
+    pub peak_bytes: u64,
+}
+
+/// An edge and a face that have a point in common.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_crossing {
+    pub edge: u32,
+    pub face: u32,
+    pub kind: vox_crossing_kind,
+    /// 0
+    pub reserved: u32,
+    /// of a common point; they add up to 1
+    pub edge_weights: [f64; 2],
+    /// of the same point
+    pub face_weights: [f64; 3],
+    /// of the point, rounded
+    pub position: [f64; 3],
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_crossing_view {
+    pub struct_size: u32,
+    /// from one element to the next
+    pub byte_stride: u32,
+    pub count: u64,
+    /// by edge, then face
+    pub crossings: *const vox_crossing,
+}
+
+/// Two features and their closest points.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_close_pair {
+    pub a: u32,
+    pub b: u32,
+    pub distance: f64,
+    /// of the closest point on a: one for each of its vertices, then 0
+    pub weights_a: [f64; 3],
+    pub weights_b: [f64; 3],
+    /// the closest points, rounded
+    pub point_a: [f64; 3],
+    pub point_b: [f64; 3],
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_close_view {
+    pub struct_size: u32,
+    /// from one element to the next
+    pub byte_stride: u32,
+    pub count: u64,
+    /// by a, then b
+    pub pairs: *const vox_close_pair,
+}
+
+/// How the time of contact is computed.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_contact_time_desc {
+    pub struct_size: u32,
+    /// of one pair; >= 1, default 10000. What is not finished then gives a time that is too early, never one that is
+    /// late; it is counted
+    pub most_iterations: u32,
+    /// contact is where two features come this close, >= 0; default 0
+    pub distance: f64,
+    /// The time is right where the features are still further apart than `distance` by at most this part of their
+    /// distance at time 0; above 0 and below 1, default 0.1. Less takes longer and gives greater steps.
+    pub slack: f64,
+}
+
+/// A safe part of the motion, and the pair that ends it.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_safe_step {
+    pub struct_size: u32,
+    /// 0
+    pub reserved: u32,
+    /// in [0, 1]: up to this time no two features touch. 1: not within the motion
+    pub step: f64,
+    /// that were examined
+    pub pairs: u64,
+    /// of these, given up after most_iterations
+    pub unfinished: u64,
+    /// the pair with the first time of contact, where step is below 1: FACE and VERTEX, or EDGE and
+    pub kind_a: vox_feature,
+    /// EDGE. Of several, the first in the order face-vertex, edge-edge, a, b
+    pub kind_b: vox_feature,
+    pub a: u32,
+    pub b: u32,
+}
+
+/// Two features that come into contact, and when at the earliest.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_timed_pair {
+    pub a: u32,
+    pub b: u32,
+    /// in [0, 1], not later than the exact one
+    pub time: f64,
+}
+
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_timed_view {
+    pub struct_size: u32,
+    /// from one element to the next
+    pub byte_stride: u32,
+    pub count: u64,
+    /// by a, then b
+    pub pairs: *const vox_timed_pair,
+}
+
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_io_load_desc {
@@ -2741,6 +3004,126 @@ extern "C" {
     ) -> vox_result;
 }
 
+#[rustfmt::skip]
+extern "C" {
+    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
+    pub fn vox_surface_desc_init(desc: *mut vox_surface_desc, struct_size: u32) -> vox_result;
+    /// Creates a surface without positions. The caller owns *out_surface and releases it with vox_surface_destroy.
+    /// Errors: INVALID_ARGUMENT (names the field and its value), INVALID_MESH ("face 17 names vertex 900 of 812"),
+    /// LIMIT, BUDGET, OUT_OF_MEMORY.
+    pub fn vox_surface_create(
+        desc: *const vox_surface_desc,
+        out_surface: *mut *mut vox_surface,
+    ) -> vox_result;
+    /// Destroys a surface. Its views become invalid. Null does nothing.
+    pub fn vox_surface_destroy(surface: *mut vox_surface);
+    /// The edges or faces of a surface, numbered as everywhere in this header. Set out_view->struct_size first. The
+    /// view lives as long as the surface. Errors: INVALID_ARGUMENT (also for VOX_FEATURE_VERTEX, whose numbers are
+    /// those of the positions).
+    pub fn vox_surface_features(
+        surface: *const vox_surface,
+        feature: vox_feature,
+        out_view: *mut vox_feature_view,
+    ) -> vox_result;
+    /// Fills `motion` with the defaults for the fields that `struct_size` covers.
+    pub fn vox_motion_init(motion: *mut vox_motion, struct_size: u32) -> vox_result;
+    /// Sets the motion that the other functions answer for. Views of answers end. The arrays are needed during the call
+    /// only. Errors: INVALID_ARGUMENT (names the field and its value), NON_FINITE (names the vertex, and which of its
+    /// positions), BUDGET, OUT_OF_MEMORY; the motion is then the one of before.
+    pub fn vox_surface_move(surface: *mut vox_surface, motion: *const vox_motion) -> vox_result;
+    /// All features `b` whose boxes overlap those of the features [first, first + count) of kind `a`; boxes that touch
+    /// overlap. Where a and b are the same kind, each pair comes once, in the list of its lower feature. Left out:
+    /// pairs with a vertex in common, pairs that patches rule out, and with VOX_MOTION_CULL those proven to stay apart.
+    /// Ranges that reach beyond the last feature end there. If not all of it fits into the byte budget, the features up
+    /// to lists->first + lists->count are answered, at least one; ask again from there. So any number of pairs can be
+    /// had from any budget that holds the lists of one feature. Set out_lists->struct_size first. The view lives until
+    /// the next vox_surface_pairs or vox_surface_move, or the end of the surface. Errors: INVALID_ARGUMENT,
+    /// INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
+    pub fn vox_surface_pairs(
+        surface: *mut vox_surface,
+        a: vox_feature,
+        b: vox_feature,
+        first: u64,
+        count: u64,
+        out_lists: *mut vox_pair_lists,
+    ) -> vox_result;
+    /// Sets vox_surface_desc.cell_size, from the next call on. Changes no answer. Errors: INVALID_ARGUMENT when
+    /// negative, infinite or NaN.
+    pub fn vox_surface_set_cell_size(surface: *mut vox_surface, cell_size: f64) -> vox_result;
+    /// The cell size that minimises the cost of finding the pairs of kind `a` with kind `b` for the motion that is set.
+    /// The grid holds the boxes of tiles (at most 64 neighbouring features each) of kind b in all cells that they meet,
+    /// and is asked by those of kind a: described as a vox_foreign_grid, with weights of its own
+    /// (docs/surface-pairs.md). Set out->struct_size first. Errors: INVALID_ARGUMENT (also where there are no such
+    /// features), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
+    pub fn vox_surface_suggest_cell_size(
+        surface: *mut vox_surface,
+        a: vox_feature,
+        b: vox_feature,
+        out: *mut vox_foreign_suggestion,
+    ) -> vox_result;
+    /// Writes the fields that out_counters->struct_size covers (set it first).
+    pub fn vox_surface_get_counters(
+        surface: *const vox_surface,
+        out_counters: *mut vox_surface_counters,
+    ) -> vox_result;
+    /// All edges and faces that have a point in common and no vertex, at the end of the motion: whether the surface is
+    /// free of intersections, and where it is not. Decided exactly. Patches rule out pairs as for vox_surface_pairs;
+    /// the radius does not count. Set out_view->struct_size first. The view lives until the next vox_surface_crossings
+    /// or vox_surface_move, or the end of the surface. Errors: INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
+    pub fn vox_surface_crossings(
+        surface: *mut vox_surface,
+        out_view: *mut vox_crossing_view,
+    ) -> vox_result;
+    /// All pairs of features of kinds a and b that are at most `distance` apart, at the end of the motion: face and
+    /// vertex, edge and edge, edge and vertex, vertex and vertex. Which pairs are left out is as for vox_surface_pairs;
+    /// the radius does not count. Set out_view->struct_size first. The view lives until the next vox_surface_close or
+    /// vox_surface_move, or the end of the surface. Errors: INVALID_ARGUMENT (other kinds; a distance that is negative,
+    /// infinite or NaN), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
+    pub fn vox_surface_close(
+        surface: *mut vox_surface,
+        a: vox_feature,
+        b: vox_feature,
+        distance: f64,
+        out_view: *mut vox_close_view,
+    ) -> vox_result;
+    /// For each vertex a distance, at most `most`: while no vertex has moved further than its own, from the end of the
+    /// motion, no two features touch that do not touch now (Chen et al. 2025, Offset Geometric Contact, Sect. 3.3). It
+    /// is half of the least distance between the features that the vertex is part of and those that they could touch,
+    /// rounded downwards. vertex_count must be that of the surface. Errors: INVALID_ARGUMENT (another vertex_count;
+    /// `most` is not above 0, or not finite), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
+    pub fn vox_surface_clearance(
+        surface: *mut vox_surface,
+        most: f64,
+        per_vertex: *mut f64,
+        vertex_count: u64,
+    ) -> vox_result;
+    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
+    pub fn vox_contact_time_desc_init(
+        desc: *mut vox_contact_time_desc,
+        struct_size: u32,
+    ) -> vox_result;
+    /// How much of the motion is free of contact: the least time of first contact of all pairs of faces and vertices,
+    /// and of edges and edges. Never later than the exact time. Pairs that touch at time 0 give the step 0. Pairs are
+    /// left out as for vox_surface_pairs. desc null: defaults. Set out->struct_size first. Errors: INVALID_ARGUMENT,
+    /// INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
+    pub fn vox_surface_safe_step(
+        surface: *mut vox_surface,
+        desc: *const vox_contact_time_desc,
+        out: *mut vox_safe_step,
+    ) -> vox_result;
+    /// All pairs of FACE and VERTEX, or of EDGE and EDGE, that may come into contact within the motion, each with its
+    /// time; pairs that are left out are proven to stay apart. desc null: defaults. Set out_view->struct_size first.
+    /// The view lives until the next vox_surface_contact_times or vox_surface_move, or the end of the surface. Errors:
+    /// INVALID_ARGUMENT (also for other kinds), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
+    pub fn vox_surface_contact_times(
+        surface: *mut vox_surface,
+        a: vox_feature,
+        b: vox_feature,
+        desc: *const vox_contact_time_desc,
+        out_view: *mut vox_timed_view,
+    ) -> vox_result;
+}
+
 #[cfg(feature = "io")]
 #[rustfmt::skip]
 extern "C" {
@@ -3189,6 +3572,35 @@ layouts! {
         zone_min: [16, 16], zone_max: [24, 24], seconds: [32, 32], expected_loss: [40, 40], noise: [48, 48],
         weights: [56, 56], runs: [112, 112], run_count: [624, 624], curve_count: [628, 628], curve: [632, 632],
         note: [1656, 1656] }
+    vox_surface_desc: size [144, 104], alignment [8, 8], { struct_size: [0, 0], worker_count: [4, 4],
+        vertex_count: [8, 8], edge_count: [16, 16], face_count: [24, 24], edges: [32, 32], faces: [40, 36],
+        patches: [48, 40], patch_categories: [56, 44], patch_masks: [64, 48], patch_count: [72, 56],
+        cell_size: [80, 64], byte_budget: [88, 72], allocator: [96, 80], tasks: [120, 92] }
+    vox_feature_view: size [24, 24], alignment [8, 8], { struct_size: [0, 0], vertices_each: [4, 4], count: [8, 8],
+        vertices: [16, 16] }
+    vox_motion: size [64, 56], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], from: [8, 8], to: [16, 12],
+        vertex_count: [24, 16], format: [32, 24], reserved: [36, 28], byte_stride: [40, 32],
+        component_byte_stride: [48, 40], radius: [56, 48] }
+    vox_pair_lists: size [48, 40], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], first: [8, 8],
+        count: [16, 16], pair_count: [24, 24], offsets: [32, 32], partners: [40, 36] }
+    vox_surface_counters: size [72, 72], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], cell_size: [8, 8],
+        cells: [16, 16], tile_pairs: [24, 24], boxes_compared: [32, 32], overlaps: [40, 40], culled: [48, 48],
+        bytes: [56, 56], peak_bytes: [64, 64] }
+    vox_crossing: size [80, 80], alignment [8, 8], { edge: [0, 0], face: [4, 4], kind: [8, 8], reserved: [12, 12],
+        edge_weights: [16, 16], face_weights: [32, 32], position: [56, 56] }
+    vox_crossing_view: size [24, 24], alignment [8, 8], { struct_size: [0, 0], byte_stride: [4, 4], count: [8, 8],
+        crossings: [16, 16] }
+    vox_close_pair: size [112, 112], alignment [8, 8], { a: [0, 0], b: [4, 4], distance: [8, 8], weights_a: [16, 16],
+        weights_b: [40, 40], point_a: [64, 64], point_b: [88, 88] }
+    vox_close_view: size [24, 24], alignment [8, 8], { struct_size: [0, 0], byte_stride: [4, 4], count: [8, 8],
+        pairs: [16, 16] }
+    vox_contact_time_desc: size [24, 24], alignment [8, 8], { struct_size: [0, 0], most_iterations: [4, 4],
+        distance: [8, 8], slack: [16, 16] }
+    vox_safe_step: size [48, 48], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], step: [8, 8],
+        pairs: [16, 16], unfinished: [24, 24], kind_a: [32, 32], kind_b: [36, 36], a: [40, 40], b: [44, 44] }
+    vox_timed_pair: size [16, 16], alignment [8, 8], { a: [0, 0], b: [4, 4], time: [8, 8] }
+    vox_timed_view: size [24, 24], alignment [8, 8], { struct_size: [0, 0], byte_stride: [4, 4], count: [8, 8],
+        pairs: [16, 16] }
     vox_io_load_desc: size [56, 36], alignment [8, 4], { struct_size: [0, 0], format: [4, 4], mesh_index: [8, 8],
         reserved: [12, 12], allocator: [16, 16], progress: [40, 28], progress_user: [48, 32] }
     vox_io_source: size [24, 12], alignment [8, 4], { name: [0, 0], data: [8, 4], size: [16, 8] }

@@ -1,0 +1,317 @@
+/* Surfaces, motions and pairs: what is refused, in words and with nothing changed; degenerate scenes; memory. */
+#include <float.h>
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+#include <vox/vox_pairs.h>
+
+#include "support/ledger.h"
+#include "support/suite.h"
+
+/* Two triangles that cross each other. */
+static const double crossed[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, .25, .25, -1, .25, .25, 1, 2, 2, 0};
+static const uint32_t two_faces[6] = {0, 1, 2, 3, 4, 5};
+
+static vox_surface_desc desc_of(uint64_t vertices, const uint32_t* faces, uint64_t count) {
+    vox_surface_desc desc = vox_default_surface_desc();
+    desc.vertex_count = vertices;
+    desc.faces = faces;
+    desc.face_count = count;
+    return desc;
+}
+
+static vox_surface* surface_from(const vox_surface_desc* desc) {
+    vox_surface* surface = NULL;
+    ck_ok(vox_surface_create(desc, &surface));
+    return surface;
+}
+
+static vox_motion motion_of(const double* from, const double* to, uint64_t vertices) {
+    vox_motion motion = vox_default_motion();
+    motion.from = from;
+    motion.to = to;
+    motion.vertex_count = vertices;
+    motion.format = VOX_FORMAT_DOUBLE3;
+    return motion;
+}
+
+static vox_pair_lists lists_of(vox_surface* surface, vox_feature a, vox_feature b) {
+    vox_pair_lists lists;
+    lists.struct_size = sizeof lists;
+    ck_ok(vox_surface_pairs(surface, a, b, 0, UINT64_MAX, &lists));
+    return lists;
+}
+
+START_TEST(descriptions_that_are_refused) {
+    vox_surface* surface = (vox_surface*)(void*)&surface;
+    vox_surface_desc desc = desc_of(6, two_faces, 2);
+    ck_fails(vox_surface_create(NULL, &surface), VOX_ERROR_INVALID_ARGUMENT, "desc");
+    ck_fails(vox_surface_create(&desc, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_surface");
+    desc.vertex_count = 0;
+    ck_fails(vox_surface_create(&desc, &surface), VOX_ERROR_INVALID_ARGUMENT, "vertex_count is 0");
+    desc.vertex_count = 5;
+    ck_fails(vox_surface_create(&desc, &surface), VOX_ERROR_INVALID_MESH, "face 1 names vertex 5 of 5");
+    desc.vertex_count = (uint64_t)VOX_MAX_FEATURES + 1;
+    ck_fails(vox_surface_create(&desc, &surface), VOX_ERROR_LIMIT, "2147483648");
+    desc.vertex_count = 6;
+    desc.face_count = (uint64_t)VOX_MAX_FEATURES + 1;
+    ck_fails(vox_surface_create(&desc, &surface), VOX_ERROR_LIMIT, "face_count");
+    desc = desc_of(6, NULL, 2);
+    ck_fails(vox_surface_create(&desc, &surface), VOX_ERROR_INVALID_ARGUMENT, "faces is null");
+    desc = desc_of(6, two_faces, 2);
+    desc.edge_count = 1;
+    ck_fails(vox_surface_create(&desc, &surface), VOX_ERROR_INVALID_ARGUMENT, "edges is null");
+    const uint32_t patches[6] = {0, 0, 0, 1, 1, 2};
+    const uint64_t masks[3] = {1, 1, 1};
+    desc = desc_of(6, two_faces, 2);
+    desc.patch_masks = masks;
+    ck_fails(vox_surface_create(&desc, &surface), VOX_ERROR_INVALID_ARGUMENT, "patches is null");
+    desc.patches = patches;
+    ck_fails(vox_surface_create(&desc, &surface), VOX_ERROR_INVALID_ARGUMENT, "patch_count is 0");
+    desc.patch_count = 2;
+    ck_fails(vox_surface_create(&desc, &surface), VOX_ERROR_INVALID_ARGUMENT, "vertex 5 is in patch 2 of 2");
+    desc.patch_count = (uint64_t)VOX_MAX_PATCHES + 1;
+    ck_fails(vox_surface_create(&desc, &surface), VOX_ERROR_LIMIT, "65537");
+    const double sizes[] = {-1, NAN, INFINITY};
+    for (int i = 0; i < 3; ++i) {
+        desc = desc_of(6, two_faces, 2);
+        desc.cell_size = sizes[i];
+        ck_fails(vox_surface_create(&desc, &surface), VOX_ERROR_INVALID_ARGUMENT, "cell_size");
+    }
+    desc = desc_of(6, two_faces, 2);
+    desc.worker_count = VOX_MAX_WORKERS + 1;
+    ck_fails(vox_surface_create(&desc, &surface), VOX_ERROR_INVALID_ARGUMENT, "worker_count");
+    desc.worker_count = 1;
+    desc.byte_budget = 100;
+    ck_fails(vox_surface_create(&desc, &surface), VOX_ERROR_BUDGET, "100");
+    ck_assert_ptr_eq(surface, (vox_surface*)(void*)&surface); /* never written */
+    vox_surface_destroy(NULL);
+}
+END_TEST
+
+START_TEST(motions_that_are_refused) {
+    const vox_surface_desc desc = desc_of(6, two_faces, 2);
+    vox_surface* const surface = surface_from(&desc);
+    vox_pair_lists lists;
+    lists.struct_size = sizeof lists;
+    ck_fails(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, 0, 1, &lists), VOX_ERROR_INVALID_STATE,
+             "no positions");
+    vox_motion good = motion_of(crossed, NULL, 6);
+    ck_ok(vox_surface_move(surface, &good));
+    const uint64_t pairs = lists_of(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE).pair_count;
+    ck_assert_uint_gt(pairs, 0);
+
+    vox_motion bad = good;
+    bad.from = NULL;
+    ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "from is null");
+    bad = good;
+    bad.vertex_count = 7;
+    ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "vertex_count is 7, but the surface has 6");
+    bad = good;
+    bad.flags = 2;
+    ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "flags");
+    bad = good;
+    bad.format = (vox_format)7;
+    ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "7");
+    bad = good;
+    bad.byte_stride = 23;
+    ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "23");
+    const double radii[] = {-1, NAN};
+    for (int i = 0; i < 2; ++i) {
+        bad = good;
+        bad.radius = radii[i];
+        ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "radius");
+    }
+    double broken[18];
+    memcpy(broken, crossed, sizeof broken);
+    const double values[] = {NAN, INFINITY, -INFINITY, 1e39};
+    for (int i = 0; i < 4; ++i) {
+        broken[4] = values[i];
+        bad = motion_of(broken, NULL, 6);
+        ck_fails(vox_surface_move(surface, &bad), i < 3 ? VOX_ERROR_NON_FINITE : VOX_ERROR_LIMIT, "from: vertex 1");
+        bad = motion_of(crossed, broken, 6);
+        ck_fails(vox_surface_move(surface, &bad), i < 3 ? VOX_ERROR_NON_FINITE : VOX_ERROR_LIMIT, "to: vertex 1");
+    }
+    ck_assert_uint_eq(lists_of(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE).pair_count, pairs); /* the motion of before */
+    vox_surface_destroy(surface);
+}
+END_TEST
+
+START_TEST(questions_that_are_refused) {
+    const vox_surface_desc desc = desc_of(6, two_faces, 2);
+    vox_surface* const surface = surface_from(&desc);
+    const vox_motion motion = motion_of(crossed, NULL, 6);
+    ck_ok(vox_surface_move(surface, &motion));
+    vox_pair_lists lists;
+    lists.struct_size = sizeof lists;
+    lists.count = 77;
+    ck_fails(vox_surface_pairs(surface, (vox_feature)3, VOX_FEATURE_EDGE, 0, 1, &lists), VOX_ERROR_INVALID_ARGUMENT, "3");
+    ck_fails(vox_surface_pairs(surface, VOX_FEATURE_EDGE, (vox_feature)-1, 0, 1, &lists), VOX_ERROR_INVALID_ARGUMENT, "-1");
+    ck_fails(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 7, 1, &lists), VOX_ERROR_INVALID_ARGUMENT,
+             "first is 7 of 6");
+    ck_fails(vox_surface_pairs(NULL, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, 1, &lists), VOX_ERROR_INVALID_ARGUMENT, "surface");
+    ck_fails(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, 1, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_lists");
+    ck_assert_uint_eq(lists.count, 77);
+    ck_ok(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 6, 1, &lists)); /* at the end: none */
+    ck_assert_uint_eq(lists.count, 0);
+    ck_fails(vox_surface_set_cell_size(surface, -1), VOX_ERROR_INVALID_ARGUMENT, "-1");
+    ck_fails(vox_surface_set_cell_size(surface, NAN), VOX_ERROR_INVALID_ARGUMENT, "nan");
+    vox_feature_view view;
+    view.struct_size = sizeof view;
+    ck_fails(vox_surface_features(surface, VOX_FEATURE_VERTEX, &view), VOX_ERROR_INVALID_ARGUMENT, "VERTEX");
+    ck_ok(vox_surface_features(surface, VOX_FEATURE_EDGE, &view));
+    ck_assert_uint_eq(view.count, 6);
+    ck_assert_uint_eq(view.vertices_each, 2);
+    ck_assert_uint_eq(view.vertices[0], 0);
+    ck_assert_uint_eq(view.vertices[1], 1);
+    vox_foreign_suggestion suggestion;
+    suggestion.struct_size = sizeof suggestion;
+    ck_ok(vox_surface_suggest_cell_size(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, &suggestion));
+    ck_assert(suggestion.cell_size > 0);
+    vox_surface_destroy(surface);
+}
+END_TEST
+
+/* Features without a size, twice the same, all in one place, of sizes from 1 to 10^12, at the ends of the range. */
+START_TEST(degenerate_scenes) {
+    const uint32_t faces[] = {0, 0, 0, 0, 1, 0, 0, 1, 2, 0, 1, 2, 3, 4, 5, 5, 4, 3};
+    const uint32_t edges[] = {0, 0, 0, 1, 1, 0, 2, 3, 4, 5, 4, 5};
+    const double scales[] = {1, 1e-40, 1e-300, 1e30, 3e38, 0};
+    const double radii[] = {0, 1e-3, INFINITY};
+    for (int s = 0; s < 6; ++s)
+        for (int r = 0; r < 3; ++r)
+            for (int cull = 0; cull < 2; ++cull) {
+                double at[18], to[18];
+                for (int i = 0; i < 18; ++i) {
+                    at[i] = scales[s] * crossed[i] / 2;
+                    to[i] = i < 9 ? at[i] : -at[i];
+                }
+                if (s == 0) at[15] = 1e12;
+                vox_surface_desc desc = desc_of(6, faces, 6);
+                desc.edges = edges;
+                desc.edge_count = 6;
+                vox_surface* const surface = surface_from(&desc);
+                vox_motion motion = motion_of(at, to, 6);
+                motion.radius = radii[r];
+                motion.flags = cull ? VOX_MOTION_CULL : 0;
+                ck_ok(vox_surface_move(surface, &motion));
+                for (int a = 0; a < 3; ++a)
+                    for (int b = 0; b < 3; ++b) {
+                        const vox_pair_lists lists = lists_of(surface, (vox_feature)a, (vox_feature)b);
+                        if (r == 2 && a == 0 && b == 0) ck_assert_uint_eq(lists.pair_count, 15); /* all */
+                    }
+                vox_surface_destroy(surface);
+            }
+}
+END_TEST
+
+/* Static obstacles do not meet each other. */
+START_TEST(patches_that_do_not_meet) {
+    const uint32_t patches[6] = {0, 0, 0, 1, 1, 1};
+    const uint64_t categories[2] = {1, 2}, meet[2] = {3, 3}, apart[2] = {1, 2};
+    for (int off = 0; off < 2; ++off) {
+        vox_surface_desc desc = desc_of(6, two_faces, 2);
+        desc.patches = patches;
+        desc.patch_categories = categories;
+        desc.patch_masks = off ? apart : meet;
+        desc.patch_count = 2;
+        vox_surface* const surface = surface_from(&desc);
+        const vox_motion motion = motion_of(crossed, NULL, 6);
+        ck_ok(vox_surface_move(surface, &motion));
+        const uint64_t pairs = lists_of(surface, VOX_FEATURE_FACE, VOX_FEATURE_FACE).pair_count;
+        ck_assert_uint_eq(pairs, off ? 0 : 1);
+        vox_surface_destroy(surface);
+    }
+}
+END_TEST
+
+/* Where memory runs out, call by call: an error, nothing lost, and the same answer afterwards. */
+START_TEST(memory_that_runs_out) {
+    ledger book = {0, 0, 0, 0, 0};
+    uint64_t calls = 0;
+    for (uint64_t fail_at = 0; fail_at <= calls; ++fail_at) {
+        memset(&book, 0, sizeof book);
+        vox_surface_desc desc = desc_of(6, two_faces, 2);
+        desc.allocator.allocate = ledger_allocate;
+        desc.allocator.release = ledger_release;
+        desc.allocator.user = &book;
+        book.fail_at = fail_at;
+        vox_surface* surface = NULL;
+        vox_result result = vox_surface_create(&desc, &surface);
+        if (result == VOX_OK) {
+            vox_motion motion = motion_of(crossed, NULL, 6);
+            motion.flags = VOX_MOTION_CULL;
+            vox_pair_lists lists;
+            lists.struct_size = sizeof lists;
+            result = vox_surface_move(surface, &motion);
+            if (result == VOX_OK)
+                result = vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, 0, 6, &lists);
+            if (fail_at == 0) {
+                calls = book.calls;
+                ck_ok(result);
+            } else {
+                ck_assert_int_eq(result, VOX_ERROR_OUT_OF_MEMORY);
+                ck_ok(vox_surface_move(surface, &motion));
+                ck_assert_uint_eq(lists_of(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE).pair_count, 2);
+            }
+            vox_surface_destroy(surface);
+        } else {
+            ck_assert_int_eq(result, VOX_ERROR_OUT_OF_MEMORY);
+        }
+        ck_assert_uint_eq(book.bytes, 0);
+    }
+    ck_assert_uint_gt(calls, 10);
+}
+END_TEST
+
+/* After the first answers, the same motions take no more memory. */
+START_TEST(no_memory_in_the_steady_state) {
+    enum { side = 40 };
+    static double at[2][side * side * 3];
+    static uint32_t faces[side * side * 6];
+    uint64_t count = 0;
+    for (uint32_t i = 0; i < side * side; ++i)
+        for (int k = 0; k < 2; ++k) {
+            at[k][3 * i] = i % side;
+            at[k][3 * i + 1] = i / side;
+            at[k][3 * i + 2] = sin(i / 50.) * 3 + k;
+        }
+    for (uint32_t i = 0; i + side + 1 < side * side; ++i)
+        if (i % side + 1 < side) {
+            const uint32_t two[6] = {i, i + 1, i + side, i + side, i + 1, i + side + 1};
+            memcpy(faces + 3 * count, two, sizeof two);
+            count += 2;
+        }
+    ledger book = {0, 0, 0, 0, 0};
+    vox_surface_desc desc = desc_of(side * side, faces, count);
+    desc.allocator.allocate = ledger_allocate;
+    desc.allocator.release = ledger_release;
+    desc.allocator.user = &book;
+    vox_surface* const surface = surface_from(&desc);
+    uint64_t calls = 0, pairs = 0;
+    for (int step = 0; step < 6; ++step) {
+        vox_motion motion = motion_of(at[step & 1], at[!(step & 1)], side * side);
+        motion.flags = VOX_MOTION_CULL;
+        motion.radius = 0.01;
+        ck_ok(vox_surface_move(surface, &motion));
+        const uint64_t found = lists_of(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE).pair_count +
+                               lists_of(surface, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX).pair_count;
+        if (step == 2) {
+            calls = book.calls;
+            pairs = found;
+        } else if (step > 2) {
+            ck_assert_uint_eq(book.calls, calls);
+        }
+    }
+    ck_assert_uint_gt(pairs, 0);
+    vox_surface_destroy(surface);
+}
+END_TEST
+
+int main(void) {
+    Suite* suite = suite_create("surfaces");
+    TCase* tests = add_case(suite, "surfaces");
+    tcase_add_each(tests, descriptions_that_are_refused, motions_that_are_refused, questions_that_are_refused, degenerate_scenes,
+                   patches_that_do_not_meet, memory_that_runs_out, no_memory_in_the_steady_state);
+    return run_suite(suite);
+}
