@@ -1,0 +1,259 @@
+"""Pairs of surface features: which vertices, edges and triangles of deforming surfaces can meet, cross, are close or come into
+contact while they move (docs/surface-pairs.md). Experimental: it may change in any release.
+
+>>> import numpy as np
+>>> square = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], float)
+>>> positions = np.concatenate([square, square + [0.1, 0.1, 0.5]])
+>>> faces = np.array([[0, 1, 2], [2, 1, 3], [4, 5, 6], [6, 5, 7]])
+>>> surface = Surface(faces)
+>>> surface.move(positions, positions * [1, 1, -1])
+>>> len(surface.pairs("face", "vertex").partners) > 0
+True
+"""
+
+from __future__ import annotations
+
+import ctypes
+import threading
+from collections.abc import Iterator
+from typing import Any, NamedTuple, Optional, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _c
+from ._arguments import U32, choice, copied_rows, indices, integer, real, switch
+from ._library import Handle, described, sized, vox
+from .errors import InvalidArgumentError
+
+FeatureName = Union[str, _c.Feature]
+
+
+class FeaturePairs(NamedTuple):
+    """The partners of feature i are partners[offsets[i]:offsets[i + 1]], ascending."""
+
+    offsets: NDArray[np.uint64]
+    partners: NDArray[np.uint32]
+
+    def array(self) -> NDArray[np.uint32]:
+        """All pairs, (n, 2), in order."""
+        firsts = np.repeat(np.arange(len(self.offsets) - 1, dtype=np.uint32), np.diff(self.offsets.astype(np.int64)))
+        return np.stack([firsts, self.partners], axis=1)
+
+
+class SurfaceCounters(NamedTuple):
+    """What the last search for pairs did, and what the surface holds."""
+
+    cell_size: float
+    cells: int
+    tile_pairs: int
+    boxes_compared: int
+    overlaps: int
+    culled: int
+    bytes: int
+    peak_bytes: int
+
+
+class SafeStep(NamedTuple):
+    """Up to this part of the motion no two features touch. Below 1, the kinds and numbers of the two that touch first."""
+
+    step: float
+    pairs: int
+    unfinished: int
+    kind_a: _c.Feature
+    kind_b: _c.Feature
+    a: int
+    b: int
+
+
+def _copy(address: Optional[int], count: int, dtype: Any) -> NDArray[Any]:
+    out = np.empty(count, dtype)
+    if count:
+        ctypes.memmove(out.ctypes.data, address, out.nbytes)
+    return out
+
+
+def _records(view: Any, address: Optional[int], name: str) -> NDArray[Any]:
+    """An array of records, for which numpy knows the fields."""
+    dtype = _c.dtypes[name]
+    if view.byte_stride == dtype.itemsize:
+        return _copy(address, view.count, dtype)
+    raw = _copy(address, view.count * view.byte_stride, np.uint8).reshape(view.count, view.byte_stride)
+    return np.ascontiguousarray(raw[:, :dtype.itemsize]).view(dtype)[:, 0]
+
+
+class Surface:
+    """Vertices, edges and triangles. faces: (n, 3) indices of vertices; edges: (m, 2), or None for those of the faces;
+    vertex_count: None for one more than the greatest index. patches: the patch of each vertex; two vertices may meet if the
+    category of the patch of each has a bit in common with the mask of the other's. One thread at a time may use it."""
+
+    def __init__(self, faces: Optional[ArrayLike] = None, *, edges: Optional[ArrayLike] = None,
+                 vertex_count: Optional[int] = None, patches: Optional[ArrayLike] = None,
+                 patch_categories: Optional[ArrayLike] = None, patch_masks: Optional[ArrayLike] = None,
+                 workers: int = 1, cell_size: float = 0.0, byte_budget: int = 4 << 30) -> None:
+        desc = described(_c.vox_surface_desc)
+        kept = []
+
+        def pass_indices(value: Optional[ArrayLike], name: str, width: int) -> tuple[Optional[int], int]:
+            if value is None:
+                return None, 0
+            array = indices(value, name, width)
+            kept.append(array)
+            return array.ctypes.data, array.size // width
+
+        desc.faces, desc.face_count = pass_indices(faces, "faces", 3)
+        desc.edges, desc.edge_count = pass_indices(edges, "edges", 2)
+        if vertex_count is None:
+            vertex_count = 1 + max((int(array.max()) for array in kept if array.size), default=-1)
+        desc.vertex_count = integer(vertex_count, "vertex_count")
+        if patches is not None:
+            desc.patches, count = pass_indices(patches, "patches", 1)
+            if count != vertex_count:
+                raise InvalidArgumentError(f"patches has {count} numbers; it must have {vertex_count}, one for each vertex")
+            desc.patch_count = 1 + int(kept[-1].max()) if count else 0
+            for name, value in (("patch_categories", patch_categories), ("patch_masks", patch_masks)):
+                if value is None:
+                    continue
+                array = np.ascontiguousarray(value, np.uint64)
+                if array.shape != (desc.patch_count,):
+                    raise InvalidArgumentError(f"{name} has the shape {array.shape}; it must be ({desc.patch_count},)")
+                kept.append(array)
+                setattr(desc, name, array.ctypes.data)
+        elif patch_categories is not None or patch_masks is not None:
+            raise InvalidArgumentError("patches is None, but patch_categories or patch_masks is not")
+        desc.worker_count = integer(workers, "workers", high=U32)
+        desc.cell_size = real(cell_size, "cell_size")
+        desc.byte_budget = integer(byte_budget, "byte_budget")
+        out = ctypes.c_void_p()
+        vox.vox_surface_create(desc, out)
+        assert out.value is not None
+        self._handle = Handle(out.value, vox.vox_surface_destroy)
+        self._vertex_count = vertex_count
+        self._lock = threading.Lock()
+
+    def _features(self, feature: _c.Feature) -> NDArray[np.uint32]:
+        view = sized(_c.vox_feature_view)
+        with self._lock:
+            vox.vox_surface_features(self._handle.pointer, int(feature), view)
+            return _copy(view.vertices, view.count * view.vertices_each, np.uint32).reshape(-1, view.vertices_each)
+
+    @property
+    def vertex_count(self) -> int:
+        return self._vertex_count
+
+    @property
+    def edges(self) -> NDArray[np.uint32]:
+        """(m, 2): the vertices of each edge."""
+        return self._features(_c.Feature.EDGE)
+
+    @property
+    def faces(self) -> NDArray[np.uint32]:
+        """(n, 3): the vertices of each face."""
+        return self._features(_c.Feature.FACE)
+
+    def move(self, start: ArrayLike, end: Optional[ArrayLike] = None, *, radius: float = 0.0, cull: bool = False) -> None:
+        """Sets the motion that is asked about: every vertex moves from its position in start, (n, 3), along a straight line to that
+        in end (None: everything stands still). Both are float32, or both float64. cull leaves out pairs that are proven to stay
+        further apart than twice the radius."""
+        motion = described(_c.vox_motion)
+        first = copied_rows(start, "start")
+        setattr(motion, "from", first.address)
+        motion.vertex_count = first.length
+        motion.format, motion.byte_stride, motion.component_byte_stride = first.format, first.stride, first.component
+        if end is not None:
+            second = copied_rows(end, "end")
+            if second[2:6] != first[2:6]:
+                first, second = (copied_rows(np.ascontiguousarray(rows.array, np.float64), name)
+                                 for rows, name in ((first, "start"), (second, "end")))
+                if first.length != second.length:
+                    raise InvalidArgumentError(f"start has {first.length} positions, end has {second.length}")
+                setattr(motion, "from", first.address)
+                motion.format, motion.byte_stride, motion.component_byte_stride = (first.format, first.stride,
+                                                                                   first.component)
+            motion.to = second.address
+        motion.radius = real(radius, "radius")
+        motion.flags = int(_c.MotionFlags.CULL) if switch(cull, "cull") else 0
+        with self._lock:
+            vox.vox_surface_move(self._handle.pointer, motion)
+
+    def pieces(self, a: FeatureName, b: FeatureName) -> Iterator[FeaturePairs]:
+        """The pairs of features whose boxes overlap, in pieces that fit into the byte budget, each for the next features of a."""
+        kind_a, kind_b = choice(_c.Feature, a, "a"), choice(_c.Feature, b, "b")
+        first = 0
+        while True:
+            lists = sized(_c.vox_pair_lists)
+            with self._lock:
+                vox.vox_surface_pairs(self._handle.pointer, kind_a, kind_b, first, 2**63, lists)
+                if lists.count == 0 and first > 0:
+                    return
+                piece = FeaturePairs(_copy(lists.offsets, lists.count + 1, np.uint64),
+                                     _copy(lists.partners, lists.pair_count, np.uint32))
+            yield piece
+            first += lists.count
+            if lists.count == 0:
+                return
+
+    def pairs(self, a: FeatureName, b: FeatureName) -> FeaturePairs:
+        """For each feature of kind a ("vertex", "edge", "face") the features of kind b whose boxes overlap its own. Of two of one
+        kind, the lower one has the pair."""
+        found = list(self.pieces(a, b))
+        if len(found) == 1:
+            return found[0]
+        starts = np.cumsum([0] + [len(piece.partners) for piece in found[:-1]]).astype(np.uint64)
+        offsets = [piece.offsets[:-1] + start for piece, start in zip(found, starts)]
+        end = found[-1].offsets[-1:] + starts[-1]
+        return FeaturePairs(np.concatenate([*offsets, end]), np.concatenate([piece.partners for piece in found]))
+
+    @property
+    def counters(self) -> SurfaceCounters:
+        out = sized(_c.vox_surface_counters)
+        with self._lock:
+            vox.vox_surface_get_counters(self._handle.pointer, out)
+        return SurfaceCounters(*(getattr(out, name) for name in SurfaceCounters._fields))
+
+    def crossings(self) -> NDArray[Any]:
+        """Edges that have a point in common with a face at the end of the motion, decided exactly: records with edge, face, kind,
+        edge_weights, face_weights, position. Empty: the surface does not intersect itself."""
+        view = sized(_c.vox_crossing_view)
+        with self._lock:
+            vox.vox_surface_crossings(self._handle.pointer, view)
+            return _records(view, view.crossings, "vox_crossing")
+
+    def close(self, a: FeatureName, b: FeatureName, distance: float) -> NDArray[Any]:
+        """Pairs at most this far apart at the end of the motion, with their closest points."""
+        kind_a, kind_b = choice(_c.Feature, a, "a"), choice(_c.Feature, b, "b")
+        view = sized(_c.vox_close_view)
+        with self._lock:
+            vox.vox_surface_close(self._handle.pointer, kind_a, kind_b, real(distance, "distance"), view)
+            return _records(view, view.pairs, "vox_close_pair")
+
+    def clearance(self, most: float) -> NDArray[np.float64]:
+        """For each vertex how far it may move, at most this far, so that nothing touches what it does not touch now."""
+        out = np.empty(self._vertex_count)
+        with self._lock:
+            vox.vox_surface_clearance(self._handle.pointer, real(most, "most"), out.ctypes.data, len(out))
+        return out
+
+    def _time_desc(self, distance: float, slack: float, most_iterations: int) -> Any:
+        desc = described(_c.vox_contact_time_desc)
+        desc.distance, desc.slack = real(distance, "distance"), real(slack, "slack")
+        desc.most_iterations = integer(most_iterations, "most_iterations", high=U32)
+        return desc
+
+    def safe_step(self, distance: float = 0.0, *, slack: float = 0.1, most_iterations: int = 10000) -> SafeStep:
+        """How much of the motion is free of contact: never more than in truth."""
+        desc = self._time_desc(distance, slack, most_iterations)
+        out = sized(_c.vox_safe_step)
+        with self._lock:
+            vox.vox_surface_safe_step(self._handle.pointer, desc, out)
+        return SafeStep(out.step, out.pairs, out.unfinished, _c.Feature(out.kind_a), _c.Feature(out.kind_b), out.a, out.b)
+
+    def contact_times(self, a: FeatureName, b: FeatureName, distance: float = 0.0, *, slack: float = 0.1,
+                      most_iterations: int = 10000) -> NDArray[Any]:
+        """Pairs of face and vertex, or of edges, that may come into contact, each with the earliest time: records with a, b, time."""
+        kind_a, kind_b = choice(_c.Feature, a, "a"), choice(_c.Feature, b, "b")
+        desc = self._time_desc(distance, slack, most_iterations)
+        view = sized(_c.vox_timed_view)
+        with self._lock:
+            vox.vox_surface_contact_times(self._handle.pointer, kind_a, kind_b, desc, view)
+            return _records(view, view.pairs, "vox_timed_pair")

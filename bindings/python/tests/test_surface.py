@@ -1,0 +1,114 @@
+"""Pairs of surface features, against loops in numpy."""
+
+import doctest
+import unittest
+
+import numpy as np
+
+import voxtet
+from voxtet import surface as module
+from voxtet.surface import Surface
+
+
+def cloud(seed, count=60):
+    random = np.random.default_rng(seed)
+    start = random.random((count, 3))
+    faces = random.integers(0, count, (count, 3))
+    return start, start + random.random((count, 3)) / 10 - 0.05, faces
+
+
+def boxes(start, end, corners, radius):
+    low = np.nextafter(np.minimum(start, end) - radius, -np.inf)[corners].min(axis=1)
+    high = np.nextafter(np.maximum(start, end) + radius, np.inf)[corners].max(axis=1)
+    return low, high
+
+
+def by_definition(start, end, a, b, radius, same):
+    (low_a, high_a), (low_b, high_b) = boxes(start, end, a, radius), boxes(start, end, b, radius)
+    found = []
+    for i in range(len(a)):
+        near = ((low_a[i] <= high_b) & (low_b <= high_a[i])).all(axis=1)
+        near &= ~(a[i][:, None, None] == b.T[None]).any(axis=(0, 1))
+        if same:
+            near[:i + 1] = False
+        found.append(np.flatnonzero(near).tolist())
+    return found
+
+
+class Pairs(unittest.TestCase):
+    def test_pairs_are_those_whose_boxes_overlap(self):
+        for seed in range(5):
+            start, end, faces = cloud(seed)
+            surface = Surface(faces, vertex_count=len(start), workers=2)
+            features = {"vertex": np.arange(len(start))[:, None], "edge": surface.edges, "face": surface.faces}
+            for order in ("C", "F"):
+                surface.move(np.array(start, order=order), np.array(end, order=order), radius=0.01)
+                for a, corners_a in features.items():
+                    for b, corners_b in features.items():
+                        expected = by_definition(start, end, corners_a, corners_b, 0.01, a == b)
+                        found = surface.pairs(a, b)
+                        self.assertEqual([found.partners[i:j].tolist() for i, j in zip(found.offsets, found.offsets[1:])],
+                                         expected)
+                        self.assertEqual(found.array().tolist(), [[i, j] for i, js in enumerate(expected) for j in js])
+
+    def test_floats_and_doubles_together(self):
+        start, end, faces = cloud(1)
+        surface = Surface(faces, vertex_count=len(start))
+        start = start.astype(np.float32)
+        surface.move(start, end)
+        mixed = surface.pairs("face", "vertex").partners
+        surface.move(start.astype(float), end)
+        self.assertEqual(mixed.tolist(), surface.pairs("face", "vertex").partners.tolist())
+
+    def test_pieces(self):
+        start, end, faces = cloud(2, 3000)
+        whole, tight = Surface(faces), Surface(faces, byte_budget=2_000_000)
+        for surface in (whole, tight):
+            surface.move(start, end, radius=0.02)
+        self.assertGreater(len(list(tight.pieces("vertex", "vertex"))), 1)
+        for one, other in zip(whole.pairs("vertex", "vertex"), tight.pairs("vertex", "vertex")):
+            self.assertEqual(one.tolist(), other.tolist())
+
+    def test_culling(self):
+        start, end, faces = cloud(3)
+        surface = Surface(faces, vertex_count=len(start))
+        surface.move(start, end, cull=True)
+        kept = {tuple(pair) for pair in surface.pairs("edge", "edge").array().tolist()}
+        counters = surface.counters
+        surface.move(start, end)
+        pairs = {tuple(pair) for pair in surface.pairs("edge", "edge").array().tolist()}
+        self.assertLess(kept, pairs)
+        self.assertEqual((counters.overlaps, counters.culled), (len(pairs), len(pairs) - len(kept)))
+
+    def test_patches(self):
+        start, _, faces = cloud(4)
+        surface = Surface(faces, vertex_count=len(start), patches=np.zeros(len(start), int), patch_masks=[0])
+        surface.move(start)
+        self.assertEqual(len(surface.pairs("face", "face").partners), 0)
+
+
+class Refused(unittest.TestCase):
+    def test_arguments(self):
+        start, _, faces = cloud(5)
+        surface = Surface(faces, vertex_count=len(start))
+        with self.assertRaisesRegex(voxtet.InvalidStateError, "no positions"):
+            surface.pairs("edge", "edge")
+        with self.assertRaisesRegex(voxtet.InvalidArgumentError, "59"):
+            surface.move(start[:-1])
+        with self.assertRaisesRegex(voxtet.NonFiniteError, "vertex 7"):
+            surface.move(np.where(np.arange(60)[:, None] == 7, np.nan, start))
+        with self.assertRaisesRegex(voxtet.InvalidArgumentError, "'tet'"):
+            surface.pairs("tet", "edge")
+        with self.assertRaisesRegex(voxtet.InvalidMeshError, "vertex 9 of 4"):
+            Surface([[0, 1, 9]], vertex_count=4)
+        with self.assertRaisesRegex(voxtet.InvalidArgumentError, "patches"):
+            Surface(faces, patch_masks=[1])
+
+
+def load_tests(loader, tests, _pattern):
+    tests.addTests(doctest.DocTestSuite(module))
+    return tests
+
+
+if __name__ == "__main__":
+    unittest.main()
