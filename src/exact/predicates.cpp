@@ -207,6 +207,18 @@ int uncertain_orientation(const BoundedVolume& volume, const Vec3d& a, const Vec
     return exact_orientation(a, b, c, d);
 }
 
+void scaled_volumes(const VolumePoints& points, std::span<const VolumeCorners> of,
+                    std::span<double> volumes) {
+    const auto p = in_units(points);
+    int bits = 0; // of the largest
+    for (const auto& [a, b, c, d] : of)
+        bits = std::max(bits, bit_count(exact_volume(p[a], p[b], p[c], p[d])));
+    for (std::size_t i = 0; i < of.size(); ++i) {
+        const auto& [a, b, c, d] = of[i];
+        volumes[i] = scaled(exact_volume(p[a], p[b], p[c], p[d]), bits);
+    }
+}
+
 std::array<float, 4> barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
                                  const Vec3d& d) {
     const std::array<BoundedVolume, 4> bounded = corner_volumes(p, a, b, c, d);

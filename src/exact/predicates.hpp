@@ -16,7 +16,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace vox {
 
@@ -60,15 +62,27 @@ inline BoundedVolume determinant(double uz, const Minor& vw, double vz, const Mi
     return {uz * vw.value - vz * uw.value + wz * uv.value, bound * permanent + underflow_error};
 }
 
+// det[b-a, c-a, d-a]
+inline BoundedVolume bounded_volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) {
+    const Vec3d u = b - a, v = c - a, w = d - a;
+    return determinant(u.z, minor(v, w), v.z, minor(u, w), w.z, minor(u, v));
+}
+
 // The sign (-1, 0, +1) of det[b-a, c-a, d-a]. It is positive when d is on the side of triangle abc to which
 // its counter-clockwise normal points. `exact_tests` counts the calls that the error bound could not decide.
 inline int orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d,
                        std::uint64_t& exact_tests) {
-    const Vec3d u = b - a, v = c - a, w = d - a;
-    const BoundedVolume det = determinant(u.z, minor(v, w), v.z, minor(u, w), w.z, minor(u, v));
+    const BoundedVolume det = bounded_volume(a, b, c, d);
     if (det.certain()) return det.volume > 0 ? 1 : -1;
     return uncertain_orientation(det, a, b, c, d, exact_tests);
 }
+
+// The volumes of some quadruples of a few points, by their indices, times one power of two, so that the
+// largest is about 1: each rounded to double once. What underflows then is 0.
+inline constexpr std::size_t most_volume_points = 6;
+using VolumePoints = std::array<Vec3d, most_volume_points>;
+using VolumeCorners = std::array<std::uint8_t, 4>; // as the arguments of orientation()
+void scaled_volumes(const VolumePoints& points, std::span<const VolumeCorners> of, std::span<double> volumes);
 
 enum class Containment : std::uint8_t {
     outside,
