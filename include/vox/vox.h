@@ -220,6 +220,8 @@ typedef enum vox_grid_flags {
                                      disabled; without this flag they fail.
                                      Counted (skipped_meshes), listed (vox_grid_failure), and logged once until the
                                      mesh is well again */
+    VOX_GRID_EDGE_CONTACTS = 8, /* also find edges of surfaces through faces of others (vox_grid_edge_contacts);
+                                   experimental. A mesh of more than 357913941 tets then gives VOX_ERROR_LIMIT */
     VOX_GRID_FLAGS_FORCE_32_BITS = 0x7fffffff
 } vox_grid_flags;
 
@@ -317,6 +319,8 @@ VOX_API vox_result vox_grid_set_worker_count(vox_grid* grid, uint32_t worker_cou
  * proportional to them; vox_grid_penetrations is empty until the next step. Switched off, it releases all that memory.
  * VOX_GRID_CONTACT_EVENTS switched on lets the next step report each vertex in contact as one that began, as a first
  * step does. Switched off, it releases the memory of these events.
+ * VOX_GRID_EDGE_CONTACTS switched on lets the next step prepare the surfaces of the meshes that are near others.
+ * Switched off, it releases the memory of that.
  * Errors: INVALID_ARGUMENT (unknown flags), LIMIT, BUDGET, OUT_OF_MEMORY; after these all meshes are as they were. */
 VOX_API vox_result vox_grid_set_flags(vox_grid* grid, uint32_t flags);
 
@@ -838,7 +842,7 @@ typedef struct vox_depth {
 
 /* `count` depths, `byte_stride` apart. The data lives as long as the penetrations or readings that they belong to. */
 typedef struct vox_depth_view {
-    VOX_UNTIL(epoch, grid_prepare_readings, grid_prepare_readings_of) const vox_depth* data;
+    VOX_UNTIL(epoch, grid_prepare_readings, grid_prepare_readings_of, grid_prepare_edge_depths) const vox_depth* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
@@ -847,9 +851,78 @@ typedef struct vox_depth_view {
 /* The depths of vox_grid_penetrations, one for each, in that order. Errors: as vox_grid_penetrations. */
 VOX_API vox_result vox_grid_depths(const vox_grid* grid, vox_depth_view* out_view);
 
+/* ---- edge contacts ---------------------------------------------------------------------------- */
+
+/* How an edge meets a face. */
+typedef enum vox_crossing_kind {
+    VOX_CROSSING_THROUGH = 0,  /* it passes through the interior of the face, with an end on either side */
+    VOX_CROSSING_TOUCHING = 1, /* an end is on the face, or it passes through an edge or a corner of the face */
+    VOX_CROSSING_COPLANAR = 2, /* it lies in the plane of the face and meets it, or one of them is degenerate and they
+                                  meet */
+    VOX_CROSSING_KIND_FORCE_32_BITS = 0x7fffffff
+} vox_crossing_kind;
+
+/* An edge of the surface of mesh_a and a face of the surface of mesh_b that have a point in common (a = b: self-contact;
+ * then they have no vertex in common). The surface of a mesh consists of the facets of exactly one of its enabled
+ * tetrahedra, duplicates counted once, and of their edges. Decided exactly for the coordinates given.
+ * So two bars laid across each other are seen, though no vertex of one is in the other. Where several points are
+ * common, the position is that of one of them: an end of the edge if one is, the lower vertex first. */
+typedef struct vox_edge_contact {
+    vox_mesh mesh_a;
+    uint32_t edge[2];       /* vertices of mesh_a, the lower first */
+    vox_mesh mesh_b;
+    uint32_t face[3];       /* vertices of mesh_b, the lowest first, counter-clockwise as seen from the side that the
+                               normal points to */
+    uint32_t tet;           /* of mesh_b, behind the face; of doubled ones the lowest */
+    vox_crossing_kind kind;
+    uint32_t reserved;      /* 0 */
+    double edge_weights[2]; /* of the point, in [0, 1], with the sum 1 up to rounding */
+    double face_weights[3]; /* of the same point */
+    double position[3];     /* of the point, rounded */
+    /* A unit vector out of `tet` or, if that is flat, to the side away from the lower vertex of the edge; 0, 0, 1 if
+     * the face has no area. */
+    double normal[3];
+} vox_edge_contact;
+
+/* `count` edge contacts, `byte_stride` apart, sorted by mesh_a, edge, mesh_b and the three vertices of the face in
+ * ascending order. The data lives as long as that of the contacts' view. */
+typedef struct vox_edge_contact_view {
+    VOX_UNTIL(epoch) const vox_edge_contact* data;
+    size_t byte_stride;
+    uint64_t count;
+    uint64_t epoch;
+} vox_edge_contact_view;
+
+/* The edge contacts of the last step: the same for every engine, cell size and number of workers. Count 0 before the
+ * first step, after a failed one and after a clear. Which meshes collide is up to vox_filter and
+ * vox_grid_set_pair_enabled, as for contacts; a self-contact is ruled out where vox_filter rules out the contact of
+ * either end of the edge with `tet`. Meshes that touch by edges alone are pairs of vox_grid_pairs, with no contacts, and
+ * have touch events. vox_grid_hash and readings are of contacts alone.
+ * Errors: INVALID_STATE if the grid's flags lack VOX_GRID_EDGE_CONTACTS. */
+VOX_EXPERIMENTAL vox_result vox_grid_edge_contacts(const vox_grid* grid, vox_edge_contact_view* out_view);
+
+/* A hash of the edge contacts: all fields, in order. The same for any cell size, storage, hash and engine. Errors: as
+ * vox_grid_edge_contacts. */
+VOX_EXPERIMENTAL vox_result vox_grid_edge_hash(const vox_grid* grid, uint64_t* out_hash);
+
+/* Computes the way out for every edge contact of the last step (vox_grid_edge_depths). It reads positions, which must
+ * still be those of the step. A program that does not need it pays nothing.
+ * The part of an edge inside mesh_b begins and ends at contacts with it, or at an end of the edge. Moving its middle by
+ * depth * direction leads to the closest point of the surface of mesh_b; of several, that of the first triangle. Where
+ * no part begins or ends, because the two only touch, depth is 0 and direction the normal. For self-contact the middle
+ * moves to the plane of the face, along the normal, instead.
+ * Errors: INVALID_STATE (as vox_grid_edge_contacts; or a mesh of a contact was removed or edited since the step, or
+ * lacks positions), NON_FINITE, BUDGET, OUT_OF_MEMORY. */
+VOX_EXPERIMENTAL vox_result vox_grid_prepare_edge_depths(vox_grid* grid);
+
+/* The depth and direction of each edge contact, in the order of vox_grid_edge_contacts. Errors: INVALID_STATE before
+ * vox_grid_prepare_edge_depths. */
+VOX_EXPERIMENTAL vox_result vox_grid_edge_depths(const vox_grid* grid, vox_depth_view* out_view);
+
 /* ---- touching pairs and events ---------------------------------------------------------------- */
 
-/* Two meshes that touch: a vertex of one of them is in a tetrahedron of the other. mesh_a <= mesh_b; they are equal if
+/* Two meshes that touch: a vertex of one of them is in a tetrahedron of the other, or they have edge contacts
+ * (VOX_GRID_EDGE_CONTACTS). mesh_a <= mesh_b; they are equal if
  * a mesh touches itself. The contacts of the pair are those whose indices begin at vox_pair_view.contacts[first]: first
  * the a_in_b contacts of vertices of mesh_a in tets of mesh_b, then the b_in_a contacts of vertices of mesh_b in tets
  * of mesh_a (0 for a mesh with itself), each in the order of vox_grid_contacts. */
@@ -1374,6 +1447,9 @@ typedef struct vox_counters {
     uint64_t total_touches_ended;
     uint64_t total_contacts_began;
     uint64_t total_contacts_ended;
+    uint64_t edge_contacts;         /* 0 without VOX_GRID_EDGE_CONTACTS, as are the next two */
+    uint64_t carried_edge_contacts; /* part of `edge_contacts` carried over from the step before */
+    uint64_t edge_candidates;       /* edges and faces whose boxes overlap: they were decided exactly */
 } vox_counters;
 
 /* Writes the fields that out_counters->struct_size covers (set it first). */
@@ -1398,6 +1474,7 @@ typedef struct vox_profile {
     uint64_t windows_ns;     /* bin the vertices that lie there */
     uint64_t lookup_ns;       /* tetrahedra against these: box tests, and all that floats can decide */
     uint64_t decide_ns;      /* decide the rest exactly; of the worker that took longest over it */
+    uint64_t edges_ns;       /* edge contacts, with either engine */
 } vox_profile;
 
 /* Writes the fields that out_profile->struct_size covers (set it first). */

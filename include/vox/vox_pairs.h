@@ -200,20 +200,12 @@ VOX_EXPERIMENTAL vox_result vox_surface_get_counters(const vox_surface* surface,
 
 /* ---- crossings -------------------------------------------------------------------------------- */
 
-/* How an edge meets a face. */
-typedef enum vox_crossing_kind {
-    VOX_CROSSING_THROUGH = 0,  /* it passes through the interior of the face, with an end on either side */
-    VOX_CROSSING_TOUCHING = 1, /* an end is on the face, or it passes through an edge or a corner of the face */
-    VOX_CROSSING_COPLANAR = 2, /* it lies in the plane of the face and meets it, or one of them is degenerate and they
-                                  meet */
-    VOX_CROSSING_KIND_FORCE_32_BITS = 0x7fffffff
-} vox_crossing_kind;
-
-/* An edge and a face that have a point in common. */
+/* An edge and a face that have a point in common. Of several such points it is an end of the edge if one is, the first
+ * one first, or else one of the first side of the face that the edge meets. */
 typedef struct vox_crossing {
     uint32_t edge;
     uint32_t face;
-    vox_crossing_kind kind;
+    vox_crossing_kind kind; /* of vox.h */
     uint32_t reserved;      /* 0 */
     double edge_weights[2]; /* of a common point; they add up to 1 */
     double face_weights[3]; /* of the same point */

@@ -3,6 +3,7 @@
 #include "grid/contact_pairs.hpp"
 
 #include "base/error.hpp"
+#include "base/room.hpp"
 #include "mesh/ids.hpp"
 
 #include <algorithm>
@@ -35,6 +36,32 @@ void for_runs(std::span<const vox_contact> contacts, Visit&& visit) {
 }
 
 } // namespace
+
+// From behind, so that each pair moves once.
+void add_pairs(std::span<const EdgePair> touching, std::pmr::vector<vox_pair>& pairs) {
+    const auto id_of = [](const vox_pair& pair) { return EdgePair{pair.mesh_a, pair.mesh_b}; };
+    std::size_t added = 0;
+    auto at = pairs.begin();
+    for (const EdgePair& pair : touching) {
+        while (at != pairs.end() && id_of(*at) < pair) ++at;
+        added += at == pairs.end() || id_of(*at) != pair;
+    }
+    if (added == 0) return;
+    // Those without contacts name the place of the next one's.
+    std::uint64_t end = pairs.empty() ? 0 : pairs.back().first + pairs.back().a_in_b + pairs.back().b_in_a;
+    std::size_t left = pairs.size();
+    reserve_growing(pairs, pairs.size() + added);
+    pairs.resize(pairs.size() + added);
+    std::size_t to = pairs.size();
+    for (std::size_t i = touching.size(); i-- > 0;) {
+        while (left > 0 && touching[i] < id_of(pairs[left - 1])) {
+            pairs[--to] = pairs[--left];
+            end = pairs[to].first;
+        }
+        if (left > 0 && touching[i] == id_of(pairs[left - 1])) continue;
+        pairs[--to] = {touching[i].mesh_a, touching[i].mesh_b, 0, 0, end, 0, 0};
+    }
+}
 
 void find_touching(std::span<const vox_contact> contacts, std::size_t slots, TouchingBuffers& buffers,
                    std::pmr::vector<vox_pair>& pairs, std::pmr::vector<std::uint32_t>& by_pair) {

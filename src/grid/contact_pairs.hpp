@@ -3,6 +3,7 @@
 
 #include <vox/vox.h>
 
+#include <compare>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
@@ -26,6 +27,16 @@ struct TouchingBuffers {
     std::pmr::vector<std::uint32_t> place;
     std::pmr::vector<std::uint32_t> last_of_slot; // one of `directed` with mesh_b in that slot
 };
+
+// Two meshes, the lower id first.
+struct EdgePair {
+    vox_mesh mesh_a, mesh_b;
+
+    auto operator<=>(const EdgePair&) const = default;
+};
+
+// Adds those of `touching`, which ascend, that `pairs` lacks: pairs without contacts.
+void add_pairs(std::span<const EdgePair> touching, std::pmr::vector<vox_pair>& pairs);
 
 // Makes what vox_pair_view has of `contacts` in canonical order: the pairs, without user data, and the
 // indices of the contacts, pair by pair; `slots` is above the slot of every mesh. Throws Error(LIMIT) beyond

@@ -26,11 +26,13 @@ public:
     void hide_pairs() noexcept { pairs_are_shown_ = false; }
     void hide_events() noexcept;
 
-    // The last stage of a step. If it throws, the state of the step before is kept. Calls user_data(mesh_id)
-    // for every mesh that touches another.
+    // The last stage of a step. `by_edges` are the pairs that have edge contacts. If it throws, the state of
+    // the step before is kept. Calls user_data(mesh_id) for every mesh that touches another.
     template <class UserData>
-    void update(std::span<const vox_contact> contacts, std::size_t slots, UserData&& user_data) {
+    void update(std::span<const vox_contact> contacts, std::span<const EdgePair> by_edges, std::size_t slots,
+                UserData&& user_data) {
         find_touching(contacts, slots, buffers_, next(), by_pair_);
+        add_pairs(by_edges, next());
         for (vox_pair& pair : next()) {
             pair.user_data_a = user_data(pair.mesh_a);
             pair.user_data_b = user_data(pair.mesh_b);

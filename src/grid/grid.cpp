@@ -48,7 +48,7 @@ void check_grid_desc(const vox_grid_desc& desc) {
 
 void check_flags(std::uint32_t flags) {
     constexpr std::uint32_t known_flags =
-        VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS | VOX_GRID_SKIP_BAD_MESHES;
+        VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS | VOX_GRID_SKIP_BAD_MESHES | VOX_GRID_EDGE_CONTACTS;
     if (flags & ~known_flags)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("grid flags is 0x%x, of which 0x%x is unknown", flags, flags & ~known_flags));
@@ -87,11 +87,12 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
       skips_bad_meshes_((desc.flags & VOX_GRID_SKIP_BAD_MESHES) != 0), closest_budget_(desc.closest_budget),
       requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size), shared_tets_(&memory_),
       meshes_(&memory_), bodies_(&memory_), prepared_(&memory_), lone_(&memory_), fast_engine_(&memory_),
-      reference_(&memory_), topologies_(&memory_), trees_(&memory_), hits_(&memory_), contacts_(&memory_),
-      interiors_(&memory_), left_out_(&memory_), penetrations_(&memory_),
-      events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_), queries_(&memory_),
-      query_views_(share_), query_bodies_(&memory_) {
+      reference_(&memory_), topologies_(&memory_), trees_(&memory_), hits_(&memory_),
+      topology_versions_(&memory_), contacts_(&memory_), interiors_(&memory_), left_out_(&memory_),
+      penetrations_(&memory_), events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0),
+      readings_(&memory_), queries_(&memory_), query_views_(share_), query_bodies_(&memory_) {
     if (desc.flags & VOX_GRID_PENETRATIONS) depth_.emplace(&memory_, trees_);
+    if (desc.flags & VOX_GRID_EDGE_CONTACTS) edges_.emplace(&memory_);
     if (is_zeroed(desc))
         write_log(VOX_LOG_WARNING,
                   "vox_grid_desc is all 0: no penetrations, no byte budget and a thread per core; "
@@ -150,6 +151,7 @@ void vox_grid::scene_changed() noexcept {
 void vox_grid::remove(vox_mesh id) {
     meshes_.remove(id);
     trees_.forget(id);
+    if (edges_) edges_->forget(id);
     scene_changed();
 }
 
@@ -157,6 +159,10 @@ void vox_grid::clear() {
     meshes_.clear();
     trees_.forget_all();
     scene_changed();
+    if (edges_) {
+        edges_->forget_all();
+        edges_->clear();
+    }
     contacts_.clear();
     interiors_.clear();
     penetrations_.clear();
@@ -234,6 +240,7 @@ void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& 
     prepare(made, state);
     meshes_.replace(id, std::move(made), std::move(state));
     trees_.topology_changed(id);
+    if (edges_) edges_->forget(id);
     if (view.vertex_count == 0) contacts_hold_ = false; // no positions show that it changed
     scene_changed();
     warn_of_traps(meshes_[id].mesh, id);
@@ -291,7 +298,8 @@ void vox_grid::set_worker_count(std::uint32_t worker_count) {
 std::uint32_t vox_grid::flags() const noexcept {
     return (finds_penetrations() ? std::uint32_t{VOX_GRID_PENETRATIONS} : 0u) |
            (events_.of_contacts() ? std::uint32_t{VOX_GRID_CONTACT_EVENTS} : 0u) |
-           (skips_bad_meshes_ ? std::uint32_t{VOX_GRID_SKIP_BAD_MESHES} : 0u);
+           (skips_bad_meshes_ ? std::uint32_t{VOX_GRID_SKIP_BAD_MESHES} : 0u) |
+           (edges_ ? std::uint32_t{VOX_GRID_EDGE_CONTACTS} : 0u);
 }
 
 void vox_grid::set_flags(std::uint32_t flags) {
@@ -300,6 +308,9 @@ void vox_grid::set_flags(std::uint32_t flags) {
     const bool find = (flags & VOX_GRID_PENETRATIONS) != 0;
     if (find && !finds_penetrations()) find_penetrations();
     if (!find && finds_penetrations()) stop_finding_penetrations();
+    const bool edges = (flags & VOX_GRID_EDGE_CONTACTS) != 0;
+    if (edges && !edges_) edges_.emplace(&memory_); // the next step prepares what it needs
+    if (!edges && edges_) stop_finding_edges();
     events_.set_of_contacts((flags & VOX_GRID_CONTACT_EVENTS) != 0);
     skips_bad_meshes_ = (flags & VOX_GRID_SKIP_BAD_MESHES) != 0;
     contacts_hold_ = false; // there is more, or less, to do with those of meshes at rest
@@ -332,6 +343,16 @@ void vox_grid::stop_finding_penetrations() noexcept {
     penetrations_ = Penetrations(&memory_);
 }
 
+void vox_grid::stop_finding_edges() noexcept {
+    edges_.reset();
+    topology_versions_ = std::pmr::vector<std::uint32_t>(&memory_);
+    meshes_.for_each([this](vox_mesh, MeshSlot& slot) {
+        if (!needs_topology(slot.mesh.filter())) slot.mesh.drop_topology();
+    });
+    trees_.forget_all();
+    if (!finds_penetrations()) shared_tets_.drop_topologies();
+}
+
 // ---- step -----------------------------------------------------------------------------------------
 
 void vox_grid::step() {
@@ -360,6 +381,11 @@ void vox_grid::step() {
         if (!all_carried) make_contacts(bodies_, hits_, contacts_, &workers_, &interiors_);
         std::uint64_t contacts_made = nanoseconds();
         profile.contacts_ns = contacts_made - detected;
+        const bool same_edges = find_edges(counters);
+        if (edges_) {
+            profile.edges_ns = nanoseconds() - contacts_made;
+            contacts_made += profile.edges_ns;
+        }
 
         if (all_carried) counters.carried_penetrations = penetrations_.all().size();
         if (depth_ && !all_carried) {
@@ -370,11 +396,11 @@ void vox_grid::step() {
             contacts_made += profile.depth_ns;
         }
 
-        if (carry && all_carried)
+        if (carry && all_carried && same_edges)
             events_.repeat();
         else
-            events_.update(contacts_, meshes_.slot_count(),
-                           [this](vox_mesh id) { return mesh(id).user_data(); });
+            events_.update(contacts_, edges_ ? edges_->pairs() : std::span<const EdgePair>(),
+                           meshes_.slot_count(), [this](vox_mesh id) { return mesh(id).user_data(); });
         profile.events_ns = nanoseconds() - contacts_made;
     } catch (const MeshError& error) {
         forget_contacts();
@@ -415,7 +441,16 @@ void vox_grid::step() {
              llu(counters.unknown_penetrations), llu(counters.penetrations), llu(closest_budget_));
 }
 
+// Returns whether there are the same edge contacts as in the last step, or none are looked for.
+bool vox_grid::find_edges(vox_counters& counters) {
+    if (!edges_) return true;
+    edges_->find({bodies_, topologies_, topology_versions_, fast_ ? &fast_engine_ : nullptr, &workers_},
+                 counters);
+    return edges_->unchanged();
+}
+
 void vox_grid::forget_contacts() noexcept {
+    if (edges_) edges_->clear();
     contacts_.clear();
     interiors_.clear();
     penetrations_.clear();
@@ -485,6 +520,7 @@ void vox_grid::gather_bodies(vox_counters& counters) {
     left_out_.clear();
     bodies_.clear();
     topologies_.clear();
+    topology_versions_.clear();
     prepared_.clear();
     const auto gather = [&](vox_mesh id, MeshSlot& slot) {
         Mesh& mesh = slot.mesh;
@@ -515,6 +551,7 @@ void vox_grid::gather_bodies(vox_counters& counters) {
             body.off_count = 0;
         }
         topologies_.push_back(&mesh.topology());
+        if (edges_) topology_versions_.push_back(mesh.topology_version());
         slot.topology_version = mesh.topology_version();
         if (fast_)
             prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state,
@@ -688,6 +725,46 @@ void vox_grid::prepare_readings(const vox_readings_desc& desc) {
              llu(left_out), llu(desc.closest_budget));
 }
 
+// ---- depths of edge contacts -----------------------------------------------------------------------
+
+void vox_grid::prepare_edge_depths() {
+    const std::span<const vox_edge_contact> contacts = edge_contacts().all();
+    std::pmr::vector<EdgeBody> bodies(&memory_);
+    bodies.reserve(2 * edges_->pairs().size());
+    for (const EdgePair& pair : edges_->pairs())
+        for (const vox_mesh id : {pair.mesh_a, pair.mesh_b}) {
+            const MeshSlot* slot = meshes_.find(id);
+            if (!slot || slot->mesh.topology_version() != slot->topology_version)
+                throw Error(VOX_ERROR_INVALID_STATE,
+                            format("mesh %u of an edge contact was %s since the step", id,
+                                   slot ? "edited" : "removed"));
+            const Body body = slot->mesh.body(id);
+            if (!slot->mesh.has_positions())
+                throw MeshError(VOX_ERROR_INVALID_STATE, body, " has no positions: bind some before");
+            bodies.push_back({body, nullptr});
+        }
+    std::ranges::sort(bodies, {}, [](const EdgeBody& b) { return b.body.mesh_id; });
+    const auto same = [](const EdgeBody& a, const EdgeBody& b) { return a.body.mesh_id == b.body.mesh_id; };
+    bodies.erase(std::unique(bodies.begin(), bodies.end(), same), bodies.end());
+    for (const EdgeBody& b : bodies) check_finite(b.body);
+
+    std::pmr::vector<vox_mesh> entered(&memory_);
+    for (const vox_edge_contact& contact : contacts)
+        if (contact.mesh_a != contact.mesh_b && (entered.empty() || entered.back() != contact.mesh_b))
+            entered.push_back(contact.mesh_b);
+    std::ranges::sort(entered);
+    entered.erase(std::unique(entered.begin(), entered.end()), entered.end());
+    for (const vox_mesh id : entered) trees_.add(id); // which moves those of others
+    for (EdgeBody& b : bodies) {
+        const vox_mesh id = b.body.mesh_id;
+        if (!std::ranges::binary_search(entered, id)) continue;
+        depth::SurfaceTree& tree = trees_[id];
+        tree.update({&mesh(id).topology(), b.body.tets, b.body.positions}, false, &workers_);
+        b.tree = &tree;
+    }
+    edges_->prepare_depths(bodies, workers_);
+}
+
 // ---- queries ---------------------------------------------------------------------------------------
 
 void vox_grid::list_query_bodies() {
@@ -751,6 +828,11 @@ vox_depth_view vox_grid::depths() const {
     require_penetrations();
     const std::span<const vox_depth> depths = penetrations_.depths();
     return {depths.data(), sizeof(vox_depth), depths.size(), epoch_};
+}
+
+const EdgeContacts& vox_grid::edge_contacts() const {
+    if (!edges_) throw Error(VOX_ERROR_INVALID_STATE, "the flags of the grid lack VOX_GRID_EDGE_CONTACTS");
+    return *edges_;
 }
 
 void vox_grid::require_penetrations() const {

@@ -9,6 +9,7 @@
 #include "cell_size/scene.hpp"
 #include "depth/stage.hpp"
 #include "fast/engine.hpp"
+#include "grid/edge_contacts.hpp"
 #include "grid/events.hpp"
 #include "grid/lone_bodies.hpp"
 #include "grid/mesh_table.hpp"
@@ -94,6 +95,9 @@ public:
     vox_failure failure(std::uint32_t index) const noexcept;
     vox_penetration_view penetrations() const;
     vox_depth_view depths() const;
+    // Throws INVALID_STATE without VOX_GRID_EDGE_CONTACTS.
+    const vox::EdgeContacts& edge_contacts() const;
+    void prepare_edge_depths();
     std::uint64_t epoch() const noexcept { return epoch_; }
     const vox::Events& events() const noexcept { return events_; }
     std::uint64_t hash() const noexcept;
@@ -106,11 +110,13 @@ private:
 
     bool finds_penetrations() const noexcept { return depth_.has_value(); }
     bool needs_topology(const vox_filter& filter) const noexcept {
-        return finds_penetrations() && filter.penetration_mask != 0;
+        return (finds_penetrations() && filter.penetration_mask != 0) || edges_.has_value();
     }
     void prepare(vox::Mesh& mesh, vox::fast::MeshState& state);
     void find_penetrations();
     void stop_finding_penetrations() noexcept;
+    void stop_finding_edges() noexcept;
+    bool find_edges(vox_counters& counters);
     void require_penetrations() const;
     void scene_changed() noexcept;
     bool chooses_cell_size() const noexcept { return requested_cell_size_ == 0; }
@@ -161,6 +167,8 @@ private:
     vox::depth::SurfaceTrees trees_;                    // that depths and readings search
     std::optional<vox::DepthStage> depth_;              // while it finds penetrations
     std::pmr::vector<vox::Hit> hits_;
+    std::pmr::vector<std::uint32_t> topology_versions_; // of each body, while it finds edge contacts
+    std::optional<vox::EdgeContacts> edges_;            // while it finds them; has the results as well
 
     // results
     std::pmr::vector<vox_contact> contacts_;

@@ -1,0 +1,457 @@
+// Two bodies whose boxes overlap: tiles of each in the box of the other are joined, box by box, then the
+// edges of one tile with the faces of the other, and what is left is decided exactly.
+#include "grid/edge_contacts.hpp"
+
+#include "base/bits.hpp"
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "base/room.hpp"
+#include "base/vectors.hpp"
+#include "exact/crossing.hpp"
+#include "exact/facet_normal.hpp"
+#include "exact/predicates.hpp"
+#include "fast/engine.hpp"
+#include "mesh/filter.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace vox {
+
+namespace {
+
+constexpr std::uint32_t group_size = 32; // tiles whose common box is tested first
+
+// How much work is worth a task of its own.
+constexpr std::size_t task_tiles = 128;  // whose boxes are made: 40 vertices each
+constexpr std::size_t task_pairs = 16;   // of small bodies
+constexpr std::size_t task_searches = 8; // of tiles against all of the other body
+
+// The tiles of a small body take no task.
+constexpr std::size_t small_body = 64;
+
+Vec3f rounded(const Positions& positions, const Vec3d& origin, bool has_origin, std::uint32_t vertex) {
+    return has_origin ? nearest_floats(positions.exact(vertex) - origin) : positions[vertex];
+}
+
+void extend(Box& box, const Vec3f& p) { add(box, {{p.x, p.y, p.z, 0}, {p.x, p.y, p.z, 0}}); }
+
+bool is_zero(const Vec3d& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+
+EdgePair pair_of(const vox_edge_contact& contact) {
+    const auto [low, high] = std::minmax(contact.mesh_a, contact.mesh_b);
+    return {low, high};
+}
+
+} // namespace
+
+// What a search reads of a tile, in one place.
+struct EdgeContacts::LoadedTile {
+    std::uint32_t body;
+    const SurfaceTile* tile;
+    Box box;
+    std::array<Box, SurfaceTile::most_faces> faces;
+    std::array<Box, SurfaceTile::most_edges> edges;
+};
+
+EdgeContacts::EdgeContacts(std::pmr::memory_resource* memory)
+    : surfaces_(memory), pair_buffers_(memory), body_boxes_(memory), pairs_of_bodies_(memory),
+      step_surfaces_(memory), pieces_(memory), tile_boxes_(memory), workers_(memory), found_(memory),
+      keys_(memory), contacts_(memory), pairs_(memory), depths_(memory) {}
+
+void EdgeContacts::clear() noexcept {
+    contacts_.clear();
+    pairs_.clear();
+    unchanged_ = has_depths_ = false;
+}
+
+void EdgeContacts::forget(vox_mesh mesh) noexcept {
+    std::erase_if(surfaces_, [mesh](const Surface& surface) { return surface.mesh == mesh; });
+}
+
+void EdgeContacts::find(const EdgeScene& scene, vox_counters& counters) {
+    has_depths_ = false;
+    workers_.grow(scene.workers->count());
+    for (Worker& worker : workers_) worker.candidates = worker.exact_tests = 0;
+    found_.clear();
+    carry(scene);
+    const std::size_t carried = found_.size();
+    origin_ = scene.engine ? scene.engine->last_step().origin : Vec3d{};
+    list_pairs(scene);
+    prepare_surfaces(scene);
+    make_tile_boxes(scene);
+    search_pairs(scene);
+    workers_.level();
+
+    unchanged_ = found_.size() == carried && carried == contacts_.size();
+    if (!unchanged_) {
+        put_in_order();
+        list_touching();
+    }
+    counters.edge_contacts = contacts_.size();
+    counters.carried_edge_contacts = carried;
+    for (const Worker& worker : workers_) {
+        counters.edge_candidates += worker.candidates;
+        counters.exact_tests += worker.exact_tests;
+    }
+}
+
+// ---- which bodies ---------------------------------------------------------------------------------
+
+// Those of the last step between bodies that have not moved since.
+void EdgeContacts::carry(const EdgeScene& scene) {
+    if (!scene.engine) return;
+    const auto rests = [&](vox_mesh mesh) {
+        const auto body = std::lower_bound(scene.bodies.begin(), scene.bodies.end(), mesh,
+                                           [](const Body& b, vox_mesh id) { return b.mesh_id < id; });
+        return body != scene.bodies.end() && body->mesh_id == mesh &&
+               !scene.engine->moved(static_cast<std::size_t>(body - scene.bodies.begin()));
+    };
+    EdgePair last{};
+    bool last_rests = false;
+    for (const vox_edge_contact& contact : contacts_) {
+        const EdgePair pair{contact.mesh_a, contact.mesh_b};
+        if (pair != last) last_rests = rests(pair.mesh_a) && rests(pair.mesh_b);
+        last = pair;
+        if (!last_rests) continue;
+        reserve_sparingly(found_, found_.size() + 1);
+        found_.push_back(contact);
+    }
+}
+
+// Pairs of bodies with surfaces whose boxes overlap, that the filters let collide, and of which one moved.
+void EdgeContacts::list_pairs(const EdgeScene& scene) {
+    const auto has_surface = [&](std::uint32_t body) { return !scene.topologies[body]->triangles.empty(); };
+    const auto bodies = static_cast<std::uint32_t>(scene.bodies.size());
+    pairs_of_bodies_.clear();
+    if (scene.engine) {
+        for (const fast::Pair& pair : scene.engine->broad_phase().pairs)
+            if (pair.a < pair.b && has_surface(pair.a) && has_surface(pair.b))
+                pairs_of_bodies_.push_back(pair);
+    } else {
+        body_boxes_.assign(bodies, empty_box);
+        for (std::uint32_t b = 0; b < bodies; ++b)
+            for (const Triangle& triangle : scene.topologies[b]->triangles)
+                for (const std::uint32_t vertex : triangle.v)
+                    extend(body_boxes_[b], scene.bodies[b].positions[vertex]);
+        fast::find_pairs(body_boxes_, {scene.bodies, {}}, pair_buffers_, pairs_of_bodies_);
+        std::erase_if(pairs_of_bodies_, [](const fast::Pair& pair) { return pair.a > pair.b; });
+    }
+    for (std::uint32_t b = 0; b < bodies; ++b)
+        if (scene.bodies[b].self_collision && has_surface(b) && (!scene.engine || scene.engine->moved(b)))
+            pairs_of_bodies_.push_back({b, b});
+}
+
+const SurfaceFeatures& EdgeContacts::surface_of(const EdgeScene& scene, std::uint32_t body) {
+    const vox_mesh mesh = scene.bodies[body].mesh_id;
+    auto place = std::lower_bound(surfaces_.begin(), surfaces_.end(), mesh,
+                                  [](const Surface& surface, vox_mesh id) { return surface.mesh < id; });
+    if (place == surfaces_.end() || place->mesh != mesh || place->version != scene.versions[body]) {
+        Surface made(mesh, scene.versions[body], memory());
+        make_surface_features(*scene.topologies[body], scene.bodies[body].positions, made.features);
+        if (place == surfaces_.end() || place->mesh != mesh)
+            place = surfaces_.insert(place, std::move(made));
+        else
+            *place = std::move(made);
+    }
+    return place->features;
+}
+
+// Room for the boxes of the tiles of all bodies in pairs, and the pieces of work to make them.
+void EdgeContacts::prepare_surfaces(const EdgeScene& scene) {
+    step_surfaces_.assign(scene.bodies.size(), {nullptr, 0, empty_box});
+    for (const fast::Pair& pair : pairs_of_bodies_)
+        for (const std::uint32_t body : {pair.a, pair.b})
+            (void)surface_of(scene, body); // which may move those of others
+    pieces_.clear();
+    std::size_t tiles = 0;
+    for (const fast::Pair& pair : pairs_of_bodies_)
+        for (const std::uint32_t body : {pair.a, pair.b}) {
+            StepSurface& surface = step_surfaces_[body];
+            if (surface.features) continue;
+            surface.features = &surface_of(scene, body);
+            surface.first_tile = static_cast<std::uint32_t>(tiles);
+            const auto count = static_cast<std::uint32_t>(surface.features->tiles.size());
+            for (std::uint32_t first = 0; first < count; first += small_body)
+                pieces_.push_back({body, first, std::min<std::uint32_t>(first + small_body, count)});
+            tiles += count;
+        }
+    if (tile_boxes_.size() < tiles) tile_boxes_.resize(tiles);
+}
+
+void EdgeContacts::make_tile_boxes(const EdgeScene& scene) {
+    const bool has_origin = !is_zero(origin_);
+    scene.workers->for_ranges(
+        pieces_.size(), task_tiles / small_body, [&](std::size_t begin, std::size_t end, std::uint32_t) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const TilePiece& piece = pieces_[i];
+                const StepSurface& surface = step_surfaces_[piece.body];
+                const Positions& positions = scene.bodies[piece.body].positions;
+                for (std::uint32_t t = piece.first; t < piece.last; ++t) {
+                    const SurfaceTile& tile = surface.features->tiles[t];
+                    const std::uint32_t* vertices = surface.features->vertices.data() + tile.first_vertex;
+                    Box box = empty_box;
+                    for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
+                        extend(box, rounded(positions, origin_, has_origin, vertices[v]));
+                    tile_boxes_[surface.first_tile + t] = box;
+                }
+            }
+        });
+    for (const TilePiece& piece : pieces_) {
+        StepSurface& surface = step_surfaces_[piece.body];
+        for (std::uint32_t t = piece.first; t < piece.last; ++t)
+            add(surface.box, tile_boxes_[surface.first_tile + t]);
+    }
+}
+
+// ---- which edges and faces ------------------------------------------------------------------------
+
+// Workers share pairs of small bodies, and then the tiles of each pair of large ones.
+void EdgeContacts::search_pairs(const EdgeScene& scene) {
+    const auto is_large = [&](const fast::Pair& pair) {
+        return step_surfaces_[pair.a].features->tiles.size() >= small_body;
+    };
+    scene.workers->for_ranges(
+        pairs_of_bodies_.size(), task_pairs, [&](std::size_t begin, std::size_t end, std::uint32_t w) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const fast::Pair& pair = pairs_of_bodies_[i];
+                if (!is_large(pair) && list_tiles(pair, workers_[w]))
+                    search(scene, pair, workers_[w], 0, workers_[w].tiles_a.size(), workers_[w]);
+            }
+        });
+    for (const fast::Pair& pair : pairs_of_bodies_) {
+        const Worker& tiles = workers_[0];
+        if (!is_large(pair) || !list_tiles(pair, workers_[0])) continue;
+        scene.workers->for_ranges(tiles.tiles_a.size(), task_searches,
+                                  [&](std::size_t begin, std::size_t end, std::uint32_t w) {
+                                      search(scene, pair, tiles, begin, end, workers_[w]);
+                                  });
+    }
+}
+
+// The tiles of the two that meet where the boxes of the two overlap. Of a body with itself, all of them.
+bool EdgeContacts::list_tiles(const fast::Pair& pair, Worker& worker) const {
+    const StepSurface &a = step_surfaces_[pair.a], &b = step_surfaces_[pair.b];
+    Box region = a.box;
+    intersect(region, b.box);
+    const auto list = [&](const StepSurface& surface, std::pmr::vector<std::uint32_t>& tiles) {
+        tiles.clear();
+        const auto count = static_cast<std::uint32_t>(surface.features->tiles.size());
+        for (std::uint32_t first = 0; first < count; first += fast::most_boxes) {
+            std::uint64_t met = fast::find_overlaps(&tile_boxes_[surface.first_tile + first],
+                                                    std::min(fast::most_boxes, count - first), region);
+            for (; met; met &= met - 1)
+                tiles.push_back(first + static_cast<std::uint32_t>(std::countr_zero(met)));
+        }
+        return !tiles.empty();
+    };
+    if (is_empty(region) || !list(a, worker.tiles_a) || !list(b, worker.tiles_b)) return false;
+    worker.boxes_b.clear();
+    worker.groups_b.clear();
+    for (std::size_t i = 0; i < worker.tiles_b.size(); ++i) {
+        const Box& box = tile_boxes_[b.first_tile + worker.tiles_b[i]];
+        if (i % group_size == 0) worker.groups_b.push_back(empty_box);
+        add(worker.groups_b.back(), box);
+        worker.boxes_b.push_back(box);
+    }
+    return true;
+}
+
+// The tiles [begin, end) of tiles.tiles_a against all of tiles.tiles_b, edges of either with faces of the
+// other. Of a body with itself, each two tiles once.
+void EdgeContacts::search(const EdgeScene& scene, const fast::Pair& pair, const Worker& tiles,
+                          std::size_t begin, std::size_t end, Worker& worker) {
+    LoadedTile a, b;
+    for (std::size_t i = begin; i < end; ++i) {
+        const Box& box = tile_boxes_[step_surfaces_[pair.a].first_tile + tiles.tiles_a[i]];
+        bool is_loaded = false;
+        for (std::size_t group = 0; group < tiles.groups_b.size(); ++group) {
+            if (!overlap(tiles.groups_b[group], box)) continue;
+            const std::size_t first = group * group_size;
+            const auto count =
+                static_cast<std::uint32_t>(std::min<std::size_t>(group_size, tiles.tiles_b.size() - first));
+            std::uint64_t met = fast::find_overlaps(&tiles.boxes_b[first], count, box);
+            for (; met; met &= met - 1) {
+                const std::size_t j = first + static_cast<std::size_t>(std::countr_zero(met));
+                if (pair.a == pair.b && j < i) continue; // the lists are the same
+                if (!is_loaded) load(scene, pair.a, tiles.tiles_a[i], a);
+                is_loaded = true;
+                if (pair.a == pair.b && j == i) {
+                    test(scene, a, a, worker);
+                    continue;
+                }
+                load(scene, pair.b, tiles.tiles_b[j], b);
+                test(scene, a, b, worker);
+                test(scene, b, a, worker);
+            }
+        }
+    }
+}
+
+void EdgeContacts::load(const EdgeScene& scene, std::uint32_t body, std::uint32_t index,
+                        LoadedTile& out) const {
+    const SurfaceFeatures& features = *step_surfaces_[body].features;
+    const SurfaceTile& tile = features.tiles[index];
+    const Positions& positions = scene.bodies[body].positions;
+    const bool has_origin = !is_zero(origin_);
+    std::array<Box, SurfaceTile::most_vertices> points;
+    for (std::uint32_t v = 0; v < tile.vertex_count; ++v) {
+        const Vec3f p = rounded(positions, origin_, has_origin, features.vertices[tile.first_vertex + v]);
+        points[v] = {{p.x, p.y, p.z, 0}, {p.x, p.y, p.z, 0}};
+    }
+    out.body = body;
+    out.tile = &tile;
+    out.box = tile_boxes_[step_surfaces_[body].first_tile + index];
+    for (std::uint32_t f = 0; f < tile.face_count; ++f) {
+        const auto& [u, v, w] = features.faces[tile.first_face + f];
+        Box box = points[u];
+        add(box, points[v]);
+        add(box, points[w]);
+        out.faces[f] = box;
+    }
+    for (std::uint32_t e = 0; e < tile.edge_count; ++e) {
+        const auto& [u, v] = features.edges[tile.first_edge + e];
+        Box box = points[u];
+        add(box, points[v]);
+        out.edges[e] = box;
+    }
+}
+
+void EdgeContacts::test(const EdgeScene& scene, const LoadedTile& edges, const LoadedTile& faces,
+                        Worker& worker) {
+    // Faces that meet the box of the other tile; edges that meet that of the first one.
+    std::array<Box, SurfaceTile::most_faces> boxes;
+    std::array<std::uint8_t, SurfaceTile::most_faces> near;
+    std::uint32_t count = 0;
+    std::uint64_t met = fast::find_overlaps(faces.faces.data(), faces.tile->face_count, edges.box);
+    for (; met; met &= met - 1) {
+        const auto face = static_cast<std::size_t>(std::countr_zero(met));
+        near[count] = static_cast<std::uint8_t>(face);
+        boxes[count++] = faces.faces[face];
+    }
+    if (count == 0) return;
+    for (std::uint32_t first = 0; first < edges.tile->edge_count; first += fast::most_boxes) {
+        std::uint64_t left =
+            fast::find_overlaps(edges.edges.data() + first,
+                                std::min(fast::most_boxes, edges.tile->edge_count - first), faces.box);
+        for (; left; left &= left - 1) {
+            const std::size_t edge = first + static_cast<std::size_t>(std::countr_zero(left));
+            std::uint64_t hit = fast::find_overlaps(boxes.data(), count, edges.edges[edge]);
+            for (; hit; hit &= hit - 1)
+                decide(scene, edges, edge, faces, near[static_cast<std::size_t>(std::countr_zero(hit))],
+                       worker);
+        }
+    }
+}
+
+// ---- contacts -------------------------------------------------------------------------------------
+
+void EdgeContacts::decide(const EdgeScene& scene, const LoadedTile& edges, std::size_t edge,
+                          const LoadedTile& faces, std::size_t face, Worker& worker) {
+    const SurfaceFeatures& of_edge = *step_surfaces_[edges.body].features;
+    const SurfaceFeatures& of_face = *step_surfaces_[faces.body].features;
+    const auto& local = of_edge.edges[edges.tile->first_edge + edge];
+    const std::uint32_t* vertices = of_edge.vertices.data() + edges.tile->first_vertex;
+    const auto [low, high] = std::minmax(vertices[local[0]], vertices[local[1]]);
+    const std::size_t place = faces.tile->first_face + face;
+    const Triangle& triangle = scene.topologies[faces.body]->triangles[of_face.triangles[place]];
+    std::array<std::uint32_t, 3> v{triangle.v[0], triangle.v[1], triangle.v[2]};
+    const bool is_self = edges.body == faces.body;
+    if (is_self)
+        for (const std::uint32_t corner : v)
+            if (corner == low || corner == high) return;
+    ++worker.candidates;
+
+    // In an order that does not depend on how the mesh was edited, nor do the bits of the weights then.
+    std::sort(v.begin(), v.end());
+    const Positions &of_a = scene.bodies[edges.body].positions, &of_b = scene.bodies[faces.body].positions;
+    const Vec3d p = of_a.exact(low), q = of_a.exact(high);
+    const Vec3d corner[3] = {of_b.exact(v[0]), of_b.exact(v[1]), of_b.exact(v[2])};
+    const Crossing found = find_crossing(p, q, corner[0], corner[1], corner[2], worker.exact_tests);
+    if (found.kind == CrossingKind::none) return;
+    const std::uint32_t tet = of_face.tets[place];
+    if (const SelfFilter* filter = scene.bodies[faces.body].self_filter; is_self && filter) {
+        const Tet& behind = scene.bodies[faces.body].tets[tet];
+        if (filter->skips(low, behind) || filter->skips(high, behind)) return;
+    }
+
+    int inside = orientation(corner[0], corner[1], corner[2], of_b.exact(triangle.apex), worker.exact_tests);
+    if (inside == 0) inside = orientation(corner[0], corner[1], corner[2], p, worker.exact_tests);
+    const std::size_t second = inside > 0 ? 2 : 1, third = 3 - second;
+    Vec3d normal = normalised(cross(scaled(corner[second] - corner[0]), scaled(corner[third] - corner[0])));
+    if (!(length(normal) > 0)) normal = {0, 0, 1};
+    const vox_crossing_kind kind = found.kind == CrossingKind::through    ? VOX_CROSSING_THROUGH
+                                   : found.kind == CrossingKind::touching ? VOX_CROSSING_TOUCHING
+                                                                          : VOX_CROSSING_COPLANAR;
+    const vox_edge_contact contact{
+        .mesh_a = scene.bodies[edges.body].mesh_id,
+        .edge = {low, high},
+        .mesh_b = scene.bodies[faces.body].mesh_id,
+        .face = {v[0], v[second], v[third]},
+        .tet = tet,
+        .kind = kind,
+        .reserved = 0,
+        .edge_weights = {found.edge_weights[0], found.edge_weights[1]},
+        .face_weights = {found.face_weights[0], found.face_weights[second], found.face_weights[third]},
+        .position = {found.position.x, found.position.y, found.position.z},
+        .normal = {normal.x, normal.y, normal.z}};
+    const std::lock_guard lock(mutex_);
+    reserve_sparingly(found_, found_.size() + 1);
+    found_.push_back(contact);
+}
+
+void EdgeContacts::put_in_order() {
+    if (found_.size() > VOX_MAX_CONTACTS)
+        throw Error(VOX_ERROR_LIMIT, format("the step has %zu edge contacts, the limit is %u", found_.size(),
+                                            VOX_MAX_CONTACTS));
+    keys_.clear();
+    reserve_sparingly(keys_, found_.size());
+    for (const vox_edge_contact& c : found_) {
+        const auto [middle, last] = std::minmax(c.face[1], c.face[2]);
+        keys_.push_back({{c.mesh_a, c.edge[0], c.edge[1], c.mesh_b, c.face[0], middle, last},
+                         static_cast<std::uint32_t>(keys_.size())});
+    }
+    std::sort(keys_.begin(), keys_.end());
+    contacts_.clear();
+    reserve_sparingly(contacts_, found_.size());
+    for (const Key& key : keys_) contacts_.push_back(found_[key.index]);
+}
+
+void EdgeContacts::list_touching() {
+    pairs_.clear();
+    for (const vox_edge_contact& contact : contacts_)
+        if (const EdgePair pair = pair_of(contact); pairs_.empty() || pairs_.back() != pair) {
+            reserve_growing(pairs_, pairs_.size() + 1);
+            pairs_.push_back(pair);
+        }
+    std::sort(pairs_.begin(), pairs_.end());
+    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+}
+
+std::uint64_t EdgeContacts::hash() const noexcept {
+    std::uint64_t state = contacts_.size();
+    const auto add = [&state](std::uint64_t word) { // as hash_contacts()
+        state = (state ^ word) * 0x9fb21c651e98df25u;
+        state ^= state >> 29;
+    };
+    const auto add_two = [&](std::uint32_t low, std::uint32_t high) { add(low | std::uint64_t{high} << 32); };
+    const auto add_all = [&](const auto& numbers) {
+        for (const double x : numbers) add(std::bit_cast<std::uint64_t>(x));
+    };
+    for (const vox_edge_contact& c : contacts_) {
+        add_two(c.mesh_a, c.edge[0]);
+        add_two(c.edge[1], c.mesh_b);
+        add_two(c.face[0], c.face[1]);
+        add_two(c.face[2], c.tet);
+        add(static_cast<std::uint64_t>(c.kind));
+        add_all(c.edge_weights);
+        add_all(c.face_weights);
+        add_all(c.position);
+        add_all(c.normal);
+    }
+    return state;
+}
+
+} // namespace vox

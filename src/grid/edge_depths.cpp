@@ -1,0 +1,99 @@
+// The way out of edge contacts: from the middle of the part of an edge that is inside to the closest point of
+// the surface.
+#include "grid/edge_contacts.hpp"
+
+#include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "base/vectors.hpp"
+#include "exact/facet_normal.hpp"
+#include "exact/predicates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vox {
+
+namespace {
+
+Vec3d vector_of(const double (&from)[3]) { return {from[0], from[1], from[2]}; }
+
+const EdgeBody& edge_body_of(std::span<const EdgeBody> bodies, vox_mesh mesh) {
+    return *std::lower_bound(bodies.begin(), bodies.end(), mesh,
+                             [](const EdgeBody& b, vox_mesh id) { return b.body.mesh_id < id; });
+}
+
+bool same_edge(const vox_edge_contact& x, const vox_edge_contact& y) {
+    return x.mesh_a == y.mesh_a && x.edge[0] == y.edge[0] && x.edge[1] == y.edge[1] && x.mesh_b == y.mesh_b;
+}
+
+// The middle of the part of the edge pq behind the face of `contact`, as a fraction of the way from p to q.
+// The part ends at the next one of `all` contacts of the edge with the mesh, or at the end of the edge.
+double middle_of_part(std::span<const vox_edge_contact> all, const vox_edge_contact& contact, bool enters) {
+    const double at = contact.edge_weights[1];
+    double end = enters ? 1 : 0;
+    for (const vox_edge_contact& other : all) {
+        const double t = other.edge_weights[1];
+        if (enters ? t > at && t < end : t < at && t > end) end = t;
+    }
+    return (at + end) / 2;
+}
+
+} // namespace
+
+void EdgeContacts::prepare_depths(std::span<const EdgeBody> bodies, Workers& workers) {
+    constexpr std::size_t least_searches = 256; // that are worth a task
+    depths_.reserve(contacts_.size());
+    has_depths_ = false;
+    depths_.resize(contacts_.size());
+    const auto find_depth = [&](std::span<const vox_edge_contact> of_edge, const vox_edge_contact& contact,
+                                depth::SearchState& state) -> vox_depth {
+        const Vec3d normal = vector_of(contact.normal);
+        vox_depth out{0, {normal.x, normal.y, normal.z}};
+        if (contact.kind != VOX_CROSSING_THROUGH) return out;
+        const EdgeBody &a = edge_body_of(bodies, contact.mesh_a), &b = edge_body_of(bodies, contact.mesh_b);
+        const Vec3d p = a.body.positions.exact(contact.edge[0]), q = a.body.positions.exact(contact.edge[1]);
+        std::uint64_t exact_tests = 0;
+        const bool enters =
+            orientation(b.body.positions.exact(contact.face[0]), b.body.positions.exact(contact.face[1]),
+                        b.body.positions.exact(contact.face[2]), q, exact_tests) < 0;
+        const Vec3d middle = p + middle_of_part(of_edge, contact, enters) * (q - p);
+        if (contact.mesh_a == contact.mesh_b) {
+            out.depth = std::max(dot(vector_of(contact.position) - middle, normal), 0.0);
+            return out;
+        }
+        depth::Closest closest;
+        if (!b.tree->find(middle, depth::SurfaceTree::no_vertex, state, closest)) return out;
+        const Vec3d way = normalised(scaled(closest.way));
+        if (!(length(way) > 0)) return out;
+        return {std::sqrt(closest.squared), {way.x, way.y, way.z}};
+    };
+    workers.for_ranges(
+        contacts_.size(), least_searches, [&](std::size_t begin, std::size_t end, std::uint32_t) {
+            depth::SearchState state;
+            vox_mesh last = VOX_NULL_MESH;
+            std::size_t first = begin, past = begin; // the contacts of one edge with one mesh
+            for (std::size_t i = begin; i < end; ++i) {
+                const vox_edge_contact& contact = contacts_[i];
+                if (i >= past) {
+                    for (first = i; first > 0 && same_edge(contacts_[first - 1], contact);) --first;
+                    for (past = i + 1; past < contacts_.size() && same_edge(contacts_[past], contact);)
+                        ++past;
+                }
+                if (contact.mesh_b != last)
+                    state.near = depth::SearchState::none; // a triangle of another tree
+                last = contact.mesh_b;
+                depths_[i] = find_depth(std::span(contacts_).subspan(first, past - first), contact, state);
+            }
+        });
+    has_depths_ = true;
+}
+
+std::span<const vox_depth> EdgeContacts::depths() const {
+    if (!has_depths_)
+        throw Error(VOX_ERROR_INVALID_STATE,
+                    "the depths of the edge contacts of the last step are not known: "
+                    "call vox_grid_prepare_edge_depths after it");
+    return depths_;
+}
+
+} // namespace vox

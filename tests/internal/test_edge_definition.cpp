@@ -1,0 +1,411 @@
+// Edge contacts of random scenes against all edges and all faces, by definition: surfaces found by counting
+// facets, every pair decided by find_crossing(), which test_crossing compares with rational numbers.
+#include "exact/crossing.hpp"
+#include "internal/random.hpp"
+#include "scenes/bodies.h"
+#include "support/suite.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <set>
+#include <string>
+#include <tuple>
+#include <vector>
+
+using namespace vox;
+
+namespace {
+
+// ---- the definition -------------------------------------------------------------------------------
+
+struct TestMesh {
+    std::vector<double> positions;
+    std::vector<std::uint32_t> tets;
+    std::vector<std::uint8_t> on;
+    bool self = false, enabled = true, doubles = false;
+    std::vector<float> floats; // what the grid reads unless `doubles`
+    vox_filter filter = vox_default_filter();
+    vox_mesh id = VOX_NULL_MESH;
+
+    Vec3d at(std::uint32_t v) const {
+        const double* p = &positions[3 * v];
+        return doubles ? Vec3d{p[0], p[1], p[2]} : Vec3d{floats[3 * v], floats[3 * v + 1], floats[3 * v + 2]};
+    }
+    std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(positions.size() / 3); }
+    std::uint32_t tet_count() const { return static_cast<std::uint32_t>(tets.size() / 4); }
+    void round() { floats.assign(positions.begin(), positions.end()); }
+};
+
+using Edge = std::array<std::uint32_t, 2>;
+using Face = std::array<std::uint32_t, 3>;
+
+struct SurfaceOf {
+    std::set<Edge> edges;
+    std::map<Face, Edge> faces; // the tet behind and its apex
+};
+
+SurfaceOf surface_of(const TestMesh& mesh) {
+    std::map<Face, std::map<std::uint32_t, std::uint32_t>> tet_of; // by the opposite vertex, the lowest
+    for (std::uint32_t t = 0; t < mesh.tet_count(); ++t) {
+        const std::uint32_t* v = &mesh.tets[4 * t];
+        if (!mesh.on[t] || std::set<std::uint32_t>(v, v + 4).size() < 4) continue;
+        for (int i = 0; i < 4; ++i) {
+            Face face;
+            for (int j = 0, k = 0; j < 4; ++j)
+                if (j != i) face[static_cast<std::size_t>(k++)] = v[j];
+            std::sort(face.begin(), face.end());
+            tet_of[face].emplace(v[i], t);
+        }
+    }
+    SurfaceOf surface;
+    for (const auto& [face, tets] : tet_of) {
+        if (tets.size() != 1) continue;
+        surface.faces[face] = {tets.begin()->second, tets.begin()->first};
+        surface.edges.insert({face[0], face[1]});
+        surface.edges.insert({face[0], face[2]});
+        surface.edges.insert({face[1], face[2]});
+    }
+    return surface;
+}
+
+struct Expected {
+    std::size_t a, b; // meshes
+    Edge edge;
+    Face face;
+    std::uint32_t tet, apex;
+    Crossing crossing;
+};
+
+using Near = std::vector<std::set<std::uint32_t>>; // vertices within the rings of each
+
+Near rings_of(const TestMesh& mesh) {
+    Near near(mesh.vertex_count());
+    for (std::uint32_t v = 0; v < near.size(); ++v) near[v] = {v};
+    for (std::uint32_t k = 0; k < mesh.filter.self_rings; ++k) {
+        const Near before = near;
+        for (std::uint32_t t = 0; t < mesh.tet_count(); ++t) {
+            if (!mesh.on[t]) continue;
+            for (int i = 0; i < 4; ++i)
+                for (int j = 0; j < 4; ++j) {
+                    const auto& more = before[mesh.tets[4 * t + static_cast<std::uint32_t>(j)]];
+                    near[mesh.tets[4 * t + static_cast<std::uint32_t>(i)]].insert(more.begin(), more.end());
+                }
+        }
+    }
+    return near;
+}
+
+bool may_collide(const TestMesh& a, const TestMesh& b) {
+    if (a.filter.group != 0 && a.filter.group == b.filter.group) return a.filter.group > 0;
+    return (a.filter.category & b.filter.mask) != 0 && (b.filter.category & a.filter.mask) != 0;
+}
+
+std::vector<Expected> brute_force(const std::vector<TestMesh>& meshes, const std::set<Edge>& exceptions) {
+    std::vector<SurfaceOf> surfaces;
+    for (const TestMesh& mesh : meshes) surfaces.push_back(surface_of(mesh));
+    std::vector<Expected> all;
+    std::uint64_t exact_tests = 0;
+    for (std::size_t a = 0; a < meshes.size(); ++a) {
+        const Near near = meshes[a].self && meshes[a].filter.self_rings ? rings_of(meshes[a]) : Near();
+        for (const Edge& edge : surfaces[a].edges)
+            for (std::size_t b = 0; b < meshes.size(); ++b) {
+                if (!meshes[a].enabled || !meshes[b].enabled) continue;
+                if (a == b ? !meshes[a].self : !may_collide(meshes[a], meshes[b])) continue;
+                const auto low = static_cast<std::uint32_t>(std::min(a, b)),
+                           high = static_cast<std::uint32_t>(std::max(a, b));
+                if (exceptions.count({low, high})) continue;
+                for (const auto& of : surfaces[b].faces) {
+                    const Face& face = of.first;
+                    const Edge& behind = of.second;
+                    const auto names = [&](std::uint32_t v) {
+                        return face[0] == v || face[1] == v || face[2] == v;
+                    };
+                    if (a == b && (names(edge[0]) || names(edge[1]))) continue;
+                    const Crossing crossing =
+                        find_crossing(meshes[a].at(edge[0]), meshes[a].at(edge[1]), meshes[b].at(face[0]),
+                                      meshes[b].at(face[1]), meshes[b].at(face[2]), exact_tests);
+                    if (crossing.kind == CrossingKind::none) continue;
+                    if (a == b && !near.empty()) {
+                        const std::uint32_t* corners = &meshes[b].tets[4 * behind[0]];
+                        if (std::any_of(corners, corners + 4, [&](std::uint32_t c) {
+                                return near[edge[0]].count(c) || near[edge[1]].count(c);
+                            }))
+                            continue;
+                    }
+                    all.push_back({a, b, edge, face, behind[0], behind[1], crossing});
+                }
+            }
+    }
+    return all;
+}
+
+Vec3d minus(const Vec3d& a, const Vec3d& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+double dotted(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+void check_normal(const vox_edge_contact& c, const TestMesh& b, std::uint32_t apex) {
+    const Vec3d n{c.normal[0], c.normal[1], c.normal[2]};
+    ck_assert_double_le(std::abs(dotted(n, n) - 1), 1e-12);
+    const Vec3d u = minus(b.at(c.face[1]), b.at(c.face[0])), v = minus(b.at(c.face[2]), b.at(c.face[0]));
+    const double size = std::max({1e-300, std::sqrt(dotted(u, u)), std::sqrt(dotted(v, v))});
+    const Vec3d cross{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+    if (std::sqrt(dotted(cross, cross)) <= 1e-9 * size * size) return;
+    ck_assert_double_le(std::abs(dotted(n, u)), 1e-6 * size);
+    ck_assert_double_le(std::abs(dotted(n, v)), 1e-6 * size);
+    ck_assert(dotted(n, cross) > 0);
+    const Vec3d in = minus(b.at(apex), b.at(c.face[0]));
+    if (std::abs(dotted(n, in)) > 1e-9 * size) ck_assert(dotted(n, in) < 0);
+}
+
+vox_edge_contact_view edges_of(const vox_grid* grid) {
+    vox_edge_contact_view view{nullptr, 0, 99, 0};
+    ck_ok(vox_grid_edge_contacts(grid, &view));
+    return view;
+}
+
+void check_contacts(const vox_grid* grid, const std::vector<TestMesh>& meshes,
+                    const std::vector<Expected>& expected) {
+    const vox_edge_contact_view found = edges_of(grid);
+    ck_assert_uint_eq(found.count, expected.size());
+    ck_assert_uint_eq(counters_of(grid).edge_contacts, expected.size());
+    for (std::uint64_t i = 0; i < found.count; ++i) {
+        const vox_edge_contact& c = found.data[i];
+        const Expected& e = expected[i];
+        ck_assert(c.mesh_a == meshes[e.a].id && c.mesh_b == meshes[e.b].id);
+        ck_assert(c.edge[0] == e.edge[0] && c.edge[1] == e.edge[1]);
+        Face face{c.face[0], c.face[1], c.face[2]};
+        ck_assert(face[0] < face[1] && face[0] < face[2]);
+        const bool swapped = face[1] > face[2];
+        std::sort(face.begin(), face.end());
+        ck_assert(face == e.face);
+        ck_assert_uint_eq(c.tet, e.tet);
+        ck_assert_int_eq(static_cast<int>(c.kind) + 1, static_cast<int>(e.crossing.kind));
+        ck_assert_uint_eq(c.reserved, 0);
+        ck_assert_mem_eq(c.edge_weights, e.crossing.edge_weights.data(), sizeof c.edge_weights);
+        std::array<double, 3> weights = e.crossing.face_weights;
+        if (swapped) std::swap(weights[1], weights[2]);
+        ck_assert_mem_eq(c.face_weights, weights.data(), sizeof c.face_weights);
+        ck_assert_mem_eq(c.position, &e.crossing.position, sizeof c.position);
+        check_normal(c, meshes[e.b], e.apex);
+    }
+    // Pairs of meshes that touch, by contacts or edges.
+    std::set<Edge> touching;
+    for (const Expected& e : expected)
+        touching.insert({std::min(meshes[e.a].id, meshes[e.b].id), std::max(meshes[e.a].id, meshes[e.b].id)});
+    const vox_contact_view contacts = contacts_of(grid);
+    for (std::uint64_t i = 0; i < contacts.count; ++i)
+        touching.insert({std::min(contacts.data[i].mesh_a, contacts.data[i].mesh_b),
+                         std::max(contacts.data[i].mesh_a, contacts.data[i].mesh_b)});
+    vox_pair_view pairs{};
+    ck_ok(vox_grid_pairs(grid, &pairs));
+    ck_assert_uint_eq(pairs.count, touching.size());
+    std::uint64_t first = 0;
+    for (std::uint64_t i = 0; i < pairs.count; ++i) {
+        const vox_pair& pair = pairs.data[i];
+        ck_assert(touching.count({pair.mesh_a, pair.mesh_b}) == 1);
+        ck_assert(i == 0 || std::tie(pairs.data[i - 1].mesh_a, pairs.data[i - 1].mesh_b) <
+                                std::tie(pair.mesh_a, pair.mesh_b));
+        ck_assert_uint_eq(pair.first, first);
+        first += pair.a_in_b + pair.b_in_a;
+    }
+    ck_assert_uint_eq(first, contacts.count);
+}
+
+// ---- scenes ---------------------------------------------------------------------------------------
+
+void place(TestMesh& mesh, Random& r, double spread, bool on_lattice) {
+    double m[3][3], at[3];
+    for (int i = 0; i < 3; ++i) {
+        at[i] = on_lattice ? double(r.below(3)) : spread * (2 * r.unit() - 1);
+        for (int j = 0; j < 3; ++j) m[i][j] = on_lattice ? double(i == j) : 2 * r.unit() - 1;
+    }
+    for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+        double* p = &mesh.positions[3 * v];
+        const double q[3] = {p[0], p[1], p[2]};
+        for (int i = 0; i < 3; ++i) p[i] = m[i][0] * q[0] + m[i][1] * q[1] + m[i][2] * q[2] + at[i];
+    }
+    mesh.round();
+}
+
+// A block of cubes, or tets between random points.
+TestMesh make_mesh(Random& r, bool on_lattice) {
+    TestMesh mesh;
+    if (r.below(3) > 0) {
+        body b = make_block(r.below(2) ? &five_cut : &five_cut_exchanged, 1 + r.below(4), 1 + r.below(2),
+                            1 + r.below(2));
+        if (!on_lattice) jitter_body(&b, 0.2, r.next());
+        mesh.positions.assign(b.positions, b.positions + 3 * b.vertex_count);
+        mesh.tets.assign(b.tets, b.tets + 4 * b.tet_count);
+        free_body(&b);
+    } else {
+        const std::uint32_t vertices = 4 + r.below(9), tets = 1 + r.below(12);
+        for (std::uint32_t i = 0; i < 3 * vertices; ++i)
+            mesh.positions.push_back(on_lattice ? double(r.below(4)) : 3 * r.unit());
+        for (std::uint32_t i = 0; i < 4 * tets; ++i) mesh.tets.push_back(r.below(vertices));
+    }
+    mesh.on.assign(mesh.tet_count(), 1);
+    mesh.self = r.below(2) == 0;
+    mesh.doubles = r.below(3) == 0;
+    if (mesh.self && r.below(4) == 0) mesh.filter.self_rings = 1 + r.below(2);
+    if (r.below(6) == 0) mesh.filter.group = static_cast<std::int32_t>(r.below(3)) - 1;
+    if (r.below(6) == 0) mesh.filter.mask = ~std::uint64_t{0} << r.below(2);
+    mesh.filter.self_collision = mesh.self;
+    place(mesh, r, 2, on_lattice);
+    return mesh;
+}
+
+vox_mesh insert(vox_grid* grid, const TestMesh& mesh) {
+    vox_mesh_desc desc =
+        mesh.doubles
+            ? vox_mesh_desc_doubles(mesh.positions.data(), mesh.vertex_count(), mesh.tets.data(), mesh.tet_count())
+            : vox_mesh_desc_floats(mesh.floats.data(), mesh.vertex_count(), mesh.tets.data(), mesh.tet_count());
+    desc.filter = &mesh.filter;
+    return insert_mesh(grid, &desc);
+}
+
+std::uint64_t edge_hash(const vox_grid* grid) {
+    std::uint64_t hash = 0;
+    ck_ok(vox_grid_edge_hash(grid, &hash));
+    return hash;
+}
+
+// The touch events agree with the pairs of this step and of the one before.
+void check_events(const vox_grid* grid, std::set<Edge>& last) {
+    vox_pair_view pairs{};
+    vox_touch_view events{};
+    ck_ok(vox_grid_pairs(grid, &pairs));
+    ck_ok(vox_grid_touch_events(grid, &events));
+    std::set<Edge> now;
+    for (std::uint64_t i = 0; i < pairs.count; ++i) now.insert({pairs.data[i].mesh_a, pairs.data[i].mesh_b});
+    ck_assert_uint_eq(events.began + events.persisted, now.size());
+    ck_assert_uint_eq(events.persisted + events.ended, last.size());
+    for (std::uint64_t i = 0; i < events.count; ++i) {
+        const vox_touch_event& e = events.data[i];
+        ck_assert_uint_eq(now.count({e.mesh_a, e.mesh_b}), e.kind != VOX_TOUCH_ENDED);
+        ck_assert_uint_eq(last.count({e.mesh_a, e.mesh_b}), e.kind != VOX_TOUCH_BEGAN);
+    }
+    last = now;
+}
+
+std::uint64_t counts[3], by_edges_alone, carried;
+
+// A scene that changes from step to step, in grids of both engines and several workers.
+void run_scene(std::uint64_t seed, int steps) {
+    Random r{seed};
+    const bool on_lattice = r.below(2) == 0;
+    std::vector<TestMesh> meshes;
+    const std::uint32_t count = 2 + r.below(4);
+    for (std::uint32_t i = 0; i < count; ++i) meshes.push_back(make_mesh(r, on_lattice));
+    constexpr int grid_count = 3;
+    vox_grid* grids[grid_count];
+    std::set<Edge> exceptions, touched[grid_count];
+    for (int g = 0; g < grid_count; ++g) {
+        vox_grid_desc desc = vox_default_grid_desc();
+        desc.flags = VOX_GRID_EDGE_CONTACTS | (seed % 2 ? std::uint32_t{VOX_GRID_PENETRATIONS} : 0u);
+        desc.engine = g == 0 ? VOX_ENGINE_REFERENCE : VOX_ENGINE_FAST;
+        desc.worker_count = g == 2 ? 3 : 1;
+        grids[g] = grid_of(&desc);
+        for (TestMesh& mesh : meshes) mesh.id = insert(grids[g], mesh);
+    }
+    for (int step = 0; step < steps; ++step) {
+        const std::vector<Expected> expected = brute_force(meshes, exceptions);
+        for (int g = 0; g < grid_count; ++g) {
+            ck_ok(vox_grid_step(grids[g]));
+            check_contacts(grids[g], meshes, expected);
+            ck_assert_uint_eq(edge_hash(grids[g]), edge_hash(grids[0]));
+            check_events(grids[g], touched[g]);
+        }
+        for (const Expected& e : expected) ++counts[static_cast<int>(e.crossing.kind) - 1];
+        carried += counters_of(grids[1]).carried_edge_contacts;
+        by_edges_alone += !expected.empty() && contacts_of(grids[0]).count == 0;
+
+        // Some change, most rest.
+        const std::uint32_t m = r.below(count);
+        TestMesh& mesh = meshes[m];
+        const auto in_all = [&](auto&& change) {
+            for (vox_grid* grid : grids) ck_ok(change(grid));
+        };
+        switch (r.below(8)) {
+        case 0: { // an edit
+            const std::uint32_t tet = r.below(mesh.tet_count());
+            mesh.on[tet] = !mesh.on[tet];
+            const std::uint32_t list[1] = {tet};
+            in_all([&](vox_grid* g) { return vox_mesh_set_tets_enabled(g, mesh.id, list, 1, mesh.on[tet]); });
+            break;
+        }
+        case 1:
+            mesh.enabled = !mesh.enabled;
+            in_all([&](vox_grid* g) { return vox_mesh_set_enabled(g, mesh.id, mesh.enabled); });
+            break;
+        case 2: {
+            const std::uint32_t other = r.below(count);
+            if (other == m) break;
+            const Edge pair{std::min(m, other), std::max(m, other)};
+            const bool on = exceptions.erase(pair) == 1;
+            if (!on) exceptions.insert(pair);
+            in_all([&](vox_grid* g) {
+                return vox_grid_set_pair_enabled(g, meshes[pair[0]].id, meshes[pair[1]].id, on);
+            });
+            break;
+        }
+        case 3: break; // all rest
+        default: place(mesh, r, 1, on_lattice);
+        }
+    }
+    for (vox_grid* grid : grids) vox_grid_destroy(grid);
+}
+
+int scenes = 300;
+
+START_TEST(random_scenes_equal_the_definition) {
+    for (int s = 1; s <= scenes; ++s) run_scene(static_cast<std::uint64_t>(s), 6);
+    for (const std::uint64_t count : counts) ck_assert_uint_gt(count, 1000);
+    ck_assert_uint_gt(by_edges_alone, 10);
+    ck_assert_uint_gt(carried, 1000);
+}
+END_TEST
+
+// Bodies of many tiles, deep in each other, and lightly in contact; self-contact of a folded one.
+START_TEST(large_bodies_equal_the_definition) {
+    for (int kind = 0; kind < 3; ++kind) {
+        std::vector<TestMesh> meshes(kind == 2 ? 1 : 2);
+        for (std::size_t i = 0; i < meshes.size(); ++i) {
+            body b = make_lattice_ball(&five_cut, 7, 7);
+            jitter_body(&b, kind == 2 ? 0.9 : 0.1, i + 1);
+            move_body(&b, kind == 0 ? 13.1 * double(i) : 3.3 * double(i), 0.123 * double(i), 0.271 * double(i));
+            meshes[i].positions.assign(b.positions, b.positions + 3 * b.vertex_count);
+            meshes[i].tets.assign(b.tets, b.tets + 4 * b.tet_count);
+            meshes[i].on.assign(b.tet_count, 1);
+            meshes[i].self = kind == 2;
+            meshes[i].filter.self_collision = kind == 2;
+            meshes[i].round();
+            free_body(&b);
+        }
+        const std::vector<Expected> expected = brute_force(meshes, {});
+        ck_assert_uint_gt(expected.size(), 100);
+        for (const std::uint32_t workers : {1u, 4u}) {
+            vox_grid_desc desc = vox_default_grid_desc();
+            desc.flags |= VOX_GRID_EDGE_CONTACTS;
+            desc.worker_count = workers;
+            vox_grid* grid = grid_of(&desc);
+            for (TestMesh& mesh : meshes) mesh.id = insert(grid, mesh);
+            ck_ok(vox_grid_step(grid));
+            check_contacts(grid, meshes, expected);
+            vox_grid_destroy(grid);
+        }
+    }
+}
+END_TEST
+
+} // namespace
+
+// Usage: test_edge_definition [SCENES]
+int main(int argc, char** argv) {
+    if (argc > 1) scenes = std::atoi(argv[1]);
+    Suite* suite = suite_create("edge_definition");
+    TCase* tests = add_case(suite, "definition");
+    tcase_add_each(tests, random_scenes_equal_the_definition, large_bodies_equal_the_definition);
+    return run_suite(suite);
+}
