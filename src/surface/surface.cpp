@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/llu.hpp"
 #include "mesh/check.hpp"
+#include "surface/crossings.hpp"
 #include "surface/suggest.hpp"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ vox_surface::vox_surface(const vox_surface_desc& desc, const MemoryShare& memory
     : share_(memory), workers_(desc.tasks, desc.worker_count), topology_(desc, &*memory),
       cell_size_(desc.cell_size),
       positions_{std::pmr::vector<Vec3d>(&*memory), std::pmr::vector<Vec3d>(&*memory)}, search_(&*memory),
-      answer_(&*memory) {}
+      answer_(&*memory), candidates_(&*memory), crossings_(&*memory) {}
 
 void vox_surface::move(const vox_motion& motion) {
     const std::uint32_t count = topology_.vertex_count;
@@ -55,6 +56,7 @@ void vox_surface::move(const vox_motion& motion) {
     has_motion_ = true;
     search_.forget_boxes();
     answer_.count = 0;
+    crossings_.clear();
 }
 
 const SurfaceMotion& vox_surface::motion() const {
@@ -99,6 +101,29 @@ vox_foreign_suggestion vox_surface::suggest_cell_size(vox_feature a, vox_feature
     for (const vox_feature kind : {a, b})
         if (topology_.count(kind) == 0) refuse("there are no features of one of the kinds");
     return suggest_for_tiles(search_.tiles(topology_, moving, a), search_.tiles(topology_, moving, b), &*share_);
+}
+
+std::span<const vox_crossing> vox_surface::crossings() {
+    constexpr std::uint32_t most_edges = 1u << 20; // at once
+    const SurfaceMotion end = at_end(0);
+    crossings_.clear();
+    const std::uint32_t all = topology_.count(VOX_FEATURE_EDGE);
+    std::uint32_t wanted = most_edges;
+    for (std::uint32_t first = 0; first < all;) {
+        const std::uint32_t count = std::min(wanted, all - first);
+        try {
+            find_pairs(end, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, first, count, candidates_);
+        } catch (const Error& error) {
+            if (error.result() != VOX_ERROR_BUDGET || count == 1) throw;
+            search_.release_buffers(); // grown for more than there is room for
+            candidates_ = FeaturePairs(&*share_);
+            wanted = (count + 1) / 2;
+            continue;
+        }
+        find_crossings(topology_, end.to, candidates_, workers_, crossings_);
+        first += count;
+    }
+    return crossings_;
 }
 
 vox_surface_counters vox_surface::counters() const {

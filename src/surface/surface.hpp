@@ -44,6 +44,9 @@ public:
 
     // Throws as vox_surface_suggest_cell_size.
     vox_foreign_suggestion suggest_cell_size(vox_feature a, vox_feature b);
+    // Of the end of the motion. Lives until the next call or move().
+    std::span<const vox_crossing> crossings();
+
     vox_surface_counters counters() const;
 
 private:
@@ -56,4 +59,6 @@ private:
     vox::SurfaceMotion motion_;
     vox::PairSearch search_;
     vox::FeaturePairs answer_;
+    vox::FeaturePairs candidates_; // for the crossings, a range at a time
+    std::pmr::vector<vox_crossing> crossings_;
 };
