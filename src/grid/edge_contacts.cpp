@@ -32,13 +32,11 @@ constexpr std::size_t task_searches = 8; // of tiles against all of the other bo
 // The tiles of a small body take no task.
 constexpr std::size_t small_body = 64;
 
-Vec3f rounded(const Positions& positions, const Vec3d& origin, bool has_origin, std::uint32_t vertex) {
-    return has_origin ? nearest_floats(positions.exact(vertex) - origin) : positions[vertex];
+// A vertex of packed positions.
+Box box_at(const float* positions, std::uint32_t vertex) {
+    const float* p = positions + 3 * std::size_t{vertex};
+    return {{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}};
 }
-
-void extend(Box& box, const Vec3f& p) { add(box, {{p.x, p.y, p.z, 0}, {p.x, p.y, p.z, 0}}); }
-
-bool is_zero(const Vec3d& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
 
 EdgePair pair_of(const vox_edge_contact& contact) {
     const auto [low, high] = std::minmax(contact.mesh_a, contact.mesh_b);
@@ -47,19 +45,11 @@ EdgePair pair_of(const vox_edge_contact& contact) {
 
 } // namespace
 
-// What a search reads of a tile, in one place.
-struct EdgeContacts::LoadedTile {
-    std::uint32_t body;
-    const SurfaceTile* tile;
-    Box box;
-    std::array<Box, SurfaceTile::most_faces> faces;
-    std::array<Box, SurfaceTile::most_edges> edges;
-};
-
 EdgeContacts::EdgeContacts(std::pmr::memory_resource* memory)
-    : surfaces_(memory), pair_buffers_(memory), body_boxes_(memory), pairs_of_bodies_(memory),
-      step_surfaces_(memory), pieces_(memory), tile_boxes_(memory), workers_(memory), found_(memory),
-      keys_(memory), contacts_(memory), pairs_(memory), depths_(memory) {}
+    : surfaces_(memory), pair_buffers_(memory), body_boxes_(memory), packed_(memory), first_packed_(memory),
+      pairs_of_bodies_(memory), step_surfaces_(memory), pieces_(memory), block_sides_(memory),
+      tile_boxes_(memory), workers_(memory), found_(memory), keys_(memory), contacts_(memory), pairs_(memory),
+      depths_(memory) {}
 
 void EdgeContacts::clear() noexcept {
     contacts_.clear();
@@ -74,11 +64,14 @@ void EdgeContacts::forget(vox_mesh mesh) noexcept {
 void EdgeContacts::find(const EdgeScene& scene, vox_counters& counters) {
     has_depths_ = false;
     workers_.grow(scene.workers->count());
-    for (Worker& worker : workers_) worker.candidates = worker.exact_tests = 0;
+    for (Worker& worker : workers_) {
+        worker.candidates = worker.exact_tests = 0;
+        worker.loaded.resize(Worker::most_loaded + 1);
+        for (LoadedTile& tile : worker.loaded) tile.body = ~0u; // that of another step
+    }
     found_.clear();
     carry(scene);
     const std::size_t carried = found_.size();
-    origin_ = scene.engine ? scene.engine->last_step().origin : Vec3d{};
     list_pairs(scene);
     prepare_surfaces(scene);
     make_tile_boxes(scene);
@@ -131,11 +124,7 @@ void EdgeContacts::list_pairs(const EdgeScene& scene) {
             if (pair.a < pair.b && has_surface(pair.a) && has_surface(pair.b))
                 pairs_of_bodies_.push_back(pair);
     } else {
-        body_boxes_.assign(bodies, empty_box);
-        for (std::uint32_t b = 0; b < bodies; ++b)
-            for (const Triangle& triangle : scene.topologies[b]->triangles)
-                for (const std::uint32_t vertex : triangle.v)
-                    extend(body_boxes_[b], scene.bodies[b].positions[vertex]);
+        pack_positions(scene);
         fast::find_pairs(body_boxes_, {scene.bodies, {}}, pair_buffers_, pairs_of_bodies_);
         std::erase_if(pairs_of_bodies_, [](const fast::Pair& pair) { return pair.a > pair.b; });
     }
@@ -144,13 +133,44 @@ void EdgeContacts::list_pairs(const EdgeScene& scene) {
             pairs_of_bodies_.push_back({b, b});
 }
 
+// Positions of bodies with surfaces as floats, one after the other, and the boxes around the surfaces.
+void EdgeContacts::pack_positions(const EdgeScene& scene) {
+    first_packed_.assign(scene.bodies.size(), 0);
+    body_boxes_.assign(scene.bodies.size(), empty_box);
+    std::size_t room = 0;
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+        if (!scene.topologies[b]->triangles.empty()) {
+            first_packed_[b] = room;
+            room += 3 * std::size_t{scene.bodies[b].vertex_count};
+        }
+    packed_.resize(room);
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+        if (scene.topologies[b]->triangles.empty()) continue;
+        float* to = packed_.data() + first_packed_[b];
+        for (std::uint32_t v = 0; v < scene.bodies[b].vertex_count; ++v) {
+            const Vec3f p = scene.bodies[b].positions[v];
+            to[3 * std::size_t{v}] = p.x;
+            to[3 * std::size_t{v} + 1] = p.y;
+            to[3 * std::size_t{v} + 2] = p.z;
+        }
+        for (const Triangle& triangle : scene.topologies[b]->triangles)
+            for (const std::uint32_t vertex : triangle.v) add(body_boxes_[b], box_at(to, vertex));
+    }
+}
+
+const Box& EdgeContacts::box_of(const EdgeScene& scene, std::uint32_t body) const {
+    return scene.engine ? scene.engine->boxes().bodies[body] : body_boxes_[body];
+}
+
 const SurfaceFeatures& EdgeContacts::surface_of(const EdgeScene& scene, std::uint32_t body) {
     const vox_mesh mesh = scene.bodies[body].mesh_id;
     auto place = std::lower_bound(surfaces_.begin(), surfaces_.end(), mesh,
                                   [](const Surface& surface, vox_mesh id) { return surface.mesh < id; });
     if (place == surfaces_.end() || place->mesh != mesh || place->version != scene.versions[body]) {
         Surface made(mesh, scene.versions[body], memory());
-        make_surface_features(*scene.topologies[body], scene.bodies[body].positions, made.features);
+        make_surface_features(*scene.topologies[body], scene.bodies[body].positions,
+                              scene.engine ? scene.engine->last_step().of[body].tiles : nullptr,
+                              made.features);
         if (place == surfaces_.end() || place->mesh != mesh)
             place = surfaces_.insert(place, std::move(made));
         else
@@ -159,42 +179,73 @@ const SurfaceFeatures& EdgeContacts::surface_of(const EdgeScene& scene, std::uin
     return place->features;
 }
 
-// Room for the boxes of the tiles of all bodies in pairs, and the pieces of work to make them.
+// What is known of bodies in pairs, room for the boxes of their tiles, and the pieces of work to make them.
 void EdgeContacts::prepare_surfaces(const EdgeScene& scene) {
-    step_surfaces_.assign(scene.bodies.size(), {nullptr, 0, empty_box});
-    for (const fast::Pair& pair : pairs_of_bodies_)
-        for (const std::uint32_t body : {pair.a, pair.b})
+    step_surfaces_.assign(scene.bodies.size(), {nullptr, 0, 0, nullptr, empty_box, empty_box});
+    for (const fast::Pair& pair : pairs_of_bodies_) {
+        Box common = box_of(scene, pair.a);
+        intersect(common, box_of(scene, pair.b));
+        for (const std::uint32_t body : {pair.a, pair.b}) {
             (void)surface_of(scene, body); // which may move those of others
+            add(step_surfaces_[body].reached, common);
+        }
+    }
     pieces_.clear();
-    std::size_t tiles = 0;
+    std::size_t tiles = 0, blocks = 0;
     for (const fast::Pair& pair : pairs_of_bodies_)
         for (const std::uint32_t body : {pair.a, pair.b}) {
             StepSurface& surface = step_surfaces_[body];
             if (surface.features) continue;
             surface.features = &surface_of(scene, body);
             surface.first_tile = static_cast<std::uint32_t>(tiles);
+            surface.first_block = static_cast<std::uint32_t>(blocks);
             const auto count = static_cast<std::uint32_t>(surface.features->tiles.size());
             for (std::uint32_t first = 0; first < count; first += small_body)
                 pieces_.push_back({body, first, std::min<std::uint32_t>(first + small_body, count)});
             tiles += count;
+            if (scene.engine) {
+                const fast::StepBody& of = scene.engine->last_step().of[body];
+                surface.positions = of.positions;
+                blocks += of.tiles->block_count();
+            } else {
+                surface.positions = packed_.data() + first_packed_[body];
+            }
         }
     if (tile_boxes_.size() < tiles) tile_boxes_.resize(tiles);
+    if (block_sides_.size() < blocks) block_sides_.resize(blocks);
 }
 
+// On which side of the reached region the blocks of a body are shows for most tiles that they are out of
+// reach. The others get a box.
 void EdgeContacts::make_tile_boxes(const EdgeScene& scene) {
-    const bool has_origin = !is_zero(origin_);
+    if (scene.engine)
+        for (const TilePiece& piece : pieces_) {
+            if (piece.first > 0) continue;
+            const StepSurface& surface = step_surfaces_[piece.body];
+            const fast::StepBody& of = scene.engine->last_step().of[piece.body];
+            fast::find_sides(scene.engine->boxes().blocks.data() + of.first_block, of.tiles->block_count(),
+                             surface.reached, block_sides_.data() + surface.first_block);
+        }
+    const auto is_out_of_reach = [&](const StepSurface& surface, const SurfaceTile& tile) {
+        if (tile.block_count == 0) return false; // not known
+        const std::uint32_t* blocks = surface.features->blocks.data() + tile.first_block;
+        const std::uint8_t* sides = block_sides_.data() + surface.first_block;
+        unsigned common = all_sides;
+        for (std::uint32_t i = 0; i < tile.block_count && common; ++i) common &= sides[blocks[i]];
+        return common != 0;
+    };
     scene.workers->for_ranges(
         pieces_.size(), task_tiles / small_body, [&](std::size_t begin, std::size_t end, std::uint32_t) {
             for (std::size_t i = begin; i < end; ++i) {
                 const TilePiece& piece = pieces_[i];
                 const StepSurface& surface = step_surfaces_[piece.body];
-                const Positions& positions = scene.bodies[piece.body].positions;
                 for (std::uint32_t t = piece.first; t < piece.last; ++t) {
                     const SurfaceTile& tile = surface.features->tiles[t];
-                    const std::uint32_t* vertices = surface.features->vertices.data() + tile.first_vertex;
                     Box box = empty_box;
-                    for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
-                        extend(box, rounded(positions, origin_, has_origin, vertices[v]));
+                    const std::uint32_t* vertices = surface.features->vertices.data() + tile.first_vertex;
+                    if (!is_out_of_reach(surface, tile))
+                        for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
+                            add(box, box_at(surface.positions, vertices[v]));
                     tile_boxes_[surface.first_tile + t] = box;
                 }
             }
@@ -263,7 +314,7 @@ bool EdgeContacts::list_tiles(const fast::Pair& pair, Worker& worker) const {
 // other. Of a body with itself, each two tiles once.
 void EdgeContacts::search(const EdgeScene& scene, const fast::Pair& pair, const Worker& tiles,
                           std::size_t begin, std::size_t end, Worker& worker) {
-    LoadedTile a, b;
+    LoadedTile& a = worker.loaded[Worker::most_loaded];
     for (std::size_t i = begin; i < end; ++i) {
         const Box& box = tile_boxes_[step_surfaces_[pair.a].first_tile + tiles.tiles_a[i]];
         bool is_loaded = false;
@@ -276,13 +327,14 @@ void EdgeContacts::search(const EdgeScene& scene, const fast::Pair& pair, const 
             for (; met; met &= met - 1) {
                 const std::size_t j = first + static_cast<std::size_t>(std::countr_zero(met));
                 if (pair.a == pair.b && j < i) continue; // the lists are the same
-                if (!is_loaded) load(scene, pair.a, tiles.tiles_a[i], a);
+                if (!is_loaded) load(pair.a, tiles.tiles_a[i], a);
                 is_loaded = true;
                 if (pair.a == pair.b && j == i) {
                     test(scene, a, a, worker);
                     continue;
                 }
-                load(scene, pair.b, tiles.tiles_b[j], b);
+                LoadedTile& b = worker.loaded[(pair.b + tiles.tiles_b[j]) % Worker::most_loaded];
+                if (b.body != pair.b || b.index != tiles.tiles_b[j]) load(pair.b, tiles.tiles_b[j], b);
                 test(scene, a, b, worker);
                 test(scene, b, a, worker);
             }
@@ -290,20 +342,17 @@ void EdgeContacts::search(const EdgeScene& scene, const fast::Pair& pair, const 
     }
 }
 
-void EdgeContacts::load(const EdgeScene& scene, std::uint32_t body, std::uint32_t index,
-                        LoadedTile& out) const {
-    const SurfaceFeatures& features = *step_surfaces_[body].features;
+void EdgeContacts::load(std::uint32_t body, std::uint32_t index, LoadedTile& out) const {
+    const StepSurface& surface = step_surfaces_[body];
+    const SurfaceFeatures& features = *surface.features;
     const SurfaceTile& tile = features.tiles[index];
-    const Positions& positions = scene.bodies[body].positions;
-    const bool has_origin = !is_zero(origin_);
     std::array<Box, SurfaceTile::most_vertices> points;
-    for (std::uint32_t v = 0; v < tile.vertex_count; ++v) {
-        const Vec3f p = rounded(positions, origin_, has_origin, features.vertices[tile.first_vertex + v]);
-        points[v] = {{p.x, p.y, p.z, 0}, {p.x, p.y, p.z, 0}};
-    }
+    for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
+        points[v] = box_at(surface.positions, features.vertices[tile.first_vertex + v]);
     out.body = body;
+    out.index = index;
     out.tile = &tile;
-    out.box = tile_boxes_[step_surfaces_[body].first_tile + index];
+    out.box = tile_boxes_[surface.first_tile + index];
     for (std::uint32_t f = 0; f < tile.face_count; ++f) {
         const auto& [u, v, w] = features.faces[tile.first_face + f];
         Box box = points[u];
@@ -325,17 +374,18 @@ void EdgeContacts::test(const EdgeScene& scene, const LoadedTile& edges, const L
     std::array<Box, SurfaceTile::most_faces> boxes;
     std::array<std::uint8_t, SurfaceTile::most_faces> near;
     std::uint32_t count = 0;
+    Box common = empty_box; // around these
     std::uint64_t met = fast::find_overlaps(faces.faces.data(), faces.tile->face_count, edges.box);
     for (; met; met &= met - 1) {
         const auto face = static_cast<std::size_t>(std::countr_zero(met));
         near[count] = static_cast<std::uint8_t>(face);
         boxes[count++] = faces.faces[face];
+        add(common, faces.faces[face]);
     }
     if (count == 0) return;
     for (std::uint32_t first = 0; first < edges.tile->edge_count; first += fast::most_boxes) {
-        std::uint64_t left =
-            fast::find_overlaps(edges.edges.data() + first,
-                                std::min(fast::most_boxes, edges.tile->edge_count - first), faces.box);
+        std::uint64_t left = fast::find_overlaps(
+            edges.edges.data() + first, std::min(fast::most_boxes, edges.tile->edge_count - first), common);
         for (; left; left &= left - 1) {
             const std::size_t edge = first + static_cast<std::size_t>(std::countr_zero(left));
             std::uint64_t hit = fast::find_overlaps(boxes.data(), count, edges.edges[edge]);
@@ -356,8 +406,10 @@ void EdgeContacts::decide(const EdgeScene& scene, const LoadedTile& edges, std::
     const std::uint32_t* vertices = of_edge.vertices.data() + edges.tile->first_vertex;
     const auto [low, high] = std::minmax(vertices[local[0]], vertices[local[1]]);
     const std::size_t place = faces.tile->first_face + face;
-    const Triangle& triangle = scene.topologies[faces.body]->triangles[of_face.triangles[place]];
-    std::array<std::uint32_t, 3> v{triangle.v[0], triangle.v[1], triangle.v[2]};
+    const auto& corners = of_face.faces[place];
+    const std::uint32_t* face_vertices = of_face.vertices.data() + faces.tile->first_vertex;
+    std::array<std::uint32_t, 3> v{face_vertices[corners[0]], face_vertices[corners[1]],
+                                   face_vertices[corners[2]]};
     const bool is_self = edges.body == faces.body;
     if (is_self)
         for (const std::uint32_t corner : v)
@@ -377,7 +429,8 @@ void EdgeContacts::decide(const EdgeScene& scene, const LoadedTile& edges, std::
         if (filter->skips(low, behind) || filter->skips(high, behind)) return;
     }
 
-    int inside = orientation(corner[0], corner[1], corner[2], of_b.exact(triangle.apex), worker.exact_tests);
+    const std::uint32_t apex = scene.topologies[faces.body]->triangles[of_face.triangles[place]].apex;
+    int inside = orientation(corner[0], corner[1], corner[2], of_b.exact(apex), worker.exact_tests);
     if (inside == 0) inside = orientation(corner[0], corner[1], corner[2], p, worker.exact_tests);
     const std::size_t second = inside > 0 ? 2 : 1, third = 3 - second;
     Vec3d normal = normalised(cross(scaled(corner[second] - corner[0]), scaled(corner[third] - corner[0])));

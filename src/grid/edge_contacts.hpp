@@ -13,6 +13,7 @@
 
 #include <vox/vox.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
@@ -26,11 +27,18 @@ namespace vox {
 class FastEngine;
 class Workers;
 
+// Of what the features of a surface are made from; each grows with every change (Mesh).
+struct SurfaceVersion {
+    std::uint32_t topology, tiles;
+
+    bool operator==(const SurfaceVersion&) const = default;
+};
+
 // A step as it is when the hits are found.
 struct EdgeScene {
     std::span<const Body> bodies;
     std::span<const Topology* const> topologies; // of each
-    std::span<const std::uint32_t> versions;     // of these, which grow with every change (Mesh)
+    std::span<const SurfaceVersion> versions;    // of each
     const FastEngine* engine;                    // null for the reference engine: nothing is carried over
     Workers* workers;
 };
@@ -70,33 +78,47 @@ public:
 private:
     // What is kept of a mesh, by its id.
     struct Surface {
-        Surface(vox_mesh id, std::uint32_t topology_version, std::pmr::memory_resource* memory) noexcept
-            : mesh(id), version(topology_version), features(memory) {}
+        Surface(vox_mesh id, SurfaceVersion made_from, std::pmr::memory_resource* memory) noexcept
+            : mesh(id), version(made_from), features(memory) {}
 
         vox_mesh mesh;
-        std::uint32_t version;
+        SurfaceVersion version;
         SurfaceFeatures features;
     };
     // What a step knows of a body.
     struct StepSurface {
         const SurfaceFeatures* features; // null for a body that no pair has
         std::uint32_t first_tile;        // in tile_boxes_
-        Box box;
+        std::uint32_t first_block;       // in block_sides_
+        const float* positions;          // packed, rounded to floats
+        Box reached;                     // around where the boxes of others overlap that of the body
+        Box box;                         // around those of its tiles that are there
     };
     struct TilePiece {
         std::uint32_t body, first, last;
     };
     // Tiles of the two bodies of a pair that may meet the other one.
+    // What a search reads of a tile, in one place.
+    struct LoadedTile {
+        std::uint32_t body = ~0u, index = ~0u;
+        const SurfaceTile* tile = nullptr;
+        Box box{};
+        std::array<Box, SurfaceTile::most_faces> faces{};
+        std::array<Box, SurfaceTile::most_edges> edges{};
+    };
     struct Worker {
+        static constexpr std::size_t most_loaded = 16;
+
         explicit Worker(std::pmr::memory_resource* memory)
-            : tiles_a(memory), tiles_b(memory), boxes_b(memory), groups_b(memory) {}
+            : tiles_a(memory), tiles_b(memory), boxes_b(memory), groups_b(memory), loaded(memory) {}
         auto buffers() { return std::tie(tiles_a, tiles_b, boxes_b, groups_b); }
 
         std::pmr::vector<std::uint32_t> tiles_a, tiles_b;
         std::pmr::vector<Box> boxes_b, groups_b; // of tiles_b
+        // Tiles that were looked at last, each in its place; and one of the body whose turn it is.
+        std::pmr::vector<LoadedTile> loaded;
         std::uint64_t candidates = 0, exact_tests = 0;
     };
-    struct LoadedTile;
     // Where a contact of found_ comes in the canonical order.
     struct Key {
         std::uint32_t of[7];
@@ -107,6 +129,8 @@ private:
 
     void carry(const EdgeScene& scene);
     void list_pairs(const EdgeScene& scene);
+    void pack_positions(const EdgeScene& scene);
+    const Box& box_of(const EdgeScene& scene, std::uint32_t body) const;
     void prepare_surfaces(const EdgeScene& scene);
     const SurfaceFeatures& surface_of(const EdgeScene& scene, std::uint32_t body);
     void make_tile_boxes(const EdgeScene& scene);
@@ -114,7 +138,7 @@ private:
     bool list_tiles(const fast::Pair& pair, Worker& worker) const;
     void search(const EdgeScene& scene, const fast::Pair& pair, const Worker& tiles, std::size_t begin,
                 std::size_t end, Worker& worker);
-    void load(const EdgeScene& scene, std::uint32_t body, std::uint32_t tile, LoadedTile& out) const;
+    void load(std::uint32_t body, std::uint32_t tile, LoadedTile& out) const;
     void test(const EdgeScene& scene, const LoadedTile& edges, const LoadedTile& faces, Worker& worker);
     void decide(const EdgeScene& scene, const LoadedTile& edges, std::size_t edge, const LoadedTile& faces,
                 std::size_t face, Worker& worker);
@@ -126,13 +150,17 @@ private:
     std::pmr::vector<Surface> surfaces_; // by mesh
 
     // One step.
-    Vec3d origin_{};                               // subtracted from positions before they are rounded
-    fast::PairBuffers pair_buffers_;               // with the reference engine
-    std::pmr::vector<Box> body_boxes_;             // with the reference engine
+    // With the reference engine; the fast one has them.
+    fast::PairBuffers pair_buffers_;
+    std::pmr::vector<Box> body_boxes_;
+    std::pmr::vector<float> packed_;
+    std::pmr::vector<std::size_t> first_packed_; // of each body
+    // With both.
     std::pmr::vector<fast::Pair> pairs_of_bodies_; // a <= b
     std::pmr::vector<StepSurface> step_surfaces_;  // of each body
     std::pmr::vector<TilePiece> pieces_;
-    std::pmr::vector<Box> tile_boxes_;
+    std::pmr::vector<std::uint8_t> block_sides_; // seen from where the body is reached
+    std::pmr::vector<Box> tile_boxes_;           // empty beyond that
     PerWorker<Worker> workers_;
     std::mutex mutex_; // of found_
     std::pmr::vector<vox_edge_contact> found_;

@@ -88,7 +88,7 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
       requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size), shared_tets_(&memory_),
       meshes_(&memory_), bodies_(&memory_), prepared_(&memory_), lone_(&memory_), fast_engine_(&memory_),
       reference_(&memory_), topologies_(&memory_), trees_(&memory_), hits_(&memory_),
-      topology_versions_(&memory_), contacts_(&memory_), interiors_(&memory_), left_out_(&memory_),
+      surface_versions_(&memory_), contacts_(&memory_), interiors_(&memory_), left_out_(&memory_),
       penetrations_(&memory_), events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0),
       readings_(&memory_), queries_(&memory_), query_views_(share_), query_bodies_(&memory_) {
     if (desc.flags & VOX_GRID_PENETRATIONS) depth_.emplace(&memory_, trees_);
@@ -345,7 +345,7 @@ void vox_grid::stop_finding_penetrations() noexcept {
 
 void vox_grid::stop_finding_edges() noexcept {
     edges_.reset();
-    topology_versions_ = std::pmr::vector<std::uint32_t>(&memory_);
+    surface_versions_ = std::pmr::vector<SurfaceVersion>(&memory_);
     meshes_.for_each([this](vox_mesh, MeshSlot& slot) {
         if (!needs_topology(slot.mesh.filter())) slot.mesh.drop_topology();
     });
@@ -444,7 +444,7 @@ void vox_grid::step() {
 // Returns whether there are the same edge contacts as in the last step, or none are looked for.
 bool vox_grid::find_edges(vox_counters& counters) {
     if (!edges_) return true;
-    edges_->find({bodies_, topologies_, topology_versions_, fast_ ? &fast_engine_ : nullptr, &workers_},
+    edges_->find({bodies_, topologies_, surface_versions_, fast_ ? &fast_engine_ : nullptr, &workers_},
                  counters);
     return edges_->unchanged();
 }
@@ -520,7 +520,7 @@ void vox_grid::gather_bodies(vox_counters& counters) {
     left_out_.clear();
     bodies_.clear();
     topologies_.clear();
-    topology_versions_.clear();
+    surface_versions_.clear();
     prepared_.clear();
     const auto gather = [&](vox_mesh id, MeshSlot& slot) {
         Mesh& mesh = slot.mesh;
@@ -551,7 +551,7 @@ void vox_grid::gather_bodies(vox_counters& counters) {
             body.off_count = 0;
         }
         topologies_.push_back(&mesh.topology());
-        if (edges_) topology_versions_.push_back(mesh.topology_version());
+        if (edges_) surface_versions_.push_back({mesh.topology_version(), mesh.tiles_version()});
         slot.topology_version = mesh.topology_version();
         if (fast_)
             prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state,

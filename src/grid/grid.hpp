@@ -167,8 +167,8 @@ private:
     vox::depth::SurfaceTrees trees_;                    // that depths and readings search
     std::optional<vox::DepthStage> depth_;              // while it finds penetrations
     std::pmr::vector<vox::Hit> hits_;
-    std::pmr::vector<std::uint32_t> topology_versions_; // of each body, while it finds edge contacts
-    std::optional<vox::EdgeContacts> edges_;            // while it finds them; has the results as well
+    std::pmr::vector<vox::SurfaceVersion> surface_versions_; // of each body, while it finds edge contacts
+    std::optional<vox::EdgeContacts> edges_;                 // while it finds them; has the results as well
 
     // results
     std::pmr::vector<vox_contact> contacts_;

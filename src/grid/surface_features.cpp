@@ -52,7 +52,7 @@ bool has_vertex(const Triangle& triangle, std::uint32_t vertex) {
 
 // Adds the tile of these triangles, of which `place` has all.
 void add_tile(const Topology& topology, std::span<const std::uint32_t> tile,
-              const std::pmr::vector<std::uint32_t>& place, SurfaceFeatures& out) {
+              const std::pmr::vector<std::uint32_t>& place, const Tiles* tiles, SurfaceFeatures& out) {
     std::array<std::uint32_t, SurfaceTile::most_vertices> vertices;
     auto end = vertices.begin();
     for (const std::uint32_t t : tile) end = std::copy_n(topology.triangles[t].v, 3, end);
@@ -62,7 +62,7 @@ void add_tile(const Topology& topology, std::span<const std::uint32_t> tile,
         return static_cast<std::uint8_t>(std::lower_bound(vertices.begin(), end, vertex) - vertices.begin());
     };
     const auto size = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
-    SurfaceTile made{size(out.vertices), size(out.faces), size(out.edges), 0, 0, 0};
+    SurfaceTile made{size(out.vertices), size(out.faces), size(out.edges), size(out.blocks), 0, 0, 0, 0};
     out.vertices.insert(out.vertices.end(), vertices.begin(), end);
     for (const std::uint32_t t : tile) {
         const std::uint32_t* v = topology.triangles[t].v;
@@ -76,6 +76,13 @@ void add_tile(const Topology& topology, std::span<const std::uint32_t> tile,
             if (is_first) out.edges.push_back({index_of(a), index_of(b)});
         }
     }
+    if (tiles)
+        for (auto v = vertices.begin(); v != end; ++v) {
+            const std::uint32_t block = tiles->block_of(*v);
+            if (out.blocks.size() == made.first_block || out.blocks.back() != block)
+                out.blocks.push_back(block);
+        }
+    made.block_count = static_cast<std::uint8_t>(out.blocks.size() - made.first_block);
     made.vertex_count = static_cast<std::uint8_t>(end - vertices.begin());
     made.face_count = static_cast<std::uint8_t>(tile.size());
     made.edge_count = static_cast<std::uint8_t>(out.edges.size() - made.first_edge);
@@ -84,7 +91,8 @@ void add_tile(const Topology& topology, std::span<const std::uint32_t> tile,
 
 } // namespace
 
-void make_surface_features(const Topology& topology, const Positions& positions, SurfaceFeatures& out) {
+void make_surface_features(const Topology& topology, const Positions& positions, const Tiles* tiles,
+                           SurfaceFeatures& out) {
     std::pmr::memory_resource* memory = out.tiles.get_allocator().resource();
     const std::size_t count = topology.triangles.size();
     const std::pmr::vector<std::uint32_t> order = sort_along_curve(topology, positions, memory);
@@ -101,7 +109,7 @@ void make_surface_features(const Topology& topology, const Positions& positions,
         add_tile(
             topology,
             std::span(order).subspan(first, std::min<std::size_t>(SurfaceTile::most_faces, count - first)),
-            place, out);
+            place, tiles, out);
 
     out.tets.assign(count, ~0u);
     for (std::uint32_t tet = 0; tet < topology.across.size(); ++tet)

@@ -1,0 +1,112 @@
+/* What edge contacts cost: each scene in a grid without VOX_GRID_EDGE_CONTACTS and in one with it, stepped in turn over
+ * the same positions, all of which move; the ratio of their lower quartiles of processor time.
+ * Usage: bench_edges [frames [tetrahedra of a ball]], 40 and 500000 by default. */
+#include "scenes/scenes.h"
+#include "scenes/solids.h"
+#include "timing.h"
+
+enum { WITHOUT, WITH, VARIANTS };
+
+typedef struct variant {
+    vox_grid* grid;
+    double* seconds;
+    double* edge_seconds;
+} variant;
+
+static body ball_of(double tets, uint64_t seed) {
+    solid s = make_solid_ball(tets, seed);
+    body b = {(float*)malloc(3 * sizeof(float) * s.vertex_count), s.tets, s.vertex_count, s.tet_count};
+    for (uint32_t i = 0; i < 3 * s.vertex_count; ++i) b.positions[i] = (float)s.positions[i];
+    free(s.positions);
+    return b;
+}
+
+/* Two balls whose centres are `apart` radii from each other. */
+static void make_balls(scene* s, double tets, double apart) {
+    const double radius = solid_ball_radius(tets);
+    s->amplitude = 0.002 * radius;
+    s->wave_length = 2 * radius;
+    for (int i = 0; i < 2; ++i) {
+        body b = ball_of(tets, (uint64_t)i + 1);
+        move_body(&b, apart * radius * i, 0.0123 * radius * i, 0.0271 * radius * i);
+        add_body(s, b);
+    }
+}
+
+static int ascending(const void* a, const void* b) {
+    const double x = *(const double*)a, y = *(const double*)b;
+    return (x > y) - (x < y);
+}
+
+static double quartile(double* seconds, int frames) {
+    qsort(seconds, (size_t)frames, sizeof *seconds, ascending);
+    return seconds[frames / 4];
+}
+
+static void measure(scene* s, const char* name, int frames) {
+    variant variants[VARIANTS];
+    vox_counters counters;
+    vox_profile profile;
+    counters.struct_size = sizeof counters;
+    profile.struct_size = sizeof profile;
+    for (int k = 0; k < VARIANTS; ++k) {
+        vox_grid_desc desc = vox_default_grid_desc();
+        if (k == WITH) desc.flags |= VOX_GRID_EDGE_CONTACTS;
+        check(vox_grid_create(&desc, &variants[k].grid));
+        variants[k].seconds = (double*)malloc(sizeof(double) * (size_t)frames);
+        variants[k].edge_seconds = (double*)malloc(sizeof(double) * (size_t)frames);
+        for (uint32_t i = 0; i < s->count; ++i) {
+            vox_mesh_desc mesh = body_desc(&s->bodies[i]);
+            vox_mesh id;
+            mesh.flags = s->self_collision ? VOX_MESH_SELF_COLLISION : 0;
+            check(vox_mesh_insert(variants[k].grid, &mesh, &id));
+        }
+    }
+    for (int frame = -2; frame < frames; ++frame) {
+        pose_scene(s, frame + 2);
+        for (int i = 0; i < VARIANTS; ++i) {
+            const int k = (i + frame + 2) % VARIANTS; /* in another order each time */
+            const double start = now();
+            check(vox_grid_step(variants[k].grid));
+            const double end = now();
+            if (frame < 0) continue;
+            variants[k].seconds[frame] = end - start;
+            check(vox_grid_profile(variants[k].grid, &profile));
+            variants[k].edge_seconds[frame] = 1e-9 * (double)profile.edges_ns;
+        }
+    }
+    check(vox_grid_counters(variants[WITH].grid, &counters));
+    const double without = quartile(variants[WITHOUT].seconds, frames),
+                 with = quartile(variants[WITH].seconds, frames),
+                 edges = quartile(variants[WITH].edge_seconds, frames);
+    printf("%-8s %8.3f ms without, %8.3f with: %.3f; %.3f of it edges; %llu contacts, %llu edge contacts of %llu "
+           "candidates\n",
+           name, 1e3 * without, 1e3 * with, with / without, 1e3 * edges, (unsigned long long)counters.contacts,
+           (unsigned long long)counters.edge_contacts, (unsigned long long)counters.edge_candidates);
+    fflush(stdout);
+    for (int k = 0; k < VARIANTS; ++k) {
+        vox_grid_destroy(variants[k].grid);
+        free(variants[k].seconds);
+        free(variants[k].edge_seconds);
+    }
+    free_scene(s);
+    memset(s, 0, sizeof *s);
+}
+
+int main(int argc, char** argv) {
+    const int frames = argc > 1 ? atoi(argv[1]) : 40;
+    const double tets = argc > 2 ? atof(argv[2]) : 500000;
+    static scene s;
+    if (frames < 1 || !(tets >= 1000)) return 2;
+    make_balls(&s, tets, 1.98);
+    measure(&s, "light", frames);
+    make_balls(&s, tets, 1.85);
+    measure(&s, "overlap", frames);
+    make_balls(&s, tets, 1);
+    measure(&s, "deep", frames);
+    make_self(&s, 22);
+    measure(&s, "self", frames);
+    make_many(&s, 5, 8);
+    measure(&s, "many", frames);
+    return EXIT_SUCCESS;
+}
