@@ -85,6 +85,11 @@ export declare const GridFlags: Readonly<{
    * well again
    */
   SKIP_BAD_MESHES: 4;
+  /**
+   * also find edges of surfaces through faces of others (vox_grid_edge_contacts); experimental. A mesh of more than
+   * 357913941 tets then gives VOX_ERROR_LIMIT
+   */
+  EDGE_CONTACTS: 8;
 }>;
 export type GridFlags = number;
 
@@ -140,6 +145,17 @@ export declare const PenetrationState: Readonly<{
   UNKNOWN: 5;
 }>;
 export type PenetrationState = (typeof PenetrationState)[keyof typeof PenetrationState];
+
+/** How an edge meets a face. */
+export declare const CrossingKind: Readonly<{
+  /** it passes through the interior of the face, with an end on either side */
+  THROUGH: 0;
+  /** an end is on the face, or it passes through an edge or a corner of the face */
+  TOUCHING: 1;
+  /** it lies in the plane of the face and meets it, or one of them is degenerate and they meet */
+  COPLANAR: 2;
+}>;
+export type CrossingKind = (typeof CrossingKind)[keyof typeof CrossingKind];
 
 /** What an event reports: how the last successful step differs from the successful step before it. */
 export declare const Touch: Readonly<{

@@ -60,6 +60,7 @@ export const GridFlags = Object.freeze({
   PENETRATIONS: 1,
   CONTACT_EVENTS: 2,
   SKIP_BAD_MESHES: 4,
+  EDGE_CONTACTS: 8,
 });
 
 export const Format = Object.freeze({
@@ -80,6 +81,12 @@ export const PenetrationState = Object.freeze({
   CROSSING: 3,
   COINCIDENT: 4,
   UNKNOWN: 5,
+});
+
+export const CrossingKind = Object.freeze({
+  THROUGH: 0,
+  TOUCHING: 1,
+  COPLANAR: 2,
 });
 
 export const Touch = Object.freeze({

@@ -142,6 +142,25 @@ export const structs = {
     count: [8, "count", 1],
     epoch: [16, "count", 1],
   } },
+  vox_edge_contact: { size: 128, fields: {
+    mesh_a: [0, "u32", 1],
+    edge: [4, "u32", 2],
+    mesh_b: [12, "u32", 1],
+    face: [16, "u32", 3],
+    tet: [28, "u32", 1],
+    kind: [32, "i32", 1],
+    reserved: [36, "u32", 1],
+    edge_weights: [40, "f64", 2],
+    face_weights: [56, "f64", 3],
+    position: [80, "f64", 3],
+    normal: [104, "f64", 3],
+  } },
+  vox_edge_contact_view: { size: 24, fields: {
+    data: [0, "pointer", 1],
+    byte_stride: [4, "u32", 1],
+    count: [8, "count", 1],
+    epoch: [16, "count", 1],
+  } },
   vox_pair: { size: 48, fields: {
     mesh_a: [0, "u32", 1],
     mesh_b: [4, "u32", 1],
@@ -278,7 +297,7 @@ export const structs = {
     t: [16, "f64", 1],
     barycentric: [24, "f64", 3],
   } },
-  vox_counters: { size: 256, fields: {
+  vox_counters: { size: 280, fields: {
     struct_size: [0, "u32", 1],
     meshes: [4, "u32", 1],
     vertices: [8, "count", 1],
@@ -312,8 +331,11 @@ export const structs = {
     total_touches_ended: [232, "count", 1],
     total_contacts_began: [240, "count", 1],
     total_contacts_ended: [248, "count", 1],
+    edge_contacts: [256, "count", 1],
+    carried_edge_contacts: [264, "count", 1],
+    edge_candidates: [272, "count", 1],
   } },
-  vox_profile: { size: 112, fields: {
+  vox_profile: { size: 120, fields: {
     struct_size: [0, "u32", 1],
     reserved: [4, "u32", 1],
     step_ns: [8, "count", 1],
@@ -329,6 +351,7 @@ export const structs = {
     windows_ns: [88, "count", 1],
     lookup_ns: [96, "count", 1],
     decide_ns: [104, "count", 1],
+    edges_ns: [112, "count", 1],
   } },
   vox_suggest_desc: { size: 96, fields: {
     struct_size: [0, "u32", 1],
@@ -625,6 +648,10 @@ export const functions = {
   vox_grid_hash: ["result", ["pointer", "pointer"]],
   vox_grid_penetrations: ["result", ["pointer", "pointer"]],
   vox_grid_depths: ["result", ["pointer", "pointer"]],
+  vox_grid_edge_contacts: ["result", ["pointer", "pointer"]],
+  vox_grid_edge_hash: ["result", ["pointer", "pointer"]],
+  vox_grid_prepare_edge_depths: ["result", ["pointer"]],
+  vox_grid_edge_depths: ["result", ["pointer", "pointer"]],
   vox_grid_pairs: ["result", ["pointer", "pointer"]],
   vox_mesh_copy_contacts: ["result", ["pointer", "u32", "pointer", "count", "pointer"]],
   vox_pair_copy_contacts: ["result", ["pointer", "u32", "u32", "pointer", "count", "pointer"]],

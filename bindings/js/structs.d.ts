@@ -1,6 +1,6 @@
 // Written by bindings/generate.py from bindings/api.json. Do not edit.
 
-import type { AreaReading, CellContent, CellLook, CostModel, Engine, ForeignRule, Format, Hash, KnownGrid,
+import type { AreaReading, CellContent, CellLook, CostModel, CrossingKind, Engine, ForeignRule, Format, Hash, KnownGrid,
 PenetrationState, PrimitiveType, Result, Side, SizeReading, Storage, Touch } from "./enums.js";
 
 /**
@@ -218,10 +218,55 @@ export interface DepthColumns {
 }
 
 /**
- * Two meshes that touch: a vertex of one of them is in a tetrahedron of the other. mesh_a <= mesh_b; they are equal if
- * a mesh touches itself. The contacts of the pair are those whose indices begin at vox_pair_view.contacts[first]: first
- * the a_in_b contacts of vertices of mesh_a in tets of mesh_b, then the b_in_a contacts of vertices of mesh_b in tets
- * of mesh_a (0 for a mesh with itself), each in the order of vox_grid_contacts.
+ * An edge of the surface of mesh_a and a face of the surface of mesh_b that have a point in common (a = b:
+ * self-contact; then they have no vertex in common). The surface of a mesh consists of the facets of exactly one of its
+ * enabled tetrahedra, duplicates counted once, and of their edges. Decided exactly for the coordinates given. So two
+ * bars laid across each other are seen, though no vertex of one is in the other. Where several points are common, the
+ * position is that of one of them: an end of the edge if one is, the lower vertex first.
+ */
+export interface EdgeContact {
+  meshA: number;
+  /** vertices of mesh_a, the lower first */
+  edge: [number, number];
+  meshB: number;
+  /** vertices of mesh_b, the lowest first, counter-clockwise as seen from the side that the normal points to */
+  face: [number, number, number];
+  /** of mesh_b, behind the face; of doubled ones the lowest */
+  tet: number;
+  kind: CrossingKind;
+  /** of the point, in [0, 1], with the sum 1 up to rounding */
+  edgeWeights: [number, number];
+  /** of the same point */
+  faceWeights: [number, number, number];
+  /** of the point, rounded */
+  position: [number, number, number];
+  /**
+   * A unit vector out of `tet` or, if that is flat, to the side away from the lower vertex of the edge; 0, 0, 1 if the
+   * face has no area.
+   */
+  normal: [number, number, number];
+}
+
+/** Columns of EdgeContact: of an array field, its elements one after the other. */
+export interface EdgeContactColumns {
+  readonly meshA: Uint32Array;
+  readonly edge: Uint32Array;
+  readonly meshB: Uint32Array;
+  readonly face: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly kind: Int32Array;
+  readonly edgeWeights: Float64Array;
+  readonly faceWeights: Float64Array;
+  readonly position: Float64Array;
+  readonly normal: Float64Array;
+}
+
+/**
+ * Two meshes that touch: a vertex of one of them is in a tetrahedron of the other, or they have edge contacts
+ * (VOX_GRID_EDGE_CONTACTS). mesh_a <= mesh_b; they are equal if a mesh touches itself. The contacts of the pair are
+ * those whose indices begin at vox_pair_view.contacts[first]: first the a_in_b contacts of vertices of mesh_a in tets
+ * of mesh_b, then the b_in_a contacts of vertices of mesh_b in tets of mesh_a (0 for a mesh with itself), each in the
+ * order of vox_grid_contacts.
  */
 export interface Pair {
   meshA: number;
@@ -576,6 +621,12 @@ export interface Counters {
   totalTouchesEnded: number;
   totalContactsBegan: number;
   totalContactsEnded: number;
+  /** 0 without VOX_GRID_EDGE_CONTACTS, as are the next two */
+  edgeContacts: number;
+  /** part of `edge_contacts` carried over from the step before */
+  carriedEdgeContacts: number;
+  /** edges and faces whose boxes overlap: they were decided exactly */
+  edgeCandidates: number;
 }
 
 /**
@@ -609,6 +660,8 @@ export interface Profile {
   lookupNs: number;
   /** decide the rest exactly; of the worker that took longest over it */
   decideNs: number;
+  /** edge contacts, with either engine */
+  edgesNs: number;
 }
 
 export interface SuggestDesc {

@@ -1356,6 +1356,14 @@ public:
     returns<view<const vox_penetration>> penetrations() const& { return read(vox_grid_penetrations); }
     // vox_grid_depths
     returns<view<const vox_depth>> depths() const& { return read(vox_grid_depths); }
+    // vox_grid_edge_contacts
+    returns<view<const vox_edge_contact>> edge_contacts() const& { return read(vox_grid_edge_contacts); }
+    // vox_grid_edge_hash
+    returns<std::uint64_t> edge_hash() const { return detail::filled<std::uint64_t>(vox_grid_edge_hash, get()); }
+    // vox_grid_prepare_edge_depths
+    returns<void> prepare_edge_depths() { return detail::give(vox_grid_prepare_edge_depths(get())); }
+    // vox_grid_edge_depths
+    returns<view<const vox_depth>> edge_depths() const& { return read(vox_grid_edge_depths); }
     // vox_grid_pairs
     returns<pair_view> pairs() const& {
         vox_pair_view view{};
@@ -1383,6 +1391,8 @@ public:
     // A temporary grid has no results to look at.
     void contacts() const&& = delete;
     void interiors() const&& = delete;
+    void edge_contacts() const&& = delete;
+    void edge_depths() const&& = delete;
     void penetrations() const&& = delete;
     void depths() const&& = delete;
     void pairs() const&& = delete;

@@ -491,7 +491,7 @@ std::uint64_t EdgeContacts::hash() const noexcept {
     };
     const auto add_two = [&](std::uint32_t low, std::uint32_t high) { add(low | std::uint64_t{high} << 32); };
     const auto add_all = [&](const auto& numbers) {
-        for (const double x : numbers) add(std::bit_cast<std::uint64_t>(x));
+        for (const double x : numbers) add(std::bit_cast<std::uint64_t>(x + 0.0)); // one zero
     };
     for (const vox_edge_contact& c : contacts_) {
         add_two(c.mesh_a, c.edge[0]);

@@ -112,6 +112,26 @@ T sized_struct() {
     return value;
 }
 
+START_TEST(edge_contacts_equal_those_of_c) {
+    Stepped with(VOX_GRID_EDGE_CONTACTS);
+    CGrid c(with.scene);
+    vox_edge_contact_view edges;
+    vox_depth_view depths;
+    std::uint64_t hash = 0;
+    with.grid.prepare_edge_depths();
+    ck_ok(vox_grid_set_flags(c.grid, VOX_GRID_EDGE_CONTACTS));
+    ck_ok(vox_grid_step(c.grid));
+    ck_ok(vox_grid_prepare_edge_depths(c.grid));
+    ck_ok(vox_grid_edge_contacts(c.grid, &edges));
+    ck_ok(vox_grid_edge_depths(c.grid, &depths));
+    ck_ok(vox_grid_edge_hash(c.grid, &hash));
+    const vox::grid& grid = with.grid;
+    same_view(grid.edge_contacts(), edges);
+    same_view(grid.edge_depths(), depths);
+    ck_assert_uint_eq(grid.edge_hash(), hash);
+}
+END_TEST
+
 START_TEST(results_equal_those_of_c) {
     Stepped with;
     const vox::grid& grid = with.grid;
@@ -1180,7 +1200,7 @@ END_TEST
 
 int main() {
     Suite* suite = suite_create("vox.hpp");
-    tcase_add_each(add_case(suite, "results"), results_equal_those_of_c, readings_equal_those_of_c,
+    tcase_add_each(add_case(suite, "results"), results_equal_those_of_c, edge_contacts_equal_those_of_c, readings_equal_those_of_c,
                    meshes_tell_what_c_tells, transforms, queries_equal_those_of_c, meshes_are_cut_as_in_c,
                    cell_sizes_equal_those_of_c, primitives_are_those_of_c,
                    cell_sizes_of_any_grid_equal_those_of_c, snapshots_hold_the_grid, many_grids_in_one_call,

@@ -131,6 +131,15 @@ static int hash_queries(vox_grid* grid, const scene* s, uint64_t* hash) {
     return 1;
 }
 
+static int hash_edge_depths(vox_grid* grid, uint64_t* hash) {
+    vox_depth_view view;
+    if (vox_grid_prepare_edge_depths(grid) != VOX_OK || vox_grid_edge_depths(grid, &view) != VOX_OK) return 0;
+    add_number(hash, view.count);
+    for (uint64_t i = 0; i < view.count; ++i)
+        add_double(hash, view.data[i].depth), add_doubles(hash, view.data[i].direction);
+    return 1;
+}
+
 /* ---- scenes ---- */
 
 static double* as_doubles[MOST_BODIES];
@@ -161,7 +170,33 @@ static int fit_meshes(const scene* s, const settings* how, uint32_t rings, vox_g
     return ok;
 }
 
-static int run(scene* s, const char* name, double factor, uint32_t rings, const settings* how) {
+/* What a frame gives. */
+static int print_contacts(vox_grid* grid, const scene* s, int frame) {
+    vox_contact_view view;
+    uint64_t hash, parts[4] = {1, 2, 3, 4};
+    if (vox_grid_contacts(grid, &view) != VOX_OK || vox_grid_hash(grid, &hash) != VOX_OK ||
+        !hash_penetrations(grid, &parts[0]) || !hash_events(grid, &parts[1]) || !hash_readings(grid, &parts[2]) ||
+        !hash_queries(grid, s, &parts[3]))
+        return 0;
+    printf("%s, frame %d: %" PRIu64 " contacts %016" PRIx64 ", penetrations %016" PRIx64 ", events %016" PRIx64
+           ", readings %016" PRIx64 ", queries %016" PRIx64 "\n",
+           s->name, frame, view.count, hash, parts[0], parts[1], parts[2], parts[3]);
+    return 1;
+}
+
+static int print_edges(vox_grid* grid, const scene* s, int frame) {
+    vox_edge_contact_view view;
+    uint64_t hash, parts[2] = {1, 2};
+    if (vox_grid_edge_contacts(grid, &view) != VOX_OK || vox_grid_edge_hash(grid, &hash) != VOX_OK ||
+        !hash_edge_depths(grid, &parts[0]) || !hash_events(grid, &parts[1]))
+        return 0;
+    printf("%s, frame %d: %" PRIu64 " edge contacts %016" PRIx64 ", depths %016" PRIx64 ", events %016" PRIx64 "\n",
+           s->name, frame, view.count, hash, parts[0], parts[1]);
+    return 1;
+}
+
+/* In a grid with these flags beside the default ones. */
+static int run(scene* s, const char* name, double factor, uint32_t rings, uint32_t flags, const settings* how) {
     enum { frames = 4 }; /* the last one at rest */
     vox_grid* grid = NULL;
     vox_grid_desc desc = vox_default_grid_desc();
@@ -175,21 +210,13 @@ static int run(scene* s, const char* name, double factor, uint32_t rings, const 
     desc.engine = how->engine;
     desc.worker_count = how->workers;
     desc.cell_size = how->cell_size * factor;
-    desc.flags |= VOX_GRID_CONTACT_EVENTS;
+    desc.flags |= VOX_GRID_CONTACT_EVENTS | flags;
     ok = vox_grid_create(&desc, &grid) == VOX_OK && insert_scene(s, grid) && fit_meshes(s, how, rings, grid);
     for (int frame = 0; ok && frame < frames; ++frame) {
-        vox_contact_view view;
-        uint64_t hash, parts[4] = {1, 2, 3, 4};
         pose_scene(s, frame < 3 ? frame : 2);
         write_doubles(s);
-        ok = vox_grid_step(grid) == VOX_OK && vox_grid_contacts(grid, &view) == VOX_OK &&
-             vox_grid_hash(grid, &hash) == VOX_OK && hash_penetrations(grid, &parts[0]) &&
-             hash_events(grid, &parts[1]) && hash_readings(grid, &parts[2]) &&
-             hash_queries(grid, s, &parts[3]);
-        if (ok)
-            printf("%s, frame %d: %" PRIu64 " contacts %016" PRIx64 ", penetrations %016" PRIx64
-                   ", events %016" PRIx64 ", readings %016" PRIx64 ", queries %016" PRIx64 "\n",
-                   name, frame, view.count, hash, parts[0], parts[1], parts[2], parts[3]);
+        ok = vox_grid_step(grid) == VOX_OK &&
+             (flags & VOX_GRID_EDGE_CONTACTS ? print_edges : print_contacts)(grid, s, frame);
     }
     if (!ok) fprintf(stderr, "%s: %s\n", name, vox_last_error());
     vox_grid_destroy(grid);
@@ -249,16 +276,22 @@ int main(int argc, char** argv) {
             return usage();
         }
     }
-    make_pair(&s, 7), ok &= run(&s, "pair", 1, 0, &how);
-    make_self(&s, 7), ok &= run(&s, "self", 1, 0, &how);
-    make_ring(&s, 12), ok &= run(&s, "ring", 1, 0, &how);
-    make_ring(&s, 12), ok &= run(&s, "ring, filtered", 1, 2, &how);
-    make_many(&s, 3, 3), ok &= run(&s, "many", 1, 0, &how);
-    make_soup(&s, 80, 200), ok &= run(&s, "soup", 1, 0, &how);
-    make_pair(&s, 4), ok &= run(&s, "tiny", 1e-36, 0, &how); /* areas and volumes are too small for a float */
-    make_pair(&s, 4), ok &= run(&s, "least", 1e-41, 0, &how); /* and so are normal coordinates */
-    make_pair(&s, 4), ok &= run(&s, "huge", 1e30, 0, &how);   /* or too large */
-    make_ring(&s, 8), ok &= run(&s, "huge ring", 1e20, 0, &how);
+    make_pair(&s, 7), ok &= run(&s, "pair", 1, 0, 0, &how);
+    make_self(&s, 7), ok &= run(&s, "self", 1, 0, 0, &how);
+    make_ring(&s, 12), ok &= run(&s, "ring", 1, 0, 0, &how);
+    make_ring(&s, 12), ok &= run(&s, "ring, filtered", 1, 2, 0, &how);
+    make_many(&s, 3, 3), ok &= run(&s, "many", 1, 0, 0, &how);
+    make_soup(&s, 80, 200), ok &= run(&s, "soup", 1, 0, 0, &how);
+    make_pair(&s, 4), ok &= run(&s, "tiny", 1e-36, 0, 0, &how); /* areas and volumes are too small for a float */
+    make_pair(&s, 4), ok &= run(&s, "least", 1e-41, 0, 0, &how); /* and so are normal coordinates */
+    make_pair(&s, 4), ok &= run(&s, "huge", 1e30, 0, 0, &how);   /* or too large */
+    make_ring(&s, 8), ok &= run(&s, "huge ring", 1e20, 0, 0, &how);
+    make_pair(&s, 7), ok &= run(&s, "edges of pair", 1, 0, VOX_GRID_EDGE_CONTACTS, &how);
+    make_ring(&s, 12), ok &= run(&s, "edges of ring", 1, 0, VOX_GRID_EDGE_CONTACTS, &how);
+    make_ring(&s, 12), ok &= run(&s, "edges of ring, filtered", 1, 2, VOX_GRID_EDGE_CONTACTS, &how);
+    make_soup(&s, 40, 60), ok &= run(&s, "edges of soup", 1, 0, VOX_GRID_EDGE_CONTACTS, &how);
+    make_pair(&s, 4), ok &= run(&s, "edges of least", 1e-41, 0, VOX_GRID_EDGE_CONTACTS, &how);
+    make_pair(&s, 4), ok &= run(&s, "edges of huge", 1e30, 0, VOX_GRID_EDGE_CONTACTS, &how);
     ok &= refuse(&s, &how);
     return ok ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -85,6 +85,9 @@ namespace Voxtet
         /// part in a step, in vox_grid_prepare_queries, in vox_grid_take_query_view and in vox_grid_suggest_cell_size,
         /// as if it were disabled; without this flag they fail.</summary>
         SkipBadMeshes = 4,
+        /// <summary>also find edges of surfaces through faces of others (vox_grid_edge_contacts);
+        /// experimental.</summary>
+        EdgeContacts = 8,
     }
 
     public enum Format : int
@@ -125,6 +128,17 @@ namespace Voxtet
         /// <summary>the step's closest_budget was used up (see vox_grid_desc): depth is 0, direction the normal of a
         /// facet of the contact's tetrahedron</summary>
         Unknown = 5,
+    }
+
+    /// <summary>How an edge meets a face.</summary>
+    public enum CrossingKind : int
+    {
+        /// <summary>it passes through the interior of the face, with an end on either side</summary>
+        Through = 0,
+        /// <summary>an end is on the face, or it passes through an edge or a corner of the face</summary>
+        Touching = 1,
+        /// <summary>it lies in the plane of the face and meets it, or one of them is degenerate and they meet</summary>
+        Coplanar = 2,
     }
 
     /// <summary>What an event reports: how the last successful step differs from the successful step before
@@ -314,17 +328,6 @@ namespace Voxtet
         Cull = 1,
     }
 
-    /// <summary>How an edge meets a face.</summary>
-    public enum CrossingKind : int
-    {
-        /// <summary>it passes through the interior of the face, with an end on either side</summary>
-        Through = 0,
-        /// <summary>an end is on the face, or it passes through an edge or a corner of the face</summary>
-        Touching = 1,
-        /// <summary>it lies in the plane of the face and meets it, or one of them is degenerate and they meet</summary>
-        Coplanar = 2,
-    }
-
     public enum IoFormat : int
     {
         /// <summary>determined from the content or, failing that, from the name's extension</summary>
@@ -432,6 +435,19 @@ namespace Voxtet
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Uint2
+    {
+        public uint x, y;
+        public const int Length = 2;
+        public uint this[int i]
+        {
+            get { Check(i); fixed (uint* p = &x) return p[i]; }
+            set { Check(i); fixed (uint* p = &x) p[i] = value; }
+        }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Uint3
     {
         public uint x, y, z;
@@ -440,6 +456,19 @@ namespace Voxtet
         {
             get { Check(i); fixed (uint* p = &x) return p[i]; }
             set { Check(i); fixed (uint* p = &x) p[i] = value; }
+        }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Double2
+    {
+        public double x, y;
+        public const int Length = 2;
+        public double this[int i]
+        {
+            get { Check(i); fixed (double* p = &x) return p[i]; }
+            set { Check(i); fixed (double* p = &x) p[i] = value; }
         }
         static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
@@ -554,19 +583,6 @@ namespace Voxtet
         {
             get { Check(i); fixed (GridTiming* p = &e0) return p[i]; }
             set { Check(i); fixed (GridTiming* p = &e0) p[i] = value; }
-        }
-        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct Double2
-    {
-        public double x, y;
-        public const int Length = 2;
-        public double this[int i]
-        {
-            get { Check(i); fixed (double* p = &x) return p[i]; }
-            set { Check(i); fixed (double* p = &x) p[i] = value; }
         }
         static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
@@ -860,8 +876,47 @@ namespace Voxtet
         public ulong epoch;
     }
 
-    /// <summary>Two meshes that touch: a vertex of one of them is in a tetrahedron of the other. mesh_a &lt;= mesh_b;
-    /// they are equal if a mesh touches itself.</summary>
+    /// <summary>An edge of the surface of mesh_a and a face of the surface of mesh_b that have a point in common (a =
+    /// b: self-contact; then they have no vertex in common).</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 128)]
+    public struct EdgeContact
+    {
+        public uint mesh_a;
+        /// <summary>vertices of mesh_a, the lower first</summary>
+        public Uint2 edge;
+        public uint mesh_b;
+        /// <summary>vertices of mesh_b, the lowest first, counter-clockwise as seen from the side that the normal
+        /// points to</summary>
+        public Uint3 face;
+        /// <summary>of mesh_b, behind the face; of doubled ones the lowest</summary>
+        public uint tet;
+        public CrossingKind kind;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>of the point, in [0, 1], with the sum 1 up to rounding</summary>
+        public Double2 edge_weights;
+        /// <summary>of the same point</summary>
+        public Double3 face_weights;
+        /// <summary>of the point, rounded</summary>
+        public Double3 position;
+        /// <summary>A unit vector out of `tet` or, if that is flat, to the side away from the lower vertex of the edge;
+        /// 0, 0, 1 if the face has no area.</summary>
+        public Double3 normal;
+    }
+
+    /// <summary>`count` edge contacts, `byte_stride` apart, sorted by mesh_a, edge, mesh_b and the three vertices of
+    /// the face in ascending order.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct EdgeContactView
+    {
+        public EdgeContact* data;
+        public UIntPtr byte_stride;
+        public ulong count;
+        public ulong epoch;
+    }
+
+    /// <summary>Two meshes that touch: a vertex of one of them is in a tetrahedron of the other, or they have edge
+    /// contacts (VOX_GRID_EDGE_CONTACTS). mesh_a &lt;= mesh_b; they are equal if a mesh touches itself.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 48)]
     public struct Pair
     {
@@ -1105,7 +1160,7 @@ namespace Voxtet
     }
 
     /// <summary>What the last successful step did.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 256)]
+    [StructLayout(LayoutKind.Sequential, Size = 280)]
     public struct Counters
     {
         public uint struct_size;
@@ -1165,10 +1220,16 @@ namespace Voxtet
         public ulong total_touches_ended;
         public ulong total_contacts_began;
         public ulong total_contacts_ended;
+        /// <summary>0 without VOX_GRID_EDGE_CONTACTS, as are the next two</summary>
+        public ulong edge_contacts;
+        /// <summary>part of `edge_contacts` carried over from the step before</summary>
+        public ulong carried_edge_contacts;
+        /// <summary>edges and faces whose boxes overlap: they were decided exactly</summary>
+        public ulong edge_candidates;
     }
 
     /// <summary>Nanoseconds of the last successful step, in total and by stage.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 112)]
+    [StructLayout(LayoutKind.Sequential, Size = 120)]
     public struct Profile
     {
         public uint struct_size;
@@ -1198,6 +1259,8 @@ namespace Voxtet
         public ulong lookup_ns;
         /// <summary>decide the rest exactly; of the worker that took longest over it</summary>
         public ulong decide_ns;
+        /// <summary>edge contacts, with either engine</summary>
+        public ulong edges_ns;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1764,6 +1827,7 @@ namespace Voxtet
     {
         public uint edge;
         public uint face;
+        /// <summary>of vox.h</summary>
         public CrossingKind kind;
         /// <summary>0</summary>
         public uint reserved;
@@ -2613,6 +2677,23 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_depths(IntPtr grid, DepthView* out_view);
 
+        /// <summary>The edge contacts of the last step: the same for every engine, cell size and number of
+        /// workers.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_edge_contacts(IntPtr grid, EdgeContactView* out_view);
+
+        /// <summary>A hash of the edge contacts: all fields, in order.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_edge_hash(IntPtr grid, ulong* out_hash);
+
+        /// <summary>Computes the way out for every edge contact of the last step (vox_grid_edge_depths).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_prepare_edge_depths(IntPtr grid);
+
+        /// <summary>The depth and direction of each edge contact, in the order of vox_grid_edge_contacts.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_edge_depths(IntPtr grid, DepthView* out_view);
+
         /// <summary>The pairs that touched in the last step; count 0 before the first, after a failed one and after a
         /// clear.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3418,6 +3499,35 @@ namespace Voxtet
             entries.Add(Entry("vox_depth_view.epoch", (byte*)&s.epoch - begin, 24, 16));
         }
 
+        static void AddEdgeContact(List<LayoutEntry> entries)
+        {
+            EdgeContact s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_edge_contact", sizeof(EdgeContact), 128, 128));
+            entries.Add(Entry("vox_edge_contact.mesh_a", (byte*)&s.mesh_a - begin, 0, 0));
+            entries.Add(Entry("vox_edge_contact.edge", (byte*)&s.edge - begin, 4, 4));
+            entries.Add(Entry("vox_edge_contact.mesh_b", (byte*)&s.mesh_b - begin, 12, 12));
+            entries.Add(Entry("vox_edge_contact.face", (byte*)&s.face - begin, 16, 16));
+            entries.Add(Entry("vox_edge_contact.tet", (byte*)&s.tet - begin, 28, 28));
+            entries.Add(Entry("vox_edge_contact.kind", (byte*)&s.kind - begin, 32, 32));
+            entries.Add(Entry("vox_edge_contact.reserved", (byte*)&s.reserved - begin, 36, 36));
+            entries.Add(Entry("vox_edge_contact.edge_weights", (byte*)&s.edge_weights - begin, 40, 40));
+            entries.Add(Entry("vox_edge_contact.face_weights", (byte*)&s.face_weights - begin, 56, 56));
+            entries.Add(Entry("vox_edge_contact.position", (byte*)&s.position - begin, 80, 80));
+            entries.Add(Entry("vox_edge_contact.normal", (byte*)&s.normal - begin, 104, 104));
+        }
+
+        static void AddEdgeContactView(List<LayoutEntry> entries)
+        {
+            EdgeContactView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_edge_contact_view", sizeof(EdgeContactView), 32, 24));
+            entries.Add(Entry("vox_edge_contact_view.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_edge_contact_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
+            entries.Add(Entry("vox_edge_contact_view.count", (byte*)&s.count - begin, 16, 8));
+            entries.Add(Entry("vox_edge_contact_view.epoch", (byte*)&s.epoch - begin, 24, 16));
+        }
+
         static void AddPair(List<LayoutEntry> entries)
         {
             Pair s;
@@ -3638,7 +3748,7 @@ namespace Voxtet
         {
             Counters s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_counters", sizeof(Counters), 256, 256));
+            entries.Add(Entry("vox_counters", sizeof(Counters), 280, 280));
             entries.Add(Entry("vox_counters.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_counters.meshes", (byte*)&s.meshes - begin, 4, 4));
             entries.Add(Entry("vox_counters.vertices", (byte*)&s.vertices - begin, 8, 8));
@@ -3672,13 +3782,16 @@ namespace Voxtet
             entries.Add(Entry("vox_counters.total_touches_ended", (byte*)&s.total_touches_ended - begin, 232, 232));
             entries.Add(Entry("vox_counters.total_contacts_began", (byte*)&s.total_contacts_began - begin, 240, 240));
             entries.Add(Entry("vox_counters.total_contacts_ended", (byte*)&s.total_contacts_ended - begin, 248, 248));
+            entries.Add(Entry("vox_counters.edge_contacts", (byte*)&s.edge_contacts - begin, 256, 256));
+            entries.Add(Entry("vox_counters.carried_edge_contacts", (byte*)&s.carried_edge_contacts - begin, 264, 264));
+            entries.Add(Entry("vox_counters.edge_candidates", (byte*)&s.edge_candidates - begin, 272, 272));
         }
 
         static void AddProfile(List<LayoutEntry> entries)
         {
             Profile s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_profile", sizeof(Profile), 112, 112));
+            entries.Add(Entry("vox_profile", sizeof(Profile), 120, 120));
             entries.Add(Entry("vox_profile.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_profile.reserved", (byte*)&s.reserved - begin, 4, 4));
             entries.Add(Entry("vox_profile.step_ns", (byte*)&s.step_ns - begin, 8, 8));
@@ -3694,6 +3807,7 @@ namespace Voxtet
             entries.Add(Entry("vox_profile.windows_ns", (byte*)&s.windows_ns - begin, 88, 88));
             entries.Add(Entry("vox_profile.lookup_ns", (byte*)&s.lookup_ns - begin, 96, 96));
             entries.Add(Entry("vox_profile.decide_ns", (byte*)&s.decide_ns - begin, 104, 104));
+            entries.Add(Entry("vox_profile.edges_ns", (byte*)&s.edges_ns - begin, 112, 112));
         }
 
         static void AddSuggestDesc(List<LayoutEntry> entries)
@@ -4543,6 +4657,8 @@ namespace Voxtet
             AddPenetrationView(entries);
             AddDepth(entries);
             AddDepthView(entries);
+            AddEdgeContact(entries);
+            AddEdgeContactView(entries);
             AddPair(entries);
             AddPairView(entries);
             AddTouchEvent(entries);

@@ -72,6 +72,7 @@ class GridFlags(enum.IntFlag):
     PENETRATIONS = 1
     CONTACT_EVENTS = 2
     SKIP_BAD_MESHES = 4
+    EDGE_CONTACTS = 8
 
 
 class Format(enum.IntEnum):
@@ -92,6 +93,12 @@ class PenetrationState(enum.IntEnum):
     CROSSING = 3
     COINCIDENT = 4
     UNKNOWN = 5
+
+
+class CrossingKind(enum.IntEnum):
+    THROUGH = 0
+    TOUCHING = 1
+    COPLANAR = 2
 
 
 class Touch(enum.IntEnum):
@@ -195,12 +202,6 @@ class Feature(enum.IntEnum):
 
 class MotionFlags(enum.IntFlag):
     CULL = 1
-
-
-class CrossingKind(enum.IntEnum):
-    THROUGH = 0
-    TOUCHING = 1
-    COPLANAR = 2
 
 
 class IoFormat(enum.IntEnum):
@@ -460,6 +461,39 @@ dtypes["vox_depth"] = dtype({
 
 
 class vox_depth_view(Structure):
+    _fields_ = [
+        ("data", c_void_p),
+        ("byte_stride", c_size_t),
+        ("count", c_uint64),
+        ("epoch", c_uint64),
+    ]
+
+
+class vox_edge_contact(Structure):
+    _fields_ = [
+        ("mesh_a", c_uint32),
+        ("edge", c_uint32 * 2),
+        ("mesh_b", c_uint32),
+        ("face", c_uint32 * 3),
+        ("tet", c_uint32),
+        ("kind", c_int32),
+        ("reserved", c_uint32),
+        ("edge_weights", c_double * 2),
+        ("face_weights", c_double * 3),
+        ("position", c_double * 3),
+        ("normal", c_double * 3),
+    ]
+
+dtypes["vox_edge_contact"] = dtype({
+    "names": ["mesh_a", "edge", "mesh_b", "face", "tet", "kind", "reserved", "edge_weights", "face_weights", "position",
+        "normal"],
+    "formats": ["u4", ("u4", (2,)), "u4", ("u4", (3,)), "u4", "i4", "u4", ("f8", (2,)), ("f8", (3,)), ("f8", (3,)),
+        ("f8", (3,))],
+    "offsets": [0, 4, 12, 16, 28, 32, 36, 40, 56, 80, 104],
+    "itemsize": 128})
+
+
+class vox_edge_contact_view(Structure):
     _fields_ = [
         ("data", c_void_p),
         ("byte_stride", c_size_t),
@@ -756,6 +790,9 @@ class vox_counters(Structure):
         ("total_touches_ended", c_uint64),
         ("total_contacts_began", c_uint64),
         ("total_contacts_ended", c_uint64),
+        ("edge_contacts", c_uint64),
+        ("carried_edge_contacts", c_uint64),
+        ("edge_candidates", c_uint64),
     ]
 
 dtypes["vox_counters"] = dtype({
@@ -764,12 +801,13 @@ dtypes["vox_counters"] = dtype({
         "moved_meshes", "carried_contacts", "penetrations", "leaving_edges", "edge_tests", "closest_searches",
         "closest_tests", "disabled_meshes", "filtered", "cell_size_changes", "unknown_penetrations",
         "carried_penetrations", "skipped_meshes", "meshes_without_tets", "total_touches_began", "total_touches_ended",
-        "total_contacts_began", "total_contacts_ended"],
+        "total_contacts_began", "total_contacts_ended", "edge_contacts", "carried_edge_contacts", "edge_candidates"],
     "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8",
-        "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
+        "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8",
+        "u8"],
     "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120, 128, 136, 144, 152, 160, 168, 176,
-        184, 192, 200, 208, 216, 224, 232, 240, 248],
-    "itemsize": 256})
+        184, 192, 200, 208, 216, 224, 232, 240, 248, 256, 264, 272],
+    "itemsize": 280})
 
 
 class vox_profile(Structure):
@@ -789,14 +827,15 @@ class vox_profile(Structure):
         ("windows_ns", c_uint64),
         ("lookup_ns", c_uint64),
         ("decide_ns", c_uint64),
+        ("edges_ns", c_uint64),
     ]
 
 dtypes["vox_profile"] = dtype({
     "names": ["struct_size", "reserved", "step_ns", "bin_ns", "broad_ns", "narrow_ns", "contacts_ns", "depth_ns",
-        "events_ns", "stream_ns", "winding_ns", "broad_phase_ns", "windows_ns", "lookup_ns", "decide_ns"],
-    "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
-    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104],
-    "itemsize": 112})
+        "events_ns", "stream_ns", "winding_ns", "broad_phase_ns", "windows_ns", "lookup_ns", "decide_ns", "edges_ns"],
+    "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112],
+    "itemsize": 120})
 
 
 class vox_suggest_desc(Structure):
@@ -1791,6 +1830,10 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_grid_hash": (vox_result, (c_void_p, POINTER(c_uint64))),
         "vox_grid_penetrations": (vox_result, (c_void_p, POINTER(vox_penetration_view))),
         "vox_grid_depths": (vox_result, (c_void_p, POINTER(vox_depth_view))),
+        "vox_grid_edge_contacts": (vox_result, (c_void_p, POINTER(vox_edge_contact_view))),
+        "vox_grid_edge_hash": (vox_result, (c_void_p, POINTER(c_uint64))),
+        "vox_grid_prepare_edge_depths": (vox_result, (c_void_p,)),
+        "vox_grid_edge_depths": (vox_result, (c_void_p, POINTER(vox_depth_view))),
         "vox_grid_pairs": (vox_result, (c_void_p, POINTER(vox_pair_view))),
         "vox_mesh_copy_contacts": (vox_result, (c_void_p, c_uint32, c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_pair_copy_contacts": (vox_result, (c_void_p, c_uint32, c_uint32, c_void_p, c_uint64, POINTER(c_uint64))),

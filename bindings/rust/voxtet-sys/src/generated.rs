@@ -117,6 +117,9 @@ pub const VOX_GRID_CONTACT_EVENTS: vox_grid_flags = 2;
 /// without this flag they fail. Counted (skipped_meshes), listed (vox_grid_failure), and logged once until the mesh is
 /// well again
 pub const VOX_GRID_SKIP_BAD_MESHES: vox_grid_flags = 4;
+/// also find edges of surfaces through faces of others (vox_grid_edge_contacts); experimental. A mesh of more than
+/// 357913941 tets then gives VOX_ERROR_LIMIT
+pub const VOX_GRID_EDGE_CONTACTS: vox_grid_flags = 8;
 
 pub type vox_format = i32;
 /// three IEEE 754 singles x, y, z
@@ -156,6 +159,15 @@ pub const VOX_PENETRATION_COINCIDENT: vox_penetration_state = 4;
 /// the step's closest_budget was used up (see vox_grid_desc): depth is 0, direction the normal of a facet of the
 /// contact's tetrahedron
 pub const VOX_PENETRATION_UNKNOWN: vox_penetration_state = 5;
+
+/// How an edge meets a face.
+pub type vox_crossing_kind = i32;
+/// it passes through the interior of the face, with an end on either side
+pub const VOX_CROSSING_THROUGH: vox_crossing_kind = 0;
+/// an end is on the face, or it passes through an edge or a corner of the face
+pub const VOX_CROSSING_TOUCHING: vox_crossing_kind = 1;
+/// it lies in the plane of the face and meets it, or one of them is degenerate and they meet
+pub const VOX_CROSSING_COPLANAR: vox_crossing_kind = 2;
 
 /// What an event reports: how the last successful step differs from the successful step before it.
 pub type vox_touch = i32;
@@ -309,15 +321,6 @@ pub type vox_motion_flags = u32;
 /// Leave out pairs that are proven to stay further apart than twice the radius, that is, whose features thickened by
 /// the radius never touch. No other pair is left out.
 pub const VOX_MOTION_CULL: vox_motion_flags = 1;
-
-/// How an edge meets a face.
-pub type vox_crossing_kind = i32;
-/// it passes through the interior of the face, with an end on either side
-pub const VOX_CROSSING_THROUGH: vox_crossing_kind = 0;
-/// an end is on the face, or it passes through an edge or a corner of the face
-pub const VOX_CROSSING_TOUCHING: vox_crossing_kind = 1;
-/// it lies in the plane of the face and meets it, or one of them is degenerate and they meet
-pub const VOX_CROSSING_COPLANAR: vox_crossing_kind = 2;
 
 pub type vox_io_format = i32;
 /// determined from the content or, failing that, from the name's extension
@@ -780,10 +783,52 @@ pub struct vox_depth_view {
     pub epoch: u64,
 }
 
-/// Two meshes that touch: a vertex of one of them is in a tetrahedron of the other. mesh_a <= mesh_b; they are equal if
-/// a mesh touches itself. The contacts of the pair are those whose indices begin at vox_pair_view.contacts[first]:
-/// first the a_in_b contacts of vertices of mesh_a in tets of mesh_b, then the b_in_a contacts of vertices of mesh_b in
-/// tets of mesh_a (0 for a mesh with itself), each in the order of vox_grid_contacts.
+/// An edge of the surface of mesh_a and a face of the surface of mesh_b that have a point in common (a = b:
+/// self-contact; then they have no vertex in common). The surface of a mesh consists of the facets of exactly one of
+/// its enabled tetrahedra, duplicates counted once, and of their edges. Decided exactly for the coordinates given. So
+/// two bars laid across each other are seen, though no vertex of one is in the other. Where several points are common,
+/// the position is that of one of them: an end of the edge if one is, the lower vertex first.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_edge_contact {
+    pub mesh_a: vox_mesh,
+    /// vertices of mesh_a, the lower first
+    pub edge: [u32; 2],
+    pub mesh_b: vox_mesh,
+    /// vertices of mesh_b, the lowest first, counter-clockwise as seen from the side that the normal points to
+    pub face: [u32; 3],
+    /// of mesh_b, behind the face; of doubled ones the lowest
+    pub tet: u32,
+    pub kind: vox_crossing_kind,
+    /// 0
+    pub reserved: u32,
+    /// of the point, in [0, 1], with the sum 1 up to rounding
+    pub edge_weights: [f64; 2],
+    /// of the same point
+    pub face_weights: [f64; 3],
+    /// of the point, rounded
+    pub position: [f64; 3],
+    /// A unit vector out of `tet` or, if that is flat, to the side away from the lower vertex of the edge; 0, 0, 1 if
+    /// the face has no area.
+    pub normal: [f64; 3],
+}
+
+/// `count` edge contacts, `byte_stride` apart, sorted by mesh_a, edge, mesh_b and the three vertices of the face in
+/// ascending order. The data lives as long as that of the contacts' view.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_edge_contact_view {
+    pub data: *const vox_edge_contact,
+    pub byte_stride: usize,
+    pub count: u64,
+    pub epoch: u64,
+}
+
+/// Two meshes that touch: a vertex of one of them is in a tetrahedron of the other, or they have edge contacts
+/// (VOX_GRID_EDGE_CONTACTS). mesh_a <= mesh_b; they are equal if a mesh touches itself. The contacts of the pair are
+/// those whose indices begin at vox_pair_view.contacts[first]: first the a_in_b contacts of vertices of mesh_a in tets
+/// of mesh_b, then the b_in_a contacts of vertices of mesh_b in tets of mesh_a (0 for a mesh with itself), each in the
+/// order of vox_grid_contacts.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_pair {
@@ -1110,6 +1155,12 @@ pub struct vox_counters {
     pub total_touches_ended: u64,
     pub total_contacts_began: u64,
     pub total_contacts_ended: u64,
+    /// 0 without VOX_GRID_EDGE_CONTACTS, as are the next two
+    pub edge_contacts: u64,
+    /// part of `edge_contacts` carried over from the step before
+    pub carried_edge_contacts: u64,
+    /// edges and faces whose boxes overlap: they were decided exactly
+    pub edge_candidates: u64,
 }
 
 /// Nanoseconds of the last successful step, in total and by stage. Fields from stream_ns on are the stages of the fast
@@ -1145,6 +1196,8 @@ pub struct vox_profile {
     pub lookup_ns: u64,
     /// decide the rest exactly; of the worker that took longest over it
     pub decide_ns: u64,
+    /// edge contacts, with either engine
+    pub edges_ns: u64,
 }
 
 #[repr(C)]
@@ -1712,12 +1765,14 @@ pub struct vox_surface_counters {
     pub peak_bytes: u64,
 }
 
-/// An edge and a face that have a point in common.
+/// An edge and a face that have a point in common. Of several such points it is an end of the edge if one is, the first
+/// one first, or else one of the first side of the face that the edge meets.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_crossing {
     pub edge: u32,
     pub face: u32,
+    /// of vox.h
     pub kind: vox_crossing_kind,
     /// 0
     pub reserved: u32,
@@ -2300,7 +2355,9 @@ extern "C" {
     /// would have done, in time and memory proportional to them; vox_grid_penetrations is empty until the next step.
     /// Switched off, it releases all that memory. VOX_GRID_CONTACT_EVENTS switched on lets the next step report each
     /// vertex in contact as one that began, as a first step does. Switched off, it releases the memory of these events.
-    /// Errors: INVALID_ARGUMENT (unknown flags), LIMIT, BUDGET, OUT_OF_MEMORY; after these all meshes are as they were.
+    /// VOX_GRID_EDGE_CONTACTS switched on lets the next step prepare the surfaces of the meshes that are near others.
+    /// Switched off, it releases the memory of that. Errors: INVALID_ARGUMENT (unknown flags), LIMIT, BUDGET,
+    /// OUT_OF_MEMORY; after these all meshes are as they were.
     pub fn vox_grid_set_flags(grid: *mut vox_grid, flags: u32) -> vox_result;
     /// The flags in use.
     pub fn vox_grid_get_flags(grid: *const vox_grid, out_flags: *mut u32) -> vox_result;
@@ -2570,6 +2627,30 @@ extern "C" {
     ) -> vox_result;
     /// The depths of vox_grid_penetrations, one for each, in that order. Errors: as vox_grid_penetrations.
     pub fn vox_grid_depths(grid: *const vox_grid, out_view: *mut vox_depth_view) -> vox_result;
+    /// The edge contacts of the last step: the same for every engine, cell size and number of workers. Count 0 before
+    /// the first step, after a failed one and after a clear. Which meshes collide is up to vox_filter and
+    /// vox_grid_set_pair_enabled, as for contacts; a self-contact is ruled out where vox_filter rules out the contact
+    /// of either end of the edge with `tet`. Meshes that touch by edges alone are pairs of vox_grid_pairs, with no
+    /// contacts, and have touch events. vox_grid_hash and readings are of contacts alone. Errors: INVALID_STATE if the
+    /// grid's flags lack VOX_GRID_EDGE_CONTACTS.
+    pub fn vox_grid_edge_contacts(
+        grid: *const vox_grid,
+        out_view: *mut vox_edge_contact_view,
+    ) -> vox_result;
+    /// A hash of the edge contacts: all fields, in order. The same for any cell size, storage, hash and engine. Errors:
+    /// as vox_grid_edge_contacts.
+    pub fn vox_grid_edge_hash(grid: *const vox_grid, out_hash: *mut u64) -> vox_result;
+    /// Computes the way out for every edge contact of the last step (vox_grid_edge_depths). It reads positions, which
+    /// must still be those of the step. A program that does not need it pays nothing. The part of an edge inside mesh_b
+    /// begins and ends at contacts with it, or at an end of the edge. Moving its middle by depth * direction leads to
+    /// the closest point of the surface of mesh_b; of several, that of the first triangle. Where no part begins or
+    /// ends, because the two only touch, depth is 0 and direction the normal. For self-contact the middle moves to the
+    /// plane of the face, along the normal, instead. Errors: INVALID_STATE (as vox_grid_edge_contacts; or a mesh of a
+    /// contact was removed or edited since the step, or lacks positions), NON_FINITE, BUDGET, OUT_OF_MEMORY.
+    pub fn vox_grid_prepare_edge_depths(grid: *mut vox_grid) -> vox_result;
+    /// The depth and direction of each edge contact, in the order of vox_grid_edge_contacts. Errors: INVALID_STATE
+    /// before vox_grid_prepare_edge_depths.
+    pub fn vox_grid_edge_depths(grid: *const vox_grid, out_view: *mut vox_depth_view) -> vox_result;
     /// The pairs that touched in the last step; count 0 before the first, after a failed one and after a clear.
     pub fn vox_grid_pairs(grid: *const vox_grid, out_view: *mut vox_pair_view) -> vox_result;
     /// Copies the first `capacity` of the last step's contacts in which `mesh` is mesh_a or mesh_b, pair by pair, in
@@ -3466,6 +3547,11 @@ layouts! {
     vox_depth: size [32, 32], alignment [8, 8], { depth: [0, 0], direction: [8, 8] }
     vox_depth_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
         epoch: [24, 16] }
+    vox_edge_contact: size [128, 128], alignment [8, 8], { mesh_a: [0, 0], edge: [4, 4], mesh_b: [12, 12],
+        face: [16, 16], tet: [28, 28], kind: [32, 32], reserved: [36, 36], edge_weights: [40, 40],
+        face_weights: [56, 56], position: [80, 80], normal: [104, 104] }
+    vox_edge_contact_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
+        epoch: [24, 16] }
     vox_pair: size [48, 48], alignment [8, 8], { mesh_a: [0, 0], mesh_b: [4, 4], user_data_a: [8, 8],
         user_data_b: [16, 16], first: [24, 24], a_in_b: [32, 32], b_in_a: [40, 40] }
     vox_pair_view: size [40, 32], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
@@ -3500,7 +3586,7 @@ layouts! {
         surface_barycentric: [40, 40] }
     vox_facet_hit: size [48, 48], alignment [8, 8], { mesh: [0, 0], tet: [4, 4], facet: [8, 8], side: [12, 12],
         t: [16, 16], barycentric: [24, 24] }
-    vox_counters: size [256, 256], alignment [8, 8], { struct_size: [0, 0], meshes: [4, 4], vertices: [8, 8],
+    vox_counters: size [280, 280], alignment [8, 8], { struct_size: [0, 0], meshes: [4, 4], vertices: [8, 8],
         tets: [16, 16], cells: [24, 24], entries: [32, 32], fullest_cell: [40, 40], visited_cells: [48, 48],
         visited_entries: [56, 56], candidates: [64, 64], exact_tests: [72, 72], contacts: [80, 80],
         skipped_degenerate: [88, 88], bytes: [96, 96], peak_bytes: [104, 104], moved_meshes: [112, 112],
@@ -3508,11 +3594,12 @@ layouts! {
         closest_searches: [152, 152], closest_tests: [160, 160], disabled_meshes: [168, 168], filtered: [176, 176],
         cell_size_changes: [184, 184], unknown_penetrations: [192, 192], carried_penetrations: [200, 200],
         skipped_meshes: [208, 208], meshes_without_tets: [216, 216], total_touches_began: [224, 224],
-        total_touches_ended: [232, 232], total_contacts_began: [240, 240], total_contacts_ended: [248, 248] }
-    vox_profile: size [112, 112], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], step_ns: [8, 8],
+        total_touches_ended: [232, 232], total_contacts_began: [240, 240], total_contacts_ended: [248, 248],
+        edge_contacts: [256, 256], carried_edge_contacts: [264, 264], edge_candidates: [272, 272] }
+    vox_profile: size [120, 120], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], step_ns: [8, 8],
         bin_ns: [16, 16], broad_ns: [24, 24], narrow_ns: [32, 32], contacts_ns: [40, 40], depth_ns: [48, 48],
         events_ns: [56, 56], stream_ns: [64, 64], winding_ns: [72, 72], broad_phase_ns: [80, 80], windows_ns: [88, 88],
-        lookup_ns: [96, 96], decide_ns: [104, 104] }
+        lookup_ns: [96, 96], decide_ns: [104, 104], edges_ns: [112, 112] }
     vox_suggest_desc: size [104, 96], alignment [8, 8], { struct_size: [0, 0], model: [4, 4], size_reading: [8, 8],
         area_reading: [12, 12], p_nc: [16, 16], cost_ratio: [24, 24], world_edge: [32, 32], zone_loss: [40, 40],
         mean_edge_factor: [48, 48], resolution: [56, 56], byte_budget: [64, 64], storage: [72, 72], reserved: [76, 76],
