@@ -1449,7 +1449,7 @@ typedef struct vox_counters {
     uint64_t total_contacts_ended;
     uint64_t edge_contacts;         /* 0 without VOX_GRID_EDGE_CONTACTS, as are the next two */
     uint64_t carried_edge_contacts; /* part of `edge_contacts` carried over from the step before */
-    uint64_t edge_candidates;       /* edges and faces whose boxes overlap: they were decided exactly */
+    uint64_t edge_candidates;       /* edges and faces whose boxes overlap */
 } vox_counters;
 
 /* Writes the fields that out_counters->struct_size covers (set it first). */

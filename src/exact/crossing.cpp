@@ -5,9 +5,6 @@
 // all.
 #include "exact/crossing.hpp"
 
-#include "base/vectors.hpp"
-#include "exact/predicates.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -182,6 +179,7 @@ Crossing find_crossing(const Vec3d& p, const Vec3d& q, const Vec3d& a, const Vec
     const int of_p = orientation(a, b, c, p, exact_tests), of_q = orientation(a, b, c, q, exact_tests);
     if (of_p * of_q > 0) return found;
     if (of_p == 0 && of_q == 0) return InPlane(p, q, a, b, c, exact_tests).find();
+    if (passes_beside(p, q, a, b, c)) return found;
 
     // The line meets the plane of the triangle, which has an area, in one point of the segment. It is in the
     // triangle when no two volumes over its sides have opposite signs.

@@ -2,7 +2,8 @@
 // a segment of no length, a triangle that is a segment or a point. Coordinates as in predicates.hpp.
 #pragma once
 
-#include "base/scene.hpp"
+#include "base/vectors.hpp"
+#include "exact/predicates.hpp"
 
 #include <array>
 #include <cstdint>
@@ -26,6 +27,22 @@ struct Crossing {
     std::array<double, 3> face_weights;
     Vec3d position; // rounded; at an end of the segment or a corner exactly that
 };
+
+// Whether the line pq certainly has no point in common with the triangle abc: two of the volumes over its
+// sides have opposite signs, which those of a line through the triangle never have. In doubles alone.
+inline bool passes_beside(const Vec3d& p, const Vec3d& q, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    const Vec3d d = q - p, u = a - p, v = b - p, w = c - p;
+    const Minor du = minor(d, u), dv = minor(d, v), dw = minor(d, w);
+    const BoundedVolume sides[3] = {determinant(d.z, minor(u, v), u.z, dv, v.z, du),
+                                    determinant(d.z, minor(v, w), v.z, dw, w.z, dv),
+                                    determinant(d.z, minor(w, u), w.z, du, u.z, dw)};
+    bool positive = false, negative = false;
+    for (const BoundedVolume& side : sides) {
+        positive |= side.volume > side.error;
+        negative |= -side.volume > side.error;
+    }
+    return positive && negative;
+}
 
 // The segment pq and the triangle abc. `exact_tests` counts as that of orientation().
 Crossing find_crossing(const Vec3d& p, const Vec3d& q, const Vec3d& a, const Vec3d& b, const Vec3d& c,

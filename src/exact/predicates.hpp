@@ -68,6 +68,34 @@ inline BoundedVolume bounded_volume(const Vec3d& a, const Vec3d& b, const Vec3d&
     return determinant(u.z, minor(v, w), v.z, minor(u, w), w.z, minor(u, v));
 }
 
+// The plane of a triangle abc, for many points d: bounded_volume(a, b, c, d), expanded by d - a in place of
+// the z coordinates, with the minors of the other two rows computed once. A determinant stays the same when
+// its matrix is transposed, so the bound is that of determinant().
+struct TrianglePlane {
+    Vec3d a;
+    Minor x, y, z; // of b - a and c - a, without that coordinate
+
+    TrianglePlane() = default;
+    TrianglePlane(const Vec3d& corner_a, const Vec3d& b, const Vec3d& c) : a(corner_a) {
+        const Vec3d u = b - a, v = c - a;
+        x = minor({u.y, u.z, 0}, {v.y, v.z, 0});
+        y = minor({u.z, u.x, 0}, {v.z, v.x, 0});
+        z = minor(u, v);
+    }
+
+    BoundedVolume volume(const Vec3d& d) const {
+        const Vec3d w = d - a;
+        const Minor minus_y{-y.value, y.magnitude};
+        return determinant(w.x, x, w.y, minus_y, w.z, z);
+    }
+    // Whether both are certainly on the same side, and not on the plane.
+    bool has_on_one_side(const Vec3d& p, const Vec3d& q) const {
+        const BoundedVolume of_p = volume(p), of_q = volume(q);
+        return (of_p.volume > of_p.error && of_q.volume > of_q.error) ||
+               (-of_p.volume > of_p.error && -of_q.volume > of_q.error);
+    }
+};
+
 // The sign (-1, 0, +1) of det[b-a, c-a, d-a]. It is positive when d is on the side of triangle abc to which
 // its counter-clockwise normal points. `exact_tests` counts the calls that the error bound could not decide.
 inline int orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d,

@@ -352,6 +352,8 @@ void EdgeContacts::load(std::uint32_t body, std::uint32_t index, LoadedTile& out
     out.body = body;
     out.index = index;
     out.tile = &tile;
+    out.has_points = false;
+    out.has_plane = 0;
     out.box = tile_boxes_[surface.first_tile + index];
     for (std::uint32_t f = 0; f < tile.face_count; ++f) {
         const auto& [u, v, w] = features.faces[tile.first_face + f];
@@ -368,8 +370,25 @@ void EdgeContacts::load(std::uint32_t body, std::uint32_t index, LoadedTile& out
     }
 }
 
-void EdgeContacts::test(const EdgeScene& scene, const LoadedTile& edges, const LoadedTile& faces,
-                        Worker& worker) {
+void EdgeContacts::make_points(const EdgeScene& scene, LoadedTile& tile) const {
+    if (tile.has_points) return;
+    const Positions& positions = scene.bodies[tile.body].positions;
+    const std::uint32_t* vertices =
+        step_surfaces_[tile.body].features->vertices.data() + tile.tile->first_vertex;
+    for (std::uint32_t v = 0; v < tile.tile->vertex_count; ++v) tile.points[v] = positions.exact(vertices[v]);
+    tile.has_points = true;
+}
+
+const TrianglePlane& EdgeContacts::plane_of(LoadedTile& tile, std::size_t face) const {
+    if (!(tile.has_plane >> face & 1)) {
+        const auto& [u, v, w] = step_surfaces_[tile.body].features->faces[tile.tile->first_face + face];
+        tile.planes[face] = {tile.points[u], tile.points[v], tile.points[w]};
+        tile.has_plane |= std::uint64_t{1} << face;
+    }
+    return tile.planes[face];
+}
+
+void EdgeContacts::test(const EdgeScene& scene, LoadedTile& edges, LoadedTile& faces, Worker& worker) {
     // Faces that meet the box of the other tile; edges that meet that of the first one.
     std::array<Box, SurfaceTile::most_faces> boxes;
     std::array<std::uint8_t, SurfaceTile::most_faces> near;
@@ -383,15 +402,38 @@ void EdgeContacts::test(const EdgeScene& scene, const LoadedTile& edges, const L
         add(common, faces.faces[face]);
     }
     if (count == 0) return;
+    const bool is_self = edges.body == faces.body;
+    const SurfaceFeatures& features = *step_surfaces_[faces.body].features;
+    const std::uint32_t* corners = features.vertices.data() + faces.tile->first_vertex;
+    const std::uint32_t* ends =
+        step_surfaces_[edges.body].features->vertices.data() + edges.tile->first_vertex;
     for (std::uint32_t first = 0; first < edges.tile->edge_count; first += fast::most_boxes) {
         std::uint64_t left = fast::find_overlaps(
             edges.edges.data() + first, std::min(fast::most_boxes, edges.tile->edge_count - first), common);
         for (; left; left &= left - 1) {
             const std::size_t edge = first + static_cast<std::size_t>(std::countr_zero(left));
             std::uint64_t hit = fast::find_overlaps(boxes.data(), count, edges.edges[edge]);
-            for (; hit; hit &= hit - 1)
-                decide(scene, edges, edge, faces, near[static_cast<std::size_t>(std::countr_zero(hit))],
-                       worker);
+            if (!hit) continue;
+            worker.candidates += static_cast<std::uint64_t>(std::popcount(hit));
+            make_points(scene, edges);
+            make_points(scene, faces);
+            const auto& [u, v] = step_surfaces_[edges.body].features->edges[edges.tile->first_edge + edge];
+            const Vec3d &p = edges.points[u], &q = edges.points[v];
+            const std::uint32_t low = ends[u], high = ends[v];
+            for (; hit; hit &= hit - 1) {
+                const std::size_t face = near[static_cast<std::size_t>(std::countr_zero(hit))];
+                const auto& [a, b, c] = features.faces[faces.tile->first_face + face];
+                if (is_self) {
+                    const std::uint32_t of_face[3] = {corners[a], corners[b], corners[c]};
+                    if (std::count(of_face, of_face + 3, low) + std::count(of_face, of_face + 3, high) > 0) {
+                        --worker.candidates;
+                        continue;
+                    }
+                }
+                if (plane_of(faces, face).has_on_one_side(p, q)) continue;
+                if (!passes_beside(p, q, faces.points[a], faces.points[b], faces.points[c]))
+                    decide(scene, edges, edge, faces, face, worker);
+            }
         }
     }
 }
@@ -402,35 +444,41 @@ void EdgeContacts::decide(const EdgeScene& scene, const LoadedTile& edges, std::
                           const LoadedTile& faces, std::size_t face, Worker& worker) {
     const SurfaceFeatures& of_edge = *step_surfaces_[edges.body].features;
     const SurfaceFeatures& of_face = *step_surfaces_[faces.body].features;
-    const auto& local = of_edge.edges[edges.tile->first_edge + edge];
-    const std::uint32_t* vertices = of_edge.vertices.data() + edges.tile->first_vertex;
-    const auto [low, high] = std::minmax(vertices[local[0]], vertices[local[1]]);
-    const std::size_t place = faces.tile->first_face + face;
-    const auto& corners = of_face.faces[place];
-    const std::uint32_t* face_vertices = of_face.vertices.data() + faces.tile->first_vertex;
-    std::array<std::uint32_t, 3> v{face_vertices[corners[0]], face_vertices[corners[1]],
-                                   face_vertices[corners[2]]};
-    const bool is_self = edges.body == faces.body;
-    if (is_self)
-        for (const std::uint32_t corner : v)
-            if (corner == low || corner == high) return;
-    ++worker.candidates;
+    // Vertices of the mesh, and of the tile.
+    struct Corner {
+        std::uint32_t vertex;
+        std::uint8_t local;
 
+        bool operator<(const Corner& other) const { return vertex < other.vertex; }
+    };
+    const auto corner_of = [](const SurfaceFeatures& features, const SurfaceTile& tile, std::uint8_t local) {
+        return Corner{features.vertices[tile.first_vertex + local], local};
+    };
+    const std::size_t place = faces.tile->first_face + face;
+    std::array<Corner, 2> ends;
+    std::array<Corner, 3> corners;
+    for (std::size_t i = 0; i < 2; ++i)
+        ends[i] = corner_of(of_edge, *edges.tile, of_edge.edges[edges.tile->first_edge + edge][i]);
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = corner_of(of_face, *faces.tile, of_face.faces[place][i]);
     // In an order that does not depend on how the mesh was edited, nor do the bits of the weights then.
-    std::sort(v.begin(), v.end());
-    const Positions &of_a = scene.bodies[edges.body].positions, &of_b = scene.bodies[faces.body].positions;
-    const Vec3d p = of_a.exact(low), q = of_a.exact(high);
-    const Vec3d corner[3] = {of_b.exact(v[0]), of_b.exact(v[1]), of_b.exact(v[2])};
+    std::sort(ends.begin(), ends.end());
+    std::sort(corners.begin(), corners.end());
+    const std::uint32_t low = ends[0].vertex, high = ends[1].vertex;
+    const std::uint32_t v[3] = {corners[0].vertex, corners[1].vertex, corners[2].vertex};
+    const Vec3d p = edges.points[ends[0].local], q = edges.points[ends[1].local];
+    const Vec3d corner[3] = {faces.points[corners[0].local], faces.points[corners[1].local],
+                             faces.points[corners[2].local]};
     const Crossing found = find_crossing(p, q, corner[0], corner[1], corner[2], worker.exact_tests);
     if (found.kind == CrossingKind::none) return;
     const std::uint32_t tet = of_face.tets[place];
-    if (const SelfFilter* filter = scene.bodies[faces.body].self_filter; is_self && filter) {
+    if (const SelfFilter* filter = scene.bodies[faces.body].self_filter; edges.body == faces.body && filter) {
         const Tet& behind = scene.bodies[faces.body].tets[tet];
         if (filter->skips(low, behind) || filter->skips(high, behind)) return;
     }
 
     const std::uint32_t apex = scene.topologies[faces.body]->triangles[of_face.triangles[place]].apex;
-    int inside = orientation(corner[0], corner[1], corner[2], of_b.exact(apex), worker.exact_tests);
+    int inside = orientation(corner[0], corner[1], corner[2], scene.bodies[faces.body].positions.exact(apex),
+                             worker.exact_tests);
     if (inside == 0) inside = orientation(corner[0], corner[1], corner[2], p, worker.exact_tests);
     const std::size_t second = inside > 0 ? 2 : 1, third = 3 - second;
     Vec3d normal = normalised(cross(scaled(corner[second] - corner[0]), scaled(corner[third] - corner[0])));

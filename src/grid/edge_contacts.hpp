@@ -6,6 +6,7 @@
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
 #include "depth/closest.hpp"
+#include "exact/predicates.hpp"
 #include "fast/body_pairs.hpp"
 #include "grid/contact_pairs.hpp"
 #include "grid/surface_features.hpp"
@@ -105,6 +106,11 @@ private:
         Box box{};
         std::array<Box, SurfaceTile::most_faces> faces{};
         std::array<Box, SurfaceTile::most_edges> edges{};
+        // Made when they are first needed.
+        bool has_points = false;
+        std::uint64_t has_plane = 0; // of each face, a bit
+        std::array<Vec3d, SurfaceTile::most_vertices> points{};
+        std::array<TrianglePlane, SurfaceTile::most_faces> planes{};
     };
     struct Worker {
         static constexpr std::size_t most_loaded = 16;
@@ -139,7 +145,9 @@ private:
     void search(const EdgeScene& scene, const fast::Pair& pair, const Worker& tiles, std::size_t begin,
                 std::size_t end, Worker& worker);
     void load(std::uint32_t body, std::uint32_t tile, LoadedTile& out) const;
-    void test(const EdgeScene& scene, const LoadedTile& edges, const LoadedTile& faces, Worker& worker);
+    void make_points(const EdgeScene& scene, LoadedTile& tile) const;
+    const TrianglePlane& plane_of(LoadedTile& tile, std::size_t face) const;
+    void test(const EdgeScene& scene, LoadedTile& edges, LoadedTile& faces, Worker& worker);
     void decide(const EdgeScene& scene, const LoadedTile& edges, std::size_t edge, const LoadedTile& faces,
                 std::size_t face, Worker& worker);
     void put_in_order();

@@ -15,7 +15,7 @@ namespace vox {
 
 // Neighbouring faces, their vertices, and of their edges those that no tile before has.
 struct SurfaceTile {
-    static constexpr std::uint32_t most_faces = 64, most_edges = 3 * most_faces,
+    static constexpr std::uint32_t most_faces = 32, most_edges = 3 * most_faces,
                                    most_vertices = 3 * most_faces;
 
     std::uint32_t first_vertex, first_face, first_edge, first_block;

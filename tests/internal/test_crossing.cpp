@@ -203,6 +203,11 @@ void check(const Case& of) {
                   of.q.y, of.q.z, of.a.x, of.a.y, of.a.z, of.b.x, of.b.y, of.b.z, of.c.x, of.c.y, of.c.z);
     ++counts[static_cast<int>(found.kind)];
     if (found.kind != CrossingKind::none) check_point(of, found, truth);
+    // What is certain in doubles is so.
+    if (found.kind != CrossingKind::none) {
+        ck_assert(!TrianglePlane(of.a, of.b, of.c).has_on_one_side(of.p, of.q));
+        ck_assert(!passes_beside(of.p, of.q, of.a, of.b, of.c));
+    }
     // The kind is one of the sets of points, in whatever order they are named.
     const Crossing turned = find_crossing(of.q, of.p, of.c, of.a, of.b, exact_tests);
     const Crossing mirrored = find_crossing(of.p, of.q, of.b, of.a, of.c, exact_tests);
