@@ -26,7 +26,7 @@ struct Options {
     vox_grid_desc grid = vox_default_grid_desc();
     std::uint32_t repeat = 1;
     std::uint64_t limit = 10;
-    bool no_depth = false;
+    bool no_depth = false, edges = false;
     std::string save, out, csv;
     bool json = false;
 };
@@ -47,6 +47,27 @@ void print_penetrations(const Options& options, const vox_grid* grid, const std:
                     place_of(ids, p.mesh_b) == 0 ? 'A' : 'B', static_cast<double>(p.depth),
                     static_cast<double>(p.direction[0]), static_cast<double>(p.direction[1]),
                     static_cast<double>(p.direction[2]), state_name(p.state));
+    }
+    if (shown < view.count)
+        std::printf("  and %llu more\n", static_cast<unsigned long long>(view.count - shown));
+}
+
+void print_edges(const Options& options, const vox_grid* grid, const std::vector<vox_mesh>& ids) {
+    const vox_edge_contact_view view = edge_contacts_of(grid);
+    const vox_depth_view depths = edge_depths_of(grid);
+    std::printf("\n%llu %s\n", static_cast<unsigned long long>(view.count),
+                view.count == 1 ? "edge contact" : "edge contacts");
+    const std::uint64_t shown = std::min(view.count, options.limit);
+    if (shown > 0)
+        std::printf("  %23s   %34s   position, depth, direction out, kind\n", "edge", "through face");
+    for (std::uint64_t i = 0; i < shown; ++i) {
+        const vox_edge_contact c = edge_contact_at(view, i);
+        const vox_depth depth = depth_at(depths, i);
+        std::printf("  %c %10u %10u   %c %10u %10u %10u   %.6g %.6g %.6g, %.6g, %.6f %.6f %.6f, %s\n",
+                    place_of(ids, c.mesh_a) == 0 ? 'A' : 'B', c.edge[0], c.edge[1],
+                    place_of(ids, c.mesh_b) == 0 ? 'A' : 'B', c.face[0], c.face[1], c.face[2], c.position[0],
+                    c.position[1], c.position[2], depth.depth, depth.direction[0], depth.direction[1],
+                    depth.direction[2], kind_name(c.kind));
     }
     if (shown < view.count)
         std::printf("  and %llu more\n", static_cast<unsigned long long>(view.count - shown));
@@ -79,6 +100,7 @@ void print_text(const Options& options, const vox_grid* grid, const std::vector<
         std::printf("  and %llu more (--limit N prints N of them, --json all of them)\n",
                     static_cast<unsigned long long>(view.count - shown));
     if (!options.no_depth) print_penetrations(options, grid, ids);
+    if (options.edges) print_edges(options, grid, ids);
     std::printf("\nhash %s, cell size %.9g\n", hash_of(grid).c_str(), cell_size_of(grid));
     std::printf("step %.3f ms: ", milliseconds(profile.step_ns));
     if (profile.stream_ns > 0) // the fast engine
@@ -89,6 +111,7 @@ void print_text(const Options& options, const vox_grid* grid, const std::vector<
     else
         std::printf("bin %.3f, broad phase %.3f, narrow phase %.3f", milliseconds(profile.bin_ns),
                     milliseconds(profile.broad_ns), milliseconds(profile.narrow_ns));
+    if (options.edges) std::printf(", edges %.3f", milliseconds(profile.edges_ns));
     std::printf(", contacts %.3f, depth %.3f (%s)\n", milliseconds(profile.contacts_ns),
                 milliseconds(profile.depth_ns),
                 options.repeat == 1
@@ -125,8 +148,10 @@ void run(const Options& options) {
     std::vector<vox_mesh> ids;
     vox_grid_desc desc = options.grid;
     if (options.no_depth) desc.flags &= ~std::uint32_t{VOX_GRID_PENETRATIONS};
+    if (options.edges) desc.flags |= VOX_GRID_EDGE_CONTACTS;
     const Grid grid = make_grid(desc, bodies, options.self, ids);
     const vox_profile profile = measure_steps(grid.get(), bodies, ids, options.repeat);
+    if (options.edges) check(vox_grid_prepare_edge_depths(grid.get()));
     if (!options.save.empty()) save_snapshot(grid.get(), options.save);
     if (!options.csv.empty()) write_contacts(options.csv, ids, grid.get());
     if (!options.out.empty()) {
@@ -167,6 +192,7 @@ void add_collide(CommandLine& line) {
         .range(1, 1000000);
     command.option("--limit", options->limit, "Most contacts to print as text");
     command.flag("--no-depth", options->no_depth, "Find contacts only, without depths and directions");
+    command.flag("--edges", options->edges, "Also find edges of one mesh through faces of the other");
     command
         .option("-o,--output", options->out, "Write meshes, contacts and depths to this file, .vtu or .msh")
         .shown_as("FILE");

@@ -6,6 +6,7 @@
 namespace tool {
 
 void add_info(CommandLine& line);
+void add_check(CommandLine& line);
 void add_suggest(CommandLine& line);
 void add_collide(CommandLine& line);
 void add_demo(CommandLine& line);

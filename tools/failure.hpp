@@ -13,6 +13,11 @@ public:
     using std::runtime_error::runtime_error;
 };
 
+// The exit code of a command that has printed its answer, where that is not 0.
+struct Verdict {
+    int code;
+};
+
 // Every call of the library goes through here.
 inline void check(vox_result result) {
     if (result == VOX_OK) return;

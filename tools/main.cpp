@@ -1,4 +1,5 @@
-// The command line tool vox. Its exit codes are 0 for success, 1 for bad input and 2 for wrong usage.
+// The command line tool vox. Its exit codes are 0 for success, 1 for bad input, 2 for wrong usage, and
+// 3 where vox check finds what it looks for.
 #include "commands.hpp"
 #include "failure.hpp"
 #include "manual.hpp"
@@ -48,13 +49,20 @@ int run(int argc, char** argv) {
                            "Exact collision detection for deformable tetrahedral meshes on a voxel grid");
     tool::add_demo(line);
     tool::add_info(line);
+    tool::add_check(line);
     tool::add_suggest(line);
     tool::add_collide(line);
     tool::add_replay(line);
     tool::add_sweep(line);
     tool::add_tetrahedralize(line);
     add_generate(line);
-    const int code = line.run(argc, argv);
+    int code = 0;
+    try {
+        code = line.run(argc, argv);
+    } catch (const tool::Verdict& verdict) {
+        tool::finish_output();
+        return verdict.code;
+    }
     if (code == 0) tool::finish_output();
     return code;
 }

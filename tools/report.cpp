@@ -71,7 +71,10 @@ Json counters_json(const vox_counters& counters) {
             {"total_touches_began", counters.total_touches_began},
             {"total_touches_ended", counters.total_touches_ended},
             {"total_contacts_began", counters.total_contacts_began},
-            {"total_contacts_ended", counters.total_contacts_ended}};
+            {"total_contacts_ended", counters.total_contacts_ended},
+            {"edge_contacts", counters.edge_contacts},
+            {"carried_edge_contacts", counters.carried_edge_contacts},
+            {"edge_candidates", counters.edge_candidates}};
 }
 
 Json penetrations(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
@@ -91,7 +94,34 @@ Json penetrations(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
     return list;
 }
 
+Json edge_contacts(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
+    const vox_edge_contact_view view = edge_contacts_of(grid);
+    const vox_depth_view depths = edge_depths_of(grid);
+    Json list = Json::array();
+    for (std::uint64_t i = 0; i < view.count; ++i) {
+        const vox_edge_contact c = edge_contact_at(view, i);
+        const vox_depth depth = depth_at(depths, i);
+        list.push_back({{"mesh_a", place_of(ids, c.mesh_a)},
+                        {"edge", {c.edge[0], c.edge[1]}},
+                        {"mesh_b", place_of(ids, c.mesh_b)},
+                        {"face", {c.face[0], c.face[1], c.face[2]}},
+                        {"tet", c.tet},
+                        {"kind", kind_name(c.kind)},
+                        {"edge_weights", {number(c.edge_weights[0]), number(c.edge_weights[1])}},
+                        {"face_weights", point(c.face_weights)},
+                        {"position", point(c.position)},
+                        {"normal", point(c.normal)},
+                        {"depth", number(depth.depth)},
+                        {"direction", point(depth.direction)}});
+    }
+    return list;
+}
+
 } // namespace
+
+const char* kind_name(vox_crossing_kind kind) {
+    return kind == VOX_CROSSING_THROUGH ? "through" : kind == VOX_CROSSING_TOUCHING ? "touching" : "coplanar";
+}
 
 const char* model_name(vox_cost_model model) {
     switch (model) {
@@ -189,6 +219,7 @@ void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>
     }
     json["contacts"] = std::move(contacts);
     json["penetrations"] = has_penetrations(grid) ? penetrations(grid, ids) : Json(nullptr);
+    if (has_edge_contacts(grid)) json["edge_contacts"] = edge_contacts(grid, ids);
     add_result(json, grid, profile);
 }
 
@@ -206,7 +237,8 @@ void add_result(Json& json, const vox_grid* grid, const vox_profile& profile) {
                        {"broad_phase_ns", profile.broad_phase_ns},
                        {"windows_ns", profile.windows_ns},
                        {"lookup_ns", profile.lookup_ns},
-                       {"decide_ns", profile.decide_ns}};
+                       {"decide_ns", profile.decide_ns},
+                       {"edges_ns", profile.edges_ns}};
     json["counters"] = counters_json(counters_of(grid));
 }
 

@@ -37,6 +37,9 @@ const char* model_name(vox_cost_model model);
 // Returns "surface", "propagated", "enclosed", "crossing", "coincident" or "unknown".
 const char* state_name(vox_penetration_state state);
 
+// Returns "through", "touching" or "coplanar".
+const char* kind_name(vox_crossing_kind kind);
+
 // Adds the results of a step other than contacts: hash, cell_size, profile, counters.
 void add_result(Json& json, const vox_grid* grid, const vox_profile& profile);
 

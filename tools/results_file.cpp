@@ -20,6 +20,7 @@ struct Start {
 struct Results {
     std::vector<double> mesh, number, contacts;  // of vertices, or of cells
     std::vector<double> depth, direction, state; // of vertices
+    std::vector<double> edge_contacts;           // of vertices
 };
 
 vox_io_point_data data(const char* name, const std::vector<double>& values, std::uint32_t components = 1) {
@@ -100,6 +101,16 @@ void write_results(const std::string& path, std::span<const DrawnMesh> meshes, c
         of_points.push_back(data("depth", vertices.depth));
         of_points.push_back(data("direction", vertices.direction, 3));
         of_points.push_back(data("state", vertices.state));
+    }
+    if (has_edge_contacts(grid)) {
+        vertices.edge_contacts.assign(vertices.mesh.size(), 0);
+        const vox_edge_contact_view edges = edge_contacts_of(grid);
+        for (std::uint64_t i = 0; i < edges.count; ++i) {
+            const vox_edge_contact contact = edge_contact_at(edges, i);
+            for (const std::uint32_t vertex : contact.edge)
+                vertices.edge_contacts[starts[places.at(contact.mesh_a)].vertex + vertex] += 1;
+        }
+        of_points.push_back(data("edge_contacts", vertices.edge_contacts));
     }
     const std::vector<vox_io_point_data> of_cells = {data("mesh", cells.mesh), data("tet", cells.number),
                                                      data("contacts", cells.contacts)};

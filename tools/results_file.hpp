@@ -23,8 +23,9 @@ DrawnMesh drawn_mesh(const Body& body, vox_mesh id);
 
 // Writes the meshes, one behind the other, to a .vtu or .msh file. For each vertex: `mesh` (index in
 // `meshes`), `vertex` (its number there), `contacts` (tetrahedra that it is in), and of its deepest
-// penetration `depth`, `direction` and `state` (vox_penetration_state; -1: none). For each cell: `mesh`,
-// `tet` (its number; -1: a triangle), `contacts` (vertices in it). Throws Failure.
+// penetration `depth`, `direction` and `state` (vox_penetration_state; -1: none); in a grid with edge
+// contacts `edge_contacts` (those of its edges). For each cell: `mesh`, `tet` (its number; -1: a triangle),
+// `contacts` (vertices in it). Throws Failure.
 void write_results(const std::string& path, std::span<const DrawnMesh> meshes, const vox_grid* grid);
 
 // Writes one line for each contact, in a grid without filters. Throws Failure.

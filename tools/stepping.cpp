@@ -109,6 +109,18 @@ vox_penetration_view penetrations_of(const vox_grid* grid) {
     return view;
 }
 
+vox_edge_contact_view edge_contacts_of(const vox_grid* grid) {
+    vox_edge_contact_view view{};
+    check(vox_grid_edge_contacts(grid, &view));
+    return view;
+}
+
+vox_depth_view edge_depths_of(const vox_grid* grid) {
+    vox_depth_view view{};
+    check(vox_grid_edge_depths(grid, &view));
+    return view;
+}
+
 vox_profile median(std::span<const vox_profile> profiles) {
     std::vector<std::uint64_t> times(profiles.size());
     const auto median_of = [&](std::uint64_t vox_profile::*time) {
@@ -118,10 +130,11 @@ vox_profile median(std::span<const vox_profile> profiles) {
         return times.size() % 2 ? times[middle] : (times[middle - 1] + times[middle]) / 2;
     };
     vox_profile result = profiles.front();
-    for (const auto time : {&vox_profile::step_ns, &vox_profile::bin_ns, &vox_profile::broad_ns,
-                            &vox_profile::narrow_ns, &vox_profile::contacts_ns, &vox_profile::depth_ns,
-                            &vox_profile::stream_ns, &vox_profile::winding_ns, &vox_profile::broad_phase_ns,
-                            &vox_profile::windows_ns, &vox_profile::lookup_ns, &vox_profile::decide_ns})
+    for (const auto time :
+         {&vox_profile::step_ns, &vox_profile::bin_ns, &vox_profile::broad_ns, &vox_profile::narrow_ns,
+          &vox_profile::contacts_ns, &vox_profile::depth_ns, &vox_profile::stream_ns,
+          &vox_profile::winding_ns, &vox_profile::broad_phase_ns, &vox_profile::windows_ns,
+          &vox_profile::lookup_ns, &vox_profile::decide_ns, &vox_profile::edges_ns})
         result.*time = median_of(time);
     return result;
 }
@@ -149,10 +162,18 @@ vox_profile measure_steps(vox_grid* grid, std::span<Body> bodies, std::span<cons
     return median(profiles);
 }
 
-bool has_penetrations(const vox_grid* grid) {
+namespace {
+
+bool has_flag(const vox_grid* grid, std::uint32_t flag) {
     std::uint32_t flags = 0;
     check(vox_grid_get_flags(grid, &flags));
-    return (flags & VOX_GRID_PENETRATIONS) != 0;
+    return (flags & flag) != 0;
 }
+
+} // namespace
+
+bool has_penetrations(const vox_grid* grid) { return has_flag(grid, VOX_GRID_PENETRATIONS); }
+
+bool has_edge_contacts(const vox_grid* grid) { return has_flag(grid, VOX_GRID_EDGE_CONTACTS); }
 
 } // namespace tool

@@ -27,6 +27,8 @@ vox_counters counters_of(const vox_grid* grid);
 double cell_size_of(const vox_grid* grid);
 vox_contact_view contacts_of(const vox_grid* grid);
 vox_penetration_view penetrations_of(const vox_grid* grid);
+vox_edge_contact_view edge_contacts_of(const vox_grid* grid);
+vox_depth_view edge_depths_of(const vox_grid* grid);
 
 inline vox_contact contact_at(const vox_contact_view& view, std::uint64_t index) {
     vox_contact contact;
@@ -42,6 +44,19 @@ inline vox_penetration penetration_at(const vox_penetration_view& view, std::uin
     return penetration;
 }
 
+inline vox_edge_contact edge_contact_at(const vox_edge_contact_view& view, std::uint64_t index) {
+    vox_edge_contact contact;
+    std::memcpy(&contact, reinterpret_cast<const char*>(view.data) + index * view.byte_stride,
+                sizeof contact);
+    return contact;
+}
+
+inline vox_depth depth_at(const vox_depth_view& view, std::uint64_t index) {
+    vox_depth depth;
+    std::memcpy(&depth, reinterpret_cast<const char*>(view.data) + index * view.byte_stride, sizeof depth);
+    return depth;
+}
+
 // The median of each time, taken separately. There must be at least one profile.
 vox_profile median(std::span<const vox_profile> profiles);
 
@@ -55,5 +70,6 @@ vox_profile measure_steps(vox_grid* grid, std::span<Body> bodies, std::span<cons
                           std::uint32_t repeat);
 
 bool has_penetrations(const vox_grid* grid);
+bool has_edge_contacts(const vox_grid* grid);
 
 } // namespace tool

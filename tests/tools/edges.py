@@ -1,0 +1,146 @@
+"""vox check and vox collide --edges: surfaces that pass through themselves, bars laid across each other."""
+
+import json
+import unittest
+import xml.etree.ElementTree
+
+from command_line import TETS, TWO_TETS, msh
+from vox import Files, run, run_json
+
+FACES = [(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4), (2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6), (1, 3, 5),
+         (3, 7, 5)]
+CUBE = [(1, 2, 4, 7), (0, 1, 2, 4), (3, 2, 1, 7), (5, 4, 7, 1), (6, 7, 4, 2)]  # five tetrahedra
+
+
+def corners(low, high):
+    return [tuple((high if i >> axis & 1 else low)[axis] for axis in range(3)) for i in range(8)]
+
+
+def obj(*boxes):
+    points = [p for box in boxes for p in corners(*box)]
+    faces = [[8 * b + v + 1 for v in face] for b in range(len(boxes)) for face in FACES]
+    return "".join(f"v {x} {y} {z}\n" for x, y, z in points) + "".join(f"f {a} {b} {c}\n" for a, b, c in faces)
+
+
+ALONG_X = ((-4, -1, -1), (4, 1, 1))
+ALONG_Y = ((-1, -4, 0.5), (1, 4, 2.5))
+
+
+class Edges(Files):
+    def test_free(self):
+        bar, far = obj(ALONG_X), obj(ALONG_X, ((-1, -4, 3), (1, 4, 5)))
+        for name, text in ("bar.obj", bar), ("far.obj", far):
+            path = self.write(name, text)
+            found = run_json("check", path)
+            self.assertEqual(list(found), ["free", "meshes"])
+            self.assertIs(found["free"], True)
+            self.assertEqual(found["meshes"][0]["crossings"], [])
+            self.assertIn(b"free of self-intersection\n", run("check", path).stdout)
+        found = run_json("check", self.write("two.msh", msh(TWO_TETS, TETS)))
+        self.assertEqual((found["meshes"][0]["triangles"], found["meshes"][0]["edges"]), (6, 9))
+
+    def check_crossed(self, *arguments):
+        """The one mesh that is not free; the exit code says so, with JSON or without."""
+        done = run("check", *arguments, "--json")
+        self.assertEqual((done.returncode, done.stderr), (3, b""))
+        found = json.loads(done.stdout)
+        self.assertIs(found["free"], False)
+        done = run("check", *arguments)
+        self.assertEqual((done.returncode, done.stderr), (3, b""))
+        self.assertIn(b" edges meet triangles (", done.stdout)
+        return found["meshes"]
+
+    def test_crossed_bars(self):
+        path = self.write("crossed.obj", obj(ALONG_X, ALONG_Y))
+        mesh, = self.check_crossed(path)
+        self.assertEqual((mesh["triangles"], mesh["edges"]), (24, 36))
+        self.assertEqual(len(mesh["crossings"]), mesh["through"] + mesh["touching"] + mesh["coplanar"])
+        self.assertGreater(mesh["through"], 3)
+        for crossing in mesh["crossings"]:
+            self.assertEqual(crossing["edge"][0] < 8, crossing["triangle"][0] >= 8)  # of the other bar
+            x, y, z = crossing["position"]
+            self.assertTrue(0.5 <= z <= 1 and abs(x) <= 1 and abs(y) <= 1)
+            self.assertIn(crossing["kind"], ("through", "touching", "coplanar"))
+        many = run("check", path, "--limit", 2).stdout
+        self.assertEqual(many.count(b"\n"), 4)
+        self.assertIn(b"and %d more" % (len(mesh["crossings"]) - 2), many)
+        # Several meshes: one that crosses is enough.
+        self.assertEqual(len(self.check_crossed(self.write("bar.obj", obj(ALONG_X)), path)), 2)
+        self.assertEqual(run("check", path, "--threads", 3).stdout, run("check", path).stdout)
+
+    def test_drawing(self):
+        path, out = self.write("crossed.obj", obj(ALONG_X, ALONG_Y)), self.path("out.vtu")
+        mesh, = self.check_crossed(path, "-o", out)
+        root = xml.etree.ElementTree.parse(out).getroot()
+        arrays = {(section.tag, array.get("Name")): [float(x) for x in array.text.split()]
+                  for section in root.find("UnstructuredGrid/Piece") for array in section}
+        points = [0] * 16
+        for crossing in mesh["crossings"]:
+            for v in crossing["edge"]:
+                points[v] += 1
+        self.assertEqual(arrays["PointData", "crossings"], points)
+        self.assertEqual(len(arrays["CellData", "crossings"]), 24)
+        # Each crossing is one of its triangle, and one of each triangle with its edge.
+        self.assertEqual(sum(arrays["CellData", "crossings"]), 3 * len(mesh["crossings"]))
+
+    def test_repeated_vertices(self):
+        """A file with three vertices of its own for each triangle is as one in which they are shared."""
+        text, at = "", corners(*ALONG_X)
+        for face in FACES:
+            text += "".join("v {} {} {}\n".format(*at[v]) for v in face)
+        text += "".join(f"f {3 * i + 1} {3 * i + 2} {3 * i + 3}\n" for i in range(len(FACES)))
+        found = run_json("check", self.write("soup.obj", text))
+        self.assertIs(found["free"], True)
+        self.assertEqual(found["meshes"][0]["edges"], 18)
+
+    def test_rounding(self):
+        """Doubles that are apart, and as floats are not."""
+        near = (1, 1, 1 + 1e-12)
+        text = "v 0 0 1\nv 2 0 1\nv 0 2 1\nf 1 2 3\nv {} {} {!r}\nv 3 3 5\nv 3 2 5\nf 4 5 6\n".format(0.5, 0.5, near[2])
+        path = self.write("near.obj", text)
+        self.assertIs(run_json("check", path)["free"], True)
+        mesh, = self.check_crossed(path, "--float")
+        self.assertEqual((mesh["through"], mesh["touching"]), (0, 2))
+
+    def test_wrong(self):
+        path = self.write("bar.obj", obj(ALONG_X))
+        for arguments, code, words in (
+                ((), 2, b"MESH"), ((path, path, "-o", "x.vtu"), 2, b"-o takes one mesh"),
+                ((path, "-o", self.path("x.obj")), 1, b".vtu"), ((self.path("none.obj"),), 1, b"none.obj"),
+                ((self.write("points.obj", "v 0 0 0\nv 1 1 1\n"),), 1, b"")):
+            done = run("check", *arguments)
+            self.assertEqual(done.returncode, code, arguments)
+            self.assertIn(words, done.stderr)
+
+    def test_collide(self):
+        first = self.write("x.msh", msh(corners(*ALONG_X), CUBE))
+        second = self.write("y.msh", msh(corners(*ALONG_Y), CUBE))
+        without = run_json("collide", first, second)
+        self.assertEqual(without["contact_count"], 0)
+        self.assertNotIn("edge_contacts", without)
+        found = run_json("collide", first, second, "--edges")
+        self.assertEqual(found["contact_count"], 0)
+        edges = found["edge_contacts"]
+        self.assertEqual(found["counters"]["edge_contacts"], len(edges))
+        self.assertGreater(len(edges), 3)
+        up = 0
+        for e in edges:
+            self.assertEqual(sorted((e["mesh_a"], e["mesh_b"])), [0, 1])
+            self.assertTrue(0.5 <= e["position"][2] <= 1)
+            if e["kind"] == "through" and e["depth"] == 0.5:
+                self.assertAlmostEqual(e["direction"][2], 1 if e["mesh_a"] == 1 else -1)
+                up += 1
+        self.assertGreater(up, 1)
+        text = run("collide", first, second, "--edges", "--limit", 1, "--no-depth").stdout
+        self.assertIn(b"\n%d edge contacts\n" % len(edges), text)
+        out = self.path("out.vtu")
+        self.assertEqual(run("collide", first, second, "--edges", "-o", out).returncode, 0)
+        self.assertIn('"edge_contacts"', open(out, encoding="ascii").read())
+        # A saved grid has the flag.
+        saved = self.path("saved.vox")
+        self.assertEqual(run("collide", first, second, "--edges", "--save", saved).returncode, 0)
+        self.assertEqual(run_json("replay", saved)["counters"]["edge_contacts"], len(edges))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,253 @@
+// vox check: whether the surface of a mesh passes through itself, and where.
+#include "body.hpp"
+#include "commands.hpp"
+#include "failure.hpp"
+#include "output_file.hpp"
+#include "report.hpp"
+
+#include <vox/vox_pairs.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+#include <numeric>
+
+namespace tool {
+
+namespace {
+
+struct Options {
+    std::vector<std::string> files;
+    bool floats = false;
+    std::uint32_t threads = 1;
+    std::uint64_t limit = 10;
+    std::string out;
+    bool json = false;
+};
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+// The surface of a mesh: its triangles, or the facets of exactly one of its tetrahedra. Vertices at the same
+// place are one, the lowest of them, as files often repeat a vertex for each triangle.
+struct CheckedSurface {
+    std::vector<double> positions;
+    std::vector<Triangle> triangles;
+};
+
+// Of each vertex the lowest one at the same place.
+std::vector<std::uint32_t> merge_vertices(const std::vector<double>& positions) {
+    const auto count = static_cast<std::uint32_t>(positions.size() / 3);
+    const auto at = [&](std::uint32_t v) {
+        const double* p = &positions[3 * std::size_t{v}];
+        return std::array{p[0], p[1], p[2]};
+    };
+    std::vector<std::uint32_t> order(count), lowest(count);
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t v, std::uint32_t w) { return at(v) < at(w); });
+    for (std::size_t i = 0; i < count; ++i)
+        lowest[order[i]] = i > 0 && at(order[i]) == at(order[i - 1]) ? lowest[order[i - 1]] : order[i];
+    return lowest;
+}
+
+CheckedSurface surface_of(const Body& body) {
+    CheckedSurface surface;
+    surface.positions = body.exact;
+    if (surface.positions.empty()) surface.positions.assign(body.positions.begin(), body.positions.end());
+    const std::vector<std::uint32_t> lowest = merge_vertices(surface.positions);
+    const vox_io_mesh_view& view = body.view;
+    for (std::uint64_t i = 0; view.tet_count == 0 && i < view.triangle_count; ++i) {
+        const std::uint32_t* v = view.triangles + 3 * i;
+        surface.triangles.push_back({lowest[v[0]], lowest[v[1]], lowest[v[2]]});
+    }
+    // Facets by their corners in ascending order; a second tetrahedron takes one away.
+    struct Facet {
+        Triangle sorted, as_given;
+        std::uint32_t opposite;
+    };
+    std::vector<Facet> facets;
+    constexpr int corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+    for (std::uint64_t t = 0; t < view.tet_count; ++t) {
+        std::uint32_t v[4];
+        for (int i = 0; i < 4; ++i) v[i] = lowest[view.tets[4 * t + static_cast<std::uint64_t>(i)]];
+        for (int i = 0; i < 4; ++i) {
+            const Triangle facet{v[corners[i][0]], v[corners[i][1]], v[corners[i][2]]};
+            facets.push_back({facet, facet, v[i]});
+            std::sort(facets.back().sorted.begin(), facets.back().sorted.end());
+        }
+    }
+    std::stable_sort(facets.begin(), facets.end(),
+                     [](const Facet& x, const Facet& y) { return x.sorted < y.sorted; });
+    for (std::size_t first = 0, end; first < facets.size(); first = end) {
+        bool is_one = true; // tetrahedron, counting doubled ones once
+        for (end = first; end < facets.size() && facets[end].sorted == facets[first].sorted; ++end)
+            is_one &= facets[end].opposite == facets[first].opposite;
+        if (is_one) surface.triangles.push_back(facets[first].as_given);
+    }
+    return surface;
+}
+
+struct SurfaceDeleter {
+    void operator()(vox_surface* surface) const noexcept { vox_surface_destroy(surface); }
+};
+
+struct Checked {
+    std::string file;
+    CheckedSurface surface;
+    std::vector<std::uint32_t> edges; // two vertices each
+    std::vector<vox_crossing> crossings;
+
+    std::size_t count(vox_crossing_kind kind) const {
+        return static_cast<std::size_t>(
+            std::count_if(crossings.begin(), crossings.end(),
+                          [kind](const vox_crossing& crossing) { return crossing.kind == kind; }));
+    }
+};
+
+Checked check_file(const std::string& file, const Options& options) {
+    Checked checked;
+    checked.file = file;
+    const Body body = load_body(file, {.keep_doubles = !options.floats});
+    checked.surface = surface_of(body);
+    if (checked.surface.triangles.empty())
+        throw Failure(file + " has no triangles and no tetrahedra to check");
+    vox_surface_desc desc = vox_default_surface_desc();
+    desc.worker_count = options.threads;
+    desc.byte_budget = 0;
+    desc.vertex_count = checked.surface.positions.size() / 3;
+    desc.face_count = checked.surface.triangles.size();
+    desc.faces = checked.surface.triangles.front().data();
+    vox_surface* created = nullptr;
+    check(vox_surface_create(&desc, &created));
+    const std::unique_ptr<vox_surface, SurfaceDeleter> surface(created);
+    vox_motion motion = vox_default_motion();
+    motion.from = checked.surface.positions.data();
+    motion.format = VOX_FORMAT_DOUBLE3;
+    check(vox_surface_move(surface.get(), &motion));
+    vox_feature_view edges{};
+    edges.struct_size = sizeof edges;
+    check(vox_surface_features(surface.get(), VOX_FEATURE_EDGE, &edges));
+    checked.edges.assign(edges.vertices, edges.vertices + 2 * edges.count);
+    vox_crossing_view view{};
+    view.struct_size = sizeof view;
+    check(vox_surface_crossings(surface.get(), &view));
+    checked.crossings.assign(view.crossings, view.crossings + view.count);
+    return checked;
+}
+
+void print_text(const Checked& checked, std::uint64_t limit) {
+    const auto number = [](std::size_t count) { return static_cast<unsigned long long>(count); };
+    std::printf("%s: %llu triangles, %llu edges: ", checked.file.c_str(),
+                number(checked.surface.triangles.size()), number(checked.edges.size() / 2));
+    if (checked.crossings.empty()) {
+        std::printf("free of self-intersection\n");
+        return;
+    }
+    std::printf("%llu edges meet triangles (%llu through, %llu touching, %llu coplanar)\n",
+                number(checked.crossings.size()), number(checked.count(VOX_CROSSING_THROUGH)),
+                number(checked.count(VOX_CROSSING_TOUCHING)), number(checked.count(VOX_CROSSING_COPLANAR)));
+    const std::size_t shown =
+        static_cast<std::size_t>(std::min<std::uint64_t>(limit, checked.crossings.size()));
+    for (std::size_t i = 0; i < shown; ++i) {
+        const vox_crossing& c = checked.crossings[i];
+        const Triangle& face = checked.surface.triangles[c.face];
+        std::printf("  edge %u %u, triangle %u %u %u, at %.9g %.9g %.9g, %s\n", checked.edges[2 * c.edge],
+                    checked.edges[2 * c.edge + 1], face[0], face[1], face[2], c.position[0], c.position[1],
+                    c.position[2], kind_name(c.kind));
+    }
+    if (shown < checked.crossings.size())
+        std::printf("  and %llu more (--limit N prints N of them, --json all of them)\n",
+                    number(checked.crossings.size() - shown));
+}
+
+Json to_json(const Checked& checked) {
+    Json list = Json::array();
+    for (const vox_crossing& c : checked.crossings) {
+        const Triangle& face = checked.surface.triangles[c.face];
+        list.push_back({{"edge", {checked.edges[2 * c.edge], checked.edges[2 * c.edge + 1]}},
+                        {"triangle", {face[0], face[1], face[2]}},
+                        {"kind", kind_name(c.kind)},
+                        {"position", point(c.position)}});
+    }
+    return {{"file", checked.file},
+            {"triangles", checked.surface.triangles.size()},
+            {"edges", checked.edges.size() / 2},
+            {"through", checked.count(VOX_CROSSING_THROUGH)},
+            {"touching", checked.count(VOX_CROSSING_TOUCHING)},
+            {"coplanar", checked.count(VOX_CROSSING_COPLANAR)},
+            {"crossings", std::move(list)}};
+}
+
+// The surface, with how many crossings each vertex (by its edges) and each triangle takes part in.
+void write_surface(const Checked& checked, const std::string& path) {
+    const std::vector<Triangle>& triangles = checked.surface.triangles;
+    std::vector<double> of_vertex(checked.surface.positions.size() / 3, 0), of_triangle(triangles.size(), 0);
+    std::map<std::array<std::uint32_t, 2>, double> of_edge;
+    for (const vox_crossing& c : checked.crossings) {
+        const std::uint32_t v = checked.edges[2 * c.edge], w = checked.edges[2 * c.edge + 1];
+        of_vertex[v] += 1;
+        of_vertex[w] += 1;
+        of_triangle[c.face] += 1;
+        of_edge[{std::min(v, w), std::max(v, w)}] += 1;
+    }
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t v = triangles[t][i], w = triangles[t][(i + 1) % 3];
+            const auto found = of_edge.find({std::min(v, w), std::max(v, w)});
+            if (found != of_edge.end()) of_triangle[t] += found->second;
+        }
+    const vox_io_mesh_view arrays{checked.surface.positions.data(), of_vertex.size(), nullptr, 0,
+                                  triangles.front().data(),         triangles.size()};
+    vox_io_mesh* made = nullptr;
+    check(vox_io_mesh_create(&arrays, &made));
+    const Mesh mesh(made);
+    const vox_io_point_data points{"crossings", of_vertex.data(), 1, 0};
+    const vox_io_point_data cells{"crossings", of_triangle.data(), 1, 0};
+    vox_io_write_desc desc;
+    check(vox_io_write_desc_init(&desc, sizeof desc));
+    desc.point_data = &points;
+    desc.point_data_count = 1;
+    desc.cell_data = &cells;
+    desc.cell_data_count = 1;
+    check(vox_io_write(mesh.get(), path.c_str(), &desc));
+}
+
+void run(const Options& options) {
+    if (!options.out.empty()) {
+        if (options.files.size() > 1) throw WrongUsage("-o takes one mesh");
+        check_output(options.out, {".vtu", ".msh"});
+    }
+    bool free = true;
+    Json meshes = Json::array();
+    for (const std::string& file : options.files) {
+        const Checked checked = check_file(file, options);
+        free &= checked.crossings.empty();
+        if (!options.out.empty()) write_surface(checked, options.out);
+        if (options.json)
+            meshes.push_back(to_json(checked));
+        else
+            print_text(checked, options.limit);
+    }
+    if (options.json) print({{"free", free}, {"meshes", std::move(meshes)}});
+    if (!free) throw Verdict{3};
+}
+
+} // namespace
+
+void add_check(CommandLine& line) {
+    const auto options = std::make_shared<Options>();
+    Command command =
+        line.add("check", "Find out whether the surface of a mesh passes through itself, and where");
+    command.option("MESH", options->files, "Mesh files, each checked by itself").required();
+    command.flag("--float", options->floats, "Round positions to float first, as most commands do");
+    command.option("--threads", options->threads, "Threads; 0: one per core").range(0, VOX_MAX_WORKERS);
+    command.option("--limit", options->limit, "Most crossings of a mesh to print as text");
+    command
+        .option("-o,--output", options->out, "Write the surface and its crossings to this file, .vtu or .msh")
+        .shown_as("FILE");
+    command.flag("--json", options->json, "Print one JSON object");
+    command.runs([options] { run(*options); });
+}
+
+} // namespace tool
