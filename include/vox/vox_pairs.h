@@ -267,7 +267,7 @@ VOX_EXPERIMENTAL vox_result vox_surface_clearance(vox_surface* surface, double m
 typedef struct vox_contact_time_desc {
     uint32_t struct_size;
     uint32_t most_iterations; /* of one pair; >= 1, default 10000. What is not finished then gives a time that is too
-                                 early, never one that is late; it is counted */
+                                 early, never one that is late */
     double distance;          /* contact is where two features come this close, >= 0; default 0 */
     /* The time is right where the features are still further apart than `distance` by at most this part of their distance
      * at time 0; above 0 and below 1, default 0.1. Less takes longer and gives greater steps. */
@@ -289,7 +289,7 @@ typedef struct vox_safe_step {
     uint32_t reserved; /* 0 */
     double step;       /* in [0, 1]: up to this time no two features touch. 1: not within the motion */
     uint64_t pairs;    /* that were examined */
-    uint64_t unfinished; /* of these, given up after most_iterations */
+    uint64_t unfinished; /* 1: the time of the pair below was given up after most_iterations; else 0 */
     vox_feature kind_a;  /* the pair with the first time of contact, where step is below 1: FACE and VERTEX, or EDGE and */
     vox_feature kind_b;  /* EDGE. Of several, the first in the order face-vertex, edge-edge, a, b */
     uint32_t a;

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/llu.hpp"
 #include "mesh/check.hpp"
+#include "surface/contacts_in_time.hpp"
 #include "surface/crossings.hpp"
 #include "surface/suggest.hpp"
 
@@ -15,7 +16,7 @@ vox_surface::vox_surface(const vox_surface_desc& desc, const MemoryShare& memory
     : share_(memory), workers_(desc.tasks, desc.worker_count), topology_(desc, &*memory),
       cell_size_(desc.cell_size),
       positions_{std::pmr::vector<Vec3d>(&*memory), std::pmr::vector<Vec3d>(&*memory)}, search_(&*memory),
-      answer_(&*memory), candidates_(&*memory), crossings_(&*memory) {}
+      answer_(&*memory), candidates_(&*memory), crossings_(&*memory), timed_(&*memory) {}
 
 void vox_surface::move(const vox_motion& motion) {
     const std::uint32_t count = topology_.vertex_count;
@@ -57,6 +58,7 @@ void vox_surface::move(const vox_motion& motion) {
     search_.forget_boxes();
     answer_.count = 0;
     crossings_.clear();
+    timed_.clear();
 }
 
 const SurfaceMotion& vox_surface::motion() const {
@@ -103,16 +105,16 @@ vox_foreign_suggestion vox_surface::suggest_cell_size(vox_feature a, vox_feature
     return suggest_for_tiles(search_.tiles(topology_, moving, a), search_.tiles(topology_, moving, b), &*share_);
 }
 
-std::span<const vox_crossing> vox_surface::crossings() {
-    constexpr std::uint32_t most_edges = 1u << 20; // at once
-    const SurfaceMotion end = at_end(0);
-    crossings_.clear();
-    const std::uint32_t all = topology_.count(VOX_FEATURE_EDGE);
-    std::uint32_t wanted = most_edges;
+// Calls visit(pairs) for the pairs of all features of kind a, piece by piece: in as few as fit into the byte budget.
+template <class Visit>
+void vox_surface::for_pieces(const SurfaceMotion& motion, vox_feature a, vox_feature b, Visit&& visit) {
+    constexpr std::uint32_t most_at_once = 1u << 20;
+    const std::uint32_t all = topology_.count(a);
+    std::uint32_t wanted = most_at_once;
     for (std::uint32_t first = 0; first < all;) {
         const std::uint32_t count = std::min(wanted, all - first);
         try {
-            find_pairs(end, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, first, count, candidates_);
+            find_pairs(motion, a, b, first, count, candidates_);
         } catch (const Error& error) {
             if (error.result() != VOX_ERROR_BUDGET || count == 1) throw;
             search_.release_buffers(); // grown for more than there is room for
@@ -120,10 +122,53 @@ std::span<const vox_crossing> vox_surface::crossings() {
             wanted = (count + 1) / 2;
             continue;
         }
-        find_crossings(topology_, end.to, candidates_, workers_, crossings_);
+        visit(candidates_);
         first += count;
     }
+}
+
+std::span<const vox_crossing> vox_surface::crossings() {
+    const SurfaceMotion end = at_end(0);
+    crossings_.clear();
+    for_pieces(end, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, [&](const FeaturePairs& pairs) {
+        find_crossings(topology_, end.to, pairs, workers_, crossings_);
+    });
     return crossings_;
+}
+
+namespace {
+
+// The motion of pairs that may come as close as the rule says.
+SurfaceMotion reaching(const SurfaceMotion& motion, double distance) {
+    SurfaceMotion wide = motion;
+    wide.radius = distance / 2 * (1 + 0x1p-50);
+    wide.cull = true;
+    return wide;
+}
+
+} // namespace
+
+vox_safe_step vox_surface::safe_step(const ContactTimeRule& rule) {
+    const SurfaceMotion reach = reaching(motion(), rule.distance);
+    vox_safe_step found{};
+    found.step = 1;
+    for (const vox_feature a : {VOX_FEATURE_FACE, VOX_FEATURE_EDGE}) {
+        const vox_feature b = a == VOX_FEATURE_FACE ? VOX_FEATURE_VERTEX : VOX_FEATURE_EDGE;
+        for_pieces(reach, a, b, [&](const FeaturePairs& pairs) {
+            found.pairs += pairs.offsets[pairs.count];
+            first_contact(topology_, reach, a, b, pairs, rule, workers_, found);
+        });
+    }
+    return found;
+}
+
+std::span<const vox_timed_pair> vox_surface::contact_times(vox_feature a, vox_feature b, const ContactTimeRule& rule) {
+    const SurfaceMotion reach = reaching(motion(), rule.distance);
+    timed_.clear();
+    for_pieces(reach, a, b, [&](const FeaturePairs& pairs) {
+        all_contacts(topology_, reach, a, b, pairs, rule, workers_, timed_);
+    });
+    return timed_;
 }
 
 vox_surface_counters vox_surface::counters() const {

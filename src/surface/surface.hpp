@@ -4,6 +4,7 @@
 
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
+#include "surface/contact_time.hpp"
 #include "surface/motion.hpp"
 #include "surface/pairs.hpp"
 #include "surface/topology.hpp"
@@ -44,12 +45,19 @@ public:
 
     // Throws as vox_surface_suggest_cell_size.
     vox_foreign_suggestion suggest_cell_size(vox_feature a, vox_feature b);
+    // The least time of contact of faces and vertices, and of edges. Throws as vox_surface_safe_step.
+    vox_safe_step safe_step(const vox::ContactTimeRule& rule);
+    // Of two kinds; lives until the next call or move().
+    std::span<const vox_timed_pair> contact_times(vox_feature a, vox_feature b, const vox::ContactTimeRule& rule);
     // Of the end of the motion. Lives until the next call or move().
     std::span<const vox_crossing> crossings();
 
     vox_surface_counters counters() const;
 
 private:
+    template <class Visit>
+    void for_pieces(const vox::SurfaceMotion& motion, vox_feature a, vox_feature b, Visit&& visit);
+
     vox::MemoryShare share_; // first, as all else is released to it
     vox::Workers workers_;
     vox::SurfaceTopology topology_;
@@ -61,4 +69,5 @@ private:
     vox::FeaturePairs answer_;
     vox::FeaturePairs candidates_; // for the crossings, a range at a time
     std::pmr::vector<vox_crossing> crossings_;
+    std::pmr::vector<vox_timed_pair> timed_;
 };

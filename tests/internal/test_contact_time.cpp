@@ -1,0 +1,353 @@
+// Times of contact that are known exactly, or checked by samples: never late, and not too early.
+#include "surface/contact_time.hpp"
+#include "base/vectors.hpp"
+#include "exact/closest_point.hpp"
+#include "internal/random.hpp"
+
+#include <vox/vox_pairs.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "support/suite.h" // last: it defines macros with common names
+
+using namespace vox;
+
+namespace {
+
+constexpr std::uint32_t numbers[4] = {0, 1, 2, 3};
+
+// Four corners: a face and a vertex, or two edges.
+struct Query {
+    Vec3d from[4], to[4];
+    bool edges = false;
+
+    std::span<const std::uint32_t> a() const { return std::span(numbers).first(edges ? 2 : 3); }
+    std::span<const std::uint32_t> b() const { return std::span(numbers).subspan(edges ? 2 : 3); }
+    SurfaceMotion motion() const { return {from, to, 0, true, false}; }
+    Vec3d at(int corner, double time) const { return from[corner] + time * (to[corner] - from[corner]); }
+};
+
+ContactTimeRule rule_of(double distance = 0, double slack = 0.1) { return {distance, slack, 10000}; }
+
+ContactTime answer(const Query& q, const ContactTimeRule& rule = rule_of(), double latest = 1) {
+    return contact_time(q.motion(), q.a(), q.b(), rule, latest);
+}
+
+double from_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
+    return std::sqrt(closest_on_triangle(p, a, b, b).squared_distance);
+}
+
+// The distance at a time, by another way than the library's.
+double distance_at(const Query& q, double time) {
+    Vec3d p[4];
+    for (int i = 0; i < 4; ++i) p[i] = q.at(i, time);
+    if (!q.edges) return std::sqrt(closest_on_triangle(p[3], p[0], p[1], p[2]).squared_distance);
+    double least = std::min({from_segment(p[0], p[2], p[3]), from_segment(p[1], p[2], p[3]),
+                             from_segment(p[2], p[0], p[1]), from_segment(p[3], p[0], p[1])});
+    // Between their insides: the distance of the two lines, where the feet are inside.
+    const Vec3d u = p[1] - p[0], v = p[3] - p[2], w = p[0] - p[2], n = cross(u, v);
+    const double nn = dot(n, n);
+    if (nn > 1e-18 * dot(u, u) * dot(v, v)) {
+        const double s = dot(cross(v, w), n) / nn, t = dot(cross(u, w), n) / nn;
+        if (s >= 0 && s <= 1 && t >= 0 && t <= 1) least = std::min(least, std::abs(dot(w, n)) / std::sqrt(nn));
+    }
+    return least;
+}
+
+double whole(test::Random& random, int most) { return double(random.below(std::uint32_t(2 * most + 1))) - most; }
+Vec3d whole_vector(test::Random& random, int most) {
+    return {whole(random, most), whole(random, most), whole(random, most)};
+}
+
+// Features that have a point in common at time `touch`, a multiple of 1/64, with numbers that doubles hold exactly.
+Query touching_query(test::Random& random, double touch) {
+    Query q;
+    q.edges = random.below(2) == 0;
+    Vec3d at[4], way[4];
+    const bool flat = random.below(4) == 0; // degenerate now and then
+    for (int i = 0; i < 4; ++i) {
+        at[i] = 8 * whole_vector(random, flat ? 1 : 6);
+        way[i] = random.below(5) == 0 ? Vec3d{0, 0, 0} : 8 * whole_vector(random, 8);
+    }
+    const double s = random.below(9) / 8.0, t = random.below(9) / 8.0;
+    if (q.edges)
+        at[3] = 8.0 * whole_vector(random, 6), at[2] = at[0] + s * (at[1] - at[0]), at[2] = at[2] - t * (at[3] - at[2]);
+    else
+        at[3] = at[0] + s * (1 - t) * (at[1] - at[0]) + s * t * (at[2] - at[0]);
+    if (q.edges) { // the point is at t of the second edge: solve for its first corner, or let it be that corner
+        const Vec3d point = at[0] + s * (at[1] - at[0]);
+        at[2] = point;
+        if (random.below(2)) { // inside it
+            const Vec3d half = whole_vector(random, 6);
+            at[2] = point - half;
+            at[3] = point + half;
+        }
+    }
+    for (int i = 0; i < 4; ++i) {
+        q.from[i] = at[i] - touch * way[i];
+        q.to[i] = at[i] + (1 - touch) * way[i];
+    }
+    return q;
+}
+
+std::uint64_t queries_wanted() {
+    const char* wanted = std::getenv("VOX_CONTACT_TIME_QUERIES");
+    return wanted ? std::strtoull(wanted, nullptr, 10) : 30000;
+}
+
+START_TEST(never_later_than_a_time_that_is_known) {
+    test::Random random{1};
+    std::uint64_t close = 0, late_touch = 0;
+    for (std::uint64_t n = 0; n < queries_wanted(); ++n) {
+        const double touch = random.below(65) / 64.0;
+        const Query q = touching_query(random, touch);
+        const ContactTime found = answer(q);
+        ck_assert_msg(found.touches, "query %llu: a touch at %g is not seen", (unsigned long long)n, touch);
+        ck_assert_msg(found.time <= touch, "query %llu: %.17g is later than %.17g", (unsigned long long)n, found.time, touch);
+        ck_assert(found.finished);
+        // Not too early: what was left of the distance is at most the slack, but for rounding.
+        const double start = distance_at(q, 0), left = distance_at(q, found.time);
+        if (start > 1e-6) ck_assert_msg(left <= 0.11 * start, "query %llu: %g of %g left", (unsigned long long)n, left, start);
+        close += found.time > 0.8 * touch;
+        late_touch += touch > 0.5 && found.time > 0;
+    }
+    ck_assert_uint_gt(close, queries_wanted() / 10);
+    ck_assert_uint_gt(late_touch, queries_wanted() / 10);
+}
+END_TEST
+
+// At no time before the answer are the features within the distance; far from the origin, and with common motion, too.
+START_TEST(apart_until_then) {
+    test::Random random{2};
+    std::uint64_t touching = 0, apart = 0;
+    for (std::uint64_t n = 0; n < queries_wanted(); ++n) {
+        Query q;
+        q.edges = random.below(2) == 0;
+        const double away = random.below(3) == 0 ? 1e6 : 0, common = random.below(3) == 0 ? 1e3 : 0;
+        for (int i = 0; i < 4; ++i) {
+            q.from[i] = {random.unit() + away, random.unit() - away, random.unit()};
+            const double far = random.below(4) == 0 ? 5 : 1;
+            q.to[i] = q.from[i] + Vec3d{far * (random.unit() - .5) + common, far * (random.unit() - .5), far * (random.unit() - .5)};
+        }
+        const double distance = random.below(2) == 0 ? 0 : random.unit() / 5;
+        const ContactTimeRule rule = rule_of(distance, random.below(2) == 0 ? 0.1 : 0.01);
+        const ContactTime found = answer(q, rule);
+        const double rounding = 1e-9 * (1 + away / 1e3);
+        for (int k = 0; k < 64; ++k) {
+            const double t = k / 64.0;
+            if (t < found.time)
+                ck_assert_msg(distance_at(q, t) > distance - rounding, "query %llu: %g at %g, before %g", (unsigned long long)n,
+                              distance_at(q, t), t, found.time);
+        }
+        const double start = distance_at(q, 0) - distance, left = distance_at(q, found.time) - distance;
+        if (found.touches && start > 1e-3) ck_assert(left <= rule.slack * start * 1.01 + rounding);
+        (found.touches ? touching : apart) += 1;
+        // A time that is looked for no further is the same, or above what it is compared with.
+        const double latest = random.unit();
+        const ContactTime pruned = answer(q, rule, latest);
+        ck_assert(found.touches && found.time <= latest ? pruned.touches && pruned.time == found.time
+                                                        : !pruned.touches || pruned.time > latest);
+    }
+    ck_assert_uint_gt(touching, queries_wanted() / 10);
+    ck_assert_uint_gt(apart, queries_wanted() / 10);
+}
+END_TEST
+
+START_TEST(plain_cases) {
+    Query q{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.2, .2, 1}}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.2, .2, -1}}, false};
+    ContactTime found = answer(q);
+    ck_assert(found.touches && found.time <= 0.5 && found.time > 0.44);
+    found = answer(q, rule_of(0.5)); // from 1 to 0.5 at a quarter
+    ck_assert(found.touches && found.time <= 0.25 && found.time > 0.22);
+    found = answer(q, rule_of(0, 1e-6));
+    ck_assert(found.time <= 0.5 && found.time > 0.499999);
+    q.to[3] = q.from[3]; // standing still
+    ck_assert(!answer(q).touches && answer(q).time == 1);
+    for (int i = 0; i < 4; ++i) q.to[i] = q.from[i] + Vec3d{1e6, -3e5, 0.1}; // moving together
+    ck_assert(!answer(q).touches);
+    q = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.2, .2, 0}}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.2, .2, 1}}, false};
+    found = answer(q); // touching at the beginning
+    ck_assert(found.touches && found.time == 0);
+    q = {{{0, 0, 0}, {1, 0, 0}, {.5, -1, 1}, {.5, 1, 1}}, {{0, 0, 0}, {1, 0, 0}, {.5, -1, -1}, {.5, 1, -1}}, true};
+    found = answer(q);
+    ck_assert(found.touches && found.time <= 0.5 && found.time > 0.44);
+    q = {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {1, 0, 0}}, true}; // along one line
+    found = answer(q);
+    ck_assert(found.touches && found.time <= 0.5 && found.time > 0.44);
+    const ContactTime given_up = contact_time(q.motion(), q.a(), q.b(), {0, 1e-9, 1}, 1);
+    ck_assert(given_up.touches && !given_up.finished && given_up.time <= 0.5);
+}
+END_TEST
+
+// ---- through vox_pairs.h ----------------------------------------------------------------------------
+
+constexpr int side = 12;
+
+// Two sheets, one of which falls onto the other.
+struct Sheets {
+    std::vector<double> from, to;
+    std::vector<std::uint32_t> faces;
+
+    explicit Sheets(std::uint64_t seed, double fall) {
+        test::Random random{seed};
+        for (std::uint32_t sheet = 0; sheet < 2; ++sheet)
+            for (int i = 0; i < side * side; ++i)
+                from.insert(from.end(), {i % side + .3 * random.unit(), i / side + .3 * random.unit(),
+                                         sheet + .4 * random.unit()});
+        to = from;
+        for (std::size_t i = 3 * side * side + 2; i < to.size(); i += 3) to[i] -= fall;
+        for (std::uint32_t sheet = 0; sheet < 2; ++sheet)
+            for (std::uint32_t i = 0; i + side + 1 < side * side; ++i) {
+                const std::uint32_t v = sheet * side * side + i;
+                if (i % side + 1 < side) faces.insert(faces.end(), {v, v + 1, v + side, v + side, v + 1, v + side + 1});
+            }
+    }
+    std::uint64_t vertices() const { return from.size() / 3; }
+};
+
+vox_surface* surface_of(const Sheets& s, std::uint32_t workers) {
+    vox_surface_desc desc = vox_default_surface_desc();
+    desc.worker_count = workers;
+    desc.vertex_count = s.vertices();
+    desc.faces = s.faces.data();
+    desc.face_count = s.faces.size() / 3;
+    vox_surface* surface = nullptr;
+    ck_ok(vox_surface_create(&desc, &surface));
+    return surface;
+}
+
+void move(vox_surface* surface, const Sheets& s) {
+    vox_motion motion = vox_default_motion();
+    motion.from = s.from.data();
+    motion.to = s.to.data();
+    motion.vertex_count = s.vertices();
+    motion.format = VOX_FORMAT_DOUBLE3;
+    ck_ok(vox_surface_move(surface, &motion));
+}
+
+Vec3d point(const std::vector<double>& at, std::uint32_t v) { return {at[3 * v], at[3 * v + 1], at[3 * v + 2]}; }
+
+START_TEST(a_safe_step_is_the_least_time_of_all_pairs) {
+    std::uint64_t culled = 0;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+        const Sheets s(seed, seed == 6 ? .1 : .5 + double(seed) / 2);
+        std::vector<vox_timed_pair> first_times[2];
+        vox_safe_step first_step{};
+        for (const std::uint32_t workers : {1u, 3u}) {
+            vox_surface* const surface = surface_of(s, workers);
+            move(surface, s);
+            vox_safe_step step{};
+            step.struct_size = sizeof step;
+            ck_ok(vox_surface_safe_step(surface, nullptr, &step));
+            double least = 1;
+            vox_feature_view features[3]{};
+            for (int kind = 1; kind < 3; ++kind) {
+                features[kind].struct_size = sizeof features[kind];
+                ck_ok(vox_surface_features(surface, vox_feature(kind), &features[kind]));
+            }
+            for (int k = 0; k < 2; ++k) {
+                const vox_feature a = k ? VOX_FEATURE_EDGE : VOX_FEATURE_FACE, b = k ? VOX_FEATURE_EDGE : VOX_FEATURE_VERTEX;
+                vox_timed_view view{};
+                view.struct_size = sizeof view;
+                ck_ok(vox_surface_contact_times(surface, a, b, nullptr, &view));
+                const std::vector<vox_timed_pair> times(view.pairs, view.pairs + view.count);
+                for (const vox_timed_pair& pair : times) least = std::min(least, pair.time);
+                if (workers == 1) {
+                    first_times[k] = times;
+                } else {
+                    ck_assert_uint_eq(times.size(), first_times[k].size());
+                    ck_assert(times.empty() ||
+                              std::memcmp(times.data(), first_times[k].data(), times.size() * sizeof times[0]) == 0);
+                }
+                // By definition: all pairs without a vertex in common.
+                std::vector<vox_timed_pair> expected;
+                for (std::uint32_t i = 0; i < features[a].count && workers == 1; ++i)
+                    for (std::uint32_t j = k ? i + 1 : 0; j < (k ? features[1].count : s.vertices()); ++j) {
+                        const std::uint32_t* p = features[a].vertices + (k ? 2 : 3) * i;
+                        const std::uint32_t* q = k ? features[1].vertices + 2 * j : &j;
+                        Query query;
+                        query.edges = k;
+                        std::uint32_t corners[4];
+                        for (int c = 0; c < 4; ++c) corners[c] = c < (k ? 2 : 3) ? p[c] : q[c - (k ? 2 : 3)];
+                        bool shares = false;
+                        for (int c = 0; c < 4; ++c) {
+                            for (int d = c + 1; d < 4; ++d) shares |= corners[c] == corners[d];
+                            query.from[c] = point(s.from, corners[c]);
+                            query.to[c] = point(s.to, corners[c]);
+                        }
+                        if (shares) continue;
+                        const ContactTime found = answer(query);
+                        if (!found.touches) continue;
+                        double nearest = 1;
+                        for (int t = 0; t <= 64; ++t) nearest = std::min(nearest, distance_at(query, t / 64.));
+                        const bool is_there = std::any_of(times.begin(), times.end(), [&](const vox_timed_pair& pair) {
+                            return pair.a == i && pair.b == j;
+                        });
+                        ck_assert(is_there || nearest > 1e-6);
+                        expected.push_back({i, j, found.time});
+                    }
+                std::size_t next = 0; // of times; those that are not there were culled
+                for (const vox_timed_pair& pair : expected)
+                    if (next < times.size() && times[next].a == pair.a && times[next].b == pair.b)
+                        ck_assert(times[next++].time == pair.time);
+                    else
+                        ++culled;
+                if (workers == 1) ck_assert_uint_eq(next, times.size());
+            }
+            ck_assert(step.step == least);
+            ck_assert((seed == 6) == (least == 1));
+            if (workers == 1)
+                first_step = step;
+            else
+                ck_assert(std::memcmp(&step, &first_step, sizeof step) == 0);
+            vox_surface_destroy(surface);
+        }
+    }
+    ck_assert_uint_gt(culled, 0);
+}
+END_TEST
+
+START_TEST(what_is_refused) {
+    const Sheets s(1, 1);
+    vox_surface* const surface = surface_of(s, 1);
+    vox_safe_step step{};
+    step.struct_size = sizeof step;
+    step.step = 7;
+    ck_fails(vox_surface_safe_step(surface, nullptr, &step), VOX_ERROR_INVALID_STATE, "no positions");
+    move(surface, s);
+    vox_contact_time_desc desc = vox_default_contact_time_desc();
+    desc.most_iterations = 0;
+    ck_fails(vox_surface_safe_step(surface, &desc, &step), VOX_ERROR_INVALID_ARGUMENT, "most_iterations");
+    for (const double bad : {-1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
+        desc = vox_default_contact_time_desc();
+        desc.distance = bad;
+        ck_fails(vox_surface_safe_step(surface, &desc, &step), VOX_ERROR_INVALID_ARGUMENT, "distance");
+    }
+    for (const double bad : {0.0, 1.0, -1.0, std::nan("")}) {
+        desc = vox_default_contact_time_desc();
+        desc.slack = bad;
+        ck_fails(vox_surface_safe_step(surface, &desc, &step), VOX_ERROR_INVALID_ARGUMENT, "slack");
+    }
+    vox_timed_view view{};
+    view.struct_size = sizeof view;
+    ck_fails(vox_surface_contact_times(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_FACE, nullptr, &view), VOX_ERROR_INVALID_ARGUMENT,
+             "VOX_FEATURE_FACE and VOX_FEATURE_VERTEX");
+    ck_assert(step.step == 7);
+    vox_surface_destroy(surface);
+}
+END_TEST
+
+} // namespace
+
+int main() {
+    Suite* suite = suite_create("contact_time");
+    TCase* tests = add_case(suite, "contact_time");
+    tcase_add_each(tests, plain_cases, never_later_than_a_time_that_is_known, apart_until_then,
+                   a_safe_step_is_the_least_time_of_all_pairs, what_is_refused);
+    return run_suite(suite);
+}
