@@ -122,6 +122,7 @@ Checked check_file(const std::string& file, const Options& options) {
     check(vox_surface_create(&desc, &created));
     const std::unique_ptr<vox_surface, SurfaceDeleter> surface(created);
     vox_motion motion = vox_default_motion();
+    motion.vertex_count = desc.vertex_count;
     motion.from = checked.surface.positions.data();
     motion.format = VOX_FORMAT_DOUBLE3;
     check(vox_surface_move(surface.get(), &motion));

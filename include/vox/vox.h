@@ -1455,9 +1455,9 @@ typedef struct vox_counters {
 /* Writes the fields that out_counters->struct_size covers (set it first). */
 VOX_API vox_result vox_grid_counters(const vox_grid* grid, vox_counters* out_counters);
 
-/* Nanoseconds of the last successful step, in total and by stage. Fields from stream_ns on are the stages of the fast
+/* Nanoseconds of the last successful step, in total and by stage. stream_ns to decide_ns are the stages of the fast
  * engine, and bin_ns, broad_ns and narrow_ns are sums of them. The reference engine has just those three stages, and
- * leaves the fields from stream_ns on 0. */
+ * leaves stream_ns to decide_ns 0. */
 typedef struct vox_profile {
     uint32_t struct_size;
     uint32_t reserved;

@@ -46,9 +46,10 @@ vox_surface* surface_of(const vox_surface_desc& desc) {
     return surface;
 }
 
-void move(vox_surface* surface, const void* from, const void* to = nullptr,
+void move(vox_surface* surface, const TestSurface& of, const void* from, const void* to = nullptr,
           vox_format format = VOX_FORMAT_DOUBLE3) {
     vox_motion motion = vox_default_motion();
+    motion.vertex_count = of.vertex_count();
     motion.from = from;
     motion.to = to;
     motion.format = format;
@@ -151,7 +152,7 @@ START_TEST(random_surfaces_equal_brute_force) {
         for (int step = 0; step < 2; ++step) {
             std::vector<double> from = s.positions;
             for (double& x : from) x += random_symmetric(&random);
-            move(surface, from.data(), s.positions.data()); // the end of the motion is what counts
+            move(surface, s, from.data(), s.positions.data()); // the end of the motion is what counts
             const std::vector<vox_crossing> found = crossings_of(surface);
             check_equal(found, brute_force(s, edges));
             check_equal(crossings_of(surface), found);
@@ -162,7 +163,7 @@ START_TEST(random_surfaces_equal_brute_force) {
         // Floats give what their doubles give.
         std::vector<float> floats(s.positions.begin(), s.positions.end());
         s.positions.assign(floats.begin(), floats.end());
-        move(surface, floats.data(), nullptr, VOX_FORMAT_FLOAT3);
+        move(surface, s, floats.data(), nullptr, VOX_FORMAT_FLOAT3);
         check_equal(crossings_of(surface), brute_force(s, edges));
         vox_surface_destroy(surface);
     }
@@ -175,7 +176,7 @@ START_TEST(crossed_bars) {
     add_bar(s, -4, 4, -1, 1, -1, 1);
     add_bar(s, -1, 1, -4, 4, 0.5, 2.5);
     vox_surface* surface = surface_of(desc_of(s));
-    move(surface, s.positions.data());
+    move(surface, s, s.positions.data());
     std::vector<vox_crossing> found = crossings_of(surface);
     ck_assert_uint_gt(found.size(), 0);
     for (const vox_crossing& c : found) {
@@ -186,11 +187,11 @@ START_TEST(crossed_bars) {
     }
     // One bar alone is free of intersections; so are the two when they are apart.
     for (std::size_t v = 8; v < 16; ++v) s.positions[3 * v + 2] += 0.6;
-    move(surface, s.positions.data());
+    move(surface, s, s.positions.data());
     ck_assert_uint_eq(crossings_of(surface).size(), 0);
     // The lower one's top face and the upper one's bottom face in one plane.
     for (std::size_t v = 8; v < 16; ++v) s.positions[3 * v + 2] -= 0.1;
-    move(surface, s.positions.data());
+    move(surface, s, s.positions.data());
     found = crossings_of(surface);
     ck_assert_uint_gt(found.size(), 0);
     for (const vox_crossing& c : found) ck_assert_int_ne(c.kind, VOX_CROSSING_THROUGH);
@@ -212,7 +213,7 @@ START_TEST(arguments) {
     ck_fails(vox_surface_crossings(surface, &view), VOX_ERROR_INVALID_ARGUMENT, "struct_size");
     ck_assert_uint_eq(view.count, 77);
     // No more is written than the size covers.
-    move(surface, s.positions.data());
+    move(surface, s, s.positions.data());
     view.struct_size = offsetof(vox_crossing_view, crossings);
     view.crossings = reinterpret_cast<const vox_crossing*>(&view);
     ck_ok(vox_surface_crossings(surface, &view));
@@ -224,7 +225,7 @@ START_TEST(arguments) {
     TestSurface none;
     none.positions = {0, 0, 0, 1, 1, 1};
     surface = surface_of(desc_of(none));
-    move(surface, none.positions.data());
+    move(surface, none, none.positions.data());
     ck_assert_uint_eq(crossings_of(surface).size(), 0);
     vox_surface_destroy(surface);
 }
@@ -245,7 +246,7 @@ START_TEST(budgets) {
     s.edges.insert(s.edges.end(), {5 * n, 5 * n + 1});
     vox_surface_desc desc = desc_of(s);
     vox_surface* surface = surface_of(desc);
-    move(surface, s.positions.data());
+    move(surface, s, s.positions.data());
     const std::vector<vox_crossing> expected = crossings_of(surface);
     ck_assert_uint_eq(expected.size(), n);
     vox_surface_counters counters{};
@@ -258,6 +259,7 @@ START_TEST(budgets) {
         desc.byte_budget = most * static_cast<std::uint64_t>(share) / 20;
         vox_motion motion = vox_default_motion();
         motion.from = s.positions.data();
+        motion.vertex_count = s.vertex_count();
         motion.format = VOX_FORMAT_DOUBLE3;
         surface = nullptr;
         if (vox_surface_create(&desc, &surface) != VOX_OK) continue;

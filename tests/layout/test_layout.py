@@ -15,6 +15,7 @@ LEVELS = [
     ["reference", "fast", "depth"],
     ["query"],
     ["cell_size"],
+    ["surface"],
     ["grid"],
     ["api"],
 ]

@@ -9,7 +9,7 @@ from vox import Files, run, run_json
 
 FACES = [(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4), (2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6), (1, 3, 5),
          (3, 7, 5)]
-CUBE = [(1, 2, 4, 7), (0, 1, 2, 4), (3, 2, 1, 7), (5, 4, 7, 1), (6, 7, 4, 2)]  # five tetrahedra
+CUBE = [(2, 3, 5, 8), (1, 2, 3, 5), (4, 3, 2, 8), (6, 5, 8, 2), (7, 8, 5, 3)]  # five tetrahedra, counted from 1
 
 
 def corners(low, high):
@@ -135,7 +135,8 @@ class Edges(Files):
         self.assertIn(b"\n%d edge contacts\n" % len(edges), text)
         out = self.path("out.vtu")
         self.assertEqual(run("collide", first, second, "--edges", "-o", out).returncode, 0)
-        self.assertIn('"edge_contacts"', open(out, encoding="ascii").read())
+        with open(out, encoding="ascii") as file:
+            self.assertIn('"edge_contacts"', file.read())
         # A saved grid has the flag.
         saved = self.path("saved.vox")
         self.assertEqual(run("collide", first, second, "--edges", "--save", saved).returncode, 0)
