@@ -625,14 +625,14 @@ export interface Counters {
   edgeContacts: number;
   /** part of `edge_contacts` carried over from the step before */
   carriedEdgeContacts: number;
-  /** edges and faces whose boxes overlap: they were decided exactly */
+  /** edges and faces whose boxes overlap */
   edgeCandidates: number;
 }
 
 /**
- * Nanoseconds of the last successful step, in total and by stage. Fields from stream_ns on are the stages of the fast
+ * Nanoseconds of the last successful step, in total and by stage. stream_ns to decide_ns are the stages of the fast
  * engine, and bin_ns, broad_ns and narrow_ns are sums of them. The reference engine has just those three stages, and
- * leaves the fields from stream_ns on 0.
+ * leaves stream_ns to decide_ns 0.
  */
 export interface Profile {
   stepNs: number;

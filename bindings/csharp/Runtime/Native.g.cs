@@ -1224,11 +1224,12 @@ namespace Voxtet
         public ulong edge_contacts;
         /// <summary>part of `edge_contacts` carried over from the step before</summary>
         public ulong carried_edge_contacts;
-        /// <summary>edges and faces whose boxes overlap: they were decided exactly</summary>
+        /// <summary>edges and faces whose boxes overlap</summary>
         public ulong edge_candidates;
     }
 
-    /// <summary>Nanoseconds of the last successful step, in total and by stage.</summary>
+    /// <summary>Nanoseconds of the last successful step, in total and by stage. stream_ns to decide_ns are the stages
+    /// of the fast engine, and bin_ns, broad_ns and narrow_ns are sums of them.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 120)]
     public struct Profile
     {

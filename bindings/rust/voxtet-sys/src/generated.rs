@@ -1159,13 +1159,13 @@ pub struct vox_counters {
     pub edge_contacts: u64,
     /// part of `edge_contacts` carried over from the step before
     pub carried_edge_contacts: u64,
-    /// edges and faces whose boxes overlap: they were decided exactly
+    /// edges and faces whose boxes overlap
     pub edge_candidates: u64,
 }
 
-/// Nanoseconds of the last successful step, in total and by stage. Fields from stream_ns on are the stages of the fast
+/// Nanoseconds of the last successful step, in total and by stage. stream_ns to decide_ns are the stages of the fast
 /// engine, and bin_ns, broad_ns and narrow_ns are sums of them. The reference engine has just those three stages, and
-/// leaves the fields from stream_ns on 0.
+/// leaves stream_ns to decide_ns 0.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_profile {
