@@ -1902,7 +1902,7 @@ namespace Voxtet
         public double step;
         /// <summary>that were examined</summary>
         public ulong pairs;
-        /// <summary>of these, given up after most_iterations</summary>
+        /// <summary>1: the time of the pair below was given up after most_iterations; else 0</summary>
         public ulong unfinished;
         /// <summary>the pair with the first time of contact, where step is below 1: FACE and VERTEX, or EDGE
         /// and</summary>

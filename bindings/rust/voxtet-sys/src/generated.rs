@@ -1827,7 +1827,7 @@ pub struct vox_close_view {
 pub struct vox_contact_time_desc {
     pub struct_size: u32,
     /// of one pair; >= 1, default 10000. What is not finished then gives a time that is too early, never one that is
-    /// late; it is counted
+    /// late
     pub most_iterations: u32,
     /// contact is where two features come this close, >= 0; default 0
     pub distance: f64,
@@ -1847,7 +1847,7 @@ pub struct vox_safe_step {
     pub step: f64,
     /// that were examined
     pub pairs: u64,
-    /// of these, given up after most_iterations
+    /// 1: the time of the pair below was given up after most_iterations; else 0
     pub unfinished: u64,
     /// the pair with the first time of contact, where step is below 1: FACE and VERTEX, or EDGE and
     pub kind_a: vox_feature,
