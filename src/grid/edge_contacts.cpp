@@ -23,6 +23,7 @@ namespace vox {
 namespace {
 
 constexpr std::uint32_t group_size = 32; // tiles whose common box is tested first
+constexpr std::uint32_t few_boxes = 20;  // are compared sooner one by one
 
 // How much work is worth a task of its own.
 constexpr std::size_t task_tiles = 128;  // whose boxes are made: 40 vertices each
@@ -230,8 +231,12 @@ void EdgeContacts::make_tile_boxes(const EdgeScene& scene) {
         if (tile.block_count == 0) return false; // not known
         const std::uint32_t* blocks = surface.features->blocks.data() + tile.first_block;
         const std::uint8_t* sides = block_sides_.data() + surface.first_block;
+        constexpr std::uint32_t at_once = 4; // between branches
         unsigned common = all_sides;
-        for (std::uint32_t i = 0; i < tile.block_count && common; ++i) common &= sides[blocks[i]];
+        std::uint32_t i = 0;
+        for (; i + at_once <= tile.block_count && common; i += at_once)
+            for (std::uint32_t j = 0; j < at_once; ++j) common &= sides[blocks[i + j]];
+        for (; i < tile.block_count && common; ++i) common &= sides[blocks[i]];
         return common != 0;
     };
     scene.workers->for_ranges(
@@ -253,7 +258,8 @@ void EdgeContacts::make_tile_boxes(const EdgeScene& scene) {
     for (const TilePiece& piece : pieces_) {
         StepSurface& surface = step_surfaces_[piece.body];
         for (std::uint32_t t = piece.first; t < piece.last; ++t)
-            add(surface.box, tile_boxes_[surface.first_tile + t]);
+            if (const Box& box = tile_boxes_[surface.first_tile + t]; box.lo[0] <= box.hi[0])
+                add(surface.box, box);
     }
 }
 
@@ -412,7 +418,12 @@ void EdgeContacts::test(const EdgeScene& scene, LoadedTile& edges, LoadedTile& f
             edges.edges.data() + first, std::min(fast::most_boxes, edges.tile->edge_count - first), common);
         for (; left; left &= left - 1) {
             const std::size_t edge = first + static_cast<std::size_t>(std::countr_zero(left));
-            std::uint64_t hit = fast::find_overlaps(boxes.data(), count, edges.edges[edge]);
+            std::uint64_t hit = 0;
+            if (count <= few_boxes)
+                for (std::uint32_t i = 0; i < count; ++i)
+                    hit |= std::uint64_t{overlap(boxes[i], edges.edges[edge])} << i;
+            else
+                hit = fast::find_overlaps(boxes.data(), count, edges.edges[edge]);
             if (!hit) continue;
             worker.candidates += static_cast<std::uint64_t>(std::popcount(hit));
             make_points(scene, edges);
