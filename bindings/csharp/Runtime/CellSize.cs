@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.ExceptionServices;
 using System.Runtime.InteropServices;
 
 namespace Voxtet
@@ -91,7 +92,7 @@ namespace Voxtet
         sealed class Caller
         {
             internal Func<double, double> Cost;
-            internal Exception Error;
+            internal ExceptionDispatchInfo Error;
         }
 
         static readonly CostFunction call = Call; // never collected
@@ -107,7 +108,7 @@ namespace Voxtet
             }
             catch (Exception error) // goes on in Calling
             {
-                caller.Error = error;
+                caller.Error = ExceptionDispatchInfo.Capture(error); // with its stack trace
                 return double.NaN;
             }
         }
@@ -122,7 +123,7 @@ namespace Voxtet
             try
             {
                 Result result = use(Marshal.GetFunctionPointerForDelegate(call), GCHandle.ToIntPtr(user));
-                if (caller.Error != null) throw caller.Error;
+                if (caller.Error != null) caller.Error.Throw();
                 VoxException.Check(result);
             }
             finally

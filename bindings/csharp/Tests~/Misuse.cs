@@ -230,6 +230,8 @@ namespace Voxtet.Tests
             grid.Dispose();
         }
 
+        static double ThrowingCost(double cellSize) { throw new FormatException("of a cost"); }
+
         public static void CellSizes()
         {
             float[] positions;
@@ -245,6 +247,14 @@ namespace Voxtet.Tests
             Test.That(Math.Abs(least.cell_size - 2) < 1e-3, "least at " + least.cell_size);
             Test.Throws<FormatException>(() => CellSize.Minimise(x => { throw new FormatException("of a cost"); }, 0.1, 10),
                                          "of a cost");
+            try
+            {
+                CellSize.Minimise(ThrowingCost, 0.1, 10);
+            }
+            catch (FormatException error)
+            {
+                Test.That(error.StackTrace.Contains("ThrowingCost"), "where it was thrown: " + error.StackTrace);
+            }
             Test.Throws<VoxArgumentException>(() => CellSize.Minimise(x => x, 2, 1), "");
             Test.Same(CellSize.ZoneDistance(3, 1, 3, 9), 0.0, "distance");
             CostWeights weights = CellSize.Weights;
