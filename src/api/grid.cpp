@@ -34,7 +34,7 @@ const char* vox_build_info(void) {
     // clang-format off
     return "vox " VOX_STRING(VOX_VERSION_MAJOR) "." VOX_STRING(VOX_VERSION_MINOR) "." VOX_STRING(VOX_VERSION_PATCH)
 #if defined(__clang__)
-        ", clang " __clang_version__
+        ", clang " VOX_STRING(__clang_major__) "." VOX_STRING(__clang_minor__) "." VOX_STRING(__clang_patchlevel__)
 #elif defined(__GNUC__)
         ", gcc " __VERSION__
 #elif defined(_MSC_VER)

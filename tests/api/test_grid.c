@@ -16,6 +16,7 @@ START_TEST(version) {
     ck_assert_str_eq(vox_version_string(), text);
     ck_assert_uint_eq(vox_abi_version(), VOX_ABI_VERSION);
     ck_assert_ptr_nonnull(strstr(vox_build_info(), text));
+    ck_assert_ptr_null(strstr(vox_build_info(), " ,"));
 }
 END_TEST
 
