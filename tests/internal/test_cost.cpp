@@ -575,8 +575,7 @@ END_TEST
 
 int main() {
     Suite* suite = suite_create("cost");
-    TCase* tests = tcase_create("cost");
-    tcase_set_timeout(tests, 0);
+    TCase* tests = add_case(suite, "cost");
     const int scene_count = sizeof scenes / sizeof scenes[0];
     tcase_add_loop_test(tests, reference_counts, 0, scene_count);
     tcase_add_loop_test(tests, reference_quick_look, 0, scene_count);
@@ -589,8 +588,7 @@ int main() {
     tcase_add_loop_test(tests, fast_usual_look, 0, scene_count);
     tcase_add_test(tests, fast_bodies_at_rest);
     tcase_add_test(tests, levels_where_they_pay);
-    tcase_add_test(tests, levels_are_one_engine);
-    tcase_add_test(tests, adaptive_follows);
-    suite_add_tcase(suite, tests);
+    TCase* many_steps = add_tagged_case(suite, "many steps", "large"); // half of the time under the sanitizers
+    tcase_add_each(many_steps, levels_are_one_engine, adaptive_follows);
     return run_suite(suite);
 }
