@@ -1,16 +1,17 @@
-/* What edge contacts cost: each scene in a grid without VOX_GRID_EDGE_CONTACTS and in one with it, stepped in turn over
- * the same positions, all of which move; the ratio of their lower quartiles of processor time.
+/* What edge contacts and margin contacts cost: each scene in a grid without them, in one with VOX_GRID_EDGE_CONTACTS and in
+ * one with a margin of half an edge, stepped in turn over the same positions, all of which move; the ratio of their lower
+ * quartiles of processor time.
  * Usage: bench_edges [frames [tetrahedra of a ball]], 40 and 500000 by default. */
 #include "scenes/scenes.h"
 #include "scenes/solids.h"
 #include "timing.h"
 
-enum { WITHOUT, WITH, VARIANTS };
+enum { WITHOUT, WITH, MARGIN, VARIANTS };
 
 typedef struct variant {
     vox_grid* grid;
     double* seconds;
-    double* edge_seconds;
+    double* part;
 } variant;
 
 static body ball_of(double tets, uint64_t seed) {
@@ -43,6 +44,8 @@ static double quartile(double* seconds, int frames) {
     return seconds[frames / 4];
 }
 
+static const double margin = 0.5; /* the edges of all scenes are about 1 long */
+
 static void measure(scene* s, const char* name, int frames) {
     variant variants[VARIANTS];
     vox_counters counters;
@@ -52,9 +55,10 @@ static void measure(scene* s, const char* name, int frames) {
     for (int k = 0; k < VARIANTS; ++k) {
         vox_grid_desc desc = vox_default_grid_desc();
         if (k == WITH) desc.flags |= VOX_GRID_EDGE_CONTACTS;
+        if (k == MARGIN) desc.margin = margin;
         check(vox_grid_create(&desc, &variants[k].grid));
         variants[k].seconds = (double*)malloc(sizeof(double) * (size_t)frames);
-        variants[k].edge_seconds = (double*)malloc(sizeof(double) * (size_t)frames);
+        variants[k].part = (double*)malloc(sizeof(double) * (size_t)frames);
         for (uint32_t i = 0; i < s->count; ++i) {
             vox_mesh_desc mesh = body_desc(&s->bodies[i]);
             vox_mesh id;
@@ -72,22 +76,25 @@ static void measure(scene* s, const char* name, int frames) {
             if (frame < 0) continue;
             variants[k].seconds[frame] = end - start;
             check(vox_grid_profile(variants[k].grid, &profile));
-            variants[k].edge_seconds[frame] = 1e-9 * (double)profile.edges_ns;
+            variants[k].part[frame] = 1e-9 * (double)(k == MARGIN ? profile.margin_ns : profile.edges_ns);
         }
     }
     check(vox_grid_counters(variants[WITH].grid, &counters));
     const double without = quartile(variants[WITHOUT].seconds, frames),
                  with = quartile(variants[WITH].seconds, frames),
-                 edges = quartile(variants[WITH].edge_seconds, frames);
+                 edges = quartile(variants[WITH].part, frames), near = quartile(variants[MARGIN].seconds, frames);
     printf("%-8s %8.3f ms without, %8.3f with: %.3f; %.3f of it edges; %llu contacts, %llu edge contacts of %llu "
            "candidates\n",
            name, 1e3 * without, 1e3 * with, with / without, 1e3 * edges, (unsigned long long)counters.contacts,
            (unsigned long long)counters.edge_contacts, (unsigned long long)counters.edge_candidates);
+    check(vox_grid_counters(variants[MARGIN].grid, &counters));
+    printf("         margin %g: %8.3f ms: %.3f; %.3f of it margin; %llu margin contacts\n", margin, 1e3 * near,
+           near / without, 1e3 * quartile(variants[MARGIN].part, frames), (unsigned long long)counters.margin_contacts);
     fflush(stdout);
     for (int k = 0; k < VARIANTS; ++k) {
         vox_grid_destroy(variants[k].grid);
         free(variants[k].seconds);
-        free(variants[k].edge_seconds);
+        free(variants[k].part);
     }
     free_scene(s);
     memset(s, 0, sizeof *s);

@@ -271,6 +271,8 @@ typedef struct vox_grid_desc {
      * written to the log. Those of meshes at rest, which are carried over from the last step, take nothing of it, and
      * stay UNKNOWN where they are. 0 (the default): no limit. */
     uint64_t closest_budget;
+    /* As vox_grid_set_margin; default 0. Experimental. */
+    double margin;
 } vox_grid_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers.
@@ -323,6 +325,16 @@ VOX_API vox_result vox_grid_set_worker_count(vox_grid* grid, uint32_t worker_cou
  * Switched off, it releases the memory of that.
  * Errors: INVALID_ARGUMENT (unknown flags), LIMIT, BUDGET, OUT_OF_MEMORY; after these all meshes are as they were. */
 VOX_API vox_result vox_grid_set_flags(vox_grid* grid, uint32_t flags);
+
+/* From the next step on, also find the vertices of other meshes that are outside of the tetrahedra of a mesh, but within
+ * `margin` (in the caller's unit) of its surface: vox_grid_margin_contacts. 0 (the default): none, at no cost, and the
+ * memory that this took is released. Contacts stay, but views of the last step's results end. A mesh of more than
+ * 357913941 tets then makes a step fail with LIMIT. Snapshots do not keep the margin.
+ * Errors: INVALID_ARGUMENT when negative, infinite or NaN. */
+VOX_EXPERIMENTAL vox_result vox_grid_set_margin(vox_grid* grid, double margin);
+
+/* The margin in use. */
+VOX_EXPERIMENTAL vox_result vox_grid_margin(const vox_grid* grid, double* out_margin);
 
 /* The flags in use. */
 VOX_API vox_result vox_grid_get_flags(const vox_grid* grid, uint32_t* out_flags);
@@ -526,6 +538,18 @@ VOX_API vox_result vox_mesh_bind_strided_positions(vox_grid* grid, vox_mesh mesh
                                                    VOX_ARRAY(mesh.vertex_count) VOX_UNTIL(rebind) const void* positions,
                                                    vox_format format, uint64_t byte_stride,
                                                    uint64_t component_byte_stride);
+
+/* Borrows the positions that the vertices of a mesh had before they moved to those of vox_mesh_bind_positions: in the
+ * following steps each vertex moves from one to the other in a straight line, at constant speed, and such steps also
+ * find vox_grid_passages. Values may be written to the same memory between steps. The mesh's transform does not apply
+ * to them: they are where the vertices were. Null ends it, as do vox_mesh_set_topology and vox_mesh_append_vertices.
+ * Snapshots do not keep them. A step fails with NON_FINITE or LIMIT where they are not as VOX_FORMAT_DOUBLE3 has it;
+ * VOX_GRID_SKIP_BAD_MESHES is about positions alone.
+ * Errors: as vox_mesh_bind_strided_positions. */
+VOX_EXPERIMENTAL vox_result vox_mesh_bind_previous_positions(
+    vox_grid* grid, vox_mesh mesh,
+    VOX_OPTIONAL VOX_ARRAY(mesh.vertex_count) VOX_UNTIL(rebind) const void* positions, vox_format format,
+    uint64_t byte_stride, uint64_t component_byte_stride);
 
 /* vox_mesh_bind_positions for tightly packed floats, with a typed pointer. Errors: as there. */
 static inline vox_result vox_mesh_bind_floats(vox_grid* grid, vox_mesh mesh, const float* positions) {
@@ -919,6 +943,69 @@ VOX_EXPERIMENTAL vox_result vox_grid_prepare_edge_depths(vox_grid* grid);
  * vox_grid_prepare_edge_depths. */
 VOX_EXPERIMENTAL vox_result vox_grid_edge_depths(const vox_grid* grid, vox_depth_view* out_view);
 
+/* ---- margin contacts and passages ------------------------------------------------------------- */
+
+/* Vertex `vertex` of mesh_a is in no tetrahedron of mesh_b, but no further than the margin from its surface. The point
+ * of the surface of mesh_b that is closest to it is on a facet of `tet`; of several at the same distance that of the
+ * lowest (tet, facet), as in vox_grid_query_closest. Computed in double. */
+typedef struct vox_margin_contact {
+    vox_mesh mesh_a;
+    uint32_t vertex;
+    vox_mesh mesh_b;        /* never mesh_a */
+    uint32_t tet;           /* of mesh_b */
+    uint32_t facet;         /* of the tetrahedron, as in vox_surface_hit */
+    uint32_t face[3];       /* its vertices, in the order given there */
+    double face_weights[3]; /* of the closest point, in [0, 1], with the sum 1 up to rounding */
+    double distance;        /* from the vertex to the closest point */
+    double normal[3];       /* a unit vector from the closest point to the vertex; out of the tetrahedron if there is
+                               no distance between them */
+} vox_margin_contact;
+
+/* `count` margin contacts, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b), each of which has one at most. The
+ * data lives as long as that of the contacts' view. */
+typedef struct vox_margin_contact_view {
+    VOX_UNTIL(epoch) const vox_margin_contact* data;
+    size_t byte_stride;
+    uint64_t count;
+    uint64_t epoch;
+} vox_margin_contact_view;
+
+/* The margin contacts of the last step: the same for every engine, cell size and number of workers. Count 0 before the
+ * first step, after a failed one and after a clear. Which meshes collide is up to vox_filter and
+ * vox_grid_set_pair_enabled, as for contacts. They are not part of vox_grid_hash, and no pairs or events come of them.
+ * Errors: INVALID_STATE if the margin is 0 (vox_grid_set_margin). */
+VOX_EXPERIMENTAL vox_result vox_grid_margin_contacts(const vox_grid* grid, vox_margin_contact_view* out_view);
+
+/* Vertex `vertex` of mesh_a met the surface of mesh_b while both moved from their previous positions to the present
+ * ones (vox_mesh_bind_previous_positions; a mesh without previous positions stands still), wherever it was before
+ * and is after: also where it went through a thin mesh and out again. */
+typedef struct vox_passage {
+    vox_mesh mesh_a;
+    uint32_t vertex;
+    vox_mesh mesh_b;  /* never mesh_a */
+    uint32_t tet;     /* of mesh_b */
+    uint32_t facet;   /* of the tetrahedron, as in vox_surface_hit: the first that the vertex met; the lowest
+                         (tet, facet) of several at the same time */
+    uint32_t face[3]; /* its vertices, in the order given there */
+    double time;      /* in [0, 1], 0 at the previous positions: when it met it; never too late, and too early by no
+                         more than rounding errors make necessary */
+} vox_passage;
+
+/* `count` passages, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b), each of which has one at most. The data
+ * lives as long as that of the contacts' view. */
+typedef struct vox_passage_view {
+    VOX_UNTIL(epoch) const vox_passage* data;
+    size_t byte_stride;
+    uint64_t count;
+    uint64_t epoch;
+} vox_passage_view;
+
+/* The passages of the last step, between meshes of which one has previous positions: the same for every engine, cell
+ * size and number of workers. None is missed; a vertex that comes as close to a surface as rounding errors are large
+ * may be reported as well. Filters as for contacts. Count 0 where no mesh has previous positions, before the first
+ * step, after a failed one and after a clear. */
+VOX_EXPERIMENTAL vox_result vox_grid_passages(const vox_grid* grid, vox_passage_view* out_view);
+
 /* ---- touching pairs and events ---------------------------------------------------------------- */
 
 /* Two meshes that touch: a vertex of one of them is in a tetrahedron of the other, or they have edge contacts
@@ -1150,7 +1237,7 @@ VOX_API vox_result vox_grid_save(const vox_grid* grid, VOX_OPTIONAL void* bytes,
 /* Creates a grid from a snapshot. Ids name the same meshes, meshes inserted later get the same ids as they would in the
  * saved grid, and steps find the same contacts and events in the same order, with the same hash and epoch. There are no
  * contacts until the first step. The meshes own their positions; to move them, bind others.
- * Of `desc` only allocator, log, tasks, worker_count, byte_budget, closest_budget, and an engine other than AUTO are
+ * Of `desc` only allocator, log, tasks, worker_count, byte_budget, closest_budget, margin, and an engine other than AUTO are
  * used; null: the defaults. The caller owns *out_grid and releases it with vox_grid_destroy.
  * The bytes need not be trusted: everything in them is checked, no memory is reserved for a count before the bytes it
  * stands for are known to be there, and the byte budget applies.
@@ -1450,6 +1537,9 @@ typedef struct vox_counters {
     uint64_t edge_contacts;         /* 0 without VOX_GRID_EDGE_CONTACTS, as are the next two */
     uint64_t carried_edge_contacts; /* part of `edge_contacts` carried over from the step before */
     uint64_t edge_candidates;       /* edges and faces whose boxes overlap */
+    uint64_t margin_contacts;       /* 0 without a margin (vox_grid_set_margin), as is the next one */
+    uint64_t carried_margin_contacts; /* part of `margin_contacts` carried over from the step before */
+    uint64_t passages;              /* 0 without previous positions (vox_mesh_bind_previous_positions) */
 } vox_counters;
 
 /* Writes the fields that out_counters->struct_size covers (set it first). */
@@ -1475,6 +1565,7 @@ typedef struct vox_profile {
     uint64_t lookup_ns;       /* tetrahedra against these: box tests, and all that floats can decide */
     uint64_t decide_ns;      /* decide the rest exactly; of the worker that took longest over it */
     uint64_t edges_ns;       /* edge contacts, with either engine */
+    uint64_t margin_ns;      /* margin contacts and passages, with either engine */
 } vox_profile;
 
 /* Writes the fields that out_profile->struct_size covers (set it first). */

@@ -21,6 +21,16 @@
 
 namespace vox {
 
+namespace {
+
+void check_margin(double margin) {
+    if (!(margin >= 0) || std::isinf(margin))
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("margin is %g, expected a finite number >= 0", margin));
+}
+
+} // namespace
+
 void check_grid_desc(const vox_grid_desc& desc) {
     const auto refuse = [](const std::string& text) { throw Error(VOX_ERROR_INVALID_ARGUMENT, text); };
     check_enum(desc.engine, VOX_ENGINE_FAST, "grid engine");
@@ -44,6 +54,7 @@ void check_grid_desc(const vox_grid_desc& desc) {
         refuse("grid allocator has one of allocate and release, expected both or none");
     check_workers(desc.tasks, desc.worker_count);
     check_flags(desc.flags);
+    check_margin(desc.margin);
 }
 
 void check_flags(std::uint32_t flags) {
@@ -93,6 +104,7 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
       readings_(&memory_), queries_(&memory_), query_views_(share_), query_bodies_(&memory_) {
     if (desc.flags & VOX_GRID_PENETRATIONS) depth_.emplace(&memory_, trees_);
     if (desc.flags & VOX_GRID_EDGE_CONTACTS) edges_.emplace(&memory_);
+    set_margin(desc.margin);
     if (is_zeroed(desc))
         write_log(VOX_LOG_WARNING,
                   "vox_grid_desc is all 0: no penetrations, no byte budget and a thread per core; "
@@ -152,6 +164,8 @@ void vox_grid::remove(vox_mesh id) {
     meshes_.remove(id);
     trees_.forget(id);
     if (edges_) edges_->forget(id);
+    if (near_faces_) near_faces_->forget(id);
+    if (passages_) passages_->forget(id);
     scene_changed();
 }
 
@@ -163,6 +177,10 @@ void vox_grid::clear() {
         edges_->forget_all();
         edges_->clear();
     }
+    passages_.reset();
+    if (margin_contacts_) margin_contacts_->clear();
+    if (near_faces_) near_faces_->forget_all();
+    look_near();
     contacts_.clear();
     interiors_.clear();
     penetrations_.clear();
@@ -222,6 +240,14 @@ void vox_grid::set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled) {
     mark_moved(a);
 }
 
+void vox_grid::bind_previous(vox_mesh id, const Positions& positions) {
+    (void)mesh(id); // throws for an id that names no mesh
+    if (!passages_ && !positions.data) return;
+    if (!passages_) passages_.emplace(&memory_);
+    passages_->bind(id, positions);
+    look_near();
+}
+
 // ---- cutting and growing --------------------------------------------------------------------------
 
 void vox_grid::was_edited(vox_mesh id, std::uint64_t count) {
@@ -241,6 +267,8 @@ void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& 
     meshes_.replace(id, std::move(made), std::move(state));
     trees_.topology_changed(id);
     if (edges_) edges_->forget(id);
+    if (near_faces_) near_faces_->forget(id);
+    if (passages_) passages_->forget(id);
     if (view.vertex_count == 0) contacts_hold_ = false; // no positions show that it changed
     scene_changed();
     warn_of_traps(meshes_[id].mesh, id);
@@ -259,6 +287,7 @@ std::uint32_t vox_grid::append_vertices(vox_mesh id, const vox_vertices_desc& de
     (void)mesh(id); // throws for an id that names no mesh
     meshes_.check_growth(desc.count, 0);
     const std::uint32_t first = meshes_.append_vertices(id, desc);
+    if (passages_ && desc.count > 0) passages_->forget(id);
     was_edited(id, desc.count);
     return first;
 }
@@ -310,7 +339,10 @@ void vox_grid::set_flags(std::uint32_t flags) {
     if (!find && finds_penetrations()) stop_finding_penetrations();
     const bool edges = (flags & VOX_GRID_EDGE_CONTACTS) != 0;
     if (edges && !edges_) edges_.emplace(&memory_); // the next step prepares what it needs
-    if (!edges && edges_) stop_finding_edges();
+    if (!edges && edges_) {
+        edges_.reset();
+        drop_surfaces();
+    }
     events_.set_of_contacts((flags & VOX_GRID_CONTACT_EVENTS) != 0);
     skips_bad_meshes_ = (flags & VOX_GRID_SKIP_BAD_MESHES) != 0;
     contacts_hold_ = false; // there is more, or less, to do with those of meshes at rest
@@ -343,8 +375,32 @@ void vox_grid::stop_finding_penetrations() noexcept {
     penetrations_ = Penetrations(&memory_);
 }
 
-void vox_grid::stop_finding_edges() noexcept {
-    edges_.reset();
+void vox_grid::set_margin(double margin) {
+    check_margin(margin);
+    if (margin == margin_) return;
+    margin_ = margin;
+    if (margin > 0 && !margin_contacts_) margin_contacts_.emplace(&memory_);
+    if (margin == 0) margin_contacts_.reset();
+    look_near();
+    contacts_hold_ = false; // there is more, or less, to do with meshes at rest
+    ++epoch_;
+}
+
+// The next step prepares what it needs; what none needs is given up.
+void vox_grid::look_near() noexcept {
+    const bool look = margin_contacts_ || passages_;
+    if (look == near_faces_.has_value()) return;
+    if (look) {
+        near_faces_.emplace(&memory_);
+    } else {
+        near_faces_.reset();
+        drop_surfaces();
+    }
+}
+
+// Of those that nothing needs any more.
+void vox_grid::drop_surfaces() noexcept {
+    if (finds_surfaces()) return;
     surface_versions_ = std::pmr::vector<SurfaceVersion>(&memory_);
     meshes_.for_each([this](vox_mesh, MeshSlot& slot) {
         if (!needs_topology(slot.mesh.filter())) slot.mesh.drop_topology();
@@ -365,6 +421,10 @@ void vox_grid::step() {
     readings_.invalidate();
     failure_ = {};
     left_out_.clear();
+    if (passages_ && !passages_->any_bound()) {
+        passages_.reset();
+        look_near();
+    }
     ++epoch_;
 
     vox_counters counters{};
@@ -385,6 +445,11 @@ void vox_grid::step() {
         if (edges_) {
             profile.edges_ns = nanoseconds() - contacts_made;
             contacts_made += profile.edges_ns;
+        }
+        if (near_faces_) {
+            find_near(counters);
+            profile.margin_ns = nanoseconds() - contacts_made;
+            contacts_made += profile.margin_ns;
         }
 
         if (all_carried) counters.carried_penetrations = penetrations_.all().size();
@@ -449,8 +514,18 @@ bool vox_grid::find_edges(vox_counters& counters) {
     return edges_->unchanged();
 }
 
+// Vertices near or through surfaces that they are not inside of.
+void vox_grid::find_near(vox_counters& counters) {
+    const EdgeScene scene{bodies_, topologies_, surface_versions_, fast_ ? &fast_engine_ : nullptr,
+                          &workers_};
+    if (passages_) passages_->find(scene, *near_faces_, counters);
+    if (margin_contacts_) margin_contacts_->find(scene, margin_, contacts_, *near_faces_, counters);
+}
+
 void vox_grid::forget_contacts() noexcept {
     if (edges_) edges_->clear();
+    if (margin_contacts_) margin_contacts_->clear();
+    if (passages_) passages_->clear();
     contacts_.clear();
     interiors_.clear();
     penetrations_.clear();
@@ -462,7 +537,7 @@ void vox_grid::forget_contacts() noexcept {
 // others already.
 void vox_grid::detect(bool& carry, vox_counters& counters, vox_profile& profile) {
     const auto detect_once = [&] {
-        if (fast_ && !shared_tets_.empty())
+        if (fast_ && !shared_tets_.empty() && !near_faces_) // a body near others is not alone
             lone_.find(meshes_, fast_engine_.last_step().moved_origin(), fast_engine_.pair_buffers(),
                        workers_);
         else
@@ -551,7 +626,7 @@ void vox_grid::gather_bodies(vox_counters& counters) {
             body.off_count = 0;
         }
         topologies_.push_back(&mesh.topology());
-        if (edges_) surface_versions_.push_back({mesh.topology_version(), mesh.tiles_version()});
+        if (finds_surfaces()) surface_versions_.push_back({mesh.topology_version(), mesh.tiles_version()});
         slot.topology_version = mesh.topology_version();
         if (fast_)
             prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state,
@@ -828,6 +903,18 @@ vox_depth_view vox_grid::depths() const {
     require_penetrations();
     const std::span<const vox_depth> depths = penetrations_.depths();
     return {depths.data(), sizeof(vox_depth), depths.size(), epoch_};
+}
+
+vox_margin_contact_view vox_grid::margin_contacts() const {
+    if (!margin_contacts_)
+        throw Error(VOX_ERROR_INVALID_STATE, "the grid has no margin: vox_grid_set_margin sets one");
+    const std::span<const vox_margin_contact> all = margin_contacts_->all();
+    return {all.data(), sizeof(vox_margin_contact), all.size(), epoch_};
+}
+
+vox_passage_view vox_grid::passages() const noexcept {
+    const std::span<const vox_passage> all = passages_ ? passages_->all() : std::span<const vox_passage>();
+    return {all.data(), sizeof(vox_passage), all.size(), epoch_};
 }
 
 const EdgeContacts& vox_grid::edge_contacts() const {

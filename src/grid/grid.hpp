@@ -12,8 +12,11 @@
 #include "grid/edge_contacts.hpp"
 #include "grid/events.hpp"
 #include "grid/lone_bodies.hpp"
+#include "grid/margin_contacts.hpp"
 #include "grid/mesh_table.hpp"
+#include "grid/passages.hpp"
 #include "grid/readings.hpp"
+#include "grid/vertex_face_search.hpp"
 #include "query/queries.hpp"
 #include "query/view.hpp"
 #include "reference/engine.hpp"
@@ -50,6 +53,8 @@ public:
     void set_worker_count(std::uint32_t worker_count);
     void set_flags(std::uint32_t flags);
     std::uint32_t flags() const noexcept;
+    void set_margin(double margin);
+    double margin() const noexcept { return margin_; }
     double cell_size() const noexcept { return used_cell_size_; }
 
     // For suggestions: the scene as it is now, and what the grid knows of a desc: its model, storage and
@@ -66,6 +71,8 @@ public:
     void set_enabled(vox_mesh mesh, bool enabled);
     void set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled);
     void set_topology(vox_mesh mesh, const vox_mesh_desc& desc, const vox::Body& view);
+    // `positions` are checked; without data: it has none any more.
+    void bind_previous(vox_mesh mesh, const vox::Positions& positions);
     std::uint32_t append_tets(vox_mesh mesh, std::span<const vox::Tet> corners);
     std::uint32_t append_vertices(vox_mesh mesh, const vox_vertices_desc& desc);
     // To be called after any other edit of a mesh, with the number of tets or vertices that it named.
@@ -98,6 +105,9 @@ public:
     // Throws INVALID_STATE without VOX_GRID_EDGE_CONTACTS.
     const vox::EdgeContacts& edge_contacts() const;
     void prepare_edge_depths();
+    // Throws INVALID_STATE without a margin.
+    vox_margin_contact_view margin_contacts() const;
+    vox_passage_view passages() const noexcept;
     std::uint64_t epoch() const noexcept { return epoch_; }
     const vox::Events& events() const noexcept { return events_; }
     std::uint64_t hash() const noexcept;
@@ -109,13 +119,17 @@ private:
     friend class vox::Snapshot;
 
     bool finds_penetrations() const noexcept { return depth_.has_value(); }
+    // Whether a step looks at surfaces, penetrations aside.
+    bool finds_surfaces() const noexcept { return edges_ || near_faces_; }
     bool needs_topology(const vox_filter& filter) const noexcept {
-        return (finds_penetrations() && filter.penetration_mask != 0) || edges_.has_value();
+        return (finds_penetrations() && filter.penetration_mask != 0) || finds_surfaces();
     }
     void prepare(vox::Mesh& mesh, vox::fast::MeshState& state);
     void find_penetrations();
     void stop_finding_penetrations() noexcept;
-    void stop_finding_edges() noexcept;
+    void drop_surfaces() noexcept;
+    void look_near() noexcept;
+    void find_near(vox_counters& counters);
     bool find_edges(vox_counters& counters);
     void require_penetrations() const;
     void scene_changed() noexcept;
@@ -169,6 +183,10 @@ private:
     std::pmr::vector<vox::Hit> hits_;
     std::pmr::vector<vox::SurfaceVersion> surface_versions_; // of each body, while it finds edge contacts
     std::optional<vox::EdgeContacts> edges_;                 // while it finds them; has the results as well
+    double margin_ = 0;
+    std::optional<vox::VertexFaceSearch> near_faces_;    // while one of these is there
+    std::optional<vox::MarginContacts> margin_contacts_; // while there is a margin; has the results as well
+    std::optional<vox::Passages> passages_; // while a mesh has previous positions; has the results as well
 
     // results
     std::pmr::vector<vox_contact> contacts_;

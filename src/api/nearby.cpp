@@ -1,0 +1,34 @@
+// The C border of margin contacts and passages.
+
+#include "base/border.hpp"
+#include "grid/grid.hpp"
+#include "mesh/check.hpp"
+
+using namespace vox;
+
+vox_result vox_grid_set_margin(vox_grid* grid, double margin) {
+    return border(grid, "grid", [&] { grid->set_margin(margin); });
+}
+
+vox_result vox_grid_margin(const vox_grid* grid, double* out_margin) {
+    return border(grid, "grid", out_margin, "out_margin", [&] { return grid->margin(); });
+}
+
+vox_result vox_mesh_bind_previous_positions(vox_grid* grid, vox_mesh mesh, const void* positions,
+                                            vox_format format, uint64_t byte_stride,
+                                            uint64_t component_byte_stride) {
+    return border(grid, "grid", [&] {
+        const std::uint32_t vertices = grid->mesh(mesh).vertex_count();
+        check_format(format, "");
+        grid->bind_previous(
+            mesh, check_positions(positions, format, byte_stride, component_byte_stride, vertices, ""));
+    });
+}
+
+vox_result vox_grid_passages(const vox_grid* grid, vox_passage_view* out_view) {
+    return border(grid, "grid", out_view, "out_view", [&] { return grid->passages(); });
+}
+
+vox_result vox_grid_margin_contacts(const vox_grid* grid, vox_margin_contact_view* out_view) {
+    return border(grid, "grid", out_view, "out_view", [&] { return grid->margin_contacts(); });
+}

@@ -1,0 +1,115 @@
+// Bisection of time, as in inclusion-based methods (J. M. Snyder, Interval analysis for computer graphics,
+// SIGGRAPH 1992; B. Wang et al., A large-scale benchmark and an inclusion-based algorithm for continuous
+// collision detection, ACM Transactions on Graphics 40, 2021). An interval is done with if, during all of it,
+// - the point is on one side of the triangle's plane: the volume of the two is a cubic polynomial of time,
+// whose
+//   Bernstein coefficients are blossoms, that is, volumes of corners at the beginning and the end of the
+//   interval mixed (L. Ramshaw, Blossoms are polar forms, Computer Aided Geometric Design 6, 1989); or
+// - an axis separates the two at its beginning and at its end: what moves linearly is then apart in between
+// as well.
+#include "exact/meeting_time.hpp"
+
+#include "base/vectors.hpp"
+#include "exact/closest_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vox {
+
+namespace {
+
+// Coordinates are scaled to at most 1. A corner at some time is off by 2^-51 at most on each axis, from the
+// subtraction and the interpolation; a dot product with an axis by 3 * 2^-51 + 3 * 2^-52 times the axis'
+// largest coordinate; a determinant by 18 times the first, as each of its six products has three factors, and
+// 6 * 2^-50 for rounding, and the mean of three no more.
+constexpr double dot_error = 0x1p-48;
+constexpr double volume_error = 0x1p-45;
+
+// Intervals shorter than this are not divided, and no more than so many are looked at: then the result is the
+// beginning of the one whose turn it is. Only a point that slides along the plane of a triangle as it turns
+// takes more than some tens.
+constexpr int most_divisions = 48;
+constexpr int most_intervals = 2000;
+
+struct Corners {
+    Vec3d at[3];
+};
+
+Corners corners_at(const SeenMotion& motion, double time) noexcept {
+    Corners corners;
+    for (int i = 0; i < 3; ++i) corners.at[i] = (1 - time) * motion.from[i] + time * motion.to[i];
+    return corners;
+}
+
+double largest_coordinate(const Vec3d& v) noexcept {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+bool stays_on_one_side(const Corners& begin, const Corners& end) noexcept {
+    const Vec3d *a = begin.at, *b = end.at;
+    const double first = determinant(a[0], a[1], a[2]);
+    if (std::abs(first) <= volume_error) return false;
+    const double sign = first > 0 ? 1 : -1;
+    const auto same = [sign](double volume) { return sign * volume > volume_error; };
+    return same(determinant(b[0], b[1], b[2])) &&
+           same((determinant(b[0], a[1], a[2]) + determinant(a[0], b[1], a[2]) +
+                 determinant(a[0], a[1], b[2])) /
+                3) &&
+           same((determinant(a[0], b[1], b[2]) + determinant(b[0], a[1], b[2]) +
+                 determinant(b[0], b[1], a[2])) /
+                3);
+}
+
+bool is_separated(const Corners& begin, const Corners& end, const Vec3d& axis) noexcept {
+    const double error = dot_error * largest_coordinate(axis);
+    for (int i = 0; i < 3; ++i)
+        if (!(dot(begin.at[i], axis) > error) || !(dot(end.at[i], axis) > error)) return false;
+    return true;
+}
+
+// Whether the two certainly do not meet during an interval.
+bool stay_apart(const SeenMotion& motion, double begin_time, double end_time) noexcept {
+    const Corners begin = corners_at(motion, begin_time), end = corners_at(motion, end_time);
+    if (stays_on_one_side(begin, end)) return true;
+    const Corners middle = corners_at(motion, 0.5 * begin_time + 0.5 * end_time);
+    const Vec3d way = closest_seen_from({0, 0, 0}, middle.at[0], middle.at[1], middle.at[2]).way;
+    return is_separated(begin, end, way);
+}
+
+} // namespace
+
+double meeting_time(const SeenMotion& given, double latest) noexcept {
+    double largest = 0;
+    for (int i = 0; i < 3; ++i)
+        largest = std::max({largest, largest_coordinate(given.from[i]), largest_coordinate(given.to[i])});
+    if (!(largest > 0)) return 0;
+    SeenMotion motion;
+    const int power = -1 - std::ilogb(largest);
+    const auto scaled = [power](const Vec3d& v) {
+        return Vec3d{std::ldexp(v.x, power), std::ldexp(v.y, power), std::ldexp(v.z, power)};
+    };
+    for (int i = 0; i < 3; ++i) {
+        motion.from[i] = scaled(given.from[i]);
+        motion.to[i] = scaled(given.to[i]);
+    }
+    // The intervals are those of a binary tree, in their order in time.
+    struct Interval {
+        double begin;
+        int divisions;
+    };
+    Interval stack[most_divisions + 2] = {{0, 0}};
+    int size = 1, looked_at = 0;
+    while (size > 0) {
+        const Interval interval = stack[--size];
+        if (interval.begin > latest) return no_meeting;
+        const double length = std::ldexp(1.0, -interval.divisions);
+        if (stay_apart(motion, interval.begin, interval.begin + length)) continue;
+        if (interval.divisions == most_divisions || ++looked_at == most_intervals) return interval.begin;
+        stack[size++] = {interval.begin + 0.5 * length, interval.divisions + 1};
+        stack[size++] = {interval.begin, interval.divisions + 1};
+    }
+    return no_meeting;
+}
+
+} // namespace vox

@@ -1,0 +1,59 @@
+// Margin contacts: vertices outside of the tetrahedra of another body, but within a distance of its surface
+// (vox_margin_contact). Found in every step of a grid with a margin, for both engines alike.
+#pragma once
+
+#include "base/per_worker.hpp"
+#include "base/scene.hpp"
+#include "grid/vertex_face_search.hpp"
+
+#include <vox/vox.h>
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <tuple>
+#include <vector>
+
+namespace vox {
+
+class MarginContacts final : NearFacesVisitor {
+public:
+    explicit MarginContacts(std::pmr::memory_resource* memory)
+        : workers_(memory), found_(memory), order_(memory), contacts_(memory) {}
+
+    // Replaces the margin contacts; `contacts` are those of the step, in canonical order. Those between
+    // bodies at rest are carried over. If it throws, clear() is to be called.
+    void find(const EdgeScene& scene, double margin, std::span<const vox_contact> contacts,
+              VertexFaceSearch& search, vox_counters& counters);
+
+    std::span<const vox_margin_contact> all() const noexcept { return contacts_; }
+    void clear() noexcept { contacts_.clear(); }
+
+private:
+    struct Found {
+        vox_margin_contact contact;
+        double squared; // distance
+    };
+    struct Worker {
+        explicit Worker(std::pmr::memory_resource* memory) : found(memory), points(memory) {}
+        auto buffers() { return std::tie(found, points); }
+
+        std::pmr::vector<Found> found;
+        // Of the vertices of the tile of the last call.
+        std::pmr::vector<Vec3d> points;
+        std::uint32_t body = ~0u, tile = ~0u;
+    };
+
+    void visit(const NearFaces& near, std::uint32_t worker) override;
+    void carry(const EdgeScene& scene);
+    void put_in_order(std::span<const vox_contact> contacts);
+
+    PerWorker<Worker> workers_;
+    const EdgeScene* scene_ = nullptr; // during a step, as is `most_`
+    double most_ = 0;                  // the margin, squared
+    std::pmr::vector<Found> found_;
+    std::pmr::vector<std::uint32_t> order_;
+    std::pmr::vector<vox_margin_contact> contacts_;
+};
+
+} // namespace vox

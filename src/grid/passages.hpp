@@ -1,0 +1,61 @@
+// Passages: vertices that met the surface of another body on their way from their previous positions
+// (vox_passage). For both engines alike.
+#pragma once
+
+#include "base/per_worker.hpp"
+#include "base/scene.hpp"
+#include "exact/meeting_time.hpp"
+#include "grid/vertex_face_search.hpp"
+
+#include <vox/vox.h>
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <tuple>
+#include <vector>
+
+namespace vox {
+
+class Passages final : NearFacesVisitor {
+public:
+    explicit Passages(std::pmr::memory_resource* memory)
+        : bound_(memory), previous_(memory), workers_(memory), found_(memory), passages_(memory) {}
+
+    // The previous positions of a mesh; without data: it has none any more.
+    void bind(vox_mesh mesh, const Positions& positions);
+    void forget(vox_mesh mesh) noexcept;
+    bool any_bound() const noexcept { return !bound_.empty(); }
+
+    // Replaces the passages. If it throws, clear() is to be called.
+    void find(const EdgeScene& scene, VertexFaceSearch& search, vox_counters& counters);
+
+    std::span<const vox_passage> all() const noexcept { return passages_; }
+    void clear() noexcept { passages_.clear(); }
+
+private:
+    struct Bound {
+        vox_mesh mesh;
+        Positions positions;
+    };
+    struct Worker {
+        explicit Worker(std::pmr::memory_resource* memory) : found(memory), from(memory), to(memory) {}
+        auto buffers() { return std::tie(found, from, to); }
+
+        std::pmr::vector<vox_passage> found;
+        // Of the vertices of the tile of the last call.
+        std::pmr::vector<Vec3d> from, to;
+        std::uint32_t body = ~0u, tile = ~0u;
+    };
+
+    void visit(const NearFaces& near, std::uint32_t worker) override;
+    Vec3d before(std::uint32_t body, std::uint32_t vertex) const noexcept;
+
+    std::pmr::vector<Bound> bound_;        // by mesh
+    std::pmr::vector<Positions> previous_; // of each body of a step
+    const EdgeScene* scene_ = nullptr;     // during a step
+    PerWorker<Worker> workers_;
+    std::pmr::vector<vox_passage> found_, passages_;
+};
+
+} // namespace vox

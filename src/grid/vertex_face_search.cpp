@@ -1,0 +1,374 @@
+// Tiles of faces in reach of the other body are joined with blocks of its vertices, box by box, then the
+// faces of a tile with the vertices of a block.
+#include "grid/vertex_face_search.hpp"
+
+#include "base/parallel.hpp"
+#include "base/room.hpp"
+#include "base/vectors.hpp"
+#include "fast/broad_phase.hpp"
+#include "fast/engine.hpp"
+#include "fast/stream.hpp"
+#include "mesh/check.hpp"
+#include "mesh/facets.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+namespace vox {
+
+namespace {
+
+constexpr std::uint32_t group_size = 32; // blocks whose common box is tested first
+
+// How much work is worth a task of its own.
+constexpr std::size_t task_tiles = 128;  // whose boxes are made: 40 vertices each
+constexpr std::size_t task_pairs = 16;   // of small bodies
+constexpr std::size_t task_searches = 8; // of tiles against all blocks of the other body
+
+constexpr std::size_t small_body = 64; // tiles, which take no task of their own
+
+constexpr std::uint32_t vertices_of_block = 8;
+
+// Positions of which nothing is known but the nearest floats are off by 2^-24 of the largest coordinate at
+// most, on each axis, and so is a side of a box that has grown.
+constexpr double rounding = 0x1p-21;
+
+Box grown(const Box& box, float by) noexcept {
+    Box out;
+    for (int i = 0; i < 4; ++i) out.lo[i] = box.lo[i] - by;
+    for (int i = 0; i < 4; ++i) out.hi[i] = box.hi[i] + by;
+    return out;
+}
+
+// Half of how far apart two bodies with this box can be, as boxes of floats show it.
+float growth(const Box& box, double margin) noexcept {
+    double largest = 0;
+    for (int i = 0; i < 3; ++i)
+        largest = std::max({largest, double{std::abs(box.lo[i])}, double{std::abs(box.hi[i])}});
+    const double by = 0.5 * margin + rounding * (largest + margin) + 0x1p-126;
+    return static_cast<float>(std::min(by, 0x1p126));
+}
+
+// The faces in the order that their tetrahedra have them in, which those of doubled ones may not be in, and
+// the facets that they are.
+void order_faces(std::span<const Tet> tets, SearchedSurface& surface) {
+    SurfaceFeatures& features = surface.features;
+    surface.facets.resize(features.faces.size());
+    for (const SurfaceTile& tile : features.tiles)
+        for (std::uint32_t f = tile.first_face; f < tile.first_face + tile.face_count; ++f) {
+            const std::array<std::uint8_t, 3> given = features.faces[f];
+            const std::uint32_t* vertices = features.vertices.data() + tile.first_vertex;
+            const Tet& tet = tets[features.tets[f]];
+            const auto local = [&](std::uint32_t vertex) {
+                for (const std::uint8_t i : given)
+                    if (vertices[i] == vertex) return int{i};
+                return -1;
+            };
+            for (std::uint8_t facet = 0; facet < 4; ++facet) {
+                int corner[3];
+                for (int c = 0; c < 3; ++c) corner[c] = local(tet.v[facet_corners[facet][c]]);
+                if (corner[0] < 0 || corner[1] < 0 || corner[2] < 0) continue;
+                for (std::size_t c = 0; c < 3; ++c)
+                    features.faces[f][c] = static_cast<std::uint8_t>(corner[c]);
+                surface.facets[f] = facet;
+            }
+        }
+}
+
+} // namespace
+
+VertexFaceSearch::VertexFaceSearch(std::pmr::memory_resource* memory)
+    : surfaces_(memory), packed_(memory), block_boxes_(memory), searched_(memory), body_boxes_(memory),
+      pair_buffers_(memory), pairs_(memory), pieces_(memory), tile_boxes_(memory), workers_(memory) {}
+
+void VertexFaceSearch::forget(vox_mesh mesh) noexcept {
+    std::erase_if(surfaces_, [mesh](const Kept& kept) { return kept.mesh == mesh; });
+}
+
+std::uint32_t VertexFaceSearch::Searched::begin_of(std::uint32_t block) const noexcept {
+    return first_of_block ? first_of_block[block] : vertices_of_block * block;
+}
+
+std::uint32_t VertexFaceSearch::Searched::end_of(std::uint32_t block) const noexcept {
+    return first_of_block ? first_of_block[block + 1]
+                          : std::min(vertices_of_block * (block + 1), vertex_count);
+}
+
+Box VertexFaceSearch::Searched::vertex_box(std::uint32_t vertex) const noexcept {
+    const float* p = at + 3 * std::size_t{vertex};
+    Box box{{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}};
+    if (!before) return box;
+    const float* q = before + 3 * std::size_t{vertex};
+    add(box, Box{{q[0], q[1], q[2], 0}, {q[0], q[1], q[2], 0}});
+    return box;
+}
+
+// ---- which bodies ---------------------------------------------------------------------------------
+
+void VertexFaceSearch::find_near(const Scene& scene, double margin, NearFacesVisitor& visitor) {
+    prepare_bodies(scene, {}, margin);
+    fast::PairRules rules{scene.bodies, {}};
+    if (scene.engine) rules.of = scene.engine->last_step().of;
+    fast::find_pairs(body_boxes_, rules, pair_buffers_, pairs_);
+    search(scene, visitor);
+}
+
+void VertexFaceSearch::find_meeting(const Scene& scene, std::span<const Positions> previous,
+                                    NearFacesVisitor& visitor) {
+    prepare_bodies(scene, previous, 0);
+    fast::find_pairs(body_boxes_, {scene.bodies, {}}, pair_buffers_, pairs_);
+    std::erase_if(pairs_,
+                  [&](const fast::Pair& pair) { return !previous[pair.a].data && !previous[pair.b].data; });
+    search(scene, visitor);
+}
+
+// Nearest floats, in packed_ from `place` on.
+void VertexFaceSearch::pack(const Positions& positions, const Vec3d& origin, std::uint32_t count,
+                            std::size_t& place) {
+    fast::round_positions(positions, origin, 0, count, packed_.data() + place);
+    place += 3 * std::size_t{count};
+}
+
+void VertexFaceSearch::prepare_bodies(const Scene& scene, std::span<const Positions> previous,
+                                      double margin) {
+    const std::size_t bodies = scene.bodies.size();
+    const auto moves = [&](std::size_t b) { return !previous.empty() && previous[b].data; };
+    std::size_t floats = 0, blocks = 0;
+    for (std::size_t b = 0; b < bodies; ++b) {
+        const std::size_t count = scene.bodies[b].vertex_count;
+        floats += 3 * count * (std::size_t{!scene.engine} + std::size_t{moves(b)});
+        if (!scene.engine || moves(b)) blocks += (count + vertices_of_block - 1) / vertices_of_block;
+    }
+    packed_.resize(floats);
+    block_boxes_.resize(blocks);
+    searched_.assign(bodies, {});
+    body_boxes_.assign(bodies, empty_box);
+    const Vec3d origin = scene.engine ? scene.engine->last_step().origin : Vec3d{0, 0, 0};
+    std::size_t float_place = 0, block_place = 0;
+    for (std::size_t b = 0; b < bodies; ++b) {
+        const Body& body = scene.bodies[b];
+        Searched& out = searched_[b];
+        out.vertex_count = body.vertex_count;
+        if (scene.engine) {
+            const fast::StepBody& of = scene.engine->last_step().of[b];
+            out.at = of.positions;
+            out.blocks = scene.engine->boxes().blocks.data() + of.first_block;
+            out.first_of_block = of.tiles->block_first.data();
+            out.block_count = of.tiles->block_count();
+            out.box = scene.engine->boxes().bodies[b];
+        } else {
+            out.at = packed_.data() + float_place;
+            pack(body.positions, origin, body.vertex_count, float_place);
+        }
+        if (moves(b)) {
+            Body moving = body;
+            moving.positions = previous[b];
+            if (const std::uint32_t vertex = first_bad_vertex(moving); vertex != VOX_NO_VERTEX)
+                throw MeshError(
+                    bad_position(moving, vertex), body,
+                    format(", vertex %u: a coordinate of the previous position is %s", vertex,
+                           bad_position(moving, vertex) == VOX_ERROR_LIMIT ? "too large" : "not finite"),
+                    vertex);
+            out.before = packed_.data() + float_place;
+            pack(previous[b], origin, body.vertex_count, float_place);
+        }
+        if (!scene.engine || moves(b)) {
+            Box* boxes = block_boxes_.data() + block_place;
+            out.blocks = boxes;
+            out.first_of_block = nullptr;
+            out.block_count = (body.vertex_count + vertices_of_block - 1) / vertices_of_block;
+            block_place += out.block_count;
+            out.box = empty_box;
+            for (std::uint32_t block = 0; block < out.block_count; ++block) {
+                boxes[block] = empty_box;
+                for (std::uint32_t v = out.begin_of(block); v < out.end_of(block); ++v)
+                    add(boxes[block], out.vertex_box(v));
+                add(out.box, boxes[block]);
+            }
+        }
+        if (is_empty(out.box)) continue;
+        if (margin > 0) out.grow = growth(out.box, margin);
+        body_boxes_[b] = grown(out.box, out.grow);
+    }
+}
+
+// ---- which tiles ----------------------------------------------------------------------------------
+
+const SearchedSurface& VertexFaceSearch::surface_of(const Scene& scene, std::uint32_t body) {
+    const vox_mesh mesh = scene.bodies[body].mesh_id;
+    auto place = std::lower_bound(surfaces_.begin(), surfaces_.end(), mesh,
+                                  [](const Kept& kept, vox_mesh id) { return kept.mesh < id; });
+    if (place == surfaces_.end() || place->mesh != mesh || place->version != scene.versions[body]) {
+        Kept made{mesh, scene.versions[body], SearchedSurface(memory())};
+        make_surface_features(*scene.topologies[body], scene.bodies[body].positions, nullptr,
+                              made.surface.features);
+        order_faces(scene.bodies[body].tets, made.surface);
+        if (place == surfaces_.end() || place->mesh != mesh)
+            place = surfaces_.insert(place, std::move(made));
+        else
+            *place = std::move(made);
+    }
+    return place->surface;
+}
+
+void VertexFaceSearch::search(const Scene& scene, NearFacesVisitor& visitor) {
+    workers_.grow(scene.workers->count());
+    std::erase_if(pairs_,
+                  [&](const fast::Pair& pair) { return scene.topologies[pair.b]->triangles.empty(); });
+    prepare_surfaces(scene);
+    make_tile_boxes(scene);
+    const auto is_large = [&](const fast::Pair& pair) {
+        return searched_[pair.b].surface->features.tiles.size() >= small_body;
+    };
+    scene.workers->for_ranges(pairs_.size(), task_pairs,
+                              [&](std::size_t begin, std::size_t end, std::uint32_t w) {
+                                  for (std::size_t i = begin; i < end; ++i) {
+                                      Worker& lists = workers_[w];
+                                      if (!is_large(pairs_[i]) && list(pairs_[i], lists))
+                                          search_tiles(pairs_[i], lists, 0, lists.tiles.size(), visitor, w);
+                                  }
+                              });
+    for (const fast::Pair& pair : pairs_) {
+        Worker& lists = workers_[0];
+        if (!is_large(pair) || !list(pair, lists)) continue;
+        scene.workers->for_ranges(lists.tiles.size(), task_searches,
+                                  [&](std::size_t begin, std::size_t end, std::uint32_t w) {
+                                      search_tiles(pair, lists, begin, end, visitor, w);
+                                  });
+    }
+    workers_.level();
+}
+
+// The surfaces of the bodies that are reached, and room for the boxes of their tiles.
+void VertexFaceSearch::prepare_surfaces(const Scene& scene) {
+    for (const fast::Pair& pair : pairs_) {
+        (void)surface_of(scene, pair.b); // which may move those of others
+        Box reached = grown(searched_[pair.a].box, searched_[pair.a].grow + searched_[pair.b].grow);
+        intersect(reached, searched_[pair.b].box);
+        add(searched_[pair.b].reached, reached);
+    }
+    pieces_.clear();
+    std::size_t tiles = 0;
+    for (const fast::Pair& pair : pairs_) {
+        Searched& body = searched_[pair.b];
+        if (body.surface) continue;
+        body.surface = &surface_of(scene, pair.b);
+        body.first_tile = static_cast<std::uint32_t>(tiles);
+        const auto count = static_cast<std::uint32_t>(body.surface->features.tiles.size());
+        for (std::uint32_t first = 0; first < count; first += small_body)
+            pieces_.push_back({pair.b, first, std::min<std::uint32_t>(first + small_body, count)});
+        tiles += count;
+    }
+    if (tile_boxes_.size() < tiles) tile_boxes_.resize(tiles);
+}
+
+Box VertexFaceSearch::box_of_tile(const Searched& body, std::uint32_t index) const {
+    const SurfaceFeatures& features = body.surface->features;
+    const SurfaceTile& tile = features.tiles[index];
+    Box box = empty_box;
+    for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
+        add(box, body.vertex_box(features.vertices[tile.first_vertex + v]));
+    return box;
+}
+
+// Of tiles that others reach; the others get an empty box.
+void VertexFaceSearch::make_tile_boxes(const Scene& scene) {
+    constexpr std::size_t least = task_tiles / small_body;
+    scene.workers->for_ranges(pieces_.size(), least, [&](std::size_t begin, std::size_t end, std::uint32_t) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Searched& body = searched_[pieces_[i].body];
+            for (std::uint32_t t = pieces_[i].first; t < pieces_[i].last; ++t) {
+                const Box box = box_of_tile(body, t);
+                tile_boxes_[body.first_tile + t] = overlap(box, body.reached) ? box : empty_box;
+            }
+        }
+    });
+}
+
+// ---- which vertices and faces ---------------------------------------------------------------------
+
+// Blocks of a and tiles of b that are in reach of each other's bodies.
+bool VertexFaceSearch::list(const fast::Pair& pair, Worker& worker) const {
+    const Searched &a = searched_[pair.a], &b = searched_[pair.b];
+    const float reach = a.grow + b.grow;
+    const auto list_met = [](const Box* boxes, std::size_t count, const Box& region, Box& around, auto& out) {
+        out.clear();
+        for (std::size_t first = 0; first < count; first += fast::most_boxes) {
+            const auto some =
+                static_cast<std::uint32_t>(std::min<std::size_t>(fast::most_boxes, count - first));
+            std::uint64_t met = fast::find_overlaps(boxes + first, some, region);
+            for (; met; met &= met - 1) {
+                const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(met));
+                reserve_growing(out, out.size() + 1);
+                out.push_back(static_cast<std::uint32_t>(i));
+                add(around, boxes[i]);
+            }
+        }
+    };
+    // The tiles first, as there are less of them.
+    Box around_tiles = empty_box, around_blocks = empty_box;
+    list_met(&tile_boxes_[b.first_tile], b.surface->features.tiles.size(), grown(a.box, reach), around_tiles,
+             worker.tiles);
+    if (worker.tiles.empty()) return false;
+    list_met(a.blocks, a.block_count, grown(around_tiles, reach), around_blocks, worker.blocks);
+    if (worker.blocks.empty()) return false;
+    const Box region = grown(around_blocks, reach);
+    std::erase_if(worker.tiles,
+                  [&](std::uint32_t t) { return !overlap(tile_boxes_[b.first_tile + t], region); });
+    worker.boxes.clear();
+    worker.groups.clear();
+    for (std::size_t i = 0; i < worker.blocks.size(); ++i) {
+        const Box& box = a.blocks[worker.blocks[i]];
+        if (i % group_size == 0) worker.groups.push_back(empty_box);
+        add(worker.groups.back(), box);
+        worker.boxes.push_back(box);
+    }
+    return !worker.tiles.empty();
+}
+
+// The tiles [begin, end) of the list against all of its blocks.
+void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Worker& lists, std::size_t begin,
+                                    std::size_t end, NearFacesVisitor& visitor, std::uint32_t worker) const {
+    const Searched &a = searched_[pair.a], &b = searched_[pair.b];
+    const SurfaceFeatures& features = b.surface->features;
+    std::array<Box, SurfaceTile::most_vertices> points;
+    std::array<Box, SurfaceTile::most_faces> faces;
+    for (std::size_t i = begin; i < end; ++i) {
+        const SurfaceTile& tile = features.tiles[lists.tiles[i]];
+        const Box box = grown(tile_boxes_[b.first_tile + lists.tiles[i]], a.grow + b.grow);
+        bool is_loaded = false;
+        for (std::size_t group = 0; group < lists.groups.size(); ++group) {
+            if (!overlap(lists.groups[group], box)) continue;
+            const std::size_t first = group * group_size;
+            const auto count =
+                static_cast<std::uint32_t>(std::min<std::size_t>(group_size, lists.boxes.size() - first));
+            std::uint64_t met = fast::find_overlaps(&lists.boxes[first], count, box);
+            for (; met; met &= met - 1) {
+                const std::uint32_t block =
+                    lists.blocks[first + static_cast<std::size_t>(std::countr_zero(met))];
+                for (std::uint32_t v = a.begin_of(block); v < a.end_of(block); ++v) {
+                    const Box vertex = a.vertex_box(v);
+                    if (!overlap(vertex, box)) continue;
+                    if (!is_loaded) {
+                        for (std::uint32_t p = 0; p < tile.vertex_count; ++p)
+                            points[p] = b.vertex_box(features.vertices[tile.first_vertex + p]);
+                        for (std::uint32_t f = 0; f < tile.face_count; ++f) {
+                            const auto& [u, w, x] = features.faces[tile.first_face + f];
+                            Box face = points[u];
+                            add(face, points[w]);
+                            add(face, points[x]);
+                            faces[f] = grown(face, a.grow + b.grow);
+                        }
+                        is_loaded = true;
+                    }
+                    const std::uint64_t near = fast::find_overlaps(faces.data(), tile.face_count, vertex);
+                    if (near) visitor.visit({pair.a, v, pair.b, lists.tiles[i], near, b.surface}, worker);
+                }
+            }
+        }
+    }
+}
+
+} // namespace vox

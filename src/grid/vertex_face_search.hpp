@@ -1,0 +1,133 @@
+// Vertices of one body that are near faces of the surface of another one, or meet the boxes of these while
+// both move: what margin contacts and passages begin with. For both engines alike.
+#pragma once
+
+#include "base/boxes.hpp"
+#include "base/per_worker.hpp"
+#include "base/scene.hpp"
+#include "fast/body_pairs.hpp"
+#include "grid/edge_contacts.hpp"
+#include "grid/surface_features.hpp"
+#include "mesh/topology.hpp"
+
+#include <vox/vox.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <tuple>
+#include <vector>
+
+namespace vox {
+
+class FastEngine;
+class Workers;
+
+// A surface as the search reads it.
+struct SearchedSurface {
+    explicit SearchedSurface(std::pmr::memory_resource* memory) noexcept : features(memory), facets(memory) {}
+
+    SurfaceFeatures features;              // faces in the order of facet_corners of features.tets
+    std::pmr::vector<std::uint8_t> facets; // of each face: which of the tetrahedron it is
+};
+
+// Some faces of a tile of body b that the box of a vertex of body a meets: those with a bit in `faces`.
+struct NearFaces {
+    std::uint32_t a, vertex, b, tile;
+    std::uint64_t faces;
+    const SearchedSurface* surface; // of b
+};
+
+// Takes what is found; calls with the same worker follow each other.
+class NearFacesVisitor {
+public:
+    virtual void visit(const NearFaces& near, std::uint32_t worker) = 0;
+
+protected:
+    ~NearFacesVisitor() = default;
+};
+
+class VertexFaceSearch {
+public:
+    // A step as it is when the hits are found, as for edge contacts.
+    using Scene = EdgeScene;
+
+    explicit VertexFaceSearch(std::pmr::memory_resource* memory);
+
+    // Finds vertices and faces of different bodies that may collide, and of which one moved since the last
+    // step, as far as the engine knows; no such pair that is within `margin` is left out.
+    void find_near(const Scene& scene, double margin, NearFacesVisitor& visitor);
+    // The same for vertices and faces that may meet on their straight way from the previous positions, those
+    // without data standing still, to the present ones. Throws MeshError with NON_FINITE or LIMIT for a
+    // previous position.
+    void find_meeting(const Scene& scene, std::span<const Positions> previous, NearFacesVisitor& visitor);
+
+    // Of a mesh that is gone, or whose tetrahedra are others.
+    void forget(vox_mesh mesh) noexcept;
+    void forget_all() noexcept { surfaces_.clear(); }
+
+private:
+    struct Kept { // of a mesh, by its id
+        vox_mesh mesh;
+        SurfaceVersion version;
+        SearchedSurface surface;
+    };
+    struct Searched { // a body
+        // Packed, rounded to floats; `before` is null for one that stands still.
+        const float *at = nullptr, *before = nullptr;
+        // Boxes of runs of vertices, which begin at first_of_block, or are of eight each.
+        const Box* blocks = nullptr;
+        const std::uint32_t* first_of_block = nullptr;
+        std::uint32_t block_count = 0, vertex_count = 0;
+        Box box = empty_box;                      // around all
+        float grow = 0;                           // of two bodies, the sum is how far apart boxes can be
+        const SearchedSurface* surface = nullptr; // null where no pair needs it
+        std::uint32_t first_tile = 0;             // in tile_boxes_
+        Box reached = empty_box;                  // around where the boxes of others reach that of the body
+
+        std::uint32_t begin_of(std::uint32_t block) const noexcept;
+        std::uint32_t end_of(std::uint32_t block) const noexcept;
+        Box vertex_box(std::uint32_t vertex) const noexcept;
+    };
+    struct TilePiece {
+        std::uint32_t body, first, last;
+    };
+    struct Worker {
+        explicit Worker(std::pmr::memory_resource* memory)
+            : tiles(memory), blocks(memory), boxes(memory), groups(memory) {}
+        auto buffers() { return std::tie(tiles, blocks, boxes, groups); }
+
+        std::pmr::vector<std::uint32_t> tiles, blocks;
+        std::pmr::vector<Box> boxes, groups; // of blocks
+    };
+
+    void prepare_bodies(const Scene& scene, std::span<const Positions> previous, double margin);
+    void pack(const Positions& positions, const Vec3d& origin, std::uint32_t count, std::size_t& place);
+    void search(const Scene& scene, NearFacesVisitor& visitor);
+    const SearchedSurface& surface_of(const Scene& scene, std::uint32_t body);
+    void prepare_surfaces(const Scene& scene);
+    void make_tile_boxes(const Scene& scene);
+    Box box_of_tile(const Searched& body, std::uint32_t tile) const;
+    bool list(const fast::Pair& pair, Worker& worker) const;
+    void search_tiles(const fast::Pair& pair, const Worker& lists, std::size_t begin, std::size_t end,
+                      NearFacesVisitor& visitor, std::uint32_t worker) const;
+
+    std::pmr::memory_resource* memory() const noexcept { return surfaces_.get_allocator().resource(); }
+
+    std::pmr::vector<Kept> surfaces_; // by mesh
+
+    // One search.
+    std::pmr::vector<float> packed_;
+    std::pmr::vector<Box> block_boxes_;
+    std::pmr::vector<Searched> searched_; // of each body
+    std::pmr::vector<Box> body_boxes_;
+    fast::PairBuffers pair_buffers_;
+    std::pmr::vector<fast::Pair> pairs_; // vertices of a, faces of b
+    std::pmr::vector<TilePiece> pieces_;
+    std::pmr::vector<Box> tile_boxes_;
+    PerWorker<Worker> workers_;
+};
+
+} // namespace vox
