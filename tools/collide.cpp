@@ -27,7 +27,7 @@ struct Options {
     std::uint32_t repeat = 1;
     std::uint64_t limit = 10;
     bool no_depth = false, edges = false;
-    std::string save, out, csv;
+    std::string moving, save, out, csv;
     bool json = false;
 };
 
@@ -73,6 +73,28 @@ void print_edges(const Options& options, const vox_grid* grid, const std::vector
         std::printf("  and %llu more\n", static_cast<unsigned long long>(view.count - shown));
 }
 
+void print_near(const Options& options, const vox_grid* grid, const std::vector<vox_mesh>& ids) {
+    const auto letter = [&](vox_mesh mesh) { return place_of(ids, mesh) == 0 ? 'A' : 'B'; };
+    const auto title = [](std::size_t count, const char* one, const char* many) {
+        std::printf("\n%zu %s\n", count, count == 1 ? one : many);
+    };
+    if (has_margin(grid)) {
+        const std::vector<vox_margin_contact> all = margin_contacts_of(grid);
+        title(all.size(), "vertex within the margin", "vertices within the margin");
+        for (std::size_t i = 0; i < std::min<std::uint64_t>(all.size(), options.limit); ++i)
+            std::printf("  %c %10u  %c %12.6g   %9.6f %9.6f %9.6f\n", letter(all[i].mesh_a), all[i].vertex,
+                        letter(all[i].mesh_b), all[i].distance, all[i].normal[0], all[i].normal[1],
+                        all[i].normal[2]);
+    }
+    if (!options.moving.empty()) {
+        const std::vector<vox_passage> all = passages_of(grid);
+        title(all.size(), "vertex met a surface on the way", "vertices met a surface on the way");
+        for (std::size_t i = 0; i < std::min<std::uint64_t>(all.size(), options.limit); ++i)
+            std::printf("  %c %10u  %c face %u %u %u at %.9g\n", letter(all[i].mesh_a), all[i].vertex,
+                        letter(all[i].mesh_b), all[i].face[0], all[i].face[1], all[i].face[2], all[i].time);
+    }
+}
+
 void print_text(const Options& options, const vox_grid* grid, const std::vector<Body>& bodies,
                 const std::vector<vox_mesh>& ids, const vox_profile& profile) {
     for (std::size_t i = 0; i < bodies.size(); ++i)
@@ -101,6 +123,7 @@ void print_text(const Options& options, const vox_grid* grid, const std::vector<
                     static_cast<unsigned long long>(view.count - shown));
     if (!options.no_depth) print_penetrations(options, grid, ids);
     if (options.edges) print_edges(options, grid, ids);
+    print_near(options, grid, ids);
     std::printf("\nhash %s, cell size %.9g\n", hash_of(grid).c_str(), cell_size_of(grid));
     std::printf("step %.3f ms: ", milliseconds(profile.step_ns));
     if (profile.stream_ns > 0) // the fast engine
@@ -131,6 +154,16 @@ void require_inside(const std::vector<Body>& bodies) {
                   " no inside for a vertex to be in; --fill fills them with tetrahedra first");
 }
 
+void bind_previous(vox_grid* grid, vox_mesh mesh, const Body& body, const Body& before) {
+    if (before.view.vertex_count != body.view.vertex_count)
+        throw Failure(before.name + " has " + std::to_string(before.view.vertex_count) + " vertices, but " +
+                      body.name + " has " + std::to_string(body.view.vertex_count));
+    const bool doubles = !before.exact.empty();
+    check(vox_mesh_bind_previous_positions(
+        grid, mesh, doubles ? static_cast<const void*>(before.exact.data()) : before.positions.data(),
+        doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3, 0, 0));
+}
+
 void run(const Options& options) {
     if (options.b.empty() && !options.self)
         throw WrongUsage("collide needs a second mesh, or --self for self-collision of the first");
@@ -145,11 +178,15 @@ void run(const Options& options) {
         bodies.push_back(load_body(options.b, placement, options.fill));
     }
     require_inside(bodies);
+    Body before;
+    if (!options.moving.empty())
+        before = load_body(options.moving, {.keep_doubles = options.keep_doubles}, {});
     std::vector<vox_mesh> ids;
     vox_grid_desc desc = options.grid;
     if (options.no_depth) desc.flags &= ~std::uint32_t{VOX_GRID_PENETRATIONS};
     if (options.edges) desc.flags |= VOX_GRID_EDGE_CONTACTS;
     const Grid grid = make_grid(desc, bodies, options.self, ids);
+    if (!options.moving.empty()) bind_previous(grid.get(), ids[0], bodies[0], before);
     const vox_profile profile = measure_steps(grid.get(), bodies, ids, options.repeat);
     if (options.edges) check(vox_grid_prepare_edge_depths(grid.get()));
     if (!options.save.empty()) save_snapshot(grid.get(), options.save);
@@ -157,11 +194,13 @@ void run(const Options& options) {
     if (!options.out.empty()) {
         std::vector<DrawnMesh> drawn;
         for (std::size_t i = 0; i < bodies.size(); ++i) drawn.push_back(drawn_mesh(bodies[i], ids[i]));
-        write_results(options.out, drawn, grid.get());
+        write_results(options.out, drawn, grid.get(), !options.moving.empty());
     }
     if (!options.json) return print_text(options, grid.get(), bodies, ids, profile);
     Json json = {{"meshes", body_list(bodies)}};
     add_collision(json, grid.get(), ids, profile);
+    if (has_margin(grid.get())) json["margin_contacts"] = margin_contacts(grid.get(), ids);
+    if (!options.moving.empty()) json["passages"] = passages(grid.get(), ids);
     print(json);
 }
 
@@ -181,6 +220,14 @@ void add_collide(CommandLine& line) {
         .finite()
         .needs(b);
     command.flag("--double", options->keep_doubles, "Keep positions in double instead of rounding to float");
+    command
+        .option("--margin", options->grid.margin,
+                "Also find vertices outside, but within this distance of a surface")
+        .not_negative();
+    command
+        .option("--moving", options->moving,
+                "Mesh file with where the vertices of A were: also find what meets a surface on the way")
+        .shown_as("PREVIOUS");
     command.choice("--engine", options->grid.engine, engines, "Algorithm");
     command.option("--cell-size", options->grid.cell_size, "Edge of a cell; 0: the library chooses")
         .not_negative();

@@ -74,7 +74,10 @@ Json counters_json(const vox_counters& counters) {
             {"total_contacts_ended", counters.total_contacts_ended},
             {"edge_contacts", counters.edge_contacts},
             {"carried_edge_contacts", counters.carried_edge_contacts},
-            {"edge_candidates", counters.edge_candidates}};
+            {"edge_candidates", counters.edge_candidates},
+            {"margin_contacts", counters.margin_contacts},
+            {"carried_margin_contacts", counters.carried_margin_contacts},
+            {"passages", counters.passages}};
 }
 
 Json penetrations(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
@@ -223,6 +226,32 @@ void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>
     add_result(json, grid, profile);
 }
 
+Json margin_contacts(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
+    Json list = Json::array();
+    for (const vox_margin_contact& c : margin_contacts_of(grid))
+        list.push_back({{"mesh_a", place_of(ids, c.mesh_a)},
+                        {"vertex", c.vertex},
+                        {"mesh_b", place_of(ids, c.mesh_b)},
+                        {"tet", c.tet},
+                        {"face", {c.face[0], c.face[1], c.face[2]}},
+                        {"face_weights", point(c.face_weights)},
+                        {"distance", number(c.distance)},
+                        {"normal", point(c.normal)}});
+    return list;
+}
+
+Json passages(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
+    Json list = Json::array();
+    for (const vox_passage& p : passages_of(grid))
+        list.push_back({{"mesh_a", place_of(ids, p.mesh_a)},
+                        {"vertex", p.vertex},
+                        {"mesh_b", place_of(ids, p.mesh_b)},
+                        {"tet", p.tet},
+                        {"face", {p.face[0], p.face[1], p.face[2]}},
+                        {"time", number(p.time)}});
+    return list;
+}
+
 void add_result(Json& json, const vox_grid* grid, const vox_profile& profile) {
     json["hash"] = hash_of(grid);
     json["cell_size"] = number(cell_size_of(grid));
@@ -238,7 +267,8 @@ void add_result(Json& json, const vox_grid* grid, const vox_profile& profile) {
                        {"windows_ns", profile.windows_ns},
                        {"lookup_ns", profile.lookup_ns},
                        {"decide_ns", profile.decide_ns},
-                       {"edges_ns", profile.edges_ns}};
+                       {"edges_ns", profile.edges_ns},
+                       {"margin_ns", profile.margin_ns}};
     json["counters"] = counters_json(counters_of(grid));
 }
 

@@ -31,6 +31,10 @@ void add_suggestion(Json& json, const vox_suggestion& suggestion);
 void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>& ids,
                    const vox_profile& profile);
 
+// Lists of the margin contacts and of the passages of the last step, meshes by their indices in `ids`.
+Json margin_contacts(const vox_grid* grid, const std::vector<vox_mesh>& ids);
+Json passages(const vox_grid* grid, const std::vector<vox_mesh>& ids);
+
 // Returns "paper", "reference" or "fast".
 const char* model_name(vox_cost_model model);
 

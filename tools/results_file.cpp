@@ -21,6 +21,7 @@ struct Results {
     std::vector<double> mesh, number, contacts;  // of vertices, or of cells
     std::vector<double> depth, direction, state; // of vertices
     std::vector<double> edge_contacts;           // of vertices
+    std::vector<double> margin_distance, margin_normal, passage_time;
 };
 
 vox_io_point_data data(const char* name, const std::vector<double>& values, std::uint32_t components = 1) {
@@ -38,7 +39,8 @@ DrawnMesh drawn_mesh(const Body& body, vox_mesh id) {
     return mesh;
 }
 
-void write_results(const std::string& path, std::span<const DrawnMesh> meshes, const vox_grid* grid) {
+void write_results(const std::string& path, std::span<const DrawnMesh> meshes, const vox_grid* grid,
+                   bool moving) {
     std::vector<double> positions;
     std::vector<std::uint32_t> triangles, tets;
     std::vector<Start> starts;
@@ -111,6 +113,27 @@ void write_results(const std::string& path, std::span<const DrawnMesh> meshes, c
                 vertices.edge_contacts[starts[places.at(contact.mesh_a)].vertex + vertex] += 1;
         }
         of_points.push_back(data("edge_contacts", vertices.edge_contacts));
+    }
+    if (has_margin(grid)) {
+        vertices.margin_distance.assign(vertices.mesh.size(), -1);
+        vertices.margin_normal.assign(3 * vertices.mesh.size(), 0);
+        for (const vox_margin_contact& c : margin_contacts_of(grid)) {
+            const std::size_t vertex = starts[places.at(c.mesh_a)].vertex + c.vertex;
+            double& distance = vertices.margin_distance[vertex];
+            if (distance >= 0 && distance <= c.distance) continue;
+            distance = c.distance;
+            std::copy(c.normal, c.normal + 3, vertices.margin_normal.begin() + 3 * std::ptrdiff_t(vertex));
+        }
+        of_points.push_back(data("margin_distance", vertices.margin_distance));
+        of_points.push_back(data("margin_normal", vertices.margin_normal, 3));
+    }
+    if (moving) {
+        vertices.passage_time.assign(vertices.mesh.size(), -1);
+        for (const vox_passage& p : passages_of(grid)) {
+            double& time = vertices.passage_time[starts[places.at(p.mesh_a)].vertex + p.vertex];
+            if (time < 0 || p.time < time) time = p.time;
+        }
+        of_points.push_back(data("passage_time", vertices.passage_time));
     }
     const std::vector<vox_io_point_data> of_cells = {data("mesh", cells.mesh), data("tet", cells.number),
                                                      data("contacts", cells.contacts)};

@@ -24,9 +24,12 @@ DrawnMesh drawn_mesh(const Body& body, vox_mesh id);
 // Writes the meshes, one behind the other, to a .vtu or .msh file. For each vertex: `mesh` (index in
 // `meshes`), `vertex` (its number there), `contacts` (tetrahedra that it is in), and of its deepest
 // penetration `depth`, `direction` and `state` (vox_penetration_state; -1: none); in a grid with edge
-// contacts `edge_contacts` (those of its edges). For each cell: `mesh`, `tet` (its number; -1: a triangle),
-// `contacts` (vertices in it). Throws Failure.
-void write_results(const std::string& path, std::span<const DrawnMesh> meshes, const vox_grid* grid);
+// contacts `edge_contacts` (those of its edges); in a grid with a margin the `margin_distance` (-1: none) and
+// `margin_normal` of its closest margin contact; with `moving` the `passage_time` of its first passage (-1:
+// none). For each cell: `mesh`, `tet` (its number; -1: a triangle), `contacts` (vertices in it). Throws
+// Failure.
+void write_results(const std::string& path, std::span<const DrawnMesh> meshes, const vox_grid* grid,
+                   bool moving = false);
 
 // Writes one line for each contact, in a grid without filters. Throws Failure.
 void write_contacts(const std::string& path, const std::vector<vox_mesh>& ids, const vox_grid* grid);

@@ -164,6 +164,15 @@ vox_profile measure_steps(vox_grid* grid, std::span<Body> bodies, std::span<cons
 
 namespace {
 
+// The elements of a view, which may be larger than this program knows them.
+template <class View>
+auto elements_of(const View& view) {
+    std::vector<std::remove_cvref_t<decltype(*view.data)>> all(view.count);
+    for (std::uint64_t i = 0; i < view.count; ++i)
+        std::memcpy(&all[i], reinterpret_cast<const char*>(view.data) + i * view.byte_stride, sizeof all[i]);
+    return all;
+}
+
 bool has_flag(const vox_grid* grid, std::uint32_t flag) {
     std::uint32_t flags = 0;
     check(vox_grid_get_flags(grid, &flags));
@@ -171,6 +180,24 @@ bool has_flag(const vox_grid* grid, std::uint32_t flag) {
 }
 
 } // namespace
+
+bool has_margin(const vox_grid* grid) {
+    double margin = 0;
+    check(vox_grid_margin(grid, &margin));
+    return margin > 0;
+}
+
+std::vector<vox_margin_contact> margin_contacts_of(const vox_grid* grid) {
+    vox_margin_contact_view view;
+    check(vox_grid_margin_contacts(grid, &view));
+    return elements_of(view);
+}
+
+std::vector<vox_passage> passages_of(const vox_grid* grid) {
+    vox_passage_view view;
+    check(vox_grid_passages(grid, &view));
+    return elements_of(view);
+}
 
 bool has_penetrations(const vox_grid* grid) { return has_flag(grid, VOX_GRID_PENETRATIONS); }
 

@@ -30,6 +30,11 @@ vox_penetration_view penetrations_of(const vox_grid* grid);
 vox_edge_contact_view edge_contacts_of(const vox_grid* grid);
 vox_depth_view edge_depths_of(const vox_grid* grid);
 
+// Whether the grid has a margin, and its results.
+bool has_margin(const vox_grid* grid);
+std::vector<vox_margin_contact> margin_contacts_of(const vox_grid* grid);
+std::vector<vox_passage> passages_of(const vox_grid* grid);
+
 inline vox_contact contact_at(const vox_contact_view& view, std::uint64_t index) {
     vox_contact contact;
     std::memcpy(&contact, reinterpret_cast<const char*>(view.data) + index * view.byte_stride,

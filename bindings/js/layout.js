@@ -16,7 +16,7 @@ export const structs = {
     finish: [4, "pointer", 1],
     user: [8, "pointer", 1],
   } },
-  vox_grid_desc: { size: 136, fields: {
+  vox_grid_desc: { size: 144, fields: {
     struct_size: [0, "u32", 1],
     engine: [4, "i32", 1],
     storage: [8, "i32", 1],
@@ -32,6 +32,7 @@ export const structs = {
     worker_count: [120, "u32", 1],
     flags: [124, "u32", 1],
     closest_budget: [128, "count", 1],
+    margin: [136, "f64", 1],
   } },
   vox_filter: { size: 48, fields: {
     struct_size: [0, "u32", 1],
@@ -156,6 +157,38 @@ export const structs = {
     normal: [104, "f64", 3],
   } },
   vox_edge_contact_view: { size: 24, fields: {
+    data: [0, "pointer", 1],
+    byte_stride: [4, "u32", 1],
+    count: [8, "count", 1],
+    epoch: [16, "count", 1],
+  } },
+  vox_margin_contact: { size: 88, fields: {
+    mesh_a: [0, "u32", 1],
+    vertex: [4, "u32", 1],
+    mesh_b: [8, "u32", 1],
+    tet: [12, "u32", 1],
+    facet: [16, "u32", 1],
+    face: [20, "u32", 3],
+    face_weights: [32, "f64", 3],
+    distance: [56, "f64", 1],
+    normal: [64, "f64", 3],
+  } },
+  vox_margin_contact_view: { size: 24, fields: {
+    data: [0, "pointer", 1],
+    byte_stride: [4, "u32", 1],
+    count: [8, "count", 1],
+    epoch: [16, "count", 1],
+  } },
+  vox_passage: { size: 40, fields: {
+    mesh_a: [0, "u32", 1],
+    vertex: [4, "u32", 1],
+    mesh_b: [8, "u32", 1],
+    tet: [12, "u32", 1],
+    facet: [16, "u32", 1],
+    face: [20, "u32", 3],
+    time: [32, "f64", 1],
+  } },
+  vox_passage_view: { size: 24, fields: {
     data: [0, "pointer", 1],
     byte_stride: [4, "u32", 1],
     count: [8, "count", 1],
@@ -297,7 +330,7 @@ export const structs = {
     t: [16, "f64", 1],
     barycentric: [24, "f64", 3],
   } },
-  vox_counters: { size: 280, fields: {
+  vox_counters: { size: 304, fields: {
     struct_size: [0, "u32", 1],
     meshes: [4, "u32", 1],
     vertices: [8, "count", 1],
@@ -334,8 +367,11 @@ export const structs = {
     edge_contacts: [256, "count", 1],
     carried_edge_contacts: [264, "count", 1],
     edge_candidates: [272, "count", 1],
+    margin_contacts: [280, "count", 1],
+    carried_margin_contacts: [288, "count", 1],
+    passages: [296, "count", 1],
   } },
-  vox_profile: { size: 120, fields: {
+  vox_profile: { size: 128, fields: {
     struct_size: [0, "u32", 1],
     reserved: [4, "u32", 1],
     step_ns: [8, "count", 1],
@@ -352,6 +388,7 @@ export const structs = {
     lookup_ns: [96, "count", 1],
     decide_ns: [104, "count", 1],
     edges_ns: [112, "count", 1],
+    margin_ns: [120, "count", 1],
   } },
   vox_suggest_desc: { size: 96, fields: {
     struct_size: [0, "u32", 1],
@@ -611,6 +648,8 @@ export const functions = {
   vox_grid_cell_size: ["result", ["pointer", "pointer"]],
   vox_grid_set_worker_count: ["result", ["pointer", "u32"]],
   vox_grid_set_flags: ["result", ["pointer", "u32"]],
+  vox_grid_set_margin: ["result", ["pointer", "f64"]],
+  vox_grid_margin: ["result", ["pointer", "pointer"]],
   vox_grid_get_flags: ["result", ["pointer", "pointer"]],
   vox_filter_init: ["result", ["pointer", "u32"]],
   vox_mesh_desc_init: ["result", ["pointer", "u32"]],
@@ -623,6 +662,7 @@ export const functions = {
   vox_mesh_copy_tets: ["result", ["pointer", "u32", "pointer", "pointer", "count", "pointer"]],
   vox_mesh_bind_positions: ["result", ["pointer", "u32", "pointer", "i32", "count"]],
   vox_mesh_bind_strided_positions: ["result", ["pointer", "u32", "pointer", "i32", "count", "count"]],
+  vox_mesh_bind_previous_positions: ["result", ["pointer", "u32", "pointer", "i32", "count", "count"]],
   vox_mesh_mark_moved: ["result", ["pointer", "u32"]],
   vox_mesh_set_filter: ["result", ["pointer", "u32", "pointer"]],
   vox_mesh_filter: ["result", ["pointer", "u32", "pointer"]],
@@ -652,6 +692,8 @@ export const functions = {
   vox_grid_edge_hash: ["result", ["pointer", "pointer"]],
   vox_grid_prepare_edge_depths: ["result", ["pointer"]],
   vox_grid_edge_depths: ["result", ["pointer", "pointer"]],
+  vox_grid_margin_contacts: ["result", ["pointer", "pointer"]],
+  vox_grid_passages: ["result", ["pointer", "pointer"]],
   vox_grid_pairs: ["result", ["pointer", "pointer"]],
   vox_mesh_copy_contacts: ["result", ["pointer", "u32", "pointer", "count", "pointer"]],
   vox_pair_copy_contacts: ["result", ["pointer", "u32", "u32", "pointer", "count", "pointer"]],

@@ -58,6 +58,8 @@ export interface GridDesc {
    * (the default): no limit.
    */
   closestBudget: number;
+  /** As vox_grid_set_margin; default 0. Experimental. */
+  margin: number;
 }
 
 /**
@@ -259,6 +261,80 @@ export interface EdgeContactColumns {
   readonly faceWeights: Float64Array;
   readonly position: Float64Array;
   readonly normal: Float64Array;
+}
+
+/**
+ * Vertex `vertex` of mesh_a is in no tetrahedron of mesh_b, but no further than the margin from its surface. The point
+ * of the surface of mesh_b that is closest to it is on a facet of `tet`; of several at the same distance that of the
+ * lowest (tet, facet), as in vox_grid_query_closest. Computed in double.
+ */
+export interface MarginContact {
+  meshA: number;
+  vertex: number;
+  /** never mesh_a */
+  meshB: number;
+  /** of mesh_b */
+  tet: number;
+  /** of the tetrahedron, as in vox_surface_hit */
+  facet: number;
+  /** its vertices, in the order given there */
+  face: [number, number, number];
+  /** of the closest point, in [0, 1], with the sum 1 up to rounding */
+  faceWeights: [number, number, number];
+  /** from the vertex to the closest point */
+  distance: number;
+  /** a unit vector from the closest point to the vertex; out of the tetrahedron if there is no distance between them */
+  normal: [number, number, number];
+}
+
+/** Columns of MarginContact: of an array field, its elements one after the other. */
+export interface MarginContactColumns {
+  readonly meshA: Uint32Array;
+  readonly vertex: Uint32Array;
+  readonly meshB: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly facet: Uint32Array;
+  readonly face: Uint32Array;
+  readonly faceWeights: Float64Array;
+  readonly distance: Float64Array;
+  readonly normal: Float64Array;
+}
+
+/**
+ * Vertex `vertex` of mesh_a met the surface of mesh_b while both moved from their previous positions to the present
+ * ones (vox_mesh_bind_previous_positions; a mesh without previous positions stands still), wherever it was before and
+ * is after: also where it went through a thin mesh and out again.
+ */
+export interface Passage {
+  meshA: number;
+  vertex: number;
+  /** never mesh_a */
+  meshB: number;
+  /** of mesh_b */
+  tet: number;
+  /**
+   * of the tetrahedron, as in vox_surface_hit: the first that the vertex met; the lowest (tet, facet) of several at the
+   * same time
+   */
+  facet: number;
+  /** its vertices, in the order given there */
+  face: [number, number, number];
+  /**
+   * in [0, 1], 0 at the previous positions: when it met it; never too late, and too early by no more than rounding
+   * errors make necessary
+   */
+  time: number;
+}
+
+/** Columns of Passage: of an array field, its elements one after the other. */
+export interface PassageColumns {
+  readonly meshA: Uint32Array;
+  readonly vertex: Uint32Array;
+  readonly meshB: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly facet: Uint32Array;
+  readonly face: Uint32Array;
+  readonly time: Float64Array;
 }
 
 /**
@@ -627,6 +703,12 @@ export interface Counters {
   carriedEdgeContacts: number;
   /** edges and faces whose boxes overlap */
   edgeCandidates: number;
+  /** 0 without a margin (vox_grid_set_margin), as is the next one */
+  marginContacts: number;
+  /** part of `margin_contacts` carried over from the step before */
+  carriedMarginContacts: number;
+  /** 0 without previous positions (vox_mesh_bind_previous_positions) */
+  passages: number;
 }
 
 /**
@@ -662,6 +744,8 @@ export interface Profile {
   decideNs: number;
   /** edge contacts, with either engine */
   edgesNs: number;
+  /** margin contacts and passages, with either engine */
+  marginNs: number;
 }
 
 export interface SuggestDesc {

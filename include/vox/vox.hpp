@@ -1141,6 +1141,10 @@ public:
     returns<void> set_cell_size(double size) { return detail::give(vox_grid_set_cell_size(get(), size)); }
     // vox_grid_cell_size
     returns<double> cell_size() const { return detail::filled<double>(vox_grid_cell_size, get()); }
+    // vox_grid_set_margin
+    returns<void> set_margin(double margin) { return detail::give(vox_grid_set_margin(get(), margin)); }
+    // vox_grid_margin
+    returns<double> margin() const { return detail::filled<double>(vox_grid_margin, get()); }
     // vox_grid_set_worker_count
     returns<void> set_worker_count(std::uint32_t count) {
         return detail::give(vox_grid_set_worker_count(get(), count));
@@ -1203,6 +1207,24 @@ public:
             result = vox_mesh_bind_strided_positions(get(), mesh, positions.data, positions.format,
                                                      positions.byte_stride, positions.component_byte_stride);
         return detail::give(rebound(mesh, result));
+    }
+    // vox_mesh_bind_previous_positions. Fails unless there are as many as the mesh has vertices.
+    returns<void> bind_previous(vox_mesh mesh, const borrowed_points& positions) {
+        vox_mesh_info info = detail::sized<vox_mesh_info>();
+        vox_result result = positions.misfit.result();
+        if (result == VOX_OK) result = vox_mesh_get_info(get(), mesh, &info);
+        if (result == VOX_OK && info.vertex_count != positions.count)
+            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT,
+                                  "bind_previous: %llu positions for mesh %llu, which has %llu vertices",
+                                  positions.count, mesh, info.vertex_count);
+        if (result == VOX_OK)
+            result = vox_mesh_bind_previous_positions(get(), mesh, positions.data, positions.format,
+                                                      positions.byte_stride, positions.component_byte_stride);
+        return detail::give(result);
+    }
+    // The mesh stands still from now on.
+    returns<void> end_previous(vox_mesh mesh) {
+        return detail::give(vox_mesh_bind_previous_positions(get(), mesh, nullptr, VOX_FORMAT_FLOAT3, 0, 0));
     }
     // vox_mesh_map_positions: float or double, as the mesh has them. The view ends with them.
     template <class T>
@@ -1364,6 +1386,10 @@ public:
     returns<void> prepare_edge_depths() { return detail::give(vox_grid_prepare_edge_depths(get())); }
     // vox_grid_edge_depths
     returns<view<const vox_depth>> edge_depths() const& { return read(vox_grid_edge_depths); }
+    // vox_grid_margin_contacts
+    returns<view<const vox_margin_contact>> margin_contacts() const& { return read(vox_grid_margin_contacts); }
+    // vox_grid_passages
+    returns<view<const vox_passage>> passages() const& { return read(vox_grid_passages); }
     // vox_grid_pairs
     returns<pair_view> pairs() const& {
         vox_pair_view view{};
@@ -1393,6 +1419,8 @@ public:
     void interiors() const&& = delete;
     void edge_contacts() const&& = delete;
     void edge_depths() const&& = delete;
+    void margin_contacts() const&& = delete;
+    void passages() const&& = delete;
     void penetrations() const&& = delete;
     void depths() const&& = delete;
     void pairs() const&& = delete;

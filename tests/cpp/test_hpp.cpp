@@ -132,6 +132,37 @@ START_TEST(edge_contacts_equal_those_of_c) {
 }
 END_TEST
 
+START_TEST(margin_contacts_and_passages_equal_those_of_c) {
+    Stepped with;
+    CGrid c(with.scene);
+    vox_margin_contact_view margins;
+    vox_passage_view passages;
+    const vox::grid& grid = with.grid;
+    with.grid.set_margin(0.5);
+    ck_ok(vox_grid_set_margin(c.grid, 0.5));
+    ck_assert_double_eq(grid.margin(), 0.5);
+    std::vector<float> before;
+    std::uint64_t count = 0;
+    vox_mesh first = VOX_NULL_MESH, first_of_c = VOX_NULL_MESH;
+    ck_ok(vox_grid_meshes(with.grid.get(), &first, 1, &count));
+    ck_ok(vox_grid_meshes(c.grid, &first_of_c, 1, &count));
+    vox_mesh_info info = sized_struct<vox_mesh_info>();
+    ck_ok(vox_mesh_get_info(c.grid, first_of_c, &info));
+    before.assign(3 * static_cast<std::size_t>(info.vertex_count), 0.25f);
+    with.grid.bind_previous(first, before);
+    ck_ok(vox_mesh_bind_previous_positions(c.grid, first_of_c, before.data(), VOX_FORMAT_FLOAT3, 0, 0));
+    with.grid.step();
+    ck_ok(vox_grid_step(c.grid));
+    ck_ok(vox_grid_margin_contacts(c.grid, &margins));
+    ck_ok(vox_grid_passages(c.grid, &passages));
+    same_view(grid.margin_contacts(), margins);
+    same_view(grid.passages(), passages);
+    with.grid.end_previous(first);
+    with.grid.step();
+    ck_assert_uint_eq(grid.passages().size(), 0);
+}
+END_TEST
+
 START_TEST(results_equal_those_of_c) {
     Stepped with;
     const vox::grid& grid = with.grid;
@@ -1200,7 +1231,8 @@ END_TEST
 
 int main() {
     Suite* suite = suite_create("vox.hpp");
-    tcase_add_each(add_case(suite, "results"), results_equal_those_of_c, edge_contacts_equal_those_of_c, readings_equal_those_of_c,
+    tcase_add_each(add_case(suite, "results"), results_equal_those_of_c, edge_contacts_equal_those_of_c,
+                   margin_contacts_and_passages_equal_those_of_c, readings_equal_those_of_c,
                    meshes_tell_what_c_tells, transforms, queries_equal_those_of_c, meshes_are_cut_as_in_c,
                    cell_sizes_equal_those_of_c, primitives_are_those_of_c,
                    cell_sizes_of_any_grid_equal_those_of_c, snapshots_hold_the_grid, many_grids_in_one_call,

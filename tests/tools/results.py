@@ -119,6 +119,45 @@ class Results(Files):
         self.assertNotIn(("PointData", "depth"), self.arrays(drawing))
         self.assertNotIn("penetrating", run(*self.placed, "--no-depth").stdout.decode())
 
+    def test_margin(self):
+        out = self.path("out.vtu")
+        above = ["collide", self.one, self.one, "--offset", 0, 0, 1.125]
+        found = run_json(*above, "--margin", 0.25, "-o", out)
+        self.assertEqual(found["contacts"], [])
+        self.assertEqual([(c["mesh_a"], c["vertex"], c["mesh_b"], c["distance"], c["normal"])
+                          for c in found["margin_contacts"]],
+                         [(0, 3, 1, 0.125, [0, 0, -1]), (1, 0, 0, 0.125, [0, 0, 1])])
+        self.assertEqual(found["counters"]["margin_contacts"], 2)
+        arrays = self.arrays(out)
+        self.assertEqual(arrays["PointData", "margin_distance"], [-1, -1, -1, 0.125, 0.125, -1, -1, -1])
+        self.assertEqual(arrays["PointData", "margin_normal"][9:15], [0, 0, -1, 0, 0, 1])
+        self.assertIn("2 vertices within the margin", run(*above, "--margin", 0.25).stdout.decode())
+        without = run_json(*above, "-o", out)
+        self.assertNotIn("margin_contacts", without)
+        self.assertNotIn(("PointData", "margin_distance"), self.arrays(out))
+        self.assertEqual(run(*above, "--margin", -1).returncode, 2)
+
+    def test_moving(self):
+        """A falls through B, and is outside of it before and after."""
+        out = self.path("out.vtu")
+        now, before = (self.write(name, msh([(x, y, z + to) for x, y, z in TWO_TETS[:4]], TETS[:1]))
+                       for name, to in (("now.msh", -3), ("before.msh", 3)))
+        falling = ["collide", now, self.one, "--offset", -0.25, -0.25, 0]
+        found = run_json(*falling, "--moving", before, "-o", out)
+        self.assertEqual(found["contacts"], [])
+        self.assertEqual([(p["mesh_a"], p["vertex"], p["mesh_b"], p["face"]) for p in found["passages"]],
+                         [(0, 0, 1, [1, 2, 3]), (0, 3, 1, [1, 2, 3])])
+        for passage, time in zip(found["passages"], (2.5 / 6, 3.5 / 6)):
+            self.assertLessEqual(passage["time"], time)
+            self.assertAlmostEqual(passage["time"], time, 12)
+        self.assertEqual([time >= 0 for time in self.arrays(out)["PointData", "passage_time"]],
+                         [True, False, False, True] + 4 * [False])
+        self.assertIn("2 vertices met a surface", run(*falling, "--moving", before).stdout.decode())
+        self.assertNotIn("passages", run_json(*falling))
+        done = run(*falling, "--moving", self.two)
+        self.assertEqual((done.returncode, done.stdout), (1, b""))
+        self.assertIn("two.msh has 5 vertices, but " + now + " has 4", done.stderr.decode())
+
     def test_series(self):
         snapshots = []
         for i, x in enumerate((0.1, 0.3, 5)):

@@ -655,6 +655,8 @@ namespace Voxtet
         /// <summary>Most searches for a closest point that the depth stage makes in one step: for penetrations that
         /// would be ENCLOSED, or CROSSING with nothing but a closest point to go by.</summary>
         public ulong closest_budget;
+        /// <summary>As vox_grid_set_margin; default 0.</summary>
+        public double margin;
     }
 
     /// <summary>What a mesh does not collide with.</summary>
@@ -915,6 +917,74 @@ namespace Voxtet
         public ulong epoch;
     }
 
+    /// <summary>Vertex `vertex` of mesh_a is in no tetrahedron of mesh_b, but no further than the margin from its
+    /// surface.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 88)]
+    public struct MarginContact
+    {
+        public uint mesh_a;
+        public uint vertex;
+        /// <summary>never mesh_a</summary>
+        public uint mesh_b;
+        /// <summary>of mesh_b</summary>
+        public uint tet;
+        /// <summary>of the tetrahedron, as in vox_surface_hit</summary>
+        public uint facet;
+        /// <summary>its vertices, in the order given there</summary>
+        public Uint3 face;
+        /// <summary>of the closest point, in [0, 1], with the sum 1 up to rounding</summary>
+        public Double3 face_weights;
+        /// <summary>from the vertex to the closest point</summary>
+        public double distance;
+        /// <summary>a unit vector from the closest point to the vertex; out of the tetrahedron if there is no distance
+        /// between them</summary>
+        public Double3 normal;
+    }
+
+    /// <summary>`count` margin contacts, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b), each of which has one
+    /// at most.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct MarginContactView
+    {
+        public MarginContact* data;
+        public UIntPtr byte_stride;
+        public ulong count;
+        public ulong epoch;
+    }
+
+    /// <summary>Vertex `vertex` of mesh_a met the surface of mesh_b while both moved from their previous positions to
+    /// the present ones (vox_mesh_bind_previous_positions; a mesh without previous positions stands still), wherever it
+    /// was before and is after: also where it went through a thin mesh and out again.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 40)]
+    public struct Passage
+    {
+        public uint mesh_a;
+        public uint vertex;
+        /// <summary>never mesh_a</summary>
+        public uint mesh_b;
+        /// <summary>of mesh_b</summary>
+        public uint tet;
+        /// <summary>of the tetrahedron, as in vox_surface_hit: the first that the vertex met; the lowest (tet, facet)
+        /// of several at the same time</summary>
+        public uint facet;
+        /// <summary>its vertices, in the order given there</summary>
+        public Uint3 face;
+        /// <summary>in [0, 1], 0 at the previous positions: when it met it; never too late, and too early by no more
+        /// than rounding errors make necessary</summary>
+        public double time;
+    }
+
+    /// <summary>`count` passages, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b), each of which has one at
+    /// most.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct PassageView
+    {
+        public Passage* data;
+        public UIntPtr byte_stride;
+        public ulong count;
+        public ulong epoch;
+    }
+
     /// <summary>Two meshes that touch: a vertex of one of them is in a tetrahedron of the other, or they have edge
     /// contacts (VOX_GRID_EDGE_CONTACTS). mesh_a &lt;= mesh_b; they are equal if a mesh touches itself.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 48)]
@@ -1160,7 +1230,7 @@ namespace Voxtet
     }
 
     /// <summary>What the last successful step did.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 280)]
+    [StructLayout(LayoutKind.Sequential, Size = 304)]
     public struct Counters
     {
         public uint struct_size;
@@ -1226,11 +1296,17 @@ namespace Voxtet
         public ulong carried_edge_contacts;
         /// <summary>edges and faces whose boxes overlap</summary>
         public ulong edge_candidates;
+        /// <summary>0 without a margin (vox_grid_set_margin), as is the next one</summary>
+        public ulong margin_contacts;
+        /// <summary>part of `margin_contacts` carried over from the step before</summary>
+        public ulong carried_margin_contacts;
+        /// <summary>0 without previous positions (vox_mesh_bind_previous_positions)</summary>
+        public ulong passages;
     }
 
     /// <summary>Nanoseconds of the last successful step, in total and by stage. stream_ns to decide_ns are the stages
     /// of the fast engine, and bin_ns, broad_ns and narrow_ns are sums of them.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 120)]
+    [StructLayout(LayoutKind.Sequential, Size = 128)]
     public struct Profile
     {
         public uint struct_size;
@@ -1262,6 +1338,8 @@ namespace Voxtet
         public ulong decide_ns;
         /// <summary>edge contacts, with either engine</summary>
         public ulong edges_ns;
+        /// <summary>margin contacts and passages, with either engine</summary>
+        public ulong margin_ns;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -2503,6 +2581,16 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_set_flags(IntPtr grid, GridFlags flags);
 
+        /// <summary>From the next step on, also find the vertices of other meshes that are outside of the tetrahedra of
+        /// a mesh, but within `margin` (in the caller's unit) of its surface: vox_grid_margin_contacts. 0 (the
+        /// default): none, at no cost, and the memory that this took is released.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_set_margin(IntPtr grid, double margin);
+
+        /// <summary>The margin in use.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_margin(IntPtr grid, double* out_margin);
+
         /// <summary>The flags in use.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_get_flags(IntPtr grid, GridFlags* out_flags);
@@ -2556,6 +2644,13 @@ namespace Voxtet
         /// columns.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_bind_strided_positions(IntPtr grid, uint mesh, IntPtr positions, Format
+            format, ulong byte_stride, ulong component_byte_stride);
+
+        /// <summary>Borrows the positions that the vertices of a mesh had before they moved to those of
+        /// vox_mesh_bind_positions: in the following steps each vertex moves from one to the other in a straight line,
+        /// at constant speed, and such steps also find vox_grid_passages.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_bind_previous_positions(IntPtr grid, uint mesh, IntPtr positions, Format
             format, ulong byte_stride, ulong component_byte_stride);
 
         /// <summary>Makes the next step process a mesh even if it is at rest (see vox_grid_step).</summary>
@@ -2694,6 +2789,16 @@ namespace Voxtet
         /// <summary>The depth and direction of each edge contact, in the order of vox_grid_edge_contacts.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_edge_depths(IntPtr grid, DepthView* out_view);
+
+        /// <summary>The margin contacts of the last step: the same for every engine, cell size and number of
+        /// workers.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_margin_contacts(IntPtr grid, MarginContactView* out_view);
+
+        /// <summary>The passages of the last step, between meshes of which one has previous positions: the same for
+        /// every engine, cell size and number of workers.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_passages(IntPtr grid, PassageView* out_view);
 
         /// <summary>The pairs that touched in the last step; count 0 before the first, after a failed one and after a
         /// clear.</summary>
@@ -3313,7 +3418,7 @@ namespace Voxtet
         {
             GridDesc s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_grid_desc", sizeof(GridDesc), 168, 136));
+            entries.Add(Entry("vox_grid_desc", sizeof(GridDesc), 176, 144));
             entries.Add(Entry("vox_grid_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_grid_desc.engine", (byte*)&s.engine - begin, 4, 4));
             entries.Add(Entry("vox_grid_desc.storage", (byte*)&s.storage - begin, 8, 8));
@@ -3329,6 +3434,7 @@ namespace Voxtet
             entries.Add(Entry("vox_grid_desc.worker_count", (byte*)&s.worker_count - begin, 152, 120));
             entries.Add(Entry("vox_grid_desc.flags", (byte*)&s.flags - begin, 156, 124));
             entries.Add(Entry("vox_grid_desc.closest_budget", (byte*)&s.closest_budget - begin, 160, 128));
+            entries.Add(Entry("vox_grid_desc.margin", (byte*)&s.margin - begin, 168, 136));
         }
 
         static void AddFilter(List<LayoutEntry> entries)
@@ -3527,6 +3633,58 @@ namespace Voxtet
             entries.Add(Entry("vox_edge_contact_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
             entries.Add(Entry("vox_edge_contact_view.count", (byte*)&s.count - begin, 16, 8));
             entries.Add(Entry("vox_edge_contact_view.epoch", (byte*)&s.epoch - begin, 24, 16));
+        }
+
+        static void AddMarginContact(List<LayoutEntry> entries)
+        {
+            MarginContact s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_margin_contact", sizeof(MarginContact), 88, 88));
+            entries.Add(Entry("vox_margin_contact.mesh_a", (byte*)&s.mesh_a - begin, 0, 0));
+            entries.Add(Entry("vox_margin_contact.vertex", (byte*)&s.vertex - begin, 4, 4));
+            entries.Add(Entry("vox_margin_contact.mesh_b", (byte*)&s.mesh_b - begin, 8, 8));
+            entries.Add(Entry("vox_margin_contact.tet", (byte*)&s.tet - begin, 12, 12));
+            entries.Add(Entry("vox_margin_contact.facet", (byte*)&s.facet - begin, 16, 16));
+            entries.Add(Entry("vox_margin_contact.face", (byte*)&s.face - begin, 20, 20));
+            entries.Add(Entry("vox_margin_contact.face_weights", (byte*)&s.face_weights - begin, 32, 32));
+            entries.Add(Entry("vox_margin_contact.distance", (byte*)&s.distance - begin, 56, 56));
+            entries.Add(Entry("vox_margin_contact.normal", (byte*)&s.normal - begin, 64, 64));
+        }
+
+        static void AddMarginContactView(List<LayoutEntry> entries)
+        {
+            MarginContactView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_margin_contact_view", sizeof(MarginContactView), 32, 24));
+            entries.Add(Entry("vox_margin_contact_view.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_margin_contact_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
+            entries.Add(Entry("vox_margin_contact_view.count", (byte*)&s.count - begin, 16, 8));
+            entries.Add(Entry("vox_margin_contact_view.epoch", (byte*)&s.epoch - begin, 24, 16));
+        }
+
+        static void AddPassage(List<LayoutEntry> entries)
+        {
+            Passage s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_passage", sizeof(Passage), 40, 40));
+            entries.Add(Entry("vox_passage.mesh_a", (byte*)&s.mesh_a - begin, 0, 0));
+            entries.Add(Entry("vox_passage.vertex", (byte*)&s.vertex - begin, 4, 4));
+            entries.Add(Entry("vox_passage.mesh_b", (byte*)&s.mesh_b - begin, 8, 8));
+            entries.Add(Entry("vox_passage.tet", (byte*)&s.tet - begin, 12, 12));
+            entries.Add(Entry("vox_passage.facet", (byte*)&s.facet - begin, 16, 16));
+            entries.Add(Entry("vox_passage.face", (byte*)&s.face - begin, 20, 20));
+            entries.Add(Entry("vox_passage.time", (byte*)&s.time - begin, 32, 32));
+        }
+
+        static void AddPassageView(List<LayoutEntry> entries)
+        {
+            PassageView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_passage_view", sizeof(PassageView), 32, 24));
+            entries.Add(Entry("vox_passage_view.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_passage_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
+            entries.Add(Entry("vox_passage_view.count", (byte*)&s.count - begin, 16, 8));
+            entries.Add(Entry("vox_passage_view.epoch", (byte*)&s.epoch - begin, 24, 16));
         }
 
         static void AddPair(List<LayoutEntry> entries)
@@ -3749,7 +3907,7 @@ namespace Voxtet
         {
             Counters s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_counters", sizeof(Counters), 280, 280));
+            entries.Add(Entry("vox_counters", sizeof(Counters), 304, 304));
             entries.Add(Entry("vox_counters.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_counters.meshes", (byte*)&s.meshes - begin, 4, 4));
             entries.Add(Entry("vox_counters.vertices", (byte*)&s.vertices - begin, 8, 8));
@@ -3786,13 +3944,16 @@ namespace Voxtet
             entries.Add(Entry("vox_counters.edge_contacts", (byte*)&s.edge_contacts - begin, 256, 256));
             entries.Add(Entry("vox_counters.carried_edge_contacts", (byte*)&s.carried_edge_contacts - begin, 264, 264));
             entries.Add(Entry("vox_counters.edge_candidates", (byte*)&s.edge_candidates - begin, 272, 272));
+            entries.Add(Entry("vox_counters.margin_contacts", (byte*)&s.margin_contacts - begin, 280, 280));
+            entries.Add(Entry("vox_counters.carried_margin_contacts", (byte*)&s.carried_margin_contacts - begin, 288, 288));
+            entries.Add(Entry("vox_counters.passages", (byte*)&s.passages - begin, 296, 296));
         }
 
         static void AddProfile(List<LayoutEntry> entries)
         {
             Profile s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_profile", sizeof(Profile), 120, 120));
+            entries.Add(Entry("vox_profile", sizeof(Profile), 128, 128));
             entries.Add(Entry("vox_profile.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_profile.reserved", (byte*)&s.reserved - begin, 4, 4));
             entries.Add(Entry("vox_profile.step_ns", (byte*)&s.step_ns - begin, 8, 8));
@@ -3809,6 +3970,7 @@ namespace Voxtet
             entries.Add(Entry("vox_profile.lookup_ns", (byte*)&s.lookup_ns - begin, 96, 96));
             entries.Add(Entry("vox_profile.decide_ns", (byte*)&s.decide_ns - begin, 104, 104));
             entries.Add(Entry("vox_profile.edges_ns", (byte*)&s.edges_ns - begin, 112, 112));
+            entries.Add(Entry("vox_profile.margin_ns", (byte*)&s.margin_ns - begin, 120, 120));
         }
 
         static void AddSuggestDesc(List<LayoutEntry> entries)
@@ -4660,6 +4822,10 @@ namespace Voxtet
             AddDepthView(entries);
             AddEdgeContact(entries);
             AddEdgeContactView(entries);
+            AddMarginContact(entries);
+            AddMarginContactView(entries);
+            AddPassage(entries);
+            AddPassageView(entries);
             AddPair(entries);
             AddPairView(entries);
             AddTouchEvent(entries);

@@ -290,6 +290,7 @@ class vox_grid_desc(Structure):
         ("worker_count", c_uint32),
         ("flags", c_uint32),
         ("closest_budget", c_uint64),
+        ("margin", c_double),
     ]
 
 
@@ -494,6 +495,62 @@ dtypes["vox_edge_contact"] = dtype({
 
 
 class vox_edge_contact_view(Structure):
+    _fields_ = [
+        ("data", c_void_p),
+        ("byte_stride", c_size_t),
+        ("count", c_uint64),
+        ("epoch", c_uint64),
+    ]
+
+
+class vox_margin_contact(Structure):
+    _fields_ = [
+        ("mesh_a", c_uint32),
+        ("vertex", c_uint32),
+        ("mesh_b", c_uint32),
+        ("tet", c_uint32),
+        ("facet", c_uint32),
+        ("face", c_uint32 * 3),
+        ("face_weights", c_double * 3),
+        ("distance", c_double),
+        ("normal", c_double * 3),
+    ]
+
+dtypes["vox_margin_contact"] = dtype({
+    "names": ["mesh_a", "vertex", "mesh_b", "tet", "facet", "face", "face_weights", "distance", "normal"],
+    "formats": ["u4", "u4", "u4", "u4", "u4", ("u4", (3,)), ("f8", (3,)), "f8", ("f8", (3,))],
+    "offsets": [0, 4, 8, 12, 16, 20, 32, 56, 64],
+    "itemsize": 88})
+
+
+class vox_margin_contact_view(Structure):
+    _fields_ = [
+        ("data", c_void_p),
+        ("byte_stride", c_size_t),
+        ("count", c_uint64),
+        ("epoch", c_uint64),
+    ]
+
+
+class vox_passage(Structure):
+    _fields_ = [
+        ("mesh_a", c_uint32),
+        ("vertex", c_uint32),
+        ("mesh_b", c_uint32),
+        ("tet", c_uint32),
+        ("facet", c_uint32),
+        ("face", c_uint32 * 3),
+        ("time", c_double),
+    ]
+
+dtypes["vox_passage"] = dtype({
+    "names": ["mesh_a", "vertex", "mesh_b", "tet", "facet", "face", "time"],
+    "formats": ["u4", "u4", "u4", "u4", "u4", ("u4", (3,)), "f8"],
+    "offsets": [0, 4, 8, 12, 16, 20, 32],
+    "itemsize": 40})
+
+
+class vox_passage_view(Structure):
     _fields_ = [
         ("data", c_void_p),
         ("byte_stride", c_size_t),
@@ -793,6 +850,9 @@ class vox_counters(Structure):
         ("edge_contacts", c_uint64),
         ("carried_edge_contacts", c_uint64),
         ("edge_candidates", c_uint64),
+        ("margin_contacts", c_uint64),
+        ("carried_margin_contacts", c_uint64),
+        ("passages", c_uint64),
     ]
 
 dtypes["vox_counters"] = dtype({
@@ -801,13 +861,14 @@ dtypes["vox_counters"] = dtype({
         "moved_meshes", "carried_contacts", "penetrations", "leaving_edges", "edge_tests", "closest_searches",
         "closest_tests", "disabled_meshes", "filtered", "cell_size_changes", "unknown_penetrations",
         "carried_penetrations", "skipped_meshes", "meshes_without_tets", "total_touches_began", "total_touches_ended",
-        "total_contacts_began", "total_contacts_ended", "edge_contacts", "carried_edge_contacts", "edge_candidates"],
+        "total_contacts_began", "total_contacts_ended", "edge_contacts", "carried_edge_contacts", "edge_candidates",
+        "margin_contacts", "carried_margin_contacts", "passages"],
     "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8",
         "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8",
-        "u8"],
+        "u8", "u8", "u8", "u8"],
     "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120, 128, 136, 144, 152, 160, 168, 176,
-        184, 192, 200, 208, 216, 224, 232, 240, 248, 256, 264, 272],
-    "itemsize": 280})
+        184, 192, 200, 208, 216, 224, 232, 240, 248, 256, 264, 272, 280, 288, 296],
+    "itemsize": 304})
 
 
 class vox_profile(Structure):
@@ -828,14 +889,16 @@ class vox_profile(Structure):
         ("lookup_ns", c_uint64),
         ("decide_ns", c_uint64),
         ("edges_ns", c_uint64),
+        ("margin_ns", c_uint64),
     ]
 
 dtypes["vox_profile"] = dtype({
     "names": ["struct_size", "reserved", "step_ns", "bin_ns", "broad_ns", "narrow_ns", "contacts_ns", "depth_ns",
-        "events_ns", "stream_ns", "winding_ns", "broad_phase_ns", "windows_ns", "lookup_ns", "decide_ns", "edges_ns"],
-    "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
-    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112],
-    "itemsize": 120})
+        "events_ns", "stream_ns", "winding_ns", "broad_phase_ns", "windows_ns", "lookup_ns", "decide_ns", "edges_ns",
+        "margin_ns"],
+    "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120],
+    "itemsize": 128})
 
 
 class vox_suggest_desc(Structure):
@@ -1793,6 +1856,8 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_grid_cell_size": (vox_result, (c_void_p, POINTER(c_double))),
         "vox_grid_set_worker_count": (vox_result, (c_void_p, c_uint32)),
         "vox_grid_set_flags": (vox_result, (c_void_p, c_uint32)),
+        "vox_grid_set_margin": (vox_result, (c_void_p, c_double)),
+        "vox_grid_margin": (vox_result, (c_void_p, POINTER(c_double))),
         "vox_grid_get_flags": (vox_result, (c_void_p, POINTER(c_uint32))),
         "vox_filter_init": (vox_result, (POINTER(vox_filter), c_uint32)),
         "vox_mesh_desc_init": (vox_result, (POINTER(vox_mesh_desc), c_uint32)),
@@ -1805,6 +1870,7 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_mesh_copy_tets": (vox_result, (c_void_p, c_uint32, c_void_p, c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_mesh_bind_positions": (vox_result, (c_void_p, c_uint32, c_void_p, c_int32, c_uint64)),
         "vox_mesh_bind_strided_positions": (vox_result, (c_void_p, c_uint32, c_void_p, c_int32, c_uint64, c_uint64)),
+        "vox_mesh_bind_previous_positions": (vox_result, (c_void_p, c_uint32, c_void_p, c_int32, c_uint64, c_uint64)),
         "vox_mesh_mark_moved": (vox_result, (c_void_p, c_uint32)),
         "vox_mesh_set_filter": (vox_result, (c_void_p, c_uint32, POINTER(vox_filter))),
         "vox_mesh_filter": (vox_result, (c_void_p, c_uint32, POINTER(vox_filter))),
@@ -1834,6 +1900,8 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_grid_edge_hash": (vox_result, (c_void_p, POINTER(c_uint64))),
         "vox_grid_prepare_edge_depths": (vox_result, (c_void_p,)),
         "vox_grid_edge_depths": (vox_result, (c_void_p, POINTER(vox_depth_view))),
+        "vox_grid_margin_contacts": (vox_result, (c_void_p, POINTER(vox_margin_contact_view))),
+        "vox_grid_passages": (vox_result, (c_void_p, POINTER(vox_passage_view))),
         "vox_grid_pairs": (vox_result, (c_void_p, POINTER(vox_pair_view))),
         "vox_mesh_copy_contacts": (vox_result, (c_void_p, c_uint32, c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_pair_copy_contacts": (vox_result, (c_void_p, c_uint32, c_uint32, c_void_p, c_uint64, POINTER(c_uint64))),

@@ -527,6 +527,8 @@ pub struct vox_grid_desc {
     /// written to the log. Those of meshes at rest, which are carried over from the last step, take nothing of it, and
     /// stay UNKNOWN where they are. 0 (the default): no limit.
     pub closest_budget: u64,
+    /// As vox_grid_set_margin; default 0. Experimental.
+    pub margin: f64,
 }
 
 /// What a mesh does not collide with. A tetrahedron that a filter rules out for a vertex is treated as if it did not
@@ -819,6 +821,74 @@ pub struct vox_edge_contact {
 #[derive(Clone, Copy, Debug)]
 pub struct vox_edge_contact_view {
     pub data: *const vox_edge_contact,
+    pub byte_stride: usize,
+    pub count: u64,
+    pub epoch: u64,
+}
+
+/// Vertex `vertex` of mesh_a is in no tetrahedron of mesh_b, but no further than the margin from its surface. The point
+/// of the surface of mesh_b that is closest to it is on a facet of `tet`; of several at the same distance that of the
+/// lowest (tet, facet), as in vox_grid_query_closest. Computed in double.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_margin_contact {
+    pub mesh_a: vox_mesh,
+    pub vertex: u32,
+    /// never mesh_a
+    pub mesh_b: vox_mesh,
+    /// of mesh_b
+    pub tet: u32,
+    /// of the tetrahedron, as in vox_surface_hit
+    pub facet: u32,
+    /// its vertices, in the order given there
+    pub face: [u32; 3],
+    /// of the closest point, in [0, 1], with the sum 1 up to rounding
+    pub face_weights: [f64; 3],
+    /// from the vertex to the closest point
+    pub distance: f64,
+    /// a unit vector from the closest point to the vertex; out of the tetrahedron if there is no distance between them
+    pub normal: [f64; 3],
+}
+
+/// `count` margin contacts, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b), each of which has one at most. The
+/// data lives as long as that of the contacts' view.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_margin_contact_view {
+    pub data: *const vox_margin_contact,
+    pub byte_stride: usize,
+    pub count: u64,
+    pub epoch: u64,
+}
+
+/// Vertex `vertex` of mesh_a met the surface of mesh_b while both moved from their previous positions to the present
+/// ones (vox_mesh_bind_previous_positions; a mesh without previous positions stands still), wherever it was before and
+/// is after: also where it went through a thin mesh and out again.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_passage {
+    pub mesh_a: vox_mesh,
+    pub vertex: u32,
+    /// never mesh_a
+    pub mesh_b: vox_mesh,
+    /// of mesh_b
+    pub tet: u32,
+    /// of the tetrahedron, as in vox_surface_hit: the first that the vertex met; the lowest (tet, facet) of several at
+    /// the same time
+    pub facet: u32,
+    /// its vertices, in the order given there
+    pub face: [u32; 3],
+    /// in [0, 1], 0 at the previous positions: when it met it; never too late, and too early by no more than rounding
+    /// errors make necessary
+    pub time: f64,
+}
+
+/// `count` passages, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b), each of which has one at most. The data
+/// lives as long as that of the contacts' view.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_passage_view {
+    pub data: *const vox_passage,
     pub byte_stride: usize,
     pub count: u64,
     pub epoch: u64,
@@ -1161,6 +1231,12 @@ pub struct vox_counters {
     pub carried_edge_contacts: u64,
     /// edges and faces whose boxes overlap
     pub edge_candidates: u64,
+    /// 0 without a margin (vox_grid_set_margin), as is the next one
+    pub margin_contacts: u64,
+    /// part of `margin_contacts` carried over from the step before
+    pub carried_margin_contacts: u64,
+    /// 0 without previous positions (vox_mesh_bind_previous_positions)
+    pub passages: u64,
 }
 
 /// Nanoseconds of the last successful step, in total and by stage. stream_ns to decide_ns are the stages of the fast
@@ -1198,6 +1274,8 @@ pub struct vox_profile {
     pub decide_ns: u64,
     /// edge contacts, with either engine
     pub edges_ns: u64,
+    /// margin contacts and passages, with either engine
+    pub margin_ns: u64,
 }
 
 #[repr(C)]
@@ -2359,6 +2437,14 @@ extern "C" {
     /// Switched off, it releases the memory of that. Errors: INVALID_ARGUMENT (unknown flags), LIMIT, BUDGET,
     /// OUT_OF_MEMORY; after these all meshes are as they were.
     pub fn vox_grid_set_flags(grid: *mut vox_grid, flags: u32) -> vox_result;
+    /// From the next step on, also find the vertices of other meshes that are outside of the tetrahedra of a mesh, but
+    /// within `margin` (in the caller's unit) of its surface: vox_grid_margin_contacts. 0 (the default): none, at no
+    /// cost, and the memory that this took is released. Contacts stay, but views of the last step's results end. A mesh
+    /// of more than 357913941 tets then makes a step fail with LIMIT. Snapshots do not keep the margin. Errors:
+    /// INVALID_ARGUMENT when negative, infinite or NaN.
+    pub fn vox_grid_set_margin(grid: *mut vox_grid, margin: f64) -> vox_result;
+    /// The margin in use.
+    pub fn vox_grid_margin(grid: *const vox_grid, out_margin: *mut f64) -> vox_result;
     /// The flags in use.
     pub fn vox_grid_get_flags(grid: *const vox_grid, out_flags: *mut u32) -> vox_result;
     /// Fills `filter` with the defaults for the fields that `struct_size` covers.
@@ -2426,6 +2512,21 @@ extern "C" {
     ) -> vox_result;
     /// The same with component_byte_stride as vox_mesh_desc.position_component_byte_stride, e.g. for columns.
     pub fn vox_mesh_bind_strided_positions(
+        grid: *mut vox_grid,
+        mesh: vox_mesh,
+        positions: *const c_void,
+        format: vox_format,
+        byte_stride: u64,
+        component_byte_stride: u64,
+    ) -> vox_result;
+    /// Borrows the positions that the vertices of a mesh had before they moved to those of vox_mesh_bind_positions: in
+    /// the following steps each vertex moves from one to the other in a straight line, at constant speed, and such
+    /// steps also find vox_grid_passages. Values may be written to the same memory between steps. The mesh's transform
+    /// does not apply to them: they are where the vertices were. Null ends it, as do vox_mesh_set_topology and
+    /// vox_mesh_append_vertices. Snapshots do not keep them. A step fails with NON_FINITE or LIMIT where they are not
+    /// as VOX_FORMAT_DOUBLE3 has it; VOX_GRID_SKIP_BAD_MESHES is about positions alone. Errors: as
+    /// vox_mesh_bind_strided_positions.
+    pub fn vox_mesh_bind_previous_positions(
         grid: *mut vox_grid,
         mesh: vox_mesh,
         positions: *const c_void,
@@ -2651,6 +2752,19 @@ extern "C" {
     /// The depth and direction of each edge contact, in the order of vox_grid_edge_contacts. Errors: INVALID_STATE
     /// before vox_grid_prepare_edge_depths.
     pub fn vox_grid_edge_depths(grid: *const vox_grid, out_view: *mut vox_depth_view) -> vox_result;
+    /// The margin contacts of the last step: the same for every engine, cell size and number of workers. Count 0 before
+    /// the first step, after a failed one and after a clear. Which meshes collide is up to vox_filter and
+    /// vox_grid_set_pair_enabled, as for contacts. They are not part of vox_grid_hash, and no pairs or events come of
+    /// them. Errors: INVALID_STATE if the margin is 0 (vox_grid_set_margin).
+    pub fn vox_grid_margin_contacts(
+        grid: *const vox_grid,
+        out_view: *mut vox_margin_contact_view,
+    ) -> vox_result;
+    /// The passages of the last step, between meshes of which one has previous positions: the same for every engine,
+    /// cell size and number of workers. None is missed; a vertex that comes as close to a surface as rounding errors
+    /// are large may be reported as well. Filters as for contacts. Count 0 where no mesh has previous positions, before
+    /// the first step, after a failed one and after a clear.
+    pub fn vox_grid_passages(grid: *const vox_grid, out_view: *mut vox_passage_view) -> vox_result;
     /// The pairs that touched in the last step; count 0 before the first, after a failed one and after a clear.
     pub fn vox_grid_pairs(grid: *const vox_grid, out_view: *mut vox_pair_view) -> vox_result;
     /// Copies the first `capacity` of the last step's contacts in which `mesh` is mesh_a or mesh_b, pair by pair, in
@@ -2748,8 +2862,8 @@ extern "C" {
     /// Creates a grid from a snapshot. Ids name the same meshes, meshes inserted later get the same ids as they would
     /// in the saved grid, and steps find the same contacts and events in the same order, with the same hash and epoch.
     /// There are no contacts until the first step. The meshes own their positions; to move them, bind others. Of `desc`
-    /// only allocator, log, tasks, worker_count, byte_budget, closest_budget, and an engine other than AUTO are used;
-    /// null: the defaults. The caller owns *out_grid and releases it with vox_grid_destroy. The bytes need not be
+    /// only allocator, log, tasks, worker_count, byte_budget, closest_budget, margin, and an engine other than AUTO are
+    /// used; null: the defaults. The caller owns *out_grid and releases it with vox_grid_destroy. The bytes need not be
     /// trusted: everything in them is checked, no memory is reserved for a count before the bytes it stands for are
     /// known to be there, and the byte budget applies. Errors: FORMAT (names chunk and byte), UNSUPPORTED (of a later
     /// version), INVALID_ARGUMENT, LIMIT, BUDGET, OUT_OF_MEMORY.
@@ -3513,10 +3627,10 @@ layouts! {
     vox_allocator: size [24, 12], alignment [8, 4], { allocate: [0, 0], release: [8, 4], user: [16, 8] }
     vox_log: size [16, 8], alignment [8, 4], { write: [0, 0], user: [8, 4] }
     vox_task_system: size [24, 12], alignment [8, 4], { enqueue: [0, 0], finish: [8, 4], user: [16, 8] }
-    vox_grid_desc: size [168, 136], alignment [8, 8], { struct_size: [0, 0], engine: [4, 4], storage: [8, 8],
+    vox_grid_desc: size [176, 144], alignment [8, 8], { struct_size: [0, 0], engine: [4, 4], storage: [8, 8],
         hash: [12, 12], cell_size: [16, 16], world_min: [24, 24], world_max: [48, 48], byte_budget: [72, 72],
         hash_table_size: [80, 80], allocator: [88, 88], log: [112, 100], tasks: [128, 108], worker_count: [152, 120],
-        flags: [156, 124], closest_budget: [160, 128] }
+        flags: [156, 124], closest_budget: [160, 128], margin: [168, 136] }
     vox_filter: size [48, 48], alignment [8, 8], { struct_size: [0, 0], group: [4, 4], category: [8, 8], mask: [16, 16],
         self_collision: [24, 24], self_rings: [28, 28], self_rest_distance: [32, 32], penetration_mask: [40, 40] }
     vox_mesh_desc: size [104, 96], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], positions: [8, 8],
@@ -3552,6 +3666,14 @@ layouts! {
         face_weights: [56, 56], position: [80, 80], normal: [104, 104] }
     vox_edge_contact_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
         epoch: [24, 16] }
+    vox_margin_contact: size [88, 88], alignment [8, 8], { mesh_a: [0, 0], vertex: [4, 4], mesh_b: [8, 8],
+        tet: [12, 12], facet: [16, 16], face: [20, 20], face_weights: [32, 32], distance: [56, 56], normal: [64, 64] }
+    vox_margin_contact_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
+        epoch: [24, 16] }
+    vox_passage: size [40, 40], alignment [8, 8], { mesh_a: [0, 0], vertex: [4, 4], mesh_b: [8, 8], tet: [12, 12],
+        facet: [16, 16], face: [20, 20], time: [32, 32] }
+    vox_passage_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
+        epoch: [24, 16] }
     vox_pair: size [48, 48], alignment [8, 8], { mesh_a: [0, 0], mesh_b: [4, 4], user_data_a: [8, 8],
         user_data_b: [16, 16], first: [24, 24], a_in_b: [32, 32], b_in_a: [40, 40] }
     vox_pair_view: size [40, 32], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
@@ -3586,7 +3708,7 @@ layouts! {
         surface_barycentric: [40, 40] }
     vox_facet_hit: size [48, 48], alignment [8, 8], { mesh: [0, 0], tet: [4, 4], facet: [8, 8], side: [12, 12],
         t: [16, 16], barycentric: [24, 24] }
-    vox_counters: size [280, 280], alignment [8, 8], { struct_size: [0, 0], meshes: [4, 4], vertices: [8, 8],
+    vox_counters: size [304, 304], alignment [8, 8], { struct_size: [0, 0], meshes: [4, 4], vertices: [8, 8],
         tets: [16, 16], cells: [24, 24], entries: [32, 32], fullest_cell: [40, 40], visited_cells: [48, 48],
         visited_entries: [56, 56], candidates: [64, 64], exact_tests: [72, 72], contacts: [80, 80],
         skipped_degenerate: [88, 88], bytes: [96, 96], peak_bytes: [104, 104], moved_meshes: [112, 112],
@@ -3595,11 +3717,12 @@ layouts! {
         cell_size_changes: [184, 184], unknown_penetrations: [192, 192], carried_penetrations: [200, 200],
         skipped_meshes: [208, 208], meshes_without_tets: [216, 216], total_touches_began: [224, 224],
         total_touches_ended: [232, 232], total_contacts_began: [240, 240], total_contacts_ended: [248, 248],
-        edge_contacts: [256, 256], carried_edge_contacts: [264, 264], edge_candidates: [272, 272] }
-    vox_profile: size [120, 120], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], step_ns: [8, 8],
+        edge_contacts: [256, 256], carried_edge_contacts: [264, 264], edge_candidates: [272, 272],
+        margin_contacts: [280, 280], carried_margin_contacts: [288, 288], passages: [296, 296] }
+    vox_profile: size [128, 128], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], step_ns: [8, 8],
         bin_ns: [16, 16], broad_ns: [24, 24], narrow_ns: [32, 32], contacts_ns: [40, 40], depth_ns: [48, 48],
         events_ns: [56, 56], stream_ns: [64, 64], winding_ns: [72, 72], broad_phase_ns: [80, 80], windows_ns: [88, 88],
-        lookup_ns: [96, 96], decide_ns: [104, 104], edges_ns: [112, 112] }
+        lookup_ns: [96, 96], decide_ns: [104, 104], edges_ns: [112, 112], margin_ns: [120, 120] }
     vox_suggest_desc: size [104, 96], alignment [8, 8], { struct_size: [0, 0], model: [4, 4], size_reading: [8, 8],
         area_reading: [12, 12], p_nc: [16, 16], cost_ratio: [24, 24], world_edge: [32, 32], zone_loss: [40, 40],
         mean_edge_factor: [48, 48], resolution: [56, 56], byte_budget: [64, 64], storage: [72, 72], reserved: [76, 76],
