@@ -1,5 +1,6 @@
 """Null pointers are refused where bindings/api.json says so, with the name of the parameter, and only there: what it says
-of them was not guessed. usage: test_nulls.py NAME=LIBRARY... in the order vox, vox_io, vox_sim."""
+of them was not guessed. usage: test_nulls.py NAME=LIBRARY... for each header, in the order vox, vox_pairs,
+vox_io, vox_sim."""
 
 import ctypes
 import json
@@ -70,6 +71,11 @@ class Nulls:
             value.held = ctypes.pointer(self.struct("vox_primitives"))
         elif name == "vox_cost_bounds":
             value.min, value.max = 1, 2
+        elif name == "vox_motion":
+            setattr(value, "from", ctypes.addressof(POSITIONS))
+            value.format = _c.Format.DOUBLE3
+        elif name == "vox_surface_desc":
+            value.faces, value.face_count = ctypes.addressof(TETS), 1
         elif name == "vox_io_write_desc":
             value.format = _c.IoWriteFormat.VTU
         elif name == "vox_io_sink":
@@ -96,6 +102,9 @@ class Nulls:
         self.check(self.core.vox_grid_step(found["vox_grid"]))
         self.check(self.core.vox_grid_prepare_queries(found["vox_grid"]))
         create("vox_query_view", self.core, "vox_grid_take_query_view", found["vox_grid"])
+        if "vox_pairs" in self.libraries:
+            create("vox_surface", self.core, "vox_surface_create", ctypes.byref(self.struct("vox_surface_desc")))
+            self.check(self.core.vox_surface_move(found["vox_surface"], ctypes.byref(self.struct("vox_motion"))))
         if "vox_io" in self.libraries:
             create("vox_io_mesh", self.libraries["vox_io"], "vox_io_make_box", 1.0, 1.0, 1.0, 1.0)
         if "vox_sim" in self.libraries:
@@ -108,7 +117,8 @@ class Nulls:
 
     def destroy(self, objects):
         for type_name, release in (("vox_query_view", "vox_query_view_release"), ("vox_grid", "vox_grid_destroy"),
-                                   ("vox_io_mesh", "vox_io_mesh_destroy"), ("vox_sim", "vox_sim_destroy")):
+                                   ("vox_io_mesh", "vox_io_mesh_destroy"),
+                                   ("vox_surface", "vox_surface_destroy"), ("vox_sim", "vox_sim_destroy")):
             for library in self.libraries.values():
                 if type_name in objects and hasattr(library, release):
                     getattr(library, release)(objects[type_name])

@@ -48,23 +48,17 @@ void first_contact(const SurfaceTopology& topology, const SurfaceMotion& motion,
 
 void all_contacts(const SurfaceTopology& topology, const SurfaceMotion& motion, vox_feature a, vox_feature b,
                   const FeaturePairs& pairs, const ContactTimeRule& rule, Workers& workers,
-                  std::pmr::vector<vox_timed_pair>& out) {
-    std::pmr::memory_resource* const memory = out.get_allocator().resource();
-    const std::size_t count = static_cast<std::size_t>(pairs.offsets[pairs.count]);
-    std::pmr::vector<double> times(count, memory); // of each pair; above 1: no contact
-    workers.for_ranges(pairs.count, least_features, [&](std::size_t begin, std::size_t end, std::uint32_t) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const auto own = static_cast<std::uint32_t>(pairs.first + i);
-            for (std::uint64_t k = pairs.offsets[i]; k < pairs.offsets[i + 1]; ++k) {
-                const ContactTime contact = contact_time(motion, corners_in(topology, a, own),
-                                                         corners_in(topology, b, pairs.partners[k]), rule, 1);
-                times[k] = contact.touches ? contact.time : 2;
-            }
+                  Gathered<vox_timed_pair>& gathered, std::pmr::vector<vox_timed_pair>& out) {
+    const auto find = [&](std::uint32_t i, std::pmr::vector<vox_timed_pair>& found) {
+        const std::uint32_t own = static_cast<std::uint32_t>(pairs.first) + i;
+        for (std::uint64_t k = pairs.offsets[i]; k < pairs.offsets[i + 1]; ++k) {
+            const std::uint32_t partner = pairs.partners[k];
+            const ContactTime contact =
+                contact_time(motion, corners_in(topology, a, own), corners_in(topology, b, partner), rule, 1);
+            if (contact.touches) found.push_back({own, partner, contact.time});
         }
-    });
-    for (std::uint64_t i = 0; i < pairs.count; ++i)
-        for (std::uint64_t k = pairs.offsets[i]; k < pairs.offsets[i + 1]; ++k)
-            if (times[k] <= 1) out.push_back({static_cast<std::uint32_t>(pairs.first + i), pairs.partners[k], times[k]});
+    };
+    gathered.run(static_cast<std::size_t>(pairs.count), workers, find, out);
 }
 
 } // namespace vox

@@ -3,6 +3,7 @@
 
 #include "base/parallel.hpp"
 #include "surface/contact_time.hpp"
+#include "surface/gathered.hpp"
 #include "surface/pairs.hpp"
 #include "surface/topology.hpp"
 
@@ -21,6 +22,6 @@ void first_contact(const SurfaceTopology& topology, const SurfaceMotion& motion,
 // Appends those that may come into contact within the motion, in their order.
 void all_contacts(const SurfaceTopology& topology, const SurfaceMotion& motion, vox_feature a, vox_feature b,
                   const FeaturePairs& pairs, const ContactTimeRule& rule, Workers& workers,
-                  std::pmr::vector<vox_timed_pair>& out);
+                  Gathered<vox_timed_pair>& gathered, std::pmr::vector<vox_timed_pair>& out);
 
 } // namespace vox

@@ -16,7 +16,8 @@ vox_surface::vox_surface(const vox_surface_desc& desc, const MemoryShare& memory
     : share_(memory), workers_(desc.tasks, desc.worker_count), topology_(desc, &*memory),
       cell_size_(desc.cell_size),
       positions_{std::pmr::vector<Vec3d>(&*memory), std::pmr::vector<Vec3d>(&*memory)}, search_(&*memory),
-      answer_(&*memory), candidates_(&*memory), crossings_(&*memory), timed_(&*memory) {}
+      answer_(&*memory), candidates_(&*memory), crossings_(&*memory), timed_(&*memory),
+      timed_in_ranges_(&*memory), close_(&*memory) {}
 
 void vox_surface::move(const vox_motion& motion) {
     const std::uint32_t count = topology_.vertex_count;
@@ -82,20 +83,27 @@ void vox_surface::find_pairs(const SurfaceMotion& motion, vox_feature a, vox_fea
     search_.run(topology_, motion, a, b, first, count, cell_size_, workers_, out);
 }
 
+void vox_surface::find_fitting(const SurfaceMotion& motion, vox_feature a, vox_feature b, std::uint32_t first,
+                               std::uint32_t count, FeaturePairs& out) {
+    for (std::uint32_t wanted = count;; wanted = wanted / 2 + wanted % 2) {
+        try {
+            find_pairs(motion, a, b, first, wanted, out);
+            return;
+        } catch (const Error& error) {
+            if (error.result() != VOX_ERROR_BUDGET || wanted <= 1) throw;
+            search_.release_buffers(); // grown for more than there is room for
+            out = FeaturePairs(&*share_);
+        }
+    }
+}
+
 const FeaturePairs& vox_surface::pairs(vox_feature a, vox_feature b, std::uint64_t first, std::uint64_t count) {
     const SurfaceMotion& moving = motion();
     const std::uint64_t all = topology_.count(a);
     if (first > all) refuse(format("first is %llu of %llu", llu(first), llu(all)));
-    for (std::uint64_t wanted = std::min(count, all - first);; wanted = (wanted + 1) / 2) {
-        try {
-            find_pairs(moving, a, b, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(wanted), answer_);
-            return answer_;
-        } catch (const Error& error) {
-            if (error.result() != VOX_ERROR_BUDGET || wanted <= 1) throw;
-            search_.release_buffers(); // grown for more than there is room for
-            answer_ = FeaturePairs(&*share_);
-        }
-    }
+    find_fitting(moving, a, b, static_cast<std::uint32_t>(first),
+                 static_cast<std::uint32_t>(std::min(count, all - first)), answer_);
+    return answer_;
 }
 
 vox_foreign_suggestion vox_surface::suggest_cell_size(vox_feature a, vox_feature b) {
@@ -105,25 +113,14 @@ vox_foreign_suggestion vox_surface::suggest_cell_size(vox_feature a, vox_feature
     return suggest_for_tiles(search_.tiles(topology_, moving, a), search_.tiles(topology_, moving, b), &*share_);
 }
 
-// Calls visit(pairs) for the pairs of all features of kind a, piece by piece: in as few as fit into the byte budget.
+// Calls visit(pairs) for the pairs of all features of kind a, piece by piece.
 template <class Visit>
 void vox_surface::for_pieces(const SurfaceMotion& motion, vox_feature a, vox_feature b, Visit&& visit) {
     constexpr std::uint32_t most_at_once = 1u << 20;
     const std::uint32_t all = topology_.count(a);
-    std::uint32_t wanted = most_at_once;
-    for (std::uint32_t first = 0; first < all;) {
-        const std::uint32_t count = std::min(wanted, all - first);
-        try {
-            find_pairs(motion, a, b, first, count, candidates_);
-        } catch (const Error& error) {
-            if (error.result() != VOX_ERROR_BUDGET || count == 1) throw;
-            search_.release_buffers(); // grown for more than there is room for
-            candidates_ = FeaturePairs(&*share_);
-            wanted = (count + 1) / 2;
-            continue;
-        }
+    for (std::uint32_t first = 0; first < all; first += static_cast<std::uint32_t>(candidates_.count)) {
+        find_fitting(motion, a, b, first, std::min(most_at_once, all - first), candidates_);
         visit(candidates_);
-        first += count;
     }
 }
 
@@ -166,7 +163,7 @@ std::span<const vox_timed_pair> vox_surface::contact_times(vox_feature a, vox_fe
     const SurfaceMotion reach = reaching(motion(), rule.distance);
     timed_.clear();
     for_pieces(reach, a, b, [&](const FeaturePairs& pairs) {
-        all_contacts(topology_, reach, a, b, pairs, rule, workers_, timed_);
+        all_contacts(topology_, reach, a, b, pairs, rule, workers_, timed_in_ranges_, timed_);
     });
     return timed_;
 }

@@ -4,7 +4,9 @@
 
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
+#include "surface/close.hpp"
 #include "surface/contact_time.hpp"
+#include "surface/gathered.hpp"
 #include "surface/motion.hpp"
 #include "surface/pairs.hpp"
 #include "surface/topology.hpp"
@@ -40,13 +42,17 @@ public:
     // buffers behind it are the surface's: one call at a time.
     void find_pairs(const vox::SurfaceMotion& motion, vox_feature a, vox_feature b, std::uint32_t first,
                     std::uint32_t count, vox::FeaturePairs& out);
-    // As many of them as fit, at least one; the answer lives until the next call or move().
+    // As find_pairs, but of as many features as fit, at least one.
+    void find_fitting(const vox::SurfaceMotion& motion, vox_feature a, vox_feature b, std::uint32_t first,
+                      std::uint32_t count, vox::FeaturePairs& out);
+    // The same for the motion that is set; the answer lives until the next call or move().
     const vox::FeaturePairs& pairs(vox_feature a, vox_feature b, std::uint64_t first, std::uint64_t count);
 
     // Throws as vox_surface_suggest_cell_size.
     vox_foreign_suggestion suggest_cell_size(vox_feature a, vox_feature b);
     // The least time of contact of faces and vertices, and of edges. Throws as vox_surface_safe_step.
     vox_safe_step safe_step(const vox::ContactTimeRule& rule);
+    vox::CloseSearch& close() noexcept { return close_; }
     // Of two kinds; lives until the next call or move().
     std::span<const vox_timed_pair> contact_times(vox_feature a, vox_feature b, const vox::ContactTimeRule& rule);
     // Of the end of the motion. Lives until the next call or move().
@@ -67,7 +73,9 @@ private:
     vox::SurfaceMotion motion_;
     vox::PairSearch search_;
     vox::FeaturePairs answer_;
-    vox::FeaturePairs candidates_; // for the crossings, a range at a time
+    vox::FeaturePairs candidates_; // of what is asked beside the pairs, a range at a time
     std::pmr::vector<vox_crossing> crossings_;
     std::pmr::vector<vox_timed_pair> timed_;
+    vox::Gathered<vox_timed_pair> timed_in_ranges_;
+    vox::CloseSearch close_;
 };

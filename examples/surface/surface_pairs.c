@@ -1,0 +1,66 @@
+/* Surface pairs: a sheet falls onto another. Which edges can meet on the way, how far it may fall, how far every vertex may move
+ * before anything touches, and whether the sheets cross where they end. */
+#include "example.h"
+
+#include <vox/vox_pairs.h>
+
+enum { side = 11, sheet = side * side };
+
+int main(void) {
+    static double from[2 * sheet][3], to[2 * sheet][3], clearance[2 * sheet];
+    static uint32_t faces[4 * (side - 1) * (side - 1)][3];
+    uint64_t count = 0;
+    for (uint32_t v = 0; v < 2 * sheet; ++v) {
+        const uint32_t i = v % sheet, upper = v / sheet;
+        const double x = i % side + 0.5 * upper, y = i / side + 0.25 * upper;
+        const double at[3] = {x, y, upper ? 1 : 0.001 * (x * x + y * y)};
+        for (int k = 0; k < 3; ++k) from[v][k] = to[v][k] = at[k];
+        if (upper) to[v][2] -= 2;
+        if (i % side + 1 == side || i / side + 1 == side) continue;
+        const uint32_t quad[6] = {v, v + 1, v + side, v + side, v + 1, v + side + 1};
+        for (int k = 0; k < 6; ++k) faces[count + k / 3][k % 3] = quad[k];
+        count += 2;
+    }
+
+    vox_surface_desc desc = vox_default_surface_desc();
+    desc.vertex_count = 2 * sheet;
+    desc.faces = faces[0];
+    desc.face_count = count;
+    vox_surface* surface = NULL;
+    must(vox_surface_create(&desc, &surface));
+
+    vox_motion motion = vox_default_motion();
+    motion.from = from;
+    motion.to = to;
+    motion.vertex_count = 2 * sheet;
+    motion.format = VOX_FORMAT_DOUBLE3;
+    vox_pair_lists lists;
+    lists.struct_size = sizeof lists;
+    uint64_t pairs[2];
+    for (uint32_t cull = 0; cull < 2; ++cull) {
+        motion.flags = cull ? VOX_MOTION_CULL : 0;
+        must(vox_surface_move(surface, &motion));
+        must(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
+        pairs[cull] = lists.pair_count;
+    }
+    printf("%" PRIu64 " pairs of edges, of which %" PRIu64 " can meet\n", pairs[0], pairs[1]);
+
+    vox_safe_step safe;
+    vox_crossing_view crossings;
+    safe.struct_size = sizeof safe;
+    crossings.struct_size = sizeof crossings;
+    must(vox_surface_safe_step(surface, NULL, &safe));
+    must(vox_surface_crossings(surface, &crossings));
+    printf("free of contact for %.3f of the way; at its end %s\n", safe.step,
+           crossings.count > 0 ? "the sheets cross" : "nothing crosses");
+
+    motion.to = NULL; /* where the sheets began */
+    must(vox_surface_move(surface, &motion));
+    must(vox_surface_crossings(surface, &crossings));
+    must(vox_surface_clearance(surface, 10, clearance, 2 * sheet));
+    double least = clearance[0];
+    for (int v = 1; v < 2 * sheet; ++v) least = clearance[v] < least ? clearance[v] : least;
+    printf("before, %" PRIu64 " crossings; every vertex may move by %.3f at least\n", crossings.count, least);
+    vox_surface_destroy(surface);
+    return 0;
+}

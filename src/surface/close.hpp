@@ -1,0 +1,40 @@
+// Features that are close, and how far every vertex may move before any touch.
+#pragma once
+
+#include "surface/gathered.hpp"
+#include "surface/pairs.hpp"
+
+#include <vox/vox_pairs.h>
+
+#include <atomic>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+namespace vox {
+
+// A number that many threads may lower at once, and that a vector can hold.
+struct SharedLeast {
+    SharedLeast() noexcept = default;
+    SharedLeast(const SharedLeast& other) noexcept : number(other.number.load(std::memory_order_relaxed)) {}
+    std::atomic<double> number = 0;
+};
+
+class CloseSearch {
+public:
+    explicit CloseSearch(std::pmr::memory_resource* memory) noexcept;
+
+    // As vox_surface_close, for kinds and a distance that it accepts. The answer lives until the next call.
+    std::span<const vox_close_pair> find(vox_surface& surface, vox_feature a, vox_feature b, double distance);
+    // As vox_surface_clearance; `per_vertex` is written when nothing can fail any more.
+    void clearance(vox_surface& surface, double most, double* per_vertex);
+
+private:
+    FeaturePairs candidates_;
+    Gathered<vox_close_pair> gathered_;
+    std::pmr::vector<vox_close_pair> found_;
+    std::pmr::vector<SharedLeast> clearance_; // of each vertex
+};
+
+} // namespace vox
