@@ -1,7 +1,7 @@
 // Times of contact that are known exactly, or checked by samples: never late, and not too early.
 #include "surface/contact_time.hpp"
 #include "base/vectors.hpp"
-#include "exact/closest_point.hpp"
+#include "internal/feature_distance.hpp"
 #include "internal/random.hpp"
 
 #include <vox/vox_pairs.h>
@@ -16,6 +16,7 @@
 #include "support/suite.h" // last: it defines macros with common names
 
 using namespace vox;
+using test::feature_distance;
 
 namespace {
 
@@ -38,25 +39,9 @@ ContactTime answer(const Query& q, const ContactTimeRule& rule = rule_of(), doub
     return contact_time(q.motion(), q.a(), q.b(), rule, latest);
 }
 
-double from_segment(const Vec3d& p, const Vec3d& a, const Vec3d& b) {
-    return std::sqrt(closest_on_triangle(p, a, b, b).squared_distance);
-}
-
-// The distance at a time, by another way than the library's.
 double distance_at(const Query& q, double time) {
-    Vec3d p[4];
-    for (int i = 0; i < 4; ++i) p[i] = q.at(i, time);
-    if (!q.edges) return std::sqrt(closest_on_triangle(p[3], p[0], p[1], p[2]).squared_distance);
-    double least = std::min({from_segment(p[0], p[2], p[3]), from_segment(p[1], p[2], p[3]),
-                             from_segment(p[2], p[0], p[1]), from_segment(p[3], p[0], p[1])});
-    // Between their insides: the distance of the two lines, where the feet are inside.
-    const Vec3d u = p[1] - p[0], v = p[3] - p[2], w = p[0] - p[2], n = cross(u, v);
-    const double nn = dot(n, n);
-    if (nn > 1e-18 * dot(u, u) * dot(v, v)) {
-        const double s = dot(cross(v, w), n) / nn, t = dot(cross(u, w), n) / nn;
-        if (s >= 0 && s <= 1 && t >= 0 && t <= 1) least = std::min(least, std::abs(dot(w, n)) / std::sqrt(nn));
-    }
-    return least;
+    const Vec3d p[4] = {q.at(0, time), q.at(1, time), q.at(2, time), q.at(3, time)};
+    return feature_distance(p, q.edges);
 }
 
 double whole(test::Random& random, int most) { return double(random.below(std::uint32_t(2 * most + 1))) - most; }
