@@ -18,7 +18,7 @@ def stages_of_code(text):
     return re.findall(r'"(\w+)"', re.search(r"stage_names\[\] = \{(.*?)\}", text, flags=re.S)[1])
 
 
-OF_STEP = {"edges"}  # came after the stages of the fast engine
+OF_STEP = {"edges", "margin"}  # came after the stages of the fast engine
 
 
 def stages_of_profile(text):
