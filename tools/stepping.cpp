@@ -134,7 +134,7 @@ vox_profile median(std::span<const vox_profile> profiles) {
          {&vox_profile::step_ns, &vox_profile::bin_ns, &vox_profile::broad_ns, &vox_profile::narrow_ns,
           &vox_profile::contacts_ns, &vox_profile::depth_ns, &vox_profile::stream_ns,
           &vox_profile::winding_ns, &vox_profile::broad_phase_ns, &vox_profile::windows_ns,
-          &vox_profile::lookup_ns, &vox_profile::decide_ns, &vox_profile::edges_ns})
+          &vox_profile::lookup_ns, &vox_profile::decide_ns, &vox_profile::edges_ns, &vox_profile::margin_ns})
         result.*time = median_of(time);
     return result;
 }

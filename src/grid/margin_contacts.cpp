@@ -21,6 +21,12 @@ namespace vox {
 
 namespace {
 
+// Of a contact or a margin contact in the canonical order.
+template <class Contact>
+auto place(const Contact& contact) {
+    return std::tuple(contact.mesh_a, contact.vertex, contact.mesh_b);
+}
+
 struct Box3d {
     Vec3d min, max;
 };
@@ -51,6 +57,7 @@ Vec3d normal_to(const Vec3d& p, const Vec3d (&corner)[3], const SeenPoint& seen,
 void MarginContacts::find(const EdgeScene& scene, double margin, std::span<const vox_contact> contacts,
                           VertexFaceSearch& search, vox_counters& counters) {
     scene_ = &scene;
+    inside_ = contacts;
     most_ = margin * margin;
     workers_.grow(scene.workers->count());
     for (Worker& worker : workers_) {
@@ -67,7 +74,7 @@ void MarginContacts::find(const EdgeScene& scene, double margin, std::span<const
     for (const Worker& worker : workers_)
         found_.insert(found_.end(), worker.found.begin(), worker.found.end());
     workers_.level();
-    put_in_order(contacts);
+    put_in_order();
     counters.margin_contacts = contacts_.size();
 }
 
@@ -99,6 +106,11 @@ void MarginContacts::visit(const NearFaces& near, std::uint32_t w) {
     Worker& worker = workers_[w];
     const Body &a = scene_->bodies[near.a], &b = scene_->bodies[near.b];
     if (has_bit(a.removed_vertices, near.vertex)) return;
+    const std::tuple sought(a.mesh_id, near.vertex, b.mesh_id);
+    const auto inside =
+        std::lower_bound(inside_.begin(), inside_.end(), sought,
+                         [](const vox_contact& c, const auto& key) { return place(c) < key; });
+    if (inside != inside_.end() && place(*inside) == sought) return;
     const SurfaceFeatures& features = near.surface->features;
     const SurfaceTile& tile = features.tiles[near.tile];
     if (worker.body != near.b || worker.tile != near.tile) {
@@ -149,11 +161,8 @@ void MarginContacts::visit(const NearFaces& near, std::uint32_t w) {
                             squared});
 }
 
-// The closest of each vertex and mesh, and none where the vertex has a contact with the mesh.
-void MarginContacts::put_in_order(std::span<const vox_contact> contacts) {
-    const auto place = [](const auto& contact) {
-        return std::tie(contact.mesh_a, contact.vertex, contact.mesh_b);
-    };
+// The closest of each vertex and mesh.
+void MarginContacts::put_in_order() {
     order_.clear();
     reserve_sparingly(order_, found_.size());
     for (std::uint32_t i = 0; i < found_.size(); ++i) order_.push_back(i);
@@ -164,12 +173,10 @@ void MarginContacts::put_in_order(std::span<const vox_contact> contacts) {
     });
     contacts_.clear();
     reserve_sparingly(contacts_, found_.size());
-    auto inside = contacts.begin();
     for (const std::uint32_t i : order_) {
         const vox_margin_contact& found = found_[i].contact;
         if (!contacts_.empty() && place(contacts_.back()) == place(found)) continue;
-        while (inside != contacts.end() && place(*inside) < place(found)) ++inside;
-        if (inside == contacts.end() || place(*inside) != place(found)) contacts_.push_back(found);
+        contacts_.push_back(found);
     }
     if (contacts_.size() > VOX_MAX_CONTACTS)
         throw Error(VOX_ERROR_LIMIT, format("the step has %zu margin contacts, the limit is %u",

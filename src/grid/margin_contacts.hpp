@@ -46,11 +46,12 @@ private:
 
     void visit(const NearFaces& near, std::uint32_t worker) override;
     void carry(const EdgeScene& scene);
-    void put_in_order(std::span<const vox_contact> contacts);
+    void put_in_order();
 
     PerWorker<Worker> workers_;
-    const EdgeScene* scene_ = nullptr; // during a step, as is `most_`
-    double most_ = 0;                  // the margin, squared
+    const EdgeScene* scene_ = nullptr; // during a step, as are the next two
+    std::span<const vox_contact> inside_;
+    double most_ = 0; // the margin, squared
     std::pmr::vector<Found> found_;
     std::pmr::vector<std::uint32_t> order_;
     std::pmr::vector<vox_margin_contact> contacts_;

@@ -135,11 +135,15 @@ void VertexFaceSearch::prepare_bodies(const Scene& scene, std::span<const Positi
                                       double margin) {
     const std::size_t bodies = scene.bodies.size();
     const auto moves = [&](std::size_t b) { return !previous.empty() && previous[b].data; };
+    const auto blocks_of = [](const Scene& s, std::size_t b) {
+        return s.engine ? s.engine->last_step().of[b].tiles->block_count()
+                        : (s.bodies[b].vertex_count + vertices_of_block - 1) / vertices_of_block;
+    };
     std::size_t floats = 0, blocks = 0;
     for (std::size_t b = 0; b < bodies; ++b) {
         const std::size_t count = scene.bodies[b].vertex_count;
         floats += 3 * count * (std::size_t{!scene.engine} + std::size_t{moves(b)});
-        if (!scene.engine || moves(b)) blocks += (count + vertices_of_block - 1) / vertices_of_block;
+        if (!scene.engine || moves(b)) blocks += blocks_of(scene, b);
     }
     packed_.resize(floats);
     block_boxes_.resize(blocks);
@@ -177,8 +181,7 @@ void VertexFaceSearch::prepare_bodies(const Scene& scene, std::span<const Positi
         if (!scene.engine || moves(b)) {
             Box* boxes = block_boxes_.data() + block_place;
             out.blocks = boxes;
-            out.first_of_block = nullptr;
-            out.block_count = (body.vertex_count + vertices_of_block - 1) / vertices_of_block;
+            if (!scene.engine) out.block_count = blocks_of(scene, b);
             block_place += out.block_count;
             out.box = empty_box;
             for (std::uint32_t block = 0; block < out.block_count; ++block) {
@@ -202,7 +205,8 @@ const SearchedSurface& VertexFaceSearch::surface_of(const Scene& scene, std::uin
                                   [](const Kept& kept, vox_mesh id) { return kept.mesh < id; });
     if (place == surfaces_.end() || place->mesh != mesh || place->version != scene.versions[body]) {
         Kept made{mesh, scene.versions[body], SearchedSurface(memory())};
-        make_surface_features(*scene.topologies[body], scene.bodies[body].positions, nullptr,
+        make_surface_features(*scene.topologies[body], scene.bodies[body].positions,
+                              scene.engine ? scene.engine->last_step().of[body].tiles : nullptr,
                               made.surface.features);
         order_faces(scene.bodies[body].tets, made.surface);
         if (place == surfaces_.end() || place->mesh != mesh)
@@ -273,16 +277,27 @@ Box VertexFaceSearch::box_of_tile(const Searched& body, std::uint32_t index) con
     return box;
 }
 
+// Whether a block that holds vertices of a tile is where others reach the body. Unknown of the reference
+// engine's.
+bool VertexFaceSearch::is_reached(const Searched& body, std::uint32_t index) const {
+    const SurfaceFeatures& features = body.surface->features;
+    const SurfaceTile& tile = features.tiles[index];
+    if (tile.block_count == 0) return true;
+    // A face can be where none of its corners are: what counts is the box around them.
+    Box box = empty_box;
+    for (std::uint32_t i = 0; i < tile.block_count; ++i)
+        add(box, body.blocks[features.blocks[tile.first_block + i]]);
+    return overlap(box, body.reached);
+}
+
 // Of tiles that others reach; the others get an empty box.
 void VertexFaceSearch::make_tile_boxes(const Scene& scene) {
     constexpr std::size_t least = task_tiles / small_body;
     scene.workers->for_ranges(pieces_.size(), least, [&](std::size_t begin, std::size_t end, std::uint32_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const Searched& body = searched_[pieces_[i].body];
-            for (std::uint32_t t = pieces_[i].first; t < pieces_[i].last; ++t) {
-                const Box box = box_of_tile(body, t);
-                tile_boxes_[body.first_tile + t] = overlap(box, body.reached) ? box : empty_box;
-            }
+            for (std::uint32_t t = pieces_[i].first; t < pieces_[i].last; ++t)
+                tile_boxes_[body.first_tile + t] = is_reached(body, t) ? box_of_tile(body, t) : empty_box;
         }
     });
 }

@@ -109,6 +109,7 @@ private:
     const SearchedSurface& surface_of(const Scene& scene, std::uint32_t body);
     void prepare_surfaces(const Scene& scene);
     void make_tile_boxes(const Scene& scene);
+    bool is_reached(const Searched& body, std::uint32_t tile) const;
     Box box_of_tile(const Searched& body, std::uint32_t tile) const;
     bool list(const fast::Pair& pair, Worker& worker) const;
     void search_tiles(const fast::Pair& pair, const Worker& lists, std::size_t begin, std::size_t end,

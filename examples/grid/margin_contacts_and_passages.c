@@ -1,0 +1,35 @@
+/* Margin contacts and passages: who comes close to a cube, and who has gone through it between two frames. */
+#include "example.h"
+
+int main(void) {
+    vox_grid* grid = NULL;
+    must(vox_grid_create(NULL, &grid));
+    must(vox_grid_set_margin(grid, 0.25));
+    cube target = cube_at(0, 0, 0), bullet = cube_at(0.25f, 0.125f, -1.125f);
+    insert_cube(grid, &target);
+    const vox_mesh id = insert_cube(grid, &bullet);
+    must(vox_grid_step(grid));
+
+    vox_margin_contact_view near;
+    must(vox_grid_margin_contacts(grid, &near));
+    for (uint64_t i = 0; i < near.count; ++i) {
+        const vox_margin_contact* c = &near.data[i]; /* valid until the next step */
+        printf("vertex %u of mesh %u is %g from mesh %u, which pushes it along (%g, %g, %g)\n", (unsigned)c->vertex,
+               (unsigned)c->mesh_a, c->distance, (unsigned)c->mesh_b, c->normal[0], c->normal[1], c->normal[2]);
+    }
+
+    const cube before = bullet; /* where its vertices were a frame ago */
+    must(vox_mesh_bind_previous_positions(grid, id, before.positions, VOX_FORMAT_FLOAT3, 0, 0));
+    move_cube(&bullet, 0, 0, 8);
+    must(vox_grid_step(grid));
+    vox_contact_view contacts;
+    vox_passage_view passages;
+    must(vox_grid_contacts(grid, &contacts));
+    must(vox_grid_passages(grid, &passages));
+    printf("%" PRIu64 " contacts, %" PRIu64 " passages\n", contacts.count, passages.count);
+    for (uint64_t i = 0; i < passages.count; ++i)
+        printf("vertex %u of mesh %u met mesh %u at time %.4f\n", (unsigned)passages.data[i].vertex,
+               (unsigned)passages.data[i].mesh_a, (unsigned)passages.data[i].mesh_b, passages.data[i].time);
+    vox_grid_destroy(grid);
+    return 0;
+}
