@@ -181,7 +181,7 @@ VOX_EXPERIMENTAL vox_result vox_surface_set_cell_size(vox_surface* surface, doub
 VOX_EXPERIMENTAL vox_result vox_surface_suggest_cell_size(vox_surface* surface, vox_feature a, vox_feature b,
                                                           vox_foreign_suggestion* out);
 
-/* What the last vox_surface_pairs did, and what the surface holds. */
+/* What the last search for pairs did, also one by vox_surface_crossings and the like, and what the surface holds. */
 typedef struct vox_surface_counters {
     uint32_t struct_size;
     uint32_t reserved;       /* 0 */
@@ -254,8 +254,8 @@ VOX_EXPERIMENTAL vox_result vox_surface_close(vox_surface* surface, vox_feature 
                                               vox_close_view* out_view);
 
 /* For each vertex a distance, at most `most`: while no vertex has moved further than its own, from the end of the motion,
- * no two features touch that do not touch now (Chen et al. 2025, Offset Geometric Contact, Sect. 3.3). It is half of the
- * least distance between the features that the vertex is part of and those that they could touch, rounded downwards.
+ * no face and vertex and no two edges touch that do not touch now (Chen et al. 2025, Offset Geometric Contact, Sect. 3.3). It
+ * is half of the least distance of such pairs that the vertex is part of, rounded downwards.
  * vertex_count must be that of the surface. Errors: INVALID_ARGUMENT (another vertex_count; `most` is not above 0, or not
  * finite), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
 VOX_EXPERIMENTAL vox_result vox_surface_clearance(vox_surface* surface, double most,

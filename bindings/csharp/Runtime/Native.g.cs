@@ -1876,7 +1876,8 @@ namespace Voxtet
         public uint* partners;
     }
 
-    /// <summary>What the last vox_surface_pairs did, and what the surface holds.</summary>
+    /// <summary>What the last search for pairs did, also one by vox_surface_crossings and the like, and what the
+    /// surface holds.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 72)]
     public struct SurfaceCounters
     {
@@ -3142,8 +3143,8 @@ namespace Voxtet
             CloseView* out_view);
 
         /// <summary>For each vertex a distance, at most `most`: while no vertex has moved further than its own, from
-        /// the end of the motion, no two features touch that do not touch now (Chen et al. 2025, Offset Geometric
-        /// Contact, Sect. 3.3).</summary>
+        /// the end of the motion, no face and vertex and no two edges touch that do not touch now (Chen et al. 2025,
+        /// Offset Geometric Contact, Sect. 3.3).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_surface_clearance(IntPtr surface, double most, double* per_vertex, ulong
             vertex_count);

@@ -1819,7 +1819,7 @@ pub struct vox_pair_lists {
     pub partners: *const u32,
 }
 
-/// What the last vox_surface_pairs did, and what the surface holds.
+/// What the last search for pairs did, also one by vox_surface_crossings and the like, and what the surface holds.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_surface_counters {
@@ -3282,10 +3282,10 @@ extern "C" {
         out_view: *mut vox_close_view,
     ) -> vox_result;
     /// For each vertex a distance, at most `most`: while no vertex has moved further than its own, from the end of the
-    /// motion, no two features touch that do not touch now (Chen et al. 2025, Offset Geometric Contact, Sect. 3.3). It
-    /// is half of the least distance between the features that the vertex is part of and those that they could touch,
-    /// rounded downwards. vertex_count must be that of the surface. Errors: INVALID_ARGUMENT (another vertex_count;
-    /// `most` is not above 0, or not finite), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
+    /// motion, no face and vertex and no two edges touch that do not touch now (Chen et al. 2025, Offset Geometric
+    /// Contact, Sect. 3.3). It is half of the least distance of such pairs that the vertex is part of, rounded
+    /// downwards. vertex_count must be that of the surface. Errors: INVALID_ARGUMENT (another vertex_count; `most` is
+    /// not above 0, or not finite), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
     pub fn vox_surface_clearance(
         surface: *mut vox_surface,
         most: f64,
