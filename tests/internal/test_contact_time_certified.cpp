@@ -29,7 +29,7 @@ using vox::test::Rational;
 namespace {
 
 constexpr std::uint32_t numbers[4] = {0, 1, 2, 3};
-std::uint64_t queries_wanted = 20000;
+std::uint64_t queries_wanted = 4000;
 
 // A face and a vertex, or two edges, by their corners.
 struct Query {
