@@ -1,4 +1,5 @@
-// Closest points (C. Ericson, Real-Time Collision Detection, 2005, Sect. 5.1), and lower bounds by separating axes.
+// Closest points (C. Ericson, Real-Time Collision Detection, 2005, Sect. 5.1), and lower bounds by separating
+// axes.
 #include "surface/distance.hpp"
 
 #include "base/vectors.hpp"
@@ -25,12 +26,10 @@ struct CornerWeights {
     double a[3], b[3];
 };
 
-// Of two edges: where the lines are closest, if that is inside of both; else an end of one is closest. Where the edges
-// are nearly parallel, rounding decides too much, and the best of all of them is taken.
+// Of two edges: where the lines are closest, if that is inside of both; else an end of one is closest. Where
+// the edges are nearly parallel, rounding decides too much, and the best of all of them is taken.
 CornerWeights closest_weights(const Vec3d (&a)[2], const Vec3d (&b)[2]) noexcept {
     const Vec3d d = a[1] - a[0], e = b[1] - b[0], r = a[0] - b[0];
-    const double dd = dot(d, d), ee = dot(e, e), de = dot(d, e), dr = dot(d, r), er = dot(e, r);
-    const double area = dd * ee - de * de;
     double s = 0, t = 0, best = -1;
     const auto consider = [&](double at_a, double at_b) {
         const Vec3d way = r + (at_a * d - at_b * e);
@@ -40,11 +39,15 @@ CornerWeights closest_weights(const Vec3d (&a)[2], const Vec3d (&b)[2]) noexcept
         s = at_a;
         t = at_b;
     };
+    // By products of vectors: where the edges are nearly parallel, the difference of squared lengths has few
+    // digits.
+    const Vec3d normal = cross(d, e);
+    const double area = dot(normal, normal);
     if (area > 0) {
-        const double at_a = (de * er - dr * ee) / area, at_b = (dd * er - de * dr) / area;
+        const double at_a = dot(cross(e, r), normal) / area, at_b = dot(cross(d, r), normal) / area;
         if (at_a >= 0 && at_a <= 1 && at_b >= 0 && at_b <= 1) {
-            if (area > 0x1p-20 * (dd * ee)) return {{1 - at_a, at_a, 0}, {1 - at_b, at_b, 0}};
-            consider(at_a, at_b);
+            if (area > 0x1p-20 * (dot(d, d) * dot(e, e))) return {{1 - at_a, at_a, 0}, {1 - at_b, at_b, 0}};
+            consider(at_a, nearest_fraction(b[0] - (a[0] + at_a * d), e));
         }
     }
     for (int end = 0; end < 2; ++end) {
@@ -55,7 +58,8 @@ CornerWeights closest_weights(const Vec3d (&a)[2], const Vec3d (&b)[2]) noexcept
 }
 
 CornerWeights closest_weights(const Vec3d (&a)[3], const Vec3d (&b)[1]) noexcept {
-    const auto weights = normalised(closest_on_triangle({0, 0, 0}, a[0] - b[0], a[1] - b[0], a[2] - b[0]).weight);
+    const auto weights =
+        normalised(closest_on_triangle({0, 0, 0}, a[0] - b[0], a[1] - b[0], a[2] - b[0]).weight);
     return {{weights[0], weights[1], weights[2]}, {1, 0, 0}};
 }
 
@@ -64,7 +68,9 @@ CornerWeights closest_weights(const Vec3d (&a)[2], const Vec3d (&b)[1]) noexcept
     return {{1 - s, s, 0}, {1, 0, 0}};
 }
 
-CornerWeights closest_weights(const Vec3d (&)[1], const Vec3d (&)[1]) noexcept { return {{1, 0, 0}, {1, 0, 0}}; }
+CornerWeights closest_weights(const Vec3d (&)[1], const Vec3d (&)[1]) noexcept {
+    return {{1, 0, 0}, {1, 0, 0}};
+}
 
 // `way` without what is left of an edge's direction in it.
 Vec3d across(const Vec3d& way, const Vec3d& edge) noexcept {
@@ -74,8 +80,8 @@ Vec3d across(const Vec3d& way, const Vec3d& edge) noexcept {
 
 Vec3d along(const Vec3d& axis, const Vec3d& way) noexcept { return dot(axis, way) < 0 ? -1 * axis : axis; }
 
-// The way between the closest points is off by rounding of the corners, which matters where it is short: the plane or
-// the edge that it stands on does better.
+// The way between the closest points is off by rounding of the corners, which matters where it is short: the
+// plane or the edge that it stands on does better.
 Vec3d refined(const Vec3d& way, const CornerWeights& at, const Vec3d (&a)[3], const Vec3d (&)[1]) noexcept {
     int on = 0, off = 0;
     for (int i = 0; i < 3; ++i) {
@@ -100,8 +106,10 @@ CloseFeatures closest(std::span<const Vec3d> a, std::span<const Vec3d> b) noexce
     const Vec3d origin = b[0];
     Vec3d own[kA], other[kB];
     double size = 0;
-    for (int i = 0; i < kA; ++i) size = std::max(size, largest_number(own[i] = a[static_cast<std::size_t>(i)] - origin));
-    for (int i = 0; i < kB; ++i) size = std::max(size, largest_number(other[i] = b[static_cast<std::size_t>(i)] - origin));
+    for (int i = 0; i < kA; ++i)
+        size = std::max(size, largest_number(own[i] = a[static_cast<std::size_t>(i)] - origin));
+    for (int i = 0; i < kB; ++i)
+        size = std::max(size, largest_number(other[i] = b[static_cast<std::size_t>(i)] - origin));
     const int powers = powers_to_enlarge(size);
     if (powers > 0) {
         for (Vec3d& v : own) v = times_power(v, powers);
@@ -119,18 +127,21 @@ CloseFeatures closest(std::span<const Vec3d> a, std::span<const Vec3d> b) noexce
     return found;
 }
 
-// As in cull.cpp: the corners' projections on any axis w are apart by a gap, and so are the features by gap / |w|.
-// Rounding, with u = 2^-53, R the largest coordinate relative to the origin and |w|1 the sum of the magnitudes of w's
-// numbers: a coordinate is off by u R, a projection by another 3.01 u |w|1 R, a difference of two by 10.1 u |w|1 R in
-// all, and |w|1 < 1.74 |w|; so a gap is off by less than 18 u R |w|. The bound that is subtracted has 32 u R, whose
-// surplus covers its own rounding; that of gap / |w| is less than 4 u of it.
+// As in cull.cpp: the corners' projections on any axis w are apart by a gap, and so are the features by gap /
+// |w|. Rounding, with u = 2^-53, R the largest coordinate relative to the origin and |w|1 the sum of the
+// magnitudes of w's numbers: a coordinate is off by u R, a projection by another 3.01 u |w|1 R, a difference
+// of two by 10.1 u |w|1 R in all, and |w|1 < 1.74 |w|; so a gap is off by less than 18 u R |w|. The bound
+// that is subtracted has 32 u R, whose surplus covers its own rounding; that of gap / |w| is less than 4 u of
+// it.
 template <int kA, int kB>
 double at_least(std::span<const Vec3d> a, std::span<const Vec3d> b) noexcept {
     const Vec3d origin = b[0];
     Vec3d own[kA], other[kB];
     double size = 0;
-    for (int i = 0; i < kA; ++i) size = std::max(size, largest_number(own[i] = a[static_cast<std::size_t>(i)] - origin));
-    for (int i = 0; i < kB; ++i) size = std::max(size, largest_number(other[i] = b[static_cast<std::size_t>(i)] - origin));
+    for (int i = 0; i < kA; ++i)
+        size = std::max(size, largest_number(own[i] = a[static_cast<std::size_t>(i)] - origin));
+    for (int i = 0; i < kB; ++i)
+        size = std::max(size, largest_number(other[i] = b[static_cast<std::size_t>(i)] - origin));
     const int powers = powers_to_enlarge(size);
     if (powers > 0) {
         for (Vec3d& v : own) v = times_power(v, powers);
