@@ -74,7 +74,11 @@ bool stay_apart(const SeenMotion& motion, double begin_time, double end_time) no
     if (stays_on_one_side(begin, end)) return true;
     const Corners middle = corners_at(motion, 0.5 * begin_time + 0.5 * end_time);
     const Vec3d way = closest_seen_from({0, 0, 0}, middle.at[0], middle.at[1], middle.at[2]).way;
-    return is_separated(begin, end, way);
+    if (is_separated(begin, end, way)) return true;
+    // Close to the triangle, rounding errors turn that way more than they turn the normal.
+    const Vec3d* c = middle.at;
+    const Vec3d normal = cross(c[1] - c[0], c[2] - c[0]);
+    return is_separated(begin, end, dot(normal, c[0]) > 0 ? normal : -1.0 * normal);
 }
 
 } // namespace

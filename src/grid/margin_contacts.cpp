@@ -73,6 +73,10 @@ void MarginContacts::find(const EdgeScene& scene, double margin, std::span<const
     reserve_sparingly(found_, count);
     for (const Worker& worker : workers_)
         found_.insert(found_.end(), worker.found.begin(), worker.found.end());
+    for (Worker& worker : workers_) { // in a later step, one may find all
+        reserve_sparingly(worker.found, count);
+        worker.points.reserve(SurfaceTile::most_vertices);
+    }
     workers_.level();
     put_in_order();
     counters.margin_contacts = contacts_.size();

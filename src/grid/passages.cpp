@@ -48,6 +48,11 @@ void Passages::find(const EdgeScene& scene, VertexFaceSearch& search, vox_counte
     reserve_sparingly(found_, count);
     for (const Worker& worker : workers_)
         found_.insert(found_.end(), worker.found.begin(), worker.found.end());
+    for (Worker& worker : workers_) { // in a later step, one may find all
+        reserve_sparingly(worker.found, count);
+        worker.from.reserve(SurfaceTile::most_vertices);
+        worker.to.reserve(SurfaceTile::most_vertices);
+    }
     workers_.level();
 
     // The first of each vertex and mesh.
