@@ -18,7 +18,7 @@ int main(void) {
         if (upper) to[v][2] -= 2;
         if (i % side + 1 == side || i / side + 1 == side) continue;
         const uint32_t quad[6] = {v, v + 1, v + side, v + side, v + 1, v + side + 1};
-        for (int k = 0; k < 6; ++k) faces[count + k / 3][k % 3] = quad[k];
+        for (uint32_t k = 0; k < 6; ++k) faces[count + k / 3][k % 3] = quad[k];
         count += 2;
     }
 
