@@ -17,7 +17,7 @@
 #include "surface/contact_time.hpp"
 
 #include "base/vectors.hpp"
-#include "exact/closest_point.hpp"
+#include "surface/distance.hpp"
 
 #include <algorithm>
 #include <array>
@@ -60,26 +60,6 @@ struct MovingPair {
     double error; // of a difference of projections, for |w|1 = 1
 };
 
-double clamped_ratio(double numerator, double denominator) noexcept {
-    return denominator > 0 ? std::clamp(numerator / denominator, 0.0, 1.0) : 0;
-}
-
-// From the closest point of segment q to p.
-Vec3d way_from_segment(const Vec3d& p, const Vec3d& q0, const Vec3d& q1) noexcept {
-    const Vec3d d = q1 - q0, r = p - q0;
-    return r - clamped_ratio(dot(d, r), dot(d, d)) * d;
-}
-
-// From the closest point of segment q to that of segment p (Ericson, Real-Time Collision Detection, 2005, Sect. 5.1.9).
-Vec3d way_between_segments(const Vec3d& p0, const Vec3d& p1, const Vec3d& q0, const Vec3d& q1) noexcept {
-    const Vec3d d1 = p1 - p0, d2 = q1 - q0, r = p0 - q0;
-    const double a = dot(d1, d1), e = dot(d2, d2), b = dot(d1, d2), c = dot(d1, r), f = dot(d2, r);
-    double s = clamped_ratio(b * f - c * e, a * e - b * b);
-    const double t = clamped_ratio(b * s + f, e);
-    s = clamped_ratio(b * t - c, a);
-    return (r + s * d1) - t * d2;
-}
-
 // Projections on w at one time: where the features are along it, and how fast they change.
 struct AlongWay {
     AlongWay(const MovingPair& pair, const Vec3d& w, double time) noexcept
@@ -101,23 +81,17 @@ struct AlongWay {
     double length, error, gap;
 };
 
-// The direction between the closest points at a time, or another that separates the features further.
+// The direction, of those between the closest points at a time, that separates the features furthest.
+template <int kA, int kB>
 AlongWay best_way(const MovingPair& pair, double time) noexcept {
-    const auto a = [&](std::size_t i) { return pair.a.corner(i, time); };
-    const auto b = [&](std::size_t i) { return pair.b.corner(i, time); };
-    if (pair.b.corners == 1) {
-        const Vec3d from_point = closest_seen_from(b(0), a(0), a(1), a(2)).way;
-        return {pair, from_point, time};
-    }
-    AlongWay best(pair, way_between_segments(a(0), a(1), b(0), b(1)), time);
-    // Of edges that are nearly parallel, the closest points are not well known: those of an end may separate further.
-    if (best.distance() < 0.9 * best.length) {
-        const Vec3d ways[4] = {way_from_segment(a(0), b(0), b(1)), way_from_segment(a(1), b(0), b(1)),
-                               -1 * way_from_segment(b(0), a(0), a(1)), -1 * way_from_segment(b(1), a(0), a(1))};
-        for (const Vec3d& way : ways) {
-            const AlongWay other(pair, way, time);
-            if (other.distance() > best.distance()) best = other;
-        }
+    Vec3d a[kA], b[kB];
+    for (std::size_t i = 0; i < kA; ++i) a[i] = pair.a.corner(i, time);
+    for (std::size_t j = 0; j < kB; ++j) b[j] = pair.b.corner(j, time);
+    const Axes axes = axes_between(a, b);
+    AlongWay best(pair, axes.axis[0], time);
+    for (std::size_t i = 1; i < 3 && best.distance() < good_enough * axes.length; ++i) {
+        const AlongWay other(pair, axes.axis[i], time);
+        if (other.distance() > best.distance()) best = other;
     }
     return best;
 }
@@ -141,7 +115,7 @@ ContactTime contact_time(const SurfaceMotion& motion, std::span<const std::uint3
     const MovingPair pair(motion, a, b);
     double time = 0, enough = 0;
     for (std::uint32_t iteration = 0; iteration < rule.most_iterations; ++iteration) {
-        const AlongWay way = best_way(pair, time);
+        const AlongWay way = pair.b.corners == 1 ? best_way<3, 1>(pair, time) : best_way<2, 2>(pair, time);
         const double left = way.distance() - rule.distance;
         if (!(left > 0)) return {time, true, true};
         if (iteration == 0)

@@ -80,25 +80,30 @@ Vec3d across(const Vec3d& way, const Vec3d& edge) noexcept {
 
 Vec3d along(const Vec3d& axis, const Vec3d& way) noexcept { return dot(axis, way) < 0 ? -1 * axis : axis; }
 
-// The way between the closest points is off by rounding of the corners, which matters where it is short: the
-// plane or the edge that it stands on does better.
-Vec3d refined(const Vec3d& way, const CornerWeights& at, const Vec3d (&a)[3], const Vec3d (&)[1]) noexcept {
-    int on = 0, off = 0;
-    for (int i = 0; i < 3; ++i) {
-        if (at.a[i] > 0)
-            ++on;
-        else
-            off = i;
-    }
-    if (on == 3) return along(cross(a[1] - a[0], a[2] - a[0]), way);
-    return on == 2 ? across(way, a[(off + 2) % 3] - a[(off + 1) % 3]) : way;
+// The way between the closest points is off by rounding of the corners, which matters where it is short: what
+// is perpendicular to the edges that it ends on does better. Of a point inside of a face and of two edges
+// that is the normal.
+Vec3d normal_of(const Vec3d (&a)[3], const Vec3d (&)[1]) noexcept { return cross(a[1] - a[0], a[2] - a[0]); }
+Vec3d normal_of(const Vec3d (&a)[2], const Vec3d (&b)[2]) noexcept { return cross(a[1] - a[0], b[1] - b[0]); }
+
+bool is_normal(const CornerWeights& at, const Vec3d (&)[3], const Vec3d (&)[1]) noexcept {
+    return at.a[0] > 0 && at.a[1] > 0 && at.a[2] > 0;
+}
+bool is_normal(const CornerWeights& at, const Vec3d (&)[2], const Vec3d (&)[2]) noexcept {
+    return at.a[0] > 0 && at.a[1] > 0 && at.b[0] > 0 && at.b[1] > 0;
 }
 
-Vec3d refined(const Vec3d& way, const CornerWeights& at, const Vec3d (&a)[2], const Vec3d (&b)[2]) noexcept {
+Vec3d squared_up(const Vec3d& way, const CornerWeights& at, const Vec3d (&a)[3],
+                 const Vec3d (&)[1]) noexcept {
+    for (int i = 0; i < 3; ++i)
+        if (!(at.a[i] > 0) && at.a[(i + 1) % 3] > 0 && at.a[(i + 2) % 3] > 0)
+            return across(way, a[(i + 2) % 3] - a[(i + 1) % 3]);
+    return way;
+}
+Vec3d squared_up(const Vec3d& way, const CornerWeights& at, const Vec3d (&a)[2],
+                 const Vec3d (&b)[2]) noexcept {
     const bool on_a = at.a[0] > 0 && at.a[1] > 0, on_b = at.b[0] > 0 && at.b[1] > 0;
-    const Vec3d d = a[1] - a[0], e = b[1] - b[0];
-    if (on_a && on_b) return along(cross(d, e), way);
-    return on_a ? across(way, d) : on_b ? across(way, e) : way;
+    return on_a ? across(way, a[1] - a[0]) : on_b ? across(way, b[1] - b[0]) : way;
 }
 
 template <int kA, int kB>
@@ -149,13 +154,15 @@ double at_least(std::span<const Vec3d> a, std::span<const Vec3d> b) noexcept {
         size = std::ldexp(size, powers);
     }
     double best = 0;
-    for (const Vec3d& w : axes_between(own, other).axis) {
+    const Axes axes = axes_between(own, other);
+    for (const Vec3d& w : axes.axis) {
         const double squared = dot(w, w);
         if (!(squared > least_squared_axis)) continue;
         double least = dot(w, own[0]), most = dot(w, other[0]);
         for (int i = 1; i < kA; ++i) least = std::min(least, dot(w, own[i]));
         for (int i = 1; i < kB; ++i) most = std::max(most, dot(w, other[i]));
         best = std::max(best, (least - most) / std::sqrt(squared) * (1 - 0x1p-50) - 0x1p-48 * size);
+        if (best > good_enough * axes.length) break;
     }
     // Rounded to a denormal it may have grown.
     const double scaled = std::ldexp(best, -powers);
@@ -168,7 +175,10 @@ template <int kA, int kB>
 Axes axes_between(const Vec3d (&a)[kA], const Vec3d (&b)[kB]) noexcept {
     const CornerWeights at = closest_weights(a, b);
     const Vec3d way = weighted(a, at.a) - weighted(b, at.b);
-    return {{refined(way, at, a, b), way}};
+    const Vec3d normal = along(normal_of(a, b), way), square = squared_up(way, at, a, b);
+    const double length_of_way = length(way);
+    if (is_normal(at, a, b)) return {{normal, square, way}, length_of_way};
+    return {{square, normal, way}, length_of_way};
 }
 template Axes axes_between(const Vec3d (&)[3], const Vec3d (&)[1]) noexcept;
 template Axes axes_between(const Vec3d (&)[2], const Vec3d (&)[2]) noexcept;
