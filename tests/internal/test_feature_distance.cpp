@@ -1,10 +1,13 @@
-// Distances of edges that cross at a small angle, where a formula that subtracts squared lengths has few digits.
+// Distances of features against a slow oracle in long doubles, degenerate ones and any numbers included.
 #include "base/vectors.hpp"
+#include "internal/distance_oracle.hpp"
 #include "internal/random.hpp"
 #include "surface/distance.hpp"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
+#include <vector>
 
 #include "support/suite.h" // last: it defines macros with common names
 
@@ -12,6 +15,9 @@ using namespace vox;
 
 namespace {
 
+using test::Random;
+
+// Where a formula that subtracts squared lengths has few digits.
 START_TEST(edges_that_cross_at_any_angle) {
     test::Random random{5};
     const auto uniform = [&] {
@@ -29,11 +35,100 @@ START_TEST(edges_that_cross_at_any_angle) {
 }
 END_TEST
 
+// Corners on a small raster, so that features are often degenerate, parallel, or touch; now and then a bit off it.
+std::vector<Vec3d> random_corners(Random& random, std::size_t count, double scale, double off) {
+    std::vector<Vec3d> corners(count);
+    for (Vec3d& v : corners)
+        for (double* x : {&v.x, &v.y, &v.z}) {
+            *x = double(random.below(5)) - 2;
+            if (random.below(3) == 0) *x += off * random.unit();
+            *x = double{float(*x * scale)};
+        }
+    if (count > 1 && random.below(6) == 0) corners[1] = corners[0];
+    return corners;
+}
+
+std::vector<Long3> all_longer(const std::vector<Vec3d>& corners) {
+    std::vector<Long3> out;
+    for (const Vec3d& v : corners) out.push_back(longer(v));
+    return out;
+}
+
+double size_of(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
+    double size = 0;
+    for (const auto* corners : {&a, &b})
+        for (const Vec3d& v : *corners) size = std::max(size, largest_number({v.x - b[0].x, v.y - b[0].y, v.z - b[0].z}));
+    return size;
+}
+
+Long3 weighted(const std::vector<Vec3d>& corners, const double* weights) {
+    Long3 sum{0, 0, 0};
+    for (std::size_t i = 0; i < corners.size(); ++i) sum = sum + longer(corners[i]) * weights[i];
+    return sum;
+}
+
+constexpr std::size_t kinds[][2] = {{3, 1}, {1, 3}, {2, 2}, {2, 1}, {1, 2}, {1, 1}};
+
+START_TEST(distances_are_right) {
+    Random random{11};
+    std::uint64_t degenerate = 0;
+    for (int n = 0; n < 100000; ++n) {
+        const auto& [of_a, of_b] = kinds[random.below(6)];
+        const double scales[] = {1, 1, 1e-30, 1e30, double{FLT_TRUE_MIN} * 4, double{FLT_MAX} / 4};
+        const double scale = scales[random.below(6)], offs[] = {1, 1e-3, 1e-6};
+        const double off = offs[random.below(3)];
+        const auto a = random_corners(random, of_a, scale, off), b = random_corners(random, of_b, scale, off);
+        const double size = size_of(a, b);
+        const CloseFeatures found = closest_features(a, b);
+        const long double exact = oracle_distance(all_longer(a), all_longer(b));
+        ck_assert_msg(std::abs(found.distance - exact) <= 1e-14L * size, "%d: %zu and %zu: %.17g, expected %.17Lg (size %g)", n, of_a,
+                      of_b, found.distance, exact, size);
+        // The points that the weights give are that far apart.
+        const long double apart = norm(weighted(a, found.weights_a) - weighted(b, found.weights_b));
+        ck_assert(std::abs(apart - found.distance) <= 4e-15L * size + 1e-15L * scale);
+        for (int i = 0; i < 3; ++i) {
+            ck_assert(found.weights_a[i] >= 0 && found.weights_a[i] <= 1);
+            ck_assert(found.weights_b[i] >= 0 && found.weights_b[i] <= 1);
+        }
+        degenerate += exact == 0;
+        if (of_a < of_b || of_a + of_b < 4) continue;
+        const double least = distance_at_least(a, b);
+        ck_assert_msg(least <= exact, "%d: at least %.17g, exact %.17Lg", n, least, exact);
+        // Of edges nearly parallel and close together, rounding costs more of it.
+        const long double lost = 1e-13L * size + (exact > 0 ? 2e-14L * size * size / exact : 0);
+        ck_assert_msg(least >= 0.99L * exact - lost, "%d: %zu and %zu: at least %.17g, exact %.17Lg (size %g)", n, of_a, of_b, least,
+                      exact, size);
+    }
+    ck_assert_uint_gt(degenerate, 100);
+}
+END_TEST
+
+// Down to the denormals of double, and of any exponents: bounds hold.
+START_TEST(bounds_hold_for_any_numbers) {
+    Random random{12};
+    for (int n = 0; n < 100000; ++n) {
+        const bool faces = random.below(2) == 0;
+        std::vector<Vec3d> a(faces ? 3 : 2), b(faces ? 1 : 2);
+        const double tiny = random.below(3) == 0 ? 0x1p-900 : 1;
+        for (auto* corners : {&a, &b})
+            for (Vec3d& v : *corners)
+                v = {random.any_finite() * tiny, random.any_finite() * tiny, random.any_finite() * tiny};
+        const long double exact = oracle_distance(all_longer(a), all_longer(b));
+        const double least = distance_at_least(a, b);
+        ck_assert(least <= exact * (1 + 1e-17L) && least >= 0);
+        const CloseFeatures found = closest_features(a, b); // of points of the features, though perhaps not the closest
+        const long double apart = norm(weighted(a, found.weights_a) - weighted(b, found.weights_b));
+        ck_assert(std::abs(apart - found.distance) <= 1e-14L * size_of(a, b));
+        ck_assert(found.distance >= least);
+    }
+}
+END_TEST
+
 } // namespace
 
 int main() {
     Suite* suite = suite_create("feature_distance");
     TCase* tests = add_case(suite, "feature_distance");
-    tcase_add_each(tests, edges_that_cross_at_any_angle);
+    tcase_add_each(tests, edges_that_cross_at_any_angle, distances_are_right, bounds_hold_for_any_numbers);
     return run_suite(suite);
 }
