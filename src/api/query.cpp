@@ -16,7 +16,7 @@ using namespace vox;
 
 namespace {
 
-[[noreturn]] void refuse(const Vec3d& p, const char* name) {
+[[noreturn]] void refuse_point(const Vec3d& p, const char* name) {
     const bool finite = std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
     throw Error(finite ? VOX_ERROR_LIMIT : VOX_ERROR_NON_FINITE,
                 format("%s is (%g, %g, %g), expected finite coordinates below 2^128", name, p.x, p.y, p.z));
@@ -29,7 +29,7 @@ bool is_usable(const Vec3d& p) { // not with NaN
 Vec3d read_point(const double* p, const char* name) {
     require(p, name);
     const Vec3d point{p[0], p[1], p[2]};
-    if (!is_usable(point)) refuse(point, name);
+    if (!is_usable(point)) refuse_point(point, name);
     return point;
 }
 
@@ -77,7 +77,7 @@ std::pmr::vector<Vec3d> read_points(const void* points, const vox_format& point_
     read.reserve(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < count; ++i) {
         read.push_back(positions.exact(i));
-        if (!is_usable(read.back())) refuse(read.back(), format("point %zu", i).c_str());
+        if (!is_usable(read.back())) refuse_point(read.back(), format("point %zu", i).c_str());
     }
     return read;
 }

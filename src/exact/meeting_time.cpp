@@ -42,7 +42,7 @@ Corners corners_at(const SeenMotion& motion, double time) noexcept {
     return corners;
 }
 
-double largest_coordinate(const Vec3d& v) noexcept {
+double most_of_coordinates(const Vec3d& v) noexcept {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
@@ -62,7 +62,7 @@ bool stays_on_one_side(const Corners& begin, const Corners& end) noexcept {
 }
 
 bool is_separated(const Corners& begin, const Corners& end, const Vec3d& axis) noexcept {
-    const double error = dot_error * largest_coordinate(axis);
+    const double error = dot_error * most_of_coordinates(axis);
     for (int i = 0; i < 3; ++i)
         if (!(dot(begin.at[i], axis) > error) || !(dot(end.at[i], axis) > error)) return false;
     return true;
@@ -86,7 +86,7 @@ bool stay_apart(const SeenMotion& motion, double begin_time, double end_time) no
 double meeting_time(const SeenMotion& given, double latest) noexcept {
     double largest = 0;
     for (int i = 0; i < 3; ++i)
-        largest = std::max({largest, largest_coordinate(given.from[i]), largest_coordinate(given.to[i])});
+        largest = std::max({largest, most_of_coordinates(given.from[i]), most_of_coordinates(given.to[i])});
     if (!(largest > 0)) return 0;
     SeenMotion motion;
     const int power = -1 - std::ilogb(largest);

@@ -20,14 +20,14 @@ namespace vox {
 
 namespace {
 
-constexpr std::uint32_t group_size = 32; // blocks whose common box is tested first
+constexpr std::uint32_t near_group_size = 32; // blocks whose common box is tested first
 
 // How much work is worth a task of its own.
-constexpr std::size_t task_tiles = 128;  // whose boxes are made: 40 vertices each
-constexpr std::size_t task_pairs = 16;   // of small bodies
-constexpr std::size_t task_searches = 8; // of tiles against all blocks of the other body
+constexpr std::size_t near_task_tiles = 128;  // whose boxes are made: 40 vertices each
+constexpr std::size_t near_task_pairs = 16;   // of small bodies
+constexpr std::size_t near_task_searches = 8; // of tiles against all blocks of the other body
 
-constexpr std::size_t small_body = 64; // tiles, which take no task of their own
+constexpr std::size_t near_small_body = 64; // tiles, which take no task of their own
 
 constexpr std::uint32_t vertices_of_block = 8;
 
@@ -224,9 +224,9 @@ void VertexFaceSearch::search(const Scene& scene, NearFacesVisitor& visitor) {
     prepare_surfaces(scene);
     make_tile_boxes(scene);
     const auto is_large = [&](const fast::Pair& pair) {
-        return searched_[pair.b].surface->features.tiles.size() >= small_body;
+        return searched_[pair.b].surface->features.tiles.size() >= near_small_body;
     };
-    scene.workers->for_ranges(pairs_.size(), task_pairs,
+    scene.workers->for_ranges(pairs_.size(), near_task_pairs,
                               [&](std::size_t begin, std::size_t end, std::uint32_t w) {
                                   for (std::size_t i = begin; i < end; ++i) {
                                       Worker& lists = workers_[w];
@@ -237,7 +237,7 @@ void VertexFaceSearch::search(const Scene& scene, NearFacesVisitor& visitor) {
     for (const fast::Pair& pair : pairs_) {
         Worker& lists = workers_[0];
         if (!is_large(pair) || !list(pair, lists)) continue;
-        scene.workers->for_ranges(lists.tiles.size(), task_searches,
+        scene.workers->for_ranges(lists.tiles.size(), near_task_searches,
                                   [&](std::size_t begin, std::size_t end, std::uint32_t w) {
                                       search_tiles(pair, lists, begin, end, visitor, w);
                                   });
@@ -261,8 +261,8 @@ void VertexFaceSearch::prepare_surfaces(const Scene& scene) {
         body.surface = &surface_of(scene, pair.b);
         body.first_tile = static_cast<std::uint32_t>(tiles);
         const auto count = static_cast<std::uint32_t>(body.surface->features.tiles.size());
-        for (std::uint32_t first = 0; first < count; first += small_body)
-            pieces_.push_back({pair.b, first, std::min<std::uint32_t>(first + small_body, count)});
+        for (std::uint32_t first = 0; first < count; first += near_small_body)
+            pieces_.push_back({pair.b, first, std::min<std::uint32_t>(first + near_small_body, count)});
         tiles += count;
     }
     if (tile_boxes_.size() < tiles) tile_boxes_.resize(tiles);
@@ -292,7 +292,7 @@ bool VertexFaceSearch::is_reached(const Searched& body, std::uint32_t index) con
 
 // Of tiles that others reach; the others get an empty box.
 void VertexFaceSearch::make_tile_boxes(const Scene& scene) {
-    constexpr std::size_t least = task_tiles / small_body;
+    constexpr std::size_t least = near_task_tiles / near_small_body;
     scene.workers->for_ranges(pieces_.size(), least, [&](std::size_t begin, std::size_t end, std::uint32_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const Searched& body = searched_[pieces_[i].body];
@@ -336,7 +336,7 @@ bool VertexFaceSearch::list(const fast::Pair& pair, Worker& worker) const {
     worker.groups.clear();
     for (std::size_t i = 0; i < worker.blocks.size(); ++i) {
         const Box& box = a.blocks[worker.blocks[i]];
-        if (i % group_size == 0) worker.groups.push_back(empty_box);
+        if (i % near_group_size == 0) worker.groups.push_back(empty_box);
         add(worker.groups.back(), box);
         worker.boxes.push_back(box);
     }
@@ -356,9 +356,9 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Worker& lists,
         bool is_loaded = false;
         for (std::size_t group = 0; group < lists.groups.size(); ++group) {
             if (!overlap(lists.groups[group], box)) continue;
-            const std::size_t first = group * group_size;
+            const std::size_t first = group * near_group_size;
             const auto count =
-                static_cast<std::uint32_t>(std::min<std::size_t>(group_size, lists.boxes.size() - first));
+                static_cast<std::uint32_t>(std::min<std::size_t>(near_group_size, lists.boxes.size() - first));
             std::uint64_t met = fast::find_overlaps(&lists.boxes[first], count, box);
             for (; met; met &= met - 1) {
                 const std::uint32_t block =

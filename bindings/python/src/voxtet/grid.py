@@ -64,6 +64,12 @@ class Counters(NamedTuple):
     total_touches_ended: int
     total_contacts_began: int
     total_contacts_ended: int
+    edge_contacts: int
+    carried_edge_contacts: int
+    edge_candidates: int
+    margin_contacts: int
+    carried_margin_contacts: int
+    passages: int
 
 
 class Profile(NamedTuple):
@@ -82,6 +88,8 @@ class Profile(NamedTuple):
     windows_ns: int
     lookup_ns: int
     decide_ns: int
+    edges_ns: int
+    margin_ns: int
 
 
 class Failure(NamedTuple):

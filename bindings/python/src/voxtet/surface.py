@@ -130,6 +130,7 @@ class Surface:
         self._handle = Handle(out.value, vox.vox_surface_destroy)
         self._vertex_count = vertex_count
         self._lock = threading.Lock()
+        self._counts = (vertex_count, len(self.edges), len(self.faces))
 
     def _features(self, feature: _c.Feature) -> NDArray[np.uint32]:
         view = sized(_c.vox_feature_view)
@@ -179,18 +180,16 @@ class Surface:
     def pieces(self, a: FeatureName, b: FeatureName) -> Iterator[FeaturePairs]:
         """The pairs of features whose boxes overlap, in pieces that fit into the byte budget, each for the next features of a."""
         kind_a, kind_b = choice(_c.Feature, a, "a"), choice(_c.Feature, b, "b")
-        first = 0
+        first, count = 0, self._counts[kind_a]
         while True:
             lists = sized(_c.vox_pair_lists)
             with self._lock:
-                vox.vox_surface_pairs(self._handle.pointer, kind_a, kind_b, first, 2**63, lists)
-                if lists.count == 0 and first > 0:
-                    return
+                vox.vox_surface_pairs(self._handle.pointer, kind_a, kind_b, first, count, lists)
                 piece = FeaturePairs(_copy(lists.offsets, lists.count + 1, np.uint64),
                                      _copy(lists.partners, lists.pair_count, np.uint32))
             yield piece
             first += lists.count
-            if lists.count == 0:
+            if first == count:
                 return
 
     def pairs(self, a: FeatureName, b: FeatureName) -> FeaturePairs:
