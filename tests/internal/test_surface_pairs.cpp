@@ -215,7 +215,7 @@ std::uint64_t scenes_wanted() {
 }
 
 START_TEST(pairs_are_those_whose_boxes_overlap) {
-    Random random(1);
+    Random random{1};
     std::uint64_t pairs = 0;
     for (std::uint64_t n = 0; n < scenes_wanted(); ++n) {
         const Scene s = random_scene(random);
@@ -277,7 +277,7 @@ double raster_distance(const Scene& s, const std::vector<std::uint32_t>& a, cons
 
 // Culling leaves pairs out, but none whose thickened features touch; the same ones at every SIMD level.
 START_TEST(culling_loses_no_pair_that_touches) {
-    Random random(2);
+    Random random{2};
     std::uint64_t kept = 0, all = 0, touching = 0;
     for (std::uint64_t n = 0; n < scenes_wanted() / 2; ++n) {
         const Scene s = random_scene(random);
@@ -316,7 +316,7 @@ END_TEST
 
 // Answers that do not fit into the budget come in pieces, and are the same.
 START_TEST(a_budget_is_kept_in_pieces) {
-    Random random(3);
+    Random random{3};
     Scene s;
     s.vertex_count = 4000;
     for (std::uint32_t i = 0; i < 3 * s.vertex_count; ++i) s.from.push_back(random.unit());
