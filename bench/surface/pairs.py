@@ -4,7 +4,8 @@ Sample-Scalable-CCD-Data (https://github.com/Continuous-Collision-Detection/Samp
 run. Checks that both find the same numbers of pairs, and that every pair that truly collides by that data is found, also
 with VOX_MOTION_CULL.
 
-usage: pairs.py LIBVOX FOLDER [--rounds N] [--radius R] [--scene NAME] [--sweep] [--json FILE]
+usage: pairs.py LIBVOX FOLDER [--rounds N] [--radius R] [--scene NAME] [--sweep] [--json FILE] [--docs]
+--docs writes the table of docs/surface-pairs.md.
 FOLDER holds the data's folders (armadillo-rollers, cloth-ball, ...), of which frames/, boxes/ and mma_bool/ are read."""
 
 import argparse
@@ -12,6 +13,7 @@ import ctypes
 import glob
 import json
 import os
+import re
 import time
 
 import numpy as np
@@ -225,6 +227,23 @@ def run_scene(vox, folder, name, options, ipctk):
     return row
 
 
+def write_docs(rows):
+    page = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "docs", "surface-pairs.md")
+    lines = ["| scene | faces | pairs | LBVH ms | vox ms | ratio | copying the pairs ms | with culling ms | a pair ns | false pairs culled | "
+             "true pairs lost | bytes a feature |", "|---|---|---|---|---|---|---|---|---|---|---|---|"]
+    for row in rows:
+        lost = sum(row[kind + " lost" + how] for kind in ("ee", "vf") for how in ("", " by culling"))
+        lines.append(f"| {row['scene']} | {row['faces']} | {row['pairs']} | {row['lbvh ms']:.1f} | {row['vox ms']:.1f} | "
+                     f"{row['ratio']:.1f} | {row['write ms']:.2f} | {row['cull ms']:.1f} | {row['cull ns a pair']:.0f} | "
+                     f"{100 * row['false pairs culled']:.1f} % | {lost} | {row['bytes a feature']:.0f} |")
+    with open(page, encoding="utf-8") as file:
+        text = file.read()
+    mark = "<!-- bench/surface -->", "<!-- /bench/surface -->"
+    text = re.sub(f"{mark[0]}.*?{mark[1]}", lambda _: "\n".join([mark[0], *lines, mark[1]]), text, flags=re.S)
+    with open(page, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("library")
@@ -234,6 +253,7 @@ def main():
     parser.add_argument("--scene", choices=SCENES, action="append")
     parser.add_argument("--sweep", action="store_true", help="cell sizes, too")
     parser.add_argument("--json")
+    parser.add_argument("--docs", action="store_true")
     options = parser.parse_args()
     import ipctk # after the arguments: it takes a while
 
@@ -246,6 +266,8 @@ def main():
         print(json.dumps(row, indent=1), flush=True)
     ratios = sorted(row["ratio"] for row in rows)
     print(f"LBVH over vox: least {ratios[0]:.1f}, median {ratios[len(ratios) // 2]:.1f}")
+    if options.docs:
+        write_docs(rows)
     if options.json:
         with open(options.json, "w", encoding="ascii") as file:
             json.dump(rows, file, indent=1)

@@ -246,7 +246,7 @@ typedef struct vox_close_view {
 } vox_close_view;
 
 /* All pairs of features of kinds a and b that are at most `distance` apart, at the end of the motion: face and vertex,
- * edge and edge, edge and vertex, vertex and vertex. Which pairs are left out is as for vox_surface_pairs; the radius does not
+ * edge and edge, edge and vertex, vertex and vertex, in either order. Which pairs are left out is as for vox_surface_pairs; the radius does not
  * count. Set out_view->struct_size first. The view lives until the next vox_surface_close or vox_surface_move, or the end
  * of the surface. Errors: INVALID_ARGUMENT (other kinds; a distance that is negative, infinite or NaN), INVALID_STATE (no
  * positions yet), BUDGET, OUT_OF_MEMORY. */
@@ -269,8 +269,9 @@ typedef struct vox_contact_time_desc {
     uint32_t most_iterations; /* of one pair; >= 1, default 10000. What is not finished then gives a time that is too
                                  early, never one that is late */
     double distance;          /* contact is where two features come this close, >= 0; default 0 */
-    /* The time is right where the features are still further apart than `distance` by at most this part of their distance
-     * at time 0; above 0 and below 1, default 0.1. Less takes longer and gives greater steps. */
+    /* At the time given, the features are still further apart than `distance` by at most this part of what it was at time 0;
+     * above 0 and below 1, default 0.1. Less takes longer and gives greater steps. So a pair that comes that near and does not
+     * touch limits the step, too. Where features are closer than some 1e-8 of their size, rounding may end it earlier. */
     double slack;
 } vox_contact_time_desc;
 

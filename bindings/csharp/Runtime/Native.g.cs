@@ -1965,8 +1965,8 @@ namespace Voxtet
         public uint most_iterations;
         /// <summary>contact is where two features come this close, &gt;= 0; default 0</summary>
         public double distance;
-        /// <summary>The time is right where the features are still further apart than `distance` by at most this part
-        /// of their distance at time 0; above 0 and below 1, default 0.1.</summary>
+        /// <summary>At the time given, the features are still further apart than `distance` by at most this part of
+        /// what it was at time 0; above 0 and below 1, default 0.1.</summary>
         public double slack;
     }
 
@@ -3137,7 +3137,7 @@ namespace Voxtet
         internal static extern Result vox_surface_crossings(IntPtr surface, CrossingView* out_view);
 
         /// <summary>All pairs of features of kinds a and b that are at most `distance` apart, at the end of the motion:
-        /// face and vertex, edge and edge, edge and vertex, vertex and vertex.</summary>
+        /// face and vertex, edge and edge, edge and vertex, vertex and vertex, in either order.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_surface_close(IntPtr surface, Feature a, Feature b, double distance,
             CloseView* out_view);

@@ -1909,8 +1909,10 @@ pub struct vox_contact_time_desc {
     pub most_iterations: u32,
     /// contact is where two features come this close, >= 0; default 0
     pub distance: f64,
-    /// The time is right where the features are still further apart than `distance` by at most this part of their
-    /// distance at time 0; above 0 and below 1, default 0.1. Less takes longer and gives greater steps.
+    /// At the time given, the features are still further apart than `distance` by at most this part of what it was at
+    /// time 0; above 0 and below 1, default 0.1. Less takes longer and gives greater steps. So a pair that comes that
+    /// near and does not touch limits the step, too. Where features are closer than some 1e-8 of their size, rounding
+    /// may end it earlier.
     pub slack: f64,
 }
 
@@ -3270,10 +3272,10 @@ extern "C" {
         out_view: *mut vox_crossing_view,
     ) -> vox_result;
     /// All pairs of features of kinds a and b that are at most `distance` apart, at the end of the motion: face and
-    /// vertex, edge and edge, edge and vertex, vertex and vertex. Which pairs are left out is as for vox_surface_pairs;
-    /// the radius does not count. Set out_view->struct_size first. The view lives until the next vox_surface_close or
-    /// vox_surface_move, or the end of the surface. Errors: INVALID_ARGUMENT (other kinds; a distance that is negative,
-    /// infinite or NaN), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
+    /// vertex, edge and edge, edge and vertex, vertex and vertex, in either order. Which pairs are left out is as for
+    /// vox_surface_pairs; the radius does not count. Set out_view->struct_size first. The view lives until the next
+    /// vox_surface_close or vox_surface_move, or the end of the surface. Errors: INVALID_ARGUMENT (other kinds; a
+    /// distance that is negative, infinite or NaN), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
     pub fn vox_surface_close(
         surface: *mut vox_surface,
         a: vox_feature,
