@@ -191,10 +191,11 @@ class Nulls:
 
 
 def main():
-    libraries = {}
+    libraries, loaded = {}, {}
     for argument in sys.argv[1:]:
         name, path = argument.split("=", 1)
-        libraries[name] = ctypes.CDLL(path)
+        libraries[name] = loaded.get(path) or ctypes.CDLL(path)
+        loaded[path] = libraries[name]  # one object, which knows the types of all headers of that library
         _c.declare(libraries[name], name)
     nulls = Nulls(libraries)
     for part in API["headers"]:

@@ -818,7 +818,8 @@ void vox_grid::prepare_edge_depths() {
                 throw MeshError(VOX_ERROR_INVALID_STATE, body, " has no positions: bind some before");
             bodies.push_back({body, nullptr});
         }
-    std::ranges::sort(bodies, {}, [](const EdgeBody& b) { return b.body.mesh_id; });
+    std::sort(bodies.begin(), bodies.end(),
+              [](const EdgeBody& a, const EdgeBody& b) { return a.body.mesh_id < b.body.mesh_id; });
     const auto same = [](const EdgeBody& a, const EdgeBody& b) { return a.body.mesh_id == b.body.mesh_id; };
     bodies.erase(std::unique(bodies.begin(), bodies.end(), same), bodies.end());
     for (const EdgeBody& b : bodies) check_finite(b.body);
