@@ -23,10 +23,24 @@ namespace vox {
 
 namespace {
 
+// Whether this build has edge contacts, contacts within a margin and passages. The module for WebAssembly, where nobody could
+// read them, is a twentieth smaller without.
+#if defined(VOX_WITHOUT_SURFACE_CONTACTS)
+constexpr bool finds_surface_contacts = false;
+#else
+constexpr bool finds_surface_contacts = true;
+#endif
+
+void check_surface_contacts(bool wanted) {
+    if (!finds_surface_contacts && wanted)
+        throw Error(VOX_ERROR_UNSUPPORTED, "this build finds no edge contacts, contacts within a margin or passages");
+}
+
 void check_margin(double margin) {
     if (!(margin >= 0) || std::isinf(margin))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("margin is %g, expected a finite number >= 0", margin));
+    check_surface_contacts(margin > 0);
 }
 
 } // namespace
@@ -63,6 +77,7 @@ void check_flags(std::uint32_t flags) {
     if (flags & ~known_flags)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("grid flags is 0x%x, of which 0x%x is unknown", flags, flags & ~known_flags));
+    check_surface_contacts((flags & VOX_GRID_EDGE_CONTACTS) != 0);
 }
 
 namespace {
@@ -242,6 +257,7 @@ void vox_grid::set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled) {
 
 void vox_grid::bind_previous(vox_mesh id, const Positions& positions) {
     (void)mesh(id); // throws for an id that names no mesh
+    check_surface_contacts(positions.data != nullptr);
     if (!passages_ && !positions.data) return;
     if (!passages_) passages_.emplace(&memory_);
     passages_->bind(id, positions);
@@ -508,7 +524,7 @@ void vox_grid::step() {
 
 // Returns whether there are the same edge contacts as in the last step, or none are looked for.
 bool vox_grid::find_edges(vox_counters& counters) {
-    if (!edges_) return true;
+    if (!finds_surface_contacts || !edges_) return true;
     edges_->find({bodies_, topologies_, surface_versions_, fast_ ? &fast_engine_ : nullptr, &workers_},
                  counters);
     return edges_->unchanged();
@@ -516,6 +532,7 @@ bool vox_grid::find_edges(vox_counters& counters) {
 
 // Vertices near or through surfaces that they are not inside of.
 void vox_grid::find_near(vox_counters& counters) {
+    if constexpr (!finds_surface_contacts) return;
     const EdgeScene scene{bodies_, topologies_, surface_versions_, fast_ ? &fast_engine_ : nullptr,
                           &workers_};
     if (passages_) passages_->find(scene, *near_faces_, counters);
