@@ -64,7 +64,7 @@ struct Scene {
                 for (const int v : corners(a, i))
                     for (const int w : corners(b, j)) {
                         meet = meet && v != w;
-                        allowed = allowed || may(v, w);
+                        allowed = allowed || may(std::size_t(v), std::size_t(w));
                     }
                 if (meet && allowed) pairs.emplace_back(i, j);
             }
@@ -102,7 +102,7 @@ void check(const Scene& s, const vox::IpcBroadPhase& phase, May&& may) {
     ck_assert(!ee.empty());
 }
 
-constexpr auto all = [](int, int) { return true; };
+constexpr auto all = [](std::size_t, std::size_t) { return true; };
 
 START_TEST(candidates_are_those_of_brute_force) {
     vox::IpcBroadPhase phase;

@@ -72,14 +72,14 @@ bool segments_meet(const Vector& p, const Vector& q, const Vector& r, const Vect
     const Vector d = s - r;
     Part part;
     if (is_zero(d)) {
-        for (int i = 0; i < 3; ++i) {
+        for (std::size_t i = 0; i < 3; ++i) {
             part.clip(p[i] - r[i], q[i] - r[i]);
             part.clip(r[i] - p[i], r[i] - q[i]);
             if (part.empty()) return false;
         }
         return true;
     }
-    for (int i = 0; i < 3; ++i) { // on the line of rs, the cross product with its direction is zero
+    for (std::size_t i = 0; i < 3; ++i) { // on the line of rs, the cross product with its direction is zero
         const Rational at_p = cross(p - r, d)[i], at_q = cross(q - r, d)[i];
         part.clip(at_p, at_q);
         if (part.empty()) return false;
@@ -97,7 +97,7 @@ Truth truth_of(const Case& of) {
     const Vector normal = cross(corner[1] - corner[0], corner[2] - corner[0]);
     Truth truth;
     if (is_zero(normal)) {
-        for (int i = 0; i < 3; ++i)
+        for (std::size_t i = 0; i < 3; ++i)
             if (segments_meet(p, q, corner[i], corner[(i + 1) % 3])) truth.kind = CrossingKind::coplanar;
         return truth;
     }

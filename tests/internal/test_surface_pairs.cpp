@@ -36,7 +36,8 @@ struct Scene {
     std::vector<std::uint32_t> corners(int kind, std::uint32_t i) const {
         if (kind == 0) return {i};
         const auto& all = kind == 1 ? edges : faces;
-        return {all.begin() + (kind + 1) * i, all.begin() + (kind + 1) * (i + 1)};
+        const std::uint32_t width = std::uint32_t(kind) + 1;
+        return {all.begin() + width * i, all.begin() + width * (i + 1)};
     }
 };
 
