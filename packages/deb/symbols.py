@@ -24,13 +24,16 @@ def main():
         sys.exit(__doc__)
     api = json.loads((ROOT / "bindings/api.json").read_text(encoding="utf-8"))
     wrong = []
+    functions = {}  # of each library, which may have several headers
     for header in api["headers"]:
-        library, package = f"lib{header['name']}", f"lib{header['name']}{api['abi_version']}".replace("_", "-")
+        functions.setdefault(header["library"], []).extend(f["name"] for f in header["functions"])
+    for name_of_library, names in functions.items():
+        library, package = f"lib{name_of_library}", f"lib{name_of_library}{api['abi_version']}".replace("_", "-")
         path = HERE / "debian" / f"{package}.symbols"
         had = path.read_text(encoding="ascii") if path.exists() else ""
         since = symbols(had)
         text = f"{library}.so.{api['abi_version']} {package} #MINVER#\n* Build-Depends-Package: libvox-dev\n" + "".join(
-            f" {name}@Base {since.get(name, api['version'])}\n" for name in sorted(f["name"] for f in header["functions"]))
+            f" {name}@Base {since.get(name, api['version'])}\n" for name in sorted(names))
         if text == had:
             continue
         if sys.argv[1] == "--renew":
