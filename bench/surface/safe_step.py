@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """The part of a motion that is free of contact: candidates and narrow phase, vox beside IPC Toolkit (ipctk: LBVH and its default
-narrow phase, Tight-Inclusion), one thread each, on the frames of Sample-Scalable-CCD-Data, interleaved in one run. Checks that vox's
-step is not beyond ipctk's by more than what that leaves (ipctk stops at a tenth of the initial distance), and that it loses none
-of the pairs that truly collide.
+narrow phase, Tight-Inclusion), one thread each, on the frames of Sample-Scalable-CCD-Data, interleaved in one run. ipctk stops at a
+fifth of the first distance, vox at a tenth, so its steps are greater. Checks that vox reports every pair that truly collides.
 
 usage: safe_step.py LIBVOX FOLDER [--rounds N] [--scene NAME]"""
 

@@ -77,7 +77,7 @@ void* GridMemory::do_allocate(std::size_t size, std::size_t alignment) {
     const std::lock_guard lock(mutex_);
     if (budget_ != 0 && (size > budget_ || bytes_ > budget_ - size))
         throw Error(VOX_ERROR_BUDGET,
-                    format("the grid holds %llu bytes and needs %llu more; its byte budget is %llu",
+                    format("%llu bytes are held and %llu more are needed; the byte budget is %llu",
                            static_cast<unsigned long long>(bytes_), static_cast<unsigned long long>(size),
                            static_cast<unsigned long long>(budget_)));
     void* memory = allocated(allocator_, size, alignment);

@@ -106,20 +106,28 @@ Vec3d squared_up(const Vec3d& way, const CornerWeights& at, const Vec3d (&a)[2],
     return on_a ? across(way, a[1] - a[0]) : on_b ? across(way, b[1] - b[0]) : way;
 }
 
+// The corners as seen from the first one of b, enlarged where they are tiny.
 template <int kA, int kB>
-CloseFeatures closest(std::span<const Vec3d> a, std::span<const Vec3d> b) noexcept {
-    const Vec3d origin = b[0];
-    Vec3d own[kA], other[kB];
-    double size = 0;
-    for (int i = 0; i < kA; ++i)
-        size = std::max(size, largest_number(own[i] = a[static_cast<std::size_t>(i)] - origin));
-    for (int i = 0; i < kB; ++i)
-        size = std::max(size, largest_number(other[i] = b[static_cast<std::size_t>(i)] - origin));
-    const int powers = powers_to_enlarge(size);
-    if (powers > 0) {
+struct SeenPair {
+    SeenPair(std::span<const Vec3d> a, std::span<const Vec3d> b) noexcept : origin(b[0]) {
+        for (std::size_t i = 0; i < kA; ++i) size = std::max(size, largest_number(own[i] = a[i] - origin));
+        for (std::size_t i = 0; i < kB; ++i) size = std::max(size, largest_number(other[i] = b[i] - origin));
+        powers = powers_to_enlarge(size);
+        if (powers == 0) return;
         for (Vec3d& v : own) v = times_power(v, powers);
         for (Vec3d& v : other) v = times_power(v, powers);
+        size = std::ldexp(size, powers);
     }
+
+    Vec3d origin, own[kA], other[kB];
+    double size = 0; // the largest number, after they were enlarged
+    int powers;      // of two
+};
+
+template <int kA, int kB>
+CloseFeatures closest(std::span<const Vec3d> a, std::span<const Vec3d> b) noexcept {
+    const SeenPair<kA, kB> pair(a, b);
+    const auto& [origin, own, other, size, powers] = pair;
     const CornerWeights at = closest_weights(own, other);
     const Vec3d on_a = weighted(own, at.a), on_b = weighted(other, at.b), way = on_a - on_b;
     const double most = largest_number(way); // of which the square might underflow
@@ -140,19 +148,8 @@ CloseFeatures closest(std::span<const Vec3d> a, std::span<const Vec3d> b) noexce
 // it.
 template <int kA, int kB>
 double at_least(std::span<const Vec3d> a, std::span<const Vec3d> b) noexcept {
-    const Vec3d origin = b[0];
-    Vec3d own[kA], other[kB];
-    double size = 0;
-    for (int i = 0; i < kA; ++i)
-        size = std::max(size, largest_number(own[i] = a[static_cast<std::size_t>(i)] - origin));
-    for (int i = 0; i < kB; ++i)
-        size = std::max(size, largest_number(other[i] = b[static_cast<std::size_t>(i)] - origin));
-    const int powers = powers_to_enlarge(size);
-    if (powers > 0) {
-        for (Vec3d& v : own) v = times_power(v, powers);
-        for (Vec3d& v : other) v = times_power(v, powers);
-        size = std::ldexp(size, powers);
-    }
+    const SeenPair<kA, kB> pair(a, b);
+    const auto& [origin, own, other, size, powers] = pair;
     double best = 0;
     const Axes axes = axes_between(own, other);
     for (const Vec3d& w : axes.axis) {

@@ -7,7 +7,8 @@ namespace vox {
 
 namespace {
 
-// Nanoseconds, by bench/surface/pairs.py --sweep. A tile that is read is mostly one that was met in another cell.
+// Nanoseconds, estimates: the time of a search is nearly all in comparing features, so the cells' own share is hard to
+// measure, and what its minimum is off by costs little (bench/surface/pairs.py --sweep).
 constexpr vox_grid_weights tile_weights{0, 12, 6, 2, 2, 2, 0};
 
 vox_primitives boxes_as_primitives(const std::pmr::vector<Box>& boxes) {
