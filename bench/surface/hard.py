@@ -99,12 +99,12 @@ def main():
     vox = ctypes.CDLL(options.library)
     vox.vox_last_error.restype = ctypes.c_char_p
     ipctk.set_num_threads(1)
-    random = np.random.default_rng(options.seed)
     print("| scene | tries | worst, ns a feature and pair | its features, pairs | least LBVH over vox | its features, pairs |")
     print("|---|---|---|---|---|---|")
-    for family in FAMILIES:
+    for number, family in enumerate(FAMILIES):
         slowest, closest = (0,), (np.inf,)
-        for _ in range(options.tries):
+        for attempt in range(options.tries):
+            random = np.random.default_rng([options.seed, number, attempt])
             points, faces = family(random, int(10 ** random.uniform(3, 4.4)))
             end = motion(random, points, faces)
             edges = pairs.edges_of(faces)
