@@ -81,7 +81,7 @@ static uint64_t check_margin(const margin_scene* s, vox_grid* grid, double margi
             for (uint32_t b = 0; b < s->count; ++b) {
                 if (a == b || !collide_in(s, a, b)) continue;
                 const float* p = s->bodies[a].positions + 3 * (size_t)v;
-                const vox_margin_contact* found = &view.data[next];
+                const vox_margin_contact* found = next < view.count ? &view.data[next] : NULL;
                 vox_closest_desc desc = vox_default_closest_desc();
                 vox_closest_hit hit;
                 desc.points = p;

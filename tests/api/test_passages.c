@@ -140,8 +140,8 @@ static uint64_t check_passages(const vox_grid* grid, const moving_body* bodies, 
                 for (uint32_t f = 0; f < face_count; ++f)
                     first = fmin(first, first_root(&bodies[a], v, &bodies[b], faces + 3 * f));
                 free(faces);
-                const vox_passage* found = &view.data[next];
-                const int is_found = next < view.count && found->mesh_a == bodies[a].id && found->vertex == v &&
+                const vox_passage* found = next < view.count ? &view.data[next] : NULL;
+                const int is_found = found && found->mesh_a == bodies[a].id && found->vertex == v &&
                                      found->mesh_b == bodies[b].id;
                 if (first <= 1) ck_assert(is_found);
                 if (!is_found) continue;
