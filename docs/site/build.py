@@ -1,0 +1,226 @@
+#!/usr/bin/env python3
+"""Builds the documentation as a site of static files.
+
+usage: build.py [--out FOLDER] [--version NAME] [--check] [--serve PORT] [--offline]
+
+FOLDER (build/site) gets a folder for this version, a copy of it as latest/, and an index.html that leads there. What it
+holds of other versions stays, and all versions are in each other's list. The name of a version is that of the headers unless it is
+given. The generator, MkDocs with Material's theme at the versions of requirements.txt, goes into build/docs/venv; once it
+is there, nothing is downloaded. --offline fails instead of downloading. --check also checks what was built (check.py).
+Status 77: the generator could not be installed."""
+
+import argparse
+import functools
+import hashlib
+import http.server
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, HERE)
+import pages  # noqa: E402
+import paper_data  # noqa: E402
+import reference  # noqa: E402
+
+ROOT = pages.ROOT
+BUILD = os.path.join(ROOT, "build", "docs")
+PLAYGROUND = os.path.join(ROOT, "build", "web")
+SKIPPED = 77
+
+NAVIGATION = [
+    {"Home": "docs/site/home.md"},
+    {"Start": ["docs/README.md", {"Overview": "README.md"}, "docs/install.md",
+               {"Games": "docs/for-games.md"}, {"Simulation and surgery": "docs/for-simulation.md"},
+               {"Research, in Python": "docs/for-research.md"}, {"Tools and pipelines": "docs/for-tools.md"},
+               {"Maintainers": "docs/for-maintainers.md"}, {"Examples": "examples/README.md"}]},
+    {"The paper": [{"In five minutes": "docs/paper-explained.md"}, "docs/cell-size.md", "docs/your-own-grid.md", "docs/paper.md",
+                   "docs/regret.md"]},
+    {"Guide": ["docs/contacts.md", "docs/depth.md", "docs/cutting.md", "docs/surface-pairs.md", "docs/sim.md", "docs/files.md",
+               "docs/tetrahedralize.md", "docs/command-line.md", "docs/snapshot.md", "docs/limits.md", "docs/performance.md"]},
+    {"Languages": [{"C++": "docs/cpp.md"}, {"Python": "bindings/python/README.md"}, {"C#": "bindings/csharp/README.md"},
+                   {"Rust": "bindings/rust/voxtet/README.md"}, {"JavaScript": "bindings/js/README.md"},
+                   {"MuJoCo": "bindings/mujoco/README.md"}, {"Go, Java, Julia, yours": "docs/other-languages.md"},
+                   {"How they are made": "bindings/README.md"}]},
+    "reference",
+    {"Inside": [{"How it works": "src/README.md"}, "docs/engine.md", "docs/abi.md", {"Speed": "bench/README.md"},
+                {"Tests": "tests/README.md"}, "CONTRIBUTING.md", "RELEASING.md", "SECURITY.md", "CHANGELOG.md"]},
+]
+
+ROOT_PAGE = """<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><title>vox</title><meta http-equiv="refresh" content="0; url=latest/index.html">
+</head><body><p>The documentation: <a href="latest/index.html">latest</a></p></body></html>
+"""
+
+PLAYGROUND_PAGE = """---
+title: Playground
+hide: [toc]
+---
+
+# Playground
+
+Bodies to throw, drag and cut, and the cost of a step at every cell size. It runs in this page; nothing leaves it.
+[On the whole window](playground/index.html)
+
+<iframe class="vox-playground" src="playground/index.html" title="Playground" loading="lazy"></iframe>
+"""
+
+
+def environment(offline):
+    """The generator's own Python, installed if need be; None if that fails."""
+    folder = os.path.join(BUILD, "venv")
+    python = os.path.join(folder, "bin", "python")
+    wanted = os.path.join(HERE, "requirements.txt")
+    with open(wanted, "rb") as file:
+        state = hashlib.sha256(file.read()).hexdigest()
+    stamp = os.path.join(folder, "installed")
+    if os.path.exists(stamp) and open(stamp, encoding="utf-8").read() == state:
+        return python
+    if offline:
+        print("docs: the generator is not installed, and --offline allows no download", file=sys.stderr)
+        return None
+    shutil.rmtree(folder, ignore_errors=True)
+    for command in ([sys.executable, "-m", "venv", folder],
+                    [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--require-hashes", "-r", wanted]):
+        if subprocess.run(command, check=False).returncode != 0:
+            shutil.rmtree(folder, ignore_errors=True)
+            print("docs: skipped: the generator could not be installed (no pip, or no network)", file=sys.stderr)
+            return None
+    with open(stamp, "w", encoding="utf-8") as file:
+        file.write(state)
+    return python
+
+
+def examples_of_sections(site):
+    """Links to examples by section of vox.h, as examples/README.md lists them."""
+    text = site.read("examples/README.md").split("## By section of vox.h", 1)[1].split("From files to contacts")[0]
+    found = {}
+    for entry in " ".join(text.split()).split("·"):
+        name, _, links = entry.strip().partition(":")
+        found[name.strip()] = [f"[{label}](../../{site.place_of('examples/' + target)})"
+                               for label, target in re.findall(r"\[([^\]]+)\]\(([^)]+)\)", links) if not target.startswith("..")]
+    return found
+
+
+def write(path, text):
+    path = os.path.join(BUILD, "pages", path)
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def prepare(version):
+    """Writes the Markdown that MkDocs reads, and its settings."""
+    shutil.rmtree(os.path.join(BUILD, "pages"), ignore_errors=True)
+    described = reference.Reference()
+    site = pages.collect(described.places)
+    links = examples_of_sections(site)
+    for name in pages.REFERENCE:
+        site.add(name + ".md", functools.partial(site.source, name))
+    navigation = [navigation_entry(entry, site, described) for entry in NAVIGATION]
+    if os.path.exists(os.path.join(PLAYGROUND, "index.html")):
+        shutil.copytree(PLAYGROUND, os.path.join(BUILD, "pages", "playground"))
+        write("playground.md", PLAYGROUND_PAGE)
+        navigation.insert(1, {"Playground": "playground.md"})
+    if site.faults:
+        sys.exit("\n".join(site.faults))
+    for path, text in {**site.texts, **described.pages(links)}.items():
+        write(path, text)
+    for path in site.files:
+        target = os.path.join(BUILD, "pages", path)
+        os.makedirs(os.path.dirname(target), exist_ok=True)
+        shutil.copyfile(os.path.join(ROOT, path), target)
+    shutil.copytree(os.path.join(HERE, "live"), os.path.join(BUILD, "pages", "assets", "vox"))
+    write("assets/vox/paper_data.js", paper_data.module())
+    settings = {"INHERIT": os.path.join(HERE, "mkdocs.yml"), "docs_dir": os.path.join(BUILD, "pages"), "nav": navigation,
+                "theme": {"custom_dir": os.path.join(HERE, "overrides")}}
+    with open(os.path.join(BUILD, "mkdocs.yml"), "w", encoding="utf-8") as file:
+        json.dump(settings, file, indent=1) # JSON is YAML
+    return version or described.api["version"]
+
+
+def pages_of(entries):
+    """The files of the repository that the navigation names."""
+    for entry in entries:
+        if isinstance(entry, dict):
+            (inside,) = entry.values()
+            yield from pages_of(inside if isinstance(inside, list) else [inside])
+        elif entry != "reference":
+            yield entry
+
+
+def navigation_entry(entry, site, described):
+    if entry == "reference":
+        return described.navigation()
+    if isinstance(entry, str):
+        return site.place_of(entry)
+    (title, inside), = entry.items()
+    if isinstance(inside, list):
+        return {title: [navigation_entry(e, site, described) for e in inside]}
+    return {title: site.place_of(inside)}
+
+
+def publish(python, out, version):
+    """Builds the site of this version, and the list of all versions in `out`."""
+    target = os.path.join(out, version)
+    shutil.rmtree(target, ignore_errors=True)
+    paths = {**os.environ, "PYTHONPATH": HERE, "PYTHONDONTWRITEBYTECODE": "1", "NO_MKDOCS_2_WARNING": "1"}
+    run = subprocess.run([python, "-m", "mkdocs", "--quiet", "build", "--clean", "-f", os.path.join(BUILD, "mkdocs.yml"), "-d", target],
+                         env=paths, check=False)
+    if run.returncode != 0:
+        sys.exit(run.returncode)
+    os.remove(os.path.join(target, "404.html")) # its links would hold at the root of a server alone
+    for name in ("sitemap.xml", "sitemap.xml.gz"): # lists addresses, which this site does not know
+        os.remove(os.path.join(target, name))
+    with open(os.path.join(target, "version.json"), "w", encoding="utf-8") as file:
+        json.dump({"version": version}, file)
+    list_versions(out, version)
+
+
+def order_of(version):
+    """Numbers as numbers; other names first."""
+    return [(1, int(part), "") if part.isdigit() else (2, 0, part) for part in version.split(".")]
+
+
+def list_versions(out, latest):
+    names = [name for name in os.listdir(out) if name != "latest" and os.path.exists(os.path.join(out, name, "version.json"))]
+    names.sort(key=order_of, reverse=True)
+    shutil.rmtree(os.path.join(out, "latest"), ignore_errors=True)
+    shutil.copytree(os.path.join(out, latest), os.path.join(out, "latest"))
+    with open(os.path.join(out, "versions.json"), "w", encoding="utf-8") as file:
+        json.dump([{"version": name, "title": name, "aliases": ["latest"] if name == latest else []} for name in names], file, indent=1)
+    with open(os.path.join(out, "index.html"), "w", encoding="utf-8") as file:
+        file.write(ROOT_PAGE)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", default=os.path.join(ROOT, "build", "site"))
+    parser.add_argument("--version")
+    parser.add_argument("--check", action="store_true")
+    parser.add_argument("--serve", type=int, metavar="PORT")
+    parser.add_argument("--offline", action="store_true")
+    options = parser.parse_args()
+    os.makedirs(BUILD, exist_ok=True)
+    os.makedirs(options.out, exist_ok=True)
+    python = environment(options.offline)
+    if not python:
+        sys.exit(SKIPPED)
+    version = prepare(options.version)
+    publish(python, os.path.abspath(options.out), version)
+    print("written:", os.path.join(options.out, version, "index.html"))
+    if options.check:
+        import check
+        check.site(os.path.abspath(options.out), version)
+    if options.serve is not None:
+        handler = functools.partial(http.server.SimpleHTTPRequestHandler, directory=options.out)
+        server = http.server.ThreadingHTTPServer(("127.0.0.1", options.serve), handler)
+        print(f"http://127.0.0.1:{server.server_port}/ (Ctrl+C ends it)")
+        server.serve_forever()
+
+
+if __name__ == "__main__":
+    main()
