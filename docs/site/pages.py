@@ -4,6 +4,7 @@ pages themselves
 
   [examples/x.c](../examples/x.c)   alone in a paragraph, the name as its text: the program itself, read from the file;
   <!-- prints x --> ```text ...     what that program prints (test_outputs.py compares);
+  [cell-size.md](cell-size.md)      the title of that page, as the text of the link;
   `vox_grid_step`                   a link into the reference, also inside longer code of one word;
   <details><summary>...             one after the other: tabs;
   <!-- live: NAME -->               a live figure of live/figures.js; readers without scripts see the picture after it.
@@ -13,6 +14,8 @@ Python with the standard library only."""
 import os
 import posixpath
 import re
+
+import github_slugs
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 
@@ -72,11 +75,6 @@ def outside_code(text, change):
     return "\n".join(out)
 
 
-def outside_spans(text, change):
-    """The same, for each part outside of `code`."""
-    return "".join(part if i % 2 else change(part) for i, part in enumerate(re.split(r"(`+[^`\n]+`+)", text)))
-
-
 def without_remarks(text):
     """Remarks to the scripts that write parts of a page, <!-- bench/fast -->, are for the source alone."""
     return outside_code(text, lambda part: re.sub(r"<!--(?! (?:live|prints)[: ]).*?-->", "", part, flags=re.S))
@@ -95,6 +93,11 @@ def items_indented(text):
             line = "    " + line.lstrip()
         lines.append(line)
     return "\n".join(lines)
+
+
+def bars_in_tables(line):
+    """In a row of a table GitHub wants a bar in code escaped; Python's Markdown shows the backslash."""
+    return re.sub(r"`[^`]+`", lambda m: m[0].replace("\\|", "|"), line) if line.startswith("|") else line
 
 
 def tabs(text):
@@ -171,6 +174,14 @@ class Pages:
         path = posixpath.relpath(place, posixpath.dirname(page) or ".")
         return path + ("#" + anchor if anchor else "")
 
+    def title_of(self, path, anchor=""):
+        """What a link says that has a file's name as its text: the title of the page, or of the part of it."""
+        headings = re.findall(r"^#+ +(.+?) *$", self.read(path), flags=re.M)
+        for heading in headings:
+            if not anchor or github_slugs.slug(heading, "-") == anchor:
+                return re.sub(r"[\[\]]", "", heading)
+        return path
+
     # ---- Markdown ----
 
     def page(self, path, text, at):
@@ -199,7 +210,7 @@ class Pages:
 
     def with_links(self, path, at, part):
         part = self.moved_links(path, at, part)
-        lines = [line if line.startswith("#") else self.with_names(at, line) for line in part.split("\n")]
+        lines = [line if line.startswith("#") else self.with_names(at, bars_in_tables(line)) for line in part.split("\n")]
         return "\n".join(lines)
 
     def moved_links(self, path, at, part):
@@ -214,6 +225,8 @@ class Pages:
                 self.faults.append(f"{path}: {target}: there is no {where}")
                 return match[0]
             place = self.place_of(where)
+            if where.endswith(".md") and where.endswith(label[1:-1].strip("`")):
+                label = f"[{self.title_of(where, anchor)}]"
             return f"{label}({self.link_to(at, place, anchor)})"
 
         # A link's text may hold code, so links are looked for in whole lines; those inside of code are put back.

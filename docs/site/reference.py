@@ -84,13 +84,13 @@ class Reference:
 
     def words(self, text, page):
         """Escaped, with names as links."""
-        parts = re.split(r"(`[^`]+`|\bdocs/[\w-]+\.md|\bvox_\w+(?:\(\))?|\bVOX_\w+)", text)
+        parts = re.split(r"(`[^`]+`|\bdocs/[\w-]+\.md|\bvox_\w+(?:\(\)|\.[a-z]\w*)?|\bVOX_\w+)", text)
         return "".join(self.name(p.strip("`"), page) if i % 2 else escaped(p) for i, p in enumerate(parts))
 
     def name(self, text, page):
         if text.startswith("docs/"):
             return f"[{text}]({posixpath.relpath(text, posixpath.dirname(page))})"
-        place = self.places.get(text.removesuffix("()"))
+        place = self.places.get(re.sub(r"\(\)$|\..*", "", text))
         if not place:
             return f"`{text}`"
         where = "" if place[0] == page else posixpath.relpath(place[0], posixpath.dirname(page))
@@ -119,13 +119,11 @@ class Reference:
                 continue
             else:
                 line = self.words(lines[i].strip(), page)
-                if re.match(r"(Errors|Source)(?: of all)?:", line) and out and out[-1]:
+                if out and out[-1].startswith("* ") and line:
                     out.append("")
-                elif out and out[-1].startswith("* ") and line:
-                    out.append("")
-                out.append(re.sub(r"^(Errors(?: of all)?:)", r"**\1**", line))
+                out.append(line)
             i += 1
-        return "\n".join(out).strip()
+        return re.sub(r"(^|[.)\"]\s)\s*(Errors(?: of all)?:)", r"\1\n\n**\2**", "\n".join(out)).strip()
 
     def described(self, name, page):
         if name in self.comments:
@@ -189,7 +187,7 @@ class Reference:
 
     def struct(self, struct, page):
         parts = [f"### `{struct['name']}` {{ #{struct['name']} }}", self.described(struct["name"], page)]
-        rows = ["| field | type | meaning |", "|---|---|---|"]
+        rows = []
         for field in struct["fields"]:
             text = self.words(field.get("doc", ""), page)
             if not text and field["name"] == "struct_size":
@@ -198,8 +196,10 @@ class Reference:
             text = "; ".join(t for t in (said, text) if t) if said and not text else f"{text} ({said})" if said else text
             array = "".join(f"[{n}]" for n in field.get("array", []))
             kind = re.sub(r"\[.*", "", field["type"]) + array
-            rows.append(f"| `{field['name']}` | {self.type_link(kind, field, page)} | {text} |")
-        return parts + ["\n".join(rows)]
+            rows.append((f"`{field['name']}`", self.type_link(kind, field, page), text))
+        columns = 3 if any(row[2] for row in rows) else 2
+        lines = [row[:columns] for row in [("field", "type", "meaning"), ("---",) * 3, *rows]]
+        return parts + ["\n".join("| " + " | ".join(line) + " |" for line in lines)]
 
     def type_link(self, text, member, page):
         place = self.places.get(member.get("base", ""))

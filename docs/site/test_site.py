@@ -43,6 +43,7 @@ class Rules(unittest.TestCase):
             ("[a](../bindings/y)", "[a](../bindings/y/index.md)"),
             ("see [`one`](../examples/one.c).", "see [`one`](../examples/one.c.md)."),
             ("[`vox.h`](../include/vox/vox.h)", "[`vox.h`](../reference/vox/README.md)"),
+            ("[a.md](a.md), [docs/a.md](a.md#part)", "[Part](a.md), [Part](a.md#part)"),
             ("[![a](p.svg)](a.md)", "[![a](p.svg)](a.md)"),
             ("[a](#here) [b](https://example.org/a.md)", "[a](#here) [b](https://example.org/a.md)"),
             ("`[a](no.md)`", "`[a](no.md)`"),
@@ -89,6 +90,7 @@ class Rules(unittest.TestCase):
         made = self.made("<!-- live: curve -->\n![c](p.svg)\n")
         self.assertIn('data-figure="curve" markdown="1">\n\n![c](p.svg)\n\n</div>', made)
         self.assertEqual(self.made("a <!-- bench/x -->b<!-- /bench/x -->"), "a b")
+        self.assertEqual(self.made("| `a\\|b` | c\\|d |"), "| `a|b` | c\\|d |")
         self.assertEqual(self.made("1. a\n\n   b\n\nc"), "1. a\n\n    b\n\nc")
 
 
