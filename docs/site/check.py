@@ -213,7 +213,7 @@ def faults_in_browser(out):
                 browser.wait()
                 said.seek(0)
                 for line in said:
-                    if "CONSOLE" in line and re.search(r"Uncaught|Refused|Failed|rror", line):
+                    if "CONSOLE" in line and re.search(r"Uncaught|Refused|violates|Failed|rror", line):
                         yield f"{page}: {line.strip()}"
             for words in wanted:
                 if not reported or not re.search(words, server.report):
