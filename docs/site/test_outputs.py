@@ -31,7 +31,8 @@ def program_of(name, build):
     if name.endswith(".py"):
         python = python_with_numpy()
         libraries = [os.path.join(build, part) for part in ("src", "src/io", "src/sim")]
-        if not python or not all(os.path.isdir(folder) for folder in libraries):
+        built = [os.path.join(folder, f"libvox{part}.so") for folder, part in zip(libraries, ("", "_io", "_sim"))]
+        if not python or not all(map(os.path.exists, built)):
             return None, "no Python has numpy, or libraries are missing"
         return [python, "-B", os.path.join(ROOT, name)], {"VOXTET_LIBRARY_DIR": os.pathsep.join(libraries),
                                                            "PYTHONPATH": os.path.join(ROOT, "bindings", "python", "src")}
