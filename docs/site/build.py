@@ -173,11 +173,22 @@ def publish(python, out, version):
     if run.returncode != 0:
         sys.exit(run.returncode)
     os.remove(os.path.join(target, "404.html")) # its links would hold at the root of a server alone
-    for name in ("sitemap.xml", "sitemap.xml.gz"): # lists addresses, which this site does not know
-        os.remove(os.path.join(target, name))
+    os.remove(os.path.join(target, "sitemap.xml.gz"))
+    write_map(target)
     with open(os.path.join(target, "version.json"), "w", encoding="utf-8") as file:
         json.dump({"version": version}, file)
     list_versions(out, version)
+
+
+def write_map(target):
+    """The theme asks another version's map whether it has a page, so that a reader who changes the version stays on it. It goes
+    by what is common to all addresses, so any server's name does."""
+    pages_there = [""] + sorted(os.path.relpath(os.path.join(at, name), target).replace(os.sep, "/") for at, _, names in os.walk(target)
+                                for name in names if name.endswith(".html"))
+    with open(os.path.join(target, "sitemap.xml"), "w", encoding="utf-8") as file:
+        file.write('<?xml version="1.0" encoding="UTF-8"?>\n<urlset xmlns="http://www.sitemaps.org/schemas/sitemap/0.9">\n')
+        file.writelines(f"<url><loc>http://localhost/{path}</loc></url>\n" for path in pages_there)
+        file.write("</urlset>\n")
 
 
 def order_of(version):

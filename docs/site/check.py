@@ -137,12 +137,20 @@ def faults_of_versions(out, version):
 
 # ---- in a browser ----
 
-# A page that shows a page of the site in a frame, and reports that page when all that is wanted is there, or after a while.
+# A page that shows a page of the site in a frame, follows a link on it if there is one to follow, and reports the page's address and
+# text when all that is wanted is there, or after a while.
 PROBE = """<!doctype html><iframe id="frame" src="PAGE" style="width:1200px;height:900px"></iframe><script>
 const wanted = WANTED.map((words) => new RegExp(words));
 const until = Date.now() + 30000;
+let link = LINK;
 (function look() {
-    const text = document.getElementById("frame").contentDocument?.documentElement?.outerHTML ?? "";
+    const shown = document.getElementById("frame").contentWindow;
+    const text = shown.location.href + "\\n" + (shown.document.documentElement?.outerHTML ?? "");
+    const found = link && shown.document.querySelector(link);
+    if (found) {
+        link = "";
+        found.click();
+    }
     if (Date.now() < until && !wanted.every((words) => words.test(text))) return setTimeout(look, 50);
     fetch("/report", { method: "POST", body: text });
 })();
@@ -194,15 +202,21 @@ def faults_in_browser(out):
         print("SKIPPED: there is no Chromium: figures and search are not tried in a browser")
         return
     with tempfile.TemporaryDirectory() as folder:
-        os.symlink(os.path.abspath(out), os.path.join(folder, "some folder"))
+        site_folder = os.path.join(folder, "some folder")
+        os.mkdir(site_folder)
+        for name in ("latest", "0.0.0"): # the same once more, as another version to change to
+            os.symlink(os.path.join(os.path.abspath(out), "latest"), os.path.join(site_folder, name))
+        with open(os.path.join(site_folder, "versions.json"), "w", encoding="utf-8") as file:
+            json.dump([{"version": name, "title": name, "aliases": []} for name in ("latest", "0.0.0")], file)
         server = Server(folder)
-        for page, wanted in [
-            ("docs/paper-explained.html", ['class="vox-plane"', r"At 1 mean edges z = 35, \+10 % over the least", r"\+17 % on average",
+        for page, link, wanted in [
+            ("docs/paper-explained.html", "", ['class="vox-plane"', r"At 1 mean edges z = 35, \+10 % over the least", r"\+17 % on average",
                                            'class="md-version"']),
-            ("index.html?q=vox_grid_step", [r'<a href="[^"]*#vox_grid_step" class="md-search-result__link"',
+            ("docs/depth.html#how-it-is-found", '.md-version__link[href*="0.0.0"]', [r"^http://[^/]*/some%20folder/0\.0\.0/docs/depth\.html#how-it-is-found\n"]),
+            ("index.html?q=vox_grid_step", "", [r'<a href="[^"]*#vox_grid_step" class="md-search-result__link"',
                                                r'md-search-result__list"[^>]*>\s*<li[^>]*><a href="[^"]*reference/vox/step-and-contacts\.html']),
         ]:
-            server.probe = PROBE.replace("PAGE", f"/some%20folder/latest/{page}").replace("WANTED", json.dumps(wanted))
+            server.probe = PROBE.replace("PAGE", f"/some%20folder/latest/{page}").replace("WANTED", json.dumps(wanted)).replace("LINK", json.dumps(link))
             server.reported.clear()
             with open(os.path.join(folder, "said"), "w+", encoding="utf-8") as said:
                 browser = subprocess.Popen([chromium, "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", "--remote-debugging-port=0",
