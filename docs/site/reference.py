@@ -140,7 +140,7 @@ class Reference:
 
     def function(self, function, page):
         stable = "" if function.get("stable", True) else ' <span class="vox-mark">experimental</span>'
-        parts = [f"### `{function['name']}`{stable} {{ #{function['name']} }}", declaration(function), self.described(function["name"], page)]
+        parts = [f"## `{function['name']}`{stable} {{ #{function['name']} }}", declaration(function), self.described(function["name"], page)]
         rows = [(p["name"], said) for p in function["parameters"] if (said := self.pointer(p, page))]
         said = self.pointer(function["result"], page)
         if said:
@@ -186,7 +186,7 @@ class Reference:
         return f"{verb} until " + " or ".join(said.get(event) or self.words(event, page) for event in lifetime)
 
     def struct(self, struct, page):
-        parts = [f"### `{struct['name']}` {{ #{struct['name']} }}", self.described(struct["name"], page)]
+        parts = [f"## `{struct['name']}` {{ #{struct['name']} }}", self.described(struct["name"], page)]
         rows = []
         for field in struct["fields"]:
             text = self.words(field.get("doc", ""), page)
@@ -211,10 +211,10 @@ class Reference:
         for value in enum["values"]:
             number = f"{value['value']:#x}" if enum["flags"] and value["value"] > 8 else value["value"]
             rows.append(f'| <span id="{value["name"]}"></span>`{value["name"]}` | {number} | {self.words(value["doc"], page)} |')
-        return [f"### `{enum['name']}` {{ #{enum['name']} }}", self.described(enum["name"], page), "\n".join(rows)]
+        return [f"## `{enum['name']}` {{ #{enum['name']} }}", self.described(enum["name"], page), "\n".join(rows)]
 
     def callback(self, call, page):
-        return [f"### `{call['name']}` {{ #{call['name']} }}", declaration(call), self.described(call["name"], page)]
+        return [f"## `{call['name']}` {{ #{call['name']} }}", declaration(call), self.described(call["name"], page)]
 
     def other(self, thing, page):
         """An alias, an opaque type, an inline function, a constant."""
@@ -227,7 +227,7 @@ class Reference:
         beside = self.words(thing.get("doc", ""), page)
         if "value" in thing and beside and beside != " ".join(text.split()):
             text = f"{text}\n\n{beside}"
-        return [f"### `{thing['name']}` {{ #{thing['name']} }}", f"```c\n{code}\n```" if code else "", text]
+        return [f"## `{thing['name']}` {{ #{thing['name']} }}", f"```c\n{code}\n```" if code else "", text]
 
     # ---- pages ----
 

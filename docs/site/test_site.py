@@ -116,11 +116,11 @@ class Repository(unittest.TestCase):
         for parsed in api["headers"]:
             for thing in reference.things_of(parsed):
                 page, anchor = self.reference.places[thing["name"]]
-                self.assertIn(f"### `{thing['name']}`", texts[page])
+                self.assertIn(f"## `{thing['name']}`", texts[page])
                 self.assertIn(f"{{ #{anchor} }}", texts[page])
                 count += 1
                 if thing in parsed["functions"]:
-                    after = texts[page].split(f"{{ #{anchor} }}", 1)[1].split("### ", 1)[0].split("```")[2]
+                    after = texts[page].split(f"{{ #{anchor} }}", 1)[1].split("\n## ", 1)[0].split("```")[2]
                     self.assertGreater(len(after.split()), 1, thing["name"])
                 for value in thing.get("values", []):
                     self.assertIn(f'id="{value["name"]}"', texts[page])
