@@ -57,12 +57,12 @@ ROOT_PAGE = """<!doctype html>
 
 PLAYGROUND_PAGE = """---
 title: Playground
-hide: [toc]
+hide: [navigation, toc]
 ---
 
 # Playground
 
-Bodies to throw, drag and cut, and the cost of a step at every cell size. It runs in this page; nothing leaves it.
+Bodies to drop, drag and cut, and the cost of a step at every cell size. It runs in this page; nothing leaves it.
 [On the whole window](playground/index.html)
 
 <iframe class="vox-playground" src="playground/index.html" title="Playground" loading="lazy"></iframe>
@@ -116,12 +116,13 @@ def prepare(version):
     """Writes the Markdown that MkDocs reads, and its settings."""
     shutil.rmtree(os.path.join(BUILD, "pages"), ignore_errors=True)
     described = reference.Reference()
-    site = pages.collect(described.places)
+    playground = os.path.exists(os.path.join(PLAYGROUND, "index.html"))
+    site = pages.collect(described.places, playground=playground)
     links = examples_of_sections(site)
     for name in pages.REFERENCE:
         site.add(name + ".md", functools.partial(site.source, name))
     navigation = [navigation_entry(entry, site, described) for entry in NAVIGATION]
-    if os.path.exists(os.path.join(PLAYGROUND, "index.html")):
+    if playground:
         shutil.copytree(PLAYGROUND, os.path.join(BUILD, "pages", "playground"))
         write("playground.md", PLAYGROUND_PAGE)
         navigation.insert(1, {"Playground": "playground.md"})

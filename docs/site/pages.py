@@ -7,6 +7,7 @@ pages themselves
   [cell-size.md](cell-size.md)      the title of that page, as the text of the link;
   `vox_grid_step`                   a link into the reference, also inside longer code of one word;
   <details><summary>...             one after the other: tabs;
+  <!-- playground: WORDS -->        a link to the playground, where it was built;
   <!-- live: NAME -->               a live figure of live/figures.js; readers without scripts see the picture after it.
 
 Python with the standard library only."""
@@ -77,7 +78,7 @@ def outside_code(text, change):
 
 def without_remarks(text):
     """Remarks to the scripts that write parts of a page, <!-- bench/fast -->, are for the source alone."""
-    return outside_code(text, lambda part: re.sub(r"<!--(?! (?:live|prints)[: ]).*?-->", "", part, flags=re.S))
+    return outside_code(text, lambda part: re.sub(r"<!--(?! (?:live|prints|playground)[: ]).*?-->", "", part, flags=re.S))
 
 
 def items_indented(text):
@@ -114,8 +115,8 @@ def tabs(text):
 class Pages:
     """`names` says where the reference describes a name: {name: (page, anchor)}."""
 
-    def __init__(self, names, root=ROOT):
-        self.names, self.root = names, root
+    def __init__(self, names, root=ROOT, playground=False):
+        self.names, self.root, self.playground = names, root, playground
         self.texts = {}  # path of a page on the site: its Markdown
         self.files = set()  # paths that are copied as they are
         self.faults = []
@@ -189,7 +190,9 @@ class Pages:
         text = tabs(items_indented(without_remarks(text)))
         text = self.with_programs(path, text)
         text = self.with_figures(text)
-        return outside_code(text, lambda part: self.with_links(path, at, part))
+        text = outside_code(text, lambda part: self.with_links(path, at, part))
+        invitation = rf"[\1]({self.link_to(at, 'playground.md')})" if self.playground else ""
+        return outside_code(text, lambda part: re.sub(r"^<!-- playground: (.+?) -->", invitation, part, flags=re.M))
 
     def with_programs(self, path, text):
         def program(match):
@@ -252,8 +255,8 @@ class Pages:
         return "".join(p if i % 2 else re.sub(r"(?<!`)`(vox_[\w.()]*|VOX_\w+)`(?!`)", name, p) for i, p in enumerate(pieces))
 
 
-def collect(names, first=None, root=ROOT):
-    pages = Pages(names, root)
+def collect(names, first=None, root=ROOT, playground=False):
+    pages = Pages(names, root, playground)
     for path in first or FIRST:
         pages.place_of(path)
     return pages
