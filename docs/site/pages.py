@@ -77,7 +77,9 @@ def outside_code(text, change):
 
 
 def without_remarks(text):
-    """Remarks to the scripts that write parts of a page, <!-- bench/fast -->, are for the source alone."""
+    """Remarks to the scripts that write parts of a page, <!-- bench/fast -->, are for the source alone, and so is what stands
+    between <!-- repository --> and <!-- /repository -->."""
+    text = re.sub(r"(?<!`)<!-- repository -->.*?<!-- /repository -->", "", text, flags=re.S)
     return outside_code(text, lambda part: re.sub(r"<!--(?! (?:live|prints|playground)[: ]).*?-->", "", part, flags=re.S))
 
 

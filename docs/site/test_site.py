@@ -89,6 +89,7 @@ class Rules(unittest.TestCase):
         self.assertIn('=== "D"\n\n    x\n', made)
         made = self.made("<!-- live: curve -->\n![c](p.svg)\n")
         self.assertIn('data-figure="curve" markdown="1">\n\n![c](p.svg)\n\n</div>', made)
+        self.assertEqual(self.made("a<!-- repository --> b\nc<!-- /repository -->."), "a.")
         self.assertEqual(self.made("a\n\n<!-- playground: Try -->\n\nb"), "a\n\n\n\nb")
         self.pages.playground = True
         self.assertEqual(self.pages.page("docs/b.md", "<!-- playground: Try -->", "docs/b.md"), "[Try](../playground.md)")
