@@ -33,21 +33,69 @@ SKIPPED = 77
 
 NAVIGATION = [
     {"Home": "docs/site/home.md"},
-    {"Start": ["docs/README.md", {"Overview": "README.md"}, "docs/install.md",
-               {"Games": "docs/for-games.md"}, {"Simulation and surgery": "docs/for-simulation.md"},
-               {"Research, in Python": "docs/for-research.md"}, {"Tools and pipelines": "docs/for-tools.md"},
-               {"Maintainers": "docs/for-maintainers.md"}, {"Examples": "examples/README.md"}]},
-    {"The paper": [{"In five minutes": "docs/paper-explained.md"}, "docs/cell-size.md", "docs/your-own-grid.md", "docs/paper.md",
-                   "docs/regret.md"]},
-    {"Guide": ["docs/contacts.md", "docs/depth.md", "docs/cutting.md", "docs/surface-pairs.md", "docs/sim.md", "docs/files.md",
-               "docs/tetrahedralize.md", "docs/command-line.md", "docs/snapshot.md", "docs/limits.md", "docs/performance.md"]},
-    {"Languages": [{"C++": "docs/cpp.md"}, {"Python": "bindings/python/README.md"}, {"C#": "bindings/csharp/README.md"},
-                   {"Rust": "bindings/rust/voxtet/README.md"}, {"JavaScript": "bindings/js/README.md"},
-                   {"MuJoCo": "bindings/mujoco/README.md"}, {"Go, Java, Julia, yours": "docs/other-languages.md"},
-                   {"How they are made": "bindings/README.md"}]},
+    {
+        "Start": [
+            "docs/README.md",
+            {"Overview": "README.md"},
+            "docs/install.md",
+            {"Games": "docs/for-games.md"},
+            {"Simulation and surgery": "docs/for-simulation.md"},
+            {"Research, in Python": "docs/for-research.md"},
+            {"Tools and pipelines": "docs/for-tools.md"},
+            {"Maintainers": "docs/for-maintainers.md"},
+            {"Examples": "examples/README.md"},
+        ]
+    },
+    {
+        "The paper": [
+            {"In five minutes": "docs/paper-explained.md"},
+            "docs/cell-size.md",
+            "docs/your-own-grid.md",
+            "docs/paper.md",
+            "docs/regret.md",
+        ]
+    },
+    {
+        "Guide": [
+            "docs/contacts.md",
+            "docs/depth.md",
+            "docs/cutting.md",
+            "docs/surface-pairs.md",
+            "docs/sim.md",
+            "docs/files.md",
+            "docs/tetrahedralize.md",
+            "docs/command-line.md",
+            "docs/snapshot.md",
+            "docs/limits.md",
+            "docs/performance.md",
+        ]
+    },
+    {
+        "Languages": [
+            {"C++": "docs/cpp.md"},
+            {"Python": "bindings/python/README.md"},
+            {"C#": "bindings/csharp/README.md"},
+            {"Rust": "bindings/rust/voxtet/README.md"},
+            {"JavaScript": "bindings/js/README.md"},
+            {"MuJoCo": "bindings/mujoco/README.md"},
+            {"Go, Java, Julia, yours": "docs/other-languages.md"},
+            {"How they are made": "bindings/README.md"},
+        ]
+    },
     "reference",
-    {"Inside": [{"How it works": "src/README.md"}, "docs/engine.md", "docs/abi.md", {"Speed": "bench/README.md"},
-                {"Tests": "tests/README.md"}, "CONTRIBUTING.md", "RELEASING.md", "SECURITY.md", "CHANGELOG.md"]},
+    {
+        "Inside": [
+            {"How it works": "src/README.md"},
+            "docs/engine.md",
+            "docs/abi.md",
+            {"Speed": "bench/README.md"},
+            {"Tests": "tests/README.md"},
+            "CONTRIBUTING.md",
+            "RELEASING.md",
+            "SECURITY.md",
+            "CHANGELOG.md",
+        ]
+    },
 ]
 
 ROOT_PAGE = """<!doctype html>
@@ -83,8 +131,10 @@ def environment(offline):
         print("docs: the generator is not installed, and --offline allows no download", file=sys.stderr)
         return None
     shutil.rmtree(folder, ignore_errors=True)
-    for command in ([sys.executable, "-m", "venv", folder],
-                    [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--require-hashes", "-r", wanted]):
+    for command in (
+        [sys.executable, "-m", "venv", folder],
+        [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--require-hashes", "-r", wanted],
+    ):
         if subprocess.run(command, check=False).returncode != 0:
             shutil.rmtree(folder, ignore_errors=True)
             print("docs: skipped: the generator could not be installed (no pip, or no network)", file=sys.stderr)
@@ -100,8 +150,11 @@ def examples_of_sections(site):
     found = {}
     for entry in " ".join(text.split()).split("·"):
         name, _, links = entry.strip().partition(":")
-        found[name.strip()] = [f"[{label}](../../{site.place_of('examples/' + target)})"
-                               for label, target in re.findall(r"\[([^\]]+)\]\(([^)]+)\)", links) if not target.startswith("..")]
+        found[name.strip()] = [
+            f"[{label}](../../{site.place_of('examples/' + target)})"
+            for label, target in re.findall(r"\[([^\]]+)\]\(([^)]+)\)", links)
+            if not target.startswith("..")
+        ]
     return found
 
 
@@ -136,10 +189,14 @@ def prepare(version):
         shutil.copyfile(os.path.join(ROOT, path), target)
     shutil.copytree(os.path.join(HERE, "live"), os.path.join(BUILD, "pages", "assets", "vox"))
     write("assets/vox/paper_data.js", paper_data.module())
-    settings = {"INHERIT": os.path.join(HERE, "mkdocs.yml"), "docs_dir": os.path.join(BUILD, "pages"), "nav": navigation,
-                "theme": {"custom_dir": os.path.join(HERE, "overrides")}}
+    settings = {
+        "INHERIT": os.path.join(HERE, "mkdocs.yml"),
+        "docs_dir": os.path.join(BUILD, "pages"),
+        "nav": navigation,
+        "theme": {"custom_dir": os.path.join(HERE, "overrides")},
+    }
     with open(os.path.join(BUILD, "mkdocs.yml"), "w", encoding="utf-8") as file:
-        json.dump(settings, file, indent=1) # JSON is YAML
+        json.dump(settings, file, indent=1)  # JSON is YAML
     return version or described.api["version"]
 
 
@@ -158,7 +215,7 @@ def navigation_entry(entry, site, described):
         return described.navigation()
     if isinstance(entry, str):
         return site.place_of(entry)
-    (title, inside), = entry.items()
+    ((title, inside),) = entry.items()
     if isinstance(inside, list):
         return {title: [navigation_entry(e, site, described) for e in inside]}
     return {title: site.place_of(inside)}
@@ -169,11 +226,14 @@ def publish(python, out, version):
     target = os.path.join(out, version)
     shutil.rmtree(target, ignore_errors=True)
     paths = {**os.environ, "PYTHONPATH": HERE, "PYTHONDONTWRITEBYTECODE": "1", "NO_MKDOCS_2_WARNING": "1"}
-    run = subprocess.run([python, "-m", "mkdocs", "--quiet", "build", "--clean", "-f", os.path.join(BUILD, "mkdocs.yml"), "-d", target],
-                         env=paths, check=False)
+    run = subprocess.run(
+        [python, "-m", "mkdocs", "--quiet", "build", "--clean", "-f", os.path.join(BUILD, "mkdocs.yml"), "-d", target],
+        env=paths,
+        check=False,
+    )
     if run.returncode != 0:
         sys.exit(run.returncode)
-    os.remove(os.path.join(target, "404.html")) # its links would hold at the root of a server alone
+    os.remove(os.path.join(target, "404.html"))  # its links would hold at the root of a server alone
     os.remove(os.path.join(target, "sitemap.xml.gz"))
     write_map(target)
     with open(os.path.join(target, "version.json"), "w", encoding="utf-8") as file:
@@ -184,10 +244,16 @@ def publish(python, out, version):
 def write_map(target):
     """The theme asks another version's map whether it has a page, so that a reader who changes the version stays on it. It goes
     by what is common to all addresses, so any server's name does."""
-    pages_there = [""] + sorted(os.path.relpath(os.path.join(at, name), target).replace(os.sep, "/") for at, _, names in os.walk(target)
-                                for name in names if name.endswith(".html"))
+    pages_there = [""] + sorted(
+        os.path.relpath(os.path.join(at, name), target).replace(os.sep, "/")
+        for at, _, names in os.walk(target)
+        for name in names
+        if name.endswith(".html")
+    )
     with open(os.path.join(target, "sitemap.xml"), "w", encoding="utf-8") as file:
-        file.write('<?xml version="1.0" encoding="UTF-8"?>\n<urlset xmlns="http://www.sitemaps.org/schemas/sitemap/0.9">\n')
+        file.write(
+            '<?xml version="1.0" encoding="UTF-8"?>\n<urlset xmlns="http://www.sitemaps.org/schemas/sitemap/0.9">\n'
+        )
         file.writelines(f"<url><loc>http://localhost/{path}</loc></url>\n" for path in pages_there)
         file.write("</urlset>\n")
 
@@ -198,12 +264,18 @@ def order_of(version):
 
 
 def list_versions(out, latest):
-    names = [name for name in os.listdir(out) if name != "latest" and os.path.exists(os.path.join(out, name, "version.json"))]
+    names = [
+        name for name in os.listdir(out) if name != "latest" and os.path.exists(os.path.join(out, name, "version.json"))
+    ]
     names.sort(key=order_of, reverse=True)
     shutil.rmtree(os.path.join(out, "latest"), ignore_errors=True)
     shutil.copytree(os.path.join(out, latest), os.path.join(out, "latest"))
     with open(os.path.join(out, "versions.json"), "w", encoding="utf-8") as file:
-        json.dump([{"version": name, "title": name, "aliases": ["latest"] if name == latest else []} for name in names], file, indent=1)
+        json.dump(
+            [{"version": name, "title": name, "aliases": ["latest"] if name == latest else []} for name in names],
+            file,
+            indent=1,
+        )
     with open(os.path.join(out, "index.html"), "w", encoding="utf-8") as file:
         file.write(ROOT_PAGE)
 
@@ -226,6 +298,7 @@ def main():
     print("written:", os.path.join(options.out, version, "index.html"))
     if options.check:
         import check
+
         check.site(os.path.abspath(options.out), version)
     if options.serve is not None:
         handler = functools.partial(http.server.SimpleHTTPRequestHandler, directory=options.out)

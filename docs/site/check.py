@@ -19,9 +19,22 @@ import urllib.parse
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
 
 # Attributes that make a browser load something; <a href> only leads somewhere.
-LOADS = {("img", "src"), ("script", "src"), ("link", "href"), ("iframe", "src"), ("source", "src"), ("source", "srcset"),
-         ("video", "src"), ("video", "poster"), ("audio", "src"), ("embed", "src"), ("object", "data"), ("image", "href"),
-         ("use", "href"), ("form", "action")}
+LOADS = {
+    ("img", "src"),
+    ("script", "src"),
+    ("link", "href"),
+    ("iframe", "src"),
+    ("source", "src"),
+    ("source", "srcset"),
+    ("video", "src"),
+    ("video", "poster"),
+    ("audio", "src"),
+    ("embed", "src"),
+    ("object", "data"),
+    ("image", "href"),
+    ("use", "href"),
+    ("form", "action"),
+}
 ELSEWHERE = re.compile(r"^(?:[a-z]+:)?//", re.I)
 
 
@@ -100,7 +113,7 @@ def fault_of_link(path, link, files, pages):
     name = urllib.parse.unquote(name.partition("?")[0])
     target = os.path.normpath(os.path.join(os.path.dirname(path), name)).replace(os.sep, "/") if name else path
     if target.startswith(".."):
-        return # the list of versions
+        return  # the list of versions
     if target not in files and target + "/index.html" in files:
         target += "/index.html"
     if target == ".":
@@ -112,7 +125,10 @@ def fault_of_link(path, link, files, pages):
 
 
 def faults_of_search(folder):
-    found = {entry["location"].rpartition("#")[2] for entry in json.loads(text_of(folder, "search/search_index.json"))["docs"]}
+    found = {
+        entry["location"].rpartition("#")[2]
+        for entry in json.loads(text_of(folder, "search/search_index.json"))["docs"]
+    }
     with open(os.path.join(ROOT, "bindings", "api.json"), encoding="utf-8") as file:
         api = json.load(file)
     for parsed in api["headers"]:
@@ -204,24 +220,58 @@ def faults_in_browser(out):
     with tempfile.TemporaryDirectory() as folder:
         site_folder = os.path.join(folder, "some folder")
         os.mkdir(site_folder)
-        for name in ("latest", "0.0.0"): # the same once more, as another version to change to
+        for name in ("latest", "0.0.0"):  # the same once more, as another version to change to
             os.symlink(os.path.join(os.path.abspath(out), "latest"), os.path.join(site_folder, name))
         with open(os.path.join(site_folder, "versions.json"), "w", encoding="utf-8") as file:
             json.dump([{"version": name, "title": name, "aliases": []} for name in ("latest", "0.0.0")], file)
         server = Server(folder)
         for page, link, wanted in [
-            ("docs/paper-explained.html", "", ['class="vox-plane"', r"At 1 mean edges z = 35, \+10 % over the least", r"\+17 % on average",
-                                           'class="md-version"']),
-            ("docs/depth.html#how-it-is-found", '.md-version__link[href*="0.0.0"]', [r"^http://[^/]*/some%20folder/0\.0\.0/docs/depth\.html#how-it-is-found\n"]),
-            ("index.html?q=vox_grid_step", "", [r'<a href="[^"]*#vox_grid_step" class="md-search-result__link"',
-                                               r'md-search-result__list"[^>]*>\s*<li[^>]*><a href="[^"]*reference/vox/step-and-contacts\.html']),
+            (
+                "docs/paper-explained.html",
+                "",
+                [
+                    'class="vox-plane"',
+                    r"At 1 mean edges z = 35, \+10 % over the least",
+                    r"\+17 % on average",
+                    'class="md-version"',
+                ],
+            ),
+            (
+                "docs/depth.html#how-it-is-found",
+                '.md-version__link[href*="0.0.0"]',
+                [r"^http://[^/]*/some%20folder/0\.0\.0/docs/depth\.html#how-it-is-found\n"],
+            ),
+            (
+                "index.html?q=vox_grid_step",
+                "",
+                [
+                    r'<a href="[^"]*#vox_grid_step" class="md-search-result__link"',
+                    r'md-search-result__list"[^>]*>\s*<li[^>]*><a href="[^"]*reference/vox/step-and-contacts\.html',
+                ],
+            ),
         ]:
-            server.probe = PROBE.replace("PAGE", f"/some%20folder/latest/{page}").replace("WANTED", json.dumps(wanted)).replace("LINK", json.dumps(link))
+            server.probe = (
+                PROBE.replace("PAGE", f"/some%20folder/latest/{page}")
+                .replace("WANTED", json.dumps(wanted))
+                .replace("LINK", json.dumps(link))
+            )
             server.reported.clear()
             with open(os.path.join(folder, "said"), "w+", encoding="utf-8") as said:
-                browser = subprocess.Popen([chromium, "--headless", "--no-sandbox", "--disable-gpu", "--enable-logging=stderr", "--remote-debugging-port=0",
-                                            f"--user-data-dir={folder}/profile", "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
-                                            f"http://127.0.0.1:{server.server_port}/probe"], stdout=subprocess.DEVNULL, stderr=said)
+                browser = subprocess.Popen(
+                    [
+                        chromium,
+                        "--headless",
+                        "--no-sandbox",
+                        "--disable-gpu",
+                        "--enable-logging=stderr",
+                        "--remote-debugging-port=0",
+                        f"--user-data-dir={folder}/profile",
+                        "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1",
+                        f"http://127.0.0.1:{server.server_port}/probe",
+                    ],
+                    stdout=subprocess.DEVNULL,
+                    stderr=said,
+                )
                 reported = server.reported.wait(60)
                 browser.terminate()
                 browser.wait()
@@ -238,7 +288,12 @@ def faults_in_browser(out):
 
 def site(out, version):
     folder = os.path.join(out, version)
-    found = [*faults_of_links(folder), *faults_of_search(folder), *faults_of_versions(out, version), *faults_in_browser(out)]
+    found = [
+        *faults_of_links(folder),
+        *faults_of_search(folder),
+        *faults_of_versions(out, version),
+        *faults_in_browser(out),
+    ]
     if found:
         sys.exit("\n".join(found) + f"\n{len(found)} faults")
     print(f"checked: links, requests, search, versions of {folder}")

@@ -25,11 +25,27 @@ FIRST = ["docs/README.md", "README.md", "CHANGELOG.md", "tests/README.md", "scen
 PICTURES = (".svg", ".png", ".gif", ".csv")
 MOST_SHOWN = 100000  # bytes of a description for programs; a longer one is a file to download
 MOST_NUMBERED = 500  # lines: numbers beside the lines of longer files would make their pages slow
-LANGUAGES = {".c": "c", ".h": "c", ".cpp": "cpp", ".hpp": "cpp", ".py": "python", ".js": "js", ".mjs": "js", ".rs": "rust",
-             ".cs": "csharp", ".sh": "sh", ".json": "json", ".cmake": "cmake", ".yml": "yaml", ".dot": "dot"}
+LANGUAGES = {
+    ".c": "c",
+    ".h": "c",
+    ".cpp": "cpp",
+    ".hpp": "cpp",
+    ".py": "python",
+    ".js": "js",
+    ".mjs": "js",
+    ".rs": "rust",
+    ".cs": "csharp",
+    ".sh": "sh",
+    ".json": "json",
+    ".cmake": "cmake",
+    ".yml": "yaml",
+    ".dot": "dot",
+}
 # Pages that lie elsewhere on the site. The README is not the first page there: docs/site/home.md is.
 PLACES = {"docs/site/home.md": "index.md", "README.md": "overview.md"}
-REFERENCE = {f"include/vox/{name}.h": f"reference/{name}/README.md" for name in ("vox", "vox_pairs", "vox_io", "vox_sim")}
+REFERENCE = {
+    f"include/vox/{name}.h": f"reference/{name}/README.md" for name in ("vox", "vox_pairs", "vox_io", "vox_sim")
+}
 
 LINK = re.compile(r"(!?\[(?:[^\[\]]|\[[^\]]*\])*\])\(([^()\s]+)\)")
 FENCE = re.compile(r"^( *)(```+|~~~+)")
@@ -80,7 +96,9 @@ def without_remarks(text):
     """Remarks to the scripts that write parts of a page, <!-- bench/fast -->, are for the source alone, and so is what stands
     between <!-- repository --> and <!-- /repository -->."""
     text = re.sub(r"(?<!`)<!-- repository -->.*?<!-- /repository -->", "", text, flags=re.S)
-    return outside_code(text, lambda part: re.sub(r"<!--(?! (?:live|prints|playground)[: ]).*?-->", "", part, flags=re.S))
+    return outside_code(
+        text, lambda part: re.sub(r"(?<!`)<!--(?! (?:live|prints|playground)[: ]).*?-->", "", part, flags=re.S)
+    )
 
 
 def items_indented(text):
@@ -144,7 +162,11 @@ class Pages:
         if target.endswith(".md"):
             place = PLACES.get(target, target)
             return self.add(place, lambda: self.page(target, self.read(target), place))
-        if target.endswith(PICTURES) or os.path.getsize(os.path.join(self.root, target)) > MOST_SHOWN and target.endswith(".json"):
+        if (
+            target.endswith(PICTURES)
+            or os.path.getsize(os.path.join(self.root, target)) > MOST_SHOWN
+            and target.endswith(".json")
+        ):
             self.files.add(target)
             return target
         return self.add(target.lstrip(".") + ".md", lambda: self.source(target))  # MkDocs passes over .github
@@ -159,13 +181,19 @@ class Pages:
         text = self.read(path)
         numbers = 'linenums="1" ' if text.count("\n") < MOST_NUMBERED else ""
         searched = "" if path.startswith("examples/") else "search:\n  exclude: true\n"
-        return (f"---\ntitle: {posixpath.basename(path)}\nhide: [toc]\n{searched}---\n\n# {posixpath.basename(path)}\n\n`{path}`\n\n"
-                + fenced(text, language_of(path), numbers) + "\n")
+        return (
+            f"---\ntitle: {posixpath.basename(path)}\nhide: [toc]\n{searched}---\n\n# {posixpath.basename(path)}\n\n`{path}`\n\n"
+            + fenced(text, language_of(path), numbers)
+            + "\n"
+        )
 
     def list_of(self, folder):
         names = sorted(n for n in os.listdir(os.path.join(self.root, folder)) if not n.startswith((".", "__")))
-        rows = [f"* [{name}]({self.link(posixpath.join(folder, 'index.md'), posixpath.join(folder, name))})" for name in names
-                if "." in name]
+        rows = [
+            f"* [{name}]({self.link(posixpath.join(folder, 'index.md'), posixpath.join(folder, name))})"
+            for name in names
+            if "." in name
+        ]
         return f"---\ntitle: {folder}\nsearch:\n  exclude: true\n---\n\n# {folder}\n\n" + "\n".join(rows) + "\n"
 
     def link(self, page, target, anchor=""):
@@ -210,18 +238,24 @@ class Pages:
     @staticmethod
     def with_figures(text):
         """The picture that follows is what a reader without scripts sees."""
-        return re.sub(r"^<!-- live: (\w+) -->\n(!\[[^\]]*\]\([^)]+\))?",
-                      lambda m: f'<div class="vox-live" data-figure="{m[1]}" markdown="1">\n\n{m[2] or ""}\n\n</div>', text, flags=re.M)
+        return re.sub(
+            r"^<!-- live: (\w+) -->\n(!\[[^\]]*\]\([^)]+\))?",
+            lambda m: f'<div class="vox-live" data-figure="{m[1]}" markdown="1">\n\n{m[2] or ""}\n\n</div>',
+            text,
+            flags=re.M,
+        )
 
     def with_links(self, path, at, part):
         part = self.moved_links(path, at, part)
-        lines = [line if line.startswith("#") else self.with_names(at, bars_in_tables(line)) for line in part.split("\n")]
+        lines = [
+            line if line.startswith("#") else self.with_names(at, bars_in_tables(line)) for line in part.split("\n")
+        ]
         return "\n".join(lines)
 
     def moved_links(self, path, at, part):
         def moved(match):
             label, target = match[1], match[2]
-            label = label[:1] + LINK.sub(moved, label[1:]) # a picture that is a link
+            label = label[:1] + LINK.sub(moved, label[1:])  # a picture that is a link
             if re.match(r"[a-z]+:", target) or target.startswith("#"):
                 return match[0]
             name, _, anchor = target.partition("#")
@@ -246,6 +280,7 @@ class Pages:
 
     def with_names(self, at, line):
         """`vox_grid_step` leads to its description, except inside a link."""
+
         def name(match):
             word = re.match(r"(?:const )?(\w+)", match[1])
             found = word and self.names.get(word[1])
@@ -254,7 +289,9 @@ class Pages:
             return f"[`{match[1]}`]({self.link_to(at, *found)})"
 
         pieces = re.split(r"(!?\[(?:[^\[\]]|\[[^\]]*\])*\]\([^()\s]+\))", line)
-        return "".join(p if i % 2 else re.sub(r"(?<!`)`(vox_[\w.()]*|VOX_\w+)`(?!`)", name, p) for i, p in enumerate(pieces))
+        return "".join(
+            p if i % 2 else re.sub(r"(?<!`)`(vox_[\w.()]*|VOX_\w+)`(?!`)", name, p) for i, p in enumerate(pieces)
+        )
 
 
 def collect(names, first=None, root=ROOT, playground=False):

@@ -16,10 +16,26 @@ def rows(path):
 def models():
     found = []
     for model in rows("docs/paper-models.csv"):
-        times = [{"rule": row["rule"], "cellSize": float(row["cell_size"]), "time": float(row["time_ms"]), "cost": float(row["cost"])}
-                 for row in rows("docs/paper.csv") if row["model"] == model["model"]]
-        found.append({"name": model["model"], "tets": int(model["tets"]), "meanEdge": float(model["mean_edge"]),
-                      "cellsPerAxis": float(model["n_a"]), "best": float(model["n_opt"]), "times": times})
+        times = [
+            {
+                "rule": row["rule"],
+                "cellSize": float(row["cell_size"]),
+                "time": float(row["time_ms"]),
+                "cost": float(row["cost"]),
+            }
+            for row in rows("docs/paper.csv")
+            if row["model"] == model["model"]
+        ]
+        found.append(
+            {
+                "name": model["model"],
+                "tets": int(model["tets"]),
+                "meanEdge": float(model["mean_edge"]),
+                "cellsPerAxis": float(model["n_a"]),
+                "best": float(model["n_opt"]),
+                "times": times,
+            }
+        )
     return found
 
 

@@ -25,8 +25,10 @@ def file_of(section):
 def escaped(text):
     """Plain words as Markdown: nothing in a comment is meant as markup, except for its `code`."""
     parts = re.split(r"(`[^`]+`)", text)
-    return "".join(p if i % 2 else re.sub(r"([\\*_#<>\[\]|~])", lambda m: html.escape(m[1]) if m[1] in "<>" else "\\" + m[1], p)
-                   for i, p in enumerate(parts))
+    return "".join(
+        p if i % 2 else re.sub(r"([\\*_#<>\[\]|~])", lambda m: html.escape(m[1]) if m[1] in "<>" else "\\" + m[1], p)
+        for i, p in enumerate(parts)
+    )
 
 
 def lines_of(comment):
@@ -45,7 +47,7 @@ class Reference:
             self.read(parsed["name"])
         for parsed in self.api["headers"]:
             for thing in things_of(parsed):
-                thing["section"] = thing["section"] or "version" # what stands above the first heading
+                thing["section"] = thing["section"] or "version"  # what stands above the first heading
         self.places = {}  # name: (page, anchor)
         for parsed in self.api["headers"]:
             for thing in things_of(parsed):
@@ -69,8 +71,12 @@ class Reference:
                     self.comments.setdefault((name, section), []).extend(["", *lines_of(above)])
                 continue
             code = header.plain(statement)
-            found = (re.match(r"#define (VOX_\w+) ", code) or re.match(r"typedef (?:VOX_\w+ )?(?:struct|enum) (\w+)", code)
-                     or re.match(r"typedef \w+ (\w+);", code) or re.search(r"\b(vox_\w+)\((?!\*)", code))
+            found = (
+                re.match(r"#define (VOX_\w+) ", code)
+                or re.match(r"typedef (?:VOX_\w+ )?(?:struct|enum) (\w+)", code)
+                or re.match(r"typedef \w+ (\w+);", code)
+                or re.search(r"\b(vox_\w+)\((?!\*)", code)
+            )
             if found:
                 self.statements[found[1]] = code
                 if above:
@@ -100,7 +106,9 @@ class Reference:
         """A comment as Markdown. Indented lines are formulas and tables, or terms with their explanations."""
         out, i = [], 0
         while i < len(lines):
-            term = re.match(r"^  ([A-Z][a-z]+|VOX_\w+(?:\([^)]*\))?|vox_\w+|[a-z]+)(?: {2,}| (?=[A-Z]))(\S.*)", lines[i])
+            term = re.match(
+                r"^  ([A-Z][a-z]+|VOX_\w+(?:\([^)]*\))?|vox_\w+|[a-z]+)(?: {2,}| (?=[A-Z]))(\S.*)", lines[i]
+            )
             if term:
                 text = [term[2]]
                 while i + 1 < len(lines) and re.match(r"^ {9,}\S", lines[i + 1]):
@@ -140,13 +148,25 @@ class Reference:
 
     def function(self, function, page):
         stable = "" if function.get("stable", True) else ' <span class="vox-mark">experimental</span>'
-        parts = [f"## `{function['name']}`{stable} {{ #{function['name']} }}", declaration(function), self.described(function["name"], page)]
+        parts = [
+            f"## `{function['name']}`{stable} {{ #{function['name']} }}",
+            declaration(function),
+            self.described(function["name"], page),
+        ]
         rows = [(p["name"], said) for p in function["parameters"] if (said := self.pointer(p, page))]
         said = self.pointer(function["result"], page)
         if said:
             rows.append(("returns", said))
         if rows:
-            parts.append("\n".join(["| parameter | what its type does not say |", "|---|---|", *[f"| `{name}` | {said} |" for name, said in rows]]))
+            parts.append(
+                "\n".join(
+                    [
+                        "| parameter | what its type does not say |",
+                        "|---|---|",
+                        *[f"| `{name}` | {said} |" for name, said in rows],
+                    ]
+                )
+            )
         return parts
 
     def pointer(self, member, page):
@@ -179,10 +199,12 @@ class Reference:
 
     def until(self, lifetime, page, verb):
         """Events that end it; the words for several are those of vox.h."""
-        said = {"epoch": "the next step or change of the grid ([events](../README.md#events))",
-                "rebind": "the mesh gets other positions ([events](../README.md#events))",
-                "return": "the call that it was given to returns",
-                "failure": "the next call that fails on the same thread"}
+        said = {
+            "epoch": "the next step or change of the grid ([events](../README.md#events))",
+            "rebind": "the mesh gets other positions ([events](../README.md#events))",
+            "return": "the call that it was given to returns",
+            "failure": "the next call that fails on the same thread",
+        }
         return f"{verb} until " + " or ".join(said.get(event) or self.words(event, page) for event in lifetime)
 
     def struct(self, struct, page):
@@ -193,7 +215,9 @@ class Reference:
             if not text and field["name"] == "struct_size":
                 text = "`sizeof` of this struct, as the program was compiled"
             said = self.pointer(field, page)
-            text = "; ".join(t for t in (said, text) if t) if said and not text else f"{text} ({said})" if said else text
+            text = (
+                "; ".join(t for t in (said, text) if t) if said and not text else f"{text} ({said})" if said else text
+            )
             array = "".join(f"[{n}]" for n in field.get("array", []))
             kind = re.sub(r"\[.*", "", field["type"]) + array
             rows.append((f"`{field['name']}`", self.type_link(kind, field, page), text))
@@ -210,7 +234,9 @@ class Reference:
         rows = ["| name | value | meaning |", "|---|---|---|"]
         for value in enum["values"]:
             number = f"{value['value']:#x}" if enum["flags"] and value["value"] > 8 else value["value"]
-            rows.append(f'| <span id="{value["name"]}"></span>`{value["name"]}` | {number} | {self.words(value["doc"], page)} |')
+            rows.append(
+                f'| <span id="{value["name"]}"></span>`{value["name"]}` | {number} | {self.words(value["doc"], page)} |'
+            )
         return [f"## `{enum['name']}` {{ #{enum['name']} }}", self.described(enum["name"], page), "\n".join(rows)]
 
     def callback(self, call, page):
@@ -239,21 +265,33 @@ class Reference:
 
     def section(self, parsed, section, examples):
         page = f"reference/{parsed['name']}/{file_of(section)}"
-        parts = [f"---\ntitle: \"{section.capitalize()}\"\n---", f"# {section.capitalize()}",
-                 f"`#include <vox/{parsed['name']}.h>`" + (" · Examples: " + ", ".join(examples) if examples else "")]
+        parts = [
+            f'---\ntitle: "{section.capitalize()}"\n---',
+            f"# {section.capitalize()}",
+            f"`#include <vox/{parsed['name']}.h>`" + (" · Examples: " + ", ".join(examples) if examples else ""),
+        ]
         if (parsed["name"], section) in self.comments:
             parts.append(self.paragraphs(self.comments[parsed["name"], section], page))
         for kind, thing in self.in_order(parsed):
             if thing["section"] == section:
-                make = {"functions": self.function, "structs": self.struct, "enums": self.enum,
-                        "callbacks": self.callback}.get(kind, self.other)
+                make = {
+                    "functions": self.function,
+                    "structs": self.struct,
+                    "enums": self.enum,
+                    "callbacks": self.callback,
+                }.get(kind, self.other)
                 parts += make(thing, page)
         return page, "\n\n".join(p for p in parts if p) + "\n"
 
     def header_page(self, parsed):
         page = f"reference/{parsed['name']}/README.md"
-        parts = [f"---\ntitle: {parsed['name']}.h\n---", f"# {parsed['name']}.h", self.paragraphs(self.comments[parsed["name"]], page),
-                 f"The header itself: [`include/vox/{parsed['name']}.h`](../../include/vox/{parsed['name']}.h.md). Library: `{parsed['library']}`.", "## Sections"]
+        parts = [
+            f"---\ntitle: {parsed['name']}.h\n---",
+            f"# {parsed['name']}.h",
+            self.paragraphs(self.comments[parsed["name"]], page),
+            f"The header itself: [`include/vox/{parsed['name']}.h`](../../include/vox/{parsed['name']}.h.md). Library: `{parsed['library']}`.",
+            "## Sections",
+        ]
         for section in parsed["sections"]:
             functions = [f for f in parsed["functions"] + parsed["inline"] if f["section"] == section["name"]]
             names = " ".join(self.name(f["name"], page) for f in functions)
@@ -262,17 +300,26 @@ class Reference:
 
     def index(self):
         page = "reference/README.md"
-        parts = ["---\ntitle: Reference\n---", "# Reference",
-                 "Everything that a program can call, from the comments of the public headers. Each header begins with the conventions "
-                 "that hold for all its functions: errors, structs, ownership, threads, units.",
-                 "| header | what it is | functions |\n|---|---|---|\n" + "\n".join(
-                     f"| [{h['name']}.h]({h['name']}/README.md) | {self.words(first_sentence(h['doc']), page)} | {len(h['functions'])} |"
-                     for h in self.api["headers"]),
-                 "## Events { #events }",
-                 "A pointer that vox hands out lives until something ends it. Two words stand for lists of functions:",
-                 "\n".join(f"* **{word}**: " + ", ".join(self.name(n, page) for n in names)
-                           for word, names in self.api["events"].items() if isinstance(names, list)),
-                 "## All names", "*In order of the alphabet.*"]
+        parts = [
+            "---\ntitle: Reference\n---",
+            "# Reference",
+            "Everything that a program can call, from the comments of the public headers. Each header begins with the conventions "
+            "that hold for all its functions: errors, structs, ownership, threads, units.",
+            "| header | what it is | functions |\n|---|---|---|\n"
+            + "\n".join(
+                f"| [{h['name']}.h]({h['name']}/README.md) | {self.words(first_sentence(h['doc']), page)} | {len(h['functions'])} |"
+                for h in self.api["headers"]
+            ),
+            "## Events { #events }",
+            "A pointer that vox hands out lives until something ends it. Two words stand for lists of functions:",
+            "\n".join(
+                f"* **{word}**: " + ", ".join(self.name(n, page) for n in names)
+                for word, names in self.api["events"].items()
+                if isinstance(names, list)
+            ),
+            "## All names",
+            "*In order of the alphabet.*",
+        ]
         names = sorted(name for name in self.places if not name.isupper())
         parts.append(" · ".join(self.name(n, page) for n in names))
         return page, "\n\n".join(parts) + "\n"
@@ -310,7 +357,7 @@ def declaration(function):
     for p in function["parameters"]:
         name, array = p["name"], ""
         kind = re.sub(r"((?:\[\w+\])+)$", lambda m: "", p["type"])
-        array = p["type"][len(kind):]
+        array = p["type"][len(kind) :]
         parameters.append(f"{kind} {name}{array}" if "(*)" not in kind else kind.replace("(*)", f"(*{name})"))
     line = f"{result} {function['name']}({', '.join(parameters) or 'void'});"
     if len(line) > WIDTH:

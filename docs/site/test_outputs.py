@@ -15,7 +15,9 @@ def blocks():
     for name in sorted(os.listdir(folder)):
         if name.endswith(".md"):
             with open(os.path.join(folder, name), encoding="utf-8") as file:
-                for match in re.finditer(r"^<!-- prints ([^\n]+) -->\n```text\n(.*?)^```$", file.read(), flags=re.S | re.M):
+                for match in re.finditer(
+                    r"^<!-- prints ([^\n]+) -->\n```text\n(.*?)^```$", file.read(), flags=re.S | re.M
+                ):
                     yield name, match[1].split(), match[2]
 
 
@@ -34,8 +36,10 @@ def program_of(name, build):
         built = [os.path.join(folder, f"libvox{part}.so") for folder, part in zip(libraries, ("", "_io", "_sim"))]
         if not python or not all(map(os.path.exists, built)):
             return None, "no Python has numpy, or libraries are missing"
-        return [python, "-B", os.path.join(ROOT, name)], {"VOXTET_LIBRARY_DIR": os.pathsep.join(libraries),
-                                                           "PYTHONPATH": os.path.join(ROOT, "bindings", "python", "src")}
+        return [python, "-B", os.path.join(ROOT, name)], {
+            "VOXTET_LIBRARY_DIR": os.pathsep.join(libraries),
+            "PYTHONPATH": os.path.join(ROOT, "bindings", "python", "src"),
+        }
     path = os.path.join(build, "tools", "vox") if name == "vox" else os.path.join(build, "examples", "example_" + name)
     return ([path], {}) if os.path.exists(path) else (None, f"there is no {path}")
 
@@ -47,8 +51,16 @@ def main(build):
         if not command:
             print(f"SKIPPED: docs/{page}: {name}: {environment}")
             continue
-        run = subprocess.run(command + arguments, cwd=ROOT, env={**os.environ, "LC_ALL": "C.UTF-8", **environment}, text=True,
-                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120, check=False)
+        run = subprocess.run(
+            command + arguments,
+            cwd=ROOT,
+            env={**os.environ, "LC_ALL": "C.UTF-8", **environment},
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            timeout=120,
+            check=False,
+        )
         compared += 1
         if run.stdout != text:
             faults.append(f"docs/{page}: {name} prints\n{run.stdout}and not\n{text}")

@@ -58,7 +58,9 @@ class Rules(unittest.TestCase):
 
     def test_what_is_linked_comes_along(self):
         self.made("[a](../bindings/y) ![p](p.svg) [r](../README.md)")
-        self.assertEqual(sorted(self.pages.texts), ["bindings/y/index.md", "bindings/y/run.py.md", "docs/a.md", "overview.md"])
+        self.assertEqual(
+            sorted(self.pages.texts), ["bindings/y/index.md", "bindings/y/run.py.md", "docs/a.md", "overview.md"]
+        )
         self.assertEqual(self.pages.files, {"docs/p.svg"})
 
     def test_names(self):
@@ -83,8 +85,10 @@ class Rules(unittest.TestCase):
         self.assertIn('```{ .text title="prints" }\n1\n```', made)
 
     def test_tabs_figures_remarks_lists(self):
-        made = self.made("<details open><summary><b>C</b></summary>\n\n```c\nint a;\n\nint b;\n```\n\n</details>\n"
-                         "<details><summary><b>D</b></summary>\n\nx\n\n</details>\n")
+        made = self.made(
+            "<details open><summary><b>C</b></summary>\n\n```c\nint a;\n\nint b;\n```\n\n</details>\n"
+            "<details><summary><b>D</b></summary>\n\nx\n\n</details>\n"
+        )
         self.assertIn('=== "C"\n\n    ```c\n    int a;\n\n    int b;\n    ```\n', made)
         self.assertIn('=== "D"\n\n    x\n', made)
         made = self.made("<!-- live: curve -->\n![c](p.svg)\n")
@@ -92,7 +96,9 @@ class Rules(unittest.TestCase):
         self.assertEqual(self.made("a<!-- repository --> b\nc<!-- /repository -->."), "a.")
         self.assertEqual(self.made("a\n\n<!-- playground: Try -->\n\nb"), "a\n\n\n\nb")
         self.pages.playground = True
-        self.assertEqual(self.pages.page("docs/b.md", "<!-- playground: Try -->", "docs/b.md"), "[Try](../playground.md)")
+        self.assertEqual(
+            self.pages.page("docs/b.md", "<!-- playground: Try -->", "docs/b.md"), "[Try](../playground.md)"
+        )
         self.assertEqual(self.made("a <!-- bench/x -->b<!-- /bench/x -->"), "a b")
         self.assertEqual(self.made("| `a\\|b` | c\\|d |"), "| `a|b` | c\\|d |")
         self.assertEqual(self.made("1. a\n\n   b\n\nc"), "1. a\n\n    b\n\nc")
@@ -109,8 +115,14 @@ class Repository(unittest.TestCase):
 
     def test_every_page_of_docs_is_in_the_navigation(self):
         listed = set(build.pages_of(build.NAVIGATION))
-        self.assertEqual(sorted(f"docs/{n}" for n in os.listdir(os.path.join(pages.ROOT, "docs")) if n.endswith(".md")
-                                and f"docs/{n}" not in listed), [])
+        self.assertEqual(
+            sorted(
+                f"docs/{n}"
+                for n in os.listdir(os.path.join(pages.ROOT, "docs"))
+                if n.endswith(".md") and f"docs/{n}" not in listed
+            ),
+            [],
+        )
 
     def test_reference_has_every_name(self):
         texts = self.reference.pages()
@@ -133,7 +145,11 @@ class Repository(unittest.TestCase):
     def test_live_figures_exist(self):
         with open(os.path.join(build.HERE, "live", "figures.js"), encoding="utf-8") as file:
             known = set(re.findall(r"(\w+): \w+Figure", file.read()))
-        used = {name for text in self.pages.texts.values() for name in re.findall(r'^<div class="vox-live" data-figure="(\w+)"', text, flags=re.M)}
+        used = {
+            name
+            for text in self.pages.texts.values()
+            for name in re.findall(r'^<div class="vox-live" data-figure="(\w+)"', text, flags=re.M)
+        }
         self.assertEqual(used, known)
 
     def test_requirements_have_checksums(self):
@@ -164,23 +180,41 @@ class Checks(unittest.TestCase):
 
     def faults(self, text, **others):
         with tempfile.TemporaryDirectory() as folder:
-            for name, content in {"a.html": self.POLICY + text, "b.html": self.POLICY + '<h1 id="x">', "s.css": "", **others}.items():
+            for name, content in {
+                "a.html": self.POLICY + text,
+                "b.html": self.POLICY + '<h1 id="x">',
+                "s.css": "",
+                **others,
+            }.items():
                 with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                     file.write(content)
             return "\n".join(check.faults_of_links(folder))
 
     def test_each_fault_is_noticed(self):
-        for text in ['<a href="b.html#x">', '<a href="https://example.org">', '<img src="data:image/png;base64,">', '<a href="#">',
-                     '<a href="../0.1.0/index.html">', '<link rel="stylesheet" href="s.css">']:
+        for text in [
+            '<a href="b.html#x">',
+            '<a href="https://example.org">',
+            '<img src="data:image/png;base64,">',
+            '<a href="#">',
+            '<a href="../0.1.0/index.html">',
+            '<link rel="stylesheet" href="s.css">',
+        ]:
             with self.subTest(text=text):
                 self.assertEqual(self.faults(text), "")
-        for text, words in [('<a href="c.html">', "there is no c.html"), ('<a href="b.html#y">', "no such anchor"), ('<a href="/b.html">', "at the root"),
-                            ('<img src="p.png">', "there is no p.png"), ('<script src="https://example.org/a.js">', "loads https:"),
-                            ('<link rel="preconnect" href="//example.org">', "loads //example.org"),
-                            ('<p style="background: url(https://example.org/p.png)">', "loads https:")]:
+        for text, words in [
+            ('<a href="c.html">', "there is no c.html"),
+            ('<a href="b.html#y">', "no such anchor"),
+            ('<a href="/b.html">', "at the root"),
+            ('<img src="p.png">', "there is no p.png"),
+            ('<script src="https://example.org/a.js">', "loads https:"),
+            ('<link rel="preconnect" href="//example.org">', "loads //example.org"),
+            ('<p style="background: url(https://example.org/p.png)">', "loads https:"),
+        ]:
             with self.subTest(text=text):
                 self.assertIn(words, self.faults(text))
-        self.assertIn("loads https:", self.faults("", **{"t.css": "@font-face { src: url('https://example.org/f.woff') }"}))
+        self.assertIn(
+            "loads https:", self.faults("", **{"t.css": "@font-face { src: url('https://example.org/f.woff') }"})
+        )
         self.assertIn("no content security policy", self.faults("", **{"c.html": "<p>"}))
 
 

@@ -8,7 +8,9 @@ ball = voxtet.io.make_ball(1.0, 0.1)
 first, second = ball.positions, ball.positions + [1.9, 0.2, 0.1]
 suggested = voxtet.suggest_cell_size(ball.positions, ball.tets)
 mean_edge = suggested.stats.mean_edge
-print(f"{len(ball.tets)} tetrahedra each, mean edge {mean_edge:.3f}, suggested {suggested.cell_size / mean_edge:.2f} mean edges")
+print(
+    f"{len(ball.tets)} tetrahedra each, mean edge {mean_edge:.3f}, suggested {suggested.cell_size / mean_edge:.2f} mean edges"
+)
 
 hashes = set()
 for edges in (0.35, 0.7, suggested.cell_size / mean_edge, 2.8, 5.6):
@@ -17,6 +19,8 @@ for edges in (0.35, 0.7, suggested.cell_size / mean_edge, 2.8, 5.6):
         grid.add(second, ball.tets)
         grid.step()
         work = grid.counters
-        print(f"{edges:4.2f} mean edges: {work.visited_cells:8} cells visited, {work.visited_entries:8} vertices met, {len(grid.contacts)} contacts")
+        print(
+            f"{edges:4.2f} mean edges: {work.visited_cells:8} cells visited, {work.visited_entries:8} vertices met, {len(grid.contacts)} contacts"
+        )
         hashes.add(grid.hash)
 print("the same contacts" if len(hashes) == 1 else "a defect")
