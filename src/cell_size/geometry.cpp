@@ -7,6 +7,7 @@
 #include "fast/last_positions.hpp"
 #include "fast/stream.hpp"
 #include "mesh/check.hpp"
+#include "mesh/facets.hpp"
 #include "mesh/sample.hpp"
 
 #include <algorithm>
@@ -36,10 +37,29 @@ struct Mean {
     double value() const { return weight > 0 ? sum / weight : 0; }
 };
 
+// The mean over edges or facets, each once, of which tetrahedra share some. More tetrahedra are looked at
+// than edges are listed, so what is estimated from the latter is not the mean itself but its ratio to the
+// mean over those of all tetrahedra, which varies little (ratio estimate: W. G. Cochran, Sampling Techniques,
+// 1977, ch. 6).
+struct SharedMean {
+    Mean once, shared; // of those listed: each once, and as often as tetrahedra have it
+    Mean of_tets;      // over tetrahedra, of the mean over their own
+
+    void add(double value, double weight, std::uint32_t tets) {
+        once.add(value, weight);
+        shared.add(value, weight * tets);
+    }
+    double value(bool is_whole) const {
+        const double listed = once.value(), by_tets = shared.value();
+        return is_whole || !(by_tets > 0) ? listed : listed / by_tets * of_tets.value();
+    }
+};
+
 struct Means {
     explicit Means(std::pmr::memory_resource* memory) : box_sides(memory) {}
 
-    Mean edge, longest_edge, box_side, facet, tet_facet, boundary_facet, volume, object_side;
+    Mean longest_edge, box_side, tet_facet, boundary_facet, volume, object_side;
+    SharedMean edge, facet;
     double degenerate = 0;
     std::pmr::vector<std::pair<double, double>> box_sides; // and their weights
 };
@@ -56,7 +76,8 @@ struct Bounds {
     }
 };
 
-void add_tet(const Vec3d (&p)[4], double weight, Means& means) {
+// `proper`: it names no vertex twice.
+void add_tet(const Vec3d (&p)[4], double weight, bool proper, Means& means) {
     const Vec3d a = p[1] - p[0], b = p[2] - p[0], c = p[3] - p[0];
     const auto extent = [](double first, double second, double third) { // of three numbers and 0
         return std::max(std::max(first, second), std::max(third, 0.0)) -
@@ -67,13 +88,16 @@ void add_tet(const Vec3d (&p)[4], double weight, Means& means) {
     means.box_side.add(side, weight);
     means.box_sides.emplace_back(side, weight);
     const Vec3d ab = p[2] - p[1], ac = p[3] - p[1], bc = p[3] - p[2];
-    const double longest =
-        std::max(std::max(std::max(dot(a, a), dot(b, b)), std::max(dot(c, c), dot(ab, ab))),
-                 std::max(dot(ac, ac), dot(bc, bc)));
-    means.longest_edge.add(std::sqrt(longest), weight);
+    const double edges[6] = {length(a), length(b), length(c), length(ab), length(ac), length(bc)};
+    means.longest_edge.add(*std::max_element(edges, edges + 6), weight);
     const Vec3d base = cross(a, b);
-    means.tet_facet.add(
-        (length(cross(ab, ac)) + length(cross(b, c)) + length(cross(a, c)) + length(base)) / 8, weight);
+    const double facet =
+        (length(cross(ab, ac)) + length(cross(b, c)) + length(cross(a, c)) + length(base)) / 8;
+    means.tet_facet.add(facet, weight);
+    if (proper) {
+        means.edge.of_tets.add((edges[0] + edges[1] + edges[2] + edges[3] + edges[4] + edges[5]) / 6, weight);
+        means.facet.of_tets.add(facet, weight);
+    }
     const double volume = std::abs(dot(base, c));
     means.volume.add(volume / 6, weight);
     // The exact test is only needed where rounding may have changed the sign.
@@ -128,20 +152,22 @@ void add_sample(const Body& body, const MeshSample& sample, const vox_geometry_s
     const std::uint64_t tets = body.tets.size() - body.off_count;
     for_sample(sample.tets, tets, share(tets, stats.tets), place, [&](const Tet& tet, double weight) {
         const std::uint32_t* v = tet.v;
-        add_tet({at(v[0]), at(v[1]), at(v[2]), at(v[3])}, weight, means);
+        add_tet({at(v[0]), at(v[1]), at(v[2]), at(v[3])}, weight, !names_a_vertex_twice(tet), means);
     });
     for_sample(sample.edges, sample.edge_count, share(sample.edge_count, stats.edges), place,
                [&](const MeshSample::Edge& edge, double weight) {
-                   means.edge.add(length(at(edge[1]) - at(edge[0])), weight);
+                   means.edge.add(length(at(edge.v[1]) - at(edge.v[0])), weight, edge.tets);
                });
-    const auto add_facets = [&](const auto& facets, std::uint64_t count, double wanted, Mean& mean) {
+    const auto for_facets = [&](const auto& facets, std::uint64_t count, double wanted, auto&& add) {
         for_sample(facets, count, wanted, place, [&](const MeshSample::Facet& facet, double weight) {
-            mean.add(area(at(facet[0]), at(facet[1]), at(facet[2])), weight);
+            add(area(at(facet.v[0]), at(facet.v[1]), at(facet.v[2])), weight, facet.tets);
         });
     };
-    add_facets(sample.facets, sample.facet_count, share(sample.facet_count, stats.facets), means.facet);
-    add_facets(sample.boundary_facets, sample.boundary_facet_count,
-               share(sample.boundary_facet_count, stats.boundary_facets) / 2, means.boundary_facet);
+    for_facets(sample.facets, sample.facet_count, share(sample.facet_count, stats.facets),
+               [&](double area, double weight, std::uint32_t tets) { means.facet.add(area, weight, tets); });
+    for_facets(sample.boundary_facets, sample.boundary_facet_count,
+               share(sample.boundary_facet_count, stats.boundary_facets) / 2,
+               [&](double area, double weight, std::uint32_t) { means.boundary_facet.add(area, weight); });
 }
 
 // The box of the vertices of a body without `unused` ones (bits; empty: all are used). `known` is the box of
@@ -176,7 +202,7 @@ Bounds bounds_of(const Body& body, std::span<const std::uint64_t> unused, const 
 constexpr std::uint64_t measured_tets = 5000;
 constexpr double everything = 1e18;
 
-std::uint64_t some_vertices(std::uint64_t tets) { return std::clamp<std::uint64_t>(tets / 40, 512, 2048); }
+std::uint64_t some_vertices(std::uint64_t tets) { return std::clamp<std::uint64_t>(tets / 80, 256, 1024); }
 std::uint64_t some_tets(std::uint64_t tets) { return std::clamp<std::uint64_t>(tets / 16, 1024, 4096); }
 std::size_t most_measured(std::uint64_t tets) {
     return static_cast<std::size_t>(std::min(tets, std::max(some_tets(tets), measured_tets)));
@@ -213,6 +239,7 @@ Geometry measure(const CellSizeScene& scene) {
         return kept ? scene.meshes[b]->sample() : made[b];
     };
     Bounds bounds;
+    bool whole = true; // all edges and facets are looked at
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const Body& body = scene.bodies[b];
         if (!kept) made.push_back(make_sample(body, sample_size(body, stats), scene.memory));
@@ -220,6 +247,7 @@ Geometry measure(const CellSizeScene& scene) {
         stats.edges += sample.edge_count;
         stats.facets += sample.facet_count;
         stats.boundary_facets += sample.boundary_facet_count;
+        whole = whole && sample.is_whole;
         // Where the boxes of the bodies are not known yet, this finds positions that are not finite.
         const Bounds own = bounds_of(body, sample.unused_vertices, scene.box(b));
         if (own.empty()) continue;
@@ -241,10 +269,10 @@ Geometry measure(const CellSizeScene& scene) {
     }
 
     stats.degenerate_tets = static_cast<std::uint64_t>(std::llround(means.degenerate));
-    stats.mean_edge = means.edge.value();
+    stats.mean_edge = means.edge.value(whole && !kept);
     stats.mean_longest_edge = means.longest_edge.value();
     stats.mean_box_side = means.box_side.value();
-    stats.mean_facet_area = means.facet.value();
+    stats.mean_facet_area = means.facet.value(whole && !kept);
     stats.mean_tet_facet_area = means.tet_facet.value();
     stats.mean_boundary_facet_area = means.boundary_facet.value();
     stats.mean_volume = means.volume.value();

@@ -105,7 +105,8 @@ void Mesh::drop_topology() noexcept {
 // From the heap, as a const call must not use the memory of the grid.
 const MeshSample& Mesh::sample() const {
     return sample_.get([this] {
-        return make_sample(body(VOX_NULL_MESH), kept_sample(tets().size()), std::pmr::new_delete_resource());
+        return make_sample(body(VOX_NULL_MESH), kept_sample(tets().size()), std::pmr::new_delete_resource(),
+                           tiled().places.changes == 0 ? tiles_if_made() : nullptr);
     });
 }
 

@@ -2,11 +2,82 @@
 
 #include "base/bits.hpp"
 #include "base/sampling.hpp"
+#include "base/simd.hpp"
 #include "mesh/facets.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "mesh/sample.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "base/lanes-inl.hpp"
+
+#ifndef VOX_MESH_SAMPLE_ONCE
+#define VOX_MESH_SAMPLE_ONCE
+namespace vox {
+
+// Which vertices are chosen: those whose multiple of the golden ratio has a small enough fractional part, so
+// that they are spread evenly over the numbering (H. Weyl, 1916), whatever pattern repeats in it.
+struct ChosenVertices {
+    std::uint32_t last; // of the fractional parts, in units of 2^-32
+
+    static constexpr std::uint32_t factor = 0x9e3779b9u;
+    static std::uint32_t part(std::uint32_t v) noexcept { return v * factor; }
+    bool operator()(std::uint32_t v) const noexcept { return part(v) <= last; }
+};
+
+} // namespace vox
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace vox {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Writes at which places of a list there is a chosen vertex, and returns at how many.
+std::size_t FindChosen(const std::uint32_t* HWY_RESTRICT list, std::size_t count,
+                       const ChosenVertices& chosen, std::uint32_t* HWY_RESTRICT found) {
+    const hn::CappedTag<std::uint32_t, 16> d;
+    const std::size_t lanes = hn::Lanes(d);
+    const auto factor = hn::Set(d, ChosenVertices::factor), last = hn::Set(d, chosen.last);
+    std::size_t n = 0, i = 0;
+    for (; i + lanes <= count; i += lanes) {
+        const auto part = hn::Mul(hn::LoadU(d, list + i), factor);
+        const auto is_chosen = hn::Eq(hn::Min(part, last), part); // part <= last
+        for (std::uint64_t bits = BitsOfMask(d, is_chosen); bits != 0; bits &= bits - 1)
+            found[n++] = static_cast<std::uint32_t>(i) + static_cast<std::uint32_t>(std::countr_zero(bits));
+    }
+    for (; i < count; ++i)
+        if (chosen(list[i])) found[n++] = static_cast<std::uint32_t>(i);
+    return n;
+}
+
+// A bit for each tetrahedron of a tile that has a vertex of the tile as a corner.
+std::uint64_t TetsAt(std::uint8_t vertex, const std::uint8_t* HWY_RESTRICT corners) {
+    const hn::CappedTag<std::uint8_t, 16> d;
+    const std::size_t lanes = hn::Lanes(d);
+    const auto wanted = hn::Set(d, vertex);
+    std::uint64_t tets = 0;
+    for (std::size_t t = 0; t < tile_size; t += lanes) {
+        const auto is = [&](std::size_t corner) HWY_ATTR {
+            return hn::Eq(hn::LoadU(d, corners + corner * tile_size + t), wanted);
+        };
+        tets |= BitsOfMask(d, hn::Or(hn::Or(is(0), is(1)), hn::Or(is(2), is(3)))) << t;
+    }
+    return tets;
+}
+
+} // namespace HWY_NAMESPACE
+} // namespace vox
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
 namespace vox {
 
 std::size_t sampled_tets(std::uint64_t tets) noexcept {
@@ -15,82 +86,102 @@ std::size_t sampled_tets(std::uint64_t tets) noexcept {
 
 SampleSize kept_sample(std::uint64_t tets) noexcept {
     const std::size_t kept = sampled_tets(tets);
-    return {kept / 2, kept, kept};
+    return {std::max<std::size_t>(kept / 6, 24), kept, kept};
 }
 
 namespace {
-
-// Which vertices are chosen: those whose multiple of the golden ratio has a small enough fractional part, so
-// that they are spread evenly over the numbering (H. Weyl, 1916), whatever pattern repeats in it.
-struct ChosenVertices {
-    std::uint32_t last; // of the fractional parts, in units of 2^-32
-
-    static std::uint32_t part(std::uint32_t v) noexcept { return v * 0x9e3779b9u; }
-    bool operator()(std::uint32_t v) const noexcept { return part(v) <= last; }
-};
 
 ChosenVertices choose_about(std::uint64_t wanted, std::uint64_t of) {
     if (wanted >= of) return {0xffffffffu};
     return {static_cast<std::uint32_t>(static_cast<double>(wanted) / static_cast<double>(of) * 0x1p32)};
 }
 
-// The corners above a chosen one, in ascending order.
+// Of a tetrahedron that has a chosen vertex: its corners above that.
 struct Above {
     std::uint32_t vertex;
     std::uint32_t count; // 1 to 3
-    std::uint32_t v[3];
+    std::uint32_t v[4];
 };
 
 // What chosen vertices have of a mesh.
 struct Listed {
     explicit Listed(std::pmr::memory_resource* memory) : above(memory) {}
 
+    void clear() {
+        above.clear();
+        tets = proper = 0;
+    }
+    void add(std::uint32_t vertex, const Tet& tet) {
+        ++tets;
+        if (names_a_vertex_twice(tet)) return;
+        ++proper;
+        Above next{vertex, 0, {}};
+        for (const std::uint32_t other : tet.v) {
+            next.v[next.count] = other;
+            next.count += other > vertex;
+        }
+        if (next.count > 0) above.push_back(next);
+    }
+
     std::pmr::vector<Above> above;
-    std::uint64_t tets = 0, proper = 0; // that have a chosen vertex; of them, those that name none twice
+    std::uint64_t tets = 0, proper = 0; // around chosen vertices; of them, those that name no vertex twice
 };
 
-// Finds the tetrahedra that have a chosen vertex, and the vertices that any has.
+constexpr std::size_t at_once = 4096; // vertices
+
+// Finds the tetrahedra around chosen vertices, and the vertices that any has.
 void list_around(const Body& body, const ChosenVertices& chosen, std::pmr::vector<std::uint8_t>& used,
                  Listed& out) {
-    out.above.clear();
-    out.tets = out.proper = 0;
-    const auto add = [&](Tet tet) {
-        ++out.tets;
-        if (names_a_vertex_twice(tet)) return;
-        ++out.proper;
-        std::uint32_t* v = tet.v;
-        if (v[0] > v[1]) std::swap(v[0], v[1]); // a sorting network
-        if (v[2] > v[3]) std::swap(v[2], v[3]);
-        if (v[0] > v[2]) std::swap(v[0], v[2]);
-        if (v[1] > v[3]) std::swap(v[1], v[3]);
-        if (v[1] > v[2]) std::swap(v[1], v[2]);
-        for (std::uint32_t i = 0; i < 3; ++i) {
-            if (!chosen(v[i])) continue;
-            Above& above = out.above.emplace_back();
-            above.vertex = v[i];
-            above.count = 3 - i;
-            std::copy(v + i + 1, v + 4, above.v);
+    const auto find = VOX_SIMD_DISPATCH(FindChosen);
+    std::array<std::uint32_t, at_once> found;
+    for (std::size_t first = 0; first < body.tets.size(); first += at_once / 4) {
+        const std::size_t count = std::min(at_once / 4, body.tets.size() - first);
+        const Tet* tets = body.tets.data() + first;
+        for (std::size_t t = 0; t < count; ++t) {
+            if (has_bit(body.off, first + t)) continue;
+            const std::uint32_t* v = tets[t].v;
+            used[v[0]] = used[v[1]] = used[v[2]] = used[v[3]] = 1;
         }
-    };
-    const auto visit = [&](std::size_t t) {
-        if (has_bit(body.off, t)) return;
-        const std::uint32_t* v = body.tets[t].v;
-        used[v[0]] = used[v[1]] = used[v[2]] = used[v[3]] = 1;
-        if (chosen(v[0]) || chosen(v[1]) || chosen(v[2]) || chosen(v[3])) add(body.tets[t]);
-    };
-    // Mostly none of some tetrahedra has a chosen vertex, which is found out without a branch.
-    constexpr std::size_t at_once = 4;
-    std::size_t t = 0;
-    for (; t + at_once <= body.tets.size() && body.off.empty(); t += at_once) {
-        const std::uint32_t* v = body.tets[t].v;
-        std::uint32_t least = 0xffffffffu;
-        for (std::size_t i = 0; i < 4 * at_once; ++i) least = std::min(least, ChosenVertices::part(v[i]));
-        if (least <= chosen.last)
-            for (std::size_t i = 0; i < at_once; ++i) visit(t + i);
-        else
-            for (std::size_t i = 0; i < 4 * at_once; ++i) used[v[i]] = 1;
+        const std::size_t found_count = find(tets->v, 4 * count, chosen, found.data());
+        for (std::size_t i = 0; i < found_count; ++i) {
+            const std::size_t t = found[i] / 4, corner = found[i] % 4;
+            const std::uint32_t* v = tets[t].v;
+            if (!has_bit(body.off, first + t) && std::find(v, v + corner, v[corner]) == v + corner)
+                out.add(v[corner], tets[t]);
+        }
     }
-    for (; t < body.tets.size(); ++t) visit(t);
+}
+
+// The same from tiles: their vertices are fewer than corners of tetrahedra, and those of a tile together in
+// memory.
+void list_around(const Tiles& tiles, const ChosenVertices& chosen, std::pmr::vector<std::uint8_t>& used,
+                 Listed& out) {
+    const auto find = VOX_SIMD_DISPATCH(FindChosen);
+    const auto tets_at = VOX_SIMD_DISPATCH(TetsAt);
+    std::array<std::uint32_t, at_once> found;
+    const std::span<const std::uint32_t> all = tiles.vertices;
+    for (const std::uint32_t v : all) used[v] = 1;
+    auto tile = tiles.tiles.begin();
+    for (std::size_t first = 0; first < all.size(); first += at_once) {
+        const std::size_t found_count =
+            find(all.data() + first, std::min(at_once, all.size() - first), chosen, found.data());
+        for (std::size_t i = 0; i < found_count; ++i) {
+            const std::size_t place = first + found[i];
+            while (tile + 1 != tiles.tiles.end() && place >= (tile + 1)->first_vertex) ++tile;
+            const std::size_t own = place - tile->first_vertex;
+            if (own >= tile->vertex_count) continue; // padding
+            const std::uint8_t* corners =
+                tiles.corners.data() + 4 * tile_size * static_cast<std::size_t>(tile - tiles.tiles.begin());
+            std::uint64_t tets = tets_at(static_cast<std::uint8_t>(own), corners) & tile->all_tets();
+            for (; tets != 0; tets &= tets - 1) {
+                const auto t = static_cast<std::uint32_t>(std::countr_zero(tets));
+                Tet tet;
+                for (std::uint32_t c = 0; c < 4; ++c)
+                    tet.v[c] = all[tile->first_vertex + corners[c * tile_size + t]];
+                out.add(all[place], tet);
+            }
+        }
+    }
 }
 
 // Sorted by vertex (counting sort).
@@ -114,6 +205,15 @@ void keep(std::size_t wanted, std::pmr::vector<Item>& items) {
     items.shrink_to_fit();
 }
 
+// Calls visit(item, how often) for each item of a sorted list.
+template <class Item, class Visit>
+void for_equal(const std::pmr::vector<Item>& items, Visit&& visit) {
+    for (std::size_t i = 0, end = 0; i < items.size(); i = end) {
+        while (end < items.size() && items[end] == items[i]) ++end;
+        visit(items[i], static_cast<std::uint32_t>(end - i));
+    }
+}
+
 // Counts of all from those of a part: how often tetrahedra have what was listed, against how often they have
 // any. Exact where everything was listed.
 std::uint64_t of_all(std::uint64_t listed, std::uint64_t met, double met_in_all) {
@@ -124,7 +224,8 @@ std::uint64_t of_all(std::uint64_t listed, std::uint64_t met, double met_in_all)
 
 } // namespace
 
-MeshSample make_sample(const Body& body, const SampleSize& size, std::pmr::memory_resource* memory) {
+MeshSample make_sample(const Body& body, const SampleSize& size, std::pmr::memory_resource* memory,
+                       const Tiles* tiles) {
     MeshSample sample(memory);
     const std::uint64_t tets = body.tets.size() - body.off_count;
     if (tets == 0) return sample;
@@ -135,7 +236,16 @@ MeshSample make_sample(const Body& body, const SampleSize& size, std::pmr::memor
     std::pmr::vector<std::uint8_t> used(body.vertex_count, 0, memory);
     Listed listed(memory);
     std::uint64_t vertices = body.vertex_count;
-    list_around(body, choose_about(size.vertices, vertices), used, listed);
+    const auto list = [&] {
+        const ChosenVertices chosen = choose_about(size.vertices, vertices);
+        sample.is_whole = chosen.last == 0xffffffffu;
+        listed.clear();
+        if (tiles)
+            list_around(*tiles, chosen, used, listed);
+        else
+            list_around(body, chosen, used, listed);
+    };
+    list();
     const auto used_count = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), std::uint8_t{1}));
     if (used_count < vertices) {
         sample.unused_vertices.resize((std::size_t{body.vertex_count} + 63) / 64);
@@ -145,7 +255,7 @@ MeshSample make_sample(const Body& body, const SampleSize& size, std::pmr::memor
     // Where tetrahedra use few of the vertices, too few may have been chosen.
     while (listed.tets < std::min<std::uint64_t>(size.vertices, tets) && vertices > 1) {
         vertices = std::min(used_count, vertices / 4 + 1);
-        list_around(body, choose_about(size.vertices, vertices), used, listed);
+        list();
     }
     sort_by_vertex(body.vertex_count, listed.above);
 
@@ -159,22 +269,23 @@ MeshSample make_sample(const Body& body, const SampleSize& size, std::pmr::memor
         for (; first != listed.above.end() && first->vertex == v; ++first)
             for (std::uint32_t i = 0; i < first->count; ++i) {
                 ends.push_back(first->v[i]);
-                for (std::uint32_t j = i + 1; j < first->count; ++j)
-                    others.push_back(std::uint64_t{first->v[i]} << 32 | first->v[j]);
+                for (std::uint32_t j = i + 1; j < first->count; ++j) {
+                    const auto [middle, highest] = std::minmax(first->v[i], first->v[j]);
+                    others.push_back(std::uint64_t{middle} << 32 | highest);
+                }
             }
         edges_met += ends.size();
         facets_met += others.size();
         std::sort(ends.begin(), ends.end());
         std::sort(others.begin(), others.end());
-        const auto last_end = std::unique(ends.begin(), ends.end());
-        std::for_each(ends.begin(), last_end, [&](std::uint32_t end) { sample.edges.push_back({v, end}); });
-        for (std::size_t i = 0, same = 0; i < others.size(); i = same) {
-            while (same < others.size() && others[same] == others[i]) ++same;
-            const MeshSample::Facet facet{v, static_cast<std::uint32_t>(others[i] >> 32),
-                                          static_cast<std::uint32_t>(others[i])};
-            sample.facets.push_back(facet);
-            if (same == i + 1) sample.boundary_facets.push_back(facet);
-        }
+        for_equal(ends, [&](std::uint32_t end, std::uint32_t tets_there) {
+            sample.edges.push_back({{v, end}, tets_there});
+        });
+        for_equal(others, [&](std::uint64_t two, std::uint32_t tets_there) {
+            sample.facets.push_back(
+                {{v, static_cast<std::uint32_t>(two >> 32), static_cast<std::uint32_t>(two)}, tets_there});
+            if (tets_there == 1) sample.boundary_facets.push_back(sample.facets.back());
+        });
     }
     const double proper = listed.tets == 0 ? 0
                                            : static_cast<double>(tets) * static_cast<double>(listed.proper) /
@@ -189,3 +300,4 @@ MeshSample make_sample(const Body& body, const SampleSize& size, std::pmr::memor
 }
 
 } // namespace vox
+#endif

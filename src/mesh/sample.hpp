@@ -3,10 +3,11 @@
 //
 // Edges and facets are sampled by their lowest vertex (cluster sampling: W. G. Cochran, Sampling Techniques,
 // 1977): those of some vertices are listed, all of them, each once, however many tetrahedra share it. That
-// takes one pass over the tetrahedra and no list of all edges.
+// takes one pass over the tetrahedra, or over the tiles, and no list of all edges.
 #pragma once
 
 #include "base/scene.hpp"
+#include "mesh/tiles.hpp"
 
 #include <array>
 #include <cstddef>
@@ -21,8 +22,14 @@ struct MeshSample {
     explicit MeshSample(std::pmr::memory_resource* memory)
         : tets(memory), edges(memory), facets(memory), boundary_facets(memory), unused_vertices(memory) {}
 
-    using Edge = std::array<std::uint32_t, 2>;
-    using Facet = std::array<std::uint32_t, 3>;
+    struct Edge {
+        std::array<std::uint32_t, 2> v;
+        std::uint32_t tets; // that share it
+    };
+    struct Facet {
+        std::array<std::uint32_t, 3> v;
+        std::uint32_t tets;
+    };
 
     // Spread evenly over the lists of all; all where there are few. None of a tetrahedron that is off, and no
     // edges and facets of one that names a vertex twice.
@@ -32,6 +39,7 @@ struct MeshSample {
 
     // Of all. Estimates, unless the edges and facets of all vertices were listed.
     std::uint64_t edge_count = 0, facet_count = 0, boundary_facet_count = 0;
+    bool is_whole = false; // whether they were
     // By tetrahedra, as bits (bits.hpp). Empty: none; also where there are no tetrahedra.
     std::pmr::vector<std::uint64_t> unused_vertices;
 };
@@ -48,7 +56,9 @@ std::size_t sampled_tets(std::uint64_t tets) noexcept;
 // What a mesh of a grid keeps: as many tetrahedra and edges.
 SampleSize kept_sample(std::uint64_t tets) noexcept;
 
-// Throws what the memory throws.
-MeshSample make_sample(const Body& body, const SampleSize& size, std::pmr::memory_resource* memory);
+// `tiles` of a body without tetrahedra that are off, as they were made, save most of the time; the result is
+// the same without. Throws what the memory throws.
+MeshSample make_sample(const Body& body, const SampleSize& size, std::pmr::memory_resource* memory,
+                       const Tiles* tiles = nullptr);
 
 } // namespace vox
