@@ -59,7 +59,7 @@ public:
     static double of_irregular(double mean) noexcept { return 1 - std::pow(1 + 2.5 * mean, -0.8); }
 
 private:
-    static constexpr int bits_per_octave = 5;
+    static constexpr int bits_per_octave = 4;
     static constexpr std::size_t per_octave = 1 << bits_per_octave, octaves = 3,
                                  sizes = per_octave * octaves + 1;
     // Evenly spaced within an octave.

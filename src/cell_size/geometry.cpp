@@ -202,8 +202,8 @@ Bounds bounds_of(const Body& body, std::span<const std::uint64_t> unused, const 
 constexpr std::uint64_t measured_tets = 5000;
 constexpr double everything = 1e18;
 
-std::uint64_t some_vertices(std::uint64_t tets) { return std::clamp<std::uint64_t>(tets / 80, 256, 1024); }
-std::uint64_t some_tets(std::uint64_t tets) { return std::clamp<std::uint64_t>(tets / 16, 1024, 4096); }
+std::uint64_t some_vertices(std::uint64_t tets) { return std::clamp<std::uint64_t>(tets / 100, 192, 1024); }
+std::uint64_t some_tets(std::uint64_t tets) { return std::clamp<std::uint64_t>(tets / 32, 640, 4096); }
 std::size_t most_measured(std::uint64_t tets) {
     return static_cast<std::size_t>(std::min(tets, std::max(some_tets(tets), measured_tets)));
 }

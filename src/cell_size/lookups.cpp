@@ -18,7 +18,7 @@ constexpr double near_sides = 1;
 // At most this many rows of cells are looked at for one box.
 constexpr std::size_t most_rows = 1024;
 // About this many points are put into one cell.
-constexpr double points_per_cell = 6;
+constexpr double points_per_cell = 3;
 // One of this many sampled lookups is used to estimate how many cells are occupied.
 constexpr std::size_t crowd_part = 8;
 
@@ -38,7 +38,12 @@ struct Binned {
     const fast::Points& points;
     const std::uint32_t* begin; // of each cell
     std::size_t most_near;      // points looked at near one lookup
-    std::size_t far_stride;     // at which points far from a lookup are looked at
+    struct Far {
+        double at[3];
+        std::uint32_t id;
+    };
+    std::span<const Far> far; // of all points, those that are looked at where they are far from a lookup
+    double far_weight;        // how many points each of them stands for
 
     void at(std::size_t i, double (&p)[3]) const noexcept {
         p[0] = double{points.x[i]};
@@ -90,11 +95,8 @@ void for_points_around(const Lookup& l, double near, const Binned& in, std::uint
         }
         skip = i - end;
     }
-    const auto far_weight = static_cast<double>(in.far_stride);
-    for (std::size_t i = in.far_stride / 2; i < in.points.count; i += in.far_stride) {
-        in.at(i, p);
-        if (distances(l, p, along) > near) count(in.points.id[i], along, far_weight);
-    }
+    for (const Binned::Far& point : in.far)
+        if (distances(l, point.at, along) > near) count(point.id, along, in.far_weight);
 }
 
 // Collects the points nearer to a box than `most`, or than some smaller distance where those are too many.
@@ -131,14 +133,15 @@ double gather(const Lookup& l, const BranchMisses& changes, double most, const B
 
 // The tests hold the loss in the model's own cost to 4 % for the reference engine, and 2 % for the fast one.
 SampleBudget usual(vox_cost_model model, std::uint64_t tets) noexcept {
-    if (model != VOX_COST_MODEL_FAST) {
-        SampleBudget budget = quick(model, tets);
-        budget.most_tets = std::min<std::size_t>(budget.most_tets, 8192);
-        budget.listed =
-            std::max<std::size_t>(budget.listed, 24); // in small scenes, too: there is time for it
-        return budget;
-    }
-    return {0, std::clamp<std::size_t>(static_cast<std::size_t>(tets) / 512, 32, 128), 96, 32, 0, 64};
+    const auto t = static_cast<std::size_t>(tets);
+    if (model == VOX_COST_MODEL_FAST) return {0, std::clamp<std::size_t>(t / 512, 32, 128), 96, 32, 0, 64};
+    const std::size_t lookups = std::clamp<std::size_t>(t / 1024, 32, 64);
+    return {std::clamp<std::size_t>(t / 64, 1024, 2048),
+            lookups,
+            96,
+            lookups,
+            lookups * 3 / 4, // in small scenes, too: there is time for it
+            64};
 }
 
 // Sample sizes are what keeps a suggestion below the time of a step (docs/cell-size.md, "What a suggestion
@@ -282,8 +285,20 @@ void Lookups::count_binned(const fast::Points& points, double lookups, bool coun
         first_size_ = smallest / 16;
         size_ratio_ = std::pow(256 * largest / smallest, 1.0 / (occupied_sizes - 1));
     }
-    const Binned binned{window, bins.points, bins.begin.data() + window.first_cell, budget_.near_points,
-                        stride_for(points.count, budget_.far_points)};
+    const std::size_t far_stride = stride_for(points.count, budget_.far_points);
+    std::pmr::vector<Binned::Far> far(memory);
+    Binned binned{window,
+                  bins.points,
+                  bins.begin.data() + window.first_cell,
+                  budget_.near_points,
+                  {},
+                  static_cast<double>(far_stride)};
+    for (std::size_t i = far_stride / 2; i < points.count; i += far_stride) {
+        Binned::Far& point = far.emplace_back();
+        binned.at(i, point.at);
+        point.id = bins.points.id[i];
+    }
+    binned.far = far;
     for (SizeClass& c : classes_) {
         const double near = near_sides * std::ldexp(2.0, c.exponent);
         const std::size_t size = count_around(c, lookups, [&](const Lookup& l, auto&& count) {
@@ -303,7 +318,7 @@ void Lookups::count_lists(SizeClass& c, std::size_t wanted, const In& in,
     for (std::size_t i = 0; i < std::min(c.sample.size(), wanted); ++i) {
         const Lookup& l = c.sample[i];
         const double known = gather(l, c.changes, near, in, points);
-        near = std::clamp(1.2 * known, 2 * least, most); // a first guess for the next lookup
+        near = std::clamp(1.1 * known, 2 * least, most); // a first guess for the next lookup
         points_looked_at_ += points.size();
         c.changes.add(l.lo, l.hi, points, known);
     }

@@ -71,7 +71,7 @@ void CellSizeScene::find_near_bodies() {
 void CellSizeScene::sketch_missing_tiles() {
     std::uint64_t tets = 0;
     for (const Body& body : bodies) tets += body.tets.size();
-    const auto wanted = static_cast<double>(std::clamp<std::uint64_t>(tets / 16, 1024, 4096));
+    const auto wanted = static_cast<double>(std::clamp<std::uint64_t>(tets / 40, 1024, 2048));
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         if (tiles[b] || bodies[b].tets.empty()) continue;
         Body packed = bodies[b];

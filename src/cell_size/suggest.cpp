@@ -146,9 +146,17 @@ vox_suggestion suggest_reference(const vox_suggest_desc& desc, const CellSizeSce
         result.budget_cell_size = model.least_cell_size(static_cast<double>(desc.byte_budget), *range);
     range->min = std::max(range->min, result.budget_cell_size);
     range->max = std::max(range->max, range->min);
-    // Lengths of lists change the cost from one 32nd of an octave to the next.
-    const Fineness fineness{.scans_per_octave = scene.budget.listed > 0 ? 32.0 : 5.0, .tolerance = near};
-    const CostMinimum best = minimise(of_size(model), *range, fineness);
+    const Fineness coarse{.scans_per_octave = 5, .least_scans = 24, .tolerance = near};
+    CostMinimum best = minimise(of_size(model), *range, coarse);
+    // Lengths of lists change the cost from one 16th of an octave to the next, where they were counted.
+    const Fineness fineness{
+        .scans_per_octave = scene.budget.listed > 0 ? 16.0 : 5.0, .least_scans = 24, .tolerance = near};
+    if (scene.budget.listed > 0) {
+        const CostMinimum fine = minimise(
+            of_size(model),
+            {std::max(range->min, best.cell_size / 3), std::min(range->max, best.cell_size * 3)}, fineness);
+        if (fine.cost < best.cost) best = fine;
+    }
     // Sizes between those of the search may cost a little less.
     const CostFunction curve = [&](double log_size) {
         return std::max(model(std::exp2(log_size)), best.cost);

@@ -137,11 +137,14 @@ void list_around(const Body& body, const ChosenVertices& chosen, std::pmr::vecto
     for (std::size_t first = 0; first < body.tets.size(); first += at_once / 4) {
         const std::size_t count = std::min(at_once / 4, body.tets.size() - first);
         const Tet* tets = body.tets.data() + first;
-        for (std::size_t t = 0; t < count; ++t) {
-            if (has_bit(body.off, first + t)) continue;
-            const std::uint32_t* v = tets[t].v;
-            used[v[0]] = used[v[1]] = used[v[2]] = used[v[3]] = 1;
-        }
+        const auto mark = [&](const Tet& tet) {
+            for (const std::uint32_t v : tet.v) used[v] = 1;
+        };
+        if (body.off.empty())
+            std::for_each(tets, tets + count, mark);
+        else
+            for (std::size_t t = 0; t < count; ++t)
+                if (!has_bit(body.off, first + t)) mark(tets[t]);
         const std::size_t found_count = find(tets->v, 4 * count, chosen, found.data());
         for (std::size_t i = 0; i < found_count; ++i) {
             const std::size_t t = found[i] / 4, corner = found[i] % 4;

@@ -69,7 +69,7 @@ CostFit::CostFit(const CostBasis& basis, const Coefficients& middle) noexcept : 
 }
 
 Coefficients CostFit::operator()(std::span<const TimedTerms> timings) const noexcept {
-    constexpr double pull = 0.1;
+    constexpr double pull = 0.2;
     // What a run would take at `middle` if the expected shares were right: the geometric mean over the
     // timings.
     double logs = 0, weights = 0;

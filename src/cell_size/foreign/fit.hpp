@@ -50,7 +50,7 @@ inline constexpr double least_seconds = 1e-30, most_seconds = 1e30;
 // Coefficients by least squares of the relative errors (fitted / measured - 1).
 class CostFit {
 public:
-    // The share of each term at `middle` is pulled weakly towards the expected one, as a tenth of a timing
+    // The share of each term at `middle` is pulled weakly towards the expected one, as a fifth of a timing
     // would. This settles what timings cannot tell apart. `middle` has the terms at one cell size.
     CostFit(const CostBasis& basis, const Coefficients& middle) noexcept;
 
