@@ -109,11 +109,14 @@ struct Listed {
 
     void clear() {
         above.clear();
-        tets = proper = 0;
+        corners = proper = 0;
     }
     void add(std::uint32_t vertex, const Tet& tet) {
-        ++tets;
-        if (names_a_vertex_twice(tet)) return;
+        if (names_a_vertex_twice(tet)) {
+            corners += static_cast<std::uint64_t>(std::count(tet.v, tet.v + 4, vertex));
+            return;
+        }
+        ++corners;
         ++proper;
         Above next{vertex, 0, {}};
         for (const std::uint32_t other : tet.v) {
@@ -124,7 +127,8 @@ struct Listed {
     }
 
     std::pmr::vector<Above> above;
-    std::uint64_t tets = 0, proper = 0; // around chosen vertices; of them, those that name no vertex twice
+    // Of tetrahedra, that are chosen vertices; those of tetrahedra that name no vertex twice.
+    std::uint64_t corners = 0, proper = 0;
 };
 
 constexpr std::size_t at_once = 4096; // vertices
@@ -256,7 +260,7 @@ MeshSample make_sample(const Body& body, const SampleSize& size, std::pmr::memor
             if (!used[v]) sample.unused_vertices[v / 64] |= std::uint64_t{1} << v % 64;
     }
     // Where tetrahedra use few of the vertices, too few may have been chosen.
-    while (listed.tets < std::min<std::uint64_t>(size.vertices, tets) && vertices > 1) {
+    while (listed.corners < std::min<std::uint64_t>(size.vertices, tets) && vertices > 1) {
         vertices = std::min(used_count, vertices / 4 + 1);
         list();
     }
@@ -290,9 +294,10 @@ MeshSample make_sample(const Body& body, const SampleSize& size, std::pmr::memor
             if (tets_there == 1) sample.boundary_facets.push_back(sample.facets.back());
         });
     }
-    const double proper = listed.tets == 0 ? 0
-                                           : static_cast<double>(tets) * static_cast<double>(listed.proper) /
-                                                 static_cast<double>(listed.tets);
+    const double proper = listed.corners == 0
+                              ? 0
+                              : static_cast<double>(tets) * static_cast<double>(listed.proper) /
+                                    static_cast<double>(listed.corners);
     sample.edge_count = of_all(sample.edges.size(), edges_met, 6 * proper);
     sample.facet_count = of_all(sample.facets.size(), facets_met, 4 * proper);
     sample.boundary_facet_count = of_all(sample.boundary_facets.size(), facets_met, 4 * proper);
