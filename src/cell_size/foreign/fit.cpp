@@ -57,8 +57,7 @@ vox_grid_weights weights_of(const Coefficients& seconds) noexcept {
 
 // ---- the fit --------------------------------------------------------------------------------------
 
-CostFit::CostFit(const CostBasis& basis, const Coefficients& middle, double pull) noexcept
-    : count_(basis.count), pull_(pull) {
+CostFit::CostFit(const CostBasis& basis, const Coefficients& middle) noexcept : count_(basis.count) {
     const double total = cost_of(middle, basis.expected);
     for (std::size_t i = 0; i < count_; ++i) {
         if (middle[i] > 0) scale_[i] = 1 / middle[i];
@@ -70,6 +69,7 @@ CostFit::CostFit(const CostBasis& basis, const Coefficients& middle, double pull
 }
 
 Coefficients CostFit::operator()(std::span<const TimedTerms> timings) const noexcept {
+    constexpr double pull = 0.1;
     // What a run would take at `middle` if the expected shares were right: the geometric mean over the
     // timings.
     double logs = 0, weights = 0;
@@ -91,8 +91,8 @@ Coefficients CostFit::operator()(std::span<const TimedTerms> timings) const noex
     }
     for (std::size_t i = 0; i < count_; ++i) {
         row = {};
-        row[i] = pull_;
-        squares.add({row.data(), count_}, pull_ * expected_[i]);
+        row[i] = pull;
+        squares.add({row.data(), count_}, pull * expected_[i]);
     }
     Coefficients found = squares.solve();
     for (std::size_t i = 0; i < count_; ++i)
@@ -216,9 +216,7 @@ vox_grid_fit fit_timings(const CostBasis& described, const FitSettings& settings
     for (const vox_grid_timing& timing : sorted)
         timed.push_back({timing.seconds, described.values(timing.cell_size)});
     const double smallest = sorted.front().cell_size, largest = sorted.back().cell_size;
-    // Twice as much as where more runs can follow: in the grids of bench/foreign the worst of three timings
-    // then loses 11 % in place of 15.
-    const CostFit fit(described, described.values(std::sqrt(smallest) * std::sqrt(largest)), 0.2);
+    const CostFit fit(described, described.values(std::sqrt(smallest) * std::sqrt(largest)));
     (void)weigh(fit, timed);
     const Coefficients coefficients = fit(timed);
 

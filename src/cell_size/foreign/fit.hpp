@@ -50,16 +50,15 @@ inline constexpr double least_seconds = 1e-30, most_seconds = 1e30;
 // Coefficients by least squares of the relative errors (fitted / measured - 1).
 class CostFit {
 public:
-    // The share of each term at `middle` is pulled weakly towards the expected one, as the part `pull` of a
-    // timing would. This settles what timings cannot tell apart. `middle` has the terms at one cell size.
-    CostFit(const CostBasis& basis, const Coefficients& middle, double pull = 0.1) noexcept;
+    // The share of each term at `middle` is pulled weakly towards the expected one, as a tenth of a timing
+    // would. This settles what timings cannot tell apart. `middle` has the terms at one cell size.
+    CostFit(const CostBasis& basis, const Coefficients& middle) noexcept;
 
     // In seconds. At least one timing.
     Coefficients operator()(std::span<const TimedTerms> timings) const noexcept;
 
 private:
     std::size_t count_;
-    double pull_;
     Coefficients scale_{}; // of a term, so that it is 1 at `middle`; 0 where it is 0 there
     Coefficients
         expected_{}; // shares at `middle`; for terms that are 0 there, of the whole for each one, at most all
