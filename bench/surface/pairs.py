@@ -83,7 +83,7 @@ class Surface:
 
     def counters(self):
         counters = Counters(ctypes.sizeof(Counters))
-        self.ok(self.vox.vox_surface_get_counters(self.handle, ctypes.byref(counters)))
+        self.ok(self.vox.vox_surface_counters(self.handle, ctypes.byref(counters)))
         return counters
 
 

@@ -198,6 +198,11 @@ export declare const CostModel: Readonly<{
   REFERENCE: 1;
   /** the fast engine with one cell size in all windows; in nanoseconds of a step */
   FAST: 2;
+  /**
+   * the search of a vox_surface (vox_pairs.h) made of the meshes' surfaces for pairs of edges, and of faces and
+   * vertices; in nanoseconds, of its grid alone
+   */
+  SURFACE: 3;
 }>;
 export type CostModel = (typeof CostModel)[keyof typeof CostModel];
 

@@ -111,6 +111,7 @@ export const CostModel = Object.freeze({
   PAPER: 0,
   REFERENCE: 1,
   FAST: 2,
+  SURFACE: 3,
 });
 
 export const SizeReading = Object.freeze({

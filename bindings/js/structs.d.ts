@@ -869,7 +869,7 @@ export interface CostShare {
   share: number;
 }
 
-/** A cell size and the reasons for it. Costs are in cell visits per tetrahedron (PAPER), or nanoseconds of a step. */
+/** A cell size and the reasons for it. Costs are in cell visits per tetrahedron (PAPER), or nanoseconds. */
 export interface Suggestion {
   model: CostModel;
   cellSize: number;

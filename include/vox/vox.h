@@ -1577,6 +1577,8 @@ typedef enum vox_cost_model {
     VOX_COST_MODEL_PAPER = 0,     /* the paper's z(delta) (Sect. 4, Eqs. 3-8), from means; in cell visits */
     VOX_COST_MODEL_REFERENCE = 1, /* the reference engine, counted tet by tet; in nanoseconds of a step */
     VOX_COST_MODEL_FAST = 2,      /* the fast engine with one cell size in all windows; in nanoseconds of a step */
+    VOX_COST_MODEL_SURFACE = 3,   /* the search of a vox_surface (vox_pairs.h) made of the meshes' surfaces for pairs of
+                                     edges, and of faces and vertices; in nanoseconds, of its grid alone */
     VOX_COST_MODEL_FORCE_32_BITS = 0x7fffffff
 } vox_cost_model;
 
@@ -1676,7 +1678,7 @@ typedef struct vox_cost_share {
     double share; /* fraction of the whole cost, 0 to 1 */
 } vox_cost_share;
 
-/* A cell size and the reasons for it. Costs are in cell visits per tetrahedron (PAPER), or nanoseconds of a step. */
+/* A cell size and the reasons for it. Costs are in cell visits per tetrahedron (PAPER), or nanoseconds. */
 typedef struct vox_suggestion {
     uint32_t struct_size;
     vox_cost_model model;
@@ -1709,8 +1711,12 @@ typedef struct vox_suggestion {
  * struct_size. Of their flags, only VOX_MESH_SELF_COLLISION is used, by REFERENCE and FAST. Errors name a mesh by its
  * index in the array and its user data. All tets and vertices are checked; the models look at samples of them
  * (docs/cell-size.md has times). Memory is from desc->allocator until the end of the call.
- * Errors: INVALID_ARGUMENT (also if there is no tetrahedron, or all have zero size), INVALID_MESH, NON_FINITE, LIMIT,
- * OUT_OF_MEMORY. */
+ * SURFACE suggests vox_surface_desc.cell_size for one surface of all meshes, standing still with the radius 0: the facets
+ * of exactly one enabled tetrahedron, duplicates counted once, their edges and their vertices. It reads all of them. For
+ * surfaces without tetrahedra behind them, and for motions, there is vox_surface_suggest_cell_size.
+ * Errors: INVALID_ARGUMENT (also if there is no tetrahedron, or all have zero size; SURFACE: no such facet), INVALID_MESH,
+ * NON_FINITE, LIMIT (SURFACE: a mesh of more than 357913941 tets), OUT_OF_MEMORY; UNSUPPORTED for SURFACE in a build
+ * without surfaces, as for WebAssembly. */
 VOX_API vox_result vox_suggest_cell_size(VOX_OPTIONAL const vox_suggest_desc* desc,
                                          VOX_ARRAY(mesh_count) const vox_mesh_desc* meshes, uint64_t mesh_count,
                                          vox_suggestion* out);

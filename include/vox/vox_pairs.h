@@ -182,7 +182,7 @@ VOX_EXPERIMENTAL vox_result vox_surface_suggest_cell_size(vox_surface* surface, 
                                                           vox_foreign_suggestion* out);
 
 /* What the last search for pairs did, also one by vox_surface_crossings and the like, and what the surface holds. */
-typedef struct vox_surface_counters {
+typedef struct vox_pair_counters {
     uint32_t struct_size;
     uint32_t reserved;       /* 0 */
     double cell_size;        /* that was used; 0 where no grid was needed */
@@ -193,10 +193,10 @@ typedef struct vox_surface_counters {
     uint64_t culled;         /* of these, left out by VOX_MOTION_CULL */
     uint64_t bytes;          /* held now */
     uint64_t peak_bytes;
-} vox_surface_counters;
+} vox_pair_counters;
 
 /* Writes the fields that out_counters->struct_size covers (set it first). */
-VOX_EXPERIMENTAL vox_result vox_surface_get_counters(const vox_surface* surface, vox_surface_counters* out_counters);
+VOX_EXPERIMENTAL vox_result vox_surface_counters(const vox_surface* surface, vox_pair_counters* out_counters);
 
 /* ---- crossings -------------------------------------------------------------------------------- */
 

@@ -10,6 +10,7 @@
 #include "cell_size/weights.hpp"
 #include "grid/grid.hpp"
 #include "mesh/check.hpp"
+#include "surface/suggest.hpp"
 
 #include <cinttypes>
 #include <cmath>
@@ -73,6 +74,20 @@ vox_cost_bounds read_bounds(const vox_cost_bounds* bounds) {
     return read_struct(bounds, cost_bounds_defaults(), "bounds");
 }
 
+// Whether the surfaces of the meshes are what is asked about.
+bool is_of_surfaces(const vox_suggest_desc& settings) {
+    if (settings.model != VOX_COST_MODEL_SURFACE) return false;
+#if defined(VOX_WITHOUT_SURFACE_CONTACTS)
+    throw Error(VOX_ERROR_UNSUPPORTED, "this build has no surfaces");
+#else
+    return true;
+#endif
+}
+
+vox_suggestion suggestion(const vox_suggest_desc& settings, CellSizeScene& scene) {
+    return is_of_surfaces(settings) ? suggest_for_surfaces(settings, scene) : suggest(settings, scene, weights_in_use());
+}
+
 void check_cells(double cells, const char* name) {
     if (!(cells > 0) || !std::isfinite(cells))
         throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is %.9g, expected a number above 0", name, cells));
@@ -92,7 +107,7 @@ vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_de
         CallerMemory memory(settings.allocator);
         CellSizeScene scene(&memory);
         read_bodies(meshes, mesh_count, settings.model, scene);
-        write_struct(out, suggest(settings, scene, weights_in_use()), "out");
+        write_struct(out, suggestion(settings, scene), "out");
     });
 }
 
@@ -106,7 +121,7 @@ vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_de
         Scratch<std::size_t{1} << 16> memory(&caller); // enough for a small scene
         CellSizeScene scene(&memory);
         grid->describe(scene);
-        write_struct(out, suggest(settings, scene, weights_in_use()), "out");
+        write_struct(out, suggestion(settings, scene), "out");
     });
 }
 
@@ -119,7 +134,10 @@ vox_result vox_cost_predict(const vox_suggest_desc* desc, const vox_mesh_desc* m
         CallerMemory memory(settings.allocator);
         CellSizeScene scene(&memory);
         read_bodies(meshes, mesh_count, settings.model, scene);
-        write_struct(out, predict(settings, scene, weights_in_use(), cell_size), "out");
+        write_struct(out,
+                     is_of_surfaces(settings) ? predict_for_surfaces(settings, scene, cell_size)
+                                              : predict(settings, scene, weights_in_use(), cell_size),
+                     "out");
     });
 }
 

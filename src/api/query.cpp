@@ -67,12 +67,12 @@ std::pmr::vector<Vec3d> read_points(const void* points, const vox_format& point_
                                     std::uint64_t byte_stride, std::uint64_t component_byte_stride,
                                     std::uint64_t count) {
     if (count > 0) require(points, "points");
-    check_format(point_format, "point ");
+    check_format(point_format, "");
     if (count > UINT32_MAX)
         throw Error(VOX_ERROR_LIMIT, format("point_count is %llu, the limit is 2^32 - 1",
                                             static_cast<unsigned long long>(count)));
     const Positions positions =
-        check_positions(points, point_format, byte_stride, component_byte_stride, count, "point ");
+        check_positions(points, point_format, byte_stride, component_byte_stride, count, "");
     std::pmr::vector<Vec3d> read(std::pmr::new_delete_resource());
     read.reserve(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < count; ++i) {

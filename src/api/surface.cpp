@@ -116,7 +116,7 @@ vox_result vox_surface_suggest_cell_size(vox_surface* surface, vox_feature a, vo
     });
 }
 
-vox_result vox_surface_get_counters(const vox_surface* surface, vox_surface_counters* out_counters) {
+vox_result vox_surface_counters(const vox_surface* surface, vox_pair_counters* out_counters) {
     return border(surface, "surface", [&] {
         check_out_struct(out_counters, "out_counters");
         write_struct(out_counters, surface->counters(), "out_counters");

@@ -42,7 +42,7 @@ vox_suggest_desc suggest_defaults() {
 }
 
 void check_suggest_desc(const vox_suggest_desc& desc) {
-    check_enum(desc.model, VOX_COST_MODEL_FAST, "suggest model");
+    check_enum(desc.model, VOX_COST_MODEL_SURFACE, "suggest model");
     check_enum(desc.size_reading, VOX_SIZE_MEAN_BOX_SIDE, "suggest size_reading");
     check_enum(desc.area_reading, VOX_AREA_BOUNDARY_FACETS, "suggest area_reading");
     check_number(desc.p_nc > 0 && desc.p_nc < 1, desc.p_nc, "p_nc",
@@ -227,7 +227,23 @@ vox_suggestion suggest(const vox_suggest_desc& desc, CellSizeScene& scene, const
 vox_cost_prediction predict(const vox_suggest_desc& desc, CellSizeScene& scene,
                             const vox_cost_weights& weights, double cell_size) {
     scene.prepare(desc.model);
-    const CostTerms terms = predicted_terms(desc, scene, weights, cell_size);
+    return prediction_of(predicted_terms(desc, scene, weights, cell_size), cell_size);
+}
+
+vox_suggestion suggest_by(const vox_suggest_desc& desc, const Geometry& geometry,
+                          const std::function<CostTerms(double cell_size)>& terms, const CellSizeRange& range) {
+    const Fineness fineness{.tolerance = near};
+    const CostFunction cost = [&](double log_size) { return terms(std::exp2(log_size)).cost(); };
+    const CostMinimum best = minimise(cost, range, fineness);
+    // Sizes between those of the search may cost a little less.
+    const CostFunction curve = [&](double log_size) { return std::max(cost(log_size), best.cost); };
+    vox_suggestion result{};
+    write(result, desc, geometry, best, zone_around(best, (1 + desc.zone_loss) * best.cost, curve, range, fineness),
+          curve, terms(best.cell_size));
+    return result;
+}
+
+vox_cost_prediction prediction_of(const CostTerms& terms, double cell_size) {
     vox_cost_prediction prediction{};
     prediction.cell_size = cell_size;
     prediction.cost = terms.cost();

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "cell_size/scene.hpp"
+#include "cell_size/search.hpp"
 
 #include <vox/vox.h>
 
 #include <cstdint>
+#include <functional>
 
 namespace vox {
 
@@ -23,5 +25,10 @@ vox_suggestion suggest(const vox_suggest_desc& desc, CellSizeScene& scene, const
 // What the model predicts at one cell size, as the bodies lie. Throws as suggest().
 vox_cost_prediction predict(const vox_suggest_desc& desc, CellSizeScene& scene,
                             const vox_cost_weights& weights, double cell_size);
+
+// The same for a cost that is described elsewhere: it is looked for in `range`, and terms() add up to it.
+vox_suggestion suggest_by(const vox_suggest_desc& desc, const Geometry& geometry,
+                          const std::function<CostTerms(double cell_size)>& terms, const CellSizeRange& range);
+vox_cost_prediction prediction_of(const CostTerms& terms, double cell_size);
 
 } // namespace vox

@@ -18,7 +18,7 @@ static_assert(sizeof(Tet) == 4 * sizeof(std::uint32_t) && alignof(Tet) == aligno
 
 Positions check_positions(const void* data, vox_format position_format, std::uint64_t byte_stride,
                           std::uint64_t component_byte_stride, std::uint64_t vertex_count,
-                          const char* where) {
+                          const char* prefix) {
     const std::uint64_t number = position_format == VOX_FORMAT_DOUBLE3 ? sizeof(double) : sizeof(float);
     const std::uint64_t component = component_byte_stride == 0 ? number : component_byte_stride;
     const bool together = component == number;
@@ -27,38 +27,38 @@ Positions check_positions(const void* data, vox_format position_format, std::uin
     constexpr std::uint64_t most_bytes = std::numeric_limits<std::ptrdiff_t>::max();
     if (vertex_count > 0 && stride > most_bytes / vertex_count)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%sposition_byte_stride is %" PRIu64 ", too large for %" PRIu64 " vertices", where,
+                    format("%sbyte_stride is %" PRIu64 ", too large for %" PRIu64 " vertices", prefix,
                            stride, vertex_count));
     if (component > most_bytes / 4 ||
         (vertex_count > 0 && stride > (most_bytes - 2 * component) / vertex_count))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%sposition_component_byte_stride is %" PRIu64 ", too large for %" PRIu64
+                    format("%scomponent_byte_stride is %" PRIu64 ", too large for %" PRIu64
                            " vertices %" PRIu64 " bytes apart",
-                           where, component, vertex_count, stride));
+                           prefix, component, vertex_count, stride));
     const std::uint64_t least = together ? 3 * number : number;
     if (stride < least && (together || vertex_count > 1))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%sposition_byte_stride is %" PRIu64 ", expected 0 or at least %" PRIu64, where,
+                    format("%sbyte_stride is %" PRIu64 ", expected 0 or at least %" PRIu64, prefix,
                            stride, least));
     const bool rows = stride >= 2 * component + number;
     const bool columns = vertex_count <= 1 || component >= (vertex_count - 1) * stride + number;
     if (component < number || (!rows && !columns))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%sposition_component_byte_stride is %" PRIu64
-                           ": with a position_byte_stride of %" PRIu64 ", %" PRIu64
+                    format("%scomponent_byte_stride is %" PRIu64
+                           ": with a byte stride of %" PRIu64 ", %" PRIu64
                            " positions would overlap; columns need at least %" PRIu64,
-                           where, component, stride, vertex_count, vertex_count * stride));
+                           prefix, component, stride, vertex_count, vertex_count * stride));
     return {.data = static_cast<const std::byte*>(data),
             .byte_stride = static_cast<std::size_t>(stride),
             .doubles = position_format == VOX_FORMAT_DOUBLE3,
             .component_gap = static_cast<std::size_t>(component - number)};
 }
 
-void check_format(const vox_format& position_format, const char* where) {
+void check_format(const vox_format& position_format, const char* prefix) {
     const std::int32_t value = enum_value(position_format);
     if (value != VOX_FORMAT_FLOAT3 && value != VOX_FORMAT_DOUBLE3)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%sposition_format is %" PRId32 ", not a vox_format", where, value));
+                    format("%sformat is %" PRId32 ", not a vox_format", prefix, value));
 }
 
 Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null_positions) {
@@ -77,10 +77,11 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
     if (desc.tet_count > VOX_MAX_TETS)
         throw Error(VOX_ERROR_LIMIT, format("%stet_count is %" PRIu64 ", the limit is %" PRIu32, where,
                                             desc.tet_count, VOX_MAX_TETS));
-    check_format(desc.position_format, where);
+    const std::string prefix = std::string(where) + "position_";
+    check_format(desc.position_format, prefix.c_str());
     const Positions positions =
         check_positions(desc.positions, desc.position_format, desc.position_byte_stride,
-                        desc.position_component_byte_stride, desc.vertex_count, where);
+                        desc.position_component_byte_stride, desc.vertex_count, prefix.c_str());
     if (!desc.positions && desc.vertex_count > 0 && null_positions == NullPositions::rejected)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("%spositions is null, vertex_count is %" PRIu64, where, desc.vertex_count));

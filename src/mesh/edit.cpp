@@ -154,7 +154,7 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
     const vox_format position_format = positions_.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
     const std::size_t size = position_size();
     const Positions given = check_positions(desc.positions, position_format, desc.position_byte_stride,
-                                            desc.position_component_byte_stride, owns ? added : count, "");
+                                            desc.position_component_byte_stride, owns ? added : count, "position_");
     for (std::uint32_t i = 0; desc.copies_of && i < added; ++i)
         if (desc.copies_of[i] >= before)
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
@@ -188,7 +188,7 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
     const bool has_rest = !self_filter_->rest.empty() || (before == 0 && filter_.self_rest_distance > 0);
     if (has_rest && desc.rest_positions) {
         rest = rest_pose(check_positions(desc.rest_positions, position_format, desc.rest_position_byte_stride,
-                                         desc.rest_position_component_byte_stride, added, "rest_"),
+                                         desc.rest_position_component_byte_stride, added, "rest_position_"),
                          added);
     } else if (has_rest && desc.copies_of) {
         rest = self_filter_->rest.of({desc.copies_of, added});

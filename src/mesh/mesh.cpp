@@ -21,7 +21,7 @@ Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter
     if (desc.rest_positions)
         self_filter_.make(memory).rest = rest_pose(
             check_positions(desc.rest_positions, desc.position_format, desc.rest_position_byte_stride,
-                            desc.rest_position_component_byte_stride, vertex_count_, "rest_"),
+                            desc.rest_position_component_byte_stride, vertex_count_, "rest_position_"),
             vertex_count_);
     set_filter(filter);
 }

@@ -2,6 +2,7 @@
 // (cell_size/foreign), with weights of its own.
 #pragma once
 
+#include "cell_size/scene.hpp"
 #include "surface/feature_tiles.hpp"
 
 #include <vox/vox.h>
@@ -13,5 +14,10 @@ namespace vox {
 // Both kinds have tiles, with boxes. Sets all fields but struct_size.
 vox_foreign_suggestion suggest_for_tiles(const FeatureTiles& a, const FeatureTiles& b,
                                          std::pmr::memory_resource* memory);
+
+// What VOX_COST_MODEL_SURFACE suggests, and predicts at a cell size: for the surfaces of all bodies as one surface, asked
+// for pairs of edges, and of faces and vertices. Throws INVALID_ARGUMENT where there is none, or all of it is in one place.
+vox_suggestion suggest_for_surfaces(const vox_suggest_desc& desc, CellSizeScene& scene);
+vox_cost_prediction predict_for_surfaces(const vox_suggest_desc& desc, CellSizeScene& scene, double cell_size);
 
 } // namespace vox

@@ -168,9 +168,9 @@ std::span<const vox_timed_pair> vox_surface::contact_times(vox_feature a, vox_fe
     return timed_;
 }
 
-vox_surface_counters vox_surface::counters() const {
+vox_pair_counters vox_surface::counters() const {
     const PairCounters& last = search_.counters();
-    vox_surface_counters out{};
+    vox_pair_counters out{};
     out.struct_size = sizeof out;
     out.cell_size = last.cell_size;
     out.cells = last.cells;

@@ -58,7 +58,7 @@ public:
     // Of the end of the motion. Lives until the next call or move().
     std::span<const vox_crossing> crossings();
 
-    vox_surface_counters counters() const;
+    vox_pair_counters counters() const;
 
 private:
     template <class Visit>

@@ -76,7 +76,7 @@ START_TEST(no_positions_of_no_vertices) {
         ck_ok(vox_mesh_bind_positions(grid, mesh, NULL, VOX_FORMAT_FLOAT3, 0));
         ck_ok(vox_mesh_bind_strided_positions(grid, mesh, NULL, VOX_FORMAT_DOUBLE3, stride, component));
         ck_fails(vox_mesh_bind_positions(grid, mesh, NULL, (vox_format)7, 0), VOX_ERROR_INVALID_ARGUMENT,
-                 "position_format is 7");
+                 "format is 7");
         vox_mesh_info info = {.struct_size = sizeof info};
         ck_ok(vox_mesh_get_info(grid, mesh, &info));
         ck_assert_ptr_null(info.positions);

@@ -249,9 +249,9 @@ START_TEST(budgets) {
     move(surface, s, s.positions.data());
     const std::vector<vox_crossing> expected = crossings_of(surface);
     ck_assert_uint_eq(expected.size(), n);
-    vox_surface_counters counters{};
+    vox_pair_counters counters{};
     counters.struct_size = sizeof counters;
-    ck_ok(vox_surface_get_counters(surface, &counters));
+    ck_ok(vox_surface_counters(surface, &counters));
     vox_surface_destroy(surface);
     const std::uint64_t most = counters.peak_bytes;
     int refused = 0, answered = 0;
@@ -274,7 +274,7 @@ START_TEST(budgets) {
                 ck_assert_int_eq(result, VOX_ERROR_BUDGET);
                 ++refused;
             }
-            ck_ok(vox_surface_get_counters(surface, &counters));
+            ck_ok(vox_surface_counters(surface, &counters));
             ck_assert_uint_le(counters.peak_bytes, desc.byte_budget);
         }
         vox_surface_destroy(surface);

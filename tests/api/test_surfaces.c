@@ -295,9 +295,9 @@ START_TEST(no_memory_in_the_steady_state) {
         motion.radius = 0.01;
         ck_ok(vox_surface_move(surface, &motion));
         (void)lists_of(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE);
-        vox_surface_counters counters;
+        vox_pair_counters counters;
         counters.struct_size = sizeof counters;
-        ck_ok(vox_surface_get_counters(surface, &counters));
+        ck_ok(vox_surface_counters(surface, &counters));
         ck_assert_uint_gt(counters.overlaps, 0);
         ck_assert_uint_eq(counters.culled, counters.overlaps); /* it moves as a whole */
         (void)lists_of(surface, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX);

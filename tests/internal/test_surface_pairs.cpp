@@ -326,9 +326,9 @@ START_TEST(a_budget_is_kept_in_pieces) {
     vox_surface* const whole = surface_of(s, 1, 0, 0);
     move(whole, s);
     const auto expected = asked(whole, 0, 0);
-    vox_surface_counters counters{};
+    vox_pair_counters counters{};
     counters.struct_size = sizeof counters;
-    ck_ok(vox_surface_get_counters(whole, &counters));
+    ck_ok(vox_surface_counters(whole, &counters));
     const std::uint64_t budget = counters.peak_bytes / 3;
     vox_surface* const tight = surface_of(s, 1, 0, budget);
     move(tight, s);
@@ -338,7 +338,7 @@ START_TEST(a_budget_is_kept_in_pieces) {
     ck_assert_uint_gt(first.count, 0);
     ck_assert_uint_lt(first.count, s.vertex_count);
     ck_assert(asked(tight, 0, 0) == expected);
-    ck_ok(vox_surface_get_counters(tight, &counters));
+    ck_ok(vox_surface_counters(tight, &counters));
     ck_assert_uint_le(counters.peak_bytes, budget);
     vox_surface_destroy(tight);
     vox_surface_destroy(whole);

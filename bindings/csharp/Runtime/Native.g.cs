@@ -184,6 +184,9 @@ namespace Voxtet
         Reference = 1,
         /// <summary>the fast engine with one cell size in all windows; in nanoseconds of a step</summary>
         Fast = 2,
+        /// <summary>the search of a vox_surface (vox_pairs.h) made of the meshes' surfaces for pairs of edges, and of
+        /// faces and vertices; in nanoseconds, of its grid alone</summary>
+        Surface = 3,
     }
 
     /// <summary>How s, the size of a tetrahedron in Eq. 4, is measured.</summary>
@@ -1879,7 +1882,7 @@ namespace Voxtet
     /// <summary>What the last search for pairs did, also one by vox_surface_crossings and the like, and what the
     /// surface holds.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 72)]
-    public struct SurfaceCounters
+    public struct PairCounters
     {
         public uint struct_size;
         /// <summary>0</summary>
@@ -3129,7 +3132,7 @@ namespace Voxtet
 
         /// <summary>Writes the fields that out_counters-&gt;struct_size covers (set it first).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_surface_get_counters(IntPtr surface, SurfaceCounters* out_counters);
+        internal static extern Result vox_surface_counters(IntPtr surface, PairCounters* out_counters);
 
         /// <summary>All edges and faces that have a point in common and no vertex, at the end of the motion: whether
         /// the surface is free of intersections, and where it is not.</summary>
@@ -4381,21 +4384,21 @@ namespace Voxtet
             entries.Add(Entry("vox_pair_lists.partners", (byte*)&s.partners - begin, 40, 36));
         }
 
-        static void AddSurfaceCounters(List<LayoutEntry> entries)
+        static void AddPairCounters(List<LayoutEntry> entries)
         {
-            SurfaceCounters s;
+            PairCounters s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_surface_counters", sizeof(SurfaceCounters), 72, 72));
-            entries.Add(Entry("vox_surface_counters.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_surface_counters.reserved", (byte*)&s.reserved - begin, 4, 4));
-            entries.Add(Entry("vox_surface_counters.cell_size", (byte*)&s.cell_size - begin, 8, 8));
-            entries.Add(Entry("vox_surface_counters.cells", (byte*)&s.cells - begin, 16, 16));
-            entries.Add(Entry("vox_surface_counters.tile_pairs", (byte*)&s.tile_pairs - begin, 24, 24));
-            entries.Add(Entry("vox_surface_counters.boxes_compared", (byte*)&s.boxes_compared - begin, 32, 32));
-            entries.Add(Entry("vox_surface_counters.overlaps", (byte*)&s.overlaps - begin, 40, 40));
-            entries.Add(Entry("vox_surface_counters.culled", (byte*)&s.culled - begin, 48, 48));
-            entries.Add(Entry("vox_surface_counters.bytes", (byte*)&s.bytes - begin, 56, 56));
-            entries.Add(Entry("vox_surface_counters.peak_bytes", (byte*)&s.peak_bytes - begin, 64, 64));
+            entries.Add(Entry("vox_pair_counters", sizeof(PairCounters), 72, 72));
+            entries.Add(Entry("vox_pair_counters.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_pair_counters.reserved", (byte*)&s.reserved - begin, 4, 4));
+            entries.Add(Entry("vox_pair_counters.cell_size", (byte*)&s.cell_size - begin, 8, 8));
+            entries.Add(Entry("vox_pair_counters.cells", (byte*)&s.cells - begin, 16, 16));
+            entries.Add(Entry("vox_pair_counters.tile_pairs", (byte*)&s.tile_pairs - begin, 24, 24));
+            entries.Add(Entry("vox_pair_counters.boxes_compared", (byte*)&s.boxes_compared - begin, 32, 32));
+            entries.Add(Entry("vox_pair_counters.overlaps", (byte*)&s.overlaps - begin, 40, 40));
+            entries.Add(Entry("vox_pair_counters.culled", (byte*)&s.culled - begin, 48, 48));
+            entries.Add(Entry("vox_pair_counters.bytes", (byte*)&s.bytes - begin, 56, 56));
+            entries.Add(Entry("vox_pair_counters.peak_bytes", (byte*)&s.peak_bytes - begin, 64, 64));
         }
 
         static void AddCrossing(List<LayoutEntry> entries)
@@ -4870,7 +4873,7 @@ namespace Voxtet
             AddFeatureView(entries);
             AddMotion(entries);
             AddPairLists(entries);
-            AddSurfaceCounters(entries);
+            AddPairCounters(entries);
             AddCrossing(entries);
             AddCrossingView(entries);
             AddClosePair(entries);

@@ -49,7 +49,8 @@ vox_primitives primitives_defaults() {
 
 Primitives::Primitives(const vox_primitives& desc, const char* where) : where_(where) {
     check_enum(desc.type, VOX_PRIMITIVE_BOX, format("%stype", where).c_str());
-    check_format(desc.position_format, where);
+    const std::string prefix = std::string(where) + "position_"; // of fields
+    check_format(desc.position_format, prefix.c_str());
     check_enum(desc.radius_format, VOX_FORMAT_DOUBLE3, format("%sradius_format", where).c_str());
     if (desc.count == 0) refuse(format("%scount is 0, expected at least one primitive", where));
     if (desc.count > std::numeric_limits<std::uint32_t>::max())
@@ -61,7 +62,7 @@ Primitives::Primitives(const vox_primitives& desc, const char* where) : where_(w
     vertex_count_ = desc.vertex_count;
     if (!desc.positions) refuse(format("%spositions is null", where));
     positions_ = check_positions(desc.positions, desc.position_format, desc.position_byte_stride,
-                                 desc.position_component_byte_stride, desc.vertex_count, where);
+                                 desc.position_component_byte_stride, desc.vertex_count, prefix.c_str());
     indices_ = reinterpret_cast<const std::byte*>(desc.indices);
     const auto corners = static_cast<std::uint64_t>(corners_);
     index_stride_ = checked_stride(desc.index_byte_stride, corners * sizeof(std::uint32_t), count_, where,

@@ -123,6 +123,7 @@ class CostModel(enum.IntEnum):
     PAPER = 0
     REFERENCE = 1
     FAST = 2
+    SURFACE = 3
 
 
 class SizeReading(enum.IntEnum):
@@ -1385,7 +1386,7 @@ class vox_pair_lists(Structure):
     ]
 
 
-class vox_surface_counters(Structure):
+class vox_pair_counters(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
@@ -1399,7 +1400,7 @@ class vox_surface_counters(Structure):
         ("peak_bytes", c_uint64),
     ]
 
-dtypes["vox_surface_counters"] = dtype({
+dtypes["vox_pair_counters"] = dtype({
     "names": ["struct_size", "reserved", "cell_size", "cells", "tile_pairs", "boxes_compared", "overlaps", "culled",
         "bytes", "peak_bytes"],
     "formats": ["u4", "u4", "f8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
@@ -1981,7 +1982,7 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_surface_pairs": (vox_result, (c_void_p, c_int32, c_int32, c_uint64, c_uint64, POINTER(vox_pair_lists))),
         "vox_surface_set_cell_size": (vox_result, (c_void_p, c_double)),
         "vox_surface_suggest_cell_size": (vox_result, (c_void_p, c_int32, c_int32, POINTER(vox_foreign_suggestion))),
-        "vox_surface_get_counters": (vox_result, (c_void_p, POINTER(vox_surface_counters))),
+        "vox_surface_counters": (vox_result, (c_void_p, POINTER(vox_pair_counters))),
         "vox_surface_crossings": (vox_result, (c_void_p, POINTER(vox_crossing_view))),
         "vox_surface_close": (vox_result, (c_void_p, c_int32, c_int32, c_double, POINTER(vox_close_view))),
         "vox_surface_clearance": (vox_result, (c_void_p, c_double, c_void_p, c_uint64)),

@@ -205,9 +205,9 @@ class Surface:
 
     @property
     def counters(self) -> SurfaceCounters:
-        out = sized(_c.vox_surface_counters)
+        out = sized(_c.vox_pair_counters)
         with self._lock:
-            vox.vox_surface_get_counters(self._handle.pointer, out)
+            vox.vox_surface_counters(self._handle.pointer, out)
         return SurfaceCounters(*(getattr(out, name) for name in SurfaceCounters._fields))
 
     def crossings(self) -> NDArray[Any]:

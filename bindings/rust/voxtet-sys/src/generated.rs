@@ -202,6 +202,9 @@ pub const VOX_COST_MODEL_PAPER: vox_cost_model = 0;
 pub const VOX_COST_MODEL_REFERENCE: vox_cost_model = 1;
 /// the fast engine with one cell size in all windows; in nanoseconds of a step
 pub const VOX_COST_MODEL_FAST: vox_cost_model = 2;
+/// the search of a vox_surface (vox_pairs.h) made of the meshes' surfaces for pairs of edges, and of faces and
+/// vertices; in nanoseconds, of its grid alone
+pub const VOX_COST_MODEL_SURFACE: vox_cost_model = 3;
 
 /// How s, the size of a tetrahedron in Eq. 4, is measured.
 pub type vox_size_reading = i32;
@@ -1376,7 +1379,7 @@ pub struct vox_cost_share {
     pub share: f64,
 }
 
-/// A cell size and the reasons for it. Costs are in cell visits per tetrahedron (PAPER), or nanoseconds of a step.
+/// A cell size and the reasons for it. Costs are in cell visits per tetrahedron (PAPER), or nanoseconds.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_suggestion {
@@ -1822,7 +1825,7 @@ pub struct vox_pair_lists {
 /// What the last search for pairs did, also one by vox_surface_crossings and the like, and what the surface holds.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_surface_counters {
+pub struct vox_pair_counters {
     pub struct_size: u32,
     /// 0
     pub reserved: u32,
@@ -3074,8 +3077,13 @@ extern "C" {
     /// meshes[0].struct_size bytes apart, a multiple of 8, and all have that struct_size. Of their flags, only
     /// VOX_MESH_SELF_COLLISION is used, by REFERENCE and FAST. Errors name a mesh by its index in the array and its
     /// user data. All tets and vertices are checked; the models look at samples of them (docs/cell-size.md has times).
-    /// Memory is from desc->allocator until the end of the call. Errors: INVALID_ARGUMENT (also if there is no
-    /// tetrahedron, or all have zero size), INVALID_MESH, NON_FINITE, LIMIT, OUT_OF_MEMORY.
+    /// Memory is from desc->allocator until the end of the call. SURFACE suggests vox_surface_desc.cell_size for one
+    /// surface of all meshes, standing still with the radius 0: the facets of exactly one enabled tetrahedron,
+    /// duplicates counted once, their edges and their vertices. It reads all of them. For surfaces without tetrahedra
+    /// behind them, and for motions, there is vox_surface_suggest_cell_size. Errors: INVALID_ARGUMENT (also if there is
+    /// no tetrahedron, or all have zero size; SURFACE: no such facet), INVALID_MESH, NON_FINITE, LIMIT (SURFACE: a mesh
+    /// of more than 357913941 tets), OUT_OF_MEMORY; UNSUPPORTED for SURFACE in a build without surfaces, as for
+    /// WebAssembly.
     pub fn vox_suggest_cell_size(
         desc: *const vox_suggest_desc,
         meshes: *const vox_mesh_desc,
@@ -3259,9 +3267,9 @@ extern "C" {
         out: *mut vox_foreign_suggestion,
     ) -> vox_result;
     /// Writes the fields that out_counters->struct_size covers (set it first).
-    pub fn vox_surface_get_counters(
+    pub fn vox_surface_counters(
         surface: *const vox_surface,
-        out_counters: *mut vox_surface_counters,
+        out_counters: *mut vox_pair_counters,
     ) -> vox_result;
     /// All edges and faces that have a point in common and no vertex, at the end of the motion: whether the surface is
     /// free of intersections, and where it is not. Decided exactly. Patches rule out pairs as for vox_surface_pairs;
@@ -3795,7 +3803,7 @@ layouts! {
         component_byte_stride: [48, 40], radius: [56, 48] }
     vox_pair_lists: size [48, 40], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], first: [8, 8],
         count: [16, 16], pair_count: [24, 24], offsets: [32, 32], partners: [40, 36] }
-    vox_surface_counters: size [72, 72], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], cell_size: [8, 8],
+    vox_pair_counters: size [72, 72], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], cell_size: [8, 8],
         cells: [16, 16], tile_pairs: [24, 24], boxes_compared: [32, 32], overlaps: [40, 40], culled: [48, 48],
         bytes: [56, 56], peak_bytes: [64, 64] }
     vox_crossing: size [80, 80], alignment [8, 8], { edge: [0, 0], face: [4, 4], kind: [8, 8], reserved: [12, 12],
