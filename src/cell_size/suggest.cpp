@@ -238,8 +238,9 @@ vox_suggestion suggest_by(const vox_suggest_desc& desc, const Geometry& geometry
     // Sizes between those of the search may cost a little less.
     const CostFunction curve = [&](double log_size) { return std::max(cost(log_size), best.cost); };
     vox_suggestion result{};
-    write(result, desc, geometry, best, zone_around(best, (1 + desc.zone_loss) * best.cost, curve, range, fineness),
-          curve, terms(best.cell_size));
+    write(result, desc, geometry, best,
+          zone_around(best, (1 + desc.zone_loss) * best.cost, curve, {range.min / 8, range.max * 8}, fineness), curve,
+          terms(best.cell_size));
     return result;
 }
 

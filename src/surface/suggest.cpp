@@ -114,7 +114,7 @@ public:
     CellSizeRange range() {
         const vox_foreign_suggestion of_edges = suggest_for(edges_->grid, edges_->work),
                                      of_faces = suggest_for(faces_->grid, faces_->work);
-        return {std::min(of_edges.zone_min, of_faces.zone_min) / 8, std::max(of_edges.zone_max, of_faces.zone_max) * 8};
+        return {std::min(of_edges.zone_min, of_faces.zone_min), std::max(of_edges.zone_max, of_faces.zone_max)};
     }
 
     CostTerms terms(double cell_size) {

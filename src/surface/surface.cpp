@@ -57,6 +57,7 @@ void vox_surface::move(const vox_motion& motion) {
                motion.format == VOX_FORMAT_DOUBLE3, (motion.flags & VOX_MOTION_CULL) != 0};
     has_motion_ = true;
     search_.forget_boxes();
+    piece_ = {};
     answer_.count = 0;
     crossings_.clear();
     timed_.clear();
@@ -85,9 +86,14 @@ void vox_surface::find_pairs(const SurfaceMotion& motion, vox_feature a, vox_fea
 
 void vox_surface::find_fitting(const SurfaceMotion& motion, vox_feature a, vox_feature b, std::uint32_t first,
                                std::uint32_t count, FeaturePairs& out) {
-    for (std::uint32_t wanted = count;; wanted = wanted / 2 + wanted % 2) {
+    // Where the last answer was cut short, and this one goes on from there, about as many will fit.
+    const bool goes_on = piece_.count > 0 && piece_.a == a && piece_.b == b && piece_.first + piece_.count == first;
+    const std::uint32_t first_try = goes_on && piece_.count < count / 2 ? 2 * piece_.count : count;
+    piece_ = {};
+    for (std::uint32_t wanted = first_try;; wanted = wanted / 2 + wanted % 2) {
         try {
             find_pairs(motion, a, b, first, wanted, out);
+            if (wanted < count) piece_ = {a, b, first, wanted};
             return;
         } catch (const Error& error) {
             if (error.result() != VOX_ERROR_BUDGET || wanted <= 1) throw;

@@ -72,6 +72,11 @@ private:
     std::array<std::pmr::vector<vox::Vec3d>, 2> positions_; // at time 0 and 1; the latter empty: stands still
     vox::SurfaceMotion motion_;
     vox::PairSearch search_;
+    struct Piece {
+        vox_feature a, b;
+        std::uint32_t first, count; // count 0: none
+    };
+    Piece piece_{}; // the last answer, where not all of what was asked fitted
     vox::FeaturePairs answer_;
     vox::FeaturePairs candidates_; // of what is asked beside the pairs, a range at a time
     std::pmr::vector<vox_crossing> crossings_;

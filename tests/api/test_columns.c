@@ -379,8 +379,8 @@ START_TEST(strides_that_are_refused) {
         uint64_t stride, component, count;
         const char* words;
     } bad[] = {{VOX_FORMAT_FLOAT3, 0, 396, 100, "overlap; columns need at least 400"},
-               {VOX_FORMAT_FLOAT3, 0, 1, 100, "position_component_byte_stride is 1"},
-               {VOX_FORMAT_DOUBLE3, 0, 4, 100, "position_component_byte_stride is 4"},
+               {VOX_FORMAT_FLOAT3, 0, 1, 100, "component_byte_stride is 1"},
+               {VOX_FORMAT_DOUBLE3, 0, 4, 100, "component_byte_stride is 4"},
                {VOX_FORMAT_DOUBLE3, 16, 16, 100, "overlap"},
                {VOX_FORMAT_DOUBLE3, 4, 800, 100, "is 4, expected 0 or at least 8"},
                {VOX_FORMAT_DOUBLE3, 0, 1ull << 62, 100, "too large"},

@@ -121,7 +121,8 @@ END_TEST
 START_TEST(each_allocation_of_a_suggestion) {
     const Scene scene;
     const vox_mesh_desc meshes[] = {body_desc(&scene.box), body_desc(&scene.other)};
-    for (const vox_cost_model model : {VOX_COST_MODEL_PAPER, VOX_COST_MODEL_REFERENCE, VOX_COST_MODEL_FAST})
+    for (const vox_cost_model model :
+         {VOX_COST_MODEL_PAPER, VOX_COST_MODEL_REFERENCE, VOX_COST_MODEL_FAST, VOX_COST_MODEL_SURFACE})
         heap::fail_each([&](heap::Life& life) {
             vox_suggest_desc desc = vox_default_suggest_desc();
             desc.model = model;

@@ -152,7 +152,7 @@ END_TEST
 START_TEST(capacities) {
     body box = make_box(3, 1, 0, 0, 0);
     const vox_mesh_desc mesh = body_desc(&box);
-    for (int model = VOX_COST_MODEL_PAPER; model <= VOX_COST_MODEL_FAST; ++model) {
+    for (int model = VOX_COST_MODEL_PAPER; model <= VOX_COST_MODEL_SURFACE; ++model) {
         vox_suggest_desc desc = vox_default_suggest_desc();
         vox_suggestion found;
         memset(&found, 0, sizeof found);

@@ -46,7 +46,7 @@ START_TEST(refused) {
     ck_fails(vox_mesh_bind_positions(grid, mesh, s.bytes, VOX_FORMAT_DOUBLE3, 12), VOX_ERROR_INVALID_ARGUMENT,
              "is 12, expected 0 or at least 24");
     ck_fails(vox_mesh_bind_positions(grid, mesh, s.bytes, (vox_format)7, 0), VOX_ERROR_INVALID_ARGUMENT,
-             "position_format is 7");
+             "format is 7");
     void* mapped = NULL;
     uint64_t stride = 5;
     ck_fails(vox_mesh_map_positions(NULL, mesh, &mapped, &stride), VOX_ERROR_INVALID_ARGUMENT,

@@ -2,6 +2,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 #include <vox/vox_pairs.h>
 
@@ -112,10 +113,19 @@ START_TEST(motions_that_are_refused) {
     ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "flags");
     bad = good;
     bad.format = (vox_format)7;
-    ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "7");
+    ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "format is 7");
+    ck_assert_ptr_null(strstr(vox_last_error(), "position_")); /* so do fields of vox_mesh_desc begin */
     bad = good;
     bad.byte_stride = 23;
-    ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "23");
+    ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "byte_stride is 23, expected 0 or at least 24");
+    ck_assert_ptr_null(strstr(vox_last_error(), "position_"));
+    bad = good;
+    bad.component_byte_stride = 40;
+    ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "component_byte_stride is 40");
+    ck_assert_ptr_null(strstr(vox_last_error(), "position_"));
+    bad = good;
+    bad.byte_stride = UINT64_MAX / 2;
+    ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "too large for 6 vertices");
     const double radii[] = {-1, NAN};
     for (int i = 0; i < 2; ++i) {
         bad = good;
@@ -308,10 +318,96 @@ START_TEST(no_memory_in_the_steady_state) {
 }
 END_TEST
 
+static vox_pair_counters counters_of_surface(const vox_surface* surface) {
+    vox_pair_counters counters;
+    counters.struct_size = sizeof counters;
+    ck_ok(vox_surface_counters(surface, &counters));
+    return counters;
+}
+
+static vox_surface* many_in_one_place(uint64_t vertices, uint64_t byte_budget) {
+    float* at = (float*)calloc(3 * vertices, sizeof *at);
+    vox_surface_desc desc = desc_of(vertices, NULL, 0);
+    desc.byte_budget = byte_budget;
+    vox_surface* const surface = surface_from(&desc);
+    vox_motion motion = vox_default_motion();
+    motion.from = at;
+    motion.vertex_count = vertices;
+    ck_ok(vox_surface_move(surface, &motion));
+    free(at);
+    return surface;
+}
+
+/* What answers as a whole says that it does not fit, with numbers; what was answered before, and the pairs in ranges, are
+ * still to be had. */
+START_TEST(answers_beyond_the_budget) {
+    enum { n = 3000 };
+    vox_surface* const surface = many_in_one_place(n, 4 << 20);
+    vox_close_view close;
+    close.struct_size = sizeof close;
+    close.count = 77;
+    ck_fails(vox_surface_close(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 1, &close), VOX_ERROR_BUDGET, "4194304");
+    ck_assert_uint_eq(close.count, 77);
+    uint64_t pairs = 0;
+    for (uint64_t first = 0; first < n;) {
+        vox_pair_lists lists;
+        lists.struct_size = sizeof lists;
+        ck_ok(vox_surface_pairs(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, first, UINT64_MAX, &lists));
+        ck_assert_uint_gt(lists.count, 0);
+        ck_assert_uint_le(counters_of_surface(surface).peak_bytes, 4 << 20);
+        pairs += lists.pair_count;
+        first += lists.count;
+    }
+    ck_assert_uint_eq(pairs, n * (n - 1) / 2);
+    vox_surface_destroy(surface);
+
+    /* Less than the list of one feature takes. */
+    vox_surface* const tight = many_in_one_place(n, 500 << 10);
+    vox_pair_lists lists;
+    lists.struct_size = sizeof lists;
+    const vox_result result = vox_surface_pairs(tight, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, 1, &lists);
+    if (result != VOX_OK) {
+        ck_assert_int_eq(result, VOX_ERROR_BUDGET);
+        ck_assert_ptr_nonnull(strstr(vox_last_error(), "512000"));
+    }
+    ck_assert_uint_le(counters_of_surface(tight).peak_bytes, 500 << 10);
+    vox_surface_destroy(tight);
+}
+END_TEST
+
+/* More pairs than 32 bits hold are had in ranges. */
+START_TEST(a_thousand_million_pairs) {
+    const uint64_t n = 45000, all = n * (n - 1) / 2; /* 1,012,477,500 */
+    vox_surface* const surface = many_in_one_place(n, 64 << 20);
+    const uint64_t firsts[] = {0, n / 2, n - 300};
+    for (int i = 0; i < 3; ++i) {
+        const uint64_t first = firsts[i];
+        vox_pair_lists lists;
+        lists.struct_size = sizeof lists;
+        ck_ok(vox_surface_pairs(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, first, UINT64_MAX, &lists));
+        ck_assert_uint_gt(lists.count, 100);
+        ck_assert_uint_eq(lists.count == n - first, i == 2);
+        for (uint64_t v = 0; v < lists.count; ++v) {
+            ck_assert_uint_eq(lists.offsets[v + 1] - lists.offsets[v], n - 1 - (first + v));
+            if (first + v + 1 == n) continue;
+            ck_assert_uint_eq(lists.partners[lists.offsets[v]], first + v + 1);
+            ck_assert_uint_eq(lists.partners[lists.offsets[v + 1] - 1], n - 1);
+        }
+        if (i == 0) ck_assert_uint_lt(lists.pair_count, all);
+    }
+    ck_assert_uint_le(counters_of_surface(surface).peak_bytes, 64 << 20);
+    vox_close_view close;
+    close.struct_size = sizeof close;
+    ck_fails(vox_surface_close(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, &close), VOX_ERROR_BUDGET, "67108864");
+    vox_surface_destroy(surface);
+}
+END_TEST
+
 int main(void) {
     Suite* suite = suite_create("surfaces");
+    tcase_add_test(add_tagged_case(suite, "many", "large"), a_thousand_million_pairs);
     TCase* tests = add_case(suite, "surfaces");
     tcase_add_each(tests, descriptions_that_are_refused, motions_that_are_refused, questions_that_are_refused, degenerate_scenes,
-                   patches_that_do_not_meet, memory_that_runs_out, no_memory_in_the_steady_state);
+                   patches_that_do_not_meet, memory_that_runs_out, no_memory_in_the_steady_state, answers_beyond_the_budget);
     return run_suite(suite);
 }
