@@ -4,7 +4,10 @@ include(CMakePackageConfigHelpers)
 install(TARGETS vox EXPORT voxTargets
   LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
   RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(FILES include/vox/vox.h include/vox/vox.hpp include/vox/vox_pairs.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vox)
+install(FILES include/vox/vox.h include/vox/vox.hpp include/vox/vox_pairs.h include/vox/vox_pairs.hpp
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vox)
+# #include <vox/adapters/ipc_broad_phase.hpp>
+install(FILES adapters/ipc_broad_phase.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vox/adapters)
 if(VOX_BUILD_IO)
   install(TARGETS vox_io EXPORT voxTargets
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}

@@ -134,6 +134,8 @@ const char* model_name(vox_cost_model model) {
         return "reference";
     case VOX_COST_MODEL_FAST:
         return "fast";
+    case VOX_COST_MODEL_SURFACE:
+        return "surface";
     case VOX_COST_MODEL_FORCE_32_BITS:
         break;
     }

@@ -35,7 +35,7 @@ void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>
 Json margin_contacts(const vox_grid* grid, const std::vector<vox_mesh>& ids);
 Json passages(const vox_grid* grid, const std::vector<vox_mesh>& ids);
 
-// Returns "paper", "reference" or "fast".
+// Returns "paper", "reference", "fast" or "surface".
 const char* model_name(vox_cost_model model);
 
 // Returns "surface", "propagated", "enclosed", "crossing", "coincident" or "unknown".

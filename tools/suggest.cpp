@@ -25,8 +25,10 @@ struct Options {
     ForeignOptions foreign;
 };
 
-const Choices<vox_cost_model> models = {
-    {"paper", VOX_COST_MODEL_PAPER}, {"reference", VOX_COST_MODEL_REFERENCE}, {"fast", VOX_COST_MODEL_FAST}};
+const Choices<vox_cost_model> models = {{"paper", VOX_COST_MODEL_PAPER},
+                                        {"reference", VOX_COST_MODEL_REFERENCE},
+                                        {"fast", VOX_COST_MODEL_FAST},
+                                        {"surface", VOX_COST_MODEL_SURFACE}};
 const Choices<vox_size_reading> size_readings = {{"mean-edge", VOX_SIZE_MEAN_EDGE},
                                                  {"mean-longest-edge", VOX_SIZE_MEAN_LONGEST_EDGE},
                                                  {"mean-box-side", VOX_SIZE_MEAN_BOX_SIDE}};
@@ -36,7 +38,9 @@ const Choices<vox_area_reading> area_readings = {{"unique-facets", VOX_AREA_UNIQ
 
 std::string model_words(vox_cost_model model) {
     return model == VOX_COST_MODEL_PAPER ? "cost model of the paper"
-                                         : "cost model of the " + std::string(model_name(model)) + " engine";
+           : model == VOX_COST_MODEL_SURFACE
+               ? "cost model of surface pairs"
+               : "cost model of the " + std::string(model_name(model)) + " engine";
 }
 
 void print_rule(const char* name, double cell_size, double cost, const vox_suggestion& found,
@@ -102,6 +106,8 @@ void print_text(const vox_suggestion& found, std::size_t mesh_count) {
     std::printf("%.4g cells along an edge of the world; predicted cost ", found.cells_per_axis);
     if (found.model == VOX_COST_MODEL_PAPER)
         std::printf("%.4g cell visits a tetrahedron.\n", found.predicted_cost);
+    else if (found.model == VOX_COST_MODEL_SURFACE)
+        std::printf("%.4g ms a search, of the grid alone.\n", found.predicted_cost * 1e-6);
     else
         std::printf("%.4g ms a step.\n", found.predicted_cost * 1e-6);
 }
@@ -114,6 +120,8 @@ void run(const Options& options) {
     for (const std::string& file : options.files) bodies.push_back(load_body(file, {}, options.fill));
     const bool has_tets =
         std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.view.tet_count > 0; });
+    if (!has_tets && options.desc.model == VOX_COST_MODEL_SURFACE)
+        throw Failure("--model surface is for the surfaces of tetrahedra, and there are none");
     if (options.foreign.any() || !has_tets) // nothing that a grid of vox's own could be tuned for
         return suggest_foreign(options.foreign, bodies, options.desc.zone_loss, options.svg, options.json);
     for (const Body& body : bodies) meshes.push_back(mesh_desc(body));

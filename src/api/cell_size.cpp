@@ -85,7 +85,8 @@ bool is_of_surfaces(const vox_suggest_desc& settings) {
 }
 
 vox_suggestion suggestion(const vox_suggest_desc& settings, CellSizeScene& scene) {
-    return is_of_surfaces(settings) ? suggest_for_surfaces(settings, scene) : suggest(settings, scene, weights_in_use());
+    return is_of_surfaces(settings) ? suggest_for_surfaces(settings, scene)
+                                    : suggest(settings, scene, weights_in_use());
 }
 
 void check_cells(double cells, const char* name) {

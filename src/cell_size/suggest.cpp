@@ -231,16 +231,18 @@ vox_cost_prediction predict(const vox_suggest_desc& desc, CellSizeScene& scene,
 }
 
 vox_suggestion suggest_by(const vox_suggest_desc& desc, const Geometry& geometry,
-                          const std::function<CostTerms(double cell_size)>& terms, const CellSizeRange& range) {
+                          const std::function<CostTerms(double cell_size)>& terms,
+                          const CellSizeRange& range) {
     const Fineness fineness{.tolerance = near};
     const CostFunction cost = [&](double log_size) { return terms(std::exp2(log_size)).cost(); };
     const CostMinimum best = minimise(cost, range, fineness);
     // Sizes between those of the search may cost a little less.
     const CostFunction curve = [&](double log_size) { return std::max(cost(log_size), best.cost); };
     vox_suggestion result{};
-    write(result, desc, geometry, best,
-          zone_around(best, (1 + desc.zone_loss) * best.cost, curve, {range.min / 8, range.max * 8}, fineness), curve,
-          terms(best.cell_size));
+    write(
+        result, desc, geometry, best,
+        zone_around(best, (1 + desc.zone_loss) * best.cost, curve, {range.min / 8, range.max * 8}, fineness),
+        curve, terms(best.cell_size));
     return result;
 }
 

@@ -27,8 +27,8 @@ Positions check_positions(const void* data, vox_format position_format, std::uin
     constexpr std::uint64_t most_bytes = std::numeric_limits<std::ptrdiff_t>::max();
     if (vertex_count > 0 && stride > most_bytes / vertex_count)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%sbyte_stride is %" PRIu64 ", too large for %" PRIu64 " vertices", prefix,
-                           stride, vertex_count));
+                    format("%sbyte_stride is %" PRIu64 ", too large for %" PRIu64 " vertices", prefix, stride,
+                           vertex_count));
     if (component > most_bytes / 4 ||
         (vertex_count > 0 && stride > (most_bytes - 2 * component) / vertex_count))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
@@ -37,16 +37,15 @@ Positions check_positions(const void* data, vox_format position_format, std::uin
                            prefix, component, vertex_count, stride));
     const std::uint64_t least = together ? 3 * number : number;
     if (stride < least && (together || vertex_count > 1))
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%sbyte_stride is %" PRIu64 ", expected 0 or at least %" PRIu64, prefix,
-                           stride, least));
+        throw Error(
+            VOX_ERROR_INVALID_ARGUMENT,
+            format("%sbyte_stride is %" PRIu64 ", expected 0 or at least %" PRIu64, prefix, stride, least));
     const bool rows = stride >= 2 * component + number;
     const bool columns = vertex_count <= 1 || component >= (vertex_count - 1) * stride + number;
     if (component < number || (!rows && !columns))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%scomponent_byte_stride is %" PRIu64
-                           ": with a byte stride of %" PRIu64 ", %" PRIu64
-                           " positions would overlap; columns need at least %" PRIu64,
+                    format("%scomponent_byte_stride is %" PRIu64 ": with a byte stride of %" PRIu64
+                           ", %" PRIu64 " positions would overlap; columns need at least %" PRIu64,
                            prefix, component, stride, vertex_count, vertex_count * stride));
     return {.data = static_cast<const std::byte*>(data),
             .byte_stride = static_cast<std::size_t>(stride),

@@ -19,8 +19,8 @@ namespace vox {
 
 namespace {
 
-// Nanoseconds, estimates: the time of a search is nearly all in comparing features, so the cells' own share is hard to
-// measure, and what its minimum is off by costs little (bench/surface/pairs.py --sweep).
+// Nanoseconds, estimates: the time of a search is nearly all in comparing features, so the cells' own share
+// is hard to measure, and what its minimum is off by costs little (bench/surface/pairs.py --sweep).
 constexpr vox_grid_weights tile_weights{0, 12, 6, 2, 2, 2, 0};
 
 vox_primitives boxes_as_primitives(const std::pmr::vector<Box>& boxes) {
@@ -60,7 +60,8 @@ private:
 
 // The surfaces of bodies as one: the facets that no two tetrahedra share, with the vertices that they name.
 struct CommonSurface {
-    CommonSurface(std::span<const Body> bodies, std::pmr::memory_resource* memory) : positions(memory), faces(memory) {
+    CommonSurface(std::span<const Body> bodies, std::pmr::memory_resource* memory)
+        : positions(memory), faces(memory) {
         for (const Body& body : bodies) add(body);
     }
 
@@ -86,7 +87,8 @@ private:
     }
 };
 
-// What the searches of a surface that stands still do with their cells: edges with edges, faces with vertices.
+// What the searches of a surface that stands still do with their cells: edges with edges, faces with
+// vertices.
 class SurfaceModel {
 public:
     SurfaceModel(std::span<const Body> bodies, std::pmr::memory_resource* memory)
@@ -114,7 +116,8 @@ public:
     CellSizeRange range() {
         const vox_foreign_suggestion of_edges = suggest_for(edges_->grid, edges_->work),
                                      of_faces = suggest_for(faces_->grid, faces_->work);
-        return {std::min(of_edges.zone_min, of_faces.zone_min), std::max(of_edges.zone_max, of_faces.zone_max)};
+        return {std::min(of_edges.zone_min, of_faces.zone_min),
+                std::max(of_edges.zone_max, of_faces.zone_max)};
     }
 
     CostTerms terms(double cell_size) {
@@ -137,8 +140,10 @@ private:
 };
 
 void check_size(const vox_geometry_stats& stats) {
-    if (stats.tets == 0) refuse(format("no tetrahedra: %" PRIu64 " vertices alone give no surface", stats.vertices));
-    if (!(stats.mean_box_side > 0)) refuse(format("%" PRIu64 " tets of no size: mean box side 0", stats.tets));
+    if (stats.tets == 0)
+        refuse(format("no tetrahedra: %" PRIu64 " vertices alone give no surface", stats.vertices));
+    if (!(stats.mean_box_side > 0))
+        refuse(format("%" PRIu64 " tets of no size: mean box side 0", stats.tets));
 }
 
 } // namespace
@@ -153,10 +158,12 @@ vox_suggestion suggest_for_surfaces(const vox_suggest_desc& desc, CellSizeScene&
     scene.prepare(desc.model); // finds positions that are not finite
     check_size(scene.geometry.stats);
     SurfaceModel model(scene.bodies, scene.memory);
-    return suggest_by(desc, scene.geometry, [&](double cell_size) { return model.terms(cell_size); }, model.range());
+    return suggest_by(
+        desc, scene.geometry, [&](double cell_size) { return model.terms(cell_size); }, model.range());
 }
 
-vox_cost_prediction predict_for_surfaces(const vox_suggest_desc& desc, CellSizeScene& scene, double cell_size) {
+vox_cost_prediction predict_for_surfaces(const vox_suggest_desc& desc, CellSizeScene& scene,
+                                         double cell_size) {
     scene.prepare(desc.model);
     check_size(scene.geometry.stats);
     SurfaceModel model(scene.bodies, scene.memory);

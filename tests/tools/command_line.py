@@ -218,10 +218,12 @@ class CommandLine(Files):
             self.assertEqual(found["zone"], {"min": None, "max": None})
         self.refused(1, "nothing collides", "suggest", self.one, "--model", "fast", "--svg",
                      self.path("none.svg"))
-        for model in "paper", "reference":  # these cost something even then
+        for model in "paper", "reference", "surface":  # these cost something even then
             self.assertIsNotNone(run_json("suggest", self.one, "--model", model)["zone"]["min"])
 
     def test_suggest(self):
+        self.assertEqual(run_json("suggest", self.two, "--model", "surface")["model"], "surface")
+        self.assertRegex(run("suggest", self.two, "--model", "surface").stdout.decode(), "ms a search, of the grid alone")
         found = run_json("suggest", self.two, self.one, "--world", 8, "--factor", 3, "--resolution", 0.25)
         for key in SUGGEST_KEYS:
             self.assertIn(key, found)

@@ -20,6 +20,8 @@ pub enum CostModel {
     Reference,
     /// The fast engine's, with one cell size in all windows, in nanoseconds.
     Fast,
+    /// That of the surfaces of the meshes, as `vox_pairs.h` has them, in nanoseconds of their grid alone.
+    Surface,
 }
 
 /// How a cell size is chosen; `vox_suggest_desc` in vox.h explains each field.
@@ -78,6 +80,7 @@ impl SuggestOptions {
             CostModel::Paper => sys::VOX_COST_MODEL_PAPER,
             CostModel::Reference => sys::VOX_COST_MODEL_REFERENCE,
             CostModel::Fast => sys::VOX_COST_MODEL_FAST,
+            CostModel::Surface => sys::VOX_COST_MODEL_SURFACE,
         };
         desc.storage = match self.storage {
             Storage::Auto => sys::VOX_STORAGE_AUTO,

@@ -1,0 +1,169 @@
+// vox_pairs.hpp: vox_pairs.h for C++17 and later, under the rules of vox.hpp. Every function here stands for the one of
+// vox_pairs.h that its comment names. Experimental, as that is.
+#ifndef VOX_VOX_PAIRS_HPP
+#define VOX_VOX_PAIRS_HPP
+
+#include <vox/vox.hpp>
+#include <vox/vox_pairs.h>
+
+namespace vox {
+inline namespace VOX_HPP_MODE {
+
+// The partners of features first, first + 1, ...: of feature first + i they are lists[i]. It ends where vox_pair_lists
+// does: with the next search for pairs, the next motion and the surface. Nothing checks that.
+class pair_lists {
+public:
+    explicit pair_lists(const vox_pair_lists& raw) noexcept : raw_(raw) {}
+    std::uint64_t first() const noexcept { return raw_.first; }
+    std::size_t size() const noexcept { return static_cast<std::size_t>(raw_.count); } // features answered
+    std::uint64_t pair_count() const noexcept { return raw_.pair_count; }
+    span<const std::uint32_t> operator[](std::size_t i) const noexcept {
+        const std::uint64_t begin = raw_.offsets[i];
+        return {raw_.partners + begin, static_cast<std::size_t>(raw_.offsets[i + 1] - begin)};
+    }
+    span<const std::uint64_t> offsets() const noexcept { return {raw_.offsets, size() + 1}; }
+    span<const std::uint32_t> partners() const noexcept {
+        return {raw_.partners, static_cast<std::size_t>(raw_.pair_count)};
+    }
+
+private:
+    vox_pair_lists raw_;
+};
+
+// vox_surface. Move-only; its destructor is vox_surface_destroy. One that was moved from is null: calls fail. What it
+// hands out as spans and lists lives as vox_pairs.h says of the views.
+class surface {
+public:
+#if VOX_HPP_THROWS
+    explicit surface(const vox_surface_desc& desc) : surface(create(desc)) {}
+    surface(std::uint64_t vertex_count, span<const std::uint32_t> faces) : surface(create(vertex_count, faces)) {}
+#endif
+    // vox_surface_create
+    static returns<surface> create(const vox_surface_desc& desc) {
+        vox_surface* raw = nullptr;
+        const vox_result result = vox_surface_create(&desc, &raw);
+        return detail::give(result, surface(raw));
+    }
+    // The same of faces, three vertices each; their edges follow from them.
+    static returns<surface> create(std::uint64_t vertex_count, span<const std::uint32_t> faces) {
+        vox_surface* raw = nullptr;
+        vox_surface_desc desc = vox_default_surface_desc();
+        desc.vertex_count = vertex_count;
+        desc.faces = faces.data();
+        desc.face_count = faces.size() / 3;
+        vox_result result = VOX_OK;
+        if (faces.size() % 3 != 0)
+            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "surface: %llu indices are not three for each face",
+                                  faces.size(), 0);
+        if (result == VOX_OK) result = vox_surface_create(&desc, &raw);
+        return detail::give(result, surface(raw));
+    }
+    // Takes over a surface made in C.
+    static surface adopt(vox_surface* raw) { return surface(raw); }
+    vox_surface* get() noexcept { return surface_.get(); }
+    const vox_surface* get() const noexcept { return surface_.get(); }
+
+    // vox_surface_features: the vertices of all edges or faces, one after the other
+    returns<span<const std::uint32_t>> features(vox_feature feature) const& {
+        vox_feature_view view = detail::sized<vox_feature_view>();
+        const vox_result result = vox_surface_features(get(), feature, &view);
+        const std::size_t size = result == VOX_OK ? static_cast<std::size_t>(view.count * view.vertices_each) : 0;
+        return detail::give(result, span<const std::uint32_t>(view.vertices, size));
+    }
+    void features(vox_feature) const&& = delete;
+    // vox_surface_move
+    returns<void> move(const vox_motion& motion) { return detail::give(vox_surface_move(get(), &motion)); }
+    // The same, standing still, and from one place to another. Positions are what vox::points takes, and are copied.
+    returns<void> move(const points& at, double radius = 0, std::uint32_t flags = 0) {
+        return moved(at, nullptr, radius, flags);
+    }
+    returns<void> move(const points& from, const points& to, double radius = 0, std::uint32_t flags = 0) {
+        return moved(from, &to, radius, flags);
+    }
+    // vox_surface_pairs
+    returns<pair_lists> pairs(vox_feature a, vox_feature b, std::uint64_t first = 0,
+                              std::uint64_t count = std::numeric_limits<std::uint64_t>::max()) & {
+        vox_pair_lists lists = detail::sized<vox_pair_lists>();
+        const vox_result result = vox_surface_pairs(get(), a, b, first, count, &lists);
+        return detail::give(result, pair_lists(lists));
+    }
+    // vox_surface_set_cell_size
+    returns<void> set_cell_size(double size) { return detail::give(vox_surface_set_cell_size(get(), size)); }
+    // vox_surface_suggest_cell_size
+    returns<vox_foreign_suggestion> suggest_cell_size(vox_feature a, vox_feature b) {
+        return detail::filled<vox_foreign_suggestion>(vox_surface_suggest_cell_size, get(), a, b);
+    }
+    // vox_surface_counters
+    returns<vox_pair_counters> counters() const {
+        return detail::filled<vox_pair_counters>(vox_surface_counters, get());
+    }
+    // vox_surface_crossings
+    returns<view<const vox_crossing>> crossings() & {
+        vox_crossing_view found = detail::sized<vox_crossing_view>();
+        const vox_result result = vox_surface_crossings(get(), &found);
+        return detail::give(result, seen(found.crossings, found));
+    }
+    // vox_surface_close
+    returns<view<const vox_close_pair>> close(vox_feature a, vox_feature b, double distance) & {
+        vox_close_view found = detail::sized<vox_close_view>();
+        const vox_result result = vox_surface_close(get(), a, b, distance, &found);
+        return detail::give(result, seen(found.pairs, found));
+    }
+    // vox_surface_clearance; `per_vertex` has a number for each vertex.
+    returns<void> clearance(double most, span<double> per_vertex) {
+        return detail::give(vox_surface_clearance(get(), most, per_vertex.data(), per_vertex.size()));
+    }
+    // vox_surface_safe_step
+    returns<vox_safe_step> safe_step(const vox_contact_time_desc& desc = vox_default_contact_time_desc()) {
+        return detail::filled<vox_safe_step>(vox_surface_safe_step, get(), &desc);
+    }
+    // vox_surface_contact_times
+    returns<view<const vox_timed_pair>>
+    contact_times(vox_feature a, vox_feature b,
+                  const vox_contact_time_desc& desc = vox_default_contact_time_desc()) & {
+        vox_timed_view found = detail::sized<vox_timed_view>();
+        const vox_result result = vox_surface_contact_times(get(), a, b, &desc, &found);
+        return detail::give(result, seen(found.pairs, found));
+    }
+
+private:
+    struct deleter {
+        void operator()(vox_surface* raw) const noexcept { vox_surface_destroy(raw); }
+    };
+    explicit surface(vox_surface* raw) noexcept : surface_(raw) {}
+
+    template <class T, class V>
+    static view<const T> seen(const T* data, const V& found) {
+        return view<const T>(data, found.byte_stride, static_cast<std::size_t>(found.count));
+    }
+    returns<void> moved(const points& from, const points* to, double radius, std::uint32_t flags) {
+        vox_motion motion = vox_default_motion();
+        motion.flags = flags;
+        motion.from = from.data;
+        motion.to = to ? to->data : nullptr;
+        motion.vertex_count = from.count;
+        motion.format = from.format;
+        motion.byte_stride = from.byte_stride;
+        motion.component_byte_stride = from.component_byte_stride;
+        motion.radius = radius;
+        vox_result result = from.misfit.result();
+        if (result == VOX_OK && to) result = to->misfit.result();
+        if (result == VOX_OK && to && to->count != from.count)
+            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "move: from has %llu positions, to has %llu", from.count,
+                                  to->count);
+        if (result == VOX_OK && to &&
+            (to->format != from.format || to->byte_stride != from.byte_stride ||
+             to->component_byte_stride != from.component_byte_stride))
+            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT,
+                                  "move: from and to differ in their format or in their strides, %llu and %llu bytes",
+                                  from.byte_stride, to->byte_stride);
+        if (result == VOX_OK) result = vox_surface_move(get(), &motion);
+        return detail::give(result);
+    }
+    std::unique_ptr<vox_surface, deleter> surface_;
+};
+
+} // namespace VOX_HPP_MODE
+} // namespace vox
+
+#endif
