@@ -1,6 +1,6 @@
 // vox as a broad phase of IPC Toolkit (https://github.com/ipc-sim/ipc-toolkit, 1.6). Header only; link vox::vox.
 //
-//     #include <ipc_broad_phase.hpp>
+//     #include <vox/adapters/ipc_broad_phase.hpp>
 //     ipc::Candidates candidates;
 //     vox::IpcBroadPhase broad_phase(/*cull=*/true);
 //     candidates.build(mesh, vertices_t0, vertices_t1, inflation_radius, &broad_phase);

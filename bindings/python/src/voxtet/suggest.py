@@ -237,7 +237,7 @@ def suggest_cell_size(positions: Any, tets: Optional[ArrayLike] = None, *, model
                       self_collision: bool = False, **options: Any) -> Suggestion:
     """The cell size that minimises a cost model for a mesh, or for several: `suggest_cell_size([(p, t), (q, u)])`.
 
-    model: "paper", "reference" or "fast". options: the other fields of vox_suggest_desc, e.g. zone_loss, p_nc,
+    model: "paper", "reference", "fast" or "surface". options: the other fields of vox_suggest_desc, e.g. zone_loss, p_nc,
     size_reading="mean_edge".
 
     >>> import numpy as np
