@@ -199,8 +199,8 @@ export declare const CostModel: Readonly<{
   /** the fast engine with one cell size in all windows; in nanoseconds of a step */
   FAST: 2;
   /**
-   * the search of a vox_surface (vox_pairs.h) made of the meshes' surfaces for pairs of edges, and of faces and
-   * vertices; in nanoseconds, of its grid alone
+   * the searches of vox_pairs.h in the meshes' surfaces, for pairs of edges and of faces and vertices; in nanoseconds,
+   * of their grids alone
    */
   SURFACE: 3;
 }>;

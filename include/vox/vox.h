@@ -1577,8 +1577,8 @@ typedef enum vox_cost_model {
     VOX_COST_MODEL_PAPER = 0,     /* the paper's z(delta) (Sect. 4, Eqs. 3-8), from means; in cell visits */
     VOX_COST_MODEL_REFERENCE = 1, /* the reference engine, counted tet by tet; in nanoseconds of a step */
     VOX_COST_MODEL_FAST = 2,      /* the fast engine with one cell size in all windows; in nanoseconds of a step */
-    VOX_COST_MODEL_SURFACE = 3,   /* the search of a vox_surface (vox_pairs.h) made of the meshes' surfaces for pairs of
-                                     edges, and of faces and vertices; in nanoseconds, of its grid alone */
+    VOX_COST_MODEL_SURFACE = 3,   /* the searches of vox_pairs.h in the meshes' surfaces, for pairs of edges and of faces
+                                     and vertices; in nanoseconds, of their grids alone */
     VOX_COST_MODEL_FORCE_32_BITS = 0x7fffffff
 } vox_cost_model;
 
@@ -1711,9 +1711,9 @@ typedef struct vox_suggestion {
  * struct_size. Of their flags, only VOX_MESH_SELF_COLLISION is used, by REFERENCE and FAST. Errors name a mesh by its
  * index in the array and its user data. All tets and vertices are checked; the models look at samples of them
  * (docs/cell-size.md has times). Memory is from desc->allocator until the end of the call.
- * SURFACE suggests vox_surface_desc.cell_size for one surface of all meshes, standing still with the radius 0: the facets
+ * SURFACE suggests the cell size of one surface (vox_pairs.h) of all meshes, standing still with the radius 0: the facets
  * of exactly one enabled tetrahedron, duplicates counted once, their edges and their vertices. It reads all of them. For
- * surfaces without tetrahedra behind them, and for motions, there is vox_surface_suggest_cell_size.
+ * surfaces without tetrahedra behind them, and for motions, vox_pairs.h has a function of its own.
  * Errors: INVALID_ARGUMENT (also if there is no tetrahedron, or all have zero size; SURFACE: no such facet), INVALID_MESH,
  * NON_FINITE, LIMIT (SURFACE: a mesh of more than 357913941 tets), OUT_OF_MEMORY; UNSUPPORTED for SURFACE in a build
  * without surfaces, as for WebAssembly. */

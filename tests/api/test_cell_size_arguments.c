@@ -82,7 +82,7 @@ START_TEST(bad_enum) {
     } enums[] = {{offsetof(vox_suggest_desc, model), "model is"},
                  {offsetof(vox_suggest_desc, size_reading), "size_reading is"},
                  {offsetof(vox_suggest_desc, area_reading), "area_reading is"}};
-    static const int32_t values[] = {3, -1, INT_MAX, INT_MIN};
+    static const int32_t values[] = {4, -1, INT_MAX, INT_MIN};
     const vox_mesh_desc mesh = good_mesh();
     for (size_t e = 0; e < sizeof enums / sizeof enums[0]; ++e)
         for (size_t v = 0; v < sizeof values / sizeof values[0]; ++v) {

@@ -184,8 +184,8 @@ namespace Voxtet
         Reference = 1,
         /// <summary>the fast engine with one cell size in all windows; in nanoseconds of a step</summary>
         Fast = 2,
-        /// <summary>the search of a vox_surface (vox_pairs.h) made of the meshes' surfaces for pairs of edges, and of
-        /// faces and vertices; in nanoseconds, of its grid alone</summary>
+        /// <summary>the searches of vox_pairs.h in the meshes' surfaces, for pairs of edges and of faces and vertices;
+        /// in nanoseconds, of their grids alone</summary>
         Surface = 3,
     }
 

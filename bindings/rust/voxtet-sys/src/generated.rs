@@ -202,8 +202,8 @@ pub const VOX_COST_MODEL_PAPER: vox_cost_model = 0;
 pub const VOX_COST_MODEL_REFERENCE: vox_cost_model = 1;
 /// the fast engine with one cell size in all windows; in nanoseconds of a step
 pub const VOX_COST_MODEL_FAST: vox_cost_model = 2;
-/// the search of a vox_surface (vox_pairs.h) made of the meshes' surfaces for pairs of edges, and of faces and
-/// vertices; in nanoseconds, of its grid alone
+/// the searches of vox_pairs.h in the meshes' surfaces, for pairs of edges and of faces and vertices; in nanoseconds,
+/// of their grids alone
 pub const VOX_COST_MODEL_SURFACE: vox_cost_model = 3;
 
 /// How s, the size of a tetrahedron in Eq. 4, is measured.
@@ -3077,10 +3077,10 @@ extern "C" {
     /// meshes[0].struct_size bytes apart, a multiple of 8, and all have that struct_size. Of their flags, only
     /// VOX_MESH_SELF_COLLISION is used, by REFERENCE and FAST. Errors name a mesh by its index in the array and its
     /// user data. All tets and vertices are checked; the models look at samples of them (docs/cell-size.md has times).
-    /// Memory is from desc->allocator until the end of the call. SURFACE suggests vox_surface_desc.cell_size for one
-    /// surface of all meshes, standing still with the radius 0: the facets of exactly one enabled tetrahedron,
+    /// Memory is from desc->allocator until the end of the call. SURFACE suggests the cell size of one surface
+    /// (vox_pairs.h) of all meshes, standing still with the radius 0: the facets of exactly one enabled tetrahedron,
     /// duplicates counted once, their edges and their vertices. It reads all of them. For surfaces without tetrahedra
-    /// behind them, and for motions, there is vox_surface_suggest_cell_size. Errors: INVALID_ARGUMENT (also if there is
+    /// behind them, and for motions, vox_pairs.h has a function of its own. Errors: INVALID_ARGUMENT (also if there is
     /// no tetrahedron, or all have zero size; SURFACE: no such facet), INVALID_MESH, NON_FINITE, LIMIT (SURFACE: a mesh
     /// of more than 357913941 tets), OUT_OF_MEMORY; UNSUPPORTED for SURFACE in a build without surfaces, as for
     /// WebAssembly.
