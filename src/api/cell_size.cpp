@@ -22,10 +22,18 @@ using namespace vox;
 
 namespace {
 
+#if defined(VOX_WITHOUT_SURFACE_CONTACTS)
+constexpr bool has_surfaces = false;
+#else
+constexpr bool has_surfaces = true;
+#endif
+
 vox_suggest_desc read_suggest_desc(const vox_suggest_desc* desc) {
     vox_suggest_desc settings =
         desc ? read_struct(desc, suggest_defaults(), "vox_suggest_desc") : suggest_defaults();
     check_suggest_desc(settings);
+    if (!has_surfaces && settings.model == VOX_COST_MODEL_SURFACE)
+        throw Error(VOX_ERROR_UNSUPPORTED, "this build has no surfaces");
     check_allocator(settings.allocator, "desc.allocator");
     return settings;
 }
@@ -76,12 +84,7 @@ vox_cost_bounds read_bounds(const vox_cost_bounds* bounds) {
 
 // Whether the surfaces of the meshes are what is asked about.
 bool is_of_surfaces(const vox_suggest_desc& settings) {
-    if (settings.model != VOX_COST_MODEL_SURFACE) return false;
-#if defined(VOX_WITHOUT_SURFACE_CONTACTS)
-    throw Error(VOX_ERROR_UNSUPPORTED, "this build has no surfaces");
-#else
-    return true;
-#endif
+    return has_surfaces && settings.model == VOX_COST_MODEL_SURFACE;
 }
 
 vox_suggestion suggestion(const vox_suggest_desc& settings, CellSizeScene& scene) {

@@ -44,8 +44,8 @@ Positions check_positions(const void* data, vox_format position_format, std::uin
     const bool columns = vertex_count <= 1 || component >= (vertex_count - 1) * stride + number;
     if (component < number || (!rows && !columns))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%scomponent_byte_stride is %" PRIu64 ": with a byte stride of %" PRIu64
-                           ", %" PRIu64 " positions would overlap; columns need at least %" PRIu64,
+                    format("%scomponent_byte_stride is %" PRIu64 ", byte_stride %" PRIu64 ": %" PRIu64
+                           " positions would overlap; columns need at least %" PRIu64,
                            prefix, component, stride, vertex_count, vertex_count * stride));
     return {.data = static_cast<const std::byte*>(data),
             .byte_stride = static_cast<std::size_t>(stride),
@@ -76,7 +76,7 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
     if (desc.tet_count > VOX_MAX_TETS)
         throw Error(VOX_ERROR_LIMIT, format("%stet_count is %" PRIu64 ", the limit is %" PRIu32, where,
                                             desc.tet_count, VOX_MAX_TETS));
-    const std::string prefix = std::string(where) + "position_";
+    const std::string prefix = format("%sposition_", where);
     check_format(desc.position_format, prefix.c_str());
     const Positions positions =
         check_positions(desc.positions, desc.position_format, desc.position_byte_stride,

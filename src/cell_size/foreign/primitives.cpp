@@ -49,7 +49,7 @@ vox_primitives primitives_defaults() {
 
 Primitives::Primitives(const vox_primitives& desc, const char* where) : where_(where) {
     check_enum(desc.type, VOX_PRIMITIVE_BOX, format("%stype", where).c_str());
-    const std::string prefix = std::string(where) + "position_"; // of fields
+    const std::string prefix = format("%sposition_", where); // of fields
     check_format(desc.position_format, prefix.c_str());
     check_enum(desc.radius_format, VOX_FORMAT_DOUBLE3, format("%sradius_format", where).c_str());
     if (desc.count == 0) refuse(format("%scount is 0, expected at least one primitive", where));
