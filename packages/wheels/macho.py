@@ -52,7 +52,9 @@ class MachO:
 
 def main():
     folder = pathlib.Path(sys.argv[1])
-    functions = {header["name"]: {"_" + f["name"] for f in header["functions"]} for header in json.loads(API.read_text())["headers"]}
+    functions = {}  # of each library, which may have several headers
+    for header in json.loads(API.read_text())["headers"]:
+        functions.setdefault(header.get("library", header["name"]), set()).update("_" + f["name"] for f in header["functions"])
     libraries = sorted((folder / "lib").glob("*.dylib"))
     faults = [] if len(libraries) == len(functions) else [f"{len(libraries)} libraries, expected {len(functions)}"]
     for path in [*libraries, *sorted((folder / "bin").iterdir())]:
