@@ -264,7 +264,7 @@ START_TEST(every_build_moves_bodies_the_same) {
     vox_sim_body_desc like = vox_default_sim_body_desc();
     vox_io_mesh* mesh = NULL;
     vox_grid* grid = NULL;
-    uint64_t all = 0;
+    uint64_t all = 0, penetrations = 0;
     settings.substeps = 8;
     settings.detect_every = 4;
     like.density = 1000;
@@ -280,8 +280,9 @@ START_TEST(every_build_moves_bodies_the_same) {
         steps(sim, 1);
         ck_ok(vox_grid_hash(grid, &hash));
         all = (all ^ hash) * UINT64_C(0x100000001b3);
+        penetrations += counts(sim).penetrations;
     }
-    ck_assert_uint_gt(counts(sim).penetrations, 0);
+    ck_assert_uint_gt(penetrations, 0);
     ck_assert_uint_eq(all, UINT64_C(0xefb37fa33a9686af));
     vox_io_mesh_destroy(mesh);
     vox_sim_destroy(sim);
