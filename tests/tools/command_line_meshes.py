@@ -71,9 +71,9 @@ class Suggest(unittest.TestCase):
             stats = run_json("suggest", mesh(f"paper/{name}.msh"))["stats"]
             info = run_json("info", mesh(f"paper/{name}.msh"))["meshes"][0]
             self.assertEqual((stats["vertices"], stats["tets"]), (info["vertices"], info["tets"]))
-            # Above 5000 tetrahedra these are of samples.
-            for key in "mean_edge", "mean_longest_edge", "mean_facet_area", "mean_volume":
-                self.assertAlmostEqual(stats[key] / info[key], 1, delta=0.02)
+            # Above 5000 tetrahedra these are of samples. Volumes vary most.
+            for key, delta in ("mean_edge", 0.02), ("mean_longest_edge", 0.02), ("mean_facet_area", 0.02), ("mean_volume", 0.05):
+                self.assertAlmostEqual(stats[key] / info[key], 1, delta=delta)
             self.assertAlmostEqual(stats["boundary_facets"] / info["surface_triangles"], 1, delta=0.1)
 
 
