@@ -3,8 +3,6 @@
 #include "base/error.hpp"
 #include "base/llu.hpp"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <array>
 #include <bit>

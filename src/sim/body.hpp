@@ -1,9 +1,9 @@
 // A deformable body: the plain arrays of particles and constraints that the stages of a substep work on.
 #pragma once
 
-#include <vox/vox_sim.h>
+#include "base/eigen.hpp"
 
-#include <Eigen/Core>
+#include <vox/vox_sim.h>
 
 #include <cstdint>
 #include <memory>

@@ -1,7 +1,5 @@
 #include "sim/constraints.hpp"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -28,6 +28,8 @@ TOP_OF_SRC = {"CMakeLists.txt", "README.md", "vox.map"}
 MOST_LINES_OF_README = 80
 MOST_HEADERS_OF_MESH = 12
 
+EIGEN = "src/base/eigen.hpp"
+
 LEVEL = {folder: number for number, level in enumerate(LEVELS) for folder in level}
 INCLUDE = re.compile(r'^\s*#\s*(?:include|define\s+HWY_TARGET_INCLUDE)\s+"([^"]+)"', re.M)
 
@@ -81,6 +83,8 @@ def faults(root):
                 found.append(f"{place}: there is no such file in src/")
             elif not allowed(folder, name.split("/")[0]):
                 found.append(f"{place}: {folder}/ must not include {name.split('/')[0]}/")
+        if path != EIGEN and "#include <Eigen/" in text_of(path, root):
+            found.append(f"{path}: include Eigen by base/eigen.hpp, or bodies move by other bits")
     if os.path.exists(os.path.join(root, "src/mesh/mesh.hpp")):
         headers = reached("mesh/mesh.hpp", root)
         if len(headers) > MOST_HEADERS_OF_MESH:
@@ -151,6 +155,7 @@ class Faults(unittest.TestCase):
             ({"api/grid.cpp": '#include "error.hpp"\n'}, "name the file from src/"),
             ({"api/grid.cpp": '#include "base/missing.hpp"\n'}, "there is no such file"),
             ({"fast/engine.hpp": '#define HWY_TARGET_INCLUDE "grid/grid.hpp"\n'}, "fast/ must not include grid/"),
+            ({"sim/body.hpp": "#include <Eigen/Core>\n"}, "include Eigen by base/eigen.hpp"),
             ({"helpers.hpp": ""}, "src/helpers.hpp: only CMakeLists.txt"),
             ({"util/bits.hpp": ""}, "src/util/: a folder that"),
             ({"mesh/mesh.hpp": many, **headers}, "reaches 13 project headers"),

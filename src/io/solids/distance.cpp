@@ -2,7 +2,7 @@
 // detection", 2005, Sect. 5.1.5.
 #include "io/solids/distance.hpp"
 
-#include <Eigen/Core>
+#include "base/eigen.hpp"
 
 #include <algorithm>
 #include <limits>

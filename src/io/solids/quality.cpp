@@ -1,14 +1,13 @@
 #include "io/solids/quality.hpp"
 
+#include "base/eigen.hpp"
 #include "io/buckets.hpp"
 #include "io/solids/distance.hpp"
-
-#include <Eigen/Dense>
-#include <numbers>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace vox::io {
