@@ -5,6 +5,7 @@
 #include <vox/vox.hpp>
 
 #include "cpp/scene.hpp"
+#include "cpp/throws.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -41,21 +42,6 @@ struct vox::element<other::plain> {
 };
 
 namespace {
-
-// The call throws vox::error with this result, and these words in its text, which is that of vox_last_error().
-template <class F>
-void throws(F&& call, vox_result result, const char* words) {
-    try {
-        call();
-    } catch (const vox::error& error) {
-        ck_assert_msg(error.result() == result, "%s: %s", vox_result_string(error.result()), error.what());
-        ck_assert_msg(strstr(error.what(), words) != nullptr, "the text is \"%s\", expected \"%s\"",
-                      error.what(), words);
-        ck_assert_str_eq(error.what(), vox_last_error());
-        return;
-    }
-    ck_abort_msg("nothing was thrown, expected %s", vox_result_string(result));
-}
 
 // Reading the view throws std::logic_error with these words in a checked build, and is not tried in others.
 template <class F>

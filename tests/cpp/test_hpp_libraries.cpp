@@ -3,24 +3,12 @@
 #include <vox/vox_sim.hpp>
 
 #include "cpp/scene.hpp"
+#include "cpp/throws.hpp"
 
 #include <stdexcept>
 #include <string>
 
 namespace {
-
-template <class F>
-void throws(F&& call, vox_result result, const char* words) {
-    try {
-        call();
-    } catch (const vox::error& error) {
-        ck_assert_msg(error.result() == result, "%s: %s", vox_result_string(error.result()), error.what());
-        ck_assert_msg(strstr(error.what(), words) != nullptr, "the text is \"%s\", expected \"%s\"",
-                      error.what(), words);
-        return;
-    }
-    ck_abort_msg("nothing was thrown, expected %s", vox_result_string(result));
-}
 
 START_TEST(files_and_bodies) {
     const vox::io::mesh ball = vox::io::make_ball(1, 0.25);

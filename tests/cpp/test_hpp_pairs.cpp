@@ -2,30 +2,17 @@
 #include <vox/vox_pairs.hpp>
 
 #include <array>
-#include <cstring>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "support/suite.h" // last: it defines macros with common names
+#include "cpp/throws.hpp"
 
 namespace {
 
 // Two triangles that cross each other, as rows and as what rows are made of.
 const std::vector<double> crossed = {0, 0, 0, 1, 0, 0, 0, 1, 0, .25, .25, -1, .25, .25, 1, 2, 2, 0};
 const std::vector<std::uint32_t> faces = {0, 1, 2, 3, 4, 5};
-
-template <class F>
-void throws(F&& call, vox_result result, const char* words) {
-    try {
-        call();
-    } catch (const vox::error& error) {
-        ck_assert_msg(error.result() == result, "%s: %s", vox_result_string(error.result()), error.what());
-        ck_assert_msg(std::strstr(error.what(), words) != nullptr, "the text is \"%s\", expected \"%s\"", error.what(), words);
-        return;
-    }
-    ck_abort_msg("nothing was thrown, expected %s", vox_result_string(result));
-}
 
 START_TEST(what_c_answers) {
     vox::surface surface(6, faces);

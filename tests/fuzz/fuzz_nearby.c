@@ -7,22 +7,9 @@
 #include <string.h>
 #include <vox/vox.h>
 
+#include "bytes.h"
+
 enum { most_bodies = 3, most_vertices = 10, most_tets = 8 };
-
-static void demand(int condition) {
-    if (!condition) abort();
-}
-
-typedef struct bytes {
-    const uint8_t* data;
-    size_t size;
-} bytes;
-
-static uint32_t next(bytes* b) {
-    if (b->size == 0) return 0;
-    --b->size;
-    return *b->data++;
-}
 
 typedef struct small_body {
     uint32_t vertices, tets, flags, corners[4 * most_tets];

@@ -6,9 +6,7 @@
 #include <string.h>
 #include <vox/vox_io.h>
 
-static void demand(int condition) {
-    if (!condition) abort();
-}
+#include "bytes.h"
 
 typedef struct buffer {
     unsigned char* data;

@@ -6,9 +6,7 @@
 #include <string.h>
 #include <vox/vox.h>
 
-static void demand(int condition) {
-    if (!condition) abort();
-}
+#include "bytes.h"
 
 static void put(unsigned char* at, int bytes, uint64_t value) {
     for (int i = 0; i < bytes; ++i) at[i] = (unsigned char)(value >> 8 * i);

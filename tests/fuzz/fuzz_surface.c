@@ -8,22 +8,9 @@
 #include <string.h>
 #include <vox/vox_pairs.h>
 
+#include "bytes.h"
+
 enum { most_vertices = 24, most_features = 32 };
-
-static void demand(int condition) {
-    if (!condition) abort();
-}
-
-typedef struct bytes {
-    const uint8_t* data;
-    size_t size;
-} bytes;
-
-static uint32_t next(bytes* b) {
-    if (b->size == 0) return 0;
-    --b->size;
-    return *b->data++;
-}
 
 typedef struct scene {
     uint32_t vertices, counts[3], corners[3][3 * most_features], patches[most_vertices];
