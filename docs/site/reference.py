@@ -355,8 +355,8 @@ def declaration(function):
     result = function["result"]["type"]
     parameters = []
     for p in function["parameters"]:
-        name, array = p["name"], ""
-        kind = re.sub(r"((?:\[\w+\])+)$", lambda m: "", p["type"])
+        name = p["name"]
+        kind = re.sub(r"(\[\w+\])+$", "", p["type"])
         array = p["type"][len(kind) :]
         parameters.append(f"{kind} {name}{array}" if "(*)" not in kind else kind.replace("(*)", f"(*{name})"))
     line = f"{result} {function['name']}({', '.join(parameters) or 'void'});"

@@ -152,7 +152,7 @@ typedef struct vox_pair_lists {
     uint32_t struct_size;
     uint32_t reserved; /* 0 */
     uint64_t first;
-    uint64_t count;      /* features answered; fewer than asked where more would exceed the byte budget */
+    uint64_t count;      /* features answered; where there is a byte budget they may be fewer than asked */
     uint64_t pair_count; /* offsets[count] */
     VOX_ARRAY(count + 1) VOX_UNTIL(surface_pairs, surface_move) const uint64_t* offsets;
     VOX_ARRAY(pair_count) VOX_UNTIL(surface_pairs, surface_move) const uint32_t* partners;

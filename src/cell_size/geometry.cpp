@@ -239,7 +239,7 @@ Geometry measure(const CellSizeScene& scene) {
         return kept ? scene.meshes[b]->sample() : made[b];
     };
     Bounds bounds;
-    bool whole = true; // all edges and facets are looked at
+    bool whole = !kept; // all edges and facets are looked at
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const Body& body = scene.bodies[b];
         if (!kept) made.push_back(make_sample(body, sample_size(body, stats), scene.memory));
@@ -269,10 +269,10 @@ Geometry measure(const CellSizeScene& scene) {
     }
 
     stats.degenerate_tets = static_cast<std::uint64_t>(std::llround(means.degenerate));
-    stats.mean_edge = means.edge.value(whole && !kept);
+    stats.mean_edge = means.edge.value(whole);
     stats.mean_longest_edge = means.longest_edge.value();
     stats.mean_box_side = means.box_side.value();
-    stats.mean_facet_area = means.facet.value(whole && !kept);
+    stats.mean_facet_area = means.facet.value(whole);
     stats.mean_tet_facet_area = means.tet_facet.value();
     stats.mean_boundary_facet_area = means.boundary_facet.value();
     stats.mean_volume = means.volume.value();

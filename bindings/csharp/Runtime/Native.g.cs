@@ -1871,7 +1871,7 @@ namespace Voxtet
         /// <summary>0</summary>
         public uint reserved;
         public ulong first;
-        /// <summary>features answered; fewer than asked where more would exceed the byte budget</summary>
+        /// <summary>features answered; where there is a byte budget they may be fewer than asked</summary>
         public ulong count;
         /// <summary>offsets[count]</summary>
         public ulong pair_count;

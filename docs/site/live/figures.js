@@ -20,8 +20,7 @@ let labels = 0;
 // A slider with its label and its value in words. `change` gets the number.
 function slider(label, from, to, step, value, words, change) {
   const id = `vox-slider-${++labels}`;
-  const said = element("output", { for: id
-  });
+  const said = element("output", {"for": id});
   const input = element("input", {type: "range", id, min: from, max: to, step, value});
   const moved = () => {
     said.textContent = words(Number(input.value));
@@ -34,12 +33,7 @@ function slider(label, from, to, step, value, words, change) {
   return {
     row: element(
         "div", {class: "vox-slider"},
-        element(
-            "label",
-            { for: id
-            },
-            label
-        ),
+        element("label", {"for": id}, label),
         input, said
     ),
     input,
@@ -336,8 +330,7 @@ function curveFigure(place) {
       if (Number(input.value) > 0) state[key] = Number(input.value);
       draw();
     });
-    own.append(element("label", { for: `vox-${key}`
-               }, words), input);
+    own.append(element("label", {"for": `vox-${key}`}, words), input);
   }
   own.append(element("p", {}, "Both are printed by vox info (mean edge, mean facet area)."));
   const pNc = slider("p_nc, share without a collision", 0.9, 0.999, 0.001, state.pNc, (v) => v.toFixed(3), (v) => {
@@ -352,12 +345,7 @@ function curveFigure(place) {
       "div", {class: "vox-figure"},
       element(
           "div", {class: "vox-slider"},
-          element(
-              "label",
-              { for: "vox-body"
-              },
-              "Body"
-          ),
+          element("label", {"for": "vox-body"}, "Body"),
           choice
       ),
       own, cell.row, pNc.row, ratio.row, chart.svg, legend([

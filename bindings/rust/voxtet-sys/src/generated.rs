@@ -1814,7 +1814,7 @@ pub struct vox_pair_lists {
     /// 0
     pub reserved: u32,
     pub first: u64,
-    /// features answered; fewer than asked where more would exceed the byte budget
+    /// features answered; where there is a byte budget they may be fewer than asked
     pub count: u64,
     /// offsets[count]
     pub pair_count: u64,
