@@ -1,6 +1,6 @@
 // Each tile of kind a collects the features of kind b near it, ascending, and compares its own 64 boxes with
-// each of them at once. What it finds are bits; when all tiles have counted theirs, they know where their
-// lists go.
+// each of them at once. The answers are bits, kept the other way round: the partners of each feature of the
+// tile. When all tiles have counted theirs, they know where their lists go.
 #include "surface/pairs.hpp"
 
 #include "base/bits.hpp"
@@ -42,28 +42,18 @@ struct ExactBox {
     Vec3d lo, hi;
 };
 
-// How often each lane occurs in masks that are added, as 64 binary numbers side by side.
-class LaneCounts {
-public:
-    void add(std::uint64_t lanes) noexcept {
-        unsigned k = 0;
-        for (; lanes != 0; ++k) {
-            const std::uint64_t carry = digits_[k] & lanes;
-            digits_[k] ^= lanes;
-            lanes = carry;
-        }
-        used_ = std::max(used_, k);
-    }
-    std::uint32_t of(unsigned lane) const noexcept {
-        std::uint32_t count = 0;
-        for (unsigned k = 0; k < used_; ++k) count |= static_cast<std::uint32_t>(digits_[k] >> lane & 1) << k;
-        return count;
-    }
-
-private:
-    std::uint64_t digits_[33] = {};
-    unsigned used_ = 0;
-};
+// Bit i of word k and bit k of word i change places: by halves, quarters and so on (H. S. Warren, Hacker's
+// Delight, ch. 7).
+void transpose(std::uint64_t* words) noexcept {
+    std::uint64_t low = 0xffffffff;
+    for (unsigned width = word_bits / 2; width != 0; width /= 2, low ^= low << width)
+        for (unsigned part = 0; part < word_bits; part += 2 * width)
+            for (unsigned k = part; k < part + width; ++k) {
+                const std::uint64_t changed = (words[k] >> width ^ words[k + width]) & low;
+                words[k] ^= changed << width;
+                words[k + width] ^= changed;
+            }
+}
 
 } // namespace
 
@@ -86,7 +76,8 @@ void PairSearch::release_buffers() noexcept {
         vector.clear();
         vector.shrink_to_fit();
     };
-    for (Worker& worker : workers_) std::apply([&](auto&... buffers) { (release(buffers), ...); }, worker.buffers());
+    for (Worker& worker : workers_)
+        std::apply([&](auto&... buffers) { (release(buffers), ...); }, worker.buffers());
     release(found_of_);
     release(counts_);
 }
@@ -123,12 +114,14 @@ const FeatureTiles& PairSearch::tiles(const SurfaceTopology& topology, const Sur
 
 // By the model, again when the tiles have grown or shrunk by a tenth. The cost is flat around its minimum.
 double PairSearch::choose_cell_size(vox_feature a, vox_feature b) {
-    const FeatureTiles &tiles_a = tiles_[static_cast<std::size_t>(a)], &tiles_b = tiles_[static_cast<std::size_t>(b)];
+    const FeatureTiles &tiles_a = tiles_[static_cast<std::size_t>(a)],
+                       &tiles_b = tiles_[static_cast<std::size_t>(b)];
     double sum = 0;
     std::size_t count = 0;
     for (const FeatureTiles* tiles : {&tiles_a, &tiles_b})
         for (const Box& box : tiles->tile_boxes) {
-            const double side = std::max({double{box.hi[0]} - box.lo[0], double{box.hi[1]} - box.lo[1], double{box.hi[2]} - box.lo[2]});
+            const double side = std::max({double{box.hi[0]} - box.lo[0], double{box.hi[1]} - box.lo[1],
+                                          double{box.hi[2]} - box.lo[2]});
             if (!(side < 1e300)) continue;
             sum += side;
             ++count;
@@ -136,25 +129,27 @@ double PairSearch::choose_cell_size(vox_feature a, vox_feature b) {
     if (!(sum > 0)) return 1;
     const double side = sum / static_cast<double>(count);
     constexpr std::size_t few_tiles = 64; // for which any size does, and the model takes longer than they do
-    if (tiles_a.tile_count() + tiles_b.tile_count() < few_tiles || count < tiles_a.tile_count() + tiles_b.tile_count())
+    if (tiles_a.tile_count() + tiles_b.tile_count() < few_tiles ||
+        count < tiles_a.tile_count() + tiles_b.tile_count())
         return side;
     ChosenSize& chosen = chosen_[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)];
     if (!(side < 1.1 * chosen.side && chosen.side < 1.1 * side)) {
-        chosen.cell_size = suggest_for_tiles(tiles_a, tiles_b, vertex_boxes_.get_allocator().resource()).cell_size;
+        chosen.cell_size =
+            suggest_for_tiles(tiles_a, tiles_b, vertex_boxes_.get_allocator().resource()).cell_size;
         chosen.side = side;
     }
     return chosen.cell_size;
 }
 
-// Drops those of found[before] and after that provably stay apart.
-void PairSearch::cull_found(const Task& task, std::uint32_t tile, std::uint64_t asked, std::size_t before,
-                            Worker& worker) {
-    if (worker.found.size() == before) return;
+// Drops those of worker.found that provably stay apart.
+void PairSearch::cull_found(const Task& task, std::uint32_t tile, std::uint64_t asked, Worker& worker) {
+    if (worker.found.empty()) return;
     const FeatureTiles &a = task.a, &b = task.b;
     const std::size_t first_slot = std::size_t{tile} * features_a_tile;
-    const auto filled = static_cast<std::size_t>(
-        std::find(a.features.data() + first_slot, a.features.data() + first_slot + features_a_tile, no_feature) -
-        (a.features.data() + first_slot));
+    const auto filled =
+        static_cast<std::size_t>(std::find(a.features.data() + first_slot,
+                                           a.features.data() + first_slot + features_a_tile, no_feature) -
+                                 (a.features.data() + first_slot));
     const CullFrame frame = frame_around(
         task.motion, std::span(a.corners).subspan(first_slot * a.corner_count, filled * a.corner_count));
     for (std::uint64_t lanes = asked; lanes != 0; lanes &= lanes - 1) {
@@ -164,12 +159,12 @@ void PairSearch::cull_found(const Task& task, std::uint32_t tile, std::uint64_t 
     worker.partners.clear();
     worker.pair_lanes.clear();
     worker.pair_partners.clear();
-    for (std::size_t i = before; i < worker.found.size(); ++i) {
+    for (std::size_t i = 0; i < worker.found.size(); ++i) {
         Found& found = worker.found[i];
         worker.partners.push_back(partner_in(frame, task.motion, b.corners_at(b.slots[found.partner])));
         for (std::uint64_t lanes = found.lanes; lanes != 0; lanes &= lanes - 1) {
             worker.pair_lanes.push_back(lowest_lane(lanes));
-            worker.pair_partners.push_back(static_cast<std::uint32_t>(i - before));
+            worker.pair_partners.push_back(static_cast<std::uint32_t>(i));
         }
         found.lanes = 0;
     }
@@ -178,10 +173,8 @@ void PairSearch::cull_found(const Task& task, std::uint32_t tile, std::uint64_t 
                                         worker.pair_partners.data(), worker.pair_lanes.size()});
     worker.culled += worker.pair_lanes.size() - kept;
     for (std::size_t i = 0; i < kept; ++i)
-        worker.found[before + worker.pair_partners[i]].lanes |= std::uint64_t{1} << worker.pair_lanes[i];
-    const auto from = worker.found.begin() + static_cast<std::ptrdiff_t>(before);
-    worker.found.erase(std::remove_if(from, worker.found.end(), [](const Found& found) { return found.lanes == 0; }),
-                       worker.found.end());
+        worker.found[worker.pair_partners[i]].lanes |= std::uint64_t{1} << worker.pair_lanes[i];
+    std::erase_if(worker.found, [](const Found& found) { return found.lanes == 0; });
 }
 
 void PairSearch::search_tile(const Task& task, std::uint32_t tile, Worker& worker) {
@@ -197,7 +190,7 @@ void PairSearch::search_tile(const Task& task, std::uint32_t tile, Worker& worke
     const Box& box = a.tile_boxes[tile];
     const float six[6] = {box.lo[0], box.lo[1], box.lo[2], box.hi[0], box.hi[1], box.hi[2]};
     const float* const of_tile = six;
-    std::size_t first_word = worker.listed_words.size(), last_word = 0;
+    std::size_t first_word = worker.listed_words.size(), last_word = 0, most_near = 0;
     grid_.around(box, [&](std::uint32_t other) {
         if (worker.seen[other] == tile + 1) return;
         worker.seen[other] = tile + 1;
@@ -205,6 +198,7 @@ void PairSearch::search_tile(const Task& task, std::uint32_t tile, Worker& worke
         ++worker.tile_pairs;
         std::uint64_t near, close;
         task.compare(b.boxes_of(other), &of_tile, 1, 1, 0, &near, &close);
+        most_near += bit_count(near);
         const std::uint32_t* const others = b.features.data() + std::size_t{other} * features_a_tile;
         for (; near != 0; near &= near - 1) {
             const std::uint32_t f = others[lowest_lane(near)];
@@ -217,29 +211,29 @@ void PairSearch::search_tile(const Task& task, std::uint32_t tile, Worker& worke
             last_word = std::max(last_word, word);
         }
     });
-    worker.near.clear();
-    worker.boxes.clear();
+    worker.near.resize(most_near);
+    worker.boxes.resize(most_near);
+    std::size_t count = 0;
     for (std::size_t w = first_word; w <= last_word; ++w) {
         for (std::uint64_t words = worker.listed_words[w]; words != 0; words &= words - 1) {
             const std::size_t word = w * word_bits + lowest_lane(words);
             for (std::uint64_t bits = worker.listed[word]; bits != 0; bits &= bits - 1) {
-                const auto f = static_cast<std::uint32_t>(word * word_bits + lowest_lane(bits));
-                const std::uint32_t slot = b.slots[f];
-                worker.near.push_back(slot);
-                worker.boxes.push_back(b.boxes_of(slot / features_a_tile) + slot % features_a_tile);
+                const std::uint32_t slot = b.slots[word * word_bits + lowest_lane(bits)];
+                worker.near[count] = slot;
+                worker.boxes[count++] = b.boxes_of(slot / features_a_tile) + slot % features_a_tile;
             }
             worker.listed[word] = 0;
         }
         worker.listed_words[w] = 0;
     }
-    if (worker.near.empty()) return;
-    worker.boxes_compared += worker.near.size();
-    worker.masks.resize(worker.near.size());
-    worker.close.resize(worker.near.size());
+    if (count == 0) return;
+    worker.boxes_compared += count;
+    worker.masks.resize(count);
+    worker.close.resize(count);
     // Each side of a box of doubles is less than 2 floats inside the float that bounds it.
     float largest = 0;
     for (const float side : six) largest = std::max(largest, std::abs(side));
-    task.compare(a.boxes_of(tile), worker.boxes.data(), features_a_tile, worker.near.size(),
+    task.compare(a.boxes_of(tile), worker.boxes.data(), features_a_tile, count,
                  largest * 0x1p-20f + 0x1p-140f, worker.masks.data(), worker.close.data());
 
     const auto mark_corners = [&](bool on) {
@@ -253,16 +247,25 @@ void PairSearch::search_tile(const Task& task, std::uint32_t tile, Worker& worke
         }
     };
     mark_corners(true);
-    const std::size_t before = worker.found.size();
+    worker.found.clear();
+    // Those that overlap, without a branch that nobody could predict.
     unsigned below = 0; // lanes with features below the partner
-    for (std::size_t i = 0; i < worker.near.size(); ++i) {
+    std::size_t overlapping = 0;
+    for (std::size_t i = 0; i < count; ++i) {
         std::uint64_t lanes = worker.masks[i] & asked;
-        if (lanes == 0) continue;
-        const std::uint32_t slot = worker.near[i], partner = b.features[slot];
         if (task.same) { // each pair once
+            const std::uint32_t partner = b.features[worker.near[i]];
             while (below < features_a_tile && features[below] < partner) ++below;
             if (below < features_a_tile) lanes &= (std::uint64_t{1} << below) - 1;
         }
+        worker.near[overlapping] = worker.near[i];
+        worker.masks[overlapping] = lanes;
+        worker.close[overlapping] = worker.close[i];
+        overlapping += lanes != 0;
+    }
+    for (std::size_t i = 0; i < overlapping; ++i) {
+        std::uint64_t lanes = worker.masks[i];
+        const std::uint32_t slot = worker.near[i];
         const auto corners = b.corners_at(slot);
         std::uint64_t maybe_around = 0;
         for (const std::uint32_t v : corners) maybe_around |= worker.around_folded[v % folded_vertices];
@@ -270,7 +273,8 @@ void PairSearch::search_tile(const Task& task, std::uint32_t tile, Worker& worke
             for (const std::uint32_t v : corners) lanes &= ~worker.around[v];
         if (task.topology.has_patches())
             for (std::uint64_t left = lanes; left != 0; left &= left - 1)
-                if (!task.topology.may_meet(a.corners_at(tile * features_a_tile + lowest_lane(left)), corners))
+                if (!task.topology.may_meet(a.corners_at(tile * features_a_tile + lowest_lane(left)),
+                                            corners))
                     lanes &= ~(left & -left);
         if (const std::uint64_t unsure = lanes & worker.close[i]; unsure != 0 && task.motion.doubles) {
             const ExactBox exact(task.motion, corners);
@@ -281,21 +285,34 @@ void PairSearch::search_tile(const Task& task, std::uint32_t tile, Worker& worke
         }
         if (lanes == 0) continue;
         worker.overlaps += bit_count(lanes);
-        worker.found.push_back({lanes, partner});
+        worker.found.push_back({lanes, b.features[slot]});
     }
     mark_corners(false);
-    if (task.motion.cull) cull_found(task, tile, asked, before, worker);
-    LaneCounts counts;
-    for (std::size_t i = before; i < worker.found.size(); ++i) counts.add(worker.found[i].lanes);
-    for (std::uint64_t lanes = asked; lanes != 0; lanes &= lanes - 1) {
-        const unsigned lane = lowest_lane(lanes);
-        counts_[tile * features_a_tile + lane] = counts.of(lane);
+    if (task.motion.cull) cull_found(task, tile, asked, worker);
+    keep_found(tile, worker);
+}
+
+// From the lanes of each partner to the partners of each lane, 64 by 64.
+void PairSearch::keep_found(std::uint32_t tile, Worker& worker) {
+    const std::size_t count = worker.found.size(), blocks = (count + word_bits - 1) / word_bits;
+    found_of_[tile].count = count;
+    if (count == 0) return;
+    for (const Found& found : worker.found) worker.kept_partners.push_back(found.partner);
+    const std::size_t first = worker.kept.size();
+    worker.kept.resize(first + blocks * word_bits);
+    std::uint64_t* const kept = worker.kept.data() + first;
+    for (std::size_t i = 0; i < count; ++i) kept[i] = worker.found[i].lanes;
+    std::uint32_t* const counts = counts_.data() + std::size_t{tile} * features_a_tile;
+    for (std::size_t block = 0; block < blocks; ++block) {
+        std::uint64_t* const words = kept + block * word_bits;
+        transpose(words);
+        for (unsigned lane = 0; lane < features_a_tile; ++lane) counts[lane] += bit_count(words[lane]);
     }
 }
 
-void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motion, vox_feature a, vox_feature b,
-                     std::uint32_t first, std::uint32_t count, double cell_size, Workers& workers,
-                     FeaturePairs& out) {
+void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motion, vox_feature a,
+                     vox_feature b, std::uint32_t first, std::uint32_t count, double cell_size,
+                     Workers& workers, FeaturePairs& out) {
     counters_ = {};
     out.first = first;
     out.count = 0;
@@ -318,20 +335,21 @@ void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motio
         worker.listed_words.assign(words / word_bits + 1, 0u);
         worker.around.assign(topology.vertex_count, 0u);
         worker.around_folded.fill(0);
-        worker.found.clear();
+        worker.kept.clear();
+        worker.kept_partners.clear();
         worker.tile_pairs = worker.boxes_compared = worker.overlaps = worker.culled = 0;
     }
     counts_.assign(tiles_a.features.size(), 0u);
     found_of_.resize(tiles_a.tile_count());
     const Task task{topology, motion, tiles_a, tiles_b, a == b, first, count, compare_boxes(), cull_some()};
-    workers.for_ranges(tiles_a.tile_count(), least_tiles, [&](std::size_t begin, std::size_t end, std::uint32_t w) {
-        Worker& worker = workers_[w];
-        for (std::size_t t = begin; t < end; ++t) {
-            const std::uint64_t before = worker.found.size();
-            search_tile(task, static_cast<std::uint32_t>(t), worker);
-            found_of_[t] = {w, before, worker.found.size() - before};
-        }
-    });
+    workers.for_ranges(tiles_a.tile_count(), least_tiles,
+                       [&](std::size_t begin, std::size_t end, std::uint32_t w) {
+                           Worker& worker = workers_[w];
+                           for (std::size_t t = begin; t < end; ++t) {
+                               found_of_[t] = {w, worker.kept.size(), worker.kept_partners.size(), 0};
+                               search_tile(task, static_cast<std::uint32_t>(t), worker);
+                           }
+                       });
     for (const Worker& worker : workers_) {
         counters_.tile_pairs += worker.tile_pairs;
         counters_.boxes_compared += worker.boxes_compared;
@@ -342,21 +360,24 @@ void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motio
         out.offsets[i + 1] = out.offsets[i] + counts_[tiles_a.slots[first + i]];
     // What is there already need not be set to 0 again.
     out.partners.resize(static_cast<std::size_t>(out.offsets[count]));
-    workers.for_ranges(tiles_a.tile_count(), least_tiles, [&](std::size_t begin, std::size_t end, std::uint32_t) {
-        for (std::size_t t = begin; t < end; ++t) {
-            const TileFound& of = found_of_[t];
-            if (of.count == 0) continue;
-            std::uint32_t* next[features_a_tile];
-            for (unsigned lane = 0; lane < features_a_tile; ++lane) {
-                const std::uint32_t f = tiles_a.features[t * features_a_tile + lane];
-                next[lane] = f - first < count ? out.partners.data() + out.offsets[f - first] : nullptr;
+    workers.for_ranges(
+        tiles_a.tile_count(), least_tiles, [&](std::size_t begin, std::size_t end, std::uint32_t) {
+            for (std::size_t t = begin; t < end; ++t) {
+                const TileFound& of = found_of_[t];
+                if (of.count == 0) continue;
+                const std::uint64_t* const kept = workers_[of.worker].kept.data() + of.first_word;
+                const std::uint32_t* const partners =
+                    workers_[of.worker].kept_partners.data() + of.first_partner;
+                for (unsigned lane = 0; lane < features_a_tile; ++lane) {
+                    const std::uint32_t f = tiles_a.features[t * features_a_tile + lane];
+                    if (f - first >= count) continue; // also an empty lane
+                    std::uint32_t* next = out.partners.data() + out.offsets[f - first];
+                    for (std::size_t i = 0; i < of.count; i += word_bits)
+                        for (std::uint64_t bits = kept[i + lane]; bits != 0; bits &= bits - 1)
+                            *next++ = partners[i + lowest_lane(bits)];
+                }
             }
-            const Found* const found = workers_[of.worker].found.data() + of.first;
-            for (std::size_t i = 0; i < of.count; ++i)
-                for (std::uint64_t lanes = found[i].lanes; lanes != 0; lanes &= lanes - 1)
-                    *next[lowest_lane(lanes)]++ = found[i].partner;
-        }
-    });
+        });
     workers_.level();
 }
 

@@ -63,33 +63,39 @@ private:
     struct Worker {
         explicit Worker(std::pmr::memory_resource* memory)
             : seen(memory), listed(memory), listed_words(memory), near(memory), boxes(memory), masks(memory),
-              close(memory), around(memory), found(memory), partners(memory), pair_lanes(memory), pair_partners(memory) {}
+              close(memory), around(memory), found(memory), kept(memory), kept_partners(memory),
+              partners(memory), pair_lanes(memory), pair_partners(memory) {}
         auto buffers() {
-            return std::tie(seen, listed, listed_words, near, boxes, masks, close, around, found, partners, pair_lanes,
-                            pair_partners);
+            return std::tie(seen, listed, listed_words, near, boxes, masks, close, around, found, kept,
+                            kept_partners, partners, pair_lanes, pair_partners);
         }
 
         std::pmr::vector<std::uint32_t> seen; // of each tile of b: 1 + the last tile of a that met it
         std::pmr::vector<std::uint64_t> listed, listed_words; // features of b as bits, words of these as bits
-        std::pmr::vector<std::uint32_t> near;  // slots of features of b near a tile, these ascending
-        std::pmr::vector<const float*> boxes;  // of these
+        std::pmr::vector<std::uint32_t> near;         // slots of features of b near a tile, these ascending
+        std::pmr::vector<const float*> boxes;         // of these
         std::pmr::vector<std::uint64_t> masks, close; // and the lanes that they overlap, and by little
-        std::pmr::vector<std::uint64_t> around; // of each vertex: the lanes that it is a corner of
-        std::array<std::uint64_t, folded_vertices> around_folded; // the same of all vertices that share a remainder
-        std::pmr::vector<Found> found;
-        CullTile tile; // of the tile, where pairs are culled
+        std::pmr::vector<std::uint64_t> around;       // of each vertex: the lanes that it is a corner of
+        std::array<std::uint64_t, folded_vertices>
+            around_folded;             // the same of all vertices that share a remainder
+        std::pmr::vector<Found> found; // by a tile
+        // By all tiles so far: for each 64 partners, those of each lane as bits; and the partners.
+        std::pmr::vector<std::uint64_t> kept;
+        std::pmr::vector<std::uint32_t> kept_partners;
+        CullTile tile;                          // of the tile, where pairs are culled
         std::pmr::vector<CullPartner> partners; // and those found with it
         std::pmr::vector<std::uint32_t> pair_lanes, pair_partners;
         std::uint64_t tile_pairs = 0, boxes_compared = 0, overlaps = 0, culled = 0;
     };
     struct TileFound {
         std::uint32_t worker;
-        std::uint64_t first, count;
+        std::uint64_t first_word, first_partner, count; // in its `kept` and `kept_partners`
     };
     struct Task;
 
-    void cull_found(const Task& task, std::uint32_t tile, std::uint64_t asked, std::size_t before, Worker& worker);
+    void cull_found(const Task& task, std::uint32_t tile, std::uint64_t asked, Worker& worker);
     void search_tile(const Task& task, std::uint32_t tile, Worker& worker);
+    void keep_found(std::uint32_t tile, Worker& worker);
     double choose_cell_size(vox_feature a, vox_feature b);
 
     std::array<FeatureTiles, feature_kinds> tiles_;
