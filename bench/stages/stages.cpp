@@ -103,7 +103,7 @@ struct WholeStep {
         std::fill(boxes.tile_known.begin(), boxes.tile_known.end(), std::uint8_t{0});
         fast::find_regions(step, boxes, broad);
     }
-    void make_windows() { fast::make_windows(step, broad, 0, boxes, windows); }
+    void make_windows() { fast::make_windows(step, broad, 0, false, boxes, windows); }
     void look_up(fast::Findings& out, std::uint32_t bodies) {
         for (const fast::Piece& piece : step.super_pieces)
             if (piece.body < bodies) fast::look_up(step, broad, windows, piece, boxes, lookup_buffers, out);

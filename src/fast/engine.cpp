@@ -23,7 +23,7 @@ void FastEngine::detect(std::span<const Body> bodies, std::span<const fast::Prep
     const std::uint64_t tracked = nanoseconds();
     fast::find_regions(step_, boxes_, broad_phase_);
     const std::uint64_t regions_found = nanoseconds();
-    fast::make_windows(step_, broad_phase_, settings.cell_size, boxes_, windows_);
+    fast::make_windows(step_, broad_phase_, settings.cell_size, settings.keep_certified, boxes_, windows_);
     const std::uint64_t windows_made = nanoseconds();
     look_up(hits);
     count(counters);

@@ -29,6 +29,7 @@ struct FastSettings {
     // hits the caller has. For the same engine and states of meshes as in the last step, meshes that are new
     // or gone excepted, and not after a step that failed.
     bool carry = false;
+    bool keep_certified = false; // for certified()
     Box others = empty_box; // see Step
 };
 
@@ -67,6 +68,13 @@ public:
     // Whether winding numbers excluded most of the self-collision of a body in the last step: what is left of
     // it costs next to nothing. The body has so many vertices.
     bool cleared(std::size_t body, std::uint32_t vertices) const noexcept;
+
+    // Where winding numbers showed, in the last step, that a body does not overlap itself; null where they
+    // showed nothing or were not to be kept (FastSettings::keep_certified).
+    const fast::CertifiedCells* certified(std::size_t body) const noexcept {
+        const auto& all = windows_.certified;
+        return body < all.size() && !all[body].certified.empty() ? &all[body] : nullptr;
+    }
 
     // The cell size of the last window of the last step that had one; 0 before.
     double cell_size() const noexcept { return cell_size_; }

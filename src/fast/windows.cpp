@@ -30,10 +30,14 @@ constexpr std::size_t group_vertices = 2048;
 bool is_large(const Body& body) { return body.self_collision && body.tets.size() >= many_tets; }
 
 // Groups the bodies, and gives each a place for its result and the buffers it needs.
-void prepare(const Step& step, Windows& out) {
+void prepare(const Step& step, bool keep_certified, Windows& out) {
     out.workers.grow(step.worker_count());
     for (Windows::Worker& worker : out.workers) worker.exact_tests = worker.winding_ns = 0;
     out.of.assign(step.bodies.size(), {nullptr, 0, 0, empty_box, 0});
+    for (CertifiedCells& cells : out.certified) cells.certified.clear();
+    if (!keep_certified) out.certified.clear();
+    while (keep_certified && out.certified.size() < step.bodies.size())
+        out.certified.emplace_back(out.certified.get_allocator().resource());
     out.groups.clear();
     std::size_t vertices = group_vertices, all_vertices = 0;
     for (std::uint32_t b = 0; b < step.bodies.size(); ++b) {
@@ -134,6 +138,12 @@ void make_window(const Step& step, const BroadPhase& broad, double cell_size, st
     WindowBuffers& buffers = out.large_of[a] == Windows::none ? worker : out.large[out.large_of[a]];
     const bool culled = self && cull_by_winding(step, a, helpers, boxes, buffers.certificate, worker);
     Box own = self && !culled ? boxes.bodies[a] : empty_box;
+    if (culled && a < out.certified.size()) {
+        const CertifiedCells& cells = buffers.certificate;
+        out.certified[a].lattice = cells.lattice;
+        out.certified[a].certified.assign(cells.certified.begin(), cells.certified.end());
+        out.certified[a].complete = cells.complete;
+    }
     if (culled) {
         activate_blocks(step_body, boxes, buffers);
         for (std::uint32_t b = 0; b < step_body.tiles->block_count(); ++b)
@@ -192,9 +202,9 @@ void collect_near(const Step& step, const StepBoxes& boxes, const BroadPhase& br
 
 // A group of bodies is the work of one worker. Where there are fewer large bodies than workers, all workers
 // share the winding numbers of each, before the groups.
-void make_windows(const Step& step, const BroadPhase& broad, double cell_size, StepBoxes& boxes,
-                  Windows& out) {
-    prepare(step, out);
+void make_windows(const Step& step, const BroadPhase& broad, double cell_size, bool keep_certified,
+                  StepBoxes& boxes, Windows& out) {
+    prepare(step, keep_certified, out);
     std::size_t vertices = 0, large = 0;
     for (std::size_t a = 0; a < step.bodies.size(); ++a) {
         vertices += step.bodies[a].vertex_count;

@@ -42,9 +42,12 @@ struct WindowBuffers {
 
 struct Windows {
     explicit Windows(std::pmr::memory_resource* memory)
-        : of(memory), bins(memory), workers(memory), groups(memory), large(memory), large_of(memory) {}
+        : of(memory), certified(memory), bins(memory), workers(memory), groups(memory), large(memory),
+          large_of(memory) {}
 
     std::pmr::vector<BodyWindow> of; // each body
+    // Of each body; without cells where winding numbers decided nothing. Empty unless asked for.
+    std::pmr::vector<CertifiedCells> certified;
     std::pmr::vector<Bins> bins;
 
     struct Worker : WindowBuffers { // the buffers are for bodies that have none of their own
@@ -64,9 +67,9 @@ struct Windows {
 };
 
 // Makes the windows of all bodies with vertices that reach another body or that may be in tets of their own.
-// Cells are of `cell_size`; 0: of a size chosen for each body.
-void make_windows(const Step& step, const BroadPhase& broad, double cell_size, StepBoxes& boxes,
-                  Windows& out);
+// Cells are of `cell_size`; 0: of a size chosen for each body. With `keep_certified`, fills out.certified.
+void make_windows(const Step& step, const BroadPhase& broad, double cell_size, bool keep_certified,
+                  StepBoxes& boxes, Windows& out);
 
 // Appends the vertices in `around` of those blocks of a body that meet one of its regions, or that are
 // `active` (null: none), or of all its blocks.

@@ -1,5 +1,6 @@
 // Two bodies whose boxes overlap: tiles of each in the box of the other are joined, box by box, then the
-// edges of one tile with the faces of the other, and what is left is decided exactly.
+// edges of one tile with the faces of the other, and what is left is decided exactly. Of a body with itself, what
+// winding numbers have certified is left out (fast/winding/certificate.cpp).
 #include "grid/edge_contacts.hpp"
 
 #include "base/bits.hpp"
@@ -37,6 +38,11 @@ constexpr std::size_t small_body = 64;
 Box box_at(const float* positions, std::uint32_t vertex) {
     const float* p = positions + 3 * std::size_t{vertex};
     return {{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}};
+}
+
+// Where a body certainly has no edge contact with itself; null for a pair of two, and where nothing is known.
+const fast::CertifiedCells* certified_for(const EdgeScene& scene, const fast::Pair& pair) {
+    return pair.a == pair.b && scene.engine ? scene.engine->certified(pair.a) : nullptr;
 }
 
 EdgePair pair_of(const vox_edge_contact& contact) {
@@ -130,8 +136,10 @@ void EdgeContacts::list_pairs(const EdgeScene& scene) {
         std::erase_if(pairs_of_bodies_, [](const fast::Pair& pair) { return pair.a > pair.b; });
     }
     for (std::uint32_t b = 0; b < bodies; ++b)
-        if (scene.bodies[b].self_collision && has_surface(b) && (!scene.engine || scene.engine->moved(b)))
-            pairs_of_bodies_.push_back({b, b});
+        if (scene.bodies[b].self_collision && has_surface(b) && (!scene.engine || scene.engine->moved(b))) {
+            const fast::CertifiedCells* const certified = certified_for(scene, {b, b});
+            if (!certified || !certified->complete) pairs_of_bodies_.push_back({b, b});
+        }
 }
 
 // Positions of bodies with surfaces as floats, one after the other, and the boxes around the surfaces.
@@ -274,13 +282,13 @@ void EdgeContacts::search_pairs(const EdgeScene& scene) {
         pairs_of_bodies_.size(), task_pairs, [&](std::size_t begin, std::size_t end, std::uint32_t w) {
             for (std::size_t i = begin; i < end; ++i) {
                 const fast::Pair& pair = pairs_of_bodies_[i];
-                if (!is_large(pair) && list_tiles(pair, workers_[w]))
+                if (!is_large(pair) && list_tiles(scene, pair, workers_[w]))
                     search(scene, pair, workers_[w], 0, workers_[w].tiles_a.size(), workers_[w]);
             }
         });
     for (const fast::Pair& pair : pairs_of_bodies_) {
         const Worker& tiles = workers_[0];
-        if (!is_large(pair) || !list_tiles(pair, workers_[0])) continue;
+        if (!is_large(pair) || !list_tiles(scene, pair, workers_[0])) continue;
         scene.workers->for_ranges(tiles.tiles_a.size(), task_searches,
                                   [&](std::size_t begin, std::size_t end, std::uint32_t w) {
                                       search(scene, pair, tiles, begin, end, workers_[w]);
@@ -288,8 +296,9 @@ void EdgeContacts::search_pairs(const EdgeScene& scene) {
     }
 }
 
-// The tiles of the two that meet where the boxes of the two overlap. Of a body with itself, all of them.
-bool EdgeContacts::list_tiles(const fast::Pair& pair, Worker& worker) const {
+// The tiles of the two that meet where the boxes of the two overlap. Of a body with itself, those that are not
+// certified.
+bool EdgeContacts::list_tiles(const EdgeScene& scene, const fast::Pair& pair, Worker& worker) const {
     const StepSurface &a = step_surfaces_[pair.a], &b = step_surfaces_[pair.b];
     Box region = a.box;
     intersect(region, b.box);
@@ -302,6 +311,10 @@ bool EdgeContacts::list_tiles(const fast::Pair& pair, Worker& worker) const {
             for (; met; met &= met - 1)
                 tiles.push_back(first + static_cast<std::uint32_t>(std::countr_zero(met)));
         }
+        if (const fast::CertifiedCells* certified = certified_for(scene, pair))
+            std::erase_if(tiles, [&](std::uint32_t tile) {
+                return certified->holds(tile_boxes_[surface.first_tile + tile]);
+            });
         return !tiles.empty();
     };
     if (is_empty(region) || !list(a, worker.tiles_a) || !list(b, worker.tiles_b)) return false;
@@ -320,6 +333,7 @@ bool EdgeContacts::list_tiles(const fast::Pair& pair, Worker& worker) const {
 // other. Of a body with itself, each two tiles once.
 void EdgeContacts::search(const EdgeScene& scene, const fast::Pair& pair, const Worker& tiles,
                           std::size_t begin, std::size_t end, Worker& worker) {
+    const fast::CertifiedCells* const certified = certified_for(scene, pair);
     LoadedTile& a = worker.loaded[Worker::most_loaded];
     for (std::size_t i = begin; i < end; ++i) {
         const Box& box = tile_boxes_[step_surfaces_[pair.a].first_tile + tiles.tiles_a[i]];
@@ -333,6 +347,11 @@ void EdgeContacts::search(const EdgeScene& scene, const fast::Pair& pair, const 
             for (; met; met &= met - 1) {
                 const std::size_t j = first + static_cast<std::size_t>(std::countr_zero(met));
                 if (pair.a == pair.b && j < i) continue; // the lists are the same
+                if (certified) {
+                    Box common = box;
+                    intersect(common, tiles.boxes_b[j]);
+                    if (certified->holds(common)) continue;
+                }
                 if (!is_loaded) load(pair.a, tiles.tiles_a[i], a);
                 is_loaded = true;
                 if (pair.a == pair.b && j == i) {

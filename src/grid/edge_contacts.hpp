@@ -141,7 +141,7 @@ private:
     const SurfaceFeatures& surface_of(const EdgeScene& scene, std::uint32_t body);
     void make_tile_boxes(const EdgeScene& scene);
     void search_pairs(const EdgeScene& scene);
-    bool list_tiles(const fast::Pair& pair, Worker& worker) const;
+    bool list_tiles(const EdgeScene& scene, const fast::Pair& pair, Worker& worker) const;
     void search(const EdgeScene& scene, const fast::Pair& pair, const Worker& tiles, std::size_t begin,
                 std::size_t end, Worker& worker);
     void load(std::uint32_t body, std::uint32_t tile, LoadedTile& out) const;

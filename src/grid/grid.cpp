@@ -668,6 +668,7 @@ void vox_grid::detect_fast(bool carry, vox_counters& counters, vox_profile& prof
     const FastSettings settings{.cell_size = requested_cell_size_,
                                 .workers = &workers_,
                                 .carry = carry,
+                                .keep_certified = edges_.has_value(),
                                 .others = lone_.totals().rounded};
     fast_engine_.detect(bodies_, prepared_, settings, hits_, counters, profile);
     if (chooses_cell_size()) used_cell_size_ = fast_engine_.cell_size();

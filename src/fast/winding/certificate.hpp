@@ -21,21 +21,13 @@ class Workers;
 namespace vox::fast {
 
 // Cells of a lattice around a body. In a certified cell, a point is covered by at most one tet.
-struct Certificate {
-    explicit Certificate(std::pmr::memory_resource* memory)
-        : directions(memory), touched(memory), bad(memory), components(memory), certified(memory) {}
-
-    // Buffers.
-    std::pmr::vector<std::uint32_t> directions, touched;
-    std::pmr::vector<std::uint64_t> bad;
-    Components components;
+struct CertifiedCells {
+    explicit CertifiedCells(std::pmr::memory_resource* memory) noexcept : certified(memory) {}
 
     WindowLattice lattice;
     static constexpr std::uint32_t run = 8;
     std::pmr::vector<std::uint8_t> certified; // of each cell, 1 or 0; and `run` more, to read so many at once
     bool complete = false;                    // whether all cells are certified
-
-    auto buffers() { return std::tie(directions, touched, bad, components.runs, components.rows, certified); }
 
     // Whether all cells that meet `box` are certified; false as well where they are too many to look at.
     bool holds(const Box& box) const noexcept {
@@ -62,6 +54,18 @@ struct Certificate {
     }
 };
 
+// The cells, and what it takes to certify them.
+struct Certificate : CertifiedCells {
+    explicit Certificate(std::pmr::memory_resource* memory)
+        : CertifiedCells(memory), directions(memory), touched(memory), bad(memory), components(memory) {}
+
+    std::pmr::vector<std::uint32_t> directions, touched;
+    std::pmr::vector<std::uint64_t> bad;
+    Components components;
+
+    auto buffers() { return std::tie(directions, touched, bad, components.runs, components.rows, certified); }
+};
+
 struct WindingBody {
     const Tiles& tiles;
     const Boundary& boundary;
@@ -83,7 +87,8 @@ struct WindingBody {
     Positions exact{};
 };
 
-// Fills `out` so that no vertex in a certified cell is in a tet that does not own it. This does not cover
+// Fills `out` so that no vertex in a certified cell is in a tet that does not own it, and that no edge of the
+// boundary meets a facet of it there with which it has no vertex in common. This does not cover
 // vertices of no tet (Boundary::loose). Returns false when it would not pay or cannot be decided: then all
 // vertices have to be used. `exact_tests` as in predicates.hpp.
 bool certify(const WindingBody& body, Certificate& out, std::uint64_t& exact_tests);
