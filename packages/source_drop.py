@@ -4,7 +4,7 @@
 usage: source_drop.py OUT [--core | --all]    OUT: a folder that does not exist yet, or FILE.tar.xz
 --core: without vox_io and vox_sim. --all: also the tool, the reader of .vtu and the Python package; what pip takes.
 
-It holds include/, src/, CMakeLists.txt and cmake/ of this repository, LICENSE, and in third_party/ what the sources include:
+It holds include/, adapters/, src/, CMakeLists.txt and cmake/ of this repository, LICENSE, and in third_party/ what the sources include:
 Highway's headers; for vox_io and vox_sim Eigen's; for --all those of CLI11 and nlohmann-json, and the sources of pugixml and
 zlib (from Debian's source packages, build/third_party), each with its licence. One line compiles the core, and another links a
 program with it:
@@ -113,7 +113,7 @@ def compiled_together(sources):
 
 def contents(core_only, everything):
     """Every file of the drop: its name, and its bytes."""
-    paths = ["include/vox", "src", "cmake", "CMakeLists.txt", "LICENSE"]
+    paths = ["include/vox", "adapters", "src", "cmake", "CMakeLists.txt", "LICENSE"]
     if everything:
         paths += ["tools", "pyproject.toml", "bindings/python/CMakeLists.txt", "bindings/python/README.md", "bindings/python/src"]
     names = tracked(*paths)

@@ -40,6 +40,10 @@ using CV = hn::Vec<CullFloats>;
 using CM = hn::Mask<CullFloats>;
 
 struct CV3 {
+    // Those that gcc makes by itself are not for these instructions: on Arm an error.
+    HWY_INLINE CV3() {}
+    HWY_INLINE CV3(CV to_x, CV to_y, CV to_z) : x(to_x), y(to_y), z(to_z) {}
+
     CV x, y, z;
 };
 
@@ -72,6 +76,8 @@ HWY_INLINE CV CUnit(CV n, CV d) {
 // The corners of some lanes, and of the partner, at both times.
 template <int kA, int kB>
 struct CullPair {
+    HWY_INLINE CullPair() {}
+
     CV3 a[2][kA], b[2][kB];
     CV apart, error; // the bound is apart |w| + error |w|1
 
