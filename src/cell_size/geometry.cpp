@@ -197,6 +197,24 @@ Bounds bounds_of(const Body& body, std::span<const std::uint64_t> unused, const 
     return bounds;
 }
 
+// Whether some vertex at each end of a box of all vertices, along each axis, is used by a tetrahedron: the box
+// is that of the used ones, then. Looks at one vertex for each.
+bool is_of_used(const Bounds& bounds, const Body& body) {
+    bool found[3][2] = {};
+    int left = 6;
+    for (std::uint32_t v = 0; v < body.vertex_count && left > 0; ++v) {
+        const Vec3d p = body.positions.exact(v);
+        for (int a = 0; a < 3; ++a)
+            for (int end = 0; end < 2; ++end) {
+                if (found[a][end] || (&p.x)[a] != (&(end == 0 ? bounds.lo : bounds.hi).x)[a]) continue;
+                if (!is_used(body, v)) return false;
+                found[a][end] = true;
+                --left;
+            }
+    }
+    return left == 0;
+}
+
 // Scenes of at most so many tetrahedra are measured in full. Of larger ones that are not a grid's,
 // tetrahedra are sampled, and vertices whose edges and facets are.
 constexpr std::uint64_t measured_tets = 5000;
@@ -249,7 +267,9 @@ Geometry measure(const CellSizeScene& scene) {
         stats.boundary_facets += sample.boundary_facet_count;
         whole = whole && sample.is_whole;
         // Where the boxes of the bodies are not known yet, this finds positions that are not finite.
-        const Bounds own = bounds_of(body, sample.unused_vertices, scene.box(b));
+        Bounds own = bounds_of(body, sample.unused_vertices, scene.box(b));
+        if (!kept && body.tets.size() > body.off_count && !(body.off.empty() && is_of_used(own, body)))
+            own = bounds_of(body, unused_vertices(body, scene.memory), scene.box(b));
         if (own.empty()) continue;
         bounds.add(own.lo, own.hi);
         const Vec3d sides = own.hi - own.lo;

@@ -97,10 +97,12 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
     body.positions = positions;
     body.tets = {reinterpret_cast<const Tet*>(desc.tets), static_cast<std::size_t>(desc.tet_count)};
     body.self_collision = (desc.flags & VOX_MESH_SELF_COLLISION) != 0;
-    std::uint32_t largest = 0; // without a branch, several at a time
+    // Without a branch, several at a time: v and v - vertex_count differ in their highest bits.
+    static_assert(VOX_MAX_VERTICES <= std::uint32_t{1} << 31);
+    std::uint32_t all = 0xffffffffu;
     for (const Tet& tet : body.tets)
-        for (const std::uint32_t vertex : tet.v) largest = std::max(largest, vertex);
-    for (std::size_t tet = 0; tet < body.tets.size() && largest >= body.vertex_count; ++tet)
+        for (const std::uint32_t vertex : tet.v) all &= (vertex - body.vertex_count) & ~vertex;
+    for (std::size_t tet = 0; tet < body.tets.size() && all >> 31 == 0; ++tet)
         for (const std::uint32_t vertex : body.tets[tet].v)
             if (vertex >= body.vertex_count)
                 throw Error(VOX_ERROR_INVALID_MESH, format("%stet %zu names vertex %" PRIu32 " of %" PRIu32,

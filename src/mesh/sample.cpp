@@ -86,7 +86,7 @@ std::size_t sampled_tets(std::uint64_t tets) noexcept {
 
 SampleSize kept_sample(std::uint64_t tets) noexcept {
     const std::size_t kept = sampled_tets(tets);
-    return {std::max<std::size_t>(kept / 6, 24), kept, kept};
+    return {std::max<std::size_t>(kept / 6, 24), kept, kept, true};
 }
 
 namespace {
@@ -133,22 +133,13 @@ struct Listed {
 
 constexpr std::size_t at_once = 4096; // vertices
 
-// Finds the tetrahedra around chosen vertices, and the vertices that any has.
-void list_around(const Body& body, const ChosenVertices& chosen, std::pmr::vector<std::uint8_t>& used,
-                 Listed& out) {
+// Finds the tetrahedra around chosen vertices.
+void list_around(const Body& body, const ChosenVertices& chosen, Listed& out) {
     const auto find = VOX_SIMD_DISPATCH(FindChosen);
     std::array<std::uint32_t, at_once> found;
     for (std::size_t first = 0; first < body.tets.size(); first += at_once / 4) {
         const std::size_t count = std::min(at_once / 4, body.tets.size() - first);
         const Tet* tets = body.tets.data() + first;
-        const auto mark = [&](const Tet& tet) {
-            for (const std::uint32_t v : tet.v) used[v] = 1;
-        };
-        if (body.off.empty())
-            std::for_each(tets, tets + count, mark);
-        else
-            for (std::size_t t = 0; t < count; ++t)
-                if (!has_bit(body.off, first + t)) mark(tets[t]);
         const std::size_t found_count = find(tets->v, 4 * count, chosen, found.data());
         for (std::size_t i = 0; i < found_count; ++i) {
             const std::size_t t = found[i] / 4, corner = found[i] % 4;
@@ -161,13 +152,11 @@ void list_around(const Body& body, const ChosenVertices& chosen, std::pmr::vecto
 
 // The same from tiles: their vertices are fewer than corners of tetrahedra, and those of a tile together in
 // memory.
-void list_around(const Tiles& tiles, const ChosenVertices& chosen, std::pmr::vector<std::uint8_t>& used,
-                 Listed& out) {
+void list_around(const Tiles& tiles, const ChosenVertices& chosen, Listed& out) {
     const auto find = VOX_SIMD_DISPATCH(FindChosen);
     const auto tets_at = VOX_SIMD_DISPATCH(TetsAt);
     std::array<std::uint32_t, at_once> found;
     const std::span<const std::uint32_t> all = tiles.vertices;
-    for (const std::uint32_t v : all) used[v] = 1;
     auto tile = tiles.tiles.begin();
     for (std::size_t first = 0; first < all.size(); first += at_once) {
         const std::size_t found_count =
@@ -189,6 +178,20 @@ void list_around(const Tiles& tiles, const ChosenVertices& chosen, std::pmr::vec
             }
         }
     }
+}
+
+// A byte for each vertex: 1 where a tetrahedron has it.
+std::pmr::vector<std::uint8_t> used_vertices(const Body& body, std::pmr::memory_resource* memory,
+                                             const Tiles* tiles) {
+    std::pmr::vector<std::uint8_t> used(body.vertex_count, 0, memory);
+    if (tiles) { // which name a vertex less often
+        for (const std::uint32_t v : tiles->vertices) used[v] = 1;
+        return used;
+    }
+    for (std::size_t t = 0; t < body.tets.size(); ++t)
+        if (!has_bit(body.off, t))
+            for (const std::uint32_t v : body.tets[t].v) used[v] = 1;
+    return used;
 }
 
 // Sorted by vertex (counting sort).
@@ -231,16 +234,46 @@ std::uint64_t of_all(std::uint64_t listed, std::uint64_t met, double met_in_all)
 
 } // namespace
 
+std::pmr::vector<std::uint64_t> unused_vertices(const Body& body, std::pmr::memory_resource* memory,
+                                                const Tiles* tiles) {
+    std::pmr::vector<std::uint64_t> unused(memory);
+    if (body.tets.size() == body.off_count) return unused;
+    const auto used = used_vertices(body, memory, tiles);
+    if (std::find(used.begin(), used.end(), 0) == used.end()) return unused;
+    unused.resize((used.size() + 63) / 64);
+    for (std::size_t v = 0; v < used.size(); ++v)
+        if (!used[v]) unused[v / 64] |= std::uint64_t{1} << v % 64;
+    return unused;
+}
+
+bool is_used(const Body& body, std::uint32_t vertex) noexcept {
+    constexpr std::size_t part = 256; // tetrahedra, looked at without a branch
+    const std::size_t parts = (body.tets.size() + part - 1) / part;
+    const auto has = [&](std::size_t p) {
+        const std::size_t first = p * part, last = std::min(first + part, body.tets.size());
+        std::uint32_t found = 0;
+        for (std::size_t t = first; t < last; ++t)
+            for (const std::uint32_t v : body.tets[t].v) found |= v == vertex;
+        return found != 0;
+    };
+    const std::size_t guess = std::size_t{vertex} * parts / body.vertex_count;
+    for (std::size_t away = 0; away < parts; ++away) {
+        if (guess >= away && has(guess - away)) return true;
+        if (away > 0 && guess + away < parts && has(guess + away)) return true;
+    }
+    return false;
+}
+
 MeshSample make_sample(const Body& body, const SampleSize& size, std::pmr::memory_resource* memory,
                        const Tiles* tiles) {
     MeshSample sample(memory);
     const std::uint64_t tets = body.tets.size() - body.off_count;
     if (tets == 0) return sample;
+    if (size.unused_vertices) sample.unused_vertices = unused_vertices(body, memory, tiles);
     for_stratified(body.tets.size(), size.tets, 0.5, [&](std::uint64_t t) {
         if (!has_bit(body.off, t)) sample.tets.push_back(body.tets[static_cast<std::size_t>(t)]);
     });
 
-    std::pmr::vector<std::uint8_t> used(body.vertex_count, 0, memory);
     Listed listed(memory);
     std::uint64_t vertices = body.vertex_count;
     const auto list = [&] {
@@ -248,21 +281,22 @@ MeshSample make_sample(const Body& body, const SampleSize& size, std::pmr::memor
         sample.is_whole = chosen.last == 0xffffffffu;
         listed.clear();
         if (tiles)
-            list_around(*tiles, chosen, used, listed);
+            list_around(*tiles, chosen, listed);
         else
-            list_around(body, chosen, used, listed);
+            list_around(body, chosen, listed);
     };
     list();
-    const auto used_count = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), std::uint8_t{1}));
-    if (used_count < vertices) {
-        sample.unused_vertices.resize((std::size_t{body.vertex_count} + 63) / 64);
-        for (std::uint32_t v = 0; v < body.vertex_count; ++v)
-            if (!used[v]) sample.unused_vertices[v / 64] |= std::uint64_t{1} << v % 64;
-    }
     // Where tetrahedra use few of the vertices, too few may have been chosen.
-    while (listed.corners < std::min<std::uint64_t>(size.vertices, tets) && vertices > 1) {
-        vertices = std::min(used_count, vertices / 4 + 1);
-        list();
+    const auto too_few = [&] {
+        return listed.corners < std::min<std::uint64_t>(size.vertices, tets) && vertices > 1;
+    };
+    if (too_few()) {
+        const auto used = used_vertices(body, memory, tiles);
+        const auto used_count = static_cast<std::uint64_t>(std::count(used.begin(), used.end(), 1));
+        do {
+            vertices = std::min(used_count, vertices / 4 + 1);
+            list();
+        } while (too_few());
     }
     sort_by_vertex(body.vertex_count, listed.above);
 

@@ -40,7 +40,7 @@ struct MeshSample {
     // Of all. Estimates, unless the edges and facets of all vertices were listed.
     std::uint64_t edge_count = 0, facet_count = 0, boundary_facet_count = 0;
     bool is_whole = false; // whether they were
-    // By tetrahedra, as bits (bits.hpp). Empty: none; also where there are no tetrahedra.
+    // As of unused_vertices() below, where they were asked for.
     std::pmr::vector<std::uint64_t> unused_vertices;
 };
 
@@ -49,6 +49,7 @@ struct SampleSize {
     std::size_t vertices; // whose edges and facets are listed
     // Kept of what is listed; of boundary facets half as many.
     std::size_t tets, edges = std::numeric_limits<std::size_t>::max();
+    bool unused_vertices = false; // whether to find them
 };
 
 // How many tetrahedra are looked at in a grid's scene of so many.
@@ -60,5 +61,15 @@ SampleSize kept_sample(std::uint64_t tets) noexcept;
 // the same without. Throws what the memory throws.
 MeshSample make_sample(const Body& body, const SampleSize& size, std::pmr::memory_resource* memory,
                        const Tiles* tiles = nullptr);
+
+// By tetrahedra that are not off, as bits (bits.hpp). Empty: none; also where there are no such tetrahedra.
+// `tiles` as above.
+std::pmr::vector<std::uint64_t> unused_vertices(const Body& body, std::pmr::memory_resource* memory,
+                                                const Tiles* tiles = nullptr);
+
+// Whether a tetrahedron of a body, none of which is off, has a vertex. Looks first at those whose place in
+// their list is that of the vertex in its own: numbers that are near in one are mostly near in the other, and
+// where they are random, it takes a part of the list.
+bool is_used(const Body& body, std::uint32_t vertex) noexcept;
 
 } // namespace vox
