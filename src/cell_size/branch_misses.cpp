@@ -17,7 +17,7 @@ constexpr std::uint32_t row = 8;
 
 double BranchMisses::cell_size(std::size_t i) const noexcept {
     const double within = 1 + static_cast<double>(i % per_octave) / per_octave;
-    return std::ldexp(smallest * scale_ * within, static_cast<int>(i / per_octave));
+    return smallest * scale_ * within * static_cast<double>(std::uint32_t{1} << (i / per_octave));
 }
 
 std::size_t BranchMisses::first_above(double distance) noexcept {

@@ -197,12 +197,41 @@ Bounds bounds_of(const Body& body, std::span<const std::uint64_t> unused, const 
     return bounds;
 }
 
+// The first vertex from `v` on that is at an end of a box, along any axis.
+std::uint32_t next_at_end(const Body& body, std::uint32_t v, const Bounds& bounds) {
+    const auto is_at_end = [&](const Vec3d& p) {
+        return p.x == bounds.lo.x || p.x == bounds.hi.x || p.y == bounds.lo.y || p.y == bounds.hi.y ||
+               p.z == bounds.lo.z || p.z == bounds.hi.z;
+    };
+    if (fast::is_packed(body.positions)) { // some at a time, without a branch
+        constexpr std::size_t some = 16, numbers = 12;
+        const auto* const p = reinterpret_cast<const float*>(body.positions.data);
+        float lo[numbers], hi[numbers];
+        for (std::size_t i = 0; i < numbers; ++i) {
+            lo[i] = static_cast<float>((&bounds.lo.x)[i % 3]);
+            hi[i] = static_cast<float>((&bounds.hi.x)[i % 3]);
+        }
+        for (; v + some <= body.vertex_count; v += some) {
+            std::uint32_t at_end[numbers] = {};
+            for (std::size_t first = 3 * std::size_t{v}, n = 0; n < 3 * some; n += numbers)
+                for (std::size_t i = 0; i < numbers; ++i)
+                    at_end[i] |= static_cast<std::uint32_t>(p[first + n + i] == lo[i]) |
+                                 static_cast<std::uint32_t>(p[first + n + i] == hi[i]);
+            if (std::any_of(at_end, at_end + numbers, [](std::uint32_t is) { return is != 0; })) break;
+        }
+    }
+    while (v < body.vertex_count && !is_at_end(body.positions.exact(v))) ++v;
+    return v;
+}
+
 // Whether some vertex at each end of a box of all vertices, along each axis, is used by a tetrahedron: the box
 // is that of the used ones, then. Looks at one vertex for each.
 bool is_of_used(const Bounds& bounds, const Body& body) {
     bool found[3][2] = {};
     int left = 6;
-    for (std::uint32_t v = 0; v < body.vertex_count && left > 0; ++v) {
+    for (std::uint32_t v = 0; left > 0; ++v) {
+        v = next_at_end(body, v, bounds);
+        if (v == body.vertex_count) return false;
         const Vec3d p = body.positions.exact(v);
         for (int a = 0; a < 3; ++a)
             for (int end = 0; end < 2; ++end) {
@@ -212,7 +241,7 @@ bool is_of_used(const Bounds& bounds, const Body& body) {
                 --left;
             }
     }
-    return left == 0;
+    return true;
 }
 
 // Scenes of at most so many tetrahedra are measured in full. Of larger ones that are not a grid's,

@@ -45,16 +45,17 @@ ReferenceModel::ReferenceModel(const CellSizeScene& scene, vox_storage storage,
     points.reserve(vertices);
     std::pmr::vector<Box> boxes(scene.memory);
     for (const Body& body : scene.bodies) {
-        boxes.push_back(empty_box);
+        const std::uint32_t first = points.count;
         for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
             const Vec3f p = body.positions[v];
-            const std::uint32_t i = points.count++;
+            const std::uint32_t i = first + v;
             points.x[i] = p.x;
             points.y[i] = p.y;
             points.z[i] = p.z;
             points.id[i] = i;
-            add(boxes.back(), {{p.x, p.y, p.z, 0}, {p.x, p.y, p.z, 0}});
         }
+        points.count = first + body.vertex_count;
+        boxes.push_back(fast::bounds(points, first, body.vertex_count));
     }
     fast::PairBuffers buffers(scene.memory);
     std::pmr::vector<fast::Pair> pairs(scene.memory);

@@ -365,6 +365,9 @@ void collect(const float* positions, std::uint32_t first, std::uint32_t last, st
 }
 
 Box bounds(const Points& points) { return bounds(points, {0, points.count}); }
+Box bounds(const Points& points, std::uint32_t first, std::uint32_t count) {
+    return bounds(points, {first, count});
+}
 
 Window bin(const Points& points, const WindowLattice& lattice, const Box& box, Bins& bins) {
     Window window;

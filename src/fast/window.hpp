@@ -116,6 +116,7 @@ void collect(const float* positions, std::uint32_t first, std::uint32_t last, st
 
 // The box of points.
 Box bounds(const Points& points);
+Box bounds(const Points& points, std::uint32_t first, std::uint32_t count);
 
 // Adds the window of `points`, sorted stably into the cells of `lattice`.
 Window bin(const Points& points, const WindowLattice& lattice, const Box& box, Bins& bins);
