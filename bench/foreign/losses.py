@@ -76,13 +76,15 @@ class Curve:
         """The median over sizes of how far a round is from the least."""
         return statistics.median(statistics.median(times) / min(times) for times in zip(*self.rounds)) - 1
 
-    def draw(self, size, rng):
+    def draw(self, size, rng, runs=None):
         """A timing at that size, as noisy as those that were measured: the curve, times what a round was above the least of
-        all at the nearest size. As one would do by hand, the least of three where a run takes less than 5 ms."""
+        all at the nearest size. The least of so many runs; without a number, as one would do by hand, of three where a run
+        takes less than 5 ms."""
         nearest = min(range(len(self.sizes)), key=lambda i: abs(math.log(self.sizes[i] / size)))
         times = [r[nearest] for r in self.rounds]
         least = min(self.smooth[0](size), self.smooth[1](size))
-        return least * min(rng.choice(times) for _ in range(3 if least < 5e-3 else 1)) / min(times)
+        runs = runs or (3 if least < 5e-3 else 1)
+        return least * min(rng.choice(times) for _ in range(runs)) / min(times)
 
     def timing_sizes(self):
         """The three that vox_cost_fit is given: 0.6, 1.2 and 2.4 units, or as far apart from the least legal size."""

@@ -141,6 +141,21 @@ class ForeignGrids(unittest.TestCase):
             # Times that follow from the counts are what the fit is for.
             self.assertLess(max(row["losses"]["fitted"]), 0.05, row["grid"])
 
+    def test_a_fit_times_a_best_size_beyond_those_timed(self):
+        curve = losses.Curve(record(kinds()[0]))
+        told = evaluate.described(VOX, curve, None)
+        best = curve.best_size()
+        for first, beyond in ((0.5 * best, False), (2 * best, True)):
+            timed = []
+
+            def seconds(size):
+                timed.append(size)
+                return curve.smooth[0](size)
+            found = evaluate.fitted(told, seconds, [first, 2 * first, 4 * first])
+            self.assertEqual(len(timed), 4 if beyond else 3, timed)
+            self.assertTrue(not beyond or timed[3] < first, timed)
+            self.assertLess(curve.loss(found), 0.05)
+
 
 if __name__ == "__main__":
     PLAIN, VOX = ctypes.CDLL(sys.argv[1]), library.Vox(sys.argv[2])
