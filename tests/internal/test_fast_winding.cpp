@@ -1,10 +1,49 @@
-// Self-collision with and without culling by winding numbers: the same hits, those of the reference engine,
-// and less work where there is nothing to find.
+// Self-collision with and without culling by winding numbers: the same hits and edge contacts, those of the
+// reference engine, and less work where there is nothing to find.
 #include "internal/fast_checks.hpp"
 
 using namespace vox;
 
 namespace {
+
+struct SelfEdges {
+    std::uint64_t hash, count, candidates;
+};
+
+SelfEdges self_edges(Scene& scene, vox_engine engine, std::uint32_t workers) {
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.flags |= VOX_GRID_EDGE_CONTACTS;
+    desc.engine = engine;
+    desc.worker_count = workers;
+    vox_grid* grid = grid_of(&desc);
+    vox_filter filter = vox_default_filter();
+    filter.self_collision = 1;
+    for (const Mesh& mesh : scene.meshes()) {
+        vox_mesh_desc of = vox_mesh_desc_floats(&mesh.positions[0].x, mesh.positions.size(), mesh.tets[0].v,
+                                                mesh.tets.size());
+        of.filter = &filter;
+        insert_mesh(grid, &of);
+    }
+    ck_ok(vox_grid_step(grid));
+    const vox_counters counters = counters_of(grid);
+    SelfEdges found{0, counters.edge_contacts, counters.edge_candidates};
+    ck_ok(vox_grid_edge_hash(grid, &found.hash));
+    vox_grid_destroy(grid);
+    return found;
+}
+
+// What the reference engine finds, which certifies nothing, after both engines found the same.
+SelfEdges check_edges(Scene& scene, const char* name, std::uint64_t* candidates = nullptr) {
+    const SelfEdges expected = self_edges(scene, VOX_ENGINE_REFERENCE, 1);
+    for (const std::uint32_t workers : {1u, 3u}) {
+        const SelfEdges found = self_edges(scene, VOX_ENGINE_FAST, workers);
+        ck_assert_msg(found.hash == expected.hash, "%s: %llu edge contacts, expected %llu", name,
+                      static_cast<unsigned long long>(found.count),
+                      static_cast<unsigned long long>(expected.count));
+        if (candidates) *candidates = found.candidates;
+    }
+    return expected;
+}
 
 // The vertices that a self-collision scene puts into its window, after checking the hits with and without
 // culling.
@@ -67,6 +106,69 @@ START_TEST(winding_culls_compact_bodies) {
     scene = one_block(mesh);
     const std::size_t vertices = mesh.positions.size();
     ck_assert_uint_lt(check_winding(scene, "a ball"), vertices / 4);
+}
+END_TEST
+
+START_TEST(edges_of_compact_bodies_are_not_compared) {
+    Random r{23};
+    Mesh mesh = block(21, 21, 21);
+    jitter(mesh, 0.1, r);
+    Scene scene = one_block(mesh);
+    std::uint64_t candidates = 1;
+    const SelfEdges all = check_edges(scene, "a block", &candidates);
+    ck_assert_uint_gt(all.candidates, 1000);
+    ck_assert_uint_eq(candidates, 0);
+}
+END_TEST
+
+// Edges of a body through its own faces, little and much, also where no vertex is inside; and pieces that
+// touch in a point, along an edge and in a face.
+START_TEST(winding_finds_every_edge_contact) {
+    Random r{24};
+    std::uint64_t found = 0;
+    for (const double turn : {5.0, 6.0, 6.2831853, 6.3, 6.4, 7.0}) {
+        Scene scene = one_block(ring(r, turn));
+        found += check_edges(scene, "a ring").count;
+    }
+    ck_assert_uint_gt(found, 100);
+    for (int part = 0; part < 60; ++part) {
+        Mesh mesh = block(18, 17, 16);
+        if (part % 2) jitter(mesh, 0.1, r);
+        const auto vertices = std::uint32_t(mesh.positions.size());
+        for (int i = 0; i < 1 + part % 4; ++i) { // a spike inward or outward, or a vertex on another
+            Vec3f& p = mesh.positions[r.below(vertices)];
+            const float far = part % 3 == 0 ? 1.0f : 6.0f;
+            p = part % 5 == 0 ? mesh.positions[r.below(vertices)]
+                              : Vec3f{p.x + r.uniform(-far, far), p.y + r.uniform(-far, far),
+                                      p.z + r.uniform(-far, far)};
+        }
+        Scene scene = one_block(mesh);
+        found += check_edges(scene, "a block with spikes").count;
+    }
+    for (int kind = 0; kind < 40; ++kind) { // two blocks in one mesh, that touch or overlap a little
+        Mesh mesh = block(16, 16, 16), other = block(12, 12, 12);
+        const float into = kind % 4 == 0 ? 0 : kind % 4 == 1 ? 0x1p-16f : kind % 4 == 2 ? -0x1p-16f : 0.3f;
+        const Vec3f by{16 - into,
+                       kind % 3 == 0   ? 0.0f
+                       : kind % 3 == 1 ? 15.5f
+                                       : 16 - into,
+                       kind < 20 ? 0.25f * float(kind) : 16 - into};
+        const auto first = std::uint32_t(mesh.positions.size());
+        for (const Vec3f& p : other.positions) mesh.positions.push_back({p.x + by.x, p.y + by.y, p.z + by.z});
+        for (Tet tet : other.tets) {
+            for (std::uint32_t& v : tet.v) v += first;
+            mesh.tets.push_back(tet);
+        }
+        if (kind % 5 == 4)
+            for (Vec3f& p : mesh.positions) { // turned, so that nothing is on the lattice
+                const float x = p.x, y = p.y;
+                p.x = 0.8f * x - 0.6f * y;
+                p.y = 0.6f * x + 0.8f * y;
+            }
+        Scene scene = one_block(mesh);
+        found += check_edges(scene, "two blocks").count;
+    }
+    ck_assert_uint_gt(found, 1000);
 }
 END_TEST
 
@@ -163,6 +265,7 @@ int main() {
     Suite* suite = suite_create("fast engine, winding numbers");
     TCase* tests = add_case(suite, "hits");
     tcase_add_each(tests, winding_culls_compact_bodies, winding_turned_inside_out,
-                   winding_finds_every_contact, winding_sees_exact_contact);
+                   winding_finds_every_contact, winding_sees_exact_contact,
+                   edges_of_compact_bodies_are_not_compared, winding_finds_every_edge_contact);
     return run_suite(suite);
 }
