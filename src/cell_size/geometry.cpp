@@ -224,8 +224,8 @@ std::uint32_t next_at_end(const Body& body, std::uint32_t v, const Bounds& bound
     return v;
 }
 
-// Whether some vertex at each end of a box of all vertices, along each axis, is used by a tetrahedron: the box
-// is that of the used ones, then. Looks at one vertex for each.
+// Whether some vertex at each end of a box of all vertices, along each axis, is used by a tetrahedron: the
+// box is that of the used ones, then. Looks at one vertex for each.
 bool is_of_used(const Bounds& bounds, const Body& body) {
     bool found[3][2] = {};
     int left = 6;

@@ -153,7 +153,7 @@ ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, c
                          const BoxSample& asking, std::pmr::memory_resource* memory)
     : centres_(grid.centres()), pairs_(grid.pairs()), same_set_(grid.same_set()),
       around_(grid.desc.look == VOX_LOOK_AROUND), chosen_(budget.chosen), looked_cells_(budget.cells),
-      rough_(budget.rough), held_(held, centres_, share_of(held, grid.held), memory),
+      singly_(budget.singly), rough_(budget.rough), held_(held, centres_, share_of(held, grid.held), memory),
       asking_(asking, around_ || (pairs_ && centres_), share_of(asking, grid.those_asking()), memory),
       asking_chosen_(choose_asking(asking_, budget.chosen, memory)), held_chosen_(memory),
       read_(sum_pairs(asking_, asking_chosen_, held_, coarseness(budget, asking_chosen_.size()),
@@ -356,7 +356,7 @@ double ForeignWork::occupied_of_few(double d, double cells_there) const {
     // Additive recurrences with powers of the plastic number of three dimensions: evenly spread positions.
     double place[3] = {0.5, 0.5, 0.5};
     constexpr double step[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
-    const auto positions = static_cast<std::size_t>(static_cast<double>(looked_cells_) / cells_there);
+    const auto positions = static_cast<std::size_t>(static_cast<double>(singly_) / cells_there);
     double found = 0;
     for (std::size_t p = 0; p < positions; ++p) {
         double first[3];
@@ -380,12 +380,14 @@ double ForeignWork::occupied_share(double d) {
     if (held_chosen_.empty())
         held_chosen_ = choose_asking(held_, chosen_, table_[0].get_allocator().resource());
     const vox_grid_work smooth = smooth_at(d);
-    if (smooth.cells * least_positions <= static_cast<double>(looked_cells_))
+    const bool both = pairs_ && !same_set_, all_kept = held_.share() == 1 && (!both || asking_.share() == 1);
+    // More of them are few where none can be missed for want of what is not in the sample.
+    if (smooth.cells * least_positions <=
+        static_cast<double>(all_kept ? singly_ : std::min(singly_, looked_cells_)))
         return occupied_of_few(d, smooth.cells) / smooth.entries;
     std::uint64_t random = 4;
     double entries = 0, cells = 0;
     CellCounts counts;
-    const bool both = pairs_ && !same_set_, all_kept = held_.share() == 1 && (!both || asking_.share() == 1);
     const auto count_from = [&](const SampleTree& own, const SampleTree* other, const auto& chosen) {
         for (std::size_t i = 0; i < looked_cells_; ++i) {
             const Asking& one = chosen[i * chosen.size() / looked_cells_];

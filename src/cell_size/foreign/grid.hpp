@@ -49,19 +49,21 @@ struct ForeignBudget {
     double coarse;        // and so coarsely (SampleTree::sample_around)
     std::size_t cells;    // cells looked at for what is in them, at each size
     double rough;         // how roughly it is counted (SampleTree::count_meeting)
+    std::size_t singly;   // cells looked at for whether there is anything in them, where those of some
+                        // positions of the lattice are no more
 };
 // For vox_suggest_for: a look at 20,000 primitives takes less than half a millisecond, at a million a few.
 inline ForeignBudget quick_look(const ForeignGrid& grid) noexcept {
     const std::uint64_t count = std::max(grid.held.count(), grid.those_asking().count());
     const std::uint64_t held = std::clamp<std::uint64_t>(count / 10, 2048, 8192);
     const std::uint64_t chosen = std::min<std::uint64_t>(held / 32, 128);
-    return {4 * held, held, held / 4, static_cast<std::size_t>(chosen), 3, 48, 0.5};
+    return {4 * held, held, held / 4, static_cast<std::size_t>(chosen), 3, 48, 0.5, 48};
 }
 // What that takes, about.
 inline constexpr std::size_t quick_look_bytes = std::size_t{1} << 19;
 // For vox_count_for. The tests hold its counts to within 5 % of those in a filled grid.
 inline constexpr ForeignBudget thorough_look{
-    ~std::uint64_t{0}, std::uint64_t{1} << 18, std::uint64_t{1} << 15, 4096, 1, 16384, 0};
+    ~std::uint64_t{0}, std::uint64_t{1} << 18, std::uint64_t{1} << 15, 4096, 1, 16384, 0, 131072};
 
 // Counts that take longer than the others.
 struct CellsWanted {
@@ -108,7 +110,7 @@ private:
     vox_grid_work with_shares(double cell_size, double empty_part, double occupied_part) const noexcept;
 
     bool centres_, pairs_, same_set_, around_;
-    std::size_t chosen_, looked_cells_; // of a ForeignBudget
+    std::size_t chosen_, looked_cells_, singly_; // of a ForeignBudget
     double rough_;
     PrimitiveSums held_sums_, asking_sums_;
     SampleTree held_, asking_;
