@@ -328,7 +328,7 @@ END_TEST
 double loss_of_quick(const vox_foreign_grid& desc, double* quick_size, double* best_size) {
     const ForeignGrid grid(&desc);
     ForeignWork quick(grid, quick_look(grid), heap),
-        thorough(grid, {~std::uint64_t{0}, 1 << 16, 4096, 1024, 1, 1024, 0}, heap);
+        thorough(grid, {~std::uint64_t{0}, 1 << 16, 4096, 1024, 1, 1024, 0, 1024}, heap);
     const vox_foreign_suggestion found = suggest_for(grid, quick), best = suggest_for(grid, thorough);
     const auto cost = [&](double d) { return grid_cost(thorough.exactly_at(d), found.weights); };
     *quick_size = found.cell_size;
