@@ -202,9 +202,7 @@ typedef struct vox_scene_point {
     uint64_t tet;         /* global number */
     float barycentric[4]; /* as in vox_contact */
     uint32_t rank;        /* where the tetrahedron lies; VOX_NO_RANK: in none, and the other fields are 0 */
-    uint32_t index;       /* of the tetrahedron in the part there */
     uint32_t interior;    /* 1 or, on the boundary of the tetrahedron, 0 */
-    uint32_t reserved;    /* 0 */
 } vox_scene_point;
 
 /* Collective. Finds the tetrahedra that contain `count` points of this rank, `byte_stride` apart (0: tightly packed), at

@@ -1,0 +1,153 @@
+// What ranks send each other: plain structs, one after the other, in the byte order of the machine.
+#pragma once
+
+#include "base/error.hpp"
+
+#include <vox/vox_dist.h>
+
+#include <cstddef>
+#include <cstring>
+#include <memory_resource>
+#include <type_traits>
+#include <vector>
+
+namespace vox::dist {
+
+// Closed; empty if a minimum is above its maximum.
+struct Box {
+    float min[3] = {INFINITY_, INFINITY_, INFINITY_};
+    float max[3] = {-INFINITY_, -INFINITY_, -INFINITY_};
+
+    bool empty() const noexcept { return !(min[0] <= max[0]); }
+    void add(const Box& other) noexcept {
+        for (int axis = 0; axis < 3; ++axis) {
+            if (other.min[axis] < min[axis]) min[axis] = other.min[axis];
+            if (other.max[axis] > max[axis]) max[axis] = other.max[axis];
+        }
+    }
+    bool meets(const Box& other) const noexcept {
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(min[axis] <= other.max[axis] && other.min[axis] <= max[axis])) return false;
+        return true;
+    }
+    bool holds(const double point[3]) const noexcept {
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(min[axis] <= point[axis] && point[axis] <= max[axis])) return false;
+        return true;
+    }
+
+private:
+    static constexpr float INFINITY_ = __builtin_inff();
+};
+
+// What the ranks are in.
+enum class Call : std::uint32_t { step = 1, locate = 2, check = 3, create = 4, send = 5, hash = 6 };
+
+// What every rank knows of every rank: 64 bytes.
+struct Overview {
+    Box tets;     // of the tetrahedra there
+    Box vertices; // of the vertices owned there, or the points asked for
+    std::int32_t result = VOX_OK;
+    Call call = Call::step;
+    std::uint64_t reserved = 0;
+};
+static_assert(sizeof(Overview) == 64);
+
+// Of a part, before its boxes.
+struct PartBoxes {
+    std::uint64_t body;
+    std::uint64_t category, mask;
+    std::int32_t group;
+    std::uint32_t self_collision;
+    std::uint32_t part;  // a number of the sender's, which hits come back with
+    std::uint32_t boxes; // that follow
+};
+
+// A vertex, with its position as it is: in 32 bytes, or in 20.
+struct VertexDoubles {
+    std::uint64_t id;
+    double position[3];
+};
+#pragma pack(push, 4)
+struct VertexFloats {
+    std::uint64_t id;
+    float position[3];
+};
+#pragma pack(pop)
+static_assert(sizeof(VertexDoubles) == 32 && sizeof(VertexFloats) == 20);
+
+// Vertices of a body, before them. Points that are asked for have no body.
+struct Vertices {
+    std::uint64_t body;
+    std::uint64_t category, mask;
+    std::int32_t group;
+    std::uint32_t self_collision;
+    std::uint32_t count;
+    std::uint32_t doubles; // 1 or 0
+};
+
+// Hits of one rank for another, before them.
+struct Hits {
+    std::uint64_t count;
+    std::uint64_t on_boundary;
+};
+
+// A vertex that was sent, in a tetrahedron.
+struct Hit {
+    std::uint64_t tet;
+    std::uint32_t vertex; // its place among those that were sent to the rank
+    std::uint32_t part;   // as in PartBoxes; the highest bit: the vertex is in the interior
+    float weights[4];
+};
+static_assert(sizeof(Hit) == 32);
+constexpr std::uint32_t interior_bit = 0x80000000u;
+
+using Memory = std::pmr::memory_resource;
+template <class T>
+using Vector = std::pmr::vector<T>;
+
+class Writer {
+public:
+    explicit Writer(Memory* memory) : bytes_(memory) {}
+    void clear() noexcept { bytes_.clear(); }
+    template <class T>
+    std::size_t add(const T& value) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        const std::size_t at = bytes_.size();
+        bytes_.resize(at + sizeof value);
+        std::memcpy(bytes_.data() + at, &value, sizeof value);
+        return at;
+    }
+    template <class T>
+    void set(std::size_t at, const T& value) noexcept {
+        std::memcpy(bytes_.data() + at, &value, sizeof value);
+    }
+    std::size_t size() const noexcept { return bytes_.size(); }
+    void shrink(std::size_t size) { bytes_.resize(size); }
+    vox_bytes bytes() const noexcept { return {bytes_.data(), bytes_.size()}; }
+
+private:
+    Vector<std::byte> bytes_;
+};
+
+class Reader {
+public:
+    explicit Reader(const vox_bytes& bytes) noexcept
+        : at_(static_cast<const std::byte*>(bytes.data)), left_(bytes.size) {}
+    bool more() const noexcept { return left_ != 0; }
+    template <class T>
+    T take() {
+        if (left_ < sizeof(T)) throw Error(VOX_ERROR_INTERNAL, "a message of another rank is too short");
+        T value;
+        std::memcpy(&value, at_, sizeof value);
+        at_ += sizeof value;
+        left_ -= sizeof value;
+        return value;
+    }
+
+private:
+    const std::byte* at_;
+    std::uint64_t left_;
+};
+
+} // namespace vox::dist

@@ -1,0 +1,183 @@
+#include "dist/rounds.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace vox::dist {
+
+Rounds::Rounds(vox_scene& scene, Side& side, bool points)
+    : outgoing(&scene.memory_), found(&scene.memory_), scene_(scene), side_(side), points_(points),
+      memory_(&scene.memory_), writers_(memory_), remote_(memory_), remote_begin_(memory_), boxes_(memory_),
+      boxes_begin_(memory_), sent_(memory_), sent_begin_(memory_), groups_(memory_), strangers_(memory_),
+      xyz_(memory_), known_(memory_) {}
+
+void Rounds::send_nothing() noexcept {
+    for (std::uint32_t i = 0; i < scene_.rank_count_; ++i) scene_.out_[i] = {nullptr, 0};
+}
+
+// A failure here sends empty messages from then on; what others send is read, but not understood.
+void Rounds::run(std::span<const Source> sources, Failure& failure) {
+    const auto round = [&](auto&& write, std::uint64_t& bytes) {
+        send_nothing();
+        failure.guard(write);
+        if (failure) send_nothing();
+        scene_.exchange(&bytes);
+    };
+    round([&] { write_boxes(); }, scene_.counters_.box_bytes);
+    round([&] { read_boxes(), choose_vertices(sources); }, scene_.counters_.vertex_bytes);
+    round(
+        [&] {
+            take_vertices();
+            if (points_) take_points_of_this_rank(sources);
+            step_grid();
+            collect_here();
+            write_hits();
+        },
+        scene_.counters_.hit_bytes);
+    failure.guard([&] { read_hits(sources); });
+}
+
+// ---- boxes ----------------------------------------------------------------------------------------
+
+void Rounds::write_boxes() {
+    for (std::uint32_t i = 0; i < scene_.rank_count_; ++i) writers_.emplace_back(memory_);
+    for (std::uint32_t i = 0; i < scene_.rank_count_; ++i) {
+        const Box& vertices = scene_.overviews_[scene_.ranks_[i]].vertices;
+        for (std::uint32_t p = 0; p < scene_.parts_.size(); ++p) {
+            const Part& part = *scene_.parts_[p];
+            if (!part.tet_box.meets(vertices)) continue;
+            PartBoxes header{part.body,         part.filter.category,       part.filter.mask,
+                             part.filter.group, part.filter.self_collision, p, 0};
+            const std::size_t at = writers_[i].add(header);
+            for (const Box& box : part.tet_clusters.boxes)
+                if (box.meets(vertices)) {
+                    writers_[i].add(box);
+                    ++header.boxes;
+                }
+            if (header.boxes)
+                writers_[i].set(at, header);
+            else
+                writers_[i].shrink(at);
+        }
+        scene_.out_[i] = writers_[i].bytes();
+    }
+}
+
+void Rounds::read_boxes() {
+    for (std::uint32_t i = 0; i < scene_.rank_count_; ++i) {
+        remote_begin_.push_back(remote_.size());
+        for (Reader reader(scene_.in_[i]); reader.more();) {
+            remote_.push_back(reader.take<PartBoxes>());
+            boxes_begin_.push_back(boxes_.size());
+            for (std::uint32_t b = 0; b < remote_.back().boxes; ++b) boxes_.push_back(reader.take<Box>());
+        }
+    }
+    remote_begin_.push_back(remote_.size());
+    boxes_begin_.push_back(boxes_.size());
+}
+
+// ---- vertices -------------------------------------------------------------------------------------
+
+void Rounds::choose_vertices(std::span<const Source> sources) {
+    for (std::uint32_t i = 0; i < scene_.rank_count_; ++i) {
+        sent_begin_.push_back(sent_.size());
+        writers_[i].clear();
+        if (remote_begin_[i] != remote_begin_[i + 1]) send_vertices_to(i, sources);
+        scene_.out_[i] = writers_[i].bytes();
+    }
+    sent_begin_.push_back(sent_.size());
+    scene_.counters_.vertices_sent += sent_.size();
+}
+
+void Rounds::send_vertices_to(std::uint32_t neighbour, std::span<const Source> sources) {
+    Vector<Box> near_source(memory_), near_cluster(memory_);
+    Writer& writer = writers_[neighbour];
+    for (std::uint32_t s = 0; s < sources.size(); ++s) {
+        const Source& source = sources[s];
+        near_source.clear();
+        for (std::uint64_t r = remote_begin_[neighbour]; r < remote_begin_[neighbour + 1]; ++r) {
+            const PartBoxes& remote = remote_[r];
+            const Filter filter{remote.category, remote.mask, remote.group, remote.self_collision};
+            if (source.part && !collide(source.part->body, source.part->filter, remote.body, filter)) continue;
+            for (std::uint64_t b = boxes_begin_[r]; b < boxes_begin_[r + 1]; ++b)
+                if (boxes_[b].meets(source.box)) near_source.push_back(boxes_[b]);
+        }
+        if (near_source.empty()) continue;
+        Vertices header{0, 0, 0, 0, 0, 0, source.positions.doubles ? 1u : 0u};
+        if (const Part* part = source.part)
+            header = {part->body,        part->filter.category,       part->filter.mask,
+                      part->filter.group, part->filter.self_collision, 0, header.doubles};
+        const std::size_t at = writer.add(header);
+        for (std::uint32_t c = 0; c < source.clusters->size(); ++c) {
+            near_cluster.clear();
+            for (const Box& box : near_source)
+                if (box.meets(source.clusters->boxes[c])) near_cluster.push_back(box);
+            if (near_cluster.empty()) continue;
+            for (const std::uint32_t v : source.clusters->of(c)) {
+                double position[3];
+                source.positions.get(v, position);
+                if (std::none_of(near_cluster.begin(), near_cluster.end(),
+                                 [&](const Box& box) { return box.holds(position); }))
+                    continue;
+                const std::uint64_t id = source.part ? source.part->id_of(v) : v;
+                if (header.doubles)
+                    writer.add(VertexDoubles{id, {position[0], position[1], position[2]}});
+                else
+                    writer.add(VertexFloats{id,
+                                            {static_cast<float>(position[0]), static_cast<float>(position[1]),
+                                             static_cast<float>(position[2])}});
+                sent_.push_back({s, v});
+                ++header.count;
+            }
+        }
+        if (header.count)
+            writer.set(at, header);
+        else
+            writer.shrink(at);
+    }
+}
+
+void Rounds::take_vertices() {
+    for (std::uint32_t i = 0; i < scene_.rank_count_; ++i) {
+        std::uint32_t place = 0;
+        for (Reader reader(scene_.in_[i]); reader.more();) {
+            const auto header = reader.take<Vertices>();
+            const Part* const copies = points_ ? nullptr : scene_.find_body(header.body);
+            const auto group = static_cast<std::uint32_t>(groups_.size());
+            groups_.push_back(
+                {header.body, {header.category, header.mask, header.group, header.self_collision}, i});
+            for (std::uint32_t n = 0; n < header.count; ++n, ++place) {
+                VertexDoubles vertex{};
+                if (header.doubles) {
+                    vertex = reader.take<VertexDoubles>();
+                } else {
+                    const auto floats = reader.take<VertexFloats>();
+                    vertex = {floats.id, {floats.position[0], floats.position[1], floats.position[2]}};
+                }
+                if (const auto here = copies ? copies->find(vertex.id) : std::nullopt) {
+                    double position[3];
+                    copies->positions.get(*here, position);
+                    if (!std::equal(position, position + 3, vertex.position))
+                        throw Error(VOX_ERROR_INVALID_STATE,
+                                    format("vertex %llu of body %llu is at %.17g %.17g %.17g on rank %u, and its "
+                                           "copy at %.17g %.17g %.17g on rank %u",
+                                           static_cast<unsigned long long>(vertex.id),
+                                           static_cast<unsigned long long>(header.body), vertex.position[0],
+                                           vertex.position[1], vertex.position[2], scene_.ranks_[i], position[0],
+                                           position[1], position[2], scene_.transport_.rank()));
+                    known_.push_back({copies, *here, i, place});
+                } else {
+                    strangers_.push_back({vertex.id, group, place});
+                    xyz_.insert(xyz_.end(), vertex.position, vertex.position + 3);
+                }
+            }
+        }
+        scene_.counters_.vertices_received += place;
+    }
+    scene_.counters_.vertices_here += known_.size();
+    std::sort(known_.begin(), known_.end(), [](const Known& a, const Known& b) {
+        return std::tuple(a.part->body, a.vertex) < std::tuple(b.part->body, b.vertex);
+    });
+}
+
+} // namespace vox::dist

@@ -1,0 +1,194 @@
+#include "dist/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace vox;
+using namespace vox::dist;
+
+namespace vox::dist {
+
+vox_filter everything() noexcept {
+    vox_filter filter = vox_default_filter();
+    filter.category = UINT64_MAX;
+    return filter;
+}
+
+const Part& Side::part_of(vox_mesh mesh) const noexcept {
+    return *std::lower_bound(placed.begin(), placed.end(), mesh,
+                             [](const Placed& p, vox_mesh m) { return p.mesh < m; })
+                ->part;
+}
+
+void Side::set_points(Vector<double>& positions) {
+    const std::uint64_t count = positions.size() / 3;
+    if (points == VOX_NULL_MESH && count == 0) return;
+    vox_mesh_desc desc = vox_mesh_desc_doubles(positions.data(), count, nullptr, 0);
+    const vox_filter filter = everything();
+    desc.filter = &filter;
+    if (points == VOX_NULL_MESH)
+        check(vox_mesh_insert(grid.get(), &desc, &points));
+    else
+        check(vox_mesh_set_topology(grid.get(), points, &desc));
+    xyz.swap(positions);
+    check(vox_mesh_set_enabled(grid.get(), points, count != 0));
+}
+
+namespace {
+
+GridHandle create_grid(const vox_grid_desc& desc) {
+    vox_grid* grid = nullptr;
+    check(vox_grid_create(&desc, &grid));
+    return GridHandle(grid);
+}
+
+Filter read_filter(const vox_mesh_desc& mesh) {
+    vox_filter filter = vox_default_filter();
+    if (mesh.filter) {
+        std::memcpy(&filter, mesh.filter, std::min<std::size_t>(mesh.filter->struct_size, sizeof filter));
+        if (filter.self_rings != 0 || filter.self_rest_distance != 0)
+            throw Error(VOX_ERROR_UNSUPPORTED, "self_rings and self_rest_distance are not supported for parts of bodies");
+    }
+    return {filter.category, filter.mask, filter.group,
+            filter.self_collision || (mesh.flags & VOX_MESH_SELF_COLLISION) ? 1u : 0u};
+}
+
+} // namespace
+} // namespace vox::dist
+
+vox_scene::vox_scene(const vox_scene_desc&, const vox_grid_desc& grid, const vox_transport& transport)
+    : memory_(grid.allocator), grid_desc_(grid), transport_(transport), parts_(&memory_), contacts_side_(&memory_),
+      points_side_(&memory_), contacts_(&memory_), incoming_(&memory_), overviews_(&memory_), ranks_(&memory_),
+      out_(&memory_), in_(&memory_) {
+    overviews_.resize(transport.size);
+    ranks_.resize(transport.size);
+    out_.resize(transport.size);
+    in_.resize(transport.size);
+    contacts_side_.grid = create_grid(grid_desc_);
+}
+
+vox_scene::~vox_scene() {
+    std::pmr::polymorphic_allocator<> allocator(&memory_);
+    for (Part* part : parts_) allocator.delete_object(part);
+}
+
+Part* vox_scene::find_body(std::uint64_t body) const noexcept {
+    const auto place = std::lower_bound(parts_.begin(), parts_.end(), body,
+                                        [](const Part* p, std::uint64_t b) { return p->body < b; });
+    return place != parts_.end() && (*place)->body == body ? *place : nullptr;
+}
+
+vox_part vox_scene::insert(const vox_part_desc& desc) {
+    require(desc.mesh, "desc.mesh");
+    vox_mesh_desc mesh = vox_default_mesh_desc();
+    std::memcpy(&mesh, desc.mesh, std::min<std::size_t>(desc.mesh->struct_size, sizeof mesh));
+    mesh.struct_size = sizeof mesh;
+    if (find_body(desc.body))
+        refuse(format("body %llu has a part on this rank already", static_cast<unsigned long long>(desc.body)));
+    const Filter filter = read_filter(mesh);
+
+    std::pmr::polymorphic_allocator<> allocator(&memory_);
+    const auto remove = [&](Part* part) { allocator.delete_object(part); };
+    std::unique_ptr<Part, decltype(remove)> part(allocator.new_object<Part>(&memory_), remove);
+    part->take(desc, mesh);
+    part->body = desc.body;
+    part->filter = filter;
+    parts_.reserve(parts_.size() + 1);
+    contacts_side_.placed.reserve(contacts_side_.placed.size() + 1);
+
+    // The grid may find more than the filter allows; what it does not, is left out afterwards.
+    vox_filter grid_filter = vox_default_filter();
+    grid_filter.self_collision = filter.self_collision;
+    if (filter.category == 0 || filter.mask == 0) {
+        grid_filter.category = UINT64_MAX;
+    } else {
+        grid_filter.category = filter.category;
+        grid_filter.mask = filter.mask;
+        grid_filter.group = filter.group;
+    }
+    if (mesh.filter && filter.category == 0 && filter.mask == 0 && filter.group == 0 && !filter.self_collision)
+        refuse("the filter is all zero: vox_filter_init fills it");
+    mesh.tets = part->tets.data();
+    mesh.filter = &grid_filter;
+    mesh.flags |= VOX_MESH_BORROW_TETS;
+    mesh.user_data = desc.body;
+    check(vox_mesh_insert(contacts_side_.grid.get(), &mesh, &part->handle));
+
+    const vox_part handle = part->handle;
+    const auto place = std::upper_bound(parts_.begin(), parts_.end(), desc.body,
+                                        [](std::uint64_t b, const Part* p) { return b < p->body; });
+    auto& placed = contacts_side_.placed;
+    placed.insert(std::upper_bound(placed.begin(), placed.end(), handle,
+                                   [](vox_mesh m, const Placed& p) { return m < p.mesh; }),
+                  Placed{handle, part.get()});
+    parts_.insert(place, part.release());
+    return handle;
+}
+
+void vox_scene::remove(vox_part handle) {
+    const auto is_it = [&](const Part* p) { return p->handle == handle; };
+    const auto place = std::find_if(parts_.begin(), parts_.end(), is_it);
+    if (place == parts_.end()) throw Error(VOX_ERROR_INVALID_HANDLE, format("there is no part %u", handle));
+    check(vox_mesh_remove(contacts_side_.grid.get(), handle));
+    Part* const part = *place;
+    for (Side* side : {&contacts_side_, &points_side_}) {
+        const auto gone = std::find_if(side->placed.begin(), side->placed.end(),
+                                       [&](const Placed& p) { return p.part == part; });
+        if (gone == side->placed.end()) continue;
+        if (side == &points_side_) (void)vox_mesh_remove(side->grid.get(), gone->mesh);
+        side->placed.erase(gone);
+    }
+    parts_.erase(place);
+    std::pmr::polymorphic_allocator<>(&memory_).delete_object(part);
+}
+
+void vox_scene::bind(vox_part handle, const void* positions, vox_format format, std::uint64_t stride,
+                     std::uint64_t component_stride) {
+    if (std::none_of(parts_.begin(), parts_.end(), [&](const Part* p) { return p->handle == handle; }))
+        throw Error(VOX_ERROR_INVALID_HANDLE, vox::format("there is no part %u", handle));
+    check(vox_mesh_bind_strided_positions(contacts_side_.grid.get(), handle, positions, format, stride,
+                                          component_stride));
+}
+
+void vox_scene::look() {
+    for (Part* part : parts_) {
+        vox_mesh_info info{};
+        info.struct_size = sizeof info;
+        check(vox_mesh_get_info(contacts_side_.grid.get(), part->handle, &info));
+        if (!info.positions && part->vertex_count != 0)
+            throw Error(VOX_ERROR_INVALID_STATE, format("the part of body %llu has no positions",
+                                                        static_cast<unsigned long long>(part->body)));
+        part->positions = {static_cast<const std::byte*>(info.positions), info.position_byte_stride,
+                           info.position_component_byte_stride, info.position_format == VOX_FORMAT_DOUBLE3};
+        part->look(&memory_);
+    }
+}
+
+void vox_scene::meet(Overview mine, const Failure& failure) {
+    mine.result = failure.result();
+    transport_.allgather(&mine, sizeof mine, overviews_.data());
+    counters_.replicated_bytes = sizeof mine;
+    for (std::uint32_t rank = 0; rank < transport_.size(); ++rank) {
+        if (overviews_[rank].result != VOX_OK)
+            failure.throw_agreed(std::uint64_t{rank} << 32 |
+                                     static_cast<std::uint32_t>(-overviews_[rank].result),
+                                 transport_.rank());
+    }
+    for (std::uint32_t rank = 1; rank < transport_.size(); ++rank)
+        if (overviews_[rank].call != overviews_[0].call)
+            throw Error(VOX_ERROR_INVALID_STATE, format("ranks 0 and %u call different functions", rank));
+    rank_count_ = 0;
+    const Overview& me = overviews_[transport_.rank()];
+    for (std::uint32_t rank = 0; rank < transport_.size(); ++rank) {
+        const Overview& other = overviews_[rank];
+        if (rank != transport_.rank() && (me.tets.meets(other.vertices) || other.tets.meets(me.vertices)))
+            ranks_[rank_count_++] = rank;
+    }
+    counters_.neighbours = rank_count_;
+}
+
+void vox_scene::exchange(std::uint64_t* sent_bytes) {
+    if (sent_bytes)
+        for (std::uint32_t i = 0; i < rank_count_; ++i) *sent_bytes += out_[i].size;
+    transport_.exchange(ranks_.data(), rank_count_, out_.data(), in_.data());
+}

@@ -1,0 +1,78 @@
+// The parts of this rank, and what they found.
+#pragma once
+
+#include "base/caller_memory.hpp"
+#include "dist/part.hpp"
+#include "dist/transport.hpp"
+
+#include <memory>
+
+namespace vox::dist {
+
+struct GridDeleter {
+    void operator()(vox_grid* grid) const noexcept { vox_grid_destroy(grid); }
+};
+using GridHandle = std::unique_ptr<vox_grid, GridDeleter>;
+
+// A part in a grid of the scene.
+struct Placed {
+    vox_mesh mesh;
+    Part* part;
+};
+
+// A grid with the parts, and with the vertices or points of other ranks as a mesh without tetrahedra.
+struct Side {
+    explicit Side(Memory* memory) : placed(memory), xyz(memory) {}
+    const Part& part_of(vox_mesh mesh) const noexcept;
+    // Gives the grid these points, and keeps them.
+    void set_points(Vector<double>& positions);
+
+    Vector<Placed> placed; // ascending
+    Vector<double> xyz;    // of the points, which the grid borrows
+    GridHandle grid;
+    vox_mesh points = VOX_NULL_MESH;
+};
+
+vox_filter everything() noexcept;
+
+} // namespace vox::dist
+
+struct vox_scene {
+    vox_scene(const vox_scene_desc& desc, const vox_grid_desc& grid, const vox_transport& transport);
+    ~vox_scene();
+    vox_scene(const vox_scene&) = delete;
+    vox_scene& operator=(const vox_scene&) = delete;
+
+    vox_part insert(const vox_part_desc& desc);
+    void remove(vox_part part);
+    void bind(vox_part part, const void* positions, vox_format format, std::uint64_t stride,
+              std::uint64_t component_stride);
+    void step();
+    void send(vox_direction direction, std::uint64_t item_bytes, const void* in, void* out);
+    void hash(std::uint64_t out[2]);
+    void locate(const void* points, vox_format format, std::uint64_t stride, std::uint64_t count,
+                vox_scene_point* out_points);
+    void check_numbers();
+    std::uint64_t costs(vox_part_cost* costs, std::uint64_t capacity) const;
+
+    // Reads where the positions of all parts are now, checks them and computes their boxes.
+    void look();
+    // Tells all ranks this one's overview, and throws what the lowest failing rank says.
+    void meet(vox::dist::Overview mine, const vox::dist::Failure& failure);
+    // Sends out_[i] to ranks_[i], below rank_count_, and gets in_[i].
+    void exchange(std::uint64_t* sent_bytes);
+    vox::dist::Part* find_body(std::uint64_t body) const noexcept;
+
+    vox::CallerMemory memory_;
+    vox_grid_desc grid_desc_;
+    vox::dist::Transport transport_;
+    vox::dist::Vector<vox::dist::Part*> parts_; // in the order of bodies
+    vox::dist::Side contacts_side_, points_side_;
+    vox::dist::Vector<vox_scene_contact> contacts_, incoming_;
+    vox_scene_counters counters_{};
+
+    vox::dist::Vector<vox::dist::Overview> overviews_; // of all ranks
+    vox::dist::Vector<std::uint32_t> ranks_;           // who is talked to
+    vox::dist::Vector<vox_bytes> out_, in_;
+    std::uint32_t rank_count_ = 0;
+};

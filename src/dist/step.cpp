@@ -1,0 +1,147 @@
+// The collective step: the rounds, then the rule of contacts over all ranks.
+#include "dist/rounds.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+using namespace vox;
+using namespace vox::dist;
+
+namespace vox::dist {
+namespace {
+
+auto key(const vox_scene_contact& c) noexcept { return std::tuple(c.body_a, c.vertex, c.body_b, c.tet); }
+bool before(const vox_scene_contact& a, const vox_scene_contact& b) noexcept { return key(a) < key(b); }
+bool same_pair(const vox_scene_contact& a, const vox_scene_contact& b) noexcept {
+    return a.body_a == b.body_a && a.vertex == b.vertex && a.body_b == b.body_b;
+}
+
+// Of the hits of a vertex in a body all in the interior of a tetrahedron, or else the one in the lowest.
+template <class Keep>
+void apply_rule(std::span<const Found> found, Keep&& keep) {
+    for (std::size_t begin = 0; begin < found.size();) {
+        std::size_t end = begin;
+        bool interior = false;
+        for (; end < found.size() && same_pair(found[begin].contact, found[end].contact); ++end)
+            interior |= found[end].contact.interior != 0;
+        for (std::size_t i = begin; i < end; ++i)
+            if (interior ? found[i].contact.interior != 0 : i == begin) keep(found[i]);
+        begin = end;
+    }
+}
+
+// One byte for each hit that a neighbour reported to be on a boundary: whether it is a contact. Neighbours
+// without such hits need no message.
+class Verdicts {
+public:
+    explicit Verdicts(Memory* memory) : bytes_(memory), begins_(memory) {}
+
+    void judge(const vox_scene& scene, std::span<const Found> found) {
+        for (std::uint32_t i = 0; i < scene.rank_count_; ++i) {
+            begins_.push_back(bytes_.size());
+            Reader reader(scene.in_[i]);
+            bytes_.resize(bytes_.size() + (reader.more() ? reader.take<Hits>().count : 0));
+        }
+        apply_rule(found, [&](const Found& f) {
+            if (f.neighbour != no_neighbour) bytes_[begins_[f.neighbour] + f.hit] = 1;
+        });
+    }
+    // Those of the hits of neighbour i, those in the interior too: all of them, so that places are simple.
+    vox_bytes of(std::uint32_t i) const noexcept {
+        const std::uint64_t end = i + 1 < begins_.size() ? begins_[i + 1] : bytes_.size();
+        return {bytes_.data() + begins_[i], end - begins_[i]};
+    }
+
+private:
+    Vector<std::uint8_t> bytes_;
+    Vector<std::uint64_t> begins_;
+};
+
+// What both sides know of the hits between them and neighbour i, failed or not: how many are on a boundary.
+std::uint64_t boundary_hits(const vox_bytes& message) noexcept {
+    Hits header{};
+    if (message.size >= sizeof header) std::memcpy(&header, message.data, sizeof header);
+    return header.on_boundary;
+}
+
+} // namespace
+} // namespace vox::dist
+
+void vox_scene::step() {
+    contacts_.clear();
+    incoming_.clear();
+    counters_ = {};
+    transport_.messages = transport_.collectives = 0;
+    Failure failure;
+    Overview mine;
+    failure.guard([&] {
+        look();
+        for (const Part* part : parts_) {
+            mine.tets.add(part->tet_box);
+            mine.vertices.add(part->vertex_box);
+        }
+    });
+    meet(mine, failure);
+
+    Rounds rounds(*this, contacts_side_, false);
+    Vector<Source> sources(&memory_);
+    failure.guard([&] {
+        for (const Part* part : parts_)
+            if (part->vertex_clusters.size())
+                sources.push_back({part, &part->vertex_clusters, part->positions, part->vertex_box});
+    });
+    rounds.run(sources, failure);
+
+    Verdicts verdicts(&memory_);
+    failure.guard([&] {
+        std::sort(rounds.found.begin(), rounds.found.end(),
+                  [](const Found& a, const Found& b) { return before(a.contact, b.contact); });
+        verdicts.judge(*this, rounds.found);
+        apply_rule(rounds.found, [&](const Found& f) {
+            contacts_.push_back(f.contact);
+            if (f.neighbour != no_neighbour) return;
+            incoming_.push_back(f.contact);
+            incoming_.back().index = f.hit;
+        });
+    });
+
+    // The other side of hits on a boundary learns which of them are contacts.
+    const std::uint32_t all = rank_count_;
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < all; ++i) {
+        if (boundary_hits(out_[i]) == 0 && boundary_hits(in_[i]) == 0) continue;
+        const vox_bytes verdict = failure || boundary_hits(in_[i]) == 0 ? vox_bytes{nullptr, 0} : verdicts.of(i);
+        ranks_[count] = ranks_[i];
+        out_[count++] = verdict;
+    }
+    rank_count_ = count;
+    exchange(&counters_.hit_bytes);
+    failure.guard([&] {
+        auto hit = rounds.outgoing.begin();
+        while (hit != rounds.outgoing.end()) {
+            // Of one rank, with a verdict of each if one of them is on a boundary.
+            const std::uint32_t rank = hit->contact.rank;
+            const auto told = std::find(ranks_.begin(), ranks_.begin() + rank_count_, rank) - ranks_.begin();
+            const auto* verdict = told < rank_count_ && in_[told].size
+                                      ? static_cast<const std::uint8_t*>(in_[told].data)
+                                      : nullptr;
+            for (std::uint64_t h = 0; hit != rounds.outgoing.end() && hit->contact.rank == rank; ++hit, ++h) {
+                if (verdict && h >= in_[told].size)
+                    throw Error(VOX_ERROR_INTERNAL, "a message of another rank is too short");
+                if (verdict ? verdict[h] != 0 : hit->contact.interior != 0) incoming_.push_back(hit->contact);
+            }
+        }
+        std::sort(incoming_.begin(), incoming_.end(), before);
+    });
+    try {
+        failure.agree(transport_);
+    } catch (...) {
+        contacts_.clear();
+        incoming_.clear();
+        throw;
+    }
+    counters_.messages = transport_.messages;
+    counters_.collectives = transport_.collectives;
+    counters_.contacts = contacts_.size();
+    counters_.incoming = incoming_.size();
+}

@@ -1,0 +1,102 @@
+// The caller's transport: its failures as exceptions, and what it carried.
+#pragma once
+
+#include "base/error.hpp"
+#include "base/float_environment.hpp"
+
+#include <vox/vox_dist.h>
+
+#include <cstring>
+
+namespace vox::dist {
+
+// Throws the failure of a call of the core library.
+inline void check(vox_result result) {
+    if (result != VOX_OK) throw Error(result, vox_last_error());
+}
+
+class Transport {
+public:
+    explicit Transport(const vox_transport& callbacks) : callbacks_(callbacks) {}
+    std::uint32_t rank() const noexcept { return callbacks_.rank; }
+    std::uint32_t size() const noexcept { return callbacks_.size; }
+
+    void allgather(const void* in, std::uint64_t bytes, void* out) {
+        ++collectives;
+        if (!callbacks_.allgather) return static_cast<void>(std::memcpy(out, in, bytes));
+        const CallersFloats floats;
+        carried(callbacks_.allgather(in, bytes, out, callbacks_.user), "allgather");
+    }
+    void exchange(const std::uint32_t* ranks, std::uint32_t count, const vox_bytes* out, vox_bytes* in) {
+        messages += count;
+        if (!callbacks_.exchange) return;
+        const CallersFloats floats;
+        carried(callbacks_.exchange(ranks, count, out, in, callbacks_.user), "exchange");
+    }
+    void agree(std::uint64_t* minima, std::uint32_t minimum_count, std::uint64_t* sums, std::uint32_t sum_count) {
+        ++collectives;
+        if (!callbacks_.agree) return;
+        const CallersFloats floats;
+        carried(callbacks_.agree(minima, minimum_count, sums, sum_count, callbacks_.user), "agree");
+    }
+
+    std::uint64_t messages = 0, collectives = 0;
+
+private:
+    static void carried(vox_result result, const char* function) {
+        if (result == VOX_OK) return;
+        throw Error(result, format("the transport's %s failed with %s", function, vox_result_string(result)));
+    }
+
+    vox_transport callbacks_;
+};
+
+// What went wrong on this rank in a collective function, which goes on with empty messages, so that no rank waits.
+class Failure {
+public:
+    template <class Function>
+    void guard(Function&& function) {
+        if (result_ != VOX_OK) return;
+        try {
+            function();
+        } catch (const Error& error) {
+            set(error.result(), error.what());
+        } catch (const std::bad_alloc&) {
+            set(VOX_ERROR_OUT_OF_MEMORY, "out of memory");
+        }
+    }
+    vox_result result() const noexcept { return result_; }
+    explicit operator bool() const noexcept { return result_ != VOX_OK; }
+
+    // As a number of which the least is that of the lowest rank that failed.
+    std::uint64_t as_minimum(std::uint32_t rank) const noexcept {
+        if (result_ == VOX_OK) return UINT64_MAX;
+        return std::uint64_t{rank} << 32 | static_cast<std::uint32_t>(-result_);
+    }
+    // Throws the failure that all ranks agreed upon, if there is one.
+    void throw_agreed(std::uint64_t minimum, std::uint32_t rank) const {
+        if (minimum == UINT64_MAX) return;
+        const auto failed = static_cast<std::uint32_t>(minimum >> 32);
+        const auto result = static_cast<vox_result>(-static_cast<std::int32_t>(minimum & 0xffffffff));
+        if (failed == rank) throw Error(result, text_);
+        throw Error(result, format("rank %u failed with %s; its vox_last_error says more", failed,
+                                   vox_result_string(result)));
+    }
+    // Takes part in the agreement that ends a collective function, and throws what it says.
+    void agree(Transport& transport) const {
+        std::uint64_t minimum = as_minimum(transport.rank());
+        transport.agree(&minimum, 1, nullptr, 0);
+        throw_agreed(minimum, transport.rank());
+    }
+
+private:
+    void set(vox_result result, const char* text) noexcept {
+        result_ = result;
+        std::snprintf(text_, sizeof text_, "%s", text);
+    }
+
+    vox_result result_ = VOX_OK;
+    char text_[1024] = "";
+};
+
+} // namespace vox::dist
