@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <memory_resource>
 #include <type_traits>
 #include <vector>
@@ -15,8 +16,9 @@ namespace vox::dist {
 
 // Closed; empty if a minimum is above its maximum.
 struct Box {
-    float min[3] = {INFINITY_, INFINITY_, INFINITY_};
-    float max[3] = {-INFINITY_, -INFINITY_, -INFINITY_};
+    static constexpr float far = std::numeric_limits<float>::infinity();
+    float min[3] = {far, far, far};
+    float max[3] = {-far, -far, -far};
 
     bool empty() const noexcept { return !(min[0] <= max[0]); }
     void add(const Box& other) noexcept {
@@ -35,9 +37,6 @@ struct Box {
             if (!(min[axis] <= point[axis] && point[axis] <= max[axis])) return false;
         return true;
     }
-
-private:
-    static constexpr float INFINITY_ = __builtin_inff();
 };
 
 // What the ranks are in.
