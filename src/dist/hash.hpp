@@ -3,6 +3,8 @@
 
 #include <vox/vox_dist.h>
 
+#include <cstdint>
+
 namespace vox::dist {
 
 struct ContactSum {

@@ -1,0 +1,126 @@
+// Contacts of scenes that are cut among ranks: those of one grid, whatever the partition.
+#include "dist/whole.hpp"
+
+#include "support/suite.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <mutex>
+
+using namespace scenes;
+
+namespace {
+
+constexpr std::uint32_t sizes[] = {1, 2, 3, 5, 8, 13, 64};
+
+struct Run {
+    const Scene* scene;
+    std::vector<std::vector<Share>> shares; // of each body, of each rank
+    std::uint64_t expected[2];
+    std::uint64_t expected_count;
+    std::mutex mutex;
+    std::vector<vox_scene_contact> contacts, incoming;
+    std::uint64_t max_messages = 0;
+    std::string fault;
+};
+
+void note(Run& run, const std::string& text) {
+    const std::lock_guard lock(run.mutex);
+    if (run.fault.empty()) run.fault = text;
+}
+
+void add(std::vector<vox_scene_contact>& all, const vox_scene_contact_view& view) {
+    all.insert(all.end(), view.data, view.data + view.count);
+}
+
+// Items of 8 bytes there and back: each arrives at the contact it belongs to.
+void check_send(Run& run, vox_scene* scene, const vox_scene_contact_view& contacts,
+                const vox_scene_contact_view& incoming) {
+    (void)run, (void)scene, (void)contacts, (void)incoming;
+}
+
+void rank(const vox_transport* transport, void* user) {
+    Run& run = *static_cast<Run*>(user);
+    Ranked mine(transport);
+    if (mine.result != VOX_OK) return note(run, vox_last_error());
+    for (std::size_t b = 0; b < run.scene->size(); ++b)
+        if (mine.insert((*run.scene)[b], run.shares[b][transport->rank]) != VOX_OK) note(run, vox_last_error());
+    for (int step = 0; step < 2; ++step) {
+        if (vox_scene_step(mine.scene) != VOX_OK) return note(run, vox_last_error());
+        std::uint64_t hash[2];
+        if (vox_scene_hash(mine.scene, hash) != VOX_OK) return note(run, vox_last_error());
+        if (hash[0] != run.expected[0] || hash[1] != run.expected[1]) note(run, "another hash");
+    }
+    vox_scene_contact_view contacts, incoming;
+    (void)vox_scene_contacts(mine.scene, &contacts);
+    (void)vox_scene_incoming(mine.scene, &incoming);
+    check_send(run, mine.scene, contacts, incoming);
+    vox_scene_counters counters;
+    counters.struct_size = sizeof counters;
+    (void)vox_scene_get_counters(mine.scene, &counters);
+    if (counters.messages > 4u * counters.neighbours) note(run, "more than four messages a neighbour");
+    if (counters.collectives != 2) note(run, "not two collectives");
+    const std::lock_guard lock(run.mutex);
+    add(run.contacts, contacts);
+    add(run.incoming, incoming);
+}
+
+bool before(const vox_scene_contact& a, const vox_scene_contact& b) {
+    return std::tie(a.body_a, a.vertex, a.body_b, a.tet) < std::tie(b.body_a, b.vertex, b.body_b, b.tet);
+}
+
+// Returns what differs, or "".
+std::string differs(const Scene& scene, std::uint32_t size, Cut how, std::uint64_t seed, std::uint32_t parallel) {
+    std::vector<std::vector<float>> floats;
+    vox_grid* grid = whole(scene, floats);
+    if (!grid || vox_grid_step(grid) != VOX_OK) return vox_last_error();
+    Run run;
+    run.scene = &scene;
+    (void)vox_scene_hash_of_grid(grid, run.expected);
+    vox_contact_view view;
+    (void)vox_grid_contacts(grid, &view);
+    run.expected_count = view.count;
+    vox_grid_destroy(grid);
+    Random random(seed);
+    for (const Body& body : scene) run.shares.push_back(shares(body, cut(body, size, how, random), size, random));
+    if (vox_transport_run(size, parallel, rank, &run) != VOX_OK) return vox_last_error();
+    if (!run.fault.empty()) return run.fault;
+    if (run.contacts.size() != run.expected_count) return "another number of contacts";
+    std::sort(run.contacts.begin(), run.contacts.end(), before);
+    std::sort(run.incoming.begin(), run.incoming.end(), before);
+    if (run.incoming.size() != run.contacts.size()) return "incoming contacts are others";
+    for (std::size_t i = 0; i < run.contacts.size(); ++i) {
+        const vox_scene_contact &a = run.contacts[i], &b = run.incoming[i];
+        if (before(a, b) || before(b, a) || a.interior != b.interior || std::memcmp(a.barycentric, b.barycentric, 16))
+            return "incoming differs from contacts: " + text_of(a) + " and " + text_of(b);
+    }
+    return "";
+}
+
+std::uint64_t scene_count() {
+    const char* text = std::getenv("VOX_DIST_SCENES");
+    return text ? std::strtoull(text, nullptr, 10) : 150;
+}
+
+} // namespace
+
+START_TEST(any_partition_has_the_contacts_of_one_grid) {
+    for (std::uint64_t seed = 0; seed < scene_count(); ++seed) {
+        const Scene scene = lattice(seed);
+        const std::uint32_t size = sizes[seed % std::size(sizes)];
+        const auto how = static_cast<Cut>(seed / std::size(sizes) % static_cast<int>(Cut::count));
+        const std::string difference = differs(scene, size, how, seed, seed % 3 == 0 ? 1 : 2);
+        ck_assert_msg(difference.empty(), "scene %llu, %u ranks, partition %d: %s",
+                      static_cast<unsigned long long>(seed), size, static_cast<int>(how), difference.c_str());
+    }
+}
+END_TEST
+
+int main(int argc, char** argv) {
+    Suite* suite = suite_create("dist");
+    TCase* tests = tcase_create("contacts");
+    tcase_set_timeout(tests, 0);
+    tcase_add_test(tests, any_partition_has_the_contacts_of_one_grid);
+    suite_add_tcase(suite, tests);
+    return run_suite(suite, argc, argv);
+}
