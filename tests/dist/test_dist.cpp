@@ -116,11 +116,11 @@ START_TEST(any_partition_has_the_contacts_of_one_grid) {
 }
 END_TEST
 
-int main(int argc, char** argv) {
+int main() {
     Suite* suite = suite_create("dist");
     TCase* tests = tcase_create("contacts");
     tcase_set_timeout(tests, 0);
     tcase_add_test(tests, any_partition_has_the_contacts_of_one_grid);
     suite_add_tcase(suite, tests);
-    return run_suite(suite, argc, argv);
+    return run_suite(suite);
 }
