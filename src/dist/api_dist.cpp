@@ -111,6 +111,10 @@ vox_result vox_scene_incoming(const vox_scene* scene, vox_scene_contact_view* ou
     });
 }
 
+vox_result vox_scene_send(vox_scene* scene, vox_direction direction, uint64_t item_bytes, const void* in, void* out) {
+    return border(scene, "scene", [&] { scene->send(direction, item_bytes, in, out); });
+}
+
 vox_result vox_scene_hash(vox_scene* scene, uint64_t out_hash[2]) {
     return border(scene, "scene", [&] {
         std::uint64_t hash[2];
@@ -126,6 +130,23 @@ vox_result vox_scene_hash_of_grid(const vox_grid* grid, uint64_t out_hash[2]) {
         std::uint64_t hash[2];
         hash_of_grid(grid, hash);
         std::copy_n(hash, 2, out_hash);
+    });
+}
+
+vox_result vox_scene_locate(vox_scene* scene, const void* points, vox_format format, uint64_t byte_stride,
+                            uint64_t count, vox_scene_point* out_points) {
+    return border(scene, "scene", [&] { scene->locate(points, format, byte_stride, count, out_points); });
+}
+
+vox_result vox_scene_check(vox_scene* scene) {
+    return border(scene, "scene", [&] { scene->check_numbers(); });
+}
+
+vox_result vox_scene_costs(const vox_scene* scene, vox_part_cost* costs, uint64_t capacity, uint64_t* out_count) {
+    return border(scene, "scene", [&] {
+        require(out_count, "out_count");
+        if (capacity) require(costs, "costs");
+        *out_count = scene->costs(costs, capacity);
     });
 }
 

@@ -20,26 +20,27 @@ public:
 
     void begin_turn() {
         std::unique_lock lock(mutex_);
-        changed_.wait(lock, [&] { return turns_ > 0; });
-        --turns_;
+        take_turn(lock);
     }
     void end_turn() {
         const std::lock_guard lock(mutex_);
         ++turns_;
-        changed_.notify_all();
+        turn_.notify_one();
     }
     // Returns when all ranks have arrived; the others run meanwhile.
     void arrive() {
         std::unique_lock lock(mutex_);
         ++turns_;
+        turn_.notify_one();
         const std::uint64_t round = round_;
         if (++arrived_ == size) {
             arrived_ = 0;
             ++round_;
+            changed_.notify_all();
+        } else {
+            changed_.wait(lock, [&] { return round_ != round; });
         }
-        changed_.notify_all();
-        changed_.wait(lock, [&] { return round_ != round && turns_ > 0; });
-        --turns_;
+        take_turn(lock);
     }
     // All threads were started, or none of them is to do anything.
     bool wait_for_start() {
@@ -56,8 +57,13 @@ public:
     const std::uint32_t size;
 
 private:
+    void take_turn(std::unique_lock<std::mutex>& lock) {
+        turn_.wait(lock, [&] { return turns_ > 0; });
+        --turns_;
+    }
+
     std::mutex mutex_;
-    std::condition_variable changed_;
+    std::condition_variable changed_, turn_;
     std::uint32_t turns_, arrived_ = 0;
     std::uint64_t round_ = 0;
     int start_ = 0; // 1: go; -1: give up

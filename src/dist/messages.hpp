@@ -117,6 +117,10 @@ public:
         std::memcpy(bytes_.data() + at, &value, sizeof value);
         return at;
     }
+    void add(const void* data, std::size_t size) {
+        const auto* from = static_cast<const std::byte*>(data);
+        bytes_.insert(bytes_.end(), from, from + size);
+    }
     template <class T>
     void set(std::size_t at, const T& value) noexcept {
         std::memcpy(bytes_.data() + at, &value, sizeof value);
@@ -142,6 +146,14 @@ public:
         at_ += sizeof value;
         left_ -= sizeof value;
         return value;
+    }
+    // False if there are fewer bytes.
+    bool take(void* out, std::uint64_t size) noexcept {
+        if (left_ < size) return false;
+        std::memcpy(out, at_, size);
+        at_ += size;
+        left_ -= size;
+        return true;
     }
 
 private:

@@ -59,11 +59,12 @@ Filter read_filter(const vox_mesh_desc& mesh) {
 vox_scene::vox_scene(const vox_scene_desc&, const vox_grid_desc& grid, const vox_transport& transport)
     : memory_(grid.allocator), grid_desc_(grid), transport_(transport), parts_(&memory_), contacts_side_(&memory_),
       points_side_(&memory_), contacts_(&memory_), incoming_(&memory_), overviews_(&memory_), ranks_(&memory_),
-      out_(&memory_), in_(&memory_) {
+      out_(&memory_), in_(&memory_), in_contact_(&memory_) {
     overviews_.resize(transport.size);
     ranks_.resize(transport.size);
     out_.resize(transport.size);
     in_.resize(transport.size);
+    in_contact_.resize(transport.size);
     contacts_side_.grid = create_grid(grid_desc_);
 }
 

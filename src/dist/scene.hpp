@@ -75,4 +75,5 @@ struct vox_scene {
     vox::dist::Vector<std::uint32_t> ranks_;           // who is talked to
     vox::dist::Vector<vox_bytes> out_, in_;
     std::uint32_t rank_count_ = 0;
+    vox::dist::Vector<std::uint8_t> in_contact_; // each rank: whether it is, with this one
 };

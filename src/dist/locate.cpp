@@ -1,0 +1,127 @@
+// Points anywhere, by the rounds of a step, in a second grid whose meshes collide with points alone.
+#include "base/structs.hpp"
+#include "dist/clusters.hpp"
+#include "dist/rounds.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+using namespace vox;
+using namespace vox::dist;
+
+namespace {
+
+// Parts that the second grid lacks are inserted; all get the positions that they have now.
+void place_parts(vox_scene& scene) {
+    Side& side = scene.points_side_;
+    if (!side.grid) {
+        vox_grid* grid = nullptr;
+        check(vox_grid_create(&scene.grid_desc_, &grid));
+        side.grid.reset(grid);
+    }
+    vox_filter filter = everything();
+    filter.group = -1; // not with each other
+    for (Part* part : scene.parts_) {
+        const Positions& p = part->positions;
+        const vox_format format = p.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
+        const auto known = std::find_if(side.placed.begin(), side.placed.end(),
+                                        [&](const Placed& placed) { return placed.part == part; });
+        if (known != side.placed.end()) {
+            check(vox_mesh_bind_strided_positions(side.grid.get(), known->mesh, p.data, format, p.stride,
+                                                  p.component_stride));
+            continue;
+        }
+        vox_mesh_desc mesh = vox_default_mesh_desc();
+        mesh.flags = VOX_MESH_BORROW_TETS;
+        mesh.positions = p.data;
+        mesh.position_format = format;
+        mesh.position_byte_stride = p.stride;
+        mesh.position_component_byte_stride = p.component_stride;
+        mesh.vertex_count = part->vertex_count;
+        mesh.tets = part->tets.data();
+        mesh.tet_count = part->tet_count;
+        mesh.filter = &filter;
+        side.placed.reserve(side.placed.size() + 1);
+        vox_mesh id = VOX_NULL_MESH;
+        check(vox_mesh_insert(side.grid.get(), &mesh, &id));
+        side.placed.insert(std::upper_bound(side.placed.begin(), side.placed.end(), id,
+                                            [](vox_mesh m, const Placed& placed) { return m < placed.mesh; }),
+                           Placed{id, part});
+    }
+}
+
+// Of the hits of a point the one that counts comes first.
+auto order(const Found& f) noexcept {
+    const vox_scene_contact& c = f.contact;
+    return std::tuple(c.vertex, c.body_b, c.interior == 0, c.tet);
+}
+
+} // namespace
+
+void vox_scene::locate(const void* points, vox_format format, std::uint64_t stride, std::uint64_t count,
+                       vox_scene_point* out_points) {
+    const auto before = counters_;
+    counters_ = {};
+    counters_.contacts = before.contacts;
+    counters_.incoming = before.incoming;
+    transport_.messages = transport_.collectives = 0;
+    Failure failure;
+    Overview mine;
+    mine.call = Call::locate;
+    Clusters clusters(&memory_);
+    const bool doubles = enum_value(format) == VOX_FORMAT_DOUBLE3;
+    const std::uint64_t number_size = doubles ? sizeof(double) : sizeof(float);
+    const Positions positions{static_cast<const std::byte*>(points), stride == 0 ? 3 * number_size : stride,
+                              number_size, doubles};
+    failure.guard([&] {
+        check_enum(format, VOX_FORMAT_DOUBLE3, "format");
+        if (count > VOX_MAX_VERTICES)
+            throw Error(VOX_ERROR_LIMIT, vox::format("count is %llu, expected at most %u",
+                                                     static_cast<unsigned long long>(count), VOX_MAX_VERTICES));
+        if (positions.stride < 3 * number_size)
+            refuse(vox::format("byte_stride is %llu, expected 0 or at least %llu",
+                               static_cast<unsigned long long>(stride),
+                               static_cast<unsigned long long>(3 * number_size)));
+        if (count) require(points, "points");
+        if (count) require(out_points, "out_points");
+        double at[3];
+        for (std::uint64_t i = 0; i < count; ++i) {
+            positions.get(i, at);
+            check_position(at, {"point", i, 0, false});
+        }
+        look();
+        place_parts(*this);
+        clusters.make(static_cast<std::uint32_t>(count), 64,
+                      [&](std::uint32_t i, double out[3]) { positions.get(i, out); });
+        for (std::uint32_t c = 0; c < clusters.size(); ++c) {
+            for (const std::uint32_t i : clusters.of(c)) {
+                positions.get(i, at);
+                add_point(clusters.boxes[c], at);
+            }
+            mine.vertices.add(clusters.boxes[c]);
+        }
+        for (const Part* part : parts_) mine.tets.add(part->tet_box);
+    });
+    meet(mine, failure);
+
+    Rounds rounds(*this, points_side_, true);
+    const Source source{nullptr, &clusters, positions, mine.vertices};
+    rounds.run({&source, count != 0 ? 1u : 0u}, failure);
+    failure.guard([&] {
+        std::sort(rounds.found.begin(), rounds.found.end(),
+                  [](const Found& a, const Found& b) { return order(a) < order(b); });
+    });
+    failure.agree(transport_);
+    for (std::uint64_t i = 0; i < count; ++i) {
+        out_points[i] = {};
+        out_points[i].rank = VOX_NO_RANK;
+    }
+    for (const Found& f : rounds.found) {
+        vox_scene_point& point = out_points[f.contact.vertex];
+        if (point.rank != VOX_NO_RANK) continue;
+        point = {f.contact.body_b, f.contact.tet, {}, f.contact.rank, f.contact.interior};
+        std::copy_n(f.contact.barycentric, 4, point.barycentric);
+    }
+    counters_.messages = transport_.messages;
+    counters_.collectives = transport_.collectives;
+}

@@ -1,0 +1,114 @@
+// Whether owners, copies and numbers fit together: every number goes to the rank that its hash names, which compares.
+#include "dist/scene.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+using namespace vox;
+using namespace vox::dist;
+
+namespace {
+
+struct Numbered {
+    std::uint64_t body, id;
+    double position[3]; // 0 for a tetrahedron
+    std::uint32_t rank;
+    std::uint32_t kind; // 0: a vertex's owner; 1: a copy; 2: a tetrahedron
+};
+
+void compare(const Numbered* begin, const Numbered* end) {
+    const auto number = static_cast<unsigned long long>(begin->id);
+    const auto body = static_cast<unsigned long long>(begin->body);
+    const Numbered* const second = end - begin > 1 ? begin + 1 : nullptr;
+    if (begin->kind == 2) {
+        if (second)
+            throw Error(VOX_ERROR_INVALID_STATE, format("tet %llu of body %llu is on ranks %u and %u", number, body,
+                                                        begin->rank, second->rank));
+        return;
+    }
+    if (begin->kind == 1)
+        throw Error(VOX_ERROR_INVALID_STATE, format("vertex %llu of body %llu has a copy on rank %u, but no rank owns it",
+                                                    number, body, begin->rank));
+    if (second && second->kind == 0)
+        throw Error(VOX_ERROR_INVALID_STATE, format("vertex %llu of body %llu is owned by ranks %u and %u", number, body,
+                                                    begin->rank, second->rank));
+    for (const Numbered* copy = begin; ++copy != end;)
+        if (std::memcmp(copy->position, begin->position, sizeof copy->position) != 0)
+            throw Error(VOX_ERROR_INVALID_STATE,
+                        format("vertex %llu of body %llu is at %.17g %.17g %.17g on rank %u, which owns it, and at "
+                               "%.17g %.17g %.17g on rank %u",
+                               number, body, begin->position[0], begin->position[1], begin->position[2], begin->rank,
+                               copy->position[0], copy->position[1], copy->position[2], copy->rank));
+}
+
+} // namespace
+
+void vox_scene::check_numbers() {
+    Failure failure;
+    Overview mine;
+    mine.call = Call::check;
+    failure.guard([&] { look(); });
+    meet(mine, failure);
+    const std::uint32_t size = transport_.size(), me = transport_.rank();
+    Vector<Writer> writers(&memory_);
+    rank_count_ = 0;
+    for (std::uint32_t rank = 0; rank < size; ++rank)
+        if (rank != me) {
+            out_[rank_count_] = {nullptr, 0};
+            ranks_[rank_count_++] = rank;
+        }
+    failure.guard([&] {
+        for (std::uint32_t rank = 0; rank < size; ++rank) writers.emplace_back(&memory_);
+        const auto send = [&](const Numbered& item) {
+            const std::uint64_t mixed = (item.body * 0x9e3779b97f4a7c15u ^ item.id) * 0xbf58476d1ce4e5b9u;
+            writers[(mixed >> 32) % size].add(item);
+        };
+        for (const Part* part : parts_) {
+            for (std::uint32_t v = 0; v < part->vertex_count; ++v) {
+                Numbered item{part->body, part->id_of(v), {}, me, part->owns(v) ? 0u : 1u};
+                part->positions.get(v, item.position);
+                send(item);
+            }
+            for (std::uint32_t t = 0; t < part->tet_count; ++t) send({part->body, part->id_of_tet(t), {}, me, 2});
+        }
+        for (std::uint32_t i = 0; i < rank_count_; ++i) out_[i] = writers[ranks_[i]].bytes();
+    });
+    exchange(nullptr);
+    failure.guard([&] {
+        Vector<Numbered> items(&memory_);
+        const auto take = [&](const vox_bytes& bytes) {
+            for (Reader reader(bytes); reader.more();) items.push_back(reader.take<Numbered>());
+        };
+        take(writers[me].bytes());
+        for (std::uint32_t i = 0; i < rank_count_; ++i) take(in_[i]);
+        const auto thing = [](const Numbered& n) { return std::tuple(n.kind == 2, n.body, n.id); };
+        std::sort(items.begin(), items.end(), [&](const Numbered& a, const Numbered& b) {
+            return std::tuple(thing(a), a.kind, a.rank) < std::tuple(thing(b), b.kind, b.rank);
+        });
+        for (auto begin = items.begin(); begin != items.end();) {
+            const auto end = std::find_if(begin, items.end(),
+                                          [&](const Numbered& n) { return thing(n) != thing(*begin); });
+            compare(items.data() + (begin - items.begin()), items.data() + (end - items.begin()));
+            begin = end;
+        }
+    });
+    failure.agree(transport_);
+}
+
+std::uint64_t vox_scene::costs(vox_part_cost* costs, std::uint64_t capacity) const {
+    double tets = 0;
+    for (const Part* part : parts_) tets += part->tet_count;
+    double predicted = 0;
+    if (tets > 0) {
+        vox_suggest_desc desc = vox_default_suggest_desc();
+        desc.model = VOX_COST_MODEL_FAST;
+        vox_suggestion suggestion{};
+        suggestion.struct_size = sizeof suggestion;
+        check(vox_grid_suggest_cell_size(contacts_side_.grid.get(), &desc, &suggestion));
+        predicted = suggestion.predicted_cost;
+    }
+    for (std::size_t i = 0; i < parts_.size() && i < capacity; ++i)
+        costs[i] = {parts_[i]->body, parts_[i]->handle, 0,
+                    tets > 0 ? predicted * parts_[i]->tet_count / tets : 0.0};
+    return parts_.size();
+}

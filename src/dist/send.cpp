@@ -1,0 +1,69 @@
+// One item a contact, from one side to the other. Between two ranks both sides have the same contacts in the same order,
+// so that no numbers need to be sent.
+#include "base/structs.hpp"
+#include "dist/scene.hpp"
+
+#include <algorithm>
+
+using namespace vox;
+using namespace vox::dist;
+
+void vox_scene::send(vox_direction direction, std::uint64_t item_bytes, const void* in, void* out) {
+    Failure failure;
+    const bool to_tets = direction == VOX_DIRECTION_TO_TETS;
+    const Vector<vox_scene_contact>& from = to_tets ? contacts_ : incoming_;
+    const Vector<vox_scene_contact>& to = to_tets ? incoming_ : contacts_;
+
+    // Whom there is something to send to, or to get from: the same on both sides, and no memory is needed.
+    const std::uint32_t me = transport_.rank();
+    std::fill(in_contact_.begin(), in_contact_.end(), std::uint8_t{0});
+    for (const vox_scene_contact& contact : contacts_) in_contact_[contact.rank] = 1;
+    for (const vox_scene_contact& contact : incoming_) in_contact_[contact.rank] = 1;
+    rank_count_ = 0;
+    for (std::uint32_t rank = 0; rank < transport_.size(); ++rank)
+        if (rank != me && in_contact_[rank]) {
+            out_[rank_count_] = {nullptr, 0};
+            ranks_[rank_count_++] = rank;
+        }
+
+    Vector<Writer> writers(&memory_);
+    Vector<const std::byte*> here(&memory_); // items for this rank itself
+    const auto* items = static_cast<const std::byte*>(in);
+    const auto place_of = [&](std::uint32_t rank) {
+        return std::lower_bound(ranks_.begin(), ranks_.begin() + rank_count_, rank) - ranks_.begin();
+    };
+    failure.guard([&] {
+        check_enum(direction, VOX_DIRECTION_TO_VERTICES, "direction");
+        if (item_bytes == 0 || item_bytes > 65536)
+            refuse(format("item_bytes is %llu, expected 1 to 65536", static_cast<unsigned long long>(item_bytes)));
+        if (!from.empty()) require(in, "in");
+        if (!to.empty()) require(out, "out");
+        for (std::uint32_t i = 0; i < rank_count_; ++i) writers.emplace_back(&memory_);
+        for (std::size_t i = 0; i < from.size(); ++i)
+            if (from[i].rank == me)
+                here.push_back(items + i * item_bytes);
+            else
+                writers[place_of(from[i].rank)].add(items + i * item_bytes, item_bytes);
+        for (std::uint32_t i = 0; i < rank_count_; ++i) out_[i] = writers[i].bytes();
+    });
+    exchange(nullptr);
+    failure.guard([&] {
+        Vector<Reader> readers(&memory_);
+        for (std::uint32_t i = 0; i < rank_count_; ++i) readers.emplace_back(in_[i]);
+        auto* result = static_cast<std::byte*>(out);
+        auto next_here = here.begin();
+        for (const vox_scene_contact& contact : to) {
+            if (contact.rank == me) {
+                std::memcpy(result, *next_here++, item_bytes);
+            } else if (!readers[place_of(contact.rank)].take(result, item_bytes)) {
+                refuse(format("rank %u sent too little: its item_bytes or direction is another, or it failed",
+                              contact.rank));
+            }
+            result += item_bytes;
+        }
+        for (std::uint32_t i = 0; i < rank_count_; ++i)
+            if (readers[i].more())
+                refuse(format("rank %u sent too much: its item_bytes or direction is another", ranks_[i]));
+    });
+    failure.agree(transport_);
+}
