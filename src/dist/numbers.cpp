@@ -73,7 +73,7 @@ void vox_scene::check_numbers() {
         }
         for (std::uint32_t i = 0; i < rank_count_; ++i) out_[i] = writers[ranks_[i]].bytes();
     });
-    exchange(nullptr);
+    exchange(nullptr, failure);
     failure.guard([&] {
         Vector<Numbered> items(&memory_);
         const auto take = [&](const vox_bytes& bytes) {

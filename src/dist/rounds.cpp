@@ -21,7 +21,7 @@ void Rounds::run(std::span<const Source> sources, Failure& failure) {
         send_nothing();
         failure.guard(write);
         if (failure) send_nothing();
-        scene_.exchange(&bytes);
+        scene_.exchange(&bytes, failure);
     };
     round([&] { write_boxes(); }, scene_.counters_.box_bytes);
     round([&] { read_boxes(), choose_vertices(sources); }, scene_.counters_.vertex_bytes);

@@ -188,8 +188,12 @@ void vox_scene::meet(Overview mine, const Failure& failure) {
     counters_.neighbours = rank_count_;
 }
 
-void vox_scene::exchange(std::uint64_t* sent_bytes) {
+void vox_scene::exchange(std::uint64_t* sent_bytes, Failure& failure) {
     if (sent_bytes)
         for (std::uint32_t i = 0; i < rank_count_; ++i) *sent_bytes += out_[i].size;
-    transport_.exchange(ranks_.data(), rank_count_, out_.data(), in_.data());
+    Failure mine;
+    mine.guard([&] { transport_.exchange(ranks_.data(), rank_count_, out_.data(), in_.data()); });
+    if (!mine) return;
+    for (std::uint32_t i = 0; i < rank_count_; ++i) in_[i] = {nullptr, 0};
+    failure.take(mine);
 }

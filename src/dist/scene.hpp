@@ -60,7 +60,8 @@ struct vox_scene {
     // Tells all ranks this one's overview, and throws what the lowest failing rank says.
     void meet(vox::dist::Overview mine, const vox::dist::Failure& failure);
     // Sends out_[i] to ranks_[i], below rank_count_, and gets in_[i].
-    void exchange(std::uint64_t* sent_bytes);
+    // If that fails, it gets nothing, and goes on with what all ranks call next.
+    void exchange(std::uint64_t* sent_bytes, vox::dist::Failure& failure);
     vox::dist::Part* find_body(std::uint64_t body) const noexcept;
 
     vox::CallerMemory memory_;

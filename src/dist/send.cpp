@@ -46,7 +46,7 @@ void vox_scene::send(vox_direction direction, std::uint64_t item_bytes, const vo
                 writers[place_of(from[i].rank)].add(items + i * item_bytes, item_bytes);
         for (std::uint32_t i = 0; i < rank_count_; ++i) out_[i] = writers[i].bytes();
     });
-    exchange(nullptr);
+    exchange(nullptr, failure);
     failure.guard([&] {
         Vector<Reader> readers(&memory_);
         for (std::uint32_t i = 0; i < rank_count_; ++i) readers.emplace_back(in_[i]);

@@ -115,7 +115,7 @@ void vox_scene::step() {
         out_[count++] = verdict;
     }
     rank_count_ = count;
-    exchange(&counters_.hit_bytes);
+    exchange(&counters_.hit_bytes, failure);
     failure.guard([&] {
         auto hit = rounds.outgoing.begin();
         while (hit != rounds.outgoing.end()) {

@@ -65,6 +65,10 @@ public:
             set(VOX_ERROR_OUT_OF_MEMORY, "out of memory");
         }
     }
+    // Another failure, unless there is one.
+    void take(const Failure& other) noexcept {
+        if (result_ == VOX_OK) set(other.result_, other.text_);
+    }
     vox_result result() const noexcept { return result_; }
     explicit operator bool() const noexcept { return result_ != VOX_OK; }
 
