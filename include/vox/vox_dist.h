@@ -37,7 +37,7 @@ typedef struct vox_bytes {
 /* How ranks talk. All ranks call the functions in the same order, each from the thread that called a collective function
  * of a scene. A failure of allgather or agree ends the collective function on that rank with its code; what happens on
  * others is up to the transport. After a failure of exchange, as for want of memory, the rank goes on with the calls that
- * the others make, so that none waits, and all ranks get its code.
+ * the others make, so that none waits, and all ranks get its code; but not in the last exchange of a step, about boundaries.
  *   allgather  gives each rank the `bytes` bytes of every rank, at most 64, in the order of ranks.
  *   exchange   sends out[i] to the rank ranks[i] and sets in[i] to what that sent, for each i below count. The two ranks
  *              of each pair name each other; ranks ascend, and count may be 0. in[i] lives until the next call.

@@ -57,11 +57,39 @@ private:
     Vector<std::uint64_t> begins_;
 };
 
-// What both sides know of the hits between them and neighbour i, failed or not: how many are on a boundary.
+// What both sides know of the hits in a message between them: how many are on a boundary.
 std::uint64_t boundary_hits(const vox_bytes& message) noexcept {
     Hits header{};
     if (message.size >= sizeof header) std::memcpy(&header, message.data, sizeof header);
     return header.on_boundary;
+}
+
+// After all ranks agreed that nothing failed: the other side of hits on a boundary learns which of them are
+// contacts, and has them in `incoming`, for which it has the memory. Here only the transport can fail.
+void tell_verdicts(vox_scene& scene, const Rounds& rounds, const Verdicts& verdicts) {
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < scene.rank_count_; ++i) {
+        const std::uint64_t received = boundary_hits(scene.in_[i]);
+        if (boundary_hits(scene.out_[i]) == 0 && received == 0) continue;
+        scene.ranks_[count] = scene.ranks_[i];
+        scene.out_[count++] = received == 0 ? vox_bytes{nullptr, 0} : verdicts.of(i);
+    }
+    scene.rank_count_ = count;
+    Failure failure;
+    scene.exchange(&scene.counters_.hit_bytes, failure);
+    failure.throw_own();
+    auto hit = rounds.outgoing.begin();
+    while (hit != rounds.outgoing.end()) {
+        // Of one rank, with a verdict of each if one of them is on a boundary.
+        const std::uint32_t rank = hit->contact.rank;
+        const auto told = std::find(scene.ranks_.begin(), scene.ranks_.begin() + count, rank) - scene.ranks_.begin();
+        const vox_bytes message = told < count ? scene.in_[told] : vox_bytes{nullptr, 0};
+        const auto* verdict = static_cast<const std::uint8_t*>(message.data);
+        for (std::uint64_t h = 0; hit != rounds.outgoing.end() && hit->contact.rank == rank; ++hit, ++h)
+            if (h < message.size ? verdict[h] != 0 : hit->contact.interior != 0)
+                scene.incoming_.push_back(hit->contact);
+    }
+    std::sort(scene.incoming_.begin(), scene.incoming_.end(), before);
 }
 
 } // namespace
@@ -105,36 +133,10 @@ void vox_scene::step() {
         });
     });
 
-    // The other side of hits on a boundary learns which of them are contacts.
-    const std::uint32_t all = rank_count_;
-    std::uint32_t count = 0;
-    for (std::uint32_t i = 0; i < all; ++i) {
-        if (boundary_hits(out_[i]) == 0 && boundary_hits(in_[i]) == 0) continue;
-        const vox_bytes verdict = failure || boundary_hits(in_[i]) == 0 ? vox_bytes{nullptr, 0} : verdicts.of(i);
-        ranks_[count] = ranks_[i];
-        out_[count++] = verdict;
-    }
-    rank_count_ = count;
-    exchange(&counters_.hit_bytes, failure);
-    failure.guard([&] {
-        auto hit = rounds.outgoing.begin();
-        while (hit != rounds.outgoing.end()) {
-            // Of one rank, with a verdict of each if one of them is on a boundary.
-            const std::uint32_t rank = hit->contact.rank;
-            const auto told = std::find(ranks_.begin(), ranks_.begin() + rank_count_, rank) - ranks_.begin();
-            const auto* verdict = told < rank_count_ && in_[told].size
-                                      ? static_cast<const std::uint8_t*>(in_[told].data)
-                                      : nullptr;
-            for (std::uint64_t h = 0; hit != rounds.outgoing.end() && hit->contact.rank == rank; ++hit, ++h) {
-                if (verdict && h >= in_[told].size)
-                    throw Error(VOX_ERROR_INTERNAL, "a message of another rank is too short");
-                if (verdict ? verdict[h] != 0 : hit->contact.interior != 0) incoming_.push_back(hit->contact);
-            }
-        }
-        std::sort(incoming_.begin(), incoming_.end(), before);
-    });
+    failure.guard([&] { incoming_.reserve(incoming_.size() + rounds.outgoing.size()); });
     try {
         failure.agree(transport_);
+        tell_verdicts(*this, rounds, verdicts);
     } catch (...) {
         contacts_.clear();
         incoming_.clear();

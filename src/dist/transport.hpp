@@ -86,6 +86,9 @@ public:
         throw Error(result, format("rank %u failed with %s; its vox_last_error says more", failed,
                                    vox_result_string(result)));
     }
+    void throw_own() const {
+        if (result_ != VOX_OK) throw Error(result_, text_);
+    }
     // Takes part in the agreement that ends a collective function, and throws what it says.
     void agree(Transport& transport) const {
         std::uint64_t minimum = as_minimum(transport.rank());
