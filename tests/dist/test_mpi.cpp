@@ -1,4 +1,4 @@
-// The scenes of test_dist over real MPI: run by mpirun on some processes. Each prints nothing if all is well.
+// The scenes of test_dist over real MPI: run by mpirun on some processes.
 #include "dist/whole.hpp"
 
 #include <vox/vox_mpi.h>
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
         if (has_vertices == 0) continue;
         double* changed_double = nullptr;
         float* changed_float = nullptr;
-        for (std::size_t b = 0; transport.rank == bad && b < scene.size(); ++b)
+        for (std::size_t b = 0; transport.rank == bad && !changed_double && !changed_float && b < scene.size(); ++b)
             if (!all[b][bad].xyz.empty()) {
                 if (scene[b].doubles)
                     changed_double = &all[b][bad].xyz.back();
