@@ -20,7 +20,7 @@ struct Run {
     std::uint64_t expected_count;
     std::mutex mutex;
     std::vector<vox_scene_contact> contacts, incoming;
-    std::uint64_t max_messages = 0;
+    const vox_grid* grid = nullptr; // of the whole
     std::string fault;
 };
 
@@ -36,7 +36,46 @@ void add(std::vector<vox_scene_contact>& all, const vox_scene_contact_view& view
 // Items of 8 bytes there and back: each arrives at the contact it belongs to.
 void check_send(Run& run, vox_scene* scene, const vox_scene_contact_view& contacts,
                 const vox_scene_contact_view& incoming) {
-    (void)run, (void)scene, (void)contacts, (void)incoming;
+    const auto value = [](const vox_scene_contact& c) {
+        return c.body_a * 31 + c.vertex * 1009 + c.body_b * 7919 + c.tet;
+    };
+    std::vector<std::uint64_t> there(incoming.count), back(contacts.count), out;
+    for (std::uint64_t i = 0; i < contacts.count; ++i) out.push_back(value(contacts.data[i]));
+    if (vox_scene_send(scene, VOX_DIRECTION_TO_TETS, 8, out.data(), there.data()) != VOX_OK)
+        return note(run, vox_last_error());
+    for (std::uint64_t i = 0; i < incoming.count; ++i)
+        if (there[i] != value(incoming.data[i])) return note(run, "an item went to another tetrahedron");
+    for (std::uint64_t& item : there) item = ~item;
+    if (vox_scene_send(scene, VOX_DIRECTION_TO_VERTICES, 8, there.data(), back.data()) != VOX_OK)
+        return note(run, vox_last_error());
+    for (std::uint64_t i = 0; i < contacts.count; ++i)
+        if (back[i] != ~out[i]) return note(run, "an item went back to another vertex");
+}
+
+// Points on multiples of 1/4: each is in the tetrahedron that one grid names.
+void check_locate(Run& run, vox_scene* scene, std::uint32_t rank) {
+    Random random(rank);
+    std::vector<double> points;
+    for (int i = 0; i < 3 * 20; ++i) points.push_back(below(random, 21) / 4.0);
+    std::vector<vox_scene_point> found(20);
+    if (vox_scene_locate(scene, points.data(), VOX_FORMAT_DOUBLE3, 0, 20, found.data()) != VOX_OK)
+        return note(run, vox_last_error());
+    for (std::uint32_t i = 0; i < 20; ++i) {
+        vox_point_hit hits[64];
+        std::uint64_t count = 0;
+        (void)vox_grid_query_point(run.grid, &points[3 * i], UINT64_MAX, hits, 64, &count);
+        const vox_point_hit* first = nullptr;
+        std::uint64_t body = 0;
+        for (std::uint64_t h = 0; h < count; ++h) {
+            std::uint64_t number;
+            (void)vox_mesh_user_data(run.grid, hits[h].mesh, &number);
+            if (!first || number < body) first = &hits[h], body = number;
+        }
+        if ((found[i].rank == VOX_NO_RANK) != !first) return note(run, "a point is found, or not, unlike in one grid");
+        if (first && (found[i].body != body || found[i].tet != first->tet ||
+                      std::memcmp(found[i].barycentric, first->barycentric, sizeof first->barycentric) != 0))
+            return note(run, "a point is in another tetrahedron than in one grid");
+    }
 }
 
 void rank(const vox_transport* transport, void* user) {
@@ -54,12 +93,16 @@ void rank(const vox_transport* transport, void* user) {
     vox_scene_contact_view contacts, incoming;
     (void)vox_scene_contacts(mine.scene, &contacts);
     (void)vox_scene_incoming(mine.scene, &incoming);
-    check_send(run, mine.scene, contacts, incoming);
     vox_scene_counters counters;
     counters.struct_size = sizeof counters;
     (void)vox_scene_get_counters(mine.scene, &counters);
     if (counters.messages > 4u * counters.neighbours) note(run, "more than four messages a neighbour");
     if (counters.collectives != 2) note(run, "not two collectives");
+    check_send(run, mine.scene, contacts, incoming);
+    check_locate(run, mine.scene, transport->rank);
+    if (vox_scene_check(mine.scene) != VOX_OK) note(run, vox_last_error());
+    std::uint64_t parts = 0;
+    if (vox_scene_costs(mine.scene, nullptr, 0, &parts) != VOX_OK) note(run, vox_last_error());
     const std::lock_guard lock(run.mutex);
     add(run.contacts, contacts);
     add(run.incoming, incoming);
@@ -80,10 +123,13 @@ std::string differs(const Scene& scene, std::uint32_t size, Cut how, std::uint64
     vox_contact_view view;
     (void)vox_grid_contacts(grid, &view);
     run.expected_count = view.count;
-    vox_grid_destroy(grid);
+    (void)vox_grid_prepare_queries(grid);
+    run.grid = grid;
     Random random(seed);
     for (const Body& body : scene) run.shares.push_back(shares(body, cut(body, size, how, random), size, random));
-    if (vox_transport_run(size, parallel, rank, &run) != VOX_OK) return vox_last_error();
+    const vox_result result = vox_transport_run(size, parallel, rank, &run);
+    vox_grid_destroy(grid);
+    if (result != VOX_OK) return vox_last_error();
     if (!run.fault.empty()) return run.fault;
     if (run.contacts.size() != run.expected_count) return "another number of contacts";
     std::sort(run.contacts.begin(), run.contacts.end(), before);
