@@ -66,6 +66,7 @@ NAVIGATION = [
             "docs/tetrahedralize.md",
             "docs/command-line.md",
             "docs/snapshot.md",
+            "docs/distributed.md",
             "docs/limits.md",
             "docs/performance.md",
         ]

@@ -121,7 +121,8 @@ VOX_EXPERIMENTAL vox_result vox_part_desc_init(vox_part_desc* desc, uint32_t str
  * number that is there twice, a second part of a body, an owned that is not 0 or 1), UNSUPPORTED. */
 VOX_EXPERIMENTAL vox_result vox_scene_insert(vox_scene* scene, const vox_part_desc* desc, vox_part* out_part);
 
-/* Removes a part. Not collective. The contacts of the last step stay as they are until the next one. */
+/* Removes a part. Not collective. The contacts of the last step stay as they are until the next one. Errors:
+ * INVALID_HANDLE. */
 VOX_EXPERIMENTAL vox_result vox_scene_remove(vox_scene* scene, vox_part part);
 
 /* As vox_mesh_bind_strided_positions. Values written to the same memory between steps need no new call. Not collective.
@@ -162,10 +163,11 @@ typedef struct vox_scene_contact_view {
 } vox_scene_contact_view;
 
 /* The contacts of the vertices that this rank owns, as the last step found them; none before the first and after a
- * failed one. */
+ * failed one. The view lives until the next step. */
 VOX_EXPERIMENTAL vox_result vox_scene_contacts(const vox_scene* scene, vox_scene_contact_view* out_view);
 
-/* The contacts in the tetrahedra that lie on this rank: the same contacts, seen from the other side. */
+/* The contacts in the tetrahedra that lie on this rank: the same contacts, seen from the other side. The view
+ * lives until the next step. */
 VOX_EXPERIMENTAL vox_result vox_scene_incoming(const vox_scene* scene, vox_scene_contact_view* out_view);
 
 /* From which side of the contacts to which vox_scene_send sends. */

@@ -28,12 +28,14 @@ vox_grid_desc grid_settings(const vox_scene_desc& desc) {
     grid = read_struct(desc.grid, grid, "desc.grid");
     grid.struct_size = sizeof grid;
     if (grid.flags != 0)
-        throw Error(VOX_ERROR_UNSUPPORTED,
-                    format("desc.grid->flags is %u, expected 0: depth, events and edge contacts of bodies that are "
-                           "split are not supported", grid.flags));
+        throw Error(
+            VOX_ERROR_UNSUPPORTED,
+            format("desc.grid->flags is %u, expected 0: depth, events and edge contacts of bodies that are "
+                   "split are not supported",
+                   grid.flags));
     if (grid.margin != 0)
-        throw Error(VOX_ERROR_UNSUPPORTED, format("desc.grid->margin is %g, expected 0: a margin is not supported",
-                                                  grid.margin));
+        throw Error(VOX_ERROR_UNSUPPORTED,
+                    format("desc.grid->margin is %g, expected 0: a margin is not supported", grid.margin));
     check_allocator(grid.allocator, "desc.grid->allocator");
     return grid;
 }
@@ -44,7 +46,8 @@ vox_result vox_scene_desc_init(vox_scene_desc* desc, uint32_t struct_size) {
     return border([&] { init_struct(desc, struct_size, vox_scene_desc{}, "desc"); });
 }
 
-vox_result vox_scene_create(const vox_scene_desc* desc, const vox_transport* transport, vox_scene** out_scene) {
+vox_result vox_scene_create(const vox_scene_desc* desc, const vox_transport* transport,
+                            vox_scene** out_scene) {
     return border([&] {
         require(out_scene, "out_scene");
         const vox_transport callbacks = checked(transport);
@@ -55,7 +58,8 @@ vox_result vox_scene_create(const vox_scene_desc* desc, const vox_transport* tra
                 desc ? read_struct(desc, vox_scene_desc{}, "desc") : vox_scene_desc{};
             const vox_grid_desc grid = grid_settings(settings);
             CallerMemory memory(grid.allocator);
-            scene = std::pmr::polymorphic_allocator<>(&memory).new_object<vox_scene>(settings, grid, callbacks);
+            scene =
+                std::pmr::polymorphic_allocator<>(&memory).new_object<vox_scene>(settings, grid, callbacks);
         });
         try {
             Transport carrier(callbacks);
@@ -101,17 +105,20 @@ vox_result vox_scene_step(vox_scene* scene) {
 
 vox_result vox_scene_contacts(const vox_scene* scene, vox_scene_contact_view* out_view) {
     return border(scene, "scene", out_view, "out_view", [&] {
-        return vox_scene_contact_view{scene->contacts_.data(), sizeof(vox_scene_contact), scene->contacts_.size()};
+        return vox_scene_contact_view{scene->contacts_.data(), sizeof(vox_scene_contact),
+                                      scene->contacts_.size()};
     });
 }
 
 vox_result vox_scene_incoming(const vox_scene* scene, vox_scene_contact_view* out_view) {
     return border(scene, "scene", out_view, "out_view", [&] {
-        return vox_scene_contact_view{scene->incoming_.data(), sizeof(vox_scene_contact), scene->incoming_.size()};
+        return vox_scene_contact_view{scene->incoming_.data(), sizeof(vox_scene_contact),
+                                      scene->incoming_.size()};
     });
 }
 
-vox_result vox_scene_send(vox_scene* scene, vox_direction direction, uint64_t item_bytes, const void* in, void* out) {
+vox_result vox_scene_send(vox_scene* scene, vox_direction direction, uint64_t item_bytes, const void* in,
+                          void* out) {
     return border(scene, "scene", [&] { scene->send(direction, item_bytes, in, out); });
 }
 
@@ -142,7 +149,8 @@ vox_result vox_scene_check(vox_scene* scene) {
     return border(scene, "scene", [&] { scene->check_numbers(); });
 }
 
-vox_result vox_scene_costs(const vox_scene* scene, vox_part_cost* costs, uint64_t capacity, uint64_t* out_count) {
+vox_result vox_scene_costs(const vox_scene* scene, vox_part_cost* costs, uint64_t capacity,
+                           uint64_t* out_count) {
     return border(scene, "scene", [&] {
         require(out_count, "out_count");
         if (capacity) require(costs, "costs");

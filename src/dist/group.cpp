@@ -134,8 +134,8 @@ vox_result exchange(const std::uint32_t* ranks, std::uint32_t count, const vox_b
     return result;
 }
 
-vox_result agree(std::uint64_t* minima, std::uint32_t minimum_count, std::uint64_t* sums, std::uint32_t sum_count,
-                 void* user) {
+vox_result agree(std::uint64_t* minima, std::uint32_t minimum_count, std::uint64_t* sums,
+                 std::uint32_t sum_count, void* user) {
     const Rank& me = *static_cast<Rank*>(user);
     std::uint64_t* numbers = me.slot().numbers;
     std::copy(minima, minima + minimum_count, numbers);
@@ -172,8 +172,8 @@ vox_result vox_transport_run(uint32_t size, uint32_t parallel, vox_rank_function
         const auto run = [&](std::uint32_t rank) {
             if (!group.wait_for_start()) return;
             dist::Rank me{&group, rank};
-            const vox_transport transport{sizeof transport, rank, size, 0, dist::allgather, dist::exchange,
-                                          dist::agree, &me};
+            const vox_transport transport{sizeof transport, rank,           size,        0,
+                                          dist::allgather,  dist::exchange, dist::agree, &me};
             group.begin_turn();
             function(&transport, user);
             group.end_turn();

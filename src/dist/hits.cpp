@@ -48,8 +48,8 @@ void Rounds::collect_here() {
 namespace {
 
 // Without index and rank, which differ from side to side.
-vox_scene_contact between(std::uint64_t body_a, std::uint64_t vertex, const Part& part, const vox_contact& hit,
-                          bool interior) {
+vox_scene_contact between(std::uint64_t body_a, std::uint64_t vertex, const Part& part,
+                          const vox_contact& hit, bool interior) {
     vox_scene_contact contact{};
     contact.body_a = body_a;
     contact.vertex = vertex;
@@ -88,16 +88,18 @@ void Rounds::collect(const Part& part, const vox_contact& hit, bool interior) {
         found.push_back({contact, no_neighbour, part.index_of_tet(hit.tet)});
         return;
     }
-    const auto owner = std::lower_bound(known_.begin(), known_.end(), std::tuple(part_a.body, hit.vertex),
-                                        [](const Known& k, const std::tuple<std::uint64_t, std::uint32_t>& key) {
-                                            return std::tuple(k.part->body, k.vertex) < key;
-                                        });
+    const auto owner =
+        std::lower_bound(known_.begin(), known_.end(), std::tuple(part_a.body, hit.vertex),
+                         [](const Known& k, const std::tuple<std::uint64_t, std::uint32_t>& key) {
+                             return std::tuple(k.part->body, k.vertex) < key;
+                         });
     if (owner == known_.end() || owner->part != &part_a || owner->vertex != hit.vertex)
-        throw Error(VOX_ERROR_INVALID_STATE,
-                    format("rank %u has a copy of vertex %llu of body %llu, which is in a tetrahedron there, but no "
-                           "rank owns such a vertex at that position",
-                           scene_.transport_.rank(), static_cast<unsigned long long>(contact.vertex),
-                           static_cast<unsigned long long>(part_a.body)));
+        throw Error(
+            VOX_ERROR_INVALID_STATE,
+            format("rank %u has a copy of vertex %llu of body %llu, which is in a tetrahedron there, but no "
+                   "rank owns such a vertex at that position",
+                   scene_.transport_.rank(), static_cast<unsigned long long>(contact.vertex),
+                   static_cast<unsigned long long>(part_a.body)));
     contact.index = part.index_of_tet(hit.tet);
     contact.rank = scene_.ranks_[owner->neighbour];
     outgoing.push_back({contact, owner->neighbour, owner->place, 0});
@@ -114,8 +116,9 @@ void Rounds::write_hits() {
                 const vox_scene_contact& c = hit->contact;
                 Hit message{c.tet, hit->place, 0, {}};
                 std::copy_n(c.barycentric, 4, message.weights);
-                const auto part = std::lower_bound(scene_.parts_.begin(), scene_.parts_.end(), c.body_b,
-                                                   [](const Part* p, std::uint64_t b) { return p->body < b; });
+                const auto part =
+                    std::lower_bound(scene_.parts_.begin(), scene_.parts_.end(), c.body_b,
+                                     [](const Part* p, std::uint64_t b) { return p->body < b; });
                 message.part = static_cast<std::uint32_t>(part - scene_.parts_.begin()) |
                                (c.interior ? interior_bit : 0);
                 writers_[i].add(message);
@@ -139,9 +142,11 @@ void Rounds::read_hits(std::span<const Source> sources) {
         for (std::uint32_t h = 0; h < header.count; ++h) {
             const auto hit = reader.take<Hit>();
             const std::uint32_t number = hit.part & ~interior_bit;
-            const auto part = std::lower_bound(parts.begin(), parts.end(), number,
-                                               [](const PartBoxes& p, std::uint32_t n) { return p.part < n; });
-            if (part == parts.end() || part->part != number || hit.vertex >= sent_begin_[i + 1] - sent_begin_[i])
+            const auto part =
+                std::lower_bound(parts.begin(), parts.end(), number,
+                                 [](const PartBoxes& p, std::uint32_t n) { return p.part < n; });
+            if (part == parts.end() || part->part != number ||
+                hit.vertex >= sent_begin_[i + 1] - sent_begin_[i])
                 throw Error(VOX_ERROR_INTERNAL, "another rank hit what it was not sent");
             const Sent& sent = sent_[sent_begin_[i] + hit.vertex];
             const Source& source = sources[sent.source];

@@ -76,8 +76,9 @@ void vox_scene::locate(const void* points, vox_format format, std::uint64_t stri
     failure.guard([&] {
         check_enum(format, VOX_FORMAT_DOUBLE3, "format");
         if (count > VOX_MAX_VERTICES)
-            throw Error(VOX_ERROR_LIMIT, vox::format("count is %llu, expected at most %u",
-                                                     static_cast<unsigned long long>(count), VOX_MAX_VERTICES));
+            throw Error(VOX_ERROR_LIMIT,
+                        vox::format("count is %llu, expected at most %u",
+                                    static_cast<unsigned long long>(count), VOX_MAX_VERTICES));
         if (positions.stride < 3 * number_size)
             refuse(vox::format("byte_stride is %llu, expected 0 or at least %llu",
                                static_cast<unsigned long long>(stride),

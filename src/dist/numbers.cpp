@@ -1,4 +1,5 @@
-// Whether owners, copies and numbers fit together: every number goes to the rank that its hash names, which compares.
+// Whether owners, copies and numbers fit together: every number goes to the rank that its hash names, which
+// compares.
 #include "dist/scene.hpp"
 
 #include <algorithm>
@@ -22,23 +23,25 @@ void compare(const Numbered* begin, const Numbered* end) {
     const Numbered* const second = end - begin > 1 ? begin + 1 : nullptr;
     if (begin->kind == 2) {
         if (second)
-            throw Error(VOX_ERROR_INVALID_STATE, format("tet %llu of body %llu is on ranks %u and %u", number, body,
-                                                        begin->rank, second->rank));
+            throw Error(VOX_ERROR_INVALID_STATE, format("tet %llu of body %llu is on ranks %u and %u", number,
+                                                        body, begin->rank, second->rank));
         return;
     }
     if (begin->kind == 1)
-        throw Error(VOX_ERROR_INVALID_STATE, format("vertex %llu of body %llu has a copy on rank %u, but no rank owns it",
-                                                    number, body, begin->rank));
+        throw Error(VOX_ERROR_INVALID_STATE,
+                    format("vertex %llu of body %llu has a copy on rank %u, but no rank owns it", number,
+                           body, begin->rank));
     if (second && second->kind == 0)
-        throw Error(VOX_ERROR_INVALID_STATE, format("vertex %llu of body %llu is owned by ranks %u and %u", number, body,
-                                                    begin->rank, second->rank));
+        throw Error(VOX_ERROR_INVALID_STATE, format("vertex %llu of body %llu is owned by ranks %u and %u",
+                                                    number, body, begin->rank, second->rank));
     for (const Numbered* copy = begin; ++copy != end;)
         if (std::memcmp(copy->position, begin->position, sizeof copy->position) != 0)
-            throw Error(VOX_ERROR_INVALID_STATE,
-                        format("vertex %llu of body %llu is at %.17g %.17g %.17g on rank %u, which owns it, and at "
-                               "%.17g %.17g %.17g on rank %u",
-                               number, body, begin->position[0], begin->position[1], begin->position[2], begin->rank,
-                               copy->position[0], copy->position[1], copy->position[2], copy->rank));
+            throw Error(
+                VOX_ERROR_INVALID_STATE,
+                format("vertex %llu of body %llu is at %.17g %.17g %.17g on rank %u, which owns it, and at "
+                       "%.17g %.17g %.17g on rank %u",
+                       number, body, begin->position[0], begin->position[1], begin->position[2], begin->rank,
+                       copy->position[0], copy->position[1], copy->position[2], copy->rank));
 }
 
 } // namespace
@@ -69,7 +72,8 @@ void vox_scene::check_numbers() {
                 part->positions.get(v, item.position);
                 send(item);
             }
-            for (std::uint32_t t = 0; t < part->tet_count; ++t) send({part->body, part->id_of_tet(t), {}, me, 2});
+            for (std::uint32_t t = 0; t < part->tet_count; ++t)
+                send({part->body, part->id_of_tet(t), {}, me, 2});
         }
         for (std::uint32_t i = 0; i < rank_count_; ++i) out_[i] = writers[ranks_[i]].bytes();
     });

@@ -33,10 +33,13 @@ void check_position(const double position[3], const PositionName& name) {
     for (int axis = 0; axis < 3; ++axis) {
         const double number = position[axis];
         if (!std::isfinite(number))
-            throw Error(VOX_ERROR_NON_FINITE, named(name) + format(" has coordinate %g on axis %d", number, axis));
+            throw Error(VOX_ERROR_NON_FINITE,
+                        named(name) + format(" has coordinate %g on axis %d", number, axis));
         if (!(std::abs(number) < 0x1.ffffffp127))
-            throw Error(VOX_ERROR_LIMIT, named(name) + format(" has coordinate %g on axis %d, expected less than "
-                                                              "2^128 - 2^103 in size", number, axis));
+            throw Error(VOX_ERROR_LIMIT,
+                        named(name) + format(" has coordinate %g on axis %d, expected less than "
+                                             "2^128 - 2^103 in size",
+                                             number, axis));
     }
 }
 
@@ -53,9 +56,10 @@ void add_point(Box& box, const double position[3]) noexcept {
 
 void Part::take(const vox_part_desc& desc, const vox_mesh_desc& mesh) {
     if (mesh.vertex_count > VOX_MAX_VERTICES || mesh.tet_count > VOX_MAX_TETS)
-        throw Error(VOX_ERROR_LIMIT, format("the part has %llu vertices and %llu tets, expected at most %u of each",
-                                            static_cast<unsigned long long>(mesh.vertex_count),
-                                            static_cast<unsigned long long>(mesh.tet_count), VOX_MAX_TETS));
+        throw Error(VOX_ERROR_LIMIT,
+                    format("the part has %llu vertices and %llu tets, expected at most %u of each",
+                           static_cast<unsigned long long>(mesh.vertex_count),
+                           static_cast<unsigned long long>(mesh.tet_count), VOX_MAX_TETS));
     if (mesh.tet_count) require(mesh.tets, "mesh.tets");
     vertex_count = static_cast<std::uint32_t>(mesh.vertex_count);
     tet_count = static_cast<std::uint32_t>(mesh.tet_count);
@@ -70,8 +74,8 @@ void Part::take(const vox_part_desc& desc, const vox_mesh_desc& mesh) {
     }
     for (std::size_t corner = 0; corner < 4 * std::size_t{tet_count}; ++corner)
         if (mesh.tets[corner] >= vertex_count)
-            throw Error(VOX_ERROR_INVALID_MESH, format("tet %zu names vertex %u of %u", corner / 4,
-                                                       mesh.tets[corner], vertex_count));
+            throw Error(VOX_ERROR_INVALID_MESH,
+                        format("tet %zu names vertex %u of %u", corner / 4, mesh.tets[corner], vertex_count));
     tets.resize(4 * std::size_t{tet_count});
     if (desc.tet_ids) {
         sort_ids({desc.tet_ids, tet_count}, tet_indices, "tets");
@@ -86,7 +90,8 @@ void Part::take(const vox_part_desc& desc, const vox_mesh_desc& mesh) {
 }
 
 std::optional<std::uint32_t> Part::find(std::uint64_t id) const noexcept {
-    if (vertex_ids.empty()) return id < vertex_count ? std::optional(static_cast<std::uint32_t>(id)) : std::nullopt;
+    if (vertex_ids.empty())
+        return id < vertex_count ? std::optional(static_cast<std::uint32_t>(id)) : std::nullopt;
     const auto place = std::lower_bound(by_id.begin(), by_id.end(), id,
                                         [&](std::uint32_t v, std::uint64_t i) { return vertex_ids[v] < i; });
     return place != by_id.end() && vertex_ids[*place] == id ? std::optional(*place) : std::nullopt;
@@ -130,7 +135,8 @@ void Part::look(Memory* memory) {
         for (std::uint32_t& item : vertex_clusters.order) item = mine[item];
         clustered = true;
     }
-    for (auto [clusters, whole] : {std::pair(&tet_clusters, &tet_box), std::pair(&vertex_clusters, &vertex_box)}) {
+    for (auto [clusters, whole] :
+         {std::pair(&tet_clusters, &tet_box), std::pair(&vertex_clusters, &vertex_box)}) {
         *whole = Box{};
         for (std::uint32_t c = 0; c < clusters->size(); ++c) {
             Box box;

@@ -52,7 +52,8 @@ inline bool collide(std::uint64_t body_a, const Filter& a, std::uint64_t body_b,
     return (a.category & b.mask) != 0 && (b.category & a.mask) != 0;
 }
 
-// Items in groups of near ones, each with a box. `order` lists the items of the first group, then of the next.
+// Items in groups of near ones, each with a box. `order` lists the items of the first group, then of the
+// next.
 class Clusters {
 public:
     explicit Clusters(Memory* memory) : order(memory), begins(memory), boxes(memory) {}
@@ -72,8 +73,8 @@ public:
 
 struct Part {
     explicit Part(Memory* memory)
-        : tets(memory), tet_ids(memory), tet_indices(memory), vertex_ids(memory), by_id(memory), owned(memory),
-          tet_clusters(memory), vertex_clusters(memory) {}
+        : tets(memory), tet_ids(memory), tet_indices(memory), vertex_ids(memory), by_id(memory),
+          owned(memory), tet_clusters(memory), vertex_clusters(memory) {}
 
     // The arrays of the caller, checked; tetrahedra in the order of their numbers.
     void take(const vox_part_desc& desc, const vox_mesh_desc& mesh);
@@ -97,11 +98,11 @@ struct Part {
     Filter filter;
     std::uint32_t vertex_count = 0, tet_count = 0;
     Vector<std::uint32_t> tets;
-    Vector<std::uint64_t> tet_ids;        // ascending; empty: 0, 1, 2, ...
-    Vector<std::uint32_t> tet_indices;    // the caller's
-    Vector<std::uint64_t> vertex_ids;     // empty: 0, 1, 2, ...
-    Vector<std::uint32_t> by_id;          // vertices in the order of their numbers
-    Vector<std::uint8_t> owned;           // empty: all
+    Vector<std::uint64_t> tet_ids;     // ascending; empty: 0, 1, 2, ...
+    Vector<std::uint32_t> tet_indices; // the caller's
+    Vector<std::uint64_t> vertex_ids;  // empty: 0, 1, 2, ...
+    Vector<std::uint32_t> by_id;       // vertices in the order of their numbers
+    Vector<std::uint8_t> owned;        // empty: all
 
     Positions positions;
     bool clustered = false;

@@ -46,8 +46,13 @@ void Rounds::write_boxes() {
         for (std::uint32_t p = 0; p < scene_.parts_.size(); ++p) {
             const Part& part = *scene_.parts_[p];
             if (!part.tet_box.meets(vertices)) continue;
-            PartBoxes header{part.body,         part.filter.category,       part.filter.mask,
-                             part.filter.group, part.filter.self_collision, p, 0};
+            PartBoxes header{part.body,
+                             part.filter.category,
+                             part.filter.mask,
+                             part.filter.group,
+                             part.filter.self_collision,
+                             p,
+                             0};
             const std::size_t at = writers_[i].add(header);
             for (const Box& box : part.tet_clusters.boxes)
                 if (box.meets(vertices)) {
@@ -98,15 +103,17 @@ void Rounds::send_vertices_to(std::uint32_t neighbour, std::span<const Source> s
         for (std::uint64_t r = remote_begin_[neighbour]; r < remote_begin_[neighbour + 1]; ++r) {
             const PartBoxes& remote = remote_[r];
             const Filter filter{remote.category, remote.mask, remote.group, remote.self_collision};
-            if (source.part && !collide(source.part->body, source.part->filter, remote.body, filter)) continue;
+            if (source.part && !collide(source.part->body, source.part->filter, remote.body, filter))
+                continue;
             for (std::uint64_t b = boxes_begin_[r]; b < boxes_begin_[r + 1]; ++b)
                 if (boxes_[b].meets(source.box)) near_source.push_back(boxes_[b]);
         }
         if (near_source.empty()) continue;
         Vertices header{0, 0, 0, 0, 0, 0, source.positions.doubles ? 1u : 0u};
         if (const Part* part = source.part)
-            header = {part->body,        part->filter.category,       part->filter.mask,
-                      part->filter.group, part->filter.self_collision, 0, header.doubles};
+            header = {part->body,         part->filter.category,       part->filter.mask,
+                      part->filter.group, part->filter.self_collision, 0,
+                      header.doubles};
         const std::size_t at = writer.add(header);
         for (std::uint32_t c = 0; c < source.clusters->size(); ++c) {
             near_cluster.clear();
@@ -158,13 +165,14 @@ void Rounds::take_vertices() {
                     double position[3];
                     copies->positions.get(*here, position);
                     if (!std::equal(position, position + 3, vertex.position))
-                        throw Error(VOX_ERROR_INVALID_STATE,
-                                    format("vertex %llu of body %llu is at %.17g %.17g %.17g on rank %u, and its "
-                                           "copy at %.17g %.17g %.17g on rank %u",
-                                           static_cast<unsigned long long>(vertex.id),
-                                           static_cast<unsigned long long>(header.body), vertex.position[0],
-                                           vertex.position[1], vertex.position[2], scene_.ranks_[i], position[0],
-                                           position[1], position[2], scene_.transport_.rank()));
+                        throw Error(
+                            VOX_ERROR_INVALID_STATE,
+                            format("vertex %llu of body %llu is at %.17g %.17g %.17g on rank %u, and its "
+                                   "copy at %.17g %.17g %.17g on rank %u",
+                                   static_cast<unsigned long long>(vertex.id),
+                                   static_cast<unsigned long long>(header.body), vertex.position[0],
+                                   vertex.position[1], vertex.position[2], scene_.ranks_[i], position[0],
+                                   position[1], position[2], scene_.transport_.rank()));
                     known_.push_back({copies, *here, i, place});
                 } else {
                     strangers_.push_back({vertex.id, group, place});

@@ -1,5 +1,5 @@
-// The rounds that a step and a search for points have in common: finer boxes to neighbours, vertices to the ranks that
-// may have tetrahedra around them, a step of the grid there, and the hits back.
+// The rounds that a step and a search for points have in common: finer boxes to neighbours, vertices to the
+// ranks that may have tetrahedra around them, a step of the grid there, and the hits back.
 #pragma once
 
 #include "dist/scene.hpp"
@@ -47,8 +47,8 @@ struct Outgoing {
 // A hit of a vertex of this rank, here or at a neighbour's.
 struct Found {
     vox_scene_contact contact; // as the side of the vertex sees it
-    std::uint32_t neighbour; // none: here
-    std::uint32_t hit; // its place among the neighbour's hits; here: the index of the tetrahedron
+    std::uint32_t neighbour;   // none: here
+    std::uint32_t hit;         // its place among the neighbour's hits; here: the index of the tetrahedron
 };
 constexpr std::uint32_t no_neighbour = UINT32_MAX;
 
@@ -85,8 +85,8 @@ private:
     Side& side_;
     const bool points_;
     Memory* memory_;
-    Vector<Writer> writers_;            // one a neighbour
-    Vector<PartBoxes> remote_;          // parts of neighbours
+    Vector<Writer> writers_;             // one a neighbour
+    Vector<PartBoxes> remote_;           // parts of neighbours
     Vector<std::uint64_t> remote_begin_; // of each neighbour
     Vector<Box> boxes_;
     Vector<std::uint64_t> boxes_begin_; // of each remote part

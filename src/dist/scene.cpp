@@ -15,9 +15,9 @@ vox_filter everything() noexcept {
 }
 
 const Part& Side::part_of(vox_mesh mesh) const noexcept {
-    return *std::lower_bound(placed.begin(), placed.end(), mesh,
-                             [](const Placed& p, vox_mesh m) { return p.mesh < m; })
-                ->part;
+    return *std::lower_bound(placed.begin(), placed.end(), mesh, [](const Placed& p, vox_mesh m) {
+                return p.mesh < m;
+            })->part;
 }
 
 void Side::set_points(Vector<double>& positions) {
@@ -47,7 +47,8 @@ Filter read_filter(const vox_mesh_desc& mesh) {
     if (mesh.filter) {
         std::memcpy(&filter, mesh.filter, std::min<std::size_t>(mesh.filter->struct_size, sizeof filter));
         if (filter.self_rings != 0 || filter.self_rest_distance != 0)
-            throw Error(VOX_ERROR_UNSUPPORTED, "self_rings and self_rest_distance are not supported for parts of bodies");
+            throw Error(VOX_ERROR_UNSUPPORTED,
+                        "self_rings and self_rest_distance are not supported for parts of bodies");
     }
     return {filter.category, filter.mask, filter.group,
             filter.self_collision || (mesh.flags & VOX_MESH_SELF_COLLISION) ? 1u : 0u};
@@ -57,9 +58,9 @@ Filter read_filter(const vox_mesh_desc& mesh) {
 } // namespace vox::dist
 
 vox_scene::vox_scene(const vox_scene_desc&, const vox_grid_desc& grid, const vox_transport& transport)
-    : memory_(grid.allocator), grid_desc_(grid), transport_(transport), parts_(&memory_), contacts_side_(&memory_),
-      points_side_(&memory_), contacts_(&memory_), incoming_(&memory_), overviews_(&memory_), ranks_(&memory_),
-      out_(&memory_), in_(&memory_), in_contact_(&memory_) {
+    : memory_(grid.allocator), grid_desc_(grid), transport_(transport), parts_(&memory_),
+      contacts_side_(&memory_), points_side_(&memory_), contacts_(&memory_), incoming_(&memory_),
+      overviews_(&memory_), ranks_(&memory_), out_(&memory_), in_(&memory_), in_contact_(&memory_) {
     overviews_.resize(transport.size);
     ranks_.resize(transport.size);
     out_.resize(transport.size);
@@ -85,7 +86,8 @@ vox_part vox_scene::insert(const vox_part_desc& desc) {
     std::memcpy(&mesh, desc.mesh, std::min<std::size_t>(desc.mesh->struct_size, sizeof mesh));
     mesh.struct_size = sizeof mesh;
     if (find_body(desc.body))
-        refuse(format("body %llu has a part on this rank already", static_cast<unsigned long long>(desc.body)));
+        refuse(
+            format("body %llu has a part on this rank already", static_cast<unsigned long long>(desc.body)));
     const Filter filter = read_filter(mesh);
 
     std::pmr::polymorphic_allocator<> allocator(&memory_);
@@ -107,7 +109,8 @@ vox_part vox_scene::insert(const vox_part_desc& desc) {
         grid_filter.mask = filter.mask;
         grid_filter.group = filter.group;
     }
-    if (mesh.filter && filter.category == 0 && filter.mask == 0 && filter.group == 0 && !filter.self_collision)
+    if (mesh.filter && filter.category == 0 && filter.mask == 0 && filter.group == 0 &&
+        !filter.self_collision)
         refuse("the filter is all zero: vox_filter_init fills it");
     mesh.tets = part->tets.data();
     mesh.filter = &grid_filter;

@@ -1,5 +1,5 @@
-// One item a contact, from one side to the other. Between two ranks both sides have the same contacts in the same order,
-// so that no numbers need to be sent.
+// One item a contact, from one side to the other. Between two ranks both sides have the same contacts in the
+// same order, so that no numbers need to be sent.
 #include "base/structs.hpp"
 #include "dist/scene.hpp"
 
@@ -35,7 +35,8 @@ void vox_scene::send(vox_direction direction, std::uint64_t item_bytes, const vo
     failure.guard([&] {
         check_enum(direction, VOX_DIRECTION_TO_VERTICES, "direction");
         if (item_bytes == 0 || item_bytes > 65536)
-            refuse(format("item_bytes is %llu, expected 1 to 65536", static_cast<unsigned long long>(item_bytes)));
+            refuse(format("item_bytes is %llu, expected 1 to 65536",
+                          static_cast<unsigned long long>(item_bytes)));
         if (!from.empty()) require(in, "in");
         if (!to.empty()) require(out, "out");
         for (std::uint32_t i = 0; i < rank_count_; ++i) writers.emplace_back(&memory_);

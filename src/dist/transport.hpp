@@ -33,7 +33,8 @@ public:
         const CallersFloats floats;
         carried(callbacks_.exchange(ranks, count, out, in, callbacks_.user), "exchange");
     }
-    void agree(std::uint64_t* minima, std::uint32_t minimum_count, std::uint64_t* sums, std::uint32_t sum_count) {
+    void agree(std::uint64_t* minima, std::uint32_t minimum_count, std::uint64_t* sums,
+               std::uint32_t sum_count) {
         ++collectives;
         if (!callbacks_.agree) return;
         const CallersFloats floats;
@@ -51,7 +52,8 @@ private:
     vox_transport callbacks_;
 };
 
-// What went wrong on this rank in a collective function, which goes on with empty messages, so that no rank waits.
+// What went wrong on this rank in a collective function, which goes on with empty messages, so that no rank
+// waits.
 class Failure {
 public:
     template <class Function>

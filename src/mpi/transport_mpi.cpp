@@ -15,7 +15,8 @@ namespace vox::mpi {
 namespace {
 
 constexpr int tag = 21;
-constexpr std::uint64_t longest = 1u << 30; // an exchange sends longer messages as several, the last one shorter
+constexpr std::uint64_t longest =
+    1u << 30; // an exchange sends longer messages as several, the last one shorter
 
 void check(int error, const char* function) {
     if (error == MPI_SUCCESS) return;
@@ -34,7 +35,8 @@ void combine(void* in, void* in_out, int* length, MPI_Datatype*) {
     const auto* from = static_cast<const Numbers*>(in);
     auto* to = static_cast<Numbers*>(in_out);
     for (int n = 0; n < *length; ++n)
-        for (int i = 0; i < 16; ++i) to[n].of[i] = i < 8 ? std::min(to[n].of[i], from[n].of[i]) : to[n].of[i] + from[n].of[i];
+        for (int i = 0; i < 16; ++i)
+            to[n].of[i] = i < 8 ? std::min(to[n].of[i], from[n].of[i]) : to[n].of[i] + from[n].of[i];
 }
 
 struct Duplicate {
@@ -80,7 +82,8 @@ vox_result allgather(const void* in, std::uint64_t bytes, void* out, void* user)
     });
 }
 
-// Receives one message. What there is no memory for is taken from MPI and lost, and the rest goes on; true if not.
+// Receives one message. What there is no memory for is taken from MPI and lost, and the rest goes on; true if
+// not.
 bool receive(Duplicate& mpi, std::uint32_t rank, std::vector<std::byte>& bytes) {
     bytes.clear();
     bool memory = true;
@@ -103,7 +106,8 @@ bool receive(Duplicate& mpi, std::uint32_t rank, std::vector<std::byte>& bytes) 
     return memory;
 }
 
-vox_result exchange(const std::uint32_t* ranks, std::uint32_t count, const vox_bytes* out, vox_bytes* in, void* user) {
+vox_result exchange(const std::uint32_t* ranks, std::uint32_t count, const vox_bytes* out, vox_bytes* in,
+                    void* user) {
     return carried([&] {
         auto& mpi = *static_cast<Duplicate*>(user);
         mpi.requests.clear();
@@ -112,8 +116,8 @@ vox_result exchange(const std::uint32_t* ranks, std::uint32_t count, const vox_b
             for (std::uint64_t sent = 0;; sent += longest) {
                 const std::uint64_t bytes = std::min(out[i].size - sent, longest);
                 mpi.requests.emplace_back();
-                check(MPI_Isend(data + sent, static_cast<int>(bytes), MPI_BYTE, static_cast<int>(ranks[i]), tag,
-                                mpi.comm, &mpi.requests.back()),
+                check(MPI_Isend(data + sent, static_cast<int>(bytes), MPI_BYTE, static_cast<int>(ranks[i]),
+                                tag, mpi.comm, &mpi.requests.back()),
                       "MPI_Isend");
                 if (bytes < longest) break;
             }
@@ -128,8 +132,8 @@ vox_result exchange(const std::uint32_t* ranks, std::uint32_t count, const vox_b
     });
 }
 
-vox_result agree(std::uint64_t* minima, std::uint32_t minimum_count, std::uint64_t* sums, std::uint32_t sum_count,
-                 void* user) {
+vox_result agree(std::uint64_t* minima, std::uint32_t minimum_count, std::uint64_t* sums,
+                 std::uint32_t sum_count, void* user) {
     return carried([&] {
         auto& mpi = *static_cast<Duplicate*>(user);
         Numbers mine{}, all{};

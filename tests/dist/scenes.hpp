@@ -1,5 +1,5 @@
-// Bodies of cubes on a lattice, so that many vertices lie exactly on facets, edges and corners of others, and their
-// partition among ranks.
+// Bodies of cubes on a lattice, so that many vertices lie exactly on facets, edges and corners of others, and
+// their partition among ranks.
 #pragma once
 
 #include <vox/vox_dist.h>
@@ -13,7 +13,9 @@
 namespace scenes {
 
 using Random = std::mt19937_64;
-inline std::uint32_t below(Random& random, std::uint32_t count) { return static_cast<std::uint32_t>(random() % count); }
+inline std::uint32_t below(Random& random, std::uint32_t count) {
+    return static_cast<std::uint32_t>(random() % count);
+}
 
 struct Body {
     std::uint64_t number = 0;
@@ -35,7 +37,8 @@ inline Body block(const std::uint32_t n[3], const double origin[3], double size)
     for (std::uint32_t z = 0; z <= n[2]; ++z)
         for (std::uint32_t y = 0; y <= n[1]; ++y)
             for (std::uint32_t x = 0; x <= n[0]; ++x)
-                body.xyz.insert(body.xyz.end(), {origin[0] + size * x, origin[1] + size * y, origin[2] + size * z});
+                body.xyz.insert(body.xyz.end(),
+                                {origin[0] + size * x, origin[1] + size * y, origin[2] + size * z});
     static constexpr int paths[6][2] = {{0, 1}, {0, 2}, {1, 0}, {1, 2}, {2, 0}, {2, 1}};
     for (std::uint32_t z = 0; z < n[2]; ++z)
         for (std::uint32_t y = 0; y < n[1]; ++y)
@@ -92,8 +95,8 @@ inline std::vector<std::uint32_t> cut(const Body& body, std::uint32_t size, Cut 
         for (int c = 0; c < 4; ++c) sum += body.xyz[3 * body.tets[4 * t + c] + axis];
         return sum;
     };
-    const auto bisect = [&](auto&& self, std::size_t begin, std::size_t end, std::uint32_t first, std::uint32_t last,
-                            int axis) -> void {
+    const auto bisect = [&](auto&& self, std::size_t begin, std::size_t end, std::uint32_t first,
+                            std::uint32_t last, int axis) -> void {
         if (last - first <= 1) {
             for (std::size_t i = begin; i < end; ++i) ranks[order[i]] = first;
             return;
@@ -106,12 +109,18 @@ inline std::vector<std::uint32_t> cut(const Body& body, std::uint32_t size, Cut 
         self(self, half, end, mid, last, (axis + 1) % 3);
     };
     const std::uint32_t only = below(random, size);
-    for (std::uint32_t t = 0; t < ranks.size(); ++t)
-        switch (how) {
-        case Cut::stripes: ranks[t] = t % size; break;
-        case Cut::random: ranks[t] = below(random, size); break;
-        case Cut::empty_ranks: ranks[t] = below(random, size) / 2 * 2; break;
-        default: ranks[t] = only;
+    for (std::uint32_t t = 0; t < ranks.size(); ++t) switch (how) {
+        case Cut::stripes:
+            ranks[t] = t % size;
+            break;
+        case Cut::random:
+            ranks[t] = below(random, size);
+            break;
+        case Cut::empty_ranks:
+            ranks[t] = below(random, size) / 2 * 2;
+            break;
+        default:
+            ranks[t] = only;
         }
     if (how == Cut::rcb && !ranks.empty()) bisect(bisect, 0, ranks.size(), 0, size, 0);
     return ranks;
@@ -126,9 +135,10 @@ struct Share {
     std::vector<float> floats;
 };
 
-// One share a rank. The owner of a vertex is a random rank of those that have it; of one in no tetrahedron any rank.
-inline std::vector<Share> shares(const Body& body, const std::vector<std::uint32_t>& ranks, std::uint32_t size,
-                                 Random& random) {
+// One share a rank. The owner of a vertex is a random rank of those that have it; of one in no tetrahedron
+// any rank.
+inline std::vector<Share> shares(const Body& body, const std::vector<std::uint32_t>& ranks,
+                                 std::uint32_t size, Random& random) {
     std::vector<Share> all(size);
     std::vector<std::vector<std::uint32_t>> on(body.vertices());
     for (std::size_t t = 0; t < ranks.size(); ++t)

@@ -71,7 +71,8 @@ void check_locate(Run& run, vox_scene* scene, std::uint32_t rank) {
             (void)vox_mesh_user_data(run.grid, hits[h].mesh, &number);
             if (!first || number < body) first = &hits[h], body = number;
         }
-        if ((found[i].rank == VOX_NO_RANK) != !first) return note(run, "a point is found, or not, unlike in one grid");
+        if ((found[i].rank == VOX_NO_RANK) != !first)
+            return note(run, "a point is found, or not, unlike in one grid");
         if (first && (found[i].body != body || found[i].tet != first->tet ||
                       std::memcmp(found[i].barycentric, first->barycentric, sizeof first->barycentric) != 0))
             return note(run, "a point is in another tetrahedron than in one grid");
@@ -83,7 +84,8 @@ void rank(const vox_transport* transport, void* user) {
     Ranked mine(transport);
     if (mine.result != VOX_OK) return note(run, vox_last_error());
     for (std::size_t b = 0; b < run.scene->size(); ++b)
-        if (mine.insert((*run.scene)[b], run.shares[b][transport->rank]) != VOX_OK) note(run, vox_last_error());
+        if (mine.insert((*run.scene)[b], run.shares[b][transport->rank]) != VOX_OK)
+            note(run, vox_last_error());
     for (int step = 0; step < 2; ++step) {
         if (vox_scene_step(mine.scene) != VOX_OK) return note(run, vox_last_error());
         std::uint64_t hash[2];
@@ -113,7 +115,8 @@ bool before(const vox_scene_contact& a, const vox_scene_contact& b) {
 }
 
 // Returns what differs, or "".
-std::string differs(const Scene& scene, std::uint32_t size, Cut how, std::uint64_t seed, std::uint32_t parallel) {
+std::string differs(const Scene& scene, std::uint32_t size, Cut how, std::uint64_t seed,
+                    std::uint32_t parallel) {
     std::vector<std::vector<float>> floats;
     vox_grid* grid = whole(scene, floats);
     if (!grid || vox_grid_step(grid) != VOX_OK) return vox_last_error();
@@ -126,7 +129,8 @@ std::string differs(const Scene& scene, std::uint32_t size, Cut how, std::uint64
     (void)vox_grid_prepare_queries(grid);
     run.grid = grid;
     Random random(seed);
-    for (const Body& body : scene) run.shares.push_back(shares(body, cut(body, size, how, random), size, random));
+    for (const Body& body : scene)
+        run.shares.push_back(shares(body, cut(body, size, how, random), size, random));
     const vox_result result = vox_transport_run(size, parallel, rank, &run);
     vox_grid_destroy(grid);
     if (result != VOX_OK) return vox_last_error();
@@ -137,7 +141,8 @@ std::string differs(const Scene& scene, std::uint32_t size, Cut how, std::uint64
     if (run.incoming.size() != run.contacts.size()) return "incoming contacts are others";
     for (std::size_t i = 0; i < run.contacts.size(); ++i) {
         const vox_scene_contact &a = run.contacts[i], &b = run.incoming[i];
-        if (before(a, b) || before(b, a) || a.interior != b.interior || std::memcmp(a.barycentric, b.barycentric, 16))
+        if (before(a, b) || before(b, a) || a.interior != b.interior ||
+            std::memcmp(a.barycentric, b.barycentric, 16))
             return "incoming differs from contacts: " + text_of(a) + " and " + text_of(b);
     }
     return "";

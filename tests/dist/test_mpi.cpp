@@ -11,7 +11,8 @@ using namespace scenes;
 namespace {
 
 int fail(const char* what, std::uint64_t seed, int rank) {
-    std::printf("rank %d, scene %llu: %s (%s)\n", rank, static_cast<unsigned long long>(seed), what, vox_last_error());
+    std::printf("rank %d, scene %llu: %s (%s)\n", rank, static_cast<unsigned long long>(seed), what,
+                vox_last_error());
     std::fflush(stdout);
     return MPI_Abort(MPI_COMM_WORLD, 1);
 }
@@ -41,8 +42,8 @@ int main(int argc, char** argv) {
         if (mine.result != VOX_OK) return fail("create", seed, rank);
         std::vector<std::vector<Share>> all;
         for (const Body& body : scene)
-            all.push_back(shares(body, cut(body, transport.size, static_cast<Cut>(seed % 5), random), transport.size,
-                                 random));
+            all.push_back(shares(body, cut(body, transport.size, static_cast<Cut>(seed % 5), random),
+                                 transport.size, random));
         for (std::size_t b = 0; b < scene.size(); ++b)
             if (mine.insert(scene[b], all[b][transport.rank]) != VOX_OK) return fail("insert", seed, rank);
         if (vox_scene_step(mine.scene) != VOX_OK || vox_scene_hash(mine.scene, hash) != VOX_OK)
@@ -56,7 +57,8 @@ int main(int argc, char** argv) {
         if (has_vertices == 0) continue;
         double* changed_double = nullptr;
         float* changed_float = nullptr;
-        for (std::size_t b = 0; transport.rank == bad && !changed_double && !changed_float && b < scene.size(); ++b)
+        for (std::size_t b = 0;
+             transport.rank == bad && !changed_double && !changed_float && b < scene.size(); ++b)
             if (!all[b][bad].xyz.empty()) {
                 if (scene[b].doubles)
                     changed_double = &all[b][bad].xyz.back();
@@ -66,7 +68,8 @@ int main(int argc, char** argv) {
         const double old = changed_double ? *changed_double : changed_float ? *changed_float : 0;
         if (changed_double) *changed_double = NAN;
         if (changed_float) *changed_float = NAN;
-        if (vox_scene_step(mine.scene) != VOX_ERROR_NON_FINITE) return fail("not the same failure", seed, rank);
+        if (vox_scene_step(mine.scene) != VOX_ERROR_NON_FINITE)
+            return fail("not the same failure", seed, rank);
         if (changed_double) *changed_double = old;
         if (changed_float) *changed_float = static_cast<float>(old);
         if (vox_scene_step(mine.scene) != VOX_OK || vox_scene_hash(mine.scene, hash) != VOX_OK ||
@@ -76,6 +79,7 @@ int main(int argc, char** argv) {
     if (contacts == 0) return fail("no contacts at all", 0, rank);
     vox_mpi_transport_destroy(&transport);
     MPI_Finalize();
-    if (rank == 0) std::printf("25 scenes, %llu contacts: the same\n", static_cast<unsigned long long>(contacts));
+    if (rank == 0)
+        std::printf("25 scenes, %llu contacts: the same\n", static_cast<unsigned long long>(contacts));
     return 0;
 }

@@ -24,11 +24,10 @@ public:
 
     vox_result insert(const Body& body, Share& share) {
         if (share.vertex_ids.empty()) return VOX_OK;
-        vox_mesh_desc mesh = body.doubles
-                                 ? vox_mesh_desc_doubles(share.xyz.data(), share.vertex_ids.size(), share.tets.data(),
-                                                         share.tet_ids.size())
-                                 : vox_mesh_desc_floats(share.floats.data(), share.vertex_ids.size(),
-                                                        share.tets.data(), share.tet_ids.size());
+        vox_mesh_desc mesh = body.doubles ? vox_mesh_desc_doubles(share.xyz.data(), share.vertex_ids.size(),
+                                                                  share.tets.data(), share.tet_ids.size())
+                                          : vox_mesh_desc_floats(share.floats.data(), share.vertex_ids.size(),
+                                                                 share.tets.data(), share.tet_ids.size());
         mesh.filter = &body.filter;
         vox_part_desc part;
         (void)vox_part_desc_init(&part, sizeof part);
@@ -56,8 +55,9 @@ inline vox_grid* whole(const Scene& scene, std::vector<std::vector<float>>& floa
         const Body& body = scene[b];
         for (const double number : body.xyz) floats[b].push_back(static_cast<float>(number));
         vox_mesh_desc mesh =
-            body.doubles ? vox_mesh_desc_doubles(body.xyz.data(), body.vertices(), body.tets.data(), body.tet_count())
-                         : vox_mesh_desc_floats(floats[b].data(), body.vertices(), body.tets.data(), body.tet_count());
+            body.doubles
+                ? vox_mesh_desc_doubles(body.xyz.data(), body.vertices(), body.tets.data(), body.tet_count())
+                : vox_mesh_desc_floats(floats[b].data(), body.vertices(), body.tets.data(), body.tet_count());
         mesh.filter = &body.filter;
         mesh.user_data = body.number;
         vox_mesh id;
