@@ -30,7 +30,8 @@ void vox_scene::send(vox_direction direction, std::uint64_t item_bytes, const vo
     Vector<const std::byte*> here(&memory_); // items for this rank itself
     const auto* items = static_cast<const std::byte*>(in);
     const auto place_of = [&](std::uint32_t rank) {
-        return std::lower_bound(ranks_.begin(), ranks_.begin() + rank_count_, rank) - ranks_.begin();
+        return static_cast<std::size_t>(std::lower_bound(ranks_.begin(), ranks_.begin() + rank_count_, rank) -
+                                        ranks_.begin());
     };
     failure.guard([&] {
         check_enum(direction, VOX_DIRECTION_TO_VERTICES, "direction");

@@ -82,8 +82,8 @@ void tell_verdicts(vox_scene& scene, const Rounds& rounds, const Verdicts& verdi
     while (hit != rounds.outgoing.end()) {
         // Of one rank, with a verdict of each if one of them is on a boundary.
         const std::uint32_t rank = hit->contact.rank;
-        const auto told =
-            std::find(scene.ranks_.begin(), scene.ranks_.begin() + count, rank) - scene.ranks_.begin();
+        const auto told = static_cast<std::size_t>(
+            std::find(scene.ranks_.begin(), scene.ranks_.begin() + count, rank) - scene.ranks_.begin());
         const vox_bytes message = told < count ? scene.in_[told] : vox_bytes{nullptr, 0};
         const auto* verdict = static_cast<const std::uint8_t*>(message.data);
         for (std::uint64_t h = 0; hit != rounds.outgoing.end() && hit->contact.rank == rank; ++hit, ++h)
