@@ -2,7 +2,7 @@
 """The source drop: all that the libraries are compiled from, without a build system and without dependencies.
 
 usage: source_drop.py OUT [--core | --all]    OUT: a folder that does not exist yet, or FILE.tar.xz
---core: without vox_io and vox_sim. --all: also the tool, the reader of .vtu and the Python package; what pip takes.
+vox_dist and vox_mpi are not in it. --core: without vox_io and vox_sim. --all: also the tool, the reader of .vtu and the Python package; what pip takes.
 
 It holds include/, adapters/, src/, CMakeLists.txt and cmake/ of this repository, LICENSE, and in third_party/ what the sources include:
 Highway's headers; for vox_io and vox_sim Eigen's; for --all those of CLI11 and nlohmann-json, and the sources of pugixml and
@@ -116,7 +116,7 @@ def contents(core_only, everything):
     paths = ["include/vox", "adapters", "src", "cmake", "CMakeLists.txt", "LICENSE"]
     if everything:
         paths += ["tools", "pyproject.toml", "bindings/python/CMakeLists.txt", "bindings/python/README.md", "bindings/python/src"]
-    names = tracked(*paths)
+    names = [name for name in tracked(*paths) if not re.match(r"src/(dist|mpi)/|include/vox/vox_(dist|mpi)", name)]
     if core_only:
         names = [name for name in names if not re.match(r"src/(io|sim)/|include/vox/vox_(io|sim)", name)]
     files = {name: (ROOT / name).read_bytes() for name in names}

@@ -33,7 +33,7 @@ class Voxtet(ConanFile):
         self.version = ".".join(re.search(rf"#define VOX_VERSION_{part} (\d+)", header)[1] for part in ("MAJOR", "MINOR", "PATCH"))
 
     def export_sources(self):
-        for pattern in ("CMakeLists.txt", "LICENSE", "cmake/*", "include/*", "src/*", "third_party/*"):
+        for pattern in ("CMakeLists.txt", "LICENSE", "cmake/*", "adapters/*", "include/*", "src/*", "third_party/*"):
             copy(self, pattern, self._sources(), self.export_sources_folder)
 
     def requirements(self):
