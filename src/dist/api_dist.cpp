@@ -14,6 +14,7 @@ vox_transport checked(const vox_transport* transport) {
     one.size = 1;
     if (!transport) return one;
     one = read_struct(transport, one, "transport");
+    if (one.size > INT32_MAX) refuse(format("transport.size is %u, at most 2147483647", one.size));
     if (one.rank >= one.size) refuse(format("transport.rank is %u of %u", one.rank, one.size));
     if (one.size > 1 && !(one.allgather && one.exchange && one.agree))
         refuse(format("a transport of %u ranks lacks one of its functions", one.size));

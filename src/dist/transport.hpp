@@ -74,15 +74,17 @@ public:
     vox_result result() const noexcept { return result_; }
     explicit operator bool() const noexcept { return result_ != VOX_OK; }
 
-    // As a number of which the least is that of the lowest rank that failed.
+    // As a number of which the least is that of the lowest rank that failed. INVALID_STATE comes last: a rank that fails
+    // goes on with empty messages, so others may miss an owner that is there.
     std::uint64_t as_minimum(std::uint32_t rank) const noexcept {
         if (result_ == VOX_OK) return UINT64_MAX;
-        return std::uint64_t{rank} << 32 | static_cast<std::uint32_t>(-result_);
+        return (result_ == VOX_ERROR_INVALID_STATE ? last : 0) | std::uint64_t{rank} << 32 |
+               static_cast<std::uint32_t>(-result_);
     }
     // Throws the failure that all ranks agreed upon, if there is one.
     void throw_agreed(std::uint64_t minimum, std::uint32_t rank) const {
         if (minimum == UINT64_MAX) return;
-        const auto failed = static_cast<std::uint32_t>(minimum >> 32);
+        const auto failed = static_cast<std::uint32_t>((minimum & ~last) >> 32);
         const auto result = static_cast<vox_result>(-static_cast<std::int32_t>(minimum & 0xffffffff));
         if (failed == rank) throw Error(result, text_);
         throw Error(result, format("rank %u failed with %s; its vox_last_error says more", failed,
@@ -103,6 +105,8 @@ private:
         result_ = result;
         std::snprintf(text_, sizeof text_, "%s", text);
     }
+
+    static constexpr std::uint64_t last = std::uint64_t{1} << 63; // ranks are below 2^31
 
     vox_result result_ = VOX_OK;
     char text_[1024] = "";
