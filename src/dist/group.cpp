@@ -14,9 +14,9 @@ namespace {
 
 // Where the ranks meet. Each has one list of messages, which it fills before it arrives and keeps until all
 // have arrived the next time; so two lists take turns.
-class Group {
+class RankGroup {
 public:
-    Group(std::uint32_t size, std::uint32_t parallel) : size(size), turns_(parallel), slots(size) {}
+    RankGroup(std::uint32_t size, std::uint32_t parallel) : size(size), turns_(parallel), slots(size) {}
 
     void begin_turn() {
         std::unique_lock lock(mutex_);
@@ -81,9 +81,9 @@ public:
 };
 
 struct Rank {
-    Group* group;
+    RankGroup* group;
     std::uint32_t rank;
-    Group::Slot& slot() const { return group->slots[rank]; }
+    RankGroup::Slot& slot() const { return group->slots[rank]; }
 };
 
 vox_result allgather(const void* in, std::uint64_t bytes, void* out, void* user) {
@@ -99,14 +99,14 @@ vox_result allgather(const void* in, std::uint64_t bytes, void* out, void* user)
 vox_result exchange(const std::uint32_t* ranks, std::uint32_t count, const vox_bytes* out, vox_bytes* in,
                     void* user) {
     const Rank& me = *static_cast<Rank*>(user);
-    Group::Slot& slot = me.slot();
+    RankGroup::Slot& slot = me.slot();
     slot.ranks = ranks;
     slot.size = count;
     slot.out = out;
     me.group->arrive();
     vox_result result = VOX_OK;
     const auto message_of = [&](std::uint32_t other) -> const vox_bytes* {
-        const Group::Slot& from = me.group->slots[other];
+        const RankGroup::Slot& from = me.group->slots[other];
         const std::uint32_t* place = std::find(from.ranks, from.ranks + from.size, me.rank);
         return place == from.ranks + from.size ? nullptr : from.out + (place - from.ranks);
     };
@@ -142,10 +142,10 @@ vox_result agree(std::uint64_t* minima, std::uint32_t minimum_count, std::uint64
     std::copy(sums, sums + sum_count, numbers + 8);
     me.group->arrive();
     for (std::uint32_t i = 0; i < minimum_count; ++i)
-        for (const Group::Slot& other : me.group->slots) minima[i] = std::min(minima[i], other.numbers[i]);
+        for (const RankGroup::Slot& other : me.group->slots) minima[i] = std::min(minima[i], other.numbers[i]);
     for (std::uint32_t i = 0; i < sum_count; ++i) {
         sums[i] = 0;
-        for (const Group::Slot& other : me.group->slots) sums[i] += other.numbers[8 + i];
+        for (const RankGroup::Slot& other : me.group->slots) sums[i] += other.numbers[8 + i];
     }
     me.group->arrive();
     return VOX_OK;
@@ -168,7 +168,7 @@ vox_result vox_transport_run(uint32_t size, uint32_t parallel, vox_rank_function
     return border([&] {
         if (!function) refuse("function is null");
         if (size == 0 || size > 4096) refuse(format("size is %u, expected 1 to 4096", size));
-        dist::Group group(size, parallel == 0 ? size : parallel);
+        dist::RankGroup group(size, parallel == 0 ? size : parallel);
         const auto run = [&](std::uint32_t rank) {
             if (!group.wait_for_start()) return;
             dist::Rank me{&group, rank};

@@ -1,5 +1,7 @@
 #include "dist/scene.hpp"
 
+#include "base/structs.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -45,7 +47,7 @@ GridHandle create_grid(const vox_grid_desc& desc) {
 Filter read_filter(const vox_mesh_desc& mesh) {
     vox_filter filter = vox_default_filter();
     if (mesh.filter) {
-        std::memcpy(&filter, mesh.filter, std::min<std::size_t>(mesh.filter->struct_size, sizeof filter));
+        filter = read_struct(mesh.filter, filter, "desc.mesh->filter");
         if (filter.self_rings != 0 || filter.self_rest_distance != 0)
             throw Error(VOX_ERROR_UNSUPPORTED,
                         "self_rings and self_rest_distance are not supported for parts of bodies");
@@ -81,9 +83,7 @@ Part* vox_scene::find_body(std::uint64_t body) const noexcept {
 }
 
 vox_part vox_scene::insert(const vox_part_desc& desc) {
-    require(desc.mesh, "desc.mesh");
-    vox_mesh_desc mesh = vox_default_mesh_desc();
-    std::memcpy(&mesh, desc.mesh, std::min<std::size_t>(desc.mesh->struct_size, sizeof mesh));
+    vox_mesh_desc mesh = read_struct(desc.mesh, vox_default_mesh_desc(), "desc.mesh");
     mesh.struct_size = sizeof mesh;
     if (find_body(desc.body))
         refuse(

@@ -72,7 +72,8 @@ inline Scene lattice(std::uint64_t seed) {
         if (below(random, 3) == 0) // folded
             for (int swaps = 0; swaps < 3; ++swaps) {
                 const auto v = below(random, static_cast<std::uint32_t>(body.vertices()));
-                for (int axis = 0; axis < 3; ++axis) body.xyz[3 * v + axis] += below(random, 5) / 2.0 - 1;
+                for (unsigned axis = 0; axis < 3; ++axis)
+                    body.xyz[3 * v + axis] += below(random, 5) / 2.0 - 1;
             }
         if (below(random, 4) == 0) // nothing exact
             for (double& number : body.xyz)
@@ -90,19 +91,19 @@ inline std::vector<std::uint32_t> cut(const Body& body, std::uint32_t size, Cut 
     std::vector<std::uint32_t> ranks(body.tet_count());
     std::vector<std::uint32_t> order(ranks.size());
     for (std::uint32_t t = 0; t < order.size(); ++t) order[t] = t;
-    const auto middle = [&](std::uint32_t t, int axis) {
+    const auto middle = [&](std::uint32_t t, unsigned axis) {
         double sum = 0;
-        for (int c = 0; c < 4; ++c) sum += body.xyz[3 * body.tets[4 * t + c] + axis];
+        for (unsigned c = 0; c < 4; ++c) sum += body.xyz[3 * body.tets[4 * t + c] + axis];
         return sum;
     };
     const auto bisect = [&](auto&& self, std::size_t begin, std::size_t end, std::uint32_t first,
-                            std::uint32_t last, int axis) -> void {
+                            std::uint32_t last, unsigned axis) -> void {
         if (last - first <= 1) {
             for (std::size_t i = begin; i < end; ++i) ranks[order[i]] = first;
             return;
         }
         const std::size_t half = begin + (end - begin) / 2;
-        std::nth_element(order.begin() + begin, order.begin() + half, order.begin() + end,
+        std::nth_element(order.data() + begin, order.data() + half, order.data() + end,
                          [&](std::uint32_t a, std::uint32_t b) { return middle(a, axis) < middle(b, axis); });
         const std::uint32_t mid = first + (last - first) / 2;
         self(self, begin, half, first, mid, (axis + 1) % 3);
@@ -142,7 +143,7 @@ inline std::vector<Share> shares(const Body& body, const std::vector<std::uint32
     std::vector<Share> all(size);
     std::vector<std::vector<std::uint32_t>> on(body.vertices());
     for (std::size_t t = 0; t < ranks.size(); ++t)
-        for (int c = 0; c < 4; ++c) on[body.tets[4 * t + c]].push_back(ranks[t]);
+        for (unsigned c = 0; c < 4; ++c) on[body.tets[4 * t + c]].push_back(ranks[t]);
     for (std::uint32_t i = static_cast<std::uint32_t>(body.vertices()); i-- > 0;) {
         auto& of = on[i];
         std::sort(of.begin(), of.end());
@@ -153,7 +154,7 @@ inline std::vector<Share> shares(const Body& body, const std::vector<std::uint32
             Share& share = all[rank];
             share.vertex_ids.push_back(i);
             share.owned.push_back(rank == owner);
-            for (int axis = 0; axis < 3; ++axis) {
+            for (unsigned axis = 0; axis < 3; ++axis) {
                 share.xyz.push_back(body.xyz[3 * i + axis]);
                 share.floats.push_back(static_cast<float>(body.xyz[3 * i + axis]));
             }
@@ -165,7 +166,7 @@ inline std::vector<Share> shares(const Body& body, const std::vector<std::uint32
     for (const std::uint32_t t : order) {
         Share& share = all[ranks[t]];
         share.tet_ids.push_back(t);
-        for (int c = 0; c < 4; ++c) { // vertex_ids descend
+        for (unsigned c = 0; c < 4; ++c) { // vertex_ids descend
             const auto place = std::lower_bound(share.vertex_ids.begin(), share.vertex_ids.end(),
                                                 std::uint64_t{body.tets[4 * t + c]}, std::greater<>());
             share.tets.push_back(static_cast<std::uint32_t>(place - share.vertex_ids.begin()));
