@@ -11,10 +11,9 @@
  * failure.
  *
  *   Collective A function whose comment begins with "Collective" is called by all ranks, in the same order. It gives all
- *              ranks the same result: of several failures that of the lowest rank, INVALID_STATE after all others, as it
- *              may follow from them. There vox_last_error() has the reason; on the others it names that rank. After a
- *              failure the scene stays usable. A null scene is refused at once, on that rank alone, which others then wait
- *              for.
+ *              ranks the same result: of several failures that of the lowest rank. There vox_last_error() has the
+ *              reason; on the others it names that rank. After a failure the scene stays usable. A null scene is refused
+ *              at once, on that rank alone, which others then wait for.
  *   Threads    One thread at a time may use a scene. Different scenes are independent, but for their transport.
  *   Machines   All ranks have the same order of bytes, and the same version of this library.
  */

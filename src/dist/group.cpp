@@ -142,7 +142,8 @@ vox_result agree(std::uint64_t* minima, std::uint32_t minimum_count, std::uint64
     std::copy(sums, sums + sum_count, numbers + 8);
     me.group->arrive();
     for (std::uint32_t i = 0; i < minimum_count; ++i)
-        for (const RankGroup::Slot& other : me.group->slots) minima[i] = std::min(minima[i], other.numbers[i]);
+        for (const RankGroup::Slot& other : me.group->slots)
+            minima[i] = std::min(minima[i], other.numbers[i]);
     for (std::uint32_t i = 0; i < sum_count; ++i) {
         sums[i] = 0;
         for (const RankGroup::Slot& other : me.group->slots) sums[i] += other.numbers[8 + i];

@@ -15,12 +15,11 @@ void Rounds::send_nothing() noexcept {
     for (std::uint32_t i = 0; i < scene_.rank_count_; ++i) scene_.out_[i] = {nullptr, 0};
 }
 
-// A failure here sends empty messages from then on; what others send is read, but not understood.
+// After a failure, here or at a neighbour, the rounds go on with messages that say so, and nothing is read.
 void Rounds::run(std::span<const Source> sources, Failure& failure) {
     const auto round = [&](auto&& write, std::uint64_t& bytes) {
         send_nothing();
         failure.guard(write);
-        if (failure) send_nothing();
         scene_.exchange(&bytes, failure);
     };
     round([&] { write_boxes(); }, scene_.counters_.box_bytes);

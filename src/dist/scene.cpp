@@ -192,11 +192,17 @@ void vox_scene::meet(Overview mine, const Failure& failure) {
 }
 
 void vox_scene::exchange(std::uint64_t* sent_bytes, Failure& failure) {
+    static constexpr std::byte failed{1}; // no other message has 1 byte
+    if (failure)
+        for (std::uint32_t i = 0; i < rank_count_; ++i) out_[i] = {&failed, 1};
     if (sent_bytes)
         for (std::uint32_t i = 0; i < rank_count_; ++i) *sent_bytes += out_[i].size;
     Failure mine;
     mine.guard([&] { transport_.exchange(ranks_.data(), rank_count_, out_.data(), in_.data()); });
-    if (!mine) return;
-    for (std::uint32_t i = 0; i < rank_count_; ++i) in_[i] = {nullptr, 0};
     failure.take(mine);
+    if (!mine)
+        for (std::uint32_t i = 0; i < rank_count_; ++i)
+            if (in_[i].size == 1) failure.follow();
+    if (failure)
+        for (std::uint32_t i = 0; i < rank_count_; ++i) in_[i] = {nullptr, 0};
 }

@@ -59,8 +59,8 @@ struct vox_scene {
     void look();
     // Tells all ranks this one's overview, and throws what the lowest failing rank says.
     void meet(vox::dist::Overview mine, const vox::dist::Failure& failure);
-    // Sends out_[i] to ranks_[i], below rank_count_, and gets in_[i].
-    // If that fails, it gets nothing, and goes on with what all ranks call next.
+    // Sends out_[i] to ranks_[i], below rank_count_, and gets in_[i]. After a failure, here or there, it gets
+    // nothing, and goes on with what all ranks call next.
     void exchange(std::uint64_t* sent_bytes, vox::dist::Failure& failure);
     vox::dist::Part* find_body(std::uint64_t body) const noexcept;
 

@@ -1,5 +1,5 @@
 // One item a contact, from one side to the other. Between two ranks both sides have the same contacts in the
-// same order, so that no numbers need to be sent.
+// same order, so that no numbers need to be sent. Before the items it says what they are.
 #include "base/structs.hpp"
 #include "dist/scene.hpp"
 
@@ -7,6 +7,15 @@
 
 using namespace vox;
 using namespace vox::dist;
+
+namespace {
+
+struct Items {
+    std::uint64_t bytes; // of one
+    std::uint64_t direction;
+};
+
+} // namespace
 
 void vox_scene::send(vox_direction direction, std::uint64_t item_bytes, const void* in, void* out) {
     Failure failure;
@@ -40,7 +49,8 @@ void vox_scene::send(vox_direction direction, std::uint64_t item_bytes, const vo
                           static_cast<unsigned long long>(item_bytes)));
         if (!from.empty()) require(in, "in");
         if (!to.empty()) require(out, "out");
-        for (std::uint32_t i = 0; i < rank_count_; ++i) writers.emplace_back(&memory_);
+        for (std::uint32_t i = 0; i < rank_count_; ++i)
+            writers.emplace_back(&memory_).add(Items{item_bytes, to_tets ? 0u : 1u});
         for (std::size_t i = 0; i < from.size(); ++i)
             if (from[i].rank == me)
                 here.push_back(items + i * item_bytes);
@@ -51,21 +61,25 @@ void vox_scene::send(vox_direction direction, std::uint64_t item_bytes, const vo
     exchange(nullptr, failure);
     failure.guard([&] {
         Vector<Reader> readers(&memory_);
-        for (std::uint32_t i = 0; i < rank_count_; ++i) readers.emplace_back(in_[i]);
+        for (std::uint32_t i = 0; i < rank_count_; ++i) {
+            const auto items_of = readers.emplace_back(in_[i]).take<Items>();
+            if (items_of.bytes != item_bytes || items_of.direction != (to_tets ? 0u : 1u))
+                refuse(format(
+                    "rank %u sends items of %llu bytes in direction %llu, this rank of %llu in direction %u",
+                    ranks_[i], static_cast<unsigned long long>(items_of.bytes),
+                    static_cast<unsigned long long>(items_of.direction),
+                    static_cast<unsigned long long>(item_bytes), to_tets ? 0u : 1u));
+        }
         auto* result = static_cast<std::byte*>(out);
         auto next_here = here.begin();
         for (const vox_scene_contact& contact : to) {
             if (contact.rank == me) {
                 std::memcpy(result, *next_here++, item_bytes);
             } else if (!readers[place_of(contact.rank)].take(result, item_bytes)) {
-                refuse(format("rank %u sent too little: its item_bytes or direction is another, or it failed",
-                              contact.rank));
+                throw Error(VOX_ERROR_INTERNAL, format("rank %u sent too little", contact.rank));
             }
             result += item_bytes;
         }
-        for (std::uint32_t i = 0; i < rank_count_; ++i)
-            if (readers[i].more())
-                refuse(format("rank %u sent too much: its item_bytes or direction is another", ranks_[i]));
     });
     failure.agree(transport_);
 }

@@ -75,9 +75,8 @@ void tell_verdicts(vox_scene& scene, const Rounds& rounds, const Verdicts& verdi
         scene.out_[count++] = received == 0 ? vox_bytes{nullptr, 0} : verdicts.of(i);
     }
     scene.rank_count_ = count;
-    Failure failure;
-    scene.exchange(&scene.counters_.hit_bytes, failure);
-    failure.throw_own();
+    for (std::uint32_t i = 0; i < count; ++i) scene.counters_.hit_bytes += scene.out_[i].size;
+    scene.transport_.exchange(scene.ranks_.data(), count, scene.out_.data(), scene.in_.data());
     auto hit = rounds.outgoing.begin();
     while (hit != rounds.outgoing.end()) {
         // Of one rank, with a verdict of each if one of them is on a boundary.

@@ -52,13 +52,14 @@ private:
     vox_transport callbacks_;
 };
 
-// What went wrong on this rank in a collective function, which goes on with empty messages, so that no rank
-// waits.
+// What went wrong on this rank in a collective function, which goes on with messages that say so, so that no
+// rank waits. A rank that gets such a message stops, too, with no failure of its own: what it lacks is no
+// fault of its data.
 class Failure {
 public:
     template <class Function>
     void guard(Function&& function) {
-        if (result_ != VOX_OK) return;
+        if (*this) return;
         try {
             function();
         } catch (const Error& error) {
@@ -71,27 +72,24 @@ public:
     void take(const Failure& other) noexcept {
         if (result_ == VOX_OK) set(other.result_, other.text_);
     }
+    // Another rank failed.
+    void follow() noexcept { follows_ = true; }
     vox_result result() const noexcept { return result_; }
-    explicit operator bool() const noexcept { return result_ != VOX_OK; }
+    explicit operator bool() const noexcept { return result_ != VOX_OK || follows_; }
 
-    // As a number of which the least is that of the lowest rank that failed. INVALID_STATE comes last: a rank that fails
-    // goes on with empty messages, so others may miss an owner that is there.
+    // As a number of which the least is that of the lowest rank that failed.
     std::uint64_t as_minimum(std::uint32_t rank) const noexcept {
         if (result_ == VOX_OK) return UINT64_MAX;
-        return (result_ == VOX_ERROR_INVALID_STATE ? last : 0) | std::uint64_t{rank} << 32 |
-               static_cast<std::uint32_t>(-result_);
+        return std::uint64_t{rank} << 32 | static_cast<std::uint32_t>(-result_);
     }
     // Throws the failure that all ranks agreed upon, if there is one.
     void throw_agreed(std::uint64_t minimum, std::uint32_t rank) const {
         if (minimum == UINT64_MAX) return;
-        const auto failed = static_cast<std::uint32_t>((minimum & ~last) >> 32);
+        const auto failed = static_cast<std::uint32_t>(minimum >> 32);
         const auto result = static_cast<vox_result>(-static_cast<std::int32_t>(minimum & 0xffffffff));
         if (failed == rank) throw Error(result, text_);
         throw Error(result, format("rank %u failed with %s; its vox_last_error says more", failed,
                                    vox_result_string(result)));
-    }
-    void throw_own() const {
-        if (result_ != VOX_OK) throw Error(result_, text_);
     }
     // Takes part in the agreement that ends a collective function, and throws what it says.
     void agree(Transport& transport) const {
@@ -106,9 +104,8 @@ private:
         std::snprintf(text_, sizeof text_, "%s", text);
     }
 
-    static constexpr std::uint64_t last = std::uint64_t{1} << 63; // ranks are below 2^31
-
     vox_result result_ = VOX_OK;
+    bool follows_ = false;
     char text_[1024] = "";
 };
 

@@ -1,0 +1,406 @@
+// What fails on one rank fails on all with the same code, nobody waits, and the next step works. What is not
+// supported, or does not fit together, is refused with its numbers.
+#include "dist/whole.hpp"
+
+#include "support/suite.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <functional>
+#include <mutex>
+
+using namespace scenes;
+
+namespace {
+
+constexpr std::uint32_t size = 3;
+
+// The heap of a scene, which fails once.
+struct Heap {
+    std::uint64_t calls = 0, fail_at = 0;
+    std::int64_t held = 0;
+
+    static void* allocate(std::size_t bytes, std::size_t alignment, void* user) {
+        Heap& heap = *static_cast<Heap*>(user);
+        if (++heap.calls == heap.fail_at) return nullptr;
+        ++heap.held;
+        return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+    }
+    static void release(void* memory, std::size_t, std::size_t, void* user) {
+        --static_cast<Heap*>(user)->held;
+        std::free(memory);
+    }
+    vox_allocator allocator() { return {allocate, release, this}; }
+};
+
+// Two blocks, one half a cube within the other, cut at random: contacts on facets, edges and corners across
+// ranks.
+Scene two_blocks() {
+    Scene scene;
+    for (int b = 0; b < 2; ++b) {
+        const std::uint32_t n[3] = {2, 2, 2};
+        const double origin[3] = {b * 0.5, b * 0.5, b * 1.0};
+        scene.push_back(block(n, origin, 1));
+        scene.back().number = 100 + static_cast<std::uint64_t>(b);
+        scene.back().doubles = b != 0;
+    }
+    return scene;
+}
+
+// What the ranks of a test share.
+struct Ranks {
+    Scene scene = two_blocks();
+    std::vector<std::vector<Share>> shares; // of each body, of each rank
+    std::uint64_t expected[2] = {};
+    std::function<void(Ranks&, const vox_transport*)> each;
+    std::mutex mutex;
+    std::string fault;
+
+    Ranks() {
+        std::vector<std::vector<float>> floats;
+        vox_grid* grid = whole(scene, floats);
+        vox_contact_view view{};
+        ck_ok(vox_grid_step(grid));
+        ck_ok(vox_grid_contacts(grid, &view));
+        ck_assert_uint_gt(view.count, 10);
+        ck_ok(vox_scene_hash_of_grid(grid, expected));
+        vox_grid_destroy(grid);
+        Random random(21);
+        for (const Body& body : scene)
+            shares.push_back(scenes::shares(body, cut(body, size, Cut::random, random), size, random));
+    }
+    // Runs `function` on each rank.
+    void run(std::function<void(Ranks&, const vox_transport*)> function) {
+        each = std::move(function);
+        ck_ok(vox_transport_run(
+            size, 1,
+            [](const vox_transport* transport, void* user) {
+                auto& ranks = *static_cast<Ranks*>(user);
+                ranks.each(ranks, transport);
+            },
+            this));
+        ck_assert_msg(fault.empty(), "%s", fault.c_str());
+    }
+    // A condition that a rank expects; no exit from its thread, for which the others would wait.
+    void expect(bool holds, const std::string& what) {
+        if (holds) return;
+        const std::string text = what + " (" + vox_last_error() + ")";
+        const std::lock_guard lock(mutex);
+        if (fault.empty()) fault = text;
+    }
+    void insert_all(Ranked& mine, std::uint32_t rank) {
+        for (std::size_t b = 0; b < scene.size(); ++b)
+            expect(mine.insert(scene[b], shares[b][rank]) == VOX_OK, "insert");
+    }
+    void expect_step(vox_scene* mine) {
+        std::uint64_t hash[2] = {};
+        expect(vox_scene_step(mine) == VOX_OK, "the next step");
+        expect(vox_scene_hash(mine, hash) == VOX_OK && hash[0] == expected[0] && hash[1] == expected[1],
+               "the hash of the next step");
+    }
+    // All ranks have this result; those that did not fail themselves name the rank that did.
+    void expect_everywhere(const vox_transport* transport, vox_result result, std::uint32_t bad,
+                           const std::string& what) {
+        std::int64_t mine = result, all[size];
+        const std::string text = vox_last_error();
+        expect(transport->allgather(&mine, sizeof mine, all, transport->user) == VOX_OK, "allgather");
+        for (const std::int64_t other : all)
+            expect(other == mine,
+                   what + ": " + vox_result_string(result) + " is not the result of all ranks");
+        if (result != VOX_OK && transport->rank != bad)
+            expect(text.find("rank " + std::to_string(bad) + " ") != std::string::npos,
+                   what + ": the rank is not named");
+    }
+};
+
+using Operation = std::function<vox_result(vox_scene*)>;
+
+vox_result locate(vox_scene* scene) {
+    const double points[6] = {0.5, 0.5, 1, 1.25, 1.25, 1.5};
+    vox_scene_point found[2];
+    return vox_scene_locate(scene, points, VOX_FORMAT_DOUBLE3, 0, 2, found);
+}
+
+vox_result send(vox_scene* scene) {
+    vox_scene_contact_view contacts{}, incoming{};
+    (void)vox_scene_contacts(scene, &contacts);
+    (void)vox_scene_incoming(scene, &incoming);
+    std::vector<std::uint64_t> in(contacts.count), out(incoming.count);
+    return vox_scene_send(scene, VOX_DIRECTION_TO_TETS, 8, in.data(), out.data());
+}
+
+// With the n-th allocation of one rank failing, for all n. Returns how many there are. `steps` go before.
+std::uint64_t fail_each(const Operation& operation, std::uint32_t bad, int steps) {
+    Ranks ranks;
+    std::uint64_t allocations = 0;
+    ranks.run([&](Ranks&, const vox_transport* transport) {
+        for (std::uint64_t n = 1;; ++n) {
+            Heap heap;
+            {
+                vox_grid_desc grid = vox_default_grid_desc();
+                grid.flags = 0;
+                grid.allocator = heap.allocator();
+                vox_scene_desc desc;
+                (void)vox_scene_desc_init(&desc, sizeof desc);
+                desc.grid = &grid;
+                Ranked mine(transport, &desc);
+                ranks.expect(mine.result == VOX_OK, "create");
+                ranks.insert_all(mine, transport->rank);
+                for (int step = 0; step < steps; ++step) ranks.expect_step(mine.scene);
+                heap.calls = 0;
+                heap.fail_at = transport->rank == bad ? n : 0;
+                const vox_result result = operation(mine.scene);
+                heap.fail_at = 0;
+                ranks.expect(result == VOX_OK || result == VOX_ERROR_OUT_OF_MEMORY, "another code");
+                ranks.expect_everywhere(transport, result, bad, "allocation " + std::to_string(n));
+                ranks.expect_step(mine.scene);
+                ranks.expect(operation(mine.scene) == VOX_OK, "the same again");
+                std::uint64_t done = result == VOX_OK, sum = 0;
+                (void)transport->agree(&done, 1, &sum, 1, transport->user);
+                if (done || !ranks.fault.empty()) {
+                    if (transport->rank == bad) allocations = n - 1;
+                    n = UINT64_MAX;
+                }
+            }
+            ranks.expect(heap.held == 0, "blocks are left");
+            if (n == UINT64_MAX) return;
+        }
+    });
+    return allocations;
+}
+
+// The exchange of a rank that fails once, after the others have their messages.
+struct Torn {
+    const vox_transport* inner;
+    int calls = 0, fail_at = 0;
+    static vox_result allgather(const void* in, std::uint64_t bytes, void* out, void* user) {
+        const vox_transport& to = *static_cast<Torn*>(user)->inner;
+        return to.allgather(in, bytes, out, to.user);
+    }
+    static vox_result exchange(const std::uint32_t* ranks, std::uint32_t count, const vox_bytes* out,
+                               vox_bytes* in, void* user) {
+        Torn& torn = *static_cast<Torn*>(user);
+        const vox_result result = torn.inner->exchange(ranks, count, out, in, torn.inner->user);
+        return ++torn.calls == torn.fail_at ? vox_fail(VOX_ERROR_OUT_OF_MEMORY, "torn") : result;
+    }
+    static vox_result agree(std::uint64_t* minima, std::uint32_t minimum_count, std::uint64_t* sums,
+                            std::uint32_t sum_count, void* user) {
+        const vox_transport& to = *static_cast<Torn*>(user)->inner;
+        return to.agree(minima, minimum_count, sums, sum_count, to.user);
+    }
+    vox_transport transport() {
+        return {sizeof(vox_transport), inner->rank, inner->size, 0, allgather, exchange, agree, this};
+    }
+};
+
+} // namespace
+
+START_TEST(each_failed_allocation_of_a_step) {
+    for (std::uint32_t bad = 0; bad < size; ++bad) ck_assert_uint_gt(fail_each(vox_scene_step, bad, 0), 50);
+    ck_assert_uint_gt(fail_each(vox_scene_step, 1, 2), 10);
+}
+END_TEST
+
+START_TEST(each_failed_allocation_of_other_calls) {
+    ck_assert_uint_gt(fail_each(locate, 0, 0), 50);
+    ck_assert_uint_gt(fail_each(locate, 2, 1), 10);
+    ck_assert_uint_gt(fail_each(send, 1, 1), 2);
+    ck_assert_uint_gt(fail_each(vox_scene_check, 1, 0), 5);
+}
+END_TEST
+
+START_TEST(each_failed_allocation_of_create) {
+    Ranks ranks;
+    std::uint64_t failures = 0;
+    ranks.run([&](Ranks&, const vox_transport* transport) {
+        for (std::uint64_t n = 1;; ++n) {
+            Heap heap;
+            heap.fail_at = transport->rank == 1 ? n : 0;
+            vox_grid_desc grid = vox_default_grid_desc();
+            grid.flags = 0;
+            grid.allocator = heap.allocator();
+            vox_scene_desc desc;
+            (void)vox_scene_desc_init(&desc, sizeof desc);
+            desc.grid = &grid;
+            vox_scene* scene = nullptr;
+            const vox_result result = vox_scene_create(&desc, transport, &scene);
+            ranks.expect_everywhere(transport, result, 1, "create");
+            ranks.expect((result == VOX_OK) == (scene != nullptr), "a scene that failed");
+            vox_scene_destroy(scene);
+            ranks.expect(heap.held == 0, "blocks are left");
+            if (result == VOX_OK) return;
+            if (transport->rank == 1) ++failures;
+        }
+    });
+    ck_assert_uint_gt(failures, 3);
+}
+END_TEST
+
+START_TEST(a_budget_of_one_rank) {
+    std::uint64_t failures = 0;
+    for (std::uint64_t budget = 4096; budget < 4 << 20; budget += budget / 16) {
+        Ranks ranks;
+        ranks.run([&](Ranks&, const vox_transport* transport) {
+            vox_grid_desc grid = vox_default_grid_desc();
+            grid.flags = 0;
+            if (transport->rank == 2) grid.byte_budget = budget;
+            vox_scene_desc desc;
+            (void)vox_scene_desc_init(&desc, sizeof desc);
+            desc.grid = &grid;
+            Ranked mine(transport, &desc);
+            if (mine.result != VOX_OK) return ranks.expect(mine.result == VOX_ERROR_BUDGET, "create");
+            vox_result inserted = VOX_OK;
+            for (std::size_t b = 0; b < ranks.scene.size() && inserted == VOX_OK; ++b)
+                inserted = mine.insert(ranks.scene[b], ranks.shares[b][transport->rank]);
+            std::int64_t one = inserted, all[size];
+            (void)transport->allgather(&one, sizeof one, all, transport->user);
+            if (all[2] != VOX_OK) return ranks.expect(all[2] == VOX_ERROR_BUDGET, "insert");
+            const vox_result result = vox_scene_step(mine.scene);
+            ranks.expect(result == VOX_OK || result == VOX_ERROR_BUDGET, "another code");
+            ranks.expect_everywhere(transport, result, 2, "budget");
+            if (transport->rank == 0) failures += result == VOX_ERROR_BUDGET;
+        });
+    }
+    ck_assert_uint_gt(failures, 0);
+}
+END_TEST
+
+START_TEST(a_bad_number_on_one_rank) {
+    for (std::uint32_t bad = 0; bad < size; ++bad)
+        for (const double number : {double(NAN), double(INFINITY), 1e300}) {
+            Ranks ranks;
+            ranks.run([&](Ranks&, const vox_transport* transport) {
+                Ranked mine(transport);
+                ranks.insert_all(mine, transport->rank);
+                double* const changed = transport->rank == bad ? &ranks.shares[1][bad].xyz.back() : nullptr;
+                const double before = changed ? *changed : 0;
+                for (const Operation& operation :
+                     {Operation(vox_scene_step), Operation(locate), Operation(vox_scene_check)}) {
+                    if (changed) *changed = number;
+                    const vox_result result = operation(mine.scene);
+                    if (changed) *changed = before;
+                    ranks.expect(result == (number == 1e300 ? VOX_ERROR_LIMIT : VOX_ERROR_NON_FINITE),
+                                 "the code");
+                    ranks.expect(!changed || std::strstr(vox_last_error(), " of body 101 "),
+                                 "the vertex is not named");
+                    ranks.expect_everywhere(transport, result, bad, "number");
+                    ranks.expect_step(mine.scene);
+                }
+            });
+        }
+}
+END_TEST
+
+START_TEST(an_exchange_that_fails) {
+    Ranks ranks;
+    ranks.run([&](Ranks&, const vox_transport* transport) {
+        Torn torn{transport};
+        const vox_transport mine_transport = torn.transport();
+        Ranked mine(&mine_transport);
+        ranks.insert_all(mine, transport->rank);
+        for (int n = 1; n <= 4; ++n) {
+            torn.calls = 0;
+            torn.fail_at = transport->rank == 1 ? n : 0;
+            const vox_result result = vox_scene_step(mine.scene);
+            torn.fail_at = 0;
+            if (n < 4) {
+                ranks.expect(result == VOX_ERROR_OUT_OF_MEMORY, "the code");
+                ranks.expect_everywhere(transport, result, 1, "exchange " + std::to_string(n));
+            } else { // about boundaries, after all agreed: as the header says, on one rank alone
+                ranks.expect(result == (transport->rank == 1 ? VOX_ERROR_OUT_OF_MEMORY : VOX_OK),
+                             "the last exchange");
+            }
+            if (result != VOX_OK) {
+                vox_scene_contact_view contacts{}, incoming{};
+                (void)vox_scene_contacts(mine.scene, &contacts);
+                (void)vox_scene_incoming(mine.scene, &incoming);
+                ranks.expect(contacts.count == 0 && incoming.count == 0, "contacts of a failed step");
+            }
+            ranks.expect_step(mine.scene);
+        }
+    });
+}
+END_TEST
+
+START_TEST(ranks_that_call_different_functions) {
+    Ranks ranks;
+    ranks.run([&](Ranks&, const vox_transport* transport) {
+        Ranked mine(transport);
+        ranks.insert_all(mine, transport->rank);
+        const vox_result result = transport->rank == 1 ? locate(mine.scene) : vox_scene_step(mine.scene);
+        ranks.expect(result == VOX_ERROR_INVALID_STATE, "the code");
+        ranks.expect_step(mine.scene);
+    });
+}
+END_TEST
+
+START_TEST(items_of_other_sizes) {
+    Ranks ranks;
+    ranks.run([&](Ranks&, const vox_transport* transport) {
+        Ranked mine(transport);
+        ranks.insert_all(mine, transport->rank);
+        ranks.expect_step(mine.scene);
+        char items[4096] = {}, out[4096];
+        ranks.expect(vox_scene_send(mine.scene, VOX_DIRECTION_TO_TETS, 1 + transport->rank % 2, items, out) ==
+                         VOX_ERROR_INVALID_ARGUMENT,
+                     "items of 1 and of 2 bytes");
+        ranks.expect(vox_scene_send(mine.scene, static_cast<vox_direction>(transport->rank % 2), 1, items,
+                                    out) == VOX_ERROR_INVALID_ARGUMENT,
+                     "both directions");
+        ranks.expect(vox_scene_send(mine.scene, VOX_DIRECTION_TO_TETS, 1, items, out) == VOX_OK, "bytes");
+    });
+}
+END_TEST
+
+START_TEST(a_part_that_moves_to_other_memory) {
+    double xyz[2][4][3] = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                           {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}}};
+    std::uint32_t corners[4] = {0, 1, 2, 4};
+    vox_scene* scene = nullptr;
+    ck_ok(vox_scene_create(nullptr, nullptr, &scene));
+    vox_filter filter = vox_default_filter();
+    vox_mesh_desc mesh = vox_mesh_desc_doubles(xyz[0][0], 4, corners, 1);
+    mesh.filter = &filter;
+    vox_part_desc part;
+    ck_ok(vox_part_desc_init(&part, sizeof part));
+    part.body = 5;
+    part.mesh = &mesh;
+    vox_part handle = 0;
+    filter.struct_size = 3;
+    ck_fails(vox_scene_insert(scene, &part, &handle), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 3");
+    filter.struct_size = sizeof filter;
+    mesh.struct_size = 0;
+    ck_fails(vox_scene_insert(scene, &part, &handle), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 0");
+    mesh.struct_size = sizeof mesh;
+    ck_fails(vox_scene_insert(scene, &part, &handle), VOX_ERROR_INVALID_MESH, "tet 0 names vertex 4 of 4");
+    corners[3] = 3;
+    ck_ok(vox_scene_insert(scene, &part, &handle));
+    const double point[3] = {0.6, 0.6, 0.6};
+    vox_scene_point found{};
+    ck_ok(vox_scene_locate(scene, point, VOX_FORMAT_DOUBLE3, 0, 1, &found));
+    ck_assert_uint_eq(found.rank, VOX_NO_RANK);
+    ck_ok(vox_scene_bind_positions(scene, handle, xyz[1], VOX_FORMAT_DOUBLE3, 0, 0));
+    ck_ok(vox_scene_locate(scene, point, VOX_FORMAT_DOUBLE3, 0, 1, &found));
+    ck_assert_uint_eq(found.rank, 0);
+    ck_assert_uint_eq(found.body, 5);
+    ck_assert_uint_eq(found.interior, 1);
+    ck_fails(vox_scene_bind_positions(scene, handle + 1, xyz[0], VOX_FORMAT_DOUBLE3, 0, 0),
+             VOX_ERROR_INVALID_HANDLE, "part");
+    ck_ok(vox_scene_remove(scene, handle));
+    ck_ok(vox_scene_locate(scene, point, VOX_FORMAT_DOUBLE3, 0, 1, &found));
+    ck_assert_uint_eq(found.rank, VOX_NO_RANK);
+    vox_scene_destroy(scene);
+}
+END_TEST
+
+int main() {
+    Suite* suite = suite_create("dist_failures");
+    TCase* tests = add_case(suite, "failures");
+    tcase_set_timeout(tests, 240); // ranks that wait for each other
+    tcase_add_each(tests, each_failed_allocation_of_a_step, each_failed_allocation_of_other_calls,
+                   each_failed_allocation_of_create, a_budget_of_one_rank, a_bad_number_on_one_rank,
+                   an_exchange_that_fails, ranks_that_call_different_functions, items_of_other_sizes,
+                   a_part_that_moves_to_other_memory);
+    return run_suite(suite);
+}
