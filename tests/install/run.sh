@@ -8,7 +8,7 @@ trap 'rm -rf "$scratch"' EXIT
 "$cmake" --install "$build" --prefix "$scratch/prefix" >"$scratch/log" || { cat "$scratch/log"; exit 1; }
 cp "$source"/consumer/* "$scratch"
 components=
-for component in io sim; do
+for component in io sim dist; do
     [ ! -f "$scratch/prefix/include/vox/vox_$component.h" ] || components="$components${components:+;}$component"
 done
 
