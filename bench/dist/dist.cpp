@@ -1,0 +1,209 @@
+// What a step of bodies on many ranks sends, beside what one grid bins and beside a floor:
+// docs/distributed.md. Counts, so no machine matters. usage: bench_dist [TETS]: of each rank in the scenes
+// that grow; default 100000
+#include "dist/whole.hpp" // of tests/
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <mutex>
+#include <set>
+
+using namespace scenes;
+
+namespace {
+
+// What the ranks of a run found together.
+struct Run {
+    const Scene* scene = nullptr;
+    std::vector<std::vector<Share>> shares; // of each body, of each rank
+    std::mutex mutex;
+    std::uint64_t vertices = 0, bytes = 0, floor = 0, contacts = 0, remote = 0;
+    std::uint64_t most_bytes = 0, most_messages = 0, most_neighbours = 0;
+    double most_ns = 0, all_ns = 0;
+    std::uint64_t hash[2] = {};
+    bool failed = false;
+};
+
+void rank(const vox_transport* transport, void* user) {
+    Run& run = *static_cast<Run*>(user);
+    Ranked mine(transport);
+    bool good = mine.result == VOX_OK;
+    for (std::size_t b = 0; b < run.scene->size() && good; ++b)
+        good = mine.insert((*run.scene)[b], run.shares[b][transport->rank]) == VOX_OK;
+    std::uint64_t hash[2], parts = 0;
+    good = good && vox_scene_step(mine.scene) == VOX_OK && vox_scene_hash(mine.scene, hash) == VOX_OK;
+    if (!good) {
+        std::printf("%s\n", vox_last_error());
+        run.failed = true;
+        return;
+    }
+    vox_scene_counters counters;
+    counters.struct_size = sizeof counters;
+    vox_scene_contact_view contacts{};
+    (void)vox_scene_get_counters(mine.scene, &counters);
+    (void)vox_scene_contacts(mine.scene, &contacts);
+    (void)vox_scene_costs(mine.scene, nullptr, 0, &parts);
+    std::vector<vox_part_cost> costs(parts);
+    (void)vox_scene_costs(mine.scene, costs.data(), parts, &parts);
+    double ns = 0;
+    for (const vox_part_cost& cost : costs) ns += cost.predicted_ns;
+    std::set<std::array<std::uint64_t, 3>> pairs; // body, vertex, rank
+    std::uint64_t remote = 0;
+    for (std::uint64_t i = 0; i < contacts.count; ++i) {
+        const vox_scene_contact& c = contacts.data[i];
+        if (c.rank == transport->rank) continue;
+        pairs.insert({c.body_a, c.vertex, c.rank});
+        ++remote;
+    }
+    const std::uint64_t bytes = counters.box_bytes + counters.vertex_bytes + counters.hit_bytes;
+    const std::lock_guard lock(run.mutex);
+    run.vertices += counters.vertices_sent;
+    run.bytes += bytes;
+    run.floor += 16 * pairs.size() + 28 * remote;
+    run.contacts += contacts.count;
+    run.remote += remote;
+    run.most_bytes = std::max(run.most_bytes, bytes);
+    run.most_messages = std::max(run.most_messages, counters.messages);
+    run.most_neighbours = std::max<std::uint64_t>(run.most_neighbours, counters.neighbours);
+    run.most_ns = std::max(run.most_ns, ns);
+    run.all_ns += ns;
+    std::copy_n(hash, 2, run.hash);
+}
+
+// Counts of one grid of the whole.
+struct One {
+    std::uint64_t entries, contacts, hash[2];
+};
+
+One one_grid(const Scene& scene) {
+    std::vector<std::vector<float>> floats;
+    vox_grid* grid = whole(scene, floats);
+    vox_counters counters;
+    counters.struct_size = sizeof counters;
+    vox_contact_view view{};
+    One one{};
+    if (!grid || vox_grid_step(grid) != VOX_OK || vox_grid_counters(grid, &counters) != VOX_OK ||
+        vox_grid_contacts(grid, &view) != VOX_OK || vox_scene_hash_of_grid(grid, one.hash) != VOX_OK) {
+        std::printf("%s\n", vox_last_error());
+        std::exit(EXIT_FAILURE);
+    }
+    one.entries = counters.entries;
+    one.contacts = view.count;
+    vox_grid_destroy(grid);
+    return one;
+}
+
+void run_ranks(Run& run, std::uint32_t size) {
+    if (vox_transport_run(size, 1, rank, &run) != VOX_OK || run.failed) std::exit(EXIT_FAILURE);
+}
+
+void compare(const char* name, const Scene& scene, const One& one, std::uint32_t size, Cut how,
+             bool whole_bodies) {
+    Run run;
+    run.scene = &scene;
+    Random random(size);
+    std::uint32_t next = 0;
+    for (const Body& body : scene) {
+        // Whole bodies go to ranks in their order, which is that of places.
+        const std::vector<std::uint32_t> ranks =
+            whole_bodies ? std::vector<std::uint32_t>(
+                               body.tet_count(),
+                               static_cast<std::uint32_t>(std::uint64_t{next++} * size / scene.size()))
+                         : cut(body, size, how, random);
+        run.shares.push_back(shares(body, ranks, size, random));
+    }
+    run_ranks(run, size);
+    if (run.hash[0] != one.hash[0] || run.hash[1] != one.hash[1])
+        std::printf("another hash\n"), std::exit(EXIT_FAILURE);
+    std::printf("| %s | %u | %llu | %llu | %.2f | %.1f | %llu | %.1f | %.2f |\n", name, size,
+                static_cast<unsigned long long>(run.contacts), static_cast<unsigned long long>(run.remote),
+                static_cast<double>(run.vertices) / static_cast<double>(one.entries),
+                run.floor ? static_cast<double>(run.bytes) / static_cast<double>(run.floor) : 0.0,
+                static_cast<unsigned long long>(run.most_neighbours),
+                static_cast<double>(run.most_messages) /
+                    static_cast<double>(std::max<std::uint64_t>(run.most_neighbours, 1)),
+                run.most_ns * size / run.all_ns);
+    std::fflush(stdout);
+}
+
+Body box(std::uint32_t n, double x, double y, double z, double edge, std::uint64_t number) {
+    const std::uint32_t cubes[3] = {n, n, n};
+    const double origin[3] = {x, y, z};
+    Body body = block(cubes, origin, edge);
+    body.number = number;
+    return body;
+}
+
+// Two blocks with one layer of cubes of each in the other.
+Scene contact(std::uint32_t n) {
+    return {box(n, 0, 0, 0, 1, 0), box(n, n - 1 + 0.3125, 0.28125, 0.21875, 1, 1)};
+}
+
+// 1000 blocks close to each other, numbered along x, then y, then z.
+Scene bodies() {
+    Scene scene;
+    Random random(1);
+    const auto jitter = [&] { return below(random, 1024) / 4096.0; };
+    for (int x = 0; x < 10; ++x)
+        for (int y = 0; y < 10; ++y)
+            for (int z = 0; z < 10; ++z)
+                scene.push_back(
+                    box(3, 2.8 * x + jitter(), 2.8 * y + jitter(), 2.8 * z + jitter(), 1, scene.size()));
+    return scene;
+}
+
+// One block a rank, in a row or in a cube of ranks.
+void grow(std::uint32_t tets) {
+    const auto n = static_cast<std::uint32_t>(std::cbrt(tets / 6.0));
+    std::printf("\n| ranks | arranged | bytes of the busiest | messages | neighbours | predicted ms | model "
+                "of the network, ms |\n"
+                "|---|---|---|---|---|---|---|\n");
+    for (const bool in_cube : {false, true})
+        for (const std::uint32_t side : {1u, 2u, 3u, 4u}) {
+            const std::uint32_t size = side * side * side;
+            Run run;
+            Scene scene;
+            for (std::uint32_t r = 0; r < size; ++r) {
+                const double step = n - 0.4375;
+                const std::uint32_t at[3] = {in_cube ? r % side : r, in_cube ? r / side % side : 0,
+                                             in_cube ? r / side / side : 0};
+                scene.push_back(box(n, step * at[0], step * at[1], step * at[2], 1, r));
+                scene.back().doubles = false;
+            }
+            run.scene = &scene;
+            Random random(size);
+            for (std::uint32_t r = 0; r < size; ++r)
+                run.shares.push_back(
+                    shares(scene[r], std::vector<std::uint32_t>(scene[r].tet_count(), r), size, random));
+            run_ranks(run, size);
+            std::printf("| %u | in a %s | %llu | %llu | %llu | %.2f | %.2f |\n", size,
+                        in_cube ? "cube" : "row", static_cast<unsigned long long>(run.most_bytes),
+                        static_cast<unsigned long long>(run.most_messages),
+                        static_cast<unsigned long long>(run.most_neighbours), run.most_ns / 1e6,
+                        2e-3 * static_cast<double>(run.most_messages) +
+                            1e-7 * static_cast<double>(run.most_bytes));
+            std::fflush(stdout);
+        }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    std::printf(
+        "| scene | ranks | contacts | between ranks | vertices sent / binned by one grid | bytes / floor | "
+        "neighbours at most | messages a neighbour | predicted cost, busiest / mean "
+        "|\n|---|---|---|---|---|---|---|---|---|\n");
+    const Scene two = contact(24), many = bodies();
+    const One one_two = one_grid(two), one_many = one_grid(many);
+    for (const std::uint32_t size : {2u, 8u, 64u})
+        compare("two blocks, bisected", two, one_two, size, Cut::rcb, false);
+    for (const std::uint32_t size : {2u, 8u})
+        compare("two blocks, at random", two, one_two, size, Cut::random, false);
+    for (const std::uint32_t size : {2u, 8u, 64u})
+        compare("1000 blocks", many, one_many, size, Cut::one, true);
+    grow(argc > 1 ? static_cast<std::uint32_t>(std::strtoul(argv[1], nullptr, 10)) : 100000u);
+    return EXIT_SUCCESS;
+}
