@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -189,6 +190,62 @@ void grow(std::uint32_t tets) {
         }
 }
 
+// 10^6 points on vertices, in the middle of edges, facets and cubes of one block.
+struct Points {
+    static constexpr std::uint32_t count = 1000000;
+    std::vector<double> xyz;
+    Scene scene{box(24, 0, 0, 0, 1, 0)};
+    std::vector<std::vector<Share>> shares;
+    std::vector<std::uint64_t> tets; // of each point; UINT64_MAX: in none
+    double seconds = 0;              // on one rank
+    bool failed = false;
+
+    Points() : tets(count) {
+        Random random(2);
+        for (std::uint32_t i = 0; i < 3 * count; ++i) xyz.push_back(below(random, 49) / 2.0);
+    }
+};
+
+void locate_rank(const vox_transport* transport, void* user) {
+    Points& points = *static_cast<Points*>(user);
+    Ranked mine(transport);
+    const std::uint64_t begin = std::uint64_t{Points::count} * transport->rank / transport->size;
+    const std::uint64_t end = std::uint64_t{Points::count} * (transport->rank + 1) / transport->size;
+    std::vector<vox_scene_point> found(end - begin);
+    if (mine.insert(points.scene[0], points.shares[0][transport->rank]) != VOX_OK) points.failed = true;
+    const auto start = std::chrono::steady_clock::now();
+    if (vox_scene_locate(mine.scene, points.xyz.data() + 3 * begin, VOX_FORMAT_DOUBLE3, 0, end - begin,
+                         found.data()) != VOX_OK)
+        points.failed = true;
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    if (transport->size == 1) points.seconds = took.count();
+    for (std::uint64_t i = begin; i < end; ++i)
+        points.tets[i] = found[i - begin].rank == VOX_NO_RANK ? UINT64_MAX : found[i - begin].tet;
+}
+
+// Every point is found, in the same tetrahedron for any number of ranks.
+void locate() {
+    Points points;
+    std::vector<std::uint64_t> first;
+    std::printf(
+        "\n| ranks | points | found | in another tetrahedron than by one rank |\n|---|---|---|---|\n");
+    for (const std::uint32_t size : {1u, 2u, 8u, 64u}) {
+        Random random(size);
+        points.shares = {shares(points.scene[0], cut(points.scene[0], size, Cut::rcb, random), size, random)};
+        if (vox_transport_run(size, 1, locate_rank, &points) != VOX_OK || points.failed)
+            std::exit(EXIT_FAILURE);
+        if (first.empty()) first = points.tets;
+        std::uint64_t others = 0;
+        for (std::uint32_t i = 0; i < Points::count; ++i) others += first[i] != points.tets[i];
+        std::printf("| %u | %u | %u | %llu |\n", size, Points::count,
+                    Points::count -
+                        static_cast<unsigned>(std::count(points.tets.begin(), points.tets.end(), UINT64_MAX)),
+                    static_cast<unsigned long long>(others));
+        std::fflush(stdout);
+    }
+    std::printf("%.0f ns a point on one rank, the grid made anew\n", points.seconds * 1e9 / Points::count);
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -205,5 +262,6 @@ int main(int argc, char** argv) {
     for (const std::uint32_t size : {2u, 8u, 64u})
         compare("1000 blocks", many, one_many, size, Cut::one, true);
     grow(argc > 1 ? static_cast<std::uint32_t>(std::strtoul(argv[1], nullptr, 10)) : 100000u);
+    locate();
     return EXIT_SUCCESS;
 }
