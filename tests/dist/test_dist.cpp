@@ -3,6 +3,7 @@
 
 #include "support/suite.h"
 
+#include <array>
 #include <cstdlib>
 #include <cstring>
 #include <mutex>
@@ -53,7 +54,7 @@ void check_send(Run& run, vox_scene* scene, const vox_scene_contact_view& contac
 }
 
 // Points on multiples of 1/4: each is in the tetrahedron that one grid names.
-void check_locate(Run& run, vox_scene* scene, std::uint32_t rank) {
+void check_locate(Run& run, const vox_grid* grid, vox_scene* scene, std::uint32_t rank) {
     Random random(rank);
     std::vector<double> points;
     for (int i = 0; i < 3 * 20; ++i) points.push_back(below(random, 21) / 4.0);
@@ -63,12 +64,12 @@ void check_locate(Run& run, vox_scene* scene, std::uint32_t rank) {
     for (std::uint32_t i = 0; i < 20; ++i) {
         vox_point_hit hits[64];
         std::uint64_t count = 0;
-        (void)vox_grid_query_point(run.grid, &points[3 * i], UINT64_MAX, hits, 64, &count);
+        (void)vox_grid_query_point(grid, &points[3 * i], UINT64_MAX, hits, 64, &count);
         const vox_point_hit* first = nullptr;
         std::uint64_t body = 0;
         for (std::uint64_t h = 0; h < count; ++h) {
             std::uint64_t number;
-            (void)vox_mesh_user_data(run.grid, hits[h].mesh, &number);
+            (void)vox_mesh_user_data(grid, hits[h].mesh, &number);
             if (!first || number < body) first = &hits[h], body = number;
         }
         if ((found[i].rank == VOX_NO_RANK) != !first)
@@ -101,7 +102,7 @@ void rank(const vox_transport* transport, void* user) {
     if (counters.messages > 4u * counters.neighbours) note(run, "more than four messages a neighbour");
     if (counters.collectives != 2) note(run, "not two collectives");
     check_send(run, mine.scene, contacts, incoming);
-    check_locate(run, mine.scene, transport->rank);
+    check_locate(run, run.grid, mine.scene, transport->rank);
     if (vox_scene_check(mine.scene) != VOX_OK) note(run, vox_last_error());
     std::uint64_t parts = 0;
     if (vox_scene_costs(mine.scene, nullptr, 0, &parts) != VOX_OK) note(run, vox_last_error());
@@ -148,6 +149,76 @@ std::string differs(const Scene& scene, std::uint32_t size, Cut how, std::uint64
     return "";
 }
 
+// Bodies that move, some of them in some steps alone; one leaves, and comes back.
+constexpr std::uint32_t frames = 6;
+
+double offset(std::size_t body, std::uint32_t frame, int axis) {
+    return static_cast<int>(body % 3) == axis ? static_cast<double>(frame * (body + 1) / 2 % 4) / 2 : 0;
+}
+bool present(std::size_t body, std::uint32_t frame) { return body != 0 || (frame != 2 && frame != 3); }
+
+struct Moving {
+    Run run;
+    std::vector<vox_grid*> grids; // of the whole, in each frame
+    std::vector<std::array<std::uint64_t, 2>> expected;
+};
+
+void moving_rank(const vox_transport* transport, void* user) {
+    Moving& moving = *static_cast<Moving*>(user);
+    Run& run = moving.run;
+    const Scene& scene = *run.scene;
+    Ranked mine(transport);
+    if (mine.result != VOX_OK) return note(run, vox_last_error());
+    std::vector<Share> shares, still;
+    for (std::size_t b = 0; b < scene.size(); ++b) still.push_back(run.shares[b][transport->rank]);
+    shares = still;
+    for (std::uint32_t frame = 0; frame < frames; ++frame) {
+        for (std::size_t b = 0; b < scene.size(); ++b) {
+            for (std::size_t i = 0; i < still[b].xyz.size(); ++i) {
+                shares[b].xyz[i] = still[b].xyz[i] + offset(b, frame, static_cast<int>(i % 3));
+                shares[b].floats[i] = static_cast<float>(shares[b].xyz[i]);
+            }
+            const bool was = frame != 0 && present(b, frame - 1);
+            if (present(b, frame) && !was && mine.insert(scene[b], shares[b]) != VOX_OK)
+                note(run, vox_last_error());
+            if (!present(b, frame) && was && mine.remove(scene[b]) != VOX_OK) note(run, vox_last_error());
+        }
+        std::uint64_t hash[2] = {};
+        if (vox_scene_step(mine.scene) != VOX_OK || vox_scene_hash(mine.scene, hash) != VOX_OK)
+            return note(run, vox_last_error());
+        if (hash[0] != moving.expected[frame][0] || hash[1] != moving.expected[frame][1])
+            note(run, "another hash in frame " + std::to_string(frame));
+        check_locate(run, moving.grids[frame], mine.scene, transport->rank);
+    }
+}
+
+std::string differs_in_motion(const Scene& scene, std::uint32_t size, Cut how, std::uint64_t seed) {
+    Moving moving;
+    moving.run.scene = &scene;
+    std::vector<Scene> moved(frames, scene);
+    std::vector<std::vector<std::vector<float>>> floats(frames);
+    for (std::uint32_t frame = 0; frame < frames; ++frame) {
+        for (std::size_t b = scene.size(); b-- > 0;) {
+            Body& body = moved[frame][b];
+            for (std::size_t i = 0; i < body.xyz.size(); ++i)
+                body.xyz[i] += offset(b, frame, static_cast<int>(i % 3));
+            if (!present(b, frame)) moved[frame].erase(moved[frame].begin() + static_cast<std::ptrdiff_t>(b));
+        }
+        vox_grid* grid = whole(moved[frame], floats[frame]);
+        moving.grids.push_back(grid);
+        moving.expected.emplace_back();
+        if (!grid || vox_grid_step(grid) != VOX_OK || vox_grid_prepare_queries(grid) != VOX_OK ||
+            vox_scene_hash_of_grid(grid, moving.expected.back().data()) != VOX_OK)
+            return vox_last_error();
+    }
+    Random random(seed);
+    for (const Body& body : scene)
+        moving.run.shares.push_back(shares(body, cut(body, size, how, random), size, random));
+    const vox_result result = vox_transport_run(size, 2, moving_rank, &moving);
+    for (vox_grid* grid : moving.grids) vox_grid_destroy(grid);
+    return result != VOX_OK ? vox_last_error() : moving.run.fault;
+}
+
 std::uint64_t scene_count() {
     const char* text = std::getenv("VOX_DIST_SCENES");
     return text ? std::strtoull(text, nullptr, 10) : 150;
@@ -167,11 +238,24 @@ START_TEST(any_partition_has_the_contacts_of_one_grid) {
 }
 END_TEST
 
+START_TEST(moving_bodies_have_the_contacts_of_one_grid) {
+    for (std::uint64_t seed = 0; seed < scene_count() / 2; ++seed) {
+        const Scene scene = lattice(seed);
+        const std::uint32_t size = sizes[seed % std::size(sizes)];
+        const auto how = static_cast<Cut>(seed / std::size(sizes) % static_cast<int>(Cut::count));
+        const std::string difference = differs_in_motion(scene, size, how, seed);
+        ck_assert_msg(difference.empty(), "scene %llu, %u ranks, partition %d: %s",
+                      static_cast<unsigned long long>(seed), size, static_cast<int>(how), difference.c_str());
+    }
+}
+END_TEST
+
 int main() {
     Suite* suite = suite_create("dist");
     TCase* tests = tcase_create("contacts");
     tcase_set_timeout(tests, 0);
     tcase_add_test(tests, any_partition_has_the_contacts_of_one_grid);
+    tcase_add_test(tests, moving_bodies_have_the_contacts_of_one_grid);
     suite_add_tcase(suite, tests);
     return run_suite(suite);
 }

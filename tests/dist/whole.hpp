@@ -3,6 +3,7 @@
 
 #include "dist/scenes.hpp"
 
+#include <map>
 #include <string>
 
 namespace scenes {
@@ -37,11 +38,21 @@ public:
         part.tet_ids = share.tet_ids.data();
         part.owned = share.owned.data();
         vox_part handle;
-        return vox_scene_insert(scene, &part, &handle);
+        const vox_result inserted = vox_scene_insert(scene, &part, &handle);
+        if (inserted == VOX_OK) parts[body.number] = handle;
+        return inserted;
+    }
+    vox_result remove(const Body& body) {
+        const auto part = parts.find(body.number);
+        if (part == parts.end()) return VOX_OK; // not on this rank
+        const vox_result removed = vox_scene_remove(scene, part->second);
+        parts.erase(part);
+        return removed;
     }
 
     vox_scene* scene = nullptr;
     vox_result result;
+    std::map<std::uint64_t, vox_part> parts; // of bodies
 };
 
 // All bodies in one grid, which borrows `floats`.
