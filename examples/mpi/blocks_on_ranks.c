@@ -81,14 +81,14 @@ int main(int argc, char** argv) {
 
     uint64_t hash[2];
     check(vox_scene_hash(scene, hash));
-    for (uint32_t rank = 0; rank < transport.size; ++rank) {
-        if (rank == transport.rank) {
-            printf("rank %" PRIu32 ": %" PRIu64 " vertices in others' tetrahedra, pushed by %g\n", rank,
-                   contacts.count, pushed);
-            fflush(stdout);
-        }
-        MPI_Barrier(MPI_COMM_WORLD);
-    }
+    const double mine[2] = {(double)contacts.count, pushed};
+    double* all = (double*)malloc(sizeof mine * transport.size);
+    if (!all) MPI_Abort(MPI_COMM_WORLD, 1);
+    MPI_Gather(mine, 2, MPI_DOUBLE, all, 2, MPI_DOUBLE, 0, MPI_COMM_WORLD);
+    for (uint32_t rank = 0; transport.rank == 0 && rank < transport.size; ++rank)
+        printf("rank %" PRIu32 ": %g vertices in others' tetrahedra, pushed by %g\n", rank, all[2 * rank],
+               all[2 * rank + 1]);
+    free(all);
     if (transport.rank == 0)
         printf("the point is in tet %" PRIu64 " of body %" PRIu64 ", on rank %" PRIu32 "\nhash %016" PRIx64
                "%016" PRIx64 "\n",
