@@ -1,36 +1,27 @@
 # Installed so that both find_package(vox) and pkg-config work.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS vox EXPORT voxTargets
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-  RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(FILES include/vox/vox.h include/vox/vox.hpp include/vox/vox_pairs.h include/vox/vox_pairs.hpp
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vox)
-# #include <vox/adapters/ipc_broad_phase.hpp>
-install(FILES adapters/ipc_broad_phase.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vox/adapters)
-if(VOX_BUILD_IO)
-  install(TARGETS vox_io EXPORT voxTargets
+function(vox_install library) # and its headers, a component that needs no build
+  install(TARGETS ${library} EXPORT voxTargets
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(FILES include/vox/vox_io.h include/vox/vox_io.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vox)
+  list(TRANSFORM ARGN PREPEND include/vox/)
+  install(FILES ${ARGN} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vox COMPONENT headers)
+endfunction()
+vox_install(vox vox.h vox.hpp vox_pairs.h vox_pairs.hpp)
+# #include <vox/adapters/ipc_broad_phase.hpp>
+install(FILES adapters/ipc_broad_phase.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vox/adapters COMPONENT headers)
+if(VOX_BUILD_IO)
+  vox_install(vox_io vox_io.h vox_io.hpp)
 endif()
 if(VOX_BUILD_SIM)
-  install(TARGETS vox_sim EXPORT voxTargets
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(FILES include/vox/vox_sim.h include/vox/vox_sim.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vox)
+  vox_install(vox_sim vox_sim.h vox_sim.hpp)
 endif()
-if(TARGET vox_dist)
-  install(TARGETS vox_dist EXPORT voxTargets
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(FILES include/vox/vox_dist.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vox)
+if(VOX_BUILD_DIST OR VOX_MPI)
+  vox_install(vox_dist vox_dist.h)
 endif()
 if(VOX_MPI)
-  install(TARGETS vox_mpi EXPORT voxTargets
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(FILES include/vox/vox_mpi.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vox)
+  vox_install(vox_mpi vox_mpi.h)
 endif()
 install(EXPORT voxTargets NAMESPACE vox:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/vox)
 # With vox_DIR set to it, find_package takes a build folder too.
@@ -59,8 +50,11 @@ endif()
 if(NOT BUILD_SHARED_LIBS)
   set(VOX_PC_STATIC " -DVOX_STATIC")
 endif()
-configure_file(cmake/vox.pc.in vox.pc @ONLY)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vox.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+function(vox_install_pkg_config library)
+  configure_file(cmake/${library}.pc.in ${library}.pc @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${library}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endfunction()
+vox_install_pkg_config(vox)
 if(VOX_BUILD_IO)
   if(NOT BUILD_SHARED_LIBS) # a shared library has them linked in, and pkg-config would want their files even so
     if(VOX_IO_ASSIMP)
@@ -70,18 +64,14 @@ if(VOX_BUILD_IO)
       string(APPEND VOX_IO_PC_REQUIRES " pugixml zlib")
     endif()
   endif()
-  configure_file(cmake/vox_io.pc.in vox_io.pc @ONLY)
-  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vox_io.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  vox_install_pkg_config(vox_io)
 endif()
 if(VOX_BUILD_SIM)
-  configure_file(cmake/vox_sim.pc.in vox_sim.pc @ONLY)
-  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vox_sim.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  vox_install_pkg_config(vox_sim)
 endif()
-if(TARGET vox_dist)
-  configure_file(cmake/vox_dist.pc.in vox_dist.pc @ONLY)
-  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vox_dist.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+if(VOX_BUILD_DIST OR VOX_MPI)
+  vox_install_pkg_config(vox_dist)
 endif()
 if(VOX_MPI)
-  configure_file(cmake/vox_mpi.pc.in vox_mpi.pc @ONLY)
-  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vox_mpi.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  vox_install_pkg_config(vox_mpi)
 endif()

@@ -60,7 +60,7 @@ vox_result vox_scene_create(const vox_scene_desc* desc, const vox_transport* tra
             const vox_grid_desc grid = grid_settings(settings);
             CallerMemory memory(grid.allocator);
             scene =
-                std::pmr::polymorphic_allocator<>(&memory).new_object<vox_scene>(settings, grid, callbacks);
+                std::pmr::polymorphic_allocator<>(&memory).new_object<vox_scene>(grid, callbacks);
         });
         try {
             Transport carrier(callbacks);

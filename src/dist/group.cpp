@@ -104,13 +104,12 @@ vox_result exchange(const std::uint32_t* ranks, std::uint32_t count, const vox_b
     slot.size = count;
     slot.out = out;
     me.group->arrive();
-    vox_result result = VOX_OK;
     const auto message_of = [&](std::uint32_t other) -> const vox_bytes* {
         const RankGroup::Slot& from = me.group->slots[other];
         const std::uint32_t* place = std::find(from.ranks, from.ranks + from.size, me.rank);
         return place == from.ranks + from.size ? nullptr : from.out + (place - from.ranks);
     };
-    try {
+    const vox_result result = border([&] {
         std::uint64_t total = 0;
         for (std::uint32_t i = 0; i < count; ++i) {
             const vox_bytes* message = message_of(ranks[i]);
@@ -125,11 +124,7 @@ vox_result exchange(const std::uint32_t* ranks, std::uint32_t count, const vox_b
             in[i] = {at, message.size};
             at += message.size;
         }
-    } catch (const Error& error) {
-        result = vox_fail(error.result(), error.what());
-    } catch (const std::bad_alloc&) {
-        result = vox_fail(VOX_ERROR_OUT_OF_MEMORY, "out of memory");
-    }
+    });
     me.group->arrive();
     return result;
 }

@@ -1,4 +1,5 @@
 // Points anywhere, by the rounds of a step, in a second grid whose meshes collide with points alone.
+#include "base/room.hpp"
 #include "base/structs.hpp"
 #include "dist/clusters.hpp"
 #include "dist/rounds.hpp"
@@ -41,7 +42,7 @@ void place_parts(vox_scene& scene) {
         mesh.tets = part->tets.data();
         mesh.tet_count = part->tet_count;
         mesh.filter = &filter;
-        side.placed.reserve(side.placed.size() + 1);
+        reserve_growing(side.placed, side.placed.size() + 1);
         vox_mesh id = VOX_NULL_MESH;
         check(vox_mesh_insert(side.grid.get(), &mesh, &id));
         side.placed.insert(std::upper_bound(side.placed.begin(), side.placed.end(), id,

@@ -1,5 +1,6 @@
 #include "dist/scene.hpp"
 
+#include "base/room.hpp"
 #include "base/structs.hpp"
 
 #include <algorithm>
@@ -59,7 +60,7 @@ Filter read_filter(const vox_mesh_desc& mesh) {
 } // namespace
 } // namespace vox::dist
 
-vox_scene::vox_scene(const vox_scene_desc&, const vox_grid_desc& grid, const vox_transport& transport)
+vox_scene::vox_scene(const vox_grid_desc& grid, const vox_transport& transport)
     : memory_(grid.allocator), grid_desc_(grid), transport_(transport), parts_(&memory_),
       contacts_side_(&memory_), points_side_(&memory_), contacts_(&memory_), incoming_(&memory_),
       overviews_(&memory_), ranks_(&memory_), out_(&memory_), in_(&memory_), in_contact_(&memory_) {
@@ -96,8 +97,8 @@ vox_part vox_scene::insert(const vox_part_desc& desc) {
     part->take(desc, mesh);
     part->body = desc.body;
     part->filter = filter;
-    parts_.reserve(parts_.size() + 1);
-    contacts_side_.placed.reserve(contacts_side_.placed.size() + 1);
+    reserve_growing(parts_, parts_.size() + 1);
+    reserve_growing(contacts_side_.placed, contacts_side_.placed.size() + 1);
 
     // The grid may find more than the filter allows; what it does not, is left out afterwards.
     vox_filter grid_filter = vox_default_filter();

@@ -38,7 +38,7 @@ vox_filter everything() noexcept;
 } // namespace vox::dist
 
 struct vox_scene {
-    vox_scene(const vox_scene_desc& desc, const vox_grid_desc& grid, const vox_transport& transport);
+    vox_scene(const vox_grid_desc& grid, const vox_transport& transport);
     ~vox_scene();
     vox_scene(const vox_scene&) = delete;
     vox_scene& operator=(const vox_scene&) = delete;

@@ -6,7 +6,10 @@
 
 #include <vox/vox_dist.h>
 
+#include <cstdio>
 #include <cstring>
+#include <exception>
+#include <new>
 
 namespace vox::dist {
 
@@ -66,6 +69,8 @@ public:
             set(error.result(), error.what());
         } catch (const std::bad_alloc&) {
             set(VOX_ERROR_OUT_OF_MEMORY, "out of memory");
+        } catch (const std::exception& error) {
+            set(VOX_ERROR_INTERNAL, error.what());
         }
     }
     // Another failure, unless there is one.

@@ -34,8 +34,8 @@ void prepare(const Step& step, bool keep_certified, Windows& out) {
     out.workers.grow(step.worker_count());
     for (Windows::Worker& worker : out.workers) worker.exact_tests = worker.winding_ns = 0;
     out.of.assign(step.bodies.size(), {nullptr, 0, 0, empty_box, 0});
-    for (CertifiedCells& cells : out.certified) cells.certified.clear();
     if (!keep_certified) out.certified.clear();
+    for (CertifiedCells& cells : out.certified) cells.certified.clear();
     while (keep_certified && out.certified.size() < step.bodies.size())
         out.certified.emplace_back(out.certified.get_allocator().resource());
     out.groups.clear();
@@ -138,13 +138,8 @@ void make_window(const Step& step, const BroadPhase& broad, double cell_size, st
     WindowBuffers& buffers = out.large_of[a] == Windows::none ? worker : out.large[out.large_of[a]];
     const bool culled = self && cull_by_winding(step, a, helpers, boxes, buffers.certificate, worker);
     Box own = self && !culled ? boxes.bodies[a] : empty_box;
-    if (culled && a < out.certified.size()) {
-        const CertifiedCells& cells = buffers.certificate;
-        out.certified[a].lattice = cells.lattice;
-        out.certified[a].certified.assign(cells.certified.begin(), cells.certified.end());
-        out.certified[a].complete = cells.complete;
-    }
     if (culled) {
+        if (!out.certified.empty()) out.certified[a] = buffers.certificate; // the next body is certified there
         activate_blocks(step_body, boxes, buffers);
         for (std::uint32_t b = 0; b < step_body.tiles->block_count(); ++b)
             if (buffers.active[b]) add(own, boxes.blocks[step_body.first_block + b]);

@@ -3,7 +3,7 @@
 #define MPICH_SKIP_MPICXX 1
 #include <vox/vox_mpi.h>
 
-#include "base/error.hpp"
+#include "base/border.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -62,20 +62,8 @@ struct Duplicate {
     }
 };
 
-template <class Function>
-vox_result carried(Function&& function) noexcept {
-    try {
-        function();
-        return VOX_OK;
-    } catch (const Error& error) {
-        return vox_fail(error.result(), error.what());
-    } catch (const std::bad_alloc&) {
-        return vox_fail(VOX_ERROR_OUT_OF_MEMORY, "out of memory for messages");
-    }
-}
-
 vox_result allgather(const void* in, std::uint64_t bytes, void* out, void* user) {
-    return carried([&] {
+    return border([&] {
         const auto count = static_cast<int>(bytes);
         check(MPI_Allgather(in, count, MPI_BYTE, out, count, MPI_BYTE, static_cast<Duplicate*>(user)->comm),
               "MPI_Allgather");
@@ -108,7 +96,7 @@ bool receive(Duplicate& mpi, std::uint32_t rank, std::vector<std::byte>& bytes) 
 
 vox_result exchange(const std::uint32_t* ranks, std::uint32_t count, const vox_bytes* out, vox_bytes* in,
                     void* user) {
-    return carried([&] {
+    return border([&] {
         auto& mpi = *static_cast<Duplicate*>(user);
         mpi.requests.clear();
         for (std::uint32_t i = 0; i < count; ++i) {
@@ -134,7 +122,7 @@ vox_result exchange(const std::uint32_t* ranks, std::uint32_t count, const vox_b
 
 vox_result agree(std::uint64_t* minima, std::uint32_t minimum_count, std::uint64_t* sums,
                  std::uint32_t sum_count, void* user) {
-    return carried([&] {
+    return border([&] {
         auto& mpi = *static_cast<Duplicate*>(user);
         Numbers mine{}, all{};
         std::copy_n(minima, minimum_count, mine.of);
@@ -150,7 +138,7 @@ vox_result agree(std::uint64_t* minima, std::uint32_t minimum_count, std::uint64
 
 vox_result vox_mpi_transport_create(MPI_Comm comm, vox_transport* out_transport) {
     using namespace vox;
-    return mpi::carried([&] {
+    return border([&] {
         require(out_transport, "out_transport");
         int running = 0, ended = 0, between = 0;
         (void)MPI_Initialized(&running);

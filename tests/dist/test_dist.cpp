@@ -250,12 +250,18 @@ START_TEST(moving_bodies_have_the_contacts_of_one_grid) {
 }
 END_TEST
 
+START_TEST(a_scene_on_any_number_of_ranks) {
+    for (const std::uint32_t size : {1u, 3u, 9u, 27u}) {
+        const std::string difference = differs(lattice(11), size, Cut::random, size, 2);
+        ck_assert_msg(difference.empty(), "%u ranks: %s", size, difference.c_str());
+    }
+}
+END_TEST
+
 int main() {
     Suite* suite = suite_create("dist");
-    TCase* tests = tcase_create("contacts");
-    tcase_set_timeout(tests, 0);
-    tcase_add_test(tests, any_partition_has_the_contacts_of_one_grid);
-    tcase_add_test(tests, moving_bodies_have_the_contacts_of_one_grid);
-    suite_add_tcase(suite, tests);
+    TCase* tests = add_case(suite, "contacts");
+    tcase_add_each(tests, any_partition_has_the_contacts_of_one_grid,
+                   moving_bodies_have_the_contacts_of_one_grid, a_scene_on_any_number_of_ranks);
     return run_suite(suite);
 }

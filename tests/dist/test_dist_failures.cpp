@@ -394,6 +394,147 @@ START_TEST(a_part_that_moves_to_other_memory) {
 }
 END_TEST
 
+namespace {
+
+// What vox_scene_check says on all ranks, after `damage` to the shares of each.
+std::string checked(const std::function<void(std::uint32_t rank, std::vector<Share>& of_body)>& damage) {
+    Ranks ranks;
+    std::string texts;
+    ranks.run([&](Ranks&, const vox_transport* transport) {
+        Ranked mine(transport);
+        std::vector<Share> of_body;
+        for (const auto& shares : ranks.shares) of_body.push_back(shares[transport->rank]);
+        damage(transport->rank, of_body);
+        for (std::size_t b = 0; b < of_body.size(); ++b)
+            ranks.expect(mine.insert(ranks.scene[b], of_body[b]) == VOX_OK, "insert");
+        ranks.expect(vox_scene_check(mine.scene) == VOX_ERROR_INVALID_STATE, "check");
+        const std::lock_guard lock(ranks.mutex);
+        texts = texts + vox_last_error() + '\n';
+    });
+    return texts;
+}
+
+void ck_contains(const std::string& text, const std::string& words) {
+    ck_assert_msg(text.find(words) != std::string::npos, "\"%s\", expected \"%s\" in it", text.c_str(),
+                  words.c_str());
+}
+
+} // namespace
+
+START_TEST(check_names_what_does_not_fit) {
+    const Ranks ranks;
+    const Share& of_2 = ranks.shares[1][2];
+    const auto copy =
+        static_cast<std::size_t>(std::find(of_2.owned.begin(), of_2.owned.end(), 0) - of_2.owned.begin());
+    ck_assert_uint_lt(copy, of_2.owned.size());
+    const std::string vertex = "vertex " + std::to_string(of_2.vertex_ids[copy]) + " of body 101";
+    std::string text = checked([&](std::uint32_t rank, std::vector<Share>& of_body) {
+        if (rank == 2) of_body[1].xyz[3 * copy] = std::nextafter(of_body[1].xyz[3 * copy], 9);
+    });
+    ck_contains(text, vertex + " is at ");
+    ck_contains(text, "on rank 2");
+    text = checked([&](std::uint32_t rank, std::vector<Share>& of_body) {
+        if (rank == 2) of_body[1].owned[copy] = 1;
+    });
+    ck_contains(text, vertex + " is owned by ranks ");
+    text = checked([&](std::uint32_t, std::vector<Share>& of_body) {
+        for (std::size_t i = 0; i < of_body[1].owned.size(); ++i)
+            if (of_body[1].vertex_ids[i] == of_2.vertex_ids[copy]) of_body[1].owned[i] = 0;
+    });
+    ck_contains(text, vertex + " has a copy on rank ");
+    ck_contains(text, "no rank owns it");
+    const std::uint64_t tet = of_2.tet_ids[0];
+    text = checked([&](std::uint32_t rank, std::vector<Share>& of_body) {
+        if (rank == 0) of_body[1].tet_ids[0] = tet;
+    });
+    ck_contains(text, "tet " + std::to_string(tet) + " of body 101 is on ranks 0 and 2");
+}
+END_TEST
+
+START_TEST(arguments) {
+    const Scene bodies = two_blocks();
+    vox_scene* scene = nullptr;
+    vox_scene_desc desc;
+    ck_ok(vox_scene_desc_init(&desc, sizeof desc));
+    vox_grid_desc grid = vox_default_grid_desc();
+    desc.grid = &grid;
+    grid.flags = VOX_GRID_EDGE_CONTACTS;
+    ck_fails(vox_scene_create(&desc, nullptr, &scene), VOX_ERROR_UNSUPPORTED, "flags is 8");
+    grid.flags = 0;
+    grid.margin = 0.5;
+    ck_fails(vox_scene_create(&desc, nullptr, &scene), VOX_ERROR_UNSUPPORTED, "margin is 0.5");
+    ck_fails(vox_scene_create(nullptr, nullptr, nullptr), VOX_ERROR_INVALID_ARGUMENT, "out_scene");
+    vox_transport transport;
+    ck_ok(vox_transport_init(&transport, sizeof transport));
+    transport.size = 3;
+    transport.rank = 3;
+    ck_fails(vox_scene_create(nullptr, &transport, &scene), VOX_ERROR_INVALID_ARGUMENT, "rank is 3 of 3");
+    transport.rank = 0;
+    ck_fails(vox_scene_create(nullptr, &transport, &scene), VOX_ERROR_INVALID_ARGUMENT,
+             "lacks one of its functions");
+    ck_assert_ptr_null(scene);
+    ck_fails(vox_transport_run(
+                 0, 1, [](const vox_transport*, void*) {}, nullptr),
+             VOX_ERROR_INVALID_ARGUMENT, "0");
+
+    ck_ok(vox_scene_create(nullptr, nullptr, &scene));
+    Body body = bodies[0];
+    vox_mesh_desc mesh =
+        vox_mesh_desc_doubles(body.xyz.data(), body.vertices(), body.tets.data(), body.tet_count());
+    std::vector<std::uint64_t> ids(body.vertices());
+    std::vector<std::uint8_t> owned(body.vertices(), 1);
+    for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = 1000 - i;
+    vox_part_desc part;
+    ck_ok(vox_part_desc_init(&part, sizeof part));
+    part.body = 7;
+    part.mesh = &mesh;
+    part.vertex_ids = ids.data();
+    part.owned = owned.data();
+    vox_part handle = 0;
+    ids[5] = 1000;
+    ck_fails(vox_scene_insert(scene, &part, &handle), VOX_ERROR_INVALID_ARGUMENT, "1000");
+    ids[5] = 995;
+    owned[3] = 2;
+    ck_fails(vox_scene_insert(scene, &part, &handle), VOX_ERROR_INVALID_ARGUMENT, "2");
+    owned[3] = 1;
+    vox_filter filter = vox_default_filter();
+    filter.self_collision = 1;
+    filter.self_rings = 1;
+    mesh.filter = &filter;
+    ck_fails(vox_scene_insert(scene, &part, &handle), VOX_ERROR_UNSUPPORTED, "ring");
+    mesh.filter = nullptr;
+    ck_assert_uint_eq(handle, 0);
+    ck_ok(vox_scene_insert(scene, &part, &handle));
+    vox_part second = 0;
+    ck_fails(vox_scene_insert(scene, &part, &second), VOX_ERROR_INVALID_ARGUMENT, "7");
+    ck_fails(vox_scene_remove(scene, handle + 1), VOX_ERROR_INVALID_HANDLE, "part");
+    std::uint64_t item = 0;
+    ck_fails(vox_scene_send(scene, VOX_DIRECTION_TO_TETS, 0, &item, &item), VOX_ERROR_INVALID_ARGUMENT,
+             "item_bytes");
+    const Body& other = bodies[1];
+    mesh = vox_mesh_desc_doubles(other.xyz.data(), other.vertices(), other.tets.data(), other.tet_count());
+    part.body = 6;
+    part.vertex_ids = nullptr;
+    part.owned = nullptr;
+    ck_ok(vox_scene_insert(scene, &part, &second));
+    ck_ok(vox_scene_step(scene));
+    vox_part_cost costs[2];
+    std::uint64_t count = 0;
+    ck_ok(vox_scene_costs(scene, costs, 1, &count));
+    ck_assert_uint_eq(count, 2);
+    ck_ok(vox_scene_costs(scene, costs, 2, &count));
+    ck_assert_uint_eq(costs[0].body, 6);
+    ck_assert_uint_eq(costs[0].part, second);
+    ck_assert_uint_eq(costs[1].body, 7);
+    ck_assert_uint_eq(costs[1].part, handle);
+    ck_assert(costs[0].predicted_ns > 0 && costs[1].predicted_ns > 0);
+    ck_ok(vox_scene_remove(scene, handle));
+    ck_ok(vox_scene_step(scene));
+    vox_scene_destroy(scene);
+    vox_scene_destroy(nullptr);
+}
+END_TEST
+
 int main() {
     Suite* suite = suite_create("dist_failures");
     TCase* tests = add_case(suite, "failures");
@@ -401,6 +542,6 @@ int main() {
     tcase_add_each(tests, each_failed_allocation_of_a_step, each_failed_allocation_of_other_calls,
                    each_failed_allocation_of_create, a_budget_of_one_rank, a_bad_number_on_one_rank,
                    an_exchange_that_fails, ranks_that_call_different_functions, items_of_other_sizes,
-                   a_part_that_moves_to_other_memory);
+                   a_part_that_moves_to_other_memory, check_names_what_does_not_fit, arguments);
     return run_suite(suite);
 }
