@@ -81,6 +81,7 @@ public:
     vox::Mesh& mesh(vox_mesh mesh) { return meshes_[mesh].mesh; }
     const vox::Mesh& mesh(vox_mesh mesh) const { return meshes_[mesh].mesh; }
     const vox::MeshTable& meshes() const noexcept { return meshes_; }
+    const vox::FastEngine& fast_engine() const noexcept { return fast_engine_; }
 
     void step();
 

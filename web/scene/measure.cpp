@@ -1,0 +1,100 @@
+// The cell size: what models predict and what steps take.
+#include "playground.hpp"
+
+#include <algorithm>
+
+using namespace play;
+
+namespace {
+
+// A grid over the bodies of the simulation, without depth.
+vox_grid* grid_with(playground& play, std::uint32_t engine) {
+    Grid& grid = play.measured[engine];
+    if (grid) return grid.get();
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.engine = static_cast<vox_engine>(engine);
+    desc.flags = 0;
+    vox_grid* made = nullptr;
+    check(vox_grid_create(&desc, &made));
+    Grid owned(made);
+    for (const Body& body : play.bodies) {
+        vox_mesh_desc mesh = vox_mesh_desc_floats(body.view.grid_positions, body.view.vertex_count,
+                                                  body.tets.data(), body.view.tet_count);
+        mesh.flags =
+            play.self_collision && body.kind != PLAY_FIXED ? std::uint32_t{VOX_MESH_SELF_COLLISION} : 0u;
+        vox_mesh id;
+        check(vox_mesh_insert(made, &mesh, &id));
+    }
+    grid = std::move(owned);
+    return made;
+}
+
+std::uint64_t stepped(playground& play, vox_grid* grid, double cell_size, std::uint32_t steps, double& ns) {
+    check(vox_grid_set_cell_size(grid, cell_size));
+    std::vector<vox_mesh> meshes(play.bodies.size());
+    std::uint64_t count = 0;
+    check(vox_grid_meshes(grid, meshes.data(), meshes.size(), &count));
+    ns = 0;
+    for (std::uint32_t i = 0; i < steps; ++i) {
+        for (const vox_mesh mesh : meshes) check(vox_mesh_mark_moved(grid, mesh)); // or nothing is left to do
+        check(vox_grid_step(grid));
+        vox_profile profile{};
+        profile.struct_size = sizeof profile;
+        check(vox_grid_profile(grid, &profile));
+        ns += static_cast<double>(profile.step_ns);
+    }
+    std::uint64_t hash = 0;
+    check(vox_grid_hash(grid, &hash));
+    return hash;
+}
+
+} // namespace
+
+vox_result play_measure(playground* play, uint32_t engine, double cell_size, uint32_t steps, double* out_ns,
+                        uint32_t* out_same) {
+    return guard([&] {
+        if (engine != VOX_ENGINE_REFERENCE && engine != VOX_ENGINE_FAST)
+            fail(VOX_ERROR_INVALID_ARGUMENT, "there is no engine " + std::to_string(engine));
+        if (play->default_hash_of != play->version) {
+            double unused;
+            play->default_hash = stepped(*play, grid_with(*play, VOX_ENGINE_AUTO), 0, 1, unused);
+            play->default_hash_of = play->version;
+        }
+        *out_same = stepped(*play, grid_with(*play, engine), cell_size, std::max(steps, 1u), *out_ns) ==
+                    play->default_hash;
+    });
+}
+
+vox_result play_suggest(playground* play, uint32_t model, vox_suggestion* out) {
+    return guard([&] {
+        vox_suggest_desc desc = vox_default_suggest_desc();
+        desc.model = static_cast<vox_cost_model>(model);
+        vox_grid* grid =
+            grid_with(*play, model == VOX_COST_MODEL_FAST ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE);
+        out->struct_size = sizeof *out;
+        check(vox_grid_suggest_cell_size(grid, &desc, out));
+    });
+}
+
+const double* play_suggest_numbers(playground* play, uint32_t model) {
+    vox_suggestion& s = play->suggestion;
+    if (play_suggest(play, model, &s) != VOX_OK) return nullptr;
+    double* next = play->suggestion_numbers;
+    const auto put_rules = [&next](const vox_cell_size_rules& rules) {
+        for (const double value : {rules.mean_edge, rules.mean_edge_multiple, rules.object_512,
+                                   rules.resolution, rules.mean_volume, rules.median_box_side})
+            *next++ = value;
+    };
+    for (const double value : {s.cell_size, s.zone_min, s.zone_max, s.predicted_cost}) *next++ = value;
+    put_rules(s.rules);
+    put_rules(s.rule_costs);
+    *next++ = s.curve_count;
+    *next++ = s.term_count;
+    for (std::uint32_t i = 0; i < s.curve_count; ++i)
+        *next++ = s.curve[i].cell_size, *next++ = s.curve[i].cost;
+    for (std::uint32_t i = 0; i < s.term_count; ++i)
+        *next++ = s.terms[i].count, *next++ = s.terms[i].cost, *next++ = s.terms[i].share;
+    return play->suggestion_numbers;
+}
+
+const char* play_term(const playground* play, uint32_t index) { return play->suggestion.terms[index].name; }

@@ -1,0 +1,587 @@
+#include "playground.hpp"
+
+#include <vox/vox_io.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+
+namespace play {
+
+void fail(vox_result result, const std::string& text) { throw Failure{vox_fail(result, text.c_str())}; }
+
+namespace {
+
+constexpr double time_step = 1.0 / 60;
+constexpr double still_speed = 0.04; // root mean square over all particles, for a second, before bodies sleep
+constexpr double ring_radius = 3.4, ring_tube = 0.7;
+constexpr double gap = 0.3; // between a body that is dropped and the highest one
+
+void* allocate(std::size_t size, std::size_t alignment, void* user) {
+    auto& account = *static_cast<Account*>(user);
+    if (account.limit && size > account.limit - account.bytes) return nullptr;
+    const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
+    void* memory = std::aligned_alloc(std::max(alignment, sizeof(void*)), std::max(rounded, sizeof(void*)));
+    if (memory) account.bytes += size;
+    return memory;
+}
+
+void release(void* memory, std::size_t size, std::size_t, void* user) {
+    static_cast<Account*>(user)->bytes -= size;
+    std::free(memory);
+}
+
+struct DestroyMesh {
+    void operator()(vox_io_mesh* mesh) const { vox_io_mesh_destroy(mesh); }
+};
+using Mesh = std::unique_ptr<vox_io_mesh, DestroyMesh>;
+
+vox_io_mesh_view arrays_of(const Mesh& mesh) {
+    vox_io_mesh_view view;
+    check(vox_io_mesh_get(mesh.get(), &view));
+    return view;
+}
+
+Sim make_sim(Account& account) {
+    vox_sim_desc desc = vox_default_sim_desc();
+    desc.substeps = 5;
+    desc.detect_every = desc.substeps; // once a frame, as a game would
+    desc.allocator = {allocate, release, &account};
+    vox_sim* sim = nullptr;
+    check(vox_sim_create(&desc, &sim));
+    return Sim(sim);
+}
+
+// A rotation from four small whole numbers, so that no sine is needed, which differs from machine to machine.
+struct Rotation {
+    Vec rows[3];
+    Vec operator*(const Vec& p) const { return {dot(rows[0], p), dot(rows[1], p), dot(rows[2], p)}; }
+};
+
+Rotation rotation(std::uint32_t number) {
+    std::uint32_t state = number * 2654435761u + 12345u;
+    double q[4];
+    for (double& part : q) {
+        state = state * 1664525u + 1013904223u;
+        part = static_cast<double>(static_cast<std::int32_t>(state >> 24) - 128) + 0.5;
+    }
+    const double s = 2 / ((q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]));
+    const auto [w, x, y, z] = q;
+    return {{{1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)},
+             {s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)},
+             {s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)}}};
+}
+
+struct Shape {
+    std::span<const double> positions, rest, velocities; // the last two may be empty
+    std::span<const std::uint32_t> tets;
+    std::uint32_t kind;
+};
+
+// The body is in the simulation when this returns, and not yet in the list.
+Body insert(playground& play, const Shape& shape) {
+    Body body;
+    body.kind = shape.kind;
+    body.serial = play.next_serial;
+    const std::span<const double> rest = shape.rest.empty() ? shape.positions : shape.rest;
+    body.rest.assign(rest.begin(), rest.end());
+    body.tets.assign(shape.tets.begin(), shape.tets.end());
+    body.triangles = surface_of(body.tets, body.rest);
+    vox_sim_body_desc desc = vox_default_sim_body_desc();
+    desc.flags =
+        (shape.kind == PLAY_FIXED ? std::uint32_t{VOX_SIM_BODY_FIXED} : 0u) |
+        (play.self_collision && shape.kind != PLAY_FIXED ? std::uint32_t{VOX_SIM_BODY_SELF_COLLISION} : 0u);
+    desc.positions = shape.positions.data();
+    desc.rest_positions = body.rest.data();
+    desc.velocities = shape.velocities.empty() ? nullptr : shape.velocities.data();
+    desc.vertex_count = shape.positions.size() / 3;
+    desc.tets = body.tets.data();
+    desc.tet_count = body.tets.size() / 4;
+    desc.youngs_modulus = 2e5;
+    desc.bulk_modulus = 2e5;
+    desc.damping = 0.05;
+    desc.user_data = body.serial;
+    check(vox_sim_body_insert(play.sim.get(), &desc, &body.mesh));
+    check(vox_sim_body_get(play.sim.get(), body.mesh, &body.view));
+    ++play.next_serial;
+    return body;
+}
+
+void remove(playground& play, const Body& body) {
+    (void)vox_sim_body_remove(play.sim.get(), body.mesh);
+    if (body.mesh == play.held_mesh) play_let_go(&play);
+}
+
+void make_ring(playground& play) {
+    vox_io_mesh* made = nullptr;
+    check(vox_io_make_torus(ring_radius, ring_tube, 0.5, &made));
+    const Mesh mesh(made);
+    const vox_io_mesh_view view = arrays_of(mesh);
+    play.bodies.push_back(insert(
+        play,
+        {{view.positions, 3 * view.vertex_count}, {}, {}, {view.tets, 4 * view.tet_count}, PLAY_FIXED}));
+}
+
+double highest(const playground& play) {
+    double z = 1;
+    for (const Body& body : play.bodies)
+        for (std::uint64_t v = 0; v < body.view.vertex_count; ++v)
+            z = std::max(z, body.view.positions[3 * v + 2]);
+    return z;
+}
+
+// Inserts a mesh turned, scaled to `size` along its longest side (0: as it is), above all others.
+void drop(playground& play, const vox_io_mesh_view& view, std::uint32_t kind, double size) {
+    Vec low, high;
+    low.fill(std::numeric_limits<double>::infinity());
+    high.fill(-std::numeric_limits<double>::infinity());
+    for (std::uint64_t i = 0; i < 3 * view.vertex_count; ++i) {
+        low[i % 3] = std::min(low[i % 3], view.positions[i]);
+        high[i % 3] = std::max(high[i % 3], view.positions[i]);
+    }
+    const Vec side = high - low, middle = 0.5 * (low + high);
+    const double scale = size > 0 ? size / std::max({side[0], side[1], side[2]}) : 1;
+    const Rotation turn = rotation(++play.dropped);
+    std::vector<double> positions(3 * view.vertex_count);
+    double lowest = 0;
+    for (std::uint32_t v = 0; v < view.vertex_count; ++v) {
+        const Vec p = turn * (scale * (at({view.positions, 3 * view.vertex_count}, v) - middle));
+        for (std::size_t c = 0; c < 3; ++c) positions[3 * v + c] = p[c];
+        lowest = std::min(lowest, p[2]);
+    }
+    // One after the other around the middle of the ring.
+    constexpr double place[5][2] = {{0, 0}, {0.9, 0.3}, {-0.7, 0.8}, {0.2, -1}, {-0.9, -0.5}};
+    const Vec to = {place[play.dropped % 5][0], place[play.dropped % 5][1], highest(play) + gap - lowest};
+    for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += to[i % 3];
+    try {
+        play.bodies.push_back(insert(play, {positions, {}, {}, {view.tets, 4 * view.tet_count}, kind}));
+    } catch (...) {
+        --play.dropped;
+        throw;
+    }
+    play.bodies_changed();
+}
+
+double cube_root(double x) { // by Newton's method: the C library's differs from machine to machine
+    double root = 1;
+    for (int i = 0; i < 100; ++i) root = (2 * root + x / (root * root)) / 3;
+    return root;
+}
+
+// Lets the particles that are held fly to where they should be within a few steps.
+void pull(playground& play) {
+    if (play.held_mesh == VOX_NULL_MESH) return;
+    vox_sim_body_view view;
+    check(vox_sim_body_get(play.sim.get(), play.held_mesh, &view));
+    play.velocities.assign(view.velocities, view.velocities + 3 * view.vertex_count);
+    constexpr double rate = 12, fastest = 15; // per second; units per second
+    for (const Held& held : play.held) {
+        const Vec way =
+            play.held_target + held.offset - at({view.positions, 3 * view.vertex_count}, held.vertex);
+        const double speed = rate * std::sqrt(dot(way, way));
+        const Vec velocity = (speed > fastest ? rate * fastest / speed : rate) * way;
+        for (std::size_t c = 0; c < 3; ++c) play.velocities[3 * held.vertex + c] = velocity[c];
+    }
+    check(vox_sim_body_set_state(play.sim.get(), play.held_mesh, nullptr, play.velocities.data()));
+    play.was_touched();
+}
+
+void list_touches(playground& play) {
+    play.touches.clear();
+    vox_touch_view view;
+    check(vox_grid_touch_events(play.grid, &view));
+    const auto* bytes = reinterpret_cast<const unsigned char*>(view.data);
+    for (std::uint64_t i = 0; i < view.count; ++i) {
+        const auto& event = *reinterpret_cast<const vox_touch_event*>(bytes + i * view.byte_stride);
+        if (event.kind == VOX_TOUCH_PERSISTED) continue;
+        play.touches.insert(play.touches.end(),
+                            {event.mesh_a, event.mesh_b, event.kind == VOX_TOUCH_BEGAN ? 1u : 0u});
+    }
+}
+
+} // namespace
+
+} // namespace play
+
+using namespace play;
+
+vox_result play_create(uint64_t byte_limit, playground** out) {
+    return guard([&] {
+        auto play = std::make_unique<playground>();
+        play->account.limit = byte_limit;
+        play->sim = make_sim(play->account);
+        check(vox_sim_grid(play->sim.get(), &play->grid));
+        make_ring(*play);
+        *out = play.release();
+    });
+}
+
+void play_destroy(playground* play) { delete play; }
+
+vox_result play_drop(playground* play, uint32_t kind, uint32_t tets) {
+    return guard([&] {
+        if (tets < 100 || tets > 200000)
+            fail(VOX_ERROR_INVALID_ARGUMENT,
+                 "a body of " + std::to_string(tets) + " tetrahedra; expected 100 to 200000");
+        // Volumes; about 12 tetrahedra fill a cell of the lattice that bodies are cut from, a box's 5.
+        constexpr double volumes[] = {2.15, 1.73, 1.42, 1.15, 0.68};
+        if (kind > PLAY_BAR)
+            fail(VOX_ERROR_INVALID_ARGUMENT, "there is no body of kind " + std::to_string(kind));
+        const double cell = cube_root((kind == PLAY_BOX ? 5.0 : 12.0) * volumes[kind] / tets);
+        vox_io_mesh* made = nullptr;
+        switch (kind) {
+        case PLAY_BALL:
+            check(vox_io_make_ball(0.8, cell, &made));
+            break;
+        case PLAY_BOX:
+            check(vox_io_make_box(1.2, 1.2, 1.2, cell, &made));
+            break;
+        case PLAY_RING:
+            check(vox_io_make_torus(0.8, 0.3, cell, &made));
+            break;
+        case PLAY_CAPSULE:
+            check(vox_io_make_capsule(0.45, 1.2, cell, &made));
+            break;
+        default:
+            check(vox_io_make_cylinder(0.3, 2.4, cell, &made));
+            break;
+        }
+        const Mesh mesh(made);
+        drop(*play, arrays_of(mesh), kind, 0);
+    });
+}
+
+vox_result play_drop_file(playground* play, const char* name, const void* bytes, uint64_t size,
+                          uint32_t tets) {
+    return guard([&] {
+        const vox_io_source source = {name, bytes, static_cast<std::size_t>(size)};
+        vox_io_mesh* read = nullptr;
+        check(vox_io_read(&source, 1, nullptr, &read));
+        Mesh mesh(read);
+        vox_io_mesh_view view = arrays_of(mesh);
+        std::string text;
+        if (const char* warnings = vox_io_mesh_warnings(mesh.get())) text = warnings;
+        if (view.tet_count == 0) {
+            Vec low = at({view.positions, 3 * view.vertex_count}, 0), high = low;
+            for (std::uint64_t i = 0; i < 3 * view.vertex_count; ++i) {
+                low[i % 3] = std::min(low[i % 3], view.positions[i]);
+                high[i % 3] = std::max(high[i % 3], view.positions[i]);
+            }
+            const Vec side = high - low;
+            vox_io_tetrahedralize_desc desc;
+            check(vox_io_tetrahedralize_desc_init(&desc, sizeof desc));
+            // As if it filled a third of its box. One that fills less gets fewer tetrahedra, but cells of a
+            // hundredth of the longest side at least.
+            const double longest = std::max({side[0], side[1], side[2]});
+            const double box = (side[0] / longest) * (side[1] / longest) * (side[2] / longest);
+            desc.cell = longest * std::clamp(cube_root(std::max(1e-9, 4 * box / tets)), 0.01, 0.25);
+            vox_io_mesh* filled = nullptr;
+            check(vox_io_tetrahedralize(mesh.get(), &desc, &filled));
+            mesh.reset(filled);
+            view = arrays_of(mesh);
+            if (!text.empty()) text += '\n';
+            text.append("filled with ").append(std::to_string(view.tet_count)).append(" tetrahedra");
+        }
+        drop(*play, view, PLAY_FILE, 1.8);
+        play->text = std::move(text);
+    });
+}
+
+const char* play_text(const playground* play) { return play->text.c_str(); }
+
+vox_result play_clear(playground* play) {
+    return guard([&] {
+        for (std::size_t i = play->bodies.size(); i-- > 0;)
+            if (play->bodies[i].kind != PLAY_FIXED) {
+                remove(*play, play->bodies[i]);
+                play->bodies.erase(play->bodies.begin() + static_cast<std::ptrdiff_t>(i));
+            }
+        play->bodies_changed();
+    });
+}
+
+vox_result play_set_self_collision(playground* play, uint32_t on) {
+    return guard([&] {
+        const bool before = play->self_collision;
+        play->self_collision = on != 0;
+        std::vector<Body> made;
+        try { // inserted again, as a simulation's body keeps its flags
+            for (const Body& body : play->bodies)
+                made.push_back(insert(*play, {{body.view.positions, 3 * body.view.vertex_count},
+                                              body.rest,
+                                              {body.view.velocities, 3 * body.view.vertex_count},
+                                              body.tets,
+                                              body.kind}));
+        } catch (...) {
+            for (const Body& body : made) remove(*play, body);
+            play->self_collision = before;
+            throw;
+        }
+        for (const Body& body : play->bodies) remove(*play, body);
+        play->bodies = std::move(made);
+        play->bodies_changed();
+    });
+}
+
+vox_result play_step(playground* play) {
+    return guard([&] {
+        play->touches.clear();
+        if (play->asleep()) return;
+        pull(*play);
+        check(vox_sim_step(play->sim.get(), time_step));
+        ++play->version;
+        std::uint64_t hash = 0;
+        check(vox_grid_hash(play->grid, &hash));
+        play->hash = (play->hash ^ hash) * 0x100000001b3u + 1;
+        ++play->steps;
+        list_touches(*play);
+        vox_sim_energies energies;
+        energies.struct_size = sizeof energies;
+        check(vox_sim_energy(play->sim.get(), VOX_NULL_MESH, &energies));
+        play->facts.max_speed = energies.max_speed;
+        play->still_steps =
+            2 * energies.kinetic < still_speed * still_speed * energies.mass ? play->still_steps + 1 : 0;
+    });
+}
+
+vox_result play_grab(playground* play, const double from[3], const double to[3], double out_point[3],
+                     uint32_t* out_found) {
+    return guard([&] {
+        *out_found = 0;
+        play_let_go(play);
+        check(vox_grid_prepare_queries(play->grid));
+        vox_ray_hit hit;
+        check(vox_grid_query_ray(play->grid, from, to, UINT64_MAX, &hit));
+        const auto body = std::ranges::find(play->bodies, hit.mesh, &Body::mesh);
+        if (hit.mesh == VOX_NULL_MESH || body == play->bodies.end() || body->kind == PLAY_FIXED) return;
+        const Vec a = {from[0], from[1], from[2]}, b = {to[0], to[1], to[2]};
+        const Vec point = a + hit.t * (b - a);
+        const std::span positions(body->view.positions, 3 * body->view.vertex_count);
+        // All vertices near the point, and the corners of the tetrahedron, so that there are some.
+        std::vector<Held> held;
+        constexpr double near = 0.25;
+        const std::uint32_t* corners = &body->tets[4 * hit.tet];
+        for (std::uint32_t v = 0; v < body->view.vertex_count; ++v) {
+            const Vec way = at(positions, v) - point;
+            if (dot(way, way) <= near * near || std::find(corners, corners + 4, v) != corners + 4)
+                held.push_back({v, way});
+        }
+        play->held = std::move(held);
+        play->held_mesh = hit.mesh;
+        play->held_target = point;
+        std::copy(point.begin(), point.end(), out_point);
+        play->was_touched();
+        *out_found = 1;
+    });
+}
+
+void play_drag(playground* play, const double point[3]) {
+    Vec target = {point[0], point[1], std::max(point[2], 0.0)};
+    for (double& x : target) x = std::isfinite(x) ? std::clamp(x, -20.0, 20.0) : 0;
+    play->held_target = target;
+    play->was_touched();
+}
+
+void play_let_go(playground* play) {
+    play->held_mesh = VOX_NULL_MESH;
+    play->held.clear();
+}
+
+vox_result play_cut(playground* play, const double eye[3], const double first[3], const double second[3],
+                    uint32_t* out_cut) {
+    return guard([&] {
+        *out_cut = 0;
+        const Stroke stroke({eye[0], eye[1], eye[2]}, {first[0], first[1], first[2]},
+                            {second[0], second[1], second[2]});
+        std::vector<Body> made;
+        std::vector<vox_mesh> gone;
+        try {
+            for (const Body& body : play->bodies) {
+                if (body.kind == PLAY_FIXED) continue;
+                const std::span positions(body.view.positions, 3 * body.view.vertex_count);
+                const std::vector<Part> parts = cut(body.tets, positions, stroke);
+                if (parts.empty()) continue;
+                gone.push_back(body.mesh);
+                for (const Part& part : parts) {
+                    std::vector<double> now, rest, velocities;
+                    for (const std::uint32_t v : part.old_vertex)
+                        for (std::size_t c = 0; c < 3; ++c) {
+                            now.push_back(body.view.positions[3 * v + c]);
+                            rest.push_back(body.rest[3 * v + c]);
+                            velocities.push_back(body.view.velocities[3 * v + c]);
+                        }
+                    made.push_back(insert(*play, {now, rest, velocities, part.tets, body.kind}));
+                }
+            }
+        } catch (...) {
+            for (const Body& body : made) remove(*play, body);
+            throw;
+        }
+        if (gone.empty()) return;
+        std::vector<Body> kept;
+        for (Body& body : play->bodies) {
+            if (std::ranges::find(gone, body.mesh) != gone.end())
+                remove(*play, body);
+            else
+                kept.push_back(std::move(body));
+        }
+        std::ranges::move(made, std::back_inserter(kept));
+        play->bodies = std::move(kept);
+        play->bodies_changed();
+        *out_cut = static_cast<std::uint32_t>(gone.size());
+    });
+}
+
+uint32_t play_body_count(const playground* play) { return static_cast<std::uint32_t>(play->bodies.size()); }
+
+const play_body* play_get_body(const playground* play, uint32_t index) {
+    const Body& body = play->bodies[index];
+    play->shown = {body.view.grid_positions,
+                   body.triangles.data(),
+                   static_cast<std::uint32_t>(body.view.vertex_count),
+                   static_cast<std::uint32_t>(body.triangles.size() / 3),
+                   static_cast<std::uint32_t>(body.tets.size() / 4),
+                   body.serial,
+                   body.kind,
+                   body.mesh};
+    return &play->shown;
+}
+
+const float* play_penetrations(playground* play, uint32_t* out_count) {
+    play->arrows.clear();
+    vox_penetration_view view{};
+    if (vox_grid_penetrations(play->grid, &view) != VOX_OK) view.count = 0;
+    const auto* bytes = reinterpret_cast<const unsigned char*>(view.data);
+    for (std::uint64_t i = 0; i < view.count; ++i) {
+        const auto& p = *reinterpret_cast<const vox_penetration*>(bytes + i * view.byte_stride);
+        const auto body = std::ranges::find(play->bodies, p.mesh_a, &Body::mesh);
+        if (body == play->bodies.end()) continue; // removed since the step
+        for (std::size_t c = 0; c < 3; ++c)
+            play->arrows.push_back(body->view.grid_positions[3 * p.vertex + c]);
+        for (const float d : p.direction) play->arrows.push_back(p.depth * d);
+    }
+    *out_count = static_cast<std::uint32_t>(play->arrows.size() / 6);
+    return play->arrows.data();
+}
+
+const uint32_t* play_touches(playground* play, uint32_t* out_count) {
+    *out_count = static_cast<std::uint32_t>(play->touches.size() / 3);
+    return play->touches.data();
+}
+
+const play_facts* play_get_facts(playground* play) {
+    play_facts& facts = play->facts;
+    vox_counters counters{};
+    counters.struct_size = sizeof counters;
+    vox_sim_counts counts{};
+    counts.struct_size = sizeof counts;
+    if (vox_grid_counters(play->grid, &counters) == VOX_OK &&
+        vox_sim_counters(play->sim.get(), &counts) == VOX_OK) {
+        facts.tets = static_cast<double>(counts.tets);
+        facts.vertices = static_cast<double>(counts.vertices);
+        facts.contacts = static_cast<double>(counters.contacts);
+        facts.penetrations = static_cast<double>(counters.penetrations);
+        facts.step_ns = static_cast<double>(counts.step_ns);
+        facts.detect_ns = static_cast<double>(counts.detect_ns);
+    }
+    facts.deepest = 0;
+    vox_penetration_view view{};
+    if (vox_grid_penetrations(play->grid, &view) == VOX_OK) {
+        const auto* bytes = reinterpret_cast<const unsigned char*>(view.data);
+        for (std::uint64_t i = 0; i < view.count; ++i) {
+            const auto& p = *reinterpret_cast<const vox_penetration*>(bytes + i * view.byte_stride);
+            facts.deepest = std::max(facts.deepest, static_cast<double>(p.depth));
+        }
+    }
+    (void)vox_grid_cell_size(play->grid, &facts.cell_size);
+    facts.steps = static_cast<double>(play->steps);
+    facts.asleep = play->asleep() ? 1 : 0;
+    facts.bytes = static_cast<double>(play->account.bytes);
+    facts.byte_limit = static_cast<double>(play->account.limit);
+    return &facts;
+}
+
+uint64_t play_hash(const playground* play) { return play->hash; }
+
+vox_result play_save(playground* play, const void** out_bytes, uint64_t* out_size, uint64_t* out_hash) {
+    return guard([&] {
+        std::uint64_t size = 0;
+        check(vox_grid_save(play->grid, nullptr, 0, &size));
+        std::vector<unsigned char> bytes(static_cast<std::size_t>(size));
+        check(vox_grid_save(play->grid, bytes.data(), bytes.size(), &size));
+        vox_grid* loaded = nullptr;
+        check(vox_grid_load(bytes.data(), bytes.size(), nullptr, &loaded));
+        const Grid grid(loaded);
+        check(vox_grid_step(loaded));
+        check(vox_grid_hash(loaded, out_hash));
+        play->snapshot = std::move(bytes);
+        *out_bytes = play->snapshot.data();
+        *out_size = size;
+    });
+}
+
+vox_result play_load(playground* play, const void* bytes, uint64_t size) {
+    return guard([&] {
+        vox_grid_desc desc = vox_default_grid_desc();
+        desc.allocator = {allocate, release, &play->account};
+        vox_grid* loaded = nullptr;
+        check(vox_grid_load(bytes, size, &desc, &loaded));
+        const Grid grid(loaded);
+        std::uint64_t count = 0;
+        check(vox_grid_meshes(loaded, nullptr, 0, &count));
+        std::vector<vox_mesh> meshes(static_cast<std::size_t>(count));
+        check(vox_grid_meshes(loaded, meshes.data(), count, &count));
+        std::vector<Body> made;
+        try {
+            for (const vox_mesh mesh : meshes) {
+                vox_mesh_info info{};
+                info.struct_size = sizeof info;
+                check(vox_mesh_get_info(loaded, mesh, &info));
+                if (info.tet_count == 0 || !info.positions) continue;
+                if (info.has_transform)
+                    fail(VOX_ERROR_UNSUPPORTED,
+                         "the snapshot has a mesh with a transform, which this page does not show");
+                std::vector<std::uint32_t> corners(4 * static_cast<std::size_t>(info.tet_count)), tets;
+                std::vector<std::uint8_t> enabled(static_cast<std::size_t>(info.tet_count));
+                check(
+                    vox_mesh_copy_tets(loaded, mesh, corners.data(), enabled.data(), info.tet_count, &count));
+                for (std::size_t t = 0; t < enabled.size(); ++t)
+                    if (enabled[t]) tets.insert(tets.end(), &corners[4 * t], &corners[4 * t] + 4);
+                std::vector<double> positions(3 * static_cast<std::size_t>(info.vertex_count));
+                const auto* data = static_cast<const unsigned char*>(info.positions);
+                const bool floats = info.position_format == VOX_FORMAT_FLOAT3;
+                const std::uint64_t step = info.position_component_byte_stride
+                                               ? info.position_component_byte_stride
+                                               : (floats ? 4u : 8u);
+                for (std::size_t i = 0; i < positions.size(); ++i) {
+                    const unsigned char* place = data + i / 3 * info.position_byte_stride + i % 3 * step;
+                    float single;
+                    if (floats)
+                        std::memcpy(&single, place, sizeof single),
+                            positions[i] = static_cast<double>(single);
+                    else
+                        std::memcpy(&positions[i], place, sizeof positions[i]);
+                    if (!std::isfinite(positions[i])) positions[i] = 0; // a vertex that was removed
+                }
+                // A snapshot of this page begins with the fixed ring.
+                const bool ring = made.empty() && tets == play->bodies.front().tets;
+                made.push_back(insert(*play, {positions, {}, {}, tets, ring ? PLAY_FIXED : PLAY_FILE}));
+            }
+            if (made.empty()) fail(VOX_ERROR_FORMAT, "the snapshot has no mesh with tetrahedra");
+            if (made.front().kind != PLAY_FIXED) {
+                make_ring(*play); // at the end of the list
+                made.insert(made.begin(), std::move(play->bodies.back()));
+                play->bodies.pop_back();
+            }
+        } catch (...) {
+            for (const Body& body : made) remove(*play, body);
+            throw;
+        }
+        for (const Body& body : play->bodies) remove(*play, body);
+        play->bodies = std::move(made);
+        play->hash = play->steps = 0;
+        play->bodies_changed();
+    });
+}

@@ -1,0 +1,125 @@
+/* The scene of the playground: soft bodies that fall into a ring, and what a visitor does to them. The page
+ * runs it as WebAssembly in a worker; the tests run the same code natively and compare hashes.
+ *
+ * Everything goes through the public libraries, except inside.cpp, which shows what the fast engine keeps to
+ * itself. Functions return vox_result, and vox_last_error() has the text. A function that fails changes
+ * nothing. One thread. */
+#ifndef VOX_WEB_PLAYGROUND_H
+#define VOX_WEB_PLAYGROUND_H
+
+#include <vox/vox.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct playground playground;
+
+typedef enum play_kind {
+    PLAY_BALL = 0,
+    PLAY_BOX = 1,
+    PLAY_RING = 2,
+    PLAY_CAPSULE = 3,
+    PLAY_BAR = 4,
+    PLAY_FILE = 5,  /* of the visitor's own */
+    PLAY_FIXED = 6, /* the ring on the floor */
+} play_kind;
+
+/* A scene with the fixed ring alone. Its simulation may hold `byte_limit` bytes; 0: no limit. */
+vox_result play_create(uint64_t byte_limit, playground** out);
+void play_destroy(playground* play);
+
+/* Drops a body of about `tets` tetrahedra (100 to 200000) above all others. */
+vox_result play_drop(playground* play, uint32_t kind, uint32_t tets);
+/* The same for a file. A surface is filled with about `tets` tetrahedra. play_text() says what was odd about
+ * it. */
+vox_result play_drop_file(playground* play, const char* name, const void* bytes, uint64_t size,
+                          uint32_t tets);
+const char* play_text(const playground* play);
+/* Removes all bodies but the fixed ring. */
+vox_result play_clear(playground* play);
+/* Whether bodies collide with themselves: those that are there and those to come. */
+vox_result play_set_self_collision(playground* play, uint32_t on);
+
+/* Moves everything by 1/60 s, unless all bodies have come to rest: then they sleep until something is done to
+ * them. */
+vox_result play_step(playground* play);
+
+/* Takes hold of the body that the segment hits first; out_point is where. VOX_OK with *out_found 0 if there
+ * is none. */
+vox_result play_grab(playground* play, const double from[3], const double to[3], double out_point[3],
+                     uint32_t* out_found);
+/* Where the grabbed point is to go. */
+void play_drag(playground* play, const double point[3]);
+void play_let_go(playground* play);
+/* Cuts every body that crosses the triangle (eye, first, second), extended without end beyond first and
+ * second, between its tetrahedra. Parts that come apart are bodies of their own. *out_cut: how many bodies
+ * were cut. */
+vox_result play_cut(playground* play, const double eye[3], const double first[3], const double second[3],
+                    uint32_t* out_cut);
+
+/* What there is to draw of a body. `serial` is another for each body and for each part of one. */
+typedef struct play_body {
+    const float* positions;    /* 3 * vertex_count */
+    const uint32_t* triangles; /* of the surface; 3 * triangle_count */
+    uint32_t vertex_count;
+    uint32_t triangle_count;
+    uint32_t tet_count;
+    uint32_t serial;
+    uint32_t kind;
+    uint32_t mesh; /* its id in the grid, as events name it */
+} play_body;
+uint32_t play_body_count(const playground* play);
+/* Good until the next call that is not const. */
+const play_body* play_get_body(const playground* play, uint32_t index);
+
+/* Six floats for each penetration: the vertex, and the way out as a vector. */
+const float* play_penetrations(playground* play, uint32_t* out_count);
+
+/* Pairs that began or ended to touch in the last step: mesh, mesh, and 1 if they touch now. */
+const uint32_t* play_touches(playground* play, uint32_t* out_count);
+
+/* Boxes, six floats each (min, max): of tiles (what 0), and of windows of the last step (what 1). */
+const float* play_boxes(playground* play, uint32_t what, uint32_t* out_count);
+
+typedef struct play_facts {
+    double tets, vertices, contacts, penetrations, deepest;
+    double step_ns, detect_ns; /* of the last step that was not slept through */
+    double cell_size;          /* that the grid chose */
+    double max_speed;
+    double steps;
+    double asleep; /* 1: all bodies are */
+    double bytes, byte_limit;
+} play_facts;
+const play_facts* play_get_facts(playground* play);
+/* Combines vox_grid_hash of all steps since the scene was made or loaded. */
+uint64_t play_hash(const playground* play);
+
+/* ---- the cell size ---- */
+
+/* Steps a grid of its own over the bodies as they are, with this engine (vox_engine) and cell size, `steps`
+ * times, without depth. *out_ns: time of these steps together. *out_same: whether the contacts are those that
+ * a grid of the default settings finds. */
+vox_result play_measure(playground* play, uint32_t engine, double cell_size, uint32_t steps, double* out_ns,
+                        uint32_t* out_same);
+/* What vox_grid_suggest_cell_size says for a model, of those bodies. */
+vox_result play_suggest(playground* play, uint32_t model, vox_suggestion* out);
+
+/* What the page needs of a suggestion, as numbers alone: cell size, zone (2), cost, rules (6) and their costs
+ * (6), number of samples, of terms, samples (2 each), terms (count, cost, share; 3 each). */
+const double* play_suggest_numbers(playground* play, uint32_t model);
+/* Name of a term of the last suggestion. */
+const char* play_term(const playground* play, uint32_t index);
+
+/* ---- snapshots, as `vox replay` reads them ---- */
+
+/* The bytes live until the next call. *out_hash: what a step of that snapshot finds. */
+vox_result play_save(playground* play, const void** out_bytes, uint64_t* out_size, uint64_t* out_hash);
+/* Bodies as a snapshot has them, in place of all others; how they are there is their rest shape. */
+vox_result play_load(playground* play, const void* bytes, uint64_t size);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

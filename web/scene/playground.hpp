@@ -1,0 +1,101 @@
+// The parts of a playground that more than one file needs.
+#pragma once
+
+#include "playground.h"
+#include "tet_mesh.hpp"
+
+#include <vox/vox_sim.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace play {
+
+struct Failure {
+    vox_result result;
+};
+
+// Inside the functions that guard() runs; vox_last_error() has the text already.
+inline void check(vox_result result) {
+    if (result != VOX_OK) throw Failure{result};
+}
+[[noreturn]] void fail(vox_result result, const std::string& text);
+
+template <class Work>
+vox_result guard(const Work& work) noexcept {
+    try {
+        work();
+        return VOX_OK;
+    } catch (const Failure& failure) {
+        return failure.result;
+    } catch (...) { // what the C++ library throws: memory
+        return vox_fail(VOX_ERROR_OUT_OF_MEMORY, "there is not enough memory");
+    }
+}
+
+struct DestroyGrid {
+    void operator()(vox_grid* grid) const { vox_grid_destroy(grid); }
+};
+using Grid = std::unique_ptr<vox_grid, DestroyGrid>;
+
+struct DestroySim {
+    void operator()(vox_sim* sim) const { vox_sim_destroy(sim); }
+};
+using Sim = std::unique_ptr<vox_sim, DestroySim>;
+
+struct Body {
+    vox_mesh mesh;
+    std::uint32_t kind, serial;
+    std::vector<double> rest;
+    std::vector<std::uint32_t> tets, triangles;
+    vox_sim_body_view view;
+};
+
+// Memory of the simulation and its grid, counted.
+struct Account {
+    std::uint64_t bytes = 0, limit = 0;
+};
+
+struct Held {
+    std::uint32_t vertex;
+    Vec offset; // from the point that is held
+};
+
+} // namespace play
+
+struct playground {
+    play::Account account;
+    play::Sim sim;
+    vox_grid* grid = nullptr; // the simulation's
+    std::vector<play::Body> bodies;
+    std::uint32_t next_serial = 1, dropped = 0;
+    bool self_collision = false;
+    std::uint64_t hash = 0, steps = 0;
+    std::uint32_t still_steps = 0;
+    vox_mesh held_mesh = VOX_NULL_MESH;
+    std::vector<play::Held> held;
+    play::Vec held_target{};
+    std::vector<double> velocities; // scratch
+    std::string text;
+
+    // Grids that measure; remade when the bodies are others.
+    play::Grid measured[3]; // by vox_engine
+    std::uint64_t default_hash = 0, default_hash_of = ~std::uint64_t{0};
+    std::uint64_t version = 0; // of the bodies and their positions
+
+    vox_suggestion suggestion;
+    double suggestion_numbers[18 + 2 * VOX_COST_CURVE_CAPACITY + 3 * VOX_COST_TERM_CAPACITY];
+    std::vector<float> arrows, boxes;
+    std::vector<std::uint32_t> touches;
+    std::vector<unsigned char> snapshot;
+    mutable play_body shown;
+    play_facts facts{};
+
+    void was_touched() { still_steps = 0, ++version; }
+    void bodies_changed() {
+        was_touched();
+        for (play::Grid& grid_of_engine : measured) grid_of_engine.reset();
+    }
+    bool asleep() const { return still_steps >= 60; }
+};
