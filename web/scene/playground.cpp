@@ -119,9 +119,16 @@ void make_ring(playground& play) {
     check(vox_io_make_torus(ring_radius, ring_tube, 0.5, &made));
     const Mesh mesh(made);
     const vox_io_mesh_view view = arrays_of(mesh);
-    play.bodies.push_back(insert(
-        play,
-        {{view.positions, 3 * view.vertex_count}, {}, {}, {view.tets, 4 * view.tet_count}, PLAY_FIXED}));
+    play.bodies.push_back(insert(play, {list(view.positions, 3 * view.vertex_count),
+                                        {},
+                                        {},
+                                        list(view.tets, 4 * view.tet_count),
+                                        PLAY_FIXED}));
+}
+
+auto find_body(const playground& play, vox_mesh mesh) {
+    return std::find_if(play.bodies.begin(), play.bodies.end(),
+                        [mesh](const Body& body) { return body.mesh == mesh; });
 }
 
 double highest(const playground& play) {
@@ -147,7 +154,7 @@ void drop(playground& play, const vox_io_mesh_view& view, std::uint32_t kind, do
     std::vector<double> positions(3 * view.vertex_count);
     double lowest = 0;
     for (std::uint32_t v = 0; v < view.vertex_count; ++v) {
-        const Vec p = turn * (scale * (at({view.positions, 3 * view.vertex_count}, v) - middle));
+        const Vec p = turn * (scale * (at(list(view.positions, 3 * view.vertex_count), v) - middle));
         for (std::size_t c = 0; c < 3; ++c) positions[3 * v + c] = p[c];
         lowest = std::min(lowest, p[2]);
     }
@@ -156,7 +163,7 @@ void drop(playground& play, const vox_io_mesh_view& view, std::uint32_t kind, do
     const Vec to = {place[play.dropped % 5][0], place[play.dropped % 5][1], highest(play) + gap - lowest};
     for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += to[i % 3];
     try {
-        play.bodies.push_back(insert(play, {positions, {}, {}, {view.tets, 4 * view.tet_count}, kind}));
+        play.bodies.push_back(insert(play, {positions, {}, {}, list(view.tets, 4 * view.tet_count), kind}));
     } catch (...) {
         --play.dropped;
         throw;
@@ -179,7 +186,7 @@ void pull(playground& play) {
     constexpr double rate = 12, fastest = 15; // per second; units per second
     for (const Held& held : play.held) {
         const Vec way =
-            play.held_target + held.offset - at({view.positions, 3 * view.vertex_count}, held.vertex);
+            play.held_target + held.offset - at(list(view.positions, 3 * view.vertex_count), held.vertex);
         const double speed = rate * std::sqrt(dot(way, way));
         const Vec velocity = (speed > fastest ? rate * fastest / speed : rate) * way;
         for (std::size_t c = 0; c < 3; ++c) play.velocities[3 * held.vertex + c] = velocity[c];
@@ -264,7 +271,7 @@ vox_result play_drop_file(playground* play, const char* name, const void* bytes,
         std::string text;
         if (const char* warnings = vox_io_mesh_warnings(mesh.get())) text = warnings;
         if (view.tet_count == 0) {
-            Vec low = at({view.positions, 3 * view.vertex_count}, 0), high = low;
+            Vec low = at(list(view.positions, 3 * view.vertex_count), 0), high = low;
             for (std::uint64_t i = 0; i < 3 * view.vertex_count; ++i) {
                 low[i % 3] = std::min(low[i % 3], view.positions[i]);
                 high[i % 3] = std::max(high[i % 3], view.positions[i]);
@@ -309,11 +316,9 @@ vox_result play_set_self_collision(playground* play, uint32_t on) {
         std::vector<Body> made;
         try { // inserted again, as a simulation's body keeps its flags
             for (const Body& body : play->bodies)
-                made.push_back(insert(*play, {{body.view.positions, 3 * body.view.vertex_count},
-                                              body.rest,
-                                              {body.view.velocities, 3 * body.view.vertex_count},
-                                              body.tets,
-                                              body.kind}));
+                made.push_back(insert(
+                    *play, {list(body.view.positions, 3 * body.view.vertex_count), body.rest,
+                            list(body.view.velocities, 3 * body.view.vertex_count), body.tets, body.kind}));
         } catch (...) {
             for (const Body& body : made) remove(*play, body);
             play->self_collision = before;
@@ -354,11 +359,11 @@ vox_result play_grab(playground* play, const double from[3], const double to[3],
         check(vox_grid_prepare_queries(play->grid));
         vox_ray_hit hit;
         check(vox_grid_query_ray(play->grid, from, to, UINT64_MAX, &hit));
-        const auto body = std::ranges::find(play->bodies, hit.mesh, &Body::mesh);
+        const auto body = find_body(*play, hit.mesh);
         if (hit.mesh == VOX_NULL_MESH || body == play->bodies.end() || body->kind == PLAY_FIXED) return;
         const Vec a = {from[0], from[1], from[2]}, b = {to[0], to[1], to[2]};
         const Vec point = a + hit.t * (b - a);
-        const std::span positions(body->view.positions, 3 * body->view.vertex_count);
+        const std::span positions = list(body->view.positions, 3 * body->view.vertex_count);
         // All vertices near the point, and the corners of the tetrahedron, so that there are some.
         std::vector<Held> held;
         constexpr double near = 0.25;
@@ -400,7 +405,7 @@ vox_result play_cut(playground* play, const double eye[3], const double first[3]
         try {
             for (const Body& body : play->bodies) {
                 if (body.kind == PLAY_FIXED) continue;
-                const std::span positions(body.view.positions, 3 * body.view.vertex_count);
+                const std::span positions = list(body.view.positions, 3 * body.view.vertex_count);
                 const std::vector<Part> parts = cut(body.tets, positions, stroke);
                 if (parts.empty()) continue;
                 gone.push_back(body.mesh);
@@ -422,12 +427,12 @@ vox_result play_cut(playground* play, const double eye[3], const double first[3]
         if (gone.empty()) return;
         std::vector<Body> kept;
         for (Body& body : play->bodies) {
-            if (std::ranges::find(gone, body.mesh) != gone.end())
+            if (std::find(gone.begin(), gone.end(), body.mesh) != gone.end())
                 remove(*play, body);
             else
                 kept.push_back(std::move(body));
         }
-        std::ranges::move(made, std::back_inserter(kept));
+        kept.insert(kept.end(), std::make_move_iterator(made.begin()), std::make_move_iterator(made.end()));
         play->bodies = std::move(kept);
         play->bodies_changed();
         *out_cut = static_cast<std::uint32_t>(gone.size());
@@ -456,7 +461,7 @@ const float* play_penetrations(playground* play, uint32_t* out_count) {
     const auto* bytes = reinterpret_cast<const unsigned char*>(view.data);
     for (std::uint64_t i = 0; i < view.count; ++i) {
         const auto& p = *reinterpret_cast<const vox_penetration*>(bytes + i * view.byte_stride);
-        const auto body = std::ranges::find(play->bodies, p.mesh_a, &Body::mesh);
+        const auto body = find_body(*play, p.mesh_a);
         if (body == play->bodies.end()) continue; // removed since the step
         for (std::size_t c = 0; c < 3; ++c)
             play->arrows.push_back(body->view.grid_positions[3 * p.vertex + c]);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <tuple>
 
 namespace play {
 
@@ -14,7 +15,6 @@ constexpr std::uint32_t facet_corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, 
 struct Facet {
     std::array<std::uint32_t, 3> vertices; // ascending
     std::uint32_t tet, opposite;
-    auto operator<=>(const Facet&) const = default;
 };
 
 std::vector<Facet> facets_of(std::span<const std::uint32_t> tets) {
@@ -24,10 +24,12 @@ std::vector<Facet> facets_of(std::span<const std::uint32_t> tets) {
         for (std::uint32_t f = 0; f < 4; ++f) {
             Facet facet{{}, t, f};
             for (int i = 0; i < 3; ++i) facet.vertices[i] = tets[4 * t + facet_corners[f][i]];
-            std::ranges::sort(facet.vertices);
+            std::sort(facet.vertices.begin(), facet.vertices.end());
             facets.push_back(facet);
         }
-    std::ranges::sort(facets);
+    std::sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) {
+        return std::tie(a.vertices, a.tet, a.opposite) < std::tie(b.vertices, b.tet, b.opposite);
+    });
     return facets;
 }
 

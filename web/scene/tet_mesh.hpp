@@ -17,6 +17,10 @@ inline double dot(const Vec& a, const Vec& b) { return (a[0] * b[0] + a[1] * b[1
 inline Vec cross(const Vec& a, const Vec& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
+template <class T>
+std::span<const T> list(const T* data, std::uint64_t count) {
+    return {data, static_cast<std::size_t>(count)};
+}
 inline Vec at(std::span<const double> positions, std::uint32_t vertex) {
     return {positions[3 * vertex], positions[3 * vertex + 1], positions[3 * vertex + 2]};
 }

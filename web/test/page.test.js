@@ -1,0 +1,413 @@
+// The page as a visitor uses it, in a real browser, beside the same scene run natively.
+// usage: node --test page.test.js, with PLAYGROUND_NATIVE and VOX_TOOL naming the two programs
+import assert from "node:assert/strict";
+import { execFileSync, spawnSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import path from "node:path";
+import test, { after, before } from "node:test";
+import pngjs from "pngjs";
+import { hasPlainModule, launch, root, serve } from "./browser.js";
+
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const folder = mkdtempSync(path.join(tmpdir(), "playground-"));
+let server;
+let browser;
+
+before(async () => {
+  server = await serve();
+  browser = await launch();
+});
+after(async () => {
+  await browser?.close();
+  server?.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+/** Runs `use` on a page of its own. Whatever it logs as an error, or asks of another server, fails the test. */
+async function visit(search, use, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
+  await context.addInitScript({ content: "addEventListener('securitypolicyviolation', (e) => console.error('policy: ' + e.violatedDirective + ' ' + e.blockedURI));" });
+  const faults = [];
+  context.on("request", (request) => {
+    if (!request.url().startsWith(server.address) && !/^(?:data|blob):/.test(request.url())) faults.push(`asks for ${request.url()}`);
+  });
+  const page = await context.newPage();
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && !/GPU stall|swiftshader/i.test(message.text()) && faults.push(message.text()));
+  page.on("pageerror", (error) => faults.push(String(error)));
+  try {
+    await page.goto(server.address + search);
+    await page.waitForFunction(() => globalThis.playground?.ready && playground.facts, null, { timeout: 60000 });
+    await use(page, context);
+    assert.deepEqual(faults, []);
+  } finally {
+    await context.close();
+  }
+}
+
+const run = (page, steps) => page.evaluate((n) => playground.ask("run", { steps: n }), steps);
+const dropAll = (page, tets, kinds = [0, 1, 2, 3, 4]) =>
+  page.evaluate(([list, n]) => list.forEach((kind) => playground.act("drop", { kind, tets: n })), [kinds, tets]);
+const facts = (page) => page.evaluate(() => playground.facts);
+const logged = (page, words) => page.waitForFunction((w) => document.getElementById("log").textContent.includes(w), words, { timeout: 30000 });
+
+/** What the native scene prints for these commands. */
+function native(commands) {
+  const done = spawnSync(process.env.PLAYGROUND_NATIVE, { input: `${commands.join("\n")}\n`, encoding: "utf8" });
+  assert.equal(done.status, 0, done.stderr);
+  return done;
+}
+const hashesOf = ({ stdout }) => [...stdout.matchAll(/hash ([0-9a-f]{16})/g)].map((match) => match[1]);
+
+/** A point of the view where a body is that can be dragged. */
+const overABody = (page) =>
+  page.evaluate(() => {
+    const box = document.getElementById("view").getBoundingClientRect();
+    for (let row = 1; row < 40; ++row)
+      for (let column = 1; column < 40; ++column) {
+        const [x, y] = [box.left + (box.width * column) / 40, box.top + (box.height * row) / 40];
+        // Of a body's middle rather than its rim.
+        if ([[0, 0], [6, 0], [-6, 0], [0, 6], [0, -6]].every(([a, b]) => playground.view.hits(playground.view.ray(x + a, y + b)))) return { x, y };
+      }
+    return null;
+  });
+
+const scene = [...[0, 1, 2, 3, 4].map((kind) => `drop ${kind} 1000`), "steps 200"];
+
+for (const [name, search, built] of [["SIMD", "", true], ["no SIMD", "&plain", hasPlainModule()]])
+  test(`200 frames have the native hash: ${name}`, { skip: !built && "this module was not built" }, async () => {
+    const [expected] = hashesOf(native(scene));
+    await visit(`?scene=empty&stopped${search}`, async (page) => {
+      await dropAll(page, 1000);
+      const { hash, facts: found } = await run(page, 200);
+      assert.equal(hash, expected);
+      assert.ok(found.contacts > 0 && found.tets > 5000, JSON.stringify(found));
+    });
+  });
+
+test("self-collision and a cut have the native hash, too", async () => {
+  const [a, b] = hashesOf(native([...scene, "self 1", "cut -20 0.1 3  20 8 2  20 -8 2", "steps 60"]));
+  await visit("?scene=empty&stopped", async (page) => {
+    await dropAll(page, 1000);
+    assert.equal((await run(page, 200)).hash, a);
+    await page.check("#self");
+    const cut = await page.evaluate(() => playground.ask("cut", { eye: [-20, 0.1, 3], first: [20, 8, 2], second: [20, -8, 2] }));
+    assert.ok(cut > 0);
+    assert.equal((await run(page, 60)).hash, b);
+  });
+});
+
+test("frames follow each other by themselves, stop, and go on", async () => {
+  await visit("", async (page) => {
+    await page.waitForFunction(() => playground.facts.steps > 30);
+    await page.click("#pause");
+    await page.waitForTimeout(300);
+    const { steps } = await facts(page);
+    await page.waitForTimeout(300);
+    assert.equal((await facts(page)).steps, steps);
+    await page.click("#pause");
+    await page.waitForFunction((n) => playground.facts.steps > n, steps);
+  });
+});
+
+test("a body is dragged by the pointer", async () => {
+  await visit("?scene=empty&stopped", async (page) => {
+    await dropAll(page, 400, [0]);
+    await run(page, 200);
+    const before = await page.evaluate(() => Math.max(...playground.positions.filter((_, i) => i % 3 === 2)));
+    const { x, y } = await overABody(page);
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.waitForFunction(() => playground.held?.point);
+    await page.mouse.move(x, y - 150, { steps: 5 });
+    await run(page, 40);
+    const lifted = await page.evaluate(() => Math.max(...playground.positions.filter((_, i) => i % 3 === 2)));
+    assert.ok(lifted > before + 0.5, `${before} to ${lifted}`);
+    await page.mouse.up();
+    await run(page, 200);
+    const fallen = await page.evaluate(() => Math.max(...playground.positions.filter((_, i) => i % 3 === 2)));
+    assert.ok(fallen < lifted - 0.3, `${lifted} to ${fallen}`);
+  });
+});
+
+test("a finger drags as well, on a phone's screen, whose page is not wider than it", async () => {
+  await visit("?scene=empty&stopped", async (page) => {
+    await dropAll(page, 400, [0]);
+    await run(page, 200);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+    const { x, y } = await overABody(page);
+    const touch = await page.context().newCDPSession(page);
+    await touch.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [{ x, y }] });
+    await page.waitForFunction(() => playground.held?.point);
+    await touch.send("Input.dispatchTouchEvent", { type: "touchMove", touchPoints: [{ x, y: y - 60 }] });
+    await run(page, 30);
+    await touch.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+    await page.waitForFunction(() => !playground.held);
+  }, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
+});
+
+test("a stroke cuts, and so does the button", async () => {
+  await visit("?scene=empty&stopped", async (page) => {
+    await dropAll(page, 1000, [0]);
+    await run(page, 150);
+    const bodies = () => page.evaluate(() => playground.bodies);
+    assert.equal(await bodies(), 2); // and the ring
+    const { x, y } = await overABody(page);
+    await page.check('input[value="cut"]');
+    await page.mouse.move(x - 300, y + 15);
+    await page.mouse.down();
+    await page.mouse.move(x + 300, y + 15, { steps: 3 });
+    await page.mouse.up();
+    await logged(page, "1 body cut");
+    const parts = await bodies();
+    assert.ok(parts > 2, `${parts}`);
+    await run(page, 60);
+    await page.click("#halve");
+    await page.waitForFunction(() => document.getElementById("log").textContent.match(/bod(?:y|ies) cut|crosses no body/g)?.length === 2);
+  });
+});
+
+test("keys do what the pointer does", async () => {
+  await visit("?scene=empty&stopped", async (page) => {
+    await page.focus("#view");
+    await page.keyboard.press("d");
+    await page.waitForFunction(() => playground.bodies === 2);
+    await run(page, 200);
+    await page.keyboard.press("ArrowLeft");
+    await page.keyboard.press("+");
+    await page.keyboard.press("g");
+    await logged(page, "the middle");
+    if (await page.evaluate(() => Boolean(playground.held))) {
+      await page.keyboard.press("ArrowUp");
+      await page.keyboard.press("Escape");
+      await page.waitForFunction(() => !playground.held);
+    }
+    await page.keyboard.press("c");
+    await page.waitForFunction(() => /cut|crosses/.test(document.getElementById("log").textContent));
+    await page.keyboard.press(" ");
+    await page.waitForFunction(() => document.getElementById("pause").getAttribute("aria-pressed") === "false");
+  });
+});
+
+// A cube of 2 by 2 by 2 as a surface.
+const cube = ["v -1 -1 -1", "v 1 -1 -1", "v 1 1 -1", "v -1 1 -1", "v -1 -1 1", "v 1 -1 1", "v 1 1 1", "v -1 1 1",
+  ...["1 4 3", "1 3 2", "5 6 7", "5 7 8", "1 2 6", "1 6 5", "2 3 7", "2 7 6", "3 4 8", "3 8 7", "4 1 5", "4 5 8"].map((f) => `f ${f}`), ""].join("\n");
+
+const dropFile = (page, name, text) =>
+  page.evaluate(([n, t]) => {
+    const data = new DataTransfer();
+    data.items.add(new File([t], n));
+    document.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
+  }, [name, text]);
+
+test("a file is dropped on the page: a surface is filled and falls", async () => {
+  await visit("?scene=empty&stopped", async (page) => {
+    await dropFile(page, "cube.obj", cube);
+    await logged(page, "filled with");
+    const file = path.join(folder, "cube.obj");
+    writeFileSync(file, cube);
+    const [expected] = hashesOf(native([`file ${file} 1000`, "steps 100"]));
+    assert.equal((await run(page, 100)).hash, expected);
+    await page.setInputFiles("#file", file); // by the button
+    await page.waitForFunction(() => playground.bodies === 3);
+  });
+});
+
+test("a damaged file shows the library's text, and changes nothing", async () => {
+  const bad = cube.replace("f 1 4 3", "f 1 4 900");
+  writeFileSync(path.join(folder, "bad.obj"), bad);
+  const says = spawnSync(process.env.VOX_TOOL, ["info", "bad.obj"], { cwd: folder, encoding: "utf8" });
+  assert.notEqual(says.status, 0);
+  const expected = says.stderr.trim().split("\n").at(-1).replace(/^(?:vox: )?(?:error: )?/, "");
+  await visit("?scene=empty&stopped", async (page) => {
+    await dropAll(page, 400, [0]);
+    const { hash } = await run(page, 100);
+    await dropFile(page, "bad.obj", bad);
+    await page.waitForSelector("#banner:not([hidden])");
+    const shown = await page.textContent("#banner");
+    assert.ok(expected.includes(shown) || shown.includes(expected), `${shown} / ${expected}`);
+    for (const name of ["bad.vox", "bad.msh", "bad.stl", "bad.vtk", "bad.bin"]) await dropFile(page, name, "\u0000\u0001 nothing of use");
+    await page.waitForFunction(() => document.querySelectorAll("#log .bad").length === 6);
+    assert.equal(await page.evaluate(() => playground.hash), hash);
+    assert.equal((await run(page, 1)).facts.steps, 101);
+  });
+});
+
+test("the end of the memory is said, and the scene goes on", async () => {
+  await visit("?scene=empty&stopped&memory=12", async (page) => {
+    await dropAll(page, 3000, Array(20).fill(0));
+    await page.waitForSelector("#banner:not([hidden])");
+    assert.match(await page.textContent("#banner"), /memory|budget|bytes/i);
+    const had = await facts(page);
+    assert.ok(had.bytes <= 12e6 && had.tets > 3000, JSON.stringify(had));
+    await page.click("#clear");
+    await dropAll(page, 400, [1]);
+    assert.ok((await run(page, 100)).facts.contacts >= 0);
+  });
+});
+
+test("the slider: the time at a size beside the predicted one, the same contacts, and back to the best", async () => {
+  await visit("", async (page) => {
+    await page.waitForFunction(() => playground.curves && playground.measured);
+    await page.fill("#size", "60");
+    await page.waitForFunction(() => playground.measured.size < playground.curves[1].size / 2);
+    assert.equal(await page.evaluate(() => playground.measured.same), true);
+    assert.match(await page.textContent("#verdict"), /takes [\d.]+ .s for a step \(predicted: [\d.]+ .s\)\. That is [\d.]+ times what/);
+    assert.match(await page.textContent("#verdict"), /the same at every size/);
+    await page.click("#best");
+    await page.waitForFunction(() => /This is the predicted best/.test(document.getElementById("verdict").textContent));
+    await page.check('input[value="2"]');
+    await page.waitForFunction(() => playground.measured.engine === 2);
+    await page.click("summary >> nth=0");
+    assert.ok((await page.locator("#terms tbody tr").count()) >= 5);
+  });
+});
+
+test("all sizes are measured; the predicted best is among the fastest", async (t) => {
+  await visit("?stopped", async (page) => {
+    await run(page, 250);
+    await page.click("#sweep");
+    await page.waitForFunction(() => playground.points?.length > 10, null, { timeout: 120000 });
+    const { points, curves } = await page.evaluate(() => ({ points: playground.points, curves: playground.curves }));
+    for (const engine of [1, 2]) {
+      const swept = points.filter((point) => point.engine === engine);
+      assert.ok(swept.length >= 9 && swept.every((point) => point.same), JSON.stringify(swept));
+      const fastest = swept.reduce((a, b) => (b.ms < a.ms ? b : a));
+      const best = swept.find((point) => Math.abs(Math.log(point.size / curves[engine].size)) < 0.01);
+      t.diagnostic(`engine ${engine}: fastest ${fastest.size.toFixed(3)}, ${fastest.ms.toFixed(3)} ms; predicted best ${best.size.toFixed(3)}, ` +
+        `${best.ms.toFixed(3)} ms measured, ${curves[engine].ms.toFixed(3)} ms predicted`);
+    }
+    assert.match(await page.textContent("#verdict"), /Measured: of \d+ sizes/);
+  });
+});
+
+test("a snapshot goes to the native tool and back", async () => {
+  await visit("?scene=empty&stopped", async (page) => {
+    await dropAll(page, 1000);
+    const { facts: saved } = await run(page, 200);
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click("#save")]);
+    const file = path.join(folder, download.suggestedFilename());
+    await download.saveAs(file);
+    const [, hash] = (await page.textContent("#log")).match(/have the hash ([0-9a-f]{16})/);
+    const replayed = execFileSync(process.env.VOX_TOOL, ["replay", file], { encoding: "utf8" });
+    assert.ok(replayed.includes(hash), replayed);
+    const [first, second] = hashesOf(native([`load ${file}`, "steps 50", `save ${file}2`]));
+    await page.setInputFiles("#snapshot", file);
+    await logged(page, "is shown");
+    const { hash: after, facts: restored } = await run(page, 50);
+    assert.equal(restored.tets, saved.tets);
+    assert.equal(after, first);
+    assert.ok(execFileSync(process.env.VOX_TOOL, ["replay", `${file}2`], { encoding: "utf8" }).includes(second));
+  });
+});
+
+test("bodies come to rest and sleep; what is done to them wakes them", async () => {
+  await visit("?scene=empty&stopped", async (page) => {
+    await dropAll(page, 400, [1]);
+    let { facts: now } = await run(page, 600);
+    for (let i = 0; i < 10 && !now.asleep; ++i) ({ facts: now } = await run(page, 300));
+    assert.equal(now.asleep, 1);
+    const { steps } = now;
+    assert.equal((await run(page, 10)).facts.steps, steps);
+    await dropAll(page, 400, [0]);
+    assert.equal((await run(page, 10)).facts.steps, steps + 10);
+  });
+});
+
+test("contacts, cells, tiles and windows are drawn where they are asked for", async () => {
+  await visit("?scene=empty&stopped", async (page) => {
+    await dropAll(page, 1000);
+    await run(page, 200);
+    const look = async () => pngjs.PNG.sync.read(await page.locator("#view").screenshot());
+    await page.uncheck("#show-contacts");
+    await page.waitForTimeout(300);
+    let last = await look();
+    for (const id of ["contacts", "cells", "tiles", "windows"]) {
+      await page.check(`#show-${id}`);
+      await page.waitForTimeout(400);
+      const now = await look();
+      let differs = 0;
+      for (let i = 0; i < now.data.length; i += 4) differs += Math.abs(now.data[i] - last.data[i]) + Math.abs(now.data[i + 1] - last.data[i + 1]) > 30;
+      assert.ok(differs > 20, `${id}: ${differs} pixels differ`);
+      last = now;
+    }
+  });
+});
+
+test("the picture is the one on record, with tolerance", async (t) => {
+  await visit("?scene=empty&stopped", async (page) => {
+    await dropAll(page, 1000);
+    await run(page, 200);
+    await page.waitForTimeout(500);
+    await page.addStyleTag({ content: "" }).catch(() => {}); // the policy forbids it, so the page looks as it does
+    const shot = pngjs.PNG.sync.read(await page.locator("#view").screenshot());
+    // Means of blocks of 20 by 20 pixels, so that no edge of a triangle counts.
+    const blocks = [];
+    for (let y = 40; y + 20 <= shot.height; y += 20)
+      for (let x = 0; x + 20 <= shot.width; x += 20) {
+        let sum = 0;
+        for (let j = 0; j < 20; ++j) for (let i = 0; i < 20; ++i) for (let c = 0; c < 3; ++c) sum += shot.data[4 * ((y + j) * shot.width + x + i) + c];
+        blocks.push(Math.round(sum / 1200));
+      }
+    const file = new URL("picture.json", import.meta.url);
+    if (process.env.PLAYGROUND_RENEW) writeFileSync(file, `${JSON.stringify({ width: shot.width, height: shot.height, blocks })}\n`);
+    const record = JSON.parse(readFileSync(file, "utf8"));
+    assert.deepEqual([shot.width, shot.height], [record.width, record.height]);
+    const far = blocks.filter((value, i) => Math.abs(value - record.blocks[i]) > 24).length;
+    t.diagnostic(`${far} of ${blocks.length} blocks differ`);
+    assert.ok(far <= blocks.length / 50, `${far} of ${blocks.length} blocks differ`);
+  });
+});
+
+for (const [name, options] of [["light", {}], ["dark", { colorScheme: "dark" }], ["a phone", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }]])
+  test(`axe finds nothing: ${name}`, async () => {
+    await visit("?stopped", async (page) => {
+      await run(page, 60);
+      await page.waitForFunction(() => playground.curves && playground.measured);
+      for (const summary of await page.locator("summary").all()) await summary.click();
+      await page.evaluate(axe); // through the debugger, which no policy holds back
+      const { violations } = await page.evaluate(() => globalThis.axe.run());
+      assert.deepEqual(violations.map((v) => `${v.id}: ${v.nodes.map((node) => node.target).join(", ")}`), []);
+    }, options);
+  });
+
+test("who wants less motion gets none until he asks for it", async () => {
+  await visit("", async (page) => {
+    await page.waitForFunction(() => playground.bodies > 5);
+    await page.waitForTimeout(200);
+    const { steps } = await facts(page);
+    await page.waitForTimeout(300);
+    assert.equal((await facts(page)).steps, steps);
+    await page.click("#pause");
+    await page.waitForFunction((n) => playground.facts.steps > n, steps);
+  }, { reducedMotion: "reduce" });
+});
+
+test("once loaded, it needs no network", async () => {
+  await visit("?stopped", async (page, context) => {
+    await context.setOffline(true);
+    await dropAll(page, 1000, [2]);
+    await dropFile(page, "cube.obj", cube);
+    await logged(page, "filled with");
+    assert.ok((await run(page, 100)).facts.contacts > 0);
+    await page.fill("#size", "300");
+    await page.waitForFunction(() => playground.measured);
+  });
+});
+
+test("the time of a step with 30,000 tetrahedra is shown, beside the native one", async (t) => {
+  const done = native([...Array(10).fill("drop 0 3000"), "steps 200", "steps 100"]);
+  const native200 = Number([...done.stderr.matchAll(/([\d.]+) ms a step/g)][1][1]);
+  await visit("?scene=empty&stopped", async (page) => {
+    await dropAll(page, 3000, Array(10).fill(0));
+    await run(page, 200);
+    const { stepMs, facts: found, hash } = await run(page, 100);
+    assert.equal(hash, hashesOf(done)[1]);
+    assert.match(await page.textContent("#facts"), /a step[\d.]+ ms/);
+    t.diagnostic(`${found.tets} tets: ${stepMs.toFixed(2)} ms a step, native ${native200.toFixed(2)} ms: ${(stepMs / native200).toFixed(2)} times`);
+    await page.click("#pause");
+    await page.waitForTimeout(3000);
+    t.diagnostic(`${await page.evaluate(() => playground.framesPerSecond)} pictures a second, drawn by software`);
+  });
+});
