@@ -8,8 +8,11 @@ mkdirSync(folder, { recursive: true });
 const server = await serve();
 const browser = await launch();
 const page = await browser.newPage({ viewport: { width: 1180, height: 760 } });
+async function until(holds) {
+  while (!(await page.evaluate(holds))) await page.waitForTimeout(50);
+}
 await page.goto(`${server.address}?scene=empty&stopped`);
-await page.waitForFunction(() => globalThis.playground?.ready);
+await until(() => globalThis.playground?.ready);
 const run = (steps) => page.evaluate((n) => playground.ask("run", { steps: n }), steps);
 let frame = 0;
 async function shoot(frames, each) {
@@ -24,12 +27,12 @@ await shoot(34, 5);
 await page.click("#halve");
 await shoot(12, 5);
 await page.check("#show-cells");
-await page.waitForFunction(() => playground.curves);
+await until(() => playground.curves);
 await shoot(6, 5);
 await page.uncheck("#show-cells");
 await run(200);
 await page.click("#sweep");
-await page.waitForFunction(() => playground.points?.length > 10, null, { timeout: 120000 });
+await until(() => playground.points?.length > 10);
 await page.fill("#size", "330");
 await page.waitForTimeout(1500);
 await page.locator("#cost").screenshot({ path: path.join(folder, "cost.png") });

@@ -51,7 +51,7 @@ export class Chart {
     this.#range = [Math.min(...sizes) / 7, Math.max(...sizes) * 7];
     const inRange = ({ size }) => size >= this.#range[0] && size <= this.#range[1];
     const lows = Object.values(curves).map((curve) => curve.ms);
-    this.#values = [Math.min(...lows) / 2.5, Math.max(...lows) * 40];
+    this.#values = [Math.max(Math.min(...lows) / 2.5, Math.max(...lows) / 1000), Math.max(...lows) * 40];
     const inside = ({ ms }) => ms >= this.#values[0] && ms <= this.#values[1];
     this.#svg.replaceChildren();
     const svg = this.#svg;

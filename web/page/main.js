@@ -397,10 +397,12 @@ setInterval(() => {
   if (facts) showFacts();
 }, 500);
 
+const stands = parameters.has("stopped") || matchMedia("(prefers-reduced-motion: reduce)").matches;
+
 /** What a visitor finds at first. ?scene=empty begins without bodies; for those who want less motion, it stands still. */
 function start() {
   if (parameters.get("scene") !== "empty") for (let i = 0; i < 10; ++i) act("drop", { kind: i % KINDS.length, tets: tets() });
-  if (matchMedia("(prefers-reduced-motion: reduce)").matches || parameters.has("stopped")) {
+  if (stands) {
     setPaused(true);
     log("it stands still, as less motion was asked for: Go on starts it");
   }
@@ -419,4 +421,4 @@ const playgroundApi = {
 globalThis.playground = playgroundApi;
 
 const memory = Number(parameters.get("memory") ?? 1000) * 1e6;
-act("start", { memory: Number.isFinite(memory) && memory > 0 ? memory : 1e9, ...(parameters.has("plain") && { simd: false }) });
+act("start", { paused: stands, memory: Number.isFinite(memory) && memory > 0 ? memory : 1e9, ...(parameters.has("plain") && { simd: false }) });

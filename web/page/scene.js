@@ -202,17 +202,18 @@ export class Scene {
 
   /** The curve of an engine's predicted milliseconds, with what else is known of it. */
   suggest(engine) {
+    const milliseconds = (ns) => Math.max(ns / 1e6, 1e-5); // bodies that are far apart cost the fast engine nothing
     const at = this.#exports.play_suggest_numbers(this.#play, MODEL[engine]);
     if (at === 0) throw new SceneError(this.#text(this.#exports.vox_last_error()));
     const n = new Float64Array(this.#exports.memory.buffer, at, 18 + 2 * 64 + 3 * 12);
     const [samples, terms] = [n[16], n[17]];
-    const curve = Array.from({ length: samples }, (_, i) => ({ size: n[18 + 2 * i], ms: n[19 + 2 * i] / 1e6 }));
-    const rules = RULES.map((name, i) => ({ name, size: n[4 + i], ms: n[10 + i] / 1e6 })).filter((rule) => rule.size > 0);
+    const curve = Array.from({ length: samples }, (_, i) => ({ size: n[18 + 2 * i], ms: milliseconds(n[19 + 2 * i]) }));
+    const rules = RULES.map((name, i) => ({ name, size: n[4 + i], ms: milliseconds(n[10 + i]) })).filter((rule) => rule.size > 0);
     const work = Array.from({ length: terms }, (_, i) => {
       const [count, , share] = n.subarray(18 + 2 * samples + 3 * i);
       return { count, share };
     });
-    const found = { size: n[0], zone: [n[1], n[2]], ms: n[3] / 1e6, curve, rules, work };
+    const found = { size: n[0], zone: [n[1], n[2]], ms: milliseconds(n[3]), curve, rules, work };
     work.forEach((term, i) => (term.name = this.#text(this.#exports.play_term(this.#play, i))));
     return found;
   }

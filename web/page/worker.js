@@ -149,7 +149,8 @@ function tick() {
 }
 
 const acts = {
-  async start({ memory, simd = simdSupported() }) {
+  async start({ memory, paused: stands, simd = simdSupported() }) {
+    paused = stands;
     scene = await Scene.load(new URL(simd ? "playground_simd.wasm" : "playground.wasm", self.location.href), memory);
     sendBodies();
     send("ready", { version: scene.version, simd });

@@ -22,8 +22,9 @@ constexpr double gap = 0.3; // between a body that is dropped and the highest on
 void* allocate(std::size_t size, std::size_t alignment, void* user) {
     auto& account = *static_cast<Account*>(user);
     if (account.limit && size > account.limit - account.bytes) return nullptr;
-    const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
-    void* memory = std::aligned_alloc(std::max(alignment, sizeof(void*)), std::max(rounded, sizeof(void*)));
+    alignment = std::max(alignment, sizeof(void*));
+    void* memory = std::aligned_alloc(
+        alignment, std::max((size + alignment - 1) / alignment, std::size_t{1}) * alignment);
     if (memory) account.bytes += size;
     return memory;
 }

@@ -25,6 +25,12 @@ after(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
 
+/** Waits until a function is true in the page. Playwright's own way needs a page that allows eval(). */
+async function until(page, holds, argument = null, { timeout = 30000 } = {}) {
+  for (const end = Date.now() + timeout; !(await page.evaluate(holds, argument)); await page.waitForTimeout(50))
+    assert.ok(Date.now() < end, `in vain: ${holds} (${JSON.stringify(argument)})`);
+}
+
 /** Runs `use` on a page of its own. Whatever it logs as an error, or asks of another server, fails the test. */
 async function visit(search, use, options = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
@@ -38,7 +44,7 @@ async function visit(search, use, options = {}) {
   page.on("pageerror", (error) => faults.push(String(error)));
   try {
     await page.goto(server.address + search);
-    await page.waitForFunction(() => globalThis.playground?.ready && playground.facts, null, { timeout: 60000 });
+    await until(page, () => globalThis.playground?.ready && playground.facts, null, { timeout: 60000 });
     await use(page, context);
     assert.deepEqual(faults, []);
   } finally {
@@ -50,7 +56,7 @@ const run = (page, steps) => page.evaluate((n) => playground.ask("run", { steps:
 const dropAll = (page, tets, kinds = [0, 1, 2, 3, 4]) =>
   page.evaluate(([list, n]) => list.forEach((kind) => playground.act("drop", { kind, tets: n })), [kinds, tets]);
 const facts = (page) => page.evaluate(() => playground.facts);
-const logged = (page, words) => page.waitForFunction((w) => document.getElementById("log").textContent.includes(w), words, { timeout: 30000 });
+const logged = (page, words) => until(page, (w) => document.getElementById("log").textContent.includes(w), words, { timeout: 30000 });
 
 /** What the native scene prints for these commands. */
 function native(commands) {
@@ -100,14 +106,14 @@ test("self-collision and a cut have the native hash, too", async () => {
 
 test("frames follow each other by themselves, stop, and go on", async () => {
   await visit("", async (page) => {
-    await page.waitForFunction(() => playground.facts.steps > 30);
+    await until(page, () => playground.facts.steps > 30);
     await page.click("#pause");
     await page.waitForTimeout(300);
     const { steps } = await facts(page);
     await page.waitForTimeout(300);
     assert.equal((await facts(page)).steps, steps);
     await page.click("#pause");
-    await page.waitForFunction((n) => playground.facts.steps > n, steps);
+    await until(page, (n) => playground.facts.steps > n, steps);
   });
 });
 
@@ -119,7 +125,7 @@ test("a body is dragged by the pointer", async () => {
     const { x, y } = await overABody(page);
     await page.mouse.move(x, y);
     await page.mouse.down();
-    await page.waitForFunction(() => playground.held?.point);
+    await until(page, () => playground.held?.point);
     await page.mouse.move(x, y - 150, { steps: 5 });
     await run(page, 40);
     const lifted = await page.evaluate(() => Math.max(...playground.positions.filter((_, i) => i % 3 === 2)));
@@ -139,11 +145,11 @@ test("a finger drags as well, on a phone's screen, whose page is not wider than 
     const { x, y } = await overABody(page);
     const touch = await page.context().newCDPSession(page);
     await touch.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints: [{ x, y }] });
-    await page.waitForFunction(() => playground.held?.point);
+    await until(page, () => playground.held?.point);
     await touch.send("Input.dispatchTouchEvent", { type: "touchMove", touchPoints: [{ x, y: y - 60 }] });
     await run(page, 30);
     await touch.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
-    await page.waitForFunction(() => !playground.held);
+    await until(page, () => !playground.held);
   }, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 });
 });
 
@@ -164,7 +170,7 @@ test("a stroke cuts, and so does the button", async () => {
     assert.ok(parts > 2, `${parts}`);
     await run(page, 60);
     await page.click("#halve");
-    await page.waitForFunction(() => document.getElementById("log").textContent.match(/bod(?:y|ies) cut|crosses no body/g)?.length === 2);
+    await until(page, () => document.getElementById("log").textContent.match(/bod(?:y|ies) cut|crosses no body/g)?.length === 2);
   });
 });
 
@@ -172,7 +178,7 @@ test("keys do what the pointer does", async () => {
   await visit("?scene=empty&stopped", async (page) => {
     await page.focus("#view");
     await page.keyboard.press("d");
-    await page.waitForFunction(() => playground.bodies === 2);
+    await until(page, () => playground.bodies === 2);
     await run(page, 200);
     await page.keyboard.press("ArrowLeft");
     await page.keyboard.press("+");
@@ -181,12 +187,12 @@ test("keys do what the pointer does", async () => {
     if (await page.evaluate(() => Boolean(playground.held))) {
       await page.keyboard.press("ArrowUp");
       await page.keyboard.press("Escape");
-      await page.waitForFunction(() => !playground.held);
+      await until(page, () => !playground.held);
     }
     await page.keyboard.press("c");
-    await page.waitForFunction(() => /cut|crosses/.test(document.getElementById("log").textContent));
+    await until(page, () => /cut|crosses/.test(document.getElementById("log").textContent));
     await page.keyboard.press(" ");
-    await page.waitForFunction(() => document.getElementById("pause").getAttribute("aria-pressed") === "false");
+    await until(page, () => document.getElementById("pause").getAttribute("aria-pressed") === "false");
   });
 });
 
@@ -210,7 +216,7 @@ test("a file is dropped on the page: a surface is filled and falls", async () =>
     const [expected] = hashesOf(native([`file ${file} 1000`, "steps 100"]));
     assert.equal((await run(page, 100)).hash, expected);
     await page.setInputFiles("#file", file); // by the button
-    await page.waitForFunction(() => playground.bodies === 3);
+    await until(page, () => playground.bodies === 3);
   });
 });
 
@@ -228,7 +234,7 @@ test("a damaged file shows the library's text, and changes nothing", async () =>
     const shown = await page.textContent("#banner");
     assert.ok(expected.includes(shown) || shown.includes(expected), `${shown} / ${expected}`);
     for (const name of ["bad.vox", "bad.msh", "bad.stl", "bad.vtk", "bad.bin"]) await dropFile(page, name, "\u0000\u0001 nothing of use");
-    await page.waitForFunction(() => document.querySelectorAll("#log .bad").length === 6);
+    await until(page, () => document.querySelectorAll("#log .bad").length === 6);
     assert.equal(await page.evaluate(() => playground.hash), hash);
     assert.equal((await run(page, 1)).facts.steps, 101);
   });
@@ -249,16 +255,16 @@ test("the end of the memory is said, and the scene goes on", async () => {
 
 test("the slider: the time at a size beside the predicted one, the same contacts, and back to the best", async () => {
   await visit("", async (page) => {
-    await page.waitForFunction(() => playground.curves && playground.measured);
+    await until(page, () => playground.curves && playground.measured);
     await page.fill("#size", "60");
-    await page.waitForFunction(() => playground.measured.size < playground.curves[1].size / 2);
+    await until(page, () => playground.measured.size < playground.curves[1].size / 2);
     assert.equal(await page.evaluate(() => playground.measured.same), true);
     assert.match(await page.textContent("#verdict"), /takes [\d.]+ .s for a step \(predicted: [\d.]+ .s\)\. That is [\d.]+ times what/);
     assert.match(await page.textContent("#verdict"), /the same at every size/);
     await page.click("#best");
-    await page.waitForFunction(() => /This is the predicted best/.test(document.getElementById("verdict").textContent));
+    await until(page, () => /This is the predicted best/.test(document.getElementById("verdict").textContent));
     await page.check('input[value="2"]');
-    await page.waitForFunction(() => playground.measured.engine === 2);
+    await until(page, () => playground.measured.engine === 2);
     await page.click("summary >> nth=0");
     assert.ok((await page.locator("#terms tbody tr").count()) >= 5);
   });
@@ -268,7 +274,7 @@ test("all sizes are measured; the predicted best is among the fastest", async (t
   await visit("?stopped", async (page) => {
     await run(page, 250);
     await page.click("#sweep");
-    await page.waitForFunction(() => playground.points?.length > 10, null, { timeout: 120000 });
+    await until(page, () => playground.points?.length > 10, null, { timeout: 120000 });
     const { points, curves } = await page.evaluate(() => ({ points: playground.points, curves: playground.curves }));
     for (const engine of [1, 2]) {
       const swept = points.filter((point) => point.engine === engine);
@@ -364,7 +370,7 @@ for (const [name, options] of [["light", {}], ["dark", { colorScheme: "dark" }],
   test(`axe finds nothing: ${name}`, async () => {
     await visit("?stopped", async (page) => {
       await run(page, 60);
-      await page.waitForFunction(() => playground.curves && playground.measured);
+      await until(page, () => playground.curves && playground.measured);
       for (const summary of await page.locator("summary").all()) await summary.click();
       await page.evaluate(axe); // through the debugger, which no policy holds back
       const { violations } = await page.evaluate(() => globalThis.axe.run());
@@ -374,13 +380,13 @@ for (const [name, options] of [["light", {}], ["dark", { colorScheme: "dark" }],
 
 test("who wants less motion gets none until he asks for it", async () => {
   await visit("", async (page) => {
-    await page.waitForFunction(() => playground.bodies > 5);
+    await until(page, () => playground.bodies > 5);
     await page.waitForTimeout(200);
     const { steps } = await facts(page);
     await page.waitForTimeout(300);
     assert.equal((await facts(page)).steps, steps);
     await page.click("#pause");
-    await page.waitForFunction((n) => playground.facts.steps > n, steps);
+    await until(page, (n) => playground.facts.steps > n, steps);
   }, { reducedMotion: "reduce" });
 });
 
@@ -392,7 +398,7 @@ test("once loaded, it needs no network", async () => {
     await logged(page, "filled with");
     assert.ok((await run(page, 100)).facts.contacts > 0);
     await page.fill("#size", "300");
-    await page.waitForFunction(() => playground.measured);
+    await until(page, () => playground.measured);
   });
 });
 
