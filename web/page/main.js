@@ -94,8 +94,17 @@ function predictedAt({ curve }, size) {
   return Math.exp(Math.log(a.ms) * (1 - part) + Math.log(b.ms) * part);
 }
 
-let verdictText = "";
+// At most ten times a second.
+let costTimer = null;
 function showCost() {
+  costTimer ??= setTimeout(() => {
+    costTimer = null;
+    showCostNow();
+  }, 100);
+}
+
+let verdictText = "";
+function showCostNow() {
   if (!curves) return;
   const best = curves[chosen.engine];
   if (followsBest) moveTo(best.size);
@@ -171,7 +180,7 @@ find("size").addEventListener("input", (event) => {
 });
 find("best").addEventListener("click", () => {
   followsBest = true;
-  showCost();
+  showCostNow();
 });
 for (const input of document.getElementsByName("engine"))
   input.addEventListener("change", () => {
@@ -212,7 +221,7 @@ const heard = {
   curves(sent) {
     curves = sent.curves;
     playgroundApi.curves = curves;
-    showCost();
+    showCostNow();
   },
   measured(sent) {
     measured = sent;

@@ -26,6 +26,7 @@ class Changing {
   constructor(scene, Type, material) {
     this.object = new Type(new THREE.BufferGeometry(), material);
     this.object.frustumCulled = false;
+    this.object.renderOrder = 1; // over the bodies
     scene.add(this.object);
   }
 
@@ -85,8 +86,8 @@ export class View {
     this.#cells = new Changing(this.#scene, THREE.LineSegments, new THREE.LineBasicMaterial({ transparent: true, opacity: 0.35 }));
     this.#tiles = new Changing(this.#scene, THREE.LineSegments, new THREE.LineBasicMaterial({ color: 0x5fa463 }));
     this.#windows = new Changing(this.#scene, THREE.LineSegments, new THREE.LineBasicMaterial({ color: 0xd9803f }));
-    this.#arrows = new Changing(this.#scene, THREE.LineSegments, new THREE.LineBasicMaterial({ color: 0xd0021b, depthTest: false }));
-    this.#dots = new Changing(this.#scene, THREE.Points, new THREE.PointsMaterial({ color: 0xd0021b, size: 5, sizeAttenuation: false, depthTest: false }));
+    this.#arrows = new Changing(this.#scene, THREE.LineSegments, new THREE.LineBasicMaterial({ color: 0xd0021b, depthTest: false, transparent: true }));
+    this.#dots = new Changing(this.#scene, THREE.Points, new THREE.PointsMaterial({ color: 0xd0021b, size: 5, sizeAttenuation: false, depthTest: false, transparent: true }));
     for (const changing of [this.#cells, this.#tiles, this.#windows, this.#arrows, this.#dots]) changing.hide();
     new ResizeObserver(() => this.#resize()).observe(canvas);
     this.#resize();

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 namespace play {
 
@@ -207,6 +208,46 @@ void list_touches(playground& play) {
         play.touches.insert(play.touches.end(),
                             {event.mesh_a, event.mesh_b, event.kind == VOX_TOUCH_BEGAN ? 1u : 0u});
     }
+}
+
+// Inserts the meshes of a grid; the first is the fixed ring if it has its tetrahedra, else a ring comes
+// before it.
+void read_bodies(playground& play, const vox_grid* loaded, const Body& ring) {
+    std::uint64_t count = 0;
+    check(vox_grid_meshes(loaded, nullptr, 0, &count));
+    std::vector<vox_mesh> meshes(static_cast<std::size_t>(count));
+    check(vox_grid_meshes(loaded, meshes.data(), count, &count));
+    for (const vox_mesh mesh : meshes) {
+        vox_mesh_info info{};
+        info.struct_size = sizeof info;
+        check(vox_mesh_get_info(loaded, mesh, &info));
+        if (info.tet_count == 0 || !info.positions) continue;
+        if (info.has_transform)
+            fail(VOX_ERROR_UNSUPPORTED,
+                 "the snapshot has a mesh with a transform, which this page does not show");
+        std::vector<std::uint32_t> corners(4 * static_cast<std::size_t>(info.tet_count)), tets;
+        std::vector<std::uint8_t> enabled(static_cast<std::size_t>(info.tet_count));
+        check(vox_mesh_copy_tets(loaded, mesh, corners.data(), enabled.data(), info.tet_count, &count));
+        for (std::size_t t = 0; t < enabled.size(); ++t)
+            if (enabled[t]) tets.insert(tets.end(), &corners[4 * t], &corners[4 * t] + 4);
+        std::vector<double> positions(3 * static_cast<std::size_t>(info.vertex_count));
+        const auto* data = static_cast<const unsigned char*>(info.positions);
+        const bool floats = info.position_format == VOX_FORMAT_FLOAT3;
+        const std::uint64_t number = floats ? sizeof(float) : sizeof(double);
+        const std::uint64_t step =
+            info.position_component_byte_stride ? info.position_component_byte_stride : number;
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            const unsigned char* place = data + i / 3 * info.position_byte_stride + i % 3 * step;
+            float single = 0;
+            std::memcpy(floats ? static_cast<void*>(&single) : &positions[i], place, number);
+            if (floats) positions[i] = static_cast<double>(single);
+            if (!std::isfinite(positions[i])) positions[i] = 0; // a vertex that was removed
+        }
+        const bool fixed = play.bodies.empty() && tets == ring.tets;
+        if (play.bodies.empty() && !fixed) make_ring(play);
+        play.bodies.push_back(insert(play, {positions, {}, {}, tets, fixed ? PLAY_FIXED : PLAY_FILE}));
+    }
+    if (play.bodies.empty()) fail(VOX_ERROR_FORMAT, "the snapshot has no mesh with tetrahedra");
 }
 
 } // namespace
@@ -535,58 +576,19 @@ vox_result play_load(playground* play, const void* bytes, uint64_t size) {
         vox_grid* loaded = nullptr;
         check(vox_grid_load(bytes, size, &desc, &loaded));
         const Grid grid(loaded);
-        std::uint64_t count = 0;
-        check(vox_grid_meshes(loaded, nullptr, 0, &count));
-        std::vector<vox_mesh> meshes(static_cast<std::size_t>(count));
-        check(vox_grid_meshes(loaded, meshes.data(), count, &count));
-        std::vector<Body> made;
+        // In a simulation of its own, so that the meshes have the ids of a new scene, and the old one is
+        // there if this fails.
+        Sim old_sim = std::exchange(play->sim, make_sim(play->account));
+        std::vector<Body> old_bodies = std::exchange(play->bodies, {});
         try {
-            for (const vox_mesh mesh : meshes) {
-                vox_mesh_info info{};
-                info.struct_size = sizeof info;
-                check(vox_mesh_get_info(loaded, mesh, &info));
-                if (info.tet_count == 0 || !info.positions) continue;
-                if (info.has_transform)
-                    fail(VOX_ERROR_UNSUPPORTED,
-                         "the snapshot has a mesh with a transform, which this page does not show");
-                std::vector<std::uint32_t> corners(4 * static_cast<std::size_t>(info.tet_count)), tets;
-                std::vector<std::uint8_t> enabled(static_cast<std::size_t>(info.tet_count));
-                check(
-                    vox_mesh_copy_tets(loaded, mesh, corners.data(), enabled.data(), info.tet_count, &count));
-                for (std::size_t t = 0; t < enabled.size(); ++t)
-                    if (enabled[t]) tets.insert(tets.end(), &corners[4 * t], &corners[4 * t] + 4);
-                std::vector<double> positions(3 * static_cast<std::size_t>(info.vertex_count));
-                const auto* data = static_cast<const unsigned char*>(info.positions);
-                const bool floats = info.position_format == VOX_FORMAT_FLOAT3;
-                const std::uint64_t step = info.position_component_byte_stride
-                                               ? info.position_component_byte_stride
-                                               : (floats ? 4u : 8u);
-                for (std::size_t i = 0; i < positions.size(); ++i) {
-                    const unsigned char* place = data + i / 3 * info.position_byte_stride + i % 3 * step;
-                    float single;
-                    if (floats)
-                        std::memcpy(&single, place, sizeof single),
-                            positions[i] = static_cast<double>(single);
-                    else
-                        std::memcpy(&positions[i], place, sizeof positions[i]);
-                    if (!std::isfinite(positions[i])) positions[i] = 0; // a vertex that was removed
-                }
-                // A snapshot of this page begins with the fixed ring.
-                const bool ring = made.empty() && tets == play->bodies.front().tets;
-                made.push_back(insert(*play, {positions, {}, {}, tets, ring ? PLAY_FIXED : PLAY_FILE}));
-            }
-            if (made.empty()) fail(VOX_ERROR_FORMAT, "the snapshot has no mesh with tetrahedra");
-            if (made.front().kind != PLAY_FIXED) {
-                make_ring(*play); // at the end of the list
-                made.insert(made.begin(), std::move(play->bodies.back()));
-                play->bodies.pop_back();
-            }
+            read_bodies(*play, loaded, old_bodies.front());
+            check(vox_sim_grid(play->sim.get(), &play->grid));
         } catch (...) {
-            for (const Body& body : made) remove(*play, body);
+            play->bodies = std::move(old_bodies);
+            play->sim = std::move(old_sim);
             throw;
         }
-        for (const Body& body : play->bodies) remove(*play, body);
-        play->bodies = std::move(made);
+        play_let_go(play);
         play->hash = play->steps = 0;
         play->bodies_changed();
     });
