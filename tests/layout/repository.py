@@ -3,7 +3,7 @@
 import os
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
-SKIPPED = {"build", ".git", ".cache", "__pycache__", "bindings"}
+SKIPPED = {"build", ".git", ".cache", "__pycache__", "bindings", "node_modules"}
 
 
 def files(*endings, under="", root=ROOT):

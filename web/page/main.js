@@ -107,9 +107,10 @@ let verdictText = "";
 function showCostNow() {
   if (!curves) return;
   const best = curves[chosen.engine];
-  if (followsBest) moveTo(best.size);
+  if (followsBest) setSize(best.size);
   const now = measured && measured.engine === chosen.engine && measured.size === chosen.size ? measured : null;
   chart.draw({ curves, points, chosen, now });
+  moveTo(chosen.size); // its place may be another one now, as the range follows the curves
   const predicted = predictedAt(best, chosen.size);
   const algorithm = chosen.engine === 1 ? "the paper's algorithm" : "the fast engine";
   const lines = [];

@@ -58,6 +58,10 @@ const dropAll = (page, tets, kinds = [0, 1, 2, 3, 4]) =>
 const facts = (page) => page.evaluate(() => playground.facts);
 const logged = (page, words) => until(page, (w) => document.getElementById("log").textContent.includes(w), words, { timeout: 30000 });
 
+/** Waits until what is written somewhere matches. */
+const reads = (page, selector, words) =>
+  until(page, ([where, pattern]) => new RegExp(pattern).test(document.querySelector(where).textContent), [selector, words.source]);
+
 /** What the native scene prints for these commands. */
 function native(commands) {
   const done = spawnSync(process.env.PLAYGROUND_NATIVE, { input: `${commands.join("\n")}\n`, encoding: "utf8" });
@@ -259,10 +263,10 @@ test("the slider: the time at a size beside the predicted one, the same contacts
     await page.fill("#size", "60");
     await until(page, () => playground.measured.size < playground.curves[1].size / 2);
     assert.equal(await page.evaluate(() => playground.measured.same), true);
-    assert.match(await page.textContent("#verdict"), /takes [\d.]+ .s for a step \(predicted: [\d.]+ .s\)\. That is [\d.]+ times what/);
-    assert.match(await page.textContent("#verdict"), /the same at every size/);
+    await reads(page, "#verdict", /takes [\d.]+ .s for a step \(predicted: [\d.]+ .s\)\. That is [\d.]+ times what/);
+    await reads(page, "#verdict", /the same at every size/);
     await page.click("#best");
-    await until(page, () => /This is the predicted best/.test(document.getElementById("verdict").textContent));
+    await reads(page, "#verdict", /This is the predicted best/);
     await page.check('input[value="2"]');
     await until(page, () => playground.measured.engine === 2);
     await page.click("summary >> nth=0");
@@ -285,7 +289,7 @@ test("all sizes are measured; the predicted best is among the fastest", async (t
       t.diagnostic(`engine ${engine}: fastest ${fastest.size.toFixed(3)}, ${fastest.ms.toFixed(3)} ms; predicted best ${best.size.toFixed(3)}, ` +
         `${best.ms.toFixed(3)} ms measured, ${curves[engine].ms.toFixed(3)} ms predicted`);
     }
-    assert.match(await page.textContent("#verdict"), /Measured: of \d+ sizes/);
+    await reads(page, "#verdict", /Measured: of \d+ sizes/);
   });
 });
 
@@ -411,7 +415,7 @@ test("the time of a step with 30,000 tetrahedra is shown, beside the native one"
     await run(page, 200);
     const { stepMs, facts: found, hash } = await run(page, 100);
     assert.equal(hash, hashesOf(done)[1]);
-    assert.match(await page.textContent("#facts"), /a step[\d.]+ ms/);
+    await reads(page, "#facts", /a step[\d.]+ ms/);
     t.diagnostic(`${found.tets} tets: ${stepMs.toFixed(2)} ms a step, native ${native200.toFixed(2)} ms: ${(stepMs / native200).toFixed(2)} times`);
     await page.click("#pause");
     await page.waitForTimeout(3000);
