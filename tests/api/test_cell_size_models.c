@@ -266,6 +266,50 @@ START_TEST(a_grid_suggests_for_positions_as_they_are) {
 }
 END_TEST
 
+/* A vertex that no tetrahedron uses is outside of the geometry, wherever it lies: beyond the box of the others, at an end of
+ * it, or inside. The first tetrahedra and vertices are those of the body without it. */
+START_TEST(a_vertex_of_no_tetrahedron_is_no_part_of_the_box) {
+    body box = make_box(12, 0.25f, 0, 0, 0); /* more tetrahedra than are measured in full */
+    const vox_mesh_desc without = body_desc(&box);
+    const uint32_t count = box.vertex_count;
+    float* positions = (float*)malloc((count + 1) * 3 * sizeof *positions);
+    memcpy(positions, box.positions, 3 * count * sizeof *positions);
+    /* Beyond an end, at one (where others are as well), inside; the added vertex is the last one or the first. */
+    const float places[][3] = {{-100, 1, 1}, {1, 1, 100}, {3, 1, 1}, {0, 0, 0}, {1, 1, 1}};
+    uint32_t* tets = (uint32_t*)malloc(4 * box.tet_count * sizeof *tets);
+    for (int first = 0; first < 2; ++first)
+        for (size_t i = 0; i < sizeof places / sizeof places[0]; ++i)
+            for (int m = 0; m < 3; ++m) {
+                memcpy(positions + (first ? 3 : 0), box.positions, 3 * count * sizeof *positions);
+                memcpy(positions + (first ? 0 : 3 * count), places[i], sizeof places[i]);
+                for (uint32_t c = 0; c < 4 * box.tet_count; ++c) tets[c] = box.tets[c] + (first ? 1u : 0u);
+                vox_mesh_desc with = without;
+                with.positions = positions;
+                with.tets = tets;
+                with.vertex_count = count + 1;
+                vox_suggest_desc desc = vox_default_suggest_desc();
+                desc.model = models[m];
+                const vox_suggestion given = suggest_ok(&desc, &without, 1), found = suggest_ok(&desc, &with, 1);
+                vox_grid* grid = grid_of(NULL);
+                insert_mesh(grid, &with);
+                vox_suggestion of_grid;
+                of_grid.struct_size = sizeof of_grid;
+                ck_ok(vox_grid_suggest_cell_size(grid, &desc, &of_grid));
+                for (int axis = 0; axis < 3; ++axis) {
+                    ck_assert_double_eq(found.stats.bounds_min[axis], given.stats.bounds_min[axis]);
+                    ck_assert_double_eq(found.stats.bounds_max[axis], given.stats.bounds_max[axis]);
+                    ck_assert_double_eq(of_grid.stats.bounds_min[axis], given.stats.bounds_min[axis]);
+                    ck_assert_double_eq(of_grid.stats.bounds_max[axis], given.stats.bounds_max[axis]);
+                }
+                ck_assert_double_eq(found.rules.object_512, given.rules.object_512);
+                vox_grid_destroy(grid);
+            }
+    free(tets);
+    free(positions);
+    free_body(&box);
+}
+END_TEST
+
 /* What is off counts for nothing; where all is, there is no size to suggest. */
 START_TEST(cut_bodies_are_what_is_left_of_them) {
     pair p = make_pair(0.5f);
@@ -594,6 +638,7 @@ int main(void) {
     tcase_add_loop_test(tests, the_grid_suggests_by_its_engine, 0, 2);
     tcase_add_test(tests, bodies_at_rest_cost_nothing);
     tcase_add_test(tests, a_grid_suggests_for_positions_as_they_are);
+    tcase_add_test(tests, a_vertex_of_no_tetrahedron_is_no_part_of_the_box);
     tcase_add_loop_test(tests, cut_bodies_are_what_is_left_of_them, 0, 2);
     tcase_add_loop_test(tests, several_cell_sizes_where_they_pay, 0, 2);
     tcase_add_loop_test(tests, an_outlier_does_not_explode_the_grid, 0, 6);
