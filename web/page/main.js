@@ -292,9 +292,15 @@ find("save").addEventListener("click", async () => {
 });
 
 async function takeFile(file) {
-  const bytes = new Uint8Array(await file.arrayBuffer());
+  let bytes;
+  try {
+    bytes = new Uint8Array(await file.arrayBuffer());
+  } catch (error) { // it is too large, or gone
+    return refuse(`${file.name}: ${error.message}`);
+  }
   if (file.name.endsWith(".vox")) act("restore", { name: file.name, bytes }, [bytes.buffer]);
   else act("file", { name: file.name, bytes, tets: tets() }, [bytes.buffer]);
+  return undefined;
 }
 for (const id of ["file", "snapshot"])
   find(id).addEventListener("change", async (event) => {

@@ -224,6 +224,31 @@ test("a file is dropped on the page: a surface is filled and falls", async () =>
   });
 });
 
+test("files of four formats are read as the native library reads them", async () => {
+  const write = (name, text) => {
+    writeFileSync(path.join(folder, name), text);
+    return name;
+  };
+  const obj = write("solid.obj", cube);
+  execFileSync(process.env.VOX_TOOL, ["tetrahedralize", obj, "-o", "solid.msh", "--cell", "0.5"], { cwd: folder });
+  write("two.vtk", ["# vtk DataFile Version 3.0", "two", "ASCII", "DATASET UNSTRUCTURED_GRID", "POINTS 5 double",
+    "0 0 0", "1 0 0", "0 1 0", "0 0 1", "1 1 1", "CELLS 2 10", "4 0 1 2 3", "4 1 2 3 4", "CELL_TYPES 2", "10", "10", ""].join("\n"));
+  const corners = cube.split("\n").filter((line) => line.startsWith("v")).map((line) => line.slice(2));
+  const facets = cube.split("\n").filter((line) => line.startsWith("f")).map((line) => line.slice(2).split(" "));
+  write("cube.stl", ["solid cube", ...facets.flatMap((f) => ["facet normal 0 0 0", "outer loop", ...f.map((v) => `vertex ${corners[v - 1]}`), "endloop", "endfacet"]), "endsolid cube", ""].join("\n"));
+  const names = ["solid.msh", "two.vtk", "cube.stl", obj];
+  const [expected] = hashesOf(native([...names.map((name) => `file ${path.join(folder, name)} 1000`), "steps 150"]));
+  await visit("?scene=empty&stopped", async (page) => {
+    await page.setInputFiles("#file", path.join(folder, names[0]));
+    await until(page, () => playground.bodies === 2);
+    for (const [i, name] of names.slice(1).entries()) {
+      await dropFile(page, name, readFileSync(path.join(folder, name), "utf8"));
+      await until(page, (n) => playground.bodies === n, i + 3);
+    }
+    assert.equal((await run(page, 150)).hash, expected);
+  });
+});
+
 test("a damaged file shows the library's text, and changes nothing", async () => {
   const bad = cube.replace("f 1 4 3", "f 1 4 900");
   writeFileSync(path.join(folder, "bad.obj"), bad);
