@@ -2,7 +2,7 @@
 """The source drop: all that the libraries are compiled from, without a build system and without dependencies.
 
 usage: source_drop.py OUT [--core | --all]    OUT: a folder that does not exist yet, or FILE.tar.xz
-vox_dist and vox_mpi are not in it. --core: without vox_io and vox_sim. --all: also the tool, the reader of .vtu and the Python package; what pip takes.
+vox_mpi is not in it, vox_dist only with --all. --core: without vox_io and vox_sim. --all: also the tool, the reader of .vtu and the Python package; what pip takes.
 
 It holds include/, adapters/, src/, CMakeLists.txt and cmake/ of this repository, LICENSE, and in third_party/ what the sources include:
 Highway's headers; for vox_io and vox_sim Eigen's; for --all those of CLI11 and nlohmann-json, and the sources of pugixml and
@@ -116,7 +116,8 @@ def contents(core_only, everything):
     paths = ["include/vox", "adapters", "src", "cmake", "CMakeLists.txt", "LICENSE"]
     if everything:
         paths += ["tools", "pyproject.toml", "bindings/python/CMakeLists.txt", "bindings/python/README.md", "bindings/python/src"]
-    names = [name for name in tracked(*paths) if not re.match(r"src/(dist|mpi)/|include/vox/vox_(dist|mpi)", name)]
+    left_out = "mpi" if everything else "dist|mpi" # the Python package has vox_dist
+    names = [name for name in tracked(*paths) if not re.match(rf"src/({left_out})/|include/vox/vox_({left_out})", name)]
     if core_only:
         names = [name for name in names if not re.match(r"src/(io|sim)/|include/vox/vox_(io|sim)", name)]
     files = {name: (ROOT / name).read_bytes() for name in names}
@@ -136,7 +137,7 @@ def contents(core_only, everything):
         files[f"third_party/{package}/LICENSE"] = (folder / licence).read_bytes()
     parts = {"core": {}, "io": {}, "sim": {}}
     for name in sorted(texts):
-        if name.startswith("src/") and name.endswith(".cpp") and name not in NEED_LIBRARIES:
+        if name.startswith("src/") and name.endswith(".cpp") and name not in NEED_LIBRARIES and not name.startswith("src/dist/"):
             part = name.split("/")[1]
             parts[part if part in parts else "core"][name] = texts[name]
     for part, sources in parts.items():

@@ -14,11 +14,11 @@ OPTIONAL = {"matplotlib", "meshio", "pyvista", "trimesh"}
 
 
 def modules():
-    for name in ("errors", "grid", "mesh", "queries", "results", "suggest", "foreign", "locate", "io", "sim", "experiment"):
+    for name in ("errors", "grid", "mesh", "queries", "results", "suggest", "foreign", "locate", "io", "sim", "experiment", "mpi"):
         try:
             yield importlib.import_module("voxtet." + name)
         except ImportError as missing:
-            if name not in ("io", "sim", "experiment"):
+            if name not in ("io", "sim", "experiment", "mpi"):
                 raise
             print(f"SKIPPED: {missing}")
 

@@ -1,0 +1,382 @@
+"""Exact contacts between bodies that lie on many ranks, or are cut into parts among them, over a communicator of mpi4py
+(docs/distributed.md). Experimental: it may change in any release.
+
+Partitioning stays yours. Each rank inserts its parts: the tetrahedra that lie there and all vertices that they name, with global
+numbers, and which of the vertices it owns. The contacts are those of one grid of the whole, for any number of ranks and any
+partition. Without a communicator a scene has one rank, and needs no mpi4py:
+
+>>> import numpy as np
+>>> corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+>>> scene = Scene()
+>>> first = scene.insert(0, corners, [[0, 1, 2, 3]])
+>>> second = scene.insert(1, corners * 0.5 + 0.1, [[0, 1, 2, 3]])
+>>> scene.step()
+>>> [(c.body_a, c.vertex, c.body_b, c.tet) for c in scene.contacts]
+[(1, 0, 0, 0), (1, 1, 0, 0), (1, 2, 0, 0), (1, 3, 0, 0)]
+
+All ranks call the methods that say so, in the same order, and all of them get the same kind of exception.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import sys
+import threading
+from typing import Any, NamedTuple, Optional
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _c, _dist
+from ._arguments import integer, rows
+from ._dist import dist
+from ._library import Handle, Relay, described, sized, values_of
+from .errors import InvalidArgumentError, InvalidStateError
+from .mesh import Filter, Topology
+from .results import Records, copy_of
+
+_LONGEST = 1 << 30  # bytes of one message of MPI, whose counts are ints
+_TAG = 1
+
+
+class SceneContacts(Records):
+    """Contacts, sorted by (body_a, vertex, body_b, tet), in global numbers: the vertex of body_a is in the tetrahedron of body_b.
+    `index` is the vertex (in `Scene.contacts`) or the tetrahedron (in `Scene.incoming`) in the part of this rank, `rank` where the
+    other side is. `interior` is 1, or 0 for a vertex on the boundary of the tetrahedron."""
+
+    body_a: NDArray[np.uint64]
+    vertex: NDArray[np.uint64]
+    body_b: NDArray[np.uint64]
+    tet: NDArray[np.uint64]
+    barycentric: NDArray[np.float32]
+    index: NDArray[np.uint32]
+    rank: NDArray[np.uint32]
+    interior: NDArray[np.uint32]
+
+
+class ScenePoints(Records):
+    """Where points are: body, tetrahedron and its rank, weights of its corners. `rank` is NO_RANK for a point in none."""
+
+    body: NDArray[np.uint64]
+    tet: NDArray[np.uint64]
+    barycentric: NDArray[np.float32]
+    rank: NDArray[np.uint32]
+    interior: NDArray[np.uint32]
+
+
+class PartCosts(Records):
+    """What each part costs in a step, in nanoseconds by the cost model: weights for a partitioner."""
+
+    body: NDArray[np.uint64]
+    part: NDArray[np.uint32]
+    predicted_ns: NDArray[np.float64]
+
+
+class SceneCounters(NamedTuple):
+    """What the last step, or `Scene.locate` since, sent from this rank."""
+
+    neighbours: int
+    messages: int
+    collectives: int
+    replicated_bytes: int
+    box_bytes: int
+    vertex_bytes: int
+    hit_bytes: int
+    vertices_sent: int
+    vertices_received: int
+    vertices_here: int
+    hits_sent: int
+    contacts: int
+    incoming: int
+
+
+NO_RANK = _dist.NO_RANK
+
+
+def _bytes_at(address: Optional[int], size: int) -> Any:
+    return (ctypes.c_char * size).from_address(address or 0) if size else b""
+
+
+class _Transport:
+    """The three functions of a vox_transport over a communicator. What one of them raises ends the call of the library, and is
+    raised from there."""
+
+    def __init__(self, communicator: Any) -> None:
+        MPI = getattr(sys.modules.get("mpi4py"), "MPI", None)  # whoever has a communicator has imported it
+        if MPI is None or not isinstance(communicator, MPI.Intracomm):
+            raise TypeError(f"communicator is of type {type(communicator).__name__}; it must be an mpi4py.MPI.Intracomm")
+        self._mpi = MPI
+        self.communicator = communicator.Dup()
+        self._received: dict[int, bytearray] = {}
+        failed = int(_c.Result.ERROR_INTERNAL)
+        self.relays = [Relay(function, failed) for function in (self._allgather, self._exchange, self._agree)]
+        self.struct = _dist.vox_transport(ctypes.sizeof(_dist.vox_transport), self.communicator.Get_rank(),
+                                          self.communicator.Get_size(), 0, _dist.Allgather(self.relays[0]),
+                                          _dist.Exchange(self.relays[1]), _dist.Agree(self.relays[2]), None)
+
+    def _allgather(self, given: int, size: int, out: int, _user: Any) -> int:
+        ranks = self.communicator.Get_size()
+        self.communicator.Allgather([_bytes_at(given, size), self._mpi.BYTE], [_bytes_at(out, size * ranks), self._mpi.BYTE])
+        return 0
+
+    def _exchange(self, ranks: Any, count: int, out: Any, received: Any, _user: Any) -> int:
+        requests = []
+        for i in range(count):
+            data, size = out[i].data, out[i].size
+            for sent in range(0, size + 1, _LONGEST):  # a message shorter than the longest is the last
+                piece = _bytes_at((data or 0) + sent, min(size - sent, _LONGEST))
+                requests.append(self.communicator.Isend([piece, self._mpi.BYTE], ranks[i], _TAG))
+        for i in range(count):
+            whole = self._received[ranks[i]] = bytearray()
+            while True:
+                status = self._mpi.Status()
+                message = self.communicator.Mprobe(ranks[i], _TAG, status)
+                piece = bytearray(status.Get_count(self._mpi.BYTE))
+                message.Recv([piece, self._mpi.BYTE])
+                whole += piece
+                if len(piece) < _LONGEST:
+                    break
+            received[i].size = len(whole)
+            received[i].data = ctypes.addressof(ctypes.c_char.from_buffer(whole)) if whole else None
+        self._mpi.Request.Waitall(requests)
+        return 0
+
+    def _agree(self, minima: Any, minimum_count: int, sums: Any, sum_count: int, _user: Any) -> int:
+        for numbers, count, operation in ((minima, minimum_count, self._mpi.MIN), (sums, sum_count, self._mpi.SUM)):
+            if count:
+                mine = np.array(numbers[:count], np.uint64)
+                combined = np.empty_like(mine)
+                self.communicator.Allreduce([mine, self._mpi.UINT64_T], [combined, self._mpi.UINT64_T], operation)
+                for i in range(count):
+                    numbers[i] = int(combined[i])
+        return 0
+
+
+class _Calls:
+    """Around a call of the library: one thread at a time, and what a function of the transport has raised instead of the
+    library's word for it."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+
+    def __enter__(self) -> int:
+        self._scene._lock.acquire()
+        if self._scene._handle is None:
+            self._scene._lock.release()
+            raise InvalidStateError("the scene is closed")
+        return self._scene._handle.pointer
+
+    def __exit__(self, *_: object) -> None:
+        self._scene._lock.release()
+        if self._scene._transport is not None:
+            for relay in self._scene._transport.relays:
+                relay.__exit__()
+
+
+def _numbers(value: Optional[ArrayLike], name: str, count: int, dtype: Any) -> Optional[NDArray[Any]]:
+    """One number for each of `count`, as the library wants them."""
+    if value is None:
+        return None
+    array = np.asarray(value)
+    if array.dtype.kind not in ("b" if dtype == np.uint8 else "") + "iu":
+        raise TypeError(f"{name} has the dtype {array.dtype}; it must hold {'booleans' if dtype == np.uint8 else 'integers'}")
+    if array.shape != (count,):
+        raise InvalidArgumentError(f"{name} has the shape {array.shape}; it must be ({count},)")
+    if array.size and array.dtype.kind == "i" and array.min() < 0:
+        raise InvalidArgumentError(f"{name}[{int(array.argmin())}] is {int(array.min())}; it must not be negative")
+    if dtype == np.uint8 and array.size and array.max() > 1:
+        raise InvalidArgumentError(f"{name}[{int(array.argmax())}] is {int(array.max())}; it must be 0 or 1")
+    return np.ascontiguousarray(array, dtype)
+
+
+class Scene:
+    """The parts of bodies that lie on this rank. `communicator`: of mpi4py, duplicated here (all ranks make their scene together);
+    None: one rank. engine, cell_size, workers: as in `Grid`."""
+
+    def __init__(self, communicator: Any = None, *, engine: str = "auto", cell_size: float = 0.0, workers: int = 1) -> None:
+        from ._arguments import choice, real
+        grid = described(_c.vox_grid_desc)
+        grid.flags = 0
+        grid.engine = choice(_c.Engine, engine, "engine")
+        grid.cell_size = real(cell_size, "cell_size")
+        grid.worker_count = integer(workers, "workers", 0, _c.VOX_MAX_WORKERS)
+        desc = described(_dist.vox_scene_desc, dist)
+        desc.grid = ctypes.pointer(grid)
+        self._lock = threading.Lock()
+        self._handle: Optional[Handle] = None
+        self._kept: dict[int, Any] = {}  # what is borrowed, by part
+        self._transport = None if communicator is None else _Transport(communicator)
+        pointer = ctypes.c_void_p()
+        transport = None if self._transport is None else ctypes.pointer(self._transport.struct)
+        try:
+            dist.vox_scene_create(desc, transport, pointer)
+        finally:
+            if self._transport is not None:
+                for relay in self._transport.relays:
+                    relay.__exit__()
+        self._handle = Handle(pointer.value or 0, dist.vox_scene_destroy, self._transport)
+
+    def close(self) -> None:
+        """Releases everything. Called by all ranks, as it frees the communicator; a scene that is merely dropped leaves that to
+        the end of the program."""
+        with self._lock:
+            self._handle = None
+            self._kept.clear()
+            if self._transport is not None and not self._transport._mpi.Is_finalized():
+                self._transport.communicator.Free()
+            self._transport = None
+
+    def __enter__(self) -> Scene:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    @property
+    def rank(self) -> int:
+        """Of this process."""
+        return 0 if self._transport is None else int(self._transport.struct.rank)
+
+    @property
+    def size(self) -> int:
+        """How many ranks there are."""
+        return 1 if self._transport is None else int(self._transport.struct.size)
+
+    def insert(self, body: int, positions: Any, tets: Optional[ArrayLike] = None, *, vertex_ids: Optional[ArrayLike] = None,
+               tet_ids: Optional[ArrayLike] = None, owned: Optional[ArrayLike] = None, filter: Optional[Filter] = None,
+               self_collision: bool = False) -> int:
+        """Adds a part of a body, which takes part from the next step on, and returns its number for `remove` and `move`.
+
+        body: its number, the same on all ranks; a rank has one part of a body at most. positions: as in `Grid.add`, borrowed, so
+        move the part by writing to this array. vertex_ids, tet_ids: global numbers; None: 0, 1, 2 and so on. owned: whether this
+        rank owns each vertex; None: all. A vertex is owned by one rank, and has the same position wherever there is a copy of it.
+        """
+        from ._arguments import switch
+        new = Topology(positions, tets, None, False, None, False)
+        if filter is not None:
+            if not isinstance(filter, Filter):
+                raise TypeError(f"filter is of type {type(filter).__name__}; it must be a voxtet.Filter")
+            new.desc.filter = ctypes.pointer(filter._struct())
+        new.desc.flags |= switch(self_collision, "self_collision") * _c.MeshFlags.SELF_COLLISION
+        desc = described(_dist.vox_part_desc, dist)
+        desc.body = integer(body, "body")
+        desc.mesh = ctypes.pointer(new.desc)
+        arrays = [_numbers(vertex_ids, "vertex_ids", new.desc.vertex_count, np.uint64),
+                  _numbers(tet_ids, "tet_ids", new.desc.tet_count, np.uint64),
+                  _numbers(owned, "owned", new.desc.vertex_count, np.uint8)]
+        desc.vertex_ids, desc.tet_ids, desc.owned = (None if a is None else a.ctypes.data for a in arrays)
+        part = ctypes.c_uint32()
+        with _Calls(self) as pointer:
+            dist.vox_scene_insert(pointer, desc, part)
+            self._kept[part.value] = new.kept()[0]
+        return part.value
+
+    def remove(self, part: int) -> None:
+        """Removes a part."""
+        number = integer(part, "part", 0, 2**32 - 1)
+        with _Calls(self) as pointer:
+            dist.vox_scene_remove(pointer, number)
+            self._kept.pop(number, None)
+
+    def move(self, part: int, positions: Any) -> None:
+        """Borrows other positions for a part, of as many vertices. What is written to the same array needs no such call."""
+        number = integer(part, "part", 0, 2**32 - 1)
+        found = rows(positions, "positions")
+        with _Calls(self) as pointer:
+            old = self._kept.get(number)
+            if old is not None and old.length != found.length:
+                raise InvalidArgumentError(f"positions has {found.length} rows; the part has {old.length} vertices")
+            dist.vox_scene_bind_positions(pointer, number, found.address, found.format, found.stride, found.component)
+            self._kept[number] = found
+
+    def step(self) -> None:
+        """By all ranks. Finds all contacts of the positions as they are now, between all bodies of all ranks."""
+        with _Calls(self) as pointer:
+            dist.vox_scene_step(pointer)
+
+    def _view(self, function: Any) -> SceneContacts:
+        view = _dist.vox_scene_contact_view()
+        with _Calls(self) as pointer:
+            function(pointer, view)
+            found: SceneContacts = copy_of(view.data or 0, view.count, view.byte_stride, SceneContacts, _dist.contact_type)
+            return found
+
+    @property
+    def contacts(self) -> SceneContacts:
+        """Of the vertices that this rank owns, as the last step found them."""
+        return self._view(dist.vox_scene_contacts)
+
+    @property
+    def incoming(self) -> SceneContacts:
+        """In the tetrahedra that lie on this rank: the same contacts, seen from the other side."""
+        return self._view(dist.vox_scene_incoming)
+
+    def send(self, values: ArrayLike, to: str = "tets") -> NDArray[Any]:
+        """By all ranks. Sends a row for each contact: one for each of `contacts`, which arrive in the order of `incoming`, or with
+        to="vertices" the way back. Rows have the same shape and dtype on all ranks."""
+        if to not in ("tets", "vertices"):
+            raise InvalidArgumentError(f"to is {to!r}; it must be 'tets' or 'vertices'")
+        array = np.ascontiguousarray(values)
+        if array.dtype.hasobject:
+            raise TypeError(f"values has the dtype {array.dtype}; it must hold plain numbers")
+        views = [_dist.vox_scene_contact_view(), _dist.vox_scene_contact_view()]
+        with _Calls(self) as pointer:
+            dist.vox_scene_contacts(pointer, views[0])
+            dist.vox_scene_incoming(pointer, views[1])
+            given, wanted = (v.count for v in (views if to == "tets" else reversed(views)))
+            if array.ndim < 1 or len(array) != given:
+                raise InvalidArgumentError(f"values has the shape {array.shape}; it must have {given} rows")
+            out = np.empty((wanted, *array.shape[1:]), array.dtype)
+            item = int(np.prod(array.shape[1:], dtype=np.int64)) * array.dtype.itemsize
+            dist.vox_scene_send(pointer, 0 if to == "tets" else 1, item, array.ctypes.data if given else None,
+                                out.ctypes.data if wanted else None)
+        return out
+
+    def hash(self) -> int:
+        """By all ranks. A hash of all contacts of all ranks, of 128 bits, the same for any partition."""
+        out = (ctypes.c_uint64 * 2)()
+        with _Calls(self) as pointer:
+            dist.vox_scene_hash(pointer, out)
+        return out[0] | out[1] << 64
+
+    def locate(self, points: Any) -> ScenePoints:
+        """By all ranks, each with points of its own, (n, 3). The body and the tetrahedron that contain each point: one, the same for
+        any partition."""
+        found = rows(points, "points")
+        if found.component not in (0, 4 if found.format == _c.Format.FLOAT3 else 8):
+            found = rows(np.ascontiguousarray(found.array), "points")
+        out = np.zeros(found.length, _dist.point_type)
+        with _Calls(self) as pointer:
+            dist.vox_scene_locate(pointer, found.address, found.format, found.stride, found.length,
+                                  out.ctypes.data if len(out) else None)
+        return out.view(ScenePoints)
+
+    def check(self) -> None:
+        """By all ranks. Raises InvalidStateError where vertices have no owner or several, copies have other positions than their
+        owner's, or a tetrahedron is on two ranks. For debugging: it sends every position."""
+        with _Calls(self) as pointer:
+            dist.vox_scene_check(pointer)
+
+    @property
+    def costs(self) -> PartCosts:
+        """Of the parts here, in the order of bodies."""
+        out = np.zeros(len(self._kept), _dist.cost_type)
+        count = ctypes.c_uint64()
+        with _Calls(self) as pointer:
+            dist.vox_scene_costs(pointer, out.ctypes.data if len(out) else None, len(out), count)
+        return out[:count.value].view(PartCosts)
+
+    @property
+    def counters(self) -> SceneCounters:
+        """What the last step sent."""
+        out = sized(_dist.vox_scene_counters)
+        with _Calls(self) as pointer:
+            dist.vox_scene_get_counters(pointer, out)
+        return values_of(SceneCounters, out)
+
+
+def hash_of_grid(grid: Any) -> int:
+    """The hash that `Scene.hash` has for the contacts of one grid of whole bodies, whose user_data are the bodies' numbers."""
+    out = (ctypes.c_uint64 * 2)()
+    dist.vox_scene_hash_of_grid(grid._pointer, out)
+    return out[0] | out[1] << 64

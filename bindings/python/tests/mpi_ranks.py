@@ -1,0 +1,124 @@
+"""What each rank does in test_mpi: parts of two bodies in stripes along x, whose vertices touch exactly on facets between ranks."""
+
+import sys
+
+import numpy as np
+from mpi4py import MPI
+
+import voxtet
+import voxtet.mpi
+
+
+def lattice(n, edge, corner):
+    """A cube of n * n * n small cubes of five tetrahedra each."""
+    k, j, i = np.meshgrid(*[np.arange(n + 1)] * 3, indexing="ij")
+    positions = np.stack([i, j, k], -1).reshape(-1, 3) * edge + np.asarray(corner)
+    cuts = [[[0, 1, 2, 4], [3, 2, 1, 7], [5, 4, 7, 1], [6, 7, 4, 2], [1, 2, 4, 7]],
+            [[1, 3, 0, 5], [2, 0, 3, 6], [4, 6, 5, 0], [7, 5, 6, 3], [0, 5, 3, 6]]]
+    tets = []
+    for z in range(n):
+        for y in range(n):
+            for x in range(n):
+                corners = [x + dx + (n + 1) * (y + dy + (n + 1) * (z + dz)) for dz in (0, 1) for dy in (0, 1) for dx in (0, 1)]
+                tets += [[corners[c] for c in tet] for tet in cuts[(x + y + z) % 2]]
+    return positions, np.array(tets)
+
+
+# Halves and quarters: vertices of one body lie exactly on facets, edges and corners of the other.
+BODIES = {3: lattice(6, 0.5, (0, 0, 0)), 8: lattice(6, 0.5, (1.25, 0.5, 0.25))}
+
+
+def part_of(positions, tets, rank, size):
+    """The tetrahedra whose centres are in a stripe, their vertices, their numbers, and which vertices are owned."""
+    centres = positions[tets].mean(axis=1)[:, 0]
+    low, high = positions[:, 0].min(), positions[:, 0].max()
+    stripe = np.minimum((centres - low) / (high - low) * size, size - 1).astype(int)
+    here = np.flatnonzero(stripe == rank)
+    owner = np.full(len(positions), size)
+    for t, s in zip(tets, stripe):
+        owner[t] = np.minimum(owner[t], s)
+    vertices = np.unique(tets[here])
+    local = np.searchsorted(vertices, tets[here])
+    return positions[vertices], local, vertices, here, owner[vertices] == rank
+
+
+def whole():
+    grid = voxtet.Grid(penetrations=False)
+    kept = [positions.copy() for positions, _ in BODIES.values()]
+    for (body, (_, tets)), positions in zip(BODIES.items(), kept):
+        grid.add(positions, tets, user_data=body)
+    grid.step()
+    return grid, kept
+
+
+def main():
+    world = MPI.COMM_WORLD
+    rank, size = world.Get_rank(), world.Get_size()
+    with voxtet.mpi.Scene(world) as scene:
+        assert (scene.rank, scene.size) == (rank, size)
+        parts = {}
+        for body, (positions, tets) in BODIES.items():
+            here, local, vertices, numbers, owned = part_of(positions, tets, rank, size)
+            here = here.copy()
+            parts[body] = here, local, numbers, scene.insert(body, here, local, vertex_ids=vertices, tet_ids=numbers, owned=owned)
+        scene.check()
+        scene.step()
+        grid, kept = whole()
+        assert scene.hash() == voxtet.mpi.hash_of_grid(grid), "the contacts are not those of one grid"
+        found = world.allgather(len(scene.contacts))
+        assert sum(found) == len(grid.contacts) > 100, found
+
+        # A value of the vertex arrives at the tetrahedron's side of the same contact, and goes back.
+        contacts, incoming = scene.contacts, scene.incoming
+        sent = np.stack([contacts.vertex, contacts.tet], axis=1).astype(np.float64) + contacts.body_a[:, None] * 0.5
+        arrived = scene.send(sent)
+        assert np.array_equal(arrived, np.stack([incoming.vertex, incoming.tet], axis=1) + incoming.body_a[:, None] * 0.5)
+        assert np.array_equal(scene.send(arrived, to="vertices"), sent)
+
+        # Points on vertices, edges and facets: each is found once, in the tetrahedron that one rank alone finds.
+        random = np.random.default_rng(rank)
+        points = random.integers(-2, 30, (500, 3)) * 0.125
+        alone = voxtet.mpi.Scene()
+        for body, (positions, tets) in BODIES.items():
+            alone.insert(body, positions, tets)
+        expected, located = alone.locate(points), scene.locate(points)
+        for name in ("body", "tet", "barycentric", "interior"):
+            assert np.array_equal(located[name], expected[name]), name
+        assert 0 < np.count_nonzero(located.rank == voxtet.mpi.NO_RANK) < len(points)
+
+        # Moved in place, everywhere alike.
+        for body, (here, *_) in parts.items():
+            here += 0.0625 * body
+        for (body, _), positions in zip(BODIES.items(), kept):
+            positions += 0.0625 * body
+        scene.step()
+        grid.step()
+        assert scene.hash() == voxtet.mpi.hash_of_grid(grid)
+        assert scene.counters.collectives == 2
+        assert [*scene.costs.body] == sorted(parts) and np.all(scene.costs.predicted_ns >= 0)
+
+        # A failure of one rank is one of all, and the next step works.
+        if rank == size - 1:
+            parts[3][0][0, 0] = np.nan
+        try:
+            scene.step()
+        except voxtet.NonFiniteError as error:
+            assert f"rank {size - 1}" in str(error) or rank == size - 1, error
+        else:
+            raise AssertionError("a position that is not a number was taken")
+        if rank == size - 1:
+            parts[3][0][0, 0] = kept[0][np.unique(BODIES[3][1][parts[3][2]])[0], 0]
+        scene.step()
+        assert scene.hash() == voxtet.mpi.hash_of_grid(grid)
+    if rank == 0:
+        print(f"{size} ranks: {sum(found)} contacts")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except BaseException:
+        import traceback
+        traceback.print_exc()
+        sys.stderr.flush()
+        MPI.COMM_WORLD.Abort(1)  # the others wait for this rank

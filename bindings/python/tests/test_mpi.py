@@ -1,0 +1,173 @@
+"""Scenes on many ranks. Skipped where vox_dist was not built; with ranks, where mpi4py and its MPI are not there."""
+
+import ctypes
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+import voxtet
+
+try:
+    import voxtet.mpi
+    from voxtet import _dist
+except ImportError as missing:
+    raise unittest.SkipTest(str(missing)) from None
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+INCLUDE = os.path.join(HERE, "..", "..", "..", "include")
+CORNERS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+
+
+class Layout(unittest.TestCase):
+    def test_structs_are_those_of_the_header(self):
+        compiler = shutil.which("cc")
+        if compiler is None or not os.path.exists(INCLUDE):
+            self.skipTest("there is no C compiler, or no header")
+        lines = []
+        for struct in _dist.STRUCTS:
+            name = struct.__name__
+            lines.append(f'printf("{name} %zu\\n", sizeof({name}));')
+            lines += [f'printf("{name}.{field} %zu\\n", offsetof({name}, {field}));' for field, *_ in struct._fields_]
+        program = "#include <vox/vox_dist.h>\n#include <stddef.h>\n#include <stdio.h>\nint main(void) {" + "\n".join(lines) + "}\n"
+        with tempfile.TemporaryDirectory() as folder:
+            source, built = os.path.join(folder, "layout.c"), os.path.join(folder, "layout")
+            with open(source, "w") as file:
+                file.write(program)
+            subprocess.run([compiler, "-std=c99", "-I", INCLUDE, "-DVOX_STATIC", "-c", source, "-o", built + ".o"], check=True)
+            # No function of the library is called, so nothing of it is linked.
+            subprocess.run([compiler, built + ".o", "-o", built, "-Wl,--unresolved-symbols=ignore-all"], check=True)
+            printed = subprocess.run([built], check=True, capture_output=True, text=True).stdout
+        expected = dict(line.split() for line in printed.splitlines())
+        for struct in _dist.STRUCTS:
+            self.assertEqual(int(expected[struct.__name__]), ctypes.sizeof(struct), struct)
+            for field, *_ in struct._fields_:
+                self.assertEqual(int(expected[f"{struct.__name__}.{field}"]), getattr(struct, field).offset, (struct, field))
+
+    def test_every_function_of_the_header_is_there(self):
+        with open(os.path.join(INCLUDE, "vox", "vox_dist.h"), encoding="utf-8") as file:
+            declared = set(re.findall(r"VOX_EXPERIMENTAL (?:vox_result|void) (vox_\w+)\(", file.read()))
+        used = set(_dist._ARGUMENTS) | {"vox_scene_destroy"}
+        # Ranks in one process are for tests and for learning in C.
+        self.assertEqual(declared - used, {"vox_transport_run"})
+
+
+class OneRank(unittest.TestCase):
+    def setUp(self):
+        self.scene = voxtet.mpi.Scene()
+        self.addCleanup(self.scene.close)
+
+    def test_contacts_are_those_of_a_grid(self):
+        random = np.random.default_rng(4)
+        bodies = {5: random.uniform(0, 1, (40, 3)), 9: random.uniform(0.3, 1.3, (40, 3))}
+        tets = np.array([random.permutation(40)[:4] for _ in range(200)])
+        grid = voxtet.Grid(penetrations=False)
+        for body, positions in bodies.items():
+            self.scene.insert(body, positions, tets)
+            grid.add(positions, tets, user_data=body)
+        for _ in range(3):
+            self.scene.step()
+            grid.step()
+            self.assertGreater(len(grid.contacts), 20)
+            self.assertEqual(self.scene.hash(), voxtet.mpi.hash_of_grid(grid))
+            self.assertEqual(self.scene.contacts.vertex.tolist(), grid.contacts.vertex.tolist())
+            self.assertEqual(self.scene.contacts.barycentric.tolist(), grid.contacts.barycentric.tolist())
+            for positions in bodies.values():
+                positions += random.uniform(-0.05, 0.05, positions.shape)
+
+    def test_parts_come_move_and_go(self):
+        first = self.scene.insert(0, CORNERS, [[0, 1, 2, 3]])
+        small = (CORNERS * 0.5 + 0.1).astype(np.float32)
+        second = self.scene.insert(1, small, [[0, 1, 2, 3]])
+        self.scene.step()
+        self.assertEqual(len(self.scene.contacts), 4)
+        small += 5
+        self.scene.step()
+        self.assertEqual(len(self.scene.contacts), 0)
+        self.scene.move(second, CORNERS * 0.25 + 0.1)  # nobody else keeps this array
+        self.scene.step()
+        self.assertEqual(len(self.scene.contacts), 4)
+        self.assertEqual(self.scene.incoming.index.tolist(), [0] * 4)
+        self.scene.remove(first)
+        self.scene.step()
+        self.assertEqual(len(self.scene.contacts), 0)
+        with self.assertRaisesRegex(voxtet.InvalidArgumentError, "3 rows.*4 vertices"):
+            self.scene.move(second, CORNERS[:3])
+
+    def test_numbers_and_values(self):
+        self.scene.insert(2, CORNERS, [[0, 1, 2, 3]], vertex_ids=[40, 30, 20, 10], tet_ids=[2**40], owned=[True] * 4)
+        self.scene.insert(1, CORNERS * 0.5 + 0.1, [[0, 1, 2, 3]], vertex_ids=np.arange(4) + 2**50)
+        self.scene.step()
+        self.assertEqual(self.scene.contacts.tet.tolist(), [2**40] * 4)
+        self.assertEqual(self.scene.contacts.vertex.tolist(), [2**50 + i for i in range(4)])
+        forces = np.arange(12, dtype=np.float32).reshape(4, 3)
+        self.assertEqual(self.scene.send(forces).tolist(), forces.tolist())
+        self.assertEqual(self.scene.send(np.arange(4), to="vertices").tolist(), [0, 1, 2, 3])
+        located = self.scene.locate([[0.1, 0.1, 0.1], [7, 7, 7]] * np.ones((2, 3)))
+        self.assertEqual(located.body.tolist(), [1, 0])
+        self.assertEqual(located.rank.tolist(), [0, voxtet.mpi.NO_RANK])
+        self.assertEqual(self.scene.costs.body.tolist(), [1, 2])
+        self.assertEqual(self.scene.counters.contacts, 4)
+        self.scene.check()
+
+    def test_bad_arguments_change_nothing(self):
+        self.scene.insert(0, CORNERS, [[0, 1, 2, 3]])
+        bad = [
+            (voxtet.InvalidArgumentError, "vertex_ids.*shape", dict(vertex_ids=[1, 2])),
+            (voxtet.InvalidArgumentError, r"vertex_ids\[1\] is -2", dict(vertex_ids=[1, -2, 3, 4])),
+            (TypeError, "vertex_ids.*float64", dict(vertex_ids=[1.0, 2, 3, 4])),
+            (voxtet.InvalidArgumentError, "twice|7", dict(vertex_ids=[7, 7, 3, 4])),
+            (voxtet.InvalidArgumentError, r"owned\[2\] is 5", dict(owned=[0, 1, 5, 1])),
+            (TypeError, "owned.*float", dict(owned=[0.5] * 4)),
+            (TypeError, "filter", dict(filter=3)),
+        ]
+        for kind, words, options in bad:
+            with self.subTest(words), self.assertRaisesRegex(kind, words):
+                self.scene.insert(1, CORNERS, [[0, 1, 2, 3]], **options)
+        with self.assertRaisesRegex(voxtet.InvalidArgumentError, "body 0"):
+            self.scene.insert(0, CORNERS, [[0, 1, 2, 3]])
+        with self.assertRaisesRegex(voxtet.InvalidMeshError, "vertex 9"):
+            self.scene.insert(1, CORNERS, [[0, 1, 2, 9]])
+        with self.assertRaises(voxtet.InvalidHandleError):
+            self.scene.remove(77)
+        with self.assertRaisesRegex(voxtet.InvalidArgumentError, "0 rows"):
+            self.scene.send([1.0])
+        with self.assertRaisesRegex(voxtet.InvalidArgumentError, "sideways"):
+            self.scene.send([], to="sideways")
+        with self.assertRaises(TypeError):
+            voxtet.mpi.Scene("world")
+        self.scene.step()
+        self.assertEqual(len(self.scene.costs), 1)
+        self.scene.close()
+        with self.assertRaisesRegex(voxtet.InvalidStateError, "closed"):
+            self.scene.step()
+
+
+class Ranks(unittest.TestCase):
+    def test_parts_on_ranks_have_the_contacts_of_one_grid(self):
+        # In a process of its own: MPI that runs here would be inherited.
+        asked = subprocess.run([sys.executable, "-c", "from mpi4py import MPI; print(MPI.Get_library_version())"],
+                               capture_output=True, text=True)
+        if asked.returncode != 0:
+            self.skipTest(asked.stderr.strip().splitlines()[-1])
+        openmpi = asked.stdout.startswith("Open MPI")
+        run = shutil.which("mpirun.openmpi" if openmpi else "mpiexec.mpich") or shutil.which("mpiexec")
+        if run is None:
+            self.skipTest("there is no mpiexec")
+        as_root = ["--allow-run-as-root", "--oversubscribe"] if openmpi else []
+        for ranks in (1, 2, 5):
+            with self.subTest(ranks=ranks):
+                done = subprocess.run([run, *as_root, "-n", str(ranks), sys.executable, os.path.join(HERE, "mpi_ranks.py")],
+                                      capture_output=True, text=True, timeout=300)
+                self.assertEqual(done.returncode, 0, done.stderr[-3000:])
+                self.assertIn(f"{ranks} ranks:", done.stdout)
+                print(done.stdout, end="")
+
+
+if __name__ == "__main__":
+    unittest.main()
