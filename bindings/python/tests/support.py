@@ -1,6 +1,9 @@
 """What the tests share: bodies, and grids of them."""
 
 import gc
+import shutil
+import subprocess
+import sys
 import unittest
 
 import numpy as np
@@ -50,3 +53,17 @@ class GridCase(unittest.TestCase):
     def end(self):
         gc.collect()
         self.grid.close()
+
+
+def mpi_command(test, processes):
+    """What runs a Python program in so many processes of the MPI that mpi4py was built with; skips the test where there is none."""
+    # In a process of its own: MPI that runs here would be inherited.
+    asked = subprocess.run([sys.executable, "-c", "from mpi4py import MPI; print(MPI.Get_library_version())"],
+                           capture_output=True, text=True)
+    if asked.returncode != 0:
+        test.skipTest(asked.stderr.strip().splitlines()[-1])
+    openmpi = asked.stdout.startswith("Open MPI")
+    run = shutil.which("mpiexec.openmpi" if openmpi else "mpiexec.mpich") or shutil.which("mpiexec")
+    if run is None:
+        test.skipTest("there is no mpiexec")
+    return [run, *(["--allow-run-as-root", "--oversubscribe"] if openmpi else []), "-n", str(processes), sys.executable]

@@ -5,13 +5,13 @@ import os
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 
 import numpy as np
 
 import voxtet
+from support import mpi_command
 
 try:
     import voxtet.mpi
@@ -150,19 +150,9 @@ class OneRank(unittest.TestCase):
 
 class Ranks(unittest.TestCase):
     def test_parts_on_ranks_have_the_contacts_of_one_grid(self):
-        # In a process of its own: MPI that runs here would be inherited.
-        asked = subprocess.run([sys.executable, "-c", "from mpi4py import MPI; print(MPI.Get_library_version())"],
-                               capture_output=True, text=True)
-        if asked.returncode != 0:
-            self.skipTest(asked.stderr.strip().splitlines()[-1])
-        openmpi = asked.stdout.startswith("Open MPI")
-        run = shutil.which("mpirun.openmpi" if openmpi else "mpiexec.mpich") or shutil.which("mpiexec")
-        if run is None:
-            self.skipTest("there is no mpiexec")
-        as_root = ["--allow-run-as-root", "--oversubscribe"] if openmpi else []
         for ranks in (1, 2, 5):
             with self.subTest(ranks=ranks):
-                done = subprocess.run([run, *as_root, "-n", str(ranks), sys.executable, os.path.join(HERE, "mpi_ranks.py")],
+                done = subprocess.run([*mpi_command(self, ranks), os.path.join(HERE, "mpi_ranks.py")],
                                       capture_output=True, text=True, timeout=300)
                 self.assertEqual(done.returncode, 0, done.stderr[-3000:])
                 self.assertIn(f"{ranks} ranks:", done.stdout)

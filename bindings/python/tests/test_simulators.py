@@ -2,7 +2,6 @@
 
 import importlib.util
 import os
-import shutil
 import subprocess
 import sys
 import unittest
@@ -10,6 +9,7 @@ import unittest
 import numpy as np
 
 import voxtet
+from support import mpi_command
 
 EXAMPLES = os.path.join(os.path.dirname(__file__), "..", "examples")
 
@@ -154,9 +154,8 @@ class Processes(unittest.TestCase):
         self.check(lambda processes: [sys.executable, "with_ray.py", str(processes)])
 
     @needs("mpi4py")
-    @unittest.skipUnless(shutil.which("mpiexec"), "there is no mpiexec")
     def test_mpi4py(self):
-        self.check(lambda processes: ["mpiexec", "-n", str(processes + 1), sys.executable, "-m", "mpi4py.futures", "with_mpi4py.py"])
+        self.check(lambda processes: [*mpi_command(self, processes + 1), "-m", "mpi4py.futures", "with_mpi4py.py"])
 
 
 if __name__ == "__main__":
