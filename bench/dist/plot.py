@@ -18,7 +18,7 @@ ROW = re.compile(r"\| (\d+) \| in a (row|cube) \| (\d+) \| (\d+) \| \d+ \| ([\d.
 
 def main():
     with open(sys.argv[1], encoding="utf-8") as file:
-        rows = [(shape, *map(float, numbers)) for *_, shape, numbers in
+        rows = [(shape, *map(float, numbers)) for shape, numbers in
                 ((m[2], (m[1], m[3], m[4], m[5], m[6])) for m in map(ROW.match, file) if m)]
     matplotlib.rcParams.update({"svg.hashsalt": "vox", "font.size": 10, "axes.spines.top": False, "axes.spines.right": False})
     figure, axes = plt.subplots(1, 3, figsize=(10, 3.2))
