@@ -5,6 +5,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -157,6 +158,16 @@ class Ranks(unittest.TestCase):
                 self.assertEqual(done.returncode, 0, done.stderr[-3000:])
                 self.assertIn(f"{ranks} ranks:", done.stdout)
                 print(done.stdout, end="")
+
+    def test_meshes_of_dolfinx(self):
+        asked = subprocess.run([sys.executable, "-c", "import dolfinx"], capture_output=True, text=True)
+        if asked.returncode != 0:
+            self.skipTest(asked.stderr.strip().splitlines()[-1])
+        done = subprocess.run([*mpi_command(self, 3), os.path.join(HERE, "..", "examples", "mpi_dolfinx.py"), "6"],
+                              capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr[-3000:])
+        self.assertRegex(done.stdout, r"[1-9]\d* contacts between parts.*those of one grid")
+        self.assertIn("20000 points: 0 in no tetrahedron", done.stdout)
 
 
 if __name__ == "__main__":
