@@ -22,7 +22,7 @@ def main():
                 ((m[2], (m[1], m[3], m[4], m[5], m[6])) for m in map(ROW.match, file) if m)]
     matplotlib.rcParams.update({"svg.hashsalt": "vox", "font.size": 10, "axes.spines.top": False, "axes.spines.right": False})
     figure, axes = plt.subplots(1, 3, figsize=(10, 3.2))
-    names = ["kB that the busiest rank sends", "messages of the busiest rank", "ms: predicted work, and model of the network"]
+    names = ["kB that the busiest rank sends", "messages of the busiest rank", "ms: work predicted, network modelled"]
     for shape, colour in (("row", "#1f6fb2"), ("cube", "#b3480a")):
         ranks, sent, messages, work, network = zip(*[row[1:] for row in rows if row[0] == shape])
         axes[0].plot(ranks, [b / 1000 for b in sent], "o-", color=colour, label=f"blocks in a {shape}")
@@ -35,7 +35,7 @@ def main():
         axis.set_ylim(bottom=0)
         axis.set_xticks([1, 8, 27, 64])
     axes[0].legend(frameon=False)
-    axes[2].legend(frameon=False, fontsize=8)
+    axes[2].legend(frameon=False, fontsize=8, loc="center right")
     figure.tight_layout()
     figure.savefig(PICTURE, metadata={"Date": None})
 
