@@ -23,7 +23,7 @@ std::vector<Facet> facets_of(std::span<const std::uint32_t> tets) {
     for (std::uint32_t t = 0; t < tets.size() / 4; ++t)
         for (std::uint32_t f = 0; f < 4; ++f) {
             Facet facet{{}, t, f};
-            for (int i = 0; i < 3; ++i) facet.vertices[i] = tets[4 * t + facet_corners[f][i]];
+            for (std::size_t i = 0; i < 3; ++i) facet.vertices[i] = tets[4 * t + facet_corners[f][i]];
             std::sort(facet.vertices.begin(), facet.vertices.end());
             facets.push_back(facet);
         }
@@ -89,7 +89,7 @@ std::vector<Part> cut(std::span<const std::uint32_t> tets, std::span<const doubl
     std::vector<bool> above(tet_count);
     for (std::uint32_t t = 0; t < tet_count; ++t) {
         Vec sum{};
-        for (int c = 0; c < 4; ++c) sum = sum + at(positions, tets[4 * t + c]);
+        for (std::uint32_t c = 0; c < 4; ++c) sum = sum + at(positions, tets[4 * t + c]);
         above[t] = stroke.above(0.25 * sum);
     }
     // Corners of tetrahedra at the same vertex are one vertex still if a facet that was not opened joins
