@@ -16,6 +16,7 @@ let facts = null;
 let hash = "";
 let curves = null;
 let points = [];
+let trail = new Map(); // what was measured where the slider has been, by algorithm and size
 let measured = null;
 let chosen = { engine: 1, size: 0 };
 let followsBest = true; // until the slider is moved
@@ -109,7 +110,7 @@ function showCostNow() {
   const best = curves[chosen.engine];
   if (followsBest) setSize(best.size);
   const now = measured && measured.engine === chosen.engine && measured.size === chosen.size ? measured : null;
-  chart.draw({ curves, points, chosen, now });
+  chart.draw({ curves, points: [...points, ...trail.values()], chosen, now });
   moveTo(chosen.size); // its place may be another one now, as the range follows the curves
   const predicted = predictedAt(best, chosen.size);
   const algorithm = chosen.engine === 1 ? "the paper's algorithm" : "the fast engine";
@@ -192,6 +193,7 @@ for (const input of document.getElementsByName("engine"))
 find("sweep").addEventListener("click", () => {
   find("sweep").disabled = true;
   points = [];
+  trail.clear();
   log("all sizes are measured, with bodies that stand still meanwhile");
   act("sweep");
 });
@@ -209,6 +211,7 @@ const heard = {
     view.setBodies(bodies);
     playgroundApi.bodies = bodies.length;
     points = []; // of other bodies
+    trail.clear();
     measured = null;
   },
   frame(frame) {
@@ -227,6 +230,8 @@ const heard = {
   measured(sent) {
     measured = sent;
     playgroundApi.measured = sent;
+    trail.set(`${sent.engine} ${sent.size}`, sent);
+    if (trail.size > 200) trail.delete(trail.keys().next().value);
     showCost();
   },
   sweeping({ part }) {
