@@ -111,6 +111,11 @@ def compiled_together(sources):
     return {f"{group}.cpp": "".join(lines).encode() for group, lines in groups.items()}
 
 
+def replaced(text, old, new):
+    assert text.count(old) == 1, old
+    return text.replace(old, new)
+
+
 def contents(core_only, everything):
     """Every file of the drop: its name, and its bytes."""
     paths = ["include/vox", "adapters", "src", "cmake", "CMakeLists.txt", "LICENSE"]
@@ -121,6 +126,9 @@ def contents(core_only, everything):
     if core_only:
         names = [name for name in names if not re.match(r"src/(io|sim)/|include/vox/vox_(io|sim)", name)]
     files = {name: (ROOT / name).read_bytes() for name in names}
+    if everything: # patterns that match nothing are refused, so a clone's has not this one
+        files["pyproject.toml"] = replaced(files["pyproject.toml"], b'license-files = ["LICENSE"]',
+                                           b'license-files = ["LICENSE", "third_party/*/LICENSE"]')
     texts = {name: data.decode() for name, data in files.items() if name.startswith(("src/", "tools/"))}
     for folder, (include_dir, licence) in THIRD_PARTY.items():
         headers = headers_of(folder, include_dir, texts.values())
