@@ -11,8 +11,8 @@ partition. Without a communicator a scene has one rank, and needs no mpi4py:
 >>> first = scene.insert(0, corners, [[0, 1, 2, 3]])
 >>> second = scene.insert(1, corners * 0.5 + 0.1, [[0, 1, 2, 3]])
 >>> scene.step()
->>> [(c.body_a, c.vertex, c.body_b, c.tet) for c in scene.contacts]
-[(1, 0, 0, 0), (1, 1, 0, 0), (1, 2, 0, 0), (1, 3, 0, 0)]
+>>> scene.contacts.vertex.tolist(), scene.contacts.body_b.tolist()
+([0, 1, 2, 3], [0, 0, 0, 0])
 
 All ranks call the methods that say so, in the same order, and all of them get the same kind of exception.
 """
