@@ -26,7 +26,7 @@ after(async () => {
 });
 
 /** Waits until a function is true in the page. Playwright's own way needs a page that allows eval(). */
-async function until(page, holds, argument = null, { timeout = 30000 } = {}) {
+async function until(page, holds, argument = null, { timeout = 120000 } = {}) {
   for (const end = Date.now() + timeout; !(await page.evaluate(holds, argument)); await page.waitForTimeout(50))
     assert.ok(Date.now() < end, `in vain: ${holds} (${JSON.stringify(argument)})`);
 }
@@ -44,7 +44,7 @@ async function visit(search, use, options = {}) {
   page.on("pageerror", (error) => faults.push(String(error)));
   try {
     await page.goto(server.address + search);
-    await until(page, () => globalThis.playground?.ready && playground.facts, null, { timeout: 60000 });
+    await until(page, () => globalThis.playground?.ready && playground.facts);
     await use(page, context);
     assert.deepEqual(faults, []);
   } finally {
@@ -56,7 +56,7 @@ const run = (page, steps) => page.evaluate((n) => playground.ask("run", { steps:
 const dropAll = (page, tets, kinds = [0, 1, 2, 3, 4]) =>
   page.evaluate(([list, n]) => list.forEach((kind) => playground.act("drop", { kind, tets: n })), [kinds, tets]);
 const facts = (page) => page.evaluate(() => playground.facts);
-const logged = (page, words) => until(page, (w) => document.getElementById("log").textContent.includes(w), words, { timeout: 30000 });
+const logged = (page, words) => until(page, (w) => document.getElementById("log").textContent.includes(w), words);
 
 /** Waits until what is written somewhere matches. */
 const reads = (page, selector, words) =>
@@ -303,7 +303,7 @@ test("all sizes are measured; the predicted best is among the fastest", async (t
   await visit("?stopped", async (page) => {
     await run(page, 250);
     await page.click("#sweep");
-    await until(page, () => playground.points?.length > 10, null, { timeout: 120000 });
+    await until(page, () => playground.points?.length > 10);
     const { points, curves } = await page.evaluate(() => ({ points: playground.points, curves: playground.curves }));
     for (const engine of [1, 2]) {
       const swept = points.filter((point) => point.engine === engine);
