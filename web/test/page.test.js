@@ -26,8 +26,8 @@ after(async () => {
 });
 
 /** Waits until a function is true in the page. Playwright's own way needs a page that allows eval(). */
-async function until(page, holds, argument = null, { timeout = 120000 } = {}) {
-  for (const end = Date.now() + timeout; !(await page.evaluate(holds, argument)); await page.waitForTimeout(50))
+async function until(page, holds, argument = null) {
+  for (const end = Date.now() + 120000; !(await page.evaluate(holds, argument)); await page.waitForTimeout(50))
     assert.ok(Date.now() < end, `in vain: ${holds} (${JSON.stringify(argument)})`);
 }
 
