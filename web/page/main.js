@@ -89,7 +89,8 @@ function paragraph(text) {
 const times = (factor) => (factor < 1.095 ? `${Math.max(0, (factor - 1) * 100).toFixed(0)} % more than` : `${factor.toFixed(1)} times`);
 
 function predictedAt({ curve }, size) {
-  const after = Math.max(1, curve.findIndex((sample) => sample.size >= size));
+  const place = curve.findIndex((sample) => sample.size >= size);
+  const after = place < 0 ? curve.length - 1 : Math.max(1, place);
   const [a, b] = [curve[after - 1], curve[after]];
   const part = Math.log(size / a.size) / Math.log(b.size / a.size);
   return Math.exp(Math.log(a.ms) * (1 - part) + Math.log(b.ms) * part);
@@ -246,6 +247,9 @@ const heard = {
   },
   event({ text, bad }) {
     log(text, bad);
+  },
+  stopped() {
+    setPaused(true);
   },
   refused({ text }) {
     refuse(text);

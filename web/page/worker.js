@@ -14,6 +14,7 @@ let curves = {}; // of each engine
 let curvesAt = -Infinity;
 let measureAfter = 0;
 let recent = []; // milliseconds at the chosen size
+let changes = 0; // of the bodies
 let nextTick = 0;
 
 const send = (type, what = {}, transfer = []) => postMessage({ type, ...what }, transfer);
@@ -26,6 +27,7 @@ function sendBodies() {
   send("bodies", { bodies: bodies.map(({ positions, ...body }) => body) });
   curvesAt = -Infinity;
   recent = [];
+  ++changes;
 }
 
 function sendFrame() {
@@ -96,8 +98,10 @@ function measure(engine, size) {
 /** Takes at most a quarter of the time, and not more often than it is asked. */
 function measureChosen() {
   const now = performance.now();
+  if (now < measureAfter) return;
+  measureAfter = now + 5000; // if this fails
   if (now - curvesAt > 1000) suggestAll();
-  if (now < measureAfter || !chosen.size) return;
+  if (!chosen.size) return void (measureAfter = now);
   if (predict(chosen.engine, chosen.size) > 2000) return;
   const { ms, same } = measure(chosen.engine, chosen.size);
   recent = [...recent, ms].slice(-9);
@@ -108,6 +112,7 @@ function measureChosen() {
 /** Times of many sizes with bodies that stand still, in rounds, so that a disturbance does not hit one size alone. */
 async function sweep() {
   suggestAll();
+  const before = changes;
   const jobs = [];
   for (const engine of Object.values(ENGINE)) {
     const best = curves[engine].size;
@@ -125,6 +130,7 @@ async function sweep() {
       if (++done % 8 === 0) {
         send("sweeping", { part: done / (rounds * jobs.length) });
         await new Promise((go) => setTimeout(go)); // other acts first
+        if (changes !== before) throw new SceneError("other bodies came while all sizes were measured: measure again");
       }
     }
   }
@@ -139,7 +145,10 @@ function tick() {
   const now = performance.now();
   if (!sweeping) {
     if (!paused) {
-      attempt(stepOnce);
+      if (!attempt(() => (stepOnce(), true))) { // it would fail again
+        paused = true;
+        send("stopped");
+      }
       sendFrame();
     }
     attempt(measureChosen);

@@ -318,6 +318,18 @@ test("all sizes are measured; the predicted best is among the fastest", async (t
   });
 });
 
+test("bodies that come while all sizes are measured end it, and it can begin again", async () => {
+  await visit("?stopped", async (page) => {
+    await run(page, 100);
+    await page.click("#sweep");
+    await until(page, () => /Measuring: [1-9]/.test(document.getElementById("sweep").textContent));
+    await page.click("#drop");
+    await reads(page, "#banner", /measure again/);
+    await until(page, () => !document.getElementById("sweep").disabled);
+    assert.equal(await page.evaluate(() => playground.points.length), 0);
+  });
+});
+
 test("a snapshot goes to the native tool and back", async () => {
   await visit("?scene=empty&stopped", async (page) => {
     await dropAll(page, 1000);
