@@ -51,6 +51,33 @@ def whole():
     return grid, kept
 
 
+def fails(here, kind, call):
+    """Expects `kind` on the rank that failed, and on the others what the library says of that rank."""
+    try:
+        call()
+    except (voxtet.VoxError, TypeError, MemoryError) as error:
+        rank = MPI.COMM_WORLD.Get_size() - 1
+        if here:
+            assert isinstance(error, kind) and f"rank {rank} failed" not in str(error), error
+        else:
+            expected = MemoryError if kind is MemoryError else voxtet.InvalidArgumentError
+            assert isinstance(error, expected) and f"rank {rank} failed" in str(error), error
+    else:
+        raise AssertionError("nothing was raised")
+
+
+def without_memory(room, message):
+    """As `room`, but there is none for one of the messages."""
+    sizes = []
+
+    def instead(size):
+        sizes.append(size)
+        if len(sizes) == message + 1:
+            raise MemoryError
+        return room(size)
+    return instead
+
+
 def main():
     world = MPI.COMM_WORLD
     rank, size = world.Get_rank(), world.Get_size()
@@ -110,6 +137,33 @@ def main():
             parts[3][0][0, 0] = kept[0][np.unique(BODIES[3][1][parts[3][2]])[0], 0]
         scene.step()
         assert scene.hash() == voxtet.mpi.hash_of_grid(grid)
+
+        # A bad argument of one rank fails on all, which would otherwise wait for it.
+        bad = rank == size - 1
+        rows = np.zeros((len(scene.contacts) + bad, 3))
+        fails(bad, voxtet.InvalidArgumentError, lambda: scene.send(rows))
+        fails(bad, voxtet.InvalidArgumentError, lambda: scene.send(rows[:len(rows) - bad], to="sideways" if bad else "tets"))
+        fails(bad, TypeError, lambda: scene.locate(points.astype(np.float16 if bad else np.float64)))
+        fails(bad, voxtet.InvalidArgumentError, lambda: voxtet.mpi.Scene(world, engine="steam" if bad else "auto"))
+        assert np.array_equal(scene.send(scene.contacts.tet), scene.incoming.tet)
+
+        # So does a lack of memory for a message, after which nothing is left over for the next exchange.
+        for message in range(3 if size > 1 else 0):
+            room = voxtet.mpi._room
+            if bad:
+                voxtet.mpi._room = without_memory(room, message)
+            fails(bad, MemoryError, scene.step)
+            voxtet.mpi._room = room
+            assert len(scene.contacts) == 0
+            scene.step()
+            assert scene.hash() == voxtet.mpi.hash_of_grid(grid)
+        world.Barrier()
+
+        # Messages longer than MPI takes go as several.
+        voxtet.mpi._LONGEST = 64
+        scene.step()
+        assert scene.hash() == voxtet.mpi.hash_of_grid(grid)
+        voxtet.mpi._LONGEST = 1 << 30
     if rank == 0:
         print(f"{size} ranks: {sum(found)} contacts")
 

@@ -116,6 +116,15 @@ class OneRank(unittest.TestCase):
         self.assertEqual(self.scene.counters.contacts, 4)
         self.scene.check()
 
+    def test_a_rank_may_have_nothing(self):
+        for body, options in enumerate([dict(), dict(vertex_ids=[], tet_ids=[], owned=[]), dict(owned=np.empty(0, bool))]):
+            self.scene.insert(body, np.empty((0, 3)), np.empty((0, 4), int), **options)
+        self.scene.step()
+        self.assertEqual(len(self.scene.contacts) + len(self.scene.incoming), 0)
+        self.assertEqual(self.scene.send(np.empty((0, 3))).shape, (0, 3))
+        self.assertEqual(len(self.scene.locate(np.empty((0, 3)))), 0)
+        self.assertEqual(self.scene.locate([[0, 0, 0]]).rank.tolist(), [voxtet.mpi.NO_RANK])
+
     def test_bad_arguments_change_nothing(self):
         self.scene.insert(0, CORNERS, [[0, 1, 2, 3]])
         bad = [
@@ -142,6 +151,12 @@ class OneRank(unittest.TestCase):
             self.scene.send([], to="sideways")
         with self.assertRaises(TypeError):
             voxtet.mpi.Scene("world")
+        with self.assertRaisesRegex(voxtet.InvalidArgumentError, "steam"):
+            voxtet.mpi.Scene(engine="steam")
+        with self.assertRaisesRegex(TypeError, "float16"):
+            self.scene.locate(CORNERS.astype(np.float16))
+        with self.assertRaisesRegex(TypeError, "a voxtet.Grid"):
+            voxtet.mpi.hash_of_grid(self.scene)
         self.scene.step()
         self.assertEqual(len(self.scene.costs), 1)
         self.scene.close()

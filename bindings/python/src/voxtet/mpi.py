@@ -14,24 +14,28 @@ partition. Without a communicator a scene has one rank, and needs no mpi4py:
 >>> scene.contacts.vertex.tolist(), scene.contacts.body_b.tolist()
 ([0, 1, 2, 3], [0, 0, 0, 0])
 
-All ranks call the methods that say so, in the same order, and all of them get the same kind of exception.
+All ranks call the methods that say so, in the same order. Where one of them raises, all do: the rank that failed says why, the
+others name it. Afterwards the scene can be used as before.
 """
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import sys
 import threading
-from typing import Any, NamedTuple, Optional
+from typing import Any, Callable, NamedTuple, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _c, _dist
-from ._arguments import integer, rows
+from ._arguments import choice, integer, real, rows, switch
+from ._arguments import points as point_rows
 from ._dist import dist
-from ._library import Handle, Relay, described, sized, values_of
-from .errors import InvalidArgumentError, InvalidStateError
+from ._library import Handle, described, sized, values_of
+from .errors import InvalidArgumentError, InvalidStateError, VoxError
+from .grid import Grid
 from .mesh import Filter, Topology
 from .results import Records, copy_of
 
@@ -97,51 +101,99 @@ def _bytes_at(address: Optional[int], size: int) -> Any:
     return (ctypes.c_char * size).from_address(address or 0) if size else b""
 
 
+def _room(size: int) -> NDArray[np.uint8]:
+    """Memory for a message."""
+    return np.empty(size, np.uint8)
+
+
 class _Transport:
-    """The three functions of a vox_transport over a communicator. What one of them raises ends the call of the library, and is
-    raised from there."""
+    """The three functions of a vox_transport over a communicator. An exception must not cross the library: it gets a code, and goes
+    on with the calls that the other ranks wait for. `raise_kept` raises the exception after that."""
 
     def __init__(self, communicator: Any) -> None:
         MPI = getattr(sys.modules.get("mpi4py"), "MPI", None)  # whoever has a communicator has imported it
         if MPI is None or not isinstance(communicator, MPI.Intracomm):
             raise TypeError(f"communicator is of type {type(communicator).__name__}; it must be an mpi4py.MPI.Intracomm")
         self._mpi = MPI
+        self._kept: Optional[BaseException] = None
+        self._received: dict[int, NDArray[np.uint8]] = {}
         self.communicator = communicator.Dup()
-        self._received: dict[int, bytearray] = {}
-        failed = int(_c.Result.ERROR_INTERNAL)
-        self.relays = [Relay(function, failed) for function in (self._allgather, self._exchange, self._agree)]
-        self.struct = _dist.vox_transport(ctypes.sizeof(_dist.vox_transport), self.communicator.Get_rank(),
-                                          self.communicator.Get_size(), 0, _dist.Allgather(self.relays[0]),
-                                          _dist.Exchange(self.relays[1]), _dist.Agree(self.relays[2]), None)
+        self.communicator.Set_errhandler(MPI.ERRORS_RETURN)  # as exceptions, also where the caller's end the program
+        self.struct = _dist.vox_transport(
+            ctypes.sizeof(_dist.vox_transport), self.communicator.Get_rank(), self.communicator.Get_size(), 0,
+            _dist.Allgather(self._guarded(self._allgather)), _dist.Exchange(self._guarded(self._exchange)),
+            _dist.Agree(self._guarded(self._agree)), None)
 
-    def _allgather(self, given: int, size: int, out: int, _user: Any) -> int:
+    def _guarded(self, function: Callable[..., None]) -> Callable[..., int]:
+        def guarded(*arguments: Any) -> int:
+            try:
+                function(*arguments)
+            except BaseException as error:  # also Ctrl-C, which Python notices in here
+                self._kept = self._kept or error
+                return int(_c.Result.ERROR_OUT_OF_MEMORY if isinstance(error, MemoryError) else _c.Result.ERROR_INTERNAL)
+            return int(_c.Result.OK)
+        return guarded
+
+    def raise_kept(self) -> None:
+        kept, self._kept = self._kept, None
+        if kept is not None:
+            raise kept from None
+
+    def free(self) -> None:
+        if not self._mpi.Is_finalized():
+            self.communicator.Free()
+
+    def _allgather(self, given: int, size: int, out: int, _user: Any) -> None:
         ranks = self.communicator.Get_size()
         self.communicator.Allgather([_bytes_at(given, size), self._mpi.BYTE], [_bytes_at(out, size * ranks), self._mpi.BYTE])
-        return 0
 
-    def _exchange(self, ranks: Any, count: int, out: Any, received: Any, _user: Any) -> int:
+    def _exchange(self, ranks: Any, count: int, out: Any, received: Any, _user: Any) -> None:
         requests = []
-        for i in range(count):
-            data, size = out[i].data, out[i].size
-            for sent in range(0, size + 1, _LONGEST):  # a message shorter than the longest is the last
-                piece = _bytes_at((data or 0) + sent, min(size - sent, _LONGEST))
-                requests.append(self.communicator.Isend([piece, self._mpi.BYTE], ranks[i], _TAG))
-        for i in range(count):
-            whole = self._received[ranks[i]] = bytearray()
-            while True:
-                status = self._mpi.Status()
-                message = self.communicator.Mprobe(ranks[i], _TAG, status)
-                piece = bytearray(status.Get_count(self._mpi.BYTE))
-                message.Recv([piece, self._mpi.BYTE])
-                whole += piece
-                if len(piece) < _LONGEST:
-                    break
-            received[i].size = len(whole)
-            received[i].data = ctypes.addressof(ctypes.c_char.from_buffer(whole)) if whole else None
-        self._mpi.Request.Waitall(requests)
-        return 0
+        lacking = 0
+        try:
+            for i in range(count):
+                data, size = out[i].data, out[i].size
+                for sent in range(0, size + 1, _LONGEST):  # a message shorter than the longest is the last
+                    piece = _bytes_at((data or 0) + sent, min(size - sent, _LONGEST))
+                    requests.append(self.communicator.Isend([piece, self._mpi.BYTE], ranks[i], _TAG))
+            for i in range(count):
+                whole = self._receive(ranks[i])
+                if whole is None:
+                    lacking += 1
+                else:
+                    self._received[ranks[i]] = whole
+                    received[i].data, received[i].size = whole.ctypes.data, len(whole)
+        finally:
+            self._mpi.Request.Waitall(requests)  # the memory that they send from is the library's again
+        if lacking:
+            raise MemoryError(f"there is no memory for the messages of {lacking} ranks")
 
-    def _agree(self, minima: Any, minimum_count: int, sums: Any, sum_count: int, _user: Any) -> int:
+    def _receive(self, rank: int) -> Optional[NDArray[np.uint8]]:
+        """A message; None where there is no memory for it. It is taken from MPI in any case, or the next exchange would get it."""
+        pieces = []
+        lacking = False
+        size = _LONGEST
+        while size == _LONGEST:
+            status = self._mpi.Status()
+            message = self.communicator.Mprobe(rank, _TAG, status)
+            size = status.Get_count(self._mpi.BYTE)
+            try:
+                piece = _room(size)
+            except MemoryError:
+                lacking = True
+                with contextlib.suppress(self._mpi.Exception):  # which says that the message was cut off
+                    message.Recv([bytearray(), self._mpi.BYTE])
+            else:
+                message.Recv([piece, self._mpi.BYTE])
+                pieces.append(piece)
+        if lacking:
+            return None
+        try:
+            return pieces[0] if len(pieces) == 1 else np.concatenate(pieces)
+        except MemoryError:
+            return None
+
+    def _agree(self, minima: Any, minimum_count: int, sums: Any, sum_count: int, _user: Any) -> None:
         for numbers, count, operation in ((minima, minimum_count, self._mpi.MIN), (sums, sum_count, self._mpi.SUM)):
             if count:
                 mine = np.array(numbers[:count], np.uint64)
@@ -149,7 +201,6 @@ class _Transport:
                 self.communicator.Allreduce([mine, self._mpi.UINT64_T], [combined, self._mpi.UINT64_T], operation)
                 for i in range(count):
                     numbers[i] = int(combined[i])
-        return 0
 
 
 class _Calls:
@@ -167,10 +218,18 @@ class _Calls:
         return self._scene._handle.pointer
 
     def __exit__(self, *_: object) -> None:
-        self._scene._lock.release()
-        if self._scene._transport is not None:
-            for relay in self._scene._transport.relays:
-                relay.__exit__()
+        try:
+            if self._scene._transport is not None:
+                self._scene._transport.raise_kept()
+        finally:
+            self._scene._lock.release()
+
+
+def _fail(function: Any, *arguments: Any) -> None:
+    """Takes part in a call of all ranks with arguments that the library refuses. Where this rank alone has a bad argument, the
+    others, which have made the call already, would wait for it."""
+    with contextlib.suppress(VoxError):
+        function(*arguments)
 
 
 def _numbers(value: Optional[ArrayLike], name: str, count: int, dtype: Any) -> Optional[NDArray[Any]]:
@@ -178,6 +237,8 @@ def _numbers(value: Optional[ArrayLike], name: str, count: int, dtype: Any) -> O
     if value is None:
         return None
     array = np.asarray(value)
+    if array.size == 0 and not isinstance(value, np.ndarray):
+        array = array.astype(dtype)  # an empty list, of a rank without vertices
     if array.dtype.kind not in ("b" if dtype == np.uint8 else "") + "iu":
         raise TypeError(f"{name} has the dtype {array.dtype}; it must hold {'booleans' if dtype == np.uint8 else 'integers'}")
     if array.shape != (count,):
@@ -194,26 +255,30 @@ class Scene:
     None: one rank. engine, cell_size, workers: as in `Grid`."""
 
     def __init__(self, communicator: Any = None, *, engine: str = "auto", cell_size: float = 0.0, workers: int = 1) -> None:
-        from ._arguments import choice, real
-        grid = described(_c.vox_grid_desc)
-        grid.flags = 0
-        grid.engine = choice(_c.Engine, engine, "engine")
-        grid.cell_size = real(cell_size, "cell_size")
-        grid.worker_count = integer(workers, "workers", 0, _c.VOX_MAX_WORKERS)
-        desc = described(_dist.vox_scene_desc, dist)
-        desc.grid = ctypes.pointer(grid)
         self._lock = threading.Lock()
         self._handle: Optional[Handle] = None
         self._kept: dict[int, Any] = {}  # what is borrowed, by part
         self._transport = None if communicator is None else _Transport(communicator)
         pointer = ctypes.c_void_p()
         transport = None if self._transport is None else ctypes.pointer(self._transport.struct)
+        grid = described(_c.vox_grid_desc)
+        desc = described(_dist.vox_scene_desc, dist)
         try:
+            try:
+                grid.flags = 0
+                grid.engine = choice(_c.Engine, engine, "engine")
+                grid.cell_size = real(cell_size, "cell_size")
+                grid.worker_count = integer(workers, "workers", 0, _c.VOX_MAX_WORKERS)
+                desc.grid = ctypes.pointer(grid)
+            except Exception:
+                _fail(dist.vox_scene_create, _dist.vox_scene_desc(), transport, pointer)
+                raise
             dist.vox_scene_create(desc, transport, pointer)
-        finally:
+        except BaseException:
             if self._transport is not None:
-                for relay in self._transport.relays:
-                    relay.__exit__()
+                self._transport.raise_kept()
+                self._transport.free()  # by all ranks, as all of them have failed
+            raise
         self._handle = Handle(pointer.value or 0, dist.vox_scene_destroy, self._transport)
 
     def close(self) -> None:
@@ -222,8 +287,8 @@ class Scene:
         with self._lock:
             self._handle = None
             self._kept.clear()
-            if self._transport is not None and not self._transport._mpi.Is_finalized():
-                self._transport.communicator.Free()
+            if self._transport is not None:
+                self._transport.free()
             self._transport = None
 
     def __enter__(self) -> Scene:
@@ -251,7 +316,6 @@ class Scene:
         move the part by writing to this array. vertex_ids, tet_ids: global numbers; None: 0, 1, 2 and so on. owned: whether this
         rank owns each vertex; None: all. A vertex is owned by one rank, and has the same position wherever there is a copy of it.
         """
-        from ._arguments import switch
         new = Topology(positions, tets, None, False, None, False)
         if filter is not None:
             if not isinstance(filter, Filter):
@@ -314,20 +378,24 @@ class Scene:
     def send(self, values: ArrayLike, to: str = "tets") -> NDArray[Any]:
         """By all ranks. Sends a row for each contact: one for each of `contacts`, which arrive in the order of `incoming`, or with
         to="vertices" the way back. Rows have the same shape and dtype on all ranks."""
-        if to not in ("tets", "vertices"):
-            raise InvalidArgumentError(f"to is {to!r}; it must be 'tets' or 'vertices'")
-        array = np.ascontiguousarray(values)
-        if array.dtype.hasobject:
-            raise TypeError(f"values has the dtype {array.dtype}; it must hold plain numbers")
-        views = [_dist.vox_scene_contact_view(), _dist.vox_scene_contact_view()]
         with _Calls(self) as pointer:
-            dist.vox_scene_contacts(pointer, views[0])
-            dist.vox_scene_incoming(pointer, views[1])
-            given, wanted = (v.count for v in (views if to == "tets" else reversed(views)))
-            if array.ndim < 1 or len(array) != given:
-                raise InvalidArgumentError(f"values has the shape {array.shape}; it must have {given} rows")
-            out = np.empty((wanted, *array.shape[1:]), array.dtype)
-            item = int(np.prod(array.shape[1:], dtype=np.int64)) * array.dtype.itemsize
+            try:
+                if to not in ("tets", "vertices"):
+                    raise InvalidArgumentError(f"to is {to!r}; it must be 'tets' or 'vertices'")
+                array = np.ascontiguousarray(values)
+                if array.dtype.hasobject:
+                    raise TypeError(f"values has the dtype {array.dtype}; it must hold plain numbers")
+                views = [_dist.vox_scene_contact_view(), _dist.vox_scene_contact_view()]
+                dist.vox_scene_contacts(pointer, views[0])
+                dist.vox_scene_incoming(pointer, views[1])
+                given, wanted = (v.count for v in (views if to == "tets" else reversed(views)))
+                if array.ndim < 1 or len(array) != given:
+                    raise InvalidArgumentError(f"values has the shape {array.shape}; it must have {given} rows")
+                out = np.empty((wanted, *array.shape[1:]), array.dtype)
+                item = int(np.prod(array.shape[1:], dtype=np.int64)) * array.dtype.itemsize
+            except Exception:
+                _fail(dist.vox_scene_send, pointer, 0, 0, None, None)
+                raise
             dist.vox_scene_send(pointer, 0 if to == "tets" else 1, item, array.ctypes.data if given else None,
                                 out.ctypes.data if wanted else None)
         return out
@@ -342,11 +410,13 @@ class Scene:
     def locate(self, points: Any) -> ScenePoints:
         """By all ranks, each with points of its own, (n, 3). The body and the tetrahedron that contain each point: one, the same for
         any partition."""
-        found = rows(points, "points")
-        if found.component not in (0, 4 if found.format == _c.Format.FLOAT3 else 8):
-            found = rows(np.ascontiguousarray(found.array), "points")
-        out = np.zeros(found.length, _dist.point_type)
         with _Calls(self) as pointer:
+            try:
+                found = point_rows(points)
+                out = np.zeros(found.length, _dist.point_type)
+            except Exception:
+                _fail(dist.vox_scene_locate, pointer, None, 0, 0, 1, None)
+                raise
             dist.vox_scene_locate(pointer, found.address, found.format, found.stride, found.length,
                                   out.ctypes.data if len(out) else None)
         return out.view(ScenePoints)
@@ -375,8 +445,11 @@ class Scene:
         return values_of(SceneCounters, out)
 
 
-def hash_of_grid(grid: Any) -> int:
+def hash_of_grid(grid: Grid) -> int:
     """The hash that `Scene.hash` has for the contacts of one grid of whole bodies, whose user_data are the bodies' numbers."""
+    if not isinstance(grid, Grid):
+        raise TypeError(f"grid is of type {type(grid).__name__}; it must be a voxtet.Grid")
     out = (ctypes.c_uint64 * 2)()
-    dist.vox_scene_hash_of_grid(grid._pointer, out)
+    with grid._lock:
+        dist.vox_scene_hash_of_grid(grid._pointer, out)
     return out[0] | out[1] << 64
