@@ -174,6 +174,20 @@ class Ranks(unittest.TestCase):
                 self.assertIn(f"{ranks} ranks:", done.stdout)
                 print(done.stdout, end="")
 
+    def test_example(self):
+        try:
+            import voxtet.io  # noqa: F401
+        except ImportError as missing:
+            self.skipTest(str(missing))
+        printed = set()
+        for ranks in (1, 4):
+            done = subprocess.run([*mpi_command(self, ranks), os.path.join(HERE, "..", "examples", "mpi_blocks.py")],
+                                  capture_output=True, text=True, timeout=300)
+            self.assertEqual(done.returncode, 0, done.stderr[-3000:])
+            printed.add(done.stdout)
+        self.assertEqual(len(printed), 1, printed)
+        self.assertRegex(printed.pop(), r"^([1-9]\d* contacts, hash [0-9a-f]{32}\n){3}forces .* 2 of 3 points are in bodies \[0, 1\]\n$")
+
     def test_meshes_of_dolfinx(self):
         asked = subprocess.run([sys.executable, "-c", "import dolfinx"], capture_output=True, text=True)
         if asked.returncode != 0:

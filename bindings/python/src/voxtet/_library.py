@@ -16,7 +16,7 @@ _Values = TypeVar("_Values")
 
 
 def file_name(name: str) -> str:
-    """What the shared library `name` (vox, vox_io, vox_sim) is called on this system."""
+    """What the shared library `name` (vox, vox_io, vox_sim, vox_dist) is called on this system."""
     if sys.platform == "win32":
         return name + ".dll"
     if sys.platform == "darwin":
