@@ -194,13 +194,15 @@ class _Transport:
             return None
 
     def _agree(self, minima: Any, minimum_count: int, sums: Any, sum_count: int, _user: Any) -> None:
-        for numbers, count, operation in ((minima, minimum_count, self._mpi.MIN), (sums, sum_count, self._mpi.SUM)):
+        # As signed numbers, in the same order: MPICH 4.0 takes 2**64 - 1 of UINT64_T for the least of all.
+        for numbers, count, operation, offset in ((minima, minimum_count, self._mpi.MIN, 1 << 63),
+                                                  (sums, sum_count, self._mpi.SUM, 0)):
             if count:
-                mine = np.array(numbers[:count], np.uint64)
+                mine = np.array(numbers[:count], np.uint64) ^ np.uint64(offset)
                 combined = np.empty_like(mine)
-                self.communicator.Allreduce([mine, self._mpi.UINT64_T], [combined, self._mpi.UINT64_T], operation)
+                self.communicator.Allreduce([mine, self._mpi.INT64_T], [combined, self._mpi.INT64_T], operation)
                 for i in range(count):
-                    numbers[i] = int(combined[i])
+                    numbers[i] = int(combined[i]) ^ offset
 
 
 class _Calls:
