@@ -1,8 +1,10 @@
 // The page: controls, what a visitor does with pointer and keys, and the figures beside the bodies. The scene itself runs in worker.js.
 import { Chart, length, time } from "./chart.js";
+import { predictedAt } from "./curve.js";
+import { KINDS } from "./scene.js";
 import { View } from "./view.js";
 
-const KINDS = ["ball", "box", "ring", "capsule", "bar"];
+const DROPPED = KINDS.slice(0, 5); // what the page makes itself
 const MOST_LINES = 100; // of the log
 const find = (id) => document.getElementById(id);
 const count = (n) => Math.round(n).toLocaleString("en");
@@ -61,6 +63,7 @@ function showFacts() {
     ["deepest", facts.deepest.toFixed(3)],
     ["a step", time(facts.stepNs / 1e6)],
     ["of it, collision", time(facts.detectNs / 1e6)],
+    ["cell size, by itself", length(facts.cellSize)],
     ["pictures a second", String(framesPerSecond)],
     ["memory", `${(facts.bytes / 1e6).toFixed(0)} of ${(facts.byteLimit / 1e6).toFixed(0)} MB`],
     ["state", facts.asleep ? "asleep: nothing moves" : paused ? "stopped" : "awake"],
@@ -88,14 +91,6 @@ function paragraph(text) {
 
 const times = (factor) => (factor < 1.095 ? `${Math.max(0, (factor - 1) * 100).toFixed(0)} % more than` : `${factor.toFixed(1)} times`);
 
-function predictedAt({ curve }, size) {
-  const place = curve.findIndex((sample) => sample.size >= size);
-  const after = place < 0 ? curve.length - 1 : Math.max(1, place);
-  const [a, b] = [curve[after - 1], curve[after]];
-  const part = Math.log(size / a.size) / Math.log(b.size / a.size);
-  return Math.exp(Math.log(a.ms) * (1 - part) + Math.log(b.ms) * part);
-}
-
 // At most ten times a second.
 let costTimer = null;
 function showCost() {
@@ -111,8 +106,10 @@ function showCostNow() {
   const best = curves[chosen.engine];
   if (followsBest) setSize(best.size);
   const now = measured && measured.engine === chosen.engine && measured.size === chosen.size ? measured : null;
-  chart.draw({ curves, points: [...points, ...trail.values()], chosen, now });
-  moveTo(chosen.size); // its place may be another one now, as the range follows the curves
+  const seen = [...points, ...trail.values()];
+  chart.draw({ curves, points: seen, chosen, now });
+  find("size").value = String(Math.round(placeOf(chosen.size))); // another place now, as the range follows the curves
+  showSize();
   const predicted = predictedAt(best, chosen.size);
   const algorithm = chosen.engine === 1 ? "the paper's algorithm" : "the fast engine";
   const lines = [];
@@ -122,9 +119,10 @@ function showCostNow() {
     `At the cell size ${length(chosen.size)}, ${algorithm} ${now ? `takes ${time(now.ms)}` : "takes … ms"} for a step (predicted: ${time(predicted)}).` +
       (atBest ? " This is the predicted best." : ` That is ${times(predicted / least)} what is predicted at the best size, ${length(best.size)}.`),
   );
-  lines.push(now && !now.same ? "The contacts differ from those at other sizes: please report this." :
-    "The contacts are the same at every size, bit for bit. Only the time changes.");
   const swept = points.filter((point) => point.engine === chosen.engine);
+  const other = seen.find((point) => !point.same);
+  if (other) lines.push(`The contacts differ at the cell size ${length(other.size)}: please report this.`);
+  else if (seen.length > 0) lines.push("The contacts are the same at every size, bit for bit. Only the time changes.");
   if (swept.length > 2) {
     const fastest = swept.reduce((a, b) => (b.ms < a.ms ? b : a));
     const nearest = swept.reduce((a, b) => (Math.abs(Math.log(b.size / best.size)) < Math.abs(Math.log(a.size / best.size)) ? b : a));
@@ -158,27 +156,24 @@ function fillTable(id, rows, cells) {
 const sizeAt = (place) => chart.range[0] * (chart.range[1] / chart.range[0]) ** (place / 1000);
 const placeOf = (size) => (1000 * Math.log(size / chart.range[0])) / Math.log(chart.range[1] / chart.range[0]);
 
-function moveTo(size) {
-  const slider = find("size");
-  slider.value = String(Math.round(placeOf(size)));
-  setSize(size);
-}
-
 function setSize(size) {
-  const { rules } = curves[chosen.engine];
-  const edge = rules.find((rule) => rule.name === "the mean edge")?.size ?? 1;
-  const text = `${length(size)}, ${(size / edge).toFixed(2)} mean edges`;
-  find("size-text").textContent = text;
-  find("size").setAttribute("aria-valuetext", text);
   if (size === chosen.size) return;
   chosen = { ...chosen, size };
   act("choose", chosen);
+}
+
+function showSize() {
+  const edge = curves[chosen.engine].rules.find((rule) => rule.name === "the mean edge").size;
+  const text = `${length(chosen.size)}, ${(chosen.size / edge).toFixed(2)} mean edges`;
+  find("size-text").textContent = text;
+  find("size").setAttribute("aria-valuetext", text);
 }
 
 find("size").addEventListener("input", (event) => {
   if (!curves) return;
   followsBest = false;
   setSize(sizeAt(Number(event.target.value)));
+  showSize();
   showCost();
 });
 find("best").addEventListener("click", () => {
@@ -267,7 +262,7 @@ worker.onerror = (event) => refuse(`The scene cannot run here: ${event.message ?
 
 // ---- buttons ----
 
-find("kind").append(...KINDS.map((name, i) => Object.assign(document.createElement("option"), { value: i, textContent: name })));
+find("kind").append(...DROPPED.map((name, i) => Object.assign(document.createElement("option"), { value: i, textContent: name })));
 
 const tets = () => Number(find("tets").value);
 const drop = () => act("drop", { kind: Number(find("kind").value), tets: tets() });
@@ -426,7 +421,7 @@ const stands = parameters.has("stopped") || matchMedia("(prefers-reduced-motion:
 
 /** What a visitor finds at first. ?scene=empty begins without bodies; for those who want less motion, it stands still. */
 function start() {
-  if (parameters.get("scene") !== "empty") for (let i = 0; i < 10; ++i) act("drop", { kind: i % KINDS.length, tets: tets() });
+  if (parameters.get("scene") !== "empty") for (let i = 0; i < 10; ++i) act("drop", { kind: i % DROPPED.length, tets: tets() });
   if (stands) {
     setPaused(true);
     log("it stands still, as less motion was asked for: Go on starts it");

@@ -1,9 +1,12 @@
 // The scene's module: WebAssembly and the few functions that it asks for, with arrays and texts of JavaScript.
 
+/** vox_engine, and vox_cost_model: the one that predicts an engine's nanoseconds has its number. */
 export const ENGINE = { paper: 1, fast: 2 };
-const MODEL = { 1: 1, 2: 2 }; // of an engine: the one that predicts nanoseconds
+/** play_kind. */
+export const KINDS = ["ball", "box", "ring", "capsule", "bar", "file"];
+export const FIXED = KINDS.length;
 export const RULES = ["the mean edge", "two mean edges", "512 cells a body", "a given resolution", "the mean volume's side", "the median box's side"];
-const FACTS = ["tets", "vertices", "contacts", "penetrations", "deepest", "stepNs", "detectNs", "cellSize", "maxSpeed", "steps", "asleep", "bytes", "byteLimit"];
+const FACTS = ["tets", "contacts", "deepest", "stepNs", "detectNs", "cellSize", "maxSpeed", "steps", "asleep", "bytes", "byteLimit"];
 
 /** A module with one instruction of the SIMD of 128 bits. */
 const simdProbe = Uint8Array.of(0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11);
@@ -149,9 +152,9 @@ export class Scene {
   bodies() {
     const memory = () => this.#exports.memory.buffer;
     return Array.from({ length: this.#exports.play_body_count(this.#play) }, (_, i) => {
-      const [positions, triangles, vertexCount, triangleCount, tetCount, serial, kind, mesh] = new Uint32Array(
-        memory(), this.#exports.play_get_body(this.#play, i), 8);
-      return { positions, vertexCount, tetCount, serial, kind, mesh, triangles: new Uint32Array(memory(), triangles, 3 * triangleCount).slice() };
+      const [positions, triangles, vertexCount, triangleCount, serial, kind, mesh] = new Uint32Array(
+        memory(), this.#exports.play_get_body(this.#play, i), 7);
+      return { positions, vertexCount, serial, kind, mesh, triangles: new Uint32Array(memory(), triangles, 3 * triangleCount).slice() };
     });
   }
 
@@ -203,7 +206,7 @@ export class Scene {
   /** The curve of an engine's predicted milliseconds, with what else is known of it. */
   suggest(engine) {
     const milliseconds = (ns) => Math.max(ns / 1e6, 1e-5); // bodies that are far apart cost the fast engine nothing
-    const at = this.#exports.play_suggest_numbers(this.#play, MODEL[engine]);
+    const at = this.#exports.play_suggest_numbers(this.#play, engine);
     if (at === 0) throw new SceneError(this.#text(this.#exports.vox_last_error()));
     const n = new Float64Array(this.#exports.memory.buffer, at, 18 + 2 * 64 + 3 * 12);
     const [samples, terms] = [n[16], n[17]];

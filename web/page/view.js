@@ -1,6 +1,7 @@
 // What is drawn of the scene, by three.js, and where the pointer is in it.
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { FIXED } from "./scene.js";
 
 const PALETTE = [0x4e93c9, 0xd9803f, 0x5fa463, 0xb96bb0, 0xc9a93a, 0x56b0a8, 0xcf6464, 0x8a83cf];
 const MOST_CELLS = 4000; // that are drawn
@@ -128,7 +129,7 @@ export class View {
         const geometry = new THREE.BufferGeometry();
         geometry.setIndex(new THREE.BufferAttribute(body.triangles, 1));
         geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * body.vertexCount), 3).setUsage(THREE.DynamicDrawUsage));
-        const color = body.kind === 6 ? 0x9aa3ab : PALETTE[body.serial % PALETTE.length];
+        const color = body.kind === FIXED ? 0x9aa3ab : PALETTE[body.serial % PALETTE.length];
         const material = new THREE.MeshLambertMaterial({ color, flatShading: true, side: THREE.DoubleSide });
         shown = { body, mesh: new THREE.Mesh(geometry, material) };
         shown.mesh.frustumCulled = false;
@@ -225,7 +226,7 @@ export class View {
     const way = new THREE.Vector3(...to).sub(new THREE.Vector3(...from)).normalize();
     const caster = new THREE.Raycaster(new THREE.Vector3(...from), way);
     const [hit] = caster.intersectObjects(this.#bodies.map(({ mesh }) => mesh), false);
-    return Boolean(hit) && this.#bodies.find(({ mesh }) => mesh === hit.object).body.kind !== 6;
+    return Boolean(hit) && this.#bodies.find(({ mesh }) => mesh === hit.object).body.kind !== FIXED;
   }
 
   /** The point of a ray that is as far from the camera, along its axis, as `point`. */

@@ -1,9 +1,9 @@
 // The simulation's thread: steps the scene sixty times a second, measures cell sizes in what time is left, and sends what is to be
 // drawn. The page never waits for it.
-import { ENGINE, Scene, SceneError, simdSupported } from "./scene.js";
+import { predictedAt } from "./curve.js";
+import { ENGINE, FIXED, KINDS, Scene, SceneError, simdSupported } from "./scene.js";
 
 const FRAME_MS = 1000 / 60;
-const KINDS = ["ball", "box", "ring", "capsule", "bar", "file", "ring on the floor"];
 
 let scene;
 let bodies = [];
@@ -20,7 +20,7 @@ let nextTick = 0;
 const send = (type, what = {}, transfer = []) => postMessage({ type, ...what }, transfer);
 const log = (text, bad = false) => send("event", { text, bad });
 
-const nameOf = (body) => (body ? (body.kind === 6 ? "the ring on the floor" : `${KINDS[body.kind]} ${body.serial}`) : "a body that is gone");
+const nameOf = (body) => (body.kind === FIXED ? "the ring on the floor" : `${KINDS[body.kind]} ${body.serial}`);
 
 function sendBodies() {
   bodies = scene.bodies();
@@ -74,14 +74,7 @@ function changed(act) {
 
 const median = (values) => values.toSorted((a, b) => a - b)[values.length >> 1];
 
-function predict(engine, size) {
-  const { curve } = curves[engine];
-  const after = curve.findIndex((sample) => sample.size >= size);
-  if (after <= 0) return (after === 0 ? curve[0] : curve.at(-1)).ms;
-  const [a, b] = [curve[after - 1], curve[after]];
-  const part = Math.log(size / a.size) / Math.log(b.size / a.size);
-  return Math.exp(Math.log(a.ms) * (1 - part) + Math.log(b.ms) * part);
-}
+const predict = (engine, size) => predictedAt(curves[engine], size);
 
 function suggestAll() {
   for (const engine of Object.values(ENGINE)) curves[engine] = scene.suggest(engine);
@@ -95,17 +88,17 @@ function measure(engine, size) {
   return scene.measure(engine, size, steps);
 }
 
-/** Takes at most a quarter of the time, and not more often than it is asked. */
+/** Measures the chosen size, for at most a quarter of the time. */
 function measureChosen() {
   const now = performance.now();
   if (now < measureAfter) return;
   measureAfter = now + 5000; // if this fails
   if (now - curvesAt > 1000) suggestAll();
   if (!chosen.size) return void (measureAfter = now);
-  if (predict(chosen.engine, chosen.size) > 2000) return;
+  if (predict(chosen.engine, chosen.size) > 2000) return; // the bodies would stand still for seconds
   const { ms, same } = measure(chosen.engine, chosen.size);
   recent = [...recent, ms].slice(-9);
-  send("measured", { ...chosen, ms: median(recent), predicted: predict(chosen.engine, chosen.size), same });
+  send("measured", { ...chosen, ms: median(recent), same });
   measureAfter = performance.now() + 3 * (performance.now() - now);
 }
 

@@ -65,20 +65,17 @@ vox_result play_measure(playground* play, uint32_t engine, double cell_size, uin
     });
 }
 
-vox_result play_suggest(playground* play, uint32_t model, vox_suggestion* out) {
-    return guard([&] {
+const double* play_suggest_numbers(playground* play, uint32_t model) {
+    vox_suggestion& s = play->suggestion;
+    const vox_result result = guard([&] {
         vox_suggest_desc desc = vox_default_suggest_desc();
         desc.model = static_cast<vox_cost_model>(model);
         vox_grid* grid =
             grid_with(*play, model == VOX_COST_MODEL_FAST ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE);
-        out->struct_size = sizeof *out;
-        check(vox_grid_suggest_cell_size(grid, &desc, out));
+        s.struct_size = sizeof s;
+        check(vox_grid_suggest_cell_size(grid, &desc, &s));
     });
-}
-
-const double* play_suggest_numbers(playground* play, uint32_t model) {
-    vox_suggestion& s = play->suggestion;
-    if (play_suggest(play, model, &s) != VOX_OK) return nullptr;
+    if (result != VOX_OK) return nullptr;
     double* next = play->suggestion_numbers;
     const auto put_rules = [&next](const vox_cell_size_rules& rules) {
         for (const double value : {rules.mean_edge, rules.mean_edge_multiple, rules.object_512,

@@ -1,7 +1,15 @@
 // The scene without a page. Runs commands from its input, one a line, as the page's tests run them in the
 // browser, and prints what they compare:
-//     drop KIND TETS | file PATH TETS | steps N | grab x y z x y z | drag x y z | let-go | cut (9 numbers) |
-//     self 0/1 save PATH | load PATH | measure ENGINE SIZE STEPS | suggest MODEL
+//     drop KIND TETS
+//     file PATH TETS
+//     steps N
+//     grab FROM TO, three numbers each
+//     drag POINT
+//     let-go
+//     cut EYE FIRST SECOND
+//     self 0 or 1
+//     save PATH
+//     load PATH
 #include "playground.h"
 
 #include <cinttypes>
@@ -87,18 +95,6 @@ int main() {
         } else if (command == "load") {
             const std::vector<char> bytes = bytes_of(path);
             result = play_load(play, bytes.data(), bytes.size());
-        } else if (command == "measure") {
-            double ns = 0;
-            std::uint32_t same = 0;
-            result = play_measure(play, whole(0), n[1], whole(2), &ns, &same);
-            std::printf("same contacts %u\n", same);
-            std::fprintf(stderr, "%.3f ms a step\n", ns / n[2] * 1e-6);
-        } else if (command == "suggest") {
-            vox_suggestion suggestion;
-            result = play_suggest(play, whole(0), &suggestion);
-            if (result == VOX_OK)
-                std::fprintf(stderr, "cell size %.4g, zone %.4g to %.4g, cost %.4g\n", suggestion.cell_size,
-                             suggestion.zone_min, suggestion.zone_max, suggestion.predicted_cost);
         } else if (!command.empty()) {
             std::fprintf(stderr, "no command %s\n", command.c_str());
             return 2;

@@ -141,15 +141,24 @@ double highest(const playground& play) {
     return z;
 }
 
+// Ends of the box of all vertices; infinite without any.
+struct Ends {
+    Vec low, high;
+};
+
+Ends ends_of(const vox_io_mesh_view& view) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Ends ends{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+    for (std::uint64_t i = 0; i < 3 * view.vertex_count; ++i) {
+        ends.low[i % 3] = std::min(ends.low[i % 3], view.positions[i]);
+        ends.high[i % 3] = std::max(ends.high[i % 3], view.positions[i]);
+    }
+    return ends;
+}
+
 // Inserts a mesh turned, scaled to `size` along its longest side (0: as it is), above all others.
 void drop(playground& play, const vox_io_mesh_view& view, std::uint32_t kind, double size) {
-    Vec low, high;
-    low.fill(std::numeric_limits<double>::infinity());
-    high.fill(-std::numeric_limits<double>::infinity());
-    for (std::uint64_t i = 0; i < 3 * view.vertex_count; ++i) {
-        low[i % 3] = std::min(low[i % 3], view.positions[i]);
-        high[i % 3] = std::max(high[i % 3], view.positions[i]);
-    }
+    const auto [low, high] = ends_of(view);
     const Vec side = high - low, middle = 0.5 * (low + high);
     const double scale = size > 0 ? size / std::max({side[0], side[1], side[2]}) : 1;
     const Rotation turn = rotation(++play.dropped);
@@ -197,17 +206,30 @@ void pull(playground& play) {
     play.was_touched();
 }
 
+// Calls visit(record) for each record of a view of the library's.
+template <class View, class Visit>
+void for_each(const View& view, const Visit& visit) {
+    const auto* bytes = reinterpret_cast<const unsigned char*>(view.data);
+    for (std::uint64_t i = 0; i < view.count; ++i)
+        visit(*reinterpret_cast<decltype(view.data)>(bytes + i * view.byte_stride));
+}
+
+// The penetrations of the last detection; none before the first.
+vox_penetration_view penetrations_of(const playground& play) {
+    vox_penetration_view view{};
+    if (vox_grid_penetrations(play.grid, &view) != VOX_OK) view.count = 0;
+    return view;
+}
+
 void list_touches(playground& play) {
     play.touches.clear();
     vox_touch_view view;
     check(vox_grid_touch_events(play.grid, &view));
-    const auto* bytes = reinterpret_cast<const unsigned char*>(view.data);
-    for (std::uint64_t i = 0; i < view.count; ++i) {
-        const auto& event = *reinterpret_cast<const vox_touch_event*>(bytes + i * view.byte_stride);
-        if (event.kind == VOX_TOUCH_PERSISTED) continue;
+    for_each(view, [&play](const vox_touch_event& event) {
+        if (event.kind == VOX_TOUCH_PERSISTED) return;
         play.touches.insert(play.touches.end(),
                             {event.mesh_a, event.mesh_b, event.kind == VOX_TOUCH_BEGAN ? 1u : 0u});
-    }
+    });
 }
 
 // Inserts the meshes of a grid; the first is the fixed ring if it has its tetrahedra, else a ring comes
@@ -313,11 +335,7 @@ vox_result play_drop_file(playground* play, const char* name, const void* bytes,
         std::string text;
         if (const char* warnings = vox_io_mesh_warnings(mesh.get())) text = warnings;
         if (view.tet_count == 0) {
-            Vec low = at(list(view.positions, 3 * view.vertex_count), 0), high = low;
-            for (std::uint64_t i = 0; i < 3 * view.vertex_count; ++i) {
-                low[i % 3] = std::min(low[i % 3], view.positions[i]);
-                high[i % 3] = std::max(high[i % 3], view.positions[i]);
-            }
+            const auto [low, high] = ends_of(view);
             const Vec side = high - low;
             vox_io_tetrahedralize_desc desc;
             check(vox_io_tetrahedralize_desc_init(&desc, sizeof desc));
@@ -489,7 +507,6 @@ const play_body* play_get_body(const playground* play, uint32_t index) {
                    body.triangles.data(),
                    static_cast<std::uint32_t>(body.view.vertex_count),
                    static_cast<std::uint32_t>(body.triangles.size() / 3),
-                   static_cast<std::uint32_t>(body.tets.size() / 4),
                    body.serial,
                    body.kind,
                    body.mesh};
@@ -498,17 +515,13 @@ const play_body* play_get_body(const playground* play, uint32_t index) {
 
 const float* play_penetrations(playground* play, uint32_t* out_count) {
     play->arrows.clear();
-    vox_penetration_view view{};
-    if (vox_grid_penetrations(play->grid, &view) != VOX_OK) view.count = 0;
-    const auto* bytes = reinterpret_cast<const unsigned char*>(view.data);
-    for (std::uint64_t i = 0; i < view.count; ++i) {
-        const auto& p = *reinterpret_cast<const vox_penetration*>(bytes + i * view.byte_stride);
+    for_each(penetrations_of(*play), [play](const vox_penetration& p) {
         const auto body = find_body(*play, p.mesh_a);
-        if (body == play->bodies.end()) continue; // removed since the step
+        if (body == play->bodies.end()) return; // removed since the step
         for (std::size_t c = 0; c < 3; ++c)
             play->arrows.push_back(body->view.grid_positions[3 * p.vertex + c]);
         for (const float d : p.direction) play->arrows.push_back(p.depth * d);
-    }
+    });
     *out_count = static_cast<std::uint32_t>(play->arrows.size() / 6);
     return play->arrows.data();
 }
@@ -527,21 +540,14 @@ const play_facts* play_get_facts(playground* play) {
     if (vox_grid_counters(play->grid, &counters) == VOX_OK &&
         vox_sim_counters(play->sim.get(), &counts) == VOX_OK) {
         facts.tets = static_cast<double>(counts.tets);
-        facts.vertices = static_cast<double>(counts.vertices);
         facts.contacts = static_cast<double>(counters.contacts);
-        facts.penetrations = static_cast<double>(counters.penetrations);
         facts.step_ns = static_cast<double>(counts.step_ns);
         facts.detect_ns = static_cast<double>(counts.detect_ns);
     }
     facts.deepest = 0;
-    vox_penetration_view view{};
-    if (vox_grid_penetrations(play->grid, &view) == VOX_OK) {
-        const auto* bytes = reinterpret_cast<const unsigned char*>(view.data);
-        for (std::uint64_t i = 0; i < view.count; ++i) {
-            const auto& p = *reinterpret_cast<const vox_penetration*>(bytes + i * view.byte_stride);
-            facts.deepest = std::max(facts.deepest, static_cast<double>(p.depth));
-        }
-    }
+    for_each(penetrations_of(*play), [&facts](const vox_penetration& p) {
+        facts.deepest = std::max(facts.deepest, static_cast<double>(p.depth));
+    });
     (void)vox_grid_cell_size(play->grid, &facts.cell_size);
     facts.steps = static_cast<double>(play->steps);
     facts.asleep = play->asleep() ? 1 : 0;

@@ -3,7 +3,7 @@
  *
  * Everything goes through the public libraries, except inside.cpp, which shows what the fast engine keeps to
  * itself. Functions return vox_result, and vox_last_error() has the text. A function that fails changes
- * nothing. One thread. */
+ * nothing. What is pointed to belongs to the playground, until the next call that is not const. One thread. */
 #ifndef VOX_WEB_PLAYGROUND_H
 #define VOX_WEB_PLAYGROUND_H
 
@@ -25,7 +25,8 @@ typedef enum play_kind {
     PLAY_FIXED = 6, /* the ring on the floor */
 } play_kind;
 
-/* A scene with the fixed ring alone. Its simulation may hold `byte_limit` bytes; 0: no limit. */
+/* A scene with the fixed ring alone, which the caller ends with play_destroy. Its simulation may hold
+ * `byte_limit` bytes; 0: no limit. */
 vox_result play_create(uint64_t byte_limit, playground** out);
 void play_destroy(playground* play);
 
@@ -64,13 +65,11 @@ typedef struct play_body {
     const uint32_t* triangles; /* of the surface; 3 * triangle_count */
     uint32_t vertex_count;
     uint32_t triangle_count;
-    uint32_t tet_count;
     uint32_t serial;
     uint32_t kind;
     uint32_t mesh; /* its id in the grid, as events name it */
 } play_body;
 uint32_t play_body_count(const playground* play);
-/* Good until the next call that is not const. */
 const play_body* play_get_body(const playground* play, uint32_t index);
 
 /* Six floats for each penetration: the vertex, and the way out as a vector. */
@@ -83,7 +82,7 @@ const uint32_t* play_touches(playground* play, uint32_t* out_count);
 const float* play_boxes(playground* play, uint32_t what, uint32_t* out_count);
 
 typedef struct play_facts {
-    double tets, vertices, contacts, penetrations, deepest;
+    double tets, contacts, deepest;
     double step_ns, detect_ns; /* of the last step that was not slept through */
     double cell_size;          /* that the grid chose */
     double max_speed;
@@ -102,18 +101,16 @@ uint64_t play_hash(const playground* play);
  * a grid of the default settings finds. */
 vox_result play_measure(playground* play, uint32_t engine, double cell_size, uint32_t steps, double* out_ns,
                         uint32_t* out_same);
-/* What vox_grid_suggest_cell_size says for a model, of those bodies. */
-vox_result play_suggest(playground* play, uint32_t model, vox_suggestion* out);
-
-/* What the page needs of a suggestion, as numbers alone: cell size, zone (2), cost, rules (6) and their costs
- * (6), number of samples, of terms, samples (2 each), terms (count, cost, share; 3 each). */
+/* What vox_grid_suggest_cell_size says of those bodies for a model (vox_cost_model), as numbers alone: cell
+ * size, zone (2), cost, rules (6) and their costs (6), number of samples, of terms, samples (2 each), terms
+ * (count, cost, share; 3 each). Null where it fails. */
 const double* play_suggest_numbers(playground* play, uint32_t model);
 /* Name of a term of the last suggestion. */
 const char* play_term(const playground* play, uint32_t index);
 
 /* ---- snapshots, as `vox replay` reads them ---- */
 
-/* The bytes live until the next call. *out_hash: what a step of that snapshot finds. */
+/* *out_hash: what a step of that snapshot finds. */
 vox_result play_save(playground* play, const void** out_bytes, uint64_t* out_size, uint64_t* out_hash);
 /* Bodies as a snapshot has them, in place of all others; how they are there is their rest shape. */
 vox_result play_load(playground* play, const void* bytes, uint64_t size);
