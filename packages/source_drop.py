@@ -126,7 +126,7 @@ def contents(core_only, everything):
     if core_only:
         names = [name for name in names if not re.match(r"src/(io|sim)/|include/vox/vox_(io|sim)", name)]
     files = {name: (ROOT / name).read_bytes() for name in names}
-    if everything: # patterns that match nothing are refused, so a clone's has not this one
+    if everything: # a pattern without a file is refused, so in a clone, which has no third_party/, it does not stand
         files["pyproject.toml"] = replaced(files["pyproject.toml"], b'license-files = ["LICENSE"]',
                                            b'license-files = ["LICENSE", "third_party/*/LICENSE"]')
     texts = {name: data.decode() for name, data in files.items() if name.startswith(("src/", "tools/"))}

@@ -84,8 +84,9 @@ static void run(const char* name, uint32_t flags, uint32_t count, uint32_t round
         contacts[round % 2] += contacts_of(scenes, count);
         if (round >= 2 && round % 2 == 0 && seconds < loop) loop = seconds;
         if (round >= 2 && round % 2 == 1 && seconds < batch) batch = seconds;
-        /* Bodies at rest would cost next to nothing: each step is one of moved bodies. */
-        show(scenes, count, round / 2 + 1);
+        /* Bodies at rest would cost next to nothing, so the frame between is neither this one nor the next.
+         */
+        show(scenes, count, round / 2 + FRAMES / 2);
         for (uint32_t s = 0; s < count; ++s) check(vox_grid_step(grids[s]));
     }
     if (contacts[0] != contacts[1]) {
@@ -93,9 +94,17 @@ static void run(const char* name, uint32_t flags, uint32_t count, uint32_t round
                 (unsigned long long)contacts[1]);
         exit(EXIT_FAILURE);
     }
-    printf("%-26s %8.1f contacts a scene  %10.0f scene-steps/s in a loop  %10.0f in one call  %+5.1f %%\n",
+    uint64_t bytes = 0;
+    for (uint32_t s = 0; s < count; ++s) {
+        vox_counters counters;
+        counters.struct_size = sizeof counters;
+        check(vox_grid_counters(grids[s], &counters));
+        bytes += counters.bytes;
+    }
+    printf("%-26s %8.1f contacts a scene  %10.0f scene-steps/s in a loop  %10.0f in one call  %+5.1f %%  "
+           "%6.0f MB of grids\n",
            name, (double)contacts[0] / (rounds + 1) / count, count / loop, count / batch,
-           100 * (batch / loop - 1));
+           100 * (batch / loop - 1), (double)bytes / 1e6);
     for (uint32_t s = 0; s < count; ++s) vox_grid_destroy(grids[s]);
     free(grids);
     free(scenes);
