@@ -7,25 +7,12 @@ from mpi4py import MPI
 
 import voxtet
 import voxtet.mpi
+from support import box
 
-
-def lattice(n, edge, corner):
-    """A cube of n * n * n small cubes of five tetrahedra each."""
-    k, j, i = np.meshgrid(*[np.arange(n + 1)] * 3, indexing="ij")
-    positions = np.stack([i, j, k], -1).reshape(-1, 3) * edge + np.asarray(corner)
-    cuts = [[[0, 1, 2, 4], [3, 2, 1, 7], [5, 4, 7, 1], [6, 7, 4, 2], [1, 2, 4, 7]],
-            [[1, 3, 0, 5], [2, 0, 3, 6], [4, 6, 5, 0], [7, 5, 6, 3], [0, 5, 3, 6]]]
-    tets = []
-    for z in range(n):
-        for y in range(n):
-            for x in range(n):
-                corners = [x + dx + (n + 1) * (y + dy + (n + 1) * (z + dz)) for dz in (0, 1) for dy in (0, 1) for dx in (0, 1)]
-                tets += [[corners[c] for c in tet] for tet in cuts[(x + y + z) % 2]]
-    return positions, np.array(tets)
-
-
-# Halves and quarters: vertices of one body lie exactly on facets, edges and corners of the other.
-BODIES = {3: lattice(6, 0.5, (0, 0, 0)), 8: lattice(6, 0.5, (1.25, 0.5, 0.25))}
+# Halves and quarters: vertices of one body lie exactly on facets, edges and corners of the other. So many that messages are longer
+# than those that MPI sends at once (4 KB), which it handles in another way.
+POSITIONS, TETS = box(8, dtype=np.float64)
+BODIES = {3: (4 * POSITIONS, TETS), 8: (4 * POSITIONS + [1.25, 0.5, 0.25], TETS)}
 
 
 def part_of(positions, tets, rank, size):
