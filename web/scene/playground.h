@@ -3,7 +3,8 @@
  *
  * Everything goes through the public libraries, except inside.cpp, which shows what the fast engine keeps to
  * itself. Functions return vox_result, and vox_last_error() has the text. A function that fails changes
- * nothing. What is pointed to belongs to the playground, until the next call that is not const. One thread. */
+ * nothing. What is pointed to belongs to the playground, until the next call that is not const. One thread.
+ */
 #ifndef VOX_WEB_PLAYGROUND_H
 #define VOX_WEB_PLAYGROUND_H
 
