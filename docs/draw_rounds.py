@@ -17,7 +17,7 @@ ROUNDS = [
     ("    each alone", "one step of the grid: vertices here and received, tetrahedra here", "work"),
     ("4  neighbours", "hits go back to the vertex's owner, who applies the rule of contacts", [(0, 1), (1, 0)]),
     ("    all", "whether all is well: one code for all", "all"),
-    ("5  neighbours", "only where a vertex is exactly on a boundary: which of its hits are contacts", [(0, 1), (1, 0)]),
+    ("5  neighbours", "only where a vertex is exactly on a boundary in a split body: which hits are contacts", [(0, 1), (1, 0)]),
 ]
 
 

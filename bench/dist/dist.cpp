@@ -101,21 +101,43 @@ void run_ranks(Run& run, std::uint32_t size) {
     if (vox_transport_run(size, 1, rank, &run) != VOX_OK || run.failed) std::exit(EXIT_FAILURE);
 }
 
-void compare(const char* name, const Scene& scene, const One& one, std::uint32_t size, Cut how,
-             bool whole_bodies) {
+// How the tetrahedra of a scene are dealt out to ranks.
+enum class Dealt {
+    together,     // by bisection of all bodies at once
+    each_body,    // by bisection of each body
+    at_random,    // each tetrahedron
+    whole_bodies, // to ranks in the order of bodies, which is that of places
+};
+
+// The rank of each tetrahedron of each body.
+std::vector<std::vector<std::uint32_t>> deal(const Scene& scene, std::uint32_t size, Dealt how,
+                                             Random& random) {
+    std::vector<std::vector<std::uint32_t>> ranks;
+    Body all;
+    for (const Body& body : scene) {
+        const auto number = static_cast<std::uint32_t>(std::uint64_t{ranks.size()} * size / scene.size());
+        ranks.push_back(how == Dealt::whole_bodies
+                            ? std::vector<std::uint32_t>(body.tet_count(), number)
+                            : cut(body, size, how == Dealt::at_random ? Cut::random : Cut::rcb, random));
+        const auto first = static_cast<std::uint32_t>(all.vertices());
+        for (const std::uint32_t corner : body.tets) all.tets.push_back(first + corner);
+        all.xyz.insert(all.xyz.end(), body.xyz.begin(), body.xyz.end());
+    }
+    if (how != Dealt::together) return ranks;
+    const std::vector<std::uint32_t> together = cut(all, size, Cut::rcb, random);
+    auto next = together.begin();
+    for (auto& of_body : ranks)
+        for (std::uint32_t& rank : of_body) rank = *next++;
+    return ranks;
+}
+
+void compare(const char* name, const Scene& scene, const One& one, std::uint32_t size, Dealt how) {
     Run run;
     run.scene = &scene;
     Random random(size);
-    std::uint32_t next = 0;
-    for (const Body& body : scene) {
-        // Whole bodies go to ranks in their order, which is that of places.
-        const std::vector<std::uint32_t> ranks =
-            whole_bodies ? std::vector<std::uint32_t>(
-                               body.tet_count(),
-                               static_cast<std::uint32_t>(std::uint64_t{next++} * size / scene.size()))
-                         : cut(body, size, how, random);
-        run.shares.push_back(shares(body, ranks, size, random));
-    }
+    const auto ranks = deal(scene, size, how, random);
+    for (std::size_t b = 0; b < scene.size(); ++b)
+        run.shares.push_back(shares(scene[b], ranks[b], size, random));
     run_ranks(run, size);
     if (run.hash[0] != one.hash[0] || run.hash[1] != one.hash[1])
         std::printf("another hash\n"), std::exit(EXIT_FAILURE);
@@ -256,11 +278,13 @@ int main(int argc, char** argv) {
     const Scene two = contact(24), many = bodies();
     const One one_two = one_grid(two), one_many = one_grid(many);
     for (const std::uint32_t size : {2u, 8u, 64u})
-        compare("two blocks, bisected", two, one_two, size, Cut::rcb, false);
-    for (const std::uint32_t size : {2u, 8u})
-        compare("two blocks, at random", two, one_two, size, Cut::random, false);
+        compare("two blocks, bisected together", two, one_two, size, Dealt::together);
     for (const std::uint32_t size : {2u, 8u, 64u})
-        compare("1000 blocks", many, one_many, size, Cut::one, true);
+        compare("two blocks, each bisected", two, one_two, size, Dealt::each_body);
+    for (const std::uint32_t size : {2u, 8u})
+        compare("two blocks, at random", two, one_two, size, Dealt::at_random);
+    for (const std::uint32_t size : {2u, 8u, 64u})
+        compare("1000 blocks", many, one_many, size, Dealt::whole_bodies);
     grow(argc > 1 ? static_cast<std::uint32_t>(std::strtoul(argv[1], nullptr, 10)) : 100000u);
     locate();
     return EXIT_SUCCESS;

@@ -240,7 +240,8 @@ VOX_EXPERIMENTAL vox_result vox_scene_costs(const vox_scene* scene, vox_part_cos
 typedef struct vox_scene_counters {
     uint32_t struct_size;
     uint32_t neighbours;        /* ranks whose boxes meet those of this one */
-    uint64_t messages;          /* at most three a neighbour, and one more where a vertex is on a boundary */
+    uint64_t messages;          /* at most three a neighbour, and one more where a vertex is on a boundary
+                                   of a body that has tetrahedra on several ranks */
     uint64_t collectives;       /* 2 */
     uint64_t replicated_bytes;  /* sent by each rank to all: 64 */
     uint64_t box_bytes;         /* of the finer boxes sent to neighbours */

@@ -112,6 +112,9 @@ void Rounds::write_hits() {
         if (hit != outgoing.end() && hit->neighbour == i) {
             Hits header{};
             const std::size_t at = writers_[i].add(header);
+            const auto split = told_split_.begin() + static_cast<std::ptrdiff_t>(told_split_begin_[i]);
+            const auto split_end =
+                told_split_.begin() + static_cast<std::ptrdiff_t>(told_split_begin_[i + 1]);
             for (; hit != outgoing.end() && hit->neighbour == i; ++hit) {
                 const vox_scene_contact& c = hit->contact;
                 Hit message{c.tet, hit->place, 0, {}};
@@ -119,11 +122,11 @@ void Rounds::write_hits() {
                 const auto part =
                     std::lower_bound(scene_.parts_.begin(), scene_.parts_.end(), c.body_b,
                                      [](const Part* p, std::uint64_t b) { return p->body < b; });
-                message.part = static_cast<std::uint32_t>(part - scene_.parts_.begin()) |
-                               (c.interior ? interior_bit : 0);
+                const auto number = static_cast<std::uint32_t>(part - scene_.parts_.begin());
+                message.part = number | (c.interior ? interior_bit : 0);
                 writers_[i].add(message);
                 ++header.count;
-                header.on_boundary += !c.interior;
+                header.undecided += !c.interior && std::binary_search(split, split_end, number);
             }
             writers_[i].set(at, header);
             scene_.counters_.hits_sent += header.count;
@@ -137,14 +140,13 @@ void Rounds::read_hits(std::span<const Source> sources) {
         Reader reader(scene_.in_[i]);
         if (!reader.more()) continue;
         const auto header = reader.take<Hits>();
-        const std::span<const PartBoxes> parts(remote_.data() + remote_begin_[i],
-                                               remote_.data() + remote_begin_[i + 1]);
+        const std::span<const Remote> parts(remote_.data() + remote_begin_[i],
+                                            remote_.data() + remote_begin_[i + 1]);
         for (std::uint32_t h = 0; h < header.count; ++h) {
             const auto hit = reader.take<Hit>();
             const std::uint32_t number = hit.part & ~interior_bit;
-            const auto part =
-                std::lower_bound(parts.begin(), parts.end(), number,
-                                 [](const PartBoxes& p, std::uint32_t n) { return p.part < n; });
+            const auto part = std::lower_bound(parts.begin(), parts.end(), number,
+                                               [](const Remote& p, std::uint32_t n) { return p.part < n; });
             if (part == parts.end() || part->part != number ||
                 hit.vertex >= sent_begin_[i + 1] - sent_begin_[i])
                 throw Error(VOX_ERROR_INTERNAL, "another rank hit what it was not sent");

@@ -40,7 +40,7 @@ struct Box {
 };
 
 // What the ranks are in.
-enum class Call : std::uint32_t { step, locate, check };
+enum class Call : std::uint16_t { step, locate, check };
 
 // What every rank knows of every rank: 64 bytes.
 struct Overview {
@@ -48,19 +48,33 @@ struct Overview {
     Box vertices; // of the vertices owned there, or the points asked for
     std::int32_t result = VOX_OK;
     Call call = Call::step;
-    std::uint64_t reserved = 0;
+    std::uint16_t one_body = 0; // 1: all vertices are of `body`, which does not collide with itself
+    std::uint64_t body = 0;
+
+    // Whether vertices there can be in tetrahedra of `of`, as far as bodies decide.
+    bool collides_with(std::uint64_t of) const noexcept { return one_body == 0 || body != of; }
+    // The same for the tetrahedra of all parts of a rank.
+    bool collides_with(const Overview& tets_of) const noexcept {
+        return tets_of.one_body == 0 || collides_with(tets_of.body);
+    }
 };
 static_assert(sizeof(Overview) == 64);
 
-// Of a part, before its boxes.
+// Which bodies collide: as vox_filter says.
+struct Filter {
+    std::uint64_t category = 1, mask = UINT64_MAX;
+    std::int32_t group = 0;
+    std::uint32_t self_collision = 0;
+    friend bool operator==(const Filter&, const Filter&) = default;
+};
+// Of a part, before its filter, a box around its boxes, and these, packed.
 struct PartBoxes {
     std::uint64_t body;
-    std::uint64_t category, mask;
-    std::int32_t group;
-    std::uint32_t self_collision;
-    std::uint32_t part;  // a number of the sender's, which hits come back with
-    std::uint32_t boxes; // that follow
+    std::uint32_t part; // a number of the sender's, which hits come back with
+    std::uint32_t
+        boxes; // the highest bit: a filter follows. One box is the box around it, and is not sent again
 };
+constexpr std::uint32_t filter_bit = 0x80000000u;
 
 // A vertex, with its position as it is: in 32 bytes, or in 20.
 struct VertexDoubles {
@@ -75,20 +89,18 @@ struct VertexFloats {
 #pragma pack(pop)
 static_assert(sizeof(VertexDoubles) == 32 && sizeof(VertexFloats) == 20);
 
-// Vertices of a body, before them. Points that are asked for have no body.
+// Vertices of a body, before its filter and them. Points that are asked for have no body.
 struct Vertices {
     std::uint64_t body;
-    std::uint64_t category, mask;
-    std::int32_t group;
-    std::uint32_t self_collision;
     std::uint32_t count;
-    std::uint32_t doubles; // 1 or 0
+    std::uint16_t doubles;    // 1 or 0
+    std::uint16_t has_filter; // 1; or 0: it has the default one
 };
 
 // Hits of one rank for another, before them.
 struct Hits {
     std::uint64_t count;
-    std::uint64_t on_boundary;
+    std::uint64_t undecided; // on a boundary, of a body that other ranks have tetrahedra of
 };
 
 // A vertex that was sent, in a tetrahedron.

@@ -40,12 +40,7 @@ void check_position(const double position[3], const PositionName& name);
 // The box of points, rounded outward to floats.
 void add_point(Box& box, const double position[3]) noexcept;
 
-// Which bodies collide: as vox_filter says.
-struct Filter {
-    std::uint64_t category = 1, mask = UINT64_MAX;
-    std::int32_t group = 0;
-    std::uint32_t self_collision = 0;
-};
+// As vox_filter says.
 inline bool collide(std::uint64_t body_a, const Filter& a, std::uint64_t body_b, const Filter& b) noexcept {
     if (body_a == body_b) return a.self_collision != 0;
     if (a.group == b.group && a.group != 0) return a.group > 0;

@@ -1,4 +1,5 @@
 #include "dist/rounds.hpp"
+#include "dist/packed_box.hpp"
 
 #include <algorithm>
 #include <tuple>
@@ -8,8 +9,9 @@ namespace vox::dist {
 Rounds::Rounds(vox_scene& scene, Side& side, bool points)
     : outgoing(&scene.memory_), found(&scene.memory_), scene_(scene), side_(side), points_(points),
       memory_(&scene.memory_), writers_(memory_), remote_(memory_), remote_begin_(memory_), boxes_(memory_),
-      boxes_begin_(memory_), sent_(memory_), sent_begin_(memory_), groups_(memory_), strangers_(memory_),
-      xyz_(memory_), known_(memory_) {}
+      boxes_begin_(memory_), split_(memory_), told_split_(memory_), told_split_begin_(memory_),
+      sent_(memory_), sent_begin_(memory_), groups_(memory_), strangers_(memory_), xyz_(memory_),
+      known_(memory_) {}
 
 void Rounds::send_nothing() noexcept {
     for (std::uint32_t i = 0; i < scene_.rank_count_; ++i) scene_.out_[i] = {nullptr, 0};
@@ -39,29 +41,31 @@ void Rounds::run(std::span<const Source> sources, Failure& failure) {
 // ---- boxes ----------------------------------------------------------------------------------------
 
 void Rounds::write_boxes() {
+    Vector<Box> near(memory_);
     for (std::uint32_t i = 0; i < scene_.rank_count_; ++i) writers_.emplace_back(memory_);
     for (std::uint32_t i = 0; i < scene_.rank_count_; ++i) {
-        const Box& vertices = scene_.overviews_[scene_.ranks_[i]].vertices;
+        const Overview& other = scene_.overviews_[scene_.ranks_[i]];
+        const Box& vertices = other.vertices;
         for (std::uint32_t p = 0; p < scene_.parts_.size(); ++p) {
             const Part& part = *scene_.parts_[p];
-            if (!part.tet_box.meets(vertices)) continue;
-            PartBoxes header{part.body,
-                             part.filter.category,
-                             part.filter.mask,
-                             part.filter.group,
-                             part.filter.self_collision,
-                             p,
-                             0};
-            const std::size_t at = writers_[i].add(header);
+            if (!other.collides_with(part.body) || !part.tet_box.meets(vertices)) continue;
+            near.clear();
+            Box frame;
             for (const Box& box : part.tet_clusters.boxes)
                 if (box.meets(vertices)) {
-                    writers_[i].add(box);
-                    ++header.boxes;
+                    near.push_back(box);
+                    frame.add(box);
                 }
-            if (header.boxes)
-                writers_[i].set(at, header);
-            else
-                writers_[i].shrink(at);
+            if (near.empty()) continue;
+            const bool has_filter = part.filter != Filter{};
+            const auto count = static_cast<std::uint32_t>(near.size());
+            Writer& writer = writers_[i];
+            writer.add(PartBoxes{part.body, p, has_filter ? count | filter_bit : count});
+            if (has_filter) writer.add(part.filter);
+            writer.add(frame);
+            const Frame packing(frame);
+            if (near.size() > 1)
+                for (const Box& box : near) writer.add(packing.pack(box));
         }
         scene_.out_[i] = writers_[i].bytes();
     }
@@ -71,13 +75,35 @@ void Rounds::read_boxes() {
     for (std::uint32_t i = 0; i < scene_.rank_count_; ++i) {
         remote_begin_.push_back(remote_.size());
         for (Reader reader(scene_.in_[i]); reader.more();) {
-            remote_.push_back(reader.take<PartBoxes>());
+            const auto header = reader.take<PartBoxes>();
+            const Filter filter = header.boxes & filter_bit ? reader.take<Filter>() : Filter{};
+            remote_.push_back({header.body, filter, header.part});
             boxes_begin_.push_back(boxes_.size());
-            for (std::uint32_t b = 0; b < remote_.back().boxes; ++b) boxes_.push_back(reader.take<Box>());
+            const auto box = reader.take<Box>();
+            const Frame packing(box);
+            const std::uint32_t count = header.boxes & ~filter_bit;
+            if (count == 1)
+                boxes_.push_back(box);
+            else
+                for (std::uint32_t b = 0; b < count; ++b)
+                    boxes_.push_back(packing.unpack(reader.take<std::uint64_t>()));
         }
     }
     remote_begin_.push_back(remote_.size());
     boxes_begin_.push_back(boxes_.size());
+    if (!points_) find_split_bodies();
+}
+
+// All ranks whose tetrahedra can have a vertex of this rank inside have sent boxes.
+void Rounds::find_split_bodies() {
+    Vector<std::uint64_t> bodies(memory_);
+    for (const Remote& part : remote_) bodies.push_back(part.body);
+    for (const Part* part : scene_.parts_)
+        if (!part->tet_box.empty()) bodies.push_back(part->body);
+    std::sort(bodies.begin(), bodies.end());
+    for (std::size_t i = 1; i < bodies.size(); ++i)
+        if (bodies[i - 1] == bodies[i] && (split_.empty() || split_.back() != bodies[i]))
+            split_.push_back(bodies[i]);
 }
 
 // ---- vertices -------------------------------------------------------------------------------------
@@ -86,11 +112,28 @@ void Rounds::choose_vertices(std::span<const Source> sources) {
     for (std::uint32_t i = 0; i < scene_.rank_count_; ++i) {
         sent_begin_.push_back(sent_.size());
         writers_[i].clear();
-        if (remote_begin_[i] != remote_begin_[i + 1]) send_vertices_to(i, sources);
+        if (remote_begin_[i] != remote_begin_[i + 1]) {
+            if (!points_) tell_split_bodies(i);
+            send_vertices_to(i, sources);
+            if (sent_begin_[i] == sent_.size()) writers_[i].clear();
+        }
         scene_.out_[i] = writers_[i].bytes();
     }
     sent_begin_.push_back(sent_.size());
     scene_.counters_.vertices_sent += sent_.size();
+}
+
+// Where a body is on one rank alone, that rank knows which hits of a vertex are contacts, and waits for no
+// verdict.
+void Rounds::tell_split_bodies(std::uint32_t neighbour) {
+    std::uint64_t count = 0;
+    const std::size_t at = writers_[neighbour].add(count);
+    for (std::uint64_t r = remote_begin_[neighbour]; r < remote_begin_[neighbour + 1]; ++r)
+        if (std::binary_search(split_.begin(), split_.end(), remote_[r].body)) {
+            writers_[neighbour].add(remote_[r].part);
+            ++count;
+        }
+    writers_[neighbour].set(at, count);
 }
 
 void Rounds::send_vertices_to(std::uint32_t neighbour, std::span<const Source> sources) {
@@ -100,20 +143,20 @@ void Rounds::send_vertices_to(std::uint32_t neighbour, std::span<const Source> s
         const Source& source = sources[s];
         near_source.clear();
         for (std::uint64_t r = remote_begin_[neighbour]; r < remote_begin_[neighbour + 1]; ++r) {
-            const PartBoxes& remote = remote_[r];
-            const Filter filter{remote.category, remote.mask, remote.group, remote.self_collision};
-            if (source.part && !collide(source.part->body, source.part->filter, remote.body, filter))
+            const Remote& remote = remote_[r];
+            if (source.part && !collide(source.part->body, source.part->filter, remote.body, remote.filter))
                 continue;
             for (std::uint64_t b = boxes_begin_[r]; b < boxes_begin_[r + 1]; ++b)
                 if (boxes_[b].meets(source.box)) near_source.push_back(boxes_[b]);
         }
         if (near_source.empty()) continue;
-        Vertices header{0, 0, 0, 0, 0, 0, source.positions.doubles ? 1u : 0u};
-        if (const Part* part = source.part)
-            header = {part->body,         part->filter.category,       part->filter.mask,
-                      part->filter.group, part->filter.self_collision, 0,
-                      header.doubles};
+        Vertices header{0, 0, source.positions.doubles, 0};
+        if (source.part) {
+            header.body = source.part->body;
+            header.has_filter = source.part->filter != Filter{};
+        }
         const std::size_t at = writer.add(header);
+        if (header.has_filter) writer.add(source.part->filter);
         for (std::uint32_t c = 0; c < source.clusters->size(); ++c) {
             near_cluster.clear();
             for (const Box& box : near_source)
@@ -146,12 +189,17 @@ void Rounds::send_vertices_to(std::uint32_t neighbour, std::span<const Source> s
 void Rounds::take_vertices() {
     for (std::uint32_t i = 0; i < scene_.rank_count_; ++i) {
         std::uint32_t place = 0;
-        for (Reader reader(scene_.in_[i]); reader.more();) {
+        told_split_begin_.push_back(told_split_.size());
+        Reader reader(scene_.in_[i]);
+        if (!points_ && reader.more())
+            for (auto count = reader.take<std::uint64_t>(); count > 0; --count)
+                told_split_.push_back(reader.take<std::uint32_t>());
+        while (reader.more()) {
             const auto header = reader.take<Vertices>();
+            const Filter filter = header.has_filter ? reader.take<Filter>() : Filter{};
             const Part* const copies = points_ ? nullptr : scene_.find_body(header.body);
             const auto group = static_cast<std::uint32_t>(groups_.size());
-            groups_.push_back(
-                {header.body, {header.category, header.mask, header.group, header.self_collision}, i});
+            groups_.push_back({header.body, filter, i});
             for (std::uint32_t n = 0; n < header.count; ++n, ++place) {
                 VertexDoubles vertex{};
                 if (header.doubles) {
@@ -181,6 +229,7 @@ void Rounds::take_vertices() {
         }
         scene_.counters_.vertices_received += place;
     }
+    told_split_begin_.push_back(told_split_.size());
     scene_.counters_.vertices_here += known_.size();
     std::sort(known_.begin(), known_.end(), [](const Known& a, const Known& b) {
         return std::tuple(a.part->body, a.vertex) < std::tuple(b.part->body, b.vertex);

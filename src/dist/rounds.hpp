@@ -14,6 +14,13 @@ struct Source {
     Box box;
 };
 
+// A part of a neighbour's with tetrahedra near here.
+struct Remote {
+    std::uint64_t body;
+    Filter filter;
+    std::uint32_t part; // its number there
+};
+
 // A vertex that another rank sent.
 struct Stranger {
     std::uint64_t id;
@@ -65,7 +72,9 @@ public:
 private:
     void write_boxes();
     void read_boxes();
+    void find_split_bodies();
     void choose_vertices(std::span<const Source> sources);
+    void tell_split_bodies(std::uint32_t neighbour);
     void send_vertices_to(std::uint32_t neighbour, std::span<const Source> sources);
     void take_vertices();
     void take_points_of_this_rank(std::span<const Source> sources);
@@ -86,10 +95,13 @@ private:
     const bool points_;
     Memory* memory_;
     Vector<Writer> writers_;             // one a neighbour
-    Vector<PartBoxes> remote_;           // parts of neighbours
+    Vector<Remote> remote_;              // of each neighbour after those of the one before
     Vector<std::uint64_t> remote_begin_; // of each neighbour
     Vector<Box> boxes_;
     Vector<std::uint64_t> boxes_begin_; // of each remote part
+    Vector<std::uint64_t> split_;       // bodies with tetrahedra on more than one rank, as far as seen here
+    Vector<std::uint32_t> told_split_;  // parts of this rank that a neighbour says are of such bodies
+    Vector<std::uint64_t> told_split_begin_; // of each neighbour
     Vector<Sent> sent_;
     Vector<std::uint64_t> sent_begin_; // of each neighbour
     Vector<Group> groups_;

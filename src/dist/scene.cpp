@@ -186,7 +186,8 @@ void vox_scene::meet(Overview mine, const Failure& failure) {
     const Overview& me = overviews_[transport_.rank()];
     for (std::uint32_t rank = 0; rank < transport_.size(); ++rank) {
         const Overview& other = overviews_[rank];
-        if (rank != transport_.rank() && (me.tets.meets(other.vertices) || other.tets.meets(me.vertices)))
+        if (rank != transport_.rank() && me.collides_with(other) &&
+            (me.tets.meets(other.vertices) || other.tets.meets(me.vertices)))
             ranks_[rank_count_++] = rank;
     }
     counters_.neighbours = rank_count_;

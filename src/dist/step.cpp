@@ -30,8 +30,8 @@ void apply_rule(std::span<const Found> found, Keep&& keep) {
     }
 }
 
-// One byte for each hit that a neighbour reported to be on a boundary: whether it is a contact. Neighbours
-// without such hits need no message.
+// One byte for each hit of a neighbour: whether it is a contact. Neighbours that know all of theirs need no
+// message.
 class Verdicts {
 public:
     explicit Verdicts(Memory* memory) : bytes_(memory), begins_(memory) {}
@@ -46,7 +46,7 @@ public:
             if (f.neighbour != no_neighbour) bytes_[begins_[f.neighbour] + f.hit] = 1;
         });
     }
-    // Those of the hits of neighbour i, those in the interior too: all of them, so that places are simple.
+    // Of all hits of neighbour i, those that it knows of too, so that places are simple.
     vox_bytes of(std::uint32_t i) const noexcept {
         const std::uint64_t end = i + 1 < begins_.size() ? begins_[i + 1] : bytes_.size();
         return {bytes_.data() + begins_[i], end - begins_[i]};
@@ -57,20 +57,20 @@ private:
     Vector<std::uint64_t> begins_;
 };
 
-// What both sides know of the hits in a message between them: how many are on a boundary.
-std::uint64_t boundary_hits(const vox_bytes& message) noexcept {
+// How many of the hits in a message need a verdict; both sides of the message know.
+std::uint64_t undecided_hits(const vox_bytes& message) noexcept {
     Hits header{};
     if (message.size >= sizeof header) std::memcpy(&header, message.data, sizeof header);
-    return header.on_boundary;
+    return header.undecided;
 }
 
-// After all ranks agreed that nothing failed: the other side of hits on a boundary learns which of them are
+// After all ranks agreed that nothing failed: the other side of undecided hits learns which of them are
 // contacts, and has them in `incoming`, for which it has the memory. Here only the transport can fail.
 void tell_verdicts(vox_scene& scene, const Rounds& rounds, const Verdicts& verdicts) {
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < scene.rank_count_; ++i) {
-        const std::uint64_t received = boundary_hits(scene.in_[i]);
-        if (boundary_hits(scene.out_[i]) == 0 && received == 0) continue;
+        const std::uint64_t received = undecided_hits(scene.in_[i]);
+        if (undecided_hits(scene.out_[i]) == 0 && received == 0) continue;
         scene.ranks_[count] = scene.ranks_[i];
         scene.out_[count++] = received == 0 ? vox_bytes{nullptr, 0} : verdicts.of(i);
     }
@@ -79,15 +79,14 @@ void tell_verdicts(vox_scene& scene, const Rounds& rounds, const Verdicts& verdi
     scene.transport_.exchange(scene.ranks_.data(), count, scene.out_.data(), scene.in_.data());
     auto hit = rounds.outgoing.begin();
     while (hit != rounds.outgoing.end()) {
-        // Of one rank, with a verdict of each if one of them is on a boundary.
+        // Of one rank, with a verdict of each if one of them is undecided; otherwise all are contacts.
         const std::uint32_t rank = hit->contact.rank;
         const auto told = static_cast<std::size_t>(
             std::find(scene.ranks_.begin(), scene.ranks_.begin() + count, rank) - scene.ranks_.begin());
         const vox_bytes message = told < count ? scene.in_[told] : vox_bytes{nullptr, 0};
         const auto* verdict = static_cast<const std::uint8_t*>(message.data);
         for (std::uint64_t h = 0; hit != rounds.outgoing.end() && hit->contact.rank == rank; ++hit, ++h)
-            if (h < message.size ? verdict[h] != 0 : hit->contact.interior != 0)
-                scene.incoming_.push_back(hit->contact);
+            if (h >= message.size || verdict[h] != 0) scene.incoming_.push_back(hit->contact);
     }
     std::sort(scene.incoming_.begin(), scene.incoming_.end(), before);
 }
@@ -107,6 +106,10 @@ void vox_scene::step() {
         for (const Part* part : parts_) {
             mine.tets.add(part->tet_box);
             mine.vertices.add(part->vertex_box);
+        }
+        if (parts_.size() == 1 && !parts_[0]->filter.self_collision) {
+            mine.one_body = 1;
+            mine.body = parts_[0]->body;
         }
     });
     meet(mine, failure);
