@@ -10,7 +10,7 @@ import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 INCLUDE = os.path.join(HERE, "..", "..", "include", "vox")
-LIBRARIES = ["vox", "vox_io", "vox_sim"]
+LIBRARIES = ["vox", "vox_io", "vox_sim", "vox_dist"]
 
 
 def find(folder, name):

@@ -282,7 +282,7 @@ class Pages(unittest.TestCase):
 
     def test_version(self):
         self.assertIn(f"`VOX_ABI_VERSION` is {number_of('VOX_ABI_VERSION')}.", text_of("docs", "abi.md"))
-        for name in ("libvox", "libvox_io", "libvox_sim"):
+        for name in ("libvox", "libvox_io", "libvox_sim", "libvox_dist"):
             self.assertIn(f"`{name}.so.{number_of('VOX_ABI_VERSION')}`", text_of("docs", "abi.md"))
 
 
