@@ -17,11 +17,11 @@ typedef struct scene {
     uint32_t first_frame;
 } scene;
 
-/* Two blocks of 10 by 10 by 2 cubes; frame after frame, the upper one goes down into the other, and all of
- * both quivers. */
+/* Two blocks of 10 by 10 by 2 cubes, one `aside` cubes to the side of the other; frame after frame, the upper
+ * one goes down into the other, and all of both quivers. */
 static body blocks[2][FRAMES];
 
-static void make_blocks(void) {
+static void make_blocks(float aside) {
     uint32_t random = 1;
     for (int b = 0; b < 2; ++b)
         for (int f = 0; f < FRAMES; ++f) {
@@ -30,7 +30,7 @@ static void make_blocks(void) {
                 float* x = blocks[b][f].positions + i;
                 *x += ((float)(random_quick(&random) >> 16) / 65536.0f - 0.5f) * 0.3f;
                 if (b && i % 3 == 2) *x += 2.0f - 0.1f * (float)f;
-                if (b && i % 3 == 0) *x += 5.0f;
+                if (b && i % 3 == 0) *x += aside;
             }
         }
 }
@@ -113,10 +113,12 @@ static void run(const char* name, uint32_t flags, uint32_t count, uint32_t round
 int main(int argc, char** argv) {
     const uint32_t count = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 4096;
     const uint32_t rounds = argc > 2 ? (uint32_t)strtoul(argv[2], NULL, 10) : 9;
-    make_blocks();
-    run("contacts", 0, count, rounds);
-    run("contacts and depth", VOX_GRID_PENETRATIONS, count, rounds);
-    for (int b = 0; b < 2; ++b)
-        for (int f = 0; f < FRAMES; ++f) free_body(&blocks[b][f]);
+    for (int aside = 2; aside < 10; aside += 3) {
+        make_blocks((float)aside);
+        run("contacts", 0, count, rounds);
+        run("contacts and depth", VOX_GRID_PENETRATIONS, count, rounds);
+        for (int b = 0; b < 2; ++b)
+            for (int f = 0; f < FRAMES; ++f) free_body(&blocks[b][f]);
+    }
     return 0;
 }

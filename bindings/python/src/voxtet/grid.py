@@ -655,7 +655,7 @@ def step_all(grids: Iterable[Grid], workers: int = 0) -> None:
     count = integer(workers, "workers", 0, U32)
     all_ = _distinct(grids)
     with _Locked(all_):
-        for grid in all_:
+        for grid in [g for g in all_ if g._borrowed or g._borrowed_readings]:
             grid._refuse("step_all")
         pointers = (ctypes.c_void_p * len(all_))(*[grid._pointer for grid in all_])
         vox.vox_grids_step(pointers, len(all_), None, count, None)
@@ -676,7 +676,7 @@ def contacts_of_all(grids: Iterable[Grid]) -> tuple[Contacts, NDArray[np.uint64]
 
 def _distinct(grids: Iterable[Grid]) -> list[Grid]:
     all_ = list(grids)
-    for i, grid in enumerate(all_):
+    for i, grid in enumerate(all_ if set(map(type, all_)) != {Grid} else ()):
         if not isinstance(grid, Grid):
             raise TypeError(f"grids[{i}] is of type {type(grid).__name__}; it must be a Grid")
     if len(set(map(id, all_))) != len(all_):
@@ -689,21 +689,23 @@ class _Locked:
 
     def __init__(self, grids: list[Grid]) -> None:
         self._grids = sorted(grids, key=id)
-        self._held: list[Any] = []
+        self._locks = [grid._lock for grid in self._grids]
 
     def __enter__(self) -> None:
+        held = 0
         try:
-            for grid in self._grids:
-                lock = grid._lock
+            for lock in self._locks:
                 lock.__enter__()
-                self._held.append(lock)
-                if grid._pointer is None:  # closed while this thread waited
-                    raise InvalidStateError("the grid is closed")
+                held += 1
+            if None in [grid._pointer for grid in self._grids]:  # closed while this thread waited
+                raise InvalidStateError("the grid is closed")
         except BaseException:
-            self.__exit__()
+            self._release(held)
             raise
 
     def __exit__(self, *_: object) -> None:
-        for lock in reversed(self._held):
+        self._release(len(self._locks))
+
+    def _release(self, held: int) -> None:
+        for lock in self._locks[:held]:
             lock.__exit__(None, None, None)
-        self._held = []

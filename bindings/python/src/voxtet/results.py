@@ -181,29 +181,28 @@ def copy_of(address: int, count: int, stride: int, records: Any, dtype: np.dtype
     return _new(records, count, dtype, memory)
 
 
-class Exports:
-    """Which leases are alive."""
+class Exports(list["weakref.ref[Any]"]):
+    """Which leases are alive. A list, as whether it is empty is asked in every step."""
 
-    __slots__ = ("_full", "_references")
+    __slots__ = ("_full",)
 
     def __init__(self) -> None:
-        self._references: list[weakref.ref[Any]] = []
         self._full = 16  # when to drop those that are dead
-
-    def __bool__(self) -> bool:
-        return bool(self._references)
 
     def add(self, lease: Any) -> None:
         """Notes one more, without keeping it."""
-        if len(self._references) >= self._full:
-            self._references = [r for r in self._references if r() is not None]
-            self._full = 2 * len(self._references) + 16
-        self._references.append(weakref.ref(lease))
+        if len(self) >= self._full:
+            self._drop_dead()
+            self._full = 2 * len(self) + 16
+        self.append(weakref.ref(lease))
+
+    def _drop_dead(self) -> None:
+        self[:] = [r for r in self if r() is not None]
 
     def refuse(self, what: str) -> None:
         """Raises BufferError if one is alive."""
-        self._references = [r for r in self._references if r() is not None]
-        if self._references:
+        self._drop_dead()
+        if self:
             raise BufferError(f"{what} would end borrowed memory that is in use: leave the `with grid.borrowed()`, and delete "
                               "its arrays and their slices or copy them")
 

@@ -37,7 +37,8 @@ class FeaturePairs(NamedTuple):
 
     def array(self) -> NDArray[np.uint32]:
         """All pairs, (n, 2), in order."""
-        firsts = np.repeat(np.arange(len(self.offsets) - 1, dtype=np.uint32), np.diff(self.offsets.astype(np.int64)))
+        offsets = self.offsets.astype(np.int64)
+        firsts = np.repeat(np.arange(len(offsets) - 1, dtype=np.uint32), offsets[1:] - offsets[:-1])
         return np.stack([firsts, self.partners], axis=1)
 
 
@@ -68,7 +69,7 @@ class SafeStep(NamedTuple):
 
 def _copy(address: Optional[int], count: int, dtype: Any) -> NDArray[Any]:
     out = np.empty(count, dtype)
-    if count:
+    if count and address:
         ctypes.memmove(out.ctypes.data, address, out.nbytes)
     return out
 
@@ -79,7 +80,8 @@ def _records(view: Any, address: Optional[int], name: str) -> NDArray[Any]:
     if view.byte_stride == dtype.itemsize:
         return _copy(address, view.count, dtype)
     raw = _copy(address, view.count * view.byte_stride, np.uint8).reshape(view.count, view.byte_stride)
-    return np.ascontiguousarray(raw[:, :dtype.itemsize]).view(dtype)[:, 0]
+    records: NDArray[Any] = np.ascontiguousarray(raw[:, :dtype.itemsize]).view(dtype)[:, 0]
+    return records
 
 
 class Surface:
@@ -92,7 +94,7 @@ class Surface:
                  patch_categories: Optional[ArrayLike] = None, patch_masks: Optional[ArrayLike] = None,
                  workers: int = 1, cell_size: float = 0.0, byte_budget: int = 4 << 30) -> None:
         desc = described(_c.vox_surface_desc)
-        kept = []
+        kept: list[NDArray[Any]] = []
 
         def pass_indices(value: Optional[ArrayLike], name: str, width: int) -> tuple[Optional[int], int]:
             if value is None:
