@@ -184,18 +184,26 @@ void list_around(const Tiles& tiles, const ChosenVertices& chosen, Listed& out) 
 std::pmr::vector<std::uint8_t> used_vertices(const Body& body, std::pmr::memory_resource* memory,
                                              const Tiles* tiles) {
     std::pmr::vector<std::uint8_t> used(body.vertex_count, 0, memory);
-    if (tiles) { // which name a vertex less often
-        for (const std::uint32_t v : tiles->vertices) used[v] = 1;
+    std::uint8_t* const mark = used.data(); // else it is read anew after each byte, which might be part of it
+    if (tiles) {                            // which name a vertex less often
+        const std::uint32_t *v = tiles->vertices.data(), *const end = v + tiles->vertices.size();
+        for (; end - v >= 4; v += 4) mark[v[0]] = mark[v[1]] = mark[v[2]] = mark[v[3]] = 1;
+        for (; v != end; ++v) mark[*v] = 1;
         return used;
     }
     for (std::size_t t = 0; t < body.tets.size(); ++t)
         if (!has_bit(body.off, t))
-            for (const std::uint32_t v : body.tets[t].v) used[v] = 1;
+            for (const std::uint32_t v : body.tets[t].v) mark[v] = 1;
     return used;
 }
 
-// Sorted by vertex (counting sort).
+// By counting, where the list is not much shorter than what would be counted. The order at a vertex is free.
 void sort_by_vertex(std::uint32_t vertex_count, std::pmr::vector<Above>& list) {
+    if (list.size() < vertex_count / 16) {
+        std::sort(list.begin(), list.end(),
+                  [](const Above& a, const Above& b) { return a.vertex < b.vertex; });
+        return;
+    }
     std::pmr::memory_resource* memory = list.get_allocator().resource();
     std::pmr::vector<std::uint32_t> place(std::size_t{vertex_count} + 1, 0, memory);
     for (const Above& above : list) ++place[std::size_t{above.vertex} + 1];
