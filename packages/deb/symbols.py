@@ -4,7 +4,8 @@
 usage: symbols.py --check    fails where a function of the public headers is missing, or one is listed that is none
        symbols.py --renew    writes new functions with the present version, and keeps the versions of the others
 
-The functions are those of bindings/api.json and of vox_dist.h, which no binding is generated of; whether the libraries have them, dpkg-gensymbols checks when they are packaged.
+The functions are those of bindings/api.json and of vox_dist.h, which no binding is generated of. Whether the libraries have
+them, dpkg-gensymbols checks when they are packaged.
 """
 import json
 import pathlib
@@ -12,6 +13,8 @@ import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
+sys.path.insert(0, str(ROOT / "bindings/generator"))
+import header  # noqa: E402
 
 
 def symbols(text):
@@ -25,10 +28,8 @@ def main():
     api = json.loads((ROOT / "bindings/api.json").read_text(encoding="utf-8"))
     wrong = []
     functions = {}  # of each library, which may have several headers
-    for header in api["headers"]:
-        functions.setdefault(header["library"], []).extend(f["name"] for f in header["functions"])
-    sys.path.insert(0, str(ROOT / "bindings/generator"))
-    import header
+    for part in api["headers"]:
+        functions.setdefault(part["library"], []).extend(f["name"] for f in part["functions"])
     parsed = header.parse((ROOT / "include/vox/vox_dist.h").read_text(encoding="utf-8"))
     functions["vox_dist"] = [f.name for f in parsed.of_kind("function")]
     for name_of_library, names in functions.items():

@@ -67,12 +67,12 @@ struct Filter {
     std::uint32_t self_collision = 0;
     friend bool operator==(const Filter&, const Filter&) = default;
 };
-// Of a part, before its filter, a box around its boxes, and these, packed.
+// Of a part, before its filter, a box around its boxes, and these, packed. One box is the box around it, and
+// is not sent again.
 struct PartBoxes {
     std::uint64_t body;
-    std::uint32_t part; // a number of the sender's, which hits come back with
-    std::uint32_t
-        boxes; // the highest bit: a filter follows. One box is the box around it, and is not sent again
+    std::uint32_t part;  // a number of the sender's, which hits come back with
+    std::uint32_t boxes; // the highest bit: a filter follows
 };
 constexpr std::uint32_t filter_bit = 0x80000000u;
 

@@ -655,8 +655,9 @@ def step_all(grids: Iterable[Grid], workers: int = 0) -> None:
     count = integer(workers, "workers", 0, U32)
     all_ = _distinct(grids)
     with _Locked(all_):
-        for grid in [g for g in all_ if g._borrowed or g._borrowed_readings]:
-            grid._refuse("step_all")
+        for grid in all_:
+            if grid._borrowed or grid._borrowed_readings:
+                grid._refuse("step_all")
         pointers = (ctypes.c_void_p * len(all_))(*[grid._pointer for grid in all_])
         vox.vox_grids_step(pointers, len(all_), None, count, None)
 
