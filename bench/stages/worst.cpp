@@ -1,14 +1,17 @@
-// Looks for the scene in which the depth stage costs most beside the contacts alone.
+// Looks for the scene in which something beyond the contacts costs most beside them alone: the depth stage,
+// edge contacts, contacts within a margin, or passages.
 //
-//   bench_depth_worst [--tets N] [--samples K] [--climb K] [--seed S] [--scene NAME] [--meshes FOLDER]
-//                     [--budget SEARCHES]
+//   bench_worst [--what depth|edges|margin|passages] [--tets N] [--samples K] [--climb K] [--steps K] [--seed
+//   S]
+//               [--scene NAME] [--meshes FOLDER] [--budget SEARCHES]
 //
 // Every kind of scene has up to four parameters in [0, 1]. Of each, K are drawn at random (the first has all
 // parameters 1/2), then K more are drawn around the worst so far, ever closer. A scene's ratio is the time of
-// a step of the default grid over that of a grid that finds contacts alone: least times of steps in which the
-// two take turns. Both have to find the same contacts. The last columns are the share of penetrations that
-// needed a closest point, the nanoseconds of the depth stage for each penetration, and a hash of all
-// penetrations, so that two versions of the library can be compared.
+// a step of a grid that finds more over that of a grid that finds contacts alone: least times of steps in
+// which the two take turns. Both have to find the same contacts. The margin is half an edge; for passages,
+// every other body came 2 edges along x within the step, and the others stood still. Columns: what was found
+// beyond contacts, the share of penetrations that needed a closest point, the nanoseconds for each that was
+// found, and a hash of them, so that two versions of the library can be compared.
 //
 // FOLDER has bunny.msh and cow.msh for one more scene.
 #include "base/boxes.hpp"
@@ -29,6 +32,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +42,9 @@ using bench::must;
 using vox::Vec3f;
 
 using Parameters = std::array<double, 4>;
+
+enum class What { depth, edges, margin, passages, count };
+constexpr const char* names[] = {"depth", "edges", "margin", "passages"};
 
 struct Setting {
     double tets;         // of the whole scene
@@ -207,14 +214,48 @@ constexpr Kind kinds[] = {{"noise", noise},           {"squash", squash},
 
 // ---- measuring --------------------------------------------------------------------------------------
 
+// The length of an edge is about 1 in all scenes.
+constexpr double margin = 0.5, step_length = 2;
+
+Bodies before(Bodies bodies) {
+    for (std::size_t b = 1; b < bodies.size(); b += 2)
+        for (Vec3f& p : bodies[b].positions) p.x += float{step_length};
+    return bodies;
+}
+
+// FNV-1a over the bytes of a view.
+template <class View>
+std::uint64_t hash_of(const View& view) {
+    std::uint64_t hash = 0xcbf29ce484222325u;
+    for (std::uint64_t i = 0; i < view.count; ++i) {
+        unsigned char bytes[sizeof *view.data];
+        std::memcpy(bytes, reinterpret_cast<const char*>(view.data) + i * view.byte_stride, sizeof bytes);
+        for (const unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3u;
+    }
+    return hash;
+}
+
 class Grid {
 public:
-    Grid(const Bodies& bodies, std::uint32_t flags, std::uint64_t budget) {
+    // Contacts alone.
+    explicit Grid(const Bodies& bodies) : Grid(bodies, nullptr, {}) {}
+    Grid(const Bodies& bodies, What what, const Bodies& previous, std::uint64_t budget)
+        : Grid(bodies, what == What::passages ? &previous : nullptr, [&] {
+              vox_grid_desc desc = vox_default_grid_desc();
+              desc.flags = what == What::depth   ? VOX_GRID_PENETRATIONS
+                           : what == What::edges ? VOX_GRID_EDGE_CONTACTS
+                                                 : 0;
+              desc.margin = what == What::margin ? margin : 0;
+              desc.closest_budget = budget;
+              return desc;
+          }()) {}
+    Grid(const Bodies& bodies, const Bodies* previous, const std::optional<vox_grid_desc>& with) {
         vox_grid_desc desc = vox_default_grid_desc();
-        desc.flags = flags;
-        desc.closest_budget = budget;
+        desc.flags = 0;
+        if (with) desc = *with;
         must(vox_grid_create(&desc, &grid_));
-        for (const Mesh& mesh : bodies) {
+        for (std::size_t b = 0; b < bodies.size(); ++b) {
+            const Mesh& mesh = bodies[b];
             vox_mesh_desc mesh_desc = vox_default_mesh_desc();
             mesh_desc.positions = mesh.positions.data();
             mesh_desc.vertex_count = mesh.positions.size();
@@ -223,6 +264,9 @@ public:
             if (mesh.self_collision) mesh_desc.flags |= VOX_MESH_SELF_COLLISION;
             vox_mesh id = VOX_NULL_MESH;
             must(vox_mesh_insert(grid_, &mesh_desc, &id));
+            if (previous)
+                must(vox_mesh_bind_previous_positions(grid_, id, (*previous)[b].positions.data(),
+                                                      VOX_FORMAT_FLOAT3, 0, 0));
         }
     }
     ~Grid() { vox_grid_destroy(grid_); }
@@ -238,29 +282,31 @@ public:
         must(vox_grid_hash(grid_, &hash));
         return hash;
     }
-    // FNV-1a over the bytes of all penetrations.
-    std::uint64_t hash_of_penetrations() const {
-        vox_penetration_view view;
-        must(vox_grid_penetrations(grid_, &view));
-        std::uint64_t hash = 0xcbf29ce484222325u;
-        for (std::uint64_t i = 0; i < view.count; ++i) {
-            unsigned char bytes[sizeof(vox_penetration)];
-            std::memcpy(bytes, reinterpret_cast<const char*>(view.data) + i * view.byte_stride, sizeof bytes);
-            for (const unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3u;
+    std::uint64_t hash_of_found(What what) const {
+        vox_penetration_view depths;
+        vox_edge_contact_view edges;
+        vox_margin_contact_view near;
+        vox_passage_view passages;
+        switch (what) {
+        case What::depth:
+            must(vox_grid_penetrations(grid_, &depths));
+            return hash_of(depths);
+        case What::edges:
+            must(vox_grid_edge_contacts(grid_, &edges));
+            return hash_of(edges);
+        case What::margin:
+            must(vox_grid_margin_contacts(grid_, &near));
+            return hash_of(near);
+        default:
+            must(vox_grid_passages(grid_, &passages));
+            return hash_of(passages);
         }
-        return hash;
     }
     vox_counters counters() const {
         vox_counters counters{};
         counters.struct_size = sizeof counters;
         must(vox_grid_counters(grid_, &counters));
         return counters;
-    }
-    vox_profile profile() const {
-        vox_profile profile{};
-        profile.struct_size = sizeof profile;
-        must(vox_grid_profile(grid_, &profile));
-        return profile;
     }
 
 private:
@@ -270,17 +316,24 @@ private:
 struct Result {
     Parameters parameters{};
     double ratio = 0, alone = 1e9, whole = 1e9; // seconds
-    double depth_ns = 1e18;
     vox_counters counters{};
     std::uint64_t hash = 0;
 };
 
-Result measure(const Kind& kind, const Setting& setting, const Parameters& parameters, int steps,
+std::uint64_t found(What what, const vox_counters& counters) {
+    return what == What::depth    ? counters.penetrations
+           : what == What::edges  ? counters.edge_contacts
+           : what == What::margin ? counters.margin_contacts
+                                  : counters.passages;
+}
+
+Result measure(What what, const Kind& kind, const Setting& setting, const Parameters& parameters, int steps,
                std::uint64_t budget) {
     Random random{7};
     Bodies bodies = kind.make(setting, parameters, random);
     const Bodies first = bodies;
-    Grid alone(bodies, 0, 0), whole(bodies, VOX_GRID_PENETRATIONS, budget);
+    Bodies previous = before(bodies);
+    Grid alone(bodies), whole(bodies, what, previous, budget);
     Result result;
     result.parameters = parameters;
     Random motion{11};
@@ -293,28 +346,32 @@ Result measure(const Kind& kind, const Setting& setting, const Parameters& param
                                           p.y * (1 + motion.uniform(-1e-5, 1e-5)),
                                           p.z * (1 + motion.uniform(-1e-5, 1e-5))};
             }
+        if (what == What::passages) {
+            const Bodies now = before(bodies); // the grid knows where the arrays of `previous` are
+            for (std::size_t b = 0; b < bodies.size(); ++b)
+                std::copy(now[b].positions.begin(), now[b].positions.end(), previous[b].positions.begin());
+        }
         const double alone_seconds = alone.step(), whole_seconds = whole.step();
         if (alone.hash() != whole.hash()) throw std::runtime_error("the two grids found different contacts");
         if (step > 0) { // the first one makes room
             result.alone = std::min(result.alone, alone_seconds);
             result.whole = std::min(result.whole, whole_seconds);
-            result.depth_ns = std::min(result.depth_ns, double(whole.profile().depth_ns));
         }
-        result.hash = 31 * result.hash + whole.hash_of_penetrations();
+        result.hash = 31 * result.hash + whole.hash_of_found(what);
     }
     result.counters = whole.counters();
     result.ratio = result.whole / result.alone;
     return result;
 }
 
-void print(const char* name, const Result& r) {
-    const double n = double(std::max<std::uint64_t>(r.counters.penetrations, 1));
+void print(What what, const char* name, const Result& r) {
+    const std::uint64_t count = found(what, r.counters);
+    const double n = double(std::max<std::uint64_t>(count, 1));
     std::printf("%-13s %5.3f %5.3f %5.3f %5.3f %9llu %9llu %8.2f %8.2f %7.2f %8.3f %8.0f  %016llx\n", name,
                 r.parameters[0], r.parameters[1], r.parameters[2], r.parameters[3],
-                static_cast<unsigned long long>(r.counters.tets),
-                static_cast<unsigned long long>(r.counters.penetrations), 1e3 * r.alone, 1e3 * r.whole,
-                r.ratio, double(r.counters.closest_searches) / n, 1e9 * (r.whole - r.alone) / n,
-                static_cast<unsigned long long>(r.hash));
+                static_cast<unsigned long long>(r.counters.tets), static_cast<unsigned long long>(count),
+                1e3 * r.alone, 1e3 * r.whole, r.ratio, double(r.counters.closest_searches) / n,
+                1e9 * (r.whole - r.alone) / n, static_cast<unsigned long long>(r.hash));
     std::fflush(stdout);
 }
 
@@ -346,6 +403,7 @@ Mesh read_mesh([[maybe_unused]] const std::string& path) {
 }
 
 struct Options {
+    What what = What::depth;
     double tets = 15000;
     int samples = 8, climb = 8, steps = 4;
     std::uint64_t seed = 1, budget = 0;
@@ -358,7 +416,7 @@ void run(const Options& options) {
         setting.bunny = read_mesh(options.meshes + "/bunny.msh");
         setting.cow = read_mesh(options.meshes + "/cow.msh");
     }
-    std::printf("%-13s %23s %9s %9s %8s %8s %7s %8s %8s  %s\n", "scene", "parameters", "tets", "vertices",
+    std::printf("%-13s %23s %9s %9s %8s %8s %7s %8s %8s  %s\n", "scene", "parameters", "tets", "found",
                 "alone ms", "step ms", "ratio", "searched", "ns each", "hash");
     Result worst;
     const char* worst_name = "";
@@ -376,8 +434,9 @@ void run(const Options& options) {
                     : i < options.samples
                         ? random.unit()
                         : std::clamp(best.parameters[k] + double{random.uniform(-reach, reach)}, 0.0, 1.0);
-            const Result result = measure(kind, setting, parameters, options.steps, options.budget);
-            print(kind.name, result);
+            const Result result =
+                measure(options.what, kind, setting, parameters, options.steps, options.budget);
+            print(options.what, kind.name, result);
             if (result.ratio > best.ratio) best = result;
         }
         if (best.ratio > worst.ratio) {
@@ -386,7 +445,7 @@ void run(const Options& options) {
         }
     }
     std::printf("worst:\n");
-    print(worst_name, worst);
+    print(options.what, worst_name, worst);
 }
 
 } // namespace
@@ -396,7 +455,11 @@ int main(int argc, char** argv) {
     bool known = argc % 2 == 1;
     for (int i = 1; i + 1 < argc && known; i += 2) {
         const std::string option = argv[i], value = argv[i + 1];
-        if (option == "--tets")
+        if (option == "--what") {
+            const auto* const name = std::find(std::begin(names), std::end(names), value);
+            known = name != std::end(names);
+            options.what = static_cast<What>(name - std::begin(names));
+        } else if (option == "--tets")
             options.tets = std::atof(value.c_str());
         else if (option == "--samples")
             options.samples = std::atoi(value.c_str());
@@ -416,12 +479,12 @@ int main(int argc, char** argv) {
             known = false;
     }
     if (!known || !(options.tets >= 1000) || options.samples < 1 || options.climb < 0 || options.steps < 2) {
-        std::fprintf(stderr,
-                     "usage: bench_depth_worst [--tets N >= 1000] [--samples K] [--climb K] [--steps K >= 2] "
-                     "[--seed S] [--scene NAME] [--meshes FOLDER] [--budget SEARCHES]\n");
+        std::fprintf(stderr, "usage: bench_worst [--what depth|edges|margin|passages] [--tets N >= 1000] "
+                             "[--samples K] [--climb K] [--steps K >= 2] "
+                             "[--seed S] [--scene NAME] [--meshes FOLDER] [--budget SEARCHES]\n");
         return 2;
     }
-    return bench::run_program("bench_depth_worst", [&] {
+    return bench::run_program("bench_worst", [&] {
         run(options);
         return 0;
     });
