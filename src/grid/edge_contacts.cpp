@@ -1,6 +1,6 @@
 // Two bodies whose boxes overlap: tiles of each in the box of the other are joined, box by box, then the
-// edges of one tile with the faces of the other, and what is left is decided exactly. Of a body with itself, what
-// winding numbers have certified is left out (fast/winding/certificate.cpp).
+// edges of one tile with the faces of the other, and what is left is decided exactly. Of a body with itself,
+// what winding numbers have certified is left out (fast/winding/certificate.cpp).
 #include "grid/edge_contacts.hpp"
 
 #include "base/bits.hpp"
@@ -235,18 +235,6 @@ void EdgeContacts::make_tile_boxes(const EdgeScene& scene) {
             fast::find_sides(scene.engine->boxes().blocks.data() + of.first_block, of.tiles->block_count(),
                              surface.reached, block_sides_.data() + surface.first_block);
         }
-    const auto is_out_of_reach = [&](const StepSurface& surface, const SurfaceTile& tile) {
-        if (tile.block_count == 0) return false; // not known
-        const std::uint32_t* blocks = surface.features->blocks.data() + tile.first_block;
-        const std::uint8_t* sides = block_sides_.data() + surface.first_block;
-        constexpr std::uint32_t at_once = 4; // between branches
-        unsigned common = all_sides;
-        std::uint32_t i = 0;
-        for (; i + at_once <= tile.block_count && common; i += at_once)
-            for (std::uint32_t j = 0; j < at_once; ++j) common &= sides[blocks[i + j]];
-        for (; i < tile.block_count && common; ++i) common &= sides[blocks[i]];
-        return common != 0;
-    };
     scene.workers->for_ranges(
         pieces_.size(), task_tiles / small_body, [&](std::size_t begin, std::size_t end, std::uint32_t) {
             for (std::size_t i = begin; i < end; ++i) {
@@ -256,7 +244,7 @@ void EdgeContacts::make_tile_boxes(const EdgeScene& scene) {
                     const SurfaceTile& tile = surface.features->tiles[t];
                     Box box = empty_box;
                     const std::uint32_t* vertices = surface.features->vertices.data() + tile.first_vertex;
-                    if (!is_out_of_reach(surface, tile))
+                    if (!is_to_one_side(*surface.features, tile, block_sides_.data() + surface.first_block))
                         for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
                             add(box, box_at(surface.positions, vertices[v]));
                     tile_boxes_[surface.first_tile + t] = box;
@@ -296,8 +284,8 @@ void EdgeContacts::search_pairs(const EdgeScene& scene) {
     }
 }
 
-// The tiles of the two that meet where the boxes of the two overlap. Of a body with itself, those that are not
-// certified.
+// The tiles of the two that meet where the boxes of the two overlap. Of a body with itself, those that are
+// not certified.
 bool EdgeContacts::list_tiles(const EdgeScene& scene, const fast::Pair& pair, Worker& worker) const {
     const StepSurface &a = step_surfaces_[pair.a], &b = step_surfaces_[pair.b];
     Box region = a.box;

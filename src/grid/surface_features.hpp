@@ -2,6 +2,7 @@
 // from the topology; the positions at that time only decide how compact the tiles are.
 #pragma once
 
+#include "base/boxes.hpp"
 #include "base/scene.hpp"
 #include "mesh/tiles.hpp"
 #include "mesh/topology.hpp"
@@ -36,6 +37,21 @@ struct SurfaceFeatures {
     std::pmr::vector<std::uint32_t> triangles; // of each face, in Topology::triangles
     std::pmr::vector<std::uint32_t> tets;      // of each face, the one behind it; of doubled ones the lowest
 };
+
+// Whether the blocks of a tile, and so its faces, all lie to one side of a region: `sides` are those of all
+// blocks of the body (fast::find_sides). False where the blocks are not known.
+inline bool is_to_one_side(const SurfaceFeatures& features, const SurfaceTile& tile,
+                           const std::uint8_t* sides) noexcept {
+    if (tile.block_count == 0) return false;
+    const std::uint32_t* blocks = features.blocks.data() + tile.first_block;
+    constexpr std::uint32_t at_once = 4; // between branches
+    unsigned common = all_sides;
+    std::uint32_t i = 0;
+    for (; i + at_once <= tile.block_count && common; i += at_once)
+        for (std::uint32_t j = 0; j < at_once; ++j) common &= sides[blocks[i + j]];
+    for (; i < tile.block_count && common; ++i) common &= sides[blocks[i]];
+    return common != 0;
+}
 
 // Of an empty `out`. `tiles` are those of the mesh; null: there are no blocks. Takes time linear in the tets,
 // and n log n in the faces. Throws what the memory throws.

@@ -81,7 +81,8 @@ void order_faces(std::span<const Tet> tets, SearchedSurface& surface) {
 
 VertexFaceSearch::VertexFaceSearch(std::pmr::memory_resource* memory)
     : surfaces_(memory), packed_(memory), block_boxes_(memory), searched_(memory), body_boxes_(memory),
-      pair_buffers_(memory), pairs_(memory), pieces_(memory), tile_boxes_(memory), workers_(memory) {}
+      pair_buffers_(memory), pairs_(memory), pieces_(memory), block_sides_(memory), tile_boxes_(memory),
+      workers_(memory) {}
 
 void VertexFaceSearch::forget(vox_mesh mesh) noexcept {
     std::erase_if(surfaces_, [mesh](const Kept& kept) { return kept.mesh == mesh; });
@@ -254,18 +255,21 @@ void VertexFaceSearch::prepare_surfaces(const Scene& scene) {
         add(searched_[pair.b].reached, reached);
     }
     pieces_.clear();
-    std::size_t tiles = 0;
+    std::size_t tiles = 0, blocks = 0;
     for (const fast::Pair& pair : pairs_) {
         Searched& body = searched_[pair.b];
         if (body.surface) continue;
         body.surface = &surface_of(scene, pair.b);
         body.first_tile = static_cast<std::uint32_t>(tiles);
+        body.first_block = static_cast<std::uint32_t>(blocks);
+        blocks += body.block_count;
         const auto count = static_cast<std::uint32_t>(body.surface->features.tiles.size());
         for (std::uint32_t first = 0; first < count; first += near_small_body)
             pieces_.push_back({pair.b, first, std::min<std::uint32_t>(first + near_small_body, count)});
         tiles += count;
     }
     if (tile_boxes_.size() < tiles) tile_boxes_.resize(tiles);
+    if (block_sides_.size() < blocks) block_sides_.resize(blocks);
 }
 
 Box VertexFaceSearch::box_of_tile(const Searched& body, std::uint32_t index) const {
@@ -277,27 +281,25 @@ Box VertexFaceSearch::box_of_tile(const Searched& body, std::uint32_t index) con
     return box;
 }
 
-// Whether a block that holds vertices of a tile is where others reach the body. Unknown of the reference
-// engine's.
-bool VertexFaceSearch::is_reached(const Searched& body, std::uint32_t index) const {
-    const SurfaceFeatures& features = body.surface->features;
-    const SurfaceTile& tile = features.tiles[index];
-    if (tile.block_count == 0) return true;
-    // A face can be where none of its corners are: what counts is the box around them.
-    Box box = empty_box;
-    for (std::uint32_t i = 0; i < tile.block_count; ++i)
-        add(box, body.blocks[features.blocks[tile.first_block + i]]);
-    return overlap(box, body.reached);
-}
-
-// Of tiles that others reach; the others get an empty box.
+// Of tiles that others may reach, by their blocks; the others get an empty box. A face can be where none of
+// its corners are, so one block beyond the region is not enough.
 void VertexFaceSearch::make_tile_boxes(const Scene& scene) {
+    for (const TilePiece& piece : pieces_) {
+        const Searched& body = searched_[piece.body];
+        if (piece.first == 0)
+            fast::find_sides(body.blocks, body.block_count, body.reached,
+                             block_sides_.data() + body.first_block);
+    }
     constexpr std::size_t least = near_task_tiles / near_small_body;
     scene.workers->for_ranges(pieces_.size(), least, [&](std::size_t begin, std::size_t end, std::uint32_t) {
         for (std::size_t i = begin; i < end; ++i) {
             const Searched& body = searched_[pieces_[i].body];
+            const SurfaceFeatures& features = body.surface->features;
             for (std::uint32_t t = pieces_[i].first; t < pieces_[i].last; ++t)
-                tile_boxes_[body.first_tile + t] = is_reached(body, t) ? box_of_tile(body, t) : empty_box;
+                tile_boxes_[body.first_tile + t] =
+                    is_to_one_side(features, features.tiles[t], block_sides_.data() + body.first_block)
+                        ? empty_box
+                        : box_of_tile(body, t);
         }
     });
 }
@@ -357,8 +359,8 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Worker& lists,
         for (std::size_t group = 0; group < lists.groups.size(); ++group) {
             if (!overlap(lists.groups[group], box)) continue;
             const std::size_t first = group * near_group_size;
-            const auto count =
-                static_cast<std::uint32_t>(std::min<std::size_t>(near_group_size, lists.boxes.size() - first));
+            const auto count = static_cast<std::uint32_t>(
+                std::min<std::size_t>(near_group_size, lists.boxes.size() - first));
             std::uint64_t met = fast::find_overlaps(&lists.boxes[first], count, box);
             for (; met; met &= met - 1) {
                 const std::uint32_t block =
