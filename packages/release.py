@@ -51,15 +51,15 @@ def complaints(number):
     return found
 
 
-def build(place, names, again):
-    """All packages of the last commit, in a fresh clone at place: path of each file by its name. `again`: the cross-built
-    libraries are not run, as they must equal those that were, byte for byte."""
+def build(place, names):
+    """All packages of the last commit, in a fresh clone at place: path of each file by its name."""
     if place.exists():
         shutil.rmtree(place)
     run("git", "clone", "--quiet", "--local", ROOT, place)
     if not names or "csharp" in names:
         wheels = subprocess.run(["packages/cross", "--wheels"], check=True, capture_output=True, text=True, cwd=ROOT).stdout
-        run("packages/cross", *["--build-only"] * again, *wheels.split(), cwd=place) # whose libraries the C# package takes, too
+        # The C# package takes their libraries, too; those of the wheels run what was built.
+        run("packages/cross", "--build-only", *wheels.split(), cwd=place)
     run("./dev", "packages", "--required", *names, cwd=place)
     files = {}
     for path in sorted(place.glob("build/packages/*/dist/*")):
@@ -114,7 +114,7 @@ def main():
         print("would stop the release:", complaint)
     run("./dev", "abi")
     places = [ROOT / "build/release-clones" / name for name in ("first", "at-another-place")]
-    built = [build(place, options.names, again=place != places[0]) for place in places[:1 if options.once else 2]]
+    built = [build(place, options.names) for place in places[:1 if options.once else 2]]
     if len(built) == 2 and differences(*built):
         sys.exit("release.py: not the same from both builds: " + ", ".join(differences(*built)))
     out = ROOT / f"build/release-{number}"

@@ -7,14 +7,13 @@ usage: symbols.py --check    fails where a function of the public headers is mis
 The functions are those of bindings/api.json and of vox_dist.h, which no binding is generated of. Whether the libraries have
 them, dpkg-gensymbols checks when they are packaged.
 """
-import json
 import pathlib
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-sys.path.insert(0, str(ROOT / "bindings/generator"))
-import header  # noqa: E402
+sys.path.insert(0, str(ROOT / "packages"))
+from public_functions import description, public_functions  # noqa: E402
 
 
 def symbols(text):
@@ -25,14 +24,9 @@ def symbols(text):
 def main():
     if sys.argv[1:] not in (["--check"], ["--renew"]):
         sys.exit(__doc__)
-    api = json.loads((ROOT / "bindings/api.json").read_text(encoding="utf-8"))
+    api = description()
     wrong = []
-    functions = {}  # of each library, which may have several headers
-    for part in api["headers"]:
-        functions.setdefault(part["library"], []).extend(f["name"] for f in part["functions"])
-    parsed = header.parse((ROOT / "include/vox/vox_dist.h").read_text(encoding="utf-8"))
-    functions["vox_dist"] = [f.name for f in parsed.of_kind("function")]
-    for name_of_library, names in functions.items():
+    for name_of_library, names in public_functions().items():
         library, package = f"lib{name_of_library}", f"lib{name_of_library}{api['abi_version']}".replace("_", "-")
         path = HERE / "debian" / f"{package}.symbols"
         had = path.read_text(encoding="ascii") if path.exists() else ""

@@ -2,13 +2,14 @@
 load: those for Arm are signed, each asks for libraries of the system and for those that it finds beside it, and the libraries
 export the functions of their headers and no others."""
 
-import json
 import pathlib
 import re
 import struct
 import sys
 
-API = pathlib.Path(__file__).resolve().parents[2] / "bindings/api.json"
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from public_functions import public_functions  # noqa: E402
+
 # Commands of a Mach-O file (mach-o/loader.h).
 SYMTAB, LOAD_DYLIB, ID_DYLIB, CODE_SIGNATURE, RPATH, BUILD_VERSION = 0x2, 0xC, 0xD, 0x1D, 0x8000001C, 0x32
 DEFINED, EXTERNAL, PRIVATE, STAB = 0xE, 0x1, 0x10, 0xE0
@@ -52,9 +53,7 @@ class MachO:
 
 def main():
     folder = pathlib.Path(sys.argv[1])
-    functions = {}  # of each library, which may have several headers
-    for header in json.loads(API.read_text())["headers"]:
-        functions.setdefault(header.get("library", header["name"]), set()).update("_" + f["name"] for f in header["functions"])
+    functions = {library: {"_" + name for name in names} for library, names in public_functions().items()}
     libraries = sorted((folder / "lib").glob("*.dylib"))
     faults = [] if len(libraries) == len(functions) else [f"{len(libraries)} libraries, expected {len(functions)}"]
     for path in [*libraries, *sorted((folder / "bin").iterdir())]:
