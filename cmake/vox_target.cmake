@@ -78,7 +78,9 @@ function(vox_library name export_map)
     if(UNIX AND NOT APPLE AND NOT EMSCRIPTEN)
       # Never unloaded: threads, oneTBB's among them, may still be in it when a host that loaded it by name (Mono, a
       # plug-in's) gives it back.
-      target_link_options(${name} PRIVATE LINKER:--version-script=${export_map} LINKER:--no-undefined LINKER:-z,nodelete)
+      target_link_options(${name} PRIVATE LINKER:--no-undefined LINKER:-z,nodelete)
+      # LINKER: would part a path at its commas.
+      target_link_options(${name} PRIVATE "SHELL:-Xlinker --version-script=\"${export_map}\"")
       if(VOX_SANITIZE)
         # The sanitizer runtimes are resolved when a program starts, not when the library is linked.
         target_link_options(${name} PRIVATE LINKER:-z,undefs)
