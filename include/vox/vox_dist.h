@@ -239,7 +239,8 @@ VOX_EXPERIMENTAL vox_result vox_scene_costs(const vox_scene* scene, vox_part_cos
 /* What the last step, or vox_scene_locate since, sent from this rank. */
 typedef struct vox_scene_counters {
     uint32_t struct_size;
-    uint32_t neighbours;        /* ranks whose boxes meet those of this one */
+    uint32_t neighbours;        /* ranks whose boxes meet those of this one; not where both have one and the same
+                                   body alone, which does not collide with itself */
     uint64_t messages;          /* at most three a neighbour, and one more where a vertex is on a boundary
                                    of a body that has tetrahedra on several ranks */
     uint64_t collectives;       /* 2 */

@@ -67,6 +67,7 @@ struct Filter {
     std::uint32_t self_collision = 0;
     friend bool operator==(const Filter&, const Filter&) = default;
 };
+
 // Of a part, before its filter, a box around its boxes, and these, packed. One box is the box around it, and
 // is not sent again.
 struct PartBoxes {

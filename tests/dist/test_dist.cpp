@@ -371,6 +371,35 @@ START_TEST(a_restart_from_snapshots_on_other_ranks_has_the_same_contacts) {
 }
 END_TEST
 
+// One block among four ranks, which have nothing to tell each other unless it collides with itself.
+void lone_body_rank(const vox_transport* transport, void* user) {
+    Run& run = *static_cast<Run*>(user);
+    const Body& body = run.scene->front();
+    Ranked mine(transport);
+    vox_scene_counters counters;
+    counters.struct_size = sizeof counters;
+    if (mine.result != VOX_OK || mine.insert(body, run.shares[0][transport->rank]) != VOX_OK ||
+        vox_scene_step(mine.scene) != VOX_OK || vox_scene_get_counters(mine.scene, &counters) != VOX_OK)
+        return note(run, vox_last_error());
+    if ((counters.neighbours != 0) != (body.filter.self_collision != 0)) note(run, "other neighbours");
+}
+
+START_TEST(ranks_of_one_body_are_neighbours_only_if_it_collides_with_itself) {
+    const std::uint32_t cubes[3] = {4, 4, 4};
+    const double origin[3] = {0, 0, 0};
+    for (const std::uint32_t self : {0u, 1u}) {
+        Scene scene = {block(cubes, origin, 1)};
+        scene[0].filter.self_collision = self;
+        Random random(1);
+        Run run;
+        run.scene = &scene;
+        run.shares.push_back(shares(scene[0], cut(scene[0], 4, Cut::rcb, random), 4, random));
+        ck_assert_int_eq(vox_transport_run(4, 2, lone_body_rank, &run), VOX_OK);
+        ck_assert_msg(run.fault.empty(), "%s", run.fault.c_str());
+    }
+}
+END_TEST
+
 // Frames of all sizes, flat ones too, far from the origin and near it.
 START_TEST(packed_boxes_hold_the_boxes_and_stay_near_them) {
     Random random(5);
@@ -417,7 +446,8 @@ END_TEST
 int main() {
     Suite* suite = suite_create("dist");
     TCase* contacts = add_case(suite, "contacts");
-    tcase_add_each(contacts, any_partition_has_the_contacts_of_one_grid, a_scene_on_any_number_of_ranks);
+    tcase_add_each(contacts, any_partition_has_the_contacts_of_one_grid, a_scene_on_any_number_of_ranks,
+                   ranks_of_one_body_are_neighbours_only_if_it_collides_with_itself);
     TCase* motion = add_case(suite, "motion and restart");
     tcase_add_each(motion, moving_bodies_have_the_contacts_of_one_grid,
                    a_restart_from_snapshots_on_other_ranks_has_the_same_contacts);
