@@ -1,9 +1,8 @@
 // Looks for the scene in which something beyond the contacts costs most beside them alone: the depth stage,
 // edge contacts, contacts within a margin, or passages.
 //
-//   bench_worst [--what depth|edges|margin|passages] [--tets N] [--samples K] [--climb K] [--steps K] [--seed
-//   S]
-//               [--scene NAME] [--meshes FOLDER] [--budget SEARCHES]
+//   bench_worst [--what depth|edges|margin|passages] [--tets N] [--samples K] [--climb K] [--steps K]
+//               [--seed S] [--scene NAME] [--meshes FOLDER] [--budget SEARCHES]
 //
 // Every kind of scene has up to four parameters in [0, 1]. Of each, K are drawn at random (the first has all
 // parameters 1/2), then K more are drawn around the worst so far, ever closer. A scene's ratio is the time of
@@ -43,7 +42,7 @@ using vox::Vec3f;
 
 using Parameters = std::array<double, 4>;
 
-enum class What { depth, edges, margin, passages, count };
+enum class What { depth, edges, margin, passages };
 constexpr const char* names[] = {"depth", "edges", "margin", "passages"};
 
 struct Setting {
