@@ -286,7 +286,7 @@ Box VertexFaceSearch::box_of_tile(const Searched& body, std::uint32_t index) con
 void VertexFaceSearch::make_tile_boxes(const Scene& scene) {
     for (const TilePiece& piece : pieces_) {
         const Searched& body = searched_[piece.body];
-        if (piece.first == 0)
+        if (scene.engine && piece.first == 0) // else tiles know no blocks
             fast::find_sides(body.blocks, body.block_count, body.reached,
                              block_sides_.data() + body.first_block);
     }

@@ -69,8 +69,8 @@ class SafeStep(NamedTuple):
 
 def _copy(address: Optional[int], count: int, dtype: Any) -> NDArray[Any]:
     out = np.empty(count, dtype)
-    if count and address:
-        ctypes.memmove(out.ctypes.data, address, out.nbytes)
+    if count:
+        ctypes.memmove(out.ctypes.data, ctypes.c_void_p(address), out.nbytes)
     return out
 
 
