@@ -1,7 +1,7 @@
 /* What edge contacts and margin contacts cost: each scene in a grid without them, in one with VOX_GRID_EDGE_CONTACTS and in
  * one with a margin of half an edge, stepped in turn over the same positions, all of which move; the ratio of their lower
  * quartiles of processor time.
- * Usage: bench_edges [frames [tetrahedra of a ball]], 40 and 500000 by default. */
+ * Usage: bench_edges [frames [tetrahedra of a ball [scene]]], 40, 500000 and every scene by default. */
 #include "scenes/scenes.h"
 #include "scenes/solids.h"
 #include "timing.h"
@@ -103,17 +103,19 @@ static void measure(scene* s, const char* name, int frames) {
 int main(int argc, char** argv) {
     const int frames = argc > 1 ? atoi(argv[1]) : 40;
     const double tets = argc > 2 ? atof(argv[2]) : 500000;
+    const char* const names[] = {"light", "overlap", "deep", "self", "many"};
+    const double apart[] = {1.98, 1.85, 1};
     static scene s;
     if (frames < 1 || !(tets >= 1000)) return 2;
-    make_balls(&s, tets, 1.98);
-    measure(&s, "light", frames);
-    make_balls(&s, tets, 1.85);
-    measure(&s, "overlap", frames);
-    make_balls(&s, tets, 1);
-    measure(&s, "deep", frames);
-    make_self(&s, 22);
-    measure(&s, "self", frames);
-    make_many(&s, 5, 8);
-    measure(&s, "many", frames);
+    for (int i = 0; i < 5; ++i) {
+        if (argc > 3 && strcmp(argv[3], names[i]) != 0) continue;
+        if (i < 3)
+            make_balls(&s, tets, apart[i]);
+        else if (i == 3)
+            make_self(&s, 22);
+        else
+            make_many(&s, 5, 8);
+        measure(&s, names[i], frames);
+    }
     return EXIT_SUCCESS;
 }
