@@ -24,7 +24,6 @@ namespace vox {
 namespace {
 
 constexpr std::uint32_t group_size = 32; // tiles whose common box is tested first
-constexpr std::uint32_t few_boxes = 20;  // are compared sooner one by one
 
 // How much work is worth a task of its own.
 constexpr std::size_t task_tiles = 128;  // whose boxes are made: 40 vertices each
@@ -54,9 +53,8 @@ EdgePair pair_of(const vox_edge_contact& contact) {
 
 EdgeContacts::EdgeContacts(std::pmr::memory_resource* memory)
     : surfaces_(memory), pair_buffers_(memory), body_boxes_(memory), packed_(memory), first_packed_(memory),
-      pairs_of_bodies_(memory), step_surfaces_(memory), pieces_(memory), block_sides_(memory),
-      tile_boxes_(memory), workers_(memory), found_(memory), keys_(memory), contacts_(memory), pairs_(memory),
-      depths_(memory) {}
+      pairs_of_bodies_(memory), step_surfaces_(memory), pieces_(memory), tile_boxes_(memory),
+      workers_(memory), found_(memory), keys_(memory), contacts_(memory), pairs_(memory), depths_(memory) {}
 
 void EdgeContacts::clear() noexcept {
     contacts_.clear();
@@ -190,7 +188,7 @@ const SurfaceFeatures& EdgeContacts::surface_of(const EdgeScene& scene, std::uin
 
 // What is known of bodies in pairs, room for the boxes of their tiles, and the pieces of work to make them.
 void EdgeContacts::prepare_surfaces(const EdgeScene& scene) {
-    step_surfaces_.assign(scene.bodies.size(), {nullptr, 0, 0, nullptr, empty_box, empty_box});
+    step_surfaces_.assign(scene.bodies.size(), {nullptr, 0, nullptr, nullptr, empty_box, empty_box});
     for (const fast::Pair& pair : pairs_of_bodies_) {
         Box common = box_of(scene, pair.a);
         intersect(common, box_of(scene, pair.b));
@@ -200,14 +198,13 @@ void EdgeContacts::prepare_surfaces(const EdgeScene& scene) {
         }
     }
     pieces_.clear();
-    std::size_t tiles = 0, blocks = 0;
+    std::size_t tiles = 0;
     for (const fast::Pair& pair : pairs_of_bodies_)
         for (const std::uint32_t body : {pair.a, pair.b}) {
             StepSurface& surface = step_surfaces_[body];
             if (surface.features) continue;
             surface.features = &surface_of(scene, body);
             surface.first_tile = static_cast<std::uint32_t>(tiles);
-            surface.first_block = static_cast<std::uint32_t>(blocks);
             const auto count = static_cast<std::uint32_t>(surface.features->tiles.size());
             for (std::uint32_t first = 0; first < count; first += small_body)
                 pieces_.push_back({body, first, std::min<std::uint32_t>(first + small_body, count)});
@@ -215,40 +212,29 @@ void EdgeContacts::prepare_surfaces(const EdgeScene& scene) {
             if (scene.engine) {
                 const fast::StepBody& of = scene.engine->last_step().of[body];
                 surface.positions = of.positions;
-                blocks += of.tiles->block_count();
+                surface.blocks = scene.engine->boxes().blocks.data() + of.first_block;
             } else {
                 surface.positions = packed_.data() + first_packed_[body];
             }
         }
     if (tile_boxes_.size() < tiles) tile_boxes_.resize(tiles);
-    if (block_sides_.size() < blocks) block_sides_.resize(blocks);
 }
 
-// On which side of the reached region the blocks of a body are shows for most tiles that they are out of
-// reach. The others get a box.
 void EdgeContacts::make_tile_boxes(const EdgeScene& scene) {
-    if (scene.engine)
-        for (const TilePiece& piece : pieces_) {
-            if (piece.first > 0) continue;
-            const StepSurface& surface = step_surfaces_[piece.body];
-            const fast::StepBody& of = scene.engine->last_step().of[piece.body];
-            fast::find_sides(scene.engine->boxes().blocks.data() + of.first_block, of.tiles->block_count(),
-                             surface.reached, block_sides_.data() + surface.first_block);
-        }
     scene.workers->for_ranges(
         pieces_.size(), task_tiles / small_body, [&](std::size_t begin, std::size_t end, std::uint32_t) {
             for (std::size_t i = begin; i < end; ++i) {
                 const TilePiece& piece = pieces_[i];
                 const StepSurface& surface = step_surfaces_[piece.body];
-                for (std::uint32_t t = piece.first; t < piece.last; ++t) {
-                    const SurfaceTile& tile = surface.features->tiles[t];
+                const auto box_of = [&](const SurfaceTile& tile) {
                     Box box = empty_box;
                     const std::uint32_t* vertices = surface.features->vertices.data() + tile.first_vertex;
-                    if (!is_to_one_side(*surface.features, tile, block_sides_.data() + surface.first_block))
-                        for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
-                            add(box, box_at(surface.positions, vertices[v]));
-                    tile_boxes_[surface.first_tile + t] = box;
-                }
+                    for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
+                        add(box, box_at(surface.positions, vertices[v]));
+                    return box;
+                };
+                make_boxes_in(surface.reached, *surface.features, surface.blocks, piece.first, piece.last,
+                              &tile_boxes_[surface.first_tile + piece.first], box_of);
             }
         });
     for (const TilePiece& piece : pieces_) {
@@ -373,13 +359,13 @@ void EdgeContacts::load(std::uint32_t body, std::uint32_t index, LoadedTile& out
         Box box = points[u];
         add(box, points[v]);
         add(box, points[w]);
-        out.faces[f] = box;
+        out.faces.set(f, box);
     }
     for (std::uint32_t e = 0; e < tile.edge_count; ++e) {
         const auto& [u, v] = features.edges[tile.first_edge + e];
         Box box = points[u];
         add(box, points[v]);
-        out.edges[e] = box;
+        out.edges.set(e, box);
     }
 }
 
@@ -402,56 +388,36 @@ const TrianglePlane& EdgeContacts::plane_of(LoadedTile& tile, std::size_t face) 
 }
 
 void EdgeContacts::test(const EdgeScene& scene, LoadedTile& edges, LoadedTile& faces, Worker& worker) {
-    // Faces that meet the box of the other tile; edges that meet that of the first one.
-    std::array<Box, SurfaceTile::most_faces> boxes;
-    std::array<std::uint8_t, SurfaceTile::most_faces> near;
-    std::uint32_t count = 0;
-    Box common = empty_box; // around these
-    std::uint64_t met = fast::find_overlaps(faces.faces.data(), faces.tile->face_count, edges.box);
-    for (; met; met &= met - 1) {
-        const auto face = static_cast<std::size_t>(std::countr_zero(met));
-        near[count] = static_cast<std::uint8_t>(face);
-        boxes[count++] = faces.faces[face];
-        add(common, faces.faces[face]);
-    }
+    std::array<EdgeFaces, SurfaceTile::most_edges> near;
+    const std::uint32_t count = find_edge_faces(edges.edges, edges.tile->edge_count, edges.box, faces.faces,
+                                                faces.tile->face_count, near.data());
     if (count == 0) return;
     const bool is_self = edges.body == faces.body;
     const SurfaceFeatures& features = *step_surfaces_[faces.body].features;
     const std::uint32_t* corners = features.vertices.data() + faces.tile->first_vertex;
     const std::uint32_t* ends =
         step_surfaces_[edges.body].features->vertices.data() + edges.tile->first_vertex;
-    for (std::uint32_t first = 0; first < edges.tile->edge_count; first += fast::most_boxes) {
-        std::uint64_t left = fast::find_overlaps(
-            edges.edges.data() + first, std::min(fast::most_boxes, edges.tile->edge_count - first), common);
-        for (; left; left &= left - 1) {
-            const std::size_t edge = first + static_cast<std::size_t>(std::countr_zero(left));
-            std::uint64_t hit = 0;
-            if (count <= few_boxes)
-                for (std::uint32_t i = 0; i < count; ++i)
-                    hit |= std::uint64_t{overlap(boxes[i], edges.edges[edge])} << i;
-            else
-                hit = fast::find_overlaps(boxes.data(), count, edges.edges[edge]);
-            if (!hit) continue;
-            worker.candidates += static_cast<std::uint64_t>(std::popcount(hit));
-            make_points(scene, edges);
-            make_points(scene, faces);
-            const auto& [u, v] = step_surfaces_[edges.body].features->edges[edges.tile->first_edge + edge];
-            const Vec3d &p = edges.points[u], &q = edges.points[v];
-            const std::uint32_t low = ends[u], high = ends[v];
-            for (; hit; hit &= hit - 1) {
-                const std::size_t face = near[static_cast<std::size_t>(std::countr_zero(hit))];
-                const auto& [a, b, c] = features.faces[faces.tile->first_face + face];
-                if (is_self) {
-                    const std::uint32_t of_face[3] = {corners[a], corners[b], corners[c]};
-                    if (std::count(of_face, of_face + 3, low) + std::count(of_face, of_face + 3, high) > 0) {
-                        --worker.candidates;
-                        continue;
-                    }
+    make_points(scene, edges);
+    make_points(scene, faces);
+    for (const EdgeFaces& edge_faces : std::span(near).first(count)) {
+        const auto [edge, met] = edge_faces;
+        worker.candidates += static_cast<std::uint64_t>(std::popcount(met));
+        const auto& [u, v] = step_surfaces_[edges.body].features->edges[edges.tile->first_edge + edge];
+        const Vec3d &p = edges.points[u], &q = edges.points[v];
+        const std::uint32_t low = ends[u], high = ends[v];
+        for (std::uint32_t left = met; left; left &= left - 1) {
+            const auto face = static_cast<std::size_t>(std::countr_zero(left));
+            const auto& [a, b, c] = features.faces[faces.tile->first_face + face];
+            if (is_self) {
+                const std::uint32_t of_face[3] = {corners[a], corners[b], corners[c]};
+                if (std::count(of_face, of_face + 3, low) + std::count(of_face, of_face + 3, high) > 0) {
+                    --worker.candidates;
+                    continue;
                 }
-                if (plane_of(faces, face).has_on_one_side(p, q)) continue;
-                if (!passes_beside(p, q, faces.points[a], faces.points[b], faces.points[c]))
-                    decide(scene, edges, edge, faces, face, worker);
             }
+            if (plane_of(faces, face).has_on_one_side(p, q)) continue;
+            if (!passes_beside(p, q, faces.points[a], faces.points[b], faces.points[c]))
+                decide(scene, edges, edge, faces, face, worker);
         }
     }
 }

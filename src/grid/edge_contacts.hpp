@@ -8,6 +8,7 @@
 #include "depth/closest.hpp"
 #include "exact/predicates.hpp"
 #include "fast/body_pairs.hpp"
+#include "grid/box_lanes.hpp"
 #include "grid/contact_pairs.hpp"
 #include "grid/surface_features.hpp"
 #include "mesh/topology.hpp"
@@ -90,7 +91,7 @@ private:
     struct StepSurface {
         const SurfaceFeatures* features; // null for a body that no pair has
         std::uint32_t first_tile;        // in tile_boxes_
-        std::uint32_t first_block;       // in block_sides_
+        const Box* blocks;               // of vertices; null with the reference engine
         const float* positions;          // packed, rounded to floats
         Box reached;                     // around where the boxes of others overlap that of the body
         Box box;                         // around those of its tiles that are there
@@ -104,8 +105,8 @@ private:
         std::uint32_t body = ~0u, index = ~0u;
         const SurfaceTile* tile = nullptr;
         Box box{};
-        std::array<Box, SurfaceTile::most_faces> faces{};
-        std::array<Box, SurfaceTile::most_edges> edges{};
+        FaceBoxes faces;
+        EdgeBoxes edges;
         // Made when they are first needed.
         bool has_points = false;
         std::uint64_t has_plane = 0; // of each face, a bit
@@ -167,8 +168,7 @@ private:
     std::pmr::vector<fast::Pair> pairs_of_bodies_; // a <= b
     std::pmr::vector<StepSurface> step_surfaces_;  // of each body
     std::pmr::vector<TilePiece> pieces_;
-    std::pmr::vector<std::uint8_t> block_sides_; // seen from where the body is reached
-    std::pmr::vector<Box> tile_boxes_;           // empty beyond that
+    std::pmr::vector<Box> tile_boxes_; // empty beyond that
     PerWorker<Worker> workers_;
     std::mutex mutex_; // of found_
     std::pmr::vector<vox_edge_contact> found_;

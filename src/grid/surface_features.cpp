@@ -1,48 +1,68 @@
-// Faces are sorted along a Z-shaped curve through their first corners (Morton 1966), and every 64 that follow
-// each other make a tile. An edge belongs to the first of its faces in that order.
+// Faces are split at the median of their middles until as many are left as make a tile (J. Bentley,
+// Multidimensional binary search trees used for associative searching, Commun. ACM 18, 1975). An edge belongs
+// to the first of its faces in the order of the tiles.
 #include "grid/surface_features.hpp"
 
-#include "base/bits.hpp"
 #include "base/vectors.hpp"
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 #include <span>
 
 namespace vox {
 
 namespace {
 
-constexpr std::uint32_t axis_bits = 10;
+// A face and three times its middle.
+struct Face {
+    double middle[3];
+    std::uint32_t triangle;
+};
 
-// Of each place on the curve the triangle there.
-std::pmr::vector<std::uint32_t> sort_along_curve(const Topology& topology, const Positions& positions,
-                                                 std::pmr::memory_resource* memory) {
-    const std::size_t count = topology.triangles.size();
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    Vec3d low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
-    for (const Triangle& triangle : topology.triangles) {
-        const Vec3d p = positions.exact(triangle.v[0]);
-        low = min(low, p);
-        high = max(high, p);
+// Puts faces in the order of their tiles: the middles are split where they reach furthest, and the halves
+// again, each of whole tiles and, while they can be, of whole groups.
+void split_into_tiles(std::span<Face> faces) {
+    if (faces.size() <= SurfaceTile::most_faces) {
+        std::sort(faces.begin(), faces.end(),
+                  [](const Face& a, const Face& b) { return a.triangle < b.triangle; });
+        return;
     }
-    const auto cell = [](double x, double least, double most) {
-        constexpr double cells = 1 << axis_bits;
-        return most > least ? static_cast<std::uint32_t>(
-                                  std::clamp((x - least) / (most - least) * cells, 0.0, cells - 1))
-                            : 0;
-    };
-    std::pmr::vector<std::uint64_t> keys(count, memory);
-    for (std::size_t t = 0; t < count; ++t) {
-        const Vec3d p = positions.exact(topology.triangles[t].v[0]);
-        const std::uint32_t code =
-            morton_code(cell(p.x, low.x, high.x), cell(p.y, low.y, high.y), cell(p.z, low.z, high.z));
-        keys[t] = std::uint64_t{code} << 32 | t;
+    int widest = 0;
+    double most = -1;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto [least, greatest] =
+            std::minmax_element(faces.begin(), faces.end(), [axis](const Face& a, const Face& b) {
+                return a.middle[axis] < b.middle[axis];
+            });
+        const double extent = greatest->middle[axis] - least->middle[axis];
+        if (extent <= most) continue;
+        most = extent;
+        widest = axis;
     }
-    std::sort(keys.begin(), keys.end());
-    std::pmr::vector<std::uint32_t> order(count, memory);
-    for (std::size_t i = 0; i < count; ++i) order[i] = static_cast<std::uint32_t>(keys[i]);
+    const std::size_t tiles = (faces.size() + SurfaceTile::most_faces - 1) / SurfaceTile::most_faces,
+                      unit = tiles > tiles_of_group ? tiles_of_group : 1;
+    const std::size_t first_half = SurfaceTile::most_faces * ((tiles / 2 + unit - 1) / unit * unit);
+    std::nth_element(faces.begin(), faces.begin() + static_cast<std::ptrdiff_t>(first_half), faces.end(),
+                     [widest](const Face& a, const Face& b) {
+                         return a.middle[widest] != b.middle[widest] ? a.middle[widest] < b.middle[widest]
+                                                                     : a.triangle < b.triangle;
+                     });
+    split_into_tiles(faces.first(first_half));
+    split_into_tiles(faces.subspan(first_half));
+}
+
+// Of each place the triangle there.
+std::pmr::vector<std::uint32_t> order_of_faces(const Topology& topology, const Positions& positions,
+                                               std::pmr::memory_resource* memory) {
+    std::pmr::vector<Face> faces(topology.triangles.size(), memory);
+    for (std::uint32_t t = 0; t < faces.size(); ++t) {
+        const std::uint32_t* v = topology.triangles[t].v;
+        const Vec3d sum = positions.exact(v[0]) + positions.exact(v[1]) + positions.exact(v[2]);
+        faces[t] = {{sum.x, sum.y, sum.z}, t};
+    }
+    split_into_tiles(faces);
+    std::pmr::vector<std::uint32_t> order(faces.size(), memory);
+    for (std::size_t i = 0; i < faces.size(); ++i) order[i] = faces[i].triangle;
     return order;
 }
 
@@ -89,13 +109,24 @@ void add_tile(const Topology& topology, std::span<const std::uint32_t> tile,
     out.tiles.push_back(made);
 }
 
+// Adds the group of the tiles from `first` on.
+void add_group(std::size_t first, SurfaceFeatures& out) {
+    std::pmr::vector<std::uint32_t> blocks(out.blocks.get_allocator());
+    blocks.assign(out.blocks.begin() + out.tiles[first].first_block, out.blocks.end());
+    std::sort(blocks.begin(), blocks.end());
+    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+    out.groups.push_back(
+        {static_cast<std::uint32_t>(out.blocks.size()), static_cast<std::uint32_t>(blocks.size())});
+    out.blocks.insert(out.blocks.end(), blocks.begin(), blocks.end());
+}
+
 } // namespace
 
 void make_surface_features(const Topology& topology, const Positions& positions, const Tiles* tiles,
                            SurfaceFeatures& out) {
     std::pmr::memory_resource* memory = out.tiles.get_allocator().resource();
     const std::size_t count = topology.triangles.size();
-    const std::pmr::vector<std::uint32_t> order = sort_along_curve(topology, positions, memory);
+    const std::pmr::vector<std::uint32_t> order = order_of_faces(topology, positions, memory);
     std::pmr::vector<std::uint32_t> place(count, memory);
     for (std::size_t i = 0; i < count; ++i) place[order[i]] = static_cast<std::uint32_t>(i);
 
@@ -105,11 +136,15 @@ void make_surface_features(const Topology& topology, const Positions& positions,
     out.triangles.reserve(count);
     out.edges.reserve(count + count / 2 + 3);
     out.vertices.reserve(count + 3);
-    for (std::size_t first = 0; first < count; first += SurfaceTile::most_faces)
+    for (std::size_t first = 0; first < count; first += SurfaceTile::most_faces) {
         add_tile(
             topology,
             std::span(order).subspan(first, std::min<std::size_t>(SurfaceTile::most_faces, count - first)),
             place, tiles, out);
+        if (out.tiles.size() % tiles_of_group == 0) add_group(out.tiles.size() - tiles_of_group, out);
+    }
+    if (const std::size_t rest = out.tiles.size() % tiles_of_group; rest > 0)
+        add_group(out.tiles.size() - rest, out);
 
     out.tets.assign(count, ~0u);
     for (std::uint32_t tet = 0; tet < topology.across.size(); ++tet)

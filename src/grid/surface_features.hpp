@@ -23,14 +23,23 @@ struct SurfaceTile {
     std::uint8_t vertex_count, face_count, edge_count, block_count;
 };
 
+// Tiles that follow each other, and are near each other.
+inline constexpr std::uint32_t tiles_of_group = 8;
+
+struct SurfaceGroup {
+    std::uint32_t first_block, block_count; // of the blocks that its tiles have
+};
+
 struct SurfaceFeatures {
     explicit SurfaceFeatures(std::pmr::memory_resource* memory) noexcept
-        : tiles(memory), vertices(memory), blocks(memory), faces(memory), edges(memory), triangles(memory),
-          tets(memory) {}
+        : tiles(memory), groups(memory), vertices(memory), blocks(memory), faces(memory), edges(memory),
+          triangles(memory), tets(memory) {}
 
     std::pmr::vector<SurfaceTile> tiles;
+    std::pmr::vector<SurfaceGroup> groups;
     std::pmr::vector<std::uint32_t> vertices; // of the mesh
-    std::pmr::vector<std::uint32_t> blocks;   // that hold the vertices of a tile; for the fast engine
+    std::pmr::vector<std::uint32_t>
+        blocks; // that hold the vertices of a tile or a group; for the fast engine
     // Indices of vertices of the tile.
     std::pmr::vector<std::array<std::uint8_t, 3>> faces;
     std::pmr::vector<std::array<std::uint8_t, 2>> edges;
@@ -38,19 +47,30 @@ struct SurfaceFeatures {
     std::pmr::vector<std::uint32_t> tets;      // of each face, the one behind it; of doubled ones the lowest
 };
 
-// Whether the blocks of a tile, and so its faces, all lie to one side of a region: `sides` are those of all
-// blocks of the body (fast::find_sides). False where the blocks are not known.
-inline bool is_to_one_side(const SurfaceFeatures& features, const SurfaceTile& tile,
-                           const std::uint8_t* sides) noexcept {
-    if (tile.block_count == 0) return false;
-    const std::uint32_t* blocks = features.blocks.data() + tile.first_block;
-    constexpr std::uint32_t at_once = 4; // between branches
-    unsigned common = all_sides;
-    std::uint32_t i = 0;
-    for (; i + at_once <= tile.block_count && common; i += at_once)
-        for (std::uint32_t j = 0; j < at_once; ++j) common &= sides[blocks[i + j]];
-    for (; i < tile.block_count && common; ++i) common &= sides[blocks[i]];
-    return common != 0;
+// Makes the boxes of the tiles [first, last), the first one at the begin of a group, `out[0]` that of
+// `first`: by `box_of`, or empty where the blocks of a tile, and so its faces, all lie to one side of
+// `region`. `blocks` are the boxes of all blocks of the body, null where the features know none.
+template <class BoxOfTile>
+void make_boxes_in(const Box& region, const SurfaceFeatures& features, const Box* blocks, std::uint32_t first,
+                   std::uint32_t last, Box* out, const BoxOfTile& box_of) {
+    const auto is_to_one_side = [&](std::uint32_t first_block, std::uint32_t count) {
+        const std::uint32_t* of = features.blocks.data() + first_block;
+        unsigned common = blocks && count > 0 ? all_sides : 0;
+        for (std::uint32_t i = 0; i < count && common; ++i) common &= sides_of(blocks[of[i]], region);
+        return common != 0;
+    };
+    for (std::uint32_t begin = first; begin < last; begin += tiles_of_group) {
+        const std::uint32_t end = std::min(begin + tiles_of_group, last);
+        const SurfaceGroup& group = features.groups[begin / tiles_of_group];
+        if (is_to_one_side(group.first_block, group.block_count)) {
+            out = std::fill_n(out, end - begin, empty_box);
+            continue;
+        }
+        for (std::uint32_t t = begin; t < end; ++t) {
+            const SurfaceTile& tile = features.tiles[t];
+            *out++ = is_to_one_side(tile.first_block, tile.block_count) ? empty_box : box_of(tile);
+        }
+    }
 }
 
 // Of an empty `out`. `tiles` are those of the mesh; null: there are no blocks. Takes time linear in the tets,

@@ -81,8 +81,7 @@ void order_faces(std::span<const Tet> tets, SearchedSurface& surface) {
 
 VertexFaceSearch::VertexFaceSearch(std::pmr::memory_resource* memory)
     : surfaces_(memory), packed_(memory), block_boxes_(memory), searched_(memory), body_boxes_(memory),
-      pair_buffers_(memory), pairs_(memory), pieces_(memory), block_sides_(memory), tile_boxes_(memory),
-      workers_(memory) {}
+      pair_buffers_(memory), pairs_(memory), pieces_(memory), tile_boxes_(memory), workers_(memory) {}
 
 void VertexFaceSearch::forget(vox_mesh mesh) noexcept {
     std::erase_if(surfaces_, [mesh](const Kept& kept) { return kept.mesh == mesh; });
@@ -255,51 +254,36 @@ void VertexFaceSearch::prepare_surfaces(const Scene& scene) {
         add(searched_[pair.b].reached, reached);
     }
     pieces_.clear();
-    std::size_t tiles = 0, blocks = 0;
+    std::size_t tiles = 0;
     for (const fast::Pair& pair : pairs_) {
         Searched& body = searched_[pair.b];
         if (body.surface) continue;
         body.surface = &surface_of(scene, pair.b);
         body.first_tile = static_cast<std::uint32_t>(tiles);
-        body.first_block = static_cast<std::uint32_t>(blocks);
-        blocks += body.block_count;
         const auto count = static_cast<std::uint32_t>(body.surface->features.tiles.size());
         for (std::uint32_t first = 0; first < count; first += near_small_body)
             pieces_.push_back({pair.b, first, std::min<std::uint32_t>(first + near_small_body, count)});
         tiles += count;
     }
     if (tile_boxes_.size() < tiles) tile_boxes_.resize(tiles);
-    if (block_sides_.size() < blocks) block_sides_.resize(blocks);
 }
 
-Box VertexFaceSearch::box_of_tile(const Searched& body, std::uint32_t index) const {
-    const SurfaceFeatures& features = body.surface->features;
-    const SurfaceTile& tile = features.tiles[index];
-    Box box = empty_box;
-    for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
-        add(box, body.vertex_box(features.vertices[tile.first_vertex + v]));
-    return box;
-}
-
-// Of tiles that others may reach, by their blocks; the others get an empty box. A face can be where none of
-// its corners are, so one block beyond the region is not enough.
+// Of tiles that others may reach; the others get an empty box.
 void VertexFaceSearch::make_tile_boxes(const Scene& scene) {
-    for (const TilePiece& piece : pieces_) {
-        const Searched& body = searched_[piece.body];
-        if (scene.engine && piece.first == 0) // else tiles know no blocks
-            fast::find_sides(body.blocks, body.block_count, body.reached,
-                             block_sides_.data() + body.first_block);
-    }
     constexpr std::size_t least = near_task_tiles / near_small_body;
     scene.workers->for_ranges(pieces_.size(), least, [&](std::size_t begin, std::size_t end, std::uint32_t) {
         for (std::size_t i = begin; i < end; ++i) {
-            const Searched& body = searched_[pieces_[i].body];
+            const TilePiece& piece = pieces_[i];
+            const Searched& body = searched_[piece.body];
             const SurfaceFeatures& features = body.surface->features;
-            for (std::uint32_t t = pieces_[i].first; t < pieces_[i].last; ++t)
-                tile_boxes_[body.first_tile + t] =
-                    is_to_one_side(features, features.tiles[t], block_sides_.data() + body.first_block)
-                        ? empty_box
-                        : box_of_tile(body, t);
+            const auto box_of = [&](const SurfaceTile& tile) {
+                Box box = empty_box;
+                for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
+                    add(box, body.vertex_box(features.vertices[tile.first_vertex + v]));
+                return box;
+            };
+            make_boxes_in(body.reached, features, scene.engine ? body.blocks : nullptr, piece.first,
+                          piece.last, &tile_boxes_[body.first_tile + piece.first], box_of);
         }
     });
 }

@@ -85,7 +85,6 @@ private:
         float grow = 0;                           // of two bodies, the sum is how far apart boxes can be
         const SearchedSurface* surface = nullptr; // null where no pair needs it
         std::uint32_t first_tile = 0;             // in tile_boxes_
-        std::uint32_t first_block = 0;            // in block_sides_
         Box reached = empty_box;                  // around where the boxes of others reach that of the body
 
         std::uint32_t begin_of(std::uint32_t block) const noexcept;
@@ -110,7 +109,6 @@ private:
     const SearchedSurface& surface_of(const Scene& scene, std::uint32_t body);
     void prepare_surfaces(const Scene& scene);
     void make_tile_boxes(const Scene& scene);
-    Box box_of_tile(const Searched& body, std::uint32_t tile) const;
     bool list(const fast::Pair& pair, Worker& worker) const;
     void search_tiles(const fast::Pair& pair, const Worker& lists, std::size_t begin, std::size_t end,
                       NearFacesVisitor& visitor, std::uint32_t worker) const;
@@ -127,7 +125,6 @@ private:
     fast::PairBuffers pair_buffers_;
     std::pmr::vector<fast::Pair> pairs_; // vertices of a, faces of b
     std::pmr::vector<TilePiece> pieces_;
-    std::pmr::vector<std::uint8_t> block_sides_; // seen from where the body is reached
     std::pmr::vector<Box> tile_boxes_;
     PerWorker<Worker> workers_;
 };
