@@ -14,6 +14,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "base/lanes-inl.hpp"
 #include "fast/tile-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -78,6 +79,31 @@ void FindSides(const Box* HWY_RESTRICT boxes, std::size_t count, const Box& regi
     for (; i < count; ++i) out[i] = static_cast<std::uint8_t>(sides_of(boxes[i], region));
 }
 
+unsigned CommonSides(const Box* HWY_RESTRICT boxes, const std::uint32_t* HWY_RESTRICT which,
+                     std::size_t count, const Box& region) {
+    constexpr hn::CappedTag<float, 8> d;
+    constexpr std::size_t at_once = 16; // between branches
+    const auto whole = [](const Box& box) HWY_ATTR { return hn::LoadU(d, box.lo); };
+    if constexpr (hn::MaxLanes(d) == 8) {
+        const auto sign = hn::OddEvenBlocks(hn::Set(d, -0.0f), hn::Zero(d));
+        const auto bound =
+            hn::Xor(hn::OddEvenBlocks(hn::LoadDup128(d, region.lo), hn::LoadDup128(d, region.hi)), sign);
+        unsigned common = all_sides;
+        for (std::size_t i = 0; i < count && common; i += at_once) {
+            auto beyond = hn::VecFromMask(d, hn::Eq(bound, bound));
+            for (std::size_t k = i; k < std::min(i + at_once, count); ++k)
+                beyond =
+                    hn::And(beyond, hn::VecFromMask(d, hn::Gt(hn::Xor(whole(boxes[which[k]]), sign), bound)));
+            common &= static_cast<unsigned>(vox::HWY_NAMESPACE::BitsOfMask(d, hn::MaskFromVec(beyond)));
+        }
+        return common;
+    } else {
+        unsigned common = all_sides;
+        for (std::size_t i = 0; i < count && common; ++i) common &= sides_of(boxes[which[i]], region);
+        return common;
+    }
+}
+
 std::uint64_t FindOverlaps(const Box* HWY_RESTRICT boxes, std::uint32_t count, const Box& region) {
     const Sides sides(region);
     std::uint64_t overlaps = 0;
@@ -111,6 +137,10 @@ namespace vox::fast {
 
 void find_sides(const Box* boxes, std::size_t count, const Box& region, std::uint8_t* sides) {
     VOX_SIMD_DISPATCH(FindSides)(boxes, count, region, sides);
+}
+
+unsigned common_sides(const Box* boxes, std::span<const std::uint32_t> which, const Box& region) {
+    return VOX_SIMD_DISPATCH(CommonSides)(boxes, which.data(), which.size(), region);
 }
 
 std::uint64_t find_overlaps(const Box* boxes, std::uint32_t count, const Box& region) {

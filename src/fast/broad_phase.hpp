@@ -19,6 +19,9 @@ namespace vox::fast {
 // sides_of() each of the boxes.
 void find_sides(const Box* boxes, std::size_t count, const Box& region, std::uint8_t* sides);
 
+// The sides on which all of boxes[which[i]] are; all of them without any.
+unsigned common_sides(const Box* boxes, std::span<const std::uint32_t> which, const Box& region);
+
 // Bit i of the result: boxes[i] overlaps the region. `count` is at most most_boxes.
 inline constexpr std::uint32_t most_boxes = 64;
 std::uint64_t find_overlaps(const Box* boxes, std::uint32_t count, const Box& region);

@@ -104,17 +104,27 @@ void MarginContacts::carry(const EdgeScene& scene) {
     }
 }
 
+// Vertices that are gone, and those that have a contact.
+void MarginContacts::leave_out(std::uint32_t a, std::uint32_t b,
+                               std::pmr::vector<std::uint32_t>& vertices) const {
+    const vox_mesh mesh_a = scene_->bodies[a].mesh_id, mesh_b = scene_->bodies[b].mesh_id;
+    const auto removed = scene_->bodies[a].removed_vertices;
+    auto inside = inside_.begin();
+    std::erase_if(vertices, [&](std::uint32_t vertex) {
+        const std::tuple sought(mesh_a, vertex, mesh_b);
+        const auto is_before = [&](const vox_contact& contact) { return place(contact) < sought; };
+        const auto is_behind = [&] { return inside != inside_.end() && is_before(*inside); };
+        for (int steps = 0; steps < 8 && is_behind(); ++steps) ++inside; // the next is mostly near
+        if (is_behind()) inside = std::partition_point(inside, inside_.end(), is_before);
+        return has_bit(removed, vertex) || (inside != inside_.end() && place(*inside) == sought);
+    });
+}
+
 // The distance is never less than that to the box of the face, so that a face may be left out for its box:
 // which faces of how many tiles are looked at, in which order, plays no part then.
 void MarginContacts::visit(const NearFaces& near, std::uint32_t w) {
     Worker& worker = workers_[w];
     const Body &a = scene_->bodies[near.a], &b = scene_->bodies[near.b];
-    if (has_bit(a.removed_vertices, near.vertex)) return;
-    const std::tuple sought(a.mesh_id, near.vertex, b.mesh_id);
-    const auto inside =
-        std::lower_bound(inside_.begin(), inside_.end(), sought,
-                         [](const vox_contact& c, const auto& key) { return place(c) < key; });
-    if (inside != inside_.end() && place(*inside) == sought) return;
     const SurfaceFeatures& features = near.surface->features;
     const SurfaceTile& tile = features.tiles[near.tile];
     if (worker.body != near.b || worker.tile != near.tile) {

@@ -44,6 +44,8 @@ private:
         std::uint32_t body = ~0u, tile = ~0u;
     };
 
+    void leave_out(std::uint32_t a, std::uint32_t b,
+                   std::pmr::vector<std::uint32_t>& vertices) const override;
     void visit(const NearFaces& near, std::uint32_t worker) override;
     void carry(const EdgeScene& scene);
     void put_in_order();

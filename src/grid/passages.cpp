@@ -77,10 +77,14 @@ Vec3d Passages::before(std::uint32_t body, std::uint32_t vertex) const noexcept 
     return previous.data ? previous.exact(vertex) : scene_->bodies[body].positions.exact(vertex);
 }
 
+void Passages::leave_out(std::uint32_t a, std::uint32_t, std::pmr::vector<std::uint32_t>& vertices) const {
+    const auto removed = scene_->bodies[a].removed_vertices;
+    std::erase_if(vertices, [&](std::uint32_t vertex) { return has_bit(removed, vertex); });
+}
+
 void Passages::visit(const NearFaces& near, std::uint32_t w) {
     Worker& worker = workers_[w];
     const Body &a = scene_->bodies[near.a], &b = scene_->bodies[near.b];
-    if (has_bit(a.removed_vertices, near.vertex)) return;
     const SurfaceFeatures& features = near.surface->features;
     const SurfaceTile& tile = features.tiles[near.tile];
     const std::uint32_t* vertices = features.vertices.data() + tile.first_vertex;

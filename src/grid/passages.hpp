@@ -48,6 +48,8 @@ private:
         std::uint32_t body = ~0u, tile = ~0u;
     };
 
+    void leave_out(std::uint32_t a, std::uint32_t b,
+                   std::pmr::vector<std::uint32_t>& vertices) const override;
     void visit(const NearFaces& near, std::uint32_t worker) override;
     Vec3d before(std::uint32_t body, std::uint32_t vertex) const noexcept;
 

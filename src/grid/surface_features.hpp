@@ -4,6 +4,7 @@
 
 #include "base/boxes.hpp"
 #include "base/scene.hpp"
+#include "fast/broad_phase.hpp"
 #include "mesh/tiles.hpp"
 #include "mesh/topology.hpp"
 
@@ -54,10 +55,8 @@ template <class BoxOfTile>
 void make_boxes_in(const Box& region, const SurfaceFeatures& features, const Box* blocks, std::uint32_t first,
                    std::uint32_t last, Box* out, const BoxOfTile& box_of) {
     const auto is_to_one_side = [&](std::uint32_t first_block, std::uint32_t count) {
-        const std::uint32_t* of = features.blocks.data() + first_block;
-        unsigned common = blocks && count > 0 ? all_sides : 0;
-        for (std::uint32_t i = 0; i < count && common; ++i) common &= sides_of(blocks[of[i]], region);
-        return common != 0;
+        return blocks && count > 0 &&
+               fast::common_sides(blocks, {features.blocks.data() + first_block, count}, region) != 0;
     };
     for (std::uint32_t begin = first; begin < last; begin += tiles_of_group) {
         const std::uint32_t end = std::min(begin + tiles_of_group, last);

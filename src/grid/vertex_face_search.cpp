@@ -1,5 +1,5 @@
-// Tiles of faces in reach of the other body are joined with blocks of its vertices, box by box, then the
-// faces of a tile with the vertices of a block.
+// Tiles of faces in reach of the other body are joined with runs of its vertices, box by box, then the faces
+// of a tile with the vertices of the runs.
 #include "grid/vertex_face_search.hpp"
 
 #include "base/parallel.hpp"
@@ -20,7 +20,7 @@ namespace vox {
 
 namespace {
 
-constexpr std::uint32_t near_group_size = 32; // blocks whose common box is tested first
+constexpr std::uint32_t near_group_size = 32; // runs whose common box is tested first
 
 // How much work is worth a task of its own.
 constexpr std::size_t near_task_tiles = 128;  // whose boxes are made: 40 vertices each
@@ -230,13 +230,13 @@ void VertexFaceSearch::search(const Scene& scene, NearFacesVisitor& visitor) {
                               [&](std::size_t begin, std::size_t end, std::uint32_t w) {
                                   for (std::size_t i = begin; i < end; ++i) {
                                       Worker& lists = workers_[w];
-                                      if (!is_large(pairs_[i]) && list(pairs_[i], lists))
+                                      if (!is_large(pairs_[i]) && list(pairs_[i], visitor, lists))
                                           search_tiles(pairs_[i], lists, 0, lists.tiles.size(), visitor, w);
                                   }
                               });
     for (const fast::Pair& pair : pairs_) {
         Worker& lists = workers_[0];
-        if (!is_large(pair) || !list(pair, lists)) continue;
+        if (!is_large(pair) || !list(pair, visitor, lists)) continue;
         scene.workers->for_ranges(lists.tiles.size(), near_task_searches,
                                   [&](std::size_t begin, std::size_t end, std::uint32_t w) {
                                       search_tiles(pair, lists, begin, end, visitor, w);
@@ -290,85 +290,132 @@ void VertexFaceSearch::make_tile_boxes(const Scene& scene) {
 
 // ---- which vertices and faces ---------------------------------------------------------------------
 
-// Blocks of a and tiles of b that are in reach of each other's bodies.
-bool VertexFaceSearch::list(const fast::Pair& pair, Worker& worker) const {
+// Tiles of b and vertices of a that are in reach of each other's bodies.
+bool VertexFaceSearch::list(const fast::Pair& pair, const NearFacesVisitor& visitor, Worker& worker) const {
     const Searched &a = searched_[pair.a], &b = searched_[pair.b];
     const float reach = a.grow + b.grow;
-    const auto list_met = [](const Box* boxes, std::size_t count, const Box& region, Box& around, auto& out) {
+    const auto list_met = [](const Box* boxes, std::size_t count, const Box& region, auto& out) {
         out.clear();
         for (std::size_t first = 0; first < count; first += fast::most_boxes) {
             const auto some =
                 static_cast<std::uint32_t>(std::min<std::size_t>(fast::most_boxes, count - first));
             std::uint64_t met = fast::find_overlaps(boxes + first, some, region);
             for (; met; met &= met - 1) {
-                const std::size_t i = first + static_cast<std::size_t>(std::countr_zero(met));
                 reserve_growing(out, out.size() + 1);
-                out.push_back(static_cast<std::uint32_t>(i));
-                add(around, boxes[i]);
+                out.push_back(
+                    static_cast<std::uint32_t>(first + static_cast<std::size_t>(std::countr_zero(met))));
             }
         }
     };
     // The tiles first, as there are less of them.
-    Box around_tiles = empty_box, around_blocks = empty_box;
-    list_met(&tile_boxes_[b.first_tile], b.surface->features.tiles.size(), grown(a.box, reach), around_tiles,
-             worker.tiles);
+    list_met(&tile_boxes_[b.first_tile], b.surface->features.tiles.size(), grown(a.box, reach), worker.tiles);
     if (worker.tiles.empty()) return false;
-    list_met(a.blocks, a.block_count, grown(around_tiles, reach), around_blocks, worker.blocks);
-    if (worker.blocks.empty()) return false;
-    const Box region = grown(around_blocks, reach);
-    std::erase_if(worker.tiles,
-                  [&](std::uint32_t t) { return !overlap(tile_boxes_[b.first_tile + t], region); });
-    worker.boxes.clear();
-    worker.groups.clear();
-    for (std::size_t i = 0; i < worker.blocks.size(); ++i) {
-        const Box& box = a.blocks[worker.blocks[i]];
-        if (i % near_group_size == 0) worker.groups.push_back(empty_box);
-        add(worker.groups.back(), box);
-        worker.boxes.push_back(box);
+    Box around_tiles = empty_box;
+    for (const std::uint32_t tile : worker.tiles) add(around_tiles, tile_boxes_[b.first_tile + tile]);
+    const Box region = grown(around_tiles, reach);
+    list_met(a.blocks, a.block_count, region, worker.blocks);
+    worker.vertices.clear();
+    for (const std::uint32_t block : worker.blocks) {
+        reserve_growing(worker.vertices, worker.vertices.size() + (a.end_of(block) - a.begin_of(block)));
+        for (std::uint32_t v = a.begin_of(block); v < a.end_of(block); ++v)
+            if (overlap(a.vertex_box(v), region)) worker.vertices.push_back(v);
     }
+    visitor.leave_out(pair.a, pair.b, worker.vertices);
+    if (worker.vertices.empty()) return false;
+    make_runs(a, worker);
+    Box around_vertices = empty_box;
+    for (const Box& group : worker.groups) add(around_vertices, group);
+    const Box reached = grown(around_vertices, reach);
+    std::erase_if(worker.tiles,
+                  [&](std::uint32_t t) { return !overlap(tile_boxes_[b.first_tile + t], reached); });
     return !worker.tiles.empty();
 }
 
-// The tiles [begin, end) of the list against all of its blocks.
+// From the blocks and the vertices that are left of them.
+void VertexFaceSearch::make_runs(const Searched& body, Worker& worker) const {
+    worker.first_of_run.clear();
+    worker.runs.clear();
+    worker.groups.clear();
+    auto block = worker.blocks.begin();
+    for (std::uint32_t i = 0, end_of_run = 0; i < worker.vertices.size(); ++i) {
+        const std::uint32_t vertex = worker.vertices[i];
+        if (i == 0 || vertex >= end_of_run) {
+            while (body.end_of(*block) <= vertex) ++block;
+            end_of_run = body.end_of(*block);
+            if (worker.runs.size() % near_group_size == 0) {
+                reserve_growing(worker.groups, worker.groups.size() + 1);
+                worker.groups.push_back(empty_box);
+            }
+            reserve_growing(worker.runs, worker.runs.size() + 1);
+            reserve_growing(worker.first_of_run, worker.first_of_run.size() + 2);
+            worker.runs.push_back(empty_box);
+            worker.first_of_run.push_back(i);
+        }
+        const Box box = body.vertex_box(vertex);
+        add(worker.runs.back(), box);
+        add(worker.groups.back(), box);
+    }
+    worker.first_of_run.push_back(static_cast<std::uint32_t>(worker.vertices.size()));
+}
+
+void VertexFaceSearch::load(const Searched& body, const SurfaceTile& tile, float reach,
+                            FaceBoxes& out) const {
+    const SurfaceFeatures& features = body.surface->features;
+    std::array<Box, SurfaceTile::most_vertices> points;
+    for (std::uint32_t p = 0; p < tile.vertex_count; ++p)
+        points[p] = body.vertex_box(features.vertices[tile.first_vertex + p]);
+    for (std::uint32_t f = 0; f < tile.face_count; ++f) {
+        const auto& [u, v, w] = features.faces[tile.first_face + f];
+        Box box = points[u];
+        add(box, points[v]);
+        add(box, points[w]);
+        out.set(f, grown(box, reach));
+    }
+}
+
+// The tiles [begin, end) of the list against all of its vertices.
 void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Worker& lists, std::size_t begin,
                                     std::size_t end, NearFacesVisitor& visitor, std::uint32_t worker) const {
+    constexpr std::uint32_t at_once = 64;
     const Searched &a = searched_[pair.a], &b = searched_[pair.b];
     const SurfaceFeatures& features = b.surface->features;
-    std::array<Box, SurfaceTile::most_vertices> points;
-    std::array<Box, SurfaceTile::most_faces> faces;
+    const float reach = a.grow + b.grow;
+    FaceBoxes faces;
+    // Vertices in the box of the tile.
+    std::array<std::uint32_t, at_once> vertices, met_faces;
+    std::array<Box, at_once> boxes;
     for (std::size_t i = begin; i < end; ++i) {
-        const SurfaceTile& tile = features.tiles[lists.tiles[i]];
-        const Box box = grown(tile_boxes_[b.first_tile + lists.tiles[i]], a.grow + b.grow);
+        const std::uint32_t index = lists.tiles[i];
+        const SurfaceTile& tile = features.tiles[index];
+        const Box box = grown(tile_boxes_[b.first_tile + index], reach);
         bool is_loaded = false;
+        std::uint32_t count = 0;
+        const auto compare = [&] {
+            if (!is_loaded) load(b, tile, reach, faces);
+            is_loaded = true;
+            find_faces(boxes.data(), count, faces, tile.face_count, met_faces.data());
+            for (std::uint32_t k = 0; k < count; ++k)
+                if (met_faces[k])
+                    visitor.visit({pair.a, vertices[k], pair.b, index, met_faces[k], b.surface}, worker);
+            count = 0;
+        };
         for (std::size_t group = 0; group < lists.groups.size(); ++group) {
             if (!overlap(lists.groups[group], box)) continue;
             const std::size_t first = group * near_group_size;
-            const auto count = static_cast<std::uint32_t>(
-                std::min<std::size_t>(near_group_size, lists.boxes.size() - first));
-            std::uint64_t met = fast::find_overlaps(&lists.boxes[first], count, box);
+            const auto some =
+                static_cast<std::uint32_t>(std::min<std::size_t>(near_group_size, lists.runs.size() - first));
+            std::uint64_t met = fast::find_overlaps(&lists.runs[first], some, box);
             for (; met; met &= met - 1) {
-                const std::uint32_t block =
-                    lists.blocks[first + static_cast<std::size_t>(std::countr_zero(met))];
-                for (std::uint32_t v = a.begin_of(block); v < a.end_of(block); ++v) {
-                    const Box vertex = a.vertex_box(v);
-                    if (!overlap(vertex, box)) continue;
-                    if (!is_loaded) {
-                        for (std::uint32_t p = 0; p < tile.vertex_count; ++p)
-                            points[p] = b.vertex_box(features.vertices[tile.first_vertex + p]);
-                        for (std::uint32_t f = 0; f < tile.face_count; ++f) {
-                            const auto& [u, w, x] = features.faces[tile.first_face + f];
-                            Box face = points[u];
-                            add(face, points[w]);
-                            add(face, points[x]);
-                            faces[f] = grown(face, a.grow + b.grow);
-                        }
-                        is_loaded = true;
-                    }
-                    const std::uint64_t near = fast::find_overlaps(faces.data(), tile.face_count, vertex);
-                    if (near) visitor.visit({pair.a, v, pair.b, lists.tiles[i], near, b.surface}, worker);
+                const std::size_t run = first + static_cast<std::size_t>(std::countr_zero(met));
+                for (std::uint32_t k = lists.first_of_run[run]; k < lists.first_of_run[run + 1]; ++k) {
+                    vertices[count] = lists.vertices[k];
+                    boxes[count] = a.vertex_box(vertices[count]);
+                    count += overlap(boxes[count], box);
+                    if (count == at_once) compare();
                 }
             }
         }
+        if (count > 0) compare();
     }
 }
 

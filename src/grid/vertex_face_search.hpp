@@ -6,6 +6,7 @@
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
 #include "fast/body_pairs.hpp"
+#include "grid/box_lanes.hpp"
 #include "grid/edge_contacts.hpp"
 #include "grid/surface_features.hpp"
 #include "mesh/topology.hpp"
@@ -40,9 +41,13 @@ struct NearFaces {
     const SearchedSurface* surface; // of b
 };
 
-// Takes what is found; calls with the same worker follow each other.
+// Says which vertices count, and takes what is found; calls with the same worker follow each other.
 class NearFacesVisitor {
 public:
+    // Takes those vertices of body a, in ascending order, out of the list that are of no interest to faces of
+    // body b. Calls may be concurrent.
+    virtual void leave_out(std::uint32_t a, std::uint32_t b,
+                           std::pmr::vector<std::uint32_t>& vertices) const = 0;
     virtual void visit(const NearFaces& near, std::uint32_t worker) = 0;
 
 protected:
@@ -96,11 +101,14 @@ private:
     };
     struct Worker {
         explicit Worker(std::pmr::memory_resource* memory)
-            : tiles(memory), blocks(memory), boxes(memory), groups(memory) {}
-        auto buffers() { return std::tie(tiles, blocks, boxes, groups); }
+            : tiles(memory), blocks(memory), vertices(memory), first_of_run(memory), runs(memory),
+              groups(memory) {}
+        auto buffers() { return std::tie(tiles, blocks, vertices, first_of_run, runs, groups); }
 
         std::pmr::vector<std::uint32_t> tiles, blocks;
-        std::pmr::vector<Box> boxes, groups; // of blocks
+        std::pmr::vector<std::uint32_t> vertices;     // of body a, in runs: those of a block
+        std::pmr::vector<std::uint32_t> first_of_run; // in vertices, and the end
+        std::pmr::vector<Box> runs, groups;           // boxes of runs, and of groups of them
     };
 
     void prepare_bodies(const Scene& scene, std::span<const Positions> previous, double margin);
@@ -109,7 +117,9 @@ private:
     const SearchedSurface& surface_of(const Scene& scene, std::uint32_t body);
     void prepare_surfaces(const Scene& scene);
     void make_tile_boxes(const Scene& scene);
-    bool list(const fast::Pair& pair, Worker& worker) const;
+    bool list(const fast::Pair& pair, const NearFacesVisitor& visitor, Worker& worker) const;
+    void make_runs(const Searched& body, Worker& worker) const;
+    void load(const Searched& body, const SurfaceTile& tile, float reach, FaceBoxes& out) const;
     void search_tiles(const fast::Pair& pair, const Worker& lists, std::size_t begin, std::size_t end,
                       NearFacesVisitor& visitor, std::uint32_t worker) const;
 

@@ -350,7 +350,7 @@ END_TEST
 START_TEST(sides_of_many_boxes) {
     Random r{6};
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-    std::size_t overlapping = 0, all = 0;
+    std::size_t overlapping = 0, with_side = 0, all = 0;
     at_each_level([&](const char* level) {
         for (std::uint32_t count = 0; count <= fast::most_boxes; ++count) {
             const auto box = [&] { // of whole numbers, so that many touch
@@ -375,11 +375,23 @@ START_TEST(sides_of_many_boxes) {
                               level, i, count);
                 overlapping += overlaps >> i & 1;
             }
+            for (std::uint32_t most = 0; most < 40; ++most) { // few, as many have hardly a side in common
+                std::vector<std::uint32_t> which;
+                unsigned common = all_sides;
+                for (std::uint32_t i = 0; count > 0 && i < most; ++i) {
+                    const std::uint32_t one = i < 3 ? r.below(count) : which[r.below(3)];
+                    which.push_back(one);
+                    common &= sides[one];
+                }
+                ck_assert_uint_eq(fast::common_sides(boxes.data(), which, region), common);
+                with_side += !which.empty() && common != 0;
+            }
             ck_assert_uint_eq(sides[count], 0xee); // nothing is written beyond
             if (count < 64) ck_assert_uint_eq(overlaps >> count, 0);
             all += count;
         }
     });
+    ck_assert_uint_gt(with_side, all / 20);
     ck_assert_uint_gt(overlapping, all / 20);
     ck_assert_uint_lt(overlapping, all / 2);
 }
