@@ -27,10 +27,6 @@ auto place(const Contact& contact) {
     return std::tuple(contact.mesh_a, contact.vertex, contact.mesh_b);
 }
 
-struct Box3d {
-    Vec3d min, max;
-};
-
 // The unit vector from the closest point, `seen` from p, to p. Where they are so close that rounding errors
 // would turn it, and the point is no corner and on no edge, it is across the face, to the side that p is on.
 Vec3d normal_to(const Vec3d& p, const Vec3d (&corner)[3], const SeenPoint& seen, const Vec3d& apex) {
@@ -62,7 +58,7 @@ void MarginContacts::find(const EdgeScene& scene, double margin, std::span<const
     workers_.grow(scene.workers->count());
     for (Worker& worker : workers_) {
         worker.found.clear();
-        worker.body = worker.tile = ~0u;
+        worker.tile = nullptr;
     }
     found_.clear();
     carry(scene);
@@ -75,7 +71,7 @@ void MarginContacts::find(const EdgeScene& scene, double margin, std::span<const
         found_.insert(found_.end(), worker.found.begin(), worker.found.end());
     for (Worker& worker : workers_) { // in a later step, one may find all
         reserve_sparingly(worker.found, count);
-        worker.points.reserve(SurfaceTile::most_vertices);
+        reserve_sparingly(worker.closest, count);
     }
     workers_.level();
     put_in_order();
@@ -120,59 +116,105 @@ void MarginContacts::leave_out(std::uint32_t a, std::uint32_t b,
     });
 }
 
-// The distance is never less than that to the box of the face, so that a face may be left out for its box:
-// which faces of how many tiles are looked at, in which order, plays no part then.
-void MarginContacts::visit(const NearFaces& near, std::uint32_t w) {
+void MarginContacts::begin(const VertexFacePair& pair, std::uint32_t w) {
     Worker& worker = workers_[w];
-    const Body &a = scene_->bodies[near.a], &b = scene_->bodies[near.b];
-    const SurfaceFeatures& features = near.surface->features;
-    const SurfaceTile& tile = features.tiles[near.tile];
-    if (worker.body != near.b || worker.tile != near.tile) {
-        worker.body = near.b;
-        worker.tile = near.tile;
-        worker.points.clear();
-        for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
-            worker.points.push_back(b.positions.exact(features.vertices[tile.first_vertex + v]));
+    worker.pair = pair;
+    worker.tile = nullptr;
+    worker.closest.clear();
+    reserve_growing(worker.reached, pair.vertices.size());
+    worker.reached.assign(pair.vertices.size(), {most_, none_yet});
+}
+
+void MarginContacts::load(Worker& worker, const SurfaceTile& tile) const {
+    const SurfaceFeatures& features = worker.pair.surface->features;
+    const Positions& positions = scene_->bodies[worker.pair.b].positions;
+    for (std::uint32_t v = 0; v < tile.vertex_count; ++v)
+        worker.points[v] = positions.exact(features.vertices[tile.first_vertex + v]);
+    for (std::uint32_t f = 0; f < tile.face_count; ++f) {
+        const auto& [u, v, x] = features.faces[tile.first_face + f];
+        const Vec3d &p = worker.points[u], &q = worker.points[v], &r = worker.points[x];
+        worker.boxes[f] = {min(min(p, q), r), max(max(p, q), r)};
     }
-    const Vec3d p = a.positions.exact(near.vertex);
-    const auto key_of = [&](std::uint32_t face) { // of a face of the mesh
-        return std::tuple(features.tets[face], near.surface->facets[face]);
+    worker.tile = &tile;
+}
+
+void MarginContacts::visit(const SurfaceTile& tile, std::span<const NearFaces> near, std::uint32_t w) {
+    Worker& worker = workers_[w];
+    if (worker.tile != &tile) load(worker, tile);
+    for (const NearFaces& one : near) visit(worker, tile, one);
+}
+
+// The distance is never less than that to the box of the face, so that a face may be left out for its box:
+// which faces of how many tiles are looked at, in which order, plays no part then. The faces whose boxes are
+// nearest come first, as they leave out most of the others.
+void MarginContacts::visit(Worker& worker, const SurfaceTile& tile, const NearFaces& near) const {
+    const SearchedSurface& surface = *worker.pair.surface;
+    const Vec3d p = scene_->bodies[worker.pair.a].positions.exact(worker.pair.vertices[near.place]);
+    Reached& reached = worker.reached[near.place];
+    struct Candidate {
+        double least; // distance, squared
+        std::uint32_t face;
     };
-    double squared = most_;
-    std::uint32_t best = ~0u;
-    SeenPoint seen{};
-    for (std::uint64_t left = near.faces; left; left &= left - 1) {
-        const std::uint32_t face = tile.first_face + static_cast<std::uint32_t>(std::countr_zero(left));
-        const auto& [u, v, x] = features.faces[face];
-        const Vec3d &c0 = worker.points[u], &c1 = worker.points[v], &c2 = worker.points[x];
-        const double least = squared_distance_bound(p, Box3d{min(min(c0, c1), c2), max(max(c0, c1), c2)});
-        if (least > squared) continue;
-        const SeenPoint found = closest_seen_from(p, c0, c1, c2);
-        const double distance = std::max(found.at.squared_distance, least);
-        if (distance > squared || (distance == squared && best != ~0u && !(key_of(face) < key_of(best))))
-            continue;
-        squared = distance;
-        best = face;
-        seen = found;
+    std::array<Candidate, SurfaceTile::most_faces> candidates;
+    std::size_t count = 0;
+    for (std::uint32_t left = near.faces; left; left &= left - 1) {
+        const auto face = static_cast<std::uint32_t>(std::countr_zero(left));
+        candidates[count] = {squared_distance_bound(p, worker.boxes[face]), face};
+        count += candidates[count].least <= reached.squared;
     }
-    if (best == ~0u) return;
-    const auto& [u, v, x] = features.faces[best];
-    const Vec3d corner[3] = {worker.points[u], worker.points[v], worker.points[x]};
-    const std::uint32_t tet = features.tets[best], facet = near.surface->facets[best];
-    const Vec3d normal = normal_to(p, corner, seen, b.positions.exact(b.tets[tet].v[facet]));
-    const std::array<double, 3> weights = normalised(seen.at.weight);
-    const std::uint32_t* vertices = features.vertices.data() + tile.first_vertex;
-    reserve_growing(worker.found, worker.found.size() + 1);
-    worker.found.push_back({{.mesh_a = a.mesh_id,
-                             .vertex = near.vertex,
-                             .mesh_b = b.mesh_id,
-                             .tet = tet,
-                             .facet = facet,
-                             .face = {vertices[u], vertices[v], vertices[x]},
-                             .face_weights = {weights[0], weights[1], weights[2]},
-                             .distance = std::sqrt(squared),
-                             .normal = {normal.x, normal.y, normal.z}},
-                            squared});
+    const auto key_of = [&](std::uint32_t face) {
+        return std::tuple(surface.features.tets[face], surface.facets[face]);
+    };
+    while (count > 0) {
+        std::size_t next = 0;
+        for (std::size_t i = 1; i < count; ++i)
+            if (candidates[i].least < candidates[next].least) next = i;
+        const auto [least, local] = candidates[next];
+        if (least > reached.squared) return;
+        candidates[next] = candidates[--count];
+        const std::uint32_t face = tile.first_face + local;
+        const auto& [u, v, x] = surface.features.faces[face];
+        const SeenPoint seen = closest_seen_from(p, worker.points[u], worker.points[v], worker.points[x]);
+        const double squared = std::max(seen.at.squared_distance, least);
+        if (squared > reached.squared || (squared == reached.squared && reached.closest != none_yet &&
+                                          !(key_of(face) < key_of(worker.closest[reached.closest].face))))
+            continue;
+        if (reached.closest == none_yet) {
+            reached.closest = static_cast<std::uint32_t>(worker.closest.size());
+            reserve_growing(worker.closest, worker.closest.size() + 1);
+            worker.closest.emplace_back();
+        }
+        reached.squared = squared;
+        const std::uint32_t* vertices = surface.features.vertices.data() + tile.first_vertex;
+        worker.closest[reached.closest] = {
+            near.place, face, {vertices[u], vertices[v], vertices[x]}, seen, squared};
+    }
+}
+
+void MarginContacts::end(std::uint32_t w) {
+    Worker& worker = workers_[w];
+    const Body &a = scene_->bodies[worker.pair.a], &b = scene_->bodies[worker.pair.b];
+    const SearchedSurface& surface = *worker.pair.surface;
+    reserve_growing(worker.found, worker.found.size() + worker.closest.size());
+    for (const Closest& closest : worker.closest) {
+        const std::uint32_t vertex = worker.pair.vertices[closest.place];
+        const auto& [u, v, x] = closest.corners;
+        const Vec3d corner[3] = {b.positions.exact(u), b.positions.exact(v), b.positions.exact(x)};
+        const std::uint32_t tet = surface.features.tets[closest.face], facet = surface.facets[closest.face];
+        const Vec3d normal = normal_to(a.positions.exact(vertex), corner, closest.seen,
+                                       b.positions.exact(b.tets[tet].v[facet]));
+        const std::array<double, 3> weights = normalised(closest.seen.at.weight);
+        worker.found.push_back({{.mesh_a = a.mesh_id,
+                                 .vertex = vertex,
+                                 .mesh_b = b.mesh_id,
+                                 .tet = tet,
+                                 .facet = facet,
+                                 .face = {u, v, x},
+                                 .face_weights = {weights[0], weights[1], weights[2]},
+                                 .distance = std::sqrt(closest.squared),
+                                 .normal = {normal.x, normal.y, normal.z}},
+                                closest.squared});
+    }
 }
 
 // The closest of each vertex and mesh.

@@ -4,10 +4,12 @@
 
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
+#include "exact/closest_point.hpp"
 #include "grid/vertex_face_search.hpp"
 
 #include <vox/vox.h>
 
+#include <array>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
@@ -34,20 +36,46 @@ private:
         vox_margin_contact contact;
         double squared; // distance
     };
+    // The closest face so far of a vertex.
+    struct Closest {
+        std::uint32_t place; // of the vertex in the pair
+        std::uint32_t face;  // of the surface
+        std::array<std::uint32_t, 3> corners;
+        SeenPoint seen;
+        double squared; // distance
+    };
+    struct Reached {
+        double squared;
+        std::uint32_t closest; // its index; none_yet
+    };
+    static constexpr std::uint32_t none_yet = ~0u;
+    struct Box3d {
+        Vec3d min, max;
+    };
     struct Worker {
-        explicit Worker(std::pmr::memory_resource* memory) : found(memory), points(memory) {}
-        auto buffers() { return std::tie(found, points); }
+        explicit Worker(std::pmr::memory_resource* memory)
+            : found(memory), closest(memory), reached(memory) {}
+        auto buffers() { return std::tie(found, closest, reached); }
 
         std::pmr::vector<Found> found;
-        // Of the vertices of the tile of the last call.
-        std::pmr::vector<Vec3d> points;
-        std::uint32_t body = ~0u, tile = ~0u;
+        // Of the pair that it is at.
+        VertexFacePair pair{};
+        std::pmr::vector<Closest> closest;
+        std::pmr::vector<Reached> reached; // of each vertex
+        // Of the tile of the last call.
+        const SurfaceTile* tile = nullptr;
+        std::array<Vec3d, SurfaceTile::most_vertices> points;
+        std::array<Box3d, SurfaceTile::most_faces> boxes;
     };
 
     void leave_out(std::uint32_t a, std::uint32_t b,
                    std::pmr::vector<std::uint32_t>& vertices) const override;
-    void visit(const NearFaces& near, std::uint32_t worker) override;
+    void begin(const VertexFacePair& pair, std::uint32_t worker) override;
+    void visit(const SurfaceTile& tile, std::span<const NearFaces> near, std::uint32_t worker) override;
+    void end(std::uint32_t worker) override;
     void carry(const EdgeScene& scene);
+    void load(Worker& worker, const SurfaceTile& tile) const;
+    void visit(Worker& worker, const SurfaceTile& tile, const NearFaces& near) const;
     void put_in_order();
 
     PerWorker<Worker> workers_;

@@ -39,7 +39,7 @@ void Passages::find(const EdgeScene& scene, VertexFaceSearch& search, vox_counte
     workers_.grow(scene.workers->count());
     for (Worker& worker : workers_) {
         worker.found.clear();
-        worker.body = worker.tile = ~0u;
+        worker.tile = nullptr;
     }
     search.find_meeting(scene, previous_, *this);
     found_.clear();
@@ -50,8 +50,7 @@ void Passages::find(const EdgeScene& scene, VertexFaceSearch& search, vox_counte
         found_.insert(found_.end(), worker.found.begin(), worker.found.end());
     for (Worker& worker : workers_) { // in a later step, one may find all
         reserve_sparingly(worker.found, count);
-        worker.from.reserve(SurfaceTile::most_vertices);
-        worker.to.reserve(SurfaceTile::most_vertices);
+        reserve_sparingly(worker.met, count);
     }
     workers_.level();
 
@@ -82,50 +81,75 @@ void Passages::leave_out(std::uint32_t a, std::uint32_t, std::pmr::vector<std::u
     std::erase_if(vertices, [&](std::uint32_t vertex) { return has_bit(removed, vertex); });
 }
 
-void Passages::visit(const NearFaces& near, std::uint32_t w) {
+void Passages::begin(const VertexFacePair& pair, std::uint32_t w) {
     Worker& worker = workers_[w];
-    const Body &a = scene_->bodies[near.a], &b = scene_->bodies[near.b];
-    const SurfaceFeatures& features = near.surface->features;
-    const SurfaceTile& tile = features.tiles[near.tile];
-    const std::uint32_t* vertices = features.vertices.data() + tile.first_vertex;
-    if (worker.body != near.b || worker.tile != near.tile) {
-        worker.body = near.b;
-        worker.tile = near.tile;
-        worker.from.clear();
-        worker.to.clear();
-        for (std::uint32_t v = 0; v < tile.vertex_count; ++v) {
-            worker.from.push_back(before(near.b, vertices[v]));
-            worker.to.push_back(b.positions.exact(vertices[v]));
-        }
+    worker.pair = pair;
+    worker.tile = nullptr;
+    worker.met.clear();
+    reserve_growing(worker.met_of, pair.vertices.size());
+    worker.met_of.assign(pair.vertices.size(), none_yet);
+}
+
+void Passages::load(Worker& worker, const SurfaceTile& tile) const {
+    const std::uint32_t* vertices = worker.pair.surface->features.vertices.data() + tile.first_vertex;
+    for (std::uint32_t v = 0; v < tile.vertex_count; ++v) {
+        worker.from[v] = before(worker.pair.b, vertices[v]);
+        worker.to[v] = scene_->bodies[worker.pair.b].positions.exact(vertices[v]);
     }
-    const Vec3d from = before(near.a, near.vertex), to = a.positions.exact(near.vertex);
+    worker.tile = &tile;
+}
+
+void Passages::visit(const SurfaceTile& tile, std::span<const NearFaces> near, std::uint32_t w) {
+    Worker& worker = workers_[w];
+    if (worker.tile != &tile) load(worker, tile);
+    for (const NearFaces& one : near) visit(worker, tile, one);
+}
+
+void Passages::visit(Worker& worker, const SurfaceTile& tile, const NearFaces& near) const {
+    const SearchedSurface& surface = *worker.pair.surface;
+    const std::uint32_t vertex = worker.pair.vertices[near.place];
+    const Vec3d from = before(worker.pair.a, vertex),
+                to = scene_->bodies[worker.pair.a].positions.exact(vertex);
     const auto key_of = [&](std::uint32_t face) {
-        return std::tuple(features.tets[face], near.surface->facets[face]);
+        return std::tuple(surface.features.tets[face], surface.facets[face]);
     };
-    double first = 1;
-    std::uint32_t best = ~0u;
-    for (std::uint64_t left = near.faces; left; left &= left - 1) {
+    std::uint32_t& met = worker.met_of[near.place];
+    for (std::uint32_t left = near.faces; left; left &= left - 1) {
         const std::uint32_t face = tile.first_face + static_cast<std::uint32_t>(std::countr_zero(left));
+        const std::array<std::uint8_t, 3>& corners = surface.features.faces[face];
         SeenMotion motion;
         for (std::size_t i = 0; i < 3; ++i) {
-            motion.from[i] = worker.from[features.faces[face][i]] - from;
-            motion.to[i] = worker.to[features.faces[face][i]] - to;
+            motion.from[i] = worker.from[corners[i]] - from;
+            motion.to[i] = worker.to[corners[i]] - to;
         }
+        const double first = met == none_yet ? 1 : worker.met[met].time;
         const double time = meeting_time(motion, first);
-        if (time > first || (time == first && best != ~0u && !(key_of(face) < key_of(best)))) continue;
-        first = time;
-        best = face;
+        if (time > first ||
+            (time == first && met != none_yet && !(key_of(face) < key_of(worker.met[met].face))))
+            continue;
+        if (met == none_yet) {
+            met = static_cast<std::uint32_t>(worker.met.size());
+            reserve_growing(worker.met, worker.met.size() + 1);
+            worker.met.emplace_back();
+        }
+        const std::uint32_t* vertices = surface.features.vertices.data() + tile.first_vertex;
+        worker.met[met] = {
+            near.place, face, {vertices[corners[0]], vertices[corners[1]], vertices[corners[2]]}, time};
     }
-    if (best == ~0u) return;
-    const auto& [u, v, x] = features.faces[best];
-    reserve_growing(worker.found, worker.found.size() + 1);
-    worker.found.push_back({.mesh_a = a.mesh_id,
-                            .vertex = near.vertex,
-                            .mesh_b = b.mesh_id,
-                            .tet = features.tets[best],
-                            .facet = near.surface->facets[best],
-                            .face = {vertices[u], vertices[v], vertices[x]},
-                            .time = first});
+}
+
+void Passages::end(std::uint32_t w) {
+    Worker& worker = workers_[w];
+    const SearchedSurface& surface = *worker.pair.surface;
+    reserve_growing(worker.found, worker.found.size() + worker.met.size());
+    for (const Met& met : worker.met)
+        worker.found.push_back({.mesh_a = scene_->bodies[worker.pair.a].mesh_id,
+                                .vertex = worker.pair.vertices[met.place],
+                                .mesh_b = scene_->bodies[worker.pair.b].mesh_id,
+                                .tet = surface.features.tets[met.face],
+                                .facet = surface.facets[met.face],
+                                .face = {met.corners[0], met.corners[1], met.corners[2]},
+                                .time = met.time});
 }
 
 } // namespace vox

@@ -9,6 +9,7 @@
 
 #include <vox/vox.h>
 
+#include <array>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
@@ -38,19 +39,35 @@ private:
         vox_mesh mesh;
         Positions positions;
     };
+    // The first face so far that a vertex met.
+    struct Met {
+        std::uint32_t place; // of the vertex in the pair
+        std::uint32_t face;  // of the surface
+        std::array<std::uint32_t, 3> corners;
+        double time;
+    };
     struct Worker {
-        explicit Worker(std::pmr::memory_resource* memory) : found(memory), from(memory), to(memory) {}
-        auto buffers() { return std::tie(found, from, to); }
+        explicit Worker(std::pmr::memory_resource* memory) : found(memory), met(memory), met_of(memory) {}
+        auto buffers() { return std::tie(found, met, met_of); }
 
         std::pmr::vector<vox_passage> found;
-        // Of the vertices of the tile of the last call.
-        std::pmr::vector<Vec3d> from, to;
-        std::uint32_t body = ~0u, tile = ~0u;
+        // Of the pair that it is at.
+        VertexFacePair pair{};
+        std::pmr::vector<Met> met;
+        std::pmr::vector<std::uint32_t> met_of; // of each vertex; none_yet
+        // Of the tile of the last call.
+        const SurfaceTile* tile = nullptr;
+        std::array<Vec3d, SurfaceTile::most_vertices> from, to;
     };
+    static constexpr std::uint32_t none_yet = ~0u;
 
     void leave_out(std::uint32_t a, std::uint32_t b,
                    std::pmr::vector<std::uint32_t>& vertices) const override;
-    void visit(const NearFaces& near, std::uint32_t worker) override;
+    void begin(const VertexFacePair& pair, std::uint32_t worker) override;
+    void visit(const SurfaceTile& tile, std::span<const NearFaces> near, std::uint32_t worker) override;
+    void end(std::uint32_t worker) override;
+    void load(Worker& worker, const SurfaceTile& tile) const;
+    void visit(Worker& worker, const SurfaceTile& tile, const NearFaces& near) const;
     Vec3d before(std::uint32_t body, std::uint32_t vertex) const noexcept;
 
     std::pmr::vector<Bound> bound_;        // by mesh

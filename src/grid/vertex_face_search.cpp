@@ -381,22 +381,26 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Worker& lists,
     const SurfaceFeatures& features = b.surface->features;
     const float reach = a.grow + b.grow;
     FaceBoxes faces;
-    // Vertices in the box of the tile.
-    std::array<std::uint32_t, at_once> vertices, met_faces;
+    // Vertices in the box of a tile, by their places.
+    std::array<std::uint32_t, at_once> places, met_faces;
     std::array<Box, at_once> boxes;
+    std::array<NearFaces, at_once> near;
+    visitor.begin({pair.a, pair.b, lists.vertices, b.surface}, worker);
     for (std::size_t i = begin; i < end; ++i) {
-        const std::uint32_t index = lists.tiles[i];
-        const SurfaceTile& tile = features.tiles[index];
-        const Box box = grown(tile_boxes_[b.first_tile + index], reach);
+        const SurfaceTile& tile = features.tiles[lists.tiles[i]];
+        const Box box = grown(tile_boxes_[b.first_tile + lists.tiles[i]], reach);
         bool is_loaded = false;
         std::uint32_t count = 0;
         const auto compare = [&] {
             if (!is_loaded) load(b, tile, reach, faces);
             is_loaded = true;
             find_faces(boxes.data(), count, faces, tile.face_count, met_faces.data());
-            for (std::uint32_t k = 0; k < count; ++k)
-                if (met_faces[k])
-                    visitor.visit({pair.a, vertices[k], pair.b, index, met_faces[k], b.surface}, worker);
+            std::size_t found = 0;
+            for (std::uint32_t k = 0; k < count; ++k) {
+                near[found] = {places[k], met_faces[k]};
+                found += met_faces[k] != 0;
+            }
+            if (found > 0) visitor.visit(tile, std::span(near).first(found), worker);
             count = 0;
         };
         for (std::size_t group = 0; group < lists.groups.size(); ++group) {
@@ -408,8 +412,8 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Worker& lists,
             for (; met; met &= met - 1) {
                 const std::size_t run = first + static_cast<std::size_t>(std::countr_zero(met));
                 for (std::uint32_t k = lists.first_of_run[run]; k < lists.first_of_run[run + 1]; ++k) {
-                    vertices[count] = lists.vertices[k];
-                    boxes[count] = a.vertex_box(vertices[count]);
+                    places[count] = k;
+                    boxes[count] = a.vertex_box(lists.vertices[k]);
                     count += overlap(boxes[count], box);
                     if (count == at_once) compare();
                 }
@@ -417,6 +421,7 @@ void VertexFaceSearch::search_tiles(const fast::Pair& pair, const Worker& lists,
         }
         if (count > 0) compare();
     }
+    visitor.end(worker);
 }
 
 } // namespace vox

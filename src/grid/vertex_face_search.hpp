@@ -34,21 +34,30 @@ struct SearchedSurface {
     std::pmr::vector<std::uint8_t> facets; // of each face: which of the tetrahedron it is
 };
 
-// Some faces of a tile of body b that the box of a vertex of body a meets: those with a bit in `faces`.
-struct NearFaces {
-    std::uint32_t a, vertex, b, tile;
-    std::uint64_t faces;
-    const SearchedSurface* surface; // of b
+// Vertices of body a and the surface of body b.
+struct VertexFacePair {
+    std::uint32_t a, b;
+    std::span<const std::uint32_t> vertices; // of a, ascending
+    const SearchedSurface* surface;          // of b
 };
 
-// Says which vertices count, and takes what is found; calls with the same worker follow each other.
+// A vertex, by its place in VertexFacePair::vertices, and those faces of a tile whose boxes it meets, as
+// bits.
+struct NearFaces {
+    std::uint32_t place, faces;
+};
+
+// Says which vertices count, and takes what is found: between begin() and end() of a worker is what it finds
+// in some tiles of a pair, tile by tile. Calls of different workers may be concurrent.
 class NearFacesVisitor {
 public:
     // Takes those vertices of body a, in ascending order, out of the list that are of no interest to faces of
-    // body b. Calls may be concurrent.
+    // body b.
     virtual void leave_out(std::uint32_t a, std::uint32_t b,
                            std::pmr::vector<std::uint32_t>& vertices) const = 0;
-    virtual void visit(const NearFaces& near, std::uint32_t worker) = 0;
+    virtual void begin(const VertexFacePair& pair, std::uint32_t worker) = 0;
+    virtual void visit(const SurfaceTile& tile, std::span<const NearFaces> near, std::uint32_t worker) = 0;
+    virtual void end(std::uint32_t worker) = 0;
 
 protected:
     ~NearFacesVisitor() = default;
