@@ -124,7 +124,7 @@ struct Bodies {
     std::uint32_t vertices;
     Tiles tiles{memory};
     Boundary surface{memory};
-    std::vector<Box> blocks, super_boxes, tile_boxes, many;
+    std::vector<Box> blocks, groups, super_boxes, tile_boxes, many;
     std::vector<float> change, followed;
     std::vector<std::uint8_t> known, positive, all_positive, sides;
     std::vector<std::uint64_t> bad;
@@ -156,7 +156,8 @@ struct Bodies {
         sides.resize(blocks.size());
         tile_boxes.resize(tiles.tiles.size());
         known.resize(tiles.tiles.size());
-        fast::stream_boxes(packed(a), tiles.block_first, blocks.data(), box_a);
+        groups.resize((blocks.size() + fast::group_blocks - 1) / fast::group_blocks);
+        fast::stream_boxes(packed(a), tiles.block_first, blocks.data(), groups.data(), box_a);
         make_boundary(a.tets, vertices, view(a), tiles, surface);
         super_boxes.resize(tiles.super_tile_count());
         positive.resize(super_boxes.size());
@@ -277,7 +278,9 @@ std::vector<Stage> stages_of(WholeStep& w, Bodies& s) {
              make_boundary(s.a.tets, s.vertices, view(s.a), s.tiles, boundary);
          }},
         {"block boxes", "vertex", s.vertices,
-         [&s] { fast::stream_boxes(packed(s.a), s.tiles.block_first, s.blocks.data(), s.box_a); }},
+         [&s] {
+             fast::stream_boxes(packed(s.a), s.tiles.block_first, s.blocks.data(), s.groups.data(), s.box_a);
+         }},
         {"pairs", "box", s.many.size(), [&s] { fast::find_pairs(s.many, {}, s.pair_buffers, s.pairs); }},
         {"sides", "block", s.blocks.size(),
          [&s] { fast::find_sides(s.blocks.data(), s.blocks.size(), s.region, s.sides.data()); }},

@@ -176,12 +176,13 @@ Bounds bounds_of(const Body& body, std::span<const std::uint64_t> unused, const 
     Bounds bounds;
     if (body.vertex_count == 0) return bounds;
     if (unused.empty() && fast::is_packed(body.positions)) {
-        Box all = empty_box, block{};
+        Box all = empty_box, block{}, group{};
         if (known) {
             all = *known;
         } else {
             const std::uint32_t ends[2] = {0, body.vertex_count};
-            if (!fast::stream_boxes(reinterpret_cast<const float*>(body.positions.data), ends, &block, all))
+            if (!fast::stream_boxes(reinterpret_cast<const float*>(body.positions.data), ends, &block, &group,
+                                    all))
                 check_finite(body);
         }
         bounds.add({double{all.lo[0]}, double{all.lo[1]}, double{all.lo[2]}},

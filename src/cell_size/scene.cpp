@@ -37,8 +37,9 @@ bool CellSizeScene::moved_since_last_step() const {
         if (body.vertex_count == 0) continue;
         if (!fast::is_packed(body.positions)) return true;
         const std::uint32_t ends[2] = {0, body.vertex_count};
-        Box block{}, box = empty_box;
-        if (!fast::stream_boxes(reinterpret_cast<const float*>(body.positions.data), ends, &block, box))
+        Box block{}, group{}, box = empty_box;
+        if (!fast::stream_boxes(reinterpret_cast<const float*>(body.positions.data), ends, &block, &group,
+                                box))
             check_finite(body);
         const Box& before = last_step->boxes().bodies[b];
         if (!std::equal(box.lo, box.lo + 3, before.lo) || !std::equal(box.hi, box.hi + 3, before.hi))

@@ -147,6 +147,19 @@ std::uint64_t find_overlaps(const Box* boxes, std::uint32_t count, const Box& re
     return VOX_SIMD_DISPATCH(FindOverlaps)(boxes, count, region);
 }
 
+std::uint64_t find_blocks(const Box* blocks, const Box* groups, std::uint32_t count, const Box& region) {
+    std::uint64_t met = 0;
+    for (std::uint32_t i = 0; i < count; i += group_blocks) {
+        const Box& group = groups[i / group_blocks];
+        if (!overlap(group, region)) continue;
+        const std::uint32_t some = std::min(group_blocks, count - i);
+        met |= (contains(region, group) ? (std::uint64_t{1} << some) - 1
+                                        : find_overlaps(blocks + i, some, region))
+               << i;
+    }
+    return met;
+}
+
 void make_tile_boxes(const Tiles& tiles, const float* positions, std::uint32_t first, std::uint32_t last,
                      Box* boxes, std::uint8_t* known) {
     VOX_SIMD_DISPATCH(TileBoxes)(tiles, positions, first, last, boxes, known);
@@ -195,9 +208,16 @@ void shrink_to_blocks(const Step& step, const StepBoxes& boxes, PairRegion& pair
     const StepBody& body = step.of[pair.a];
     if (body.tiles->block_count() == 1) return; // list_regions() has looked at its vertices
     const Box* blocks = boxes.blocks.data() + body.first_block;
+    const Box* groups = boxes.groups.data() + body.first_group;
     const std::uint32_t count = body.tiles->block_count();
-    for (std::uint32_t i = 0; i < count; i += most_boxes) {
-        std::uint64_t met = find_overlaps(blocks + i, std::min(most_boxes, count - i), pair.region);
+    for (std::uint32_t i = 0; i < count; i += group_blocks) {
+        const Box& group = groups[i / group_blocks];
+        if (!overlap(group, pair.region)) continue;
+        if (contains(pair.region, group)) {
+            add(reached, group);
+            continue;
+        }
+        std::uint64_t met = find_overlaps(blocks + i, std::min(group_blocks, count - i), pair.region);
         for (; met; met &= met - 1)
             add(reached, blocks[i + static_cast<std::uint32_t>(std::countr_zero(met))]);
     }
@@ -225,13 +245,20 @@ bool uses_block_sides(const Step& step, const BroadPhase& broad, std::uint32_t b
 }
 
 // On which side of the reached region the blocks of a body are: a byte shows that most super-tiles are out of
-// reach, and is less to read than a box.
+// reach, and is less to read than a box. Those that are to one side all together have the sides that all of
+// them are on, and no others.
 void find_block_sides(const Step& step, const StepBoxes& boxes, const Piece& piece, BroadPhase& out) {
     if (!uses_block_sides(step, out, piece.body)) return;
-    const std::size_t first = step.of[piece.body].first_block;
     const Box region = out.reached[piece.body];
-    find_sides(&boxes.blocks[first + piece.first], piece.last - piece.first, region,
-               &out.block_sides[first + piece.first]);
+    const StepBody& body = step.of[piece.body];
+    for (std::uint32_t i = piece.first; i < piece.last; i += group_blocks) {
+        const std::uint32_t count = std::min(group_blocks, piece.last - i);
+        std::uint8_t* sides = &out.block_sides[body.first_block + i];
+        if (const unsigned common = sides_of(boxes.groups[body.first_group + i / group_blocks], region))
+            std::fill_n(sides, count, static_cast<std::uint8_t>(common));
+        else
+            find_sides(&boxes.blocks[body.first_block + i], count, region, sides);
+    }
 }
 
 // The boxes of the super-tiles of a body, and of all tiles in those that others reach. Of a super-tile inside

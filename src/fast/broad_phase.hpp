@@ -26,6 +26,10 @@ unsigned common_sides(const Box* boxes, std::span<const std::uint32_t> which, co
 inline constexpr std::uint32_t most_boxes = 64;
 std::uint64_t find_overlaps(const Box* boxes, std::uint32_t count, const Box& region);
 
+// The same for blocks, with the boxes of their groups (StepBoxes): `count` blocks from the begin of a group
+// on.
+std::uint64_t find_blocks(const Box* blocks, const Box* groups, std::uint32_t count, const Box& region);
+
 // A box that holds every vertex of body a that is in a tet of body b. It is the intersection of the boxes of
 // the two bodies, the box around those blocks of a that meet these (of a single block: its vertices that are
 // in both), and the box around those tiles of b that meet what is left, with the box of a super-tile in place

@@ -56,7 +56,7 @@ void begin_step(std::span<const Body> bodies, Workers* workers, Step& step) {
 
 void lay_out(Step& step, StepBoxes& boxes) {
     step.origin = choose_origin(step.bodies, step.others);
-    std::size_t blocks = 0, supers = 0, tiles = 0;
+    std::size_t blocks = 0, groups = 0, supers = 0, tiles = 0;
     step.block_pieces.clear();
     step.super_pieces.clear();
     for (std::uint32_t b = 0; b < step.bodies.size(); ++b) {
@@ -65,9 +65,11 @@ void lay_out(Step& step, StepBoxes& boxes) {
                             own_supers = body.tiles->super_tile_count();
         body.rounded = step.moved_origin() || step.bodies[b].positions.rounded();
         body.first_block = static_cast<std::uint32_t>(blocks);
+        body.first_group = static_cast<std::uint32_t>(groups);
         body.first_super = static_cast<std::uint32_t>(supers);
         body.first_tile = static_cast<std::uint32_t>(tiles);
         blocks += own_blocks;
+        groups += (own_blocks + group_blocks - 1) / group_blocks;
         supers += own_supers;
         tiles += body.tiles->tiles.size();
         add_pieces(b, own_blocks, piece_blocks, step.block_pieces);
@@ -77,6 +79,7 @@ void lay_out(Step& step, StepBoxes& boxes) {
     step.super_count = supers;
     step.tile_count = tiles;
     boxes.blocks.resize(blocks);
+    boxes.groups.resize(groups);
     boxes.super_tiles.resize(supers);
     boxes.super_change.resize(supers);
     boxes.super_positive.resize(supers);

@@ -27,7 +27,9 @@ struct OrientationCache;
 struct Piece {
     std::uint32_t body, first, last;
 };
-inline constexpr std::uint32_t piece_blocks = 2048;   // at most
+inline constexpr std::uint32_t piece_blocks = 2048; // at most
+inline constexpr std::uint32_t group_blocks = 16;   // neighbours that one box is around
+static_assert(piece_blocks % group_blocks == 0);
 inline constexpr std::uint32_t piece_super_tiles = 8; // at most
 
 // What a step knows of one of its bodies, beside the Body itself.
@@ -42,7 +44,7 @@ struct StepBody {
 
     // Set by lay_out().
     bool rounded; // positions are the nearest floats of the exact ones less Step::origin, else as they are
-    std::uint32_t first_block, first_super, first_tile;
+    std::uint32_t first_block, first_group, first_super, first_tile;
 
     // Set by stream().
     const float* positions; // packed
@@ -82,10 +84,11 @@ struct Step {
 // Boxes of tiles are made by the first stage that needs them; `tile_known` has which were.
 struct StepBoxes {
     explicit StepBoxes(std::pmr::memory_resource* memory)
-        : bodies(memory), blocks(memory), super_tiles(memory), tiles(memory), super_change(memory),
-          super_positive(memory), tile_known(memory) {}
+        : bodies(memory), blocks(memory), groups(memory), super_tiles(memory), tiles(memory),
+          super_change(memory), super_positive(memory), tile_known(memory) {}
 
     std::pmr::vector<Box> bodies, blocks;
+    std::pmr::vector<Box> groups; // of each group_blocks blocks of a body
     // Boxes that hold the super-tiles, not the smallest ones; empty where the broad phase found them out of
     // reach.
     std::pmr::vector<Box> super_tiles;

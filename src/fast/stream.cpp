@@ -100,16 +100,29 @@ HWY_INLINE hn::Vec<Four> Fold(hn::Vec<Wide> v, Reduce reduce) {
 }
 
 bool StreamBoxes(const float* HWY_RESTRICT positions, const std::uint32_t* HWY_RESTRICT first,
-                 std::size_t blocks, Box* HWY_RESTRICT boxes, Box& all) {
+                 std::size_t blocks, Box* HWY_RESTRICT boxes, Box* HWY_RESTRICT groups, Box& all) {
     const Four d;
     bool finite = true;
     const std::uint32_t count = first[blocks];
     std::uint32_t checked = first[0];
-    auto all_lo = hn::Set(d, float_infinity), all_hi = hn::Set(d, -float_infinity);
+    const auto nothing_lo = hn::Set(d, float_infinity), nothing_hi = hn::Set(d, -float_infinity);
+    auto all_lo = nothing_lo, all_hi = nothing_hi, group_lo = nothing_lo, group_hi = nothing_hi;
     const Wide dw;
-    auto wide_lo = hn::Set(dw, float_infinity), wide_hi = hn::Set(dw, -float_infinity);
     const auto least = [](auto a, auto b) HWY_ATTR { return hn::Min(a, b); };
     const auto most = [](auto a, auto b) HWY_ATTR { return hn::Max(a, b); };
+    const auto put = [&](std::size_t b, hn::Vec<Four> lo, hn::Vec<Four> hi) HWY_ATTR {
+        hn::Store(lo, d, boxes[b].lo);
+        hn::Store(hi, d, boxes[b].hi);
+        group_lo = hn::Min(group_lo, lo);
+        group_hi = hn::Max(group_hi, hi);
+        if ((b + 1) % group_blocks != 0 && b + 1 != blocks) return;
+        hn::Store(group_lo, d, groups[b / group_blocks].lo);
+        hn::Store(group_hi, d, groups[b / group_blocks].hi);
+        all_lo = hn::Min(all_lo, group_lo);
+        all_hi = hn::Max(all_hi, group_hi);
+        group_lo = nothing_lo;
+        group_hi = nothing_hi;
+    };
     for (std::size_t b = 0; b < blocks; ++b) {
         const std::uint32_t end = first[b + 1];
         if (end > checked) { // a few kilobytes at a time, which are in the cache for the boxes then
@@ -127,10 +140,7 @@ bool StreamBoxes(const float* HWY_RESTRICT positions, const std::uint32_t* HWY_R
                 lo = hn::Min(lo, some);
                 hi = hn::Max(hi, some);
             }
-            wide_lo = hn::Min(wide_lo, lo);
-            wide_hi = hn::Max(wide_hi, hi);
-            hn::Store(Fold(lo, least), d, boxes[b].lo);
-            hn::Store(Fold(hi, most), d, boxes[b].hi);
+            put(b, Fold(lo, least), Fold(hi, most));
             continue;
         }
         std::uint32_t left = n;
@@ -141,13 +151,10 @@ bool StreamBoxes(const float* HWY_RESTRICT positions, const std::uint32_t* HWY_R
         }
         BoxOf(
             left, [&](std::uint32_t i) HWY_ATTR { return LoadVertex(p, i); }, lo, hi);
-        hn::Store(lo, d, boxes[b].lo);
-        hn::Store(hi, d, boxes[b].hi);
-        all_lo = hn::Min(all_lo, lo);
-        all_hi = hn::Max(all_hi, hi);
+        put(b, lo, hi);
     }
-    hn::Store(hn::Min(all_lo, Fold(wide_lo, least)), d, all.lo);
-    hn::Store(hn::Max(all_hi, Fold(wide_hi, most)), d, all.hi);
+    hn::Store(all_lo, d, all.lo);
+    hn::Store(all_hi, d, all.hi);
     return finite;
 }
 
@@ -209,8 +216,9 @@ void round_positions(const Positions& positions, const Vec3d& origin, std::uint3
     }
 }
 
-bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, Box* boxes, Box& all) {
-    return VOX_SIMD_DISPATCH(StreamBoxes)(positions, first.data(), first.size() - 1, boxes, all);
+bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, Box* boxes, Box* groups,
+                  Box& all) {
+    return VOX_SIMD_DISPATCH(StreamBoxes)(positions, first.data(), first.size() - 1, boxes, groups, all);
 }
 
 namespace {
@@ -260,7 +268,8 @@ bool stream_piece(const Step& step, const Piece& piece, StepBoxes& boxes, Box& b
             std::memcpy(body.packed + std::size_t{v} * 3, &p, sizeof p);
         }
     Box* out = boxes.blocks.data() + body.first_block + piece.first;
-    const bool finite = stream_boxes(body.positions, first, out, box);
+    Box* groups = boxes.groups.data() + body.first_group + piece.first / group_blocks;
+    const bool finite = stream_boxes(body.positions, first, out, groups, box);
     if (body.compared) return finite;
     if (in_place && body.last) moved = !compare_packed(*body.last, part, body.positions, begin, end, box);
     if (body.rounded && body.last) moved = !compare_exact(*body.last, part, positions, begin, end, box);

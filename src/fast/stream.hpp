@@ -19,10 +19,11 @@ namespace vox::fast {
 void round_positions(const Positions& positions, const Vec3d& origin, std::uint32_t first, std::uint32_t last,
                      float* out);
 
-// Writes the box of each of the blocks [first[i], first[i + 1]) of packed positions to `boxes`, and the box
-// of them together to `all`. Reads no other positions. Returns false when one is not finite; the boxes are
-// undefined then.
-bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, Box* boxes, Box& all);
+// Writes the box of each of the blocks [first[i], first[i + 1]) of packed positions to `boxes`, those of each
+// group_blocks of them to `groups`, and the box of them together to `all`. Reads no other positions. Returns
+// false when one is not finite; the boxes are undefined then.
+bool stream_boxes(const float* positions, std::span<const std::uint32_t> first, Box* boxes, Box* groups,
+                  Box& all);
 
 // Buffers of stream(), kept from step to step.
 struct StreamBuffers {

@@ -139,7 +139,8 @@ void make_window(const Step& step, const BroadPhase& broad, double cell_size, st
     const bool culled = self && cull_by_winding(step, a, helpers, boxes, buffers.certificate, worker);
     Box own = self && !culled ? boxes.bodies[a] : empty_box;
     if (culled) {
-        if (!out.certified.empty()) out.certified[a] = buffers.certificate; // the next body is certified there
+        if (!out.certified.empty())
+            out.certified[a] = buffers.certificate; // the next body is certified there
         activate_blocks(step_body, boxes, buffers);
         for (std::uint32_t b = 0; b < step_body.tiles->block_count(); ++b)
             if (buffers.active[b]) add(own, boxes.blocks[step_body.first_block + b]);
@@ -175,6 +176,7 @@ void collect_near(const Step& step, const StepBoxes& boxes, const BroadPhase& br
                   const Box& around, bool all_blocks, const std::uint8_t* active, Points& points) {
     const StepBody& step_body = step.of[body];
     const Box* blocks = boxes.blocks.data() + step_body.first_block;
+    const Box* groups = boxes.groups.data() + step_body.first_group;
     const std::pmr::vector<std::uint32_t>& first = step_body.tiles->block_first;
     const std::uint32_t count = step_body.tiles->block_count();
     const std::size_t most_points = std::size_t{points.count} + step.bodies[body].vertex_count;
@@ -183,7 +185,7 @@ void collect_near(const Step& step, const StepBoxes& boxes, const BroadPhase& br
         std::uint64_t wanted = all_blocks ? ~std::uint64_t{0} >> (64 - some) : 0;
         for (std::uint32_t i = 0; i < some && active; ++i) wanted |= std::uint64_t{active[b + i]} << i;
         for (const PairRegion& pair : broad.of_a(body))
-            wanted |= find_overlaps(blocks + b, some, pair.region);
+            wanted |= find_blocks(blocks + b, groups + b / group_blocks, some, pair.region);
         while (wanted) { // runs of blocks
             const auto begin = static_cast<std::uint32_t>(std::countr_zero(wanted));
             const auto end = begin + static_cast<std::uint32_t>(std::countr_one(wanted >> begin));

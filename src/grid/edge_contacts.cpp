@@ -188,7 +188,7 @@ const SurfaceFeatures& EdgeContacts::surface_of(const EdgeScene& scene, std::uin
 
 // What is known of bodies in pairs, room for the boxes of their tiles, and the pieces of work to make them.
 void EdgeContacts::prepare_surfaces(const EdgeScene& scene) {
-    step_surfaces_.assign(scene.bodies.size(), {nullptr, 0, nullptr, nullptr, empty_box, empty_box});
+    step_surfaces_.assign(scene.bodies.size(), {nullptr, 0, {}, nullptr, empty_box, empty_box});
     for (const fast::Pair& pair : pairs_of_bodies_) {
         Box common = box_of(scene, pair.a);
         intersect(common, box_of(scene, pair.b));
@@ -212,7 +212,8 @@ void EdgeContacts::prepare_surfaces(const EdgeScene& scene) {
             if (scene.engine) {
                 const fast::StepBody& of = scene.engine->last_step().of[body];
                 surface.positions = of.positions;
-                surface.blocks = scene.engine->boxes().blocks.data() + of.first_block;
+                surface.blocks = {scene.engine->boxes().blocks.data() + of.first_block,
+                                  scene.engine->boxes().groups.data() + of.first_group};
             } else {
                 surface.positions = packed_.data() + first_packed_[body];
             }

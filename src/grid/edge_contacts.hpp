@@ -91,7 +91,7 @@ private:
     struct StepSurface {
         const SurfaceFeatures* features; // null for a body that no pair has
         std::uint32_t first_tile;        // in tile_boxes_
-        const Box* blocks;               // of vertices; null with the reference engine
+        BlockBoxes blocks;               // with the fast engine
         const float* positions;          // packed, rounded to floats
         Box reached;                     // around where the boxes of others overlap that of the body
         Box box;                         // around those of its tiles that are there

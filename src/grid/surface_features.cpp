@@ -111,13 +111,14 @@ void add_tile(const Topology& topology, std::span<const std::uint32_t> tile,
 
 // Adds the group of the tiles from `first` on.
 void add_group(std::size_t first, SurfaceFeatures& out) {
-    std::pmr::vector<std::uint32_t> blocks(out.blocks.get_allocator());
-    blocks.assign(out.blocks.begin() + out.tiles[first].first_block, out.blocks.end());
-    std::sort(blocks.begin(), blocks.end());
-    blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-    out.groups.push_back(
-        {static_cast<std::uint32_t>(out.blocks.size()), static_cast<std::uint32_t>(blocks.size())});
-    out.blocks.insert(out.blocks.end(), blocks.begin(), blocks.end());
+    std::pmr::vector<std::uint32_t>& groups = out.block_groups;
+    const auto begin = static_cast<std::ptrdiff_t>(groups.size());
+    for (std::size_t i = out.tiles[first].first_block; i < out.blocks.size(); ++i)
+        groups.push_back(out.blocks[i] / fast::group_blocks);
+    std::sort(groups.begin() + begin, groups.end());
+    groups.erase(std::unique(groups.begin() + begin, groups.end()), groups.end());
+    out.groups.push_back({static_cast<std::uint32_t>(begin),
+                          static_cast<std::uint32_t>(groups.end() - groups.begin() - begin)});
 }
 
 } // namespace

@@ -28,19 +28,20 @@ struct SurfaceTile {
 inline constexpr std::uint32_t tiles_of_group = 8;
 
 struct SurfaceGroup {
-    std::uint32_t first_block, block_count; // of the blocks that its tiles have
+    std::uint32_t first, count; // in block_groups
 };
 
 struct SurfaceFeatures {
     explicit SurfaceFeatures(std::pmr::memory_resource* memory) noexcept
-        : tiles(memory), groups(memory), vertices(memory), blocks(memory), faces(memory), edges(memory),
-          triangles(memory), tets(memory) {}
+        : tiles(memory), groups(memory), vertices(memory), blocks(memory), block_groups(memory),
+          faces(memory), edges(memory), triangles(memory), tets(memory) {}
 
     std::pmr::vector<SurfaceTile> tiles;
     std::pmr::vector<SurfaceGroup> groups;
     std::pmr::vector<std::uint32_t> vertices; // of the mesh
-    std::pmr::vector<std::uint32_t>
-        blocks; // that hold the vertices of a tile or a group; for the fast engine
+    // For the fast engine: the blocks that hold the vertices of a tile, and the groups of blocks
+    // (fast::group_blocks) that hold those of a group of tiles.
+    std::pmr::vector<std::uint32_t> blocks, block_groups;
     // Indices of vertices of the tile.
     std::pmr::vector<std::array<std::uint8_t, 3>> faces;
     std::pmr::vector<std::array<std::uint8_t, 2>> edges;
@@ -48,26 +49,34 @@ struct SurfaceFeatures {
     std::pmr::vector<std::uint32_t> tets;      // of each face, the one behind it; of doubled ones the lowest
 };
 
+// The boxes of the blocks of a body, and of groups of them.
+struct BlockBoxes {
+    const Box *blocks = nullptr, *groups = nullptr;
+};
+
 // Makes the boxes of the tiles [first, last), the first one at the begin of a group, `out[0]` that of
 // `first`: by `box_of`, or empty where the blocks of a tile, and so its faces, all lie to one side of
-// `region`. `blocks` are the boxes of all blocks of the body, null where the features know none.
+// `region`. Without blocks all get a box.
 template <class BoxOfTile>
-void make_boxes_in(const Box& region, const SurfaceFeatures& features, const Box* blocks, std::uint32_t first,
-                   std::uint32_t last, Box* out, const BoxOfTile& box_of) {
-    const auto is_to_one_side = [&](std::uint32_t first_block, std::uint32_t count) {
-        return blocks && count > 0 &&
-               fast::common_sides(blocks, {features.blocks.data() + first_block, count}, region) != 0;
-    };
+void make_boxes_in(const Box& region, const SurfaceFeatures& features, const BlockBoxes& boxes,
+                   std::uint32_t first, std::uint32_t last, Box* out, const BoxOfTile& box_of) {
+    const bool has_blocks = boxes.blocks && !features.blocks.empty();
     for (std::uint32_t begin = first; begin < last; begin += tiles_of_group) {
         const std::uint32_t end = std::min(begin + tiles_of_group, last);
         const SurfaceGroup& group = features.groups[begin / tiles_of_group];
-        if (is_to_one_side(group.first_block, group.block_count)) {
+        if (has_blocks &&
+            fast::common_sides(boxes.groups, {features.block_groups.data() + group.first, group.count},
+                               region)) {
             out = std::fill_n(out, end - begin, empty_box);
             continue;
         }
         for (std::uint32_t t = begin; t < end; ++t) {
             const SurfaceTile& tile = features.tiles[t];
-            *out++ = is_to_one_side(tile.first_block, tile.block_count) ? empty_box : box_of(tile);
+            const bool is_to_one_side =
+                has_blocks &&
+                fast::common_sides(boxes.blocks,
+                                   {features.blocks.data() + tile.first_block, tile.block_count}, region);
+            *out++ = is_to_one_side ? empty_box : box_of(tile);
         }
     }
 }

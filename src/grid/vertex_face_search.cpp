@@ -80,8 +80,9 @@ void order_faces(std::span<const Tet> tets, SearchedSurface& surface) {
 } // namespace
 
 VertexFaceSearch::VertexFaceSearch(std::pmr::memory_resource* memory)
-    : surfaces_(memory), packed_(memory), block_boxes_(memory), searched_(memory), body_boxes_(memory),
-      pair_buffers_(memory), pairs_(memory), pieces_(memory), tile_boxes_(memory), workers_(memory) {}
+    : surfaces_(memory), packed_(memory), block_boxes_(memory), group_boxes_(memory), searched_(memory),
+      body_boxes_(memory), pair_buffers_(memory), pairs_(memory), pieces_(memory), tile_boxes_(memory),
+      workers_(memory) {}
 
 void VertexFaceSearch::forget(vox_mesh mesh) noexcept {
     std::erase_if(surfaces_, [mesh](const Kept& kept) { return kept.mesh == mesh; });
@@ -139,18 +140,24 @@ void VertexFaceSearch::prepare_bodies(const Scene& scene, std::span<const Positi
         return s.engine ? s.engine->last_step().of[b].tiles->block_count()
                         : (s.bodies[b].vertex_count + vertices_of_block - 1) / vertices_of_block;
     };
-    std::size_t floats = 0, blocks = 0;
+    const auto groups_of = [](std::size_t count) {
+        return (count + fast::group_blocks - 1) / fast::group_blocks;
+    };
+    std::size_t floats = 0, blocks = 0, groups = 0;
     for (std::size_t b = 0; b < bodies; ++b) {
         const std::size_t count = scene.bodies[b].vertex_count;
         floats += 3 * count * (std::size_t{!scene.engine} + std::size_t{moves(b)});
-        if (!scene.engine || moves(b)) blocks += blocks_of(scene, b);
+        if (scene.engine && !moves(b)) continue;
+        blocks += blocks_of(scene, b);
+        groups += groups_of(blocks_of(scene, b));
     }
     packed_.resize(floats);
     block_boxes_.resize(blocks);
+    group_boxes_.assign(groups, empty_box);
     searched_.assign(bodies, {});
     body_boxes_.assign(bodies, empty_box);
     const Vec3d origin = scene.engine ? scene.engine->last_step().origin : Vec3d{0, 0, 0};
-    std::size_t float_place = 0, block_place = 0;
+    std::size_t float_place = 0, block_place = 0, group_place = 0;
     for (std::size_t b = 0; b < bodies; ++b) {
         const Body& body = scene.bodies[b];
         Searched& out = searched_[b];
@@ -158,7 +165,8 @@ void VertexFaceSearch::prepare_bodies(const Scene& scene, std::span<const Positi
         if (scene.engine) {
             const fast::StepBody& of = scene.engine->last_step().of[b];
             out.at = of.positions;
-            out.blocks = scene.engine->boxes().blocks.data() + of.first_block;
+            out.blocks = {scene.engine->boxes().blocks.data() + of.first_block,
+                          scene.engine->boxes().groups.data() + of.first_group};
             out.first_of_block = of.tiles->block_first.data();
             out.block_count = of.tiles->block_count();
             out.box = scene.engine->boxes().bodies[b];
@@ -180,14 +188,17 @@ void VertexFaceSearch::prepare_bodies(const Scene& scene, std::span<const Positi
         }
         if (!scene.engine || moves(b)) {
             Box* boxes = block_boxes_.data() + block_place;
-            out.blocks = boxes;
+            Box* around = group_boxes_.data() + group_place;
+            out.blocks = {boxes, around};
             if (!scene.engine) out.block_count = blocks_of(scene, b);
             block_place += out.block_count;
+            group_place += groups_of(out.block_count);
             out.box = empty_box;
             for (std::uint32_t block = 0; block < out.block_count; ++block) {
                 boxes[block] = empty_box;
                 for (std::uint32_t v = out.begin_of(block); v < out.end_of(block); ++v)
                     add(boxes[block], out.vertex_box(v));
+                add(around[block / fast::group_blocks], boxes[block]);
                 add(out.box, boxes[block]);
             }
         }
@@ -282,8 +293,8 @@ void VertexFaceSearch::make_tile_boxes(const Scene& scene) {
                     add(box, body.vertex_box(features.vertices[tile.first_vertex + v]));
                 return box;
             };
-            make_boxes_in(body.reached, features, scene.engine ? body.blocks : nullptr, piece.first,
-                          piece.last, &tile_boxes_[body.first_tile + piece.first], box_of);
+            make_boxes_in(body.reached, features, body.blocks, piece.first, piece.last,
+                          &tile_boxes_[body.first_tile + piece.first], box_of);
         }
     });
 }
@@ -294,26 +305,31 @@ void VertexFaceSearch::make_tile_boxes(const Scene& scene) {
 bool VertexFaceSearch::list(const fast::Pair& pair, const NearFacesVisitor& visitor, Worker& worker) const {
     const Searched &a = searched_[pair.a], &b = searched_[pair.b];
     const float reach = a.grow + b.grow;
-    const auto list_met = [](const Box* boxes, std::size_t count, const Box& region, auto& out) {
+    // Calls find(first, count) for some of many boxes at a time, and lists those of which it gives the bits.
+    const auto list_met = [](std::uint32_t count, auto& out, const auto& find) {
         out.clear();
-        for (std::size_t first = 0; first < count; first += fast::most_boxes) {
-            const auto some =
-                static_cast<std::uint32_t>(std::min<std::size_t>(fast::most_boxes, count - first));
-            std::uint64_t met = fast::find_overlaps(boxes + first, some, region);
-            for (; met; met &= met - 1) {
+        for (std::uint32_t first = 0; first < count; first += fast::most_boxes)
+            for (std::uint64_t met = find(first, std::min(fast::most_boxes, count - first)); met;
+                 met &= met - 1) {
                 reserve_growing(out, out.size() + 1);
-                out.push_back(
-                    static_cast<std::uint32_t>(first + static_cast<std::size_t>(std::countr_zero(met))));
+                out.push_back(first + static_cast<std::uint32_t>(std::countr_zero(met)));
             }
-        }
     };
     // The tiles first, as there are less of them.
-    list_met(&tile_boxes_[b.first_tile], b.surface->features.tiles.size(), grown(a.box, reach), worker.tiles);
+    const Box around_a = grown(a.box, reach);
+    const Box* tile_boxes = &tile_boxes_[b.first_tile];
+    list_met(static_cast<std::uint32_t>(b.surface->features.tiles.size()), worker.tiles,
+             [&](std::uint32_t first, std::uint32_t some) {
+                 return fast::find_overlaps(tile_boxes + first, some, around_a);
+             });
     if (worker.tiles.empty()) return false;
     Box around_tiles = empty_box;
-    for (const std::uint32_t tile : worker.tiles) add(around_tiles, tile_boxes_[b.first_tile + tile]);
+    for (const std::uint32_t tile : worker.tiles) add(around_tiles, tile_boxes[tile]);
     const Box region = grown(around_tiles, reach);
-    list_met(a.blocks, a.block_count, region, worker.blocks);
+    list_met(a.block_count, worker.blocks, [&](std::uint32_t first, std::uint32_t some) {
+        return fast::find_blocks(a.blocks.blocks + first, a.blocks.groups + first / fast::group_blocks, some,
+                                 region);
+    });
     worker.vertices.clear();
     for (const std::uint32_t block : worker.blocks) {
         reserve_growing(worker.vertices, worker.vertices.size() + (a.end_of(block) - a.begin_of(block)));
@@ -326,8 +342,7 @@ bool VertexFaceSearch::list(const fast::Pair& pair, const NearFacesVisitor& visi
     Box around_vertices = empty_box;
     for (const Box& group : worker.groups) add(around_vertices, group);
     const Box reached = grown(around_vertices, reach);
-    std::erase_if(worker.tiles,
-                  [&](std::uint32_t t) { return !overlap(tile_boxes_[b.first_tile + t], reached); });
+    std::erase_if(worker.tiles, [&](std::uint32_t t) { return !overlap(tile_boxes[t], reached); });
     return !worker.tiles.empty();
 }
 

@@ -92,7 +92,7 @@ private:
         // Packed, rounded to floats; `before` is null for one that stands still.
         const float *at = nullptr, *before = nullptr;
         // Boxes of runs of vertices, which begin at first_of_block, or are of eight each.
-        const Box* blocks = nullptr;
+        BlockBoxes blocks;
         const std::uint32_t* first_of_block = nullptr;
         std::uint32_t block_count = 0, vertex_count = 0;
         Box box = empty_box;                      // around all
@@ -138,8 +138,8 @@ private:
 
     // One search.
     std::pmr::vector<float> packed_;
-    std::pmr::vector<Box> block_boxes_;
-    std::pmr::vector<Searched> searched_; // of each body
+    std::pmr::vector<Box> block_boxes_, group_boxes_; // of bodies for which the engine has none
+    std::pmr::vector<Searched> searched_;             // of each body
     std::pmr::vector<Box> body_boxes_;
     fast::PairBuffers pair_buffers_;
     std::pmr::vector<fast::Pair> pairs_; // vertices of a, faces of b

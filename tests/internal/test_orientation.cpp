@@ -31,8 +31,9 @@ struct Tracked {
 
     // The first half of a step: boxes, and what can be followed.
     void follow() {
+        std::vector<Box> groups((blocks.size() + fast::group_blocks - 1) / fast::group_blocks);
         Box all;
-        fast::stream_boxes(packed(mesh), tiles.block_first, blocks.data(), all);
+        fast::stream_boxes(packed(mesh), tiles.block_first, blocks.data(), groups.data(), all);
         fast::track_orientation(tiles, cache, packed(mesh), blocks.data(), rounding, 0,
                                 tiles.super_tile_count(), super_boxes.data(), change.data(), positive.data());
     }

@@ -146,24 +146,29 @@ START_TEST(stream_finds_the_boxes) {
         std::vector<float> positions(3 * std::size_t{count}); // no longer than it has to be
         for (float& c : positions) c = r.below(50) ? r.uniform(-9, 9) : r.any_finite();
         std::vector<std::uint32_t> first{0};
-        while (first.back() < count)
-            first.push_back(std::min(count, first.back() + 1 + r.below(block_size)));
+        while (first.back() < count) first.push_back(std::min(count, first.back() + 1 + r.below(block_size)));
         const std::size_t blocks = first.size() - 1;
         std::vector<Box> expected(blocks, empty_box);
         Box expected_all = empty_box;
         for (std::size_t b = 0; b < blocks; ++b) {
             for (std::uint32_t v = first[b]; v < first[b + 1]; ++v)
-                add(expected[b],
-                          box_around({positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]}));
+                add(expected[b], box_around({positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]}));
             add(expected_all, expected[b]);
         }
         at_each_level([&](const char* level) {
-            std::vector<Box> boxes(blocks);
+            std::vector<Box> boxes(blocks), groups((blocks + fast::group_blocks - 1) / fast::group_blocks);
             Box all{};
-            ck_assert(fast::stream_boxes(positions.data(), first, boxes.data(), all));
+            ck_assert(fast::stream_boxes(positions.data(), first, boxes.data(), groups.data(), all));
             ck_assert_msg(same(all, expected_all), "%s: box of %u positions", level, count);
             for (std::size_t b = 0; b < blocks; ++b)
                 ck_assert_msg(same(boxes[b], expected[b]), "%s: block %zu of %zu", level, b, blocks);
+            for (std::size_t g = 0; g < groups.size(); ++g) {
+                Box around = empty_box;
+                for (std::size_t b = g * fast::group_blocks;
+                     b < std::min(blocks, (g + 1) * fast::group_blocks); ++b)
+                    add(around, expected[b]);
+                ck_assert_msg(same(groups[g], around), "%s: group %zu of %zu", level, g, groups.size());
+            }
         });
     }
 }
@@ -178,16 +183,17 @@ START_TEST(stream_sees_what_is_not_finite) {
         std::vector<std::uint32_t> first{0};
         while (first.back() < count) first.push_back(std::min(count, first.back() + block_size));
         at_each_level([&](const char* level) {
-            std::vector<Box> boxes(first.size());
+            std::vector<Box> boxes(first.size()), groups(first.size());
             Box all{};
-            ck_assert(fast::stream_boxes(positions.data(), first, boxes.data(), all));
+            ck_assert(fast::stream_boxes(positions.data(), first, boxes.data(), groups.data(), all));
             for (float& c : positions)
                 for (const float bad : {infinite, -infinite, std::numeric_limits<float>::quiet_NaN()}) {
                     const float good = c;
                     c = bad;
-                    ck_assert_msg(!fast::stream_boxes(positions.data(), first, boxes.data(), all),
-                                  "%s: coordinate %td of %u positions is %g", level, &c - positions.data(),
-                                  count, double(bad));
+                    ck_assert_msg(
+                        !fast::stream_boxes(positions.data(), first, boxes.data(), groups.data(), all),
+                        "%s: coordinate %td of %u positions is %g", level, &c - positions.data(), count,
+                        double(bad));
                     c = good;
                 }
         });
