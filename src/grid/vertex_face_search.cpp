@@ -97,15 +97,6 @@ std::uint32_t VertexFaceSearch::Searched::end_of(std::uint32_t block) const noex
                           : std::min(vertices_of_block * (block + 1), vertex_count);
 }
 
-Box VertexFaceSearch::Searched::vertex_box(std::uint32_t vertex) const noexcept {
-    const float* p = at + 3 * std::size_t{vertex};
-    Box box{{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}};
-    if (!before) return box;
-    const float* q = before + 3 * std::size_t{vertex};
-    add(box, Box{{q[0], q[1], q[2], 0}, {q[0], q[1], q[2], 0}});
-    return box;
-}
-
 // ---- which bodies ---------------------------------------------------------------------------------
 
 void VertexFaceSearch::find_near(const Scene& scene, double margin, NearFacesVisitor& visitor) {
@@ -351,24 +342,22 @@ void VertexFaceSearch::make_runs(const Searched& body, Worker& worker) const {
     worker.first_of_run.clear();
     worker.runs.clear();
     worker.groups.clear();
+    const std::pmr::vector<std::uint32_t>& vertices = worker.vertices;
     auto block = worker.blocks.begin();
-    for (std::uint32_t i = 0, end_of_run = 0; i < worker.vertices.size(); ++i) {
-        const std::uint32_t vertex = worker.vertices[i];
-        if (i == 0 || vertex >= end_of_run) {
-            while (body.end_of(*block) <= vertex) ++block;
-            end_of_run = body.end_of(*block);
-            if (worker.runs.size() % near_group_size == 0) {
-                reserve_growing(worker.groups, worker.groups.size() + 1);
-                worker.groups.push_back(empty_box);
-            }
-            reserve_growing(worker.runs, worker.runs.size() + 1);
-            reserve_growing(worker.first_of_run, worker.first_of_run.size() + 2);
-            worker.runs.push_back(empty_box);
-            worker.first_of_run.push_back(i);
+    for (std::uint32_t i = 0; i < vertices.size();) {
+        while (body.end_of(*block) <= vertices[i]) ++block;
+        reserve_growing(worker.first_of_run, worker.first_of_run.size() + 2);
+        worker.first_of_run.push_back(i);
+        Box run = empty_box;
+        for (const std::uint32_t end = body.end_of(*block); i < vertices.size() && vertices[i] < end; ++i)
+            add(run, body.vertex_box(vertices[i]));
+        if (worker.runs.size() % near_group_size == 0) {
+            reserve_growing(worker.groups, worker.groups.size() + 1);
+            worker.groups.push_back(empty_box);
         }
-        const Box box = body.vertex_box(vertex);
-        add(worker.runs.back(), box);
-        add(worker.groups.back(), box);
+        add(worker.groups.back(), run);
+        reserve_growing(worker.runs, worker.runs.size() + 1);
+        worker.runs.push_back(run);
     }
     worker.first_of_run.push_back(static_cast<std::uint32_t>(worker.vertices.size()));
 }

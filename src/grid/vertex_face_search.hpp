@@ -103,7 +103,14 @@ private:
 
         std::uint32_t begin_of(std::uint32_t block) const noexcept;
         std::uint32_t end_of(std::uint32_t block) const noexcept;
-        Box vertex_box(std::uint32_t vertex) const noexcept;
+        Box vertex_box(std::uint32_t vertex) const noexcept {
+            const float* p = at + 3 * std::size_t{vertex};
+            Box box{{p[0], p[1], p[2], 0}, {p[0], p[1], p[2], 0}};
+            if (!before) return box;
+            const float* q = before + 3 * std::size_t{vertex};
+            add(box, Box{{q[0], q[1], q[2], 0}, {q[0], q[1], q[2], 0}});
+            return box;
+        }
     };
     struct TilePiece {
         std::uint32_t body, first, last;
