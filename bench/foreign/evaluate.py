@@ -22,7 +22,7 @@ import losses  # noqa: E402
 from page import put, quantile  # noqa: E402
 
 ANY = 0
-OUT_OF_RANGE = 128  # of vox_foreign_warning
+CLOSE, FURTHER = 1.2, 2 ** 0.5  # to an end of the sizes timed, and beyond it
 FIXED = {"default": "its own default", "mean_edge": "mean edge", "mean_edge_multiple": "two mean edges",
          "mean_box_side": "mean box side", "median_box_side": "median box side", "spacing": "spacing", "radius": "radius"}
 OURS = {"bare": "not even described", "unknown": "default call: times unknown", "shipped": "shipped weights",
@@ -60,14 +60,18 @@ def described(vox, curve, folder):
     return library.Described(vox, *primitives(curve, folder), record["content"], record["look"], record["dense"])
 
 
-def fitted(told, timed, sizes):
-    """The size of a fit as docs/your-own-grid.md advises: where the best one is beyond those timed, it is timed, too."""
+def fitted(told, timed, sizes, least):
+    """The size of a fit as docs/your-own-grid.md advises: where the best one is close to an end of those timed or beyond it, a
+    size further out is timed, too."""
     timings = [(size, timed(size)) for size in sizes]
-    found = told.fit(timings)
-    if found.warnings & OUT_OF_RANGE:
-        timings.append((found.cell_size, timed(found.cell_size)))
-        found = told.fit(timings)
-    return found.cell_size
+    found = told.fit(timings).cell_size
+    if found > max(sizes) / CLOSE:
+        more = max(found, max(sizes) * FURTHER)
+    elif found < min(sizes) * CLOSE and min(sizes) > least * 1.001:
+        more = max(min(found, min(sizes) / FURTHER), least)
+    else:
+        return found
+    return told.fit(timings + [(more, timed(more))]).cell_size
 
 
 def choices(vox, curve, folder, draws):
@@ -80,7 +84,7 @@ def choices(vox, curve, folder, draws):
     found["shipped"] = [told.weigh(curve.known).suggest().cell_size]
     told.weigh(ANY)
     rng = random.Random(curve.grid + curve.scene)
-    found["fitted"] = [fitted(told, lambda size: curve.draw(size, rng, 3), curve.timing_sizes()) for _ in range(draws)]
+    found["fitted"] = [fitted(told, lambda size: curve.draw(size, rng, 3), curve.timing_sizes(), curve.least) for _ in range(draws)]
     rng = random.Random(curve.scene + curve.grid)
     tuned = [told.tune(lambda size: curve.draw(size, rng)) for _ in range(draws)]
     found["tuned"] = [t.cell_size for t in tuned]

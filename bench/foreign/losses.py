@@ -79,11 +79,11 @@ class Curve:
     def draw(self, size, rng, runs=None):
         """A timing at that size, as noisy as those that were measured: the curve, times what a round was above the least of
         all at the nearest size. The least of so many runs; without a number, as one would do by hand, of three where a run
-        takes less than 5 ms."""
+        takes less than 10 ms."""
         nearest = min(range(len(self.sizes)), key=lambda i: abs(math.log(self.sizes[i] / size)))
         times = [r[nearest] for r in self.rounds]
         least = min(self.smooth[0](size), self.smooth[1](size))
-        runs = runs or (3 if least < 5e-3 else 1)
+        runs = runs or (3 if least < 1e-2 else 1)
         return least * min(rng.choice(times) for _ in range(runs)) / min(times)
 
     def timing_sizes(self):

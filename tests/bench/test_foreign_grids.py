@@ -151,10 +151,31 @@ class ForeignGrids(unittest.TestCase):
             def seconds(size):
                 timed.append(size)
                 return curve.smooth[0](size)
-            found = evaluate.fitted(told, seconds, [first, 2 * first, 4 * first])
+            found = evaluate.fitted(told, seconds, [first, 2 * first, 4 * first], 0)
             self.assertEqual(len(timed), 4 if beyond else 3, timed)
             self.assertTrue(not beyond or timed[3] < first, timed)
             self.assertLess(curve.loss(found), 0.05)
+
+    def test_a_fit_times_a_size_beyond_an_end_that_the_best_one_is_close_to(self):
+        class Told:  # says these sizes, one after the other
+            def __init__(self, *sizes):
+                self.sizes = list(sizes)
+
+            def fit(self, timings):
+                self.timings = [size for size, _ in timings]
+                return self
+
+            @property
+            def cell_size(self):
+                return self.sizes.pop(0)
+
+        for first, least, more in ((1.1, 0, 2 ** -0.5), (1.1, 0.9, 0.9), (0.5, 0, 0.5), (3.5, 0, 4 * 2 ** 0.5), (9, 0, 9)):
+            told = Told(first, 1.5)
+            self.assertEqual(evaluate.fitted(told, lambda size: size, [1, 2, 4], least), 1.5)
+            self.assertEqual(told.timings[:3], [1, 2, 4])
+            self.assertAlmostEqual(told.timings[3], more, 12)
+        for first, least in ((1.3, 0), (3, 0), (1.1, 1)):
+            self.assertEqual(evaluate.fitted(Told(first), lambda size: size, [1, 2, 4], least), first)
 
 
 if __name__ == "__main__":

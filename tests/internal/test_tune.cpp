@@ -445,6 +445,25 @@ START_TEST(ends_of_the_range) {
 }
 END_TEST
 
+// A grid that is faster at its least legal size than a smooth curve shows: that size is taken where the fit sees hardly a
+// difference, and only there.
+START_TEST(the_least_legal_size) {
+    const vox_grid_timing timings[] = {{0.73, 1.3}, {1.1, 1.7}, {1.65, 4.4}};
+    const CostBasis basis = power_basis(1);
+    const auto fitted = [&](double least) { return fit_timings(basis, {least, 0.05}, timings, heap).cell_size; };
+    ck_assert_double_gt(fitted(0), 0.75);
+    ck_assert_double_lt(fitted(0), 0.9);
+    ck_assert_double_eq(fitted(0.73), 0.73);
+    ck_assert_double_gt(fitted(0.72), 0.75); // no timing is there
+    CostMinimum best{0.8, 1};
+    prefer_least(best, {0.7, 1.04});
+    ck_assert_double_eq(best.cell_size, 0.8);
+    prefer_least(best, {0.7, 1.02});
+    ck_assert_double_eq(best.cell_size, 0.7);
+    ck_assert_double_eq(best.cost, 1.02);
+}
+END_TEST
+
 // Costs that no fit describes: the answer is never far from the best of what was run.
 START_TEST(unusual_costs) {
     const Cost costs[] = {
@@ -574,6 +593,7 @@ int main() {
     tcase_add_test(tests, sizes_that_cannot_run);
     tcase_add_test(tests, stopped_and_too_short);
     tcase_add_test(tests, ends_of_the_range);
+    tcase_add_test(tests, the_least_legal_size);
     tcase_add_test(tests, unusual_costs);
     tcase_add_test(tests, costs_with_a_jump);
     tcase_add_test(tests, one_run_did_nothing);

@@ -154,6 +154,13 @@ void Notes::write(char (&note)[VOX_NOTE_CAPACITY]) const noexcept {
     *std::copy_n(text_.data(), std::min(text_.size(), sizeof note - 1), note) = '\0';
 }
 
+// ---- the least legal size ----
+
+void prefer_least(CostMinimum& best, const CostMinimum& at_least) noexcept {
+    constexpr double hardly_more = 1.03;
+    if (at_least.cost <= hardly_more * best.cost) best = at_least;
+}
+
 // ---- a grid from its timings ----------------------------------------------------------------------
 
 namespace {
@@ -225,7 +232,9 @@ vox_grid_fit fit_timings(const CostBasis& described, const FitSettings& settings
     const CostFunction cost = [&](double log_size) {
         return cost_of(described.values(std::exp2(log_size)), coefficients);
     };
-    const CostMinimum best = minimise(cost, range, {.tolerance = 1e-4});
+    CostMinimum best = minimise(cost, range, {.tolerance = 1e-4});
+    if (settings.least_cell_size > 0 && smallest <= settings.least_cell_size * (1 + same_size))
+        prefer_least(best, {smallest, cost(std::log2(smallest))});
     const CellSizeRange zone =
         zone_around(best, (1 + settings.zone_loss) * best.cost, cost, range, {.tolerance = 1e-4});
 

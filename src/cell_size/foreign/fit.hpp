@@ -4,6 +4,7 @@
 
 #include "cell_size/foreign/cost.hpp"
 #include "cell_size/foreign/least_squares.hpp"
+#include "cell_size/search.hpp"
 
 #include <vox/vox.h>
 
@@ -72,6 +73,11 @@ double weigh(const CostFit& fit, std::span<TimedTerms> timings) noexcept;
 // Root mean square of the relative errors, by weight or of all alike.
 double weighted_error(std::span<const TimedTerms> timings, const Coefficients& coefficients) noexcept;
 double plain_error(std::span<const TimedTerms> timings, const Coefficients& coefficients) noexcept;
+
+// Takes the least legal size, which was run, for the best one where the fit sees hardly a difference: no box
+// of a grid that needs cells as large as its boxes covers more than two of them along an axis, and a run at
+// the least such size can be far faster than one close to it, which smooth terms do not show.
+void prefer_least(CostMinimum& best, const CostMinimum& at_least) noexcept;
 
 // Beyond this error the counts do not describe the grid.
 inline constexpr double disagreeing_model = 0.15;

@@ -356,6 +356,8 @@ private:
             best = {size(node), cost(std::log2(size(node)))};
         else {
             prefer_run(best, cost);
+            if (settings_.least > 0 && size(smallest()) <= settings_.least * 1.001)
+                prefer_least(best, {size(smallest()), cost(std::log2(size(smallest())))});
             prefer_fastest(best, cost);
         }
         const CellSizeRange zone =
