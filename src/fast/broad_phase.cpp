@@ -83,7 +83,6 @@ unsigned CommonSides(const Box* HWY_RESTRICT boxes, const std::uint32_t* HWY_RES
                      std::size_t count, const Box& region) {
     constexpr hn::CappedTag<float, 8> d;
     constexpr std::size_t at_once = 16; // between branches
-    const auto whole = [](const Box& box) HWY_ATTR { return hn::LoadU(d, box.lo); };
     if constexpr (hn::MaxLanes(d) == 8) {
         const auto sign = hn::OddEvenBlocks(hn::Set(d, -0.0f), hn::Zero(d));
         const auto bound =
@@ -92,8 +91,9 @@ unsigned CommonSides(const Box* HWY_RESTRICT boxes, const std::uint32_t* HWY_RES
         for (std::size_t i = 0; i < count && common; i += at_once) {
             auto beyond = hn::VecFromMask(d, hn::Eq(bound, bound));
             for (std::size_t k = i; k < std::min(i + at_once, count); ++k)
-                beyond =
-                    hn::And(beyond, hn::VecFromMask(d, hn::Gt(hn::Xor(whole(boxes[which[k]]), sign), bound)));
+                beyond = hn::And(
+                    beyond,
+                    hn::VecFromMask(d, hn::Gt(hn::Xor(hn::LoadU(d, boxes[which[k]].lo), sign), bound)));
             common &= static_cast<unsigned>(vox::HWY_NAMESPACE::BitsOfMask(d, hn::MaskFromVec(beyond)));
         }
         return common;

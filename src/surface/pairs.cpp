@@ -4,7 +4,6 @@
 #include "surface/pairs.hpp"
 
 #include "base/bits.hpp"
-#include "base/room.hpp"
 #include "base/vectors.hpp"
 #include "surface/compare_boxes.hpp"
 #include "surface/suggest.hpp"
@@ -298,11 +297,8 @@ void PairSearch::keep_found(std::uint32_t tile, Worker& worker) {
     const std::size_t count = worker.found.size(), blocks = (count + word_bits - 1) / word_bits;
     found_of_[tile].count = count;
     if (count == 0) return;
-    // There are most of these, by far.
-    reserve_sparingly(worker.kept_partners, worker.kept_partners.size() + count);
     for (const Found& found : worker.found) worker.kept_partners.push_back(found.partner);
     const std::size_t first = worker.kept.size();
-    reserve_sparingly(worker.kept, first + blocks * word_bits);
     worker.kept.resize(first + blocks * word_bits);
     std::uint64_t* const kept = worker.kept.data() + first;
     for (std::size_t i = 0; i < count; ++i) kept[i] = worker.found[i].lanes;
