@@ -27,10 +27,12 @@ struct OrientationCache;
 struct Piece {
     std::uint32_t body, first, last;
 };
-inline constexpr std::uint32_t piece_blocks = 2048; // at most
-inline constexpr std::uint32_t group_blocks = 16;   // neighbours that one box is around
-static_assert(piece_blocks % group_blocks == 0);
+inline constexpr std::uint32_t piece_blocks = 2048;   // at most
 inline constexpr std::uint32_t piece_super_tiles = 8; // at most
+
+// Blocks that follow each other, with a box around them, and fewer at the end of a body.
+inline constexpr std::uint32_t group_blocks = 16;
+static_assert(piece_blocks % group_blocks == 0);
 
 // What a step knows of one of its bodies, beside the Body itself.
 struct StepBody {

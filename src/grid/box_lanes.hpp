@@ -24,13 +24,13 @@ using FaceBoxes = BoxLanes<SurfaceTile::most_faces>;
 using EdgeBoxes = BoxLanes<SurfaceTile::most_edges>;
 static_assert(SurfaceTile::most_faces <= 32);
 
-// The first of the boxes that overlap each other: an edge, and the faces as bits.
+// An edge, and the faces whose boxes its box overlaps, as bits.
 struct EdgeFaces {
     std::uint32_t edge, faces;
 };
 
-// Edges and faces of two tiles whose boxes overlap: their number in `out`, which has room for all edges.
-// `around_edges` is the box of all edges.
+// The edges of a tile whose boxes overlap those of faces of another: writes them to `out`, which has room for
+// all edges, and returns their number. `around_edges` is the box of all edges.
 std::uint32_t find_edge_faces(const EdgeBoxes& edges, std::uint32_t edge_count, const Box& around_edges,
                               const FaceBoxes& faces, std::uint32_t face_count, EdgeFaces* out) noexcept;
 

@@ -2,9 +2,11 @@
 #include "base/parallel.hpp"
 #include "fast/broad_phase.hpp"
 #include "fast/stream.hpp"
+#include "grid/box_lanes.hpp"
 #include "internal/stage_checks.hpp"
 #include "mesh/filter.hpp"
 
+#include <array>
 #include <deque>
 #include <limits>
 
@@ -397,6 +399,60 @@ START_TEST(sides_of_many_boxes) {
 }
 END_TEST
 
+// Edges against faces of two tiles of any size, and boxes against faces, at every SIMD level.
+START_TEST(boxes_side_by_side) {
+    Random r{7};
+    std::size_t found_any = 0;
+    at_each_level([&](const char* level) {
+        for (int round = 0; round < 2000; ++round) {
+            const auto box = [&] { // of whole numbers, so that many touch
+                Box made = empty_box;
+                for (int a = 0; a < 3; ++a) {
+                    made.lo[a] = float(r.below(12));
+                    made.hi[a] = made.lo[a] + float(r.below(4));
+                }
+                return made;
+            };
+            const std::uint32_t edge_count = r.below(SurfaceTile::most_edges + 1),
+                                face_count = r.below(SurfaceTile::most_faces + 1);
+            EdgeBoxes edge_lanes;
+            FaceBoxes face_lanes;
+            Box around_edges = empty_box;
+            std::vector<Box> edges, faces;
+            // Lanes that are not in use hold what another tile left there.
+            for (std::uint32_t e = 0; e < SurfaceTile::most_edges; ++e) edge_lanes.set(e, box());
+            for (std::uint32_t f = 0; f < SurfaceTile::most_faces; ++f) face_lanes.set(f, box());
+            for (std::uint32_t e = 0; e < edge_count; ++e) {
+                edge_lanes.set(e, edges.emplace_back(box()));
+                add(around_edges, edges.back());
+            }
+            for (std::uint32_t f = 0; f < face_count; ++f) face_lanes.set(f, faces.emplace_back(box()));
+            const auto faces_met = [&](const Box& by) {
+                std::uint32_t met = 0;
+                for (std::uint32_t f = 0; f < face_count; ++f) met |= std::uint32_t{overlap(faces[f], by)} << f;
+                return met;
+            };
+            std::array<EdgeFaces, SurfaceTile::most_edges> found;
+            const std::uint32_t count = find_edge_faces(edge_lanes, edge_count, around_edges, face_lanes, face_count, found.data());
+            std::uint32_t next = 0;
+            for (std::uint32_t e = 0; e < edge_count; ++e) {
+                const std::uint32_t met = faces_met(edges[e]);
+                if (met == 0) continue;
+                ck_assert_msg(next < count && found[next].edge == e && found[next].faces == met, "%s: edge %u of %u, %u faces",
+                              level, e, edge_count, face_count);
+                ++next;
+            }
+            ck_assert_uint_eq(next, count);
+            std::vector<std::uint32_t> met(edges.size());
+            find_faces(edges.data(), edges.size(), face_lanes, face_count, met.data());
+            for (std::uint32_t e = 0; e < edge_count; ++e) ck_assert_uint_eq(met[e], faces_met(edges[e]));
+            found_any += count > 0;
+        }
+    });
+    ck_assert_uint_gt(found_any, 1000);
+}
+END_TEST
+
 } // namespace
 
 int main() {
@@ -404,6 +460,6 @@ int main() {
     TCase* tests = add_case(suite, "broad_phase");
     tcase_add_each(tests, regions_hold_what_may_be_in_contact, filters_and_bodies_at_rest_leave_pairs_out,
                    workers_find_the_same, common_sides_are_those_of_the_box_around,
-                   sides_of_many_boxes);
+                   sides_of_many_boxes, boxes_side_by_side);
     return run_suite(suite);
 }
