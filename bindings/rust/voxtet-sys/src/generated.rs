@@ -3179,11 +3179,12 @@ extern "C" {
     ) -> vox_result;
     /// Fits the weights of a grid to timings of the whole run at three different cell sizes or more (0.6, 1.2 and 2.4
     /// mean edges do), by non-negative least squares, and minimises the cost, from the smallest size timed over 1.2 to
-    /// 1.2 times the largest. Of several timings at one cell size the shortest counts. Slow timings count less than
-    /// fast ones, and less still if they are far above the fit. What few timings cannot tell apart is divided as in the
-    /// weights that the grid has (`weights`, else `known`). Errors: as vox_suggest_for; also INVALID_ARGUMENT for fewer
-    /// than three different cell sizes (those within a millionth are one), sizes below the least legal one, and timings
-    /// out of their range, and LIMIT as vox_count_for.
+    /// 1.2 times the largest. The least legal size, where it was timed, is the answer if less than 3 % is to be gained
+    /// elsewhere: some grids are much faster at exactly that size. Of several timings at one cell size the shortest
+    /// counts. Slow timings count less than fast ones, and less still if they are far above the fit. What few timings
+    /// cannot tell apart is divided as in the weights that the grid has (`weights`, else `known`). Errors: as
+    /// vox_suggest_for; also INVALID_ARGUMENT for fewer than three different cell sizes (those within a millionth are
+    /// one), sizes below the least legal one, and timings out of their range, and LIMIT as vox_count_for.
     pub fn vox_cost_fit(
         grid: *const vox_foreign_grid,
         timings: *const vox_grid_timing,
