@@ -6,6 +6,8 @@
 #include "scenes/solids.h"
 #include "timing.h"
 
+#include <stdbool.h>
+
 enum { WITHOUT, WITH, MARGIN, VARIANTS };
 
 typedef struct variant {
@@ -107,6 +109,7 @@ int main(int argc, char** argv) {
     const double apart[] = {1.98, 1.85, 1};
     static scene s;
     if (frames < 1 || !(tets >= 1000)) return 2;
+    bool found = false;
     for (int i = 0; i < 5; ++i) {
         if (argc > 3 && strcmp(argv[3], names[i]) != 0) continue;
         if (i < 3)
@@ -116,6 +119,7 @@ int main(int argc, char** argv) {
         else
             make_many(&s, 5, 8);
         measure(&s, names[i], frames);
+        found = true;
     }
-    return EXIT_SUCCESS;
+    return found ? EXIT_SUCCESS : 2;
 }

@@ -25,7 +25,7 @@ constexpr std::uint32_t near_group_size = 32; // runs whose common box is tested
 // How much work is worth a task of its own.
 constexpr std::size_t near_task_tiles = 128;  // whose boxes are made: 40 vertices each
 constexpr std::size_t near_task_pairs = 16;   // of small bodies
-constexpr std::size_t near_task_searches = 8; // of tiles against all blocks of the other body
+constexpr std::size_t near_task_searches = 8; // of tiles against all vertices of the other body
 
 constexpr std::size_t near_small_body = 64; // tiles, which take no task of their own
 
