@@ -1,6 +1,7 @@
 #include "mesh/check.hpp"
 
 #include "base/structs.hpp"
+#include "mesh/highest_index.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -97,12 +98,8 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
     body.positions = positions;
     body.tets = {reinterpret_cast<const Tet*>(desc.tets), static_cast<std::size_t>(desc.tet_count)};
     body.self_collision = (desc.flags & VOX_MESH_SELF_COLLISION) != 0;
-    // Without a branch, several at a time: v and v - vertex_count differ in their highest bits.
-    static_assert(VOX_MAX_VERTICES <= std::uint32_t{1} << 31);
-    std::uint32_t all = 0xffffffffu;
-    for (const Tet& tet : body.tets)
-        for (const std::uint32_t vertex : tet.v) all &= (vertex - body.vertex_count) & ~vertex;
-    for (std::size_t tet = 0; tet < body.tets.size() && all >> 31 == 0; ++tet)
+    if (body.tets.empty() || highest_index(desc.tets, 4 * body.tets.size()) < body.vertex_count) return body;
+    for (std::size_t tet = 0; tet < body.tets.size(); ++tet)
         for (const std::uint32_t vertex : body.tets[tet].v)
             if (vertex >= body.vertex_count)
                 throw Error(VOX_ERROR_INVALID_MESH, format("%stet %zu names vertex %" PRIu32 " of %" PRIu32,

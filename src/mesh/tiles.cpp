@@ -203,13 +203,15 @@ void list_blocks(std::uint32_t vertex_count, Tiles& out) {
 
 } // namespace
 
+namespace {
+
 // Cuts the vertices into blocks: at eight, and earlier where the numbering jumps (from the end of a row of a
 // lattice to the start of the next, say), so that the box of a block is no larger than it must be.
-void cut_blocks(std::uint32_t vertex_count, Positions positions, Tiles& out) {
-    out.block_first.assign(1, 0);
-    if (vertex_count <= block_size) return out.block_first.push_back(vertex_count);
+// at(v) is the position of a vertex.
+template <class At>
+void cut_blocks(std::uint32_t vertex_count, Tiles& out, At&& at) {
     const auto distance = [&](std::uint32_t v) { // squared, from the vertex before
-        const Vec3f p = seen_from_first(positions, v - 1), q = seen_from_first(positions, v);
+        const Vec3f p = at(v - 1), q = at(v);
         const float x = p.x - q.x, y = p.y - q.y, z = p.z - q.z;
         return x * x + y * y + z * z;
     };
@@ -223,13 +225,29 @@ void cut_blocks(std::uint32_t vertex_count, Positions positions, Tiles& out) {
     std::nth_element(sample.begin(), sample.begin() + samples / 2, sample.begin() + samples);
     const float far = 25 * sample[samples / 2]; // five times the median distance
     out.block_first.reserve(vertex_count / (block_size - 4) + 2);
-    for (std::uint32_t v = 1, first = 0; v < vertex_count; ++v)
-        if (v - first == block_size || distance(v) > far) {
-            out.block_first.push_back(v);
-            first = v;
+    for (std::uint32_t first = 0; first < vertex_count; first = out.block_first.back()) {
+        std::uint32_t end = std::min(first + block_size, vertex_count), is_far = 0;
+        for (std::uint32_t v = first + 1; v < end; ++v)
+            is_far |= distance(v) > far; // seldom: without a branch
+        if (is_far) {
+            std::uint32_t v = first + 1;
+            while (!(distance(v) > far)) ++v;
+            end = v;
         }
-    out.block_first.push_back(vertex_count);
+        out.block_first.push_back(end);
+    }
     out.block_first.shrink_to_fit();
+}
+
+} // namespace
+
+void cut_blocks(std::uint32_t vertex_count, Positions positions, Tiles& out) {
+    out.block_first.assign(1, 0);
+    if (vertex_count <= block_size) return out.block_first.push_back(vertex_count);
+    if (positions.rounded())
+        cut_blocks(vertex_count, out, [&](std::size_t v) { return seen_from_first(positions, v); });
+    else
+        cut_blocks(vertex_count, out, [&](std::size_t v) { return positions.floats(v); });
 }
 
 void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions, Tiles& out,

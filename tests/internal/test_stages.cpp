@@ -1,8 +1,9 @@
-// Stages of the fast engine by themselves, over plain arrays, against loops over everything: tiles and
-// stream. The broad phase is in test_broad_phase.cpp, windows and the lookup in test_windows.cpp, surface and
-// winding numbers in test_winding.cpp.
+// Stages of the fast engine by themselves, over plain arrays, against loops over everything: tiles, stream
+// and indices. The broad phase is in test_broad_phase.cpp, windows and the lookup in test_windows.cpp,
+// surface and winding numbers in test_winding.cpp.
 #include "fast/stream.hpp"
 #include "internal/stage_checks.hpp"
+#include "mesh/highest_index.hpp"
 
 #include <cfloat>
 #include <limits>
@@ -201,12 +202,55 @@ START_TEST(stream_sees_what_is_not_finite) {
 }
 END_TEST
 
+// A block ends before a vertex that is far from the one before it, or when it is full.
+START_TEST(blocks_end_at_jumps) {
+    Mesh mesh;
+    for (std::uint32_t v = 0; v < 40; ++v)
+        mesh.positions.push_back({float(v) + (v >= 13 && v < 21 ? 100.f : 0.f), 0, 0});
+    const std::uint32_t expected[] = {0, 8, 13, 21, 29, 37, 40};
+    for (const bool doubles : {false, true}) {
+        std::vector<Vec3d> exact(mesh.positions.begin(), mesh.positions.end());
+        Positions positions = view(mesh);
+        if (doubles)
+            positions = {.data = reinterpret_cast<const std::byte*>(exact.data()),
+                         .byte_stride = sizeof(Vec3d),
+                         .doubles = true};
+        Tiles tiles(std::pmr::new_delete_resource());
+        cut_blocks(vertex_count(mesh), positions, tiles);
+        ck_assert_uint_eq(tiles.block_first.size(), std::size(expected));
+        for (std::size_t b = 0; b < std::size(expected); ++b)
+            ck_assert_uint_eq(tiles.block_first[b], expected[b]);
+    }
+}
+END_TEST
+
+// ---- indices --------------------------------------------------------------------------------------
+
+// Wherever it is, in lists shorter and longer than registers, also where it is beyond what a signed number
+// holds.
+START_TEST(highest_indices) {
+    at_each_level([](const char* level) {
+        for (std::size_t count = 0; count <= 200; ++count) {
+            std::vector<std::uint32_t> list(count, 7);
+            ck_assert_uint_eq(highest_index(list.data(), count), count == 0 ? 0 : 7);
+            for (std::uint32_t& index : list)
+                for (const std::uint32_t highest : {8u, 0x80000000u, 0xffffffffu}) {
+                    index = highest;
+                    ck_assert_msg(highest_index(list.data(), count) == highest, "%s: %u at %td of %zu", level,
+                                  highest, &index - list.data(), count);
+                    index = 7;
+                }
+        }
+    });
+}
+END_TEST
+
 } // namespace
 
 int main() {
     Suite* suite = suite_create("stages");
     TCase* tests = add_case(suite, "stages");
     tcase_add_each(tests, tiles_hold_every_tet_once, tiles_are_full_and_compact, stream_finds_the_boxes,
-                   stream_sees_what_is_not_finite);
+                   stream_sees_what_is_not_finite, blocks_end_at_jumps, highest_indices);
     return run_suite(suite);
 }

@@ -461,6 +461,13 @@ START_TEST(the_least_legal_size) {
     prefer_least(best, {0.7, 1.02});
     ck_assert_double_eq(best.cell_size, 0.7);
     ck_assert_double_eq(best.cost, 1.02);
+    // The same in a tuning: all but flat around 0.96, above the least legal size, and steeper.
+    const auto tuned = [](double steepness) {
+        const Cost cost = [=](double size) { return 1 + steepness * std::pow(std::log2(size / 0.96), 2); };
+        return tune(nullptr, settings_for(1, 7, 0.8), cost, heap).cell_size;
+    };
+    ck_assert_double_eq(tuned(0.2), 0.8);
+    ck_assert_double_gt(tuned(0.8), 0.9);
 }
 END_TEST
 
