@@ -771,7 +771,7 @@ export interface SuggestDesc {
 }
 
 /**
- * Geometry of all meshes together, in the caller's unit. Above 5000 tets, and in grids, the means and the counts of
+ * Geometry of all meshes together, in the caller's unit. Above 1500 tets, and in grids, the means and the counts of
  * edges, facets and flat tets are estimates from samples. Tets that name a vertex twice have no edges and facets.
  */
 export interface GeometryStats {

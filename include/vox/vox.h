@@ -1628,7 +1628,7 @@ static inline vox_suggest_desc vox_default_suggest_desc(void) {
     return desc;
 }
 
-/* Geometry of all meshes together, in the caller's unit. Above 5000 tets, and in grids, the means and the counts of
+/* Geometry of all meshes together, in the caller's unit. Above 1500 tets, and in grids, the means and the counts of
  * edges, facets and flat tets are estimates from samples. Tets that name a vertex twice have no edges and facets. */
 typedef struct vox_geometry_stats {
     uint64_t vertices;

@@ -245,9 +245,10 @@ bool is_of_used(const Bounds& bounds, const Body& body) {
     return true;
 }
 
-// Scenes of at most so many tetrahedra are measured in full. Of larger ones that are not a grid's,
-// tetrahedra are sampled, and vertices whose edges and facets are.
-constexpr std::uint64_t measured_tets = 5000;
+// Scenes of at most so many tetrahedra are measured in full, which takes as long as samples of a hundred
+// thousand. Of larger ones that are not a grid's, tetrahedra are sampled, and vertices whose edges and facets
+// are.
+constexpr std::uint64_t measured_tets = 1500;
 constexpr double everything = 1e18;
 
 std::uint64_t some_vertices(std::uint64_t tets) { return std::clamp<std::uint64_t>(tets / 100, 192, 1024); }
