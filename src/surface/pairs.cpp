@@ -4,6 +4,7 @@
 #include "surface/pairs.hpp"
 
 #include "base/bits.hpp"
+#include "base/room.hpp"
 #include "base/vectors.hpp"
 #include "surface/compare_boxes.hpp"
 #include "surface/suggest.hpp"
@@ -156,24 +157,27 @@ void PairSearch::cull_found(const Task& task, std::uint32_t tile, std::uint64_t 
         const unsigned lane = lowest_lane(lanes);
         set_lane(frame, task.motion, a.corners_at(tile * features_a_tile + lane), lane, worker.tile);
     }
-    worker.partners.clear();
-    worker.pair_lanes.clear();
-    worker.pair_partners.clear();
-    for (std::size_t i = 0; i < worker.found.size(); ++i) {
-        Found& found = worker.found[i];
-        worker.partners.push_back(partner_in(frame, task.motion, b.corners_at(b.slots[found.partner])));
-        for (std::uint64_t lanes = found.lanes; lanes != 0; lanes &= lanes - 1) {
-            worker.pair_lanes.push_back(lowest_lane(lanes));
-            worker.pair_partners.push_back(static_cast<std::uint32_t>(i));
+    const float apart = apart_in(frame, task.motion);
+    CullSomePairs& some = worker.some;
+    for (std::size_t begin = 0, end = 0; begin < worker.found.size(); begin = end) {
+        std::size_t count = 0;
+        for (; end < worker.found.size() && end - begin < some.partners.size() && count < most_pairs_culled;
+             ++end) {
+            Found& found = worker.found[end];
+            const auto partner = static_cast<std::uint32_t>(end - begin);
+            some.partners[partner] = partner_in(frame, task.motion, b.corners_at(b.slots[found.partner]));
+            for (std::uint64_t lanes = found.lanes; lanes != 0; lanes &= lanes - 1) {
+                some.pair_lanes[count] = lowest_lane(lanes);
+                some.pair_partners[count++] = partner;
+            }
+            found.lanes = 0;
         }
-        found.lanes = 0;
+        const std::size_t kept = task.cull({worker.tile, some.partners.data(), a.corner_count, b.corner_count,
+                                            apart, some.pair_lanes.data(), some.pair_partners.data(), count});
+        worker.culled += count - kept;
+        for (std::size_t i = 0; i < kept; ++i)
+            worker.found[begin + some.pair_partners[i]].lanes |= std::uint64_t{1} << some.pair_lanes[i];
     }
-    const std::size_t kept = task.cull({worker.tile, worker.partners.data(), a.corner_count, b.corner_count,
-                                        apart_in(frame, task.motion), worker.pair_lanes.data(),
-                                        worker.pair_partners.data(), worker.pair_lanes.size()});
-    worker.culled += worker.pair_lanes.size() - kept;
-    for (std::size_t i = 0; i < kept; ++i)
-        worker.found[worker.pair_partners[i]].lanes |= std::uint64_t{1} << worker.pair_lanes[i];
     std::erase_if(worker.found, [](const Found& found) { return found.lanes == 0; });
 }
 
@@ -297,8 +301,10 @@ void PairSearch::keep_found(std::uint32_t tile, Worker& worker) {
     const std::size_t count = worker.found.size(), blocks = (count + word_bits - 1) / word_bits;
     found_of_[tile].count = count;
     if (count == 0) return;
+    reserve_sparingly(worker.kept_partners, worker.kept_partners.size() + count);
     for (const Found& found : worker.found) worker.kept_partners.push_back(found.partner);
     const std::size_t first = worker.kept.size();
+    reserve_sparingly(worker.kept, first + blocks * word_bits);
     worker.kept.resize(first + blocks * word_bits);
     std::uint64_t* const kept = worker.kept.data() + first;
     for (std::size_t i = 0; i < count; ++i) kept[i] = worker.found[i].lanes;

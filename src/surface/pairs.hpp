@@ -60,14 +60,19 @@ private:
         std::uint64_t lanes;
         std::uint32_t partner;
     };
+    // Partners of a tile, and the pairs that they make with its lanes: as many as the nearest caches hold.
+    static constexpr std::size_t most_partners_culled = 256, most_pairs_culled = 2048;
+    struct CullSomePairs {
+        std::array<CullPartner, most_partners_culled> partners;
+        std::array<std::uint32_t, most_pairs_culled + cull_lanes> pair_lanes, pair_partners;
+    };
     struct Worker {
         explicit Worker(std::pmr::memory_resource* memory)
             : seen(memory), listed(memory), listed_words(memory), near(memory), boxes(memory), masks(memory),
-              close(memory), around(memory), found(memory), kept(memory), kept_partners(memory),
-              partners(memory), pair_lanes(memory), pair_partners(memory) {}
+              close(memory), around(memory), found(memory), kept(memory), kept_partners(memory) {}
         auto buffers() {
             return std::tie(seen, listed, listed_words, near, boxes, masks, close, around, found, kept,
-                            kept_partners, partners, pair_lanes, pair_partners);
+                            kept_partners);
         }
 
         std::pmr::vector<std::uint32_t> seen; // of each tile of b: 1 + the last tile of a that met it
@@ -82,9 +87,8 @@ private:
         // By all tiles so far: for each 64 partners, those of each lane as bits; and the partners.
         std::pmr::vector<std::uint64_t> kept;
         std::pmr::vector<std::uint32_t> kept_partners;
-        CullTile tile;                          // of the tile, where pairs are culled
-        std::pmr::vector<CullPartner> partners; // and those found with it
-        std::pmr::vector<std::uint32_t> pair_lanes, pair_partners;
+        CullTile tile; // of the tile, where pairs are culled
+        CullSomePairs some;
         std::uint64_t tile_pairs = 0, boxes_compared = 0, overlaps = 0, culled = 0;
     };
     struct TileFound {
