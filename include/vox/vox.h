@@ -2135,7 +2135,8 @@ typedef struct vox_tuning {
 
 /* Finds the best cell size by running the grid: at three cell sizes an octave apart first, then where the fit to all
  * timings so far is lowest or least sure, which may be where it was run before, until that is sure enough
- * (desc->wanted_loss, after four runs at the earliest) or desc->most_runs are made. The answer is never beyond the sizes
+ * (desc->wanted_loss, after four runs at the earliest) and it was run a quarter of an octave to either side of the best,
+ * or desc->most_runs are made. The answer is never beyond the sizes
  * that were run. The same times give the same runs and the same answer, bit for bit.
  * grid: what is known of it; null: nothing, so the curve is a sum of powers of the cell size, and desc->first must be
  * set. desc null: defaults. If the callback stops, or cannot run at a size, the answer is from the other runs, with a

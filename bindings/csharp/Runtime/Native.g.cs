@@ -3084,8 +3084,8 @@ namespace Voxtet
 
         /// <summary>Finds the best cell size by running the grid: at three cell sizes an octave apart first, then where
         /// the fit to all timings so far is lowest or least sure, which may be where it was run before, until that is
-        /// sure enough (desc-&gt;wanted_loss, after four runs at the earliest) or desc-&gt;most_runs are
-        /// made.</summary>
+        /// sure enough (desc-&gt;wanted_loss, after four runs at the earliest) and it was run a quarter of an octave to
+        /// either side of the best, or desc-&gt;most_runs are made.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_cost_tune(ForeignGrid* grid, TuneDesc* desc, IntPtr run, IntPtr user, Tuning*
             @out);

@@ -98,11 +98,15 @@ public:
                         format("no run succeeded: %u could not run, the first at cell size %g%s", run_count_,
                                settings_.first, stopped_ ? ", then the callback stopped" : ""));
         for (judge(); !stopped_ && run_count_ < settings_.most_runs; judge()) {
-            if (run_count_ >= least_runs && open_side() == 0 && !doubtful_ && !unproven_ &&
-                loss_ <= settings_.wanted_loss)
-                break;
             if (low_ == high_) break;
-            time(next());
+            if (run_count_ >= least_runs && open_side() == 0 && !doubtful_ && !unproven_ &&
+                loss_ <= settings_.wanted_loss) {
+                const std::optional<int> beside = unseen_beside();
+                if (!beside) break;
+                time(*beside);
+            } else {
+                time(next());
+            }
         }
         return answer();
     }
@@ -310,6 +314,18 @@ private:
     int open_side() const {
         if (chosen_ <= smallest() && smallest() > low_) return -1;
         return chosen_ >= largest() && largest() < high_ ? 1 : 0;
+    }
+
+    // A quarter of an octave to a side of the chosen node, where nothing was run as near: costs are not as smooth
+    // as fits.
+    std::optional<int> unseen_beside() const {
+        constexpr int away = nodes_per_octave / 4;
+        for (const int side : {away, -away}) {
+            const int beside = std::clamp(chosen_ + side, low_, high_);
+            const auto is_near = [&](int node) { return std::abs(node - beside) <= 1; };
+            if (std::none_of(nodes_.begin(), nodes_.end(), is_near)) return beside;
+        }
+        return std::nullopt;
     }
 
     // Where to run next.

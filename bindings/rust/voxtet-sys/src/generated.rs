@@ -3195,12 +3195,13 @@ extern "C" {
     pub fn vox_tune_desc_init(desc: *mut vox_tune_desc, struct_size: u32) -> vox_result;
     /// Finds the best cell size by running the grid: at three cell sizes an octave apart first, then where the fit to
     /// all timings so far is lowest or least sure, which may be where it was run before, until that is sure enough
-    /// (desc->wanted_loss, after four runs at the earliest) or desc->most_runs are made. The answer is never beyond the
-    /// sizes that were run. The same times give the same runs and the same answer, bit for bit. grid: what is known of
-    /// it; null: nothing, so the curve is a sum of powers of the cell size, and desc->first must be set. desc null:
-    /// defaults. If the callback stops, or cannot run at a size, the answer is from the other runs, with a warning.
-    /// Errors: as vox_suggest_for; also INVALID_STATE if no run succeeded, INVALID_ARGUMENT for a run of less than
-    /// 1e-30 seconds, as a clock that is too coarse gives, LIMIT as vox_count_for at the smallest size to be tried.
+    /// (desc->wanted_loss, after four runs at the earliest) and it was run a quarter of an octave to either side of the
+    /// best, or desc->most_runs are made. The answer is never beyond the sizes that were run. The same times give the
+    /// same runs and the same answer, bit for bit. grid: what is known of it; null: nothing, so the curve is a sum of
+    /// powers of the cell size, and desc->first must be set. desc null: defaults. If the callback stops, or cannot run
+    /// at a size, the answer is from the other runs, with a warning. Errors: as vox_suggest_for; also INVALID_STATE if
+    /// no run succeeded, INVALID_ARGUMENT for a run of less than 1e-30 seconds, as a clock that is too coarse gives,
+    /// LIMIT as vox_count_for at the smallest size to be tried.
     pub fn vox_cost_tune(
         grid: *const vox_foreign_grid,
         desc: *const vox_tune_desc,
