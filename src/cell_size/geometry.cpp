@@ -245,9 +245,8 @@ bool is_of_used(const Bounds& bounds, const Body& body) {
     return true;
 }
 
-// Scenes of at most so many tetrahedra are measured in full, which takes as long as samples of a hundred
-// thousand. Of larger ones that are not a grid's, tetrahedra are sampled, and vertices whose edges and facets
-// are.
+// Scenes of at most so many tetrahedra are measured in full, which takes longer than samples of 20,000. Of
+// larger ones that are not a grid's, tetrahedra are sampled, and vertices whose edges and facets are.
 constexpr std::uint64_t measured_tets = 1500;
 constexpr double everything = 1e18;
 

@@ -158,25 +158,26 @@ void PairSearch::cull_found(const Task& task, std::uint32_t tile, std::uint64_t 
         set_lane(frame, task.motion, a.corners_at(tile * features_a_tile + lane), lane, worker.tile);
     }
     const float apart = apart_in(frame, task.motion);
-    CullSomePairs& some = worker.some;
+    CullBatch& batch = worker.batch;
     for (std::size_t begin = 0, end = 0; begin < worker.found.size(); begin = end) {
         std::size_t count = 0;
-        for (; end < worker.found.size() && end - begin < some.partners.size() && count < most_pairs_culled;
+        for (; end < worker.found.size() && end - begin < batch.partners.size() && count < most_pairs_culled;
              ++end) {
             Found& found = worker.found[end];
             const auto partner = static_cast<std::uint32_t>(end - begin);
-            some.partners[partner] = partner_in(frame, task.motion, b.corners_at(b.slots[found.partner]));
+            batch.partners[partner] = partner_in(frame, task.motion, b.corners_at(b.slots[found.partner]));
             for (std::uint64_t lanes = found.lanes; lanes != 0; lanes &= lanes - 1) {
-                some.pair_lanes[count] = lowest_lane(lanes);
-                some.pair_partners[count++] = partner;
+                batch.pair_lanes[count] = lowest_lane(lanes);
+                batch.pair_partners[count++] = partner;
             }
             found.lanes = 0;
         }
-        const std::size_t kept = task.cull({worker.tile, some.partners.data(), a.corner_count, b.corner_count,
-                                            apart, some.pair_lanes.data(), some.pair_partners.data(), count});
+        const std::size_t kept =
+            task.cull({worker.tile, batch.partners.data(), a.corner_count, b.corner_count, apart,
+                       batch.pair_lanes.data(), batch.pair_partners.data(), count});
         worker.culled += count - kept;
         for (std::size_t i = 0; i < kept; ++i)
-            worker.found[begin + some.pair_partners[i]].lanes |= std::uint64_t{1} << some.pair_lanes[i];
+            worker.found[begin + batch.pair_partners[i]].lanes |= std::uint64_t{1} << batch.pair_lanes[i];
     }
     std::erase_if(worker.found, [](const Found& found) { return found.lanes == 0; });
 }

@@ -60,9 +60,9 @@ private:
         std::uint64_t lanes;
         std::uint32_t partner;
     };
-    // Partners of a tile, and the pairs that they make with its lanes: as many as the nearest caches hold.
+    // Partners of a tile, and the pairs that they make with its lanes: few enough to stay in a near cache.
     static constexpr std::size_t most_partners_culled = 256, most_pairs_culled = 2048;
-    struct CullSomePairs {
+    struct CullBatch {
         std::array<CullPartner, most_partners_culled> partners;
         std::array<std::uint32_t, most_pairs_culled + cull_lanes> pair_lanes, pair_partners;
     };
@@ -88,7 +88,7 @@ private:
         std::pmr::vector<std::uint64_t> kept;
         std::pmr::vector<std::uint32_t> kept_partners;
         CullTile tile; // of the tile, where pairs are culled
-        CullSomePairs some;
+        CullBatch batch;
         std::uint64_t tile_pairs = 0, boxes_compared = 0, overlaps = 0, culled = 0;
     };
     struct TileFound {
