@@ -30,8 +30,8 @@
 #define VOX_FAST_NARROW_INL
 #endif
 
+#include "base/compress-inl.hpp"
 #include "base/lanes-inl.hpp"
-#include "fast/compress-inl.hpp"
 #include "fast/lookup.hpp"
 #include "fast/tile-inl.hpp"
 
@@ -119,7 +119,7 @@ using FewCorners = Corners;
 using ManyCorners = Corners;
 #endif
 
-using vox::HWY_NAMESPACE::LaneIndices, vox::HWY_NAMESPACE::LanesOfMask, vox::HWY_NAMESPACE::LookUpLanes,
+using vox::HWY_NAMESPACE::Compressor, vox::HWY_NAMESPACE::LaneIndices, vox::HWY_NAMESPACE::LanesOfMask, vox::HWY_NAMESPACE::LookUpLanes,
     vox::HWY_NAMESPACE::NoneOfMask;
 
 constexpr std::uint32_t certain_pair = 1u << 31; // a bit that is not set in pairs

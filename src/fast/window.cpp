@@ -13,14 +13,15 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "base/compress-inl.hpp"
 #include "base/lanes-inl.hpp"
-#include "fast/compress-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace vox::fast {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+using vox::HWY_NAMESPACE::Compressor;
 
 // Writes the points of [first, last) inside `region` from x[0], y[0], z[0], id[0] on, and returns their
 // number. `count` is the number of all positions. Runs are short, so the end of a run takes a whole register

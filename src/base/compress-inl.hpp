@@ -2,22 +2,22 @@
 //
 // Where registers are shorter than 512 bits, hn::Compress looks up its shuffles in a table too, but gcc 12
 // copies that table to the stack in each call.
-#if defined(VOX_FAST_COMPRESS_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef VOX_FAST_COMPRESS_INL
-#undef VOX_FAST_COMPRESS_INL
+#if defined(VOX_BASE_COMPRESS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef VOX_BASE_COMPRESS_INL
+#undef VOX_BASE_COMPRESS_INL
 #else
-#define VOX_FAST_COMPRESS_INL
+#define VOX_BASE_COMPRESS_INL
 #endif
 
 #include "base/lanes-inl.hpp"
 
 #include <hwy/highway.h>
 
-#ifndef VOX_FAST_COMPRESS_ONCE
-#define VOX_FAST_COMPRESS_ONCE
+#ifndef VOX_BASE_COMPRESS_ONCE
+#define VOX_BASE_COMPRESS_ONCE
 #include <cstdint>
 
-namespace vox::fast {
+namespace vox {
 
 // For each set of eight lanes: the lanes in it, in order, then the others.
 inline constexpr struct CompressTable {
@@ -42,11 +42,11 @@ inline constexpr struct CompressBytesTable {
     }
 } compress_bytes_table;
 
-} // namespace vox::fast
+} // namespace vox
 #endif
 
 HWY_BEFORE_NAMESPACE();
-namespace vox::fast {
+namespace vox {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -63,7 +63,7 @@ public:
         : mask_(mask), count_(static_cast<std::uint32_t>(hn::CountTrue(Floats(), mask))){}
 #else
     {
-        const auto bits = static_cast<std::uint32_t>(vox::HWY_NAMESPACE::BitsOfMask(Floats(), mask));
+        const auto bits = static_cast<std::uint32_t>(BitsOfMask(Floats(), mask));
 #if HWY_TARGET == HWY_WASM
         bytes_ = hn::Load(Bytes(), compress_bytes_table.byte[bits]);
 #else
@@ -79,7 +79,7 @@ public:
 #if HWY_MAX_BYTES >= 64
         return hn::Compress(v, mask_);
 #elif HWY_TARGET == HWY_WASM
-        return hn::BitCast(Floats(), vox::HWY_NAMESPACE::LookUpBytes(hn::BitCast(Bytes(), v), bytes_));
+        return hn::BitCast(Floats(), LookUpBytes(hn::BitCast(Bytes(), v), bytes_));
 #else
         return hn::TableLookupLanes(v, hn::IndicesFromVec(Floats(), lanes_));
 #endif
@@ -102,7 +102,7 @@ private:
 };
 
 } // namespace HWY_NAMESPACE
-} // namespace vox::fast
+} // namespace vox
 HWY_AFTER_NAMESPACE();
 
 #endif
