@@ -58,24 +58,30 @@ public:
     using Floats = hn::CappedTag<float, 16>;
     using Words = hn::RebindToUnsigned<Floats>;
 
-    HWY_INLINE explicit Compressor(hn::Mask<Floats> mask)
 #if HWY_MAX_BYTES >= 64
-        : mask_(mask), count_(static_cast<std::uint32_t>(hn::CountTrue(Floats(), mask))){}
+    HWY_INLINE explicit Compressor(hn::Mask<Floats> mask)
+        : mask_(mask), count_(static_cast<std::uint32_t>(hn::CountTrue(Floats(), mask))) {}
+    // The lanes whose bits are set.
+    HWY_INLINE explicit Compressor(std::uint32_t bits)
+        : count_(static_cast<std::uint32_t>(hwy::PopCount(bits))) {
+        const auto short_bits = static_cast<std::uint16_t>(bits);
+        mask_ = hn::LoadMaskBits(Floats(), reinterpret_cast<const std::uint8_t*>(&short_bits));
+    }
 #else
-    {
-        const auto bits = static_cast<std::uint32_t>(BitsOfMask(Floats(), mask));
+    HWY_INLINE explicit Compressor(hn::Mask<Floats> mask)
+        : Compressor(static_cast<std::uint32_t>(BitsOfMask(Floats(), mask))) {}
+    HWY_INLINE explicit Compressor(std::uint32_t bits)
+        : count_(static_cast<std::uint32_t>(hwy::PopCount(bits))) {
 #if HWY_TARGET == HWY_WASM
         bytes_ = hn::Load(Bytes(), compress_bytes_table.byte[bits]);
 #else
         const hn::Rebind<std::uint8_t, Floats> db;
         lanes_ = hn::PromoteTo(Words(), hn::LoadU(db, compress_table.lane[bits]));
 #endif
-        count_ = static_cast<std::uint32_t>(hwy::PopCount(bits));
     }
 #endif
 
-          HWY_INLINE hn::Vec<Floats>
-          operator()(hn::Vec<Floats> v) const {
+    HWY_INLINE hn::Vec<Floats> operator()(hn::Vec<Floats> v) const {
 #if HWY_MAX_BYTES >= 64
         return hn::Compress(v, mask_);
 #elif HWY_TARGET == HWY_WASM

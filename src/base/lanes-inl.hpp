@@ -25,8 +25,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class D>
 HWY_INLINE std::uint64_t BitsOfMask(D, hn::Mask<D> mask) {
     using T = hn::TFromD<D>;
-    static_assert(hn::MaxLanes(D()) * sizeof(T) == 16 && (sizeof(T) == 1 || sizeof(T) == 4));
-    return sizeof(T) == 1 ? wasm_i8x16_bitmask(mask.raw) : wasm_i32x4_bitmask(mask.raw);
+    static_assert(hn::MaxLanes(D()) * sizeof(T) == 16 && sizeof(T) <= 4);
+    if (sizeof(T) == 1) return wasm_i8x16_bitmask(mask.raw);
+    return sizeof(T) == 2 ? wasm_i16x8_bitmask(mask.raw) : wasm_i32x4_bitmask(mask.raw);
 }
 
 template <class D>

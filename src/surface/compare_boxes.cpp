@@ -1,3 +1,13 @@
+// What quanta decide. Let q(x) be a number x in quanta: 8 + (x - low) / quantum, clamped to 0 ... 32767 and
+// rounded. Each step is monotone, so q(x) > q(y) proves x > y: boxes that are apart in quanta are apart.
+//
+// For the other side, let q(x) - q(y) >= 6, where x is the upper side of one box, y the lower side of
+// another, and one of the two boxes is in the tile. Before the last rounding, which moves each of them by at
+// most 1/2, they differ by 5 or more; the difference and the product, in floats, moved each of them by less
+// than 32767 * 2^-22 < 0.01. A quantum is at least close_by / 4, so x - y > 4.9 quanta > close_by, if neither
+// was clamped. Clamping only brings x and y closer to each other here: it could raise x if x were below 0, or
+// lower y if y were above 32767, but the tile's own numbers are from 8 to 32760, and then the difference
+// would be negative.
 #include "surface/compare_boxes.hpp"
 #include "base/simd.hpp"
 
@@ -14,33 +24,113 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-void CompareTile(const float* HWY_RESTRICT tile, const float* const* HWY_RESTRICT boxes, std::size_t stride,
-                 std::size_t count, float close_by, std::uint64_t* HWY_RESTRICT masks,
-                 std::uint64_t* HWY_RESTRICT close) {
+using Quanta = hn::CappedTag<std::int16_t, 32>;
+using QV = hn::Vec<Quanta>;
+
+constexpr float quanta_below = 8;      // the tile's box: for boxes that reach further
+constexpr float quanta_a_side = 32751; // of it
+constexpr float least_quantum = 0x1p-126f;
+constexpr float endless = 0x1p120f; // a length with which floats could overflow
+constexpr float most_quanta = 32767;
+constexpr float units = 0x1p23f; // from here to twice as much, a float's lowest bits are its integer
+
+HWY_INLINE void QuantiseSides(const float* HWY_RESTRICT boxes, const QuantisedTile& tile,
+                              std::int16_t (*HWY_RESTRICT out)[lanes_a_tile]) {
     const hn::CappedTag<float, 16> d;
-    constexpr std::size_t n = 64;
-    const std::size_t lanes = hn::Lanes(d);
-    const auto zero = hn::Zero(d), most_close = hn::Set(d, close_by);
-    for (std::size_t i = 0; i < count; ++i) {
-        const float* const box = boxes[i];
-        const auto lx = hn::Set(d, box[0]), ly = hn::Set(d, box[stride]), lz = hn::Set(d, box[2 * stride]);
-        const auto hx = hn::Set(d, box[3 * stride]), hy = hn::Set(d, box[4 * stride]),
-                   hz = hn::Set(d, box[5 * stride]);
-        std::uint64_t overlapping = 0, barely = 0;
-        for (std::size_t k = 0; k < n; k += lanes) {
-            // How far the boxes reach into each other. The sign of a difference is exact.
-            const auto x = hn::Min(hn::Sub(hx, hn::LoadU(d, tile + k)), hn::Sub(hn::LoadU(d, tile + 3 * n + k), lx));
-            const auto y =
-                hn::Min(hn::Sub(hy, hn::LoadU(d, tile + n + k)), hn::Sub(hn::LoadU(d, tile + 4 * n + k), ly));
-            const auto z =
-                hn::Min(hn::Sub(hz, hn::LoadU(d, tile + 2 * n + k)), hn::Sub(hn::LoadU(d, tile + 5 * n + k), lz));
-            const auto least = hn::Min(x, hn::Min(y, z));
-            overlapping |= BitsOfMask(d, hn::Ge(least, zero)) << k;
-            barely |= BitsOfMask(d, hn::Le(least, most_close)) << k;
+    const hn::RebindToSigned<decltype(d)> di;
+    const hn::Rebind<std::int16_t, decltype(d)> d16;
+    const auto most = hn::Set(d, most_quanta), below = hn::Set(d, quanta_below), unit = hn::Set(d, units);
+    for (std::size_t side = 0; side < 6; ++side) {
+        const auto low = hn::Set(d, tile.low[side % 3]), per_quantum = hn::Set(d, tile.per_quantum[side % 3]);
+        for (std::size_t k = 0; k < lanes_a_tile; k += hn::Lanes(d)) {
+            const auto x = hn::LoadU(d, boxes + side * lanes_a_tile + k);
+            const auto q = hn::Add(hn::Mul(hn::Sub(x, low), per_quantum), below);
+            const auto clamped = hn::Min(hn::Max(q, hn::Zero(d)), most);
+            const auto bits = hn::BitCast(di, hn::Add(clamped, unit));
+            hn::StoreU(hn::DemoteTo(d16, hn::Sub(bits, hn::BitCast(di, unit))), d16, out[side] + k);
         }
-        masks[i] = overlapping;
-        close[i] = overlapping & barely;
     }
+}
+
+// The same for one number.
+HWY_INLINE std::int16_t QuantiseNumber(float x, float low, float per_quantum) {
+    const float q = (x - low) * per_quantum + quanta_below, above = q > 0 ? q : 0;
+    return static_cast<std::int16_t>((above < most_quanta ? above : most_quanta) + units - units);
+}
+
+void Quantise(const float* HWY_RESTRICT boxes, const float* HWY_RESTRICT low, const float* HWY_RESTRICT high,
+              float close_by, QuantisedTile& out) {
+    out.always_open = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const float side = high[a] - low[a];
+        if (side < endless && close_by < endless) {
+            const float by_side = side / quanta_a_side, by_order = close_by / 4;
+            const float quantum = by_side > by_order ? by_side : by_order;
+            out.low[a] = low[a];
+            out.per_quantum[a] = 1 / (quantum > least_quantum ? quantum : least_quantum);
+        } else { // quanta have the order of floats, and nothing else
+            out.low[a] = 0;
+            out.per_quantum[a] = least_quantum;
+            out.always_open = ~std::uint64_t{0};
+        }
+        out.lowest[a] = QuantiseNumber(low[a], out.low[a], out.per_quantum[a]);
+        out.highest[a] = QuantiseNumber(high[a], out.low[a], out.per_quantum[a]);
+    }
+    QuantiseSides(boxes, out, out.sides);
+}
+
+std::size_t CompareQuantised(const QuantisedTile& HWY_RESTRICT tile, std::uint64_t asked,
+                             const float* HWY_RESTRICT boxes, std::uint64_t wanted,
+                             TileOverlaps& HWY_RESTRICT out) {
+    const Quanta d;
+    constexpr std::size_t lanes = hn::MaxLanes(Quanta()), registers = lanes_a_tile / lanes;
+    alignas(64) std::int16_t other[6][lanes_a_tile];
+    QuantiseSides(boxes, tile, other);
+    const hn::RebindToUnsigned<Quanta> du;
+    const auto apart = hn::Set(d, std::int16_t{-1});
+    const auto least_certain = hn::Set(d, std::int16_t{most_quanta_open + 1});
+    QV own[6][registers];
+    for (std::size_t side = 0; side < 6; ++side)
+        for (std::size_t r = 0; r < registers; ++r) own[side][r] = hn::Load(d, tile.sides[side] + r * lanes);
+    std::uint64_t near = 0; // those that overlap the tile's box
+    for (std::size_t r = 0; r < registers; ++r) {
+        auto least = hn::Zero(d);
+        for (std::size_t a = 0; a < 3; ++a) {
+            const auto to_low = hn::Sub(hn::Load(d, other[a + 3] + r * lanes), hn::Set(d, tile.lowest[a]));
+            const auto to_high = hn::Sub(hn::Set(d, tile.highest[a]), hn::Load(d, other[a] + r * lanes));
+            least = hn::Min(least, hn::Min(to_low, to_high));
+        }
+        near |= BitsOfMask(d, hn::Gt(least, apart)) << r * lanes;
+    }
+    near &= wanted;
+    out.compared = hwy::PopCount(near);
+    std::size_t found = 0;
+    for (std::uint64_t left = near; left != 0; left &= left - 1) {
+        const auto lane = static_cast<std::size_t>(hwy::Num0BitsBelowLS1Bit_Nonzero64(left));
+        const auto lx = hn::Set(d, other[0][lane]), ly = hn::Set(d, other[1][lane]),
+                   lz = hn::Set(d, other[2][lane]), hx = hn::Set(d, other[3][lane]),
+                   hy = hn::Set(d, other[4][lane]), hz = hn::Set(d, other[5][lane]);
+        std::uint64_t overlapping = 0, open = tile.always_open;
+        QV reach[registers]; // by how many quanta the boxes reach into each other
+        auto least_reach = hn::Set(du, std::uint16_t{0xffff}); // negative ones count as large
+        for (std::size_t r = 0; r < registers; ++r) {
+            const auto x = hn::Min(hn::Sub(hx, own[0][r]), hn::Sub(own[3][r], lx));
+            const auto y = hn::Min(hn::Sub(hy, own[1][r]), hn::Sub(own[4][r], ly));
+            const auto z = hn::Min(hn::Sub(hz, own[2][r]), hn::Sub(own[5][r], lz));
+            reach[r] = hn::Min(x, hn::Min(y, z));
+            overlapping |= BitsOfMask(d, hn::Gt(reach[r], apart)) << r * lanes;
+            least_reach = hn::Min(least_reach, hn::BitCast(du, reach[r]));
+        }
+        if (!hn::AllTrue(du, hn::Gt(least_reach, hn::Set(du, std::uint16_t{most_quanta_open})))) // seldom
+            for (std::size_t r = 0; r < registers; ++r)
+                open |= BitsOfMask(d, hn::Lt(reach[r], least_certain)) << r * lanes;
+        overlapping &= asked;
+        out.lanes[found] = overlapping;
+        out.open[found] = overlapping & open;
+        out.others[found] = static_cast<std::uint8_t>(lane);
+        found += overlapping != 0;
+    }
+    return found;
 }
 
 } // namespace HWY_NAMESPACE
@@ -50,7 +140,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vox {
 
-CompareBoxes* compare_boxes() noexcept { return VOX_SIMD_DISPATCH(CompareTile); }
+QuantiseTile* quantise_tile() noexcept { return VOX_SIMD_DISPATCH(Quantise); }
+CompareTiles* compare_tiles() noexcept { return VOX_SIMD_DISPATCH(CompareQuantised); }
 
 } // namespace vox
 #endif

@@ -1,4 +1,4 @@
-// The boxes of a tile of features, all 64 compared with one at once.
+// The boxes of a tile of features, all 64 compared with those of another tile.
 #pragma once
 
 #include <cstddef>
@@ -6,13 +6,40 @@
 
 namespace vox {
 
-// `tile` is 6 * 64 floats, as in FeatureTiles::boxes. Bit k of masks[i]: lane k overlaps box i, whose six numbers are
-// `stride` floats apart, low x, y, z, then high x, y, z. Bit k of close[i]: but by no more than `close_by` along some axis.
-// Empty lanes have any bits.
-using CompareBoxes = void(const float* tile, const float* const* boxes, std::size_t stride, std::size_t count,
-                          float close_by, std::uint64_t* masks, std::uint64_t* close);
+inline constexpr std::size_t lanes_a_tile = 64;
+
+// The boxes of a tile in 15 bits a number: multiples of a quantum along each axis, from a little below the
+// tile's box. Rounding to these keeps the order of numbers, or makes them equal.
+struct alignas(64) QuantisedTile {
+    std::int16_t sides[6][lanes_a_tile]; // low x, y, z, then high x, y, z of each lane
+    std::int16_t lowest[3], highest[3];  // of all lanes
+    std::uint64_t
+        always_open; // all bits set if the tile is so large that no order in quanta is certain, else 0
+    float low[3], per_quantum[3];
+};
+
+// Numbers that are no more quanta than this apart may be closer to each other than `close_by` of
+// quantise_tile(). So a pair of boxes that reach into each other by no more is left open.
+inline constexpr std::int16_t most_quanta_open = 5;
+
+// The lanes of another tile that overlap some lane of a tile.
+struct TileOverlaps {
+    std::uint64_t lanes[lanes_a_tile]; // of the tile
+    std::uint64_t open[lanes_a_tile];  // those of them that may not
+    std::uint8_t others[lanes_a_tile]; // the lane of the other tile, ascending
+    std::uint64_t compared;            // lanes of the other tile near enough to be compared
+};
+
+// `boxes` is 6 * 64 floats, as in FeatureTiles::boxes, `low` and `high` are the tile's box.
+using QuantiseTile = void(const float* boxes, const float* low, const float* high, float close_by,
+                          QuantisedTile& out);
+// Compares the lanes `asked` of a tile with the lanes `wanted` of another one. Returns how many of these
+// overlap any.
+using CompareTiles = std::size_t(const QuantisedTile& tile, std::uint64_t asked, const float* boxes,
+                                 std::uint64_t wanted, TileOverlaps& out);
 
 // For the instructions of this machine.
-CompareBoxes* compare_boxes() noexcept;
+QuantiseTile* quantise_tile() noexcept;
+CompareTiles* compare_tiles() noexcept;
 
 } // namespace vox

@@ -7,6 +7,7 @@
 #include "base/room.hpp"
 #include "base/vectors.hpp"
 #include "surface/compare_boxes.hpp"
+#include "surface/lane_lists.hpp"
 #include "surface/suggest.hpp"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace vox {
 
 namespace {
 
-constexpr std::size_t word_bits = 64;
+constexpr std::uint64_t all_lanes = ~std::uint64_t{0};
 constexpr std::size_t least_tiles = 8; // that a worker takes at once
 
 unsigned lowest_lane(std::uint64_t lanes) noexcept { return static_cast<unsigned>(std::countr_zero(lanes)); }
@@ -43,19 +44,6 @@ struct ExactBox {
     Vec3d lo, hi;
 };
 
-// Bit i of word k and bit k of word i change places: by halves, quarters and so on (H. S. Warren, Hacker's
-// Delight, ch. 7).
-void transpose(std::uint64_t* words) noexcept {
-    std::uint64_t low = 0xffffffff;
-    for (unsigned width = word_bits / 2; width != 0; width /= 2, low ^= low << width)
-        for (unsigned part = 0; part < word_bits; part += 2 * width)
-            for (unsigned k = part; k < part + width; ++k) {
-                const std::uint64_t changed = (words[k] >> width ^ words[k + width]) & low;
-                words[k] ^= changed << width;
-                words[k + width] ^= changed;
-            }
-}
-
 } // namespace
 
 struct PairSearch::Task {
@@ -64,8 +52,18 @@ struct PairSearch::Task {
     const FeatureTiles &a, &b;
     bool same; // kind
     std::uint32_t first, count;
-    CompareBoxes* compare;
+    QuantiseTile* quantise;
+    CompareTiles* compare;
+    TurnBlocks* turn;
     CullSome* cull;
+};
+
+// A tile of kind a as it is searched.
+struct PairSearch::TileSearch {
+    std::uint32_t first_slot = 0;
+    std::uint64_t asked = 0;  // lanes
+    std::uint32_t lowest = 0; // feature that is asked about
+    float close_by = 0;       // numbers further apart than this have the order of the doubles that they bound
 };
 
 PairSearch::PairSearch(std::pmr::memory_resource* memory) noexcept
@@ -143,178 +141,199 @@ double PairSearch::choose_cell_size(vox_feature a, vox_feature b) {
 }
 
 // Drops those of worker.found that provably stay apart.
-void PairSearch::cull_found(const Task& task, std::uint32_t tile, std::uint64_t asked, Worker& worker) {
-    if (worker.found.empty()) return;
+void PairSearch::cull_found(const Task& task, const TileSearch& tile, Worker& worker) {
+    const std::span<Found> found(worker.found.data(), worker.count);
+    if (found.empty()) return;
     const FeatureTiles &a = task.a, &b = task.b;
-    const std::size_t first_slot = std::size_t{tile} * features_a_tile;
+    const std::uint32_t* const features = a.features.data() + tile.first_slot;
     const auto filled =
-        static_cast<std::size_t>(std::find(a.features.data() + first_slot,
-                                           a.features.data() + first_slot + features_a_tile, no_feature) -
-                                 (a.features.data() + first_slot));
-    const CullFrame frame = frame_around(
-        task.motion, std::span(a.corners).subspan(first_slot * a.corner_count, filled * a.corner_count));
-    for (std::uint64_t lanes = asked; lanes != 0; lanes &= lanes - 1) {
+        static_cast<std::size_t>(std::find(features, features + features_a_tile, no_feature) - features);
+    const CullFrame frame =
+        frame_around(task.motion, std::span(a.corners).subspan(std::size_t{tile.first_slot} * a.corner_count,
+                                                               filled * a.corner_count));
+    for (std::uint64_t lanes = tile.asked; lanes != 0; lanes &= lanes - 1) {
         const unsigned lane = lowest_lane(lanes);
-        set_lane(frame, task.motion, a.corners_at(tile * features_a_tile + lane), lane, worker.tile);
+        set_lane(frame, task.motion, a.corners_at(tile.first_slot + lane), lane, worker.tile);
     }
     const float apart = apart_in(frame, task.motion);
     CullBatch& batch = worker.batch;
-    for (std::size_t begin = 0, end = 0; begin < worker.found.size(); begin = end) {
+    for (std::size_t begin = 0, end = 0; begin < found.size(); begin = end) {
         std::size_t count = 0;
-        for (; end < worker.found.size() && end - begin < batch.partners.size() && count < most_pairs_culled;
+        for (; end < found.size() && end - begin < batch.partners.size() && count < most_pairs_culled;
              ++end) {
-            Found& found = worker.found[end];
             const auto partner = static_cast<std::uint32_t>(end - begin);
-            batch.partners[partner] = partner_in(frame, task.motion, b.corners_at(b.slots[found.partner]));
-            for (std::uint64_t lanes = found.lanes; lanes != 0; lanes &= lanes - 1) {
+            batch.partners[partner] =
+                partner_in(frame, task.motion, b.corners_at(b.slots[found[end].partner]));
+            for (std::uint64_t lanes = found[end].lanes; lanes != 0; lanes &= lanes - 1) {
                 batch.pair_lanes[count] = lowest_lane(lanes);
                 batch.pair_partners[count++] = partner;
             }
-            found.lanes = 0;
+            found[end].lanes = 0;
         }
         const std::size_t kept =
             task.cull({worker.tile, batch.partners.data(), a.corner_count, b.corner_count, apart,
                        batch.pair_lanes.data(), batch.pair_partners.data(), count});
         worker.culled += count - kept;
         for (std::size_t i = 0; i < kept; ++i)
-            worker.found[begin + batch.pair_partners[i]].lanes |= std::uint64_t{1} << batch.pair_lanes[i];
+            found[begin + batch.pair_partners[i]].lanes |= std::uint64_t{1} << batch.pair_lanes[i];
     }
-    std::erase_if(worker.found, [](const Found& found) { return found.lanes == 0; });
+    const auto end =
+        std::remove_if(found.begin(), found.end(), [](const Found& of) { return of.lanes == 0; });
+    worker.count = static_cast<std::size_t>(end - found.begin());
 }
 
-void PairSearch::search_tile(const Task& task, std::uint32_t tile, Worker& worker) {
-    const FeatureTiles &a = task.a, &b = task.b;
-    const std::uint32_t* const features = a.features.data() + std::size_t{tile} * features_a_tile;
-    std::uint64_t asked = 0;
-    for (unsigned lane = 0; lane < features_a_tile; ++lane)
-        asked |= std::uint64_t{features[lane] - task.first < task.count} << lane;
-    if (asked == 0) return;
-    const std::uint32_t lowest = features[lowest_lane(asked)];
+// By the floats that bound the boxes, and where these cannot tell, as the caller's format has them.
+bool PairSearch::boxes_overlap(const Task& task, std::uint32_t slot_a, std::uint32_t slot_b,
+                               float close_by) noexcept {
+    constexpr std::size_t n = features_a_tile;
+    const float *const x = task.a.boxes_of(slot_a / n) + slot_a % n, *const y = task.b.boxes_of(slot_b / n) +
+                                                                                slot_b % n;
+    // How far the boxes reach into each other. The sign of a difference is exact.
+    float least = float_infinity;
+    for (std::size_t a = 0; a < 3; ++a)
+        least = std::min(least, std::min(y[(a + 3) * n] - x[a * n], x[(a + 3) * n] - y[a * n]));
+    if (least < 0 || !task.motion.doubles) return least >= 0;
+    if (least > close_by) return true;
+    const ExactBox box_a(task.motion, task.a.corners_at(slot_a)),
+        box_b(task.motion, task.b.corners_at(slot_b));
+    return box_a.overlaps(box_b);
+}
 
-    // Features of b near this tile, as bits, so that they come out ascending.
-    const Box& box = a.tile_boxes[tile];
-    const float six[6] = {box.lo[0], box.lo[1], box.lo[2], box.hi[0], box.hi[1], box.hi[2]};
-    const float* const of_tile = six;
-    std::size_t first_word = worker.listed_words.size(), last_word = 0, most_near = 0;
-    grid_.around(box, [&](std::uint32_t other) {
-        if (worker.seen[other] == tile + 1) return;
-        worker.seen[other] = tile + 1;
-        if (!overlap(box, b.tile_boxes[other])) return;
-        ++worker.tile_pairs;
-        std::uint64_t near, close;
-        task.compare(b.boxes_of(other), &of_tile, 1, 1, 0, &near, &close);
-        most_near += bit_count(near);
-        const std::uint32_t* const others = b.features.data() + std::size_t{other} * features_a_tile;
-        for (; near != 0; near &= near - 1) {
-            const std::uint32_t f = others[lowest_lane(near)];
-            if (f == no_feature) break; // an endless box overlaps empty ones too
-            if (task.same && f <= lowest) continue;
-            worker.listed[f / word_bits] |= std::uint64_t{1} << f % word_bits;
-            const std::size_t word = f / (word_bits * word_bits);
-            worker.listed_words[word] |= std::uint64_t{1} << f / word_bits % word_bits;
-            first_word = std::min(first_word, word);
-            last_word = std::max(last_word, word);
-        }
-    });
-    worker.near.resize(most_near);
-    worker.boxes.resize(most_near);
-    std::size_t count = 0;
-    for (std::size_t w = first_word; w <= last_word; ++w) {
-        for (std::uint64_t words = worker.listed_words[w]; words != 0; words &= words - 1) {
-            const std::size_t word = w * word_bits + lowest_lane(words);
-            for (std::uint64_t bits = worker.listed[word]; bits != 0; bits &= bits - 1) {
-                const std::uint32_t slot = b.slots[word * word_bits + lowest_lane(bits)];
-                worker.near[count] = slot;
-                worker.boxes[count++] = b.boxes_of(slot / features_a_tile) + slot % features_a_tile;
-            }
-            worker.listed[word] = 0;
-        }
-        worker.listed_words[w] = 0;
-    }
-    if (count == 0) return;
-    worker.boxes_compared += count;
-    worker.masks.resize(count);
-    worker.close.resize(count);
-    // Each side of a box of doubles is less than 2 floats inside the float that bounds it.
-    float largest = 0;
-    for (const float side : six) largest = std::max(largest, std::abs(side));
-    task.compare(a.boxes_of(tile), worker.boxes.data(), features_a_tile, count,
-                 largest * 0x1p-20f + 0x1p-140f, worker.masks.data(), worker.close.data());
-
-    const auto mark_corners = [&](bool on) {
-        for (std::uint64_t lanes = asked; lanes != 0; lanes &= lanes - 1) {
-            const unsigned lane = lowest_lane(lanes);
-            for (const std::uint32_t v : a.corners_at(tile * features_a_tile + lane)) {
-                std::uint64_t &exact = worker.around[v], &folded = worker.around_folded[v % folded_vertices];
-                exact = on ? exact | std::uint64_t{1} << lane : 0;
-                folded = on ? folded | std::uint64_t{1} << lane : 0;
-            }
-        }
+// Appends to worker.near the features of another tile that overlap lanes of this one.
+template <unsigned Corners>
+void PairSearch::add_near(const Task& task, const TileSearch& tile, std::uint32_t other, Worker& worker) {
+    const FeatureTiles& b = task.b;
+    const std::uint32_t first_slot = other * features_a_tile;
+    const std::uint32_t *const features = b.features.data() + first_slot, *const corners =
+                                                                              b.corners.data() +
+                                                                              std::size_t{first_slot} *
+                                                                                  Corners;
+    // Each pair once, and no empty lanes, which an endless box would overlap, too. Both are at one end of the
+    // tile.
+    const auto lanes_up_to = [&](std::uint32_t f) {
+        return static_cast<unsigned>(std::upper_bound(features, features + features_a_tile, f) - features);
     };
-    mark_corners(true);
-    worker.found.clear();
-    // Those that overlap, without a branch that nobody could predict.
+    std::uint64_t wanted = all_lanes;
+    if (features[features_a_tile - 1] == no_feature) wanted >>= features_a_tile - lanes_up_to(no_feature - 1);
+    if (task.same && features[0] <= tile.lowest) {
+        const unsigned skipped = lanes_up_to(tile.lowest);
+        if (skipped == features_a_tile) return;
+        wanted = wanted >> skipped << skipped;
+    }
+    TileOverlaps& overlaps = worker.overlaps;
+    const std::size_t found = task.compare(worker.quantised, tile.asked, b.boxes_of(other), wanted, overlaps);
+    worker.boxes_compared += overlaps.compared;
+    std::size_t count = worker.count;
+    if (worker.near.size() < count + found) worker.near.resize(count + count / 2 + features_a_tile);
+    for (std::size_t i = 0; i < found; ++i) {
+        const std::uint32_t lane = overlaps.others[i];
+        const std::uint32_t* const v = corners + std::size_t{lane} * Corners;
+        std::uint64_t lanes = overlaps.lanes[i], maybe_around = 0;
+        for (unsigned c = 0; c < Corners; ++c) maybe_around |= worker.around_folded[v[c] % folded_vertices];
+        if (lanes & maybe_around)
+            for (unsigned c = 0; c < Corners; ++c) lanes &= ~worker.around[v[c]];
+        for (std::uint64_t left = lanes & overlaps.open[i]; left != 0; left &= left - 1)
+            if (!boxes_overlap(task, tile.first_slot + lowest_lane(left), first_slot + lane, tile.close_by))
+                lanes &= ~(left & -left);
+        worker.near[count] = {lanes, features[lane]};
+        const std::uint64_t is_near = lanes != 0; // nobody could predict a branch
+        worker.listed.add(features[lane], is_near);
+        count += is_near;
+    }
+    worker.count = count;
+}
+
+// worker.near, ascending, to worker.found.
+void PairSearch::sort_near(Worker& worker) {
+    if (worker.found.size() < worker.count) worker.found.resize(worker.near.size());
+    worker.listed.count();
+    for (std::size_t i = 0; i < worker.count; ++i)
+        worker.found[worker.listed.place_of(worker.near[i].partner)] = worker.near[i];
+    worker.listed.clear();
+}
+
+// Drops of worker.found what is another one's, and what the patches rule out.
+void PairSearch::drop_unwanted(const Task& task, const TileSearch& tile, Worker& worker) {
+    if (!task.same && !task.topology.has_patches()) return;
+    const FeatureTiles &a = task.a, &b = task.b;
+    const std::uint32_t* const features = a.features.data() + tile.first_slot;
     unsigned below = 0; // lanes with features below the partner
-    std::size_t overlapping = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        std::uint64_t lanes = worker.masks[i] & asked;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < worker.count; ++i) {
+        auto [lanes, partner] = worker.found[i];
         if (task.same) { // each pair once
-            const std::uint32_t partner = b.features[worker.near[i]];
             while (below < features_a_tile && features[below] < partner) ++below;
             if (below < features_a_tile) lanes &= (std::uint64_t{1} << below) - 1;
         }
-        worker.near[overlapping] = worker.near[i];
-        worker.masks[overlapping] = lanes;
-        worker.close[overlapping] = worker.close[i];
-        overlapping += lanes != 0;
-    }
-    for (std::size_t i = 0; i < overlapping; ++i) {
-        std::uint64_t lanes = worker.masks[i];
-        const std::uint32_t slot = worker.near[i];
-        const auto corners = b.corners_at(slot);
-        std::uint64_t maybe_around = 0;
-        for (const std::uint32_t v : corners) maybe_around |= worker.around_folded[v % folded_vertices];
-        if (lanes & maybe_around)
-            for (const std::uint32_t v : corners) lanes &= ~worker.around[v];
         if (task.topology.has_patches())
             for (std::uint64_t left = lanes; left != 0; left &= left - 1)
-                if (!task.topology.may_meet(a.corners_at(tile * features_a_tile + lowest_lane(left)),
-                                            corners))
+                if (!task.topology.may_meet(a.corners_at(tile.first_slot + lowest_lane(left)),
+                                            b.corners_at(b.slots[partner])))
                     lanes &= ~(left & -left);
-        if (const std::uint64_t unsure = lanes & worker.close[i]; unsure != 0 && task.motion.doubles) {
-            const ExactBox exact(task.motion, corners);
-            for (std::uint64_t left = unsure; left != 0; left &= left - 1) {
-                const auto own = a.corners_at(tile * features_a_tile + lowest_lane(left));
-                if (!exact.overlaps(ExactBox(task.motion, own))) lanes &= ~(left & -left);
-            }
-        }
-        if (lanes == 0) continue;
-        worker.overlaps += bit_count(lanes);
-        worker.found.push_back({lanes, b.features[slot]});
+        worker.found[kept] = {lanes, partner};
+        kept += lanes != 0;
     }
-    mark_corners(false);
-    if (task.motion.cull) cull_found(task, tile, asked, worker);
-    keep_found(tile, worker);
+    worker.count = kept;
 }
 
-// From the lanes of each partner to the partners of each lane, 64 by 64.
-void PairSearch::keep_found(std::uint32_t tile, Worker& worker) {
-    const std::size_t count = worker.found.size(), blocks = (count + word_bits - 1) / word_bits;
+void PairSearch::search_tile(const Task& task, std::uint32_t t, Worker& worker) {
+    const FeatureTiles &a = task.a, &b = task.b;
+    TileSearch tile;
+    tile.first_slot = t * features_a_tile;
+    const std::uint32_t* const features = a.features.data() + tile.first_slot;
+    for (unsigned lane = 0; lane < features_a_tile; ++lane)
+        tile.asked |= std::uint64_t{features[lane] - task.first < task.count} << lane;
+    if (tile.asked == 0) return;
+    tile.lowest = features[lowest_lane(tile.asked)];
+    const Box& box = a.tile_boxes[t];
+    float largest = 0;
+    for (int i = 0; i < 3; ++i) largest = std::max({largest, std::abs(box.lo[i]), std::abs(box.hi[i])});
+    // Each side of a box of doubles is less than 2 floats inside the float that bounds it.
+    tile.close_by = largest * 0x1p-20f + 0x1p-140f;
+    task.quantise(a.boxes_of(t), box.lo, box.hi, tile.close_by, worker.quantised);
+
+    const auto for_each_corner = [&](auto&& visit) {
+        for (std::uint64_t lanes = tile.asked; lanes != 0; lanes &= lanes - 1)
+            for (const std::uint32_t v : a.corners_at(tile.first_slot + lowest_lane(lanes)))
+                visit(v, lanes & -lanes);
+    };
+    for_each_corner([&](std::uint32_t v, std::uint64_t lane) {
+        worker.around[v] |= lane;
+        worker.around_folded[v % folded_vertices] |= lane;
+    });
+    worker.count = 0;
+    const auto add = b.corner_count == 1 ? add_near<1> : b.corner_count == 2 ? add_near<2> : add_near<3>;
+    grid_.around(box, [&](std::uint32_t other) {
+        if (worker.seen[other] == t + 1) return;
+        worker.seen[other] = t + 1;
+        if (!overlap(box, b.tile_boxes[other])) return;
+        ++worker.tile_pairs;
+        add(task, tile, other, worker);
+    });
+    for_each_corner([&](std::uint32_t v, std::uint64_t) {
+        worker.around[v] = 0;
+        worker.around_folded[v % folded_vertices] = 0;
+    });
+    if (worker.count == 0) return;
+    sort_near(worker);
+    drop_unwanted(task, tile, worker);
+    if (task.motion.cull) cull_found(task, tile, worker);
+    keep_found(task, t, worker);
+}
+
+void PairSearch::keep_found(const Task& task, std::uint32_t tile, Worker& worker) {
+    const std::size_t count = worker.count, blocks = (count + partners_a_block - 1) / partners_a_block;
     found_of_[tile].count = count;
     if (count == 0) return;
-    reserve_sparingly(worker.kept_partners, worker.kept_partners.size() + count);
-    for (const Found& found : worker.found) worker.kept_partners.push_back(found.partner);
     const std::size_t first = worker.kept.size();
-    reserve_sparingly(worker.kept, first + blocks * word_bits);
-    worker.kept.resize(first + blocks * word_bits);
-    std::uint64_t* const kept = worker.kept.data() + first;
-    for (std::size_t i = 0; i < count; ++i) kept[i] = worker.found[i].lanes;
-    std::uint32_t* const counts = counts_.data() + std::size_t{tile} * features_a_tile;
-    for (std::size_t block = 0; block < blocks; ++block) {
-        std::uint64_t* const words = kept + block * word_bits;
-        transpose(words);
-        for (unsigned lane = 0; lane < features_a_tile; ++lane) counts[lane] += bit_count(words[lane]);
+    reserve_sparingly(worker.kept, first + blocks * partners_a_block);
+    worker.kept.resize(first + blocks * partners_a_block);
+    reserve_sparingly(worker.kept_partners, worker.kept_partners.size() + count);
+    for (std::size_t i = 0; i < count; ++i) {
+        worker.kept[first + i] = worker.found[i].lanes;
+        worker.kept_partners.push_back(worker.found[i].partner);
     }
+    task.turn(worker.kept.data() + first, blocks, counts_.data() + std::size_t{tile} * features_a_tile);
 }
 
 void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motion, vox_feature a,
@@ -335,20 +354,19 @@ void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motio
     counters_.cells = grid_.occupied();
 
     workers_.grow(workers.count());
-    const std::size_t words = topology.count(b) / word_bits + 1;
     for (Worker& worker : workers_) {
         worker.seen.assign(tiles_b.tile_count(), 0u);
-        worker.listed.assign(words, 0u);
-        worker.listed_words.assign(words / word_bits + 1, 0u);
+        worker.listed.reset(topology.count(b));
         worker.around.assign(topology.vertex_count, 0u);
         worker.around_folded.fill(0);
         worker.kept.clear();
         worker.kept_partners.clear();
-        worker.tile_pairs = worker.boxes_compared = worker.overlaps = worker.culled = 0;
+        worker.tile_pairs = worker.boxes_compared = worker.culled = 0;
     }
     counts_.assign(tiles_a.features.size(), 0u);
     found_of_.resize(tiles_a.tile_count());
-    const Task task{topology, motion, tiles_a, tiles_b, a == b, first, count, compare_boxes(), cull_some()};
+    const Task task{topology, motion,          tiles_a,         tiles_b,       a == b,     first,
+                    count,    quantise_tile(), compare_tiles(), turn_blocks(), cull_some()};
     workers.for_ranges(tiles_a.tile_count(), least_tiles,
                        [&](std::size_t begin, std::size_t end, std::uint32_t w) {
                            Worker& worker = workers_[w];
@@ -357,32 +375,36 @@ void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motio
                                search_tile(task, static_cast<std::uint32_t>(t), worker);
                            }
                        });
-    for (const Worker& worker : workers_) {
+    for (Worker& worker : workers_) {
+        // Its last block may not be full, but is read as one.
+        reserve_sparingly(worker.kept_partners, worker.kept_partners.size() + partners_a_block);
+        worker.kept_partners.resize(worker.kept_partners.size() + partners_a_block);
         counters_.tile_pairs += worker.tile_pairs;
         counters_.boxes_compared += worker.boxes_compared;
-        counters_.overlaps += worker.overlaps;
         counters_.culled += worker.culled;
     }
     for (std::uint32_t i = 0; i < count; ++i)
         out.offsets[i + 1] = out.offsets[i] + counts_[tiles_a.slots[first + i]];
+    counters_.overlaps = out.offsets[count] + counters_.culled;
+    WriteLists* const write = write_lists();
     // What is there already need not be set to 0 again.
     out.partners.resize(static_cast<std::size_t>(out.offsets[count]));
     workers.for_ranges(
         tiles_a.tile_count(), least_tiles, [&](std::size_t begin, std::size_t end, std::uint32_t) {
+            std::uint32_t* lists[features_a_tile];
             for (std::size_t t = begin; t < end; ++t) {
                 const TileFound& of = found_of_[t];
                 if (of.count == 0) continue;
-                const std::uint64_t* const kept = workers_[of.worker].kept.data() + of.first_word;
-                const std::uint32_t* const partners =
-                    workers_[of.worker].kept_partners.data() + of.first_partner;
+                const std::size_t first_slot = t * features_a_tile;
                 for (unsigned lane = 0; lane < features_a_tile; ++lane) {
-                    const std::uint32_t f = tiles_a.features[t * features_a_tile + lane];
-                    if (f - first >= count) continue; // also an empty lane
-                    std::uint32_t* next = out.partners.data() + out.offsets[f - first];
-                    for (std::size_t i = 0; i < of.count; i += word_bits)
-                        for (std::uint64_t bits = kept[i + lane]; bits != 0; bits &= bits - 1)
-                            *next++ = partners[i + lowest_lane(bits)];
+                    const std::uint32_t f = tiles_a.features[first_slot + lane] - first;
+                    lists[lane] =
+                        f < count ? out.partners.data() + out.offsets[f] : nullptr; // nor an empty lane
                 }
+                const Worker& worker = workers_[of.worker];
+                write(worker.kept.data() + of.first_word,
+                      (of.count + partners_a_block - 1) / partners_a_block,
+                      worker.kept_partners.data() + of.first_partner, lists, counts_.data() + first_slot);
             }
         });
     workers_.level();

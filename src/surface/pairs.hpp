@@ -4,8 +4,10 @@
 
 #include "base/parallel.hpp"
 #include "base/per_worker.hpp"
+#include "surface/compare_boxes.hpp"
 #include "surface/cull.hpp"
 #include "surface/feature_tiles.hpp"
+#include "surface/listed_features.hpp"
 #include "surface/motion.hpp"
 #include "surface/tile_grid.hpp"
 #include "surface/topology.hpp"
@@ -55,7 +57,7 @@ public:
 private:
     static constexpr std::size_t folded_vertices = 1024; // a power of two; few enough for the nearest cache
 
-    // A feature of kind b and the lanes of a tile of kind a that it makes a pair with.
+    // A feature of kind b and lanes of a tile of kind a: those that it makes pairs with.
     struct Found {
         std::uint64_t lanes;
         std::uint32_t partner;
@@ -68,28 +70,29 @@ private:
     };
     struct Worker {
         explicit Worker(std::pmr::memory_resource* memory)
-            : seen(memory), listed(memory), listed_words(memory), near(memory), boxes(memory), masks(memory),
-              close(memory), around(memory), found(memory), kept(memory), kept_partners(memory) {}
+            : seen(memory), listed(memory), near(memory), found(memory), around(memory), kept(memory),
+              kept_partners(memory) {}
         auto buffers() {
-            return std::tie(seen, listed, listed_words, near, boxes, masks, close, around, found, kept,
-                            kept_partners);
+            return std::tuple_cat(listed.buffers(), std::tie(seen, near, found, around, kept, kept_partners));
         }
 
         std::pmr::vector<std::uint32_t> seen; // of each tile of b: 1 + the last tile of a that met it
-        std::pmr::vector<std::uint64_t> listed, listed_words; // features of b as bits, words of these as bits
-        std::pmr::vector<std::uint32_t> near;         // slots of features of b near a tile, these ascending
-        std::pmr::vector<const float*> boxes;         // of these
-        std::pmr::vector<std::uint64_t> masks, close; // and the lanes that they overlap, and by little
-        std::pmr::vector<std::uint64_t> around;       // of each vertex: the lanes that it is a corner of
+        // Features of b that overlap lanes of a tile: their numbers, in the order of their tiles, and
+        // ascending. The first `count` of each are in use.
+        ListedFeatures listed;
+        std::pmr::vector<Found> near, found;
+        std::size_t count = 0;
+        std::pmr::vector<std::uint64_t> around; // of each vertex: the lanes that it is a corner of
         std::array<std::uint64_t, folded_vertices>
-            around_folded;             // the same of all vertices that share a remainder
-        std::pmr::vector<Found> found; // by a tile
+            around_folded; // the same of all vertices that share a remainder
         // By all tiles so far: for each 64 partners, those of each lane as bits; and the partners.
         std::pmr::vector<std::uint64_t> kept;
         std::pmr::vector<std::uint32_t> kept_partners;
+        QuantisedTile quantised; // the tile, and what overlaps it in another one
+        TileOverlaps overlaps;
         CullTile tile; // of the tile, where pairs are culled
         CullBatch batch;
-        std::uint64_t tile_pairs = 0, boxes_compared = 0, overlaps = 0, culled = 0;
+        std::uint64_t tile_pairs = 0, boxes_compared = 0, culled = 0;
     };
     struct TileFound {
         std::uint32_t worker;
@@ -97,9 +100,17 @@ private:
     };
     struct Task;
 
-    void cull_found(const Task& task, std::uint32_t tile, std::uint64_t asked, Worker& worker);
-    void search_tile(const Task& task, std::uint32_t tile, Worker& worker);
-    void keep_found(std::uint32_t tile, Worker& worker);
+    struct TileSearch;
+
+    static bool boxes_overlap(const Task& task, std::uint32_t slot_a, std::uint32_t slot_b,
+                              float close_by) noexcept;
+    template <unsigned Corners>
+    static void add_near(const Task& task, const TileSearch& tile, std::uint32_t other, Worker& worker);
+    static void sort_near(Worker& worker);
+    static void drop_unwanted(const Task& task, const TileSearch& tile, Worker& worker);
+    static void cull_found(const Task& task, const TileSearch& tile, Worker& worker);
+    void search_tile(const Task& task, std::uint32_t t, Worker& worker);
+    void keep_found(const Task& task, std::uint32_t tile, Worker& worker);
     double choose_cell_size(vox_feature a, vox_feature b);
 
     std::array<FeatureTiles, feature_kinds> tiles_;
