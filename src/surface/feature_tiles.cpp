@@ -128,18 +128,11 @@ void make_feature_tiles(const SurfaceTopology& topology, vox_feature feature, st
             cut_into_tiles(std::span(items).subspan(first[i], first[i + 1] - first[i]), out.features);
 
     const std::size_t slots = out.features.size();
-    out.slots.resize(count);
-    out.corners.resize(slots * corners);
-    for (std::size_t s = 0; s < slots; ++s) {
-        const std::uint32_t f = out.features[s];
-        if (f == no_feature) {
-            std::fill_n(out.corners.begin() + static_cast<std::ptrdiff_t>(s * corners), corners, 0u);
-            continue;
-        }
-        out.slots[f] = static_cast<std::uint32_t>(s);
-        const std::uint32_t* const v = feature == VOX_FEATURE_VERTEX ? &f : topology.corners(feature, f);
-        std::copy_n(v, corners, out.corners.begin() + static_cast<std::ptrdiff_t>(s * corners));
-    }
+    out.corners.assign(feature == VOX_FEATURE_VERTEX ? 0 : slots * corners, 0u);
+    if (feature != VOX_FEATURE_VERTEX)
+        for (std::size_t s = 0; s < slots; ++s)
+            if (out.features[s] != no_feature)
+                std::copy_n(topology.corners(feature, out.features[s]), corners, out.corners.data() + s * corners);
     out.boxes.resize(slots * 6);
     out.tile_boxes.resize(slots / features_a_tile);
 }

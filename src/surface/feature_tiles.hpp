@@ -19,20 +19,24 @@ inline constexpr std::uint32_t no_feature = ~0u;
 // lanes after the last one are empty.
 struct FeatureTiles {
     explicit FeatureTiles(std::pmr::memory_resource* memory) noexcept
-        : features(memory), slots(memory), corners(memory), boxes(memory), tile_boxes(memory) {}
+        : features(memory), corners(memory), boxes(memory), tile_boxes(memory) {}
 
     std::uint32_t tile_count() const noexcept { return static_cast<std::uint32_t>(tile_boxes.size()); }
     const float* boxes_of(std::uint32_t tile) const noexcept {
         return boxes.data() + std::size_t{tile} * 6 * features_a_tile;
     }
+    // Also of slots after it.
+    const std::uint32_t* corners_from(std::uint32_t slot) const noexcept {
+        return corner_count == 1 ? features.data() + slot : corners.data() + std::size_t{slot} * corner_count;
+    }
     std::span<const std::uint32_t> corners_at(std::uint32_t slot) const noexcept {
-        return {corners.data() + std::size_t{slot} * corner_count, corner_count};
+        return {corners_from(slot), corner_count};
     }
 
     unsigned corner_count = 0;                // of a feature
     std::pmr::vector<std::uint32_t> features; // of each slot; no_feature of an empty one
-    std::pmr::vector<std::uint32_t> slots;    // of each feature
-    std::pmr::vector<std::uint32_t> corners;  // corner_count vertices a slot
+    std::pmr::vector<std::uint32_t>
+        corners; // corner_count vertices a slot; none of vertices, which are their own
     // For each tile 6 * 64 floats: low x of its lanes, low y, low z, high x, high y, high z. They hold the
     // boxes of the features; where positions are doubles, they are a little larger. Empty lanes have empty
     // boxes.

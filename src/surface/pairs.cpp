@@ -52,6 +52,7 @@ struct PairSearch::Task {
     const FeatureTiles &a, &b;
     bool same; // kind
     std::uint32_t first, count;
+    std::uint64_t* ends; // of the list of each feature asked about; first, how long it is
     QuantiseTile* quantise;
     CompareTiles* compare;
     TurnBlocks* turn;
@@ -68,7 +69,7 @@ struct PairSearch::TileSearch {
 
 PairSearch::PairSearch(std::pmr::memory_resource* memory) noexcept
     : tiles_{FeatureTiles(memory), FeatureTiles(memory), FeatureTiles(memory)}, vertex_boxes_(memory),
-      grid_(memory), workers_(memory), found_of_(memory), counts_(memory) {}
+      grid_(memory), workers_(memory), found_of_(memory) {}
 
 void PairSearch::release_buffers() noexcept {
     const auto release = [](auto& vector) {
@@ -78,7 +79,6 @@ void PairSearch::release_buffers() noexcept {
     for (Worker& worker : workers_)
         std::apply([&](auto&... buffers) { (release(buffers), ...); }, worker.buffers());
     release(found_of_);
-    release(counts_);
 }
 
 const FeatureTiles& PairSearch::tiles(const SurfaceTopology& topology, const SurfaceMotion& motion,
@@ -149,8 +149,7 @@ void PairSearch::cull_found(const Task& task, const TileSearch& tile, Worker& wo
     const auto filled =
         static_cast<std::size_t>(std::find(features, features + features_a_tile, no_feature) - features);
     const CullFrame frame =
-        frame_around(task.motion, std::span(a.corners).subspan(std::size_t{tile.first_slot} * a.corner_count,
-                                                               filled * a.corner_count));
+        frame_around(task.motion, {a.corners_from(tile.first_slot), filled * a.corner_count});
     for (std::uint64_t lanes = tile.asked; lanes != 0; lanes &= lanes - 1) {
         const unsigned lane = lowest_lane(lanes);
         set_lane(frame, task.motion, a.corners_at(tile.first_slot + lane), lane, worker.tile);
@@ -162,8 +161,7 @@ void PairSearch::cull_found(const Task& task, const TileSearch& tile, Worker& wo
         for (; end < found.size() && end - begin < batch.partners.size() && count < most_pairs_culled;
              ++end) {
             const auto partner = static_cast<std::uint32_t>(end - begin);
-            batch.partners[partner] =
-                partner_in(frame, task.motion, b.corners_at(b.slots[found[end].partner]));
+            batch.partners[partner] = partner_in(frame, task.motion, b.corners_at(found[end].slot));
             for (std::uint64_t lanes = found[end].lanes; lanes != 0; lanes &= lanes - 1) {
                 batch.pair_lanes[count] = lowest_lane(lanes);
                 batch.pair_partners[count++] = partner;
@@ -180,6 +178,16 @@ void PairSearch::cull_found(const Task& task, const TileSearch& tile, Worker& wo
     const auto end =
         std::remove_if(found.begin(), found.end(), [](const Found& of) { return of.lanes == 0; });
     worker.count = static_cast<std::size_t>(end - found.begin());
+}
+
+// As long as `count`. What was there is lost where there is no room, and else need not be set to 0 again.
+void make_room(std::pmr::vector<std::uint32_t>& vector, std::uint64_t count) {
+    if (count > vector.capacity()) {
+        vector.clear();
+        vector.shrink_to_fit();
+        reserve_exactly(vector, count + count / 16);
+    }
+    vector.resize(static_cast<std::size_t>(count));
 }
 
 // By the floats that bound the boxes, and where these cannot tell, as the caller's format has them.
@@ -205,9 +213,7 @@ void PairSearch::add_near(const Task& task, const TileSearch& tile, std::uint32_
     const FeatureTiles& b = task.b;
     const std::uint32_t first_slot = other * features_a_tile;
     const std::uint32_t *const features = b.features.data() + first_slot, *const corners =
-                                                                              b.corners.data() +
-                                                                              std::size_t{first_slot} *
-                                                                                  Corners;
+                                                                              b.corners_from(first_slot);
     // Each pair once, and no empty lanes, which an endless box would overlap, too. Both are at one end of the
     // tile.
     const auto lanes_up_to = [&](std::uint32_t f) {
@@ -235,7 +241,7 @@ void PairSearch::add_near(const Task& task, const TileSearch& tile, std::uint32_
         for (std::uint64_t left = lanes & overlaps.open[i]; left != 0; left &= left - 1)
             if (!boxes_overlap(task, tile.first_slot + lowest_lane(left), first_slot + lane, tile.close_by))
                 lanes &= ~(left & -left);
-        worker.near[count] = {lanes, features[lane]};
+        worker.near[count] = {lanes, features[lane], first_slot + lane};
         const std::uint64_t is_near = lanes != 0; // nobody could predict a branch
         worker.listed.add(features[lane], is_near);
         count += is_near;
@@ -245,7 +251,7 @@ void PairSearch::add_near(const Task& task, const TileSearch& tile, std::uint32_
 
 // worker.near, ascending, to worker.found.
 void PairSearch::sort_near(Worker& worker) {
-    if (worker.found.size() < worker.count) worker.found.resize(worker.near.size());
+    if (worker.found.size() < worker.count) worker.found.resize(worker.count + worker.count / 8);
     worker.listed.count();
     for (std::size_t i = 0; i < worker.count; ++i)
         worker.found[worker.listed.place_of(worker.near[i].partner)] = worker.near[i];
@@ -260,7 +266,7 @@ void PairSearch::drop_unwanted(const Task& task, const TileSearch& tile, Worker&
     unsigned below = 0; // lanes with features below the partner
     std::size_t kept = 0;
     for (std::size_t i = 0; i < worker.count; ++i) {
-        auto [lanes, partner] = worker.found[i];
+        auto [lanes, partner, slot] = worker.found[i];
         if (task.same) { // each pair once
             while (below < features_a_tile && features[below] < partner) ++below;
             if (below < features_a_tile) lanes &= (std::uint64_t{1} << below) - 1;
@@ -268,9 +274,9 @@ void PairSearch::drop_unwanted(const Task& task, const TileSearch& tile, Worker&
         if (task.topology.has_patches())
             for (std::uint64_t left = lanes; left != 0; left &= left - 1)
                 if (!task.topology.may_meet(a.corners_at(tile.first_slot + lowest_lane(left)),
-                                            b.corners_at(b.slots[partner])))
+                                            b.corners_at(slot)))
                     lanes &= ~(left & -left);
-        worker.found[kept] = {lanes, partner};
+        worker.found[kept] = {lanes, partner, slot};
         kept += lanes != 0;
     }
     worker.count = kept;
@@ -297,6 +303,7 @@ void PairSearch::search_tile(const Task& task, std::uint32_t t, Worker& worker) 
             for (const std::uint32_t v : a.corners_at(tile.first_slot + lowest_lane(lanes)))
                 visit(v, lanes & -lanes);
     };
+    worker.around_folded.fill(0);
     for_each_corner([&](std::uint32_t v, std::uint64_t lane) {
         worker.around[v] |= lane;
         worker.around_folded[v % folded_vertices] |= lane;
@@ -310,10 +317,7 @@ void PairSearch::search_tile(const Task& task, std::uint32_t t, Worker& worker) 
         ++worker.tile_pairs;
         add(task, tile, other, worker);
     });
-    for_each_corner([&](std::uint32_t v, std::uint64_t) {
-        worker.around[v] = 0;
-        worker.around_folded[v % folded_vertices] = 0;
-    });
+    for_each_corner([&](std::uint32_t v, std::uint64_t) { worker.around[v] = 0; });
     if (worker.count == 0) return;
     sort_near(worker);
     drop_unwanted(task, tile, worker);
@@ -333,7 +337,12 @@ void PairSearch::keep_found(const Task& task, std::uint32_t tile, Worker& worker
         worker.kept[first + i] = worker.found[i].lanes;
         worker.kept_partners.push_back(worker.found[i].partner);
     }
-    task.turn(worker.kept.data() + first, blocks, counts_.data() + std::size_t{tile} * features_a_tile);
+    std::uint32_t counts[features_a_tile] = {};
+    task.turn(worker.kept.data() + first, blocks, counts);
+    for (unsigned lane = 0; lane < features_a_tile; ++lane)
+        if (const std::uint32_t f = task.a.features[tile * features_a_tile + lane] - task.first;
+            f < task.count)
+            task.ends[f] = counts[lane];
 }
 
 void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motion, vox_feature a,
@@ -358,15 +367,14 @@ void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motio
         worker.seen.assign(tiles_b.tile_count(), 0u);
         worker.listed.reset(topology.count(b));
         worker.around.assign(topology.vertex_count, 0u);
-        worker.around_folded.fill(0);
         worker.kept.clear();
         worker.kept_partners.clear();
         worker.tile_pairs = worker.boxes_compared = worker.culled = 0;
     }
-    counts_.assign(tiles_a.features.size(), 0u);
     found_of_.resize(tiles_a.tile_count());
-    const Task task{topology, motion,          tiles_a,         tiles_b,       a == b,     first,
-                    count,    quantise_tile(), compare_tiles(), turn_blocks(), cull_some()};
+    const Task task{topology,        motion,          tiles_a,       tiles_b,
+                    a == b,          first,           count,         out.offsets.data() + 1,
+                    quantise_tile(), compare_tiles(), turn_blocks(), cull_some()};
     workers.for_ranges(tiles_a.tile_count(), least_tiles,
                        [&](std::size_t begin, std::size_t end, std::uint32_t w) {
                            Worker& worker = workers_[w];
@@ -383,28 +391,28 @@ void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motio
         counters_.boxes_compared += worker.boxes_compared;
         counters_.culled += worker.culled;
     }
-    for (std::uint32_t i = 0; i < count; ++i)
-        out.offsets[i + 1] = out.offsets[i] + counts_[tiles_a.slots[first + i]];
+    for (std::uint32_t i = 0; i < count; ++i) out.offsets[i + 1] += out.offsets[i];
     counters_.overlaps = out.offsets[count] + counters_.culled;
+    make_room(out.partners, out.offsets[count]);
     WriteLists* const write = write_lists();
-    // What is there already need not be set to 0 again.
-    out.partners.resize(static_cast<std::size_t>(out.offsets[count]));
     workers.for_ranges(
         tiles_a.tile_count(), least_tiles, [&](std::size_t begin, std::size_t end, std::uint32_t) {
-            std::uint32_t* lists[features_a_tile];
+            std::uint32_t *lists[features_a_tile], counts[features_a_tile];
             for (std::size_t t = begin; t < end; ++t) {
                 const TileFound& of = found_of_[t];
                 if (of.count == 0) continue;
                 const std::size_t first_slot = t * features_a_tile;
                 for (unsigned lane = 0; lane < features_a_tile; ++lane) {
                     const std::uint32_t f = tiles_a.features[first_slot + lane] - first;
-                    lists[lane] =
-                        f < count ? out.partners.data() + out.offsets[f] : nullptr; // nor an empty lane
+                    lists[lane] = nullptr;
+                    if (f >= count) continue; // nor an empty lane
+                    lists[lane] = out.partners.data() + out.offsets[f];
+                    counts[lane] = static_cast<std::uint32_t>(out.offsets[f + 1] - out.offsets[f]);
                 }
                 const Worker& worker = workers_[of.worker];
                 write(worker.kept.data() + of.first_word,
                       (of.count + partners_a_block - 1) / partners_a_block,
-                      worker.kept_partners.data() + of.first_partner, lists, counts_.data() + first_slot);
+                      worker.kept_partners.data() + of.first_partner, lists, counts);
             }
         });
     workers_.level();

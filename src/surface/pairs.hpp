@@ -57,10 +57,10 @@ public:
 private:
     static constexpr std::size_t folded_vertices = 1024; // a power of two; few enough for the nearest cache
 
-    // A feature of kind b and lanes of a tile of kind a: those that it makes pairs with.
+    // A feature of kind b, with its slot, and lanes of a tile of kind a: those that it makes pairs with.
     struct Found {
         std::uint64_t lanes;
-        std::uint32_t partner;
+        std::uint32_t partner, slot;
     };
     // Partners of a tile, and the pairs that they make with its lanes: few enough to stay in a near cache.
     static constexpr std::size_t most_partners_culled = 256, most_pairs_culled = 2048;
@@ -83,8 +83,8 @@ private:
         std::pmr::vector<Found> near, found;
         std::size_t count = 0;
         std::pmr::vector<std::uint64_t> around; // of each vertex: the lanes that it is a corner of
-        std::array<std::uint64_t, folded_vertices>
-            around_folded; // the same of all vertices that share a remainder
+        // The same of all vertices that share a remainder.
+        std::array<std::uint64_t, folded_vertices> around_folded;
         // By all tiles so far: for each 64 partners, those of each lane as bits; and the partners.
         std::pmr::vector<std::uint64_t> kept;
         std::pmr::vector<std::uint32_t> kept_partners;
@@ -124,7 +124,6 @@ private:
     TileGrid grid_;
     PerWorker<Worker> workers_;
     std::pmr::vector<TileFound> found_of_;
-    std::pmr::vector<std::uint32_t> counts_; // of each slot of a: its partners
     PairCounters counters_;
 };
 
