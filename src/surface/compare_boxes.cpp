@@ -27,15 +27,11 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Quanta = hn::CappedTag<std::int16_t, 32>;
 using QV = hn::Vec<Quanta>;
 
-constexpr float quanta_below = 8;      // the tile's box: for boxes that reach further
-constexpr float quanta_a_side = 32751; // of it
 constexpr float least_quantum = 0x1p-126f;
 constexpr float endless = 0x1p120f; // a length with which floats could overflow
-constexpr float most_quanta = 32767;
-constexpr float units = 0x1p23f; // from here to twice as much, a float's lowest bits are its integer
+constexpr float units = 0x1p23f;    // from here to twice as much, a float's lowest bits are its integer
 
-HWY_INLINE void QuantiseSides(const float* HWY_RESTRICT boxes, const QuantisedTile& tile,
-                              std::int16_t (*HWY_RESTRICT out)[lanes_a_tile]) {
+void Quantise(const float* HWY_RESTRICT boxes, const QuantisedTile& tile, QuantisedSides& HWY_RESTRICT out) {
     const hn::CappedTag<float, 16> d;
     const hn::RebindToSigned<decltype(d)> di;
     const hn::Rebind<std::int16_t, decltype(d)> d16;
@@ -58,8 +54,8 @@ HWY_INLINE std::int16_t QuantiseNumber(float x, float low, float per_quantum) {
     return static_cast<std::int16_t>((above < most_quanta ? above : most_quanta) + units - units);
 }
 
-void Quantise(const float* HWY_RESTRICT boxes, const float* HWY_RESTRICT low, const float* HWY_RESTRICT high,
-              float close_by, QuantisedTile& out) {
+void QuantiseOwn(const float* HWY_RESTRICT boxes, const float* HWY_RESTRICT low,
+                 const float* HWY_RESTRICT high, float close_by, QuantisedTile& out) {
     out.always_open = 0;
     for (std::size_t a = 0; a < 3; ++a) {
         const float side = high[a] - low[a];
@@ -76,16 +72,14 @@ void Quantise(const float* HWY_RESTRICT boxes, const float* HWY_RESTRICT low, co
         out.lowest[a] = QuantiseNumber(low[a], out.low[a], out.per_quantum[a]);
         out.highest[a] = QuantiseNumber(high[a], out.low[a], out.per_quantum[a]);
     }
-    QuantiseSides(boxes, out, out.sides);
+    Quantise(boxes, out, out.sides);
 }
 
 std::size_t CompareQuantised(const QuantisedTile& HWY_RESTRICT tile, std::uint64_t asked,
-                             const float* HWY_RESTRICT boxes, std::uint64_t wanted,
+                             const QuantisedSides& HWY_RESTRICT other, std::uint64_t wanted,
                              TileOverlaps& HWY_RESTRICT out) {
     const Quanta d;
     constexpr std::size_t lanes = hn::MaxLanes(Quanta()), registers = lanes_a_tile / lanes;
-    alignas(64) std::int16_t other[6][lanes_a_tile];
-    QuantiseSides(boxes, tile, other);
     const hn::RebindToUnsigned<Quanta> du;
     const auto apart = hn::Set(d, std::int16_t{-1});
     const auto least_certain = hn::Set(d, std::int16_t{most_quanta_open + 1});
@@ -96,8 +90,8 @@ std::size_t CompareQuantised(const QuantisedTile& HWY_RESTRICT tile, std::uint64
     for (std::size_t r = 0; r < registers; ++r) {
         auto least = hn::Zero(d);
         for (std::size_t a = 0; a < 3; ++a) {
-            const auto to_low = hn::Sub(hn::Load(d, other[a + 3] + r * lanes), hn::Set(d, tile.lowest[a]));
-            const auto to_high = hn::Sub(hn::Set(d, tile.highest[a]), hn::Load(d, other[a] + r * lanes));
+            const auto to_low = hn::Sub(hn::LoadU(d, other[a + 3] + r * lanes), hn::Set(d, tile.lowest[a]));
+            const auto to_high = hn::Sub(hn::Set(d, tile.highest[a]), hn::LoadU(d, other[a] + r * lanes));
             least = hn::Min(least, hn::Min(to_low, to_high));
         }
         near |= BitsOfMask(d, hn::Gt(least, apart)) << r * lanes;
@@ -140,7 +134,8 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vox {
 
-QuantiseTile* quantise_tile() noexcept { return VOX_SIMD_DISPATCH(Quantise); }
+QuantiseTile* quantise_tile() noexcept { return VOX_SIMD_DISPATCH(QuantiseOwn); }
+QuantiseSides* quantise_sides() noexcept { return VOX_SIMD_DISPATCH(Quantise); }
 CompareTiles* compare_tiles() noexcept { return VOX_SIMD_DISPATCH(CompareQuantised); }
 
 } // namespace vox

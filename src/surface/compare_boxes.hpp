@@ -9,17 +9,23 @@ namespace vox {
 inline constexpr std::size_t lanes_a_tile = 64;
 
 // The boxes of a tile in 15 bits a number: multiples of a quantum along each axis, from a little below the
-// tile's box. Rounding to these keeps the order of numbers, or makes them equal.
+// box of the tile that others are compared with. Rounding to these keeps the order of numbers, or makes them
+// equal.
+using QuantisedSides = std::int16_t[6][lanes_a_tile]; // low x, y, z, then high x, y, z of each lane
+
 struct alignas(64) QuantisedTile {
-    std::int16_t sides[6][lanes_a_tile]; // low x, y, z, then high x, y, z of each lane
-    std::int16_t lowest[3], highest[3];  // of all lanes
-    std::uint64_t
-        always_open; // all bits set if the tile is so large that no order in quanta is certain, else 0
+    QuantisedSides sides;
+    std::int16_t lowest[3], highest[3]; // of all lanes
+    // All bits set if the tile is so large that no order in quanta is certain, else 0.
+    std::uint64_t always_open;
     float low[3], per_quantum[3];
 };
+inline constexpr float quanta_below = 8;      // the box of the tile: for boxes that reach further
+inline constexpr float quanta_a_side = 32751; // of it
+inline constexpr float most_quanta = 32767;
 
-// Numbers that are no more quanta than this apart may be closer to each other than `close_by` of
-// quantise_tile(). So a pair of boxes that reach into each other by no more is left open.
+// Boxes that reach into each other by no more quanta than this are left open: their numbers may be closer to
+// each other than `close_by` of quantise_tile().
 inline constexpr std::int16_t most_quanta_open = 5;
 
 // The lanes of another tile that overlap some lane of a tile.
@@ -33,13 +39,16 @@ struct TileOverlaps {
 // `boxes` is 6 * 64 floats, as in FeatureTiles::boxes, `low` and `high` are the tile's box.
 using QuantiseTile = void(const float* boxes, const float* low, const float* high, float close_by,
                           QuantisedTile& out);
+// The boxes of another tile in the quanta of `tile`.
+using QuantiseSides = void(const float* boxes, const QuantisedTile& tile, QuantisedSides& out);
 // Compares the lanes `asked` of a tile with the lanes `wanted` of another one. Returns how many of these
 // overlap any.
-using CompareTiles = std::size_t(const QuantisedTile& tile, std::uint64_t asked, const float* boxes,
+using CompareTiles = std::size_t(const QuantisedTile& tile, std::uint64_t asked, const QuantisedSides& other,
                                  std::uint64_t wanted, TileOverlaps& out);
 
 // For the instructions of this machine.
 QuantiseTile* quantise_tile() noexcept;
+QuantiseSides* quantise_sides() noexcept;
 CompareTiles* compare_tiles() noexcept;
 
 } // namespace vox

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 namespace vox {
 
@@ -23,18 +24,27 @@ constexpr std::size_t least_tiles = 8; // that a worker takes at once
 
 unsigned lowest_lane(std::uint64_t lanes) noexcept { return static_cast<unsigned>(std::countr_zero(lanes)); }
 
+// The box of a feature's positions, without the radius.
+struct MovingBox {
+    MovingBox(const SurfaceMotion& motion, std::span<const std::uint32_t> corners) noexcept
+        : lo(motion.from[corners[0]]), hi(lo) {
+        for (const std::uint32_t v : corners) {
+            lo = min(lo, min(motion.from[v], motion.to[v]));
+            hi = max(hi, max(motion.from[v], motion.to[v]));
+        }
+    }
+
+    Vec3d lo, hi;
+};
+
 // The box of a feature as vox_motion.radius has it.
 struct ExactBox {
     ExactBox(const SurfaceMotion& motion, std::span<const std::uint32_t> corners) noexcept {
-        Vec3d low = motion.from[corners[0]], high = low;
-        for (const std::uint32_t v : corners) {
-            low = min(low, min(motion.from[v], motion.to[v]));
-            high = max(high, max(motion.from[v], motion.to[v]));
-        }
+        const MovingBox box(motion, corners);
         const double r = motion.radius;
         const bool d = motion.doubles;
-        lo = {lower_side(low.x, r, d), lower_side(low.y, r, d), lower_side(low.z, r, d)};
-        hi = {upper_side(high.x, r, d), upper_side(high.y, r, d), upper_side(high.z, r, d)};
+        lo = {lower_side(box.lo.x, r, d), lower_side(box.lo.y, r, d), lower_side(box.lo.z, r, d)};
+        hi = {upper_side(box.hi.x, r, d), upper_side(box.hi.y, r, d), upper_side(box.hi.z, r, d)};
     }
     bool overlaps(const ExactBox& other) const noexcept {
         return lo.x <= other.hi.x && lo.y <= other.hi.y && lo.z <= other.hi.z && other.lo.x <= hi.x &&
@@ -53,7 +63,8 @@ struct PairSearch::Task {
     bool same; // kind
     std::uint32_t first, count;
     std::uint64_t* ends; // of the list of each feature asked about; first, how long it is
-    QuantiseTile* quantise;
+    QuantiseTile* quantise_tile;
+    QuantiseSides* quantise_sides;
     CompareTiles* compare;
     TurnBlocks* turn;
     CullSome* cull;
@@ -64,7 +75,11 @@ struct PairSearch::TileSearch {
     std::uint32_t first_slot = 0;
     std::uint64_t asked = 0;  // lanes
     std::uint32_t lowest = 0; // feature that is asked about
-    float close_by = 0;       // numbers further apart than this have the order of the doubles that they bound
+    // Where floats that bound boxes of doubles differ by more, these have their order. 0: the boxes are
+    // floats.
+    float close_by = 0;
+    bool by_doubles = false; // quanta are made from doubles, with this origin and scale
+    Vec3d low, per_quantum;
 };
 
 PairSearch::PairSearch(std::pmr::memory_resource* memory) noexcept
@@ -190,21 +205,92 @@ void make_room(std::pmr::vector<std::uint32_t>& vector, std::uint64_t count) {
     vector.resize(static_cast<std::size_t>(count));
 }
 
-// By the floats that bound the boxes, and where these cannot tell, as the caller's format has them.
-bool PairSearch::boxes_overlap(const Task& task, std::uint32_t slot_a, std::uint32_t slot_b,
-                               float close_by) noexcept {
+// The boxes of a tile in quanta, from doubles. What rounds the boxes outward in the caller's format is left
+// out; they reach further by a whole quantum instead, so what is apart in quanta is apart. Boxes that reach
+// into each other by 6 quanta do so by more than 3 without it and without the rounding to quanta.
+void quantise_doubles(const SurfaceMotion& motion, const FeatureTiles& tiles, std::uint32_t tile,
+                      const Vec3d& low, const Vec3d& per_quantum, QuantisedSides& out) noexcept {
+    const auto in_quanta = [](double x, double low_x, double per, double outward) {
+        const double q = (x - low_x) * per + double{quanta_below} + outward;
+        return static_cast<std::int16_t>(std::clamp(q, 0.0, double{most_quanta}) + 0.5);
+    };
+    const double r = motion.radius;
+    for (std::uint32_t lane = 0; lane < features_a_tile; ++lane) {
+        const std::uint32_t slot = tile * features_a_tile + lane;
+        if (tiles.features[slot] == no_feature) {
+            for (auto& side : out) side[lane] = 0; // any number
+            continue;
+        }
+        const MovingBox box(motion, tiles.corners_at(slot));
+        out[0][lane] = in_quanta(box.lo.x - r, low.x, per_quantum.x, -1);
+        out[1][lane] = in_quanta(box.lo.y - r, low.y, per_quantum.y, -1);
+        out[2][lane] = in_quanta(box.lo.z - r, low.z, per_quantum.z, -1);
+        out[3][lane] = in_quanta(box.hi.x + r, low.x, per_quantum.x, 1);
+        out[4][lane] = in_quanta(box.hi.y + r, low.y, per_quantum.y, 1);
+        out[5][lane] = in_quanta(box.hi.z + r, low.z, per_quantum.z, 1);
+    }
+}
+
+void PairSearch::quantise(const Task& task, std::uint32_t t, TileSearch& tile, Worker& worker) noexcept {
+    const Box& box = task.a.tile_boxes[t];
+    float largest = 0;
+    for (int i = 0; i < 3; ++i) largest = std::max({largest, std::abs(box.lo[i]), std::abs(box.hi[i])});
+    if (task.motion.doubles) {
+        // Each side of a box of doubles is less than 2 floats inside the float that bounds it.
+        tile.close_by = largest * 0x1p-20f + 0x1p-140f;
+        // Far from the origin, floats may be too coarse for what is small, and doubles not. A side is never
+        // less than 2 floats, so a quantum is many doubles.
+        const auto prepare = [&](int axis, double& low, double& per_quantum) {
+            const double side = double{box.hi[axis]} - box.lo[axis];
+            low = box.lo[axis];
+            per_quantum = double{quanta_a_side} / side;
+            tile.by_doubles |=
+                side < 0x1p11 * tile.close_by && side > 0x1p-36 * largest && largest < 0x1p100f;
+        };
+        prepare(0, tile.low.x, tile.per_quantum.x);
+        prepare(1, tile.low.y, tile.per_quantum.y);
+        prepare(2, tile.low.z, tile.per_quantum.z);
+    }
+    QuantisedTile& out = worker.quantised;
+    if (!tile.by_doubles) {
+        task.quantise_tile(task.a.boxes_of(t), box.lo, box.hi, tile.close_by, out);
+        return;
+    }
+    quantise_doubles(task.motion, task.a, t, tile.low, tile.per_quantum, out.sides);
+    out.always_open = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+        out.lowest[a] = static_cast<std::int16_t>(most_quanta);
+        out.highest[a] = 0;
+        for (std::uint64_t lanes = tile.asked; lanes != 0; lanes &= lanes - 1) {
+            out.lowest[a] = std::min(out.lowest[a], out.sides[a][lowest_lane(lanes)]);
+            out.highest[a] = std::max(out.highest[a], out.sides[a + 3][lowest_lane(lanes)]);
+        }
+    }
+}
+
+// Those of the lanes whose boxes overlap that of a slot of b: by the floats that bound them, and where these
+// cannot tell, as the caller's format has them.
+std::uint64_t PairSearch::overlapping(const Task& task, const TileSearch& tile, std::uint64_t lanes,
+                                      std::uint32_t slot) noexcept {
     constexpr std::size_t n = features_a_tile;
-    const float *const x = task.a.boxes_of(slot_a / n) + slot_a % n, *const y = task.b.boxes_of(slot_b / n) +
-                                                                                slot_b % n;
-    // How far the boxes reach into each other. The sign of a difference is exact.
-    float least = float_infinity;
-    for (std::size_t a = 0; a < 3; ++a)
-        least = std::min(least, std::min(y[(a + 3) * n] - x[a * n], x[(a + 3) * n] - y[a * n]));
-    if (least < 0 || !task.motion.doubles) return least >= 0;
-    if (least > close_by) return true;
-    const ExactBox box_a(task.motion, task.a.corners_at(slot_a)),
-        box_b(task.motion, task.b.corners_at(slot_b));
-    return box_a.overlaps(box_b);
+    const float *const all = task.a.boxes_of(tile.first_slot / n), *const other =
+                                                                       task.b.boxes_of(slot / n) + slot % n;
+    std::optional<ExactBox> exact;
+    for (std::uint64_t left = lanes; left != 0; left &= left - 1) {
+        const unsigned lane = lowest_lane(left);
+        const float* const own = all + lane;
+        // How far the boxes reach into each other. The sign of a difference is exact.
+        float reach = float_infinity;
+        for (std::size_t a = 0; a < 3; ++a)
+            reach = std::min({reach, other[(a + 3) * n] - own[a * n], own[(a + 3) * n] - other[a * n]});
+        bool overlap = reach >= 0;
+        if (overlap && reach <= tile.close_by && task.motion.doubles) {
+            if (!exact) exact.emplace(task.motion, task.b.corners_at(slot));
+            overlap = exact->overlaps(ExactBox(task.motion, task.a.corners_at(tile.first_slot + lane)));
+        }
+        if (!overlap) lanes &= ~(left & -left);
+    }
+    return lanes;
 }
 
 // Appends to worker.near the features of another tile that overlap lanes of this one.
@@ -227,7 +313,11 @@ void PairSearch::add_near(const Task& task, const TileSearch& tile, std::uint32_
         wanted = wanted >> skipped << skipped;
     }
     TileOverlaps& overlaps = worker.overlaps;
-    const std::size_t found = task.compare(worker.quantised, tile.asked, b.boxes_of(other), wanted, overlaps);
+    if (tile.by_doubles)
+        quantise_doubles(task.motion, b, other, tile.low, tile.per_quantum, worker.other);
+    else
+        task.quantise_sides(b.boxes_of(other), worker.quantised, worker.other);
+    const std::size_t found = task.compare(worker.quantised, tile.asked, worker.other, wanted, overlaps);
     worker.boxes_compared += overlaps.compared;
     std::size_t count = worker.count;
     if (worker.near.size() < count + found) worker.near.resize(count + count / 2 + features_a_tile);
@@ -238,9 +328,8 @@ void PairSearch::add_near(const Task& task, const TileSearch& tile, std::uint32_
         for (unsigned c = 0; c < Corners; ++c) maybe_around |= worker.around_folded[v[c] % folded_vertices];
         if (lanes & maybe_around)
             for (unsigned c = 0; c < Corners; ++c) lanes &= ~worker.around[v[c]];
-        for (std::uint64_t left = lanes & overlaps.open[i]; left != 0; left &= left - 1)
-            if (!boxes_overlap(task, tile.first_slot + lowest_lane(left), first_slot + lane, tile.close_by))
-                lanes &= ~(left & -left);
+        if (const std::uint64_t open = lanes & overlaps.open[i])
+            lanes &= ~open | overlapping(task, tile, open, first_slot + lane);
         worker.near[count] = {lanes, features[lane], first_slot + lane};
         const std::uint64_t is_near = lanes != 0; // nobody could predict a branch
         worker.listed.add(features[lane], is_near);
@@ -292,11 +381,7 @@ void PairSearch::search_tile(const Task& task, std::uint32_t t, Worker& worker) 
     if (tile.asked == 0) return;
     tile.lowest = features[lowest_lane(tile.asked)];
     const Box& box = a.tile_boxes[t];
-    float largest = 0;
-    for (int i = 0; i < 3; ++i) largest = std::max({largest, std::abs(box.lo[i]), std::abs(box.hi[i])});
-    // Each side of a box of doubles is less than 2 floats inside the float that bounds it.
-    tile.close_by = largest * 0x1p-20f + 0x1p-140f;
-    task.quantise(a.boxes_of(t), box.lo, box.hi, tile.close_by, worker.quantised);
+    quantise(task, t, tile, worker);
 
     const auto for_each_corner = [&](auto&& visit) {
         for (std::uint64_t lanes = tile.asked; lanes != 0; lanes &= lanes - 1)
@@ -372,9 +457,13 @@ void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motio
         worker.tile_pairs = worker.boxes_compared = worker.culled = 0;
     }
     found_of_.resize(tiles_a.tile_count());
-    const Task task{topology,        motion,          tiles_a,       tiles_b,
-                    a == b,          first,           count,         out.offsets.data() + 1,
-                    quantise_tile(), compare_tiles(), turn_blocks(), cull_some()};
+    const Task task{topology,        motion,
+                    tiles_a,         tiles_b,
+                    a == b,          first,
+                    count,           out.offsets.data() + 1,
+                    quantise_tile(), quantise_sides(),
+                    compare_tiles(), turn_blocks(),
+                    cull_some()};
     workers.for_ranges(tiles_a.tile_count(), least_tiles,
                        [&](std::size_t begin, std::size_t end, std::uint32_t w) {
                            Worker& worker = workers_[w];

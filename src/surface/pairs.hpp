@@ -88,7 +88,8 @@ private:
         // By all tiles so far: for each 64 partners, those of each lane as bits; and the partners.
         std::pmr::vector<std::uint64_t> kept;
         std::pmr::vector<std::uint32_t> kept_partners;
-        QuantisedTile quantised; // the tile, and what overlaps it in another one
+        QuantisedTile quantised; // the tile, another one, and what overlaps there
+        alignas(64) QuantisedSides other;
         TileOverlaps overlaps;
         CullTile tile; // of the tile, where pairs are culled
         CullBatch batch;
@@ -102,8 +103,9 @@ private:
 
     struct TileSearch;
 
-    static bool boxes_overlap(const Task& task, std::uint32_t slot_a, std::uint32_t slot_b,
-                              float close_by) noexcept;
+    static void quantise(const Task& task, std::uint32_t t, TileSearch& tile, Worker& worker) noexcept;
+    static std::uint64_t overlapping(const Task& task, const TileSearch& tile, std::uint64_t lanes,
+                                     std::uint32_t slot) noexcept;
     template <unsigned Corners>
     static void add_near(const Task& task, const TileSearch& tile, std::uint32_t other, Worker& worker);
     static void sort_near(Worker& worker);

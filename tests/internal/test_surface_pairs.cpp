@@ -63,7 +63,8 @@ TestBox box_of(const Scene& s, int kind, std::uint32_t i) {
     return box;
 }
 
-bool make_a_pair(const Scene& s, int a, std::uint32_t i, const TestBox& p, int b, std::uint32_t j, const TestBox& q) {
+bool make_a_pair(const Scene& s, int a, std::uint32_t i, const TestBox& p, int b, std::uint32_t j,
+                 const TestBox& q) {
     for (int k = 0; k < 3; ++k)
         if (!(p.lo[k] <= q.hi[k] && q.lo[k] <= p.hi[k])) return false;
     bool may_meet = s.patches.empty();
@@ -146,12 +147,14 @@ void move(vox_surface* surface, const Scene& s, std::uint32_t flags = 0) {
 }
 
 // All lists of a kind, asked for in as many pieces as it takes.
-std::vector<std::vector<std::uint32_t>> asked(vox_surface* surface, int a, int b, std::uint64_t step = ~0ull) {
+std::vector<std::vector<std::uint32_t>> asked(vox_surface* surface, int a, int b,
+                                              std::uint64_t step = ~0ull) {
     std::vector<std::vector<std::uint32_t>> lists;
     for (;;) {
         vox_pair_lists view{};
         view.struct_size = sizeof view;
-        ck_assert_msg(vox_surface_pairs(surface, vox_feature(a), vox_feature(b), lists.size(), step, &view) == VOX_OK,
+        ck_assert_msg(vox_surface_pairs(surface, vox_feature(a), vox_feature(b), lists.size(), step, &view) ==
+                          VOX_OK,
                       "%s", vox_last_error());
         ck_assert_uint_eq(view.first, lists.size());
         ck_assert_uint_eq(view.offsets[view.count], view.pair_count);
@@ -162,10 +165,11 @@ std::vector<std::vector<std::uint32_t>> asked(vox_surface* surface, int a, int b
 }
 
 // A number that others often have too, so that boxes touch, or differ in the last place.
-double coordinate(Random& random, bool doubles, double scale) {
-    double x = scale * double(random.below(9)) / 8;
+double coordinate(Random& random, bool doubles, double scale, double origin) {
+    double x = origin + scale * double(random.below(9)) / 8;
     if (random.below(3) == 0) x += scale * random.unit() / 4;
-    if (random.below(4) == 0) x = doubles ? std::nextafter(x, infinity) : double{std::nextafter(float(x), 1e30f)};
+    if (random.below(4) == 0)
+        x = doubles ? std::nextafter(x, infinity) : double{std::nextafter(float(x), 1e30f)};
     return doubles ? x : double{float(x)};
 }
 
@@ -177,17 +181,25 @@ Scene random_scene(Random& random) {
     s.columns = s.vertex_count > 1 && random.below(3) == 0;
     const double scale = random.below(8) == 0 ? 1e-30 : random.below(8) == 0 ? 1e30 : 1;
     s.radius = random.below(3) == 0 ? 0 : random.below(20) == 0 ? infinity : scale * random.unit() / 16;
-    for (std::uint32_t i = 0; i < 3 * s.vertex_count; ++i) s.from.push_back(coordinate(random, s.doubles, scale));
-    for (const double x : s.from)
-        s.to.push_back(random.below(3) == 0 ? coordinate(random, s.doubles, scale) : x);
+    double origin[3] = {0, 0, 0}; // far away, so that floats are coarse, and doubles at last
+    if (random.below(4) == 0)
+        for (double& x : origin)
+            x = random.below(3) == 0 ? 0 : scale * std::pow(10.0, double(random.below(scale > 1 ? 8 : 16)));
+    for (std::uint32_t i = 0; i < 3 * s.vertex_count; ++i)
+        s.from.push_back(coordinate(random, s.doubles, scale, origin[i % 3]));
+    for (std::uint32_t i = 0; i < 3 * s.vertex_count; ++i)
+        s.to.push_back(random.below(3) == 0 ? coordinate(random, s.doubles, scale, origin[i % 3])
+                                            : s.from[i]);
     const auto vertex = [&] { return std::uint32_t(random.below(s.vertex_count)); };
     for (std::uint64_t i = random.below(2 * s.vertex_count + 1); i > 0; --i) {
         const std::uint32_t v = vertex();
-        s.edges.insert(s.edges.end(), {v, random.below(3) == 0 ? vertex() : std::min(v + 1, s.vertex_count - 1)});
+        s.edges.insert(s.edges.end(),
+                       {v, random.below(3) == 0 ? vertex() : std::min(v + 1, s.vertex_count - 1)});
     }
     for (std::uint64_t i = random.below(2 * s.vertex_count + 1); i > 0; --i) {
         const std::uint32_t v = vertex(), w = std::min(v + 1, s.vertex_count - 1);
-        s.faces.insert(s.faces.end(), {v, random.below(9) == 0 ? vertex() : w, std::min(w + 1, s.vertex_count - 1)});
+        s.faces.insert(s.faces.end(),
+                       {v, random.below(9) == 0 ? vertex() : w, std::min(w + 1, s.vertex_count - 1)});
     }
     if (s.edges.empty()) { // those of the faces, then
         s.no_edges_given = true;
@@ -205,7 +217,8 @@ Scene random_scene(Random& random) {
         }
         const std::uint32_t run = 1 + random.below(20);
         for (std::uint32_t v = 0; v < s.vertex_count; ++v)
-            s.patches.push_back(std::uint32_t(run < 10 ? v / run % patches : random.below(std::uint32_t(patches))));
+            s.patches.push_back(
+                std::uint32_t(run < 10 ? v / run % patches : random.below(std::uint32_t(patches))));
     }
     return s;
 }
@@ -229,7 +242,8 @@ START_TEST(pairs_are_those_whose_boxes_overlap) {
             for (int b = 0; b < 3; ++b) {
                 const auto expected = by_definition(s, a, b);
                 const auto found = asked(surface, a, b, random.below(2) == 0 ? ~0ull : 1 + random.below(50));
-                ck_assert_msg(found == expected, "scene %llu, kinds %d and %d", static_cast<unsigned long long>(n), a, b);
+                ck_assert_msg(found == expected, "scene %llu, kinds %d and %d",
+                              static_cast<unsigned long long>(n), a, b);
                 for (const auto& list : found) pairs += list.size();
             }
         vox_surface_destroy(surface);
@@ -241,35 +255,47 @@ END_TEST
 
 // A point of a feature at a time, by weights that may be anything that adds up to 1.
 void point_of(const Scene& s, const std::vector<std::uint32_t>& corners, const double* weights, double time,
-              double (&out)[3]) {
+              const double* origin, double (&out)[3]) {
     for (std::uint32_t k = 0; k < 3; ++k) {
         out[k] = 0;
         for (std::size_t c = 0; c < corners.size(); ++c) {
             const std::uint32_t at = 3 * corners[c] + k;
-            const double from = s.from[at], to = s.moves ? s.to[at] : from;
+            const double from = s.from[at] - origin[k], to = s.moves ? s.to[at] - origin[k] : from;
             out[k] += weights[c] * (from + time * (to - from));
         }
     }
 }
 
-// An upper bound of the distance between two features during the motion: by points in a raster, at some times.
-double raster_distance(const Scene& s, const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
-    static constexpr double raster[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {.5, .5, 0}, {.5, 0, .5}, {0, .5, .5},
-                                           {1. / 3, 1. / 3, 1. / 3}, {.25, .75, 0}, {.75, .25, 0}, {.25, .25, .5}};
+// An upper bound of the distance between two features during the motion: by points in a raster, at some
+// times.
+double raster_distance(const Scene& s, const std::vector<std::uint32_t>& a,
+                       const std::vector<std::uint32_t>& b) {
+    static constexpr double raster[][3] = {{1, 0, 0},
+                                           {0, 1, 0},
+                                           {0, 0, 1},
+                                           {.5, .5, 0},
+                                           {.5, 0, .5},
+                                           {0, .5, .5},
+                                           {1. / 3, 1. / 3, 1. / 3},
+                                           {.25, .75, 0},
+                                           {.75, .25, 0},
+                                           {.25, .25, .5}};
     double least = infinity;
+    const double* const origin =
+        &s.from[3 * a[0]]; // far from that of the scene, much would be lost in rounding
     for (int t = 0; t <= 8; ++t)
         for (const auto& u : raster) {
             bool fits = true;
             for (std::size_t c = a.size(); c < 3; ++c) fits = fits && u[c] == 0;
             if (!fits) continue;
             double p[3];
-            point_of(s, a, u, t / 8., p);
+            point_of(s, a, u, t / 8., origin, p);
             for (const auto& w : raster) {
                 fits = true;
                 for (std::size_t c = b.size(); c < 3; ++c) fits = fits && w[c] == 0;
                 if (!fits) continue;
                 double q[3];
-                point_of(s, b, w, t / 8., q);
+                point_of(s, b, w, t / 8., origin, q);
                 least = std::min(least, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
             }
         }
@@ -299,7 +325,8 @@ START_TEST(culling_loses_no_pair_that_touches) {
                     kept += found[i].size();
                     if (overlapping[i].size() > 20) continue; // it takes long
                     for (const std::uint32_t j : overlapping[i])
-                        if (raster_distance(s, s.corners(a, i), s.corners(b, j)) <= 2 * s.radius * (1 - 1e-9)) {
+                        if (raster_distance(s, s.corners(a, i), s.corners(b, j)) <=
+                            2 * s.radius * (1 - 1e-9)) {
                             ++touching;
                             ck_assert_msg(std::binary_search(found[i].begin(), found[i].end(), j),
                                           "scene %llu, kinds %d and %d: %u and %u are lost",
