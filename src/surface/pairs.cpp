@@ -1,6 +1,6 @@
-// Each tile of kind a collects the features of kind b near it, ascending, and compares its own 64 boxes with
-// each of them at once. The answers are bits, kept the other way round: the partners of each feature of the
-// tile. When all tiles have counted theirs, they know where their lists go.
+// Each tile of kind a compares its own 64 boxes with those of each tile of kind b near it, and puts what
+// overlaps in ascending order. The answers are bits, turned the other way round: the partners of each feature
+// of the tile. When all tiles have counted theirs, they know where their lists go.
 #include "surface/pairs.hpp"
 
 #include "base/bits.hpp"
@@ -273,8 +273,8 @@ void PairSearch::quantise(const Task& task, std::uint32_t t, TileSearch& tile, W
 std::uint64_t PairSearch::overlapping(const Task& task, const TileSearch& tile, std::uint64_t lanes,
                                       std::uint32_t slot) noexcept {
     constexpr std::size_t n = features_a_tile;
-    const float *const all = task.a.boxes_of(tile.first_slot / n), *const other =
-                                                                       task.b.boxes_of(slot / n) + slot % n;
+    const float* const all = task.a.boxes_of(tile.first_slot / n);
+    const float* const other = task.b.boxes_of(slot / n) + slot % n;
     std::optional<ExactBox> exact;
     for (std::uint64_t left = lanes; left != 0; left &= left - 1) {
         const unsigned lane = lowest_lane(left);
@@ -298,8 +298,8 @@ template <unsigned Corners>
 void PairSearch::add_near(const Task& task, const TileSearch& tile, std::uint32_t other, Worker& worker) {
     const FeatureTiles& b = task.b;
     const std::uint32_t first_slot = other * features_a_tile;
-    const std::uint32_t *const features = b.features.data() + first_slot, *const corners =
-                                                                              b.corners_from(first_slot);
+    const std::uint32_t* const features = b.features.data() + first_slot;
+    const std::uint32_t* const corners = b.corners_from(first_slot);
     // Each pair once, and no empty lanes, which an endless box would overlap, too. Both are at one end of the
     // tile.
     const auto lanes_up_to = [&](std::uint32_t f) {
@@ -347,7 +347,7 @@ void PairSearch::sort_near(Worker& worker) {
     worker.listed.clear();
 }
 
-// Drops of worker.found what is another one's, and what the patches rule out.
+// Drops of worker.found the pairs that belong to the partner, and those that the patches rule out.
 void PairSearch::drop_unwanted(const Task& task, const TileSearch& tile, Worker& worker) {
     if (!task.same && !task.topology.has_patches()) return;
     const FeatureTiles &a = task.a, &b = task.b;
@@ -356,7 +356,7 @@ void PairSearch::drop_unwanted(const Task& task, const TileSearch& tile, Worker&
     std::size_t kept = 0;
     for (std::size_t i = 0; i < worker.count; ++i) {
         auto [lanes, partner, slot] = worker.found[i];
-        if (task.same) { // each pair once
+        if (task.same) { // the lower of two features has the pair
             while (below < features_a_tile && features[below] < partner) ++below;
             if (below < features_a_tile) lanes &= (std::uint64_t{1} << below) - 1;
         }
@@ -457,13 +457,19 @@ void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motio
         worker.tile_pairs = worker.boxes_compared = worker.culled = 0;
     }
     found_of_.resize(tiles_a.tile_count());
-    const Task task{topology,        motion,
-                    tiles_a,         tiles_b,
-                    a == b,          first,
-                    count,           out.offsets.data() + 1,
-                    quantise_tile(), quantise_sides(),
-                    compare_tiles(), turn_blocks(),
-                    cull_some()};
+    const Task task{.topology = topology,
+                    .motion = motion,
+                    .a = tiles_a,
+                    .b = tiles_b,
+                    .same = a == b,
+                    .first = first,
+                    .count = count,
+                    .ends = out.offsets.data() + 1,
+                    .quantise_tile = quantise_tile(),
+                    .quantise_sides = quantise_sides(),
+                    .compare = compare_tiles(),
+                    .turn = turn_blocks(),
+                    .cull = cull_some()};
     workers.for_ranges(tiles_a.tile_count(), least_tiles,
                        [&](std::size_t begin, std::size_t end, std::uint32_t w) {
                            Worker& worker = workers_[w];

@@ -1,5 +1,5 @@
-// Pairs of features whose boxes overlap: tiles of one kind against a grid of tiles of the other, 64 boxes
-// against one at once.
+// Pairs of features whose boxes overlap: tiles of one kind against a grid of tiles of the other, a box of one
+// against 64 at once.
 #pragma once
 
 #include "base/parallel.hpp"
