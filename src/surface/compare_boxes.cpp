@@ -9,6 +9,7 @@
 // lower y if y were above 32767, but the tile's own numbers are from 8 to 32760, and then the difference
 // would be negative.
 #include "surface/compare_boxes.hpp"
+#include "base/boxes.hpp"
 #include "base/simd.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -127,6 +128,24 @@ std::size_t CompareQuantised(const QuantisedTile& HWY_RESTRICT tile, std::uint64
     return found;
 }
 
+FloatOverlaps CompareBox(const float* HWY_RESTRICT boxes, const float* HWY_RESTRICT box, float close_by) {
+    const hn::CappedTag<float, 16> d;
+    constexpr std::size_t n = lanes_a_tile;
+    const auto zero = hn::Zero(d), most_close = hn::Set(d, close_by);
+    std::uint64_t overlapping = 0, close = 0;
+    for (std::size_t k = 0; k < n; k += hn::Lanes(d)) {
+        auto reach = hn::Set(d, float_infinity); // the sign of a difference is exact
+        for (std::size_t a = 0; a < 3; ++a) {
+            const auto above = hn::Sub(hn::Set(d, box[(a + 3) * n]), hn::LoadU(d, boxes + a * n + k));
+            const auto below = hn::Sub(hn::LoadU(d, boxes + (a + 3) * n + k), hn::Set(d, box[a * n]));
+            reach = hn::Min(reach, hn::Min(above, below));
+        }
+        overlapping |= BitsOfMask(d, hn::Ge(reach, zero)) << k;
+        close |= BitsOfMask(d, hn::Le(reach, most_close)) << k;
+    }
+    return {overlapping, overlapping & close};
+}
+
 } // namespace HWY_NAMESPACE
 } // namespace vox
 HWY_AFTER_NAMESPACE();
@@ -136,6 +155,7 @@ namespace vox {
 
 QuantiseTile* quantise_tile() noexcept { return VOX_SIMD_DISPATCH(QuantiseOwn); }
 QuantiseSides* quantise_sides() noexcept { return VOX_SIMD_DISPATCH(Quantise); }
+CompareFloats* compare_floats() noexcept { return VOX_SIMD_DISPATCH(CompareBox); }
 CompareTiles* compare_tiles() noexcept { return VOX_SIMD_DISPATCH(CompareQuantised); }
 
 } // namespace vox

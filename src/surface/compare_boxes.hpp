@@ -46,9 +46,17 @@ using QuantiseSides = void(const float* boxes, const QuantisedTile& tile, Quanti
 using CompareTiles = std::size_t(const QuantisedTile& tile, std::uint64_t asked, const QuantisedSides& other,
                                  std::uint64_t wanted, TileOverlaps& out);
 
+// Compares a tile's boxes of floats with one box, whose numbers lie 64 floats apart. Bit k of `lanes`: lane k
+// overlaps it; bit k of `close`: but reaches into it by no more than `close_by` along some axis.
+struct FloatOverlaps {
+    std::uint64_t lanes, close;
+};
+using CompareFloats = FloatOverlaps(const float* boxes, const float* box, float close_by);
+
 // For the instructions of this machine.
 QuantiseTile* quantise_tile() noexcept;
 QuantiseSides* quantise_sides() noexcept;
 CompareTiles* compare_tiles() noexcept;
+CompareFloats* compare_floats() noexcept;
 
 } // namespace vox

@@ -13,15 +13,8 @@ namespace vox {
 
 namespace {
 
-// The float before f, in the order of floats. Without a call, and without a branch.
-float float_before(float f) noexcept {
-    const std::uint32_t bits = f == 0 ? 0x80000000u : std::bit_cast<std::uint32_t>(f);
-    const std::uint32_t is_negative = bits >> 31, is_lowest = bits == 0xff800000u;
-    return std::bit_cast<float>(bits + (2 * is_negative - 1) * (1 - is_lowest));
-}
-
 // At most two floats below lower_side() for doubles, and the same as it for floats.
-float float_below(double at) noexcept { return float_before(static_cast<float>(at)); }
+float float_below(double at) noexcept { return number_before(static_cast<float>(at)); }
 
 struct Middle {
     float at[3]; // as seen from the first vertex

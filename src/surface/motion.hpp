@@ -2,10 +2,13 @@
 #pragma once
 
 #include "base/scene.hpp"
+#include "base/vectors.hpp"
 
-#include <cmath>
+#include <bit>
+#include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 namespace vox {
 
@@ -20,15 +23,56 @@ struct SurfaceMotion {
     bool moves() const noexcept { return from.data() != to.data(); }
 };
 
+// The number before x, in the order of floats or doubles: that of std::nextafter(x, -infinity), but without a
+// call or a branch. x is a number.
+template <class Number>
+Number number_before(Number x) noexcept {
+    using Bits = std::conditional_t<sizeof(Number) == 4, std::uint32_t, std::uint64_t>;
+    constexpr Bits sign = Bits{1} << (8 * sizeof(Number) - 1);
+    constexpr auto lowest = std::bit_cast<Bits>(-std::numeric_limits<Number>::infinity());
+    const Bits bits = x == 0 ? sign : std::bit_cast<Bits>(x);
+    const Bits is_negative = bits >> (8 * sizeof(Number) - 1), is_lowest = bits == lowest;
+    return std::bit_cast<Number>(bits + (2 * is_negative - 1) * (1 - is_lowest));
+}
+
 // One side of the box of a vertex, as vox_motion.radius has it. `at` is the lower, or the higher, of the two
 // coordinates.
 inline double lower_side(double at, double radius, bool doubles) noexcept {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    if (doubles) return std::nextafter(at - radius, -infinity);
-    return double{std::nextafter(static_cast<float>(at - radius), -static_cast<float>(infinity))};
+    return doubles ? number_before(at - radius) : double{number_before(static_cast<float>(at - radius))};
 }
 inline double upper_side(double at, double radius, bool doubles) noexcept {
     return -lower_side(-at, radius, doubles);
 }
+
+// The box of a feature in motion, without the radius.
+struct MovingBox {
+    MovingBox(const SurfaceMotion& motion, std::span<const std::uint32_t> corners) noexcept
+        : lo(motion.from[corners[0]]), hi(lo) {
+        for (const std::uint32_t v : corners) {
+            lo = min(lo, min(motion.from[v], motion.to[v]));
+            hi = max(hi, max(motion.from[v], motion.to[v]));
+        }
+    }
+
+    Vec3d lo, hi;
+};
+
+// The same as vox_motion.radius has it.
+struct ExactBox {
+    ExactBox() noexcept = default;
+    ExactBox(const SurfaceMotion& motion, std::span<const std::uint32_t> corners) noexcept {
+        const MovingBox box(motion, corners);
+        const double r = motion.radius;
+        const bool d = motion.doubles;
+        lo = {lower_side(box.lo.x, r, d), lower_side(box.lo.y, r, d), lower_side(box.lo.z, r, d)};
+        hi = {upper_side(box.hi.x, r, d), upper_side(box.hi.y, r, d), upper_side(box.hi.z, r, d)};
+    }
+    bool overlaps(const ExactBox& other) const noexcept {
+        return lo.x <= other.hi.x && lo.y <= other.hi.y && lo.z <= other.hi.z && other.lo.x <= hi.x &&
+               other.lo.y <= hi.y && other.lo.z <= hi.z;
+    }
+
+    Vec3d lo, hi;
+};
 
 } // namespace vox

@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <optional>
 
 namespace vox {
 
@@ -23,36 +22,6 @@ constexpr std::uint64_t all_lanes = ~std::uint64_t{0};
 constexpr std::size_t least_tiles = 8; // that a worker takes at once
 
 unsigned lowest_lane(std::uint64_t lanes) noexcept { return static_cast<unsigned>(std::countr_zero(lanes)); }
-
-// The box of a feature's positions, without the radius.
-struct MovingBox {
-    MovingBox(const SurfaceMotion& motion, std::span<const std::uint32_t> corners) noexcept
-        : lo(motion.from[corners[0]]), hi(lo) {
-        for (const std::uint32_t v : corners) {
-            lo = min(lo, min(motion.from[v], motion.to[v]));
-            hi = max(hi, max(motion.from[v], motion.to[v]));
-        }
-    }
-
-    Vec3d lo, hi;
-};
-
-// The box of a feature as vox_motion.radius has it.
-struct ExactBox {
-    ExactBox(const SurfaceMotion& motion, std::span<const std::uint32_t> corners) noexcept {
-        const MovingBox box(motion, corners);
-        const double r = motion.radius;
-        const bool d = motion.doubles;
-        lo = {lower_side(box.lo.x, r, d), lower_side(box.lo.y, r, d), lower_side(box.lo.z, r, d)};
-        hi = {upper_side(box.hi.x, r, d), upper_side(box.hi.y, r, d), upper_side(box.hi.z, r, d)};
-    }
-    bool overlaps(const ExactBox& other) const noexcept {
-        return lo.x <= other.hi.x && lo.y <= other.hi.y && lo.z <= other.hi.z && other.lo.x <= hi.x &&
-               other.lo.y <= hi.y && other.lo.z <= hi.z;
-    }
-
-    Vec3d lo, hi;
-};
 
 } // namespace
 
@@ -66,6 +35,7 @@ struct PairSearch::Task {
     QuantiseTile* quantise_tile;
     QuantiseSides* quantise_sides;
     CompareTiles* compare;
+    CompareFloats* compare_floats;
     TurnBlocks* turn;
     CullSome* cull;
 };
@@ -235,27 +205,53 @@ void PairSearch::quantise(const Task& task, std::uint32_t t, TileSearch& tile, W
     const Box& box = task.a.tile_boxes[t];
     float largest = 0;
     for (int i = 0; i < 3; ++i) largest = std::max({largest, std::abs(box.lo[i]), std::abs(box.hi[i])});
-    if (task.motion.doubles) {
-        // Each side of a box of doubles is less than 2 floats inside the float that bounds it.
-        tile.close_by = largest * 0x1p-20f + 0x1p-140f;
-        // Far from the origin, floats may be too coarse for what is small, and doubles not. A side is never
-        // less than 2 floats, so a quantum is many doubles.
-        const auto prepare = [&](int axis, double& low, double& per_quantum) {
-            const double side = double{box.hi[axis]} - box.lo[axis];
-            low = box.lo[axis];
-            per_quantum = double{quanta_a_side} / side;
-            tile.by_doubles |=
-                side < 0x1p11 * tile.close_by && side > 0x1p-36 * largest && largest < 0x1p100f;
-        };
-        prepare(0, tile.low.x, tile.per_quantum.x);
-        prepare(1, tile.low.y, tile.per_quantum.y);
-        prepare(2, tile.low.z, tile.per_quantum.z);
+    // Each side of a box of doubles is less than 2 floats inside the float that bounds it.
+    if (task.motion.doubles) tile.close_by = largest * 0x1p-20f + 0x1p-140f;
+    task.quantise_tile(task.a.boxes_of(t), box.lo, box.hi, tile.close_by, worker.quantised);
+    if (!are_floats_coarse(task, t, tile)) return;
+    // Quanta of doubles cost more. They are worth it where floats leave much open, and doubles do not.
+    const auto count_open = [&] {
+        const QuantisedTile& own = worker.quantised;
+        const std::size_t found = task.compare(own, tile.asked, own.sides, tile.asked, worker.overlaps);
+        std::uint32_t open = 0;
+        for (std::size_t i = 0; i < found; ++i) open += bit_count(worker.overlaps.open[i]);
+        return open;
+    };
+    constexpr std::uint32_t much = features_a_tile * features_a_tile / 4;
+    const std::uint32_t by_floats = count_open();
+    if (by_floats < much) return;
+    quantise_by_doubles(task, t, tile, worker.quantised);
+    tile.by_doubles = count_open() < by_floats / 4;
+    if (!tile.by_doubles)
+        task.quantise_tile(task.a.boxes_of(t), box.lo, box.hi, tile.close_by, worker.quantised);
+}
+
+// Whether boxes of the tile are short for floats so far from the origin, on average, along some axis.
+bool PairSearch::are_floats_coarse(const Task& task, std::uint32_t t, const TileSearch& tile) noexcept {
+    if (!task.motion.doubles) return false;
+    const float* const boxes = task.a.boxes_of(t);
+    const auto count = static_cast<float>(bit_count(tile.asked));
+    for (std::size_t a = 0; a < 3; ++a) {
+        float sum = 0;
+        for (std::uint64_t lanes = tile.asked; lanes != 0; lanes &= lanes - 1)
+            sum += boxes[(a + 3) * features_a_tile + lowest_lane(lanes)] -
+                   boxes[a * features_a_tile + lowest_lane(lanes)];
+        if (sum < 4 * tile.close_by * count) return true;
     }
-    QuantisedTile& out = worker.quantised;
-    if (!tile.by_doubles) {
-        task.quantise_tile(task.a.boxes_of(t), box.lo, box.hi, tile.close_by, out);
-        return;
-    }
+    return false;
+}
+
+void PairSearch::quantise_by_doubles(const Task& task, std::uint32_t t, TileSearch& tile,
+                                     QuantisedTile& out) noexcept {
+    const Box& box = task.a.tile_boxes[t];
+    const auto scale = [&](int axis, double& low, double& per_quantum) {
+        low = box.lo[axis];
+        // A side is at least 2 floats, so a quantum is many doubles.
+        per_quantum = double{quanta_a_side} / (double{box.hi[axis]} - box.lo[axis]);
+    };
+    scale(0, tile.low.x, tile.per_quantum.x);
+    scale(1, tile.low.y, tile.per_quantum.y);
+    scale(2, tile.low.z, tile.per_quantum.z);
     quantise_doubles(task.motion, task.a, t, tile.low, tile.per_quantum, out.sides);
     out.always_open = 0;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -271,24 +267,20 @@ void PairSearch::quantise(const Task& task, std::uint32_t t, TileSearch& tile, W
 // Those of the lanes whose boxes overlap that of a slot of b: by the floats that bound them, and where these
 // cannot tell, as the caller's format has them.
 std::uint64_t PairSearch::overlapping(const Task& task, const TileSearch& tile, std::uint64_t lanes,
-                                      std::uint32_t slot) noexcept {
-    constexpr std::size_t n = features_a_tile;
-    const float* const all = task.a.boxes_of(tile.first_slot / n);
-    const float* const other = task.b.boxes_of(slot / n) + slot % n;
-    std::optional<ExactBox> exact;
-    for (std::uint64_t left = lanes; left != 0; left &= left - 1) {
+                                      std::uint32_t slot, Worker& worker) noexcept {
+    const FeatureTiles &a = task.a, &b = task.b;
+    const FloatOverlaps floats =
+        task.compare_floats(a.boxes_of(tile.first_slot / features_a_tile),
+                            b.boxes_of(slot / features_a_tile) + slot % features_a_tile, tile.close_by);
+    lanes &= floats.lanes;
+    if (!task.motion.doubles || (lanes & floats.close) == 0) return lanes;
+    const ExactBox box(task.motion, b.corners_at(slot));
+    for (std::uint64_t left = lanes & floats.close; left != 0; left &= left - 1) {
         const unsigned lane = lowest_lane(left);
-        const float* const own = all + lane;
-        // How far the boxes reach into each other. The sign of a difference is exact.
-        float reach = float_infinity;
-        for (std::size_t a = 0; a < 3; ++a)
-            reach = std::min({reach, other[(a + 3) * n] - own[a * n], own[(a + 3) * n] - other[a * n]});
-        bool overlap = reach >= 0;
-        if (overlap && reach <= tile.close_by && task.motion.doubles) {
-            if (!exact) exact.emplace(task.motion, task.b.corners_at(slot));
-            overlap = exact->overlaps(ExactBox(task.motion, task.a.corners_at(tile.first_slot + lane)));
-        }
-        if (!overlap) lanes &= ~(left & -left);
+        if (!(worker.has_exact >> lane & 1))
+            worker.exact[lane] = ExactBox(task.motion, a.corners_at(tile.first_slot + lane));
+        worker.has_exact |= left & -left;
+        if (!box.overlaps(worker.exact[lane])) lanes &= ~(left & -left);
     }
     return lanes;
 }
@@ -302,6 +294,11 @@ void PairSearch::add_near(const Task& task, const TileSearch& tile, std::uint32_
     const std::uint32_t* const corners = b.corners_from(first_slot);
     // Each pair once, and no empty lanes, which an endless box would overlap, too. Both are at one end of the
     // tile.
+    const std::uint32_t* const own = task.a.features.data() + tile.first_slot;
+    const auto lanes_below = [&](std::uint32_t f) {
+        const auto below = std::lower_bound(own, own + features_a_tile, f) - own;
+        return below == features_a_tile ? all_lanes : (std::uint64_t{1} << below) - 1;
+    };
     const auto lanes_up_to = [&](std::uint32_t f) {
         return static_cast<unsigned>(std::upper_bound(features, features + features_a_tile, f) - features);
     };
@@ -328,8 +325,10 @@ void PairSearch::add_near(const Task& task, const TileSearch& tile, std::uint32_
         for (unsigned c = 0; c < Corners; ++c) maybe_around |= worker.around_folded[v[c] % folded_vertices];
         if (lanes & maybe_around)
             for (unsigned c = 0; c < Corners; ++c) lanes &= ~worker.around[v[c]];
-        if (const std::uint64_t open = lanes & overlaps.open[i])
-            lanes &= ~open | overlapping(task, tile, open, first_slot + lane);
+        if (std::uint64_t open = lanes & overlaps.open[i]; open != 0) {
+            if (task.same) lanes &= lanes_below(features[lane]), open &= lanes;
+            lanes &= ~open | overlapping(task, tile, open, first_slot + lane, worker);
+        }
         worker.near[count] = {lanes, features[lane], first_slot + lane};
         const std::uint64_t is_near = lanes != 0; // nobody could predict a branch
         worker.listed.add(features[lane], is_near);
@@ -382,6 +381,7 @@ void PairSearch::search_tile(const Task& task, std::uint32_t t, Worker& worker) 
     tile.lowest = features[lowest_lane(tile.asked)];
     const Box& box = a.tile_boxes[t];
     quantise(task, t, tile, worker);
+    worker.has_exact = 0;
 
     const auto for_each_corner = [&](auto&& visit) {
         for (std::uint64_t lanes = tile.asked; lanes != 0; lanes &= lanes - 1)
@@ -468,6 +468,7 @@ void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motio
                     .quantise_tile = quantise_tile(),
                     .quantise_sides = quantise_sides(),
                     .compare = compare_tiles(),
+                    .compare_floats = compare_floats(),
                     .turn = turn_blocks(),
                     .cull = cull_some()};
     workers.for_ranges(tiles_a.tile_count(), least_tiles,

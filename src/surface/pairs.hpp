@@ -91,6 +91,8 @@ private:
         QuantisedTile quantised; // the tile, another one, and what overlaps there
         alignas(64) QuantisedSides other;
         TileOverlaps overlaps;
+        std::array<ExactBox, features_a_tile> exact; // of lanes of the tile, where they were wanted
+        std::uint64_t has_exact = 0;
         CullTile tile; // of the tile, where pairs are culled
         CullBatch batch;
         std::uint64_t tile_pairs = 0, boxes_compared = 0, culled = 0;
@@ -104,8 +106,11 @@ private:
     struct TileSearch;
 
     static void quantise(const Task& task, std::uint32_t t, TileSearch& tile, Worker& worker) noexcept;
+    static bool are_floats_coarse(const Task& task, std::uint32_t t, const TileSearch& tile) noexcept;
+    static void quantise_by_doubles(const Task& task, std::uint32_t t, TileSearch& tile,
+                                    QuantisedTile& out) noexcept;
     static std::uint64_t overlapping(const Task& task, const TileSearch& tile, std::uint64_t lanes,
-                                     std::uint32_t slot) noexcept;
+                                     std::uint32_t slot, Worker& worker) noexcept;
     template <unsigned Corners>
     static void add_near(const Task& task, const TileSearch& tile, std::uint32_t other, Worker& worker);
     static void sort_near(Worker& worker);
