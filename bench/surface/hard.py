@@ -72,12 +72,30 @@ def shuffled_sheet(random, count):
     return points, order[faces].astype(np.uint32)
 
 
-FAMILIES = [soup, sizes_apart, giant_over_fine, clumps, slivers, one_line, shuffled_sheet]
+def lattice_box(random, count):
+    """The surface of a box of equal squares, near the origin or far away: most boxes touch, or miss each other by the radius."""
+    side = max(2, int((count / 12) ** 0.5))
+    numbers = {}
+    faces = []
+    for axis in range(3):
+        for at in (0, side):
+            for i in range(side):
+                for j in range(side):
+                    corners = []
+                    for u, v in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1)):
+                        point = [0, 0, 0]
+                        point[axis], point[(axis + 1) % 3], point[(axis + 2) % 3] = at, u, v
+                        corners.append(numbers.setdefault(tuple(point), len(numbers)))
+                    faces += [corners[:3], [corners[0], corners[2], corners[3]]]
+    far = 10 ** random.uniform(-2, 4) * random.random(3) * random.integers(0, 2)
+    return np.array(list(numbers), float) / side + far, np.array(faces, np.uint32)
 
 
-def motion(random, points, faces):
+FAMILIES = [soup, sizes_apart, giant_over_fine, clumps, slivers, one_line, shuffled_sheet, lattice_box]
+
+
+def motion(random, points, size):
     """Standing still, all together, everyone for himself, or as if the tiles were made for another shape."""
-    size = np.linalg.norm(points[faces[:, 0]] - points[faces[:, 1]], axis=1).mean()
     kind = random.integers(0, 4)
     if kind == 0:
         return points
@@ -106,7 +124,9 @@ def main():
         for attempt in range(options.tries):
             random = np.random.default_rng([options.seed, number, attempt])
             points, faces = family(random, int(10 ** random.uniform(3, 4.4)))
-            end = motion(random, points, faces)
+            size = np.linalg.norm(points[faces[:, 0]] - points[faces[:, 1]], axis=1).mean() # of an edge
+            end = motion(random, points, size)
+            radius = size * 10 ** random.uniform(-7, -1) * random.integers(0, 2)
             edges = pairs.edges_of(faces)
             start, end = np.asfortranarray(points), np.asfortranarray(end)
             surface = pairs.Surface(vox, start, edges, np.ascontiguousarray(faces))
@@ -115,13 +135,13 @@ def main():
             candidates, broad, times = ipctk.Candidates(), ipctk.LBVH(), {"lbvh": [], "vox": []}
             for _ in range(3):
                 begin = time.perf_counter()
-                candidates.build(mesh, start, end, 0, broad)
+                candidates.build(mesh, start, end, radius, broad)
                 times["lbvh"].append(time.perf_counter() - begin)
                 begin = time.perf_counter()
-                surface.move(start, end, 0, False)
+                surface.move(start, end, radius, False)
                 found = surface.pairs(pairs.EDGE, pairs.EDGE).pair_count + surface.pairs(pairs.FACE, pairs.VERTEX).pair_count
                 times["vox"].append(time.perf_counter() - begin)
-            candidates.build(mesh, start, end, 0, ipctk.SweepAndPrune())
+            candidates.build(mesh, start, end, radius, ipctk.SweepAndPrune())
             if len(candidates) != found:
                 raise SystemExit(f"{family.__name__}: {found} pairs, expected {len(candidates)}")
             features = len(points) + len(edges) + len(faces)
