@@ -47,13 +47,16 @@ public:
     void build(Eigen::ConstRef<Eigen::MatrixXd> vertices_t0, Eigen::ConstRef<Eigen::MatrixXd> vertices_t1,
                Eigen::ConstRef<Eigen::MatrixXi> edges, Eigen::ConstRef<Eigen::MatrixXi> faces,
                const double inflation_radius = 0) override {
+        if (vertices_t1.rows() != vertices_t0.rows() || vertices_t1.cols() != vertices_t0.cols())
+            throw std::invalid_argument("vox: " + std::to_string(vertices_t0.rows()) + " vertices at the beginning, " +
+                                        std::to_string(vertices_t1.rows()) + " at the end");
         prepare(static_cast<std::size_t>(vertices_t0.rows()), edges, faces, vertices_t0.cols());
         const Eigen::MatrixXd from = three_columns(vertices_t0), to = three_columns(vertices_t1);
         move(from, to.data(), inflation_radius, cull_);
     }
 
-    // Boxes of the caller's, as they are: a vertex that moves from one corner to the other has that box. Nothing is culled,
-    // as nothing is known of the motion.
+    // Boxes of the caller's, as they are: a vertex that moves from one corner to the other has that box. One with a side of less
+    // than two numbers gets larger by so little. Nothing is culled, as nothing is known of the motion.
     void build(const ipc::AABBs& boxes, Eigen::ConstRef<Eigen::MatrixXi> edges,
                Eigen::ConstRef<Eigen::MatrixXi> faces, const std::uint8_t dimensions) override {
         constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -122,6 +125,11 @@ private:
         clear();
         dim = static_cast<std::uint8_t>(dimensions); // of the base: which candidates it asks for
         std::vector<std::uint32_t> edge_indices = indices_of(edges), face_indices = indices_of(faces);
+        if (vertex_count == 0) { // nothing to find, and no surface
+            surface_.reset();
+            vertex_count_ = 0;
+            return;
+        }
         if (surface_ && vertex_count == vertex_count_ && edge_indices == edges_ && face_indices == faces_) return;
         const std::uint32_t none = 0; // so that no edges are not those of the faces
         vox_surface_desc desc = vox_default_surface_desc();
@@ -140,6 +148,7 @@ private:
     }
 
     void move(const Eigen::MatrixXd& from, const double* to, double radius, bool cull) {
+        if (!surface_) return;
         vox_motion motion = vox_default_motion();
         motion.flags = cull ? VOX_MOTION_CULL : 0;
         motion.from = from.data();
@@ -171,18 +180,19 @@ private:
 
     // Whether the filter says so, where it has a word for it: it need not be asked about each pair then.
     template <class Filter>
-    static bool accepts_all(const Filter& filter) {
-        if constexpr (requires { filter.accepts_all(); })
-            return filter.accepts_all();
-        else
-            return false;
+    static auto accepts_all(const Filter& filter, int) -> decltype(static_cast<bool>(filter.accepts_all())) {
+        return filter.accepts_all();
+    }
+    template <class Filter>
+    static bool accepts_all(const Filter&, long) {
+        return false;
     }
 
     template <class Candidate>
     void detect(vox_feature a, vox_feature b, std::vector<Candidate>& candidates) const {
         candidates.clear();
         if (!moved_) return;
-        const bool all = accepts_all(can_vertices_collide);
+        const bool all = accepts_all(can_vertices_collide, 0);
         for (std::uint64_t first = 0;;) { // in pieces where one would not fit into the byte budget
             vox_pair_lists lists{};
             lists.struct_size = sizeof lists;

@@ -323,14 +323,15 @@ VOX_API vox_result vox_grid_set_worker_count(vox_grid* grid, uint32_t worker_cou
  * step does. Switched off, it releases the memory of these events.
  * VOX_GRID_EDGE_CONTACTS switched on lets the next step prepare the surfaces of the meshes that are near others.
  * Switched off, it releases the memory of that.
- * Errors: INVALID_ARGUMENT (unknown flags), LIMIT, BUDGET, OUT_OF_MEMORY; after these all meshes are as they were. */
+ * Errors: INVALID_ARGUMENT (unknown flags), UNSUPPORTED (edge contacts in a build without), LIMIT, BUDGET, OUT_OF_MEMORY; after
+ * these all meshes are as they were. */
 VOX_API vox_result vox_grid_set_flags(vox_grid* grid, uint32_t flags);
 
 /* From the next step on, also find the vertices of other meshes that are outside of the tetrahedra of a mesh, but within
  * `margin` (in the caller's unit) of its surface: vox_grid_margin_contacts. 0 (the default): none, at no cost, and the
  * memory that this took is released. Contacts stay, but views of the last step's results end. A mesh of more than
  * 357913941 tets then makes a step fail with LIMIT. Snapshots do not keep the margin.
- * Errors: INVALID_ARGUMENT when negative, infinite or NaN. */
+ * Errors: INVALID_ARGUMENT when negative, NaN or above 2^125; UNSUPPORTED in a build without. */
 VOX_EXPERIMENTAL vox_result vox_grid_set_margin(vox_grid* grid, double margin);
 
 /* The margin in use. */

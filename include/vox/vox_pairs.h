@@ -140,8 +140,8 @@ static inline vox_motion vox_default_motion(void) {
 }
 
 /* Sets the motion that the other functions answer for. Views of answers end. The arrays are needed during the call only.
- * Errors: INVALID_ARGUMENT (names the field and its value), NON_FINITE (names the vertex, and which of its positions),
- * BUDGET, OUT_OF_MEMORY; the motion is then the one of before. */
+ * Errors: INVALID_ARGUMENT (names the field and its value), NON_FINITE (names the vertex, and which of its positions), LIMIT
+ * (the same, for a coordinate of 2^128 or more), BUDGET, OUT_OF_MEMORY; the motion is then the one of before. */
 VOX_EXPERIMENTAL vox_result vox_surface_move(vox_surface* surface, const vox_motion* motion);
 
 /* ---- pairs ------------------------------------------------------------------------------------ */
@@ -161,7 +161,7 @@ typedef struct vox_pair_lists {
 /* All features `b` whose boxes overlap those of the features [first, first + count) of kind `a`; boxes that touch
  * overlap. Where a and b are the same kind, each pair comes once, in the list of its lower feature. Left out: pairs with a
  * vertex in common, pairs that patches rule out, and with VOX_MOTION_CULL those proven to stay apart. Ranges that reach
- * beyond the last feature end there.
+ * beyond the last feature end there, and may not begin beyond it.
  * If not all of it fits into the byte budget, the features up to lists->first + lists->count are answered, at least one;
  * ask again from there. So any number of pairs can be had from any budget that holds the lists of one feature.
  * Set out_lists->struct_size first. The view lives until the next vox_surface_pairs or vox_surface_move, or the end of the
@@ -176,8 +176,8 @@ VOX_EXPERIMENTAL vox_result vox_surface_set_cell_size(vox_surface* surface, doub
 /* The cell size that minimises the cost of finding the pairs of kind `a` with kind `b` for the motion that is set. The grid
  * holds the boxes of tiles (at most 64 neighbouring features each) of kind b in all cells that they meet, and is asked by
  * those of kind a: described as a vox_foreign_grid, with weights of its own (docs/surface-pairs.md). Set out->struct_size
- * first. Errors: INVALID_ARGUMENT (also where there are no such features), INVALID_STATE (no positions yet), BUDGET,
- * OUT_OF_MEMORY. */
+ * first. Errors: INVALID_ARGUMENT (also where there are no such features, or the radius is so large that boxes have no ends),
+ * INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
 VOX_EXPERIMENTAL vox_result vox_surface_suggest_cell_size(vox_surface* surface, vox_feature a, vox_feature b,
                                                           vox_foreign_suggestion* out);
 
@@ -255,7 +255,8 @@ VOX_EXPERIMENTAL vox_result vox_surface_close(vox_surface* surface, vox_feature 
 
 /* For each vertex a distance, at most `most`: while no vertex has moved further than its own, from the end of the motion,
  * no face and vertex and no two edges touch that do not touch now (Chen et al. 2025, Offset Geometric Contact, Sect. 3.3). It
- * is half of the least distance of such pairs that the vertex is part of, rounded downwards.
+ * is half of the least distance of such pairs that the vertex is part of, rounded downwards. Pairs with a vertex in common, and
+ * those that patches rule out, do not count, and may touch.
  * vertex_count must be that of the surface. Errors: INVALID_ARGUMENT (another vertex_count; `most` is not above 0, or not
  * finite), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
 VOX_EXPERIMENTAL vox_result vox_surface_clearance(vox_surface* surface, double most,

@@ -31,7 +31,7 @@ vox_result vox_surface_close(vox_surface* surface, vox_feature a, vox_feature b,
                           name_of(a), name_of(b)));
         if (!(distance >= 0) || !std::isfinite(distance))
             refuse(format("distance is %g, expected 0 or a length", distance));
-        const std::span<const vox_close_pair> pairs = surface->close().find(*surface, a, b, distance);
+        const std::span<const vox_close_pair> pairs = surface->close_pairs(a, b, distance);
         vox_close_view view{};
         view.byte_stride = sizeof(vox_close_pair);
         view.count = pairs.size();
@@ -48,6 +48,6 @@ vox_result vox_surface_clearance(vox_surface* surface, double most, double* per_
             refuse(format("vertex_count is %llu, but the surface has %u vertices", llu(vertex_count),
                           surface->topology().vertex_count));
         if (!(most > 0) || !std::isfinite(most)) refuse(format("most is %g, expected a length above 0", most));
-        surface->close().clearance(*surface, most, per_vertex);
+        surface->clearance(most, per_vertex);
     });
 }

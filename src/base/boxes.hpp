@@ -48,6 +48,13 @@ inline bool overlap(const Box& a, const Box& b) noexcept {
 #endif
 }
 
+// Whether no side is infinite.
+inline bool has_ends(const Box& a) noexcept {
+    bool all = true;
+    for (int i = 0; i < 3; ++i) all &= std::isfinite(a.lo[i]) && std::isfinite(a.hi[i]);
+    return all;
+}
+
 inline bool contains(const Box& outer, const Box& inner) noexcept {
     return (inner.lo[0] >= outer.lo[0]) & (inner.lo[1] >= outer.lo[1]) & (inner.lo[2] >= outer.lo[2]) &
            (inner.hi[0] <= outer.hi[0]) & (inner.hi[1] <= outer.hi[1]) & (inner.hi[2] <= outer.hi[2]);

@@ -36,10 +36,13 @@ void check_surface_contacts(bool wanted) {
         throw Error(VOX_ERROR_UNSUPPORTED, "this build finds no edge contacts, contacts within a margin or passages");
 }
 
+// Boxes of floats cannot grow by more (vertex_face_search.cpp).
+constexpr double most_margin = 0x1p125;
+
 void check_margin(double margin) {
-    if (!(margin >= 0) || std::isinf(margin))
+    if (!(margin >= 0 && margin <= most_margin))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("margin is %g, expected a finite number >= 0", margin));
+                    format("margin is %g, expected a number from 0 to %g", margin, most_margin));
     check_surface_contacts(margin > 0);
 }
 

@@ -17,7 +17,8 @@ struct CornersAt {
               std::uint32_t index) noexcept
         : count(corners_of(kind)) {
         for (unsigned i = 0; i < count; ++i)
-            at[i] = positions[vertex[i] = kind == VOX_FEATURE_VERTEX ? index : topology.corners(kind, index)[i]];
+            at[i] =
+                positions[vertex[i] = kind == VOX_FEATURE_VERTEX ? index : topology.corners(kind, index)[i]];
     }
     std::span<const Vec3d> positions() const noexcept { return {at, count}; }
     std::span<const std::uint32_t> vertices() const noexcept { return {vertex, count}; }
@@ -36,7 +37,8 @@ void copy(const Vec3d& from, double (&to)[3]) noexcept {
 
 void lower(std::atomic<double>& least, double value) noexcept {
     double current = least.load(std::memory_order_relaxed);
-    while (value < current && !least.compare_exchange_weak(current, value, std::memory_order_relaxed)) {}
+    while (value < current && !least.compare_exchange_weak(current, value, std::memory_order_relaxed)) {
+    }
 }
 
 } // namespace
@@ -50,12 +52,14 @@ std::span<const vox_close_pair> CloseSearch::find(vox_surface& surface, vox_feat
     const std::span<const Vec3d> positions = surface.motion().to;
     double largest = 0;
     for (const Vec3d& p : positions) largest = std::max(largest, largest_number(p));
-    // A pair whose boxes are more than `distance` apart may be closer by rounding (closest_features): boxes that are
-    // larger by more than that find all that count.
-    const double radius = distance / 2 + distance * 0x1p-40 + largest * 0x1p-44 + std::numeric_limits<double>::denorm_min();
+    // A pair whose boxes are more than `distance` apart may be closer by rounding (closest_features): boxes
+    // that are larger by more than that find all that count.
+    const double radius =
+        distance / 2 + distance * 0x1p-40 + largest * 0x1p-44 + std::numeric_limits<double>::denorm_min();
     const SurfaceMotion still = surface.at_end(radius);
     found_.clear();
-    for (std::uint32_t first = 0; first < topology.count(a); first += static_cast<std::uint32_t>(candidates_.count)) {
+    for (std::uint32_t first = 0; first < topology.count(a);
+         first += static_cast<std::uint32_t>(candidates_.count)) {
         surface.find_fitting(still, a, b, first, topology.count(a) - first, candidates_);
         const auto find_partners = [&](std::uint32_t i, std::pmr::vector<vox_close_pair>& found) {
             const std::uint64_t begin = candidates_.offsets[i], end = candidates_.offsets[i + 1];
@@ -81,10 +85,17 @@ std::span<const vox_close_pair> CloseSearch::find(vox_surface& surface, vox_feat
     return found_;
 }
 
-// Proof. Let every vertex move by at most its clearance, and let d > 0 be a lower bound of the distance of a face and a
-// vertex, or of two edges. Each of their vertices moves by less than d / 2, and so does each point of them, being a convex
-// combination; so no two points, at least d apart, can meet. Where nothing moves further than `most`, only pairs closer than
-// 2 * most can: those whose boxes, grown by `most`, overlap.
+bool CloseSearch::release_found() noexcept {
+    if (found_.capacity() == 0) return false;
+    found_.clear();
+    found_.shrink_to_fit();
+    return true;
+}
+
+// Proof. Let every vertex move by at most its clearance, and let d > 0 be a lower bound of the distance of a
+// face and a vertex, or of two edges. Each of their vertices moves by less than d / 2, and so does each point
+// of them, being a convex combination; so no two points, at least d apart, can meet. Where nothing moves
+// further than `most`, only pairs closer than 2 * most can: those whose boxes, grown by `most`, overlap.
 void CloseSearch::clearance(vox_surface& surface, double most, double* per_vertex) {
     const SurfaceTopology& topology = surface.topology();
     const SurfaceMotion still = surface.at_end(most);

@@ -29,6 +29,8 @@ public:
     std::span<const vox_close_pair> find(vox_surface& surface, vox_feature a, vox_feature b, double distance);
     // As vox_surface_clearance; `per_vertex` is written when nothing can fail any more.
     void clearance(vox_surface& surface, double most, double* per_vertex);
+    // The memory of an answer that has ended. Whether there was any.
+    bool release_found() noexcept;
 
 private:
     FeaturePairs candidates_;

@@ -28,7 +28,9 @@ constexpr int size_classes = 12;
 
 int size_class(float size, float median) noexcept {
     if (!(size > size_ratio * median) || !(median > 0)) return 0;
-    return std::min(size_classes - 1, 1 + static_cast<int>(std::log2(size / (size_ratio * median)) / 2));
+    // In doubles, as the quotient may be no float; a size may be infinite.
+    const double classes = std::log2(double{size} / (double{size_ratio} * median)) / 2;
+    return 1 + static_cast<int>(std::min(classes, double{size_classes - 2}));
 }
 
 void cut_into_tiles(std::span<Middle> items, std::pmr::vector<std::uint32_t>& features) {

@@ -228,7 +228,7 @@ void PairSearch::quantise(const Task& task, std::uint32_t t, TileSearch& tile, W
 
 // Whether boxes of the tile are short for floats so far from the origin, on average, along some axis.
 bool PairSearch::are_floats_coarse(const Task& task, std::uint32_t t, const TileSearch& tile) noexcept {
-    if (!task.motion.doubles) return false;
+    if (!task.motion.doubles || !(tile.close_by < 0x1p80f)) return false; // nor so far that floats overflow
     const float* const boxes = task.a.boxes_of(t);
     const auto count = static_cast<float>(bit_count(tile.asked));
     for (std::size_t a = 0; a < 3; ++a) {

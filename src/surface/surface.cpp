@@ -26,6 +26,7 @@ void vox_surface::move(const vox_motion& motion) {
                       llu(motion.vertex_count), count));
     check_format(motion.format, "");
     require(motion.from, "from");
+    if (motion.reserved != 0) refuse(format("reserved is %u, expected 0", motion.reserved));
     if (motion.flags & ~std::uint32_t{VOX_MOTION_CULL})
         refuse(format("flags is %u, expected vox_motion_flags", motion.flags));
     if (!(motion.radius >= 0)) refuse(format("radius is %g, expected 0 or a length", motion.radius));
@@ -58,9 +59,7 @@ void vox_surface::move(const vox_motion& motion) {
     has_motion_ = true;
     search_.forget_boxes();
     piece_ = {};
-    answer_.count = 0;
-    crossings_.clear();
-    timed_.clear();
+    living_ = {};
 }
 
 const SurfaceMotion& vox_surface::motion() const {
@@ -90,16 +89,52 @@ void vox_surface::find_fitting(const SurfaceMotion& motion, vox_feature a, vox_f
     const bool goes_on = piece_.count > 0 && piece_.a == a && piece_.b == b && piece_.first + piece_.count == first;
     const std::uint32_t first_try = goes_on && piece_.count < count / 2 ? 2 * piece_.count : count;
     piece_ = {};
-    for (std::uint32_t wanted = first_try;; wanted = wanted / 2 + wanted % 2) {
+    for (std::uint32_t wanted = first_try;;) {
         try {
             find_pairs(motion, a, b, first, wanted, out);
             if (wanted < count) piece_ = {a, b, first, wanted};
             return;
         } catch (const Error& error) {
-            if (error.result() != VOX_ERROR_BUDGET || wanted <= 1) throw;
+            if (error.result() != VOX_ERROR_BUDGET) throw;
             search_.release_buffers(); // grown for more than there is room for
             out = FeaturePairs(&*share_);
+            if (release_ended()) continue;
+            if (wanted <= 1) throw;
+            wanted = wanted / 2 + wanted % 2;
         }
+    }
+}
+
+bool vox_surface::release_ended() noexcept {
+    bool released = false;
+    const auto release = [&](bool lives, auto& vector) {
+        if (lives || vector.capacity() == 0) return;
+        vector.clear();
+        vector.shrink_to_fit();
+        released = true;
+    };
+    release(living_.pairs, answer_.offsets);
+    release(living_.pairs, answer_.partners);
+    release(living_.crossings, crossings_);
+    release(living_.times, timed_);
+    if (!living_.close) released |= close_.release_found();
+    return released;
+}
+
+// Makes an answer, again if that was beyond the budget and answers that have ended are in the way.
+template <class Make>
+auto vox_surface::answer(bool& lives, Make&& make) {
+    lives = true; // its memory is in use
+    try {
+        try {
+            return make();
+        } catch (const Error& error) {
+            if (error.result() != VOX_ERROR_BUDGET || !release_ended()) throw;
+        }
+        return make();
+    } catch (...) {
+        lives = false;
+        throw;
     }
 }
 
@@ -107,8 +142,10 @@ const FeaturePairs& vox_surface::pairs(vox_feature a, vox_feature b, std::uint64
     const SurfaceMotion& moving = motion();
     const std::uint64_t all = topology_.count(a);
     if (first > all) refuse(format("first is %llu of %llu", llu(first), llu(all)));
-    find_fitting(moving, a, b, static_cast<std::uint32_t>(first),
-                 static_cast<std::uint32_t>(std::min(count, all - first)), answer_);
+    answer(living_.pairs, [&] {
+        find_fitting(moving, a, b, static_cast<std::uint32_t>(first),
+                     static_cast<std::uint32_t>(std::min(count, all - first)), answer_);
+    });
     return answer_;
 }
 
@@ -116,7 +153,13 @@ vox_foreign_suggestion vox_surface::suggest_cell_size(vox_feature a, vox_feature
     const SurfaceMotion& moving = motion();
     for (const vox_feature kind : {a, b})
         if (topology_.count(kind) == 0) refuse("there are no features of one of the kinds");
-    return suggest_for_tiles(search_.tiles(topology_, moving, a), search_.tiles(topology_, moving, b), &*share_);
+    const FeatureTiles &tiles_a = search_.tiles(topology_, moving, a), &tiles_b = search_.tiles(topology_, moving, b);
+    for (const FeatureTiles* tiles : {&tiles_a, &tiles_b})
+        for (const Box& box : tiles->tile_boxes)
+            if (!has_ends(box))
+                refuse(format("radius is %g: boxes that reach beyond the floats overlap at every cell size", moving.radius));
+    bool nothing_lives;
+    return answer(nothing_lives, [&] { return suggest_for_tiles(tiles_a, tiles_b, &*share_); });
 }
 
 // Calls visit(pairs) for the pairs of all features of kind a, piece by piece.
@@ -132,9 +175,11 @@ void vox_surface::for_pieces(const SurfaceMotion& motion, vox_feature a, vox_fea
 
 std::span<const vox_crossing> vox_surface::crossings() {
     const SurfaceMotion end = at_end(0);
-    crossings_.clear();
-    for_pieces(end, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, [&](const FeaturePairs& pairs) {
-        find_crossings(topology_, end.to, pairs, workers_, crossings_);
+    answer(living_.crossings, [&] {
+        crossings_.clear();
+        for_pieces(end, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, [&](const FeaturePairs& pairs) {
+            find_crossings(topology_, end.to, pairs, workers_, crossings_);
+        });
     });
     return crossings_;
 }
@@ -153,25 +198,39 @@ SurfaceMotion reaching(const SurfaceMotion& motion, double distance) {
 
 vox_safe_step vox_surface::safe_step(const ContactTimeRule& rule) {
     const SurfaceMotion reach = reaching(motion(), rule.distance);
-    vox_safe_step found{};
-    found.step = 1;
-    for (const vox_feature a : {VOX_FEATURE_FACE, VOX_FEATURE_EDGE}) {
-        const vox_feature b = a == VOX_FEATURE_FACE ? VOX_FEATURE_VERTEX : VOX_FEATURE_EDGE;
-        for_pieces(reach, a, b, [&](const FeaturePairs& pairs) {
-            found.pairs += pairs.offsets[pairs.count];
-            first_contact(topology_, reach, a, b, pairs, rule, workers_, found);
-        });
-    }
-    return found;
+    bool nothing_lives;
+    return answer(nothing_lives, [&] {
+        vox_safe_step found{};
+        found.step = 1;
+        for (const vox_feature a : {VOX_FEATURE_FACE, VOX_FEATURE_EDGE}) {
+            const vox_feature b = a == VOX_FEATURE_FACE ? VOX_FEATURE_VERTEX : VOX_FEATURE_EDGE;
+            for_pieces(reach, a, b, [&](const FeaturePairs& pairs) {
+                found.pairs += pairs.offsets[pairs.count];
+                first_contact(topology_, reach, a, b, pairs, rule, workers_, found);
+            });
+        }
+        return found;
+    });
 }
 
 std::span<const vox_timed_pair> vox_surface::contact_times(vox_feature a, vox_feature b, const ContactTimeRule& rule) {
     const SurfaceMotion reach = reaching(motion(), rule.distance);
-    timed_.clear();
-    for_pieces(reach, a, b, [&](const FeaturePairs& pairs) {
-        all_contacts(topology_, reach, a, b, pairs, rule, workers_, timed_in_ranges_, timed_);
+    answer(living_.times, [&] {
+        timed_.clear();
+        for_pieces(reach, a, b, [&](const FeaturePairs& pairs) {
+            all_contacts(topology_, reach, a, b, pairs, rule, workers_, timed_in_ranges_, timed_);
+        });
     });
     return timed_;
+}
+
+std::span<const vox_close_pair> vox_surface::close_pairs(vox_feature a, vox_feature b, double distance) {
+    return answer(living_.close, [&] { return close_.find(*this, a, b, distance); });
+}
+
+void vox_surface::clearance(double most, double* per_vertex) {
+    bool nothing_lives;
+    answer(nothing_lives, [&] { close_.clearance(*this, most, per_vertex); });
 }
 
 vox_pair_counters vox_surface::counters() const {

@@ -52,9 +52,13 @@ public:
     vox_foreign_suggestion suggest_cell_size(vox_feature a, vox_feature b);
     // The least time of contact of faces and vertices, and of edges. Throws as vox_surface_safe_step.
     vox_safe_step safe_step(const vox::ContactTimeRule& rule);
-    vox::CloseSearch& close() noexcept { return close_; }
+    // Pairs within a distance; they live until the next call or move(). Throws as vox_surface_close.
+    std::span<const vox_close_pair> close_pairs(vox_feature a, vox_feature b, double distance);
+    // Throws as vox_surface_clearance.
+    void clearance(double most, double* per_vertex);
     // Of two kinds; lives until the next call or move().
-    std::span<const vox_timed_pair> contact_times(vox_feature a, vox_feature b, const vox::ContactTimeRule& rule);
+    std::span<const vox_timed_pair> contact_times(vox_feature a, vox_feature b,
+                                                  const vox::ContactTimeRule& rule);
     // Of the end of the motion. Lives until the next call or move().
     std::span<const vox_crossing> crossings();
 
@@ -63,6 +67,10 @@ public:
 private:
     template <class Visit>
     void for_pieces(const vox::SurfaceMotion& motion, vox_feature a, vox_feature b, Visit&& visit);
+    template <class Make>
+    auto answer(bool& lives, Make&& make);
+    // Of answers that have ended, of which the memory is kept for the next ones. Whether there were any.
+    bool release_ended() noexcept;
 
     vox::MemoryShare share_; // first, as all else is released to it
     vox::Workers workers_;
@@ -76,6 +84,10 @@ private:
         vox_feature a, b;
         std::uint32_t first, count; // count 0: none
     };
+    struct Living { // answers, of which the caller may have a view
+        bool pairs, crossings, times, close;
+    };
+    Living living_{};
     Piece piece_{}; // the last answer, where not all of what was asked fitted
     vox::FeaturePairs answer_;
     vox::FeaturePairs candidates_; // of what is asked beside the pairs, a range at a time

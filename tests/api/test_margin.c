@@ -301,8 +301,8 @@ START_TEST(arguments) {
     ck_fails(vox_grid_margin(NULL, &margin), VOX_ERROR_INVALID_ARGUMENT, "grid");
     ck_fails(vox_grid_margin(grid, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_margin");
     ck_ok(vox_grid_set_margin(grid, 0.5));
-    const double bad[] = {-0.5, INFINITY, NAN};
-    for (int i = 0; i < 3; ++i) {
+    const double bad[] = {-0.5, INFINITY, NAN, 5e37};
+    for (int i = 0; i < 4; ++i) {
         ck_fails(vox_grid_set_margin(grid, bad[i]), VOX_ERROR_INVALID_ARGUMENT, "margin is");
         ck_ok(vox_grid_margin(grid, &margin));
         ck_assert_double_eq(margin, 0.5);

@@ -112,6 +112,9 @@ START_TEST(motions_that_are_refused) {
     bad.flags = 2;
     ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "flags");
     bad = good;
+    bad.reserved = 99;
+    ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "reserved is 99");
+    bad = good;
     bad.format = (vox_format)7;
     ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "format is 7");
     ck_assert_ptr_null(strstr(vox_last_error(), "position_")); /* so do fields of vox_mesh_desc begin */
@@ -212,6 +215,62 @@ START_TEST(degenerate_scenes) {
                     }
                 vox_surface_destroy(surface);
             }
+}
+END_TEST
+
+/* Features longer than any float, beside ones shorter than its reciprocal. */
+START_TEST(sizes_beyond_floats) {
+    const uint32_t faces[] = {0, 1, 2, 3, 4, 5}, edges[] = {0, 1, 1, 2, 3, 4, 4, 5};
+    for (int s = 0; s < 4; ++s)
+        for (int doubles = 0; doubles < 2; ++doubles) {
+            const double large = s < 2 ? 3e38 : 1e5, small = s % 2 ? 1e-35 : 1e-44;
+            double at[18];
+            float floats[18];
+            for (int i = 0; i < 18; ++i) at[i] = i < 9 ? large * crossed[i] : small * crossed[i];
+            at[0] = -large;
+            at[3] = large;
+            for (int i = 0; i < 18; ++i) floats[i] = (float)at[i];
+            vox_surface_desc desc = desc_of(6, faces, 2);
+            desc.edges = edges;
+            desc.edge_count = 4;
+            vox_surface* const surface = surface_from(&desc);
+            vox_motion motion = motion_of(at, NULL, 6);
+            if (!doubles) {
+                motion.from = floats;
+                motion.format = VOX_FORMAT_FLOAT3;
+            }
+            ck_ok(vox_surface_move(surface, &motion));
+            for (int a = 0; a < 3; ++a)
+                for (int b = 0; b < 3; ++b) (void)lists_of(surface, (vox_feature)a, (vox_feature)b);
+            vox_crossing_view crossings = {.struct_size = sizeof crossings};
+            ck_ok(vox_surface_crossings(surface, &crossings));
+            vox_surface_destroy(surface);
+        }
+}
+END_TEST
+
+/* A radius without an end: every pair is answered, but no cell size is better than another. */
+START_TEST(suggestions_that_are_refused) {
+    vox_surface_desc desc = desc_of(6, two_faces, 2);
+    vox_surface* const surface = surface_from(&desc);
+    vox_motion motion = motion_of(crossed, NULL, 6);
+    const double radii[] = {INFINITY, 1e300};
+    for (int i = 0; i < 2; ++i) {
+        motion.radius = radii[i];
+        ck_ok(vox_surface_move(surface, &motion));
+        vox_foreign_suggestion out = {.struct_size = sizeof out};
+        ck_fails(vox_surface_suggest_cell_size(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, &out), VOX_ERROR_INVALID_ARGUMENT,
+                 i == 0 ? "radius is inf" : "radius is 1e+300");
+    }
+    vox_surface_destroy(surface);
+    desc = desc_of(6, NULL, 0);
+    vox_surface* const points = surface_from(&desc);
+    motion.radius = 0;
+    ck_ok(vox_surface_move(points, &motion));
+    vox_foreign_suggestion out = {.struct_size = sizeof out};
+    ck_fails(vox_surface_suggest_cell_size(points, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX, &out), VOX_ERROR_INVALID_ARGUMENT,
+             "no features");
+    vox_surface_destroy(points);
 }
 END_TEST
 
@@ -371,6 +430,24 @@ START_TEST(answers_beyond_the_budget) {
 }
 END_TEST
 
+/* An answer that has ended is not in the way of another one; one that the caller has a view of stays. */
+START_TEST(budget_of_answers_that_ended) {
+    enum { n = 3000 };
+    vox_surface* const surface = many_in_one_place(n, 4 << 20);
+    vox_pair_lists lists = {.struct_size = sizeof lists};
+    ck_ok(vox_surface_pairs(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, UINT64_MAX, &lists)); /* fills it */
+    ck_assert_uint_gt(counters_of_surface(surface).bytes, 2 << 20);
+    double at[3 * n];
+    for (int i = 0; i < 3 * n; ++i) at[i] = i;
+    const vox_motion motion = motion_of(at, NULL, n);
+    vox_close_view close = {.struct_size = sizeof close};
+    ck_ok(vox_surface_move(surface, &motion));
+    ck_ok(vox_surface_close(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 20, &close));
+    ck_assert_uint_eq(close.count, 3 * n - 6); /* three on each side of a vertex */
+    vox_surface_destroy(surface);
+}
+END_TEST
+
 /* More pairs than 32 bits hold are had in ranges. */
 START_TEST(a_thousand_million_pairs) {
     const uint64_t n = 45000, all = n * (n - 1) / 2; /* 1,012,477,500 */
@@ -404,6 +481,7 @@ int main(void) {
     tcase_add_test(add_tagged_case(suite, "many", "large"), a_thousand_million_pairs);
     TCase* tests = add_case(suite, "surfaces");
     tcase_add_each(tests, descriptions_that_are_refused, motions_that_are_refused, questions_that_are_refused, degenerate_scenes,
+                   sizes_beyond_floats, suggestions_that_are_refused, budget_of_answers_that_ended,
                    patches_that_do_not_meet, memory_that_runs_out, no_memory_in_the_steady_state, answers_beyond_the_budget);
     return run_suite(suite);
 }

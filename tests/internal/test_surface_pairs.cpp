@@ -187,6 +187,11 @@ Scene random_scene(Random& random) {
             x = random.below(3) == 0 ? 0 : scale * std::pow(10.0, double(random.below(scale > 1 ? 8 : 16)));
     for (std::uint32_t i = 0; i < 3 * s.vertex_count; ++i)
         s.from.push_back(coordinate(random, s.doubles, scale, origin[i % 3]));
+    if (random.below(16) == 0) // sizes of all orders in one scene
+        for (double& x : s.from) {
+            const double scaled = x * std::pow(10.0, double(random.below(60)) - 30) / scale;
+            x = std::abs(scaled) < 3e38 ? (s.doubles ? scaled : double{float(scaled)}) : FLT_MAX;
+        }
     for (std::uint32_t i = 0; i < 3 * s.vertex_count; ++i)
         s.to.push_back(random.below(3) == 0 ? coordinate(random, s.doubles, scale, origin[i % 3])
                                             : s.from[i]);

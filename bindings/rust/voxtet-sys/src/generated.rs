@@ -2439,14 +2439,14 @@ extern "C" {
     /// Switched off, it releases all that memory. VOX_GRID_CONTACT_EVENTS switched on lets the next step report each
     /// vertex in contact as one that began, as a first step does. Switched off, it releases the memory of these events.
     /// VOX_GRID_EDGE_CONTACTS switched on lets the next step prepare the surfaces of the meshes that are near others.
-    /// Switched off, it releases the memory of that. Errors: INVALID_ARGUMENT (unknown flags), LIMIT, BUDGET,
-    /// OUT_OF_MEMORY; after these all meshes are as they were.
+    /// Switched off, it releases the memory of that. Errors: INVALID_ARGUMENT (unknown flags), UNSUPPORTED (edge
+    /// contacts in a build without), LIMIT, BUDGET, OUT_OF_MEMORY; after these all meshes are as they were.
     pub fn vox_grid_set_flags(grid: *mut vox_grid, flags: u32) -> vox_result;
     /// From the next step on, also find the vertices of other meshes that are outside of the tetrahedra of a mesh, but
     /// within `margin` (in the caller's unit) of its surface: vox_grid_margin_contacts. 0 (the default): none, at no
     /// cost, and the memory that this took is released. Contacts stay, but views of the last step's results end. A mesh
     /// of more than 357913941 tets then makes a step fail with LIMIT. Snapshots do not keep the margin. Errors:
-    /// INVALID_ARGUMENT when negative, infinite or NaN.
+    /// INVALID_ARGUMENT when negative, NaN or above 2^125; UNSUPPORTED in a build without.
     pub fn vox_grid_set_margin(grid: *mut vox_grid, margin: f64) -> vox_result;
     /// The margin in use.
     pub fn vox_grid_margin(grid: *const vox_grid, out_margin: *mut f64) -> vox_result;
@@ -3236,16 +3236,17 @@ extern "C" {
     pub fn vox_motion_init(motion: *mut vox_motion, struct_size: u32) -> vox_result;
     /// Sets the motion that the other functions answer for. Views of answers end. The arrays are needed during the call
     /// only. Errors: INVALID_ARGUMENT (names the field and its value), NON_FINITE (names the vertex, and which of its
-    /// positions), BUDGET, OUT_OF_MEMORY; the motion is then the one of before.
+    /// positions), LIMIT (the same, for a coordinate of 2^128 or more), BUDGET, OUT_OF_MEMORY; the motion is then the
+    /// one of before.
     pub fn vox_surface_move(surface: *mut vox_surface, motion: *const vox_motion) -> vox_result;
     /// All features `b` whose boxes overlap those of the features [first, first + count) of kind `a`; boxes that touch
     /// overlap. Where a and b are the same kind, each pair comes once, in the list of its lower feature. Left out:
     /// pairs with a vertex in common, pairs that patches rule out, and with VOX_MOTION_CULL those proven to stay apart.
-    /// Ranges that reach beyond the last feature end there. If not all of it fits into the byte budget, the features up
-    /// to lists->first + lists->count are answered, at least one; ask again from there. So any number of pairs can be
-    /// had from any budget that holds the lists of one feature. Set out_lists->struct_size first. The view lives until
-    /// the next vox_surface_pairs or vox_surface_move, or the end of the surface. Errors: INVALID_ARGUMENT,
-    /// INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
+    /// Ranges that reach beyond the last feature end there, and may not begin beyond it. If not all of it fits into the
+    /// byte budget, the features up to lists->first + lists->count are answered, at least one; ask again from there. So
+    /// any number of pairs can be had from any budget that holds the lists of one feature. Set out_lists->struct_size
+    /// first. The view lives until the next vox_surface_pairs or vox_surface_move, or the end of the surface. Errors:
+    /// INVALID_ARGUMENT, INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
     pub fn vox_surface_pairs(
         surface: *mut vox_surface,
         a: vox_feature,
@@ -3261,7 +3262,8 @@ extern "C" {
     /// The grid holds the boxes of tiles (at most 64 neighbouring features each) of kind b in all cells that they meet,
     /// and is asked by those of kind a: described as a vox_foreign_grid, with weights of its own
     /// (docs/surface-pairs.md). Set out->struct_size first. Errors: INVALID_ARGUMENT (also where there are no such
-    /// features), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
+    /// features, or the radius is so large that boxes have no ends), INVALID_STATE (no positions yet), BUDGET,
+    /// OUT_OF_MEMORY.
     pub fn vox_surface_suggest_cell_size(
         surface: *mut vox_surface,
         a: vox_feature,
@@ -3296,8 +3298,9 @@ extern "C" {
     /// For each vertex a distance, at most `most`: while no vertex has moved further than its own, from the end of the
     /// motion, no face and vertex and no two edges touch that do not touch now (Chen et al. 2025, Offset Geometric
     /// Contact, Sect. 3.3). It is half of the least distance of such pairs that the vertex is part of, rounded
-    /// downwards. vertex_count must be that of the surface. Errors: INVALID_ARGUMENT (another vertex_count; `most` is
-    /// not above 0, or not finite), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
+    /// downwards. Pairs with a vertex in common, and those that patches rule out, do not count, and may touch.
+    /// vertex_count must be that of the surface. Errors: INVALID_ARGUMENT (another vertex_count; `most` is not above 0,
+    /// or not finite), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
     pub fn vox_surface_clearance(
         surface: *mut vox_surface,
         most: f64,
