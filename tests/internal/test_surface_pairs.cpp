@@ -228,13 +228,15 @@ Scene random_scene(Random& random) {
     return s;
 }
 
-std::uint64_t scenes_wanted() {
-    const char* wanted = std::getenv("VOX_SURFACE_SCENES");
-    return wanted ? std::strtoull(wanted, nullptr, 10) : 600;
+// For long runs, which Check takes in parts of less than half an hour.
+std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
+    const char* value = std::getenv(name);
+    return value ? std::strtoull(value, nullptr, 10) : otherwise;
 }
+std::uint64_t scenes_wanted() { return from_environment("VOX_SURFACE_SCENES", 600); }
 
 START_TEST(pairs_are_those_whose_boxes_overlap) {
-    Random random{1};
+    Random random{from_environment("VOX_SURFACE_SEED", 1)};
     std::uint64_t pairs = 0;
     for (std::uint64_t n = 0; n < scenes_wanted(); ++n) {
         const Scene s = random_scene(random);
