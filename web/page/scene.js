@@ -217,6 +217,8 @@ export class Scene {
       return { count, share };
     });
     const found = { size: n[0], zone: [n[1], n[2]], ms: milliseconds(n[3]), curve, rules, work };
+    const odd = [found, ...curve].find(({ size, ms }) => !(size > 0 && ms > 0 && ms < Infinity));
+    if (odd) throw new SceneError(`a step is predicted to take ${odd.ms} ms at the cell size ${odd.size}`);
     work.forEach((term, i) => (term.name = this.#text(this.#exports.play_term(this.#play, i))));
     return found;
   }
