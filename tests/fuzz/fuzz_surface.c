@@ -27,11 +27,12 @@ static double coordinate(bytes* b, double scale) {
 }
 
 static scene read_scene(bytes* b) {
-    static const double scales[] = {1, 1, 1e-30, 1e30, 1e-300, 1e6, 1, 0.1};
+    static const double scales[] = {1, 1, 1e-30, 1e30, 1e-300, 1e6, 1, 0.1}, mixed[] = {1, 1e-40, 1e8, 1.7e38};
     scene s;
     memset(&s, 0, sizeof s);
     const uint32_t how = next(b);
     const double scale = scales[how & 7];
+    const int mixes = next(b) % 4 == 0; /* sizes of all orders in one scene */
     s.moves = how >> 3 & 1;
     s.columns = how >> 4 & 1;
     s.has_patches = how >> 5 & 1;
@@ -45,8 +46,9 @@ static scene read_scene(bytes* b) {
     s.counts[0] = s.vertices;
     for (uint32_t v = 0; v < s.vertices; ++v) s.corners[0][v] = v;
     for (uint32_t i = 0; i < 3 * s.vertices; ++i) {
-        s.from[i] = coordinate(b, scale);
-        s.to[i] = s.moves ? coordinate(b, scale) : s.from[i];
+        const double of_this = mixes ? mixed[next(b) & 3] : scale;
+        s.from[i] = coordinate(b, of_this);
+        s.to[i] = s.moves ? coordinate(b, of_this) : s.from[i];
     }
     for (uint32_t v = 0; s.has_patches && v < s.vertices; ++v) s.patches[v] = next(b) & 3;
     for (int p = 0; p < 4; ++p) {
@@ -156,10 +158,16 @@ static int in_order(uint32_t a, uint32_t b, uint32_t next_a, uint32_t next_b) {
     return a < next_a || (a == next_a && b < next_b);
 }
 
-static void check_answers(vox_surface* surface, const scene* s) {
+/* With a budget, an answer may not fit into it, and nothing else may go wrong. */
+static int answered(vox_result result, int has_budget) {
+    demand(result == VOX_OK || (has_budget && result == VOX_ERROR_BUDGET));
+    return result == VOX_OK;
+}
+
+static void check_answers(vox_surface* surface, const scene* s, const vox_contact_time_desc* rule, int has_budget) {
     vox_crossing_view crossings;
     crossings.struct_size = sizeof crossings;
-    demand(vox_surface_crossings(surface, &crossings) == VOX_OK);
+    if (!answered(vox_surface_crossings(surface, &crossings), has_budget)) crossings.count = 0;
     for (uint64_t i = 0; i < crossings.count; ++i) {
         const vox_crossing* c = &crossings.crossings[i];
         demand(c->edge < s->counts[1] && c->face < s->counts[2]);
@@ -172,7 +180,8 @@ static void check_answers(vox_surface* surface, const scene* s) {
     for (int k = 0; k < 6; ++k) {
         vox_close_view close;
         close.struct_size = sizeof close;
-        demand(vox_surface_close(surface, (vox_feature)kinds[k][0], (vox_feature)kinds[k][1], distance, &close) == VOX_OK);
+        if (!answered(vox_surface_close(surface, (vox_feature)kinds[k][0], (vox_feature)kinds[k][1], distance, &close), has_budget))
+            continue;
         for (uint64_t i = 0; i < close.count; ++i) {
             const vox_close_pair* c = &close.pairs[i];
             demand(c->distance >= 0 && c->distance <= distance);
@@ -180,17 +189,22 @@ static void check_answers(vox_surface* surface, const scene* s) {
         }
     }
     double clearance[most_vertices];
-    demand(vox_surface_clearance(surface, 1, clearance, s->vertices) == VOX_OK);
-    for (uint32_t v = 0; v < s->vertices; ++v) demand(clearance[v] >= 0 && clearance[v] <= 1);
+    for (uint32_t v = 0; v < s->vertices; ++v) clearance[v] = -1;
+    const int is_clear = answered(vox_surface_clearance(surface, 1, clearance, s->vertices), has_budget);
+    for (uint32_t v = 0; v < s->vertices; ++v)
+        demand(is_clear ? clearance[v] >= 0 && clearance[v] <= 1 : clearance[v] == -1);
     vox_safe_step step;
     step.struct_size = sizeof step;
-    demand(vox_surface_safe_step(surface, NULL, &step) == VOX_OK);
-    demand(step.step >= 0 && step.step <= 1);
+    int all_there = answered(vox_surface_safe_step(surface, rule, &step), has_budget);
+    demand(!all_there || (step.step >= 0 && step.step <= 1));
     double first = 1;
     for (int k = 0; k < 2; ++k) {
         vox_timed_view times;
         times.struct_size = sizeof times;
-        demand(vox_surface_contact_times(surface, (vox_feature)kinds[k][0], (vox_feature)kinds[k][1], NULL, &times) == VOX_OK);
+        if (!answered(vox_surface_contact_times(surface, (vox_feature)kinds[k][0], (vox_feature)kinds[k][1], rule, &times), has_budget)) {
+            all_there = 0;
+            continue;
+        }
         for (uint64_t i = 0; i < times.count; ++i) {
             const vox_timed_pair* t = &times.pairs[i];
             demand(t->time >= 0 && t->time <= 1);
@@ -198,7 +212,21 @@ static void check_answers(vox_surface* surface, const scene* s) {
             first = fmin(first, t->time);
         }
     }
-    demand(first == step.step);
+    demand(!all_there || first == step.step);
+
+    for (int kind = 1; kind < 3; ++kind) {
+        vox_feature_view view;
+        view.struct_size = sizeof view;
+        demand(vox_surface_features(surface, (vox_feature)kind, &view) == VOX_OK && view.count == s->counts[kind]);
+        demand(memcmp(view.vertices, s->corners[kind], s->counts[kind] * view.vertices_each * sizeof(uint32_t)) == 0);
+    }
+    vox_foreign_suggestion suggestion;
+    suggestion.struct_size = sizeof suggestion;
+    const vox_result suggested = vox_surface_suggest_cell_size(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, &suggestion);
+    if (suggested == VOX_OK)
+        demand(suggestion.cell_size > 0 && vox_surface_set_cell_size(surface, suggestion.cell_size) == VOX_OK);
+    else /* boxes without an end */
+        demand((has_budget && suggested == VOX_ERROR_BUDGET) || suggested == VOX_ERROR_INVALID_ARGUMENT);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
@@ -209,18 +237,23 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const scene s = read_scene(&b);
     const double cell_size = how & 1 ? ldexp(1, (int)(how >> 1 & 63) - 32) : 0;
     const uint64_t budget = how & 128 ? 1000 * (uint64_t)(1 + next(&b)) : 0;
-    vox_surface* const surface = surface_of(&s, 1, cell_size, budget);
+    vox_contact_time_desc rule = vox_default_contact_time_desc();
+    const uint32_t of_rule = next(&b);
+    if (of_rule & 1) rule.distance = ldexp(1, (int)(of_rule >> 1 & 15) - 12);
+    if (of_rule & 32) rule.most_iterations = 1 + (of_rule >> 6);
+    vox_surface* const surface = surface_of(&s, budget == 0 && how & 64 ? 2 : 1, cell_size, budget);
     if (!surface) return 0;
     const vox_result moved = move(surface, &s, 0);
     demand(moved == VOX_OK || (budget != 0 && moved == VOX_ERROR_BUDGET));
     for (int a = 0; a < 3 && moved == VOX_OK; ++a)
         for (int c = 0; c < 3; ++c) check_pairs(surface, &s, a, c, step, 0);
     if (budget == 0) {
-        check_answers(surface, &s);
+        check_answers(surface, &s, of_rule == 0 ? NULL : &rule, 0);
         demand(move(surface, &s, VOX_MOTION_CULL) == VOX_OK);
         for (int a = 0; a < 3; ++a)
             for (int c = 0; c < 3; ++c) check_pairs(surface, &s, a, c, UINT64_MAX, 1);
     } else {
+        if (moved == VOX_OK) check_answers(surface, &s, &rule, 1);
         vox_pair_counters counters;
         counters.struct_size = sizeof counters;
         demand(vox_surface_counters(surface, &counters) == VOX_OK && counters.peak_bytes <= budget);

@@ -273,10 +273,10 @@ void point_of(const Scene& s, const std::vector<std::uint32_t>& corners, const d
     }
 }
 
-// An upper bound of the distance between two features during the motion: by points in a raster, at some
-// times.
+// An upper bound of the distance between two features during the motion, up to a time: by points in a raster,
+// at some times.
 double raster_distance(const Scene& s, const std::vector<std::uint32_t>& a,
-                       const std::vector<std::uint32_t>& b) {
+                       const std::vector<std::uint32_t>& b, double end = 1) {
     static constexpr double raster[][3] = {{1, 0, 0},
                                            {0, 1, 0},
                                            {0, 0, 1},
@@ -296,13 +296,13 @@ double raster_distance(const Scene& s, const std::vector<std::uint32_t>& a,
             for (std::size_t c = a.size(); c < 3; ++c) fits = fits && u[c] == 0;
             if (!fits) continue;
             double p[3];
-            point_of(s, a, u, t / 8., origin, p);
+            point_of(s, a, u, end * t / 8, origin, p);
             for (const auto& w : raster) {
                 fits = true;
                 for (std::size_t c = b.size(); c < 3; ++c) fits = fits && w[c] == 0;
                 if (!fits) continue;
                 double q[3];
-                point_of(s, b, w, t / 8., origin, q);
+                point_of(s, b, w, end * t / 8, origin, q);
                 least = std::min(least, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
             }
         }
@@ -379,12 +379,130 @@ START_TEST(a_budget_is_kept_in_pieces) {
 }
 END_TEST
 
+// What a caller gets to see of an answer, as bytes: no struct of these has gaps.
+struct Bytes : std::vector<unsigned char> {
+    template <class T>
+    void add(const T* items, std::uint64_t count) {
+        const auto* const begin = reinterpret_cast<const unsigned char*>(items);
+        insert(end(), begin, begin + count * sizeof(T));
+    }
+};
+
+vox_safe_step safe_step(vox_surface* surface, double distance, std::uint32_t most_iterations) {
+    vox_contact_time_desc rule = vox_default_contact_time_desc();
+    rule.distance = distance;
+    rule.most_iterations = most_iterations;
+    vox_safe_step step{};
+    step.struct_size = sizeof step;
+    ck_assert_msg(vox_surface_safe_step(surface, &rule, &step) == VOX_OK, "%s", vox_last_error());
+    return step;
+}
+
+// Everything but pairs: crossings, what is close, clearance, times.
+Bytes all_else(vox_surface* surface, const Scene& s, double distance) {
+    Bytes all;
+    const auto ok = [](vox_result result) { ck_assert_msg(result == VOX_OK, "%s", vox_last_error()); };
+    vox_crossing_view crossings{};
+    crossings.struct_size = sizeof crossings;
+    ok(vox_surface_crossings(surface, &crossings));
+    all.add(crossings.crossings, crossings.count);
+    for (const auto& [a, b] : {std::pair(2, 0), {1, 1}, {1, 0}, {0, 0}, {0, 1}, {0, 2}}) {
+        vox_close_view close{};
+        close.struct_size = sizeof close;
+        ok(vox_surface_close(surface, vox_feature(a), vox_feature(b), distance, &close));
+        all.add(close.pairs, close.count);
+    }
+    std::vector<double> clearance(s.vertex_count);
+    ok(vox_surface_clearance(surface, distance > 0 ? distance : 1, clearance.data(), clearance.size()));
+    all.add(clearance.data(), clearance.size());
+    for (const double contact : {0.0, distance})
+        for (const std::uint32_t iterations : {1u, 10000u}) {
+            const vox_safe_step step = safe_step(surface, contact, iterations);
+            all.add(&step, 1);
+        }
+    for (const auto& [a, b] : {std::pair(2, 0), {1, 1}}) {
+        vox_timed_view times{};
+        times.struct_size = sizeof times;
+        ok(vox_surface_contact_times(surface, vox_feature(a), vox_feature(b), nullptr, &times));
+        all.add(times.pairs, times.count);
+    }
+    return all;
+}
+
+double distance_in(Random& random, const Scene& s) {
+    double size = 0;
+    for (std::uint32_t i = 3; i < 3 * s.vertex_count; ++i)
+        size = std::max(size, std::abs(s.from[i] - s.from[i % 3]));
+    return std::min(size, 1e30) * random.unit() / 8;
+}
+
+START_TEST(other_answers_are_the_same_everywhere) {
+    Random random{3};
+    std::uint64_t bytes = 0;
+    for (int n = 0; n < 60; ++n) {
+        const Scene s = random_scene(random);
+        const double distance = distance_in(random, s);
+        Bytes first;
+        for (int level = 0; level <= int(simd::best_level()); ++level)
+            for (const std::uint32_t workers : {1u, 3u, 8u}) {
+                simd::force_level(simd::Level(level));
+                vox_surface* const surface = surface_of(s, workers, 0, 1u << 30);
+                move(surface, s);
+                const Bytes answers = all_else(surface, s, distance);
+                vox_surface_destroy(surface);
+                if (level == 0 && workers == 1) first = answers;
+                ck_assert_msg(answers == first, "scene %d, level %d, %u workers", n, level, workers);
+            }
+        bytes += first.size();
+    }
+    simd::force_level(simd::best_level());
+    ck_assert_uint_gt(bytes, 100000);
+}
+END_TEST
+
+// Up to the step nothing comes as close as the distance, whatever is left out before; one that is given up
+// after an iteration is no longer, and says so.
+START_TEST(a_safe_step_keeps_the_distance) {
+    Random random{4};
+    std::uint64_t pairs = 0, whole = 0, given_up = 0;
+    for (int n = 0; n < 300; ++n) {
+        const Scene s = random_scene(random);
+        if (!s.moves || s.vertex_count > 60) continue;
+        const double distance = distance_in(random, s);
+        vox_surface* const surface = surface_of(s, 1 + random.below(3), 0, 1u << 30);
+        move(surface, s);
+        const vox_safe_step step = safe_step(surface, distance, 10000), one = safe_step(surface, distance, 1);
+        ck_assert(one.step <= step.step && step.unfinished == 0);
+        given_up += one.unfinished;
+        whole += step.step == 1;
+        vox_surface_destroy(surface);
+        if (step.step == 0) continue;
+        for (const auto& [a, b] : {std::pair(2, 0), {1, 1}})
+            for (std::uint32_t i = 0; i < s.count(a); ++i)
+                for (std::uint32_t j = a == b ? i + 1 : 0; j < s.count(b); ++j) {
+                    constexpr TestBox everywhere{{-infinity, -infinity, -infinity},
+                                                 {infinity, infinity, infinity}};
+                    if (!make_a_pair(s, a, i, everywhere, b, j, everywhere)) continue;
+                    const double least = raster_distance(s, s.corners(a, i), s.corners(b, j), step.step);
+                    ck_assert_msg(least >= distance * (1 - 1e-9),
+                                  "scene %d, kinds %d and %d: %u and %u come as close as %g, not %g", n, a, b,
+                                  i, j, least, distance);
+                    ++pairs;
+                }
+    }
+    ck_assert_uint_gt(pairs, 1000);
+    ck_assert_uint_gt(whole, 3);
+    ck_assert_uint_gt(given_up, 10);
+}
+END_TEST
+
 } // namespace
 
 int main() {
     Suite* suite = suite_create("surface_pairs");
     TCase* tests = add_case(suite, "surface_pairs");
     tcase_add_each(tests, pairs_are_those_whose_boxes_overlap, culling_loses_no_pair_that_touches,
-                   a_budget_is_kept_in_pieces);
+                   a_budget_is_kept_in_pieces, other_answers_are_the_same_everywhere,
+                   a_safe_step_keeps_the_distance);
     return run_suite(suite);
 }
