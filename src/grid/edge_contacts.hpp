@@ -67,7 +67,7 @@ public:
     std::span<const EdgePair> pairs() const noexcept { return pairs_; }
 
     // Finds the way out for each contact; `bodies` are those of the contacts, ascending. Throws what the
-    // memory throws; the depths of before stay then.
+    // memory throws; no depths are known then.
     void prepare_depths(std::span<const EdgeBody> bodies, Workers& workers);
     // Throws Error(INVALID_STATE) before prepare_depths(), after a step.
     std::span<const vox_depth> depths() const;
@@ -99,7 +99,6 @@ private:
     struct TilePiece {
         std::uint32_t body, first, last;
     };
-    // Tiles of the two bodies of a pair that may meet the other one.
     // What a search reads of a tile, in one place.
     struct LoadedTile {
         std::uint32_t body = ~0u, index = ~0u;
@@ -117,13 +116,17 @@ private:
         static constexpr std::size_t most_loaded = 16;
 
         explicit Worker(std::pmr::memory_resource* memory)
-            : tiles_a(memory), tiles_b(memory), boxes_b(memory), groups_b(memory), loaded(memory) {}
-        auto buffers() { return std::tie(tiles_a, tiles_b, boxes_b, groups_b); }
+            : tiles_a(memory), tiles_b(memory), boxes_b(memory), groups_b(memory), loaded(memory),
+              crossed_at(memory) {}
+        auto buffers() { return std::tie(tiles_a, tiles_b, boxes_b, groups_b, crossed_at); }
 
+        // Tiles of the two bodies of a pair that may meet the other one.
         std::pmr::vector<std::uint32_t> tiles_a, tiles_b;
         std::pmr::vector<Box> boxes_b, groups_b; // of tiles_b
         // Tiles that were looked at last, each in its place; and one of the body whose turn it is.
         std::pmr::vector<LoadedTile> loaded;
+        // Where an edge passes through faces of a mesh, ascending, as fractions of its way: for depths.
+        std::pmr::vector<double> crossed_at;
         std::uint64_t candidates = 0, exact_tests = 0;
     };
     // Where a contact of found_ comes in the canonical order.

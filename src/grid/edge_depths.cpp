@@ -26,14 +26,17 @@ bool same_edge(const vox_edge_contact& x, const vox_edge_contact& y) {
     return x.mesh_a == y.mesh_a && x.edge[0] == y.edge[0] && x.edge[1] == y.edge[1] && x.mesh_b == y.mesh_b;
 }
 
-// The middle of the part of the edge pq behind the face of `contact`, as a fraction of the way from p to q.
-// The part ends at the next one of `all` contacts of the edge with the mesh, or at the end of the edge.
-double middle_of_part(std::span<const vox_edge_contact> all, const vox_edge_contact& contact, bool enters) {
-    const double at = contact.edge_weights[1];
+// The middle of the part of the edge pq behind a face that it passes through at `at`, as a fraction of the way
+// from p to q. The part ends at the next face of the mesh that the edge meets, or at the end of the edge;
+// `crossed_at` are those places, ascending.
+double middle_of_part(std::span<const double> crossed_at, double at, bool enters) {
     double end = enters ? 1 : 0;
-    for (const vox_edge_contact& other : all) {
-        const double t = other.edge_weights[1];
-        if (enters ? t > at && t < end : t < at && t > end) end = t;
+    if (enters) {
+        const auto next = std::upper_bound(crossed_at.begin(), crossed_at.end(), at);
+        if (next != crossed_at.end()) end = std::min(end, *next);
+    } else {
+        const auto next = std::lower_bound(crossed_at.begin(), crossed_at.end(), at);
+        if (next != crossed_at.begin()) end = std::max(end, *(next - 1));
     }
     return (at + end) / 2;
 }
@@ -45,7 +48,7 @@ void EdgeContacts::prepare_depths(std::span<const EdgeBody> bodies, Workers& wor
     depths_.reserve(contacts_.size());
     has_depths_ = false;
     depths_.resize(contacts_.size());
-    const auto find_depth = [&](std::span<const vox_edge_contact> of_edge, const vox_edge_contact& contact,
+    const auto find_depth = [&](std::span<const double> crossed_at, const vox_edge_contact& contact,
                                 depth::SearchState& state) -> vox_depth {
         const Vec3d normal = vector_of(contact.normal);
         vox_depth out{0, {normal.x, normal.y, normal.z}};
@@ -56,7 +59,7 @@ void EdgeContacts::prepare_depths(std::span<const EdgeBody> bodies, Workers& wor
         const bool enters =
             orientation(b.body.positions.exact(contact.face[0]), b.body.positions.exact(contact.face[1]),
                         b.body.positions.exact(contact.face[2]), q, exact_tests) < 0;
-        const Vec3d middle = p + middle_of_part(of_edge, contact, enters) * (q - p);
+        const Vec3d middle = p + middle_of_part(crossed_at, contact.edge_weights[1], enters) * (q - p);
         if (contact.mesh_a == contact.mesh_b) {
             out.depth = std::max(dot(vector_of(contact.position) - middle, normal), 0.0);
             return out;
@@ -67,24 +70,30 @@ void EdgeContacts::prepare_depths(std::span<const EdgeBody> bodies, Workers& wor
         if (!(length(way) > 0)) return out;
         return {std::sqrt(closest.squared), {way.x, way.y, way.z}};
     };
+    workers_.grow(workers.count());
     workers.for_ranges(
-        contacts_.size(), least_searches, [&](std::size_t begin, std::size_t end, std::uint32_t) {
+        contacts_.size(), least_searches, [&](std::size_t begin, std::size_t end, std::uint32_t w) {
+            std::pmr::vector<double>& crossed_at = workers_[w].crossed_at;
             depth::SearchState state;
             vox_mesh last = VOX_NULL_MESH;
-            std::size_t first = begin, past = begin; // the contacts of one edge with one mesh
+            std::size_t past = begin; // the contacts of one edge with one mesh end there
             for (std::size_t i = begin; i < end; ++i) {
                 const vox_edge_contact& contact = contacts_[i];
                 if (i >= past) {
-                    for (first = i; first > 0 && same_edge(contacts_[first - 1], contact);) --first;
-                    for (past = i + 1; past < contacts_.size() && same_edge(contacts_[past], contact);)
-                        ++past;
+                    std::size_t first = i;
+                    while (first > 0 && same_edge(contacts_[first - 1], contact)) --first;
+                    crossed_at.clear();
+                    for (past = first; past < contacts_.size() && same_edge(contacts_[past], contact); ++past)
+                        crossed_at.push_back(contacts_[past].edge_weights[1]);
+                    std::sort(crossed_at.begin(), crossed_at.end());
                 }
                 if (contact.mesh_b != last)
                     state.near = depth::SearchState::none; // a triangle of another tree
                 last = contact.mesh_b;
-                depths_[i] = find_depth(std::span(contacts_).subspan(first, past - first), contact, state);
+                depths_[i] = find_depth(crossed_at, contact, state);
             }
         });
+    workers_.level();
     has_depths_ = true;
 }
 

@@ -44,7 +44,7 @@ void lower(std::atomic<double>& least, double value) noexcept {
 } // namespace
 
 CloseSearch::CloseSearch(std::pmr::memory_resource* memory) noexcept
-    : candidates_(memory), gathered_(memory), found_(memory), clearance_(memory) {}
+    : gathered_(memory), found_(memory), clearance_(memory) {}
 
 std::span<const vox_close_pair> CloseSearch::find(vox_surface& surface, vox_feature a, vox_feature b,
                                                   double distance) {
@@ -58,20 +58,19 @@ std::span<const vox_close_pair> CloseSearch::find(vox_surface& surface, vox_feat
         distance / 2 + distance * 0x1p-40 + largest * 0x1p-44 + std::numeric_limits<double>::denorm_min();
     const SurfaceMotion still = surface.at_end(radius);
     found_.clear();
-    for (std::uint32_t first = 0; first < topology.count(a);
-         first += static_cast<std::uint32_t>(candidates_.count)) {
-        surface.find_fitting(still, a, b, first, topology.count(a) - first, candidates_);
+    surface.for_pieces(still, a, b, [&](const FeaturePairs& pairs) {
         const auto find_partners = [&](std::uint32_t i, std::pmr::vector<vox_close_pair>& found) {
-            const std::uint64_t begin = candidates_.offsets[i], end = candidates_.offsets[i + 1];
+            const std::uint64_t begin = pairs.offsets[i], end = pairs.offsets[i + 1];
             if (begin == end) return;
-            const CornersAt own(topology, positions, a, first + i);
+            const std::uint32_t own_index = static_cast<std::uint32_t>(pairs.first) + i;
+            const CornersAt own(topology, positions, a, own_index);
             for (std::uint64_t k = begin; k < end; ++k) {
-                const std::uint32_t partner = candidates_.partners[k];
+                const std::uint32_t partner = pairs.partners[k];
                 const CornersAt other(topology, positions, b, partner);
                 const CloseFeatures at = closest_features(own.positions(), other.positions());
                 if (!(at.distance <= distance)) continue;
                 vox_close_pair& pair = found.emplace_back();
-                pair.a = first + i;
+                pair.a = own_index;
                 pair.b = partner;
                 pair.distance = at.distance;
                 copy(at.weights_a, pair.weights_a);
@@ -80,8 +79,8 @@ std::span<const vox_close_pair> CloseSearch::find(vox_surface& surface, vox_feat
                 copy(at.point_b, pair.point_b);
             }
         };
-        gathered_.run(candidates_.count, surface.workers(), find_partners, found_);
-    }
+        gathered_.run(static_cast<std::size_t>(pairs.count), surface.workers(), find_partners, found_);
+    });
     return found_;
 }
 
@@ -103,15 +102,14 @@ void CloseSearch::clearance(vox_surface& surface, double most, double* per_verte
     for (SharedLeast& of_vertex : clearance_) of_vertex.number.store(most, std::memory_order_relaxed);
     for (const vox_feature kind_a : {VOX_FEATURE_FACE, VOX_FEATURE_EDGE}) {
         const vox_feature kind_b = kind_a == VOX_FEATURE_FACE ? VOX_FEATURE_VERTEX : VOX_FEATURE_EDGE;
-        const std::uint32_t all = topology.count(kind_a);
-        for (std::uint32_t first = 0; first < all; first += static_cast<std::uint32_t>(candidates_.count)) {
-            surface.find_fitting(still, kind_a, kind_b, first, all - first, candidates_);
+        surface.for_pieces(still, kind_a, kind_b, [&](const FeaturePairs& pairs) {
             constexpr std::size_t least_features = 64; // that a worker takes at once
             const auto lower_all = [&](std::size_t begin, std::size_t end, std::uint32_t) {
                 for (std::size_t i = begin; i < end; ++i) {
-                    const CornersAt own(topology, still.to, kind_a, first + static_cast<std::uint32_t>(i));
-                    for (std::uint64_t k = candidates_.offsets[i]; k < candidates_.offsets[i + 1]; ++k) {
-                        const CornersAt other(topology, still.to, kind_b, candidates_.partners[k]);
+                    const CornersAt own(topology, still.to, kind_a,
+                                        static_cast<std::uint32_t>(pairs.first + i));
+                    for (std::uint64_t k = pairs.offsets[i]; k < pairs.offsets[i + 1]; ++k) {
+                        const CornersAt other(topology, still.to, kind_b, pairs.partners[k]);
                         const double half = distance_at_least(own.positions(), other.positions()) / 2;
                         if (!(half <= most)) continue;
                         const double least = half > 0 ? std::nextafter(half, 0.0) : 0;
@@ -120,8 +118,8 @@ void CloseSearch::clearance(vox_surface& surface, double most, double* per_verte
                     }
                 }
             };
-            surface.workers().for_ranges(candidates_.count, least_features, lower_all);
-        }
+            surface.workers().for_ranges(static_cast<std::size_t>(pairs.count), least_features, lower_all);
+        });
     }
     for (std::uint32_t v = 0; v < topology.vertex_count; ++v)
         per_vertex[v] = clearance_[v].number.load(std::memory_order_relaxed);

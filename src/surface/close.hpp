@@ -33,7 +33,6 @@ public:
     bool release_found() noexcept;
 
 private:
-    FeaturePairs candidates_;
     Gathered<vox_close_pair> gathered_;
     std::pmr::vector<vox_close_pair> found_;
     std::pmr::vector<SharedLeast> clearance_; // of each vertex

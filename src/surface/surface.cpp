@@ -78,11 +78,6 @@ void vox_surface::set_cell_size(double cell_size) {
     cell_size_ = cell_size;
 }
 
-void vox_surface::find_pairs(const SurfaceMotion& motion, vox_feature a, vox_feature b, std::uint32_t first,
-                             std::uint32_t count, FeaturePairs& out) {
-    search_.run(topology_, motion, a, b, first, count, cell_size_, workers_, out);
-}
-
 void vox_surface::find_fitting(const SurfaceMotion& motion, vox_feature a, vox_feature b, std::uint32_t first,
                                std::uint32_t count, FeaturePairs& out) {
     // Where the last answer was cut short, and this one goes on from there, about as many will fit.
@@ -91,7 +86,7 @@ void vox_surface::find_fitting(const SurfaceMotion& motion, vox_feature a, vox_f
     piece_ = {};
     for (std::uint32_t wanted = first_try;;) {
         try {
-            find_pairs(motion, a, b, first, wanted, out);
+            search_.run(topology_, motion, a, b, first, wanted, cell_size_, workers_, out);
             if (wanted < count) piece_ = {a, b, first, wanted};
             return;
         } catch (const Error& error) {
@@ -121,15 +116,23 @@ bool vox_surface::release_ended() noexcept {
     return released;
 }
 
-// Makes an answer, again if that was beyond the budget and answers that have ended are in the way.
+// Makes an answer; where that is beyond the budget, again, in small pieces and without what is in the way.
 template <class Make>
 auto vox_surface::answer(bool& lives, Make&& make) {
+    struct Pieces {
+        std::uint32_t& most;
+        ~Pieces() { most = many_at_once; }
+    } const pieces{most_at_once_};
     lives = true; // its memory is in use
     try {
         try {
             return make();
         } catch (const Error& error) {
-            if (error.result() != VOX_ERROR_BUDGET || !release_ended()) throw;
+            if (error.result() != VOX_ERROR_BUDGET) throw;
+            search_.release_buffers();
+            candidates_ = FeaturePairs(&*share_);
+            release_ended();
+            pieces.most = few_at_once;
         }
         return make();
     } catch (...) {
@@ -160,17 +163,6 @@ vox_foreign_suggestion vox_surface::suggest_cell_size(vox_feature a, vox_feature
                 refuse(format("radius is %g: boxes that reach beyond the floats overlap at every cell size", moving.radius));
     bool nothing_lives;
     return answer(nothing_lives, [&] { return suggest_for_tiles(tiles_a, tiles_b, &*share_); });
-}
-
-// Calls visit(pairs) for the pairs of all features of kind a, piece by piece.
-template <class Visit>
-void vox_surface::for_pieces(const SurfaceMotion& motion, vox_feature a, vox_feature b, Visit&& visit) {
-    constexpr std::uint32_t most_at_once = 1u << 20;
-    const std::uint32_t all = topology_.count(a);
-    for (std::uint32_t first = 0; first < all; first += static_cast<std::uint32_t>(candidates_.count)) {
-        find_fitting(motion, a, b, first, std::min(most_at_once, all - first), candidates_);
-        visit(candidates_);
-    }
 }
 
 std::span<const vox_crossing> vox_surface::crossings() {

@@ -13,10 +13,12 @@
 
 #include <vox/vox_pairs.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
+#include <utility>
 #include <vector>
 
 struct vox_surface {
@@ -37,15 +39,18 @@ public:
 
     void set_cell_size(double cell_size);
 
-    // The partners of features [first, first + count) of kind a, which exist, for any motion of this surface:
-    // as vox_surface_pairs, but all of them or, where they do not fit into the byte budget, an error. The
-    // buffers behind it are the surface's: one call at a time.
-    void find_pairs(const vox::SurfaceMotion& motion, vox_feature a, vox_feature b, std::uint32_t first,
-                    std::uint32_t count, vox::FeaturePairs& out);
-    // As find_pairs, but of as many features as fit, at least one.
-    void find_fitting(const vox::SurfaceMotion& motion, vox_feature a, vox_feature b, std::uint32_t first,
-                      std::uint32_t count, vox::FeaturePairs& out);
-    // The same for the motion that is set; the answer lives until the next call or move().
+    // Calls visit(FeaturePairs) for the partners of all features of kind a, as vox_surface_pairs finds them, for
+    // any motion of this surface, piece by piece. The buffers behind it are the surface's: one call at a time.
+    template <class Visit>
+    void for_pieces(const vox::SurfaceMotion& motion, vox_feature a, vox_feature b, Visit&& visit) {
+        const std::uint32_t all = topology_.count(a);
+        for (std::uint32_t first = 0; first < all; first += static_cast<std::uint32_t>(candidates_.count)) {
+            find_fitting(motion, a, b, first, std::min(most_at_once_, all - first), candidates_);
+            visit(std::as_const(candidates_));
+        }
+    }
+    // Those of features first, first + 1, ..., count of them or as many as fit into the byte budget, at least one,
+    // for the motion that is set; the answer lives until the next call or move().
     const vox::FeaturePairs& pairs(vox_feature a, vox_feature b, std::uint64_t first, std::uint64_t count);
 
     // Throws as vox_surface_suggest_cell_size.
@@ -65,8 +70,10 @@ public:
     vox_pair_counters counters() const;
 
 private:
-    template <class Visit>
-    void for_pieces(const vox::SurfaceMotion& motion, vox_feature a, vox_feature b, Visit&& visit);
+    // The partners of features [first, first + count) of kind a, or of the first of them: as many as fit into the
+    // byte budget, at least one.
+    void find_fitting(const vox::SurfaceMotion& motion, vox_feature a, vox_feature b, std::uint32_t first,
+                      std::uint32_t count, vox::FeaturePairs& out);
     template <class Make>
     auto answer(bool& lives, Make&& make);
     // Of answers that have ended, of which the memory is kept for the next ones. Whether there were any.
@@ -91,6 +98,8 @@ private:
     Piece piece_{}; // the last answer, where not all of what was asked fitted
     vox::FeaturePairs answer_;
     vox::FeaturePairs candidates_; // of what is asked beside the pairs, a range at a time
+    static constexpr std::uint32_t many_at_once = 1u << 20, few_at_once = 1u << 10;
+    std::uint32_t most_at_once_ = many_at_once;
     std::pmr::vector<vox_crossing> crossings_;
     std::pmr::vector<vox_timed_pair> timed_;
     vox::Gathered<vox_timed_pair> timed_in_ranges_;
