@@ -61,7 +61,7 @@ void Workers::run_range(std::uint64_t begin, std::uint64_t end, std::uint32_t wo
     const DefaultFloats floats; // of a thread that may have any
     Job& job = *static_cast<Job*>(context);
     std::exception_ptr failure;
-    bool runs = false;
+    bool runs = false, has_failed = false;
     try {
         if (worker >= job.worker_count || begin > end || end > job.items)
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
@@ -71,13 +71,16 @@ void Workers::run_range(std::uint64_t begin, std::uint64_t end, std::uint32_t wo
             const std::lock_guard lock(job.mutex);
             runs = !job.busy[worker];
             job.busy[worker] = true;
+            has_failed = job.failure != nullptr;
         }
         if (!runs)
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("the task system ran two ranges on worker %u at the same time, one of them "
                                "items %llu to %llu of %zu",
                                worker, llu(begin), llu(end), job.items));
-        job.call(job.callable, static_cast<std::size_t>(begin), static_cast<std::size_t>(end), worker);
+        // After a failure nobody needs the rest, and what a worker has for itself may be half done.
+        if (!has_failed)
+            job.call(job.callable, static_cast<std::size_t>(begin), static_cast<std::size_t>(end), worker);
     } catch (...) {
         failure = std::current_exception();
     }

@@ -96,7 +96,9 @@ const FeatureTiles& PairSearch::tiles(const SurfaceTopology& topology, const Sur
     return tiles;
 }
 
-// By the model, again when the tiles have grown or shrunk by a tenth. The cost is flat around its minimum.
+// By the model, once for tiles whose mean side lies between two powers of two: the cost is flat around its
+// minimum, and there the size grows with the tiles. A motion, its end and other radii, asked about in turn,
+// have tiles of several sizes.
 double PairSearch::choose_cell_size(vox_feature a, vox_feature b) {
     const FeatureTiles &tiles_a = tiles_[static_cast<std::size_t>(a)],
                        &tiles_b = tiles_[static_cast<std::size_t>(b)];
@@ -116,13 +118,15 @@ double PairSearch::choose_cell_size(vox_feature a, vox_feature b) {
     if (tiles_a.tile_count() + tiles_b.tile_count() < few_tiles ||
         count < tiles_a.tile_count() + tiles_b.tile_count())
         return side;
-    ChosenSize& chosen = chosen_[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)];
-    if (!(side < 1.1 * chosen.side && chosen.side < 1.1 * side)) {
-        chosen.cell_size =
+    const int octave = std::ilogb(side);
+    ChosenSize& chosen = chosen_[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)]
+                                [static_cast<std::size_t>(octave) % octaves];
+    if (chosen.cell_size == 0 || chosen.octave != octave) {
+        const double cell_size =
             suggest_for_tiles(tiles_a, tiles_b, vertex_boxes_.get_allocator().resource()).cell_size;
-        chosen.side = side;
+        chosen = {octave, side, cell_size};
     }
-    return chosen.cell_size;
+    return chosen.cell_size * (side / chosen.side);
 }
 
 // Drops those of worker.found that provably stay apart.

@@ -124,9 +124,11 @@ private:
     std::array<bool, feature_kinds> has_boxes_{};
     SurfaceMotion boxes_are_of_;
     struct ChosenSize {
+        int octave = 0; // of the side
         double side = 0, cell_size = 0; // the mean side of the tiles that it was chosen for
     };
-    std::array<std::array<ChosenSize, feature_kinds>, feature_kinds> chosen_;
+    static constexpr std::size_t octaves = 4; // that are kept, a power of two
+    std::array<std::array<std::array<ChosenSize, octaves>, feature_kinds>, feature_kinds> chosen_;
     std::pmr::vector<Box> vertex_boxes_;
     TileGrid grid_;
     PerWorker<Worker> workers_;
