@@ -1,12 +1,13 @@
 /* Steps built-in scenes and prints hashes of what every frame gives: contacts, and as further parts
- * penetrations, pairs and events, readings, answers of queries. The text is the same on every machine, with
- * every compiler and instruction set, engine, number of workers and format of positions: matrix.py, `./dev
- * hashes`, `./dev cross`. hashes [--engine fast|reference] [--workers N] [--doubles] [--moved] [--level
- * 0..3] [--cell-size FACTOR] */
+ * penetrations, pairs and events, readings, answers of queries; edge contacts; answers of surfaces. The text
+ * is the same on every machine, with every compiler and instruction set, engine, number of workers and format
+ * of positions: matrix.py, `./dev hashes`, `./dev cross`. hashes [--engine fast|reference] [--workers N]
+ * [--doubles] [--moved] [--level 0..3] [--cell-size FACTOR] */
 #include "portability/simd_level.h"
 #include "scenes/scenes.h"
 
 #include <inttypes.h>
+#include <vox/vox_pairs.h>
 
 typedef struct settings {
     vox_engine engine;
@@ -175,11 +176,11 @@ static int print_contacts(vox_grid* grid, const scene* s, int frame) {
     vox_contact_view view;
     uint64_t hash, parts[4] = {1, 2, 3, 4};
     if (vox_grid_contacts(grid, &view) != VOX_OK || vox_grid_hash(grid, &hash) != VOX_OK ||
-        !hash_penetrations(grid, &parts[0]) || !hash_events(grid, &parts[1]) || !hash_readings(grid, &parts[2]) ||
-        !hash_queries(grid, s, &parts[3]))
+        !hash_penetrations(grid, &parts[0]) || !hash_events(grid, &parts[1]) ||
+        !hash_readings(grid, &parts[2]) || !hash_queries(grid, s, &parts[3]))
         return 0;
-    printf("%s, frame %d: %" PRIu64 " contacts %016" PRIx64 ", penetrations %016" PRIx64 ", events %016" PRIx64
-           ", readings %016" PRIx64 ", queries %016" PRIx64 "\n",
+    printf("%s, frame %d: %" PRIu64 " contacts %016" PRIx64 ", penetrations %016" PRIx64
+           ", events %016" PRIx64 ", readings %016" PRIx64 ", queries %016" PRIx64 "\n",
            s->name, frame, view.count, hash, parts[0], parts[1], parts[2], parts[3]);
     return 1;
 }
@@ -190,13 +191,15 @@ static int print_edges(vox_grid* grid, const scene* s, int frame) {
     if (vox_grid_edge_contacts(grid, &view) != VOX_OK || vox_grid_edge_hash(grid, &hash) != VOX_OK ||
         !hash_edge_depths(grid, &parts[0]) || !hash_events(grid, &parts[1]))
         return 0;
-    printf("%s, frame %d: %" PRIu64 " edge contacts %016" PRIx64 ", depths %016" PRIx64 ", events %016" PRIx64 "\n",
+    printf("%s, frame %d: %" PRIu64 " edge contacts %016" PRIx64 ", depths %016" PRIx64 ", events %016" PRIx64
+           "\n",
            s->name, frame, view.count, hash, parts[0], parts[1]);
     return 1;
 }
 
 /* In a grid with these flags beside the default ones. */
-static int run(scene* s, const char* name, double factor, uint32_t rings, uint32_t flags, const settings* how) {
+static int run(scene* s, const char* name, double factor, uint32_t rings, uint32_t flags,
+               const settings* how) {
     enum { frames = 4 }; /* the last one at rest */
     vox_grid* grid = NULL;
     vox_grid_desc desc = vox_default_grid_desc();
@@ -221,6 +224,159 @@ static int run(scene* s, const char* name, double factor, uint32_t rings, uint32
     if (!ok) fprintf(stderr, "%s: %s\n", name, vox_last_error());
     vox_grid_destroy(grid);
     for (uint32_t b = 0; b < s->count; ++b) free(as_doubles[b]);
+    free_scene(s);
+    return ok;
+}
+
+/* ---- surfaces ---- */
+
+/* All bodies as one surface, with every facet of every tetrahedron, also the inner and the double ones;
+ * positions of two frames. */
+typedef struct soup_of_faces {
+    vox_surface* surface;
+    uint32_t vertex_count;
+    void* at[2]; /* floats, or doubles where the settings say so */
+} soup_of_faces;
+
+static void* all_positions(const scene* s, uint32_t count, const settings* how) {
+    float* floats = (float*)malloc(3 * sizeof(float) * count);
+    double* doubles = (double*)malloc(3 * sizeof(double) * count);
+    uint32_t n = 0;
+    for (uint32_t b = 0; b < s->count; ++b)
+        for (uint32_t i = 0; i < 3 * s->bodies[b].vertex_count; ++i, ++n)
+            floats[n] = s->bodies[b].positions[i], doubles[n] = (double)floats[n];
+    free(how->doubles ? (void*)floats : (void*)doubles);
+    return how->doubles ? (void*)doubles : (void*)floats;
+}
+
+static int make_faces(scene* s, const settings* how, double cell_size, soup_of_faces* out) {
+    static const uint32_t facets[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+    uint64_t tets = 0, count = 0;
+    uint32_t* faces;
+    int result;
+    vox_surface_desc desc = vox_default_surface_desc();
+    memset(out, 0, sizeof *out);
+    for (uint32_t b = 0; b < s->count; ++b) tets += s->bodies[b].tet_count;
+    faces = (uint32_t*)malloc(12 * sizeof(uint32_t) * (size_t)tets);
+    for (uint32_t b = 0; b < s->count; ++b) {
+        for (uint32_t t = 0; t < s->bodies[b].tet_count; ++t)
+            for (int f = 0; f < 4; ++f)
+                for (int c = 0; c < 3; ++c)
+                    faces[count++] = out->vertex_count + s->bodies[b].tets[4 * t + facets[f][c]];
+        out->vertex_count += s->bodies[b].vertex_count;
+    }
+    for (int frame = 0; frame < 2; ++frame) {
+        pose_scene(s, frame);
+        out->at[frame] = all_positions(s, out->vertex_count, how);
+    }
+    desc.vertex_count = out->vertex_count;
+    desc.faces = faces;
+    desc.face_count = 4 * tets;
+    desc.worker_count = how->workers;
+    desc.cell_size = cell_size;
+    result = vox_surface_create(&desc, &out->surface) == VOX_OK;
+    free(faces);
+    return result;
+}
+
+static int hash_pairs(vox_surface* surface, uint64_t* count, uint64_t* hash) {
+    static const vox_feature kinds[6][2] = {
+        {VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX}, {VOX_FEATURE_EDGE, VOX_FEATURE_VERTEX},
+        {VOX_FEATURE_EDGE, VOX_FEATURE_EDGE},     {VOX_FEATURE_FACE, VOX_FEATURE_VERTEX},
+        {VOX_FEATURE_EDGE, VOX_FEATURE_FACE},     {VOX_FEATURE_FACE, VOX_FEATURE_FACE}};
+    for (int k = 0; k < 6; ++k) {
+        vox_pair_lists lists;
+        lists.struct_size = sizeof lists;
+        if (vox_surface_pairs(surface, kinds[k][0], kinds[k][1], 0, UINT64_MAX, &lists) != VOX_OK) return 0;
+        *count += lists.pair_count;
+        for (uint64_t i = 0; i <= lists.count; ++i) add_number(hash, lists.offsets[i]);
+        for (uint64_t i = 0; i < lists.pair_count; ++i) add_number(hash, lists.partners[i]);
+    }
+    return 1;
+}
+
+static int hash_crossings(vox_surface* surface, uint64_t* hash) {
+    vox_crossing_view view;
+    view.struct_size = sizeof view;
+    if (vox_surface_crossings(surface, &view) != VOX_OK) return 0;
+    add_number(hash, view.count);
+    for (uint64_t i = 0; i < view.count; ++i) {
+        const vox_crossing* c = &view.crossings[i];
+        add_number(hash, c->edge), add_number(hash, c->face), add_number(hash, (uint64_t)c->kind);
+        add_double(hash, c->edge_weights[0]), add_double(hash, c->edge_weights[1]);
+        add_doubles(hash, c->face_weights), add_doubles(hash, c->position);
+    }
+    return 1;
+}
+
+static int hash_distances(vox_surface* surface, uint32_t vertices, double distance, uint64_t* hash) {
+    double* clearance = (double*)malloc(sizeof(double) * vertices);
+    int ok = vox_surface_clearance(surface, distance, clearance, vertices) == VOX_OK;
+    for (uint32_t v = 0; ok && v < vertices; ++v) add_double(hash, clearance[v]);
+    free(clearance);
+    for (int k = 0; ok && k < 2; ++k) {
+        vox_close_view view;
+        view.struct_size = sizeof view;
+        ok = vox_surface_close(surface, k ? VOX_FEATURE_EDGE : VOX_FEATURE_FACE,
+                               k ? VOX_FEATURE_EDGE : VOX_FEATURE_VERTEX, distance, &view) == VOX_OK;
+        if (!ok) break;
+        add_number(hash, view.count);
+        for (uint64_t i = 0; i < view.count; ++i) {
+            const vox_close_pair* p = &view.pairs[i];
+            add_number(hash, p->a), add_number(hash, p->b), add_double(hash, p->distance);
+            add_doubles(hash, p->weights_a), add_doubles(hash, p->weights_b);
+            add_doubles(hash, p->point_a), add_doubles(hash, p->point_b);
+        }
+    }
+    return ok;
+}
+
+static int hash_times(vox_surface* surface, uint64_t* hash) {
+    vox_safe_step step;
+    vox_timed_view view;
+    step.struct_size = sizeof step;
+    view.struct_size = sizeof view;
+    if (vox_surface_safe_step(surface, NULL, &step) != VOX_OK ||
+        vox_surface_contact_times(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, NULL, &view) != VOX_OK)
+        return 0;
+    add_double(hash, step.step), add_number(hash, step.pairs), add_number(hash, step.unfinished);
+    add_number(hash, (uint64_t)step.kind_a), add_number(hash, step.a), add_number(hash, step.b);
+    add_number(hash, view.count);
+    for (uint64_t i = 0; i < view.count; ++i)
+        add_number(hash, view.pairs[i].a), add_number(hash, view.pairs[i].b),
+            add_double(hash, view.pairs[i].time);
+    return 1;
+}
+
+/* The answers of the bodies' surface on its way from one frame to the next, with culling and without. */
+static int run_surface(scene* s, const char* name, double factor, const settings* how) {
+    soup_of_faces soup;
+    uint64_t count = 0, parts[5] = {1, 2, 3, 4, 5};
+    int ok;
+    if (factor != 1) scale_scene(s, factor);
+    ok = make_faces(s, how, how->cell_size * factor, &soup);
+    for (int cull = 0; ok && cull < 2; ++cull) {
+        vox_motion motion = vox_default_motion();
+        motion.from = soup.at[0];
+        motion.to = soup.at[1];
+        motion.vertex_count = soup.vertex_count;
+        motion.format = how->doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
+        motion.flags = cull ? VOX_MOTION_CULL : 0;
+        ok = vox_surface_move(soup.surface, &motion) == VOX_OK &&
+             hash_pairs(soup.surface, &count, &parts[cull]);
+    }
+    ok = ok && hash_crossings(soup.surface, &parts[2]) &&
+         hash_distances(soup.surface, soup.vertex_count, 0.1 * factor, &parts[3]) &&
+         hash_times(soup.surface, &parts[4]);
+    if (ok)
+        printf("%s: %" PRIu64 " pairs %016" PRIx64 ", culled %016" PRIx64 ", crossings %016" PRIx64
+               ", distances %016" PRIx64 ", times %016" PRIx64 "\n",
+               name, count, parts[0], parts[1], parts[2], parts[3], parts[4]);
+    else
+        fprintf(stderr, "%s: %s\n", name, vox_last_error());
+    vox_surface_destroy(soup.surface);
+    free(soup.at[0]);
+    free(soup.at[1]);
     free_scene(s);
     return ok;
 }
@@ -282,7 +438,8 @@ int main(int argc, char** argv) {
     make_ring(&s, 12), ok &= run(&s, "ring, filtered", 1, 2, 0, &how);
     make_many(&s, 3, 3), ok &= run(&s, "many", 1, 0, 0, &how);
     make_soup(&s, 80, 200), ok &= run(&s, "soup", 1, 0, 0, &how);
-    make_pair(&s, 4), ok &= run(&s, "tiny", 1e-36, 0, 0, &how); /* areas and volumes are too small for a float */
+    make_pair(&s, 4),
+        ok &= run(&s, "tiny", 1e-36, 0, 0, &how); /* areas and volumes are too small for a float */
     make_pair(&s, 4), ok &= run(&s, "least", 1e-41, 0, 0, &how); /* and so are normal coordinates */
     make_pair(&s, 4), ok &= run(&s, "huge", 1e30, 0, 0, &how);   /* or too large */
     make_ring(&s, 8), ok &= run(&s, "huge ring", 1e20, 0, 0, &how);
@@ -292,6 +449,11 @@ int main(int argc, char** argv) {
     make_soup(&s, 40, 60), ok &= run(&s, "edges of soup", 1, 0, VOX_GRID_EDGE_CONTACTS, &how);
     make_pair(&s, 4), ok &= run(&s, "edges of least", 1e-41, 0, VOX_GRID_EDGE_CONTACTS, &how);
     make_pair(&s, 4), ok &= run(&s, "edges of huge", 1e30, 0, VOX_GRID_EDGE_CONTACTS, &how);
+    make_pair(&s, 3), ok &= run_surface(&s, "surface of pair", 1, &how);
+    make_ring(&s, 8), ok &= run_surface(&s, "surface of ring", 1, &how);
+    make_soup(&s, 40, 60), ok &= run_surface(&s, "surface of soup", 1, &how);
+    make_pair(&s, 2), ok &= run_surface(&s, "surface of tiny", 1e-36, &how);
+    make_pair(&s, 2), ok &= run_surface(&s, "surface of huge", 1e30, &how);
     ok &= refuse(&s, &how);
     return ok ? EXIT_SUCCESS : EXIT_FAILURE;
 }
