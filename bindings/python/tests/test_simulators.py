@@ -1,4 +1,4 @@
-"""voxtet.mujoco, voxtet.newton, and the examples that step grids in other processes: each where its package is installed."""
+"""voxtet.mujoco, voxtet.newton, voxtet.ipctk, and the examples that step grids in other processes: each where its package is installed."""
 
 import importlib.util
 import os
@@ -114,6 +114,81 @@ class Newton(unittest.TestCase):
         other.particle_q.numpy()[64:] += 5  # the second body
         self.assertEqual(len(particles.step(other).contacts), 0)
         self.assertEqual(len(voxtet.newton.contacts(model, state)), len(found))
+
+
+def edges_of(faces):
+    sides = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    return np.unique(sides, axis=0)
+
+
+def crumpled_sheets(side):
+    """Two of them, one on its way through the other."""
+    random = np.random.default_rng(1)
+    i, j = np.meshgrid(np.arange(side), np.arange(side), indexing="ij")
+    flat = np.stack([i, j, np.zeros_like(i)], axis=-1).reshape(-1, 3) + 0.3 * random.random((side * side, 3))
+    start = np.concatenate([flat, flat + [0.4, 0.3, 1]])
+    corner = np.arange(side * side).reshape(side, side)
+    quads = np.stack([corner[:-1, :-1], corner[1:, :-1], corner[:-1, 1:], corner[1:, 1:]], axis=-1).reshape(-1, 4)
+    faces = np.concatenate([quads[:, :3], quads[:, [2, 1, 3]]])
+    end = start.copy()
+    end[side * side:, 2] -= 1.5
+    return start, end, np.concatenate([faces, faces + side * side])
+
+
+@needs("ipctk")
+class IpcToolkit(unittest.TestCase):
+    KINDS = ("vertex_vertex", "edge_vertex", "edge_edge", "face_vertex", "edge_face", "face_face")
+
+    @staticmethod
+    def arrays(start, end, faces):
+        return (np.asfortranarray(start), np.asfortranarray(end), np.asfortranarray(edges_of(faces).astype(np.int32)),
+                np.asfortranarray(faces.astype(np.int32)))
+
+    @staticmethod
+    def names(candidates):
+        """Kind and numbers; of a pair of one kind the lower one first."""
+        fields = [[name for name in dir(c) if name.endswith("_id")] for c in candidates[:1]]
+        found = [tuple(getattr(c, name) for name in fields[0]) for c in candidates]
+        return sorted(tuple(sorted(pair)) if fields[0][0][-4].isdigit() else pair for pair in found)
+
+    def test_all_kinds_are_those_of_brute_force(self):
+        import ipctk
+        from voxtet.ipctk import BroadPhase
+        random = np.random.default_rng(3)
+        start = random.random((40, 3))
+        arrays = self.arrays(start, start + 0.4 * random.random((40, 3)), random.permutation(40)[:39].reshape(-1, 3))
+        corners = {"vertex": np.arange(40)[:, None], "edge": arrays[2], "face": arrays[3]}
+        every, some, brute = BroadPhase(), BroadPhase(), ipctk.BruteForce()
+        some.can_vertices_collide = ipctk.CollisionFilter(lambda v, w: v % 3 != w % 3)
+        for phase in (every, some, brute):
+            phase.build(*arrays, 0.05)
+        for kind in self.KINDS:
+            found, filtered, expected = (self.names(getattr(phase, f"detect_{kind}_candidates")())
+                                         for phase in (every, some, brute))
+            self.assertEqual(found, expected, kind)
+            a, b = (corners[name] for name in kind.split("_"))
+            self.assertEqual(filtered, [(i, j) for i, j in expected if (a[i][:, None] % 3 != b[j] % 3).any()], kind)
+            self.assertGreater(len(found), 10)
+        self.assertLess(len(some.detect_vertex_vertex_candidates()), len(every.detect_vertex_vertex_candidates()))
+        every.clear()
+        self.assertEqual(every.detect_edge_edge_candidates(), [])
+
+    def test_within_candidates(self):
+        import ipctk
+        from voxtet.ipctk import BroadPhase
+        start, end, edges, faces = self.arrays(*crumpled_sheets(12))
+        mesh = ipctk.CollisionMesh(start, edges, faces)
+        found, steps = [], []
+        for phase in (ipctk.SweepAndPrune(), BroadPhase(), BroadPhase(cull=True)):
+            candidates = ipctk.Candidates()
+            candidates.build(mesh, start, end, 1e-3, phase)
+            found.append((self.names(candidates.ee_candidates), self.names(candidates.fv_candidates)))
+            steps.append(candidates.compute_collision_free_stepsize(mesh, start, end))
+        self.assertEqual(found[1], found[0])
+        for kind in range(2):
+            self.assertLess(set(found[2][kind]), set(found[1][kind]))
+        self.assertTrue(0 < steps[0] < 1)
+        self.assertEqual(len(set(steps)), 1, steps)
 
 
 class Processes(unittest.TestCase):

@@ -21,7 +21,7 @@ from .suggest import (Curve, Minimum, Prediction, Rules, Stats, Suggestion, Term
                       suggest_cell_size, weights, zone_distance)
 
 if TYPE_CHECKING:
-    from . import experiment, io, mpi, mujoco, newton, sim, surface
+    from . import experiment, io, ipctk, mpi, mujoco, newton, sim, surface
 
 __version__: str = _vox.vox_version_string().decode()
 build_info: str = _vox.vox_build_info().decode()
@@ -29,7 +29,7 @@ build_info: str = _vox.vox_build_info().decode()
 
 def __getattr__(name: str) -> Any:
     """Loaded when they are first used: voxtet.io and voxtet.sim are libraries of their own, the others for some people alone."""
-    if name in ("experiment", "io", "mpi", "mujoco", "newton", "sim", "surface"):
+    if name in ("experiment", "io", "ipctk", "mpi", "mujoco", "newton", "sim", "surface"):
         import importlib
         return importlib.import_module("." + name, __name__)
     raise AttributeError(f"module 'voxtet' has no attribute {name!r}")
