@@ -7,7 +7,7 @@
 // other way round: so a size that was only lucky is no loss to the others. The model's size has two turns;
 // by how much they differ is the noise.
 //
-// Usage: bench_surface_regret [tetrahedra [rounds [folder of meshes]]], 30000 and 20 by default.
+// Usage: bench_surface_regret [tetrahedra [rounds [scene]]], 30000, 20 and every scene without a file by default.
 #include "program.hpp"
 #include "scenes.hpp"
 #include "timing.h"
@@ -181,7 +181,8 @@ int run(int argc, char** argv) {
                 "surface's own choices "
                 "lose | noise |\n|---|---|---|---|---|---|---|---|---|\n");
     std::vector<double> model, own;
-    for (const SceneMaker& maker : named(scene_makers(argc > 3 ? argv[3] : ""))) {
+    for (const SceneMaker& maker : named(scene_makers(""))) {
+        if (argc > 3 && maker.name != argv[3]) continue;
         if (maker.name.ends_with("-rest")) continue; // the positions of another one
         Scene scene = maker.make(tets, false);
         Surface surface = surface_of(scene);
@@ -192,6 +193,7 @@ int run(int argc, char** argv) {
             own.push_back(losses.own);
         }
     }
+    if (model.empty()) throw std::runtime_error("no such scene");
     for (const auto& [name, losses] : {std::pair("model", model), {"own choices", own}})
         std::printf("%s: median %+.1f %%, worst %+.1f %%\n", name, 100 * median(losses),
                     100 * *std::max_element(losses.begin(), losses.end()));

@@ -1,5 +1,6 @@
-/* Surface pairs: a sheet falls onto another. Which edges can meet on the way, how far it may fall, how far every vertex may move
- * before anything touches, and whether the sheets cross where they end. */
+/* Surface pairs: a sheet falls onto another. Which edges can meet on the way, how far it may fall and what touches first, which
+ * faces and vertices touch at all, how far every vertex may move before anything touches, which are close, whether the sheets
+ * cross where they end, and the cell size behind it. */
 #include "example.h"
 
 #include <vox/vox_pairs.h>
@@ -54,6 +55,25 @@ int main(void) {
     printf("free of contact for %.3f of the way; at its end %s\n", safe.step,
            crossings.count > 0 ? "the sheets cross" : "nothing crosses");
 
+    vox_timed_view times;
+    times.struct_size = sizeof times;
+    must(vox_surface_contact_times(surface, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX, NULL, &times));
+    double first = 1;
+    for (uint64_t i = 0; i < times.count; ++i) first = times.pairs[i].time < first ? times.pairs[i].time : first;
+    printf("faces and vertices: %" PRIu64 " touch, the first at %.3f\n", times.count, first);
+
+    /* The surface chooses its cell size by this; one may also set it. No answer depends on it. */
+    vox_foreign_suggestion suggestion;
+    vox_pair_counters counters;
+    suggestion.struct_size = sizeof suggestion;
+    counters.struct_size = sizeof counters;
+    must(vox_surface_suggest_cell_size(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, &suggestion));
+    must(vox_surface_set_cell_size(surface, suggestion.cell_size));
+    must(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
+    must(vox_surface_counters(surface, &counters));
+    printf("cells of %.1f: %" PRIu64 " pairs overlapped, %" PRIu64 " of them were culled\n", counters.cell_size,
+           counters.overlaps, counters.culled);
+
     motion.to = NULL; /* where the sheets began */
     must(vox_surface_move(surface, &motion));
     must(vox_surface_crossings(surface, &crossings));
@@ -61,6 +81,19 @@ int main(void) {
     double least = clearance[0];
     for (int v = 1; v < 2 * sheet; ++v) least = clearance[v] < least ? clearance[v] : least;
     printf("before, %" PRIu64 " crossings; every vertex may move by %.3f at least\n", crossings.count, least);
+
+    vox_close_view close;
+    vox_feature_view edges;
+    close.struct_size = sizeof close;
+    edges.struct_size = sizeof edges;
+    must(vox_surface_close(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0.95, &close));
+    must(vox_surface_features(surface, VOX_FEATURE_EDGE, &edges));
+    if (close.count > 0) {
+        const vox_close_pair* p = &close.pairs[0];
+        const uint32_t* e = edges.vertices + 2 * p->a;
+        printf("%" PRIu64 " edges are close, first that of vertices %u and %u, %.3f away from another\n", close.count,
+               (unsigned)e[0], (unsigned)e[1], p->distance);
+    }
     vox_surface_destroy(surface);
     return 0;
 }

@@ -52,7 +52,7 @@ typedef struct vox_surface_desc {
     uint64_t edge_count;
     uint64_t face_count;
     /* 2 * edge_count indices of vertices, copied. Null, with edge_count 0: the edges are those of the faces, each once,
-     * lower vertex first, ascending (vox_surface_features lists them). */
+     * lower vertex first, ascending (vox_surface_features lists them). Not null, with edge_count 0: no edges. */
     VOX_OPTIONAL VOX_ARRAY(2 * edge_count) const uint32_t* edges;
     VOX_OPTIONAL VOX_ARRAY(3 * face_count) const uint32_t* faces; /* 3 * face_count indices of vertices, copied */
     /* The patch of each vertex, below patch_count, copied; null: all vertices are in one patch. Two features make no pair
@@ -70,7 +70,9 @@ typedef struct vox_surface_desc {
      * VOX_ERROR_BUDGET. 0: no limit. Default 4 GiB. */
     uint64_t byte_budget;
     vox_allocator allocator; /* called only from functions of this surface, one call at a time */
-    vox_task_system tasks;   /* default: the built-in scheduler */
+    /* Default: the built-in scheduler. A call enqueues as often as the size of its answer needs, and waits for each before
+     * the next. */
+    vox_task_system tasks;
 } vox_surface_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers. */
@@ -186,7 +188,7 @@ typedef struct vox_pair_counters {
     uint32_t struct_size;
     uint32_t reserved;       /* 0 */
     double cell_size;        /* that was used; 0 where no grid was needed */
-    uint64_t cells;          /* with something in them */
+    uint64_t cells;          /* with something in them; those that share a place in the hash table count once */
     uint64_t tile_pairs;     /* tiles (at most 64 features each) whose boxes overlap those of tiles of the other kind */
     uint64_t boxes_compared; /* features compared with the 64 of a tile at once */
     uint64_t overlaps;       /* pairs whose boxes overlap, before VOX_MOTION_CULL */
@@ -246,9 +248,9 @@ typedef struct vox_close_view {
 } vox_close_view;
 
 /* All pairs of features of kinds a and b that are at most `distance` apart, at the end of the motion: face and vertex,
- * edge and edge, edge and vertex, vertex and vertex, in either order. Which pairs are left out is as for vox_surface_pairs; the radius does not
- * count. Set out_view->struct_size first. The view lives until the next vox_surface_close or vox_surface_move, or the end
- * of the surface. Errors: INVALID_ARGUMENT (other kinds; a distance that is negative, infinite or NaN), INVALID_STATE (no
+ * edge and edge, edge and vertex, vertex and vertex, in either order. Which pairs are left out is as for vox_surface_pairs;
+ * the radius does not count. Set out_view->struct_size first. The view lives until the next vox_surface_close or
+ * vox_surface_move, or the end of the surface. While it grows, it may take twice the bytes that it has in the end. Errors: INVALID_ARGUMENT (other kinds; a distance that is negative, infinite or NaN), INVALID_STATE (no
  * positions yet), BUDGET, OUT_OF_MEMORY. */
 VOX_EXPERIMENTAL vox_result vox_surface_close(vox_surface* surface, vox_feature a, vox_feature b, double distance,
                                               vox_close_view* out_view);
@@ -310,7 +312,7 @@ VOX_EXPERIMENTAL vox_result vox_surface_safe_step(vox_surface* surface,
 typedef struct vox_timed_pair {
     uint32_t a;
     uint32_t b;
-    double time; /* in [0, 1], not later than the exact one */
+    double time; /* in [0, 1], not later than the exact one; earlier where it was given up after most_iterations */
 } vox_timed_pair;
 
 typedef struct vox_timed_view {

@@ -49,7 +49,7 @@ public:
     const FeatureTiles& tiles(const SurfaceTopology& topology, const SurfaceMotion& motion, vox_feature kind);
     // The positions behind the motion that was asked about last have changed.
     void forget_boxes() noexcept { boxes_are_of_ = {}; }
-    // Gives back all memory but the tiles.
+    // Gives back the buffers of a search; the tiles, their boxes and the grid stay.
     void release_buffers() noexcept;
 
     const PairCounters& counters() const noexcept { return counters_; }

@@ -1820,7 +1820,7 @@ namespace Voxtet
         public ulong byte_budget;
         /// <summary>called only from functions of this surface, one call at a time</summary>
         public Allocator allocator;
-        /// <summary>default: the built-in scheduler</summary>
+        /// <summary>Default: the built-in scheduler.</summary>
         public TaskSystem tasks;
     }
 
@@ -1889,7 +1889,7 @@ namespace Voxtet
         public uint reserved;
         /// <summary>that was used; 0 where no grid was needed</summary>
         public double cell_size;
-        /// <summary>with something in them</summary>
+        /// <summary>with something in them; those that share a place in the hash table count once</summary>
         public ulong cells;
         /// <summary>tiles (at most 64 features each) whose boxes overlap those of tiles of the other kind</summary>
         public ulong tile_pairs;
@@ -2001,7 +2001,8 @@ namespace Voxtet
     {
         public uint a;
         public uint b;
-        /// <summary>in [0, 1], not later than the exact one</summary>
+        /// <summary>in [0, 1], not later than the exact one; earlier where it was given up after
+        /// most_iterations</summary>
         public double time;
     }
 

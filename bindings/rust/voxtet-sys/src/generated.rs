@@ -1740,7 +1740,7 @@ pub struct vox_surface_desc {
     pub edge_count: u64,
     pub face_count: u64,
     /// 2 * edge_count indices of vertices, copied. Null, with edge_count 0: the edges are those of the faces, each
-    /// once, lower vertex first, ascending (vox_surface_features lists them).
+    /// once, lower vertex first, ascending (vox_surface_features lists them). Not null, with edge_count 0: no edges.
     pub edges: *const u32,
     /// 3 * face_count indices of vertices, copied
     pub faces: *const u32,
@@ -1762,7 +1762,8 @@ pub struct vox_surface_desc {
     pub byte_budget: u64,
     /// called only from functions of this surface, one call at a time
     pub allocator: vox_allocator,
-    /// default: the built-in scheduler
+    /// Default: the built-in scheduler. A call enqueues as often as the size of its answer needs, and waits for each
+    /// before the next.
     pub tasks: vox_task_system,
 }
 
@@ -1831,7 +1832,7 @@ pub struct vox_pair_counters {
     pub reserved: u32,
     /// that was used; 0 where no grid was needed
     pub cell_size: f64,
-    /// with something in them
+    /// with something in them; those that share a place in the hash table count once
     pub cells: u64,
     /// tiles (at most 64 features each) whose boxes overlap those of tiles of the other kind
     pub tile_pairs: u64,
@@ -1946,7 +1947,7 @@ pub struct vox_safe_step {
 pub struct vox_timed_pair {
     pub a: u32,
     pub b: u32,
-    /// in [0, 1], not later than the exact one
+    /// in [0, 1], not later than the exact one; earlier where it was given up after most_iterations
     pub time: f64,
 }
 
@@ -3286,8 +3287,9 @@ extern "C" {
     /// All pairs of features of kinds a and b that are at most `distance` apart, at the end of the motion: face and
     /// vertex, edge and edge, edge and vertex, vertex and vertex, in either order. Which pairs are left out is as for
     /// vox_surface_pairs; the radius does not count. Set out_view->struct_size first. The view lives until the next
-    /// vox_surface_close or vox_surface_move, or the end of the surface. Errors: INVALID_ARGUMENT (other kinds; a
-    /// distance that is negative, infinite or NaN), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
+    /// vox_surface_close or vox_surface_move, or the end of the surface. While it grows, it may take twice the bytes
+    /// that it has in the end. Errors: INVALID_ARGUMENT (other kinds; a distance that is negative, infinite or NaN),
+    /// INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
     pub fn vox_surface_close(
         surface: *mut vox_surface,
         a: vox_feature,
