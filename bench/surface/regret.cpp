@@ -7,7 +7,8 @@
 // other way round: so a size that was only lucky is no loss to the others. The model's size has two turns;
 // by how much they differ is the noise.
 //
-// Usage: bench_surface_regret [tetrahedra [rounds [scene]]], 30000, 20 and every scene without a file by default.
+// Usage: bench_surface_regret [tetrahedra [rounds [scene]]], 30000, 20 and every scene without a file by
+// default.
 #include "program.hpp"
 #include "scenes.hpp"
 #include "timing.h"

@@ -43,7 +43,9 @@ int main(void) {
     move_cube(&above, 0, 0, (float)out->depth + 0.01f);
     must(vox_grid_step(grid));
     must(vox_grid_edge_contacts(grid, &edges));
-    printf("moved out: %" PRIu64 " edge contacts\n", edges.count);
+    uint64_t hash; /* of all of them: the same on every machine */
+    must(vox_grid_edge_hash(grid, &hash));
+    printf("moved out: %" PRIu64 " edge contacts, hash %016" PRIx64 "\n", edges.count, hash);
     vox_grid_destroy(grid);
     return 0;
 }

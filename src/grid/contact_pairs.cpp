@@ -63,11 +63,15 @@ void add_pairs(std::span<const EdgePair> touching, std::pmr::vector<vox_pair>& p
     }
 }
 
+void check_contact_count(std::size_t count, const char* what) {
+    if (count > VOX_MAX_CONTACTS)
+        throw Error(VOX_ERROR_LIMIT,
+                    format("the step has %zu %s, the limit is %u", count, what, VOX_MAX_CONTACTS));
+}
+
 void find_touching(std::span<const vox_contact> contacts, std::size_t slots, TouchingBuffers& buffers,
                    std::pmr::vector<vox_pair>& pairs, std::pmr::vector<std::uint32_t>& by_pair) {
-    if (contacts.size() > VOX_MAX_CONTACTS)
-        throw Error(VOX_ERROR_LIMIT,
-                    format("the step has %zu contacts, the limit is %u", contacts.size(), VOX_MAX_CONTACTS));
+    check_contact_count(contacts.size(), "contacts");
     using Directed = TouchingBuffers::Directed;
     std::pmr::vector<Directed>& directed = buffers.directed;
     directed.clear();

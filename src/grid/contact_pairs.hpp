@@ -35,6 +35,9 @@ struct EdgePair {
     auto operator<=>(const EdgePair&) const = default;
 };
 
+// Throws Error(LIMIT) where a step has more than VOX_MAX_CONTACTS of `what`, e.g. "edge contacts".
+void check_contact_count(std::size_t count, const char* what);
+
 // Adds those of `touching`, which ascend, that `pairs` lacks: pairs without contacts.
 void add_pairs(std::span<const EdgePair> touching, std::pmr::vector<vox_pair>& pairs);
 

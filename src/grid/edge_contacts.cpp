@@ -4,7 +4,6 @@
 #include "grid/edge_contacts.hpp"
 
 #include "base/bits.hpp"
-#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/room.hpp"
 #include "base/vectors.hpp"
@@ -489,9 +488,7 @@ void EdgeContacts::decide(const EdgeScene& scene, const LoadedTile& edges, std::
 }
 
 void EdgeContacts::put_in_order() {
-    if (found_.size() > VOX_MAX_CONTACTS)
-        throw Error(VOX_ERROR_LIMIT, format("the step has %zu edge contacts, the limit is %u", found_.size(),
-                                            VOX_MAX_CONTACTS));
+    check_contact_count(found_.size(), "edge contacts");
     keys_.clear();
     reserve_sparingly(keys_, found_.size());
     for (const vox_edge_contact& c : found_) {

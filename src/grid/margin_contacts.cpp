@@ -3,7 +3,6 @@
 
 #include "base/bits.hpp"
 #include "base/boxes.hpp"
-#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/room.hpp"
 #include "base/vectors.hpp"
@@ -11,6 +10,7 @@
 #include "exact/facet_normal.hpp"
 #include "exact/predicates.hpp"
 #include "fast/engine.hpp"
+#include "grid/contact_pairs.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -234,9 +234,7 @@ void MarginContacts::put_in_order() {
         if (!contacts_.empty() && place(contacts_.back()) == place(found)) continue;
         contacts_.push_back(found);
     }
-    if (contacts_.size() > VOX_MAX_CONTACTS)
-        throw Error(VOX_ERROR_LIMIT, format("the step has %zu margin contacts, the limit is %u",
-                                            contacts_.size(), VOX_MAX_CONTACTS));
+    check_contact_count(contacts_.size(), "margin contacts");
 }
 
 } // namespace vox

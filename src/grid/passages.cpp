@@ -1,10 +1,10 @@
 #include "grid/passages.hpp"
 
 #include "base/bits.hpp"
-#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/room.hpp"
 #include "base/vectors.hpp"
+#include "grid/contact_pairs.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -65,9 +65,7 @@ void Passages::find(const EdgeScene& scene, VertexFaceSearch& search, vox_counte
                      [](const vox_passage& x, const vox_passage& y) {
                          return x.mesh_a == y.mesh_a && x.vertex == y.vertex && x.mesh_b == y.mesh_b;
                      });
-    if (passages_.size() > VOX_MAX_CONTACTS)
-        throw Error(VOX_ERROR_LIMIT,
-                    format("the step has %zu passages, the limit is %u", passages_.size(), VOX_MAX_CONTACTS));
+    check_contact_count(passages_.size(), "passages");
     counters.passages = passages_.size();
 }
 

@@ -60,6 +60,19 @@ START_TEST(contacts_of_a_step) {
 }
 END_TEST
 
+// Of edges, margins and passages, whose stages ask this of what they have found.
+START_TEST(other_contacts_of_a_step) {
+    std::string text;
+    for (const char* const what : {"edge contacts", "margin contacts", "passages"}) {
+        check_contact_count(VOX_MAX_CONTACTS, what);
+        const vox_result result =
+            thrown_by([&] { check_contact_count(std::size_t{VOX_MAX_CONTACTS} + 1, what); }, text);
+        ck_assert_int_eq(result, VOX_ERROR_LIMIT);
+        ck_assert(contains(text, ("4294967296 " + std::string(what) + ", the limit is 4294967295").c_str()));
+    }
+}
+END_TEST
+
 START_TEST(tets_with_a_surface) {
     Topology topology(std::pmr::new_delete_resource());
     const Tet tet{};
@@ -77,7 +90,7 @@ int main() {
     TCase* tests = add_case(suite, "limits");
     tcase_add_test(tests, counts_of_a_grid);
     if (sizeof(std::size_t) > 4) { // else no array is as long
-        tcase_add_each(tests, contacts_of_a_step, tets_with_a_surface);
+        tcase_add_each(tests, contacts_of_a_step, other_contacts_of_a_step, tets_with_a_surface);
     }
     return run_suite(suite);
 }
