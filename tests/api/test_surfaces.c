@@ -275,6 +275,53 @@ START_TEST(suggestions_that_are_refused) {
 END_TEST
 
 /* Static obstacles do not meet each other. */
+/* Null: those of the faces, each once; else those given, also none of them. */
+START_TEST(edges_of_a_surface) {
+    static const uint32_t faces[6] = {2, 1, 0, 1, 2, 3}, given[4] = {5, 0, 4, 4};
+    static const uint32_t of_faces[10] = {0, 1, 0, 2, 1, 2, 1, 3, 2, 3};
+    for (int i = 0; i < 3; ++i) {
+        vox_surface_desc desc = desc_of(6, faces, 2);
+        desc.edges = i == 0 ? NULL : given;
+        desc.edge_count = i == 2 ? 2 : 0;
+        vox_surface* const surface = surface_from(&desc);
+        vox_feature_view view = {.struct_size = sizeof view};
+        ck_ok(vox_surface_features(surface, VOX_FEATURE_EDGE, &view));
+        const uint64_t counts[3] = {5, 0, 2};
+        ck_assert_uint_eq(view.count, counts[i]);
+        if (i == 0) ck_assert_mem_eq(view.vertices, of_faces, sizeof of_faces);
+        if (i == 2) ck_assert_mem_eq(view.vertices, given, sizeof given);
+        vox_surface_destroy(surface);
+    }
+}
+END_TEST
+
+/* A time that is given up is earlier, and the pair is reported. */
+START_TEST(times_that_are_given_up) {
+    static const double from[24] = {0, 0, 0, 4, 0, 1, 0, 4, 0, 1, 1, 3, 9, 9, 9, 9, 9, 9};
+    double to[24];
+    memcpy(to, from, sizeof to);
+    to[11] = -3; /* vertex 3 falls through the face, which turns meanwhile */
+    to[5] = -2;
+    const vox_surface_desc desc = desc_of(6, two_faces, 1);
+    vox_surface* const surface = surface_from(&desc);
+    const vox_motion motion = motion_of(from, to, 6);
+    ck_ok(vox_surface_move(surface, &motion));
+    double times[2];
+    for (int i = 0; i < 2; ++i) {
+        vox_contact_time_desc rule = vox_default_contact_time_desc();
+        rule.slack = 1e-6;
+        if (i == 0) rule.most_iterations = 1;
+        vox_timed_view view = {.struct_size = sizeof view};
+        ck_ok(vox_surface_contact_times(surface, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX, &rule, &view));
+        ck_assert_uint_eq(view.count, 1);
+        ck_assert_uint_eq(view.pairs[0].b, 3);
+        times[i] = view.pairs[0].time;
+    }
+    ck_assert(0 < times[0] && times[0] < times[1] && times[1] < 1);
+    vox_surface_destroy(surface);
+}
+END_TEST
+
 START_TEST(patches_that_do_not_meet) {
     const uint32_t patches[6] = {0, 0, 0, 1, 1, 1};
     const uint64_t categories[2] = {1, 2}, meet[2] = {3, 3}, apart[2] = {1, 2};
@@ -481,7 +528,7 @@ int main(void) {
     tcase_add_test(add_tagged_case(suite, "many", "large"), a_thousand_million_pairs);
     TCase* tests = add_case(suite, "surfaces");
     tcase_add_each(tests, descriptions_that_are_refused, motions_that_are_refused, questions_that_are_refused, degenerate_scenes,
-                   sizes_beyond_floats, suggestions_that_are_refused, budget_of_answers_that_ended,
+                   sizes_beyond_floats, suggestions_that_are_refused, budget_of_answers_that_ended, edges_of_a_surface, times_that_are_given_up,
                    patches_that_do_not_meet, memory_that_runs_out, no_memory_in_the_steady_state, answers_beyond_the_budget);
     return run_suite(suite);
 }
