@@ -17,6 +17,8 @@ from voxtet.ipctk import BroadPhase
 
 
 def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
     (start, faces), (end, _) = (pairs.read_ply(path) for path in sorted(glob.glob(sys.argv[1] + "/frames/*.ply")))
     start, end = np.asfortranarray(start), np.asfortranarray(end)
     edges = pairs.edges_of(faces)

@@ -250,8 +250,9 @@ typedef struct vox_close_view {
 /* All pairs of features of kinds a and b that are at most `distance` apart, at the end of the motion: face and vertex,
  * edge and edge, edge and vertex, vertex and vertex, in either order. Which pairs are left out is as for vox_surface_pairs;
  * the radius does not count. Set out_view->struct_size first. The view lives until the next vox_surface_close or
- * vox_surface_move, or the end of the surface. While it grows, it may take twice the bytes that it has in the end. Errors: INVALID_ARGUMENT (other kinds; a distance that is negative, infinite or NaN), INVALID_STATE (no
- * positions yet), BUDGET, OUT_OF_MEMORY. */
+ * vox_surface_move, or the end of the surface. While it grows, it may take more than twice the bytes that it has in the end.
+ * Errors: INVALID_ARGUMENT (other kinds; a distance that is negative, infinite or NaN), INVALID_STATE (no positions yet),
+ * BUDGET, OUT_OF_MEMORY. */
 VOX_EXPERIMENTAL vox_result vox_surface_close(vox_surface* surface, vox_feature a, vox_feature b, double distance,
                                               vox_close_view* out_view);
 

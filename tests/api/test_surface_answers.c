@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 #include <vox/vox_pairs.h>
 
@@ -184,7 +183,7 @@ START_TEST(memory_that_runs_out) {
 }
 END_TEST
 
-/* Any budget gives the whole answer or says that it does not suffice, and then gives what does fit. */
+/* Any budget is kept, and gives the whole answer or says that it does not suffice. */
 START_TEST(budgets) {
     uint64_t expected[ANSWERS], ignored = 0;
     expect(expected);

@@ -3287,9 +3287,9 @@ extern "C" {
     /// All pairs of features of kinds a and b that are at most `distance` apart, at the end of the motion: face and
     /// vertex, edge and edge, edge and vertex, vertex and vertex, in either order. Which pairs are left out is as for
     /// vox_surface_pairs; the radius does not count. Set out_view->struct_size first. The view lives until the next
-    /// vox_surface_close or vox_surface_move, or the end of the surface. While it grows, it may take twice the bytes
-    /// that it has in the end. Errors: INVALID_ARGUMENT (other kinds; a distance that is negative, infinite or NaN),
-    /// INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
+    /// vox_surface_close or vox_surface_move, or the end of the surface. While it grows, it may take more than twice
+    /// the bytes that it has in the end. Errors: INVALID_ARGUMENT (other kinds; a distance that is negative, infinite
+    /// or NaN), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
     pub fn vox_surface_close(
         surface: *mut vox_surface,
         a: vox_feature,
