@@ -5,7 +5,7 @@ import os
 import sys
 import unittest
 
-from vox import run, run_json
+from vox import run_json
 
 MESHES = os.environ["VOX_MESHES"]
 
@@ -92,24 +92,6 @@ class Info(unittest.TestCase):
         self.assertEqual((found["vertices"], found["tets"]), (8904, 0))
         self.assertIsNone(found["mean_volume"])
         self.assertGreater(found["mean_edge"], 0)
-
-
-class Hostile(unittest.TestCase):
-    def test_every_bad_file_ends_with_0_or_1(self):
-        """What a reader must answer is tested with the readers; here: one object or one complaint, no crash."""
-        folder = mesh("bad")
-        names = sorted(set(os.listdir(folder)) - {"MANIFEST.tsv"})
-        self.assertGreater(len(names), 100)
-        for name in names:
-            with self.subTest(name=name):
-                done = run("info", os.path.join(folder, name), "--json")
-                self.assertIn(done.returncode, (0, 1), done.stderr)
-                if done.returncode == 0:
-                    self.assertEqual(run_json("info", os.path.join(folder, name))["meshes"][0]["file"],
-                                     os.path.join(folder, name))
-                else:
-                    self.assertEqual(done.stdout, b"")
-                    self.assertRegex(done.stderr.decode(errors="replace"), r"\Avox: .")
 
 
 if __name__ == "__main__":
