@@ -116,8 +116,7 @@ bool vox_surface::release_ended() noexcept {
     return released;
 }
 
-// Makes an answer; where that is beyond the budget, again, without what is in the way and in smaller pieces. Each piece
-// looks at every tile, so they get smaller by and by.
+// Makes an answer; where that is beyond the budget, again, in small pieces and without what is in the way.
 template <class Make>
 auto vox_surface::answer(bool& lives, Make&& make) {
     struct Pieces {
@@ -125,20 +124,17 @@ auto vox_surface::answer(bool& lives, Make&& make) {
         ~Pieces() { most = many_at_once; }
     } const pieces{most_at_once_};
     lives = true; // its memory is in use
-    const std::uint32_t features = std::max(
-        {topology_.count(VOX_FEATURE_VERTEX), topology_.count(VOX_FEATURE_EDGE), topology_.count(VOX_FEATURE_FACE)});
     try {
-        for (;;) {
-            try {
-                return make();
-            } catch (const Error& error) {
-                if (error.result() != VOX_ERROR_BUDGET || pieces.most <= few_at_once) throw;
-            }
+        try {
+            return make();
+        } catch (const Error& error) {
+            if (error.result() != VOX_ERROR_BUDGET) throw;
             search_.release_buffers();
             candidates_ = FeaturePairs(&*share_);
             release_ended();
-            pieces.most = std::max(few_at_once, std::min(pieces.most, features) / 16);
+            pieces.most = few_at_once;
         }
+        return make();
     } catch (...) {
         lives = false;
         throw;
