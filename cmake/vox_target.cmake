@@ -30,7 +30,7 @@ function(vox_target name)
       -fno-omit-frame-pointer)
     # With this check clang takes 100 s instead of 20 for the largest source; the address sanitizer sees where such pointers lead.
     target_compile_options(${name} PRIVATE "$<$<CXX_COMPILER_ID:Clang>:-fno-sanitize=pointer-overflow>")
-    # What reports need of debug information: a tenth of the time is writing the rest.
+    # Reports need no more debug information than lines, and clang takes up to a tenth longer to write the rest.
     target_compile_options(${name} PRIVATE "$<$<CXX_COMPILER_ID:Clang>:-gline-tables-only>")
     target_link_options(${name} PRIVATE -fsanitize=${VOX_SANITIZE})
     # C programs too get the C++ part of the sanitizers' runtimes, which the libraries need.

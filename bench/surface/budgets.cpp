@@ -1,8 +1,9 @@
 // What a byte budget that is short of the whole costs: each question of a surface is asked again and again
 // with budgets from the least that holds the answer to one in which everything fits, and takes as many times
-// as long as without a budget. Prints the worst of each question.
+// as long as without a budget. Prints the worst of each question. Every answer must be that without a budget.
 //
 // Usage: bench_surface_budgets [faces [budgets]], a million and 24 by default.
+#include "program.hpp"
 #include "timing.h"
 
 #include <vox/vox_pairs.h>
@@ -12,20 +13,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <numeric>
 #include <random>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace bench {
 namespace {
 
-void check(vox_result result) {
-    if (result != VOX_OK)
-        throw std::runtime_error(std::string(vox_result_string(result)) + ": " + vox_last_error());
-}
-
-// Sheets of squares, halved, above each other, with noise, half a square apart.
+// Two sheets of halved squares with noise, one half a square above the other.
 struct Sheets {
     std::vector<float> from, to;
     std::vector<std::uint32_t> faces;
@@ -54,7 +50,7 @@ struct Sheets {
 
 struct Question {
     const char* name;
-    std::function<vox_result(vox_surface*)> ask;
+    std::function<vox_result(vox_surface*, double& answer)> ask; // a number that stands for all of it
 };
 
 constexpr double near = 0.4;
@@ -63,34 +59,50 @@ std::vector<double> per_vertex;
 
 const Question questions[] = {
     {"crossings",
-     [](vox_surface* surface) {
-         vox_crossing_view view{.struct_size = sizeof view};
-         return vox_surface_crossings(surface, &view);
+     [](vox_surface* surface, double& answer) {
+         vox_crossing_view view{};
+         view.struct_size = sizeof view;
+         const vox_result result = vox_surface_crossings(surface, &view);
+         answer = static_cast<double>(view.count);
+         return result;
      }},
     {"close edges",
-     [](vox_surface* surface) {
-         vox_close_view view{.struct_size = sizeof view};
-         return vox_surface_close(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, near, &view);
+     [](vox_surface* surface, double& answer) {
+         vox_close_view view{};
+         view.struct_size = sizeof view;
+         const vox_result result =
+             vox_surface_close(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, near, &view);
+         answer = static_cast<double>(view.count);
+         return result;
      }},
     {"clearance",
-     [](vox_surface* surface) {
-         return vox_surface_clearance(surface, near, per_vertex.data(), per_vertex.size());
+     [](vox_surface* surface, double& answer) {
+         const vox_result result = vox_surface_clearance(surface, near, per_vertex.data(), per_vertex.size());
+         answer = std::accumulate(per_vertex.begin(), per_vertex.end(), 0.0);
+         return result;
      }},
     {"safe step",
-     [](vox_surface* surface) {
-         vox_safe_step found{.struct_size = sizeof found};
-         return vox_surface_safe_step(surface, nullptr, &found);
+     [](vox_surface* surface, double& answer) {
+         vox_safe_step found{};
+         found.struct_size = sizeof found;
+         const vox_result result = vox_surface_safe_step(surface, nullptr, &found);
+         answer = found.step;
+         return result;
      }},
     {"times of edges",
-     [](vox_surface* surface) {
-         vox_timed_view view{.struct_size = sizeof view};
-         return vox_surface_contact_times(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, nullptr, &view);
+     [](vox_surface* surface, double& answer) {
+         vox_timed_view view{};
+         view.struct_size = sizeof view;
+         const vox_result result =
+             vox_surface_contact_times(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, nullptr, &view);
+         answer = static_cast<double>(view.count);
+         return result;
      }},
 };
 
 struct Asked {
     bool fits;
-    double seconds;
+    double seconds, answer;
     std::uint64_t peak;
 };
 
@@ -107,16 +119,17 @@ Asked ask(const Sheets& sheets, const Question& question, std::uint64_t budget) 
     motion.vertex_count = desc.vertex_count;
     vox_surface* surface = nullptr;
     const auto fits = [](vox_result result) {
-        if (result != VOX_ERROR_BUDGET) check(result);
+        if (result != VOX_ERROR_BUDGET) must(result);
         return result == VOX_OK;
     };
     Asked asked{};
     asked.fits = fits(vox_surface_create(&desc, &surface)) && fits(vox_surface_move(surface, &motion)) &&
-                 fits(question.ask(surface));
+                 fits(question.ask(surface, asked.answer));
     if (asked.fits) {
-        asked.seconds = seconds_of([&] { asked.fits = fits(question.ask(surface)); });
-        vox_pair_counters counters{.struct_size = sizeof counters};
-        check(vox_surface_counters(surface, &counters));
+        asked.seconds = seconds_of([&] { asked.fits = fits(question.ask(surface, asked.answer)); });
+        vox_pair_counters counters{};
+        counters.struct_size = sizeof counters;
+        must(vox_surface_counters(surface, &counters));
         asked.peak = counters.peak_bytes;
     }
     vox_surface_destroy(surface);
@@ -144,8 +157,11 @@ void run(std::size_t faces, int budgets) {
             const auto budget =
                 least + static_cast<std::uint64_t>(share * static_cast<double>(whole.peak - least));
             const Asked asked = ask(sheets, question, budget);
+            if (!asked.fits) continue;
+            if (asked.answer != whole.answer)
+                throw std::runtime_error(std::string(question.name) + ": another answer with a budget");
             const double times = asked.seconds / whole.seconds;
-            if (!asked.fits || times < worst) continue;
+            if (times < worst) continue;
             worst = times;
             worst_budget = budget;
         }
@@ -160,12 +176,9 @@ void run(std::size_t faces, int budgets) {
 } // namespace bench
 
 int main(int argc, char** argv) {
-    try {
+    return bench::run_program("bench_surface_budgets", [&] {
         bench::run(argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1000000,
                    argc > 2 ? std::atoi(argv[2]) : 24);
         return 0;
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s\n", error.what());
-        return 1;
-    }
+    });
 }
