@@ -109,8 +109,8 @@ function(vox_precompile name)
   endif()
 endfunction()
 
-# vox_unity(name): compiles the sources of each folder together. Files that include themselves, once per instruction set
-# (hwy/foreach_target.h), stay apart.
+# vox_unity(name): compiles the sources of each folder together. Those that are compiled once for each instruction set
+# (base/each_target.hpp) become two sources, which two processors compile at the same time.
 function(vox_unity name)
   if(NOT VOX_UNITY)
     set_target_properties(${name} PROPERTIES UNITY_BUILD OFF) # whatever CMAKE_UNITY_BUILD of a parent is
@@ -119,14 +119,35 @@ function(vox_unity name)
   set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${name} SOURCES)
   foreach(source IN LISTS sources)
-    file(STRINGS ${source} includes_itself REGEX "hwy/foreach_target.h" LIMIT_COUNT 1)
-    if(NOT includes_itself)
-      get_filename_component(folder ${source} DIRECTORY)
-      if(IS_ABSOLUTE "${folder}") # where the clone lies would decide the order of groups, and that of a module's functions
-        file(RELATIVE_PATH folder ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/.. ${folder})
-      endif()
-      string(MAKE_C_IDENTIFIER "${name}_${folder}" group)
-      set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
+    file(STRINGS ${source} each_target REGEX "base/each_target.hpp" LIMIT_COUNT 1)
+    if(each_target)
+      list(APPEND for_each_target ${source})
+      continue()
     endif()
+    get_filename_component(folder ${source} DIRECTORY)
+    if(IS_ABSOLUTE "${folder}") # where the clone lies would decide the order of groups, and that of a module's functions
+      file(RELATIVE_PATH folder ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/.. ${folder})
+    endif()
+    string(MAKE_C_IDENTIFIER "${name}_${folder}" group)
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${group})
   endforeach()
+  list(LENGTH for_each_target count)
+  math(EXPR half "(${count} + 1) / 2")
+  foreach(first 0 ${half})
+    list(SUBLIST for_each_target ${first} ${half} some)
+    if(NOT some)
+      break()
+    endif()
+    set_source_files_properties(${some} PROPERTIES HEADER_FILE_ONLY ON)
+    list(JOIN some "\"\n#include \"" includes)
+    set(together ${CMAKE_CURRENT_BINARY_DIR}/each_target_${first}.cpp)
+    file(CONFIGURE OUTPUT ${together} @ONLY CONTENT "#include \"base/simd.hpp\"
+#define HWY_TARGET_INCLUDE \"${together}\"
+#include <hwy/foreach_target.h>
+#include \"${includes}\"
+")
+    set_source_files_properties(${together} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    list(INSERT sources 0 ${together}) # they take longest, so they come first
+  endforeach()
+  set_property(TARGET ${name} PROPERTY SOURCES ${sources})
 endfunction()

@@ -1,3 +1,4 @@
+#include "base/array.hpp"
 #include "peers/peer.hpp"
 
 #include "exact/predicates.hpp"
@@ -153,8 +154,8 @@ std::vector<vox_contact> Peer::contacts() {
                           {reinterpret_cast<const std::byte*>(body.positions.data()), 3 * sizeof(float)},
                           {reinterpret_cast<const vox::Tet*>(body.tets.data()), body.tet_count()},
                           body.self_collision});
-    std::pmr::vector<vox::Hit> hits = hits_;
-    std::pmr::vector<vox_contact> contacts;
+    vox::Array<vox::Hit> hits = hits_;
+    vox::Array<vox_contact> contacts;
     vox::make_contacts(bodies, hits, contacts);
     return {contacts.begin(), contacts.end()};
 }

@@ -5,6 +5,7 @@
 //
 //   bench_engines [--tets N] [--frames K] [--scene NAME] [--level portable|sse4|avx2|avx512] [--no-reference]
 //                 [--cell-size S] [--csv] [--counters]
+#include "base/array.hpp"
 #include "base/simd.hpp"
 #include "fast/engine.hpp"
 #include "grid/contacts.hpp"
@@ -234,8 +235,8 @@ bool run(const Named& named, const Options& options) {
 
     FastEngine fast(&memory);
     ReferenceEngine reference(std::pmr::new_delete_resource());
-    std::pmr::vector<Hit> fast_hits(&memory), reference_hits;
-    std::pmr::vector<vox_contact> contacts;
+    vox::Array<Hit> fast_hits(&memory), reference_hits;
+    vox::Array<vox_contact> contacts;
     vox_counters counters{}, reference_counters{};
     vox_profile profile{}, reference_profile{};
     FastSettings fast_settings;

@@ -7,6 +7,7 @@
 //
 // --contacts leaves the depth stage out, and --copy has meshes copy their tetrahedra. A line that begins
 // with a dash is part of the one above it.
+#include "base/array.hpp"
 #include "depth/stage.hpp"
 #include "fast/engine.hpp"
 #include "grid/contacts.hpp"
@@ -56,8 +57,8 @@ struct Parts {
     std::vector<vox::fast::MeshState> states;
     std::vector<vox::Topology> topologies;
     vox::FastEngine engine{&of_engine};
-    std::pmr::vector<vox::Hit> hits{&of_hits};
-    std::pmr::vector<vox_contact> contacts{&of_hits};
+    vox::Array<vox::Hit> hits{&of_hits};
+    vox::Array<vox_contact> contacts{&of_hits};
     vox::depth::SurfaceTrees trees{&of_trees};
     vox::DepthStage depth{&of_depth, trees};
     vox::Penetrations penetrations{&of_penetrations};

@@ -3,6 +3,7 @@
 // of the machine or the one asked for.
 //
 //   bench_stages [--tets N] [--rounds K] [--level portable|sse4|avx2|avx512] [--stage NAME]
+#include "base/array.hpp"
 #include "fast/stages.hpp"
 #include "base/simd.hpp"
 #include "fast/broad_phase.hpp"
@@ -53,8 +54,8 @@ struct WholeStep {
     fast::LookupBuffers lookup_buffers{memory};
     std::vector<fast::Finding> findings; // in body 0
     Count ignored;
-    std::pmr::vector<Hit> hits{memory};
-    std::pmr::vector<std::uint64_t> degenerate{memory};
+    vox::Array<Hit> hits{memory};
+    vox::Array<std::uint64_t> degenerate{memory};
     std::size_t tets = 0, vertices = 0, blocks = 0;
 
     class Keep final : public fast::Findings {
@@ -131,7 +132,7 @@ struct Bodies {
     fast::OrientationCache turning{memory}, unknown{memory}, known_before{memory};
     Box box_a{}, box_b{}, region{};
     fast::PairBuffers pair_buffers{memory};
-    std::pmr::vector<fast::Pair> pairs;
+    vox::Array<fast::Pair> pairs;
     fast::Points points{memory}, sparse{memory};
     fast::WindowLattice lattice{};
     fast::Bins bins{memory}, sparse_bins{memory};

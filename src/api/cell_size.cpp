@@ -1,8 +1,10 @@
 // The C border of vox.h's cell-size section.
 
+#include "base/array.hpp"
 #include "base/border.hpp"
 #include "base/caller_memory.hpp"
 #include "base/scratch.hpp"
+#include "base/simd.hpp"
 #include "base/structs.hpp"
 #include "cell_size/paper_model.hpp"
 #include "cell_size/search.hpp"
@@ -16,7 +18,6 @@
 #include <cmath>
 #include <cstddef>
 #include <memory_resource>
-#include <vector>
 
 using namespace vox;
 
@@ -42,7 +43,8 @@ vox_suggest_desc read_suggest_desc(const vox_suggest_desc* desc) {
 // model is to look at samples of the bodies.
 void read_bodies(const vox_mesh_desc* meshes, std::uint64_t count, vox_cost_model model,
                  CellSizeScene& scene) {
-    std::pmr::vector<Body>& bodies = scene.bodies;
+    simd::require_instructions();
+    Array<Body>& bodies = scene.bodies;
     if (count == 0) return;
     require(meshes, "meshes");
     if (count > VOX_MAX_MESHES)
@@ -148,6 +150,7 @@ vox_result vox_cost_predict(const vox_suggest_desc* desc, const vox_mesh_desc* m
 vox_result vox_cost_calibrate(vox_cost_weights* out) {
     return border([&] {
         if (out) check_out_struct(out, "out");
+        simd::require_instructions();
         use_weights(measured_weights());
         if (out) write_struct(out, measured_weights(), "out");
     });

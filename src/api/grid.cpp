@@ -1,5 +1,6 @@
 // The C border of the core: read the caller's structs, forward to the grid, nothing else.
 
+#include "base/simd.hpp"
 #include "grid/grid.hpp"
 #include "api/filter.hpp"
 #include "base/border.hpp"
@@ -42,9 +43,9 @@ const char* vox_build_info(void) {
 #endif
         ", C++ " VOX_STRING(__cplusplus)
 #if defined(__MINGW32__) && !defined(__clang__) && !defined(VOX_UNALIGNED_MOVES)
-        ", SIMD portable SSE4" // base/simd.hpp
+        ", SIMD SSE4" // base/simd.hpp
 #elif defined(__x86_64__) || defined(_M_X64)
-        ", SIMD portable SSE4 AVX2 AVX-512"
+        ", SIMD SSE4 AVX2 AVX-512"
 #elif defined(__aarch64__)
         ", SIMD NEON"
 #elif defined(__wasm_simd128__)
@@ -88,6 +89,7 @@ vox_result vox_grid_desc_init(vox_grid_desc* desc, uint32_t struct_size) {
 vox_result vox_grid_create(const vox_grid_desc* desc, vox_grid** out_grid) {
     return border([&] {
         require(out_grid, "out_grid");
+        simd::require_instructions();
         const vox_grid_desc settings = desc ? read_struct(desc, grid_defaults(), "desc") : grid_defaults();
         check_grid_desc(settings);
         constexpr std::size_t least = sizeof(GridMemory) + sizeof(vox_grid);

@@ -1,5 +1,6 @@
 // The C border of queries between steps.
 
+#include "base/array.hpp"
 #include "base/border.hpp"
 #include "base/scratch.hpp"
 #include "base/structs.hpp"
@@ -48,7 +49,7 @@ void answer(Hit* hits, std::uint64_t capacity, std::uint64_t* out_count, Find&& 
     if (capacity > 0) require(hits, "hits");
     require(out_count, "out_count");
     Scratch<4096> memory;
-    std::pmr::vector<Hit> found(&memory);
+    Array<Hit> found(&memory);
     find(found);
     const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(capacity, found.size()));
     std::copy_n(found.begin(), count, hits);
@@ -63,7 +64,7 @@ vox_closest_desc closest_defaults() {
     return desc;
 }
 
-std::pmr::vector<Vec3d> read_points(const void* points, const vox_format& point_format,
+Array<Vec3d> read_points(const void* points, const vox_format& point_format,
                                     std::uint64_t byte_stride, std::uint64_t component_byte_stride,
                                     std::uint64_t count) {
     if (count > 0) require(points, "points");
@@ -73,7 +74,7 @@ std::pmr::vector<Vec3d> read_points(const void* points, const vox_format& point_
                                             static_cast<unsigned long long>(count)));
     const Positions positions =
         check_positions(points, point_format, byte_stride, component_byte_stride, count, "");
-    std::pmr::vector<Vec3d> read(std::pmr::new_delete_resource());
+    Array<Vec3d> read(std::pmr::new_delete_resource());
     read.reserve(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < count; ++i) {
         read.push_back(positions.exact(i));
@@ -95,7 +96,7 @@ void ask_point(const Queries& queries, const double* point, QueryMeshes which, v
 void ask_points(const Queries& queries, const void* points, const vox_format& point_format,
                 std::uint64_t byte_stride, std::uint64_t point_count, QueryMeshes which, vox_point_hit* hits,
                 std::uint64_t capacity, std::uint64_t* out_count) {
-    const std::pmr::vector<Vec3d> asked = read_points(points, point_format, byte_stride, 0, point_count);
+    const Array<Vec3d> asked = read_points(points, point_format, byte_stride, 0, point_count);
     answer_points(hits, capacity, out_count, [&](std::pmr::memory_resource* memory) {
         return queries.points(asked, which, memory, hits, capacity);
     });
@@ -105,7 +106,7 @@ void ask_box(const Queries& queries, const double* min, const double* max, Query
              vox_tet_hit* hits, std::uint64_t capacity, std::uint64_t* out_count) {
     require(min, "min");
     require(max, "max");
-    answer(hits, capacity, out_count, [&](std::pmr::vector<vox_tet_hit>& found) {
+    answer(hits, capacity, out_count, [&](Array<vox_tet_hit>& found) {
         for (int axis = 0; axis < 3; ++axis)
             if (!(min[axis] <= max[axis]))
                 throw Error(VOX_ERROR_INVALID_ARGUMENT,
@@ -132,7 +133,7 @@ void ask_closest_points(const Queries& queries, const vox_closest_desc* desc, vo
                     format("max_distance is %g, expected a number >= 0", asked.max_distance));
     if (asked.reserved != 0)
         throw Error(VOX_ERROR_INVALID_ARGUMENT, format("desc reserved is %u, expected 0", asked.reserved));
-    const std::pmr::vector<Vec3d> points = read_points(asked.points, asked.format, asked.byte_stride,
+    const Array<Vec3d> points = read_points(asked.points, asked.format, asked.byte_stride,
                                                        asked.component_byte_stride, asked.point_count);
     Scratch<4096> memory;
     queries.closest_points(points, asked.max_distance, {asked.mask, asked.excluded}, &memory, out_hits);
@@ -149,7 +150,7 @@ void ask_ray_hits(const Queries& queries, const double* from, const double* to, 
                   vox_facet_hit* hits, std::uint64_t capacity, std::uint64_t* out_count) {
     const Vec3d begin = read_point(from, "from"), end = read_point(to, "to");
     answer(hits, capacity, out_count,
-           [&](std::pmr::vector<vox_facet_hit>& found) { queries.ray_hits(begin, end, which, found); });
+           [&](Array<vox_facet_hit>& found) { queries.ray_hits(begin, end, which, found); });
 }
 
 void ask_ray_any(const Queries& queries, const double* from, const double* to, QueryMeshes which,

@@ -1,5 +1,6 @@
 // The C border of vox_pairs.h: surfaces, motion, pairs.
 
+#include "base/simd.hpp"
 #include "surface/surface.hpp"
 #include "base/border.hpp"
 #include "base/caller_memory.hpp"
@@ -44,6 +45,7 @@ vox_result vox_surface_create(const vox_surface_desc* desc, vox_surface** out_su
     return border([&] {
         require(desc, "desc");
         require(out_surface, "out_surface");
+        simd::require_instructions();
         const vox_surface_desc settings = read_struct(desc, surface_defaults(), "desc");
         check_surface_desc(settings);
         constexpr std::size_t least = sizeof(GridMemory) + sizeof(vox_surface);

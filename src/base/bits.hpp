@@ -1,11 +1,12 @@
 // Sets of numbers as bits, and numbers whose bits are interleaved.
 #pragma once
 
+#include "base/array.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -47,7 +48,7 @@ public:
     }
 
 private:
-    std::pmr::vector<std::uint64_t> words_;
+    Array<std::uint64_t> words_;
     std::size_t count_ = 0;
 };
 

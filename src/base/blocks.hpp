@@ -1,6 +1,7 @@
 // A list in small blocks: what is in it never moves, and there is hardly more room than is needed.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/room.hpp"
 
 #include <cstddef>
@@ -8,7 +9,6 @@
 #include <memory_resource>
 #include <new>
 #include <utility>
-#include <vector>
 
 namespace vox {
 
@@ -17,7 +17,7 @@ class Blocks {
 public:
     explicit Blocks(std::pmr::memory_resource* memory) noexcept : blocks_(memory) {}
 
-    std::pmr::memory_resource* memory() const noexcept { return blocks_.get_allocator().resource(); }
+    std::pmr::memory_resource* memory() const noexcept { return blocks_.memory(); }
     std::size_t size() const noexcept { return size_; }
     T& operator[](std::size_t i) noexcept { return blocks_[i / block][i % block]; }
     const T& operator[](std::size_t i) const noexcept { return blocks_[i / block][i % block]; }
@@ -27,7 +27,7 @@ public:
         if (count > blocks_.max_size()) throw std::bad_alloc();
         reserve_growing(blocks_, static_cast<std::size_t>((count + block - 1) / block));
         while (blocks_.size() * block < count) {
-            std::pmr::vector<T> one(memory());
+            Array<T> one(memory());
             one.reserve(block);
             blocks_.push_back(std::move(one));
         }
@@ -45,7 +45,7 @@ public:
 private:
     static constexpr std::size_t block = 4;
 
-    std::pmr::vector<std::pmr::vector<T>> blocks_;
+    Array<Array<T>> blocks_;
     std::size_t size_ = 0;
 };
 

@@ -1,4 +1,5 @@
 #include "base/lists.hpp"
+#include "base/array.hpp"
 
 #include <utility>
 
@@ -24,7 +25,7 @@ void IndexLists::compact(std::size_t list, std::uint32_t room) {
     std::size_t size = room;
     for (std::size_t i = 0; i < rows_.size(); ++i)
         if (i != list) size += rows_[i].room;
-    std::pmr::vector<std::uint32_t> items(size, memory());
+    Array<std::uint32_t> items(size, memory());
     rows_[list].room = room;
     std::size_t next = 0;
     for (Row& row : rows_) {

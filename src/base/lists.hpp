@@ -4,12 +4,13 @@
 // list, amortised.
 #pragma once
 
+#include "base/array.hpp"
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -17,7 +18,7 @@ class IndexLists {
 public:
     explicit IndexLists(std::pmr::memory_resource* memory) noexcept : rows_(memory), items_(memory) {}
 
-    std::pmr::memory_resource* memory() const noexcept { return rows_.get_allocator().resource(); }
+    std::pmr::memory_resource* memory() const noexcept { return rows_.memory(); }
     bool empty() const noexcept { return rows_.empty(); }
     std::size_t size() const noexcept { return rows_.size(); }
     std::span<const std::uint32_t> operator[](std::size_t list) const noexcept {
@@ -73,8 +74,8 @@ private:
     void make_room(std::size_t list, std::uint32_t count);
     void compact(std::size_t list, std::uint32_t room);
 
-    std::pmr::vector<Row> rows_;
-    std::pmr::vector<std::uint32_t> items_;
+    Array<Row> rows_;
+    Array<std::uint32_t> items_;
     std::size_t abandoned_ = 0; // items that are not in the room of any list
 };
 

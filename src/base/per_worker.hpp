@@ -1,13 +1,14 @@
 // What each worker of a step has for itself: buffers kept from step to step, counts of the step.
 #pragma once
 
+#include "base/array.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
 #include <tuple>
-#include <vector>
 
 namespace vox {
 
@@ -20,7 +21,7 @@ public:
 
     // There are never less of them than there once were.
     void grow(std::size_t count) {
-        while (slots_.size() < count) slots_.emplace_back(slots_.get_allocator().resource());
+        while (slots_.size() < count) slots_.emplace_back(slots_.memory());
     }
 
     T& operator[](std::uint32_t worker) noexcept { return slots_[worker]; }
@@ -50,7 +51,7 @@ private:
     struct alignas(64) Slot : T { // no two workers write to one cache line
         using T::T;
     };
-    std::pmr::vector<Slot> slots_;
+    Array<Slot> slots_;
 };
 
 } // namespace vox

@@ -6,12 +6,13 @@
 // way it is: after 32 of them no other number is on its way.
 #pragma once
 
+#include "base/array.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
-#include <vector>
 
 namespace vox {
 
@@ -55,7 +56,7 @@ public:
     std::size_t capacity() const noexcept { return slots_.size(); }
     void reserve(std::size_t capacity) {
         if (capacity <= slots_.size()) return;
-        PlaceMap larger(slots_.get_allocator().resource());
+        PlaceMap larger(slots_.memory());
         larger.slots_.resize(std::bit_ceil(capacity));
         larger.shift_ = 64 - static_cast<int>(std::bit_width(larger.slots_.size() - 1));
         larger.nodes_.reserve(nodes_.capacity());
@@ -129,8 +130,8 @@ private:
         return place;
     }
 
-    std::pmr::vector<Slot> slots_;
-    std::pmr::vector<Node> nodes_;
+    Array<Slot> slots_;
+    Array<Node> nodes_;
     std::uint32_t size_ = 0, age_ = 1;
     int shift_ = 64;
 };

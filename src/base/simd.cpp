@@ -1,4 +1,5 @@
 #include "base/simd.hpp"
+#include "base/error.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -91,9 +92,13 @@ Level level() noexcept {
 }
 
 Level force_level(Level wanted) noexcept {
-    const int best = static_cast<int>(best_level());
-    forced.store(std::min(best, static_cast<int>(wanted)), std::memory_order_relaxed);
+    forced.store(static_cast<int>(std::min(std::max(wanted, least_level), best_level())), std::memory_order_relaxed);
     return level();
+}
+
+void require_instructions(Level best) {
+    if (best < least_level)
+        throw Error(VOX_ERROR_UNSUPPORTED, "this processor has not the instructions SSE4.2 and POPCNT, which vox needs");
 }
 
 const char* level_name(Level level) noexcept {

@@ -15,13 +15,17 @@
 // Targets better than AVX3, or than NEON, have lower bits, and newer versions of Highway have more of them:
 // for instructions that are of no use here, or for vectors of unknown length.
 #if defined(__x86_64__) || defined(_M_X64)
-// SSSE3 is rare and slow; such machines run the portable code.
+// Every x86-64 since 2011 has SSE4.2. Older ones are refused (require_instructions): Highway's emulation for them would take
+// gcc longer to compile than all other targets together.
+#if !defined(__SSE4_2__) && !defined(__AVX__)
+#define HWY_BASELINE_TARGETS HWY_SSE4
+#endif
 #if defined(__MINGW32__) && !defined(__clang__) && !defined(VOX_UNALIGNED_MOVES)
 // gcc for Windows aligns the stack to 16 bytes only, and AVX may crash (gcc bug 54412), unless the assembler helps
 // (cmake/vox_target.cmake).
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX2 | HWY_AVX3 | (HWY_AVX3 - 1))
+#define HWY_DISABLED_TARGETS (HWY_EMU128 | HWY_SSSE3 | HWY_AVX2 | HWY_AVX3 | (HWY_AVX3 - 1))
 #else
-#define HWY_DISABLED_TARGETS (HWY_SSSE3 | (HWY_AVX3 - 1))
+#define HWY_DISABLED_TARGETS (HWY_EMU128 | HWY_SSSE3 | (HWY_AVX3 - 1))
 #endif
 #else
 #if defined(__aarch64__)
@@ -33,8 +37,8 @@
 #endif
 #define HWY_DISABLE_PCLMUL_AES
 #define HWY_DISABLE_F16C
-// The portable code is Highway's emulation of 128-bit registers. Highway disables it for gcc < 12.3, which
-// miscompiles products of 16-bit integers (gcc bug 106322). There are none here.
+// Where there are no registers of 128 bits, Highway emulates them. It does not for gcc < 12.3, which miscompiles products
+// of 16-bit integers (gcc bug 106322). There are none here.
 #define HWY_BROKEN_EMU128 0
 #define HWY_IS_DEBUG_BUILD 0 // its assertions would need Highway's library
 
@@ -42,13 +46,19 @@
 
 namespace vox::simd {
 
+// Portable: Highway's code for the machine that is compiled for, where that is not an x86.
 enum class Level : int { portable = 0, sse4 = 1, avx2 = 2, avx512 = 3 };
+
+#if defined(__x86_64__) || defined(_M_X64)
+inline constexpr Level least_level = Level::sse4;
+#else
+inline constexpr Level least_level = Level::portable;
+#endif
 
 // The best level of this machine, or the one forced.
 Level level() noexcept;
 
-// For tests and measurements. Forces `wanted`, or the best level of the machine if that is lower, and returns
-// the level in force. Machines other than x86 have one level only.
+// For tests and measurements. Forces `wanted`, or the nearest level that this machine has, and returns the level in force.
 Level force_level(Level wanted) noexcept;
 Level best_level() noexcept;
 
@@ -60,14 +70,17 @@ struct Processor {
 };
 Level level_of(const Processor& processor) noexcept;
 
+// Throws UNSUPPORTED where an x86 has not the instructions of the least level. Whoever creates an object asks.
+void require_instructions(Level best = best_level());
+
 // A name for messages, such as "AVX2".
 const char* level_name(Level level) noexcept;
 
 template <class Function>
 Function* choose(const std::array<Function*, 4>& versions) noexcept {
-    for (int i = static_cast<int>(level()); i > 0; --i)
-        if (versions[static_cast<std::size_t>(i)]) return versions[static_cast<std::size_t>(i)];
-    return versions[0];
+    int i = static_cast<int>(level());
+    while (i > static_cast<int>(least_level) && !versions[static_cast<std::size_t>(i)]) --i;
+    return versions[static_cast<std::size_t>(i)];
 }
 
 } // namespace vox::simd
@@ -78,8 +91,7 @@ Function* choose(const std::array<Function*, 4>& versions) noexcept {
 
 #if defined(__x86_64__) || defined(_M_X64)
 #define VOX_SIMD_VERSIONS(function)                                                                          \
-    HWY_CHOOSE_FALLBACK(function), HWY_CHOOSE_SSE4(function), HWY_CHOOSE_AVX2(function),                     \
-        HWY_CHOOSE_AVX3(function)
+    nullptr, HWY_CHOOSE_SSE4(function), HWY_CHOOSE_AVX2(function), HWY_CHOOSE_AVX3(function)
 #else
 #define VOX_SIMD_VERSIONS(function) &HWY_STATIC_DISPATCH(function), nullptr, nullptr, nullptr
 #endif

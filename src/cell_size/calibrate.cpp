@@ -2,6 +2,7 @@
 // Lawson, R. J. Hanson, Solving Least Squares Problems, 1974), solved by coordinate descent, since there are
 // only six of them. Weights that a few short steps cannot separate stay near those shipped, scaled to the
 // machine's speed.
+#include "base/array.hpp"
 #include "cell_size/weights.hpp"
 
 #include "base/clock.hpp"
@@ -130,7 +131,7 @@ double shortest(int times, Work&& work) {
 
 void measure_reference(Scene& scene, vox_cost_weights& weights) {
     ReferenceEngine engine(Scene::memory());
-    std::pmr::vector<Hit> hits(Scene::memory());
+    Array<Hit> hits(Scene::memory());
     vox_counters counters{};
     vox_profile profile{};
     std::vector<Timing> timings;
@@ -176,7 +177,7 @@ void measure_reference(Scene& scene, vox_cost_weights& weights) {
 
 void measure_fast(Scene& scene, vox_cost_weights& weights) {
     FastEngine engine(Scene::memory());
-    std::pmr::vector<Hit> hits(Scene::memory());
+    Array<Hit> hits(Scene::memory());
     vox_counters counters{};
     vox_profile profile{};
     for (Body& body : scene.bodies) body.self_collision = true;

@@ -1,5 +1,6 @@
 #include "cell_size/fast_model.hpp"
 
+#include "base/array.hpp"
 #include "base/sampling.hpp"
 
 #include <algorithm>
@@ -45,9 +46,9 @@ void append_near(const CellSizeScene& scene, std::uint32_t body, const Box& own,
 
 // Appends the boxes of the tiles of a body that meet a region.
 void append_tiles(const CellSizeScene& scene, std::uint32_t body, const Box& region,
-                  std::pmr::vector<Box>& out) {
+                  Array<Box>& out) {
     const fast::StepBoxes& boxes = scene.boxes();
-    const std::pmr::vector<fast::StepBody>& of = scene.step().of;
+    const Array<fast::StepBody>& of = scene.step().of;
     const std::size_t end = body + 1 < of.size() ? of[body + 1].first_tile : boxes.tiles.size();
     for (std::size_t t = of[body].first_tile; t < end; ++t)
         if (boxes.tile_known[t] && overlap(boxes.tiles[t], region)) out.push_back(boxes.tiles[t]);
@@ -58,8 +59,8 @@ void append_tiles(const CellSizeScene& scene, std::uint32_t body, const Box& reg
 FastModel::FastModel(const CellSizeScene& scene, const vox_cost_weights& weights)
     : pools_(scene.memory), weights_(weights), budget_(scene.budget) {
     const fast::BroadPhase& near = scene.broad_phase();
-    std::pmr::vector<Box> tiles(scene.memory);              // that meet the regions
-    std::pmr::vector<std::size_t> first_tile(scene.memory); // of each region in `tiles`, and the end
+    Array<Box> tiles(scene.memory);              // that meet the regions
+    Array<std::size_t> first_tile(scene.memory); // of each region in `tiles`, and the end
     first_tile.reserve(near.regions.size() + 1);
     for (const fast::PairRegion& pair : near.regions) {
         first_tile.push_back(tiles.size());
@@ -140,7 +141,7 @@ FastModel::Pool& FastModel::pool_of(double smallest_cell) {
     const int key = static_cast<int>(std::floor(2 * std::log2(smallest_cell)));
     for (Pool& pool : pools_)
         if (pool.key == key) return pool;
-    return pools_.emplace_back(key, budget_, pools_.get_allocator().resource());
+    return pools_.emplace_back(key, budget_, pools_.memory());
 }
 
 // Whole cells extend a box beyond each end along an axis, within the window: a point at distance e from the

@@ -12,6 +12,7 @@
 // excluded by winding numbers, have no window and cost nothing here.
 #pragma once
 
+#include "base/array.hpp"
 #include "cell_size/lookups.hpp"
 #include "cell_size/scene.hpp"
 #include "cell_size/search.hpp"
@@ -21,7 +22,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <optional>
-#include <vector>
 
 namespace vox {
 
@@ -74,7 +74,7 @@ private:
         int key;
         Lookups lookups;
         fast::Points points;
-        std::pmr::vector<Look> looks;
+        Array<Look> looks;
         double windows = 0, smallest_cell = 0; // the mean of the windows
         double largest_side = 0;               // of a window
         Moments cells;                         // of the windows
@@ -82,7 +82,7 @@ private:
 
     Pool& pool_of(double smallest_cell);
 
-    std::pmr::vector<Pool> pools_;
+    Array<Pool> pools_;
     vox_cost_weights weights_;
     SampleBudget budget_;
 };

@@ -1,3 +1,4 @@
+#include "base/array.hpp"
 #include "cell_size/scene.hpp"
 
 #include "base/bits.hpp"
@@ -61,7 +62,7 @@ struct Means {
     Mean longest_edge, box_side, tet_facet, boundary_facet, volume, object_side;
     SharedMean edge, facet;
     double degenerate = 0;
-    std::pmr::vector<std::pair<double, double>> box_sides; // and their weights
+    Array<std::pair<double, double>> box_sides; // and their weights
 };
 
 // A box of doubles.
@@ -281,7 +282,7 @@ Geometry measure(const CellSizeScene& scene) {
     Means means(scene.memory);
     means.box_sides.reserve(std::max(sampled_tets(stats.tets), most_measured(stats.tets)) +
                             scene.bodies.size());
-    std::pmr::vector<MeshSample> made(scene.memory);
+    Array<MeshSample> made(scene.memory);
     made.reserve(kept ? 0 : scene.bodies.size());
     const auto sample_of = [&](std::size_t b) -> const MeshSample& {
         return kept ? scene.meshes[b]->sample() : made[b];

@@ -1,12 +1,12 @@
 // A level takes consecutive size classes. The best split is found by dynamic programming over where the last
 // level begins (R. Bellman, 1957), from what each class costs at each of some cell sizes.
 #include "cell_size/levels.hpp"
+#include "base/array.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory_resource>
-#include <vector>
 
 namespace vox {
 
@@ -37,8 +37,8 @@ struct Split {
 } // namespace
 
 Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range) {
-    std::pmr::memory_resource* const memory = cost.lookups().classes().get_allocator().resource();
-    std::pmr::vector<int> exponents(memory);
+    std::pmr::memory_resource* const memory = cost.lookups().classes().memory();
+    Array<int> exponents(memory);
     for (const SizeClass& c : cost.lookups().classes()) exponents.push_back(c.exponent);
     std::sort(exponents.begin(), exponents.end());
     exponents.erase(std::unique(exponents.begin(), exponents.end()), exponents.end());
@@ -52,7 +52,7 @@ Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range) {
     const auto size_at = [&](std::size_t k) {
         return range.min * std::exp2(octaves * static_cast<double>(k) / static_cast<double>(sizes - 1));
     };
-    std::pmr::vector<double> grid(sizes, memory), sum((n + 1) * sizes, memory);
+    Array<double> grid(sizes, memory), sum((n + 1) * sizes, memory);
     for (std::size_t k = 0; k < sizes; ++k) {
         const double d = size_at(k), occupied = cost.occupied(d);
         grid[k] = cost.of_grid(d);
@@ -64,10 +64,10 @@ Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range) {
         for (std::size_t g = 0; g < n; ++g) sum[(g + 1) * sizes + k] += sum[g * sizes + k];
     }
 
-    // best[l][j]: the first j exponents in l + 1 levels.
+    // best(l)[j]: the first j exponents in l + 1 levels.
     constexpr std::size_t most = VOX_CELL_SIZE_LEVEL_CAPACITY;
-    const std::pmr::vector<Split> none(n + 1, memory);
-    std::pmr::vector<std::pmr::vector<Split>> best(most, none, memory);
+    Array<Split> splits(most * (n + 1), memory);
+    const auto best = [&](std::size_t l) { return splits.data() + l * (n + 1); };
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = i + 1; j <= n; ++j) {
             Split own;
@@ -75,24 +75,24 @@ Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range) {
                 const double c = grid[k] + sum[j * sizes + k] - sum[i * sizes + k];
                 if (c < own.cost) own = {c, size_at(k), i};
             }
-            if (i == 0) best[0][j] = own;
+            if (i == 0) best(0)[j] = own;
             for (std::size_t l = 1; l < most && i > 0; ++l) {
-                const double all = best[l - 1][i].cost + own.cost;
-                if (all < best[l][j].cost) best[l][j] = {all, own.cell_size, i};
+                const double all = best(l - 1)[i].cost + own.cost;
+                if (all < best(l)[j].cost) best(l)[j] = {all, own.cell_size, i};
             }
         }
 
     std::size_t chosen = 0;
-    const double least_gain = worth * (best[0][n].cost + cost.shared());
+    const double least_gain = worth * (best(0)[n].cost + cost.shared());
     for (std::size_t l = 1; l < most; ++l)
-        if (best[l][n].cost < best[chosen][n].cost - static_cast<double>(l - chosen) * least_gain) chosen = l;
+        if (best(l)[n].cost < best(chosen)[n].cost - static_cast<double>(l - chosen) * least_gain) chosen = l;
     Levels levels;
     levels.count = static_cast<std::uint32_t>(chosen + 1);
     std::size_t end = n;
-    for (std::size_t l = chosen + 1; l-- > 0; end = best[l][end].from) {
-        const int first = exponents[best[l][end].from], last = exponents[end - 1];
+    for (std::size_t l = chosen + 1; l-- > 0; end = best(l)[end].from) {
+        const int first = exponents[best(l)[end].from], last = exponents[end - 1];
         constexpr double around = 1.6; // further than from one of the sizes above to the next
-        const double near = best[l][end].cell_size;
+        const double near = best(l)[end].cell_size;
         levels.level[l].cell_size =
             minimise([&](double log_size) { return cost_of_level(cost, first, last, std::exp2(log_size)); },
                      {std::max(near / around, range.min), std::min(near * around, range.max)},

@@ -2,6 +2,7 @@
 // with a reservoir, ACM Trans. Math. Software 11, 1985).
 #include "cell_size/lookups.hpp"
 
+#include "base/array.hpp"
 #include "base/sampling.hpp"
 
 #include <bit>
@@ -102,7 +103,7 @@ void for_points_around(const Lookup& l, double near, const Binned& in, std::uint
 // Collects the points nearer to a box than `most`, or than some smaller distance where those are too many.
 // Returns that distance; 0 where even those nearer than the smallest cell size are too many.
 double gather(const Lookup& l, const BranchMisses& changes, double most, const Binned& in,
-              std::pmr::vector<BranchMisses::Point>& points) {
+              Array<BranchMisses::Point>& points) {
     const fast::WindowLattice& lattice = in.window.lattice;
     const auto in_scale = [&](double length) { return static_cast<float>(length / changes.scale()); };
     for (double near = most; near >= changes.first_size(); near *= 0.8) {
@@ -206,7 +207,7 @@ SizeClass& Lookups::class_of(double side, bool may_meet) {
     std::int16_t& index = index_[2 * static_cast<std::size_t>(exponent + exponents / 2) + may_meet];
     if (index < 0) {
         index = static_cast<std::int16_t>(classes_.size());
-        classes_.emplace_back(exponent, may_meet, budget_.lookups, classes_.get_allocator().resource());
+        classes_.emplace_back(exponent, may_meet, budget_.lookups, classes_.memory());
     }
     return classes_[static_cast<std::size_t>(index)];
 }
@@ -272,9 +273,9 @@ void Lookups::count_points(const fast::Points& points, bool count_occupied) {
 
 void Lookups::count_binned(const fast::Points& points, double lookups, bool count_occupied) {
     if (points.count == 0) return;
-    std::pmr::memory_resource* memory = classes_.get_allocator().resource();
+    std::pmr::memory_resource* memory = classes_.memory();
     fast::Bins bins(memory);
-    std::pmr::vector<BranchMisses::Point> around(memory);
+    Array<BranchMisses::Point> around(memory);
     const Box box = fast::bounds(points);
     const auto most = static_cast<std::size_t>(points.count / points_per_cell) + 1;
     bins.points.reserve(points.count);
@@ -286,7 +287,7 @@ void Lookups::count_binned(const fast::Points& points, double lookups, bool coun
         size_ratio_ = std::pow(256 * largest / smallest, 1.0 / (occupied_sizes - 1));
     }
     const std::size_t far_stride = stride_for(points.count, budget_.far_points);
-    std::pmr::vector<Binned::Far> far(memory);
+    Array<Binned::Far> far(memory);
     Binned binned{window,
                   bins.points,
                   bins.begin.data() + window.first_cell,
@@ -312,7 +313,7 @@ void Lookups::count_binned(const fast::Points& points, double lookups, bool coun
 
 template <class In>
 void Lookups::count_lists(SizeClass& c, std::size_t wanted, const In& in,
-                          std::pmr::vector<BranchMisses::Point>& points) {
+                          Array<BranchMisses::Point>& points) {
     const double least = c.changes.first_size(), most = c.changes.last_size();
     double near = most;
     for (std::size_t i = 0; i < std::min(c.sample.size(), wanted); ++i) {
@@ -335,7 +336,7 @@ void Lookups::count_crowds(const SizeClass& c, std::size_t wanted, double near, 
     for (std::size_t i = 0; i < size; ++i) {
         Lookup corner = c.sample[i];
         for (int a = 0; a < 3; ++a) corner.hi[a] = corner.lo[a];
-        PointsMet met(std::ldexp(1.0, c.exponent), classes_.get_allocator().resource());
+        PointsMet met(std::ldexp(1.0, c.exponent), classes_.memory());
         for_points_around(corner, near, in, random_,
                           [&](std::uint32_t, const double(&along)[3], double w) { met.add(along, w); });
         met.finish();

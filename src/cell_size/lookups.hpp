@@ -9,6 +9,7 @@
 // and bodies of unlike resolution need no special care.
 #pragma once
 
+#include "base/array.hpp"
 #include "cell_size/branch_misses.hpp"
 #include "fast/window.hpp"
 
@@ -19,7 +20,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
-#include <vector>
 
 namespace vox {
 
@@ -97,7 +97,7 @@ private:
     void grow(std::size_t to);
 
     double inverse_least_;
-    std::pmr::vector<Moments> sums_; // of the classes up to the last that holds a point
+    Array<Moments> sums_; // of the classes up to the last that holds a point
 };
 
 // A box that is looked up in the lattice. It reads points there, and tests those of them that it does not
@@ -123,7 +123,7 @@ struct SizeClass {
     Moments cells;            // met
     PointsMet passed, tested; // points read, passed over or tested
     BranchMisses changes;
-    std::pmr::vector<Lookup> sample;
+    Array<Lookup> sample;
 };
 
 class Lookups {
@@ -140,7 +140,7 @@ public:
     // How many points count_points() looked at, once for each sample near them.
     std::uint64_t points_looked_at() const noexcept { return points_looked_at_; }
 
-    const std::pmr::vector<SizeClass>& classes() const noexcept { return classes_; }
+    const Array<SizeClass>& classes() const noexcept { return classes_; }
     double count() const noexcept {
         return sum([](const SizeClass& c) { return c.count; });
     }
@@ -173,13 +173,13 @@ private:
     void count_binned(const fast::Points& points, double lookups, bool count_occupied);
     template <class In>
     void count_lists(SizeClass& c, std::size_t wanted, const In& in,
-                     std::pmr::vector<BranchMisses::Point>& points);
+                     Array<BranchMisses::Point>& points);
     template <class In>
     void count_crowds(const SizeClass& c, std::size_t wanted, double near, const In& in,
                       double points_per_lookup);
 
     SampleBudget budget_;
-    std::pmr::vector<SizeClass> classes_;           // that occur
+    Array<SizeClass> classes_;           // that occur
     std::array<std::int16_t, 2 * exponents> index_; // in classes_; -1: none
     std::uint64_t random_ = 0, points_looked_at_ = 0;
     // Occupied cells at sizes that are evenly spaced in the logarithm.

@@ -1,5 +1,6 @@
 #include "cell_size/reference_model.hpp"
 
+#include "base/array.hpp"
 #include "base/sampling.hpp"
 #include "base/vectors.hpp"
 #include "fast/body_pairs.hpp"
@@ -43,7 +44,7 @@ ReferenceModel::ReferenceModel(const CellSizeScene& scene, vox_storage storage,
     tets_ = static_cast<double>(tets);
     fast::Points points(scene.memory);
     points.reserve(vertices);
-    std::pmr::vector<Box> boxes(scene.memory);
+    Array<Box> boxes(scene.memory);
     for (const Body& body : scene.bodies) {
         const std::uint32_t first = points.count;
         for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
@@ -58,7 +59,7 @@ ReferenceModel::ReferenceModel(const CellSizeScene& scene, vox_storage storage,
         boxes.push_back(fast::bounds(points, first, body.vertex_count));
     }
     fast::PairBuffers buffers(scene.memory);
-    std::pmr::vector<fast::Pair> pairs(scene.memory);
+    Array<fast::Pair> pairs(scene.memory);
     fast::find_pairs(boxes, {.bodies = scene.bodies}, buffers, pairs);
     const fast::Pair* pair = pairs.data(); // sorted by a
     const fast::Pair* const last_pair = pair + pairs.size();

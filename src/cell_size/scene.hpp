@@ -1,6 +1,7 @@
 // The scene that a cell size is chosen for, as every model sees it.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/scene.hpp"
 #include "cell_size/lookups.hpp"
 #include "cell_size/tile_sketch.hpp"
@@ -12,7 +13,6 @@
 
 #include <cstdint>
 #include <memory_resource>
-#include <vector>
 
 namespace vox {
 
@@ -32,13 +32,13 @@ struct CellSizeScene {
     std::pmr::memory_resource* memory; // for this scene and for what models keep
 
     // ---- set by the caller ----
-    std::pmr::vector<Body> bodies;
+    Array<Body> bodies;
     SampleBudget budget = thorough; // prepare() makes it a small one where the scene is a grid's
     // What a grid has prepared of each body, and found in its last step. All empty where there is no grid.
-    std::pmr::vector<const Mesh*> meshes;
-    std::pmr::vector<const Tiles*> tiles;   // null where they were not made: they are then sketched
-    std::pmr::vector<std::uint8_t> at_rest; // the body did not move before the last step
-    std::pmr::vector<std::uint8_t> cleared; // winding numbers excluded most of its self-collision
+    Array<const Mesh*> meshes;
+    Array<const Tiles*> tiles;   // null where they were not made: they are then sketched
+    Array<std::uint8_t> at_rest; // the body did not move before the last step
+    Array<std::uint8_t> cleared; // winding numbers excluded most of its self-collision
     const FastEngine* last_step = nullptr; // null unless it was a step of these bodies, wherever they are now
 
     // ---- set by prepare() ----
@@ -67,7 +67,7 @@ private:
     void sketch_missing_tiles();
     void make_tile_boxes(std::size_t body);
 
-    std::pmr::vector<TileSketch> sketches_; // of all bodies, where some have no tiles
+    Array<TileSketch> sketches_; // of all bodies, where some have no tiles
     fast::Step step_;
     fast::StepBoxes boxes_;
     fast::StreamBuffers stream_;

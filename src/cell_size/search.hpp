@@ -2,6 +2,8 @@
 // of the models of this library and those of its users (vox_cost_minimise).
 #pragma once
 
+#include "base/array.hpp"
+
 #include <vox/vox.h>
 
 #include <array>
@@ -9,7 +11,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory_resource>
-#include <vector>
 
 namespace vox {
 
@@ -95,7 +96,7 @@ private:
     CostFunction cost_;
     double log_min_;
     int last_;                        // node in the range; the first is 0
-    std::pmr::vector<double> values_; // from node -margin on; NaN where not asked for yet
+    Array<double> values_; // from node -margin on; NaN where not asked for yet
 };
 
 // ---- cost functions of users ------------------------------------------------------------------------

@@ -1,5 +1,6 @@
 #include "cell_size/tile_sketch.hpp"
 
+#include "base/array.hpp"
 #include "base/bits.hpp"
 #include "base/sampling.hpp"
 
@@ -188,7 +189,7 @@ private:
 } // namespace
 
 void sketch_tiles(const Body& body, std::size_t wanted, TileSketch& out) {
-    std::pmr::vector<SampledTet> items(out.boxes.get_allocator().resource());
+    Array<SampledTet> items(out.boxes.memory());
     items.reserve(std::min(wanted, body.tets.size()));
     for_stratified(body.tets.size(), wanted, 0.5, [&](std::uint64_t t) {
         if (!has_bit(body.off, t)) items.push_back(sampled(body, static_cast<std::size_t>(t)));

@@ -6,13 +6,13 @@
 // extend beyond their centroids.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 #include "base/scene.hpp"
 #include "mesh/tiles.hpp"
 
 #include <cstddef>
 #include <memory_resource>
-#include <vector>
 
 namespace vox {
 
@@ -21,7 +21,7 @@ struct TileSketch {
         : tiles(memory), boxes(memory), super_tiles(memory) {}
 
     Tiles tiles; // super_first, and as many tiles; nothing is in them. Its blocks are the caller's
-    std::pmr::vector<Box> boxes, super_tiles;
+    Array<Box> boxes, super_tiles;
 };
 
 // From about `wanted` tetrahedra. Positions that are not finite count as 0.

@@ -1,6 +1,7 @@
 // The search for the closest point of a surface.
 #pragma once
 
+#include "base/array.hpp"
 #include "depth/near.hpp"
 #include "depth/walk.hpp"
 
@@ -10,7 +11,6 @@
 #include <limits>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 class Workers;
@@ -92,7 +92,7 @@ private:
 
     void reserve(std::size_t triangles);
     void take_frame();
-    std::pmr::vector<Key> sort_along_curve() const;
+    Array<Key> sort_along_curve() const;
     void lay_out(std::span<const Key> order);
     void name_parts_of_nodes();
     void fit(Workers* workers);
@@ -113,10 +113,10 @@ private:
     double squared_exit(const Line& line, const Vec3d& way) const;
 
     Solid solid_{};
-    std::pmr::vector<std::uint32_t> triangles_; // of the lanes of leaves_
-    std::pmr::vector<TreeLeaf> leaves_;
-    std::pmr::vector<TreeNode> nodes_;
-    std::pmr::vector<TreeLevel> levels_; // the root's is the last
+    Array<std::uint32_t> triangles_; // of the lanes of leaves_
+    Array<TreeLeaf> leaves_;
+    Array<TreeNode> nodes_;
+    Array<TreeLevel> levels_; // the root's is the last
     TreeView view_{};
     // The tree's coordinates are scale_ * (x - middle_), mostly at most 1 in magnitude.
     Vec3d middle_{};
@@ -124,7 +124,7 @@ private:
     float most_ = 0; // the largest coordinate, in magnitude
     // Of each vertex, the lowest vertex of its part; empty when there is only one part, or folds were not
     // asked for. And of each leaf and node the part of its triangles, as TreeView has it.
-    std::pmr::vector<std::uint32_t> part_, part_of_nodes_;
+    Array<std::uint32_t> part_, part_of_nodes_;
     bool is_built_ = false, has_parts_ = false;
 };
 

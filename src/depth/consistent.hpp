@@ -1,6 +1,7 @@
 // Consistent penetration depths of the colliding vertices of one body in another.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/bits.hpp"
 #include "depth/normals.hpp"
 #include "depth/points.hpp"
@@ -9,7 +10,6 @@
 #include <memory_resource>
 #include <span>
 #include <tuple>
-#include <vector>
 
 namespace vox::depth {
 
@@ -37,7 +37,7 @@ public:
     void set_wave(std::uint32_t vertex, std::uint32_t wave) noexcept { entries_[vertex].wave = wave; }
 
 private:
-    std::pmr::vector<Entry> entries_;
+    Array<Entry> entries_;
 };
 
 // What find_consistent_depths() keeps from call to call.

@@ -1,6 +1,7 @@
 // The closest points of the vertices for which means over neighbours are of no use.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
 #include "depth/normals.hpp"
@@ -11,7 +12,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 class Workers;
@@ -75,12 +75,12 @@ private:
                     Worker& worker) const;
 
     SurfaceTrees& trees_;
-    std::pmr::vector<BodyTree> tree_of_body_;
-    std::pmr::vector<std::uint32_t> used_; // bodies with a tree in this step
-    std::pmr::vector<Item> items_;
-    std::pmr::vector<std::uint32_t> places_; // for the budget
+    Array<BodyTree> tree_of_body_;
+    Array<std::uint32_t> used_; // bodies with a tree in this step
+    Array<Item> items_;
+    Array<std::uint32_t> places_; // for the budget
     // The first of those items next to each other that are searched in one go, with one body_b and part.
-    std::pmr::vector<std::uint32_t> chunks_;
+    Array<std::uint32_t> chunks_;
     PerWorker<Worker> workers_;
 };
 

@@ -15,10 +15,9 @@
 
 #include <limits>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "depth/near.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef VOX_SOURCE
+#define VOX_SOURCE "depth/near.cpp"
+#include "base/each_target.hpp"
 
 #include "base/lanes-inl.hpp"
 

@@ -13,12 +13,11 @@
 #include <algorithm>
 #include <cmath>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "depth/normals.cpp"
-#include <hwy/foreach_target.h>
+#undef VOX_SOURCE
+#define VOX_SOURCE "depth/normals.cpp"
+#include "base/each_target.hpp"
 
 #include <hwy/cache_control.h>
-#include <hwy/highway.h>
 
 #ifndef VOX_DEPTH_NORMALS_ONCE
 #define VOX_DEPTH_NORMALS_ONCE
@@ -39,6 +38,7 @@ struct FaceBlock {
 HWY_BEFORE_NAMESPACE();
 namespace vox::depth {
 namespace HWY_NAMESPACE {
+namespace normals { // other files of the folder have a Load, too
 
 #if HWY_HAVE_FLOAT64
 namespace hn = hwy::HWY_NAMESPACE;
@@ -111,6 +111,9 @@ void ComputeFaces(FaceBlock& block) {
         Store(Weight(area, lbc, lca), block.weight[2] + i);
     }
 }
+
+} // namespace normals
+using normals::ComputeFaces;
 
 } // namespace HWY_NAMESPACE
 } // namespace vox::depth

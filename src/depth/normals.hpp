@@ -1,6 +1,7 @@
 // Smooth normals of a surface. Each is computed when it is first needed, and kept until there are too many.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/place_map.hpp"
 #include "depth/walk.hpp"
 
@@ -9,7 +10,6 @@
 #include <memory_resource>
 #include <span>
 #include <tuple>
-#include <vector>
 
 namespace vox::depth {
 
@@ -77,10 +77,10 @@ private:
 
     Solid solid_{};
     PlaceMap face_places_, ring_places_, asked_places_; // by triangle, vertex, triangle
-    std::pmr::vector<Face> faces_;
-    std::pmr::vector<Ring> rings_;
-    std::pmr::vector<std::uint32_t> ring_faces_;
-    std::pmr::vector<Asked> asked_;
+    Array<Face> faces_;
+    Array<Ring> rings_;
+    Array<std::uint32_t> ring_faces_;
+    Array<Asked> asked_;
 };
 
 } // namespace vox::depth

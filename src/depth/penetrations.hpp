@@ -2,6 +2,7 @@
 // Each depends on the positions and the topology of its two bodies and on their contacts, on nothing else.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/scene.hpp"
 #include "mesh/filter.hpp"
 
@@ -11,7 +12,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -78,9 +78,9 @@ private:
     std::size_t keep_carried(std::span<const Body> bodies, std::span<const Hit> hits) noexcept;
     void spread_carried(std::span<const Body> bodies, std::span<const Hit> hits) noexcept;
 
-    std::pmr::vector<vox_penetration> all_;
-    std::pmr::vector<Depth> depths_;
-    std::pmr::vector<std::uint32_t> closest_;
+    Array<vox_penetration> all_;
+    Array<Depth> depths_;
+    Array<std::uint32_t> closest_;
     std::size_t carried_ = 0;
 };
 

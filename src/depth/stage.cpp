@@ -1,5 +1,6 @@
 #include "depth/stage.hpp"
 
+#include "base/array.hpp"
 #include "base/parallel.hpp"
 #include "base/room.hpp"
 
@@ -64,7 +65,7 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
 
 // There are never more points than contacts, nor more pairs.
 void DepthStage::reserve(std::uint64_t contacts) {
-    for (std::pmr::vector<std::uint32_t>* list : {&places_, &pairs_, &queue_})
+    for (Array<std::uint32_t>* list : {&places_, &pairs_, &queue_})
         reserve_exactly(*list, contacts);
 }
 

@@ -2,6 +2,7 @@
 // docs/depth.md describes the method; each part is a file in depth/.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
 #include "depth/consistent.hpp"
@@ -16,7 +17,6 @@
 #include <memory_resource>
 #include <span>
 #include <tuple>
-#include <vector>
 
 namespace vox {
 
@@ -67,8 +67,8 @@ private:
 
     // Of the penetrations that are found, pair after pair, each in the order of vertices; and in these lists
     // the first of each pair.
-    std::pmr::vector<std::uint32_t> places_, pairs_;
-    std::pmr::vector<std::uint32_t> queue_; // for find_consistent_depths(), as long
+    Array<std::uint32_t> places_, pairs_;
+    Array<std::uint32_t> queue_; // for find_consistent_depths(), as long
     PerWorker<Worker> workers_;
     depth::Fallback fallback_;
 };

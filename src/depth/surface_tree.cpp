@@ -1,5 +1,6 @@
 // A tree over the triangles, sorted along a Z-shaped curve (Lauterbach et al., "Fast BVH construction on
 // GPUs", Computer Graphics Forum 28, 2009), whose boxes follow the positions.
+#include "base/array.hpp"
 #include "base/bits.hpp"
 #include "base/boxes.hpp"
 #include "base/parallel.hpp"
@@ -67,9 +68,9 @@ std::uint32_t SurfaceTree::place_on_curve(const Vec3d& p) const noexcept {
 }
 
 // Part after part.
-std::pmr::vector<SurfaceTree::Key> SurfaceTree::sort_along_curve() const {
+Array<SurfaceTree::Key> SurfaceTree::sort_along_curve() const {
     const auto count = static_cast<std::uint32_t>(solid_.topology->triangles.size());
-    std::pmr::vector<Key> order(count, part_.get_allocator()), scratch(count, part_.get_allocator());
+    Array<Key> order(count, part_.memory()), scratch(count, part_.memory());
     for (std::uint32_t t = 0; t < count; ++t) {
         const Box3d box = box_of(solid_, t);
         order[t] = {place_on_curve(0.5 * box.min + 0.5 * box.max), t};

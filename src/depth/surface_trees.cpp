@@ -1,17 +1,18 @@
 #include "depth/surface_trees.hpp"
+#include "base/array.hpp"
 
 #include <algorithm>
 
 namespace vox::depth {
 
-std::pmr::vector<SurfaceTrees::Tree>::iterator SurfaceTrees::place(std::uint32_t mesh_id) noexcept {
+Array<SurfaceTrees::Tree>::iterator SurfaceTrees::place(std::uint32_t mesh_id) noexcept {
     return std::ranges::lower_bound(trees_, mesh_id, {}, &Tree::mesh_id);
 }
 
 void SurfaceTrees::add(std::uint32_t mesh_id) {
     const auto at = place(mesh_id);
     if (at != trees_.end() && at->mesh_id == mesh_id) return;
-    trees_.insert(at, {mesh_id, SurfaceTree(trees_.get_allocator().resource())});
+    trees_.insert(at, {mesh_id, SurfaceTree(trees_.memory())});
 }
 
 SurfaceTree& SurfaceTrees::operator[](std::uint32_t mesh_id) noexcept { return place(mesh_id)->tree; }
@@ -22,9 +23,9 @@ void SurfaceTrees::topology_changed(std::uint32_t mesh_id) noexcept {
 }
 
 void SurfaceTrees::forget(std::uint32_t mesh_id) noexcept {
-    std::erase_if(trees_, [mesh_id](const Tree& tree) { return tree.mesh_id == mesh_id; });
+    erase_if(trees_, [mesh_id](const Tree& tree) { return tree.mesh_id == mesh_id; });
 }
 
-void SurfaceTrees::forget_all() noexcept { trees_ = std::pmr::vector<Tree>(trees_.get_allocator()); }
+void SurfaceTrees::forget_all() noexcept { trees_ = Array<Tree>(trees_.memory()); }
 
 } // namespace vox::depth

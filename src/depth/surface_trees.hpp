@@ -2,11 +2,11 @@
 // and the readings of contacts share them.
 #pragma once
 
+#include "base/array.hpp"
 #include "depth/closest.hpp"
 
 #include <cstdint>
 #include <memory_resource>
-#include <vector>
 
 namespace vox::depth {
 
@@ -30,9 +30,9 @@ private:
         SurfaceTree tree;
     };
     // The place of a mesh's tree, or where it would be.
-    std::pmr::vector<Tree>::iterator place(std::uint32_t mesh_id) noexcept;
+    Array<Tree>::iterator place(std::uint32_t mesh_id) noexcept;
 
-    std::pmr::vector<Tree> trees_; // by mesh id
+    Array<Tree> trees_; // by mesh id
 };
 
 } // namespace vox::depth

@@ -10,12 +10,11 @@
 #include <bit>
 #include <cstddef>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "depth/walks.cpp"
-#include <hwy/foreach_target.h>
+#undef VOX_SOURCE
+#define VOX_SOURCE "depth/walks.cpp"
+#include "base/each_target.hpp"
 
 #include <hwy/cache_control.h>
-#include <hwy/highway.h>
 
 #ifndef VOX_DEPTH_WALKS_ONCE
 #define VOX_DEPTH_WALKS_ONCE
@@ -54,6 +53,7 @@ struct LaneBits {
 HWY_BEFORE_NAMESPACE();
 namespace vox::depth {
 namespace HWY_NAMESPACE {
+namespace walks { // other files of the folder have a Load, too
 
 #if HWY_HAVE_FLOAT64
 
@@ -323,6 +323,12 @@ std::uint32_t CrossGates(WalkBlock&) { return 0; }
 #endif
 
 bool HasDoubles() { return HWY_HAVE_FLOAT64 != 0; }
+
+} // namespace walks
+using walks::FirstGates;
+using walks::NextGates;
+using walks::CrossGates;
+using walks::HasDoubles;
 
 } // namespace HWY_NAMESPACE
 } // namespace vox::depth

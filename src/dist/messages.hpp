@@ -1,6 +1,7 @@
 // What ranks send each other: plain structs, one after the other, in the byte order of the machine.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/error.hpp"
 
 #include <vox/vox_dist.h>
@@ -10,7 +11,6 @@
 #include <limits>
 #include <memory_resource>
 #include <type_traits>
-#include <vector>
 
 namespace vox::dist {
 
@@ -116,7 +116,7 @@ constexpr std::uint32_t interior_bit = 0x80000000u;
 
 using Memory = std::pmr::memory_resource;
 template <class T>
-using Vector = std::pmr::vector<T>;
+using Vector = Array<T>;
 
 class Writer {
 public:

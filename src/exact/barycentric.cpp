@@ -12,12 +12,11 @@
 #include <bit>
 #include <type_traits>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "exact/barycentric.cpp"
-#include <hwy/foreach_target.h>
+#undef VOX_SOURCE
+#define VOX_SOURCE "exact/barycentric.cpp"
+#include "base/each_target.hpp"
 
 #include <hwy/cache_control.h>
-#include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace vox {

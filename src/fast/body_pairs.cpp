@@ -8,6 +8,7 @@
 // negative group; then classes of bodies that the filters treat alike are joined, two at a time.
 #include "fast/body_pairs.hpp"
 
+#include "base/array.hpp"
 #include "mesh/filter.hpp"
 
 #include <algorithm>
@@ -51,7 +52,7 @@ int widest_axis(std::span<const Box> boxes) {
 
 // One pass of a radix sort whose digit is a whole index: stable, by Pair::*key.
 void sort_by(std::uint32_t Pair::*key, std::size_t indices, std::span<const Pair> from, std::span<Pair> to,
-             std::pmr::vector<std::uint32_t>& first) {
+             Array<std::uint32_t>& first) {
     first.assign(indices + 1, 0);
     for (const Pair& pair : from) ++first[pair.*key + 1];
     for (std::size_t i = 1; i <= indices; ++i) first[i] += first[i - 1];
@@ -66,7 +67,7 @@ bool is_wanted(const Body& a, bool a_moved, const Body& b, bool b_moved) {
 // Collects the pairs that are wanted, and counts those that are not.
 class PairCollector {
 public:
-    PairCollector(const PairRules& rules, std::pmr::vector<Pair>& found) : rules_(rules), found_(found) {}
+    PairCollector(const PairRules& rules, Array<Pair>& found) : rules_(rules), found_(found) {}
 
     // Starts again. It is full when it was given more than so many pairs that are excluded.
     void start(std::uint64_t most) {
@@ -92,7 +93,7 @@ public:
 
 private:
     const PairRules& rules_;
-    std::pmr::vector<Pair>& found_;
+    Array<Pair>& found_;
     std::uint64_t most_excluded_ = 0, excluded_ = 0, looks_ = 0;
 };
 
@@ -101,7 +102,7 @@ private:
 } // namespace
 
 // A radix sort (Knuth, The Art of Computer Programming 3, Sect. 5.2.5).
-void sort_by_upper_half(std::pmr::vector<std::uint64_t>& items, std::pmr::vector<std::uint64_t>& other) {
+void sort_by_upper_half(Array<std::uint64_t>& items, Array<std::uint64_t>& other) {
     constexpr std::size_t few_items = 512; // are sorted faster by comparisons
     if (items.size() <= few_items) return std::sort(items.begin(), items.end());
     if (std::is_sorted(items.begin(), items.end())) return;
@@ -323,7 +324,7 @@ void join_classes(const PairRules& rules, PairBuffers& buffers, PairCollector& o
 } // namespace
 
 void find_pairs(std::span<const Box> boxes, const PairRules& rules, PairBuffers& buffers,
-                std::pmr::vector<Pair>& pairs) {
+                Array<Pair>& pairs) {
     const int axis = widest_axis(boxes);
     sort_boxes(boxes, axis, buffers);
     const std::size_t count = buffers.order.size();
@@ -344,7 +345,7 @@ void find_pairs(std::span<const Box> boxes, const PairRules& rules, PairBuffers&
     }
     buffers.looks = out.looks();
 
-    std::pmr::vector<Pair>& found = buffers.found;
+    Array<Pair>& found = buffers.found;
     pairs.resize(found.size());
     sort_by(&Pair::b, boxes.size(), found, pairs, buffers.first);
     std::copy(pairs.begin(), pairs.end(), found.begin());

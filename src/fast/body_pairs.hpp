@@ -1,6 +1,7 @@
 // Pairs of boxes that overlap: those of bodies, for the broad phase and the reference engine's cost model.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 #include "base/scene.hpp"
 #include "fast/step.hpp"
@@ -10,7 +11,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox::fast {
 
@@ -42,12 +42,12 @@ struct PairBuffers {
         : order(memory), boxes(memory), corners(memory), other_corners(memory), found(memory), first(memory),
           ranked(memory), inner(memory), outer(memory) {}
 
-    std::pmr::vector<std::uint32_t> order; // boxes that are not empty, along the axis of the sweep
-    std::pmr::vector<Box> boxes;           // in that order
-    std::pmr::vector<std::uint64_t> corners, other_corners;
-    std::pmr::vector<Pair> found;
-    std::pmr::vector<std::uint32_t> first;
-    std::pmr::vector<RankedBox> ranked, inner, outer; // of scenes for which the sweep does not do
+    Array<std::uint32_t> order; // boxes that are not empty, along the axis of the sweep
+    Array<Box> boxes;           // in that order
+    Array<std::uint64_t> corners, other_corners;
+    Array<Pair> found;
+    Array<std::uint32_t> first;
+    Array<RankedBox> ranked, inner, outer; // of scenes for which the sweep does not do
     std::uint64_t looks = 0; // at a pair, or at a box to divide them, in the last call
 };
 
@@ -56,7 +56,7 @@ struct PairBuffers {
 // take, but for pairs of boxes that overlap and that more than most_rule_classes kinds of filters, or
 // exceptions, exclude: these are tested one by one. Memory is taken for boxes and for wanted pairs alone.
 void find_pairs(std::span<const Box> boxes, const PairRules& rules, PairBuffers& buffers,
-                std::pmr::vector<Pair>& pairs);
+                Array<Pair>& pairs);
 inline constexpr std::size_t most_rule_classes = 32;
 
 // The bits of a float in the order of its value; the two zeros are one.
@@ -66,6 +66,6 @@ inline std::uint32_t ordered_bits(float value) noexcept {
 }
 
 // Sorts by the upper half items whose lower halves ascend. `other` is a buffer.
-void sort_by_upper_half(std::pmr::vector<std::uint64_t>& items, std::pmr::vector<std::uint64_t>& other);
+void sort_by_upper_half(Array<std::uint64_t>& items, Array<std::uint64_t>& other);
 
 } // namespace vox::fast

@@ -9,10 +9,9 @@
 #include <cstring>
 #include <numeric>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "fast/broad_phase.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef VOX_SOURCE
+#define VOX_SOURCE "fast/broad_phase.cpp"
+#include "base/each_target.hpp"
 
 #include "base/lanes-inl.hpp"
 #include "fast/tile-inl.hpp"
@@ -317,7 +316,7 @@ void find_regions(const Step& step, StepBoxes& boxes, BroadPhase& out) {
     for (const PairRegion& pair : out.regions) blocks += step.of[pair.a].tiles->block_count();
     step.for_each(out.regions.size(), blocks, task_boxes,
                   [&](std::size_t r, std::uint32_t) { shrink_to_blocks(step, boxes, out.regions[r]); });
-    std::erase_if(out.regions, [](const PairRegion& pair) { return is_empty(pair.region); });
+    erase_if(out.regions, [](const PairRegion& pair) { return is_empty(pair.region); });
     index_regions(step.bodies.size(), out);
 
     out.block_sides.resize(step.block_count);

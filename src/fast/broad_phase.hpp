@@ -3,6 +3,7 @@
 // call.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 #include "fast/body_pairs.hpp"
 #include "fast/step.hpp"
@@ -12,7 +13,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox::fast {
 
@@ -46,10 +46,10 @@ struct BroadPhase {
         : regions(memory), first_of_a(memory), by_b(memory), first_of_b(memory), reached(memory),
           block_sides(memory), pairs(memory), pair_buffers(memory) {}
 
-    std::pmr::vector<PairRegion> regions;       // sorted by a, then b
-    std::pmr::vector<std::uint32_t> first_of_a; // of each body in `regions`, and the end
-    std::pmr::vector<std::uint32_t> by_b;       // indices of `regions`, sorted by b, then a
-    std::pmr::vector<std::uint32_t> first_of_b; // of each body in `by_b`, and the end
+    Array<PairRegion> regions;       // sorted by a, then b
+    Array<std::uint32_t> first_of_a; // of each body in `regions`, and the end
+    Array<std::uint32_t> by_b;       // indices of `regions`, sorted by b, then a
+    Array<std::uint32_t> first_of_b; // of each body in `by_b`, and the end
 
     // The regions of the vertices of a body, and the indices of those that reach its tets.
     std::span<const PairRegion> of_a(std::uint32_t a) const noexcept {
@@ -61,11 +61,11 @@ struct BroadPhase {
     bool is_reached(std::uint32_t b) const noexcept { return first_of_b[b] != first_of_b[b + 1]; }
 
     // Of each body, around the regions in which others reach it, as they were before tiles made them smaller.
-    std::pmr::vector<Box> reached;
-    std::pmr::vector<std::uint8_t> block_sides; // sides_of() each block, seen from there
+    Array<Box> reached;
+    Array<std::uint8_t> block_sides; // sides_of() each block, seen from there
 
     // Buffers.
-    std::pmr::vector<Pair> pairs;
+    Array<Pair> pairs;
     PairBuffers pair_buffers;
 };
 

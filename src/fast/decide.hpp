@@ -1,6 +1,7 @@
 // The last stage: which findings of the lookup are hits. What floats could not decide is decided exactly.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/scene.hpp"
 #include "exact/predicates.hpp"
 #include "fast/lookup.hpp"
@@ -9,7 +10,6 @@
 #include <memory_resource>
 #include <mutex>
 #include <span>
-#include <vector>
 
 namespace vox {
 struct SelfFilter;
@@ -19,8 +19,8 @@ namespace vox::fast {
 
 // What all workers add to.
 struct Decided {
-    std::pmr::vector<Hit>& hits;
-    std::pmr::vector<std::uint64_t>& degenerate; // body << 32 | tet, some more than once
+    Array<Hit>& hits;
+    Array<std::uint64_t>& degenerate; // body << 32 | tet, some more than once
     std::mutex mutex{};
 };
 

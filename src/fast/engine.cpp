@@ -2,6 +2,7 @@
 // bodies at a time, each with results of its own.
 #include "fast/engine.hpp"
 
+#include "base/array.hpp"
 #include "base/clock.hpp"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ FastEngine::FastEngine(std::pmr::memory_resource* memory)
       workers_(memory), degenerate_(memory) {}
 
 void FastEngine::detect(std::span<const Body> bodies, std::span<const fast::PreparedBody> prepared,
-                        const FastSettings& settings, std::pmr::vector<Hit>& hits, vox_counters& counters,
+                        const FastSettings& settings, Array<Hit>& hits, vox_counters& counters,
                         vox_profile& profile) {
     const std::uint64_t start = nanoseconds();
     begin(bodies, prepared, settings);
@@ -55,7 +56,7 @@ void FastEngine::begin(std::span<const Body> bodies, std::span<const fast::Prepa
         if (settings.winding && bodies[b].self_collision && prepared[b].boundary->is_closed) {
             body.boundary = prepared[b].boundary;
             body.orientation = &prepared[b].state->orientation.make(
-                prepared[b].state->last_positions.positions.get_allocator().resource());
+                prepared[b].state->last_positions.positions.memory());
         }
         body.moved = !settings.carry || prepared[b].moved;
         body.compared = prepared[b].compared;
@@ -72,7 +73,7 @@ void FastEngine::begin(std::span<const Body> bodies, std::span<const fast::Prepa
 }
 
 // The lookup of each piece, and the decisions on what it finds.
-void FastEngine::look_up(std::pmr::vector<Hit>& hits) {
+void FastEngine::look_up(Array<Hit>& hits) {
     constexpr std::size_t task_tiles =
         32; // are worth a task: by bench_stages, ten microseconds where they find points
     fast::Decided decided{hits, degenerate_};

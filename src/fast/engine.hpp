@@ -2,6 +2,7 @@
 // (stages.hpp), plain functions over the arrays that live here; docs/engine.md explains them.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
 #include "fast/broad_phase.hpp"
@@ -17,7 +18,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -48,7 +48,7 @@ public:
     // Nothing but times and the order of hits depends on the workers. With more than one, the memory given to
     // the constructor and that of `hits` are used by many threads at once.
     void detect(std::span<const Body> bodies, std::span<const fast::PreparedBody> prepared,
-                const FastSettings& settings, std::pmr::vector<Hit>& hits, vox_counters& counters,
+                const FastSettings& settings, Array<Hit>& hits, vox_counters& counters,
                 vox_profile& profile);
 
     // For the pairs of boxes that are looked for between steps: good until the next one.
@@ -87,7 +87,7 @@ private:
 
     void begin(std::span<const Body> bodies, std::span<const fast::PreparedBody> prepared,
                const FastSettings& settings);
-    void look_up(std::pmr::vector<Hit>& hits);
+    void look_up(Array<Hit>& hits);
     void count(vox_counters& counters);
 
     fast::Step step_;
@@ -96,7 +96,7 @@ private:
     fast::BroadPhase broad_phase_;
     fast::Windows windows_;
     PerWorker<Worker> workers_;
-    std::pmr::vector<std::uint64_t> degenerate_; // body << 32 | tet
+    Array<std::uint64_t> degenerate_; // body << 32 | tet
     double cell_size_ = 0;
 };
 

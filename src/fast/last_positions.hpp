@@ -1,13 +1,13 @@
 // Which bodies moved: their positions are compared, bit by bit, with a copy of those of the last step.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 #include "base/scene.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
-#include <vector>
 
 namespace vox::fast {
 
@@ -24,9 +24,9 @@ struct LastPositions {
         Box box = empty_box; // in the last step; empty before the first
         bool copied = false; // whether `positions` or `exact` has those of the last step
     };
-    std::pmr::vector<float> positions; // packed; with room for all vertices
-    std::pmr::vector<Vec3d> exact;     // of bodies whose positions are rounded; else empty
-    std::pmr::vector<Part> parts;
+    Array<float> positions; // packed; with room for all vertices
+    Array<Vec3d> exact;     // of bodies whose positions are rounded; else empty
+    Array<Part> parts;
 };
 
 // Whether the caller's positions are an array of packed, aligned floats.

@@ -3,6 +3,7 @@
 // these are looked at from the other side. The rows are swept together, in order: each has a place in each of
 // the rows around it, which only moves on. Large boxes are tested against all others.
 #include "fast/lone_boxes.hpp"
+#include "base/array.hpp"
 
 #include <algorithm>
 #include <array>
@@ -82,12 +83,12 @@ struct Rows {
 
 } // namespace
 
-bool find_met_boxes(std::span<const Box> boxes, PairBuffers& buffers, std::pmr::vector<std::uint8_t>& met) {
+bool find_met_boxes(std::span<const Box> boxes, PairBuffers& buffers, Array<std::uint8_t>& met) {
     const Sizes sizes = measure(boxes);
     met.assign(boxes.size(), 0);
     // Rows for boxes of twice the mean size, or of more where many are larger. Sorted by where they begin,
     // then by row: sorting is stable.
-    std::pmr::vector<std::uint64_t>& items = buffers.corners;
+    Array<std::uint64_t>& items = buffers.corners;
     std::array<std::uint32_t, most_large> large;
     std::size_t large_count = most_large + 1;
     Rows rows(sizes, 1);
@@ -106,7 +107,7 @@ bool find_met_boxes(std::span<const Box> boxes, PairBuffers& buffers, std::pmr::
     if (large_count > most_large) return false;
     sort_by_upper_half(items, buffers.other_corners);
     const std::size_t count = items.size();
-    std::pmr::vector<std::uint32_t>& order = buffers.order;
+    Array<std::uint32_t>& order = buffers.order;
     order.resize(count);
     for (std::size_t k = 0; k < count; ++k) {
         order[k] = static_cast<std::uint32_t>(items[k]);
@@ -116,7 +117,7 @@ bool find_met_boxes(std::span<const Box> boxes, PairBuffers& buffers, std::pmr::
 
     const auto index_of = [&](std::size_t k) { return order[static_cast<std::uint32_t>(items[k])]; };
     const auto row_of = [&](std::size_t k) { return static_cast<std::uint32_t>(items[k] >> 32); };
-    std::pmr::vector<Box>& sorted = buffers.boxes;
+    Array<Box>& sorted = buffers.boxes;
     sorted.resize(count);
     for (std::size_t k = 0; k < count; ++k) sorted[k] = boxes[index_of(k)];
     const auto mark = [&](std::size_t k, std::size_t l) { met[index_of(k)] = met[index_of(l)] = 1; };

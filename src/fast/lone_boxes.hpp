@@ -2,18 +2,18 @@
 // and far apart.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 #include "fast/body_pairs.hpp"
 
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox::fast {
 
 // Sets met[i] to 1 for each box that overlaps another one, to 0 for the others. Empty boxes overlap nothing.
 // Returns false where that would take many tests a box; `met` is undefined then.
-bool find_met_boxes(std::span<const Box> boxes, PairBuffers& buffers, std::pmr::vector<std::uint8_t>& met);
+bool find_met_boxes(std::span<const Box> boxes, PairBuffers& buffers, Array<std::uint8_t>& met);
 
 } // namespace vox::fast

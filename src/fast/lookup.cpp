@@ -3,16 +3,16 @@
 // in its quantised box); tests each point against the 64 boxes of the tets at once; and decides the pairs
 // that are left in single precision (narrow-inl.hpp).
 #include "fast/lookup.hpp"
+#include "base/array.hpp"
 #include "base/simd.hpp"
 
 #include <algorithm>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "fast/lookup.cpp"
-#include <hwy/foreach_target.h>
+#undef VOX_SOURCE
+#define VOX_SOURCE "fast/lookup.cpp"
+#include "base/each_target.hpp"
 
 #include <hwy/cache_control.h>
-#include <hwy/highway.h>
 
 #include "base/lanes-inl.hpp"
 #include "fast/narrow-inl.hpp"
@@ -365,7 +365,7 @@ namespace {
 
 // The windows that the tiles in `box` may find points in, those of the body itself first.
 void list_sources(const BroadPhase& broad, const Windows& windows, std::uint32_t body, const Box& box,
-                  std::pmr::vector<Source>& sources) {
+                  Array<Source>& sources) {
     sources.clear();
     const auto add = [&](std::uint32_t a, const Box& region) {
         const BodyWindow& body_window = windows.of[a];
@@ -384,7 +384,7 @@ void list_sources(const BroadPhase& broad, const Windows& windows, std::uint32_t
 
 // Makes room for one stamp for each vertex. No tile may mistake the stamps of another for its own, also when
 // the tag wraps round.
-void prepare_stamps(std::size_t vertices, std::size_t tiles, std::pmr::vector<std::uint32_t>& stamps,
+void prepare_stamps(std::size_t vertices, std::size_t tiles, Array<std::uint32_t>& stamps,
                     LookupScratch& scratch) {
     if (stamps.size() < vertices) stamps.resize(vertices, 0);
     if ((scratch.tag >> 6) + tiles < 1u << 26) return;
@@ -419,7 +419,7 @@ void look_up(const Step& step, const BroadPhase& broad, const Windows& windows, 
     LookupScratch& scratch = buffers.scratch[0];
     scratch.finding_count = 0; // another piece may have failed and left some
     if (self) prepare_stamps(step.bodies[b].vertex_count, tiles.tiles.size(), buffers.stamps, scratch);
-    std::pmr::vector<Source>& near = buffers.near;
+    Array<Source>& near = buffers.near;
     for (std::uint32_t s = piece.first; s < piece.last; ++s) {
         near.clear();
         for (const Source& source : buffers.sources) {

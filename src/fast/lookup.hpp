@@ -1,6 +1,7 @@
 // The lookup: the vertices of windows against the tetrahedra of tiles.
 #pragma once
 
+#include "base/array.hpp"
 #include "exact/barycentric.hpp"
 #include "fast/broad_phase.hpp"
 #include "fast/windows.hpp"
@@ -11,7 +12,6 @@
 #include <memory_resource>
 #include <span>
 #include <tuple>
-#include <vector>
 
 namespace vox::fast {
 
@@ -111,9 +111,9 @@ struct LookupBuffers {
     explicit LookupBuffers(std::pmr::memory_resource* memory)
         : sources(memory), near(memory), stamps(memory), scratch(memory) {}
 
-    std::pmr::vector<Source> sources, near; // of a piece of a body, and of a super-tile
-    std::pmr::vector<std::uint32_t> stamps;
-    std::pmr::vector<LookupScratch> scratch; // one, once it is needed
+    Array<Source> sources, near; // of a piece of a body, and of a super-tile
+    Array<std::uint32_t> stamps;
+    Array<LookupScratch> scratch; // one, once it is needed
 
     auto buffers() { return std::tie(sources, near, stamps, scratch); }
 };

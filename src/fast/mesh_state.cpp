@@ -13,7 +13,7 @@ void MeshState::make_room(const Tiles& tiles, std::uint32_t vertex_count) {
 
 void MeshState::update(const TiledMesh& mesh, std::uint32_t version, std::uint32_t vertex_count) {
     if (version_ != version) {
-        MeshState made(last_positions.positions.get_allocator().resource());
+        MeshState made(last_positions.positions.memory());
         made.make_room(mesh.tiles, vertex_count);
         made.version_ = version;
         made.changes_ = mesh.places.changes;

@@ -51,7 +51,7 @@ HWY_INLINE hn::Vec<Bytes> QuarterIndex(hn::Vec<Bytes> index) {
 #else
     const Bytes d;
     const auto biased = hn::Add(index, hn::Set(d, 0x70));
-#if HWY_ARCH_X86 && HWY_TARGET != HWY_EMU128
+#if HWY_ARCH_X86
     return biased; // pshufb only looks at the top bit and the low four
 #else
     return hn::And(biased, hn::Set(d, 0x8f));

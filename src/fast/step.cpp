@@ -1,4 +1,5 @@
 #include "fast/step.hpp"
+#include "base/array.hpp"
 
 #include <cmath>
 #include <limits>
@@ -40,7 +41,7 @@ Vec3d choose_origin(std::span<const Body> bodies, const Box& others) {
 }
 
 void add_pieces(std::uint32_t body, std::uint32_t count, std::uint32_t most,
-                std::pmr::vector<Piece>& pieces) {
+                Array<Piece>& pieces) {
     for (std::uint32_t first = 0; first < count; first += most)
         pieces.push_back({body, first, std::min(first + most, count)});
 }

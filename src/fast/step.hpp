@@ -2,6 +2,7 @@
 // make. The blocks, super-tiles and tiles (mesh/tiles.hpp) of all bodies are numbered one body after another.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 #include "base/parallel.hpp"
 #include "base/scene.hpp"
@@ -13,7 +14,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 struct Boundary;
@@ -60,8 +60,8 @@ struct Step {
         : of(memory), block_pieces(memory), super_pieces(memory) {}
 
     std::span<const Body> bodies;
-    std::pmr::vector<StepBody> of; // of each of `bodies`
-    std::pmr::vector<Piece> block_pieces, super_pieces;
+    Array<StepBody> of; // of each of `bodies`
+    Array<Piece> block_pieces, super_pieces;
     std::size_t block_count = 0, super_count = 0, tile_count = 0;
     Vec3d origin{};         // subtracted from positions that are rounded
     Box others = empty_box; // around bodies whose positions are rounded, and that the step leaves out
@@ -89,15 +89,15 @@ struct StepBoxes {
         : bodies(memory), blocks(memory), groups(memory), super_tiles(memory), tiles(memory),
           super_change(memory), super_positive(memory), tile_known(memory) {}
 
-    std::pmr::vector<Box> bodies, blocks;
-    std::pmr::vector<Box> groups; // of each group_blocks blocks of a body
+    Array<Box> bodies, blocks;
+    Array<Box> groups; // of each group_blocks blocks of a body
     // Boxes that hold the super-tiles, not the smallest ones; empty where the broad phase found them out of
     // reach.
-    std::pmr::vector<Box> super_tiles;
-    std::pmr::vector<Box> tiles;
-    std::pmr::vector<float> super_change;          // see track_orientation()
-    std::pmr::vector<std::uint8_t> super_positive; // whether all tets of the super-tile certainly are
-    std::pmr::vector<std::uint8_t> tile_known;
+    Array<Box> super_tiles;
+    Array<Box> tiles;
+    Array<float> super_change;          // see track_orientation()
+    Array<std::uint8_t> super_positive; // whether all tets of the super-tile certainly are
+    Array<std::uint8_t> tile_known;
 };
 
 // Begins a step: step.of gets as many bodies, all cleared. The caller then sets the first fields of each.

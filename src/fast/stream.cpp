@@ -14,10 +14,9 @@
 #include <cstring>
 #include <limits>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "fast/stream.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef VOX_SOURCE
+#define VOX_SOURCE "fast/stream.cpp"
+#include "base/each_target.hpp"
 
 #include "fast/tile-inl.hpp"
 

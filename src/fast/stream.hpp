@@ -1,6 +1,7 @@
 // The first stage: one pass over all positions. Of a body that is far from all others nothing else is read.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 #include "base/scene.hpp"
 #include "fast/step.hpp"
@@ -9,7 +10,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox::fast {
 
@@ -30,9 +30,9 @@ struct StreamBuffers {
     explicit StreamBuffers(std::pmr::memory_resource* memory)
         : piece_boxes(memory), piece_moved(memory), packed(memory) {}
 
-    std::pmr::vector<Box> piece_boxes; // of Step::block_pieces
-    std::pmr::vector<std::uint8_t> piece_moved;
-    std::pmr::vector<float> packed; // of bodies of which nothing is kept
+    Array<Box> piece_boxes; // of Step::block_pieces
+    Array<std::uint8_t> piece_moved;
+    Array<float> packed; // of bodies of which nothing is kept
 };
 
 // Packs positions, makes the boxes of bodies and blocks, and finds out which of the bodies that have

@@ -8,10 +8,9 @@
 #include <array>
 #include <cmath>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "fast/window.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef VOX_SOURCE
+#define VOX_SOURCE "fast/window.cpp"
+#include "base/each_target.hpp"
 
 #include "base/compress-inl.hpp"
 #include "base/lanes-inl.hpp"

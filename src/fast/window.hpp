@@ -4,6 +4,7 @@
 // cells so large that most vertices share a few of them; such a body gets a k-d tree of windows.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox::fast {
 
@@ -19,8 +19,8 @@ namespace vox::fast {
 struct Points {
     explicit Points(std::pmr::memory_resource* memory) : x(memory), y(memory), z(memory), id(memory) {}
 
-    std::pmr::vector<float> x, y, z;
-    std::pmr::vector<std::uint32_t> id; // the caller's vertex index
+    Array<float> x, y, z;
+    Array<std::uint32_t> id; // the caller's vertex index
     std::uint32_t count = 0;
 
     static constexpr std::size_t padding = 64;
@@ -96,8 +96,8 @@ struct Bins {
     explicit Bins(std::pmr::memory_resource* memory) : points(memory), begin(memory), windows(memory) {}
 
     Points points; // window after window, sorted by cell
-    std::pmr::vector<std::uint32_t> begin;
-    std::pmr::vector<Window> windows; // tree after tree, each in preorder
+    Array<std::uint32_t> begin;
+    Array<Window> windows; // tree after tree, each in preorder
     std::size_t cells = 0;            // entries of `begin` in use
     std::uint64_t occupied_cells = 0, fullest_cell = 0;
     std::size_t most_points = ~std::size_t{0}; // that there ever will be

@@ -1,5 +1,6 @@
 #include "fast/windows.hpp"
 
+#include "base/array.hpp"
 #include "base/clock.hpp"
 
 #include <algorithm>
@@ -37,7 +38,7 @@ void prepare(const Step& step, bool keep_certified, Windows& out) {
     if (!keep_certified) out.certified.clear();
     for (CertifiedCells& cells : out.certified) cells.certified.clear();
     while (keep_certified && out.certified.size() < step.bodies.size())
-        out.certified.emplace_back(out.certified.get_allocator().resource());
+        out.certified.emplace_back(out.certified.memory());
     out.groups.clear();
     std::size_t vertices = group_vertices, all_vertices = 0;
     for (std::uint32_t b = 0; b < step.bodies.size(); ++b) {
@@ -49,7 +50,7 @@ void prepare(const Step& step, bool keep_certified, Windows& out) {
         vertices += step.bodies[b].vertex_count;
         all_vertices += step.bodies[b].vertex_count;
     }
-    while (out.bins.size() < out.groups.size()) out.bins.emplace_back(out.bins.get_allocator().resource());
+    while (out.bins.size() < out.groups.size()) out.bins.emplace_back(out.bins.memory());
     for (Bins& bins : out.bins) bins.clear();
     for (std::size_t g = 0; g < out.groups.size(); ++g) {
         out.bins[g].most_points = 0;
@@ -65,7 +66,7 @@ void prepare(const Step& step, bool keep_certified, Windows& out) {
     for (std::size_t b = 0; b < step.bodies.size(); ++b)
         if (std::size_t{step.bodies[b].vertex_count} * step.worker_count() > all_vertices)
             out.large_of[b] = large++;
-    while (out.large.size() < large) out.large.emplace_back(out.large.get_allocator().resource());
+    while (out.large.size() < large) out.large.emplace_back(out.large.memory());
 }
 
 // Adds the sizes of some tiles of a body.
@@ -110,10 +111,10 @@ bool cull_by_winding(const Step& step, std::uint32_t b, Workers* helpers, StepBo
 // Marks the blocks with vertices that are not certified.
 void activate_blocks(const StepBody& body, const StepBoxes& boxes, WindowBuffers& buffers) {
     const Certificate& certificate = buffers.certificate;
-    std::pmr::vector<std::uint8_t>& active = buffers.active;
+    Array<std::uint8_t>& active = buffers.active;
     const std::uint32_t count = body.tiles->block_count();
     active.assign(count, 0);
-    const std::pmr::vector<std::uint32_t>& first = body.tiles->block_first;
+    const Array<std::uint32_t>& first = body.tiles->block_first;
     for (const std::uint32_t v : body.boundary->loose)
         active[static_cast<std::size_t>(std::upper_bound(first.begin(), first.end(), v) - first.begin() -
                                         1)] = 1;
@@ -176,7 +177,7 @@ void collect_near(const Step& step, const StepBoxes& boxes, const BroadPhase& br
     const StepBody& step_body = step.of[body];
     const Box* blocks = boxes.blocks.data() + step_body.first_block;
     const Box* groups = boxes.groups.data() + step_body.first_group;
-    const std::pmr::vector<std::uint32_t>& first = step_body.tiles->block_first;
+    const Array<std::uint32_t>& first = step_body.tiles->block_first;
     const std::uint32_t count = step_body.tiles->block_count();
     const std::size_t most_points = std::size_t{points.count} + step.bodies[body].vertex_count;
     for (std::uint32_t b = 0; b < count; b += most_boxes) {

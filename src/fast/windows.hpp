@@ -2,6 +2,7 @@
 // that will look for them.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 #include "base/per_worker.hpp"
 #include "fast/broad_phase.hpp"
@@ -12,7 +13,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <tuple>
-#include <vector>
 
 namespace vox::fast {
 
@@ -31,7 +31,7 @@ struct WindowBuffers {
         : certificate(memory), active(memory), points(memory) {}
 
     Certificate certificate;
-    std::pmr::vector<std::uint8_t> active; // blocks with vertices that may be in tets of the same body
+    Array<std::uint8_t> active; // blocks with vertices that may be in tets of the same body
     Points points;                         // before they are binned
 
     auto buffers() {
@@ -45,10 +45,10 @@ struct Windows {
         : of(memory), certified(memory), bins(memory), workers(memory), groups(memory), large(memory),
           large_of(memory) {}
 
-    std::pmr::vector<BodyWindow> of; // each body
+    Array<BodyWindow> of; // each body
     // Of each body; without cells where winding numbers decided nothing. Empty unless asked for.
-    std::pmr::vector<CertifiedCells> certified;
-    std::pmr::vector<Bins> bins;
+    Array<CertifiedCells> certified;
+    Array<Bins> bins;
 
     struct Worker : WindowBuffers { // the buffers are for bodies that have none of their own
         using WindowBuffers::WindowBuffers;
@@ -60,10 +60,10 @@ struct Windows {
     struct Group {
         std::uint32_t first, last;
     };
-    std::pmr::vector<Group> groups;
-    std::pmr::vector<WindowBuffers> large; // of bodies that are more than a worker's share
+    Array<Group> groups;
+    Array<WindowBuffers> large; // of bodies that are more than a worker's share
     static constexpr std::uint32_t none = ~0u;
-    std::pmr::vector<std::uint32_t> large_of; // each body in `large`, or none
+    Array<std::uint32_t> large_of; // each body in `large`, or none
 };
 
 // Makes the windows of all bodies with vertices that reach another body or that may be in tets of their own.

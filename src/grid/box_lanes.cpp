@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <bit>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "grid/box_lanes.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef VOX_SOURCE
+#define VOX_SOURCE "grid/box_lanes.cpp"
+#include "base/each_target.hpp"
 
 #include "base/lanes-inl.hpp"
 

@@ -2,6 +2,7 @@
 // runs of contacts by pair: those that follow each other with the same mesh_a and mesh_b.
 #include "grid/contact_pairs.hpp"
 
+#include "base/array.hpp"
 #include "base/error.hpp"
 #include "base/room.hpp"
 #include "mesh/ids.hpp"
@@ -15,9 +16,9 @@ namespace {
 
 // Counts, sums, places: `from` stably sorted by the slot of mesh(directed[i]).
 template <class MeshOf>
-void sort_by_slot(const std::pmr::vector<TouchingBuffers::Directed>& directed, MeshOf mesh, std::size_t slots,
-                  const std::pmr::vector<std::uint32_t>& from, std::pmr::vector<std::uint32_t>& to,
-                  std::pmr::vector<std::uint32_t>& place) {
+void sort_by_slot(const Array<TouchingBuffers::Directed>& directed, MeshOf mesh, std::size_t slots,
+                  const Array<std::uint32_t>& from, Array<std::uint32_t>& to,
+                  Array<std::uint32_t>& place) {
     place.assign(slots, 0);
     for (const TouchingBuffers::Directed& d : directed) ++place[slot_of(mesh(d))];
     std::exclusive_scan(place.begin(), place.end(), place.begin(), 0u);
@@ -38,7 +39,7 @@ void for_runs(std::span<const vox_contact> contacts, Visit&& visit) {
 } // namespace
 
 // From behind, so that each pair moves once.
-void add_pairs(std::span<const EdgePair> touching, std::pmr::vector<vox_pair>& pairs) {
+void add_pairs(std::span<const EdgePair> touching, Array<vox_pair>& pairs) {
     const auto id_of = [](const vox_pair& pair) { return EdgePair{pair.mesh_a, pair.mesh_b}; };
     std::size_t added = 0;
     auto at = pairs.begin();
@@ -70,10 +71,10 @@ void check_contact_count(std::size_t count, const char* what) {
 }
 
 void find_touching(std::span<const vox_contact> contacts, std::size_t slots, TouchingBuffers& buffers,
-                   std::pmr::vector<vox_pair>& pairs, std::pmr::vector<std::uint32_t>& by_pair) {
+                   Array<vox_pair>& pairs, Array<std::uint32_t>& by_pair) {
     check_contact_count(contacts.size(), "contacts");
     using Directed = TouchingBuffers::Directed;
-    std::pmr::vector<Directed>& directed = buffers.directed;
+    Array<Directed>& directed = buffers.directed;
     directed.clear();
     if (buffers.last_of_slot.size() < slots) buffers.last_of_slot.resize(slots, 0);
     for_runs(contacts, [&](std::uint32_t first, std::uint32_t end) {

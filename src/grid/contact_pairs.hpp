@@ -1,13 +1,14 @@
 // Which pairs of meshes touch: the contacts of a step ordered by pairs.
 #pragma once
 
+#include "base/array.hpp"
+
 #include <vox/vox.h>
 
 #include <compare>
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -22,10 +23,10 @@ struct TouchingBuffers {
         std::uint32_t count;
         std::uint32_t next; // where its next contact goes in the list by pairs
     };
-    std::pmr::vector<Directed> directed;
-    std::pmr::vector<std::uint32_t> order, scratch; // of `directed`, sorted by pair
-    std::pmr::vector<std::uint32_t> place;
-    std::pmr::vector<std::uint32_t> last_of_slot; // one of `directed` with mesh_b in that slot
+    Array<Directed> directed;
+    Array<std::uint32_t> order, scratch; // of `directed`, sorted by pair
+    Array<std::uint32_t> place;
+    Array<std::uint32_t> last_of_slot; // one of `directed` with mesh_b in that slot
 };
 
 // Two meshes, the lower id first.
@@ -39,12 +40,12 @@ struct EdgePair {
 void check_contact_count(std::size_t count, const char* what);
 
 // Adds those of `touching`, which ascend, that `pairs` lacks: pairs without contacts.
-void add_pairs(std::span<const EdgePair> touching, std::pmr::vector<vox_pair>& pairs);
+void add_pairs(std::span<const EdgePair> touching, Array<vox_pair>& pairs);
 
 // Makes what vox_pair_view has of `contacts` in canonical order: the pairs, without user data, and the
 // indices of the contacts, pair by pair; `slots` is above the slot of every mesh. Throws Error(LIMIT) beyond
 // VOX_MAX_CONTACTS.
 void find_touching(std::span<const vox_contact> contacts, std::size_t slots, TouchingBuffers& buffers,
-                   std::pmr::vector<vox_pair>& pairs, std::pmr::vector<std::uint32_t>& by_pair);
+                   Array<vox_pair>& pairs, Array<std::uint32_t>& by_pair);
 
 } // namespace vox

@@ -3,6 +3,7 @@
 // digit comes first, and the others piece by piece.
 #include "grid/contacts.hpp"
 
+#include "base/array.hpp"
 #include "base/parallel.hpp"
 #include "exact/barycentric.hpp"
 
@@ -268,7 +269,7 @@ void write_block(std::span<const Body> bodies, bool rounded, std::span<const Hit
 
 // With room for a few more, so that a few more contacts in a later step allocate nothing.
 template <class Item>
-void resize(std::pmr::vector<Item>& items, std::size_t count) {
+void resize(Array<Item>& items, std::size_t count) {
     if (items.capacity() < count) {
         items.clear();
         items.reserve(count + count / 8);
@@ -278,9 +279,9 @@ void resize(std::pmr::vector<Item>& items, std::size_t count) {
 
 } // namespace
 
-void make_contacts(std::span<const Body> bodies, std::pmr::vector<Hit>& hits,
-                   std::pmr::vector<vox_contact>& contacts, Workers* workers,
-                   std::pmr::vector<std::uint8_t>* interiors) {
+void make_contacts(std::span<const Body> bodies, Array<Hit>& hits,
+                   Array<vox_contact>& contacts, Workers* workers,
+                   Array<std::uint8_t>* interiors) {
     if (workers && workers->count() == 1) workers = nullptr;
     resize(contacts, hits.size());
     Hit* kept;

@@ -3,6 +3,7 @@
 // what winding numbers have certified is left out (fast/winding/certificate.cpp).
 #include "grid/edge_contacts.hpp"
 
+#include "base/array.hpp"
 #include "base/bits.hpp"
 #include "base/parallel.hpp"
 #include "base/room.hpp"
@@ -62,7 +63,7 @@ void EdgeContacts::clear() noexcept {
 }
 
 void EdgeContacts::forget(vox_mesh mesh) noexcept {
-    std::erase_if(surfaces_, [mesh](const Surface& surface) { return surface.mesh == mesh; });
+    erase_if(surfaces_, [mesh](const Surface& surface) { return surface.mesh == mesh; });
 }
 
 void EdgeContacts::find(const EdgeScene& scene, vox_counters& counters) {
@@ -130,7 +131,7 @@ void EdgeContacts::list_pairs(const EdgeScene& scene) {
     } else {
         pack_positions(scene);
         fast::find_pairs(body_boxes_, {scene.bodies, {}}, pair_buffers_, pairs_of_bodies_);
-        std::erase_if(pairs_of_bodies_, [](const fast::Pair& pair) { return pair.a > pair.b; });
+        erase_if(pairs_of_bodies_, [](const fast::Pair& pair) { return pair.a > pair.b; });
     }
     for (std::uint32_t b = 0; b < bodies; ++b)
         if (scene.bodies[b].self_collision && has_surface(b) && (!scene.engine || scene.engine->moved(b))) {
@@ -276,7 +277,7 @@ bool EdgeContacts::list_tiles(const EdgeScene& scene, const fast::Pair& pair, Wo
     const StepSurface &a = step_surfaces_[pair.a], &b = step_surfaces_[pair.b];
     Box region = a.box;
     intersect(region, b.box);
-    const auto list = [&](const StepSurface& surface, std::pmr::vector<std::uint32_t>& tiles) {
+    const auto list = [&](const StepSurface& surface, Array<std::uint32_t>& tiles) {
         tiles.clear();
         const auto count = static_cast<std::uint32_t>(surface.features->tiles.size());
         for (std::uint32_t first = 0; first < count; first += fast::most_boxes) {
@@ -286,7 +287,7 @@ bool EdgeContacts::list_tiles(const EdgeScene& scene, const fast::Pair& pair, Wo
                 tiles.push_back(first + static_cast<std::uint32_t>(std::countr_zero(met)));
         }
         if (const fast::CertifiedCells* certified = certified_for(scene, pair))
-            std::erase_if(tiles, [&](std::uint32_t tile) {
+            erase_if(tiles, [&](std::uint32_t tile) {
                 return certified->holds(tile_boxes_[surface.first_tile + tile]);
             });
         return !tiles.empty();

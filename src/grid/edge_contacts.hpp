@@ -2,6 +2,7 @@
 // (vox_edge_contact). Found in every step of a grid with VOX_GRID_EDGE_CONTACTS, for both engines alike.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
@@ -22,7 +23,6 @@
 #include <mutex>
 #include <span>
 #include <tuple>
-#include <vector>
 
 namespace vox {
 
@@ -121,12 +121,12 @@ private:
         auto buffers() { return std::tie(tiles_a, tiles_b, boxes_b, groups_b, crossed_at); }
 
         // Tiles of the two bodies of a pair that may meet the other one.
-        std::pmr::vector<std::uint32_t> tiles_a, tiles_b;
-        std::pmr::vector<Box> boxes_b, groups_b; // of tiles_b
+        Array<std::uint32_t> tiles_a, tiles_b;
+        Array<Box> boxes_b, groups_b; // of tiles_b
         // Tiles that were looked at last, each in its place; and one of the body whose turn it is.
-        std::pmr::vector<LoadedTile> loaded;
+        Array<LoadedTile> loaded;
         // Where an edge passes through faces of a mesh, ascending, as fractions of its way: for depths.
-        std::pmr::vector<double> crossed_at;
+        Array<double> crossed_at;
         std::uint64_t candidates = 0, exact_tests = 0;
     };
     // Where a contact of found_ comes in the canonical order.
@@ -157,30 +157,30 @@ private:
     void put_in_order();
     void list_touching();
 
-    std::pmr::memory_resource* memory() const noexcept { return surfaces_.get_allocator().resource(); }
+    std::pmr::memory_resource* memory() const noexcept { return surfaces_.memory(); }
 
-    std::pmr::vector<Surface> surfaces_; // by mesh
+    Array<Surface> surfaces_; // by mesh
 
     // One step.
     // With the reference engine; the fast one has them.
     fast::PairBuffers pair_buffers_;
-    std::pmr::vector<Box> body_boxes_;
-    std::pmr::vector<float> packed_;
-    std::pmr::vector<std::size_t> first_packed_; // of each body
+    Array<Box> body_boxes_;
+    Array<float> packed_;
+    Array<std::size_t> first_packed_; // of each body
     // With both.
-    std::pmr::vector<fast::Pair> pairs_of_bodies_; // a <= b
-    std::pmr::vector<StepSurface> step_surfaces_;  // of each body
-    std::pmr::vector<TilePiece> pieces_;
-    std::pmr::vector<Box> tile_boxes_; // empty beyond that
+    Array<fast::Pair> pairs_of_bodies_; // a <= b
+    Array<StepSurface> step_surfaces_;  // of each body
+    Array<TilePiece> pieces_;
+    Array<Box> tile_boxes_; // empty beyond that
     PerWorker<Worker> workers_;
     std::mutex mutex_; // of found_
-    std::pmr::vector<vox_edge_contact> found_;
-    std::pmr::vector<Key> keys_;
+    Array<vox_edge_contact> found_;
+    Array<Key> keys_;
 
     // Results.
-    std::pmr::vector<vox_edge_contact> contacts_;
-    std::pmr::vector<EdgePair> pairs_;
-    std::pmr::vector<vox_depth> depths_;
+    Array<vox_edge_contact> contacts_;
+    Array<EdgePair> pairs_;
+    Array<vox_depth> depths_;
     bool unchanged_ = false, has_depths_ = false;
 };
 

@@ -1,5 +1,6 @@
 // The way out of edge contacts: from the middle of the part of an edge that is inside to the closest point of
 // the surface.
+#include "base/array.hpp"
 #include "grid/edge_contacts.hpp"
 
 #include "base/error.hpp"
@@ -73,7 +74,7 @@ void EdgeContacts::prepare_depths(std::span<const EdgeBody> bodies, Workers& wor
     workers_.grow(workers.count());
     workers.for_ranges(
         contacts_.size(), least_searches, [&](std::size_t begin, std::size_t end, std::uint32_t w) {
-            std::pmr::vector<double>& crossed_at = workers_[w].crossed_at;
+            Array<double>& crossed_at = workers_[w].crossed_at;
             depth::SearchState state;
             vox_mesh last = VOX_NULL_MESH;
             std::size_t past = begin; // the contacts of one edge with one mesh end there

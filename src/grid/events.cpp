@@ -1,5 +1,6 @@
 #include "grid/events.hpp"
 
+#include "base/array.hpp"
 #include "base/error.hpp"
 #include "base/room.hpp"
 
@@ -39,8 +40,8 @@ void for_each_of_kind(vox_touch kind, const Set& was, const Set& is, Before befo
 } // namespace
 
 Events::Events(std::pmr::memory_resource* memory, bool of_contacts)
-    : buffers_(memory), touching_{std::pmr::vector<vox_pair>(memory), std::pmr::vector<vox_pair>(memory)},
-      by_pair_(memory), inside_{std::pmr::vector<Inside>(memory), std::pmr::vector<Inside>(memory)},
+    : buffers_(memory), touching_{Array<vox_pair>(memory), Array<vox_pair>(memory)},
+      by_pair_(memory), inside_{Array<Inside>(memory), Array<Inside>(memory)},
       of_contacts_(of_contacts), touch_events_(memory), contact_events_(memory) {}
 
 void Events::hide_events() noexcept {
@@ -52,9 +53,9 @@ void Events::hide_events() noexcept {
 void Events::set_of_contacts(bool of_contacts) noexcept {
     if (of_contacts == of_contacts_) return;
     of_contacts_ = of_contacts;
-    std::pmr::memory_resource* memory = contact_events_.get_allocator().resource();
-    for (std::pmr::vector<Inside>& inside : inside_) inside = std::pmr::vector<Inside>(memory);
-    contact_events_ = std::pmr::vector<vox_contact_event>(memory);
+    std::pmr::memory_resource* memory = contact_events_.memory();
+    for (Array<Inside>& inside : inside_) inside = Array<Inside>(memory);
+    contact_events_ = Array<vox_contact_event>(memory);
     contacts_began_ = 0;
 }
 
@@ -67,17 +68,17 @@ void Events::reserve(std::size_t mesh_count, std::size_t contact_count) {
     reserve_growing(buffers_.place, mesh_count);
     reserve_growing(touch_events_, 2 * pairs);
     reserve_growing(by_pair_, contact_count);
-    for (std::pmr::vector<vox_pair>& touching : touching_) reserve_growing(touching, pairs);
+    for (Array<vox_pair>& touching : touching_) reserve_growing(touching, pairs);
     if (!of_contacts_) return;
     reserve_growing(contact_events_, 2 * contact_count);
-    for (std::pmr::vector<Inside>& inside : inside_) reserve_growing(inside, contact_count);
+    for (Array<Inside>& inside : inside_) reserve_growing(inside, contact_count);
 }
 
 void Events::compare(std::span<const vox_contact> contacts) {
     // Both halves get room for what one of them has, and the events for all of it to end while as much
     // begins. So a later step that finds no more than this one allocates nothing.
-    const std::pmr::vector<vox_pair>& is = next();
-    std::pmr::vector<vox_pair>& was = touching_[current_];
+    const Array<vox_pair>& is = next();
+    Array<vox_pair>& was = touching_[current_];
     reserve_growing(was, is.size());
     reserve_growing(touch_events_, 2 * std::max(was.size(), is.size()));
     try {
@@ -110,7 +111,7 @@ void Events::repeat() {
 }
 
 void Events::compare_pairs() {
-    const std::pmr::vector<vox_pair>&was = touching_[current_], &is = next();
+    const Array<vox_pair>&was = touching_[current_], &is = next();
     for (const vox_touch kind : {VOX_TOUCH_BEGAN, VOX_TOUCH_PERSISTED, VOX_TOUCH_ENDED})
         for_each_of_kind(kind, was, is, pair_before, [&](const vox_pair& pair) {
             const auto index =
@@ -123,8 +124,8 @@ void Events::compare_pairs() {
 }
 
 void Events::compare_contacts(std::span<const vox_contact> contacts) {
-    const std::pmr::vector<Inside>& was = inside_[current_];
-    std::pmr::vector<Inside>& is = inside_[1 - current_];
+    const Array<Inside>& was = inside_[current_];
+    Array<Inside>& is = inside_[1 - current_];
     is.clear();
     for (const vox_contact& contact : contacts) {
         const Inside inside{contact.mesh_a, contact.vertex, contact.mesh_b};

@@ -3,6 +3,7 @@
 // an event.
 #pragma once
 
+#include "base/array.hpp"
 #include "grid/contact_pairs.hpp"
 
 #include <vox/vox.h>
@@ -13,7 +14,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -90,20 +90,20 @@ private:
     // The pair of two meshes, in either order, if they touch; all pairs where less are given.
     std::span<const vox_pair> pairs_of(std::span<const vox_mesh> meshes) const noexcept;
 
-    std::pmr::vector<vox_pair>& next() noexcept { return touching_[1 - current_]; }
+    Array<vox_pair>& next() noexcept { return touching_[1 - current_]; }
     void compare(std::span<const vox_contact> contacts);
     void compare_pairs();
     void compare_contacts(std::span<const vox_contact> contacts);
 
     TouchingBuffers buffers_;
-    std::array<std::pmr::vector<vox_pair>, 2> touching_; // this step's and the last one's
-    std::pmr::vector<std::uint32_t> by_pair_;            // contacts, of this step's
-    std::array<std::pmr::vector<Inside>, 2> inside_;
+    std::array<Array<vox_pair>, 2> touching_; // this step's and the last one's
+    Array<std::uint32_t> by_pair_;            // contacts, of this step's
+    std::array<Array<Inside>, 2> inside_;
     std::size_t current_ = 0; // of the two
     bool pairs_are_shown_ = false;
     bool of_contacts_;
-    std::pmr::vector<vox_touch_event> touch_events_;
-    std::pmr::vector<vox_contact_event> contact_events_;
+    Array<vox_touch_event> touch_events_;
+    Array<vox_contact_event> contact_events_;
     std::uint64_t began_ = 0, persisted_ = 0; // of touch_events_
     std::uint64_t contacts_began_ = 0;        // of contact_events_
     // Of all steps: how many pairs, and vertices in meshes, began and ended.

@@ -1,5 +1,6 @@
 #include "grid/grid.hpp"
 
+#include "base/array.hpp"
 #include "base/bits.hpp"
 #include "base/clock.hpp"
 #include "base/error.hpp"
@@ -371,7 +372,7 @@ void vox_grid::set_flags(std::uint32_t flags) {
 // All meshes get what the depth stage needs, or none.
 void vox_grid::find_penetrations() {
     depth_.emplace(&memory_, trees_);
-    std::pmr::vector<Mesh*> prepared(&memory_);
+    Array<Mesh*> prepared(&memory_);
     try {
         prepared.reserve(meshes_.slot_count());
         meshes_.for_each([&](vox_mesh, MeshSlot& slot) {
@@ -420,7 +421,7 @@ void vox_grid::look_near() noexcept {
 // Of those that nothing needs any more.
 void vox_grid::drop_surfaces() noexcept {
     if (finds_surfaces()) return;
-    surface_versions_ = std::pmr::vector<SurfaceVersion>(&memory_);
+    surface_versions_ = Array<SurfaceVersion>(&memory_);
     meshes_.for_each([this](vox_mesh, MeshSlot& slot) {
         if (!needs_topology(slot.mesh.filter())) slot.mesh.drop_topology();
     });
@@ -662,7 +663,7 @@ void vox_grid::drop_removed_vertices() {
     if (std::all_of(bodies_.begin(), bodies_.end(),
                     [](const Body& body) { return body.removed_vertices.empty(); }))
         return;
-    std::erase_if(
+    erase_if(
         hits_, [this](const Hit& hit) { return has_bit(bodies_[hit.body_a].removed_vertices, hit.vertex); });
 }
 
@@ -825,7 +826,7 @@ void vox_grid::prepare_readings(const vox_readings_desc& desc) {
 
 void vox_grid::prepare_edge_depths() {
     const std::span<const vox_edge_contact> contacts = edge_contacts().all();
-    std::pmr::vector<EdgeBody> bodies(&memory_);
+    Array<EdgeBody> bodies(&memory_);
     bodies.reserve(2 * edges_->pairs().size());
     for (const EdgePair& pair : edges_->pairs())
         for (const vox_mesh id : {pair.mesh_a, pair.mesh_b}) {
@@ -845,7 +846,7 @@ void vox_grid::prepare_edge_depths() {
     bodies.erase(std::unique(bodies.begin(), bodies.end(), same), bodies.end());
     for (const EdgeBody& b : bodies) check_finite(b.body);
 
-    std::pmr::vector<vox_mesh> entered(&memory_);
+    Array<vox_mesh> entered(&memory_);
     for (const vox_edge_contact& contact : contacts)
         if (contact.mesh_a != contact.mesh_b && (entered.empty() || entered.back() != contact.mesh_b))
             entered.push_back(contact.mesh_b);

@@ -1,6 +1,7 @@
 // A grid: meshes, settings, and step(), which runs the stages in order.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
@@ -25,7 +26,6 @@
 
 #include <memory_resource>
 #include <optional>
-#include <vector>
 
 namespace vox {
 
@@ -173,16 +173,16 @@ private:
     vox::MeshTable meshes_;
 
     // one step
-    std::pmr::vector<vox::Body> bodies_;
-    std::pmr::vector<vox::fast::PreparedBody> prepared_; // of each body, for the fast engine
+    vox::Array<vox::Body> bodies_;
+    vox::Array<vox::fast::PreparedBody> prepared_; // of each body, for the fast engine
     vox::LoneBodies lone_;                               // which are not among the bodies
     vox::FastEngine fast_engine_;
     vox::ReferenceEngine reference_;
-    std::pmr::vector<const vox::Topology*> topologies_; // of each body, for the depth stage
+    vox::Array<const vox::Topology*> topologies_; // of each body, for the depth stage
     vox::depth::SurfaceTrees trees_;                    // that depths and readings search
     std::optional<vox::DepthStage> depth_;              // while it finds penetrations
-    std::pmr::vector<vox::Hit> hits_;
-    std::pmr::vector<vox::SurfaceVersion> surface_versions_; // of each body, while it finds edge contacts
+    vox::Array<vox::Hit> hits_;
+    vox::Array<vox::SurfaceVersion> surface_versions_; // of each body, while it finds edge contacts
     std::optional<vox::EdgeContacts> edges_;                 // while it finds them; has the results as well
     double margin_ = 0;
     std::optional<vox::VertexFaceSearch> near_faces_;    // while one of these is there
@@ -190,10 +190,10 @@ private:
     std::optional<vox::Passages> passages_; // while a mesh has previous positions; has the results as well
 
     // results
-    std::pmr::vector<vox_contact> contacts_;
-    std::pmr::vector<std::uint8_t> interiors_; // whether each contact is interior
+    vox::Array<vox_contact> contacts_;
+    vox::Array<std::uint8_t> interiors_; // whether each contact is interior
     vox_failure failure_{};                    // of a mesh that made the last step fail
-    std::pmr::vector<vox_failure> left_out_;   // the meshes that the last step left out
+    vox::Array<vox_failure> left_out_;   // the meshes that the last step left out
     // Whether another step would find the same contacts between meshes that were in the last one and have not
     // moved since. False after every change of a setting that contacts may depend on.
     bool contacts_hold_ = false;
@@ -204,7 +204,7 @@ private:
     vox::Readings readings_;
     vox::Queries queries_;
     vox::QueryViews query_views_;
-    std::pmr::vector<vox::QueryBody> query_bodies_; // in one call
+    vox::Array<vox::QueryBody> query_bodies_; // in one call
     vox_counters counters_{};
     vox_profile profile_{};
     std::uint64_t epoch_ = 0;

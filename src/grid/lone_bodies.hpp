@@ -2,6 +2,7 @@
 // which each body costs as much as some hundred vertices.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 #include "base/parallel.hpp"
 #include "fast/body_pairs.hpp"
@@ -10,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
-#include <vector>
 
 namespace vox {
 
@@ -50,9 +50,9 @@ private:
 
     void look_at(MeshSlot& mesh, std::size_t slot, bool all_rounded);
 
-    std::pmr::vector<Box> boxes_; // by slot; empty where no mesh takes part
-    std::pmr::vector<Slot> slots_;
-    std::pmr::vector<std::uint8_t> met_;
+    Array<Box> boxes_; // by slot; empty where no mesh takes part
+    Array<Slot> slots_;
+    Array<std::uint8_t> met_;
     Totals totals_;
 };
 

@@ -1,6 +1,7 @@
 // The closest point of each face that a vertex may be near to, compared as queries compare them.
 #include "grid/margin_contacts.hpp"
 
+#include "base/array.hpp"
 #include "base/bits.hpp"
 #include "base/boxes.hpp"
 #include "base/parallel.hpp"
@@ -102,11 +103,11 @@ void MarginContacts::carry(const EdgeScene& scene) {
 
 // Vertices that are gone, and those that have a contact.
 void MarginContacts::leave_out(std::uint32_t a, std::uint32_t b,
-                               std::pmr::vector<std::uint32_t>& vertices) const {
+                               Array<std::uint32_t>& vertices) const {
     const vox_mesh mesh_a = scene_->bodies[a].mesh_id, mesh_b = scene_->bodies[b].mesh_id;
     const auto removed = scene_->bodies[a].removed_vertices;
     auto inside = inside_.begin();
-    std::erase_if(vertices, [&](std::uint32_t vertex) {
+    erase_if(vertices, [&](std::uint32_t vertex) {
         const std::tuple sought(mesh_a, vertex, mesh_b);
         const auto is_before = [&](const vox_contact& contact) { return place(contact) < sought; };
         const auto is_behind = [&] { return inside != inside_.end() && is_before(*inside); };

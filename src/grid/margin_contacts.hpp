@@ -2,6 +2,7 @@
 // (vox_margin_contact). Found in every step of a grid with a margin, for both engines alike.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
 #include "exact/closest_point.hpp"
@@ -14,7 +15,6 @@
 #include <memory_resource>
 #include <span>
 #include <tuple>
-#include <vector>
 
 namespace vox {
 
@@ -57,11 +57,11 @@ private:
             : found(memory), closest(memory), reached(memory) {}
         auto buffers() { return std::tie(found, closest, reached); }
 
-        std::pmr::vector<Found> found;
+        Array<Found> found;
         // Of the pair that it is at.
         VertexFacePair pair{};
-        std::pmr::vector<Closest> closest;
-        std::pmr::vector<Reached> reached; // of each vertex
+        Array<Closest> closest;
+        Array<Reached> reached; // of each vertex
         // Of the tile of the last call.
         const SurfaceTile* tile = nullptr;
         std::array<Vec3d, SurfaceTile::most_vertices> points;
@@ -69,7 +69,7 @@ private:
     };
 
     void leave_out(std::uint32_t a, std::uint32_t b,
-                   std::pmr::vector<std::uint32_t>& vertices) const override;
+                   Array<std::uint32_t>& vertices) const override;
     void begin(const VertexFacePair& pair, std::uint32_t worker) override;
     void visit(const SurfaceTile& tile, std::span<const NearFaces> near, std::uint32_t worker) override;
     void end(std::uint32_t worker) override;
@@ -82,9 +82,9 @@ private:
     const EdgeScene* scene_ = nullptr; // during a step, as are the next two
     std::span<const vox_contact> inside_;
     double most_ = 0; // the margin, squared
-    std::pmr::vector<Found> found_;
-    std::pmr::vector<std::uint32_t> order_;
-    std::pmr::vector<vox_margin_contact> contacts_;
+    Array<Found> found_;
+    Array<std::uint32_t> order_;
+    Array<vox_margin_contact> contacts_;
 };
 
 } // namespace vox

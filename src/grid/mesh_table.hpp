@@ -1,6 +1,7 @@
 // The meshes of a grid: slots, ids, generations and limits.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/blocks.hpp"
 #include "fast/mesh_state.hpp"
 #include "mesh/ids.hpp"
@@ -15,7 +16,6 @@
 #include <memory_resource>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace vox {
 
@@ -91,7 +91,7 @@ private:
     std::pmr::memory_resource* memory() const noexcept { return slots_.memory(); }
 
     Blocks<MeshSlot> slots_;
-    std::pmr::vector<std::uint32_t> free_slots_; // capacity for every slot, so that removing cannot fail
+    Array<std::uint32_t> free_slots_; // capacity for every slot, so that removing cannot fail
     std::uint64_t vertex_count_ = 0;
     std::uint64_t tet_count_ = 0;
 };

@@ -1,5 +1,6 @@
 #include "grid/passages.hpp"
 
+#include "base/array.hpp"
 #include "base/bits.hpp"
 #include "base/parallel.hpp"
 #include "base/room.hpp"
@@ -25,7 +26,7 @@ void Passages::bind(vox_mesh mesh, const Positions& positions) {
 }
 
 void Passages::forget(vox_mesh mesh) noexcept {
-    std::erase_if(bound_, [mesh](const Bound& bound) { return bound.mesh == mesh; });
+    erase_if(bound_, [mesh](const Bound& bound) { return bound.mesh == mesh; });
 }
 
 void Passages::find(const EdgeScene& scene, VertexFaceSearch& search, vox_counters& counters) {
@@ -74,9 +75,9 @@ Vec3d Passages::before(std::uint32_t body, std::uint32_t vertex) const noexcept 
     return previous.data ? previous.exact(vertex) : scene_->bodies[body].positions.exact(vertex);
 }
 
-void Passages::leave_out(std::uint32_t a, std::uint32_t, std::pmr::vector<std::uint32_t>& vertices) const {
+void Passages::leave_out(std::uint32_t a, std::uint32_t, Array<std::uint32_t>& vertices) const {
     const auto removed = scene_->bodies[a].removed_vertices;
-    std::erase_if(vertices, [&](std::uint32_t vertex) { return has_bit(removed, vertex); });
+    erase_if(vertices, [&](std::uint32_t vertex) { return has_bit(removed, vertex); });
 }
 
 void Passages::begin(const VertexFacePair& pair, std::uint32_t w) {

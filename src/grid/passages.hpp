@@ -2,6 +2,7 @@
 // (vox_passage). For both engines alike.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
 #include "exact/meeting_time.hpp"
@@ -14,7 +15,6 @@
 #include <memory_resource>
 #include <span>
 #include <tuple>
-#include <vector>
 
 namespace vox {
 
@@ -50,11 +50,11 @@ private:
         explicit Worker(std::pmr::memory_resource* memory) : found(memory), met(memory), met_of(memory) {}
         auto buffers() { return std::tie(found, met, met_of); }
 
-        std::pmr::vector<vox_passage> found;
+        Array<vox_passage> found;
         // Of the pair that it is at.
         VertexFacePair pair{};
-        std::pmr::vector<Met> met;
-        std::pmr::vector<std::uint32_t> met_of; // of each vertex; none_yet
+        Array<Met> met;
+        Array<std::uint32_t> met_of; // of each vertex; none_yet
         // Of the tile of the last call.
         const SurfaceTile* tile = nullptr;
         std::array<Vec3d, SurfaceTile::most_vertices> from, to;
@@ -62,7 +62,7 @@ private:
     static constexpr std::uint32_t none_yet = ~0u;
 
     void leave_out(std::uint32_t a, std::uint32_t b,
-                   std::pmr::vector<std::uint32_t>& vertices) const override;
+                   Array<std::uint32_t>& vertices) const override;
     void begin(const VertexFacePair& pair, std::uint32_t worker) override;
     void visit(const SurfaceTile& tile, std::span<const NearFaces> near, std::uint32_t worker) override;
     void end(std::uint32_t worker) override;
@@ -70,11 +70,11 @@ private:
     void visit(Worker& worker, const SurfaceTile& tile, const NearFaces& near) const;
     Vec3d before(std::uint32_t body, std::uint32_t vertex) const noexcept;
 
-    std::pmr::vector<Bound> bound_;        // by mesh
-    std::pmr::vector<Positions> previous_; // of each body of a step
+    Array<Bound> bound_;        // by mesh
+    Array<Positions> previous_; // of each body of a step
     const EdgeScene* scene_ = nullptr;     // during a step
     PerWorker<Worker> workers_;
-    std::pmr::vector<vox_passage> found_, passages_;
+    Array<vox_passage> found_, passages_;
 };
 
 } // namespace vox

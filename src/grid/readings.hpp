@@ -2,6 +2,7 @@
 // step, on request; see vox_reading.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/scene.hpp"
 #include "depth/penetrations.hpp"
 #include "depth/surface_trees.hpp"
@@ -13,7 +14,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -89,13 +89,13 @@ private:
     void sort_asks(const Step& step) noexcept;
     void read_surfaces(const Range& asks, const Step& step) noexcept;
 
-    std::pmr::vector<vox_mesh> ids_; // of the meshes in the contacts that are read, ascending
-    std::pmr::vector<ReadingBody> bodies_;
+    Array<vox_mesh> ids_; // of the meshes in the contacts that are read, ascending
+    Array<ReadingBody> bodies_;
     bool all_ = true;                        // all contacts are read, else those
-    std::pmr::vector<std::uint32_t> chosen_; // ascending
-    std::pmr::vector<Ask> asks_;             // by mesh_b, neighbours next to each other
-    std::pmr::vector<vox_reading> readings_;
-    std::pmr::vector<vox_depth> depths_;
+    Array<std::uint32_t> chosen_; // ascending
+    Array<Ask> asks_;             // by mesh_b, neighbours next to each other
+    Array<vox_reading> readings_;
+    Array<vox_depth> depths_;
     bool prepared_ = false;
 };
 

@@ -1,5 +1,6 @@
 #include "grid/snapshot.hpp"
 
+#include "base/array.hpp"
 #include "mesh/ids.hpp"
 
 #include <algorithm>
@@ -110,7 +111,7 @@ void Snapshot::load_slots(SnapshotChunk& in, Loading& to) {
     if (free != reusable)
         in.refuse(format("%" PRIu32 " free slots are listed, %" PRIu32 " are free", free, reusable));
 
-    std::pmr::vector<bool> listed(slots, false, &grid.memory_);
+    Array<bool> listed(slots, false, &grid.memory_);
     for (const vox_mesh id : to.awaited) listed[slot_of(id)] = true;
     to.free_slots.reserve(slots);
     for (std::uint32_t i = 0; i < free; ++i) {
@@ -155,8 +156,8 @@ void Snapshot::load_exceptions(SnapshotChunk& in, Loading& to) {
 
 void Snapshot::save_events(const vox_grid& grid, SnapshotWriter& out) {
     const Events& events = grid.events_;
-    const std::pmr::vector<vox_pair>& pairs = events.touching_[events.current_];
-    const std::pmr::vector<Events::Inside>& inside = events.inside_[events.current_];
+    const Array<vox_pair>& pairs = events.touching_[events.current_];
+    const Array<Events::Inside>& inside = events.inside_[events.current_];
     out.begin_chunk("EVNT");
     out.u64(pairs.size());
     out.u64(inside.size());
@@ -186,8 +187,8 @@ vox_mesh Snapshot::mesh_that_was(SnapshotChunk& in, const vox_grid& grid) {
 
 void Snapshot::load_events(SnapshotChunk& in, Loading& to) {
     Events& events = to.grid.events_;
-    std::pmr::vector<vox_pair>& pairs = events.touching_[events.current_];
-    std::pmr::vector<Events::Inside>& inside = events.inside_[events.current_];
+    Array<vox_pair>& pairs = events.touching_[events.current_];
+    Array<Events::Inside>& inside = events.inside_[events.current_];
     const std::uint64_t pair_count = in.u64(), inside_count = in.u64();
     in.expect(pair_count, 24, "pairs");
     pairs.reserve(static_cast<std::size_t>(pair_count));
@@ -243,9 +244,9 @@ vox_grid_desc Snapshot::settings(SnapshotReader in, const vox_grid_desc& machine
 
 void Snapshot::load(SnapshotReader in, vox_grid& grid) {
     Loading to{.grid = grid,
-               .awaited = std::pmr::vector<vox_mesh>(&grid.memory_),
-               .free_slots = std::pmr::vector<std::uint32_t>(&grid.memory_),
-               .masks = std::pmr::vector<PenetrationMask>(&grid.memory_)};
+               .awaited = Array<vox_mesh>(&grid.memory_),
+               .free_slots = Array<std::uint32_t>(&grid.memory_),
+               .masks = Array<PenetrationMask>(&grid.memory_)};
     bool seen[std::size(parts)] = {};
     std::size_t last = 0; // the part that came last
     for (SnapshotChunk chunk; in.next(chunk);) {

@@ -2,6 +2,7 @@
 // and one that reads it.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/error.hpp"
 #include "grid/grid.hpp"
 #include "grid/snapshot_chunks.hpp"
@@ -10,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
-#include <vector>
 
 namespace vox {
 
@@ -22,10 +22,10 @@ struct PenetrationMask {
 // What loading knows beside the grid.
 struct Loading {
     vox_grid& grid;
-    std::pmr::vector<vox_mesh> awaited; // meshes whose chunk has to come, ascending
+    Array<vox_mesh> awaited; // meshes whose chunk has to come, ascending
     std::size_t next = 0;               // index in `awaited`
-    std::pmr::vector<std::uint32_t> free_slots;
-    std::pmr::vector<PenetrationMask> masks; // that are not the default, by mesh
+    Array<std::uint32_t> free_slots;
+    Array<PenetrationMask> masks; // that are not the default, by mesh
     vox_mesh last_filtered = VOX_NULL_MESH, last_cut = VOX_NULL_MESH;
 };
 

@@ -1,4 +1,5 @@
 // The parts of a snapshot that describe meshes.
+#include "base/array.hpp"
 #include "grid/snapshot.hpp"
 
 #include "base/vectors.hpp"
@@ -36,7 +37,7 @@ void load_point(SnapshotChunk& in, Vec3d& p) {
 }
 
 template <class Point>
-void load_points(SnapshotChunk& in, std::uint64_t count, std::pmr::vector<Point>& points) {
+void load_points(SnapshotChunk& in, std::uint64_t count, Array<Point>& points) {
     in.expect(count, sizeof(Point), "positions");
     points.reserve(static_cast<std::size_t>(count));
     for (std::uint64_t i = 0; i < count; ++i) load_point(in, points.emplace_back());
@@ -48,7 +49,7 @@ void save_bits(std::span<const std::uint64_t> bits, std::uint64_t count, Snapsho
 }
 
 void load_bits(SnapshotChunk& in, std::uint64_t count, const char* what,
-               std::pmr::vector<std::uint64_t>& bits) {
+               Array<std::uint64_t>& bits) {
     const std::uint64_t words = (count + 63) / 64;
     in.expect(words, 8, what);
     bits.resize(static_cast<std::size_t>(words));
@@ -155,15 +156,15 @@ void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
             if (!std::isfinite(element)) in.refuse(format("its transform has the element %g", element));
         }
 
-    std::pmr::vector<Tet> tets(&grid.memory_);
+    Array<Tet> tets(&grid.memory_);
     in.expect(desc.tet_count, sizeof(Tet), "tetrahedra");
     tets.reserve(static_cast<std::size_t>(desc.tet_count));
     for (std::uint64_t tet = 0; tet < desc.tet_count; ++tet) {
         Tet& t = tets.emplace_back();
         for (std::uint32_t& vertex : t.v) vertex = in.u32();
     }
-    std::pmr::vector<Vec3f> floats(&grid.memory_);
-    std::pmr::vector<Vec3d> doubles(&grid.memory_);
+    Array<Vec3f> floats(&grid.memory_);
+    Array<Vec3d> doubles(&grid.memory_);
     if (has_positions && desc.position_format == VOX_FORMAT_DOUBLE3) {
         load_points(in, desc.vertex_count, doubles);
         desc.positions = doubles.data();
@@ -216,8 +217,8 @@ void Snapshot::load_cuts(SnapshotChunk& in, Loading& to) {
         in.refuse(format("a reserved word is %" PRIu32 ", expected 0", reserved));
 
     Mesh& mesh = to.grid.mesh(id);
-    std::pmr::vector<std::uint64_t> off(&to.grid.memory_), removed(off.get_allocator()),
-        removed_vertices(off.get_allocator());
+    Array<std::uint64_t> off(&to.grid.memory_), removed(off.memory()),
+        removed_vertices(off.memory());
     load_bits(in, mesh.tet_count(), "tetrahedra that are off", off);
     load_bits(in, mesh.tet_count(), "tetrahedra that are removed", removed);
     load_bits(in, mesh.vertex_count(), "vertices that are removed", removed_vertices);
@@ -270,8 +271,8 @@ void Snapshot::load_filter(SnapshotChunk& in, Loading& to) {
         in.refuse(
             format("its rest pose is of kind %" PRIu32 ", expected 0 to %" PRIu32, rest, rest_in_doubles));
     filter.self_rest_distance = in.f64();
-    std::pmr::vector<Vec3f> floats(&to.grid.memory_);
-    std::pmr::vector<Vec3d> doubles(&to.grid.memory_);
+    Array<Vec3f> floats(&to.grid.memory_);
+    Array<Vec3d> doubles(&to.grid.memory_);
     Positions given;
     if (rest == rest_in_doubles) {
         load_points(in, mesh.vertex_count(), doubles);

@@ -3,6 +3,7 @@
 // to the first of its faces in the order of the tiles.
 #include "grid/surface_features.hpp"
 
+#include "base/array.hpp"
 #include "base/vectors.hpp"
 
 #include <algorithm>
@@ -52,16 +53,16 @@ void split_into_tiles(std::span<Face> faces) {
 }
 
 // Of each place the triangle there.
-std::pmr::vector<std::uint32_t> order_of_faces(const Topology& topology, const Positions& positions,
+Array<std::uint32_t> order_of_faces(const Topology& topology, const Positions& positions,
                                                std::pmr::memory_resource* memory) {
-    std::pmr::vector<Face> faces(topology.triangles.size(), memory);
+    Array<Face> faces(topology.triangles.size(), memory);
     for (std::uint32_t t = 0; t < faces.size(); ++t) {
         const std::uint32_t* v = topology.triangles[t].v;
         const Vec3d sum = positions.exact(v[0]) + positions.exact(v[1]) + positions.exact(v[2]);
         faces[t] = {{sum.x, sum.y, sum.z}, t};
     }
     split_into_tiles(faces);
-    std::pmr::vector<std::uint32_t> order(faces.size(), memory);
+    Array<std::uint32_t> order(faces.size(), memory);
     for (std::size_t i = 0; i < faces.size(); ++i) order[i] = faces[i].triangle;
     return order;
 }
@@ -72,7 +73,7 @@ bool has_vertex(const Triangle& triangle, std::uint32_t vertex) {
 
 // Adds the tile of these triangles, of which `place` has all.
 void add_tile(const Topology& topology, std::span<const std::uint32_t> tile,
-              const std::pmr::vector<std::uint32_t>& place, const Tiles* tiles, SurfaceFeatures& out) {
+              const Array<std::uint32_t>& place, const Tiles* tiles, SurfaceFeatures& out) {
     std::array<std::uint32_t, SurfaceTile::most_vertices> vertices;
     auto end = vertices.begin();
     for (const std::uint32_t t : tile) end = std::copy_n(topology.triangles[t].v, 3, end);
@@ -111,7 +112,7 @@ void add_tile(const Topology& topology, std::span<const std::uint32_t> tile,
 
 // Adds the group of the tiles from `first` on.
 void add_group(std::size_t first, SurfaceFeatures& out) {
-    std::pmr::vector<std::uint32_t>& groups = out.block_groups;
+    Array<std::uint32_t>& groups = out.block_groups;
     const auto begin = static_cast<std::ptrdiff_t>(groups.size());
     for (std::size_t i = out.tiles[first].first_block; i < out.blocks.size(); ++i)
         groups.push_back(out.blocks[i] / fast::group_blocks);
@@ -125,10 +126,10 @@ void add_group(std::size_t first, SurfaceFeatures& out) {
 
 void make_surface_features(const Topology& topology, const Positions& positions, const Tiles* tiles,
                            SurfaceFeatures& out) {
-    std::pmr::memory_resource* memory = out.tiles.get_allocator().resource();
+    std::pmr::memory_resource* memory = out.tiles.memory();
     const std::size_t count = topology.triangles.size();
-    const std::pmr::vector<std::uint32_t> order = order_of_faces(topology, positions, memory);
-    std::pmr::vector<std::uint32_t> place(count, memory);
+    const Array<std::uint32_t> order = order_of_faces(topology, positions, memory);
+    Array<std::uint32_t> place(count, memory);
     for (std::size_t i = 0; i < count; ++i) place[order[i]] = static_cast<std::uint32_t>(i);
 
     // A closed surface has three edges for two faces. Vertices are in two tiles, or three.

@@ -2,6 +2,7 @@
 // from the topology; the positions at that time only decide how compact the tiles are.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 #include "base/scene.hpp"
 #include "fast/broad_phase.hpp"
@@ -11,7 +12,6 @@
 #include <array>
 #include <cstdint>
 #include <memory_resource>
-#include <vector>
 
 namespace vox {
 
@@ -36,17 +36,17 @@ struct SurfaceFeatures {
         : tiles(memory), groups(memory), vertices(memory), blocks(memory), block_groups(memory),
           faces(memory), edges(memory), triangles(memory), tets(memory) {}
 
-    std::pmr::vector<SurfaceTile> tiles;
-    std::pmr::vector<SurfaceGroup> groups;
-    std::pmr::vector<std::uint32_t> vertices; // of the mesh
+    Array<SurfaceTile> tiles;
+    Array<SurfaceGroup> groups;
+    Array<std::uint32_t> vertices; // of the mesh
     // For the fast engine: the blocks that hold the vertices of a tile, and the groups of blocks
     // (fast::group_blocks) that hold those of a group of tiles.
-    std::pmr::vector<std::uint32_t> blocks, block_groups;
+    Array<std::uint32_t> blocks, block_groups;
     // Indices of vertices of the tile.
-    std::pmr::vector<std::array<std::uint8_t, 3>> faces;
-    std::pmr::vector<std::array<std::uint8_t, 2>> edges;
-    std::pmr::vector<std::uint32_t> triangles; // of each face, in Topology::triangles
-    std::pmr::vector<std::uint32_t> tets;      // of each face, the one behind it; of doubled ones the lowest
+    Array<std::array<std::uint8_t, 3>> faces;
+    Array<std::array<std::uint8_t, 2>> edges;
+    Array<std::uint32_t> triangles; // of each face, in Topology::triangles
+    Array<std::uint32_t> tets;      // of each face, the one behind it; of doubled ones the lowest
 };
 
 // The boxes of the blocks of a body, and of groups of them.

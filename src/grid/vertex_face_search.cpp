@@ -2,6 +2,7 @@
 // of a tile with the vertices of the runs.
 #include "grid/vertex_face_search.hpp"
 
+#include "base/array.hpp"
 #include "base/parallel.hpp"
 #include "base/room.hpp"
 #include "base/vectors.hpp"
@@ -85,7 +86,7 @@ VertexFaceSearch::VertexFaceSearch(std::pmr::memory_resource* memory)
       workers_(memory) {}
 
 void VertexFaceSearch::forget(vox_mesh mesh) noexcept {
-    std::erase_if(surfaces_, [mesh](const Kept& kept) { return kept.mesh == mesh; });
+    erase_if(surfaces_, [mesh](const Kept& kept) { return kept.mesh == mesh; });
 }
 
 std::uint32_t VertexFaceSearch::Searched::begin_of(std::uint32_t block) const noexcept {
@@ -111,7 +112,7 @@ void VertexFaceSearch::find_meeting(const Scene& scene, std::span<const Position
                                     NearFacesVisitor& visitor) {
     prepare_bodies(scene, previous, 0);
     fast::find_pairs(body_boxes_, {scene.bodies, {}}, pair_buffers_, pairs_);
-    std::erase_if(pairs_,
+    erase_if(pairs_,
                   [&](const fast::Pair& pair) { return !previous[pair.a].data && !previous[pair.b].data; });
     search(scene, visitor);
 }
@@ -221,7 +222,7 @@ const SearchedSurface& VertexFaceSearch::surface_of(const Scene& scene, std::uin
 
 void VertexFaceSearch::search(const Scene& scene, NearFacesVisitor& visitor) {
     workers_.grow(scene.workers->count());
-    std::erase_if(pairs_,
+    erase_if(pairs_,
                   [&](const fast::Pair& pair) { return scene.topologies[pair.b]->triangles.empty(); });
     prepare_surfaces(scene);
     make_tile_boxes(scene);
@@ -333,7 +334,7 @@ bool VertexFaceSearch::list(const fast::Pair& pair, const NearFacesVisitor& visi
     Box around_vertices = empty_box;
     for (const Box& group : worker.groups) add(around_vertices, group);
     const Box reached = grown(around_vertices, reach);
-    std::erase_if(worker.tiles, [&](std::uint32_t t) { return !overlap(tile_boxes[t], reached); });
+    erase_if(worker.tiles, [&](std::uint32_t t) { return !overlap(tile_boxes[t], reached); });
     return !worker.tiles.empty();
 }
 
@@ -342,7 +343,7 @@ void VertexFaceSearch::make_runs(const Searched& body, Worker& worker) const {
     worker.first_of_run.clear();
     worker.runs.clear();
     worker.groups.clear();
-    const std::pmr::vector<std::uint32_t>& vertices = worker.vertices;
+    const Array<std::uint32_t>& vertices = worker.vertices;
     auto block = worker.blocks.begin();
     for (std::uint32_t i = 0; i < vertices.size();) {
         while (body.end_of(*block) <= vertices[i]) ++block;

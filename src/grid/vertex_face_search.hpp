@@ -2,6 +2,7 @@
 // both move: what margin contacts and passages begin with. For both engines alike.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
@@ -19,7 +20,6 @@
 #include <memory_resource>
 #include <span>
 #include <tuple>
-#include <vector>
 
 namespace vox {
 
@@ -31,7 +31,7 @@ struct SearchedSurface {
     explicit SearchedSurface(std::pmr::memory_resource* memory) noexcept : features(memory), facets(memory) {}
 
     SurfaceFeatures features;              // faces in the order of facet_corners of features.tets
-    std::pmr::vector<std::uint8_t> facets; // of each face: which of the tetrahedron it is
+    Array<std::uint8_t> facets; // of each face: which of the tetrahedron it is
 };
 
 // Vertices of body a and the surface of body b.
@@ -54,7 +54,7 @@ public:
     // Takes those vertices of body a, in ascending order, out of the list that are of no interest to faces of
     // body b.
     virtual void leave_out(std::uint32_t a, std::uint32_t b,
-                           std::pmr::vector<std::uint32_t>& vertices) const = 0;
+                           Array<std::uint32_t>& vertices) const = 0;
     virtual void begin(const VertexFacePair& pair, std::uint32_t worker) = 0;
     virtual void visit(const SurfaceTile& tile, std::span<const NearFaces> near, std::uint32_t worker) = 0;
     virtual void end(std::uint32_t worker) = 0;
@@ -121,10 +121,10 @@ private:
               groups(memory) {}
         auto buffers() { return std::tie(tiles, blocks, vertices, first_of_run, runs, groups); }
 
-        std::pmr::vector<std::uint32_t> tiles, blocks;
-        std::pmr::vector<std::uint32_t> vertices;     // of body a, in runs: those of a block
-        std::pmr::vector<std::uint32_t> first_of_run; // in vertices, and the end
-        std::pmr::vector<Box> runs, groups;           // boxes of runs, and of groups of them
+        Array<std::uint32_t> tiles, blocks;
+        Array<std::uint32_t> vertices;     // of body a, in runs: those of a block
+        Array<std::uint32_t> first_of_run; // in vertices, and the end
+        Array<Box> runs, groups;           // boxes of runs, and of groups of them
     };
 
     void prepare_bodies(const Scene& scene, std::span<const Positions> previous, double margin);
@@ -139,19 +139,19 @@ private:
     void search_tiles(const fast::Pair& pair, const Worker& lists, std::size_t begin, std::size_t end,
                       NearFacesVisitor& visitor, std::uint32_t worker) const;
 
-    std::pmr::memory_resource* memory() const noexcept { return surfaces_.get_allocator().resource(); }
+    std::pmr::memory_resource* memory() const noexcept { return surfaces_.memory(); }
 
-    std::pmr::vector<Kept> surfaces_; // by mesh
+    Array<Kept> surfaces_; // by mesh
 
     // One search.
-    std::pmr::vector<float> packed_;
-    std::pmr::vector<Box> block_boxes_, group_boxes_; // of bodies for which the engine has none
-    std::pmr::vector<Searched> searched_;             // of each body
-    std::pmr::vector<Box> body_boxes_;
+    Array<float> packed_;
+    Array<Box> block_boxes_, group_boxes_; // of bodies for which the engine has none
+    Array<Searched> searched_;             // of each body
+    Array<Box> body_boxes_;
     fast::PairBuffers pair_buffers_;
-    std::pmr::vector<fast::Pair> pairs_; // vertices of a, faces of b
-    std::pmr::vector<TilePiece> pieces_;
-    std::pmr::vector<Box> tile_boxes_;
+    Array<fast::Pair> pairs_; // vertices of a, faces of b
+    Array<TilePiece> pieces_;
+    Array<Box> tile_boxes_;
     PerWorker<Worker> workers_;
 };
 

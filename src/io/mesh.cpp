@@ -1,4 +1,5 @@
 #include "io/mesh.hpp"
+#include "base/array.hpp"
 
 #include <utility>
 
@@ -8,8 +9,8 @@ namespace {
 
 // Moves an array to another memory. `= {}` would empty it, but keep its room.
 template <class Number>
-std::pmr::vector<Number> moved(std::vector<Number>& from, std::pmr::memory_resource* memory) {
-    std::pmr::vector<Number> to(from.begin(), from.end(), memory);
+Array<Number> moved(std::vector<Number>& from, std::pmr::memory_resource* memory) {
+    Array<Number> to(from.begin(), from.end(), memory);
     from = std::vector<Number>();
     return to;
 }

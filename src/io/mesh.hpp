@@ -1,13 +1,13 @@
 // The public mesh object: the arrays with their report and warnings.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/caller_memory.hpp"
 #include "io/mesh_data.hpp"
 
 #include <memory>
 #include <memory_resource>
 #include <string>
-#include <vector>
 
 struct vox_io_mesh {
     explicit vox_io_mesh(const vox::CallerMemory& caller)
@@ -15,8 +15,8 @@ struct vox_io_mesh {
 
     vox::CallerMemory memory; // first, as the arrays are released to it
     vox::io::MeshData data;   // its arrays are empty if those below are in use
-    std::pmr::vector<double> positions;
-    std::pmr::vector<std::uint32_t> tets, triangles;
+    vox::Array<double> positions;
+    vox::Array<std::uint32_t> tets, triangles;
     vox::io::MeshArrays arrays;
     vox_io_report report{};
     std::string warnings; // one line each

@@ -1,5 +1,6 @@
 #include "mesh/boundary.hpp"
 
+#include "base/array.hpp"
 #include "base/vectors.hpp"
 
 #include <algorithm>
@@ -22,10 +23,10 @@ namespace {
 
 // Finds the tets that are ignored, for each tile, and the vertices of no other tets. Returns for each tet
 // whether it is negative.
-std::pmr::vector<std::uint8_t> look_at_tets(std::span<const Tet> tets, std::uint32_t vertex_count,
+Array<std::uint8_t> look_at_tets(std::span<const Tet> tets, std::uint32_t vertex_count,
                                             const Positions& positions, const Tiles& tiles, Boundary& made) {
-    std::pmr::memory_resource* memory = made.triangles.get_allocator().resource();
-    std::pmr::vector<std::uint8_t> negative(tets.size(), 0, memory), used(vertex_count, 0, memory);
+    std::pmr::memory_resource* memory = made.triangles.memory();
+    Array<std::uint8_t> negative(tets.size(), 0, memory), used(vertex_count, 0, memory);
     made.ignored.reserve(tiles.tiles.size());
     for (const Tile& tile : tiles.tiles) {
         std::uint64_t ignored = 0;
@@ -63,9 +64,9 @@ void for_neighbours(const MatchedFacets& facets, std::uint32_t t, Visit&& visit)
 bool agree_with_neighbours(std::span<const Tet> tets, const MatchedFacets& facets,
                            std::span<std::uint8_t> negative) {
     std::pmr::memory_resource* memory = facets.across.memory();
-    std::pmr::vector<std::uint8_t> seen(tets.size(), 0, memory),
+    Array<std::uint8_t> seen(tets.size(), 0, memory),
         found(negative.begin(), negative.end(), memory);
-    std::pmr::vector<std::uint32_t> part(memory);
+    Array<std::uint32_t> part(memory);
     for (std::uint32_t first = 0; first < tets.size(); ++first) {
         if (seen[first] || names_a_vertex_twice(tets[first])) continue;
         part.assign(1, first);
@@ -133,13 +134,13 @@ bool make_triangles(std::span<const Tet> tets, std::span<const std::uint8_t> neg
 
 void make_boundary(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions,
                    const Tiles& tiles, Boundary& out, const MatchedFacets* facets) {
-    std::pmr::memory_resource* memory = out.triangles.get_allocator().resource();
+    std::pmr::memory_resource* memory = out.triangles.memory();
     Boundary made(memory);
     if (tets.size() > most_tets) {
         out = std::move(made);
         return;
     }
-    std::pmr::vector<std::uint8_t> negative = look_at_tets(tets, vertex_count, positions, tiles, made);
+    Array<std::uint8_t> negative = look_at_tets(tets, vertex_count, positions, tiles, made);
     const auto close = [&](std::span<const Tet> of, const MatchedFacets& matched,
                            std::span<std::uint8_t> sign) {
         return make_triangles(of, sign, matched, made) ||
@@ -153,8 +154,8 @@ void make_boundary(std::span<const Tet> tets, std::uint32_t vertex_count, Positi
     if (facets) {
         made.is_closed = close(tets, *facets, negative);
     } else { // in the order of the tiles, in which neighbours are near each other in memory
-        std::pmr::vector<Tet> ordered(memory);
-        std::pmr::vector<std::uint8_t> signs(memory);
+        Array<Tet> ordered(memory);
+        Array<std::uint8_t> signs(memory);
         ordered.reserve(tets.size());
         signs.reserve(tets.size());
         for_places([&](std::size_t, std::uint32_t, std::uint32_t t) {

@@ -1,6 +1,7 @@
 // The boundary of a mesh, for winding numbers: the facets that no two tetrahedra share.
 #pragma once
 
+#include "base/array.hpp"
 #include "mesh/facets.hpp"
 #include "mesh/tiles.hpp"
 
@@ -8,7 +9,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -22,13 +22,13 @@ struct Boundary {
     bool is_closed = false;
     // Facets whose tet is not cancelled by another one; counter-clockwise from outside when that tet is
     // positive.
-    std::pmr::vector<std::array<std::uint32_t, 3>> triangles;
+    Array<std::array<std::uint32_t, 3>> triangles;
     // For each tile a bit for each tet: those that are meant to be negative, whose last two corners are to be
     // swapped, and those that name a corner twice and never hold a vertex. The former are those that were
     // negative when they were prepared, if so neighbours were on different sides of their facets; else some
     // tets had turned over, and their neighbours say what was meant.
-    std::pmr::vector<std::uint64_t> mirrored, ignored;
-    std::pmr::vector<std::uint32_t> loose; // vertices that are in no tet, ignored ones aside; ascending
+    Array<std::uint64_t> mirrored, ignored;
+    Array<std::uint32_t> loose; // vertices that are in no tet, ignored ones aside; ascending
 };
 
 // Whether culling self-collision by winding numbers pays: not for small bodies, nor where most of the body is

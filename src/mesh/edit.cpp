@@ -1,5 +1,6 @@
 // Edits of a mesh: first everything that can fail, then the change itself, then the repair of what was
 // prepared of the mesh, which takes time in proportion to the edit.
+#include "base/array.hpp"
 #include "mesh/mesh.hpp"
 
 #include "base/error.hpp"
@@ -61,7 +62,7 @@ MeshEdits& Mesh::reserve_off() {
     return edits;
 }
 
-void Mesh::switch_off(std::uint32_t tet, std::pmr::vector<TetChange>& changes) noexcept {
+void Mesh::switch_off(std::uint32_t tet, Array<TetChange>& changes) noexcept {
     MeshEdits& edits = *edits_.if_made();
     if (edits.off[tet]) return;
     changes.push_back({tet, true, false, tets_[tet], {}});
@@ -73,7 +74,7 @@ void Mesh::set_tets_enabled(std::span<const std::uint32_t> tets, bool enabled) {
     check_tets(tets);
     if (enabled)
         for (const std::uint32_t tet : tets) check_corners(tet, given(tet));
-    std::pmr::vector<TetChange> changes(memory());
+    Array<TetChange> changes(memory());
     changes.reserve(tets.size());
     if (!enabled && !tets.empty()) reserve_off();
 
@@ -89,7 +90,7 @@ void Mesh::set_tets_enabled(std::span<const std::uint32_t> tets, bool enabled) {
 
 void Mesh::remove_tets(std::span<const std::uint32_t> tets) {
     check_tets(tets);
-    std::pmr::vector<TetChange> changes(memory());
+    Array<TetChange> changes(memory());
     changes.reserve(tets.size());
     if (tets.empty()) return;
     MeshEdits& edits = reserve_off();
@@ -105,10 +106,10 @@ void Mesh::remove_tets(std::span<const std::uint32_t> tets) {
 void Mesh::replace_tets(std::span<const std::uint32_t> tets, std::span<const Tet> corners) {
     check_tets(tets);
     for (std::size_t i = 0; i < tets.size(); ++i) check_corners(tets[i], corners[i]);
-    std::pmr::vector<TetChange> changes(memory());
+    Array<TetChange> changes(memory());
     changes.reserve(tets.size());
     if (tets.empty()) return;
-    std::pmr::vector<Tet>& own = own_tets();
+    Array<Tet>& own = own_tets();
     MeshEdits* edits = edits_.if_made();
 
     for (std::size_t i = 0; i < tets.size(); ++i) {
@@ -126,9 +127,9 @@ std::uint32_t Mesh::append_tets(std::span<const Tet> corners) {
     if (corners.empty()) return first;
     for (std::size_t i = 0; i < corners.size(); ++i)
         check_corners(first + static_cast<std::uint32_t>(i), corners[i]);
-    std::pmr::vector<TetChange> changes(memory());
+    Array<TetChange> changes(memory());
     changes.reserve(corners.size());
-    std::pmr::vector<Tet>& own = own_tets();
+    Array<Tet>& own = own_tets();
     const std::size_t count = own.size() + corners.size();
     reserve_growing(own, count);
     tets_ = own; // may have moved
@@ -173,7 +174,7 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
                    added));
 
     // Positions: all of them where they are borrowed, else those of the new vertices.
-    std::pmr::vector<std::byte> news(memory()); // apart: growing owned_ moves what they may be copied from
+    Array<std::byte> news(memory()); // apart: growing owned_ moves what they may be copied from
     if (owns) {
         news.resize(added * size);
         for (std::size_t i = 0; i < added; ++i)
@@ -253,7 +254,7 @@ void Mesh::restore_edits(std::span<const std::uint64_t> off, std::span<const std
         if (!has_bit(off, t) && has_bit(removed, t))
             throw Error(VOX_ERROR_INVALID_MESH, format("tet %" PRIu32 " is removed, but not off", t));
     }
-    std::pmr::vector<TetChange> changes(memory());
+    Array<TetChange> changes(memory());
     changes.reserve(tets);
     reserve_off();
     edits.removed.reserve(tets);

@@ -1,6 +1,7 @@
 // Tetrahedra are listed by corner with a counting sort. Then the facets that have a vertex as their lowest
 // one are sorted and matched, vertex by vertex: these lists are short and stay in cache.
 #include "mesh/facets.hpp"
+#include "base/array.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -44,7 +45,7 @@ IndexLists list_by_lowest(std::span<const Tet> tets, std::uint32_t vertex_count,
 // Without branches, which would be mispredicted in meshes numbered at random: of each tetrahedron all facets
 // that may be wanted are written, and then as many kept as are.
 std::span<TetFacet> list_facets_at(std::uint32_t vertex, std::span<const Tet> tets,
-                                   std::span<const std::uint32_t> around, std::pmr::vector<TetFacet>& room) {
+                                   std::span<const std::uint32_t> around, Array<TetFacet>& room) {
     if (room.size() < 3 * around.size()) room.resize(3 * around.size());
     TetFacet* next = room.data();
     for (const std::uint32_t t : around) {
@@ -116,16 +117,16 @@ void Across::finish() {
     far_.resize(unsorted_.size());
     for (auto far = unsorted_.rbegin(); far != unsorted_.rend(); ++far)
         far_[--blocks_[far->place / (4 * block_size)].first_far] = far->value;
-    std::pmr::vector<std::uint16_t> count(blocks_.size(), 0, memory()); // of each block
+    Array<std::uint16_t> count(blocks_.size(), 0, memory()); // of each block
     for (const Far& far : unsorted_)
         codes_[far.place] =
             static_cast<std::uint16_t>(first_far_code + count[far.place / (4 * block_size)]++);
-    unsorted_ = std::pmr::vector<Far>(memory());
+    unsorted_ = Array<Far>(memory());
 }
 
 void Across::widen() {
     if (is_wide_) return;
-    std::pmr::vector<std::array<std::uint32_t, 4>> wide(memory());
+    Array<std::array<std::uint32_t, 4>> wide(memory());
     wide.reserve(size_);
     for (std::size_t t = 0; t < size_; ++t) wide.push_back((*this)[t]);
     for (const Far& far : unsorted_) wide[far.place / 4][far.place % 4] = far.value;

@@ -2,6 +2,7 @@
 // to know which tetrahedra share one.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/lists.hpp"
 #include "base/scene.hpp"
 
@@ -12,7 +13,6 @@
 #include <memory_resource>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace vox {
 
@@ -72,7 +72,7 @@ struct TetFacet {
 // The facets whose lowest vertex is `vertex`; `around` lists the tetrahedra there. They are in `room`, which
 // grows as needed.
 std::span<TetFacet> list_facets_at(std::uint32_t vertex, std::span<const Tet> tets,
-                                   std::span<const std::uint32_t> around, std::pmr::vector<TetFacet>& room);
+                                   std::span<const std::uint32_t> around, Array<TetFacet>& room);
 void sort_facets(std::span<TetFacet> facets);
 
 // Calls visit(same) for each facet of a sorted list: `same` are those of all tetrahedra that have it.
@@ -106,7 +106,7 @@ public:
     static constexpr std::uint32_t surface_bit = 0x80000000u;
     static constexpr std::uint32_t nothing = 0xffffffffu;
 
-    std::pmr::memory_resource* memory() const noexcept { return codes_.get_allocator().resource(); }
+    std::pmr::memory_resource* memory() const noexcept { return codes_.memory(); }
     std::size_t size() const noexcept { return size_; } // tetrahedra
     std::size_t bytes() const noexcept;
 
@@ -175,11 +175,11 @@ private:
 
     std::size_t size_ = 0;
     bool is_wide_ = false; // where differences are large, and after edits
-    std::pmr::vector<std::uint16_t> codes_;
-    std::pmr::vector<Block> blocks_;
-    std::pmr::vector<std::uint32_t> far_;
-    std::pmr::vector<Far> unsorted_; // of `far_`, while it is built
-    std::pmr::vector<std::array<std::uint32_t, 4>> wide_;
+    Array<std::uint16_t> codes_;
+    Array<Block> blocks_;
+    Array<std::uint32_t> far_;
+    Array<Far> unsorted_; // of `far_`, while it is built
+    Array<std::array<std::uint32_t, 4>> wide_;
 };
 
 // Doubled tetrahedra count once.
@@ -189,7 +189,7 @@ struct MatchedFacets {
     static constexpr std::uint32_t surface_bit = Across::surface_bit, nothing = Across::nothing;
 
     Across across; // a triangle of the surface is one of `triangles`
-    std::pmr::vector<Triangle> triangles;
+    Array<Triangle> triangles;
     bool is_repaired = false; // else the triangles are sorted by their FacetKey
 
     // Prepares for `tets` tetrahedra, of which none is matched yet.
@@ -220,7 +220,7 @@ class FacetMatcher {
 public:
     // `out` is prepared for `tets`.
     FacetMatcher(std::span<const Tet> tets, MatchedFacets& out)
-        : tets_(tets), out_(out), room_(out.triangles.get_allocator()) {}
+        : tets_(tets), out_(out), room_(out.triangles.memory()) {}
 
     // Those whose lowest vertex is `vertex`; `around` lists the tetrahedra there.
     void match_at(std::uint32_t vertex, std::span<const std::uint32_t> around);
@@ -238,7 +238,7 @@ private:
 
     std::span<const Tet> tets_;
     MatchedFacets& out_;
-    std::pmr::vector<TetFacet> room_;
+    Array<TetFacet> room_;
     std::array<std::uint32_t, most_hashed> partner_{}; // the tetrahedron on the other side of each facet
     std::array<Slot, std::size_t{1} << table_bits> table_{};
 };

@@ -3,6 +3,7 @@
 // kept sorted, so that a test in the step is four binary searches and allocates nothing.
 #include "mesh/filter.hpp"
 
+#include "base/array.hpp"
 #include "base/error.hpp"
 #include "base/room.hpp"
 #include "base/vectors.hpp"
@@ -58,7 +59,7 @@ Rings::Rings(std::span<const Tet> tets, std::uint32_t vertex_count, std::uint32_
     tets_of.list_by_vertex(static_cast<std::uint32_t>(tets.size()), vertex_count,
                            [&](std::uint32_t t) { return std::span<const std::uint32_t>(tets[t].v); });
     reached_from.resize(vertex_count, 0);
-    std::pmr::vector<std::uint32_t> found(memory);
+    Array<std::uint32_t> found(memory);
     near.reserve(vertex_count);
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
         search(tets, tets_of, v, count, found);
@@ -69,7 +70,7 @@ Rings::Rings(std::span<const Tet> tets, std::uint32_t vertex_count, std::uint32_
 
 // Breadth first; the queue is what is found.
 void Rings::search(std::span<const Tet> tets, const IndexLists& tets_of, std::uint32_t vertex,
-                   std::uint32_t count, std::pmr::vector<std::uint32_t>& found) {
+                   std::uint32_t count, Array<std::uint32_t>& found) {
     if (++searches == 0) { // after 2^32 of them
         std::fill(reached_from.begin(), reached_from.end(), 0u);
         searches = 1;
@@ -105,7 +106,7 @@ void Rings::add_vertices(std::size_t vertex_count) {
 void Rings::repair(std::span<const Tet> tets, const IndexLists& tets_of, std::span<const TetChange> changes,
                    std::uint32_t count) {
     std::pmr::memory_resource* memory = near.memory();
-    std::pmr::vector<std::uint32_t> changed(memory), affected(memory), found(memory);
+    Array<std::uint32_t> changed(memory), affected(memory), found(memory);
     list_changed_vertices(changes, changed);
     for (const std::uint32_t v : changed) {
         const std::span<const std::uint32_t> was = near[v];
@@ -144,7 +145,7 @@ void RestPose::push(const Vec3d& p) {
 }
 
 RestPose RestPose::of(std::span<const std::uint32_t> vertices) const {
-    RestPose some(floats_.get_allocator().resource());
+    RestPose some(floats_.memory());
     some.in_doubles_ = in_doubles_;
     for (const std::uint32_t v : vertices) some.push((*this)[v]);
     return some;
@@ -156,7 +157,7 @@ void RestPose::reserve_for(const RestPose& more) {
     reserve_growing(doubles_, count);
     if (in_doubles_) return;
     doubles_.assign(floats_.begin(), floats_.end());
-    floats_ = std::pmr::vector<Vec3f>(floats_.get_allocator());
+    floats_ = Array<Vec3f>(floats_.memory());
     in_doubles_ = true;
 }
 

@@ -2,6 +2,7 @@
 // of one mesh by their distance along edges and in the rest pose.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/lists.hpp"
 #include "base/scene.hpp"
 
@@ -11,7 +12,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -52,9 +52,9 @@ struct Rings {
 
 private:
     void search(std::span<const Tet> tets, const IndexLists& tets_of, std::uint32_t vertex,
-                std::uint32_t count, std::pmr::vector<std::uint32_t>& found);
+                std::uint32_t count, Array<std::uint32_t>& found);
 
-    std::pmr::vector<std::uint32_t> reached_from; // of each vertex, the last search that met it
+    Array<std::uint32_t> reached_from; // of each vertex, the last search that met it
     std::uint32_t searches = 0;
 };
 
@@ -82,8 +82,8 @@ private:
     void push(const Vec3d& p);
 
     bool in_doubles_ = false; // else in floats; the other list is empty
-    std::pmr::vector<Vec3f> floats_;
-    std::pmr::vector<Vec3d> doubles_;
+    Array<Vec3f> floats_;
+    Array<Vec3d> doubles_;
 };
 
 // The filters of self-contact.

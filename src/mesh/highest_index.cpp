@@ -2,10 +2,9 @@
 
 #include "base/simd.hpp"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "mesh/highest_index.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef VOX_SOURCE
+#define VOX_SOURCE "mesh/highest_index.cpp"
+#include "base/each_target.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace vox {

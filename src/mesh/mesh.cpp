@@ -1,5 +1,6 @@
 #include "mesh/mesh.hpp"
 
+#include "base/array.hpp"
 #include "base/error.hpp"
 #include "mesh/check.hpp"
 #include "mesh/ids.hpp"
@@ -46,7 +47,7 @@ PreparedTets& Mesh::own_prepared() {
 }
 
 // For changes: a copy of those that are borrowed or shared.
-std::pmr::vector<Tet>& Mesh::own_tets() {
+Array<Tet>& Mesh::own_tets() {
     PreparedTets& own = own_prepared();
     if (owns_tets_) return own.tets;
     own.tets.assign(tets_.begin(), tets_.end());
@@ -122,7 +123,7 @@ void Mesh::bind(const Positions& positions) noexcept {
     format_checked_ = format_checked_ && positions.doubles == positions_.doubles;
     positions_ = positions;
     owns_positions_ = false;
-    owned_ = std::pmr::vector<double>(owned_.get_allocator());
+    owned_ = Array<double>(owned_.memory());
 }
 
 void Mesh::check_format_once(vox_mesh id) {
@@ -138,8 +139,8 @@ Positions Mesh::packed(const void* data) const noexcept {
 void* Mesh::map_positions() {
     if (owned_.empty() && vertex_count_ > 0) {
         const std::size_t size = position_size();
-        std::pmr::vector<double> owned((vertex_count_ * size + sizeof(double) - 1) / sizeof(double), 0.0,
-                                       owned_.get_allocator());
+        Array<double> owned((vertex_count_ * size + sizeof(double) - 1) / sizeof(double), 0.0,
+                                       owned_.memory());
         auto* to = reinterpret_cast<std::byte*>(owned.data());
         if (positions_.data)
             for (std::size_t v = 0; v < vertex_count_; ++v) positions_.copy(v, to + v * size);
@@ -236,18 +237,18 @@ RestPose Mesh::rest_pose(const Positions& positions, std::uint32_t count) const 
 }
 
 void Mesh::reserve_exception() {
-    std::pmr::vector<vox_mesh>& meshes = exceptions_.make(memory()).meshes;
+    Array<vox_mesh>& meshes = exceptions_.make(memory()).meshes;
     if (meshes.size() == meshes.capacity()) meshes.reserve(2 * meshes.size() + 2);
 }
 
 void Mesh::add_exception(vox_mesh other) noexcept {
-    std::pmr::vector<vox_mesh>& meshes = exceptions_.if_made()->meshes;
+    Array<vox_mesh>& meshes = exceptions_.if_made()->meshes;
     const auto place = std::lower_bound(meshes.begin(), meshes.end(), other);
     if (place == meshes.end() || *place != other) meshes.insert(place, other);
 }
 
 void Mesh::remove_exception(vox_mesh other) noexcept {
-    if (Exceptions* made = exceptions_.if_made()) std::erase(made->meshes, other);
+    if (Exceptions* made = exceptions_.if_made()) erase(made->meshes, other);
 }
 
 } // namespace vox

@@ -2,6 +2,7 @@
 // them, which edits (edit.cpp) keep up to date.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/bits.hpp"
 #include "base/lazy.hpp"
 #include "base/scene.hpp"
@@ -17,7 +18,6 @@
 #include <memory>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -26,7 +26,7 @@ struct MeshEdits {
     explicit MeshEdits(std::pmr::memory_resource* memory) noexcept
         : given(memory), off(memory), removed(memory), removed_vertices(memory), tets_of(memory) {}
 
-    std::pmr::vector<Tet> given; // corners as given by the caller; empty while no tet is off
+    Array<Tet> given; // corners as given by the caller; empty while no tet is off
     Bits off, removed;           // tets; those that are removed are off as well
     Bits removed_vertices;
     IndexLists tets_of; // the tets around each vertex, from the first edit on
@@ -161,16 +161,16 @@ private:
     RestPose rest_pose(const Positions& positions, std::uint32_t count) const;
 
     // Edits.
-    std::pmr::memory_resource* memory() const noexcept { return owned_.get_allocator().resource(); }
+    std::pmr::memory_resource* memory() const noexcept { return owned_.memory(); }
     std::span<const Tet> tets() const noexcept { return tets_; }
     bool borrows_tets() const noexcept {
         return !tets_.empty() && !(prepared_ && prepared_->tets.data() == tets_.data());
     }
     void check_tets(std::span<const std::uint32_t> tets) const;
     void check_corners(std::uint32_t tet, const Tet& corners) const;
-    void switch_off(std::uint32_t tet, std::pmr::vector<TetChange>& changes) noexcept;
+    void switch_off(std::uint32_t tet, Array<TetChange>& changes) noexcept;
     PreparedTets& own_prepared();
-    std::pmr::vector<Tet>& own_tets();
+    Array<Tet>& own_tets();
     MeshEdits& reserve_off();
     MeshEdits& list_tets_of();
     void apply(std::span<const TetChange> changes) noexcept;
@@ -184,12 +184,12 @@ private:
     };
     struct Exceptions {
         explicit Exceptions(std::pmr::memory_resource* memory) noexcept : meshes(memory) {}
-        std::pmr::vector<vox_mesh> meshes;
+        Array<vox_mesh> meshes;
     };
 
     std::shared_ptr<PreparedTets> prepared_; // null while there is nothing to keep in it
     Rare<MeshEdits> edits_;
-    std::pmr::vector<double> owned_; // positions, packed in their format, unless they are borrowed
+    Array<double> owned_; // positions, packed in their format, unless they are borrowed
     Lazy<MeshSample> sample_;
     Rare<SelfFilter> self_filter_;
     Rare<Exceptions> exceptions_;

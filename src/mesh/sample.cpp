@@ -1,5 +1,6 @@
 #include "mesh/sample.hpp"
 
+#include "base/array.hpp"
 #include "base/bits.hpp"
 #include "base/sampling.hpp"
 #include "base/simd.hpp"
@@ -10,10 +11,9 @@
 #include <bit>
 #include <cmath>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "mesh/sample.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef VOX_SOURCE
+#define VOX_SOURCE "mesh/sample.cpp"
+#include "base/each_target.hpp"
 
 #include "base/lanes-inl.hpp"
 
@@ -126,7 +126,7 @@ struct Listed {
         if (next.count > 0) above.push_back(next);
     }
 
-    std::pmr::vector<Above> above;
+    Array<Above> above;
     // Of tetrahedra, that are chosen vertices; those of tetrahedra that name no vertex twice.
     std::uint64_t corners = 0, proper = 0;
 };
@@ -181,9 +181,9 @@ void list_around(const Tiles& tiles, const ChosenVertices& chosen, Listed& out) 
 }
 
 // A byte for each vertex: 1 where a tetrahedron has it.
-std::pmr::vector<std::uint8_t> used_vertices(const Body& body, std::pmr::memory_resource* memory,
+Array<std::uint8_t> used_vertices(const Body& body, std::pmr::memory_resource* memory,
                                              const Tiles* tiles) {
-    std::pmr::vector<std::uint8_t> used(body.vertex_count, 0, memory);
+    Array<std::uint8_t> used(body.vertex_count, 0, memory);
     std::uint8_t* const mark = used.data(); // else it is read anew after each byte, which might be part of it
     if (tiles) {                            // which name a vertex less often
         const std::uint32_t *v = tiles->vertices.data(), *const end = v + tiles->vertices.size();
@@ -198,23 +198,23 @@ std::pmr::vector<std::uint8_t> used_vertices(const Body& body, std::pmr::memory_
 }
 
 // By counting, where the list is not much shorter than what would be counted. The order at a vertex is free.
-void sort_by_vertex(std::uint32_t vertex_count, std::pmr::vector<Above>& list) {
+void sort_by_vertex(std::uint32_t vertex_count, Array<Above>& list) {
     if (list.size() < vertex_count / 16) {
         std::sort(list.begin(), list.end(),
                   [](const Above& a, const Above& b) { return a.vertex < b.vertex; });
         return;
     }
-    std::pmr::memory_resource* memory = list.get_allocator().resource();
-    std::pmr::vector<std::uint32_t> place(std::size_t{vertex_count} + 1, 0, memory);
+    std::pmr::memory_resource* memory = list.memory();
+    Array<std::uint32_t> place(std::size_t{vertex_count} + 1, 0, memory);
     for (const Above& above : list) ++place[std::size_t{above.vertex} + 1];
     for (std::size_t v = 0; v < vertex_count; ++v) place[v + 1] += place[v];
-    std::pmr::vector<Above> sorted(list.size(), memory);
+    Array<Above> sorted(list.size(), memory);
     for (const Above& above : list) sorted[place[above.vertex]++] = above;
     list = std::move(sorted);
 }
 
 template <class Item>
-void keep(std::size_t wanted, std::pmr::vector<Item>& items) {
+void keep(std::size_t wanted, Array<Item>& items) {
     if (items.size() <= wanted) return;
     std::size_t kept = 0;
     for_stratified(items.size(), wanted, 0.5,
@@ -225,7 +225,7 @@ void keep(std::size_t wanted, std::pmr::vector<Item>& items) {
 
 // Calls visit(item, how often) for each item of a sorted list.
 template <class Item, class Visit>
-void for_equal(const std::pmr::vector<Item>& items, Visit&& visit) {
+void for_equal(const Array<Item>& items, Visit&& visit) {
     for (std::size_t i = 0, end = 0; i < items.size(); i = end) {
         while (end < items.size() && items[end] == items[i]) ++end;
         visit(items[i], static_cast<std::uint32_t>(end - i));
@@ -242,9 +242,9 @@ std::uint64_t of_all(std::uint64_t listed, std::uint64_t met, double met_in_all)
 
 } // namespace
 
-std::pmr::vector<std::uint64_t> unused_vertices(const Body& body, std::pmr::memory_resource* memory,
+Array<std::uint64_t> unused_vertices(const Body& body, std::pmr::memory_resource* memory,
                                                 const Tiles* tiles) {
-    std::pmr::vector<std::uint64_t> unused(memory);
+    Array<std::uint64_t> unused(memory);
     if (body.tets.size() == body.off_count) return unused;
     const auto used = used_vertices(body, memory, tiles);
     if (std::find(used.begin(), used.end(), 0) == used.end()) return unused;
@@ -309,8 +309,8 @@ MeshSample make_sample(const Body& body, const SampleSize& size, std::pmr::memor
     sort_by_vertex(body.vertex_count, listed.above);
 
     std::uint64_t edges_met = 0, facets_met = 0;
-    std::pmr::vector<std::uint32_t> ends(memory);
-    std::pmr::vector<std::uint64_t> others(memory); // of a facet: the middle vertex << 32 | the highest one
+    Array<std::uint32_t> ends(memory);
+    Array<std::uint64_t> others(memory); // of a facet: the middle vertex << 32 | the highest one
     for (auto first = listed.above.begin(); first != listed.above.end();) {
         const std::uint32_t v = first->vertex;
         ends.clear();

@@ -6,6 +6,7 @@
 // takes one pass over the tetrahedra, or over the tiles, and no list of all edges.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/scene.hpp"
 #include "mesh/tiles.hpp"
 
@@ -14,7 +15,6 @@
 #include <cstdint>
 #include <limits>
 #include <memory_resource>
-#include <vector>
 
 namespace vox {
 
@@ -33,15 +33,15 @@ struct MeshSample {
 
     // Spread evenly over the lists of all; all where there are few. None of a tetrahedron that is off, and no
     // edges and facets of one that names a vertex twice.
-    std::pmr::vector<Tet> tets;
-    std::pmr::vector<Edge> edges;
-    std::pmr::vector<Facet> facets, boundary_facets;
+    Array<Tet> tets;
+    Array<Edge> edges;
+    Array<Facet> facets, boundary_facets;
 
     // Of all. Estimates, unless the edges and facets of all vertices were listed.
     std::uint64_t edge_count = 0, facet_count = 0, boundary_facet_count = 0;
     bool is_whole = false; // whether they were
     // As of unused_vertices() below, where they were asked for.
-    std::pmr::vector<std::uint64_t> unused_vertices;
+    Array<std::uint64_t> unused_vertices;
 };
 
 // How much of a mesh is listed and kept, about.
@@ -64,7 +64,7 @@ MeshSample make_sample(const Body& body, const SampleSize& size, std::pmr::memor
 
 // By tetrahedra that are not off, as bits (bits.hpp). Empty: none; also where there are no such tetrahedra.
 // `tiles` as above.
-std::pmr::vector<std::uint64_t> unused_vertices(const Body& body, std::pmr::memory_resource* memory,
+Array<std::uint64_t> unused_vertices(const Body& body, std::pmr::memory_resource* memory,
                                                 const Tiles* tiles = nullptr);
 
 // Whether a tetrahedron of a body, none of which is off, has a vertex. Looks first at those whose place in

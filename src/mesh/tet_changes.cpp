@@ -1,5 +1,6 @@
 #include "mesh/tet_changes.hpp"
 
+#include "base/array.hpp"
 #include "base/bits.hpp"
 
 #include <algorithm>
@@ -30,14 +31,14 @@ void apply_changes(std::span<const TetChange> changes, IndexLists& tets_of) {
 namespace {
 
 template <class T>
-void sort_each_once(std::pmr::vector<T>& items) {
+void sort_each_once(Array<T>& items) {
     std::sort(items.begin(), items.end());
     items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
 } // namespace
 
-void list_changed_facets(std::span<const TetChange> changes, std::pmr::vector<FacetKey>& facets) {
+void list_changed_facets(std::span<const TetChange> changes, Array<FacetKey>& facets) {
     facets.clear();
     facets.reserve(8 * changes.size());
     const auto add = [&](const Tet& tet) {
@@ -52,7 +53,7 @@ void list_changed_facets(std::span<const TetChange> changes, std::pmr::vector<Fa
     sort_each_once(facets);
 }
 
-void list_changed_vertices(std::span<const TetChange> changes, std::pmr::vector<std::uint32_t>& vertices) {
+void list_changed_vertices(std::span<const TetChange> changes, Array<std::uint32_t>& vertices) {
     vertices.clear();
     vertices.reserve(8 * changes.size());
     for (const TetChange& change : changes) {

@@ -2,6 +2,7 @@
 // prepared of a mesh repaired.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/lists.hpp"
 #include "base/scene.hpp"
 #include "mesh/facets.hpp"
@@ -9,7 +10,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -38,8 +38,8 @@ void list_tets(std::span<const Tet> tets, std::span<const std::uint64_t> off, st
 void apply_changes(std::span<const TetChange> changes, IndexLists& tets_of);
 
 // The facets, and the vertices, of the tetrahedra that changed, before and after. Sorted, each once.
-void list_changed_facets(std::span<const TetChange> changes, std::pmr::vector<FacetKey>& facets);
-void list_changed_vertices(std::span<const TetChange> changes, std::pmr::vector<std::uint32_t>& vertices);
+void list_changed_facets(std::span<const TetChange> changes, Array<FacetKey>& facets);
+void list_changed_vertices(std::span<const TetChange> changes, Array<std::uint32_t>& vertices);
 
 // Calls function(tet, i) for each tetrahedron of which `key` is facet i.
 template <class Function>

@@ -3,6 +3,7 @@
 // falls across it, and by how much does not matter to the certificate. So where a tet changes, the tets
 // around each of its facets are counted again.
 #include "mesh/tile_repair.hpp"
+#include "base/array.hpp"
 
 #include <algorithm>
 
@@ -28,10 +29,10 @@ public:
         }
         if (!boundary_.is_closed) return;
         std::pmr::memory_resource* memory = places_.triangles.memory();
-        std::pmr::vector<FacetKey> keys(memory);
+        Array<FacetKey> keys(memory);
         list_changed_facets(changes, keys);
         for (const FacetKey& key : keys) count_facet(key);
-        std::pmr::vector<std::uint32_t> vertices(memory);
+        Array<std::uint32_t> vertices(memory);
         list_changed_vertices(changes, vertices);
         for (const std::uint32_t v : vertices) update_loose(v);
         if (!boundary_pays(boundary_.triangles.size(), body_.tets.size() - body_.off_count))
@@ -54,7 +55,7 @@ private:
         }
         places_.changed_at.assign(tiles_.super_tile_count(), 0);
         if (!boundary_.is_closed) return;
-        const std::pmr::vector<std::array<std::uint32_t, 3>>& triangles = boundary_.triangles;
+        const Array<std::array<std::uint32_t, 3>>& triangles = boundary_.triangles;
         places_.triangles.list_by_vertex(static_cast<std::uint32_t>(triangles.size()), body_.vertex_count,
                                          [&](std::uint32_t t) { return std::span(triangles[t]).first(1); });
     }
@@ -158,7 +159,7 @@ private:
             boundary_.mirrored.push_back(0);
             boundary_.ignored.push_back(0);
         }
-        std::pmr::vector<std::uint32_t>& super_first = tiles_.super_first;
+        Array<std::uint32_t>& super_first = tiles_.super_first;
         const std::uint32_t supers = tiles_.super_tile_count();
         if (supers > places_.first_young_super && t - super_first[supers - 1] < super_tile_size)
             super_first.back() = t + 1;
@@ -218,7 +219,7 @@ private:
             const bool mirrored = boundary_.mirrored[place / tile_size] >> place % tile_size & 1;
             net += even != mirrored ? 1 : -1;
         });
-        std::pmr::vector<std::array<std::uint32_t, 3>>& triangles = boundary_.triangles;
+        Array<std::array<std::uint32_t, 3>>& triangles = boundary_.triangles;
         const std::span<const std::uint32_t> at_low = places_.triangles[key.low];
         const auto found = std::find_if(at_low.begin(), at_low.end(), [&](std::uint32_t t) {
             return sorted_facet(triangles[t][0], triangles[t][1], triangles[t][2]).key == key;
@@ -235,7 +236,7 @@ private:
 
     // The last one takes its place.
     void drop_triangle(std::uint32_t low, std::uint32_t hole) noexcept {
-        std::pmr::vector<std::array<std::uint32_t, 3>>& triangles = boundary_.triangles;
+        Array<std::array<std::uint32_t, 3>>& triangles = boundary_.triangles;
         const auto last = static_cast<std::uint32_t>(triangles.size() - 1);
         places_.triangles.remove(low, hole);
         if (hole != last) {
@@ -252,7 +253,7 @@ private:
         const bool is_loose = std::all_of(around.begin(), around.end(), [&](std::uint32_t tet) {
             return names_a_vertex_twice(body_.tets[tet]);
         });
-        std::pmr::vector<std::uint32_t>& loose = boundary_.loose;
+        Array<std::uint32_t>& loose = boundary_.loose;
         const auto place = std::lower_bound(loose.begin(), loose.end(), vertex);
         const bool was_loose = place != loose.end() && *place == vertex;
         if (is_loose && !was_loose) loose.insert(place, vertex);
@@ -280,7 +281,7 @@ bool repair(TiledMesh& mesh, const Body& body, std::span<const TetChange> change
 
 bool add_vertices(TiledMesh& mesh, std::uint32_t count_before, std::uint32_t count_after) {
     if (count_before == 0) return false;
-    std::pmr::vector<std::uint32_t>& first = mesh.tiles.block_first;
+    Array<std::uint32_t>& first = mesh.tiles.block_first;
     for (std::uint32_t v = count_before; v < count_after; ++v) {
         const std::uint32_t begin = first[first.size() - 2];
         if (begin >= mesh.places.first_young_vertex && v - begin < block_size)

@@ -8,14 +8,14 @@
 namespace vox {
 
 void make_tiled_mesh(const Body& body, TiledMesh& out, const MatchedFacets* facets) {
-    std::pmr::memory_resource* memory = out.boundary.triangles.get_allocator().resource();
+    std::pmr::memory_resource* memory = out.boundary.triangles.memory();
     TiledMesh made(memory);
     make_tiles(body.tets, body.vertex_count, body.positions, made.tiles, body.off);
     if (body.self_collision) {
         make_boundary(body.tets, body.vertex_count, body.positions, made.tiles, made.boundary, facets);
         if (!boundary_pays(made.boundary.triangles.size(), made.tiles.tets.size()))
             made.boundary = Boundary(memory);
-        std::erase_if(made.boundary.loose,
+        erase_if(made.boundary.loose,
                       [&](std::uint32_t v) { return has_bit(body.removed_vertices, v); });
     }
     // Winding numbers leave few tiles in which vertices of the same body are looked up.

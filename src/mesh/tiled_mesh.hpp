@@ -1,6 +1,7 @@
 // What is prepared of a mesh's tetrahedra to search them: tiles, boundary, and where things are, for edits.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/lists.hpp"
 #include "base/scene.hpp"
 #include "mesh/boundary.hpp"
@@ -12,7 +13,6 @@
 #include <memory_resource>
 #include <set>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -22,17 +22,17 @@ struct TilePlaces {
         : of_tet(memory), room(memory), triangles(memory), changed_at(memory) {}
 
     static constexpr std::uint32_t none = ~0u;
-    std::pmr::vector<std::uint32_t> of_tet; // 64 * tile + place in it, or none
+    Array<std::uint32_t> of_tet; // 64 * tile + place in it, or none
     std::uint32_t tile_of(std::uint32_t tet) const noexcept { return of_tet[tet] / tile_size; }
     struct Room {
         std::uint8_t tets, vertices; // how many fit into a tile without moving its lists
     };
-    std::pmr::vector<Room> room;
+    Array<Room> room;
     IndexLists triangles;                // of the boundary, by their lowest vertex
     std::uint32_t first_young_super = 0; // super-tiles and vertices from here on came with edits
     std::uint32_t first_young_vertex = 0;
     std::uint64_t changes = 0;                  // of tets since the tiles were made
-    std::pmr::vector<std::uint64_t> changed_at; // for each super-tile, `changes` when a tet last joined it
+    Array<std::uint64_t> changed_at; // for each super-tile, `changes` when a tet last joined it
 };
 
 // An empty one is prepared for an empty mesh.
@@ -56,7 +56,7 @@ struct PreparedTets {
     explicit PreparedTets(std::pmr::memory_resource* memory) noexcept
         : tets(memory), topology(memory), tiled(memory) {}
 
-    std::pmr::vector<Tet> tets; // empty where those of the caller are borrowed
+    Array<Tet> tets; // empty where those of the caller are borrowed
     Topology topology;
     TiledMesh tiled;
     bool has_topology = false, has_tiles = false;

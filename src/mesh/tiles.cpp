@@ -3,6 +3,7 @@
 // come out nearly full.
 #include "mesh/tiles.hpp"
 
+#include "base/array.hpp"
 #include "base/bits.hpp"
 #include "base/boxes.hpp"
 
@@ -110,7 +111,7 @@ class Splitter {
 public:
     Splitter(std::span<const Tet> tets, std::uint32_t vertex_count, Tiles& out)
         : tets_(tets), vertex_count_(vertex_count), out_(out),
-          seen_(vertex_count, 0, out.tiles.get_allocator().resource()) {}
+          seen_(vertex_count, 0, out.tiles.memory()) {}
 
     // Changes the order of the items. `other` is as long as they are.
     void split(Item* items, Item* other, std::uint32_t count, bool in_super_tile = false) {
@@ -174,13 +175,13 @@ private:
     std::span<const Tet> tets_;
     std::uint32_t vertex_count_;
     Tiles& out_;
-    std::pmr::vector<std::uint32_t> seen_;
+    Array<std::uint32_t> seen_;
     std::uint32_t stamp_ = 0;
 };
 
 void list_blocks(std::uint32_t vertex_count, Tiles& out) {
-    std::pmr::memory_resource* memory = out.tiles.get_allocator().resource();
-    std::pmr::vector<std::uint32_t> seen(out.block_count(), 0, memory), block_of(vertex_count, memory);
+    std::pmr::memory_resource* memory = out.tiles.memory();
+    Array<std::uint32_t> seen(out.block_count(), 0, memory), block_of(vertex_count, memory);
     for (std::uint32_t b = 0; b < out.block_count(); ++b)
         std::fill(block_of.begin() + out.block_first[b], block_of.begin() + out.block_first[b + 1], b);
     const std::uint32_t super_tiles = out.super_tile_count();
@@ -252,7 +253,7 @@ void cut_blocks(std::uint32_t vertex_count, Positions positions, Tiles& out) {
 
 void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions, Tiles& out,
                 std::span<const std::uint64_t> off) {
-    std::pmr::memory_resource* memory = out.tiles.get_allocator().resource();
+    std::pmr::memory_resource* memory = out.tiles.memory();
     Tiles made(memory);
     if (vertex_count == 0) { // and so no tets: nothing to allocate for
         out = std::move(made);
@@ -260,7 +261,7 @@ void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions
     }
     made.super_first.push_back(0);
     if (!tets.empty()) {
-        std::pmr::vector<Item> items(memory);
+        Array<Item> items(memory);
         items.reserve(2 * tets.size());
         for (std::size_t t = 0; t < tets.size(); ++t) {
             if (has_bit(off, t)) continue;

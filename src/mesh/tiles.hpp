@@ -3,6 +3,7 @@
 // mask.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/lists.hpp"
 #include "base/scene.hpp"
 
@@ -10,7 +11,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -36,18 +36,18 @@ struct Tiles {
         : tiles(memory), corners(memory), tets(memory), vertices(memory), own(memory), block_first(memory),
           super_first(memory), blocks(memory) {}
 
-    std::pmr::vector<Tile> tiles;
-    std::pmr::vector<std::uint8_t> corners;   // 4 * 64 a tile: corner 0 of its tets, then corner 1, 2, 3
-    std::pmr::vector<std::uint32_t> tets;     // the caller's tet index, tile after tile
-    std::pmr::vector<std::uint32_t> vertices; // the caller's vertex index, tile after tile
+    Array<Tile> tiles;
+    Array<std::uint8_t> corners;   // 4 * 64 a tile: corner 0 of its tets, then corner 1, 2, 3
+    Array<std::uint32_t> tets;     // the caller's tet index, tile after tile
+    Array<std::uint32_t> vertices; // the caller's vertex index, tile after tile
     // For each of `vertices`: the tile's tets that have it as a corner. Empty for bodies without
     // self-collision, and mostly for those that are culled by winding numbers: the lookup then finds them.
-    std::pmr::vector<std::uint64_t> own;
+    Array<std::uint64_t> own;
     // Blocks: runs of vertices in the caller's numbering, mostly close together in space. Block i is vertices
     // [block_first[i], block_first[i + 1]).
-    std::pmr::vector<std::uint32_t> block_first;
+    Array<std::uint32_t> block_first;
     // Super-tile s is tiles [super_first[s], super_first[s + 1]), a subtree of the k-d tree.
-    std::pmr::vector<std::uint32_t> super_first;
+    Array<std::uint32_t> super_first;
     IndexLists blocks; // of each super-tile, ascending: those that hold its vertices
 
     std::uint32_t block_count() const noexcept { return intervals(block_first); }
@@ -57,11 +57,11 @@ struct Tiles {
 
 private:
     // How many intervals a list of ends makes; 0 before make_tiles().
-    static std::uint32_t intervals(const std::pmr::vector<std::uint32_t>& ends) noexcept {
+    static std::uint32_t intervals(const Array<std::uint32_t>& ends) noexcept {
         return ends.empty() ? 0 : static_cast<std::uint32_t>(ends.size() - 1);
     }
     // The interval that a number is in.
-    static std::uint32_t interval(const std::pmr::vector<std::uint32_t>& ends, std::uint32_t of) noexcept {
+    static std::uint32_t interval(const Array<std::uint32_t>& ends, std::uint32_t of) noexcept {
         return static_cast<std::uint32_t>(std::upper_bound(ends.begin(), ends.end(), of) - ends.begin() - 1);
     }
 };

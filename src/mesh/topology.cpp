@@ -2,6 +2,7 @@
 // lowest corner (facets.cpp). After an edit the same is done for the facets and vertices that changed.
 #include "mesh/topology.hpp"
 
+#include "base/array.hpp"
 #include "base/error.hpp"
 #include "mesh/tet_changes.hpp"
 
@@ -62,14 +63,14 @@ public:
     GrowingRings(std::uint32_t vertex_count, std::pmr::memory_resource* memory)
         : last_(vertex_count, none, memory), before_(memory) {}
 
-    void add(const std::pmr::vector<Triangle>& triangles) {
+    void add(const Array<Triangle>& triangles) {
         for (auto t = static_cast<std::uint32_t>(before_.size()); t < triangles.size(); ++t) {
             std::array<std::uint32_t, 3>& before = before_.emplace_back();
             for (std::size_t i = 0; i < 3; ++i)
                 before[i] = std::exchange(last_[triangles[t].v[i]], 4 * t + static_cast<std::uint32_t>(i));
         }
     }
-    void list(std::uint32_t vertex, std::pmr::vector<std::uint32_t>& ring) const {
+    void list(std::uint32_t vertex, Array<std::uint32_t>& ring) const {
         ring.clear();
         for (std::uint32_t at = last_[vertex]; at != none; at = before_[at / 4][at % 4])
             ring.push_back(at / 4);
@@ -78,8 +79,8 @@ public:
 
 private:
     static constexpr std::uint32_t none = 0xffffffffu;
-    std::pmr::vector<std::uint32_t> last_; // 4 * triangle + corner
-    std::pmr::vector<std::array<std::uint32_t, 3>> before_;
+    Array<std::uint32_t> last_; // 4 * triangle + corner
+    Array<std::array<std::uint32_t, 3>> before_;
 };
 
 } // namespace
@@ -93,8 +94,8 @@ void make_topology(std::span<const Tet> tets, std::uint32_t vertex_count, Topolo
     }
     check_tet_count(tets.size());
     const IndexLists tets_around = list_tets(tets, vertex_count, memory);
-    std::pmr::vector<std::uint32_t> met(vertex_count, 0, memory);
-    std::pmr::vector<std::uint32_t> neighbours(memory), ring(memory);
+    Array<std::uint32_t> met(vertex_count, 0, memory);
+    Array<std::uint32_t> neighbours(memory), ring(memory);
     GrowingRings rings(vertex_count, memory);
     made.clear(tets.size());
     made.links.resize(vertex_count);
@@ -141,11 +142,11 @@ public:
         topology_.across.resize(tets_.size());
         for (const TetChange& change : changes)
             for (std::uint32_t i = 0; i < 4; ++i) topology_.across.set(change.tet, i, Topology::nothing);
-        std::pmr::vector<FacetKey> keys(facets_.get_allocator());
+        Array<FacetKey> keys(facets_.memory());
         list_changed_facets(changes, keys);
         for (const FacetKey& key : keys) drop_triangle(key);
         for (const FacetKey& key : keys) match_again(key);
-        std::pmr::vector<std::uint32_t> vertices(facets_.get_allocator());
+        Array<std::uint32_t> vertices(facets_.memory());
         list_changed_vertices(changes, vertices);
         for (const std::uint32_t v : vertices) find_neighbours(v);
     }
@@ -161,7 +162,7 @@ private:
         const auto last = static_cast<std::uint32_t>(topology_.triangles.size() - 1);
         for (const std::uint32_t v : {key.low, key.middle, key.high}) {
             copy_links(v);
-            std::erase(ring_, hole);
+            erase(ring_, hole);
             topology_.links.assign(v, neighbours_, ring_);
         }
         if (hole != last) {
@@ -224,8 +225,8 @@ private:
     std::span<const Tet> tets_;
     const IndexLists& tets_of_;
     Topology& topology_;
-    std::pmr::vector<TetFacet> facets_;
-    std::pmr::vector<std::uint32_t> neighbours_, ring_; // of a vertex
+    Array<TetFacet> facets_;
+    Array<std::uint32_t> neighbours_, ring_; // of a vertex
 };
 
 } // namespace

@@ -1,5 +1,6 @@
 #include "mesh/vertex_links.hpp"
 
+#include "base/array.hpp"
 #include "base/error.hpp"
 
 #include <algorithm>
@@ -86,7 +87,7 @@ void VertexLinks::assign(std::uint32_t vertex, std::span<const std::uint32_t> ne
 
 // Moves all records together.
 void VertexLinks::compact() {
-    std::pmr::vector<std::uint16_t> words(words_.get_allocator());
+    Array<std::uint16_t> words(words_.memory());
     words.reserve(words_.size() - abandoned_);
     words.push_back(0);
     for (std::uint32_t v = 0; v < places_.size(); ++v) {

@@ -3,13 +3,14 @@
 // of a vertex fit. A vertex inside takes about 35 bytes, mostly in one cache line.
 #pragma once
 
+#include "base/array.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <iterator>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -150,8 +151,8 @@ private:
     std::size_t length_of(std::uint32_t vertex) const noexcept;
     void compact();
 
-    std::pmr::vector<std::uint32_t> places_; // of each vertex, where its record begins in words_
-    std::pmr::vector<std::uint16_t> words_;  // the first record is that of all vertices without links
+    Array<std::uint32_t> places_; // of each vertex, where its record begins in words_
+    Array<std::uint16_t> words_;  // the first record is that of all vertices without links
     std::size_t abandoned_ = 0;              // words that are in no record
 };
 

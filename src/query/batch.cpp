@@ -1,5 +1,6 @@
 #include "query/batch.hpp"
 
+#include "base/array.hpp"
 #include "base/vectors.hpp"
 #include "exact/predicates.hpp"
 
@@ -16,7 +17,7 @@ constexpr double cell_in_tile_sides = 0.6;
 } // namespace
 
 Queries::Batch::Batch(const Queries& queries, QueryMeshes which, bool weigh,
-                      std::pmr::memory_resource* memory, std::pmr::vector<PointHit>& found)
+                      std::pmr::memory_resource* memory, Array<PointHit>& found)
     : queries_(queries), which_(which), weigh_(weigh), found_(found), collected_(memory), bins_(memory),
       near_(memory), on_boundary_(memory), scratch_(1, memory) {
     for (const Mesh& mesh : queries.meshes_)
@@ -114,7 +115,7 @@ std::size_t Queries::Batch::Waiting<Item>::end() {
 // next.
 void Queries::Batch::take(std::span<const fast::Finding> findings) {
     const Mesh& mesh = queries_.meshes_[mesh_];
-    const std::pmr::vector<Tile>& tiles = mesh.tets->tiles.tiles;
+    const Array<Tile>& tiles = mesh.tets->tiles.tiles;
     for (const fast::Finding& f : findings) {
         const std::uint32_t before = tile_;
         while (f.tet - tiles[tile_].first_tet >= tiles[tile_].tet_count) ++tile_;

@@ -1,6 +1,7 @@
 // Many points at once against the tiles of all meshes, by stages of the fast engine.
 #pragma once
 
+#include "base/array.hpp"
 #include "exact/barycentric.hpp"
 #include "fast/lookup.hpp"
 #include "fast/window.hpp"
@@ -11,7 +12,6 @@
 #include <memory_resource>
 #include <optional>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -20,7 +20,7 @@ public:
     // Appends what it finds to `found`, in no particular order; of tetrahedra of a mesh with a point on their
     // boundary, the lowest only. `weigh` says whether barycentric coordinates are wanted.
     Batch(const Queries& queries, QueryMeshes which, bool weigh, std::pmr::memory_resource* memory,
-          std::pmr::vector<PointHit>& found);
+          Array<PointHit>& found);
 
     void find(std::span<const Vec3d> points);
 
@@ -36,17 +36,17 @@ private:
     const Queries& queries_;
     const QueryMeshes which_;
     const bool weigh_;
-    std::pmr::vector<PointHit>& found_;
+    Array<PointHit>& found_;
     Box region_ = empty_box;        // around the meshes
     std::span<const Vec3d> points_; // those asked for
     bool rounded_ = false;          // whether the nearest floats are not all exact
     fast::Points collected_;        // those of them in the region
     fast::Bins bins_;
-    std::pmr::vector<fast::Source> near_;
+    Array<fast::Source> near_;
     // Of each of points_: its last hit on a boundary, in found_.
     static constexpr std::uint32_t none = ~0u;
-    std::pmr::vector<std::uint32_t> on_boundary_;
-    std::pmr::vector<fast::LookupScratch> scratch_; // one
+    Array<std::uint32_t> on_boundary_;
+    Array<fast::LookupScratch> scratch_; // one
     // While findings are taken, in the order of tiles: where they are.
     std::uint32_t mesh_ = 0, tile_ = 0;
     std::optional<LeafTets> tets_;

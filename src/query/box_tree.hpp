@@ -2,6 +2,7 @@
 // they contain the doubles that they bound.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 #include "base/parallel.hpp"
 #include "base/scene.hpp"
@@ -12,7 +13,6 @@
 #include <memory_resource>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace vox {
 
@@ -90,9 +90,9 @@ private:
     void join(std::size_t node) noexcept; // its children's boxes
     void split(std::size_t node, std::span<Centre> centres, std::span<const Box3f> boxes) noexcept;
 
-    std::pmr::vector<Box3f> boxes_;         // of nodes; the first is not used
-    std::pmr::vector<std::uint32_t> items_; // of leaves
-    std::pmr::vector<Centre> centres_;      // while it is built
+    Array<Box3f> boxes_;         // of nodes; the first is not used
+    Array<std::uint32_t> items_; // of leaves
+    Array<Centre> centres_;      // while it is built
 };
 
 } // namespace vox

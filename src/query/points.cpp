@@ -2,6 +2,7 @@
 // so that each node is read once for all of them. Many go the way of the vertices in a step of the fast
 // engine (docs/engine.md): they are sorted into windows, and tile after tile is tested against those in its
 // box, which takes a fifth of the time.
+#include "base/array.hpp"
 #include "query/batch.hpp"
 
 #include "base/boxes.hpp"
@@ -32,17 +33,17 @@ Box3f box_of(const Vec3d& p) noexcept {
 } // namespace
 
 void Queries::find_few(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
-                       std::pmr::vector<PointHit>& found) const {
-    std::pmr::vector<std::uint32_t> indices(points.size(), memory);
+                       Array<PointHit>& found) const {
+    Array<std::uint32_t> indices(points.size(), memory);
     std::iota(indices.begin(), indices.end(), 0u);
-    std::pmr::vector<Box3f> boxes(memory);
+    Array<Box3f> boxes(memory);
     boxes.reserve(points.size());
     for (const Vec3d& p : points) boxes.push_back(box_of(p));
     if (!leaves_.empty()) find(1, indices, {points, boxes, which}, found);
 }
 
 // Sorts what was found by (point, mesh, tet). Points are at most `points`, so they are counted.
-void Queries::sort_found(std::pmr::vector<PointHit>& found, std::size_t points) {
+void Queries::sort_found(Array<PointHit>& found, std::size_t points) {
     const auto before = [](const PointHit& x, const PointHit& y) {
         return std::tie(x.point, x.mesh, x.tet) < std::tie(y.point, y.mesh, y.tet);
     };
@@ -51,11 +52,11 @@ void Queries::sort_found(std::pmr::vector<PointHit>& found, std::size_t points) 
         std::sort(found.begin(), found.end(), before);
         return;
     }
-    std::pmr::memory_resource* const memory = found.get_allocator().resource();
-    std::pmr::vector<std::uint32_t> end(points + 1, 0u, memory); // of each point, after it is sorted
+    std::pmr::memory_resource* const memory = found.memory();
+    Array<std::uint32_t> end(points + 1, 0u, memory); // of each point, after it is sorted
     for (const PointHit& hit : found) ++end[hit.point + 1];
     std::partial_sum(end.begin(), end.end(), end.begin());
-    std::pmr::vector<PointHit> sorted(found.size(), memory);
+    Array<PointHit> sorted(found.size(), memory);
     for (const PointHit& hit : found) sorted[end[hit.point]++] = hit;
     for (std::size_t p = 0, begin = 0; p < points; begin = end[p++])
         if (end[p] - begin > 1) std::sort(sorted.data() + begin, sorted.data() + end[p], before);
@@ -65,7 +66,7 @@ void Queries::sort_found(std::pmr::vector<PointHit>& found, std::size_t points) 
 template <class Visit>
 void Queries::for_found(std::span<const Vec3d> points, QueryMeshes which, bool weigh,
                         std::pmr::memory_resource* memory, Visit&& visit) const {
-    std::pmr::vector<PointHit> found(memory);
+    Array<PointHit> found(memory);
     const auto visit_all = [&](std::span<const Vec3d> some, std::size_t first) {
         sort_found(found, some.size());
         for (std::size_t begin = 0, end; begin < found.size(); begin = end) {
@@ -130,7 +131,7 @@ void Queries::count_inside(std::span<const Vec3d> points, QueryMeshes which,
 
 // Searches below the node for the points in `which`, whose order changes.
 void Queries::find(std::size_t node, std::span<std::uint32_t> which, const Points& asked,
-                   std::pmr::vector<PointHit>& found) const {
+                   Array<PointHit>& found) const {
     const Box3f& box = tree_.box(node);
     const auto end = std::partition(which.begin(), which.end(),
                                     [&](std::uint32_t i) { return overlap(box, asked.boxes[i]); });
@@ -147,7 +148,7 @@ void Queries::find(std::size_t node, std::span<std::uint32_t> which, const Point
 }
 
 void Queries::find_in_leaf(std::uint32_t leaf, std::uint32_t point, const Points& asked,
-                           std::pmr::vector<PointHit>& found) const {
+                           Array<PointHit>& found) const {
     std::uint64_t exact_tests = 0;
     const Vec3d& p = asked.points[point];
     const Box3f& at = asked.boxes[point];
@@ -164,7 +165,7 @@ void Queries::find_in_leaf(std::uint32_t leaf, std::uint32_t point, const Points
 }
 
 void Queries::box(const Vec3d& min, const Vec3d& max, QueryMeshes which,
-                  std::pmr::vector<vox_tet_hit>& hits) const {
+                  Array<vox_tet_hit>& hits) const {
     // A finite box, which meets no empty one; no vertex is beyond.
     const auto low = [](double x) { return std::max(rounded_down(x), -std::numeric_limits<float>::max()); };
     const auto high = [](double x) { return std::min(rounded_up(x), std::numeric_limits<float>::max()); };

@@ -2,6 +2,7 @@
 // only read, by any number of threads.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 #include "base/parallel.hpp"
 #include "base/scene.hpp"
@@ -18,7 +19,6 @@
 #include <memory_resource>
 #include <span>
 #include <tuple>
-#include <vector>
 
 namespace vox {
 
@@ -55,7 +55,7 @@ public:
                          vox_point_hit* hits, std::uint64_t capacity) const;
     // The tetrahedra sorted by mesh and tet, into an empty `hits`.
     void box(const Vec3d& min, const Vec3d& max, QueryMeshes which,
-             std::pmr::vector<vox_tet_hit>& hits) const;
+             Array<vox_tet_hit>& hits) const;
     // The mesh of a result is 0 when nothing was hit.
     vox_surface_hit closest(const Vec3d& p, double radius, QueryMeshes which) const noexcept;
     // One hit a point; `memory` is for temporary use.
@@ -64,7 +64,7 @@ public:
     vox_ray_hit ray(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept;
     // The facets sorted by (t, mesh, tet, facet), into an empty `hits`.
     void ray_hits(const Vec3d& from, const Vec3d& to, QueryMeshes which,
-                  std::pmr::vector<vox_facet_hit>& hits) const;
+                  Array<vox_facet_hit>& hits) const;
     bool ray_any(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept;
 
 private:
@@ -114,16 +114,16 @@ private:
     template <class Visit>
     void for_found(std::span<const Vec3d> points, QueryMeshes which, bool weigh,
                    std::pmr::memory_resource* memory, Visit&& visit) const;
-    static void sort_found(std::pmr::vector<PointHit>& found, std::size_t points);
+    static void sort_found(Array<PointHit>& found, std::size_t points);
     // Sets what `hits`, of the closest points, say of meshes that the points are in.
     void count_inside(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
                       vox_closest_hit* hits) const;
     void find_few(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
-                  std::pmr::vector<PointHit>& found) const;
+                  Array<PointHit>& found) const;
     void find(std::size_t node, std::span<std::uint32_t> which, const Points& asked,
-              std::pmr::vector<PointHit>& found) const;
+              Array<PointHit>& found) const;
     void find_in_leaf(std::uint32_t leaf, std::uint32_t point, const Points& asked,
-                      std::pmr::vector<PointHit>& found) const;
+                      Array<PointHit>& found) const;
     template <class Bound, class Visit>
     void visit_facets(QueryMeshes which, const double& most, const Bound& bound, Visit&& visit) const;
     void find_closest(const Vec3d& p, QueryMeshes which, ClosestFacet& closest) const noexcept;
@@ -132,18 +132,18 @@ private:
     void find_first_facet(const Vec3d& from, const Vec3d& to, QueryMeshes which,
                           vox_ray_hit& hit) const noexcept;
 
-    std::pmr::vector<Mesh> meshes_;    // ascending by id
-    std::pmr::vector<Vec3d> vertices_; // mesh after mesh
-    std::pmr::vector<Vec3f> floats_;   // the nearest floats
+    Array<Mesh> meshes_;    // ascending by id
+    Array<Vec3d> vertices_; // mesh after mesh
+    Array<Vec3f> floats_;   // the nearest floats
     // Of the tetrahedra, mesh after mesh, each in the order of its tiles. All boxes are rounded outwards, so
     // that they miss nothing that doubles decide.
-    std::pmr::vector<Box3f> boxes_;
-    std::pmr::vector<Leaf> leaves_; // mesh after mesh
+    Array<Box3f> boxes_;
+    Array<Leaf> leaves_; // mesh after mesh
     BoxTree tree_;                  // over leaves_
     BoxTree surface_tree_;          // over the facets on the surface of those that have some
-    std::pmr::vector<Box3f> leaf_boxes_, surface_boxes_; // what the trees are built from
+    Array<Box3f> leaf_boxes_, surface_boxes_; // what the trees are built from
     // For many points at once: the boxes of leaves_ again, and of groups of some that follow each other.
-    std::pmr::vector<Box> tile_boxes_, groups_;
+    Array<Box> tile_boxes_, groups_;
     bool prepared_ = false;
 };
 

@@ -1,6 +1,7 @@
 // Queries for what a segment meets, by branch and bound over the tree. Whether it meets a facet is decided
 // exactly, by the sides of the facet on which its ends are, and the sides of the segment on which the edges
 // of the facet are.
+#include "base/array.hpp"
 #include "base/vectors.hpp"
 #include "exact/predicates.hpp"
 #include "query/facets.hpp"
@@ -193,7 +194,7 @@ void Queries::find_first_facet(const Vec3d& from, const Vec3d& to, QueryMeshes w
 }
 
 void Queries::ray_hits(const Vec3d& from, const Vec3d& to, QueryMeshes which,
-                       std::pmr::vector<vox_facet_hit>& hits) const {
+                       Array<vox_facet_hit>& hits) const {
     const double most = 1;
     visit_facets(
         which, most, EntryBound(from, to),

@@ -1,5 +1,6 @@
 // Queries for the closest point of the surface, by branch and bound over the tree (N. Roussopoulos, S.
 // Kelley, F. Vincent, Nearest neighbor queries, SIGMOD 1995).
+#include "base/array.hpp"
 #include "base/bits.hpp"
 #include "base/boxes.hpp"
 #include "base/vectors.hpp"
@@ -25,9 +26,9 @@ constexpr std::size_t least_leaves_to_sort = 16; // below, a search costs little
 
 // The indices of the points along a Z-shaped curve, in the low 32 bits, or none where points that follow each
 // other are close together already, or too few.
-std::pmr::vector<std::uint64_t> order_along_curve(std::span<const Vec3d> points, double max_distance,
+Array<std::uint64_t> order_along_curve(std::span<const Vec3d> points, double max_distance,
                                                   std::pmr::memory_resource* memory) {
-    std::pmr::vector<std::uint64_t> order(memory);
+    Array<std::uint64_t> order(memory);
     if (points.size() < least_points_to_sort) return order;
     Vec3d low = points[0], high = low;
     double steps = 0;
@@ -112,7 +113,7 @@ void Queries::closest_points(std::span<const Vec3d> points, double max_distance,
     const double most = max_distance * max_distance;
     // The facet found is the least by (distance, key) of all, as no bound is greater than the distance: what
     // a search begins with, and so the order of points, changes its cost alone.
-    std::pmr::vector<std::uint64_t> order(memory);
+    Array<std::uint64_t> order(memory);
     if (leaves_.size() >= least_leaves_to_sort) order = order_along_curve(points, max_distance, memory);
     ClosestFacet closest{.squared = most};
     const auto answer = [&](std::size_t i) {

@@ -1,13 +1,13 @@
 // The tetrahedra of one mesh as queries need them: the part that does not change while the mesh only moves.
 #pragma once
 
+#include "base/array.hpp"
 #include "mesh/tiles.hpp"
 #include "mesh/topology.hpp"
 
 #include <cstdint>
 #include <memory>
 #include <memory_resource>
-#include <vector>
 
 namespace vox {
 
@@ -17,7 +17,7 @@ struct QueryTets {
 
     Tiles tiles; // those that hold tetrahedra: tiles, corners, tets and vertices
     // Of each of tiles.tets: a bit for each facet (facet_corners) on the surface.
-    std::pmr::vector<std::uint8_t> facets;
+    Array<std::uint8_t> facets;
 };
 
 // Throws what the memory throws.

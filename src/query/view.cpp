@@ -37,7 +37,7 @@ vox_query_view* QueryViews::take(std::span<const QueryBody> bodies, Workers& wor
 }
 
 void QueryViews::clear() noexcept {
-    std::erase_if(views_, [](vox_query_view* view) {
+    erase_if(views_, [](vox_query_view* view) {
         if (!is_unused(view)) return false;
         release(*view);
         return true;

@@ -1,6 +1,7 @@
 // Query views: what was prepared for queries at one moment, owned by whoever asks it.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
 #include "query/queries.hpp"
@@ -11,7 +12,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 // The grid is an owner as long as it lives, so that it can use the memory again. When it is the only one, no
 // thread has the view any more.
@@ -49,7 +49,7 @@ private:
     vox_query_view& unused();
 
     MemoryShare share_;
-    std::pmr::vector<vox_query_view*> views_;
+    Array<vox_query_view*> views_;
 };
 
 } // namespace vox

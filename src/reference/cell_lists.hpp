@@ -9,6 +9,7 @@
 // place.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/scene.hpp"
 
 #include <algorithm>
@@ -19,7 +20,6 @@
 #include <memory_resource>
 #include <span>
 #include <tuple>
-#include <vector>
 
 namespace vox {
 
@@ -155,7 +155,7 @@ public:
         // The old array is released before the new one is allocated, so that the budget never has to hold
         // both.
         if (bucket_count > heads_.capacity())
-            heads_ = std::pmr::vector<std::uint32_t>(heads_.get_allocator());
+            heads_ = Array<std::uint32_t>(heads_.memory());
         heads_.assign(bucket_count, none);
         cells_.reserve(particle_count);
         // A hash without pattern gives the fullest bucket of n about ln n / ln ln n cells where there is one
@@ -188,12 +188,12 @@ public:
         return ++cells_[c].count;
     }
 
-    const std::pmr::vector<Cell>& occupied() const { return cells_; }
+    const Array<Cell>& occupied() const { return cells_; }
     std::size_t bucket_bytes() const noexcept { return heads_.capacity() * sizeof(std::uint32_t); }
 
 private:
-    std::pmr::vector<std::uint32_t> heads_; // by bucket
-    std::pmr::vector<Cell> cells_;
+    Array<std::uint32_t> heads_; // by bucket
+    Array<Cell> cells_;
     std::size_t longest_chain_ = 0; // most cells of a bucket
 };
 

@@ -3,6 +3,7 @@
 // paper does not have, classification and pass two run once for each level.
 #include "reference/engine.hpp"
 
+#include "base/array.hpp"
 #include "base/bits.hpp"
 #include "base/boxes.hpp"
 #include "base/clock.hpp"
@@ -21,7 +22,7 @@ namespace vox {
 struct ReferenceEngine::Step {
     std::span<const Body> bodies;
     const ReferenceSettings& settings;
-    std::pmr::vector<Hit>& hits;
+    Array<Hit>& hits;
     vox_counters& counters;
     vox_profile& profile;
     bool some_filtered = false; // whether some pairs of bodies must not collide
@@ -44,7 +45,7 @@ ReferenceEngine::ReferenceEngine(std::pmr::memory_resource* memory)
       sorted_(memory) {}
 
 void ReferenceEngine::detect(std::span<const Body> bodies, const ReferenceSettings& settings,
-                             std::pmr::vector<Hit>& hits, vox_counters& counters, vox_profile& profile) {
+                             Array<Hit>& hits, vox_counters& counters, vox_profile& profile) {
     counters.cells = counters.entries = counters.fullest_cell = 0;
     counters.visited_cells = counters.visited_entries = counters.candidates = 0;
     counters.exact_tests = counters.filtered = counters.skipped_degenerate = 0;

@@ -3,6 +3,7 @@
 // of the fast one, and what the paper's cost function describes.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/scene.hpp"
 #include "reference/cell_lists.hpp"
 #include "reference/levels.hpp"
@@ -12,7 +13,6 @@
 #include <array>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -37,7 +37,7 @@ public:
     // naming mesh and vertex, or Error(LIMIT or BUDGET) when the cells do not fit; the engine can be used
     // again after that. Sets the counters from `cells` to `skipped_degenerate` and the stage times from
     // `bin_ns` to `narrow_ns`.
-    void detect(std::span<const Body> bodies, const ReferenceSettings& settings, std::pmr::vector<Hit>& hits,
+    void detect(std::span<const Body> bodies, const ReferenceSettings& settings, Array<Hit>& hits,
                 vox_counters& counters, vox_profile& profile);
 
     // Those of the last level.
@@ -74,13 +74,13 @@ private:
                      const Lattice& lattice, const Address& address);
     void narrow_phase(Step& step, std::uint32_t body);
 
-    std::pmr::vector<Particle> particles_;    // of all bodies, one after the other
-    std::pmr::vector<Vec3d> exact_;           // their positions; empty where floats are enough
-    std::pmr::vector<std::uint32_t> first_;   // each body's first particle, and the end
-    std::pmr::vector<std::uint32_t> body_of_; // each particle; empty where all bodies may collide
-    std::pmr::vector<Box3f> boxes_; // of the tetrahedra of all bodies; empty boxes for degenerate ones
+    Array<Particle> particles_;    // of all bodies, one after the other
+    Array<Vec3d> exact_;           // their positions; empty where floats are enough
+    Array<std::uint32_t> first_;   // each body's first particle, and the end
+    Array<std::uint32_t> body_of_; // each particle; empty where all bodies may collide
+    Array<Box3f> boxes_; // of the tetrahedra of all bodies; empty boxes for degenerate ones
     CellLists cells_;
-    std::pmr::vector<CellCoord> sorted_;     // the occupied cells, where a hash was of no use
+    Array<CellCoord> sorted_;     // the occupied cells, where a hash was of no use
     std::array<Candidate, 4096> candidates_; // between the phases; the narrow phase runs when it is full
     std::size_t candidate_count_ = 0;
 };

@@ -1,5 +1,6 @@
 #include "sim/body.hpp"
 
+#include "base/array.hpp"
 #include "base/error.hpp"
 #include "base/llu.hpp"
 
@@ -67,7 +68,7 @@ Vec3 vector_at(const double* values, std::size_t i) {
 // so none gets less than a hundredth of the mean. Particles of no tet get the mean.
 void lump_masses(Body& body, std::span<const double> volumes6, double density) {
     const std::size_t count = body.positions.size();
-    std::pmr::vector<bool> used(count, false, body.masses.get_allocator());
+    Array<bool> used(count, false, body.masses.memory());
     body.masses.assign(count, 0);
     double total = 0;
     for (std::size_t t = 0; t < volumes6.size(); ++t) {
@@ -103,7 +104,7 @@ void make_edges(Body& body, std::span<const Vec3> rest, std::span<const double> 
         std::uint64_t place; // among the sides of all tets
         double volume;
     };
-    std::pmr::vector<Side> sides(body.edges.get_allocator());
+    Array<Side> sides(body.edges.memory());
     sides.reserve(6 * volumes6.size());
     for (std::size_t t = 0; t < volumes6.size(); ++t) {
         const std::uint32_t* corners = &body.tets[4 * t];
@@ -168,13 +169,13 @@ void make_volumes(Body& body, std::span<const Vec3> rest, std::span<const double
 // wait for one before it begins the next. Constraints that find none of 64 colours come last. `particles`
 // returns a constraint's particles.
 template <class Constraint, class Particles>
-void sort_by_color(std::pmr::vector<Constraint>& constraints, std::size_t particle_count,
+void sort_by_color(Array<Constraint>& constraints, std::size_t particle_count,
                    Particles particles) {
     constexpr std::size_t color_count = 64;
-    std::pmr::memory_resource* memory = constraints.get_allocator().resource();
-    std::pmr::vector<std::uint64_t> taken(particle_count, 0,
+    std::pmr::memory_resource* memory = constraints.memory();
+    Array<std::uint64_t> taken(particle_count, 0,
                                           memory); // the colours used at each particle, one bit each
-    std::pmr::vector<std::uint8_t> color_of(memory);
+    Array<std::uint8_t> color_of(memory);
     color_of.reserve(constraints.size());
     std::array<std::size_t, color_count + 2> first{}; // constraint of each colour, once sorted
     for (const Constraint& constraint : constraints) {
@@ -187,7 +188,7 @@ void sort_by_color(std::pmr::vector<Constraint>& constraints, std::size_t partic
         ++first[color + 1];
     }
     std::partial_sum(first.begin(), first.end(), first.begin());
-    std::pmr::vector<Constraint> sorted(constraints.size(), memory);
+    Array<Constraint> sorted(constraints.size(), memory);
     for (std::size_t c = 0; c < constraints.size(); ++c) sorted[first[color_of[c]]++] = constraints[c];
     constraints.swap(sorted);
 }
@@ -199,7 +200,7 @@ double volume6(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec3& p3) {
 }
 
 void DestroyBody::operator()(Body* body) const noexcept {
-    std::pmr::polymorphic_allocator<>(body->positions.get_allocator()).delete_object(body);
+    std::pmr::polymorphic_allocator<>(body->positions.memory()).delete_object(body);
 }
 
 BodyHandle make_body(const vox_sim_body_desc& desc, std::pmr::memory_resource* memory) {
@@ -216,10 +217,10 @@ BodyHandle make_body(const vox_sim_body_desc& desc, std::pmr::memory_resource* m
     body.grid_positions.resize(3 * count);
     set_state(body, desc.positions, desc.velocities);
 
-    std::pmr::vector<Vec3> rest(count, memory);
+    Array<Vec3> rest(count, memory);
     const double* rest_positions = desc.rest_positions ? desc.rest_positions : desc.positions;
     for (std::size_t v = 0; v < count; ++v) rest[v] = vector_at(rest_positions, v);
-    std::pmr::vector<double> volumes6(static_cast<std::size_t>(desc.tet_count), memory);
+    Array<double> volumes6(static_cast<std::size_t>(desc.tet_count), memory);
     for (std::size_t t = 0; t < volumes6.size(); ++t) {
         const std::uint32_t* c = &body.tets[4 * t];
         volumes6[t] = volume6(rest[c[0]], rest[c[1]], rest[c[2]], rest[c[3]]);

@@ -1,6 +1,7 @@
 // A deformable body: the plain arrays of particles and constraints that the stages of a substep work on.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/eigen.hpp"
 
 #include <vox/vox_sim.h>
@@ -9,7 +10,6 @@
 #include <memory>
 #include <memory_resource>
 #include <string>
-#include <vector>
 
 namespace vox::sim {
 
@@ -44,17 +44,17 @@ struct Body {
     bool fixed = false;
 
     // particles
-    std::pmr::vector<Vec3> positions;
-    std::pmr::vector<Vec3> previous; // positions at the beginning of the substep
-    std::pmr::vector<Vec3> velocities;
-    std::pmr::vector<double> masses;
-    std::pmr::vector<double> inverse_masses; // all 0 for a fixed body
-    std::pmr::vector<float> grid_positions;  // 3 a particle; the grid borrows them
+    Array<Vec3> positions;
+    Array<Vec3> previous; // positions at the beginning of the substep
+    Array<Vec3> velocities;
+    Array<double> masses;
+    Array<double> inverse_masses; // all 0 for a fixed body
+    Array<float> grid_positions;  // 3 a particle; the grid borrows them
 
     // constraints
-    std::pmr::vector<std::uint32_t> tets; // 4 a tet
-    std::pmr::vector<EdgeConstraint> edges;
-    std::pmr::vector<VolumeConstraint> volumes;
+    Array<std::uint32_t> tets; // 4 a tet
+    Array<EdgeConstraint> edges;
+    Array<VolumeConstraint> volumes;
     double damping = 0;
     double substep = 0;         // length of the substep that the constraints are set up for; 0: not yet
     std::uint64_t softened = 0; // constraints whose stiffness that substep cannot handle

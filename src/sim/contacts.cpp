@@ -1,5 +1,6 @@
 #include "sim/contacts.hpp"
 
+#include "base/array.hpp"
 #include "base/error.hpp"
 #include "sim/library.hpp"
 
@@ -16,14 +17,14 @@ const T& element(const T* data, std::size_t byte_stride, std::uint64_t i) {
 }
 
 // The position of the vertex relative to the point of the tet at which it was found.
-Vec3 relative(const Contact& c, const std::pmr::vector<Vec3> Body::*positions) {
+Vec3 relative(const Contact& c, const Array<Vec3> Body::*positions) {
     Vec3 r = (c.a->*positions)[c.vertex];
     for (int k = 0; k < 4; ++k) r -= c.weights[k] * (c.b->*positions)[c.corners[k]];
     return r;
 }
 
 // Moves the vertex by `impulse` / its mass, and the tet's corners in the opposite direction.
-void apply(const Contact& c, std::pmr::vector<Vec3> Body::*positions, const Vec3& impulse) {
+void apply(const Contact& c, Array<Vec3> Body::*positions, const Vec3& impulse) {
     (c.a->*positions)[c.vertex] += c.a->inverse_masses[c.vertex] * impulse;
     for (int k = 0; k < 4; ++k)
         (c.b->*positions)[c.corners[k]] -= (c.weights[k] * c.b->inverse_masses[c.corners[k]]) * impulse;
@@ -93,7 +94,7 @@ Body* find_body(std::span<const BodyHandle> bodies, vox_mesh mesh) {
 }
 
 void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies,
-                     const ContactSettings& settings, std::pmr::vector<Contact>& contacts) {
+                     const ContactSettings& settings, Array<Contact>& contacts) {
     vox_contact_view found{};
     vox_penetration_view penetrations{};
     contacts.clear();

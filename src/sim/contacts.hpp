@@ -9,6 +9,7 @@
 // in every substep. Friction opposes the relative tangential motion of the substep, up to Coulomb's bound.
 #pragma once
 
+#include "base/array.hpp"
 #include "sim/body.hpp"
 
 #include <memory>
@@ -48,7 +49,7 @@ Body* find_body(std::span<const BodyHandle> bodies, vox_mesh mesh);
 // Reads the contacts of the grid's last step, except those of meshes not in `bodies` and of pairs of fixed
 // bodies.
 void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies,
-                     const ContactSettings& settings, std::pmr::vector<Contact>& contacts);
+                     const ContactSettings& settings, Array<Contact>& contacts);
 
 void solve_contacts(std::span<const Contact> contacts, const ContactSettings& settings, double h);
 

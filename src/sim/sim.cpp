@@ -181,7 +181,7 @@ void vox_sim::remove(vox_mesh mesh) {
     if (vox_mesh_is_valid(grid(), mesh))
         check(vox_mesh_remove(grid(), mesh)); // else the caller did, in the grid
     contacts_.clear();
-    std::erase_if(bodies_, [&](const auto& b) { return b.get() == removed; });
+    erase_if(bodies_, [&](const auto& b) { return b.get() == removed; });
 }
 
 // ---- measurements ---------------------------------------------------------------------------------

@@ -1,13 +1,13 @@
 // A simulation: bodies, the grid they collide in, and step(), which runs the substeps.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/caller_memory.hpp"
 #include "sim/body.hpp"
 #include "sim/contacts.hpp"
 #include "sim/library.hpp"
 
 #include <memory>
-#include <vector>
 
 // Every public vox_sim_* function is a member here. All of them throw, and change nothing if they do, except
 // step (see vox_sim_step).
@@ -43,8 +43,8 @@ private:
     vox::sim::Floor floor_;
 
     vox::sim::GridHandle grid_;
-    std::pmr::vector<vox::sim::BodyHandle> bodies_; // ascending in mesh
-    std::pmr::vector<vox::sim::Contact> contacts_;  // of the last detection
+    vox::Array<vox::sim::BodyHandle> bodies_; // ascending in mesh
+    vox::Array<vox::sim::Contact> contacts_;  // of the last detection
 
     bool softening_logged_ = false;
     vox_sim_counts counts_{};

@@ -1,5 +1,6 @@
 #include "surface/close.hpp"
 
+#include "base/array.hpp"
 #include "surface/distance.hpp"
 #include "surface/surface.hpp"
 
@@ -59,7 +60,7 @@ std::span<const vox_close_pair> CloseSearch::find(vox_surface& surface, vox_feat
     const SurfaceMotion still = surface.at_end(radius);
     found_.clear();
     surface.for_pieces(still, a, b, [&](const FeaturePairs& pairs) {
-        const auto find_partners = [&](std::uint32_t i, std::pmr::vector<vox_close_pair>& found) {
+        const auto find_partners = [&](std::uint32_t i, Array<vox_close_pair>& found) {
             const std::uint64_t begin = pairs.offsets[i], end = pairs.offsets[i + 1];
             if (begin == end) return;
             const std::uint32_t own_index = static_cast<std::uint32_t>(pairs.first) + i;

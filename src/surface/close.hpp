@@ -1,6 +1,7 @@
 // Features that are close, and how far every vertex may move before any touch.
 #pragma once
 
+#include "base/array.hpp"
 #include "surface/gathered.hpp"
 #include "surface/pairs.hpp"
 
@@ -10,7 +11,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -34,8 +34,8 @@ public:
 
 private:
     Gathered<vox_close_pair> gathered_;
-    std::pmr::vector<vox_close_pair> found_;
-    std::pmr::vector<SharedLeast> clearance_; // of each vertex
+    Array<vox_close_pair> found_;
+    Array<SharedLeast> clearance_; // of each vertex
 };
 
 } // namespace vox

@@ -12,10 +12,9 @@
 #include "base/boxes.hpp"
 #include "base/simd.hpp"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "surface/compare_boxes.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef VOX_SOURCE
+#define VOX_SOURCE "surface/compare_boxes.cpp"
+#include "base/each_target.hpp"
 
 #include "base/lanes-inl.hpp"
 

@@ -1,6 +1,7 @@
 // When the candidates of a motion come into contact.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/parallel.hpp"
 #include "surface/contact_time.hpp"
 #include "surface/gathered.hpp"
@@ -10,7 +11,6 @@
 #include <vox/vox_pairs.h>
 
 #include <memory_resource>
-#include <vector>
 
 namespace vox {
 
@@ -22,6 +22,6 @@ void first_contact(const SurfaceTopology& topology, const SurfaceMotion& motion,
 // Appends those that may come into contact within the motion, in their order.
 void all_contacts(const SurfaceTopology& topology, const SurfaceMotion& motion, vox_feature a, vox_feature b,
                   const FeaturePairs& pairs, const ContactTimeRule& rule, Workers& workers,
-                  Gathered<vox_timed_pair>& gathered, std::pmr::vector<vox_timed_pair>& out);
+                  Gathered<vox_timed_pair>& gathered, Array<vox_timed_pair>& out);
 
 } // namespace vox

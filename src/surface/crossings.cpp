@@ -1,5 +1,6 @@
 #include "surface/crossings.hpp"
 
+#include "base/array.hpp"
 #include "base/room.hpp"
 #include "exact/crossing.hpp"
 
@@ -11,7 +12,7 @@
 namespace vox {
 
 void find_crossings(const SurfaceTopology& topology, std::span<const Vec3d> positions,
-                    const FeaturePairs& pairs, Workers& workers, std::pmr::vector<vox_crossing>& out) {
+                    const FeaturePairs& pairs, Workers& workers, Array<vox_crossing>& out) {
     constexpr std::size_t least_edges = 256; // that are worth a task
     constexpr vox_crossing_kind kinds[] = {VOX_CROSSING_THROUGH, VOX_CROSSING_TOUCHING,
                                            VOX_CROSSING_COPLANAR};

@@ -1,6 +1,7 @@
 // Edges of a surface through its faces, exactly (exact/crossing.hpp).
 #pragma once
 
+#include "base/array.hpp"
 #include "base/parallel.hpp"
 #include "surface/pairs.hpp"
 #include "surface/topology.hpp"
@@ -9,13 +10,12 @@
 
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
 // Appends those of the edges that `pairs` has faces for, by edge, then face. `positions` are those of the
 // vertices. Throws what the memory throws.
 void find_crossings(const SurfaceTopology& topology, std::span<const Vec3d> positions,
-                    const FeaturePairs& pairs, Workers& workers, std::pmr::vector<vox_crossing>& out);
+                    const FeaturePairs& pairs, Workers& workers, Array<vox_crossing>& out);
 
 } // namespace vox

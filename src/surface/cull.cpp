@@ -22,10 +22,9 @@
 #include <algorithm>
 #include <cmath>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "surface/cull.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef VOX_SOURCE
+#define VOX_SOURCE "surface/cull.cpp"
+#include "base/each_target.hpp"
 
 #include "base/lanes-inl.hpp"
 

@@ -2,6 +2,7 @@
 // binary search trees used for associative searching, CACM 18, 1975), cut so that all but the last are full.
 #include "surface/feature_tiles.hpp"
 
+#include "base/array.hpp"
 #include "base/vectors.hpp"
 
 #include <algorithm>
@@ -33,7 +34,7 @@ int size_class(float size, float median) noexcept {
     return 1 + static_cast<int>(std::min(classes, double{size_classes - 2}));
 }
 
-void cut_into_tiles(std::span<Middle> items, std::pmr::vector<std::uint32_t>& features) {
+void cut_into_tiles(std::span<Middle> items, Array<std::uint32_t>& features) {
     if (items.size() > features_a_tile) {
         float lo[3], hi[3];
         for (int a = 0; a < 3; ++a) lo[a] = hi[a] = items[0].at[a];
@@ -64,7 +65,7 @@ void cut_into_tiles(std::span<Middle> items, std::pmr::vector<std::uint32_t>& fe
 
 } // namespace
 
-void make_vertex_boxes(const SurfaceMotion& motion, std::pmr::vector<Box>& out) {
+void make_vertex_boxes(const SurfaceMotion& motion, Array<Box>& out) {
     out.resize(motion.from.size());
     const double r = motion.radius;
     for (std::size_t v = 0; v < out.size(); ++v) {
@@ -77,15 +78,15 @@ void make_vertex_boxes(const SurfaceMotion& motion, std::pmr::vector<Box>& out) 
 
 void make_feature_tiles(const SurfaceTopology& topology, vox_feature feature, std::span<const Vec3d> from,
                         FeatureTiles& out) {
-    std::pmr::memory_resource* const memory = out.features.get_allocator().resource();
+    std::pmr::memory_resource* const memory = out.features.memory();
     const std::uint32_t count = topology.count(feature);
     const unsigned corners = corners_of(feature);
     out.tile_boxes.clear();
     out.features.clear();
     out.corner_count = corners;
 
-    std::pmr::vector<Middle> items(count, memory);
-    std::pmr::vector<float> sizes(count, memory);
+    Array<Middle> items(count, memory);
+    Array<float> sizes(count, memory);
     const Vec3d origin = from.empty() ? Vec3d{0, 0, 0} : from[0];
     for (std::uint32_t f = 0; f < count; ++f) {
         const std::uint32_t* const v = feature == VOX_FEATURE_VERTEX ? &f : topology.corners(feature, f);
@@ -101,7 +102,7 @@ void make_feature_tiles(const SurfaceTopology& topology, vox_feature feature, st
     }
     float median = 0;
     if (feature != VOX_FEATURE_VERTEX && count > 0) {
-        std::pmr::vector<float> sorted(sizes, memory);
+        Array<float> sorted(sizes, memory);
         const auto half = sorted.begin() + count / 2;
         std::nth_element(sorted.begin(), half, sorted.end());
         median = *half;
@@ -112,7 +113,7 @@ void make_feature_tiles(const SurfaceTopology& topology, vox_feature feature, st
     for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
     out.features.reserve((count / features_a_tile + size_classes) * features_a_tile);
     if (first[1] < count) {
-        std::pmr::vector<Middle> sorted(count, memory);
+        Array<Middle> sorted(count, memory);
         auto next = first;
         for (std::uint32_t f = 0; f < count; ++f)
             sorted[next[static_cast<std::size_t>(size_class(sizes[f], median))]++] = items[f];

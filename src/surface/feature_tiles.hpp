@@ -1,6 +1,7 @@
 // The features of one kind in tiles of at most 64 that lie close together, and their boxes.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 #include "surface/motion.hpp"
 #include "surface/topology.hpp"
@@ -8,7 +9,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -34,19 +34,19 @@ struct FeatureTiles {
     }
 
     unsigned corner_count = 0;                // of a feature
-    std::pmr::vector<std::uint32_t> features; // of each slot; no_feature of an empty one
-    std::pmr::vector<std::uint32_t>
+    Array<std::uint32_t> features; // of each slot; no_feature of an empty one
+    Array<std::uint32_t>
         corners; // corner_count vertices a slot; none of vertices, which are their own
     // For each tile 6 * 64 floats: low x of its lanes, low y, low z, high x, high y, high z. They hold the
     // boxes of the features; where positions are doubles, they are a little larger. Empty lanes have empty
     // boxes.
-    std::pmr::vector<float> boxes;
-    std::pmr::vector<Box> tile_boxes;
+    Array<float> boxes;
+    Array<Box> tile_boxes;
     double looseness = 0; // of the tiles as they were made (looseness_of)
 };
 
 // The boxes of vertices in motion: outer bounds of those of vox_motion.radius, in floats.
-void make_vertex_boxes(const SurfaceMotion& motion, std::pmr::vector<Box>& out);
+void make_vertex_boxes(const SurfaceMotion& motion, Array<Box>& out);
 
 // Sorts the features of a kind into tiles: by a k-d tree over their middles at the start of the motion, those
 // that are much larger than others apart from them. Throws what the memory throws and leaves `out` without

@@ -1,6 +1,7 @@
 // What workers find of a range of features, in the order of these.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/parallel.hpp"
 #include "base/per_worker.hpp"
 #include "base/room.hpp"
@@ -10,7 +11,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <tuple>
-#include <vector>
 
 namespace vox {
 
@@ -22,7 +22,7 @@ public:
     // Calls find(item, found) for each of `items`, which appends what it finds to `found`; then appends all of that
     // to `out`, item after item. Only a part of what is found is held twice at a time.
     template <class Find>
-    void run(std::size_t items, Workers& workers, Find&& find, std::pmr::vector<T>& out) {
+    void run(std::size_t items, Workers& workers, Find&& find, Array<T>& out) {
         workers_.grow(workers.count());
         constexpr std::size_t most_items = 1 << 14;
         for (std::size_t first = 0; first < items; first += most_items)
@@ -33,7 +33,7 @@ public:
 private:
     template <class Find>
     void run_part(std::size_t first_item, std::size_t items, Workers& workers, Find& find,
-                  std::pmr::vector<T>& out) {
+                  Array<T>& out) {
         for (Worker& worker : workers_) {
             worker.found.clear();
             worker.ranges.clear();
@@ -68,11 +68,11 @@ private:
         explicit Worker(std::pmr::memory_resource* memory) : found(memory), ranges(memory) {}
         auto buffers() { return std::tie(found, ranges); }
 
-        std::pmr::vector<T> found;
-        std::pmr::vector<Range> ranges;
+        Array<T> found;
+        Array<Range> ranges;
     };
     PerWorker<Worker> workers_;
-    std::pmr::vector<Range> ranges_;
+    Array<Range> ranges_;
 };
 
 } // namespace vox

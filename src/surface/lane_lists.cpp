@@ -1,11 +1,11 @@
 #include "surface/lane_lists.hpp"
 #include "base/simd.hpp"
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "surface/lane_lists.cpp"
+#undef VOX_SOURCE
+#define VOX_SOURCE "surface/lane_lists.cpp"
+#include "base/each_target.hpp"
+
 #include <hwy/cache_control.h>
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
 
 #include "base/compress-inl.hpp"
 

@@ -2,6 +2,7 @@
 // before it.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/bits.hpp"
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <tuple>
-#include <vector>
 
 namespace vox {
 
@@ -68,8 +68,8 @@ private:
                 visit(words_[i * word_bits + static_cast<std::size_t>(std::countr_zero(left))]);
     }
 
-    std::pmr::vector<Word> words_;
-    std::pmr::vector<std::uint64_t> used_; // words that list any, as bits
+    Array<Word> words_;
+    Array<std::uint64_t> used_; // words that list any, as bits
     std::size_t first_ = 0, last_ = 0;     // of `used_`, that hold any
 };
 

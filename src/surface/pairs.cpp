@@ -3,6 +3,7 @@
 // of the tile. When all tiles have counted theirs, they know where their lists go.
 #include "surface/pairs.hpp"
 
+#include "base/array.hpp"
 #include "base/bits.hpp"
 #include "base/room.hpp"
 #include "base/vectors.hpp"
@@ -123,7 +124,7 @@ double PairSearch::choose_cell_size(vox_feature a, vox_feature b) {
                                 [static_cast<std::size_t>(octave) % octaves];
     if (chosen.cell_size == 0 || chosen.octave != octave) {
         const double cell_size =
-            suggest_for_tiles(tiles_a, tiles_b, vertex_boxes_.get_allocator().resource()).cell_size;
+            suggest_for_tiles(tiles_a, tiles_b, vertex_boxes_.memory()).cell_size;
         chosen = {octave, side, cell_size};
     }
     return chosen.cell_size * (side / chosen.side);
@@ -170,7 +171,7 @@ void PairSearch::cull_found(const Task& task, const TileSearch& tile, Worker& wo
 }
 
 // As long as `count`. What was there is lost where there is no room, and else need not be set to 0 again.
-void make_room(std::pmr::vector<std::uint32_t>& vector, std::uint64_t count) {
+void make_room(Array<std::uint32_t>& vector, std::uint64_t count) {
     if (count > vector.capacity()) {
         vector.clear();
         vector.shrink_to_fit();

@@ -2,6 +2,7 @@
 // against 64 at once.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/parallel.hpp"
 #include "base/per_worker.hpp"
 #include "surface/compare_boxes.hpp"
@@ -18,7 +19,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <tuple>
-#include <vector>
 
 namespace vox {
 
@@ -28,8 +28,8 @@ struct FeaturePairs {
     explicit FeaturePairs(std::pmr::memory_resource* memory) noexcept : offsets(memory), partners(memory) {}
 
     std::uint64_t first = 0, count = 0;
-    std::pmr::vector<std::uint64_t> offsets;
-    std::pmr::vector<std::uint32_t> partners;
+    Array<std::uint64_t> offsets;
+    Array<std::uint32_t> partners;
 };
 
 struct PairCounters {
@@ -76,18 +76,18 @@ private:
             return std::tuple_cat(listed.buffers(), std::tie(seen, near, found, around, kept, kept_partners));
         }
 
-        std::pmr::vector<std::uint32_t> seen; // of each tile of b: 1 + the last tile of a that met it
+        Array<std::uint32_t> seen; // of each tile of b: 1 + the last tile of a that met it
         // Features of b that overlap lanes of a tile: their numbers, in the order of their tiles, and
         // ascending. The first `count` of each are in use.
         ListedFeatures listed;
-        std::pmr::vector<Found> near, found;
+        Array<Found> near, found;
         std::size_t count = 0;
-        std::pmr::vector<std::uint64_t> around; // of each vertex: the lanes that it is a corner of
+        Array<std::uint64_t> around; // of each vertex: the lanes that it is a corner of
         // The same of all vertices that share a remainder.
         std::array<std::uint64_t, folded_vertices> around_folded;
         // By all tiles so far: for each 64 partners, those of each lane as bits; and the partners.
-        std::pmr::vector<std::uint64_t> kept;
-        std::pmr::vector<std::uint32_t> kept_partners;
+        Array<std::uint64_t> kept;
+        Array<std::uint32_t> kept_partners;
         QuantisedTile quantised; // the tile, another one, and what overlaps there
         alignas(64) QuantisedSides other;
         TileOverlaps overlaps;
@@ -129,10 +129,10 @@ private:
     };
     static constexpr std::size_t octaves = 4; // that are kept, a power of two
     std::array<std::array<std::array<ChosenSize, octaves>, feature_kinds>, feature_kinds> chosen_;
-    std::pmr::vector<Box> vertex_boxes_;
+    Array<Box> vertex_boxes_;
     TileGrid grid_;
     PerWorker<Worker> workers_;
-    std::pmr::vector<TileFound> found_of_;
+    Array<TileFound> found_of_;
     PairCounters counters_;
 };
 

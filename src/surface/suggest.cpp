@@ -1,5 +1,6 @@
 #include "surface/suggest.hpp"
 
+#include "base/array.hpp"
 #include "base/error.hpp"
 #include "cell_size/foreign/grid.hpp"
 #include "cell_size/foreign/suggest.hpp"
@@ -13,7 +14,6 @@
 #include <cinttypes>
 #include <optional>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -23,7 +23,7 @@ namespace {
 // is hard to measure, and what its minimum is off by costs little (bench/surface/pairs.py --sweep).
 constexpr vox_grid_weights tile_weights{0, 12, 6, 2, 2, 2, 0};
 
-vox_primitives boxes_as_primitives(const std::pmr::vector<Box>& boxes) {
+vox_primitives boxes_as_primitives(const Array<Box>& boxes) {
     static_assert(sizeof(Box) == 2 * sizeof(Box::lo) && sizeof(Box::lo) == 4 * sizeof(float));
     vox_primitives primitives = primitives_defaults();
     primitives.type = VOX_PRIMITIVE_BOX;
@@ -65,17 +65,17 @@ struct CommonSurface {
         for (const Body& body : bodies) add(body);
     }
 
-    std::pmr::vector<Vec3d> positions;
-    std::pmr::vector<std::uint32_t> faces; // three vertices each
+    Array<Vec3d> positions;
+    Array<std::uint32_t> faces; // three vertices each
 
 private:
     void add(const Body& body) {
         check_tet_count(body.tets.size());
-        std::pmr::memory_resource* const memory = faces.get_allocator().resource();
+        std::pmr::memory_resource* const memory = faces.memory();
         MatchedFacets facets(memory);
         match_facets(body.tets, body.vertex_count, facets);
         constexpr std::uint32_t unnamed = ~0u;
-        std::pmr::vector<std::uint32_t> number_of(body.vertex_count, unnamed, memory);
+        Array<std::uint32_t> number_of(body.vertex_count, unnamed, memory);
         for (const Triangle& triangle : facets.triangles)
             for (const std::uint32_t v : triangle.v) {
                 if (number_of[v] == unnamed) {
@@ -101,7 +101,7 @@ public:
         desc.face_count = surface.faces.size() / 3;
         const SurfaceTopology topology(desc, memory);
         const SurfaceMotion still{surface.positions, surface.positions, 0, true, false};
-        std::pmr::vector<Box> boxes(memory);
+        Array<Box> boxes(memory);
         make_vertex_boxes(still, boxes);
         for (const vox_feature kind : {VOX_FEATURE_VERTEX, VOX_FEATURE_EDGE, VOX_FEATURE_FACE}) {
             FeatureTiles& tiles = tiles_[static_cast<std::size_t>(kind)];

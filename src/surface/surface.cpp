@@ -1,5 +1,6 @@
 #include "surface/surface.hpp"
 
+#include "base/array.hpp"
 #include "base/error.hpp"
 #include "base/llu.hpp"
 #include "mesh/check.hpp"
@@ -15,7 +16,7 @@ using namespace vox;
 vox_surface::vox_surface(const vox_surface_desc& desc, const MemoryShare& memory)
     : share_(memory), workers_(desc.tasks, desc.worker_count), topology_(desc, &*memory),
       cell_size_(desc.cell_size),
-      positions_{std::pmr::vector<Vec3d>(&*memory), std::pmr::vector<Vec3d>(&*memory)}, search_(&*memory),
+      positions_{Array<Vec3d>(&*memory), Array<Vec3d>(&*memory)}, search_(&*memory),
       answer_(&*memory), candidates_(&*memory), crossings_(&*memory), timed_(&*memory),
       timed_in_ranges_(&*memory), close_(&*memory) {}
 
@@ -48,7 +49,7 @@ void vox_surface::move(const vox_motion& motion) {
     const Positions to = motion.to ? checked(motion.to, "to") : from;
     positions_[0].reserve(count);
     if (motion.to) positions_[1].reserve(count);
-    const auto copy = [count](const Positions& positions, std::pmr::vector<Vec3d>& out) {
+    const auto copy = [count](const Positions& positions, Array<Vec3d>& out) {
         out.resize(count);
         for (std::uint32_t v = 0; v < count; ++v) out[v] = positions.exact(v);
     };

@@ -2,6 +2,7 @@
 // asked about (vox_pairs.h).
 #pragma once
 
+#include "base/array.hpp"
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
 #include "surface/close.hpp"
@@ -19,7 +20,6 @@
 #include <memory_resource>
 #include <span>
 #include <utility>
-#include <vector>
 
 struct vox_surface {
 public:
@@ -84,7 +84,7 @@ private:
     vox::SurfaceTopology topology_;
     double cell_size_; // 0: chosen
     bool has_motion_ = false;
-    std::array<std::pmr::vector<vox::Vec3d>, 2> positions_; // at time 0 and 1; the latter empty: stands still
+    std::array<vox::Array<vox::Vec3d>, 2> positions_; // at time 0 and 1; the latter empty: stands still
     vox::SurfaceMotion motion_;
     vox::PairSearch search_;
     struct Piece {
@@ -100,8 +100,8 @@ private:
     vox::FeaturePairs candidates_; // of what is asked beside the pairs, a range at a time
     static constexpr std::uint32_t many_at_once = 1u << 20, few_at_once = 1u << 10;
     std::uint32_t most_at_once_ = many_at_once;
-    std::pmr::vector<vox_crossing> crossings_;
-    std::pmr::vector<vox_timed_pair> timed_;
+    vox::Array<vox_crossing> crossings_;
+    vox::Array<vox_timed_pair> timed_;
     vox::Gathered<vox_timed_pair> timed_in_ranges_;
     vox::CloseSearch close_;
 };

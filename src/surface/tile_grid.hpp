@@ -2,12 +2,12 @@
 // hashed (Teschner et al. 2003, Sect. 4.1).
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -59,9 +59,9 @@ private:
     std::uint32_t box_count_ = 0;
     std::uint64_t occupied_ = 0;
     unsigned shift_ = 63; // of a hash to a bucket
-    std::pmr::vector<std::uint32_t> first_, entries_;
-    std::pmr::vector<std::uint32_t> cells_; // the bucket of each entry, in the order of boxes
-    std::pmr::vector<std::uint32_t> large_; // boxes that are in no cell, and visited from everywhere
+    Array<std::uint32_t> first_, entries_;
+    Array<std::uint32_t> cells_; // the bucket of each entry, in the order of boxes
+    Array<std::uint32_t> large_; // boxes that are in no cell, and visited from everywhere
 };
 
 } // namespace vox

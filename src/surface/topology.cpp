@@ -1,5 +1,6 @@
 #include "surface/topology.hpp"
 
+#include "base/array.hpp"
 #include "base/error.hpp"
 
 #include <algorithm>
@@ -17,7 +18,7 @@ void check_count(std::uint64_t count, const char* name) {
 
 template <std::size_t corners>
 void copy_features(const std::uint32_t* from, std::uint64_t count, std::uint32_t vertex_count,
-                   const char* name, std::pmr::vector<std::array<std::uint32_t, corners>>& out) {
+                   const char* name, Array<std::array<std::uint32_t, corners>>& out) {
     if (count == 0) return;
     out.resize(static_cast<std::size_t>(count));
     std::memcpy(out.data(), from, out.size() * sizeof out[0]);
@@ -29,8 +30,8 @@ void copy_features(const std::uint32_t* from, std::uint64_t count, std::uint32_t
 }
 
 // Each edge of a face once, lower vertex first, ascending.
-void list_edges(std::span<const SurfaceFace> faces, std::pmr::vector<SurfaceEdge>& out) {
-    std::pmr::vector<std::uint64_t> keys(out.get_allocator().resource());
+void list_edges(std::span<const SurfaceFace> faces, Array<SurfaceEdge>& out) {
+    Array<std::uint64_t> keys(out.memory());
     keys.reserve(3 * faces.size());
     for (const SurfaceFace& face : faces)
         for (std::size_t i = 0; i < 3; ++i) {

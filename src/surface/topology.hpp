@@ -1,6 +1,7 @@
 // What a surface consists of, and which of its vertices may meet.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/scene.hpp"
 
 #include <vox/vox_pairs.h>
@@ -9,7 +10,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <span>
-#include <vector>
 
 namespace vox {
 
@@ -43,10 +43,10 @@ struct SurfaceTopology {
     };
 
     std::uint32_t vertex_count = 0;
-    std::pmr::vector<SurfaceEdge> edges;
-    std::pmr::vector<SurfaceFace> faces;
-    std::pmr::vector<std::uint32_t> patches; // of each vertex; empty: all vertices may meet
-    std::pmr::vector<Patch> patch_filters;
+    Array<SurfaceEdge> edges;
+    Array<SurfaceFace> faces;
+    Array<std::uint32_t> patches; // of each vertex; empty: all vertices may meet
+    Array<Patch> patch_filters;
 };
 
 } // namespace vox

@@ -1,6 +1,7 @@
 // Hits of both engines and of brute force in exact arithmetic, and checks that they are the same.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/simd.hpp"
 #include "exact/predicates.hpp"
 #include "internal/fast_scenes.hpp"
@@ -38,7 +39,7 @@ inline std::vector<Key> brute_force(const std::vector<vox::Body>& bodies) {
 
 inline std::vector<Key> run_fast(vox::FastEngine& engine, Scene& scene, double cell_size,
                                  vox_counters* out = nullptr) {
-    std::pmr::vector<vox::Hit> hits;
+    vox::Array<vox::Hit> hits;
     vox_counters counters{};
     vox_profile profile{};
     vox::FastSettings settings;
@@ -49,7 +50,7 @@ inline std::vector<Key> run_fast(vox::FastEngine& engine, Scene& scene, double c
 }
 
 inline std::vector<Key> run_reference(Scene& scene, double cell_size) {
-    std::pmr::vector<vox::Hit> hits;
+    vox::Array<vox::Hit> hits;
     vox_counters counters{};
     vox_profile profile{};
     vox::ReferenceSettings settings;

@@ -1,4 +1,5 @@
 // Pairs of boxes, against loops over all of them; and what finding them takes.
+#include "base/array.hpp"
 #include "fast/body_pairs.hpp"
 #include "fast/lone_boxes.hpp"
 #include "internal/counting_memory.hpp"
@@ -56,7 +57,7 @@ Pairs by_definition(const std::vector<Box>& boxes, const fast::PairRules& rules)
 }
 
 std::size_t check(const std::vector<Box>& boxes, const fast::PairRules& rules, fast::PairBuffers& buffers) {
-    std::pmr::vector<fast::Pair> pairs;
+    vox::Array<fast::Pair> pairs;
     fast::find_pairs(boxes, rules, buffers, pairs);
     Pairs found;
     for (const fast::Pair& pair : pairs) found.emplace_back(pair.a, pair.b);
@@ -164,7 +165,7 @@ START_TEST(met_boxes_are_those_of_pairs) {
             }
             boxes.push_back(box);
         }
-        std::pmr::vector<std::uint8_t> found, expected(count, 0);
+        vox::Array<std::uint8_t> found, expected(count, 0);
         if (!fast::find_met_boxes(boxes, buffers, found)) {
             ++given_up;
             continue;
@@ -189,7 +190,7 @@ struct Cost {
 Cost cost_of(const Scene& s) {
     CountingMemory memory;
     fast::PairBuffers buffers(&memory);
-    std::pmr::vector<fast::Pair> pairs(&memory);
+    vox::Array<fast::Pair> pairs(&memory);
     fast::find_pairs(s.boxes, s.rules(), buffers, pairs);
     ck_assert_uint_eq(pairs.size(), 0);
     const double count = double(s.boxes.size());

@@ -1,4 +1,5 @@
 // The cost models' counts against those of the engines themselves, in scenes of every kind.
+#include "base/array.hpp"
 #include "cell_size/adaptive.hpp"
 #include "cell_size/fast_model.hpp"
 #include "cell_size/levels.hpp"
@@ -146,7 +147,7 @@ START_TEST(reference_counts) {
         double cells = 0, read = 0, occupied = 0, in_boxes = 0;
         constexpr int places = 9;
         for (int place = 0; place < places; ++place) {
-            std::pmr::vector<Hit> hits(heap);
+            vox::Array<Hit> hits(heap);
             vox_counters counters{};
             vox_profile profile{};
             engine.detect(scene.bodies(), settings, hits, counters, profile);
@@ -338,7 +339,7 @@ START_TEST(fast_counts) {
         double cells = 0, read = 0;
         constexpr int sizes = 9;
         for (int i = 0; i < sizes; ++i) {
-            std::pmr::vector<Hit> hits(heap);
+            vox::Array<Hit> hits(heap);
             vox_counters counters{};
             vox_profile profile{};
             FastSettings settings;
@@ -421,7 +422,7 @@ START_TEST(fast_bodies_at_rest) {
     ck_assert_double_eq(counts().vertices, 0);
     at_rest[0] = 0;
     FastEngine engine(heap);
-    std::pmr::vector<Hit> hits(heap);
+    vox::Array<Hit> hits(heap);
     vox_counters counters{};
     vox_profile profile{};
     FastSettings settings;
@@ -482,7 +483,7 @@ START_TEST(levels_are_one_engine) {
             for (const std::span<const CellLevel> levels :
                  {std::span<const CellLevel>(), best.list(), std::span<const CellLevel>(some)}) {
                 ReferenceEngine engine(heap);
-                std::pmr::vector<Hit> hits(heap);
+                vox::Array<Hit> hits(heap);
                 vox_counters counters{};
                 vox_profile profile{};
                 ReferenceSettings settings;
@@ -507,7 +508,7 @@ START_TEST(levels_are_one_engine) {
         const double step = best.level[best.count - 1].cell_size;
         for (int place = 0; place < places; ++place) {
             ReferenceEngine engine(heap);
-            std::pmr::vector<Hit> hits(heap);
+            vox::Array<Hit> hits(heap);
             vox_counters counters{};
             vox_profile profile{};
             ReferenceSettings settings;
@@ -526,7 +527,7 @@ END_TEST
 // ---- a cell size that follows ---------------------------------------------------------------------
 
 double step(ReferenceEngine& engine, Scene& scene, AdaptiveCellSize& adaptive) {
-    std::pmr::vector<Hit> hits(heap);
+    vox::Array<Hit> hits(heap);
     vox_counters counters{};
     vox_profile profile{};
     ReferenceSettings settings;

@@ -1,5 +1,6 @@
 // The fast engine against the reference engine and against every pair decided exactly, on ordinary scenes and
 // on every kind of bad one, at every SIMD level of the machine and several cell sizes.
+#include "base/array.hpp"
 #include "base/error.hpp"
 #include "internal/counting_memory.hpp"
 #include "internal/fast_checks.hpp"
@@ -297,7 +298,7 @@ START_TEST(steady_state_allocates_nothing) {
     scene.prepare();
     CountingMemory memory;
     FastEngine engine(&memory);
-    std::pmr::vector<Hit> hits(&memory);
+    vox::Array<Hit> hits(&memory);
     vox_counters counters{};
     vox_profile profile{};
     std::size_t allocations = 0;

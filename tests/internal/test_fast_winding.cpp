@@ -1,5 +1,6 @@
 // Self-collision with and without culling by winding numbers: the same hits and edge contacts, those of the
 // reference engine, and less work where there is nothing to find.
+#include "base/array.hpp"
 #include "internal/fast_checks.hpp"
 
 using namespace vox;
@@ -55,7 +56,7 @@ std::uint64_t check_winding(Scene& scene, const char* name) {
         if (simd::force_level(level) != level) continue;
         FastEngine engine(std::pmr::get_default_resource());
         for (const bool winding : {true, false}) {
-            std::pmr::vector<Hit> hits;
+            vox::Array<Hit> hits;
             vox_counters counters{};
             vox_profile profile{};
             engine.detect(scene.bodies(), scene.prepared(), {0, winding}, hits, counters, profile);

@@ -1,4 +1,5 @@
 // Limits that would take more memory than a machine has: what checks them, given the counts alone.
+#include "base/array.hpp"
 #include "base/error.hpp"
 #include "grid/contact_pairs.hpp"
 #include "grid/mesh_table.hpp"
@@ -49,8 +50,8 @@ END_TEST
 START_TEST(contacts_of_a_step) {
     std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
     TouchingBuffers buffers(memory);
-    std::pmr::vector<vox_pair> pairs(memory);
-    std::pmr::vector<std::uint32_t> by_pair(memory);
+    vox::Array<vox_pair> pairs(memory);
+    vox::Array<std::uint32_t> by_pair(memory);
     const vox_contact contact{};
     std::string text;
     const std::span<const vox_contact> many(&contact, std::size_t{VOX_MAX_CONTACTS} + 1);

@@ -1,5 +1,6 @@
 // Compares the reference engine with brute force in exact arithmetic, on scenes of every kind, for all
 // storages and for cell sizes from absurdly small to absurdly large.
+#include "base/array.hpp"
 #include "base/error.hpp"
 #include "grid/contacts.hpp"
 #include "internal/counting_memory.hpp"
@@ -19,8 +20,8 @@ namespace {
 struct Engine {
     CountingMemory memory{std::size_t(1) << 26};
     ReferenceEngine reference{&memory};
-    std::pmr::vector<Hit> hits{&memory};
-    std::pmr::vector<vox_contact> contacts{&memory};
+    vox::Array<Hit> hits{&memory};
+    vox::Array<vox_contact> contacts{&memory};
     vox_counters counters{};
     vox_profile profile{};
 
@@ -78,7 +79,7 @@ double dense_cells(const Meshes& scene, double cell_size) {
     return count;
 }
 
-void check_contacts(const std::pmr::vector<vox_contact>& found, const oracle_contact* expected,
+void check_contacts(const vox::Array<vox_contact>& found, const oracle_contact* expected,
                     std::size_t count) {
     ck_assert_uint_eq(found.size(), count);
     for (std::size_t i = 0; i < count; ++i) {

@@ -3,13 +3,13 @@
 // which makes it longer, never shorter.
 #include "cell_size/foreign/fit.hpp"
 
+#include "base/array.hpp"
 #include "base/error.hpp"
 #include "cell_size/search.hpp"
 
 #include <algorithm>
 #include <cinttypes>
 #include <cmath>
-#include <vector>
 
 namespace vox {
 
@@ -190,7 +190,7 @@ void check_timings(std::span<const vox_grid_timing> timings, double least_cell_s
 vox_grid_fit fit_timings(const CostBasis& described, const FitSettings& settings,
                          std::span<const vox_grid_timing> timings, std::pmr::memory_resource* memory) {
     check_timings(timings, settings.least_cell_size);
-    std::pmr::vector<vox_grid_timing> sorted(timings.begin(), timings.end(), memory);
+    Array<vox_grid_timing> sorted(timings.begin(), timings.end(), memory);
     std::sort(sorted.begin(), sorted.end(), [](const vox_grid_timing& a, const vox_grid_timing& b) {
         return a.cell_size != b.cell_size ? a.cell_size < b.cell_size : a.seconds < b.seconds;
     });
@@ -218,7 +218,7 @@ vox_grid_fit fit_timings(const CostBasis& described, const FitSettings& settings
                     format("timings are at %zu different cell sizes, expected at least 3", sizes));
 
     check_countable(described, sorted.front().cell_size, "the smallest cell size timed");
-    std::pmr::vector<TimedTerms> timed(memory);
+    Array<TimedTerms> timed(memory);
     timed.reserve(sizes);
     for (const vox_grid_timing& timing : sorted)
         timed.push_back({timing.seconds, described.values(timing.cell_size)});

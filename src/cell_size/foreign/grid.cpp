@@ -1,5 +1,6 @@
 #include "cell_size/foreign/grid.hpp"
 
+#include "base/array.hpp"
 #include "base/caller_memory.hpp"
 #include "base/sampling.hpp"
 #include "base/structs.hpp"
@@ -120,7 +121,7 @@ double mean_edge(const Primitives& primitives) {
 }
 
 void set_sides(const BoxSample& sample, vox_foreign_rules& rules, std::pmr::memory_resource* memory) {
-    std::pmr::vector<double> sides(memory);
+    Array<double> sides(memory);
     double sum = 0;
     for_stratified(sample.boxes.size(), measured, 0.5, [&](std::uint64_t i) {
         sides.push_back(sample.boxes[static_cast<std::size_t>(i)].longest_side());
@@ -158,7 +159,7 @@ ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, c
       asking_chosen_(choose_asking(asking_, budget.chosen, memory)), held_chosen_(memory),
       read_(sum_pairs(asking_, asking_chosen_, held_, coarseness(budget, asking_chosen_.size()),
                       around_ ? Meeting::in_neighbours : Meeting::in_cells, same_set_, memory)),
-      table_{std::pmr::vector<double>(memory), std::pmr::vector<double>(memory)} {
+      table_{Array<double>(memory), Array<double>(memory)} {
     held_sums_ = sum_boxes(grid.held, grid.held_grown(), centres_, budget.summed);
     asking_sums_ = same_set_
                        ? grown_sums(held_sums_, grid.desc.radius - grid.held_grown())
@@ -378,7 +379,7 @@ double ForeignWork::occupied_of_few(double d, double cells_there) const {
 
 double ForeignWork::occupied_share(double d) {
     if (held_chosen_.empty())
-        held_chosen_ = choose_asking(held_, chosen_, table_[0].get_allocator().resource());
+        held_chosen_ = choose_asking(held_, chosen_, table_[0].memory());
     const vox_grid_work smooth = smooth_at(d);
     const bool both = pairs_ && !same_set_, all_kept = held_.share() == 1 && (!both || asking_.share() == 1);
     // More of them are few where none can be missed for want of what is not in the sample.

@@ -2,6 +2,7 @@
 // it does at a cell size.
 #pragma once
 
+#include "base/array.hpp"
 #include "cell_size/foreign/cost.hpp"
 #include "cell_size/foreign/pairs.hpp"
 #include "cell_size/foreign/primitives.hpp"
@@ -15,7 +16,6 @@
 #include <cstdint>
 #include <memory_resource>
 #include <optional>
-#include <vector>
 
 namespace vox {
 
@@ -114,13 +114,13 @@ private:
     double rough_;
     PrimitiveSums held_sums_, asking_sums_;
     SampleTree held_, asking_;
-    std::pmr::vector<Asking> asking_chosen_, held_chosen_;
+    Array<Asking> asking_chosen_, held_chosen_;
     PiecewiseMoments read_; // by pairs of unlike ones
     double extent_ = 0, least_ = 0;
     bool has_size_ = false, never_empty_ = false;
     CellSizeRange range_{1, 1};
     vox_foreign_rules rules_{};
-    std::array<std::pmr::vector<double>, 2>
+    std::array<Array<double>, 2>
         table_; // of each Share, from range_.min on; -1 where not known yet
 };
 

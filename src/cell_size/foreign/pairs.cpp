@@ -2,6 +2,7 @@
 // force-calculation algorithm, Nature 324, 1986, but by one that is drawn from them, so that no sum is
 // biased. The order of boxes is that of G. M. Morton, A computer oriented geodetic data base, IBM 1966.
 #include "cell_size/foreign/pairs.hpp"
+#include "base/array.hpp"
 
 #include <algorithm>
 #include <array>
@@ -112,7 +113,7 @@ PlainBox box_of(const FourBoxes& boxes) noexcept {
 SampleTree::SampleTree(const BoxSample& sample, bool centres, double share, std::pmr::memory_resource* memory)
     : groups_(memory), ids_(memory), share_(share) {
     const std::size_t count = sample.boxes.size();
-    std::pmr::vector<Keyed> keys(count, memory), other(count, memory);
+    Array<Keyed> keys(count, memory), other(count, memory);
     for (std::size_t i = 0; i < count; ++i) keys[i].index = static_cast<std::uint32_t>(i);
     sort_by_place(sample.boxes.data(), keys.data(), other.data(), count);
     ids_.reserve(count);
@@ -223,9 +224,9 @@ bool SampleTree::meets_any(const double (&lo)[3], double side) const noexcept {
 
 // ---- asking ---------------------------------------------------------------------------------------
 
-std::pmr::vector<Asking> choose_asking(const SampleTree& tree, std::size_t wanted,
+Array<Asking> choose_asking(const SampleTree& tree, std::size_t wanted,
                                        std::pmr::memory_resource* memory) {
-    std::pmr::vector<Asking> chosen(memory);
+    Array<Asking> chosen(memory);
     const std::size_t count = tree.size();
     const double each = 1 / tree.share();
     if (count <= wanted) {
@@ -241,8 +242,8 @@ std::pmr::vector<Asking> choose_asking(const SampleTree& tree, std::size_t wante
         int own, crowd;
         std::uint32_t count;
     };
-    std::pmr::vector<Kind> kinds(memory);
-    std::pmr::vector<std::uint32_t> kind_of(count, memory);
+    Array<Kind> kinds(memory);
+    Array<std::uint32_t> kind_of(count, memory);
     std::size_t k = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const int own = octave(tree.box(i).longest_side()), crowd = octave(tree.crowd_side(i));
@@ -254,7 +255,7 @@ std::pmr::vector<Asking> choose_asking(const SampleTree& tree, std::size_t wante
         ++kinds[k].count;
         kind_of[i] = static_cast<std::uint32_t>(k);
     }
-    std::pmr::vector<std::uint32_t> begin(memory), sorted(count, memory);
+    Array<std::uint32_t> begin(memory), sorted(count, memory);
     begin.reserve(kinds.size());
     std::uint32_t before = 0;
     for (const Kind& kind : kinds) {
@@ -333,7 +334,7 @@ void add_neighbours(const PlainBox& a, const PlainBox& b, double weight, Piecewi
 
 } // namespace
 
-PiecewiseMoments sum_pairs(const SampleTree& from, const std::pmr::vector<Asking>& asking,
+PiecewiseMoments sum_pairs(const SampleTree& from, const Array<Asking>& asking,
                            const SampleTree& held, double coarse, Meeting meeting, bool same_set,
                            std::pmr::memory_resource* memory) {
     PlainBox bounds = from.bounds();

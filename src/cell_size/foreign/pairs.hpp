@@ -11,6 +11,7 @@
 // classes of the size where they change, give the sum over all pairs at every d at once.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/sampling.hpp"
 #include "cell_size/foreign/primitives.hpp"
 #include "cell_size/lookups.hpp"
@@ -20,7 +21,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
-#include <vector>
 
 namespace vox {
 
@@ -53,7 +53,7 @@ private:
 
     double inverse_least_;
     std::uint64_t added_ = 0;
-    std::pmr::vector<Moments> sums_;
+    Array<Moments> sums_;
 };
 
 // Four boxes side by side: compilers make vectors of loops over them.
@@ -154,8 +154,8 @@ private:
 
     std::size_t levels_ = 0;
     std::array<std::size_t, most_levels + 1> first_{}; // group of each level; those of the boxes come first
-    std::pmr::vector<FourBoxes> groups_;
-    std::pmr::vector<std::uint32_t> ids_;
+    Array<FourBoxes> groups_;
+    Array<std::uint32_t> ids_;
     PlainBox bounds_{};
     double share_;
 };
@@ -168,7 +168,7 @@ struct Asking {
 
 // About `wanted` boxes of a tree, so that each kind of size and of surroundings has its part. The weights add
 // up to the number that the tree stands for.
-std::pmr::vector<Asking> choose_asking(const SampleTree& tree, std::size_t wanted,
+Array<Asking> choose_asking(const SampleTree& tree, std::size_t wanted,
                                        std::pmr::memory_resource* memory);
 
 enum class Meeting : std::uint8_t {
@@ -178,7 +178,7 @@ enum class Meeting : std::uint8_t {
 
 // Sums over all pairs of boxes in `asking`, a part of those in `from`, and boxes in `held`, as coarsely as
 // SampleTree::sample_around. With `same_set`, pairs of a box with itself (the same id) are left out.
-PiecewiseMoments sum_pairs(const SampleTree& from, const std::pmr::vector<Asking>& asking,
+PiecewiseMoments sum_pairs(const SampleTree& from, const Array<Asking>& asking,
                            const SampleTree& held, double coarse, Meeting meeting, bool same_set,
                            std::pmr::memory_resource* memory);
 

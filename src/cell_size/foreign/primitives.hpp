@@ -1,6 +1,7 @@
 // What a grid that is not this library's holds, or what asks it: vox_primitives, checked, each as its box.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/scene.hpp"
 #include "cell_size/lookups.hpp"
 
@@ -9,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory_resource>
-#include <vector>
 
 namespace vox {
 
@@ -101,8 +101,8 @@ PrimitiveSums grown_sums(PrimitiveSums sums, double by) noexcept;
 // from each of two samples is as likely as any other. Throws as Primitives::box().
 struct BoxSample {
     explicit BoxSample(std::pmr::memory_resource* memory) : boxes(memory), ids(memory) {}
-    std::pmr::vector<PlainBox> boxes;
-    std::pmr::vector<std::uint32_t> ids; // ascending
+    Array<PlainBox> boxes;
+    Array<std::uint32_t> ids; // ascending
 };
 BoxSample sample_boxes(const Primitives& primitives, double grown, std::uint64_t wanted, std::uint64_t seed,
                        std::pmr::memory_resource* memory);

@@ -8,6 +8,7 @@
 // knowledge-gradient policy for correlated normal beliefs, INFORMS J. on Computing 21, 2009).
 #include "cell_size/foreign/tune.hpp"
 
+#include "base/array.hpp"
 #include "base/error.hpp"
 
 #include <algorithm>
@@ -16,7 +17,6 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <vector>
 
 namespace vox {
 
@@ -482,18 +482,18 @@ private:
     const int first_known_;                               // node of known_[0]
     int low_, high_;                                      // nodes that may be run
     int view_low_ = 0, view_high_ = 0;                    // those up to an octave beyond what was run
-    std::pmr::vector<std::optional<Coefficients>> known_; // values of the terms
+    Array<std::optional<Coefficients>> known_; // values of the terms
 
     std::array<vox_grid_timing, VOX_TUNE_RUN_CAPACITY> runs_{};
     std::uint32_t run_count_ = 0;
-    std::pmr::vector<TimedTerms> timed_; // the runs that succeeded, and their nodes
-    std::pmr::vector<int> nodes_;
-    std::pmr::vector<int> failed_; // nodes of the others
+    Array<TimedTerms> timed_; // the runs that succeeded, and their nodes
+    Array<int> nodes_;
+    Array<int> failed_; // nodes of the others
 
     CostBasis powers_;
     std::optional<CostFit> fit_;
-    std::pmr::vector<TimedTerms> trial_;
-    std::pmr::vector<Opinion> opinions_;
+    Array<TimedTerms> trial_;
+    Array<Opinion> opinions_;
     Coefficients mean_{}; // of the opinions, relative to the least cost of each
     int chosen_ = 0;
     bool doubtful_ = false;  // one run near chosen_, much slower than the fits say

@@ -24,6 +24,7 @@
 // Tets that are not positive, or not certainly so, make every cell of their box unsafe. They do not count
 // elsewhere.
 #include "fast/winding/certificate.hpp"
+#include "base/array.hpp"
 #include "base/simd.hpp"
 
 #include "base/parallel.hpp"
@@ -34,10 +35,9 @@
 #include <array>
 #include <cmath>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "fast/winding/certificate.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef VOX_SOURCE
+#define VOX_SOURCE "fast/winding/certificate.cpp"
+#include "base/each_target.hpp"
 
 #include "fast/tile-inl.hpp"
 
@@ -415,7 +415,7 @@ private:
                 if (open) enterable[n] |= 1u << k;
             }
         }
-        std::pmr::vector<std::uint32_t>& touched = out_.touched;
+        Array<std::uint32_t>& touched = out_.touched;
         touched.clear();
         for (std::size_t c = 0; c < cells_; ++c)
             if (!out_.certified[c]) touched.push_back(static_cast<std::uint32_t>(c));

@@ -2,6 +2,7 @@
 // touch itself there are none, and to find that out little more than its boundary is read.
 #pragma once
 
+#include "base/array.hpp"
 #include "fast/winding/components.hpp"
 #include "fast/winding/orientation.hpp"
 #include "fast/window.hpp"
@@ -12,7 +13,6 @@
 #include <memory_resource>
 #include <span>
 #include <tuple>
-#include <vector>
 
 namespace vox {
 class Workers;
@@ -26,7 +26,7 @@ struct CertifiedCells {
 
     WindowLattice lattice;
     static constexpr std::uint32_t run = 8;
-    std::pmr::vector<std::uint8_t> certified; // of each cell, 1 or 0; and `run` more, to read so many at once
+    Array<std::uint8_t> certified; // of each cell, 1 or 0; and `run` more, to read so many at once
     bool complete = false;                    // whether all cells are certified
 
     // Whether all cells that meet `box` are certified; false as well where they are too many to look at.
@@ -59,8 +59,8 @@ struct Certificate : CertifiedCells {
     explicit Certificate(std::pmr::memory_resource* memory)
         : CertifiedCells(memory), directions(memory), touched(memory), bad(memory), components(memory) {}
 
-    std::pmr::vector<std::uint32_t> directions, touched;
-    std::pmr::vector<std::uint64_t> bad;
+    Array<std::uint32_t> directions, touched;
+    Array<std::uint64_t> bad;
     Components components;
 
     auto buffers() { return std::tie(directions, touched, bad, components.runs, components.rows, certified); }

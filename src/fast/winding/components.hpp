@@ -6,9 +6,10 @@
 // Tarjan, Efficiency of a good but not linear set union algorithm, J. ACM 22, 1975).
 #pragma once
 
+#include "base/array.hpp"
+
 #include <cstdint>
 #include <memory_resource>
-#include <vector>
 
 namespace vox::fast {
 
@@ -19,8 +20,8 @@ struct Components {
         std::uint32_t first, end; // cells, x fastest
         std::uint32_t component;  // numbered in the order of their first cells
     };
-    std::pmr::vector<Run> runs;           // in the order of their cells
-    std::pmr::vector<std::uint32_t> rows; // of each row its first run, and the end
+    Array<Run> runs;           // in the order of their cells
+    Array<std::uint32_t> rows; // of each row its first run, and the end
     std::uint32_t count = 0;
 
     // Of the cells with values[cell] == wanted.

@@ -6,10 +6,9 @@
 #include <algorithm>
 #include <optional>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "fast/winding/orientation.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef VOX_SOURCE
+#define VOX_SOURCE "fast/winding/orientation.cpp"
+#include "base/each_target.hpp"
 
 #include "fast/tile-inl.hpp"
 
@@ -328,7 +327,7 @@ void orient(const OrientedBody& body, OrientationCache& cache, std::uint64_t* ba
     ++cache.step;
     std::uint32_t listed = 0;
     std::optional<ShapeLister> lister;
-    std::pmr::memory_resource* memory = cache.points.get_allocator().resource();
+    std::pmr::memory_resource* memory = cache.points.memory();
     for (std::uint32_t s = 0; s < supers; ++s) {
         Shape& shape = cache.shapes[s];
         shape.is_due = wants_reference(body, s, cache);

@@ -2,6 +2,7 @@
 // nearly affinely these are few, and only they have to be oriented again (proof: shape.hpp).
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 #include "fast/step.hpp"
 #include "fast/winding/shape.hpp"
@@ -10,7 +11,6 @@
 
 #include <cstdint>
 #include <memory_resource>
-#include <vector>
 
 namespace vox {
 class Workers;
@@ -23,11 +23,11 @@ struct OrientationCache {
     explicit OrientationCache(std::pmr::memory_resource* memory) noexcept
         : points(memory), shapes(memory), slack(memory) {}
 
-    std::pmr::vector<ShapePoints> points;
-    std::pmr::vector<Shape> shapes; // of super-tiles
+    Array<ShapePoints> points;
+    Array<Shape> shapes; // of super-tiles
     // Of each tile, a lower bound on the widths of its tets in the reference step. Where it is not above 0,
     // nothing is known, or some of them were not positive.
-    std::pmr::vector<float> slack;
+    Array<float> slack;
     bool is_used = false;      // whether the last step needed to know which tets are positive
     std::uint32_t step = 0;    // counts those in which it did
     std::size_t abandoned = 0; // points

@@ -1,4 +1,5 @@
 #include "fast/winding/shape.hpp"
+#include "base/array.hpp"
 #include "base/simd.hpp"
 
 #include <algorithm>
@@ -6,10 +7,9 @@
 #include <bit>
 #include <cmath>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "fast/winding/shape.cpp"
-#include <hwy/foreach_target.h>
-#include <hwy/highway.h>
+#undef VOX_SOURCE
+#define VOX_SOURCE "fast/winding/shape.cpp"
+#include "base/each_target.hpp"
 
 #include "fast/tile-inl.hpp"
 
@@ -281,7 +281,7 @@ float place(const float* positions, Shape& shape, ShapePoints* points) noexcept 
     return scale;
 }
 
-void ShapeLister::list(std::uint32_t super_tile, Shape& shape, std::pmr::vector<ShapePoints>& points) {
+void ShapeLister::list(std::uint32_t super_tile, Shape& shape, Array<ShapePoints>& points) {
     find_vertices(super_tile);
     put_samples_first();
     shape.first = static_cast<std::uint32_t>(points.size());

@@ -8,12 +8,12 @@
 // its width was above that diagonal, divided by the singular value, and the map has a positive determinant.
 #pragma once
 
+#include "base/array.hpp"
 #include "base/boxes.hpp"
 #include "mesh/tiles.hpp"
 
 #include <cstdint>
 #include <memory_resource>
-#include <vector>
 
 namespace vox::fast {
 
@@ -60,7 +60,7 @@ public:
         : tiles_(tiles), positions_(positions), vertex_count_(vertex_count), seen_(memory), list_(memory) {}
 
     // Appends those of one to `points`.
-    void list(std::uint32_t super_tile, Shape& shape, std::pmr::vector<ShapePoints>& points);
+    void list(std::uint32_t super_tile, Shape& shape, Array<ShapePoints>& points);
 
 private:
     void find_vertices(std::uint32_t super_tile);
@@ -69,7 +69,7 @@ private:
     const Tiles& tiles_;
     const float* positions_;
     std::uint32_t vertex_count_;
-    std::pmr::vector<std::uint32_t> seen_, list_;
+    Array<std::uint32_t> seen_, list_;
 };
 
 } // namespace vox::fast
