@@ -1,4 +1,5 @@
 // Which instructions the library takes a machine to have.
+#include "base/error.hpp"
 #include "base/simd.hpp"
 #include "support/suite.h"
 
@@ -52,10 +53,25 @@ START_TEST(this_machine) {
     ck_assert_int_eq(int(best_level()), int(Level::portable));
 #endif
     ck_assert_int_eq(int(level()), int(best_level()));
-    ck_assert_int_eq(int(force_level(Level::portable)), int(Level::portable));
+    ck_assert_int_eq(int(force_level(Level::portable)), int(least_level));
     ck_assert_int_eq(int(force_level(Level::avx512)), int(best_level()));
 }
 END_TEST
+
+#if defined(__x86_64__)
+// A processor without SSE4.2 is refused in words, rather than by an illegal instruction.
+START_TEST(older_processors) {
+    require_instructions(Level::sse4);
+    try {
+        require_instructions(level_of({0x0000e3bd, 0, 0})); // a Core 2
+        ck_abort_msg("a Core 2 is taken");
+    } catch (const vox::Error& error) {
+        ck_assert_int_eq(error.result(), VOX_ERROR_UNSUPPORTED);
+        ck_assert_ptr_nonnull(strstr(error.what(), "SSE4.2"));
+    }
+}
+END_TEST
+#endif
 
 } // namespace
 
@@ -64,5 +80,8 @@ int main() {
     TCase* tests = add_case(suite, "levels");
     tcase_add_test(tests, levels_of_processors);
     tcase_add_test(tests, this_machine);
+#if defined(__x86_64__)
+    tcase_add_test(tests, older_processors);
+#endif
     return run_suite(suite);
 }
