@@ -59,10 +59,8 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("simd");
+SUITE(simd) {
     TCase* tests = add_case(suite, "levels");
     tcase_add_test(tests, levels_of_processors);
     tcase_add_test(tests, this_machine);
-    return run_suite(suite);
 }
