@@ -156,10 +156,8 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("ipc_broad_phase");
+SUITE(ipc_broad_phase) {
     TCase* tests = add_case(suite, "ipc_broad_phase");
     tcase_add_each(tests, candidates_are_those_of_brute_force, boxes_of_the_caller_are_taken_as_they_are, filters_hold,
                    culling_leaves_some_out);
-    return run_suite(suite);
 }

@@ -322,8 +322,6 @@ static void add_tests(TCase* tests) {
                    events_of_a_mesh_that_is_left_out, steady_state, failing_allocations);
 }
 
-int main(void) {
-    Suite* suite = suite_create("bad_meshes");
+SUITE(bad_meshes) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

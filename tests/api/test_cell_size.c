@@ -380,8 +380,7 @@ START_TEST(zone_distance) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("suggest");
+SUITE(cell_size) {
     TCase* tests = add_case(suite, "suggest");
     const int parameter_count = sizeof parameters / sizeof parameters[0];
     tcase_add_each(tests, one_regular_tet, shared_facets_count_once);
@@ -394,5 +393,4 @@ int main(void) {
     tcase_add_loop_test(tests, any_unit_gives_the_same_answer, 0, 7);
     tcase_add_each(tests, extremes_stay_finite, zone_distance);
     add_argument_tests(suite);
-    return run_suite(suite);
 }

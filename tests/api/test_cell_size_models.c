@@ -627,8 +627,7 @@ START_TEST(bad_functions_and_bounds) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("suggest_models");
+SUITE(cell_size_models) {
     TCase* tests = add_case(suite, "suggest_models");
     tcase_add_loop_test(tests, a_suggestion_explains_itself, 0, 4);
     tcase_add_loop_test(tests, units_do_not_matter, 0, 4);
@@ -644,5 +643,4 @@ int main(void) {
     tcase_add_loop_test(tests, an_outlier_does_not_explode_the_grid, 0, 6);
     tcase_add_each(tests, the_grid_follows_its_bodies, weights_are_plain_numbers, minimum_of_a_function,
                    bad_functions_and_bounds);
-    return run_suite(suite);
 }

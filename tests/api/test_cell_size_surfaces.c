@@ -178,10 +178,8 @@ START_TEST(memory_is_the_callers) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("cell_size_surfaces");
+SUITE(cell_size_surfaces) {
     TCase* tests = add_case(suite, "surfaces");
     tcase_add_each(tests, the_size_of_the_surface_that_the_meshes_make, of_the_tetrahedra_that_are_there, what_has_no_surface,
                    memory_is_the_callers);
-    return run_suite(suite);
 }

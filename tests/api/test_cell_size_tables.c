@@ -87,11 +87,9 @@ START_TEST(epsilon_of_tables_3_and_4) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("paper_tables");
+SUITE(cell_size_tables) {
     TCase* tests = add_case(suite, "paper_tables");
     tcase_add_loop_test(tests, table_2_cells_per_axis, 0, 5);
     tcase_add_test(tests, literal_size_is_not_the_tables);
     tcase_add_loop_test(tests, epsilon_of_tables_3_and_4, 0, 8);
-    return run_suite(suite);
 }

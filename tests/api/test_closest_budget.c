@@ -240,8 +240,6 @@ static void add_tests(TCase* tests) {
                    steps_before_do_not_matter);
 }
 
-int main(void) {
-    Suite* suite = suite_create("closest budget");
+SUITE(closest_budget) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

@@ -421,11 +421,9 @@ static void add_tests(TCase* tests) {
     tcase_add_test(tests, columns_of_nothing);
 }
 
-int main(void) {
-    Suite* suite = suite_create("columns");
+SUITE(columns) {
     add_for_each_engine(suite, add_tests);
     TCase* tests = add_case(suite, "both engines, or none");
     tcase_add_loop_test(tests, suggested_and_asked, 0, layout_count);
     tcase_add_test(tests, strides_that_are_refused);
-    return run_suite(suite);
 }

@@ -582,9 +582,7 @@ static void add_long_tests(TCase* tests) {
     tcase_add_test(tests, settings_do_not_change_contacts);
 }
 
-int main(void) {
-    Suite* suite = suite_create("contacts");
+SUITE(contacts) {
     add_for_each_engine(suite, add_tests);
     add_tagged_for_each_engine(suite, add_long_tests, "long");
-    return run_suite(suite);
 }

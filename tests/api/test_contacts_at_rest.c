@@ -428,12 +428,10 @@ START_TEST(reference_engine_rests_never) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("rest");
+SUITE(contacts_at_rest) {
     TCase* tests = add_case(suite, "rest");
     tcase_add_each(tests, nothing_moves, small_and_hidden_moves, failed_steps, meshes_come_and_go,
                    bound_elsewhere, settings_and_marks, budget_of_searches, reference_engine_rests_never);
     TCase* long_tests = add_tagged_case(suite, "long", "long");
     tcase_add_each(long_tests, some_move, budget_ends_a_step);
-    return run_suite(suite);
 }

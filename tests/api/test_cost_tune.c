@@ -285,10 +285,8 @@ START_TEST(bad_tune_arguments) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("tune");
+SUITE(cost_tune) {
     TCase* tests = add_case(suite, "tune");
     tcase_add_each(tests, fit, bad_timings, tune_defaults, tune, tune_that_stops_or_fails, bad_tune_arguments);
     tcase_add_loop_test(tests, bad_desc, 0, sizeof bad_descs / sizeof bad_descs[0]);
-    return run_suite(suite);
 }

@@ -358,8 +358,6 @@ END_TEST
 
 static void add_tests(TCase* tests) { tcase_add_loop_test(tests, thousand_edits, 0, 2); }
 
-int main(void) {
-    Suite* suite = suite_create("cutting");
+SUITE(cutting) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

@@ -494,8 +494,6 @@ static void add_tests(TCase* tests) {
                    positions_of_its_own, queries_and_suggestions_see_it, cell_size_follows_a_cut);
 }
 
-int main(void) {
-    Suite* suite = suite_create("cutting calls");
+SUITE(cutting_calls) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

@@ -250,8 +250,6 @@ static void add_tests(TCase* tests) {
     tcase_add_loop_test(tests, two_tets_on_one_side, 0, 5);
 }
 
-int main(void) {
-    Suite* suite = suite_create("cutting cost");
+SUITE(cutting_cost) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

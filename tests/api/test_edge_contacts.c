@@ -425,8 +425,6 @@ static void add_tests(TCase* tests) {
                    states_of_depths, on_and_off, steady_state_allocates_nothing, without_memory, budget, snapshots);
 }
 
-int main(void) {
-    Suite* suite = suite_create("edge_contacts");
+SUITE(edge_contacts) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

@@ -618,8 +618,6 @@ static void add_tests(TCase* tests) {
                    every_event_has_its_pair, steady_state_allocates_nothing, arguments);
 }
 
-int main(void) {
-    Suite* suite = suite_create("events");
+SUITE(events) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

@@ -474,8 +474,6 @@ static void add_tests(TCase* tests) {
                    filter_all_or_nothing, older_filters);
 }
 
-int main(void) {
-    Suite* suite = suite_create("flags");
+SUITE(flags) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

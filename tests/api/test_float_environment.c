@@ -316,8 +316,6 @@ static void add_tests(TCase* tests) {
     tcase_add_each(tests, same_bits_with_threads_that_have_their_own, arguments, flags);
 }
 
-int main(void) {
-    Suite* suite = suite_create("float_environment");
+SUITE(float_environment) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

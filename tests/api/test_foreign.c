@@ -558,10 +558,8 @@ START_TEST(memory_is_the_callers) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("foreign");
-    TCase* tests = tcase_create("foreign");
-    tcase_set_timeout(tests, 0);
+SUITE(foreign) {
+    TCase* tests = add_case(suite, "foreign");
     tcase_add_test(tests, defaults);
     tcase_add_test(tests, an_answer_has_its_reasons);
     tcase_add_test(tests, primitives_in_any_form);
@@ -578,6 +576,4 @@ int main(void) {
     tcase_add_test(tests, bad_primitives);
     tcase_add_test(tests, shorter_structs);
     tcase_add_test(tests, memory_is_the_callers);
-    suite_add_tcase(suite, tests);
-    return run_suite(suite);
 }

@@ -398,11 +398,9 @@ START_TEST(cell_size_without_extent) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("grid");
+SUITE(grid) {
     TCase* tests = add_case(suite, "grid");
     tcase_add_each(tests, version, result_names, last_error, last_error_of_whole_characters, struct_sizes, grid_desc_fields, null_arguments,
                    mesh_desc_fields, ids, generations_run_out, user_data, cell_size_is_chosen,
                    cell_size_without_extent);
-    return run_suite(suite);
 }

@@ -212,12 +212,10 @@ START_TEST(threads_are_kept) {
 END_TEST
 #endif
 
-int main(void) {
-    Suite* suite = suite_create("grids");
+SUITE(grids) {
     TCase* tests = add_case(suite, "many grids");
     tcase_add_each(tests, as_one_by_one, failures, arguments);
 #if defined(__linux__)
     tcase_add_test(tests, threads_are_kept);
 #endif
-    return run_suite(suite);
 }

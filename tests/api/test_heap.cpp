@@ -138,9 +138,7 @@ void add_tests(TCase* tests) { tcase_add_each(tests, each_allocation_of_a_grid);
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("heap");
+SUITE(heap) {
     add_for_each_engine(suite, add_tests);
     tcase_add_test(add_case(suite, "suggestions"), each_allocation_of_a_suggestion);
-    return run_suite(suite);
 }

@@ -230,12 +230,10 @@ END_TEST
 
 static void add_tests(TCase* tests) { tcase_add_each(tests, vertices_of_a_grid, buffers_grow); }
 
-int main(void) {
-    Suite* suite = suite_create("limits");
+SUITE(limits) {
     add_for_each_engine(suite, add_tests);
     TCase* once = add_case(suite, "one engine");
     tcase_add_each(once, cells_of_dense_storage, buckets_and_workers, capacities, any_grid);
     TCase* large = add_tagged_case(suite, "large", "large");
     tcase_add_test(large, meshes_of_a_grid);
-    return run_suite(suite);
 }

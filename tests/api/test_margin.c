@@ -464,8 +464,6 @@ static void add_tests(TCase* tests) {
                    without_memory, budget);
 }
 
-int main(void) {
-    Suite* suite = suite_create("margin");
+SUITE(margin) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

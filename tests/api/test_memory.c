@@ -333,8 +333,6 @@ static void add_tests(TCase* tests) {
                    budget_is_kept, reserved_contacts, contacts_in_a_step, reserved_room, many_meshes);
 }
 
-int main(void) {
-    Suite* suite = suite_create("memory");
+SUITE(memory) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

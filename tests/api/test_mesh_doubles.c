@@ -302,13 +302,11 @@ static void add_long_tests(TCase* tests) {
                    self_contact_of_large_bodies);
 }
 
-int main(void) {
-    Suite* suite = suite_create("doubles");
+SUITE(mesh_doubles) {
     add_for_each_engine(suite, add_tests);
     add_tagged_for_each_engine(suite, add_long_tests, "long");
     TCase* others = add_case(suite, "both engines, or none");
     tcase_add_test(others, suggested_cell_size);
     TCase* long_tests = add_tagged_case(suite, "long", "long");
     tcase_add_test(long_tests, engines_agree_on_large_bodies);
-    return run_suite(suite);
 }

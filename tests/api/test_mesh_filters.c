@@ -252,8 +252,6 @@ static void add_tests(TCase* tests) {
     tcase_add_each(tests, category_mask_and_group, pair_exceptions, disabled_meshes, many_bodies_in_one_place, arguments);
 }
 
-int main(void) {
-    Suite* suite = suite_create("filters");
+SUITE(mesh_filters) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

@@ -240,8 +240,6 @@ START_TEST(arguments) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("mesh_info");
+SUITE(mesh_info) {
     tcase_add_each(add_case(suite, "info"), meshes, fields, tets, loaded, arguments);
-    return run_suite(suite);
 }

@@ -198,8 +198,6 @@ static void add_tests(TCase* tests) {
                    mapped_positions, mapped_positions_of_nothing);
 }
 
-int main(void) {
-    Suite* suite = suite_create("positions");
+SUITE(mesh_positions) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

@@ -525,9 +525,7 @@ static void add_tests(TCase* tests) {
 
 static void add_long_tests(TCase* tests) { tcase_add_test(tests, self_filters_by_definition); }
 
-int main(void) {
-    Suite* suite = suite_create("self filters");
+SUITE(mesh_self_filters) {
     add_for_each_engine(suite, add_tests);
     add_tagged_for_each_engine(suite, add_long_tests, "long");
-    return run_suite(suite);
 }

@@ -218,8 +218,6 @@ static void add_tests(TCase* tests) {
                    snapshot_has_its_own, edit_without_memory_for_the_copy);
 }
 
-int main(void) {
-    Suite* suite = suite_create("mesh_tets");
+SUITE(mesh_tets) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

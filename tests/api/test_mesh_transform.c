@@ -326,8 +326,6 @@ static void add_tests(TCase* tests) {
                    over_mapped_positions, cloth_falls_through_a_body, sensors_on_a_tool, points_alone);
 }
 
-int main(void) {
-    Suite* suite = suite_create("transform");
+SUITE(mesh_transform) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

@@ -382,8 +382,6 @@ static void add_tests(TCase* tests) {
                    appended_vertices_end_it, arguments, workers_and_memory);
 }
 
-int main(void) {
-    Suite* suite = suite_create("passages");
+SUITE(passages) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

@@ -191,11 +191,9 @@ START_TEST(searches_are_short) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("depth figures");
+SUITE(penetration_figures) {
     TCase* tests = add_case(suite, "figures");
     tcase_add_loop_test(tests, two_balls, 0, 4);
     tcase_add_loop_test(tests, directions_change_smoothly, 0, 3);
     tcase_add_each(tests, ball_in_a_box, work_is_that_of_the_colliding_vertices, searches_are_short);
-    return run_suite(suite);
 }

@@ -557,9 +557,7 @@ static void add_tests(TCase* tests) {
 
 static void add_long_tests(TCase* tests) { tcase_add_each(tests, crossing_bars, inverted_tets); }
 
-int main(void) {
-    Suite* suite = suite_create("penetration states");
+SUITE(penetration_states) {
     add_for_each_engine(suite, add_tests);
     add_tagged_for_each_engine(suite, add_long_tests, "long");
-    return run_suite(suite);
 }

@@ -443,10 +443,8 @@ static void add_tests(TCase* tests) {
                    strides_and_copies, depths_in_double, double_positions, tiny_double_positions);
 }
 
-int main(void) {
-    Suite* suite = suite_create("penetrations");
+SUITE(penetrations) {
     add_for_each_engine(suite, add_tests);
     TCase* all = add_case(suite, "all engines");
     tcase_add_test(all, every_way_gives_the_same_bits);
-    return run_suite(suite);
 }

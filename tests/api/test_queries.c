@@ -308,8 +308,6 @@ static void add_tests(TCase* tests) {
                    as_it_was_when_prepared, many_threads, arguments);
 }
 
-int main(void) {
-    Suite* suite = suite_create("queries");
+SUITE(queries) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

@@ -631,8 +631,6 @@ static void add_tests(TCase* tests) {
                    all_hits_by_definition, normals_without_volume, batches_answer_as_single_calls, arguments);
 }
 
-int main(void) {
-    Suite* suite = suite_create("query surfaces");
+SUITE(queries_of_surfaces) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

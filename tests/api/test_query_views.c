@@ -523,8 +523,6 @@ static void add_tests(TCase* tests) {
                    same_for_any_workers, threads_ask_while_the_grid_steps);
 }
 
-int main(void) {
-    Suite* suite = suite_create("query views");
+SUITE(query_views) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

@@ -330,10 +330,8 @@ static void add_tests(TCase* tests) {
                    transform_and_scale, many_bodies_and_workers);
 }
 
-int main(void) {
-    Suite* suite = suite_create("readings");
+SUITE(readings) {
     add_for_each_engine(suite, add_tests);
     TCase* both = add_case(suite, "both engines");
     tcase_add_test(both, engines_and_workers);
-    return run_suite(suite);
 }

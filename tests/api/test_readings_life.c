@@ -440,8 +440,6 @@ static void add_tests(TCase* tests) {
                    task_systems);
 }
 
-int main(void) {
-    Suite* suite = suite_create("reading life");
+SUITE(readings_life) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

@@ -372,8 +372,6 @@ static void add_tests(TCase* tests) {
                    workers);
 }
 
-int main(void) {
-    Suite* suite = suite_create("readings of");
+SUITE(readings_of) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

@@ -282,8 +282,6 @@ static void add_tests(TCase* tests) {
                    coming_back, bad_positions, bytes_beside_a_bad_body, flags_give_memory_back);
 }
 
-int main(void) {
-    Suite* suite = suite_create("small_bodies");
+SUITE(small_bodies) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

@@ -279,8 +279,6 @@ static void add_tests(TCase* tests) {
                    allocation_n_fails);
 }
 
-int main(void) {
-    Suite* suite = suite_create("snapshot");
+SUITE(snapshots) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

@@ -253,11 +253,9 @@ static void add_tests(TCase* tests) {
 
 static void add_long_tests(TCase* tests) { tcase_add_test(tests, every_word_turned_hostile); }
 
-int main(void) {
-    Suite* suite = suite_create("hostile snapshots");
+SUITE(snapshots_hostile) {
     add_for_each_engine(suite, add_tests);
     add_tagged_for_each_engine(suite, add_long_tests, "long");
     TCase* hostile = add_case(suite, "hostile");
     tcase_add_loop_test(hostile, hostile_numbers, 0, (int)(sizeof defects / sizeof *defects));
-    return run_suite(suite);
 }

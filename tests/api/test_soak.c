@@ -379,14 +379,9 @@ static void step(soak* s) {
     ++s->epoch;
 }
 
-static uint64_t number_from(const char* variable, uint64_t usual) {
-    const char* text = getenv(variable);
-    return text ? strtoull(text, NULL, 10) : usual;
-}
-
 START_TEST(soak_life) {
     soak* s = (soak*)calloc(1, sizeof *s);
-    const uint32_t steps = (uint32_t)number_from("VOX_SOAK_STEPS", 400);
+    const uint32_t steps = (uint32_t)volume_from("VOX_SOAK_STEPS", 400);
     uint32_t runs[operation_count] = {0}, total = 0;
     soak_seed = number_from("VOX_SOAK_SEED", 1);
     s->random = soak_seed;
@@ -440,9 +435,7 @@ START_TEST(soak_life) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("soak");
+SUITE(soak) {
     TCase* tests = add_case(suite, "soak");
     tcase_add_test(tests, soak_life);
-    return run_suite(suite);
 }

@@ -352,11 +352,9 @@ START_TEST(counters) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("surface answers");
+SUITE(surface_answers) {
     TCase* tests = add_case(suite, "surface answers");
     tcase_add_loop_test(tests, memory_that_runs_out, 0, ANSWERS);
     tcase_add_loop_test(tests, budgets, 0, ANSWERS);
     tcase_add_each(tests, no_memory_in_the_steady_state, tasks_of_the_caller, pieces_of_several_kinds, counters);
-    return run_suite(suite);
 }

@@ -523,12 +523,10 @@ START_TEST(a_thousand_million_pairs) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("surfaces");
+SUITE(surfaces) {
     tcase_add_test(add_tagged_case(suite, "many", "large"), a_thousand_million_pairs);
     TCase* tests = add_case(suite, "surfaces");
     tcase_add_each(tests, descriptions_that_are_refused, motions_that_are_refused, questions_that_are_refused, degenerate_scenes,
                    sizes_beyond_floats, suggestions_that_are_refused, budget_of_answers_that_ended, edges_of_a_surface, times_that_are_given_up,
                    patches_that_do_not_meet, memory_that_runs_out, no_memory_in_the_steady_state, answers_beyond_the_budget);
-    return run_suite(suite);
 }

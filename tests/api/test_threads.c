@@ -511,8 +511,6 @@ static void add_tests(TCase* tests) {
                    large_bodies_are_shared, trees_of_many_bodies_are_few_tasks, defective_task_systems, a_defect_in_any_one_task, bad_arguments);
 }
 
-int main(void) {
-    Suite* suite = suite_create("threads");
+SUITE(threads) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

@@ -350,9 +350,7 @@ static void add_tests(TCase* tests) {
                    interior_and_boundary);
 }
 
-int main(void) {
-    Suite* suite = suite_create("traps");
+SUITE(traps) {
     add_for_each_engine(suite, add_tests);
     tcase_add_each(add_case(suite, "both engines, or none"), typed_helpers, zeroed_grid_desc);
-    return run_suite(suite);
 }

@@ -113,12 +113,8 @@ vox_result watched_step(vox_grid* grid) {
     return vox_grid_step(grid);
 }
 
-int main() {
-    Suite* suite = suite_create("bench entrants");
-    TCase* tests = tcase_create("vox");
-    tcase_set_timeout(tests, 60);
+SUITE(bench_entrants) {
+    TCase* tests = add_case(suite, "vox");
     tcase_add_test(tests, names_and_descriptions);
     tcase_add_test(tests, steps_of_a_user);
-    suite_add_tcase(suite, tests);
-    return run_suite(suite);
 }

@@ -3,7 +3,8 @@
 import re
 import sys
 
-BEGIN = """#include <vox/vox.hpp>
+BEGIN = """#define VOX_HPP_CHECKED 1
+#include <vox/vox.hpp>
 #include "cpp/scene.hpp"
 #include <cstdio>
 static std::uint64_t hits;

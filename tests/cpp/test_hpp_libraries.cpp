@@ -174,9 +174,7 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("vox_io.hpp and vox_sim.hpp");
+SUITE(hpp_libraries) {
     tcase_add_each(add_case(suite, "all"), files_and_bodies, surfaces_are_filled_with_progress,
                    bodies_fall_as_in_c, experiments);
-    return run_suite(suite);
 }

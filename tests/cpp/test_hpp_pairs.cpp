@@ -100,9 +100,7 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("hpp_pairs");
+SUITE(hpp_pairs) {
     TCase* tests = add_case(suite, "surfaces");
     tcase_add_each(tests, what_c_answers, motions, ownership);
-    return run_suite(suite);
 }

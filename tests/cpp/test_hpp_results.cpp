@@ -1,4 +1,5 @@
 // vox.hpp without exceptions and without type information: every call returns a value or an error.
+#define VOX_HPP_CHECKED 1
 #include <vox/vox.hpp>
 
 #include "cpp/scene.hpp"
@@ -95,8 +96,6 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("vox.hpp without exceptions");
+SUITE(hpp_results) {
     tcase_add_each(add_case(suite, "all"), values_and_errors, ended_views_say_so);
-    return run_suite(suite);
 }

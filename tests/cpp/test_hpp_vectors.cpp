@@ -1,4 +1,5 @@
 // Replays bindings/vectors through vox.hpp: the same results as in every other language.
+#define VOX_HPP_CHECKED 1
 #include <vox/vox.hpp>
 
 #include <algorithm>
@@ -402,8 +403,6 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("vectors in C++");
+SUITE(hpp_vectors) {
     tcase_add_each(add_case(suite, "all"), the_same_as_in_every_language);
-    return run_suite(suite);
 }

@@ -1,4 +1,5 @@
 // A file with exceptions and without checks, linked with files that have both.
+#define VOX_HPP_CHECKED 0
 #include <vox/vox.hpp>
 
 static_assert(VOX_HPP_THROWS && !VOX_HPP_CHECKED);

@@ -1,4 +1,6 @@
 // A file without exceptions and checks, linked with files that have them.
+#define VOX_HPP_NO_EXCEPTIONS
+#define VOX_HPP_CHECKED 0
 #include <vox/vox.hpp>
 
 static_assert(!VOX_HPP_THROWS && !VOX_HPP_CHECKED);

@@ -325,12 +325,8 @@ std::string differs_after_restart(const Scene& scene, std::uint32_t before, std:
     return result != VOX_OK ? vox_last_error() : moving.run.fault;
 }
 
-std::uint64_t number_of(const char* variable, std::uint64_t otherwise) {
-    const char* text = std::getenv(variable);
-    return text ? std::strtoull(text, nullptr, 10) : otherwise;
-}
-std::uint64_t first_scene() { return number_of("VOX_DIST_FIRST", 0); }
-std::uint64_t scene_count() { return number_of("VOX_DIST_SCENES", 150); }
+std::uint64_t first_scene() { return number_from("VOX_DIST_FIRST", 0); }
+std::uint64_t scene_count() { return volume_from("VOX_DIST_SCENES", 150); }
 
 } // namespace
 
@@ -443,8 +439,7 @@ START_TEST(a_scene_on_any_number_of_ranks) {
 }
 END_TEST
 
-int main() {
-    Suite* suite = suite_create("dist");
+SUITE(dist) {
     TCase* contacts = add_case(suite, "contacts");
     tcase_add_each(contacts, any_partition_has_the_contacts_of_one_grid, a_scene_on_any_number_of_ranks,
                    ranks_of_one_body_are_neighbours_only_if_it_collides_with_itself);
@@ -453,5 +448,4 @@ int main() {
                    a_restart_from_snapshots_on_other_ranks_has_the_same_contacts);
     TCase* boxes = add_case(suite, "boxes");
     tcase_add_each(boxes, packed_boxes_hold_the_boxes_and_stay_near_them);
-    return run_suite(suite);
 }

@@ -535,13 +535,11 @@ START_TEST(arguments) {
 }
 END_TEST
 
-int main() {
-    Suite* suite = suite_create("dist_failures");
+SUITE(dist_failures) {
     TCase* tests = add_case(suite, "failures");
     tcase_set_timeout(tests, 240); // ranks that wait for each other
     tcase_add_each(tests, each_failed_allocation_of_a_step, each_failed_allocation_of_other_calls,
                    each_failed_allocation_of_create, a_budget_of_one_rank, a_bad_number_on_one_rank,
                    an_exchange_that_fails, ranks_that_call_different_functions, items_of_other_sizes,
                    a_part_that_moves_to_other_memory, check_names_what_does_not_fit, arguments);
-    return run_suite(suite);
 }

@@ -1,7 +1,8 @@
-/* libFuzzer target: one reader of vox_io (FUZZ_FORMAT, FUZZ_NAME). Whatever comes in, it gives an error or a
- * sound mesh; a mesh that was read can be written and read back. */
+/* libFuzzer target: one reader of vox_io, that of the files whose extension the environment names (FUZZ_EXTENSION=msh). Whatever
+ * comes in, it gives an error or a sound mesh; a mesh that was read can be written and read back. */
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <vox/vox_io.h>
@@ -52,11 +53,31 @@ static void check(const vox_io_mesh* mesh) {
     free(out.data);
 }
 
+static char file_name[16];
+static vox_io_format format = VOX_IO_FORMAT_SURFACE;
+
+int LLVMFuzzerInitialize(int* argc, char*** argv);
+int LLVMFuzzerInitialize(int* argc, char*** argv) {
+    static const struct {
+        const char* extension;
+        vox_io_format format;
+    } tets[] = {{"msh", VOX_IO_FORMAT_GMSH}, {"node", VOX_IO_FORMAT_TETGEN}, {"mesh", VOX_IO_FORMAT_MEDIT},
+                {"veg", VOX_IO_FORMAT_VEGA}, {"vtk", VOX_IO_FORMAT_VTK},     {"vtu", VOX_IO_FORMAT_VTU}};
+    const char* extension = getenv("FUZZ_EXTENSION");
+    (void)argc;
+    (void)argv;
+    demand(extension != NULL);
+    snprintf(file_name, sizeof file_name, "fuzz.%s", extension);
+    for (size_t i = 0; i < sizeof tets / sizeof *tets; ++i)
+        if (strcmp(tets[i].extension, extension) == 0) format = tets[i].format;
+    return 0;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
-    vox_io_source sources[2] = {{FUZZ_NAME, data, size}, {NULL, NULL, 0}};
+    vox_io_source sources[2] = {{file_name, data, size}, {NULL, NULL, 0}};
     size_t count = 1;
-    if (FUZZ_FORMAT == VOX_IO_FORMAT_TETGEN) { /* .node and .ele in one input, a line of "===" between them */
+    if (format == VOX_IO_FORMAT_TETGEN) { /* .node and .ele in one input, a line of "===" between them */
         size_t cut = 0;
         while (cut + 4 < size && memcmp(data + cut, "===\n", 4) != 0) ++cut;
         if (cut + 4 >= size) return -1;
@@ -67,7 +88,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     }
     vox_io_load_desc desc;
     demand(vox_io_load_desc_init(&desc, (uint32_t)sizeof desc) == VOX_OK);
-    desc.format = FUZZ_FORMAT;
+    desc.format = format;
     vox_io_mesh* mesh = NULL;
     const vox_result result = vox_io_read(sources, count, &desc, &mesh);
     if (result == VOX_OK) {

@@ -260,10 +260,8 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("body_pairs");
+SUITE(body_pairs) {
     TCase* tests = add_case(suite, "body_pairs");
     tcase_add_each(tests, pairs_are_all_that_overlap, pairs_are_those_that_are_wanted,
                    met_boxes_are_those_of_pairs, scaffold, one_place);
-    return run_suite(suite);
 }

@@ -455,11 +455,9 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("broad_phase");
+SUITE(broad_phase) {
     TCase* tests = add_case(suite, "broad_phase");
     tcase_add_each(tests, regions_hold_what_may_be_in_contact, filters_and_bodies_at_rest_leave_pairs_out,
                    workers_find_the_same, common_sides_are_those_of_the_box_around,
                    sides_of_many_boxes, boxes_side_by_side);
-    return run_suite(suite);
 }

@@ -269,11 +269,9 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("canonical contacts");
+SUITE(canonical_contacts) {
     TCase* tests = add_case(suite, "contacts");
     tcase_add_each(tests, any_order_of_hits_becomes_canonical, interior_hits_hide_boundary_ones,
                    workers_share_many_hits, weights_have_the_bits_of_the_scalar_function,
                    hash_is_as_documented, hash_tells_every_field_and_the_order);
-    return run_suite(suite);
 }

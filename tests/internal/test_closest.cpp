@@ -377,8 +377,7 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("closest points");
+SUITE(closest) {
     TCase* tests = add_case(suite, "closest");
     tcase_add_loop_test(tests, closest_of_all_triangles, 0, 24);
     tcase_add_loop_test(tests, closest_with_double_positions, 0, 8);
@@ -386,5 +385,4 @@ int main() {
     tcase_add_loop_test(tests, folds_do_not_depend_on_the_past, 0, 3);
     tcase_add_each(tests, closest_on_odd_triangles, the_same_with_any_instructions,
                    closest_on_the_fold_that_is_entered, a_tree_follows_edits);
-    return run_suite(suite);
 }

@@ -80,10 +80,7 @@ Query touching_query(test::Random& random, double touch) {
     return q;
 }
 
-std::uint64_t queries_wanted() {
-    const char* wanted = std::getenv("VOX_CONTACT_TIME_QUERIES");
-    return wanted ? std::strtoull(wanted, nullptr, 10) : 30000;
-}
+std::uint64_t queries_wanted() { return volume_from("VOX_CONTACT_TIME_QUERIES", 30000); }
 
 START_TEST(never_later_than_a_time_that_is_known) {
     test::Random random{1};
@@ -329,10 +326,8 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("contact_time");
+SUITE(contact_time) {
     TCase* tests = add_case(suite, "contact_time");
     tcase_add_each(tests, plain_cases, never_later_than_a_time_that_is_known, apart_until_then,
                    a_safe_step_is_the_least_time_of_all_pairs, what_is_refused);
-    return run_suite(suite);
 }

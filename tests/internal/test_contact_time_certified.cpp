@@ -3,7 +3,7 @@
 // is linear in time, it holds throughout the piece. Decided in doubles with a bound on their rounding, or else in rational numbers
 // (GMP). Nothing is shared with the library but the motion.
 //
-// Usage: test_contact_time_certified [QUERIES]: so many, in place of the usual number. VOX_SAMPLE_QUERIES names a folder with
+// Environment: VOX_CERTIFIED_QUERIES, how many. VOX_SAMPLE_QUERIES names a folder with
 // https://github.com/Continuous-Collision-Detection/Sample-Queries, whose answers are compared with, too.
 #include "base/vectors.hpp"
 #include "internal/random.hpp"
@@ -29,7 +29,6 @@ using vox::test::Rational;
 namespace {
 
 constexpr std::uint32_t numbers[4] = {0, 1, 2, 3};
-std::uint64_t queries_wanted = 4000;
 
 // A face and a vertex, or two edges, by their corners.
 struct Query {
@@ -236,6 +235,7 @@ Query query_of(test::Random& random, std::uint32_t family, ContactTimeRule& rule
 }
 
 START_TEST(never_late) {
+    const std::uint64_t queries_wanted = volume_from("VOX_CERTIFIED_QUERIES", 4000);
     test::Random random{3};
     std::array<std::uint64_t, families> touching{}, later{}; // of these, not at the very beginning
     for (std::uint64_t n = 0; n < queries_wanted; ++n) {
@@ -329,11 +329,7 @@ END_TEST
 
 } // namespace
 
-int main(int argc, char** argv) {
-    if (argc > 1) queries_wanted = std::strtoull(argv[1], nullptr, 10);
-    Suite* suite = suite_create("contact_time_certified");
+SUITE(contact_time_certified) {
     TCase* tests = add_case(suite, "contact_time_certified");
-    if (argc > 1) tcase_set_timeout(tests, 0);
     tcase_add_each(tests, never_late, what_is_late_is_not_certified, sample_queries);
-    return run_suite(suite);
 }

@@ -574,8 +574,7 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("cost");
+SUITE(cost) {
     TCase* tests = add_case(suite, "cost");
     const int scene_count = sizeof scenes / sizeof scenes[0];
     tcase_add_loop_test(tests, reference_counts, 0, scene_count);
@@ -591,5 +590,4 @@ int main() {
     tcase_add_test(tests, levels_where_they_pay);
     TCase* many_steps = add_tagged_case(suite, "many steps", "large"); // half of the time under the sanitizers
     tcase_add_each(many_steps, levels_are_one_engine, adaptive_follows);
-    return run_suite(suite);
 }

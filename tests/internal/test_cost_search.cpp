@@ -99,12 +99,9 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("cost_search");
-    TCase* tests = tcase_create("cost_search");
+SUITE(cost_search) {
+    TCase* tests = add_case(suite, "cost_search");
     tcase_add_test(tests, minimum_of_a_power_law);
     tcase_add_test(tests, table_of_a_cost);
     tcase_add_test(tests, minimum_at_an_end_and_where_nothing_is_finite);
-    suite_add_tcase(suite, tests);
-    return run_suite(suite);
 }

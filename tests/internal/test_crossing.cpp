@@ -1,7 +1,7 @@
 // Compares where segments meet triangles with what rational numbers (GMP) say: by clipping the segment against
 // the triangle, which is another way than that of the library.
 //
-// Usage: test_crossing [CASES]: so many of each kind, in place of the usual number.
+// Environment: VOX_CROSSING_CASES, how many of each kind.
 #include "exact/crossing.hpp"
 #include "internal/random.hpp"
 #include "internal/rational.hpp"
@@ -254,14 +254,13 @@ bool in_range(const Case& c) {
     return true;
 }
 
-int cases = 2000;
-
 void check_cases(Case (*make)(Coordinate, Random&)) {
     std::fill(std::begin(counts), std::end(counts), 0);
+    const std::uint64_t cases = volume_from("VOX_CROSSING_CASES", 2000);
     std::uint64_t seed = 0;
     for (const Coordinate coordinate : coordinates) {
         Random r{++seed};
-        for (int i = 0; i < cases; ++i)
+        for (std::uint64_t i = 0; i < cases; ++i)
             if (const Case c = make(coordinate, r); in_range(c)) check(c);
     }
     for (const std::uint64_t count : counts) ck_assert_uint_gt(count, 0);
@@ -326,12 +325,8 @@ END_TEST
 
 } // namespace
 
-int main(int argc, char** argv) {
-    if (argc > 1) cases = std::atoi(argv[1]);
-    Suite* suite = suite_create("crossing");
+SUITE(crossing) {
     TCase* tests = add_case(suite, "exactness");
-    tcase_set_timeout(tests, 0);
     tcase_add_each(tests, random_cases_equal_rational_arithmetic, degenerate_cases_equal_rational_arithmetic,
                    aimed_cases_equal_rational_arithmetic, all_of_a_lattice, first_of_several_points);
-    return run_suite(suite);
 }

@@ -309,8 +309,7 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("parts of the depth stage");
+SUITE(depth_parts) {
     TCase* tests = add_case(suite, "parts");
     tcase_add_loop_test(tests, topology_of_anything, 0, 200);
     tcase_add_test(tests, no_tets_no_topology);
@@ -318,5 +317,4 @@ int main() {
     tcase_add_each(tests, walks_along_facets_edges_and_through_vertices, walks_that_lead_nowhere,
                    walks_through_inverted_tets, walks_do_not_go_round, normals_on_a_sphere,
                    normals_of_a_box_are_those_of_its_faces, normals_of_a_tetrahedron_are_those_of_its_faces);
-    return run_suite(suite);
 }

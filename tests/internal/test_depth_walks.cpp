@@ -297,8 +297,7 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("many at once in the depth stage");
+SUITE(depth_walks) {
     TCase* tests = add_case(suite, "depth walks");
     tcase_add_loop_test(tests, walks_side_by_side, 0, 24);
     tcase_add_test(tests, no_walks);
@@ -307,5 +306,4 @@ int main() {
     tcase_add_loop_test(tests, what_lies_across, 0, 6);
     tcase_add_loop_test(tests, places_of_numbers, 0, 4);
     tcase_add_loop_test(tests, numbers_chosen_to_collide, 0, 4);
-    return run_suite(suite);
 }

@@ -1,5 +1,7 @@
 // Edge contacts of random scenes against all edges and all faces, by definition: surfaces found by counting
 // facets, every pair decided by find_crossing(), which test_crossing compares with rational numbers.
+//
+// Environment: VOX_EDGE_SCENES, how many.
 #include "exact/crossing.hpp"
 #include "internal/random.hpp"
 #include "scenes/bodies.h"
@@ -357,10 +359,9 @@ void run_scene(std::uint64_t seed, int steps) {
     for (vox_grid* grid : grids) vox_grid_destroy(grid);
 }
 
-int scenes = 300;
-
 START_TEST(random_scenes_equal_the_definition) {
-    for (int s = 1; s <= scenes; ++s) run_scene(static_cast<std::uint64_t>(s), 6);
+    const std::uint64_t scenes = volume_from("VOX_EDGE_SCENES", 300);
+    for (std::uint64_t s = 1; s <= scenes; ++s) run_scene(s, 6);
     for (const std::uint64_t count : counts) ck_assert_uint_gt(count, 1000);
     ck_assert_uint_gt(by_edges_alone, 10);
     ck_assert_uint_gt(carried, 1000);
@@ -401,11 +402,7 @@ END_TEST
 
 } // namespace
 
-// Usage: test_edge_definition [SCENES]
-int main(int argc, char** argv) {
-    if (argc > 1) scenes = std::atoi(argv[1]);
-    Suite* suite = suite_create("edge_definition");
+SUITE(edge_definition) {
     TCase* tests = add_case(suite, "definition");
     tcase_add_each(tests, random_scenes_equal_the_definition, large_bodies_equal_the_definition);
-    return run_suite(suite);
 }

@@ -49,11 +49,9 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("error_texts");
+SUITE(error_texts) {
     TCase* tests = add_case(suite, "texts");
     tcase_add_test(tests, nan_has_no_sign);
     tcase_add_test(tests, names_stay);
     tcase_add_test(tests, cut_between_characters);
-    return run_suite(suite);
 }

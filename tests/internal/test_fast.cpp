@@ -386,12 +386,10 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("fast engine");
+SUITE(fast) {
     TCase* tests = add_case(suite, "hits");
     tcase_add_each(tests, two_bodies, numbering_does_not_matter, snapped_to_a_grid, coincident_bodies,
                    inverted_tets, every_size_and_place, vertices_far_away, slivers, odd_meshes, random_soups,
                    larger_bodies, strided_positions, non_finite_positions, steady_state_allocates_nothing,
                    memory_is_bounded, outliers_do_not_fill_a_cell, clumps_far_apart);
-    return run_suite(suite);
 }

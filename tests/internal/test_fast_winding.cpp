@@ -262,11 +262,9 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("fast engine, winding numbers");
+SUITE(fast_winding) {
     TCase* tests = add_case(suite, "hits");
     tcase_add_each(tests, winding_culls_compact_bodies, winding_turned_inside_out,
                    winding_finds_every_contact, winding_sees_exact_contact,
                    edges_of_compact_bodies_are_not_compared, winding_finds_every_edge_contact);
-    return run_suite(suite);
 }

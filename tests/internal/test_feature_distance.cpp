@@ -126,9 +126,7 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("feature_distance");
+SUITE(feature_distance) {
     TCase* tests = add_case(suite, "feature_distance");
     tcase_add_each(tests, edges_that_cross_at_any_angle, distances_are_right, bounds_hold_for_any_numbers);
-    return run_suite(suite);
 }

@@ -376,13 +376,9 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("foreign_grid");
-    TCase* tests = tcase_create("foreign_grid");
-    tcase_set_timeout(tests, 0);
+SUITE(foreign_grid) {
+    TCase* tests = add_case(suite, "foreign_grid");
     tcase_add_loop_test(tests, counts_are_those_of_a_filled_grid, 0, int(std::size(kinds)));
     tcase_add_loop_test(tests, a_quick_look_loses_little, 0, int(std::size(kinds)));
     tcase_add_loop_test(tests, a_quick_look_looks_at_few, 0, int(std::size(kinds)));
-    suite_add_tcase(suite, tests);
-    return run_suite(suite);
 }

@@ -44,8 +44,6 @@ void add_tests(TCase* tests) { tcase_add_test(tests, nothing_from_the_default_re
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("grid memory");
+SUITE(grid_memory) {
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

@@ -134,8 +134,6 @@ START_TEST(degenerate) {
 }
 END_TEST
 
-int main() {
-    Suite* suite = suite_create("meeting_time");
+SUITE(meeting_time) {
     tcase_add_each(add_case(suite, "meeting_time"), never_late, tight, none, degenerate);
-    return run_suite(suite);
 }

@@ -387,11 +387,9 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("orientation");
+SUITE(orientation) {
     TCase* tests = add_case(suite, "orientation");
     tcase_add_each(tests, widths_are_lower_bounds, tets_called_positive_are, maps_cost_no_soundness,
                    affine_motion_costs_no_slack, rounded_positions_cost_slack, positive_to_the_last,
                    a_super_tile_too_fast_to_follow, engine_tracks_deforming_bodies);
-    return run_suite(suite);
 }

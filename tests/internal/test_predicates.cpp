@@ -384,8 +384,7 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("predicates");
+SUITE(predicates) {
     TCase* tests = add_case(suite, "exactness");
     tcase_add_each(tests, orientation_has_the_exact_sign, orientation_sign_follows_its_definition,
                    filter_decides_clear_cases_alone, locate_is_exact, barycentric_is_near_the_true_weights,
@@ -394,5 +393,4 @@ int main() {
 #if defined(VOX_FIXED_POINT)
     tcase_add_each(tests, volumes_of_three_words_have_the_exact_sign, three_words_take_what_they_say);
 #endif
-    return run_suite(suite);
 }

@@ -432,9 +432,7 @@ void add_tests(TCase* tests) {
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("query search");
+SUITE(query_search) {
     tcase_add_each(add_case(suite, "parts"), rounded_outwards, every_item_once);
     add_for_each_engine(suite, add_tests);
-    return run_suite(suite);
 }

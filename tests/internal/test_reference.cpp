@@ -578,8 +578,7 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("reference");
+SUITE(reference) {
     TCase* tests = add_case(suite, "engine");
     for (const TTest* test :
          {random_soups, jittered_blocks_in_all_units, aligned_blocks, one_mesh_inside_another,
@@ -590,5 +589,4 @@ int main() {
           non_finite_positions_are_named, budget_is_named_with_cells_and_bytes,
           chosen_cells_do_not_share_a_bucket, steady_state_allocates_nothing})
         tcase_add_test(tests, test);
-    return run_suite(suite);
 }

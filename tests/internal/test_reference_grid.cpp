@@ -65,11 +65,9 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("reference grid");
+SUITE(reference_grid) {
     TCase* tests = add_case(suite, "arithmetic");
     for (const TTest* test :
          {modulus_is_the_remainder, primes, cells_are_floors_and_monotone, paper_hash_is_teschners})
         tcase_add_test(tests, test);
-    return run_suite(suite);
 }

@@ -418,10 +418,8 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("repair");
-    TCase* tests = tcase_create("repair");
-    tcase_set_timeout(tests, 0);
+SUITE(repair) {
+    TCase* tests = add_case(suite, "repair");
     tcase_add_loop_test(tests, lists_change, 0, 10);
     tcase_add_test(tests, lists_do_not_grow_for_ever);
     tcase_add_loop_test(tests, topology_is_repaired, 0, 60);
@@ -429,6 +427,4 @@ int main() {
     tcase_add_loop_test(tests, tiles_are_repaired, 0, 3);
     tcase_add_test(tests, all_off_and_on_again);
     tcase_add_loop_test(tests, surface_is_repaired, 0, 3);
-    suite_add_tcase(suite, tests);
-    return run_suite(suite);
 }

@@ -249,8 +249,7 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("scheduler");
+SUITE(scheduler) {
     TCase* tests = add_case(suite, "scheduler");
     tcase_add_test(tests, every_item_once);
     tcase_add_test(tests, workers_that_there_can_be);
@@ -269,5 +268,4 @@ int main() {
 #endif
 #endif
 #endif
-    return run_suite(suite);
 }

@@ -62,8 +62,7 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("scheduler_memory");
+SUITE(scheduler_memory) {
     TCase* tests = add_case(suite, "memory");
 #if defined(VOX_SCHEDULER_THREADS)
     tcase_add_test(tests, no_allocation_once_there_are_threads);
@@ -74,5 +73,4 @@ int main() {
 #else
     (void)tests;
 #endif
-    return run_suite(suite);
 }

@@ -75,13 +75,11 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("simd");
+SUITE(simd) {
     TCase* tests = add_case(suite, "levels");
     tcase_add_test(tests, levels_of_processors);
     tcase_add_test(tests, this_machine);
 #if defined(__x86_64__)
     tcase_add_test(tests, older_processors);
 #endif
-    return run_suite(suite);
 }

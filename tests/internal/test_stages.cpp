@@ -247,10 +247,8 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("stages");
+SUITE(stages) {
     TCase* tests = add_case(suite, "stages");
     tcase_add_each(tests, tiles_hold_every_tet_once, tiles_are_full_and_compact, stream_finds_the_boxes,
                    stream_sees_what_is_not_finite, blocks_end_at_jumps, highest_indices);
-    return run_suite(suite);
 }

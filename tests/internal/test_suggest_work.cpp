@@ -7,6 +7,7 @@
 #include "cell_size/weights.hpp"
 #include "internal/fast_scenes.hpp"
 #include "mesh/sample.hpp"
+#include "support/failing_heap.hpp"
 #include "support/suite.h"
 
 #include <vox/vox.h>
@@ -17,51 +18,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <new>
 #include <set>
 #include <vector>
-
-namespace {
-
-std::atomic<std::uint64_t> allocations{0};
-
-} // namespace
-
-// Sanitizers have operators of their own: there, allocations are not counted.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define COUNTS_ALLOCATIONS 0
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define COUNTS_ALLOCATIONS 0
-#endif
-#endif
-#ifndef COUNTS_ALLOCATIONS
-#define COUNTS_ALLOCATIONS 1
-#endif
-
-#if COUNTS_ALLOCATIONS
-static void* counted(std::size_t size, std::size_t alignment) {
-    ++allocations;
-    void* memory = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
-    if (!memory) throw std::bad_alloc();
-    return memory;
-}
-
-void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-    ++allocations;
-    return std::malloc(size);
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-    return counted(size, static_cast<std::size_t>(alignment));
-}
-// Not inlined: gcc would warn of free() for what it sees come from operator new.
-[[gnu::noinline]] static void release(void* memory) { std::free(memory); }
-void operator delete(void* memory) noexcept { release(memory); }
-void operator delete(void* memory, std::size_t) noexcept { release(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { release(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { release(memory); }
-#endif
 
 using namespace vox;
 
@@ -312,16 +270,16 @@ START_TEST(a_suggestion_allocates_little) {
     for (const std::size_t tets : sizes) {
         Scene scene;
         fill(scene, tets, 1.95, false);
-        ck_assert_int_eq(allocations > 0, COUNTS_ALLOCATIONS); // that the scene is made of
+        ck_assert_uint_gt(heap::calls, 0); // that the scene is made of
         Grid with(scene, VOX_GRID_PENETRATIONS), without(scene, 0);
         for (Grid* grid : {&with, &without}) {
             for (int when = 0; when < 2; ++when) { // before the first step, and after
                 (void)grid->suggest();             // looks at the meshes
-                const std::uint64_t before = allocations;
+                const std::uint64_t before = heap::calls;
                 (void)grid->suggest();
-                ck_assert_msg(allocations - before <= (tets == sizes[0] ? 8u : 200u),
+                ck_assert_msg(heap::calls - before <= (tets == sizes[0] ? 8u : 200u),
                               "%zu tets, flags %d: %llu", tets, grid == &with,
-                              static_cast<unsigned long long>(allocations - before));
+                              static_cast<unsigned long long>(heap::calls - before));
                 grid->step();
             }
         }
@@ -383,10 +341,8 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("suggest_work");
-    TCase* tests = tcase_create("suggest_work");
-    tcase_set_timeout(tests, 0);
+SUITE(suggest_work) {
+    TCase* tests = add_case(suite, "suggest_work");
     tcase_add_test(tests, the_model_looks_at_few);
     tcase_add_test(tests, a_suggestion_looks_at_samples);
     tcase_add_test(tests, samples_of_meshes_are_small);
@@ -394,6 +350,4 @@ int main() {
     tcase_add_test(tests, a_suggestion_allocates_little);
     tcase_add_test(tests, what_changed_since_the_step_counts);
     tcase_add_test(tests, many_ask_at_once);
-    suite_add_tcase(suite, tests);
-    return run_suite(suite);
 }

@@ -223,9 +223,7 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("surface_close");
+SUITE(surface_close) {
     TCase* tests = add_case(suite, "surface_close");
     tcase_add_each(tests, close_pairs_are_those_within_the_distance, nothing_touches_within_the_clearance, what_is_refused);
-    return run_suite(suite);
 }

@@ -203,9 +203,7 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("surface_lanes");
+SUITE(surface_lanes) {
     TCase* tests = add_case(suite, "surface_lanes");
     tcase_add_each(tests, boxes_in_quanta, lists_of_lanes, places_of_listed_features);
-    return run_suite(suite);
 }

@@ -228,15 +228,10 @@ Scene random_scene(Random& random) {
     return s;
 }
 
-// For long runs, which Check takes in parts of less than half an hour.
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-    const char* value = std::getenv(name);
-    return value ? std::strtoull(value, nullptr, 10) : otherwise;
-}
-std::uint64_t scenes_wanted() { return from_environment("VOX_SURFACE_SCENES", 600); }
+std::uint64_t scenes_wanted() { return volume_from("VOX_SURFACE_SCENES", 600); }
 
 START_TEST(pairs_are_those_whose_boxes_overlap) {
-    Random random{from_environment("VOX_SURFACE_SEED", 1)};
+    Random random{number_from("VOX_SURFACE_SEED", 1)};
     std::uint64_t pairs = 0;
     for (std::uint64_t n = 0; n < scenes_wanted(); ++n) {
         const Scene s = random_scene(random);
@@ -498,11 +493,9 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("surface_pairs");
+SUITE(surface_pairs) {
     TCase* tests = add_case(suite, "surface_pairs");
     tcase_add_each(tests, pairs_are_those_whose_boxes_overlap, culling_loses_no_pair_that_touches,
                    a_budget_is_kept_in_pieces, other_answers_are_the_same_everywhere,
                    a_safe_step_keeps_the_distance);
-    return run_suite(suite);
 }

@@ -597,10 +597,8 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("tune");
-    TCase* tests = tcase_create("tune");
-    tcase_set_timeout(tests, 0);
+SUITE(tune) {
+    TCase* tests = add_case(suite, "tune");
     tcase_add_test(tests, least_squares_are_least);
     tcase_add_test(tests, columns_that_say_nothing);
     tcase_add_test(tests, fit_of_three_timings);
@@ -621,6 +619,4 @@ int main() {
     tcase_add_test(tests, expected_beyond_measure);
     tcase_add_test(tests, what_is_said_of_noise);
     tcase_add_test(tests, wrong_description);
-    suite_add_tcase(suite, tests);
-    return run_suite(suite);
 }

@@ -447,11 +447,9 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("winding");
+SUITE(winding) {
     TCase* tests = add_case(suite, "winding");
     tcase_add_each(tests, components_are_what_is_connected, surface_of_good_meshes, surface_of_bad_meshes,
                    surface_of_inverted_tets, certificate_of_compact_bodies, certificate_is_sound,
                    certificate_of_an_inverted_body);
-    return run_suite(suite);
 }

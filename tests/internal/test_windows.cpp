@@ -373,10 +373,8 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("windows");
+SUITE(windows) {
     TCase* tests = add_case(suite, "windows");
     tcase_add_each(tests, window_collects_and_bins, lattice_is_monotone, lattice_covers_the_bulk,
                    windows_of_sparse_space, windows_of_one_place, lookup_misses_nothing, lookup_of_crowds);
-    return run_suite(suite);
 }

@@ -114,11 +114,9 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("workers");
+SUITE(workers) {
     TCase* tests = add_case(suite, "task systems");
     for (const TTest* test : {ranges_are_the_whole_or_an_error, ranges_out_of_bounds_are_not_run,
                               a_worker_has_one_range_at_a_time})
         tcase_add_test(tests, test);
-    return run_suite(suite);
 }

@@ -143,8 +143,7 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("decimal");
+SUITE(decimal) {
     TCase* tests = add_case(suite, "decimal");
 #if defined(__cpp_lib_to_chars)
     for (const TTest* test : {written_as_by_the_cpp_library, in_any_locale, read_as_by_the_cpp_library})
@@ -152,5 +151,4 @@ int main() {
 #else
     (void)tests;
 #endif
-    return run_suite(suite);
 }

@@ -447,11 +447,9 @@ START_TEST(scenes) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("io_diagnosis");
+SUITE(io_diagnosis) {
     TCase* tests = add_case(suite, "diagnosis");
     tcase_add_each(tests, tets, closed_and_open_surfaces, empty_meshes_and_points, signs_are_exact,
                    report_sizes, bad_arguments, no_files, content_before_name, two_sources,
                    surfaces_from_path_and_memory, off_variants, scenes);
-    return run_suite(suite);
 }

@@ -96,9 +96,7 @@ START_TEST(same_bytes) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("io_float_environment");
+SUITE(io_float_environment) {
     TCase* tests = add_case(suite, "modes");
     tcase_add_test(tests, same_bytes);
-    return run_suite(suite);
 }

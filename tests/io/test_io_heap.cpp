@@ -140,11 +140,9 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("io heap");
+SUITE(io_heap) {
     TCase* tests = add_case(suite, "heap");
     tcase_add_each(tests, each_allocation_of_a_load, each_allocation_of_bodies_and_writers,
                    each_allocation_of_a_written_file, each_allocation_of_a_fill,
                    nothing_besides_memory_of_the_caller);
-    return run_suite(suite);
 }

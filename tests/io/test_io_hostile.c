@@ -611,8 +611,7 @@ START_TEST(chosen_positions) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("io_hostile");
+SUITE(io_hostile) {
     TCase* tests = add_case(suite, "hostile");
     tcase_add_test(tests, whole);
     tcase_add_loop_test(tests, cut_at_every_byte, 0, sample_count);
@@ -621,5 +620,4 @@ int main(void) {
     tcase_add_loop_test(tests, lying_words, 0, sample_count);
     tcase_add_each(tests, declared_sizes_are_checked_first, polygons, points, positions_of_one_hash, scenes,
                    distinct_vertices, chosen_positions);
-    return run_suite(suite);
 }

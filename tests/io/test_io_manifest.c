@@ -107,10 +107,8 @@ START_TEST(manifest) {
 }
 END_TEST
 
-int main(void) {
-    need_meshes();
-    Suite* suite = suite_create("io_manifest");
+SUITE(io_manifest) {
+    if (!have_meshes(VOX_MESHES "/bad/MANIFEST.tsv")) return;
     TCase* tests = add_case(suite, "bad");
     tcase_add_test(tests, manifest);
-    return run_suite(suite);
 }

@@ -177,10 +177,8 @@ START_TEST(surfaces) {
 }
 END_TEST
 
-int main(void) {
-    need_meshes();
-    Suite* suite = suite_create("io_meshes");
+SUITE(io_meshes) {
+    if (!have_meshes(VOX_MESHES "/bad/MANIFEST.tsv")) return;
     TCase* tests = add_case(suite, "good");
     tcase_add_each(tests, ball_in_every_format, meshes_as_found, paper_models, surfaces);
-    return run_suite(suite);
 }

@@ -308,11 +308,9 @@ START_TEST(older_descriptions) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("io_progress");
+SUITE(io_progress) {
     TCase* tests = add_case(suite, "progress");
     tcase_add_loop_test(tests, from_nothing_to_all, 0, format_count);
     tcase_add_loop_test(tests, small_files, 0, 11);
     tcase_add_test(tests, older_descriptions);
-    return run_suite(suite);
 }

@@ -506,13 +506,11 @@ START_TEST(assimp) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("io_surfaces");
+SUITE(io_surfaces) {
     TCase* tests = add_case(suite, "surfaces");
     tcase_add_each(tests, points_alone, line_ends, first_byte_of_binary_data, content_alone, obj, stl, ply, polygons, gltf,
                    assimp);
 #ifdef __unix__
     tcase_add_test(tests, files_beside);
 #endif
-    return run_suite(suite);
 }

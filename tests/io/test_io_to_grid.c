@@ -159,10 +159,8 @@ START_TEST(in_memory_of_the_caller) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("io_to_grid");
+SUITE(io_to_grid) {
     TCase* tests = add_case(suite, "io_to_grid");
     tcase_add_each(tests, described, doubles_of_a_file_as_floats);
     tcase_add_loop_test(tests, in_memory_of_the_caller, 0, 3);
-    return run_suite(suite);
 }

@@ -329,12 +329,10 @@ START_TEST(enums_of_any_bits) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("io_write");
+SUITE(io_write) {
     TCase* tests = add_case(suite, "write");
     tcase_add_loop_test(tests, round_trip, 0, way_count);
     tcase_add_loop_test(tests, point_data, 0, way_count);
     tcase_add_loop_test(tests, cell_data, 0, way_count);
     tcase_add_each(tests, surface_alone, failing_sink, files, bad_arguments, enums_of_any_bits);
-    return run_suite(suite);
 }

@@ -238,8 +238,7 @@ START_TEST(bad_arguments) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("ready-made bodies");
+SUITE(solid_bodies) {
     TCase* tests = add_case(suite, "bodies");
     tcase_add_loop_test(tests, lattice_ball_is_the_papers, 0, 5);
     tcase_add_each(tests, lattice_ball_of_any_size, lattice_ball_is_the_same_again);
@@ -248,5 +247,4 @@ int main(void) {
     TCase* large = add_tagged_case(suite, "large", "large");
     tcase_add_loop_test(large, stuffed_body, 8, 12);
     tcase_add_loop_test(large, stuffed_body_is_near_its_surface, 0, 4);
-    return run_suite(suite);
 }

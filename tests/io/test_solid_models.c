@@ -103,15 +103,8 @@ START_TEST(million) {
 }
 END_TEST
 
-int main(void) {
-    FILE* file = fopen(FOLDER "bunny.obj", "rb");
-    if (!file) {
-        const int required = getenv("VOX_REQUIRE_MESHES") != NULL;
-        printf("%s: no %sbunny.obj\n", required ? "failed" : "skipped", FOLDER);
-        return required ? EXIT_FAILURE : 77;
-    }
-    fclose(file);
-    Suite* suite = suite_create("models to tetrahedra");
+SUITE(solid_models) {
+    if (!have_meshes(FOLDER "bunny.obj")) return;
     TCase* tests = add_case(suite, "models");
     tcase_add_loop_test(tests, fifty_cells, 0, 1);
     tcase_add_test(tests, self_intersecting);
@@ -119,5 +112,4 @@ int main(void) {
     tcase_add_loop_test(large, fifty_cells, 1, 3);
     tcase_add_loop_test(large, half_a_cell, 0, 3);
     tcase_add_test(large, million);
-    return run_suite(suite);
 }

@@ -533,8 +533,7 @@ START_TEST(bad_arguments) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("surface to tetrahedra");
+SUITE(solid_surfaces) {
     TCase* tests = add_case(suite, "surfaces");
     tcase_add_checked_fixture(tests, clear, NULL);
     tcase_add_loop_test(tests, box, 0, 4);
@@ -545,5 +544,4 @@ int main(void) {
     TCase* large = add_tagged_case(suite, "large", "large");
     tcase_add_checked_fixture(large, clear, NULL);
     tcase_add_each(large, sphere, coarser_inside);
-    return run_suite(suite);
 }

@@ -310,12 +310,10 @@ START_TEST(bad_input) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("experiment");
+SUITE(experiment) {
     TCase* tests = add_case(suite, "experiment");
     tcase_add_checked_fixture(tests, setup, teardown);
     tcase_add_loop_test(tests, one_percent_in_contact, 0, 2);
     tcase_add_each(tests, first_frame_by_hand, the_cell_size_changes_nothing, samples, from_create_to_epsilon,
                    bad_input);
-    return run_suite(suite);
 }

@@ -212,11 +212,9 @@ START_TEST(time_of_rounds) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("experiment_fit");
+SUITE(experiment_fit) {
     TCase* tests = add_case(suite, "experiment_fit");
     tcase_add_loop_test(tests, finds_the_minimum_and_the_zone, 0, 3);
     tcase_add_each(tests, noise_is_not_followed, unit_of_time_and_order_of_points_do_not_matter,
                    a_minimum_at_an_end_is_told, fit_refuses, orders, time_of_rounds);
-    return run_suite(suite);
 }

@@ -1,6 +1,6 @@
 /* The motion of bodies: against formulas where there are some, and against what must be kept where there are
  * none. */
-#include "sim/scene.h"
+#include "sim/stack.h"
 
 /* Semi-implicit Euler falls g h^2 n (n + 1) / 2 in n substeps of h; the formula for all time is half a
  * substep off. */
@@ -205,56 +205,7 @@ START_TEST(friction_follows_coulomb) {
 }
 END_TEST
 
-/* `count` slabs of about `tets` tets on top of each other, each turned against the one below. They stay where
- * they are, and their total energy stays below where it began. */
-static void rests_stacked(int count, double cell, int frames) {
-    vox_sim_desc desc = vox_default_sim_desc();
-    desc.substeps = 20;
-    desc.detect_every = 4;
-    vox_sim* sim = open_sim(&desc);
-    vox_sim_body_desc like = vox_default_sim_body_desc();
-    like.youngs_modulus = 5e6;
-    like.bulk_modulus = 5e6;
-    vox_io_mesh* mesh = box(2, 2, 0.7, cell);
-    vox_mesh bodies[10];
-    vox_sim_energies start[10];
-    for (int i = 0; i < count; ++i) {
-        bodies[i] = insert(sim, mesh, &like, 0.3 * i, 0, 0, 0.351 + 0.701 * i);
-        start[i] = energies(sim, bodies[i]);
-    }
-    const vox_sim_energies before = energies(sim, VOX_NULL_MESH);
-    double fastest = 0; /* in the last tenth */
-    for (int frame = 0; frame < frames; ++frame) {
-        ck_ok(vox_sim_step(sim, 1.0 / 60));
-        const vox_sim_energies now = energies(sim, VOX_NULL_MESH);
-        ck_assert_msg(total(&now) <= total(&before), "frame %d: energy %.3f, at first %.3f", frame,
-                      total(&now), total(&before));
-        ck_assert_msg(now.max_speed < 3, "frame %d: %g", frame, now.max_speed);
-        if (frame >= frames - frames / 10) fastest = fmax(fastest, now.max_speed);
-    }
-    const vox_sim_energies after = energies(sim, VOX_NULL_MESH);
-    double drift = 0, sunk = 0;
-    for (int i = 0; i < count; ++i) {
-        const vox_sim_energies now = energies(sim, bodies[i]);
-        drift = fmax(drift, hypot(now.centre[0] - start[i].centre[0], now.centre[1] - start[i].centre[1]));
-        sunk = fmax(sunk, fabs(now.centre[2] - start[i].centre[2]) / start[i].centre[2]);
-    }
-    printf("%d slabs of %u tets, %d frames: drift %.4f, sunk %.2f %%, fastest at the end %.3f, energy %.1f "
-           "-> %.1f\n",
-           count, (unsigned)view_of(sim, bodies[0]).tet_count, frames, drift, 100 * sunk, fastest,
-           total(&before), total(&after));
-    ck_assert_double_le(drift, 0.05); /* of a width of 2 */
-    ck_assert_double_le(sunk, 0.05);
-    ck_assert_double_le(fastest, 1);
-    ck_assert_uint_gt(counts(sim).penetrations, 0);
-    vox_io_mesh_destroy(mesh);
-    vox_sim_destroy(sim);
-}
-
 START_TEST(three_slabs_rest_stacked) { rests_stacked(3, 0.25, 200); }
-END_TEST
-
-START_TEST(ten_bodies_rest_stacked) { rests_stacked(10, 0.143, 1000); }
 END_TEST
 
 /* Two balls meet and part. The contacts of 80 frames, as one number, are the same in every build, in WebAssembly too. Until
@@ -289,15 +240,8 @@ START_TEST(every_build_moves_bodies_the_same) {
 }
 END_TEST
 
-int main(int argc, char** argv) {
-    Suite* suite = suite_create("sim");
-    TCase* tests = add_case(suite, "motion");
-    if (argc > 1 && strcmp(argv[1], "heavy") == 0) {
-        tcase_add_test(tests, ten_bodies_rest_stacked);
-    } else {
-        tcase_add_each(tests, falls_as_the_formula_says, rests_on_the_floor, a_free_body_keeps_its_momentum,
-                       two_bodies_collide_and_part, energy_does_not_grow, friction_follows_coulomb,
-                       three_slabs_rest_stacked, every_build_moves_bodies_the_same);
-    }
-    return run_suite(suite);
+SUITE(sim) {
+    tcase_add_each(add_case(suite, "motion"), falls_as_the_formula_says, rests_on_the_floor,
+                   a_free_body_keeps_its_momentum, two_bodies_collide_and_part, energy_does_not_grow,
+                   friction_follows_coulomb, three_slabs_rest_stacked, every_build_moves_bodies_the_same);
 }

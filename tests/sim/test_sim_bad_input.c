@@ -527,13 +527,11 @@ START_TEST(changes_in_its_grid) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("sim_bad_input");
+SUITE(sim_bad_input) {
     TCase* tests = add_case(suite, "bad input");
     tcase_add_each(tests, crossing_bars, coincident_bodies, enclosed_body, below_the_floor,
                    squashed_and_inverted, flat_and_inverted_tets_are_counted, too_large_a_step_is_cut_down,
                    absurd_stiffness_is_cut_down, the_same_bits_every_time, refuses_bad_settings,
                    refuses_bad_bodies, refuses_bad_calls, structs_may_be_smaller, the_grid_is_within_reach);
     tcase_add_loop_test(tests, changes_in_its_grid, 0, change_count);
-    return run_suite(suite);
 }

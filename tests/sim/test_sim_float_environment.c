@@ -81,9 +81,7 @@ START_TEST(same_motion) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("sim_float_environment");
+SUITE(sim_float_environment) {
     TCase* tests = add_case(suite, "modes");
     tcase_add_test(tests, same_motion);
-    return run_suite(suite);
 }

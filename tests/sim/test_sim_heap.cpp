@@ -79,9 +79,7 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("sim heap");
+SUITE(sim_heap) {
     TCase* tests = add_case(suite, "heap");
     tcase_add_each(tests, each_allocation_of_a_simulation, each_allocation_of_an_experiment);
-    return run_suite(suite);
 }

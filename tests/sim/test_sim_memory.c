@@ -81,8 +81,6 @@ START_TEST(in_memory_of_the_caller) {
 }
 END_TEST
 
-int main(void) {
-    Suite* suite = suite_create("sim_memory");
+SUITE(sim_memory) {
     tcase_add_test(add_case(suite, "sim_memory"), in_memory_of_the_caller);
-    return run_suite(suite);
 }

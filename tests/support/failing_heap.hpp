@@ -1,5 +1,5 @@
-// Replaces the C++ heap of a test program, of the libraries that it links, too, by one that counts and fails
-// at a chosen allocation. Include it in one file of the program.
+// A C++ heap that counts and fails at a chosen allocation. failing_heap.cpp puts it in the place of a program's own, that of
+// the libraries that the program links, too.
 #pragma once
 
 #include "support/suite.h"
@@ -91,32 +91,3 @@ void fail_each(Function&& function, std::uint64_t stride = 1) {
 }
 
 } // namespace heap
-
-void* operator new(std::size_t size) { return heap::take_or_throw(size, 1); }
-void* operator new[](std::size_t size) { return heap::take_or_throw(size, 1); }
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return heap::take(size, 1); }
-void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return heap::take(size, 1); }
-void* operator new(std::size_t size, std::align_val_t to) {
-    return heap::take_or_throw(size, std::size_t(to));
-}
-void* operator new[](std::size_t size, std::align_val_t to) {
-    return heap::take_or_throw(size, std::size_t(to));
-}
-void* operator new(std::size_t size, std::align_val_t to, const std::nothrow_t&) noexcept {
-    return heap::take(size, std::size_t(to));
-}
-void* operator new[](std::size_t size, std::align_val_t to, const std::nothrow_t&) noexcept {
-    return heap::take(size, std::size_t(to));
-}
-void operator delete(void* memory) noexcept { heap::give(memory); }
-void operator delete[](void* memory) noexcept { heap::give(memory); }
-void operator delete(void* memory, std::size_t) noexcept { heap::give(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { heap::give(memory); }
-void operator delete(void* memory, const std::nothrow_t&) noexcept { heap::give(memory); }
-void operator delete[](void* memory, const std::nothrow_t&) noexcept { heap::give(memory); }
-void operator delete(void* memory, std::align_val_t) noexcept { heap::give(memory); }
-void operator delete[](void* memory, std::align_val_t) noexcept { heap::give(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { heap::give(memory); }
-void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { heap::give(memory); }
-void operator delete(void* memory, std::align_val_t, const std::nothrow_t&) noexcept { heap::give(memory); }
-void operator delete[](void* memory, std::align_val_t, const std::nothrow_t&) noexcept { heap::give(memory); }

@@ -10,10 +10,6 @@
 #include <string.h>
 #include <vox/vox_io.h>
 
-/* A sanitizer's allocator refuses what no reader has a reason to ask for. */
-const char* __asan_default_options(void);
-const char* __asan_default_options(void) { return "max_allocation_size_mb=256:allocator_may_return_null=1"; }
-
 typedef struct bytes {
     unsigned char* data; /* ends with a 0 that size does not count */
     size_t size;
@@ -98,18 +94,6 @@ static inline void check_same(const vox_io_mesh* a, const vox_io_mesh* b) {
 
 static inline int close_to(double a, double b, double relative) {
     return fabs(a - b) <= relative * fmax(fabs(a), fabs(b));
-}
-
-/* Ends the program when the folder of test meshes is not there: skipped, or failed where it is required. */
-static inline void need_meshes(void) {
-    FILE* file = fopen(VOX_MESHES "/bad/MANIFEST.tsv", "rb");
-    if (file) {
-        fclose(file);
-        return;
-    }
-    const int required = getenv("VOX_REQUIRE_MESHES") != NULL;
-    printf("%s: the test meshes are not at %s\n", required ? "failed" : "skipped", VOX_MESHES);
-    exit(required ? EXIT_FAILURE : 77);
 }
 
 #endif

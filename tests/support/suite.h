@@ -1,4 +1,4 @@
-/* What the Check programs share: checks of results, grids and meshes in one call, cases, one case an engine. */
+/* What the suites share: checks of results, grids and meshes in one call, cases, one case an engine. */
 #ifndef VOX_TESTS_SUITE_H
 #define VOX_TESTS_SUITE_H
 
@@ -6,6 +6,7 @@
 /* Check writes every assertion that holds into a file, to name the last one before a crash: half of the time of tests that
  * assert something of each tetrahedron. A debugger names it too. */
 #define _mark_point(file, line) ((void)0)
+#include <stdio.h>
 #include <stdlib.h>
 #include <vox/vox.h>
 
@@ -106,12 +107,37 @@ static inline void add_for_each_engine(Suite* suite, void (*add_tests)(TCase*)) 
     add_tagged_for_each_engine(suite, add_tests, "");
 }
 
-static inline int run_suite(Suite* suite) {
-    SRunner* runner = srunner_create(suite);
-    srunner_run_all(runner, CK_ENV);
-    const int failed = srunner_ntests_failed(runner);
-    srunner_free(runner);
-    return failed == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+static inline uint64_t number_from(const char* variable, uint64_t usual) {
+    const char* text = getenv(variable);
+    return text ? strtoull(text, NULL, 10) : usual;
 }
+/* How many random scenes to try, or how many steps to take. VOX_TEST_VOLUME multiplies the usual numbers, for long runs. */
+static inline uint64_t test_volume(void) { return number_from("VOX_TEST_VOLUME", 1); }
+static inline uint64_t volume_from(const char* variable, uint64_t usual) {
+    return number_from(variable, usual * test_volume());
+}
+
+/* Whether the meshes from outside the tree are there, by one of their files. A suite that adds no case without them is skipped. */
+static inline int have_meshes(const char* path) {
+    FILE* file = fopen(path, "rb");
+    if (file) {
+        fclose(file);
+        return 1;
+    }
+    const int required = getenv("VOX_REQUIRE_MESHES") != NULL;
+    printf("%s: there is no %s\n", required ? "failed" : "skipped", path);
+    if (required) exit(EXIT_FAILURE);
+    return 0;
+}
+
+/* SUITE(events) { add_case(suite, ...) ... } adds the cases of the suite, which ctest knows by this name. */
+#if defined(__cplusplus)
+#define SUITE_LINKAGE_ extern "C"
+#else
+#define SUITE_LINKAGE_
+#endif
+#define SUITE(name) \
+    SUITE_LINKAGE_ void suite_##name(Suite* suite); \
+    void suite_##name(Suite* suite)
 
 #endif

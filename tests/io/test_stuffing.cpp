@@ -135,10 +135,8 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("isosurface stuffing");
+SUITE(stuffing) {
     TCase* tests = add_case(suite, "stuffing");
     tcase_add_loop_test(tests, random_lattices, 0, 24);
     tcase_add_loop_test(tests, coarse_inside, 0, 4);
-    return run_suite(suite);
 }

@@ -86,12 +86,10 @@ START_TEST(tets_with_a_surface) {
 }
 END_TEST
 
-int main() {
-    Suite* suite = suite_create("internal limits");
+SUITE(internal_limits) {
     TCase* tests = add_case(suite, "limits");
     tcase_add_test(tests, counts_of_a_grid);
     if (sizeof(std::size_t) > 4) { // else no array is as long
         tcase_add_each(tests, contacts_of_a_step, other_contacts_of_a_step, tets_with_a_surface);
     }
-    return run_suite(suite);
 }

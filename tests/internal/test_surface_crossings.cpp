@@ -286,9 +286,7 @@ END_TEST
 
 } // namespace
 
-int main() {
-    Suite* suite = suite_create("surface_crossings");
+SUITE(surface_crossings) {
     TCase* tests = add_case(suite, "crossings");
     tcase_add_each(tests, random_surfaces_equal_brute_force, crossed_bars, arguments, budgets);
-    return run_suite(suite);
 }

@@ -1,5 +1,5 @@
 // vox.hpp beside vox.h: the same values, errors as exceptions with code and text, moves, views that know when they have
-// ended, temporaries that are refused, callables. Compiled twice: checked as C++20, unchecked as C++17.
+// ended, temporaries that are refused, callables. Two suites have these cases: checked as C++20, unchecked as C++17.
 #include <Eigen/Geometry>
 
 #include <vox/vox.hpp>
@@ -1213,10 +1213,7 @@ START_TEST(versions) {
 }
 END_TEST
 
-} // namespace
-
-int main() {
-    Suite* suite = suite_create("vox.hpp");
+void add_hpp_cases(Suite* suite) {
     tcase_add_each(add_case(suite, "results"), results_equal_those_of_c, edge_contacts_equal_those_of_c,
                    margin_contacts_and_passages_equal_those_of_c, readings_equal_those_of_c,
                    meshes_tell_what_c_tells, transforms, queries_equal_those_of_c, meshes_are_cut_as_in_c,
@@ -1236,5 +1233,6 @@ int main() {
                    views_with_gaps);
     tcase_add_each(add_case(suite, "callables"), logs_are_callables, task_systems_are_callables,
                    one_exception_a_call, cost_functions_are_callables);
-    return run_suite(suite);
 }
+
+} // namespace

@@ -112,10 +112,8 @@ START_TEST(many_points) {
 }
 END_TEST
 
-int main() {
-    Suite* suite = suite_create("fit");
+SUITE(fit) {
     TCase* tests = add_case(suite, "fit");
     tcase_add_loop_test(tests, same_as_the_plain_way, 0, 6);
     tcase_add_test(tests, many_points);
-    return run_suite(suite);
 }
