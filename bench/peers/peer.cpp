@@ -154,8 +154,9 @@ std::vector<vox_contact> Peer::contacts() {
                           {reinterpret_cast<const std::byte*>(body.positions.data()), 3 * sizeof(float)},
                           {reinterpret_cast<const vox::Tet*>(body.tets.data()), body.tet_count()},
                           body.self_collision});
-    vox::Array<vox::Hit> hits = hits_;
-    vox::Array<vox_contact> contacts;
+    std::pmr::memory_resource* const heap = std::pmr::get_default_resource();
+    vox::Array<vox::Hit> hits(hits_.begin(), hits_.end(), heap);
+    vox::Array<vox_contact> contacts(heap);
     vox::make_contacts(bodies, hits, contacts);
     return {contacts.begin(), contacts.end()};
 }

@@ -71,7 +71,7 @@ private:
     std::vector<std::size_t> order_;
     std::vector<Pair> pairs_;
     std::vector<bool> vertices_known_, tets_known_;
-    vox::Array<vox::Hit> hits_;
+    std::vector<vox::Hit> hits_;
     std::uint64_t exact_tests_ = 0;
     std::size_t bytes_ = 0;
 };

@@ -235,8 +235,8 @@ bool run(const Named& named, const Options& options) {
 
     FastEngine fast(&memory);
     ReferenceEngine reference(std::pmr::new_delete_resource());
-    vox::Array<Hit> fast_hits(&memory), reference_hits;
-    vox::Array<vox_contact> contacts;
+    vox::Array<Hit> fast_hits(&memory), reference_hits(std::pmr::new_delete_resource());
+    vox::Array<vox_contact> contacts(std::pmr::new_delete_resource());
     vox_counters counters{}, reference_counters{};
     vox_profile profile{}, reference_profile{};
     FastSettings fast_settings;

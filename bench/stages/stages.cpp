@@ -132,7 +132,7 @@ struct Bodies {
     fast::OrientationCache turning{memory}, unknown{memory}, known_before{memory};
     Box box_a{}, box_b{}, region{};
     fast::PairBuffers pair_buffers{memory};
-    vox::Array<fast::Pair> pairs;
+    vox::Array<fast::Pair> pairs{memory};
     fast::Points points{memory}, sparse{memory};
     fast::WindowLattice lattice{};
     fast::Bins bins{memory}, sparse_bins{memory};

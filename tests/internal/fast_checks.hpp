@@ -39,7 +39,7 @@ inline std::vector<Key> brute_force(const std::vector<vox::Body>& bodies) {
 
 inline std::vector<Key> run_fast(vox::FastEngine& engine, Scene& scene, double cell_size,
                                  vox_counters* out = nullptr) {
-    vox::Array<vox::Hit> hits;
+    vox::Array<vox::Hit> hits(std::pmr::get_default_resource());
     vox_counters counters{};
     vox_profile profile{};
     vox::FastSettings settings;
@@ -50,7 +50,7 @@ inline std::vector<Key> run_fast(vox::FastEngine& engine, Scene& scene, double c
 }
 
 inline std::vector<Key> run_reference(Scene& scene, double cell_size) {
-    vox::Array<vox::Hit> hits;
+    vox::Array<vox::Hit> hits(std::pmr::get_default_resource());
     vox_counters counters{};
     vox_profile profile{};
     vox::ReferenceSettings settings;

@@ -26,12 +26,14 @@ Mesh uniform_mesh(std::size_t vertices, std::size_t tets) {
     return mesh;
 }
 
+std::pmr::memory_resource* const heap = std::pmr::get_default_resource();
+
 using Key = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
 
 Key key(const Hit& hit) { return {hit.body_a, hit.vertex, hit.body_b, hit.tet}; }
 
 // The rule of vox_contact, read literally.
-std::vector<Hit> expected_hits(const vox::Array<Hit>& hits) {
+std::vector<Hit> expected_hits(const std::vector<Hit>& hits) {
     std::vector<Hit> expected;
     for (const Hit& hit : hits) {
         bool first = true, any_interior = false;
@@ -48,14 +50,15 @@ std::vector<Hit> expected_hits(const vox::Array<Hit>& hits) {
 }
 
 // The hits are between 300 bodies that all look like `mesh`.
-void check(const Mesh& mesh, vox::Array<Hit> hits) {
-    const std::vector<Hit> expected = expected_hits(hits);
+void check(const Mesh& mesh, const std::vector<Hit>& found) {
+    const std::vector<Hit> expected = expected_hits(found);
+    vox::Array<Hit> hits(found.begin(), found.end(), heap);
     const Positions positions{reinterpret_cast<const std::byte*>(mesh.positions.data()), sizeof(Vec3f)};
     const Body view{0, static_cast<std::uint32_t>(mesh.positions.size()), positions, mesh.tets, true};
     std::vector<Body> views(300, view);
     for (std::size_t b = 0; b < views.size(); ++b)
         views[b].mesh_id = static_cast<std::uint32_t>(1000 + 3 * b);
-    vox::Array<vox_contact> contacts(5); // left-overs of another step
+    vox::Array<vox_contact> contacts(5, heap); // left-overs of another step
     make_contacts(views, hits, contacts);
     ck_assert_uint_eq(contacts.size(), expected.size());
     for (std::size_t i = 0; i < contacts.size(); ++i) {
@@ -81,7 +84,7 @@ START_TEST(any_order_of_hits_becomes_canonical) {
                 for (std::uint32_t i = 0; i < count; ++i)
                     keys.insert(Key{random.below(spread), 4 + random.below(range), random.below(spread),
                                     random.below(range)});
-                vox::Array<Hit> sorted_hits, hits;
+                std::vector<Hit> sorted_hits, hits;
                 for (const auto& [body_a, vertex, body_b, tet] : keys)
                     sorted_hits.push_back(hit(body_a, vertex, body_b, tet, random.below(3) == 0));
                 check(mesh, sorted_hits);
@@ -110,7 +113,7 @@ START_TEST(interior_hits_hide_boundary_ones) {
 END_TEST
 
 // The rule again, for hits of which there are too many to compare each with all others.
-std::vector<Key> expected_keys(vox::Array<Hit> hits) {
+std::vector<Key> expected_keys(std::vector<Hit> hits) {
     std::sort(hits.begin(), hits.end(), [](const Hit& x, const Hit& y) { return key(x) < key(y); });
     std::vector<Key> expected;
     for (std::size_t begin = 0, end; begin < hits.size(); begin = end) {
@@ -146,15 +149,15 @@ START_TEST(workers_share_many_hits) {
     for (const std::uint32_t count : {8193u, 40000u, 150000u})
         for (const auto& [spread, range] :
              {std::pair(1u, 66000u), {300u, 200u}, {2u, 9u}}) { // bodies, vertices
-            vox::Array<Hit> hits;
+            std::vector<Hit> hits;
             for (std::uint32_t i = 0; i < count; ++i) // body_b and tet tell them apart
                 hits.push_back(
                     hit(random.below(spread), 4 + random.below(range), i % 4, i / 4, random.below(3) == 0));
             const std::vector<Key> expected = expected_keys(hits);
             for (std::uint32_t workers : {1u, 2u, 5u}) {
                 Workers shared({run_backwards, [](void*, void*) {}, &workers}, workers);
-                vox::Array<Hit> left = hits;
-                vox::Array<vox_contact> contacts;
+                vox::Array<Hit> left(hits.begin(), hits.end(), heap);
+                vox::Array<vox_contact> contacts(heap);
                 make_contacts(views, left, contacts, &shared);
                 ck_assert_uint_eq(contacts.size(), expected.size());
                 ck_assert_uint_eq(left.size(), expected.size());
@@ -201,7 +204,7 @@ START_TEST(weights_have_the_bits_of_the_scalar_function) {
     }
     const Positions positions{reinterpret_cast<const std::byte*>(records.data()), sizeof(Record)};
     const Body body{7, std::uint32_t(records.size()), positions, mesh.tets, true};
-    vox::Array<Hit> hits;
+    std::vector<Hit> hits;
     std::uint64_t exact_tests = 0;
     for (std::uint32_t t = 0; t < count; ++t)
         if (orientation(positions[5 * t], positions[5 * t + 1], positions[5 * t + 2], positions[5 * t + 3],
@@ -211,8 +214,8 @@ START_TEST(weights_have_the_bits_of_the_scalar_function) {
     for (int level = 0; level <= int(simd::best_level()); ++level) {
         simd::force_level(simd::Level(level));
         for (const std::size_t length : {hits.size(), std::size_t{67}, std::size_t{64}, std::size_t{1}}) {
-            vox::Array<Hit> some(hits.begin(), hits.begin() + std::ptrdiff_t(length));
-            vox::Array<vox_contact> contacts;
+            vox::Array<Hit> some(hits.begin(), hits.begin() + std::ptrdiff_t(length), heap);
+            vox::Array<vox_contact> contacts(heap);
             make_contacts({&body, 1}, some, contacts);
             ck_assert_uint_eq(contacts.size(), length);
             for (const vox_contact& contact : contacts) {

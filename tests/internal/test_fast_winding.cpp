@@ -56,7 +56,7 @@ std::uint64_t check_winding(Scene& scene, const char* name) {
         if (simd::force_level(level) != level) continue;
         FastEngine engine(std::pmr::get_default_resource());
         for (const bool winding : {true, false}) {
-            vox::Array<Hit> hits;
+            vox::Array<Hit> hits(std::pmr::get_default_resource());
             vox_counters counters{};
             vox_profile profile{};
             engine.detect(scene.bodies(), scene.prepared(), {0, winding}, hits, counters, profile);
