@@ -1,6 +1,7 @@
-// A growing array whose memory comes from a resource: std::pmr::vector, as far as this library needs it, at half of the
-// time to compile. What the two share is named and behaves alike. They differ in that
-// * growing moves bytes by one function for all element types, and iterators are pointers, so that a compiler has a tenth of
+// A growing array whose memory comes from a resource: std::pmr::vector, as far as this library needs it, at
+// half of the time to compile. What the two share is named and behaves alike. They differ in that
+// * growing moves bytes by one function for all element types, and iterators are pointers, so that a compiler
+// has a tenth of
 //   the functions to make (std::pmr::vector was half of what the core's folders took to compile);
 // * the memory is always named: there is neither a default constructor nor a copy without it;
 // * elements move without exceptions.
@@ -26,8 +27,8 @@
 
 namespace vox {
 
-// Takes memory for `wanted` bytes, moves the first `used` of the `room` bytes at `data` there, and releases these.
-// Throws what the resource throws, and has changed nothing then. No bytes: null.
+// Takes memory for `wanted` bytes, moves the first `used` of the `room` bytes at `data` there, and releases
+// these. Throws what the resource throws, and has changed nothing then. No bytes: null.
 inline void* move_bytes(std::pmr::memory_resource* memory, void* data, std::size_t used, std::size_t room,
                         std::size_t wanted, std::size_t alignment) {
     void* made = wanted ? memory->allocate(wanted, alignment) : nullptr;
@@ -132,8 +133,12 @@ public:
     void reserve(std::size_t count) {
         if (count > room_) move_to(count);
     }
-    void shrink_to_fit() {
-        if (size_ < room_) move_to(size_);
+    // Keeps its room where there is no memory to move to.
+    void shrink_to_fit() noexcept {
+        try {
+            if (size_ < room_) move_to(size_);
+        } catch (...) {
+        }
     }
     void resize(std::size_t count) {
         make_room(count);
@@ -166,7 +171,8 @@ public:
     T& emplace_back(Arguments&&... arguments) {
         if (size_ == room_) [[unlikely]]
             return emplace_growing(std::forward<Arguments>(arguments)...);
-        return *::new (static_cast<void*>(data_ + size_++)) T(std::forward<Arguments>(arguments)...);
+        ::new (static_cast<void*>(data_ + size_)) T(std::forward<Arguments>(arguments)...);
+        return data_[size_++];
     }
     // Insert before `place`; the one of a range takes items of another array.
     T* insert(const T* place, const T& value) {
@@ -202,7 +208,8 @@ public:
     T* erase(const T* place) noexcept { return erase(place, place + 1); }
     T* erase(const T* first, const T* last) noexcept {
         T* to = data_ + (first - data_);
-        if (first != last) truncate(static_cast<std::size_t>(std::move(data_ + (last - data_), end(), to) - data_));
+        if (first != last)
+            truncate(static_cast<std::size_t>(std::move(data_ + (last - data_), end(), to) - data_));
         return to;
     }
 
@@ -238,7 +245,8 @@ private:
             Array larger(memory_);
             larger.move_to(grown(size_ + 1));
             ::new (static_cast<void*>(larger.data_ + size_)) T(std::forward<Arguments>(arguments)...);
-            for (T& item : *this) ::new (static_cast<void*>(larger.data_ + larger.size_++)) T(std::move(item));
+            for (T& item : *this)
+                ::new (static_cast<void*>(larger.data_ + larger.size_++)) T(std::move(item));
             swap(larger);
         }
         return data_[size_++];

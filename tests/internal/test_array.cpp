@@ -185,7 +185,35 @@ void run_out() {
     fails([&] { array.assign(4, number<T>(7)); });
     fails([&] { array.reserve(Array<T>::max_size() + 1); });
     ck_assert_int_eq(failed, 9);
+    array.pop_back();
+    array.shrink_to_fit();
+    ck_assert_uint_eq(array.size(), 2);
+    ck_assert_uint_eq(array.capacity(), 3);
 }
+
+// An element whose constructor throws is none, with room for it and without.
+struct Refuses {
+    std::string text = number<std::string>(1); // so that destroying one that is none shows
+    explicit Refuses(bool refuses) {
+        if (refuses) throw std::bad_alloc();
+    }
+};
+
+START_TEST(constructors_that_throw) {
+    Array<Refuses> array(std::pmr::new_delete_resource());
+    for (std::size_t size = 0; size < 5; ++size) {
+        bool thrown = false;
+        try {
+            array.emplace_back(true);
+        } catch (const std::bad_alloc&) {
+            thrown = true;
+        }
+        ck_assert(thrown);
+        ck_assert_uint_eq(array.size(), size);
+        array.emplace_back(false);
+    }
+}
+END_TEST
 
 START_TEST(memory_that_runs_out) {
     run_out<std::uint32_t>();
@@ -197,5 +225,5 @@ END_TEST
 
 SUITE(array) {
     TCase* tests = add_case(suite, "array");
-    tcase_add_each(tests, beside_vector, other_memory, memory_that_runs_out);
+    tcase_add_each(tests, beside_vector, other_memory, constructors_that_throw, memory_that_runs_out);
 }
