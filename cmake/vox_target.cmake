@@ -94,18 +94,17 @@ function(vox_library name export_map)
   endif()
 endfunction()
 
-# A full build in half the time. Off in the presets debug and clang, so that what a file forgets to include is seen, and
-# with a compiler launcher such as ccache, which keeps objects itself: the smaller the better.
+# A full build in half the time. Off in the presets debug and clang, so that what a file forgets to include is seen.
 option(VOX_UNITY
   "Compile the sources of a folder together: half the work of a full build, more work where one file has changed" ON)
-if(CMAKE_CXX_COMPILER_LAUNCHER)
-  set(VOX_UNITY OFF)
-endif()
 
 # vox_precompile(name headers...): headers that most sources include, compiled once.
 function(vox_precompile name)
   if(VOX_UNITY)
     target_precompile_headers(${name} PRIVATE ${ARGN})
+    if(CMAKE_CXX_COMPILER_LAUNCHER AND CMAKE_CXX_COMPILER_ID STREQUAL Clang) # else no cache keeps what includes them
+      target_compile_options(${name} PRIVATE "SHELL:-Xclang -fno-pch-timestamp")
+    endif()
   endif()
 endfunction()
 

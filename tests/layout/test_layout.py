@@ -27,6 +27,9 @@ BESIDE = {"io": {"base", "exact"}, "sim": {"base"}, "dist": {"base"}, "mpi": {"b
 TOP_OF_SRC = {"CMakeLists.txt", "README.md", "vox.map"}
 MOST_LINES_OF_README = 80
 MOST_HEADERS_OF_MESH = 12
+# Of a source file. A line that clang-format cannot break may be longer than it wants; not here.
+MOST_LINES = 600
+MOST_COLUMNS = 110
 
 EIGEN = "src/base/eigen.hpp"
 
@@ -74,6 +77,11 @@ def faults(root):
     for path in files(".cpp", ".hpp", ".h", ".c", under="src", root=root):
         if path.count("/") < 2:
             continue
+        text = text_of(path, root).splitlines()
+        if len(text) > MOST_LINES:
+            found.append(f"{path} has {len(text)} lines, at most {MOST_LINES} are allowed")
+        found += [f"{path}:{number}: {len(line)} columns, at most {MOST_COLUMNS} are allowed"
+                  for number, line in enumerate(text, 1) if len(line) > MOST_COLUMNS]
         folder = path.split("/")[1]
         for line, name in includes(path, root):
             place = f'{path}:{line}: "{name}"'
@@ -160,6 +168,8 @@ class Faults(unittest.TestCase):
             ({"util/bits.hpp": ""}, "src/util/: a folder that"),
             ({"mesh/mesh.hpp": many, **headers}, "reaches 13 project headers"),
             ({"README.md": "line\n" * 81}, "has 81 lines"),
+            ({"mesh/mesh.hpp": "//\n" * 601}, "src/mesh/mesh.hpp has 601 lines"),
+            ({"mesh/mesh.hpp": "//\n" + "/" * 111}, "src/mesh/mesh.hpp:2: 111 columns"),
         ]:
             with self.subTest(words=words):
                 self.assertIn(words, self.faults_of(**changes))
