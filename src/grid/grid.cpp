@@ -390,7 +390,7 @@ void vox_grid::set_margin(double margin) {
     check_margin(margin);
     if (margin == margin_) return;
     margin_ = margin;
-    if (margin > 0 && !margin_contacts_) margin_contacts_.emplace(&memory_);
+    if (finds_surface_contacts && margin > 0 && !margin_contacts_) margin_contacts_.emplace(&memory_);
     if (margin == 0) margin_contacts_.reset();
     look_near();
     contacts_hold_ = false; // there is more, or less, to do with meshes at rest

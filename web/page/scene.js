@@ -25,7 +25,7 @@ export class Scene {
     const scene = new Scene();
     const noFiles = () => 52; // "not supported": the module reads no files
     const response = await fetch(address);
-    if (!response.ok) throw new Error(`${address}: ${response.status}`);
+    if (!response.ok) throw new Error(`${address}: ${response.status}${simdSupported() ? "" : ", and this browser has no SIMD in WebAssembly"}`);
     const module = await WebAssembly.compile(await response.arrayBuffer());
     const imports = {};
     for (const { module: from, name } of WebAssembly.Module.imports(module)) (imports[from] ??= {})[name] = noFiles;

@@ -11,6 +11,7 @@ from . import _c
 from .errors import InvalidStateError, error_of
 
 _HERE = os.path.dirname(os.path.abspath(__file__))
+_OF_A_BUILD = ("src", "src/io", "src/sim", "src/dist", "bin")  # where CMake leaves the libraries, bin on Windows
 _Struct = TypeVar("_Struct", bound=ctypes.Structure)
 _Values = TypeVar("_Values")
 
@@ -24,11 +25,17 @@ def file_name(name: str) -> str:
     return f"lib{name}.so.{_c.VOX_ABI_VERSION}"
 
 
+def _named() -> list[str]:
+    """The folders in VOXTET_LIBRARY_DIR, each a build folder or one that holds libraries."""
+    return [folder for folder in os.environ.get("VOXTET_LIBRARY_DIR", "").split(os.pathsep) if folder]
+
+
 def find(name: str) -> str:
-    """The file to load: the package's own; else that of a folder in VOXTET_LIBRARY_DIR (a build tree, for development);
-    else whatever the system finds by that name."""
-    own = os.path.join(_HERE, "bin" if sys.platform == "win32" else "lib")  # DLLs lie beside the tool, which finds them there
-    folders = [own, *filter(None, os.environ.get("VOXTET_LIBRARY_DIR", "").split(os.pathsep))]
+    """The file to load: the package's own; else that of a folder in VOXTET_LIBRARY_DIR; else whatever the system finds by
+    that name."""
+    folders = [os.path.join(_HERE, "bin" if sys.platform == "win32" else "lib")]  # DLLs lie beside the tool, which finds them there
+    for named in _named():
+        folders += [named, *(os.path.join(named, part) for part in _OF_A_BUILD)]
     for folder in folders:
         path = os.path.join(folder, file_name(name))
         if os.path.exists(path):
@@ -42,9 +49,12 @@ def load(name: str) -> Any:
     try:
         library = ctypes.CDLL(path, mode=ctypes.RTLD_GLOBAL)
     except OSError as error:
-        raise ImportError(
-            f"voxtet cannot load {path} ({error}). The wheels have it inside; for a build tree, name its folders in "
-            "VOXTET_LIBRARY_DIR.") from error
+        named = os.pathsep.join(_named())
+        if named and path == file_name(name):
+            help = f"VOXTET_LIBRARY_DIR is {named}, where it is not built: cmake --build BUILD_FOLDER --target {name}"
+        else:
+            help = "The wheels have it inside; in a clone, name the build folder: VOXTET_LIBRARY_DIR=build/release"
+        raise ImportError(f"voxtet cannot load {path} ({error}). {help}") from error
     return library
 
 
