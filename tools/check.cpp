@@ -17,7 +17,7 @@ namespace tool {
 
 namespace {
 
-struct Options {
+struct CheckOptions {
     std::vector<std::string> files;
     bool floats = false;
     std::uint32_t threads = 1;
@@ -105,7 +105,7 @@ struct Checked {
     }
 };
 
-Checked check_file(const std::string& file, const Options& options) {
+Checked check_file(const std::string& file, const CheckOptions& options) {
     Checked checked;
     checked.file = file;
     const Body body = load_body(file, {.keep_doubles = !options.floats});
@@ -137,7 +137,7 @@ Checked check_file(const std::string& file, const Options& options) {
     return checked;
 }
 
-void print_text(const Checked& checked, std::uint64_t limit) {
+void print_check(const Checked& checked, std::uint64_t limit) {
     const auto number = [](std::size_t count) { return static_cast<unsigned long long>(count); };
     std::printf("%s: %llu triangles, %llu edges: ", checked.file.c_str(),
                 number(checked.surface.triangles.size()), number(checked.edges.size() / 2));
@@ -162,14 +162,14 @@ void print_text(const Checked& checked, std::uint64_t limit) {
                     number(checked.crossings.size() - shown));
 }
 
-Json to_json(const Checked& checked) {
+Json check_json(const Checked& checked) {
     Json list = Json::array();
     for (const vox_crossing& c : checked.crossings) {
         const Triangle& face = checked.surface.triangles[c.face];
-        list.push_back({{"edge", {checked.edges[2 * c.edge], checked.edges[2 * c.edge + 1]}},
-                        {"triangle", {face[0], face[1], face[2]}},
+        list.push_back({{"edge", Json::array({checked.edges[2 * c.edge], checked.edges[2 * c.edge + 1]})},
+                        {"triangle", Json::array_of(face)},
                         {"kind", kind_name(c.kind)},
-                        {"position", point(c.position)}});
+                        {"position", Json::array_of(c.position)}});
     }
     return {{"file", checked.file},
             {"triangles", checked.surface.triangles.size()},
@@ -177,7 +177,7 @@ Json to_json(const Checked& checked) {
             {"through", checked.count(VOX_CROSSING_THROUGH)},
             {"touching", checked.count(VOX_CROSSING_TOUCHING)},
             {"coplanar", checked.count(VOX_CROSSING_COPLANAR)},
-            {"crossings", std::move(list)}};
+            {"crossings", list}};
 }
 
 // The surface, with how many crossings each vertex (by its edges) and each triangle takes part in.
@@ -214,7 +214,7 @@ void write_surface(const Checked& checked, const std::string& path) {
     check(vox_io_write(mesh.get(), path.c_str(), &desc));
 }
 
-void run(const Options& options) {
+void run_check(const CheckOptions& options) {
     if (!options.out.empty()) {
         if (options.files.size() > 1) throw WrongUsage("-o takes one mesh");
         check_output(options.out, {".vtu", ".msh"});
@@ -226,18 +226,18 @@ void run(const Options& options) {
         free &= checked.crossings.empty();
         if (!options.out.empty()) write_surface(checked, options.out);
         if (options.json)
-            meshes.push_back(to_json(checked));
+            meshes.push_back(check_json(checked));
         else
-            print_text(checked, options.limit);
+            print_check(checked, options.limit);
     }
-    if (options.json) print({{"free", free}, {"meshes", std::move(meshes)}});
+    if (options.json) print({{"free", free}, {"meshes", meshes}});
     if (!free) throw Verdict{3};
 }
 
 } // namespace
 
 void add_check(CommandLine& line) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<CheckOptions>();
     Command command =
         line.add("check", "Find out whether the surface of a mesh passes through itself, and where");
     command.option("MESH", options->files, "Mesh files, each checked by itself").required();
@@ -248,7 +248,7 @@ void add_check(CommandLine& line) {
         .option("-o,--output", options->out, "Write the surface and its crossings to this file, .vtu or .msh")
         .shown_as("FILE");
     command.flag("--json", options->json, "Print one JSON object");
-    command.runs([options] { run(*options); });
+    command.runs([options] { run_check(*options); });
 }
 
 } // namespace tool

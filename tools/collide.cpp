@@ -16,7 +16,7 @@ namespace tool {
 
 namespace {
 
-struct Options {
+struct CollideOptions {
     std::string a, b;
     bool self = false;
     Fill fill;
@@ -33,7 +33,8 @@ struct Options {
 
 double milliseconds(std::uint64_t nanoseconds) { return static_cast<double>(nanoseconds) * 1e-6; }
 
-void print_penetrations(const Options& options, const vox_grid* grid, const std::vector<vox_mesh>& ids) {
+void print_penetrations(const CollideOptions& options, const vox_grid* grid,
+                        const std::vector<vox_mesh>& ids) {
     const vox_penetration_view view = penetrations_of(grid);
     if (view.count == 0) return;
     std::printf("\n%llu %s\n", static_cast<unsigned long long>(view.count),
@@ -52,7 +53,7 @@ void print_penetrations(const Options& options, const vox_grid* grid, const std:
         std::printf("  and %llu more\n", static_cast<unsigned long long>(view.count - shown));
 }
 
-void print_edges(const Options& options, const vox_grid* grid, const std::vector<vox_mesh>& ids) {
+void print_edges(const CollideOptions& options, const vox_grid* grid, const std::vector<vox_mesh>& ids) {
     const vox_edge_contact_view view = edge_contacts_of(grid);
     const vox_depth_view depths = edge_depths_of(grid);
     std::printf("\n%llu %s\n", static_cast<unsigned long long>(view.count),
@@ -73,7 +74,7 @@ void print_edges(const Options& options, const vox_grid* grid, const std::vector
         std::printf("  and %llu more\n", static_cast<unsigned long long>(view.count - shown));
 }
 
-void print_near(const Options& options, const vox_grid* grid, const std::vector<vox_mesh>& ids) {
+void print_near(const CollideOptions& options, const vox_grid* grid, const std::vector<vox_mesh>& ids) {
     const auto letter = [&](vox_mesh mesh) { return place_of(ids, mesh) == 0 ? 'A' : 'B'; };
     const auto title = [](std::size_t count, const char* one, const char* many) {
         std::printf("\n%zu %s\n", count, count == 1 ? one : many);
@@ -95,8 +96,8 @@ void print_near(const Options& options, const vox_grid* grid, const std::vector<
     }
 }
 
-void print_text(const Options& options, const vox_grid* grid, const std::vector<Body>& bodies,
-                const std::vector<vox_mesh>& ids, const vox_profile& profile) {
+void print_collide(const CollideOptions& options, const vox_grid* grid, const std::vector<Body>& bodies,
+                   const std::vector<vox_mesh>& ids, const vox_profile& profile) {
     for (std::size_t i = 0; i < bodies.size(); ++i)
         std::printf("%c  %s: %llu vertices, %llu tetrahedra%s\n", i == 0 ? 'A' : 'B', bodies[i].name.c_str(),
                     static_cast<unsigned long long>(bodies[i].view.vertex_count),
@@ -124,7 +125,7 @@ void print_text(const Options& options, const vox_grid* grid, const std::vector<
     if (!options.no_depth) print_penetrations(options, grid, ids);
     if (options.edges) print_edges(options, grid, ids);
     print_near(options, grid, ids);
-    std::printf("\nhash %s, cell size %.9g\n", hash_of(grid).c_str(), cell_size_of(grid));
+    std::printf("\nhash %s, cell size %.9g\n", hexadecimal(hash_of(grid)).c_str(), cell_size_of(grid));
     std::printf("step %.3f ms: ", milliseconds(profile.step_ns));
     if (profile.stream_ns > 0) // the fast engine
         std::printf("stream %.3f, winding %.3f, broad phase %.3f, windows %.3f, lookup %.3f, decide %.3f",
@@ -164,7 +165,7 @@ void bind_previous(vox_grid* grid, vox_mesh mesh, const Body& body, const Body& 
         doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3, 0, 0));
 }
 
-void run(const Options& options) {
+void run_collide(const CollideOptions& options) {
     if (options.b.empty() && !options.self)
         throw WrongUsage("collide needs a second mesh, or --self for self-collision of the first");
     if (!options.out.empty()) check_output(options.out, {".vtu", ".msh"});
@@ -185,7 +186,11 @@ void run(const Options& options) {
     vox_grid_desc desc = options.grid;
     if (options.no_depth) desc.flags &= ~std::uint32_t{VOX_GRID_PENETRATIONS};
     if (options.edges) desc.flags |= VOX_GRID_EDGE_CONTACTS;
-    const Grid grid = make_grid(desc, bodies, options.self, ids);
+    std::vector<vox_mesh_desc> meshes;
+    for (const Body& body : bodies) meshes.push_back(mesh_desc(body));
+    if (options.self)
+        for (vox_mesh_desc& mesh : meshes) mesh.flags |= VOX_MESH_SELF_COLLISION;
+    const Grid grid = make_grid(desc, meshes, ids);
     if (!options.moving.empty()) bind_previous(grid.get(), ids[0], bodies[0], before);
     const vox_profile profile = measure_steps(grid.get(), bodies, ids, options.repeat);
     if (options.edges) check(vox_grid_prepare_edge_depths(grid.get()));
@@ -196,18 +201,18 @@ void run(const Options& options) {
         for (std::size_t i = 0; i < bodies.size(); ++i) drawn.push_back(drawn_mesh(bodies[i], ids[i]));
         write_results(options.out, drawn, grid.get(), !options.moving.empty());
     }
-    if (!options.json) return print_text(options, grid.get(), bodies, ids, profile);
-    Json json = {{"meshes", body_list(bodies)}};
+    if (!options.json) return print_collide(options, grid.get(), bodies, ids, profile);
+    Json json = {{"meshes", body_list(bodies)}, {"cell_size", cell_size_of(grid.get())}};
     add_collision(json, grid.get(), ids, profile);
-    if (has_margin(grid.get())) json["margin_contacts"] = margin_contacts(grid.get(), ids);
-    if (!options.moving.empty()) json["passages"] = passages(grid.get(), ids);
+    if (has_margin(grid.get())) json.add("margin_contacts", margin_contacts(grid.get(), ids));
+    if (!options.moving.empty()) json.add("passages", passages(grid.get(), ids));
     print(json);
 }
 
 } // namespace
 
 void add_collide(CommandLine& line) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<CollideOptions>();
     Command command = line.add("collide", "Find the contacts between two meshes, or within one");
     command.option("A", options->a, "Mesh file").required();
     Option b = command.option("B", options->b, "Second mesh file");
@@ -247,7 +252,7 @@ void add_collide(CommandLine& line) {
     command.option("--save", options->save, "Write a snapshot of the grid to this file, for vox replay")
         .shown_as("FILE");
     command.flag("--json", options->json, "Print one JSON object");
-    command.runs([options] { run(*options); });
+    command.runs([options] { run_collide(*options); });
 }
 
 } // namespace tool

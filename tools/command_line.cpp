@@ -133,13 +133,28 @@ Option& Option::needs(const Option& other) { return option_->needs(other.option_
 
 Option& Option::excludes(const Option& other) { return option_->excludes(other.option_), *this; }
 
+namespace {
+
+bool read(const std::string& text, double& value) {
+    char* end = nullptr;
+    value = std::strtod(text.c_str(), &end);
+    return !text.empty() && *end == '\0';
+}
+
+template <class Number>
+bool read(const std::string& text, Number& value) {
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size();
+}
+
+} // namespace
+
 Option& Option::number(bool (*accept)(double value), const std::string& words) {
     const auto check = [accept, words](const std::string& text) {
-        char* end = nullptr;
-        const double value = std::strtod(text.c_str(), &end);
-        const bool whole = !text.empty() && *end == '\0';
-        return whole && std::isfinite(value) && accept(value) ? std::string()
-                                                              : "expected " + words + ", found " + text;
+        double value = 0;
+        return read(text, value) && std::isfinite(value) && accept(value)
+                   ? std::string()
+                   : "expected " + words + ", found " + text;
     };
     option_->check(CLI::Validator(check, ""));
     return *this;
@@ -164,9 +179,7 @@ Option& Option::fraction() {
 Option& Option::range(std::uint64_t least, std::uint64_t most) {
     const auto check = [least, most](const std::string& text) {
         std::uint64_t value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool whole = error == std::errc() && end == text.data() + text.size();
-        return whole && value >= least && value <= most
+        return read(text, value) && value >= least && value <= most
                    ? std::string()
                    : "expected a whole number from " + std::to_string(least) + " to " + std::to_string(most) +
                          ", found " + text;
@@ -178,35 +191,69 @@ Option& Option::range(std::uint64_t least, std::uint64_t most) {
 // ---- commands -------------------------------------------------------------------------------------
 
 Option Command::option(const std::string& name, std::string& value, const std::string& description) {
-    return Option(app_->add_option(name, value, description));
+    const auto take = [&value](const std::vector<std::string>& given) {
+        value = given.front();
+        return true;
+    };
+    return option(name, "TEXT", description, take);
 }
 Option Command::option(const std::string& name, std::vector<std::string>& value,
                        const std::string& description) {
-    return Option(app_->add_option(name, value, description));
+    const auto take = [&value](const std::vector<std::string>& given) {
+        value = given;
+        return true;
+    };
+    return option(name, "TEXT ...", description, take);
 }
 Option Command::option(const std::string& name, double& value, const std::string& description) {
-    return Option(app_->add_option(name, value, description));
+    return option(name, "FLOAT", description,
+                  [&value](const std::vector<std::string>& given) { return read(given.front(), value); });
 }
 Option Command::option(const std::string& name, std::vector<double>& value, const std::string& description) {
-    return Option(app_->add_option(name, value, description));
+    const auto take = [&value](const std::vector<std::string>& given) {
+        value.resize(given.size());
+        for (std::size_t i = 0; i < given.size(); ++i)
+            if (!read(given[i], value[i])) return false;
+        return true;
+    };
+    return option(name, "FLOAT ...", description, take);
 }
 Option Command::option(const std::string& name, std::uint32_t& value, const std::string& description) {
-    return Option(app_->add_option(name, value, description)).range(0, UINT32_MAX);
+    const auto take = [&value](const std::vector<std::string>& given) { return read(given.front(), value); };
+    return option(name, "UINT", description, take).range(0, UINT32_MAX);
 }
 Option Command::option(const std::string& name, std::uint64_t& value, const std::string& description) {
-    return Option(app_->add_option(name, value, description)).range(0, UINT64_MAX);
+    const auto take = [&value](const std::vector<std::string>& given) { return read(given.front(), value); };
+    return option(name, "UINT", description, take).range(0, UINT64_MAX);
+}
+
+// CLI11's own options for the types above are templates that take seconds to compile.
+Option Command::option(const std::string& name, const std::string& type, const std::string& description,
+                       const std::function<bool(const std::vector<std::string>&)>& take) {
+    CLI::Option* const added = app_->add_option(name, CLI::callback_t(take), description);
+    const bool several = type.ends_with(" ...");
+    added->type_name(several ? type.substr(0, type.size() - 4) : type);
+    if (several) added->expected(CLI::detail::expected_max_vector_size);
+    return Option(added);
 }
 
 Option Command::flag(const std::string& name, bool& value, const std::string& description) {
-    return Option(app_->add_flag(name, value, description));
+    return Option(app_->add_flag_callback(
+        name, [&value] { value = true; }, description));
 }
 
-Option Command::choice_of(const std::string& name, const std::function<bool(const std::string&)>& choose,
-                          const std::string& names, const std::string& description) {
-    const auto check = [name, choose, names](const std::string& given) {
-        if (!choose(given)) throw CLI::ValidationError(name, "expected " + names + ", found " + given);
+Option Command::choice_of(const std::string& name, const std::vector<std::string>& names,
+                          const std::function<void(std::size_t)>& choose, const std::string& description) {
+    std::string all;
+    for (const std::string& known : names) all += (all.empty() ? "" : "|") + known;
+    const auto take = [name, names, choose, all](const std::vector<std::string>& given) {
+        const auto found = std::find(names.begin(), names.end(), given.front());
+        if (found == names.end())
+            throw CLI::ValidationError(name, "expected " + all + ", found " + given.front());
+        choose(static_cast<std::size_t>(found - names.begin()));
+        return true;
     };
-    return Option(app_->add_option_function<std::string>(name, check, description)->type_name(names));
+    return option(name, all, description, take);
 }
 
 void Command::runs(const std::function<void()>& function) { app_->callback(function); }

@@ -2,12 +2,12 @@
 // that includes CLI11 takes seconds to compile.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace CLI {
@@ -23,9 +23,12 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-// The names a user may give, with their values; the first is the default.
+// A name that a user may give, and what it means. In a list of them, the first is the default.
 template <class Value>
-using Choices = std::vector<std::pair<std::string, Value>>;
+struct Choice {
+    const char* name;
+    Value value;
+};
 
 // An option or argument of a command. A value that it does not accept is wrong usage.
 class Option {
@@ -69,27 +72,23 @@ public:
     Option option(const std::string& name, std::uint64_t& value, const std::string& description);
     Option flag(const std::string& name, bool& value, const std::string& description);
 
-    template <class Value>
-    Option choice(const std::string& name, Value& value, const Choices<Value>& choices,
+    // The choices must live as long as the command.
+    template <class Value, std::size_t count>
+    Option choice(const std::string& name, Value& value, const Choice<Value> (&choices)[count],
                   const std::string& description) {
-        std::string names;
-        for (const auto& [given, meaning] : choices) names += (names.empty() ? "" : "|") + given;
-        const auto choose = [&value, choices](const std::string& given) {
-            for (const auto& [known, meaning] : choices)
-                if (given == known) {
-                    value = meaning;
-                    return true;
-                }
-            return false;
-        };
-        return choice_of(name, choose, names, description);
+        std::vector<std::string> names;
+        for (const Choice<Value>& choice : choices) names.push_back(choice.name);
+        return choice_of(
+            name, names, [&value, &choices](std::size_t i) { value = choices[i].value; }, description);
     }
 
     void runs(const std::function<void()>& function);
 
 private:
-    Option choice_of(const std::string& name, const std::function<bool(const std::string&)>& choose,
-                     const std::string& names, const std::string& description);
+    Option option(const std::string& name, const std::string& type, const std::string& description,
+                  const std::function<bool(const std::vector<std::string>&)>& take);
+    Option choice_of(const std::string& name, const std::vector<std::string>& names,
+                     const std::function<void(std::size_t)>& choose, const std::string& description);
 
     CLI::App* app_;
 };

@@ -25,16 +25,16 @@ namespace tool {
 
 namespace {
 
-const Choices<vox_known_grid> known_grids = {{"any", VOX_KNOWN_GRID_ANY},
-                                             {"sorted", VOX_KNOWN_GRID_SORTED},
-                                             {"hashed", VOX_KNOWN_GRID_HASHED},
-                                             {"warp", VOX_KNOWN_GRID_WARP},
-                                             {"ipc", VOX_KNOWN_GRID_IPC},
-                                             {"ipc-pairs", VOX_KNOWN_GRID_IPC_PAIRS},
-                                             {"vtk", VOX_KNOWN_GRID_VTK},
-                                             {"pbat", VOX_KNOWN_GRID_PBAT},
-                                             {"point-voxels", VOX_KNOWN_GRID_POINT_VOXELS},
-                                             {"numpy", VOX_KNOWN_GRID_NUMPY}};
+constexpr Choice<vox_known_grid> known_grids[] = {{"any", VOX_KNOWN_GRID_ANY},
+                                                  {"sorted", VOX_KNOWN_GRID_SORTED},
+                                                  {"hashed", VOX_KNOWN_GRID_HASHED},
+                                                  {"warp", VOX_KNOWN_GRID_WARP},
+                                                  {"ipc", VOX_KNOWN_GRID_IPC},
+                                                  {"ipc-pairs", VOX_KNOWN_GRID_IPC_PAIRS},
+                                                  {"vtk", VOX_KNOWN_GRID_VTK},
+                                                  {"pbat", VOX_KNOWN_GRID_PBAT},
+                                                  {"point-voxels", VOX_KNOWN_GRID_POINT_VOXELS},
+                                                  {"numpy", VOX_KNOWN_GRID_NUMPY}};
 
 // ---- what the files hold --------------------------------------------------------------------------
 
@@ -153,27 +153,19 @@ struct RuleWords {
     const char* name;
     double vox_foreign_rules::*field;
 };
-constexpr RuleWords rules[] = {{"mean_edge", &vox_foreign_rules::mean_edge},
-                               {"mean_box_side", &vox_foreign_rules::mean_box_side},
-                               {"median_box_side", &vox_foreign_rules::median_box_side},
-                               {"spacing", &vox_foreign_rules::spacing},
-                               {"radius", &vox_foreign_rules::radius}};
+constexpr RuleWords foreign_rules[] = {{"mean_edge", &vox_foreign_rules::mean_edge},
+                                       {"mean_box_side", &vox_foreign_rules::mean_box_side},
+                                       {"median_box_side", &vox_foreign_rules::median_box_side},
+                                       {"spacing", &vox_foreign_rules::spacing},
+                                       {"radius", &vox_foreign_rules::radius}};
 constexpr const char* shown_rules[] = {"mean edge", "mean box side", "median box side", "spacing", "radius"};
 
-Json curve_json(std::span<const vox_cost_sample> samples) {
-    Json list = Json::array();
-    for (const vox_cost_sample& sample : samples)
-        list.push_back({{"cell_size", number(sample.cell_size)}, {"cost", number(sample.cost)}});
-    return list;
-}
-
 Json weights_json(const vox_grid_weights& w) {
-    return {{"fixed", number(w.fixed)}, {"entries", number(w.entries)}, {"visits", number(w.visits)},
-            {"found", number(w.found)}, {"reads", number(w.reads)},     {"occupied", number(w.occupied)},
-            {"cells", number(w.cells)}};
+    return {{"fixed", w.fixed}, {"entries", w.entries},   {"visits", w.visits}, {"found", w.found},
+            {"reads", w.reads}, {"occupied", w.occupied}, {"cells", w.cells}};
 }
 
-Json zone_json(double min, double max) { return {{"min", number(min)}, {"max", number(max)}}; }
+Json zone_json(double min, double max) { return {{"min", min}, {"max", max}}; }
 
 void print_note(const char* note) {
     if (*note) std::printf("\n%s\n", note);
@@ -182,29 +174,36 @@ void print_note(const char* note) {
 void print_suggestion(const vox_foreign_suggestion& found, const CostCurve& curve, const Primitives& held,
                       bool json) {
     if (json) {
-        Json all;
-        all["cell_size"] = number(found.cell_size);
-        all["zone"] = zone_json(found.zone_min, found.zone_max);
-        all["least_cell_size"] = number(found.least_cell_size);
-        all["predicted_ns"] = number(found.predicted_cost);
-        all["rule"] = found.rule == VOX_RULE_NONE ? Json(nullptr) : Json(rules[found.rule - 1].name);
-        all["note"] = found.note;
-        all["primitives"] = {{"type", held.word}, {"count", held.desc.count}};
+        Json all = Json::object();
+        all.add("cell_size", found.cell_size);
+        all.add("zone", zone_json(found.zone_min, found.zone_max));
+        all.add("least_cell_size", found.least_cell_size);
+        all.add("predicted_ns", found.predicted_cost);
+        all.add("rule", found.rule == VOX_RULE_NONE ? Json() : Json(foreign_rules[found.rule - 1].name));
+        all.add("note", found.note);
+        all.add("primitives", {{"type", held.word}, {"count", held.desc.count}});
         const vox_grid_work& w = found.work;
-        all["work"] = {{"entries", number(w.entries)},   {"visits", number(w.visits)},
-                       {"empty", number(w.empty)},       {"reads", number(w.reads)},
-                       {"occupied", number(w.occupied)}, {"cells", number(w.cells)}};
-        all["weights"] = weights_json(found.weights);
-        for (const RuleWords& rule : rules) {
-            all["rules"][rule.name] = number(found.rules.*rule.field);
-            all["rule_costs"][rule.name] = number(found.rule_costs.*rule.field);
+        all.add("work", {{"entries", w.entries},
+                         {"visits", w.visits},
+                         {"empty", w.empty},
+                         {"reads", w.reads},
+                         {"occupied", w.occupied},
+                         {"cells", w.cells}});
+        all.add("weights", weights_json(found.weights));
+        Json sizes = Json::object(), costs = Json::object(), terms = Json::array();
+        for (const RuleWords& rule : foreign_rules) {
+            sizes.add(rule.name, found.rules.*rule.field);
+            costs.add(rule.name, found.rule_costs.*rule.field);
         }
-        all["curve"] = curve_json(curve.samples);
+        all.add("rules", sizes);
+        all.add("rule_costs", costs);
+        all.add("curve", tool::curve(curve.samples));
         for (std::uint32_t i = 0; i < found.term_count; ++i)
-            all["terms"].push_back({{"name", found.terms[i].name},
-                                    {"count", number(found.terms[i].count)},
-                                    {"cost", number(found.terms[i].cost)},
-                                    {"share", number(found.terms[i].share)}});
+            terms.push_back({{"name", found.terms[i].name},
+                             {"count", found.terms[i].count},
+                             {"cost", found.terms[i].cost},
+                             {"share", found.terms[i].share}});
+        all.add("terms", terms);
         return print(all);
     }
     std::printf(
@@ -227,18 +226,19 @@ void print_suggestion(const vox_foreign_suggestion& found, const CostCurve& curv
 
 void print_tuning(const vox_tuning& found, const CostCurve& curve, bool json) {
     if (json) {
-        Json all;
-        all["cell_size"] = number(found.cell_size);
-        all["zone"] = zone_json(found.zone_min, found.zone_max);
-        all["seconds"] = number(found.seconds);
-        all["expected_loss"] = number(found.expected_loss);
-        all["noise"] = number(found.noise);
-        all["note"] = found.note;
-        all["weights"] = weights_json(found.weights);
+        Json all = Json::object();
+        all.add("cell_size", found.cell_size);
+        all.add("zone", zone_json(found.zone_min, found.zone_max));
+        all.add("seconds", found.seconds);
+        all.add("expected_loss", found.expected_loss);
+        all.add("noise", found.noise);
+        all.add("note", found.note);
+        all.add("weights", weights_json(found.weights));
+        Json runs = Json::array();
         for (std::uint32_t i = 0; i < found.run_count; ++i)
-            all["runs"].push_back(
-                {{"cell_size", number(found.runs[i].cell_size)}, {"seconds", number(found.runs[i].seconds)}});
-        all["curve"] = curve_json(curve.samples);
+            runs.push_back({{"cell_size", found.runs[i].cell_size}, {"seconds", found.runs[i].seconds}});
+        all.add("runs", runs);
+        all.add("curve", tool::curve(curve.samples));
         return print(all);
     }
     std::printf(
@@ -323,9 +323,9 @@ void suggest_foreign(const ForeignOptions& options, const std::vector<Body>& bod
                     found.zone_min,
                     found.zone_max,
                     {}};
-    for (std::size_t i = 0; i < std::size(rules); ++i)
+    for (std::size_t i = 0; i < std::size(foreign_rules); ++i)
         curve.rules.push_back(
-            {shown_rules[i], found.rules.*rules[i].field, found.rule_costs.*rules[i].field});
+            {shown_rules[i], found.rules.*foreign_rules[i].field, found.rule_costs.*foreign_rules[i].field});
     if (!svg.empty()) write_file(svg, curve_svg(curve, names + "; a grid of " + held.word));
     print_suggestion(found, curve, held, json);
 }

@@ -13,7 +13,7 @@ namespace tool {
 
 namespace {
 
-struct Options {
+struct InfoOptions {
     std::vector<std::string> files;
     bool json = false;
 };
@@ -43,22 +43,20 @@ Info read_info(const std::string& file) {
 }
 
 // An angle of the tetrahedra, if there are any.
-Json angle(const Info& info, double degrees) {
-    return info.report.tets > 0 ? number(degrees) : Json(nullptr);
-}
+Json angle(const Info& info, double degrees) { return info.report.tets > 0 ? Json(degrees) : Json(); }
 
-Json to_json(const Info& info) {
+Json info_json(const Info& info) {
     const vox_io_report& report = info.report;
     return {{"file", info.file},
             {"format", vox_io_format_string(report.format)},
             {"vertices", report.vertices},
             {"tets", report.tets},
             {"surface_triangles", report.boundary_facets},
-            {"mean_edge", number(info.shape.mean_edge)},
-            {"mean_longest_edge", number(info.shape.mean_longest_edge)},
-            {"mean_facet_area", number(info.shape.mean_facet_area)},
-            {"mean_volume", number(info.shape.mean_volume)},
-            {"volume", number(report.volume)},
+            {"mean_edge", info.shape.mean_edge},
+            {"mean_longest_edge", info.shape.mean_longest_edge},
+            {"mean_facet_area", info.shape.mean_facet_area},
+            {"mean_volume", info.shape.mean_volume},
+            {"volume", report.volume},
             {"min_dihedral", angle(info, info.quality.min_dihedral)},
             {"max_dihedral", angle(info, info.quality.max_dihedral)},
             {"inverted", report.inverted_tets},
@@ -74,9 +72,9 @@ Json to_json(const Info& info) {
             {"components", report.components},
             {"skipped_elements", report.skipped_elements},
             {"second_order_tets", report.second_order_tets},
-            {"unit_in_metres", report.unit_in_metres > 0 ? number(report.unit_in_metres) : Json(nullptr)},
+            {"unit_in_metres", report.unit_in_metres > 0 ? Json(report.unit_in_metres) : Json()},
             {"bounds", bounds(report.bounds_min, report.bounds_max)},
-            {"warnings", info.warnings}};
+            {"warnings", Json::array_of(info.warnings)}};
 }
 
 void print_count(const char* name, std::uint64_t value) {
@@ -95,7 +93,7 @@ void print_angles(const Info& info) {
                     quality.max_dihedral);
 }
 
-void print_text(const Info& info) {
+void print_info(const Info& info) {
     const vox_io_report& report = info.report;
     std::printf("%s\n", info.file.c_str());
     std::printf("  %-18s %s\n", "format", vox_io_format_string(report.format));
@@ -119,26 +117,26 @@ void print_text(const Info& info) {
     for (const std::string& warning : info.warnings) std::printf("  warning: %s\n", warning.c_str());
 }
 
-void run(const Options& options) {
+void run_info(const InfoOptions& options) {
     Json meshes = Json::array();
     for (const std::string& file : options.files) {
         const Info info = read_info(file);
         if (options.json)
-            meshes.push_back(to_json(info));
+            meshes.push_back(info_json(info));
         else
-            print_text(info);
+            print_info(info);
     }
-    if (options.json) print({{"meshes", std::move(meshes)}});
+    if (options.json) print({{"meshes", meshes}});
 }
 
 } // namespace
 
 void add_info(CommandLine& line) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<InfoOptions>();
     Command command = line.add("info", "Show what is in a mesh file");
     command.option("MESH", options->files, "Mesh files").required();
     command.flag("--json", options->json, "Print one JSON object");
-    command.runs([options] { run(*options); });
+    command.runs([options] { run_info(*options); });
 }
 
 } // namespace tool

@@ -26,17 +26,15 @@ int fail(const char* words) {
 
 // What cmake runs to make the files that are installed beside the program.
 void add_generate(tool::CommandLine& line) {
-    const auto make = std::make_shared<std::string (*)(const tool::Usage&)>(nullptr);
-    const auto page = [](const tool::Usage& usage) { return tool::manual_page(usage, vox_version_string()); };
+    using Make = std::string (*)(const tool::Usage&);
+    static constexpr tool::Choice<Make> makes[] = {
+        {"man", [](const tool::Usage& usage) { return tool::manual_page(usage, vox_version_string()); }},
+        {"bash", tool::bash_completion},
+        {"zsh", tool::zsh_completion},
+        {"fish", tool::fish_completion}};
+    const auto make = std::make_shared<Make>(nullptr);
     tool::Command command = line.add("generate", "Print the manual page, or completions for a shell");
-    command
-        .choice("WHAT", *make,
-                tool::Choices<std::string (*)(const tool::Usage&)>{{"man", page},
-                                                                   {"bash", tool::bash_completion},
-                                                                   {"zsh", tool::zsh_completion},
-                                                                   {"fish", tool::fish_completion}},
-                "What to print")
-        .required();
+    command.choice("WHAT", *make, makes, "What to print").required();
     command.runs([make, &line] {
         const std::string text = (*make)(line.usage());
         std::fwrite(text.data(), 1, text.size(), stdout);

@@ -52,7 +52,7 @@ std::vector<std::string> command_names(const Usage& usage) {
 }
 
 // Within single quotes of a shell.
-std::string quoted(const std::string& text) { return "'" + replaced(text, "'", "'\\''") + "'"; }
+std::string shell_quoted(const std::string& text) { return "'" + replaced(text, "'", "'\\''") + "'"; }
 
 // Within a specification of zsh's _arguments, where brackets and colons end parts of it.
 std::string zsh_part(const std::string& text) {
@@ -136,7 +136,7 @@ std::string zsh_completion(const Usage& usage) {
     std::string text = "#compdef " + usage.name + "\n# Made from the options of " + usage.name +
                        ".\nlocal -a commands\ncommands=(\n";
     for (const CommandUsage& command : usage.commands)
-        text += "  " + quoted(replaced(command.name + ":" + command.description, "\\", "\\\\")) + "\n";
+        text += "  " + shell_quoted(replaced(command.name + ":" + command.description, "\\", "\\\\")) + "\n";
     text += "  'help:Show the options of a command'\n)\nif (( CURRENT == 2 )); then\n  _describe command "
             "commands\n";
     for (const OptionUsage& option : usage.options)
@@ -147,15 +147,15 @@ std::string zsh_completion(const Usage& usage) {
         text += command.name + ")\n  _arguments";
         for (const OptionUsage& option : command.options)
             for (const std::string& name : option.names)
-                text += " \\\n    " + quoted(name + "[" + zsh_part(option.description) + "]" +
-                                             (option.value.empty()
-                                                  ? ""
-                                                  : ":" + zsh_part(option.value) + ":" + zsh_action(option)));
+                text += " \\\n    " + shell_quoted(name + "[" + zsh_part(option.description) + "]" +
+                                                   (option.value.empty() ? ""
+                                                                         : ":" + zsh_part(option.value) +
+                                                                               ":" + zsh_action(option)));
         for (const OptionUsage& argument : command.arguments)
-            text += " \\\n    " + quoted((argument.repeated   ? "*:"
-                                          : argument.required ? ":"
-                                                              : "::") +
-                                         zsh_part(argument.value) + ":" + zsh_action(argument));
+            text += " \\\n    " + shell_quoted((argument.repeated   ? "*:"
+                                                : argument.required ? ":"
+                                                                    : "::") +
+                                               zsh_part(argument.value) + ":" + zsh_action(argument));
         text += "\n  ;;\n";
     }
     return text + "esac\n";
@@ -165,27 +165,27 @@ std::string fish_completion(const Usage& usage) {
     const std::string complete = "complete -c " + usage.name;
     std::string text = "# Completions of " + usage.name + " for fish, made from its options.\n";
     const auto add = [&](const std::string& when, const OptionUsage& option) {
-        text += complete + " -n " + quoted(when);
+        text += complete + " -n " + shell_quoted(when);
         for (const std::string& name : option.names)
             text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
         if (!option.value.empty()) text += " -r";
-        if (!option.choices.empty()) text += " -f -a " + quoted(joined(option.choices, " "));
-        text += " -d " + quoted(option.description) + "\n";
+        if (!option.choices.empty()) text += " -f -a " + shell_quoted(joined(option.choices, " "));
+        text += " -d " + shell_quoted(option.description) + "\n";
     };
     for (const OptionUsage& option : usage.options) add("__fish_use_subcommand", option);
     for (const CommandUsage& command : usage.commands) {
         text += complete + " -n __fish_use_subcommand -f -a " + command.name + " -d " +
-                quoted(command.description) + "\n";
+                shell_quoted(command.description) + "\n";
         for (const OptionUsage& option : command.options)
             add("__fish_seen_subcommand_from " + command.name, option);
         for (const OptionUsage& argument : command.arguments)
             if (!argument.choices.empty())
-                text += complete + " -n " + quoted("__fish_seen_subcommand_from " + command.name) +
-                        " -f -a " + quoted(joined(argument.choices, " ")) + "\n";
+                text += complete + " -n " + shell_quoted("__fish_seen_subcommand_from " + command.name) +
+                        " -f -a " + shell_quoted(joined(argument.choices, " ")) + "\n";
     }
     return text + complete + " -n __fish_use_subcommand -f -a help -d 'Show the options of a command'\n" +
            complete + " -n '__fish_seen_subcommand_from help' -f -a " +
-           quoted(joined(command_names(usage), " ")) + "\n";
+           shell_quoted(joined(command_names(usage), " ")) + "\n";
 }
 
 } // namespace tool

@@ -8,14 +8,14 @@
 
 namespace tool {
 
-inline const Choices<vox_engine> engines = {
+inline constexpr Choice<vox_engine> engines[] = {
     {"auto", VOX_ENGINE_AUTO},
     {"fast", VOX_ENGINE_FAST},
     {"reference", VOX_ENGINE_REFERENCE},
 };
-inline const Choices<vox_storage> storages = {
+inline constexpr Choice<vox_storage> storages[] = {
     {"auto", VOX_STORAGE_AUTO}, {"hashed", VOX_STORAGE_HASHED}, {"dense", VOX_STORAGE_DENSE}};
-inline const Choices<vox_hash> hashes = {{"mixed", VOX_HASH_MIXED}, {"paper", VOX_HASH_PAPER}};
+inline constexpr Choice<vox_hash> hashes[] = {{"mixed", VOX_HASH_MIXED}, {"paper", VOX_HASH_PAPER}};
 
 inline void add_threads(Command& command, vox_grid_desc& grid) {
     command.option("--threads", grid.worker_count, "Threads of a step; 0: one per core")

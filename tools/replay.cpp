@@ -1,13 +1,13 @@
 // vox replay: runs steps of the grid in a snapshot, for bug reports.
 #include "commands.hpp"
 #include "failure.hpp"
+#include "grid.hpp"
 #include "options.hpp"
 #include "output_file.hpp"
 #include "paths.hpp"
 #include "report.hpp"
 #include "results_file.hpp"
 #include "snapshot_file.hpp"
-#include "stepping.hpp"
 #include "terminal.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace tool {
 
 namespace {
 
-struct Options {
+struct ReplayOptions {
     std::vector<std::string> files;
     vox_grid_desc grid = vox_default_grid_desc();
     std::uint32_t steps = 1;
@@ -42,19 +42,20 @@ std::uint64_t epoch_of(const vox_grid* grid) {
     return epoch;
 }
 
-void print_text(const Options& options, const std::string& file, std::uint64_t epoch, const vox_grid* grid) {
+void print_replay(const ReplayOptions& options, const std::string& file, std::uint64_t epoch,
+                  const vox_grid* grid) {
     const vox_counters counters = counters_of(grid);
     std::printf("%s: %u meshes, %llu vertices, %llu tetrahedra, saved at epoch %llu\n", file.c_str(),
                 counters.meshes, static_cast<unsigned long long>(counters.vertices),
                 static_cast<unsigned long long>(counters.tets), static_cast<unsigned long long>(epoch));
     std::printf("%llu %s, hash %s, cell size %.9g, last of %u %s in %.3f ms\n",
                 static_cast<unsigned long long>(counters.contacts),
-                counters.contacts == 1 ? "contact" : "contacts", hash_of(grid).c_str(), cell_size_of(grid),
-                options.steps, options.steps == 1 ? "step" : "steps",
+                counters.contacts == 1 ? "contact" : "contacts", hexadecimal(hash_of(grid)).c_str(),
+                cell_size_of(grid), options.steps, options.steps == 1 ? "step" : "steps",
                 static_cast<double>(profile_of(grid).step_ns) * 1e-6);
 }
 
-void check_usage(const Options& options) {
+void check_replay_usage(const ReplayOptions& options) {
     if (options.out.empty()) return;
     if (options.files.size() > 1 && !is_series(options.out))
         throw WrongUsage(
@@ -63,10 +64,10 @@ void check_usage(const Options& options) {
     check_output(options.out, {".pvd", ".vtu", ".msh"});
 }
 
-void run(const Options& options) {
-    check_usage(options);
+void run_replay(const ReplayOptions& options) {
+    check_replay_usage(options);
     Progress progress;
-    Json list = Json::array();
+    std::vector<Json> grids;
     std::vector<std::string> series;
     std::vector<std::uint64_t> times;
     for (std::size_t i = 0; i < options.files.size(); ++i) {
@@ -86,26 +87,29 @@ void run(const Options& options) {
         }
         if (!options.json) {
             progress.hide();
-            print_text(options, file, epoch, grid);
+            print_replay(options, file, epoch, grid);
             continue;
         }
-        Json json = {{"file", file}, {"saved_epoch", epoch}, {"steps", options.steps}};
-        json["contact_count"] = contacts_of(grid).count;
+        Json json = {{"file", file},
+                     {"saved_epoch", epoch},
+                     {"steps", options.steps},
+                     {"cell_size", cell_size_of(grid)}};
+        json.add("contact_count", contacts_of(grid).count);
         add_result(json, grid, profile_of(grid));
-        list.push_back(std::move(json));
+        grids.push_back(json);
     }
     progress.hide();
     // Files of one time would be drawn over each other.
     if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end())
         std::iota(times.begin(), times.end(), 0u);
     if (is_series(options.out)) write_file(options.out, pvd_series(series, times));
-    if (options.json) print(list.size() == 1 ? list.front() : Json{{"snapshots", list}});
+    if (options.json) print(grids.size() == 1 ? grids.front() : Json{{"snapshots", Json::array_of(grids)}});
 }
 
 } // namespace
 
 void add_replay(CommandLine& line) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<ReplayOptions>();
     Command command = line.add("replay", "Run steps of the grids in snapshots");
     command.option("FILE", options->files, "Snapshots written by collide --save or vox_grid_save").required();
     command.option("--steps", options->steps, "Number of steps to run").range(1, 1000000);
@@ -116,7 +120,7 @@ void add_replay(CommandLine& line) {
                 "Write meshes, contacts and depths: .vtu or .msh, or a series of snapshots, .pvd")
         .shown_as("FILE");
     command.flag("--json", options->json, "Print one JSON object");
-    command.runs([options] { run(*options); });
+    command.runs([options] { run_replay(*options); });
 }
 
 } // namespace tool

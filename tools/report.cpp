@@ -1,7 +1,7 @@
 #include "report.hpp"
 
 #include "failure.hpp"
-#include "stepping.hpp"
+#include "grid.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,30 +13,12 @@ namespace tool {
 namespace {
 
 // The library gives cell size 0 for a rule that does not apply.
-Json rule(double cell_size) { return cell_size > 0 ? number(cell_size) : Json(nullptr); }
+Json rule(double cell_size) { return cell_size > 0 ? Json(cell_size) : Json(); }
 
 Json rules(const vox_cell_size_rules& rules) {
     return {{"mean_edge", rule(rules.mean_edge)},     {"mean_edge_multiple", rule(rules.mean_edge_multiple)},
             {"object_512", rule(rules.object_512)},   {"resolution", rule(rules.resolution)},
             {"mean_volume", rule(rules.mean_volume)}, {"median_box_side", rule(rules.median_box_side)}};
-}
-
-Json stats(const vox_geometry_stats& stats) {
-    return {{"vertices", stats.vertices},
-            {"tets", stats.tets},
-            {"edges", stats.edges},
-            {"facets", stats.facets},
-            {"boundary_facets", stats.boundary_facets},
-            {"degenerate_tets", stats.degenerate_tets},
-            {"mean_edge", number(stats.mean_edge)},
-            {"mean_longest_edge", number(stats.mean_longest_edge)},
-            {"mean_box_side", number(stats.mean_box_side)},
-            {"median_box_side", number(stats.median_box_side)},
-            {"mean_facet_area", number(stats.mean_facet_area)},
-            {"mean_tet_facet_area", number(stats.mean_tet_facet_area)},
-            {"mean_boundary_facet_area", number(stats.mean_boundary_facet_area)},
-            {"mean_volume", number(stats.mean_volume)},
-            {"bounds", bounds(stats.bounds_min, stats.bounds_max)}};
 }
 
 Json counters_json(const vox_counters& counters) {
@@ -85,14 +67,13 @@ Json penetrations(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
     Json list = Json::array();
     for (std::uint64_t i = 0; i < view.count; ++i) {
         const vox_penetration p = penetration_at(view, i);
-        list.push_back(
-            {{"mesh_a", place_of(ids, p.mesh_a)},
-             {"vertex", p.vertex},
-             {"mesh_b", place_of(ids, p.mesh_b)},
-             {"state", state_name(p.state)},
-             {"contact", p.contact},
-             {"depth", number(p.depth)},
-             {"direction", {number(p.direction[0]), number(p.direction[1]), number(p.direction[2])}}});
+        list.push_back({{"mesh_a", place_of(ids, p.mesh_a)},
+                        {"vertex", p.vertex},
+                        {"mesh_b", place_of(ids, p.mesh_b)},
+                        {"state", state_name(p.state)},
+                        {"contact", p.contact},
+                        {"depth", p.depth},
+                        {"direction", Json::array_of(p.direction)}});
     }
     return list;
 }
@@ -105,17 +86,17 @@ Json edge_contacts(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
         const vox_edge_contact c = edge_contact_at(view, i);
         const vox_depth depth = depth_at(depths, i);
         list.push_back({{"mesh_a", place_of(ids, c.mesh_a)},
-                        {"edge", {c.edge[0], c.edge[1]}},
+                        {"edge", Json::array_of(c.edge)},
                         {"mesh_b", place_of(ids, c.mesh_b)},
-                        {"face", {c.face[0], c.face[1], c.face[2]}},
+                        {"face", Json::array_of(c.face)},
                         {"tet", c.tet},
                         {"kind", kind_name(c.kind)},
-                        {"edge_weights", {number(c.edge_weights[0]), number(c.edge_weights[1])}},
-                        {"face_weights", point(c.face_weights)},
-                        {"position", point(c.position)},
-                        {"normal", point(c.normal)},
-                        {"depth", number(depth.depth)},
-                        {"direction", point(depth.direction)}});
+                        {"edge_weights", Json::array_of(c.edge_weights)},
+                        {"face_weights", Json::array_of(c.face_weights)},
+                        {"position", Json::array_of(c.position)},
+                        {"normal", Json::array_of(c.normal)},
+                        {"depth", depth.depth},
+                        {"direction", Json::array_of(depth.direction)}});
     }
     return list;
 }
@@ -161,70 +142,79 @@ const char* state_name(vox_penetration_state state) {
     return "unknown";
 }
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json number(std::optional<double> value) { return value ? number(*value) : Json(nullptr); }
-
-Json point(const double (&coordinates)[3]) {
-    return Json::array({number(coordinates[0]), number(coordinates[1]), number(coordinates[2])});
+Json bounds(const double (&min)[3], const double (&max)[3]) {
+    return {{"min", Json::array_of(min)}, {"max", Json::array_of(max)}};
 }
 
-Json bounds(const double (&min)[3], const double (&max)[3]) {
-    return {{"min", point(min)}, {"max", point(max)}};
+Json stats(const vox_geometry_stats& stats) {
+    return {{"vertices", stats.vertices},
+            {"tets", stats.tets},
+            {"edges", stats.edges},
+            {"facets", stats.facets},
+            {"boundary_facets", stats.boundary_facets},
+            {"degenerate_tets", stats.degenerate_tets},
+            {"mean_edge", stats.mean_edge},
+            {"mean_longest_edge", stats.mean_longest_edge},
+            {"mean_box_side", stats.mean_box_side},
+            {"median_box_side", stats.median_box_side},
+            {"mean_facet_area", stats.mean_facet_area},
+            {"mean_tet_facet_area", stats.mean_tet_facet_area},
+            {"mean_boundary_facet_area", stats.mean_boundary_facet_area},
+            {"mean_volume", stats.mean_volume},
+            {"bounds", bounds(stats.bounds_min, stats.bounds_max)}};
+}
+
+Json curve(std::span<const vox_cost_sample> samples) {
+    Json list = Json::array();
+    for (const vox_cost_sample& sample : samples)
+        list.push_back({{"cell_size", sample.cell_size}, {"cost", sample.cost}});
+    return list;
 }
 
 bool collides(const vox_suggestion& suggestion) { return suggestion.predicted_cost > 0; }
 
 void add_suggestion(Json& json, const vox_suggestion& suggestion) {
-    json["cell_size"] = number(suggestion.cell_size);
-    json["cells_per_axis"] = number(suggestion.cells_per_axis);
+    json.add("cell_size", suggestion.cell_size);
+    json.add("cells_per_axis", suggestion.cells_per_axis);
     const bool has_zone = collides(suggestion);
-    json["zone"] = {{"min", has_zone ? number(suggestion.zone_min) : Json(nullptr)},
-                    {"max", has_zone ? number(suggestion.zone_max) : Json(nullptr)}};
-    json["collides"] = has_zone;
-    json["predicted_cost"] = number(suggestion.predicted_cost);
-    json["model"] = model_name(suggestion.model);
-    json["rules"] = rules(suggestion.rules);
-    json["stats"] = stats(suggestion.stats);
-    Json curve = Json::array();
-    for (std::uint32_t i = 0; i < suggestion.curve_count; ++i)
-        curve.push_back({{"cell_size", number(suggestion.curve[i].cell_size)},
-                         {"cost", number(suggestion.curve[i].cost)}});
-    json["curve"] = std::move(curve);
-    json["rule_costs"] = rules(suggestion.rule_costs);
+    json.add("zone", {{"min", has_zone ? Json(suggestion.zone_min) : Json()},
+                      {"max", has_zone ? Json(suggestion.zone_max) : Json()}});
+    json.add("collides", has_zone);
+    json.add("predicted_cost", suggestion.predicted_cost);
+    json.add("model", model_name(suggestion.model));
+    json.add("rules", rules(suggestion.rules));
+    json.add("stats", stats(suggestion.stats));
+    json.add("curve", curve({suggestion.curve, suggestion.curve_count}));
+    json.add("rule_costs", rules(suggestion.rule_costs));
     Json terms = Json::array();
     for (std::uint32_t i = 0; i < suggestion.term_count; ++i) {
         const vox_cost_share& term = suggestion.terms[i];
-        terms.push_back({{"name", term.name},
-                         {"count", number(term.count)},
-                         {"cost", number(term.cost)},
-                         {"share", number(term.share)}});
+        terms.push_back(
+            {{"name", term.name}, {"count", term.count}, {"cost", term.cost}, {"share", term.share}});
     }
-    json["terms"] = std::move(terms);
-    json["uniform_loss"] = number(suggestion.uniform_loss);
+    json.add("terms", terms);
+    json.add("uniform_loss", suggestion.uniform_loss);
     Json levels = Json::array();
-    for (std::uint32_t i = 0; i < suggestion.level_count; ++i) levels.push_back(number(suggestion.levels[i]));
-    json["levels"] = std::move(levels);
+    for (std::uint32_t i = 0; i < suggestion.level_count; ++i) levels.push_back(suggestion.levels[i]);
+    json.add("levels", levels);
 }
 
 void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>& ids,
                    const vox_profile& profile) {
     const vox_contact_view view = contacts_of(grid);
-    json["contact_count"] = view.count;
+    json.add("contact_count", view.count);
     Json contacts = Json::array();
     for (std::uint64_t i = 0; i < view.count; ++i) {
         const vox_contact contact = contact_at(view, i);
-        const float* weight = contact.barycentric;
-        contacts.push_back(
-            {{"mesh_a", place_of(ids, contact.mesh_a)},
-             {"vertex", contact.vertex},
-             {"mesh_b", place_of(ids, contact.mesh_b)},
-             {"tet", contact.tet},
-             {"barycentric", {number(weight[0]), number(weight[1]), number(weight[2]), number(weight[3])}}});
+        contacts.push_back({{"mesh_a", place_of(ids, contact.mesh_a)},
+                            {"vertex", contact.vertex},
+                            {"mesh_b", place_of(ids, contact.mesh_b)},
+                            {"tet", contact.tet},
+                            {"barycentric", Json::array_of(contact.barycentric)}});
     }
-    json["contacts"] = std::move(contacts);
-    json["penetrations"] = has_penetrations(grid) ? penetrations(grid, ids) : Json(nullptr);
-    if (has_edge_contacts(grid)) json["edge_contacts"] = edge_contacts(grid, ids);
+    json.add("contacts", contacts);
+    json.add("penetrations", has_penetrations(grid) ? penetrations(grid, ids) : Json());
+    if (has_edge_contacts(grid)) json.add("edge_contacts", edge_contacts(grid, ids));
     add_result(json, grid, profile);
 }
 
@@ -235,10 +225,10 @@ Json margin_contacts(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
                         {"vertex", c.vertex},
                         {"mesh_b", place_of(ids, c.mesh_b)},
                         {"tet", c.tet},
-                        {"face", {c.face[0], c.face[1], c.face[2]}},
-                        {"face_weights", point(c.face_weights)},
-                        {"distance", number(c.distance)},
-                        {"normal", point(c.normal)}});
+                        {"face", Json::array_of(c.face)},
+                        {"face_weights", Json::array_of(c.face_weights)},
+                        {"distance", c.distance},
+                        {"normal", Json::array_of(c.normal)}});
     return list;
 }
 
@@ -249,29 +239,28 @@ Json passages(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
                         {"vertex", p.vertex},
                         {"mesh_b", place_of(ids, p.mesh_b)},
                         {"tet", p.tet},
-                        {"face", {p.face[0], p.face[1], p.face[2]}},
-                        {"time", number(p.time)}});
+                        {"face", Json::array_of(p.face)},
+                        {"time", p.time}});
     return list;
 }
 
 void add_result(Json& json, const vox_grid* grid, const vox_profile& profile) {
-    json["hash"] = hash_of(grid);
-    json["cell_size"] = number(cell_size_of(grid));
-    json["profile"] = {{"step_ns", profile.step_ns},
-                       {"bin_ns", profile.bin_ns},
-                       {"broad_ns", profile.broad_ns},
-                       {"narrow_ns", profile.narrow_ns},
-                       {"contacts_ns", profile.contacts_ns},
-                       {"depth_ns", profile.depth_ns},
-                       {"stream_ns", profile.stream_ns},
-                       {"winding_ns", profile.winding_ns},
-                       {"broad_phase_ns", profile.broad_phase_ns},
-                       {"windows_ns", profile.windows_ns},
-                       {"lookup_ns", profile.lookup_ns},
-                       {"decide_ns", profile.decide_ns},
-                       {"edges_ns", profile.edges_ns},
-                       {"margin_ns", profile.margin_ns}};
-    json["counters"] = counters_json(counters_of(grid));
+    json.add("hash", hexadecimal(hash_of(grid)));
+    json.add("profile", {{"step_ns", profile.step_ns},
+                         {"bin_ns", profile.bin_ns},
+                         {"broad_ns", profile.broad_ns},
+                         {"narrow_ns", profile.narrow_ns},
+                         {"contacts_ns", profile.contacts_ns},
+                         {"depth_ns", profile.depth_ns},
+                         {"stream_ns", profile.stream_ns},
+                         {"winding_ns", profile.winding_ns},
+                         {"broad_phase_ns", profile.broad_phase_ns},
+                         {"windows_ns", profile.windows_ns},
+                         {"lookup_ns", profile.lookup_ns},
+                         {"decide_ns", profile.decide_ns},
+                         {"edges_ns", profile.edges_ns},
+                         {"margin_ns", profile.margin_ns}});
+    json.add("counters", counters_json(counters_of(grid)));
 }
 
 Json body_list(const std::vector<Body>& bodies) {
@@ -286,12 +275,6 @@ std::size_t place_of(const std::vector<vox_mesh>& ids, vox_mesh mesh) {
     return static_cast<std::size_t>(std::find(ids.begin(), ids.end(), mesh) - ids.begin());
 }
 
-std::string hash_of(const vox_grid* grid) {
-    std::uint64_t hash = 0;
-    check(vox_grid_hash(grid, &hash));
-    return hexadecimal(hash);
-}
-
 std::string hexadecimal(std::uint64_t value) {
     char text[17];
     std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
@@ -299,9 +282,8 @@ std::string hexadecimal(std::uint64_t value) {
 }
 
 std::string xml_text(const std::string& text) {
-    const std::string quoted = Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
     std::string result;
-    for (const char c : Json::parse(quoted).get<std::string>()) switch (c) {
+    for (const char c : valid_utf8(text)) switch (c) {
         case '&':
             result += "&amp;";
             break;
@@ -321,8 +303,7 @@ std::string xml_text(const std::string& text) {
 }
 
 void print(const Json& json) {
-    // File names need not be UTF-8, but JSON must be.
-    const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+    const std::string text = json.text() + "\n";
     std::fwrite(text.data(), 1, text.size(), stdout);
 }
 

@@ -1,24 +1,20 @@
-// The JSON output of the commands. A number that does not exist or is not finite is null.
+// The output of the commands as JSON.
 #pragma once
 
 #include "body.hpp"
+#include "json.hpp"
 
 #include <vox/vox.h>
 
-#include <nlohmann/json.hpp>
-
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace tool {
 
-using Json = nlohmann::ordered_json;
-
-Json number(double value);
-Json number(std::optional<double> value);
-Json point(const double (&coordinates)[3]);
 Json bounds(const double (&min)[3], const double (&max)[3]);
+Json stats(const vox_geometry_stats& stats);
+Json curve(std::span<const vox_cost_sample> samples);
 
 // Whether anything collides. If not, every cell size is as good as any other.
 bool collides(const vox_suggestion& suggestion);
@@ -26,8 +22,8 @@ bool collides(const vox_suggestion& suggestion);
 // Adds the keys of `vox suggest`.
 void add_suggestion(Json& json, const vox_suggestion& suggestion);
 
-// Adds the keys of `vox collide` for a grid that has run a step. In contacts, a mesh is given by its index in
-// `ids`.
+// Adds the keys of `vox collide` but for the cell size, for a grid that has run a step. In contacts, a mesh
+// is given by its index in `ids`.
 void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>& ids,
                    const vox_profile& profile);
 
@@ -44,7 +40,7 @@ const char* state_name(vox_penetration_state state);
 // Returns "through", "touching" or "coplanar".
 const char* kind_name(vox_crossing_kind kind);
 
-// Adds the results of a step other than contacts: hash, cell_size, profile, counters.
+// Adds the results of a step other than contacts: hash, profile, counters.
 void add_result(Json& json, const vox_grid* grid, const vox_profile& profile);
 
 // A list of {file, vertices, tets} for each body, in the order that contacts refer to.
@@ -53,7 +49,6 @@ Json body_list(const std::vector<Body>& bodies);
 // The index of `mesh` in `ids`, which must contain it.
 std::size_t place_of(const std::vector<vox_mesh>& ids, vox_mesh mesh);
 
-std::string hash_of(const vox_grid* grid);
 std::string hexadecimal(std::uint64_t value); // sixteen digits
 
 // The text as XML has it, with bytes that are not UTF-8 replaced.

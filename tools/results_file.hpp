@@ -1,7 +1,8 @@
 // The results of a step as files: meshes with what collided for ParaView, and a table of the contacts.
 #pragma once
 
-#include "stepping.hpp"
+#include "body.hpp"
+#include "grid.hpp"
 
 #include <cstdint>
 #include <span>

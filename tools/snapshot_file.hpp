@@ -1,8 +1,8 @@
 // Saves grids to snapshot files and loads them.
 #pragma once
 
+#include "grid.hpp"
 #include "results_file.hpp"
-#include "stepping.hpp"
 
 #include <string>
 #include <vector>

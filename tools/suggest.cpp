@@ -16,7 +16,7 @@ namespace tool {
 
 namespace {
 
-struct Options {
+struct SuggestOptions {
     Fill fill;
     std::vector<std::string> files;
     vox_suggest_desc desc = vox_default_suggest_desc();
@@ -25,16 +25,16 @@ struct Options {
     ForeignOptions foreign;
 };
 
-const Choices<vox_cost_model> models = {{"paper", VOX_COST_MODEL_PAPER},
-                                        {"reference", VOX_COST_MODEL_REFERENCE},
-                                        {"fast", VOX_COST_MODEL_FAST},
-                                        {"surface", VOX_COST_MODEL_SURFACE}};
-const Choices<vox_size_reading> size_readings = {{"mean-edge", VOX_SIZE_MEAN_EDGE},
-                                                 {"mean-longest-edge", VOX_SIZE_MEAN_LONGEST_EDGE},
-                                                 {"mean-box-side", VOX_SIZE_MEAN_BOX_SIDE}};
-const Choices<vox_area_reading> area_readings = {{"unique-facets", VOX_AREA_UNIQUE_FACETS},
-                                                 {"tet-facets", VOX_AREA_TET_FACETS},
-                                                 {"boundary-facets", VOX_AREA_BOUNDARY_FACETS}};
+constexpr Choice<vox_cost_model> models[] = {{"paper", VOX_COST_MODEL_PAPER},
+                                             {"reference", VOX_COST_MODEL_REFERENCE},
+                                             {"fast", VOX_COST_MODEL_FAST},
+                                             {"surface", VOX_COST_MODEL_SURFACE}};
+constexpr Choice<vox_size_reading> size_readings[] = {{"mean-edge", VOX_SIZE_MEAN_EDGE},
+                                                      {"mean-longest-edge", VOX_SIZE_MEAN_LONGEST_EDGE},
+                                                      {"mean-box-side", VOX_SIZE_MEAN_BOX_SIDE}};
+constexpr Choice<vox_area_reading> area_readings[] = {{"unique-facets", VOX_AREA_UNIQUE_FACETS},
+                                                      {"tet-facets", VOX_AREA_TET_FACETS},
+                                                      {"boundary-facets", VOX_AREA_BOUNDARY_FACETS}};
 
 std::string model_words(vox_cost_model model) {
     return model == VOX_COST_MODEL_PAPER ? "cost model of the paper"
@@ -70,7 +70,7 @@ void print_levels(const vox_suggestion& found) {
     std::printf("); a single one costs %.0f %% more.\n", 100 * found.uniform_loss);
 }
 
-void print_text(const vox_suggestion& found, std::size_t mesh_count) {
+void print_suggest(const vox_suggestion& found, std::size_t mesh_count) {
     const double mean_edge = found.stats.mean_edge;
     if (!collides(found)) {
         std::printf("Nothing collides: %s. Every cell size costs the engine the same, which is nothing.\n"
@@ -112,7 +112,7 @@ void print_text(const vox_suggestion& found, std::size_t mesh_count) {
         std::printf("%.4g ms a step.\n", found.predicted_cost * 1e-6);
 }
 
-void run(const Options& options) {
+void run_suggest(const SuggestOptions& options) {
     if (!options.svg.empty()) check_output(options.svg);
     if (options.files.empty() && options.foreign.tune.empty()) throw WrongUsage("MESH is required");
     std::vector<Body> bodies;
@@ -137,8 +137,8 @@ void run(const Options& options) {
         write_file(options.svg,
                    curve_svg(curve_of(found), short_names(options.files) + "; " + model_words(found.model)));
     }
-    if (!options.json) return print_text(found, meshes.size());
-    Json json;
+    if (!options.json) return print_suggest(found, meshes.size());
+    Json json = Json::object();
     add_suggestion(json, found);
     print(json);
 }
@@ -146,7 +146,7 @@ void run(const Options& options) {
 } // namespace
 
 void add_suggest(CommandLine& line) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<SuggestOptions>();
     vox_suggest_desc& desc = options->desc;
     Command command = line.add("suggest", "Find the best cell size for meshes and explain it");
     command.option("MESH", options->files, "Mesh files: tetrahedra, surfaces or points");
@@ -175,7 +175,7 @@ void add_suggest(CommandLine& line) {
     add_foreign(command, options->foreign);
     command.option("--svg", options->svg, "Write the cost curve as a picture to this file");
     command.flag("--json", options->json, "Print one JSON object");
-    command.runs([options] { run(*options); });
+    command.runs([options] { run_suggest(*options); });
 }
 
 } // namespace tool

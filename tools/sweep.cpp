@@ -7,7 +7,6 @@
 #include "output_file.hpp"
 #include "paths.hpp"
 #include "report.hpp"
-#include "stepping.hpp"
 #include "sweep_log.hpp"
 #include "terminal.hpp"
 
@@ -26,7 +25,7 @@ namespace tool {
 
 namespace {
 
-struct Options {
+struct SweepOptions {
     std::string a, b;
     std::uint64_t ball = 0; // tetrahedra of the balls that replace the files; 0: files
     Fill fill;
@@ -44,7 +43,8 @@ struct Options {
     bool json = false;
 };
 
-const Choices<vox_engine> engine_choices = {{"reference", VOX_ENGINE_REFERENCE}, {"fast", VOX_ENGINE_FAST}};
+constexpr Choice<vox_engine> engine_choices[] = {{"reference", VOX_ENGINE_REFERENCE},
+                                                 {"fast", VOX_ENGINE_FAST}};
 
 struct ExperimentDeleter {
     void operator()(vox_experiment* experiment) const noexcept { vox_experiment_destroy(experiment); }
@@ -67,7 +67,7 @@ vox_sim_body_desc sim_body(const Body& body) {
     return desc;
 }
 
-Experiment make_experiment(const Options& options, const Body& a, const Body& b) {
+Experiment make_experiment(const SweepOptions& options, const Body& a, const Body& b) {
     const vox_sim_body_desc bodies[2] = {sim_body(a), sim_body(b)};
     vox_experiment_desc desc = options.experiment;
     desc.a = &bodies[0];
@@ -95,7 +95,7 @@ struct Size {
 };
 
 // The sizes of the range in ascending order, evenly spaced in the logarithm, and then those of the rules.
-std::vector<Size> choose_sizes(const Options& options, const vox_suggestion& suggestion, double world) {
+std::vector<Size> choose_sizes(const SweepOptions& options, const vox_suggestion& suggestion, double world) {
     std::array<double, 2> range = {0.5 * suggestion.rules.mean_edge, 4 * suggestion.rules.mean_edge};
     if (!options.cell_sizes.empty()) range = {options.cell_sizes[0], options.cell_sizes[1]};
     if (!options.cells_per_axis.empty())
@@ -145,7 +145,7 @@ void warn_if_busy(std::chrono::duration<double> passed, double processor) {
         passed.count(), processor);
 }
 
-void measure(const Options& options, vox_experiment* experiment, const vox_suggestion& suggestion,
+void measure(const SweepOptions& options, vox_experiment* experiment, const vox_suggestion& suggestion,
              SweepLog& log, const std::vector<Size>& sizes) {
     Progress progress;
     const auto begin = std::chrono::steady_clock::now();
@@ -185,7 +185,7 @@ void measure(const Options& options, vox_experiment* experiment, const vox_sugge
         warn_if_busy(std::chrono::steady_clock::now() - begin, double(std::clock() - used) / CLOCKS_PER_SEC);
 }
 
-void collect(const Options& options, const SweepLog& log, std::vector<Size>& sizes) {
+void collect(const SweepOptions& options, const SweepLog& log, std::vector<Size>& sizes) {
     const std::size_t frames = options.experiment.frames;
     for (Size& size : sizes) {
         std::vector<std::uint64_t> times;
@@ -263,7 +263,7 @@ std::optional<double> regret(std::optional<double> time, double best) {
 // ---- output -----------------------------------------------------------------------------------------
 
 struct Sweep {
-    const Options& options;
+    const SweepOptions& options;
     const std::vector<Body>& bodies;
     vox_experiment_facts facts;
     vox_suggestion suggestion;
@@ -273,90 +273,92 @@ struct Sweep {
 };
 
 Json size_json(double cell_size, double world) {
-    return {{"cell_size", number(cell_size)}, {"cells_per_axis", number(world / cell_size)}};
+    return {{"cell_size", cell_size}, {"cells_per_axis", world / cell_size}};
 }
 
-Json zone_json(const Zone& zone, double world) {
-    return {{"limit_ns", number(zone.limit)},
-            {"min", number(zone.min)},
-            {"max", number(zone.max)},
-            {"n_min", number(world / zone.max)},
-            {"n_max", number(world / zone.min)}};
+Json measured_zone(const Zone& zone, double world) {
+    return {{"limit_ns", zone.limit},
+            {"min", zone.min},
+            {"max", zone.max},
+            {"n_min", world / zone.max},
+            {"n_max", world / zone.min}};
 }
 
 Json sample_json(const Size& size, const Sweep& sweep) {
     Json json = size_json(size.cell_size, sweep.world);
-    json["rule"] = size.rule.empty() ? Json(nullptr) : Json(size.rule);
-    json["time_ns"] = number(size.time);
-    json["fitted_ns"] = number(fitted_time(sweep.found.fit, size.cell_size));
-    json["rounds_ns"] = size.rounds;
-    json["contacts"] = size.sample->contacts;
-    json["visited_cells"] = size.sample->visited_cells;
-    json["visited_entries"] = size.sample->visited_entries;
-    json["candidates"] = size.sample->candidates;
+    json.add("rule", size.rule.empty() ? Json() : Json(size.rule));
+    json.add("time_ns", size.time);
+    json.add("fitted_ns", fitted_time(sweep.found.fit, size.cell_size));
+    json.add("rounds_ns", Json::array_of(size.rounds));
+    json.add("contacts", size.sample->contacts);
+    json.add("visited_cells", size.sample->visited_cells);
+    json.add("visited_entries", size.sample->visited_entries);
+    json.add("candidates", size.sample->candidates);
     return json;
 }
 
 Json fit_json(const vox_time_fit& fit) {
     Json coefficients = Json::array();
-    for (std::uint32_t k = 0; k <= fit.degree; ++k) coefficients.push_back(number(fit.coefficients[k]));
+    for (std::uint32_t k = 0; k <= fit.degree; ++k) coefficients.push_back(fit.coefficients[k]);
     return {{"degree", fit.degree},
-            {"coefficients", std::move(coefficients)},
-            {"range", {{"min", number(fit.range_min)}, {"max", number(fit.range_max)}}},
-            {"r_squared", number(fit.r_squared)},
-            {"prediction_error", number(fit.prediction_error)},
+            {"coefficients", coefficients},
+            {"range", {{"min", fit.range_min}, {"max", fit.range_max}}},
+            {"r_squared", fit.r_squared},
+            {"prediction_error", fit.prediction_error},
             {"bracketed", fit.bracketed != 0}};
 }
 
-void print_json(const Sweep& sweep) {
+void print_sweep_json(const Sweep& sweep) {
     const vox_experiment_facts& facts = sweep.facts;
     const Evaluation& found = sweep.found;
     Json json = {{"meshes", body_list(sweep.bodies)}};
-    json["engine"] = sweep.options.grid.engine == VOX_ENGINE_FAST ? "fast" : "reference";
-    json["tets"] = facts.tets;
-    json["distance"] = number(facts.distance);
-    json["frames"] = facts.frames;
-    json["rounds"] = sweep.options.rounds;
-    json["clock"] = clock_name(sweep.options.grid);
-    json["contacts"] = facts.contacts;
-    json["contact_share"] = {{"wanted", number(sweep.options.experiment.contact_share)},
-                             {"mean", number(facts.mean_share)},
-                             {"frames", std::vector<double>(facts.shares, facts.shares + facts.frames)}};
-    json["hash"] = hexadecimal(facts.hash);
-    json["world"] = number(sweep.world);
+    json.add("engine", sweep.options.grid.engine == VOX_ENGINE_FAST ? "fast" : "reference");
+    json.add("tets", facts.tets);
+    json.add("distance", facts.distance);
+    json.add("frames", facts.frames);
+    json.add("rounds", sweep.options.rounds);
+    json.add("clock", clock_name(sweep.options.grid));
+    json.add("contacts", facts.contacts);
+    json.add("contact_share", {{"wanted", sweep.options.experiment.contact_share},
+                               {"mean", facts.mean_share},
+                               {"frames", Json::array_of(std::span(facts.shares, facts.frames))}});
+    json.add("hash", hexadecimal(facts.hash));
+    json.add("world", sweep.world);
     Json samples = Json::array();
     for (const Size& size : sweep.sizes)
         if (size.time) samples.push_back(sample_json(size, sweep));
-    json["samples"] = std::move(samples);
-    json["fit"] = fit_json(found.fit);
-    json["optimum"] = size_json(found.fit.cell_size, sweep.world);
-    json["optimum"]["time_ns"] = number(found.fit.time);
-    json["zone"] = zone_json(found.one_millisecond, sweep.world);
-    json["zone_5_percent"] = zone_json(found.five_percent, sweep.world);
-    Json epsilon_ms, epsilon_percent, measured, fitted, rules;
+    json.add("samples", samples);
+    json.add("fit", fit_json(found.fit));
+    Json optimum = size_json(found.fit.cell_size, sweep.world);
+    optimum.add("time_ns", found.fit.time);
+    json.add("optimum", optimum);
+    json.add("zone", measured_zone(found.one_millisecond, sweep.world));
+    json.add("zone_5_percent", measured_zone(found.five_percent, sweep.world));
+    Json epsilon_ms = Json::object(), epsilon_percent = epsilon_ms, measured = epsilon_ms,
+         fitted = epsilon_ms, rules = epsilon_ms;
     for (const Size& size : sweep.sizes) {
         if (size.rule.empty()) continue;
         Json rule = size_json(size.cell_size, sweep.world);
-        rule["time_ns"] = number(size.time);
-        if (size.rule == "suggestion" || size.rule == "traditional") json[size.rule] = rule;
-        rules[size.rule] = std::move(rule);
-        epsilon_ms[size.rule] = number(epsilon(size.cell_size, found, found.one_millisecond, sweep.world));
-        epsilon_percent[size.rule] = number(epsilon(size.cell_size, found, found.five_percent, sweep.world));
-        measured[size.rule] = number(regret(size.time, found.least_time));
-        fitted[size.rule] = number(regret(fitted_time(found.fit, size.cell_size), found.fit.time));
+        rule.add("time_ns", size.time);
+        if (size.rule == "suggestion" || size.rule == "traditional") json.add(size.rule, rule);
+        rules.add(size.rule, rule);
+        epsilon_ms.add(size.rule, epsilon(size.cell_size, found, found.one_millisecond, sweep.world));
+        epsilon_percent.add(size.rule, epsilon(size.cell_size, found, found.five_percent, sweep.world));
+        measured.add(size.rule, regret(size.time, found.least_time));
+        fitted.add(size.rule, regret(fitted_time(found.fit, size.cell_size), found.fit.time));
     }
-    json["rules"] = std::move(rules);
-    json["epsilon"] = std::move(epsilon_ms);
-    json["epsilon_5_percent"] = std::move(epsilon_percent);
-    json["regret"] = std::move(measured);
-    json["regret_fitted"] = std::move(fitted);
-    Json predicted;
-    add_suggestion(predicted, sweep.suggestion);
-    json["predicted"] = {{"stats", predicted["stats"]}, {"curve", predicted["curve"]}};
+    json.add("rules", rules);
+    json.add("epsilon", epsilon_ms);
+    json.add("epsilon_5_percent", epsilon_percent);
+    json.add("regret", measured);
+    json.add("regret_fitted", fitted);
+    const vox_suggestion& predicted = sweep.suggestion;
+    json.add("predicted",
+             {{"stats", stats(predicted.stats)}, {"curve", curve({predicted.curve, predicted.curve_count})}});
     print(json);
 }
 
-void print_text(const Sweep& sweep) {
+void print_sweep(const Sweep& sweep) {
     const Evaluation& found = sweep.found;
     const double mean_edge = sweep.suggestion.rules.mean_edge;
     std::printf("%s against %s, %llu tetrahedra, %.2f %% of them in contact (mean over %u frames).\n\n",
@@ -402,7 +404,7 @@ std::string engine_name(const vox_grid_desc& grid) {
            std::to_string(static_cast<int>(grid.hash)) + "/" + std::to_string(grid.worker_count);
 }
 
-void check_usage(const Options& options) {
+void check_sweep_usage(const SweepOptions& options) {
     const auto check_range = [](const std::vector<double>& range, const char* name) {
         if (!range.empty() && !(range[0] < range[1]))
             throw WrongUsage(std::string(name) + ": expected two numbers in ascending order");
@@ -418,8 +420,8 @@ void check_usage(const Options& options) {
         throw WrongUsage("--axis: expected a direction, found 0 0 0");
 }
 
-void run(const Options& options) {
-    check_usage(options);
+void run_sweep(const SweepOptions& options) {
+    check_sweep_usage(options);
     std::vector<Body> bodies;
     for (const std::string& file : {options.a, options.b.empty() ? options.a : options.b})
         bodies.push_back(options.ball > 0 ? make_ball(options.ball) : load_body(file, {}, options.fill));
@@ -446,13 +448,13 @@ void run(const Options& options) {
     measure(options, experiment.get(), sweep.suggestion, log, sweep.sizes);
     collect(options, log, sweep.sizes);
     sweep.found = evaluate(sweep.sizes, range_min, range_max);
-    options.json ? print_json(sweep) : print_text(sweep);
+    options.json ? print_sweep_json(sweep) : print_sweep(sweep);
 }
 
 } // namespace
 
 void add_sweep(CommandLine& line) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<SweepOptions>();
     options->grid.engine = VOX_ENGINE_REFERENCE;
     Command command =
         line.add("sweep", "Measure the time of detection against cell size (the paper's experiment)");
@@ -490,7 +492,7 @@ void add_sweep(CommandLine& line) {
     command.flag("--force", options->force, "Replace the file of --csv if it exists").needs(csv);
     command.option("--resume", options->resume, "As --csv, but continue the file if it exists").excludes(csv);
     command.flag("--json", options->json, "Print one JSON object");
-    command.runs([options] { run(*options); });
+    command.runs([options] { run_sweep(*options); });
 }
 
 } // namespace tool

@@ -11,7 +11,8 @@
 namespace tool {
 
 #ifdef _WIN32
-// As long as it lives, what is printed is UTF-8, and as everywhere else to the byte, without carriage returns.
+// As long as it lives, what is printed is UTF-8, and as everywhere else to the byte, without carriage
+// returns.
 class Console {
 public:
     Console();

@@ -13,14 +13,15 @@ namespace tool {
 
 namespace {
 
-struct Options {
+struct TetrahedralizeOptions {
     std::string surface, out;
     vox_io_tetrahedralize_desc desc{};
     bool binary = false;
     bool json = false;
 };
 
-const Choices<vox_io_solid_kind> kinds = {{"stuffed", VOX_IO_SOLID_STUFFED}, {"cubes", VOX_IO_SOLID_CUBES}};
+constexpr Choice<vox_io_solid_kind> kinds[] = {{"stuffed", VOX_IO_SOLID_STUFFED},
+                                               {"cubes", VOX_IO_SOLID_CUBES}};
 
 Mesh fill(const vox_io_mesh* surface, vox_io_tetrahedralize_desc desc) {
     Progress progress;
@@ -35,14 +36,14 @@ Mesh fill(const vox_io_mesh* surface, vox_io_tetrahedralize_desc desc) {
     return Mesh(filled);
 }
 
-void write(const vox_io_mesh* mesh, const Options& options) {
+void write(const vox_io_mesh* mesh, const TetrahedralizeOptions& options) {
     vox_io_write_desc desc;
     check(vox_io_write_desc_init(&desc, sizeof desc));
     desc.binary = options.binary ? 1 : 0;
     check(vox_io_write(mesh, options.out.c_str(), &desc));
 }
 
-void print_text(const Options& options, const vox_io_quality& quality) {
+void print_tetrahedralize(const TetrahedralizeOptions& options, const vox_io_quality& quality) {
     std::printf("%s: %llu tetrahedra, %llu vertices\n", options.out.c_str(),
                 static_cast<unsigned long long>(quality.tets),
                 static_cast<unsigned long long>(quality.vertices));
@@ -53,7 +54,7 @@ void print_text(const Options& options, const vox_io_quality& quality) {
     std::printf("  %-20s %.9g (the surface's: %.9g)\n", "volume", quality.volume, quality.surface_volume);
 }
 
-void run(const Options& options) {
+void run_tetrahedralize(const TetrahedralizeOptions& options) {
     check_output(options.out, {".msh", ".vtu"}); // filling may take minutes
     const Mesh surface = load_mesh(options.surface);
     const Mesh mesh = fill(surface.get(), options.desc);
@@ -61,24 +62,24 @@ void run(const Options& options) {
     vox_io_quality quality{};
     quality.struct_size = sizeof quality;
     check(vox_io_measure_quality(mesh.get(), surface.get(), &quality));
-    if (!options.json) return print_text(options, quality);
+    if (!options.json) return print_tetrahedralize(options, quality);
     print({{"file", options.out},
            {"tets", quality.tets},
            {"vertices", quality.vertices},
            {"surface_triangles", quality.boundary_facets},
-           {"min_dihedral", number(quality.min_dihedral)},
-           {"max_dihedral", number(quality.max_dihedral)},
-           {"hausdorff", number(quality.hausdorff)},
-           {"mesh_to_surface", number(quality.mesh_to_surface)},
-           {"surface_to_mesh", number(quality.surface_to_mesh)},
-           {"volume", number(quality.volume)},
-           {"surface_volume", number(quality.surface_volume)}});
+           {"min_dihedral", quality.min_dihedral},
+           {"max_dihedral", quality.max_dihedral},
+           {"hausdorff", quality.hausdorff},
+           {"mesh_to_surface", quality.mesh_to_surface},
+           {"surface_to_mesh", quality.surface_to_mesh},
+           {"volume", quality.volume},
+           {"surface_volume", quality.surface_volume}});
 }
 
 } // namespace
 
 void add_tetrahedralize(CommandLine& line) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<TetrahedralizeOptions>();
     check(vox_io_tetrahedralize_desc_init(&options->desc, sizeof options->desc));
     vox_io_tetrahedralize_desc& desc = options->desc;
     Command command = line.add("tetrahedralize", "Fill a closed surface with tetrahedra");
@@ -96,7 +97,7 @@ void add_tetrahedralize(CommandLine& line) {
     command.option("--max-tets", desc.max_tets, "Fail if there are more tetrahedra than this");
     command.flag("--binary", options->binary, "Write binary instead of text");
     command.flag("--json", options->json, "Print one JSON object");
-    command.runs([options] { run(*options); });
+    command.runs([options] { run_tetrahedralize(*options); });
 }
 
 } // namespace tool

@@ -41,15 +41,21 @@ def _no_constant(name):
     raise ValueError(f"{name} is no JSON number")
 
 
+def _no_duplicates(pairs):
+    if len(dict(pairs)) < len(pairs):
+        raise ValueError(f"a key stands twice: {[key for key, _ in pairs]}")
+    return dict(pairs)
+
+
 def run_json(*arguments):
-    """The object that vox prints with --json; fails unless that is all it prints, in strict JSON."""
+    """The object that vox prints with --json; fails unless that is all it prints, in strict JSON with each key once."""
     done = run(*arguments, "--json")
     if done.returncode != 0:
         raise AssertionError(f"{arguments}: exit code {done.returncode}, {done.stderr.decode()!r}")
     if done.stderr:
         raise AssertionError(f"{arguments}: standard error has {done.stderr.decode()!r}")
     text = done.stdout.decode("utf-8")
-    found = json.loads(text, parse_constant=_no_constant)
+    found = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_no_duplicates)
     if not isinstance(found, dict) or not text.endswith("}\n"):
         raise AssertionError(f"{arguments}: standard output is not one object and a newline")
     for value in numbers(found):
