@@ -39,6 +39,10 @@ vox_declare(CLI11 26291377e892ba0e5b4972cdfd4a2ab3bf53af8dac1f4ea8fe0d1376b625c8
   https://github.com/CLIUtils/CLI11/archive/v2.1.2.tar.gz)
 vox_provide(CLI11 CLI11::CLI11 include)
 
+vox_declare(nlohmann_json d69f9deb6a75e2580465c6c4c5111b89c4dc2fa94e3a85fcd2ffcd9a143d9273
+  https://github.com/nlohmann/json/archive/v3.11.2.tar.gz ${debian}/n/nlohmann-json3/nlohmann-json3_3.11.2.orig.tar.gz)
+vox_provide(nlohmann_json nlohmann_json::nlohmann_json include)
+
 vox_declare(pugixml 5c5ad5d7caeb791420408042a7d88c2c6180781bf218feca259fd9d840a888e1
   https://github.com/zeux/pugixml/archive/v1.13.tar.gz ${debian}/p/pugixml/pugixml_1.13.orig.tar.gz)
 vox_provide(pugixml pugixml::pugixml src src/pugixml.cpp)
@@ -47,12 +51,6 @@ if(NOT ZLIB_LIBRARY) # or somebody's own
   vox_declare(ZLIB 9a93b2b7dfdac77ceba5a558a580e74667dd6fede4585b91eefb60f03b72df23
     https://github.com/madler/zlib/releases/download/v1.3.1/zlib-1.3.1.tar.gz)
   vox_provide(ZLIB ZLIB::ZLIB . adler32.c crc32.c inffast.c inflate.c inftrees.c uncompr.c zutil.c) # for uncompress
-endif()
-
-if(VOX_BUILD_TESTS AND NOT WIN32)
-  vox_declare(nlohmann_json d69f9deb6a75e2580465c6c4c5111b89c4dc2fa94e3a85fcd2ffcd9a143d9273
-    https://github.com/nlohmann/json/archive/v3.11.2.tar.gz ${debian}/n/nlohmann-json3/nlohmann-json3_3.11.2.orig.tar.gz)
-  vox_provide(nlohmann_json nlohmann_json::nlohmann_json include)
 endif()
 
 if(VOX_BUILD_TESTS) # built by its own rules, which know the system
