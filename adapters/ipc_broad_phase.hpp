@@ -1,4 +1,5 @@
-// vox as a broad phase of IPC Toolkit (https://github.com/ipc-sim/ipc-toolkit, 1.6). Header only; link vox::vox.
+// vox as a broad phase of IPC Toolkit (https://github.com/ipc-sim/ipc-toolkit, 1.6). Header only; link
+// vox::vox.
 //
 //     #include <vox/adapters/ipc_broad_phase.hpp>
 //     ipc::Candidates candidates;
@@ -6,10 +7,10 @@
 //     candidates.build(mesh, vertices_t0, vertices_t1, inflation_radius, &broad_phase);
 //     double step = candidates.compute_collision_free_stepsize(mesh, vertices_t0, vertices_t1);
 //
-// Keep one IpcBroadPhase for all steps: what depends on the topology alone is prepared once. Candidates are those of
-// ipc::BruteForce, ascending: boxes are compared in doubles. With `cull` those are left out that are proven to stay further apart
-// than twice the inflation radius while vertices move along straight lines: none of them is a collision, and there are a
-// tenth as many. One thread at a time may use one.
+// Keep one IpcBroadPhase for all steps: what depends on the topology alone is prepared once. Candidates are
+// those of ipc::BruteForce, ascending: boxes are compared in doubles. With `cull` those are left out that are
+// proven to stay further apart than twice the inflation radius while vertices move along straight lines: none
+// of them is a collision, and there are a tenth as many. One thread at a time may use one.
 #pragma once
 
 #include <ipc/broad_phase/broad_phase.hpp>
@@ -48,15 +49,17 @@ public:
                Eigen::ConstRef<Eigen::MatrixXi> edges, Eigen::ConstRef<Eigen::MatrixXi> faces,
                const double inflation_radius = 0) override {
         if (vertices_t1.rows() != vertices_t0.rows() || vertices_t1.cols() != vertices_t0.cols())
-            throw std::invalid_argument("vox: " + std::to_string(vertices_t0.rows()) + " vertices at the beginning, " +
-                                        std::to_string(vertices_t1.rows()) + " at the end");
+            throw std::invalid_argument("vox: " + std::to_string(vertices_t0.rows()) +
+                                        " vertices at the beginning, " + std::to_string(vertices_t1.rows()) +
+                                        " at the end");
         prepare(static_cast<std::size_t>(vertices_t0.rows()), edges, faces, vertices_t0.cols());
         const Eigen::MatrixXd from = three_columns(vertices_t0), to = three_columns(vertices_t1);
         move(from, to.data(), inflation_radius, cull_);
     }
 
-    // Boxes of the caller's, as they are: a vertex that moves from one corner to the other has that box. One with a side of less
-    // than two numbers gets larger by so little. Nothing is culled, as nothing is known of the motion.
+    // Boxes of the caller's, as they are: a vertex that moves from one corner to the other has that box. One
+    // with a side of less than two numbers gets larger by so little. Nothing is culled, as nothing is known
+    // of the motion.
     void build(const ipc::AABBs& boxes, Eigen::ConstRef<Eigen::MatrixXi> edges,
                Eigen::ConstRef<Eigen::MatrixXi> faces, const std::uint8_t dimensions) override {
         constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -108,7 +111,8 @@ private:
         std::vector<std::uint32_t> indices;
         indices.reserve(static_cast<std::size_t>(rows.size()));
         for (Eigen::Index i = 0; i < rows.rows(); ++i)
-            for (Eigen::Index k = 0; k < rows.cols(); ++k) indices.push_back(static_cast<std::uint32_t>(rows(i, k)));
+            for (Eigen::Index k = 0; k < rows.cols(); ++k)
+                indices.push_back(static_cast<std::uint32_t>(rows(i, k)));
         return indices;
     }
 
@@ -130,7 +134,8 @@ private:
             vertex_count_ = 0;
             return;
         }
-        if (surface_ && vertex_count == vertex_count_ && edge_indices == edges_ && face_indices == faces_) return;
+        if (surface_ && vertex_count == vertex_count_ && edge_indices == edges_ && face_indices == faces_)
+            return;
         const std::uint32_t none = 0; // so that no edges are not those of the faces
         vox_surface_desc desc = vox_default_surface_desc();
         desc.worker_count = worker_count_;
@@ -166,7 +171,8 @@ private:
 
     const std::uint32_t* corners(vox_feature feature, const std::uint32_t& index) const {
         if (feature == VOX_FEATURE_VERTEX) return &index;
-        return feature == VOX_FEATURE_EDGE ? &edges_[2 * std::size_t{index}] : &faces_[3 * std::size_t{index}];
+        return feature == VOX_FEATURE_EDGE ? &edges_[2 * std::size_t{index}]
+                                           : &faces_[3 * std::size_t{index}];
     }
 
     // As IPC Toolkit has it: some vertex of one may meet some vertex of the other.
@@ -196,7 +202,8 @@ private:
         for (std::uint64_t first = 0;;) { // in pieces where one would not fit into the byte budget
             vox_pair_lists lists{};
             lists.struct_size = sizeof lists;
-            check(vox_surface_pairs(surface_.get(), a, b, first, std::numeric_limits<std::uint64_t>::max(), &lists));
+            check(vox_surface_pairs(surface_.get(), a, b, first, std::numeric_limits<std::uint64_t>::max(),
+                                    &lists));
             if (lists.count == 0) return;
             candidates.reserve(candidates.size() + static_cast<std::size_t>(lists.pair_count));
             for (std::uint64_t i = 0; i < lists.count; ++i)

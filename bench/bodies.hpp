@@ -23,8 +23,8 @@ Solid lattice_beam(int nx, int ny, int nz, double jitter, std::uint64_t seed);
 Solid lattice_ball(double tets, std::uint64_t seed);
 double ball_radius(double tets);
 
-// A ball of the paper's experiment (vox_io_make_lattice_ball) with cubes of edge 1: tetrahedra at its boundary
-// are flat. Throws std::runtime_error when this build has no such bodies.
+// A ball of the paper's experiment (vox_io_make_lattice_ball) with cubes of edge 1: tetrahedra at its
+// boundary are flat. Throws std::runtime_error when this build has no such bodies.
 Solid cube_ball(double tets);
 double cube_ball_radius(double tets);
 

@@ -1,5 +1,5 @@
-#include "base/array.hpp"
 #include "peers/peer.hpp"
+#include "base/array.hpp"
 
 #include "exact/predicates.hpp"
 #include "grid/contacts.hpp"

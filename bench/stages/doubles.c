@@ -1,6 +1,6 @@
 /* What doubles cost: each scene in a grid of floats and in one of doubles that are no floats, stepped in
- * turn, and the ratio of their lower quartiles of processor time. "rigid" moves the same floats by transforms.
- * Usage: bench_doubles [frames], 30 by default. */
+ * turn, and the ratio of their lower quartiles of processor time. "rigid" moves the same floats by
+ * transforms. Usage: bench_doubles [frames], 30 by default. */
 #include "scenes/scenes.h"
 #include "timing.h"
 

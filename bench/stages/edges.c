@@ -1,7 +1,7 @@
-/* What edge contacts and margin contacts cost: each scene in a grid without them, in one with VOX_GRID_EDGE_CONTACTS and in
- * one with a margin of half an edge, stepped in turn over the same positions, all of which move; the ratio of their lower
- * quartiles of processor time.
- * Usage: bench_edges [frames [tetrahedra of a ball [scene]]], 40, 500000 and every scene by default. */
+/* What edge contacts and margin contacts cost: each scene in a grid without them, in one with
+ * VOX_GRID_EDGE_CONTACTS and in one with a margin of half an edge, stepped in turn over the same positions,
+ * all of which move; the ratio of their lower quartiles of processor time. Usage: bench_edges [frames
+ * [tetrahedra of a ball [scene]]], 40, 500000 and every scene by default. */
 #include "scenes/scenes.h"
 #include "scenes/solids.h"
 #include "timing.h"
@@ -84,14 +84,18 @@ static void measure(scene* s, const char* name, int frames) {
     check(vox_grid_counters(variants[WITH].grid, &counters));
     const double without = quartile(variants[WITHOUT].seconds, frames),
                  with = quartile(variants[WITH].seconds, frames),
-                 edges = quartile(variants[WITH].part, frames), near = quartile(variants[MARGIN].seconds, frames);
-    printf("%-8s %8.3f ms without, %8.3f with: %.3f; %.3f of it edges; %llu contacts, %llu edge contacts of %llu "
+                 edges = quartile(variants[WITH].part, frames),
+                 near = quartile(variants[MARGIN].seconds, frames);
+    printf("%-8s %8.3f ms without, %8.3f with: %.3f; %.3f of it edges; %llu contacts, %llu edge contacts of "
+           "%llu "
            "candidates\n",
-           name, 1e3 * without, 1e3 * with, with / without, 1e3 * edges, (unsigned long long)counters.contacts,
-           (unsigned long long)counters.edge_contacts, (unsigned long long)counters.edge_candidates);
+           name, 1e3 * without, 1e3 * with, with / without, 1e3 * edges,
+           (unsigned long long)counters.contacts, (unsigned long long)counters.edge_contacts,
+           (unsigned long long)counters.edge_candidates);
     check(vox_grid_counters(variants[MARGIN].grid, &counters));
-    printf("         margin %g: %8.3f ms: %.3f; %.3f of it margin; %llu margin contacts\n", margin, 1e3 * near,
-           near / without, 1e3 * quartile(variants[MARGIN].part, frames), (unsigned long long)counters.margin_contacts);
+    printf("         margin %g: %8.3f ms: %.3f; %.3f of it margin; %llu margin contacts\n", margin,
+           1e3 * near, near / without, 1e3 * quartile(variants[MARGIN].part, frames),
+           (unsigned long long)counters.margin_contacts);
     fflush(stdout);
     for (int k = 0; k < VARIANTS; ++k) {
         vox_grid_destroy(variants[k].grid);

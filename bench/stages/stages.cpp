@@ -3,8 +3,8 @@
 // of the machine or the one asked for.
 //
 //   bench_stages [--tets N] [--rounds K] [--level portable|sse4|avx2|avx512] [--stage NAME]
-#include "base/array.hpp"
 #include "fast/stages.hpp"
+#include "base/array.hpp"
 #include "base/simd.hpp"
 #include "fast/broad_phase.hpp"
 #include "fast/decide.hpp"

@@ -1,4 +1,5 @@
-// ../grid/first_contact.c in C++: two bodies of one tetrahedron each; vertex 3 of the first lies inside the second.
+// ../grid/first_contact.c in C++: two bodies of one tetrahedron each; vertex 3 of the first lies inside the
+// second.
 #include <cstdio>
 #include <vox/vox.hpp>
 

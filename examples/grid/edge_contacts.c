@@ -1,5 +1,5 @@
-/* Edge contacts: two bars laid across each other. No vertex of one is in the other; edges of one pass through faces of
- * the other, and the way out is up, by as much as they overlap. */
+/* Edge contacts: two bars laid across each other. No vertex of one is in the other; edges of one pass through
+ * faces of the other, and the way out is up, by as much as they overlap. */
 #include "example.h"
 
 /* A cube, 9 times as long along one axis, around its middle. */
@@ -27,7 +27,8 @@ int main(void) {
     must(vox_grid_edge_contacts(grid, &edges));
     must(vox_grid_prepare_edge_depths(grid)); /* the way out, for those who want it */
     must(vox_grid_edge_depths(grid, &depths));
-    printf("%" PRIu64 " contacts, %s\n", contacts.count, edges.count > 0 ? "and edge contacts" : "no edge contacts");
+    printf("%" PRIu64 " contacts, %s\n", contacts.count,
+           edges.count > 0 ? "and edge contacts" : "no edge contacts");
     uint64_t deepest = 0;
     for (uint64_t i = 0; i < edges.count; ++i) {
         const int is_first = edges.data[deepest].mesh_a != ids[1];
@@ -36,9 +37,10 @@ int main(void) {
     }
     const vox_edge_contact* c = &edges.data[deepest];
     const vox_depth* out = &depths.data[deepest];
-    printf("edge %u %u of the upper bar enters the lower one at y = %g; the way out is %g along (%g, %g, %g)\n",
-           (unsigned)c->edge[0], (unsigned)c->edge[1], c->position[1], out->depth, out->direction[0],
-           out->direction[1], out->direction[2]);
+    printf(
+        "edge %u %u of the upper bar enters the lower one at y = %g; the way out is %g along (%g, %g, %g)\n",
+        (unsigned)c->edge[0], (unsigned)c->edge[1], c->position[1], out->depth, out->direction[0],
+        out->direction[1], out->direction[2]);
 
     move_cube(&above, 0, 0, (float)out->depth + 0.01f);
     must(vox_grid_step(grid));

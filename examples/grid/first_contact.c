@@ -10,7 +10,8 @@ int main(void) {
     const float first[12] = {5, 5, 5, 6, 5, 5, 5, 6, 5, 0.2f, 0.3f, 0.4f};
     const float second[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
     /* Positions are borrowed: move them between steps as you like. */
-    vox_mesh_desc bodies[2] = {vox_mesh_desc_floats(first, 4, tet, 1), vox_mesh_desc_floats(second, 4, tet, 1)};
+    vox_mesh_desc bodies[2] = {vox_mesh_desc_floats(first, 4, tet, 1),
+                               vox_mesh_desc_floats(second, 4, tet, 1)};
     for (int i = 0; i < 2; ++i) bodies[i].user_data = (uint64_t)i + 1;
 
     vox_grid* grid;

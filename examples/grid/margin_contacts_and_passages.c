@@ -14,8 +14,9 @@ int main(void) {
     must(vox_grid_margin_contacts(grid, &near));
     for (uint64_t i = 0; i < near.count; ++i) {
         const vox_margin_contact* c = &near.data[i]; /* valid until the next step */
-        printf("vertex %u of mesh %u is %g from mesh %u, which pushes it along (%g, %g, %g)\n", (unsigned)c->vertex,
-               (unsigned)c->mesh_a, c->distance, (unsigned)c->mesh_b, c->normal[0], c->normal[1], c->normal[2]);
+        printf("vertex %u of mesh %u is %g from mesh %u, which pushes it along (%g, %g, %g)\n",
+               (unsigned)c->vertex, (unsigned)c->mesh_a, c->distance, (unsigned)c->mesh_b, c->normal[0],
+               c->normal[1], c->normal[2]);
     }
 
     const cube before = bullet; /* where its vertices were a frame ago */

@@ -1,4 +1,5 @@
-/* Query views: what another thread, of a haptic device say, asks while the grid steps. Here one thread does both. */
+/* Query views: what another thread, of a haptic device say, asks while the grid steps. Here one thread does
+ * both. */
 #include "example.h"
 
 /* How deep a probe is in the meshes of a view (negative: outside), and which way is out. */
@@ -11,8 +12,8 @@ static void feel(const vox_query_view* view, const double probe[3]) {
     desc.point_count = 1;
     must(vox_query_view_closest_points(view, &desc, &hit));
     must(vox_query_view_epoch(view, &epoch));
-    printf("step %d: distance %g from mesh %u, normal (%g, %g, %g)\n", (int)epoch, hit.distance, (unsigned)hit.mesh,
-           hit.normal[0], hit.normal[1], hit.normal[2]);
+    printf("step %d: distance %g from mesh %u, normal (%g, %g, %g)\n", (int)epoch, hit.distance,
+           (unsigned)hit.mesh, hit.normal[0], hit.normal[1], hit.normal[2]);
 }
 
 int main(void) {
@@ -40,8 +41,8 @@ int main(void) {
     uint32_t any = 0;
     must(vox_query_view_ray_hits(shown, left, right, UINT64_MAX, VOX_NULL_MESH, hits, 8, &count));
     for (uint64_t i = 0; i < count; ++i)
-        printf("%s mesh %u at x = %g\n", hits[i].side == VOX_SIDE_ENTERS ? "enters" : "leaves", (unsigned)hits[i].mesh,
-               left[0] + hits[i].t * (right[0] - left[0]));
+        printf("%s mesh %u at x = %g\n", hits[i].side == VOX_SIDE_ENTERS ? "enters" : "leaves",
+               (unsigned)hits[i].mesh, left[0] + hits[i].t * (right[0] - left[0]));
     must(vox_query_view_ray_any(shown, left, right, UINT64_MAX, hits[0].mesh, &any));
     printf("without that mesh: %s\n", any ? "something" : "nothing");
     vox_query_view_release(shown);

@@ -1,6 +1,6 @@
-/* Surface pairs: a sheet falls onto another. Which edges can meet on the way, how far it may fall and what touches first, which
- * faces and vertices touch at all, how far every vertex may move before anything touches, which are close, whether the sheets
- * cross where they end, and the cell size behind it. */
+/* Surface pairs: a sheet falls onto another. Which edges can meet on the way, how far it may fall and what
+ * touches first, which faces and vertices touch at all, how far every vertex may move before anything
+ * touches, which are close, whether the sheets cross where they end, and the cell size behind it. */
 #include "example.h"
 
 #include <vox/vox_pairs.h>
@@ -59,7 +59,8 @@ int main(void) {
     times.struct_size = sizeof times;
     must(vox_surface_contact_times(surface, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX, NULL, &times));
     double first = 1;
-    for (uint64_t i = 0; i < times.count; ++i) first = times.pairs[i].time < first ? times.pairs[i].time : first;
+    for (uint64_t i = 0; i < times.count; ++i)
+        first = times.pairs[i].time < first ? times.pairs[i].time : first;
     printf("faces and vertices: %" PRIu64 " touch, the first at %.3f\n", times.count, first);
 
     /* The surface chooses its cell size by this; one may also set it. No answer depends on it. */
@@ -71,8 +72,8 @@ int main(void) {
     must(vox_surface_set_cell_size(surface, suggestion.cell_size));
     must(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
     must(vox_surface_counters(surface, &counters));
-    printf("cells of %.1f: %" PRIu64 " pairs overlapped, %" PRIu64 " of them were culled\n", counters.cell_size,
-           counters.overlaps, counters.culled);
+    printf("cells of %.1f: %" PRIu64 " pairs overlapped, %" PRIu64 " of them were culled\n",
+           counters.cell_size, counters.overlaps, counters.culled);
 
     motion.to = NULL; /* where the sheets began */
     must(vox_surface_move(surface, &motion));
@@ -91,8 +92,8 @@ int main(void) {
     if (close.count > 0) {
         const vox_close_pair* p = &close.pairs[0];
         const uint32_t* e = edges.vertices + 2 * p->a;
-        printf("%" PRIu64 " edges are close, first that of vertices %u and %u, %.3f away from another\n", close.count,
-               (unsigned)e[0], (unsigned)e[1], p->distance);
+        printf("%" PRIu64 " edges are close, first that of vertices %u and %u, %.3f away from another\n",
+               close.count, (unsigned)e[0], (unsigned)e[1], p->distance);
     }
     vox_surface_destroy(surface);
     return 0;

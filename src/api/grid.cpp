@@ -1,11 +1,11 @@
 // The C border of the core: read the caller's structs, forward to the grid, nothing else.
 
-#include "base/simd.hpp"
 #include "grid/grid.hpp"
 #include "api/filter.hpp"
 #include "base/border.hpp"
 #include "base/memory.hpp"
 #include "base/scheduler.hpp"
+#include "base/simd.hpp"
 #include "base/structs.hpp"
 #include "mesh/check.hpp"
 #include "mesh/ids.hpp"
@@ -33,9 +33,11 @@ uint32_t vox_abi_version(void) { return VOX_ABI_VERSION; }
 
 const char* vox_build_info(void) {
     // clang-format off
-    return "vox " VOX_STRING(VOX_VERSION_MAJOR) "." VOX_STRING(VOX_VERSION_MINOR) "." VOX_STRING(VOX_VERSION_PATCH)
+    return "vox " VOX_STRING(VOX_VERSION_MAJOR) "." VOX_STRING(VOX_VERSION_MINOR)
+        "." VOX_STRING(VOX_VERSION_PATCH)
 #if defined(__clang__)
-        ", clang " VOX_STRING(__clang_major__) "." VOX_STRING(__clang_minor__) "." VOX_STRING(__clang_patchlevel__)
+        ", clang " VOX_STRING(__clang_major__) "." VOX_STRING(__clang_minor__)
+        "." VOX_STRING(__clang_patchlevel__)
 #elif defined(__GNUC__)
         ", gcc " __VERSION__
 #elif defined(_MSC_VER)

@@ -64,9 +64,8 @@ vox_closest_desc closest_defaults() {
     return desc;
 }
 
-Array<Vec3d> read_points(const void* points, const vox_format& point_format,
-                                    std::uint64_t byte_stride, std::uint64_t component_byte_stride,
-                                    std::uint64_t count) {
+Array<Vec3d> read_points(const void* points, const vox_format& point_format, std::uint64_t byte_stride,
+                         std::uint64_t component_byte_stride, std::uint64_t count) {
     if (count > 0) require(points, "points");
     check_format(point_format, "");
     if (count > UINT32_MAX)
@@ -134,7 +133,7 @@ void ask_closest_points(const Queries& queries, const vox_closest_desc* desc, vo
     if (asked.reserved != 0)
         throw Error(VOX_ERROR_INVALID_ARGUMENT, format("desc reserved is %u, expected 0", asked.reserved));
     const Array<Vec3d> points = read_points(asked.points, asked.format, asked.byte_stride,
-                                                       asked.component_byte_stride, asked.point_count);
+                                            asked.component_byte_stride, asked.point_count);
     Scratch<4096> memory;
     queries.closest_points(points, asked.max_distance, {asked.mask, asked.excluded}, &memory, out_hits);
 }

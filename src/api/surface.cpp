@@ -1,10 +1,10 @@
 // The C border of vox_pairs.h: surfaces, motion, pairs.
 
-#include "base/simd.hpp"
 #include "surface/surface.hpp"
 #include "base/border.hpp"
 #include "base/caller_memory.hpp"
 #include "base/memory.hpp"
+#include "base/simd.hpp"
 #include "base/structs.hpp"
 
 #include <cmath>
@@ -50,8 +50,9 @@ vox_result vox_surface_create(const vox_surface_desc* desc, vox_surface** out_su
         check_surface_desc(settings);
         constexpr std::size_t least = sizeof(GridMemory) + sizeof(vox_surface);
         if (settings.byte_budget != 0 && settings.byte_budget < least)
-            throw Error(VOX_ERROR_BUDGET, format("an empty surface needs %zu bytes, its byte budget is %llu", least,
-                                                 static_cast<unsigned long long>(settings.byte_budget)));
+            throw Error(VOX_ERROR_BUDGET,
+                        format("an empty surface needs %zu bytes, its byte budget is %llu", least,
+                               static_cast<unsigned long long>(settings.byte_budget)));
         const MemoryShare memory(settings.allocator, settings.byte_budget);
         std::pmr::polymorphic_allocator<> allocator(&*memory);
         *out_surface = allocator.new_object<vox_surface>(settings, memory);
@@ -84,11 +85,12 @@ vox_result vox_motion_init(vox_motion* motion, uint32_t struct_size) {
 }
 
 vox_result vox_surface_move(vox_surface* surface, const vox_motion* motion) {
-    return border(surface, "surface", [&] { surface->move(read_struct(motion, motion_defaults(), "motion")); });
+    return border(surface, "surface",
+                  [&] { surface->move(read_struct(motion, motion_defaults(), "motion")); });
 }
 
-vox_result vox_surface_pairs(vox_surface* surface, vox_feature a, vox_feature b, uint64_t first, uint64_t count,
-                             vox_pair_lists* out_lists) {
+vox_result vox_surface_pairs(vox_surface* surface, vox_feature a, vox_feature b, uint64_t first,
+                             uint64_t count, vox_pair_lists* out_lists) {
     return border(surface, "surface", [&] {
         check_out_struct(out_lists, "out_lists");
         check_enum(a, VOX_FEATURE_FACE, "a");

@@ -1,8 +1,8 @@
 // The C border of vox_pairs.h's section on the time of contact.
 
-#include "surface/contact_time.hpp"
 #include "base/border.hpp"
 #include "base/structs.hpp"
+#include "surface/contact_time.hpp"
 #include "surface/surface.hpp"
 
 #include <cmath>
@@ -25,7 +25,8 @@ ContactTimeRule read_contact_time_desc(const vox_contact_time_desc* given) {
     if (desc.most_iterations == 0) refuse("most_iterations is 0, expected at least 1");
     if (!(desc.distance >= 0) || !std::isfinite(desc.distance))
         refuse(format("distance is %g, expected 0 or a length", desc.distance));
-    if (!(desc.slack > 0 && desc.slack < 1)) refuse(format("slack is %g, expected a number between 0 and 1", desc.slack));
+    if (!(desc.slack > 0 && desc.slack < 1))
+        refuse(format("slack is %g, expected a number between 0 and 1", desc.slack));
     return {desc.distance, desc.slack, desc.most_iterations};
 }
 
@@ -35,7 +36,8 @@ vox_result vox_contact_time_desc_init(vox_contact_time_desc* desc, uint32_t stru
     return border([&] { init_struct(desc, struct_size, contact_time_defaults(), "desc"); });
 }
 
-vox_result vox_surface_safe_step(vox_surface* surface, const vox_contact_time_desc* desc, vox_safe_step* out) {
+vox_result vox_surface_safe_step(vox_surface* surface, const vox_contact_time_desc* desc,
+                                 vox_safe_step* out) {
     return border(surface, "surface", [&] {
         check_out_struct(out, "out");
         write_struct(out, surface->safe_step(read_contact_time_desc(desc)), "out");
@@ -48,8 +50,10 @@ vox_result vox_surface_contact_times(vox_surface* surface, vox_feature a, vox_fe
         check_out_struct(out_view, "out_view");
         check_enum(a, VOX_FEATURE_FACE, "a");
         check_enum(b, VOX_FEATURE_FACE, "b");
-        if (!(a == VOX_FEATURE_FACE && b == VOX_FEATURE_VERTEX) && !(a == VOX_FEATURE_EDGE && b == VOX_FEATURE_EDGE))
-            refuse(format("a and b are %d and %d, expected VOX_FEATURE_FACE and VOX_FEATURE_VERTEX, or twice VOX_FEATURE_EDGE",
+        if (!(a == VOX_FEATURE_FACE && b == VOX_FEATURE_VERTEX) &&
+            !(a == VOX_FEATURE_EDGE && b == VOX_FEATURE_EDGE))
+            refuse(format("a and b are %d and %d, expected VOX_FEATURE_FACE and VOX_FEATURE_VERTEX, or twice "
+                          "VOX_FEATURE_EDGE",
                           int(a), int(b)));
         const auto found = surface->contact_times(a, b, read_contact_time_desc(desc));
         vox_timed_view view{};

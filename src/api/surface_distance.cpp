@@ -26,7 +26,8 @@ vox_result vox_surface_close(vox_surface* surface, vox_feature a, vox_feature b,
         check_enum(a, VOX_FEATURE_FACE, "a");
         check_enum(b, VOX_FEATURE_FACE, "b");
         if (corners_of(a) + corners_of(b) > 4)
-            refuse(format("a is %s and b is %s, expected FACE and VERTEX, EDGE and EDGE, EDGE and VERTEX, or VERTEX and "
+            refuse(format("a is %s and b is %s, expected FACE and VERTEX, EDGE and EDGE, EDGE and VERTEX, or "
+                          "VERTEX and "
                           "VERTEX",
                           name_of(a), name_of(b)));
         if (!(distance >= 0) || !std::isfinite(distance))
@@ -47,7 +48,8 @@ vox_result vox_surface_clearance(vox_surface* surface, double most, double* per_
         if (vertex_count != surface->topology().vertex_count)
             refuse(format("vertex_count is %llu, but the surface has %u vertices", llu(vertex_count),
                           surface->topology().vertex_count));
-        if (!(most > 0) || !std::isfinite(most)) refuse(format("most is %g, expected a length above 0", most));
+        if (!(most > 0) || !std::isfinite(most))
+            refuse(format("most is %g, expected a length above 0", most));
         surface->clearance(most, per_vertex);
     });
 }

@@ -92,13 +92,15 @@ Level level() noexcept {
 }
 
 Level force_level(Level wanted) noexcept {
-    forced.store(static_cast<int>(std::min(std::max(wanted, least_level), best_level())), std::memory_order_relaxed);
+    forced.store(static_cast<int>(std::min(std::max(wanted, least_level), best_level())),
+                 std::memory_order_relaxed);
     return level();
 }
 
 void require_instructions(Level best) {
     if (best < least_level)
-        throw Error(VOX_ERROR_UNSUPPORTED, "this processor has not the instructions SSE4.2 and POPCNT, which vox needs");
+        throw Error(VOX_ERROR_UNSUPPORTED,
+                    "this processor has not the instructions SSE4.2 and POPCNT, which vox needs");
 }
 
 const char* level_name(Level level) noexcept {

@@ -15,14 +15,14 @@
 // Targets better than AVX3, or than NEON, have lower bits, and newer versions of Highway have more of them:
 // for instructions that are of no use here, or for vectors of unknown length.
 #if defined(__x86_64__) || defined(_M_X64)
-// Every x86-64 since 2011 has SSE4.2. Older ones are refused (require_instructions): Highway's emulation for them would take
-// gcc longer to compile than all other targets together.
+// Every x86-64 since 2011 has SSE4.2. Older ones are refused (require_instructions): Highway's emulation for
+// them would take gcc longer to compile than all other targets together.
 #if !defined(__SSE4_2__) && !defined(__AVX__)
 #define HWY_BASELINE_TARGETS HWY_SSE4
 #endif
 #if defined(__MINGW32__) && !defined(__clang__) && !defined(VOX_UNALIGNED_MOVES)
-// gcc for Windows aligns the stack to 16 bytes only, and AVX may crash (gcc bug 54412), unless the assembler helps
-// (cmake/vox_target.cmake).
+// gcc for Windows aligns the stack to 16 bytes only, and AVX may crash (gcc bug 54412), unless the assembler
+// helps (cmake/vox_target.cmake).
 #define HWY_DISABLED_TARGETS (HWY_EMU128 | HWY_SSSE3 | HWY_AVX2 | HWY_AVX3 | (HWY_AVX3 - 1))
 #else
 #define HWY_DISABLED_TARGETS (HWY_EMU128 | HWY_SSSE3 | (HWY_AVX3 - 1))
@@ -37,8 +37,8 @@
 #endif
 #define HWY_DISABLE_PCLMUL_AES
 #define HWY_DISABLE_F16C
-// Where there are no registers of 128 bits, Highway emulates them. It does not for gcc < 12.3, which miscompiles products
-// of 16-bit integers (gcc bug 106322). There are none here.
+// Where there are no registers of 128 bits, Highway emulates them. It does not for gcc < 12.3, which
+// miscompiles products of 16-bit integers (gcc bug 106322). There are none here.
 #define HWY_BROKEN_EMU128 0
 #define HWY_IS_DEBUG_BUILD 0 // its assertions would need Highway's library
 
@@ -58,7 +58,8 @@ inline constexpr Level least_level = Level::portable;
 // The best level of this machine, or the one forced.
 Level level() noexcept;
 
-// For tests and measurements. Forces `wanted`, or the nearest level that this machine has, and returns the level in force.
+// For tests and measurements. Forces `wanted`, or the nearest level that this machine has, and returns the
+// level in force.
 Level force_level(Level wanted) noexcept;
 Level best_level() noexcept;
 
@@ -70,7 +71,8 @@ struct Processor {
 };
 Level level_of(const Processor& processor) noexcept;
 
-// Throws UNSUPPORTED where an x86 has not the instructions of the least level. Whoever creates an object asks.
+// Throws UNSUPPORTED where an x86 has not the instructions of the least level. Whoever creates an object
+// asks.
 void require_instructions(Level best = best_level());
 
 // A name for messages, such as "AVX2".

@@ -45,8 +45,7 @@ void append_near(const CellSizeScene& scene, std::uint32_t body, const Box& own,
 }
 
 // Appends the boxes of the tiles of a body that meet a region.
-void append_tiles(const CellSizeScene& scene, std::uint32_t body, const Box& region,
-                  Array<Box>& out) {
+void append_tiles(const CellSizeScene& scene, std::uint32_t body, const Box& region, Array<Box>& out) {
     const fast::StepBoxes& boxes = scene.boxes();
     const Array<fast::StepBody>& of = scene.step().of;
     const std::size_t end = body + 1 < of.size() ? of[body + 1].first_tile : boxes.tiles.size();

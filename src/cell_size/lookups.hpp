@@ -172,14 +172,13 @@ private:
     std::size_t count_around(SizeClass& c, double lookups, Around&& around);
     void count_binned(const fast::Points& points, double lookups, bool count_occupied);
     template <class In>
-    void count_lists(SizeClass& c, std::size_t wanted, const In& in,
-                     Array<BranchMisses::Point>& points);
+    void count_lists(SizeClass& c, std::size_t wanted, const In& in, Array<BranchMisses::Point>& points);
     template <class In>
     void count_crowds(const SizeClass& c, std::size_t wanted, double near, const In& in,
                       double points_per_lookup);
 
     SampleBudget budget_;
-    Array<SizeClass> classes_;           // that occur
+    Array<SizeClass> classes_;                      // that occur
     std::array<std::int16_t, 2 * exponents> index_; // in classes_; -1: none
     std::uint64_t random_ = 0, points_looked_at_ = 0;
     // Occupied cells at sizes that are evenly spaced in the logarithm.

@@ -36,9 +36,9 @@ struct CellSizeScene {
     SampleBudget budget = thorough; // prepare() makes it a small one where the scene is a grid's
     // What a grid has prepared of each body, and found in its last step. All empty where there is no grid.
     Array<const Mesh*> meshes;
-    Array<const Tiles*> tiles;   // null where they were not made: they are then sketched
-    Array<std::uint8_t> at_rest; // the body did not move before the last step
-    Array<std::uint8_t> cleared; // winding numbers excluded most of its self-collision
+    Array<const Tiles*> tiles;             // null where they were not made: they are then sketched
+    Array<std::uint8_t> at_rest;           // the body did not move before the last step
+    Array<std::uint8_t> cleared;           // winding numbers excluded most of its self-collision
     const FastEngine* last_step = nullptr; // null unless it was a step of these bodies, wherever they are now
 
     // ---- set by prepare() ----

@@ -95,7 +95,7 @@ private:
 
     CostFunction cost_;
     double log_min_;
-    int last_;                        // node in the range; the first is 0
+    int last_;             // node in the range; the first is 0
     Array<double> values_; // from node -margin on; NaN where not asked for yet
 };
 

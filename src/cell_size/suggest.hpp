@@ -26,10 +26,11 @@ vox_suggestion suggest(const vox_suggest_desc& desc, CellSizeScene& scene, const
 vox_cost_prediction predict(const vox_suggest_desc& desc, CellSizeScene& scene,
                             const vox_cost_weights& weights, double cell_size);
 
-// The same for a cost that is described elsewhere, whose terms are given: it is least in `range`, and the zone reaches
-// three octaves beyond that at most.
+// The same for a cost that is described elsewhere, whose terms are given: it is least in `range`, and the
+// zone reaches three octaves beyond that at most.
 vox_suggestion suggest_by(const vox_suggest_desc& desc, const Geometry& geometry,
-                          const std::function<CostTerms(double cell_size)>& terms, const CellSizeRange& range);
+                          const std::function<CostTerms(double cell_size)>& terms,
+                          const CellSizeRange& range);
 vox_cost_prediction prediction_of(const CostTerms& terms, double cell_size);
 
 } // namespace vox

@@ -65,8 +65,7 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
 
 // There are never more points than contacts, nor more pairs.
 void DepthStage::reserve(std::uint64_t contacts) {
-    for (Array<std::uint32_t>* list : {&places_, &pairs_, &queue_})
-        reserve_exactly(*list, contacts);
+    for (Array<std::uint32_t>* list : {&places_, &pairs_, &queue_}) reserve_exactly(*list, contacts);
 }
 
 // Penetrations are sorted by body_a, vertex and body_b; here they are sorted by body_a, body_b and vertex.

@@ -325,10 +325,10 @@ std::uint32_t CrossGates(WalkBlock&) { return 0; }
 bool HasDoubles() { return HWY_HAVE_FLOAT64 != 0; }
 
 } // namespace walks
-using walks::FirstGates;
-using walks::NextGates;
 using walks::CrossGates;
+using walks::FirstGates;
 using walks::HasDoubles;
+using walks::NextGates;
 
 } // namespace HWY_NAMESPACE
 } // namespace vox::depth

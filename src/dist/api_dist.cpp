@@ -59,8 +59,7 @@ vox_result vox_scene_create(const vox_scene_desc* desc, const vox_transport* tra
                 desc ? read_struct(desc, vox_scene_desc{}, "desc") : vox_scene_desc{};
             const vox_grid_desc grid = grid_settings(settings);
             CallerMemory memory(grid.allocator);
-            scene =
-                std::pmr::polymorphic_allocator<>(&memory).new_object<vox_scene>(grid, callbacks);
+            scene = std::pmr::polymorphic_allocator<>(&memory).new_object<vox_scene>(grid, callbacks);
         });
         try {
             Transport carrier(callbacks);

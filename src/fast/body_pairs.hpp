@@ -48,15 +48,14 @@ struct PairBuffers {
     Array<Pair> found;
     Array<std::uint32_t> first;
     Array<RankedBox> ranked, inner, outer; // of scenes for which the sweep does not do
-    std::uint64_t looks = 0; // at a pair, or at a box to divide them, in the last call
+    std::uint64_t looks = 0;               // at a pair, or at a box to divide them, in the last call
 };
 
 // Fills `pairs` with all ordered pairs (a, b), a != b, of boxes that overlap and are wanted either way,
 // sorted by a, then b. Empty boxes overlap nothing. Of n boxes, takes O(n log^3 n) and what the wanted pairs
 // take, but for pairs of boxes that overlap and that more than most_rule_classes kinds of filters, or
 // exceptions, exclude: these are tested one by one. Memory is taken for boxes and for wanted pairs alone.
-void find_pairs(std::span<const Box> boxes, const PairRules& rules, PairBuffers& buffers,
-                Array<Pair>& pairs);
+void find_pairs(std::span<const Box> boxes, const PairRules& rules, PairBuffers& buffers, Array<Pair>& pairs);
 inline constexpr std::size_t most_rule_classes = 32;
 
 // The bits of a float in the order of its value; the two zeros are one.

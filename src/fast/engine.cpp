@@ -55,8 +55,8 @@ void FastEngine::begin(std::span<const Body> bodies, std::span<const fast::Prepa
         body.last = &prepared[b].state->last_positions;
         if (settings.winding && bodies[b].self_collision && prepared[b].boundary->is_closed) {
             body.boundary = prepared[b].boundary;
-            body.orientation = &prepared[b].state->orientation.make(
-                prepared[b].state->last_positions.positions.memory());
+            body.orientation =
+                &prepared[b].state->orientation.make(prepared[b].state->last_positions.positions.memory());
         }
         body.moved = !settings.carry || prepared[b].moved;
         body.compared = prepared[b].compared;

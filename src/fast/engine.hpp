@@ -30,7 +30,7 @@ struct FastSettings {
     // or gone excepted, and not after a step that failed.
     bool carry = false;
     bool keep_certified = false; // for certified()
-    Box others = empty_box; // see Step
+    Box others = empty_box;      // see Step
 };
 
 // The engine's buffers live here from step to step, so that the steady state allocates nothing.
@@ -48,8 +48,7 @@ public:
     // Nothing but times and the order of hits depends on the workers. With more than one, the memory given to
     // the constructor and that of `hits` are used by many threads at once.
     void detect(std::span<const Body> bodies, std::span<const fast::PreparedBody> prepared,
-                const FastSettings& settings, Array<Hit>& hits, vox_counters& counters,
-                vox_profile& profile);
+                const FastSettings& settings, Array<Hit>& hits, vox_counters& counters, vox_profile& profile);
 
     // For the pairs of boxes that are looked for between steps: good until the next one.
     fast::PairBuffers& pair_buffers() noexcept { return broad_phase_.pair_buffers; }

@@ -119,8 +119,8 @@ using FewCorners = Corners;
 using ManyCorners = Corners;
 #endif
 
-using vox::HWY_NAMESPACE::Compressor, vox::HWY_NAMESPACE::LaneIndices, vox::HWY_NAMESPACE::LanesOfMask, vox::HWY_NAMESPACE::LookUpLanes,
-    vox::HWY_NAMESPACE::NoneOfMask;
+using vox::HWY_NAMESPACE::Compressor, vox::HWY_NAMESPACE::LaneIndices, vox::HWY_NAMESPACE::LanesOfMask,
+    vox::HWY_NAMESPACE::LookUpLanes, vox::HWY_NAMESPACE::NoneOfMask;
 
 constexpr std::uint32_t certain_pair = 1u << 31; // a bit that is not set in pairs
 

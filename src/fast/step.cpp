@@ -40,8 +40,7 @@ Vec3d choose_origin(std::span<const Body> bodies, const Box& others) {
     return {origin[0], origin[1], origin[2]};
 }
 
-void add_pieces(std::uint32_t body, std::uint32_t count, std::uint32_t most,
-                Array<Piece>& pieces) {
+void add_pieces(std::uint32_t body, std::uint32_t count, std::uint32_t most, Array<Piece>& pieces) {
     for (std::uint32_t first = 0; first < count; first += most)
         pieces.push_back({body, first, std::min(first + most, count)});
 }

@@ -98,7 +98,7 @@ struct Bins {
     Points points; // window after window, sorted by cell
     Array<std::uint32_t> begin;
     Array<Window> windows; // tree after tree, each in preorder
-    std::size_t cells = 0;            // entries of `begin` in use
+    std::size_t cells = 0; // entries of `begin` in use
     std::uint64_t occupied_cells = 0, fullest_cell = 0;
     std::size_t most_points = ~std::size_t{0}; // that there ever will be
 

@@ -140,7 +140,8 @@ void make_window(const Step& step, const BroadPhase& broad, double cell_size, st
     const bool culled = self && cull_by_winding(step, a, helpers, boxes, buffers.certificate, worker);
     Box own = self && !culled ? boxes.bodies[a] : empty_box;
     if (culled) {
-        if (!out.certified.empty()) out.certified[a] = buffers.certificate; // the next body is certified there
+        if (!out.certified.empty())
+            out.certified[a] = buffers.certificate; // the next body is certified there
         activate_blocks(step_body, boxes, buffers);
         for (std::uint32_t b = 0; b < step_body.tiles->block_count(); ++b)
             if (buffers.active[b]) add(own, boxes.blocks[step_body.first_block + b]);

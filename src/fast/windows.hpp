@@ -32,7 +32,7 @@ struct WindowBuffers {
 
     Certificate certificate;
     Array<std::uint8_t> active; // blocks with vertices that may be in tets of the same body
-    Points points;                         // before they are binned
+    Points points;              // before they are binned
 
     auto buffers() {
         return std::tuple_cat(certificate.buffers(),

@@ -17,8 +17,7 @@ namespace {
 // Counts, sums, places: `from` stably sorted by the slot of mesh(directed[i]).
 template <class MeshOf>
 void sort_by_slot(const Array<TouchingBuffers::Directed>& directed, MeshOf mesh, std::size_t slots,
-                  const Array<std::uint32_t>& from, Array<std::uint32_t>& to,
-                  Array<std::uint32_t>& place) {
+                  const Array<std::uint32_t>& from, Array<std::uint32_t>& to, Array<std::uint32_t>& place) {
     place.assign(slots, 0);
     for (const TouchingBuffers::Directed& d : directed) ++place[slot_of(mesh(d))];
     std::exclusive_scan(place.begin(), place.end(), place.begin(), 0u);

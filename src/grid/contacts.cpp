@@ -279,9 +279,8 @@ void resize(Array<Item>& items, std::size_t count) {
 
 } // namespace
 
-void make_contacts(std::span<const Body> bodies, Array<Hit>& hits,
-                   Array<vox_contact>& contacts, Workers* workers,
-                   Array<std::uint8_t>* interiors) {
+void make_contacts(std::span<const Body> bodies, Array<Hit>& hits, Array<vox_contact>& contacts,
+                   Workers* workers, Array<std::uint8_t>* interiors) {
     if (workers && workers->count() == 1) workers = nullptr;
     resize(contacts, hits.size());
     Hit* kept;

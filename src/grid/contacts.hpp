@@ -19,9 +19,8 @@ class Workers;
 // with the ones that became contacts. `workers` share the work, as at most four tasks of the step; null: the
 // calling thread does it. `interiors`, if not null, receives for each contact whether it is interior (0 or
 // 1).
-void make_contacts(std::span<const Body> bodies, Array<Hit>& hits,
-                   Array<vox_contact>& contacts, Workers* workers = nullptr,
-                   Array<std::uint8_t>* interiors = nullptr);
+void make_contacts(std::span<const Body> bodies, Array<Hit>& hits, Array<vox_contact>& contacts,
+                   Workers* workers = nullptr, Array<std::uint8_t>* interiors = nullptr);
 
 // vox_grid_hash of a list of contacts: of its length and of all fields in order, as numbers, so that byte
 // order and padding do not matter. Each contact is taken as the four 64-bit words

@@ -27,8 +27,8 @@ bool same_edge(const vox_edge_contact& x, const vox_edge_contact& y) {
     return x.mesh_a == y.mesh_a && x.edge[0] == y.edge[0] && x.edge[1] == y.edge[1] && x.mesh_b == y.mesh_b;
 }
 
-// The middle of the part of the edge pq behind a face that it passes through at `at`, as a fraction of the way
-// from p to q. The part ends at the next face of the mesh that the edge meets, or at the end of the edge;
+// The middle of the part of the edge pq behind a face that it passes through at `at`, as a fraction of the
+// way from p to q. The part ends at the next face of the mesh that the edge meets, or at the end of the edge;
 // `crossed_at` are those places, ascending.
 double middle_of_part(std::span<const double> crossed_at, double at, bool enters) {
     double end = enters ? 1 : 0;

@@ -41,8 +41,8 @@ void for_each_of_kind(vox_touch kind, const Set& was, const Set& is, Before befo
 
 Events::Events(std::pmr::memory_resource* memory, bool of_contacts)
     : buffers_(memory), touching_{Array<vox_pair>(memory), Array<vox_pair>(memory)},
-      by_pair_(memory), inside_{Array<Inside>(memory), Array<Inside>(memory)},
-      of_contacts_(of_contacts), touch_events_(memory), contact_events_(memory) {}
+      by_pair_(memory), inside_{Array<Inside>(memory), Array<Inside>(memory)}, of_contacts_(of_contacts),
+      touch_events_(memory), contact_events_(memory) {}
 
 void Events::hide_events() noexcept {
     touch_events_.clear();

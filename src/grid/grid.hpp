@@ -29,14 +29,13 @@
 
 namespace vox {
 
-// Whether this build has edge contacts, contacts within a margin and passages. The module for WebAssembly, where nobody could
-// read them, is a twentieth smaller without.
+// Whether this build has edge contacts, contacts within a margin and passages. The module for WebAssembly,
+// where nobody could read them, is a twentieth smaller without.
 #if defined(VOX_WITHOUT_SURFACE_CONTACTS)
 inline constexpr bool finds_surface_contacts = false;
 #else
 inline constexpr bool finds_surface_contacts = true;
 #endif
-
 
 class Snapshot;
 
@@ -184,15 +183,15 @@ private:
     // one step
     vox::Array<vox::Body> bodies_;
     vox::Array<vox::fast::PreparedBody> prepared_; // of each body, for the fast engine
-    vox::LoneBodies lone_;                               // which are not among the bodies
+    vox::LoneBodies lone_;                         // which are not among the bodies
     vox::FastEngine fast_engine_;
     vox::ReferenceEngine reference_;
     vox::Array<const vox::Topology*> topologies_; // of each body, for the depth stage
-    vox::depth::SurfaceTrees trees_;                    // that depths and readings search
-    std::optional<vox::DepthStage> depth_;              // while it finds penetrations
+    vox::depth::SurfaceTrees trees_;              // that depths and readings search
+    std::optional<vox::DepthStage> depth_;        // while it finds penetrations
     vox::Array<vox::Hit> hits_;
     vox::Array<vox::SurfaceVersion> surface_versions_; // of each body, while it finds edge contacts
-    std::optional<vox::EdgeContacts> edges_;                 // while it finds them; has the results as well
+    std::optional<vox::EdgeContacts> edges_;           // while it finds them; has the results as well
     double margin_ = 0;
     std::optional<vox::VertexFaceSearch> near_faces_;    // while one of these is there
     std::optional<vox::MarginContacts> margin_contacts_; // while there is a margin; has the results as well
@@ -201,7 +200,7 @@ private:
     // results
     vox::Array<vox_contact> contacts_;
     vox::Array<std::uint8_t> interiors_; // whether each contact is interior
-    vox_failure failure_{};                    // of a mesh that made the last step fail
+    vox_failure failure_{};              // of a mesh that made the last step fail
     vox::Array<vox_failure> left_out_;   // the meshes that the last step left out
     // Whether another step would find the same contacts between meshes that were in the last one and have not
     // moved since. False after every change of a setting that contacts may depend on.

@@ -102,8 +102,7 @@ void MarginContacts::carry(const EdgeScene& scene) {
 }
 
 // Vertices that are gone, and those that have a contact.
-void MarginContacts::leave_out(std::uint32_t a, std::uint32_t b,
-                               Array<std::uint32_t>& vertices) const {
+void MarginContacts::leave_out(std::uint32_t a, std::uint32_t b, Array<std::uint32_t>& vertices) const {
     const vox_mesh mesh_a = scene_->bodies[a].mesh_id, mesh_b = scene_->bodies[b].mesh_id;
     const auto removed = scene_->bodies[a].removed_vertices;
     auto inside = inside_.begin();

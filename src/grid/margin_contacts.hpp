@@ -68,8 +68,7 @@ private:
         std::array<Box3d, SurfaceTile::most_faces> boxes;
     };
 
-    void leave_out(std::uint32_t a, std::uint32_t b,
-                   Array<std::uint32_t>& vertices) const override;
+    void leave_out(std::uint32_t a, std::uint32_t b, Array<std::uint32_t>& vertices) const override;
     void begin(const VertexFacePair& pair, std::uint32_t worker) override;
     void visit(const SurfaceTile& tile, std::span<const NearFaces> near, std::uint32_t worker) override;
     void end(std::uint32_t worker) override;

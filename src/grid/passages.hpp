@@ -61,8 +61,7 @@ private:
     };
     static constexpr std::uint32_t none_yet = ~0u;
 
-    void leave_out(std::uint32_t a, std::uint32_t b,
-                   Array<std::uint32_t>& vertices) const override;
+    void leave_out(std::uint32_t a, std::uint32_t b, Array<std::uint32_t>& vertices) const override;
     void begin(const VertexFacePair& pair, std::uint32_t worker) override;
     void visit(const SurfaceTile& tile, std::span<const NearFaces> near, std::uint32_t worker) override;
     void end(std::uint32_t worker) override;
@@ -70,9 +69,9 @@ private:
     void visit(Worker& worker, const SurfaceTile& tile, const NearFaces& near) const;
     Vec3d before(std::uint32_t body, std::uint32_t vertex) const noexcept;
 
-    Array<Bound> bound_;        // by mesh
-    Array<Positions> previous_; // of each body of a step
-    const EdgeScene* scene_ = nullptr;     // during a step
+    Array<Bound> bound_;               // by mesh
+    Array<Positions> previous_;        // of each body of a step
+    const EdgeScene* scene_ = nullptr; // during a step
     PerWorker<Worker> workers_;
     Array<vox_passage> found_, passages_;
 };

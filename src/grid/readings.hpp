@@ -91,7 +91,7 @@ private:
 
     Array<vox_mesh> ids_; // of the meshes in the contacts that are read, ascending
     Array<ReadingBody> bodies_;
-    bool all_ = true;                        // all contacts are read, else those
+    bool all_ = true;             // all contacts are read, else those
     Array<std::uint32_t> chosen_; // ascending
     Array<Ask> asks_;             // by mesh_b, neighbours next to each other
     Array<vox_reading> readings_;

@@ -23,7 +23,7 @@ struct PenetrationMask {
 struct Loading {
     vox_grid& grid;
     Array<vox_mesh> awaited; // meshes whose chunk has to come, ascending
-    std::size_t next = 0;               // index in `awaited`
+    std::size_t next = 0;    // index in `awaited`
     Array<std::uint32_t> free_slots;
     Array<PenetrationMask> masks; // that are not the default, by mesh
     vox_mesh last_filtered = VOX_NULL_MESH, last_cut = VOX_NULL_MESH;

@@ -48,8 +48,7 @@ void save_bits(std::span<const std::uint64_t> bits, std::uint64_t count, Snapsho
     for (std::size_t word = 0; word < (count + 63) / 64; ++word) out.u64(word < bits.size() ? bits[word] : 0);
 }
 
-void load_bits(SnapshotChunk& in, std::uint64_t count, const char* what,
-               Array<std::uint64_t>& bits) {
+void load_bits(SnapshotChunk& in, std::uint64_t count, const char* what, Array<std::uint64_t>& bits) {
     const std::uint64_t words = (count + 63) / 64;
     in.expect(words, 8, what);
     bits.resize(static_cast<std::size_t>(words));
@@ -217,8 +216,7 @@ void Snapshot::load_cuts(SnapshotChunk& in, Loading& to) {
         in.refuse(format("a reserved word is %" PRIu32 ", expected 0", reserved));
 
     Mesh& mesh = to.grid.mesh(id);
-    Array<std::uint64_t> off(&to.grid.memory_), removed(off.memory()),
-        removed_vertices(off.memory());
+    Array<std::uint64_t> off(&to.grid.memory_), removed(off.memory()), removed_vertices(off.memory());
     load_bits(in, mesh.tet_count(), "tetrahedra that are off", off);
     load_bits(in, mesh.tet_count(), "tetrahedra that are removed", removed);
     load_bits(in, mesh.vertex_count(), "vertices that are removed", removed_vertices);

@@ -54,7 +54,7 @@ void split_into_tiles(std::span<Face> faces) {
 
 // Of each place the triangle there.
 Array<std::uint32_t> order_of_faces(const Topology& topology, const Positions& positions,
-                                               std::pmr::memory_resource* memory) {
+                                    std::pmr::memory_resource* memory) {
     Array<Face> faces(topology.triangles.size(), memory);
     for (std::uint32_t t = 0; t < faces.size(); ++t) {
         const std::uint32_t* v = topology.triangles[t].v;

@@ -113,7 +113,7 @@ void VertexFaceSearch::find_meeting(const Scene& scene, std::span<const Position
     prepare_bodies(scene, previous, 0);
     fast::find_pairs(body_boxes_, {scene.bodies, {}}, pair_buffers_, pairs_);
     erase_if(pairs_,
-                  [&](const fast::Pair& pair) { return !previous[pair.a].data && !previous[pair.b].data; });
+             [&](const fast::Pair& pair) { return !previous[pair.a].data && !previous[pair.b].data; });
     search(scene, visitor);
 }
 
@@ -222,8 +222,7 @@ const SearchedSurface& VertexFaceSearch::surface_of(const Scene& scene, std::uin
 
 void VertexFaceSearch::search(const Scene& scene, NearFacesVisitor& visitor) {
     workers_.grow(scene.workers->count());
-    erase_if(pairs_,
-                  [&](const fast::Pair& pair) { return scene.topologies[pair.b]->triangles.empty(); });
+    erase_if(pairs_, [&](const fast::Pair& pair) { return scene.topologies[pair.b]->triangles.empty(); });
     prepare_surfaces(scene);
     make_tile_boxes(scene);
     const auto is_large = [&](const fast::Pair& pair) {

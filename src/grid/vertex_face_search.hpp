@@ -30,7 +30,7 @@ class Workers;
 struct SearchedSurface {
     explicit SearchedSurface(std::pmr::memory_resource* memory) noexcept : features(memory), facets(memory) {}
 
-    SurfaceFeatures features;              // faces in the order of facet_corners of features.tets
+    SurfaceFeatures features;   // faces in the order of facet_corners of features.tets
     Array<std::uint8_t> facets; // of each face: which of the tetrahedron it is
 };
 
@@ -53,8 +53,7 @@ class NearFacesVisitor {
 public:
     // Takes those vertices of body a, in ascending order, out of the list that are of no interest to faces of
     // body b.
-    virtual void leave_out(std::uint32_t a, std::uint32_t b,
-                           Array<std::uint32_t>& vertices) const = 0;
+    virtual void leave_out(std::uint32_t a, std::uint32_t b, Array<std::uint32_t>& vertices) const = 0;
     virtual void begin(const VertexFacePair& pair, std::uint32_t worker) = 0;
     virtual void visit(const SurfaceTile& tile, std::span<const NearFaces> near, std::uint32_t worker) = 0;
     virtual void end(std::uint32_t worker) = 0;

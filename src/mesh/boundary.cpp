@@ -24,7 +24,7 @@ namespace {
 // Finds the tets that are ignored, for each tile, and the vertices of no other tets. Returns for each tet
 // whether it is negative.
 Array<std::uint8_t> look_at_tets(std::span<const Tet> tets, std::uint32_t vertex_count,
-                                            const Positions& positions, const Tiles& tiles, Boundary& made) {
+                                 const Positions& positions, const Tiles& tiles, Boundary& made) {
     std::pmr::memory_resource* memory = made.triangles.memory();
     Array<std::uint8_t> negative(tets.size(), 0, memory), used(vertex_count, 0, memory);
     made.ignored.reserve(tiles.tiles.size());
@@ -64,8 +64,7 @@ void for_neighbours(const MatchedFacets& facets, std::uint32_t t, Visit&& visit)
 bool agree_with_neighbours(std::span<const Tet> tets, const MatchedFacets& facets,
                            std::span<std::uint8_t> negative) {
     std::pmr::memory_resource* memory = facets.across.memory();
-    Array<std::uint8_t> seen(tets.size(), 0, memory),
-        found(negative.begin(), negative.end(), memory);
+    Array<std::uint8_t> seen(tets.size(), 0, memory), found(negative.begin(), negative.end(), memory);
     Array<std::uint32_t> part(memory);
     for (std::uint32_t first = 0; first < tets.size(); ++first) {
         if (seen[first] || names_a_vertex_twice(tets[first])) continue;

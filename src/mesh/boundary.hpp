@@ -17,8 +17,8 @@ struct Boundary {
         : triangles(memory), mirrored(memory), ignored(memory), loose(memory) {}
 
     // Whether the triangles are the boundary of all tets: their facets, where those on different sides
-    // cancel, with each tet as it is meant to be. This holds when every facet belongs to one tet, or to two on different sides of it, and in some
-    // other cases. Else all that follows is empty.
+    // cancel, with each tet as it is meant to be. This holds when every facet belongs to one tet, or to two
+    // on different sides of it, and in some other cases. Else all that follows is empty.
     bool is_closed = false;
     // Facets whose tet is not cancelled by another one; counter-clockwise from outside when that tet is
     // positive.

@@ -154,8 +154,9 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
     const bool owns = owns_positions_;
     const vox_format position_format = positions_.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
     const std::size_t size = position_size();
-    const Positions given = check_positions(desc.positions, position_format, desc.position_byte_stride,
-                                            desc.position_component_byte_stride, owns ? added : count, "position_");
+    const Positions given =
+        check_positions(desc.positions, position_format, desc.position_byte_stride,
+                        desc.position_component_byte_stride, owns ? added : count, "position_");
     for (std::uint32_t i = 0; desc.copies_of && i < added; ++i)
         if (desc.copies_of[i] >= before)
             throw Error(VOX_ERROR_INVALID_ARGUMENT,

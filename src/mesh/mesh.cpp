@@ -140,7 +140,7 @@ void* Mesh::map_positions() {
     if (owned_.empty() && vertex_count_ > 0) {
         const std::size_t size = position_size();
         Array<double> owned((vertex_count_ * size + sizeof(double) - 1) / sizeof(double), 0.0,
-                                       owned_.memory());
+                            owned_.memory());
         auto* to = reinterpret_cast<std::byte*>(owned.data());
         if (positions_.data)
             for (std::size_t v = 0; v < vertex_count_; ++v) positions_.copy(v, to + v * size);

@@ -26,8 +26,8 @@ struct MeshEdits {
     explicit MeshEdits(std::pmr::memory_resource* memory) noexcept
         : given(memory), off(memory), removed(memory), removed_vertices(memory), tets_of(memory) {}
 
-    Array<Tet> given; // corners as given by the caller; empty while no tet is off
-    Bits off, removed;           // tets; those that are removed are off as well
+    Array<Tet> given;  // corners as given by the caller; empty while no tet is off
+    Bits off, removed; // tets; those that are removed are off as well
     Bits removed_vertices;
     IndexLists tets_of; // the tets around each vertex, from the first edit on
     bool has_tets_of = false;

@@ -181,8 +181,7 @@ void list_around(const Tiles& tiles, const ChosenVertices& chosen, Listed& out) 
 }
 
 // A byte for each vertex: 1 where a tetrahedron has it.
-Array<std::uint8_t> used_vertices(const Body& body, std::pmr::memory_resource* memory,
-                                             const Tiles* tiles) {
+Array<std::uint8_t> used_vertices(const Body& body, std::pmr::memory_resource* memory, const Tiles* tiles) {
     Array<std::uint8_t> used(body.vertex_count, 0, memory);
     std::uint8_t* const mark = used.data(); // else it is read anew after each byte, which might be part of it
     if (tiles) {                            // which name a vertex less often
@@ -243,7 +242,7 @@ std::uint64_t of_all(std::uint64_t listed, std::uint64_t met, double met_in_all)
 } // namespace
 
 Array<std::uint64_t> unused_vertices(const Body& body, std::pmr::memory_resource* memory,
-                                                const Tiles* tiles) {
+                                     const Tiles* tiles) {
     Array<std::uint64_t> unused(memory);
     if (body.tets.size() == body.off_count) return unused;
     const auto used = used_vertices(body, memory, tiles);

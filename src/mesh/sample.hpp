@@ -65,7 +65,7 @@ MeshSample make_sample(const Body& body, const SampleSize& size, std::pmr::memor
 // By tetrahedra that are not off, as bits (bits.hpp). Empty: none; also where there are no such tetrahedra.
 // `tiles` as above.
 Array<std::uint64_t> unused_vertices(const Body& body, std::pmr::memory_resource* memory,
-                                                const Tiles* tiles = nullptr);
+                                     const Tiles* tiles = nullptr);
 
 // Whether a tetrahedron of a body, none of which is off, has a vertex. Looks first at those whose place in
 // their list is that of the vertex in its own: numbers that are near in one are mostly near in the other, and

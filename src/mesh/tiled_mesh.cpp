@@ -15,8 +15,7 @@ void make_tiled_mesh(const Body& body, TiledMesh& out, const MatchedFacets* face
         make_boundary(body.tets, body.vertex_count, body.positions, made.tiles, made.boundary, facets);
         if (!boundary_pays(made.boundary.triangles.size(), made.tiles.tets.size()))
             made.boundary = Boundary(memory);
-        erase_if(made.boundary.loose,
-                      [&](std::uint32_t v) { return has_bit(body.removed_vertices, v); });
+        erase_if(made.boundary.loose, [&](std::uint32_t v) { return has_bit(body.removed_vertices, v); });
     }
     // Winding numbers leave few tiles in which vertices of the same body are looked up.
     if (!body.self_collision || made.boundary.is_closed) {

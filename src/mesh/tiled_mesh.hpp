@@ -31,7 +31,7 @@ struct TilePlaces {
     IndexLists triangles;                // of the boundary, by their lowest vertex
     std::uint32_t first_young_super = 0; // super-tiles and vertices from here on came with edits
     std::uint32_t first_young_vertex = 0;
-    std::uint64_t changes = 0;                  // of tets since the tiles were made
+    std::uint64_t changes = 0;       // of tets since the tiles were made
     Array<std::uint64_t> changed_at; // for each super-tile, `changes` when a tet last joined it
 };
 

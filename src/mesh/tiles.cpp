@@ -110,8 +110,7 @@ bool divide(std::span<Item> items, std::uint32_t middle, Item* other) {
 class Splitter {
 public:
     Splitter(std::span<const Tet> tets, std::uint32_t vertex_count, Tiles& out)
-        : tets_(tets), vertex_count_(vertex_count), out_(out),
-          seen_(vertex_count, 0, out.tiles.memory()) {}
+        : tets_(tets), vertex_count_(vertex_count), out_(out), seen_(vertex_count, 0, out.tiles.memory()) {}
 
     // Changes the order of the items. `other` is as long as they are.
     void split(Item* items, Item* other, std::uint32_t count, bool in_super_tile = false) {

@@ -153,7 +153,7 @@ private:
 
     Array<std::uint32_t> places_; // of each vertex, where its record begins in words_
     Array<std::uint16_t> words_;  // the first record is that of all vertices without links
-    std::size_t abandoned_ = 0;              // words that are in no record
+    std::size_t abandoned_ = 0;   // words that are in no record
 };
 
 } // namespace vox

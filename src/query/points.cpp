@@ -164,8 +164,7 @@ void Queries::find_in_leaf(std::uint32_t leaf, std::uint32_t point, const Points
     }
 }
 
-void Queries::box(const Vec3d& min, const Vec3d& max, QueryMeshes which,
-                  Array<vox_tet_hit>& hits) const {
+void Queries::box(const Vec3d& min, const Vec3d& max, QueryMeshes which, Array<vox_tet_hit>& hits) const {
     // A finite box, which meets no empty one; no vertex is beyond.
     const auto low = [](double x) { return std::max(rounded_down(x), -std::numeric_limits<float>::max()); };
     const auto high = [](double x) { return std::min(rounded_up(x), std::numeric_limits<float>::max()); };

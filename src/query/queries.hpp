@@ -54,8 +54,7 @@ public:
     std::uint64_t points(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
                          vox_point_hit* hits, std::uint64_t capacity) const;
     // The tetrahedra sorted by mesh and tet, into an empty `hits`.
-    void box(const Vec3d& min, const Vec3d& max, QueryMeshes which,
-             Array<vox_tet_hit>& hits) const;
+    void box(const Vec3d& min, const Vec3d& max, QueryMeshes which, Array<vox_tet_hit>& hits) const;
     // The mesh of a result is 0 when nothing was hit.
     vox_surface_hit closest(const Vec3d& p, double radius, QueryMeshes which) const noexcept;
     // One hit a point; `memory` is for temporary use.
@@ -63,8 +62,7 @@ public:
                         std::pmr::memory_resource* memory, vox_closest_hit* hits) const;
     vox_ray_hit ray(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept;
     // The facets sorted by (t, mesh, tet, facet), into an empty `hits`.
-    void ray_hits(const Vec3d& from, const Vec3d& to, QueryMeshes which,
-                  Array<vox_facet_hit>& hits) const;
+    void ray_hits(const Vec3d& from, const Vec3d& to, QueryMeshes which, Array<vox_facet_hit>& hits) const;
     bool ray_any(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept;
 
 private:
@@ -138,9 +136,9 @@ private:
     // Of the tetrahedra, mesh after mesh, each in the order of its tiles. All boxes are rounded outwards, so
     // that they miss nothing that doubles decide.
     Array<Box3f> boxes_;
-    Array<Leaf> leaves_; // mesh after mesh
-    BoxTree tree_;                  // over leaves_
-    BoxTree surface_tree_;          // over the facets on the surface of those that have some
+    Array<Leaf> leaves_;                      // mesh after mesh
+    BoxTree tree_;                            // over leaves_
+    BoxTree surface_tree_;                    // over the facets on the surface of those that have some
     Array<Box3f> leaf_boxes_, surface_boxes_; // what the trees are built from
     // For many points at once: the boxes of leaves_ again, and of groups of some that follow each other.
     Array<Box> tile_boxes_, groups_;

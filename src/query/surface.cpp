@@ -27,7 +27,7 @@ constexpr std::size_t least_leaves_to_sort = 16; // below, a search costs little
 // The indices of the points along a Z-shaped curve, in the low 32 bits, or none where points that follow each
 // other are close together already, or too few.
 Array<std::uint64_t> order_along_curve(std::span<const Vec3d> points, double max_distance,
-                                                  std::pmr::memory_resource* memory) {
+                                       std::pmr::memory_resource* memory) {
     Array<std::uint64_t> order(memory);
     if (points.size() < least_points_to_sort) return order;
     Vec3d low = points[0], high = low;

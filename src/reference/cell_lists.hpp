@@ -154,8 +154,7 @@ public:
         cells_.clear();
         // The old array is released before the new one is allocated, so that the budget never has to hold
         // both.
-        if (bucket_count > heads_.capacity())
-            heads_ = Array<std::uint32_t>(heads_.memory());
+        if (bucket_count > heads_.capacity()) heads_ = Array<std::uint32_t>(heads_.memory());
         heads_.assign(bucket_count, none);
         cells_.reserve(particle_count);
         // A hash without pattern gives the fullest bucket of n about ln n / ln ln n cells where there is one

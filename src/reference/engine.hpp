@@ -78,9 +78,9 @@ private:
     Array<Vec3d> exact_;           // their positions; empty where floats are enough
     Array<std::uint32_t> first_;   // each body's first particle, and the end
     Array<std::uint32_t> body_of_; // each particle; empty where all bodies may collide
-    Array<Box3f> boxes_; // of the tetrahedra of all bodies; empty boxes for degenerate ones
+    Array<Box3f> boxes_;           // of the tetrahedra of all bodies; empty boxes for degenerate ones
     CellLists cells_;
-    Array<CellCoord> sorted_;     // the occupied cells, where a hash was of no use
+    Array<CellCoord> sorted_;                // the occupied cells, where a hash was of no use
     std::array<Candidate, 4096> candidates_; // between the phases; the narrow phase runs when it is full
     std::size_t candidate_count_ = 0;
 };

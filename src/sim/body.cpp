@@ -169,12 +169,11 @@ void make_volumes(Body& body, std::span<const Vec3> rest, std::span<const double
 // wait for one before it begins the next. Constraints that find none of 64 colours come last. `particles`
 // returns a constraint's particles.
 template <class Constraint, class Particles>
-void sort_by_color(Array<Constraint>& constraints, std::size_t particle_count,
-                   Particles particles) {
+void sort_by_color(Array<Constraint>& constraints, std::size_t particle_count, Particles particles) {
     constexpr std::size_t color_count = 64;
     std::pmr::memory_resource* memory = constraints.memory();
     Array<std::uint64_t> taken(particle_count, 0,
-                                          memory); // the colours used at each particle, one bit each
+                               memory); // the colours used at each particle, one bit each
     Array<std::uint8_t> color_of(memory);
     color_of.reserve(constraints.size());
     std::array<std::size_t, color_count + 2> first{}; // constraint of each colour, once sorted

@@ -1,19 +1,21 @@
-// Conservative advancement along directions that separate (B. Mirtich, Impulse-based Dynamic Simulation of Rigid Body
-// Systems, 1996, Sect. 2.3; with the rule of additive CCD for where to stop: Li, Kaufman, Jiang, Codimensional Incremental
-// Potential Contact, 2021, Sect. 5).
+// Conservative advancement along directions that separate (B. Mirtich, Impulse-based Dynamic Simulation of
+// Rigid Body Systems, 1996, Sect. 2.3; with the rule of additive CCD for where to stop: Li, Kaufman, Jiang,
+// Codimensional Incremental Potential Contact, 2021, Sect. 5).
 //
-// At a time t, let w be any vector, a_i and b_j the corners of the two features. As in cull.cpp, |w| times the distance of the
-// features is at least min_i w . a_i - max_j w . b_j. Each w . (a_i - b_j) is linear in time, so the time up to which all of them stay
-// above |w| d is known in closed form; until then the features are further apart than d. There the next w is taken, that between
-// the closest points. Nothing depends on w being right: a bad one gives a short step, and a time that is early.
+// At a time t, let w be any vector, a_i and b_j the corners of the two features. As in cull.cpp, |w| times
+// the distance of the features is at least min_i w . a_i - max_j w . b_j. Each w . (a_i - b_j) is linear in
+// time, so the time up to which all of them stay above |w| d is known in closed form; until then the features
+// are further apart than d. There the next w is taken, that between the closest points. Nothing depends on w
+// being right: a bad one gives a short step, and a time that is early.
 //
-// Rounding. u = 2^-53. Coordinates are taken from the first corner of a at time 0, and displacements from its displacement;
-// both cancel in every difference. A coordinate x of a position relative to it is off by u |x|; a displacement d = q - p by u |d|,
-// and relative to that of the first corner, v, by u |d| + u |v|. Let P be the largest |x| + |v| and D the largest |d|. A
-// coordinate at time t, fl(x + fl(t v)), is then off by less than u (4 P + D), and its product with w, summed, by less than
-// u (7.1 P + D) |w|1. A difference of two such products is off by less than u (16.3 P + 2 D) |w|1: `error` is
-// u (20 P + 3 D) |w|1. That of two products of w with v is off by less than u (10.1 P + 2 D) |w|1, which is below it, too. The
-// quotient of the one and the other, a time, is rounded downwards, and so is the sum with t.
+// Rounding. u = 2^-53. Coordinates are taken from the first corner of a at time 0, and displacements from its
+// displacement; both cancel in every difference. A coordinate x of a position relative to it is off by u |x|;
+// a displacement d = q - p by u |d|, and relative to that of the first corner, v, by u |d| + u |v|. Let P be
+// the largest |x| + |v| and D the largest |d|. A coordinate at time t, fl(x + fl(t v)), is then off by less
+// than u (4 P + D), and its product with w, summed, by less than u (7.1 P + D) |w|1. A difference of two such
+// products is off by less than u (16.3 P + 2 D) |w|1: `error` is u (20 P + 3 D) |w|1. That of two products of
+// w with v is off by less than u (10.1 P + 2 D) |w|1, which is below it, too. The quotient of the one and the
+// other, a time, is rounded downwards, and so is the sum with t.
 #include "surface/contact_time.hpp"
 
 #include "base/vectors.hpp"
@@ -75,7 +77,9 @@ struct AlongWay {
         gap = *std::min_element(a, a + pair.a.corners) - *std::max_element(b, b + pair.b.corners) - error;
     }
     // At most the distance of the features.
-    double distance() const noexcept { return length > 0x1p-500 && gap > 0 ? gap / length * (1 - 0x1p-48) : 0; }
+    double distance() const noexcept {
+        return length > 0x1p-500 && gap > 0 ? gap / length * (1 - 0x1p-48) : 0;
+    }
 
     double a[3]{}, rate_a[3]{}, b[3]{}, rate_b[3]{};
     double length, error, gap;
@@ -96,7 +100,8 @@ AlongWay best_way(const MovingPair& pair, double time) noexcept {
     return best;
 }
 
-// How long the features stay further apart along the way than `distance`, rounded downwards; infinite: always.
+// How long the features stay further apart along the way than `distance`, rounded downwards; infinite:
+// always.
 double time_along(const MovingPair& pair, const AlongWay& way, double distance) noexcept {
     const double most = distance * way.length * (1 + 0x1p-48) + way.error;
     double least = std::numeric_limits<double>::infinity();
@@ -111,7 +116,8 @@ double time_along(const MovingPair& pair, const AlongWay& way, double distance) 
 } // namespace
 
 ContactTime contact_time(const SurfaceMotion& motion, std::span<const std::uint32_t> a,
-                         std::span<const std::uint32_t> b, const ContactTimeRule& rule, double latest) noexcept {
+                         std::span<const std::uint32_t> b, const ContactTimeRule& rule,
+                         double latest) noexcept {
     const MovingPair pair(motion, a, b);
     double time = 0, enough = 0;
     for (std::uint32_t iteration = 0; iteration < rule.most_iterations; ++iteration) {

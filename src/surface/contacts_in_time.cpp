@@ -11,14 +11,16 @@ namespace {
 
 constexpr std::size_t least_features = 64; // that a worker takes at once
 
-std::span<const std::uint32_t> corners_in(const SurfaceTopology& topology, vox_feature kind, const std::uint32_t& index) {
+std::span<const std::uint32_t> corners_in(const SurfaceTopology& topology, vox_feature kind,
+                                          const std::uint32_t& index) {
     return {kind == VOX_FEATURE_VERTEX ? &index : topology.corners(kind, index), corners_of(kind)};
 }
 
 } // namespace
 
 void first_contact(const SurfaceTopology& topology, const SurfaceMotion& motion, vox_feature a, vox_feature b,
-                   const FeaturePairs& pairs, const ContactTimeRule& rule, Workers& workers, vox_safe_step& found) {
+                   const FeaturePairs& pairs, const ContactTimeRule& rule, Workers& workers,
+                   vox_safe_step& found) {
     std::atomic<double> latest = found.step; // no later contact matters
     std::mutex mutex;
     workers.for_ranges(pairs.count, least_features, [&](std::size_t begin, std::size_t end, std::uint32_t) {

@@ -14,10 +14,11 @@
 
 namespace vox {
 
-// Lowers `found` to the first contact among these pairs, if that is before found.step, or at the same time and before it in the
-// order of kinds, a, b. What it finds depends neither on workers nor on their order.
+// Lowers `found` to the first contact among these pairs, if that is before found.step, or at the same time
+// and before it in the order of kinds, a, b. What it finds depends neither on workers nor on their order.
 void first_contact(const SurfaceTopology& topology, const SurfaceMotion& motion, vox_feature a, vox_feature b,
-                   const FeaturePairs& pairs, const ContactTimeRule& rule, Workers& workers, vox_safe_step& found);
+                   const FeaturePairs& pairs, const ContactTimeRule& rule, Workers& workers,
+                   vox_safe_step& found);
 
 // Appends those that may come into contact within the motion, in their order.
 void all_contacts(const SurfaceTopology& topology, const SurfaceMotion& motion, vox_feature a, vox_feature b,

@@ -1,20 +1,22 @@
 // Separating axes that are fixed over the step.
 //
-// Proof. Let w be any vector, a_i(t) and b_j(t) the corners of two features, each linear in t. For each i and j,
-// w . (a_i(t) - b_j(t)) is linear in t, so where it exceeds g at t = 0 and at t = 1, it does so at all times between.
-// Points of the features are convex combinations of the corners, so the same holds for all pairs of points p and q of
-// them: w . (p - q) > g, and |p - q| > g / |w|. So two features stay further apart than d if
+// Proof. Let w be any vector, a_i(t) and b_j(t) the corners of two features, each linear in t. For each i and
+// j, w . (a_i(t) - b_j(t)) is linear in t, so where it exceeds g at t = 0 and at t = 1, it does so at all
+// times between. Points of the features are convex combinations of the corners, so the same holds for all
+// pairs of points p and q of them: w . (p - q) > g, and |p - q| > g / |w|. So two features stay further apart
+// than d if
 //     min_i w . a_i - max_j w . b_j > d |w|    at t = 0 and at t = 1,
-// or the same with a and b exchanged at both times. How w was found does not matter: it may be rounded, or be nonsense.
+// or the same with a and b exchanged at both times. How w was found does not matter: it may be rounded, or be
+// nonsense.
 //
-// Rounding. Let M >= 1 be the largest coordinate in the frame, |w|1 the sum of the magnitudes of w's numbers, u = 2^-24. A
-// coordinate is off by less than 1.01 u M: the difference to the middle, in doubles, by 2^-53 of itself, and its
-// rounding to a float by u of itself; the scale is a power of two. A product of w with it, summed in floats, is off by
-// another 3.01 u M |w|1. So each of two projections is off by less than 4.1 u M |w|1, and their difference, rounded
-// once more, by less than 10.3 u M |w|1 < 2^-20.6 M |w|1. The bound that is compared with takes 1.125 * 2^-20 M |w|1,
-// whose surplus covers the roundings of the bound's own terms, and `apart` is rounded up by 2^-18. Where |w|1 is below
-// 2^-60, underflow could matter, and nothing is decided; where something overflows, the comparison with infinity or
-// NaN fails, and the pair stays.
+// Rounding. Let M >= 1 be the largest coordinate in the frame, |w|1 the sum of the magnitudes of w's numbers,
+// u = 2^-24. A coordinate is off by less than 1.01 u M: the difference to the middle, in doubles, by 2^-53 of
+// itself, and its rounding to a float by u of itself; the scale is a power of two. A product of w with it,
+// summed in floats, is off by another 3.01 u M |w|1. So each of two projections is off by less than 4.1 u M
+// |w|1, and their difference, rounded once more, by less than 10.3 u M |w|1 < 2^-20.6 M |w|1. The bound that
+// is compared with takes 1.125 * 2^-20 M |w|1, whose surplus covers the roundings of the bound's own terms,
+// and `apart` is rounded up by 2^-18. Where |w|1 is below 2^-60, underflow could matter, and nothing is
+// decided; where something overflows, the comparison with infinity or NaN fails, and the pair stays.
 #include "surface/cull.hpp"
 #include "base/simd.hpp"
 #include "base/vectors.hpp"
@@ -170,7 +172,8 @@ HWY_INLINE CV3 Between(const CV3* a, const CV3* b) {
 // The axes, the most promising one first.
 template <int kA, int kB>
 struct CullAxes {
-    static constexpr int kEdgesA = kA == 3 ? 3 : kA - 1, kEdgesB = kB == 3 ? 3 : kB - 1; // each without a repetition
+    static constexpr int kEdgesA = kA == 3 ? 3 : kA - 1,
+                         kEdgesB = kB == 3 ? 3 : kB - 1; // each without a repetition
     static constexpr int kProducts = kEdgesA * kEdgesB, kCount = 3 + kProducts + (kA == 3) + (kB == 3);
 
     static HWY_INLINE CV3 Normal(const CV3* c) { return CCross(CSub(c[1], c[0]), CSub(c[2], c[0])); }
@@ -187,7 +190,8 @@ struct CullAxes {
         if constexpr (kProducts > 0) {
             if (axis < kProducts) {
                 const int i = axis % kEdgesA, j = axis / kEdgesA;
-                return CCross(CSub(pair.a[0][(i + 1) % kA], pair.a[0][i]), CSub(pair.b[0][(j + 1) % kB], pair.b[0][j]));
+                return CCross(CSub(pair.a[0][(i + 1) % kA], pair.a[0][i]),
+                              CSub(pair.b[0][(j + 1) % kB], pair.b[0][j]));
             }
             axis -= kProducts;
         }
@@ -248,15 +252,24 @@ HWY_INLINE std::size_t CullPairsOf(const CullPairs& pairs) {
 
 std::size_t Cull(const CullPairs& pairs) {
     switch (3 * (pairs.corners - 1) + pairs.partner_corners - 1) {
-    case 0: return CullPairsOf<1, 1>(pairs);
-    case 1: return CullPairsOf<1, 2>(pairs);
-    case 2: return CullPairsOf<1, 3>(pairs);
-    case 3: return CullPairsOf<2, 1>(pairs);
-    case 4: return CullPairsOf<2, 2>(pairs);
-    case 5: return CullPairsOf<2, 3>(pairs);
-    case 6: return CullPairsOf<3, 1>(pairs);
-    case 7: return CullPairsOf<3, 2>(pairs);
-    default: return CullPairsOf<3, 3>(pairs);
+    case 0:
+        return CullPairsOf<1, 1>(pairs);
+    case 1:
+        return CullPairsOf<1, 2>(pairs);
+    case 2:
+        return CullPairsOf<1, 3>(pairs);
+    case 3:
+        return CullPairsOf<2, 1>(pairs);
+    case 4:
+        return CullPairsOf<2, 2>(pairs);
+    case 5:
+        return CullPairsOf<2, 3>(pairs);
+    case 6:
+        return CullPairsOf<3, 1>(pairs);
+    case 7:
+        return CullPairsOf<3, 2>(pairs);
+    default:
+        return CullPairsOf<3, 3>(pairs);
     }
 }
 
@@ -269,8 +282,8 @@ namespace vox {
 
 namespace {
 
-void put_corners(const CullFrame& frame, std::span<const Vec3d> positions, std::span<const std::uint32_t> corners,
-                 float (*at)[3]) noexcept {
+void put_corners(const CullFrame& frame, std::span<const Vec3d> positions,
+                 std::span<const std::uint32_t> corners, float (*at)[3]) noexcept {
     for (const std::uint32_t v : corners) {
         const Vec3d p = frame.scale * (positions[v] - frame.middle);
         (*at)[0] = static_cast<float>(p.x);

@@ -1,4 +1,5 @@
-// Pairs whose boxes overlap, but that provably stay apart: by axes that separate them during the whole motion.
+// Pairs whose boxes overlap, but that provably stay apart: by axes that separate them during the whole
+// motion.
 #pragma once
 
 #include "surface/motion.hpp"
@@ -16,8 +17,8 @@ struct CullFrame {
     double scale;
 };
 
-// Positions of the corners of features at both ends of the motion, as floats in a frame: of each lane, for time 0,
-// then 1: corner after corner x, y, z.
+// Positions of the corners of features at both ends of the motion, as floats in a frame: of each lane, for
+// time 0, then 1: corner after corner x, y, z.
 inline constexpr std::size_t cull_lanes = 64;
 struct alignas(64) CullTile {
     float at[2][3][3][cull_lanes]; // time, corner, axis, lane
@@ -32,13 +33,13 @@ struct CullPairs {
     const CullTile& tile;
     const CullPartner* partners;
     unsigned corners, partner_corners;
-    float apart; // in the frame
+    float apart;                    // in the frame
     std::uint32_t *lanes, *partner; // of each pair
     std::size_t count;
 };
 
-// Keeps the pairs that are not proven to stay further than `apart` from each other, in their order, and returns their
-// number.
+// Keeps the pairs that are not proven to stay further than `apart` from each other, in their order, and
+// returns their number.
 using CullSome = std::size_t(const CullPairs& pairs);
 CullSome* cull_some() noexcept;
 

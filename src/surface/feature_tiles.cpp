@@ -1,5 +1,6 @@
-// Tiles by recursive median splits along the longest side of the middles' box (J. L. Bentley, Multidimensional
-// binary search trees used for associative searching, CACM 18, 1975), cut so that all but the last are full.
+// Tiles by recursive median splits along the longest side of the middles' box (J. L. Bentley,
+// Multidimensional binary search trees used for associative searching, CACM 18, 1975), cut so that all but
+// the last are full.
 #include "surface/feature_tiles.hpp"
 
 #include "base/array.hpp"
@@ -51,7 +52,8 @@ void cut_into_tiles(std::span<Middle> items, Array<std::uint32_t>& features) {
         // By number where middles are the same, so that the order never depends on how they are sorted.
         std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(left), items.end(),
                          [axis](const Middle& x, const Middle& y) {
-                             return x.at[axis] != y.at[axis] ? x.at[axis] < y.at[axis] : x.feature < y.feature;
+                             return x.at[axis] != y.at[axis] ? x.at[axis] < y.at[axis]
+                                                             : x.feature < y.feature;
                          });
         cut_into_tiles(items.first(left), features);
         cut_into_tiles(items.subspan(left), features);
@@ -97,7 +99,8 @@ void make_feature_tiles(const SurfaceTopology& topology, vox_feature feature, st
             hi = max(hi, p);
         }
         const Vec3d sides = hi - lo, middle = 0.5 * lo + 0.5 * hi;
-        items[f] = {{static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)}, f};
+        items[f] = {
+            {static_cast<float>(middle.x), static_cast<float>(middle.y), static_cast<float>(middle.z)}, f};
         sizes[f] = static_cast<float>(std::max({sides.x, sides.y, sides.z}));
     }
     float median = 0;
@@ -109,7 +112,8 @@ void make_feature_tiles(const SurfaceTopology& topology, vox_feature feature, st
     }
     // A counting sort by class: mostly there is one.
     std::array<std::size_t, size_classes + 1> first{};
-    for (std::uint32_t f = 0; f < count; ++f) ++first[static_cast<std::size_t>(size_class(sizes[f], median)) + 1];
+    for (std::uint32_t f = 0; f < count; ++f)
+        ++first[static_cast<std::size_t>(size_class(sizes[f], median)) + 1];
     for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
     out.features.reserve((count / features_a_tile + size_classes) * features_a_tile);
     if (first[1] < count) {
@@ -128,7 +132,8 @@ void make_feature_tiles(const SurfaceTopology& topology, vox_feature feature, st
     if (feature != VOX_FEATURE_VERTEX)
         for (std::size_t s = 0; s < slots; ++s)
             if (out.features[s] != no_feature)
-                std::copy_n(topology.corners(feature, out.features[s]), corners, out.corners.data() + s * corners);
+                std::copy_n(topology.corners(feature, out.features[s]), corners,
+                            out.corners.data() + s * corners);
     out.boxes.resize(slots * 6);
     out.tile_boxes.resize(slots / features_a_tile);
 }

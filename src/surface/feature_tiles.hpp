@@ -33,10 +33,9 @@ struct FeatureTiles {
         return {corners_from(slot), corner_count};
     }
 
-    unsigned corner_count = 0;                // of a feature
+    unsigned corner_count = 0;     // of a feature
     Array<std::uint32_t> features; // of each slot; no_feature of an empty one
-    Array<std::uint32_t>
-        corners; // corner_count vertices a slot; none of vertices, which are their own
+    Array<std::uint32_t> corners;  // corner_count vertices a slot; none of vertices, which are their own
     // For each tile 6 * 64 floats: low x of its lanes, low y, low z, high x, high y, high z. They hold the
     // boxes of the features; where positions are doubles, they are a little larger. Empty lanes have empty
     // boxes.

@@ -19,8 +19,8 @@ class Gathered {
 public:
     explicit Gathered(std::pmr::memory_resource* memory) noexcept : workers_(memory), ranges_(memory) {}
 
-    // Calls find(item, found) for each of `items`, which appends what it finds to `found`; then appends all of that
-    // to `out`, item after item. Only a part of what is found is held twice at a time.
+    // Calls find(item, found) for each of `items`, which appends what it finds to `found`; then appends all
+    // of that to `out`, item after item. Only a part of what is found is held twice at a time.
     template <class Find>
     void run(std::size_t items, Workers& workers, Find&& find, Array<T>& out) {
         workers_.grow(workers.count());
@@ -32,8 +32,7 @@ public:
 
 private:
     template <class Find>
-    void run_part(std::size_t first_item, std::size_t items, Workers& workers, Find& find,
-                  Array<T>& out) {
+    void run_part(std::size_t first_item, std::size_t items, Workers& workers, Find& find, Array<T>& out) {
         for (Worker& worker : workers_) {
             worker.found.clear();
             worker.ranges.clear();
@@ -52,7 +51,8 @@ private:
             ranges_.insert(ranges_.end(), worker.ranges.begin(), worker.ranges.end());
             count += worker.found.size();
         }
-        std::sort(ranges_.begin(), ranges_.end(), [](const Range& x, const Range& y) { return x.item < y.item; });
+        std::sort(ranges_.begin(), ranges_.end(),
+                  [](const Range& x, const Range& y) { return x.item < y.item; });
         reserve_sparingly(out, count);
         for (const Range& range : ranges_) {
             const T* const found = workers_[range.worker].found.data();

@@ -69,8 +69,8 @@ private:
     }
 
     Array<Word> words_;
-    Array<std::uint64_t> used_; // words that list any, as bits
-    std::size_t first_ = 0, last_ = 0;     // of `used_`, that hold any
+    Array<std::uint64_t> used_;        // words that list any, as bits
+    std::size_t first_ = 0, last_ = 0; // of `used_`, that hold any
 };
 
 } // namespace vox

@@ -123,8 +123,7 @@ double PairSearch::choose_cell_size(vox_feature a, vox_feature b) {
     ChosenSize& chosen = chosen_[static_cast<std::size_t>(a)][static_cast<std::size_t>(b)]
                                 [static_cast<std::size_t>(octave) % octaves];
     if (chosen.cell_size == 0 || chosen.octave != octave) {
-        const double cell_size =
-            suggest_for_tiles(tiles_a, tiles_b, vertex_boxes_.memory()).cell_size;
+        const double cell_size = suggest_for_tiles(tiles_a, tiles_b, vertex_boxes_.memory()).cell_size;
         chosen = {octave, side, cell_size};
     }
     return chosen.cell_size * (side / chosen.side);

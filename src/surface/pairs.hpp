@@ -124,7 +124,7 @@ private:
     std::array<bool, feature_kinds> has_boxes_{};
     SurfaceMotion boxes_are_of_;
     struct ChosenSize {
-        int octave = 0; // of the side
+        int octave = 0;                 // of the side
         double side = 0, cell_size = 0; // the mean side of the tiles that it was chosen for
     };
     static constexpr std::size_t octaves = 4; // that are kept, a power of two

@@ -15,16 +15,15 @@ using namespace vox;
 
 vox_surface::vox_surface(const vox_surface_desc& desc, const MemoryShare& memory)
     : share_(memory), workers_(desc.tasks, desc.worker_count), topology_(desc, &*memory),
-      cell_size_(desc.cell_size),
-      positions_{Array<Vec3d>(&*memory), Array<Vec3d>(&*memory)}, search_(&*memory),
-      answer_(&*memory), candidates_(&*memory), crossings_(&*memory), timed_(&*memory),
+      cell_size_(desc.cell_size), positions_{Array<Vec3d>(&*memory), Array<Vec3d>(&*memory)},
+      search_(&*memory), answer_(&*memory), candidates_(&*memory), crossings_(&*memory), timed_(&*memory),
       timed_in_ranges_(&*memory), close_(&*memory) {}
 
 void vox_surface::move(const vox_motion& motion) {
     const std::uint32_t count = topology_.vertex_count;
     if (motion.vertex_count != count)
-        refuse(format("vertex_count is %llu, but the surface has %u vertices",
-                      llu(motion.vertex_count), count));
+        refuse(
+            format("vertex_count is %llu, but the surface has %u vertices", llu(motion.vertex_count), count));
     check_format(motion.format, "");
     require(motion.from, "from");
     if (motion.reserved != 0) refuse(format("reserved is %u, expected 0", motion.reserved));
@@ -64,7 +63,8 @@ void vox_surface::move(const vox_motion& motion) {
 }
 
 const SurfaceMotion& vox_surface::motion() const {
-    if (!has_motion_) throw Error(VOX_ERROR_INVALID_STATE, "the surface has no positions yet: call vox_surface_move");
+    if (!has_motion_)
+        throw Error(VOX_ERROR_INVALID_STATE, "the surface has no positions yet: call vox_surface_move");
     return motion_;
 }
 
@@ -82,7 +82,8 @@ void vox_surface::set_cell_size(double cell_size) {
 void vox_surface::find_fitting(const SurfaceMotion& motion, vox_feature a, vox_feature b, std::uint32_t first,
                                std::uint32_t count, FeaturePairs& out) {
     // Where the last answer was cut short, and this one goes on from there, about as many will fit.
-    const bool goes_on = piece_.count > 0 && piece_.a == a && piece_.b == b && piece_.first + piece_.count == first;
+    const bool goes_on =
+        piece_.count > 0 && piece_.a == a && piece_.b == b && piece_.first + piece_.count == first;
     const std::uint32_t first_try = goes_on && piece_.count < count / 2 ? 2 * piece_.count : count;
     piece_ = {};
     for (std::uint32_t wanted = first_try;;) {
@@ -142,7 +143,8 @@ auto vox_surface::answer(bool& lives, Make&& make) {
     }
 }
 
-const FeaturePairs& vox_surface::pairs(vox_feature a, vox_feature b, std::uint64_t first, std::uint64_t count) {
+const FeaturePairs& vox_surface::pairs(vox_feature a, vox_feature b, std::uint64_t first,
+                                       std::uint64_t count) {
     const SurfaceMotion& moving = motion();
     const std::uint64_t all = topology_.count(a);
     if (first > all) refuse(format("first is %llu of %llu", llu(first), llu(all)));
@@ -157,11 +159,13 @@ vox_foreign_suggestion vox_surface::suggest_cell_size(vox_feature a, vox_feature
     const SurfaceMotion& moving = motion();
     for (const vox_feature kind : {a, b})
         if (topology_.count(kind) == 0) refuse("there are no features of one of the kinds");
-    const FeatureTiles &tiles_a = search_.tiles(topology_, moving, a), &tiles_b = search_.tiles(topology_, moving, b);
+    const FeatureTiles &tiles_a = search_.tiles(topology_, moving, a),
+                       &tiles_b = search_.tiles(topology_, moving, b);
     for (const FeatureTiles* tiles : {&tiles_a, &tiles_b})
         for (const Box& box : tiles->tile_boxes)
             if (!has_ends(box))
-                refuse(format("radius is %g: boxes that reach beyond the floats overlap at every cell size", moving.radius));
+                refuse(format("radius is %g: boxes that reach beyond the floats overlap at every cell size",
+                              moving.radius));
     bool nothing_lives;
     return answer(nothing_lives, [&] { return suggest_for_tiles(tiles_a, tiles_b, &*share_); });
 }
@@ -206,7 +210,8 @@ vox_safe_step vox_surface::safe_step(const ContactTimeRule& rule) {
     });
 }
 
-std::span<const vox_timed_pair> vox_surface::contact_times(vox_feature a, vox_feature b, const ContactTimeRule& rule) {
+std::span<const vox_timed_pair> vox_surface::contact_times(vox_feature a, vox_feature b,
+                                                           const ContactTimeRule& rule) {
     const SurfaceMotion reach = reaching(motion(), rule.distance);
     answer(living_.times, [&] {
         timed_.clear();

@@ -39,8 +39,9 @@ public:
 
     void set_cell_size(double cell_size);
 
-    // Calls visit(FeaturePairs) for the partners of all features of kind a, as vox_surface_pairs finds them, for
-    // any motion of this surface, piece by piece. The buffers behind it are the surface's: one call at a time.
+    // Calls visit(FeaturePairs) for the partners of all features of kind a, as vox_surface_pairs finds them,
+    // for any motion of this surface, piece by piece. The buffers behind it are the surface's: one call at a
+    // time.
     template <class Visit>
     void for_pieces(const vox::SurfaceMotion& motion, vox_feature a, vox_feature b, Visit&& visit) {
         const std::uint32_t all = topology_.count(a);
@@ -49,8 +50,8 @@ public:
             visit(std::as_const(candidates_));
         }
     }
-    // Those of features first, first + 1, ..., count of them or as many as fit into the byte budget, at least one,
-    // for the motion that is set; the answer lives until the next call or move().
+    // Those of features first, first + 1, ..., count of them or as many as fit into the byte budget, at least
+    // one, for the motion that is set; the answer lives until the next call or move().
     const vox::FeaturePairs& pairs(vox_feature a, vox_feature b, std::uint64_t first, std::uint64_t count);
 
     // Throws as vox_surface_suggest_cell_size.
@@ -70,8 +71,8 @@ public:
     vox_pair_counters counters() const;
 
 private:
-    // The partners of features [first, first + count) of kind a, or of the first of them: as many as fit into the
-    // byte budget, at least one.
+    // The partners of features [first, first + count) of kind a, or of the first of them: as many as fit into
+    // the byte budget, at least one.
     void find_fitting(const vox::SurfaceMotion& motion, vox_feature a, vox_feature b, std::uint32_t first,
                       std::uint32_t count, vox::FeaturePairs& out);
     template <class Make>

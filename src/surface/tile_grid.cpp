@@ -8,11 +8,11 @@ namespace vox {
 
 namespace {
 
-constexpr double most_cells_a_box = 64; // on average
+constexpr double most_cells_a_box = 64;      // on average
 constexpr double most_cells_of_a_box = 4096; // one that would be in more is looked at from everywhere
 constexpr std::size_t few_large = 16;        // so many of them are no reason for larger cells
 constexpr double most_buckets = 0x1p30;      // more cells than that share some
-constexpr double outermost = 0x1p52;    // cells from the origin; what is further out shares these
+constexpr double outermost = 0x1p52;         // cells from the origin; what is further out shares these
 
 std::int64_t clamped_cell(double at) noexcept {
     return static_cast<std::int64_t>(std::floor(std::clamp(at, -outermost, outermost)));
@@ -63,7 +63,8 @@ void TileGrid::fill(std::span<const Box> boxes, double cell_size) {
         }
         if ((in_all <= most && large_.size() - endless <= few_large) || cell_size_ > 1e300) break;
     }
-    const std::uint32_t buckets = std::bit_ceil(static_cast<std::uint32_t>(std::clamp(2 * in_all, 2.0, most_buckets)));
+    const std::uint32_t buckets =
+        std::bit_ceil(static_cast<std::uint32_t>(std::clamp(2 * in_all, 2.0, most_buckets)));
     shift_ = 64u - static_cast<unsigned>(std::countr_zero(buckets));
     first_.assign(std::size_t{buckets} + 1, 0u);
     cells_.clear();

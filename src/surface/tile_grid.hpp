@@ -16,8 +16,8 @@ public:
     explicit TileGrid(std::pmr::memory_resource* memory) noexcept
         : first_(memory), entries_(memory), cells_(memory), large_(memory) {}
 
-    // Puts the boxes in. The cell size is raised where the boxes would be in more than some 64 cells each. Throws
-    // what the memory throws.
+    // Puts the boxes in. The cell size is raised where the boxes would be in more than some 64 cells each.
+    // Throws what the memory throws.
     void fill(std::span<const Box> boxes, double cell_size);
 
     double cell_size() const noexcept { return cell_size_; }

@@ -13,7 +13,8 @@ namespace {
 
 void check_count(std::uint64_t count, const char* name) {
     if (count > VOX_MAX_FEATURES)
-        throw Error(VOX_ERROR_LIMIT, format("%s is %" PRIu64 ", the limit is %u", name, count, VOX_MAX_FEATURES));
+        throw Error(VOX_ERROR_LIMIT,
+                    format("%s is %" PRIu64 ", the limit is %u", name, count, VOX_MAX_FEATURES));
 }
 
 template <std::size_t corners>
@@ -72,8 +73,8 @@ SurfaceTopology::SurfaceTopology(const vox_surface_desc& desc, std::pmr::memory_
     }
     if (desc.patch_count == 0) refuse("patch_count is 0, but patches is not null");
     if (desc.patch_count > VOX_MAX_PATCHES)
-        throw Error(VOX_ERROR_LIMIT, format("patch_count is %" PRIu64 ", the limit is %u", desc.patch_count,
-                                            VOX_MAX_PATCHES));
+        throw Error(VOX_ERROR_LIMIT,
+                    format("patch_count is %" PRIu64 ", the limit is %u", desc.patch_count, VOX_MAX_PATCHES));
     for (std::uint32_t v = 0; v < vertex_count; ++v)
         if (desc.patches[v] >= desc.patch_count)
             refuse(format("vertex %u is in patch %u of %" PRIu64, v, desc.patches[v], desc.patch_count));
@@ -85,7 +86,8 @@ SurfaceTopology::SurfaceTopology(const vox_surface_desc& desc, std::pmr::memory_
     }
 }
 
-bool SurfaceTopology::may_meet(std::span<const std::uint32_t> a, std::span<const std::uint32_t> b) const noexcept {
+bool SurfaceTopology::may_meet(std::span<const std::uint32_t> a,
+                               std::span<const std::uint32_t> b) const noexcept {
     if (!has_patches()) return true;
     for (const std::uint32_t v : a)
         for (const std::uint32_t w : b) {

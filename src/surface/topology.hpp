@@ -24,10 +24,9 @@ struct SurfaceTopology {
     SurfaceTopology(const vox_surface_desc& desc, std::pmr::memory_resource* memory);
 
     std::uint32_t count(vox_feature feature) const noexcept {
-        return feature == VOX_FEATURE_VERTEX ? vertex_count
-                                             : static_cast<std::uint32_t>(feature == VOX_FEATURE_EDGE
-                                                                              ? edges.size()
-                                                                              : faces.size());
+        return feature == VOX_FEATURE_VERTEX
+                   ? vertex_count
+                   : static_cast<std::uint32_t>(feature == VOX_FEATURE_EDGE ? edges.size() : faces.size());
     }
     // The vertices of a feature that is not a vertex.
     const std::uint32_t* corners(vox_feature feature, std::uint32_t index) const noexcept {

@@ -39,7 +39,9 @@ struct Scene {
         for (Eigen::Index k = 0; k < rows.cols(); ++k) found.push_back(rows(i, k));
         return found;
     }
-    Eigen::Index count(int kind) const { return kind == 0 ? from.rows() : kind == 1 ? edges.rows() : faces.rows(); }
+    Eigen::Index count(int kind) const {
+        return kind == 0 ? from.rows() : kind == 1 ? edges.rows() : faces.rows();
+    }
 
     ipc::AABB box(int kind, Eigen::Index i) const {
         constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -158,6 +160,6 @@ END_TEST
 
 SUITE(ipc_broad_phase) {
     TCase* tests = add_case(suite, "ipc_broad_phase");
-    tcase_add_each(tests, candidates_are_those_of_brute_force, boxes_of_the_caller_are_taken_as_they_are, filters_hold,
-                   culling_leaves_some_out);
+    tcase_add_each(tests, candidates_are_those_of_brute_force, boxes_of_the_caller_are_taken_as_they_are,
+                   filters_hold, culling_leaves_some_out);
 }

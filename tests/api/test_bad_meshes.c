@@ -318,10 +318,8 @@ START_TEST(failing_allocations) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, which_mesh_failed, what_is_left_out_is_logged_once, bad_meshes_are_left_out, all_are_bad,
-                   events_of_a_mesh_that_is_left_out, steady_state, failing_allocations);
+    tcase_add_each(tests, which_mesh_failed, what_is_left_out_is_logged_once, bad_meshes_are_left_out,
+                   all_are_bad, events_of_a_mesh_that_is_left_out, steady_state, failing_allocations);
 }
 
-SUITE(bad_meshes) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(bad_meshes) { add_for_each_engine(suite, add_tests); }

@@ -266,15 +266,16 @@ START_TEST(a_grid_suggests_for_positions_as_they_are) {
 }
 END_TEST
 
-/* A vertex that no tetrahedron uses is outside of the geometry, wherever it lies: beyond the box of the others, at an end of
- * it, or inside. The first tetrahedra and vertices are those of the body without it. */
+/* A vertex that no tetrahedron uses is outside of the geometry, wherever it lies: beyond the box of the
+ * others, at an end of it, or inside. The first tetrahedra and vertices are those of the body without it. */
 START_TEST(a_vertex_of_no_tetrahedron_is_no_part_of_the_box) {
     body box = make_box(12, 0.25f, 0, 0, 0); /* more tetrahedra than are measured in full */
     const vox_mesh_desc without = body_desc(&box);
     const uint32_t count = box.vertex_count;
     float* positions = (float*)malloc((count + 1) * 3 * sizeof *positions);
     memcpy(positions, box.positions, 3 * count * sizeof *positions);
-    /* Beyond an end, at one (where others are as well), inside; the added vertex is the last one or the first. */
+    /* Beyond an end, at one (where others are as well), inside; the added vertex is the last one or the
+     * first. */
     const float places[][3] = {{-100, 1, 1}, {1, 1, 100}, {3, 1, 1}, {0, 0, 0}, {1, 1, 1}};
     uint32_t* tets = (uint32_t*)malloc(4 * box.tet_count * sizeof *tets);
     for (int first = 0; first < 2; ++first)
@@ -289,7 +290,8 @@ START_TEST(a_vertex_of_no_tetrahedron_is_no_part_of_the_box) {
                 with.vertex_count = count + 1;
                 vox_suggest_desc desc = vox_default_suggest_desc();
                 desc.model = models[m];
-                const vox_suggestion given = suggest_ok(&desc, &without, 1), found = suggest_ok(&desc, &with, 1);
+                const vox_suggestion given = suggest_ok(&desc, &without, 1),
+                                     found = suggest_ok(&desc, &with, 1);
                 vox_grid* grid = grid_of(NULL);
                 insert_mesh(grid, &with);
                 vox_suggestion of_grid;
@@ -527,8 +529,10 @@ START_TEST(weights_are_plain_numbers) {
     /* The last two fields keep their proportion to those that stood for them before. */
     const double visits = measured.reference_visit_cell / shipped.reference_visit_cell;
     const double reads = measured.reference_read_vertex / shipped.reference_read_vertex;
-    ck_assert_double_eq_tol(in_use.reference_changed_list / shipped.reference_changed_list, visits, 1e-12 * visits);
-    ck_assert_double_eq_tol(in_use.reference_fetch_vertex / shipped.reference_fetch_vertex, reads, 1e-12 * reads);
+    ck_assert_double_eq_tol(in_use.reference_changed_list / shipped.reference_changed_list, visits,
+                            1e-12 * visits);
+    ck_assert_double_eq_tol(in_use.reference_fetch_vertex / shipped.reference_fetch_vertex, reads,
+                            1e-12 * reads);
     /* Each of them counts. */
     saved = shipped;
     saved.reference_changed_list *= 8;

@@ -51,7 +51,8 @@ static vox_foreign_suggestion of_kinds(vox_surface* surface, vox_feature a, vox_
     return found;
 }
 
-/* The same work as that of the surface's own two searches, so the size lies between those that are best for either. */
+/* The same work as that of the surface's own two searches, so the size lies between those that are best for
+ * either. */
 START_TEST(the_size_of_the_surface_that_the_meshes_make) {
     body box = make_box(10, 0.5f, 0, 0, 0);
     jitter_body(&box, 0.05, 3);
@@ -79,7 +80,8 @@ START_TEST(the_size_of_the_surface_that_the_meshes_make) {
     ck_assert_double_gt(found.cell_size, edges.zone_min / 4);
     ck_assert_double_lt(found.cell_size, edges.zone_max * 4);
     for (int i = -6; i <= 0; ++i) /* none is better; larger ones are alike here, where one cell holds all */
-        ck_assert_double_ge(cost_at(&mesh, 1, found.cell_size * pow(2, i / 2.)), found.predicted_cost * (1 - 1e-3));
+        ck_assert_double_ge(cost_at(&mesh, 1, found.cell_size * pow(2, i / 2.)),
+                            found.predicted_cost * (1 - 1e-3));
     /* The surface takes it, and answers the same. */
     vox_pair_lists lists;
     lists.struct_size = sizeof lists;
@@ -129,7 +131,8 @@ START_TEST(what_has_no_surface) {
     vox_mesh_desc mesh = vox_mesh_desc_floats(at, 5, sphere, 0);
     ck_fails(vox_suggest_cell_size(&desc, &mesh, 1, &out), VOX_ERROR_INVALID_ARGUMENT,
              "no tetrahedra: 5 vertices alone give no surface");
-    ck_fails(vox_suggest_cell_size(&desc, NULL, 0, &out), VOX_ERROR_INVALID_ARGUMENT, "no tetrahedra: 0 vertices");
+    ck_fails(vox_suggest_cell_size(&desc, NULL, 0, &out), VOX_ERROR_INVALID_ARGUMENT,
+             "no tetrahedra: 0 vertices");
     mesh.tet_count = 5; /* each facet belongs to two of them */
     ck_fails(vox_suggest_cell_size(&desc, &mesh, 1, &out), VOX_ERROR_INVALID_ARGUMENT, "no surface");
     mesh.tet_count = 1;
@@ -139,7 +142,8 @@ START_TEST(what_has_no_surface) {
     ck_fails(vox_suggest_cell_size(&desc, &mesh, 1, &out), VOX_ERROR_INVALID_ARGUMENT, "1 tets of no size");
     vox_cost_prediction prediction;
     prediction.struct_size = sizeof prediction;
-    ck_fails(vox_cost_predict(&desc, &mesh, 1, 1, &prediction), VOX_ERROR_INVALID_ARGUMENT, "1 tets of no size");
+    ck_fails(vox_cost_predict(&desc, &mesh, 1, 1, &prediction), VOX_ERROR_INVALID_ARGUMENT,
+             "1 tets of no size");
     ck_assert_mem_eq(&out, &before, sizeof out);
     /* Twice the same tetrahedron is one; sizes at the ends of the range. */
     const uint32_t doubled[8] = {0, 1, 2, 3, 0, 1, 2, 3};
@@ -180,6 +184,6 @@ END_TEST
 
 SUITE(cell_size_surfaces) {
     TCase* tests = add_case(suite, "surfaces");
-    tcase_add_each(tests, the_size_of_the_surface_that_the_meshes_make, of_the_tetrahedra_that_are_there, what_has_no_surface,
-                   memory_is_the_callers);
+    tcase_add_each(tests, the_size_of_the_surface_that_the_meshes_make, of_the_tetrahedra_that_are_there,
+                   what_has_no_surface, memory_is_the_callers);
 }

@@ -240,6 +240,4 @@ static void add_tests(TCase* tests) {
                    steps_before_do_not_matter);
 }
 
-SUITE(closest_budget) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(closest_budget) { add_for_each_engine(suite, add_tests); }

@@ -343,7 +343,8 @@ START_TEST(suggested_and_asked) {
 }
 END_TEST
 
-/* A mesh that begins without vertices and owns those that it gets: they are packed, whatever was said of none. */
+/* A mesh that begins without vertices and owns those that it gets: they are packed, whatever was said of
+ * none. */
 START_TEST(columns_of_nothing) {
     for (int maps = 0; maps < 2; ++maps) {
         body box = make_box(2, 0.5f, 0, 0, 0);

@@ -1,5 +1,5 @@
-/* What a contact is, through the public face: the rule of vox_contact, canonical order, and the traps that grids fall
- * into. The exact sets on random scenes are tests/internal's. */
+/* What a contact is, through the public face: the rule of vox_contact, canonical order, and the traps that
+ * grids fall into. The exact sets on random scenes are tests/internal's. */
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
@@ -68,23 +68,25 @@ START_TEST(inside_and_on_the_boundary) {
         float weights[4];
     } cases[] = {
         {{0.25f, 0.25f, 0.25f}, 1, {0.25f, 0.25f, 0.25f, 0.25f}},
-        {{0.25f, 0.25f, 0}, 1, {0.5f, 0.25f, 0.25f, 0}},       /* on a face */
-        {{0.25f, 0.25f, 0.5f}, 1, {0, 0.25f, 0.25f, 0.5f}},    /* on the slanted face */
-        {{0.5f, 0, 0}, 1, {0.5f, 0.5f, 0, 0}},                 /* on an edge */
-        {{0, 0, 1}, 1, {0, 0, 0, 1}},                          /* on a corner */
-        {{0.25f, 0.25f, -FLT_MIN}, 0, {0}},                    /* the least bit outside */
+        {{0.25f, 0.25f, 0}, 1, {0.5f, 0.25f, 0.25f, 0}},    /* on a face */
+        {{0.25f, 0.25f, 0.5f}, 1, {0, 0.25f, 0.25f, 0.5f}}, /* on the slanted face */
+        {{0.5f, 0, 0}, 1, {0.5f, 0.5f, 0, 0}},              /* on an edge */
+        {{0, 0, 1}, 1, {0, 0, 0, 1}},                       /* on a corner */
+        {{0.25f, 0.25f, -FLT_MIN}, 0, {0}},                 /* the least bit outside */
         {{0.25f, 0.25f, 0.50000006f}, 0, {0}},
         {{1.0000001f, 0, 0}, 0, {0}},
-        {{0.7f, 0.7f, 0.7f}, 0, {0}},                          /* in the box, not in the tet */
+        {{0.7f, 0.7f, 0.7f}, 0, {0}}, /* in the box, not in the tet */
     };
     const uint32_t inverted[4] = {0, 2, 1, 3};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         vox_contact contact;
         memset(&contact, 0, sizeof contact);
-        ck_assert_uint_eq(point_in_tet(cases[i].point, unit_tet_positions, unit_tet, &contact), cases[i].inside);
+        ck_assert_uint_eq(point_in_tet(cases[i].point, unit_tet_positions, unit_tet, &contact),
+                          cases[i].inside);
         for (int k = 0; k < 4 && cases[i].inside; ++k)
             ck_assert_float_eq(contact.barycentric[k], cases[i].weights[k]);
-        ck_assert_uint_eq(point_in_tet(cases[i].point, unit_tet_positions, inverted, &contact), cases[i].inside);
+        ck_assert_uint_eq(point_in_tet(cases[i].point, unit_tet_positions, inverted, &contact),
+                          cases[i].inside);
         for (int k = 0; k < 4 && cases[i].inside; ++k)
             ck_assert_float_eq(contact.barycentric[k], cases[i].weights[inverted[k]]);
     }
@@ -92,7 +94,8 @@ START_TEST(inside_and_on_the_boundary) {
 END_TEST
 
 START_TEST(shared_boundary_gives_one_contact) {
-    /* Every lattice point and every cube centre of a box: on corners, edges and faces of up to 24 tets at once. */
+    /* Every lattice point and every cube centre of a box: on corners, edges and faces of up to 24 tets at
+     * once. */
     body box = make_box(4, 0.25f, -0.5f, -0.5f, -0.5f);
     body points = make_box(8, 0.125f, -0.5f, -0.5f, -0.5f);
     points.tet_count = 0;
@@ -117,8 +120,8 @@ START_TEST(shared_boundary_gives_one_contact) {
 END_TEST
 
 START_TEST(overlapping_tets) {
-    /* Two equal tets and a larger one around the point: all three hold it inside. On the boundary of the first two and
-     * inside the third: only the third. */
+    /* Two equal tets and a larger one around the point: all three hold it inside. On the boundary of the
+     * first two and inside the third: only the third. */
     const float corners[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, -1, -1, -1, 5, 0, 0, 0, 5, 0, 0, 0, 5};
     const uint32_t tets[12] = {0, 1, 2, 3, 4, 5, 6, 7, 1, 0, 2, 3};
     const float points[6] = {0.25f, 0.25f, 0.25f, 0.25f, 0.25f, 0};
@@ -205,7 +208,8 @@ START_TEST(settings_do_not_change_contacts) {
             for (int hash = VOX_HASH_MIXED; hash <= VOX_HASH_PAPER; ++hash)
                 for (int world = 0; world < 2; ++world) {
                     vox_grid_desc desc = vox_default_grid_desc();
-                    if (storage == VOX_STORAGE_DENSE && sizes[i] != 0 && sizes[i] < 0.01) continue; /* see below */
+                    if (storage == VOX_STORAGE_DENSE && sizes[i] != 0 && sizes[i] < 0.01)
+                        continue; /* see below */
                     desc.engine = suite_engine;
                     desc.cell_size = sizes[i];
                     desc.storage = (vox_storage)storage;
@@ -403,7 +407,8 @@ START_TEST(sliver_a_thousand_edges_long) {
         ck_ok(vox_grid_create(&desc, &s.grid));
         ck_ok(vox_mesh_insert(s.grid, &a, &s.a));
         ck_ok(vox_mesh_insert(s.grid, &b, &s.b));
-        if (storage == VOX_STORAGE_DENSE && suite_engine == VOX_ENGINE_REFERENCE) { /* 1000 cells an axis do not fit the budget */
+        if (storage == VOX_STORAGE_DENSE &&
+            suite_engine == VOX_ENGINE_REFERENCE) { /* 1000 cells an axis do not fit the budget */
             ck_fails(vox_grid_step(s.grid), VOX_ERROR_BUDGET, "cells");
             ck_ok(vox_grid_set_cell_size(s.grid, 4));
         }
@@ -578,9 +583,7 @@ static void add_tests(TCase* tests) {
                    stage_times_add_up);
 }
 
-static void add_long_tests(TCase* tests) {
-    tcase_add_test(tests, settings_do_not_change_contacts);
-}
+static void add_long_tests(TCase* tests) { tcase_add_test(tests, settings_do_not_change_contacts); }
 
 SUITE(contacts) {
     add_for_each_engine(suite, add_tests);

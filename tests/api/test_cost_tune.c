@@ -1,5 +1,5 @@
-/* vox_cost_fit and vox_cost_tune: arguments, errors, callbacks that fail or stop, and what they promise of a real
- * description. The numbers are in tests/internal/test_tune.cpp. */
+/* vox_cost_fit and vox_cost_tune: arguments, errors, callbacks that fail or stop, and what they promise of a
+ * real description. The numbers are in tests/internal/test_tune.cpp. */
 #include "support/suite.h"
 
 #include <math.h>
@@ -16,7 +16,10 @@ static void make_grid(void) {
     int i, axis;
     for (i = 0; i < count; ++i)
         for (axis = 0; axis < 3; ++axis) {
-            const double place = 9.0 * fmod((i + 1) * (axis == 0 ? 0.7548776662 : axis == 1 ? 0.5698402910 : 0.3247179572), 1.0);
+            const double place = 9.0 * fmod((i + 1) * (axis == 0   ? 0.7548776662
+                                                       : axis == 1 ? 0.5698402910
+                                                                   : 0.3247179572),
+                                            1.0);
             corners[i][0][axis] = (float)place;
             corners[i][1][axis] = (float)(place + 1);
         }
@@ -54,8 +57,8 @@ static void make_timings(void) {
     }
 }
 
-static void fit_fails(const vox_foreign_grid* described, const vox_grid_timing* given, uint64_t given_count, vox_result code,
-                      const char* words) {
+static void fit_fails(const vox_foreign_grid* described, const vox_grid_timing* given, uint64_t given_count,
+                      vox_result code, const char* words) {
     vox_grid_fit out, before;
     memset(&out, 0x5a, sizeof out);
     out.struct_size = sizeof out;
@@ -80,7 +83,8 @@ START_TEST(fit) {
     suggestion.struct_size = sizeof suggestion;
     ck_ok(vox_suggest_for(&grid, &suggestion));
     ck_assert_double_eq_tol(suggestion.cell_size, out.cell_size, 0.05 * out.cell_size);
-    ck_assert_double_eq_tol(suggestion.predicted_cost, 1e9 * out.predicted_seconds, 0.02 * suggestion.predicted_cost);
+    ck_assert_double_eq_tol(suggestion.predicted_cost, 1e9 * out.predicted_seconds,
+                            0.02 * suggestion.predicted_cost);
     /* An older caller's struct. */
     memset(&small, 0x5a, sizeof small);
     small.struct_size = offsetof(vox_grid_fit, zone_min);
@@ -100,7 +104,8 @@ START_TEST(bad_timings) {
     fit_fails(NULL, timings, 3, VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     fit_fails(&grid, NULL, 3, VOX_ERROR_INVALID_ARGUMENT, "timings is null");
     fit_fails(&grid, NULL, 0, VOX_ERROR_INVALID_ARGUMENT, "0 different cell sizes, expected at least 3");
-    fit_fails(&grid, timings + 1, 3, VOX_ERROR_INVALID_ARGUMENT, "2 different cell sizes, expected at least 3");
+    fit_fails(&grid, timings + 1, 3, VOX_ERROR_INVALID_ARGUMENT,
+              "2 different cell sizes, expected at least 3");
     fit_fails(&grid, timings, UINT64_MAX, VOX_ERROR_LIMIT, "count is 18446744073709551615");
     for (i = 0; i < 4; ++i) {
         make_timings();
@@ -114,7 +119,8 @@ START_TEST(bad_timings) {
     }
     make_timings();
     grid.least_cell_size = 1;
-    fit_fails(&grid, timings, 3, VOX_ERROR_INVALID_ARGUMENT, "timings[0].cell_size is 0.6, expected at least the least legal one, 1");
+    fit_fails(&grid, timings, 3, VOX_ERROR_INVALID_ARGUMENT,
+              "timings[0].cell_size is 0.6, expected at least the least legal one, 1");
     make_timings();
     timings[1].cell_size = 1e-150;
     fit_fails(&grid, timings, 3, VOX_ERROR_LIMIT, "the smallest cell size timed is 1e-150, so small");
@@ -128,9 +134,9 @@ END_TEST
 
 struct machine {
     int calls;
-    int stop_after;  /* runs; 0: never */
+    int stop_after;   /* runs; 0: never */
     double too_small; /* cannot run below this */
-    double answer;   /* instead, if it is not 0 */
+    double answer;    /* instead, if it is not 0 */
 };
 
 static double run(double cell_size, void* user) {
@@ -222,7 +228,8 @@ START_TEST(tune_that_stops_or_fails) {
     machine.answer = INFINITY;
     ck_fails(vox_cost_tune(&grid, NULL, run, &machine, &out), VOX_ERROR_INVALID_STATE, "7 could not run");
     machine.answer = 1e-40;
-    ck_fails(vox_cost_tune(&grid, NULL, run, &machine, &out), VOX_ERROR_INVALID_ARGUMENT, "expected at least 1e-30");
+    ck_fails(vox_cost_tune(&grid, NULL, run, &machine, &out), VOX_ERROR_INVALID_ARGUMENT,
+             "expected at least 1e-30");
     ck_assert_int_eq(out.note[0], 0x5a);
 }
 END_TEST
@@ -273,7 +280,8 @@ START_TEST(bad_tune_arguments) {
     out.struct_size = sizeof out;
     ck_fails(vox_cost_tune(&grid, NULL, run, NULL, NULL), VOX_ERROR_INVALID_ARGUMENT, "out is null");
     ck_fails(vox_cost_tune(&grid, NULL, NULL, NULL, &out), VOX_ERROR_INVALID_ARGUMENT, "run is null");
-    ck_fails(vox_cost_tune(NULL, NULL, run, NULL, &out), VOX_ERROR_INVALID_ARGUMENT, "first is 0, and no grid is described");
+    ck_fails(vox_cost_tune(NULL, NULL, run, NULL, &out), VOX_ERROR_INVALID_ARGUMENT,
+             "first is 0, and no grid is described");
     out.struct_size = 2;
     ck_fails(vox_cost_tune(&grid, NULL, run, NULL, &out), VOX_ERROR_INVALID_ARGUMENT, "out.struct_size is 2");
     desc.first = 1e-150;
@@ -287,6 +295,7 @@ END_TEST
 
 SUITE(cost_tune) {
     TCase* tests = add_case(suite, "tune");
-    tcase_add_each(tests, fit, bad_timings, tune_defaults, tune, tune_that_stops_or_fails, bad_tune_arguments);
+    tcase_add_each(tests, fit, bad_timings, tune_defaults, tune, tune_that_stops_or_fails,
+                   bad_tune_arguments);
     tcase_add_loop_test(tests, bad_desc, 0, sizeof bad_descs / sizeof bad_descs[0]);
 }

@@ -358,6 +358,4 @@ END_TEST
 
 static void add_tests(TCase* tests) { tcase_add_loop_test(tests, thousand_edits, 0, 2); }
 
-SUITE(cutting) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(cutting) { add_for_each_engine(suite, add_tests); }

@@ -494,6 +494,4 @@ static void add_tests(TCase* tests) {
                    positions_of_its_own, queries_and_suggestions_see_it, cell_size_follows_a_cut);
 }
 
-SUITE(cutting_calls) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(cutting_calls) { add_for_each_engine(suite, add_tests); }

@@ -250,6 +250,4 @@ static void add_tests(TCase* tests) {
     tcase_add_loop_test(tests, two_tets_on_one_side, 0, 5);
 }
 
-SUITE(cutting_cost) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(cutting_cost) { add_for_each_engine(suite, add_tests); }

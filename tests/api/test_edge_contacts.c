@@ -1,5 +1,5 @@
-/* Edge contacts of a grid: what bars laid across each other give, their life, memory and errors. Which there are in random
- * scenes: tests/internal/test_edge_definition.cpp. */
+/* Edge contacts of a grid: what bars laid across each other give, their life, memory and errors. Which there
+ * are in random scenes: tests/internal/test_edge_definition.cpp. */
 #include <math.h>
 #include <string.h>
 
@@ -34,8 +34,8 @@ static vox_grid* edge_grid(uint32_t more_flags) {
     return grid_of(&desc);
 }
 
-/* A bar of 9 * 1 * 1 along x, or of 1 * 9 * 1 along y, with its middle at (0, 0, z + 0.5). It has no vertex within 1.5 of
- * that along its length. */
+/* A bar of 9 * 1 * 1 along x, or of 1 * 9 * 1 along y, with its middle at (0, 0, z + 0.5). It has no vertex
+ * within 1.5 of that along its length. */
 static body make_bar(int along_y, double z) {
     body b = make_block(&five_cut, along_y ? 1 : 3, along_y ? 3 : 1, 1);
     for (uint32_t v = 0; v < b.vertex_count; ++v) b.positions[3 * v + (along_y ? 1 : 0)] *= 3;
@@ -422,9 +422,8 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, crossed_bars, depth_of_an_edge_that_ends_inside, contacts_stay_the_same, arguments,
-                   states_of_depths, on_and_off, steady_state_allocates_nothing, without_memory, budget, snapshots);
+                   states_of_depths, on_and_off, steady_state_allocates_nothing, without_memory, budget,
+                   snapshots);
 }
 
-SUITE(edge_contacts) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(edge_contacts) { add_for_each_engine(suite, add_tests); }

@@ -1,5 +1,5 @@
-/* Touching pairs and events: what the views say of the contacts, and that nothing that happens between two steps
- * loses an event. A model replays all events and must know at every step what touches. */
+/* Touching pairs and events: what the views say of the contacts, and that nothing that happens between two
+ * steps loses an event. A model replays all events and must know at every step what touches. */
 #include <math.h>
 #include <string.h>
 
@@ -143,14 +143,15 @@ static void check_totals(const vox_grid* grid, const totals* sums) {
     ck_assert_uint_eq(counters.total_contacts_ended, sums->contacts_ended);
 }
 
-/* Events are per step: one reader reads every step, the other every second one, and the totals show which is right. */
+/* Events are per step: one reader reads every step, the other every second one, and the totals show which is
+ * right. */
 START_TEST(totals_show_events_that_nobody_read) {
     meeting m = new_meeting();
     totals all = {0, 0, 0, 0}, half = all;
     check_totals(m.grid, &all);
     for (int step = 0; step < 24; ++step) {
         if (step % 3 != 2) shift(&m.other, step % 6 < 3 ? 1.0f : -1.0f); /* in, out, at rest; and back */
-        if (step == 9) { /* a failed step has no events */
+        if (step == 9) {                                                 /* a failed step has no events */
             const float kept = m.other.positions[0];
             m.other.positions[0] = NAN;
             ck_fails(vox_grid_step(m.grid), VOX_ERROR_NON_FINITE, "not finite");
@@ -264,7 +265,8 @@ START_TEST(filters_end_and_begin) {
 }
 END_TEST
 
-/* Each contact is in the range of its pair, once, in order; mesh by mesh as vox_mesh_copy_contacts gives them. */
+/* Each contact is in the range of its pair, once, in order; mesh by mesh as vox_mesh_copy_contacts gives
+ * them. */
 static void check_pairs(const vox_grid* grid) {
     const vox_pair_view pairs = pairs_of(grid);
     const vox_contact_view contacts = contacts_of(grid);
@@ -338,18 +340,21 @@ static void sort_unique(key_set* set) {
     size_t kept = 0;
     qsort(set->keys, set->count, sizeof(key), compare_keys);
     for (size_t i = 0; i < set->count; ++i)
-        if (kept == 0 || compare_keys(&set->keys[kept - 1], &set->keys[i]) != 0) set->keys[kept++] = set->keys[i];
+        if (kept == 0 || compare_keys(&set->keys[kept - 1], &set->keys[i]) != 0)
+            set->keys[kept++] = set->keys[i];
     set->count = kept;
 }
 
-/* `model` without what ended, which it must hold, and with what began, which it must not. The events come as sorted
- * parts. */
-static void replay(key_set* model, const key* began, size_t began_count, const key* ended, size_t ended_count) {
+/* `model` without what ended, which it must hold, and with what began, which it must not. The events come as
+ * sorted parts. */
+static void replay(key_set* model, const key* began, size_t began_count, const key* ended,
+                   size_t ended_count) {
     for (size_t i = 1; i < began_count; ++i) ck_assert_int_lt(compare_keys(&began[i - 1], &began[i]), 0);
     for (size_t i = 1; i < ended_count; ++i) ck_assert_int_lt(compare_keys(&ended[i - 1], &ended[i]), 0);
     for (size_t i = 0; i < began_count; ++i)
         ck_assert_msg(!bsearch(&began[i], model->keys, model->count, sizeof(key), compare_keys),
-                      "%u, vertex %u, %u began and did not end before", began[i].a, began[i].vertex, began[i].b);
+                      "%u, vertex %u, %u began and did not end before", began[i].a, began[i].vertex,
+                      began[i].b);
     for (size_t i = 0; i < ended_count; ++i)
         ck_assert_msg(bsearch(&ended[i], model->keys, model->count, sizeof(key), compare_keys),
                       "%u, vertex %u, %u ended and had not begun", ended[i].a, ended[i].vertex, ended[i].b);
@@ -598,10 +603,14 @@ START_TEST(arguments) {
     const vox_contact_event_view untouched = vertices;
     ck_fails(vox_grid_contact_events(plain, &vertices), VOX_ERROR_INVALID_STATE, "VOX_GRID_CONTACT_EVENTS");
     ck_assert_mem_eq(&vertices, &untouched, sizeof vertices);
-    ck_fails(vox_mesh_copy_contacts(NULL, m.a, &contact, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_mesh_copy_contacts(m.grid, m.a, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "contacts is null");
-    ck_fails(vox_mesh_copy_contacts(m.grid, m.a, &contact, 1, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_count is null");
-    ck_fails(vox_mesh_copy_contacts(m.grid, 0, &contact, 1, &count), VOX_ERROR_INVALID_HANDLE, "mesh id is 0");
+    ck_fails(vox_mesh_copy_contacts(NULL, m.a, &contact, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
+             "grid is null");
+    ck_fails(vox_mesh_copy_contacts(m.grid, m.a, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
+             "contacts is null");
+    ck_fails(vox_mesh_copy_contacts(m.grid, m.a, &contact, 1, NULL), VOX_ERROR_INVALID_ARGUMENT,
+             "out_count is null");
+    ck_fails(vox_mesh_copy_contacts(m.grid, 0, &contact, 1, &count), VOX_ERROR_INVALID_HANDLE,
+             "mesh id is 0");
     ck_assert_uint_eq(count, 77);
     vox_grid_desc desc = vox_default_grid_desc();
     vox_grid* none = NULL;
@@ -613,11 +622,10 @@ START_TEST(arguments) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, begin_persist_end, totals_show_events_that_nobody_read, removal_ends_once_with_the_old_ids,
-                   clear_ends_with_the_next_step, failed_steps_lose_nothing, filters_end_and_begin,
-                   every_event_has_its_pair, steady_state_allocates_nothing, arguments);
+    tcase_add_each(tests, begin_persist_end, totals_show_events_that_nobody_read,
+                   removal_ends_once_with_the_old_ids, clear_ends_with_the_next_step,
+                   failed_steps_lose_nothing, filters_end_and_begin, every_event_has_its_pair,
+                   steady_state_allocates_nothing, arguments);
 }
 
-SUITE(events) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(events) { add_for_each_engine(suite, add_tests); }

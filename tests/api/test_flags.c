@@ -474,6 +474,4 @@ static void add_tests(TCase* tests) {
                    filter_all_or_nothing, older_filters);
 }
 
-SUITE(flags) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(flags) { add_for_each_engine(suite, add_tests); }

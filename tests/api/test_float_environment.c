@@ -316,6 +316,4 @@ static void add_tests(TCase* tests) {
     tcase_add_each(tests, same_bits_with_threads_that_have_their_own, arguments, flags);
 }
 
-SUITE(float_environment) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(float_environment) { add_for_each_engine(suite, add_tests); }

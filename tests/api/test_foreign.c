@@ -1,5 +1,5 @@
-/* The cell size of grids that are not this library's: what is asked, what is answered, every bad argument with its
- * code and a text with numbers, and answers with a warning where there is no best size. */
+/* The cell size of grids that are not this library's: what is asked, what is answered, every bad argument
+ * with its code and a text with numbers, and answers with a warning where there is no best size. */
 #include "scenes/random.h"
 #include "support/ledger.h"
 #include "support/suite.h"
@@ -173,15 +173,16 @@ START_TEST(primitives_in_any_form) {
 }
 END_TEST
 
-/* With 27 cells around, the least legal size is that of all boxes, however many there are and wherever the largest
- * is. */
+/* With 27 cells around, the least legal size is that of all boxes, however many there are and wherever the
+ * largest is. */
 START_TEST(the_least_size_is_exact) {
     enum { many = 300000 };
     static float points[2 * many][3];
     uint64_t random = 1;
     for (int i = 0; i < 2 * many; ++i)
         for (int a = 0; a < 3; ++a)
-            points[i][a] = i % 2 == 0 ? (float)(100 * random_unit(&random)) : points[i - 1][a] + (float)random_unit(&random);
+            points[i][a] = i % 2 == 0 ? (float)(100 * random_unit(&random))
+                                      : points[i - 1][a] + (float)random_unit(&random);
     points[2 * 123457 + 1][1] = points[2 * 123457][1] + 7;
     vox_primitives held = vox_default_primitives();
     held.type = VOX_PRIMITIVE_BOX;
@@ -281,8 +282,8 @@ static double least_of_curve(const vox_foreign_suggestion* found) {
     return least;
 }
 
-/* Times that are a guess: the mean edge where the gain over it is in doubt, else the least cost. In a dense grid that is
- * where it is in the zone, of 5 %; in another one where the gain is below 16 %. */
+/* Times that are a guess: the mean edge where the gain over it is in doubt, else the least cost. In a dense
+ * grid that is where it is in the zone, of 5 %; in another one where the gain is below 16 %. */
 START_TEST(a_guess_prefers_the_mean_edge) {
     vox_primitives held = boxes();
     held.type = VOX_PRIMITIVE_EDGE;
@@ -354,7 +355,8 @@ START_TEST(sizes_from_one_to_a_million) {
     /* As far from 1 as floats go. */
     for (int scale = -1; scale <= 1; scale += 2) {
         for (int i = 0; i < COUNT; ++i)
-            for (int a = 0; a < 6; ++a) wide[i][a / 3][a % 3] = corners[i][a / 3][a % 3] * (scale < 0 ? 1e-30f : 1e30f);
+            for (int a = 0; a < 6; ++a)
+                wide[i][a / 3][a % 3] = corners[i][a / 3][a % 3] * (scale < 0 ? 1e-30f : 1e30f);
         vox_foreign_grid grid = with_held(&held);
         const double unscaled = suggest(&grid).cell_size / (scale < 0 ? 1e-30 : 1e30);
         const vox_primitives plain = boxes();
@@ -430,7 +432,8 @@ START_TEST(bad_grids) {
     memcpy(&none, &unknown, sizeof none);
     ck_fails(vox_foreign_grid_set_known(&known, none), VOX_ERROR_INVALID_ARGUMENT, "known is 77,");
     ck_assert_mem_eq(&known, &before, sizeof known);
-    ck_fails(vox_foreign_grid_set_known(NULL, VOX_KNOWN_GRID_VTK), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    ck_fails(vox_foreign_grid_set_known(NULL, VOX_KNOWN_GRID_VTK), VOX_ERROR_INVALID_ARGUMENT,
+             "grid is null");
 }
 END_TEST
 
@@ -458,7 +461,8 @@ START_TEST(bad_primitives) {
     p.count = UINT64_C(1) << 32;
     primitives_fail(&p, VOX_ERROR_LIMIT, "count is 4294967296,");
     p.count = COUNT + 1;
-    primitives_fail(&p, VOX_ERROR_INVALID_MESH, "1729 primitives of 2 vertices each, but vertex_count is 3456");
+    primitives_fail(&p, VOX_ERROR_INVALID_MESH,
+                    "1729 primitives of 2 vertices each, but vertex_count is 3456");
     p = boxes();
     p.positions = NULL;
     primitives_fail(&p, VOX_ERROR_INVALID_ARGUMENT, "positions is null");
@@ -480,7 +484,8 @@ START_TEST(bad_primitives) {
     p.index_byte_stride = 4;
     primitives_fail(&p, VOX_ERROR_INVALID_ARGUMENT, "index_byte_stride is 4, expected 0 or at least 8");
     p.index_byte_stride = UINT64_MAX / 2;
-    primitives_fail(&p, VOX_ERROR_INVALID_ARGUMENT, "index_byte_stride is 9223372036854775807, too large for 1728 primitives");
+    primitives_fail(&p, VOX_ERROR_INVALID_ARGUMENT,
+                    "index_byte_stride is 9223372036854775807, too large for 1728 primitives");
     p.index_byte_stride = 0;
     indices[100][1] = 2 * COUNT;
     primitives_fail(&p, VOX_ERROR_INVALID_MESH, "primitive 100 names vertex 3456 of 3456");

@@ -400,7 +400,7 @@ END_TEST
 
 SUITE(grid) {
     TCase* tests = add_case(suite, "grid");
-    tcase_add_each(tests, version, result_names, last_error, last_error_of_whole_characters, struct_sizes, grid_desc_fields, null_arguments,
-                   mesh_desc_fields, ids, generations_run_out, user_data, cell_size_is_chosen,
-                   cell_size_without_extent);
+    tcase_add_each(tests, version, result_names, last_error, last_error_of_whole_characters, struct_sizes,
+                   grid_desc_fields, null_arguments, mesh_desc_fields, ids, generations_run_out, user_data,
+                   cell_size_is_chosen, cell_size_without_extent);
 }

@@ -75,8 +75,8 @@ void live(const Scene& scene, const vox_grid_desc& desc, heap::Life& life) {
                                          &count);
         }) &&
         life([&] {
-            return vox_grid_query_points(held.grid, scene.many, VOX_FORMAT_DOUBLE3, 0,
-                                         std::size(scene.many), UINT64_MAX, nullptr, 0, &count);
+            return vox_grid_query_points(held.grid, scene.many, VOX_FORMAT_DOUBLE3, 0, std::size(scene.many),
+                                         UINT64_MAX, nullptr, 0, &count);
         }) &&
         life([&] { return vox_grid_query_box(held.grid, point, far, UINT64_MAX, nullptr, 0, &count); }) &&
         life([&] {

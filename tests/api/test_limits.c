@@ -209,7 +209,8 @@ START_TEST(any_grid) {
     memset(&tuning, 0, sizeof tuning);
     tuning.struct_size = sizeof tuning;
     desc.most_runs = VOX_TUNE_RUN_CAPACITY + 1;
-    ck_fails(vox_cost_tune(&grid, &desc, one_run, &runs, &tuning), VOX_ERROR_INVALID_ARGUMENT, "most_runs is 33");
+    ck_fails(vox_cost_tune(&grid, &desc, one_run, &runs, &tuning), VOX_ERROR_INVALID_ARGUMENT,
+             "most_runs is 33");
     ck_assert_uint_eq(runs, 0);
     desc.most_runs = VOX_TUNE_RUN_CAPACITY;
     desc.wanted_loss = 0;

@@ -67,7 +67,8 @@ static int collide_in(const margin_scene* s, uint32_t a, uint32_t b) {
 static int has_contact(const vox_grid* grid, vox_mesh a, uint32_t vertex, vox_mesh b) {
     const vox_contact_view contacts = contacts_of(grid);
     for (uint64_t i = 0; i < contacts.count; ++i)
-        if (contacts.data[i].mesh_a == a && contacts.data[i].vertex == vertex && contacts.data[i].mesh_b == b) return 1;
+        if (contacts.data[i].mesh_a == a && contacts.data[i].vertex == vertex && contacts.data[i].mesh_b == b)
+            return 1;
     return 0;
 }
 
@@ -100,7 +101,8 @@ static uint64_t check_margin(const margin_scene* s, vox_grid* grid, double margi
                 double length = 0;
                 for (int c = 0; c < 3; ++c) {
                     static const int corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-                    ck_assert_uint_eq(found->face[c], s->bodies[b].tets[4 * hit.tet + (uint32_t)corners[hit.facet][c]]);
+                    ck_assert_uint_eq(found->face[c],
+                                      s->bodies[b].tets[4 * hit.tet + (uint32_t)corners[hit.facet][c]]);
                     ck_assert_double_eq(found->face_weights[c], hit.barycentric[c]);
                     ck_assert(fabs(hit.position[c] + found->distance * found->normal[c] - p[c]) < 1e-6);
                     length += found->normal[c] * found->normal[c];
@@ -193,7 +195,8 @@ START_TEST(filters_and_pairs) {
         ck_ok(vox_grid_step(grid));
         ck_assert_uint_le(check_margin(&s, grid, 0.5), all);
         for (uint32_t i = 0; i < s.count; ++i)
-            for (uint32_t j = i + 1; j < s.count; ++j) ck_ok(vox_grid_set_pair_enabled(grid, s.ids[i], s.ids[j], 0));
+            for (uint32_t j = i + 1; j < s.count; ++j)
+                ck_ok(vox_grid_set_pair_enabled(grid, s.ids[i], s.ids[j], 0));
         ck_ok(vox_grid_step(grid));
         ck_assert_uint_eq(margins_of(grid).count, 0);
         vox_grid_destroy(grid);
@@ -245,7 +248,8 @@ START_TEST(at_rest_and_edited) {
     ck_assert_uint_ge(check_margin(&s, grid, 1), before);
     ck_ok(vox_mesh_remove(grid, s.ids[0]));
     ck_ok(vox_grid_step(grid));
-    for (uint64_t i = 0; i < margins_of(grid).count; ++i) ck_assert_uint_ne(margins_of(grid).data[i].mesh_b, s.ids[0]);
+    for (uint64_t i = 0; i < margins_of(grid).count; ++i)
+        ck_assert_uint_ne(margins_of(grid).data[i].mesh_b, s.ids[0]);
     ck_ok(vox_grid_clear(grid));
     ck_assert_uint_eq(margins_of(grid).count, 0);
     ck_ok(vox_grid_step(grid));
@@ -432,7 +436,8 @@ START_TEST(without_memory) {
 }
 END_TEST
 
-/* The reference engine takes less for its cells where less is left, so the budget shrinks until a step fails. */
+/* The reference engine takes less for its cells where less is left, so the budget shrinks until a step fails.
+ */
 START_TEST(budget) {
     double share = 1;
     uint64_t peak = 0;
@@ -459,11 +464,9 @@ START_TEST(budget) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, as_queries_find_them, boxes_face_to_face, many_small_bodies, filters_and_pairs, at_rest_and_edited,
-                   workers, arguments, after_a_failure, off_releases_its_memory, steady_state_allocates_nothing,
-                   without_memory, budget);
+    tcase_add_each(tests, as_queries_find_them, boxes_face_to_face, many_small_bodies, filters_and_pairs,
+                   at_rest_and_edited, workers, arguments, after_a_failure, off_releases_its_memory,
+                   steady_state_allocates_nothing, without_memory, budget);
 }
 
-SUITE(margin) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(margin) { add_for_each_engine(suite, add_tests); }

@@ -21,7 +21,8 @@ static void* counted_allocate(size_t size, size_t alignment, void* user) {
     ledger* l = (ledger*)user;
     if (++l->calls == l->fail_at) return NULL;
     const size_t head = alignment > sizeof(block) ? alignment : sizeof(block);
-    unsigned char* memory = (unsigned char*)allocate_aligned((head + size + alignment - 1) / alignment * alignment, alignment);
+    unsigned char* memory =
+        (unsigned char*)allocate_aligned((head + size + alignment - 1) / alignment * alignment, alignment);
     ck_assert_ptr_nonnull(memory);
     block* b = (block*)(void*)(memory + head - sizeof(block));
     b->size = size;
@@ -93,7 +94,8 @@ START_TEST(steady_state_allocates_nothing) {
         ck_ok(vox_grid_step(grid));
         const uint64_t calls = l.calls;
         for (int frame = 0; frame < 10; ++frame) {
-            for (uint32_t v = 0; v < other.vertex_count; ++v) other.positions[3 * v] += 0.001f; /* moving apart */
+            for (uint32_t v = 0; v < other.vertex_count; ++v)
+                other.positions[3 * v] += 0.001f; /* moving apart */
             ck_ok(vox_grid_step(grid));
         }
         ck_assert_uint_eq(l.calls, calls);
@@ -151,7 +153,8 @@ START_TEST(allocation_n_fails) {
             l.fail_at = n;
             result = life(&desc, &a, &b, &l, &hash);
             ck_assert(result == VOX_OK || result == VOX_ERROR_OUT_OF_MEMORY);
-            if (n > 2 || result == VOX_OK) ck_assert_uint_eq(hash, expected); /* the first two are the grid itself */
+            if (n > 2 || result == VOX_OK)
+                ck_assert_uint_eq(hash, expected); /* the first two are the grid itself */
             ck_assert_uint_eq(l.bytes, 0);
         }
         ck_assert_uint_gt(n, 10); /* there were allocations to fail */
@@ -256,7 +259,8 @@ static uint64_t bytes_of_contacts(int whole, uint64_t reserved, uint64_t closest
     return held;
 }
 
-/* At most 200 bytes each in a default grid, and with vox_grid_reserve only what vox.h says of closest points. */
+/* At most 200 bytes each in a default grid, and with vox_grid_reserve only what vox.h says of closest points.
+ */
 START_TEST(contacts_in_a_step) {
     enum { each_reserved = 69 + 88, each_searched = 20, with_a_budget = 4, for_vertices = 12 };
     for (int whole = 0; whole < 2; ++whole) {
@@ -333,6 +337,4 @@ static void add_tests(TCase* tests) {
                    budget_is_kept, reserved_contacts, contacts_in_a_step, reserved_room, many_meshes);
 }
 
-SUITE(memory) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(memory) { add_for_each_engine(suite, add_tests); }

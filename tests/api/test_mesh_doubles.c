@@ -287,7 +287,8 @@ START_TEST(suggested_cell_size) {
     s.positions[4] = 1e200;
     write_solid(&s, VOX_FORMAT_DOUBLE3, 24);
     const vox_mesh_desc desc = solid_desc(&s);
-    ck_fails(vox_suggest_cell_size(NULL, &desc, 1, &out[0]), VOX_ERROR_LIMIT, "mesh 0 (user data 0), vertex 1");
+    ck_fails(vox_suggest_cell_size(NULL, &desc, 1, &out[0]), VOX_ERROR_LIMIT,
+             "mesh 0 (user data 0), vertex 1");
     free_solid(&s);
 }
 END_TEST

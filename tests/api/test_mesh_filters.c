@@ -249,9 +249,8 @@ START_TEST(arguments) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, category_mask_and_group, pair_exceptions, disabled_meshes, many_bodies_in_one_place, arguments);
+    tcase_add_each(tests, category_mask_and_group, pair_exceptions, disabled_meshes, many_bodies_in_one_place,
+                   arguments);
 }
 
-SUITE(mesh_filters) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(mesh_filters) { add_for_each_engine(suite, add_tests); }

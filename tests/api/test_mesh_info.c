@@ -240,6 +240,4 @@ START_TEST(arguments) {
 }
 END_TEST
 
-SUITE(mesh_info) {
-    tcase_add_each(add_case(suite, "info"), meshes, fields, tets, loaded, arguments);
-}
+SUITE(mesh_info) { tcase_add_each(add_case(suite, "info"), meshes, fields, tets, loaded, arguments); }

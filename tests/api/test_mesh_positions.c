@@ -194,10 +194,8 @@ START_TEST(mapped_positions_of_nothing) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, bound_in_another_format, refused, no_positions_of_no_vertices,
-                   mapped_positions, mapped_positions_of_nothing);
+    tcase_add_each(tests, bound_in_another_format, refused, no_positions_of_no_vertices, mapped_positions,
+                   mapped_positions_of_nothing);
 }
 
-SUITE(mesh_positions) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(mesh_positions) { add_for_each_engine(suite, add_tests); }

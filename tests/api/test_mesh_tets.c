@@ -218,6 +218,4 @@ static void add_tests(TCase* tests) {
                    snapshot_has_its_own, edit_without_memory_for_the_copy);
 }
 
-SUITE(mesh_tets) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(mesh_tets) { add_for_each_engine(suite, add_tests); }

@@ -12,9 +12,7 @@ static uint64_t state = 1;
 
 static double random_double(double min, double max) { return min + (max - min) * random_unit(&state); }
 
-static vox_mesh insert(vox_grid* grid, const vox_mesh_desc* desc) {
-    return insert_mesh(grid, desc);
-}
+static vox_mesh insert(vox_grid* grid, const vox_mesh_desc* desc) { return insert_mesh(grid, desc); }
 
 static uint64_t count_of(vox_grid* grid) {
     vox_contact_view view = contacts_of(grid);
@@ -326,6 +324,4 @@ static void add_tests(TCase* tests) {
                    over_mapped_positions, cloth_falls_through_a_body, sensors_on_a_tool, points_alone);
 }
 
-SUITE(mesh_transform) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(mesh_transform) { add_for_each_engine(suite, add_tests); }

@@ -1,5 +1,5 @@
-/* Passages: what two bodies that move report, against a search for the roots of all vertices and faces; their life,
- * memory and errors. */
+/* Passages: what two bodies that move report, against a search for the roots of all vertices and faces; their
+ * life, memory and errors. */
 #include <math.h>
 #include <string.h>
 
@@ -50,7 +50,8 @@ typedef struct vector {
 static vector at(const moving_body* m, uint32_t vertex, double t) {
     vector v;
     for (int c = 0; c < 3; ++c)
-        v.x[c] = (1 - t) * m->before[3 * vertex + (uint32_t)c] + t * m->now.positions[3 * vertex + (uint32_t)c];
+        v.x[c] =
+            (1 - t) * m->before[3 * vertex + (uint32_t)c] + t * m->now.positions[3 * vertex + (uint32_t)c];
     return v;
 }
 
@@ -68,8 +69,8 @@ static vector cross_of(vector a, vector b) {
 static double dot_of(vector a, vector b) { return a.x[0] * b.x[0] + a.x[1] * b.x[1] + a.x[2] * b.x[2]; }
 
 /* The corners of a face as seen from a vertex, and their volume. */
-static double seen_volume(const moving_body* a, uint32_t vertex, const moving_body* b, const uint32_t* face, double t,
-                          vector corner[3]) {
+static double seen_volume(const moving_body* a, uint32_t vertex, const moving_body* b, const uint32_t* face,
+                          double t, vector corner[3]) {
     for (int c = 0; c < 3; ++c) corner[c] = minus(at(b, face[c], t), at(a, vertex, t));
     return dot_of(corner[0], cross_of(corner[1], corner[2]));
 }
@@ -126,7 +127,8 @@ static uint32_t list_faces(const body* b, uint32_t* faces) {
     return count;
 }
 
-/* Each vertex that is certainly in a face at some time is reported, not too late; where one is reported, it is. */
+/* Each vertex that is certainly in a face at some time is reported, not too late; where one is reported, it
+ * is. */
 static uint64_t check_passages(const vox_grid* grid, const moving_body* bodies, uint32_t count) {
     const vox_passage_view view = passages_of(grid);
     uint64_t next = 0;
@@ -149,12 +151,14 @@ static uint64_t check_passages(const vox_grid* grid, const moving_body* bodies, 
                 ck_assert_double_le(found->time, first + 1e-14);
                 /* Then the vertex is in the face, up to rounding errors. */
                 vector corner[3];
-                const double volume = seen_volume(&bodies[a], v, &bodies[b], found->face, found->time, corner);
+                const double volume =
+                    seen_volume(&bodies[a], v, &bodies[b], found->face, found->time, corner);
                 ck_assert(fabs(volume) < 1e-9 && lowest_weight(corner) > -1e-9);
                 for (int c = 0; c < 3; ++c) {
                     static const int corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-                    ck_assert_uint_eq(found->face[c],
-                                      bodies[b].now.tets[4 * found->tet + (uint32_t)corners[found->facet][c]]);
+                    ck_assert_uint_eq(
+                        found->face[c],
+                        bodies[b].now.tets[4 * found->tet + (uint32_t)corners[found->facet][c]]);
                 }
                 ++next;
             }
@@ -175,7 +179,8 @@ START_TEST(random_motions) {
             move_body(&b, random_symmetric(&state), random_symmetric(&state), random_symmetric(&state));
             bodies[i] = insert_moving(grid, b);
             /* As a whole, and each vertex as well. */
-            move_body(&bodies[i].now, random_symmetric(&state), random_symmetric(&state), random_symmetric(&state));
+            move_body(&bodies[i].now, random_symmetric(&state), random_symmetric(&state),
+                      random_symmetric(&state));
             if (seed % 2) jitter_body(&bodies[i].now, 0.3, seed + 100);
         }
         ck_ok(vox_grid_step(grid));
@@ -192,7 +197,8 @@ START_TEST(plate_shot_through) {
     vox_grid* grid = engine_grid();
     body plate = make_block(&five_cut, 8, 8, 1);
     for (uint32_t v = 0; v < plate.vertex_count; ++v) plate.positions[3 * v + 2] *= 0.0625f;
-    moving_body bodies[2] = {insert_moving(grid, plate), insert_moving(grid, make_box(1, 0.5f, 3.625f, 3.25f, 2))};
+    moving_body bodies[2] = {insert_moving(grid, plate),
+                             insert_moving(grid, make_box(1, 0.5f, 3.625f, 3.25f, 2))};
     move_body(&bodies[1].now, 0, 0, -4);
     ck_ok(vox_grid_step(grid));
     ck_assert_uint_eq(contacts_of(grid).count, 0);
@@ -214,7 +220,8 @@ START_TEST(plate_shot_through) {
     ck_ok(vox_grid_step(grid));
     ck_assert_uint_eq(passages_of(grid).count, 0);
     /* Without previous positions, nothing moves. */
-    for (int i = 0; i < 2; ++i) ck_ok(vox_mesh_bind_previous_positions(grid, bodies[i].id, NULL, VOX_FORMAT_FLOAT3, 0, 0));
+    for (int i = 0; i < 2; ++i)
+        ck_ok(vox_mesh_bind_previous_positions(grid, bodies[i].id, NULL, VOX_FORMAT_FLOAT3, 0, 0));
     ck_ok(vox_grid_step(grid));
     ck_assert_uint_eq(passages_of(grid).count, 0);
     vox_grid_destroy(grid);
@@ -237,7 +244,8 @@ START_TEST(formats_and_transforms) {
     double* columns = malloc(3 * sizeof(double) * vertices);
     for (uint32_t v = 0; v < vertices; ++v)
         for (uint32_t c = 0; c < 3; ++c) columns[c * vertices + v] = bodies[1].before[3 * v + c];
-    ck_ok(vox_mesh_bind_previous_positions(grid, bodies[1].id, columns, VOX_FORMAT_DOUBLE3, 8, 8 * (uint64_t)vertices));
+    ck_ok(vox_mesh_bind_previous_positions(grid, bodies[1].id, columns, VOX_FORMAT_DOUBLE3, 8,
+                                           8 * (uint64_t)vertices));
     const double down[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -3};
     for (int turn = 0; turn < 2; ++turn) {
         ck_ok(vox_grid_step(grid));
@@ -321,14 +329,14 @@ START_TEST(arguments) {
     vox_passage_view view;
     ck_fails(vox_grid_passages(NULL, &view), VOX_ERROR_INVALID_ARGUMENT, "grid");
     ck_fails(vox_grid_passages(grid, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_view");
-    ck_fails(vox_mesh_bind_previous_positions(NULL, m.id, m.before, VOX_FORMAT_FLOAT3, 0, 0), VOX_ERROR_INVALID_ARGUMENT,
-             "grid");
+    ck_fails(vox_mesh_bind_previous_positions(NULL, m.id, m.before, VOX_FORMAT_FLOAT3, 0, 0),
+             VOX_ERROR_INVALID_ARGUMENT, "grid");
     ck_fails(vox_mesh_bind_previous_positions(grid, m.id + 1, m.before, VOX_FORMAT_FLOAT3, 0, 0),
              VOX_ERROR_INVALID_HANDLE, "mesh");
-    ck_fails(vox_mesh_bind_previous_positions(grid, m.id, m.before, (vox_format)7, 0, 0), VOX_ERROR_INVALID_ARGUMENT,
-             "format");
-    ck_fails(vox_mesh_bind_previous_positions(grid, m.id, m.before, VOX_FORMAT_FLOAT3, 11, 0), VOX_ERROR_INVALID_ARGUMENT,
-             "stride");
+    ck_fails(vox_mesh_bind_previous_positions(grid, m.id, m.before, (vox_format)7, 0, 0),
+             VOX_ERROR_INVALID_ARGUMENT, "format");
+    ck_fails(vox_mesh_bind_previous_positions(grid, m.id, m.before, VOX_FORMAT_FLOAT3, 11, 0),
+             VOX_ERROR_INVALID_ARGUMENT, "stride");
     vox_grid_destroy(grid);
     free_moving(&m);
 }
@@ -382,6 +390,4 @@ static void add_tests(TCase* tests) {
                    appended_vertices_end_it, arguments, workers_and_memory);
 }
 
-SUITE(passages) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(passages) { add_for_each_engine(suite, add_tests); }

@@ -17,7 +17,8 @@ static size_t hits_by_definition(const world* w, const float p[3], uint64_t mask
             if (apart(p, p, corners, 4)) continue;
             const oracle_containment where = oracle_locate(p, corners);
             if (where != ORACLE_INTERIOR && (where != ORACLE_BOUNDARY || interior || count > begin)) continue;
-            if (where == ORACLE_INTERIOR && !interior) count = begin; /* what was on a boundary does not count */
+            if (where == ORACLE_INTERIOR && !interior)
+                count = begin; /* what was on a boundary does not count */
             interior |= where == ORACLE_INTERIOR;
             double weights[4];
             oracle_barycentric(p, corners, weights);
@@ -29,7 +30,8 @@ static size_t hits_by_definition(const world* w, const float p[3], uint64_t mask
     return count;
 }
 
-static void check_hits(const vox_point_hit* found, const vox_point_hit* expected, size_t count, uint32_t point) {
+static void check_hits(const vox_point_hit* found, const vox_point_hit* expected, size_t count,
+                       uint32_t point) {
     for (size_t i = 0; i < count; ++i) {
         ck_assert_uint_eq(found[i].point, point);
         ck_assert_uint_eq(found[i].mesh, expected[i].mesh);
@@ -54,7 +56,8 @@ START_TEST(points_by_definition) {
             for (int axis = 0; axis < 3; ++axis) exact[i][axis] = (double)points[i][axis];
         }
         uint64_t total = 0, count = 0, next = 0;
-        ck_ok(vox_grid_query_points(w.grid, points, VOX_FORMAT_FLOAT3, sizeof points[0], n, mask, together, 16384, &total));
+        ck_ok(vox_grid_query_points(w.grid, points, VOX_FORMAT_FLOAT3, sizeof points[0], n, mask, together,
+                                    16384, &total));
         ck_assert_uint_le(total, 16384);
         for (uint32_t i = 0; i < n; ++i) {
             const size_t wanted = hits_by_definition(&w, points[i], mask, expected);
@@ -64,7 +67,8 @@ START_TEST(points_by_definition) {
             ck_assert_uint_le(next + wanted, total);
             check_hits(together + next, expected, wanted, i);
             for (size_t h = 0; h < wanted; ++h) /* the same bits */
-                ck_assert_mem_eq(together[next + h].barycentric, found[h].barycentric, sizeof found[h].barycentric);
+                ck_assert_mem_eq(together[next + h].barycentric, found[h].barycentric,
+                                 sizeof found[h].barycentric);
             next += wanted;
         }
         ck_assert_uint_eq(next, total);
@@ -113,7 +117,8 @@ START_TEST(boxes_by_definition) {
             random_point(&random, scene % 2, p);
             random_point(&random, scene % 2, q);
             for (int axis = 0; axis < 3; ++axis) {
-                min[axis] = (double)(i % 5 == 0 ? p[axis] : fminf(p[axis], q[axis])); /* a point now and then */
+                min[axis] =
+                    (double)(i % 5 == 0 ? p[axis] : fminf(p[axis], q[axis])); /* a point now and then */
                 max[axis] = (double)(i % 5 == 0 ? p[axis] : fmaxf(p[axis], q[axis]));
                 if (i % 7 == 0) min[axis] = -INFINITY;
                 if (i % 11 == 0) max[axis] = INFINITY;
@@ -161,7 +166,8 @@ START_TEST(as_it_was_when_prepared) {
     vox_mesh other;
     uint64_t count = 77;
     vox_grid* grid = grid_of(&desc);
-    ck_fails(vox_grid_query_point(grid, inside, 1, NULL, 0, &count), VOX_ERROR_INVALID_STATE, "prepare_queries");
+    ck_fails(vox_grid_query_point(grid, inside, 1, NULL, 0, &count), VOX_ERROR_INVALID_STATE,
+             "prepare_queries");
     ck_assert_uint_eq(count, 77);
     ck_ok(vox_grid_prepare_queries(grid)); /* of nothing */
     ck_assert_uint_eq(count_at(grid, inside), 0);
@@ -188,7 +194,8 @@ START_TEST(as_it_was_when_prepared) {
     ck_ok(vox_grid_prepare_queries(grid));
     ck_assert_uint_eq(count_at(grid, far_away), 0);
     ck_ok(vox_grid_clear(grid));
-    ck_fails(vox_grid_query_point(grid, inside, 1, NULL, 0, &count), VOX_ERROR_INVALID_STATE, "prepare_queries");
+    ck_fails(vox_grid_query_point(grid, inside, 1, NULL, 0, &count), VOX_ERROR_INVALID_STATE,
+             "prepare_queries");
     vox_mesh_desc bare = body;
     bare.positions = NULL;
     ck_ok(vox_mesh_insert(grid, &bare, &mesh));
@@ -212,7 +219,8 @@ static void* ask(void* context) {
         float p[3], q[3];
         random_point(&random, 0, p);
         random_point(&random, 0, q);
-        const double from[3] = {(double)p[0], (double)p[1], (double)p[2]}, to[3] = {(double)q[0], (double)q[1], (double)q[2]};
+        const double from[3] = {(double)p[0], (double)p[1], (double)p[2]},
+                     to[3] = {(double)q[0], (double)q[1], (double)q[2]};
         vox_point_hit hits[8];
         vox_surface_hit closest;
         vox_ray_hit ray;
@@ -258,38 +266,49 @@ START_TEST(arguments) {
     const float floats[3] = {1, 1, INFINITY};
     ck_fails(vox_grid_prepare_queries(NULL), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     ck_fails(vox_grid_query_point(NULL, p, 1, &hit, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_grid_query_point(w.grid, NULL, 1, &hit, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "point is null");
+    ck_fails(vox_grid_query_point(w.grid, NULL, 1, &hit, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
+             "point is null");
     ck_fails(vox_grid_query_point(w.grid, p, 1, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "hits is null");
-    ck_fails(vox_grid_query_point(w.grid, p, 1, &hit, 1, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_count is null");
-    ck_fails(vox_grid_query_point(w.grid, nan_point, 1, &hit, 1, &count), VOX_ERROR_NON_FINITE, "point is (0, nan, 0)");
+    ck_fails(vox_grid_query_point(w.grid, p, 1, &hit, 1, NULL), VOX_ERROR_INVALID_ARGUMENT,
+             "out_count is null");
+    ck_fails(vox_grid_query_point(w.grid, nan_point, 1, &hit, 1, &count), VOX_ERROR_NON_FINITE,
+             "point is (0, nan, 0)");
     ck_fails(vox_grid_query_point(w.grid, huge, 1, &hit, 1, &count), VOX_ERROR_LIMIT, "4e+38");
-    ck_fails(vox_grid_query_points(NULL, p, VOX_FORMAT_DOUBLE3, 0, 1, 1, &hit, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
-             "grid is null");
+    ck_fails(vox_grid_query_points(NULL, p, VOX_FORMAT_DOUBLE3, 0, 1, 1, &hit, 1, &count),
+             VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     ck_fails(vox_grid_query_points(w.grid, NULL, VOX_FORMAT_DOUBLE3, 0, 1, 1, &hit, 1, &count),
              VOX_ERROR_INVALID_ARGUMENT, "points is null");
-    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE3, 0, 1, 1, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
-             "hits is null");
-    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE3, 0, 1, 1, &hit, 1, NULL), VOX_ERROR_INVALID_ARGUMENT,
-             "out_count is null");
-    ck_fails(vox_grid_query_points(w.grid, p, (vox_format)7, 0, 1, 1, &hit, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "7");
-    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE3, 23, 1, 1, &hit, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
-             "23");
-    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE3, 24, 1ull << 32, 1, &hit, 1, &count), VOX_ERROR_LIMIT,
-             "4294967296");
-    ck_fails(vox_grid_query_points(w.grid, floats, VOX_FORMAT_FLOAT3, 0, 1, 1, &hit, 1, &count), VOX_ERROR_NON_FINITE,
-             "point 0 is (1, 1, inf)");
+    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE3, 0, 1, 1, NULL, 1, &count),
+             VOX_ERROR_INVALID_ARGUMENT, "hits is null");
+    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE3, 0, 1, 1, &hit, 1, NULL),
+             VOX_ERROR_INVALID_ARGUMENT, "out_count is null");
+    ck_fails(vox_grid_query_points(w.grid, p, (vox_format)7, 0, 1, 1, &hit, 1, &count),
+             VOX_ERROR_INVALID_ARGUMENT, "7");
+    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE3, 23, 1, 1, &hit, 1, &count),
+             VOX_ERROR_INVALID_ARGUMENT, "23");
+    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE3, 24, 1ull << 32, 1, &hit, 1, &count),
+             VOX_ERROR_LIMIT, "4294967296");
+    ck_fails(vox_grid_query_points(w.grid, floats, VOX_FORMAT_FLOAT3, 0, 1, 1, &hit, 1, &count),
+             VOX_ERROR_NON_FINITE, "point 0 is (1, 1, inf)");
     ck_ok(vox_grid_query_points(w.grid, NULL, VOX_FORMAT_FLOAT3, 0, 0, 1, NULL, 0, &count));
     ck_assert_uint_eq(count, 0);
     count = 77;
     ck_fails(vox_grid_query_box(NULL, p, p, 1, &tet, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_grid_query_box(w.grid, NULL, p, 1, &tet, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "min is null");
-    ck_fails(vox_grid_query_box(w.grid, p, NULL, 1, &tet, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "max is null");
-    ck_fails(vox_grid_query_box(w.grid, p, p, 1, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "hits is null");
-    ck_fails(vox_grid_query_box(w.grid, p, p, 1, &tet, 1, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_count is null");
-    ck_fails(vox_grid_query_box(w.grid, p, q, 1, &tet, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "[1, 0] on axis 0");
-    ck_fails(vox_grid_query_box(w.grid, nan_point, q, 1, &tet, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "on axis 1");
+    ck_fails(vox_grid_query_box(w.grid, NULL, p, 1, &tet, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
+             "min is null");
+    ck_fails(vox_grid_query_box(w.grid, p, NULL, 1, &tet, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
+             "max is null");
+    ck_fails(vox_grid_query_box(w.grid, p, p, 1, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
+             "hits is null");
+    ck_fails(vox_grid_query_box(w.grid, p, p, 1, &tet, 1, NULL), VOX_ERROR_INVALID_ARGUMENT,
+             "out_count is null");
+    ck_fails(vox_grid_query_box(w.grid, p, q, 1, &tet, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
+             "[1, 0] on axis 0");
+    ck_fails(vox_grid_query_box(w.grid, nan_point, q, 1, &tet, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
+             "on axis 1");
     ck_fails(vox_grid_query_closest(NULL, p, 1, 1, &surface), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_grid_query_closest(w.grid, NULL, 1, 1, &surface), VOX_ERROR_INVALID_ARGUMENT, "point is null");
+    ck_fails(vox_grid_query_closest(w.grid, NULL, 1, 1, &surface), VOX_ERROR_INVALID_ARGUMENT,
+             "point is null");
     ck_fails(vox_grid_query_closest(w.grid, p, 1, 1, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_hit is null");
     ck_fails(vox_grid_query_closest(w.grid, p, -1, 1, &surface), VOX_ERROR_INVALID_ARGUMENT, "radius is -1");
     ck_fails(vox_grid_query_closest(w.grid, p, NAN, 1, &surface), VOX_ERROR_INVALID_ARGUMENT, "radius is");
@@ -308,6 +327,4 @@ static void add_tests(TCase* tests) {
                    as_it_was_when_prepared, many_threads, arguments);
 }
 
-SUITE(queries) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(queries) { add_for_each_engine(suite, add_tests); }

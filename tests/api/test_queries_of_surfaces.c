@@ -422,7 +422,8 @@ START_TEST(all_hits_by_definition) {
                                 hit = &hits[h];
                         ck_assert_ptr_nonnull(hit);
                         ck_assert_double_le(fabs(hit->t - at), 1e-9);
-                        const int inner = oracle_orientation(triangle[0], triangle[1], triangle[2], corners[facet]);
+                        const int inner =
+                            oracle_orientation(triangle[0], triangle[1], triangle[2], corners[facet]);
                         const int before = oracle_orientation(triangle[0], triangle[1], triangle[2], p);
                         const int after = oracle_orientation(triangle[0], triangle[1], triangle[2], q);
                         const vox_side side = inner == 0                           ? VOX_SIDE_NONE
@@ -433,8 +434,10 @@ START_TEST(all_hits_by_definition) {
                         left += side == VOX_SIDE_LEAVES;
                         for (int axis = 0; axis < 3; ++axis) { /* the weights say where, too */
                             double sum = 0;
-                            for (int c = 0; c < 3; ++c) sum += hit->barycentric[c] * (double)triangle[c][axis];
-                            ck_assert_double_le(fabs(sum - (from[axis] + hit->t * (to[axis] - from[axis]))), 1e-6);
+                            for (int c = 0; c < 3; ++c)
+                                sum += hit->barycentric[c] * (double)triangle[c][axis];
+                            ck_assert_double_le(fabs(sum - (from[axis] + hit->t * (to[axis] - from[axis]))),
+                                                1e-6);
                         }
                     }
                 }
@@ -445,9 +448,10 @@ START_TEST(all_hits_by_definition) {
             all += count;
             for (uint64_t h = 1; h < count; ++h) {
                 const vox_facet_hit *x = &hits[h - 1], *y = &hits[h];
-                const int same_mesh = x->t == y->t && x->mesh == y->mesh, same_tet = same_mesh && x->tet == y->tet;
-                ck_assert(x->t < y->t || (x->t == y->t && x->mesh < y->mesh) || (same_mesh && x->tet < y->tet) ||
-                          (same_tet && x->facet < y->facet));
+                const int same_mesh = x->t == y->t && x->mesh == y->mesh,
+                          same_tet = same_mesh && x->tet == y->tet;
+                ck_assert(x->t < y->t || (x->t == y->t && x->mesh < y->mesh) ||
+                          (same_mesh && x->tet < y->tet) || (same_tet && x->facet < y->facet));
             }
             if (excluded == VOX_NULL_MESH && count > 0) { /* the first one is that of the other query */
                 vox_ray_hit first;
@@ -487,8 +491,10 @@ START_TEST(normals_without_volume) {
     static const struct {
         const float* positions;
         const double *point, normal[3];
-    } cases[] = {{flat, above, {0, 0, -1}}, {flat, below, {0, 0, 1}},
-                 {line, beside, {0, 0, -1}}, {line, on, {0, 0, 1}}};
+    } cases[] = {{flat, above, {0, 0, -1}},
+                 {flat, below, {0, 0, 1}},
+                 {line, beside, {0, 0, -1}},
+                 {line, on, {0, 0, 1}}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; ++i) {
         vox_grid* grid = engine_grid();
         const vox_mesh_desc mesh = vox_mesh_desc_floats(cases[i].positions, 4, unit_tet, 1);
@@ -528,9 +534,11 @@ START_TEST(arguments) {
     ck_fails(vox_grid_query_closest_points(w.grid, NULL, &hit), VOX_ERROR_INVALID_ARGUMENT, "desc is null");
     ck_ok(vox_grid_query_closest_points(w.grid, &desc, NULL)); /* of no points */
     desc.point_count = 2;
-    ck_fails(vox_grid_query_closest_points(w.grid, &desc, &hit), VOX_ERROR_INVALID_ARGUMENT, "points is null");
+    ck_fails(vox_grid_query_closest_points(w.grid, &desc, &hit), VOX_ERROR_INVALID_ARGUMENT,
+             "points is null");
     desc.points = floats;
-    ck_fails(vox_grid_query_closest_points(w.grid, &desc, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_hits is null");
+    ck_fails(vox_grid_query_closest_points(w.grid, &desc, NULL), VOX_ERROR_INVALID_ARGUMENT,
+             "out_hits is null");
     ck_fails(vox_grid_query_closest_points(w.grid, &desc, &hit), VOX_ERROR_NON_FINITE, "point 1 is (1, 1, ");
     desc.point_count = 1;
     desc.points = huge;
@@ -538,7 +546,8 @@ START_TEST(arguments) {
     ck_fails(vox_query_view_closest_points(view, &desc, &hit), VOX_ERROR_LIMIT, "point 0 is (0, 0, 4e+38)");
     desc.points = p;
     desc.max_distance = -1;
-    ck_fails(vox_query_view_closest_points(view, &desc, &hit), VOX_ERROR_INVALID_ARGUMENT, "max_distance is -1");
+    ck_fails(vox_query_view_closest_points(view, &desc, &hit), VOX_ERROR_INVALID_ARGUMENT,
+             "max_distance is -1");
     desc.max_distance = NAN;
     ck_fails(vox_query_view_closest_points(view, &desc, &hit), VOX_ERROR_INVALID_ARGUMENT, "max_distance is");
     desc.max_distance = 1;
@@ -555,15 +564,20 @@ START_TEST(arguments) {
     desc.point_count = 1ull << 32;
     ck_fails(vox_query_view_closest_points(view, &desc, &hit), VOX_ERROR_LIMIT, "4294967296");
 
-    ck_fails(vox_grid_query_ray_hits(NULL, p, p, 1, 0, &facet, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_query_view_ray_hits(NULL, p, p, 1, 0, &facet, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "view is null");
-    ck_fails(vox_grid_query_ray_hits(w.grid, p, huge, 1, 0, &facet, 1, &count), VOX_ERROR_LIMIT, "to is (0, 0, 4e+38)");
+    ck_fails(vox_grid_query_ray_hits(NULL, p, p, 1, 0, &facet, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
+             "grid is null");
+    ck_fails(vox_query_view_ray_hits(NULL, p, p, 1, 0, &facet, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
+             "view is null");
+    ck_fails(vox_grid_query_ray_hits(w.grid, p, huge, 1, 0, &facet, 1, &count), VOX_ERROR_LIMIT,
+             "to is (0, 0, 4e+38)");
     ck_fails(vox_grid_query_ray_hits(w.grid, NULL, p, 1, 0, &facet, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
              "from is null");
-    ck_fails(vox_query_view_ray_hits(view, p, p, 1, 0, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "hits is null");
+    ck_fails(vox_query_view_ray_hits(view, p, p, 1, 0, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
+             "hits is null");
     ck_fails(vox_query_view_ray_hits(view, p, p, 1, 0, &facet, 1, NULL), VOX_ERROR_INVALID_ARGUMENT,
              "out_count is null");
-    ck_fails(vox_grid_query_ray_any(w.grid, nan_point, p, 1, 0, &any), VOX_ERROR_NON_FINITE, "from is (0, nan, 0)");
+    ck_fails(vox_grid_query_ray_any(w.grid, nan_point, p, 1, 0, &any), VOX_ERROR_NON_FINITE,
+             "from is (0, nan, 0)");
     ck_fails(vox_query_view_ray_any(view, p, NULL, 1, 0, &any), VOX_ERROR_INVALID_ARGUMENT, "to is null");
     ck_fails(vox_query_view_ray_any(view, p, p, 1, 0, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_any is null");
     ck_fails(vox_query_view_ray(view, p, nan_point, 1, &ray), VOX_ERROR_NON_FINITE, "to is (0, nan, 0)");
@@ -577,8 +591,9 @@ START_TEST(arguments) {
 }
 END_TEST
 
-/* A batch visits its points in an order of its own; each answer must be that of a call for the point alone. The body is a
- * lattice of cubes, and the points are on half cells, so that most have several closest facets. */
+/* A batch visits its points in an order of its own; each answer must be that of a call for the point alone.
+ * The body is a lattice of cubes, and the points are on half cells, so that most have several closest facets.
+ */
 START_TEST(batches_answer_as_single_calls) {
     enum { cells = 12, corners = cells + 1, n = 2000 };
     static float positions[corners * corners * corners][3];
@@ -631,6 +646,4 @@ static void add_tests(TCase* tests) {
                    all_hits_by_definition, normals_without_volume, batches_answer_as_single_calls, arguments);
 }
 
-SUITE(queries_of_surfaces) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(queries_of_surfaces) { add_for_each_engine(suite, add_tests); }

@@ -1,4 +1,5 @@
-/* Query views: their answers are those of the moment they were taken, whatever happens to the grid, on any thread. */
+/* Query views: their answers are those of the moment they were taken, whatever happens to the grid, on any
+ * thread. */
 #include <pthread.h>
 
 #include "support/ledger.h"
@@ -37,7 +38,8 @@ static uint64_t hash_of_answers(const vox_query_view* view, const vox_grid* grid
         vox_surface_hit closest;
         vox_ray_hit ray;
         uint32_t any = 0;
-#define ASK(what, ...) ck_ok(view ? vox_query_view_##what(view, __VA_ARGS__) : vox_grid_query_##what(grid, __VA_ARGS__))
+#define ASK(what, ...)                                                                                       \
+    ck_ok(view ? vox_query_view_##what(view, __VA_ARGS__) : vox_grid_query_##what(grid, __VA_ARGS__))
         ASK(point, asked[i], UINT64_MAX, points, room, &count);
         add_bytes(&hash, points, (count < room ? count : room) * sizeof *points);
         met += count;
@@ -85,7 +87,8 @@ START_TEST(answers_stay) {
         ck_assert_uint_eq(hash_of_answers(view, NULL), expected);
         ck_ok(vox_grid_step(w.grid));
         ck_assert_uint_eq(hash_of_answers(view, NULL), expected);
-        ck_assert_uint_eq(hash_of_answers(NULL, w.grid), expected); /* a view does not change what was prepared */
+        ck_assert_uint_eq(hash_of_answers(NULL, w.grid),
+                          expected); /* a view does not change what was prepared */
         ck_ok(vox_grid_prepare_queries(w.grid));
         const uint64_t moved = hash_of_answers(NULL, w.grid);
         ck_assert_uint_ne(moved, expected);
@@ -120,7 +123,8 @@ START_TEST(answers_stay) {
 }
 END_TEST
 
-/* Views in use are left alone while those that were released are used again, whatever the meshes are by then. */
+/* Views in use are left alone while those that were released are used again, whatever the meshes are by then.
+ */
 START_TEST(views_side_by_side) {
     enum { most = 4 };
     uint64_t random = 32, expected[most] = {0};
@@ -167,7 +171,8 @@ START_TEST(what_a_view_says_of_itself) {
     ck_ok(vox_query_view_user_data(view, id, &user_data));
     ck_assert_uint_eq(user_data, 1234567890123u);
     ck_fails(vox_query_view_user_data(view, id + 1, &user_data), VOX_ERROR_INVALID_HANDLE, "is none of the");
-    ck_fails(vox_query_view_user_data(view, VOX_NULL_MESH, &user_data), VOX_ERROR_INVALID_HANDLE, "mesh 0 is none");
+    ck_fails(vox_query_view_user_data(view, VOX_NULL_MESH, &user_data), VOX_ERROR_INVALID_HANDLE,
+             "mesh 0 is none");
     ck_assert_uint_eq(user_data, 1234567890123u);
     vox_query_view_release(view);
 
@@ -195,7 +200,8 @@ START_TEST(arguments) {
     ck_fails(vox_grid_take_query_view(w.grid, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_view is null");
     ck_fails(vox_query_view_retain(NULL), VOX_ERROR_INVALID_ARGUMENT, "view is null");
     ck_fails(vox_query_view_epoch(NULL, &number), VOX_ERROR_INVALID_ARGUMENT, "view is null");
-    ck_fails(vox_query_view_user_data(NULL, w.meshes[0], &number), VOX_ERROR_INVALID_ARGUMENT, "view is null");
+    ck_fails(vox_query_view_user_data(NULL, w.meshes[0], &number), VOX_ERROR_INVALID_ARGUMENT,
+             "view is null");
     vox_query_view_release(NULL);
     const float kept = w.bodies[0].positions[4];
     w.bodies[0].positions[4] = NAN;
@@ -210,7 +216,8 @@ START_TEST(arguments) {
     ck_ok(vox_mesh_remove(w.grid, mesh));
     view = take_view(w.grid);
     ck_fails(vox_query_view_epoch(view, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_epoch is null");
-    ck_fails(vox_query_view_user_data(view, w.meshes[0], NULL), VOX_ERROR_INVALID_ARGUMENT, "out_user_data is null");
+    ck_fails(vox_query_view_user_data(view, w.meshes[0], NULL), VOX_ERROR_INVALID_ARGUMENT,
+             "out_user_data is null");
     ck_ok(vox_query_view_retain(view));
     vox_query_view_release(view);
     ck_ok(vox_query_view_epoch(view, &number)); /* one owner is left */
@@ -358,7 +365,8 @@ static void* enqueue(vox_task* task, uint64_t items, uint64_t min_range, void* c
     ++s->enqueued;
     const uint64_t size = min_range > 0 ? min_range : 1;
     for (uint64_t begin = s->loses_items ? size : 0; begin < items; begin += size)
-        task(begin, begin + size < items ? begin + size : items, (uint32_t)(begin / size % s->workers), context);
+        task(begin, begin + size < items ? begin + size : items, (uint32_t)(begin / size % s->workers),
+             context);
     return NULL;
 }
 static void finish(void* handle, void* user) { (void)handle, (void)user; }
@@ -455,7 +463,8 @@ static void* read_views(void* context) {
         if (vox_query_view_point(view, inside, UINT64_MAX, &hit, 1, &count) != VOX_OK || count != 1 ||
             vox_query_view_closest_points(view, &desc, &closest) != VOX_OK || closest.distance != 1 ||
             closest.normal[0] != -1 ||
-            vox_query_view_ray_hits(view, left, right, UINT64_MAX, VOX_NULL_MESH, facets, 8, &facet_count) != VOX_OK ||
+            vox_query_view_ray_hits(view, left, right, UINT64_MAX, VOX_NULL_MESH, facets, 8, &facet_count) !=
+                VOX_OK ||
             facet_count < 2 ||
             vox_query_view_ray_any(view, left, right, UINT64_MAX, closest.mesh, &any) != VOX_OK || any)
             ++r->wrong;
@@ -474,7 +483,8 @@ START_TEST(threads_ask_while_the_grid_steps) {
     body box = make_box(4, 0.25f, 0, 0, 0);
     const body at_zero = make_box(4, 0.25f, 0, 0, 0);
     vox_grid_desc desc = engine_desc();
-    desc.allocator = ledger_allocator(&l); /* which is called by one thread at a time, or the sanitizer complains */
+    desc.allocator =
+        ledger_allocator(&l); /* which is called by one thread at a time, or the sanitizer complains */
     vox_grid* grid = grid_of(&desc);
     const vox_mesh_desc mesh = body_desc(&box);
     vox_mesh id = insert_mesh(grid, &mesh);
@@ -523,6 +533,4 @@ static void add_tests(TCase* tests) {
                    same_for_any_workers, threads_ask_while_the_grid_steps);
 }
 
-SUITE(query_views) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(query_views) { add_for_each_engine(suite, add_tests); }

@@ -440,6 +440,4 @@ static void add_tests(TCase* tests) {
                    task_systems);
 }
 
-SUITE(readings_life) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(readings_life) { add_for_each_engine(suite, add_tests); }

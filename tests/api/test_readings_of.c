@@ -372,6 +372,4 @@ static void add_tests(TCase* tests) {
                    workers);
 }
 
-SUITE(readings_of) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(readings_of) { add_for_each_engine(suite, add_tests); }

@@ -282,6 +282,4 @@ static void add_tests(TCase* tests) {
                    coming_back, bad_positions, bytes_beside_a_bad_body, flags_give_memory_back);
 }
 
-SUITE(small_bodies) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(small_bodies) { add_for_each_engine(suite, add_tests); }

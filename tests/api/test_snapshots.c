@@ -279,6 +279,4 @@ static void add_tests(TCase* tests) {
                    allocation_n_fails);
 }
 
-SUITE(snapshots) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(snapshots) { add_for_each_engine(suite, add_tests); }

@@ -1,5 +1,5 @@
-/* All answers of a surface: where memory runs out, call by call; budgets; the steady state; the caller's tasks and several
- * workers; pieces; what is left untouched; counters. */
+/* All answers of a surface: where memory runs out, call by call; budgets; the steady state; the caller's
+ * tasks and several workers; pieces; what is left untouched; counters. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -72,14 +72,16 @@ static void add(uint64_t* hash, const void* items, uint64_t bytes) {
 
 /* The answers, by number; each adds what it found to `hash`. */
 typedef enum answer { PAIRS, CROSSINGS, CLOSE, CLEARANCE, SAFE_STEP, TIMES, SUGGESTION, ANSWERS } answer;
-static const char* const names[ANSWERS] = {"pairs", "crossings", "close", "clearance", "safe step", "times", "suggestion"};
+static const char* const names[ANSWERS] = {"pairs",     "crossings", "close",     "clearance",
+                                           "safe step", "times",     "suggestion"};
 
 static vox_result ask(vox_surface* surface, int which, uint64_t* hash) {
     vox_result result;
     if (which == PAIRS) {
         for (uint64_t first = 0;;) {
             vox_pair_lists lists = {.struct_size = sizeof lists};
-            result = vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, first, UINT64_MAX, &lists);
+            result =
+                vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, first, UINT64_MAX, &lists);
             if (result != VOX_OK) return result;
             if (lists.count == 0) break;
             for (uint64_t i = 0; i < lists.count; ++i) { /* the same for any pieces */
@@ -225,13 +227,15 @@ START_TEST(no_memory_in_the_steady_state) {
 }
 END_TEST
 
-/* The caller's tasks: they are used, by several workers, with the caller's allocator; what they lose is said. */
+/* The caller's tasks: they are used, by several workers, with the caller's allocator; what they lose is said.
+ */
 typedef struct queue {
     uint64_t enqueued;
     bool loses_items;
 } queue;
 
-static void* run_in_three(vox_task* task, uint64_t item_count, uint64_t min_range, void* context, void* user) {
+static void* run_in_three(vox_task* task, uint64_t item_count, uint64_t min_range, void* context,
+                          void* user) {
     queue* const q = (queue*)user;
     (void)min_range;
     ++q->enqueued;
@@ -356,5 +360,6 @@ SUITE(surface_answers) {
     TCase* tests = add_case(suite, "surface answers");
     tcase_add_loop_test(tests, memory_that_runs_out, 0, ANSWERS);
     tcase_add_loop_test(tests, budgets, 0, ANSWERS);
-    tcase_add_each(tests, no_memory_in_the_steady_state, tasks_of_the_caller, pieces_of_several_kinds, counters);
+    tcase_add_each(tests, no_memory_in_the_steady_state, tasks_of_the_caller, pieces_of_several_kinds,
+                   counters);
 }

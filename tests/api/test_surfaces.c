@@ -1,4 +1,5 @@
-/* Surfaces, motions and pairs: what is refused, in words and with nothing changed; degenerate scenes; memory. */
+/* Surfaces, motions and pairs: what is refused, in words and with nothing changed; degenerate scenes; memory.
+ */
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
@@ -95,8 +96,8 @@ START_TEST(motions_that_are_refused) {
     vox_surface* const surface = surface_from(&desc);
     vox_pair_lists lists;
     lists.struct_size = sizeof lists;
-    ck_fails(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, 0, 1, &lists), VOX_ERROR_INVALID_STATE,
-             "no positions");
+    ck_fails(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, 0, 1, &lists),
+             VOX_ERROR_INVALID_STATE, "no positions");
     vox_motion good = motion_of(crossed, NULL, 6);
     ck_ok(vox_surface_move(surface, &good));
     const uint64_t pairs = lists_of(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE).pair_count;
@@ -107,7 +108,8 @@ START_TEST(motions_that_are_refused) {
     ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "from is null");
     bad = good;
     bad.vertex_count = 7;
-    ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "vertex_count is 7, but the surface has 6");
+    ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT,
+             "vertex_count is 7, but the surface has 6");
     bad = good;
     bad.flags = 2;
     ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "flags");
@@ -120,7 +122,8 @@ START_TEST(motions_that_are_refused) {
     ck_assert_ptr_null(strstr(vox_last_error(), "position_")); /* so do fields of vox_mesh_desc begin */
     bad = good;
     bad.byte_stride = 23;
-    ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT, "byte_stride is 23, expected 0 or at least 24");
+    ck_fails(vox_surface_move(surface, &bad), VOX_ERROR_INVALID_ARGUMENT,
+             "byte_stride is 23, expected 0 or at least 24");
     ck_assert_ptr_null(strstr(vox_last_error(), "position_"));
     bad = good;
     bad.component_byte_stride = 40;
@@ -141,11 +144,14 @@ START_TEST(motions_that_are_refused) {
     for (int i = 0; i < 4; ++i) {
         broken[4] = values[i];
         bad = motion_of(broken, NULL, 6);
-        ck_fails(vox_surface_move(surface, &bad), i < 3 ? VOX_ERROR_NON_FINITE : VOX_ERROR_LIMIT, "from: vertex 1");
+        ck_fails(vox_surface_move(surface, &bad), i < 3 ? VOX_ERROR_NON_FINITE : VOX_ERROR_LIMIT,
+                 "from: vertex 1");
         bad = motion_of(crossed, broken, 6);
-        ck_fails(vox_surface_move(surface, &bad), i < 3 ? VOX_ERROR_NON_FINITE : VOX_ERROR_LIMIT, "to: vertex 1");
+        ck_fails(vox_surface_move(surface, &bad), i < 3 ? VOX_ERROR_NON_FINITE : VOX_ERROR_LIMIT,
+                 "to: vertex 1");
     }
-    ck_assert_uint_eq(lists_of(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE).pair_count, pairs); /* the motion of before */
+    ck_assert_uint_eq(lists_of(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE).pair_count,
+                      pairs); /* the motion of before */
     vox_surface_destroy(surface);
 }
 END_TEST
@@ -158,14 +164,19 @@ START_TEST(questions_that_are_refused) {
     vox_pair_lists lists;
     lists.struct_size = sizeof lists;
     lists.count = 77;
-    ck_fails(vox_surface_pairs(surface, (vox_feature)3, VOX_FEATURE_EDGE, 0, 1, &lists), VOX_ERROR_INVALID_ARGUMENT, "3");
-    ck_fails(vox_surface_pairs(surface, VOX_FEATURE_EDGE, (vox_feature)-1, 0, 1, &lists), VOX_ERROR_INVALID_ARGUMENT, "-1");
-    ck_fails(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 7, 1, &lists), VOX_ERROR_INVALID_ARGUMENT,
-             "first is 7 of 6");
-    ck_fails(vox_surface_pairs(NULL, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, 1, &lists), VOX_ERROR_INVALID_ARGUMENT, "surface");
-    ck_fails(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, 1, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_lists");
+    ck_fails(vox_surface_pairs(surface, (vox_feature)3, VOX_FEATURE_EDGE, 0, 1, &lists),
+             VOX_ERROR_INVALID_ARGUMENT, "3");
+    ck_fails(vox_surface_pairs(surface, VOX_FEATURE_EDGE, (vox_feature)-1, 0, 1, &lists),
+             VOX_ERROR_INVALID_ARGUMENT, "-1");
+    ck_fails(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 7, 1, &lists),
+             VOX_ERROR_INVALID_ARGUMENT, "first is 7 of 6");
+    ck_fails(vox_surface_pairs(NULL, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, 1, &lists),
+             VOX_ERROR_INVALID_ARGUMENT, "surface");
+    ck_fails(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, 1, NULL),
+             VOX_ERROR_INVALID_ARGUMENT, "out_lists");
     ck_assert_uint_eq(lists.count, 77);
-    ck_ok(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 6, 1, &lists)); /* at the end: none */
+    ck_ok(
+        vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 6, 1, &lists)); /* at the end: none */
     ck_assert_uint_eq(lists.count, 0);
     ck_fails(vox_surface_set_cell_size(surface, -1), VOX_ERROR_INVALID_ARGUMENT, "-1");
     ck_fails(vox_surface_set_cell_size(surface, NAN), VOX_ERROR_INVALID_ARGUMENT, "nan");
@@ -185,7 +196,8 @@ START_TEST(questions_that_are_refused) {
 }
 END_TEST
 
-/* Features without a size, twice the same, all in one place, of sizes from 1 to 10^12, at the ends of the range. */
+/* Features without a size, twice the same, all in one place, of sizes from 1 to 10^12, at the ends of the
+ * range. */
 START_TEST(degenerate_scenes) {
     const uint32_t faces[] = {0, 0, 0, 0, 1, 0, 0, 1, 2, 0, 1, 2, 3, 4, 5, 5, 4, 3};
     const uint32_t edges[] = {0, 0, 0, 1, 1, 0, 2, 3, 4, 5, 4, 5};
@@ -259,8 +271,8 @@ START_TEST(suggestions_that_are_refused) {
         motion.radius = radii[i];
         ck_ok(vox_surface_move(surface, &motion));
         vox_foreign_suggestion out = {.struct_size = sizeof out};
-        ck_fails(vox_surface_suggest_cell_size(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, &out), VOX_ERROR_INVALID_ARGUMENT,
-                 i == 0 ? "radius is inf" : "radius is 1e+300");
+        ck_fails(vox_surface_suggest_cell_size(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, &out),
+                 VOX_ERROR_INVALID_ARGUMENT, i == 0 ? "radius is inf" : "radius is 1e+300");
     }
     vox_surface_destroy(surface);
     desc = desc_of(6, NULL, 0);
@@ -268,8 +280,8 @@ START_TEST(suggestions_that_are_refused) {
     motion.radius = 0;
     ck_ok(vox_surface_move(points, &motion));
     vox_foreign_suggestion out = {.struct_size = sizeof out};
-    ck_fails(vox_surface_suggest_cell_size(points, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX, &out), VOX_ERROR_INVALID_ARGUMENT,
-             "no features");
+    ck_fails(vox_surface_suggest_cell_size(points, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX, &out),
+             VOX_ERROR_INVALID_ARGUMENT, "no features");
     vox_surface_destroy(points);
 }
 END_TEST
@@ -444,15 +456,16 @@ static vox_surface* many_in_one_place(uint64_t vertices, uint64_t byte_budget) {
     return surface;
 }
 
-/* What answers as a whole says that it does not fit, with numbers; what was answered before, and the pairs in ranges, are
- * still to be had. */
+/* What answers as a whole says that it does not fit, with numbers; what was answered before, and the pairs in
+ * ranges, are still to be had. */
 START_TEST(answers_beyond_the_budget) {
     enum { n = 3000 };
     vox_surface* const surface = many_in_one_place(n, 4 << 20);
     vox_close_view close;
     close.struct_size = sizeof close;
     close.count = 77;
-    ck_fails(vox_surface_close(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 1, &close), VOX_ERROR_BUDGET, "4194304");
+    ck_fails(vox_surface_close(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 1, &close), VOX_ERROR_BUDGET,
+             "4194304");
     ck_assert_uint_eq(close.count, 77);
     uint64_t pairs = 0;
     for (uint64_t first = 0; first < n;) {
@@ -471,7 +484,8 @@ START_TEST(answers_beyond_the_budget) {
     vox_surface* const tight = many_in_one_place(n, 300 << 10);
     vox_pair_lists lists;
     lists.struct_size = sizeof lists;
-    ck_fails(vox_surface_pairs(tight, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, 1, &lists), VOX_ERROR_BUDGET, "307200");
+    ck_fails(vox_surface_pairs(tight, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, 1, &lists), VOX_ERROR_BUDGET,
+             "307200");
     ck_assert_uint_le(counters_of_surface(tight).peak_bytes, 300 << 10);
     vox_surface_destroy(tight);
 }
@@ -482,7 +496,8 @@ START_TEST(budget_of_answers_that_ended) {
     enum { n = 3000 };
     vox_surface* const surface = many_in_one_place(n, 4 << 20);
     vox_pair_lists lists = {.struct_size = sizeof lists};
-    ck_ok(vox_surface_pairs(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, UINT64_MAX, &lists)); /* fills it */
+    ck_ok(vox_surface_pairs(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, UINT64_MAX,
+                            &lists)); /* fills it */
     ck_assert_uint_gt(counters_of_surface(surface).bytes, 2 << 20);
     double at[3 * n];
     for (int i = 0; i < 3 * n; ++i) at[i] = i;
@@ -518,7 +533,8 @@ START_TEST(a_thousand_million_pairs) {
     ck_assert_uint_le(counters_of_surface(surface).peak_bytes, 64 << 20);
     vox_close_view close;
     close.struct_size = sizeof close;
-    ck_fails(vox_surface_close(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, &close), VOX_ERROR_BUDGET, "67108864");
+    ck_fails(vox_surface_close(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, &close), VOX_ERROR_BUDGET,
+             "67108864");
     vox_surface_destroy(surface);
 }
 END_TEST
@@ -526,7 +542,9 @@ END_TEST
 SUITE(surfaces) {
     tcase_add_test(add_tagged_case(suite, "many", "large"), a_thousand_million_pairs);
     TCase* tests = add_case(suite, "surfaces");
-    tcase_add_each(tests, descriptions_that_are_refused, motions_that_are_refused, questions_that_are_refused, degenerate_scenes,
-                   sizes_beyond_floats, suggestions_that_are_refused, budget_of_answers_that_ended, edges_of_a_surface, times_that_are_given_up,
-                   patches_that_do_not_meet, memory_that_runs_out, no_memory_in_the_steady_state, answers_beyond_the_budget);
+    tcase_add_each(tests, descriptions_that_are_refused, motions_that_are_refused, questions_that_are_refused,
+                   degenerate_scenes, sizes_beyond_floats, suggestions_that_are_refused,
+                   budget_of_answers_that_ended, edges_of_a_surface, times_that_are_given_up,
+                   patches_that_do_not_meet, memory_that_runs_out, no_memory_in_the_steady_state,
+                   answers_beyond_the_budget);
 }

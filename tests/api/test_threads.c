@@ -447,8 +447,8 @@ static vox_result call_view(vox_grid* grid) {
 }
 
 START_TEST(a_defect_in_any_one_task) {
-    /* The scene is large enough that every stage is shared: each defect in each task of each function is found, and
-     * the next call with a sound scheduler gives what it should. */
+    /* The scene is large enough that every stage is shared: each defect in each task of each function is
+     * found, and the next call with a sound scheduler gives what it should. */
     vox_result (*const calls[])(vox_grid*) = {call_step, call_readings, call_queries, call_view};
     const uint32_t least[] = {suite_engine == VOX_ENGINE_FAST ? 8 : 1, 1, 1, 1}; /* tasks there have to be */
     scheduler s;
@@ -473,8 +473,8 @@ START_TEST(a_defect_in_any_one_task) {
                     ck_assert_int_eq(result, VOX_OK);
                     break;
                 }
-                ck_assert_msg(result == VOX_ERROR_INVALID_ARGUMENT, "call %u, defect %u in task %u: %d", call, defect,
-                              at, (int)result);
+                ck_assert_msg(result == VOX_ERROR_INVALID_ARGUMENT, "call %u, defect %u in task %u: %d", call,
+                              defect, at, (int)result);
                 if (call == 0) ck_assert_uint_eq(contacts_of(grid).count, 0);
             }
             ck_assert_msg(at > least[call], "call %u has %u tasks", call, at - 1);
@@ -508,9 +508,8 @@ END_TEST
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, same_for_any_task_system, same_for_any_worker_count, non_finite_is_the_same_vertex,
                    steady_state_allocates_nothing, budget_that_ends_in_a_task, a_bad_mesh_costs_few_tasks,
-                   large_bodies_are_shared, trees_of_many_bodies_are_few_tasks, defective_task_systems, a_defect_in_any_one_task, bad_arguments);
+                   large_bodies_are_shared, trees_of_many_bodies_are_few_tasks, defective_task_systems,
+                   a_defect_in_any_one_task, bad_arguments);
 }
 
-SUITE(threads) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(threads) { add_for_each_engine(suite, add_tests); }

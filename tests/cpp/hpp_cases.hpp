@@ -1,5 +1,6 @@
-// vox.hpp beside vox.h: the same values, errors as exceptions with code and text, moves, views that know when they have
-// ended, temporaries that are refused, callables. Two suites have these cases: checked as C++20, unchecked as C++17.
+// vox.hpp beside vox.h: the same values, errors as exceptions with code and text, moves, views that know when
+// they have ended, temporaries that are refused, callables. Two suites have these cases: checked as C++20,
+// unchecked as C++17.
 #include <Eigen/Geometry>
 
 #include <vox/vox.hpp>
@@ -1034,7 +1035,8 @@ START_TEST(meshes_are_cut_as_in_c) {
 }
 END_TEST
 
-// Boxes of two corners each, triangles as flat indices and as a matrix, tets by their corners: as C is given them.
+// Boxes of two corners each, triangles as flat indices and as a matrix, tets by their corners: as C is given
+// them.
 START_TEST(primitives_are_those_of_c) {
     Stepped with;
     const std::vector<float>& xyz = with.scene.a;
@@ -1043,9 +1045,9 @@ START_TEST(primitives_are_those_of_c) {
     Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor> rows(2, 3);
     rows << 0, 1, 2, 3, 4, 5;
     const Eigen::MatrixXi columns = rows;
-    for (const vox_primitives& found :
-         {vox::primitives(VOX_PRIMITIVE_TRIANGLE, xyz, flat), vox::primitives(VOX_PRIMITIVE_TRIANGLE, xyz, triples),
-          vox::primitives(VOX_PRIMITIVE_TRIANGLE, xyz, rows)}) {
+    for (const vox_primitives& found : {vox::primitives(VOX_PRIMITIVE_TRIANGLE, xyz, flat),
+                                        vox::primitives(VOX_PRIMITIVE_TRIANGLE, xyz, triples),
+                                        vox::primitives(VOX_PRIMITIVE_TRIANGLE, xyz, rows)}) {
         ck_assert_int_eq(found.type, VOX_PRIMITIVE_TRIANGLE);
         ck_assert_ptr_eq(found.positions, xyz.data());
         ck_assert_uint_eq(found.vertex_count, 64);
@@ -1062,13 +1064,15 @@ START_TEST(primitives_are_those_of_c) {
            "3 for each primitive, expected 4");
     throws([&] { (void)vox::primitives(VOX_PRIMITIVE_TET, xyz, flat); }, VOX_ERROR_INVALID_ARGUMENT,
            "6 vertices are not 4 for each");
-    throws([&] { (void)vox::primitives(VOX_PRIMITIVE_TRIANGLE, xyz); }, VOX_ERROR_INVALID_ARGUMENT, "64 vertices");
+    throws([&] { (void)vox::primitives(VOX_PRIMITIVE_TRIANGLE, xyz); }, VOX_ERROR_INVALID_ARGUMENT,
+           "64 vertices");
     static_assert(!std::is_constructible_v<vox::borrowed_indices, std::vector<std::uint32_t>>);
     static_assert(std::is_constructible_v<vox::borrowed_indices, vox::span<const std::uint32_t>>);
     static_assert(!std::is_constructible_v<vox::borrowed_indices, const std::vector<float>&>);
     // None are given, which is not the same as that none are needed.
     const vox_primitives none = vox::primitives(VOX_PRIMITIVE_EDGE, xyz, vox::span<const std::uint32_t>());
-    throws([&] { (void)vox::suggest_for(vox::foreign_grid(none)); }, VOX_ERROR_INVALID_ARGUMENT, "count is 0");
+    throws([&] { (void)vox::suggest_for(vox::foreign_grid(none)); }, VOX_ERROR_INVALID_ARGUMENT,
+           "count is 0");
 }
 END_TEST
 
@@ -1098,10 +1102,15 @@ START_TEST(cell_sizes_of_any_grid_equal_those_of_c) {
     ck_ok(vox_cost_fit(&grid, timings.data(), timings.size(), &fit));
     const vox_grid_fit fitted = vox::cost_fit(grid, timings);
     ck_assert_mem_eq(&fitted, &fit, sizeof fit);
-    throws([&] { (void)vox::cost_fit(grid, {timings.data(), 2}); }, VOX_ERROR_INVALID_ARGUMENT, "2 different");
+    throws(
+        [&] {
+            (void)vox::cost_fit(grid, {timings.data(), 2});
+        },
+        VOX_ERROR_INVALID_ARGUMENT, "2 different");
 
     vox_tuning tuning = sized_struct<vox_tuning>();
-    ck_ok(vox_cost_tune(&grid, nullptr, [](double d, void*) { return 1e-3 * (d + 1 / d); }, nullptr, &tuning));
+    ck_ok(vox_cost_tune(
+        &grid, nullptr, [](double d, void*) { return 1e-3 * (d + 1 / d); }, nullptr, &tuning));
     const vox_tuning tuned = vox::cost_tune(&grid, run);
     ck_assert_mem_eq(&tuned, &tuning, sizeof tuning);
     ck_assert_uint_eq(vox::runs(tuned).size(), tuning.run_count);

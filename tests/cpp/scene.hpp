@@ -1,4 +1,5 @@
-// What the tests of the C++ headers share: two boxes in contact as vectors, and a grid of them made by C calls alone.
+// What the tests of the C++ headers share: two boxes in contact as vectors, and a grid of them made by C
+// calls alone.
 #ifndef VOX_TESTS_CPP_SCENE_HPP
 #define VOX_TESTS_CPP_SCENE_HPP
 

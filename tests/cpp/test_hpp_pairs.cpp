@@ -22,7 +22,8 @@ START_TEST(what_c_answers) {
     const vox::pair_lists lists = surface.pairs(VOX_FEATURE_EDGE, VOX_FEATURE_FACE);
     vox_pair_lists raw;
     raw.struct_size = sizeof raw;
-    std::vector<std::uint32_t> partners(lists.partners().data(), lists.partners().data() + lists.pair_count());
+    std::vector<std::uint32_t> partners(lists.partners().data(),
+                                        lists.partners().data() + lists.pair_count());
     ck_ok(vox_surface_pairs(surface.get(), VOX_FEATURE_EDGE, VOX_FEATURE_FACE, 0, 6, &raw));
     ck_assert_uint_eq(lists.size(), 6);
     ck_assert_uint_eq(partners.size(), raw.pair_count);
@@ -58,11 +59,13 @@ END_TEST
 
 START_TEST(motions) {
     // The second triangle falls onto the first one.
-    std::vector<std::array<float, 3>> from = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.2f, .2f, 1}, {.4f, .2f, 1}, {.2f, .4f, 1}},
+    std::vector<std::array<float, 3>> from = {{0, 0, 0},     {1, 0, 0},     {0, 1, 0},
+                                              {.2f, .2f, 1}, {.4f, .2f, 1}, {.2f, .4f, 1}},
                                       to = from;
     for (std::size_t v = 3; v < 6; ++v) to[v][2] = -1;
     vox::surface surface(6, faces);
-    throws([&] { surface.pairs(VOX_FEATURE_EDGE, VOX_FEATURE_FACE); }, VOX_ERROR_INVALID_STATE, "no positions");
+    throws([&] { surface.pairs(VOX_FEATURE_EDGE, VOX_FEATURE_FACE); }, VOX_ERROR_INVALID_STATE,
+           "no positions");
     surface.move(from, to, 0.01, VOX_MOTION_CULL);
     const vox_safe_step step = surface.safe_step();
     ck_assert(step.step > 0.4 && step.step <= 0.5);
@@ -73,16 +76,22 @@ START_TEST(motions) {
     closer.slack = 1e-6;
     ck_assert_double_gt(surface.safe_step(closer).step, step.step);
     throws([&] { surface.move(from, crossed); }, VOX_ERROR_INVALID_ARGUMENT, "differ");
-    throws([&] { surface.move(from, std::vector<std::array<float, 3>>(5)); }, VOX_ERROR_INVALID_ARGUMENT, "to has 5");
+    throws([&] { surface.move(from, std::vector<std::array<float, 3>>(5)); }, VOX_ERROR_INVALID_ARGUMENT,
+           "to has 5");
     throws([&] { surface.move(std::vector<double>(17)); }, VOX_ERROR_INVALID_ARGUMENT, "17 numbers");
     throws([&] { surface.move(std::vector<double>(15)); }, VOX_ERROR_INVALID_ARGUMENT, "vertex_count is 5");
-    throws([&] { vox::surface(6, std::vector<std::uint32_t>{0, 1}); }, VOX_ERROR_INVALID_ARGUMENT, "2 indices");
+    throws(
+        [&] {
+            vox::surface(6, std::vector<std::uint32_t>{0, 1});
+        },
+        VOX_ERROR_INVALID_ARGUMENT, "2 indices");
     throws([&] { vox::surface(5, faces); }, VOX_ERROR_INVALID_MESH, "vertex 5 of 5");
 }
 END_TEST
 
 START_TEST(ownership) {
-    static_assert(!std::is_copy_constructible_v<vox::surface> && std::is_nothrow_move_constructible_v<vox::surface>);
+    static_assert(!std::is_copy_constructible_v<vox::surface> &&
+                  std::is_nothrow_move_constructible_v<vox::surface>);
     vox_surface_desc desc = vox_default_surface_desc();
     desc.vertex_count = 6;
     desc.faces = faces.data();

@@ -96,6 +96,4 @@ END_TEST
 
 } // namespace
 
-SUITE(hpp_results) {
-    tcase_add_each(add_case(suite, "all"), values_and_errors, ended_views_say_so);
-}
+SUITE(hpp_results) { tcase_add_each(add_case(suite, "all"), values_and_errors, ended_views_say_so); }

@@ -186,7 +186,8 @@ private:
             grid_ = vox::grid::load(array<std::byte>(call["bytes"], call["size"]));
         } else if (name == "suggest") {
             suggest(call);
-        } else if (name == "suggest_for" || name == "count_for" || name == "cost_fit" || name == "cost_tune") {
+        } else if (name == "suggest_for" || name == "count_for" || name == "cost_fit" ||
+                   name == "cost_tune") {
             foreign(name, call);
         } else {
             ck_abort_msg("a call that is not known: %s", place_.c_str());
@@ -312,9 +313,9 @@ private:
     void check_answer(const json& call, const A& found) const {
         check(call, "warnings", found.warnings);
         check(call, "note", found.note);
-        check_near(call, {{"cell_size", found.cell_size},
-                          {"zone_min", found.zone_min},
-                          {"zone_max", found.zone_max}});
+        check_near(
+            call,
+            {{"cell_size", found.cell_size}, {"zone_min", found.zone_min}, {"zone_max", found.zone_max}});
     }
 
     void foreign(const std::string& name, const json& call) const {
@@ -350,7 +351,8 @@ private:
         } else if (name == "count_for") {
             const vox_grid_work w = vox::count_for(grid, call["at"]);
             const double counts[] = {w.entries, w.visits, w.empty, w.reads, w.occupied, w.cells};
-            for (std::size_t i = 0; i < std::size(counts); ++i) check_near(call["work"][i], "work", counts[i]);
+            for (std::size_t i = 0; i < std::size(counts); ++i)
+                check_near(call["work"][i], "work", counts[i]);
         } else if (name == "cost_fit") {
             std::vector<vox_grid_timing> timings;
             for (const json& timing : call["timings"]) timings.push_back({timing[0], timing[1]});
@@ -375,7 +377,8 @@ private:
             check_near(call, {{"seconds", found.seconds}});
             const auto runs = vox::runs(found);
             ck_assert_uint_eq(runs.size(), call["runs"].size());
-            for (std::size_t i = 0; i < runs.size(); ++i) check_near(call["runs"][i], "runs", runs[i].cell_size);
+            for (std::size_t i = 0; i < runs.size(); ++i)
+                check_near(call["runs"][i], "runs", runs[i].cell_size);
         }
     }
 };
@@ -403,6 +406,4 @@ END_TEST
 
 } // namespace
 
-SUITE(hpp_vectors) {
-    tcase_add_each(add_case(suite, "all"), the_same_as_in_every_language);
-}
+SUITE(hpp_vectors) { tcase_add_each(add_case(suite, "all"), the_same_as_in_every_language); }

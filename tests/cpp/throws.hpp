@@ -8,7 +8,8 @@
 
 #include "support/suite.h" // last: it defines macros with common names
 
-// The call throws vox::error with this result, and these words in its text, which is that of vox_last_error().
+// The call throws vox::error with this result, and these words in its text, which is that of
+// vox_last_error().
 template <class F>
 void throws(F&& call, vox_result result, const char* words) {
     try {

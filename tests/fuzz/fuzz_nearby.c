@@ -1,6 +1,6 @@
-/* libFuzzer target: edge contacts, margin contacts and passages of a grid. The bytes are a few small bodies and where they
- * were before. Both engines find the same, in canonical order and in range, in the first step and in one in which some
- * stand still; nothing of it changes the contacts. */
+/* libFuzzer target: edge contacts, margin contacts and passages of a grid. The bytes are a few small bodies
+ * and where they were before. Both engines find the same, in canonical order and in range, in the first step
+ * and in one in which some stand still; nothing of it changes the contacts. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -41,7 +41,8 @@ static scene read_scene(bytes* b) {
         for (uint32_t i = 0; i < 4 * body->tets; ++i) body->corners[i] = next(b) % body->vertices;
         for (uint32_t i = 0; i < 3 * body->vertices; ++i) {
             body->now[i] = scale * ((float)(next(b) & 31) - 16) / 4;
-            body->before[i] = body->moves ? body->now[i] + scale * ((float)(next(b) & 15) - 8) / 4 : body->now[i];
+            body->before[i] =
+                body->moves ? body->now[i] + scale * ((float)(next(b) & 15) - 8) / 4 : body->now[i];
         }
     }
     return s;
@@ -63,7 +64,8 @@ static vox_grid* grid_of(scene* s, vox_engine engine, int nearby, vox_mesh ids[m
         mesh.flags = body->flags;
         demand(vox_mesh_insert(grid, &mesh, &ids[k]) == VOX_OK);
         if (nearby && body->moves)
-            demand(vox_mesh_bind_previous_positions(grid, ids[k], body->before, VOX_FORMAT_FLOAT3, 0, 0) == VOX_OK);
+            demand(vox_mesh_bind_previous_positions(grid, ids[k], body->before, VOX_FORMAT_FLOAT3, 0, 0) ==
+                   VOX_OK);
     }
     return grid;
 }
@@ -86,7 +88,8 @@ static void sort3(uint32_t v[3]) {
 }
 
 static void key_of(const vox_edge_contact* c, uint32_t key[7]) {
-    const uint32_t all[7] = {c->mesh_a, c->edge[0], c->edge[1], c->mesh_b, c->face[0], c->face[1], c->face[2]};
+    const uint32_t all[7] = {c->mesh_a,  c->edge[0], c->edge[1], c->mesh_b,
+                             c->face[0], c->face[1], c->face[2]};
     memcpy(key, all, sizeof all);
     sort3(key + 4);
 }
@@ -145,17 +148,20 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     bytes b = {data, size};
     scene s = read_scene(&b);
     vox_mesh ids[most_bodies];
-    vox_grid *const plain = grid_of(&s, VOX_ENGINE_FAST, 0, ids), *const fast = grid_of(&s, VOX_ENGINE_FAST, 1, ids),
-             *const reference = grid_of(&s, VOX_ENGINE_REFERENCE, 1, ids);
+    vox_grid *const plain = grid_of(&s, VOX_ENGINE_FAST, 0, ids),
+                    *const fast = grid_of(&s, VOX_ENGINE_FAST, 1, ids),
+                    *const reference = grid_of(&s, VOX_ENGINE_REFERENCE, 1, ids);
     for (int step = 0; step < 3; ++step) {
         const vox_result result = vox_grid_step(fast);
         demand(vox_grid_step(reference) == result && vox_grid_step(plain) == result);
-        demand(result == VOX_OK || result == VOX_ERROR_BUDGET || result == VOX_ERROR_LIMIT || result == VOX_ERROR_NON_FINITE);
+        demand(result == VOX_OK || result == VOX_ERROR_BUDGET || result == VOX_ERROR_LIMIT ||
+               result == VOX_ERROR_NON_FINITE);
         if (result != VOX_OK) break;
         check(fast, &s);
         check_same(fast, reference, s.margin > 0);
         uint64_t with = 0, without = 1;
-        demand(vox_grid_hash(fast, &with) == VOX_OK && vox_grid_hash(plain, &without) == VOX_OK && with == without);
+        demand(vox_grid_hash(fast, &with) == VOX_OK && vox_grid_hash(plain, &without) == VOX_OK &&
+               with == without);
         demand(vox_grid_prepare_edge_depths(fast) == VOX_OK);
         if (step == 0) /* then one of them moves, and the others stand still */
             for (uint32_t i = 0; i < 3 * s.bodies[0].vertices; ++i) {

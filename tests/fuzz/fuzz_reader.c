@@ -1,5 +1,6 @@
-/* libFuzzer target: one reader of vox_io, that of the files whose extension the environment names (FUZZ_EXTENSION=msh). Whatever
- * comes in, it gives an error or a sound mesh; a mesh that was read can be written and read back. */
+/* libFuzzer target: one reader of vox_io, that of the files whose extension the environment names
+ * (FUZZ_EXTENSION=msh). Whatever comes in, it gives an error or a sound mesh; a mesh that was read can be
+ * written and read back. */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
-/* libFuzzer target: vox_grid_load. Whatever comes in, it gives an error or a sound grid: one that can be stepped, saved
- * and loaded again, with the same contacts. The input is tried as it is, and with its size and checksum put right, or
- * nothing would get past them. */
+/* libFuzzer target: vox_grid_load. Whatever comes in, it gives an error or a sound grid: one that can be
+ * stepped, saved and loaded again, with the same contacts. The input is tried as it is, and with its size and
+ * checksum put right, or nothing would get past them. */
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
-/* libFuzzer target: vox_pairs.h. The bytes are a small surface, its motion and a budget. Pairs are those of a loop over all
- * boxes, in ascending order, whatever the budget and the cell size; what is culled is one of them; all other answers are
- * in order and in range. */
+/* libFuzzer target: vox_pairs.h. The bytes are a small surface, its motion and a budget. Pairs are those of a
+ * loop over all boxes, in ascending order, whatever the budget and the cell size; what is culled is one of
+ * them; all other answers are in order and in range. */
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
@@ -27,7 +27,8 @@ static double coordinate(bytes* b, double scale) {
 }
 
 static scene read_scene(bytes* b) {
-    static const double scales[] = {1, 1, 1e-30, 1e30, 1e-300, 1e6, 1, 0.1}, mixed[] = {1, 1e-40, 1e8, 1.7e38};
+    static const double scales[] = {1, 1, 1e-30, 1e30, 1e-300, 1e6, 1, 0.1},
+                        mixed[] = {1, 1e-40, 1e8, 1.7e38};
     scene s;
     memset(&s, 0, sizeof s);
     const uint32_t how = next(b);
@@ -122,7 +123,8 @@ static int make_a_pair(const scene* s, int a, uint32_t i, int b, uint32_t j) {
     int may_meet = !s->has_patches;
     for (int c = 0; c <= a; ++c)
         for (int d = 0; d <= b; ++d) {
-            const uint32_t v = s->corners[a][i * (uint32_t)(a + 1) + (uint32_t)c], w = s->corners[b][j * (uint32_t)(b + 1) + (uint32_t)d];
+            const uint32_t v = s->corners[a][i * (uint32_t)(a + 1) + (uint32_t)c],
+                           w = s->corners[b][j * (uint32_t)(b + 1) + (uint32_t)d];
             if (v == w) return 0;
             may_meet |= (s->categories[s->patches[v]] & s->masks[s->patches[w]]) != 0 &&
                         (s->categories[s->patches[w]] & s->masks[s->patches[v]]) != 0;
@@ -135,7 +137,8 @@ static void check_pairs(vox_surface* surface, const scene* s, int a, int b, uint
     for (uint64_t first = 0; first < s->counts[a];) {
         vox_pair_lists lists;
         lists.struct_size = sizeof lists;
-        const vox_result result = vox_surface_pairs(surface, (vox_feature)a, (vox_feature)b, first, step, &lists);
+        const vox_result result =
+            vox_surface_pairs(surface, (vox_feature)a, (vox_feature)b, first, step, &lists);
         if (result == VOX_ERROR_BUDGET) return;
         demand(result == VOX_OK);
         demand(lists.first == first && lists.count >= 1 && lists.count <= step && lists.offsets[0] == 0);
@@ -164,7 +167,8 @@ static int answered(vox_result result, int has_budget) {
     return result == VOX_OK;
 }
 
-static void check_answers(vox_surface* surface, const scene* s, const vox_contact_time_desc* rule, int has_budget) {
+static void check_answers(vox_surface* surface, const scene* s, const vox_contact_time_desc* rule,
+                          int has_budget) {
     vox_crossing_view crossings;
     crossings.struct_size = sizeof crossings;
     if (!answered(vox_surface_crossings(surface, &crossings), has_budget)) crossings.count = 0;
@@ -180,7 +184,9 @@ static void check_answers(vox_surface* surface, const scene* s, const vox_contac
     for (int k = 0; k < 6; ++k) {
         vox_close_view close;
         close.struct_size = sizeof close;
-        if (!answered(vox_surface_close(surface, (vox_feature)kinds[k][0], (vox_feature)kinds[k][1], distance, &close), has_budget))
+        if (!answered(vox_surface_close(surface, (vox_feature)kinds[k][0], (vox_feature)kinds[k][1], distance,
+                                        &close),
+                      has_budget))
             continue;
         for (uint64_t i = 0; i < close.count; ++i) {
             const vox_close_pair* c = &close.pairs[i];
@@ -201,7 +207,9 @@ static void check_answers(vox_surface* surface, const scene* s, const vox_contac
     for (int k = 0; k < 2; ++k) {
         vox_timed_view times;
         times.struct_size = sizeof times;
-        if (!answered(vox_surface_contact_times(surface, (vox_feature)kinds[k][0], (vox_feature)kinds[k][1], rule, &times), has_budget)) {
+        if (!answered(vox_surface_contact_times(surface, (vox_feature)kinds[k][0], (vox_feature)kinds[k][1],
+                                                rule, &times),
+                      has_budget)) {
             all_there = 0;
             continue;
         }
@@ -217,14 +225,18 @@ static void check_answers(vox_surface* surface, const scene* s, const vox_contac
     for (int kind = 1; kind < 3; ++kind) {
         vox_feature_view view;
         view.struct_size = sizeof view;
-        demand(vox_surface_features(surface, (vox_feature)kind, &view) == VOX_OK && view.count == s->counts[kind]);
-        demand(memcmp(view.vertices, s->corners[kind], s->counts[kind] * view.vertices_each * sizeof(uint32_t)) == 0);
+        demand(vox_surface_features(surface, (vox_feature)kind, &view) == VOX_OK &&
+               view.count == s->counts[kind]);
+        demand(memcmp(view.vertices, s->corners[kind],
+                      s->counts[kind] * view.vertices_each * sizeof(uint32_t)) == 0);
     }
     vox_foreign_suggestion suggestion;
     suggestion.struct_size = sizeof suggestion;
-    const vox_result suggested = vox_surface_suggest_cell_size(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, &suggestion);
+    const vox_result suggested =
+        vox_surface_suggest_cell_size(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, &suggestion);
     if (suggested == VOX_OK)
-        demand(suggestion.cell_size > 0 && vox_surface_set_cell_size(surface, suggestion.cell_size) == VOX_OK);
+        demand(suggestion.cell_size > 0 &&
+               vox_surface_set_cell_size(surface, suggestion.cell_size) == VOX_OK);
     else /* boxes without an end */
         demand((has_budget && suggested == VOX_ERROR_BUDGET) || suggested == VOX_ERROR_INVALID_ARGUMENT);
 }

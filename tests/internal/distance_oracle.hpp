@@ -35,11 +35,13 @@ inline long double oracle_distance(const std::vector<Long3>& a, const std::vecto
     if (a.size() == 2 && b.size() == 1) return to_segment(b[0], a[0], a[1]);
     if (a.size() == 3) {
         const Long3 p = b[0];
-        long double least = std::min({to_segment(p, a[0], a[1]), to_segment(p, a[1], a[2]), to_segment(p, a[2], a[0])});
+        long double least =
+            std::min({to_segment(p, a[0], a[1]), to_segment(p, a[1], a[2]), to_segment(p, a[2], a[0])});
         const Long3 n = cross(a[1] - a[0], a[2] - a[0]);
         const long double nn = dot(n, n);
         if (nn > 0) {
-            const long double v = dot(cross(p - a[0], a[2] - a[0]), n) / nn, w = dot(cross(a[1] - a[0], p - a[0]), n) / nn;
+            const long double v = dot(cross(p - a[0], a[2] - a[0]), n) / nn,
+                              w = dot(cross(a[1] - a[0], p - a[0]), n) / nn;
             if (v >= 0 && w >= 0 && v + w <= 1)
                 least = std::min(least, norm(p - a[0] - (a[1] - a[0]) * v - (a[2] - a[0]) * w));
         }

@@ -23,7 +23,8 @@ inline double feature_distance(const Vec3d (&p)[4], bool edges) {
     const double nn = dot(n, n);
     if (nn > 1e-18 * dot(u, u) * dot(v, v)) {
         const double s = dot(cross(v, w), n) / nn, t = dot(cross(u, w), n) / nn;
-        if (s >= 0 && s <= 1 && t >= 0 && t <= 1) least = std::min(least, std::abs(dot(w, n)) / std::sqrt(nn));
+        if (s >= 0 && s <= 1 && t >= 0 && t <= 1)
+            least = std::min(least, std::abs(dot(w, n)) / std::sqrt(nn));
     }
     return least;
 }

@@ -172,7 +172,8 @@ START_TEST(met_boxes_are_those_of_pairs) {
             continue;
         }
         for (const auto& [a, b] : by_definition(boxes, {})) expected[a] = 1;
-        ck_assert_msg(std::equal(found.begin(), found.end(), expected.begin(), expected.end()), "round %d", round);
+        ck_assert_msg(std::equal(found.begin(), found.end(), expected.begin(), expected.end()), "round %d",
+                      round);
         for (const std::uint8_t one : found) ++(one ? met : lone);
     }
     ck_assert_uint_gt(lone, 10000);

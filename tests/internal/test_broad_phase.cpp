@@ -371,10 +371,10 @@ START_TEST(sides_of_many_boxes) {
             fast::find_sides(boxes.data(), count, region, sides.data());
             const std::uint64_t overlaps = fast::find_overlaps(boxes.data(), count, region);
             for (std::uint32_t i = 0; i < count; ++i) {
-                ck_assert_msg(sides[i] == sides_of(boxes[i], region), "%s: box %u of %u: sides %x",
-                              level, i, count, unsigned{sides[i]});
-                ck_assert_msg((overlaps >> i & 1) == overlap(boxes[i], region), "%s: box %u of %u",
-                              level, i, count);
+                ck_assert_msg(sides[i] == sides_of(boxes[i], region), "%s: box %u of %u: sides %x", level, i,
+                              count, unsigned{sides[i]});
+                ck_assert_msg((overlaps >> i & 1) == overlap(boxes[i], region), "%s: box %u of %u", level, i,
+                              count);
                 overlapping += overlaps >> i & 1;
             }
             for (std::uint32_t most = 0; most < 40; ++most) { // few, as many have hardly a side in common
@@ -429,17 +429,19 @@ START_TEST(boxes_side_by_side) {
             for (std::uint32_t f = 0; f < face_count; ++f) face_lanes.set(f, faces.emplace_back(box()));
             const auto faces_met = [&](const Box& by) {
                 std::uint32_t met = 0;
-                for (std::uint32_t f = 0; f < face_count; ++f) met |= std::uint32_t{overlap(faces[f], by)} << f;
+                for (std::uint32_t f = 0; f < face_count; ++f)
+                    met |= std::uint32_t{overlap(faces[f], by)} << f;
                 return met;
             };
             std::array<EdgeFaces, SurfaceTile::most_edges> found;
-            const std::uint32_t count = find_edge_faces(edge_lanes, edge_count, around_edges, face_lanes, face_count, found.data());
+            const std::uint32_t count =
+                find_edge_faces(edge_lanes, edge_count, around_edges, face_lanes, face_count, found.data());
             std::uint32_t next = 0;
             for (std::uint32_t e = 0; e < edge_count; ++e) {
                 const std::uint32_t met = faces_met(edges[e]);
                 if (met == 0) continue;
-                ck_assert_msg(next < count && found[next].edge == e && found[next].faces == met, "%s: edge %u of %u, %u faces",
-                              level, e, edge_count, face_count);
+                ck_assert_msg(next < count && found[next].edge == e && found[next].faces == met,
+                              "%s: edge %u of %u, %u faces", level, e, edge_count, face_count);
                 ++next;
             }
             ck_assert_uint_eq(next, count);
@@ -458,6 +460,6 @@ END_TEST
 SUITE(broad_phase) {
     TCase* tests = add_case(suite, "broad_phase");
     tcase_add_each(tests, regions_hold_what_may_be_in_contact, filters_and_bodies_at_rest_leave_pairs_out,
-                   workers_find_the_same, common_sides_are_those_of_the_box_around,
-                   sides_of_many_boxes, boxes_side_by_side);
+                   workers_find_the_same, common_sides_are_those_of_the_box_around, sides_of_many_boxes,
+                   boxes_side_by_side);
 }

@@ -1,8 +1,8 @@
 // Times of contact that are known exactly, or checked by samples: never late, and not too early.
-#include "surface/contact_time.hpp"
 #include "base/vectors.hpp"
 #include "internal/feature_distance.hpp"
 #include "internal/random.hpp"
+#include "surface/contact_time.hpp"
 
 #include <vox/vox_pairs.h>
 
@@ -44,12 +44,15 @@ double distance_at(const Query& q, double time) {
     return feature_distance(p, q.edges);
 }
 
-double whole(test::Random& random, int most) { return double(random.below(std::uint32_t(2 * most + 1))) - most; }
+double whole(test::Random& random, int most) {
+    return double(random.below(std::uint32_t(2 * most + 1))) - most;
+}
 Vec3d whole_vector(test::Random& random, int most) {
     return {whole(random, most), whole(random, most), whole(random, most)};
 }
 
-// Features that have a point in common at time `touch`, a multiple of 1/64, with numbers that doubles hold exactly.
+// Features that have a point in common at time `touch`, a multiple of 1/64, with numbers that doubles hold
+// exactly.
 Query touching_query(test::Random& random, double touch) {
     Query q;
     q.edges = random.below(2) == 0;
@@ -61,10 +64,12 @@ Query touching_query(test::Random& random, double touch) {
     }
     const double s = random.below(9) / 8.0, t = random.below(9) / 8.0;
     if (q.edges)
-        at[3] = 8.0 * whole_vector(random, 6), at[2] = at[0] + s * (at[1] - at[0]), at[2] = at[2] - t * (at[3] - at[2]);
+        at[3] = 8.0 * whole_vector(random, 6), at[2] = at[0] + s * (at[1] - at[0]),
+        at[2] = at[2] - t * (at[3] - at[2]);
     else
         at[3] = at[0] + s * (1 - t) * (at[1] - at[0]) + s * t * (at[2] - at[0]);
-    if (q.edges) { // the point is at t of the second edge: solve for its first corner, or let it be that corner
+    if (q.edges) { // the point is at t of the second edge: solve for its first corner, or let it be that
+                   // corner
         const Vec3d point = at[0] + s * (at[1] - at[0]);
         at[2] = point;
         if (random.below(2)) { // inside it
@@ -90,11 +95,14 @@ START_TEST(never_later_than_a_time_that_is_known) {
         const Query q = touching_query(random, touch);
         const ContactTime found = answer(q);
         ck_assert_msg(found.touches, "query %llu: a touch at %g is not seen", (unsigned long long)n, touch);
-        ck_assert_msg(found.time <= touch, "query %llu: %.17g is later than %.17g", (unsigned long long)n, found.time, touch);
+        ck_assert_msg(found.time <= touch, "query %llu: %.17g is later than %.17g", (unsigned long long)n,
+                      found.time, touch);
         ck_assert(found.finished);
         // Not too early: what was left of the distance is at most the slack, but for rounding.
         const double start = distance_at(q, 0), left = distance_at(q, found.time);
-        if (start > 1e-6) ck_assert_msg(left <= 0.11 * start, "query %llu: %g of %g left", (unsigned long long)n, left, start);
+        if (start > 1e-6)
+            ck_assert_msg(left <= 0.11 * start, "query %llu: %g of %g left", (unsigned long long)n, left,
+                          start);
         close += found.time > 0.8 * touch;
         late_touch += touch > 0.5 && found.time > 0;
     }
@@ -103,7 +111,8 @@ START_TEST(never_later_than_a_time_that_is_known) {
 }
 END_TEST
 
-// At no time before the answer are the features within the distance; far from the origin, and with common motion, too.
+// At no time before the answer are the features within the distance; far from the origin, and with common
+// motion, too.
 START_TEST(apart_until_then) {
     test::Random random{2};
     std::uint64_t touching = 0, apart = 0;
@@ -114,7 +123,8 @@ START_TEST(apart_until_then) {
         for (int i = 0; i < 4; ++i) {
             q.from[i] = {random.unit() + away, random.unit() - away, random.unit()};
             const double far = random.below(4) == 0 ? 5 : 1;
-            q.to[i] = q.from[i] + Vec3d{far * (random.unit() - .5) + common, far * (random.unit() - .5), far * (random.unit() - .5)};
+            q.to[i] = q.from[i] + Vec3d{far * (random.unit() - .5) + common, far * (random.unit() - .5),
+                                        far * (random.unit() - .5)};
         }
         const double distance = random.below(2) == 0 ? 0 : random.unit() / 5;
         const ContactTimeRule rule = rule_of(distance, random.below(2) == 0 ? 0.1 : 0.01);
@@ -123,8 +133,8 @@ START_TEST(apart_until_then) {
         for (int k = 0; k < 64; ++k) {
             const double t = k / 64.0;
             if (t < found.time)
-                ck_assert_msg(distance_at(q, t) > distance - rounding, "query %llu: %g at %g, before %g", (unsigned long long)n,
-                              distance_at(q, t), t, found.time);
+                ck_assert_msg(distance_at(q, t) > distance - rounding, "query %llu: %g at %g, before %g",
+                              (unsigned long long)n, distance_at(q, t), t, found.time);
         }
         const double start = distance_at(q, 0) - distance, left = distance_at(q, found.time) - distance;
         if (found.touches && start > 1e-3) ck_assert(left <= rule.slack * start * 1.01 + rounding);
@@ -141,7 +151,9 @@ START_TEST(apart_until_then) {
 END_TEST
 
 START_TEST(plain_cases) {
-    Query q{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.2, .2, 1}}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.2, .2, -1}}, false};
+    Query q{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.2, .2, 1}},
+            {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.2, .2, -1}},
+            false};
     ContactTime found = answer(q);
     ck_assert(found.touches && found.time <= 0.5 && found.time > 0.44);
     found = answer(q, rule_of(0.5)); // from 1 to 0.5 at a quarter
@@ -152,13 +164,19 @@ START_TEST(plain_cases) {
     ck_assert(!answer(q).touches && answer(q).time == 1);
     for (int i = 0; i < 4; ++i) q.to[i] = q.from[i] + Vec3d{1e6, -3e5, 0.1}; // moving together
     ck_assert(!answer(q).touches);
-    q = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.2, .2, 0}}, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.2, .2, 1}}, false};
+    q = {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.2, .2, 0}},
+         {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {.2, .2, 1}},
+         false};
     found = answer(q); // touching at the beginning
     ck_assert(found.touches && found.time == 0);
-    q = {{{0, 0, 0}, {1, 0, 0}, {.5, -1, 1}, {.5, 1, 1}}, {{0, 0, 0}, {1, 0, 0}, {.5, -1, -1}, {.5, 1, -1}}, true};
+    q = {{{0, 0, 0}, {1, 0, 0}, {.5, -1, 1}, {.5, 1, 1}},
+         {{0, 0, 0}, {1, 0, 0}, {.5, -1, -1}, {.5, 1, -1}},
+         true};
     found = answer(q);
     ck_assert(found.touches && found.time <= 0.5 && found.time > 0.44);
-    q = {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}}, {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {1, 0, 0}}, true}; // along one line
+    q = {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}},
+         {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {1, 0, 0}},
+         true}; // along one line
     found = answer(q);
     ck_assert(found.touches && found.time <= 0.5 && found.time > 0.44);
     const ContactTime given_up = contact_time(q.motion(), q.a(), q.b(), {0, 1e-9, 1}, 1);
@@ -186,7 +204,8 @@ struct Sheets {
         for (std::uint32_t sheet = 0; sheet < 2; ++sheet)
             for (std::uint32_t i = 0; i + side + 1 < side * side; ++i) {
                 const std::uint32_t v = sheet * side * side + i;
-                if (i % side + 1 < side) faces.insert(faces.end(), {v, v + 1, v + side, v + side, v + 1, v + side + 1});
+                if (i % side + 1 < side)
+                    faces.insert(faces.end(), {v, v + 1, v + side, v + side, v + 1, v + side + 1});
             }
     }
     std::uint64_t vertices() const { return from.size() / 3; }
@@ -212,7 +231,9 @@ void move(vox_surface* surface, const Sheets& s) {
     ck_ok(vox_surface_move(surface, &motion));
 }
 
-Vec3d point(const std::vector<double>& at, std::uint32_t v) { return {at[3 * v], at[3 * v + 1], at[3 * v + 2]}; }
+Vec3d point(const std::vector<double>& at, std::uint32_t v) {
+    return {at[3 * v], at[3 * v + 1], at[3 * v + 2]};
+}
 
 START_TEST(a_safe_step_is_the_least_time_of_all_pairs) {
     std::uint64_t culled = 0;
@@ -233,7 +254,8 @@ START_TEST(a_safe_step_is_the_least_time_of_all_pairs) {
                 ck_ok(vox_surface_features(surface, vox_feature(kind), &features[kind]));
             }
             for (int k = 0; k < 2; ++k) {
-                const vox_feature a = k ? VOX_FEATURE_EDGE : VOX_FEATURE_FACE, b = k ? VOX_FEATURE_EDGE : VOX_FEATURE_VERTEX;
+                const vox_feature a = k ? VOX_FEATURE_EDGE : VOX_FEATURE_FACE,
+                                  b = k ? VOX_FEATURE_EDGE : VOX_FEATURE_VERTEX;
                 vox_timed_view view{};
                 view.struct_size = sizeof view;
                 ck_ok(vox_surface_contact_times(surface, a, b, nullptr, &view));
@@ -243,8 +265,8 @@ START_TEST(a_safe_step_is_the_least_time_of_all_pairs) {
                     first_times[k] = times;
                 } else {
                     ck_assert_uint_eq(times.size(), first_times[k].size());
-                    ck_assert(times.empty() ||
-                              std::memcmp(times.data(), first_times[k].data(), times.size() * sizeof times[0]) == 0);
+                    ck_assert(times.empty() || std::memcmp(times.data(), first_times[k].data(),
+                                                           times.size() * sizeof times[0]) == 0);
                 }
                 // By definition: all pairs without a vertex in common.
                 std::vector<vox_timed_pair> expected;
@@ -266,10 +288,12 @@ START_TEST(a_safe_step_is_the_least_time_of_all_pairs) {
                         const ContactTime found = answer(query);
                         if (!found.touches) continue;
                         double nearest = 1;
-                        for (int t = 0; t <= 64; ++t) nearest = std::min(nearest, distance_at(query, t / 64.));
-                        const bool is_there = std::any_of(times.begin(), times.end(), [&](const vox_timed_pair& pair) {
-                            return pair.a == i && pair.b == j;
-                        });
+                        for (int t = 0; t <= 64; ++t)
+                            nearest = std::min(nearest, distance_at(query, t / 64.));
+                        const bool is_there =
+                            std::any_of(times.begin(), times.end(), [&](const vox_timed_pair& pair) {
+                                return pair.a == i && pair.b == j;
+                            });
                         ck_assert(is_there || nearest > 1e-6);
                         expected.push_back({i, j, found.time});
                     }
@@ -317,8 +341,8 @@ START_TEST(what_is_refused) {
     }
     vox_timed_view view{};
     view.struct_size = sizeof view;
-    ck_fails(vox_surface_contact_times(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_FACE, nullptr, &view), VOX_ERROR_INVALID_ARGUMENT,
-             "VOX_FEATURE_FACE and VOX_FEATURE_VERTEX");
+    ck_fails(vox_surface_contact_times(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_FACE, nullptr, &view),
+             VOX_ERROR_INVALID_ARGUMENT, "VOX_FEATURE_FACE and VOX_FEATURE_VERTEX");
     ck_assert(step.step == 7);
     vox_surface_destroy(surface);
 }

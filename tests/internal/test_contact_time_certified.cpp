@@ -1,7 +1,8 @@
-// Times of contact, each certified: that the features are further apart than the distance up to then. The time is cut into pieces,
-// and for each a direction w is looked for with w . (a_i - b_j) > distance |w| for all corners at both ends of the piece; as that
-// is linear in time, it holds throughout the piece. Decided in doubles with a bound on their rounding, or else in rational numbers
-// (GMP). Nothing is shared with the library but the motion.
+// Times of contact, each certified: that the features are further apart than the distance up to then. The
+// time is cut into pieces, and for each a direction w is looked for with w . (a_i - b_j) > distance |w| for
+// all corners at both ends of the piece; as that is linear in time, it holds throughout the piece. Decided in
+// doubles with a bound on their rounding, or else in rational numbers (GMP). Nothing is shared with the
+// library but the motion.
 //
 // Environment: VOX_CERTIFIED_QUERIES, how many. VOX_SAMPLE_QUERIES names a folder with
 // https://github.com/Continuous-Collision-Detection/Sample-Queries, whose answers are compared with, too.
@@ -40,7 +41,8 @@ struct Query {
 
 ContactTime answer(const Query& q, const ContactTimeRule& rule) {
     const std::span<const std::uint32_t> corners(numbers);
-    return contact_time({q.from, q.to, 0, true, false}, corners.first(q.first_of_b()), corners.subspan(q.first_of_b()), rule, 1);
+    return contact_time({q.from, q.to, 0, true, false}, corners.first(q.first_of_b()),
+                        corners.subspan(q.first_of_b()), rule, 1);
 }
 
 // ---- the certificate ------------------------------------------------------------------------------
@@ -94,15 +96,25 @@ Vector<Number> from_segment(const Vector<Number>& p, const Vector<Number>& a, co
 // Along one of these the features lie apart the furthest.
 template <class Number>
 std::array<Vector<Number>, 6> directions(const Query& q, const Corners<Number>& c) {
-    const auto opposite = [](const Vector<Number>& v) { return difference(Vector<Number>{0.0, 0.0, 0.0}, v); };
+    const auto opposite = [](const Vector<Number>& v) {
+        return difference(Vector<Number>{0.0, 0.0, 0.0}, v);
+    };
     if (q.edges) {
         const auto normal = normal_to(difference(c[1], c[0]), difference(c[3], c[2]));
-        return {from_segment(c[0], c[2], c[3]), from_segment(c[1], c[2], c[3]), opposite(from_segment(c[2], c[0], c[1])),
-                opposite(from_segment(c[3], c[0], c[1])), normal, opposite(normal)};
+        return {from_segment(c[0], c[2], c[3]),
+                from_segment(c[1], c[2], c[3]),
+                opposite(from_segment(c[2], c[0], c[1])),
+                opposite(from_segment(c[3], c[0], c[1])),
+                normal,
+                opposite(normal)};
     }
     const auto normal = normal_to(difference(c[1], c[0]), difference(c[2], c[0]));
-    return {opposite(from_segment(c[3], c[0], c[1])), opposite(from_segment(c[3], c[1], c[2])),
-            opposite(from_segment(c[3], c[2], c[0])), normal, opposite(normal), Vector<Number>{0.0, 0.0, 0.0}};
+    return {opposite(from_segment(c[3], c[0], c[1])),
+            opposite(from_segment(c[3], c[1], c[2])),
+            opposite(from_segment(c[3], c[2], c[0])),
+            normal,
+            opposite(normal),
+            Vector<Number>{0.0, 0.0, 0.0}};
 }
 
 double largest_coordinate(const Query& q) {
@@ -112,11 +124,12 @@ double largest_coordinate(const Query& q) {
     return most;
 }
 
-// A coordinate at a time is off by less than 2^-50 of the largest, a difference of two by 2^-48, and a product of w with that
-// by less than 2^-46 |w|1.
+// A coordinate at a time is off by less than 2^-50 of the largest, a difference of two by 2^-48, and a
+// product of w with that by less than 2^-46 |w|1.
 bool separates(const Query& q, const Corners<double>& at, const Vector<double>& w, double distance) {
     const double absolute = std::abs(w[0]) + std::abs(w[1]) + std::abs(w[2]), most = largest_coordinate(q);
-    if (!(absolute > 0x1p-400 && most > 0x1p-400 && absolute < 0x1p400)) return false; // rational numbers decide
+    if (!(absolute > 0x1p-400 && most > 0x1p-400 && absolute < 0x1p400))
+        return false; // rational numbers decide
     const double bound = distance * std::sqrt(product(w, w)) * (1 + 0x1p-40) + 0x1p-46 * most * absolute;
     for (std::size_t i = 0; i < q.first_of_b(); ++i)
         for (std::size_t j = q.first_of_b(); j < 4; ++j)
@@ -147,7 +160,8 @@ bool stay_apart(const Query& q, double begin, double end, double distance, int m
     if (has_direction<double>(q, begin, end, distance)) return true;
     const double middle = begin + (end - begin) / 2;
     const bool can_be_cut = most_cuts > 0 && begin < middle && middle < end;
-    // Rational numbers take a thousand times as long, so they come where doubles have been tried on small pieces.
+    // Rational numbers take a thousand times as long, so they come where doubles have been tried on small
+    // pieces.
     if ((most_cuts % 12 == 0 || !can_be_cut) && has_direction<Rational>(q, begin, end, distance)) return true;
     return can_be_cut && stay_apart(q, begin, middle, distance, most_cuts - 1) &&
            stay_apart(q, middle, end, distance, most_cuts - 1);
@@ -157,8 +171,8 @@ std::string text_of(const Query& q) {
     std::string text = q.edges ? "edges" : "face and vertex";
     char line[200];
     for (std::size_t i = 0; i < 4; ++i) {
-        std::snprintf(line, sizeof line, "\n%a %a %a to %a %a %a", q.from[i].x, q.from[i].y, q.from[i].z, q.to[i].x, q.to[i].y,
-                      q.to[i].z);
+        std::snprintf(line, sizeof line, "\n%a %a %a to %a %a %a", q.from[i].x, q.from[i].y, q.from[i].z,
+                      q.to[i].x, q.to[i].y, q.to[i].z);
         text += line;
     }
     return text;
@@ -168,7 +182,8 @@ ContactTime certified_answer(const Query& q, const ContactTimeRule& rule) {
     const ContactTime found = answer(q, rule);
     ck_assert(found.time >= 0 && found.time <= 1 && (found.touches || found.time == 1));
     const bool is_certain = found.time == 0 || stay_apart(q, 0, found.time, rule.distance);
-    ck_assert_msg(is_certain, "not certain until %.17g, distance %g: %s", found.time, rule.distance, text_of(q).c_str());
+    ck_assert_msg(is_certain, "not certain until %.17g, distance %g: %s", found.time, rule.distance,
+                  text_of(q).c_str());
     return found;
 }
 
@@ -206,7 +221,9 @@ Query query_of(test::Random& random, std::uint32_t family, ContactTimeRule& rule
         const double scale = std::ldexp(1, 100 - int(random.below(400)));
         change([&](const Vec3d& p) { return scale * p; });
     } else if (family == 5) { // any floats
-        change([&](const Vec3d&) { return Vec3d{random.any_finite(), random.any_finite(), random.any_finite()}; });
+        change([&](const Vec3d&) {
+            return Vec3d{random.any_finite(), random.any_finite(), random.any_finite()};
+        });
     } else if (family == 6) { // all but one corner stand still
         const Vec3d moved = q.to[3];
         q.to = q.from;
@@ -247,10 +264,12 @@ START_TEST(never_late) {
         later[family] += found.touches && found.time > 0;
     }
     for (std::uint32_t family = 0; family < families; ++family) {
-        std::printf("family %u: of %llu queries %llu touch, %llu of them later than at the beginning\n", family,
-                    static_cast<unsigned long long>(queries_wanted / families), static_cast<unsigned long long>(touching[family]),
+        std::printf("family %u: of %llu queries %llu touch, %llu of them later than at the beginning\n",
+                    family, static_cast<unsigned long long>(queries_wanted / families),
+                    static_cast<unsigned long long>(touching[family]),
                     static_cast<unsigned long long>(later[family]));
-        if (family != 9 && queries_wanted >= 20000) ck_assert_uint_gt(later[family], queries_wanted / families / 100);
+        if (family != 9 && queries_wanted >= 20000)
+            ck_assert_uint_gt(later[family], queries_wanted / families / 100);
     }
 }
 END_TEST
@@ -321,8 +340,9 @@ START_TEST(sample_queries) {
             more += found.touches && !truth;
         }
     }
-    std::printf("%llu sample queries, %llu of them in contact, %llu more taken for it\n", static_cast<unsigned long long>(queries),
-                static_cast<unsigned long long>(truths), static_cast<unsigned long long>(more));
+    std::printf("%llu sample queries, %llu of them in contact, %llu more taken for it\n",
+                static_cast<unsigned long long>(queries), static_cast<unsigned long long>(truths),
+                static_cast<unsigned long long>(more));
     ck_assert_uint_gt(queries, 0);
 }
 END_TEST

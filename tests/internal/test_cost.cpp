@@ -191,8 +191,7 @@ START_TEST(reference_quick_look) {
                                   VOX_STORAGE_HASHED, shipped_weights());
         const CellSizeRange range = all.range().value();
         const CostMinimum best = minimise(of_size(all), range, {.scans_per_octave = 16});
-        const CostMinimum found =
-            minimise(of_size(some), range, {.scans_per_octave = 16});
+        const CostMinimum found = minimise(of_size(some), range, {.scans_per_octave = 16});
         ck_assert_msg(all(found.cell_size) <= (large ? 1.04 : 1.02) * best.cost,
                       "%s: quick %g, thorough %g, cost %g over %g", named.name, found.cell_size,
                       best.cell_size, all(found.cell_size), best.cost);
@@ -302,8 +301,7 @@ START_TEST(tets_in_no_order_fetch_their_vertices) {
     scenes[0].fill(scene);
     scene.prepare();
     const auto terms = [&] {
-        return ReferenceModel(Described(scene), VOX_STORAGE_HASHED, shipped_weights())
-            .terms(1.5);
+        return ReferenceModel(Described(scene), VOX_STORAGE_HASHED, shipped_weights()).terms(1.5);
     };
     const CostTerms before = terms();
     Random random{5};
@@ -379,8 +377,8 @@ START_TEST(fast_quick_look) {
 }
 END_TEST
 
-// The same with tiles that are sketched from a sample of the tetrahedra, as vox_suggest_cell_size does it. Their
-// counts are near those of the tiles themselves.
+// The same with tiles that are sketched from a sample of the tetrahedra, as vox_suggest_cell_size does it.
+// Their counts are near those of the tiles themselves.
 START_TEST(fast_usual_look) {
     const Named& named = scenes[_i];
     Scene scene;
@@ -588,6 +586,7 @@ SUITE(cost) {
     tcase_add_loop_test(tests, fast_usual_look, 0, scene_count);
     tcase_add_test(tests, fast_bodies_at_rest);
     tcase_add_test(tests, levels_where_they_pay);
-    TCase* many_steps = add_tagged_case(suite, "many steps", "large"); // half of the time under the sanitizers
+    TCase* many_steps =
+        add_tagged_case(suite, "many steps", "large"); // half of the time under the sanitizers
     tcase_add_each(many_steps, levels_are_one_engine, adaptive_follows);
 }

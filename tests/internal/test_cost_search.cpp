@@ -41,12 +41,14 @@ START_TEST(table_of_a_cost) {
     CostTable table(of_size(cost), range, heap);
     const CostFunction tabulated = [&](double d) { return table(d); };
     calls = 0;
-    CostMinimum found = minimise(tabulated, range, {.scans_per_octave = 4, .least_scans = 8, .tolerance = 1e-4});
+    CostMinimum found =
+        minimise(tabulated, range, {.scans_per_octave = 4, .least_scans = 8, .tolerance = 1e-4});
     found.cost = cost(found.cell_size);
     ck_assert_double_le(found.cost, 1.0005 * best.cost);
     for (double d = 0.02; d < 100; d *= 1.01) (void)table(std::log2(d));
     ck_assert_int_le(calls, 2 + 2 * 15);
-    for (double d = 0.02; d < 100; d *= 1.01) ck_assert_double_eq_tol(table(std::log2(d)), cost(d), 0.01 * cost(d));
+    for (double d = 0.02; d < 100; d *= 1.01)
+        ck_assert_double_eq_tol(table(std::log2(d)), cost(d), 0.01 * cost(d));
     ck_assert_double_eq_tol(table(std::log2(1e-6)), cost(1e-6), 1e-12 * cost(1e-6)); // beyond the table
     ck_assert_double_eq_tol(table(std::log2(1e9)), cost(1e9), 1e-12 * cost(1e9));
     // The zone, and points of the curve.
@@ -65,14 +67,16 @@ START_TEST(table_of_a_cost) {
     draw_curve(tabulated, {0.1, 6.4}, curve, count);
     ck_assert_uint_eq(count, VOX_COST_CURVE_CAPACITY);
     for (std::uint32_t i = 0; i < count; ++i) {
-        ck_assert_double_eq_tol(curve[i].cell_size, 0.1 * std::pow(64, i / (count - 1.0)), 1e-12 * curve[i].cell_size);
+        ck_assert_double_eq_tol(curve[i].cell_size, 0.1 * std::pow(64, i / (count - 1.0)),
+                                1e-12 * curve[i].cell_size);
         ck_assert_double_eq_tol(curve[i].cost, cost(curve[i].cell_size), 0.01 * curve[i].cost);
     }
     // All that a suggestion asks of it, with few calls.
     calls = 0;
     CostTable asked(of_size(cost), range, heap);
     const CostFunction again = [&](double d) { return asked(d); };
-    const CostMinimum least = minimise(again, range, {.scans_per_octave = 4, .least_scans = 8, .tolerance = 1e-4});
+    const CostMinimum least =
+        minimise(again, range, {.scans_per_octave = 4, .least_scans = 8, .tolerance = 1e-4});
     (void)zone_around(least, 1.05 * least.cost, again, range);
     draw_curve(again, {least.cell_size / 8, least.cell_size * 8}, curve, count);
     ck_assert_int_le(calls, 2 + 2 * 12);

@@ -1,5 +1,5 @@
-// Compares where segments meet triangles with what rational numbers (GMP) say: by clipping the segment against
-// the triangle, which is another way than that of the library.
+// Compares where segments meet triangles with what rational numbers (GMP) say: by clipping the segment
+// against the triangle, which is another way than that of the library.
 //
 // Environment: VOX_CROSSING_CASES, how many of each kind.
 #include "exact/crossing.hpp"
@@ -112,8 +112,7 @@ Truth truth_of(const Case& of) {
         const Vector inwards = cross(normal, corner[(i + 1) % 3] - corner[i]);
         const Rational at_p = dot(inwards, p - corner[i]), at_q = dot(inwards, q - corner[i]);
         part.clip(at_p, at_q);
-        if (!part.empty())
-            on_side |= (at_p + part.low * (at_q - at_p)).sign() == 0;
+        if (!part.empty()) on_side |= (at_p + part.low * (at_q - at_p)).sign() == 0;
     }
     if (part.empty()) return truth;
     truth.t = part.low;
@@ -200,7 +199,7 @@ double exponents_apart(Random& r) {
     return std::ldexp(2 * r.unit() - 1, static_cast<int>(r.below(1100)) - 974);
 }
 double huge(Random& r) { return (2 * r.unit() - 1) * FLT_MAX; }
-constexpr Coordinate coordinates[] = {tiny_grid, small_grid, fine_grid, unit_range, floats,         far_away,
+constexpr Coordinate coordinates[] = {tiny_grid, small_grid, fine_grid, unit_range,      floats, far_away,
                                       few_ulps,  denormal,   vanishing, exponents_apart, huge};
 
 Vec3d point(Coordinate make, Random& r) {
@@ -226,10 +225,18 @@ Case degenerate(Coordinate make, Random& r) {
         const Vec3d &x = *all[r.below(5)], &y = *all[r.below(5)], &z = *all[r.below(5)];
         const double t = r.below(2) ? r.below(5) / 4.0 : r.unit();
         switch (r.below(5)) {
-        case 0: changed = x; break;
-        case 1: changed = blend(x, y, t); break;
-        case 2: changed = blend(blend(x, y, t), z, r.below(5) / 4.0); break;
-        case 3: changed = {2 * x.x - y.x, 2 * x.y - y.y, 2 * x.z - y.z}; break;
+        case 0:
+            changed = x;
+            break;
+        case 1:
+            changed = blend(x, y, t);
+            break;
+        case 2:
+            changed = blend(blend(x, y, t), z, r.below(5) / 4.0);
+            break;
+        case 3:
+            changed = {2 * x.x - y.x, 2 * x.y - y.y, 2 * x.z - y.z};
+            break;
         default: // in one axis-aligned plane
             for (Vec3d* p : all) p->z = c.a.z;
         }

@@ -259,10 +259,10 @@ TestMesh make_mesh(Random& r, bool on_lattice) {
 }
 
 vox_mesh insert(vox_grid* grid, const TestMesh& mesh) {
-    vox_mesh_desc desc =
-        mesh.doubles
-            ? vox_mesh_desc_doubles(mesh.positions.data(), mesh.vertex_count(), mesh.tets.data(), mesh.tet_count())
-            : vox_mesh_desc_floats(mesh.floats.data(), mesh.vertex_count(), mesh.tets.data(), mesh.tet_count());
+    vox_mesh_desc desc = mesh.doubles ? vox_mesh_desc_doubles(mesh.positions.data(), mesh.vertex_count(),
+                                                              mesh.tets.data(), mesh.tet_count())
+                                      : vox_mesh_desc_floats(mesh.floats.data(), mesh.vertex_count(),
+                                                             mesh.tets.data(), mesh.tet_count());
     desc.filter = &mesh.filter;
     return insert_mesh(grid, &desc);
 }
@@ -352,8 +352,10 @@ void run_scene(std::uint64_t seed, int steps) {
             });
             break;
         }
-        case 3: break; // all rest
-        default: place(mesh, r, 1, on_lattice);
+        case 3:
+            break; // all rest
+        default:
+            place(mesh, r, 1, on_lattice);
         }
     }
     for (vox_grid* grid : grids) vox_grid_destroy(grid);
@@ -375,7 +377,8 @@ START_TEST(large_bodies_equal_the_definition) {
         for (std::size_t i = 0; i < meshes.size(); ++i) {
             body b = make_lattice_ball(&five_cut, 7, 7);
             jitter_body(&b, kind == 2 ? 0.9 : 0.1, i + 1);
-            move_body(&b, kind == 0 ? 13.1 * double(i) : 3.3 * double(i), 0.123 * double(i), 0.271 * double(i));
+            move_body(&b, kind == 0 ? 13.1 * double(i) : 3.3 * double(i), 0.123 * double(i),
+                      0.271 * double(i));
             meshes[i].positions.assign(b.positions, b.positions + 3 * b.vertex_count);
             meshes[i].tets.assign(b.tets, b.tets + 4 * b.tet_count);
             meshes[i].on.assign(b.tet_count, 1);

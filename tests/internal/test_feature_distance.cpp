@@ -27,7 +27,8 @@ START_TEST(edges_that_cross_at_any_angle) {
     double worst = 0;
     for (int digits = 0; digits <= 12; ++digits)
         for (int n = 0; n < 2000; ++n) {
-            const Vec3d along = uniform(), other = along + std::pow(10, -digits) * uniform(), middle = uniform();
+            const Vec3d along = uniform(), other = along + std::pow(10, -digits) * uniform(),
+                        middle = uniform();
             const Vec3d a[2] = {middle - along, middle + along}, b[2] = {middle - other, middle + other};
             worst = std::max(worst, closest_features(a, b).distance); // 0 but for the rounding of the corners
         }
@@ -35,7 +36,8 @@ START_TEST(edges_that_cross_at_any_angle) {
 }
 END_TEST
 
-// Corners on a small raster, so that features are often degenerate, parallel, or touch; now and then a bit off it.
+// Corners on a small raster, so that features are often degenerate, parallel, or touch; now and then a bit
+// off it.
 std::vector<Vec3d> random_corners(Random& random, std::size_t count, double scale, double off) {
     std::vector<Vec3d> corners(count);
     for (Vec3d& v : corners)
@@ -57,7 +59,8 @@ std::vector<Long3> all_longer(const std::vector<Vec3d>& corners) {
 double size_of(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
     double size = 0;
     for (const auto* corners : {&a, &b})
-        for (const Vec3d& v : *corners) size = std::max(size, largest_number({v.x - b[0].x, v.y - b[0].y, v.z - b[0].z}));
+        for (const Vec3d& v : *corners)
+            size = std::max(size, largest_number({v.x - b[0].x, v.y - b[0].y, v.z - b[0].z}));
     return size;
 }
 
@@ -81,8 +84,9 @@ START_TEST(distances_are_right) {
         const double size = size_of(a, b);
         const CloseFeatures found = closest_features(a, b);
         const long double exact = oracle_distance(all_longer(a), all_longer(b));
-        ck_assert_msg(std::abs(found.distance - exact) <= 1e-14L * size, "%d: %zu and %zu: %.17g, expected %.17Lg (size %g)", n, of_a,
-                      of_b, found.distance, exact, size);
+        ck_assert_msg(std::abs(found.distance - exact) <= 1e-14L * size,
+                      "%d: %zu and %zu: %.17g, expected %.17Lg (size %g)", n, of_a, of_b, found.distance,
+                      exact, size);
         // The points that the weights give are that far apart.
         const long double apart = norm(weighted(a, found.weights_a) - weighted(b, found.weights_b));
         ck_assert(std::abs(apart - found.distance) <= 4e-15L * size + 1e-15L * scale);
@@ -96,8 +100,9 @@ START_TEST(distances_are_right) {
         ck_assert_msg(least <= exact, "%d: at least %.17g, exact %.17Lg", n, least, exact);
         // Of edges nearly parallel and close together, rounding costs more of it.
         const long double lost = 1e-13L * size + (exact > 0 ? 2e-14L * size * size / exact : 0);
-        ck_assert_msg(least >= 0.99L * exact - lost, "%d: %zu and %zu: at least %.17g, exact %.17Lg (size %g)", n, of_a, of_b, least,
-                      exact, size);
+        ck_assert_msg(least >= 0.99L * exact - lost,
+                      "%d: %zu and %zu: at least %.17g, exact %.17Lg (size %g)", n, of_a, of_b, least, exact,
+                      size);
     }
     ck_assert_uint_gt(degenerate, 100);
 }
@@ -116,7 +121,8 @@ START_TEST(bounds_hold_for_any_numbers) {
         const long double exact = oracle_distance(all_longer(a), all_longer(b));
         const double least = distance_at_least(a, b);
         ck_assert(least <= exact * (1 + 1e-17L) && least >= 0);
-        const CloseFeatures found = closest_features(a, b); // of points of the features, though perhaps not the closest
+        const CloseFeatures found =
+            closest_features(a, b); // of points of the features, though perhaps not the closest
         const long double apart = norm(weighted(a, found.weights_a) - weighted(b, found.weights_b));
         ck_assert(std::abs(apart - found.distance) <= 1e-14L * size_of(a, b));
         ck_assert(found.distance >= least);

@@ -1,7 +1,7 @@
 // What a described grid does at a cell size, against a plain grid of that kind that is really filled, over
 // many random positions of its lattice; and how much a quick look loses against a thorough one.
-#include "cell_size/foreign/grid.hpp"
 #include "cell_size/foreign/cost.hpp"
+#include "cell_size/foreign/grid.hpp"
 #include "cell_size/foreign/suggest.hpp"
 #include "internal/counting_memory.hpp"
 #include "internal/random.hpp"
@@ -88,7 +88,8 @@ Boxes make(Scene scene, std::size_t count, std::uint64_t seed) {
         case clumps: {
             const double c = std::floor(unit() * 10), r = 0.02 * unit();
             const Point p = in_cube();
-            around(0.1 * c + r * p.x, std::fmod(c * 0.37, 1) + r * p.y, std::fmod(c * 0.61, 1) + r * p.z, 0.002);
+            around(0.1 * c + r * p.x, std::fmod(c * 0.37, 1) + r * p.y, std::fmod(c * 0.61, 1) + r * p.z,
+                   0.002);
             break;
         }
         case graded: {
@@ -109,8 +110,8 @@ Boxes make(Scene scene, std::size_t count, std::uint64_t seed) {
         }
         case sticks: {
             const Point p = in_cube();
-            boxes.add(p.x, p.y, p.z, i % 3 == 0 ? 6 * edge : 0.1 * edge,
-                      i % 3 == 1 ? 6 * edge : 0.1 * edge, i % 3 == 2 ? 6 * edge : 0.1 * edge);
+            boxes.add(p.x, p.y, p.z, i % 3 == 0 ? 6 * edge : 0.1 * edge, i % 3 == 1 ? 6 * edge : 0.1 * edge,
+                      i % 3 == 2 ? 6 * edge : 0.1 * edge);
             break;
         }
         default: {
@@ -271,7 +272,8 @@ constexpr int scene_step = 4;
 constexpr int scene_step = 1;
 #endif
 
-// Long or crowded boxes are of several scenes, as their counts vary most with the boxes that stand for others.
+// Long or crowded boxes are of several scenes, as their counts vary most with the boxes that stand for
+// others.
 struct CountedScene {
     Scene scene;
     std::uint64_t seed;

@@ -44,6 +44,4 @@ void add_tests(TCase* tests) { tcase_add_test(tests, nothing_from_the_default_re
 
 } // namespace
 
-SUITE(grid_memory) {
-    add_for_each_engine(suite, add_tests);
-}
+SUITE(grid_memory) { add_for_each_engine(suite, add_tests); }

@@ -1,5 +1,5 @@
-// Times of meeting: never later than one that is known exactly, at one that is a meeting up to rounding errors, and
-// none where there is none.
+// Times of meeting: never later than one that is known exactly, at one that is a meeting up to rounding
+// errors, and none where there is none.
 #include "base/vectors.hpp"
 #include "exact/closest_point.hpp"
 #include "exact/meeting_time.hpp"
@@ -36,8 +36,8 @@ double largest_coordinate(const SeenMotion& m) {
     return largest;
 }
 
-// A motion of small integers in which the point is in the triangle, or on its boundary, at `time` = 2^-k, with
-// weights that are multiples of 1 / 4. Everything is exact.
+// A motion of small integers in which the point is in the triangle, or on its boundary, at `time` = 2^-k,
+// with weights that are multiples of 1 / 4. Everything is exact.
 SeenMotion meeting_at(std::uint64_t& state, double time, std::uint32_t range, bool stands_still) {
     const double inverse = 1 / time;
     Vec3d from[3], to[3];
@@ -134,6 +134,4 @@ START_TEST(degenerate) {
 }
 END_TEST
 
-SUITE(meeting_time) {
-    tcase_add_each(add_case(suite, "meeting_time"), never_late, tight, none, degenerate);
-}
+SUITE(meeting_time) { tcase_add_each(add_case(suite, "meeting_time"), never_late, tight, none, degenerate); }

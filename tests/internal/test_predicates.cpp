@@ -64,12 +64,12 @@ double near_bound_d(Random& r) {
     return std::ldexp(static_cast<double>(r.below(5)), -242 - static_cast<int>(r.below(60)));
 }
 // As far apart as volumes of three words can be, and a little farther.
-double words_apart(Random& r) {
-    return r.uniform(-1, 1) * std::ldexp(1.0f, -static_cast<int>(r.below(39)));
-}
+double words_apart(Random& r) { return r.uniform(-1, 1) * std::ldexp(1.0f, -static_cast<int>(r.below(39))); }
 double words_apart_d(Random& r) { return std::ldexp(between(r, -1, 1), -static_cast<int>(r.below(9))); }
 // The largest of these volumes.
-double full_words_d(Random& r) { return (r.below(2) ? 1 : -1) * nudge(2.0, -1 - static_cast<int>(r.below(3))); }
+double full_words_d(Random& r) {
+    return (r.below(2) ? 1 : -1) * nudge(2.0, -1 - static_cast<int>(r.below(3)));
+}
 double few_ulps_d(Random& r) { return nudge(0.5, static_cast<int>(r.below(5))); }
 
 struct Coordinate {
@@ -199,7 +199,7 @@ START_TEST(orientation_has_the_exact_sign) {
         ++seen[expected + 1];
     });
     for (const int count : seen) ck_assert_int_gt(count, cases_per_kind * 5 / 2); // the cases have every sign
-    ck_assert_uint_gt(exact_tests, cases_per_kind / 4);                           // and the exact path was taken
+    ck_assert_uint_gt(exact_tests, cases_per_kind / 4); // and the exact path was taken
 }
 END_TEST
 
@@ -217,9 +217,9 @@ START_TEST(volumes_of_three_words_have_the_exact_sign) {
                                                   c.corner[3].data());
         ck_assert_int_eq(points.volume(0, 1, 2, 3).sign(), expected);
         ck_assert_int_eq(points.volume(3, 1, 2, 0).sign(), -expected);
-        ck_assert_int_eq(points.volume(4, 1, 2, 3).sign(),
-                         oracle_orientation_d(c.p.data(), c.corner[1].data(), c.corner[2].data(),
-                                              c.corner[3].data()));
+        ck_assert_int_eq(
+            points.volume(4, 1, 2, 3).sign(),
+            oracle_orientation_d(c.p.data(), c.corner[1].data(), c.corner[2].data(), c.corner[3].data()));
         ++seen[expected + 1];
     });
     for (const int count : seen) ck_assert_int_gt(count, cases_per_kind * 5 / 2);

@@ -344,16 +344,26 @@ START_TEST(many_points_as_alone) {
         const Tet& tet = body.tets[random.below(std::uint32_t(body.tets.size()))];
         const Vec3d a = body.positions[tet.v[0]], b = body.positions[tet.v[1]], c = body.positions[tet.v[2]];
         switch (kind) {
-        case 0: return 4 * Vec3d{random.unit(), random.unit(), random.unit()};
-        case 1: return Vec3d(nearest_floats(4 * Vec3d{random.unit(), random.unit(), random.unit()}));
-        case 2: return a; // a vertex
-        case 3: return 0.5 * a + 0.25 * b + 0.25 * c;
-        case 4: return Vec3d{2, 2, 2} + random_vector(random, 1e-3);
-        case 5: return Vec3d{2, 2, 2};
-        case 6: return Vec3d{4 * random.unit(), 2, 2};
-        case 7: return random_vector(random, 1000);
-        case 8: return random_vector(random, std::ldexp(1.0, 127));
-        default: return Vec3d{random.below(2) ? 1 : -1 - 1e-300, 1e-310 * random.unit(), -0.0};
+        case 0:
+            return 4 * Vec3d{random.unit(), random.unit(), random.unit()};
+        case 1:
+            return Vec3d(nearest_floats(4 * Vec3d{random.unit(), random.unit(), random.unit()}));
+        case 2:
+            return a; // a vertex
+        case 3:
+            return 0.5 * a + 0.25 * b + 0.25 * c;
+        case 4:
+            return Vec3d{2, 2, 2} + random_vector(random, 1e-3);
+        case 5:
+            return Vec3d{2, 2, 2};
+        case 6:
+            return Vec3d{4 * random.unit(), 2, 2};
+        case 7:
+            return random_vector(random, 1000);
+        case 8:
+            return random_vector(random, std::ldexp(1.0, 127));
+        default:
+            return Vec3d{random.below(2) ? 1 : -1 - 1e-300, 1e-310 * random.unit(), -0.0};
         }
     };
     for (int kind = 0; kind < 11; ++kind)
@@ -367,12 +377,12 @@ START_TEST(many_points_as_alone) {
     while (points.size() < 150000) points.push_back(place(int(random.below(10))));
     std::vector<vox_point_hit> all(4 * points.size()), some(all.size());
     std::uint64_t count = 0, done = 0, next = 0;
-    ck_ok(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE3, 0, points.size(), UINT64_MAX, all.data(),
-                                all.size(), &count));
+    ck_ok(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE3, 0, points.size(), UINT64_MAX,
+                                all.data(), all.size(), &count));
     ck_assert_uint_le(count, all.size());
     for (std::size_t first = 0; first < points.size(); first += 10000) {
-        ck_ok(vox_grid_query_points(grid, &points[first], VOX_FORMAT_DOUBLE3, 0, 10000, UINT64_MAX, some.data(),
-                                    some.size(), &done));
+        ck_ok(vox_grid_query_points(grid, &points[first], VOX_FORMAT_DOUBLE3, 0, 10000, UINT64_MAX,
+                                    some.data(), some.size(), &done));
         for (std::uint64_t h = 0; h < done; ++h) some[h].point += std::uint32_t(first);
         ck_assert_uint_le(next + done, count);
         ck_assert_mem_eq(&all[next], some.data(), done * sizeof some[0]);

@@ -79,8 +79,7 @@ double dense_cells(const Meshes& scene, double cell_size) {
     return count;
 }
 
-void check_contacts(const vox::Array<vox_contact>& found, const oracle_contact* expected,
-                    std::size_t count) {
+void check_contacts(const vox::Array<vox_contact>& found, const oracle_contact* expected, std::size_t count) {
     ck_assert_uint_eq(found.size(), count);
     for (std::size_t i = 0; i < count; ++i) {
         ck_assert_uint_eq(found[i].mesh_a, expected[i].mesh_a);
@@ -458,7 +457,8 @@ START_TEST(non_finite_positions_are_named) {
                     ck_abort_msg("a non-finite position went through");
                 } catch (const Error& error) {
                     ck_assert_int_eq(error.result(), VOX_ERROR_NON_FINITE);
-                    ck_assert_ptr_nonnull(std::strstr(error.what(), "mesh 1 (user data 0), vertex 17: position ("));
+                    ck_assert_ptr_nonnull(
+                        std::strstr(error.what(), "mesh 1 (user data 0), vertex 17: position ("));
                 }
                 engine.step(scene, settings_of(storage, 1)); // the engine is usable again
                 ck_assert_uint_eq(engine.contacts.size(), expected);

@@ -95,7 +95,8 @@ START_TEST(a_suggestion_looks_at_samples) {
         ck_assert_msg(cost.points_looked_at() <= 50000, "%zu tets: %llu points", tets,
                       static_cast<unsigned long long>(cost.points_looked_at()));
         for (std::size_t b = 0; b < 2; ++b) {
-            const double sketched = double(described.tiles[b] ? 0 : described.step().of[b].tiles->tiles.size());
+            const double sketched =
+                double(described.tiles[b] ? 0 : described.step().of[b].tiles->tiles.size());
             ck_share(sketched, double(scene.tiles()[b]->tiles.size()), 0.1, "tiles", tets);
         }
     }
@@ -170,15 +171,17 @@ void ck_same(const MeshSample& a, const MeshSample& b) {
     ck_assert(std::ranges::equal(a.edges, b.edges, same));
     ck_assert(std::ranges::equal(a.facets, b.facets, same));
     ck_assert(std::ranges::equal(a.boundary_facets, b.boundary_facets, same));
-    ck_assert(std::ranges::equal(a.tets, b.tets, {}, [](const Tet& t) { return std::to_array(t.v); },
-                                 [](const Tet& t) { return std::to_array(t.v); }));
+    ck_assert(std::ranges::equal(
+        a.tets, b.tets, {}, [](const Tet& t) { return std::to_array(t.v); },
+        [](const Tet& t) { return std::to_array(t.v); }));
 }
 
 // vox_suggest_cell_size measures all of a small mesh, and samples a large one: whatever the order of its
 // tetrahedra, where few of its vertices are used, and where it is finer in its middle, too. A grid's samples
 // are smaller.
 START_TEST(samples_are_near_the_whole) {
-    for (const std::size_t tets : {std::size_t{1400}, std::size_t{4500}, std::size_t{12000}, std::size_t{60000}})
+    for (const std::size_t tets :
+         {std::size_t{1400}, std::size_t{4500}, std::size_t{12000}, std::size_t{60000}})
         for (int kind = 0; kind < 4; ++kind) {
             Mesh mesh = jittered_ball(double(tets), 0, 1);
             Random random{9};
@@ -202,14 +205,18 @@ START_TEST(samples_are_near_the_whole) {
             const double near = count <= 1500 ? 1e-12 : kind == 2 ? 0.04 : 0.015;
             ck_share(double(found.edges), all.edges, 1.7 * near, "edges", count);
             ck_share(double(found.facets), all.facets, near, "facets", count);
-            ck_share(double(found.boundary_facets), all.boundary, (count <= 5000 ? 12 : 10) * near, "boundary facets", count);
+            ck_share(double(found.boundary_facets), all.boundary, (count <= 5000 ? 12 : 10) * near,
+                     "boundary facets", count);
             ck_share(found.mean_edge, all.mean_edge, near, "mean edge", count);
             ck_share(found.mean_facet_area, all.mean_facet, 2 * near, "mean facet area", count);
-            ck_share(found.mean_boundary_facet_area, all.mean_boundary, 4 * near, "mean boundary facet", count);
+            ck_share(found.mean_boundary_facet_area, all.mean_boundary, 4 * near, "mean boundary facet",
+                     count);
 
             const MeshSample kept = make_sample(scene.bodies()[0], kept_sample(count), heap);
-            ck_share(double(kept.edge_count), all.edges, count <= 1500 ? 0.07 : 0.05, "edges by a grid", count);
-            ck_share(double(kept.facet_count), all.facets, count <= 1500 ? 0.04 : 0.02, "facets by a grid", count);
+            ck_share(double(kept.edge_count), all.edges, count <= 1500 ? 0.07 : 0.05, "edges by a grid",
+                     count);
+            ck_share(double(kept.facet_count), all.facets, count <= 1500 ? 0.04 : 0.02, "facets by a grid",
+                     count);
 
             // From tiles it is the same.
             Scene tiled;

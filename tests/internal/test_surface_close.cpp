@@ -1,4 +1,5 @@
-// Pairs within a distance against loops over all; and that nothing touches while vertices move within their clearances.
+// Pairs within a distance against loops over all; and that nothing touches while vertices move within their
+// clearances.
 #include "internal/feature_distance.hpp"
 #include "internal/random.hpp"
 
@@ -24,7 +25,8 @@ struct Soup {
         const std::uint32_t count = 24 + random.below(40);
         for (std::uint32_t v = 0; v < count; ++v) {
             at.push_back({random.unit(), random.unit(), random.unit()});
-            if (degenerate && random.below(3) == 0) at.back() = {random.below(3) / 2., random.below(3) / 2., random.below(3) / 2.};
+            if (degenerate && random.below(3) == 0)
+                at.back() = {random.below(3) / 2., random.below(3) / 2., random.below(3) / 2.};
         }
         for (std::uint32_t f = 0; f < count; ++f) {
             const std::uint32_t v = random.below(count - 3);
@@ -72,7 +74,8 @@ std::vector<std::vector<std::uint32_t>> features_of(vox_surface* surface, std::s
     view.struct_size = sizeof view;
     ck_ok(vox_surface_features(surface, vox_feature(kind), &view));
     for (std::uint64_t i = 0; i < view.count; ++i)
-        found.emplace_back(view.vertices + i * view.vertices_each, view.vertices + (i + 1) * view.vertices_each);
+        found.emplace_back(view.vertices + i * view.vertices_each,
+                           view.vertices + (i + 1) * view.vertices_each);
     return found;
 }
 
@@ -82,7 +85,8 @@ double distance_of(const Soup& s, std::vector<std::uint32_t> a, std::vector<std:
     const bool edges = a.size() == 2 && b.size() == 2;
     if (!edges)
         while (a.size() < 3) a.push_back(a.back());
-    const Vec3d p[4] = {s.at[a[0]], s.at[a[1]], edges ? s.at[b[0]] : s.at[a[2]], edges ? s.at[b[1]] : s.at[b[0]]};
+    const Vec3d p[4] = {s.at[a[0]], s.at[a[1]], edges ? s.at[b[0]] : s.at[a[2]],
+                        edges ? s.at[b[1]] : s.at[b[0]]};
     return test::feature_distance(p, edges);
 }
 
@@ -91,7 +95,9 @@ bool may_pair(const Soup& s, const std::vector<std::uint32_t>& a, const std::vec
     for (const std::uint32_t v : a)
         for (const std::uint32_t w : b) {
             if (v == w) return false;
-            if (!s.patches.empty()) may |= s.patches[v] == 0 || s.patches[w] == 0 ? (s.patches[v] == 0 && s.patches[w] == 0) : false;
+            if (!s.patches.empty())
+                may |=
+                    s.patches[v] == 0 || s.patches[w] == 0 ? (s.patches[v] == 0 && s.patches[w] == 0) : false;
         }
     return may;
 }
@@ -105,7 +111,8 @@ START_TEST(close_pairs_are_those_within_the_distance) {
         const double distance = seed % 5 == 0 ? 0 : 0.02 * double(seed % 7);
         const int kinds[][2] = {{2, 0}, {0, 2}, {1, 1}, {1, 0}, {0, 1}, {0, 0}};
         for (const auto& kind : kinds) {
-            const auto a = features_of(surface, s.at.size(), kind[0]), b = features_of(surface, s.at.size(), kind[1]);
+            const auto a = features_of(surface, s.at.size(), kind[0]),
+                       b = features_of(surface, s.at.size(), kind[1]);
             vox_close_view view{};
             view.struct_size = sizeof view;
             ck_ok(vox_surface_close(surface, vox_feature(kind[0]), vox_feature(kind[1]), distance, &view));
@@ -114,14 +121,16 @@ START_TEST(close_pairs_are_those_within_the_distance) {
                 for (std::uint32_t j = kind[0] == kind[1] ? i + 1 : 0; j < b.size(); ++j) {
                     if (!may_pair(s, a[i], b[j])) continue;
                     const double expected = distance_of(s, a[i], b[j]);
-                    const bool is_there = next < view.count && view.pairs[next].a == i && view.pairs[next].b == j;
-                    if (std::abs(expected - distance) > 1e-9) ck_assert_msg(is_there == (expected < distance),
-                                                                            "seed %d, kinds %d %d: %u %u at %g", int(seed),
-                                                                            kind[0], kind[1], i, j, expected);
+                    const bool is_there =
+                        next < view.count && view.pairs[next].a == i && view.pairs[next].b == j;
+                    if (std::abs(expected - distance) > 1e-9)
+                        ck_assert_msg(is_there == (expected < distance), "seed %d, kinds %d %d: %u %u at %g",
+                                      int(seed), kind[0], kind[1], i, j, expected);
                     if (!is_there) continue;
                     const vox_close_pair& pair = view.pairs[next++];
                     ck_assert(std::abs(pair.distance - expected) < 1e-9);
-                    const Vec3d p{pair.point_a[0], pair.point_a[1], pair.point_a[2]}, q{pair.point_b[0], pair.point_b[1], pair.point_b[2]};
+                    const Vec3d p{pair.point_a[0], pair.point_a[1], pair.point_a[2]},
+                        q{pair.point_b[0], pair.point_b[1], pair.point_b[2]};
                     ck_assert(std::abs(length(p - q) - pair.distance) < 1e-12);
                     Vec3d by_weights = -1 * p;
                     double sum = 0;
@@ -158,13 +167,15 @@ START_TEST(nothing_touches_within_the_clearance) {
         };
         std::vector<Pair> all;
         for (int k = 0; k < 2; ++k) {
-            const auto a = features_of(surface, s.at.size(), k ? 1 : 2), b = features_of(surface, s.at.size(), k ? 1 : 0);
+            const auto a = features_of(surface, s.at.size(), k ? 1 : 2),
+                       b = features_of(surface, s.at.size(), k ? 1 : 0);
             for (std::size_t i = 0; i < a.size(); ++i)
                 for (std::size_t j = k ? i + 1 : 0; j < b.size(); ++j) {
                     if (!may_pair(s, a[i], b[j])) continue;
                     all.push_back({a[i], b[j], distance_of(s, a[i], b[j])});
                     for (const auto* corners : {&a[i], &b[j]})
-                        for (const std::uint32_t v : *corners) expected[v] = std::min(expected[v], all.back().distance / 2);
+                        for (const std::uint32_t v : *corners)
+                            expected[v] = std::min(expected[v], all.back().distance / 2);
                 }
         }
         for (std::size_t v = 0; v < s.at.size(); ++v) {
@@ -197,17 +208,25 @@ START_TEST(what_is_refused) {
     view.struct_size = sizeof view;
     view.count = 5;
     std::vector<double> clearance(s.at.size());
-    ck_fails(vox_surface_close(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 1, &view), VOX_ERROR_INVALID_STATE, "no positions");
-    ck_fails(vox_surface_clearance(surface, 1, clearance.data(), clearance.size()), VOX_ERROR_INVALID_STATE, "no positions");
+    ck_fails(vox_surface_close(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 1, &view),
+             VOX_ERROR_INVALID_STATE, "no positions");
+    ck_fails(vox_surface_clearance(surface, 1, clearance.data(), clearance.size()), VOX_ERROR_INVALID_STATE,
+             "no positions");
     put(surface, s.at);
     for (const double bad : {-1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
-        ck_fails(vox_surface_close(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, bad, &view), VOX_ERROR_INVALID_ARGUMENT, "distance");
-        ck_fails(vox_surface_clearance(surface, bad, clearance.data(), clearance.size()), VOX_ERROR_INVALID_ARGUMENT, "most");
+        ck_fails(vox_surface_close(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, bad, &view),
+                 VOX_ERROR_INVALID_ARGUMENT, "distance");
+        ck_fails(vox_surface_clearance(surface, bad, clearance.data(), clearance.size()),
+                 VOX_ERROR_INVALID_ARGUMENT, "most");
     }
-    ck_fails(vox_surface_clearance(surface, 0, clearance.data(), clearance.size()), VOX_ERROR_INVALID_ARGUMENT, "most is 0");
-    ck_fails(vox_surface_clearance(surface, 1, clearance.data(), 3), VOX_ERROR_INVALID_ARGUMENT, "vertex_count is 3");
-    ck_fails(vox_surface_clearance(surface, 1, nullptr, clearance.size()), VOX_ERROR_INVALID_ARGUMENT, "per_vertex is null");
-    ck_fails(vox_surface_close(surface, VOX_FEATURE_FACE, VOX_FEATURE_FACE, 1, &view), VOX_ERROR_INVALID_ARGUMENT, "FACE and VERTEX");
+    ck_fails(vox_surface_clearance(surface, 0, clearance.data(), clearance.size()),
+             VOX_ERROR_INVALID_ARGUMENT, "most is 0");
+    ck_fails(vox_surface_clearance(surface, 1, clearance.data(), 3), VOX_ERROR_INVALID_ARGUMENT,
+             "vertex_count is 3");
+    ck_fails(vox_surface_clearance(surface, 1, nullptr, clearance.size()), VOX_ERROR_INVALID_ARGUMENT,
+             "per_vertex is null");
+    ck_fails(vox_surface_close(surface, VOX_FEATURE_FACE, VOX_FEATURE_FACE, 1, &view),
+             VOX_ERROR_INVALID_ARGUMENT, "FACE and VERTEX");
     ck_assert_uint_eq(view.count, 5);
     vox_surface_destroy(surface);
     vox_surface* const tight = surface_of(s, 1, 20000);
@@ -216,7 +235,8 @@ START_TEST(what_is_refused) {
     motion.vertex_count = s.at.size();
     motion.format = VOX_FORMAT_DOUBLE3;
     if (vox_surface_move(tight, &motion) == VOX_OK)
-        ck_fails(vox_surface_close(tight, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 10, &view), VOX_ERROR_BUDGET, "20000");
+        ck_fails(vox_surface_close(tight, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 10, &view), VOX_ERROR_BUDGET,
+                 "20000");
     vox_surface_destroy(tight);
 }
 END_TEST
@@ -225,5 +245,6 @@ END_TEST
 
 SUITE(surface_close) {
     TCase* tests = add_case(suite, "surface_close");
-    tcase_add_each(tests, close_pairs_are_those_within_the_distance, nothing_touches_within_the_clearance, what_is_refused);
+    tcase_add_each(tests, close_pairs_are_those_within_the_distance, nothing_touches_within_the_clearance,
+                   what_is_refused);
 }

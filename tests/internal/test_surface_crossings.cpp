@@ -1,5 +1,5 @@
-// vox_surface_crossings against all edges and all faces, each pair decided by find_crossing(), which test_crossing
-// compares with rational numbers.
+// vox_surface_crossings against all edges and all faces, each pair decided by find_crossing(), which
+// test_crossing compares with rational numbers.
 #include "exact/crossing.hpp"
 #include "scenes/bodies.h"
 #include "support/suite.h"
@@ -231,14 +231,16 @@ START_TEST(arguments) {
 }
 END_TEST
 
-// Parallel triangles across one box, edges in a corner of it beyond all of them, and one edge through all: many
-// candidates, few crossings. These come from any budget that holds them and the candidates of a few edges.
+// Parallel triangles across one box, edges in a corner of it beyond all of them, and one edge through all:
+// many candidates, few crossings. These come from any budget that holds them and the candidates of a few
+// edges.
 START_TEST(budgets) {
     TestSurface s;
     constexpr std::uint32_t n = 1000;
     for (std::uint32_t i = 0; i < n; ++i) {
         const double x = 1 + 1e-4 * i;
-        s.positions.insert(s.positions.end(), {x, 0, 0, 0, x, 0, 0, 0, x, 0.9, 0.9, 0.9, 0.9, 0.9, 0.8 + 1e-5 * i});
+        s.positions.insert(s.positions.end(),
+                           {x, 0, 0, 0, x, 0, 0, 0, x, 0.9, 0.9, 0.9, 0.9, 0.9, 0.8 + 1e-5 * i});
         s.faces.insert(s.faces.end(), {5 * i, 5 * i + 1, 5 * i + 2});
         s.edges.insert(s.edges.end(), {5 * i + 3, 5 * i + 4});
     }

@@ -1,5 +1,5 @@
-// Least squares without negative coefficients, costs fitted to timings, and tuning: over grids whose costs are known,
-// with timings that are as noisy and as wrong as those of machines.
+// Least squares without negative coefficients, costs fitted to timings, and tuning: over grids whose costs
+// are known, with timings that are as noisy and as wrong as those of machines.
 #include "cell_size/foreign/fit.hpp"
 #include "cell_size/foreign/least_squares.hpp"
 #include "cell_size/foreign/tune.hpp"
@@ -37,7 +37,8 @@ double sum_of_squares(const std::vector<std::vector<double>>& rows, const std::v
     return sum;
 }
 
-// The slopes tell the least sum: 0 along coefficients above 0, and upwards along the others (Karush, Kuhn and Tucker).
+// The slopes tell the least sum: 0 along coefficients above 0, and upwards along the others (Karush, Kuhn and
+// Tucker).
 START_TEST(least_squares_are_least) {
     Random random{11};
     for (int trial = 0; trial < 300; ++trial) {
@@ -126,8 +127,8 @@ START_TEST(fit_of_three_timings) {
     for (int trial = 0; trial < 60; ++trial) {
         const WorkAt work = boxes_in_cells(random.uniform(1, 4), random.uniform(3e3f, 1e5f));
         vox_grid_weights actual = true_weights, expected = true_weights;
-        for (double* w : {&actual.fixed, &actual.entries, &actual.visits, &actual.found, &actual.reads, &actual.occupied,
-                          &actual.cells})
+        for (double* w : {&actual.fixed, &actual.entries, &actual.visits, &actual.found, &actual.reads,
+                          &actual.occupied, &actual.cells})
             *w *= std::exp(random.uniform(-1.1f, 1.1f));
         const Cost cost = [&](double size) { return seconds_of(work, actual, size); };
         const double noise[] = {1 + random.uniform(-0.04f, 0.04f), 1 + random.uniform(-0.04f, 0.04f),
@@ -141,8 +142,7 @@ START_TEST(fit_of_three_timings) {
         // The weights are those of the curve.
         ck_assert_double_eq_tol(seconds_of(work, fit.weights, fit.cell_size), fit.predicted_seconds,
                                 1e-9 * fit.predicted_seconds);
-        for (std::uint32_t i = 0; i < fit.curve_count; ++i)
-            ck_assert_double_ge(fit.curve[i].cost, 0);
+        for (std::uint32_t i = 0; i < fit.curve_count; ++i) ck_assert_double_ge(fit.curve[i].cost, 0);
         losses.push_back(cost(fit.cell_size) / least_cost(cost, 1) - 1);
         // Where the best size is beyond those timed, it says so.
         ck_assert_double_le(losses.back(), fit.warnings & VOX_FOREIGN_OUT_OF_RANGE ? 0.25 : 0.04);
@@ -169,10 +169,11 @@ START_TEST(what_cannot_be_told_apart) {
         counts.cells = 0;
         return counts;
     };
-    const vox_grid_fit same = fit_timings(described_basis(without_cells, true_weights), {},
-                                          timings_of([&](double size) { return 2 * seconds_of(without_cells, true_weights, size); },
-                                                     {0.6, 1.2, 2.4}),
-                                          heap);
+    const vox_grid_fit same =
+        fit_timings(described_basis(without_cells, true_weights), {},
+                    timings_of([&](double size) { return 2 * seconds_of(without_cells, true_weights, size); },
+                               {0.6, 1.2, 2.4}),
+                    heap);
     ck_assert_double_eq_tol(same.weights.cells, 2 * true_weights.cells, 1e-6);
     ck_assert_double_eq_tol(same.weights.reads, 2 * true_weights.reads, 1e-6);
 }
@@ -190,7 +191,8 @@ START_TEST(warnings_of_a_fit) {
     ck_assert_uint_eq(result.warnings, 0);
     ck_assert_str_eq(result.note, "");
     const double best = result.cell_size;
-    // Another run of the same size counts if it is shorter, and warns if it is far off; the order does not matter.
+    // Another run of the same size counts if it is shorter, and warns if it is far off; the order does not
+    // matter.
     timings.push_back({1.2, 1.2 * cost(1.2)});
     ck_assert_uint_eq(fit(timings).warnings, 0);
     timings.insert(timings.begin(), {1.2, 3 * cost(1.2)});
@@ -266,7 +268,8 @@ struct Losses {
     }
 };
 
-// Sums of powers, with and without waves, and grids with wrong weights expected; the first size is up to 1.6 octaves off.
+// Sums of powers, with and without waves, and grids with wrong weights expected; the first size is up to 1.6
+// octaves off.
 START_TEST(tuned_on_a_noisy_machine) {
     Random random{3};
     for (const bool is_described : {false, true}) {
@@ -274,7 +277,8 @@ START_TEST(tuned_on_a_noisy_machine) {
         for (std::uint64_t trial = 0; trial < 150; ++trial) {
             const WorkAt work = boxes_in_cells(random.uniform(1, 6), random.uniform(3e3f, 1e5f));
             double coefficients[7];
-            for (double& c : coefficients) c = 0.005 + (random.unit() < 0.4 ? 0 : std::exp(random.uniform(-4, 0)));
+            for (double& c : coefficients)
+                c = 0.005 + (random.unit() < 0.4 ? 0 : std::exp(random.uniform(-4, 0)));
             const double wave = trial % 3 == 0 ? 0.05 : 0;
             vox_grid_weights expected = true_weights;
             expected.reads *= std::exp(random.uniform(-1.5f, 1.5f));
@@ -295,7 +299,7 @@ START_TEST(tuned_on_a_noisy_machine) {
         }
         ck_assert_double_le(losses.at(0.5), 0.01);
         ck_assert_double_le(losses.at(0.9), 0.06);
-        ck_assert_int_le(losses.runs, 150 * 13 / 2);       // it stops by itself
+        ck_assert_int_le(losses.runs, 150 * 13 / 2);            // it stops by itself
         ck_assert_int_ge(losses.within_expected, 150 * 8 / 10); // and knows how sure it is
     }
 }
@@ -341,8 +345,8 @@ START_TEST(tuned_with_exact_times) {
     ck_assert(same_bits(tuning, tune(&basis, settings_for(1), cost, heap)));
     // Neither the unit of time nor that of length matters.
     for (const double unit : {1e-12, 1e12}) {
-        const vox_tuning other =
-            tune(nullptr, settings_for(unit), [&](double size) { return unit * cost(size / unit); }, heap);
+        const vox_tuning other = tune(
+            nullptr, settings_for(unit), [&](double size) { return unit * cost(size / unit); }, heap);
         const vox_tuning plain = tune(nullptr, settings_for(1), cost, heap);
         ck_assert_uint_eq(other.run_count, plain.run_count);
         ck_assert_double_eq_tol(other.cell_size / unit, plain.cell_size, 1e-6);
@@ -370,7 +374,8 @@ START_TEST(sizes_that_cannot_run) {
     ck_assert_uint_le(tuning.run_count, 7);
     // None can.
     try {
-        (void)tune(nullptr, settings_for(1), [](double) { return infinity; }, heap);
+        (void)tune(
+            nullptr, settings_for(1), [](double) { return infinity; }, heap);
         ck_abort();
     } catch (const std::exception& error) {
         ck_assert_str_eq(error.what(), "no run succeeded: 7 could not run, the first at cell size 1");
@@ -381,8 +386,9 @@ END_TEST
 START_TEST(stopped_and_too_short) {
     for (int runs = 1; runs < 6; ++runs) {
         int left = runs;
-        const vox_tuning tuning =
-            tune(nullptr, settings_for(1), [&](double size) { return left-- > 0 ? valley(size) + 1e-4 / size : -1; }, heap);
+        const vox_tuning tuning = tune(
+            nullptr, settings_for(1),
+            [&](double size) { return left-- > 0 ? valley(size) + 1e-4 / size : -1; }, heap);
         if (runs >= 4) continue; // it may have been sure before
         ck_assert_uint_eq(tuning.run_count, runs);
         ck_assert_uint_ne(tuning.warnings & VOX_FOREIGN_STOPPED, 0);
@@ -394,7 +400,8 @@ START_TEST(stopped_and_too_short) {
     for (const double stop : {-1.0, -infinity, std::nan("")}) {
         int calls = 0;
         try {
-            (void)tune(nullptr, settings_for(1), [&](double) { return ++calls, stop; }, heap);
+            (void)tune(
+                nullptr, settings_for(1), [&](double) { return ++calls, stop; }, heap);
             ck_abort();
         } catch (const std::exception& error) {
             ck_assert_ptr_nonnull(std::strstr(error.what(), "no run succeeded"));
@@ -402,7 +409,8 @@ START_TEST(stopped_and_too_short) {
         ck_assert_int_eq(calls, 1);
     }
     try {
-        (void)tune(nullptr, settings_for(1), [](double) { return 0.0; }, heap);
+        (void)tune(
+            nullptr, settings_for(1), [](double) { return 0.0; }, heap);
         ck_abort();
     } catch (const std::exception& error) {
         ck_assert_ptr_nonnull(std::strstr(error.what(), "run 1, at cell size 1, returned 0 seconds"));
@@ -416,16 +424,19 @@ START_TEST(ends_of_the_range) {
     desc.min = 0.9;
     desc.max = 4;
     // The best size is one that may not be run.
-    vox_tuning tuning = tune(nullptr, TuneSettings(desc, 0, 0), [](double size) { return size; }, heap);
+    vox_tuning tuning = tune(
+        nullptr, TuneSettings(desc, 0, 0), [](double size) { return size; }, heap);
     ck_assert_double_eq(tuning.cell_size, 0.9);
-    tuning = tune(nullptr, TuneSettings(desc, 0, 0), [](double size) { return 1 / size; }, heap);
+    tuning = tune(
+        nullptr, TuneSettings(desc, 0, 0), [](double size) { return 1 / size; }, heap);
     ck_assert_double_eq(tuning.cell_size, 4);
     for (std::uint32_t i = 0; i < tuning.run_count; ++i) {
         ck_assert_double_ge(tuning.runs[i].cell_size, 0.9);
         ck_assert_double_le(tuning.runs[i].cell_size, 4);
     }
     // The least legal size.
-    tuning = tune(nullptr, settings_for(1, 7, 0.97), [](double size) { return size; }, heap);
+    tuning = tune(
+        nullptr, settings_for(1, 7, 0.97), [](double size) { return size; }, heap);
     ck_assert_double_eq(tuning.cell_size, 0.97);
     ck_assert_uint_eq(tuning.warnings, VOX_FOREIGN_AT_LEAST_SIZE);
     // One size only.
@@ -445,12 +456,14 @@ START_TEST(ends_of_the_range) {
 }
 END_TEST
 
-// A grid that is faster at its least legal size than a smooth curve shows: that size is taken where the fit sees hardly a
-// difference, and only there.
+// A grid that is faster at its least legal size than a smooth curve shows: that size is taken where the fit
+// sees hardly a difference, and only there.
 START_TEST(the_least_legal_size) {
     const vox_grid_timing timings[] = {{0.73, 1.3}, {1.1, 1.7}, {1.65, 4.4}};
     const CostBasis basis = power_basis(1);
-    const auto fitted = [&](double least) { return fit_timings(basis, {least, 0.05}, timings, heap).cell_size; };
+    const auto fitted = [&](double least) {
+        return fit_timings(basis, {least, 0.05}, timings, heap).cell_size;
+    };
     ck_assert_double_gt(fitted(0), 0.75);
     ck_assert_double_lt(fitted(0), 0.9);
     ck_assert_double_eq(fitted(0.73), 0.73);
@@ -474,19 +487,22 @@ END_TEST
 // Costs that no fit describes: the answer is never far from the best of what was run.
 START_TEST(unusual_costs) {
     const Cost costs[] = {
-        [](double) { return 1e-3; },                                          // flat
-        [](double size) { return 1e-3 * std::ceil(valley(size) * 300); },     // a coarse clock
-        [](double size) { return std::exp(4 * std::fabs(std::log(size))); },  // a notch
+        [](double) { return 1e-3; },                                         // flat
+        [](double size) { return 1e-3 * std::ceil(valley(size) * 300); },    // a coarse clock
+        [](double size) { return std::exp(4 * std::fabs(std::log(size))); }, // a notch
         [](double size) { return size < 0.7 ? 1e3 * valley(size) : valley(size); },
         // Two minima, as of a table that must be larger for small cells.
-        [](double size) { return 1 + 0.5 * std::cos(6 * std::log(size)) + 0.3 * std::pow(std::log(size), 2); },
+        [](double size) {
+            return 1 + 0.5 * std::cos(6 * std::log(size)) + 0.3 * std::pow(std::log(size), 2);
+        },
         [](double size) { return 1e29 / size; },
     };
     for (const Cost& cost : costs) {
         for (const std::uint32_t most_runs : {3u, 7u, 32u}) {
             const vox_tuning tuning = tune(nullptr, settings_for(1.1, most_runs), cost, heap);
             double best = infinity;
-            for (std::uint32_t i = 0; i < tuning.run_count; ++i) best = std::min(best, tuning.runs[i].seconds);
+            for (std::uint32_t i = 0; i < tuning.run_count; ++i)
+                best = std::min(best, tuning.runs[i].seconds);
             // Three runs say little of a notch.
             const double most = most_runs == 3 ? 2.5 : 1.35;
             ck_assert_double_le(cost(tuning.cell_size), most * best);
@@ -496,7 +512,8 @@ START_TEST(unusual_costs) {
 }
 END_TEST
 
-// Where planes of a lattice fall between cells, a size beside the smooth minimum is faster than any fit shows.
+// Where planes of a lattice fall between cells, a size beside the smooth minimum is faster than any fit
+// shows.
 START_TEST(a_notch_beside_the_minimum) {
     for (const double at : {-0.25, 0.25}) {
         const Cost cost = [=](double size) {
@@ -509,8 +526,8 @@ START_TEST(a_notch_beside_the_minimum) {
 }
 END_TEST
 
-// Costs that rise or fall at some size, as where a table no longer fits into a cache. Where the fits promise more than any
-// run has shown, it is run there; and what was fast is not given up for what is only fitted.
+// Costs that rise or fall at some size, as where a table no longer fits into a cache. Where the fits promise
+// more than any run has shown, it is run there; and what was fast is not given up for what is only fitted.
 START_TEST(costs_with_a_jump) {
     int slower_than_a_run = 0;
     std::vector<double> losses;
@@ -521,7 +538,8 @@ START_TEST(costs_with_a_jump) {
             const Cost cost = [&](double size) { return 1e-3 * (size + 1 / size) * (size > at ? jump : 1); };
             const vox_tuning tuning = tune(nullptr, settings_for(first), cost, heap);
             double best = infinity;
-            for (std::uint32_t i = 0; i < tuning.run_count; ++i) best = std::min(best, tuning.runs[i].seconds);
+            for (std::uint32_t i = 0; i < tuning.run_count; ++i)
+                best = std::min(best, tuning.runs[i].seconds);
             slower_than_a_run += cost(tuning.cell_size) > 1.06 * best;
             losses.push_back(cost(tuning.cell_size) / std::min(least_cost(cost, 1), best) - 1);
         }
@@ -532,8 +550,8 @@ START_TEST(costs_with_a_jump) {
 }
 END_TEST
 
-// One run is many times faster than all others, as one that did nothing, and hardly anything is read there: some fits are of
-// reads alone, and 0 where there are none.
+// One run is many times faster than all others, as one that did nothing, and hardly anything is read there:
+// some fits are of reads alone, and 0 where there are none.
 START_TEST(one_run_did_nothing) {
     for (double fast = 1e-5; fast < 1; fast *= 1.7) {
         for (const double few : {0.3, 0.03, 0.003}) {
@@ -547,7 +565,8 @@ START_TEST(one_run_did_nothing) {
             const CostBasis basis = described_basis(work, {0, 73, 36, 0, 6.2, 2.6, 0});
             const double seconds[] = {fast, 2.5, 2.5, 4.25, 8.125, 8.125, 8.125};
             int run = 0;
-            const vox_tuning tuning = tune(&basis, settings_for(1), [&](double) { return seconds[run++]; }, heap);
+            const vox_tuning tuning = tune(
+                &basis, settings_for(1), [&](double) { return seconds[run++]; }, heap);
             ck_assert(std::isfinite(tuning.seconds) && std::isfinite(tuning.expected_loss));
             ck_assert_double_gt(tuning.seconds, 0);
         }
@@ -565,7 +584,8 @@ START_TEST(expected_beyond_measure) {
         return w;
     };
     const CostBasis basis = described_basis(work, {1, 1, 1, 1e38, 1, 0, 0});
-    const vox_tuning tuning = tune(&basis, settings_for(4), [](double size) { return size / 4 + 4 / size; }, heap);
+    const vox_tuning tuning = tune(
+        &basis, settings_for(4), [](double size) { return size / 4 + 4 / size; }, heap);
     ck_assert(std::isfinite(tuning.seconds) && std::isfinite(tuning.noise));
     ck_assert_double_lt(tuning.seconds, 100);
 }

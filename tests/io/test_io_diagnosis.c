@@ -367,24 +367,27 @@ START_TEST(surfaces_from_path_and_memory) {
 }
 END_TEST
 
-/* OFF as other programs write it: faces over several lines, a quadrilateral, colours and normals, comments, CRLF, no
- * extension to go by; and what must be refused. Cut anywhere, it is an error or a sound mesh. */
+/* OFF as other programs write it: faces over several lines, a quadrilateral, colours and normals, comments,
+ * CRLF, no extension to go by; and what must be refused. Cut anywhere, it is an error or a sound mesh. */
 START_TEST(off_variants) {
-    static const char* const good[] = {
-        "OFF\n5 5 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n.5 .5 1\n4 0 \n3 \n\n2 \n1\n3 0\n1\n4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n",
-        "# a pyramid\r\nCNOFF 5 5 8 # counts\r\n0 0 0 0 0 1 255 0 0\r\n1 0 0 0 0 1 255 0 0\r\n1 1 0 0 0 1 255 0 0\r\n"
-        "0 1 0 0 0 1 255 0 0\r\n.5 .5 1 0 0 1 255 0 0\r\n4 0 3 2 1\r\n3 0 1 4 1 0 0\r\n3 1 2 4\r\n3 2 3 4\r\n3 3 0 4"};
+    static const char* const good[] = {"OFF\n5 5 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n.5 .5 1\n4 0 \n3 \n\n2 "
+                                       "\n1\n3 0\n1\n4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n",
+                                       "# a pyramid\r\nCNOFF 5 5 8 # counts\r\n0 0 0 0 0 1 255 0 0\r\n1 0 0 "
+                                       "0 0 1 255 0 0\r\n1 1 0 0 0 1 255 0 0\r\n"
+                                       "0 1 0 0 0 1 255 0 0\r\n.5 .5 1 0 0 1 255 0 0\r\n4 0 3 2 1\r\n3 0 1 4 "
+                                       "1 0 0\r\n3 1 2 4\r\n3 2 3 4\r\n3 3 0 4"};
     static const struct {
         const char *text, *words;
-    } bad[] = {{"OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 4\n", "line 7: expected a vertex number from 0 to 3"},
-               {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 x 0\n3 0 1 2\n", "line 5: expected a coordinate"},
-               {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "line 6: number of corners"},
-               {"OFF\n999999999999 1 0\n0 0 0\n", "line 2"},
-               {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n", "expected triangles, found none"},
-               {"OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "expected triangles"},
-               {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n", "line 7: expected the end of the file"},
-               {"4OFF\n3 1 0\n0 0 0 1\n1 0 0 1\n0 1 0 1\n3 0 1 2\n", "4OFF"},
-               {"OFF BINARY\n3 1 0\n", "BINARY"}};
+    } bad[] = {
+        {"OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 4\n", "line 7: expected a vertex number from 0 to 3"},
+        {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 x 0\n3 0 1 2\n", "line 5: expected a coordinate"},
+        {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "line 6: number of corners"},
+        {"OFF\n999999999999 1 0\n0 0 0\n", "line 2"},
+        {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n", "expected triangles, found none"},
+        {"OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", "expected triangles"},
+        {"OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n", "line 7: expected the end of the file"},
+        {"4OFF\n3 1 0\n0 0 0 1\n1 0 0 1\n0 1 0 1\n3 0 1 2\n", "4OFF"},
+        {"OFF BINARY\n3 1 0\n", "BINARY"}};
     for (size_t i = 0; i < sizeof good / sizeof *good; ++i) {
         const size_t size = strlen(good[i]);
         for (size_t cut = 0; cut <= size; ++cut) {

@@ -54,7 +54,8 @@ static bytes with_line_ends(const bytes* file, const char* end, size_t last) {
 START_TEST(points_alone) {
     static const char* const files[] = {
         "v 0 0 0\nv 1 0 0\nv 1 0 0\np 1 2\n",
-        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "
+        "z\nend_header\n"
         "0 0 0\n1 0 0\n1 0 0\n",
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
         "element face 0\nproperty list uchar int vertex_index\nend_header\n0 0 0\n1 0 0\n1 0 0\n",
@@ -77,8 +78,10 @@ START_TEST(points_alone) {
         ck_assert_double_eq(view.positions[6], 1);
         vox_io_mesh_destroy(mesh);
     }
-    refused("a.ply", "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
-            "end_header\n", VOX_ERROR_FORMAT, "expected triangles, found none");
+    refused("a.ply",
+            "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\n"
+            "end_header\n",
+            VOX_ERROR_FORMAT, "expected triangles, found none");
 }
 END_TEST
 
@@ -508,8 +511,8 @@ END_TEST
 
 SUITE(io_surfaces) {
     TCase* tests = add_case(suite, "surfaces");
-    tcase_add_each(tests, points_alone, line_ends, first_byte_of_binary_data, content_alone, obj, stl, ply, polygons, gltf,
-                   assimp);
+    tcase_add_each(tests, points_alone, line_ends, first_byte_of_binary_data, content_alone, obj, stl, ply,
+                   polygons, gltf, assimp);
 #ifdef __unix__
     tcase_add_test(tests, files_beside);
 #endif

@@ -28,6 +28,4 @@ END_TEST
 
 } // namespace
 
-SUITE(io_without) {
-    tcase_add_test(add_case(suite, "xml"), without_xml);
-}
+SUITE(io_without) { tcase_add_test(add_case(suite, "xml"), without_xml); }

@@ -120,7 +120,8 @@ START_TEST(stuffed_body) {
 }
 END_TEST
 
-/* The bodies' surfaces as fine triangle meshes: a profile of (distance from the axis, z) turned around the z axis. */
+/* The bodies' surfaces as fine triangle meshes: a profile of (distance from the axis, z) turned around the z
+ * axis. */
 enum { profile_points = 240, turns = 240 };
 
 static void profile_of(int body, int i, double* rho, double* z) {
@@ -128,7 +129,8 @@ static void profile_of(int body, int i, double* rho, double* z) {
     if (body == 1) { /* torus: a closed circle */
         *rho = 2 + 0.7 * cos(2 * pi * t);
         *z = 0.7 * sin(2 * pi * t);
-    } else if (body == 3) { /* cylinder: from the middle of one end over the rims to the middle of the other */
+    } else if (body ==
+               3) { /* cylinder: from the middle of one end over the rims to the middle of the other */
         const double length = 5 * t;
         *rho = length < 1 ? length : length < 4 ? 1 : 5 - length;
         *z = length < 1 ? -1.5 : length < 4 ? length - 2.5 : 1.5;
@@ -156,8 +158,8 @@ static vox_io_mesh* turned_surface(int body) {
             *t++ = a, *t++ = b + turns, *t++ = a + turns;
         }
     }
-    const vox_io_mesh_view arrays = {positions, (profile_points + 1) * turns, NULL, 0, triangles,
-                                     2 * profile_points * turns};
+    const vox_io_mesh_view arrays = {positions, (profile_points + 1) * turns, NULL, 0,
+                                     triangles, 2 * profile_points * turns};
     vox_io_mesh* surface = NULL;
     ck_ok(vox_io_mesh_create(&arrays, &surface));
     return surface;

@@ -97,7 +97,8 @@ START_TEST(same_as_the_plain_way) {
                                 1e-9 + 1e-6 * fit.prediction_error);
         const std::vector<Real> plain = plain_fit(data.u, data.y, best);
         for (std::size_t i = 0; i < count; ++i)
-            ck_assert_double_eq_tol(std::log(fitted_time(fit, data.sizes[i])), double(value(plain, data.u[i])), 1e-9);
+            ck_assert_double_eq_tol(std::log(fitted_time(fit, data.sizes[i])),
+                                    double(value(plain, data.u[i])), 1e-9);
     }
 }
 END_TEST

@@ -208,8 +208,8 @@ END_TEST
 START_TEST(three_slabs_rest_stacked) { rests_stacked(3, 0.25, 200); }
 END_TEST
 
-/* Two balls meet and part. The contacts of 80 frames, as one number, are the same in every build, in WebAssembly too. Until
- * Eigen's SIMD was off (src/base/eigen.hpp), they differed there from frame 49 on. */
+/* Two balls meet and part. The contacts of 80 frames, as one number, are the same in every build, in
+ * WebAssembly too. Until Eigen's SIMD was off (src/base/eigen.hpp), they differed there from frame 49 on. */
 START_TEST(every_build_moves_bodies_the_same) {
     vox_sim_desc settings = vox_default_sim_desc();
     vox_sim_body_desc like = vox_default_sim_body_desc();

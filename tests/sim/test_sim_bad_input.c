@@ -138,7 +138,8 @@ START_TEST(flat_and_inverted_tets_are_counted) {
     ck_assert_uint_eq(c.edges, 12);
     ck_assert_uint_eq(c.raised_masses, 2); /* of the flat tet's own corner, and of the loose vertex */
     ck_assert_int_eq(book.lines, 1);
-    ck_assert_ptr_nonnull(strstr(book.text, "body 1 (slot 0, user data 77): 1 of 3 tets have no rest volume"));
+    ck_assert_ptr_nonnull(
+        strstr(book.text, "body 1 (slot 0, user data 77): 1 of 3 tets have no rest volume"));
     ck_assert_double_eq_tol(energies(sim, body).mass, 1000.0 / 3, 100);
     steps(sim, 120);
     ck_finite(sim, body);

@@ -71,7 +71,8 @@ START_TEST(in_memory_of_the_caller) {
         if (result == VOX_OK) /* a list kept room that it would have given back */
             ck_assert_uint_eq(hash, usual);
         else
-            ck_assert_msg(result == VOX_ERROR_OUT_OF_MEMORY, "call %d: %s", (int)n, vox_result_string(result));
+            ck_assert_msg(result == VOX_ERROR_OUT_OF_MEMORY, "call %d: %s", (int)n,
+                          vox_result_string(result));
         ck_assert_uint_eq(memory.bytes, 0);
     }
     ck_assert_uint_ge(failed, tried - tried / 8);
@@ -81,6 +82,4 @@ START_TEST(in_memory_of_the_caller) {
 }
 END_TEST
 
-SUITE(sim_memory) {
-    tcase_add_test(add_case(suite, "sim_memory"), in_memory_of_the_caller);
-}
+SUITE(sim_memory) { tcase_add_test(add_case(suite, "sim_memory"), in_memory_of_the_caller); }

@@ -1,5 +1,5 @@
-/* A stack of ten: bodies of 900 tets that come to rest, or those of docs/sim.md for longer where the environment asks for
- * volume (VOX_TEST_VOLUME). */
+/* A stack of ten: bodies of 900 tets that come to rest, or those of docs/sim.md for longer where the
+ * environment asks for volume (VOX_TEST_VOLUME). */
 #include "sim/stack.h"
 
 START_TEST(ten_bodies_rest_stacked) {

@@ -1,5 +1,5 @@
-/* A model of meshes that are cut: plain arrays. A new grid is made of what the model has left, and the grid that
- * went through the edits is compared with it. */
+/* A model of meshes that are cut: plain arrays. A new grid is made of what the model has left, and the grid
+ * that went through the edits is compared with it. */
 #ifndef VOX_TESTS_CUTTING_MODEL_H
 #define VOX_TESTS_CUTTING_MODEL_H
 
@@ -168,7 +168,8 @@ static inline int touch_before(const vox_contact* x, const vox_contact* y) {
     return x->mesh_b < y->mesh_b;
 }
 
-/* Checks that the touching pairs among `these` that `those` lack are events of one kind. Returns their number. */
+/* Checks that the touching pairs among `these` that `those` lack are events of one kind. Returns their
+ * number. */
 static inline uint64_t expect_contact_events(const vox_contact* these, uint64_t these_count,
                                              const vox_contact* those, uint64_t those_count,
                                              const vox_contact_event* events, vox_touch kind) {

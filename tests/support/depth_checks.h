@@ -43,7 +43,8 @@ static inline const vox_penetration* penetration_at(vox_penetration_view view, u
 }
 
 /* The penetration of a vertex in a mesh, or null. */
-static inline const vox_penetration* penetration_of(const vox_grid* grid, vox_mesh a, uint32_t vertex, vox_mesh b) {
+static inline const vox_penetration* penetration_of(const vox_grid* grid, vox_mesh a, uint32_t vertex,
+                                                    vox_mesh b) {
     const vox_penetration_view view = penetrations_of(grid);
     for (uint64_t i = 0; i < view.count; ++i) {
         const vox_penetration* p = penetration_at(view, i);
@@ -73,25 +74,28 @@ static inline void check_rounded(const vox_depth* exact, float depth, const floa
     for (int axis = 0; axis < 3; ++axis) ck_assert(direction[axis] == (float)exact->direction[axis]);
 }
 
-/* Checks what holds in every scene: one penetration for each (mesh_a, vertex, mesh_b) of the contacts, in their order, with
- * finite numbers and a unit direction. */
+/* Checks what holds in every scene: one penetration for each (mesh_a, vertex, mesh_b) of the contacts, in
+ * their order, with finite numbers and a unit direction. */
 static inline void check_penetrations(const vox_grid* grid) {
     const vox_penetration_view view = penetrations_of(grid);
     const vox_depth_view depths = depths_of(grid);
     ck_assert_uint_eq(depths.count, view.count);
     ck_assert_uint_eq(depths.epoch, view.epoch);
     for (uint64_t i = 0; i < view.count; ++i) {
-        const vox_depth* exact = (const vox_depth*)(const void*)((const char*)depths.data + i * depths.byte_stride);
+        const vox_depth* exact =
+            (const vox_depth*)(const void*)((const char*)depths.data + i * depths.byte_stride);
         const vox_penetration* p = penetration_at(view, i);
         check_rounded(exact, p->depth, p->direction);
         const vector d = {exact->direction[0], exact->direction[1], exact->direction[2]};
-        ck_assert_msg(fabs(norm(d) - 1) < 1e-14, "vertex %u: a direction of length 1 + %g", p->vertex, norm(d) - 1);
+        ck_assert_msg(fabs(norm(d) - 1) < 1e-14, "vertex %u: a direction of length 1 + %g", p->vertex,
+                      norm(d) - 1);
     }
     vox_contact_view contacts = contacts_of(grid);
     ck_assert_uint_eq(view.epoch, contacts.epoch);
     uint64_t next = 0;
     for (uint64_t i = 0; i < contacts.count; ++i) {
-        const vox_contact* c = (const vox_contact*)(const void*)((const char*)contacts.data + i * contacts.byte_stride);
+        const vox_contact* c =
+            (const vox_contact*)(const void*)((const char*)contacts.data + i * contacts.byte_stride);
         if (next > 0) {
             const vox_penetration* last = penetration_at(view, next - 1);
             if (last->mesh_a == c->mesh_a && last->vertex == c->vertex && last->mesh_b == c->mesh_b) continue;
@@ -104,11 +108,13 @@ static inline void check_penetrations(const vox_grid* grid) {
         ck_assert_uint_eq(p->contact, i);
         ck_assert_int_ge(p->state, VOX_PENETRATION_SURFACE);
         ck_assert_int_le(p->state, VOX_PENETRATION_COINCIDENT);
-        ck_assert_msg(p->depth >= 0 && isfinite(p->depth), "vertex %u: depth %g", p->vertex, (double)p->depth);
-        ck_assert_msg(fabs(norm(direction_of(p)) - 1) < 1e-6, "vertex %u: a direction of length %g", p->vertex,
-                      norm(direction_of(p)));
+        ck_assert_msg(p->depth >= 0 && isfinite(p->depth), "vertex %u: depth %g", p->vertex,
+                      (double)p->depth);
+        ck_assert_msg(fabs(norm(direction_of(p)) - 1) < 1e-6, "vertex %u: a direction of length %g",
+                      p->vertex, norm(direction_of(p)));
         if (p->state == VOX_PENETRATION_COINCIDENT) ck_assert(p->depth == 0);
-        if (p->state == VOX_PENETRATION_SURFACE || p->state == VOX_PENETRATION_PROPAGATED) ck_assert(p->depth > 0);
+        if (p->state == VOX_PENETRATION_SURFACE || p->state == VOX_PENETRATION_PROPAGATED)
+            ck_assert(p->depth > 0);
     }
     ck_assert_uint_eq(next, view.count);
     ck_assert_uint_eq(counters_of(grid).penetrations, view.count);
@@ -155,9 +161,11 @@ static inline vector closest_on_facet(vector p, vector a, vector b, vector c) {
     const vector n = outer(minus(b, a), minus(c, a));
     const vector foot = plus_times(p, -inner(minus(p, a), n) / (inner(n, n) > 0 ? inner(n, n) : 1), n);
     if (inner(n, n) > 0 && inner(outer(minus(b, a), minus(foot, a)), n) >= 0 &&
-        inner(outer(minus(c, b), minus(foot, b)), n) >= 0 && inner(outer(minus(a, c), minus(foot, c)), n) >= 0)
+        inner(outer(minus(c, b), minus(foot, b)), n) >= 0 &&
+        inner(outer(minus(a, c), minus(foot, c)), n) >= 0)
         return foot;
-    const vector on[3] = {closest_on_segment(p, a, b), closest_on_segment(p, b, c), closest_on_segment(p, c, a)};
+    const vector on[3] = {closest_on_segment(p, a, b), closest_on_segment(p, b, c),
+                          closest_on_segment(p, c, a)};
     int best = 0;
     for (int i = 1; i < 3; ++i)
         if (norm(minus(on[i], p)) < norm(minus(on[best], p))) best = i;
@@ -169,8 +177,8 @@ static inline vector way_to(surface s, const float* positions, vector p) {
     vector best = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
     for (uint32_t t = 0; t < s.count; ++t) {
         const uint32_t* v = s.triangles[t];
-        const vector way =
-            minus(closest_on_facet(p, place(positions, v[0]), place(positions, v[1]), place(positions, v[2])), p);
+        const vector way = minus(
+            closest_on_facet(p, place(positions, v[0]), place(positions, v[1]), place(positions, v[2])), p);
         if (norm(way) < norm(best)) best = way;
     }
     return best;
@@ -180,12 +188,13 @@ static inline vector way_to(surface s, const float* positions, vector p) {
 static inline void check_closest(const vox_penetration* p, vector vertex, surface s, const float* positions,
                                  double unit) {
     const vector way = way_to(s, positions, vertex);
-    ck_assert_msg(fabs(norm(way) - (double)p->depth) < 1e-6 * unit, "vertex %u: depth %g, the surface is %g away",
-                  p->vertex, (double)p->depth, norm(way));
+    ck_assert_msg(fabs(norm(way) - (double)p->depth) < 1e-6 * unit,
+                  "vertex %u: depth %g, the surface is %g away", p->vertex, (double)p->depth, norm(way));
     /* Where several points are as close, any of them. */
     const vector end = plus_times(vertex, (double)p->depth, direction_of(p));
-    ck_assert_msg(norm(way_to(s, positions, end)) < 1e-6 * unit, "vertex %u: the direction misses the surface by %g",
-                  p->vertex, norm(way_to(s, positions, end)));
+    ck_assert_msg(norm(way_to(s, positions, end)) < 1e-6 * unit,
+                  "vertex %u: the direction misses the surface by %g", p->vertex,
+                  norm(way_to(s, positions, end)));
 }
 
 #endif

@@ -1,5 +1,5 @@
-// A C++ heap that counts and fails at a chosen allocation. failing_heap.cpp puts it in the place of a program's own, that of
-// the libraries that the program links, too.
+// A C++ heap that counts and fails at a chosen allocation. failing_heap.cpp puts it in the place of a
+// program's own, that of the libraries that the program links, too.
 #pragma once
 
 #include "support/suite.h"

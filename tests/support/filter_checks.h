@@ -16,9 +16,7 @@ static inline vox_grid* new_grid(void) {
     return grid_of(&desc);
 }
 
-static inline vox_mesh insert(vox_grid* grid, const vox_mesh_desc* desc) {
-    return insert_mesh(grid, desc);
-}
+static inline vox_mesh insert(vox_grid* grid, const vox_mesh_desc* desc) { return insert_mesh(grid, desc); }
 
 static inline vox_contact_view stepped(vox_grid* grid) {
     ck_ok(vox_grid_step(grid));

@@ -18,7 +18,8 @@ typedef struct world {
     int count;
 } world;
 
-/* Boxes that overlap each other; by quarters of an edge when `coarse`, so that points fall on facets, edges, corners. */
+/* Boxes that overlap each other; by quarters of an edge when `coarse`, so that points fall on facets, edges,
+ * corners. */
 static inline world new_world(uint64_t* random, int coarse) {
     world w;
     vox_grid_desc desc = vox_default_grid_desc();
@@ -35,7 +36,8 @@ static inline world new_world(uint64_t* random, int coarse) {
         w.bodies[b] = make_box(cubes, edge, at[0], at[1], at[2]);
         for (uint32_t i = 0; i < 3 * w.bodies[b].vertex_count; ++i) {
             const float moved = random_float(random, -0.25f, 0.25f);
-            w.bodies[b].positions[i] += coarse ? 0.25f * roundf(4 * moved) * (float)(random_below(random, 4) == 0) : moved;
+            w.bodies[b].positions[i] +=
+                coarse ? 0.25f * roundf(4 * moved) * (float)(random_below(random, 4) == 0) : moved;
         }
         vox_mesh_desc mesh = body_desc(&w.bodies[b]);
         vox_filter filter = vox_default_filter();
@@ -61,7 +63,8 @@ static inline void corners_of(const body* b, uint32_t tet, const float* corners[
     for (int c = 0; c < 4; ++c) corners[c] = b->positions + 3 * b->tets[4 * tet + c];
 }
 
-/* Whether the boxes of a segment and of some points have nothing in common: a short cut for the exact arithmetic. */
+/* Whether the boxes of a segment and of some points have nothing in common: a short cut for the exact
+ * arithmetic. */
 static inline int apart(const float* from, const float* to, const float* const* points, int count) {
     for (int axis = 0; axis < 3; ++axis) {
         float lo = points[0][axis], hi = lo;

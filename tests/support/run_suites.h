@@ -1,6 +1,6 @@
-/* The main of a program of suites: runs those that its arguments name, or all of them. CMake writes the file that includes this,
- * with the names of the program's suites in EACH_SUITE(X), from the list by which it compiles them (vox_suites in
- * tests/CMakeLists.txt). */
+/* The main of a program of suites: runs those that its arguments name, or all of them. CMake writes the file
+ * that includes this, with the names of the program's suites in EACH_SUITE(X), from the list by which it
+ * compiles them (vox_suites in tests/CMakeLists.txt). */
 #include <check.h>
 #include <stdio.h>
 #include <stdlib.h>

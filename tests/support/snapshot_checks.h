@@ -1,5 +1,5 @@
-/* Snapshots as bytes, the format spelled out once more by itself (docs/snapshot.md); a grid with something of everything
- * to be saved; and what two grids must have in common. */
+/* Snapshots as bytes, the format spelled out once more by itself (docs/snapshot.md); a grid with something of
+ * everything to be saved; and what two grids must have in common. */
 #ifndef VOX_TESTS_SNAPSHOT_CHECKS_H
 #define VOX_TESTS_SNAPSHOT_CHECKS_H
 

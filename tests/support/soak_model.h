@@ -1,4 +1,5 @@
-/* A model of two grids, one of each engine, that hold the same meshes, and checks of what must hold after each step. */
+/* A model of two grids, one of each engine, that hold the same meshes, and checks of what must hold after
+ * each step. */
 #ifndef VOX_TESTS_SOAK_MODEL_H
 #define VOX_TESTS_SOAK_MODEL_H
 
@@ -161,9 +162,11 @@ static inline int has_pair(const pair* pairs, uint32_t count, const pair* p) {
     return 0;
 }
 
-/* Checks that the next events are of that kind, one for each pair of `these` that is (or is not) in `those`. */
-static inline uint64_t expect_events(soak* s, const vox_touch_event* events, vox_touch kind, const pair* these,
-                              uint32_t these_count, const pair* those, uint32_t those_count, int in_both) {
+/* Checks that the next events are of that kind, one for each pair of `these` that is (or is not) in `those`.
+ */
+static inline uint64_t expect_events(soak* s, const vox_touch_event* events, vox_touch kind,
+                                     const pair* these, uint32_t these_count, const pair* those,
+                                     uint32_t those_count, int in_both) {
     uint64_t count = 0;
     for (uint32_t i = 0; i < these_count; ++i) {
         if (has_pair(those, those_count, &these[i]) != in_both) continue;

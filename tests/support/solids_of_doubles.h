@@ -14,7 +14,8 @@ static uint64_t state = 1;
 
 static inline double random_double(double min, double max) { return min + (max - min) * random_unit(&state); }
 
-/* ---- bodies of doubles ---------------------------------------------------------------------------------- */
+/* ---- bodies of doubles ----------------------------------------------------------------------------------
+ */
 
 typedef struct solid {
     double* positions; /* 3 a vertex: what counts */
@@ -84,7 +85,7 @@ static inline vox_mesh insert(vox_grid* grid, const solid* s, uint32_t flags) {
 
 /* The grid's contacts are those of the solids, which were inserted in this order. */
 static inline size_t check_contacts(vox_grid* grid, const solid* solids, uint32_t count, const vox_mesh* ids,
-                             int self) {
+                                    int self) {
     oracle_mesh_d meshes[4];
     oracle_contact* expected = NULL;
     for (uint32_t m = 0; m < count; ++m)

@@ -3,28 +3,28 @@
 #define VOX_TESTS_SUITE_H
 
 #include <check.h>
-/* Check writes every assertion that holds into a file, to name the last one before a crash: half of the time of tests that
- * assert something of each tetrahedron. A debugger names it too. */
+/* Check writes every assertion that holds into a file, to name the last one before a crash: half of the time
+ * of tests that assert something of each tetrahedron. A debugger names it too. */
 #define _mark_point(file, line) ((void)0)
 #include <stdio.h>
 #include <stdlib.h>
 #include <vox/vox.h>
 
-#define ck_ok(call) \
-    do { \
-        const vox_result result_ = (call); \
-        ck_assert_msg(result_ == VOX_OK, "%s: %s (%s)", #call, vox_result_string(result_), \
-                      vox_last_error()); \
+#define ck_ok(call)                                                                                          \
+    do {                                                                                                     \
+        const vox_result result_ = (call);                                                                   \
+        ck_assert_msg(result_ == VOX_OK, "%s: %s (%s)", #call, vox_result_string(result_),                   \
+                      vox_last_error());                                                                     \
     } while (0)
 
 /* The call fails with `code`, and its text contains `words`. */
-#define ck_fails(call, code, words) \
-    do { \
-        const vox_result result_ = (call); \
-        ck_assert_msg(result_ == (code), "%s: %s, expected %s (%s)", #call, vox_result_string(result_), \
-                      vox_result_string(code), vox_last_error()); \
-        ck_assert_msg(strstr(vox_last_error(), (words)) != NULL, "%s: the text is \"%s\", expected \"%s\" in it", \
-                      #call, vox_last_error(), (words)); \
+#define ck_fails(call, code, words)                                                                          \
+    do {                                                                                                     \
+        const vox_result result_ = (call);                                                                   \
+        ck_assert_msg(result_ == (code), "%s: %s, expected %s (%s)", #call, vox_result_string(result_),      \
+                      vox_result_string(code), vox_last_error());                                            \
+        ck_assert_msg(strstr(vox_last_error(), (words)) != NULL,                                             \
+                      "%s: the text is \"%s\", expected \"%s\" in it", #call, vox_last_error(), (words));    \
     } while (0)
 
 static inline vox_grid* grid_of(const vox_grid_desc* desc) {
@@ -79,7 +79,8 @@ static inline TCase* add_case(Suite* suite, const char* name) { return add_tagge
         for (size_t i_ = 0; i_ < sizeof each_ / sizeof *each_; ++i_) tcase_add_test(tests, each_[i_]);       \
     } while (0)
 
-/* Tests that hold for every engine: add_tests(tcase) is called for a case per engine, with `suite_engine` set. */
+/* Tests that hold for every engine: add_tests(tcase) is called for a case per engine, with `suite_engine`
+ * set. */
 static vox_engine suite_engine = VOX_ENGINE_AUTO;
 static inline void use_reference(void) { suite_engine = VOX_ENGINE_REFERENCE; }
 static inline void use_fast(void) { suite_engine = VOX_ENGINE_FAST; }
@@ -111,13 +112,15 @@ static inline uint64_t number_from(const char* variable, uint64_t usual) {
     const char* text = getenv(variable);
     return text ? strtoull(text, NULL, 10) : usual;
 }
-/* How many random scenes to try, or how many steps to take. VOX_TEST_VOLUME multiplies the usual numbers, for long runs. */
+/* How many random scenes to try, or how many steps to take. VOX_TEST_VOLUME multiplies the usual numbers, for
+ * long runs. */
 static inline uint64_t test_volume(void) { return number_from("VOX_TEST_VOLUME", 1); }
 static inline uint64_t volume_from(const char* variable, uint64_t usual) {
     return number_from(variable, usual * test_volume());
 }
 
-/* Whether the meshes from outside the tree are there, by one of their files. A suite that adds no case without them is skipped. */
+/* Whether the meshes from outside the tree are there, by one of their files. A suite that adds no case
+ * without them is skipped. */
 static inline int have_meshes(const char* path) {
     FILE* file = fopen(path, "rb");
     if (file) {
@@ -136,8 +139,8 @@ static inline int have_meshes(const char* path) {
 #else
 #define SUITE_LINKAGE_
 #endif
-#define SUITE(name) \
-    SUITE_LINKAGE_ void suite_##name(Suite* suite); \
+#define SUITE(name)                                                                                          \
+    SUITE_LINKAGE_ void suite_##name(Suite* suite);                                                          \
     void suite_##name(Suite* suite)
 
 #endif

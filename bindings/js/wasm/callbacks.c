@@ -1,5 +1,5 @@
-/* Callbacks into JavaScript. WebAssembly reaches JavaScript through imports alone, so each kind of callback is one import,
- * and `user` says which function is meant. */
+/* Callbacks into JavaScript. WebAssembly reaches JavaScript through imports alone, so each kind of callback
+ * is one import, and `user` says which function is meant. */
 #include <vox/vox.h>
 
 #define IMPORT(name) __attribute__((import_module("env"), import_name(#name)))
@@ -8,13 +8,9 @@
 IMPORT(voxtet_log) void voxtet_log(vox_log_level level, const char* text, void* user);
 IMPORT(voxtet_cost) double voxtet_cost(double cell_size, void* user);
 
-static void write_log(vox_log_level level, const char* text, void* user) {
-    voxtet_log(level, text, user);
-}
+static void write_log(vox_log_level level, const char* text, void* user) { voxtet_log(level, text, user); }
 
-static double cost(double cell_size, void* user) {
-    return voxtet_cost(cell_size, user);
-}
+static double cost(double cell_size, void* user) { return voxtet_cost(cell_size, user); }
 
 /* The grid's log goes to the function `user`. */
 EXPORT void voxtet_set_log(vox_grid_desc* desc, void* user) {
@@ -28,6 +24,7 @@ EXPORT vox_result voxtet_cost_minimise(void* user, const vox_cost_bounds* bounds
 }
 
 /* vox_cost_tune with the function `user`. */
-EXPORT vox_result voxtet_cost_tune(const vox_foreign_grid* grid, const vox_tune_desc* desc, void* user, vox_tuning* out) {
+EXPORT vox_result voxtet_cost_tune(const vox_foreign_grid* grid, const vox_tune_desc* desc, void* user,
+                                   vox_tuning* out) {
     return vox_cost_tune(grid, desc, cost, user, out);
 }

@@ -1,9 +1,10 @@
-/* Threads, in the module that has them: a pool for all grids of it. Each thread is a Worker that has instantiated the same
- * module over the same memory (lib/thread.js); they are started when the module is loaded, and never return.
+/* Threads, in the module that has them: a pool for all grids of it. Each thread is a Worker that has
+ * instantiated the same module over the same memory (lib/thread.js); they are started when the module is
+ * loaded, and never return.
  *
- * The thread that calls the library is worker 0. It offers a task, takes part, withdraws the offer when nothing is left to
- * take, and waits for those who accepted, as the built-in scheduler does (src/base/scheduler.cpp). But it waits awake, as
- * the thread of a page must not sleep. */
+ * The thread that calls the library is worker 0. It offers a task, takes part, withdraws the offer when
+ * nothing is left to take, and waits for those who accepted, as the built-in scheduler does
+ * (src/base/scheduler.cpp). But it waits awake, as the thread of a page must not sleep. */
 #include <vox/vox.h>
 
 #include <pthread.h>
@@ -17,7 +18,10 @@
 #define IMPORT(name) __attribute__((import_module("env"), import_name(#name)))
 #define EXPORT __attribute__((used, visibility("default")))
 
-enum { STACK_BYTES = 1 << 20, PATIENCE = 20000 /* looks for a task before a thread sleeps: the next mostly comes soon */ };
+enum {
+    STACK_BYTES = 1 << 20,
+    PATIENCE = 20000 /* looks for a task before a thread sleeps: the next mostly comes soon */
+};
 
 /* ---- what the C library asks of JavaScript ---- */
 
@@ -41,9 +45,11 @@ double emscripten_get_now(void) { return voxtet_now(); }
 /* Makes the memory at least `size` bytes large. */
 int emscripten_resize_heap(size_t size) {
     const size_t page = 1 << 16, pages = __builtin_wasm_memory_size(0);
-    const size_t wanted = size / page + (size % page != 0), more = pages / 8; /* so that there are few of these calls */
+    const size_t wanted = size / page + (size % page != 0),
+                 more = pages / 8; /* so that there are few of these calls */
     if (wanted <= pages) return 1;
-    if (wanted - pages < more && pages + more <= 65536 && __builtin_wasm_memory_grow(0, more) != (size_t)-1) return 1;
+    if (wanted - pages < more && pages + more <= 65536 && __builtin_wasm_memory_grow(0, more) != (size_t)-1)
+        return 1;
     return __builtin_wasm_memory_grow(0, wanted - pages) != (size_t)-1;
 }
 
@@ -79,7 +85,8 @@ static bool take(uint64_t* begin, uint64_t* end) {
     uint64_t at = atomic_load(&pool.taken);
     do {
         if (at >= pool.items) return false;
-        const uint64_t left = pool.items - at, share = left / shares, size = share > pool.least ? share : pool.least;
+        const uint64_t left = pool.items - at, share = left / shares,
+                       size = share > pool.least ? share : pool.least;
         *begin = at;
         *end = left <= size || left - size < pool.least ? pool.items : at + size;
     } while (!atomic_compare_exchange_weak(&pool.taken, &at, *end));
@@ -98,7 +105,9 @@ static void* run(vox_task* task, uint64_t item_count, uint64_t min_range, void* 
     pool.least = min_range ? min_range : 1;
     atomic_store(&pool.taken, 0);
     const uint64_t ranges = item_count / pool.least;
-    const uint32_t offers = ranges <= 1 ? 0 : ranges - 1 < thread_count ? (uint32_t)(ranges - 1) : thread_count;
+    const uint32_t offers = ranges <= 1                 ? 0
+                            : ranges - 1 < thread_count ? (uint32_t)(ranges - 1)
+                                                        : thread_count;
     atomic_store(&pool.state, offers * ONE_OFFER);
     /* A thread counts itself as asleep before its last look at `state`; so one of the two sees the other. */
     if (offers && atomic_load(&pool.asleep)) __builtin_wasm_memory_atomic_notify((int*)&pool.state, offers);

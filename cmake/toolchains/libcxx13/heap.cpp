@@ -1,5 +1,5 @@
-// The functions of <experimental/memory_resource>. Emscripten's library has them in some of its variants only, and there
-// new_delete_resource() refuses alignments above that of a double.
+// The functions of <experimental/memory_resource>. Emscripten's library has them in some of its variants
+// only, and there new_delete_resource() refuses alignments above that of a double.
 #include <memory_resource>
 #include <new>
 

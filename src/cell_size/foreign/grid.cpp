@@ -378,8 +378,7 @@ double ForeignWork::occupied_of_few(double d, double cells_there) const {
 }
 
 double ForeignWork::occupied_share(double d) {
-    if (held_chosen_.empty())
-        held_chosen_ = choose_asking(held_, chosen_, table_[0].memory());
+    if (held_chosen_.empty()) held_chosen_ = choose_asking(held_, chosen_, table_[0].memory());
     const vox_grid_work smooth = smooth_at(d);
     const bool both = pairs_ && !same_set_, all_kept = held_.share() == 1 && (!both || asking_.share() == 1);
     // More of them are few where none can be missed for want of what is not in the sample.

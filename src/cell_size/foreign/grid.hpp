@@ -50,7 +50,7 @@ struct ForeignBudget {
     std::size_t cells;    // cells looked at for what is in them, at each size
     double rough;         // how roughly it is counted (SampleTree::count_meeting)
     std::size_t singly;   // cells looked at for whether there is anything in them, where those of some
-                        // positions of the lattice are no more
+                          // positions of the lattice are no more
 };
 // For vox_suggest_for: a look at 20,000 primitives takes less than half a millisecond, at a million a few.
 inline ForeignBudget quick_look(const ForeignGrid& grid) noexcept {
@@ -120,8 +120,7 @@ private:
     bool has_size_ = false, never_empty_ = false;
     CellSizeRange range_{1, 1};
     vox_foreign_rules rules_{};
-    std::array<Array<double>, 2>
-        table_; // of each Share, from range_.min on; -1 where not known yet
+    std::array<Array<double>, 2> table_; // of each Share, from range_.min on; -1 where not known yet
 };
 
 } // namespace vox

@@ -224,8 +224,7 @@ bool SampleTree::meets_any(const double (&lo)[3], double side) const noexcept {
 
 // ---- asking ---------------------------------------------------------------------------------------
 
-Array<Asking> choose_asking(const SampleTree& tree, std::size_t wanted,
-                                       std::pmr::memory_resource* memory) {
+Array<Asking> choose_asking(const SampleTree& tree, std::size_t wanted, std::pmr::memory_resource* memory) {
     Array<Asking> chosen(memory);
     const std::size_t count = tree.size();
     const double each = 1 / tree.share();
@@ -334,9 +333,8 @@ void add_neighbours(const PlainBox& a, const PlainBox& b, double weight, Piecewi
 
 } // namespace
 
-PiecewiseMoments sum_pairs(const SampleTree& from, const Array<Asking>& asking,
-                           const SampleTree& held, double coarse, Meeting meeting, bool same_set,
-                           std::pmr::memory_resource* memory) {
+PiecewiseMoments sum_pairs(const SampleTree& from, const Array<Asking>& asking, const SampleTree& held,
+                           double coarse, Meeting meeting, bool same_set, std::pmr::memory_resource* memory) {
     PlainBox bounds = from.bounds();
     bounds.include(held.bounds());
     const double longest = bounds.longest_side();

@@ -168,8 +168,7 @@ struct Asking {
 
 // About `wanted` boxes of a tree, so that each kind of size and of surroundings has its part. The weights add
 // up to the number that the tree stands for.
-Array<Asking> choose_asking(const SampleTree& tree, std::size_t wanted,
-                                       std::pmr::memory_resource* memory);
+Array<Asking> choose_asking(const SampleTree& tree, std::size_t wanted, std::pmr::memory_resource* memory);
 
 enum class Meeting : std::uint8_t {
     in_cells,      // of boxes: cells in common
@@ -178,8 +177,7 @@ enum class Meeting : std::uint8_t {
 
 // Sums over all pairs of boxes in `asking`, a part of those in `from`, and boxes in `held`, as coarsely as
 // SampleTree::sample_around. With `same_set`, pairs of a box with itself (the same id) are left out.
-PiecewiseMoments sum_pairs(const SampleTree& from, const Array<Asking>& asking,
-                           const SampleTree& held, double coarse, Meeting meeting, bool same_set,
-                           std::pmr::memory_resource* memory);
+PiecewiseMoments sum_pairs(const SampleTree& from, const Array<Asking>& asking, const SampleTree& held,
+                           double coarse, Meeting meeting, bool same_set, std::pmr::memory_resource* memory);
 
 } // namespace vox

@@ -316,8 +316,8 @@ private:
         return chosen_ >= largest() && largest() < high_ ? 1 : 0;
     }
 
-    // A quarter of an octave to a side of the chosen node, where nothing was run as near: costs are not as smooth
-    // as fits.
+    // A quarter of an octave to a side of the chosen node, where nothing was run as near: costs are not as
+    // smooth as fits.
     std::optional<int> unseen_beside() const {
         constexpr int away = nodes_per_octave / 4;
         for (const int side : {away, -away}) {
@@ -479,9 +479,9 @@ private:
     Notes notes_;
     bool stopped_ = false;
 
-    const int first_known_;                               // node of known_[0]
-    int low_, high_;                                      // nodes that may be run
-    int view_low_ = 0, view_high_ = 0;                    // those up to an octave beyond what was run
+    const int first_known_;                    // node of known_[0]
+    int low_, high_;                           // nodes that may be run
+    int view_low_ = 0, view_high_ = 0;         // those up to an octave beyond what was run
     Array<std::optional<Coefficients>> known_; // values of the terms
 
     std::array<vox_grid_timing, VOX_TUNE_RUN_CAPACITY> runs_{};

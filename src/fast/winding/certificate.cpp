@@ -13,13 +13,13 @@
 // contact without overlap is not certified away. Neither is a vertex where two pieces that share a d meet:
 // the inside of both is against d there, so they overlap.
 //
-// The same holds for an edge of the boundary and a facet of it, without a vertex in common, that have a point p
-// in a safe cell. Let s be the edge, or its end if p is that, and t the facet, or its side or corner that p is
-// in. All boundary triangles at s and at t touch the cell, as they contain p, so their normals have a positive
-// product with d. Against d the boundary is only crossed inward: just before p lies a point that is covered by a
-// tet at s, and by one at t. These are two tets: one with both s and t would have two faces whose insides meet in
-// p, so s and t would be the same. The point is in the cell of p or in one that is entered from it, both safe,
-// where no point is covered twice: so there is no such p.
+// The same holds for an edge of the boundary and a facet of it, without a vertex in common, that have a point
+// p in a safe cell. Let s be the edge, or its end if p is that, and t the facet, or its side or corner that p
+// is in. All boundary triangles at s and at t touch the cell, as they contain p, so their normals have a
+// positive product with d. Against d the boundary is only crossed inward: just before p lies a point that is
+// covered by a tet at s, and by one at t. These are two tets: one with both s and t would have two faces
+// whose insides meet in p, so s and t would be the same. The point is in the cell of p or in one that is
+// entered from it, both safe, where no point is covered twice: so there is no such p.
 //
 // Tets that are not positive, or not certainly so, make every cell of their box unsafe. They do not count
 // elsewhere.

@@ -27,7 +27,7 @@ struct CertifiedCells {
     WindowLattice lattice;
     static constexpr std::uint32_t run = 8;
     Array<std::uint8_t> certified; // of each cell, 1 or 0; and `run` more, to read so many at once
-    bool complete = false;                    // whether all cells are certified
+    bool complete = false;         // whether all cells are certified
 
     // Whether all cells that meet `box` are certified; false as well where they are too many to look at.
     bool holds(const Box& box) const noexcept {

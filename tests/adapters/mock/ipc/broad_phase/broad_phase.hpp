@@ -1,4 +1,5 @@
-// As much of IPC Toolkit 1.6 as adapters/ipc_broad_phase.hpp uses: names and types alone, so that the adapter compiles here.
+// As much of IPC Toolkit 1.6 as adapters/ipc_broad_phase.hpp uses: names and types alone, so that the adapter
+// compiles here.
 #pragma once
 
 #include <Eigen/Core>
@@ -39,9 +40,9 @@ public:
     virtual std::string name() const = 0;
     virtual void build(Eigen::ConstRef<Eigen::MatrixXd> vertices, Eigen::ConstRef<Eigen::MatrixXi> edges,
                        Eigen::ConstRef<Eigen::MatrixXi> faces, const double inflation_radius = 0) = 0;
-    virtual void build(Eigen::ConstRef<Eigen::MatrixXd> vertices_t0, Eigen::ConstRef<Eigen::MatrixXd> vertices_t1,
-                       Eigen::ConstRef<Eigen::MatrixXi> edges, Eigen::ConstRef<Eigen::MatrixXi> faces,
-                       const double inflation_radius = 0) = 0;
+    virtual void build(Eigen::ConstRef<Eigen::MatrixXd> vertices_t0,
+                       Eigen::ConstRef<Eigen::MatrixXd> vertices_t1, Eigen::ConstRef<Eigen::MatrixXi> edges,
+                       Eigen::ConstRef<Eigen::MatrixXi> faces, const double inflation_radius = 0) = 0;
     virtual void build(const AABBs& vertex_boxes, Eigen::ConstRef<Eigen::MatrixXi> edges,
                        Eigen::ConstRef<Eigen::MatrixXi> faces, const uint8_t dim) = 0;
     virtual void clear() {}
