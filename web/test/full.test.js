@@ -1,100 +1,22 @@
-// The page as a visitor uses it, in a real browser, beside the same scene run natively.
-// usage: node --test page.test.js, with PLAYGROUND_NATIVE and VOX_TOOL naming the two programs
+// The page as a visitor uses it, beyond what page.test.js looks at. usage: ../check BUILD_FOLDER --full
 import assert from "node:assert/strict";
 import { execFileSync, spawnSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { tmpdir } from "node:os";
 import path from "node:path";
-import test, { after, before } from "node:test";
+import test from "node:test";
 import pngjs from "pngjs";
-import { hasPlainModule, launch, root, serve } from "./browser.js";
+import { cube, dropAll, dropFile, facts, folder, hashesOf, logged, native, overABody, reads, run, scene, until, visit } from "./visitor.js";
 
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-const folder = mkdtempSync(path.join(tmpdir(), "playground-"));
-let server;
-let browser;
 
-before(async () => {
-  server = await serve();
-  browser = await launch();
+test("200 frames have the native hash without SIMD, too", async () => {
+  const [expected] = hashesOf(native(scene));
+  await visit("?scene=empty&stopped&plain", async (page) => {
+    await dropAll(page, 1000);
+    assert.equal((await run(page, 200)).hash, expected);
+  });
 });
-after(async () => {
-  await browser?.close();
-  server?.close();
-  rmSync(folder, { recursive: true, force: true });
-});
-
-/** Waits until a function is true in the page. Playwright's own way needs a page that allows eval(). */
-async function until(page, holds, argument = null) {
-  for (const end = Date.now() + 120000; !(await page.evaluate(holds, argument)); await page.waitForTimeout(50))
-    assert.ok(Date.now() < end, `in vain: ${holds} (${JSON.stringify(argument)})`);
-}
-
-/** Runs `use` on a page of its own. Whatever it logs as an error, or asks of another server, fails the test. */
-async function visit(search, use, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
-  await context.addInitScript({ content: "addEventListener('securitypolicyviolation', (e) => console.error('policy: ' + e.violatedDirective + ' ' + e.blockedURI));" });
-  const faults = [];
-  context.on("request", (request) => {
-    if (!request.url().startsWith(server.address) && !/^(?:data|blob):/.test(request.url())) faults.push(`asks for ${request.url()}`);
-  });
-  const page = await context.newPage();
-  page.on("console", (message) => ["error", "warning"].includes(message.type()) && !/GPU stall|swiftshader/i.test(message.text()) && faults.push(message.text()));
-  page.on("pageerror", (error) => faults.push(String(error)));
-  try {
-    await page.goto(server.address + search);
-    await until(page, () => globalThis.playground?.ready && playground.facts);
-    await use(page, context);
-    assert.deepEqual(faults, []);
-  } finally {
-    await context.close();
-  }
-}
-
-const run = (page, steps) => page.evaluate((n) => playground.ask("run", { steps: n }), steps);
-const dropAll = (page, tets, kinds = [0, 1, 2, 3, 4]) =>
-  page.evaluate(([list, n]) => list.forEach((kind) => playground.act("drop", { kind, tets: n })), [kinds, tets]);
-const facts = (page) => page.evaluate(() => playground.facts);
-const logged = (page, words) => until(page, (w) => document.getElementById("log").textContent.includes(w), words);
-
-/** Waits until what is written somewhere matches. */
-const reads = (page, selector, words) =>
-  until(page, ([where, pattern]) => new RegExp(pattern).test(document.querySelector(where).textContent), [selector, words.source]);
-
-/** What the native scene prints for these commands. */
-function native(commands) {
-  const done = spawnSync(process.env.PLAYGROUND_NATIVE, { input: `${commands.join("\n")}\n`, encoding: "utf8" });
-  assert.equal(done.status, 0, done.stderr);
-  return done;
-}
-const hashesOf = ({ stdout }) => [...stdout.matchAll(/hash ([0-9a-f]{16})/g)].map((match) => match[1]);
-
-/** A point of the view where a body is that can be dragged. */
-const overABody = (page) =>
-  page.evaluate(() => {
-    const box = document.getElementById("view").getBoundingClientRect();
-    for (let row = 1; row < 40; ++row)
-      for (let column = 1; column < 40; ++column) {
-        const [x, y] = [box.left + (box.width * column) / 40, box.top + (box.height * row) / 40];
-        // Of a body's middle rather than its rim.
-        if ([[0, 0], [6, 0], [-6, 0], [0, 6], [0, -6]].every(([a, b]) => playground.view.hits(playground.view.ray(x + a, y + b)))) return { x, y };
-      }
-    return null;
-  });
-
-const scene = [...[0, 1, 2, 3, 4].map((kind) => `drop ${kind} 1000`), "steps 200"];
-
-for (const [name, search, built] of [["SIMD", "", true], ["no SIMD", "&plain", hasPlainModule()]])
-  test(`200 frames have the native hash: ${name}`, { skip: !built && "this module was not built" }, async () => {
-    const [expected] = hashesOf(native(scene));
-    await visit(`?scene=empty&stopped${search}`, async (page) => {
-      await dropAll(page, 1000);
-      const { hash, facts: found } = await run(page, 200);
-      assert.equal(hash, expected);
-      assert.ok(found.contacts > 0 && found.tets > 5000, JSON.stringify(found));
-    });
-  });
 
 test("self-collision, a cut and a drag have the native hash, too", async () => {
   const [a, b, c, d] = hashesOf(native([...scene, "self 1", "cut -20 0.1 1.2  20 8 0  20 -8 0", "steps 60",
@@ -111,19 +33,6 @@ test("self-collision, a cut and a drag have the native hash, too", async () => {
     assert.equal((await run(page, 30)).hash, c);
     await page.evaluate(() => playground.act("letGo"));
     assert.equal((await run(page, 30)).hash, d);
-  });
-});
-
-test("frames follow each other by themselves, stop, and go on", async () => {
-  await visit("", async (page) => {
-    await until(page, () => playground.facts.steps > 30);
-    await page.click("#pause");
-    await page.waitForTimeout(300);
-    const { steps } = await facts(page);
-    await page.waitForTimeout(300);
-    assert.equal((await facts(page)).steps, steps);
-    await page.click("#pause");
-    await until(page, (n) => playground.facts.steps > n, steps);
   });
 });
 
@@ -206,30 +115,6 @@ test("keys do what the pointer does", async () => {
   });
 });
 
-// A cube of 2 by 2 by 2 as a surface.
-const cube = ["v -1 -1 -1", "v 1 -1 -1", "v 1 1 -1", "v -1 1 -1", "v -1 -1 1", "v 1 -1 1", "v 1 1 1", "v -1 1 1",
-  ...["1 4 3", "1 3 2", "5 6 7", "5 7 8", "1 2 6", "1 6 5", "2 3 7", "2 7 6", "3 4 8", "3 8 7", "4 1 5", "4 5 8"].map((f) => `f ${f}`), ""].join("\n");
-
-const dropFile = (page, name, text) =>
-  page.evaluate(([n, t]) => {
-    const data = new DataTransfer();
-    data.items.add(new File([t], n));
-    document.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true, cancelable: true }));
-  }, [name, text]);
-
-test("a file is dropped on the page: a surface is filled and falls", async () => {
-  await visit("?scene=empty&stopped", async (page) => {
-    await dropFile(page, "cube.obj", cube);
-    await logged(page, "filled with");
-    const file = path.join(folder, "cube.obj");
-    writeFileSync(file, cube);
-    const [expected] = hashesOf(native([`file ${file} 1000`, "steps 100"]));
-    assert.equal((await run(page, 100)).hash, expected);
-    await page.setInputFiles("#file", file); // by the button
-    await until(page, () => playground.bodies === 3);
-  });
-});
-
 test("files of four formats are read as the native library reads them", async () => {
   const write = (name, text) => {
     writeFileSync(path.join(folder, name), text);
@@ -286,23 +171,6 @@ test("the end of the memory is said, and the scene goes on", async () => {
     await dropAll(page, 400, [1]);
     const { facts: now } = await run(page, 100);
     assert.ok(now.steps === had.steps + 100 && now.tets < had.tets, JSON.stringify(now));
-  });
-});
-
-test("the slider: the time at a size beside the predicted one, the same contacts, and back to the best", async () => {
-  await visit("", async (page) => {
-    await until(page, () => playground.curves && playground.measured);
-    await page.fill("#size", "60");
-    await until(page, () => playground.measured.size < playground.curves[1].size / 2);
-    assert.equal(await page.evaluate(() => playground.measured.same), true);
-    await reads(page, "#verdict", /takes [\d.]+ .s for a step \(predicted: [\d.]+ .s\)\. That is [\d.]+ times what/);
-    await reads(page, "#verdict", /the same at every size/);
-    await page.click("#best");
-    await reads(page, "#verdict", /This is the predicted best/);
-    await page.check('input[value="2"]');
-    await until(page, () => playground.measured.engine === 2);
-    await page.click("summary >> nth=0");
-    assert.ok((await page.locator("#terms tbody tr").count()) >= 5);
   });
 });
 
@@ -387,30 +255,6 @@ test("contacts, cells, tiles and windows are drawn where they are asked for", as
       assert.ok(differs > 20, `${id}: ${differs} pixels differ`);
       last = now;
     }
-  });
-});
-
-test("the picture is the one on record, with tolerance", async (t) => {
-  await visit("?scene=empty&stopped", async (page) => {
-    await dropAll(page, 1000);
-    await run(page, 200);
-    await page.waitForTimeout(500);
-    const shot = pngjs.PNG.sync.read(await page.locator("#view").screenshot());
-    // Means of blocks of 20 by 20 pixels, so that no edge of a triangle counts.
-    const blocks = [];
-    for (let y = 40; y + 20 <= shot.height; y += 20)
-      for (let x = 0; x + 20 <= shot.width; x += 20) {
-        let sum = 0;
-        for (let j = 0; j < 20; ++j) for (let i = 0; i < 20; ++i) for (let c = 0; c < 3; ++c) sum += shot.data[4 * ((y + j) * shot.width + x + i) + c];
-        blocks.push(Math.round(sum / 1200));
-      }
-    const file = new URL("picture.json", import.meta.url);
-    if (process.env.PLAYGROUND_RENEW) writeFileSync(file, `${JSON.stringify({ width: shot.width, height: shot.height, blocks })}\n`);
-    const record = JSON.parse(readFileSync(file, "utf8"));
-    assert.deepEqual([shot.width, shot.height], [record.width, record.height]);
-    const far = blocks.filter((value, i) => Math.abs(value - record.blocks[i]) > 24).length;
-    t.diagnostic(`${far} of ${blocks.length} blocks differ`);
-    assert.ok(far <= blocks.length / 50, `${far} of ${blocks.length} blocks differ`);
   });
 });
 

@@ -1,0 +1,78 @@
+// The page in short, for every run of the tests: it loads, steps as the native scene does, is drawn, reads a file, measures a
+// cell size. full.test.js has the rest. usage: ../check BUILD_FOLDER
+import assert from "node:assert/strict";
+import { readFileSync, writeFileSync } from "node:fs";
+import path from "node:path";
+import test from "node:test";
+import pngjs from "pngjs";
+import { cube, dropAll, dropFile, facts, folder, hashesOf, logged, native, reads, run, scene, until, visit } from "./visitor.js";
+
+test("200 frames have the native hash, and the picture is the one on record, with tolerance", async (t) => {
+  const [expected] = hashesOf(native(scene));
+  await visit("?scene=empty&stopped", async (page) => {
+    await dropAll(page, 1000);
+    const { hash, facts: found } = await run(page, 200);
+    assert.equal(hash, expected);
+    assert.ok(found.contacts > 0 && found.tets > 5000, JSON.stringify(found));
+    await page.waitForTimeout(500);
+    const shot = pngjs.PNG.sync.read(await page.locator("#view").screenshot());
+    // Means of blocks of 20 by 20 pixels, so that no edge of a triangle counts.
+    const blocks = [];
+    for (let y = 40; y + 20 <= shot.height; y += 20)
+      for (let x = 0; x + 20 <= shot.width; x += 20) {
+        let sum = 0;
+        for (let j = 0; j < 20; ++j) for (let i = 0; i < 20; ++i) for (let c = 0; c < 3; ++c) sum += shot.data[4 * ((y + j) * shot.width + x + i) + c];
+        blocks.push(Math.round(sum / 1200));
+      }
+    const file = new URL("picture.json", import.meta.url);
+    if (process.env.PLAYGROUND_RENEW) writeFileSync(file, `${JSON.stringify({ width: shot.width, height: shot.height, blocks })}\n`);
+    const record = JSON.parse(readFileSync(file, "utf8"));
+    assert.deepEqual([shot.width, shot.height], [record.width, record.height]);
+    const far = blocks.filter((value, i) => Math.abs(value - record.blocks[i]) > 24).length;
+    t.diagnostic(`${far} of ${blocks.length} blocks differ`);
+    assert.ok(far <= blocks.length / 50, `${far} of ${blocks.length} blocks differ`);
+  });
+});
+
+test("frames follow each other by themselves, stop, and go on", async () => {
+  await visit("", async (page) => {
+    await until(page, () => playground.facts.steps > 30);
+    await page.click("#pause");
+    await page.waitForTimeout(300);
+    const { steps } = await facts(page);
+    await page.waitForTimeout(300);
+    assert.equal((await facts(page)).steps, steps);
+    await page.click("#pause");
+    await until(page, (n) => playground.facts.steps > n, steps);
+  });
+});
+
+test("a file is dropped on the page: a surface is filled and falls", async () => {
+  await visit("?scene=empty&stopped", async (page) => {
+    await dropFile(page, "cube.obj", cube);
+    await logged(page, "filled with");
+    const file = path.join(folder, "cube.obj");
+    writeFileSync(file, cube);
+    const [expected] = hashesOf(native([`file ${file} 1000`, "steps 100"]));
+    assert.equal((await run(page, 100)).hash, expected);
+    await page.setInputFiles("#file", file); // by the button
+    await until(page, () => playground.bodies === 3);
+  });
+});
+
+test("the slider: the time at a size beside the predicted one, the same contacts, and back to the best", async () => {
+  await visit("", async (page) => {
+    await until(page, () => playground.curves && playground.measured);
+    await page.fill("#size", "60");
+    await until(page, () => playground.measured.size < playground.curves[1].size / 2);
+    assert.equal(await page.evaluate(() => playground.measured.same), true);
+    await reads(page, "#verdict", /takes [\d.]+ .s for a step \(predicted: [\d.]+ .s\)\. That is [\d.]+ times what/);
+    await reads(page, "#verdict", /the same at every size/);
+    await page.click("#best");
+    await reads(page, "#verdict", /This is the predicted best/);
+    await page.check('input[value="2"]');
+    await until(page, () => playground.measured.engine === 2);
+    await page.click("summary >> nth=0");
+    assert.ok((await page.locator("#terms tbody tr").count()) >= 5);
+  });
+});
