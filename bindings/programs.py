@@ -1,6 +1,7 @@
 """usage: programs.py PAGE LANGUAGE BUILD_FOLDER [WORDS]: runs the program in that language that stands on a page (README.md,
-docs/other-languages.md), against the libraries in a build folder. It has to print these words: where none are given, the hash
-of its contacts, the same in every language. Ends with 77, and says why, where the language's tools or package are missing."""
+docs/other-languages.md), against the libraries in a build folder; Python, C#, Rust and JavaScript by the commands that the README
+of the binding gives. It has to print these words: where none are given, the hash of its contacts, the same in every language.
+Ends with 77, and says why, where the language's tools or package are missing."""
 
 import glob
 import os
@@ -26,12 +27,12 @@ def need(*tools):
             skip(f"there is no {tool}: the program is not run")
 
 
-def block(page, language):
-    """The only block of a language on a page."""
+def block(page, language, words=""):
+    """The only block of a language on a page, of those with these words in it."""
     with open(page, encoding="utf-8") as file:
-        found = re.findall(rf"^```{language}\n(.*?)^```$", file.read(), flags=re.S | re.M)
+        found = [text for text in re.findall(rf"^```{language}\n(.*?)^```$", file.read(), flags=re.S | re.M) if words in text]
     if len(found) != 1:
-        sys.exit(f"{page} has {len(found)} blocks of {language}, not one")
+        sys.exit(f"{page} has {len(found)} blocks of {language} with {words!r}, not one")
     return found[0]
 
 
@@ -46,17 +47,25 @@ def write(folder, name, text):
 class Program:
     def __init__(self, page, build, folder):
         self.page, self.build, self.folder = page, build, folder
-        self.libraries = [os.path.join(build, part) for part in ("src", "src/io", "src/sim")]
-        path = os.pathsep.join([*self.libraries, os.environ.get("LD_LIBRARY_PATH", "")]).rstrip(os.pathsep)
-        self.environment = dict(os.environ, LD_LIBRARY_PATH=path)
+        self.library = os.path.join(build, "src")
+        # As in a clone, with the build folder where ./dev demo has it.
+        os.makedirs(os.path.join(folder, "build"))
+        os.symlink(build, os.path.join(folder, "build", "release"))
+        os.symlink(HERE, os.path.join(folder, "bindings"))
 
     def run(self, *command, **variables):
         """Runs a command in the folder; what it printed."""
-        done = subprocess.run(command, cwd=self.folder, env={**self.environment, **variables}, text=True,
+        done = subprocess.run(command, cwd=self.folder, env={**os.environ, "PWD": self.folder, **variables}, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         if done.returncode:
             sys.exit(f"{' '.join(command)} ended with {done.returncode}:\n{done.stdout}")
         return done.stdout
+
+    def commands(self, readme, leave_out=None, **variables):
+        """Runs the commands that a binding's README gives for a program; what they printed."""
+        lines = block(os.path.join(HERE, readme), "sh", "program").splitlines()
+        kept = "\n".join(line for line in lines if not leave_out or not line.startswith(leave_out))
+        return self.run("sh", "-ec", kept, **variables)
 
     def write(self, name, language):
         return write(self.folder, name, block(self.page, language))
@@ -66,8 +75,8 @@ class Program:
         self.write("main.go", "go")
         write(self.folder, "go.mod", "module program\n\ngo 1.21\n")
         self.run("go", "build", "-o", "program", ".", CGO_ENABLED="1", CGO_CFLAGS=f"-I{ROOT}/include",
-                 CGO_LDFLAGS=f"-L{self.libraries[0]}", GOFLAGS="-mod=mod -buildvcs=false", GOTOOLCHAIN="local")
-        return self.run("./program", GODEBUG="cgocheck=1")
+                 CGO_LDFLAGS=f"-L{self.library}", GOFLAGS="-mod=mod -buildvcs=false", GOTOOLCHAIN="local")
+        return self.run("./program", GODEBUG="cgocheck=1", LD_LIBRARY_PATH=self.library)
 
     def java(self):
         need("java", "javac", "cc")
@@ -79,50 +88,41 @@ class Program:
         self.write("voxjni.c", "c")
         includes = [f"-I{folder}" for folder in sorted({os.path.dirname(path) for path in headers})]
         self.run("cc", "-shared", "-fPIC", "-Wall", "-Werror", *includes, f"-I{ROOT}/include", "-o", "libvoxjni.so",
-                 "voxjni.c", f"-L{self.libraries[0]}", "-lvox")
+                 "voxjni.c", f"-L{self.library}", "-lvox")
         self.run("javac", "-Xlint:all", "-Werror", "Vox.java")
-        return self.run("java", "-Xcheck:jni", "-Djava.library.path=.", "Vox")
+        return self.run("java", "-Xcheck:jni", "-Djava.library.path=.", "Vox", LD_LIBRARY_PATH=self.library)
 
     def python(self):
         if not os.path.exists(os.path.join(HERE, "python", "src", "voxtet", "__init__.py")):
             skip("the Python package is not here")
-        program = self.write("program.py", "python")
+        self.write("program.py", "python")
         for python in (sys.executable, "/usr/bin/python3"):
             if os.path.exists(python) and not subprocess.run([python, "-c", "import numpy"], capture_output=True).returncode:
-                return self.run(python, program, PYTHONPATH=os.path.join(HERE, "python", "src"),
-                                VOXTET_LIBRARY_DIR=os.pathsep.join(self.libraries), PYTHONDONTWRITEBYTECODE="1")
+                path = os.pathsep.join([os.path.dirname(python), os.environ["PATH"]])
+                return self.commands("python/README.md", PATH=path, PYTHONDONTWRITEBYTECODE="1")
         return skip("there is no numpy: the program is not run")
 
     def csharp(self):
         need("mcs", "mono")
         self.write("program.cs", "csharp")
-        sources = sorted(glob.glob(os.path.join(HERE, "csharp", "Runtime", "*.cs")))
-        options = ["mcs", f"@{HERE}/csharp/Tests~/mcs.rsp"]
-        self.run(*options, "-target:library", "-out:Voxtet.dll", *sources)
-        self.run(*options, "-r:Voxtet.dll", "-out:program.exe", "program.cs")
-        return self.run("mono", "program.exe")
+        return self.commands("csharp/README.md")
 
     def rust(self):
         need("cargo")
         self.write("src/main.rs", "rust")
-        write(self.folder, "Cargo.toml", '[package]\nname = "program"\nversion = "0.0.0"\nedition = "2021"\n\n'
-                                         f'[dependencies]\nvoxtet = {{ path = "{HERE}/rust/voxtet" }}\n')
-        target = os.path.join(self.build, "rust")
-        variables = dict(VOXTET_LIBRARY_DIR=os.pathsep.join(self.libraries), CARGO_TARGET_DIR=target)
-        fetch = subprocess.run(["cargo", "fetch", "--quiet"], cwd=self.folder, capture_output=True, text=True)
-        if fetch.returncode:
+        dependency = block(os.path.join(HERE, "rust/voxtet/README.md"), "toml")
+        write(self.folder, "Cargo.toml", f'[package]\nname = "program"\nversion = "0.0.0"\nedition = "2021"\n\n{dependency}')
+        if subprocess.run(["cargo", "fetch", "--quiet"], cwd=self.folder, capture_output=True).returncode:
             skip("crates cannot be fetched: the program is not run")
-        return self.run("cargo", "run", "--quiet", "--offline", **variables)
+        return self.commands("rust/voxtet/README.md", CARGO_TARGET_DIR=os.path.join(self.build, "rust"), CARGO_PROFILE_DEV_DEBUG="0",
+                             CARGO_INCREMENTAL="0", CARGO_NET_OFFLINE="true", CARGO_TERM_QUIET="true")
 
     def javascript(self):
-        need("node")
-        package = os.path.join(HERE, "js")
-        if not os.path.exists(os.path.join(package, "voxtet.js")) or not glob.glob(os.path.join(package, "*.wasm")):
-            skip("the JavaScript package is not built")
-        os.makedirs(os.path.join(self.folder, "node_modules"))
-        os.symlink(package, os.path.join(self.folder, "node_modules", "voxtet"))
+        need("node", "npm")
+        if not glob.glob(os.path.join(HERE, "js", "*.wasm")):
+            skip("the module is not built")
         self.write("program.mjs", "js")
-        return self.run("node", "program.mjs")
+        return self.commands("js/README.md", leave_out="bindings/js/build") # which the binding's own test runs
 
 
 def main():

@@ -48,7 +48,7 @@ def build(folder, out):
         print("SKIPPED: crates cannot be fetched: Rust is not timed")
     else:
         run("cargo", "build", "--release", "--quiet", "--offline", manifest,
-            CARGO_TARGET_DIR=f"{folder}/rust", VOXTET_LIBRARY_DIR=os.pathsep.join(libraries))
+            CARGO_TARGET_DIR=f"{folder}/rust", VOXTET_LIBRARY_DIR=folder)
         programs["Rust"] = [f"{folder}/rust/release/step"]
     os.environ["LD_LIBRARY_PATH"] = os.pathsep.join([*libraries, os.environ.get("LD_LIBRARY_PATH", "")])
     return programs, path

@@ -9,8 +9,6 @@ export const root = fileURLToPath(new URL("../..", import.meta.url));
 const built = path.join(root, "build", "web");
 const types = { ".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml", ".wasm": "application/wasm", ".txt": "text/plain" };
 
-export const hasPlainModule = () => existsSync(path.join(built, "playground.wasm"));
-
 export async function serve(port = 0) {
   const server = createServer((request, response) => {
     const { pathname } = new URL(request.url, "http://localhost");

@@ -4,6 +4,7 @@ import gc
 import os
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -426,6 +427,20 @@ except ImportError as error:
         run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, env=environment)
         self.assertNotEqual(run.returncode, 0)
         self.assertIn("VOXTET_LIBRARY_DIR", run.stderr)
+
+    def test_a_build_folder_with_the_core_alone(self):
+        """The core works; whoever uses what is not built reads what to build."""
+        found = _library.find("vox")
+        if not os.path.isabs(found) or os.path.dirname(found) == os.path.join(os.path.dirname(_library.__file__), "lib"):
+            self.skipTest("the library is not one of a build folder")
+        code = "import voxtet\nvoxtet.Grid().close()\nprint('core')\nvoxtet.io"
+        with tempfile.TemporaryDirectory() as build:
+            os.makedirs(os.path.join(build, "src", "io"))
+            os.symlink(found, os.path.join(build, "src", os.path.basename(found)))
+            environment = {**os.environ, "VOXTET_LIBRARY_DIR": build, "LD_LIBRARY_PATH": ""}
+            run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, env=environment)
+        self.assertEqual(run.stdout, "core\n", run.stderr)
+        self.assertIn(f"VOXTET_LIBRARY_DIR is {build}, where it is not built: cmake --build BUILD_FOLDER --target vox_io", run.stderr)
 
 
 if __name__ == "__main__":
