@@ -18,7 +18,10 @@ export declare const Result: Readonly<{
   ERROR_BUDGET: -7;
   /** the allocator returned null */
   ERROR_OUT_OF_MEMORY: -8;
-  /** recognised, but not supported by this build or version */
+  /**
+   * recognised, but not supported by this build or version; or the processor is an x86-64 without SSE4.2: nothing is
+   * created there, and no cell size found
+   */
   ERROR_UNSUPPORTED: -9;
   /** a file cannot be opened, read or written */
   ERROR_FILE: -10;

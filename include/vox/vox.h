@@ -96,7 +96,8 @@ typedef enum vox_result {
     VOX_ERROR_LIMIT = -6,            /* a documented limit would be passed */
     VOX_ERROR_BUDGET = -7,           /* the grid's byte budget would be passed */
     VOX_ERROR_OUT_OF_MEMORY = -8,    /* the allocator returned null */
-    VOX_ERROR_UNSUPPORTED = -9,      /* recognised, but not supported by this build or version */
+    VOX_ERROR_UNSUPPORTED = -9,      /* recognised, but not supported by this build or version; or the processor is
+                                        an x86-64 without SSE4.2: nothing is created there, and no cell size found */
     VOX_ERROR_FILE = -10,            /* a file cannot be opened, read or written */
     VOX_ERROR_FORMAT = -11,          /* a file is malformed */
     VOX_ERROR_INTERNAL = -12,        /* a defect of the library: please report it */
@@ -286,7 +287,8 @@ static inline vox_grid_desc vox_default_grid_desc(void) {
 }
 
 /* Creates a grid. desc null: all defaults. The caller owns *out_grid and releases it with
- * vox_grid_destroy. Errors: INVALID_ARGUMENT (names the field and its value), OUT_OF_MEMORY, BUDGET. */
+ * vox_grid_destroy. Errors: INVALID_ARGUMENT (names the field and its value), UNSUPPORTED (an x86-64 without SSE4.2),
+ * OUT_OF_MEMORY, BUDGET. */
 VOX_API vox_result vox_grid_create(VOX_OPTIONAL const vox_grid_desc* desc, vox_grid** out_grid);
 
 /* Destroys a grid and releases all its memory. Its views and mesh ids become invalid, except for query views, which

@@ -85,8 +85,8 @@ static inline vox_surface_desc vox_default_surface_desc(void) {
 }
 
 /* Creates a surface without positions. The caller owns *out_surface and releases it with vox_surface_destroy.
- * Errors: INVALID_ARGUMENT (names the field and its value), INVALID_MESH ("face 17 names vertex 900 of 812"), LIMIT,
- * BUDGET, OUT_OF_MEMORY. */
+ * Errors: INVALID_ARGUMENT (names the field and its value), INVALID_MESH ("face 17 names vertex 900 of 812"), UNSUPPORTED
+ * (an x86-64 without SSE4.2), LIMIT, BUDGET, OUT_OF_MEMORY. */
 VOX_EXPERIMENTAL vox_result vox_surface_create(const vox_surface_desc* desc, vox_surface** out_surface);
 
 /* Destroys a surface. Its views become invalid. Null does nothing. */

@@ -26,7 +26,8 @@ namespace Voxtet
         ErrorBudget = -7,
         /// <summary>the allocator returned null</summary>
         ErrorOutOfMemory = -8,
-        /// <summary>recognised, but not supported by this build or version</summary>
+        /// <summary>recognised, but not supported by this build or version; or the processor is an x86-64 without
+        /// SSE4.2: nothing is created there, and no cell size found</summary>
         ErrorUnsupported = -9,
         /// <summary>a file cannot be opened, read or written</summary>
         ErrorFile = -10,

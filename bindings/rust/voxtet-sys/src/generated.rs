@@ -66,7 +66,8 @@ pub const VOX_ERROR_LIMIT: vox_result = -6;
 pub const VOX_ERROR_BUDGET: vox_result = -7;
 /// the allocator returned null
 pub const VOX_ERROR_OUT_OF_MEMORY: vox_result = -8;
-/// recognised, but not supported by this build or version
+/// recognised, but not supported by this build or version; or the processor is an x86-64 without SSE4.2: nothing is
+/// created there, and no cell size found
 pub const VOX_ERROR_UNSUPPORTED: vox_result = -9;
 /// a file cannot be opened, read or written
 pub const VOX_ERROR_FILE: vox_result = -10;
@@ -2412,7 +2413,8 @@ extern "C" {
     /// null or struct_size is not in [4, 65536].
     pub fn vox_grid_desc_init(desc: *mut vox_grid_desc, struct_size: u32) -> vox_result;
     /// Creates a grid. desc null: all defaults. The caller owns *out_grid and releases it with vox_grid_destroy.
-    /// Errors: INVALID_ARGUMENT (names the field and its value), OUT_OF_MEMORY, BUDGET.
+    /// Errors: INVALID_ARGUMENT (names the field and its value), UNSUPPORTED (an x86-64 without SSE4.2), OUT_OF_MEMORY,
+    /// BUDGET.
     pub fn vox_grid_create(desc: *const vox_grid_desc, out_grid: *mut *mut vox_grid) -> vox_result;
     /// Destroys a grid and releases all its memory. Its views and mesh ids become invalid, except for query views,
     /// which live on with their memory until they are released. Null does nothing.
@@ -3218,7 +3220,7 @@ extern "C" {
     pub fn vox_surface_desc_init(desc: *mut vox_surface_desc, struct_size: u32) -> vox_result;
     /// Creates a surface without positions. The caller owns *out_surface and releases it with vox_surface_destroy.
     /// Errors: INVALID_ARGUMENT (names the field and its value), INVALID_MESH ("face 17 names vertex 900 of 812"),
-    /// LIMIT, BUDGET, OUT_OF_MEMORY.
+    /// UNSUPPORTED (an x86-64 without SSE4.2), LIMIT, BUDGET, OUT_OF_MEMORY.
     pub fn vox_surface_create(
         desc: *const vox_surface_desc,
         out_surface: *mut *mut vox_surface,
