@@ -139,7 +139,7 @@ function(vox_unity name)
     list(SUBLIST for_each_target ${first} ${half} some)
     set_source_files_properties(${some} PROPERTIES HEADER_FILE_ONLY ON)
     list(JOIN some "\"\n#include \"" includes)
-    set(together ${CMAKE_CURRENT_BINARY_DIR}/each_target_${first}.cpp)
+    set(together ${CMAKE_CURRENT_BINARY_DIR}/${name}_each_target_${first}.cpp)
     file(CONFIGURE OUTPUT ${together} @ONLY CONTENT "#include \"base/simd.hpp\"
 #define HWY_TARGET_INCLUDE \"${together}\"
 #include <hwy/foreach_target.h>
