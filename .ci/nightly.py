@@ -37,7 +37,7 @@ PARTS = {
     "js": ("./dev bindings js --all", "the JavaScript binding in full: every module"),
     "mujoco": ("./dev bindings mujoco", "the MuJoCo plugin in full"),
     "python": ("./dev bindings python", "the Python binding in full, and its wheel"),
-    "rust": ("./dev bindings rust", "the Rust binding in full"),
+    "rust": ("./dev bindings rust --all", "the Rust binding in full, its style, and the example for Bevy"),
     "web": ("./dev web --test", "the playground in a browser"),
     "site": ("./dev docs --check", "the documentation's site: links, and its figures in a browser"),
     "reference": ("./dev reference && python3 -B docs/reference/build.py --self-test", "the reference pages"),
