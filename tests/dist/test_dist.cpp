@@ -326,7 +326,7 @@ std::string differs_after_restart(const Scene& scene, std::uint32_t before, std:
 }
 
 std::uint64_t first_scene() { return number_from("VOX_DIST_FIRST", 0); }
-std::uint64_t scene_count() { return volume_from("VOX_DIST_SCENES", 150); }
+std::uint64_t scene_count() { return volume_from("VOX_DIST_SCENES", 75); }
 
 } // namespace
 

@@ -362,7 +362,7 @@ void run_scene(std::uint64_t seed, int steps) {
 }
 
 START_TEST(random_scenes_equal_the_definition) {
-    const std::uint64_t scenes = volume_from("VOX_EDGE_SCENES", 300);
+    const std::uint64_t scenes = volume_from("VOX_EDGE_SCENES", 100);
     for (std::uint64_t s = 1; s <= scenes; ++s) run_scene(s, 6);
     for (const std::uint64_t count : counts) ck_assert_uint_gt(count, 1000);
     ck_assert_uint_gt(by_edges_alone, 10);

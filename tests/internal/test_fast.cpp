@@ -315,9 +315,9 @@ END_TEST
 // A small cell, a body all over the place, a vertex at the end of the world: the window stays small.
 START_TEST(memory_is_bounded) {
     Random r{13};
-    Scene scene = two_blocks(r, 10, 2.0, true);
+    Scene scene = two_blocks(r, 7, 2.0, true);
     scene.meshes()[0].positions[5] = {1e30f, -1e30f, 1e30f};
-    Mesh spread = block(10, 10, 10);
+    Mesh spread = block(7, 7, 7);
     for (Vec3f& p : spread.positions)
         p = {p.x + r.uniform(-1e6, 1e6), p.y + r.uniform(-1e6, 1e6), p.z + r.uniform(-1e6, 1e6)};
     scene.add(std::move(spread), true);
@@ -327,7 +327,7 @@ START_TEST(memory_is_bounded) {
         CountingMemory memory;
         FastEngine engine(&memory);
         ck_assert(run_fast(engine, scene, cell_size) == expected);
-        ck_assert_uint_lt(memory.peak, 4u << 20); // 4000 vertices, 15000 tets
+        ck_assert_uint_lt(memory.peak, 1u << 20); // 1500 vertices, 5000 tets
     }
 }
 END_TEST
@@ -358,7 +358,7 @@ START_TEST(clumps_far_apart) {
             const double far = kind == 2 ? std::ldexp(4.0, i) : 1e6;
             const double x = r.uniform(-far, far), y = r.uniform(-far, far), z = r.uniform(-far, far);
             for (int b = 0; b < 2; ++b) {
-                const int n = kind == 0 ? 14 : 5;
+                const int n = kind == 0 ? 8 : 5;
                 Mesh mesh = block(n, n, n);
                 jitter(mesh, 0.1, r);
                 move(mesh, 1, x + b * 0.4 * n, y, z);

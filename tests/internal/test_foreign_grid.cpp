@@ -10,9 +10,10 @@
 #include <vox/vox.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 using namespace vox;
@@ -130,10 +131,47 @@ struct Key {
     std::int64_t x, y, z;
     bool operator==(const Key&) const = default;
 };
-struct KeyHash {
-    std::size_t operator()(const Key& k) const {
-        return static_cast<std::size_t>(k.x * 73856093 ^ k.y * 19349663 ^ k.z * 83492791);
+
+// What is in a cell, and a table of cells, in one array: a map of the standard library takes four times as long.
+struct Cell {
+    Key key{};
+    double held = 0, asking = 0; // both 0: a place that is free
+};
+class Cells {
+public:
+    explicit Cells(std::size_t expected) : places_(std::bit_ceil(2 * expected + 2)) {}
+
+    std::size_t count() const { return count_; }
+    const std::vector<Cell>& places() const { return places_; }
+    const Cell& find(const Key& key) const { return places_[place(key)]; }
+    void add(const Key& key, double held, double asking) {
+        if (2 * count_ >= places_.size()) grow();
+        Cell& cell = places_[place(key)];
+        count_ += free(cell);
+        cell.key = key;
+        cell.held += held;
+        cell.asking += asking;
     }
+    static bool free(const Cell& cell) { return cell.held + cell.asking == 0; }
+
+private:
+    std::size_t place(const Key& key) const {
+        std::uint64_t hash = 0;
+        for (const std::int64_t c : {key.x, key.y, key.z})
+            hash = (hash ^ static_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15u, hash ^= hash >> 32;
+        std::size_t at = hash & (places_.size() - 1);
+        while (!free(places_[at]) && places_[at].key != key) at = (at + 1) & (places_.size() - 1);
+        return at;
+    }
+    void grow() {
+        Cells larger(places_.size());
+        for (const Cell& cell : places_)
+            if (!free(cell)) larger.add(cell.key, cell.held, cell.asking);
+        *this = std::move(larger);
+    }
+
+    std::vector<Cell> places_;
+    std::size_t count_ = 0;
 };
 
 struct Lattice {
@@ -176,36 +214,31 @@ vox_grid_work count_once(const Kind& kind, const Boxes& held, const Boxes& askin
                          const Lattice& lattice) {
     vox_grid_work work{};
     const bool pairs = kind.look == VOX_LOOK_PAIRS, centres = kind.content == VOX_CELLS_HOLD_CENTRES;
-    struct Cell {
-        double held = 0, asking = 0;
-    };
-    std::unordered_map<Key, Cell, KeyHash> cells;
+    Cells cells(held.count() + asking.count());
     const auto put = [&](const Boxes& boxes, double grown, bool second) {
         for (std::size_t i = 0; i < boxes.count(); ++i) {
             PlainBox box = boxes.box(i);
             box.grow(grown);
             lattice.cells(centres ? box.centre() : box, [&](const Key& k) {
-                ++(second ? cells[k].asking : cells[k].held);
+                cells.add(k, !second, second);
                 ++work.entries;
             });
         }
     };
     put(held, pairs && !kind.two_sets ? radius : 0, false);
     if (pairs && kind.two_sets) put(asking, radius, true);
-    work.occupied = static_cast<double>(cells.size());
+    work.occupied = static_cast<double>(cells.count());
     if (pairs) {
-        for (const auto& [key, c] : cells)
-            work.reads += kind.two_sets ? c.held * c.asking : c.held * (c.held - 1) / 2;
+        for (const Cell& c : cells.places())
+            if (!Cells::free(c)) work.reads += kind.two_sets ? c.held * c.asking : c.held * (c.held - 1) / 2;
         work.visits = work.occupied;
         return work;
     }
     const auto look = [&](const Key& k) {
         ++work.visits;
-        const auto found = cells.find(k);
-        if (found == cells.end())
-            ++work.empty;
-        else
-            work.reads += found->second.held;
+        const Cell& found = cells.find(k);
+        work.empty += Cells::free(found);
+        work.reads += found.held;
     };
     for (std::size_t i = 0; i < asking.count(); ++i) {
         PlainBox box = asking.box(i);
@@ -295,8 +328,11 @@ START_TEST(counts_are_those_of_a_filled_grid) {
         const double size = typical_size(held), radius = kind.radius * size;
         const vox_primitives held_desc = held.describe(), asking_desc = asking.describe();
         const vox_foreign_grid grid = describe(kind, held_desc, asking_desc, radius);
-        for (const double factor : {0.3, 1.0, 3.0}) {
-            const double d = factor * size;
+        const double factors[] = {0.3, 1.0, 3.0};
+        for (std::size_t f = 0; f < std::size(factors); ++f) {
+            // One of the three in each scene, another one for the next kind of grid; all of them in long runs.
+            if (test_volume() == 1 && f != (n + std::size_t(_i)) % std::size(factors)) continue;
+            const double d = factors[f] * size;
             vox_grid_work got{};
             const double cells = [&] {
                 double sum = 0;

@@ -259,7 +259,7 @@ void check_same(const vox_grid* x, const vox_grid* y, const Vec3d& from, const V
 START_TEST(bad_shapes_by_definition) {
     Random random{3};
     for (int shape = 0; shape < shape_count; ++shape)
-        for (int round = 0; round < 6; ++round) {
+        for (std::uint64_t round = 0; round < volume_from("VOX_QUERY_SOUPS", 2); ++round) {
             const QueryDefinition soup = make_soup(random, Shape(shape), 20 + random.below(300));
             vox_grid* grid = engine_grid();
             vox_mesh_desc mesh = vox_default_mesh_desc();

@@ -228,7 +228,7 @@ Scene random_scene(Random& random) {
     return s;
 }
 
-std::uint64_t scenes_wanted() { return volume_from("VOX_SURFACE_SCENES", 600); }
+std::uint64_t scenes_wanted() { return volume_from("VOX_SURFACE_SCENES", 200); }
 
 START_TEST(pairs_are_those_whose_boxes_overlap) {
     Random random{number_from("VOX_SURFACE_SEED", 1)};

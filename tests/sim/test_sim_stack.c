@@ -6,7 +6,7 @@ START_TEST(ten_bodies_rest_stacked) {
     if (test_volume() > 1)
         rests_stacked(10, 0.143, 1000);
     else
-        rests_stacked(10, 0.25, 300);
+        rests_stacked(10, 0.25, 120);
 }
 END_TEST
 
