@@ -30,7 +30,7 @@ PARTS = {
     "tsan": ("./dev test tsan", "tests of threads under the thread sanitizer"),
     "fuzz": ("./dev fuzz 60", "a minute of each fuzzer, guided by what the libraries do"),
     "tools": ("./dev bindings --tools && ./dev test", "the README's test command with the tools of all languages"),
-    "long": ("./dev test long", "tests that check numbers at length"),
+    "long": ("./dev test long", "all tests with four times as many random scenes, and longer ones"),
     "soak": ("./dev soak", "a long random life of two grids against a model"),
     "guard": ("./dev guard", "instructions of a step"),
     "csharp": ("./dev bindings csharp", "the C# binding in full"),

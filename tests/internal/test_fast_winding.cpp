@@ -146,7 +146,9 @@ START_TEST(winding_finds_every_edge_contact) {
         Scene scene = one_block(mesh);
         found += check_edges(scene, "a block with spikes").count;
     }
-    for (int kind = 0; kind < 40; kind += test_volume() > 1 ? 1 : 7) { // two blocks in one mesh, that touch or overlap a little
+    for (int kind = 0; kind<40; kind += test_volume()> 1
+                           ? 1
+                           : 7) { // two blocks in one mesh, that touch or overlap a little
         Mesh mesh = block(16, 16, 16), other = block(12, 12, 12);
         const float into = kind % 4 == 0 ? 0 : kind % 4 == 1 ? 0x1p-16f : kind % 4 == 2 ? -0x1p-16f : 0.3f;
         const Vec3f by{16 - into,

@@ -132,7 +132,8 @@ struct Key {
     bool operator==(const Key&) const = default;
 };
 
-// What is in a cell, and a table of cells, in one array: a map of the standard library takes four times as long.
+// What is in a cell, and a table of cells, in one array: a map of the standard library takes four times as
+// long.
 struct Cell {
     Key key{};
     double held = 0, asking = 0; // both 0: a place that is free
@@ -330,7 +331,8 @@ START_TEST(counts_are_those_of_a_filled_grid) {
         const vox_foreign_grid grid = describe(kind, held_desc, asking_desc, radius);
         const double factors[] = {0.3, 1.0, 3.0};
         for (std::size_t f = 0; f < std::size(factors); ++f) {
-            // One of the three in each scene, another one for the next kind of grid; all of them in long runs.
+            // One of the three in each scene, another one for the next kind of grid; all of them in long
+            // runs.
             if (test_volume() == 1 && f != (n + std::size_t(_i)) % std::size(factors)) continue;
             const double d = factors[f] * size;
             vox_grid_work got{};
