@@ -15,12 +15,13 @@ const flavours = ["vox_simd.wasm", "vox.wasm", "vox_threads.wasm"].filter((name)
 const readme = readFileSync(path.join(here, "README.md"), "utf8");
 const blocks = (kind) => [...readme.matchAll(new RegExp("```" + kind + "\n([^]*?)```", "g"))].map(([, text]) => text);
 
+const most = { "vox_simd.wasm": 300000, "vox.wasm": 320000, "vox_threads.wasm": 305000 };
 for (const name of flavours)
   test(`${name}: size, imports and exports`, async (t) => {
     const bytes = readFileSync(path.join(here, name));
     const size = brotliCompressSync(bytes).length; // as servers send it
     t.diagnostic(`${bytes.length} bytes, by brotli ${size}, by gzip ${gzipSync(bytes, { level: 9 }).length}`);
-    assert.ok(size <= 300000, `${size} bytes compressed`);
+    assert.ok(size <= most[name], `${size} bytes compressed`);
     const module = await WebAssembly.compile(bytes);
     if (name !== "vox_threads.wasm") assert.deepEqual(WebAssembly.Module.imports(module).map((i) => `${i.module}.${i.name}`).sort(), [
       "env.emscripten_notify_memory_growth",
