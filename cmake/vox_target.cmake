@@ -94,6 +94,16 @@ function(vox_library name export_map)
   endif()
 endfunction()
 
+# vox_with_hidden_symbols(LIBRARY): its objects once more, as the archive LIBRARY_internal, for tests and benchmarks that call the stages.
+function(vox_with_hidden_symbols library)
+  set(name ${library}_internal)
+  add_library(${name} STATIC EXCLUDE_FROM_ALL $<TARGET_OBJECTS:${library}>)
+  set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(${name} PUBLIC $<TARGET_PROPERTY:${library},LINK_LIBRARIES>)
+  vox_target(${name})
+endfunction()
+
 # A full build in half the time. Off in the presets debug and clang, so that what a file forgets to include is seen.
 option(VOX_UNITY
   "Compile the sources of a folder together: half the work of a full build, more work where one file has changed" ON)

@@ -1,14 +1,12 @@
-// A growing array whose memory comes from a resource: std::pmr::vector, as far as this library needs it, at
-// half of the time to compile. What the two share is named and behaves alike. They differ in that
-// * growing moves bytes by one function for all element types, and iterators are pointers, so that a compiler
-// has a tenth of
-//   the functions to make (std::pmr::vector was half of what the core's folders took to compile);
-// * the memory is always named: there is neither a default constructor nor a copy without it;
-// * elements move without exceptions.
+// A growing array whose memory comes from a resource: std::pmr::vector as far as this library needs it, for a
+// compiler half as many functions. What the two share is named and behaves alike. They differ:
+//
+// - Growing moves bytes by one function for all element types, and iterators are pointers.
+// - The memory is always named: there is neither a default constructor nor a copy without it.
+// - Elements move without exceptions.
 #pragma once
 
 #include <algorithm>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -43,12 +41,6 @@ class Array {
 
 public:
     using value_type = T;
-    using size_type = std::size_t;
-    using difference_type = std::ptrdiff_t;
-    using reference = T&;
-    using const_reference = const T&;
-    using iterator = T*;
-    using const_iterator = const T*;
 
     explicit Array(std::pmr::memory_resource* memory) noexcept : memory_(memory) {}
     Array(std::size_t count, std::pmr::memory_resource* memory) : Array(memory) { resize(count); }
@@ -87,10 +79,6 @@ public:
         room_ = std::exchange(other.room_, 0);
         return *this;
     }
-    Array& operator=(std::initializer_list<T> items) {
-        assign(items.begin(), items.end());
-        return *this;
-    }
     // Of the same memory.
     void swap(Array& other) noexcept {
         VOX_ASSERT_INSIDE(memory_ == other.memory_);
@@ -98,7 +86,6 @@ public:
         std::swap(size_, other.size_);
         std::swap(room_, other.room_);
     }
-    friend void swap(Array& a, Array& b) noexcept { a.swap(b); }
 
     std::pmr::memory_resource* memory() const noexcept { return memory_; }
     std::size_t size() const noexcept { return size_; }
@@ -114,8 +101,6 @@ public:
     const T* end() const noexcept { return data_ + size_; }
     auto rbegin() noexcept { return std::reverse_iterator(end()); }
     auto rend() noexcept { return std::reverse_iterator(begin()); }
-    auto rbegin() const noexcept { return std::reverse_iterator(end()); }
-    auto rend() const noexcept { return std::reverse_iterator(begin()); }
     T& operator[](std::size_t i) noexcept {
         VOX_ASSERT_INSIDE(i < size_);
         return data_[i];
@@ -164,7 +149,6 @@ public:
         make_room_for_others(static_cast<std::size_t>(std::distance(first, last)));
         append(first, last);
     }
-    void assign(std::initializer_list<T> items) { assign(items.begin(), items.end()); }
     void push_back(const T& value) { emplace_back(value); }
     void push_back(T&& value) { emplace_back(std::move(value)); }
     template <class... Arguments>
@@ -185,19 +169,11 @@ public:
         emplace_back(std::move(value));
         return rotate_to(at, 1);
     }
-    T* insert(const T* place, std::size_t count, const T& value) {
-        const std::size_t at = static_cast<std::size_t>(place - data_);
-        resize(size_ + count, value);
-        return rotate_to(at, count);
-    }
     template <std::forward_iterator Iterator>
     T* insert(const T* place, Iterator first, Iterator last) {
         const std::size_t at = static_cast<std::size_t>(place - data_), before = size_;
         append(first, last);
         return rotate_to(at, size_ - before);
-    }
-    T* insert(const T* place, std::initializer_list<T> items) {
-        return insert(place, items.begin(), items.end());
     }
 
     void clear() noexcept { truncate(0); }

@@ -99,8 +99,7 @@ Level force_level(Level wanted) noexcept {
 
 void require_instructions(Level best) {
     if (best < least_level)
-        throw Error(VOX_ERROR_UNSUPPORTED,
-                    "this processor has not the instructions SSE4.2 and POPCNT, which vox needs");
+        throw Error(VOX_ERROR_UNSUPPORTED, "this processor lacks SSE4.2 or POPCNT, which vox needs");
 }
 
 const char* level_name(Level level) noexcept {

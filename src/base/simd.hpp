@@ -71,8 +71,7 @@ struct Processor {
 };
 Level level_of(const Processor& processor) noexcept;
 
-// Throws UNSUPPORTED where an x86 has not the instructions of the least level. Whoever creates an object
-// asks.
+// Throws UNSUPPORTED on an x86 without the instructions of the least level. What creates an object calls it.
 void require_instructions(Level best = best_level());
 
 // A name for messages, such as "AVX2".

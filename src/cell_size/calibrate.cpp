@@ -183,7 +183,7 @@ void measure_fast(Scene& scene, vox_cost_weights& weights) {
     for (Body& body : scene.bodies) body.self_collision = true;
     CellSizeScene described(Scene::memory());
     described.bodies.assign(scene.bodies.begin(), scene.bodies.end());
-    described.tiles = {&scene.meshes[0].tiles, &scene.meshes[1].tiles};
+    for (const auto& mesh : scene.meshes) described.tiles.push_back(&mesh.tiles);
     described.prepare(VOX_COST_MODEL_FAST);
     const FastModel cost(described, weights);
     std::vector<Timing> timings;

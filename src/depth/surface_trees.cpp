@@ -5,7 +5,7 @@
 
 namespace vox::depth {
 
-Array<SurfaceTrees::Tree>::iterator SurfaceTrees::place(std::uint32_t mesh_id) noexcept {
+auto SurfaceTrees::place(std::uint32_t mesh_id) noexcept -> Tree* {
     return std::ranges::lower_bound(trees_, mesh_id, {}, &Tree::mesh_id);
 }
 

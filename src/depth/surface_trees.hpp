@@ -30,7 +30,7 @@ private:
         SurfaceTree tree;
     };
     // The place of a mesh's tree, or where it would be.
-    Array<Tree>::iterator place(std::uint32_t mesh_id) noexcept;
+    Tree* place(std::uint32_t mesh_id) noexcept;
 
     Array<Tree> trees_; // by mesh id
 };

@@ -26,7 +26,7 @@ void Clusters::make(std::uint32_t count, std::uint32_t size, Point&& point) {
             if (i == 0 || at[axis] > high[axis]) high[axis] = at[axis];
         }
     }
-    Vector<std::uint64_t> keys(order.memory());
+    Array<std::uint64_t> keys(order.memory());
     keys.resize(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         point(i, at);

@@ -115,8 +115,6 @@ static_assert(sizeof(Hit) == 32);
 constexpr std::uint32_t interior_bit = 0x80000000u;
 
 using Memory = std::pmr::memory_resource;
-template <class T>
-using Vector = Array<T>;
 
 class Writer {
 public:
@@ -143,7 +141,7 @@ public:
     vox_bytes bytes() const noexcept { return {bytes_.data(), bytes_.size()}; }
 
 private:
-    Vector<std::byte> bytes_;
+    Array<std::byte> bytes_;
 };
 
 class Reader {

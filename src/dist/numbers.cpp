@@ -53,7 +53,7 @@ void vox_scene::check_numbers() {
     failure.guard([&] { look(); });
     meet(mine, failure);
     const std::uint32_t size = transport_.size(), me = transport_.rank();
-    Vector<Writer> writers(&memory_);
+    Array<Writer> writers(&memory_);
     rank_count_ = 0;
     for (std::uint32_t rank = 0; rank < size; ++rank)
         if (rank != me) {
@@ -79,7 +79,7 @@ void vox_scene::check_numbers() {
     });
     exchange(nullptr, failure);
     failure.guard([&] {
-        Vector<Numbered> items(&memory_);
+        Array<Numbered> items(&memory_);
         const auto take = [&](const vox_bytes& bytes) {
             for (Reader reader(bytes); reader.more();) items.push_back(reader.take<Numbered>());
         };

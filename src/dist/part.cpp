@@ -17,7 +17,7 @@ std::string named(const PositionName& name) {
 }
 
 // The order of `ids`; throws if a number is there twice.
-void sort_ids(std::span<const std::uint64_t> ids, Vector<std::uint32_t>& order, const char* what) {
+void sort_ids(std::span<const std::uint64_t> ids, Array<std::uint32_t>& order, const char* what) {
     order.resize(ids.size());
     std::iota(order.begin(), order.end(), 0u);
     std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return ids[a] < ids[b]; });
@@ -112,8 +112,8 @@ void Part::look(Memory* memory) {
         };
         tet_clusters.make(tet_count, tets_of_a_cluster, centre);
         // Each vertex once, instead of the tetrahedra.
-        Vector<std::uint32_t> vertices(memory), of_one(memory);
-        Vector<std::uint64_t> begins(memory);
+        Array<std::uint32_t> vertices(memory), of_one(memory);
+        Array<std::uint64_t> begins(memory);
         for (std::uint32_t c = 0; c < tet_clusters.size(); ++c) {
             of_one.clear();
             for (const std::uint32_t tet : tet_clusters.of(c))
@@ -127,7 +127,7 @@ void Part::look(Memory* memory) {
         tet_clusters.order = std::move(vertices);
         tet_clusters.begins = std::move(begins);
 
-        Vector<std::uint32_t> mine(memory);
+        Array<std::uint32_t> mine(memory);
         for (std::uint32_t v = 0; v < vertex_count; ++v)
             if (owns(v)) mine.push_back(v);
         vertex_clusters.make(static_cast<std::uint32_t>(mine.size()), vertices_of_a_cluster,

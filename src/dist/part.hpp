@@ -61,9 +61,9 @@ public:
         return {order.data() + begins[cluster], order.data() + begins[cluster + 1]};
     }
 
-    Vector<std::uint32_t> order;
-    Vector<std::uint64_t> begins;
-    Vector<Box> boxes;
+    Array<std::uint32_t> order;
+    Array<std::uint64_t> begins;
+    Array<Box> boxes;
 };
 
 struct Part {
@@ -92,12 +92,12 @@ struct Part {
     std::uint64_t body = 0;
     Filter filter;
     std::uint32_t vertex_count = 0, tet_count = 0;
-    Vector<std::uint32_t> tets;
-    Vector<std::uint64_t> tet_ids;     // ascending; empty: 0, 1, 2, ...
-    Vector<std::uint32_t> tet_indices; // the caller's
-    Vector<std::uint64_t> vertex_ids;  // empty: 0, 1, 2, ...
-    Vector<std::uint32_t> by_id;       // vertices in the order of their numbers
-    Vector<std::uint8_t> owned;        // empty: all
+    Array<std::uint32_t> tets;
+    Array<std::uint64_t> tet_ids;     // ascending; empty: 0, 1, 2, ...
+    Array<std::uint32_t> tet_indices; // the caller's
+    Array<std::uint64_t> vertex_ids;  // empty: 0, 1, 2, ...
+    Array<std::uint32_t> by_id;       // vertices in the order of their numbers
+    Array<std::uint8_t> owned;        // empty: all
 
     Positions positions;
     bool clustered = false;

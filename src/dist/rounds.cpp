@@ -41,7 +41,7 @@ void Rounds::run(std::span<const Source> sources, Failure& failure) {
 // ---- boxes ----------------------------------------------------------------------------------------
 
 void Rounds::write_boxes() {
-    Vector<Box> near(memory_);
+    Array<Box> near(memory_);
     for (std::uint32_t i = 0; i < scene_.rank_count_; ++i) writers_.emplace_back(memory_);
     for (std::uint32_t i = 0; i < scene_.rank_count_; ++i) {
         const Overview& other = scene_.overviews_[scene_.ranks_[i]];
@@ -96,7 +96,7 @@ void Rounds::read_boxes() {
 
 // All ranks whose tetrahedra can have a vertex of this rank inside have sent boxes.
 void Rounds::find_split_bodies() {
-    Vector<std::uint64_t> bodies(memory_);
+    Array<std::uint64_t> bodies(memory_);
     for (const Remote& part : remote_) bodies.push_back(part.body);
     for (const Part* part : scene_.parts_)
         if (!part->tet_box.empty()) bodies.push_back(part->body);
@@ -137,7 +137,7 @@ void Rounds::tell_split_bodies(std::uint32_t neighbour) {
 }
 
 void Rounds::send_vertices_to(std::uint32_t neighbour, std::span<const Source> sources) {
-    Vector<Box> near_source(memory_), near_cluster(memory_);
+    Array<Box> near_source(memory_), near_cluster(memory_);
     Writer& writer = writers_[neighbour];
     for (std::uint32_t s = 0; s < sources.size(); ++s) {
         const Source& source = sources[s];

@@ -66,8 +66,8 @@ public:
 
     void run(std::span<const Source> sources, Failure& failure);
 
-    Vector<Outgoing> outgoing; // of a neighbour after those of the one before
-    Vector<Found> found;
+    Array<Outgoing> outgoing; // of a neighbour after those of the one before
+    Array<Found> found;
 
 private:
     void write_boxes();
@@ -94,20 +94,20 @@ private:
     Side& side_;
     const bool points_;
     Memory* memory_;
-    Vector<Writer> writers_;             // one a neighbour
-    Vector<Remote> remote_;              // of each neighbour after those of the one before
-    Vector<std::uint64_t> remote_begin_; // of each neighbour
-    Vector<Box> boxes_;
-    Vector<std::uint64_t> boxes_begin_; // of each remote part
-    Vector<std::uint64_t> split_;       // bodies with tetrahedra on more than one rank, as far as seen here
-    Vector<std::uint32_t> told_split_;  // parts of this rank that a neighbour says are of such bodies
-    Vector<std::uint64_t> told_split_begin_; // of each neighbour
-    Vector<Sent> sent_;
-    Vector<std::uint64_t> sent_begin_; // of each neighbour
-    Vector<Group> groups_;
-    Vector<Stranger> strangers_;
-    Vector<double> xyz_;
-    Vector<Known> known_;
+    Array<Writer> writers_;             // one a neighbour
+    Array<Remote> remote_;              // of each neighbour after those of the one before
+    Array<std::uint64_t> remote_begin_; // of each neighbour
+    Array<Box> boxes_;
+    Array<std::uint64_t> boxes_begin_; // of each remote part
+    Array<std::uint64_t> split_;       // bodies with tetrahedra on more than one rank, as far as seen here
+    Array<std::uint32_t> told_split_;  // parts of this rank that a neighbour says are of such bodies
+    Array<std::uint64_t> told_split_begin_; // of each neighbour
+    Array<Sent> sent_;
+    Array<std::uint64_t> sent_begin_; // of each neighbour
+    Array<Group> groups_;
+    Array<Stranger> strangers_;
+    Array<double> xyz_;
+    Array<Known> known_;
 };
 
 } // namespace vox::dist

@@ -23,7 +23,7 @@ const Part& Side::part_of(vox_mesh mesh) const noexcept {
             })->part;
 }
 
-void Side::set_points(Vector<double>& positions) {
+void Side::set_points(Array<double>& positions) {
     const std::uint64_t count = positions.size() / 3;
     if (points == VOX_NULL_MESH && count == 0) return;
     vox_mesh_desc desc = vox_mesh_desc_doubles(positions.data(), count, nullptr, 0);

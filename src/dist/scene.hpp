@@ -25,10 +25,10 @@ struct Side {
     explicit Side(Memory* memory) : placed(memory), xyz(memory) {}
     const Part& part_of(vox_mesh mesh) const noexcept;
     // Gives the grid these points, and keeps them.
-    void set_points(Vector<double>& positions);
+    void set_points(Array<double>& positions);
 
-    Vector<Placed> placed; // ascending
-    Vector<double> xyz;    // of the points, which the grid borrows
+    Array<Placed> placed; // ascending
+    Array<double> xyz;    // of the points, which the grid borrows
     GridHandle grid;
     vox_mesh points = VOX_NULL_MESH;
 };
@@ -67,14 +67,14 @@ struct vox_scene {
     vox::CallerMemory memory_;
     vox_grid_desc grid_desc_;
     vox::dist::Transport transport_;
-    vox::dist::Vector<vox::dist::Part*> parts_; // in the order of bodies
+    vox::dist::Array<vox::dist::Part*> parts_; // in the order of bodies
     vox::dist::Side contacts_side_, points_side_;
-    vox::dist::Vector<vox_scene_contact> contacts_, incoming_;
+    vox::dist::Array<vox_scene_contact> contacts_, incoming_;
     vox_scene_counters counters_{};
 
-    vox::dist::Vector<vox::dist::Overview> overviews_; // of all ranks
-    vox::dist::Vector<std::uint32_t> ranks_;           // who is talked to
-    vox::dist::Vector<vox_bytes> out_, in_;
+    vox::dist::Array<vox::dist::Overview> overviews_; // of all ranks
+    vox::dist::Array<std::uint32_t> ranks_;           // who is talked to
+    vox::dist::Array<vox_bytes> out_, in_;
     std::uint32_t rank_count_ = 0;
-    vox::dist::Vector<std::uint8_t> in_contact_; // each rank: whether it is, with this one
+    vox::dist::Array<std::uint8_t> in_contact_; // each rank: whether it is, with this one
 };

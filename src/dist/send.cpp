@@ -20,8 +20,8 @@ struct Items {
 void vox_scene::send(vox_direction direction, std::uint64_t item_bytes, const void* in, void* out) {
     Failure failure;
     const bool to_tets = direction == VOX_DIRECTION_TO_TETS;
-    const Vector<vox_scene_contact>& from = to_tets ? contacts_ : incoming_;
-    const Vector<vox_scene_contact>& to = to_tets ? incoming_ : contacts_;
+    const Array<vox_scene_contact>& from = to_tets ? contacts_ : incoming_;
+    const Array<vox_scene_contact>& to = to_tets ? incoming_ : contacts_;
 
     // Whom there is something to send to, or to get from: the same on both sides, and no memory is needed.
     const std::uint32_t me = transport_.rank();
@@ -35,8 +35,8 @@ void vox_scene::send(vox_direction direction, std::uint64_t item_bytes, const vo
             ranks_[rank_count_++] = rank;
         }
 
-    Vector<Writer> writers(&memory_);
-    Vector<const std::byte*> here(&memory_); // items for this rank itself
+    Array<Writer> writers(&memory_);
+    Array<const std::byte*> here(&memory_); // items for this rank itself
     const auto* items = static_cast<const std::byte*>(in);
     const auto place_of = [&](std::uint32_t rank) {
         return static_cast<std::size_t>(std::lower_bound(ranks_.begin(), ranks_.begin() + rank_count_, rank) -
@@ -60,7 +60,7 @@ void vox_scene::send(vox_direction direction, std::uint64_t item_bytes, const vo
     });
     exchange(nullptr, failure);
     failure.guard([&] {
-        Vector<Reader> readers(&memory_);
+        Array<Reader> readers(&memory_);
         for (std::uint32_t i = 0; i < rank_count_; ++i) {
             const auto items_of = readers.emplace_back(in_[i]).take<Items>();
             if (items_of.bytes != item_bytes || items_of.direction != (to_tets ? 0u : 1u))

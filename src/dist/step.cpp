@@ -53,8 +53,8 @@ public:
     }
 
 private:
-    Vector<std::uint8_t> bytes_;
-    Vector<std::uint64_t> begins_;
+    Array<std::uint8_t> bytes_;
+    Array<std::uint64_t> begins_;
 };
 
 // How many of the hits in a message need a verdict; both sides of the message know.
@@ -115,7 +115,7 @@ void vox_scene::step() {
     meet(mine, failure);
 
     Rounds rounds(*this, contacts_side_, false);
-    Vector<Source> sources(&memory_);
+    Array<Source> sources(&memory_);
     failure.guard([&] {
         for (const Part* part : parts_)
             if (part->vertex_clusters.size())

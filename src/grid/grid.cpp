@@ -1,22 +1,17 @@
 #include "grid/grid.hpp"
 
 #include "base/array.hpp"
-#include "base/bits.hpp"
-#include "base/clock.hpp"
 #include "base/error.hpp"
 #include "base/float_environment.hpp"
 #include "base/llu.hpp"
 #include "base/room.hpp"
 #include "base/structs.hpp"
 #include "cell_size/suggest.hpp"
-#include "grid/contacts.hpp"
 #include "mesh/check.hpp"
 #include "mesh/ids.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdarg>
-#include <cstdio>
 #include <cstring>
 #include <utility>
 

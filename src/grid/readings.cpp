@@ -91,7 +91,7 @@ std::span<ReadingBody> Readings::choose(const Events& events, std::span<const vo
     ids_.reserve(2 * events.pairs().size());
     chosen_.clear();
     events.for_pairs_of(meshes, [&](const vox_pair& pair) {
-        ids_.insert(ids_.end(), {pair.mesh_a, pair.mesh_b});
+        for (const vox_mesh id : {pair.mesh_a, pair.mesh_b}) ids_.push_back(id);
         const std::span<const std::uint32_t> contacts = events.contacts_of(pair);
         if (!all_) chosen_.insert(chosen_.end(), contacts.begin(), contacts.end());
     });

@@ -46,7 +46,7 @@ class Gates(unittest.TestCase):
                 self.assertEqual(presets.count(preset), 3, preset)  # to configure, build and test
 
     def test_rows_are_kept_and_replaced(self):
-        row = dict(zip(nightly.COLUMNS, ("tsan", "`./dev tsan`", "0123456789", "2026-01-31", "12", "passed, 1 skipped")))
+        row = dict(zip(nightly.COLUMNS, ("tsan", "`./dev test tsan`", "0123456789", "2026-01-31", "12", "passed, 1 skipped")))
         fuzz = {**row, "part": "fuzz", "result": "FAILED (8)"}
         rows = nightly.read_table(nightly.table({"tsan": row, "fuzz": fuzz, "gone": row}))
         self.assertEqual(rows, {"tsan": row, "fuzz": fuzz})
