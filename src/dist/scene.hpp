@@ -67,14 +67,14 @@ struct vox_scene {
     vox::CallerMemory memory_;
     vox_grid_desc grid_desc_;
     vox::dist::Transport transport_;
-    vox::dist::Array<vox::dist::Part*> parts_; // in the order of bodies
+    vox::Array<vox::dist::Part*> parts_; // in the order of bodies
     vox::dist::Side contacts_side_, points_side_;
-    vox::dist::Array<vox_scene_contact> contacts_, incoming_;
+    vox::Array<vox_scene_contact> contacts_, incoming_;
     vox_scene_counters counters_{};
 
-    vox::dist::Array<vox::dist::Overview> overviews_; // of all ranks
-    vox::dist::Array<std::uint32_t> ranks_;           // who is talked to
-    vox::dist::Array<vox_bytes> out_, in_;
+    vox::Array<vox::dist::Overview> overviews_; // of all ranks
+    vox::Array<std::uint32_t> ranks_;           // who is talked to
+    vox::Array<vox_bytes> out_, in_;
     std::uint32_t rank_count_ = 0;
-    vox::dist::Array<std::uint8_t> in_contact_; // each rank: whether it is, with this one
+    vox::Array<std::uint8_t> in_contact_; // each rank: whether it is, with this one
 };
