@@ -273,7 +273,7 @@ START_TEST(filters_and_bodies_at_rest_leave_pairs_out) {
     ck_assert_uint_eq(pairs(), 4);
     s.bodies[3].tets = {};
     s.tiles[3] = Tiles(memory);
-    s.tiles[3].block_first.assign({0, s.bodies[3].vertex_count}); // one block of all
+    s.tiles[3].block_first = Array<std::uint32_t>({0, s.bodies[3].vertex_count}, memory); // one block of all
     ck_assert_uint_eq(pairs(), 2); // its vertices may be in others, whose vertices cannot be in it
 }
 END_TEST
