@@ -15,7 +15,10 @@
 
 #ifdef VOX_TESTS_HEAP_IS_MEASURED
 
-#include <sanitizer/allocator_interface.h>
+/* As in <sanitizer/allocator_interface.h>, which Debian's gcc does not come with. */
+size_t __sanitizer_get_allocated_size(const volatile void* pointer);
+int __sanitizer_install_malloc_and_free_hooks(void (*allocated)(const volatile void* pointer, size_t size),
+                                              void (*freed)(const volatile void* pointer));
 
 static size_t heap_bytes_, heap_peak_;
 
@@ -26,7 +29,7 @@ static void heap_count_(const volatile void* pointer, size_t size) {
 }
 
 static void heap_discount_(const volatile void* pointer) {
-    const size_t size = pointer ? __sanitizer_get_allocated_size((void*)(size_t)pointer) : 0;
+    const size_t size = pointer ? __sanitizer_get_allocated_size(pointer) : 0;
     heap_bytes_ -= size < heap_bytes_ ? size : heap_bytes_; /* it may be from before the count */
 }
 
