@@ -101,14 +101,20 @@ def debian_sources(name):
     return folder
 
 
-def compiled_together(sources):
-    """Files that include the sources: those of a folder in one, and alone those that Highway includes several times."""
+def compiled_together(part, sources):
+    """Files that include the sources: those of a folder in one, and in one those that are compiled for each instruction set."""
     groups = {}
     for name, text in sources.items():
         path = pathlib.PurePosixPath(name.removeprefix("src/"))
-        group = path.with_suffix("") if "hwy/foreach_target.h" in text else path.parent
-        groups.setdefault("_".join(group.parts), []).append(f'#include "{path}"\n')
-    return {f"{group}.cpp": "".join(lines).encode() for group, lines in groups.items()}
+        group = "each_target" if '#include "base/each_target.hpp"' in text else "_".join(path.parent.parts)
+        groups.setdefault(f"all/{part}/{group}.cpp", []).append(f'#include "{path}"\n')
+    each_target = f"all/{part}/each_target.cpp"
+    if each_target in groups: # as vox_unity in cmake/vox_target.cmake; its path from any folder that headers are looked for in
+        groups[each_target].insert(0, f"""#include "base/simd.hpp"
+#define HWY_TARGET_INCLUDE "../{each_target}"
+#include <hwy/foreach_target.h>
+""")
+    return {name: "".join(lines).encode() for name, lines in groups.items()}
 
 
 def replaced(text, old, new):
@@ -149,7 +155,7 @@ def contents(core_only, everything):
             part = name.split("/")[1]
             parts[part if part in parts else "core"][name] = texts[name]
     for part, sources in parts.items():
-        files.update({f"all/{part}/{name}": data for name, data in compiled_together(sources).items()})
+        files.update(compiled_together(part, sources))
     return files
 
 
