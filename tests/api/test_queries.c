@@ -205,7 +205,7 @@ START_TEST(as_it_was_when_prepared) {
 }
 END_TEST
 
-/* Many threads at once. */
+/* Many threads at once: queries and suggestions, of which the first look at the meshes, are reads. */
 typedef struct asker {
     const world* w;
     uint64_t seed;
@@ -215,6 +215,10 @@ typedef struct asker {
 static void* ask(void* context) {
     asker* a = (asker*)context;
     uint64_t random = a->seed;
+    vox_suggestion suggestion;
+    suggestion.struct_size = sizeof suggestion;
+    if (vox_grid_suggest_cell_size(a->w->grid, NULL, &suggestion)) return NULL;
+    a->sum = (uint64_t)(suggestion.cell_size * 1e9);
     for (int i = 0; i < 300; ++i) {
         float p[3], q[3];
         random_point(&random, 0, p);

@@ -1,7 +1,5 @@
 // How much work a grid's suggestion does and how much memory it allocates, both counted. A step of a small
 // scene takes ten microseconds, and a suggestion should take less.
-#include <thread> // first: a macro of Check is named as a function there
-
 #include "base/vectors.hpp"
 #include "cell_size/fast_model.hpp"
 #include "cell_size/weights.hpp"
@@ -328,24 +326,6 @@ START_TEST(what_changed_since_the_step_counts) {
 }
 END_TEST
 
-// Suggestions are reads: the first ones, which look at the meshes, may come from many threads at once.
-START_TEST(many_ask_at_once) {
-    Scene scene;
-    fill(scene, sizes[0], 1.95, false);
-    Grid grid(scene, 0);
-    std::vector<vox_suggestion> found(8);
-    std::vector<std::thread> threads;
-    for (vox_suggestion& suggestion : found)
-        threads.emplace_back([&] {
-            suggestion.struct_size = sizeof suggestion;
-            (void)vox_grid_suggest_cell_size(grid.grid, nullptr, &suggestion);
-        });
-    for (std::thread& thread : threads) thread.join();
-    for (const vox_suggestion& suggestion : found) ck_same(suggestion, found[0]);
-    ck_assert_double_gt(found[0].cell_size, 0);
-}
-END_TEST
-
 } // namespace
 
 SUITE(suggest_work) {
@@ -356,5 +336,4 @@ SUITE(suggest_work) {
     tcase_add_test(tests, samples_are_near_the_whole);
     tcase_add_test(tests, a_suggestion_allocates_little);
     tcase_add_test(tests, what_changed_since_the_step_counts);
-    tcase_add_test(tests, many_ask_at_once);
 }
