@@ -1,5 +1,5 @@
-/* Steps built-in scenes and prints hashes of what every frame gives: contacts, and as further parts
- * penetrations, pairs and events, readings, answers of queries; edge contacts; answers of surfaces. The text
+/* Steps built-in scenes and prints hashes of what every frame gives: contacts, vertices inside, pairs, edges,
+ * proximities, impacts; penetrations, events, readings, answers of queries; answers of surfaces. The text
  * is the same on every machine, with every compiler and instruction set, engine, number of workers and format
  * of positions: matrix.py, `./dev hashes`, `./dev cross`. hashes [--engine fast|reference] [--workers N]
  * [--doubles] [--moved] [--level 0..3] [--cell-size FACTOR] */
@@ -132,23 +132,127 @@ static int hash_queries(vox_grid* grid, const scene* s, uint64_t* hash) {
     return 1;
 }
 
-static int hash_edge_depths(vox_grid* grid, uint64_t* hash) {
-    vox_depth_view view;
-    if (vox_grid_prepare_edge_depths(grid) != VOX_OK || vox_grid_edge_depths(grid, &view) != VOX_OK) return 0;
-    add_number(hash, view.count);
-    for (uint64_t i = 0; i < view.count; ++i)
-        add_double(hash, view.data[i].depth), add_doubles(hash, view.data[i].direction);
+/* ---- what a response needs ---- */
+
+static int hash_contacts(const vox_grid* grid, uint64_t* count, uint64_t* hash) {
+    vox_contact_view view;
+    vox_interior_view interiors;
+    if (vox_grid_contacts(grid, &view) != VOX_OK || vox_grid_contact_interiors(grid, &interiors) != VOX_OK)
+        return 0;
+    *count = view.count;
+    for (uint64_t i = 0; i < view.count; ++i) {
+        const vox_contact* c = &view.data[i];
+        add_number(hash, c->mesh_a), add_number(hash, c->vertex), add_number(hash, c->mesh_b);
+        add_number(hash, c->tet), add_number(hash, interiors.data[i]);
+    }
+    return 1;
+}
+
+/* Pairs that touch, then those that began to and those that ended. */
+static int hash_pairs_of_bodies(const vox_grid* grid, uint64_t* count, uint64_t* hash) {
+    vox_pair_view pairs;
+    vox_touch_view touches;
+    if (vox_grid_pairs(grid, &pairs) != VOX_OK || vox_grid_touch_events(grid, &touches) != VOX_OK) return 0;
+    *count = pairs.count;
+    for (uint64_t i = 0; i < pairs.count; ++i) {
+        const vox_pair* p = &pairs.data[i];
+        add_number(hash, p->mesh_a), add_number(hash, p->mesh_b);
+        add_number(hash, p->user_data_a), add_number(hash, p->user_data_b);
+        for (uint64_t c = 0; c < p->a_in_b + p->b_in_a; ++c) add_number(hash, pairs.contacts[p->first + c]);
+    }
+    for (int ended = 0; ended < 2; ++ended)
+        for (uint64_t i = 0; i < touches.count; ++i)
+            if (touches.data[i].kind == (ended ? VOX_TOUCH_ENDED : VOX_TOUCH_BEGAN))
+                add_number(hash, touches.data[i].mesh_a), add_number(hash, touches.data[i].mesh_b);
+    return 1;
+}
+
+/* Vertices inside, with the lowest tetrahedron that contains each, their weights to the precision of a float.
+ */
+static int hash_inside(const vox_grid* grid, uint64_t* count, uint64_t* hash) {
+    vox_penetration_view view;
+    vox_depth_view depths;
+    vox_contact_view contacts;
+    if (vox_grid_penetrations(grid, &view) != VOX_OK || vox_grid_depths(grid, &depths) != VOX_OK ||
+        vox_grid_contacts(grid, &contacts) != VOX_OK)
+        return 0;
+    *count = view.count;
+    for (uint64_t i = 0; i < view.count; ++i) {
+        const vox_penetration* p = &view.data[i];
+        add_number(hash, p->mesh_a), add_number(hash, p->vertex), add_number(hash, p->mesh_b);
+        add_number(hash, (uint64_t)p->state), add_number(hash, contacts.data[p->contact].tet);
+        add_floats(hash, contacts.data[p->contact].barycentric, 4);
+        add_double(hash, depths.data[i].depth), add_doubles(hash, depths.data[i].direction);
+    }
+    return 1;
+}
+
+static int hash_edges(vox_grid* grid, uint64_t* count, uint64_t* hash) {
+    vox_edge_contact_view view;
+    vox_depth_view depths;
+    if (vox_grid_edge_contacts(grid, &view) != VOX_OK || vox_grid_prepare_edge_depths(grid) != VOX_OK ||
+        vox_grid_edge_depths(grid, &depths) != VOX_OK)
+        return 0;
+    *count = view.count;
+    for (uint64_t i = 0; i < view.count; ++i) {
+        const vox_edge_contact* c = &view.data[i];
+        add_number(hash, c->mesh_a), add_number(hash, c->edge[0]), add_number(hash, c->edge[1]);
+        add_number(hash, c->mesh_b), add_number(hash, c->tet);
+        for (int k = 0; k < 3; ++k) add_number(hash, c->face[k]);
+        add_double(hash, c->edge_weights[0]), add_double(hash, c->edge_weights[1]);
+        add_doubles(hash, c->face_weights), add_doubles(hash, c->position);
+        add_double(hash, depths.data[i].depth), add_doubles(hash, depths.data[i].direction);
+    }
+    return 1;
+}
+
+static int hash_proximities(const vox_grid* grid, uint64_t* count, uint64_t* hash) {
+    vox_margin_contact_view view;
+    if (vox_grid_margin_contacts(grid, &view) != VOX_OK) return 0;
+    *count = view.count;
+    for (uint64_t i = 0; i < view.count; ++i) {
+        const vox_margin_contact* c = &view.data[i];
+        add_number(hash, c->mesh_a), add_number(hash, c->vertex), add_number(hash, c->mesh_b);
+        add_number(hash, c->tet);
+        for (int k = 0; k < 3; ++k) add_number(hash, c->face[k]);
+        add_doubles(hash, c->face_weights), add_double(hash, c->distance), add_doubles(hash, c->normal);
+    }
+    return 1;
+}
+
+static int hash_impacts(const vox_grid* grid, uint64_t* count, uint64_t* hash) {
+    vox_passage_view view;
+    if (vox_grid_passages(grid, &view) != VOX_OK) return 0;
+    *count = view.count;
+    for (uint64_t i = 0; i < view.count; ++i) {
+        const vox_passage* p = &view.data[i];
+        add_number(hash, p->mesh_a), add_number(hash, p->vertex), add_number(hash, p->mesh_b);
+        add_number(hash, p->tet);
+        for (int k = 0; k < 3; ++k) add_number(hash, p->face[k]);
+        add_double(hash, p->time);
+    }
     return 1;
 }
 
 /* ---- scenes ---- */
 
-static double* as_doubles[MOST_BODIES];
+static double *as_doubles[MOST_BODIES], *previous[MOST_BODIES];
 
-static void write_doubles(const scene* s) {
+static void write_doubles(const scene* s, double* const* to) {
     for (uint32_t b = 0; b < s->count; ++b)
         for (uint32_t i = 0; i < 3 * s->bodies[b].vertex_count; ++i)
-            as_doubles[b][i] = (double)s->bodies[b].positions[i];
+            to[b][i] = (double)s->bodies[b].positions[i];
+}
+
+/* The id of a fresh grid's meshes: the slot, and the first generation. */
+static vox_mesh mesh_of(uint32_t body) { return (body << 12) + 1; }
+
+static int bind_previous(const scene* s, vox_grid* grid) {
+    for (uint32_t b = 0; b < s->count; ++b)
+        if (vox_mesh_bind_previous_positions(grid, mesh_of(b), previous[b], VOX_FORMAT_DOUBLE3, 0, 0) !=
+            VOX_OK)
+            return 0;
+    return 1;
 }
 
 /* As the settings want it: doubles in place of floats, a transform, rings. */
@@ -156,8 +260,7 @@ static int fit_meshes(const scene* s, const settings* how, uint32_t rings, vox_g
     static const double here[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     int ok = 1;
     for (uint32_t b = 0; ok && b < s->count; ++b) {
-        const vox_mesh mesh =
-            (b << 12) + 1; /* the id of a fresh grid's meshes: the slot, and the first generation */
+        const vox_mesh mesh = mesh_of(b);
         if (how->doubles)
             ok = vox_mesh_bind_positions(grid, mesh, as_doubles[b], VOX_FORMAT_DOUBLE3, 0) == VOX_OK;
         if (how->moved) ok = ok && vox_mesh_set_transform(grid, mesh, here) == VOX_OK;
@@ -185,20 +288,30 @@ static int print_contacts(vox_grid* grid, const scene* s, int frame) {
     return 1;
 }
 
-static int print_edges(vox_grid* grid, const scene* s, int frame) {
-    vox_edge_contact_view view;
-    uint64_t hash, parts[2] = {1, 2};
-    if (vox_grid_edge_contacts(grid, &view) != VOX_OK || vox_grid_edge_hash(grid, &hash) != VOX_OK ||
-        !hash_edge_depths(grid, &parts[0]) || !hash_events(grid, &parts[1]))
+static int print_response(vox_grid* grid, const scene* s, int frame) {
+    uint64_t counts[3] = {0}, parts[3] = {1, 2, 3};
+    if (!hash_contacts(grid, &counts[0], &parts[0]) || !hash_inside(grid, &counts[1], &parts[1]) ||
+        !hash_pairs_of_bodies(grid, &counts[2], &parts[2]))
         return 0;
-    printf("%s, frame %d: %" PRIu64 " edge contacts %016" PRIx64 ", depths %016" PRIx64 ", events %016" PRIx64
-           "\n",
-           s->name, frame, view.count, hash, parts[0], parts[1]);
+    printf("%s, frame %d: %" PRIu64 " contacts %016" PRIx64 ", %" PRIu64 " inside %016" PRIx64 ", %" PRIu64
+           " pairs %016" PRIx64 "\n",
+           s->name, frame, counts[0], parts[0], counts[1], parts[1], counts[2], parts[2]);
     return 1;
 }
 
-/* In a grid with these flags beside the default ones. */
-static int run(scene* s, const char* name, double factor, uint32_t rings, uint32_t flags,
+static int print_experimental(vox_grid* grid, const scene* s, int frame) {
+    uint64_t counts[3] = {0}, parts[3] = {1, 2, 3};
+    if (!hash_edges(grid, &counts[0], &parts[0]) || !hash_proximities(grid, &counts[1], &parts[1]) ||
+        !hash_impacts(grid, &counts[2], &parts[2]))
+        return 0;
+    printf("%s, frame %d: %" PRIu64 " edges %016" PRIx64 ", %" PRIu64 " proximities %016" PRIx64 ", %" PRIu64
+           " impacts %016" PRIx64 "\n",
+           s->name, frame, counts[0], parts[0], counts[1], parts[1], counts[2], parts[2]);
+    return 1;
+}
+
+/* `margin` in edges of a tetrahedron; where it is not 0, also the edges, and what happens between frames. */
+static int run(scene* s, const char* name, double factor, uint32_t rings, double margin,
                const settings* how) {
     enum { frames = 4 }; /* the last one at rest */
     vox_grid* grid = NULL;
@@ -208,22 +321,26 @@ static int run(scene* s, const char* name, double factor, uint32_t rings, uint32
     if (factor != 1) scale_scene(s, factor);
     pose_scene(s, 0);
     for (uint32_t b = 0; b < s->count; ++b)
-        as_doubles[b] = (double*)malloc(3 * sizeof(double) * s->bodies[b].vertex_count);
-    write_doubles(s);
+        for (int i = 0; i < 2; ++i)
+            (i ? previous : as_doubles)[b] = (double*)malloc(3 * sizeof(double) * s->bodies[b].vertex_count);
+    write_doubles(s, as_doubles);
     desc.engine = how->engine;
     desc.worker_count = how->workers;
     desc.cell_size = how->cell_size * factor;
-    desc.flags |= VOX_GRID_CONTACT_EVENTS | flags;
-    ok = vox_grid_create(&desc, &grid) == VOX_OK && insert_scene(s, grid) && fit_meshes(s, how, rings, grid);
+    desc.flags |= VOX_GRID_CONTACT_EVENTS | (margin > 0 ? VOX_GRID_EDGE_CONTACTS : 0);
+    desc.margin = margin * factor;
+    ok = vox_grid_create(&desc, &grid) == VOX_OK && insert_scene(s, grid) &&
+         fit_meshes(s, how, rings, grid) && (margin == 0 || bind_previous(s, grid));
     for (int frame = 0; ok && frame < frames; ++frame) {
+        write_doubles(s, previous);
         pose_scene(s, frame < 3 ? frame : 2);
-        write_doubles(s);
-        ok = vox_grid_step(grid) == VOX_OK &&
-             (flags & VOX_GRID_EDGE_CONTACTS ? print_edges : print_contacts)(grid, s, frame);
+        write_doubles(s, as_doubles);
+        ok = vox_grid_step(grid) == VOX_OK && (margin > 0 || print_contacts(grid, s, frame)) &&
+             print_response(grid, s, frame) && (margin == 0 || print_experimental(grid, s, frame));
     }
     if (!ok) fprintf(stderr, "%s: %s\n", name, vox_last_error());
     vox_grid_destroy(grid);
-    for (uint32_t b = 0; b < s->count; ++b) free(as_doubles[b]);
+    for (uint32_t b = 0; b < s->count; ++b) free(as_doubles[b]), free(previous[b]);
     free_scene(s);
     return ok;
 }
@@ -443,12 +560,12 @@ int main(int argc, char** argv) {
     make_pair(&s, 4), ok &= run(&s, "least", 1e-41, 0, 0, &how); /* and so are normal coordinates */
     make_pair(&s, 4), ok &= run(&s, "huge", 1e30, 0, 0, &how);   /* or too large */
     make_ring(&s, 8), ok &= run(&s, "huge ring", 1e20, 0, 0, &how);
-    make_pair(&s, 7), ok &= run(&s, "edges of pair", 1, 0, VOX_GRID_EDGE_CONTACTS, &how);
-    make_ring(&s, 12), ok &= run(&s, "edges of ring", 1, 0, VOX_GRID_EDGE_CONTACTS, &how);
-    make_ring(&s, 12), ok &= run(&s, "edges of ring, filtered", 1, 2, VOX_GRID_EDGE_CONTACTS, &how);
-    make_soup(&s, 40, 60), ok &= run(&s, "edges of soup", 1, 0, VOX_GRID_EDGE_CONTACTS, &how);
-    make_pair(&s, 4), ok &= run(&s, "edges of least", 1e-41, 0, VOX_GRID_EDGE_CONTACTS, &how);
-    make_pair(&s, 4), ok &= run(&s, "edges of huge", 1e30, 0, VOX_GRID_EDGE_CONTACTS, &how);
+    make_pair(&s, 7), ok &= run(&s, "response to pair", 1, 0, 0.2, &how);
+    make_ring(&s, 12), ok &= run(&s, "response to ring", 1, 0, 0.2, &how);
+    make_ring(&s, 12), ok &= run(&s, "response to ring, filtered", 1, 2, 0.2, &how);
+    make_soup(&s, 40, 60), ok &= run(&s, "response to soup", 1, 0, 0.2, &how);
+    make_pair(&s, 4), ok &= run(&s, "response to least", 1e-41, 0, 0.2, &how);
+    make_pair(&s, 4), ok &= run(&s, "response to huge", 1e30, 0, 0.2, &how);
     make_pair(&s, 3), ok &= run_surface(&s, "surface of pair", 1, &how);
     make_ring(&s, 8), ok &= run_surface(&s, "surface of ring", 1, &how);
     make_soup(&s, 40, 60), ok &= run_surface(&s, "surface of soup", 1, &how);
