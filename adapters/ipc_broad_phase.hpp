@@ -202,8 +202,8 @@ private:
         for (std::uint64_t first = 0;;) { // in pieces where one would not fit into the byte budget
             vox_pair_lists lists{};
             lists.struct_size = sizeof lists;
-            check(vox_surface_pairs(surface_.get(), a, b, first, std::numeric_limits<std::uint64_t>::max(),
-                                    &lists));
+            check(vox_surface_find_pairs(surface_.get(), a, b, first,
+                                         std::numeric_limits<std::uint64_t>::max(), &lists));
             if (lists.count == 0) return;
             candidates.reserve(candidates.size() + static_cast<std::size_t>(lists.pair_count));
             for (std::uint64_t i = 0; i < lists.count; ++i)

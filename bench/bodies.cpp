@@ -42,7 +42,8 @@ namespace {
 
 Solid taken(vox_result made, vox_io_mesh* mesh) {
     vox_io_mesh_view view;
-    if (made != VOX_OK || vox_io_mesh_get(mesh, &view) != VOX_OK) throw std::runtime_error(vox_last_error());
+    if (made != VOX_OK || vox_io_mesh_get_arrays(mesh, &view) != VOX_OK)
+        throw std::runtime_error(vox_last_error());
     Solid solid;
     for (std::uint64_t v = 0; v < view.vertex_count; ++v)
         solid.positions.push_back(

@@ -91,7 +91,7 @@ def read_with_vox(path):
     check(lib, lib.vox_io_load(path.encode(), None, ctypes.byref(mesh)))
     stop.set()
     watcher.join()
-    check(lib, lib.vox_io_mesh_get(mesh, ctypes.byref(view)))
+    check(lib, lib.vox_io_mesh_get_arrays(mesh, ctypes.byref(view)))
     return {"seconds": seconds, "vertices": view.vertex_count, "tets": view.tet_count,
             "own": max(samples) - before, "result": 24 * view.vertex_count + 16 * view.tet_count}
 

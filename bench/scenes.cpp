@@ -64,7 +64,7 @@ double place_by_contacts(const Solid (&solids)[2], const std::function<Pose(std:
     vox_grid* grid = nullptr;
     must(vox_grid_create(nullptr, &grid));
     std::vector<float> positions[2];
-    vox_mesh meshes[2] = {};
+    vox_body meshes[2] = {};
     for (std::size_t b = 0; b < 2; ++b) {
         positions[b] = frame_positions(solids[b], pose(b, far), 0);
         vox_mesh_desc desc = vox_default_mesh_desc();
@@ -79,11 +79,11 @@ double place_by_contacts(const Solid (&solids)[2], const std::function<Pose(std:
             std::ranges::copy(frame_positions(solids[b], pose(b, d), 0), positions[b].begin());
         must(vox_grid_step(grid));
         vox_contact_view view;
-        must(vox_grid_contacts(grid, &view));
+        must(vox_grid_get_contacts(grid, &view));
         std::vector<bool> hit[2];
         for (std::size_t b = 0; b < 2; ++b) hit[b].resize(solids[b].tets.size() / 4);
         for (std::uint64_t c = 0; c < view.count; ++c)
-            hit[view.data[c].mesh_b == meshes[1]][view.data[c].tet] = true;
+            hit[view.data[c].body_b == meshes[1]][view.data[c].tet] = true;
         const auto hits = std::ranges::count(hit[0], true) + std::ranges::count(hit[1], true);
         return static_cast<double>(hits) / static_cast<double>(hit[0].size() + hit[1].size());
     });

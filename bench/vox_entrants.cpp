@@ -70,14 +70,14 @@ public:
 
     std::vector<vox_contact> contacts() override {
         vox_contact_view view;
-        must(vox_grid_contacts(grid_, &view));
+        must(vox_grid_get_contacts(grid_, &view));
         std::vector<vox_contact> contacts(view.data, view.data + view.count);
-        const auto body = [&](vox_mesh mesh) { // ids ascend as bodies do
-            return static_cast<vox_mesh>(std::ranges::lower_bound(meshes_, mesh) - meshes_.begin());
+        const auto body = [&](vox_body mesh) { // ids ascend as bodies do
+            return static_cast<vox_body>(std::ranges::lower_bound(meshes_, mesh) - meshes_.begin());
         };
         for (vox_contact& contact : contacts) {
-            contact.mesh_a = body(contact.mesh_a);
-            contact.mesh_b = body(contact.mesh_b);
+            contact.body_a = body(contact.body_a);
+            contact.body_b = body(contact.body_b);
         }
         return contacts;
     }
@@ -85,7 +85,7 @@ public:
     std::size_t bytes() const override {
         vox_counters counters{};
         counters.struct_size = sizeof counters;
-        must(vox_grid_counters(grid_, &counters));
+        must(vox_grid_get_counters(grid_, &counters));
         return counters.bytes;
     }
 
@@ -99,7 +99,7 @@ private:
     bool sweep_;      // try cell sizes and keep the fastest one
     bool is_limited_; // to AVX2
     vox_grid* grid_ = nullptr;
-    std::vector<vox_mesh> meshes_;
+    std::vector<vox_body> meshes_;
 };
 
 } // namespace

@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
     std::fclose(file);
 
     vox_grid* grid;
-    vox_mesh still, body;
+    vox_body still, body;
     const vox_mesh_desc desc = vox_mesh_desc_floats(positions.data(), counts[0], tets.data(), counts[1]);
     check(vox_grid_create(nullptr, &grid));
     check(vox_mesh_insert(grid, &desc, &still));
@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
     stages.fill(UINT64_MAX);
     for (int i = 0; i < steps; ++i) {
         const double matrix[12] = {1, 0, 0, offset + 0.001 * (i % 2), 0, 1, 0, 0.013, 0, 0, 1, 0.017};
-        check(vox_mesh_set_transform(grid, body, matrix));
+        check(vox_body_set_transform(grid, body, matrix));
         using Clock = std::chrono::steady_clock;
         const Clock::time_point began = Clock::now();
         check(vox_grid_step(grid));
@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
         for (std::size_t k = 0; k < now.size(); ++k) stages[k] = std::min(stages[k], now[k]);
     }
     std::uint64_t hash;
-    check(vox_grid_hash(grid, &hash));
+    check(vox_grid_get_hash(grid, &hash));
     std::printf("%.6f %016llx", least, static_cast<unsigned long long>(hash));
     for (const std::uint64_t ns : stages) std::printf(" %llu", static_cast<unsigned long long>(ns));
     std::printf("\n");

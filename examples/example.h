@@ -45,16 +45,16 @@ static inline vox_mesh_desc cube_desc(const cube* c) {
     return vox_mesh_desc_floats(c->positions[0], 8, c->tets[0], 5);
 }
 
-static inline vox_mesh insert_cube(vox_grid* grid, const cube* c) {
+static inline vox_body insert_cube(vox_grid* grid, const cube* c) {
     const vox_mesh_desc desc = cube_desc(c);
-    vox_mesh mesh = VOX_NULL_MESH;
+    vox_body mesh = VOX_NULL_BODY;
     must(vox_mesh_insert(grid, &desc, &mesh));
     return mesh;
 }
 
 static inline uint64_t contact_count(const vox_grid* grid) {
     vox_contact_view view;
-    must(vox_grid_contacts(grid, &view));
+    must(vox_grid_get_contacts(grid, &view));
     return view.count;
 }
 

@@ -145,7 +145,7 @@ static inline void free_scene(scene* s) {
 /* Inserts all bodies; 0 and the reason on stderr where that fails. */
 static inline int insert_scene(const scene* s, vox_grid* grid) {
     for (uint32_t i = 0; i < s->count; ++i) {
-        vox_mesh mesh;
+        vox_body mesh;
         vox_mesh_desc desc = body_desc(&s->bodies[i]);
         if (s->self_collision) desc.flags |= VOX_MESH_SELF_COLLISION;
         if (vox_mesh_insert(grid, &desc, &mesh) != VOX_OK) {

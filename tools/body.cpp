@@ -49,7 +49,7 @@ Mesh load_mesh(const std::string& path, vox_io_report* report) {
     if (result == VOX_ERROR_UNSUPPORTED) return load_by_assimp(path, vox_last_error(), report);
     check(result);
     Mesh mesh(loaded);
-    if (report) check(vox_io_mesh_report(mesh.get(), report));
+    if (report) check(vox_io_mesh_get_report(mesh.get(), report));
     return mesh;
 }
 
@@ -57,7 +57,7 @@ Body own_body(const std::string& name, vox_io_mesh* mesh) {
     Body body;
     body.name = name;
     body.mesh.reset(mesh);
-    check(vox_io_mesh_get(mesh, &body.view));
+    check(vox_io_mesh_get_arrays(mesh, &body.view));
     place(body, {});
     return body;
 }
@@ -66,7 +66,7 @@ Body load_body(const std::string& path, const Placement& placement, const Fill& 
     Body body;
     body.name = path;
     body.mesh = load_mesh(path);
-    check(vox_io_mesh_get(body.mesh.get(), &body.view));
+    check(vox_io_mesh_get_arrays(body.mesh.get(), &body.view));
     if (fill.surfaces && body.view.tet_count == 0) {
         vox_io_tetrahedralize_desc desc;
         check(vox_io_tetrahedralize_desc_init(&desc, sizeof desc));
@@ -75,7 +75,7 @@ Body load_body(const std::string& path, const Placement& placement, const Fill& 
         const vox_result result = vox_io_tetrahedralize(body.mesh.get(), &desc, &filled);
         if (result != VOX_OK) check(vox_fail(result, (path + ": " + vox_last_error()).c_str()));
         body.mesh.reset(filled);
-        check(vox_io_mesh_get(filled, &body.view));
+        check(vox_io_mesh_get_arrays(filled, &body.view));
     }
     place(body, placement);
     return body;

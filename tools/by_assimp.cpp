@@ -89,11 +89,11 @@ void put(int pipe, const void* data, std::size_t size) {
         _exit(0);
     }
     vox_io_mesh_view view{};
-    vox_io_mesh_get(mesh, &view);
+    vox_io_mesh_get_arrays(mesh, &view);
     answer.vertices = view.vertex_count;
     answer.triangles = view.triangle_count;
     answer.report.struct_size = sizeof answer.report;
-    vox_io_mesh_report(mesh, &answer.report);
+    vox_io_mesh_get_report(mesh, &answer.report);
     put(pipe, &answer, sizeof answer);
     put(pipe, view.positions, 24 * view.vertex_count);
     put(pipe, view.triangles, 12 * view.triangle_count);

@@ -128,11 +128,11 @@ Checked check_file(const std::string& file, const CheckOptions& options) {
     check(vox_surface_move(surface.get(), &motion));
     vox_feature_view edges{};
     edges.struct_size = sizeof edges;
-    check(vox_surface_features(surface.get(), VOX_FEATURE_EDGE, &edges));
+    check(vox_surface_get_features(surface.get(), VOX_FEATURE_EDGE, &edges));
     checked.edges.assign(edges.vertices, edges.vertices + 2 * edges.count);
     vox_crossing_view view{};
     view.struct_size = sizeof view;
-    check(vox_surface_crossings(surface.get(), &view));
+    check(vox_surface_find_crossings(surface.get(), &view));
     checked.crossings.assign(view.crossings, view.crossings + view.count);
     return checked;
 }

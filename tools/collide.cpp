@@ -34,7 +34,7 @@ struct CollideOptions {
 double milliseconds(std::uint64_t nanoseconds) { return static_cast<double>(nanoseconds) * 1e-6; }
 
 void print_penetrations(const CollideOptions& options, const vox_grid* grid,
-                        const std::vector<vox_mesh>& ids) {
+                        const std::vector<vox_body>& ids) {
     const vox_penetration_view view = penetrations_of(grid);
     if (view.count == 0) return;
     std::printf("\n%llu %s\n", static_cast<unsigned long long>(view.count),
@@ -44,8 +44,8 @@ void print_penetrations(const CollideOptions& options, const vox_grid* grid,
     for (std::uint64_t i = 0; i < shown; ++i) {
         const vox_penetration p = penetration_at(view, i);
         std::printf("  %c %10u  %c %12.6g   %9.6f %9.6f %9.6f, %s\n",
-                    place_of(ids, p.mesh_a) == 0 ? 'A' : 'B', p.vertex,
-                    place_of(ids, p.mesh_b) == 0 ? 'A' : 'B', static_cast<double>(p.depth),
+                    place_of(ids, p.body_a) == 0 ? 'A' : 'B', p.vertex,
+                    place_of(ids, p.body_b) == 0 ? 'A' : 'B', static_cast<double>(p.depth),
                     static_cast<double>(p.direction[0]), static_cast<double>(p.direction[1]),
                     static_cast<double>(p.direction[2]), state_name(p.state));
     }
@@ -53,7 +53,7 @@ void print_penetrations(const CollideOptions& options, const vox_grid* grid,
         std::printf("  and %llu more\n", static_cast<unsigned long long>(view.count - shown));
 }
 
-void print_edges(const CollideOptions& options, const vox_grid* grid, const std::vector<vox_mesh>& ids) {
+void print_edges(const CollideOptions& options, const vox_grid* grid, const std::vector<vox_body>& ids) {
     const vox_edge_contact_view view = edge_contacts_of(grid);
     const vox_depth_view depths = edge_depths_of(grid);
     std::printf("\n%llu %s\n", static_cast<unsigned long long>(view.count),
@@ -65,8 +65,8 @@ void print_edges(const CollideOptions& options, const vox_grid* grid, const std:
         const vox_edge_contact c = edge_contact_at(view, i);
         const vox_depth depth = depth_at(depths, i);
         std::printf("  %c %10u %10u   %c %10u %10u %10u   %.6g %.6g %.6g, %.6g, %.6f %.6f %.6f, %s\n",
-                    place_of(ids, c.mesh_a) == 0 ? 'A' : 'B', c.edge[0], c.edge[1],
-                    place_of(ids, c.mesh_b) == 0 ? 'A' : 'B', c.face[0], c.face[1], c.face[2], c.position[0],
+                    place_of(ids, c.body_a) == 0 ? 'A' : 'B', c.edge[0], c.edge[1],
+                    place_of(ids, c.body_b) == 0 ? 'A' : 'B', c.face[0], c.face[1], c.face[2], c.position[0],
                     c.position[1], c.position[2], depth.depth, depth.direction[0], depth.direction[1],
                     depth.direction[2], kind_name(c.kind));
     }
@@ -74,8 +74,8 @@ void print_edges(const CollideOptions& options, const vox_grid* grid, const std:
         std::printf("  and %llu more\n", static_cast<unsigned long long>(view.count - shown));
 }
 
-void print_near(const CollideOptions& options, const vox_grid* grid, const std::vector<vox_mesh>& ids) {
-    const auto letter = [&](vox_mesh mesh) { return place_of(ids, mesh) == 0 ? 'A' : 'B'; };
+void print_near(const CollideOptions& options, const vox_grid* grid, const std::vector<vox_body>& ids) {
+    const auto letter = [&](vox_body mesh) { return place_of(ids, mesh) == 0 ? 'A' : 'B'; };
     const auto title = [](std::size_t count, const char* one, const char* many) {
         std::printf("\n%zu %s\n", count, count == 1 ? one : many);
     };
@@ -83,21 +83,21 @@ void print_near(const CollideOptions& options, const vox_grid* grid, const std::
         const std::vector<vox_margin_contact> all = margin_contacts_of(grid);
         title(all.size(), "vertex within the margin", "vertices within the margin");
         for (std::size_t i = 0; i < std::min<std::uint64_t>(all.size(), options.limit); ++i)
-            std::printf("  %c %10u  %c %12.6g   %9.6f %9.6f %9.6f\n", letter(all[i].mesh_a), all[i].vertex,
-                        letter(all[i].mesh_b), all[i].distance, all[i].normal[0], all[i].normal[1],
+            std::printf("  %c %10u  %c %12.6g   %9.6f %9.6f %9.6f\n", letter(all[i].body_a), all[i].vertex,
+                        letter(all[i].body_b), all[i].distance, all[i].normal[0], all[i].normal[1],
                         all[i].normal[2]);
     }
     if (!options.moving.empty()) {
         const std::vector<vox_passage> all = passages_of(grid);
         title(all.size(), "vertex met a surface on the way", "vertices met a surface on the way");
         for (std::size_t i = 0; i < std::min<std::uint64_t>(all.size(), options.limit); ++i)
-            std::printf("  %c %10u  %c face %u %u %u at %.9g\n", letter(all[i].mesh_a), all[i].vertex,
-                        letter(all[i].mesh_b), all[i].face[0], all[i].face[1], all[i].face[2], all[i].time);
+            std::printf("  %c %10u  %c face %u %u %u at %.9g\n", letter(all[i].body_a), all[i].vertex,
+                        letter(all[i].body_b), all[i].face[0], all[i].face[1], all[i].face[2], all[i].time);
     }
 }
 
 void print_collide(const CollideOptions& options, const vox_grid* grid, const std::vector<Body>& bodies,
-                   const std::vector<vox_mesh>& ids, const vox_profile& profile) {
+                   const std::vector<vox_body>& ids, const vox_profile& profile) {
     for (std::size_t i = 0; i < bodies.size(); ++i)
         std::printf("%c  %s: %llu vertices, %llu tetrahedra%s\n", i == 0 ? 'A' : 'B', bodies[i].name.c_str(),
                     static_cast<unsigned long long>(bodies[i].view.vertex_count),
@@ -114,8 +114,8 @@ void print_collide(const CollideOptions& options, const vox_grid* grid, const st
         const vox_contact contact = contact_at(view, i);
         const float* weight = contact.barycentric;
         std::printf("  %c %10u   %c %10u   %.9g %.9g %.9g %.9g\n",
-                    place_of(ids, contact.mesh_a) == 0 ? 'A' : 'B', contact.vertex,
-                    place_of(ids, contact.mesh_b) == 0 ? 'A' : 'B', contact.tet,
+                    place_of(ids, contact.body_a) == 0 ? 'A' : 'B', contact.vertex,
+                    place_of(ids, contact.body_b) == 0 ? 'A' : 'B', contact.tet,
                     static_cast<double>(weight[0]), static_cast<double>(weight[1]),
                     static_cast<double>(weight[2]), static_cast<double>(weight[3]));
     }
@@ -155,7 +155,7 @@ void require_inside(const std::vector<Body>& bodies) {
                   " no inside for a vertex to be in; --fill fills them with tetrahedra first");
 }
 
-void bind_previous(vox_grid* grid, vox_mesh mesh, const Body& body, const Body& before) {
+void bind_previous(vox_grid* grid, vox_body mesh, const Body& body, const Body& before) {
     if (before.view.vertex_count != body.view.vertex_count)
         throw Failure(before.name + " has " + std::to_string(before.view.vertex_count) + " vertices, but " +
                       body.name + " has " + std::to_string(body.view.vertex_count));
@@ -182,7 +182,7 @@ void run_collide(const CollideOptions& options) {
     Body before;
     if (!options.moving.empty())
         before = load_body(options.moving, {.keep_doubles = options.keep_doubles}, {});
-    std::vector<vox_mesh> ids;
+    std::vector<vox_body> ids;
     vox_grid_desc desc = options.grid;
     if (options.no_depth) desc.flags &= ~std::uint32_t{VOX_GRID_PENETRATIONS};
     if (options.edges) desc.flags |= VOX_GRID_EDGE_CONTACTS;

@@ -50,7 +50,7 @@ void run_demo(const DemoOptions& options) {
     check(vox_io_make_lattice_ball(options.tets, 1, &made));
     const Mesh mesh(made);
     vox_io_mesh_view view{};
-    check(vox_io_mesh_get(made, &view));
+    check(vox_io_mesh_get_arrays(made, &view));
     TwoBalls balls({view.positions, 3 * view.vertex_count}, {view.tets, 4 * view.tet_count});
     if (!options.json) balls.print_balls();
     balls.run(options.frames);

@@ -7,13 +7,13 @@
 
 namespace tool {
 
-Grid make_grid(const vox_grid_desc& desc, std::span<const vox_mesh_desc> meshes, std::vector<vox_mesh>& ids) {
+Grid make_grid(const vox_grid_desc& desc, std::span<const vox_mesh_desc> meshes, std::vector<vox_body>& ids) {
     vox_grid* created = nullptr;
     check(vox_grid_create(&desc, &created));
     Grid grid(created);
     ids.clear();
     for (const vox_mesh_desc& mesh : meshes) {
-        vox_mesh id = VOX_NULL_MESH;
+        vox_body id = VOX_NULL_BODY;
         check(vox_mesh_insert(grid.get(), &mesh, &id));
         ids.push_back(id);
     }
@@ -30,7 +30,7 @@ vox_profile profile_of(const vox_grid* grid) {
 vox_counters counters_of(const vox_grid* grid) {
     vox_counters counters{};
     counters.struct_size = sizeof counters;
-    check(vox_grid_counters(grid, &counters));
+    check(vox_grid_get_counters(grid, &counters));
     return counters;
 }
 
@@ -42,13 +42,13 @@ double cell_size_of(const vox_grid* grid) {
 
 std::uint64_t hash_of(const vox_grid* grid) {
     std::uint64_t hash = 0;
-    check(vox_grid_hash(grid, &hash));
+    check(vox_grid_get_hash(grid, &hash));
     return hash;
 }
 
 vox_contact_view contacts_of(const vox_grid* grid) {
     vox_contact_view view{};
-    check(vox_grid_contacts(grid, &view));
+    check(vox_grid_get_contacts(grid, &view));
     return view;
 }
 
@@ -88,8 +88,8 @@ vox_profile median(std::span<const vox_profile> profiles) {
     return result;
 }
 
-void step_anew(vox_grid* grid, std::span<const vox_mesh> ids) {
-    for (const vox_mesh id : ids) check(vox_mesh_mark_moved(grid, id));
+void step_anew(vox_grid* grid, std::span<const vox_body> ids) {
+    for (const vox_body id : ids) check(vox_body_mark_moved(grid, id));
     check(vox_grid_step(grid));
 }
 

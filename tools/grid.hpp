@@ -17,7 +17,7 @@ struct GridDeleter {
 using Grid = std::unique_ptr<vox_grid, GridDeleter>;
 
 // Creates a grid and inserts the meshes, whose positions it borrows. ids[i] names meshes[i].
-Grid make_grid(const vox_grid_desc& desc, std::span<const vox_mesh_desc> meshes, std::vector<vox_mesh>& ids);
+Grid make_grid(const vox_grid_desc& desc, std::span<const vox_mesh_desc> meshes, std::vector<vox_body>& ids);
 
 vox_profile profile_of(const vox_grid* grid);
 vox_counters counters_of(const vox_grid* grid);
@@ -64,7 +64,7 @@ inline vox_depth depth_at(const vox_depth_view& view, std::uint64_t index) {
 vox_profile median(std::span<const vox_profile> profiles);
 
 // Runs a step for timing, which processes all meshes even if none has moved since the last step.
-void step_anew(vox_grid* grid, std::span<const vox_mesh> ids);
+void step_anew(vox_grid* grid, std::span<const vox_body> ids);
 
 bool has_penetrations(const vox_grid* grid);
 bool has_edge_contacts(const vox_grid* grid);

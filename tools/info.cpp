@@ -32,11 +32,11 @@ Info read_info(const std::string& file) {
     info.report.struct_size = sizeof info.report;
     const Mesh mesh = load_mesh(file, &info.report);
     vox_io_mesh_view view{};
-    check(vox_io_mesh_get(mesh.get(), &view));
+    check(vox_io_mesh_get_arrays(mesh.get(), &view));
     info.shape = measure_shape(view);
     info.quality.struct_size = sizeof info.quality;
-    check(vox_io_measure_quality(mesh.get(), nullptr, &info.quality));
-    std::istringstream lines(vox_io_mesh_warnings(mesh.get()));
+    check(vox_io_mesh_measure(mesh.get(), nullptr, &info.quality));
+    std::istringstream lines(vox_io_mesh_get_warnings(mesh.get()));
     for (std::string line; std::getline(lines, line);)
         if (!line.empty()) info.warnings.push_back(line);
     return info;

@@ -62,14 +62,14 @@ Json counters_json(const vox_counters& counters) {
             {"passages", counters.passages}};
 }
 
-Json penetrations(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
+Json penetrations(const vox_grid* grid, const std::vector<vox_body>& ids) {
     const vox_penetration_view view = penetrations_of(grid);
     Json list = Json::array();
     for (std::uint64_t i = 0; i < view.count; ++i) {
         const vox_penetration p = penetration_at(view, i);
-        list.push_back({{"mesh_a", place_of(ids, p.mesh_a)},
+        list.push_back({{"body_a", place_of(ids, p.body_a)},
                         {"vertex", p.vertex},
-                        {"mesh_b", place_of(ids, p.mesh_b)},
+                        {"body_b", place_of(ids, p.body_b)},
                         {"state", state_name(p.state)},
                         {"contact", p.contact},
                         {"depth", p.depth},
@@ -78,16 +78,16 @@ Json penetrations(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
     return list;
 }
 
-Json edge_contacts(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
+Json edge_contacts(const vox_grid* grid, const std::vector<vox_body>& ids) {
     const vox_edge_contact_view view = edge_contacts_of(grid);
     const vox_depth_view depths = edge_depths_of(grid);
     Json list = Json::array();
     for (std::uint64_t i = 0; i < view.count; ++i) {
         const vox_edge_contact c = edge_contact_at(view, i);
         const vox_depth depth = depth_at(depths, i);
-        list.push_back({{"mesh_a", place_of(ids, c.mesh_a)},
+        list.push_back({{"body_a", place_of(ids, c.body_a)},
                         {"edge", Json::array_of(c.edge)},
-                        {"mesh_b", place_of(ids, c.mesh_b)},
+                        {"body_b", place_of(ids, c.body_b)},
                         {"face", Json::array_of(c.face)},
                         {"tet", c.tet},
                         {"kind", kind_name(c.kind)},
@@ -199,16 +199,16 @@ void add_suggestion(Json& json, const vox_suggestion& suggestion) {
     json.add("levels", levels);
 }
 
-void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>& ids,
+void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_body>& ids,
                    const vox_profile& profile) {
     const vox_contact_view view = contacts_of(grid);
     json.add("contact_count", view.count);
     Json contacts = Json::array();
     for (std::uint64_t i = 0; i < view.count; ++i) {
         const vox_contact contact = contact_at(view, i);
-        contacts.push_back({{"mesh_a", place_of(ids, contact.mesh_a)},
+        contacts.push_back({{"body_a", place_of(ids, contact.body_a)},
                             {"vertex", contact.vertex},
-                            {"mesh_b", place_of(ids, contact.mesh_b)},
+                            {"body_b", place_of(ids, contact.body_b)},
                             {"tet", contact.tet},
                             {"barycentric", Json::array_of(contact.barycentric)}});
     }
@@ -218,12 +218,12 @@ void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>
     add_result(json, grid, profile);
 }
 
-Json margin_contacts(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
+Json margin_contacts(const vox_grid* grid, const std::vector<vox_body>& ids) {
     Json list = Json::array();
     for (const vox_margin_contact& c : margin_contacts_of(grid))
-        list.push_back({{"mesh_a", place_of(ids, c.mesh_a)},
+        list.push_back({{"body_a", place_of(ids, c.body_a)},
                         {"vertex", c.vertex},
-                        {"mesh_b", place_of(ids, c.mesh_b)},
+                        {"body_b", place_of(ids, c.body_b)},
                         {"tet", c.tet},
                         {"face", Json::array_of(c.face)},
                         {"face_weights", Json::array_of(c.face_weights)},
@@ -232,12 +232,12 @@ Json margin_contacts(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
     return list;
 }
 
-Json passages(const vox_grid* grid, const std::vector<vox_mesh>& ids) {
+Json passages(const vox_grid* grid, const std::vector<vox_body>& ids) {
     Json list = Json::array();
     for (const vox_passage& p : passages_of(grid))
-        list.push_back({{"mesh_a", place_of(ids, p.mesh_a)},
+        list.push_back({{"body_a", place_of(ids, p.body_a)},
                         {"vertex", p.vertex},
-                        {"mesh_b", place_of(ids, p.mesh_b)},
+                        {"body_b", place_of(ids, p.body_b)},
                         {"tet", p.tet},
                         {"face", Json::array_of(p.face)},
                         {"time", p.time}});
@@ -271,7 +271,7 @@ Json body_list(const std::vector<Body>& bodies) {
     return list;
 }
 
-std::size_t place_of(const std::vector<vox_mesh>& ids, vox_mesh mesh) {
+std::size_t place_of(const std::vector<vox_body>& ids, vox_body mesh) {
     return static_cast<std::size_t>(std::find(ids.begin(), ids.end(), mesh) - ids.begin());
 }
 

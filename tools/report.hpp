@@ -24,12 +24,12 @@ void add_suggestion(Json& json, const vox_suggestion& suggestion);
 
 // Adds the keys of `vox collide` but for the cell size, for a grid that has run a step. In contacts, a mesh
 // is given by its index in `ids`.
-void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_mesh>& ids,
+void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_body>& ids,
                    const vox_profile& profile);
 
 // Lists of the margin contacts and of the passages of the last step, meshes by their indices in `ids`.
-Json margin_contacts(const vox_grid* grid, const std::vector<vox_mesh>& ids);
-Json passages(const vox_grid* grid, const std::vector<vox_mesh>& ids);
+Json margin_contacts(const vox_grid* grid, const std::vector<vox_body>& ids);
+Json passages(const vox_grid* grid, const std::vector<vox_body>& ids);
 
 // Returns "paper", "reference", "fast" or "surface".
 const char* model_name(vox_cost_model model);
@@ -47,7 +47,7 @@ void add_result(Json& json, const vox_grid* grid, const vox_profile& profile);
 Json body_list(const std::vector<Body>& bodies);
 
 // The index of `mesh` in `ids`, which must contain it.
-std::size_t place_of(const std::vector<vox_mesh>& ids, vox_mesh mesh);
+std::size_t place_of(const std::vector<vox_body>& ids, vox_body mesh);
 
 std::string hexadecimal(std::uint64_t value); // sixteen digits
 

@@ -30,7 +30,7 @@ vox_io_point_data data(const char* name, const std::vector<double>& values, std:
 
 } // namespace
 
-DrawnMesh drawn_mesh(const Body& body, vox_mesh id) {
+DrawnMesh drawn_mesh(const Body& body, vox_body id) {
     DrawnMesh mesh{id, body.exact, {}, {}, {}};
     if (mesh.positions.empty()) mesh.positions.assign(body.positions.begin(), body.positions.end());
     mesh.tets.assign(body.view.tets, body.view.tets + 4 * body.view.tet_count);
@@ -44,7 +44,7 @@ void write_results(const std::string& path, std::span<const DrawnMesh> meshes, c
     std::vector<double> positions;
     std::vector<std::uint32_t> triangles, tets;
     std::vector<Start> starts;
-    std::unordered_map<vox_mesh, std::size_t> places;
+    std::unordered_map<vox_body, std::size_t> places;
     Results vertices, cells;
     for (const DrawnMesh& mesh : meshes) { // in a file, triangles come before the tets
         const auto first = static_cast<std::uint32_t>(positions.size() / 3);
@@ -76,12 +76,12 @@ void write_results(const std::string& path, std::span<const DrawnMesh> meshes, c
     const vox_contact_view contacts = contacts_of(grid);
     for (std::uint64_t i = 0; i < contacts.count; ++i) {
         const vox_contact contact = contact_at(contacts, i);
-        const std::size_t b = places.at(contact.mesh_b);
+        const std::size_t b = places.at(contact.body_b);
         std::size_t tet = contact.tet;
         if (const auto& numbers = meshes[b].numbers; !numbers.empty()) // ascending
             tet = static_cast<std::size_t>(std::lower_bound(numbers.begin(), numbers.end(), contact.tet) -
                                            numbers.begin());
-        vertices.contacts[starts[places.at(contact.mesh_a)].vertex + contact.vertex] += 1;
+        vertices.contacts[starts[places.at(contact.body_a)].vertex + contact.vertex] += 1;
         cells.contacts[starts[b].tet + tet] += 1;
     }
     std::vector<vox_io_point_data> of_points = {data("mesh", vertices.mesh), data("vertex", vertices.number),
@@ -93,7 +93,7 @@ void write_results(const std::string& path, std::span<const DrawnMesh> meshes, c
         const vox_penetration_view penetrations = penetrations_of(grid);
         for (std::uint64_t i = 0; i < penetrations.count; ++i) {
             const vox_penetration p = penetration_at(penetrations, i);
-            const std::size_t vertex = starts[places.at(p.mesh_a)].vertex + p.vertex;
+            const std::size_t vertex = starts[places.at(p.body_a)].vertex + p.vertex;
             if (vertices.state[vertex] >= 0 && vertices.depth[vertex] >= static_cast<double>(p.depth))
                 continue;
             vertices.depth[vertex] = static_cast<double>(p.depth);
@@ -110,7 +110,7 @@ void write_results(const std::string& path, std::span<const DrawnMesh> meshes, c
         for (std::uint64_t i = 0; i < edges.count; ++i) {
             const vox_edge_contact contact = edge_contact_at(edges, i);
             for (const std::uint32_t vertex : contact.edge)
-                vertices.edge_contacts[starts[places.at(contact.mesh_a)].vertex + vertex] += 1;
+                vertices.edge_contacts[starts[places.at(contact.body_a)].vertex + vertex] += 1;
         }
         of_points.push_back(data("edge_contacts", vertices.edge_contacts));
     }
@@ -118,7 +118,7 @@ void write_results(const std::string& path, std::span<const DrawnMesh> meshes, c
         vertices.margin_distance.assign(vertices.mesh.size(), -1);
         vertices.margin_normal.assign(3 * vertices.mesh.size(), 0);
         for (const vox_margin_contact& c : margin_contacts_of(grid)) {
-            const std::size_t vertex = starts[places.at(c.mesh_a)].vertex + c.vertex;
+            const std::size_t vertex = starts[places.at(c.body_a)].vertex + c.vertex;
             double& distance = vertices.margin_distance[vertex];
             if (distance >= 0 && distance <= c.distance) continue;
             distance = c.distance;
@@ -130,7 +130,7 @@ void write_results(const std::string& path, std::span<const DrawnMesh> meshes, c
     if (moving) {
         vertices.passage_time.assign(vertices.mesh.size(), -1);
         for (const vox_passage& p : passages_of(grid)) {
-            double& time = vertices.passage_time[starts[places.at(p.mesh_a)].vertex + p.vertex];
+            double& time = vertices.passage_time[starts[places.at(p.body_a)].vertex + p.vertex];
             if (time < 0 || p.time < time) time = p.time;
         }
         of_points.push_back(data("passage_time", vertices.passage_time));
@@ -152,9 +152,9 @@ void write_results(const std::string& path, std::span<const DrawnMesh> meshes, c
     check(vox_io_write(mesh.get(), path.c_str(), &desc));
 }
 
-void write_contacts(const std::string& path, const std::vector<vox_mesh>& ids, const vox_grid* grid) {
+void write_contacts(const std::string& path, const std::vector<vox_body>& ids, const vox_grid* grid) {
     const bool deep = has_penetrations(grid);
-    std::string text = "mesh_a,vertex,mesh_b,tet,weight_0,weight_1,weight_2,weight_3";
+    std::string text = "body_a,vertex,body_b,tet,weight_0,weight_1,weight_2,weight_3";
     text += deep ? ",depth,direction_x,direction_y,direction_z,state\n" : "\n";
     const vox_contact_view contacts = contacts_of(grid);
     const vox_penetration_view penetrations = deep ? penetrations_of(grid) : vox_penetration_view{};
@@ -163,8 +163,8 @@ void write_contacts(const std::string& path, const std::vector<vox_mesh>& ids, c
         const vox_contact contact = contact_at(contacts, i);
         const float* weight = contact.barycentric;
         char line[256];
-        std::snprintf(line, sizeof line, "%zu,%u,%zu,%u,%.9g,%.9g,%.9g,%.9g", place_of(ids, contact.mesh_a),
-                      contact.vertex, place_of(ids, contact.mesh_b), contact.tet,
+        std::snprintf(line, sizeof line, "%zu,%u,%zu,%u,%.9g,%.9g,%.9g,%.9g", place_of(ids, contact.body_a),
+                      contact.vertex, place_of(ids, contact.body_b), contact.tet,
                       static_cast<double>(weight[0]), static_cast<double>(weight[1]),
                       static_cast<double>(weight[2]), static_cast<double>(weight[3]));
         text += line;

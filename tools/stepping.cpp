@@ -61,7 +61,7 @@ private:
 
 } // namespace
 
-vox_profile measure_steps(vox_grid* grid, std::span<Body> bodies, std::span<const vox_mesh> ids,
+vox_profile measure_steps(vox_grid* grid, std::span<Body> bodies, std::span<const vox_body> ids,
                           std::uint32_t repeat) {
     Progress progress;
     progress.show("first step");

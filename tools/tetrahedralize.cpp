@@ -61,7 +61,7 @@ void run_tetrahedralize(const TetrahedralizeOptions& options) {
     write(mesh.get(), options);
     vox_io_quality quality{};
     quality.struct_size = sizeof quality;
-    check(vox_io_measure_quality(mesh.get(), surface.get(), &quality));
+    check(vox_io_mesh_measure(mesh.get(), surface.get(), &quality));
     if (!options.json) return print_tetrahedralize(options, quality);
     print({{"file", options.out},
            {"tets", quality.tets},

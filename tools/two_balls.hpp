@@ -17,7 +17,7 @@ struct Contender {
     const char* rule;
     double cell_size;
     Grid grid;
-    std::vector<vox_mesh> ids;
+    std::vector<vox_body> ids;
     std::vector<vox_profile> frames; // median of each frame's steps
 
     double mean_step_ns() const;

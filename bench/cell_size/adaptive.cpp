@@ -84,7 +84,7 @@ public:
         desc.vertex_count = ball.positions.size() / 3;
         desc.tets = ball.solid.tets.data();
         desc.tet_count = ball.solid.tets.size() / 4;
-        vox_mesh mesh = 0;
+        vox_body mesh = 0;
         must(vox_mesh_insert(grid_, &desc, &mesh));
         meshes_.push_back(mesh);
     }
@@ -92,7 +92,7 @@ public:
         must(vox_mesh_set_tets_enabled(grid_, meshes_[i], tets.data(), tets.size(), 0));
     }
     void remove(std::size_t i) {
-        must(vox_mesh_remove(grid_, meshes_[i]));
+        must(vox_body_remove(grid_, meshes_[i]));
         meshes_.erase(meshes_.begin() + static_cast<std::ptrdiff_t>(i));
     }
 
@@ -109,7 +109,7 @@ public:
     vox_counters counters() const {
         vox_counters counters{};
         counters.struct_size = sizeof counters;
-        must(vox_grid_counters(grid_, &counters));
+        must(vox_grid_get_counters(grid_, &counters));
         return counters;
     }
     // Of the last step, outside all stages: where the cell size is chosen.
@@ -122,13 +122,13 @@ public:
     }
     std::uint64_t hash() const {
         std::uint64_t hash = 0;
-        must(vox_grid_hash(grid_, &hash));
+        must(vox_grid_get_hash(grid_, &hash));
         return hash;
     }
 
 private:
     vox_grid* grid_ = nullptr;
-    std::vector<vox_mesh> meshes_;
+    std::vector<vox_body> meshes_;
 };
 
 // ---- the run --------------------------------------------------------------------------------------

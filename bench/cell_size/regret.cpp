@@ -66,7 +66,7 @@ public:
         desc.byte_budget = 0;
         must(vox_grid_create(&desc, &grid_));
         for (const vox_mesh_desc& mesh : descs(scene)) {
-            vox_mesh id = 0;
+            vox_body id = 0;
             must(vox_mesh_insert(grid_, &mesh, &id));
         }
     }

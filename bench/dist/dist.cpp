@@ -86,8 +86,8 @@ One one_grid(const Scene& scene) {
     counters.struct_size = sizeof counters;
     vox_contact_view view{};
     One one{};
-    if (!grid || vox_grid_step(grid) != VOX_OK || vox_grid_counters(grid, &counters) != VOX_OK ||
-        vox_grid_contacts(grid, &view) != VOX_OK || vox_scene_hash_of_grid(grid, one.hash) != VOX_OK) {
+    if (!grid || vox_grid_step(grid) != VOX_OK || vox_grid_get_counters(grid, &counters) != VOX_OK ||
+        vox_grid_get_contacts(grid, &view) != VOX_OK || vox_scene_hash_of_grid(grid, one.hash) != VOX_OK) {
         std::printf("%s\n", vox_last_error());
         std::exit(EXIT_FAILURE);
     }

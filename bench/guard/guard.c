@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
     int ok = vox_grid_create(&desc, &grid) == VOX_OK && insert_scene(&s, grid);
     for (int frame = 0; ok && frame < 4; ++frame) {
         pose_scene(&s, frame);
-        ok = vox_grid_step(grid) == VOX_OK && vox_grid_contacts(grid, &view) == VOX_OK;
+        ok = vox_grid_step(grid) == VOX_OK && vox_grid_get_contacts(grid, &view) == VOX_OK;
     }
     uint64_t tets = 0;
     for (uint32_t i = 0; i < s.count; ++i) tets += s.bodies[i].tet_count;

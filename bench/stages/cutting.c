@@ -10,7 +10,7 @@ enum { most_changed = 1000, kinds = 3 };
 
 /* Microseconds of an edit of `changed` tets, by kind; steps[0] is the step after one, steps[1] one without
  * edit. */
-static void measure(vox_grid* grid, vox_mesh mesh, const body* box, uint32_t changed, double* micros,
+static void measure(vox_grid* grid, vox_body mesh, const body* box, uint32_t changed, double* micros,
                     double* steps) {
     static uint32_t tets[most_changed], corners[4 * most_changed];
     uint64_t random = 1;
@@ -36,7 +36,7 @@ static void measure(vox_grid* grid, vox_mesh mesh, const body* box, uint32_t cha
         if (round >= stepped) continue;
         for (int k = 0; k < 2; ++k) {
             const double start = now();
-            check(vox_mesh_mark_moved(grid, mesh));
+            check(vox_body_mark_moved(grid, mesh));
             check(vox_grid_step(grid));
             step[k] += now() - start;
         }
@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
         }
         for (size_t c = 0; c < sizeof changes / sizeof *changes; ++c) {
             vox_grid* grid = NULL;
-            vox_mesh mesh = VOX_NULL_MESH;
+            vox_body mesh = VOX_NULL_BODY;
             vox_mesh_desc desc = body_desc(&box);
             double micros[kinds], steps[2];
             const uint32_t none = 0;

@@ -35,13 +35,13 @@ struct Row {
     vox_counters counters{};
 };
 
-vox_mesh insert(vox_grid* grid, const Mesh& mesh) {
+vox_body insert(vox_grid* grid, const Mesh& mesh) {
     vox_mesh_desc desc = vox_default_mesh_desc();
     desc.positions = mesh.positions.data();
     desc.vertex_count = mesh.positions.size();
     desc.tets = mesh.tets.front().v;
     desc.tet_count = mesh.tets.size();
-    vox_mesh id = VOX_NULL_MESH;
+    vox_body id = VOX_NULL_BODY;
     must(vox_mesh_insert(grid, &desc, &id));
     return id;
 }
@@ -68,7 +68,7 @@ public:
         profile.struct_size = sizeof profile;
         row.counters.struct_size = sizeof row.counters;
         must(vox_grid_profile(grid_, &profile));
-        must(vox_grid_counters(grid_, &row.counters));
+        must(vox_grid_get_counters(grid_, &row.counters));
         row.depth_ns = std::min(row.depth_ns, profile.depth_ns);
         row.step_ns = std::min(row.step_ns, profile.step_ns);
         const double start = now();

@@ -9,7 +9,7 @@ enum { FLOATS, DOUBLES, DOUBLES_FAR, RIGID, VARIANTS };
 typedef struct variant {
     vox_grid* grid;
     void* positions[MOST_BODIES]; /* its own, written just before each step */
-    vox_mesh ids[MOST_BODIES];
+    vox_body ids[MOST_BODIES];
     uint64_t contacts;
     double* seconds;
 } variant;
@@ -35,7 +35,7 @@ static void pose_variant(variant* v, int kind, const scene* s) {
     const double off = 1e-9 + (kind == DOUBLES_FAR ? 1e6 : 0);
     for (uint32_t i = 0; i < s->count; ++i) {
         const double m[12] = {1, 0, 0, off, 0, 1, 0, off, 0, 0, 1, off};
-        if (kind == RIGID) check(vox_mesh_set_transform(v->grid, v->ids[i], m));
+        if (kind == RIGID) check(vox_body_set_transform(v->grid, v->ids[i], m));
         const float* from = s->bodies[i].positions;
         const uint32_t count = 3 * s->bodies[i].vertex_count;
         if (is_double(kind)) {
@@ -65,7 +65,7 @@ static void measure(scene* s, const char* name, int frames) {
             check(vox_grid_step(v->grid));
             const double end = now();
             if (frame >= 0) v->seconds[frame] = end - start;
-            check(vox_grid_contacts(v->grid, &view));
+            check(vox_grid_get_contacts(v->grid, &view));
             v->contacts = view.count;
         }
     }

@@ -63,7 +63,7 @@ static void measure(scene* s, const char* name, int frames) {
         variants[k].part = (double*)malloc(sizeof(double) * (size_t)frames);
         for (uint32_t i = 0; i < s->count; ++i) {
             vox_mesh_desc mesh = body_desc(&s->bodies[i]);
-            vox_mesh id;
+            vox_body id;
             mesh.flags = s->self_collision ? VOX_MESH_SELF_COLLISION : 0;
             check(vox_mesh_insert(variants[k].grid, &mesh, &id));
         }
@@ -81,7 +81,7 @@ static void measure(scene* s, const char* name, int frames) {
             variants[k].part[frame] = 1e-9 * (double)(k == MARGIN ? profile.margin_ns : profile.edges_ns);
         }
     }
-    check(vox_grid_counters(variants[WITH].grid, &counters));
+    check(vox_grid_get_counters(variants[WITH].grid, &counters));
     const double without = quartile(variants[WITHOUT].seconds, frames),
                  with = quartile(variants[WITH].seconds, frames),
                  edges = quartile(variants[WITH].part, frames),
@@ -92,7 +92,7 @@ static void measure(scene* s, const char* name, int frames) {
            name, 1e3 * without, 1e3 * with, with / without, 1e3 * edges,
            (unsigned long long)counters.contacts, (unsigned long long)counters.edge_contacts,
            (unsigned long long)counters.edge_candidates);
-    check(vox_grid_counters(variants[MARGIN].grid, &counters));
+    check(vox_grid_get_counters(variants[MARGIN].grid, &counters));
     printf("         margin %g: %8.3f ms: %.3f; %.3f of it margin; %llu margin contacts\n", margin,
            1e3 * near, near / without, 1e3 * quartile(variants[MARGIN].part, frames),
            (unsigned long long)counters.margin_contacts);

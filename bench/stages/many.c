@@ -13,7 +13,7 @@ enum { FRAMES = 8 }; /* of positions, which the scenes go through */
 
 typedef struct scene {
     vox_grid* grid;
-    vox_mesh meshes[2];
+    vox_body meshes[2];
     uint32_t first_frame;
 } scene;
 
@@ -46,7 +46,7 @@ static uint64_t contacts_of(const scene* scenes, uint32_t count) {
     uint64_t all = 0;
     for (uint32_t s = 0; s < count; ++s) {
         vox_contact_view view;
-        check(vox_grid_contacts(scenes[s].grid, &view));
+        check(vox_grid_get_contacts(scenes[s].grid, &view));
         all += view.count;
     }
     return all;
@@ -98,7 +98,7 @@ static void run(const char* name, uint32_t flags, uint32_t count, uint32_t round
     for (uint32_t s = 0; s < count; ++s) {
         vox_counters counters;
         counters.struct_size = sizeof counters;
-        check(vox_grid_counters(grids[s], &counters));
+        check(vox_grid_get_counters(grids[s], &counters));
         bytes += counters.bytes;
     }
     printf("%-26s %8.1f contacts a scene  %10.0f scene-steps/s in a loop  %10.0f in one call  %+5.1f %%  "

@@ -86,7 +86,7 @@ struct Parts {
         std::vector<vox::fast::PreparedBody> prepared;
         std::vector<const vox::Topology*> of_bodies;
         for (std::size_t i = 0; i < meshes.size(); ++i) {
-            bodies.push_back(meshes[i].body(static_cast<vox_mesh>(i)));
+            bodies.push_back(meshes[i].body(static_cast<vox_body>(i)));
             prepared.push_back({&meshes[i].tiled().tiles, &meshes[i].tiled().boundary, &states[i]});
             of_bodies.push_back(&topologies[i]);
         }
@@ -96,7 +96,7 @@ struct Parts {
         engine.detect(bodies, prepared, {.workers = &workers}, hits, counters, profile);
         vox::make_contacts(bodies, hits, contacts, &workers);
         if (options.depth) depth.find(bodies, of_bodies, hits, contacts, 0, &workers, penetrations, counters);
-        events.update(contacts, meshes.size(), [](vox_mesh) { return std::uint64_t{0}; });
+        events.update(contacts, meshes.size(), [](vox_body) { return std::uint64_t{0}; });
     }
 
     double of_tiles(const std::function<double(const vox::TiledMesh&)>& bytes) const {
@@ -120,7 +120,7 @@ double real_bytes(bench::Scene& scene, const Options& options) {
     for (const bench::Body& body : scene.bodies) {
         vox_mesh_desc mesh = body.desc();
         if (options.borrow) mesh.flags |= VOX_MESH_BORROW_TETS;
-        vox_mesh id;
+        vox_body id;
         bench::must(vox_mesh_insert(grid, &mesh, &id));
     }
     for (std::size_t frame = 0; frame < options.steps; ++frame) {
@@ -129,7 +129,7 @@ double real_bytes(bench::Scene& scene, const Options& options) {
     }
     vox_counters counters{};
     counters.struct_size = sizeof counters;
-    bench::must(vox_grid_counters(grid, &counters));
+    bench::must(vox_grid_get_counters(grid, &counters));
     vox_grid_destroy(grid);
     return static_cast<double>(counters.bytes);
 }

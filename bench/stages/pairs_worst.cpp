@@ -179,7 +179,7 @@ double step_time(const Scene& scene, vox_engine engine, Result& result, std::uin
         mesh.tets = tet;
         mesh.tet_count = 1;
         mesh.filter = &scene.filters[i];
-        vox_mesh id;
+        vox_body id;
         must(vox_mesh_insert(grid, &mesh, &id));
     }
     double least = 1e9;
@@ -193,10 +193,10 @@ double step_time(const Scene& scene, vox_engine engine, Result& result, std::uin
     }
     vox_counters counters{};
     counters.struct_size = sizeof counters;
-    must(vox_grid_counters(grid, &counters));
+    must(vox_grid_get_counters(grid, &counters));
     if (engine == VOX_ENGINE_FAST) result.bytes = double(counters.peak_bytes);
     result.contacts = counters.contacts;
-    must(vox_grid_hash(grid, &hash));
+    must(vox_grid_get_hash(grid, &hash));
     vox_grid_destroy(grid);
     return least;
 }

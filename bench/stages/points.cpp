@@ -134,7 +134,7 @@ vox_grid* grid_of(const Scene& scene) {
         desc.vertex_count = body.positions.size();
         desc.tets = body.tets.front().v;
         desc.tet_count = body.tets.size();
-        vox_mesh mesh = VOX_NULL_MESH;
+        vox_body mesh = VOX_NULL_BODY;
         must(vox_mesh_insert(grid, &desc, &mesh));
     }
     must(vox_grid_prepare_queries(grid));

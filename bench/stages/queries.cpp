@@ -91,11 +91,11 @@ void time_queries(const vox_query_view* view, const std::vector<Vec3d>& points, 
         return vox_query_view_ray(view, p, q, all_meshes, &hit);
     });
     each(times.ray_hits, [&](const double* p, const double* q) {
-        return vox_query_view_ray_hits(view, p, q, all_meshes, VOX_NULL_MESH, facets.data(), facets.size(),
+        return vox_query_view_ray_hits(view, p, q, all_meshes, VOX_NULL_BODY, facets.data(), facets.size(),
                                        &count);
     });
     each(times.ray_any, [&](const double* p, const double* q) {
-        return vox_query_view_ray_any(view, p, q, all_meshes, VOX_NULL_MESH, &any);
+        return vox_query_view_ray_any(view, p, q, all_meshes, VOX_NULL_BODY, &any);
     });
 }
 
@@ -128,7 +128,7 @@ public:
             desc.vertex_count = body.positions.size();
             desc.tets = body.tets.front().v;
             desc.tet_count = body.tets.size();
-            vox_mesh mesh = VOX_NULL_MESH;
+            vox_body mesh = VOX_NULL_BODY;
             must(vox_mesh_insert(grid_, &desc, &mesh));
             void* positions = nullptr;
             std::uint64_t stride = 0;
@@ -136,7 +136,7 @@ public:
             positions_.push_back(positions);
             if (kind == transform) {
                 const double turned[12] = {0.8, -0.6, 0, 0.1, 0.6, 0.8, 0, 0.2, 0, 0, 1, 0.3};
-                must(vox_mesh_set_transform(grid_, mesh, turned));
+                must(vox_body_set_transform(grid_, mesh, turned));
             }
         }
     }
@@ -236,7 +236,7 @@ vox_query_view* view_of(const QueryDefinition& mesh, double* seconds = nullptr) 
     desc.vertex_count = mesh.positions().size();
     desc.tets = mesh.tets().front().v;
     desc.tet_count = mesh.tets().size();
-    vox_mesh id = VOX_NULL_MESH;
+    vox_body id = VOX_NULL_BODY;
     must(vox_mesh_insert(grid, &desc, &id));
     vox_query_view* view = nullptr;
     for (int i = 0; i < (seconds ? 9 : 1); ++i) {
@@ -281,13 +281,13 @@ void check(const QueryDefinition& mesh, const char* name, Random& random) {
         agree(std::abs(closest[i].distance) == std::sqrt(squared) && closest[i].tet == facet.first &&
                   closest[i].facet == facet.second && closest[i].inside == !tets.empty(),
               "closest points", name);
-        must(vox_query_view_ray_hits(view, &p.x, &q.x, all_meshes, VOX_NULL_MESH, facets.data(),
+        must(vox_query_view_ray_hits(view, &p.x, &q.x, all_meshes, VOX_NULL_BODY, facets.data(),
                                      facets.size(), &count));
         std::vector<QueryDefinition::Facet> met;
         for (std::uint64_t h = 0; h < count; ++h) met.emplace_back(facets[h].tet, facets[h].facet);
         std::sort(met.begin(), met.end());
         agree(met == mesh.hits(p, q), "facets on a segment", name);
-        must(vox_query_view_ray_any(view, &p.x, &q.x, all_meshes, VOX_NULL_MESH, &any));
+        must(vox_query_view_ray_any(view, &p.x, &q.x, all_meshes, VOX_NULL_BODY, &any));
         agree(any == mesh.any(p, q), "segments that hit anything", name);
     }
     vox_query_view_release(view);

@@ -50,7 +50,7 @@ public:
             desc.tets = body.tets.front().v;
             desc.tet_count = body.tets.size();
             if (body.self_collision) desc.flags = VOX_MESH_SELF_COLLISION;
-            vox_mesh id = VOX_NULL_MESH;
+            vox_body id = VOX_NULL_BODY;
             must(vox_mesh_insert(grid_, &desc, &id));
             ids_.push_back(id);
         }
@@ -72,15 +72,15 @@ public:
         least(times_.depth, [&] { prepare(VOX_READING_POSITION | VOX_READING_DEPTH, 0, 0); });
         least(times_.position, [&] { prepare(VOX_READING_POSITION, 0, 0); });
         vox_pair_view pairs{};
-        must(vox_grid_pairs(grid_, &pairs));
+        must(vox_grid_get_pairs(grid_, &pairs));
         const vox_pair& pair = pairs.data[pairs.count / 2];
         of_pair_ = pair.a_in_b + pair.b_in_a;
-        least(times_.pair, [&] { prepare(whole, pair.mesh_a, pair.mesh_b); });
+        least(times_.pair, [&] { prepare(whole, pair.body_a, pair.body_b); });
     }
 
     void print() const {
         vox_contact_view contacts{};
-        must(vox_grid_contacts(grid_, &contacts));
+        must(vox_grid_get_contacts(grid_, &contacts));
         const auto n = double(contacts.count);
         std::printf("%-10s %9llu %9.1f %8.0f %8.0f %8.1f %8.1f %8.1f %8.0f %8.2f\n", name_.c_str(),
                     static_cast<unsigned long long>(contacts.count), times_.step * 1e-3, times_.all / n,
@@ -94,11 +94,11 @@ private:
         nanoseconds = std::min(nanoseconds, 1e9 * seconds_of(work));
     }
 
-    void prepare(std::uint32_t what, vox_mesh a, vox_mesh b) {
+    void prepare(std::uint32_t what, vox_body a, vox_body b) {
         vox_readings_desc desc = vox_default_readings_desc();
         desc.what = what;
-        desc.mesh_a = a;
-        desc.mesh_b = b;
+        desc.body_a = a;
+        desc.body_b = b;
         must(vox_grid_prepare_readings_of(grid_, &desc));
     }
 
@@ -114,7 +114,7 @@ private:
         must(vox_grid_prepare_readings(grid_));
         const std::vector<vox_reading> all(view().data, view().data + view().count);
         vox_contact_view contacts{};
-        must(vox_grid_contacts(grid_, &contacts));
+        must(vox_grid_get_contacts(grid_, &contacts));
         require(all.size() == contacts.count, "one reading for each contact");
         prepare(VOX_READING_POSITION | VOX_READING_DEPTH, 0, 0);
         vox_depth_view depths{};
@@ -128,9 +128,9 @@ private:
             require(float(depths.data[i].depth) == from.depth, "the depth in double is that in float");
         }
         vox_pair_view pairs{};
-        must(vox_grid_pairs(grid_, &pairs));
+        must(vox_grid_get_pairs(grid_, &pairs));
         for (std::uint64_t p = 0; p < pairs.count; p += 1 + pairs.count / 7) {
-            prepare(whole, pairs.data[p].mesh_b, pairs.data[p].mesh_a);
+            prepare(whole, pairs.data[p].body_b, pairs.data[p].body_a);
             require(view().count == pairs.data[p].a_in_b + pairs.data[p].b_in_a, "the pair's readings");
             for (std::uint64_t i = 0; i < view().count; ++i)
                 require(std::memcmp(&view().data[i], &all[view().data[i].contact], sizeof all[0]) == 0,
@@ -140,12 +140,12 @@ private:
             vox_filter filter = vox_default_filter();
             must(vox_mesh_filter(grid_, ids_[b], &filter));
             filter.category = std::uint64_t{1} << b % 64;
-            must(vox_mesh_set_filter(grid_, ids_[b], &filter));
+            must(vox_body_set_filter(grid_, ids_[b], &filter));
         }
         must(vox_grid_prepare_queries(grid_));
         for (std::size_t i = 0; i < all.size() && ids_.size() <= 64; i += 1 + all.size() / 200) {
-            if (contacts.data[i].mesh_a == contacts.data[i].mesh_b) continue; // another rule
-            const auto b = std::find(ids_.begin(), ids_.end(), contacts.data[i].mesh_b) - ids_.begin();
+            if (contacts.data[i].body_a == contacts.data[i].body_b) continue; // another rule
+            const auto b = std::find(ids_.begin(), ids_.end(), contacts.data[i].body_b) - ids_.begin();
             vox_surface_hit hit{};
             must(vox_grid_query_closest(grid_, all[i].position, std::numeric_limits<double>::infinity(),
                                         std::uint64_t{1} << b, &hit));
@@ -156,7 +156,7 @@ private:
 
     std::string name_;
     std::vector<Mesh> bodies_;
-    std::vector<vox_mesh> ids_;
+    std::vector<vox_body> ids_;
     std::vector<vox_reading> copy_;
     vox_grid* grid_ = nullptr;
     Times times_;
@@ -211,7 +211,7 @@ void time_rest(double tets, int rounds) {
             mesh.vertex_count = bodies.back().positions.size();
             mesh.tets = bodies.back().tets.front().v;
             mesh.tet_count = bodies.back().tets.size();
-            vox_mesh id = VOX_NULL_MESH;
+            vox_body id = VOX_NULL_BODY;
             must(vox_mesh_insert(grid, &mesh, &id));
         }
         for (int round = 0; round < 4 * rounds; ++round) {
@@ -219,7 +219,7 @@ void time_rest(double tets, int rounds) {
             const double seconds = seconds_of([&] { must(vox_grid_step(grid)); });
             if (round > 3) least[flags] = std::min(least[flags], 1e6 * seconds);
         }
-        must(vox_grid_counters(grid, &counters));
+        must(vox_grid_get_counters(grid, &counters));
         vox_grid_destroy(grid);
     }
     std::printf(

@@ -28,7 +28,7 @@ public:
         for (std::size_t b = 0; b < bodies; ++b) {
             const vox_mesh_desc desc =
                 vox_mesh_desc_floats(&positions_[12 * each * b], 4 * each, corners_.data(), each);
-            vox_mesh mesh;
+            vox_body mesh;
             must(vox_mesh_insert(grid_, &desc, &mesh));
         }
         insertion = now() - start;
@@ -48,7 +48,7 @@ public:
     double bytes() const {
         vox_counters counters;
         counters.struct_size = sizeof counters;
-        must(vox_grid_counters(grid_, &counters));
+        must(vox_grid_get_counters(grid_, &counters));
         if (counters.contacts != 0) throw std::runtime_error("bodies of the row touch");
         return static_cast<double>(counters.bytes) / static_cast<double>(bodies_);
     }

@@ -261,7 +261,7 @@ public:
             mesh_desc.tets = mesh.tets.empty() ? nullptr : mesh.tets.front().v;
             mesh_desc.tet_count = mesh.tets.size();
             if (mesh.self_collision) mesh_desc.flags |= VOX_MESH_SELF_COLLISION;
-            vox_mesh id = VOX_NULL_MESH;
+            vox_body id = VOX_NULL_BODY;
             must(vox_mesh_insert(grid_, &mesh_desc, &id));
             if (previous)
                 must(vox_mesh_bind_previous_positions(grid_, id, (*previous)[b].positions.data(),
@@ -278,7 +278,7 @@ public:
     }
     std::uint64_t hash() const {
         std::uint64_t hash = 0;
-        must(vox_grid_hash(grid_, &hash));
+        must(vox_grid_get_hash(grid_, &hash));
         return hash;
     }
     std::uint64_t hash_of_found(What what) const {
@@ -304,7 +304,7 @@ public:
     vox_counters counters() const {
         vox_counters counters{};
         counters.struct_size = sizeof counters;
-        must(vox_grid_counters(grid_, &counters));
+        must(vox_grid_get_counters(grid_, &counters));
         return counters;
     }
 
@@ -379,7 +379,7 @@ Mesh read_mesh([[maybe_unused]] const std::string& path) {
     vox_io_mesh* file = nullptr;
     must(vox_io_load(path.c_str(), nullptr, &file));
     vox_io_mesh_view view;
-    must(vox_io_mesh_get(file, &view));
+    must(vox_io_mesh_get_arrays(file, &view));
     Mesh mesh;
     for (std::uint64_t v = 0; v < view.vertex_count; ++v)
         mesh.positions.push_back({float(view.positions[3 * v]), float(view.positions[3 * v + 1]),

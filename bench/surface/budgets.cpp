@@ -62,7 +62,7 @@ const Question questions[] = {
      [](vox_surface* surface, double& answer) {
          vox_crossing_view view{};
          view.struct_size = sizeof view;
-         const vox_result result = vox_surface_crossings(surface, &view);
+         const vox_result result = vox_surface_find_crossings(surface, &view);
          answer = static_cast<double>(view.count);
          return result;
      }},
@@ -71,13 +71,14 @@ const Question questions[] = {
          vox_close_view view{};
          view.struct_size = sizeof view;
          const vox_result result =
-             vox_surface_close(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, near, &view);
+             vox_surface_find_proximities(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, near, &view);
          answer = static_cast<double>(view.count);
          return result;
      }},
     {"clearance",
      [](vox_surface* surface, double& answer) {
-         const vox_result result = vox_surface_clearance(surface, near, per_vertex.data(), per_vertex.size());
+         const vox_result result =
+             vox_surface_find_clearances(surface, near, per_vertex.data(), per_vertex.size());
          answer = std::accumulate(per_vertex.begin(), per_vertex.end(), 0.0);
          return result;
      }},
@@ -85,7 +86,7 @@ const Question questions[] = {
      [](vox_surface* surface, double& answer) {
          vox_safe_step found{};
          found.struct_size = sizeof found;
-         const vox_result result = vox_surface_safe_step(surface, nullptr, &found);
+         const vox_result result = vox_surface_find_safe_step(surface, nullptr, &found);
          answer = found.step;
          return result;
      }},
@@ -94,7 +95,7 @@ const Question questions[] = {
          vox_timed_view view{};
          view.struct_size = sizeof view;
          const vox_result result =
-             vox_surface_contact_times(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, nullptr, &view);
+             vox_surface_find_impacts(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, nullptr, &view);
          answer = static_cast<double>(view.count);
          return result;
      }},
@@ -129,7 +130,7 @@ Asked ask(const Sheets& sheets, const Question& question, std::uint64_t budget) 
         asked.seconds = seconds_of([&] { asked.fits = fits(question.ask(surface, asked.answer)); });
         vox_pair_counters counters{};
         counters.struct_size = sizeof counters;
-        must(vox_surface_counters(surface, &counters));
+        must(vox_surface_get_counters(surface, &counters));
         asked.peak = counters.peak_bytes;
     }
     vox_surface_destroy(surface);

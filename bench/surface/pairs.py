@@ -69,7 +69,7 @@ class Surface:
 
     def pairs(self, a, b):
         lists = Lists(ctypes.sizeof(Lists))
-        self.ok(self.vox.vox_surface_pairs(self.handle, a, b, 0, ctypes.c_uint64(2**63), ctypes.byref(lists)))
+        self.ok(self.vox.vox_surface_find_pairs(self.handle, a, b, 0, ctypes.c_uint64(2**63), ctypes.byref(lists)))
         return lists
 
     def arrays(self, a, b):
@@ -83,7 +83,7 @@ class Surface:
 
     def counters(self):
         counters = Counters(ctypes.sizeof(Counters))
-        self.ok(self.vox.vox_surface_counters(self.handle, ctypes.byref(counters)))
+        self.ok(self.vox.vox_surface_get_counters(self.handle, ctypes.byref(counters)))
         return counters
 
 

@@ -101,9 +101,9 @@ public:
         vox_pair_lists lists{};
         lists.struct_size = sizeof lists;
         std::uint64_t count = 0;
-        must(vox_surface_pairs(surface_, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
+        must(vox_surface_find_pairs(surface_, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
         count += lists.pair_count;
-        must(vox_surface_pairs(surface_, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX, 0, UINT64_MAX, &lists));
+        must(vox_surface_find_pairs(surface_, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX, 0, UINT64_MAX, &lists));
         return count + lists.pair_count;
     }
     // Seconds of both searches; a turn is long enough to be measured.

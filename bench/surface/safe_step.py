@@ -34,7 +34,7 @@ class TimedView(ctypes.Structure):
 
 def timed(surface, a, b):
     view = TimedView(ctypes.sizeof(TimedView))
-    surface.ok(surface.vox.vox_surface_contact_times(surface.handle, a, b, None, ctypes.byref(view)))
+    surface.ok(surface.vox.vox_surface_find_impacts(surface.handle, a, b, None, ctypes.byref(view)))
     record = np.dtype([("a", "u4"), ("b", "u4"), ("time", "f8")])
     if view.count == 0:
         return np.zeros(0, record)
@@ -73,7 +73,7 @@ def main():
             begin = time.perf_counter()
             surface.move(v0, v1, 0, True)
             out = SafeStep(ctypes.sizeof(SafeStep))
-            surface.ok(vox.vox_surface_safe_step(surface.handle, None, ctypes.byref(out)))
+            surface.ok(vox.vox_surface_find_safe_step(surface.handle, None, ctypes.byref(out)))
             best["vox"].append(time.perf_counter() - begin)
         lost = 0
         for kind, a, b, first_a, first_b, count_b in (

@@ -71,7 +71,7 @@ int run(int argc, char** argv) {
     bench::must(vox_grid_create(&desc, &grid));
     for (const bench::Body& body : scene.bodies) {
         const vox_mesh_desc mesh = body.desc();
-        vox_mesh id;
+        vox_body id;
         bench::must(vox_mesh_insert(grid, &mesh, &id));
     }
     std::uint64_t hash = 0;
@@ -84,13 +84,13 @@ int run(int argc, char** argv) {
         scene.pose(1);
         bench_step(grid);
         const std::uint64_t first = hash;
-        bench::must(vox_grid_hash(grid, &hash));
+        bench::must(vox_grid_get_hash(grid, &hash));
         if (count > 1 && hash != first)
             throw std::runtime_error("the contacts depend on the number of workers");
     }
     vox_counters counters{};
     counters.struct_size = sizeof counters;
-    bench::must(vox_grid_counters(grid, &counters));
+    bench::must(vox_grid_get_counters(grid, &counters));
     std::printf("%s: %zu tets, %llu contacts, %llu penetrations\n", scene.name.c_str(), scene.tet_count(),
                 static_cast<unsigned long long>(counters.contacts),
                 static_cast<unsigned long long>(counters.penetrations));

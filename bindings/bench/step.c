@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
     for (uint32_t b = 0; b < bodies; ++b) positions += 4 * counts[2 * b + 1];
 
     vox_grid* grid;
-    vox_mesh* meshes = (vox_mesh*)malloc(bodies * sizeof *meshes);
+    vox_body* meshes = (vox_body*)malloc(bodies * sizeof *meshes);
     check(vox_grid_create(NULL, &grid));
     const uint32_t* xyz = positions;
     for (uint32_t b = 0; b < bodies; ++b) {
@@ -61,13 +61,13 @@ int main(int argc, char** argv) {
                 check(vox_grid_step(grid));
                 const uint64_t stepped = now();
                 vox_contact_view contacts;
-                check(vox_grid_contacts(grid, &contacts));
+                check(vox_grid_get_contacts(grid, &contacts));
                 for (uint64_t i = 0; i < contacts.count; ++i) read += contacts.data[i].vertex;
                 const uint64_t end = now();
                 if (stepped - begin < least[2 * f]) least[2 * f] = stepped - begin;
                 if (end - stepped < least[2 * f + 1]) least[2 * f + 1] = end - stepped;
                 uint64_t hash;
-                check(vox_grid_hash(grid, &hash));
+                check(vox_grid_get_hash(grid, &hash));
                 hashes += hash;
             }
         }

@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
             reinterpret_cast<const std::uint32_t*>(positions) + 4 * counts[2 * b + 1]);
 
     vox::grid grid;
-    std::vector<vox_mesh> meshes;
+    std::vector<vox_body> meshes;
     const auto* xyz = positions;
     for (std::size_t b = 0; b < bodies; ++b) {
         meshes.push_back(

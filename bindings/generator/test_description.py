@@ -242,8 +242,8 @@ class Faults(unittest.TestCase):
     def test_a_changed_header_is_noticed_in_every_file(self):
         everything = {"bindings/" + path for path in generate.files()}
         for old, new, without in [
-            ("    uint32_t vertex;\n    vox_mesh mesh_b;\n    uint32_t tet;\n    float barycentric[4];",
-             "    uint32_t vertex;\n    vox_mesh mesh_b;\n    uint32_t tet;\n    double barycentric[4];",
+            ("    uint32_t vertex;\n    vox_body body_b;\n    uint32_t tet;\n    float barycentric[4];",
+             "    uint32_t vertex;\n    vox_body body_b;\n    uint32_t tet;\n    double barycentric[4];",
              {"enums.js", "enums.d.ts", "exports.txt"}),
             ("vox_grid_clear(vox_grid* grid);", "vox_grid_clear(vox_grid* grid, double rest);",
              {"enums.js", "enums.d.ts", "structs.d.ts", "exports.txt"}),

@@ -98,7 +98,7 @@ class Nulls:
         if is_mesh_empty:
             desc.vertex_count = desc.tet_count = 0
         self.check(self.core.vox_mesh_insert(found["vox_grid"], ctypes.byref(desc), ctypes.byref(mesh)))
-        found["vox_mesh"] = mesh.value
+        found["vox_body"] = mesh.value
         self.check(self.core.vox_grid_step(found["vox_grid"]))
         self.check(self.core.vox_grid_prepare_queries(found["vox_grid"]))
         create("vox_query_view", self.core, "vox_grid_take_query_view", found["vox_grid"])
@@ -130,7 +130,7 @@ class Nulls:
             if p["name"] == "struct_size":
                 return 64
             if p["kind"] == "alias":
-                return objects.get("vox_" + p["name"], objects["vox_mesh"])
+                return objects.get("vox_" + p["name"], objects["vox_body"])
             number = p["base"] in ("float", "double")
             counts = p["name"] in ("count", "capacity", "rounds", "frames") or p["name"].endswith(("count", "size"))
             return 1.0 if number else (0 if is_empty else 1) if counts else 0
@@ -153,7 +153,7 @@ class Nulls:
 
     def call(self, library, f, null, is_empty=False):
         """The text of the failure with `null` as the only null pointer, or "" if the call succeeds."""
-        objects = self.objects(is_empty and any("mesh." in str(p.get("length")) for p in f["parameters"]))
+        objects = self.objects(is_empty and any("body." in str(p.get("length")) for p in f["parameters"]))
         types_of = _c.FUNCTIONS[library][f["name"]][1]
         arguments = []
         for p, type_of in zip(f["parameters"], types_of):

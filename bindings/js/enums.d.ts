@@ -84,10 +84,10 @@ export declare const GridFlags: Readonly<{
   /**
    * a mesh with a coordinate that VOX_FORMAT_DOUBLE3 does not allow (NaN, infinite, too large) takes no part in a step,
    * in vox_grid_prepare_queries, in vox_grid_take_query_view and in vox_grid_suggest_cell_size, as if it were disabled;
-   * without this flag they fail. Counted (skipped_meshes), listed (vox_grid_failure), and logged once until the mesh is
-   * well again
+   * without this flag they fail. Counted (skipped_meshes), listed (vox_grid_get_failure), and logged once until the
+   * mesh is well again
    */
-  SKIP_BAD_MESHES: 4;
+  SKIP_BAD_BODIES: 4;
   /**
    * also find edges of surfaces through faces of others (vox_grid_edge_contacts); experimental. A mesh of more than
    * 357913941 tets then gives VOX_ERROR_LIMIT
@@ -116,14 +116,14 @@ export type MeshFlags = number;
 
 /**
  * How a penetration's depth and direction were found. In the following, p is the vertex; a colliding vertex is a vertex
- * of mesh_a that has a contact with mesh_b; edges are those of mesh_a's tetrahedra; the surface of mesh_b consists of
+ * of body_a that has a contact with body_b; edges are those of body_a's tetrahedra; the surface of body_b consists of
  * the facets of exactly one of its tetrahedra, duplicates counted once. SURFACE and PROPAGATED are the method of
  * Heidelberger et al. 2004; the other states stand for cases in which it gives no answer. "Closest" means that depth is
- * the distance from p to the closest point of mesh_b's surface, and direction points straight to it. For self-contact
+ * the distance from p to the closest point of body_b's surface, and direction points straight to it. For self-contact
  * the surface is that of the fold that p has entered, never a triangle that has p as a corner.
  */
 export declare const PenetrationState: Readonly<{
-  /** edges lead from p out of mesh_b; mean over the points where they cross the surface */
+  /** edges lead from p out of body_b; mean over the points where they cross the surface */
   SURFACE: 0;
   /** all neighbours of p collide; mean over those closer to the surface */
   PROPAGATED: 1;
@@ -176,7 +176,7 @@ export declare const ReadingFlags: Readonly<{
   /** missing if the vertex or its mesh was removed after the step */
   POSITION: 1;
   /**
-   * missing where POSITION is or would be, if mesh_b was removed or has no surface, or if all of its tetrahedra that
+   * missing where POSITION is or would be, if body_b was removed or has no surface, or if all of its tetrahedra that
    * contained the vertex were removed or disabled
    */
   SURFACE: 2;
@@ -347,7 +347,7 @@ export declare const MAX_TASKS: 64;
 /** workers of a grid */
 export declare const MAX_WORKERS: 256;
 /** per grid, at one time, including retired slots */
-export declare const MAX_MESHES: 1048576;
+export declare const MAX_BODIES: 1048576;
 /** uses of one mesh slot before it is retired */
 export declare const MAX_GENERATIONS: 4095;
 /** per grid */
@@ -355,7 +355,7 @@ export declare const MAX_VERTICES: 2147483647;
 /** per grid */
 export declare const MAX_TETS: 2147483647;
 /** names no mesh */
-export declare const NULL_MESH: 0;
+export declare const NULL_BODY: 0;
 /** vox_filter.self_rings */
 export declare const MAX_RINGS: 8;
 /** vox_failure.vertex where a failure is not about a vertex */

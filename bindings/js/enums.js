@@ -3,11 +3,11 @@
 export const ABI_VERSION = 1;
 export const MAX_TASKS = 64;
 export const MAX_WORKERS = 256;
-export const MAX_MESHES = 1048576;
+export const MAX_BODIES = 1048576;
 export const MAX_GENERATIONS = 4095;
 export const MAX_VERTICES = 2147483647;
 export const MAX_TETS = 2147483647;
-export const NULL_MESH = 0;
+export const NULL_BODY = 0;
 export const MAX_RINGS = 8;
 export const NO_VERTEX = 4294967295;
 export const MAX_CONTACTS = 4294967295;
@@ -59,7 +59,7 @@ export const Engine = Object.freeze({
 export const GridFlags = Object.freeze({
   PENETRATIONS: 1,
   CONTACT_EVENTS: 2,
-  SKIP_BAD_MESHES: 4,
+  SKIP_BAD_BODIES: 4,
   EDGE_CONTACTS: 8,
 });
 

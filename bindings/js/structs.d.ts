@@ -106,7 +106,7 @@ export interface Filter {
 }
 
 /** A mesh as it is now, e.g. after vox_grid_load. */
-export interface MeshInfo {
+export interface BodyInfo {
   /** from 0 */
   slot: number;
   /** as given at insertion */
@@ -116,7 +116,7 @@ export interface MeshInfo {
   /** with those that are disabled or removed: indices of tetrahedra are below it */
   tetCount: number;
   enabledTetCount: number;
-  /** 1, or 0 (see vox_mesh_set_enabled) */
+  /** 1, or 0 (see vox_body_set_enabled) */
   enabled: number;
   /**
    * vox_mesh_flags: SELF_COLLISION as the filter says, COPY_POSITIONS if the positions are the mesh's own (copied,
@@ -124,9 +124,9 @@ export interface MeshInfo {
    */
   flags: number;
   positionFormat: Format;
-  /** 1 if vox_mesh_set_transform gave it one */
+  /** 1 if vox_body_set_transform gave it one */
   hasTransform: number;
-  /** as vox_mesh_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0 */
+  /** as vox_body_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0 */
   transform: number[];
 }
 
@@ -137,7 +137,7 @@ export interface Failure {
    * INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3); VOX_OK if there is none
    */
   result: Result;
-  /** VOX_NULL_MESH if there is none */
+  /** VOX_NULL_BODY if there is none */
   mesh: number;
   /** of the mesh, from 0 */
   slot: number;
@@ -150,54 +150,54 @@ export interface Failure {
 }
 
 /**
- * Vertex `vertex` of mesh_a is in the closed tetrahedron `tet` of mesh_b and is not a corner of it. This is decided
- * exactly for the coordinates given. For each (mesh_a, vertex, mesh_b) there is a contact for every tetrahedron that
+ * Vertex `vertex` of body_a is in the closed tetrahedron `tet` of body_b and is not a corner of it. This is decided
+ * exactly for the coordinates given. For each (body_a, vertex, body_b) there is a contact for every tetrahedron that
  * has the vertex in its interior; if there is none, one for the tetrahedron of lowest index that has it on its
  * boundary. A tetrahedron of exactly zero volume contains nothing. `barycentric` are the vertex's weights for the
  * tetrahedron's four corners in their given order. Each is in [0, 1], and their sum is 1 up to rounding.
  */
 export interface Contact {
-  meshA: number;
+  bodyA: number;
   vertex: number;
-  meshB: number;
+  bodyB: number;
   tet: number;
   barycentric: [number, number, number, number];
 }
 
 /** Columns of Contact: of an array field, its elements one after the other. */
 export interface ContactColumns {
-  readonly meshA: Uint32Array;
+  readonly bodyA: Uint32Array;
   readonly vertex: Uint32Array;
-  readonly meshB: Uint32Array;
+  readonly bodyB: Uint32Array;
   readonly tet: Uint32Array;
   readonly barycentric: Float32Array;
 }
 
 /**
- * Vertex `vertex` of mesh_a is inside mesh_b (a = b: self-contact) and has to leave it: moving the vertex by depth *
- * direction leads to the surface of mesh_b, exactly if the state says closest, and otherwise as well as edges and
- * neighbours can estimate it. All values are finite, and direction is a unit vector up to rounding. If mesh_b has no
+ * Vertex `vertex` of body_a is inside body_b (a = b: self-contact) and has to leave it: moving the vertex by depth *
+ * direction leads to the surface of body_b, exactly if the state says closest, and otherwise as well as edges and
+ * neighbours can estimate it. All values are finite, and direction is a unit vector up to rounding. If body_b has no
  * surface (each facet belongs to several tetrahedra), depth is 0 and direction the normal of a facet of the contact's
  * tetrahedron. Does not depend on engine, cell size, workers or machine.
  */
 export interface Penetration {
-  meshA: number;
+  bodyA: number;
   vertex: number;
-  meshB: number;
+  bodyB: number;
   state: PenetrationState;
-  /** index in vox_grid_contacts of the first contact of (mesh_a, vertex, mesh_b) */
+  /** index in vox_grid_get_contacts of the first contact of (body_a, vertex, body_b) */
   contact: number;
   /** >= 0, in the caller's unit */
   depth: number;
-  /** in the frame of the positions, out of mesh_b */
+  /** in the frame of the positions, out of body_b */
   direction: [number, number, number];
 }
 
 /** Columns of Penetration: of an array field, its elements one after the other. */
 export interface PenetrationColumns {
-  readonly meshA: Uint32Array;
+  readonly bodyA: Uint32Array;
   readonly vertex: Uint32Array;
-  readonly meshB: Uint32Array;
+  readonly bodyB: Uint32Array;
   readonly state: Int32Array;
   readonly contact: Float64Array;
   readonly depth: Float32Array;
@@ -220,20 +220,20 @@ export interface DepthColumns {
 }
 
 /**
- * An edge of the surface of mesh_a and a face of the surface of mesh_b that have a point in common (a = b:
+ * An edge of the surface of body_a and a face of the surface of body_b that have a point in common (a = b:
  * self-contact; then they have no vertex in common). The surface of a mesh consists of the facets of exactly one of its
  * enabled tetrahedra, duplicates counted once, and of their edges. Decided exactly for the coordinates given. So two
  * bars laid across each other are seen, though no vertex of one is in the other. Where several points are common, the
  * position is that of one of them: an end of the edge if one is, the lower vertex first.
  */
 export interface EdgeContact {
-  meshA: number;
-  /** vertices of mesh_a, the lower first */
+  bodyA: number;
+  /** vertices of body_a, the lower first */
   edge: [number, number];
-  meshB: number;
-  /** vertices of mesh_b, the lowest first, counter-clockwise as seen from the side that the normal points to */
+  bodyB: number;
+  /** vertices of body_b, the lowest first, counter-clockwise as seen from the side that the normal points to */
   face: [number, number, number];
-  /** of mesh_b, behind the face; of doubled ones the lowest */
+  /** of body_b, behind the face; of doubled ones the lowest */
   tet: number;
   kind: CrossingKind;
   /** of the point, in [0, 1], with the sum 1 up to rounding */
@@ -251,9 +251,9 @@ export interface EdgeContact {
 
 /** Columns of EdgeContact: of an array field, its elements one after the other. */
 export interface EdgeContactColumns {
-  readonly meshA: Uint32Array;
+  readonly bodyA: Uint32Array;
   readonly edge: Uint32Array;
-  readonly meshB: Uint32Array;
+  readonly bodyB: Uint32Array;
   readonly face: Uint32Array;
   readonly tet: Uint32Array;
   readonly kind: Int32Array;
@@ -264,16 +264,16 @@ export interface EdgeContactColumns {
 }
 
 /**
- * Vertex `vertex` of mesh_a is in no tetrahedron of mesh_b, but no further than the margin from its surface. The point
- * of the surface of mesh_b that is closest to it is on a facet of `tet`; of several at the same distance that of the
+ * Vertex `vertex` of body_a is in no tetrahedron of body_b, but no further than the margin from its surface. The point
+ * of the surface of body_b that is closest to it is on a facet of `tet`; of several at the same distance that of the
  * lowest (tet, facet), as in vox_grid_query_closest. Computed in double.
  */
 export interface MarginContact {
-  meshA: number;
+  bodyA: number;
   vertex: number;
-  /** never mesh_a */
-  meshB: number;
-  /** of mesh_b */
+  /** never body_a */
+  bodyB: number;
+  /** of body_b */
   tet: number;
   /** of the tetrahedron, as in vox_surface_hit */
   facet: number;
@@ -289,9 +289,9 @@ export interface MarginContact {
 
 /** Columns of MarginContact: of an array field, its elements one after the other. */
 export interface MarginContactColumns {
-  readonly meshA: Uint32Array;
+  readonly bodyA: Uint32Array;
   readonly vertex: Uint32Array;
-  readonly meshB: Uint32Array;
+  readonly bodyB: Uint32Array;
   readonly tet: Uint32Array;
   readonly facet: Uint32Array;
   readonly face: Uint32Array;
@@ -301,16 +301,16 @@ export interface MarginContactColumns {
 }
 
 /**
- * Vertex `vertex` of mesh_a met the surface of mesh_b while both moved from their previous positions to the present
+ * Vertex `vertex` of body_a met the surface of body_b while both moved from their previous positions to the present
  * ones (vox_mesh_bind_previous_positions; a mesh without previous positions stands still), wherever it was before and
  * is after: also where it went through a thin mesh and out again.
  */
 export interface Passage {
-  meshA: number;
+  bodyA: number;
   vertex: number;
-  /** never mesh_a */
-  meshB: number;
-  /** of mesh_b */
+  /** never body_a */
+  bodyB: number;
+  /** of body_b */
   tet: number;
   /**
    * of the tetrahedron, as in vox_surface_hit: the first that the vertex met; the lowest (tet, facet) of several at the
@@ -328,9 +328,9 @@ export interface Passage {
 
 /** Columns of Passage: of an array field, its elements one after the other. */
 export interface PassageColumns {
-  readonly meshA: Uint32Array;
+  readonly bodyA: Uint32Array;
   readonly vertex: Uint32Array;
-  readonly meshB: Uint32Array;
+  readonly bodyB: Uint32Array;
   readonly tet: Uint32Array;
   readonly facet: Uint32Array;
   readonly face: Uint32Array;
@@ -339,15 +339,15 @@ export interface PassageColumns {
 
 /**
  * Two meshes that touch: a vertex of one of them is in a tetrahedron of the other, or they have edge contacts
- * (VOX_GRID_EDGE_CONTACTS). mesh_a <= mesh_b; they are equal if a mesh touches itself. The contacts of the pair are
- * those whose indices begin at vox_pair_view.contacts[first]: first the a_in_b contacts of vertices of mesh_a in tets
- * of mesh_b, then the b_in_a contacts of vertices of mesh_b in tets of mesh_a (0 for a mesh with itself), each in the
- * order of vox_grid_contacts.
+ * (VOX_GRID_EDGE_CONTACTS). body_a <= body_b; they are equal if a mesh touches itself. The contacts of the pair are
+ * those whose indices begin at vox_pair_view.contacts[first]: first the a_in_b contacts of vertices of body_a in tets
+ * of body_b, then the b_in_a contacts of vertices of body_b in tets of body_a (0 for a mesh with itself), each in the
+ * order of vox_grid_get_contacts.
  */
 export interface Pair {
-  meshA: number;
-  meshB: number;
-  /** of mesh_a, as given at insertion */
+  bodyA: number;
+  bodyB: number;
+  /** of body_a, as given at insertion */
   userDataA: bigint;
   userDataB: bigint;
   first: number;
@@ -357,8 +357,8 @@ export interface Pair {
 
 /** Columns of Pair: of an array field, its elements one after the other. */
 export interface PairColumns {
-  readonly meshA: Uint32Array;
-  readonly meshB: Uint32Array;
+  readonly bodyA: Uint32Array;
+  readonly bodyB: Uint32Array;
   readonly userDataA: BigUint64Array;
   readonly userDataB: BigUint64Array;
   readonly first: Float64Array;
@@ -367,24 +367,24 @@ export interface PairColumns {
 }
 
 /**
- * An event of a pair of meshes, mesh_a <= mesh_b. A pair that began persists in every following step until it ends,
- * which it does exactly once, also if a mesh was removed, disabled or filtered, or the grid cleared. Then `mesh_a` and
- * `mesh_b` may be stale ids; the user data are those of the meshes that they named.
+ * An event of a pair of meshes, body_a <= body_b. A pair that began persists in every following step until it ends,
+ * which it does exactly once, also if a mesh was removed, disabled or filtered, or the grid cleared. Then `body_a` and
+ * `body_b` may be stale ids; the user data are those of the meshes that they named.
  */
 export interface TouchEvent {
-  meshA: number;
-  meshB: number;
+  bodyA: number;
+  bodyB: number;
   userDataA: bigint;
   userDataB: bigint;
   kind: Touch;
-  /** index of the pair in vox_grid_pairs; VOX_NO_PAIR if it ended */
+  /** index of the pair in vox_grid_get_pairs; VOX_NO_PAIR if it ended */
   pair: number;
 }
 
 /** Columns of TouchEvent: of an array field, its elements one after the other. */
 export interface TouchEventColumns {
-  readonly meshA: Uint32Array;
-  readonly meshB: Uint32Array;
+  readonly bodyA: Uint32Array;
+  readonly bodyB: Uint32Array;
   readonly userDataA: BigUint64Array;
   readonly userDataB: BigUint64Array;
   readonly kind: Int32Array;
@@ -392,35 +392,35 @@ export interface TouchEventColumns {
 }
 
 /**
- * Vertex `vertex` of mesh_a has entered mesh_b, or is in none of its tetrahedra any more. Moving from one tetrahedron
- * of mesh_b to another is not an event.
+ * Vertex `vertex` of body_a has entered body_b, or is in none of its tetrahedra any more. Moving from one tetrahedron
+ * of body_b to another is not an event.
  */
 export interface ContactEvent {
-  meshA: number;
+  bodyA: number;
   vertex: number;
-  meshB: number;
+  bodyB: number;
   /** VOX_TOUCH_BEGAN or VOX_TOUCH_ENDED */
   kind: Touch;
 }
 
 /** Columns of ContactEvent: of an array field, its elements one after the other. */
 export interface ContactEventColumns {
-  readonly meshA: Uint32Array;
+  readonly bodyA: Uint32Array;
   readonly vertex: Uint32Array;
-  readonly meshB: Uint32Array;
+  readonly bodyB: Uint32Array;
   readonly kind: Int32Array;
 }
 
 /**
- * Geometry of one contact. All contacts of the same (mesh_a, vertex, mesh_b) have the same reading except for the first
- * field. `triangle` is the triangle closest to the vertex on the surface of mesh_b, which consists of the facets of
+ * Geometry of one contact. All contacts of the same (body_a, vertex, body_b) have the same reading except for the first
+ * field. `triangle` is the triangle closest to the vertex on the surface of body_b, which consists of the facets of
  * exactly one of its tetrahedra, duplicates counted once. It is computed in double, as by vox_grid_query_closest; of
  * several at the same distance it is the one with the lowest corners, compared in ascending order. For self-contact it
  * belongs to the fold that the vertex has entered and never has the vertex as a corner (see vox_penetration_state). No
  * reading depends on engine, cell size, workers or machine.
  */
 export interface Reading {
-  /** index of the contact in vox_grid_contacts */
+  /** index of the contact in vox_grid_get_contacts */
   contact: number;
   /** vox_reading_flags, combined with | */
   known: number;
@@ -441,9 +441,9 @@ export interface Reading {
    * triangle has no area, it points from the vertex to the closest point, or is 0, 0, 1 if both coincide.
    */
   normal: [number, number, number];
-  /** vertices of mesh_b, the lowest first, counter-clockwise as seen from the side that the normal points to */
+  /** vertices of body_b, the lowest first, counter-clockwise as seen from the side that the normal points to */
   triangle: [number, number, number];
-  /** of mesh_a, as given at insertion */
+  /** of body_a, as given at insertion */
   userDataA: bigint;
   userDataB: bigint;
 }
@@ -472,10 +472,10 @@ export interface ReadingsDesc {
    * other fields of vox_reading, such as user data, are always set
    */
   what: number;
-  /** VOX_NULL_MESH (the default): all contacts; else those that vox_mesh_copy_contacts copies */
-  meshA: number;
-  /** VOX_NULL_MESH (the default), or those that vox_pair_copy_contacts copies for mesh_a and it */
-  meshB: number;
+  /** VOX_NULL_BODY (the default): all contacts; else those that vox_mesh_copy_contacts copies */
+  bodyA: number;
+  /** VOX_NULL_BODY (the default), or those that vox_pair_copy_contacts copies for body_a and it */
+  bodyB: number;
   /**
    * Most searches for a closest point. The first contacts that need one get it; the readings of the others lack
    * VOX_READING_SURFACE in `known`, and the log has a warning. 0 (the default): no limit.
@@ -521,7 +521,7 @@ export interface TetHitColumns {
  * positive. The surface of a mesh consists of the facets of exactly one tetrahedron.
  */
 export interface SurfaceHit {
-  /** VOX_NULL_MESH if there is no such point; then all fields are zero */
+  /** VOX_NULL_BODY if there is no such point; then all fields are zero */
   mesh: number;
   tet: number;
   facet: number;
@@ -543,7 +543,7 @@ export interface SurfaceHitColumns {
 
 /** The closest point of a surface, as in vox_surface_hit, with a normal and a sign. */
 export interface ClosestHit {
-  /** VOX_NULL_MESH if no surface is within max_distance; then all other fields but `inside` are zero */
+  /** VOX_NULL_BODY if no surface is within max_distance; then all other fields but `inside` are zero */
   mesh: number;
   tet: number;
   facet: number;
@@ -581,13 +581,13 @@ export interface ClosestHitColumns {
  * it is the lowest (mesh, tet, facet).
  */
 export interface RayHit {
-  /** mesh of the first tetrahedron; VOX_NULL_MESH if none is hit, then all fields are zero */
+  /** mesh of the first tetrahedron; VOX_NULL_BODY if none is hit, then all fields are zero */
   mesh: number;
   tet: number;
   /** 0 if `from` is in the tetrahedron */
   t: number;
   /**
-   * The first facet of a surface (see vox_surface_hit). VOX_NULL_MESH if there is none, e.g. for a segment that ends
+   * The first facet of a surface (see vox_surface_hit). VOX_NULL_BODY if there is none, e.g. for a segment that ends
    * before it leaves a mesh. A segment in the plane of a facet does not hit it.
    */
   surfaceMesh: number;
@@ -667,7 +667,7 @@ export interface Counters {
   /** part of `contacts` carried over from the step before, between meshes at rest */
   carriedContacts: number;
   penetrations: number;
-  /** edges from a colliding vertex to one outside mesh_b */
+  /** edges from a colliding vertex to one outside body_b */
   leavingEdges: number;
   /** tetrahedra visited along those edges */
   edgeTests: number;
@@ -675,7 +675,7 @@ export interface Counters {
   closestSearches: number;
   /** triangles whose closest point was computed for that */
   closestTests: number;
-  /** not included in `meshes` (see vox_mesh_set_enabled) */
+  /** not included in `meshes` (see vox_body_set_enabled) */
   disabledMeshes: number;
   /** (vertex, tet) pairs of one mesh that self_rings or self_rest_distance ruled out */
   filtered: number;
@@ -685,7 +685,7 @@ export interface Counters {
   unknownPenetrations: number;
   /** part of `penetrations` carried over with their contacts */
   carriedPenetrations: number;
-  /** left out for a coordinate (VOX_GRID_SKIP_BAD_MESHES); not included in `meshes` */
+  /** left out for a coordinate (VOX_GRID_SKIP_BAD_BODIES); not included in `meshes` */
   skippedMeshes: number;
   /** part of `meshes`: their vertices collide, their edges and faces do not */
   meshesWithoutTets: number;

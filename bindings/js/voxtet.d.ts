@@ -5,7 +5,7 @@ import type {
   ClosestHit, ClosestHitColumns, Contact, ContactColumns, ContactEvent, ContactEventColumns, CostBounds, CostMinimum,
   CostPrediction, CostTerm, CostWeights, Counters, Depth, DepthColumns, FacetHit, FacetHitColumns, Failure, Filter,
   ForeignSuggestion as ForeignSuggestionStruct, GridDesc, GridFit as GridFitStruct, GridTiming, GridWeights, GridWork,
-  MeshInfo, Pair, PairColumns, Penetration, PenetrationColumns, PointHit, PointHitColumns, Profile, RayHit, Reading,
+  BodyInfo, Pair, PairColumns, Penetration, PenetrationColumns, PointHit, PointHitColumns, Profile, RayHit, Reading,
   ReadingColumns, SuggestDesc, Suggestion as SuggestionStruct, SurfaceHit, TetHit, TetHitColumns, TouchEvent, TouchEventColumns,
   TuneDesc, Tuning as TuningStruct,
 } from "./structs.js";
@@ -13,7 +13,7 @@ import type {
 export * from "./enums.js";
 export type {
   CellSizeRules, ClosestHit, Contact, ContactEvent, CostSample, CostShare, CostTerm, CostWeights, Counters, Depth, FacetHit,
-  Failure, Filter, ForeignRules, GeometryStats, GridTiming, GridWeights, GridWork, MeshInfo, Pair, Penetration, PointHit, Profile, RayHit, Reading, SurfaceHit, TetHit, TouchEvent,
+  Failure, Filter, ForeignRules, GeometryStats, GridTiming, GridWeights, GridWork, BodyInfo, Pair, Penetration, PointHit, Profile, RayHit, Reading, SurfaceHit, TetHit, TouchEvent,
 } from "./structs.js";
 
 /** A call that vox refused. The message says what was wrong, with numbers in it; `code` is one of `Result`. */
@@ -225,9 +225,9 @@ export interface ReadingOptions {
   /** ReadingFlags, combined with |; default: all. */
   what?: number;
   /** Only contacts of this mesh, */
-  meshA?: MeshOrId;
+  bodyA?: MeshOrId;
   /** and this one. */
-  meshB?: MeshOrId;
+  bodyB?: MeshOrId;
   closestBudget?: number;
 }
 
@@ -300,7 +300,7 @@ export interface Grid extends Queries {
   /** All meshes, in the order of their ids. */
   readonly meshes: Mesh[];
   /** Whether two meshes collide, if their filters let them. */
-  setPairEnabled(meshA: MeshOrId, meshB: MeshOrId, enabled: boolean): void;
+  setPairEnabled(bodyA: MeshOrId, bodyB: MeshOrId, enabled: boolean): void;
 
   /** Finds all contacts of the positions as they are now. */
   step(): void;
@@ -320,7 +320,7 @@ export interface Grid extends Queries {
   /** For grids with GridFlags.CONTACT_EVENTS. */
   readonly contactEvents: { all: ContactEvents; began: ContactEvents; ended: ContactEvents };
   /** The contacts between two meshes. */
-  contactsBetween(meshA: MeshOrId, meshB: MeshOrId): Contacts;
+  contactsBetween(bodyA: MeshOrId, bodyB: MeshOrId): Contacts;
   /** The mesh that made the last step fail, or one of those that it left out; null beyond the last. */
   failure(index?: number): Failure | null;
 
@@ -329,7 +329,7 @@ export interface Grid extends Queries {
   readonly readings: Readings;
   /** Depth and direction of the readings, in double. */
   readonly readingDepths: Depths;
-  readingsBetween(meshA: MeshOrId, meshB: MeshOrId): Readings;
+  readingsBetween(bodyA: MeshOrId, bodyB: MeshOrId): Readings;
 
   /** Copies the present positions for the queries. */
   prepareQueries(): void;
@@ -351,7 +351,7 @@ export interface Mesh {
   readonly grid: Grid;
   readonly valid: boolean;
   remove(): void;
-  readonly info: MeshInfo;
+  readonly info: BodyInfo;
   readonly userData: bigint;
   /**
    * The positions, of the kind of array that the mesh was added with. This is the module's memory: what is written to it moves

@@ -47,7 +47,7 @@ def overlapping(**config):
 
 
 class MeshInfo(ctypes.Structure):
-    """vox_mesh_info, up to its positions."""
+    """vox_body_info, up to its positions."""
 
     _fields_ = [("struct_size", ctypes.c_uint32), ("before", ctypes.c_char * 52), ("positions", ctypes.c_void_p)]
 
@@ -58,7 +58,7 @@ def grid_of(data):
 
 def grid_hash(data):
     value = ctypes.c_uint64()
-    assert LIBRARY.vox_grid_hash(grid_of(data), ctypes.byref(value)) == 0
+    assert LIBRARY.vox_grid_get_hash(grid_of(data), ctypes.byref(value)) == 0
     return value.value
 
 
@@ -188,11 +188,11 @@ class Contacts(unittest.TestCase):
         d = mujoco.MjData(m)
         mujoco.mj_forward(m, d)
         grid, meshes, count = grid_of(d), (ctypes.c_uint32 * 2)(), ctypes.c_uint64()
-        LIBRARY.vox_grid_meshes(grid, meshes, ctypes.c_uint64(2), ctypes.byref(count))
+        LIBRARY.vox_grid_get_bodies(grid, meshes, ctypes.c_uint64(2), ctypes.byref(count))
         self.assertEqual(count.value, 2)
         for mesh, name in zip(meshes, ("low", "high")):
             info = MeshInfo(struct_size=ctypes.sizeof(MeshInfo))
-            LIBRARY.vox_mesh_get_info(grid, mesh, ctypes.byref(info))
+            LIBRARY.vox_body_get_info(grid, mesh, ctypes.byref(info))
             self.assertEqual(info.positions, d.flexvert_xpos[vertices(m, d, name)].ctypes.data)
 
     def test_self_contact_is_found_where_it_is_asked_for(self):

@@ -61,7 +61,7 @@ struct Instance {
     std::unique_ptr<vox_grid, GridDeleter> grid;
     Settings settings;
     std::vector<int> flexes;           // ids of those that take part, ascending
-    std::vector<vox_mesh> meshes;      // of each of them, ascending; empty until there are positions
+    std::vector<vox_body> meshes;      // of each of them, ascending; empty until there are positions
     const mjtNum* positions = nullptr; // d->flexvert_xpos, as bound
     std::vector<double> load; // of each body: sum of the weights by which penetrations move it; else 0
     std::string failure; // text of the last step's error, so that it is reported once; "" if it succeeded
@@ -180,7 +180,7 @@ void insert_meshes(Instance& instance, const mjModel* m, const mjData* d) {
         desc.tet_count = static_cast<uint64_t>(m->flex_elemnum[flex]);
         desc.user_data = static_cast<uint64_t>(flex);
         desc.filter = &filter;
-        vox_mesh mesh = VOX_NULL_MESH;
+        vox_body mesh = VOX_NULL_BODY;
         check(vox_mesh_insert(instance.grid.get(), &desc, &mesh));
         instance.meshes.push_back(mesh);
     }
@@ -247,11 +247,11 @@ struct Constraint {
 };
 
 Constraint constraint(const mjModel* m, const Instance& instance, const vox_contact& contact) {
-    const auto flex_of = [&](vox_mesh mesh) {
+    const auto flex_of = [&](vox_body mesh) {
         const auto place = std::lower_bound(instance.meshes.begin(), instance.meshes.end(), mesh);
         return instance.flexes[static_cast<size_t>(place - instance.meshes.begin())];
     };
-    const int a = flex_of(contact.mesh_a), b = flex_of(contact.mesh_b);
+    const int a = flex_of(contact.body_a), b = flex_of(contact.body_b);
     const int* corners = flex_tets(m, b) + 4 * static_cast<ptrdiff_t>(contact.tet);
     const float* w = contact.barycentric;
     Constraint made;
@@ -279,7 +279,7 @@ void respond(Instance& instance, const mjModel* m, mjData* d) {
     vox_contact_view contacts{};
     vox_penetration_view penetrations{};
     vox_depth_view depths{};
-    check(vox_grid_contacts(instance.grid.get(), &contacts));
+    check(vox_grid_get_contacts(instance.grid.get(), &contacts));
     check(vox_grid_penetrations(instance.grid.get(), &penetrations));
     check(vox_grid_depths(instance.grid.get(), &depths));
     const auto at = [](const auto& view, uint64_t i) -> decltype(*view.data) {

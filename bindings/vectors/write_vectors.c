@@ -132,10 +132,10 @@ static uint64_t store_positions(const body* b, vox_format format) {
 }
 
 /* Positions are copied, so that the vectors need no array of the caller's. */
-static vox_mesh insert(const body* b, vox_format format, const vox_filter* filter, uint64_t user_data) {
+static vox_body insert(const body* b, vox_format format, const vox_filter* filter, uint64_t user_data) {
     double* doubles = as_doubles(b);
     vox_mesh_desc desc = body_desc(b);
-    vox_mesh mesh = VOX_NULL_MESH;
+    vox_body mesh = VOX_NULL_BODY;
     desc.flags = VOX_MESH_COPY_POSITIONS;
     desc.position_format = format;
     desc.positions = format == VOX_FORMAT_DOUBLE3 ? (const void*)doubles : b->positions;
@@ -156,7 +156,7 @@ static vox_mesh insert(const body* b, vox_format format, const vox_filter* filte
     return mesh;
 }
 
-static void move(vox_mesh mesh, const body* b, vox_format format) {
+static void move(vox_body mesh, const body* b, vox_format format) {
     void* positions;
     uint64_t stride;
     expect(vox_mesh_map_positions(grid, mesh, &positions, &stride), "move");
@@ -184,11 +184,11 @@ static void step(void) {
     vox_touch_view touches;
     uint64_t hash, epoch;
     uint32_t flags;
-    expect(vox_grid_contacts(grid, &contacts), "contacts");
+    expect(vox_grid_get_contacts(grid, &contacts), "contacts");
     expect(vox_grid_contact_interiors(grid, &interiors), "interiors");
-    expect(vox_grid_pairs(grid, &pairs), "pairs");
+    expect(vox_grid_get_pairs(grid, &pairs), "pairs");
     expect(vox_grid_touch_events(grid, &touches), "touches");
-    expect(vox_grid_hash(grid, &hash), "hash");
+    expect(vox_grid_get_hash(grid, &hash), "hash");
     expect(vox_grid_epoch(grid, &epoch), "epoch");
     expect(vox_grid_get_flags(grid, &flags), "flags");
     begin_call("results");
@@ -277,7 +277,7 @@ static void query(const body* b) {
         items_field("hits", &ray, 1, sizeof ray);
         end_call();
         expect(
-            vox_grid_query_ray_hits(grid, from, to, UINT64_MAX, VOX_NULL_MESH, facets, capacity, &hit_count),
+            vox_grid_query_ray_hits(grid, from, to, UINT64_MAX, VOX_NULL_BODY, facets, capacity, &hit_count),
             "query ray hits");
         begin_call("query_ray_hits");
         numbers_field("from", from, 3);
@@ -318,18 +318,18 @@ static void load(const void* bytes, uint64_t size, uint64_t offset) {
 
 /* The meshes of the grid: ids, counts, and the hash of their tetrahedra. */
 static void meshes(void) {
-    vox_mesh ids[MOST_BODIES];
+    vox_body ids[MOST_BODIES];
     uint64_t count = 0;
-    expect(vox_grid_meshes(grid, ids, MOST_BODIES, &count), "meshes");
+    expect(vox_grid_get_bodies(grid, ids, MOST_BODIES, &count), "meshes");
     begin_call("meshes");
     fprintf(script, ", \"meshes\": [");
     for (uint64_t i = 0; i < count; ++i) {
-        vox_mesh_info info;
+        vox_body_info info;
         uint64_t tet_count;
         info.struct_size = sizeof info;
-        expect(vox_mesh_get_info(grid, ids[i], &info), "info");
+        expect(vox_body_get_info(grid, ids[i], &info), "info");
         uint32_t* tets = (uint32_t*)malloc(4 * sizeof *tets * info.tet_count + 1);
-        expect(vox_mesh_copy_tets(grid, ids[i], tets, NULL, info.tet_count, &tet_count), "tets");
+        expect(vox_mesh_get_tets(grid, ids[i], tets, NULL, info.tet_count, &tet_count), "tets");
         fprintf(script,
                 "%s{\"mesh\": %u, \"user_data\": \"%" PRIu64 "\", \"vertices\": %" PRIu64
                 ", \"tet_count\": %" PRIu64 ", \"enabled_tets\": %" PRIu64
@@ -530,39 +530,39 @@ static void cost_tune(const vox_foreign_grid* g, double first, uint32_t most_run
     finish(result);
 }
 
-static void transform(vox_mesh mesh, const double matrix[12]) {
+static void transform(vox_body mesh, const double matrix[12]) {
     begin_call("set_transform");
     field("mesh", "%u", mesh);
     field("matrix", "%" PRIu64, store(matrix, 12 * sizeof *matrix));
-    finish(vox_mesh_set_transform(grid, mesh, matrix));
+    finish(vox_body_set_transform(grid, mesh, matrix));
 }
 
-static void set_filter(vox_mesh mesh, const vox_filter* filter) {
+static void set_filter(vox_body mesh, const vox_filter* filter) {
     begin_call("set_filter");
     field("mesh", "%u", mesh);
     filter_field(filter);
-    finish(vox_mesh_set_filter(grid, mesh, filter));
+    finish(vox_body_set_filter(grid, mesh, filter));
 }
 
-static void set_enabled(vox_mesh mesh, uint32_t enabled) {
+static void set_enabled(vox_body mesh, uint32_t enabled) {
     begin_call("set_enabled");
     field("mesh", "%u", mesh);
     field("enabled", "%u", enabled);
-    finish(vox_mesh_set_enabled(grid, mesh, enabled));
+    finish(vox_body_set_enabled(grid, mesh, enabled));
 }
 
-static void set_pair_enabled(vox_mesh a, vox_mesh b, uint32_t enabled) {
+static void set_pair_enabled(vox_body a, vox_body b, uint32_t enabled) {
     begin_call("set_pair_enabled");
-    field("mesh_a", "%u", a);
-    field("mesh_b", "%u", b);
+    field("body_a", "%u", a);
+    field("body_b", "%u", b);
     field("enabled", "%u", enabled);
     finish(vox_grid_set_pair_enabled(grid, a, b, enabled));
 }
 
-static void remove_mesh(vox_mesh mesh) {
+static void remove_mesh(vox_body mesh) {
     begin_call("remove");
     field("mesh", "%u", mesh);
-    finish(vox_mesh_remove(grid, mesh));
+    finish(vox_body_remove(grid, mesh));
 }
 
 static void set_flags(uint32_t flags) {
@@ -577,7 +577,7 @@ static void clear(void) {
 }
 
 /* "set_tets_enabled" or "remove_tets". */
-static void switch_tets(const char* name, vox_mesh mesh, const uint32_t* tets, uint64_t count,
+static void switch_tets(const char* name, vox_body mesh, const uint32_t* tets, uint64_t count,
                         uint32_t enabled) {
     begin_call(name);
     field("mesh", "%u", mesh);
@@ -592,7 +592,7 @@ static void switch_tets(const char* name, vox_mesh mesh, const uint32_t* tets, u
 }
 
 /* Copies of vertices, and the tetrahedra that use them from now on. */
-static uint32_t append_copies(vox_mesh mesh, const uint32_t* copies_of, uint64_t count) {
+static uint32_t append_copies(vox_body mesh, const uint32_t* copies_of, uint64_t count) {
     vox_vertices_desc desc = vox_default_vertices_desc();
     uint32_t first = 0;
     desc.count = count;
@@ -607,7 +607,7 @@ static uint32_t append_copies(vox_mesh mesh, const uint32_t* copies_of, uint64_t
     return first;
 }
 
-static void replace_tets(vox_mesh mesh, const uint32_t* tets, uint64_t count, const uint32_t* corners) {
+static void replace_tets(vox_body mesh, const uint32_t* tets, uint64_t count, const uint32_t* corners) {
     begin_call("replace_tets");
     field("mesh", "%u", mesh);
     field("indices", "%" PRIu64, store(tets, count * sizeof *tets));
@@ -616,7 +616,7 @@ static void replace_tets(vox_mesh mesh, const uint32_t* tets, uint64_t count, co
     finish(vox_mesh_replace_tets(grid, mesh, tets, count, corners));
 }
 
-static void append_tets(vox_mesh mesh, const uint32_t* corners, uint64_t count) {
+static void append_tets(vox_body mesh, const uint32_t* corners, uint64_t count) {
     uint32_t first = 0;
     begin_call("append_tets");
     field("mesh", "%u", mesh);
@@ -634,7 +634,7 @@ static const uint32_t all_flags = VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENT
 /* Frames of a scene with all that a step gives, the last one at rest. */
 static void frames(scene* s, const char* name, const char* what, double factor, vox_format format,
                    uint32_t rings) {
-    vox_mesh ids[MOST_BODIES];
+    vox_body ids[MOST_BODIES];
     vox_filter filter = vox_default_filter();
     filter.self_collision = s->self_collision ? 1 : 0;
     filter.self_rings = rings;
@@ -671,7 +671,7 @@ static void readme(void) {
 /* Bodies come, go and change what they collide with. */
 static void life(void) {
     static scene s;
-    vox_mesh ids[8];
+    vox_body ids[8];
     const double turned[12] = {0, -1, 0, 0.5, 1, 0, 0, 0.25, 0, 0, 1, 0};
     const double back[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     make_many(&s, 2, 2);
@@ -685,7 +685,7 @@ static void life(void) {
     set_pair_enabled(ids[0], ids[1], 0);
     step();
     meshes();
-    const vox_mesh again = insert(&s.bodies[2], VOX_FORMAT_DOUBLE3, NULL, 0xfedcba9876543210u);
+    const vox_body again = insert(&s.bodies[2], VOX_FORMAT_DOUBLE3, NULL, 0xfedcba9876543210u);
     set_enabled(ids[5], 1);
     transform(ids[6], turned);
     vox_filter filter = vox_default_filter();
@@ -720,7 +720,7 @@ static void cutting(void) {
     pose_scene(&s, 0);
     const body* b = &s.bodies[0];
     begin_scene("cutting", "a ball is cut open and loses tetrahedra", all_flags, 0);
-    const vox_mesh first = insert(b, VOX_FORMAT_FLOAT3, NULL, 1);
+    const vox_body first = insert(b, VOX_FORMAT_FLOAT3, NULL, 1);
     insert(&s.bodies[1], VOX_FORMAT_FLOAT3, NULL, 2);
     step();
     /* Vertices on the cut are those of tetrahedra on both sides; the upper side gets copies. */
@@ -763,7 +763,7 @@ static void snapshot(void) {
     static scene s;
     void* bytes;
     uint64_t size;
-    vox_mesh ids[2];
+    vox_body ids[2];
     make_pair(&s, 3);
     pose_scene(&s, 0);
     begin_scene("snapshot", "a grid is saved, and goes on from its bytes", all_flags, 0);
@@ -793,8 +793,8 @@ static void errors(void) {
     make_pair(&s, 3);
     pose_scene(&s, 0);
     begin_scene("errors", "what is refused, with its code and text", VOX_GRID_PENETRATIONS, 0);
-    const vox_mesh first = insert(&s.bodies[0], VOX_FORMAT_FLOAT3, NULL, 11);
-    const vox_mesh second = insert(&s.bodies[1], VOX_FORMAT_FLOAT3, NULL, 12);
+    const vox_body first = insert(&s.bodies[0], VOX_FORMAT_FLOAT3, NULL, 11);
+    const vox_body second = insert(&s.bodies[1], VOX_FORMAT_FLOAT3, NULL, 12);
     step();
     const uint32_t tet = s.bodies[1].tets[70];
     s.bodies[1].tets[70] = s.bodies[1].vertex_count + 5;

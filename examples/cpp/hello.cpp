@@ -13,7 +13,7 @@ int main() try {
     grid.step(); // once a frame
     for (const vox_contact& c : grid.contacts())
         std::printf("vertex %u of body %u in tet %u of body %u, weights %.2f %.2f %.2f %.2f\n", c.vertex,
-                    (unsigned)grid.user_data(c.mesh_a), c.tet, (unsigned)grid.user_data(c.mesh_b),
+                    (unsigned)grid.user_data(c.body_a), c.tet, (unsigned)grid.user_data(c.body_b),
                     c.barycentric[0], c.barycentric[1], c.barycentric[2], c.barycentric[3]);
 
     // No grid yet? One call gives the cell size for these meshes.

@@ -22,7 +22,7 @@ static void measure(uint32_t n) {
     must(vox_grid_create(NULL, &grid));
     body box = make_box(SIDE, 0.05f, 0, 0, 0.01f), slab = make_slab(n > 0 ? n : 1);
     const vox_mesh_desc box_desc = body_desc(&box), slab_desc = body_desc(&slab);
-    vox_mesh body_id, slab_id;
+    vox_body body_id, slab_id;
     must(vox_mesh_insert(grid, &box_desc, &body_id));
     if (n > 0) must(vox_mesh_insert(grid, &slab_desc, &slab_id));
 
@@ -37,12 +37,12 @@ static void measure(uint32_t n) {
         uint64_t* least = step < 20 ? &in_air : &on_floor;
         if (profile.step_ns < *least) *least = profile.step_ns;
     }
-    must(vox_grid_counters(grid, &counters));
+    must(vox_grid_get_counters(grid, &counters));
     uint64_t inside = 0, straight_up = 0; /* vertices of the body in the floor */
     vox_penetration_view found;
     must(vox_grid_penetrations(grid, &found));
     for (uint64_t i = 0; i < found.count; ++i) {
-        if (found.data[i].mesh_a != body_id) continue;
+        if (found.data[i].body_a != body_id) continue;
         ++inside;
         straight_up += found.data[i].direction[2] > 0.999f;
     }

@@ -6,14 +6,14 @@ int main(void) {
     must(vox_grid_create(NULL, &grid));
     cube floor_cube = cube_at(0, 0, 0), falling = cube_at(0.3f, 0.8f, 0.3f); /* y is up */
     insert_cube(grid, &floor_cube);
-    const vox_mesh b = insert_cube(grid, &falling);
+    const vox_body b = insert_cube(grid, &falling);
     for (int frame = 0; frame < 6; ++frame) {
         must(vox_grid_step(grid));
         vox_penetration_view view;
         must(vox_grid_penetrations(grid, &view));
         const vox_penetration* deepest = NULL;
         for (uint64_t i = 0; i < view.count; ++i)
-            if (view.data[i].mesh_a == b && (!deepest || view.data[i].depth > deepest->depth))
+            if (view.data[i].body_a == b && (!deepest || view.data[i].depth > deepest->depth))
                 deepest = &view.data[i];
         if (!deepest) {
             printf("frame %d: out\n", frame);

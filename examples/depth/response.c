@@ -16,7 +16,7 @@ enum { vertices = 125, tets = 320, edges = 6 * tets, most_rows = 1000 };
 
 typedef struct soft {
     body shape; /* its positions, as floats, are what the grid reads */
-    vox_mesh mesh;
+    vox_body mesh;
     double inverse_mass; /* of a vertex; 0 for a body that nothing moves */
     double x[vertices][3], before[vertices][3], v[vertices][3];
     uint32_t edge[edges][2];
@@ -46,15 +46,15 @@ static void add(double* to, double factor, const double* a) {
 static void make_rows(vox_grid* grid, soft* bodies) {
     vox_contact_view contacts;
     vox_penetration_view found;
-    must(vox_grid_contacts(grid, &contacts));
+    must(vox_grid_get_contacts(grid, &contacts));
     must(vox_grid_penetrations(grid, &found));
     row_count = 0;
     for (uint64_t i = 0; i < found.count && row_count < most_rows; ++i) {
         const vox_penetration* p = &found.data[i];
         const vox_contact* in_tet = &contacts.data[p->contact]; /* which tetrahedron, and where in it */
         uint64_t a = 0, b = 0;
-        must(vox_mesh_user_data(grid, p->mesh_a, &a));
-        must(vox_mesh_user_data(grid, p->mesh_b, &b));
+        must(vox_body_get_user_data(grid, p->body_a, &a));
+        must(vox_body_get_user_data(grid, p->body_b, &b));
         row* r = &rows[row_count++];
         r->a = &bodies[a];
         r->b = &bodies[b];

@@ -29,7 +29,7 @@ int main(void) {
     desc.vertex_count = corners_of_bar;
     desc.tets = bar_tets[0];
     desc.tet_count = 10;
-    vox_mesh bar = VOX_NULL_MESH, probe = VOX_NULL_MESH;
+    vox_body bar = VOX_NULL_BODY, probe = VOX_NULL_BODY;
     must(vox_mesh_insert(grid, &desc, &bar));
 
     const float points[2][3] = {{0.5f, 0.5f, 0.5f}, {1.5f, 0.5f, 0.5f}}; /* one in each cube */

@@ -15,7 +15,7 @@ int main(void) {
     desc.flags |= VOX_GRID_EDGE_CONTACTS;
     vox_grid* grid = NULL;
     must(vox_grid_create(&desc, &grid));
-    vox_mesh ids[2];
+    vox_body ids[2];
     vox_mesh_desc bars[2] = {cube_desc(&below), cube_desc(&above)};
     for (int i = 0; i < 2; ++i) must(vox_mesh_insert(grid, &bars[i], &ids[i]));
 
@@ -23,7 +23,7 @@ int main(void) {
     vox_edge_contact_view edges;
     vox_depth_view depths;
     must(vox_grid_step(grid));
-    must(vox_grid_contacts(grid, &contacts));
+    must(vox_grid_get_contacts(grid, &contacts));
     must(vox_grid_edge_contacts(grid, &edges));
     must(vox_grid_prepare_edge_depths(grid)); /* the way out, for those who want it */
     must(vox_grid_edge_depths(grid, &depths));
@@ -31,8 +31,8 @@ int main(void) {
            edges.count > 0 ? "and edge contacts" : "no edge contacts");
     uint64_t deepest = 0;
     for (uint64_t i = 0; i < edges.count; ++i) {
-        const int is_first = edges.data[deepest].mesh_a != ids[1];
-        if (edges.data[i].mesh_a == ids[1] && (is_first || depths.data[i].depth > depths.data[deepest].depth))
+        const int is_first = edges.data[deepest].body_a != ids[1];
+        if (edges.data[i].body_a == ids[1] && (is_first || depths.data[i].depth > depths.data[deepest].depth))
             deepest = i;
     }
     const vox_edge_contact* c = &edges.data[deepest];

@@ -15,7 +15,7 @@ int main(void) {
     for (int i = 0; i < 2; ++i) bodies[i].user_data = (uint64_t)i + 1;
 
     vox_grid* grid;
-    vox_mesh ids[2];
+    vox_body ids[2];
     if (vox_grid_create(NULL, &grid) != VOX_OK) return failed();
     for (int i = 0; i < 2; ++i)
         if (vox_mesh_insert(grid, &bodies[i], &ids[i]) != VOX_OK) return failed();
@@ -23,12 +23,12 @@ int main(void) {
     if (vox_grid_step(grid) != VOX_OK) return failed(); /* once a frame */
 
     vox_contact_view contacts;
-    if (vox_grid_contacts(grid, &contacts) != VOX_OK) return failed();
+    if (vox_grid_get_contacts(grid, &contacts) != VOX_OK) return failed();
     for (uint64_t i = 0; i < contacts.count; ++i) {
         const vox_contact* c = &contacts.data[i];
         uint64_t a = 0, b = 0;
-        vox_mesh_user_data(grid, c->mesh_a, &a);
-        vox_mesh_user_data(grid, c->mesh_b, &b);
+        vox_body_get_user_data(grid, c->body_a, &a);
+        vox_body_get_user_data(grid, c->body_b, &b);
         printf("vertex %u of body %u in tet %u of body %u, weights %.2f %.2f %.2f %.2f\n", c->vertex,
                (unsigned)a, c->tet, (unsigned)b, c->barycentric[0], c->barycentric[1], c->barycentric[2],
                c->barycentric[3]);

@@ -19,7 +19,7 @@ int main(void) {
             must(vox_grid_set_cell_size(grid, cell_sizes[i])); /* 0: the library chooses */
             must(vox_grid_step(grid));
             must(vox_grid_cell_size(grid, &cell_size));
-            must(vox_grid_hash(grid, &hash));
+            must(vox_grid_get_hash(grid, &hash));
             printf("%-9s cell size %-5.2g %" PRIu64 " contacts, hash %016" PRIx64 "\n", names[engine],
                    cell_size, contact_count(grid), hash);
         }

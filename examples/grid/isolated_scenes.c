@@ -9,11 +9,11 @@ static cube cubes[scenes][2];
 
 /* Inserts a cube into a scene; scenes count from 0, groups from 1. */
 static void insert_into(vox_grid* grid, const cube* c, int scene) {
-    const vox_mesh mesh = insert_cube(grid, c);
+    const vox_body mesh = insert_cube(grid, c);
     vox_filter filter = vox_default_filter();
     filter.group = scene + 1;
     filter.mask = 0;
-    must(vox_mesh_set_filter(grid, mesh, &filter));
+    must(vox_body_set_filter(grid, mesh, &filter));
 }
 
 int main(void) {
@@ -29,7 +29,7 @@ int main(void) {
     must(vox_grid_step(grid));
 
     vox_pair_view pairs;
-    must(vox_grid_pairs(grid, &pairs));
+    must(vox_grid_get_pairs(grid, &pairs));
     uint64_t contacts = 0;
     for (uint64_t i = 0; i < pairs.count; ++i) contacts += pairs.data[i].a_in_b + pairs.data[i].b_in_a;
     printf("%d scenes in one place: %" PRIu64 " pairs touch, with %" PRIu64 " contacts each\n", scenes,

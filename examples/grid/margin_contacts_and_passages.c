@@ -7,7 +7,7 @@ int main(void) {
     must(vox_grid_set_margin(grid, 0.25));
     cube target = cube_at(0, 0, 0), bullet = cube_at(0.25f, 0.125f, -1.125f);
     insert_cube(grid, &target);
-    const vox_mesh id = insert_cube(grid, &bullet);
+    const vox_body id = insert_cube(grid, &bullet);
     must(vox_grid_step(grid));
 
     vox_margin_contact_view near;
@@ -15,7 +15,7 @@ int main(void) {
     for (uint64_t i = 0; i < near.count; ++i) {
         const vox_margin_contact* c = &near.data[i]; /* valid until the next step */
         printf("vertex %u of mesh %u is %g from mesh %u, which pushes it along (%g, %g, %g)\n",
-               (unsigned)c->vertex, (unsigned)c->mesh_a, c->distance, (unsigned)c->mesh_b, c->normal[0],
+               (unsigned)c->vertex, (unsigned)c->body_a, c->distance, (unsigned)c->body_b, c->normal[0],
                c->normal[1], c->normal[2]);
     }
 
@@ -25,12 +25,12 @@ int main(void) {
     must(vox_grid_step(grid));
     vox_contact_view contacts;
     vox_passage_view passages;
-    must(vox_grid_contacts(grid, &contacts));
+    must(vox_grid_get_contacts(grid, &contacts));
     must(vox_grid_passages(grid, &passages));
     printf("%" PRIu64 " contacts, %" PRIu64 " passages\n", contacts.count, passages.count);
     for (uint64_t i = 0; i < passages.count; ++i)
         printf("vertex %u of mesh %u met mesh %u at time %.4f\n", (unsigned)passages.data[i].vertex,
-               (unsigned)passages.data[i].mesh_a, (unsigned)passages.data[i].mesh_b, passages.data[i].time);
+               (unsigned)passages.data[i].body_a, (unsigned)passages.data[i].body_b, passages.data[i].time);
     vox_grid_destroy(grid);
     return 0;
 }

@@ -16,7 +16,7 @@ int main(void) {
 
     vox_counters counters;
     counters.struct_size = sizeof counters; /* the fields that this program knows are written */
-    must(vox_grid_counters(grid, &counters));
+    must(vox_grid_get_counters(grid, &counters));
     printf("%u meshes, %" PRIu64 " tets: %" PRIu64 " vertices in %" PRIu64 " cells, %" PRIu64
            " candidates, %" PRIu64 " contacts\n",
            (unsigned)counters.meshes, counters.tets, counters.entries, counters.cells, counters.candidates,

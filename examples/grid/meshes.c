@@ -10,7 +10,7 @@ int main(void) {
     vox_grid* grid = NULL;
     must(vox_grid_create(NULL, &grid));
     cube first = cube_at(0, 0, 0), second = cube_at(0.5f, 0.5f, 0.5f);
-    const vox_mesh a = insert_cube(grid, &first), b = insert_cube(grid, &second);
+    const vox_body a = insert_cube(grid, &first), b = insert_cube(grid, &second);
     step(grid, "two cubes");
 
     /* Points without tetrahedra, in vertices of another layout: sensors. */
@@ -20,13 +20,13 @@ int main(void) {
     desc.position_byte_stride = sizeof sensors[0];
     desc.vertex_count = 2;
     desc.user_data = 42; /* yours */
-    vox_mesh points = VOX_NULL_MESH;
+    vox_body points = VOX_NULL_BODY;
     must(vox_mesh_insert(grid, &desc, &points));
     step(grid, "and two points, one of them inside");
 
     vox_filter filter = vox_default_filter();
     filter.mask = 2; /* the points feel meshes of category 2 only, and a and b are of category 1 */
-    must(vox_mesh_set_filter(grid, points, &filter));
+    must(vox_body_set_filter(grid, points, &filter));
     step(grid, "the points filtered out");
     must(vox_grid_set_pair_enabled(grid, a, b, 0));
     step(grid, "the cubes an exception, too");
@@ -34,11 +34,11 @@ int main(void) {
 
     move_cube(&second, 0.25f, 0, 0); /* borrowed: no call needed */
     step(grid, "one cube moved");
-    must(vox_mesh_set_enabled(grid, b, 0));
+    must(vox_body_set_enabled(grid, b, 0));
     step(grid, "and switched off");
-    must(vox_mesh_remove(grid, a));
-    printf("a is %s, b is %s\n", vox_mesh_is_valid(grid, a) ? "valid" : "gone",
-           vox_mesh_is_valid(grid, b) ? "valid" : "gone");
+    must(vox_body_remove(grid, a));
+    printf("a is %s, b is %s\n", vox_body_is_valid(grid, a) ? "valid" : "gone",
+           vox_body_is_valid(grid, b) ? "valid" : "gone");
     vox_grid_destroy(grid);
     return 0;
 }

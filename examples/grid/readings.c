@@ -8,7 +8,7 @@ int main(void) {
     cube first = cube_at(0, 0, 0), second = cube_at(0.5f, 0.875f, 0.25f);
     vox_mesh_desc desc = cube_desc(&first);
     desc.user_data = 1;
-    vox_mesh a, b;
+    vox_body a, b;
     must(vox_mesh_insert(grid, &desc, &a));
     desc = cube_desc(&second);
     desc.user_data = 2;
@@ -44,8 +44,8 @@ int main(void) {
     /* Parts of them, for one pair: without its surface, a reading costs little more than a copy of it. */
     vox_readings_desc part = vox_default_readings_desc();
     part.what = VOX_READING_POSITION | VOX_READING_DEPTH;
-    part.mesh_a = a;
-    part.mesh_b = b;
+    part.body_a = a;
+    part.body_b = b;
     must(vox_grid_prepare_readings_of(grid, &part));
     vox_depth_view depths; /* in double */
     must(vox_grid_reading_depths(grid, &depths));

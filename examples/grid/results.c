@@ -8,7 +8,7 @@ int main(void) {
     const cube c = cube_at(0, 0, 0);
     vox_mesh_desc desc = cube_desc(&c);
     desc.vertex_count = 7; /* but the tetrahedra name eight */
-    vox_mesh mesh = VOX_NULL_MESH;
+    vox_body mesh = VOX_NULL_BODY;
     const vox_result result = vox_mesh_insert(grid, &desc, &mesh);
     printf("%s: %s\n", vox_result_string(result), vox_last_error());
 
@@ -16,8 +16,8 @@ int main(void) {
     must(vox_mesh_insert(grid, &desc, &mesh));
     printf("mesh %u is in\n", (unsigned)mesh);
 
-    must(vox_mesh_remove(grid, mesh));
-    printf("%s: %s\n", vox_result_string(vox_mesh_remove(grid, mesh)), vox_last_error());
+    must(vox_body_remove(grid, mesh));
+    printf("%s: %s\n", vox_result_string(vox_body_remove(grid, mesh)), vox_last_error());
     vox_grid_destroy(grid);
     return 0;
 }

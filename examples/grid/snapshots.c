@@ -17,8 +17,8 @@ int main(void) {
     uint64_t hashes[2];
     must(vox_grid_step(grid));
     must(vox_grid_step(again));
-    must(vox_grid_hash(grid, &hashes[0]));
-    must(vox_grid_hash(again, &hashes[1]));
+    must(vox_grid_get_hash(grid, &hashes[0]));
+    must(vox_grid_get_hash(again, &hashes[1]));
     printf("%" PRIu64 " bytes; hash %016" PRIx64 ", from the snapshot %016" PRIx64 "\n", size, hashes[0],
            hashes[1]);
     vox_grid_destroy(again);

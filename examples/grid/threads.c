@@ -36,7 +36,7 @@ static uint64_t hash_of_step(const vox_grid_desc* desc, const cube* many) {
     must(vox_grid_create(desc, &grid));
     for (int i = 0; i < cubes; ++i) insert_cube(grid, &many[i]);
     must(vox_grid_step(grid));
-    must(vox_grid_hash(grid, &hash));
+    must(vox_grid_get_hash(grid, &hash));
     printf("%" PRIu64 " contacts\n", contact_count(grid));
     vox_grid_destroy(grid);
     return hash;

@@ -16,18 +16,18 @@ int main(void) {
     vox_grid* grid = NULL;
     must(vox_grid_create(NULL, &grid));
     cube cubes[3] = {cube_at(0, 0, 0), cube_at(-1.6f, 0.3f, 0.3f), cube_at(0.2f, -0.7f, 0.2f)};
-    vox_mesh ids[3];
+    vox_body ids[3];
     for (unsigned i = 0; i < 3; ++i) {
         vox_mesh_desc desc = cube_desc(&cubes[i]);
         desc.user_data = i + 1;
         must(vox_mesh_insert(grid, &desc, &ids[i]));
     }
     for (int frame = 0; frame < 6; ++frame, move_cube(&cubes[1], 0.9f, 0, 0)) {
-        if (frame == 2) must(vox_mesh_remove(grid, ids[2])); /* its pair ends all the same */
+        if (frame == 2) must(vox_body_remove(grid, ids[2])); /* its pair ends all the same */
         must(vox_grid_step(grid));
         print_events(grid, frame);
         vox_pair_view pairs;
-        must(vox_grid_pairs(grid, &pairs));
+        must(vox_grid_get_pairs(grid, &pairs));
         for (uint64_t i = 0; i < pairs.count; ++i)
             printf("         %" PRIu64 " contacts one way, %" PRIu64 " the other\n", pairs.data[i].a_in_b,
                    pairs.data[i].b_in_a);

@@ -39,7 +39,7 @@ int main(void) {
     vox_facet_hit hits[8];
     uint64_t count = 0;
     uint32_t any = 0;
-    must(vox_query_view_ray_hits(shown, left, right, UINT64_MAX, VOX_NULL_MESH, hits, 8, &count));
+    must(vox_query_view_ray_hits(shown, left, right, UINT64_MAX, VOX_NULL_BODY, hits, 8, &count));
     for (uint64_t i = 0; i < count; ++i)
         printf("%s mesh %u at x = %g\n", hits[i].side == VOX_SIDE_ENTERS ? "enters" : "leaves",
                (unsigned)hits[i].mesh, left[0] + hits[i].t * (right[0] - left[0]));

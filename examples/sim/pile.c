@@ -18,7 +18,7 @@
 
 typedef struct scene {
     vox_sim* sim;
-    vox_mesh bodies[BODIES];
+    vox_body bodies[BODIES];
     uint64_t vertex_count;
     uint64_t tet_count;
 } scene;
@@ -27,10 +27,10 @@ typedef struct scene {
 static double scatter(uint32_t* seed) { return (double)(random_quick(seed) >> 8) / 8388608.0 - 1; }
 
 /* Inserts `mesh`, turned by `tilt` about x and `turn` about z, at (x, y, z). Takes the mesh. */
-static vox_mesh drop(scene* s, vox_io_mesh* mesh, double tilt, double turn, double x, double y, double z,
+static vox_body drop(scene* s, vox_io_mesh* mesh, double tilt, double turn, double x, double y, double z,
                      uint32_t flags) {
     vox_io_mesh_view view;
-    must(vox_io_mesh_get(mesh, &view));
+    must(vox_io_mesh_get_arrays(mesh, &view));
     double* positions = malloc(3 * sizeof *positions * view.vertex_count);
     if (!positions) exit(1);
     for (uint64_t v = 0; v < view.vertex_count; ++v) {
@@ -49,7 +49,7 @@ static vox_mesh drop(scene* s, vox_io_mesh* mesh, double tilt, double turn, doub
     desc.youngs_modulus = 2e5;
     desc.bulk_modulus = 2e5;
     desc.damping = 0.05;
-    vox_mesh body;
+    vox_body body;
     must(vox_sim_body_insert(s->sim, &desc, &body));
     free(positions);
     vox_io_mesh_destroy(mesh);
@@ -100,7 +100,7 @@ static void write_frame(const scene* s, const char* folder, int frame) {
     uint64_t vertices = 0, tet_count = 0;
     for (int b = 0; b < BODIES; ++b) {
         vox_sim_body_view view;
-        must(vox_sim_body_get(s->sim, s->bodies[b], &view));
+        must(vox_sim_body_get_view(s->sim, s->bodies[b], &view));
         for (uint64_t i = 0; i < 4 * view.tet_count; ++i)
             tets[4 * tet_count + i] = (uint32_t)vertices + view.tets[i];
         for (uint64_t i = 0; i < 3 * view.vertex_count; ++i) positions[3 * vertices + i] = view.positions[i];
@@ -140,8 +140,8 @@ int main(int argc, char** argv) {
         for (int i = 0; i < STEPS_PER_FRAME; ++i) must(vox_sim_step(s.sim, 1.0 / STEPS_PER_SECOND));
         vox_sim_energies energies = {.struct_size = sizeof energies};
         vox_sim_counts counts = {.struct_size = sizeof counts};
-        must(vox_sim_energy(s.sim, VOX_NULL_MESH, &energies));
-        must(vox_sim_counters(s.sim, &counts));
+        must(vox_sim_get_energy(s.sim, VOX_NULL_BODY, &energies));
+        must(vox_sim_get_counters(s.sim, &counts));
         if (frame % 10 == 0 || frame == frames - 1)
             printf("frame %3d: %5llu penetrations, fastest particle %5.2f, step %6.2f ms of which detection "
                    "%6.2f ms\n",

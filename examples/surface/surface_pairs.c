@@ -41,7 +41,7 @@ int main(void) {
     for (uint32_t cull = 0; cull < 2; ++cull) {
         motion.flags = cull ? VOX_MOTION_CULL : 0;
         must(vox_surface_move(surface, &motion));
-        must(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
+        must(vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
         pairs[cull] = lists.pair_count;
     }
     printf("%" PRIu64 " pairs of edges, of which %" PRIu64 " can meet\n", pairs[0], pairs[1]);
@@ -50,14 +50,14 @@ int main(void) {
     vox_crossing_view crossings;
     safe.struct_size = sizeof safe;
     crossings.struct_size = sizeof crossings;
-    must(vox_surface_safe_step(surface, NULL, &safe));
-    must(vox_surface_crossings(surface, &crossings));
+    must(vox_surface_find_safe_step(surface, NULL, &safe));
+    must(vox_surface_find_crossings(surface, &crossings));
     printf("free of contact for %.3f of the way; at its end %s\n", safe.step,
            crossings.count > 0 ? "the sheets cross" : "nothing crosses");
 
     vox_timed_view times;
     times.struct_size = sizeof times;
-    must(vox_surface_contact_times(surface, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX, NULL, &times));
+    must(vox_surface_find_impacts(surface, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX, NULL, &times));
     double first = 1;
     for (uint64_t i = 0; i < times.count; ++i)
         first = times.pairs[i].time < first ? times.pairs[i].time : first;
@@ -70,15 +70,15 @@ int main(void) {
     counters.struct_size = sizeof counters;
     must(vox_surface_suggest_cell_size(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, &suggestion));
     must(vox_surface_set_cell_size(surface, suggestion.cell_size));
-    must(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
-    must(vox_surface_counters(surface, &counters));
+    must(vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
+    must(vox_surface_get_counters(surface, &counters));
     printf("cells of %.1f: %" PRIu64 " pairs overlapped, %" PRIu64 " of them were culled\n",
            counters.cell_size, counters.overlaps, counters.culled);
 
     motion.to = NULL; /* where the sheets began */
     must(vox_surface_move(surface, &motion));
-    must(vox_surface_crossings(surface, &crossings));
-    must(vox_surface_clearance(surface, 10, clearance, 2 * sheet));
+    must(vox_surface_find_crossings(surface, &crossings));
+    must(vox_surface_find_clearances(surface, 10, clearance, 2 * sheet));
     double least = clearance[0];
     for (int v = 1; v < 2 * sheet; ++v) least = clearance[v] < least ? clearance[v] : least;
     printf("before, %" PRIu64 " crossings; every vertex may move by %.3f at least\n", crossings.count, least);
@@ -87,8 +87,8 @@ int main(void) {
     vox_feature_view edges;
     close.struct_size = sizeof close;
     edges.struct_size = sizeof edges;
-    must(vox_surface_close(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0.95, &close));
-    must(vox_surface_features(surface, VOX_FEATURE_EDGE, &edges));
+    must(vox_surface_find_proximities(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0.95, &close));
+    must(vox_surface_get_features(surface, VOX_FEATURE_EDGE, &edges));
     if (close.count > 0) {
         const vox_close_pair* p = &close.pairs[0];
         const uint32_t* e = edges.vertices + 2 * p->a;

@@ -59,8 +59,8 @@
  * (bindings/README.md). A compiler sees nothing of them.
  *   VOX_OPTIONAL     It may be null. Without this mark it must not be, unless it is an array of no elements.
  *   VOX_ARRAY(n)     It points to n elements. n is written with parameters, or fields of the same struct; x.y stands
- *                    for the field y that a function gives for the parameter x, such as mesh.vertex_count of
- *                    vox_mesh_get_info. "or" separates what the comment tells apart. Without this mark: one element,
+ *                    for the field y that a function gives for the parameter x, such as body.vertex_count of
+ *                    vox_body_get_info. "or" separates what the comment tells apart. Without this mark: one element,
  *                    zero-terminated text, or `capacity` or `count` elements where such a number follows.
  *   VOX_UNTIL(f, g)  It is in use, or valid, until the next call of vox_f or vox_g for its object, or the end of that
  *                    object. Without this mark it is in use during the call: what it points to is read, written or
@@ -69,7 +69,7 @@
  *       return       the call that it was given to returns
  *       failure      the next call that fails on the same thread
  *       epoch        vox_grid_step, vox_grids_step, vox_grid_clear, vox_grid_reserve, vox_grid_set_flags
- *       rebind       vox_mesh_remove, vox_mesh_bind_positions, vox_mesh_bind_strided_positions,
+ *       rebind       vox_body_remove, vox_mesh_bind_positions, vox_mesh_bind_strided_positions,
  *                    vox_mesh_map_positions, vox_mesh_set_topology, vox_mesh_append_vertices, vox_grid_clear
  *   VOX_ONE_THREAD, VOX_ANY_THREAD
  *                    An object that one thread at a time may use, even to read; one that any number may use at any
@@ -182,7 +182,7 @@ typedef struct vox_task_system {
 /* ---- grid ------------------------------------------------------------------------------------- */
 
 /* Limits. Exceeding one gives VOX_ERROR_LIMIT. docs/limits.md lists these and all others. */
-#define VOX_MAX_MESHES 1048576u           /* per grid, at one time, including retired slots */
+#define VOX_MAX_BODIES 1048576u           /* per grid, at one time, including retired slots */
 #define VOX_MAX_GENERATIONS 4095u         /* uses of one mesh slot before it is retired */
 #define VOX_MAX_VERTICES 2147483647u      /* per grid */
 #define VOX_MAX_TETS 2147483647u          /* per grid */
@@ -215,11 +215,11 @@ typedef enum vox_grid_flags {
     VOX_GRID_PENETRATIONS = 1, /* run the depth stage in a step (vox_grid_penetrations); on by default. A mesh of more
                                   than 357913941 tets then gives VOX_ERROR_LIMIT, unless its filter does without */
     VOX_GRID_CONTACT_EVENTS = 2, /* also report events of single vertices (vox_grid_contact_events) */
-    VOX_GRID_SKIP_BAD_MESHES = 4, /* a mesh with a coordinate that VOX_FORMAT_DOUBLE3 does not allow (NaN, infinite, too
+    VOX_GRID_SKIP_BAD_BODIES = 4, /* a mesh with a coordinate that VOX_FORMAT_DOUBLE3 does not allow (NaN, infinite, too
                                      large) takes no part in a step, in vox_grid_prepare_queries, in
                                      vox_grid_take_query_view and in vox_grid_suggest_cell_size, as if it were
                                      disabled; without this flag they fail.
-                                     Counted (skipped_meshes), listed (vox_grid_failure), and logged once until the
+                                     Counted (skipped_meshes), listed (vox_grid_get_failure), and logged once until the
                                      mesh is well again */
     VOX_GRID_EDGE_CONTACTS = 8, /* also find edges of surfaces through faces of others (vox_grid_edge_contacts);
                                    experimental. A mesh of more than 357913941 tets then gives VOX_ERROR_LIMIT */
@@ -301,7 +301,7 @@ VOX_API vox_result vox_grid_clear(vox_grid* grid);
 /* Allocates memory for what a grid keeps of that many meshes and contacts beside the meshes themselves, in advance;
  * never releases any. A contact takes 69 bytes, with VOX_GRID_PENETRATIONS 88 more and with VOX_GRID_CONTACT_EVENTS 56
  * more; the closest points that a step searches (docs/depth.md) take up to 24 each. Contacts stay, views end. Errors:
- * LIMIT (more than VOX_MAX_MESHES), BUDGET, OUT_OF_MEMORY. */
+ * LIMIT (more than VOX_MAX_BODIES), BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_reserve(vox_grid* grid, uint32_t mesh_count, uint64_t contact_count);
 
 /* Sets the cell size of the following steps; 0: the library chooses. Never changes the contacts.
@@ -347,8 +347,8 @@ VOX_API vox_result vox_grid_get_flags(const vox_grid* grid, uint32_t* out_flags)
 /* Identifies a mesh in its grid: slot and generation in one number. 0 is no mesh. The ids of a grid ascend in slot
  * order, so a fresh grid orders meshes as they were inserted. The id of a removed mesh is never used again in that
  * grid. */
-typedef uint32_t vox_mesh;
-#define VOX_NULL_MESH 0u /* names no mesh */
+typedef uint32_t vox_body;
+#define VOX_NULL_BODY 0u /* names no mesh */
 
 typedef enum vox_format {
     VOX_FORMAT_FLOAT3 = 0,  /* three IEEE 754 singles x, y, z */
@@ -424,10 +424,10 @@ typedef struct vox_mesh_desc {
      * removed or gets another topology, or the grid is cleared or destroyed. The first call that turns tetrahedra
      * off, replaces, removes or appends some copies them, and leaves the caller's array as it is and no longer needed.
      * A grid made from a snapshot has its own copy. */
-    VOX_ARRAY(4 * tet_count) VOX_UNTIL(mesh_remove, mesh_set_topology, grid_clear) const uint32_t* tets;
+    VOX_ARRAY(4 * tet_count) VOX_UNTIL(body_remove, mesh_set_topology, grid_clear) const uint32_t* tets;
     uint64_t tet_count;
     uint64_t vertex_count;
-    uint64_t user_data; /* any number of the caller's, returned by vox_mesh_user_data */
+    uint64_t user_data; /* any number of the caller's, returned by vox_body_get_user_data */
     vox_format position_format;
     uint32_t reserved; /* 0 */
     /* Copied; null: the defaults. VOX_MESH_SELF_COLLISION turns self_collision on as well. */
@@ -479,51 +479,51 @@ static inline vox_mesh_desc vox_mesh_desc_doubles(const double* positions, uint6
  * would be of ordinary size, those between far too large and far too small by turns (as most bit patterns are). They
  * are looked at once for each format, here if they are copied, else when a step, suggestion or query reads them first.
  * Errors: INVALID_ARGUMENT, INVALID_MESH ("tet 17 names vertex 900 of 812"), LIMIT, BUDGET, OUT_OF_MEMORY. */
-VOX_API vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vox_mesh* out_mesh);
+VOX_API vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vox_body* out_body);
 
 /* Removes a mesh. The contacts of the last step stay as they are until the next one. */
-VOX_API vox_result vox_mesh_remove(vox_grid* grid, vox_mesh mesh);
+VOX_API vox_result vox_body_remove(vox_grid* grid, vox_body body);
 
 /* 1 when `mesh` names a mesh of the grid, else 0 (also for a null grid). Cannot fail. */
-VOX_API uint32_t vox_mesh_is_valid(VOX_OPTIONAL const vox_grid* grid, vox_mesh mesh);
+VOX_API uint32_t vox_body_is_valid(VOX_OPTIONAL const vox_grid* grid, vox_body body);
 
 /* The user_data the mesh was inserted with. */
-VOX_API vox_result vox_mesh_user_data(const vox_grid* grid, vox_mesh mesh, uint64_t* out_user_data);
+VOX_API vox_result vox_body_get_user_data(const vox_grid* grid, vox_body body, uint64_t* out_user_data);
 
 /* Copies the ids of the first `capacity` meshes of the grid, disabled ones included, ascending. *out_count is how many
- * there are, which may be more than were copied. `meshes` may be null if capacity is 0. Errors: INVALID_ARGUMENT. */
-VOX_API vox_result vox_grid_meshes(const vox_grid* grid, vox_mesh* meshes, uint64_t capacity, uint64_t* out_count);
+ * there are, which may be more than were copied. `bodies` may be null if capacity is 0. Errors: INVALID_ARGUMENT. */
+VOX_API vox_result vox_grid_get_bodies(const vox_grid* grid, vox_body* bodies, uint64_t capacity, uint64_t* out_count);
 
 /* A mesh as it is now, e.g. after vox_grid_load. */
-typedef struct vox_mesh_info {
+typedef struct vox_body_info {
     uint32_t struct_size;
     uint32_t slot;         /* from 0 */
     uint64_t user_data;    /* as given at insertion */
     uint64_t vertex_count; /* with the removed ones: indices of vertices are below it */
     uint64_t tet_count;    /* with those that are disabled or removed: indices of tetrahedra are below it */
     uint64_t enabled_tet_count;
-    uint32_t enabled;      /* 1, or 0 (see vox_mesh_set_enabled) */
+    uint32_t enabled;      /* 1, or 0 (see vox_body_set_enabled) */
     uint32_t flags;        /* vox_mesh_flags: SELF_COLLISION as the filter says, COPY_POSITIONS if the positions are the
                               mesh's own (copied, mapped or loaded), BORROW_TETS while the tetrahedra are the caller's */
     vox_format position_format;
-    uint32_t has_transform; /* 1 if vox_mesh_set_transform gave it one */
+    uint32_t has_transform; /* 1 if vox_body_set_transform gave it one */
     /* The positions, without the transform; null if the mesh has none. They live until the mesh is removed, bound to
      * other positions, mapped, or gets other or more vertices, or the grid is cleared or destroyed. */
     VOX_OPTIONAL VOX_ARRAY(vertex_count) VOX_UNTIL(rebind) const void* positions;
     uint64_t position_byte_stride;           /* of these, never 0 unless `positions` is null; see vox_mesh_desc */
     uint64_t position_component_byte_stride;
-    double transform[12]; /* as vox_mesh_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0 */
-} vox_mesh_info;
+    double transform[12]; /* as vox_body_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0 */
+} vox_body_info;
 
-/* Writes the fields that out_info->struct_size covers (set it first). How long `positions` live: see vox_mesh_info.
+/* Writes the fields that out_info->struct_size covers (set it first). How long `positions` live: see vox_body_info.
  * Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
-VOX_API vox_result vox_mesh_get_info(const vox_grid* grid, vox_mesh mesh, vox_mesh_info* out_info);
+VOX_API vox_result vox_body_get_info(const vox_grid* grid, vox_body body, vox_body_info* out_info);
 
 /* Copies the first `capacity` tetrahedra of a mesh: of tetrahedron t the corners, as they were given, to corners[4 * t]
  * to corners[4 * t + 3], and to enabled[t] 1 or, if it is disabled or removed, 0. Each of the two arrays may be null,
- * and is not written then. *out_count is how many tetrahedra there are (vox_mesh_info.tet_count).
+ * and is not written then. *out_count is how many tetrahedra there are (vox_body_info.tet_count).
  * Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
-VOX_API vox_result vox_mesh_copy_tets(const vox_grid* grid, vox_mesh mesh,
+VOX_API vox_result vox_mesh_get_tets(const vox_grid* grid, vox_body body,
                                       VOX_OPTIONAL VOX_ARRAY(4 * capacity) uint32_t* corners,
                                       VOX_OPTIONAL VOX_ARRAY(capacity) uint8_t* enabled, uint64_t capacity,
                                       uint64_t* out_count);
@@ -532,13 +532,13 @@ VOX_API vox_result vox_mesh_copy_tets(const vox_grid* grid, vox_mesh mesh,
  * of vox_mesh_desc.positions, and releases a copy made at insertion. Values written to the same memory
  * between steps need no new call. Null is accepted for a mesh without vertices.
  * Errors: INVALID_ARGUMENT for an unknown format and a stride that is too small. */
-VOX_API vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh,
-                                           VOX_ARRAY(mesh.vertex_count) VOX_UNTIL(rebind) const void* positions,
+VOX_API vox_result vox_mesh_bind_positions(vox_grid* grid, vox_body body,
+                                           VOX_ARRAY(body.vertex_count) VOX_UNTIL(rebind) const void* positions,
                                            vox_format format, uint64_t byte_stride);
 
 /* The same with component_byte_stride as vox_mesh_desc.position_component_byte_stride, e.g. for columns. */
-VOX_API vox_result vox_mesh_bind_strided_positions(vox_grid* grid, vox_mesh mesh,
-                                                   VOX_ARRAY(mesh.vertex_count) VOX_UNTIL(rebind) const void* positions,
+VOX_API vox_result vox_mesh_bind_strided_positions(vox_grid* grid, vox_body body,
+                                                   VOX_ARRAY(body.vertex_count) VOX_UNTIL(rebind) const void* positions,
                                                    vox_format format, uint64_t byte_stride,
                                                    uint64_t component_byte_stride);
 
@@ -547,46 +547,46 @@ VOX_API vox_result vox_mesh_bind_strided_positions(vox_grid* grid, vox_mesh mesh
  * find vox_grid_passages. Values may be written to the same memory between steps. The mesh's transform does not apply
  * to them: they are where the vertices were. Null ends it, as do vox_mesh_set_topology and vox_mesh_append_vertices.
  * Snapshots do not keep them. A step fails with NON_FINITE or LIMIT where they are not as VOX_FORMAT_DOUBLE3 has it;
- * VOX_GRID_SKIP_BAD_MESHES is about positions alone.
+ * VOX_GRID_SKIP_BAD_BODIES is about positions alone.
  * Errors: as vox_mesh_bind_strided_positions. */
 VOX_EXPERIMENTAL vox_result vox_mesh_bind_previous_positions(
-    vox_grid* grid, vox_mesh mesh,
-    VOX_OPTIONAL VOX_ARRAY(mesh.vertex_count) VOX_UNTIL(rebind) const void* positions, vox_format format,
+    vox_grid* grid, vox_body body,
+    VOX_OPTIONAL VOX_ARRAY(body.vertex_count) VOX_UNTIL(rebind) const void* positions, vox_format format,
     uint64_t byte_stride, uint64_t component_byte_stride);
 
 /* vox_mesh_bind_positions for tightly packed floats, with a typed pointer. Errors: as there. */
-static inline vox_result vox_mesh_bind_floats(vox_grid* grid, vox_mesh mesh, const float* positions) {
-    return vox_mesh_bind_positions(grid, mesh, positions, VOX_FORMAT_FLOAT3, 0);
+static inline vox_result vox_mesh_bind_floats(vox_grid* grid, vox_body body, const float* positions) {
+    return vox_mesh_bind_positions(grid, body, positions, VOX_FORMAT_FLOAT3, 0);
 }
 
 /* vox_mesh_bind_positions for tightly packed doubles, with a typed pointer. Errors: as there. */
-static inline vox_result vox_mesh_bind_doubles(vox_grid* grid, vox_mesh mesh, const double* positions) {
-    return vox_mesh_bind_positions(grid, mesh, positions, VOX_FORMAT_DOUBLE3, 0);
+static inline vox_result vox_mesh_bind_doubles(vox_grid* grid, vox_body body, const double* positions) {
+    return vox_mesh_bind_positions(grid, body, positions, VOX_FORMAT_DOUBLE3, 0);
 }
 
 /* Makes the next step process a mesh even if it is at rest (see vox_grid_step). Contacts are correct without it; it
  * serves to measure steps over positions that stay the same. */
-VOX_API vox_result vox_mesh_mark_moved(vox_grid* grid, vox_mesh mesh);
+VOX_API vox_result vox_body_mark_moved(vox_grid* grid, vox_body body);
 
 /* Sets what the mesh collides with, from the next step on (the filter is copied). This includes self_collision, which
  * replaces the flag given at insertion. The tables of the self-contact filters, and what penetrations need if their
  * mask was 0 before, are built in the call, in time and memory proportional to the mesh.
  * Errors: INVALID_ARGUMENT, LIMIT (self_rings; tetrahedra of a mesh with penetrations), INVALID_STATE (a rest distance
  * without a rest pose or positions), NON_FINITE (a rest position), BUDGET, OUT_OF_MEMORY. */
-VOX_API vox_result vox_mesh_set_filter(vox_grid* grid, vox_mesh mesh, const vox_filter* filter);
+VOX_API vox_result vox_body_set_filter(vox_grid* grid, vox_body body, const vox_filter* filter);
 
 /* Writes the fields of the filter in use that out_filter->struct_size covers (set it first). */
-VOX_API vox_result vox_mesh_filter(const vox_grid* grid, vox_mesh mesh, vox_filter* out_filter);
+VOX_API vox_result vox_mesh_filter(const vox_grid* grid, vox_body body, vox_filter* out_filter);
 
 /* Disables a mesh (enabled 0), so that it takes no part in the following steps and its positions are not read, or
  * enables it again (1, as at insertion). Its contacts of the last step stay until the next one.
  * Errors: INVALID_ARGUMENT for other numbers. */
-VOX_API vox_result vox_mesh_set_enabled(vox_grid* grid, vox_mesh mesh, uint32_t enabled);
+VOX_API vox_result vox_body_set_enabled(vox_grid* grid, vox_body body, uint32_t enabled);
 
 /* With enabled 0, the two meshes do not collide in the following steps, whatever their filters say; with 1, their
  * filters decide. The setting ends when either mesh is removed. Errors: INVALID_ARGUMENT for other numbers and for
- * mesh_a = mesh_b (see vox_filter.self_collision), BUDGET, OUT_OF_MEMORY. */
-VOX_API vox_result vox_grid_set_pair_enabled(vox_grid* grid, vox_mesh mesh_a, vox_mesh mesh_b, uint32_t enabled);
+ * body_a = body_b (see vox_filter.self_collision), BUDGET, OUT_OF_MEMORY. */
+VOX_API vox_result vox_grid_set_pair_enabled(vox_grid* grid, vox_body body_a, vox_body body_b, uint32_t enabled);
 
 /* Gives the mesh positions of its own that the caller may write to: vertex_count of them, tightly packed, in the format
  * it was inserted with or bound to last. At first they hold the mesh's present positions, or zeros if it has none.
@@ -595,8 +595,8 @@ VOX_API vox_result vox_grid_set_pair_enabled(vox_grid* grid, vox_mesh mesh_a, vo
  * destroyed. It is null for a mesh without vertices. For a mesh inserted with VOX_MESH_COPY_POSITIONS it is the copy
  * made then.
  * Errors: BUDGET, OUT_OF_MEMORY. */
-VOX_API vox_result vox_mesh_map_positions(vox_grid* grid, vox_mesh mesh,
-                                          VOX_ARRAY(mesh.vertex_count) VOX_UNTIL(rebind) void** out_positions,
+VOX_API vox_result vox_mesh_map_positions(vox_grid* grid, vox_body body,
+                                          VOX_ARRAY(body.vertex_count) VOX_UNTIL(rebind) void** out_positions,
                                           uint64_t* out_byte_stride);
 
 /* Moves a mesh as a whole. In the following steps a vertex has the position
@@ -606,7 +606,7 @@ VOX_API vox_result vox_mesh_map_positions(vox_grid* grid, vox_mesh mesh,
  * affine map, three rows of four numbers, copied. Null (the default) means no transform. The transform stays when
  * other positions are bound.
  * Errors: INVALID_ARGUMENT (an element that is not finite); BUDGET, OUT_OF_MEMORY (for a first transform). */
-VOX_API vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, VOX_OPTIONAL const double matrix[12]);
+VOX_API vox_result vox_body_set_transform(vox_grid* grid, vox_body body, VOX_OPTIONAL const double matrix[12]);
 
 /* ---- cutting and growing ---------------------------------------------------------------------- */
 
@@ -630,28 +630,28 @@ VOX_API vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, VOX_OPT
  * the flag VOX_MESH_SELF_COLLISION are ignored. If desc->positions is null, the mesh keeps its positions and its rest
  * pose if the number of vertices is unchanged; otherwise it has no positions until vox_mesh_bind_positions. The rest
  * pose of a filter with a rest distance is taken from desc as at insertion. Errors: also INVALID_STATE and NON_FINITE,
- * as vox_mesh_set_filter. */
-VOX_API vox_result vox_mesh_set_topology(vox_grid* grid, vox_mesh mesh, const vox_mesh_desc* desc);
+ * as vox_body_set_filter. */
+VOX_API vox_result vox_mesh_set_topology(vox_grid* grid, vox_body body, const vox_mesh_desc* desc);
 
 /* Disables the `count` tetrahedra named by `tets` (enabled 0), so that they contain no vertex and have no edges and
  * facets, or enables them again (1, as at insertion). Their vertices stay and collide with others either way.
  * Errors: INVALID_ARGUMENT for other numbers. */
-VOX_API vox_result vox_mesh_set_tets_enabled(vox_grid* grid, vox_mesh mesh, VOX_ARRAY(count) const uint32_t* tets,
+VOX_API vox_result vox_mesh_set_tets_enabled(vox_grid* grid, vox_body body, VOX_ARRAY(count) const uint32_t* tets,
                                              uint64_t count, uint32_t enabled);
 
 /* Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3], copied, for each i below count. If an
  * index is named twice, the last corners are used. A disabled tetrahedron stays disabled. To cut a mesh open, append
  * copies of the vertices on the cut and let the tetrahedra of one side use those. */
-VOX_API vox_result vox_mesh_replace_tets(vox_grid* grid, vox_mesh mesh, VOX_ARRAY(count) const uint32_t* tets,
+VOX_API vox_result vox_mesh_replace_tets(vox_grid* grid, vox_body body, VOX_ARRAY(count) const uint32_t* tets,
                                          uint64_t count, VOX_ARRAY(4 * count) const uint32_t* corners);
 
 /* Adds `count` tetrahedra with 4 corners each, copied. *out_first is the index of the first; the others have the
  * following indices. */
-VOX_API vox_result vox_mesh_append_tets(vox_grid* grid, vox_mesh mesh, VOX_ARRAY(4 * count) const uint32_t* corners,
+VOX_API vox_result vox_mesh_append_tets(vox_grid* grid, vox_body body, VOX_ARRAY(4 * count) const uint32_t* corners,
                                         uint64_t count, uint32_t* out_first);
 
 /* Removes tetrahedra, disabled ones included. Their vertices stay; see vox_mesh_remove_vertices. */
-VOX_API vox_result vox_mesh_remove_tets(vox_grid* grid, vox_mesh mesh, VOX_ARRAY(count) const uint32_t* tets,
+VOX_API vox_result vox_mesh_remove_tets(vox_grid* grid, vox_body body, VOX_ARRAY(count) const uint32_t* tets,
                                         uint64_t count);
 
 /* Vertices to append, and their positions. All positions are in the format that the mesh was inserted with or bound to
@@ -665,7 +665,7 @@ typedef struct vox_vertices_desc {
      * For a mesh with positions of its own (copied, mapped, or loaded): `count` positions, copied; the array of
      * vox_mesh_map_positions becomes invalid. May be null for a mesh that has no positions yet and, together with
      * copies_of, for a mesh with positions of its own. */
-    VOX_OPTIONAL VOX_ARRAY(count or mesh.vertex_count + count) VOX_UNTIL(rebind) const void* positions;
+    VOX_OPTIONAL VOX_ARRAY(count or body.vertex_count + count) VOX_UNTIL(rebind) const void* positions;
     uint64_t position_byte_stride; /* 0: tightly packed */
     /* Null, or `count` indices of earlier vertices of the mesh: the vertex that each new one is a copy of. A copy gets
      * the rest position of that vertex and, if `positions` is null, its position, too. */
@@ -691,13 +691,13 @@ static inline vox_vertices_desc vox_default_vertices_desc(void) {
 /* Adds vertices, which belong to no tetrahedron yet. *out_first is the index of the first; the others have the
  * following indices. Errors: also INVALID_STATE (the mesh has a rest pose, but a new vertex has no position for it),
  * NON_FINITE (a position of the rest pose). */
-VOX_API vox_result vox_mesh_append_vertices(vox_grid* grid, vox_mesh mesh, const vox_vertices_desc* desc,
+VOX_API vox_result vox_mesh_append_vertices(vox_grid* grid, vox_body body, const vox_vertices_desc* desc,
                                             uint32_t* out_first);
 
 /* Removes vertices; a vertex of an enabled tetrahedron is an INVALID_ARGUMENT. Removed vertices make no more contacts,
  * and no tetrahedron may name them again. Their positions are still read and must stay finite, so it is best to leave
  * them as they are. */
-VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_mesh mesh, VOX_ARRAY(count) const uint32_t* vertices,
+VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_body body, VOX_ARRAY(count) const uint32_t* vertices,
                                             uint64_t count);
 
 /* ---- step and contacts ------------------------------------------------------------------------ */
@@ -713,7 +713,7 @@ VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_mesh mesh, VOX_A
  * memory of the built-in scheduler, such as the stacks of its threads, is not the grid's and is not counted.
  * Errors: INVALID_STATE (a mesh has no positions), NON_FINITE and LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not
  * allow), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3, see vox_mesh_insert); all these name the mesh, as does
- * vox_grid_failure. LIMIT (more than VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET, OUT_OF_MEMORY. */
+ * vox_grid_get_failure. LIMIT (more than VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_step(vox_grid* grid);
 
 /* Steps `count` grids, which must differ, each as by vox_grid_step, several at the same time: for many small scenes
@@ -736,7 +736,7 @@ typedef struct vox_failure {
     uint32_t struct_size;
     vox_result result;  /* NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not allow), INVALID_STATE (no
                            positions), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3); VOX_OK if there is none */
-    vox_mesh mesh;      /* VOX_NULL_MESH if there is none */
+    vox_body mesh;      /* VOX_NULL_BODY if there is none */
     uint32_t slot;      /* of the mesh, from 0 */
     uint64_t user_data; /* of the mesh, as given at insertion */
     uint32_t vertex;    /* the first with such a coordinate; VOX_NO_VERTEX if the failure is about none */
@@ -746,27 +746,27 @@ typedef struct vox_failure {
 
 #define VOX_NO_VERTEX 0xffffffffu /* vox_failure.vertex where a failure is not about a vertex */
 
-/* The mesh that made the last step fail (index 0), or the meshes that it left out (VOX_GRID_SKIP_BAD_MESHES): the
- * index-th of them, in the order of ids. `mesh` is VOX_NULL_MESH beyond the last, after steps that failed for another
+/* The mesh that made the last step fail (index 0), or the meshes that it left out (VOX_GRID_SKIP_BAD_BODIES): the
+ * index-th of them, in the order of ids. `mesh` is VOX_NULL_BODY beyond the last, after steps that failed for another
  * reason and after a clear. Writes the fields that out_failure->struct_size covers (set it first). The mesh may have
  * been removed since. Errors: INVALID_ARGUMENT (a null pointer, a bad struct_size). */
-VOX_API vox_result vox_grid_failure(const vox_grid* grid, uint32_t index, vox_failure* out_failure);
+VOX_API vox_result vox_grid_get_failure(const vox_grid* grid, uint32_t index, vox_failure* out_failure);
 
-/* Vertex `vertex` of mesh_a is in the closed tetrahedron `tet` of mesh_b and is not a corner of it.
- * This is decided exactly for the coordinates given. For each (mesh_a, vertex, mesh_b) there is a contact for every
+/* Vertex `vertex` of body_a is in the closed tetrahedron `tet` of body_b and is not a corner of it.
+ * This is decided exactly for the coordinates given. For each (body_a, vertex, body_b) there is a contact for every
  * tetrahedron that has the vertex in its interior; if there is none, one for the tetrahedron of lowest index that has
  * it on its boundary. A tetrahedron of exactly zero volume contains nothing.
  * `barycentric` are the vertex's weights for the tetrahedron's four corners in their given order. Each is in
  * [0, 1], and their sum is 1 up to rounding. */
 typedef struct vox_contact {
-    vox_mesh mesh_a;
+    vox_body body_a;
     uint32_t vertex;
-    vox_mesh mesh_b;
+    vox_body body_b;
     uint32_t tet;
     float barycentric[4];
 } vox_contact;
 
-/* `count` contacts, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b, tet). `data` lives until the next step,
+/* `count` contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b, tet). `data` lives until the next step,
  * clear, reserve, change of the flags or destroy of the grid; `epoch` is vox_grid_epoch() of that state. */
 typedef struct vox_contact_view {
     VOX_UNTIL(epoch) const vox_contact* data;
@@ -776,7 +776,7 @@ typedef struct vox_contact_view {
 } vox_contact_view;
 
 /* The contacts of the last step; count 0 before the first, after a failed one and after a clear. */
-VOX_API vox_result vox_grid_contacts(const vox_grid* grid, vox_contact_view* out_view);
+VOX_API vox_result vox_grid_get_contacts(const vox_grid* grid, vox_contact_view* out_view);
 
 /* The contacts of `count` grids, one grid after the other: those of grid i begin at index offsets[i] and end before
  * offsets[i + 1], where offsets has count + 1 numbers, all of which are written. Copies the first `capacity` contacts;
@@ -788,7 +788,7 @@ VOX_API vox_result vox_grids_copy_contacts(VOX_ARRAY(count) const vox_grid* cons
 /* `count` bytes, `byte_stride` apart, one for each contact, in that order: 1 if the vertex is in the interior of the
  * tetrahedron, 0 if it is on its boundary; decided exactly. On a face that two tetrahedra share, a vertex has a contact
  * with one of them (see vox_contact): who joins the contacts of several grids, each with a part of a mesh, keeps the
- * rule with this flag. Not part of vox_grid_hash. The data lives as long as that of the contacts' view. */
+ * rule with this flag. Not part of vox_grid_get_hash. The data lives as long as that of the contacts' view. */
 typedef struct vox_interior_view {
     VOX_UNTIL(epoch) const uint8_t* data;
     size_t byte_stride;
@@ -804,18 +804,18 @@ VOX_API vox_result vox_grid_contact_interiors(const vox_grid* grid, vox_interior
 VOX_API vox_result vox_grid_epoch(const vox_grid* grid, uint64_t* out_epoch);
 
 /* A hash of the contacts: all fields, in order. The same for any cell size, storage, hash and engine. */
-VOX_API vox_result vox_grid_hash(const vox_grid* grid, uint64_t* out_hash);
+VOX_API vox_result vox_grid_get_hash(const vox_grid* grid, uint64_t* out_hash);
 
 /* ---- penetrations ----------------------------------------------------------------------------- */
 
 /* How a penetration's depth and direction were found. In the following, p is the vertex; a colliding vertex is a vertex
- * of mesh_a that has a contact with mesh_b; edges are those of mesh_a's tetrahedra; the surface of mesh_b consists of
+ * of body_a that has a contact with body_b; edges are those of body_a's tetrahedra; the surface of body_b consists of
  * the facets of exactly one of its tetrahedra, duplicates counted once. SURFACE and PROPAGATED are the method of
  * Heidelberger et al. 2004; the other states stand for cases in which it gives no answer. "Closest" means that depth is
- * the distance from p to the closest point of mesh_b's surface, and direction points straight to it. For self-contact
+ * the distance from p to the closest point of body_b's surface, and direction points straight to it. For self-contact
  * the surface is that of the fold that p has entered, never a triangle that has p as a corner. */
 typedef enum vox_penetration_state {
-    VOX_PENETRATION_SURFACE = 0,    /* edges lead from p out of mesh_b; mean over the points where they cross the
+    VOX_PENETRATION_SURFACE = 0,    /* edges lead from p out of body_b; mean over the points where they cross the
                                        surface */
     VOX_PENETRATION_PROPAGATED = 1, /* all neighbours of p collide; mean over those closer to the surface */
     VOX_PENETRATION_ENCLOSED = 2,   /* closest: no edge leads out from p or from a colliding vertex connected with it,
@@ -831,22 +831,22 @@ typedef enum vox_penetration_state {
     VOX_PENETRATION_STATE_FORCE_32_BITS = 0x7fffffff
 } vox_penetration_state;
 
-/* Vertex `vertex` of mesh_a is inside mesh_b (a = b: self-contact) and has to leave it: moving the vertex by
- * depth * direction leads to the surface of mesh_b, exactly if the state says closest, and otherwise as well as edges
- * and neighbours can estimate it. All values are finite, and direction is a unit vector up to rounding. If mesh_b has
+/* Vertex `vertex` of body_a is inside body_b (a = b: self-contact) and has to leave it: moving the vertex by
+ * depth * direction leads to the surface of body_b, exactly if the state says closest, and otherwise as well as edges
+ * and neighbours can estimate it. All values are finite, and direction is a unit vector up to rounding. If body_b has
  * no surface (each facet belongs to several tetrahedra), depth is 0 and direction the normal of a facet of the
  * contact's tetrahedron. Does not depend on engine, cell size, workers or machine. */
 typedef struct vox_penetration {
-    vox_mesh mesh_a;
+    vox_body body_a;
     uint32_t vertex;
-    vox_mesh mesh_b;
+    vox_body body_b;
     vox_penetration_state state;
-    uint64_t contact;   /* index in vox_grid_contacts of the first contact of (mesh_a, vertex, mesh_b) */
+    uint64_t contact;   /* index in vox_grid_get_contacts of the first contact of (body_a, vertex, body_b) */
     float depth;        /* >= 0, in the caller's unit */
-    float direction[3]; /* in the frame of the positions, out of mesh_b */
+    float direction[3]; /* in the frame of the positions, out of body_b */
 } vox_penetration;
 
-/* `count` penetrations, `byte_stride` apart: one for each (mesh_a, vertex, mesh_b) that has contacts, in that order,
+/* `count` penetrations, `byte_stride` apart: one for each (body_a, vertex, body_b) that has contacts, in that order,
  * unless vox_filter.penetration_mask rules it out. A vertex inside two meshes has two. The data lives as long as that
  * of the contacts' view. */
 typedef struct vox_penetration_view {
@@ -889,18 +889,18 @@ typedef enum vox_crossing_kind {
     VOX_CROSSING_KIND_FORCE_32_BITS = 0x7fffffff
 } vox_crossing_kind;
 
-/* An edge of the surface of mesh_a and a face of the surface of mesh_b that have a point in common (a = b: self-contact;
+/* An edge of the surface of body_a and a face of the surface of body_b that have a point in common (a = b: self-contact;
  * then they have no vertex in common). The surface of a mesh consists of the facets of exactly one of its enabled
  * tetrahedra, duplicates counted once, and of their edges. Decided exactly for the coordinates given.
  * So two bars laid across each other are seen, though no vertex of one is in the other. Where several points are
  * common, the position is that of one of them: an end of the edge if one is, the lower vertex first. */
 typedef struct vox_edge_contact {
-    vox_mesh mesh_a;
-    uint32_t edge[2];       /* vertices of mesh_a, the lower first */
-    vox_mesh mesh_b;
-    uint32_t face[3];       /* vertices of mesh_b, the lowest first, counter-clockwise as seen from the side that the
+    vox_body body_a;
+    uint32_t edge[2];       /* vertices of body_a, the lower first */
+    vox_body body_b;
+    uint32_t face[3];       /* vertices of body_b, the lowest first, counter-clockwise as seen from the side that the
                                normal points to */
-    uint32_t tet;           /* of mesh_b, behind the face; of doubled ones the lowest */
+    uint32_t tet;           /* of body_b, behind the face; of doubled ones the lowest */
     vox_crossing_kind kind;
     uint32_t reserved;      /* 0 */
     double edge_weights[2]; /* of the point, in [0, 1], with the sum 1 up to rounding */
@@ -911,7 +911,7 @@ typedef struct vox_edge_contact {
     double normal[3];
 } vox_edge_contact;
 
-/* `count` edge contacts, `byte_stride` apart, sorted by mesh_a, edge, mesh_b and the three vertices of the face in
+/* `count` edge contacts, `byte_stride` apart, sorted by body_a, edge, body_b and the three vertices of the face in
  * ascending order. The data lives as long as that of the contacts' view. */
 typedef struct vox_edge_contact_view {
     VOX_UNTIL(epoch) const vox_edge_contact* data;
@@ -923,8 +923,8 @@ typedef struct vox_edge_contact_view {
 /* The edge contacts of the last step: the same for every engine, cell size and number of workers. Count 0 before the
  * first step, after a failed one and after a clear. Which meshes collide is up to vox_filter and
  * vox_grid_set_pair_enabled, as for contacts; a self-contact is ruled out where vox_filter rules out the contact of
- * either end of the edge with `tet`. Meshes that touch by edges alone are pairs of vox_grid_pairs, with no contacts, and
- * have touch events. vox_grid_hash and readings are of contacts alone.
+ * either end of the edge with `tet`. Meshes that touch by edges alone are pairs of vox_grid_get_pairs, with no contacts, and
+ * have touch events. vox_grid_get_hash and readings are of contacts alone.
  * Errors: INVALID_STATE if the grid's flags lack VOX_GRID_EDGE_CONTACTS. */
 VOX_EXPERIMENTAL vox_result vox_grid_edge_contacts(const vox_grid* grid, vox_edge_contact_view* out_view);
 
@@ -934,8 +934,8 @@ VOX_EXPERIMENTAL vox_result vox_grid_edge_hash(const vox_grid* grid, uint64_t* o
 
 /* Computes the way out for every edge contact of the last step (vox_grid_edge_depths). It reads positions, which must
  * still be those of the step. A program that does not need it pays nothing.
- * The part of an edge inside mesh_b begins and ends at contacts with it, or at an end of the edge. Moving its middle by
- * depth * direction leads to the closest point of the surface of mesh_b; of several, that of the first triangle. Where
+ * The part of an edge inside body_b begins and ends at contacts with it, or at an end of the edge. Moving its middle by
+ * depth * direction leads to the closest point of the surface of body_b; of several, that of the first triangle. Where
  * no part begins or ends, because the two only touch, depth is 0 and direction the normal. For self-contact the middle
  * moves to the plane of the face, along the normal, instead.
  * Errors: INVALID_STATE (as vox_grid_edge_contacts; or a mesh of a contact was removed or edited since the step, or
@@ -948,14 +948,14 @@ VOX_EXPERIMENTAL vox_result vox_grid_edge_depths(const vox_grid* grid, vox_depth
 
 /* ---- margin contacts and passages ------------------------------------------------------------- */
 
-/* Vertex `vertex` of mesh_a is in no tetrahedron of mesh_b, but no further than the margin from its surface. The point
- * of the surface of mesh_b that is closest to it is on a facet of `tet`; of several at the same distance that of the
+/* Vertex `vertex` of body_a is in no tetrahedron of body_b, but no further than the margin from its surface. The point
+ * of the surface of body_b that is closest to it is on a facet of `tet`; of several at the same distance that of the
  * lowest (tet, facet), as in vox_grid_query_closest. Computed in double. */
 typedef struct vox_margin_contact {
-    vox_mesh mesh_a;
+    vox_body body_a;
     uint32_t vertex;
-    vox_mesh mesh_b;        /* never mesh_a */
-    uint32_t tet;           /* of mesh_b */
+    vox_body body_b;        /* never body_a */
+    uint32_t tet;           /* of body_b */
     uint32_t facet;         /* of the tetrahedron, as in vox_surface_hit */
     uint32_t face[3];       /* its vertices, in the order given there */
     double face_weights[3]; /* of the closest point, in [0, 1], with the sum 1 up to rounding */
@@ -964,7 +964,7 @@ typedef struct vox_margin_contact {
                                no distance between them */
 } vox_margin_contact;
 
-/* `count` margin contacts, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b), each of which has one at most. The
+/* `count` margin contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b), each of which has one at most. The
  * data lives as long as that of the contacts' view. */
 typedef struct vox_margin_contact_view {
     VOX_UNTIL(epoch) const vox_margin_contact* data;
@@ -975,18 +975,18 @@ typedef struct vox_margin_contact_view {
 
 /* The margin contacts of the last step: the same for every engine, cell size and number of workers. Count 0 before the
  * first step, after a failed one and after a clear. Which meshes collide is up to vox_filter and
- * vox_grid_set_pair_enabled, as for contacts. They are not part of vox_grid_hash, and no pairs or events come of them.
+ * vox_grid_set_pair_enabled, as for contacts. They are not part of vox_grid_get_hash, and no pairs or events come of them.
  * Errors: INVALID_STATE if the margin is 0 (vox_grid_set_margin). */
 VOX_EXPERIMENTAL vox_result vox_grid_margin_contacts(const vox_grid* grid, vox_margin_contact_view* out_view);
 
-/* Vertex `vertex` of mesh_a met the surface of mesh_b while both moved from their previous positions to the present
+/* Vertex `vertex` of body_a met the surface of body_b while both moved from their previous positions to the present
  * ones (vox_mesh_bind_previous_positions; a mesh without previous positions stands still), wherever it was before
  * and is after: also where it went through a thin mesh and out again. */
 typedef struct vox_passage {
-    vox_mesh mesh_a;
+    vox_body body_a;
     uint32_t vertex;
-    vox_mesh mesh_b;  /* never mesh_a */
-    uint32_t tet;     /* of mesh_b */
+    vox_body body_b;  /* never body_a */
+    uint32_t tet;     /* of body_b */
     uint32_t facet;   /* of the tetrahedron, as in vox_surface_hit: the first that the vertex met; the lowest
                          (tet, facet) of several at the same time */
     uint32_t face[3]; /* its vertices, in the order given there */
@@ -994,7 +994,7 @@ typedef struct vox_passage {
                          more than rounding errors make necessary */
 } vox_passage;
 
-/* `count` passages, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b), each of which has one at most. The data
+/* `count` passages, `byte_stride` apart, sorted by (body_a, vertex, body_b), each of which has one at most. The data
  * lives as long as that of the contacts' view. */
 typedef struct vox_passage_view {
     VOX_UNTIL(epoch) const vox_passage* data;
@@ -1012,14 +1012,14 @@ VOX_EXPERIMENTAL vox_result vox_grid_passages(const vox_grid* grid, vox_passage_
 /* ---- touching pairs and events ---------------------------------------------------------------- */
 
 /* Two meshes that touch: a vertex of one of them is in a tetrahedron of the other, or they have edge contacts
- * (VOX_GRID_EDGE_CONTACTS). mesh_a <= mesh_b; they are equal if
+ * (VOX_GRID_EDGE_CONTACTS). body_a <= body_b; they are equal if
  * a mesh touches itself. The contacts of the pair are those whose indices begin at vox_pair_view.contacts[first]: first
- * the a_in_b contacts of vertices of mesh_a in tets of mesh_b, then the b_in_a contacts of vertices of mesh_b in tets
- * of mesh_a (0 for a mesh with itself), each in the order of vox_grid_contacts. */
+ * the a_in_b contacts of vertices of body_a in tets of body_b, then the b_in_a contacts of vertices of body_b in tets
+ * of body_a (0 for a mesh with itself), each in the order of vox_grid_get_contacts. */
 typedef struct vox_pair {
-    vox_mesh mesh_a;
-    vox_mesh mesh_b;
-    uint64_t user_data_a; /* of mesh_a, as given at insertion */
+    vox_body body_a;
+    vox_body body_b;
+    uint64_t user_data_a; /* of body_a, as given at insertion */
     uint64_t user_data_b;
     uint64_t first;
     uint64_t a_in_b;
@@ -1028,8 +1028,8 @@ typedef struct vox_pair {
 
 #define VOX_MAX_CONTACTS 4294967295u /* contacts of one step; a step with more fails with VOX_ERROR_LIMIT */
 
-/* `count` pairs, `byte_stride` apart, sorted by (mesh_a, mesh_b). `contacts` holds the index of every contact of
- * vox_grid_contacts() once, pair by pair. Both live as long as the data of the contacts' view. */
+/* `count` pairs, `byte_stride` apart, sorted by (body_a, body_b). `contacts` holds the index of every contact of
+ * vox_grid_get_contacts() once, pair by pair. Both live as long as the data of the contacts' view. */
 typedef struct vox_pair_view {
     VOX_UNTIL(epoch) const vox_pair* data;
     size_t byte_stride;
@@ -1039,18 +1039,18 @@ typedef struct vox_pair_view {
 } vox_pair_view;
 
 /* The pairs that touched in the last step; count 0 before the first, after a failed one and after a clear. */
-VOX_API vox_result vox_grid_pairs(const vox_grid* grid, vox_pair_view* out_view);
+VOX_API vox_result vox_grid_get_pairs(const vox_grid* grid, vox_pair_view* out_view);
 
-/* Copies the first `capacity` of the last step's contacts in which `mesh` is mesh_a or mesh_b, pair by pair, in the
- * order of vox_grid_pairs. *out_count is how many there are, which may be more than were copied. `contacts` may be null
+/* Copies the first `capacity` of the last step's contacts in which `mesh` is body_a or body_b, pair by pair, in the
+ * order of vox_grid_get_pairs. *out_count is how many there are, which may be more than were copied. `contacts` may be null
  * if capacity is 0. The mesh may have been disabled since the step, but not removed.
  * Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
-VOX_API vox_result vox_mesh_copy_contacts(const vox_grid* grid, vox_mesh mesh, vox_contact* contacts,
+VOX_API vox_result vox_mesh_copy_contacts(const vox_grid* grid, vox_body body, vox_contact* contacts,
                                           uint64_t capacity, uint64_t* out_count);
 
-/* The same for the contacts between two meshes, given in either order, or of one mesh with itself (mesh_a = mesh_b):
+/* The same for the contacts between two meshes, given in either order, or of one mesh with itself (body_a = body_b):
  * the contacts of their vox_pair. */
-VOX_API vox_result vox_pair_copy_contacts(const vox_grid* grid, vox_mesh mesh_a, vox_mesh mesh_b,
+VOX_API vox_result vox_pair_copy_contacts(const vox_grid* grid, vox_body body_a, vox_body body_b,
                                           vox_contact* contacts, uint64_t capacity, uint64_t* out_count);
 
 /* What an event reports: how the last successful step differs from the successful step before it. */
@@ -1061,22 +1061,22 @@ typedef enum vox_touch {
     VOX_TOUCH_FORCE_32_BITS = 0x7fffffff
 } vox_touch;
 
-/* An event of a pair of meshes, mesh_a <= mesh_b. A pair that began persists in every following step until it ends,
- * which it does exactly once, also if a mesh was removed, disabled or filtered, or the grid cleared. Then `mesh_a` and
- * `mesh_b` may be stale ids; the user data are those of the meshes that they named. */
+/* An event of a pair of meshes, body_a <= body_b. A pair that began persists in every following step until it ends,
+ * which it does exactly once, also if a mesh was removed, disabled or filtered, or the grid cleared. Then `body_a` and
+ * `body_b` may be stale ids; the user data are those of the meshes that they named. */
 typedef struct vox_touch_event {
-    vox_mesh mesh_a;
-    vox_mesh mesh_b;
+    vox_body body_a;
+    vox_body body_b;
     uint64_t user_data_a;
     uint64_t user_data_b;
     vox_touch kind;
-    uint32_t pair; /* index of the pair in vox_grid_pairs; VOX_NO_PAIR if it ended */
+    uint32_t pair; /* index of the pair in vox_grid_get_pairs; VOX_NO_PAIR if it ended */
 } vox_touch_event;
 
 #define VOX_NO_PAIR 0xffffffffu /* vox_touch_event.pair of a pair that ended */
 
 /* All pairs that began, then all that persisted, then all that ended: `count` in total, `byte_stride` apart, each part
- * sorted by (mesh_a, mesh_b). `data` lives until the next step or destroy of the grid. These are the events of one step:
+ * sorted by (body_a, body_b). `data` lives until the next step or destroy of the grid. These are the events of one step:
  * a program that steps twice and reads once loses those of the first step. vox_counters.total_touches_began and
  * total_touches_ended show the loss. */
 typedef struct vox_touch_view {
@@ -1094,16 +1094,16 @@ typedef struct vox_touch_view {
  * the next step ends their pairs. Destroying the grid ends them without events. */
 VOX_API vox_result vox_grid_touch_events(const vox_grid* grid, vox_touch_view* out_view);
 
-/* Vertex `vertex` of mesh_a has entered mesh_b, or is in none of its tetrahedra any more. Moving from one tetrahedron
- * of mesh_b to another is not an event. */
+/* Vertex `vertex` of body_a has entered body_b, or is in none of its tetrahedra any more. Moving from one tetrahedron
+ * of body_b to another is not an event. */
 typedef struct vox_contact_event {
-    vox_mesh mesh_a;
+    vox_body body_a;
     uint32_t vertex;
-    vox_mesh mesh_b;
+    vox_body body_b;
     vox_touch kind; /* VOX_TOUCH_BEGAN or VOX_TOUCH_ENDED */
 } vox_contact_event;
 
-/* All vertices that entered, then all that left, each part sorted by (mesh_a, vertex, mesh_b). `data` lives until the
+/* All vertices that entered, then all that left, each part sorted by (body_a, vertex, body_b). `data` lives until the
  * next step, change of the flags or destroy of the grid. Events of one step, too: see vox_touch_view, and
  * vox_counters.total_contacts_began and total_contacts_ended. */
 typedef struct vox_contact_event_view {
@@ -1129,21 +1129,21 @@ VOX_API vox_result vox_grid_contact_events(const vox_grid* grid, vox_contact_eve
 /* Which parts of a vox_reading are wanted, or present; all fields of the other parts are zero. */
 typedef enum vox_reading_flags {
     VOX_READING_POSITION = 1, /* missing if the vertex or its mesh was removed after the step */
-    VOX_READING_SURFACE = 2,  /* missing where POSITION is or would be, if mesh_b was removed or has no surface, or if
+    VOX_READING_SURFACE = 2,  /* missing where POSITION is or would be, if body_b was removed or has no surface, or if
                                  all of its tetrahedra that contained the vertex were removed or disabled */
     VOX_READING_DEPTH = 4,    /* missing on grids without VOX_GRID_PENETRATIONS, and where
                                  vox_filter.penetration_mask rules it out */
     VOX_READING_FLAGS_FORCE_32_BITS = 0x7fffffff
 } vox_reading_flags;
 
-/* Geometry of one contact. All contacts of the same (mesh_a, vertex, mesh_b) have the same reading except for the first
- * field. `triangle` is the triangle closest to the vertex on the surface of mesh_b, which consists of the facets of
+/* Geometry of one contact. All contacts of the same (body_a, vertex, body_b) have the same reading except for the first
+ * field. `triangle` is the triangle closest to the vertex on the surface of body_b, which consists of the facets of
  * exactly one of its tetrahedra, duplicates counted once. It is computed in double, as by vox_grid_query_closest; of
  * several at the same distance it is the one with the lowest corners, compared in ascending order. For self-contact it
  * belongs to the fold that the vertex has entered and never has the vertex as a corner (see vox_penetration_state).
  * No reading depends on engine, cell size, workers or machine. */
 typedef struct vox_reading {
-    uint64_t contact;            /* index of the contact in vox_grid_contacts */
+    uint64_t contact;            /* index of the contact in vox_grid_get_contacts */
     uint32_t known;              /* vox_reading_flags, combined with | */
     vox_penetration_state state; /* DEPTH: state, depth and direction of the vertex's vox_penetration */
     float depth;
@@ -1155,10 +1155,10 @@ typedef struct vox_reading {
     /* A unit vector out of the triangle's tetrahedron or, if that is flat, to the side away from the vertex. If the
      * triangle has no area, it points from the vertex to the closest point, or is 0, 0, 1 if both coincide. */
     double normal[3];
-    uint32_t triangle[3];       /* vertices of mesh_b, the lowest first, counter-clockwise as seen from the side that
+    uint32_t triangle[3];       /* vertices of body_b, the lowest first, counter-clockwise as seen from the side that
                                    the normal points to */
     uint32_t reserved;
-    uint64_t user_data_a;       /* of mesh_a, as given at insertion */
+    uint64_t user_data_a;       /* of body_a, as given at insertion */
     uint64_t user_data_b;
 } vox_reading;
 
@@ -1189,8 +1189,8 @@ typedef struct vox_readings_desc {
     uint32_t struct_size;
     uint32_t what; /* vox_reading_flags, combined with |; default: all. Without SURFACE a reading takes about as long as
                       copying it. The other fields of vox_reading, such as user data, are always set */
-    vox_mesh mesh_a; /* VOX_NULL_MESH (the default): all contacts; else those that vox_mesh_copy_contacts copies */
-    vox_mesh mesh_b; /* VOX_NULL_MESH (the default), or those that vox_pair_copy_contacts copies for mesh_a and it */
+    vox_body body_a; /* VOX_NULL_BODY (the default): all contacts; else those that vox_mesh_copy_contacts copies */
+    vox_body body_b; /* VOX_NULL_BODY (the default), or those that vox_pair_copy_contacts copies for body_a and it */
     /* Most searches for a closest point. The first contacts that need one get it; the readings of the others lack
      * VOX_READING_SURFACE in `known`, and the log has a warning. 0 (the default): no limit. */
     uint64_t closest_budget;
@@ -1207,7 +1207,7 @@ static inline vox_readings_desc vox_default_readings_desc(void) {
 
 /* As vox_grid_prepare_readings, which is the same with desc null, but computes only the parts desc->what of the
  * readings of some contacts. All others are missing from the views and copies of the following functions.
- * Errors: as there; also INVALID_ARGUMENT (unknown parts, or mesh_b without mesh_a) and INVALID_HANDLE, after which the
+ * Errors: as there; also INVALID_ARGUMENT (unknown parts, or body_b without body_a) and INVALID_HANDLE, after which the
  * earlier readings stay. */
 VOX_API vox_result vox_grid_prepare_readings_of(vox_grid* grid, VOX_OPTIONAL const vox_readings_desc* desc);
 
@@ -1220,12 +1220,12 @@ VOX_API vox_result vox_grid_reading_depths(const vox_grid* grid, vox_depth_view*
 
 /* As vox_mesh_copy_contacts, but copies the prepared readings of those contacts, in the same order.
  * Errors: INVALID_ARGUMENT, INVALID_HANDLE, INVALID_STATE as vox_grid_readings. */
-VOX_API vox_result vox_mesh_copy_readings(const vox_grid* grid, vox_mesh mesh, vox_reading* readings, uint64_t capacity,
+VOX_API vox_result vox_mesh_copy_readings(const vox_grid* grid, vox_body body, vox_reading* readings, uint64_t capacity,
                                           uint64_t* out_count);
 
 /* As vox_pair_copy_contacts, but copies the prepared readings of those contacts, in the same order.
  * Errors: INVALID_ARGUMENT, INVALID_HANDLE, INVALID_STATE as vox_grid_readings. */
-VOX_API vox_result vox_pair_copy_readings(const vox_grid* grid, vox_mesh mesh_a, vox_mesh mesh_b, vox_reading* readings,
+VOX_API vox_result vox_pair_copy_readings(const vox_grid* grid, vox_body body_a, vox_body body_b, vox_reading* readings,
                                           uint64_t capacity, uint64_t* out_count);
 
 /* ---- snapshots -------------------------------------------------------------------------------- */
@@ -1259,7 +1259,7 @@ VOX_API vox_result vox_grid_load(VOX_ARRAY(size) const void* bytes, uint64_t siz
  * a step. Their temporary memory is from the C++ runtime's heap.
  * Answers do not depend on engine, cell size, workers or machine.
  * `mask`: a mesh takes part if its filter's category, as it was at that time, has a bit in common; UINT64_MAX: all.
- * `excluded`: a mesh that takes no part, e.g. the one that asks; VOX_NULL_MESH, and any id that was not there when the
+ * `excluded`: a mesh that takes no part, e.g. the one that asks; VOX_NULL_BODY, and any id that was not there when the
  * queries were prepared, excludes none.
  * `capacity`: the first `capacity` hits, in the order stated, are written; *out_count is how many there are.
  * Errors of all: INVALID_STATE (not prepared), INVALID_ARGUMENT, NON_FINITE (a coordinate of the query is not finite;
@@ -1279,7 +1279,7 @@ VOX_API vox_result vox_grid_prepare_queries(vox_grid* grid);
  * boundary. `barycentric` is as in vox_contact. */
 typedef struct vox_point_hit {
     uint32_t point;
-    vox_mesh mesh;
+    vox_body mesh;
     uint32_t tet;
     float barycentric[4];
 } vox_point_hit;
@@ -1298,7 +1298,7 @@ VOX_API vox_result vox_grid_query_points(const vox_grid* grid, VOX_ARRAY(point_c
 
 /* Tetrahedron `tet` of `mesh`. */
 typedef struct vox_tet_hit {
-    vox_mesh mesh;
+    vox_body mesh;
     uint32_t tet;
 } vox_tet_hit;
 
@@ -1313,7 +1313,7 @@ VOX_API vox_result vox_grid_query_box(const vox_grid* grid, const double min[3],
  * of the tetrahedron, counter-clockwise as seen from outside if its volume is positive. The surface of a mesh consists
  * of the facets of exactly one tetrahedron. */
 typedef struct vox_surface_hit {
-    vox_mesh mesh; /* VOX_NULL_MESH if there is no such point; then all fields are zero */
+    vox_body mesh; /* VOX_NULL_BODY if there is no such point; then all fields are zero */
     uint32_t tet;
     uint32_t facet;
     uint32_t reserved;
@@ -1336,7 +1336,7 @@ typedef struct vox_closest_desc {
     uint64_t point_count; /* at most 2^32 - 1 */
     uint64_t mask;        /* default UINT64_MAX: all meshes */
     double max_distance;  /* >= 0, in the caller's unit; default infinity */
-    vox_mesh excluded;    /* default VOX_NULL_MESH: none */
+    vox_body excluded;    /* default VOX_NULL_BODY: none */
     uint32_t reserved;    /* 0 */
     uint64_t component_byte_stride; /* as vox_mesh_desc.position_component_byte_stride; default 0 */
 } vox_closest_desc;
@@ -1352,7 +1352,7 @@ static inline vox_closest_desc vox_default_closest_desc(void) {
 
 /* The closest point of a surface, as in vox_surface_hit, with a normal and a sign. */
 typedef struct vox_closest_hit {
-    vox_mesh mesh; /* VOX_NULL_MESH if no surface is within max_distance; then all other fields but `inside` are zero */
+    vox_body mesh; /* VOX_NULL_BODY if no surface is within max_distance; then all other fields but `inside` are zero */
     uint32_t tet;
     uint32_t facet;
     uint32_t inside; /* how many of the meshes that take part have the point in a closed tetrahedron; exact */
@@ -1382,12 +1382,12 @@ typedef enum vox_side {
  * or a facet is decided exactly; t, and thus which of two hits is first, only up to rounding. Of several at the same t
  * it is the lowest (mesh, tet, facet). */
 typedef struct vox_ray_hit {
-    vox_mesh mesh; /* mesh of the first tetrahedron; VOX_NULL_MESH if none is hit, then all fields are zero */
+    vox_body mesh; /* mesh of the first tetrahedron; VOX_NULL_BODY if none is hit, then all fields are zero */
     uint32_t tet;
     double t; /* 0 if `from` is in the tetrahedron */
-    /* The first facet of a surface (see vox_surface_hit). VOX_NULL_MESH if there is none, e.g. for a segment that ends
+    /* The first facet of a surface (see vox_surface_hit). VOX_NULL_BODY if there is none, e.g. for a segment that ends
      * before it leaves a mesh. A segment in the plane of a facet does not hit it. */
-    vox_mesh surface_mesh;
+    vox_body surface_mesh;
     uint32_t surface_tet;
     uint32_t surface_facet;
     vox_side surface_side;
@@ -1401,7 +1401,7 @@ VOX_API vox_result vox_grid_query_ray(const vox_grid* grid, const double from[3]
 
 /* A facet of a surface that a segment hits; see vox_surface_hit and vox_ray_hit. */
 typedef struct vox_facet_hit {
-    vox_mesh mesh;
+    vox_body mesh;
     uint32_t tet;
     uint32_t facet;
     vox_side side;
@@ -1413,13 +1413,13 @@ typedef struct vox_facet_hit {
  * by the rule of vox_ray_hit; t, and thus the order, only up to rounding. A segment through an edge or a corner hits
  * every facet there. */
 VOX_API vox_result vox_grid_query_ray_hits(const vox_grid* grid, const double from[3], const double to[3],
-                                           uint64_t mask, vox_mesh excluded, vox_facet_hit* hits, uint64_t capacity,
+                                           uint64_t mask, vox_body excluded, vox_facet_hit* hits, uint64_t capacity,
                                            uint64_t* out_count);
 
 /* 1 if the closed segment hits any tetrahedron that has a volume, else 0; exact. Stops at the first one it finds, so it
  * is faster than vox_grid_query_ray. */
 VOX_API vox_result vox_grid_query_ray_any(const vox_grid* grid, const double from[3], const double to[3], uint64_t mask,
-                                          vox_mesh excluded, uint32_t* out_any);
+                                          vox_body excluded, uint32_t* out_any);
 
 /* ---- query views ------------------------------------------------------------------------------ */
 
@@ -1459,7 +1459,7 @@ VOX_API void vox_query_view_release(VOX_OPTIONAL vox_query_view* view);
 VOX_API vox_result vox_query_view_epoch(const vox_query_view* view, uint64_t* out_epoch);
 
 /* The user_data that a mesh of the view was inserted with. Errors: INVALID_HANDLE if the mesh is not in the view. */
-VOX_API vox_result vox_query_view_user_data(const vox_query_view* view, vox_mesh mesh, uint64_t* out_user_data);
+VOX_API vox_result vox_query_view_user_data(const vox_query_view* view, vox_body body, uint64_t* out_user_data);
 
 /* As vox_grid_query_point. */
 VOX_API vox_result vox_query_view_point(const vox_query_view* view, const double point[3], uint64_t mask,
@@ -1488,12 +1488,12 @@ VOX_API vox_result vox_query_view_ray(const vox_query_view* view, const double f
 
 /* As vox_grid_query_ray_hits. */
 VOX_API vox_result vox_query_view_ray_hits(const vox_query_view* view, const double from[3], const double to[3],
-                                           uint64_t mask, vox_mesh excluded, vox_facet_hit* hits, uint64_t capacity,
+                                           uint64_t mask, vox_body excluded, vox_facet_hit* hits, uint64_t capacity,
                                            uint64_t* out_count);
 
 /* As vox_grid_query_ray_any. */
 VOX_API vox_result vox_query_view_ray_any(const vox_query_view* view, const double from[3], const double to[3],
-                                          uint64_t mask, vox_mesh excluded, uint32_t* out_any);
+                                          uint64_t mask, vox_body excluded, uint32_t* out_any);
 
 /* ---- measurements ----------------------------------------------------------------------------- */
 
@@ -1520,16 +1520,16 @@ typedef struct vox_counters {
     uint64_t moved_meshes;       /* meshes that were not at rest (see vox_grid_step) */
     uint64_t carried_contacts;   /* part of `contacts` carried over from the step before, between meshes at rest */
     uint64_t penetrations;
-    uint64_t leaving_edges;      /* edges from a colliding vertex to one outside mesh_b */
+    uint64_t leaving_edges;      /* edges from a colliding vertex to one outside body_b */
     uint64_t edge_tests;         /* tetrahedra visited along those edges */
     uint64_t closest_searches;   /* penetrations that needed the closest point of the surface */
     uint64_t closest_tests;      /* triangles whose closest point was computed for that */
-    uint64_t disabled_meshes;    /* not included in `meshes` (see vox_mesh_set_enabled) */
+    uint64_t disabled_meshes;    /* not included in `meshes` (see vox_body_set_enabled) */
     uint64_t filtered;           /* (vertex, tet) pairs of one mesh that self_rings or self_rest_distance ruled out */
     uint64_t cell_size_changes;  /* how often the reference engine chose another cell size (see vox_grid_desc) */
     uint64_t unknown_penetrations; /* part of `penetrations` for which closest_budget left no search */
     uint64_t carried_penetrations; /* part of `penetrations` carried over with their contacts */
-    uint64_t skipped_meshes;     /* left out for a coordinate (VOX_GRID_SKIP_BAD_MESHES); not included in `meshes` */
+    uint64_t skipped_meshes;     /* left out for a coordinate (VOX_GRID_SKIP_BAD_BODIES); not included in `meshes` */
     uint64_t meshes_without_tets; /* part of `meshes`: their vertices collide, their edges and faces do not */
     /* Events of all steps since the grid was created or loaded: sums of `began` and `ended` of the views that each step
      * gave (vox_grid_touch_events, vox_grid_contact_events). A reader that has added up less has lost events. */
@@ -1546,7 +1546,7 @@ typedef struct vox_counters {
 } vox_counters;
 
 /* Writes the fields that out_counters->struct_size covers (set it first). */
-VOX_API vox_result vox_grid_counters(const vox_grid* grid, vox_counters* out_counters);
+VOX_API vox_result vox_grid_get_counters(const vox_grid* grid, vox_counters* out_counters);
 
 /* Nanoseconds of the last successful step, in total and by stage. stream_ns to decide_ns are the stages of the fast
  * engine, and bin_ns, broad_ns and narrow_ns are sums of them. The reference engine has just those three stages, and

@@ -334,8 +334,8 @@ struct watch {
     const vox_grid* grid;                                // null once it was destroyed, or let go by a borrow()
     bool destroyed = false;
     std::uint64_t prepared = 0;                          // readings, so many times
-    std::unordered_map<vox_mesh, std::uint64_t> rebound; // mapped positions of a mesh ended, so many times
-    std::uint64_t rebound_of(vox_mesh mesh) const noexcept {
+    std::unordered_map<vox_body, std::uint64_t> rebound; // mapped positions of a mesh ended, so many times
+    std::uint64_t rebound_of(vox_body mesh) const noexcept {
         const auto found = rebound.find(mesh);
         return found == rebound.end() ? 0 : found->second;
     }
@@ -353,7 +353,7 @@ class guard {
 public:
     guard() = default;
 #if VOX_HPP_CHECKED
-    guard(const watched& watch, std::uint64_t epoch, lasts until, vox_mesh mesh = VOX_NULL_MESH)
+    guard(const watched& watch, std::uint64_t epoch, lasts until, vox_body mesh = VOX_NULL_BODY)
         : watch_(watch), until_(until), mesh_(mesh), epoch_(epoch) {
         if (watch && until == lasts::readings) mark_ = watch->prepared;
         if (watch && until == lasts::mapping) mark_ = watch->rebound_of(mesh);
@@ -365,7 +365,7 @@ public:
         if (!watch_->grid) {
             std::snprintf(text, sizeof text, "a view is read whose grid was destroyed");
         } else if (until_ == lasts::mapping) {
-            if (watch_->rebound_of(mesh_) == mark_ && vox_mesh_is_valid(watch_->grid, mesh_) == 1) return false;
+            if (watch_->rebound_of(mesh_) == mark_ && vox_body_is_valid(watch_->grid, mesh_) == 1) return false;
             std::snprintf(text, sizeof text,
                           "mapped positions of mesh %u are used that a removal or new positions ended",
                           static_cast<unsigned>(mesh_));
@@ -403,11 +403,11 @@ public:
 private:
     watched watch_;
     lasts until_ = lasts::step;
-    vox_mesh mesh_ = VOX_NULL_MESH;
+    vox_body mesh_ = VOX_NULL_BODY;
     std::uint64_t epoch_ = 0;
     std::uint64_t mark_ = 0;
 #else
-    guard(const watched&, std::uint64_t, lasts, vox_mesh = VOX_NULL_MESH) noexcept {}
+    guard(const watched&, std::uint64_t, lasts, vox_body = VOX_NULL_BODY) noexcept {}
     void check() const noexcept {}
     static void check(std::size_t, std::size_t) noexcept {}
 #endif
@@ -980,14 +980,14 @@ public:
     // One hit a point.
     returns<std::vector<vox_closest_hit>>
     query_closest_points(const points& p, double max_distance = std::numeric_limits<double>::infinity(),
-                         std::uint64_t mask = all_meshes, vox_mesh excluded = VOX_NULL_MESH) const {
+                         std::uint64_t mask = all_meshes, vox_body excluded = VOX_NULL_BODY) const {
         std::vector<vox_closest_hit> hits(static_cast<std::size_t>(p.count));
         const vox_result result = ask(p, hits.data(), max_distance, mask, excluded);
         return give(result, std::move(hits));
     }
     returns<void> query_closest_points(const points& p, span<vox_closest_hit> out,
                                        double max_distance = std::numeric_limits<double>::infinity(),
-                                       std::uint64_t mask = all_meshes, vox_mesh excluded = VOX_NULL_MESH) const {
+                                       std::uint64_t mask = all_meshes, vox_body excluded = VOX_NULL_BODY) const {
         if (out.size() < p.count)
             return give(fail(VOX_ERROR_INVALID_ARGUMENT, "query_closest_points: room for %llu hits, for %llu points",
                              out.size(), p.count));
@@ -998,16 +998,16 @@ public:
     }
     returns<std::vector<vox_facet_hit>> query_ray_hits(const point& from, const point& to,
                                                        std::uint64_t mask = all_meshes,
-                                                       vox_mesh excluded = VOX_NULL_MESH) const {
+                                                       vox_body excluded = VOX_NULL_BODY) const {
         return collect<vox_facet_hit>(16, Api::ray_hits(), self(), from.data(), to.data(), mask, excluded);
     }
     returns<std::uint64_t> query_ray_hits(const point& from, const point& to, span<vox_facet_hit> out,
-                                          std::uint64_t mask = all_meshes, vox_mesh excluded = VOX_NULL_MESH) const {
+                                          std::uint64_t mask = all_meshes, vox_body excluded = VOX_NULL_BODY) const {
         return filled<std::uint64_t>(Api::ray_hits(), self(), from.data(), to.data(), mask, excluded, out.data(),
                                      out.size());
     }
     returns<bool> query_ray_any(const point& from, const point& to, std::uint64_t mask = all_meshes,
-                                vox_mesh excluded = VOX_NULL_MESH) const {
+                                vox_body excluded = VOX_NULL_BODY) const {
         std::uint32_t any = 0;
         const vox_result result = Api::ray_any()(self(), from.data(), to.data(), mask, excluded, &any);
         return give(result, any == 1);
@@ -1026,7 +1026,7 @@ private:
         return Api::points()(self(), p.data, p.format, p.byte_stride, p.count, mask, hits, room, count);
     }
     vox_result ask(const points& p, vox_closest_hit* hits, double max_distance, std::uint64_t mask,
-                   vox_mesh excluded) const {
+                   vox_body excluded) const {
         const vox_result result = p.misfit.result();
         if (result != VOX_OK) return result;
         vox_closest_desc desc = vox_default_closest_desc();
@@ -1060,7 +1060,7 @@ public:
     // vox_query_view_epoch
     returns<std::uint64_t> epoch() const { return detail::filled<std::uint64_t>(vox_query_view_epoch, view_); }
     // vox_query_view_user_data
-    returns<std::uint64_t> user_data(vox_mesh mesh) const {
+    returns<std::uint64_t> user_data(vox_body mesh) const {
         return detail::filled<std::uint64_t>(vox_query_view_user_data, view_, mesh);
     }
 
@@ -1157,48 +1157,48 @@ public:
     // -- meshes
 
     // vox_mesh_insert. The positions are borrowed, the tetrahedra copied; describe() is for all else a mesh can have.
-    returns<vox_mesh> insert(const borrowed_points& positions, const tets& tets = {}, std::uint64_t user_data = 0) {
+    returns<vox_body> insert(const borrowed_points& positions, const tets& tets = {}, std::uint64_t user_data = 0) {
         return insert_with(0, positions, tets, user_data);
     }
     // The same with VOX_MESH_COPY_POSITIONS.
-    returns<vox_mesh> insert_copy(const points& positions, const tets& tets = {}, std::uint64_t user_data = 0) {
+    returns<vox_body> insert_copy(const points& positions, const tets& tets = {}, std::uint64_t user_data = 0) {
         return insert_with(VOX_MESH_COPY_POSITIONS, positions, tets, user_data);
     }
     // vox_mesh_insert
-    returns<vox_mesh> insert(const vox_mesh_desc& desc) {
-        return detail::filled<vox_mesh>(vox_mesh_insert, get(), &desc);
+    returns<vox_body> insert(const vox_mesh_desc& desc) {
+        return detail::filled<vox_body>(vox_mesh_insert, get(), &desc);
     }
-    // vox_mesh_remove
-    returns<void> remove(vox_mesh mesh) {
-        return detail::give(noted(vox_mesh_remove(get(), mesh), [&](auto& watch) { watch.rebound.erase(mesh); }));
+    // vox_body_remove
+    returns<void> remove(vox_body mesh) {
+        return detail::give(noted(vox_body_remove(get(), mesh), [&](auto& watch) { watch.rebound.erase(mesh); }));
     }
-    // vox_mesh_is_valid
-    bool contains(vox_mesh mesh) const noexcept { return vox_mesh_is_valid(get(), mesh) == 1; }
-    // vox_grid_meshes
-    returns<std::vector<vox_mesh>> meshes() const { return detail::collect<vox_mesh>(16, vox_grid_meshes, get()); }
-    // vox_mesh_get_info
-    returns<vox_mesh_info> info(vox_mesh mesh) const {
-        return detail::filled<vox_mesh_info>(vox_mesh_get_info, get(), mesh);
+    // vox_body_is_valid
+    bool contains(vox_body mesh) const noexcept { return vox_body_is_valid(get(), mesh) == 1; }
+    // vox_grid_get_bodies
+    returns<std::vector<vox_body>> meshes() const { return detail::collect<vox_body>(16, vox_grid_get_bodies, get()); }
+    // vox_body_get_info
+    returns<vox_body_info> info(vox_body mesh) const {
+        return detail::filled<vox_body_info>(vox_body_get_info, get(), mesh);
     }
-    // vox_mesh_user_data
-    returns<std::uint64_t> user_data(vox_mesh mesh) const {
-        return detail::filled<std::uint64_t>(vox_mesh_user_data, get(), mesh);
+    // vox_body_get_user_data
+    returns<std::uint64_t> user_data(vox_body mesh) const {
+        return detail::filled<std::uint64_t>(vox_body_get_user_data, get(), mesh);
     }
-    // vox_mesh_copy_tets: corners, and whether each is enabled.
-    returns<std::vector<std::array<std::uint32_t, 4>>> tets_of(vox_mesh mesh) const {
+    // vox_mesh_get_tets: corners, and whether each is enabled.
+    returns<std::vector<std::array<std::uint32_t, 4>>> tets_of(vox_body mesh) const {
         using corners = std::array<std::uint32_t, 4>;
         return detail::collect<corners>(0, [&](corners* out, std::uint64_t room, std::uint64_t* count) {
-            return vox_mesh_copy_tets(get(), mesh, reinterpret_cast<std::uint32_t*>(out), nullptr, room, count);
+            return vox_mesh_get_tets(get(), mesh, reinterpret_cast<std::uint32_t*>(out), nullptr, room, count);
         });
     }
-    returns<std::vector<std::uint8_t>> tets_enabled(vox_mesh mesh) const {
-        return detail::collect<std::uint8_t>(0, vox_mesh_copy_tets, get(), mesh, nullptr);
+    returns<std::vector<std::uint8_t>> tets_enabled(vox_body mesh) const {
+        return detail::collect<std::uint8_t>(0, vox_mesh_get_tets, get(), mesh, nullptr);
     }
     // vox_mesh_bind_strided_positions. Fails unless there are as many as the mesh has vertices.
-    returns<void> bind(vox_mesh mesh, const borrowed_points& positions) {
-        vox_mesh_info info = detail::sized<vox_mesh_info>();
+    returns<void> bind(vox_body mesh, const borrowed_points& positions) {
+        vox_body_info info = detail::sized<vox_body_info>();
         vox_result result = positions.misfit.result();
-        if (result == VOX_OK) result = vox_mesh_get_info(get(), mesh, &info);
+        if (result == VOX_OK) result = vox_body_get_info(get(), mesh, &info);
         if (result == VOX_OK && info.vertex_count != positions.count)
             result =
                 detail::fail(VOX_ERROR_INVALID_ARGUMENT, "bind: %llu positions for mesh %llu, which has %llu vertices",
@@ -1209,10 +1209,10 @@ public:
         return detail::give(rebound(mesh, result));
     }
     // vox_mesh_bind_previous_positions. Fails unless there are as many as the mesh has vertices.
-    returns<void> bind_previous(vox_mesh mesh, const borrowed_points& positions) {
-        vox_mesh_info info = detail::sized<vox_mesh_info>();
+    returns<void> bind_previous(vox_body mesh, const borrowed_points& positions) {
+        vox_body_info info = detail::sized<vox_body_info>();
         vox_result result = positions.misfit.result();
-        if (result == VOX_OK) result = vox_mesh_get_info(get(), mesh, &info);
+        if (result == VOX_OK) result = vox_body_get_info(get(), mesh, &info);
         if (result == VOX_OK && info.vertex_count != positions.count)
             result = detail::fail(VOX_ERROR_INVALID_ARGUMENT,
                                   "bind_previous: %llu positions for mesh %llu, which has %llu vertices",
@@ -1223,16 +1223,16 @@ public:
         return detail::give(result);
     }
     // The mesh stands still from now on.
-    returns<void> end_previous(vox_mesh mesh) {
+    returns<void> end_previous(vox_body mesh) {
         return detail::give(vox_mesh_bind_previous_positions(get(), mesh, nullptr, VOX_FORMAT_FLOAT3, 0, 0));
     }
     // vox_mesh_map_positions: float or double, as the mesh has them. The view ends with them.
     template <class T>
-    returns<view<std::array<T, 3>>> map_positions(vox_mesh mesh) & {
-        vox_mesh_info info = detail::sized<vox_mesh_info>();
+    returns<view<std::array<T, 3>>> map_positions(vox_body mesh) & {
+        vox_body_info info = detail::sized<vox_body_info>();
         void* at = nullptr;
         std::uint64_t stride = 0;
-        vox_result result = vox_mesh_get_info(get(), mesh, &info);
+        vox_result result = vox_body_get_info(get(), mesh, &info);
         if (result == VOX_OK) result = same_format<T>(mesh, info);
         if (result == VOX_OK) result = vox_mesh_map_positions(get(), mesh, &at, &stride);
         if (at != info.positions) (void)rebound(mesh, result);
@@ -1242,12 +1242,12 @@ public:
                                                    watching(0, detail::lasts::mapping, mesh)));
     }
     template <class T>
-    returns<view<std::array<T, 3>>> map_positions(vox_mesh mesh) && = delete;
-    // vox_mesh_info.positions, to read; UNSUPPORTED for columns.
+    returns<view<std::array<T, 3>>> map_positions(vox_body mesh) && = delete;
+    // vox_body_info.positions, to read; UNSUPPORTED for columns.
     template <class T>
-    returns<view<const std::array<T, 3>>> positions(vox_mesh mesh) const& {
-        vox_mesh_info info = detail::sized<vox_mesh_info>();
-        vox_result result = vox_mesh_get_info(get(), mesh, &info);
+    returns<view<const std::array<T, 3>>> positions(vox_body mesh) const& {
+        vox_body_info info = detail::sized<vox_body_info>();
+        vox_result result = vox_body_get_info(get(), mesh, &info);
         if (result == VOX_OK) result = same_format<T>(mesh, info);
         if (result == VOX_OK && info.positions && info.position_component_byte_stride != sizeof(T))
             result = detail::fail(VOX_ERROR_UNSUPPORTED, "positions of mesh %llu: their numbers are %llu bytes apart",
@@ -1259,56 +1259,56 @@ public:
                                                  0, watching(0, detail::lasts::mapping, mesh)));
     }
     template <class T>
-    returns<view<const std::array<T, 3>>> positions(vox_mesh mesh) const&& = delete;
-    // vox_mesh_mark_moved
-    returns<void> mark_moved(vox_mesh mesh) { return detail::give(vox_mesh_mark_moved(get(), mesh)); }
-    // vox_mesh_set_filter
-    returns<void> set_filter(vox_mesh mesh, const vox_filter& filter) {
-        return detail::give(vox_mesh_set_filter(get(), mesh, &filter));
+    returns<view<const std::array<T, 3>>> positions(vox_body mesh) const&& = delete;
+    // vox_body_mark_moved
+    returns<void> mark_moved(vox_body mesh) { return detail::give(vox_body_mark_moved(get(), mesh)); }
+    // vox_body_set_filter
+    returns<void> set_filter(vox_body mesh, const vox_filter& filter) {
+        return detail::give(vox_body_set_filter(get(), mesh, &filter));
     }
     // vox_mesh_filter
-    returns<vox_filter> filter(vox_mesh mesh) const { return detail::filled<vox_filter>(vox_mesh_filter, get(), mesh); }
-    // vox_mesh_set_enabled
-    returns<void> set_enabled(vox_mesh mesh, bool enabled) {
-        return detail::give(vox_mesh_set_enabled(get(), mesh, enabled));
+    returns<vox_filter> filter(vox_body mesh) const { return detail::filled<vox_filter>(vox_mesh_filter, get(), mesh); }
+    // vox_body_set_enabled
+    returns<void> set_enabled(vox_body mesh, bool enabled) {
+        return detail::give(vox_body_set_enabled(get(), mesh, enabled));
     }
     // vox_grid_set_pair_enabled
-    returns<void> set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled) {
+    returns<void> set_pair_enabled(vox_body a, vox_body b, bool enabled) {
         return detail::give(vox_grid_set_pair_enabled(get(), a, b, enabled));
     }
-    // vox_mesh_set_transform: twelve numbers row by row, or a matrix of at least 3 x 4 that is read as m(row, column).
-    returns<void> set_transform(vox_mesh mesh, const double (&rows)[12]) {
-        return detail::give(vox_mesh_set_transform(get(), mesh, rows));
+    // vox_body_set_transform: twelve numbers row by row, or a matrix of at least 3 x 4 that is read as m(row, column).
+    returns<void> set_transform(vox_body mesh, const double (&rows)[12]) {
+        return detail::give(vox_body_set_transform(get(), mesh, rows));
     }
-    returns<void> set_transform(vox_mesh mesh, const std::array<double, 12>& rows) {
-        return detail::give(vox_mesh_set_transform(get(), mesh, rows.data()));
+    returns<void> set_transform(vox_body mesh, const std::array<double, 12>& rows) {
+        return detail::give(vox_body_set_transform(get(), mesh, rows.data()));
     }
     template <class M, class = decltype(static_cast<double>(std::declval<const M&>()(0, 0)))>
-    returns<void> set_transform(vox_mesh mesh, const M& matrix) {
+    returns<void> set_transform(vox_body mesh, const M& matrix) {
         double rows[12];
         for (int i = 0; i < 12; ++i) rows[i] = static_cast<double>(matrix(i / 4, i % 4));
         return set_transform(mesh, rows);
     }
-    returns<void> clear_transform(vox_mesh mesh) { return detail::give(vox_mesh_set_transform(get(), mesh, nullptr)); }
+    returns<void> clear_transform(vox_body mesh) { return detail::give(vox_body_set_transform(get(), mesh, nullptr)); }
 
     // -- cutting and growing
 
     // vox_mesh_set_topology
-    returns<void> set_topology(vox_mesh mesh, const vox_mesh_desc& desc) {
+    returns<void> set_topology(vox_body mesh, const vox_mesh_desc& desc) {
         return detail::give(rebound(mesh, vox_mesh_set_topology(get(), mesh, &desc)));
     }
-    returns<void> set_topology(vox_mesh mesh, const borrowed_points& positions, const tets& tets) {
+    returns<void> set_topology(vox_body mesh, const borrowed_points& positions, const tets& tets) {
         vox_mesh_desc desc;
         vox_result result = detail::describe(positions, tets, desc);
         if (result == VOX_OK) result = rebound(mesh, vox_mesh_set_topology(get(), mesh, &desc));
         return detail::give(result);
     }
     // vox_mesh_set_tets_enabled
-    returns<void> set_tets_enabled(vox_mesh mesh, span<const std::uint32_t> indices, bool enabled) {
+    returns<void> set_tets_enabled(vox_body mesh, span<const std::uint32_t> indices, bool enabled) {
         return detail::give(vox_mesh_set_tets_enabled(get(), mesh, indices.data(), indices.size(), enabled));
     }
     // vox_mesh_replace_tets
-    returns<void> replace_tets(vox_mesh mesh, span<const std::uint32_t> indices, const tets& corners) {
+    returns<void> replace_tets(vox_body mesh, span<const std::uint32_t> indices, const tets& corners) {
         vox_result result = corners.misfit.result();
         if (result == VOX_OK && corners.count != indices.size())
             result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "replace_tets: %llu tets to replace, by %llu",
@@ -1317,29 +1317,29 @@ public:
         return detail::give(result);
     }
     // vox_mesh_append_tets
-    returns<std::uint32_t> append_tets(vox_mesh mesh, const tets& corners) {
+    returns<std::uint32_t> append_tets(vox_body mesh, const tets& corners) {
         std::uint32_t first = 0;
         vox_result result = corners.misfit.result();
         if (result == VOX_OK) result = vox_mesh_append_tets(get(), mesh, corners.data, corners.count, &first);
         return detail::give(result, first);
     }
     // vox_mesh_remove_tets
-    returns<void> remove_tets(vox_mesh mesh, span<const std::uint32_t> indices) {
+    returns<void> remove_tets(vox_body mesh, span<const std::uint32_t> indices) {
         return detail::give(vox_mesh_remove_tets(get(), mesh, indices.data(), indices.size()));
     }
     // vox_mesh_append_vertices
-    returns<std::uint32_t> append_vertices(vox_mesh mesh, const vox_vertices_desc& desc) {
+    returns<std::uint32_t> append_vertices(vox_body mesh, const vox_vertices_desc& desc) {
         std::uint32_t first = 0;
         const vox_result result = rebound(mesh, vox_mesh_append_vertices(get(), mesh, &desc, &first));
         return detail::give(result, first);
     }
     // The same for `count` vertices. Fails unless the positions are those of all vertices (a mesh that borrows them) or
     // of the new ones (a mesh with positions of its own), in the format that the mesh has.
-    returns<std::uint32_t> append_vertices(vox_mesh mesh, std::uint64_t count, const borrowed_points& positions,
+    returns<std::uint32_t> append_vertices(vox_body mesh, std::uint64_t count, const borrowed_points& positions,
                                            span<const std::uint32_t> copies_of = {}) {
-        vox_mesh_info info = detail::sized<vox_mesh_info>();
+        vox_body_info info = detail::sized<vox_body_info>();
         vox_result result = positions.misfit.result();
-        if (result == VOX_OK) result = vox_mesh_get_info(get(), mesh, &info);
+        if (result == VOX_OK) result = vox_body_get_info(get(), mesh, &info);
         const std::uint64_t wanted = count + ((info.flags & VOX_MESH_COPY_POSITIONS) != 0 ? 0 : info.vertex_count);
         if (result == VOX_OK && (positions.count != wanted || positions.format != info.position_format))
             result = detail::fail(VOX_ERROR_INVALID_ARGUMENT,
@@ -1358,7 +1358,7 @@ public:
         return append_vertices(mesh, desc);
     }
     // vox_mesh_remove_vertices
-    returns<void> remove_vertices(vox_mesh mesh, span<const std::uint32_t> vertices) {
+    returns<void> remove_vertices(vox_body mesh, span<const std::uint32_t> vertices) {
         return detail::give(vox_mesh_remove_vertices(get(), mesh, vertices.data(), vertices.size()));
     }
 
@@ -1366,12 +1366,12 @@ public:
 
     // vox_grid_step
     returns<void> step() { return done(vox_grid_step(get())); }
-    // vox_grid_failure
+    // vox_grid_get_failure
     returns<vox_failure> failure(std::uint32_t index = 0) const {
-        return detail::filled<vox_failure>(vox_grid_failure, get(), index);
+        return detail::filled<vox_failure>(vox_grid_get_failure, get(), index);
     }
-    // vox_grid_contacts
-    returns<view<const vox_contact>> contacts() const& { return read(vox_grid_contacts); }
+    // vox_grid_get_contacts
+    returns<view<const vox_contact>> contacts() const& { return read(vox_grid_get_contacts); }
     // vox_grid_contact_interiors
     returns<view<const std::uint8_t>> interiors() const& { return read(vox_grid_contact_interiors); }
     // vox_grid_penetrations
@@ -1390,10 +1390,10 @@ public:
     returns<view<const vox_margin_contact>> margin_contacts() const& { return read(vox_grid_margin_contacts); }
     // vox_grid_passages
     returns<view<const vox_passage>> passages() const& { return read(vox_grid_passages); }
-    // vox_grid_pairs
+    // vox_grid_get_pairs
     returns<pair_view> pairs() const& {
         vox_pair_view view{};
-        const vox_result result = vox_grid_pairs(get(), &view);
+        const vox_result result = vox_grid_get_pairs(get(), &view);
         return detail::give(result, pair_view(viewed(view), view.contacts));
     }
     // vox_grid_touch_events
@@ -1431,13 +1431,13 @@ public:
 
     // vox_grid_epoch
     returns<std::uint64_t> epoch() const { return detail::filled<std::uint64_t>(vox_grid_epoch, get()); }
-    // vox_grid_hash
-    returns<std::uint64_t> hash() const { return detail::filled<std::uint64_t>(vox_grid_hash, get()); }
+    // vox_grid_get_hash
+    returns<std::uint64_t> hash() const { return detail::filled<std::uint64_t>(vox_grid_get_hash, get()); }
     // vox_mesh_copy_contacts, vox_pair_copy_contacts
-    returns<std::vector<vox_contact>> contacts_of(vox_mesh mesh) const {
+    returns<std::vector<vox_contact>> contacts_of(vox_body mesh) const {
         return detail::collect<vox_contact>(16, vox_mesh_copy_contacts, get(), mesh);
     }
-    returns<std::vector<vox_contact>> contacts_of(vox_mesh a, vox_mesh b) const {
+    returns<std::vector<vox_contact>> contacts_of(vox_body a, vox_body b) const {
         return detail::collect<vox_contact>(16, vox_pair_copy_contacts, get(), a, b);
     }
     // vox_grid_prepare_readings, vox_grid_prepare_readings_of
@@ -1446,10 +1446,10 @@ public:
         return prepared(vox_grid_prepare_readings_of(get(), &desc));
     }
     // vox_mesh_copy_readings, vox_pair_copy_readings
-    returns<std::vector<vox_reading>> readings_of(vox_mesh mesh) const {
+    returns<std::vector<vox_reading>> readings_of(vox_body mesh) const {
         return detail::collect<vox_reading>(16, vox_mesh_copy_readings, get(), mesh);
     }
-    returns<std::vector<vox_reading>> readings_of(vox_mesh a, vox_mesh b) const {
+    returns<std::vector<vox_reading>> readings_of(vox_body a, vox_body b) const {
         return detail::collect<vox_reading>(16, vox_pair_copy_readings, get(), a, b);
     }
     // vox_grid_save
@@ -1470,8 +1470,8 @@ public:
         rethrow();
         return detail::give(result, std::move(taken));
     }
-    // vox_grid_counters
-    returns<vox_counters> counters() const { return detail::filled<vox_counters>(vox_grid_counters, get()); }
+    // vox_grid_get_counters
+    returns<vox_counters> counters() const { return detail::filled<vox_counters>(vox_grid_get_counters, get()); }
     // vox_grid_profile
     returns<vox_profile> profile() const { return detail::filled<vox_profile>(vox_grid_profile, get()); }
     // vox_grid_suggest_cell_size, with desc null or given
@@ -1501,7 +1501,7 @@ private:
 #endif
         return detail::give(result, std::move(made));
     }
-    detail::guard watching(std::uint64_t epoch, detail::lasts until, vox_mesh mesh = VOX_NULL_MESH) const {
+    detail::guard watching(std::uint64_t epoch, detail::lasts until, vox_body mesh = VOX_NULL_BODY) const {
         return detail::guard(grid_.get_deleter().watching, epoch, until, mesh);
     }
     template <class V>
@@ -1536,37 +1536,37 @@ private:
     returns<void> prepared(vox_result result) {
         return done(noted(result, [](auto& watch) { ++watch.prepared; }));
     }
-    vox_result rebound(vox_mesh mesh, vox_result result) {
+    vox_result rebound(vox_body mesh, vox_result result) {
         return noted(result, [&](auto& watch) { ++watch.rebound[mesh]; });
     }
     template <class T>
-    static vox_result same_format(vox_mesh mesh, const vox_mesh_info& info) {
+    static vox_result same_format(vox_body mesh, const vox_body_info& info) {
         static_assert(std::is_same_v<T, float> || std::is_same_v<T, double>);
         if (info.position_format == (std::is_same_v<T, double> ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3)) return VOX_OK;
         return detail::fail(VOX_ERROR_INVALID_ARGUMENT,
                             "positions of mesh %llu are of format %llu, not numbers of %llu bytes", mesh,
                             info.position_format, sizeof(T));
     }
-    returns<vox_mesh> insert_with(std::uint32_t flags, const points& positions, const tets& tets,
+    returns<vox_body> insert_with(std::uint32_t flags, const points& positions, const tets& tets,
                                   std::uint64_t user_data) {
         vox_mesh_desc desc;
         const vox_result result = detail::describe(positions, tets, desc);
         desc.flags = flags;
         desc.user_data = user_data;
-        if (result != VOX_OK) return detail::give(result, vox_mesh{VOX_NULL_MESH});
+        if (result != VOX_OK) return detail::give(result, vox_body{VOX_NULL_BODY});
         return insert(desc);
     }
 
     std::unique_ptr<vox_grid, detail::grid_deleter> grid_;
 };
 
-// A mesh that its owner removes (vox_mesh_remove), e.g. before the positions that it borrows. The grid must outlive it.
+// A mesh that its owner removes (vox_body_remove), e.g. before the positions that it borrows. The grid must outlive it.
 class unique_mesh {
 public:
     unique_mesh() noexcept = default;
-    unique_mesh(grid& grid, vox_mesh mesh)
+    unique_mesh(grid& grid, vox_body mesh)
         : grid_(grid.get()), mesh_(mesh), watching_(grid.grid_.get_deleter().watching) {}
-    unique_mesh(grid&& grid, vox_mesh mesh) = delete;
+    unique_mesh(grid&& grid, vox_body mesh) = delete;
     unique_mesh(unique_mesh&& other) noexcept
         : grid_(other.grid_), mesh_(other.release()), watching_(std::move(other.watching_)) {}
     unique_mesh& operator=(unique_mesh&& other) noexcept {
@@ -1578,21 +1578,21 @@ public:
         return *this;
     }
     ~unique_mesh() { reset(); }
-    vox_mesh get() const noexcept { return mesh_; }
-    vox_mesh release() noexcept { return std::exchange(mesh_, vox_mesh{VOX_NULL_MESH}); } // stays in the grid
+    vox_body get() const noexcept { return mesh_; }
+    vox_body release() noexcept { return std::exchange(mesh_, vox_body{VOX_NULL_BODY}); } // stays in the grid
     void reset() noexcept {
-        const vox_mesh mesh = release();
-        if (mesh == VOX_NULL_MESH) return;
+        const vox_body mesh = release();
+        if (mesh == VOX_NULL_BODY) return;
 #if VOX_HPP_CHECKED
         if (!watching_ || watching_->destroyed) return; // with its grid
         watching_->rebound.erase(mesh);
 #endif
-        (void)vox_mesh_remove(grid_, mesh); // may be gone already
+        (void)vox_body_remove(grid_, mesh); // may be gone already
     }
 
 private:
     vox_grid* grid_ = nullptr;
-    vox_mesh mesh_ = VOX_NULL_MESH;
+    vox_body mesh_ = VOX_NULL_BODY;
     detail::watched watching_{};
 };
 

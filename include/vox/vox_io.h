@@ -100,15 +100,15 @@ typedef struct vox_io_mesh_view {
 } vox_io_mesh_view;
 
 /* The mesh's arrays. */
-VOX_API vox_result vox_io_mesh_get(const vox_io_mesh* mesh, vox_io_mesh_view* out_view);
+VOX_API vox_result vox_io_mesh_get_arrays(const vox_io_mesh* mesh, vox_io_mesh_view* out_view);
 
 /* Describes the mesh for vox_mesh_insert and vox_suggest_cell_size: sets positions, their format (doubles) and strides,
  * vertex_count, tets and tet_count, and leaves all other fields of `desc` as they are. Fill it with
  * vox_default_mesh_desc() first. Positions are borrowed: keep the mesh as long as they are bound, or set
  * VOX_MESH_COPY_POSITIONS. As they never change, a body that moves gets others: vox_mesh_map_positions,
- * vox_mesh_bind_positions or vox_mesh_set_transform. Triangles are not described. docs/files.md has a whole program.
+ * vox_mesh_bind_positions or vox_body_set_transform. Triangles are not described. docs/files.md has a whole program.
  * Errors: INVALID_ARGUMENT (null, or a struct_size that does not reach to position_format). */
-VOX_API vox_result vox_io_mesh_desc(const vox_io_mesh* mesh, vox_mesh_desc* desc);
+VOX_API vox_result vox_io_mesh_describe(const vox_io_mesh* mesh, vox_mesh_desc* desc);
 
 /* Makes a mesh from arrays (copied) on the C++ runtime's heap. Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE,
  * LIMIT (more than VOX_MAX_VERTICES or VOX_MAX_TETS), OUT_OF_MEMORY. */
@@ -145,11 +145,11 @@ typedef struct vox_io_report {
 } vox_io_report;
 
 /* Writes the fields that out_report->struct_size covers (set it first). */
-VOX_API vox_result vox_io_mesh_report(const vox_io_mesh* mesh, vox_io_report* out_report);
+VOX_API vox_result vox_io_mesh_get_report(const vox_io_mesh* mesh, vox_io_report* out_report);
 
 /* The problems in the report as text, one line each ("3 tets are inverted"); "" if there are none. Lives until
  * vox_io_mesh_destroy. Cannot fail; null for a null mesh. */
-VOX_API VOX_OPTIONAL VOX_UNTIL(io_mesh_destroy) const char* vox_io_mesh_warnings(VOX_OPTIONAL const vox_io_mesh* mesh);
+VOX_API VOX_OPTIONAL VOX_UNTIL(io_mesh_destroy) const char* vox_io_mesh_get_warnings(VOX_OPTIONAL const vox_io_mesh* mesh);
 
 /* Name of a format, e.g. "Gmsh .msh". Static text; never null. */
 VOX_API const char* vox_io_format_string(vox_io_format format);
@@ -170,7 +170,7 @@ typedef struct vox_io_tetrahedralize_desc {
     vox_io_solid_kind kind;
     double cell;       /* edge of a lattice cube, > 0; 0 (the default): a fiftieth of the surface's longest side */
     uint64_t max_tets; /* more tets fail with LIMIT; default 100000000 */
-    /* STUFFED: largest Hausdorff distance to the surface, as measured by vox_io_measure_quality. Cells at the boundary
+    /* STUFFED: largest Hausdorff distance to the surface, as measured by vox_io_mesh_measure. Cells at the boundary
      * are halved until the distance is met, while those inside keep the size `cell`; thin details may need many tets.
      * 0 (the default): cells are not halved, and no distance is guaranteed. */
     double max_distance;
@@ -222,7 +222,7 @@ typedef struct vox_io_quality {
 
 /* Measures `mesh` against the triangles of `surface`, which may be null. Writes the fields that
  * out_quality->struct_size covers (set it first). Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
-VOX_API vox_result vox_io_measure_quality(const vox_io_mesh* mesh, VOX_OPTIONAL const vox_io_mesh* surface,
+VOX_API vox_result vox_io_mesh_measure(const vox_io_mesh* mesh, VOX_OPTIONAL const vox_io_mesh* surface,
                                           vox_io_quality* out_quality);
 
 /* ---- writing ---------------------------------------------------------------------------------- */

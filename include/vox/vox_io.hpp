@@ -60,8 +60,8 @@ public:
     }
     const vox_io_mesh* get() const noexcept { return mesh_.get(); }
 
-    // vox_io_mesh_get. The spans live as long as the mesh.
-    returns<vox_io_mesh_view> view() const& { return detail::filled<vox_io_mesh_view>(vox_io_mesh_get, get()); }
+    // vox_io_mesh_get_arrays. The spans live as long as the mesh.
+    returns<vox_io_mesh_view> view() const& { return detail::filled<vox_io_mesh_view>(vox_io_mesh_get_arrays, get()); }
     void view() const&& = delete;
     // Three numbers a vertex, four corners a tetrahedron, three a triangle; empty for a null mesh.
     span<const double> positions() const& noexcept {
@@ -79,19 +79,19 @@ public:
     void positions() const&& = delete;
     void tets() const&& = delete;
     void triangles() const&& = delete;
-    // vox_io_mesh_desc over the defaults, for grid::insert: borrows the mesh.
+    // vox_io_mesh_describe over the defaults, for grid::insert: borrows the mesh.
     returns<vox_mesh_desc> desc() const& {
         vox_mesh_desc desc = vox_default_mesh_desc();
-        const vox_result result = vox_io_mesh_desc(get(), &desc);
+        const vox_result result = vox_io_mesh_describe(get(), &desc);
         return detail::give(result, desc);
     }
     void desc() const&& = delete;
-    // vox_io_mesh_report
-    returns<vox_io_report> report() const { return detail::filled<vox_io_report>(vox_io_mesh_report, get()); }
-    // vox_io_mesh_warnings
-    const char* warnings() const& noexcept { return vox_io_mesh_warnings(get()); }
+    // vox_io_mesh_get_report
+    returns<vox_io_report> report() const { return detail::filled<vox_io_report>(vox_io_mesh_get_report, get()); }
+    // vox_io_mesh_get_warnings
+    const char* warnings() const& noexcept { return vox_io_mesh_get_warnings(get()); }
     void warnings() const&& = delete;
-    // vox_io_measure_quality, beside a surface or by itself
+    // vox_io_mesh_measure, beside a surface or by itself
     returns<vox_io_quality> quality(const mesh& surface) const { return measured(surface.get()); }
     returns<vox_io_quality> quality() const { return measured(nullptr); }
     // vox_io_write
@@ -124,11 +124,11 @@ private:
     explicit mesh(vox_io_mesh* raw) noexcept : mesh_(raw) {}
     vox_io_mesh_view arrays() const noexcept {
         vox_io_mesh_view view{};
-        if (mesh_) (void)vox_io_mesh_get(get(), &view);
+        if (mesh_) (void)vox_io_mesh_get_arrays(get(), &view);
         return view;
     }
     returns<vox_io_quality> measured(const vox_io_mesh* surface) const {
-        return detail::filled<vox_io_quality>(vox_io_measure_quality, get(), surface);
+        return detail::filled<vox_io_quality>(vox_io_mesh_measure, get(), surface);
     }
     std::unique_ptr<vox_io_mesh, deleter> mesh_;
 };

@@ -52,7 +52,7 @@ typedef struct vox_surface_desc {
     uint64_t edge_count;
     uint64_t face_count;
     /* 2 * edge_count indices of vertices, copied. Null, with edge_count 0: the edges are those of the faces, each once,
-     * lower vertex first, ascending (vox_surface_features lists them). Not null, with edge_count 0: no edges. */
+     * lower vertex first, ascending (vox_surface_get_features lists them). Not null, with edge_count 0: no edges. */
     VOX_OPTIONAL VOX_ARRAY(2 * edge_count) const uint32_t* edges;
     VOX_OPTIONAL VOX_ARRAY(3 * face_count) const uint32_t* faces; /* 3 * face_count indices of vertices, copied */
     /* The patch of each vertex, below patch_count, copied; null: all vertices are in one patch. Two features make no pair
@@ -102,7 +102,7 @@ typedef struct vox_feature_view {
 
 /* The edges or faces of a surface, numbered as everywhere in this header. Set out_view->struct_size first. The view lives
  * as long as the surface. Errors: INVALID_ARGUMENT (also for VOX_FEATURE_VERTEX, whose numbers are those of the positions). */
-VOX_EXPERIMENTAL vox_result vox_surface_features(const vox_surface* surface, vox_feature feature,
+VOX_EXPERIMENTAL vox_result vox_surface_get_features(const vox_surface* surface, vox_feature feature,
                                                  vox_feature_view* out_view);
 
 /* ---- motion ----------------------------------------------------------------------------------- */
@@ -156,8 +156,8 @@ typedef struct vox_pair_lists {
     uint64_t first;
     uint64_t count;      /* features answered; where there is a byte budget they may be fewer than asked */
     uint64_t pair_count; /* offsets[count] */
-    VOX_ARRAY(count + 1) VOX_UNTIL(surface_pairs, surface_move) const uint64_t* offsets;
-    VOX_ARRAY(pair_count) VOX_UNTIL(surface_pairs, surface_move) const uint32_t* partners;
+    VOX_ARRAY(count + 1) VOX_UNTIL(surface_find_pairs, surface_move) const uint64_t* offsets;
+    VOX_ARRAY(pair_count) VOX_UNTIL(surface_find_pairs, surface_move) const uint32_t* partners;
 } vox_pair_lists;
 
 /* All features `b` whose boxes overlap those of the features [first, first + count) of kind `a`; boxes that touch
@@ -166,9 +166,9 @@ typedef struct vox_pair_lists {
  * beyond the last feature end there, and may not begin beyond it.
  * If not all of it fits into the byte budget, the features up to lists->first + lists->count are answered, at least one;
  * ask again from there. So any number of pairs can be had from any budget that holds the lists of one feature.
- * Set out_lists->struct_size first. The view lives until the next vox_surface_pairs or vox_surface_move, or the end of the
+ * Set out_lists->struct_size first. The view lives until the next vox_surface_find_pairs or vox_surface_move, or the end of the
  * surface. Errors: INVALID_ARGUMENT, INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
-VOX_EXPERIMENTAL vox_result vox_surface_pairs(vox_surface* surface, vox_feature a, vox_feature b, uint64_t first,
+VOX_EXPERIMENTAL vox_result vox_surface_find_pairs(vox_surface* surface, vox_feature a, vox_feature b, uint64_t first,
                                               uint64_t count, vox_pair_lists* out_lists);
 
 /* Sets vox_surface_desc.cell_size, from the next call on. Changes no answer. Errors: INVALID_ARGUMENT when negative,
@@ -183,7 +183,7 @@ VOX_EXPERIMENTAL vox_result vox_surface_set_cell_size(vox_surface* surface, doub
 VOX_EXPERIMENTAL vox_result vox_surface_suggest_cell_size(vox_surface* surface, vox_feature a, vox_feature b,
                                                           vox_foreign_suggestion* out);
 
-/* What the last search for pairs did, also one by vox_surface_crossings and the like, and what the surface holds. */
+/* What the last search for pairs did, also one by vox_surface_find_crossings and the like, and what the surface holds. */
 typedef struct vox_pair_counters {
     uint32_t struct_size;
     uint32_t reserved;       /* 0 */
@@ -198,7 +198,7 @@ typedef struct vox_pair_counters {
 } vox_pair_counters;
 
 /* Writes the fields that out_counters->struct_size covers (set it first). */
-VOX_EXPERIMENTAL vox_result vox_surface_counters(const vox_surface* surface, vox_pair_counters* out_counters);
+VOX_EXPERIMENTAL vox_result vox_surface_get_counters(const vox_surface* surface, vox_pair_counters* out_counters);
 
 /* ---- crossings -------------------------------------------------------------------------------- */
 
@@ -218,14 +218,14 @@ typedef struct vox_crossing_view {
     uint32_t struct_size;
     uint32_t byte_stride; /* from one element to the next */
     uint64_t count;
-    VOX_ARRAY(count) VOX_UNTIL(surface_crossings, surface_move) const vox_crossing* crossings; /* by edge, then face */
+    VOX_ARRAY(count) VOX_UNTIL(surface_find_crossings, surface_move) const vox_crossing* crossings; /* by edge, then face */
 } vox_crossing_view;
 
 /* All edges and faces that have a point in common and no vertex, at the end of the motion: whether the surface is free
- * of intersections, and where it is not. Decided exactly. Patches rule out pairs as for vox_surface_pairs; the radius does
- * not count. Set out_view->struct_size first. The view lives until the next vox_surface_crossings or vox_surface_move, or
+ * of intersections, and where it is not. Decided exactly. Patches rule out pairs as for vox_surface_find_pairs; the radius does
+ * not count. Set out_view->struct_size first. The view lives until the next vox_surface_find_crossings or vox_surface_move, or
  * the end of the surface. Errors: INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
-VOX_EXPERIMENTAL vox_result vox_surface_crossings(vox_surface* surface, vox_crossing_view* out_view);
+VOX_EXPERIMENTAL vox_result vox_surface_find_crossings(vox_surface* surface, vox_crossing_view* out_view);
 
 /* ---- distance --------------------------------------------------------------------------------- */
 
@@ -244,16 +244,16 @@ typedef struct vox_close_view {
     uint32_t struct_size;
     uint32_t byte_stride; /* from one element to the next */
     uint64_t count;
-    VOX_ARRAY(count) VOX_UNTIL(surface_close, surface_move) const vox_close_pair* pairs; /* by a, then b */
+    VOX_ARRAY(count) VOX_UNTIL(surface_find_proximities, surface_move) const vox_close_pair* pairs; /* by a, then b */
 } vox_close_view;
 
 /* All pairs of features of kinds a and b that are at most `distance` apart, at the end of the motion: face and vertex,
- * edge and edge, edge and vertex, vertex and vertex, in either order. Which pairs are left out is as for vox_surface_pairs;
- * the radius does not count. Set out_view->struct_size first. The view lives until the next vox_surface_close or
+ * edge and edge, edge and vertex, vertex and vertex, in either order. Which pairs are left out is as for vox_surface_find_pairs;
+ * the radius does not count. Set out_view->struct_size first. The view lives until the next vox_surface_find_proximities or
  * vox_surface_move, or the end of the surface. While it grows, it may take more than twice the bytes that it has in the end.
  * Errors: INVALID_ARGUMENT (other kinds; a distance that is negative, infinite or NaN), INVALID_STATE (no positions yet),
  * BUDGET, OUT_OF_MEMORY. */
-VOX_EXPERIMENTAL vox_result vox_surface_close(vox_surface* surface, vox_feature a, vox_feature b, double distance,
+VOX_EXPERIMENTAL vox_result vox_surface_find_proximities(vox_surface* surface, vox_feature a, vox_feature b, double distance,
                                               vox_close_view* out_view);
 
 /* For each vertex a distance, at most `most`: while no vertex has moved further than its own, from the end of the motion,
@@ -262,7 +262,7 @@ VOX_EXPERIMENTAL vox_result vox_surface_close(vox_surface* surface, vox_feature 
  * those that patches rule out, do not count, and may touch.
  * vertex_count must be that of the surface. Errors: INVALID_ARGUMENT (another vertex_count; `most` is not above 0, or not
  * finite), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
-VOX_EXPERIMENTAL vox_result vox_surface_clearance(vox_surface* surface, double most,
+VOX_EXPERIMENTAL vox_result vox_surface_find_clearances(vox_surface* surface, double most,
                                                   VOX_ARRAY(vertex_count) double* per_vertex, uint64_t vertex_count);
 
 /* ---- time of contact -------------------------------------------------------------------------- */
@@ -303,9 +303,9 @@ typedef struct vox_safe_step {
 
 /* How much of the motion is free of contact: the least time of first contact of all pairs of faces and vertices, and of
  * edges and edges. Never later than the exact time. Pairs that touch at time 0 give the step 0. Pairs are left out as for
- * vox_surface_pairs. desc null: defaults. Set out->struct_size first. Errors: INVALID_ARGUMENT, INVALID_STATE (no
+ * vox_surface_find_pairs. desc null: defaults. Set out->struct_size first. Errors: INVALID_ARGUMENT, INVALID_STATE (no
  * positions yet), BUDGET, OUT_OF_MEMORY. */
-VOX_EXPERIMENTAL vox_result vox_surface_safe_step(vox_surface* surface,
+VOX_EXPERIMENTAL vox_result vox_surface_find_safe_step(vox_surface* surface,
                                                   VOX_OPTIONAL const vox_contact_time_desc* desc,
                                                   vox_safe_step* out);
 
@@ -320,14 +320,14 @@ typedef struct vox_timed_view {
     uint32_t struct_size;
     uint32_t byte_stride; /* from one element to the next */
     uint64_t count;
-    VOX_ARRAY(count) VOX_UNTIL(surface_contact_times, surface_move) const vox_timed_pair* pairs; /* by a, then b */
+    VOX_ARRAY(count) VOX_UNTIL(surface_find_impacts, surface_move) const vox_timed_pair* pairs; /* by a, then b */
 } vox_timed_view;
 
 /* All pairs of FACE and VERTEX, or of EDGE and EDGE, that may come into contact within the motion, each with its time;
  * pairs that are left out are proven to stay apart. desc null: defaults. Set out_view->struct_size first. The view lives
- * until the next vox_surface_contact_times or vox_surface_move, or the end of the surface. Errors: INVALID_ARGUMENT (also
+ * until the next vox_surface_find_impacts or vox_surface_move, or the end of the surface. Errors: INVALID_ARGUMENT (also
  * for other kinds), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
-VOX_EXPERIMENTAL vox_result vox_surface_contact_times(vox_surface* surface, vox_feature a, vox_feature b,
+VOX_EXPERIMENTAL vox_result vox_surface_find_impacts(vox_surface* surface, vox_feature a, vox_feature b,
                                                       VOX_OPTIONAL const vox_contact_time_desc* desc,
                                                       vox_timed_view* out_view);
 

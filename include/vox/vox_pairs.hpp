@@ -63,10 +63,10 @@ public:
     vox_surface* get() noexcept { return surface_.get(); }
     const vox_surface* get() const noexcept { return surface_.get(); }
 
-    // vox_surface_features: the vertices of all edges or faces, one after the other
+    // vox_surface_get_features: the vertices of all edges or faces, one after the other
     returns<span<const std::uint32_t>> features(vox_feature feature) const& {
         vox_feature_view view = detail::sized<vox_feature_view>();
-        const vox_result result = vox_surface_features(get(), feature, &view);
+        const vox_result result = vox_surface_get_features(get(), feature, &view);
         const std::size_t size = result == VOX_OK ? static_cast<std::size_t>(view.count * view.vertices_each) : 0;
         return detail::give(result, span<const std::uint32_t>(view.vertices, size));
     }
@@ -80,11 +80,11 @@ public:
     returns<void> move(const points& from, const points& to, double radius = 0, std::uint32_t flags = 0) {
         return moved(from, &to, radius, flags);
     }
-    // vox_surface_pairs
+    // vox_surface_find_pairs
     returns<pair_lists> pairs(vox_feature a, vox_feature b, std::uint64_t first = 0,
                               std::uint64_t count = std::numeric_limits<std::uint64_t>::max()) & {
         vox_pair_lists lists = detail::sized<vox_pair_lists>();
-        const vox_result result = vox_surface_pairs(get(), a, b, first, count, &lists);
+        const vox_result result = vox_surface_find_pairs(get(), a, b, first, count, &lists);
         return detail::give(result, pair_lists(lists));
     }
     // vox_surface_set_cell_size
@@ -93,36 +93,36 @@ public:
     returns<vox_foreign_suggestion> suggest_cell_size(vox_feature a, vox_feature b) {
         return detail::filled<vox_foreign_suggestion>(vox_surface_suggest_cell_size, get(), a, b);
     }
-    // vox_surface_counters
+    // vox_surface_get_counters
     returns<vox_pair_counters> counters() const {
-        return detail::filled<vox_pair_counters>(vox_surface_counters, get());
+        return detail::filled<vox_pair_counters>(vox_surface_get_counters, get());
     }
-    // vox_surface_crossings
+    // vox_surface_find_crossings
     returns<view<const vox_crossing>> crossings() & {
         vox_crossing_view found = detail::sized<vox_crossing_view>();
-        const vox_result result = vox_surface_crossings(get(), &found);
+        const vox_result result = vox_surface_find_crossings(get(), &found);
         return detail::give(result, seen(found.crossings, found));
     }
-    // vox_surface_close
+    // vox_surface_find_proximities
     returns<view<const vox_close_pair>> close(vox_feature a, vox_feature b, double distance) & {
         vox_close_view found = detail::sized<vox_close_view>();
-        const vox_result result = vox_surface_close(get(), a, b, distance, &found);
+        const vox_result result = vox_surface_find_proximities(get(), a, b, distance, &found);
         return detail::give(result, seen(found.pairs, found));
     }
-    // vox_surface_clearance; `per_vertex` has a number for each vertex.
+    // vox_surface_find_clearances; `per_vertex` has a number for each vertex.
     returns<void> clearance(double most, span<double> per_vertex) {
-        return detail::give(vox_surface_clearance(get(), most, per_vertex.data(), per_vertex.size()));
+        return detail::give(vox_surface_find_clearances(get(), most, per_vertex.data(), per_vertex.size()));
     }
-    // vox_surface_safe_step
+    // vox_surface_find_safe_step
     returns<vox_safe_step> safe_step(const vox_contact_time_desc& desc = vox_default_contact_time_desc()) {
-        return detail::filled<vox_safe_step>(vox_surface_safe_step, get(), &desc);
+        return detail::filled<vox_safe_step>(vox_surface_find_safe_step, get(), &desc);
     }
-    // vox_surface_contact_times
+    // vox_surface_find_impacts
     returns<view<const vox_timed_pair>>
     contact_times(vox_feature a, vox_feature b,
                   const vox_contact_time_desc& desc = vox_default_contact_time_desc()) & {
         vox_timed_view found = detail::sized<vox_timed_view>();
-        const vox_result result = vox_surface_contact_times(get(), a, b, &desc, &found);
+        const vox_result result = vox_surface_find_impacts(get(), a, b, &desc, &found);
         return detail::give(result, seen(found.pairs, found));
     }
 

@@ -84,12 +84,12 @@ VOX_API void vox_sim_destroy(VOX_OPTIONAL vox_sim* sim);
  * destroy it. Contacts with other meshes inserted into it are found, but the sim does not respond to them. A body whose
  * mesh was removed there moves on without contacts. Do not cut the mesh of a body there, move it or bind it elsewhere:
  * vox_sim_step fails once a contact does not fit the body. */
-VOX_API vox_result vox_sim_grid(const vox_sim* sim, VOX_UNTIL(sim_destroy) vox_grid** out_grid);
+VOX_API vox_result vox_sim_get_grid(const vox_sim* sim, VOX_UNTIL(sim_destroy) vox_grid** out_grid);
 
 /* Moves everything forward by `time_step`, or by max_time_step if that is less.
  * Errors: INVALID_ARGUMENT (not a finite number of at least 1e-12), and those of vox_grid_step, which leave the bodies
  * as they were after the last completed substep; so does INVALID_STATE, for a body or the flags of the grid changed
- * through vox_sim_grid, which names the two bodies of a contact. */
+ * through vox_sim_get_grid, which names the two bodies of a contact. */
 VOX_API vox_result vox_sim_step(vox_sim* sim, double time_step);
 
 /* ---- bodies ----------------------------------------------------------------------------------- */
@@ -120,7 +120,7 @@ typedef struct vox_sim_body_desc {
     double bulk_modulus; /* resistance to change of volume, beyond that of the edges; >= 0, default 1e6 */
     double damping;      /* a time: edges resist the rate of their strain with damping times their stiffness; >= 0,
                           * default 0.01 */
-    uint64_t user_data;  /* returned by vox_mesh_user_data on the sim's grid */
+    uint64_t user_data;  /* returned by vox_body_get_user_data on the sim's grid */
 } vox_sim_body_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers. */
@@ -136,10 +136,10 @@ static inline vox_sim_body_desc vox_default_sim_body_desc(void) {
  * are counted and reported in one log line.
  * Errors: INVALID_ARGUMENT (names the field and its value; also: no tet, or all of them flat, so that the body has no
  * mass), INVALID_MESH, NON_FINITE (names the vertex), LIMIT, BUDGET, OUT_OF_MEMORY. */
-VOX_API vox_result vox_sim_body_insert(vox_sim* sim, const vox_sim_body_desc* desc, vox_mesh* out_body);
+VOX_API vox_result vox_sim_body_insert(vox_sim* sim, const vox_sim_body_desc* desc, vox_body* out_body);
 
 /* Removes a body from the simulation and from its grid. */
-VOX_API vox_result vox_sim_body_remove(vox_sim* sim, vox_mesh body);
+VOX_API vox_result vox_sim_body_remove(vox_sim* sim, vox_body body);
 
 /* Arrays of a body with its state after the last step. Until the body is removed, the pointers stay the same and every
  * step updates the contents. */
@@ -155,17 +155,17 @@ typedef struct vox_sim_body_view {
 } vox_sim_body_view;
 
 /* The body's arrays. */
-VOX_API vox_result vox_sim_body_get(const vox_sim* sim, vox_mesh body, vox_sim_body_view* out_view);
+VOX_API vox_result vox_sim_body_get_view(const vox_sim* sim, vox_body body, vox_sim_body_view* out_view);
 
 /* Sets a body's positions and velocities, 3 * vertex_count numbers each; null leaves them as they are. The rest shape
  * stays. Errors: NON_FINITE (names the vertex), INVALID_ARGUMENT (beyond 1e15). */
-VOX_API vox_result vox_sim_body_set_state(vox_sim* sim, vox_mesh body,
+VOX_API vox_result vox_sim_body_set_state(vox_sim* sim, vox_body body,
                                           VOX_OPTIONAL VOX_ARRAY(3 * body.vertex_count) const double* positions,
                                           VOX_OPTIONAL VOX_ARRAY(3 * body.vertex_count) const double* velocities);
 
 /* Accelerates all particles of a body from now on, in addition to gravity; 0, 0, 0 at first.
  * Errors: INVALID_ARGUMENT (a component that is not a number of at most 1e15 in size). */
-VOX_API vox_result vox_sim_body_set_acceleration(vox_sim* sim, vox_mesh body, const double acceleration[3]);
+VOX_API vox_result vox_sim_body_set_acceleration(vox_sim* sim, vox_body body, const double acceleration[3]);
 
 /* ---- measurements ----------------------------------------------------------------------------- */
 
@@ -181,10 +181,10 @@ typedef struct vox_sim_energies {
     double max_speed;  /* speed of the fastest particle */
 } vox_sim_energies;
 
-/* Energy and motion of a body, or of all bodies that are not fixed (body VOX_NULL_MESH). They are those of the middle
- * of the last substep, to which the velocities belong; the positions of vox_sim_body_get are half a substep later.
+/* Energy and motion of a body, or of all bodies that are not fixed (body VOX_NULL_BODY). They are those of the middle
+ * of the last substep, to which the velocities belong; the positions of vox_sim_body_get_view are half a substep later.
  * Writes the fields that out_energies->struct_size covers (set it first). */
-VOX_API vox_result vox_sim_energy(const vox_sim* sim, vox_mesh body, vox_sim_energies* out_energies);
+VOX_API vox_result vox_sim_get_energy(const vox_sim* sim, vox_body body, vox_sim_energies* out_energies);
 
 typedef struct vox_sim_counts {
     uint32_t struct_size;
@@ -210,7 +210,7 @@ typedef struct vox_sim_counts {
 } vox_sim_counts;
 
 /* Writes the fields that out_counts->struct_size covers (set it first). */
-VOX_API vox_result vox_sim_counters(const vox_sim* sim, vox_sim_counts* out_counts);
+VOX_API vox_result vox_sim_get_counters(const vox_sim* sim, vox_sim_counts* out_counts);
 
 /* ---- the experiment --------------------------------------------------------------------------- */
 
@@ -274,7 +274,7 @@ typedef struct vox_experiment_facts {
     uint64_t vertices; /* of both bodies together */
     uint64_t tets;     /* of both bodies together */
     uint64_t contacts; /* sum over all frames */
-    uint64_t hash;     /* combines vox_grid_hash of all frames; the same for every cell size and engine */
+    uint64_t hash;     /* combines vox_grid_get_hash of all frames; the same for every cell size and engine */
     double distance;   /* initial distance of the centres, along the axis */
     double mean_share; /* mean over the frames of the share of tets in contact */
     /* That share in each frame; lives until vox_experiment_destroy. */

@@ -47,27 +47,27 @@ public:
     vox_sim* get() noexcept { return sim_.get(); }
     const vox_sim* get() const noexcept { return sim_.get(); }
 
-    // vox_sim_grid. It lives as long as the simulation.
+    // vox_sim_get_grid. It lives as long as the simulation.
     vox::grid& grid() & noexcept { return grid_; }
     const vox::grid& grid() const& noexcept { return grid_; }
     void grid() && = delete;
     // vox_sim_step
     returns<void> step(double time_step) { return detail::give(vox_sim_step(get(), time_step)); }
     // vox_sim_body_insert
-    returns<vox_mesh> insert(const vox_sim_body_desc& desc) {
-        return detail::filled<vox_mesh>(vox_sim_body_insert, get(), &desc);
+    returns<vox_body> insert(const vox_sim_body_desc& desc) {
+        return detail::filled<vox_body>(vox_sim_body_insert, get(), &desc);
     }
     // vox_sim_body_remove
-    returns<void> remove(vox_mesh body) { return detail::give(vox_sim_body_remove(get(), body)); }
-    // vox_sim_body_get. The arrays live until the body is removed; every step writes them.
-    returns<vox_sim_body_view> body(vox_mesh body) const& {
-        return detail::filled<vox_sim_body_view>(vox_sim_body_get, get(), body);
+    returns<void> remove(vox_body body) { return detail::give(vox_sim_body_remove(get(), body)); }
+    // vox_sim_body_get_view. The arrays live until the body is removed; every step writes them.
+    returns<vox_sim_body_view> body(vox_body body) const& {
+        return detail::filled<vox_sim_body_view>(vox_sim_body_get_view, get(), body);
     }
-    void body(vox_mesh body) const&& = delete;
+    void body(vox_body body) const&& = delete;
     // vox_sim_body_set_state. An empty span leaves positions or velocities as they are.
-    returns<void> set_state(vox_mesh body, span<const double> positions, span<const double> velocities) {
+    returns<void> set_state(vox_body body, span<const double> positions, span<const double> velocities) {
         vox_sim_body_view view{};
-        vox_result result = vox_sim_body_get(get(), body, &view);
+        vox_result result = vox_sim_body_get_view(get(), body, &view);
         for (const auto& numbers : {positions, velocities})
             if (result == VOX_OK && !numbers.empty() && numbers.size() != 3 * view.vertex_count)
                 result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "set_state: %llu numbers for %llu vertices",
@@ -78,15 +78,15 @@ public:
         return detail::give(result);
     }
     // vox_sim_body_set_acceleration
-    returns<void> set_acceleration(vox_mesh body, const point& acceleration) {
+    returns<void> set_acceleration(vox_body body, const point& acceleration) {
         return detail::give(vox_sim_body_set_acceleration(get(), body, acceleration.data()));
     }
-    // vox_sim_energy
-    returns<vox_sim_energies> energy(vox_mesh body = VOX_NULL_MESH) const {
-        return detail::filled<vox_sim_energies>(vox_sim_energy, get(), body);
+    // vox_sim_get_energy
+    returns<vox_sim_energies> energy(vox_body body = VOX_NULL_BODY) const {
+        return detail::filled<vox_sim_energies>(vox_sim_get_energy, get(), body);
     }
-    // vox_sim_counters
-    returns<vox_sim_counts> counters() const { return detail::filled<vox_sim_counts>(vox_sim_counters, get()); }
+    // vox_sim_get_counters
+    returns<vox_sim_counts> counters() const { return detail::filled<vox_sim_counts>(vox_sim_get_counters, get()); }
 
 private:
     struct deleter {
@@ -95,7 +95,7 @@ private:
     explicit simulation(vox_sim* raw) : sim_(raw), grid_(vox::grid::borrow(grid_of(raw))) {}
     static vox_grid* grid_of(const vox_sim* raw) noexcept {
         vox_grid* grid = nullptr;
-        if (raw) (void)vox_sim_grid(raw, &grid);
+        if (raw) (void)vox_sim_get_grid(raw, &grid);
         return grid;
     }
     std::unique_ptr<vox_sim, deleter> sim_;

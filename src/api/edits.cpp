@@ -37,49 +37,49 @@ std::span<const Tet> read_corners(const std::uint32_t* corners, std::uint64_t co
 
 // Calls function(mesh), which edits `count` tets or vertices of it.
 template <class Function>
-vox_result edit(vox_grid* grid, vox_mesh mesh, std::uint64_t count, Function&& function) {
+vox_result edit(vox_grid* grid, vox_body body, std::uint64_t count, Function&& function) {
     return border(grid, "grid", [&] {
-        function(grid->mesh(mesh));
-        grid->was_edited(mesh, count);
+        function(grid->mesh(body));
+        grid->was_edited(body, count);
     });
 }
 
 } // namespace
 
-vox_result vox_mesh_set_topology(vox_grid* grid, vox_mesh mesh, const vox_mesh_desc* desc) {
+vox_result vox_mesh_set_topology(vox_grid* grid, vox_body body, const vox_mesh_desc* desc) {
     return border(grid, "grid", [&] {
-        (void)grid->mesh(mesh); // throws for an id that names no mesh
+        (void)grid->mesh(body); // throws for an id that names no body
         const vox_mesh_desc settings = read_struct(desc, vox_default_mesh_desc(), "desc");
-        grid->set_topology(mesh, settings, check_mesh(settings, "", NullPositions::allowed));
+        grid->set_topology(body, settings, check_mesh(settings, "", NullPositions::allowed));
     });
 }
 
-vox_result vox_mesh_set_tets_enabled(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count,
+vox_result vox_mesh_set_tets_enabled(vox_grid* grid, vox_body body, const uint32_t* tets, uint64_t count,
                                      uint32_t enabled) {
-    return edit(grid, mesh, count, [&](Mesh& edited) {
+    return edit(grid, body, count, [&](Mesh& edited) {
         const bool is_on = read_enabled(enabled); // complains before read_numbers() does
         edited.set_tets_enabled(read_numbers(tets, count, 1, "tets"), is_on);
     });
 }
 
-vox_result vox_mesh_replace_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count,
+vox_result vox_mesh_replace_tets(vox_grid* grid, vox_body body, const uint32_t* tets, uint64_t count,
                                  const uint32_t* corners) {
-    return edit(grid, mesh, count, [&](Mesh& edited) {
+    return edit(grid, body, count, [&](Mesh& edited) {
         edited.replace_tets(read_numbers(tets, count, 1, "tets"), read_corners(corners, count));
     });
 }
 
-vox_result vox_mesh_append_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* corners, uint64_t count,
+vox_result vox_mesh_append_tets(vox_grid* grid, vox_body body, const uint32_t* corners, uint64_t count,
                                 uint32_t* out_first) {
     return border(grid, "grid", [&] {
-        (void)grid->mesh(mesh);
+        (void)grid->mesh(body);
         require(out_first, "out_first");
-        *out_first = grid->append_tets(mesh, read_corners(corners, count));
+        *out_first = grid->append_tets(body, read_corners(corners, count));
     });
 }
 
-vox_result vox_mesh_remove_tets(vox_grid* grid, vox_mesh mesh, const uint32_t* tets, uint64_t count) {
-    return edit(grid, mesh, count,
+vox_result vox_mesh_remove_tets(vox_grid* grid, vox_body body, const uint32_t* tets, uint64_t count) {
+    return edit(grid, body, count,
                 [&](Mesh& edited) { edited.remove_tets(read_numbers(tets, count, 1, "tets")); });
 }
 
@@ -87,21 +87,21 @@ vox_result vox_vertices_desc_init(vox_vertices_desc* desc, uint32_t struct_size)
     return border([&] { init_struct(desc, struct_size, vertices_defaults(), "desc"); });
 }
 
-vox_result vox_mesh_append_vertices(vox_grid* grid, vox_mesh mesh, const vox_vertices_desc* desc,
+vox_result vox_mesh_append_vertices(vox_grid* grid, vox_body body, const vox_vertices_desc* desc,
                                     uint32_t* out_first) {
     return border(grid, "grid", [&] {
-        (void)grid->mesh(mesh);
+        (void)grid->mesh(body);
         require(out_first, "out_first");
         const vox_vertices_desc vertices = read_struct(desc, vertices_defaults(), "desc");
         if (vertices.reserved != 0)
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("desc reserved is %" PRIu32 ", expected 0", vertices.reserved));
         if (vertices.copies_of) (void)read_numbers(vertices.copies_of, vertices.count, 1, "copies_of");
-        *out_first = grid->append_vertices(mesh, vertices);
+        *out_first = grid->append_vertices(body, vertices);
     });
 }
 
-vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_mesh mesh, const uint32_t* vertices, uint64_t count) {
-    return edit(grid, mesh, count,
+vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_body body, const uint32_t* vertices, uint64_t count) {
+    return edit(grid, body, count,
                 [&](Mesh& edited) { edited.remove_vertices(read_numbers(vertices, count, 1, "vertices")); });
 }

@@ -15,12 +15,12 @@ namespace {
 // Copies items of the contacts of one mesh, or of those between two meshes. items_of(grid) gives a function
 // from the index of a contact to its item, or null if it has none. `name` is that of the parameter `items`.
 template <class Item, class ItemsOf>
-vox_result copy_items(const vox_grid* grid, std::initializer_list<vox_mesh> meshes, Item* items,
+vox_result copy_items(const vox_grid* grid, std::initializer_list<vox_body> meshes, Item* items,
                       const char* name, std::uint64_t capacity, std::uint64_t* out_count,
                       ItemsOf&& items_of) {
     return border(grid, "grid", out_count, "out_count", [&] {
         if (capacity > 0) require(items, name);
-        for (const vox_mesh mesh : meshes) (void)grid->mesh(mesh); // throws for an id that names no mesh
+        for (const vox_body mesh : meshes) (void)grid->mesh(mesh); // throws for an id that names no mesh
         const auto item_of = items_of(*grid);
         std::uint64_t count = 0;
         grid->events().for_contacts_of(meshes, [&](std::uint32_t index) {
@@ -42,21 +42,21 @@ constexpr auto readings_of = [](const vox_grid& grid) {
 
 } // namespace
 
-vox_result vox_grid_pairs(const vox_grid* grid, vox_pair_view* out_view) {
+vox_result vox_grid_get_pairs(const vox_grid* grid, vox_pair_view* out_view) {
     return border(grid, "grid", out_view, "out_view", [&]() -> vox_pair_view {
         const std::span<const vox_pair> pairs = grid->events().pairs();
         return {pairs.data(), sizeof(vox_pair), pairs.size(), grid->epoch(), grid->events().pair_contacts()};
     });
 }
 
-vox_result vox_mesh_copy_contacts(const vox_grid* grid, vox_mesh mesh, vox_contact* contacts,
+vox_result vox_mesh_copy_contacts(const vox_grid* grid, vox_body body, vox_contact* contacts,
                                   uint64_t capacity, uint64_t* out_count) {
-    return copy_items(grid, {mesh}, contacts, "contacts", capacity, out_count, contacts_of);
+    return copy_items(grid, {body}, contacts, "contacts", capacity, out_count, contacts_of);
 }
 
-vox_result vox_pair_copy_contacts(const vox_grid* grid, vox_mesh mesh_a, vox_mesh mesh_b,
+vox_result vox_pair_copy_contacts(const vox_grid* grid, vox_body body_a, vox_body body_b,
                                   vox_contact* contacts, uint64_t capacity, uint64_t* out_count) {
-    return copy_items(grid, {mesh_a, mesh_b}, contacts, "contacts", capacity, out_count, contacts_of);
+    return copy_items(grid, {body_a, body_b}, contacts, "contacts", capacity, out_count, contacts_of);
 }
 
 vox_result vox_grid_touch_events(const vox_grid* grid, vox_touch_view* out_view) {
@@ -75,7 +75,7 @@ namespace {
 
 vox_readings_desc readings_defaults() noexcept {
     return {sizeof(vox_readings_desc), VOX_READING_POSITION | VOX_READING_SURFACE | VOX_READING_DEPTH,
-            VOX_NULL_MESH, VOX_NULL_MESH, 0};
+            VOX_NULL_BODY, VOX_NULL_BODY, 0};
 }
 
 } // namespace
@@ -108,12 +108,12 @@ vox_result vox_grid_reading_depths(const vox_grid* grid, vox_depth_view* out_vie
     });
 }
 
-vox_result vox_mesh_copy_readings(const vox_grid* grid, vox_mesh mesh, vox_reading* readings,
+vox_result vox_mesh_copy_readings(const vox_grid* grid, vox_body body, vox_reading* readings,
                                   uint64_t capacity, uint64_t* out_count) {
-    return copy_items(grid, {mesh}, readings, "readings", capacity, out_count, readings_of);
+    return copy_items(grid, {body}, readings, "readings", capacity, out_count, readings_of);
 }
 
-vox_result vox_pair_copy_readings(const vox_grid* grid, vox_mesh mesh_a, vox_mesh mesh_b,
+vox_result vox_pair_copy_readings(const vox_grid* grid, vox_body body_a, vox_body body_b,
                                   vox_reading* readings, uint64_t capacity, uint64_t* out_count) {
-    return copy_items(grid, {mesh_a, mesh_b}, readings, "readings", capacity, out_count, readings_of);
+    return copy_items(grid, {body_a, body_b}, readings, "readings", capacity, out_count, readings_of);
 }

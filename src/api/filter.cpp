@@ -18,7 +18,7 @@ void vox::refuse_zeroed(const vox_filter& filter) {
     throw Error(
         VOX_ERROR_INVALID_ARGUMENT,
         "filter has group, category, mask and self_collision 0, so that its mesh would collide with nothing: "
-        "fill it with vox_filter_init or vox_default_filter; vox_mesh_set_enabled takes a mesh out");
+        "fill it with vox_filter_init or vox_default_filter; vox_body_set_enabled takes a mesh out");
 }
 
 bool vox::read_enabled(std::uint32_t enabled) {
@@ -33,23 +33,23 @@ vox_result vox_filter_init(vox_filter* filter, uint32_t struct_size) {
     return border([&] { init_struct(filter, struct_size, filter_defaults(), "filter"); });
 }
 
-vox_result vox_mesh_set_filter(vox_grid* grid, vox_mesh mesh, const vox_filter* filter) {
+vox_result vox_body_set_filter(vox_grid* grid, vox_body body, const vox_filter* filter) {
     return border(grid, "grid", [&] {
         require(filter, "filter");
         const vox_filter read = read_filter(filter);
         refuse_zeroed(read);
-        grid->set_filter(mesh, read);
+        grid->set_filter(body, read);
     });
 }
 
-vox_result vox_mesh_filter(const vox_grid* grid, vox_mesh mesh, vox_filter* out_filter) {
-    return border(grid, "grid", [&] { write_struct(out_filter, grid->mesh(mesh).filter(), "out_filter"); });
+vox_result vox_mesh_filter(const vox_grid* grid, vox_body body, vox_filter* out_filter) {
+    return border(grid, "grid", [&] { write_struct(out_filter, grid->mesh(body).filter(), "out_filter"); });
 }
 
-vox_result vox_mesh_set_enabled(vox_grid* grid, vox_mesh mesh, uint32_t enabled) {
-    return border(grid, "grid", [&] { grid->set_enabled(mesh, read_enabled(enabled)); });
+vox_result vox_body_set_enabled(vox_grid* grid, vox_body body, uint32_t enabled) {
+    return border(grid, "grid", [&] { grid->set_enabled(body, read_enabled(enabled)); });
 }
 
-vox_result vox_grid_set_pair_enabled(vox_grid* grid, vox_mesh mesh_a, vox_mesh mesh_b, uint32_t enabled) {
-    return border(grid, "grid", [&] { grid->set_pair_enabled(mesh_a, mesh_b, read_enabled(enabled)); });
+vox_result vox_grid_set_pair_enabled(vox_grid* grid, vox_body body_a, vox_body body_b, uint32_t enabled) {
+    return border(grid, "grid", [&] { grid->set_pair_enabled(body_a, body_b, read_enabled(enabled)); });
 }

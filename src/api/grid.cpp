@@ -146,51 +146,52 @@ vox_result vox_mesh_desc_init(vox_mesh_desc* desc, uint32_t struct_size) {
     return border([&] { init_struct(desc, struct_size, mesh_defaults(), "desc"); });
 }
 
-vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vox_mesh* out_mesh) {
+vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vox_body* out_body) {
     return border(grid, "grid", [&] {
-        require(out_mesh, "out_mesh");
+        require(out_body, "out_body");
         const vox_mesh_desc settings = read_struct(desc, mesh_defaults(), "desc");
         const Body view = check_mesh(settings, "", NullPositions::allowed);
         vox_filter filter = read_filter(settings.filter);
         if (view.self_collision) filter.self_collision = 1;
         refuse_zeroed(filter);
-        *out_mesh = grid->insert(settings, view, filter);
+        *out_body = grid->insert(settings, view, filter);
     });
 }
 
-vox_result vox_mesh_remove(vox_grid* grid, vox_mesh mesh) {
-    return border(grid, "grid", [&] { grid->remove(mesh); });
+vox_result vox_body_remove(vox_grid* grid, vox_body body) {
+    return border(grid, "grid", [&] { grid->remove(body); });
 }
 
-uint32_t vox_mesh_is_valid(const vox_grid* grid, vox_mesh mesh) {
-    return grid && grid->is_valid(mesh) ? 1u : 0u;
+uint32_t vox_body_is_valid(const vox_grid* grid, vox_body body) {
+    return grid && grid->is_valid(body) ? 1u : 0u;
 }
 
-vox_result vox_mesh_user_data(const vox_grid* grid, vox_mesh mesh, uint64_t* out_user_data) {
-    return border(grid, "grid", out_user_data, "out_user_data", [&] { return grid->mesh(mesh).user_data(); });
+vox_result vox_body_get_user_data(const vox_grid* grid, vox_body body, uint64_t* out_user_data) {
+    return border(grid, "grid", out_user_data, "out_user_data", [&] { return grid->mesh(body).user_data(); });
 }
 
-vox_result vox_grid_meshes(const vox_grid* grid, vox_mesh* meshes, uint64_t capacity, uint64_t* out_count) {
+vox_result vox_grid_get_bodies(const vox_grid* grid, vox_body* bodies, uint64_t capacity,
+                               uint64_t* out_count) {
     return border(grid, "grid", out_count, "out_count", [&] {
-        if (capacity > 0) require(meshes, "meshes");
+        if (capacity > 0) require(bodies, "bodies");
         std::uint64_t count = 0;
-        grid->meshes().for_each([&](vox_mesh id, const MeshSlot&) {
-            if (count < capacity) meshes[count] = id;
+        grid->meshes().for_each([&](vox_body id, const MeshSlot&) {
+            if (count < capacity) bodies[count] = id;
             ++count;
         });
         return count;
     });
 }
 
-vox_result vox_mesh_get_info(const vox_grid* grid, vox_mesh mesh, vox_mesh_info* out_info) {
+vox_result vox_body_get_info(const vox_grid* grid, vox_body body, vox_body_info* out_info) {
     return border(grid, "grid",
-                  [&] { write_struct(out_info, grid->mesh(mesh).info(slot_of(mesh)), "out_info"); });
+                  [&] { write_struct(out_info, grid->mesh(body).info(slot_of(body)), "out_info"); });
 }
 
-vox_result vox_mesh_copy_tets(const vox_grid* grid, vox_mesh mesh, uint32_t* corners, uint8_t* enabled,
-                              uint64_t capacity, uint64_t* out_count) {
+vox_result vox_mesh_get_tets(const vox_grid* grid, vox_body body, uint32_t* corners, uint8_t* enabled,
+                             uint64_t capacity, uint64_t* out_count) {
     return border(grid, "grid", out_count, "out_count", [&] {
-        const Mesh& from = grid->mesh(mesh);
+        const Mesh& from = grid->mesh(body);
         const std::uint64_t count = std::min(capacity, from.tet_count());
         for (std::uint32_t t = 0; t < count; ++t) {
             if (corners) std::copy_n(from.given(t).v, 4, corners + 4 * std::size_t{t});
@@ -200,16 +201,16 @@ vox_result vox_mesh_copy_tets(const vox_grid* grid, vox_mesh mesh, uint32_t* cor
     });
 }
 
-vox_result vox_mesh_bind_positions(vox_grid* grid, vox_mesh mesh, const void* positions, vox_format format,
+vox_result vox_mesh_bind_positions(vox_grid* grid, vox_body body, const void* positions, vox_format format,
                                    uint64_t byte_stride) {
-    return vox_mesh_bind_strided_positions(grid, mesh, positions, format, byte_stride, 0);
+    return vox_mesh_bind_strided_positions(grid, body, positions, format, byte_stride, 0);
 }
 
-vox_result vox_mesh_bind_strided_positions(vox_grid* grid, vox_mesh mesh, const void* positions,
+vox_result vox_mesh_bind_strided_positions(vox_grid* grid, vox_body body, const void* positions,
                                            vox_format format, uint64_t byte_stride,
                                            uint64_t component_byte_stride) {
     return border(grid, "grid", [&] {
-        Mesh& target = grid->mesh(mesh);
+        Mesh& target = grid->mesh(body);
         if (target.vertex_count() > 0) require(positions, "positions");
         check_format(format, "");
         target.bind(check_positions(positions, format, byte_stride, component_byte_stride,
@@ -217,20 +218,20 @@ vox_result vox_mesh_bind_strided_positions(vox_grid* grid, vox_mesh mesh, const 
     });
 }
 
-vox_result vox_mesh_map_positions(vox_grid* grid, vox_mesh mesh, void** out_positions,
+vox_result vox_mesh_map_positions(vox_grid* grid, vox_body body, void** out_positions,
                                   uint64_t* out_byte_stride) {
     return border(grid, "grid", [&] {
         require(out_positions, "out_positions");
         require(out_byte_stride, "out_byte_stride");
-        Mesh& target = grid->mesh(mesh);
+        Mesh& target = grid->mesh(body);
         *out_positions = target.map_positions();
         *out_byte_stride = target.position_size();
     });
 }
 
-vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, const double matrix[12]) {
+vox_result vox_body_set_transform(vox_grid* grid, vox_body body, const double matrix[12]) {
     return border(grid, "grid", [&] {
-        Mesh& target = grid->mesh(mesh);
+        Mesh& target = grid->mesh(body);
         for (int i = 0; matrix && i < 12; ++i)
             if (!std::isfinite(matrix[i]))
                 throw Error(VOX_ERROR_INVALID_ARGUMENT,
@@ -239,8 +240,8 @@ vox_result vox_mesh_set_transform(vox_grid* grid, vox_mesh mesh, const double ma
     });
 }
 
-vox_result vox_mesh_mark_moved(vox_grid* grid, vox_mesh mesh) {
-    return border(grid, "grid", [&] { grid->mark_moved(mesh); });
+vox_result vox_body_mark_moved(vox_grid* grid, vox_body body) {
+    return border(grid, "grid", [&] { grid->mark_moved(body); });
 }
 
 // ---- step and results -----------------------------------------------------------------------------
@@ -249,7 +250,7 @@ vox_result vox_grid_step(vox_grid* grid) {
     return border(grid, "grid", [&] { grid->step(); });
 }
 
-vox_result vox_grid_contacts(const vox_grid* grid, vox_contact_view* out_view) {
+vox_result vox_grid_get_contacts(const vox_grid* grid, vox_contact_view* out_view) {
     return border(grid, "grid", out_view, "out_view", [&] { return grid->contacts(); });
 }
 
@@ -257,7 +258,7 @@ vox_result vox_grid_contact_interiors(const vox_grid* grid, vox_interior_view* o
     return border(grid, "grid", out_view, "out_view", [&] { return grid->interiors(); });
 }
 
-vox_result vox_grid_failure(const vox_grid* grid, uint32_t index, vox_failure* out_failure) {
+vox_result vox_grid_get_failure(const vox_grid* grid, uint32_t index, vox_failure* out_failure) {
     return border(grid, "grid", [&] { write_struct(out_failure, grid->failure(index), "out_failure"); });
 }
 
@@ -273,11 +274,11 @@ vox_result vox_grid_epoch(const vox_grid* grid, uint64_t* out_epoch) {
     return border(grid, "grid", out_epoch, "out_epoch", [&] { return grid->epoch(); });
 }
 
-vox_result vox_grid_hash(const vox_grid* grid, uint64_t* out_hash) {
+vox_result vox_grid_get_hash(const vox_grid* grid, uint64_t* out_hash) {
     return border(grid, "grid", out_hash, "out_hash", [&] { return grid->hash(); });
 }
 
-vox_result vox_grid_counters(const vox_grid* grid, vox_counters* out_counters) {
+vox_result vox_grid_get_counters(const vox_grid* grid, vox_counters* out_counters) {
     return border(grid, "grid", [&] { write_struct(out_counters, grid->counters(), "out_counters"); });
 }
 

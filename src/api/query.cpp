@@ -214,13 +214,13 @@ vox_result vox_grid_query_ray(const vox_grid* grid, const double from[3], const 
 }
 
 vox_result vox_grid_query_ray_hits(const vox_grid* grid, const double from[3], const double to[3],
-                                   uint64_t mask, vox_mesh excluded, vox_facet_hit* hits, uint64_t capacity,
+                                   uint64_t mask, vox_body excluded, vox_facet_hit* hits, uint64_t capacity,
                                    uint64_t* out_count) {
     return of_grid(grid, ask_ray_hits, from, to, QueryMeshes{mask, excluded}, hits, capacity, out_count);
 }
 
 vox_result vox_grid_query_ray_any(const vox_grid* grid, const double from[3], const double to[3],
-                                  uint64_t mask, vox_mesh excluded, uint32_t* out_any) {
+                                  uint64_t mask, vox_body excluded, uint32_t* out_any) {
     return of_grid(grid, ask_ray_any, from, to, QueryMeshes{mask, excluded}, out_any);
 }
 
@@ -242,9 +242,9 @@ vox_result vox_query_view_epoch(const vox_query_view* view, uint64_t* out_epoch)
     return border(view, "view", out_epoch, "out_epoch", [&] { return view->epoch; });
 }
 
-vox_result vox_query_view_user_data(const vox_query_view* view, vox_mesh mesh, uint64_t* out_user_data) {
+vox_result vox_query_view_user_data(const vox_query_view* view, vox_body body, uint64_t* out_user_data) {
     return border(view, "view", out_user_data, "out_user_data",
-                  [&] { return view->queries.user_data(mesh); });
+                  [&] { return view->queries.user_data(body); });
 }
 
 vox_result vox_query_view_point(const vox_query_view* view, const double point[3], uint64_t mask,
@@ -280,12 +280,12 @@ vox_result vox_query_view_ray(const vox_query_view* view, const double from[3], 
 }
 
 vox_result vox_query_view_ray_hits(const vox_query_view* view, const double from[3], const double to[3],
-                                   uint64_t mask, vox_mesh excluded, vox_facet_hit* hits, uint64_t capacity,
+                                   uint64_t mask, vox_body excluded, vox_facet_hit* hits, uint64_t capacity,
                                    uint64_t* out_count) {
     return of_view(view, ask_ray_hits, from, to, QueryMeshes{mask, excluded}, hits, capacity, out_count);
 }
 
 vox_result vox_query_view_ray_any(const vox_query_view* view, const double from[3], const double to[3],
-                                  uint64_t mask, vox_mesh excluded, uint32_t* out_any) {
+                                  uint64_t mask, vox_body excluded, uint32_t* out_any) {
     return of_view(view, ask_ray_any, from, to, QueryMeshes{mask, excluded}, out_any);
 }

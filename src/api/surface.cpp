@@ -66,7 +66,8 @@ void vox_surface_destroy(vox_surface* surface) {
     allocator.delete_object(surface);
 }
 
-vox_result vox_surface_features(const vox_surface* surface, vox_feature feature, vox_feature_view* out_view) {
+vox_result vox_surface_get_features(const vox_surface* surface, vox_feature feature,
+                                    vox_feature_view* out_view) {
     return border(surface, "surface", [&] {
         check_out_struct(out_view, "out_view");
         check_enum(feature, VOX_FEATURE_FACE, "feature");
@@ -89,8 +90,8 @@ vox_result vox_surface_move(vox_surface* surface, const vox_motion* motion) {
                   [&] { surface->move(read_struct(motion, motion_defaults(), "motion")); });
 }
 
-vox_result vox_surface_pairs(vox_surface* surface, vox_feature a, vox_feature b, uint64_t first,
-                             uint64_t count, vox_pair_lists* out_lists) {
+vox_result vox_surface_find_pairs(vox_surface* surface, vox_feature a, vox_feature b, uint64_t first,
+                                  uint64_t count, vox_pair_lists* out_lists) {
     return border(surface, "surface", [&] {
         check_out_struct(out_lists, "out_lists");
         check_enum(a, VOX_FEATURE_FACE, "a");
@@ -120,7 +121,7 @@ vox_result vox_surface_suggest_cell_size(vox_surface* surface, vox_feature a, vo
     });
 }
 
-vox_result vox_surface_counters(const vox_surface* surface, vox_pair_counters* out_counters) {
+vox_result vox_surface_get_counters(const vox_surface* surface, vox_pair_counters* out_counters) {
     return border(surface, "surface", [&] {
         check_out_struct(out_counters, "out_counters");
         write_struct(out_counters, surface->counters(), "out_counters");

@@ -36,16 +36,16 @@ vox_result vox_contact_time_desc_init(vox_contact_time_desc* desc, uint32_t stru
     return border([&] { init_struct(desc, struct_size, contact_time_defaults(), "desc"); });
 }
 
-vox_result vox_surface_safe_step(vox_surface* surface, const vox_contact_time_desc* desc,
-                                 vox_safe_step* out) {
+vox_result vox_surface_find_safe_step(vox_surface* surface, const vox_contact_time_desc* desc,
+                                      vox_safe_step* out) {
     return border(surface, "surface", [&] {
         check_out_struct(out, "out");
         write_struct(out, surface->safe_step(read_contact_time_desc(desc)), "out");
     });
 }
 
-vox_result vox_surface_contact_times(vox_surface* surface, vox_feature a, vox_feature b,
-                                     const vox_contact_time_desc* desc, vox_timed_view* out_view) {
+vox_result vox_surface_find_impacts(vox_surface* surface, vox_feature a, vox_feature b,
+                                    const vox_contact_time_desc* desc, vox_timed_view* out_view) {
     return border(surface, "surface", [&] {
         check_out_struct(out_view, "out_view");
         check_enum(a, VOX_FEATURE_FACE, "a");

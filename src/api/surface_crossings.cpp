@@ -8,7 +8,7 @@
 
 using namespace vox;
 
-vox_result vox_surface_crossings(vox_surface* surface, vox_crossing_view* out_view) {
+vox_result vox_surface_find_crossings(vox_surface* surface, vox_crossing_view* out_view) {
     return border(surface, "surface", [&] {
         check_out_struct(out_view, "out_view");
         const std::span<const vox_crossing> crossings = surface->crossings();

@@ -19,8 +19,8 @@ const char* name_of(vox_feature feature) noexcept {
 
 } // namespace
 
-vox_result vox_surface_close(vox_surface* surface, vox_feature a, vox_feature b, double distance,
-                             vox_close_view* out_view) {
+vox_result vox_surface_find_proximities(vox_surface* surface, vox_feature a, vox_feature b, double distance,
+                                        vox_close_view* out_view) {
     return border(surface, "surface", [&] {
         check_out_struct(out_view, "out_view");
         check_enum(a, VOX_FEATURE_FACE, "a");
@@ -41,8 +41,8 @@ vox_result vox_surface_close(vox_surface* surface, vox_feature a, vox_feature b,
     });
 }
 
-vox_result vox_surface_clearance(vox_surface* surface, double most, double* per_vertex,
-                                 uint64_t vertex_count) {
+vox_result vox_surface_find_clearances(vox_surface* surface, double most, double* per_vertex,
+                                       uint64_t vertex_count) {
     return border(surface, "surface", [&] {
         require(per_vertex, "per_vertex");
         if (vertex_count != surface->topology().vertex_count)

@@ -35,7 +35,7 @@ struct Positions {
     const std::byte* data = nullptr;
     std::size_t byte_stride = 0;
     bool doubles = false;              // else floats
-    const double* transform = nullptr; // three rows of four (vox_mesh_set_transform), or null
+    const double* transform = nullptr; // three rows of four (vox_body_set_transform), or null
     std::size_t component_gap = 0; // bytes between the numbers of a position; 0 unless they are in columns
 
     // Whether operator[] may differ from exact().

@@ -33,7 +33,7 @@ void Penetrations::begin(std::span<const Body> bodies, std::span<const Hit> hits
 // Moves those that are carried to the front, and returns how many there are with the others. Both lists are
 // sorted, and every vertex that is carried is in the old one.
 std::size_t Penetrations::keep_carried(std::span<const Body> bodies, std::span<const Hit> hits) noexcept {
-    const auto key = [](const vox_penetration& p) { return std::tuple(p.mesh_a, p.vertex, p.mesh_b); };
+    const auto key = [](const vox_penetration& p) { return std::tuple(p.body_a, p.vertex, p.body_b); };
     std::size_t old = 0, count = 0;
     carried_ = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {

@@ -68,7 +68,7 @@ public:
         const vox_depth* first = depths_.data();
         return {first, depths_.size()};
     }
-    // For each the triangle of mesh_b's surface that is closest, where that was searched, or no_triangle.
+    // For each the triangle of body_b's surface that is closest, where that was searched, or no_triangle.
     std::span<const std::uint32_t> closest() const noexcept { return closest_; }
 
     // How many begin() kept.

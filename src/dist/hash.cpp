@@ -50,15 +50,15 @@ void ContactSum::write(std::uint64_t out[2]) noexcept {
 void hash_of_grid(const vox_grid* grid, std::uint64_t out[2]) {
     vox_contact_view contacts;
     vox_interior_view interiors;
-    check(vox_grid_contacts(grid, &contacts));
+    check(vox_grid_get_contacts(grid, &contacts));
     check(vox_grid_contact_interiors(grid, &interiors));
     ContactSum sum;
     for (std::uint64_t i = 0; i < contacts.count; ++i) {
         const auto& hit = *reinterpret_cast<const vox_contact*>(
             reinterpret_cast<const std::byte*>(contacts.data) + i * contacts.byte_stride);
         vox_scene_contact contact{};
-        check(vox_mesh_user_data(grid, hit.mesh_a, &contact.body_a));
-        check(vox_mesh_user_data(grid, hit.mesh_b, &contact.body_b));
+        check(vox_body_get_user_data(grid, hit.body_a, &contact.body_a));
+        check(vox_body_get_user_data(grid, hit.body_b, &contact.body_b));
         contact.vertex = hit.vertex;
         contact.tet = hit.tet;
         std::memcpy(contact.barycentric, hit.barycentric, sizeof hit.barycentric);

@@ -28,15 +28,15 @@ void Rounds::step_grid() {
 void Rounds::collect_here() {
     vox_contact_view contacts;
     vox_interior_view interiors;
-    check(vox_grid_contacts(side_.grid.get(), &contacts));
+    check(vox_grid_get_contacts(side_.grid.get(), &contacts));
     check(vox_grid_contact_interiors(side_.grid.get(), &interiors));
     const auto* contact = reinterpret_cast<const std::byte*>(contacts.data);
     const auto* interior = reinterpret_cast<const std::byte*>(interiors.data);
     for (std::uint64_t i = 0; i < contacts.count; ++i) {
         const auto& hit = *reinterpret_cast<const vox_contact*>(contact + i * contacts.byte_stride);
         const bool inside = interior[i * interiors.byte_stride] != std::byte{0};
-        const Part& part = side_.part_of(hit.mesh_b);
-        if (hit.mesh_a == side_.points)
+        const Part& part = side_.part_of(hit.body_b);
+        if (hit.body_a == side_.points)
             collect_stranger(part, hit, inside);
         else
             collect(part, hit, inside);
@@ -79,7 +79,7 @@ void Rounds::collect_stranger(const Part& part, const vox_contact& hit, bool int
 }
 
 void Rounds::collect(const Part& part, const vox_contact& hit, bool interior) {
-    const Part& part_a = side_.part_of(hit.mesh_a);
+    const Part& part_a = side_.part_of(hit.body_a);
     if (!collide(part_a.body, part_a.filter, part.body, part.filter)) return;
     vox_scene_contact contact = between(part_a.body, part_a.id_of(hit.vertex), part, hit, interior);
     if (part_a.owns(hit.vertex)) {

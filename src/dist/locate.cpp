@@ -43,10 +43,10 @@ void place_parts(vox_scene& scene) {
         mesh.tet_count = part->tet_count;
         mesh.filter = &filter;
         reserve_growing(side.placed, side.placed.size() + 1);
-        vox_mesh id = VOX_NULL_MESH;
+        vox_body id = VOX_NULL_BODY;
         check(vox_mesh_insert(side.grid.get(), &mesh, &id));
         side.placed.insert(std::upper_bound(side.placed.begin(), side.placed.end(), id,
-                                            [](vox_mesh m, const Placed& placed) { return m < placed.mesh; }),
+                                            [](vox_body m, const Placed& placed) { return m < placed.mesh; }),
                            Placed{id, part});
     }
 }

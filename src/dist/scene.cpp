@@ -17,24 +17,24 @@ vox_filter everything() noexcept {
     return filter;
 }
 
-const Part& Side::part_of(vox_mesh mesh) const noexcept {
-    return *std::lower_bound(placed.begin(), placed.end(), mesh, [](const Placed& p, vox_mesh m) {
+const Part& Side::part_of(vox_body mesh) const noexcept {
+    return *std::lower_bound(placed.begin(), placed.end(), mesh, [](const Placed& p, vox_body m) {
                 return p.mesh < m;
             })->part;
 }
 
 void Side::set_points(Array<double>& positions) {
     const std::uint64_t count = positions.size() / 3;
-    if (points == VOX_NULL_MESH && count == 0) return;
+    if (points == VOX_NULL_BODY && count == 0) return;
     vox_mesh_desc desc = vox_mesh_desc_doubles(positions.data(), count, nullptr, 0);
     const vox_filter filter = everything();
     desc.filter = &filter;
-    if (points == VOX_NULL_MESH)
+    if (points == VOX_NULL_BODY)
         check(vox_mesh_insert(grid.get(), &desc, &points));
     else
         check(vox_mesh_set_topology(grid.get(), points, &desc));
     xyz.swap(positions);
-    check(vox_mesh_set_enabled(grid.get(), points, count != 0));
+    check(vox_body_set_enabled(grid.get(), points, count != 0));
 }
 
 namespace {
@@ -124,7 +124,7 @@ vox_part vox_scene::insert(const vox_part_desc& desc) {
                                         [](std::uint64_t b, const Part* p) { return b < p->body; });
     auto& placed = contacts_side_.placed;
     placed.insert(std::upper_bound(placed.begin(), placed.end(), handle,
-                                   [](vox_mesh m, const Placed& p) { return m < p.mesh; }),
+                                   [](vox_body m, const Placed& p) { return m < p.mesh; }),
                   Placed{handle, part.get()});
     parts_.insert(place, part.release());
     return handle;
@@ -134,13 +134,13 @@ void vox_scene::remove(vox_part handle) {
     const auto is_it = [&](const Part* p) { return p->handle == handle; };
     const auto place = std::find_if(parts_.begin(), parts_.end(), is_it);
     if (place == parts_.end()) throw Error(VOX_ERROR_INVALID_HANDLE, format("there is no part %u", handle));
-    check(vox_mesh_remove(contacts_side_.grid.get(), handle));
+    check(vox_body_remove(contacts_side_.grid.get(), handle));
     Part* const part = *place;
     for (Side* side : {&contacts_side_, &points_side_}) {
         const auto gone = std::find_if(side->placed.begin(), side->placed.end(),
                                        [&](const Placed& p) { return p.part == part; });
         if (gone == side->placed.end()) continue;
-        if (side == &points_side_) (void)vox_mesh_remove(side->grid.get(), gone->mesh);
+        if (side == &points_side_) (void)vox_body_remove(side->grid.get(), gone->mesh);
         side->placed.erase(gone);
     }
     parts_.erase(place);
@@ -157,9 +157,9 @@ void vox_scene::bind(vox_part handle, const void* positions, vox_format format, 
 
 void vox_scene::look() {
     for (Part* part : parts_) {
-        vox_mesh_info info{};
+        vox_body_info info{};
         info.struct_size = sizeof info;
-        check(vox_mesh_get_info(contacts_side_.grid.get(), part->handle, &info));
+        check(vox_body_get_info(contacts_side_.grid.get(), part->handle, &info));
         if (!info.positions && part->vertex_count != 0)
             throw Error(VOX_ERROR_INVALID_STATE, format("the part of body %llu has no positions",
                                                         static_cast<unsigned long long>(part->body)));

@@ -16,21 +16,21 @@ using GridHandle = std::unique_ptr<vox_grid, GridDeleter>;
 
 // A part in a grid of the scene.
 struct Placed {
-    vox_mesh mesh;
+    vox_body mesh;
     Part* part;
 };
 
 // A grid with the parts, and with the vertices or points of other ranks as a mesh without tetrahedra.
 struct Side {
     explicit Side(Memory* memory) : placed(memory), xyz(memory) {}
-    const Part& part_of(vox_mesh mesh) const noexcept;
+    const Part& part_of(vox_body mesh) const noexcept;
     // Gives the grid these points, and keeps them.
     void set_points(Array<double>& positions);
 
     Array<Placed> placed; // ascending
     Array<double> xyz;    // of the points, which the grid borrows
     GridHandle grid;
-    vox_mesh points = VOX_NULL_MESH;
+    vox_body points = VOX_NULL_BODY;
 };
 
 vox_filter everything() noexcept;

@@ -19,15 +19,15 @@ void vox_grid::prepare_readings(const vox_readings_desc& desc) {
     if (desc.what & ~known)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("desc.what is 0x%x, of which 0x%x is unknown", desc.what, desc.what & ~known));
-    if (desc.mesh_a == VOX_NULL_MESH && desc.mesh_b != VOX_NULL_MESH)
+    if (desc.body_a == VOX_NULL_BODY && desc.body_b != VOX_NULL_BODY)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("desc.mesh_b is %u, but there is no mesh_a", desc.mesh_b));
-    const vox_mesh meshes[2] = {desc.mesh_a, desc.mesh_b};
-    const std::size_t named = desc.mesh_a == VOX_NULL_MESH ? 0 : desc.mesh_b == VOX_NULL_MESH ? 1 : 2;
+                    format("desc.body_b is %u, but there is no body_a", desc.body_b));
+    const vox_body meshes[2] = {desc.body_a, desc.body_b};
+    const std::size_t named = desc.body_a == VOX_NULL_BODY ? 0 : desc.body_b == VOX_NULL_BODY ? 1 : 2;
     for (std::size_t i = 0; i < named; ++i) (void)mesh(meshes[i]); // throws for an id that names no mesh
 
     for (ReadingBody& reading : readings_.choose(events_, {meshes, named})) {
-        const vox_mesh id = reading.body.mesh_id;
+        const vox_body id = reading.body.mesh_id;
         if (!is_valid(id)) continue;
         Mesh& mesh = this->mesh(id);
         if (!mesh.has_positions()) continue;
@@ -53,7 +53,7 @@ void vox_grid::prepare_edge_depths() {
     Array<EdgeBody> bodies(&memory_);
     bodies.reserve(2 * edges_->pairs().size());
     for (const EdgePair& pair : edges_->pairs())
-        for (const vox_mesh id : {pair.mesh_a, pair.mesh_b}) {
+        for (const vox_body id : {pair.body_a, pair.body_b}) {
             const MeshSlot* slot = meshes_.find(id);
             if (!slot || slot->mesh.topology_version() != slot->topology_version)
                 throw Error(VOX_ERROR_INVALID_STATE,
@@ -70,15 +70,15 @@ void vox_grid::prepare_edge_depths() {
     bodies.erase(std::unique(bodies.begin(), bodies.end(), same), bodies.end());
     for (const EdgeBody& b : bodies) check_finite(b.body);
 
-    Array<vox_mesh> entered(&memory_);
+    Array<vox_body> entered(&memory_);
     for (const vox_edge_contact& contact : contacts)
-        if (contact.mesh_a != contact.mesh_b && (entered.empty() || entered.back() != contact.mesh_b))
-            entered.push_back(contact.mesh_b);
+        if (contact.body_a != contact.body_b && (entered.empty() || entered.back() != contact.body_b))
+            entered.push_back(contact.body_b);
     std::ranges::sort(entered);
     entered.erase(std::unique(entered.begin(), entered.end()), entered.end());
-    for (const vox_mesh id : entered) trees_.add(id); // which moves those of others
+    for (const vox_body id : entered) trees_.add(id); // which moves those of others
     for (EdgeBody& b : bodies) {
-        const vox_mesh id = b.body.mesh_id;
+        const vox_body id = b.body.mesh_id;
         if (!std::ranges::binary_search(entered, id)) continue;
         depth::SurfaceTree& tree = trees_[id];
         tree.update({&mesh(id).topology(), b.body.tets, b.body.positions}, false, &workers_);
@@ -91,7 +91,7 @@ void vox_grid::prepare_edge_depths() {
 
 void vox_grid::list_query_bodies() {
     query_bodies_.clear();
-    meshes_.for_each([&](vox_mesh id, MeshSlot& slot) {
+    meshes_.for_each([&](vox_body id, MeshSlot& slot) {
         Mesh& mesh = slot.mesh;
         if (!mesh.is_enabled() || mesh.tet_count() == 0) return;
         const Body body = mesh.body(id);

@@ -1,5 +1,5 @@
 // Counting sorts (Knuth, The Art of Computer Programming 3, Sect. 5.2) of the pairs by either mesh, and of
-// runs of contacts by pair: those that follow each other with the same mesh_a and mesh_b.
+// runs of contacts by pair: those that follow each other with the same body_a and body_b.
 #include "grid/contact_pairs.hpp"
 
 #include "base/array.hpp"
@@ -29,8 +29,8 @@ template <class Visit>
 void for_runs(std::span<const vox_contact> contacts, Visit&& visit) {
     const auto count = static_cast<std::uint32_t>(contacts.size());
     for (std::uint32_t first = 0, end; first < count; first = end) {
-        const vox_mesh a = contacts[first].mesh_a, b = contacts[first].mesh_b;
-        for (end = first + 1; end < count && contacts[end].mesh_a == a && contacts[end].mesh_b == b;) ++end;
+        const vox_body a = contacts[first].body_a, b = contacts[first].body_b;
+        for (end = first + 1; end < count && contacts[end].body_a == a && contacts[end].body_b == b;) ++end;
         visit(first, end);
     }
 }
@@ -39,7 +39,7 @@ void for_runs(std::span<const vox_contact> contacts, Visit&& visit) {
 
 // From behind, so that each pair moves once.
 void add_pairs(std::span<const EdgePair> touching, Array<vox_pair>& pairs) {
-    const auto id_of = [](const vox_pair& pair) { return EdgePair{pair.mesh_a, pair.mesh_b}; };
+    const auto id_of = [](const vox_pair& pair) { return EdgePair{pair.body_a, pair.body_b}; };
     std::size_t added = 0;
     auto at = pairs.begin();
     for (const EdgePair& pair : touching) {
@@ -59,7 +59,7 @@ void add_pairs(std::span<const EdgePair> touching, Array<vox_pair>& pairs) {
             end = pairs[to].first;
         }
         if (left > 0 && touching[i] == id_of(pairs[left - 1])) continue;
-        pairs[--to] = {touching[i].mesh_a, touching[i].mesh_b, 0, 0, end, 0, 0};
+        pairs[--to] = {touching[i].body_a, touching[i].body_b, 0, 0, end, 0, 0};
     }
 }
 
@@ -77,22 +77,22 @@ void find_touching(std::span<const vox_contact> contacts, std::size_t slots, Tou
     directed.clear();
     if (buffers.last_of_slot.size() < slots) buffers.last_of_slot.resize(slots, 0);
     for_runs(contacts, [&](std::uint32_t first, std::uint32_t end) {
-        const vox_mesh a = contacts[first].mesh_a, b = contacts[first].mesh_b;
-        // An earlier mesh_a or step may have left the index of another pair here, or one past the end.
+        const vox_body a = contacts[first].body_a, b = contacts[first].body_b;
+        // An earlier body_a or step may have left the index of another pair here, or one past the end.
         std::uint32_t& index = buffers.last_of_slot[slot_of(b)];
-        if (index >= directed.size() || directed[index].mesh_a != a || directed[index].mesh_b != b) {
+        if (index >= directed.size() || directed[index].body_a != a || directed[index].body_b != b) {
             index = static_cast<std::uint32_t>(directed.size());
             directed.push_back({a, b, 0, 0});
         }
         directed[index].count += end - first;
     });
 
-    // The two directions of a pair become neighbours: mesh_a ascends in `directed`, and sorting is stable.
+    // The two directions of a pair become neighbours: body_a ascends in `directed`, and sorting is stable.
     buffers.order.resize(directed.size());
     buffers.scratch.resize(directed.size());
     std::iota(buffers.scratch.begin(), buffers.scratch.end(), 0u);
-    const auto low = [](const Directed& d) { return std::min(d.mesh_a, d.mesh_b); };
-    const auto high = [](const Directed& d) { return std::max(d.mesh_a, d.mesh_b); };
+    const auto low = [](const Directed& d) { return std::min(d.body_a, d.body_b); };
+    const auto high = [](const Directed& d) { return std::max(d.body_a, d.body_b); };
     sort_by_slot(directed, high, slots, buffers.scratch, buffers.order, buffers.place);
     buffers.scratch.swap(buffers.order);
     sort_by_slot(directed, low, slots, buffers.scratch, buffers.order, buffers.place);
@@ -101,20 +101,20 @@ void find_touching(std::span<const vox_contact> contacts, std::size_t slots, Tou
     for (const std::uint32_t i : buffers.order) {
         Directed& d = directed[i];
         d.next = placed;
-        const vox_mesh a = low(d), b = high(d);
-        if (pairs.empty() || pairs.back().mesh_a != a || pairs.back().mesh_b != b)
+        const vox_body a = low(d), b = high(d);
+        if (pairs.empty() || pairs.back().body_a != a || pairs.back().body_b != b)
             pairs.push_back({a, b, 0, 0, placed, 0, 0});
-        (d.mesh_a == a ? pairs.back().a_in_b : pairs.back().b_in_a) = d.count;
+        (d.body_a == a ? pairs.back().a_in_b : pairs.back().b_in_a) = d.count;
         placed += d.count;
     }
     // Which of `directed` a run belongs to is found again, as keeping it would take memory for each contact:
-    // those with one mesh_a follow each other.
+    // those with one body_a follow each other.
     by_pair.resize(contacts.size());
     std::uint32_t entered = 0;
     for_runs(contacts, [&](std::uint32_t first, std::uint32_t end) {
-        for (; entered < directed.size() && directed[entered].mesh_a == contacts[first].mesh_a; ++entered)
-            buffers.last_of_slot[slot_of(directed[entered].mesh_b)] = entered;
-        std::uint32_t& next = directed[buffers.last_of_slot[slot_of(contacts[first].mesh_b)]].next;
+        for (; entered < directed.size() && directed[entered].body_a == contacts[first].body_a; ++entered)
+            buffers.last_of_slot[slot_of(directed[entered].body_b)] = entered;
+        std::uint32_t& next = directed[buffers.last_of_slot[slot_of(contacts[first].body_b)]].next;
         std::iota(by_pair.begin() + next, by_pair.begin() + next + (end - first), first);
         next += end - first;
     });

@@ -17,21 +17,21 @@ struct TouchingBuffers {
     explicit TouchingBuffers(std::pmr::memory_resource* memory)
         : directed(memory), order(memory), scratch(memory), place(memory), last_of_slot(memory) {}
 
-    // All contacts with that mesh_a and mesh_b.
+    // All contacts with that body_a and body_b.
     struct Directed {
-        vox_mesh mesh_a, mesh_b;
+        vox_body body_a, body_b;
         std::uint32_t count;
         std::uint32_t next; // where its next contact goes in the list by pairs
     };
     Array<Directed> directed;
     Array<std::uint32_t> order, scratch; // of `directed`, sorted by pair
     Array<std::uint32_t> place;
-    Array<std::uint32_t> last_of_slot; // one of `directed` with mesh_b in that slot
+    Array<std::uint32_t> last_of_slot; // one of `directed` with body_b in that slot
 };
 
 // Two meshes, the lower id first.
 struct EdgePair {
-    vox_mesh mesh_a, mesh_b;
+    vox_body body_a, body_b;
 
     auto operator<=>(const EdgePair&) const = default;
 };

@@ -23,10 +23,10 @@ bool before(const Hit& x, const Hit& y) {
 }
 
 // A hit is kept in either list, bit by bit, while they are sorted.
-static_assert(sizeof(Hit) == sizeof(vox_contact) && offsetof(Hit, body_a) == offsetof(vox_contact, mesh_a) &&
+static_assert(sizeof(Hit) == sizeof(vox_contact) && offsetof(Hit, body_a) == offsetof(vox_contact, body_a) &&
               offsetof(Hit, vertex) == offsetof(vox_contact, vertex));
 std::uint32_t body_of(const Hit& hit) { return hit.body_a; }
-std::uint32_t body_of(const vox_contact& contact) { return contact.mesh_a; }
+std::uint32_t body_of(const vox_contact& contact) { return contact.body_a; }
 Hit to_hit(const Hit& hit) { return hit; }
 Hit to_hit(const vox_contact& contact) { return std::bit_cast<Hit>(contact); }
 
@@ -318,8 +318,8 @@ std::uint64_t hash_contacts(std::span<const vox_contact> contacts) noexcept {
         state ^= state >> 29;
     };
     for (const vox_contact& contact : contacts) {
-        add(contact.mesh_a, contact.vertex);
-        add(contact.mesh_b, contact.tet);
+        add(contact.body_a, contact.vertex);
+        add(contact.body_b, contact.tet);
         add(std::bit_cast<std::uint32_t>(contact.barycentric[0]),
             std::bit_cast<std::uint32_t>(contact.barycentric[1]));
         add(std::bit_cast<std::uint32_t>(contact.barycentric[2]),

@@ -22,9 +22,9 @@ class Workers;
 void make_contacts(std::span<const Body> bodies, Array<Hit>& hits, Array<vox_contact>& contacts,
                    Workers* workers = nullptr, Array<std::uint8_t>* interiors = nullptr);
 
-// vox_grid_hash of a list of contacts: of its length and of all fields in order, as numbers, so that byte
+// vox_grid_get_hash of a list of contacts: of its length and of all fields in order, as numbers, so that byte
 // order and padding do not matter. Each contact is taken as the four 64-bit words
-//     mesh_a + vertex * 2^32, mesh_b + tet * 2^32, and the bits of barycentric[0] + [1] * 2^32, [2] + [3] *
+//     body_a + vertex * 2^32, body_b + tet * 2^32, and the bits of barycentric[0] + [1] * 2^32, [2] + [3] *
 //     2^32;
 // a word w turns the state h, at first the number of contacts, into h' = m ^ (m >> 29) with
 //     m = (h ^ w) * 0x9fb21c651e98df25 mod 2^64,

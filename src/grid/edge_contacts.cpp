@@ -45,7 +45,7 @@ const fast::CertifiedCells* certified_for(const EdgeScene& scene, const fast::Pa
 }
 
 EdgePair pair_of(const vox_edge_contact& contact) {
-    const auto [low, high] = std::minmax(contact.mesh_a, contact.mesh_b);
+    const auto [low, high] = std::minmax(contact.body_a, contact.body_b);
     return {low, high};
 }
 
@@ -62,7 +62,7 @@ void EdgeContacts::clear() noexcept {
     unchanged_ = has_depths_ = false;
 }
 
-void EdgeContacts::forget(vox_mesh mesh) noexcept {
+void EdgeContacts::forget(vox_body mesh) noexcept {
     erase_if(surfaces_, [mesh](const Surface& surface) { return surface.mesh == mesh; });
 }
 
@@ -101,17 +101,17 @@ void EdgeContacts::find(const EdgeScene& scene, vox_counters& counters) {
 // Those of the last step between bodies that have not moved since.
 void EdgeContacts::carry(const EdgeScene& scene) {
     if (!scene.engine) return;
-    const auto rests = [&](vox_mesh mesh) {
+    const auto rests = [&](vox_body mesh) {
         const auto body = std::lower_bound(scene.bodies.begin(), scene.bodies.end(), mesh,
-                                           [](const Body& b, vox_mesh id) { return b.mesh_id < id; });
+                                           [](const Body& b, vox_body id) { return b.mesh_id < id; });
         return body != scene.bodies.end() && body->mesh_id == mesh &&
                !scene.engine->moved(static_cast<std::size_t>(body - scene.bodies.begin()));
     };
     EdgePair last{};
     bool last_rests = false;
     for (const vox_edge_contact& contact : contacts_) {
-        const EdgePair pair{contact.mesh_a, contact.mesh_b};
-        if (pair != last) last_rests = rests(pair.mesh_a) && rests(pair.mesh_b);
+        const EdgePair pair{contact.body_a, contact.body_b};
+        if (pair != last) last_rests = rests(pair.body_a) && rests(pair.body_b);
         last = pair;
         if (!last_rests) continue;
         reserve_sparingly(found_, found_.size() + 1);
@@ -170,9 +170,9 @@ const Box& EdgeContacts::box_of(const EdgeScene& scene, std::uint32_t body) cons
 }
 
 const SurfaceFeatures& EdgeContacts::surface_of(const EdgeScene& scene, std::uint32_t body) {
-    const vox_mesh mesh = scene.bodies[body].mesh_id;
+    const vox_body mesh = scene.bodies[body].mesh_id;
     auto place = std::lower_bound(surfaces_.begin(), surfaces_.end(), mesh,
-                                  [](const Surface& surface, vox_mesh id) { return surface.mesh < id; });
+                                  [](const Surface& surface, vox_body id) { return surface.mesh < id; });
     if (place == surfaces_.end() || place->mesh != mesh || place->version != scene.versions[body]) {
         Surface made(mesh, scene.versions[body], memory());
         make_surface_features(*scene.topologies[body], scene.bodies[body].positions,
@@ -472,9 +472,9 @@ void EdgeContacts::decide(const EdgeScene& scene, const LoadedTile& edges, std::
                                    : found.kind == CrossingKind::touching ? VOX_CROSSING_TOUCHING
                                                                           : VOX_CROSSING_COPLANAR;
     const vox_edge_contact contact{
-        .mesh_a = scene.bodies[edges.body].mesh_id,
+        .body_a = scene.bodies[edges.body].mesh_id,
         .edge = {low, high},
-        .mesh_b = scene.bodies[faces.body].mesh_id,
+        .body_b = scene.bodies[faces.body].mesh_id,
         .face = {v[0], v[second], v[third]},
         .tet = tet,
         .kind = kind,
@@ -494,7 +494,7 @@ void EdgeContacts::put_in_order() {
     reserve_sparingly(keys_, found_.size());
     for (const vox_edge_contact& c : found_) {
         const auto [middle, last] = std::minmax(c.face[1], c.face[2]);
-        keys_.push_back({{c.mesh_a, c.edge[0], c.edge[1], c.mesh_b, c.face[0], middle, last},
+        keys_.push_back({{c.body_a, c.edge[0], c.edge[1], c.body_b, c.face[0], middle, last},
                          static_cast<std::uint32_t>(keys_.size())});
     }
     std::sort(keys_.begin(), keys_.end());
@@ -525,8 +525,8 @@ std::uint64_t EdgeContacts::hash() const noexcept {
         for (const double x : numbers) add(std::bit_cast<std::uint64_t>(x + 0.0)); // one zero
     };
     for (const vox_edge_contact& c : contacts_) {
-        add_two(c.mesh_a, c.edge[0]);
-        add_two(c.edge[1], c.mesh_b);
+        add_two(c.body_a, c.edge[0]);
+        add_two(c.edge[1], c.body_b);
         add_two(c.face[0], c.face[1]);
         add_two(c.face[2], c.tet);
         add(static_cast<std::uint64_t>(c.kind));

@@ -74,16 +74,16 @@ public:
 
     void clear() noexcept;
     // Of a mesh that is gone, or whose tetrahedra are others.
-    void forget(vox_mesh mesh) noexcept;
+    void forget(vox_body mesh) noexcept;
     void forget_all() noexcept { surfaces_.clear(); }
 
 private:
     // What is kept of a mesh, by its id.
     struct Surface {
-        Surface(vox_mesh id, SurfaceVersion made_from, std::pmr::memory_resource* memory) noexcept
+        Surface(vox_body id, SurfaceVersion made_from, std::pmr::memory_resource* memory) noexcept
             : mesh(id), version(made_from), features(memory) {}
 
-        vox_mesh mesh;
+        vox_body mesh;
         SurfaceVersion version;
         SurfaceFeatures features;
     };

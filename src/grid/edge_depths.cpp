@@ -18,13 +18,13 @@ namespace {
 
 Vec3d vector_of(const double (&from)[3]) { return {from[0], from[1], from[2]}; }
 
-const EdgeBody& edge_body_of(std::span<const EdgeBody> bodies, vox_mesh mesh) {
+const EdgeBody& edge_body_of(std::span<const EdgeBody> bodies, vox_body mesh) {
     return *std::lower_bound(bodies.begin(), bodies.end(), mesh,
-                             [](const EdgeBody& b, vox_mesh id) { return b.body.mesh_id < id; });
+                             [](const EdgeBody& b, vox_body id) { return b.body.mesh_id < id; });
 }
 
 bool same_edge(const vox_edge_contact& x, const vox_edge_contact& y) {
-    return x.mesh_a == y.mesh_a && x.edge[0] == y.edge[0] && x.edge[1] == y.edge[1] && x.mesh_b == y.mesh_b;
+    return x.body_a == y.body_a && x.edge[0] == y.edge[0] && x.edge[1] == y.edge[1] && x.body_b == y.body_b;
 }
 
 // The middle of the part of the edge pq behind a face that it passes through at `at`, as a fraction of the
@@ -54,14 +54,14 @@ void EdgeContacts::prepare_depths(std::span<const EdgeBody> bodies, Workers& wor
         const Vec3d normal = vector_of(contact.normal);
         vox_depth out{0, {normal.x, normal.y, normal.z}};
         if (contact.kind != VOX_CROSSING_THROUGH) return out;
-        const EdgeBody &a = edge_body_of(bodies, contact.mesh_a), &b = edge_body_of(bodies, contact.mesh_b);
+        const EdgeBody &a = edge_body_of(bodies, contact.body_a), &b = edge_body_of(bodies, contact.body_b);
         const Vec3d p = a.body.positions.exact(contact.edge[0]), q = a.body.positions.exact(contact.edge[1]);
         std::uint64_t exact_tests = 0;
         const bool enters =
             orientation(b.body.positions.exact(contact.face[0]), b.body.positions.exact(contact.face[1]),
                         b.body.positions.exact(contact.face[2]), q, exact_tests) < 0;
         const Vec3d middle = p + middle_of_part(crossed_at, contact.edge_weights[1], enters) * (q - p);
-        if (contact.mesh_a == contact.mesh_b) {
+        if (contact.body_a == contact.body_b) {
             out.depth = std::max(dot(vector_of(contact.position) - middle, normal), 0.0);
             return out;
         }
@@ -76,7 +76,7 @@ void EdgeContacts::prepare_depths(std::span<const EdgeBody> bodies, Workers& wor
         contacts_.size(), least_searches, [&](std::size_t begin, std::size_t end, std::uint32_t w) {
             Array<double>& crossed_at = workers_[w].crossed_at;
             depth::SearchState state;
-            vox_mesh last = VOX_NULL_MESH;
+            vox_body last = VOX_NULL_BODY;
             std::size_t past = begin; // the contacts of one edge with one mesh end there
             for (std::size_t i = begin; i < end; ++i) {
                 const vox_edge_contact& contact = contacts_[i];
@@ -88,9 +88,9 @@ void EdgeContacts::prepare_depths(std::span<const EdgeBody> bodies, Workers& wor
                         crossed_at.push_back(contacts_[past].edge_weights[1]);
                     std::sort(crossed_at.begin(), crossed_at.end());
                 }
-                if (contact.mesh_b != last)
+                if (contact.body_b != last)
                     state.near = depth::SearchState::none; // a triangle of another tree
-                last = contact.mesh_b;
+                last = contact.body_b;
                 depths_[i] = find_depth(crossed_at, contact, state);
             }
         });

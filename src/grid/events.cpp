@@ -13,7 +13,7 @@ namespace vox {
 namespace {
 
 bool pair_before(const vox_pair& x, const vox_pair& y) {
-    return std::tie(x.mesh_a, x.mesh_b) < std::tie(y.mesh_a, y.mesh_b);
+    return std::tie(x.body_a, x.body_b) < std::tie(y.body_a, y.body_b);
 }
 
 // Merges two sorted sets and calls function(element) for those that began (in `is` alone), persist (in both:
@@ -104,7 +104,7 @@ void Events::repeat() {
     for (const vox_pair& pair : touching_[current_]) {
         const auto index = static_cast<std::uint32_t>(touch_events_.size());
         touch_events_.push_back(
-            {pair.mesh_a, pair.mesh_b, pair.user_data_a, pair.user_data_b, VOX_TOUCH_PERSISTED, index});
+            {pair.body_a, pair.body_b, pair.user_data_a, pair.user_data_b, VOX_TOUCH_PERSISTED, index});
     }
     persisted_ = touch_events_.size();
     pairs_are_shown_ = true;
@@ -117,7 +117,7 @@ void Events::compare_pairs() {
             const auto index =
                 kind == VOX_TOUCH_ENDED ? VOX_NO_PAIR : static_cast<std::uint32_t>(&pair - is.data());
             touch_events_.push_back(
-                {pair.mesh_a, pair.mesh_b, pair.user_data_a, pair.user_data_b, kind, index});
+                {pair.body_a, pair.body_b, pair.user_data_a, pair.user_data_b, kind, index});
             began_ += kind == VOX_TOUCH_BEGAN;
             persisted_ += kind == VOX_TOUCH_PERSISTED;
         });
@@ -128,7 +128,7 @@ void Events::compare_contacts(std::span<const vox_contact> contacts) {
     Array<Inside>& is = inside_[1 - current_];
     is.clear();
     for (const vox_contact& contact : contacts) {
-        const Inside inside{contact.mesh_a, contact.vertex, contact.mesh_b};
+        const Inside inside{contact.body_a, contact.vertex, contact.body_b};
         if (is.empty() || is.back() != inside)
             is.push_back(inside); // in the interior of several tets at once
     }
@@ -136,7 +136,7 @@ void Events::compare_contacts(std::span<const vox_contact> contacts) {
     reserve_growing(contact_events_, 2 * std::max(was.size(), is.size()));
     for (const vox_touch kind : {VOX_TOUCH_BEGAN, VOX_TOUCH_ENDED})
         for_each_of_kind(kind, was, is, std::less<>(), [&](const Inside& inside) {
-            contact_events_.push_back({inside.mesh_a, inside.vertex, inside.mesh_b, kind});
+            contact_events_.push_back({inside.body_a, inside.vertex, inside.body_b, kind});
             contacts_began_ += kind == VOX_TOUCH_BEGAN;
         });
 }
@@ -145,10 +145,10 @@ std::span<const vox_pair> Events::pairs() const noexcept {
     return pairs_are_shown_ ? std::span<const vox_pair>(touching_[current_]) : std::span<const vox_pair>();
 }
 
-std::span<const vox_pair> Events::pairs_of(std::span<const vox_mesh> meshes) const noexcept {
+std::span<const vox_pair> Events::pairs_of(std::span<const vox_body> meshes) const noexcept {
     if (meshes.size() < 2) return pairs();
     vox_pair wanted{};
-    std::tie(wanted.mesh_a, wanted.mesh_b) = std::minmax(meshes[0], meshes[1]);
+    std::tie(wanted.body_a, wanted.body_b) = std::minmax(meshes[0], meshes[1]);
     const auto [first, last] = std::equal_range(pairs().begin(), pairs().end(), wanted, pair_before);
     return {first, last};
 }

@@ -34,8 +34,8 @@ public:
         find_touching(contacts, slots, buffers_, next(), by_pair_);
         add_pairs(by_edges, next());
         for (vox_pair& pair : next()) {
-            pair.user_data_a = user_data(pair.mesh_a);
-            pair.user_data_b = user_data(pair.mesh_b);
+            pair.user_data_a = user_data(pair.body_a);
+            pair.user_data_b = user_data(pair.body_b);
         }
         compare(contacts);
     }
@@ -54,13 +54,13 @@ public:
     }
     // Calls visit(pair) for all pairs, in order, those of one mesh, or that of two meshes.
     template <class Visit>
-    void for_pairs_of(std::span<const vox_mesh> meshes, Visit&& visit) const {
+    void for_pairs_of(std::span<const vox_body> meshes, Visit&& visit) const {
         for (const vox_pair& pair : pairs_of(meshes))
-            if (meshes.empty() || pair.mesh_a == meshes[0] || pair.mesh_b == meshes[0]) visit(pair);
+            if (meshes.empty() || pair.body_a == meshes[0] || pair.body_b == meshes[0]) visit(pair);
     }
     // Calls visit(index) for each contact of these pairs, pair by pair.
     template <class Visit>
-    void for_contacts_of(std::span<const vox_mesh> meshes, Visit&& visit) const {
+    void for_contacts_of(std::span<const vox_body> meshes, Visit&& visit) const {
         for_pairs_of(meshes, [&](const vox_pair& pair) {
             for (const std::uint32_t index : contacts_of(pair)) visit(index);
         });
@@ -80,15 +80,15 @@ private:
 
     // A vertex in some mesh.
     struct Inside {
-        vox_mesh mesh_a;
+        vox_body body_a;
         std::uint32_t vertex;
-        vox_mesh mesh_b;
+        vox_body body_b;
 
         auto operator<=>(const Inside&) const = default;
     };
 
     // The pair of two meshes, in either order, if they touch; all pairs where less are given.
-    std::span<const vox_pair> pairs_of(std::span<const vox_mesh> meshes) const noexcept;
+    std::span<const vox_pair> pairs_of(std::span<const vox_body> meshes) const noexcept;
 
     Array<vox_pair>& next() noexcept { return touching_[1 - current_]; }
     void compare(std::span<const vox_contact> contacts);

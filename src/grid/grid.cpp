@@ -65,7 +65,7 @@ void check_grid_desc(const vox_grid_desc& desc) {
 
 void check_flags(std::uint32_t flags) {
     constexpr std::uint32_t known_flags =
-        VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS | VOX_GRID_SKIP_BAD_MESHES | VOX_GRID_EDGE_CONTACTS;
+        VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS | VOX_GRID_SKIP_BAD_BODIES | VOX_GRID_EDGE_CONTACTS;
     if (flags & ~known_flags)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("grid flags is 0x%x, of which 0x%x is unknown", flags, flags & ~known_flags));
@@ -100,7 +100,7 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
                 .hash_table_size = desc.hash_table_size,
                 .world_min = {desc.world_min[0], desc.world_min[1], desc.world_min[2]},
                 .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
-      skips_bad_meshes_((desc.flags & VOX_GRID_SKIP_BAD_MESHES) != 0), closest_budget_(desc.closest_budget),
+      skips_bad_meshes_((desc.flags & VOX_GRID_SKIP_BAD_BODIES) != 0), closest_budget_(desc.closest_budget),
       requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size), shared_tets_(&memory_),
       meshes_(&memory_), bodies_(&memory_), prepared_(&memory_), lone_(&memory_), fast_engine_(&memory_),
       reference_(&memory_), topologies_(&memory_), trees_(&memory_), hits_(&memory_),
@@ -128,19 +128,19 @@ void vox_grid::prepare(Mesh& mesh, fast::MeshState& state) {
     state.update(mesh.tiled(), mesh.tiles_version(), mesh.vertex_count());
 }
 
-vox_mesh vox_grid::insert(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter) {
+vox_body vox_grid::insert(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter) {
     meshes_.check_room(view);
     Mesh mesh(desc, view, filter, &memory_);
     fast::MeshState state(&memory_);
     prepare(mesh, state);
-    const vox_mesh id = meshes_.insert(std::move(mesh), std::move(state));
+    const vox_body id = meshes_.insert(std::move(mesh), std::move(state));
     scene_changed();
     warn_of_traps(meshes_[id].mesh, id);
     return id;
 }
 
 // What is allowed, but collides with less than one may think: each once, as a program may mean it.
-void vox_grid::warn_of_traps(const Mesh& mesh, vox_mesh id) {
+void vox_grid::warn_of_traps(const Mesh& mesh, vox_body id) {
     if (!log_.write) return;
     const auto warn_of = [&](const char* text) noexcept {
         warn("mesh %u (slot %u, user data %llu) %s", id, slot_of(id), llu(mesh.user_data()), text);
@@ -165,7 +165,7 @@ void vox_grid::scene_changed() noexcept {
     meshes_hold_ = false;
 }
 
-void vox_grid::remove(vox_mesh id) {
+void vox_grid::remove(vox_body id) {
     meshes_.remove(id);
     trees_.forget(id);
     if (edges_) edges_->forget(id);
@@ -200,12 +200,12 @@ void vox_grid::clear() {
     ++epoch_;
 }
 
-void vox_grid::mark_moved(vox_mesh id) {
+void vox_grid::mark_moved(vox_body id) {
     meshes_hold_ = false;
     meshes_[id].state.invalidate_positions();
 }
 
-void vox_grid::set_filter(vox_mesh id, const vox_filter& filter) {
+void vox_grid::set_filter(vox_body id, const vox_filter& filter) {
     Mesh& filtered = mesh(id);
     const bool had_topology = filtered.has_topology(), needed_it = needs_topology(filtered.filter());
     if (needs_topology(filter)) filtered.make_topology();
@@ -223,29 +223,29 @@ void vox_grid::set_filter(vox_mesh id, const vox_filter& filter) {
     warn_of_traps(filtered, id);
 }
 
-void vox_grid::set_enabled(vox_mesh id, bool enabled) {
+void vox_grid::set_enabled(vox_body id, bool enabled) {
     mesh(id).set_enabled(enabled);
     mark_moved(id);
 }
 
-void vox_grid::set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled) {
-    Mesh &mesh_a = mesh(a), &mesh_b = mesh(b);
+void vox_grid::set_pair_enabled(vox_body a, vox_body b, bool enabled) {
+    Mesh &body_a = mesh(a), &body_b = mesh(b);
     if (a == b)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("mesh_a and mesh_b are both %u: self-collision is a matter of its filter", a));
+                    format("body_a and body_b are both %u: self-collision is a matter of its filter", a));
     if (enabled) {
-        mesh_a.remove_exception(b);
-        mesh_b.remove_exception(a);
+        body_a.remove_exception(b);
+        body_b.remove_exception(a);
     } else {
-        mesh_a.reserve_exception();
-        mesh_b.reserve_exception();
-        mesh_a.add_exception(b);
-        mesh_b.add_exception(a);
+        body_a.reserve_exception();
+        body_b.reserve_exception();
+        body_a.add_exception(b);
+        body_b.add_exception(a);
     }
     mark_moved(a);
 }
 
-void vox_grid::bind_previous(vox_mesh id, const Positions& positions) {
+void vox_grid::bind_previous(vox_body id, const Positions& positions) {
     (void)mesh(id); // throws for an id that names no mesh
     check_surface_contacts(positions.data != nullptr);
     if (!passages_ && !positions.data) return;
@@ -256,7 +256,7 @@ void vox_grid::bind_previous(vox_mesh id, const Positions& positions) {
 
 // ---- cutting and growing --------------------------------------------------------------------------
 
-void vox_grid::was_edited(vox_mesh id, std::uint64_t count) {
+void vox_grid::was_edited(vox_body id, std::uint64_t count) {
     if (count == 0) return;
     meshes_[id].query_tets = nullptr;
     mark_moved(id);
@@ -264,7 +264,7 @@ void vox_grid::was_edited(vox_mesh id, std::uint64_t count) {
     adaptive_.scene_changed();
 }
 
-void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& view) {
+void vox_grid::set_topology(vox_body id, const vox_mesh_desc& desc, const Body& view) {
     const Mesh& old = mesh(id);
     meshes_.check_room(view, &old);
     Mesh made = old.with_topology(desc, view);
@@ -280,7 +280,7 @@ void vox_grid::set_topology(vox_mesh id, const vox_mesh_desc& desc, const Body& 
     warn_of_traps(meshes_[id].mesh, id);
 }
 
-std::uint32_t vox_grid::append_tets(vox_mesh id, std::span<const Tet> corners) {
+std::uint32_t vox_grid::append_tets(vox_body id, std::span<const Tet> corners) {
     const Mesh& grown = mesh(id);
     meshes_.check_growth(0, corners.size());
     if (needs_topology(grown.filter())) check_tet_count(grown.tet_count() + corners.size());
@@ -289,7 +289,7 @@ std::uint32_t vox_grid::append_tets(vox_mesh id, std::span<const Tet> corners) {
     return first;
 }
 
-std::uint32_t vox_grid::append_vertices(vox_mesh id, const vox_vertices_desc& desc) {
+std::uint32_t vox_grid::append_vertices(vox_body id, const vox_vertices_desc& desc) {
     (void)mesh(id); // throws for an id that names no mesh
     meshes_.check_growth(desc.count, 0);
     const std::uint32_t first = meshes_.append_vertices(id, desc);
@@ -333,7 +333,7 @@ void vox_grid::set_worker_count(std::uint32_t worker_count) {
 std::uint32_t vox_grid::flags() const noexcept {
     return (finds_penetrations() ? std::uint32_t{VOX_GRID_PENETRATIONS} : 0u) |
            (events_.of_contacts() ? std::uint32_t{VOX_GRID_CONTACT_EVENTS} : 0u) |
-           (skips_bad_meshes_ ? std::uint32_t{VOX_GRID_SKIP_BAD_MESHES} : 0u) |
+           (skips_bad_meshes_ ? std::uint32_t{VOX_GRID_SKIP_BAD_BODIES} : 0u) |
            (edges_ ? std::uint32_t{VOX_GRID_EDGE_CONTACTS} : 0u);
 }
 
@@ -350,7 +350,7 @@ void vox_grid::set_flags(std::uint32_t flags) {
         drop_surfaces();
     }
     events_.set_of_contacts((flags & VOX_GRID_CONTACT_EVENTS) != 0);
-    skips_bad_meshes_ = (flags & VOX_GRID_SKIP_BAD_MESHES) != 0;
+    skips_bad_meshes_ = (flags & VOX_GRID_SKIP_BAD_BODIES) != 0;
     contacts_hold_ = false; // there is more, or less, to do with those of meshes at rest
     ++epoch_;
 }
@@ -361,7 +361,7 @@ void vox_grid::find_penetrations() {
     Array<Mesh*> prepared(&memory_);
     try {
         prepared.reserve(meshes_.slot_count());
-        meshes_.for_each([&](vox_mesh, MeshSlot& slot) {
+        meshes_.for_each([&](vox_body, MeshSlot& slot) {
             if (slot.mesh.has_topology() || !needs_topology(slot.mesh.filter())) return;
             slot.mesh.make_topology();
             prepared.push_back(&slot.mesh);
@@ -374,7 +374,7 @@ void vox_grid::find_penetrations() {
 }
 
 void vox_grid::stop_finding_penetrations() noexcept {
-    meshes_.for_each([](vox_mesh, MeshSlot& slot) { slot.mesh.drop_topology(); });
+    meshes_.for_each([](vox_body, MeshSlot& slot) { slot.mesh.drop_topology(); });
     shared_tets_.drop_topologies();
     depth_.reset();
     trees_.forget_all();
@@ -408,7 +408,7 @@ void vox_grid::look_near() noexcept {
 void vox_grid::drop_surfaces() noexcept {
     if (finds_surfaces()) return;
     surface_versions_ = Array<SurfaceVersion>(&memory_);
-    meshes_.for_each([this](vox_mesh, MeshSlot& slot) {
+    meshes_.for_each([this](vox_body, MeshSlot& slot) {
         if (!needs_topology(slot.mesh.filter())) slot.mesh.drop_topology();
     });
     trees_.forget_all();
@@ -419,7 +419,7 @@ void vox_grid::drop_surfaces() noexcept {
 void vox_grid::describe(CellSizeScene& scene) const {
     const auto reserve_all = [this](auto&... lists) { (lists.reserve(meshes_.slot_count()), ...); };
     reserve_all(scene.bodies, scene.tiles, scene.meshes, scene.at_rest, scene.cleared);
-    meshes_.for_each([&](vox_mesh id, const MeshSlot& slot) {
+    meshes_.for_each([&](vox_body id, const MeshSlot& slot) {
         const Mesh& mesh = slot.mesh;
         if (!mesh.is_enabled()) return;
         const Body body = mesh.body(id);

@@ -72,22 +72,22 @@ public:
     void describe(vox_suggest_desc& desc, bool chosen) const noexcept;
 
     // `view` is what check_mesh() makes of `desc`, whose filter is not looked at; `filter` is checked.
-    vox_mesh insert(const vox_mesh_desc& desc, const vox::Body& view, const vox_filter& filter);
-    void remove(vox_mesh mesh);
-    void mark_moved(vox_mesh mesh);
-    void set_filter(vox_mesh mesh, const vox_filter& filter);
-    void set_enabled(vox_mesh mesh, bool enabled);
-    void set_pair_enabled(vox_mesh a, vox_mesh b, bool enabled);
-    void set_topology(vox_mesh mesh, const vox_mesh_desc& desc, const vox::Body& view);
+    vox_body insert(const vox_mesh_desc& desc, const vox::Body& view, const vox_filter& filter);
+    void remove(vox_body mesh);
+    void mark_moved(vox_body mesh);
+    void set_filter(vox_body mesh, const vox_filter& filter);
+    void set_enabled(vox_body mesh, bool enabled);
+    void set_pair_enabled(vox_body a, vox_body b, bool enabled);
+    void set_topology(vox_body mesh, const vox_mesh_desc& desc, const vox::Body& view);
     // `positions` are checked; without data: it has none any more.
-    void bind_previous(vox_mesh mesh, const vox::Positions& positions);
-    std::uint32_t append_tets(vox_mesh mesh, std::span<const vox::Tet> corners);
-    std::uint32_t append_vertices(vox_mesh mesh, const vox_vertices_desc& desc);
+    void bind_previous(vox_body mesh, const vox::Positions& positions);
+    std::uint32_t append_tets(vox_body mesh, std::span<const vox::Tet> corners);
+    std::uint32_t append_vertices(vox_body mesh, const vox_vertices_desc& desc);
     // To be called after any other edit of a mesh, with the number of tets or vertices that it named.
-    void was_edited(vox_mesh mesh, std::uint64_t count);
-    bool is_valid(vox_mesh mesh) const noexcept { return meshes_.find(mesh) != nullptr; }
-    vox::Mesh& mesh(vox_mesh mesh) { return meshes_[mesh].mesh; }
-    const vox::Mesh& mesh(vox_mesh mesh) const { return meshes_[mesh].mesh; }
+    void was_edited(vox_body mesh, std::uint64_t count);
+    bool is_valid(vox_body mesh) const noexcept { return meshes_.find(mesh) != nullptr; }
+    vox::Mesh& mesh(vox_body mesh) { return meshes_[mesh].mesh; }
+    const vox::Mesh& mesh(vox_body mesh) const { return meshes_[mesh].mesh; }
     const vox::MeshTable& meshes() const noexcept { return meshes_; }
     const vox::FastEngine& fast_engine() const noexcept { return fast_engine_; }
 
@@ -148,8 +148,8 @@ private:
     void leave_out_bad_meshes();
     void forget_contacts() noexcept;
     bool is_left_out(const vox::Body& body) const noexcept;
-    vox_failure failure_of(vox_result result, vox_mesh mesh, std::uint32_t vertex) const noexcept;
-    void warn_of_traps(const vox::Mesh& mesh, vox_mesh id);
+    vox_failure failure_of(vox_result result, vox_body mesh, std::uint32_t vertex) const noexcept;
+    void warn_of_traps(const vox::Mesh& mesh, vox_body id);
     void drop_removed_vertices();
     void detect_fast(bool carry, vox_counters& counters, vox_profile& profile);
     std::uint64_t carry_contacts();

@@ -25,7 +25,7 @@ namespace {
 // Of a contact or a margin contact in the canonical order.
 template <class Contact>
 auto place(const Contact& contact) {
-    return std::tuple(contact.mesh_a, contact.vertex, contact.mesh_b);
+    return std::tuple(contact.body_a, contact.vertex, contact.body_b);
 }
 
 // The unit vector from the closest point, `seen` from p, to p. Where they are so close that rounding errors
@@ -82,19 +82,19 @@ void MarginContacts::find(const EdgeScene& scene, double margin, std::span<const
 // Those of the last step between bodies that have not moved since.
 void MarginContacts::carry(const EdgeScene& scene) {
     if (!scene.engine) return;
-    const auto rests = [&](vox_mesh mesh) {
+    const auto rests = [&](vox_body mesh) {
         const auto body = std::lower_bound(scene.bodies.begin(), scene.bodies.end(), mesh,
-                                           [](const Body& b, vox_mesh id) { return b.mesh_id < id; });
+                                           [](const Body& b, vox_body id) { return b.mesh_id < id; });
         return body != scene.bodies.end() && body->mesh_id == mesh &&
                !scene.engine->moved(static_cast<std::size_t>(body - scene.bodies.begin()));
     };
-    vox_mesh last_a = VOX_NULL_MESH, last_b = VOX_NULL_MESH;
+    vox_body last_a = VOX_NULL_BODY, last_b = VOX_NULL_BODY;
     bool last_rests = false;
     for (const vox_margin_contact& contact : contacts_) {
-        if (contact.mesh_a != last_a || contact.mesh_b != last_b)
-            last_rests = rests(contact.mesh_a) && rests(contact.mesh_b);
-        last_a = contact.mesh_a;
-        last_b = contact.mesh_b;
+        if (contact.body_a != last_a || contact.body_b != last_b)
+            last_rests = rests(contact.body_a) && rests(contact.body_b);
+        last_a = contact.body_a;
+        last_b = contact.body_b;
         if (!last_rests) continue;
         reserve_sparingly(found_, found_.size() + 1);
         found_.push_back({contact, 0}); // there is no other for this vertex and mesh
@@ -103,11 +103,11 @@ void MarginContacts::carry(const EdgeScene& scene) {
 
 // Vertices that are gone, and those that have a contact.
 void MarginContacts::leave_out(std::uint32_t a, std::uint32_t b, Array<std::uint32_t>& vertices) const {
-    const vox_mesh mesh_a = scene_->bodies[a].mesh_id, mesh_b = scene_->bodies[b].mesh_id;
+    const vox_body body_a = scene_->bodies[a].mesh_id, body_b = scene_->bodies[b].mesh_id;
     const auto removed = scene_->bodies[a].removed_vertices;
     auto inside = inside_.begin();
     erase_if(vertices, [&](std::uint32_t vertex) {
-        const std::tuple sought(mesh_a, vertex, mesh_b);
+        const std::tuple sought(body_a, vertex, body_b);
         const auto is_before = [&](const vox_contact& contact) { return place(contact) < sought; };
         const auto is_behind = [&] { return inside != inside_.end() && is_before(*inside); };
         for (int steps = 0; steps < 8 && is_behind(); ++steps) ++inside; // the next is mostly near
@@ -204,9 +204,9 @@ void MarginContacts::end(std::uint32_t w) {
         const Vec3d normal = normal_to(a.positions.exact(vertex), corner, closest.seen,
                                        b.positions.exact(b.tets[tet].v[facet]));
         const std::array<double, 3> weights = normalised(closest.seen.at.weight);
-        worker.found.push_back({{.mesh_a = a.mesh_id,
+        worker.found.push_back({{.body_a = a.mesh_id,
                                  .vertex = vertex,
-                                 .mesh_b = b.mesh_id,
+                                 .body_b = b.mesh_id,
                                  .tet = tet,
                                  .facet = facet,
                                  .face = {u, v, x},
@@ -224,8 +224,8 @@ void MarginContacts::put_in_order() {
     for (std::uint32_t i = 0; i < found_.size(); ++i) order_.push_back(i);
     std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t j) {
         const vox_margin_contact &x = found_[i].contact, &y = found_[j].contact;
-        return std::tie(x.mesh_a, x.vertex, x.mesh_b, found_[i].squared, x.tet, x.facet) <
-               std::tie(y.mesh_a, y.vertex, y.mesh_b, found_[j].squared, y.tet, y.facet);
+        return std::tie(x.body_a, x.vertex, x.body_b, found_[i].squared, x.tet, x.facet) <
+               std::tie(y.body_a, y.vertex, y.body_b, found_[j].squared, y.tet, y.facet);
     });
     contacts_.clear();
     reserve_sparingly(contacts_, found_.size());

@@ -16,18 +16,18 @@ void check_limit(std::uint64_t count, std::uint64_t added, std::uint64_t limit, 
 }
 
 void MeshTable::reserve(std::uint32_t mesh_count) {
-    if (mesh_count > VOX_MAX_MESHES)
-        throw Error(VOX_ERROR_LIMIT, format("mesh_count is %u, the limit is %u", mesh_count, VOX_MAX_MESHES));
+    if (mesh_count > VOX_MAX_BODIES)
+        throw Error(VOX_ERROR_LIMIT, format("mesh_count is %u, the limit is %u", mesh_count, VOX_MAX_BODIES));
     slots_.reserve(mesh_count);
     reserve_exactly(free_slots_, mesh_count);
 }
 
 void MeshTable::check_room(const Body& mesh, const Mesh* old) const {
     check_growth(mesh.vertex_count, mesh.tets.size(), old);
-    if (!old && free_slots_.empty()) check_limit(slots_.size(), 1, VOX_MAX_MESHES, "mesh slots");
+    if (!old && free_slots_.empty()) check_limit(slots_.size(), 1, VOX_MAX_BODIES, "mesh slots");
 }
 
-vox_mesh MeshTable::insert(Mesh&& mesh, fast::MeshState&& state) {
+vox_body MeshTable::insert(Mesh&& mesh, fast::MeshState&& state) {
     if (free_slots_.empty()) {
         slots_.reserve(slots_.size() + 1);
         reserve_growing(free_slots_, slots_.size() + 1);
@@ -46,7 +46,7 @@ vox_mesh MeshTable::insert(Mesh&& mesh, fast::MeshState&& state) {
     return make_id(slot, taken.generation);
 }
 
-void MeshTable::replace(vox_mesh id, Mesh&& mesh, fast::MeshState&& state) noexcept {
+void MeshTable::replace(vox_body id, Mesh&& mesh, fast::MeshState&& state) noexcept {
     MeshSlot& slot = slots_[slot_of(id)];
     vertex_count_ += std::uint64_t{mesh.vertex_count()} - slot.mesh.vertex_count();
     tet_count_ += mesh.tet_count() - slot.mesh.tet_count();
@@ -56,7 +56,7 @@ void MeshTable::replace(vox_mesh id, Mesh&& mesh, fast::MeshState&& state) noexc
     slot.query_tets = nullptr;
 }
 
-void MeshTable::remove(vox_mesh id) {
+void MeshTable::remove(vox_body id) {
     (void)(*this)[id]; // throws for an id that names no mesh
     vacate(slot_of(id));
 }
@@ -70,7 +70,7 @@ void MeshTable::clear() noexcept {
 void MeshTable::vacate(std::uint32_t index) noexcept {
     MeshSlot& slot = slots_[index];
     const std::uint32_t generation = slot.generation;
-    for (const vox_mesh other : slot.mesh.exceptions())
+    for (const vox_body other : slot.mesh.exceptions())
         slots_[slot_of(other)].mesh.remove_exception(make_id(index, generation));
     vertex_count_ -= slot.mesh.vertex_count();
     tet_count_ -= slot.mesh.tet_count();
@@ -84,30 +84,30 @@ void MeshTable::check_growth(std::uint64_t vertices, std::uint64_t tets, const M
     check_limit(tet_count_ - (old ? old->tet_count() : 0), tets, VOX_MAX_TETS, "tets");
 }
 
-std::uint32_t MeshTable::append_tets(vox_mesh id, std::span<const Tet> corners) {
+std::uint32_t MeshTable::append_tets(vox_body id, std::span<const Tet> corners) {
     Mesh& mesh = (*this)[id].mesh;
     const std::uint32_t first = mesh.append_tets(corners);
     tet_count_ += corners.size();
     return first;
 }
 
-std::uint32_t MeshTable::append_vertices(vox_mesh id, const vox_vertices_desc& desc) {
+std::uint32_t MeshTable::append_vertices(vox_body id, const vox_vertices_desc& desc) {
     Mesh& mesh = (*this)[id].mesh;
     const std::uint32_t first = mesh.append_vertices(desc);
     vertex_count_ += desc.count;
     return first;
 }
 
-const MeshSlot* MeshTable::find(vox_mesh id) const noexcept {
+const MeshSlot* MeshTable::find(vox_body id) const noexcept {
     const std::uint32_t slot = slot_of(id);
     if (slot >= slots_.size() || !slots_[slot].live || slots_[slot].generation != generation_of(id))
         return nullptr;
     return &slots_[slot];
 }
 
-const MeshSlot& MeshTable::operator[](vox_mesh id) const {
+const MeshSlot& MeshTable::operator[](vox_body id) const {
     if (const MeshSlot* found = find(id)) return *found;
-    if (id == VOX_NULL_MESH) throw Error(VOX_ERROR_INVALID_HANDLE, "mesh id is 0, which names no mesh");
+    if (id == VOX_NULL_BODY) throw Error(VOX_ERROR_INVALID_HANDLE, "mesh id is 0, which names no mesh");
     const std::uint32_t slot = slot_of(id);
     if (slot >= slots_.size())
         throw Error(VOX_ERROR_INVALID_HANDLE,

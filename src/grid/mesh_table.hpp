@@ -55,21 +55,21 @@ public:
     void check_growth(std::uint64_t vertices, std::uint64_t tets, const Mesh* old = nullptr) const;
 
     // After check_room(). Throws what the memory throws and leaves all unchanged then.
-    vox_mesh insert(Mesh&& mesh, fast::MeshState&& state);
-    void replace(vox_mesh id, Mesh&& mesh, fast::MeshState&& state) noexcept;
-    void remove(vox_mesh id); // throws as operator[]
+    vox_body insert(Mesh&& mesh, fast::MeshState&& state);
+    void replace(vox_body id, Mesh&& mesh, fast::MeshState&& state) noexcept;
+    void remove(vox_body id); // throws as operator[]
     void clear() noexcept;
 
     // After check_growth(). Throw as Mesh does.
-    std::uint32_t append_tets(vox_mesh id, std::span<const Tet> corners);
-    std::uint32_t append_vertices(vox_mesh id, const vox_vertices_desc& desc);
+    std::uint32_t append_tets(vox_body id, std::span<const Tet> corners);
+    std::uint32_t append_vertices(vox_body id, const vox_vertices_desc& desc);
 
     // Null for an id that names no mesh.
-    const MeshSlot* find(vox_mesh id) const noexcept;
-    MeshSlot* find(vox_mesh id) noexcept { return const_cast<MeshSlot*>(std::as_const(*this).find(id)); }
+    const MeshSlot* find(vox_body id) const noexcept;
+    MeshSlot* find(vox_body id) noexcept { return const_cast<MeshSlot*>(std::as_const(*this).find(id)); }
     // Throws Error(INVALID_HANDLE) for such an id.
-    const MeshSlot& operator[](vox_mesh id) const;
-    MeshSlot& operator[](vox_mesh id) { return const_cast<MeshSlot&>(std::as_const(*this)[id]); }
+    const MeshSlot& operator[](vox_body id) const;
+    MeshSlot& operator[](vox_body id) { return const_cast<MeshSlot&>(std::as_const(*this)[id]); }
 
     // Calls visit(id, slot), ascending.
     template <class Visit>
@@ -81,7 +81,7 @@ public:
     template <class Visit>
     void for_each(Visit&& visit) const {
         const_cast<MeshTable*>(this)->for_each(
-            [&](vox_mesh id, MeshSlot& slot) { visit(id, std::as_const(slot)); });
+            [&](vox_body id, MeshSlot& slot) { visit(id, std::as_const(slot)); });
     }
 
 private:

@@ -14,7 +14,7 @@
 
 namespace vox {
 
-void Passages::bind(vox_mesh mesh, const Positions& positions) {
+void Passages::bind(vox_body mesh, const Positions& positions) {
     const auto at = std::ranges::lower_bound(bound_, mesh, {}, &Bound::mesh);
     const bool is_bound = at != bound_.end() && at->mesh == mesh;
     if (!positions.data)
@@ -25,7 +25,7 @@ void Passages::bind(vox_mesh mesh, const Positions& positions) {
         bound_.insert(at, {mesh, positions});
 }
 
-void Passages::forget(vox_mesh mesh) noexcept {
+void Passages::forget(vox_body mesh) noexcept {
     erase_if(bound_, [mesh](const Bound& bound) { return bound.mesh == mesh; });
 }
 
@@ -57,14 +57,14 @@ void Passages::find(const EdgeScene& scene, VertexFaceSearch& search, vox_counte
 
     // The first of each vertex and mesh.
     std::sort(found_.begin(), found_.end(), [](const vox_passage& x, const vox_passage& y) {
-        return std::tie(x.mesh_a, x.vertex, x.mesh_b, x.time, x.tet, x.facet) <
-               std::tie(y.mesh_a, y.vertex, y.mesh_b, y.time, y.tet, y.facet);
+        return std::tie(x.body_a, x.vertex, x.body_b, x.time, x.tet, x.facet) <
+               std::tie(y.body_a, y.vertex, y.body_b, y.time, y.tet, y.facet);
     });
     passages_.clear();
     reserve_sparingly(passages_, found_.size());
     std::unique_copy(found_.begin(), found_.end(), std::back_inserter(passages_),
                      [](const vox_passage& x, const vox_passage& y) {
-                         return x.mesh_a == y.mesh_a && x.vertex == y.vertex && x.mesh_b == y.mesh_b;
+                         return x.body_a == y.body_a && x.vertex == y.vertex && x.body_b == y.body_b;
                      });
     check_contact_count(passages_.size(), "passages");
     counters.passages = passages_.size();
@@ -142,9 +142,9 @@ void Passages::end(std::uint32_t w) {
     const SearchedSurface& surface = *worker.pair.surface;
     reserve_growing(worker.found, worker.found.size() + worker.met.size());
     for (const Met& met : worker.met)
-        worker.found.push_back({.mesh_a = scene_->bodies[worker.pair.a].mesh_id,
+        worker.found.push_back({.body_a = scene_->bodies[worker.pair.a].mesh_id,
                                 .vertex = worker.pair.vertices[met.place],
-                                .mesh_b = scene_->bodies[worker.pair.b].mesh_id,
+                                .body_b = scene_->bodies[worker.pair.b].mesh_id,
                                 .tet = surface.features.tets[met.face],
                                 .facet = surface.facets[met.face],
                                 .face = {met.corners[0], met.corners[1], met.corners[2]},

@@ -24,8 +24,8 @@ public:
         : bound_(memory), previous_(memory), workers_(memory), found_(memory), passages_(memory) {}
 
     // The previous positions of a mesh; without data: it has none any more.
-    void bind(vox_mesh mesh, const Positions& positions);
-    void forget(vox_mesh mesh) noexcept;
+    void bind(vox_body mesh, const Positions& positions);
+    void forget(vox_body mesh) noexcept;
     bool any_bound() const noexcept { return !bound_.empty(); }
 
     // Replaces the passages. If it throws, clear() is to be called.
@@ -36,7 +36,7 @@ public:
 
 private:
     struct Bound {
-        vox_mesh mesh;
+        vox_body mesh;
         Positions positions;
     };
     // The first face so far that a vertex met.

@@ -85,13 +85,13 @@ const vox_reading* Readings::find(std::uint64_t contact) const noexcept {
 
 // ---- which contacts --------------------------------------------------------------------------------
 
-std::span<ReadingBody> Readings::choose(const Events& events, std::span<const vox_mesh> meshes) {
+std::span<ReadingBody> Readings::choose(const Events& events, std::span<const vox_body> meshes) {
     all_ = meshes.empty();
     ids_.clear();
     ids_.reserve(2 * events.pairs().size());
     chosen_.clear();
     events.for_pairs_of(meshes, [&](const vox_pair& pair) {
-        for (const vox_mesh id : {pair.mesh_a, pair.mesh_b}) ids_.push_back(id);
+        for (const vox_body id : {pair.body_a, pair.body_b}) ids_.push_back(id);
         const std::span<const std::uint32_t> contacts = events.contacts_of(pair);
         if (!all_) chosen_.insert(chosen_.end(), contacts.begin(), contacts.end());
     });
@@ -101,7 +101,7 @@ std::span<ReadingBody> Readings::choose(const Events& events, std::span<const vo
     bodies_.assign(ids_.size(), {});
     for (std::size_t i = 0; i < ids_.size(); ++i) bodies_[i].body.mesh_id = ids_[i];
     events.for_pairs_of(meshes, [&](const vox_pair& pair) {
-        ReadingBody &a = bodies_[body_of(pair.mesh_a)], &b = bodies_[body_of(pair.mesh_b)];
+        ReadingBody &a = bodies_[body_of(pair.body_a)], &b = bodies_[body_of(pair.body_b)];
         a.user_data = pair.user_data_a;
         b.user_data = pair.user_data_b;
         a.is_entered |= pair.b_in_a > 0;
@@ -110,7 +110,7 @@ std::span<ReadingBody> Readings::choose(const Events& events, std::span<const vo
     return bodies_;
 }
 
-std::uint32_t Readings::body_of(vox_mesh mesh) const noexcept {
+std::uint32_t Readings::body_of(vox_body mesh) const noexcept {
     return static_cast<std::uint32_t>(std::ranges::lower_bound(ids_, mesh) - ids_.begin());
 }
 
@@ -162,7 +162,7 @@ std::size_t Readings::end_of_vertex(std::size_t first, std::size_t last, const S
     const vox_contact& contact = step.contacts[contact_of(first)];
     for (++first; first < last; ++first) {
         const vox_contact& next = step.contacts[contact_of(first)];
-        if (next.vertex != contact.vertex || next.mesh_a != contact.mesh_a || next.mesh_b != contact.mesh_b)
+        if (next.vertex != contact.vertex || next.body_a != contact.body_a || next.body_b != contact.body_b)
             break;
     }
     return first;
@@ -172,7 +172,7 @@ void Readings::check_positions(const Step& step, std::size_t count) const {
     const ReadingBody* a = nullptr;
     for (std::size_t k = 0; k < count; k = end_of_vertex(k, count, step)) {
         const vox_contact& contact = step.contacts[contact_of(k)];
-        if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
+        if (!a || a->body.mesh_id != contact.body_a) a = &bodies_[body_of(contact.body_a)];
         if (has_position(*a, contact.vertex)) check_finite(a->body, contact.vertex);
     }
 }
@@ -199,7 +199,7 @@ public:
         const vox_penetration& last = all_[next_ - 1];
         const vox_contact& contact = contacts_[index];
         const bool same =
-            last.vertex == contact.vertex && last.mesh_a == contact.mesh_a && last.mesh_b == contact.mesh_b;
+            last.vertex == contact.vertex && last.body_a == contact.body_a && last.body_b == contact.body_b;
         return same ? next_ - 1 : none;
     }
 
@@ -219,8 +219,8 @@ void Readings::read_range(const Range& range, const Step& step) noexcept {
     for (std::size_t k = range.first, last; k < range.last; k = last) {
         last = end_of_vertex(k, range.last, step);
         const vox_contact& contact = step.contacts[contact_of(k)];
-        if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
-        if (!b || b->body.mesh_id != contact.mesh_b) b = &bodies_[body_of(contact.mesh_b)];
+        if (!a || a->body.mesh_id != contact.body_a) a = &bodies_[body_of(contact.body_a)];
+        if (!b || b->body.mesh_id != contact.body_b) b = &bodies_[body_of(contact.body_b)];
         vox_reading out{};
         out.user_data_a = a->user_data;
         out.user_data_b = b->user_data;
@@ -260,8 +260,8 @@ std::uint64_t Readings::list_asks(const Step& step, std::size_t count) {
     for (std::size_t k = 0, last; k < count; k = last) {
         last = end_of_vertex(k, count, step);
         const vox_contact& contact = step.contacts[contact_of(k)];
-        if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
-        if (ids_[b] != contact.mesh_b) b = body_of(contact.mesh_b);
+        if (!a || a->body.mesh_id != contact.body_a) a = &bodies_[body_of(contact.body_a)];
+        if (ids_[b] != contact.body_b) b = body_of(contact.body_b);
         if (!bodies_[b].topology || !has_position(*a, contact.vertex)) continue;
         bodies_[b].is_in_itself |= a == &bodies_[b];
         const std::size_t place =
@@ -294,7 +294,7 @@ void Readings::sort_asks(const Step& step) noexcept {
         const SurfaceTree* tree = bodies_[ask.body_b].tree;
         if (!tree) continue;
         const vox_contact& contact = step.contacts[contact_of(ask.first)];
-        if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
+        if (!a || a->body.mesh_id != contact.body_a) a = &bodies_[body_of(contact.body_a)];
         ask.code = tree->place_on_curve(a->body.positions.exact(contact.vertex));
     }
     std::sort(asks_.begin(), asks_.end(), [](const Ask& x, const Ask& y) {
@@ -310,7 +310,7 @@ void Readings::read_surfaces(const Range& asks, const Step& step) noexcept {
         const ReadingBody& b = bodies_[ask.body_b];
         const std::size_t last = end_of_vertex(ask.first, readings_.size(), step);
         const vox_contact& contact = step.contacts[contact_of(ask.first)];
-        if (!a || a->body.mesh_id != contact.mesh_a) a = &bodies_[body_of(contact.mesh_a)];
+        if (!a || a->body.mesh_id != contact.body_a) a = &bodies_[body_of(contact.body_a)];
         if (i > asks.first && asks_[i - 1].body_b != ask.body_b) state.near = SearchState::none;
         // The first of the tetrahedra with the vertex that is still on.
         std::size_t at = ask.first;

@@ -39,7 +39,7 @@ public:
 
     // Chooses contacts: all, those of one mesh, or those between two. Lists the meshes in them by ids; the
     // caller completes body, topology and is_present before prepare(). Throws what the memory throws.
-    std::span<ReadingBody> choose(const Events& events, std::span<const vox_mesh> meshes);
+    std::span<ReadingBody> choose(const Events& events, std::span<const vox_body> meshes);
     // Makes the parts `what` of the readings of these contacts from the results of a step; meshes may have
     // changed since. Throws what the memory throws, or Error(NON_FINITE or LIMIT) for the position of a
     // vertex, and changes nothing then, or Error(INVALID_ARGUMENT) for a defective task system, and there are
@@ -74,7 +74,7 @@ private:
         std::size_t first, last;
     };
 
-    std::uint32_t body_of(vox_mesh mesh) const noexcept; // index in bodies_
+    std::uint32_t body_of(vox_body mesh) const noexcept; // index in bodies_
     // The contact of a reading.
     std::uint32_t contact_of(std::size_t reading) const noexcept {
         return all_ ? static_cast<std::uint32_t>(reading) : chosen_[reading];
@@ -89,11 +89,11 @@ private:
     void sort_asks(const Step& step) noexcept;
     void read_surfaces(const Range& asks, const Step& step) noexcept;
 
-    Array<vox_mesh> ids_; // of the meshes in the contacts that are read, ascending
+    Array<vox_body> ids_; // of the meshes in the contacts that are read, ascending
     Array<ReadingBody> bodies_;
     bool all_ = true;             // all contacts are read, else those
     Array<std::uint32_t> chosen_; // ascending
-    Array<Ask> asks_;             // by mesh_b, neighbours next to each other
+    Array<Ask> asks_;             // by body_b, neighbours next to each other
     Array<vox_reading> readings_;
     Array<vox_depth> depths_;
     bool prepared_ = false;

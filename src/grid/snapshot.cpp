@@ -88,8 +88,8 @@ void Snapshot::save_slots(const vox_grid& grid, SnapshotWriter& out) {
 
 void Snapshot::load_slots(SnapshotChunk& in, Loading& to) {
     const std::uint32_t slots = in.u32(), free = in.u32();
-    if (slots > VOX_MAX_MESHES)
-        in.refuse(format("%" PRIu32 " slots, the limit is %" PRIu32, slots, VOX_MAX_MESHES));
+    if (slots > VOX_MAX_BODIES)
+        in.refuse(format("%" PRIu32 " slots, the limit is %" PRIu32, slots, VOX_MAX_BODIES));
     in.expect(std::uint64_t{slots} + free, 4, "slots");
 
     vox_grid& grid = to.grid;
@@ -112,7 +112,7 @@ void Snapshot::load_slots(SnapshotChunk& in, Loading& to) {
         in.refuse(format("%" PRIu32 " free slots are listed, %" PRIu32 " are free", free, reusable));
 
     Array<bool> listed(slots, false, &grid.memory_);
-    for (const vox_mesh id : to.awaited) listed[slot_of(id)] = true;
+    for (const vox_body id : to.awaited) listed[slot_of(id)] = true;
     to.free_slots.reserve(slots);
     for (std::uint32_t i = 0; i < free; ++i) {
         const std::uint32_t slot = in.u32();
@@ -130,8 +130,8 @@ void Snapshot::load_slots(SnapshotChunk& in, Loading& to) {
 
 void Snapshot::save_exceptions(const vox_grid& grid, SnapshotWriter& out) {
     out.begin_chunk("PAIR");
-    for_each_mesh(grid, [&](vox_mesh id, const Mesh& mesh) {
-        for (const vox_mesh other : mesh.exceptions())
+    for_each_mesh(grid, [&](vox_body id, const Mesh& mesh) {
+        for (const vox_body other : mesh.exceptions())
             if (id < other) {
                 out.u32(id);
                 out.u32(other);
@@ -141,9 +141,9 @@ void Snapshot::save_exceptions(const vox_grid& grid, SnapshotWriter& out) {
 }
 
 void Snapshot::load_exceptions(SnapshotChunk& in, Loading& to) {
-    vox_mesh last_a = VOX_NULL_MESH, last_b = VOX_NULL_MESH;
+    vox_body last_a = VOX_NULL_BODY, last_b = VOX_NULL_BODY;
     while (in.left() > 0) {
-        const vox_mesh a = in.u32(), b = in.u32();
+        const vox_body a = in.u32(), b = in.u32();
         if (a >= b || std::tie(last_a, last_b) >= std::tie(a, b))
             in.refuse(format("pair (%" PRIu32 ", %" PRIu32 ") is out of order", a, b));
         or_refuse(in, a, [&] { to.grid.set_pair_enabled(a, b, false); });
@@ -162,22 +162,22 @@ void Snapshot::save_events(const vox_grid& grid, SnapshotWriter& out) {
     out.u64(pairs.size());
     out.u64(inside.size());
     for (const vox_pair& pair : pairs) {
-        out.u32(pair.mesh_a);
-        out.u32(pair.mesh_b);
+        out.u32(pair.body_a);
+        out.u32(pair.body_b);
         out.u64(pair.user_data_a);
         out.u64(pair.user_data_b);
     }
     for (const Events::Inside& vertex : inside) {
-        out.u32(vertex.mesh_a);
+        out.u32(vertex.body_a);
         out.u32(vertex.vertex);
-        out.u32(vertex.mesh_b);
+        out.u32(vertex.body_b);
     }
     out.end_chunk();
 }
 
 // The id of a mesh that is in the grid or was: events end pairs of meshes that were removed.
-vox_mesh Snapshot::mesh_that_was(SnapshotChunk& in, const vox_grid& grid) {
-    const vox_mesh id = in.u32();
+vox_body Snapshot::mesh_that_was(SnapshotChunk& in, const vox_grid& grid) {
+    const vox_body id = in.u32();
     const std::uint32_t slot = slot_of(id), generation = generation_of(id);
     if (generation == 0 || slot >= grid.meshes_.slots_.size() ||
         generation > grid.meshes_.slots_[slot].generation)
@@ -194,14 +194,14 @@ void Snapshot::load_events(SnapshotChunk& in, Loading& to) {
     pairs.reserve(static_cast<std::size_t>(pair_count));
     for (std::uint64_t i = 0; i < pair_count; ++i) {
         vox_pair pair{};
-        pair.mesh_a = mesh_that_was(in, to.grid);
-        pair.mesh_b = mesh_that_was(in, to.grid);
+        pair.body_a = mesh_that_was(in, to.grid);
+        pair.body_b = mesh_that_was(in, to.grid);
         pair.user_data_a = in.u64();
         pair.user_data_b = in.u64();
-        if (pair.mesh_a > pair.mesh_b || (i > 0 && std::tie(pairs.back().mesh_a, pairs.back().mesh_b) >=
-                                                       std::tie(pair.mesh_a, pair.mesh_b)))
-            in.refuse(format("pair %" PRIu64 " (%" PRIu32 ", %" PRIu32 ") is out of order", i, pair.mesh_a,
-                             pair.mesh_b));
+        if (pair.body_a > pair.body_b || (i > 0 && std::tie(pairs.back().body_a, pairs.back().body_b) >=
+                                                       std::tie(pair.body_a, pair.body_b)))
+            in.refuse(format("pair %" PRIu64 " (%" PRIu32 ", %" PRIu32 ") is out of order", i, pair.body_a,
+                             pair.body_b));
         pairs.push_back(pair);
     }
     if (inside_count > 0 && !events.of_contacts_)
@@ -210,9 +210,9 @@ void Snapshot::load_events(SnapshotChunk& in, Loading& to) {
     inside.reserve(static_cast<std::size_t>(inside_count));
     for (std::uint64_t i = 0; i < inside_count; ++i) {
         Events::Inside vertex{};
-        vertex.mesh_a = mesh_that_was(in, to.grid);
+        vertex.body_a = mesh_that_was(in, to.grid);
         vertex.vertex = in.u32();
-        vertex.mesh_b = mesh_that_was(in, to.grid);
+        vertex.body_b = mesh_that_was(in, to.grid);
         if (i > 0 && inside.back() >= vertex)
             in.refuse(format("vertex in mesh %" PRIu64 " of %" PRIu64 " is out of order", i, inside_count));
         inside.push_back(vertex);
@@ -244,7 +244,7 @@ vox_grid_desc Snapshot::settings(SnapshotReader in, const vox_grid_desc& machine
 
 void Snapshot::load(SnapshotReader in, vox_grid& grid) {
     Loading to{.grid = grid,
-               .awaited = Array<vox_mesh>(&grid.memory_),
+               .awaited = Array<vox_body>(&grid.memory_),
                .free_slots = Array<std::uint32_t>(&grid.memory_),
                .masks = Array<PenetrationMask>(&grid.memory_)};
     bool seen[std::size(parts)] = {};

@@ -15,23 +15,23 @@
 namespace vox {
 
 struct PenetrationMask {
-    vox_mesh mesh;
+    vox_body mesh;
     std::uint64_t mask;
 };
 
 // What loading knows beside the grid.
 struct Loading {
     vox_grid& grid;
-    Array<vox_mesh> awaited; // meshes whose chunk has to come, ascending
+    Array<vox_body> awaited; // meshes whose chunk has to come, ascending
     std::size_t next = 0;    // index in `awaited`
     Array<std::uint32_t> free_slots;
     Array<PenetrationMask> masks; // that are not the default, by mesh
-    vox_mesh last_filtered = VOX_NULL_MESH, last_cut = VOX_NULL_MESH;
+    vox_body last_filtered = VOX_NULL_BODY, last_cut = VOX_NULL_BODY;
 };
 
 // Calls what a program would call; an argument that it refuses makes the snapshot invalid.
 template <class Function>
-void or_refuse(const SnapshotChunk& in, vox_mesh id, Function&& function) {
+void or_refuse(const SnapshotChunk& in, vox_body id, Function&& function) {
     try {
         function();
     } catch (const Error& error) {
@@ -74,9 +74,9 @@ private:
 
     template <class Function>
     static void for_each_mesh(const vox_grid& grid, Function&& function) {
-        grid.meshes_.for_each([&](vox_mesh id, const MeshSlot& slot) { function(id, slot.mesh); });
+        grid.meshes_.for_each([&](vox_body id, const MeshSlot& slot) { function(id, slot.mesh); });
     }
-    static vox_mesh mesh_that_was(SnapshotChunk& in, const vox_grid& grid);
+    static vox_body mesh_that_was(SnapshotChunk& in, const vox_grid& grid);
 
     // In the order in which they follow each other in a file.
     struct Part {

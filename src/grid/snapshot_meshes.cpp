@@ -68,10 +68,10 @@ void Snapshot::save_masks(const vox_grid& grid, SnapshotWriter& out) {
         return mesh.filter().penetration_mask == filter_defaults().penetration_mask;
     };
     bool any = false;
-    for_each_mesh(grid, [&](vox_mesh, const Mesh& mesh) { any |= !is_usual(mesh); });
+    for_each_mesh(grid, [&](vox_body, const Mesh& mesh) { any |= !is_usual(mesh); });
     if (!any) return;
     out.begin_chunk("pmsk");
-    for_each_mesh(grid, [&](vox_mesh id, const Mesh& mesh) {
+    for_each_mesh(grid, [&](vox_body id, const Mesh& mesh) {
         if (is_usual(mesh)) return;
         out.u32(id);
         out.u32(0); // reserved
@@ -83,7 +83,7 @@ void Snapshot::save_masks(const vox_grid& grid, SnapshotWriter& out) {
 void Snapshot::load_masks(SnapshotChunk& in, Loading& to) {
     to.masks.reserve(std::min(static_cast<std::size_t>(in.left() / 16), to.awaited.size()));
     while (in.left() > 0) {
-        const vox_mesh id = in.u32();
+        const vox_body id = in.u32();
         if (!std::ranges::binary_search(to.awaited, id))
             in.refuse(format("mesh %" PRIu32 " is not in it", id));
         if (!to.masks.empty() && id <= to.masks.back().mesh)
@@ -97,7 +97,7 @@ void Snapshot::load_masks(SnapshotChunk& in, Loading& to) {
 // ---- MESH: one mesh, in the order of ids ----------------------------------------------------------
 
 void Snapshot::save_meshes(const vox_grid& grid, SnapshotWriter& out) {
-    for_each_mesh(grid, [&](vox_mesh id, const Mesh& mesh) {
+    for_each_mesh(grid, [&](vox_body id, const Mesh& mesh) {
         const Body body = mesh.body(id);
         const Positions& positions = mesh.positions_; // as given, not transformed
         const bool has_positions = positions.data != nullptr && body.vertex_count > 0;
@@ -128,7 +128,7 @@ void Snapshot::save_meshes(const vox_grid& grid, SnapshotWriter& out) {
 
 void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
     vox_grid& grid = to.grid;
-    const vox_mesh id = in.u32();
+    const vox_body id = in.u32();
     if (to.next == to.awaited.size())
         in.refuse(format("it is of mesh %" PRIu32 ", expected no more meshes", id));
     if (id != to.awaited[to.next])
@@ -195,7 +195,7 @@ void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
 // ---- CUTS: which tets are off or removed, and which vertices are removed -------------------------
 
 void Snapshot::save_cuts(const vox_grid& grid, SnapshotWriter& out) {
-    for_each_mesh(grid, [&](vox_mesh id, const Mesh& mesh) {
+    for_each_mesh(grid, [&](vox_body id, const Mesh& mesh) {
         if (mesh.edits_->off.count() == 0 && mesh.edits_->removed_vertices.count() == 0) return;
         out.begin_chunk("CUTS");
         out.u32(id);
@@ -208,7 +208,7 @@ void Snapshot::save_cuts(const vox_grid& grid, SnapshotWriter& out) {
 }
 
 void Snapshot::load_cuts(SnapshotChunk& in, Loading& to) {
-    const vox_mesh id = in.u32();
+    const vox_body id = in.u32();
     if (!to.grid.is_valid(id)) in.refuse(format("mesh %" PRIu32 " is not in it", id));
     if (id <= to.last_cut) in.refuse(format("mesh %" PRIu32 " comes after mesh %" PRIu32, id, to.last_cut));
     to.last_cut = id;
@@ -227,7 +227,7 @@ void Snapshot::load_cuts(SnapshotChunk& in, Loading& to) {
 // ---- FILT: what a mesh does not collide with, where that is not the default ----------------------
 
 void Snapshot::save_filters(const vox_grid& grid, SnapshotWriter& out) {
-    for_each_mesh(grid, [&](vox_mesh id, const Mesh& mesh) {
+    for_each_mesh(grid, [&](vox_body id, const Mesh& mesh) {
         const RestPose& rest = mesh.self_filter_->rest;
         const vox_filter filter = mesh.filter(), usual = filter_defaults();
         if (rest.empty() && filter.group == usual.group && filter.category == usual.category &&
@@ -252,7 +252,7 @@ void Snapshot::save_filters(const vox_grid& grid, SnapshotWriter& out) {
 }
 
 void Snapshot::load_filter(SnapshotChunk& in, Loading& to) {
-    const vox_mesh id = in.u32();
+    const vox_body id = in.u32();
     if (!to.grid.is_valid(id)) in.refuse(format("mesh %" PRIu32 " is not in it", id));
     if (id <= to.last_filtered)
         in.refuse(format("mesh %" PRIu32 " comes after mesh %" PRIu32, id, to.last_filtered));

@@ -67,7 +67,7 @@ void vox_grid::step() {
             events_.repeat();
         else
             events_.update(contacts_, edges_ ? edges_->pairs() : std::span<const EdgePair>(),
-                           meshes_.slot_count(), [this](vox_mesh id) { return mesh(id).user_data(); });
+                           meshes_.slot_count(), [this](vox_body id) { return mesh(id).user_data(); });
         profile.events_ns = nanoseconds() - contacts_made;
     } catch (const MeshError& error) {
         forget_contacts();
@@ -164,7 +164,7 @@ void vox_grid::detect(bool& carry, vox_counters& counters, vox_profile& profile)
 
 // Marks those that gather_bodies() leaves out, from now until they are well again.
 void vox_grid::leave_out_bad_meshes() {
-    meshes_.for_each([&](vox_mesh id, MeshSlot& slot) {
+    meshes_.for_each([&](vox_body id, MeshSlot& slot) {
         if (slot.body == MeshSlot::none) return;
         const Body body = slot.mesh.body(id);
         const std::uint32_t vertex = first_bad_vertex(body);
@@ -179,7 +179,7 @@ bool vox_grid::is_left_out(const Body& body) const noexcept {
     return skips_bad_meshes_ && first_bad_vertex(body) != VOX_NO_VERTEX;
 }
 
-vox_failure vox_grid::failure_of(vox_result result, vox_mesh id, std::uint32_t vertex) const noexcept {
+vox_failure vox_grid::failure_of(vox_result result, vox_body id, std::uint32_t vertex) const noexcept {
     vox_failure failure{};
     failure.result = result;
     failure.mesh = id;
@@ -202,7 +202,7 @@ void vox_grid::gather_bodies(vox_counters& counters) {
     topologies_.clear();
     surface_versions_.clear();
     prepared_.clear();
-    const auto gather = [&](vox_mesh id, MeshSlot& slot) {
+    const auto gather = [&](vox_body id, MeshSlot& slot) {
         Mesh& mesh = slot.mesh;
         slot.body = MeshSlot::none;
         if (!mesh.is_enabled()) {
@@ -267,15 +267,15 @@ void vox_grid::detect_fast(bool carry, vox_counters& counters, vox_profile& prof
 std::uint64_t vox_grid::carry_contacts() {
     const std::size_t found = hits_.size();
     for (std::uint32_t b = 0; b < bodies_.size(); ++b) bodies_[b].carried = !fast_engine_.moved(b);
-    const auto resting_body = [this](vox_mesh id) {
+    const auto resting_body = [this](vox_body id) {
         const MeshSlot* slot = meshes_.find(id);
         return slot && slot->body != MeshSlot::none && bodies_[slot->body].carried ? slot->body
                                                                                    : MeshSlot::none;
     };
     for (const vox_contact& contact : contacts_) {
         Hit hit{};
-        hit.body_a = resting_body(contact.mesh_a);
-        hit.body_b = resting_body(contact.mesh_b);
+        hit.body_a = resting_body(contact.body_a);
+        hit.body_b = resting_body(contact.body_b);
         if (hit.body_a == MeshSlot::none || hit.body_b == MeshSlot::none) continue;
         hit.vertex = contact.vertex;
         hit.tet = contact.tet & 0x7fffffffu;

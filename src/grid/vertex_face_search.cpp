@@ -85,7 +85,7 @@ VertexFaceSearch::VertexFaceSearch(std::pmr::memory_resource* memory)
       body_boxes_(memory), pair_buffers_(memory), pairs_(memory), pieces_(memory), tile_boxes_(memory),
       workers_(memory) {}
 
-void VertexFaceSearch::forget(vox_mesh mesh) noexcept {
+void VertexFaceSearch::forget(vox_body mesh) noexcept {
     erase_if(surfaces_, [mesh](const Kept& kept) { return kept.mesh == mesh; });
 }
 
@@ -203,9 +203,9 @@ void VertexFaceSearch::prepare_bodies(const Scene& scene, std::span<const Positi
 // ---- which tiles ----------------------------------------------------------------------------------
 
 const SearchedSurface& VertexFaceSearch::surface_of(const Scene& scene, std::uint32_t body) {
-    const vox_mesh mesh = scene.bodies[body].mesh_id;
+    const vox_body mesh = scene.bodies[body].mesh_id;
     auto place = std::lower_bound(surfaces_.begin(), surfaces_.end(), mesh,
-                                  [](const Kept& kept, vox_mesh id) { return kept.mesh < id; });
+                                  [](const Kept& kept, vox_body id) { return kept.mesh < id; });
     if (place == surfaces_.end() || place->mesh != mesh || place->version != scene.versions[body]) {
         Kept made{mesh, scene.versions[body], SearchedSurface(memory())};
         make_surface_features(*scene.topologies[body], scene.bodies[body].positions,

@@ -78,12 +78,12 @@ public:
     void find_meeting(const Scene& scene, std::span<const Positions> previous, NearFacesVisitor& visitor);
 
     // Of a mesh that is gone, or whose tetrahedra are others.
-    void forget(vox_mesh mesh) noexcept;
+    void forget(vox_body mesh) noexcept;
     void forget_all() noexcept { surfaces_.clear(); }
 
 private:
     struct Kept { // of a mesh, by its id
-        vox_mesh mesh;
+        vox_body mesh;
         SurfaceVersion version;
         SearchedSurface surface;
     };

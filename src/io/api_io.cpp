@@ -208,7 +208,7 @@ void vox_io_mesh_destroy(vox_io_mesh* mesh) {
     if (mesh) DestroyMesh()(mesh);
 }
 
-vox_result vox_io_mesh_get(const vox_io_mesh* mesh, vox_io_mesh_view* out_view) {
+vox_result vox_io_mesh_get_arrays(const vox_io_mesh* mesh, vox_io_mesh_view* out_view) {
     return border([&] {
         require(mesh, "mesh");
         require(out_view, "out_view");
@@ -216,7 +216,7 @@ vox_result vox_io_mesh_get(const vox_io_mesh* mesh, vox_io_mesh_view* out_view) 
     });
 }
 
-vox_result vox_io_mesh_desc(const vox_io_mesh* mesh, vox_mesh_desc* desc) {
+vox_result vox_io_mesh_describe(const vox_io_mesh* mesh, vox_mesh_desc* desc) {
     return border([&] {
         require(mesh, "mesh");
         vox_mesh_desc described = read_struct(desc, vox_default_mesh_desc(), "desc");
@@ -245,14 +245,16 @@ vox_result vox_io_mesh_create(const vox_io_mesh_view* arrays, vox_io_mesh** out_
     });
 }
 
-vox_result vox_io_mesh_report(const vox_io_mesh* mesh, vox_io_report* out_report) {
+vox_result vox_io_mesh_get_report(const vox_io_mesh* mesh, vox_io_report* out_report) {
     return border([&] {
         require(mesh, "mesh");
         write_struct(out_report, mesh->report, "out_report");
     });
 }
 
-const char* vox_io_mesh_warnings(const vox_io_mesh* mesh) { return mesh ? mesh->warnings.c_str() : nullptr; }
+const char* vox_io_mesh_get_warnings(const vox_io_mesh* mesh) {
+    return mesh ? mesh->warnings.c_str() : nullptr;
+}
 
 const char* vox_io_format_string(vox_io_format format) {
     static constexpr const char* names[] = {"no file",      "Gmsh .msh", "TetGen .node/.ele",

@@ -76,8 +76,8 @@ vox_result vox_io_tetrahedralize(const vox_io_mesh* surface, const vox_io_tetrah
     });
 }
 
-vox_result vox_io_measure_quality(const vox_io_mesh* mesh, const vox_io_mesh* surface,
-                                  vox_io_quality* out_quality) {
+vox_result vox_io_mesh_measure(const vox_io_mesh* mesh, const vox_io_mesh* surface,
+                               vox_io_quality* out_quality) {
     return border([&] {
         require(mesh, "mesh");
         check_out_struct(out_quality, "out_quality");

@@ -303,7 +303,7 @@ void Mesh::apply(std::span<const TetChange> changes) noexcept {
     try {
         if (has_tets_of) apply_changes(changes, edits_.if_made()->tets_of);
         const IndexLists& tets_of = list_tets_of().tets_of;
-        if (has_tiles_ && !repair(prepared_->tiled, body(VOX_NULL_MESH), changes, tets_of))
+        if (has_tiles_ && !repair(prepared_->tiled, body(VOX_NULL_BODY), changes, tets_of))
             invalidate_tiles();
         if (has_topology_) {
             check_tet_count(tets_.size());

@@ -16,7 +16,7 @@ Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter
       tets_(view.tets), vertex_count_(view.vertex_count) {
     if (!(desc.flags & VOX_MESH_BORROW_TETS) && !tets_.empty()) own_tets();
     if ((desc.flags & VOX_MESH_COPY_POSITIONS) && has_positions()) {
-        check_format_once(VOX_NULL_MESH);
+        check_format_once(VOX_NULL_BODY);
         map_positions();
     }
     if (desc.rest_positions)
@@ -69,7 +69,7 @@ void Mesh::make_tiles() {
     if (vertex_count_ > 0) {
         PreparedTets& made = is_shared_ ? *prepared_ : own_prepared();
         if (!is_shared_ || !made.has_tiles)
-            make_tiled_mesh(body(VOX_NULL_MESH), made.tiled, has_topology_ ? &made.topology : nullptr);
+            make_tiled_mesh(body(VOX_NULL_BODY), made.tiled, has_topology_ ? &made.topology : nullptr);
         made.has_tiles = true;
     }
     has_tiles_ = true;
@@ -106,7 +106,7 @@ void Mesh::drop_topology() noexcept {
 // From the heap, as a const call must not use the memory of the grid.
 const MeshSample& Mesh::sample() const {
     return sample_.get([this] {
-        return make_sample(body(VOX_NULL_MESH), kept_sample(tets().size()), std::pmr::new_delete_resource(),
+        return make_sample(body(VOX_NULL_BODY), kept_sample(tets().size()), std::pmr::new_delete_resource(),
                            tiled().places.changes == 0 ? tiles_if_made() : nullptr);
     });
 }
@@ -126,7 +126,7 @@ void Mesh::bind(const Positions& positions) noexcept {
     owned_ = Array<double>(owned_.memory());
 }
 
-void Mesh::check_format_once(vox_mesh id) {
+void Mesh::check_format_once(vox_body id) {
     if (!format_checked_) format_checked_ = check_not_doubles(body(id));
 }
 
@@ -156,8 +156,8 @@ void Mesh::set_transform(const double* matrix) {
     has_transform_ = matrix != nullptr;
 }
 
-vox_mesh_info Mesh::info(std::uint32_t slot) const noexcept {
-    vox_mesh_info info{};
+vox_body_info Mesh::info(std::uint32_t slot) const noexcept {
+    vox_body_info info{};
     info.struct_size = sizeof info;
     info.slot = slot;
     info.user_data = user_data_;
@@ -181,7 +181,7 @@ vox_mesh_info Mesh::info(std::uint32_t slot) const noexcept {
     return info;
 }
 
-Body Mesh::body(vox_mesh id) const noexcept {
+Body Mesh::body(vox_body id) const noexcept {
     return {.mesh_id = id,
             .vertex_count = vertex_count_,
             .positions = positions(),
@@ -195,7 +195,7 @@ Body Mesh::body(vox_mesh id) const noexcept {
             .off = edits_->off.words(),
             .off_count = edits_->off.count(),
             .removed_vertices = edits_->removed_vertices.words(),
-            .slot = id == VOX_NULL_MESH ? Body::no_slot : slot_of(id),
+            .slot = id == VOX_NULL_BODY ? Body::no_slot : slot_of(id),
             .user_data = user_data_};
 }
 
@@ -206,7 +206,7 @@ void Mesh::set_filter(const vox_filter& filter) {
             throw Error(VOX_ERROR_INVALID_STATE,
                         "self_rest_distance needs a rest pose: the mesh has no positions "
                         "yet and was inserted without rest_positions");
-        rest = rest_pose(body(VOX_NULL_MESH).positions, vertex_count_); // as they collide
+        rest = rest_pose(body(VOX_NULL_BODY).positions, vertex_count_); // as they collide
     }
     if (filter.self_rings != 0 || filter.self_rest_distance > 0) self_filter_.make(memory());
     Rings rings(memory());
@@ -215,7 +215,7 @@ void Mesh::set_filter(const vox_filter& filter) {
     // More is prepared of bodies with self-collision.
     if (filter.self_collision && !filter_.self_collision && is_shared_) own_prepared();
     if (has_tiles_ && filter.self_collision && !filter_.self_collision) {
-        Body with_self = body(VOX_NULL_MESH);
+        Body with_self = body(VOX_NULL_BODY);
         with_self.self_collision = true;
         PreparedTets& own = own_prepared();
         make_tiled_mesh(with_self, own.tiled, has_topology_ ? &own.topology : nullptr);
@@ -237,17 +237,17 @@ RestPose Mesh::rest_pose(const Positions& positions, std::uint32_t count) const 
 }
 
 void Mesh::reserve_exception() {
-    Array<vox_mesh>& meshes = exceptions_.make(memory()).meshes;
+    Array<vox_body>& meshes = exceptions_.make(memory()).meshes;
     if (meshes.size() == meshes.capacity()) meshes.reserve(2 * meshes.size() + 2);
 }
 
-void Mesh::add_exception(vox_mesh other) noexcept {
-    Array<vox_mesh>& meshes = exceptions_.if_made()->meshes;
+void Mesh::add_exception(vox_body other) noexcept {
+    Array<vox_body>& meshes = exceptions_.if_made()->meshes;
     const auto place = std::lower_bound(meshes.begin(), meshes.end(), other);
     if (place == meshes.end() || *place != other) meshes.insert(place, other);
 }
 
-void Mesh::remove_exception(vox_mesh other) noexcept {
+void Mesh::remove_exception(vox_body other) noexcept {
     if (Exceptions* made = exceptions_.if_made()) erase(made->meshes, other);
 }
 

@@ -109,7 +109,7 @@ public:
 
     // Throws MeshError(INVALID_ARGUMENT) where the positions are not of their format, which is looked at once
     // there are enough of them, and again when another format is bound.
-    void check_format_once(vox_mesh id);
+    void check_format_once(vox_body id);
     bool is_format_checked() const noexcept { return format_checked_; }
     // As they collide, where it has some.
     Positions positions() const noexcept {
@@ -126,7 +126,7 @@ public:
     std::uint32_t vertex_count() const noexcept { return vertex_count_; }
     std::uint64_t tet_count() const noexcept { return tets().size(); }
     std::uint64_t user_data() const noexcept { return user_data_; }
-    vox_mesh_info info(std::uint32_t slot) const noexcept;
+    vox_body_info info(std::uint32_t slot) const noexcept;
 
     // Corners as given by the caller, also of a tet that is off.
     const Tet& given(std::uint32_t tet) const noexcept {
@@ -145,11 +145,11 @@ public:
     // Meshes that this one does not collide with, ascending. After reserve_exception(), adding one cannot
     // fail.
     void reserve_exception();
-    void add_exception(vox_mesh other) noexcept;
-    void remove_exception(vox_mesh other) noexcept;
-    std::span<const vox_mesh> exceptions() const noexcept { return exceptions_->meshes; }
+    void add_exception(vox_body other) noexcept;
+    void remove_exception(vox_body other) noexcept;
+    std::span<const vox_body> exceptions() const noexcept { return exceptions_->meshes; }
 
-    Body body(vox_mesh id) const noexcept;
+    Body body(vox_body id) const noexcept;
 
 private:
     friend class Snapshot;
@@ -184,7 +184,7 @@ private:
     };
     struct Exceptions {
         explicit Exceptions(std::pmr::memory_resource* memory) noexcept : meshes(memory) {}
-        Array<vox_mesh> meshes;
+        Array<vox_body> meshes;
     };
 
     std::shared_ptr<PreparedTets> prepared_; // null while there is nothing to keep in it

@@ -40,7 +40,7 @@ void Queries::invalidate() noexcept {
     meshes_.clear(); // and with it what is shared
 }
 
-std::uint64_t Queries::user_data(vox_mesh mesh) const {
+std::uint64_t Queries::user_data(vox_body mesh) const {
     const auto found = std::ranges::lower_bound(meshes_, mesh, {}, &Mesh::id);
     if (found == meshes_.end() || found->id != mesh)
         throw Error(VOX_ERROR_INVALID_HANDLE,

@@ -32,7 +32,7 @@ struct QueryBody {
 // Which meshes take part in a query.
 struct QueryMeshes {
     std::uint64_t mask;
-    vox_mesh excluded = VOX_NULL_MESH;
+    vox_body excluded = VOX_NULL_BODY;
 };
 
 class Queries {
@@ -47,7 +47,7 @@ public:
     // Throws Error(INVALID_STATE) when it is not prepared.
     void require_prepared() const;
     // Throws Error(INVALID_HANDLE) for a mesh that took no part.
-    std::uint64_t user_data(vox_mesh mesh) const;
+    std::uint64_t user_data(vox_body mesh) const;
 
     // Writes the first `capacity` hits of points[0], points[1], ... in canonical order and returns how many
     // there are; `memory` is for temporary use.
@@ -67,7 +67,7 @@ public:
 
 private:
     struct Mesh {
-        vox_mesh id;
+        vox_body id;
         std::uint64_t category, user_data;
         std::shared_ptr<const QueryTets> tets;
         std::size_t first_vertex, first_tet, first_leaf; // in vertices_, boxes_ and leaves_

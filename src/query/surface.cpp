@@ -81,7 +81,7 @@ struct Queries::ClosestFacet {
 
     // What vox_surface_hit and vox_closest_hit have in common.
     template <class Hit>
-    void write_to(Hit& hit, const Vec3d& p, vox_mesh mesh) const noexcept {
+    void write_to(Hit& hit, const Vec3d& p, vox_body mesh) const noexcept {
         hit.mesh = mesh;
         hit.tet = std::get<1>(key);
         hit.facet = std::get<2>(key);

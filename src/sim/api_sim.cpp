@@ -55,7 +55,7 @@ void vox_sim_destroy(vox_sim* sim) {
     std::pmr::polymorphic_allocator<>(&memory).delete_object(sim);
 }
 
-vox_result vox_sim_grid(const vox_sim* sim, vox_grid** out_grid) {
+vox_result vox_sim_get_grid(const vox_sim* sim, vox_grid** out_grid) {
     return border([&] {
         require(sim, "sim");
         require(out_grid, "out_grid");
@@ -76,7 +76,7 @@ vox_result vox_sim_body_desc_init(vox_sim_body_desc* desc, uint32_t struct_size)
     return border([&] { init_struct(desc, struct_size, body_defaults(), "desc"); });
 }
 
-vox_result vox_sim_body_insert(vox_sim* sim, const vox_sim_body_desc* desc, vox_mesh* out_body) {
+vox_result vox_sim_body_insert(vox_sim* sim, const vox_sim_body_desc* desc, vox_body* out_body) {
     return border([&] {
         require(sim, "sim");
         require(out_body, "out_body");
@@ -84,14 +84,14 @@ vox_result vox_sim_body_insert(vox_sim* sim, const vox_sim_body_desc* desc, vox_
     });
 }
 
-vox_result vox_sim_body_remove(vox_sim* sim, vox_mesh body) {
+vox_result vox_sim_body_remove(vox_sim* sim, vox_body body) {
     return border([&] {
         require(sim, "sim");
         sim->remove(body);
     });
 }
 
-vox_result vox_sim_body_get(const vox_sim* sim, vox_mesh body, vox_sim_body_view* out_view) {
+vox_result vox_sim_body_get_view(const vox_sim* sim, vox_body body, vox_sim_body_view* out_view) {
     return border([&] {
         require(sim, "sim");
         require(out_view, "out_view");
@@ -107,7 +107,7 @@ vox_result vox_sim_body_get(const vox_sim* sim, vox_mesh body, vox_sim_body_view
     });
 }
 
-vox_result vox_sim_body_set_state(vox_sim* sim, vox_mesh body, const double* positions,
+vox_result vox_sim_body_set_state(vox_sim* sim, vox_body body, const double* positions,
                                   const double* velocities) {
     return border([&] {
         require(sim, "sim");
@@ -115,7 +115,7 @@ vox_result vox_sim_body_set_state(vox_sim* sim, vox_mesh body, const double* pos
     });
 }
 
-vox_result vox_sim_body_set_acceleration(vox_sim* sim, vox_mesh body, const double acceleration[3]) {
+vox_result vox_sim_body_set_acceleration(vox_sim* sim, vox_body body, const double acceleration[3]) {
     return border([&] {
         require(sim, "sim");
         sim::Body& target = sim->body(body);
@@ -130,7 +130,7 @@ vox_result vox_sim_body_set_acceleration(vox_sim* sim, vox_mesh body, const doub
 
 // ---- measurements ---------------------------------------------------------------------------------
 
-vox_result vox_sim_energy(const vox_sim* sim, vox_mesh body, vox_sim_energies* out_energies) {
+vox_result vox_sim_get_energy(const vox_sim* sim, vox_body body, vox_sim_energies* out_energies) {
     return border([&] {
         require(sim, "sim");
         check_out_struct(out_energies, "out_energies");
@@ -138,7 +138,7 @@ vox_result vox_sim_energy(const vox_sim* sim, vox_mesh body, vox_sim_energies* o
     });
 }
 
-vox_result vox_sim_counters(const vox_sim* sim, vox_sim_counts* out_counts) {
+vox_result vox_sim_get_counters(const vox_sim* sim, vox_sim_counts* out_counts) {
     return border([&] {
         require(sim, "sim");
         write_struct(out_counts, sim->counts(), "out_counts");

@@ -38,7 +38,7 @@ struct Body {
         : positions(memory), previous(memory), velocities(memory), masses(memory), inverse_masses(memory),
           grid_positions(memory), tets(memory), edges(memory), volumes(memory) {}
 
-    vox_mesh mesh = VOX_NULL_MESH;
+    vox_body mesh = VOX_NULL_BODY;
     std::uint32_t slot = 0;
     std::uint64_t user_data = 0;
     bool fixed = false;

@@ -56,15 +56,15 @@ Vec3 friction_impulse(const Vec3& moved, const Vec3& normal, double normal_impul
     return (-bound / length) * slipped;
 }
 
-// The caller may have cut a body, or bound other positions to it, through vox_sim_grid. Its contacts are not
-// those of the particles that move here then. Throws INVALID_STATE where that shows: a contact names a vertex
-// or tet that the body does not have, or the weights do not give the vertex. (They are within 2^-20, see
-// vox_contact.)
+// The caller may have cut a body, or bound other positions to it, through vox_sim_get_grid. Its contacts are
+// not those of the particles that move here then. Throws INVALID_STATE where that shows: a contact names a
+// vertex or tet that the body does not have, or the weights do not give the vertex. (They are within 2^-20,
+// see vox_contact.)
 void check_contact(const Body& a, std::uint32_t vertex, const Body& b, std::uint32_t tet,
                    const float weights[4]) {
     const std::size_t vertices = a.positions.size(), tets = b.tets.size() / 4;
     const auto changed = [&](const std::string& what) {
-        throw Error(VOX_ERROR_INVALID_STATE, format("%s or %s was changed through vox_sim_grid: %s",
+        throw Error(VOX_ERROR_INVALID_STATE, format("%s or %s was changed through vox_sim_get_grid: %s",
                                                     name_of(a).c_str(), name_of(b).c_str(), what.c_str()));
     };
     if (vertex >= vertices || tet >= tets)
@@ -87,9 +87,9 @@ void check_contact(const Body& a, std::uint32_t vertex, const Body& b, std::uint
 
 } // namespace
 
-Body* find_body(std::span<const BodyHandle> bodies, vox_mesh mesh) {
+Body* find_body(std::span<const BodyHandle> bodies, vox_body mesh) {
     const auto found = std::lower_bound(bodies.begin(), bodies.end(), mesh,
-                                        [](const auto& body, vox_mesh id) { return body->mesh < id; });
+                                        [](const auto& body, vox_body id) { return body->mesh < id; });
     return found != bodies.end() && (*found)->mesh == mesh ? found->get() : nullptr;
 }
 
@@ -98,14 +98,14 @@ void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies,
     vox_contact_view found{};
     vox_penetration_view penetrations{};
     contacts.clear();
-    check(vox_grid_contacts(grid, &found));
+    check(vox_grid_get_contacts(grid, &found));
     check(vox_grid_penetrations(grid, &penetrations));
     for (std::uint64_t i = 0; i < penetrations.count; ++i) {
         const vox_penetration& p = element(penetrations.data, penetrations.byte_stride, i);
         const vox_contact& in_tet = element(found.data, found.byte_stride, p.contact);
         Contact c{};
-        c.a = find_body(bodies, p.mesh_a);
-        c.b = find_body(bodies, p.mesh_b);
+        c.a = find_body(bodies, p.body_a);
+        c.b = find_body(bodies, p.body_b);
         if (!c.a || !c.b || (c.a->fixed && c.b->fixed)) continue;
         check_contact(*c.a, p.vertex, *c.b, in_tet.tet, in_tet.barycentric);
         c.vertex = p.vertex;

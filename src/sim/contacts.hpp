@@ -44,7 +44,7 @@ struct Floor {
 };
 
 // The body of a mesh, or null if there is none. `bodies` must ascend in mesh.
-Body* find_body(std::span<const BodyHandle> bodies, vox_mesh mesh);
+Body* find_body(std::span<const BodyHandle> bodies, vox_body mesh);
 
 // Reads the contacts of the grid's last step, except those of meshes not in `bodies` and of pairs of fixed
 // bodies.

@@ -136,7 +136,7 @@ void vox_sim::substep(double h) {
 
 // ---- bodies ---------------------------------------------------------------------------------------
 
-vox_mesh vox_sim::insert(const vox_sim_body_desc& desc) {
+vox_body vox_sim::insert(const vox_sim_body_desc& desc) {
     auto body = make_body(desc, &memory_);
     // Nothing may fail after the insertion into the grid, so memory is reserved before.
     if (bodies_.size() == bodies_.capacity()) bodies_.reserve(2 * bodies_.size() + 8);
@@ -149,16 +149,16 @@ vox_mesh vox_sim::insert(const vox_sim_body_desc& desc) {
     mesh.tet_count = desc.tet_count;
     mesh.user_data = desc.user_data;
     check(vox_mesh_insert(grid_.get(), &mesh, &body->mesh));
-    vox_mesh_info info{};
+    vox_body_info info{};
     info.struct_size = sizeof info;
-    check(vox_mesh_get_info(grid_.get(), body->mesh, &info)); // cannot fail for a mesh that is there
+    check(vox_body_get_info(grid_.get(), body->mesh, &info)); // cannot fail for a mesh that is there
     body->slot = info.slot;
     body->user_data = info.user_data;
 
     const Body& inserted = *body;
     // The grid may reuse a slot, so the new body's id need not be the greatest.
     const auto place = std::upper_bound(bodies_.begin(), bodies_.end(), body->mesh,
-                                        [](vox_mesh id, const auto& other) { return id < other->mesh; });
+                                        [](vox_body id, const auto& other) { return id < other->mesh; });
     bodies_.insert(place, std::move(body));
     if (inserted.flat_tets + inserted.inverted_tets + inserted.raised_masses > 0)
         write_log(VOX_LOG_WARNING,
@@ -170,23 +170,23 @@ vox_mesh vox_sim::insert(const vox_sim_body_desc& desc) {
     return inserted.mesh;
 }
 
-Body& vox_sim::body(vox_mesh mesh) const {
+Body& vox_sim::body(vox_body mesh) const {
     if (Body* found = find_body(bodies_, mesh)) return *found;
     throw Error(VOX_ERROR_INVALID_HANDLE,
                 format("mesh id %u names no body of the simulation, which has %zu", mesh, bodies_.size()));
 }
 
-void vox_sim::remove(vox_mesh mesh) {
+void vox_sim::remove(vox_body mesh) {
     const Body* removed = &body(mesh);
-    if (vox_mesh_is_valid(grid(), mesh))
-        check(vox_mesh_remove(grid(), mesh)); // else the caller did, in the grid
+    if (vox_body_is_valid(grid(), mesh))
+        check(vox_body_remove(grid(), mesh)); // else the caller did, in the grid
     contacts_.clear();
     erase_if(bodies_, [&](const auto& b) { return b.get() == removed; });
 }
 
 // ---- measurements ---------------------------------------------------------------------------------
 
-vox_sim_energies vox_sim::energies(vox_mesh mesh) const {
+vox_sim_energies vox_sim::energies(vox_body mesh) const {
     vox_sim_energies sum{};
     Vec3 momentum = Vec3::Zero(), moment = Vec3::Zero();
     const auto add = [&](const Body& body) {
@@ -200,7 +200,7 @@ vox_sim_energies vox_sim::energies(vox_mesh mesh) const {
         }
         sum.elastic += elastic_energy(body);
     };
-    if (mesh != VOX_NULL_MESH) {
+    if (mesh != VOX_NULL_BODY) {
         add(body(mesh));
     } else {
         for (const auto& body : bodies_)

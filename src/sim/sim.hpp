@@ -20,11 +20,11 @@ public:
     vox_grid* grid() const noexcept { return grid_.get(); }
     void step(double time_step);
 
-    vox_mesh insert(const vox_sim_body_desc& desc);
-    void remove(vox_mesh mesh);
-    vox::sim::Body& body(vox_mesh mesh) const;
+    vox_body insert(const vox_sim_body_desc& desc);
+    void remove(vox_body mesh);
+    vox::sim::Body& body(vox_body mesh) const;
 
-    vox_sim_energies energies(vox_mesh mesh) const;
+    vox_sim_energies energies(vox_body mesh) const;
     vox_sim_counts counts() const;
 
 private:

@@ -25,9 +25,10 @@ class CloseSearch {
 public:
     explicit CloseSearch(std::pmr::memory_resource* memory) noexcept;
 
-    // As vox_surface_close, for kinds and a distance that it accepts. The answer lives until the next call.
+    // As vox_surface_find_proximities, for kinds and a distance that it accepts. The answer lives until the
+    // next call.
     std::span<const vox_close_pair> find(vox_surface& surface, vox_feature a, vox_feature b, double distance);
-    // As vox_surface_clearance; `per_vertex` is written when nothing can fail any more.
+    // As vox_surface_find_clearances; `per_vertex` is written when nothing can fail any more.
     void clearance(vox_surface& surface, double most, double* per_vertex);
     // The memory of an answer that has ended. Whether there was any.
     bool release_found() noexcept;

@@ -39,9 +39,9 @@ public:
 
     void set_cell_size(double cell_size);
 
-    // Calls visit(FeaturePairs) for the partners of all features of kind a, as vox_surface_pairs finds them,
-    // for any motion of this surface, piece by piece. The buffers behind it are the surface's: one call at a
-    // time.
+    // Calls visit(FeaturePairs) for the partners of all features of kind a, as vox_surface_find_pairs finds
+    // them, for any motion of this surface, piece by piece. The buffers behind it are the surface's: one call
+    // at a time.
     template <class Visit>
     void for_pieces(const vox::SurfaceMotion& motion, vox_feature a, vox_feature b, Visit&& visit) {
         const std::uint32_t all = topology_.count(a);
@@ -56,11 +56,12 @@ public:
 
     // Throws as vox_surface_suggest_cell_size.
     vox_foreign_suggestion suggest_cell_size(vox_feature a, vox_feature b);
-    // The least time of contact of faces and vertices, and of edges. Throws as vox_surface_safe_step.
+    // The least time of contact of faces and vertices, and of edges. Throws as vox_surface_find_safe_step.
     vox_safe_step safe_step(const vox::ContactTimeRule& rule);
-    // Pairs within a distance; they live until the next call or move(). Throws as vox_surface_close.
+    // Pairs within a distance; they live until the next call or move(). Throws as
+    // vox_surface_find_proximities.
     std::span<const vox_close_pair> close_pairs(vox_feature a, vox_feature b, double distance);
-    // Throws as vox_surface_clearance.
+    // Throws as vox_surface_find_clearances.
     void clearance(double most, double* per_vertex);
     // Of two kinds; lives until the next call or move().
     std::span<const vox_timed_pair> contact_times(vox_feature a, vox_feature b,

@@ -136,7 +136,7 @@ class Rules:
         """Beyond null pointers, ids and struct_size, which the conventions cover."""
         for type_text, name in f.parameters:
             kind = self.types.get(base(type_text))
-            if name.startswith("out") or name == "struct_size" or base(type_text) == "vox_mesh":
+            if name.startswith("out") or name == "struct_size" or base(type_text) == "vox_body":
                 continue
             if f.name.endswith("_init") and kind and kind.kind == "struct":
                 continue

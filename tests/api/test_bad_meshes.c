@@ -12,7 +12,7 @@ enum { most = 4 };
 typedef struct scene {
     vox_grid* grid;
     body bodies[most];
-    vox_mesh ids[most];
+    vox_body ids[most];
 } scene;
 
 /* Boxes in a row, each in the next. */
@@ -40,7 +40,7 @@ static vox_failure failure_of(const vox_grid* grid, uint32_t index) {
     vox_failure failure;
     memset(&failure, 0x55, sizeof failure);
     failure.struct_size = sizeof failure;
-    ck_ok(vox_grid_failure(grid, index, &failure));
+    ck_ok(vox_grid_get_failure(grid, index, &failure));
     ck_assert_uint_eq(failure.struct_size, sizeof failure);
     return failure;
 }
@@ -48,7 +48,7 @@ static vox_failure failure_of(const vox_grid* grid, uint32_t index) {
 static void no_failure(const vox_grid* grid, uint32_t index) {
     const vox_failure failure = failure_of(grid, index);
     ck_assert_int_eq(failure.result, VOX_OK);
-    ck_assert_uint_eq(failure.mesh, VOX_NULL_MESH);
+    ck_assert_uint_eq(failure.mesh, VOX_NULL_BODY);
     ck_assert_uint_eq(failure.vertex, VOX_NO_VERTEX);
 }
 
@@ -81,7 +81,7 @@ static void write_message(vox_log_level level, const char* text, void* user) {
 START_TEST(what_is_left_out_is_logged_once) {
     messages log = {0, ""};
     vox_grid_desc desc = engine_desc();
-    desc.flags |= VOX_GRID_SKIP_BAD_MESHES;
+    desc.flags |= VOX_GRID_SKIP_BAD_BODIES;
     desc.log.write = write_message;
     desc.log.user = &log;
     vox_grid* grid = grid_of(&desc);
@@ -117,8 +117,8 @@ START_TEST(which_mesh_failed) {
     const double huge[12] = {1e300, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0};
     vox_failure failure;
     failure.struct_size = sizeof failure;
-    ck_fails(vox_grid_failure(NULL, 0, &failure), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_grid_failure(s.grid, 0, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_failure is null");
+    ck_fails(vox_grid_get_failure(NULL, 0, &failure), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    ck_fails(vox_grid_get_failure(s.grid, 0, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_failure is null");
     no_failure(s.grid, 0);
     ck_ok(vox_grid_step(s.grid));
     no_failure(s.grid, 0);
@@ -136,20 +136,20 @@ START_TEST(which_mesh_failed) {
     ck_ok(vox_grid_step(s.grid));
     no_failure(s.grid, 0);
 
-    ck_ok(vox_mesh_set_transform(s.grid, s.ids[1], huge));
+    ck_ok(vox_body_set_transform(s.grid, s.ids[1], huge));
     ck_fails(vox_grid_step(s.grid), VOX_ERROR_LIMIT, "mesh 4097 (slot 1, user data 101), vertex ");
     failure = failure_of(s.grid, 0);
     ck_assert_int_eq(failure.result, VOX_ERROR_LIMIT);
     ck_assert_double_gt(fabs(failure.position[0]), 1e299);
-    ck_ok(vox_mesh_set_transform(s.grid, s.ids[1], NULL));
+    ck_ok(vox_body_set_transform(s.grid, s.ids[1], NULL));
 
     /* A mesh that has no positions, and may be removed before anyone asks. */
     vox_mesh_desc bare = body_desc(&s.bodies[0]);
     bare.positions = NULL;
     bare.user_data = 7;
-    const vox_mesh mesh = insert_mesh(s.grid, &bare);
+    const vox_body mesh = insert_mesh(s.grid, &bare);
     ck_fails(vox_grid_step(s.grid), VOX_ERROR_INVALID_STATE, "(slot 4, user data 7) has no positions");
-    ck_ok(vox_mesh_remove(s.grid, mesh));
+    ck_ok(vox_body_remove(s.grid, mesh));
     failure = failure_of(s.grid, 0);
     ck_assert_int_eq(failure.result, VOX_ERROR_INVALID_STATE);
     ck_assert_uint_eq(failure.mesh, mesh);
@@ -171,18 +171,18 @@ static uint64_t hash_without(const scene* s, const int* out, int count) {
     for (int b = 0; b < most; ++b)
         memcpy(other.bodies[b].positions, s->bodies[b].positions,
                3 * sizeof(float) * s->bodies[b].vertex_count);
-    for (int i = 0; i < count; ++i) ck_ok(vox_mesh_set_enabled(other.grid, other.ids[out[i]], 0));
+    for (int i = 0; i < count; ++i) ck_ok(vox_body_set_enabled(other.grid, other.ids[out[i]], 0));
     const uint64_t hash = hash_of_step(other.grid);
     free_scene(&other);
     return hash;
 }
 
 START_TEST(bad_meshes_are_left_out) {
-    scene s = new_scene(VOX_GRID_SKIP_BAD_MESHES, NULL);
+    scene s = new_scene(VOX_GRID_SKIP_BAD_BODIES, NULL);
     const int one[] = {1}, two[] = {1, 3};
     uint32_t flags = 0;
     ck_ok(vox_grid_get_flags(s.grid, &flags));
-    ck_assert_uint_eq(flags, VOX_GRID_PENETRATIONS | VOX_GRID_SKIP_BAD_MESHES);
+    ck_assert_uint_eq(flags, VOX_GRID_PENETRATIONS | VOX_GRID_SKIP_BAD_BODIES);
     const uint64_t all = hash_of_step(s.grid);
     ck_assert_uint_eq(all, hash_without(&s, NULL, 0));
     ck_assert_uint_eq(counters_of(s.grid).skipped_meshes, 0);
@@ -233,9 +233,9 @@ START_TEST(bad_meshes_are_left_out) {
     /* Only coordinates: a mesh without positions is a mistake of the program. */
     vox_mesh_desc bare = body_desc(&s.bodies[0]);
     bare.positions = NULL;
-    const vox_mesh mesh = insert_mesh(s.grid, &bare);
+    const vox_body mesh = insert_mesh(s.grid, &bare);
     ck_fails(vox_grid_step(s.grid), VOX_ERROR_INVALID_STATE, "has no positions");
-    ck_ok(vox_mesh_remove(s.grid, mesh));
+    ck_ok(vox_body_remove(s.grid, mesh));
     /* Without the flag the step fails again. */
     *x = NAN;
     ck_assert_uint_eq(hash_of_step(s.grid), hash_without(&s, one, 1));
@@ -247,7 +247,7 @@ END_TEST
 
 /* All of them bad, and the first step of all. */
 START_TEST(all_are_bad) {
-    scene s = new_scene(VOX_GRID_SKIP_BAD_MESHES, NULL);
+    scene s = new_scene(VOX_GRID_SKIP_BAD_BODIES, NULL);
     float kept[most];
     for (int b = 0; b < most; ++b) kept[b] = s.bodies[b].positions[7], s.bodies[b].positions[7] = NAN;
     ck_ok(vox_grid_step(s.grid));
@@ -263,7 +263,7 @@ END_TEST
 
 /* Events end and begin once. */
 START_TEST(events_of_a_mesh_that_is_left_out) {
-    scene s = new_scene(VOX_GRID_SKIP_BAD_MESHES, NULL);
+    scene s = new_scene(VOX_GRID_SKIP_BAD_BODIES, NULL);
     vox_touch_view view;
     ck_ok(vox_grid_step(s.grid));
     s.bodies[0].positions[0] = NAN;
@@ -285,7 +285,7 @@ END_TEST
 /* With meshes that are left out the steady state allocates nothing either, moving or not. */
 START_TEST(steady_state) {
     ledger memory = {0, 0, 0, 0, 0};
-    scene s = new_scene(VOX_GRID_SKIP_BAD_MESHES, &memory);
+    scene s = new_scene(VOX_GRID_SKIP_BAD_BODIES, &memory);
     uint64_t calls = 0;
     s.bodies[2].positions[10] = NAN;
     for (int step = 0; step < 40; ++step) {
@@ -304,7 +304,7 @@ END_TEST
 START_TEST(failing_allocations) {
     for (uint64_t n = 1; n < 60; ++n) {
         ledger memory = {0, 0, 0, 0, 0};
-        scene s = new_scene(VOX_GRID_SKIP_BAD_MESHES, &memory);
+        scene s = new_scene(VOX_GRID_SKIP_BAD_BODIES, &memory);
         const int one[] = {2};
         s.bodies[2].positions[10] = NAN;
         memory.fail_at = memory.calls + n;

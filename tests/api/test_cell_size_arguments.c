@@ -138,7 +138,7 @@ START_TEST(bad_mesh) {
 
     meshes[0] = good_mesh();
     fails(NULL, NULL, 1, VOX_ERROR_INVALID_ARGUMENT, "meshes is null");
-    fails(NULL, meshes, VOX_MAX_MESHES + 1u, VOX_ERROR_LIMIT, "mesh_count is 1048577");
+    fails(NULL, meshes, VOX_MAX_BODIES + 1u, VOX_ERROR_LIMIT, "mesh_count is 1048577");
 }
 END_TEST
 

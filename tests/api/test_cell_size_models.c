@@ -317,7 +317,7 @@ START_TEST(cut_bodies_are_what_is_left_of_them) {
     pair p = make_pair(0.5f);
     vox_grid_desc desc = vox_default_grid_desc();
     desc.engine = _i ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
-    vox_mesh meshes[2];
+    vox_body meshes[2];
     vox_suggestion whole, part;
     whole.struct_size = part.struct_size = sizeof whole;
     vox_grid* grid = grid_of(&desc);
@@ -374,14 +374,14 @@ START_TEST(several_cell_sizes_where_they_pay) {
     desc.cell_size = found.cell_size;
     ck_ok(vox_grid_create(&desc, &one));
     for (int b = 0; b < 2; ++b) {
-        vox_mesh mesh = insert_mesh(several, &meshes[b]);
+        vox_body mesh = insert_mesh(several, &meshes[b]);
         ck_ok(vox_mesh_insert(one, &meshes[b], &mesh));
     }
     ck_ok(vox_grid_step(several));
     ck_ok(vox_grid_step(one));
     uint64_t hash = 0, expected = 1;
-    ck_ok(vox_grid_hash(several, &hash));
-    ck_ok(vox_grid_hash(one, &expected));
+    ck_ok(vox_grid_get_hash(several, &hash));
+    ck_ok(vox_grid_get_hash(one, &expected));
     ck_assert_uint_eq(hash, expected);
     const vox_counters with = counters_of(several), without = counters_of(one);
     ck_assert_uint_gt(with.contacts, 0);
@@ -423,15 +423,15 @@ START_TEST(an_outlier_does_not_explode_the_grid) {
     ck_ok(vox_grid_create(&desc, &fixed));
     for (int b = 0; b < 2; ++b) {
         p.meshes[b].flags = VOX_MESH_SELF_COLLISION;
-        vox_mesh mesh = insert_mesh(chosen, &p.meshes[b]);
+        vox_body mesh = insert_mesh(chosen, &p.meshes[b]);
         ck_ok(vox_mesh_insert(fixed, &p.meshes[b], &mesh));
     }
     ck_ok(vox_grid_step(fixed));
     for (int i = 0; i < 3; ++i) {
         ck_ok(vox_grid_step(chosen));
         uint64_t hash = 0, expected = 1;
-        ck_ok(vox_grid_hash(chosen, &hash));
-        ck_ok(vox_grid_hash(fixed, &expected));
+        ck_ok(vox_grid_get_hash(chosen, &hash));
+        ck_ok(vox_grid_get_hash(fixed, &expected));
         ck_assert_uint_eq(hash, expected);
         const vox_counters counters = counters_of(chosen);
         ck_assert_uint_le(counters.peak_bytes, desc.byte_budget);
@@ -460,7 +460,7 @@ START_TEST(the_grid_follows_its_bodies) {
     desc.cell_size = 0.7;
     ck_ok(vox_grid_create(&desc, &fixed));
     for (int b = 0; b < 2; ++b) {
-        vox_mesh mesh = insert_mesh(grid, &p.meshes[b]);
+        vox_body mesh = insert_mesh(grid, &p.meshes[b]);
         ck_ok(vox_mesh_insert(fixed, &p.meshes[b], &mesh));
     }
     for (int step = 0; step < 10; ++step) ck_ok(vox_grid_step(grid));
@@ -474,8 +474,8 @@ START_TEST(the_grid_follows_its_bodies) {
         uint64_t hash = 0, expected = 1;
         ck_ok(vox_grid_step(grid));
         ck_ok(vox_grid_step(fixed));
-        ck_ok(vox_grid_hash(grid, &hash));
-        ck_ok(vox_grid_hash(fixed, &expected));
+        ck_ok(vox_grid_get_hash(grid, &hash));
+        ck_ok(vox_grid_get_hash(fixed, &expected));
         ck_assert_uint_eq(hash, expected);
     }
     ck_ok(vox_grid_cell_size(grid, &last));

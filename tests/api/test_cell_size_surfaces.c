@@ -85,10 +85,10 @@ START_TEST(the_size_of_the_surface_that_the_meshes_make) {
     /* The surface takes it, and answers the same. */
     vox_pair_lists lists;
     lists.struct_size = sizeof lists;
-    ck_ok(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
+    ck_ok(vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
     const uint64_t pairs = lists.pair_count;
     ck_ok(vox_surface_set_cell_size(surface, found.cell_size));
-    ck_ok(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
+    ck_ok(vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
     ck_assert_uint_eq(lists.pair_count, pairs);
     vox_surface_destroy(surface);
     free(faces);
@@ -102,7 +102,7 @@ START_TEST(of_the_tetrahedra_that_are_there) {
     half.tet_count /= 2;
     vox_grid* grid = grid_of(NULL);
     const vox_mesh_desc whole = body_desc(&box), part = body_desc(&half);
-    const vox_mesh mesh = insert_mesh(grid, &whole);
+    const vox_body mesh = insert_mesh(grid, &whole);
     const vox_suggest_desc desc = surface_desc();
     vox_suggestion in_grid;
     in_grid.struct_size = sizeof in_grid;

@@ -31,7 +31,7 @@ static vox_suggestion suggest_for_ball(uint64_t tets, vox_size_reading reading) 
     vox_io_mesh* ball = NULL;
     vox_io_mesh_view view;
     ck_ok(vox_io_make_lattice_ball(tets, 1, &ball));
-    ck_ok(vox_io_mesh_get(ball, &view));
+    ck_ok(vox_io_mesh_get_arrays(ball, &view));
     float* positions = (float*)malloc((size_t)view.vertex_count * 3 * sizeof(float));
     for (uint64_t i = 0; i < 3 * view.vertex_count; ++i) positions[i] = (float)view.positions[i];
 

@@ -84,7 +84,7 @@ START_TEST(the_first_ones_in_order) {
     ck_assert_uint_eq(counters_of(unlimited).unknown_penetrations, 0);
     ck_assert_int_eq(log.count, 0);
     uint64_t hash = 0;
-    ck_ok(vox_grid_hash(unlimited, &hash));
+    ck_ok(vox_grid_get_hash(unlimited, &hash));
     uint8_t* is_searched = searched_ones(&s, all.count);
     uint64_t sum = 0;
     for (uint64_t i = 0; i < all.count; ++i) sum += is_searched[i];
@@ -121,7 +121,7 @@ START_TEST(the_first_ones_in_order) {
             ck_assert_int_eq(log.count, unknown > 0);
             if (unknown > 0) ck_assert_ptr_nonnull(strstr(log.last, "closest_budget"));
             uint64_t other = 0;
-            ck_ok(vox_grid_hash(grid, &other));
+            ck_ok(vox_grid_get_hash(grid, &other));
             ck_assert_uint_eq(other, hash);
             vox_grid_destroy(grid);
         }

@@ -85,7 +85,7 @@ typedef struct scene {
     body bodies[most];
     laid_out packed_arrays[most], arrays[most];
     vox_grid *packed, *grid;
-    vox_mesh packed_ids[most], ids[most];
+    vox_body packed_ids[most], ids[most];
 } scene;
 
 static scene new_scene(const layout* l, uint32_t mesh_flags) {
@@ -142,7 +142,7 @@ static void move(scene* s, int b, float by) {
     } while (0)
 
 static void same_results(const scene* s) {
-    same_view(vox_contact_view, vox_grid_contacts);
+    same_view(vox_contact_view, vox_grid_get_contacts);
     same_view(vox_interior_view, vox_grid_contact_interiors);
     same_view(vox_penetration_view, vox_grid_penetrations);
     same_view(vox_depth_view, vox_grid_depths);
@@ -171,7 +171,7 @@ static void same_answers(const scene* s) {
         ck_ok(vox_grid_suggest_cell_size(grids[g], NULL, &suggested[g]));
         ck_ok(vox_grid_prepare_readings(grids[g]));
     }
-    ck_assert_uint_ne(hits[0].mesh, VOX_NULL_MESH);
+    ck_assert_uint_ne(hits[0].mesh, VOX_NULL_BODY);
     ck_assert_mem_eq(&hits[0], &hits[1], sizeof hits[0]);
     ck_assert_mem_eq(&closest[0], &closest[1], sizeof closest[0]);
     ck_assert_double_eq(suggested[0].stats.mean_edge, suggested[1].stats.mean_edge);
@@ -187,8 +187,8 @@ START_TEST(same_as_packed) {
     const double turn[12] = {0.8, -0.6, 0, 0.1, 0.6, 0.8, 0, -0.3, 0, 0, 1, 0.2};
     for (int step = 0; step < 9; ++step) { /* moving, at rest, turned */
         if (step < 2) move(&s, 1, 0.05f);
-        if (step == 5) ck_ok(vox_mesh_set_transform(s.packed, s.packed_ids[0], turn));
-        if (step == 5) ck_ok(vox_mesh_set_transform(s.grid, s.ids[0], turn));
+        if (step == 5) ck_ok(vox_body_set_transform(s.packed, s.packed_ids[0], turn));
+        if (step == 5) ck_ok(vox_body_set_transform(s.grid, s.ids[0], turn));
         if (step == 6) move(&s, 2, -0.125f);
         step_both(&s);
         if (step % 3 == 0) same_answers(&s);
@@ -256,8 +256,8 @@ START_TEST(rest_poses_and_growth) {
         usual.flags = desc.flags = grows_own ? VOX_MESH_COPY_POSITIONS : 0;
         ck_ok(vox_mesh_set_topology(s.packed, s.packed_ids[2], &usual));
         ck_ok(vox_mesh_set_topology(s.grid, s.ids[2], &desc));
-        ck_ok(vox_mesh_set_filter(s.packed, s.packed_ids[2], &filter));
-        ck_ok(vox_mesh_set_filter(s.grid, s.ids[2], &filter));
+        ck_ok(vox_body_set_filter(s.packed, s.packed_ids[2], &filter));
+        ck_ok(vox_body_set_filter(s.grid, s.ids[2], &filter));
         step_both(&s);
         ck_assert_uint_gt(counters_of(s.grid).filtered, 0);
 
@@ -352,7 +352,7 @@ START_TEST(columns_of_nothing) {
         desc.position_component_byte_stride = 4000;
         desc.flags = maps ? 0 : VOX_MESH_COPY_POSITIONS;
         vox_grid* grid = engine_grid();
-        const vox_mesh grown = insert_mesh(grid, &desc);
+        const vox_body grown = insert_mesh(grid, &desc);
         void* memory;
         uint64_t stride;
         if (maps) ck_ok(vox_mesh_map_positions(grid, grown, &memory, &stride));
@@ -366,7 +366,7 @@ START_TEST(columns_of_nothing) {
         (void)insert_mesh(grid, &usual);
         ck_ok(vox_grid_step(grid));
         vox_contact_view contacts;
-        ck_ok(vox_grid_contacts(grid, &contacts));
+        ck_ok(vox_grid_get_contacts(grid, &contacts));
         ck_assert_uint_eq(contacts.count, 2 * (uint64_t)box.vertex_count); /* each in the other */
         vox_grid_destroy(grid);
         free_body(&box);
@@ -391,7 +391,7 @@ START_TEST(strides_that_are_refused) {
     double memory[300] = {0};
     vox_grid* grid = grid_of(NULL);
     vox_mesh_desc desc = vox_mesh_desc_doubles(memory, 100, NULL, 0);
-    vox_mesh mesh = insert_mesh(grid, &desc), out = VOX_NULL_MESH;
+    vox_body mesh = insert_mesh(grid, &desc), out = VOX_NULL_BODY;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i) {
         desc = vox_default_mesh_desc();
         desc.vertex_count = bad[i].count;
@@ -410,7 +410,7 @@ START_TEST(strides_that_are_refused) {
                                                      bad[i].component),
                      VOX_ERROR_INVALID_ARGUMENT, bad[i].words);
     }
-    ck_assert_uint_eq(out, VOX_NULL_MESH);
+    ck_assert_uint_eq(out, VOX_NULL_BODY);
     vox_grid_destroy(grid);
 }
 END_TEST

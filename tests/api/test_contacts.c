@@ -11,7 +11,7 @@
 
 typedef struct scene {
     vox_grid* grid;
-    vox_mesh a, b;
+    vox_body a, b;
 } scene;
 
 static scene new_scene(const vox_mesh_desc* a, const vox_mesh_desc* b, double cell_size) {
@@ -33,15 +33,15 @@ static vox_contact_view stepped(vox_grid* grid) {
 
 static uint64_t hash_of(vox_grid* grid) {
     uint64_t hash = 0;
-    ck_ok(vox_grid_hash(grid, &hash));
+    ck_ok(vox_grid_get_hash(grid, &hash));
     return hash;
 }
 
 static void check_order(vox_contact_view view) {
     for (uint64_t i = 1; i < view.count; ++i) {
         const vox_contact *p = &view.data[i - 1], *q = &view.data[i];
-        const uint32_t left[4] = {p->mesh_a, p->vertex, p->mesh_b, p->tet};
-        const uint32_t right[4] = {q->mesh_a, q->vertex, q->mesh_b, q->tet};
+        const uint32_t left[4] = {p->body_a, p->vertex, p->body_b, p->tet};
+        const uint32_t right[4] = {q->body_a, q->vertex, q->body_b, q->tet};
         int k = 0;
         while (k < 3 && left[k] == right[k]) ++k;
         ck_assert_uint_lt(left[k], right[k]);
@@ -152,8 +152,8 @@ START_TEST(self_contact) {
     scene s = new_scene(&desc, NULL, 0);
     vox_contact_view view = stepped(s.grid);
     ck_assert_uint_eq(view.count, 1);
-    ck_assert_uint_eq(view.data[0].mesh_a, s.a);
-    ck_assert_uint_eq(view.data[0].mesh_b, s.a);
+    ck_assert_uint_eq(view.data[0].body_a, s.a);
+    ck_assert_uint_eq(view.data[0].body_b, s.a);
     ck_assert_uint_eq(view.data[0].vertex, 7);
     ck_assert_uint_eq(view.data[0].tet, 0);
     corners[21] = 3, corners[22] = 3, corners[23] = 4; /* moved after insertion: nothing stale */
@@ -173,16 +173,16 @@ START_TEST(both_directions_in_canonical_order) {
     for (uint64_t i = 0; i < view.count; ++i) {
         const vox_contact* c = &view.data[i];
         float sum = 0;
-        ck_assert_uint_ne(c->mesh_a, c->mesh_b); /* the boxes do not fold */
+        ck_assert_uint_ne(c->body_a, c->body_b); /* the boxes do not fold */
         for (int k = 0; k < 4; ++k) {
             ck_assert_float_ge(c->barycentric[k], 0);
             ck_assert_float_le(c->barycentric[k], 1);
             sum += c->barycentric[k];
         }
         ck_assert_float_eq_tol(sum, 1, 1e-6f);
-        from_a += c->mesh_a == s.a;
+        from_a += c->body_a == s.a;
         /* The weights give the vertex back. */
-        const body *of = c->mesh_a == s.a ? &box : &other, *in = c->mesh_b == s.a ? &box : &other;
+        const body *of = c->body_a == s.a ? &box : &other, *in = c->body_b == s.a ? &box : &other;
         for (int axis = 0; axis < 3; ++axis) {
             float x = 0;
             for (int k = 0; k < 4; ++k)
@@ -218,7 +218,7 @@ START_TEST(settings_do_not_change_contacts) {
                     for (int axis = 0; axis < 3 && world; ++axis)
                         desc.world_min[axis] = -0.125, desc.world_max[axis] = 0.25; /* most lies outside */
                     vox_grid* grid = grid_of(&desc);
-                    vox_mesh mesh = insert_mesh(grid, &a);
+                    vox_body mesh = insert_mesh(grid, &a);
                     ck_ok(vox_mesh_insert(grid, &b, &mesh));
                     const vox_contact_view view = stepped(grid);
                     if (!expected) expected = hash_of(grid), count = view.count;
@@ -233,7 +233,7 @@ START_TEST(settings_do_not_change_contacts) {
     desc.cell_size = 1e-6;
     desc.storage = VOX_STORAGE_DENSE;
     vox_grid* grid = grid_of(&desc);
-    vox_mesh mesh = insert_mesh(grid, &a);
+    vox_body mesh = insert_mesh(grid, &a);
     ck_ok(vox_mesh_insert(grid, &b, &mesh));
     const vox_result result = vox_grid_step(grid);
     ck_assert(result == VOX_ERROR_BUDGET || result == VOX_ERROR_LIMIT);
@@ -442,7 +442,7 @@ START_TEST(scaled_and_far_copies) {
             ck_assert_uint_eq(view.count, count);
             for (uint64_t n = 0; n < count; ++n) {
                 const vox_contact* c = &view.data[n];
-                const uint64_t pair = (uint64_t)(c->mesh_a == s.a) << 63 | (uint64_t)c->vertex << 32 | c->tet;
+                const uint64_t pair = (uint64_t)(c->body_a == s.a) << 63 | (uint64_t)c->vertex << 32 | c->tet;
                 if (i == 0) pairs[n] = pair;
                 ck_assert_uint_eq(pair, pairs[n]);
             }
@@ -486,7 +486,7 @@ START_TEST(removal_between_steps) {
     scene s = new_scene(&a, &b, 0);
     vox_contact_view view = stepped(s.grid);
     const uint64_t count = view.count, hash = hash_of(s.grid);
-    ck_ok(vox_mesh_remove(s.grid, s.a));
+    ck_ok(vox_body_remove(s.grid, s.a));
     vox_contact_view kept = contacts_of(s.grid);
     ck_assert_uint_eq(kept.count, count); /* until the next step */
     ck_assert_uint_eq(hash_of(s.grid), hash);
@@ -494,7 +494,7 @@ START_TEST(removal_between_steps) {
     ck_ok(vox_mesh_insert(s.grid, &a, &s.a));
     ck_assert_uint_eq(stepped(s.grid).count, count);
     ck_ok(vox_grid_clear(s.grid));
-    ck_ok(vox_grid_contacts(s.grid, &kept));
+    ck_ok(vox_grid_get_contacts(s.grid, &kept));
     ck_assert_uint_eq(kept.count, 0);
     ck_assert_uint_eq(stepped(s.grid).count, 0);
     vox_grid_destroy(s.grid);

@@ -14,7 +14,7 @@ enum { most_bodies = 12 };
 typedef struct scene {
     body bodies[most_bodies];
     float* strided[most_bodies]; /* four floats a vertex, where the grid reads that; else null */
-    vox_mesh ids[most_bodies];   /* 0: not in the grid */
+    vox_body ids[most_bodies];   /* 0: not in the grid */
     uint32_t self[most_bodies];
     vox_grid* grid;
 } scene;
@@ -81,7 +81,7 @@ static void move_one(scene* s, int i) {
 /* Steps, and compares contacts and penetrations with those of a new grid over the same meshes in the same
  * order. */
 static vox_counters check_step(scene* s) {
-    vox_mesh id_of[most_bodies] = {0};
+    vox_body id_of[most_bodies] = {0};
     vox_grid* grid = NULL;
     ck_ok(vox_grid_step(s->grid));
     vox_contact_view mine = contacts_of(s->grid);
@@ -104,8 +104,8 @@ static vox_counters check_step(scene* s) {
     ck_assert_uint_eq(mine.count, fresh.count);
     for (uint64_t c = 0; c < mine.count; ++c) {
         vox_contact expected = fresh.data[c]; /* slots of the new grid are 0, 1, ... */
-        expected.mesh_a = id_of[expected.mesh_a >> 12];
-        expected.mesh_b = id_of[expected.mesh_b >> 12];
+        expected.body_a = id_of[expected.body_a >> 12];
+        expected.body_b = id_of[expected.body_b >> 12];
         ck_assert_mem_eq(&mine.data[c], &expected, sizeof expected);
     }
     vox_penetration_view p, q;
@@ -118,8 +118,8 @@ static vox_counters check_step(scene* s) {
     ck_assert_uint_eq(x.count, y.count);
     for (uint64_t i = 0; i < q.count; ++i) {
         vox_penetration expected = q.data[i];
-        expected.mesh_a = id_of[expected.mesh_a >> 12];
-        expected.mesh_b = id_of[expected.mesh_b >> 12];
+        expected.body_a = id_of[expected.body_a >> 12];
+        expected.body_b = id_of[expected.body_b >> 12];
         ck_assert_mem_eq(&p.data[i], &expected, sizeof expected);
         ck_assert_mem_eq(&x.data[i], &y.data[i], sizeof *x.data);
     }
@@ -249,7 +249,7 @@ START_TEST(failed_steps) {
         move_one(&s, (i + 1) % 6); /* and this one moves in the failing step only */
         for (int again = 0; again < 2; ++again) {
             ck_fails(vox_grid_step(s.grid), VOX_ERROR_NON_FINITE, "vertex");
-            ck_ok(vox_grid_contacts(s.grid, &view));
+            ck_ok(vox_grid_get_contacts(s.grid, &view));
             ck_assert_uint_eq(view.count, 0);
         }
         *p = was;
@@ -307,7 +307,7 @@ START_TEST(meshes_come_and_go) {
         const int i = (int)below(8);
         if (below(3) == 0) move_one(&s, (int)below(8));
         if (s.ids[i]) {
-            ck_ok(vox_mesh_remove(s.grid, s.ids[i]));
+            ck_ok(vox_body_remove(s.grid, s.ids[i]));
             s.ids[i] = 0;
         } else {
             insert(&s, i); /* in the slot of another, perhaps, and with the positions it had */
@@ -316,13 +316,13 @@ START_TEST(meshes_come_and_go) {
     }
     ck_assert_uint_gt(carried, 1000);
     /* The same mesh out and in again is a new one. */
-    vox_mesh old = 0;
+    vox_body old = 0;
     for (int i = 0; i < 8; ++i)
         if (s.ids[i]) old = s.ids[i];
     (void)check_step(&s);
     for (int i = 0; i < 8; ++i)
         if (s.ids[i] == old) {
-            ck_ok(vox_mesh_remove(s.grid, old));
+            ck_ok(vox_body_remove(s.grid, old));
             insert(&s, i);
         }
     ck_assert_uint_eq(check_step(&s).moved_meshes, 1);
@@ -369,11 +369,11 @@ START_TEST(settings_and_marks) {
     ck_assert_uint_eq(check_step(&s).moved_meshes, 5);
     ck_ok(vox_grid_reserve(s.grid, 100, 10000)); /* contacts stay */
     ck_assert_uint_eq(check_step(&s).moved_meshes, 0);
-    ck_ok(vox_mesh_mark_moved(s.grid, s.ids[2]));
+    ck_ok(vox_body_mark_moved(s.grid, s.ids[2]));
     ck_assert_uint_eq(check_step(&s).moved_meshes, 1);
     ck_assert_uint_eq(check_step(&s).moved_meshes, 0);
-    ck_fails(vox_mesh_mark_moved(NULL, s.ids[2]), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_mesh_mark_moved(s.grid, 77), VOX_ERROR_INVALID_HANDLE, "mesh id 77");
+    ck_fails(vox_body_mark_moved(NULL, s.ids[2]), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    ck_fails(vox_body_mark_moved(s.grid, 77), VOX_ERROR_INVALID_HANDLE, "mesh id 77");
     free_scene(&s);
 }
 END_TEST

@@ -212,7 +212,7 @@ static void set_filter(cut_scene* s, cut_mesh* m) {
     m->filter.self_collision = below(s, 4) != 0;
     m->filter.self_rings = below(s, 4) ? 0 : 1 + below(s, 2);
     m->filter.self_rest_distance = below(s, 3) ? 0 : 0.25;
-    ck_ok(vox_mesh_set_filter(s->grid, m->id, &m->filter));
+    ck_ok(vox_body_set_filter(s->grid, m->id, &m->filter));
 }
 
 static void move_some(cut_scene* s, cut_mesh* m) {

@@ -14,7 +14,7 @@ START_TEST(arguments) {
     vox_mesh_desc desc = body_desc(&box);
     vox_vertices_desc vertices = vox_default_vertices_desc();
     vox_grid* grid = engine_grid();
-    vox_mesh mesh = insert_mesh(grid, &desc);
+    vox_body mesh = insert_mesh(grid, &desc);
 
     ck_fails(vox_mesh_set_topology(NULL, mesh, &desc), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     ck_fails(vox_mesh_set_tets_enabled(NULL, mesh, zero, 1, 0), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
@@ -125,7 +125,7 @@ START_TEST(nothing_to_do) {
     const vox_vertices_desc vertices = vox_default_vertices_desc();
     uint32_t first = 0;
     vox_grid* grid = engine_grid();
-    vox_mesh mesh = insert_mesh(grid, &desc);
+    vox_body mesh = insert_mesh(grid, &desc);
     insert_mesh(grid, &more);
     for (int step = 0; step < 3; ++step) ck_ok(vox_grid_step(grid));
     const vox_counters before = counters_of(grid);
@@ -157,7 +157,7 @@ START_TEST(smaller_struct) {
     const float place[3] = {0.5f, 0.5f, 0.5f};
     uint32_t first = 0;
     desc.flags = VOX_MESH_COPY_POSITIONS;
-    vox_mesh mesh = insert_mesh(grid, &desc);
+    vox_body mesh = insert_mesh(grid, &desc);
     vox_vertices_desc vertices;
     memset(&vertices, 0xff, sizeof vertices);
     ck_ok(vox_vertices_desc_init(&vertices, 40));
@@ -178,7 +178,7 @@ START_TEST(off_and_on) {
     vox_mesh_desc desc = body_desc(&box), sensor = vox_mesh_desc_floats(point, 1, NULL, 0);
     vox_touch_view events;
     vox_grid* grid = engine_grid();
-    vox_mesh solid = insert_mesh(grid, &desc);
+    vox_body solid = insert_mesh(grid, &desc);
     insert_mesh(grid, &sensor);
     ck_ok(vox_grid_step(grid));
     vox_contact_view view = contacts_of(grid);
@@ -186,10 +186,10 @@ START_TEST(off_and_on) {
     const uint32_t tet = view.data[0].tet;
     for (int round = 0; round < 3; ++round) {
         ck_ok(vox_mesh_set_tets_enabled(grid, solid, &tet, 1, 0));
-        ck_ok(vox_grid_contacts(grid, &view));
+        ck_ok(vox_grid_get_contacts(grid, &view));
         ck_assert_uint_eq(view.count, 1); /* until the next step */
         ck_ok(vox_grid_step(grid));
-        ck_ok(vox_grid_contacts(grid, &view));
+        ck_ok(vox_grid_get_contacts(grid, &view));
         ck_ok(vox_grid_touch_events(grid, &events));
         ck_assert_uint_eq(view.count, 0);
         ck_assert(events.ended == 1 && events.count == 1);
@@ -197,7 +197,7 @@ START_TEST(off_and_on) {
         ck_assert_uint_eq(counters_of(grid).skipped_degenerate, 0);
         ck_ok(vox_mesh_set_tets_enabled(grid, solid, &tet, 1, 1));
         ck_ok(vox_grid_step(grid));
-        ck_ok(vox_grid_contacts(grid, &view));
+        ck_ok(vox_grid_get_contacts(grid, &view));
         ck_assert(view.count == 1 && view.data[0].tet == tet);
     }
     /* Cut and restored between two steps: the pair persists. */
@@ -221,12 +221,12 @@ START_TEST(topology_keeps_what_is_not_topology) {
     desc.user_data = 41;
     filter.category = 6;
     desc.filter = &filter;
-    vox_mesh a = insert_mesh(grid, &desc);
-    vox_mesh b = insert_mesh(grid, &more);
-    vox_mesh c = insert_mesh(grid, &more);
+    vox_body a = insert_mesh(grid, &desc);
+    vox_body b = insert_mesh(grid, &more);
+    vox_body c = insert_mesh(grid, &more);
     ck_ok(vox_grid_set_pair_enabled(grid, a, c, 0));
     const double up[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0.125};
-    ck_ok(vox_mesh_set_transform(grid, a, up));
+    ck_ok(vox_body_set_transform(grid, a, up));
     ck_ok(vox_grid_step(grid));
     ck_ok(vox_grid_touch_events(grid, &events));
     ck_assert_uint_eq(events.began, 2); /* a and b, b and c */
@@ -235,7 +235,7 @@ START_TEST(topology_keeps_what_is_not_topology) {
     anew.tet_count = 5; /* the first cube alone */
     anew.user_data = 99;
     ck_ok(vox_mesh_set_topology(grid, a, &anew));
-    ck_ok(vox_mesh_user_data(grid, a, &user_data));
+    ck_ok(vox_body_get_user_data(grid, a, &user_data));
     ck_assert_uint_eq(user_data, 41);
     ck_ok(vox_mesh_filter(grid, a, &filter));
     ck_assert_uint_eq(filter.category, 6);
@@ -244,7 +244,7 @@ START_TEST(topology_keeps_what_is_not_topology) {
     ck_assert(events.persisted == 2 && events.count == 2); /* a and c still do not collide */
     ck_assert_uint_eq(counters_of(grid).tets, 15);
     const double away[12] = {1, 0, 0, 50, 0, 1, 0, 0, 0, 0, 1, 0};
-    ck_ok(vox_mesh_set_transform(grid, a, away));
+    ck_ok(vox_body_set_transform(grid, a, away));
     anew.positions = NULL; /* those it has; the transform stays, too */
     anew.tet_count = 40;
     ck_ok(vox_mesh_set_topology(grid, a, &anew));
@@ -276,8 +276,8 @@ START_TEST(growing_from_nothing) {
     vox_grid* other = engine_grid();
     body small = make_box(2, 0.5f, 0.25f, 0.375f, 0.125f);
     vox_mesh_desc moving = body_desc(&small);
-    vox_mesh grown = insert_mesh(grid, &desc);
-    vox_mesh probe = insert_mesh(grid, &moving);
+    vox_body grown = insert_mesh(grid, &desc);
+    vox_body probe = insert_mesh(grid, &moving);
     ck_ok(vox_mesh_insert(other, &whole, &grown));
     ck_ok(vox_mesh_insert(other, &moving, &probe));
     expected = hash_of_step(other);
@@ -330,10 +330,10 @@ START_TEST(sliver_that_came_turns_over) {
     desc.positions = positions;
     desc.vertex_count = p + 1;
     desc.flags = VOX_MESH_SELF_COLLISION;
-    vox_mesh mesh = insert_mesh(grid, &desc);
+    vox_body mesh = insert_mesh(grid, &desc);
     for (int i = 0; i < 3; ++i) {
         ck_ok(vox_grid_step(grid));
-        ck_ok(vox_grid_contacts(grid, &view));
+        ck_ok(vox_grid_get_contacts(grid, &view));
         ck_assert_uint_eq(view.count, 1);
         ck_assert_uint_eq(view.data[0].tet, replaced);
     }
@@ -341,7 +341,7 @@ START_TEST(sliver_that_came_turns_over) {
     ck_ok(vox_mesh_append_tets(grid, mesh, split[1], 3, &first));
     for (int i = 0; i < 2; ++i) {
         ck_ok(vox_grid_step(grid));
-        ck_ok(vox_grid_contacts(grid, &view));
+        ck_ok(vox_grid_get_contacts(grid, &view));
         ck_assert_uint_eq(view.count, 0);
     }
 
@@ -350,7 +350,7 @@ START_TEST(sliver_that_came_turns_over) {
         positions[3 * p + i] = facet - 0.01f * (positions[3 * d + i] - facet);
     }
     ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_contacts(grid, &view));
+    ck_ok(vox_grid_get_contacts(grid, &view));
     ck_assert_uint_eq(view.count, 1);
     ck_assert_uint_eq(view.data[0].vertex, p);
     ck_assert_uint_eq(view.data[0].tet, corner_tet);
@@ -372,7 +372,7 @@ START_TEST(positions_of_its_own) {
     vox_grid* grid = engine_grid();
     desc.flags = VOX_MESH_COPY_POSITIONS;
     desc.position_format = VOX_FORMAT_DOUBLE3;
-    vox_mesh mesh = insert_mesh(grid, &desc);
+    vox_body mesh = insert_mesh(grid, &desc);
     insert_mesh(grid, &solid);
     vertices.count = 1;
     ck_fails(vox_mesh_append_vertices(grid, mesh, &vertices, &first), VOX_ERROR_INVALID_ARGUMENT,
@@ -416,7 +416,7 @@ START_TEST(queries_and_suggestions_see_it) {
     uint64_t count = 0;
     const double middle[3] = {1.5, 1.5, 1.5};
     vox_grid* grid = engine_grid();
-    vox_mesh mesh = insert_mesh(grid, &desc);
+    vox_body mesh = insert_mesh(grid, &desc);
     ck_ok(vox_grid_prepare_queries(grid));
     ck_ok(vox_grid_query_point(grid, middle, UINT64_MAX, &hit, 1, &count));
     ck_assert_uint_eq(count, 1);
@@ -443,7 +443,7 @@ START_TEST(queries_and_suggestions_see_it) {
     ck_ok(vox_mesh_set_tets_enabled(grid, mesh, all + 70, 65, 0));
     ck_ok(vox_grid_prepare_queries(grid)); /* none is on */
     ck_ok(vox_grid_query_closest(grid, middle, 10, UINT64_MAX, &closest));
-    ck_assert_uint_eq(closest.mesh, VOX_NULL_MESH);
+    ck_assert_uint_eq(closest.mesh, VOX_NULL_BODY);
     ck_ok(vox_grid_step(grid));
     ck_fails(vox_grid_suggest_cell_size(grid, NULL, &suggestion), VOX_ERROR_INVALID_ARGUMENT, "tet");
     vox_grid_destroy(grid);
@@ -469,7 +469,7 @@ START_TEST(cell_size_follows_a_cut) {
     double before = 0, after = 0;
     vox_grid* grid = engine_grid();
     desc.flags = VOX_MESH_SELF_COLLISION;
-    vox_mesh mesh = insert_mesh(grid, &desc);
+    vox_body mesh = insert_mesh(grid, &desc);
     ck_ok(vox_grid_step(grid));
     ck_ok(vox_grid_cell_size(grid, &before));
     ck_ok(vox_mesh_set_tets_enabled(grid, mesh, fine, small.tet_count, 0));

@@ -22,7 +22,7 @@ static vox_grid* make_grid(ledger* l) {
 enum { edit_kinds = 8 };
 
 /* One of several edits of the first mesh of the scene below. */
-static vox_result run_edit(vox_grid* grid, vox_mesh mesh, const body* box, const float* larger, int kind) {
+static vox_result run_edit(vox_grid* grid, vox_body mesh, const body* box, const float* larger, int kind) {
     static const uint32_t tets[3] = {2, 3, 77};
     uint32_t first = 0;
     vox_vertices_desc vertices = vox_default_vertices_desc();
@@ -53,7 +53,7 @@ static vox_result run_edit(vox_grid* grid, vox_mesh mesh, const body* box, const
 }
 
 /* Two bodies that overlap; the last vertex of the first is of no tet. */
-static void insert_scene(vox_grid* grid, const body* box, const body* other, vox_mesh* mesh) {
+static void insert_scene(vox_grid* grid, const body* box, const body* other, vox_body* mesh) {
     vox_mesh_desc a = body_desc(box), b = body_desc(other);
     vox_filter filter = vox_default_filter();
     filter.self_collision = 1;
@@ -80,7 +80,7 @@ START_TEST(allocation_n_fails) {
             uint64_t failed = 0;
             for (uint64_t n = 0;; ++n) { /* 0: none fails */
                 ledger l;
-                vox_mesh mesh = 0;
+                vox_body mesh = 0;
                 vox_grid* grid = make_grid(&l);
                 insert_scene(grid, &box, &other, &mesh);
                 if (!first_edit)
@@ -130,7 +130,7 @@ START_TEST(edits_cost_what_they_change) {
     filter.self_rings = 1;
     desc.filter = &filter;
     desc.flags = VOX_MESH_COPY_POSITIONS;
-    vox_mesh mesh = insert_mesh(grid, &desc);
+    vox_body mesh = insert_mesh(grid, &desc);
     ck_ok(vox_grid_step(grid));
     const uint64_t whole = 16ull * box.tet_count; /* the tets alone */
     for (int round = 0; round < 1000; ++round) {
@@ -150,7 +150,7 @@ START_TEST(edits_cost_what_they_change) {
     ck_assert_msg(l.taken < 20 * whole, "%llu bytes, the body has %llu", (unsigned long long)l.taken,
                   (unsigned long long)whole);
     filter.self_collision = 0; /* contacts take memory, too */
-    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    ck_ok(vox_body_set_filter(grid, mesh, &filter));
     l.taken = 0;
     ck_ok(vox_grid_step(grid)); /* to which nothing was left but buffers of more vertices */
     ck_assert_msg(l.taken < 4 * whole, "%llu bytes in the step", (unsigned long long)l.taken);
@@ -170,7 +170,7 @@ START_TEST(compact_body) {
     uint32_t* kept = (uint32_t*)malloc(4 * sizeof(uint32_t) * box.tet_count);
     vox_grid* grid = make_grid(NULL);
     desc.flags = VOX_MESH_SELF_COLLISION;
-    vox_mesh mesh = insert_mesh(grid, &desc);
+    vox_body mesh = insert_mesh(grid, &desc);
     ck_ok(vox_grid_step(grid));
     for (int round = 0; round < 12; ++round) {
         for (int i = 0; i < 4; ++i) { /* a few cubes off or on, and vertices into the body or back */
@@ -226,7 +226,7 @@ START_TEST(two_tets_on_one_side) {
     uint32_t first = 0, first_tet = 0, named[8];
     vox_grid* grid = make_grid(NULL);
     desc.flags = VOX_MESH_SELF_COLLISION | VOX_MESH_COPY_POSITIONS;
-    vox_mesh mesh = insert_mesh(grid, &desc);
+    vox_body mesh = insert_mesh(grid, &desc);
     ck_ok(vox_grid_step(grid));
     memcpy(positions, unit_tet_positions, 9 * sizeof(float));
     memcpy(positions + 9, apices, sizeof apices);

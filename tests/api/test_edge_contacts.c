@@ -53,7 +53,7 @@ START_TEST(crossed_bars) {
         body below = make_bar(0, 0), above = make_bar(1, 1 - overlap);
         vox_grid* grid = edge_grid(VOX_GRID_PENETRATIONS);
         const vox_mesh_desc descs[2] = {body_desc(&below), body_desc(&above)};
-        const vox_mesh ids[2] = {insert_mesh(grid, &descs[0]), insert_mesh(grid, &descs[1])};
+        const vox_body ids[2] = {insert_mesh(grid, &descs[0]), insert_mesh(grid, &descs[1])};
         ck_ok(vox_grid_step(grid));
         ck_assert_uint_eq(contacts_of(grid).count, 0);
         const vox_edge_contact_view view = edges_of(grid);
@@ -61,10 +61,10 @@ START_TEST(crossed_bars) {
 
         /* The two are a pair without contacts, whose touch began. */
         vox_pair_view pairs;
-        ck_ok(vox_grid_pairs(grid, &pairs));
+        ck_ok(vox_grid_get_pairs(grid, &pairs));
         ck_assert_uint_eq(pairs.count, 1);
-        ck_assert_uint_eq(pairs.data[0].mesh_a, ids[0]);
-        ck_assert_uint_eq(pairs.data[0].mesh_b, ids[1]);
+        ck_assert_uint_eq(pairs.data[0].body_a, ids[0]);
+        ck_assert_uint_eq(pairs.data[0].body_b, ids[1]);
         ck_assert_uint_eq(pairs.data[0].a_in_b + pairs.data[0].b_in_a + pairs.data[0].first, 0);
         ck_assert_uint_eq(events_of(grid).began, 1);
 
@@ -78,11 +78,11 @@ START_TEST(crossed_bars) {
             const vox_edge_contact* c = &view.data[k];
             ck_assert(c->position[2] >= 1 - overlap && c->position[2] <= 1);
             if (c->kind != VOX_CROSSING_THROUGH) continue;
-            const body* of = c->mesh_a == ids[0] ? &below : &above;
+            const body* of = c->body_a == ids[0] ? &below : &above;
             const float *p = of->positions + 3 * c->edge[0], *q = of->positions + 3 * c->edge[1];
             if (p[2] != q[2]) continue; /* a diagonal */
             ++through;
-            const double up = c->mesh_a == ids[1] ? 1 : -1;
+            const double up = c->body_a == ids[1] ? 1 : -1;
             ck_assert_double_eq_tol(depths.data[k].depth, overlap, 1e-12);
             ck_assert_double_eq_tol(depths.data[k].direction[2], up, 1e-12);
         }
@@ -118,7 +118,7 @@ START_TEST(depth_of_an_edge_that_ends_inside) {
     vox_grid* grid = edge_grid(0);
     const vox_mesh_desc of_block = body_desc(&block);
     vox_mesh_desc of_tet = vox_mesh_desc_floats(tall, 4, unit_tet, 1);
-    const vox_mesh b = insert_mesh(grid, &of_block), a = insert_mesh(grid, &of_tet);
+    const vox_body b = insert_mesh(grid, &of_block), a = insert_mesh(grid, &of_tet);
     ck_ok(vox_grid_step(grid));
     ck_ok(vox_grid_prepare_edge_depths(grid));
     const vox_edge_contact_view view = edges_of(grid);
@@ -127,9 +127,9 @@ START_TEST(depth_of_an_edge_that_ends_inside) {
     int count = 0;
     for (uint64_t k = 0; k < view.count; ++k) {
         const vox_edge_contact* c = &view.data[k];
-        if (c->mesh_a != a || c->kind != VOX_CROSSING_THROUGH) continue;
+        if (c->body_a != a || c->kind != VOX_CROSSING_THROUGH) continue;
         ++count;
-        ck_assert_uint_eq(c->mesh_b, b);
+        ck_assert_uint_eq(c->body_b, b);
         ck_assert_double_eq(c->normal[2], 1);
         /* The block reaches from -11 to -8 along z; the middle of the part is at z = -9, 1 below its top. */
         ck_assert_double_eq_tol(c->position[2], -8, 1e-12);
@@ -201,7 +201,7 @@ START_TEST(states_of_depths) {
     body below = make_bar(0, 0), above = make_bar(1, 0.75);
     vox_grid* grid = edge_grid(VOX_GRID_PENETRATIONS);
     const vox_mesh_desc descs[2] = {body_desc(&below), body_desc(&above)};
-    vox_mesh ids[2] = {insert_mesh(grid, &descs[0]), insert_mesh(grid, &descs[1])};
+    vox_body ids[2] = {insert_mesh(grid, &descs[0]), insert_mesh(grid, &descs[1])};
     vox_depth_view depths;
     ck_ok(vox_grid_step(grid));
     ck_ok(vox_grid_prepare_edge_depths(grid));
@@ -227,7 +227,7 @@ START_TEST(states_of_depths) {
     ck_fails(vox_grid_prepare_edge_depths(grid), VOX_ERROR_INVALID_STATE, "was edited since the step");
     ck_ok(vox_grid_step(grid));
     ck_ok(vox_grid_prepare_edge_depths(grid));
-    ck_ok(vox_mesh_remove(grid, ids[0]));
+    ck_ok(vox_body_remove(grid, ids[0]));
     ck_fails(vox_grid_prepare_edge_depths(grid), VOX_ERROR_INVALID_STATE, "was removed since the step");
     ck_ok(vox_grid_step(grid));
     ck_assert_uint_eq(edges_of(grid).count, 0);

@@ -14,7 +14,7 @@ static vox_grid* new_grid(uint32_t flags) {
     return grid_of(&desc);
 }
 
-static vox_mesh insert(vox_grid* grid, const body* b, uint64_t user_data) {
+static vox_body insert(vox_grid* grid, const body* b, uint64_t user_data) {
     vox_mesh_desc desc = body_desc(b);
     desc.user_data = user_data;
     return insert_mesh(grid, &desc);
@@ -45,17 +45,17 @@ static vox_contact_event_view contact_events(const vox_grid* grid) {
 static vox_pair_view pairs_of(const vox_grid* grid) {
     vox_pair_view view;
     memset(&view, 0, sizeof view);
-    ck_ok(vox_grid_pairs(grid, &view));
+    ck_ok(vox_grid_get_pairs(grid, &view));
     ck_assert_uint_eq(view.byte_stride, sizeof(vox_pair));
     return view;
 }
 
-static void check_one_event(const vox_grid* grid, vox_touch kind, vox_mesh a, vox_mesh b) {
+static void check_one_event(const vox_grid* grid, vox_touch kind, vox_body a, vox_body b) {
     const vox_touch_view view = touch_events(grid);
     ck_assert_uint_eq(view.count, 1);
     ck_assert_int_eq(view.data[0].kind, kind);
-    ck_assert_uint_eq(view.data[0].mesh_a, a);
-    ck_assert_uint_eq(view.data[0].mesh_b, b);
+    ck_assert_uint_eq(view.data[0].body_a, a);
+    ck_assert_uint_eq(view.data[0].body_b, b);
     ck_assert_uint_eq(view.data[0].user_data_a, 7);
     ck_assert_uint_eq(view.data[0].user_data_b, UINT64_MAX);
     ck_assert_uint_eq(view.data[0].pair, kind == VOX_TOUCH_ENDED ? VOX_NO_PAIR : 0);
@@ -67,7 +67,7 @@ static void check_one_event(const vox_grid* grid, vox_touch kind, vox_mesh a, vo
 typedef struct meeting {
     vox_grid* grid;
     body box, other;
-    vox_mesh a, b;
+    vox_body a, b;
 } meeting;
 
 static meeting new_meeting(void) {
@@ -180,21 +180,21 @@ END_TEST
 START_TEST(removal_ends_once_with_the_old_ids) {
     meeting m = new_meeting();
     ck_ok(vox_grid_step(m.grid));
-    ck_ok(vox_mesh_remove(m.grid, m.b));
+    ck_ok(vox_body_remove(m.grid, m.b));
     check_one_event(m.grid, VOX_TOUCH_BEGAN, m.a, m.b); /* still the last step's */
-    const vox_mesh again = insert(m.grid, &m.other, UINT64_MAX);
+    const vox_body again = insert(m.grid, &m.other, UINT64_MAX);
     ck_assert_uint_ne(again, m.b);
     ck_ok(vox_grid_step(m.grid));
     const vox_touch_view view = touch_events(m.grid);
     ck_assert_uint_eq(view.began, 1);
     ck_assert_uint_eq(view.persisted, 0);
     ck_assert_uint_eq(view.ended, 1);
-    ck_assert_uint_eq(view.data[0].mesh_b, again);
-    ck_assert_uint_eq(view.data[1].mesh_b, m.b);
+    ck_assert_uint_eq(view.data[0].body_b, again);
+    ck_assert_uint_eq(view.data[1].body_b, m.b);
     ck_assert_uint_eq(view.data[1].user_data_b, UINT64_MAX);
-    ck_assert_uint_eq(vox_mesh_is_valid(m.grid, view.data[1].mesh_b), 0);
-    ck_ok(vox_mesh_remove(m.grid, m.a));
-    ck_ok(vox_mesh_remove(m.grid, again));
+    ck_assert_uint_eq(vox_body_is_valid(m.grid, view.data[1].body_b), 0);
+    ck_ok(vox_body_remove(m.grid, m.a));
+    ck_ok(vox_body_remove(m.grid, again));
     ck_ok(vox_grid_step(m.grid));
     check_one_event(m.grid, VOX_TOUCH_ENDED, m.a, again);
     end_meeting(&m);
@@ -252,8 +252,8 @@ START_TEST(filters_end_and_begin) {
     ck_ok(vox_grid_step(m.grid));
     for (int way = 0; way < 3; ++way)
         for (uint32_t on = 0; on < 2; ++on) {
-            if (way == 0) ck_ok(vox_mesh_set_enabled(m.grid, m.b, on));
-            if (way == 1) ck_ok(vox_mesh_set_filter(m.grid, m.b, on ? &all : &none));
+            if (way == 0) ck_ok(vox_body_set_enabled(m.grid, m.b, on));
+            if (way == 1) ck_ok(vox_body_set_filter(m.grid, m.b, on ? &all : &none));
             if (way == 2) ck_ok(vox_grid_set_pair_enabled(m.grid, m.b, m.a, on));
             ck_ok(vox_grid_step(m.grid));
             check_one_event(m.grid, on ? VOX_TOUCH_BEGAN : VOX_TOUCH_ENDED, m.a, m.b);
@@ -274,19 +274,19 @@ static void check_pairs(const vox_grid* grid) {
     uint64_t next = 0;
     for (uint64_t i = 0; i < pairs.count; ++i) {
         const vox_pair* pair = &pairs.data[i];
-        ck_assert_uint_le(pair->mesh_a, pair->mesh_b);
+        ck_assert_uint_le(pair->body_a, pair->body_b);
         ck_assert_uint_gt(pair->a_in_b + pair->b_in_a, 0);
-        if (pair->mesh_a == pair->mesh_b) ck_assert_uint_eq(pair->b_in_a, 0);
+        if (pair->body_a == pair->body_b) ck_assert_uint_eq(pair->b_in_a, 0);
         if (i > 0)
-            ck_assert(pair[-1].mesh_a < pair->mesh_a ||
-                      (pair[-1].mesh_a == pair->mesh_a && pair[-1].mesh_b < pair->mesh_b));
+            ck_assert(pair[-1].body_a < pair->body_a ||
+                      (pair[-1].body_a == pair->body_a && pair[-1].body_b < pair->body_b));
         ck_assert_uint_eq(pair->first, next);
         for (uint64_t c = 0; c < pair->a_in_b + pair->b_in_a; ++c) {
             const uint32_t index = pairs.contacts[pair->first + c];
             ck_assert_uint_lt(index, contacts.count);
             const vox_contact* contact = &contacts.data[index];
-            ck_assert_uint_eq(contact->mesh_a, c < pair->a_in_b ? pair->mesh_a : pair->mesh_b);
-            ck_assert_uint_eq(contact->mesh_b, c < pair->a_in_b ? pair->mesh_b : pair->mesh_a);
+            ck_assert_uint_eq(contact->body_a, c < pair->a_in_b ? pair->body_a : pair->body_b);
+            ck_assert_uint_eq(contact->body_b, c < pair->a_in_b ? pair->body_b : pair->body_a);
             if (c > 0) ck_assert_uint_lt(pairs.contacts[pair->first + c - 1], index);
         }
         next += pair->a_in_b + pair->b_in_a;
@@ -294,7 +294,7 @@ static void check_pairs(const vox_grid* grid) {
     ck_assert_uint_eq(next, contacts.count); /* and ascending within a pair: so each once */
 }
 
-static void check_copies(const vox_grid* grid, vox_mesh mesh) {
+static void check_copies(const vox_grid* grid, vox_body mesh) {
     const vox_pair_view pairs = pairs_of(grid);
     const vox_contact_view contacts = contacts_of(grid);
     uint64_t count = 0, expected = 0;
@@ -305,12 +305,12 @@ static void check_copies(const vox_grid* grid, vox_mesh mesh) {
         memset(copy, 0xff, (count + 1) * sizeof *copy);
         ck_ok(vox_mesh_copy_contacts(grid, mesh, copy, capacity, &told));
         ck_assert_uint_eq(told, count);
-        ck_assert_uint_eq(copy[capacity].mesh_a, UINT32_MAX); /* nothing past the end */
+        ck_assert_uint_eq(copy[capacity].body_a, UINT32_MAX); /* nothing past the end */
     }
     ck_ok(vox_mesh_copy_contacts(grid, mesh, copy, UINT64_MAX, &count));
     for (uint64_t i = 0; i < pairs.count; ++i) {
         const vox_pair* pair = &pairs.data[i];
-        if (pair->mesh_a != mesh && pair->mesh_b != mesh) continue;
+        if (pair->body_a != mesh && pair->body_b != mesh) continue;
         for (uint64_t c = 0; c < pair->a_in_b + pair->b_in_a; ++c, ++expected)
             ck_assert_mem_eq(&copy[expected], &contacts.data[pairs.contacts[pair->first + c]], sizeof *copy);
     }
@@ -377,7 +377,7 @@ static void check_sets(const key_set* model, const key_set* expected, const char
 /* User data by mesh id, for as many ids as the model sees. */
 static uint64_t given[16 * (VOX_MAX_GENERATIONS + 1)];
 
-static uint64_t user_data_of(vox_mesh mesh) { return given[mesh]; }
+static uint64_t user_data_of(vox_body mesh) { return given[mesh]; }
 
 static void check_against_model(const vox_grid* grid, key_set* touching, key_set* inside) {
     const vox_touch_view touches = touch_events(grid);
@@ -390,16 +390,16 @@ static void check_against_model(const vox_grid* grid, key_set* touching, key_set
         const vox_touch kind = i < touches.began                       ? VOX_TOUCH_BEGAN
                                : i < touches.began + touches.persisted ? VOX_TOUCH_PERSISTED
                                                                        : VOX_TOUCH_ENDED;
-        const key k = {e->mesh_a, 0, e->mesh_b};
+        const key k = {e->body_a, 0, e->body_b};
         ck_assert_int_eq(e->kind, kind);
-        ck_assert_uint_eq(e->user_data_a, user_data_of(e->mesh_a));
-        ck_assert_uint_eq(e->user_data_b, user_data_of(e->mesh_b));
+        ck_assert_uint_eq(e->user_data_a, user_data_of(e->body_a));
+        ck_assert_uint_eq(e->user_data_b, user_data_of(e->body_b));
         if (kind == VOX_TOUCH_ENDED) {
             ck_assert_uint_eq(e->pair, VOX_NO_PAIR);
         } else {
             ck_assert_uint_lt(e->pair, pairs.count);
-            ck_assert_uint_eq(pairs.data[e->pair].mesh_a, e->mesh_a);
-            ck_assert_uint_eq(pairs.data[e->pair].mesh_b, e->mesh_b);
+            ck_assert_uint_eq(pairs.data[e->pair].body_a, e->body_a);
+            ck_assert_uint_eq(pairs.data[e->pair].body_b, e->body_b);
             ck_assert_uint_eq(pairs.data[e->pair].user_data_a, e->user_data_a);
             ck_assert_uint_eq(pairs.data[e->pair].user_data_b, e->user_data_b);
         }
@@ -413,7 +413,7 @@ static void check_against_model(const vox_grid* grid, key_set* touching, key_set
     for (uint64_t i = 0; i < vertices.count; ++i) {
         const vox_contact_event* e = &vertices.data[i];
         ck_assert_int_eq(e->kind, i < vertices.began ? VOX_TOUCH_BEGAN : VOX_TOUCH_ENDED);
-        const key k = {e->mesh_a, e->vertex, e->mesh_b};
+        const key k = {e->body_a, e->vertex, e->body_b};
         events[i] = k;
     }
     replay(inside, events, vertices.began, events + vertices.began, vertices.ended);
@@ -423,9 +423,9 @@ static void check_against_model(const vox_grid* grid, key_set* touching, key_set
     key_set touch = {(key*)malloc((contacts.count + 1) * sizeof(key)), 0};
     for (uint64_t i = 0; i < contacts.count; ++i) {
         const vox_contact* c = &contacts.data[i];
-        const key k = {c->mesh_a, c->vertex, c->mesh_b};
-        const key pair = {c->mesh_a < c->mesh_b ? c->mesh_a : c->mesh_b, 0,
-                          c->mesh_a < c->mesh_b ? c->mesh_b : c->mesh_a};
+        const key k = {c->body_a, c->vertex, c->body_b};
+        const key pair = {c->body_a < c->body_b ? c->body_a : c->body_b, 0,
+                          c->body_a < c->body_b ? c->body_b : c->body_a};
         in.keys[in.count++] = k;
         touch.keys[touch.count++] = pair;
     }
@@ -443,7 +443,7 @@ enum { most_meshes = 7 };
 
 typedef struct actor {
     body shape;
-    vox_mesh mesh; /* 0: none */
+    vox_body mesh; /* 0: none */
 } actor;
 
 static void act(vox_grid* grid, actor* actors, uint64_t* random) {
@@ -455,7 +455,7 @@ static void act(vox_grid* grid, actor* actors, uint64_t* random) {
     switch (random_below(random, 12)) {
     case 0:
         if (!one->mesh) break;
-        ck_ok(vox_mesh_remove(grid, one->mesh));
+        ck_ok(vox_body_remove(grid, one->mesh));
         free_body(&one->shape);
         one->mesh = 0;
         break;
@@ -470,7 +470,7 @@ static void act(vox_grid* grid, actor* actors, uint64_t* random) {
         given[one->mesh] = *random;
         break;
     case 3:
-        if (one->mesh) ck_ok(vox_mesh_set_enabled(grid, one->mesh, random_below(random, 3) != 0));
+        if (one->mesh) ck_ok(vox_body_set_enabled(grid, one->mesh, random_below(random, 3) != 0));
         break;
     case 4:
         if (!one->mesh) break;
@@ -479,7 +479,7 @@ static void act(vox_grid* grid, actor* actors, uint64_t* random) {
         filter.mask = random_below(random, 3) ? UINT64_MAX : random_below(random, 8);
         filter.self_collision = random_below(random, 2);
         filter.self_rings = random_below(random, 3);
-        ck_ok(vox_mesh_set_filter(grid, one->mesh, &filter));
+        ck_ok(vox_body_set_filter(grid, one->mesh, &filter));
         break;
     case 5:
         if (one->mesh && other->mesh && one != other)
@@ -502,7 +502,7 @@ static void act(vox_grid* grid, actor* actors, uint64_t* random) {
         if (!one->mesh) break;
         const float kept = one->shape.positions[0];
         one->shape.positions[0] = INFINITY;
-        ck_ok(vox_mesh_set_enabled(grid, one->mesh, 1));
+        ck_ok(vox_body_set_enabled(grid, one->mesh, 1));
         ck_fails(vox_grid_step(grid), VOX_ERROR_NON_FINITE, "not finite");
         one->shape.positions[0] = kept;
         break;
@@ -593,8 +593,8 @@ START_TEST(arguments) {
     vox_contact contact;
     uint64_t count = 77;
     ck_ok(vox_grid_step(m.grid));
-    ck_fails(vox_grid_pairs(NULL, &pairs), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_grid_pairs(m.grid, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_view is null");
+    ck_fails(vox_grid_get_pairs(NULL, &pairs), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    ck_fails(vox_grid_get_pairs(m.grid, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_view is null");
     ck_fails(vox_grid_touch_events(NULL, &touches), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     ck_fails(vox_grid_touch_events(m.grid, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_view is null");
     ck_fails(vox_grid_contact_events(NULL, &vertices), VOX_ERROR_INVALID_ARGUMENT, "grid is null");

@@ -9,7 +9,7 @@ enum { most = 5 };
 
 typedef struct scene {
     body bodies[most];
-    vox_mesh ids[most];
+    vox_body ids[most];
     vox_grid* grid;
 } scene;
 
@@ -200,7 +200,7 @@ START_TEST(all_or_nothing) {
     desc.flags = VOX_GRID_CONTACT_EVENTS;
     insert_bodies(&s, &desc);
     ck_ok(vox_grid_step(s.grid));
-    ck_ok(vox_grid_hash(s.grid, &hash));
+    ck_ok(vox_grid_get_hash(s.grid, &hash));
     for (vox_result result = VOX_ERROR_OUT_OF_MEMORY; result != VOX_OK;) {
         const uint64_t bytes = l.bytes, epoch = epoch_of(s.grid);
         l.calls = 0;
@@ -215,7 +215,7 @@ START_TEST(all_or_nothing) {
         ck_assert_uint_eq(flags_of(s.grid), VOX_GRID_CONTACT_EVENTS);
         if (failures % 8 != 1) continue;
         ck_ok(vox_grid_step(s.grid));
-        ck_ok(vox_grid_hash(s.grid, &again));
+        ck_ok(vox_grid_get_hash(s.grid, &again));
         ck_assert_uint_eq(hash, again);
     }
     ck_assert_uint_gt(failures, 20);
@@ -290,18 +290,18 @@ typedef struct rule {
     uint64_t category, mask;
 } rule;
 
-static void set_rule(vox_grid* grid, vox_mesh mesh, rule r) {
+static void set_rule(vox_grid* grid, vox_body mesh, rule r) {
     vox_filter filter = vox_default_filter();
     ck_ok(vox_mesh_filter(grid, mesh, &filter));
     filter.category = r.category;
     filter.group = 1; /* so that categories do not decide about contacts */
     filter.penetration_mask = r.mask;
-    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    ck_ok(vox_body_set_filter(grid, mesh, &filter));
 }
 
 static int accepts(rule a, rule b) { return a.mask == UINT64_MAX || (a.mask & b.category) != 0; }
 
-static int body_of(const scene* s, vox_mesh mesh) {
+static int body_of(const scene* s, vox_body mesh) {
     for (int b = 0; b < most; ++b)
         if (s->ids[b] == mesh) return b;
     ck_abort_msg("no mesh %u", mesh);
@@ -315,7 +315,7 @@ static uint64_t check_rules(const scene* s, const vox_grid* all, const rule* rul
     uint64_t n = 0;
     for (uint64_t i = 0; i < every.count; ++i) {
         const vox_penetration* p = &every.data[i];
-        const rule a = rules[body_of(s, p->mesh_a)], b = rules[body_of(s, p->mesh_b)];
+        const rule a = rules[body_of(s, p->body_a)], b = rules[body_of(s, p->body_b)];
         if (!accepts(a, b) || !accepts(b, a)) continue;
         ck_assert_uint_lt(n, found.count);
         ck_assert_mem_eq(&found.data[n], p, sizeof *p);
@@ -332,7 +332,7 @@ static uint64_t check_rules(const scene* s, const vox_grid* all, const rule* rul
     ck_ok(vox_grid_readings(s->grid, &readings));
     for (uint64_t i = 0; i < readings.count; ++i) {
         const vox_contact* c = &contacts.data[i];
-        const rule a = rules[body_of(s, c->mesh_a)], b = rules[body_of(s, c->mesh_b)];
+        const rule a = rules[body_of(s, c->body_a)], b = rules[body_of(s, c->body_b)];
         ck_assert_int_eq((readings.data[i].known & VOX_READING_DEPTH) != 0, accepts(a, b) && accepts(b, a));
     }
     return n;
@@ -427,7 +427,7 @@ START_TEST(filter_all_or_nothing) {
     insert_bodies(&s, &desc);
     vox_filter filter = vox_default_filter();
     filter.penetration_mask = 0;
-    ck_ok(vox_mesh_set_filter(s.grid, s.ids[0], &filter));
+    ck_ok(vox_body_set_filter(s.grid, s.ids[0], &filter));
     uint64_t failures = 0;
     filter = vox_default_filter();
     filter.self_rings = 2;
@@ -435,7 +435,7 @@ START_TEST(filter_all_or_nothing) {
         const uint64_t bytes = l.bytes;
         l.calls = 0;
         l.fail_at = failures + 1;
-        const vox_result result = vox_mesh_set_filter(s.grid, s.ids[0], &filter);
+        const vox_result result = vox_body_set_filter(s.grid, s.ids[0], &filter);
         l.fail_at = 0;
         if (result == VOX_OK) break;
         ck_assert_int_eq(result, VOX_ERROR_OUT_OF_MEMORY);
@@ -461,7 +461,7 @@ START_TEST(older_filters) {
     make_scene(&s, VOX_GRID_PENETRATIONS);
     filter.struct_size = (uint32_t)offsetof(vox_filter, penetration_mask);
     filter.penetration_mask = 0;
-    for (int b = 0; b < most - 1; ++b) ck_ok(vox_mesh_set_filter(s.grid, s.ids[b], &filter));
+    for (int b = 0; b < most - 1; ++b) ck_ok(vox_body_set_filter(s.grid, s.ids[b], &filter));
     ck_ok(vox_grid_step(s.grid));
     check_penetrations(s.grid);
     free_scene(&s);

@@ -83,7 +83,7 @@ static const float s = 0x1p-149f; /* the least float above 0 */
 
 /* Makes the meshes of a scene; its positions may be static. */
 static void insert(vox_grid* grid, const float_mode* mode, vox_mesh_desc desc) {
-    vox_mesh mesh;
+    vox_body mesh;
     ck_in_mode(mode, vox_mesh_insert(grid, &desc, &mesh));
 }
 static void insert_doubles(vox_grid* grid, const float_mode* mode, const double* positions, uint64_t vertices,
@@ -126,14 +126,14 @@ static body boxes[2];
 static void insert_boxes(vox_grid* grid, const float_mode* mode) {
     const double turned[12] = {0.8, -0.6, 0, 0.3, 0.6, 0.8, 0, 0.1, 0, 0, 1, 1.0 / 3};
     for (int i = 0; i < 2; ++i) {
-        vox_mesh mesh;
+        vox_body mesh;
         vox_mesh_desc desc = body_desc(&boxes[i]);
         vox_filter filter = vox_default_filter();
         filter.self_collision = (uint32_t)i;
         filter.self_rest_distance = 0.1;
         desc.filter = &filter;
         ck_in_mode(mode, vox_mesh_insert(grid, &desc, &mesh));
-        if (i == 0) ck_in_mode(mode, vox_mesh_set_transform(grid, mesh, turned));
+        if (i == 0) ck_in_mode(mode, vox_body_set_transform(grid, mesh, turned));
     }
 }
 
@@ -177,7 +177,7 @@ static void put_queries(record* r, vox_grid* grid, const float_mode* mode) {
         put(r, &surface, sizeof surface);
         ck_in_mode(mode, vox_grid_query_ray(grid, at[i], far_away, UINT64_MAX, &ray));
         put(r, &ray, sizeof ray);
-        ck_in_mode(mode, vox_grid_query_ray_hits(grid, at[i], far_away, UINT64_MAX, VOX_NULL_MESH, facets, 64,
+        ck_in_mode(mode, vox_grid_query_ray_hits(grid, at[i], far_away, UINT64_MAX, VOX_NULL_BODY, facets, 64,
                                                  &count));
         put(r, facets, (size_t)count * sizeof *facets);
     }
@@ -213,7 +213,7 @@ static record results(int scene, const float_mode* mode, uint32_t workers, callb
     ck_in_mode(mode, vox_grid_create(&desc, &grid));
     scenes[scene](grid, mode);
     ck_in_mode(mode, vox_grid_step(grid));
-    put_view(&r, mode, vox_contact_view, vox_contact, vox_grid_contacts);
+    put_view(&r, mode, vox_contact_view, vox_contact, vox_grid_get_contacts);
     put_view(&r, mode, vox_penetration_view, vox_penetration, vox_grid_penetrations);
     put_view(&r, mode, vox_depth_view, vox_depth, vox_grid_depths);
     ck_in_mode(mode, vox_grid_prepare_readings(grid));

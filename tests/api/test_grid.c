@@ -101,12 +101,12 @@ START_TEST(struct_sizes) {
     vox_counters counters[2];
     memset(counters, 0xab, sizeof counters);
     counters[0].struct_size = offsetof(vox_counters, tets);
-    ck_ok(vox_grid_counters(grid, counters));
+    ck_ok(vox_grid_get_counters(grid, counters));
     ck_assert_uint_eq(counters[0].struct_size, offsetof(vox_counters, tets));
     ck_assert_uint_eq(counters[0].vertices, 0);
     ck_assert_uint_eq(counters[0].tets, 0xababababababababu);
     counters[0].struct_size = sizeof counters;
-    ck_ok(vox_grid_counters(grid, counters));
+    ck_ok(vox_grid_get_counters(grid, counters));
     ck_assert_uint_eq(counters[0].tets, 0);
     ck_assert_uint_eq(counters[1].struct_size, 0xabababab);
     vox_grid_destroy(grid);
@@ -164,13 +164,13 @@ END_TEST
 START_TEST(null_arguments) {
     vox_grid* grid = grid_of(NULL);
     vox_mesh_desc desc = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
-    vox_mesh other = 77;
+    vox_body other = 77;
     double number = 5;
     uint64_t count = 5;
     vox_contact_view view = {NULL, 1, 2, 3};
     vox_counters counters = {.struct_size = sizeof counters, .tets = 9};
     vox_profile profile = {.struct_size = sizeof profile, .step_ns = 9};
-    vox_mesh mesh = insert_mesh(grid, &desc);
+    vox_body mesh = insert_mesh(grid, &desc);
 
     const vox_result bad = VOX_ERROR_INVALID_ARGUMENT;
     ck_fails(vox_grid_clear(NULL), bad, "grid is null");
@@ -180,9 +180,9 @@ START_TEST(null_arguments) {
     ck_fails(vox_mesh_insert(NULL, &desc, &other), bad, "grid is null");
     ck_fails(vox_mesh_insert(grid, NULL, &other), bad, "desc is null");
     ck_fails(vox_mesh_insert(grid, &desc, NULL), bad, "out_mesh is null");
-    ck_fails(vox_mesh_remove(NULL, mesh), bad, "grid is null");
-    ck_fails(vox_mesh_user_data(NULL, mesh, &count), bad, "grid is null");
-    ck_fails(vox_mesh_user_data(grid, mesh, NULL), bad, "out_user_data is null");
+    ck_fails(vox_body_remove(NULL, mesh), bad, "grid is null");
+    ck_fails(vox_body_get_user_data(NULL, mesh, &count), bad, "grid is null");
+    ck_fails(vox_body_get_user_data(grid, mesh, NULL), bad, "out_user_data is null");
     ck_fails(vox_mesh_bind_positions(NULL, mesh, unit_tet_positions, VOX_FORMAT_FLOAT3, 0), bad,
              "grid is null");
     ck_fails(vox_mesh_bind_positions(grid, mesh, NULL, VOX_FORMAT_FLOAT3, 0), bad, "positions is null");
@@ -192,23 +192,23 @@ START_TEST(null_arguments) {
     ck_fails(vox_mesh_bind_positions(grid, mesh, unit_tet_positions, VOX_FORMAT_FLOAT3, UINT64_MAX), bad,
              "stride is 18446744073709551615");
     ck_fails(vox_grid_step(NULL), bad, "grid is null");
-    ck_fails(vox_grid_contacts(NULL, &view), bad, "grid is null");
-    ck_fails(vox_grid_contacts(grid, NULL), bad, "out_view is null");
+    ck_fails(vox_grid_get_contacts(NULL, &view), bad, "grid is null");
+    ck_fails(vox_grid_get_contacts(grid, NULL), bad, "out_view is null");
     ck_fails(vox_grid_epoch(NULL, &count), bad, "grid is null");
     ck_fails(vox_grid_epoch(grid, NULL), bad, "out_epoch is null");
-    ck_fails(vox_grid_hash(NULL, &count), bad, "grid is null");
-    ck_fails(vox_grid_hash(grid, NULL), bad, "out_hash is null");
-    ck_fails(vox_grid_counters(NULL, &counters), bad, "grid is null");
-    ck_fails(vox_grid_counters(grid, NULL), bad, "out_counters is null");
+    ck_fails(vox_grid_get_hash(NULL, &count), bad, "grid is null");
+    ck_fails(vox_grid_get_hash(grid, NULL), bad, "out_hash is null");
+    ck_fails(vox_grid_get_counters(NULL, &counters), bad, "grid is null");
+    ck_fails(vox_grid_get_counters(grid, NULL), bad, "out_counters is null");
     ck_fails(vox_grid_profile(NULL, &profile), bad, "grid is null");
     ck_fails(vox_grid_profile(grid, NULL), bad, "out_profile is null");
     counters.struct_size = 0;
-    ck_fails(vox_grid_counters(grid, &counters), bad, "struct_size is 0");
+    ck_fails(vox_grid_get_counters(grid, &counters), bad, "struct_size is 0");
     profile.struct_size = 1u << 20;
     ck_fails(vox_grid_profile(grid, &profile), bad, "struct_size is 1048576");
     const double sizes[] = {-1, NAN, INFINITY, -INFINITY};
     for (int i = 0; i < 4; ++i) ck_fails(vox_grid_set_cell_size(grid, sizes[i]), bad, "cell_size is");
-    ck_assert_uint_eq(vox_mesh_is_valid(NULL, mesh), 0);
+    ck_assert_uint_eq(vox_body_is_valid(NULL, mesh), 0);
     vox_grid_destroy(NULL);
 
     /* Nothing was written, nothing has changed. */
@@ -220,7 +220,7 @@ START_TEST(null_arguments) {
     ck_assert_uint_eq(profile.step_ns, 9);
     ck_ok(vox_grid_epoch(grid, &count));
     ck_assert_uint_eq(count, 0);
-    ck_assert_uint_eq(vox_mesh_is_valid(grid, mesh), 1);
+    ck_assert_uint_eq(vox_body_is_valid(grid, mesh), 1);
     ck_ok(vox_grid_step(grid));
     vox_grid_destroy(grid);
 }
@@ -228,7 +228,7 @@ END_TEST
 
 START_TEST(mesh_desc_fields) {
     vox_grid* grid = grid_of(NULL);
-    vox_mesh mesh = 77;
+    vox_body mesh = 77;
     uint32_t tets[8] = {0, 1, 2, 3, 0, 1, 2, 4};
 #define REFUSED(change, code, words)                                                                         \
     do {                                                                                                     \
@@ -261,31 +261,31 @@ START_TEST(ids) {
     vox_grid* grid = grid_of(NULL);
     vox_grid* foreign = grid_of(NULL);
     const vox_mesh_desc desc = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
-    vox_mesh elsewhere = 0;
-    vox_mesh a = insert_mesh(grid, &desc);
-    vox_mesh b = insert_mesh(grid, &desc);
+    vox_body elsewhere = 0;
+    vox_body a = insert_mesh(grid, &desc);
+    vox_body b = insert_mesh(grid, &desc);
     for (int i = 0; i < 3; ++i) ck_ok(vox_mesh_insert(foreign, &desc, &elsewhere));
-    ck_assert_uint_ne(a, VOX_NULL_MESH);
+    ck_assert_uint_ne(a, VOX_NULL_BODY);
     ck_assert_uint_lt(a, b);
 
-    const vox_mesh wrong[] = {VOX_NULL_MESH, elsewhere, 0xffffffffu, a + 1, b ^ 0x800u};
+    const vox_body wrong[] = {VOX_NULL_BODY, elsewhere, 0xffffffffu, a + 1, b ^ 0x800u};
     uint64_t data = 5;
     for (int i = 0; i < 5; ++i) {
-        ck_fails(vox_mesh_remove(grid, wrong[i]), VOX_ERROR_INVALID_HANDLE, "mesh id");
-        ck_fails(vox_mesh_user_data(grid, wrong[i], &data), VOX_ERROR_INVALID_HANDLE, "mesh id");
+        ck_fails(vox_body_remove(grid, wrong[i]), VOX_ERROR_INVALID_HANDLE, "mesh id");
+        ck_fails(vox_body_get_user_data(grid, wrong[i], &data), VOX_ERROR_INVALID_HANDLE, "mesh id");
         ck_fails(vox_mesh_bind_positions(grid, wrong[i], unit_tet_positions, VOX_FORMAT_FLOAT3, 0),
                  VOX_ERROR_INVALID_HANDLE, "mesh id");
-        ck_assert_uint_eq(vox_mesh_is_valid(grid, wrong[i]), 0);
+        ck_assert_uint_eq(vox_body_is_valid(grid, wrong[i]), 0);
     }
-    ck_ok(vox_mesh_remove(grid, a));
-    ck_fails(vox_mesh_remove(grid, a), VOX_ERROR_INVALID_HANDLE, "stale");
-    vox_mesh c = insert_mesh(grid, &desc); /* takes a's slot, not a's id */
+    ck_ok(vox_body_remove(grid, a));
+    ck_fails(vox_body_remove(grid, a), VOX_ERROR_INVALID_HANDLE, "stale");
+    vox_body c = insert_mesh(grid, &desc); /* takes a's slot, not a's id */
     ck_assert_uint_ne(c, a);
     ck_assert_uint_lt(c, b);
-    ck_assert_uint_eq(vox_mesh_is_valid(grid, a), 0);
+    ck_assert_uint_eq(vox_body_is_valid(grid, a), 0);
     ck_ok(vox_grid_clear(grid));
-    ck_assert_uint_eq(vox_mesh_is_valid(grid, b), 0);
-    ck_assert_uint_eq(vox_mesh_is_valid(grid, c), 0);
+    ck_assert_uint_eq(vox_body_is_valid(grid, b), 0);
+    ck_assert_uint_eq(vox_body_is_valid(grid, c), 0);
     vox_grid_destroy(grid);
     vox_grid_destroy(foreign);
 }
@@ -294,18 +294,18 @@ END_TEST
 START_TEST(generations_run_out) {
     vox_grid* grid = grid_of(NULL);
     const vox_mesh_desc desc = vox_default_mesh_desc();
-    vox_mesh mesh = 0;
-    vox_mesh first = insert_mesh(grid, &desc);
-    ck_ok(vox_mesh_remove(grid, first));
+    vox_body mesh = 0;
+    vox_body first = insert_mesh(grid, &desc);
+    ck_ok(vox_body_remove(grid, first));
     for (uint32_t use = 2; use <= VOX_MAX_GENERATIONS; ++use) {
         ck_ok(vox_mesh_insert(grid, &desc, &mesh));
         ck_assert_uint_lt(mesh - first, VOX_MAX_GENERATIONS); /* still the first slot */
-        ck_ok(vox_mesh_remove(grid, mesh));
+        ck_ok(vox_body_remove(grid, mesh));
     }
-    vox_mesh last = insert_mesh(grid, &desc); /* the slot is retired: another one */
+    vox_body last = insert_mesh(grid, &desc); /* the slot is retired: another one */
     ck_assert_uint_gt(last - first, VOX_MAX_GENERATIONS - 1);
-    ck_assert_uint_eq(vox_mesh_is_valid(grid, first), 0);
-    ck_assert_uint_eq(vox_mesh_is_valid(grid, mesh), 0);
+    ck_assert_uint_eq(vox_body_is_valid(grid, first), 0);
+    ck_assert_uint_eq(vox_body_is_valid(grid, mesh), 0);
     vox_grid_destroy(grid);
 }
 END_TEST
@@ -315,8 +315,8 @@ START_TEST(user_data) {
     vox_mesh_desc desc = vox_default_mesh_desc();
     desc.user_data = 0x123456789abcdef0u;
     uint64_t data = 0;
-    vox_mesh mesh = insert_mesh(grid, &desc);
-    ck_ok(vox_mesh_user_data(grid, mesh, &data));
+    vox_body mesh = insert_mesh(grid, &desc);
+    ck_ok(vox_body_get_user_data(grid, mesh, &data));
     ck_assert_uint_eq(data, 0x123456789abcdef0u);
     vox_grid_destroy(grid);
 }
@@ -344,7 +344,7 @@ START_TEST(cell_size_is_chosen) {
     vox_grid* grid = grid_of(&desc);
     ck_ok(vox_grid_cell_size(grid, &cell_size));
     ck_assert_double_eq(cell_size, 0); /* none yet */
-    vox_mesh mesh = insert_mesh(grid, &mesh_desc);
+    vox_body mesh = insert_mesh(grid, &mesh_desc);
     ck_ok(vox_grid_step(grid));
     ck_ok(vox_grid_cell_size(grid, &cell_size));
 
@@ -386,7 +386,7 @@ START_TEST(cell_size_without_extent) {
     vox_grid* grid = grid_of(&grid_desc);
     ck_ok(vox_grid_step(grid));
     vox_mesh_desc desc = vox_mesh_desc_floats(point, 4, NULL, 0);
-    vox_mesh mesh = insert_mesh(grid, &desc);
+    vox_body mesh = insert_mesh(grid, &desc);
     ck_ok(vox_grid_step(grid));
     desc = vox_mesh_desc_floats(point, 4, unit_tet, 1);
     ck_ok(vox_mesh_insert(grid, &desc, &mesh));

@@ -19,7 +19,7 @@ typedef struct scenes {
 
 static uint64_t hash_of(const vox_grid* grid) {
     uint64_t hash = 0;
-    ck_ok(vox_grid_hash(grid, &hash));
+    ck_ok(vox_grid_get_hash(grid, &hash));
     return hash;
 }
 
@@ -85,14 +85,14 @@ START_TEST(as_one_by_one) {
         ck_ok(vox_grids_copy_contacts((const vox_grid* const*)s.grids, count, fewer, half, same));
         ck_assert_mem_eq(same, offsets, sizeof same);
         ck_assert_mem_eq(fewer, contacts, half * sizeof *fewer);
-        ck_assert_uint_eq(fewer[half].mesh_a, VOX_NULL_MESH);
+        ck_assert_uint_eq(fewer[half].body_a, VOX_NULL_BODY);
         for (uint32_t i = 0; i < count; ++i) {
             ck_assert_int_eq(results[i], VOX_OK);
             if (w == 0)
                 hashes[i] = hash_of(s.grids[i]);
             else
                 ck_assert_uint_eq(hash_of(s.grids[i]), hashes[i]);
-            ck_ok(vox_mesh_mark_moved(s.grids[i], contacts[0].mesh_a));
+            ck_ok(vox_body_mark_moved(s.grids[i], contacts[0].body_a));
         }
         free(contacts);
         free(fewer);

@@ -45,7 +45,7 @@ struct Held {
 
 void live(const Scene& scene, const vox_grid_desc& desc, heap::Life& life) {
     Held held;
-    vox_mesh meshes[2];
+    vox_body meshes[2];
     if (!life([&] { return vox_grid_create(&desc, &held.grid); })) return;
     for (int i = 0; i < 2; ++i) {
         vox_mesh_desc mesh = body_desc(i == 0 ? &scene.box : &scene.other);
@@ -66,7 +66,7 @@ void live(const Scene& scene, const vox_grid_desc& desc, heap::Life& life) {
     const auto step = [&] { return vox_grid_step(held.grid); };
     const auto cut_tets = [&] { return vox_mesh_set_tets_enabled(held.grid, meshes[1], cut, 2, 0); };
     const bool done =
-        life([&] { return vox_mesh_set_filter(held.grid, meshes[0], &filter); }) && life(step) &&
+        life([&] { return vox_body_set_filter(held.grid, meshes[0], &filter); }) && life(step) &&
         life([&] { return vox_grid_prepare_readings(held.grid); }) &&
         life([&] { return vox_grid_prepare_queries(held.grid); }) &&
         life([&] { return vox_grid_query_point(held.grid, point, UINT64_MAX, nullptr, 0, &count); }) &&
@@ -80,7 +80,7 @@ void live(const Scene& scene, const vox_grid_desc& desc, heap::Life& life) {
         }) &&
         life([&] { return vox_grid_query_box(held.grid, point, far, UINT64_MAX, nullptr, 0, &count); }) &&
         life([&] {
-            return vox_grid_query_ray_hits(held.grid, point, far, UINT64_MAX, VOX_NULL_MESH, nullptr, 0,
+            return vox_grid_query_ray_hits(held.grid, point, far, UINT64_MAX, VOX_NULL_BODY, nullptr, 0,
                                            &count);
         }) &&
         life([&] { return vox_grid_take_query_view(held.grid, &held.view); }) &&
@@ -102,8 +102,8 @@ void live(const Scene& scene, const vox_grid_desc& desc, heap::Life& life) {
     if (!life([&] { return vox_grid_load(held.bytes, size, &desc, &held.loaded); })) return;
     if (!life([&] { return vox_grid_step(held.loaded); })) return;
     std::uint64_t hash = 0;
-    ck_ok(vox_grid_hash(held.grid, &hash));
-    ck_ok(vox_grid_hash(held.loaded, &life.hash));
+    ck_ok(vox_grid_get_hash(held.grid, &hash));
+    ck_ok(vox_grid_get_hash(held.loaded, &life.hash));
     ck_assert_uint_eq(hash, life.hash);
 }
 

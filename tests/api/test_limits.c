@@ -21,19 +21,19 @@ static vox_mesh_desc points(uint64_t count) {
 
 START_TEST(vertices_of_a_grid) {
     vox_grid* grid = new_grid(0);
-    vox_mesh mesh = 7;
+    vox_body mesh = 7;
     vox_mesh_desc desc = points(VOX_MAX_VERTICES);
-    vox_mesh all = insert_mesh(grid, &desc);
+    vox_body all = insert_mesh(grid, &desc);
     desc = points(1);
     ck_fails(vox_mesh_insert(grid, &desc, &mesh), VOX_ERROR_LIMIT,
              "holds 2147483647 vertices and cannot take 1 more, the limit is 2147483647");
     ck_assert_uint_eq(mesh, 7);
     desc = points(0);
     ck_ok(vox_mesh_insert(grid, &desc, &mesh));
-    ck_ok(vox_mesh_remove(grid, all));
+    ck_ok(vox_body_remove(grid, all));
     desc = points(VOX_MAX_VERTICES);
     ck_ok(vox_mesh_insert(grid, &desc, &mesh));
-    ck_ok(vox_mesh_remove(grid, mesh));
+    ck_ok(vox_body_remove(grid, mesh));
     desc = points(VOX_MAX_VERTICES + 1ull);
     ck_fails(vox_mesh_insert(grid, &desc, &mesh), VOX_ERROR_LIMIT,
              "vertex_count is 2147483648, the limit is 2147483647");
@@ -45,9 +45,9 @@ END_TEST
 START_TEST(meshes_of_a_grid) {
     vox_grid* grid = new_grid(0);
     const vox_mesh_desc desc = points(0);
-    vox_mesh mesh = 0, last = 0;
-    vox_result result = vox_grid_reserve(grid, VOX_MAX_MESHES, 0);
-    for (uint32_t i = 0; i < VOX_MAX_MESHES && result == VOX_OK; ++i) {
+    vox_body mesh = 0, last = 0;
+    vox_result result = vox_grid_reserve(grid, VOX_MAX_BODIES, 0);
+    for (uint32_t i = 0; i < VOX_MAX_BODIES && result == VOX_OK; ++i) {
         result = vox_mesh_insert(grid, &desc, &mesh);
         ck_assert(mesh > last || result != VOX_OK);
         last = mesh;
@@ -55,7 +55,7 @@ START_TEST(meshes_of_a_grid) {
     if (result == VOX_OK) {
         ck_fails(vox_mesh_insert(grid, &desc, &mesh), VOX_ERROR_LIMIT,
                  "holds 1048576 mesh slots and cannot take 1 more, the limit is 1048576");
-        ck_ok(vox_mesh_remove(grid, last));
+        ck_ok(vox_body_remove(grid, last));
         ck_ok(vox_mesh_insert(grid, &desc, &mesh)); /* in its place */
         ck_assert_uint_ne(mesh, last);
         ck_fails(vox_mesh_insert(grid, &desc, &last), VOX_ERROR_LIMIT, "1048576");
@@ -113,7 +113,7 @@ END_TEST
 START_TEST(buffers_grow) {
     body large = make_box(7, 1, 0, 0, 0), same = make_box(7, 1, 0.3f, 0.3f, 0.3f);
     vox_grid_desc desc = engine_desc();
-    vox_mesh mesh;
+    vox_body mesh;
     desc.flags |= VOX_GRID_CONTACT_EVENTS;
     vox_grid* grid = grid_of(&desc);
     uint64_t expected = 0;
@@ -122,7 +122,7 @@ START_TEST(buffers_grow) {
         ck_ok(vox_mesh_insert(grid, &body, &mesh));
     }
     for (int copies = 1; copies <= 16; copies *= 4) {
-        vox_mesh more[16];
+        vox_body more[16];
         vox_penetration_view penetrations;
         vox_contact_event_view events;
         vox_pair_view pairs;
@@ -134,13 +134,13 @@ START_TEST(buffers_grow) {
         vox_contact_view contacts = contacts_of(grid);
         ck_ok(vox_grid_penetrations(grid, &penetrations));
         ck_ok(vox_grid_contact_events(grid, &events));
-        ck_ok(vox_grid_pairs(grid, &pairs));
+        ck_ok(vox_grid_get_pairs(grid, &pairs));
         if (!expected) expected = contacts.count / 3; /* three bodies, of which two are the same */
         ck_assert_uint_gt(contacts.count, expected * (uint64_t)copies);
         ck_assert_uint_ge(contacts.count, penetrations.count);
         ck_assert_uint_gt(events.began, 0);
         ck_assert_uint_eq(pairs.count, (uint64_t)((copies + 2) * (copies + 1) / 2));
-        for (int i = 0; i < copies; ++i) ck_ok(vox_mesh_remove(grid, more[i]));
+        for (int i = 0; i < copies; ++i) ck_ok(vox_body_remove(grid, more[i]));
     }
     vox_grid_destroy(grid);
     free_body(&large);

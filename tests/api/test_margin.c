@@ -12,7 +12,7 @@ enum { most_meshes = 8 };
 /* Meshes with a category each, by which queries tell them apart. */
 typedef struct margin_scene {
     body bodies[most_meshes];
-    vox_mesh ids[most_meshes];
+    vox_body ids[most_meshes];
     vox_filter filters[most_meshes];
     uint32_t count;
 } margin_scene;
@@ -64,10 +64,10 @@ static int collide_in(const margin_scene* s, uint32_t a, uint32_t b) {
     return (x->category & y->mask) != 0 && (y->category & x->mask) != 0;
 }
 
-static int has_contact(const vox_grid* grid, vox_mesh a, uint32_t vertex, vox_mesh b) {
+static int has_contact(const vox_grid* grid, vox_body a, uint32_t vertex, vox_body b) {
     const vox_contact_view contacts = contacts_of(grid);
     for (uint64_t i = 0; i < contacts.count; ++i)
-        if (contacts.data[i].mesh_a == a && contacts.data[i].vertex == vertex && contacts.data[i].mesh_b == b)
+        if (contacts.data[i].body_a == a && contacts.data[i].vertex == vertex && contacts.data[i].body_b == b)
             return 1;
     return 0;
 }
@@ -90,11 +90,11 @@ static uint64_t check_margin(const margin_scene* s, vox_grid* grid, double margi
                 desc.mask = (uint64_t)1 << b;
                 desc.max_distance = margin;
                 ck_ok(vox_grid_query_closest_points(grid, &desc, &hit));
-                if (hit.mesh == VOX_NULL_MESH || has_contact(grid, s->ids[a], v, s->ids[b])) continue;
+                if (hit.mesh == VOX_NULL_BODY || has_contact(grid, s->ids[a], v, s->ids[b])) continue;
                 ck_assert_uint_lt(next, view.count);
-                ck_assert_uint_eq(found->mesh_a, s->ids[a]);
+                ck_assert_uint_eq(found->body_a, s->ids[a]);
                 ck_assert_uint_eq(found->vertex, v);
-                ck_assert_uint_eq(found->mesh_b, s->ids[b]);
+                ck_assert_uint_eq(found->body_b, s->ids[b]);
                 ck_assert_uint_eq(found->tet, hit.tet);
                 ck_assert_uint_eq(found->facet, hit.facet);
                 ck_assert_double_eq(found->distance, hit.distance);
@@ -146,7 +146,7 @@ START_TEST(boxes_face_to_face) {
     ck_assert_uint_eq(view.count, 8); /* four of each, at most as far as the margin */
     for (uint64_t i = 0; i < view.count; ++i) {
         ck_assert_double_eq(view.data[i].distance, 0.25);
-        ck_assert_double_eq(view.data[i].normal[2], view.data[i].mesh_a == s.ids[1] ? 1 : -1);
+        ck_assert_double_eq(view.data[i].normal[2], view.data[i].body_a == s.ids[1] ? 1 : -1);
     }
     ck_assert_uint_eq(contacts_of(grid).count, 0);
     ck_ok(vox_grid_set_margin(grid, nextafter(0.25, 0)));
@@ -191,7 +191,7 @@ START_TEST(filters_and_pairs) {
         const uint64_t all = check_margin(&s, grid, 0.5);
         s.filters[1].mask = 0x2a;
         s.filters[2].group = s.filters[3].group = -1;
-        for (uint32_t i = 1; i < 4; ++i) ck_ok(vox_mesh_set_filter(grid, s.ids[i], &s.filters[i]));
+        for (uint32_t i = 1; i < 4; ++i) ck_ok(vox_body_set_filter(grid, s.ids[i], &s.filters[i]));
         ck_ok(vox_grid_step(grid));
         ck_assert_uint_le(check_margin(&s, grid, 0.5), all);
         for (uint32_t i = 0; i < s.count; ++i)
@@ -231,25 +231,25 @@ START_TEST(at_rest_and_edited) {
         (void)check_margin(&s, grid, 0.5);
     }
     uint64_t before = margins_of(grid).count;
-    ck_ok(vox_mesh_set_enabled(grid, s.ids[0], 0));
+    ck_ok(vox_body_set_enabled(grid, s.ids[0], 0));
     ck_ok(vox_grid_step(grid));
     uint64_t without = margins_of(grid).count;
     ck_assert_uint_le(without, before);
     for (uint64_t i = 0; i < without; ++i) {
-        ck_assert_uint_ne(margins_of(grid).data[i].mesh_a, s.ids[0]);
-        ck_assert_uint_ne(margins_of(grid).data[i].mesh_b, s.ids[0]);
+        ck_assert_uint_ne(margins_of(grid).data[i].body_a, s.ids[0]);
+        ck_assert_uint_ne(margins_of(grid).data[i].body_b, s.ids[0]);
     }
-    ck_ok(vox_mesh_set_enabled(grid, s.ids[0], 1));
+    ck_ok(vox_body_set_enabled(grid, s.ids[0], 1));
     ck_ok(vox_grid_step(grid));
     ck_assert_uint_eq(check_margin(&s, grid, 0.5), before);
     /* Another margin, over bodies at rest. */
     ck_ok(vox_grid_set_margin(grid, 1));
     ck_ok(vox_grid_step(grid));
     ck_assert_uint_ge(check_margin(&s, grid, 1), before);
-    ck_ok(vox_mesh_remove(grid, s.ids[0]));
+    ck_ok(vox_body_remove(grid, s.ids[0]));
     ck_ok(vox_grid_step(grid));
     for (uint64_t i = 0; i < margins_of(grid).count; ++i)
-        ck_assert_uint_ne(margins_of(grid).data[i].mesh_b, s.ids[0]);
+        ck_assert_uint_ne(margins_of(grid).data[i].body_b, s.ids[0]);
     ck_ok(vox_grid_clear(grid));
     ck_assert_uint_eq(margins_of(grid).count, 0);
     ck_ok(vox_grid_step(grid));

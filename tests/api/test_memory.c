@@ -60,7 +60,7 @@ START_TEST(everything_comes_back) {
     body box = make_box(5, 0.25f, 0, 0, 0), other = make_box(5, 0.25f, 0.4f, 0.3f, 0.2f);
     vox_mesh_desc a = body_desc(&box), b = body_desc(&other);
     b.flags = VOX_MESH_COPY_POSITIONS;
-    vox_mesh mesh = 0;
+    vox_body mesh = 0;
     vox_grid* grid = grid_of(&desc);
     for (int round = 0; round < 3; ++round) {
         ck_ok(vox_mesh_insert(grid, &a, &mesh));
@@ -88,7 +88,7 @@ START_TEST(steady_state_allocates_nothing) {
         desc.storage = (vox_storage)storage;
         desc.world_max[0] = desc.world_max[1] = desc.world_max[2] = 2;
         vox_grid* grid = grid_of(&desc);
-        vox_mesh mesh = insert_mesh(grid, &a);
+        vox_body mesh = insert_mesh(grid, &a);
         ck_ok(vox_mesh_insert(grid, &b, &mesh));
         ck_ok(vox_grid_step(grid));
         ck_ok(vox_grid_step(grid));
@@ -110,26 +110,26 @@ END_TEST
 static vox_result life(const vox_grid_desc* desc, const vox_mesh_desc* a, const vox_mesh_desc* b, ledger* l,
                        uint64_t* out_hash) {
     vox_grid* grid = NULL;
-    vox_mesh mesh_a = 0, mesh_b = 0;
+    vox_body body_a = 0, body_b = 0;
     vox_result result = vox_grid_create(desc, &grid);
     if (result != VOX_OK) {
         ck_assert_ptr_null(grid);
         *out_hash = 0;
         return result;
     }
-    result = vox_mesh_insert(grid, a, &mesh_a);
-    if (result == VOX_OK) result = vox_mesh_insert(grid, b, &mesh_b);
+    result = vox_mesh_insert(grid, a, &body_a);
+    if (result == VOX_OK) result = vox_mesh_insert(grid, b, &body_b);
     if (result == VOX_OK) result = vox_grid_step(grid);
     if (result != VOX_OK) {
         /* Nothing is half done: from here on it works, and gives what it would have given. */
         l->fail_at = 0;
         vox_contact_view view = contacts_of(grid);
         ck_assert_uint_eq(view.count, 0);
-        if (!mesh_a) ck_ok(vox_mesh_insert(grid, a, &mesh_a));
-        if (!mesh_b) ck_ok(vox_mesh_insert(grid, b, &mesh_b));
+        if (!body_a) ck_ok(vox_mesh_insert(grid, a, &body_a));
+        if (!body_b) ck_ok(vox_mesh_insert(grid, b, &body_b));
         ck_ok(vox_grid_step(grid));
     }
-    ck_ok(vox_grid_hash(grid, out_hash));
+    ck_ok(vox_grid_get_hash(grid, out_hash));
     vox_grid_destroy(grid);
     return result;
 }
@@ -173,7 +173,7 @@ START_TEST(budget_is_kept) {
     ck_ok(life(&desc, &a, &b, &l, &expected));
 
     vox_grid* grid = grid_of(&desc);
-    vox_mesh mesh = insert_mesh(grid, &a);
+    vox_body mesh = insert_mesh(grid, &a);
     ck_ok(vox_mesh_insert(grid, &b, &mesh));
     ck_ok(vox_grid_step(grid));
     vox_counters counters = counters_of(grid);
@@ -188,7 +188,7 @@ START_TEST(budget_is_kept) {
             if (result == VOX_OK) result = vox_mesh_insert(grid, &b, &mesh);
             if (result == VOX_OK) result = vox_grid_step(grid);
             ck_assert_uint_le(l.bytes, budget);
-            ck_ok(vox_grid_counters(grid, &counters));
+            ck_ok(vox_grid_get_counters(grid, &counters));
             ck_assert_uint_le(counters.peak_bytes, budget);
             vox_grid_destroy(grid);
         }
@@ -287,15 +287,15 @@ START_TEST(reserved_room) {
     const vox_mesh_desc a = body_desc(&box), b = body_desc(&other), empty = vox_default_mesh_desc();
     uint64_t before = 0, after = 0, epoch = 0, count = 0;
     vox_grid* grid = grid_of(&desc);
-    vox_mesh mesh = insert_mesh(grid, &a);
+    vox_body mesh = insert_mesh(grid, &a);
     ck_ok(vox_mesh_insert(grid, &b, &mesh));
     ck_ok(vox_grid_step(grid));
     vox_contact_view view = contacts_of(grid);
-    ck_ok(vox_grid_hash(grid, &before));
+    ck_ok(vox_grid_get_hash(grid, &before));
     epoch = view.epoch, count = view.count;
     ck_ok(vox_grid_reserve(grid, 100, 10000));
-    ck_ok(vox_grid_contacts(grid, &view)); /* the same contacts, a new view */
-    ck_ok(vox_grid_hash(grid, &after));
+    ck_ok(vox_grid_get_contacts(grid, &view)); /* the same contacts, a new view */
+    ck_ok(vox_grid_get_hash(grid, &after));
     ck_assert_uint_eq(view.count, count);
     ck_assert_uint_eq(before, after);
     ck_assert_uint_gt(view.epoch, epoch);
@@ -306,7 +306,7 @@ START_TEST(reserved_room) {
     ck_assert_uint_eq(l.calls, calls); /* empty meshes need only their slots */
     ck_ok(vox_grid_reserve(grid, 1, 1));
     ck_assert_uint_eq(l.bytes, bytes);
-    ck_fails(vox_grid_reserve(grid, VOX_MAX_MESHES + 1, 0), VOX_ERROR_LIMIT, "mesh_count is 1048577");
+    ck_fails(vox_grid_reserve(grid, VOX_MAX_BODIES + 1, 0), VOX_ERROR_LIMIT, "mesh_count is 1048577");
     ck_fails(vox_grid_reserve(grid, 0, 1ull << 40), VOX_ERROR_BUDGET, "budget");
     ck_fails(vox_grid_reserve(grid, 0, UINT64_MAX), VOX_ERROR_OUT_OF_MEMORY, "memory");
     ck_fails(vox_grid_reserve(NULL, 0, 0), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
@@ -319,15 +319,15 @@ END_TEST
 
 START_TEST(many_meshes) {
     /* Insertion stays cheap and ids stay unique when meshes come by the thousand. */
-    vox_mesh meshes[3000];
+    vox_body meshes[3000];
     const vox_mesh_desc desc = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
     vox_grid* grid = grid_of(NULL);
     for (int i = 0; i < 3000; ++i) {
         ck_ok(vox_mesh_insert(grid, &desc, &meshes[i]));
         if (i) ck_assert_uint_gt(meshes[i], meshes[i - 1]);
     }
-    for (int i = 0; i < 3000; i += 2) ck_ok(vox_mesh_remove(grid, meshes[i]));
-    for (int i = 0; i < 3000; ++i) ck_assert_uint_eq(vox_mesh_is_valid(grid, meshes[i]), i % 2);
+    for (int i = 0; i < 3000; i += 2) ck_ok(vox_body_remove(grid, meshes[i]));
+    for (int i = 0; i < 3000; ++i) ck_assert_uint_eq(vox_body_is_valid(grid, meshes[i]), i % 2);
     vox_grid_destroy(grid);
 }
 END_TEST

@@ -16,7 +16,7 @@ START_TEST(exact_for_the_doubles_given) {
             const uint32_t count = 2 + random_below(&state, 2);
             vox_grid* grid = new_grid(1);
             solid solids[3];
-            vox_mesh ids[3];
+            vox_body ids[3];
             for (uint32_t m = 0; m < count; ++m) {
                 solids[m] = make_solid(1 + random_below(&state, 3));
                 const double x = random_double(-1, 1), y = random_double(-1, 1), z = random_double(-1, 1);
@@ -45,7 +45,7 @@ START_TEST(floats_and_doubles_in_one_grid) {
     for (int scene = 0; scene < 40; ++scene) {
         vox_grid* grid = new_grid(1);
         solid solids[3];
-        vox_mesh ids[3];
+        vox_body ids[3];
         for (uint32_t m = 0; m < 3; ++m) {
             solids[m] = make_solid(1 + random_below(&state, 3));
             const double x = random_double(-1, 1), y = random_double(-1, 1);
@@ -78,7 +78,7 @@ START_TEST(less_than_a_float_apart) {
     b.vertex_count = 4;
     b.tets = unit_tet;
     b.tet_count = 1;
-    vox_mesh mesh = insert_mesh(grid, &a);
+    vox_body mesh = insert_mesh(grid, &a);
     ck_ok(vox_mesh_insert(grid, &b, &mesh));
     for (int round = 0; round < 3; ++round) { /* each is a move that no float shows */
         point[2] = nextafter(at, 0);
@@ -206,7 +206,7 @@ START_TEST(limits) {
         write_solid(&a, VOX_FORMAT_DOUBLE3, 24);
         write_solid(&b, VOX_FORMAT_DOUBLE3, far ? 24 : 32);
         vox_grid* grid = new_grid(1);
-        const vox_mesh other = insert(grid, &a, 0), mesh = insert(grid, &b, 0);
+        const vox_body other = insert(grid, &a, 0), mesh = insert(grid, &b, 0);
         const uint64_t hash = hash_of_step(grid);
         char text[64];
         snprintf(text, sizeof text, "mesh %u (slot 1, user data 0), vertex 7: position (", mesh);
@@ -222,7 +222,7 @@ START_TEST(limits) {
         }
         /* The largest that fit, both ways from the rest. */
         solid solids[2] = {a, b};
-        const vox_mesh ids[2] = {other, mesh};
+        const vox_body ids[2] = {other, mesh};
         for (int sign = -1; sign <= 1; sign += 2) {
             const double kept = b.positions[3 * 7 + 1];
             b.positions[3 * 7 + 1] = sign * nextafter(0x1.ffffffp127, 0);
@@ -257,11 +257,11 @@ START_TEST(steady_state_holds_the_same_memory) {
     (void)insert(grid, &b, 0);
     vox_counters before = {.struct_size = sizeof before}, after = before;
     for (int step = 0; step < 12; ++step) {
-        if (step == 3) ck_ok(vox_grid_counters(grid, &before));
+        if (step == 3) ck_ok(vox_grid_get_counters(grid, &before));
         for (uint32_t v = 0; v < b.vertex_count; ++v) ((double*)(void*)b.bytes)[3 * v] += 1e-9;
         (void)hash_of_step(grid);
     }
-    ck_ok(vox_grid_counters(grid, &after));
+    ck_ok(vox_grid_get_counters(grid, &after));
     ck_assert_uint_eq(after.bytes, before.bytes);
     vox_grid_destroy(grid);
     free_solid(&a);

@@ -38,14 +38,14 @@ START_TEST(category_mask_and_group) {
             filters[1].group = rows[i].group_b;
             filters[1].category = rows[i].category_b;
             filters[1].mask = rows[i].mask_b;
-            vox_mesh meshes[2];
+            vox_body meshes[2];
             for (int m = 0; m < 2; ++m) {
                 descs[m].filter = at_insertion ? &filters[m] : NULL;
                 meshes[m] = insert(grid, &descs[m]);
             }
             if (!at_insertion) {
                 ck_assert_uint_gt(stepped(grid).count, 0);
-                for (int m = 0; m < 2; ++m) ck_ok(vox_mesh_set_filter(grid, meshes[m], &filters[m]));
+                for (int m = 0; m < 2; ++m) ck_ok(vox_body_set_filter(grid, meshes[m], &filters[m]));
             }
             const vox_contact_view view = stepped(grid);
             ck_assert_msg((view.count > 0) == rows[i].collide, "row %zu: %llu contacts", i,
@@ -69,7 +69,7 @@ START_TEST(pair_exceptions) {
     enum { n = 5 };
     vox_grid* grid = new_grid();
     body boxes[n];
-    vox_mesh meshes[n];
+    vox_body meshes[n];
     int excepted[n][n] = {{0}};
     uint64_t random = 5;
     for (int i = 0; i < n; ++i) {
@@ -82,7 +82,7 @@ START_TEST(pair_exceptions) {
                        on = random_below(&random, 2);
         if (i == j) { /* a new mesh in the place of another has no exceptions */
             const vox_mesh_desc desc = body_desc(&boxes[i]);
-            ck_ok(vox_mesh_remove(grid, meshes[i]));
+            ck_ok(vox_body_remove(grid, meshes[i]));
             meshes[i] = insert(grid, &desc);
             for (int k = 0; k < n; ++k) excepted[i][k] = excepted[k][i] = 0;
         } else {
@@ -106,24 +106,24 @@ START_TEST(disabled_meshes) {
     vox_mesh_desc later = body_desc(&other);
     later.positions = NULL;
     insert(grid, &desc);
-    const vox_mesh mesh = insert(grid, &later);
+    const vox_body mesh = insert(grid, &later);
     ck_fails(vox_grid_step(grid), VOX_ERROR_INVALID_STATE, "has no positions");
-    ck_ok(vox_mesh_set_enabled(grid, mesh, 0));
+    ck_ok(vox_body_set_enabled(grid, mesh, 0));
     ck_assert_uint_eq(stepped(grid).count, 0); /* its positions are not missed */
     vox_counters counters = counters_of(grid);
     ck_assert_uint_eq(counters.meshes, 1);
     ck_assert_uint_eq(counters.disabled_meshes, 1);
     ck_assert_uint_eq(counters.tets, box.tet_count);
     ck_ok(vox_mesh_bind_positions(grid, mesh, other.positions, VOX_FORMAT_FLOAT3, 0));
-    ck_ok(vox_mesh_set_enabled(grid, mesh, 1));
+    ck_ok(vox_body_set_enabled(grid, mesh, 1));
     const uint64_t count = stepped(grid).count;
     ck_assert_uint_gt(count, 0);
-    ck_ok(vox_mesh_set_enabled(grid, mesh, 0));
+    ck_ok(vox_body_set_enabled(grid, mesh, 0));
     other.positions[0] = NAN; /* nor are they read */
     ck_assert_uint_eq(stepped(grid).count, 0);
     ck_assert_uint_eq(stepped(grid).count, 0);
     other.positions[0] = 0.5f;
-    ck_ok(vox_mesh_set_enabled(grid, mesh, 1));
+    ck_ok(vox_body_set_enabled(grid, mesh, 1));
     ck_assert_uint_eq(stepped(grid).count, count);
     ck_assert_uint_eq(counters_of(grid).disabled_meshes, 0);
     vox_grid_destroy(grid);
@@ -168,7 +168,7 @@ START_TEST(arguments) {
     vox_grid* grid = new_grid();
     body box = make_box(1, 1, 0, 0, 0);
     vox_mesh_desc desc = body_desc(&box);
-    const vox_mesh mesh = insert(grid, &desc), other = insert(grid, &desc);
+    const vox_body mesh = insert(grid, &desc), other = insert(grid, &desc);
     vox_filter filter = vox_default_filter();
     const vox_filter defaults = filter;
     ck_assert_uint_eq(filter.struct_size, sizeof filter);
@@ -177,26 +177,26 @@ START_TEST(arguments) {
     ck_assert_int_eq(filter.group, 0);
     ck_fails(vox_filter_init(NULL, sizeof filter), VOX_ERROR_INVALID_ARGUMENT, "filter is null");
     ck_fails(vox_filter_init(&filter, 3), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 3");
-    ck_fails(vox_mesh_set_filter(NULL, mesh, &filter), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_mesh_set_filter(grid, mesh, NULL), VOX_ERROR_INVALID_ARGUMENT, "filter is null");
-    ck_fails(vox_mesh_set_filter(grid, 0, &filter), VOX_ERROR_INVALID_HANDLE, "mesh id is 0");
+    ck_fails(vox_body_set_filter(NULL, mesh, &filter), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    ck_fails(vox_body_set_filter(grid, mesh, NULL), VOX_ERROR_INVALID_ARGUMENT, "filter is null");
+    ck_fails(vox_body_set_filter(grid, 0, &filter), VOX_ERROR_INVALID_HANDLE, "mesh id is 0");
     ck_fails(vox_mesh_filter(NULL, mesh, &filter), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     ck_fails(vox_mesh_filter(grid, mesh, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_filter is null");
     ck_fails(vox_mesh_filter(grid, mesh + 1, &filter), VOX_ERROR_INVALID_HANDLE, "stale");
     filter.self_rings = VOX_MAX_RINGS;
-    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    ck_ok(vox_body_set_filter(grid, mesh, &filter));
     filter.self_rings = VOX_MAX_RINGS + 1;
-    ck_fails(vox_mesh_set_filter(grid, mesh, &filter), VOX_ERROR_LIMIT, "self_rings is 9");
+    ck_fails(vox_body_set_filter(grid, mesh, &filter), VOX_ERROR_LIMIT, "self_rings is 9");
     filter = defaults;
     filter.self_collision = 2;
-    ck_fails(vox_mesh_set_filter(grid, mesh, &filter), VOX_ERROR_INVALID_ARGUMENT, "self_collision is 2");
+    ck_fails(vox_body_set_filter(grid, mesh, &filter), VOX_ERROR_INVALID_ARGUMENT, "self_collision is 2");
     filter = defaults;
     const double bad[] = {-1, NAN, INFINITY};
     for (int i = 0; i < 3; ++i) {
         filter.self_rest_distance = bad[i];
-        ck_fails(vox_mesh_set_filter(grid, mesh, &filter), VOX_ERROR_INVALID_ARGUMENT, "self_rest_distance");
+        ck_fails(vox_body_set_filter(grid, mesh, &filter), VOX_ERROR_INVALID_ARGUMENT, "self_rest_distance");
         desc.filter = &filter;
-        vox_mesh untouched = 77;
+        vox_body untouched = 77;
         ck_fails(vox_mesh_insert(grid, &desc, &untouched), VOX_ERROR_INVALID_ARGUMENT, "self_rest_distance");
         ck_assert_uint_eq(untouched, 77);
     }
@@ -205,20 +205,20 @@ START_TEST(arguments) {
     /* The rest pose: none to be had, or not finite. */
     desc = body_desc(&box);
     desc.positions = NULL;
-    const vox_mesh bare = insert(grid, &desc);
+    const vox_body bare = insert(grid, &desc);
     filter.self_rest_distance = 1;
-    ck_fails(vox_mesh_set_filter(grid, bare, &filter), VOX_ERROR_INVALID_STATE, "rest_positions");
+    ck_fails(vox_body_set_filter(grid, bare, &filter), VOX_ERROR_INVALID_STATE, "rest_positions");
     desc.rest_positions = box.positions;
     desc.rest_position_byte_stride = 4;
-    vox_mesh mesh_with_rest = 0;
+    vox_body mesh_with_rest = 0;
     ck_fails(vox_mesh_insert(grid, &desc, &mesh_with_rest), VOX_ERROR_INVALID_ARGUMENT,
              "rest_position_byte_stride is 4");
     desc.rest_position_byte_stride = 12;
     mesh_with_rest = insert(grid, &desc);
-    ck_ok(vox_mesh_set_filter(grid, mesh_with_rest, &filter));
+    ck_ok(vox_body_set_filter(grid, mesh_with_rest, &filter));
     box.positions[4] = NAN;
     ck_fails(vox_mesh_insert(grid, &desc, &mesh_with_rest), VOX_ERROR_NON_FINITE, "vertex 1");
-    ck_fails(vox_mesh_set_filter(grid, other, &filter), VOX_ERROR_NON_FINITE, "vertex 1");
+    ck_fails(vox_body_set_filter(grid, other, &filter), VOX_ERROR_NON_FINITE, "vertex 1");
 
     /* A struct of a smaller size keeps the defaults of what it does not cover; one of a larger size is read
      * as far as it is known. */
@@ -228,20 +228,20 @@ START_TEST(arguments) {
     } grown = {defaults, 99};
     grown.filter.struct_size = sizeof grown;
     grown.filter.mask = 4;
-    ck_ok(vox_mesh_set_filter(grid, other, &grown.filter));
+    ck_ok(vox_body_set_filter(grid, other, &grown.filter));
     ck_assert_uint_eq(filter_of(grid, other).mask, 4);
     grown.filter.struct_size = 16; /* up to `category` */
-    ck_ok(vox_mesh_set_filter(grid, other, &grown.filter));
+    ck_ok(vox_body_set_filter(grid, other, &grown.filter));
     ck_assert_uint_eq(filter_of(grid, other).mask, UINT64_MAX);
 
-    ck_fails(vox_mesh_set_enabled(NULL, mesh, 1), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_mesh_set_enabled(grid, mesh, 2), VOX_ERROR_INVALID_ARGUMENT, "enabled is 2");
-    ck_fails(vox_mesh_set_enabled(grid, 0, 1), VOX_ERROR_INVALID_HANDLE, "mesh id is 0");
+    ck_fails(vox_body_set_enabled(NULL, mesh, 1), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    ck_fails(vox_body_set_enabled(grid, mesh, 2), VOX_ERROR_INVALID_ARGUMENT, "enabled is 2");
+    ck_fails(vox_body_set_enabled(grid, 0, 1), VOX_ERROR_INVALID_HANDLE, "mesh id is 0");
     ck_fails(vox_grid_set_pair_enabled(NULL, mesh, other, 0), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     ck_fails(vox_grid_set_pair_enabled(grid, mesh, other, 7), VOX_ERROR_INVALID_ARGUMENT, "enabled is 7");
     ck_fails(vox_grid_set_pair_enabled(grid, mesh, mesh, 0), VOX_ERROR_INVALID_ARGUMENT, "self-collision");
     ck_fails(vox_grid_set_pair_enabled(grid, mesh, 0, 0), VOX_ERROR_INVALID_HANDLE, "mesh id is 0");
-    ck_ok(vox_mesh_remove(grid, other));
+    ck_ok(vox_body_remove(grid, other));
     ck_fails(vox_grid_set_pair_enabled(grid, mesh, other, 0), VOX_ERROR_INVALID_HANDLE, "stale");
     vox_grid_destroy(grid);
     free_body(&box);

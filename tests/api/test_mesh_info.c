@@ -5,23 +5,23 @@
 #include "scenes/bodies.h"
 #include "support/suite.h"
 
-static vox_mesh_info info_of(const vox_grid* grid, vox_mesh mesh) {
-    vox_mesh_info info;
+static vox_body_info info_of(const vox_grid* grid, vox_body mesh) {
+    vox_body_info info;
     memset(&info, 0x55, sizeof info);
     info.struct_size = sizeof info;
-    ck_ok(vox_mesh_get_info(grid, mesh, &info));
+    ck_ok(vox_body_get_info(grid, mesh, &info));
     return info;
 }
 
 /* Also that copies of fewer meshes are the first ones. */
-static uint64_t meshes_of(const vox_grid* grid, vox_mesh ids[8]) {
+static uint64_t meshes_of(const vox_grid* grid, vox_body ids[8]) {
     uint64_t count = 99, same = 99;
-    ck_ok(vox_grid_meshes(grid, NULL, 0, &count));
+    ck_ok(vox_grid_get_bodies(grid, NULL, 0, &count));
     ck_assert_uint_le(count, 8);
-    ck_ok(vox_grid_meshes(grid, ids, 8, &same));
+    ck_ok(vox_grid_get_bodies(grid, ids, 8, &same));
     ck_assert_uint_eq(same, count);
-    vox_mesh first[2] = {77, 77};
-    ck_ok(vox_grid_meshes(grid, first, 1, &same));
+    vox_body first[2] = {77, 77};
+    ck_ok(vox_grid_get_bodies(grid, first, 1, &same));
     ck_assert_uint_eq(same, count);
     ck_assert_uint_eq(first[0], count > 0 ? ids[0] : 77);
     ck_assert_uint_eq(first[1], 77);
@@ -30,15 +30,15 @@ static uint64_t meshes_of(const vox_grid* grid, vox_mesh ids[8]) {
 
 START_TEST(meshes) {
     vox_grid* grid = grid_of(NULL);
-    vox_mesh ids[8], found[8];
+    vox_body ids[8], found[8];
     body box = make_box(1, 1, 0, 0, 0);
     const vox_mesh_desc desc = body_desc(&box);
     ck_assert_uint_eq(meshes_of(grid, found), 0);
     for (int i = 0; i < 4; ++i) ids[i] = insert_mesh(grid, &desc);
     ck_assert_uint_eq(meshes_of(grid, found), 4);
     ck_assert_mem_eq(found, ids, 4 * sizeof *ids);
-    ck_ok(vox_mesh_remove(grid, ids[1]));
-    ck_ok(vox_mesh_set_enabled(grid, ids[2], 0));
+    ck_ok(vox_body_remove(grid, ids[1]));
+    ck_ok(vox_body_set_enabled(grid, ids[2], 0));
     ck_assert_uint_eq(meshes_of(grid, found), 3);
     ck_assert_uint_eq(found[0], ids[0]);
     ck_assert_uint_eq(found[1], ids[2]);
@@ -65,8 +65,8 @@ START_TEST(fields) {
     vox_mesh_desc desc = body_desc(&box);
     desc.user_data = 0x123456789abcdefull;
     desc.flags = VOX_MESH_BORROW_TETS;
-    const vox_mesh mesh = insert_mesh(grid, &desc);
-    vox_mesh_info info = info_of(grid, mesh);
+    const vox_body mesh = insert_mesh(grid, &desc);
+    vox_body_info info = info_of(grid, mesh);
     ck_assert_uint_eq(info.struct_size, sizeof info);
     ck_assert_uint_eq(info.user_data, desc.user_data);
     ck_assert_uint_eq(info.vertex_count, box.vertex_count);
@@ -85,10 +85,10 @@ START_TEST(fields) {
     double* columns = (double*)calloc(3 * n, sizeof *columns);
     const double matrix[12] = {2, 0, 0, 1, 0, 3, 0, 2, 0, 0, 4, 3};
     ck_ok(vox_mesh_bind_strided_positions(grid, mesh, columns, VOX_FORMAT_DOUBLE3, 8, 8 * n));
-    ck_ok(vox_mesh_set_transform(grid, mesh, matrix));
+    ck_ok(vox_body_set_transform(grid, mesh, matrix));
     vox_filter filter = vox_default_filter();
     filter.self_collision = 1;
-    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    ck_ok(vox_body_set_filter(grid, mesh, &filter));
     info = info_of(grid, mesh);
     ck_assert_int_eq(info.position_format, VOX_FORMAT_DOUBLE3);
     ck_assert_ptr_eq(info.positions, columns);
@@ -129,7 +129,7 @@ START_TEST(tets) {
     vox_grid* grid = grid_of(NULL);
     body box = make_box(2, 0.5f, 0, 0, 0);
     const vox_mesh_desc desc = body_desc(&box);
-    const vox_mesh mesh = insert_mesh(grid, &desc);
+    const vox_body mesh = insert_mesh(grid, &desc);
     const uint32_t off[2] = {2, 5}, removed = 5;
     ck_ok(vox_mesh_set_tets_enabled(grid, mesh, off, 2, 0));
     ck_ok(vox_mesh_remove_tets(grid, mesh, &removed, 1));
@@ -137,20 +137,20 @@ START_TEST(tets) {
     uint32_t* corners = (uint32_t*)calloc(4 * n, sizeof *corners);
     uint8_t* enabled = (uint8_t*)calloc(n, 1);
     uint64_t count = 0;
-    ck_ok(vox_mesh_copy_tets(grid, mesh, corners, enabled, n, &count));
+    ck_ok(vox_mesh_get_tets(grid, mesh, corners, enabled, n, &count));
     ck_assert_uint_eq(count, n);
     ck_assert_mem_eq(corners, box.tets, 4 * n * sizeof *corners);
     for (uint64_t t = 0; t < n; ++t) ck_assert_uint_eq(enabled[t], t != 2 && t != 5);
     /* One of the arrays, and a part. */
     memset(corners, 0, 4 * n * sizeof *corners);
     memset(enabled, 7, n);
-    ck_ok(vox_mesh_copy_tets(grid, mesh, NULL, enabled, 3, &count));
+    ck_ok(vox_mesh_get_tets(grid, mesh, NULL, enabled, 3, &count));
     ck_assert_uint_eq(count, n);
     ck_assert_mem_eq(enabled, "\1\1\0\7", 4);
-    ck_ok(vox_mesh_copy_tets(grid, mesh, corners, NULL, 3, &count));
+    ck_ok(vox_mesh_get_tets(grid, mesh, corners, NULL, 3, &count));
     ck_assert_mem_eq(corners, box.tets, 12 * sizeof *corners);
     ck_assert_uint_eq(corners[12] | corners[13] | corners[14] | corners[15], 0);
-    ck_ok(vox_mesh_copy_tets(grid, mesh, NULL, NULL, 0, &count));
+    ck_ok(vox_mesh_get_tets(grid, mesh, NULL, NULL, 0, &count));
     ck_assert_uint_eq(count, n);
     vox_grid_destroy(grid);
     free(corners);
@@ -178,13 +178,13 @@ START_TEST(loaded) {
 
     vox_grid *loaded = NULL, *copy = grid_of(NULL);
     ck_ok(vox_grid_load(bytes, size, NULL, &loaded));
-    vox_mesh ids[8];
+    vox_body ids[8];
     ck_assert_uint_eq(meshes_of(loaded, ids), 2);
     for (int b = 0; b < 2; ++b) {
-        const vox_mesh_info info = info_of(loaded, ids[b]);
+        const vox_body_info info = info_of(loaded, ids[b]);
         uint32_t* corners = (uint32_t*)calloc(4 * info.tet_count, sizeof *corners);
         uint64_t count = 0;
-        ck_ok(vox_mesh_copy_tets(loaded, ids[b], corners, NULL, info.tet_count, &count));
+        ck_ok(vox_mesh_get_tets(loaded, ids[b], corners, NULL, info.tet_count, &count));
         vox_mesh_desc desc = vox_default_mesh_desc();
         desc.positions = info.positions;
         desc.position_format = info.position_format;
@@ -210,30 +210,30 @@ END_TEST
 
 START_TEST(arguments) {
     vox_grid* grid = grid_of(NULL);
-    vox_mesh_info info;
+    vox_body_info info;
     uint64_t count = 99;
     uint32_t corners[4];
     memset(&info, 0x55, sizeof info);
     info.struct_size = sizeof info;
-    ck_fails(vox_grid_meshes(NULL, NULL, 0, &count), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_grid_meshes(grid, NULL, 0, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_count is null");
-    ck_fails(vox_grid_meshes(grid, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "meshes is null");
-    ck_fails(vox_mesh_get_info(NULL, 1, &info), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_mesh_get_info(grid, 1, &info), VOX_ERROR_INVALID_HANDLE, "");
-    ck_fails(vox_mesh_copy_tets(grid, 1, corners, NULL, 1, &count), VOX_ERROR_INVALID_HANDLE, "");
+    ck_fails(vox_grid_get_bodies(NULL, NULL, 0, &count), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    ck_fails(vox_grid_get_bodies(grid, NULL, 0, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_count is null");
+    ck_fails(vox_grid_get_bodies(grid, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "meshes is null");
+    ck_fails(vox_body_get_info(NULL, 1, &info), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    ck_fails(vox_body_get_info(grid, 1, &info), VOX_ERROR_INVALID_HANDLE, "");
+    ck_fails(vox_mesh_get_tets(grid, 1, corners, NULL, 1, &count), VOX_ERROR_INVALID_HANDLE, "");
     const vox_mesh_desc desc = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
-    const vox_mesh mesh = insert_mesh(grid, &desc);
-    ck_fails(vox_mesh_get_info(grid, mesh, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_info is null");
-    ck_fails(vox_mesh_copy_tets(grid, mesh, corners, NULL, 1, NULL), VOX_ERROR_INVALID_ARGUMENT,
+    const vox_body mesh = insert_mesh(grid, &desc);
+    ck_fails(vox_body_get_info(grid, mesh, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_info is null");
+    ck_fails(vox_mesh_get_tets(grid, mesh, corners, NULL, 1, NULL), VOX_ERROR_INVALID_ARGUMENT,
              "out_count is null");
     ck_assert_uint_eq(count, 99);
     info.struct_size = 3;
-    ck_fails(vox_mesh_get_info(grid, mesh, &info), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 3");
+    ck_fails(vox_body_get_info(grid, mesh, &info), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 3");
     ck_assert_uint_eq(info.slot, 0x55555555);
     /* An older program's struct ends before the transform. */
-    info.struct_size = offsetof(vox_mesh_info, transform);
+    info.struct_size = offsetof(vox_body_info, transform);
     info.transform[0] = 17;
-    ck_ok(vox_mesh_get_info(grid, mesh, &info));
+    ck_ok(vox_body_get_info(grid, mesh, &info));
     ck_assert_uint_eq(info.vertex_count, 4);
     ck_assert_double_eq(info.transform[0], 17);
     vox_grid_destroy(grid);

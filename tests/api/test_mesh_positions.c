@@ -12,7 +12,7 @@ START_TEST(bound_in_another_format) {
     memcpy(rounded.positions, a.positions, 3 * sizeof(double) * a.vertex_count);
     write_solid(&rounded, VOX_FORMAT_FLOAT3, 12);
     vox_grid* grid = new_grid(1);
-    const vox_mesh ids[2] = {insert(grid, &a, 0), insert(grid, &b, 0)};
+    const vox_body ids[2] = {insert(grid, &a, 0), insert(grid, &b, 0)};
     solid solids[2] = {a, b};
     for (int round = 0; round < 12;
          ++round) { /* 0: doubles, 1: floats, of 0 again: at rest for a step or two */
@@ -34,9 +34,9 @@ START_TEST(refused) {
     solid s = make_solid(1);
     write_solid(&s, VOX_FORMAT_DOUBLE3, 24);
     vox_grid* grid = new_grid(1);
-    const vox_mesh mesh = insert(grid, &s, 0);
+    const vox_body mesh = insert(grid, &s, 0);
     vox_mesh_desc desc = solid_desc(&s);
-    vox_mesh out = 0;
+    vox_body out = 0;
     desc.position_byte_stride = 23;
     ck_fails(vox_mesh_insert(grid, &desc, &out), VOX_ERROR_INVALID_ARGUMENT,
              "is 23, expected 0 or at least 24");
@@ -70,15 +70,15 @@ START_TEST(no_positions_of_no_vertices) {
         solid s = make_solid(1);
         write_solid(&s, VOX_FORMAT_FLOAT3, 12);
         insert(grid, &s, 0);
-        vox_mesh mesh = 0;
+        vox_body mesh = 0;
         ck_ok(vox_mesh_insert(grid, &empty, &mesh));
         const uint64_t stride = columns ? 8 : 24, component = columns ? 64 : 8;
         ck_ok(vox_mesh_bind_positions(grid, mesh, NULL, VOX_FORMAT_FLOAT3, 0));
         ck_ok(vox_mesh_bind_strided_positions(grid, mesh, NULL, VOX_FORMAT_DOUBLE3, stride, component));
         ck_fails(vox_mesh_bind_positions(grid, mesh, NULL, (vox_format)7, 0), VOX_ERROR_INVALID_ARGUMENT,
                  "format is 7");
-        vox_mesh_info info = {.struct_size = sizeof info};
-        ck_ok(vox_mesh_get_info(grid, mesh, &info));
+        vox_body_info info = {.struct_size = sizeof info};
+        ck_ok(vox_body_get_info(grid, mesh, &info));
         ck_assert_ptr_null(info.positions);
         ck_assert_int_eq(info.position_format, VOX_FORMAT_DOUBLE3);
         ck_ok(vox_grid_step(grid));
@@ -117,7 +117,7 @@ START_TEST(mapped_positions) {
         write_solid(&a, floats ? VOX_FORMAT_FLOAT3 : VOX_FORMAT_DOUBLE3, size + 8);
         write_solid(&b, floats ? VOX_FORMAT_FLOAT3 : VOX_FORMAT_DOUBLE3, size);
         vox_grid *grid = new_grid(1), *copy = new_grid(1), *late = new_grid(1);
-        const vox_mesh ids[2] = {insert(grid, &a, 0), insert(grid, &b, 0)};
+        const vox_body ids[2] = {insert(grid, &a, 0), insert(grid, &b, 0)};
         const uint64_t hash = hash_of_step(grid);
         ck_assert_uint_gt(contacts_of(grid).count, 0);
 
@@ -150,7 +150,7 @@ START_TEST(mapped_positions) {
 
         /* A copy made at insertion is what is mapped; positions that are written before there were any. */
         write_solid(&a, a.format, size);
-        const vox_mesh copied = insert(copy, &a, VOX_MESH_COPY_POSITIONS);
+        const vox_body copied = insert(copy, &a, VOX_MESH_COPY_POSITIONS);
         (void)insert(copy, &b, 0);
         const uint64_t moved = hash_of_step(copy);
         ck_ok(vox_mesh_map_positions(copy, copied, &mapped, &stride));
@@ -158,7 +158,7 @@ START_TEST(mapped_positions) {
         ck_assert_uint_eq(hash_of_step(copy), moved);
         vox_mesh_desc desc = solid_desc(&a);
         desc.positions = NULL;
-        vox_mesh mesh = insert_mesh(late, &desc);
+        vox_body mesh = insert_mesh(late, &desc);
         ck_fails(vox_grid_step(late), VOX_ERROR_INVALID_STATE, "no positions");
         ck_ok(vox_mesh_map_positions(late, mesh, &mapped, &stride));
         for (size_t i = 0; i < size * a.vertex_count; ++i) ck_assert_int_eq(((char*)mapped)[i], 0);
@@ -181,7 +181,7 @@ END_TEST
 START_TEST(mapped_positions_of_nothing) {
     vox_grid* grid = new_grid(1);
     vox_mesh_desc desc = vox_default_mesh_desc();
-    vox_mesh mesh = 0;
+    vox_body mesh = 0;
     void* mapped = &mesh;
     uint64_t stride = 0;
     ck_ok(vox_mesh_insert(grid, &desc, &mesh));

@@ -112,16 +112,16 @@ static size_t filtered_contacts(const shape* shapes, const oracle_contact* hits,
     oracle_contact* rest = (oracle_contact*)malloc((count + 1) * sizeof *rest);
     for (size_t i = 0; i < count; ++i) {
         const oracle_contact* h = &hits[i];
-        if (h->mesh_a == h->mesh_b &&
-            is_filtered(&shapes[h->mesh_a], h->vertex, shapes[h->mesh_a].tets + 4 * h->tet))
+        if (h->body_a == h->body_b &&
+            is_filtered(&shapes[h->body_a], h->vertex, shapes[h->body_a].tets + 4 * h->tet))
             ++*dropped;
         else
             rest[left++] = *h;
     }
     for (size_t begin = 0, end; begin < left; begin = end) {
         int interior = 0;
-        for (end = begin; end < left && rest[end].mesh_a == rest[begin].mesh_a &&
-                          rest[end].vertex == rest[begin].vertex && rest[end].mesh_b == rest[begin].mesh_b;
+        for (end = begin; end < left && rest[end].body_a == rest[begin].body_a &&
+                          rest[end].vertex == rest[begin].vertex && rest[end].body_b == rest[begin].body_b;
              ++end)
             interior += rest[end].interior;
         if (!interior) out[kept++] = rest[begin];
@@ -160,7 +160,7 @@ START_TEST(self_filters_by_definition) {
     for (int scene = 0; scene < 60; ++scene) {
         shape shapes[2];
         oracle_mesh meshes[2];
-        vox_mesh ids[2];
+        vox_body ids[2];
         vox_grid* grid = new_grid();
         for (int m = 0; m < 2; ++m) {
             shapes[m] = crumpled(1 + random_below(&random, 3), scene % 2, &random);
@@ -178,7 +178,7 @@ START_TEST(self_filters_by_definition) {
             const int at_insertion = (int)random_below(&random, 2);
             desc.filter = at_insertion ? &filter : NULL;
             ids[m] = insert(grid, &desc);
-            if (!at_insertion) ck_ok(vox_mesh_set_filter(grid, ids[m], &filter));
+            if (!at_insertion) ck_ok(vox_body_set_filter(grid, ids[m], &filter));
             meshes[m] = (oracle_mesh){s->positions, s->tets, s->vertex_count, s->tet_count, 1};
         }
         oracle_contact* hits = NULL;
@@ -190,9 +190,9 @@ START_TEST(self_filters_by_definition) {
         ck_assert_msg(view.count == count, "scene %d: %llu contacts, expected %zu", scene,
                       (unsigned long long)view.count, count);
         for (size_t i = 0; i < count; ++i) {
-            ck_assert_uint_eq(view.data[i].mesh_a, ids[expected[i].mesh_a]);
+            ck_assert_uint_eq(view.data[i].body_a, ids[expected[i].body_a]);
             ck_assert_uint_eq(view.data[i].vertex, expected[i].vertex);
-            ck_assert_uint_eq(view.data[i].mesh_b, ids[expected[i].mesh_b]);
+            ck_assert_uint_eq(view.data[i].body_b, ids[expected[i].body_b]);
             ck_assert_uint_eq(view.data[i].tet, expected[i].tet);
         }
         ck_assert_uint_eq(counters_of(grid).filtered, dropped);
@@ -221,20 +221,20 @@ START_TEST(lowest_tet_that_is_left) {
     vox_mesh_desc desc = vox_mesh_desc_floats(positions, 8, tets, 3);
     vox_filter filter = vox_default_filter();
     desc.flags = VOX_MESH_SELF_COLLISION;
-    const vox_mesh mesh = insert(grid, &desc);
+    const vox_body mesh = insert(grid, &desc);
     vox_contact_view view = stepped(grid);
     ck_assert_uint_eq(view.count, 1);
     ck_assert_uint_eq(view.data[0].vertex, 5);
     ck_assert_uint_eq(view.data[0].tet, 1);
     filter.self_collision = 1;
     filter.self_rings = 1;
-    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    ck_ok(vox_body_set_filter(grid, mesh, &filter));
     view = stepped(grid);
     ck_assert_uint_eq(view.count, 1);
     ck_assert_uint_eq(view.data[0].vertex, 5);
     ck_assert_uint_eq(view.data[0].tet, 2);
     filter.self_rings = 2; /* corners 0, 1, 2 are two edges away */
-    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    ck_ok(vox_body_set_filter(grid, mesh, &filter));
     ck_assert_uint_eq(stepped(grid).count, 0);
     vox_grid_destroy(grid);
 }
@@ -257,27 +257,27 @@ START_TEST(overlap_in_the_rest_pose) {
     vox_mesh_desc desc = vox_mesh_desc_floats(positions, 2 * n, tets, 2 * m);
     vox_filter filter = vox_default_filter();
     filter.self_collision = 1;
-    const vox_mesh mesh = insert(grid, &desc);
-    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    const vox_body mesh = insert(grid, &desc);
+    ck_ok(vox_body_set_filter(grid, mesh, &filter));
     const uint64_t overlapping = stepped(grid).count;
     ck_assert_uint_gt(overlapping, 0);
     filter.self_rest_distance = 1e-30; /* the rest pose is taken here */
-    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    ck_ok(vox_body_set_filter(grid, mesh, &filter));
     ck_assert_uint_eq(stepped(grid).count, 0);
     ck_assert_uint_eq(counters_of(grid).filtered > 0, 1);
     for (uint32_t v = n; v < 2 * n; ++v) positions[3 * v + 2] -= 1; /* deeper: new ones */
     ck_assert_uint_gt(stepped(grid).count, 0);
     filter.self_rest_distance = 0.1; /* and here it is kept */
-    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    ck_ok(vox_body_set_filter(grid, mesh, &filter));
     ck_assert_uint_gt(stepped(grid).count, 0);
     filter.self_rest_distance = 10;
-    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    ck_ok(vox_body_set_filter(grid, mesh, &filter));
     ck_assert_uint_eq(stepped(grid).count, 0);
     filter.self_rest_distance = 0;
-    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    ck_ok(vox_body_set_filter(grid, mesh, &filter));
     ck_assert_uint_gt(stepped(grid).count, overlapping);
     filter.self_collision = 0;
-    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    ck_ok(vox_body_set_filter(grid, mesh, &filter));
     ck_assert_uint_eq(stepped(grid).count, 0);
     vox_grid_destroy(grid);
     free(positions);
@@ -304,10 +304,10 @@ START_TEST(rest_pose_in_double) {
     desc.filter = &filter;
     desc.rest_positions = rest;
     desc.rest_position_byte_stride = sizeof rest[0];
-    const vox_mesh mesh = insert(grid, &desc);
+    const vox_body mesh = insert(grid, &desc);
     ck_assert_uint_eq(stepped(grid).count, 1); /* not closer than that */
     filter.self_rest_distance = 0.50000001;
-    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    ck_ok(vox_body_set_filter(grid, mesh, &filter));
     ck_assert_uint_eq(stepped(grid).count, 0);
     vox_grid_destroy(grid);
 }
@@ -376,7 +376,7 @@ START_TEST(rest_pose_that_grows) {
     desc.positions = now;
     desc.position_format = VOX_FORMAT_DOUBLE3;
     desc.filter = &filter;
-    const vox_mesh mesh = insert(grid, &desc);
+    const vox_body mesh = insert(grid, &desc);
 
     /* The first tet once more, and the second. */
     double grown_rest[48], grown[48];
@@ -402,7 +402,7 @@ START_TEST(rest_pose_that_grows) {
     ck_assert_uint_gt(stepped(grid).count, 0);
     const uint64_t filtered = counters_of(grid).filtered;
     filter.self_rest_distance = 1.5; /* now they are close at rest */
-    ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    ck_ok(vox_body_set_filter(grid, mesh, &filter));
     ck_assert_uint_eq(stepped(grid).count, 0);
     ck_assert_uint_gt(counters_of(grid).filtered, filtered);
     vox_grid_destroy(grid);
@@ -432,7 +432,7 @@ START_TEST(steps_with_filters_allocate_nothing) {
     filter.category = 2;
     desc.filter = &filter;
     insert(grid, &desc);
-    vox_mesh meshes[3];
+    vox_body meshes[3];
     vox_filter blind = vox_default_filter();
     blind.mask = 1;
     for (int i = 0; i < 3; ++i) {
@@ -464,7 +464,7 @@ START_TEST(failing_filters_change_nothing) {
     const vox_mesh_desc desc = vox_mesh_desc_floats(s.positions, s.vertex_count, s.tets, s.tet_count),
                         other = body_desc(&box);
     vox_grid* grid = counted_grid(&l);
-    const vox_mesh mesh = insert(grid, &desc), second = insert(grid, &other);
+    const vox_body mesh = insert(grid, &desc), second = insert(grid, &other);
     const uint64_t count = stepped(grid).count;
     vox_filter filter = vox_default_filter();
     filter.self_collision = 1;
@@ -473,7 +473,7 @@ START_TEST(failing_filters_change_nothing) {
     uint64_t failures = 0;
     for (vox_result result = VOX_ERROR_OUT_OF_MEMORY; result != VOX_OK; ++failures) {
         l.fail_at = l.calls + 1 + failures;
-        result = vox_mesh_set_filter(grid, mesh, &filter);
+        result = vox_body_set_filter(grid, mesh, &filter);
         l.fail_at = 0;
         if (result == VOX_OK) break;
         ck_assert_int_eq(result, VOX_ERROR_OUT_OF_MEMORY);
@@ -489,17 +489,17 @@ START_TEST(failing_filters_change_nothing) {
     const size_t bytes = 3 * sizeof(float) * s.vertex_count;
     float* kept = (float*)malloc(bytes);
     memcpy(kept, s.positions, bytes);
-    const vox_mesh again = insert(fresh, &desc);
+    const vox_body again = insert(fresh, &desc);
     insert(fresh, &other);
     ck_ok(vox_grid_step(fresh));
     memset(s.positions, 0, bytes);
     for (uint64_t failure = 1; failure <= failures; ++failure) {
         fresh_l.fail_at = fresh_l.calls + failure;
-        ck_assert_int_eq(vox_mesh_set_filter(fresh, again, &filter), VOX_ERROR_OUT_OF_MEMORY);
+        ck_assert_int_eq(vox_body_set_filter(fresh, again, &filter), VOX_ERROR_OUT_OF_MEMORY);
     }
     memcpy(s.positions, kept, bytes);
     fresh_l.fail_at = 0;
-    ck_ok(vox_mesh_set_filter(fresh, again, &filter));
+    ck_ok(vox_body_set_filter(fresh, again, &filter));
     ck_assert_uint_eq(stepped(fresh).count, filtered);
     vox_grid_destroy(fresh);
     free(kept);

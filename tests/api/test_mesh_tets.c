@@ -9,7 +9,7 @@
 /* A grid with two boxes that overlap; the tetrahedra of the second, which collides with itself, are `tets`.
  */
 static vox_grid* grid_of_boxes(const body* box, const body* other, const uint32_t* tets, uint32_t flags,
-                               vox_mesh* mesh) {
+                               vox_body* mesh) {
     vox_grid* grid = engine_grid();
     vox_mesh_desc a = body_desc(box), b = body_desc(other);
     (void)insert_mesh(grid, &a);
@@ -27,7 +27,7 @@ static uint32_t* copy_of_tets(const body* b) {
 
 START_TEST(borrowed_ones_cost_16_bytes_less) {
     body box = make_box(5, 0.25f, 0, 0, 0), other = make_box(5, 0.25f, 0.4f, 0.3f, 0.2f);
-    vox_mesh mesh = 0;
+    vox_body mesh = 0;
     vox_grid* copying = grid_of_boxes(&box, &other, other.tets, 0, &mesh);
     vox_grid* borrowing = grid_of_boxes(&box, &other, other.tets, VOX_MESH_BORROW_TETS, &mesh);
     for (int frame = 0; frame < 3; ++frame) {
@@ -46,7 +46,7 @@ END_TEST
 
 enum { turn_off, remove_some, replace_some, append_some, edit_count };
 
-static void edit(vox_grid* grid, vox_mesh mesh, int what, uint64_t count) {
+static void edit(vox_grid* grid, vox_body mesh, int what, uint64_t count) {
     const uint32_t tets[2] = {3, 40}, corners[8] = {0, 1, 2, 40, 1, 2, 3, 41};
     uint32_t first = 0;
     switch (what) {
@@ -70,7 +70,7 @@ START_TEST(first_edit_copies) {
     body box = make_box(5, 0.25f, 0, 0, 0), other = make_box(5, 0.25f, 0.4f, 0.3f, 0.2f);
     const size_t bytes = 4 * sizeof(uint32_t) * other.tet_count;
     for (int what = 0; what < edit_count; ++what) {
-        vox_mesh mesh = 0;
+        vox_body mesh = 0;
         uint32_t* lent = copy_of_tets(&other);
         vox_grid* copying = grid_of_boxes(&box, &other, other.tets, 0, &mesh);
         vox_grid* borrowing = grid_of_boxes(&box, &other, lent, VOX_MESH_BORROW_TETS, &mesh);
@@ -99,7 +99,7 @@ END_TEST
 START_TEST(new_topology_may_be_borrowed) {
     body box = make_box(5, 0.25f, 0, 0, 0), other = make_box(5, 0.25f, 0.4f, 0.3f, 0.2f);
     body third = make_box(4, 0.25f, 0.3f, 0.3f, 0.3f);
-    vox_mesh mesh = 0;
+    vox_body mesh = 0;
     uint32_t* lent = copy_of_tets(&other);
     vox_grid* copying = grid_of_boxes(&box, &other, other.tets, 0, &mesh);
     vox_grid* borrowing = grid_of_boxes(&box, &other, lent, VOX_MESH_BORROW_TETS, &mesh);
@@ -140,7 +140,7 @@ END_TEST
 
 START_TEST(snapshot_has_its_own) {
     body box = make_box(5, 0.25f, 0, 0, 0), other = make_box(5, 0.25f, 0.4f, 0.3f, 0.2f);
-    vox_mesh mesh = 0;
+    vox_body mesh = 0;
     uint32_t* lent = copy_of_tets(&other);
     vox_grid* grid = grid_of_boxes(&box, &other, lent, VOX_MESH_BORROW_TETS, &mesh);
     const uint64_t expected = hash_of_step(grid);
@@ -181,7 +181,7 @@ START_TEST(edit_without_memory_for_the_copy) {
     grid_desc.allocator.release = release_always;
     grid_desc.allocator.user = &allowed;
     vox_grid* grid = grid_of(&grid_desc);
-    const vox_mesh mesh = insert_mesh(grid, &desc);
+    const vox_body mesh = insert_mesh(grid, &desc);
     (void)insert_mesh(grid, &desc);
     const uint64_t expected = hash_of_step(grid), held = counters_of(grid).bytes;
     for (int what = 0; what < edit_count; ++what) {

@@ -12,7 +12,7 @@ static uint64_t state = 1;
 
 static double random_double(double min, double max) { return min + (max - min) * random_unit(&state); }
 
-static vox_mesh insert(vox_grid* grid, const vox_mesh_desc* desc) { return insert_mesh(grid, desc); }
+static vox_body insert(vox_grid* grid, const vox_mesh_desc* desc) { return insert_mesh(grid, desc); }
 
 static uint64_t count_of(vox_grid* grid) {
     vox_contact_view view = contacts_of(grid);
@@ -77,14 +77,14 @@ START_TEST(exact_in_its_result) {
         }
         c.positions = moved;
         c.position_format = VOX_FORMAT_DOUBLE3;
-        const vox_mesh rigid = insert(grid, &a);
+        const vox_body rigid = insert(grid, &a);
         (void)insert(grid, &b);
         (void)insert(plain, &c);
         (void)insert(plain, &b);
         for (int step = 0; step < 5; ++step) {
             double m[12];
             random_rigid(m, 1.5);
-            ck_ok(vox_mesh_set_transform(grid, rigid, m));
+            ck_ok(vox_body_set_transform(grid, rigid, m));
             transformed(m, wide, n, moved);
             const uint64_t hash = hash_of_step(grid);
             ck_assert_uint_eq(hash, hash_of_step(plain));
@@ -121,27 +121,27 @@ START_TEST(identity_null_and_other_positions) {
          c = make_box(3, 0.5f, -7.8f, 0.3f, 0);
     vox_mesh_desc first = body_desc(&a), second = body_desc(&b);
     vox_grid* grid = engine_grid();
-    const vox_mesh mesh = insert(grid, &first);
+    const vox_body mesh = insert(grid, &first);
     (void)insert(grid, &second);
     const uint64_t hash = hash_of_step(grid);
     ck_assert_uint_gt(count_of(grid), 0);
-    ck_ok(vox_mesh_set_transform(grid, mesh, identity));
+    ck_ok(vox_body_set_transform(grid, mesh, identity));
     ck_assert_uint_eq(hash_of_step(grid), hash);
-    ck_ok(vox_mesh_set_transform(grid, mesh, aside));
+    ck_ok(vox_body_set_transform(grid, mesh, aside));
     ck_assert_uint_ne(hash_of_step(grid), hash);
     ck_assert_uint_eq(count_of(grid), 0);
     /* It stays when other positions are bound, and goes with null. */
     ck_ok(vox_mesh_bind_positions(grid, mesh, c.positions, VOX_FORMAT_FLOAT3, 0));
     (void)hash_of_step(grid);
     ck_assert_uint_gt(count_of(grid), 0);
-    ck_ok(vox_mesh_set_transform(grid, mesh, NULL));
+    ck_ok(vox_body_set_transform(grid, mesh, NULL));
     (void)hash_of_step(grid);
     ck_assert_uint_eq(count_of(grid), 0);
     ck_ok(vox_mesh_bind_positions(grid, mesh, a.positions, VOX_FORMAT_FLOAT3, 0));
     ck_assert_uint_eq(hash_of_step(grid), hash);
     /* A slot's next mesh has none. */
-    ck_ok(vox_mesh_set_transform(grid, mesh, aside));
-    ck_ok(vox_mesh_remove(grid, mesh));
+    ck_ok(vox_body_set_transform(grid, mesh, aside));
+    ck_ok(vox_body_remove(grid, mesh));
     (void)insert(grid, &first);
     (void)hash_of_step(grid);
     ck_assert_uint_gt(count_of(grid), 0);
@@ -156,7 +156,7 @@ START_TEST(what_does_not_fit) {
     double m[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     vox_grid* grid = engine_grid();
     vox_mesh_desc desc = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
-    const vox_mesh mesh = insert(grid, &desc);
+    const vox_body mesh = insert(grid, &desc);
     static const double bad[] = {NAN, INFINITY, -INFINITY};
     for (int i = 0; i < 12; ++i)
         for (int k = 0; k < 3; ++k) {
@@ -167,17 +167,17 @@ START_TEST(what_does_not_fit) {
             else
                 memcpy(words, "matrix[1", 9);
             m[i] = bad[k];
-            ck_fails(vox_mesh_set_transform(grid, mesh, m), VOX_ERROR_INVALID_ARGUMENT, words);
+            ck_fails(vox_body_set_transform(grid, mesh, m), VOX_ERROR_INVALID_ARGUMENT, words);
             m[i] = kept;
         }
-    ck_fails(vox_mesh_set_transform(NULL, mesh, m), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_mesh_set_transform(grid, mesh + 1, m), VOX_ERROR_INVALID_HANDLE, "stale");
+    ck_fails(vox_body_set_transform(NULL, mesh, m), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
+    ck_fails(vox_body_set_transform(grid, mesh + 1, m), VOX_ERROR_INVALID_HANDLE, "stale");
     ck_ok(vox_grid_step(grid));
     m[5] = 1e300; /* vertex 2 is at y = 1 */
-    ck_ok(vox_mesh_set_transform(grid, mesh, m));
+    ck_ok(vox_body_set_transform(grid, mesh, m));
     ck_fails(vox_grid_step(grid), VOX_ERROR_LIMIT, "vertex 2: position (0, 1e+300, 0) is too large");
     m[5] = m[7] = 1.7e308;
-    ck_ok(vox_mesh_set_transform(grid, mesh, m));
+    ck_ok(vox_body_set_transform(grid, mesh, m));
     ck_fails(vox_grid_step(grid), VOX_ERROR_LIMIT, "vertex 0: position (0, 1.7e+308, 0)");
     m[7] = 0;
     m[5] = 1.7e308;
@@ -189,9 +189,9 @@ START_TEST(what_does_not_fit) {
     memcpy(corner, unit_tet_positions, sizeof corner);
     corner[3] = corner[4] = 1; /* vertex 1 is at (1, 1, 0): the sum overflows */
     ck_ok(vox_mesh_bind_positions(grid, mesh, corner, VOX_FORMAT_FLOAT3, 0));
-    ck_ok(vox_mesh_set_transform(grid, mesh, sum));
+    ck_ok(vox_body_set_transform(grid, mesh, sum));
     ck_fails(vox_grid_step(grid), VOX_ERROR_NON_FINITE, "vertex 1: position (1, inf, 0) is not finite");
-    ck_ok(vox_mesh_set_transform(grid, mesh, NULL));
+    ck_ok(vox_body_set_transform(grid, mesh, NULL));
     ck_ok(vox_grid_step(grid));
     vox_grid_destroy(grid);
 }
@@ -203,12 +203,12 @@ START_TEST(over_mapped_positions) {
     body a = make_box(2, 0.5f, -100, 0.1f, 0), b = make_box(2, 0.5f, 0.1f, 0, 0);
     vox_mesh_desc first = body_desc(&a), second = body_desc(&b);
     vox_grid* grid = engine_grid();
-    const vox_mesh mesh = insert(grid, &first);
+    const vox_body mesh = insert(grid, &first);
     (void)insert(grid, &second);
     void* mapped = NULL;
     uint64_t stride = 0;
     ck_ok(vox_mesh_map_positions(grid, mesh, &mapped, &stride));
-    ck_ok(vox_mesh_set_transform(grid, mesh, aside));
+    ck_ok(vox_body_set_transform(grid, mesh, aside));
     const uint64_t hash = hash_of_step(grid);
     ck_assert_uint_gt(count_of(grid), 0);
     ck_assert_float_eq(((float*)mapped)[0], -100); /* what is stored stays what it is */
@@ -246,8 +246,8 @@ START_TEST(cloth_falls_through_a_body) {
     vox_grid* grid = engine_grid();
     vox_mesh_desc points = vox_mesh_desc_floats(cloth, n * n, NULL, 0), solid = body_desc(&box);
     points.flags = VOX_MESH_SELF_COLLISION; /* nothing to collide with */
-    const vox_mesh sheet = insert(grid, &points);
-    const vox_mesh body_mesh = insert(grid, &solid);
+    const vox_body sheet = insert(grid, &points);
+    const vox_body body_mesh = insert(grid, &solid);
     int inside = 0;
     for (int step = 0; step < 25; ++step) {
         const float z = 2 - 0.125f * (float)step;
@@ -262,9 +262,9 @@ START_TEST(cloth_falls_through_a_body) {
         ck_assert_uint_eq(view.count, n * n);
         for (uint32_t v = 0; v < n * n; ++v) {
             const vox_contact* c = &view.data[v];
-            ck_assert_uint_eq(c->mesh_a, sheet);
+            ck_assert_uint_eq(c->body_a, sheet);
             ck_assert_uint_eq(c->vertex, v);
-            ck_assert_uint_eq(c->mesh_b, body_mesh);
+            ck_assert_uint_eq(c->body_b, body_mesh);
             for (uint32_t axis = 0; axis < 3; ++axis) {
                 double at = 0;
                 for (int k = 0; k < 4; ++k)
@@ -291,11 +291,11 @@ START_TEST(sensors_on_a_tool) {
     points.position_format = VOX_FORMAT_DOUBLE3;
     points.vertex_count = 3;
     (void)insert(grid, &solid);
-    const vox_mesh probe = insert(grid, &points);
+    const vox_body probe = insert(grid, &points);
     for (int step = 0; step <= 8; ++step) {
         const double z = 1.25 - 0.25 * step;
         const double down[12] = {1, 0, 0, 0.3, 0, 1, 0, 0.4, 0, 0, 1, z};
-        ck_ok(vox_mesh_set_transform(grid, probe, down));
+        ck_ok(vox_body_set_transform(grid, probe, down));
         (void)hash_of_step(grid);
         ck_assert_uint_eq(count_of(grid), (uint64_t)(z >= 0 && z <= 1) + (uint64_t)(z >= -0.5 && z <= 0.5));
     }

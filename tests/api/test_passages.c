@@ -10,7 +10,7 @@
 typedef struct moving_body {
     body now;
     float* before;
-    vox_mesh id;
+    vox_body id;
 } moving_body;
 
 static vox_passage_view passages_of(const vox_grid* grid) {
@@ -143,8 +143,8 @@ static uint64_t check_passages(const vox_grid* grid, const moving_body* bodies, 
                     first = fmin(first, first_root(&bodies[a], v, &bodies[b], faces + 3 * f));
                 free(faces);
                 const vox_passage* found = next < view.count ? &view.data[next] : NULL;
-                const int is_found = found && found->mesh_a == bodies[a].id && found->vertex == v &&
-                                     found->mesh_b == bodies[b].id;
+                const int is_found = found && found->body_a == bodies[a].id && found->vertex == v &&
+                                     found->body_b == bodies[b].id;
                 if (first <= 1) ck_assert(is_found);
                 if (!is_found) continue;
                 ck_assert(found->time >= 0 && found->time <= 1);
@@ -207,7 +207,7 @@ START_TEST(plate_shot_through) {
     for (uint64_t i = 0; i < view.count; ++i) {
         const float z = bodies[1].before[3 * view.data[i].vertex + 2];
         const double exact = ((double)z - 0.0625) / 4; /* at the upper side */
-        ck_assert_uint_eq(view.data[i].mesh_a, bodies[1].id);
+        ck_assert_uint_eq(view.data[i].body_a, bodies[1].id);
         ck_assert_double_le(view.data[i].time, exact);
         ck_assert_double_ge(view.data[i].time, exact - 1e-12);
     }
@@ -252,7 +252,7 @@ START_TEST(formats_and_transforms) {
         ck_assert_uint_eq(passages_of(grid).count, count);
         ck_assert_mem_eq(passages_of(grid).data, first, count * sizeof *first);
         move_body(&bodies[1].now, 0, 0, 3);
-        ck_ok(vox_mesh_set_transform(grid, bodies[1].id, down));
+        ck_ok(vox_body_set_transform(grid, bodies[1].id, down));
     }
     vox_grid_destroy(grid);
     free(first);
@@ -283,13 +283,13 @@ START_TEST(filters_and_life) {
     ck_assert_uint_eq(passages_of(grid).count, 0);
     vox_failure failure;
     failure.struct_size = sizeof failure;
-    ck_ok(vox_grid_failure(grid, 0, &failure));
+    ck_ok(vox_grid_get_failure(grid, 0, &failure));
     ck_assert_uint_eq(failure.mesh, bodies[1].id);
     ck_assert_uint_eq(failure.vertex, 0);
     bodies[1].before[2] = z;
     ck_ok(vox_grid_step(grid));
     ck_assert_uint_eq(passages_of(grid).count, count);
-    ck_ok(vox_mesh_remove(grid, bodies[1].id));
+    ck_ok(vox_body_remove(grid, bodies[1].id));
     ck_assert_uint_eq(passages_of(grid).count, count); /* until the next step */
     ck_ok(vox_grid_step(grid));
     ck_assert_uint_eq(passages_of(grid).count, 0);

@@ -8,7 +8,7 @@ static body make_ball(double radius, double cell, double angle, double x) {
     vox_io_mesh* mesh = NULL;
     vox_io_mesh_view view;
     ck_ok(vox_io_make_ball(radius, cell, &mesh));
-    ck_ok(vox_io_mesh_get(mesh, &view));
+    ck_ok(vox_io_mesh_get_arrays(mesh, &view));
     body made = {NULL, NULL, (uint32_t)view.vertex_count, (uint32_t)view.tet_count};
     made.positions = (float*)malloc(3 * sizeof(float) * made.vertex_count);
     made.tets = (uint32_t*)malloc(4 * sizeof(uint32_t) * made.tet_count);
@@ -24,7 +24,7 @@ static body make_ball(double radius, double cell, double angle, double x) {
     return made;
 }
 
-static vox_mesh insert(vox_grid* grid, const body* b) {
+static vox_body insert(vox_grid* grid, const body* b) {
     const vox_mesh_desc desc = body_desc(b);
     return insert_mesh(grid, &desc);
 }
@@ -37,7 +37,7 @@ START_TEST(two_balls) {
     body balls[2] = {make_ball(1, 0.06, 0.3, 2 - overlap), make_ball(1, 0.06, 0, 0)};
     const double centre[2] = {2 - overlap, 0};
     vox_grid* grid = grid_of(NULL);
-    vox_mesh ids[2];
+    vox_body ids[2];
     surface surfaces[2];
     for (int b = 0; b < 2; ++b) {
         ids[b] = insert(grid, &balls[b]);
@@ -50,7 +50,7 @@ START_TEST(two_balls) {
     double worst_depth = 0, worst_angle = 0;
     for (uint64_t i = 0; i < view.count; ++i) {
         const vox_penetration* p = penetration_at(view, i);
-        const int a = p->mesh_a == ids[0] ? 0 : 1, b = 1 - a;
+        const int a = p->body_a == ids[0] ? 0 : 1, b = 1 - a;
         ck_assert(p->state == VOX_PENETRATION_SURFACE || p->state == VOX_PENETRATION_PROPAGATED);
         /* The true distance to the surface, as it is triangulated, ... */
         const vector at = place(balls[a].positions, p->vertex),
@@ -77,8 +77,8 @@ START_TEST(directions_change_smoothly) {
     body balls[2] = {make_ball(1, 0.09, 0.3, 2 - overlap), make_ball(1, 0.09, 0, 0)};
     vox_grid* grid = grid_of(NULL);
     for (int b = 0; b < 2; ++b) {
-        const vox_mesh id = insert(grid, &balls[b]);
-        ck_assert_uint_eq(vox_mesh_is_valid(grid, id), 1);
+        const vox_body id = insert(grid, &balls[b]);
+        ck_assert_uint_eq(vox_body_is_valid(grid, id), 1);
     }
     ck_ok(vox_grid_step(grid));
     check_penetrations(grid);
@@ -88,7 +88,7 @@ START_TEST(directions_change_smoothly) {
     for (int b = 0; b < 2; ++b) {
         const vox_penetration** of = (const vox_penetration**)calloc(balls[b].vertex_count, sizeof *of);
         for (uint64_t i = 0; i < view.count; ++i)
-            if ((penetration_at(view, i)->mesh_a > penetration_at(view, i)->mesh_b) == (b == 1))
+            if ((penetration_at(view, i)->body_a > penetration_at(view, i)->body_b) == (b == 1))
                 of[penetration_at(view, i)->vertex] = penetration_at(view, i);
         for (uint32_t t = 0; t < balls[b].tet_count; ++t)
             for (int i = 0; i < 4; ++i)
@@ -117,15 +117,15 @@ START_TEST(ball_in_a_box) {
         if (sunk)
             for (uint32_t v = 0; v < ball.vertex_count; ++v) ball.positions[3 * v + 2] += 2.3f;
         vox_grid* grid = grid_of(NULL);
-        const vox_mesh b = insert(grid, &box), a = insert(grid, &ball);
+        const vox_body b = insert(grid, &box), a = insert(grid, &ball);
         ck_ok(vox_grid_step(grid));
         check_penetrations(grid);
         const vox_penetration_view view = penetrations_of(grid);
         ck_assert_uint_eq(count_state(grid, a, VOX_PENETRATION_ENCLOSED), sunk ? 0 : ball.vertex_count);
         for (uint64_t i = 0; i < view.count; ++i) {
             const vox_penetration* p = penetration_at(view, i);
-            if (p->mesh_a != a) continue;
-            ck_assert_uint_eq(p->mesh_b, b);
+            if (p->body_a != a) continue;
+            ck_assert_uint_eq(p->body_b, b);
             const vector at = place(ball.positions, p->vertex);
             if (!sunk) {
                 check_closest(p, at, s, box.positions, 1);

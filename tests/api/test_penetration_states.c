@@ -3,13 +3,13 @@
 
 static const vector up = {0, 0, 1}, down = {0, 0, -1};
 
-static vox_mesh insert(vox_grid* grid, const body* b, uint32_t flags) {
+static vox_body insert(vox_grid* grid, const body* b, uint32_t flags) {
     vox_mesh_desc desc = body_desc(b);
     desc.flags = flags;
     return insert_mesh(grid, &desc);
 }
 
-static vox_mesh insert_arrays(vox_grid* grid, const float* positions, uint64_t vertices, const uint32_t* tets,
+static vox_body insert_arrays(vox_grid* grid, const float* positions, uint64_t vertices, const uint32_t* tets,
                               uint64_t tet_count) {
     const vox_mesh_desc desc = vox_mesh_desc_floats(positions, vertices, tets, tet_count);
     return insert_mesh(grid, &desc);
@@ -21,7 +21,7 @@ static void step(vox_grid* grid) {
 }
 
 /* Depth and direction as they have to be, to the rounding of floats. */
-static void expect(const vox_grid* grid, vox_mesh a, uint32_t vertex, vox_mesh b, vox_penetration_state state,
+static void expect(const vox_grid* grid, vox_body a, uint32_t vertex, vox_body b, vox_penetration_state state,
                    double depth, vector direction) {
     const vox_penetration* p = penetration_of(grid, a, vertex, b);
     ck_assert_msg(p != NULL, "vertex %u has no penetration", vertex);
@@ -47,7 +47,7 @@ START_TEST(one_vertex_in_a_box) {
     for (int i = 1; i < 20; ++i) {
         vox_grid* grid = engine_grid();
         make_poke(positions, (float)i * 0.01f);
-        const vox_mesh b = insert(grid, &box, 0), a = insert_arrays(grid, positions, 4, poke_tet, 1);
+        const vox_body b = insert(grid, &box, 0), a = insert_arrays(grid, positions, 4, poke_tet, 1);
         step(grid);
         expect(grid, a, 0, b, VOX_PENETRATION_SURFACE, 1 - (double)positions[2], up);
         if (i < 8) { /* later a vertex of the box is in the tetrahedron, too */
@@ -65,7 +65,7 @@ START_TEST(waves_reach_deep_vertices) {
     /* A narrow block sunk into a wide one: its sides lead through the top face only. */
     body wide = make_box(8, 0.25f, 0, 0, 0), narrow = make_box(6, 0.125f, 0.6f, 0.65f, 1.45f);
     vox_grid* grid = engine_grid();
-    const vox_mesh b = insert(grid, &wide, 0), a = insert(grid, &narrow, 0);
+    const vox_body b = insert(grid, &wide, 0), a = insert(grid, &narrow, 0);
     step(grid);
     uint32_t surface = 0, propagated = 0;
     for (uint32_t v = 0; v < narrow.vertex_count; ++v) {
@@ -89,7 +89,7 @@ START_TEST(the_faces_of_a_box_stay_flat) {
     body box = make_box(3, 1.0f / 3, 0, 0, 0);
     float positions[12] = {0.9f, 0.5f, 0.97f, 0.85f, 0.45f, 1.1f, 0.95f, 0.45f, 1.1f, 0.9f, 0.55f, 1.1f};
     vox_grid* grid = engine_grid();
-    const vox_mesh b = insert(grid, &box, 0), a = insert_arrays(grid, positions, 4, poke_tet, 1);
+    const vox_body b = insert(grid, &box, 0), a = insert_arrays(grid, positions, 4, poke_tet, 1);
     step(grid);
     expect(grid, a, 0, b, VOX_PENETRATION_SURFACE, 1 - (double)positions[2], up);
     vox_grid_destroy(grid);
@@ -103,7 +103,7 @@ START_TEST(body_inside_a_body) {
     body outer_box = make_box(6, 0.25f, 0, 0, 0), inner_box = make_box(3, 0.0625f, 0.3f, 0.55f, 0.9f);
     const surface s = surface_of(outer_box.tets, outer_box.tet_count);
     vox_grid* grid = engine_grid();
-    const vox_mesh b = insert(grid, &outer_box, 0), a = insert(grid, &inner_box, 0);
+    const vox_body b = insert(grid, &outer_box, 0), a = insert(grid, &inner_box, 0);
     step(grid);
     ck_assert_uint_eq(count_state(grid, a, VOX_PENETRATION_ENCLOSED), inner_box.vertex_count);
     ck_assert_uint_eq(penetrations_of(grid).count, inner_box.vertex_count);
@@ -123,7 +123,7 @@ START_TEST(points_without_edges) {
     body box = make_box(4, 0.25f, 0, 0, 0);
     const float points[6] = {0.5f, 0.5f, 0.9f, 0.1f, 0.4f, 0.5f};
     vox_grid* grid = engine_grid();
-    const vox_mesh b = insert(grid, &box, 0), a = insert_arrays(grid, points, 2, NULL, 0);
+    const vox_body b = insert(grid, &box, 0), a = insert_arrays(grid, points, 2, NULL, 0);
     step(grid);
     expect(grid, a, 0, b, VOX_PENETRATION_ENCLOSED, 1 - (double)points[2], up);
     expect(grid, a, 1, b, VOX_PENETRATION_ENCLOSED, (double)points[3], (vector){-1, 0, 0});
@@ -150,7 +150,7 @@ START_TEST(edges_leave_on_opposite_sides) {
                                  0.5f, 0.6f, -0.2375f, 0.5f, 0.4f, -0.2375f, 0.5f, 0.5f, 0.9f};
     const uint32_t tets[8] = {0, 1, 2, 3, 0, 1, 2, 4};
     vox_grid* grid = engine_grid();
-    const vox_mesh b = insert(grid, &plate, 0), a = insert_arrays(grid, positions, 5, tets, 2);
+    const vox_body b = insert(grid, &plate, 0), a = insert_arrays(grid, positions, 5, tets, 2);
     step(grid);
     const vox_penetration* p = penetration_of(grid, a, 0, b);
     ck_assert_ptr_nonnull(p);
@@ -175,7 +175,7 @@ START_TEST(crossing_bars) {
     const surface of_x = surface_of(x_bar.tets, x_bar.tet_count),
                   of_y = surface_of(y_bar.tets, y_bar.tet_count);
     vox_grid* grid = engine_grid();
-    const vox_mesh a = insert(grid, &x_bar, 0), b = insert(grid, &y_bar, 0);
+    const vox_body a = insert(grid, &x_bar, 0), b = insert(grid, &y_bar, 0);
     step(grid);
     const vox_penetration_view view = penetrations_of(grid);
     uint64_t by_state[5] = {0, 0, 0, 0, 0};
@@ -184,7 +184,7 @@ START_TEST(crossing_bars) {
         ++by_state[p->state];
         ck_assert_float_lt(p->depth, 0.5f); /* half of a bar's width, and a bit */
         if (p->state == VOX_PENETRATION_CROSSING) {
-            const int of_x_bar = p->mesh_a == a;
+            const int of_x_bar = p->body_a == a;
             const vector end = plus_times(place(of_x_bar ? x_bar.positions : y_bar.positions, p->vertex),
                                           (double)p->depth, direction_of(p));
             ck_assert(norm(way_to(of_x_bar ? of_y : of_x, of_x_bar ? y_bar.positions : x_bar.positions,
@@ -215,7 +215,7 @@ START_TEST(no_way_through_a_facet_of_three) {
     const surface s = surface_of(tets, 3);
     ck_assert_uint_eq(s.count, 9);
     vox_grid* grid = engine_grid();
-    const vox_mesh b = insert_arrays(grid, solid, 6, tets, 3), a = insert_arrays(grid, poke, 4, poke_tet, 1);
+    const vox_body b = insert_arrays(grid, solid, 6, tets, 3), a = insert_arrays(grid, poke, 4, poke_tet, 1);
     step(grid);
     const vox_penetration* p = penetration_of(grid, a, 0, b);
     ck_assert_ptr_nonnull(p);
@@ -232,7 +232,7 @@ START_TEST(no_surface_at_all) {
     const uint32_t tets[20] = {0, 1, 2, 3, 0, 1, 2, 4, 0, 1, 3, 4, 0, 2, 3, 4, 1, 2, 3, 4};
     const float poke[12] = {0.3f, 0.3f, 0.3f, 0.2f, 0.3f, 1.5f, 0.4f, 0.3f, 1.5f, 0.3f, 0.4f, 1.5f};
     vox_grid* grid = engine_grid();
-    const vox_mesh b = insert_arrays(grid, solid, 5, tets, 5), a = insert_arrays(grid, poke, 4, poke_tet, 1);
+    const vox_body b = insert_arrays(grid, solid, 5, tets, 5), a = insert_arrays(grid, poke, 4, poke_tet, 1);
     step(grid);
     const vox_penetration* p = penetration_of(grid, a, 0, b);
     ck_assert_ptr_nonnull(p);
@@ -248,7 +248,7 @@ START_TEST(coincident_bodies) {
     body one = make_box(4, 0.25f, 0, 0, 0), other = make_box(4, 0.25f, 0, 0, 0);
     const surface s = surface_of(one.tets, one.tet_count);
     vox_grid* grid = engine_grid();
-    const vox_mesh a = insert(grid, &one, 0), b = insert(grid, &other, 0);
+    const vox_body a = insert(grid, &one, 0), b = insert(grid, &other, 0);
     step(grid);
     ck_assert_uint_eq(penetrations_of(grid).count, 2 * one.vertex_count);
     for (uint32_t v = 0; v < one.vertex_count; ++v) {
@@ -273,7 +273,7 @@ START_TEST(stacked_boxes_touch) {
     body lower = make_box(4, 0.25f, 0, 0, 0), upper = make_box(4, 0.25f, 0.125f, 0.125f, 1),
          aligned = make_box(4, 0.25f, 3, 0, 1), under = make_box(4, 0.25f, 3, 0, 0);
     vox_grid* grid = engine_grid();
-    const vox_mesh a = insert(grid, &lower, 0), b = insert(grid, &upper, 0), c = insert(grid, &aligned, 0),
+    const vox_body a = insert(grid, &lower, 0), b = insert(grid, &upper, 0), c = insert(grid, &aligned, 0),
                    d = insert(grid, &under, 0);
     step(grid);
     const vox_penetration_view view = penetrations_of(grid);
@@ -281,8 +281,8 @@ START_TEST(stacked_boxes_touch) {
     for (uint64_t i = 0; i < view.count; ++i) {
         const vox_penetration* p = penetration_at(view, i);
         ck_assert_int_eq(p->state, VOX_PENETRATION_COINCIDENT);
-        const vector out = p->mesh_a == a || p->mesh_a == d ? down : up; /* up: out of the lower one */
-        const int on_edge = p->mesh_a == c || p->mesh_a == d; /* where it may be another face's normal */
+        const vector out = p->body_a == a || p->body_a == d ? down : up; /* up: out of the lower one */
+        const int on_edge = p->body_a == c || p->body_a == d; /* where it may be another face's normal */
         if (!on_edge) ck_assert(degrees_between(direction_of(p), out) < 0.01);
     }
     for (uint32_t v = 0; v < aligned.vertex_count; ++v) {
@@ -304,7 +304,7 @@ START_TEST(lattices_that_coincide) {
      */
     body lower = make_box(8, 0.125f, 0, 0, 0), upper = make_box(4, 0.125f, 0.25f, 0.25f, 0.75f);
     vox_grid* grid = engine_grid();
-    const vox_mesh b = insert(grid, &lower, 0), a = insert(grid, &upper, 0);
+    const vox_body b = insert(grid, &lower, 0), a = insert(grid, &upper, 0);
     step(grid);
     for (uint32_t v = 0; v < upper.vertex_count; ++v) {
         const double depth = 1 - (double)upper.positions[3 * v + 2];
@@ -331,7 +331,7 @@ START_TEST(on_the_surface_of_a_part_and_inside_another) {
     for (uint32_t i = 0; i < 4 * 40; ++i) tets[i] = low.tets[i], tets[4 * 40 + i] = high.tets[i] + 27;
     const float point[3] = {0.55f, 0.6f, 1};
     vox_grid* grid = engine_grid();
-    const vox_mesh b = insert_arrays(grid, positions, 54, tets, 80),
+    const vox_body b = insert_arrays(grid, positions, 54, tets, 80),
                    a = insert_arrays(grid, point, 1, NULL, 0);
     step(grid);
     ck_assert_uint_eq(counters_of(grid).contacts, 1);
@@ -356,7 +356,7 @@ START_TEST(winding_does_not_matter) {
     body plain = make_box(6, 0.25f, 0, 0, 0), upper = make_box(6, 0.2f, 0.1f, 0.15f, 1.3f);
     body wound = make_box(6, 0.25f, 0, 0, 0);
     vox_grid* grid = engine_grid();
-    const vox_mesh b = insert(grid, &plain, 0), a = insert(grid, &upper, 0);
+    const vox_body b = insert(grid, &plain, 0), a = insert(grid, &upper, 0);
     step(grid);
     for (uint32_t every = 1; every <= 3; ++every) { /* all of them, and mixed */
         vox_grid* again = engine_grid();
@@ -389,7 +389,7 @@ START_TEST(doubled_tets) {
     float positions[12];
     make_poke(positions, 0.3f);
     vox_grid* grid = engine_grid();
-    const vox_mesh b = insert_arrays(grid, box.positions, box.vertex_count, twice, 2 * box.tet_count),
+    const vox_body b = insert_arrays(grid, box.positions, box.vertex_count, twice, 2 * box.tet_count),
                    a = insert_arrays(grid, positions, 4, poke_tet, 1);
     step(grid);
     expect(grid, a, 0, b, VOX_PENETRATION_SURFACE, 1 - (double)positions[2], up);
@@ -411,9 +411,9 @@ START_TEST(flat_tets_on_the_surface) {
         memcpy(tets + 4 * (n + 2 * i), flat, sizeof flat);
     }
     vox_grid* grid = engine_grid();
-    const vox_mesh b = insert_arrays(grid, box.positions, box.vertex_count, tets, n + 8);
+    const vox_body b = insert_arrays(grid, box.positions, box.vertex_count, tets, n + 8);
     body upper = make_box(6, 0.125f, 0.12f, 0.11f, 0.93f);
-    const vox_mesh a = insert(grid, &upper, 0);
+    const vox_body a = insert(grid, &upper, 0);
     step(grid);
     for (uint32_t v = 0; v < upper.vertex_count; ++v) {
         if (upper.positions[3 * v + 2] >= 1) continue;
@@ -498,14 +498,14 @@ static body make_fold(void) {
 START_TEST(self_fold) {
     body bar = make_fold();
     vox_grid* grid = engine_grid();
-    const vox_mesh a = insert(grid, &bar, VOX_MESH_SELF_COLLISION);
+    const vox_body a = insert(grid, &bar, VOX_MESH_SELF_COLLISION);
     step(grid);
     const vox_penetration_view view = penetrations_of(grid);
     uint64_t by_state[5] = {0, 0, 0, 0, 0}, in_middle = 0;
     for (uint64_t i = 0; i < view.count; ++i) {
         const vox_penetration* p = penetration_at(view, i);
-        ck_assert_uint_eq(p->mesh_a, a);
-        ck_assert_uint_eq(p->mesh_b, a);
+        ck_assert_uint_eq(p->body_a, a);
+        ck_assert_uint_eq(p->body_b, a);
         ++by_state[p->state];
         const vector at = place(bar.positions, p->vertex);
         /* Near the sides and the ends, the ways out lead there. */
@@ -535,7 +535,7 @@ START_TEST(one_vertex_in_two_bodies) {
     float positions[12];
     make_poke(positions, 0.2f);
     vox_grid* grid = engine_grid();
-    const vox_mesh b = insert(grid, &low, 0), a = insert_arrays(grid, positions, 4, poke_tet, 1),
+    const vox_body b = insert(grid, &low, 0), a = insert_arrays(grid, positions, 4, poke_tet, 1),
                    c = insert(grid, &wide, 0);
     step(grid);
     expect(grid, a, 0, b, VOX_PENETRATION_SURFACE, 1 - (double)positions[2], up);

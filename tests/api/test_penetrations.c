@@ -8,7 +8,7 @@
 enum { pile_size = 7 };
 typedef struct pile {
     body bodies[pile_size];
-    vox_mesh ids[pile_size];
+    vox_body ids[pile_size];
 } pile;
 
 static pile make_pile(float scale) {
@@ -73,7 +73,7 @@ START_TEST(flag) {
         grid = grid_of(&desc);
         insert_pile(grid, &p);
         ck_ok(vox_grid_step(grid));
-        ck_ok(vox_grid_hash(grid, &hash[flags]));
+        ck_ok(vox_grid_get_hash(grid, &hash[flags]));
         const vox_counters counters = counters_of(grid);
         vox_profile profile = {.struct_size = sizeof profile};
         ck_ok(vox_grid_profile(grid, &profile));
@@ -133,7 +133,7 @@ START_TEST(views_follow_the_grid) {
     ck_ok(vox_grid_reserve(grid, 10, 1000000)); /* the same, elsewhere */
     check_penetrations(grid);
     ck_assert_uint_eq(penetrations_of(grid).count, count);
-    ck_ok(vox_mesh_remove(grid, p.ids[2]));
+    ck_ok(vox_body_remove(grid, p.ids[2]));
     ck_assert_uint_eq(penetrations_of(grid).count, count);
     ck_ok(vox_grid_step(grid));
     check_penetrations(grid);
@@ -159,7 +159,7 @@ START_TEST(no_contacts_no_work) {
     const vox_grid_desc desc = engine_desc();
     vox_grid* grid = grid_of(&desc);
     const vox_mesh_desc a = body_desc(&one), b = body_desc(&other);
-    vox_mesh mesh = insert_mesh(grid, &a);
+    vox_body mesh = insert_mesh(grid, &a);
     ck_ok(vox_mesh_insert(grid, &b, &mesh));
     ck_ok(vox_grid_step(grid));
     const vox_counters counters = counters_of(grid);
@@ -248,10 +248,10 @@ START_TEST(every_unit_gives_the_same_answer) {
         uint64_t compared = 0;
         for (uint64_t i = 0; i < expected_count; ++i) {
             const vox_penetration* e = &expected[i];
-            if (e->mesh_a != p.ids[1] || e->mesh_b != p.ids[0]) continue;
+            if (e->body_a != p.ids[1] || e->body_b != p.ids[0]) continue;
             uint64_t j = 0;
-            while (j < count && (other[j].mesh_a != e->mesh_a || other[j].vertex != e->vertex ||
-                                 other[j].mesh_b != e->mesh_b))
+            while (j < count && (other[j].body_a != e->body_a || other[j].vertex != e->vertex ||
+                                 other[j].body_b != e->body_b))
                 ++j;
             ck_assert_uint_lt(j, count);
             ck_assert_int_eq(other[j].state, e->state);
@@ -339,14 +339,14 @@ START_TEST(depths_in_double) {
         mesh = body_desc(&other);
         mesh.positions = positions;
         mesh.position_format = VOX_FORMAT_DOUBLE3;
-        const vox_mesh b = insert_mesh(grid, &mesh);
+        const vox_body b = insert_mesh(grid, &mesh);
         ck_ok(vox_grid_step(grid));
         check_penetrations(grid);
         const vox_penetration_view view = penetrations_of(grid);
         const vox_depth_view depths = depths_of(grid);
         uint32_t inside = 0;
         for (uint64_t i = 0; i < view.count; ++i) {
-            if (view.data[i].mesh_a != b) continue;
+            if (view.data[i].body_a != b) continue;
             const double depth = depths.data[i].depth;
             ck_assert_double_eq_tol(depth, top - positions[3 * view.data[i].vertex + 2], 4 * 0x1p-52 * top);
             ck_assert_double_eq_tol(depths.data[i].direction[2], 1, 0x1p-50);

@@ -163,7 +163,7 @@ START_TEST(as_it_was_when_prepared) {
     const double inside[3] = {0.3, 0.4, 0.6}, far_away[3] = {10.3, 0.4, 0.6};
     body box = make_box(2, 1, 0, 0, 0);
     vox_grid_desc desc = engine_desc();
-    vox_mesh other;
+    vox_body other;
     uint64_t count = 77;
     vox_grid* grid = grid_of(&desc);
     ck_fails(vox_grid_query_point(grid, inside, 1, NULL, 0, &count), VOX_ERROR_INVALID_STATE,
@@ -172,7 +172,7 @@ START_TEST(as_it_was_when_prepared) {
     ck_ok(vox_grid_prepare_queries(grid)); /* of nothing */
     ck_assert_uint_eq(count_at(grid, inside), 0);
     const vox_mesh_desc body = body_desc(&box);
-    vox_mesh mesh = insert_mesh(grid, &body);
+    vox_body mesh = insert_mesh(grid, &body);
     ck_assert_uint_eq(count_at(grid, inside), 0);
     ck_ok(vox_grid_prepare_queries(grid)); /* before the first step */
     ck_assert_uint_eq(count_at(grid, inside), 1);
@@ -186,11 +186,11 @@ START_TEST(as_it_was_when_prepared) {
     box.positions[0] = NAN; /* what fails leaves what was there */
     ck_fails(vox_grid_prepare_queries(grid), VOX_ERROR_NON_FINITE, "not finite");
     ck_assert_uint_eq(count_at(grid, far_away), 1);
-    ck_ok(vox_mesh_remove(grid, mesh));
+    ck_ok(vox_body_remove(grid, mesh));
     ck_assert_uint_eq(count_at(grid, far_away), 1);
     box.positions[0] = 10;
     ck_ok(vox_mesh_insert(grid, &body, &other));
-    ck_ok(vox_mesh_set_enabled(grid, other, 0));
+    ck_ok(vox_body_set_enabled(grid, other, 0));
     ck_ok(vox_grid_prepare_queries(grid));
     ck_assert_uint_eq(count_at(grid, far_away), 0);
     ck_ok(vox_grid_clear(grid));

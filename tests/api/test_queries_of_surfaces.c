@@ -59,7 +59,7 @@ static double distance_to_triangle(const double p[3], const float* const v[3]) {
     return fmin(best, sqrt(squared));
 }
 
-static int index_of(const world* w, vox_mesh mesh) {
+static int index_of(const world* w, vox_body mesh) {
     for (int b = 0; b < w->count; ++b)
         if (w->meshes[b] == mesh) return b;
     ck_abort_msg("mesh %u is none of the world's", mesh);
@@ -202,11 +202,11 @@ START_TEST(rays_by_definition) {
                 continue;
             }
             ++met;
-            ck_assert_uint_ne(hit.mesh, VOX_NULL_MESH);
+            ck_assert_uint_ne(hit.mesh, VOX_NULL_BODY);
             ck_assert_double_le(fabs(hit.t - first_tet), 1e-9);
             ck_assert_double_le(fabs(of_hit - first_tet), 1e-9);
             if (first_tet == 0) ck_assert_double_eq(hit.t, 0);
-            ck_assert_int_eq(hit.surface_mesh != VOX_NULL_MESH, first_facet != INFINITY);
+            ck_assert_int_eq(hit.surface_mesh != VOX_NULL_BODY, first_facet != INFINITY);
             if (first_facet == INFINITY) continue;
             ++crossed;
             ck_assert_double_le(fabs(hit.surface_t - first_facet), 1e-9);
@@ -248,13 +248,13 @@ static vox_query_view* take_view(vox_grid* grid) {
 }
 
 /* Some meshes by their category, and now and then one of them, or none, left out. */
-static uint64_t random_meshes(uint64_t* random, const world* w, vox_mesh* excluded) {
+static uint64_t random_meshes(uint64_t* random, const world* w, vox_body* excluded) {
     const uint32_t which = random_below(random, 2 * (uint32_t)w->count);
-    *excluded = which < (uint32_t)w->count ? w->meshes[which] : which % 2 ? VOX_NULL_MESH : 4095u << 12 | 1;
+    *excluded = which < (uint32_t)w->count ? w->meshes[which] : which % 2 ? VOX_NULL_BODY : 4095u << 12 | 1;
     return random_below(random, 3) ? UINT64_MAX : random_next(random);
 }
 
-static int takes_part(const world* w, int b, uint64_t mask, vox_mesh excluded) {
+static int takes_part(const world* w, int b, uint64_t mask, vox_body excluded) {
     return (int)(mask >> b & 1) && w->meshes[b] != excluded;
 }
 
@@ -386,7 +386,7 @@ START_TEST(all_hits_by_definition) {
             random_point(&random, scene % 2, q);
             if (i % 10 == 0) memcpy(q, p, sizeof q);  /* a point */
             if (i % 4 == 1) q[1] = p[1], q[2] = p[2]; /* along an axis */
-            vox_mesh excluded;
+            vox_body excluded;
             const uint64_t mask = random_meshes(&random, &w, &excluded);
             const double from[3] = {(double)p[0], (double)p[1], (double)p[2]};
             const double to[3] = {(double)q[0], (double)q[1], (double)q[2]};
@@ -453,7 +453,7 @@ START_TEST(all_hits_by_definition) {
                 ck_assert(x->t < y->t || (x->t == y->t && x->mesh < y->mesh) ||
                           (same_mesh && x->tet < y->tet) || (same_tet && x->facet < y->facet));
             }
-            if (excluded == VOX_NULL_MESH && count > 0) { /* the first one is that of the other query */
+            if (excluded == VOX_NULL_BODY && count > 0) { /* the first one is that of the other query */
                 vox_ray_hit first;
                 ck_ok(vox_query_view_ray(view, from, to, mask, &first));
                 ck_assert_uint_eq(first.surface_mesh, hits[0].mesh);
@@ -467,7 +467,7 @@ START_TEST(all_hits_by_definition) {
                 ck_ok(vox_grid_query_ray_hits(w.grid, from, to, mask, excluded, again, 1, &count_again));
                 ck_assert_uint_eq(count_again, count);
                 ck_assert_mem_eq(again, hits, sizeof again[0]);
-                ck_assert_uint_eq(again[1].mesh, VOX_NULL_MESH);
+                ck_assert_uint_eq(again[1].mesh, VOX_NULL_BODY);
             }
         }
         for (int b = 0; b < w.count; ++b) free(surfaces[b]);
@@ -506,7 +506,7 @@ START_TEST(normals_without_volume) {
         desc.format = VOX_FORMAT_DOUBLE3;
         desc.point_count = 1;
         ck_ok(vox_grid_query_closest_points(grid, &desc, &hit));
-        ck_assert_uint_ne(hit.mesh, VOX_NULL_MESH);
+        ck_assert_uint_ne(hit.mesh, VOX_NULL_BODY);
         ck_assert_uint_eq(hit.inside, 0);
         for (int axis = 0; axis < 3; ++axis) ck_assert_double_eq(hit.normal[axis], cases[i].normal[axis]);
         vox_grid_destroy(grid);
@@ -526,7 +526,7 @@ START_TEST(arguments) {
     vox_ray_hit ray;
     uint32_t any = 77;
     ck_assert_uint_eq(desc.struct_size, sizeof desc);
-    ck_assert(desc.mask == UINT64_MAX && desc.max_distance == INFINITY && desc.excluded == VOX_NULL_MESH);
+    ck_assert(desc.mask == UINT64_MAX && desc.max_distance == INFINITY && desc.excluded == VOX_NULL_BODY);
     ck_fails(vox_closest_desc_init(NULL, sizeof desc), VOX_ERROR_INVALID_ARGUMENT, "desc is null");
     ck_fails(vox_closest_desc_init(&desc, 3), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 3");
     ck_fails(vox_grid_query_closest_points(NULL, &desc, &hit), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
@@ -615,7 +615,7 @@ START_TEST(batches_answer_as_single_calls) {
     mesh_desc.vertex_count = corners * corners * corners;
     mesh_desc.tets = tets[0];
     mesh_desc.tet_count = tet_count;
-    vox_mesh mesh = VOX_NULL_MESH;
+    vox_body mesh = VOX_NULL_BODY;
     ck_ok(vox_mesh_insert(grid, &mesh_desc, &mesh));
     ck_ok(vox_grid_prepare_queries(grid));
     static float points[n][3];

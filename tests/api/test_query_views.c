@@ -49,9 +49,9 @@ static uint64_t hash_of_answers(const vox_query_view* view, const vox_grid* grid
         add_bytes(&hash, &closest, sizeof closest);
         ASK(ray, asked[i], to, UINT64_MAX, &ray);
         add_bytes(&hash, &ray, sizeof ray);
-        ASK(ray_hits, asked[i], to, UINT64_MAX, VOX_NULL_MESH, facets, room, &count);
+        ASK(ray_hits, asked[i], to, UINT64_MAX, VOX_NULL_BODY, facets, room, &count);
         add_bytes(&hash, facets, (count < room ? count : room) * sizeof *facets);
-        ASK(ray_any, asked[i], to, UINT64_MAX, VOX_NULL_MESH, &any);
+        ASK(ray_any, asked[i], to, UINT64_MAX, VOX_NULL_BODY, &any);
         add_bytes(&hash, &any, sizeof any);
     }
     vox_closest_desc desc = vox_default_closest_desc();
@@ -96,7 +96,7 @@ START_TEST(answers_stay) {
         ck_assert_uint_eq(hash_of_answers(later, NULL), moved);
 
         const double matrix[12] = {0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 2};
-        ck_ok(vox_mesh_set_transform(w.grid, w.meshes[0], matrix));
+        ck_ok(vox_body_set_transform(w.grid, w.meshes[0], matrix));
         const uint32_t tets[2] = {0, 3};
         ck_ok(vox_mesh_remove_tets(w.grid, w.meshes[0], tets, 2));
         ck_ok(vox_grid_step(w.grid));
@@ -106,8 +106,8 @@ START_TEST(answers_stay) {
         ck_assert_uint_ne(of_cut, moved);
         ck_assert_uint_eq(hash_of_answers(cut, NULL), of_cut);
 
-        ck_ok(vox_mesh_set_enabled(w.grid, w.meshes[0], 0));
-        ck_ok(vox_mesh_remove(w.grid, w.meshes[w.count - 1]));
+        ck_ok(vox_body_set_enabled(w.grid, w.meshes[0], 0));
+        ck_ok(vox_body_remove(w.grid, w.meshes[w.count - 1]));
         ck_ok(vox_grid_step(w.grid));
         for (int kind = 0; kind < 3; ++kind) {
             if (kind == 1) ck_ok(vox_grid_clear(w.grid));
@@ -140,7 +140,7 @@ START_TEST(views_side_by_side) {
         }
         if (round % 7 == 0) {
             const vox_mesh_desc mesh = body_desc(&w.bodies[w.count - 1]);
-            ck_ok(vox_mesh_remove(w.grid, w.meshes[w.count - 1]));
+            ck_ok(vox_body_remove(w.grid, w.meshes[w.count - 1]));
             ck_ok(vox_mesh_insert(w.grid, &mesh, &w.meshes[w.count - 1]));
         }
         views[which] = take_view(w.grid);
@@ -158,20 +158,20 @@ START_TEST(what_a_view_says_of_itself) {
     uint64_t epoch = 77, user_data = 77, random = 33;
     world w = new_world(&random, 0);
     vox_mesh_desc mesh = body_desc(&w.bodies[0]);
-    vox_mesh id = VOX_NULL_MESH;
+    vox_body id = VOX_NULL_BODY;
     mesh.user_data = 1234567890123u;
     ck_ok(vox_mesh_insert(w.grid, &mesh, &id));
     ck_ok(vox_grid_step(w.grid));
     ck_ok(vox_grid_step(w.grid));
     vox_query_view* view = take_view(w.grid);
-    ck_ok(vox_mesh_remove(w.grid, id));
+    ck_ok(vox_body_remove(w.grid, id));
     ck_ok(vox_grid_step(w.grid));
     ck_ok(vox_query_view_epoch(view, &epoch));
     ck_assert_uint_eq(epoch, 2);
     ck_ok(vox_query_view_user_data(view, id, &user_data));
     ck_assert_uint_eq(user_data, 1234567890123u);
     ck_fails(vox_query_view_user_data(view, id + 1, &user_data), VOX_ERROR_INVALID_HANDLE, "is none of the");
-    ck_fails(vox_query_view_user_data(view, VOX_NULL_MESH, &user_data), VOX_ERROR_INVALID_HANDLE,
+    ck_fails(vox_query_view_user_data(view, VOX_NULL_BODY, &user_data), VOX_ERROR_INVALID_HANDLE,
              "mesh 0 is none");
     ck_assert_uint_eq(user_data, 1234567890123u);
     vox_query_view_release(view);
@@ -183,7 +183,7 @@ START_TEST(what_a_view_says_of_itself) {
     vox_surface_hit hit;
     uint64_t count = 77;
     ck_ok(vox_query_view_closest(view, p, INFINITY, UINT64_MAX, &hit));
-    ck_assert_uint_eq(hit.mesh, VOX_NULL_MESH);
+    ck_assert_uint_eq(hit.mesh, VOX_NULL_BODY);
     ck_ok(vox_query_view_point(view, p, UINT64_MAX, NULL, 0, &count));
     ck_assert_uint_eq(count, 0);
     ck_fails(vox_query_view_user_data(view, id, &user_data), VOX_ERROR_INVALID_HANDLE, "the 0 meshes");
@@ -209,11 +209,11 @@ START_TEST(arguments) {
     ck_assert_ptr_null(view);
     w.bodies[0].positions[4] = kept;
     vox_mesh_desc bare = body_desc(&w.bodies[0]);
-    vox_mesh mesh = VOX_NULL_MESH;
+    vox_body mesh = VOX_NULL_BODY;
     bare.positions = NULL;
     ck_ok(vox_mesh_insert(w.grid, &bare, &mesh));
     ck_fails(vox_grid_take_query_view(w.grid, &view), VOX_ERROR_INVALID_STATE, "has no positions");
-    ck_ok(vox_mesh_remove(w.grid, mesh));
+    ck_ok(vox_body_remove(w.grid, mesh));
     view = take_view(w.grid);
     ck_fails(vox_query_view_epoch(view, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_epoch is null");
     ck_fails(vox_query_view_user_data(view, w.meshes[0], NULL), VOX_ERROR_INVALID_ARGUMENT,
@@ -235,7 +235,7 @@ static vox_grid* counted_world(ledger* l, body* b, uint64_t budget) {
     vox_grid* grid = NULL;
     if (vox_grid_create(&desc, &grid) != VOX_OK) return NULL;
     const vox_mesh_desc mesh = body_desc(b);
-    vox_mesh id = VOX_NULL_MESH;
+    vox_body id = VOX_NULL_BODY;
     if (vox_mesh_insert(grid, &mesh, &id) == VOX_OK) return grid;
     vox_grid_destroy(grid);
     return NULL;
@@ -463,7 +463,7 @@ static void* read_views(void* context) {
         if (vox_query_view_point(view, inside, UINT64_MAX, &hit, 1, &count) != VOX_OK || count != 1 ||
             vox_query_view_closest_points(view, &desc, &closest) != VOX_OK || closest.distance != 1 ||
             closest.normal[0] != -1 ||
-            vox_query_view_ray_hits(view, left, right, UINT64_MAX, VOX_NULL_MESH, facets, 8, &facet_count) !=
+            vox_query_view_ray_hits(view, left, right, UINT64_MAX, VOX_NULL_BODY, facets, 8, &facet_count) !=
                 VOX_OK ||
             facet_count < 2 ||
             vox_query_view_ray_any(view, left, right, UINT64_MAX, closest.mesh, &any) != VOX_OK || any)
@@ -487,7 +487,7 @@ START_TEST(threads_ask_while_the_grid_steps) {
         ledger_allocator(&l); /* which is called by one thread at a time, or the sanitizer complains */
     vox_grid* grid = grid_of(&desc);
     const vox_mesh_desc mesh = body_desc(&box);
-    vox_mesh id = insert_mesh(grid, &mesh);
+    vox_body id = insert_mesh(grid, &mesh);
     pthread_mutex_init(&s.lock, NULL);
     for (int i = 0; i < readers; ++i) {
         all[i] = (reader){.of = &s};
@@ -497,7 +497,7 @@ START_TEST(threads_ask_while_the_grid_steps) {
         for (uint32_t i = 0; i < 3 * box.vertex_count; ++i)
             box.positions[i] = at_zero.positions[i] + (i % 3 == 0 ? (float)frame : 0);
         if (frame % 16 == 0) { /* the same box as another mesh */
-            ck_ok(vox_mesh_remove(grid, id));
+            ck_ok(vox_body_remove(grid, id));
             id = insert_mesh(grid, &mesh);
         }
         ck_ok(vox_grid_step(grid));

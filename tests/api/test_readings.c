@@ -28,7 +28,7 @@ static void check_depths(const world* w) {
         const vox_penetration* p = &penetrations.data[n];
         const vox_reading* r = &readings.data[i];
         ck_assert_uint_eq(p->vertex, contacts.data[i].vertex);
-        ck_assert_uint_eq(p->mesh_b, contacts.data[i].mesh_b);
+        ck_assert_uint_eq(p->body_b, contacts.data[i].body_b);
         ck_assert(r->known & VOX_READING_DEPTH);
         ck_assert_int_eq(r->state, p->state);
         ck_assert_mem_eq(&r->depth, &p->depth, sizeof r->depth);
@@ -56,7 +56,7 @@ START_TEST(by_definition) {
         for (int b = 0; b < w.count; ++b) { /* one mesh at a time can be asked alone: by its category */
             vox_filter filter = vox_default_filter();
             filter.category = (uint64_t)1 << b;
-            ck_ok(vox_mesh_set_filter(w.grid, w.models[b].mesh, &filter));
+            ck_ok(vox_body_set_filter(w.grid, w.models[b].mesh, &filter));
         }
         ck_ok(vox_grid_prepare_queries(w.grid));
         for (uint64_t i = 0; i < readings.count; i += 3) {
@@ -64,8 +64,8 @@ START_TEST(by_definition) {
             const vox_reading* r = &readings.data[i];
             if (!(r->known & VOX_READING_SURFACE)) continue;
             ck_ok(vox_grid_query_closest(w.grid, r->position, INFINITY,
-                                         (uint64_t)1 << index_of(&w, contacts.data[i].mesh_b), &hit));
-            ck_assert_uint_eq(hit.mesh, contacts.data[i].mesh_b);
+                                         (uint64_t)1 << index_of(&w, contacts.data[i].body_b), &hit));
+            ck_assert_uint_eq(hit.mesh, contacts.data[i].body_b);
             ck_assert_double_le(fabs(hit.distance - r->distance), 1e-15 + 1e-12 * hit.distance);
         }
         end_world(&w);
@@ -191,7 +191,7 @@ START_TEST(transform_and_scale) {
             }
             const vox_mesh_desc desc = desc_of(m, b);
             ck_ok(vox_mesh_insert(w.grid, &desc, &m->mesh));
-            ck_ok(vox_mesh_set_transform(w.grid, m->mesh, matrix));
+            ck_ok(vox_body_set_transform(w.grid, m->mesh, matrix));
         }
         ck_ok(vox_grid_step(w.grid));
         ck_ok(vox_grid_prepare_readings(w.grid));
@@ -201,7 +201,7 @@ START_TEST(transform_and_scale) {
         ck_assert_uint_gt(readings.count, 4);
         for (uint64_t i = 0; i < readings.count; ++i) {
             const vox_reading* r = &readings.data[i];
-            const model* a = &w.models[index_of(&w, contacts.data[i].mesh_a)];
+            const model* a = &w.models[index_of(&w, contacts.data[i].body_a)];
             ck_assert_mem_eq(r->position, a->positions + 3 * contacts.data[i].vertex, sizeof r->position);
             /* A box: the way to its surface is its normal. */
             ck_assert_double_eq_tol(dot(r->normal, r->normal), 1, 1e-9);

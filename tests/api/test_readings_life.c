@@ -43,7 +43,7 @@ START_TEST(after_removal) {
             two_in_each_other(&w, 2, VOX_GRID_PENETRATIONS);
             ck_ok(vox_grid_step(w.grid));
             if (prepared) ck_ok(vox_grid_prepare_readings(w.grid));
-            ck_ok(vox_mesh_remove(w.grid, w.models[gone].mesh));
+            ck_ok(vox_body_remove(w.grid, w.models[gone].mesh));
             if (!prepared) ck_ok(vox_grid_prepare_readings(w.grid));
             vox_reading_view readings;
             ck_ok(vox_grid_readings(w.grid, &readings));
@@ -52,7 +52,7 @@ START_TEST(after_removal) {
             uint64_t of_gone = 0, of_other = 0;
             for (uint64_t i = 0; i < readings.count; ++i) {
                 const vox_reading* r = &readings.data[i];
-                const int a = contacts.data[i].mesh_a == w.models[0].mesh ? 0 : 1;
+                const int a = contacts.data[i].body_a == w.models[0].mesh ? 0 : 1;
                 a == gone ? ++of_gone : ++of_other;
                 ck_assert_uint_eq(r->user_data_a, 1000 + (uint64_t)a);
                 ck_assert_uint_eq(r->user_data_b, 1001 - (uint64_t)a);
@@ -96,9 +96,9 @@ START_TEST(after_cuts_of_some) {
     memcpy(tets + 8, probe, sizeof probe);
     vox_grid* grid = new_grid(suite_engine, VOX_GRID_PENETRATIONS, 1);
     vox_mesh_desc desc = vox_mesh_desc_floats(positions, self ? 12 : 8, tets, self ? 3 : 2);
-    vox_mesh second = 0;
+    vox_body second = 0;
     if (self) desc.flags = VOX_MESH_SELF_COLLISION;
-    vox_mesh mesh = insert_mesh(grid, &desc);
+    vox_body mesh = insert_mesh(grid, &desc);
     desc = vox_mesh_desc_floats(positions + 24, 1, NULL, 0);
     if (!self) ck_ok(vox_mesh_insert(grid, &desc, &second));
     ck_ok(vox_grid_step(grid));
@@ -107,7 +107,7 @@ START_TEST(after_cuts_of_some) {
     uint64_t at = 0; /* the contacts of the probe */
     while (at < contacts.count && contacts.data[at].vertex != (self ? 8u : 0u)) ++at;
     if (!self)
-        while (contacts.data[at].mesh_a != second) ++at;
+        while (contacts.data[at].body_a != second) ++at;
     ck_assert(contacts.data[at].tet == 0 && contacts.data[at + 1].tet == 1);
     for (uint32_t off = 0; off < 4; ++off) { /* a bit for each of the two */
         for (uint32_t t = 0; t < 2; ++t) ck_ok(vox_mesh_set_tets_enabled(grid, mesh, &t, 1, !(off >> t & 1)));
@@ -153,7 +153,7 @@ START_TEST(copies) {
         vox_pair_view pairs;
         vox_contact_view contacts = contacts_of(w.grid);
         ck_ok(vox_grid_readings(w.grid, &readings));
-        ck_ok(vox_grid_pairs(w.grid, &pairs));
+        ck_ok(vox_grid_get_pairs(w.grid, &pairs));
         const size_t room = (size_t)contacts.count + 1;
         vox_contact* some = (vox_contact*)calloc(room, sizeof *some);
         vox_reading* read = (vox_reading*)calloc(room, sizeof *read);
@@ -161,8 +161,8 @@ START_TEST(copies) {
         for (int a = 0; a < w.count; ++a) {
             uint64_t wanted = 0;
             for (uint64_t i = 0; i < contacts.count; ++i)
-                wanted += contacts.data[i].mesh_a == w.models[a].mesh ||
-                          contacts.data[i].mesh_b == w.models[a].mesh;
+                wanted += contacts.data[i].body_a == w.models[a].mesh ||
+                          contacts.data[i].body_b == w.models[a].mesh;
             ck_ok(vox_mesh_copy_contacts(w.grid, w.models[a].mesh, some, room, &count));
             ck_assert_uint_eq(count, wanted);
             ck_ok(vox_mesh_copy_readings(w.grid, w.models[a].mesh, read, UINT64_MAX, &count));
@@ -173,10 +173,10 @@ START_TEST(copies) {
             }
             for (int b = 0; b < w.count; ++b) {
                 const vox_pair* pair = NULL;
-                const vox_mesh ma = w.models[a].mesh, mb = w.models[b].mesh;
+                const vox_body ma = w.models[a].mesh, mb = w.models[b].mesh;
                 for (uint64_t i = 0; i < pairs.count; ++i)
-                    if ((pairs.data[i].mesh_a == ma && pairs.data[i].mesh_b == mb) ||
-                        (pairs.data[i].mesh_a == mb && pairs.data[i].mesh_b == ma))
+                    if ((pairs.data[i].body_a == ma && pairs.data[i].body_b == mb) ||
+                        (pairs.data[i].body_a == mb && pairs.data[i].body_b == ma))
                         pair = &pairs.data[i];
                 const uint64_t expected = pair ? pair->a_in_b + pair->b_in_a : 0;
                 ck_ok(vox_pair_copy_contacts(w.grid, ma, mb, some, room, &count));
@@ -197,7 +197,7 @@ START_TEST(copies) {
                 ck_assert_uint_eq(count, expected);
                 ck_ok(vox_pair_copy_readings(w.grid, ma, mb, read, expected / 2, &count));
                 ck_assert_uint_eq(count, expected);
-                ck_assert_uint_eq(some[expected / 2].mesh_a, 0x5a5a5a5au);
+                ck_assert_uint_eq(some[expected / 2].body_a, 0x5a5a5a5au);
                 ck_assert_uint_eq(read[expected / 2].reserved, 0x5a5a5a5au);
             }
         }
@@ -215,7 +215,7 @@ END_TEST
 START_TEST(bad_arguments) {
     world w;
     two_in_each_other(&w, 2, 0);
-    const vox_mesh a = w.models[0].mesh, b = w.models[1].mesh;
+    const vox_body a = w.models[0].mesh, b = w.models[1].mesh;
     vox_reading_view view = {NULL, 1, 2, 3};
     vox_reading reading;
     vox_contact contact;
@@ -355,10 +355,10 @@ START_TEST(budget) {
     ck_ok(vox_grid_step(w.grid));
     vox_counters counters;
     counters.struct_size = sizeof counters;
-    ck_ok(vox_grid_counters(w.grid, &counters));
+    ck_ok(vox_grid_get_counters(w.grid, &counters));
     const uint64_t without = counters.peak_bytes;
     ck_ok(vox_grid_prepare_readings(w.grid));
-    ck_ok(vox_grid_counters(w.grid, &counters));
+    ck_ok(vox_grid_get_counters(w.grid, &counters));
     ck_assert_uint_gt(counters.peak_bytes, without);
     vox_grid_destroy(w.grid);
     vox_grid_desc desc = engine_desc();

@@ -20,11 +20,11 @@ static vox_depth_view depths_of(const vox_grid* grid) {
     return view;
 }
 
-static void prepare(vox_grid* grid, uint32_t what, vox_mesh a, vox_mesh b) {
+static void prepare(vox_grid* grid, uint32_t what, vox_body a, vox_body b) {
     vox_readings_desc desc = vox_default_readings_desc();
     desc.what = what;
-    desc.mesh_a = a;
-    desc.mesh_b = b;
+    desc.body_a = a;
+    desc.body_b = b;
     ck_ok(vox_grid_prepare_readings_of(grid, &desc));
 }
 
@@ -53,8 +53,8 @@ static vox_reading part_of(const vox_reading* whole, uint32_t what) {
 }
 
 /* What was prepared are the wanted parts of `all`, for the contacts of `a` or of `a` and `b`. */
-static uint64_t check_parts(const vox_grid* grid, const vox_reading* all, uint32_t what, vox_mesh a,
-                            vox_mesh b) {
+static uint64_t check_parts(const vox_grid* grid, const vox_reading* all, uint32_t what, vox_body a,
+                            vox_body b) {
     const vox_contact_view contacts = contacts_of(grid);
     const vox_reading_view view = readings_of(grid);
     const vox_depth_view depths = depths_of(grid);
@@ -63,8 +63,8 @@ static uint64_t check_parts(const vox_grid* grid, const vox_reading* all, uint32
     ck_assert_uint_eq(depths.count, what & VOX_READING_DEPTH ? view.count : 0);
     for (uint64_t i = 0; i < contacts.count; ++i) {
         const vox_contact* c = &contacts.data[i];
-        const int of_a = c->mesh_a == a || c->mesh_b == a;
-        const int of_both = (c->mesh_a == a && c->mesh_b == b) || (c->mesh_a == b && c->mesh_b == a);
+        const int of_a = c->body_a == a || c->body_b == a;
+        const int of_both = (c->body_a == a && c->body_b == b) || (c->body_a == b && c->body_b == a);
         if (a && !(b ? of_both : of_a)) continue;
         ck_assert_uint_lt(n, view.count);
         const vox_reading expected = part_of(&all[i], what);
@@ -98,7 +98,7 @@ START_TEST(parts_and_pairs) {
         world w = random_world(&random, scene % 2);
         vox_filter filter = vox_default_filter(); /* one mesh has contacts alone */
         filter.penetration_mask = 0;
-        if (scene % 3 == 0) ck_ok(vox_mesh_set_filter(w.grid, w.models[0].mesh, &filter));
+        if (scene % 3 == 0) ck_ok(vox_body_set_filter(w.grid, w.models[0].mesh, &filter));
         ck_ok(vox_grid_step(w.grid));
         vox_reading* all = all_readings(w.grid);
         const uint64_t count = readings_of(w.grid).count;
@@ -109,7 +109,7 @@ START_TEST(parts_and_pairs) {
             prepare(w.grid, what, 0, 0);
             ck_assert_uint_eq(check_parts(w.grid, all, what, 0, 0), count);
             for (int a = 0; a < w.count; ++a) {
-                const vox_mesh ma = w.models[a].mesh;
+                const vox_body ma = w.models[a].mesh;
                 prepare(w.grid, what, ma, 0);
                 seen += check_parts(w.grid, all, what, ma, 0);
                 for (int b = 0; b < w.count; ++b) {
@@ -141,7 +141,7 @@ START_TEST(copies_of_a_part) {
         const size_t room = (size_t)readings_of(w.grid).count + 1;
         vox_reading* some = (vox_reading*)calloc(room, sizeof *some);
         vox_reading* expected = (vox_reading*)calloc(room, sizeof *expected);
-        const vox_mesh a = w.models[0].mesh, b = w.models[1].mesh, c = w.models[2].mesh;
+        const vox_body a = w.models[0].mesh, b = w.models[1].mesh, c = w.models[2].mesh;
         uint64_t pair = 0, count = 0;
         ck_ok(vox_pair_copy_readings(w.grid, a, b, expected, room, &pair));
         prepare(w.grid, VOX_READING_SURFACE | VOX_READING_POSITION, b, a);
@@ -174,7 +174,7 @@ START_TEST(arguments) {
     vox_readings_desc desc = vox_default_readings_desc();
     ck_assert_uint_eq(desc.struct_size, sizeof desc);
     ck_assert_uint_eq(desc.what, all_parts);
-    ck_assert_uint_eq(desc.mesh_a + desc.mesh_b, 0);
+    ck_assert_uint_eq(desc.body_a + desc.body_b, 0);
     vox_depth_view depths = {NULL, 7, 7, 7};
     ck_fails(vox_grid_reading_depths(w.grid, &depths), VOX_ERROR_INVALID_STATE, "vox_grid_prepare_readings");
     ck_fails(vox_grid_reading_depths(NULL, &depths), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
@@ -189,12 +189,12 @@ START_TEST(arguments) {
     ck_fails(vox_grid_prepare_readings_of(w.grid, &desc), VOX_ERROR_INVALID_ARGUMENT,
              "of which 0x10 is unknown");
     desc = vox_default_readings_desc();
-    desc.mesh_b = w.models[1].mesh;
-    ck_fails(vox_grid_prepare_readings_of(w.grid, &desc), VOX_ERROR_INVALID_ARGUMENT, "there is no mesh_a");
-    desc.mesh_a = 0x5001;
+    desc.body_b = w.models[1].mesh;
+    ck_fails(vox_grid_prepare_readings_of(w.grid, &desc), VOX_ERROR_INVALID_ARGUMENT, "there is no body_a");
+    desc.body_a = 0x5001;
     ck_fails(vox_grid_prepare_readings_of(w.grid, &desc), VOX_ERROR_INVALID_HANDLE, "20481");
-    desc.mesh_a = w.models[0].mesh;
-    desc.mesh_b = 0x5001;
+    desc.body_a = w.models[0].mesh;
+    desc.body_b = 0x5001;
     ck_fails(vox_grid_prepare_readings_of(w.grid, &desc), VOX_ERROR_INVALID_HANDLE, "20481");
     desc.struct_size = 2;
     ck_fails(vox_grid_prepare_readings_of(w.grid, &desc), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 2");
@@ -203,15 +203,15 @@ START_TEST(arguments) {
     ck_assert_ptr_eq(after.data, before.data);
     for (uint64_t i = 0; i < after.count; ++i) ck_assert_uint_eq(after.data[i].known, VOX_READING_POSITION);
     /* A program that knows the first two fields. */
-    desc.struct_size = (uint32_t)offsetof(vox_readings_desc, mesh_a);
+    desc.struct_size = (uint32_t)offsetof(vox_readings_desc, body_a);
     desc.what = VOX_READING_DEPTH;
     ck_ok(vox_grid_prepare_readings_of(w.grid, &desc));
     ck_assert_uint_eq(readings_of(w.grid).count, contacts_of(w.grid).count);
     ck_assert_uint_eq(readings_of(w.grid).data[0].known, VOX_READING_DEPTH);
     /* A mesh that was removed since cannot be named, only be part of all. */
-    ck_ok(vox_mesh_remove(w.grid, w.models[1].mesh));
+    ck_ok(vox_body_remove(w.grid, w.models[1].mesh));
     desc.struct_size = sizeof desc;
-    desc.mesh_b = w.models[1].mesh;
+    desc.body_b = w.models[1].mesh;
     ck_fails(vox_grid_prepare_readings_of(w.grid, &desc), VOX_ERROR_INVALID_HANDLE, "stale");
     prepare(w.grid, all_parts, w.models[0].mesh, 0);
     ck_assert_uint_eq(readings_of(w.grid).count, contacts_of(w.grid).count);
@@ -244,7 +244,7 @@ START_TEST(budget) {
                 vox_reading expected = all[i];
                 const int has_surface = (view.data[i].known & VOX_READING_SURFACE) != 0;
                 const int is_first = i == 0 || contacts.data[i].vertex != contacts.data[i - 1].vertex ||
-                                     contacts.data[i].mesh_a != contacts.data[i - 1].mesh_a;
+                                     contacts.data[i].body_a != contacts.data[i - 1].body_a;
                 known += (uint64_t)has_surface;
                 vertices += (uint64_t)(has_surface && is_first);
                 ck_assert_uint_eq(view.data[i].known | VOX_READING_SURFACE, expected.known);
@@ -275,7 +275,7 @@ START_TEST(changed_positions) {
     for (uint32_t v = 0; v < w.models[0].shape.vertex_count; ++v) {
         int touches = 0;
         for (uint64_t i = 0; i < contacts.count; ++i)
-            touches |= contacts.data[i].mesh_a == w.models[0].mesh && contacts.data[i].vertex == v;
+            touches |= contacts.data[i].body_a == w.models[0].mesh && contacts.data[i].vertex == v;
         if (touches)
             inside = v;
         else

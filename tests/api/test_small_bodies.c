@@ -51,7 +51,7 @@ END_TEST
 START_TEST(shared_memory_is_given_back) {
     float positions[8 * 12];
     vox_grid* grid = engine_grid();
-    vox_mesh meshes[8];
+    vox_body meshes[8];
     uint64_t with[9];
     for (int round = 0; round < 3; ++round) {
         for (int i = 0; i < 8; ++i) {
@@ -61,7 +61,7 @@ START_TEST(shared_memory_is_given_back) {
             meshes[i] = insert_mesh(grid, &desc);
         }
         if (round == 0) with[8] = counters_of(grid).bytes;
-        for (int i = 7; i >= 0; --i) ck_ok(vox_mesh_remove(grid, meshes[i]));
+        for (int i = 7; i >= 0; --i) ck_ok(vox_body_remove(grid, meshes[i]));
         if (round == 0) with[0] = counters_of(grid).bytes; /* with empty slots */
         ck_assert_uint_eq(counters_of(grid).bytes, with[0]);
     }
@@ -83,7 +83,7 @@ START_TEST(contacts_of_wandering_bodies) {
     desc.engine = VOX_ENGINE_REFERENCE;
     reference = grid_of(&desc);
     vox_grid* grids[2] = {grid, reference};
-    vox_mesh meshes[2][count + 1];
+    vox_body meshes[2][count + 1];
     int grown[count] = {0}, has_doubles[count] = {0};
     body floor = make_box(4, 1, -2, -2, -2);
     const vox_mesh_desc of_floor = body_desc(&floor);
@@ -123,23 +123,23 @@ START_TEST(contacts_of_wandering_bodies) {
             for (int g = 0; g < 2; ++g) {
                 if (kind == 0) ck_ok(vox_mesh_set_tets_enabled(grids[g], meshes[g][i], &tet, 1, 0));
                 if (kind == 1) ck_ok(vox_mesh_set_tets_enabled(grids[g], meshes[g][i], &tet, 1, 1));
-                if (kind == 2) ck_ok(vox_mesh_set_transform(grids[g], meshes[g][i], step % 2 ? turn : NULL));
+                if (kind == 2) ck_ok(vox_body_set_transform(grids[g], meshes[g][i], step % 2 ? turn : NULL));
                 if (kind == 3 && !grown[i])
                     ck_ok(vox_mesh_append_vertices(grids[g], meshes[g][i], &more, &first));
-                if (kind == 4) ck_ok(vox_mesh_set_filter(grids[g], meshes[g][i], &filter));
+                if (kind == 4) ck_ok(vox_body_set_filter(grids[g], meshes[g][i], &filter));
                 if (kind == 5)
                     ck_ok(vox_mesh_bind_positions(grids[g], meshes[g][i], as_doubles[i], VOX_FORMAT_DOUBLE3,
                                                   24));
                 if (kind == 6 && i != other)
                     ck_ok(vox_grid_set_pair_enabled(grids[g], meshes[g][i], meshes[g][other],
                                                     (uint32_t)step % 2));
-                if (kind == 7) ck_ok(vox_mesh_set_enabled(grids[g], meshes[g][i], (uint32_t)step % 2));
+                if (kind == 7) ck_ok(vox_body_set_enabled(grids[g], meshes[g][i], (uint32_t)step % 2));
             }
             if (kind == 3) grown[i] = 1;
             if (kind == 5) has_doubles[i] = 1;
             if (step == 20) {
-                ck_ok(vox_mesh_remove(grids[0], meshes[0][i]));
-                ck_ok(vox_mesh_remove(grids[1], meshes[1][i]));
+                ck_ok(vox_body_remove(grids[0], meshes[0][i]));
+                ck_ok(vox_body_remove(grids[1], meshes[1][i]));
                 for (int g = 0; g < 2; ++g) {
                     const vox_mesh_desc of_tet = tet_desc(at[i]);
                     meshes[g][i] = insert_mesh(grids[g], &of_tet);
@@ -200,13 +200,13 @@ START_TEST(bad_positions) {
     static float at[count][12];
     for (int skip = 0; skip < 2; ++skip) {
         vox_grid_desc grid_desc = engine_desc();
-        if (skip) grid_desc.flags |= VOX_GRID_SKIP_BAD_MESHES;
+        if (skip) grid_desc.flags |= VOX_GRID_SKIP_BAD_BODIES;
         vox_grid* grid = grid_of(&grid_desc);
-        vox_mesh bad = VOX_NULL_MESH;
+        vox_body bad = VOX_NULL_BODY;
         for (int i = 0; i < count; ++i) {
             place_tet(at[i], 5 * (float)i, 0, 0);
             const vox_mesh_desc desc = tet_desc(at[i]);
-            const vox_mesh mesh = insert_mesh(grid, &desc);
+            const vox_body mesh = insert_mesh(grid, &desc);
             if (i == 70) bad = mesh;
         }
         ck_ok(vox_grid_step(grid));
@@ -214,7 +214,7 @@ START_TEST(bad_positions) {
         const vox_result result = vox_grid_step(grid);
         vox_failure failure;
         failure.struct_size = sizeof failure;
-        ck_ok(vox_grid_failure(grid, 0, &failure));
+        ck_ok(vox_grid_get_failure(grid, 0, &failure));
         ck_assert_uint_eq(failure.mesh, bad);
         ck_assert_uint_eq(failure.vertex, 1);
         ck_assert_int_eq(result, skip ? VOX_OK : VOX_ERROR_NON_FINITE);
@@ -232,7 +232,7 @@ START_TEST(bytes_beside_a_bad_body) {
     enum { count = 5000 };
     static float at[count][12];
     vox_grid_desc desc = engine_desc();
-    desc.flags |= VOX_GRID_SKIP_BAD_MESHES;
+    desc.flags |= VOX_GRID_SKIP_BAD_BODIES;
     vox_grid* grid = grid_of(&desc);
     for (int i = 0; i < count; ++i) {
         place_tet(at[i], 2 * (float)i, 0, 0);

@@ -17,11 +17,11 @@ START_TEST(loaded_grid_goes_on_as_the_saved_one) {
         ck_ok(vox_grid_cell_size(again, &after));
         ck_assert_double_eq(before, after);
         for (int m = 0; m < 8; ++m) {
-            ck_assert_uint_eq(vox_mesh_is_valid(again, s.ids[m]), m != removed_body);
+            ck_assert_uint_eq(vox_body_is_valid(again, s.ids[m]), m != removed_body);
             if (m == removed_body) continue;
             uint64_t user_data = 0;
             vox_filter x = vox_default_filter(), y = vox_default_filter();
-            ck_ok(vox_mesh_user_data(again, s.ids[m], &user_data));
+            ck_ok(vox_body_get_user_data(again, s.ids[m], &user_data));
             ck_assert_uint_eq(user_data, m < scene_bodies ? 1000u + (unsigned)m : 0u);
             ck_ok(vox_mesh_filter(s.grid, s.ids[m], &x));
             ck_ok(vox_mesh_filter(again, s.ids[m], &y));
@@ -33,7 +33,7 @@ START_TEST(loaded_grid_goes_on_as_the_saved_one) {
         ck_ok(vox_grid_step(s.grid));
         ck_ok(vox_grid_step(again));
         same_results(s.grid, again);
-        ck_ok(vox_grid_contacts(again, &none));
+        ck_ok(vox_grid_get_contacts(again, &none));
         ck_assert_uint_gt(none.count, 10);
         vox_touch_view events;
         ck_ok(vox_grid_touch_events(again, &events));
@@ -42,11 +42,11 @@ START_TEST(loaded_grid_goes_on_as_the_saved_one) {
 
         /* What comes later is the same as well: ids, a mesh that comes back, a pair that is allowed again. */
         vox_grid* const both[2] = {s.grid, again};
-        vox_mesh fresh[2][3];
+        vox_body fresh[2][3];
         for (int g = 0; g < 2; ++g) {
             const vox_mesh_desc mesh = body_desc(&s.bodies[removed_body]);
             for (int n = 0; n < 3; ++n) ck_ok(vox_mesh_insert(both[g], &mesh, &fresh[g][n]));
-            ck_ok(vox_mesh_set_enabled(both[g], s.ids[disabled_body], 1));
+            ck_ok(vox_body_set_enabled(both[g], s.ids[disabled_body], 1));
             ck_ok(vox_grid_set_pair_enabled(both[g], s.ids[0], s.ids[5], 1));
             ck_ok(vox_grid_step(both[g]));
         }
@@ -131,25 +131,25 @@ END_TEST
 
 START_TEST(generations_and_retired_slots) {
     vox_grid_desc desc = engine_desc();
-    vox_mesh mesh = 0;
+    vox_body mesh = 0;
     const vox_mesh_desc tet = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
     vox_grid* grid = grid_of(&desc);
-    vox_mesh kept = insert_mesh(grid, &tet);
-    vox_mesh first = insert_mesh(grid, &tet);
-    ck_ok(vox_mesh_remove(grid, first));
+    vox_body kept = insert_mesh(grid, &tet);
+    vox_body first = insert_mesh(grid, &tet);
+    ck_ok(vox_body_remove(grid, first));
     for (uint32_t use = 1; use < VOX_MAX_GENERATIONS; ++use) {
         ck_ok(vox_mesh_insert(grid, &tet, &mesh));
-        ck_ok(vox_mesh_remove(grid, mesh));
+        ck_ok(vox_body_remove(grid, mesh));
     }
     const file f = save(grid);
     vox_grid* again = load(f, VOX_ENGINE_AUTO);
-    vox_mesh y = 1;
-    vox_mesh x = insert_mesh(grid, &tet);
+    vox_body y = 1;
+    vox_body x = insert_mesh(grid, &tet);
     ck_ok(vox_mesh_insert(again, &tet, &y));
     ck_assert_uint_eq(x, y);
     ck_assert_uint_ne(x, first); /* the slot is used up */
-    ck_assert_uint_eq(vox_mesh_is_valid(again, kept), 1);
-    ck_assert_uint_eq(vox_mesh_is_valid(again, mesh), 0);
+    ck_assert_uint_eq(vox_body_is_valid(again, kept), 1);
+    ck_assert_uint_eq(vox_body_is_valid(again, mesh), 0);
     vox_grid_destroy(grid);
     vox_grid_destroy(again);
     free(f.bytes);
@@ -193,7 +193,7 @@ START_TEST(an_empty_grid_and_one_without_positions) {
     free(f.bytes);
 
     const vox_mesh_desc desc = vox_mesh_desc_floats(NULL, 4, unit_tet, 1);
-    vox_mesh mesh = insert_mesh(grid, &desc);
+    vox_body mesh = insert_mesh(grid, &desc);
     f = save(grid);
     again = load(f, VOX_ENGINE_AUTO);
     ck_fails(vox_grid_step(again), VOX_ERROR_INVALID_STATE, "no positions");

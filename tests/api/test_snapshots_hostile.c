@@ -203,7 +203,7 @@ START_TEST(every_word_turned_hostile) {
     scene s;
     make_scene(&s, suite_engine, 0);
     for (int i = 1; i < scene_bodies; ++i) /* small, so that each word can have its turn */
-        if (i != removed_body) ck_ok(vox_mesh_remove(s.grid, s.ids[i]));
+        if (i != removed_body) ck_ok(vox_body_remove(s.grid, s.ids[i]));
     const file f = save(s.grid);
     uint64_t loaded = 0, rejected = 0;
     for (size_t at = 8; at + 4 <= f.size; at += 4) {

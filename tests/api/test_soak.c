@@ -55,7 +55,7 @@ static void insert(soak* s) {
     m.enabled = 1;
     place(s, &m, below(s, 2) ? 3 : 5);
 
-    vox_mesh ids[2] = {0, 0};
+    vox_body ids[2] = {0, 0};
     for (int g = 0; g < 2; ++g) {
         const vox_mesh_desc desc = member_desc(&m);
         if (below(s, 8) == 0) { /* it may fail once, and then has changed nothing */
@@ -80,7 +80,7 @@ static void insert(soak* s) {
 }
 
 static void forget(soak* s, uint32_t index) {
-    const vox_mesh id = s->members[index].id;
+    const vox_body id = s->members[index].id;
     s->stale = id;
     free_body(&s->members[index].shape);
     memmove(s->members + index, s->members + index + 1, (--s->count - index) * sizeof(member));
@@ -95,7 +95,7 @@ static void forget(soak* s, uint32_t index) {
 static void remove_one(soak* s) {
     if (s->count == 0) return;
     const uint32_t index = below(s, s->count);
-    for (int g = 0; g < 2; ++g) good(vox_mesh_remove(s->grids[g], s->members[index].id));
+    for (int g = 0; g < 2; ++g) good(vox_body_remove(s->grids[g], s->members[index].id));
     forget(s, index);
     for (int g = 0; g < 2; ++g) bind_all(s, g);
 }
@@ -135,20 +135,20 @@ static void set_filter(soak* s) {
     if (s->count == 0) return;
     member* m = &s->members[below(s, s->count)];
     m->filter = random_filter(s);
-    for (int g = 0; g < 2; ++g) good(vox_mesh_set_filter(s->grids[g], m->id, &m->filter));
+    for (int g = 0; g < 2; ++g) good(vox_body_set_filter(s->grids[g], m->id, &m->filter));
 }
 
 static void set_enabled(soak* s) {
     if (s->count == 0) return;
     member* m = &s->members[below(s, s->count)];
     m->enabled = below(s, 2);
-    for (int g = 0; g < 2; ++g) good(vox_mesh_set_enabled(s->grids[g], m->id, m->enabled));
+    for (int g = 0; g < 2; ++g) good(vox_body_set_enabled(s->grids[g], m->id, m->enabled));
 }
 
 static void except_pair(soak* s) {
     if (s->count < 2) return;
     const uint32_t i = below(s, s->count), j = (i + 1 + below(s, s->count - 1)) % s->count;
-    const vox_mesh a = s->members[i < j ? i : j].id, b = s->members[i < j ? j : i].id;
+    const vox_body a = s->members[i < j ? i : j].id, b = s->members[i < j ? j : i].id;
     uint32_t known = 0;
     while (known < s->excepted_count && (s->excepted[known][0] != a || s->excepted[known][1] != b)) ++known;
     const uint32_t enabled = known < s->excepted_count;
@@ -242,10 +242,10 @@ static void stale_ids(soak* s) {
     const uint32_t tet = 0;
     uint64_t user_data = 0;
     for (int g = 0; g < 2 && s->stale; ++g) {
-        demand(vox_mesh_is_valid(s->grids[g], s->stale) == 0);
-        demand(vox_mesh_remove(s->grids[g], s->stale) == VOX_ERROR_INVALID_HANDLE);
-        demand(vox_mesh_user_data(s->grids[g], s->stale, &user_data) == VOX_ERROR_INVALID_HANDLE);
-        demand(vox_mesh_set_enabled(s->grids[g], s->stale, 0) == VOX_ERROR_INVALID_HANDLE);
+        demand(vox_body_is_valid(s->grids[g], s->stale) == 0);
+        demand(vox_body_remove(s->grids[g], s->stale) == VOX_ERROR_INVALID_HANDLE);
+        demand(vox_body_get_user_data(s->grids[g], s->stale, &user_data) == VOX_ERROR_INVALID_HANDLE);
+        demand(vox_body_set_enabled(s->grids[g], s->stale, 0) == VOX_ERROR_INVALID_HANDLE);
         demand(vox_mesh_remove_tets(s->grids[g], s->stale, &tet, 1) == VOX_ERROR_INVALID_HANDLE);
     }
 }
@@ -261,7 +261,7 @@ static void reserve(soak* s) {
 static void nothing_left(soak* s, int g) {
     vox_contact_view contacts;
     vox_touch_view events;
-    good(vox_grid_contacts(s->grids[g], &contacts));
+    good(vox_grid_get_contacts(s->grids[g], &contacts));
     good(vox_grid_touch_events(s->grids[g], &events));
     demand(contacts.count == 0 && events.count == 0);
     ++s->failures;
@@ -386,7 +386,7 @@ START_TEST(soak_life) {
     soak_seed = number_from("VOX_SOAK_SEED", 1);
     s->random = soak_seed;
     s->operation = "create";
-    s->ids_given_out = (vox_mesh*)calloc(id_table, sizeof(vox_mesh));
+    s->ids_given_out = (vox_body*)calloc(id_table, sizeof(vox_body));
     s->was_inside = (inside*)calloc(max_inside, sizeof(inside));
     s->is_inside = (inside*)calloc(max_inside, sizeof(inside));
     for (int g = 0; g < 2; ++g) {

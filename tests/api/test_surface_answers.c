@@ -80,8 +80,8 @@ static vox_result ask(vox_surface* surface, int which, uint64_t* hash) {
     if (which == PAIRS) {
         for (uint64_t first = 0;;) {
             vox_pair_lists lists = {.struct_size = sizeof lists};
-            result =
-                vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, first, UINT64_MAX, &lists);
+            result = vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, first, UINT64_MAX,
+                                            &lists);
             if (result != VOX_OK) return result;
             if (lists.count == 0) break;
             for (uint64_t i = 0; i < lists.count; ++i) { /* the same for any pieces */
@@ -95,20 +95,20 @@ static vox_result ask(vox_surface* surface, int which, uint64_t* hash) {
     }
     if (which == CROSSINGS) {
         vox_crossing_view view = {.struct_size = sizeof view};
-        result = vox_surface_crossings(surface, &view);
+        result = vox_surface_find_crossings(surface, &view);
         if (result == VOX_OK) add(hash, view.crossings, view.count * sizeof *view.crossings);
         return result;
     }
     if (which == CLOSE) {
         vox_close_view view = {.struct_size = sizeof view};
-        result = vox_surface_close(surface, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX, 0.4, &view);
+        result = vox_surface_find_proximities(surface, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX, 0.4, &view);
         if (result == VOX_OK) add(hash, view.pairs, view.count * sizeof *view.pairs);
         return result;
     }
     if (which == CLEARANCE) {
         static double each[vertices];
         for (int i = 0; i < vertices; ++i) each[i] = -7;
-        result = vox_surface_clearance(surface, 1, each, vertices);
+        result = vox_surface_find_clearances(surface, 1, each, vertices);
         for (int i = 0; i < vertices; ++i) ck_assert(result == VOX_OK ? each[i] >= 0 : each[i] == -7);
         add(hash, each, sizeof each);
         return result;
@@ -117,13 +117,13 @@ static vox_result ask(vox_surface* surface, int which, uint64_t* hash) {
         vox_safe_step step;
         memset(&step, 0, sizeof step);
         step.struct_size = sizeof step;
-        result = vox_surface_safe_step(surface, NULL, &step);
+        result = vox_surface_find_safe_step(surface, NULL, &step);
         if (result == VOX_OK) add(hash, &step, sizeof step);
         return result;
     }
     if (which == TIMES) {
         vox_timed_view view = {.struct_size = sizeof view};
-        result = vox_surface_contact_times(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, NULL, &view);
+        result = vox_surface_find_impacts(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, NULL, &view);
         if (result == VOX_OK) add(hash, view.pairs, view.count * sizeof *view.pairs);
         return result;
     }
@@ -151,7 +151,7 @@ static void expect(uint64_t expected[ANSWERS]) {
 
 static vox_pair_counters counters_now(const vox_surface* surface) {
     vox_pair_counters counters = {.struct_size = sizeof counters};
-    ck_ok(vox_surface_counters(surface, &counters));
+    ck_ok(vox_surface_get_counters(surface, &counters));
     return counters;
 }
 
@@ -287,7 +287,7 @@ START_TEST(pieces_of_several_kinds) {
     uint64_t pairs = 0;
     for (int k = 0; k < 3; ++k) {
         vox_pair_lists lists = {.struct_size = sizeof lists};
-        ck_ok(vox_surface_pairs(whole, kinds[k][0], kinds[k][1], 0, UINT64_MAX, &lists));
+        ck_ok(vox_surface_find_pairs(whole, kinds[k][0], kinds[k][1], 0, UINT64_MAX, &lists));
         pairs = pairs > lists.pair_count ? pairs : lists.pair_count;
     }
     desc.byte_budget = counters_now(whole).bytes - pairs * sizeof(uint32_t) / 2;
@@ -302,8 +302,8 @@ START_TEST(pieces_of_several_kinds) {
             for (int k = 0; k < 3; ++k) {
                 if (done[k]) continue;
                 vox_pair_lists all = {.struct_size = sizeof all}, some = {.struct_size = sizeof some};
-                ck_ok(vox_surface_pairs(whole, kinds[k][0], kinds[k][1], 0, UINT64_MAX, &all));
-                ck_ok(vox_surface_pairs(tight, kinds[k][0], kinds[k][1], first[k], UINT64_MAX, &some));
+                ck_ok(vox_surface_find_pairs(whole, kinds[k][0], kinds[k][1], 0, UINT64_MAX, &all));
+                ck_ok(vox_surface_find_pairs(tight, kinds[k][0], kinds[k][1], first[k], UINT64_MAX, &some));
                 ++asked;
                 ck_assert_uint_eq(some.first, first[k]);
                 ck_assert_uint_gt(some.count, 0);
@@ -328,7 +328,7 @@ START_TEST(counters) {
     const vox_surface_desc desc = desc_of_sheets(NULL);
     vox_surface* const surface = sheets(&desc);
     vox_pair_lists lists = {.struct_size = sizeof lists};
-    ck_ok(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
+    ck_ok(vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
     const vox_pair_counters found = counters_now(surface);
     const uint64_t tiles = (lists.count + 63) / 64; /* at least */
     ck_assert_uint_eq(found.overlaps, lists.pair_count);
@@ -342,12 +342,12 @@ START_TEST(counters) {
     ck_assert_uint_ge(found.peak_bytes, found.bytes);
     ck_assert_uint_gt(found.bytes, lists.pair_count * sizeof *lists.partners);
     /* A part of the features takes a part of the work. */
-    ck_ok(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, 1, &lists));
+    ck_ok(vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, 1, &lists));
     ck_assert_uint_lt(counters_now(surface).boxes_compared, found.boxes_compared / 2);
     ck_assert_uint_eq(counters_now(surface).overlaps, lists.pair_count);
     /* A cell size that is set is used, and changes no more than how the work is done. */
     ck_ok(vox_surface_set_cell_size(surface, 6));
-    ck_ok(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
+    ck_ok(vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
     const vox_pair_counters other = counters_now(surface);
     ck_assert_double_eq(other.cell_size, 6);
     ck_assert_uint_eq(other.tile_pairs, found.tile_pairs);

@@ -40,7 +40,7 @@ static vox_motion motion_of(const double* from, const double* to, uint64_t verti
 static vox_pair_lists lists_of(vox_surface* surface, vox_feature a, vox_feature b) {
     vox_pair_lists lists;
     lists.struct_size = sizeof lists;
-    ck_ok(vox_surface_pairs(surface, a, b, 0, UINT64_MAX, &lists));
+    ck_ok(vox_surface_find_pairs(surface, a, b, 0, UINT64_MAX, &lists));
     return lists;
 }
 
@@ -96,7 +96,7 @@ START_TEST(motions_that_are_refused) {
     vox_surface* const surface = surface_from(&desc);
     vox_pair_lists lists;
     lists.struct_size = sizeof lists;
-    ck_fails(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, 0, 1, &lists),
+    ck_fails(vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, 0, 1, &lists),
              VOX_ERROR_INVALID_STATE, "no positions");
     vox_motion good = motion_of(crossed, NULL, 6);
     ck_ok(vox_surface_move(surface, &good));
@@ -164,26 +164,27 @@ START_TEST(questions_that_are_refused) {
     vox_pair_lists lists;
     lists.struct_size = sizeof lists;
     lists.count = 77;
-    ck_fails(vox_surface_pairs(surface, (vox_feature)3, VOX_FEATURE_EDGE, 0, 1, &lists),
+    ck_fails(vox_surface_find_pairs(surface, (vox_feature)3, VOX_FEATURE_EDGE, 0, 1, &lists),
              VOX_ERROR_INVALID_ARGUMENT, "3");
-    ck_fails(vox_surface_pairs(surface, VOX_FEATURE_EDGE, (vox_feature)-1, 0, 1, &lists),
+    ck_fails(vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, (vox_feature)-1, 0, 1, &lists),
              VOX_ERROR_INVALID_ARGUMENT, "-1");
-    ck_fails(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 7, 1, &lists),
+    ck_fails(vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 7, 1, &lists),
              VOX_ERROR_INVALID_ARGUMENT, "first is 7 of 6");
-    ck_fails(vox_surface_pairs(NULL, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, 1, &lists),
+    ck_fails(vox_surface_find_pairs(NULL, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, 1, &lists),
              VOX_ERROR_INVALID_ARGUMENT, "surface");
-    ck_fails(vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, 1, NULL),
+    ck_fails(vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, 1, NULL),
              VOX_ERROR_INVALID_ARGUMENT, "out_lists");
     ck_assert_uint_eq(lists.count, 77);
-    ck_ok(
-        vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 6, 1, &lists)); /* at the end: none */
+    ck_ok(vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 6, 1,
+                                 &lists)); /* at the end: none */
     ck_assert_uint_eq(lists.count, 0);
     ck_fails(vox_surface_set_cell_size(surface, -1), VOX_ERROR_INVALID_ARGUMENT, "-1");
     ck_fails(vox_surface_set_cell_size(surface, NAN), VOX_ERROR_INVALID_ARGUMENT, "nan");
     vox_feature_view view;
     view.struct_size = sizeof view;
-    ck_fails(vox_surface_features(surface, VOX_FEATURE_VERTEX, &view), VOX_ERROR_INVALID_ARGUMENT, "VERTEX");
-    ck_ok(vox_surface_features(surface, VOX_FEATURE_EDGE, &view));
+    ck_fails(vox_surface_get_features(surface, VOX_FEATURE_VERTEX, &view), VOX_ERROR_INVALID_ARGUMENT,
+             "VERTEX");
+    ck_ok(vox_surface_get_features(surface, VOX_FEATURE_EDGE, &view));
     ck_assert_uint_eq(view.count, 6);
     ck_assert_uint_eq(view.vertices_each, 2);
     ck_assert_uint_eq(view.vertices[0], 0);
@@ -255,7 +256,7 @@ START_TEST(sizes_beyond_floats) {
             for (int a = 0; a < 3; ++a)
                 for (int b = 0; b < 3; ++b) (void)lists_of(surface, (vox_feature)a, (vox_feature)b);
             vox_crossing_view crossings = {.struct_size = sizeof crossings};
-            ck_ok(vox_surface_crossings(surface, &crossings));
+            ck_ok(vox_surface_find_crossings(surface, &crossings));
             vox_surface_destroy(surface);
         }
 }
@@ -297,7 +298,7 @@ START_TEST(edges_of_a_surface) {
         desc.edge_count = i == 2 ? 2 : 0;
         vox_surface* const surface = surface_from(&desc);
         vox_feature_view view = {.struct_size = sizeof view};
-        ck_ok(vox_surface_features(surface, VOX_FEATURE_EDGE, &view));
+        ck_ok(vox_surface_get_features(surface, VOX_FEATURE_EDGE, &view));
         const uint64_t counts[3] = {5, 0, 2};
         ck_assert_uint_eq(view.count, counts[i]);
         if (i == 0) ck_assert_mem_eq(view.vertices, of_faces, sizeof of_faces);
@@ -324,7 +325,7 @@ START_TEST(times_that_are_given_up) {
         rule.slack = 1e-6;
         if (i == 0) rule.most_iterations = 1;
         vox_timed_view view = {.struct_size = sizeof view};
-        ck_ok(vox_surface_contact_times(surface, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX, &rule, &view));
+        ck_ok(vox_surface_find_impacts(surface, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX, &rule, &view));
         ck_assert_uint_eq(view.count, 1);
         ck_assert_uint_eq(view.pairs[0].b, 3);
         times[i] = view.pairs[0].time;
@@ -373,7 +374,7 @@ START_TEST(memory_that_runs_out) {
             lists.struct_size = sizeof lists;
             result = vox_surface_move(surface, &motion);
             if (result == VOX_OK)
-                result = vox_surface_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, 0, 6, &lists);
+                result = vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, 0, 6, &lists);
             if (fail_at == 0) {
                 calls = book.calls;
                 ck_ok(result);
@@ -425,7 +426,7 @@ START_TEST(no_memory_in_the_steady_state) {
         (void)lists_of(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE);
         vox_pair_counters counters;
         counters.struct_size = sizeof counters;
-        ck_ok(vox_surface_counters(surface, &counters));
+        ck_ok(vox_surface_get_counters(surface, &counters));
         ck_assert_uint_gt(counters.overlaps, 0);
         ck_assert_uint_eq(counters.culled, counters.overlaps); /* it moves as a whole */
         (void)lists_of(surface, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX);
@@ -439,7 +440,7 @@ END_TEST
 static vox_pair_counters counters_of_surface(const vox_surface* surface) {
     vox_pair_counters counters;
     counters.struct_size = sizeof counters;
-    ck_ok(vox_surface_counters(surface, &counters));
+    ck_ok(vox_surface_get_counters(surface, &counters));
     return counters;
 }
 
@@ -464,14 +465,15 @@ START_TEST(answers_beyond_the_budget) {
     vox_close_view close;
     close.struct_size = sizeof close;
     close.count = 77;
-    ck_fails(vox_surface_close(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 1, &close), VOX_ERROR_BUDGET,
-             "4194304");
+    ck_fails(vox_surface_find_proximities(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 1, &close),
+             VOX_ERROR_BUDGET, "4194304");
     ck_assert_uint_eq(close.count, 77);
     uint64_t pairs = 0;
     for (uint64_t first = 0; first < n;) {
         vox_pair_lists lists;
         lists.struct_size = sizeof lists;
-        ck_ok(vox_surface_pairs(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, first, UINT64_MAX, &lists));
+        ck_ok(vox_surface_find_pairs(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, first, UINT64_MAX,
+                                     &lists));
         ck_assert_uint_gt(lists.count, 0);
         ck_assert_uint_le(counters_of_surface(surface).peak_bytes, 4 << 20);
         pairs += lists.pair_count;
@@ -484,8 +486,8 @@ START_TEST(answers_beyond_the_budget) {
     vox_surface* const tight = many_in_one_place(n, 300 << 10);
     vox_pair_lists lists;
     lists.struct_size = sizeof lists;
-    ck_fails(vox_surface_pairs(tight, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, 1, &lists), VOX_ERROR_BUDGET,
-             "307200");
+    ck_fails(vox_surface_find_pairs(tight, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, 1, &lists),
+             VOX_ERROR_BUDGET, "307200");
     ck_assert_uint_le(counters_of_surface(tight).peak_bytes, 300 << 10);
     vox_surface_destroy(tight);
 }
@@ -496,15 +498,15 @@ START_TEST(budget_of_answers_that_ended) {
     enum { n = 3000 };
     vox_surface* const surface = many_in_one_place(n, 4 << 20);
     vox_pair_lists lists = {.struct_size = sizeof lists};
-    ck_ok(vox_surface_pairs(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, UINT64_MAX,
-                            &lists)); /* fills it */
+    ck_ok(vox_surface_find_pairs(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, UINT64_MAX,
+                                 &lists)); /* fills it */
     ck_assert_uint_gt(counters_of_surface(surface).bytes, 2 << 20);
     double at[3 * n];
     for (int i = 0; i < 3 * n; ++i) at[i] = i;
     const vox_motion motion = motion_of(at, NULL, n);
     vox_close_view close = {.struct_size = sizeof close};
     ck_ok(vox_surface_move(surface, &motion));
-    ck_ok(vox_surface_close(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 20, &close));
+    ck_ok(vox_surface_find_proximities(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 20, &close));
     ck_assert_uint_eq(close.count, 3 * n - 6); /* three on each side of a vertex */
     vox_surface_destroy(surface);
 }
@@ -519,7 +521,8 @@ START_TEST(a_thousand_million_pairs) {
         const uint64_t first = firsts[i];
         vox_pair_lists lists;
         lists.struct_size = sizeof lists;
-        ck_ok(vox_surface_pairs(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, first, UINT64_MAX, &lists));
+        ck_ok(vox_surface_find_pairs(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, first, UINT64_MAX,
+                                     &lists));
         ck_assert_uint_gt(lists.count, 100);
         ck_assert_uint_eq(lists.count == n - first, i == 2);
         for (uint64_t v = 0; v < lists.count; ++v) {
@@ -533,8 +536,8 @@ START_TEST(a_thousand_million_pairs) {
     ck_assert_uint_le(counters_of_surface(surface).peak_bytes, 64 << 20);
     vox_close_view close;
     close.struct_size = sizeof close;
-    ck_fails(vox_surface_close(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, &close), VOX_ERROR_BUDGET,
-             "67108864");
+    ck_fails(vox_surface_find_proximities(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, &close),
+             VOX_ERROR_BUDGET, "67108864");
     vox_surface_destroy(surface);
 }
 END_TEST

@@ -109,7 +109,7 @@ static void threaded_finish(void* handle, void* user) {
 
 enum { small_bodies = 40 };
 static body large[2], small[small_bodies];
-static vox_mesh meshes[2 + small_bodies]; /* of the last scene */
+static vox_body meshes[2 + small_bodies]; /* of the last scene */
 
 static void make_bodies(void) {
     large[0] = make_box(12, 0.17f, 0, 0, 0);
@@ -138,7 +138,7 @@ static vox_grid* new_scene(const vox_grid_desc* desc) {
 static uint64_t stepped_hash(vox_grid* grid, vox_counters* counters) {
     const uint64_t hash = hash_of_step(grid);
     counters->struct_size = sizeof *counters;
-    ck_ok(vox_grid_counters(grid, counters));
+    ck_ok(vox_grid_get_counters(grid, counters));
     return hash;
 }
 
@@ -151,7 +151,7 @@ static void check_same_counters(const vox_counters* a, const vox_counters* b) {
 
 /* As if all meshes had moved, to where they are. */
 static void mark_all(vox_grid* grid) {
-    for (int i = 0; i < 2 + small_bodies; ++i) ck_ok(vox_mesh_mark_moved(grid, meshes[i]));
+    for (int i = 0; i < 2 + small_bodies; ++i) ck_ok(vox_body_mark_moved(grid, meshes[i]));
 }
 
 /* ---- tests ---- */
@@ -244,7 +244,7 @@ START_TEST(a_bad_mesh_costs_few_tasks) {
     scheduler s;
     vox_counters counters;
     vox_grid_desc desc = scheduled(suite_engine, &s, runs_threads, 4);
-    desc.flags |= VOX_GRID_SKIP_BAD_MESHES;
+    desc.flags |= VOX_GRID_SKIP_BAD_BODIES;
     make_bodies();
     vox_grid* grid = new_scene(&desc);
     body far = make_box(28, 1, 100, 0, 0); /* positions enough for the workers to share */
@@ -254,15 +254,15 @@ START_TEST(a_bad_mesh_costs_few_tasks) {
     (void)stepped_hash(grid, &counters);
     for (int bad = 0; bad < small_bodies; bad += 7) {
         float* x = bad == 0 ? &large[1].positions[3 * 2000] : &small[bad].positions[4];
-        const vox_mesh mesh = meshes[bad == 0 ? 1 : 2 + bad];
+        const vox_body mesh = meshes[bad == 0 ? 1 : 2 + bad];
         const float good = *x;
-        ck_ok(vox_mesh_set_enabled(grid, mesh, 0));
+        ck_ok(vox_body_set_enabled(grid, mesh, 0));
         mark_all(grid);
         s.enqueued = 0;
         const uint64_t expected = stepped_hash(grid, &counters);
         const uint32_t without = s.enqueued;
         ck_assert_uint_gt(counters.contacts, 1000);
-        ck_ok(vox_mesh_set_enabled(grid, mesh, 1));
+        ck_ok(vox_body_set_enabled(grid, mesh, 1));
         *x = 1 / zero;
         for (int step = 0; step < 2; ++step) { /* the second one knows of the bad mesh before */
             mark_all(grid);
@@ -289,7 +289,7 @@ START_TEST(large_bodies_are_shared) {
     scheduler s;
     vox_counters serial, counters;
     vox_grid* grid = NULL;
-    vox_mesh mesh = 0;
+    vox_body mesh = 0;
     uint64_t expected = 0;
     body bodies[2] = {make_box(30, 0.0625f, 0, 0, 0), make_box(8, 0.0625f, 1.75f, 1.75f, 1.75f)};
     for (uint32_t workers = 1; workers <= 4; workers += 3) {
@@ -318,7 +318,7 @@ START_TEST(trees_of_many_bodies_are_few_tasks) {
     scheduler s;
     body plate = make_block(&five_cut, 46, 46, 1);
     float points[3 * plates];
-    vox_mesh mesh = 0;
+    vox_body mesh = 0;
     vox_penetration_view found;
     const vox_grid_desc desc = scheduled(suite_engine, &s, runs_threads, 4);
     vox_grid* grid = grid_of(&desc);
@@ -326,7 +326,7 @@ START_TEST(trees_of_many_bodies_are_few_tasks) {
         const vox_mesh_desc mesh_desc = body_desc(&plate);
         const double above[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 2.0 * i};
         ck_ok(vox_mesh_insert(grid, &mesh_desc, &mesh));
-        ck_ok(vox_mesh_set_transform(grid, mesh, above));
+        ck_ok(vox_body_set_transform(grid, mesh, above));
         points[3 * i] = 20.3f;
         points[3 * i + 1] = 20.4f;
         points[3 * i + 2] = 2.0f * (float)i + 0.25f;
@@ -395,7 +395,7 @@ START_TEST(budget_that_ends_in_a_task) {
         for (int step = 0; step < 2; ++step) {
             const vox_result result = vox_grid_step(grid);
             if (result == VOX_OK) {
-                ck_ok(vox_grid_hash(grid, &hash));
+                ck_ok(vox_grid_get_hash(grid, &hash));
                 ck_assert_uint_eq(hash, expected);
                 continue;
             }

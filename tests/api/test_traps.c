@@ -48,7 +48,7 @@ START_TEST(doubles_under_floats_are_refused) {
         double* positions = doubles_of(&box, scales[i]);
         vox_mesh_desc desc = vox_mesh_desc_doubles(positions, box.vertex_count, box.tets, box.tet_count);
         vox_suggestion suggestion;
-        vox_mesh mesh = VOX_NULL_MESH;
+        vox_body mesh = VOX_NULL_BODY;
         desc.user_data = 77;
         desc.position_format = VOX_FORMAT_FLOAT3; /* the mistake */
         suggestion.struct_size = sizeof suggestion;
@@ -63,7 +63,7 @@ START_TEST(doubles_under_floats_are_refused) {
         ck_assert_ptr_nonnull(strstr(vox_last_error(), "mesh 4097 (slot 1, user data 77)"));
         vox_failure failure;
         failure.struct_size = sizeof failure;
-        ck_ok(vox_grid_failure(grid, 0, &failure));
+        ck_ok(vox_grid_get_failure(grid, 0, &failure));
         ck_assert_int_eq(failure.result, VOX_ERROR_INVALID_ARGUMENT);
         ck_assert_uint_eq(failure.mesh, mesh);
         ck_assert_uint_eq(failure.vertex, VOX_NO_VERTEX);
@@ -96,7 +96,7 @@ START_TEST(doubles_that_come_later) {
         vox_grid* grid = engine_grid();
         vox_mesh_desc desc = vox_mesh_desc_floats((const float*)(const void*)positions, before, NULL, 0);
         desc.flags = VOX_MESH_COPY_POSITIONS;
-        const vox_mesh mesh = insert_mesh(grid, &desc);
+        const vox_body mesh = insert_mesh(grid, &desc);
         ck_ok(vox_grid_step(grid));
         vox_vertices_desc vertices = vox_default_vertices_desc();
         uint32_t first;
@@ -132,9 +132,9 @@ START_TEST(floats_are_never_refused) {
                         memcpy(&positions[i], (char*)&random + 4, sizeof(float));
                     while (!isfinite(positions[i]));
             }
-            const vox_mesh mesh = insert_mesh(grid, &desc); /* another one, as each is looked at once */
+            const vox_body mesh = insert_mesh(grid, &desc); /* another one, as each is looked at once */
             ck_ok(vox_grid_step(grid));
-            ck_ok(vox_mesh_remove(grid, mesh));
+            ck_ok(vox_body_remove(grid, mesh));
         }
     vox_grid_destroy(grid);
     free(positions);
@@ -190,7 +190,7 @@ START_TEST(zeroed_filter) {
     vox_filter filter;
     memset(&filter, 0, sizeof filter);
     filter.struct_size = sizeof filter;
-    vox_mesh mesh = VOX_NULL_MESH;
+    vox_body mesh = VOX_NULL_BODY;
     b.filter = &filter;
     b.user_data = 9;
     ck_fails(vox_mesh_insert(grid, &b, &mesh), VOX_ERROR_INVALID_ARGUMENT, "collide with nothing");
@@ -199,14 +199,14 @@ START_TEST(zeroed_filter) {
     ck_ok(vox_grid_step(grid));
     const uint64_t count = contacts_of(grid).count;
     ck_assert_uint_gt(count, 0);
-    ck_fails(vox_mesh_set_filter(grid, mesh, &filter), VOX_ERROR_INVALID_ARGUMENT, "vox_default_filter");
+    ck_fails(vox_body_set_filter(grid, mesh, &filter), VOX_ERROR_INVALID_ARGUMENT, "vox_default_filter");
     ck_ok(vox_grid_step(grid));
     ck_assert_uint_eq(contacts_of(grid).count, count);
     ck_assert_uint_eq(log.warnings, 0);
 
     /* What someone may want is taken, and said once where there is a log. */
     filter.self_collision = 1; /* with itself alone */
-    for (int i = 0; i < 3; ++i) ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+    for (int i = 0; i < 3; ++i) ck_ok(vox_body_set_filter(grid, mesh, &filter));
     ck_assert_uint_eq(log.warnings, 1);
     ck_assert(says(
         &log, "mesh 4097 (slot 1, user data 9) collides with no other mesh: the mask of its filter is 0"));

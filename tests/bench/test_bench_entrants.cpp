@@ -58,7 +58,7 @@ struct UserGrid {
     vox_counters counters() const {
         vox_counters counters{};
         counters.struct_size = sizeof counters;
-        ck_ok(vox_grid_counters(grid, &counters));
+        ck_ok(vox_grid_get_counters(grid, &counters));
         return counters;
     }
 

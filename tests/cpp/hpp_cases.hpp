@@ -63,7 +63,7 @@ void ended([[maybe_unused]] F&& read, [[maybe_unused]] const char* words) {
 struct Stepped {
     Scene scene;
     vox::grid grid;
-    vox_mesh a, b;
+    vox_body a, b;
     explicit Stepped(std::uint32_t flags = VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS) {
         grid.set_flags(flags);
         a = grid.insert(scene.a, scene.tets, 1);
@@ -130,11 +130,11 @@ START_TEST(margin_contacts_and_passages_equal_those_of_c) {
     ck_assert_double_eq(grid.margin(), 0.5);
     std::vector<float> before;
     std::uint64_t count = 0;
-    vox_mesh first = VOX_NULL_MESH, first_of_c = VOX_NULL_MESH;
-    ck_ok(vox_grid_meshes(with.grid.get(), &first, 1, &count));
-    ck_ok(vox_grid_meshes(c.grid, &first_of_c, 1, &count));
-    vox_mesh_info info = sized_struct<vox_mesh_info>();
-    ck_ok(vox_mesh_get_info(c.grid, first_of_c, &info));
+    vox_body first = VOX_NULL_BODY, first_of_c = VOX_NULL_BODY;
+    ck_ok(vox_grid_get_bodies(with.grid.get(), &first, 1, &count));
+    ck_ok(vox_grid_get_bodies(c.grid, &first_of_c, 1, &count));
+    vox_body_info info = sized_struct<vox_body_info>();
+    ck_ok(vox_body_get_info(c.grid, first_of_c, &info));
     before.assign(3 * static_cast<std::size_t>(info.vertex_count), 0.25f);
     with.grid.bind_previous(first, before);
     ck_ok(vox_mesh_bind_previous_positions(c.grid, first_of_c, before.data(), VOX_FORMAT_FLOAT3, 0, 0));
@@ -156,7 +156,7 @@ START_TEST(results_equal_those_of_c) {
     CGrid c(with.scene);
     ck_ok(vox_grid_step(c.grid));
     std::uint64_t hash = 0, epoch = 0;
-    ck_ok(vox_grid_hash(c.grid, &hash));
+    ck_ok(vox_grid_get_hash(c.grid, &hash));
     ck_assert_uint_eq(grid.hash(), hash);
     ck_ok(vox_grid_set_flags(c.grid, VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS));
     ck_ok(vox_grid_epoch(with.grid.get(), &epoch));
@@ -169,11 +169,11 @@ START_TEST(results_equal_those_of_c) {
     vox_pair_view pairs;
     vox_touch_view touches;
     vox_contact_event_view events;
-    ck_ok(vox_grid_contacts(c.grid, &contacts));
+    ck_ok(vox_grid_get_contacts(c.grid, &contacts));
     ck_ok(vox_grid_contact_interiors(c.grid, &interiors));
     ck_ok(vox_grid_penetrations(c.grid, &penetrations));
     ck_ok(vox_grid_depths(c.grid, &depths));
-    ck_ok(vox_grid_pairs(c.grid, &pairs));
+    ck_ok(vox_grid_get_pairs(c.grid, &pairs));
     ck_ok(vox_grid_touch_events(c.grid, &touches));
     ck_ok(vox_grid_contact_events(c.grid, &events));
     same_view(grid.contacts(), contacts);
@@ -196,7 +196,7 @@ START_TEST(results_equal_those_of_c) {
     vox_counters counters = counters_of(c.grid);
     ck_assert_uint_eq(grid.counters().contacts, counters.contacts);
     ck_assert_uint_gt(grid.profile().step_ns, 0);
-    ck_assert_uint_eq(grid.failure().mesh, VOX_NULL_MESH);
+    ck_assert_uint_eq(grid.failure().mesh, VOX_NULL_BODY);
     ck_assert_uint_eq(grid.flags(), VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS);
     ck_assert_double_gt(grid.cell_size(), 0);
 
@@ -247,12 +247,12 @@ END_TEST
 START_TEST(meshes_tell_what_c_tells) {
     Stepped with;
     const vox::grid& grid = with.grid;
-    ck_assert(grid.meshes() == std::vector<vox_mesh>({with.a, with.b}));
-    ck_assert(grid.contains(with.a) && !grid.contains(VOX_NULL_MESH));
+    ck_assert(grid.meshes() == std::vector<vox_body>({with.a, with.b}));
+    ck_assert(grid.contains(with.a) && !grid.contains(VOX_NULL_BODY));
     ck_assert_uint_eq(grid.user_data(with.b), 2);
-    vox_mesh_info info = sized_struct<vox_mesh_info>();
-    ck_ok(vox_mesh_get_info(grid.get(), with.a, &info));
-    const vox_mesh_info same_info = grid.info(with.a);
+    vox_body_info info = sized_struct<vox_body_info>();
+    ck_ok(vox_body_get_info(grid.get(), with.a, &info));
+    const vox_body_info same_info = grid.info(with.a);
     ck_assert_mem_eq(&same_info, &info, sizeof info);
     const auto tets = grid.tets_of(with.a);
     ck_assert_uint_eq(tets.size(), with.scene.tet_count());
@@ -292,7 +292,7 @@ END_TEST
 START_TEST(transforms) {
     Stepped with;
     const double rows[12] = {1, 0, 0, 0.01, 0, 1, 0, 0.02, 0, 0, 1, 0.03};
-    ck_ok(vox_mesh_set_transform(with.grid.get(), with.a, rows));
+    ck_ok(vox_body_set_transform(with.grid.get(), with.a, rows));
     with.grid.step();
     const std::uint64_t hash = with.grid.hash();
     with.grid.clear_transform(with.a);
@@ -323,7 +323,7 @@ START_TEST(errors_have_code_and_text) {
             with.grid.insert(with.scene.a, {0, 1, 2, 900});
         },
         VOX_ERROR_INVALID_MESH, "names vertex 900 of 64");
-    throws([&] { with.grid.user_data(VOX_NULL_MESH); }, VOX_ERROR_INVALID_HANDLE, "");
+    throws([&] { with.grid.user_data(VOX_NULL_BODY); }, VOX_ERROR_INVALID_HANDLE, "");
     throws([&] { with.grid.set_cell_size(-1); }, VOX_ERROR_INVALID_ARGUMENT, "-1");
     throws([&] { vox::grid::load(std::vector<std::byte>(100)); }, VOX_ERROR_FORMAT, "");
     vox_grid_desc desc = vox_default_grid_desc();
@@ -427,7 +427,7 @@ START_TEST(grids_move_and_release) {
     desc.allocator = vox::allocator_of(memory);
     {
         vox::grid grid(desc);
-        const vox_mesh a = grid.insert(scene.a, scene.tets);
+        const vox_body a = grid.insert(scene.a, scene.tets);
         grid.insert(scene.b, scene.tets);
         grid.step();
         const auto contacts = grid.contacts();
@@ -443,7 +443,7 @@ START_TEST(grids_move_and_release) {
         other.insert(scene.a, scene.tets);
         other = std::move(moved);
         ck_assert(other.contains(a));
-        ck_assert_uint_eq(contacts[0].mesh_a, a);
+        ck_assert_uint_eq(contacts[0].body_a, a);
 
         // A view of queries outlives its grid; a copy is another owner.
         vox::query_view view = other.take_query_view();
@@ -474,7 +474,7 @@ START_TEST(meshes_are_removed_by_their_owner) {
     {
         vox::unique_mesh mesh(with.grid, with.a);
         vox::unique_mesh moved = std::move(mesh);
-        ck_assert_uint_eq(mesh.get(), VOX_NULL_MESH); // NOLINT
+        ck_assert_uint_eq(mesh.get(), VOX_NULL_BODY); // NOLINT
         mesh = std::move(moved);
         ck_assert_uint_eq(mesh.get(), with.a);
         ck_assert(with.grid.contains(with.a));
@@ -502,10 +502,10 @@ START_TEST(meshes_are_removed_by_their_owner) {
         vox::grid borrowed = vox::grid::borrow(c.grid);
         mesh = vox::unique_mesh(borrowed, borrowed.insert(with.scene.a));
     }
-    const vox_mesh id = mesh.get();
-    ck_assert_uint_eq(vox_mesh_is_valid(c.grid, id), 1);
+    const vox_body id = mesh.get();
+    ck_assert_uint_eq(vox_body_is_valid(c.grid, id), 1);
     mesh.reset();
-    ck_assert_uint_eq(vox_mesh_is_valid(c.grid, id), 0);
+    ck_assert_uint_eq(vox_body_is_valid(c.grid, id), 0);
 }
 END_TEST
 
@@ -516,7 +516,7 @@ START_TEST(meshes_that_come_and_go_leave_nothing) {
     vox::grid grid;
     const auto come_and_go = [&](int times) {
         for (int i = 0; i < times; ++i) {
-            const vox_mesh mesh = grid.insert(scene.a);
+            const vox_body mesh = grid.insert(scene.a);
             grid.bind(mesh, scene.b);
             grid.remove(mesh);
         }
@@ -553,7 +553,7 @@ START_TEST(views_know_when_they_have_ended) {
     vox::grid& grid = with.grid;
     const std::function<void()> changes[] = {
         [&] { grid.step(); }, [&] { ck_ok(vox_grid_step(grid.get())); }, [&] { grid.reserve(9, 99); },
-        [&] { grid.set_flags(grid.flags() ^ VOX_GRID_SKIP_BAD_MESHES); }, [&] { grid.clear(); }};
+        [&] { grid.set_flags(grid.flags() ^ VOX_GRID_SKIP_BAD_BODIES); }, [&] { grid.clear(); }};
     for (const auto& change : changes) {
         grid.step();
         const auto contacts = grid.contacts();
@@ -621,9 +621,9 @@ START_TEST(views_are_ranges) {
     const std::vector<vox_contact> copy = contacts.to_vector();
     ck_assert_uint_eq(copy.size(), contacts.size());
     const auto one =
-        std::find_if(contacts.begin(), contacts.end(), [&](const auto& c) { return c.mesh_a == with.b; });
-    ck_assert(one != contacts.end() && one->mesh_b == with.a);
-    ck_assert_int_eq(std::count_if(contacts.begin(), one, [&](const auto& c) { return c.mesh_a != with.a; }),
+        std::find_if(contacts.begin(), contacts.end(), [&](const auto& c) { return c.body_a == with.b; });
+    ck_assert(one != contacts.end() && one->body_b == with.a);
+    ck_assert_int_eq(std::count_if(contacts.begin(), one, [&](const auto& c) { return c.body_a != with.a; }),
                      0);
     ck_assert_ptr_eq(&contacts.back(), &contacts.begin()[static_cast<std::ptrdiff_t>(contacts.size()) - 1]);
     ck_assert_int_eq(contacts.end() - contacts.begin(), static_cast<std::ptrdiff_t>(contacts.size()));
@@ -692,7 +692,7 @@ START_TEST(temporaries_are_not_borrowed) {
     // Results of a temporary grid.
     static_assert(can_look<vox::grid&>::value && can_look<const vox::grid&>::value &&
                   !can_look<vox::grid>::value);
-    static_assert(!std::is_constructible_v<vox::unique_mesh, vox::grid, vox_mesh>);
+    static_assert(!std::is_constructible_v<vox::unique_mesh, vox::grid, vox_body>);
 }
 END_TEST
 
@@ -767,8 +767,8 @@ START_TEST(arrays_of_all_kinds) {
 
     // Positions of one mesh bound to another; then a body that is copied, and one that is described.
     vox::grid grid;
-    const vox_mesh first = grid.insert_copy(std::vector<float>(scene.a), scene.tets);
-    const vox_mesh second = grid.insert(scene.b, scene.tets);
+    const vox_body first = grid.insert_copy(std::vector<float>(scene.a), scene.tets);
+    const vox_body second = grid.insert(scene.b, scene.tets);
     grid.step();
     ck_assert_uint_eq(grid.hash(), hash);
     grid.bind(second, grid.positions<float>(first));
@@ -780,7 +780,7 @@ START_TEST(arrays_of_all_kinds) {
     ck_assert_uint_eq(grid.user_data(grid.insert(desc)), 5);
     // No positions, of no vertices.
     const std::vector<float> none;
-    const vox_mesh empty = grid.insert(none);
+    const vox_body empty = grid.insert(none);
     grid.bind(empty, none);
     ck_assert_uint_eq(grid.info(empty).vertex_count, 0);
     grid.step();
@@ -973,7 +973,7 @@ void queries_equal(const Q& asked, const Scene& scene, const vox_grid* c) {
     const vox_ray_hit same_ray = asked.query_ray(q, p);
     ck_assert_mem_eq(&same_ray, &ray, sizeof ray);
     std::vector<vox_facet_hit> facets(1000), facet(1);
-    ck_ok(vox_grid_query_ray_hits(c, q, p, vox::all_meshes, VOX_NULL_MESH, facets.data(), facets.size(),
+    ck_ok(vox_grid_query_ray_hits(c, q, p, vox::all_meshes, VOX_NULL_BODY, facets.data(), facets.size(),
                                   &count));
     facets.resize(count);
     same(asked.query_ray_hits(q, p), facets);
@@ -1020,7 +1020,7 @@ START_TEST(meshes_are_cut_as_in_c) {
     ck_assert_uint_eq(with.grid.hash(), hash_of_step(raw));
 
     // A copy of a vertex of a mesh with its own positions; then that vertex goes, and everything.
-    const vox_mesh own = with.grid.insert_copy(with.scene.b, with.scene.tets);
+    const vox_body own = with.grid.insert_copy(with.scene.b, with.scene.tets);
     const std::vector<std::uint32_t> source = {5}, added = {64};
     const std::vector<float> at = {1, 2, 3};
     ck_assert_uint_eq(with.grid.append_vertices(own, 1, at, source), 64);

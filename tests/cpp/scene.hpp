@@ -28,7 +28,7 @@ struct Scene {
 // A grid of C with the two boxes; its destructor destroys it.
 struct CGrid {
     vox_grid* grid = nullptr;
-    vox_mesh meshes[2] = {0, 0};
+    vox_body meshes[2] = {0, 0};
     explicit CGrid(const Scene& scene,
                    std::uint32_t flags = VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS) {
         vox_grid_desc desc = vox_default_grid_desc();

@@ -16,13 +16,13 @@ START_TEST(files_and_bodies) {
     vox_io_mesh_view arrays;
     ck_ok(vox_io_make_ball(1, 0.25, &raw));
     const vox::io::mesh same = vox::io::mesh::adopt(raw);
-    ck_ok(vox_io_mesh_get(same.get(), &arrays));
+    ck_ok(vox_io_mesh_get_arrays(same.get(), &arrays));
     ck_assert_uint_eq(ball.positions().size(), 3 * arrays.vertex_count);
     ck_assert_mem_eq(ball.positions().data(), arrays.positions, ball.positions().size() * sizeof(double));
     ck_assert_mem_eq(ball.tets().data(), arrays.tets, ball.tets().size() * sizeof(std::uint32_t));
     ck_assert_uint_eq(ball.view().tet_count, arrays.tet_count);
     ck_assert_uint_eq(ball.report().tets, arrays.tet_count);
-    ck_assert_str_eq(ball.warnings(), vox_io_mesh_warnings(same.get()));
+    ck_assert_str_eq(ball.warnings(), vox_io_mesh_get_warnings(same.get()));
     ck_assert_double_gt(ball.quality().min_dihedral, 10.6);
     for (const auto& make : {vox::io::make_torus(2, 0.5, 0.25), vox::io::make_capsule(1, 1, 0.25),
                              vox::io::make_cylinder(1, 1, 0.25)})
@@ -111,9 +111,9 @@ START_TEST(bodies_fall_as_in_c) {
     vox::sim::simulation sim;
     vox_sim_body_desc desc = vox::sim::describe(box.positions(), box.tets());
     desc.user_data = 9;
-    const vox_mesh body = sim.insert(desc);
+    const vox_body body = sim.insert(desc);
     vox_sim* raw = nullptr;
-    vox_mesh same = VOX_NULL_MESH;
+    vox_body same = VOX_NULL_BODY;
     ck_ok(vox_sim_create(nullptr, &raw));
     vox::sim::simulation c = vox::sim::simulation::adopt(raw);
     ck_ok(vox_sim_body_insert(raw, &desc, &same));

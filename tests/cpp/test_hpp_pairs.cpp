@@ -24,7 +24,7 @@ START_TEST(what_c_answers) {
     raw.struct_size = sizeof raw;
     std::vector<std::uint32_t> partners(lists.partners().data(),
                                         lists.partners().data() + lists.pair_count());
-    ck_ok(vox_surface_pairs(surface.get(), VOX_FEATURE_EDGE, VOX_FEATURE_FACE, 0, 6, &raw));
+    ck_ok(vox_surface_find_pairs(surface.get(), VOX_FEATURE_EDGE, VOX_FEATURE_FACE, 0, 6, &raw));
     ck_assert_uint_eq(lists.size(), 6);
     ck_assert_uint_eq(partners.size(), raw.pair_count);
     ck_assert_mem_eq(partners.data(), raw.partners, 4 * partners.size());
@@ -41,7 +41,7 @@ START_TEST(what_c_answers) {
     const std::vector<vox_crossing> copied(crossings.begin(), crossings.end());
     vox_crossing_view raw_crossings;
     raw_crossings.struct_size = sizeof raw_crossings;
-    ck_ok(vox_surface_crossings(surface.get(), &raw_crossings));
+    ck_ok(vox_surface_find_crossings(surface.get(), &raw_crossings));
     ck_assert_uint_gt(copied.size(), 0);
     ck_assert_uint_eq(copied.size(), raw_crossings.count);
     ck_assert_mem_eq(copied.data(), raw_crossings.crossings, sizeof copied[0] * copied.size());

@@ -41,14 +41,14 @@ START_TEST(values_and_errors) {
     vox::expected<vox::grid> made = vox::grid::create();
     ck_assert(made && made.has_value());
     vox::grid grid = std::move(*made);
-    const vox::expected<vox_mesh> a = grid.insert(scene.a, scene.tets, 7),
+    const vox::expected<vox_body> a = grid.insert(scene.a, scene.tets, 7),
                                   b = grid.insert(scene.b, scene.tets);
     ck_assert(a && b && *a != *b);
     ck_assert(grid.step());
     CGrid c(scene);
     ck_assert_uint_eq(*grid.hash(), hash_of_step(c.grid));
     std::size_t count = 0;
-    for (const vox_contact& contact : *grid.contacts()) count += contact.mesh_a == *a || contact.mesh_b == *a;
+    for (const vox_contact& contact : *grid.contacts()) count += contact.body_a == *a || contact.body_b == *a;
     ck_assert_uint_eq(count, grid.contacts()->size());
     ck_assert_uint_gt(count, 0);
     ck_assert_uint_eq(grid.user_data(*a).value_or(0), 7);
@@ -78,7 +78,7 @@ END_TEST
 START_TEST(ended_views_say_so) {
     const Scene scene;
     vox::grid grid = vox::grid::create().value();
-    const vox_mesh a = grid.insert(scene.a, scene.tets).value();
+    const vox_body a = grid.insert(scene.a, scene.tets).value();
     grid.insert(scene.b, scene.tets).value();
     grid.step().value();
     const auto contacts = grid.contacts().value();

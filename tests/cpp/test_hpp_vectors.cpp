@@ -114,7 +114,7 @@ private:
 
     void make(const json& call) {
         const std::string name = call["call"];
-        const vox_mesh mesh = call.value("mesh", vox_mesh{VOX_NULL_MESH});
+        const vox_body mesh = call.value("mesh", vox_body{VOX_NULL_BODY});
         const auto at = [&](const char* corner) { return call[corner].get<point>(); };
         if (name == "create") {
             vox_grid_desc desc = vox_default_grid_desc();
@@ -156,7 +156,7 @@ private:
         } else if (name == "set_enabled") {
             grid_.set_enabled(mesh, call["enabled"] == 1);
         } else if (name == "set_pair_enabled") {
-            grid_.set_pair_enabled(call["mesh_a"], call["mesh_b"], call["enabled"] == 1);
+            grid_.set_pair_enabled(call["body_a"], call["body_b"], call["enabled"] == 1);
         } else if (name == "set_flags") {
             grid_.set_flags(call["flags"]);
         } else if (name == "remove") {
@@ -232,8 +232,8 @@ private:
 
     void meshes(const json& call) const {
         json found = json::array();
-        for (vox_mesh mesh : grid_.meshes()) {
-            const vox_mesh_info info = grid_.info(mesh);
+        for (vox_body mesh : grid_.meshes()) {
+            const vox_body_info info = grid_.info(mesh);
             const auto tets = grid_.tets_of(mesh);
             found.push_back({{"mesh", mesh},
                              {"user_data", std::to_string(grid_.user_data(mesh))},

@@ -71,7 +71,7 @@ void check_locate(Run& run, const vox_grid* grid, vox_scene* scene, std::uint32_
         std::uint64_t body = 0;
         for (std::uint64_t h = 0; h < count; ++h) {
             std::uint64_t number;
-            (void)vox_mesh_user_data(grid, hits[h].mesh, &number);
+            (void)vox_body_get_user_data(grid, hits[h].mesh, &number);
             if (!first || number < body) first = &hits[h], body = number;
         }
         if ((found[i].rank == VOX_NO_RANK) != !first)
@@ -129,7 +129,7 @@ std::string differs(const Scene& scene, std::uint32_t size, Cut how, std::uint64
     run.scene = &scene;
     (void)vox_scene_hash_of_grid(grid, run.expected);
     vox_contact_view view;
-    (void)vox_grid_contacts(grid, &view);
+    (void)vox_grid_get_contacts(grid, &view);
     run.expected_count = view.count;
     (void)vox_grid_prepare_queries(grid);
     run.grid = grid;
@@ -240,7 +240,7 @@ Snapshot saved(const Scene& scene, std::vector<std::vector<Share>>& all, std::ui
                                                         share.tets.data(), share.tet_ids.size());
         mesh.user_data = b;
         mesh.filter = &scene[b].filter;
-        vox_mesh id;
+        vox_body id;
         ck_assert_int_eq(vox_mesh_insert(grid, &mesh, &id), VOX_OK);
     }
     std::uint64_t size = 0;
@@ -251,7 +251,7 @@ Snapshot saved(const Scene& scene, std::vector<std::vector<Share>>& all, std::ui
     return bytes;
 }
 
-double number_at(const vox_mesh_info& info, std::uint64_t vertex, unsigned axis) {
+double number_at(const vox_body_info& info, std::uint64_t vertex, unsigned axis) {
     const auto* at = static_cast<const std::byte*>(info.positions) + vertex * info.position_byte_stride +
                      axis * info.position_component_byte_stride;
     double number = 0;
@@ -268,14 +268,14 @@ void restore(const Snapshot& bytes, const std::vector<std::vector<Share>>& all, 
              Scene& scene) {
     vox_grid* grid = nullptr;
     ck_assert_int_eq(vox_grid_load(bytes.data(), bytes.size(), nullptr, &grid), VOX_OK);
-    std::vector<vox_mesh> meshes(scene.size());
+    std::vector<vox_body> meshes(scene.size());
     std::uint64_t count = 0;
-    ck_assert_int_eq(vox_grid_meshes(grid, meshes.data(), meshes.size(), &count), VOX_OK);
+    ck_assert_int_eq(vox_grid_get_bodies(grid, meshes.data(), meshes.size(), &count), VOX_OK);
     ck_assert_uint_eq(count, scene.size());
-    for (const vox_mesh mesh : meshes) {
-        vox_mesh_info info{};
+    for (const vox_body mesh : meshes) {
+        vox_body_info info{};
         info.struct_size = sizeof info;
-        ck_assert_int_eq(vox_mesh_get_info(grid, mesh, &info), VOX_OK);
+        ck_assert_int_eq(vox_body_get_info(grid, mesh, &info), VOX_OK);
         Body& body = scene[info.user_data];
         ck_assert_int_eq(vox_mesh_filter(grid, mesh, &body.filter), VOX_OK);
         const Share& share = all[info.user_data][rank];
@@ -284,7 +284,7 @@ void restore(const Snapshot& bytes, const std::vector<std::vector<Share>>& all, 
             for (unsigned axis = 0; axis < 3; ++axis)
                 body.xyz[3 * share.vertex_ids[v] + axis] = number_at(info, v, axis);
         std::vector<std::uint32_t> corners(4 * info.tet_count);
-        ck_assert_int_eq(vox_mesh_copy_tets(grid, mesh, corners.data(), nullptr, info.tet_count, &count),
+        ck_assert_int_eq(vox_mesh_get_tets(grid, mesh, corners.data(), nullptr, info.tet_count, &count),
                          VOX_OK);
         ck_assert_uint_eq(count, share.tet_ids.size());
         for (std::uint64_t t = 0; t < count; ++t)

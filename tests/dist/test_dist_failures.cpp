@@ -62,7 +62,7 @@ struct Ranks {
         vox_grid* grid = whole(scene, floats);
         vox_contact_view view{};
         ck_ok(vox_grid_step(grid));
-        ck_ok(vox_grid_contacts(grid, &view));
+        ck_ok(vox_grid_get_contacts(grid, &view));
         ck_assert_uint_gt(view.count, 10);
         ck_ok(vox_scene_hash_of_grid(grid, expected));
         vox_grid_destroy(grid);

@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
         std::uint64_t expected[2], hash[2];
         vox_contact_view view;
         if (!grid || vox_grid_step(grid) != VOX_OK || vox_scene_hash_of_grid(grid, expected) != VOX_OK ||
-            vox_grid_contacts(grid, &view) != VOX_OK)
+            vox_grid_get_contacts(grid, &view) != VOX_OK)
             return fail("one grid", seed, rank);
         contacts += view.count;
         vox_grid_destroy(grid);

@@ -71,7 +71,7 @@ inline vox_grid* whole(const Scene& scene, std::vector<std::vector<float>>& floa
                 : vox_mesh_desc_floats(floats[b].data(), body.vertices(), body.tets.data(), body.tet_count());
         mesh.filter = &body.filter;
         mesh.user_data = body.number;
-        vox_mesh id;
+        vox_body id;
         if (vox_mesh_insert(grid, &mesh, &id) != VOX_OK) return nullptr;
     }
     return grid;

@@ -48,7 +48,7 @@ static scene read_scene(bytes* b) {
     return s;
 }
 
-static vox_grid* grid_of(scene* s, vox_engine engine, int nearby, vox_mesh ids[most_bodies]) {
+static vox_grid* grid_of(scene* s, vox_engine engine, int nearby, vox_body ids[most_bodies]) {
     vox_grid_desc desc = vox_default_grid_desc();
     desc.engine = engine;
     desc.byte_budget = 64u << 20;
@@ -88,7 +88,7 @@ static void sort3(uint32_t v[3]) {
 }
 
 static void key_of(const vox_edge_contact* c, uint32_t key[7]) {
-    const uint32_t all[7] = {c->mesh_a,  c->edge[0], c->edge[1], c->mesh_b,
+    const uint32_t all[7] = {c->body_a,  c->edge[0], c->edge[1], c->body_b,
                              c->face[0], c->face[1], c->face[2]};
     memcpy(key, all, sizeof all);
     sort3(key + 4);
@@ -113,25 +113,25 @@ static void check(const vox_grid* grid, const scene* s) {
     demand(has_margin == (s->margin > 0 ? VOX_OK : VOX_ERROR_INVALID_STATE));
     for (uint64_t i = 0; has_margin == VOX_OK && i < margins.count; ++i) {
         const vox_margin_contact* c = &margins.data[i];
-        const uint32_t key[3] = {c->mesh_a, c->vertex, c->mesh_b};
-        const uint32_t last[3] = {i ? c[-1].mesh_a : 0, i ? c[-1].vertex : 0, i ? c[-1].mesh_b : 0};
+        const uint32_t key[3] = {c->body_a, c->vertex, c->body_b};
+        const uint32_t last[3] = {i ? c[-1].body_a : 0, i ? c[-1].vertex : 0, i ? c[-1].body_b : 0};
         demand(i == 0 || before(last, key, 3));
-        demand(c->mesh_a != c->mesh_b && c->distance >= 0 && c->distance <= s->margin);
+        demand(c->body_a != c->body_b && c->distance >= 0 && c->distance <= s->margin);
     }
     vox_passage_view passages;
     demand(vox_grid_passages(grid, &passages) == VOX_OK);
     for (uint64_t i = 0; i < passages.count; ++i) {
         const vox_passage* c = &passages.data[i];
-        const uint32_t key[3] = {c->mesh_a, c->vertex, c->mesh_b};
-        const uint32_t last[3] = {i ? c[-1].mesh_a : 0, i ? c[-1].vertex : 0, i ? c[-1].mesh_b : 0};
+        const uint32_t key[3] = {c->body_a, c->vertex, c->body_b};
+        const uint32_t last[3] = {i ? c[-1].body_a : 0, i ? c[-1].vertex : 0, i ? c[-1].body_b : 0};
         demand(i == 0 || before(last, key, 3));
-        demand(c->mesh_a != c->mesh_b && c->time >= 0 && c->time <= 1);
+        demand(c->body_a != c->body_b && c->time >= 0 && c->time <= 1);
     }
 }
 
 static void check_same(const vox_grid* x, const vox_grid* y, int margin) {
     uint64_t a = 0, b = 1;
-    demand(vox_grid_hash(x, &a) == VOX_OK && vox_grid_hash(y, &b) == VOX_OK && a == b);
+    demand(vox_grid_get_hash(x, &a) == VOX_OK && vox_grid_get_hash(y, &b) == VOX_OK && a == b);
     demand(vox_grid_edge_hash(x, &a) == VOX_OK && vox_grid_edge_hash(y, &b) == VOX_OK && a == b);
     vox_passage_view p, q;
     demand(vox_grid_passages(x, &p) == VOX_OK && vox_grid_passages(y, &q) == VOX_OK);
@@ -147,7 +147,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     if (size < 24) return -1;
     bytes b = {data, size};
     scene s = read_scene(&b);
-    vox_mesh ids[most_bodies];
+    vox_body ids[most_bodies];
     vox_grid *const plain = grid_of(&s, VOX_ENGINE_FAST, 0, ids),
                     *const fast = grid_of(&s, VOX_ENGINE_FAST, 1, ids),
                     *const reference = grid_of(&s, VOX_ENGINE_REFERENCE, 1, ids);
@@ -160,7 +160,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         check(fast, &s);
         check_same(fast, reference, s.margin > 0);
         uint64_t with = 0, without = 1;
-        demand(vox_grid_hash(fast, &with) == VOX_OK && vox_grid_hash(plain, &without) == VOX_OK &&
+        demand(vox_grid_get_hash(fast, &with) == VOX_OK && vox_grid_get_hash(plain, &without) == VOX_OK &&
                with == without);
         demand(vox_grid_prepare_edge_depths(fast) == VOX_OK);
         if (step == 0) /* then one of them moves, and the others stand still */

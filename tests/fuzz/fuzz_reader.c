@@ -27,11 +27,11 @@ static int32_t append(const void* data, size_t size, void* user) {
 
 static void check(const vox_io_mesh* mesh) {
     vox_io_mesh_view view;
-    demand(vox_io_mesh_get(mesh, &view) == VOX_OK);
+    demand(vox_io_mesh_get_arrays(mesh, &view) == VOX_OK);
     for (uint64_t i = 0; i < 3 * view.vertex_count; ++i) demand(isfinite(view.positions[i]));
     for (uint64_t i = 0; i < 4 * view.tet_count; ++i) demand(view.tets[i] < view.vertex_count);
     for (uint64_t i = 0; i < 3 * view.triangle_count; ++i) demand(view.triangles[i] < view.vertex_count);
-    demand(vox_io_mesh_warnings(mesh) != NULL);
+    demand(vox_io_mesh_get_warnings(mesh) != NULL);
     if (view.tet_count == 0) return; /* a surface, which no tet reader takes back */
 
     static const vox_io_write_format formats[] = {VOX_IO_WRITE_MSH_22, VOX_IO_WRITE_MSH_41, VOX_IO_WRITE_VTU};
@@ -46,7 +46,7 @@ static void check(const vox_io_mesh* mesh) {
     vox_io_mesh* again = NULL;
     demand(vox_io_read(&source, 1, NULL, &again) == VOX_OK);
     vox_io_mesh_view copy;
-    demand(vox_io_mesh_get(again, &copy) == VOX_OK);
+    demand(vox_io_mesh_get_arrays(again, &copy) == VOX_OK);
     demand(copy.vertex_count == view.vertex_count && copy.tet_count == view.tet_count);
     demand(memcmp(copy.positions, view.positions, 24 * view.vertex_count) == 0);
     demand(memcmp(copy.tets, view.tets, 16 * view.tet_count) == 0);

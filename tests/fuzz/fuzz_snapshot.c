@@ -46,7 +46,7 @@ static void check(vox_grid* grid) {
     demand(stepped == VOX_OK || stepped == VOX_ERROR_NON_FINITE || stepped == VOX_ERROR_INVALID_STATE ||
            stepped == VOX_ERROR_BUDGET || stepped == VOX_ERROR_LIMIT);
     demand(vox_grid_step(again) == stepped || stepped == VOX_ERROR_BUDGET);
-    demand(vox_grid_hash(grid, &hash) == VOX_OK && vox_grid_hash(again, &hash_again) == VOX_OK);
+    demand(vox_grid_get_hash(grid, &hash) == VOX_OK && vox_grid_get_hash(again, &hash_again) == VOX_OK);
     demand(hash == hash_again || stepped != VOX_OK);
     vox_grid_destroy(again);
     free(bytes);

@@ -138,7 +138,7 @@ static void check_pairs(vox_surface* surface, const scene* s, int a, int b, uint
         vox_pair_lists lists;
         lists.struct_size = sizeof lists;
         const vox_result result =
-            vox_surface_pairs(surface, (vox_feature)a, (vox_feature)b, first, step, &lists);
+            vox_surface_find_pairs(surface, (vox_feature)a, (vox_feature)b, first, step, &lists);
         if (result == VOX_ERROR_BUDGET) return;
         demand(result == VOX_OK);
         demand(lists.first == first && lists.count >= 1 && lists.count <= step && lists.offsets[0] == 0);
@@ -171,7 +171,7 @@ static void check_answers(vox_surface* surface, const scene* s, const vox_contac
                           int has_budget) {
     vox_crossing_view crossings;
     crossings.struct_size = sizeof crossings;
-    if (!answered(vox_surface_crossings(surface, &crossings), has_budget)) crossings.count = 0;
+    if (!answered(vox_surface_find_crossings(surface, &crossings), has_budget)) crossings.count = 0;
     for (uint64_t i = 0; i < crossings.count; ++i) {
         const vox_crossing* c = &crossings.crossings[i];
         demand(c->edge < s->counts[1] && c->face < s->counts[2]);
@@ -184,8 +184,8 @@ static void check_answers(vox_surface* surface, const scene* s, const vox_contac
     for (int k = 0; k < 6; ++k) {
         vox_close_view close;
         close.struct_size = sizeof close;
-        if (!answered(vox_surface_close(surface, (vox_feature)kinds[k][0], (vox_feature)kinds[k][1], distance,
-                                        &close),
+        if (!answered(vox_surface_find_proximities(surface, (vox_feature)kinds[k][0],
+                                                   (vox_feature)kinds[k][1], distance, &close),
                       has_budget))
             continue;
         for (uint64_t i = 0; i < close.count; ++i) {
@@ -196,19 +196,20 @@ static void check_answers(vox_surface* surface, const scene* s, const vox_contac
     }
     double clearance[most_vertices];
     for (uint32_t v = 0; v < s->vertices; ++v) clearance[v] = -1;
-    const int is_clear = answered(vox_surface_clearance(surface, 1, clearance, s->vertices), has_budget);
+    const int is_clear =
+        answered(vox_surface_find_clearances(surface, 1, clearance, s->vertices), has_budget);
     for (uint32_t v = 0; v < s->vertices; ++v)
         demand(is_clear ? clearance[v] >= 0 && clearance[v] <= 1 : clearance[v] == -1);
     vox_safe_step step;
     step.struct_size = sizeof step;
-    int all_there = answered(vox_surface_safe_step(surface, rule, &step), has_budget);
+    int all_there = answered(vox_surface_find_safe_step(surface, rule, &step), has_budget);
     demand(!all_there || (step.step >= 0 && step.step <= 1));
     double first = 1;
     for (int k = 0; k < 2; ++k) {
         vox_timed_view times;
         times.struct_size = sizeof times;
-        if (!answered(vox_surface_contact_times(surface, (vox_feature)kinds[k][0], (vox_feature)kinds[k][1],
-                                                rule, &times),
+        if (!answered(vox_surface_find_impacts(surface, (vox_feature)kinds[k][0], (vox_feature)kinds[k][1],
+                                               rule, &times),
                       has_budget)) {
             all_there = 0;
             continue;
@@ -225,7 +226,7 @@ static void check_answers(vox_surface* surface, const scene* s, const vox_contac
     for (int kind = 1; kind < 3; ++kind) {
         vox_feature_view view;
         view.struct_size = sizeof view;
-        demand(vox_surface_features(surface, (vox_feature)kind, &view) == VOX_OK &&
+        demand(vox_surface_get_features(surface, (vox_feature)kind, &view) == VOX_OK &&
                view.count == s->counts[kind]);
         demand(memcmp(view.vertices, s->corners[kind],
                       s->counts[kind] * view.vertices_each * sizeof(uint32_t)) == 0);
@@ -268,7 +269,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         if (moved == VOX_OK) check_answers(surface, &s, &rule, 1);
         vox_pair_counters counters;
         counters.struct_size = sizeof counters;
-        demand(vox_surface_counters(surface, &counters) == VOX_OK && counters.peak_bytes <= budget);
+        demand(vox_surface_get_counters(surface, &counters) == VOX_OK && counters.peak_bytes <= budget);
     }
     vox_surface_destroy(surface);
     return 0;

@@ -62,9 +62,9 @@ void check(const Mesh& mesh, const std::vector<Hit>& found) {
     make_contacts(views, hits, contacts);
     ck_assert_uint_eq(contacts.size(), expected.size());
     for (std::size_t i = 0; i < contacts.size(); ++i) {
-        ck_assert_uint_eq(contacts[i].mesh_a, 1000 + 3 * expected[i].body_a);
+        ck_assert_uint_eq(contacts[i].body_a, 1000 + 3 * expected[i].body_a);
         ck_assert_uint_eq(contacts[i].vertex, expected[i].vertex);
-        ck_assert_uint_eq(contacts[i].mesh_b, 1000 + 3 * expected[i].body_b);
+        ck_assert_uint_eq(contacts[i].body_b, 1000 + 3 * expected[i].body_b);
         ck_assert_uint_eq(contacts[i].tet, expected[i].tet);
         for (const float weight : contacts[i].barycentric) ck_assert_float_eq(weight, 0.25f);
     }
@@ -164,7 +164,7 @@ START_TEST(workers_share_many_hits) {
                 for (std::size_t i = 0; i < expected.size(); ++i) {
                     ck_assert(key(left[i]) == expected[i]);
                     const vox_contact& c = contacts[i];
-                    ck_assert(Key(c.mesh_a, c.vertex, c.mesh_b, c.tet) == expected[i]);
+                    ck_assert(Key(c.body_a, c.vertex, c.body_b, c.tet) == expected[i]);
                     for (const float weight : c.barycentric) ck_assert_float_eq(weight, 0.25f);
                 }
             }
@@ -255,9 +255,9 @@ START_TEST(hash_tells_every_field_and_the_order) {
     };
     using List = std::vector<vox_contact>&;
     for (std::size_t i = 0; i < list.size(); ++i) {
-        differs(list, [i](List l) { ++l[i].mesh_a; });
+        differs(list, [i](List l) { ++l[i].body_a; });
         differs(list, [i](List l) { l[i].vertex += 20; });
-        differs(list, [i](List l) { ++l[i].mesh_b; });
+        differs(list, [i](List l) { ++l[i].body_b; });
         differs(list, [i](List l) { ++l[i].tet; });
         for (std::size_t w = 0; w < 4; ++w)
             differs(list,

@@ -246,19 +246,19 @@ START_TEST(a_safe_step_is_the_least_time_of_all_pairs) {
             move(surface, s);
             vox_safe_step step{};
             step.struct_size = sizeof step;
-            ck_ok(vox_surface_safe_step(surface, nullptr, &step));
+            ck_ok(vox_surface_find_safe_step(surface, nullptr, &step));
             double least = 1;
             vox_feature_view features[3]{};
             for (int kind = 1; kind < 3; ++kind) {
                 features[kind].struct_size = sizeof features[kind];
-                ck_ok(vox_surface_features(surface, vox_feature(kind), &features[kind]));
+                ck_ok(vox_surface_get_features(surface, vox_feature(kind), &features[kind]));
             }
             for (int k = 0; k < 2; ++k) {
                 const vox_feature a = k ? VOX_FEATURE_EDGE : VOX_FEATURE_FACE,
                                   b = k ? VOX_FEATURE_EDGE : VOX_FEATURE_VERTEX;
                 vox_timed_view view{};
                 view.struct_size = sizeof view;
-                ck_ok(vox_surface_contact_times(surface, a, b, nullptr, &view));
+                ck_ok(vox_surface_find_impacts(surface, a, b, nullptr, &view));
                 const std::vector<vox_timed_pair> times(view.pairs, view.pairs + view.count);
                 for (const vox_timed_pair& pair : times) least = std::min(least, pair.time);
                 if (workers == 1) {
@@ -324,24 +324,25 @@ START_TEST(what_is_refused) {
     vox_safe_step step{};
     step.struct_size = sizeof step;
     step.step = 7;
-    ck_fails(vox_surface_safe_step(surface, nullptr, &step), VOX_ERROR_INVALID_STATE, "no positions");
+    ck_fails(vox_surface_find_safe_step(surface, nullptr, &step), VOX_ERROR_INVALID_STATE, "no positions");
     move(surface, s);
     vox_contact_time_desc desc = vox_default_contact_time_desc();
     desc.most_iterations = 0;
-    ck_fails(vox_surface_safe_step(surface, &desc, &step), VOX_ERROR_INVALID_ARGUMENT, "most_iterations");
+    ck_fails(vox_surface_find_safe_step(surface, &desc, &step), VOX_ERROR_INVALID_ARGUMENT,
+             "most_iterations");
     for (const double bad : {-1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
         desc = vox_default_contact_time_desc();
         desc.distance = bad;
-        ck_fails(vox_surface_safe_step(surface, &desc, &step), VOX_ERROR_INVALID_ARGUMENT, "distance");
+        ck_fails(vox_surface_find_safe_step(surface, &desc, &step), VOX_ERROR_INVALID_ARGUMENT, "distance");
     }
     for (const double bad : {0.0, 1.0, -1.0, std::nan("")}) {
         desc = vox_default_contact_time_desc();
         desc.slack = bad;
-        ck_fails(vox_surface_safe_step(surface, &desc, &step), VOX_ERROR_INVALID_ARGUMENT, "slack");
+        ck_fails(vox_surface_find_safe_step(surface, &desc, &step), VOX_ERROR_INVALID_ARGUMENT, "slack");
     }
     vox_timed_view view{};
     view.struct_size = sizeof view;
-    ck_fails(vox_surface_contact_times(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_FACE, nullptr, &view),
+    ck_fails(vox_surface_find_impacts(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_FACE, nullptr, &view),
              VOX_ERROR_INVALID_ARGUMENT, "VOX_FEATURE_FACE and VOX_FEATURE_VERTEX");
     ck_assert(step.step == 7);
     vox_surface_destroy(surface);

@@ -30,7 +30,7 @@ struct TestMesh {
     bool self = false, enabled = true, doubles = false;
     std::vector<float> floats; // what the grid reads unless `doubles`
     vox_filter filter = vox_default_filter();
-    vox_mesh id = VOX_NULL_MESH;
+    vox_body id = VOX_NULL_BODY;
 
     Vec3d at(std::uint32_t v) const {
         const double* p = &positions[3 * v];
@@ -175,7 +175,7 @@ void check_contacts(const vox_grid* grid, const std::vector<TestMesh>& meshes,
     for (std::uint64_t i = 0; i < found.count; ++i) {
         const vox_edge_contact& c = found.data[i];
         const Expected& e = expected[i];
-        ck_assert(c.mesh_a == meshes[e.a].id && c.mesh_b == meshes[e.b].id);
+        ck_assert(c.body_a == meshes[e.a].id && c.body_b == meshes[e.b].id);
         ck_assert(c.edge[0] == e.edge[0] && c.edge[1] == e.edge[1]);
         Face face{c.face[0], c.face[1], c.face[2]};
         ck_assert(face[0] < face[1] && face[0] < face[2]);
@@ -198,17 +198,17 @@ void check_contacts(const vox_grid* grid, const std::vector<TestMesh>& meshes,
         touching.insert({std::min(meshes[e.a].id, meshes[e.b].id), std::max(meshes[e.a].id, meshes[e.b].id)});
     const vox_contact_view contacts = contacts_of(grid);
     for (std::uint64_t i = 0; i < contacts.count; ++i)
-        touching.insert({std::min(contacts.data[i].mesh_a, contacts.data[i].mesh_b),
-                         std::max(contacts.data[i].mesh_a, contacts.data[i].mesh_b)});
+        touching.insert({std::min(contacts.data[i].body_a, contacts.data[i].body_b),
+                         std::max(contacts.data[i].body_a, contacts.data[i].body_b)});
     vox_pair_view pairs{};
-    ck_ok(vox_grid_pairs(grid, &pairs));
+    ck_ok(vox_grid_get_pairs(grid, &pairs));
     ck_assert_uint_eq(pairs.count, touching.size());
     std::uint64_t first = 0;
     for (std::uint64_t i = 0; i < pairs.count; ++i) {
         const vox_pair& pair = pairs.data[i];
-        ck_assert(touching.count({pair.mesh_a, pair.mesh_b}) == 1);
-        ck_assert(i == 0 || std::tie(pairs.data[i - 1].mesh_a, pairs.data[i - 1].mesh_b) <
-                                std::tie(pair.mesh_a, pair.mesh_b));
+        ck_assert(touching.count({pair.body_a, pair.body_b}) == 1);
+        ck_assert(i == 0 || std::tie(pairs.data[i - 1].body_a, pairs.data[i - 1].body_b) <
+                                std::tie(pair.body_a, pair.body_b));
         ck_assert_uint_eq(pair.first, first);
         first += pair.a_in_b + pair.b_in_a;
     }
@@ -258,7 +258,7 @@ TestMesh make_mesh(Random& r, bool on_lattice) {
     return mesh;
 }
 
-vox_mesh insert(vox_grid* grid, const TestMesh& mesh) {
+vox_body insert(vox_grid* grid, const TestMesh& mesh) {
     vox_mesh_desc desc = mesh.doubles ? vox_mesh_desc_doubles(mesh.positions.data(), mesh.vertex_count(),
                                                               mesh.tets.data(), mesh.tet_count())
                                       : vox_mesh_desc_floats(mesh.floats.data(), mesh.vertex_count(),
@@ -277,16 +277,16 @@ std::uint64_t edge_hash(const vox_grid* grid) {
 void check_events(const vox_grid* grid, std::set<Edge>& last) {
     vox_pair_view pairs{};
     vox_touch_view events{};
-    ck_ok(vox_grid_pairs(grid, &pairs));
+    ck_ok(vox_grid_get_pairs(grid, &pairs));
     ck_ok(vox_grid_touch_events(grid, &events));
     std::set<Edge> now;
-    for (std::uint64_t i = 0; i < pairs.count; ++i) now.insert({pairs.data[i].mesh_a, pairs.data[i].mesh_b});
+    for (std::uint64_t i = 0; i < pairs.count; ++i) now.insert({pairs.data[i].body_a, pairs.data[i].body_b});
     ck_assert_uint_eq(events.began + events.persisted, now.size());
     ck_assert_uint_eq(events.persisted + events.ended, last.size());
     for (std::uint64_t i = 0; i < events.count; ++i) {
         const vox_touch_event& e = events.data[i];
-        ck_assert_uint_eq(now.count({e.mesh_a, e.mesh_b}), e.kind != VOX_TOUCH_ENDED);
-        ck_assert_uint_eq(last.count({e.mesh_a, e.mesh_b}), e.kind != VOX_TOUCH_BEGAN);
+        ck_assert_uint_eq(now.count({e.body_a, e.body_b}), e.kind != VOX_TOUCH_ENDED);
+        ck_assert_uint_eq(last.count({e.body_a, e.body_b}), e.kind != VOX_TOUCH_BEGAN);
     }
     last = now;
 }
@@ -339,7 +339,7 @@ void run_scene(std::uint64_t seed, int steps) {
         }
         case 1:
             mesh.enabled = !mesh.enabled;
-            in_all([&](vox_grid* g) { return vox_mesh_set_enabled(g, mesh.id, mesh.enabled); });
+            in_all([&](vox_grid* g) { return vox_body_set_enabled(g, mesh.id, mesh.enabled); });
             break;
         case 2: {
             const std::uint32_t other = r.below(count);

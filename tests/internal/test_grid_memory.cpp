@@ -26,7 +26,7 @@ START_TEST(nothing_from_the_default_resource) {
         add_mesh(grid, other);
         for (int step = 0; step < 2; ++step) ck_ok(vox_grid_step(grid)); // the cell size is chosen, too
         vox_contact_view view{};
-        ck_ok(vox_grid_contacts(grid, &view));
+        ck_ok(vox_grid_get_contacts(grid, &view));
         ck_assert_uint_gt(view.count, 0);
         vox_query_view* query_view = nullptr;
         ck_ok(vox_grid_prepare_queries(grid));

@@ -144,7 +144,7 @@ void check_closest(const Asked& asked, const std::vector<Vec3d>& points) {
     ck_ok(vox_grid_query_closest_points(asked.grid, &desc, hits.data()));
     for (std::size_t i = 0; i < points.size(); ++i) {
         const auto [squared, facet] = asked.mesh.closest(points[i]);
-        ck_assert_uint_ne(hits[i].mesh, VOX_NULL_MESH);
+        ck_assert_uint_ne(hits[i].mesh, VOX_NULL_BODY);
         ck_assert(std::abs(hits[i].distance) == std::sqrt(squared)); // all bits
         ck_assert_uint_eq(hits[i].tet, facet.first);
         ck_assert_uint_eq(hits[i].facet, facet.second);
@@ -189,14 +189,14 @@ void check_together(const vox_grid* grid, const std::vector<Vec3d>& points, std:
         }
     }
     ck_assert_uint_eq(count, singly.size());
-    ck_assert_uint_eq(together[count].mesh, VOX_NULL_MESH);
+    ck_assert_uint_eq(together[count].mesh, VOX_NULL_BODY);
     if (count > 0) ck_assert_mem_eq(together.data(), singly.data(), count * sizeof singly[0]);
     together.assign(count + 1, vox_point_hit{}); // room for some
     const std::uint64_t half = count / 2;
     ask(half);
     ck_assert_uint_eq(count, singly.size());
     if (half > 0) ck_assert_mem_eq(together.data(), singly.data(), half * sizeof singly[0]);
-    ck_assert_uint_eq(together[half].mesh, VOX_NULL_MESH);
+    ck_assert_uint_eq(together[half].mesh, VOX_NULL_BODY);
 }
 
 void check_segment(const Asked& asked, const Vec3d& from, const Vec3d& to) {
@@ -205,16 +205,16 @@ void check_segment(const Asked& asked, const Vec3d& from, const Vec3d& to) {
     std::uint64_t count = 0;
     std::uint32_t any = 7;
     vox_ray_hit first;
-    ck_ok(vox_grid_query_ray_hits(asked.grid, &from.x, &to.x, UINT64_MAX, VOX_NULL_MESH, hits.data(),
+    ck_ok(vox_grid_query_ray_hits(asked.grid, &from.x, &to.x, UINT64_MAX, VOX_NULL_BODY, hits.data(),
                                   hits.size(), &count));
     for (std::uint64_t h = 0; h < count; ++h) found.emplace_back(hits[h].tet, hits[h].facet);
     std::sort(found.begin(), found.end());
     ck_assert(found == asked.mesh.hits(from, to));
     const bool meets = asked.mesh.any(from, to);
-    ck_ok(vox_grid_query_ray_any(asked.grid, &from.x, &to.x, UINT64_MAX, VOX_NULL_MESH, &any));
+    ck_ok(vox_grid_query_ray_any(asked.grid, &from.x, &to.x, UINT64_MAX, VOX_NULL_BODY, &any));
     ck_assert_uint_eq(any, meets);
     ck_ok(vox_grid_query_ray(asked.grid, &from.x, &to.x, UINT64_MAX, &first));
-    ck_assert_int_eq(first.mesh != VOX_NULL_MESH, meets);
+    ck_assert_int_eq(first.mesh != VOX_NULL_BODY, meets);
 }
 
 void check_box(const Asked& asked, const Vec3d& p, const Vec3d& q) {
@@ -233,7 +233,7 @@ vox_grid* grid_with_other_tiles(const QueryDefinition& mesh, vox_mesh_desc desc,
     while (others.size() < mesh.positions().size()) others.push_back(random_vector(random, 1));
     vox_grid* grid = engine_grid();
     desc.positions = others.data();
-    const vox_mesh id = insert_mesh(grid, &desc);
+    const vox_body id = insert_mesh(grid, &desc);
     ck_ok(vox_grid_prepare_queries(grid));
     ck_ok(vox_mesh_bind_positions(grid, id, mesh.positions().data(), VOX_FORMAT_DOUBLE3, 0));
     ck_ok(vox_grid_prepare_queries(grid));
@@ -247,9 +247,9 @@ void check_same(const vox_grid* x, const vox_grid* y, const Vec3d& from, const V
     ck_ok(vox_grid_query_ray(x, &from.x, &to.x, UINT64_MAX, &first_x));
     ck_ok(vox_grid_query_ray(y, &from.x, &to.x, UINT64_MAX, &first_y));
     ck_assert_mem_eq(&first_x, &first_y, sizeof first_x);
-    ck_ok(vox_grid_query_ray_hits(x, &from.x, &to.x, UINT64_MAX, VOX_NULL_MESH, of_x.data(), of_x.size(),
+    ck_ok(vox_grid_query_ray_hits(x, &from.x, &to.x, UINT64_MAX, VOX_NULL_BODY, of_x.data(), of_x.size(),
                                   &count_x));
-    ck_ok(vox_grid_query_ray_hits(y, &from.x, &to.x, UINT64_MAX, VOX_NULL_MESH, of_y.data(), of_y.size(),
+    ck_ok(vox_grid_query_ray_hits(y, &from.x, &to.x, UINT64_MAX, VOX_NULL_BODY, of_y.data(), of_y.size(),
                                   &count_y));
     ck_assert_uint_eq(count_x, count_y);
     ck_assert_mem_eq(of_x.data(), of_y.data(),
@@ -328,13 +328,13 @@ START_TEST(many_points_as_alone) {
         desc.tets = bodies[b].tets.front().v;
         desc.tet_count = bodies[b].tets.size();
         desc.flags = VOX_MESH_COPY_POSITIONS;
-        const vox_mesh mesh = insert_mesh(grid, &desc);
+        const vox_body mesh = insert_mesh(grid, &desc);
         vox_filter filter = vox_default_filter();
         filter.category = 1u << b % 4;
-        ck_ok(vox_mesh_set_filter(grid, mesh, &filter));
+        ck_ok(vox_body_set_filter(grid, mesh, &filter));
         const double turned[12] = {0.8, -0.6, 0, 1, 0.6, 0.8, 0, -1, 0, 0, 1, 0.1};
-        if (b % 7 == 2) ck_ok(vox_mesh_set_transform(grid, mesh, turned));
-        if (b == 8) ck_ok(vox_mesh_set_enabled(grid, mesh, 0));
+        if (b % 7 == 2) ck_ok(vox_body_set_transform(grid, mesh, turned));
+        if (b == 8) ck_ok(vox_body_set_enabled(grid, mesh, 0));
         const std::uint32_t off[] = {0, 3, 4};
         if (b == 9) ck_ok(vox_mesh_set_tets_enabled(grid, mesh, off, 3, 0));
     }

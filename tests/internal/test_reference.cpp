@@ -82,9 +82,9 @@ double dense_cells(const Meshes& scene, double cell_size) {
 void check_contacts(const vox::Array<vox_contact>& found, const oracle_contact* expected, std::size_t count) {
     ck_assert_uint_eq(found.size(), count);
     for (std::size_t i = 0; i < count; ++i) {
-        ck_assert_uint_eq(found[i].mesh_a, expected[i].mesh_a);
+        ck_assert_uint_eq(found[i].body_a, expected[i].body_a);
         ck_assert_uint_eq(found[i].vertex, expected[i].vertex);
-        ck_assert_uint_eq(found[i].mesh_b, expected[i].mesh_b);
+        ck_assert_uint_eq(found[i].body_b, expected[i].body_b);
         ck_assert_uint_eq(found[i].tet, expected[i].tet);
         for (std::size_t w = 0; w < 4; ++w)
             ck_assert_double_le(std::abs(double(found[i].barycentric[w]) - expected[i].barycentric[w]),
@@ -252,7 +252,7 @@ START_TEST(flat_tets_hold_nothing) {
     for (Vec3f& p : scene[0].positions) p.z = 0.5f;
     check_scene(engine, scene); // the flat body's vertices are still in the other one
     ck_assert_uint_gt(engine.contacts.size(), 0);
-    for (const vox_contact& contact : engine.contacts) ck_assert_uint_eq(contact.mesh_b, 1);
+    for (const vox_contact& contact : engine.contacts) ck_assert_uint_eq(contact.body_b, 1);
     ck_assert_uint_eq(engine.counters.skipped_degenerate, 48);
     for (Vec3f& p : scene[1].positions) p = {0.5f, 0.5f, 0.5f};
     ck_assert_uint_eq(check_scene(engine, scene), 0);

@@ -239,7 +239,7 @@ public:
             mesh.vertex_count = body.vertex_count;
             mesh.tets = body.tets[0].v;
             mesh.tet_count = body.tets.size();
-            vox_mesh id = 0;
+            vox_body id = 0;
             ck_assert_int_eq(vox_mesh_insert(grid, &mesh, &id), VOX_OK);
             meshes.push_back(id);
         }
@@ -257,7 +257,7 @@ public:
     }
 
     vox_grid* grid = nullptr;
-    std::vector<vox_mesh> meshes;
+    std::vector<vox_body> meshes;
 };
 
 void ck_same(const vox_suggestion& a, const vox_suggestion& b) {
@@ -321,7 +321,7 @@ START_TEST(what_changed_since_the_step_counts) {
     ck_assert_int_eq(vox_mesh_set_tets_enabled(grid.grid, grid.meshes[0], some.data(), some.size(), 1),
                      VOX_OK);
     ck_assert_uint_eq(grid.suggest().stats.boundary_facets, moved.stats.boundary_facets);
-    ck_assert_int_eq(vox_mesh_remove(grid.grid, grid.meshes[1]), VOX_OK);
+    ck_assert_int_eq(vox_body_remove(grid.grid, grid.meshes[1]), VOX_OK);
     ck_assert_uint_eq(grid.suggest().stats.tets, scene.bodies()[0].tets.size());
 }
 END_TEST

@@ -72,7 +72,7 @@ std::vector<std::vector<std::uint32_t>> features_of(vox_surface* surface, std::s
     }
     vox_feature_view view{};
     view.struct_size = sizeof view;
-    ck_ok(vox_surface_features(surface, vox_feature(kind), &view));
+    ck_ok(vox_surface_get_features(surface, vox_feature(kind), &view));
     for (std::uint64_t i = 0; i < view.count; ++i)
         found.emplace_back(view.vertices + i * view.vertices_each,
                            view.vertices + (i + 1) * view.vertices_each);
@@ -115,7 +115,8 @@ START_TEST(close_pairs_are_those_within_the_distance) {
                        b = features_of(surface, s.at.size(), kind[1]);
             vox_close_view view{};
             view.struct_size = sizeof view;
-            ck_ok(vox_surface_close(surface, vox_feature(kind[0]), vox_feature(kind[1]), distance, &view));
+            ck_ok(vox_surface_find_proximities(surface, vox_feature(kind[0]), vox_feature(kind[1]), distance,
+                                               &view));
             std::uint64_t next = 0;
             for (std::uint32_t i = 0; i < a.size(); ++i)
                 for (std::uint32_t j = kind[0] == kind[1] ? i + 1 : 0; j < b.size(); ++j) {
@@ -158,7 +159,7 @@ START_TEST(nothing_touches_within_the_clearance) {
         vox_surface* const surface = surface_of(s, std::uint32_t(1 + seed % 4));
         put(surface, s.at);
         std::vector<double> clearance(s.at.size(), -1);
-        ck_ok(vox_surface_clearance(surface, most, clearance.data(), clearance.size()));
+        ck_ok(vox_surface_find_clearances(surface, most, clearance.data(), clearance.size()));
         // By definition: half of the least distance, capped.
         std::vector<double> expected(s.at.size(), most);
         struct Pair {
@@ -208,24 +209,24 @@ START_TEST(what_is_refused) {
     view.struct_size = sizeof view;
     view.count = 5;
     std::vector<double> clearance(s.at.size());
-    ck_fails(vox_surface_close(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 1, &view),
+    ck_fails(vox_surface_find_proximities(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 1, &view),
              VOX_ERROR_INVALID_STATE, "no positions");
-    ck_fails(vox_surface_clearance(surface, 1, clearance.data(), clearance.size()), VOX_ERROR_INVALID_STATE,
-             "no positions");
+    ck_fails(vox_surface_find_clearances(surface, 1, clearance.data(), clearance.size()),
+             VOX_ERROR_INVALID_STATE, "no positions");
     put(surface, s.at);
     for (const double bad : {-1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
-        ck_fails(vox_surface_close(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, bad, &view),
+        ck_fails(vox_surface_find_proximities(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, bad, &view),
                  VOX_ERROR_INVALID_ARGUMENT, "distance");
-        ck_fails(vox_surface_clearance(surface, bad, clearance.data(), clearance.size()),
+        ck_fails(vox_surface_find_clearances(surface, bad, clearance.data(), clearance.size()),
                  VOX_ERROR_INVALID_ARGUMENT, "most");
     }
-    ck_fails(vox_surface_clearance(surface, 0, clearance.data(), clearance.size()),
+    ck_fails(vox_surface_find_clearances(surface, 0, clearance.data(), clearance.size()),
              VOX_ERROR_INVALID_ARGUMENT, "most is 0");
-    ck_fails(vox_surface_clearance(surface, 1, clearance.data(), 3), VOX_ERROR_INVALID_ARGUMENT,
+    ck_fails(vox_surface_find_clearances(surface, 1, clearance.data(), 3), VOX_ERROR_INVALID_ARGUMENT,
              "vertex_count is 3");
-    ck_fails(vox_surface_clearance(surface, 1, nullptr, clearance.size()), VOX_ERROR_INVALID_ARGUMENT,
+    ck_fails(vox_surface_find_clearances(surface, 1, nullptr, clearance.size()), VOX_ERROR_INVALID_ARGUMENT,
              "per_vertex is null");
-    ck_fails(vox_surface_close(surface, VOX_FEATURE_FACE, VOX_FEATURE_FACE, 1, &view),
+    ck_fails(vox_surface_find_proximities(surface, VOX_FEATURE_FACE, VOX_FEATURE_FACE, 1, &view),
              VOX_ERROR_INVALID_ARGUMENT, "FACE and VERTEX");
     ck_assert_uint_eq(view.count, 5);
     vox_surface_destroy(surface);
@@ -235,8 +236,8 @@ START_TEST(what_is_refused) {
     motion.vertex_count = s.at.size();
     motion.format = VOX_FORMAT_DOUBLE3;
     if (vox_surface_move(tight, &motion) == VOX_OK)
-        ck_fails(vox_surface_close(tight, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 10, &view), VOX_ERROR_BUDGET,
-                 "20000");
+        ck_fails(vox_surface_find_proximities(tight, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 10, &view),
+                 VOX_ERROR_BUDGET, "20000");
     vox_surface_destroy(tight);
 }
 END_TEST

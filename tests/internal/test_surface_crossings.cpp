@@ -1,4 +1,4 @@
-// vox_surface_crossings against all edges and all faces, each pair decided by find_crossing(), which
+// vox_surface_find_crossings against all edges and all faces, each pair decided by find_crossing(), which
 // test_crossing compares with rational numbers.
 #include "exact/crossing.hpp"
 #include "scenes/bodies.h"
@@ -60,7 +60,7 @@ void move(vox_surface* surface, const TestSurface& of, const void* from, const v
 std::vector<vox_crossing> crossings_of(vox_surface* surface) {
     vox_crossing_view view{};
     view.struct_size = sizeof view;
-    ck_ok(vox_surface_crossings(surface, &view));
+    ck_ok(vox_surface_find_crossings(surface, &view));
     ck_assert_uint_eq(view.byte_stride, sizeof(vox_crossing));
     return {view.crossings, view.crossings + view.count};
 }
@@ -68,7 +68,7 @@ std::vector<vox_crossing> crossings_of(vox_surface* surface) {
 std::vector<std::uint32_t> edges_of(const vox_surface* surface) {
     vox_feature_view view{};
     view.struct_size = sizeof view;
-    ck_ok(vox_surface_features(surface, VOX_FEATURE_EDGE, &view));
+    ck_ok(vox_surface_get_features(surface, VOX_FEATURE_EDGE, &view));
     return {view.vertices, view.vertices + 2 * view.count};
 }
 
@@ -206,17 +206,17 @@ START_TEST(arguments) {
     vox_crossing_view view{};
     view.struct_size = sizeof view;
     view.count = 77;
-    ck_fails(vox_surface_crossings(nullptr, &view), VOX_ERROR_INVALID_ARGUMENT, "surface is null");
-    ck_fails(vox_surface_crossings(surface, nullptr), VOX_ERROR_INVALID_ARGUMENT, "out_view is null");
-    ck_fails(vox_surface_crossings(surface, &view), VOX_ERROR_INVALID_STATE, "no positions yet");
+    ck_fails(vox_surface_find_crossings(nullptr, &view), VOX_ERROR_INVALID_ARGUMENT, "surface is null");
+    ck_fails(vox_surface_find_crossings(surface, nullptr), VOX_ERROR_INVALID_ARGUMENT, "out_view is null");
+    ck_fails(vox_surface_find_crossings(surface, &view), VOX_ERROR_INVALID_STATE, "no positions yet");
     view.struct_size = 3;
-    ck_fails(vox_surface_crossings(surface, &view), VOX_ERROR_INVALID_ARGUMENT, "struct_size");
+    ck_fails(vox_surface_find_crossings(surface, &view), VOX_ERROR_INVALID_ARGUMENT, "struct_size");
     ck_assert_uint_eq(view.count, 77);
     // No more is written than the size covers.
     move(surface, s, s.positions.data());
     view.struct_size = offsetof(vox_crossing_view, crossings);
     view.crossings = reinterpret_cast<const vox_crossing*>(&view);
-    ck_ok(vox_surface_crossings(surface, &view));
+    ck_ok(vox_surface_find_crossings(surface, &view));
     ck_assert_uint_eq(view.count, 0);
     ck_assert_ptr_eq(view.crossings, &view);
     vox_surface_destroy(surface);
@@ -253,7 +253,7 @@ START_TEST(budgets) {
     ck_assert_uint_eq(expected.size(), n);
     vox_pair_counters counters{};
     counters.struct_size = sizeof counters;
-    ck_ok(vox_surface_counters(surface, &counters));
+    ck_ok(vox_surface_get_counters(surface, &counters));
     vox_surface_destroy(surface);
     const std::uint64_t most = counters.peak_bytes;
     int refused = 0, answered = 0;
@@ -268,7 +268,7 @@ START_TEST(budgets) {
         if (vox_surface_move(surface, &motion) == VOX_OK) {
             vox_crossing_view view{};
             view.struct_size = sizeof view;
-            const vox_result result = vox_surface_crossings(surface, &view);
+            const vox_result result = vox_surface_find_crossings(surface, &view);
             if (result == VOX_OK) {
                 check_equal({view.crossings, view.crossings + view.count}, expected);
                 ++answered;
@@ -276,7 +276,7 @@ START_TEST(budgets) {
                 ck_assert_int_eq(result, VOX_ERROR_BUDGET);
                 ++refused;
             }
-            ck_ok(vox_surface_counters(surface, &counters));
+            ck_ok(vox_surface_get_counters(surface, &counters));
             ck_assert_uint_le(counters.peak_bytes, desc.byte_budget);
         }
         vox_surface_destroy(surface);

@@ -71,7 +71,7 @@ START_TEST(closed_and_open_surfaces) {
     ck_assert(close_to(r.volume, 1.0 / 6, 1e-15));
     vox_io_mesh* mesh = made(corner, 4, NULL, 0, inside_out, 4);
     ck_assert(close_to(report_of(mesh).volume, -1.0 / 6, 1e-15));
-    ck_assert_ptr_nonnull(strstr(vox_io_mesh_warnings(mesh), "inside out"));
+    ck_assert_ptr_nonnull(strstr(vox_io_mesh_get_warnings(mesh), "inside out"));
     vox_io_mesh_destroy(mesh);
 
     r = report_of_arrays(corner, 4, NULL, 0, closed, 3);
@@ -178,7 +178,7 @@ START_TEST(report_sizes) {
     memset(&part, 0xab, sizeof part);
     full = report_of(mesh);
     part.struct_size = (uint32_t)offsetof(vox_io_report, tets);
-    ck_ok(vox_io_mesh_report(mesh, &part));
+    ck_ok(vox_io_mesh_get_report(mesh, &part));
     ck_assert_uint_eq(part.vertices, 4);
     ck_assert_uint_eq(part.tets, 0xababababababababu);
     struct {
@@ -187,13 +187,13 @@ START_TEST(report_sizes) {
     } larger;
     memset(&larger, 0xab, sizeof larger);
     larger.report.struct_size = (uint32_t)sizeof larger;
-    ck_ok(vox_io_mesh_report(mesh, &larger.report));
+    ck_ok(vox_io_mesh_get_report(mesh, &larger.report));
     ck_assert_uint_eq(larger.report.tets, full.tets);
     ck_assert_uint_eq(larger.more, 0xababababababababu);
     part.struct_size = 0;
-    ck_fails(vox_io_mesh_report(mesh, &part), VOX_ERROR_INVALID_ARGUMENT, "struct_size");
-    ck_fails(vox_io_mesh_report(mesh, NULL), VOX_ERROR_INVALID_ARGUMENT, "null");
-    ck_fails(vox_io_mesh_report(NULL, &full), VOX_ERROR_INVALID_ARGUMENT, "mesh");
+    ck_fails(vox_io_mesh_get_report(mesh, &part), VOX_ERROR_INVALID_ARGUMENT, "struct_size");
+    ck_fails(vox_io_mesh_get_report(mesh, NULL), VOX_ERROR_INVALID_ARGUMENT, "null");
+    ck_fails(vox_io_mesh_get_report(NULL, &full), VOX_ERROR_INVALID_ARGUMENT, "mesh");
     vox_io_mesh_destroy(mesh);
 }
 END_TEST
@@ -232,7 +232,7 @@ START_TEST(bad_arguments) {
     const vox_io_source two[2] = {source, source};
     ck_fails(vox_io_read(two, 2, &desc, &mesh), VOX_ERROR_INVALID_ARGUMENT, "source_count");
 
-    ck_fails(vox_io_mesh_get(NULL, NULL), VOX_ERROR_INVALID_ARGUMENT, "mesh");
+    ck_fails(vox_io_mesh_get_arrays(NULL, NULL), VOX_ERROR_INVALID_ARGUMENT, "mesh");
     vox_io_mesh_view view = {corner, 4, NULL, 0, NULL, 0};
     ck_fails(vox_io_mesh_create(NULL, &mesh), VOX_ERROR_INVALID_ARGUMENT, "arrays");
     ck_fails(vox_io_mesh_create(&view, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_mesh");
@@ -258,7 +258,7 @@ START_TEST(bad_arguments) {
 
     ck_assert_ptr_eq(mesh, untouched);
     vox_io_mesh_destroy(NULL);
-    ck_assert_ptr_null(vox_io_mesh_warnings(NULL));
+    ck_assert_ptr_null(vox_io_mesh_get_warnings(NULL));
     for (int f = -1; f <= 8; ++f)
         ck_assert_str_ne(vox_io_format_string((vox_io_format)(f < 0 ? 1000 : f)), "");
 }
@@ -442,7 +442,7 @@ START_TEST(scenes) {
     r = report_of(mesh);
     ck_assert_uint_eq(r.triangles, 2);
     ck_assert_uint_eq(r.open_edges, 4);
-    ck_assert_ptr_nonnull(strstr(vox_io_mesh_warnings(mesh), "open"));
+    ck_assert_ptr_nonnull(strstr(vox_io_mesh_get_warnings(mesh), "open"));
     vox_io_mesh_destroy(mesh);
     desc.mesh_index = 6;
     ck_fails(vox_io_read(&source, 1, &desc, &mesh), VOX_ERROR_INVALID_ARGUMENT, "holds 6");

@@ -67,8 +67,8 @@ static record results(const float_mode* mode) {
     ck_assert_int_gt(r.reports, 0);
     for (int i = 0; i < 5; ++i) {
         ck_in_mode(mode, vox_io_write_to(meshes[i], &desc, &sink));
-        ck_in_mode(mode, vox_io_mesh_report(meshes[i], &report));
-        ck_in_mode(mode, vox_io_measure_quality(meshes[i], NULL, &quality));
+        ck_in_mode(mode, vox_io_mesh_get_report(meshes[i], &report));
+        ck_in_mode(mode, vox_io_mesh_measure(meshes[i], NULL, &quality));
         r.state = 0;
         keep(&report, sizeof report, &r);
         keep(&quality, sizeof quality, &r);

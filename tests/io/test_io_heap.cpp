@@ -63,7 +63,7 @@ START_TEST(each_allocation_of_a_load) {
             vox_io_report report;
             report.struct_size = sizeof report;
             if (life([&] { return vox_io_load(path.c_str(), nullptr, &held.mesh); }) &&
-                life([&] { return vox_io_mesh_report(held.mesh, &report); }))
+                life([&] { return vox_io_mesh_get_report(held.mesh, &report); }))
                 life.hash = report.vertices * 1000 + report.tets;
         });
     }
@@ -107,7 +107,7 @@ START_TEST(each_allocation_of_a_fill) {
             Held held;
             vox_io_mesh_view view;
             if (!life([&] { return vox_io_tetrahedralize(surface, &desc, &held.filled); })) return;
-            ck_ok(vox_io_mesh_get(held.filled, &view));
+            ck_ok(vox_io_mesh_get_arrays(held.filled, &view));
             life.hash = view.tet_count;
         },
         3);
@@ -130,7 +130,7 @@ START_TEST(nothing_besides_memory_of_the_caller) {
         vox_io_mesh_destroy(mesh);
         const std::int64_t before = heap::held;
         ck_ok(vox_io_load(path.c_str(), &desc, &mesh));
-        const bool has_warnings = *vox_io_mesh_warnings(mesh) != '\0';
+        const bool has_warnings = *vox_io_mesh_get_warnings(mesh) != '\0';
         ck_assert_msg(heap::held <= before + has_warnings, "%s: %d blocks of the C++ heap", name,
                       int(heap::held - before));
         vox_io_mesh_destroy(mesh);

@@ -68,7 +68,7 @@ static void check_row(const char* name, const char* must, const char* vertices, 
     check_sound(mesh);
     check_same(mesh, again);
     const vox_io_report report = report_of(mesh);
-    const char* warnings = vox_io_mesh_warnings(mesh);
+    const char* warnings = vox_io_mesh_get_warnings(mesh);
     ck_assert_msg(strcmp(must, "error") != 0, "%s must be refused, but gives %llu tets", name,
                   (unsigned long long)report.tets);
     ck_assert_msg(allows(vertices, (double)report.vertices), "%s: %llu vertices", name,

@@ -13,7 +13,7 @@ static vox_io_mesh* loaded(const char* folder, const char* name) {
 /* Statistics that the core computes, over positions in single precision. */
 static vox_geometry_stats stats_of(const vox_io_mesh* mesh) {
     vox_io_mesh_view view;
-    ck_ok(vox_io_mesh_get(mesh, &view));
+    ck_ok(vox_io_mesh_get_arrays(mesh, &view));
     float* positions = (float*)malloc(3 * sizeof(float) * view.vertex_count);
     for (uint64_t i = 0; i < 3 * view.vertex_count; ++i) positions[i] = (float)view.positions[i];
     vox_mesh_desc desc = vox_default_mesh_desc();
@@ -30,7 +30,7 @@ static vox_geometry_stats stats_of(const vox_io_mesh* mesh) {
 
 static uint64_t boundary_vertices(const vox_io_mesh* mesh) {
     vox_io_mesh_view view;
-    ck_ok(vox_io_mesh_get(mesh, &view));
+    ck_ok(vox_io_mesh_get_arrays(mesh, &view));
     unsigned char* seen = (unsigned char*)calloc(view.vertex_count, 1);
     for (uint64_t t = 0; t < view.tet_count; ++t)
         for (int skip = 0; skip < 4; ++skip) {
@@ -71,7 +71,7 @@ START_TEST(ball_in_every_format) {
         ck_assert_uint_eq(report.non_manifold_facets, 0);
         ck_assert_uint_eq(report.components, 1);
         ck_assert(report.triangles == 0 || report.triangles == 380);
-        ck_assert_str_eq(vox_io_mesh_warnings(mesh), "");
+        ck_assert_str_eq(vox_io_mesh_get_warnings(mesh), "");
         ck_assert_uint_eq(stats.edges, 1328);
         ck_assert_uint_eq(stats.facets, 1956);
         ck_assert(close_to(stats.mean_edge, 0.3522863976, 1e-6));
@@ -81,8 +81,8 @@ START_TEST(ball_in_every_format) {
             first = mesh;
         } else { /* the same tets in the same order */
             vox_io_mesh_view a, b;
-            ck_ok(vox_io_mesh_get(first, &a));
-            ck_ok(vox_io_mesh_get(mesh, &b));
+            ck_ok(vox_io_mesh_get_arrays(first, &a));
+            ck_ok(vox_io_mesh_get_arrays(mesh, &b));
             ck_assert_msg(memcmp(a.tets, b.tets, 16 * a.tet_count) == 0, "%s: other tets", line);
             double farthest = 0;
             for (uint64_t i = 0; i < 3 * a.vertex_count; ++i)
@@ -111,8 +111,8 @@ START_TEST(meshes_as_found) {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
         vox_io_mesh *mesh = loaded("real", rows[i].name), *twin = loaded("real", rows[i].twin);
         vox_io_mesh_view a, b;
-        ck_ok(vox_io_mesh_get(mesh, &a));
-        ck_ok(vox_io_mesh_get(twin, &b));
+        ck_ok(vox_io_mesh_get_arrays(mesh, &a));
+        ck_ok(vox_io_mesh_get_arrays(twin, &b));
         ck_assert_uint_eq(a.tet_count, rows[i].tets);
         ck_assert_uint_eq(b.tet_count, rows[i].tets);
         ck_assert_uint_eq(a.vertex_count, b.vertex_count);
@@ -145,7 +145,7 @@ START_TEST(paper_models) {
         ck_assert_uint_eq(report.vertices, rows[i].vertices);
         ck_assert_uint_eq(report.tets, rows[i].tets);
         ck_assert(fabs(report.volume - rows[i].volume) < 1e-4);
-        ck_assert_str_eq(vox_io_mesh_warnings(msh), "");
+        ck_assert_str_eq(vox_io_mesh_get_warnings(msh), "");
         vox_io_mesh_destroy(msh);
         vox_io_mesh_destroy(node);
     }

@@ -72,7 +72,7 @@ START_TEST(points_alone) {
         desc.mesh_index = i % 2 ? 0 : VOX_IO_ALL_MESHES;
         ck_assert_msg(vox_io_read(&source, 1, &desc, &mesh) == VOX_OK, "%s", vox_last_error());
         vox_io_mesh_view view;
-        ck_assert_int_eq(vox_io_mesh_get(mesh, &view), VOX_OK);
+        ck_assert_int_eq(vox_io_mesh_get_arrays(mesh, &view), VOX_OK);
         ck_assert_uint_eq(view.vertex_count, 3);
         ck_assert_uint_eq(view.triangle_count, 0);
         ck_assert_double_eq(view.positions[6], 1);
@@ -321,7 +321,7 @@ START_TEST(polygons) {
     for (size_t i = 0; i < sizeof rows / sizeof *rows; ++i) {
         vox_io_mesh* mesh = read_text("a.obj", rows[i].text);
         vox_io_mesh_view view;
-        ck_ok(vox_io_mesh_get(mesh, &view));
+        ck_ok(vox_io_mesh_get_arrays(mesh, &view));
         ck_assert_uint_eq(view.triangle_count, rows[i].triangles);
         double sum = 0;
         for (uint64_t t = 0; t < view.triangle_count; ++t) {

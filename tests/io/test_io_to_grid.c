@@ -15,7 +15,7 @@ static uint64_t contacts_with_copy(const vox_mesh_desc* desc) {
     const double moved[12] = {1, 0, 0, 0.3, 0, 1, 0, 0.2, 0, 0, 1, 0.01};
     vox_grid* grid = grid_of(NULL);
     (void)insert_mesh(grid, desc);
-    ck_ok(vox_mesh_set_transform(grid, insert_mesh(grid, desc), moved));
+    ck_ok(vox_body_set_transform(grid, insert_mesh(grid, desc), moved));
     ck_ok(vox_grid_step(grid));
     const uint64_t count = contacts_of(grid).count;
     vox_grid_destroy(grid);
@@ -26,11 +26,11 @@ START_TEST(described) {
     vox_io_mesh* mesh = box_of(NULL);
     vox_io_mesh_view view;
     vox_filter filter = vox_default_filter();
-    ck_ok(vox_io_mesh_get(mesh, &view));
+    ck_ok(vox_io_mesh_get_arrays(mesh, &view));
     const vox_mesh_desc by_hand =
         vox_mesh_desc_doubles(view.positions, view.vertex_count, view.tets, view.tet_count);
     vox_mesh_desc desc = vox_default_mesh_desc();
-    ck_ok(vox_io_mesh_desc(mesh, &desc));
+    ck_ok(vox_io_mesh_describe(mesh, &desc));
     ck_assert_mem_eq(&desc, &by_hand, sizeof desc);
     const uint64_t count = contacts_with_copy(&desc);
     ck_assert_uint_gt(count, 0);
@@ -49,7 +49,7 @@ START_TEST(described) {
     desc.filter = &filter;
     desc.rest_positions = view.positions;
     desc.rest_position_byte_stride = 48;
-    ck_ok(vox_io_mesh_desc(mesh, &desc));
+    ck_ok(vox_io_mesh_describe(mesh, &desc));
     vox_mesh_desc expected = by_hand;
     expected.user_data = 5;
     expected.flags = VOX_MESH_COPY_POSITIONS;
@@ -61,29 +61,30 @@ START_TEST(described) {
     /* An older program's struct, and one that holds no format. */
     memset(&desc, 0xaa, sizeof desc);
     desc.struct_size = offsetof(vox_mesh_desc, filter);
-    ck_ok(vox_io_mesh_desc(mesh, &desc));
+    ck_ok(vox_io_mesh_describe(mesh, &desc));
     ck_assert_uint_eq(desc.struct_size, offsetof(vox_mesh_desc, filter));
     ck_assert_ptr_eq(desc.positions, view.positions);
     ck_assert_int_eq(desc.position_format, VOX_FORMAT_DOUBLE3);
     ck_assert_uint_eq(desc.position_component_byte_stride, 0xaaaaaaaaaaaaaaaau);
     desc.struct_size = offsetof(vox_mesh_desc, position_format);
-    ck_fails(vox_io_mesh_desc(mesh, &desc), VOX_ERROR_INVALID_ARGUMENT, "does not reach to position_format");
+    ck_fails(vox_io_mesh_describe(mesh, &desc), VOX_ERROR_INVALID_ARGUMENT,
+             "does not reach to position_format");
     desc.struct_size = 0;
-    ck_fails(vox_io_mesh_desc(mesh, &desc), VOX_ERROR_INVALID_ARGUMENT, "desc.struct_size is 0");
-    ck_fails(vox_io_mesh_desc(mesh, NULL), VOX_ERROR_INVALID_ARGUMENT, "desc is null");
-    ck_fails(vox_io_mesh_desc(NULL, &desc), VOX_ERROR_INVALID_ARGUMENT, "mesh is null");
+    ck_fails(vox_io_mesh_describe(mesh, &desc), VOX_ERROR_INVALID_ARGUMENT, "desc.struct_size is 0");
+    ck_fails(vox_io_mesh_describe(mesh, NULL), VOX_ERROR_INVALID_ARGUMENT, "desc is null");
+    ck_fails(vox_io_mesh_describe(NULL, &desc), VOX_ERROR_INVALID_ARGUMENT, "mesh is null");
     vox_io_mesh_destroy(mesh);
 }
 END_TEST
 
-/* The trap that vox_io_mesh_desc is there for. */
+/* The trap that vox_io_mesh_describe is there for. */
 START_TEST(doubles_of_a_file_as_floats) {
     vox_io_mesh* mesh = NULL;
     vox_io_mesh_view view;
     vox_mesh_desc desc = vox_default_mesh_desc();
     vox_suggestion suggestion;
     ck_ok(vox_io_make_lattice_ball(2000, 1, &mesh));
-    ck_ok(vox_io_mesh_get(mesh, &view));
+    ck_ok(vox_io_mesh_get_arrays(mesh, &view));
     desc.positions = view.positions;
     desc.vertex_count = view.vertex_count;
     desc.tets = view.tets;
@@ -103,7 +104,7 @@ static void check_same_report(const vox_io_mesh* a, const vox_io_mesh* b) {
     const vox_io_report r = report_of(a), s = report_of(b);
     ck_assert_uint_eq(r.boundary_facets, s.boundary_facets);
     ck_assert_double_eq(r.volume, s.volume);
-    ck_assert_str_eq(vox_io_mesh_warnings(a), vox_io_mesh_warnings(b));
+    ck_assert_str_eq(vox_io_mesh_get_warnings(a), vox_io_mesh_get_warnings(b));
 }
 
 /* Loads, reads or fills a surface; `out` is untouched where that fails. */
@@ -136,7 +137,7 @@ START_TEST(in_memory_of_the_caller) {
     vox_io_mesh_view view;
     ck_ok(make(_i, NULL, &usual));
     ck_ok(make(_i, &allocator, &mesh));
-    ck_ok(vox_io_mesh_get(mesh, &view));
+    ck_ok(vox_io_mesh_get_arrays(mesh, &view));
     const uint64_t calls = memory.calls;
     ck_assert_uint_ge(memory.bytes, 24 * view.vertex_count + 16 * view.tet_count + 12 * view.triangle_count);
     check_same(usual, mesh);

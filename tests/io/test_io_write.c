@@ -66,7 +66,7 @@ START_TEST(round_trip) {
     ck_ok(vox_io_make_lattice_ball(30000, 1.25, &meshes[1])); /* larger than any buffer of a writer */
     for (int m = 0; m < 2; ++m) {
         vox_io_mesh_view view;
-        ck_ok(vox_io_mesh_get(meshes[m], &view));
+        ck_ok(vox_io_mesh_get_arrays(meshes[m], &view));
         const vox_io_point_data data[2] = {{"position & <moved>", view.positions, 3, 0},
                                            {"depth", view.positions, 1, 0}};
         for (int with_data = 0; with_data < 2; ++with_data) {
@@ -242,7 +242,7 @@ END_TEST
 START_TEST(bad_arguments) {
     vox_io_mesh* mesh = hard_mesh();
     vox_io_mesh_view view;
-    ck_ok(vox_io_mesh_get(mesh, &view));
+    ck_ok(vox_io_mesh_get_arrays(mesh, &view));
     keeper k = {{NULL, 0}, -1};
     const vox_io_sink sink = {keep, &k}, no_write = {NULL, NULL};
     vox_io_write_desc desc = way_desc(0);

@@ -12,7 +12,7 @@ static vox_io_mesh* loaded(const char* name, double* longest) {
     snprintf(path, sizeof path, FOLDER "%s.obj", name);
     ck_ok(vox_io_load(path, NULL, &mesh));
     report.struct_size = sizeof report;
-    ck_ok(vox_io_mesh_report(mesh, &report));
+    ck_ok(vox_io_mesh_get_report(mesh, &report));
     *longest = 0;
     for (int k = 0; k < 3; ++k) *longest = fmax(*longest, report.bounds_max[k] - report.bounds_min[k]);
     return mesh;

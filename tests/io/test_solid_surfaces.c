@@ -133,7 +133,7 @@ START_TEST(sphere) {
     ck_assert_double_eq(quality.hausdorff, fmax(quality.mesh_to_surface, quality.surface_to_mesh));
     ck_assert_uint_eq(facts.pinched_edges, 0);
     ck_assert_int_eq(facts.euler, 2);
-    ck_assert_str_eq(vox_io_mesh_warnings(tets), "");
+    ck_assert_str_eq(vox_io_mesh_get_warnings(tets), "");
     vox_io_mesh_destroy(tets);
     vox_io_mesh_destroy(mesh);
 }
@@ -227,8 +227,8 @@ START_TEST(orientation_does_not_matter) {
     check_stuffed(a);
     check_same(a, b);
     check_same(a, c);
-    ck_assert_str_eq(vox_io_mesh_warnings(a), "");
-    ck_assert_ptr_nonnull(strstr(vox_io_mesh_warnings(c), "orientation"));
+    ck_assert_str_eq(vox_io_mesh_get_warnings(a), "");
+    ck_assert_ptr_nonnull(strstr(vox_io_mesh_get_warnings(c), "orientation"));
     vox_io_mesh_destroy(a);
     vox_io_mesh_destroy(b);
     vox_io_mesh_destroy(c);
@@ -266,7 +266,7 @@ START_TEST(small_hole_is_closed) {
     vox_io_mesh* tets = stuffed(mesh, 0.06);
     const solid_facts facts = check_stuffed(tets);
     ck_assert_double_eq_tol(facts.volume, 4.18879, 0.03);
-    ck_assert_ptr_nonnull(strstr(vox_io_mesh_warnings(tets), "open edges"));
+    ck_assert_ptr_nonnull(strstr(vox_io_mesh_get_warnings(tets), "open edges"));
     vox_io_mesh_destroy(tets);
     vox_io_mesh_destroy(mesh);
 }
@@ -464,7 +464,7 @@ START_TEST(old_and_new_structs) {
     vox_io_quality quality;
     memset(&quality, 0xee, sizeof quality);
     quality.struct_size = offsetof(vox_io_quality, tets);
-    ck_ok(vox_io_measure_quality(a, NULL, &quality));
+    ck_ok(vox_io_mesh_measure(a, NULL, &quality));
     ck_assert_uint_eq(quality.vertices, solid_view(a).vertex_count);
     ck_assert_uint_eq(quality.tets, 0xeeeeeeeeeeeeeeeeu);
     vox_io_mesh_destroy(a);
@@ -520,10 +520,10 @@ START_TEST(bad_arguments) {
     vox_io_mesh* box = NULL;
     ck_ok(vox_io_make_box(1, 1, 1, 0.5, &box));
     ck_fails(vox_io_tetrahedralize(box, NULL, &untouched), VOX_ERROR_INVALID_ARGUMENT, "no triangles");
-    ck_fails(vox_io_measure_quality(NULL, NULL, &quality), VOX_ERROR_INVALID_ARGUMENT, "mesh is null");
-    ck_fails(vox_io_measure_quality(box, NULL, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_quality is null");
+    ck_fails(vox_io_mesh_measure(NULL, NULL, &quality), VOX_ERROR_INVALID_ARGUMENT, "mesh is null");
+    ck_fails(vox_io_mesh_measure(box, NULL, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_quality is null");
     quality.struct_size = 2;
-    ck_fails(vox_io_measure_quality(box, NULL, &quality), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 2");
+    ck_fails(vox_io_mesh_measure(box, NULL, &quality), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 2");
     quality = quality_of(mesh, mesh); /* a surface has no tets to measure */
     ck_assert_uint_eq(quality.tets, 0);
     ck_assert_double_eq(quality.hausdorff, 0);

@@ -45,7 +45,7 @@ static int hash_penetrations(const vox_grid* grid, uint64_t* hash) {
     add_number(hash, view.count);
     for (uint64_t i = 0; i < view.count; ++i) {
         const vox_penetration* p = &view.data[i];
-        add_number(hash, p->mesh_a), add_number(hash, p->vertex), add_number(hash, p->mesh_b);
+        add_number(hash, p->body_a), add_number(hash, p->vertex), add_number(hash, p->body_b);
         add_number(hash, (uint64_t)p->state), add_number(hash, p->contact);
         add_floats(hash, &p->depth, 1), add_floats(hash, p->direction, 3);
     }
@@ -56,22 +56,22 @@ static int hash_events(const vox_grid* grid, uint64_t* hash) {
     vox_pair_view pairs;
     vox_touch_view touches;
     vox_contact_event_view events;
-    if (vox_grid_pairs(grid, &pairs) != VOX_OK || vox_grid_touch_events(grid, &touches) != VOX_OK ||
+    if (vox_grid_get_pairs(grid, &pairs) != VOX_OK || vox_grid_touch_events(grid, &touches) != VOX_OK ||
         vox_grid_contact_events(grid, &events) != VOX_OK)
         return 0;
     add_number(hash, pairs.count), add_number(hash, touches.count), add_number(hash, events.count);
     for (uint64_t i = 0; i < pairs.count; ++i) {
         const vox_pair* p = &pairs.data[i];
-        add_number(hash, p->mesh_a), add_number(hash, p->mesh_b), add_number(hash, p->user_data_a);
+        add_number(hash, p->body_a), add_number(hash, p->body_b), add_number(hash, p->user_data_a);
         for (uint64_t c = 0; c < p->a_in_b + p->b_in_a; ++c) add_number(hash, pairs.contacts[p->first + c]);
     }
     for (uint64_t i = 0; i < touches.count; ++i) {
         const vox_touch_event* e = &touches.data[i];
-        add_number(hash, e->mesh_a), add_number(hash, e->mesh_b), add_number(hash, (uint64_t)e->kind);
+        add_number(hash, e->body_a), add_number(hash, e->body_b), add_number(hash, (uint64_t)e->kind);
     }
     for (uint64_t i = 0; i < events.count; ++i) {
         const vox_contact_event* e = &events.data[i];
-        add_number(hash, e->mesh_a), add_number(hash, e->vertex), add_number(hash, e->mesh_b);
+        add_number(hash, e->body_a), add_number(hash, e->vertex), add_number(hash, e->body_b);
         add_number(hash, (uint64_t)e->kind);
     }
     return 1;
@@ -137,12 +137,13 @@ static int hash_queries(vox_grid* grid, const scene* s, uint64_t* hash) {
 static int hash_contacts(const vox_grid* grid, uint64_t* count, uint64_t* hash) {
     vox_contact_view view;
     vox_interior_view interiors;
-    if (vox_grid_contacts(grid, &view) != VOX_OK || vox_grid_contact_interiors(grid, &interiors) != VOX_OK)
+    if (vox_grid_get_contacts(grid, &view) != VOX_OK ||
+        vox_grid_contact_interiors(grid, &interiors) != VOX_OK)
         return 0;
     *count = view.count;
     for (uint64_t i = 0; i < view.count; ++i) {
         const vox_contact* c = &view.data[i];
-        add_number(hash, c->mesh_a), add_number(hash, c->vertex), add_number(hash, c->mesh_b);
+        add_number(hash, c->body_a), add_number(hash, c->vertex), add_number(hash, c->body_b);
         add_number(hash, c->tet), add_number(hash, interiors.data[i]);
     }
     return 1;
@@ -152,18 +153,19 @@ static int hash_contacts(const vox_grid* grid, uint64_t* count, uint64_t* hash) 
 static int hash_pairs_of_bodies(const vox_grid* grid, uint64_t* count, uint64_t* hash) {
     vox_pair_view pairs;
     vox_touch_view touches;
-    if (vox_grid_pairs(grid, &pairs) != VOX_OK || vox_grid_touch_events(grid, &touches) != VOX_OK) return 0;
+    if (vox_grid_get_pairs(grid, &pairs) != VOX_OK || vox_grid_touch_events(grid, &touches) != VOX_OK)
+        return 0;
     *count = pairs.count;
     for (uint64_t i = 0; i < pairs.count; ++i) {
         const vox_pair* p = &pairs.data[i];
-        add_number(hash, p->mesh_a), add_number(hash, p->mesh_b);
+        add_number(hash, p->body_a), add_number(hash, p->body_b);
         add_number(hash, p->user_data_a), add_number(hash, p->user_data_b);
         for (uint64_t c = 0; c < p->a_in_b + p->b_in_a; ++c) add_number(hash, pairs.contacts[p->first + c]);
     }
     for (int ended = 0; ended < 2; ++ended)
         for (uint64_t i = 0; i < touches.count; ++i)
             if (touches.data[i].kind == (ended ? VOX_TOUCH_ENDED : VOX_TOUCH_BEGAN))
-                add_number(hash, touches.data[i].mesh_a), add_number(hash, touches.data[i].mesh_b);
+                add_number(hash, touches.data[i].body_a), add_number(hash, touches.data[i].body_b);
     return 1;
 }
 
@@ -174,12 +176,12 @@ static int hash_inside(const vox_grid* grid, uint64_t* count, uint64_t* hash) {
     vox_depth_view depths;
     vox_contact_view contacts;
     if (vox_grid_penetrations(grid, &view) != VOX_OK || vox_grid_depths(grid, &depths) != VOX_OK ||
-        vox_grid_contacts(grid, &contacts) != VOX_OK)
+        vox_grid_get_contacts(grid, &contacts) != VOX_OK)
         return 0;
     *count = view.count;
     for (uint64_t i = 0; i < view.count; ++i) {
         const vox_penetration* p = &view.data[i];
-        add_number(hash, p->mesh_a), add_number(hash, p->vertex), add_number(hash, p->mesh_b);
+        add_number(hash, p->body_a), add_number(hash, p->vertex), add_number(hash, p->body_b);
         add_number(hash, (uint64_t)p->state), add_number(hash, contacts.data[p->contact].tet);
         add_floats(hash, contacts.data[p->contact].barycentric, 4);
         add_double(hash, depths.data[i].depth), add_doubles(hash, depths.data[i].direction);
@@ -196,8 +198,8 @@ static int hash_edges(vox_grid* grid, uint64_t* count, uint64_t* hash) {
     *count = view.count;
     for (uint64_t i = 0; i < view.count; ++i) {
         const vox_edge_contact* c = &view.data[i];
-        add_number(hash, c->mesh_a), add_number(hash, c->edge[0]), add_number(hash, c->edge[1]);
-        add_number(hash, c->mesh_b), add_number(hash, c->tet);
+        add_number(hash, c->body_a), add_number(hash, c->edge[0]), add_number(hash, c->edge[1]);
+        add_number(hash, c->body_b), add_number(hash, c->tet);
         for (int k = 0; k < 3; ++k) add_number(hash, c->face[k]);
         add_double(hash, c->edge_weights[0]), add_double(hash, c->edge_weights[1]);
         add_doubles(hash, c->face_weights), add_doubles(hash, c->position);
@@ -212,7 +214,7 @@ static int hash_proximities(const vox_grid* grid, uint64_t* count, uint64_t* has
     *count = view.count;
     for (uint64_t i = 0; i < view.count; ++i) {
         const vox_margin_contact* c = &view.data[i];
-        add_number(hash, c->mesh_a), add_number(hash, c->vertex), add_number(hash, c->mesh_b);
+        add_number(hash, c->body_a), add_number(hash, c->vertex), add_number(hash, c->body_b);
         add_number(hash, c->tet);
         for (int k = 0; k < 3; ++k) add_number(hash, c->face[k]);
         add_doubles(hash, c->face_weights), add_double(hash, c->distance), add_doubles(hash, c->normal);
@@ -226,7 +228,7 @@ static int hash_impacts(const vox_grid* grid, uint64_t* count, uint64_t* hash) {
     *count = view.count;
     for (uint64_t i = 0; i < view.count; ++i) {
         const vox_passage* p = &view.data[i];
-        add_number(hash, p->mesh_a), add_number(hash, p->vertex), add_number(hash, p->mesh_b);
+        add_number(hash, p->body_a), add_number(hash, p->vertex), add_number(hash, p->body_b);
         add_number(hash, p->tet);
         for (int k = 0; k < 3; ++k) add_number(hash, p->face[k]);
         add_double(hash, p->time);
@@ -245,7 +247,7 @@ static void write_doubles(const scene* s, double* const* to) {
 }
 
 /* The id of a fresh grid's meshes: the slot, and the first generation. */
-static vox_mesh mesh_of(uint32_t body) { return (body << 12) + 1; }
+static vox_body mesh_of(uint32_t body) { return (body << 12) + 1; }
 
 static int bind_previous(const scene* s, vox_grid* grid) {
     for (uint32_t b = 0; b < s->count; ++b)
@@ -260,15 +262,15 @@ static int fit_meshes(const scene* s, const settings* how, uint32_t rings, vox_g
     static const double here[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     int ok = 1;
     for (uint32_t b = 0; ok && b < s->count; ++b) {
-        const vox_mesh mesh = mesh_of(b);
+        const vox_body mesh = mesh_of(b);
         if (how->doubles)
             ok = vox_mesh_bind_positions(grid, mesh, as_doubles[b], VOX_FORMAT_DOUBLE3, 0) == VOX_OK;
-        if (how->moved) ok = ok && vox_mesh_set_transform(grid, mesh, here) == VOX_OK;
+        if (how->moved) ok = ok && vox_body_set_transform(grid, mesh, here) == VOX_OK;
         if (rings > 0) {
             vox_filter filter = vox_default_filter();
             filter.self_collision = 1;
             filter.self_rings = rings;
-            ok = ok && vox_mesh_set_filter(grid, mesh, &filter) == VOX_OK;
+            ok = ok && vox_body_set_filter(grid, mesh, &filter) == VOX_OK;
         }
     }
     return ok;
@@ -278,7 +280,7 @@ static int fit_meshes(const scene* s, const settings* how, uint32_t rings, vox_g
 static int print_contacts(vox_grid* grid, const scene* s, int frame) {
     vox_contact_view view;
     uint64_t hash, parts[4] = {1, 2, 3, 4};
-    if (vox_grid_contacts(grid, &view) != VOX_OK || vox_grid_hash(grid, &hash) != VOX_OK ||
+    if (vox_grid_get_contacts(grid, &view) != VOX_OK || vox_grid_get_hash(grid, &hash) != VOX_OK ||
         !hash_penetrations(grid, &parts[0]) || !hash_events(grid, &parts[1]) ||
         !hash_readings(grid, &parts[2]) || !hash_queries(grid, s, &parts[3]))
         return 0;
@@ -404,7 +406,8 @@ static int hash_pairs(vox_surface* surface, uint64_t* count, uint64_t* hash) {
     for (int k = 0; k < 6; ++k) {
         vox_pair_lists lists;
         lists.struct_size = sizeof lists;
-        if (vox_surface_pairs(surface, kinds[k][0], kinds[k][1], 0, UINT64_MAX, &lists) != VOX_OK) return 0;
+        if (vox_surface_find_pairs(surface, kinds[k][0], kinds[k][1], 0, UINT64_MAX, &lists) != VOX_OK)
+            return 0;
         *count += lists.pair_count;
         for (uint64_t i = 0; i <= lists.count; ++i) add_number(hash, lists.offsets[i]);
         for (uint64_t i = 0; i < lists.pair_count; ++i) add_number(hash, lists.partners[i]);
@@ -415,7 +418,7 @@ static int hash_pairs(vox_surface* surface, uint64_t* count, uint64_t* hash) {
 static int hash_crossings(vox_surface* surface, uint64_t* hash) {
     vox_crossing_view view;
     view.struct_size = sizeof view;
-    if (vox_surface_crossings(surface, &view) != VOX_OK) return 0;
+    if (vox_surface_find_crossings(surface, &view) != VOX_OK) return 0;
     add_number(hash, view.count);
     for (uint64_t i = 0; i < view.count; ++i) {
         const vox_crossing* c = &view.crossings[i];
@@ -428,14 +431,15 @@ static int hash_crossings(vox_surface* surface, uint64_t* hash) {
 
 static int hash_distances(vox_surface* surface, uint32_t vertices, double distance, uint64_t* hash) {
     double* clearance = (double*)malloc(sizeof(double) * vertices);
-    int ok = vox_surface_clearance(surface, distance, clearance, vertices) == VOX_OK;
+    int ok = vox_surface_find_clearances(surface, distance, clearance, vertices) == VOX_OK;
     for (uint32_t v = 0; ok && v < vertices; ++v) add_double(hash, clearance[v]);
     free(clearance);
     for (int k = 0; ok && k < 2; ++k) {
         vox_close_view view;
         view.struct_size = sizeof view;
-        ok = vox_surface_close(surface, k ? VOX_FEATURE_EDGE : VOX_FEATURE_FACE,
-                               k ? VOX_FEATURE_EDGE : VOX_FEATURE_VERTEX, distance, &view) == VOX_OK;
+        ok = vox_surface_find_proximities(surface, k ? VOX_FEATURE_EDGE : VOX_FEATURE_FACE,
+                                          k ? VOX_FEATURE_EDGE : VOX_FEATURE_VERTEX, distance,
+                                          &view) == VOX_OK;
         if (!ok) break;
         add_number(hash, view.count);
         for (uint64_t i = 0; i < view.count; ++i) {
@@ -453,8 +457,8 @@ static int hash_times(vox_surface* surface, uint64_t* hash) {
     vox_timed_view view;
     step.struct_size = sizeof step;
     view.struct_size = sizeof view;
-    if (vox_surface_safe_step(surface, NULL, &step) != VOX_OK ||
-        vox_surface_contact_times(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, NULL, &view) != VOX_OK)
+    if (vox_surface_find_safe_step(surface, NULL, &step) != VOX_OK ||
+        vox_surface_find_impacts(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, NULL, &view) != VOX_OK)
         return 0;
     add_double(hash, step.step), add_number(hash, step.pairs), add_number(hash, step.unfinished);
     add_number(hash, (uint64_t)step.kind_a), add_number(hash, step.a), add_number(hash, step.b);

@@ -50,12 +50,12 @@ static inline double* placed(const vox_io_mesh_view* view, double turn, double x
 }
 
 /* Inserts `mesh` with the settings of `like` (null: defaults). */
-static inline vox_mesh insert(vox_sim* sim, const vox_io_mesh* mesh, const vox_sim_body_desc* like,
+static inline vox_body insert(vox_sim* sim, const vox_io_mesh* mesh, const vox_sim_body_desc* like,
                               double turn, double x, double y, double z) {
     vox_sim_body_desc desc = like ? *like : vox_default_sim_body_desc();
     vox_io_mesh_view view;
-    vox_mesh body = VOX_NULL_MESH;
-    ck_ok(vox_io_mesh_get(mesh, &view));
+    vox_body body = VOX_NULL_BODY;
+    ck_ok(vox_io_mesh_get_arrays(mesh, &view));
     double* positions = placed(&view, turn, x, y, z);
     desc.positions = positions;
     desc.vertex_count = view.vertex_count;
@@ -78,13 +78,13 @@ static inline vox_io_mesh* ball(double radius, double cell) {
     return mesh;
 }
 
-static inline vox_sim_body_view view_of(const vox_sim* sim, vox_mesh body) {
+static inline vox_sim_body_view view_of(const vox_sim* sim, vox_body body) {
     vox_sim_body_view view;
-    ck_ok(vox_sim_body_get(sim, body, &view));
+    ck_ok(vox_sim_body_get_view(sim, body, &view));
     return view;
 }
 
-static inline void set_velocity(vox_sim* sim, vox_mesh body, double x, double y, double z) {
+static inline void set_velocity(vox_sim* sim, vox_body body, double x, double y, double z) {
     const vox_sim_body_view view = view_of(sim, body);
     double* velocities = (double*)malloc(3 * sizeof(double) * view.vertex_count);
     for (uint64_t v = 0; v < view.vertex_count; ++v) {
@@ -96,10 +96,10 @@ static inline void set_velocity(vox_sim* sim, vox_mesh body, double x, double y,
     free(velocities);
 }
 
-static inline vox_sim_energies energies(const vox_sim* sim, vox_mesh body) {
+static inline vox_sim_energies energies(const vox_sim* sim, vox_body body) {
     vox_sim_energies energies;
     energies.struct_size = sizeof energies;
-    ck_ok(vox_sim_energy(sim, body, &energies));
+    ck_ok(vox_sim_get_energy(sim, body, &energies));
     return energies;
 }
 
@@ -108,7 +108,7 @@ static inline double total(const vox_sim_energies* e) { return e->kinetic + e->p
 static inline vox_sim_counts counts(const vox_sim* sim) {
     vox_sim_counts counts;
     counts.struct_size = sizeof counts;
-    ck_ok(vox_sim_counters(sim, &counts));
+    ck_ok(vox_sim_get_counters(sim, &counts));
     return counts;
 }
 
@@ -117,7 +117,7 @@ static inline void steps(vox_sim* sim, int count) {
 }
 
 /* All positions and velocities of the body are finite. */
-static inline void ck_finite(const vox_sim* sim, vox_mesh body) {
+static inline void ck_finite(const vox_sim* sim, vox_body body) {
     const vox_sim_body_view view = view_of(sim, body);
     for (uint64_t i = 0; i < 3 * view.vertex_count; ++i)
         ck_assert(isfinite(view.positions[i]) && isfinite(view.velocities[i]));

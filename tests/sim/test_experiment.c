@@ -13,7 +13,7 @@ static vox_sim_body_desc body;
 static void setup(void) {
     vox_io_mesh_view view;
     ck_ok(vox_io_make_lattice_ball(3000, 1, &ball));
-    ck_ok(vox_io_mesh_get(ball, &view));
+    ck_ok(vox_io_mesh_get_arrays(ball, &view));
     body = vox_default_sim_body_desc();
     body.positions = view.positions;
     body.vertex_count = view.vertex_count;
@@ -100,18 +100,18 @@ START_TEST(first_frame_by_hand) {
         mesh.vertex_count = body.vertex_count;
         mesh.tets = body.tets;
         mesh.tet_count = body.tet_count;
-        vox_mesh id;
+        vox_body id;
         ck_ok(vox_mesh_insert(grid, &mesh, &id));
     }
     ck_ok(vox_grid_step(grid));
     vox_contact_view view;
-    ck_ok(vox_grid_contacts(grid, &view));
+    ck_ok(vox_grid_get_contacts(grid, &view));
     ck_assert_uint_gt(view.count, 0);
     char* held = calloc(2 * (size_t)body.tet_count, 1);
     double tets = 0;
     for (uint64_t i = 0; i < view.count; ++i) {
         const vox_contact* contact = (const vox_contact*)((const char*)view.data + i * view.byte_stride);
-        char* mark = &held[contact->tet + (contact->mesh_b == view.data->mesh_b ? 0 : body.tet_count)];
+        char* mark = &held[contact->tet + (contact->body_b == view.data->body_b ? 0 : body.tet_count)];
         tets += *mark == 0;
         *mark = 1;
     }

@@ -7,14 +7,14 @@
 START_TEST(falls_as_the_formula_says) {
     vox_sim* sim = open_sim(NULL);
     vox_io_mesh* mesh = ball(0.5, 0.25);
-    const vox_mesh body = insert(sim, mesh, NULL, 0, 1, 2, 100);
+    const vox_body body = insert(sim, mesh, NULL, 0, 1, 2, 100);
     const vox_sim_energies before = energies(sim, body);
     const int frames = 90;
     steps(sim, frames);
     const vox_sim_energies after = energies(sim, body);
     const vox_sim_body_view view = view_of(sim, body);
     vox_io_mesh_view rest;
-    ck_ok(vox_io_mesh_get(mesh, &rest));
+    ck_ok(vox_io_mesh_get_arrays(mesh, &rest));
     const double n = 10.0 * frames, h = 1.0 / 600, t = frames / 60.0;
     double worst = 0;
     for (uint64_t v = 0; v < view.vertex_count; ++v) {
@@ -34,7 +34,7 @@ END_TEST
 START_TEST(rests_on_the_floor) {
     vox_sim* sim = open_sim(NULL);
     vox_io_mesh* mesh = ball(0.5, 0.2);
-    const vox_mesh body = insert(sim, mesh, NULL, 0, 0, 0, 0.6);
+    const vox_body body = insert(sim, mesh, NULL, 0, 0, 0, 0.6);
     for (int frame = 0; frame < 600; ++frame) {
         ck_ok(vox_sim_step(sim, 1.0 / 60));
         const vox_sim_body_view view = view_of(sim, body);
@@ -52,7 +52,7 @@ START_TEST(rests_on_the_floor) {
 }
 END_TEST
 
-static void angular_momentum(const vox_sim* sim, vox_mesh body, double out[3]) {
+static void angular_momentum(const vox_sim* sim, vox_body body, double out[3]) {
     const vox_sim_body_view view = view_of(sim, body);
     for (uint64_t v = 0; v < view.vertex_count; ++v) {
         const double *x = view.positions + 3 * v, *u = view.velocities + 3 * v, m = view.masses[v];
@@ -67,7 +67,7 @@ START_TEST(a_free_body_keeps_its_momentum) {
     const vox_sim_desc desc = weightless();
     vox_sim* sim = open_sim(&desc);
     vox_io_mesh* mesh = ball(0.5, 0.2);
-    const vox_mesh body = insert(sim, mesh, NULL, 0, 0, 0, 0);
+    const vox_body body = insert(sim, mesh, NULL, 0, 0, 0, 0);
     const vox_sim_body_view view = view_of(sim, body);
     double* state = (double*)malloc(6 * sizeof(double) * view.vertex_count);
     double* velocities = state + 3 * view.vertex_count;
@@ -108,16 +108,16 @@ START_TEST(two_bodies_collide_and_part) {
     const vox_sim_desc desc = weightless();
     vox_sim* sim = open_sim(&desc);
     vox_io_mesh* mesh = ball(0.5, 0.15);
-    const vox_mesh a = insert(sim, mesh, NULL, 0, -0.8, 0.1, 0),
+    const vox_body a = insert(sim, mesh, NULL, 0, -0.8, 0.1, 0),
                    b = insert(sim, mesh, NULL, 0.5, 0.8, -0.1, 0);
     set_velocity(sim, a, 2, 0, 0);
     set_velocity(sim, b, -2, 0, 0);
-    const vox_sim_energies before = energies(sim, VOX_NULL_MESH);
+    const vox_sim_energies before = energies(sim, VOX_NULL_BODY);
     int touching = 0;
     for (int frame = 0; frame < 120; ++frame) {
         ck_ok(vox_sim_step(sim, 1.0 / 60));
         touching += counts(sim).penetrations > 0;
-        const vox_sim_energies now = energies(sim, VOX_NULL_MESH);
+        const vox_sim_energies now = energies(sim, VOX_NULL_BODY);
         ck_assert_double_le(total(&now), total(&before) * (1 + 1e-9));
         for (int axis = 0; axis < 3; ++axis)
             ck_assert_double_le(fabs(now.momentum[axis] - before.momentum[axis]), 1e-8 * before.mass);
@@ -149,7 +149,7 @@ START_TEST(energy_does_not_grow) {
             like.youngs_modulus = moduli[m];
             like.bulk_modulus = moduli[m];
             like.damping = 0;
-            const vox_mesh body = insert(sim, mesh, &like, 0, 0, 0, 1);
+            const vox_body body = insert(sim, mesh, &like, 0, 0, 0, 1);
             const vox_sim_energies before = energies(sim, body);
             for (int frame = 0; frame < 60; ++frame) {
                 ck_ok(vox_sim_step(sim, 1.0 / 60));
@@ -177,7 +177,7 @@ static double slid(double friction, int on_a_body) {
     vox_sim* sim = open_sim(&desc);
     vox_io_mesh* mesh = box(1, 1, 0.5, 0.25);
     vox_io_mesh* ground = box(12, 4, 1, 0.5);
-    const vox_mesh body = insert(sim, mesh, NULL, 0.2, 0, 0, 0.25 + 1e-4);
+    const vox_body body = insert(sim, mesh, NULL, 0.2, 0, 0, 0.25 + 1e-4);
     vox_sim_body_desc fixed = vox_default_sim_body_desc();
     fixed.flags = VOX_SIM_BODY_FIXED;
     if (on_a_body) insert(sim, ground, &fixed, 0, 4, 0, -0.5);
@@ -225,11 +225,11 @@ START_TEST(every_build_moves_bodies_the_same) {
     ck_ok(vox_io_make_lattice_ball(600, 0.8, &mesh));
     insert(sim, mesh, &like, 0, -0.1, 0, 0.85);
     insert(sim, mesh, &like, 0, 0.2, 0.1, 2.6);
-    ck_ok(vox_sim_grid(sim, &grid));
+    ck_ok(vox_sim_get_grid(sim, &grid));
     for (int frame = 0; frame < 80; ++frame) {
         uint64_t hash = 0;
         steps(sim, 1);
-        ck_ok(vox_grid_hash(grid, &hash));
+        ck_ok(vox_grid_get_hash(grid, &hash));
         all = (all ^ hash) * UINT64_C(0x100000001b3);
         penetrations += counts(sim).penetrations;
     }

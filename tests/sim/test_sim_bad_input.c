@@ -10,7 +10,7 @@ static void stays_calm(vox_sim* sim, double speed) {
     for (int frame = 0; frame < 120; ++frame) {
         ck_ok(vox_sim_step(sim, 1.0 / 60));
         if (frame == 0) ck_assert_uint_gt(counts(sim).penetrations, 0);
-        const vox_sim_energies now = energies(sim, VOX_NULL_MESH);
+        const vox_sim_energies now = energies(sim, VOX_NULL_BODY);
         ck_assert(isfinite(total(&now)));
         ck_assert_msg(now.max_speed <= speed, "frame %d: speed %g", frame, now.max_speed);
         last = now.max_speed;
@@ -22,7 +22,7 @@ START_TEST(crossing_bars) {
     const vox_sim_desc desc = weightless();
     vox_sim* sim = open_sim(&desc);
     vox_io_mesh* bar = box(4, 0.5, 0.5, 0.25);
-    const vox_mesh a = insert(sim, bar, NULL, 0, 0, 0, 0),
+    const vox_body a = insert(sim, bar, NULL, 0, 0, 0, 0),
                    b = insert(sim, bar, NULL, acos(-1.0) / 2, 0, 0, 0.1);
     stays_calm(sim, 5);
     ck_finite(sim, a);
@@ -36,7 +36,7 @@ START_TEST(coincident_bodies) {
     const vox_sim_desc desc = weightless();
     vox_sim* sim = open_sim(&desc);
     vox_io_mesh* mesh = ball(0.5, 0.2);
-    const vox_mesh a = insert(sim, mesh, NULL, 0, 0, 0, 0), b = insert(sim, mesh, NULL, 0, 0, 0, 0);
+    const vox_body a = insert(sim, mesh, NULL, 0, 0, 0, 0), b = insert(sim, mesh, NULL, 0, 0, 0, 0);
     stays_calm(sim, 5);
     ck_finite(sim, a);
     ck_finite(sim, b);
@@ -49,7 +49,7 @@ START_TEST(enclosed_body) {
     const vox_sim_desc desc = weightless();
     vox_sim* sim = open_sim(&desc);
     vox_io_mesh *outer = ball(1, 0.25), *inner = ball(0.2, 0.1);
-    const vox_mesh a = insert(sim, outer, NULL, 0, 0, 0, 0),
+    const vox_body a = insert(sim, outer, NULL, 0, 0, 0, 0),
                    b = insert(sim, inner, NULL, 0.3, 0.2, 0.1, 0.05);
     stays_calm(sim, 20); /* squeezed out through the wall, which springs back */
     ck_finite(sim, a);
@@ -63,7 +63,7 @@ END_TEST
 START_TEST(below_the_floor) {
     vox_sim* sim = open_sim(NULL);
     vox_io_mesh* mesh = ball(0.5, 0.2);
-    const vox_mesh body = insert(sim, mesh, NULL, 0, 0, 0, -0.2);
+    const vox_body body = insert(sim, mesh, NULL, 0, 0, 0, -0.2);
     double fastest = 0;
     for (int frame = 0; frame < 180; ++frame) {
         ck_ok(vox_sim_step(sim, 1.0 / 60));
@@ -83,11 +83,11 @@ START_TEST(squashed_and_inverted) {
     static const double scales[] = {0, -1, 1e-9};
     vox_io_mesh* mesh = ball(0.5, 0.2);
     vox_io_mesh_view rest;
-    ck_ok(vox_io_mesh_get(mesh, &rest));
+    ck_ok(vox_io_mesh_get_arrays(mesh, &rest));
     for (int s = 0; s < 3; ++s) {
         const vox_sim_desc desc = weightless();
         vox_sim* sim = open_sim(&desc);
-        const vox_mesh body = insert(sim, mesh, NULL, 0, 0, 0, 0);
+        const vox_body body = insert(sim, mesh, NULL, 0, 0, 0, 0);
         double* squashed = (double*)malloc(3 * sizeof(double) * rest.vertex_count);
         for (uint64_t i = 0; i < 3 * rest.vertex_count; ++i)
             squashed[i] = rest.positions[i] * (i % 3 == 2 ? scales[s] : 1);
@@ -128,7 +128,7 @@ START_TEST(flat_and_inverted_tets_are_counted) {
     vox_sim* sim = open_sim(&settings);
     vox_sim_body_desc desc = odd_body();
     desc.user_data = 77;
-    vox_mesh body;
+    vox_body body;
     ck_ok(vox_sim_body_insert(sim, &desc, &body));
     const vox_sim_counts c = counts(sim);
     ck_assert_uint_eq(c.tets, 3);
@@ -159,7 +159,7 @@ START_TEST(too_large_a_step_is_cut_down) {
     vox_sim* clamped = open_sim(&desc);
     vox_sim_body_desc soft = vox_default_sim_body_desc();
     soft.youngs_modulus = soft.bulk_modulus = 1e4;
-    const vox_mesh a = insert(regular, mesh, &soft, 0, 0, 0, 1), b = insert(clamped, mesh, &soft, 0, 0, 0, 1);
+    const vox_body a = insert(regular, mesh, &soft, 0, 0, 0, 1), b = insert(clamped, mesh, &soft, 0, 0, 0, 1);
     for (int i = 0; i < 60; ++i) {
         ck_ok(vox_sim_step(regular, 1.0 / 30));
         ck_ok(vox_sim_step(clamped, i % 2 ? 5 : 1e300));
@@ -191,7 +191,7 @@ START_TEST(absurd_stiffness_is_cut_down) {
     insert(sim, mesh, &hard, 0, 0.1, 0, 1.7);
     for (int frame = 0; frame < 120; ++frame) {
         ck_ok(vox_sim_step(sim, 1.0 / 60));
-        ck_assert_double_le(energies(sim, VOX_NULL_MESH).max_speed, 10);
+        ck_assert_double_le(energies(sim, VOX_NULL_BODY).max_speed, 10);
     }
     const vox_sim_counts c = counts(sim);
     ck_assert_uint_eq(c.softened, c.edges + c.volumes);
@@ -215,7 +215,7 @@ static size_t fall(vox_engine engine, uint32_t workers, double cell_size, double
     desc.grid = &grid;
     vox_sim* sim = open_sim(&desc);
     vox_io_mesh* mesh = ball(0.5, 0.2);
-    vox_mesh body = VOX_NULL_MESH;
+    vox_body body = VOX_NULL_BODY;
     for (int i = 0; i < 3; ++i) body = insert(sim, mesh, NULL, 0.4 * i, 0.1 * i, -0.05 * i, 0.55 + 1.05 * i);
     uint64_t most = 0;
     for (int frame = 0; frame < 60; ++frame) {
@@ -293,14 +293,14 @@ END_TEST
 
 START_TEST(refuses_bad_bodies) {
     vox_sim* sim = open_sim(NULL);
-    vox_mesh body = VOX_NULL_MESH;
+    vox_body body = VOX_NULL_BODY;
     double bad[21];
     vox_sim_body_desc desc;
 #define REFUSED(field, value, code, words)                                                                   \
     desc = odd_body();                                                                                       \
     desc.field = (value);                                                                                    \
     ck_fails(vox_sim_body_insert(sim, &desc, &body), code, words);                                           \
-    ck_assert_uint_eq(body, VOX_NULL_MESH)
+    ck_assert_uint_eq(body, VOX_NULL_BODY)
     REFUSED(positions, NULL, VOX_ERROR_INVALID_ARGUMENT, "positions are null");
     REFUSED(tets, NULL, VOX_ERROR_INVALID_ARGUMENT, "at least one tet");
     REFUSED(tet_count, 0, VOX_ERROR_INVALID_ARGUMENT, "tet_count is 0");
@@ -335,7 +335,7 @@ END_TEST
 START_TEST(refuses_bad_calls) {
     vox_sim* sim = open_sim(NULL);
     const vox_sim_body_desc desc = odd_body();
-    vox_mesh body, again;
+    vox_body body, again;
     ck_ok(vox_sim_body_insert(sim, &desc, &body));
     static const double steps[] = {0, -1, NAN, INFINITY, 1e-300};
     for (int i = 0; i < 5; ++i)
@@ -356,23 +356,23 @@ START_TEST(refuses_bad_calls) {
     e.struct_size = sizeof e;
     vox_grid* grid;
     ck_fails(vox_sim_step(NULL, 1), VOX_ERROR_INVALID_ARGUMENT, "sim is null");
-    ck_fails(vox_sim_grid(NULL, &grid), VOX_ERROR_INVALID_ARGUMENT, "sim is null");
-    ck_fails(vox_sim_grid(sim, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_grid is null");
-    ck_fails(vox_sim_body_get(sim, body, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_view is null");
-    ck_fails(vox_sim_energy(sim, body, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_energies is null");
-    ck_fails(vox_sim_counters(sim, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_counts is null");
+    ck_fails(vox_sim_get_grid(NULL, &grid), VOX_ERROR_INVALID_ARGUMENT, "sim is null");
+    ck_fails(vox_sim_get_grid(sim, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_grid is null");
+    ck_fails(vox_sim_body_get_view(sim, body, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_view is null");
+    ck_fails(vox_sim_get_energy(sim, body, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_energies is null");
+    ck_fails(vox_sim_get_counters(sim, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_counts is null");
     e.struct_size = 2;
-    ck_fails(vox_sim_energy(sim, body, &e), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 2");
+    ck_fails(vox_sim_get_energy(sim, body, &e), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 2");
     e.struct_size = sizeof e;
 
     ck_ok(vox_sim_body_remove(sim, body));
     ck_ok(vox_sim_body_insert(sim, &desc, &again)); /* in the same slot of the grid */
-    const vox_mesh ids[] = {VOX_NULL_MESH, body, 12345};
+    const vox_body ids[] = {VOX_NULL_BODY, body, 12345};
     for (int i = 0; i < 3; ++i) {
         ck_fails(vox_sim_body_remove(sim, ids[i]), VOX_ERROR_INVALID_HANDLE, "names no body");
-        ck_fails(vox_sim_body_get(sim, ids[i], &view), VOX_ERROR_INVALID_HANDLE, "names no body");
+        ck_fails(vox_sim_body_get_view(sim, ids[i], &view), VOX_ERROR_INVALID_HANDLE, "names no body");
         ck_fails(vox_sim_body_set_state(sim, ids[i], NULL, NULL), VOX_ERROR_INVALID_HANDLE, "names no body");
-        if (i > 0) ck_fails(vox_sim_energy(sim, ids[i], &e), VOX_ERROR_INVALID_HANDLE, "names no body");
+        if (i > 0) ck_fails(vox_sim_get_energy(sim, ids[i], &e), VOX_ERROR_INVALID_HANDLE, "names no body");
     }
     vox_sim_destroy(sim);
 }
@@ -390,7 +390,7 @@ START_TEST(structs_may_be_smaller) {
     vox_sim_counts small;
     memset(&small, 0xab, sizeof small);
     small.struct_size = 8;
-    ck_ok(vox_sim_counters(sim, &small));
+    ck_ok(vox_sim_get_counters(sim, &small));
     ck_assert_uint_eq(small.bodies, 0);
     ck_assert_uint_eq(small.vertices, 0xababababababababull);
     vox_sim_destroy(sim);
@@ -405,23 +405,23 @@ START_TEST(the_grid_is_within_reach) {
     vox_io_mesh* mesh = ball(0.5, 0.25);
     vox_sim_body_desc like = vox_default_sim_body_desc();
     like.user_data = 77;
-    const vox_mesh body = insert(sim, mesh, &like, 0, 0, 0, 0);
+    const vox_body body = insert(sim, mesh, &like, 0, 0, 0, 0);
     vox_grid* grid;
-    ck_ok(vox_sim_grid(sim, &grid));
+    ck_ok(vox_sim_get_grid(sim, &grid));
     static const float point[3] = {0.1f, 0.1f, 0.1f};
     vox_mesh_desc probe = vox_default_mesh_desc();
     probe.positions = point;
     probe.vertex_count = 1;
-    vox_mesh probe_id;
+    vox_body probe_id;
     ck_ok(vox_mesh_insert(grid, &probe, &probe_id));
     steps(sim, 10);
     vox_contact_view contacts;
-    ck_ok(vox_grid_contacts(grid, &contacts));
+    ck_ok(vox_grid_get_contacts(grid, &contacts));
     ck_assert_uint_gt(contacts.count, 0);
-    ck_assert_uint_eq(contacts.data[0].mesh_a, probe_id);
-    ck_assert_uint_eq(contacts.data[0].mesh_b, body);
+    ck_assert_uint_eq(contacts.data[0].body_a, probe_id);
+    ck_assert_uint_eq(contacts.data[0].body_b, body);
     uint64_t user_data = 0;
-    ck_ok(vox_mesh_user_data(grid, body, &user_data));
+    ck_ok(vox_body_get_user_data(grid, body, &user_data));
     ck_assert_uint_eq(user_data, 77);
     ck_assert_uint_eq(counts(sim).penetrations, 0);
     ck_assert_double_le(energies(sim, body).max_speed, 1e-9);
@@ -436,7 +436,7 @@ END_TEST
 static float crowd[300];
 static uint32_t crowd_tets[400];
 
-static void other_topology(vox_grid* grid, vox_mesh body) {
+static void other_topology(vox_grid* grid, vox_body body) {
     vox_mesh_desc desc = vox_default_mesh_desc();
     desc.positions = crowd;
     desc.vertex_count = 100;
@@ -444,44 +444,44 @@ static void other_topology(vox_grid* grid, vox_mesh body) {
     desc.tet_count = 100;
     ck_ok(vox_mesh_set_topology(grid, body, &desc));
 }
-static void more_vertices(vox_grid* grid, vox_mesh body) {
+static void more_vertices(vox_grid* grid, vox_body body) {
     vox_vertices_desc desc = vox_default_vertices_desc();
     uint32_t first;
     desc.count = 92;
     desc.positions = crowd;
     ck_ok(vox_mesh_append_vertices(grid, body, &desc, &first));
 }
-static void more_tets(vox_grid* grid, vox_mesh body) {
+static void more_tets(vox_grid* grid, vox_body body) {
     static const uint32_t all[5] = {0, 1, 2, 3, 4}, corners[4] = {0, 3, 5, 6};
     uint32_t first;
     ck_ok(vox_mesh_remove_tets(grid, body, all, 5));
     ck_ok(vox_mesh_append_tets(grid, body, corners, 1, &first));
 }
-static void other_tets(vox_grid* grid, vox_mesh body) {
+static void other_tets(vox_grid* grid, vox_body body) {
     static const uint32_t tets[5] = {0, 1, 2, 3, 4},
                           corners[20] = {0, 1, 2, 7, 0, 2, 4, 7, 0, 4, 1, 7, 1, 3, 2, 7, 4, 5, 1, 7};
     ck_ok(vox_mesh_replace_tets(grid, body, tets, 5, corners));
 }
-static void other_positions(vox_grid* grid, vox_mesh body) {
+static void other_positions(vox_grid* grid, vox_body body) {
     ck_ok(vox_mesh_bind_positions(grid, body, crowd, VOX_FORMAT_FLOAT3, 0));
 }
-static void no_penetrations(vox_grid* grid, vox_mesh body) {
+static void no_penetrations(vox_grid* grid, vox_body body) {
     (void)body;
     ck_ok(vox_grid_set_flags(grid, 0));
 }
-static void removed(vox_grid* grid, vox_mesh body) { ck_ok(vox_mesh_remove(grid, body)); }
-static void cleared(vox_grid* grid, vox_mesh body) {
+static void removed(vox_grid* grid, vox_body body) { ck_ok(vox_body_remove(grid, body)); }
+static void cleared(vox_grid* grid, vox_body body) {
     (void)body;
     ck_ok(vox_grid_clear(grid));
 }
 
 static const struct {
-    void (*change)(vox_grid* grid, vox_mesh body);
+    void (*change)(vox_grid* grid, vox_body body);
     const char* error; /* null: the simulation goes on without the body's contacts */
-} changes[] = {{other_topology, "changed through vox_sim_grid"},
-               {more_vertices, "changed through vox_sim_grid"},
-               {more_tets, "changed through vox_sim_grid"},
-               {other_tets, "changed through vox_sim_grid"},
+} changes[] = {{other_topology, "changed through vox_sim_get_grid"},
+               {more_vertices, "changed through vox_sim_get_grid"},
+               {more_tets, "changed through vox_sim_get_grid"},
+               {other_tets, "changed through vox_sim_get_grid"},
                {other_positions, "off its place in tet"},
                {no_penetrations, "VOX_GRID_PENETRATIONS"},
                {removed, NULL},
@@ -493,7 +493,7 @@ START_TEST(changes_in_its_grid) {
     const vox_sim_desc settings = weightless();
     static const uint32_t cube[20] = {1, 2, 4, 7, 0, 1, 2, 4, 3, 1, 2, 7, 5, 1, 4, 7, 6, 2, 4, 7};
     vox_sim* sim = open_sim(&settings);
-    vox_mesh bodies[2];
+    vox_body bodies[2];
     vox_grid* grid;
     for (int i = 0; i < 300; ++i) crowd[i] = (float)(i * 5 % 7) * 0.2f + 0.1f;
     for (uint32_t i = 0; i < 400; ++i) crowd_tets[i] = i * 37 % 100;
@@ -510,7 +510,7 @@ START_TEST(changes_in_its_grid) {
     }
     ck_ok(vox_sim_step(sim, 1e-4));
     ck_assert_uint_gt(counts(sim).penetrations, 0);
-    ck_ok(vox_sim_grid(sim, &grid));
+    ck_ok(vox_sim_get_grid(sim, &grid));
     changes[_i].change(grid, bodies[0]);
     if (changes[_i].error) {
         const double before = view_of(sim, bodies[1]).positions[5];

@@ -31,7 +31,7 @@ static double* moved(const float_mode* mode, size_t* size) {
     vox_sim_desc settings = vox_default_sim_desc();
     log_state log = {0, 0, 0};
     vox_sim* sim;
-    vox_mesh ids[bodies];
+    vox_body ids[bodies];
     vox_sim_energies energies;
     energies.struct_size = sizeof energies;
     set_float_mode(mode);
@@ -52,10 +52,10 @@ static double* moved(const float_mode* mode, size_t* size) {
         ck_in_mode(mode, vox_sim_body_insert(sim, &desc, &ids[b]));
     }
     for (int frame = 0; frame < frames; ++frame) ck_in_mode(mode, vox_sim_step(sim, 1.0 / 60));
-    ck_in_mode(mode, vox_sim_energy(sim, VOX_NULL_MESH, &energies));
+    ck_in_mode(mode, vox_sim_get_energy(sim, VOX_NULL_BODY, &energies));
     for (int b = 0; b < bodies; ++b) {
         vox_sim_body_view view;
-        ck_in_mode(mode, vox_sim_body_get(sim, ids[b], &view));
+        ck_in_mode(mode, vox_sim_body_get_view(sim, ids[b], &view));
         memcpy(out + (size_t)b * count, view.positions, count * sizeof(double));
     }
     out[0] += energies.kinetic;

@@ -36,7 +36,7 @@ START_TEST(each_allocation_of_a_simulation) {
             ~Held() { vox_sim_destroy(sim); }
         } held;
         const vox_sim_body_desc a = low.desc(), b = high.desc();
-        vox_mesh bodies[2];
+        vox_body bodies[2];
         vox_sim_body_view view;
         const bool done = life([&] { return vox_sim_create(nullptr, &held.sim); }) &&
                           life([&] { return vox_sim_body_insert(held.sim, &a, &bodies[0]); }) &&
@@ -44,7 +44,7 @@ START_TEST(each_allocation_of_a_simulation) {
                           life([&] { return vox_sim_step(held.sim, 0.01); }) &&
                           life([&] { return vox_sim_body_remove(held.sim, bodies[0]); });
         if (!done) return;
-        ck_ok(vox_sim_body_get(held.sim, bodies[1], &view));
+        ck_ok(vox_sim_body_get_view(held.sim, bodies[1], &view));
         life.hash = view.vertex_count;
     });
 }

@@ -7,8 +7,8 @@ static vox_result run(const vox_sim_desc* desc, const vox_io_mesh* mesh, uint64_
     vox_sim* sim = NULL;
     vox_result result = vox_sim_create(desc, &sim);
     vox_io_mesh_view view;
-    vox_mesh bodies[2] = {VOX_NULL_MESH, VOX_NULL_MESH};
-    ck_ok(vox_io_mesh_get(mesh, &view));
+    vox_body bodies[2] = {VOX_NULL_BODY, VOX_NULL_BODY};
+    ck_ok(vox_io_mesh_get_arrays(mesh, &view));
     double* positions = placed(&view, 0.3, 0.7, 0.1, 0.2);
     vox_sim_body_desc body = vox_default_sim_body_desc();
     body.vertex_count = view.vertex_count;
@@ -22,7 +22,7 @@ static vox_result run(const vox_sim_desc* desc, const vox_io_mesh* mesh, uint64_
     *out = 0;
     for (int b = 0; b < 2 && result == VOX_OK; ++b) {
         vox_sim_body_view state;
-        ck_ok(vox_sim_body_get(sim, bodies[b], &state));
+        ck_ok(vox_sim_body_get_view(sim, bodies[b], &state));
         for (uint64_t i = 0; i < 3 * state.vertex_count; ++i) {
             uint64_t bits;
             memcpy(&bits, &state.positions[i], sizeof bits);

@@ -14,7 +14,7 @@ enum { most_cut_meshes = 4, slot_shift = 12 };
 #define no_number 0xffffffffu
 
 typedef struct cut_mesh {
-    vox_mesh id;
+    vox_body id;
     uint32_t vertices, tets, most_vertices, most_tets;
     double* positions; /* floats where the mesh has floats */
     float* rest;
@@ -159,13 +159,13 @@ static inline rest_of_mesh leave_rest(const cut_mesh* m) {
 }
 
 static inline int same_touch(const vox_contact* x, const vox_contact* y) {
-    return x->mesh_a == y->mesh_a && x->vertex == y->vertex && x->mesh_b == y->mesh_b;
+    return x->body_a == y->body_a && x->vertex == y->vertex && x->body_b == y->body_b;
 }
 
 static inline int touch_before(const vox_contact* x, const vox_contact* y) {
-    if (x->mesh_a != y->mesh_a) return x->mesh_a < y->mesh_a;
+    if (x->body_a != y->body_a) return x->body_a < y->body_a;
     if (x->vertex != y->vertex) return x->vertex < y->vertex;
-    return x->mesh_b < y->mesh_b;
+    return x->body_b < y->body_b;
 }
 
 /* Checks that the touching pairs among `these` that `those` lack are events of one kind. Returns their
@@ -179,17 +179,17 @@ static inline uint64_t expect_contact_events(const vox_contact* these, uint64_t 
         while (other < those_count && touch_before(&those[other], &these[i])) ++other;
         if (other < those_count && same_touch(&those[other], &these[i])) continue;
         const vox_contact_event* e = &events[found++];
-        ck_assert(e->mesh_a == these[i].mesh_a && e->vertex == these[i].vertex &&
-                  e->mesh_b == these[i].mesh_b);
+        ck_assert(e->body_a == these[i].body_a && e->vertex == these[i].vertex &&
+                  e->body_b == these[i].body_b);
         ck_assert_int_eq(e->kind, kind);
     }
     return found;
 }
 
-static inline int touches(const vox_contact* contacts, uint64_t count, vox_mesh a, vox_mesh b) {
+static inline int touches(const vox_contact* contacts, uint64_t count, vox_body a, vox_body b) {
     for (uint64_t i = 0; i < count; ++i)
-        if ((contacts[i].mesh_a == a && contacts[i].mesh_b == b) ||
-            (contacts[i].mesh_a == b && contacts[i].mesh_b == a))
+        if ((contacts[i].body_a == a && contacts[i].body_b == b) ||
+            (contacts[i].body_a == b && contacts[i].body_b == a))
             return 1;
     return 0;
 }
@@ -214,8 +214,8 @@ static inline void check_cut_events(cut_scene* s, const vox_contact_view* view) 
     ck_assert_uint_eq(pairs.count, expected);
     for (uint64_t i = 0; i < pairs.count; ++i) {
         const vox_touch_event* e = &pairs.data[i];
-        const int was = touches(s->was, s->was_count, e->mesh_a, e->mesh_b),
-                  is = touches(view->data, view->count, e->mesh_a, e->mesh_b);
+        const int was = touches(s->was, s->was_count, e->body_a, e->body_b),
+                  is = touches(view->data, view->count, e->body_a, e->body_b);
         ck_assert_int_eq(e->kind, !was ? VOX_TOUCH_BEGAN : is ? VOX_TOUCH_PERSISTED : VOX_TOUCH_ENDED);
     }
     s->events += vertices.count;
@@ -239,40 +239,40 @@ static inline void step_and_compare(cut_scene* s, const vox_grid_desc* desc) {
     ck_assert_uint_eq(mine.count, fresh.count);
     for (uint64_t i = 0; i < mine.count; ++i) {
         vox_contact c = fresh.data[i];
-        const uint32_t a = c.mesh_a >> slot_shift,
-                       b = c.mesh_b >> slot_shift; /* slots of the new grid: 0, 1, ... */
-        c.mesh_a = s->meshes[a].id;
-        c.mesh_b = s->meshes[b].id;
+        const uint32_t a = c.body_a >> slot_shift,
+                       b = c.body_b >> slot_shift; /* slots of the new grid: 0, 1, ... */
+        c.body_a = s->meshes[a].id;
+        c.body_b = s->meshes[b].id;
         c.vertex = rest[a].vertex[c.vertex];
         c.tet = rest[b].tet[c.tet];
         ck_assert_msg(
             memcmp(&c, &mine.data[i], sizeof c) == 0,
             "contact %llu is vertex %u of mesh %u in tet %u of mesh %u, expected %u of %u in %u of %u",
-            (unsigned long long)i, mine.data[i].vertex, mine.data[i].mesh_a, mine.data[i].tet,
-            mine.data[i].mesh_b, c.vertex, c.mesh_a, c.tet, c.mesh_b);
+            (unsigned long long)i, mine.data[i].vertex, mine.data[i].body_a, mine.data[i].tet,
+            mine.data[i].body_b, c.vertex, c.body_a, c.tet, c.body_b);
     }
     ck_ok(vox_grid_penetrations(s->grid, &depths));
     ck_ok(vox_grid_penetrations(other.grid, &fresh_depths));
     ck_assert_uint_eq(depths.count, fresh_depths.count);
     for (uint64_t i = 0; i < depths.count; ++i) {
         vox_penetration p = fresh_depths.data[i];
-        const uint32_t a = p.mesh_a >> slot_shift;
-        p.mesh_a = s->meshes[a].id;
-        p.mesh_b = s->meshes[p.mesh_b >> slot_shift].id;
+        const uint32_t a = p.body_a >> slot_shift;
+        p.body_a = s->meshes[a].id;
+        p.body_b = s->meshes[p.body_b >> slot_shift].id;
         p.vertex = rest[a].vertex[p.vertex];
         ck_assert_msg(memcmp(&p, &depths.data[i], sizeof p) == 0,
                       "penetration %llu: vertex %u of mesh %u in mesh %u, state %d depth %.9g (%.9g %.9g "
                       "%.9g), expected "
                       "state %d depth %.9g (%.9g %.9g %.9g)",
-                      (unsigned long long)i, p.vertex, p.mesh_a, p.mesh_b, depths.data[i].state,
+                      (unsigned long long)i, p.vertex, p.body_a, p.body_b, depths.data[i].state,
                       depths.data[i].depth, depths.data[i].direction[0], depths.data[i].direction[1],
                       depths.data[i].direction[2], p.state, p.depth, p.direction[0], p.direction[1],
                       p.direction[2]);
     }
     vox_counters counters = {.struct_size = sizeof counters},
                  fresh_counters = {.struct_size = sizeof counters};
-    ck_ok(vox_grid_counters(s->grid, &counters));
-    ck_ok(vox_grid_counters(other.grid, &fresh_counters));
+    ck_ok(vox_grid_get_counters(s->grid, &counters));
+    ck_ok(vox_grid_get_counters(other.grid, &fresh_counters));
     ck_assert_uint_eq(counters.tets, fresh_counters.tets);
     if (suite_engine == VOX_ENGINE_REFERENCE &&
         desc->engine == VOX_ENGINE_REFERENCE) /* which meets all of them */

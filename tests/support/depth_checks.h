@@ -43,21 +43,21 @@ static inline const vox_penetration* penetration_at(vox_penetration_view view, u
 }
 
 /* The penetration of a vertex in a mesh, or null. */
-static inline const vox_penetration* penetration_of(const vox_grid* grid, vox_mesh a, uint32_t vertex,
-                                                    vox_mesh b) {
+static inline const vox_penetration* penetration_of(const vox_grid* grid, vox_body a, uint32_t vertex,
+                                                    vox_body b) {
     const vox_penetration_view view = penetrations_of(grid);
     for (uint64_t i = 0; i < view.count; ++i) {
         const vox_penetration* p = penetration_at(view, i);
-        if (p->mesh_a == a && p->vertex == vertex && p->mesh_b == b) return p;
+        if (p->body_a == a && p->vertex == vertex && p->body_b == b) return p;
     }
     return NULL;
 }
 
-static inline uint64_t count_state(const vox_grid* grid, vox_mesh a, vox_penetration_state state) {
+static inline uint64_t count_state(const vox_grid* grid, vox_body a, vox_penetration_state state) {
     const vox_penetration_view view = penetrations_of(grid);
     uint64_t count = 0;
     for (uint64_t i = 0; i < view.count; ++i)
-        count += penetration_at(view, i)->mesh_a == a && penetration_at(view, i)->state == state;
+        count += penetration_at(view, i)->body_a == a && penetration_at(view, i)->state == state;
     return count;
 }
 
@@ -74,7 +74,7 @@ static inline void check_rounded(const vox_depth* exact, float depth, const floa
     for (int axis = 0; axis < 3; ++axis) ck_assert(direction[axis] == (float)exact->direction[axis]);
 }
 
-/* Checks what holds in every scene: one penetration for each (mesh_a, vertex, mesh_b) of the contacts, in
+/* Checks what holds in every scene: one penetration for each (body_a, vertex, body_b) of the contacts, in
  * their order, with finite numbers and a unit direction. */
 static inline void check_penetrations(const vox_grid* grid) {
     const vox_penetration_view view = penetrations_of(grid);
@@ -98,13 +98,13 @@ static inline void check_penetrations(const vox_grid* grid) {
             (const vox_contact*)(const void*)((const char*)contacts.data + i * contacts.byte_stride);
         if (next > 0) {
             const vox_penetration* last = penetration_at(view, next - 1);
-            if (last->mesh_a == c->mesh_a && last->vertex == c->vertex && last->mesh_b == c->mesh_b) continue;
+            if (last->body_a == c->body_a && last->vertex == c->vertex && last->body_b == c->body_b) continue;
         }
         ck_assert_uint_lt(next, view.count);
         const vox_penetration* p = penetration_at(view, next++);
-        ck_assert_uint_eq(p->mesh_a, c->mesh_a);
+        ck_assert_uint_eq(p->body_a, c->body_a);
         ck_assert_uint_eq(p->vertex, c->vertex);
-        ck_assert_uint_eq(p->mesh_b, c->mesh_b);
+        ck_assert_uint_eq(p->body_b, c->body_b);
         ck_assert_uint_eq(p->contact, i);
         ck_assert_int_ge(p->state, VOX_PENETRATION_SURFACE);
         ck_assert_int_le(p->state, VOX_PENETRATION_COINCIDENT);

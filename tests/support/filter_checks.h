@@ -16,24 +16,24 @@ static inline vox_grid* new_grid(void) {
     return grid_of(&desc);
 }
 
-static inline vox_mesh insert(vox_grid* grid, const vox_mesh_desc* desc) { return insert_mesh(grid, desc); }
+static inline vox_body insert(vox_grid* grid, const vox_mesh_desc* desc) { return insert_mesh(grid, desc); }
 
 static inline vox_contact_view stepped(vox_grid* grid) {
     ck_ok(vox_grid_step(grid));
     return contacts_of(grid);
 }
 
-static inline vox_filter filter_of(const vox_grid* grid, vox_mesh mesh) {
+static inline vox_filter filter_of(const vox_grid* grid, vox_body mesh) {
     vox_filter filter = vox_default_filter();
     ck_ok(vox_mesh_filter(grid, mesh, &filter));
     return filter;
 }
 
-static inline uint64_t contacts_between(vox_contact_view view, vox_mesh a, vox_mesh b) {
+static inline uint64_t contacts_between(vox_contact_view view, vox_body a, vox_body b) {
     uint64_t count = 0;
     for (uint64_t i = 0; i < view.count; ++i)
-        count += (view.data[i].mesh_a == a && view.data[i].mesh_b == b) ||
-                 (view.data[i].mesh_a == b && view.data[i].mesh_b == a);
+        count += (view.data[i].body_a == a && view.data[i].body_b == b) ||
+                 (view.data[i].body_a == b && view.data[i].body_b == a);
     return count;
 }
 

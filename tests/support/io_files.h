@@ -58,14 +58,14 @@ static inline vox_io_report report_of(const vox_io_mesh* mesh) {
     vox_io_report report;
     memset(&report, 0, sizeof report);
     report.struct_size = (uint32_t)sizeof report;
-    ck_ok(vox_io_mesh_report(mesh, &report));
+    ck_ok(vox_io_mesh_get_report(mesh, &report));
     return report;
 }
 
 /* Whatever was read: indices name vertices, positions are finite, the report agrees with the arrays. */
 static inline void check_sound(const vox_io_mesh* mesh) {
     vox_io_mesh_view view;
-    ck_ok(vox_io_mesh_get(mesh, &view));
+    ck_ok(vox_io_mesh_get_arrays(mesh, &view));
     int unsound = 0; /* one assertion in all: each costs far more than what it checks */
     for (uint64_t i = 0; i < 3 * view.vertex_count; ++i) unsound |= !isfinite(view.positions[i]);
     for (uint64_t i = 0; i < 4 * view.tet_count; ++i) unsound |= view.tets[i] >= view.vertex_count;
@@ -76,14 +76,14 @@ static inline void check_sound(const vox_io_mesh* mesh) {
     ck_assert_uint_eq(report.tets, view.tet_count);
     ck_assert_uint_eq(report.triangles, view.triangle_count);
     ck_assert(!isnan(report.volume));
-    ck_assert_ptr_nonnull(vox_io_mesh_warnings(mesh));
+    ck_assert_ptr_nonnull(vox_io_mesh_get_warnings(mesh));
 }
 
 /* The same vertices, tets and triangles, bit for bit. */
 static inline void check_same(const vox_io_mesh* a, const vox_io_mesh* b) {
     vox_io_mesh_view p, q;
-    ck_ok(vox_io_mesh_get(a, &p));
-    ck_ok(vox_io_mesh_get(b, &q));
+    ck_ok(vox_io_mesh_get_arrays(a, &p));
+    ck_ok(vox_io_mesh_get_arrays(b, &q));
     ck_assert_uint_eq(p.vertex_count, q.vertex_count);
     ck_assert_uint_eq(p.tet_count, q.tet_count);
     ck_assert_uint_eq(p.triangle_count, q.triangle_count);

@@ -147,8 +147,8 @@ size_t oracle_contacts_d(const oracle_mesh_d* meshes, uint32_t mesh_count, oracl
     for (size_t begin = 0, end; begin < hit_count; begin = end) {
         const oracle_contact first = hits[begin];
         int interior = 0;
-        for (end = begin; end < hit_count && hits[end].mesh_a == first.mesh_a &&
-                          hits[end].vertex == first.vertex && hits[end].mesh_b == first.mesh_b;
+        for (end = begin; end < hit_count && hits[end].body_a == first.body_a &&
+                          hits[end].vertex == first.vertex && hits[end].body_b == first.body_b;
              ++end)
             interior += hits[end].interior;
         if (interior == 0) hits[count++] = first;

@@ -37,17 +37,17 @@ typedef struct oracle_mesh {
 
 /* Meshes by their index. `interior`: strictly inside the tetrahedron. */
 typedef struct oracle_contact {
-    uint32_t mesh_a, vertex, mesh_b, tet;
+    uint32_t body_a, vertex, body_b, tet;
     int interior;
     double barycentric[4];
 } oracle_contact;
 
-/* All pairs of a vertex and a closed tetrahedron that holds it and does not own it, sorted by (mesh_a,
- * vertex, mesh_b, tet). The caller frees *out with free(). Returns their number; ends the program when memory
+/* All pairs of a vertex and a closed tetrahedron that holds it and does not own it, sorted by (body_a,
+ * vertex, body_b, tet). The caller frees *out with free(). Returns their number; ends the program when memory
  * runs out. */
 size_t oracle_hits(const oracle_mesh* meshes, uint32_t mesh_count, oracle_contact** out);
 
-/* The same with the rule of vox_contact: per (mesh_a, vertex, mesh_b) the interior ones, or else the first.
+/* The same with the rule of vox_contact: per (body_a, vertex, body_b) the interior ones, or else the first.
  */
 size_t oracle_contacts(const oracle_mesh* meshes, uint32_t mesh_count, oracle_contact** out);
 

@@ -14,7 +14,7 @@ enum { most_bodies = 4 };
 typedef struct world {
     vox_grid* grid;
     body bodies[most_bodies];
-    vox_mesh meshes[most_bodies];
+    vox_body meshes[most_bodies];
     int count;
 } world;
 

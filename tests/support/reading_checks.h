@@ -108,7 +108,7 @@ typedef struct model {
     facet* surface;
     uint32_t surface_count;
     uint32_t tets_a_part;
-    vox_mesh mesh;
+    vox_body mesh;
     int self;
 } model;
 
@@ -223,7 +223,7 @@ static inline void two_in_each_other(world* w, uint32_t n, uint32_t flags) {
 
 /* ---- one reading ---- */
 
-static inline int index_of(const world* w, vox_mesh mesh) {
+static inline int index_of(const world* w, vox_body mesh) {
     for (int i = 0; i < w->count; ++i)
         if (w->models[i].mesh == mesh) return i;
     ck_abort_msg("no mesh %u", mesh);
@@ -268,7 +268,7 @@ static inline const facet* facet_of(const model* b, const uint32_t triangle[3]) 
  * surface. */
 static inline int check_reading(const world* w, const vox_contact* contact, const vox_reading* reading,
                                 int exact) {
-    const model *a = &w->models[index_of(w, contact->mesh_a)], *b = &w->models[index_of(w, contact->mesh_b)];
+    const model *a = &w->models[index_of(w, contact->body_a)], *b = &w->models[index_of(w, contact->body_b)];
     const double* p = a->positions + 3 * contact->vertex;
     ck_assert_uint_eq(reading->user_data_a, 1000 + (uint64_t)(a - w->models));
     ck_assert_uint_eq(reading->user_data_b, 1000 + (uint64_t)(b - w->models));

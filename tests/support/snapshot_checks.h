@@ -110,7 +110,7 @@ static inline void refused(file f, vox_result code, const char* words) {
 typedef struct scene {
     vox_grid* grid;
     body bodies[6];
-    vox_mesh ids[8]; /* of the bodies, of one without positions, of an empty one */
+    vox_body ids[8]; /* of the bodies, of one without positions, of an empty one */
     float strided[5 * 4];
     double doubles[3 * 64]; /* of body 5 */
 } scene;
@@ -136,20 +136,20 @@ static inline void make_scene(scene* s, vox_engine engine, double cell_size) {
     filter.self_rings = 1;
     filter.self_rest_distance = 0.01;
     filter.penetration_mask = 5;
-    ck_ok(vox_mesh_set_filter(s->grid, s->ids[3], &filter));
+    ck_ok(vox_body_set_filter(s->grid, s->ids[3], &filter));
     filter = vox_default_filter();
     filter.group = -7;
     filter.category = 1ull << 63;
     filter.mask = ~2ull;
     filter.penetration_mask = 0;
-    ck_ok(vox_mesh_set_filter(s->grid, s->ids[0], &filter));
+    ck_ok(vox_body_set_filter(s->grid, s->ids[0], &filter));
     ck_ok(vox_grid_set_pair_enabled(s->grid, s->ids[5], s->ids[0], 0));
     ck_assert_uint_le(s->bodies[5].vertex_count, 64);
     for (uint32_t i = 0; i < 3 * s->bodies[5].vertex_count; ++i)
         s->doubles[i] = s->bodies[5].positions[i] + 1e-12 * i; /* what no float could keep */
     ck_ok(vox_mesh_bind_positions(s->grid, s->ids[5], s->doubles, VOX_FORMAT_DOUBLE3, 0));
     static const double turn[12] = {0.8, -0.6, 0, 0.2, 0.6, 0.8, 0, 0.1, 0, 0, 1, 0.05};
-    ck_ok(vox_mesh_set_transform(s->grid, s->ids[3], turn));
+    ck_ok(vox_body_set_transform(s->grid, s->ids[3], turn));
 
     vox_mesh_desc mesh = vox_mesh_desc_floats(NULL, 4, unit_tet, 1);
     ck_ok(vox_mesh_insert(s->grid, &mesh, &s->ids[6]));
@@ -174,8 +174,8 @@ static inline void make_scene(scene* s, vox_engine engine, double cell_size) {
 
     ck_ok(vox_grid_step(s->grid));
     /* From here on the last step's results are out of date: what follows must survive all the same. */
-    ck_ok(vox_mesh_remove(s->grid, s->ids[removed_body]));
-    ck_ok(vox_mesh_set_enabled(s->grid, s->ids[disabled_body], 0));
+    ck_ok(vox_body_remove(s->grid, s->ids[removed_body]));
+    ck_ok(vox_body_set_enabled(s->grid, s->ids[disabled_body], 0));
     for (uint32_t v = 0; v < s->bodies[0].vertex_count; ++v) s->bodies[0].positions[3 * v] += 0.1f;
 }
 
@@ -208,8 +208,8 @@ static inline void same_results(const vox_grid* a, const vox_grid* b) {
     ck_ok(vox_grid_penetrations(b, &e));
     ck_assert_uint_eq(d.count, e.count);
     if (d.count) ck_assert_int_eq(memcmp(d.data, e.data, (size_t)d.count * sizeof *d.data), 0);
-    ck_ok(vox_grid_hash(a, &hash_a));
-    ck_ok(vox_grid_hash(b, &hash_b));
+    ck_ok(vox_grid_get_hash(a, &hash_a));
+    ck_ok(vox_grid_get_hash(b, &hash_b));
     ck_assert_uint_eq(hash_a, hash_b);
     ck_ok(vox_grid_epoch(a, &epoch_a));
     ck_ok(vox_grid_epoch(b, &epoch_b));

@@ -24,7 +24,7 @@ enum {
 
 /* A mesh that is in both grids. */
 typedef struct member {
-    vox_mesh id;
+    vox_body id;
     uint64_t user_data;
     body shape;                        /* its positions are the rest pose */
     float positions[5 * max_vertices]; /* what the grids read, `stride` floats apart */
@@ -35,14 +35,14 @@ typedef struct member {
 } member;
 
 typedef struct pair {
-    vox_mesh a, b; /* a <= b */
+    vox_body a, b; /* a <= b */
     uint64_t user_data_a, user_data_b;
 } pair;
 
 typedef struct inside {
-    vox_mesh a;
+    vox_body a;
     uint32_t vertex;
-    vox_mesh b;
+    vox_body b;
 } inside;
 
 typedef struct soak {
@@ -56,8 +56,8 @@ typedef struct soak {
     uint32_t count;
     uint32_t excepted[max_pairs][2]; /* pairs of ids that do not collide */
     uint32_t excepted_count;
-    vox_mesh* ids_given_out;            /* a hash table of all ids there ever were */
-    vox_mesh stale;                     /* one of those that were removed; 0: none yet */
+    vox_body* ids_given_out;            /* a hash table of all ids there ever were */
+    vox_body stale;                     /* one of those that were removed; 0: none yet */
     pair was[max_pairs], is[max_pairs]; /* touching, in the last successful step and in this one */
     uint32_t was_count, is_count;
     inside *was_inside, *is_inside;
@@ -89,13 +89,13 @@ static inline vox_grid_desc grid_desc(soak* s, int g) {
     return desc;
 }
 
-static inline member* find(soak* s, vox_mesh id) {
+static inline member* find(soak* s, vox_body id) {
     for (uint32_t m = 0; m < s->count; ++m)
         if (s->members[m].id == id) return &s->members[m];
     return NULL;
 }
 
-static inline void never_seen_before(soak* s, vox_mesh id) {
+static inline void never_seen_before(soak* s, vox_body id) {
     uint32_t at = id * 2654435761u % id_table;
     for (; s->ids_given_out[at]; at = (at + 1) % id_table) demand(s->ids_given_out[at] != id);
     s->ids_given_out[at] = id;
@@ -114,9 +114,9 @@ static inline vox_mesh_desc member_desc(const member* m) {
 /* ---- what must hold after each step ---- */
 
 static inline int contact_before(const vox_contact* x, const vox_contact* y) {
-    if (x->mesh_a != y->mesh_a) return x->mesh_a < y->mesh_a;
+    if (x->body_a != y->body_a) return x->body_a < y->body_a;
     if (x->vertex != y->vertex) return x->vertex < y->vertex;
-    if (x->mesh_b != y->mesh_b) return x->mesh_b < y->mesh_b;
+    if (x->body_b != y->body_b) return x->body_b < y->body_b;
     return x->tet < y->tet;
 }
 
@@ -125,7 +125,7 @@ static inline void check_contacts(soak* s, const vox_contact_view* view) {
     s->is_inside_count = 0;
     for (uint64_t i = 0; i < view->count; ++i) {
         const vox_contact* c = &view->data[i];
-        const member *a = find(s, c->mesh_a), *b = find(s, c->mesh_b);
+        const member *a = find(s, c->body_a), *b = find(s, c->body_b);
         demand(i == 0 || contact_before(c - 1, c));
         demand(a && b && a->enabled && b->enabled);
         demand(c->vertex < a->shape.vertex_count && c->tet < b->shape.tet_count && !b->off[c->tet]);
@@ -139,7 +139,7 @@ static inline void check_contacts(soak* s, const vox_contact_view* view) {
             const pair touching = {low->id, high->id, low->user_data, high->user_data};
             s->is[s->is_count++] = touching;
         }
-        const inside now = {c->mesh_a, c->vertex, c->mesh_b};
+        const inside now = {c->body_a, c->vertex, c->body_b};
         if (s->is_inside_count == 0 || memcmp(&s->is_inside[s->is_inside_count - 1], &now, sizeof now) != 0) {
             demand(s->is_inside_count < max_inside);
             s->is_inside[s->is_inside_count++] = now;
@@ -171,7 +171,7 @@ static inline uint64_t expect_events(soak* s, const vox_touch_event* events, vox
     for (uint32_t i = 0; i < these_count; ++i) {
         if (has_pair(those, those_count, &these[i]) != in_both) continue;
         const vox_touch_event* e = &events[count++];
-        demand(e->kind == kind && e->mesh_a == these[i].a && e->mesh_b == these[i].b);
+        demand(e->kind == kind && e->body_a == these[i].a && e->body_b == these[i].b);
         demand(e->user_data_a == these[i].user_data_a && e->user_data_b == these[i].user_data_b);
     }
     return count;
@@ -213,7 +213,7 @@ static inline void check_events(soak* s, const vox_grid* grid) {
 static inline void check_against_fresh(soak* s, const vox_contact_view* view) {
     vox_grid_desc desc = vox_default_grid_desc();
     vox_grid* fresh = NULL;
-    vox_mesh ids[max_members];
+    vox_body ids[max_members];
     uint32_t left[max_members][max_tets]; /* which tet the n-th one that is on is */
     desc.engine = below(s, 2) ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
     desc.flags = 0;
@@ -230,20 +230,20 @@ static inline void check_against_fresh(soak* s, const vox_contact_view* view) {
         mesh.tets = tets;
         mesh.tet_count = count;
         good(vox_mesh_insert(fresh, &mesh, &ids[i]));
-        good(vox_mesh_set_enabled(fresh, ids[i], s->members[i].enabled));
+        good(vox_body_set_enabled(fresh, ids[i], s->members[i].enabled));
     }
     for (uint32_t i = 0; i < s->excepted_count; ++i)
         good(vox_grid_set_pair_enabled(fresh, ids[find(s, s->excepted[i][0]) - s->members],
                                        ids[find(s, s->excepted[i][1]) - s->members], 0));
     good(vox_grid_step(fresh));
     vox_contact_view again;
-    good(vox_grid_contacts(fresh, &again));
+    good(vox_grid_get_contacts(fresh, &again));
     demand(again.count == view->count);
     for (uint64_t i = 0; i < view->count; ++i) {
         vox_contact c = view->data[i], other = again.data[i];
-        other.tet = left[find(s, c.mesh_b) - s->members][other.tet];
-        c.mesh_a = ids[find(s, c.mesh_a) - s->members];
-        c.mesh_b = ids[find(s, c.mesh_b) - s->members];
+        other.tet = left[find(s, c.body_b) - s->members][other.tet];
+        c.body_a = ids[find(s, c.body_a) - s->members];
+        c.body_b = ids[find(s, c.body_b) - s->members];
         demand(memcmp(&c, &other, sizeof c) == 0);
     }
     vox_grid_destroy(fresh);
@@ -253,17 +253,17 @@ static inline void check(soak* s) {
     uint64_t hashes[2] = {0, 0}, epoch = 0, user_data = 0;
     vox_contact_view views[2];
     for (int g = 0; g < 2; ++g) {
-        good(vox_grid_contacts(s->grids[g], &views[g]));
-        good(vox_grid_hash(s->grids[g], &hashes[g]));
+        good(vox_grid_get_contacts(s->grids[g], &views[g]));
+        good(vox_grid_get_hash(s->grids[g], &hashes[g]));
         good(vox_grid_epoch(s->grids[g], &epoch));
         demand(epoch == s->epoch && views[g].epoch == epoch);
         for (uint32_t i = 0; i < s->count; ++i) {
-            demand(vox_mesh_is_valid(s->grids[g], s->members[i].id));
-            good(vox_mesh_user_data(s->grids[g], s->members[i].id, &user_data));
+            demand(vox_body_is_valid(s->grids[g], s->members[i].id));
+            good(vox_body_get_user_data(s->grids[g], s->members[i].id, &user_data));
             demand(user_data == s->members[i].user_data);
         }
         vox_counters counters = {.struct_size = sizeof counters};
-        good(vox_grid_counters(s->grids[g], &counters));
+        good(vox_grid_get_counters(s->grids[g], &counters));
         demand(counters.bytes == s->ledgers[g].bytes);
     }
     demand(hashes[0] == hashes[1]);

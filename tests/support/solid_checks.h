@@ -23,7 +23,7 @@ typedef struct {
 
 static vox_io_mesh_view solid_view(const vox_io_mesh* mesh) {
     vox_io_mesh_view view;
-    ck_ok(vox_io_mesh_get(mesh, &view));
+    ck_ok(vox_io_mesh_get_arrays(mesh, &view));
     return view;
 }
 
@@ -188,7 +188,7 @@ static inline void check_same(const vox_io_mesh* a, const vox_io_mesh* b) {
 static inline vox_io_quality quality_of(const vox_io_mesh* mesh, const vox_io_mesh* surface) {
     vox_io_quality quality;
     quality.struct_size = sizeof quality;
-    ck_ok(vox_io_measure_quality(mesh, surface, &quality));
+    ck_ok(vox_io_mesh_measure(mesh, surface, &quality));
     return quality;
 }
 

@@ -77,14 +77,14 @@ static inline vox_grid* new_grid(uint32_t workers) {
     return grid_of(&desc);
 }
 
-static inline vox_mesh insert(vox_grid* grid, const solid* s, uint32_t flags) {
+static inline vox_body insert(vox_grid* grid, const solid* s, uint32_t flags) {
     vox_mesh_desc desc = solid_desc(s);
     desc.flags = flags;
     return insert_mesh(grid, &desc);
 }
 
 /* The grid's contacts are those of the solids, which were inserted in this order. */
-static inline size_t check_contacts(vox_grid* grid, const solid* solids, uint32_t count, const vox_mesh* ids,
+static inline size_t check_contacts(vox_grid* grid, const solid* solids, uint32_t count, const vox_body* ids,
                                     int self) {
     oracle_mesh_d meshes[4];
     oracle_contact* expected = NULL;
@@ -95,9 +95,9 @@ static inline size_t check_contacts(vox_grid* grid, const solid* solids, uint32_
     const vox_contact_view view = contacts_of(grid);
     ck_assert_uint_eq(view.count, expected_count);
     for (size_t i = 0; i < expected_count; ++i) {
-        ck_assert_uint_eq(view.data[i].mesh_a, ids[expected[i].mesh_a]);
+        ck_assert_uint_eq(view.data[i].body_a, ids[expected[i].body_a]);
         ck_assert_uint_eq(view.data[i].vertex, expected[i].vertex);
-        ck_assert_uint_eq(view.data[i].mesh_b, ids[expected[i].mesh_b]);
+        ck_assert_uint_eq(view.data[i].body_b, ids[expected[i].body_b]);
         ck_assert_uint_eq(view.data[i].tet, expected[i].tet);
         for (int c = 0; c < 4; ++c)
             ck_assert_double_le(fabs((double)view.data[i].barycentric[c] - expected[i].barycentric[c]),

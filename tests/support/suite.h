@@ -33,22 +33,22 @@ static inline vox_grid* grid_of(const vox_grid_desc* desc) {
     return grid;
 }
 
-static inline vox_mesh insert_mesh(vox_grid* grid, const vox_mesh_desc* desc) {
-    vox_mesh mesh = VOX_NULL_MESH;
+static inline vox_body insert_mesh(vox_grid* grid, const vox_mesh_desc* desc) {
+    vox_body mesh = VOX_NULL_BODY;
     ck_ok(vox_mesh_insert(grid, desc, &mesh));
     return mesh;
 }
 
 static inline vox_contact_view contacts_of(const vox_grid* grid) {
     vox_contact_view view = {NULL, 0, 99, 0}; /* a count that is not written shows */
-    ck_ok(vox_grid_contacts(grid, &view));
+    ck_ok(vox_grid_get_contacts(grid, &view));
     return view;
 }
 
 static inline vox_counters counters_of(const vox_grid* grid) {
     vox_counters counters;
     counters.struct_size = sizeof counters;
-    ck_ok(vox_grid_counters(grid, &counters));
+    ck_ok(vox_grid_get_counters(grid, &counters));
     return counters;
 }
 
@@ -56,7 +56,7 @@ static inline vox_counters counters_of(const vox_grid* grid) {
 static inline uint64_t hash_of_step(vox_grid* grid) {
     uint64_t hash = 0;
     ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_hash(grid, &hash));
+    ck_ok(vox_grid_get_hash(grid, &hash));
     return hash;
 }
 

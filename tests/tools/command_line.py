@@ -342,10 +342,10 @@ class CommandLine(Files):
         found = run_json("collide", self.one, self.one, "--offset", 0.1, 0.2, 0.3)
         self.assertEqual(found["contact_count"], 1)
         contact, (p,) = found["contacts"][0], found["penetrations"]
-        self.assertEqual((p["mesh_a"], p["vertex"], p["mesh_b"], p["contact"]),
-                         (contact["mesh_a"], contact["vertex"], contact["mesh_b"], 0))
+        self.assertEqual((p["body_a"], p["vertex"], p["body_b"], p["contact"]),
+                         (contact["body_a"], contact["vertex"], contact["body_b"], 0))
         # Vertex 0 of B, at (0.1, 0.2, 0.3), is in A, and its edges lead out through the slanted face.
-        self.assertEqual((p["mesh_a"], p["vertex"], p["state"]), (1, 0, "surface"))
+        self.assertEqual((p["body_a"], p["vertex"], p["state"]), (1, 0, "surface"))
         self.assertAlmostEqual(p["depth"], 0.4 / 3 ** 0.5, 6)
         for coordinate in p["direction"]:
             self.assertAlmostEqual(coordinate, 3 ** -0.5, 6)
@@ -370,7 +370,7 @@ class CommandLine(Files):
         # B's first corner lies in A's first tet; A's last vertex, (1, 1, 1), and its others lie outside B.
         self.assertEqual(found["contact_count"], 1)
         contact = found["contacts"][0]
-        self.assertEqual([contact[k] for k in ("mesh_a", "vertex", "mesh_b", "tet")], [1, 0, 0, 0])
+        self.assertEqual([contact[k] for k in ("body_a", "vertex", "body_b", "tet")], [1, 0, 0, 0])
         for weight, expected in zip(contact["barycentric"], (0.4, 0.1, 0.2, 0.3)):
             self.assertAlmostEqual(weight, expected, 6)
         self.assertRegex(found["hash"], r"\A[0-9a-f]{16}\Z")
@@ -383,7 +383,7 @@ class CommandLine(Files):
     def test_scale_comes_before_offset(self):
         # B's far corner (1, 0, 0) goes to 0.5 * 1 + 0.1; the other order would take it to 0.55.
         found = run_json("collide", self.one, self.one, "--scale", 0.5, "--offset", 0.1, 0.2, 0.1)
-        weights = {c["vertex"]: c["barycentric"] for c in found["contacts"] if c["mesh_a"] == 1}
+        weights = {c["vertex"]: c["barycentric"] for c in found["contacts"] if c["body_a"] == 1}
         self.assertAlmostEqual(weights[1][1], 0.6, 6)
 
     def test_double_keeps_what_a_float_rounds_away(self):
@@ -394,14 +394,14 @@ class CommandLine(Files):
 
     def test_negative_and_exponent_offsets(self):
         found = run_json("collide", self.one, self.one, "--offset", "-1e-1", "-.1", -0.1)
-        self.assertEqual([(c["mesh_a"], c["vertex"]) for c in found["contacts"]], [(0, 0)])
+        self.assertEqual([(c["body_a"], c["vertex"]) for c in found["contacts"]], [(0, 0)])
 
     def test_self_collision(self):
         # A second tetrahedron whose corner pokes into the first, in one mesh.
         points = TWO_TETS[:4] + [(0.1, 0.1, 0.1), (-1, 0, 0), (-1, 1, 0), (-1, 0, 1)]
         folded = self.write("folded.msh", msh(points, [(1, 2, 3, 4), (5, 6, 7, 8)]))
         found = run_json("collide", folded, "--self")
-        self.assertIn((0, 4, 0, 0), [(c["mesh_a"], c["vertex"], c["mesh_b"], c["tet"]) for c in found["contacts"]])
+        self.assertIn((0, 4, 0, 0), [(c["body_a"], c["vertex"], c["body_b"], c["tet"]) for c in found["contacts"]])
         alone = found["contact_count"]
         apart = ["collide", folded, folded, "--offset", 50, 0, 0]
         self.assertEqual(run_json(*apart)["contact_count"], 0)
@@ -409,7 +409,7 @@ class CommandLine(Files):
 
     def test_surface_takes_part_with_its_vertices(self):
         found = run_json("collide", self.surface, self.one, "--offset", -0.1, -0.1, -0.1)
-        self.assertEqual([(c["mesh_a"], c["vertex"], c["mesh_b"]) for c in found["contacts"]], [(0, 0, 1)])
+        self.assertEqual([(c["body_a"], c["vertex"], c["body_b"]) for c in found["contacts"]], [(0, 0, 1)])
 
     def test_surfaces_alone_are_refused(self):
         self.refused(1, "surface.*no inside.*--fill", "collide", self.surface, self.surface)

@@ -24,7 +24,7 @@ class Contacts(unittest.TestCase):
         found = run_json("collide", *arguments)
         self.assertEqual(found["contact_count"], count)
         self.assertEqual(len(found["contacts"]), count)
-        order = [(c["mesh_a"], c["vertex"], c["mesh_b"], c["tet"]) for c in found["contacts"]]
+        order = [(c["body_a"], c["vertex"], c["body_b"], c["tet"]) for c in found["contacts"]]
         self.assertEqual(order, sorted(set(order)))
         for contact in found["contacts"]:
             self.assertAlmostEqual(sum(contact["barycentric"]), 1, 5)

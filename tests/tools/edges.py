@@ -125,10 +125,10 @@ class Edges(Files):
         self.assertGreater(len(edges), 3)
         up = 0
         for e in edges:
-            self.assertEqual(sorted((e["mesh_a"], e["mesh_b"])), [0, 1])
+            self.assertEqual(sorted((e["body_a"], e["body_b"])), [0, 1])
             self.assertTrue(0.5 <= e["position"][2] <= 1)
             if e["kind"] == "through" and e["depth"] == 0.5:
-                self.assertAlmostEqual(e["direction"][2], 1 if e["mesh_a"] == 1 else -1)
+                self.assertAlmostEqual(e["direction"][2], 1 if e["body_a"] == 1 else -1)
                 up += 1
         self.assertGreater(up, 1)
         text = run("collide", first, second, "--edges", "--limit", 1, "--no-depth").stdout

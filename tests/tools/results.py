@@ -36,13 +36,13 @@ class Results(Files):
                    enumerate(zip(arrays["CellData", "mesh"], arrays["CellData", "tet"]))}
         points, cells = [0] * len(mesh), [0] * len(cell_at)
         for contact in found["contacts"]:
-            points[at[contact["mesh_a"], contact["vertex"]]] += 1
-            cells[cell_at[contact["mesh_b"], contact["tet"]]] += 1
+            points[at[contact["body_a"], contact["vertex"]]] += 1
+            cells[cell_at[contact["body_b"], contact["tet"]]] += 1
         self.assertEqual(arrays["PointData", "contacts"], points)
         self.assertEqual(arrays["CellData", "contacts"], cells)
         depth, state, direction = [0] * len(mesh), [-1] * len(mesh), [0] * 3 * len(mesh)
         for p in found["penetrations"]:
-            i = at[p["mesh_a"], p["vertex"]]
+            i = at[p["body_a"], p["vertex"]]
             if state[i] < 0 or p["depth"] > depth[i]:
                 depth[i], state[i] = p["depth"], STATES.index(p["state"])
                 direction[3 * i:3 * i + 3] = p["direction"]
@@ -98,13 +98,13 @@ class Results(Files):
         with open(out, encoding="ascii", newline="") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual(len(rows), found["contact_count"])
-        depths = {(p["mesh_a"], p["vertex"], p["mesh_b"]): p for p in found["penetrations"]}
+        depths = {(p["body_a"], p["vertex"], p["body_b"]): p for p in found["penetrations"]}
         for row, contact in zip(rows, found["contacts"]):
-            for key in "mesh_a", "vertex", "mesh_b", "tet":
+            for key in "body_a", "vertex", "body_b", "tet":
                 self.assertEqual(int(row[key]), contact[key])
             for i in range(4):
                 self.assertAlmostEqual(float(row[f"weight_{i}"]), contact["barycentric"][i], 8)
-            p = depths[contact["mesh_a"], contact["vertex"], contact["mesh_b"]]
+            p = depths[contact["body_a"], contact["vertex"], contact["body_b"]]
             self.assertAlmostEqual(float(row["depth"]), p["depth"], 6)
             self.assertEqual(row["state"], p["state"])
 
@@ -115,7 +115,7 @@ class Results(Files):
         self.assertEqual(found["profile"]["depth_ns"], 0)
         self.assertEqual(found["contacts"], run_json(*self.placed)["contacts"])
         with open(table, encoding="ascii") as file:
-            self.assertEqual(file.readline(), "mesh_a,vertex,mesh_b,tet,weight_0,weight_1,weight_2,weight_3\n")
+            self.assertEqual(file.readline(), "body_a,vertex,body_b,tet,weight_0,weight_1,weight_2,weight_3\n")
         self.assertNotIn(("PointData", "depth"), self.arrays(drawing))
         self.assertNotIn("penetrating", run(*self.placed, "--no-depth").stdout.decode())
 
@@ -124,7 +124,7 @@ class Results(Files):
         above = ["collide", self.one, self.one, "--offset", 0, 0, 1.125]
         found = run_json(*above, "--margin", 0.25, "-o", out)
         self.assertEqual(found["contacts"], [])
-        self.assertEqual([(c["mesh_a"], c["vertex"], c["mesh_b"], c["distance"], c["normal"])
+        self.assertEqual([(c["body_a"], c["vertex"], c["body_b"], c["distance"], c["normal"])
                           for c in found["margin_contacts"]],
                          [(0, 3, 1, 0.125, [0, 0, -1]), (1, 0, 0, 0.125, [0, 0, 1])])
         self.assertEqual(found["counters"]["margin_contacts"], 2)
@@ -145,7 +145,7 @@ class Results(Files):
         falling = ["collide", now, self.one, "--offset", -0.25, -0.25, 0]
         found = run_json(*falling, "--moving", before, "-o", out)
         self.assertEqual(found["contacts"], [])
-        self.assertEqual([(p["mesh_a"], p["vertex"], p["mesh_b"], p["face"]) for p in found["passages"]],
+        self.assertEqual([(p["body_a"], p["vertex"], p["body_b"], p["face"]) for p in found["passages"]],
                          [(0, 0, 1, [1, 2, 3]), (0, 3, 1, [1, 2, 3])])
         for passage, time in zip(found["passages"], (2.5 / 6, 3.5 / 6)):
             self.assertLessEqual(passage["time"], time)

@@ -22,7 +22,7 @@ vox_grid* grid_with(playground& play, std::uint32_t engine) {
                                                   body.tets.data(), body.view.tet_count);
         mesh.flags =
             play.self_collision && body.kind != PLAY_FIXED ? std::uint32_t{VOX_MESH_SELF_COLLISION} : 0u;
-        vox_mesh id;
+        vox_body id;
         check(vox_mesh_insert(made, &mesh, &id));
     }
     grid = std::move(owned);
@@ -31,12 +31,12 @@ vox_grid* grid_with(playground& play, std::uint32_t engine) {
 
 std::uint64_t stepped(playground& play, vox_grid* grid, double cell_size, std::uint32_t steps, double& ns) {
     check(vox_grid_set_cell_size(grid, cell_size));
-    std::vector<vox_mesh> meshes(play.bodies.size());
+    std::vector<vox_body> meshes(play.bodies.size());
     std::uint64_t count = 0;
-    check(vox_grid_meshes(grid, meshes.data(), meshes.size(), &count));
+    check(vox_grid_get_bodies(grid, meshes.data(), meshes.size(), &count));
     ns = 0;
     for (std::uint32_t i = 0; i < steps; ++i) {
-        for (const vox_mesh mesh : meshes) check(vox_mesh_mark_moved(grid, mesh)); // or nothing is left to do
+        for (const vox_body mesh : meshes) check(vox_body_mark_moved(grid, mesh)); // or nothing is left to do
         check(vox_grid_step(grid));
         vox_profile profile{};
         profile.struct_size = sizeof profile;
@@ -44,7 +44,7 @@ std::uint64_t stepped(playground& play, vox_grid* grid, double cell_size, std::u
         ns += static_cast<double>(profile.step_ns);
     }
     std::uint64_t hash = 0;
-    check(vox_grid_hash(grid, &hash));
+    check(vox_grid_get_hash(grid, &hash));
     return hash;
 }
 

@@ -42,7 +42,7 @@ using Mesh = std::unique_ptr<vox_io_mesh, DestroyMesh>;
 
 vox_io_mesh_view arrays_of(const Mesh& mesh) {
     vox_io_mesh_view view;
-    check(vox_io_mesh_get(mesh.get(), &view));
+    check(vox_io_mesh_get_arrays(mesh.get(), &view));
     return view;
 }
 
@@ -106,7 +106,7 @@ Body insert(playground& play, const Shape& shape) {
     desc.damping = 0.05;
     desc.user_data = body.serial;
     check(vox_sim_body_insert(play.sim.get(), &desc, &body.mesh));
-    check(vox_sim_body_get(play.sim.get(), body.mesh, &body.view));
+    check(vox_sim_body_get_view(play.sim.get(), body.mesh, &body.view));
     ++play.next_serial;
     return body;
 }
@@ -128,7 +128,7 @@ void make_ring(playground& play) {
                                         PLAY_FIXED}));
 }
 
-auto find_body(const playground& play, vox_mesh mesh) {
+auto find_body(const playground& play, vox_body mesh) {
     return std::find_if(play.bodies.begin(), play.bodies.end(),
                         [mesh](const Body& body) { return body.mesh == mesh; });
 }
@@ -190,9 +190,9 @@ double cube_root(double x) { // by Newton's method: the C library's differs from
 
 // Lets the particles that are held fly to where they should be within a few steps.
 void pull(playground& play) {
-    if (play.held_mesh == VOX_NULL_MESH) return;
+    if (play.held_mesh == VOX_NULL_BODY) return;
     vox_sim_body_view view;
-    check(vox_sim_body_get(play.sim.get(), play.held_mesh, &view));
+    check(vox_sim_body_get_view(play.sim.get(), play.held_mesh, &view));
     play.velocities.assign(view.velocities, view.velocities + 3 * view.vertex_count);
     constexpr double rate = 12, fastest = 15; // per second; units per second
     for (const Held& held : play.held) {
@@ -228,7 +228,7 @@ void list_touches(playground& play) {
     for_each(view, [&play](const vox_touch_event& event) {
         if (event.kind == VOX_TOUCH_PERSISTED) return;
         play.touches.insert(play.touches.end(),
-                            {event.mesh_a, event.mesh_b, event.kind == VOX_TOUCH_BEGAN ? 1u : 0u});
+                            {event.body_a, event.body_b, event.kind == VOX_TOUCH_BEGAN ? 1u : 0u});
     });
 }
 
@@ -236,20 +236,20 @@ void list_touches(playground& play) {
 // before it.
 void read_bodies(playground& play, const vox_grid* loaded, const Body& ring) {
     std::uint64_t count = 0;
-    check(vox_grid_meshes(loaded, nullptr, 0, &count));
-    std::vector<vox_mesh> meshes(static_cast<std::size_t>(count));
-    check(vox_grid_meshes(loaded, meshes.data(), count, &count));
-    for (const vox_mesh mesh : meshes) {
-        vox_mesh_info info{};
+    check(vox_grid_get_bodies(loaded, nullptr, 0, &count));
+    std::vector<vox_body> meshes(static_cast<std::size_t>(count));
+    check(vox_grid_get_bodies(loaded, meshes.data(), count, &count));
+    for (const vox_body mesh : meshes) {
+        vox_body_info info{};
         info.struct_size = sizeof info;
-        check(vox_mesh_get_info(loaded, mesh, &info));
+        check(vox_body_get_info(loaded, mesh, &info));
         if (info.tet_count == 0 || !info.positions) continue;
         if (info.has_transform)
             fail(VOX_ERROR_UNSUPPORTED,
                  "the snapshot has a mesh with a transform, which this page does not show");
         std::vector<std::uint32_t> corners(4 * static_cast<std::size_t>(info.tet_count)), tets;
         std::vector<std::uint8_t> enabled(static_cast<std::size_t>(info.tet_count));
-        check(vox_mesh_copy_tets(loaded, mesh, corners.data(), enabled.data(), info.tet_count, &count));
+        check(vox_mesh_get_tets(loaded, mesh, corners.data(), enabled.data(), info.tet_count, &count));
         for (std::size_t t = 0; t < enabled.size(); ++t)
             if (enabled[t]) tets.insert(tets.end(), &corners[4 * t], &corners[4 * t] + 4);
         std::vector<double> positions(3 * static_cast<std::size_t>(info.vertex_count));
@@ -283,7 +283,7 @@ vox_result play_create(uint64_t byte_limit, playground** out) {
         auto play = std::make_unique<playground>();
         play->account.limit = byte_limit;
         play->sim = make_sim(play->account);
-        check(vox_sim_grid(play->sim.get(), &play->grid));
+        check(vox_sim_get_grid(play->sim.get(), &play->grid));
         make_ring(*play);
         *out = play.release();
     });
@@ -333,7 +333,7 @@ vox_result play_drop_file(playground* play, const char* name, const void* bytes,
         Mesh mesh(read);
         vox_io_mesh_view view = arrays_of(mesh);
         std::string text;
-        if (const char* warnings = vox_io_mesh_warnings(mesh.get())) text = warnings;
+        if (const char* warnings = vox_io_mesh_get_warnings(mesh.get())) text = warnings;
         if (view.tet_count == 0) {
             const auto [low, high] = ends_of(view);
             const Vec side = high - low;
@@ -398,13 +398,13 @@ vox_result play_step(playground* play) {
         check(vox_sim_step(play->sim.get(), time_step));
         ++play->version;
         std::uint64_t hash = 0;
-        check(vox_grid_hash(play->grid, &hash));
+        check(vox_grid_get_hash(play->grid, &hash));
         play->hash = (play->hash ^ hash) * 0x100000001b3u + 1;
         ++play->steps;
         list_touches(*play);
         vox_sim_energies energies;
         energies.struct_size = sizeof energies;
-        check(vox_sim_energy(play->sim.get(), VOX_NULL_MESH, &energies));
+        check(vox_sim_get_energy(play->sim.get(), VOX_NULL_BODY, &energies));
         play->facts.max_speed = energies.max_speed;
         play->still_steps =
             2 * energies.kinetic < still_speed * still_speed * energies.mass ? play->still_steps + 1 : 0;
@@ -420,7 +420,7 @@ vox_result play_grab(playground* play, const double from[3], const double to[3],
         vox_ray_hit hit;
         check(vox_grid_query_ray(play->grid, from, to, UINT64_MAX, &hit));
         const auto body = find_body(*play, hit.mesh);
-        if (hit.mesh == VOX_NULL_MESH || body == play->bodies.end() || body->kind == PLAY_FIXED) return;
+        if (hit.mesh == VOX_NULL_BODY || body == play->bodies.end() || body->kind == PLAY_FIXED) return;
         const Vec a = {from[0], from[1], from[2]}, b = {to[0], to[1], to[2]};
         const Vec point = a + hit.t * (b - a);
         const std::span positions = list(body->view.positions, 3 * body->view.vertex_count);
@@ -450,7 +450,7 @@ void play_drag(playground* play, const double point[3]) {
 }
 
 void play_let_go(playground* play) {
-    play->held_mesh = VOX_NULL_MESH;
+    play->held_mesh = VOX_NULL_BODY;
     play->held.clear();
 }
 
@@ -461,7 +461,7 @@ vox_result play_cut(playground* play, const double eye[3], const double first[3]
         const Stroke stroke({eye[0], eye[1], eye[2]}, {first[0], first[1], first[2]},
                             {second[0], second[1], second[2]});
         std::vector<Body> made;
-        std::vector<vox_mesh> gone;
+        std::vector<vox_body> gone;
         try {
             for (const Body& body : play->bodies) {
                 if (body.kind == PLAY_FIXED) continue;
@@ -516,7 +516,7 @@ const play_body* play_get_body(const playground* play, uint32_t index) {
 const float* play_penetrations(playground* play, uint32_t* out_count) {
     play->arrows.clear();
     for_each(penetrations_of(*play), [play](const vox_penetration& p) {
-        const auto body = find_body(*play, p.mesh_a);
+        const auto body = find_body(*play, p.body_a);
         if (body == play->bodies.end()) return; // removed since the step
         for (std::size_t c = 0; c < 3; ++c)
             play->arrows.push_back(body->view.grid_positions[3 * p.vertex + c]);
@@ -537,8 +537,8 @@ const play_facts* play_get_facts(playground* play) {
     counters.struct_size = sizeof counters;
     vox_sim_counts counts{};
     counts.struct_size = sizeof counts;
-    if (vox_grid_counters(play->grid, &counters) == VOX_OK &&
-        vox_sim_counters(play->sim.get(), &counts) == VOX_OK) {
+    if (vox_grid_get_counters(play->grid, &counters) == VOX_OK &&
+        vox_sim_get_counters(play->sim.get(), &counts) == VOX_OK) {
         facts.tets = static_cast<double>(counts.tets);
         facts.contacts = static_cast<double>(counters.contacts);
         facts.step_ns = static_cast<double>(counts.step_ns);
@@ -568,7 +568,7 @@ vox_result play_save(playground* play, const void** out_bytes, uint64_t* out_siz
         check(vox_grid_load(bytes.data(), bytes.size(), nullptr, &loaded));
         const Grid grid(loaded);
         check(vox_grid_step(loaded));
-        check(vox_grid_hash(loaded, out_hash));
+        check(vox_grid_get_hash(loaded, out_hash));
         play->snapshot = std::move(bytes);
         *out_bytes = play->snapshot.data();
         *out_size = size;
@@ -588,7 +588,7 @@ vox_result play_load(playground* play, const void* bytes, uint64_t size) {
         std::vector<Body> old_bodies = std::exchange(play->bodies, {});
         try {
             read_bodies(*play, loaded, old_bodies.front());
-            check(vox_sim_grid(play->sim.get(), &play->grid));
+            check(vox_sim_get_grid(play->sim.get(), &play->grid));
         } catch (...) {
             play->bodies = std::move(old_bodies);
             play->sim = std::move(old_sim);

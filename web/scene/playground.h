@@ -92,7 +92,7 @@ typedef struct play_facts {
     double bytes, byte_limit;
 } play_facts;
 const play_facts* play_get_facts(playground* play);
-/* Combines vox_grid_hash of all steps since the scene was made or loaded. */
+/* Combines vox_grid_get_hash of all steps since the scene was made or loaded. */
 uint64_t play_hash(const playground* play);
 
 /* ---- the cell size ---- */

@@ -45,7 +45,7 @@ struct DestroySim {
 using Sim = std::unique_ptr<vox_sim, DestroySim>;
 
 struct Body {
-    vox_mesh mesh;
+    vox_body mesh;
     std::uint32_t kind, serial;
     std::vector<double> rest;
     std::vector<std::uint32_t> tets, triangles;
@@ -73,7 +73,7 @@ struct playground {
     bool self_collision = false;
     std::uint64_t hash = 0, steps = 0;
     std::uint32_t still_steps = 0;
-    vox_mesh held_mesh = VOX_NULL_MESH;
+    vox_body held_mesh = VOX_NULL_BODY;
     std::vector<play::Held> held;
     play::Vec held_target{};
     std::vector<double> velocities; // scratch

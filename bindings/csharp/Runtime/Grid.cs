@@ -235,14 +235,14 @@ namespace Voxtet
             using (var use = handle.Change())
             {
                 ++layout;
-                VoxException.Check(Native.vox_mesh_remove(use.Pointer, mesh.Id));
+                VoxException.Check(Native.vox_body_remove(use.Pointer, mesh.Id));
             }
         }
 
         /// <summary>Whether the mesh is one of this grid.</summary>
         public bool Contains(Mesh mesh)
         {
-            using (var use = handle.Read()) return Native.vox_mesh_is_valid(use.Pointer, mesh.Id) != 0;
+            using (var use = handle.Read()) return Native.vox_body_is_valid(use.Pointer, mesh.Id) != 0;
         }
 
         /// <summary>All meshes, in the order of their ids.</summary>
@@ -251,25 +251,25 @@ namespace Voxtet
             using (var use = handle.Read())
             {
                 ulong count;
-                VoxException.Check(Native.vox_grid_meshes(use.Pointer, null, 0, &count));
+                VoxException.Check(Native.vox_grid_get_bodies(use.Pointer, null, 0, &count));
                 var ids = new uint[count];
-                fixed (uint* p = ids) VoxException.Check(Native.vox_grid_meshes(use.Pointer, p, count, &count));
+                fixed (uint* p = ids) VoxException.Check(Native.vox_grid_get_bodies(use.Pointer, p, count, &count));
                 return Array.ConvertAll(ids, id => new Mesh(id));
             }
         }
 
-        static MeshInfo InfoOf(IntPtr grid, Mesh mesh)
+        static BodyInfo InfoOf(IntPtr grid, Mesh mesh)
         {
-            MeshInfo info;
-            info.struct_size = (uint)sizeof(MeshInfo);
-            VoxException.Check(Native.vox_mesh_get_info(grid, mesh.Id, &info));
+            BodyInfo info;
+            info.struct_size = (uint)sizeof(BodyInfo);
+            VoxException.Check(Native.vox_body_get_info(grid, mesh.Id, &info));
             return info;
         }
 
         /// <summary>A mesh as it is now.</summary>
         public MeshFacts GetFacts(Mesh mesh)
         {
-            MeshInfo info;
+            BodyInfo info;
             using (var use = handle.Read()) info = InfoOf(use.Pointer, mesh);
             return new MeshFacts
             {
@@ -287,7 +287,7 @@ namespace Voxtet
         public ulong GetUserData(Mesh mesh)
         {
             ulong userData;
-            using (var use = handle.Read()) VoxException.Check(Native.vox_mesh_user_data(use.Pointer, mesh.Id, &userData));
+            using (var use = handle.Read()) VoxException.Check(Native.vox_body_get_user_data(use.Pointer, mesh.Id, &userData));
             return userData;
         }
 
@@ -297,10 +297,10 @@ namespace Voxtet
             using (var use = handle.Read())
             {
                 ulong count;
-                VoxException.Check(Native.vox_mesh_copy_tets(use.Pointer, mesh.Id, null, null, 0, &count));
+                VoxException.Check(Native.vox_mesh_get_tets(use.Pointer, mesh.Id, null, null, 0, &count));
                 var tets = new uint[4 * count];
                 fixed (uint* t = tets)
-                    VoxException.Check(Native.vox_mesh_copy_tets(use.Pointer, mesh.Id, t, null, count, &count));
+                    VoxException.Check(Native.vox_mesh_get_tets(use.Pointer, mesh.Id, t, null, count, &count));
                 return tets;
             }
         }
@@ -309,7 +309,7 @@ namespace Voxtet
         {
             using (var use = handle.Change())
             {
-                MeshInfo info = InfoOf(use.Pointer, mesh);
+                BodyInfo info = InfoOf(use.Pointer, mesh);
                 if (info.position_format != FormatOf<T>())
                     throw new ArgumentException("positions of " + mesh + " are " + info.position_format + ", asked for as " +
                                                 FormatOf<T>());
@@ -333,13 +333,13 @@ namespace Voxtet
             if (matrix.Length != 12 && matrix.Length != 0)
                 throw new ArgumentException(matrix.Length + " numbers, expected 12 or none", "matrix");
             fixed (double* m = &MemoryMarshal.GetReference(matrix))
-            using (var use = handle.Change()) VoxException.Check(Native.vox_mesh_set_transform(use.Pointer, mesh.Id, m));
+            using (var use = handle.Change()) VoxException.Check(Native.vox_body_set_transform(use.Pointer, mesh.Id, m));
         }
 
         /// <summary>Sets what a mesh collides with.</summary>
         public void SetFilter(Mesh mesh, Filter filter)
         {
-            using (var use = handle.Change()) VoxException.Check(Native.vox_mesh_set_filter(use.Pointer, mesh.Id, &filter));
+            using (var use = handle.Change()) VoxException.Check(Native.vox_body_set_filter(use.Pointer, mesh.Id, &filter));
         }
 
         /// <summary>What a mesh collides with.</summary>
@@ -354,7 +354,7 @@ namespace Voxtet
         public void SetEnabled(Mesh mesh, bool enabled)
         {
             using (var use = handle.Change())
-                VoxException.Check(Native.vox_mesh_set_enabled(use.Pointer, mesh.Id, enabled ? 1u : 0u));
+                VoxException.Check(Native.vox_body_set_enabled(use.Pointer, mesh.Id, enabled ? 1u : 0u));
         }
 
         /// <summary>Whether two meshes collide, if their filters let them.</summary>
@@ -367,7 +367,7 @@ namespace Voxtet
         /// <summary>Makes the next step process a mesh even if it did not move, for measurements.</summary>
         public void MarkMoved(Mesh mesh)
         {
-            using (var use = handle.Change()) VoxException.Check(Native.vox_mesh_mark_moved(use.Pointer, mesh.Id));
+            using (var use = handle.Change()) VoxException.Check(Native.vox_body_mark_moved(use.Pointer, mesh.Id));
         }
 
         // ---- cutting and growing ----
@@ -521,7 +521,7 @@ namespace Voxtet
             {
                 ContactView view;
                 using (var use = handle.Read())
-                    return ViewOf<Contact>(Native.vox_grid_contacts(use.Pointer, &view),
+                    return ViewOf<Contact>(Native.vox_grid_get_contacts(use.Pointer, &view),
                                            view.data, view.byte_stride, view.count);
             }
         }
@@ -569,7 +569,7 @@ namespace Voxtet
             {
                 PairView view;
                 using (var use = handle.Read())
-                    return ViewOf<Pair>(Native.vox_grid_pairs(use.Pointer, &view), view.data, view.byte_stride, view.count);
+                    return ViewOf<Pair>(Native.vox_grid_get_pairs(use.Pointer, &view), view.data, view.byte_stride, view.count);
             }
         }
 
@@ -582,8 +582,8 @@ namespace Voxtet
                 ContactView contacts;
                 using (var use = handle.Read())
                 {
-                    VoxException.Check(Native.vox_grid_contacts(use.Pointer, &contacts));
-                    return ViewOf<uint>(Native.vox_grid_pairs(use.Pointer, &view), view.contacts, (UIntPtr)sizeof(uint),
+                    VoxException.Check(Native.vox_grid_get_contacts(use.Pointer, &contacts));
+                    return ViewOf<uint>(Native.vox_grid_get_pairs(use.Pointer, &view), view.contacts, (UIntPtr)sizeof(uint),
                                         contacts.count);
                 }
             }
@@ -641,7 +641,7 @@ namespace Voxtet
             get
             {
                 ulong hash;
-                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_hash(use.Pointer, &hash));
+                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_get_hash(use.Pointer, &hash));
                 return hash;
             }
         }
@@ -663,7 +663,7 @@ namespace Voxtet
         {
             Failure failure;
             failure.struct_size = (uint)sizeof(Failure);
-            using (var use = handle.Read()) VoxException.Check(Native.vox_grid_failure(use.Pointer, index, &failure));
+            using (var use = handle.Read()) VoxException.Check(Native.vox_grid_get_failure(use.Pointer, index, &failure));
             return failure;
         }
 
@@ -674,7 +674,7 @@ namespace Voxtet
             {
                 Counters counters;
                 counters.struct_size = (uint)sizeof(Counters);
-                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_counters(use.Pointer, &counters));
+                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_get_counters(use.Pointer, &counters));
                 return counters;
             }
         }
@@ -701,8 +701,8 @@ namespace Voxtet
             ReadingsDesc desc;
             VoxException.Check(Native.vox_readings_desc_init(&desc, (uint)sizeof(ReadingsDesc)));
             desc.what = what;
-            desc.mesh_a = mesh.HasValue ? mesh.Value.Id : Native.VOX_NULL_MESH;
-            desc.mesh_b = other.HasValue ? other.Value.Id : Native.VOX_NULL_MESH;
+            desc.body_a = mesh.HasValue ? mesh.Value.Id : Native.VOX_NULL_BODY;
+            desc.body_b = other.HasValue ? other.Value.Id : Native.VOX_NULL_BODY;
             using (var use = handle.Change())
             {
                 ++version;

@@ -69,10 +69,10 @@ namespace Voxtet
             using (var use = handle.Read())
             {
                 if (surface == null)
-                    VoxException.Check(Native.vox_io_measure_quality(use.Pointer, IntPtr.Zero, &quality));
+                    VoxException.Check(Native.vox_io_mesh_measure(use.Pointer, IntPtr.Zero, &quality));
                 else
                     using (var other = surface.handle.Read())
-                        VoxException.Check(Native.vox_io_measure_quality(use.Pointer, other.Pointer, &quality));
+                        VoxException.Check(Native.vox_io_mesh_measure(use.Pointer, other.Pointer, &quality));
             }
             return quality;
         }
@@ -138,7 +138,7 @@ namespace Voxtet
             using (var use = handle.Read())
             {
                 IoMeshView view;
-                VoxException.Check(Native.vox_io_mesh_get(use.Pointer, &view));
+                VoxException.Check(Native.vox_io_mesh_get_arrays(use.Pointer, &view));
                 return new ReadOnlySpan<double>(view.positions, checked((int)(3 * view.vertex_count))).ToArray();
             }
         }
@@ -155,7 +155,7 @@ namespace Voxtet
             using (var use = handle.Read())
             {
                 IoMeshView view;
-                VoxException.Check(Native.vox_io_mesh_get(use.Pointer, &view));
+                VoxException.Check(Native.vox_io_mesh_get_arrays(use.Pointer, &view));
                 return new ReadOnlySpan<uint>(view.tets, checked((int)(4 * view.tet_count))).ToArray();
             }
         }
@@ -166,7 +166,7 @@ namespace Voxtet
             using (var use = handle.Read())
             {
                 IoMeshView view;
-                VoxException.Check(Native.vox_io_mesh_get(use.Pointer, &view));
+                VoxException.Check(Native.vox_io_mesh_get_arrays(use.Pointer, &view));
                 return new ReadOnlySpan<uint>(view.triangles, checked((int)(3 * view.triangle_count))).ToArray();
             }
         }
@@ -178,7 +178,7 @@ namespace Voxtet
             {
                 IoReport report;
                 report.struct_size = (uint)sizeof(IoReport);
-                using (var use = handle.Read()) VoxException.Check(Native.vox_io_mesh_report(use.Pointer, &report));
+                using (var use = handle.Read()) VoxException.Check(Native.vox_io_mesh_get_report(use.Pointer, &report));
                 return report;
             }
         }
@@ -186,7 +186,7 @@ namespace Voxtet
         /// <summary>What is odd about it in words, a line each.</summary>
         public string Warnings
         {
-            get { using (var use = handle.Read()) return VoxException.Text(Native.vox_io_mesh_warnings(use.Pointer)); }
+            get { using (var use = handle.Read()) return VoxException.Text(Native.vox_io_mesh_get_warnings(use.Pointer)); }
         }
 
         /// <summary>Writes .msh or .vtu.</summary>

@@ -85,7 +85,7 @@ namespace Voxtet
         /// <summary>a mesh with a coordinate that VOX_FORMAT_DOUBLE3 does not allow (NaN, infinite, too large) takes no
         /// part in a step, in vox_grid_prepare_queries, in vox_grid_take_query_view and in vox_grid_suggest_cell_size,
         /// as if it were disabled; without this flag they fail.</summary>
-        SkipBadMeshes = 4,
+        SkipBadBodies = 4,
         /// <summary>also find edges of surfaces through faces of others (vox_grid_edge_contacts);
         /// experimental.</summary>
         EdgeContacts = 8,
@@ -113,7 +113,7 @@ namespace Voxtet
     /// <summary>How a penetration's depth and direction were found.</summary>
     public enum PenetrationState : int
     {
-        /// <summary>edges lead from p out of mesh_b; mean over the points where they cross the surface</summary>
+        /// <summary>edges lead from p out of body_b; mean over the points where they cross the surface</summary>
         Surface = 0,
         /// <summary>all neighbours of p collide; mean over those closer to the surface</summary>
         Propagated = 1,
@@ -160,7 +160,7 @@ namespace Voxtet
     {
         /// <summary>missing if the vertex or its mesh was removed after the step</summary>
         Position = 1,
-        /// <summary>missing where POSITION is or would be, if mesh_b was removed or has no surface, or if all of its
+        /// <summary>missing where POSITION is or would be, if body_b was removed or has no surface, or if all of its
         /// tetrahedra that contained the vertex were removed or disabled</summary>
         Surface = 2,
         /// <summary>missing on grids without VOX_GRID_PENETRATIONS, and where vox_filter.penetration_mask rules it
@@ -704,7 +704,7 @@ namespace Voxtet
         public uint* tets;
         public ulong tet_count;
         public ulong vertex_count;
-        /// <summary>any number of the caller's, returned by vox_mesh_user_data</summary>
+        /// <summary>any number of the caller's, returned by vox_body_get_user_data</summary>
         public ulong user_data;
         public Format position_format;
         /// <summary>0</summary>
@@ -724,7 +724,7 @@ namespace Voxtet
 
     /// <summary>A mesh as it is now, e.g. after vox_grid_load.</summary>
     [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct MeshInfo
+    internal unsafe struct BodyInfo
     {
         public uint struct_size;
         /// <summary>from 0</summary>
@@ -736,20 +736,20 @@ namespace Voxtet
         /// <summary>with those that are disabled or removed: indices of tetrahedra are below it</summary>
         public ulong tet_count;
         public ulong enabled_tet_count;
-        /// <summary>1, or 0 (see vox_mesh_set_enabled)</summary>
+        /// <summary>1, or 0 (see vox_body_set_enabled)</summary>
         public uint enabled;
         /// <summary>vox_mesh_flags: SELF_COLLISION as the filter says, COPY_POSITIONS if the positions are the mesh's
         /// own (copied, mapped or loaded), BORROW_TETS while the tetrahedra are the caller's</summary>
         public MeshFlags flags;
         public Format position_format;
-        /// <summary>1 if vox_mesh_set_transform gave it one</summary>
+        /// <summary>1 if vox_body_set_transform gave it one</summary>
         public uint has_transform;
         /// <summary>The positions, without the transform; null if the mesh has none.</summary>
         public IntPtr positions;
         /// <summary>of these, never 0 unless `positions` is null; see vox_mesh_desc</summary>
         public ulong position_byte_stride;
         public ulong position_component_byte_stride;
-        /// <summary>as vox_mesh_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0</summary>
+        /// <summary>as vox_body_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0</summary>
         public Double12 transform;
     }
 
@@ -788,7 +788,7 @@ namespace Voxtet
         /// <summary>NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not allow), INVALID_STATE (no
         /// positions), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3); VOX_OK if there is none</summary>
         public Result result;
-        /// <summary>VOX_NULL_MESH if there is none</summary>
+        /// <summary>VOX_NULL_BODY if there is none</summary>
         public uint mesh;
         /// <summary>of the mesh, from 0</summary>
         public uint slot;
@@ -801,19 +801,19 @@ namespace Voxtet
         public Double3 position;
     }
 
-    /// <summary>Vertex `vertex` of mesh_a is in the closed tetrahedron `tet` of mesh_b and is not a corner of
+    /// <summary>Vertex `vertex` of body_a is in the closed tetrahedron `tet` of body_b and is not a corner of
     /// it.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 32)]
     public struct Contact
     {
-        public uint mesh_a;
+        public uint body_a;
         public uint vertex;
-        public uint mesh_b;
+        public uint body_b;
         public uint tet;
         public Float4 barycentric;
     }
 
-    /// <summary>`count` contacts, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b, tet).</summary>
+    /// <summary>`count` contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b, tet).</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct ContactView
     {
@@ -834,25 +834,25 @@ namespace Voxtet
         public ulong epoch;
     }
 
-    /// <summary>Vertex `vertex` of mesh_a is inside mesh_b (a = b: self-contact) and has to leave it: moving the vertex
-    /// by depth * direction leads to the surface of mesh_b, exactly if the state says closest, and otherwise as well as
+    /// <summary>Vertex `vertex` of body_a is inside body_b (a = b: self-contact) and has to leave it: moving the vertex
+    /// by depth * direction leads to the surface of body_b, exactly if the state says closest, and otherwise as well as
     /// edges and neighbours can estimate it.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 40)]
     public struct Penetration
     {
-        public uint mesh_a;
+        public uint body_a;
         public uint vertex;
-        public uint mesh_b;
+        public uint body_b;
         public PenetrationState state;
-        /// <summary>index in vox_grid_contacts of the first contact of (mesh_a, vertex, mesh_b)</summary>
+        /// <summary>index in vox_grid_get_contacts of the first contact of (body_a, vertex, body_b)</summary>
         public ulong contact;
         /// <summary>&gt;= 0, in the caller's unit</summary>
         public float depth;
-        /// <summary>in the frame of the positions, out of mesh_b</summary>
+        /// <summary>in the frame of the positions, out of body_b</summary>
         public Float3 direction;
     }
 
-    /// <summary>`count` penetrations, `byte_stride` apart: one for each (mesh_a, vertex, mesh_b) that has contacts, in
+    /// <summary>`count` penetrations, `byte_stride` apart: one for each (body_a, vertex, body_b) that has contacts, in
     /// that order, unless vox_filter.penetration_mask rules it out.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct PenetrationView
@@ -882,19 +882,19 @@ namespace Voxtet
         public ulong epoch;
     }
 
-    /// <summary>An edge of the surface of mesh_a and a face of the surface of mesh_b that have a point in common (a =
+    /// <summary>An edge of the surface of body_a and a face of the surface of body_b that have a point in common (a =
     /// b: self-contact; then they have no vertex in common).</summary>
     [StructLayout(LayoutKind.Sequential, Size = 128)]
     public struct EdgeContact
     {
-        public uint mesh_a;
-        /// <summary>vertices of mesh_a, the lower first</summary>
+        public uint body_a;
+        /// <summary>vertices of body_a, the lower first</summary>
         public Uint2 edge;
-        public uint mesh_b;
-        /// <summary>vertices of mesh_b, the lowest first, counter-clockwise as seen from the side that the normal
+        public uint body_b;
+        /// <summary>vertices of body_b, the lowest first, counter-clockwise as seen from the side that the normal
         /// points to</summary>
         public Uint3 face;
-        /// <summary>of mesh_b, behind the face; of doubled ones the lowest</summary>
+        /// <summary>of body_b, behind the face; of doubled ones the lowest</summary>
         public uint tet;
         public CrossingKind kind;
         /// <summary>0</summary>
@@ -910,7 +910,7 @@ namespace Voxtet
         public Double3 normal;
     }
 
-    /// <summary>`count` edge contacts, `byte_stride` apart, sorted by mesh_a, edge, mesh_b and the three vertices of
+    /// <summary>`count` edge contacts, `byte_stride` apart, sorted by body_a, edge, body_b and the three vertices of
     /// the face in ascending order.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct EdgeContactView
@@ -921,16 +921,16 @@ namespace Voxtet
         public ulong epoch;
     }
 
-    /// <summary>Vertex `vertex` of mesh_a is in no tetrahedron of mesh_b, but no further than the margin from its
+    /// <summary>Vertex `vertex` of body_a is in no tetrahedron of body_b, but no further than the margin from its
     /// surface.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 88)]
     public struct MarginContact
     {
-        public uint mesh_a;
+        public uint body_a;
         public uint vertex;
-        /// <summary>never mesh_a</summary>
-        public uint mesh_b;
-        /// <summary>of mesh_b</summary>
+        /// <summary>never body_a</summary>
+        public uint body_b;
+        /// <summary>of body_b</summary>
         public uint tet;
         /// <summary>of the tetrahedron, as in vox_surface_hit</summary>
         public uint facet;
@@ -945,7 +945,7 @@ namespace Voxtet
         public Double3 normal;
     }
 
-    /// <summary>`count` margin contacts, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b), each of which has one
+    /// <summary>`count` margin contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b), each of which has one
     /// at most.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct MarginContactView
@@ -956,17 +956,17 @@ namespace Voxtet
         public ulong epoch;
     }
 
-    /// <summary>Vertex `vertex` of mesh_a met the surface of mesh_b while both moved from their previous positions to
+    /// <summary>Vertex `vertex` of body_a met the surface of body_b while both moved from their previous positions to
     /// the present ones (vox_mesh_bind_previous_positions; a mesh without previous positions stands still), wherever it
     /// was before and is after: also where it went through a thin mesh and out again.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 40)]
     public struct Passage
     {
-        public uint mesh_a;
+        public uint body_a;
         public uint vertex;
-        /// <summary>never mesh_a</summary>
-        public uint mesh_b;
-        /// <summary>of mesh_b</summary>
+        /// <summary>never body_a</summary>
+        public uint body_b;
+        /// <summary>of body_b</summary>
         public uint tet;
         /// <summary>of the tetrahedron, as in vox_surface_hit: the first that the vertex met; the lowest (tet, facet)
         /// of several at the same time</summary>
@@ -978,7 +978,7 @@ namespace Voxtet
         public double time;
     }
 
-    /// <summary>`count` passages, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b), each of which has one at
+    /// <summary>`count` passages, `byte_stride` apart, sorted by (body_a, vertex, body_b), each of which has one at
     /// most.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct PassageView
@@ -990,13 +990,13 @@ namespace Voxtet
     }
 
     /// <summary>Two meshes that touch: a vertex of one of them is in a tetrahedron of the other, or they have edge
-    /// contacts (VOX_GRID_EDGE_CONTACTS). mesh_a &lt;= mesh_b; they are equal if a mesh touches itself.</summary>
+    /// contacts (VOX_GRID_EDGE_CONTACTS). body_a &lt;= body_b; they are equal if a mesh touches itself.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 48)]
     public struct Pair
     {
-        public uint mesh_a;
-        public uint mesh_b;
-        /// <summary>of mesh_a, as given at insertion</summary>
+        public uint body_a;
+        public uint body_b;
+        /// <summary>of body_a, as given at insertion</summary>
         public ulong user_data_a;
         public ulong user_data_b;
         public ulong first;
@@ -1004,7 +1004,7 @@ namespace Voxtet
         public ulong b_in_a;
     }
 
-    /// <summary>`count` pairs, `byte_stride` apart, sorted by (mesh_a, mesh_b).</summary>
+    /// <summary>`count` pairs, `byte_stride` apart, sorted by (body_a, body_b).</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct PairView
     {
@@ -1015,21 +1015,21 @@ namespace Voxtet
         public uint* contacts;
     }
 
-    /// <summary>An event of a pair of meshes, mesh_a &lt;= mesh_b.</summary>
+    /// <summary>An event of a pair of meshes, body_a &lt;= body_b.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 32)]
     public struct TouchEvent
     {
-        public uint mesh_a;
-        public uint mesh_b;
+        public uint body_a;
+        public uint body_b;
         public ulong user_data_a;
         public ulong user_data_b;
         public Touch kind;
-        /// <summary>index of the pair in vox_grid_pairs; VOX_NO_PAIR if it ended</summary>
+        /// <summary>index of the pair in vox_grid_get_pairs; VOX_NO_PAIR if it ended</summary>
         public uint pair;
     }
 
     /// <summary>All pairs that began, then all that persisted, then all that ended: `count` in total, `byte_stride`
-    /// apart, each part sorted by (mesh_a, mesh_b).</summary>
+    /// apart, each part sorted by (body_a, body_b).</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct TouchView
     {
@@ -1042,18 +1042,18 @@ namespace Voxtet
         public ulong ended;
     }
 
-    /// <summary>Vertex `vertex` of mesh_a has entered mesh_b, or is in none of its tetrahedra any more.</summary>
+    /// <summary>Vertex `vertex` of body_a has entered body_b, or is in none of its tetrahedra any more.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 16)]
     public struct ContactEvent
     {
-        public uint mesh_a;
+        public uint body_a;
         public uint vertex;
-        public uint mesh_b;
+        public uint body_b;
         /// <summary>VOX_TOUCH_BEGAN or VOX_TOUCH_ENDED</summary>
         public Touch kind;
     }
 
-    /// <summary>All vertices that entered, then all that left, each part sorted by (mesh_a, vertex, mesh_b).</summary>
+    /// <summary>All vertices that entered, then all that left, each part sorted by (body_a, vertex, body_b).</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct ContactEventView
     {
@@ -1069,7 +1069,7 @@ namespace Voxtet
     [StructLayout(LayoutKind.Sequential, Size = 168)]
     public struct Reading
     {
-        /// <summary>index of the contact in vox_grid_contacts</summary>
+        /// <summary>index of the contact in vox_grid_get_contacts</summary>
         public ulong contact;
         /// <summary>vox_reading_flags, combined with |</summary>
         public ReadingFlags known;
@@ -1088,11 +1088,11 @@ namespace Voxtet
         /// <summary>A unit vector out of the triangle's tetrahedron or, if that is flat, to the side away from the
         /// vertex.</summary>
         public Double3 normal;
-        /// <summary>vertices of mesh_b, the lowest first, counter-clockwise as seen from the side that the normal
+        /// <summary>vertices of body_b, the lowest first, counter-clockwise as seen from the side that the normal
         /// points to</summary>
         public Uint3 triangle;
         public uint reserved;
-        /// <summary>of mesh_a, as given at insertion</summary>
+        /// <summary>of body_a, as given at insertion</summary>
         public ulong user_data_a;
         public ulong user_data_b;
     }
@@ -1115,11 +1115,11 @@ namespace Voxtet
         public uint struct_size;
         /// <summary>vox_reading_flags, combined with |; default: all.</summary>
         public ReadingFlags what;
-        /// <summary>VOX_NULL_MESH (the default): all contacts; else those that vox_mesh_copy_contacts copies</summary>
-        public uint mesh_a;
-        /// <summary>VOX_NULL_MESH (the default), or those that vox_pair_copy_contacts copies for mesh_a and
+        /// <summary>VOX_NULL_BODY (the default): all contacts; else those that vox_mesh_copy_contacts copies</summary>
+        public uint body_a;
+        /// <summary>VOX_NULL_BODY (the default), or those that vox_pair_copy_contacts copies for body_a and
         /// it</summary>
-        public uint mesh_b;
+        public uint body_b;
         /// <summary>Most searches for a closest point.</summary>
         public ulong closest_budget;
     }
@@ -1146,7 +1146,7 @@ namespace Voxtet
     [StructLayout(LayoutKind.Sequential, Size = 72)]
     public struct SurfaceHit
     {
-        /// <summary>VOX_NULL_MESH if there is no such point; then all fields are zero</summary>
+        /// <summary>VOX_NULL_BODY if there is no such point; then all fields are zero</summary>
         public uint mesh;
         public uint tet;
         public uint facet;
@@ -1173,7 +1173,7 @@ namespace Voxtet
         public ulong mask;
         /// <summary>&gt;= 0, in the caller's unit; default infinity</summary>
         public double max_distance;
-        /// <summary>default VOX_NULL_MESH: none</summary>
+        /// <summary>default VOX_NULL_BODY: none</summary>
         public uint excluded;
         /// <summary>0</summary>
         public uint reserved;
@@ -1185,7 +1185,7 @@ namespace Voxtet
     [StructLayout(LayoutKind.Sequential, Size = 96)]
     public struct ClosestHit
     {
-        /// <summary>VOX_NULL_MESH if no surface is within max_distance; then all other fields but `inside` are
+        /// <summary>VOX_NULL_BODY if no surface is within max_distance; then all other fields but `inside` are
         /// zero</summary>
         public uint mesh;
         public uint tet;
@@ -1206,7 +1206,7 @@ namespace Voxtet
     [StructLayout(LayoutKind.Sequential, Size = 64)]
     public struct RayHit
     {
-        /// <summary>mesh of the first tetrahedron; VOX_NULL_MESH if none is hit, then all fields are zero</summary>
+        /// <summary>mesh of the first tetrahedron; VOX_NULL_BODY if none is hit, then all fields are zero</summary>
         public uint mesh;
         public uint tet;
         /// <summary>0 if `from` is in the tetrahedron</summary>
@@ -1266,7 +1266,7 @@ namespace Voxtet
         /// <summary>part of `contacts` carried over from the step before, between meshes at rest</summary>
         public ulong carried_contacts;
         public ulong penetrations;
-        /// <summary>edges from a colliding vertex to one outside mesh_b</summary>
+        /// <summary>edges from a colliding vertex to one outside body_b</summary>
         public ulong leaving_edges;
         /// <summary>tetrahedra visited along those edges</summary>
         public ulong edge_tests;
@@ -1274,7 +1274,7 @@ namespace Voxtet
         public ulong closest_searches;
         /// <summary>triangles whose closest point was computed for that</summary>
         public ulong closest_tests;
-        /// <summary>not included in `meshes` (see vox_mesh_set_enabled)</summary>
+        /// <summary>not included in `meshes` (see vox_body_set_enabled)</summary>
         public ulong disabled_meshes;
         /// <summary>(vertex, tet) pairs of one mesh that self_rings or self_rest_distance ruled out</summary>
         public ulong filtered;
@@ -1284,7 +1284,7 @@ namespace Voxtet
         public ulong unknown_penetrations;
         /// <summary>part of `penetrations` carried over with their contacts</summary>
         public ulong carried_penetrations;
-        /// <summary>left out for a coordinate (VOX_GRID_SKIP_BAD_MESHES); not included in `meshes`</summary>
+        /// <summary>left out for a coordinate (VOX_GRID_SKIP_BAD_BODIES); not included in `meshes`</summary>
         public ulong skipped_meshes;
         /// <summary>part of `meshes`: their vertices collide, their edges and faces do not</summary>
         public ulong meshes_without_tets;
@@ -1880,7 +1880,7 @@ namespace Voxtet
         public uint* partners;
     }
 
-    /// <summary>What the last search for pairs did, also one by vox_surface_crossings and the like, and what the
+    /// <summary>What the last search for pairs did, also one by vox_surface_find_crossings and the like, and what the
     /// surface holds.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 72)]
     public struct PairCounters
@@ -2117,8 +2117,7 @@ namespace Voxtet
         public double cell;
         /// <summary>more tets fail with LIMIT; default 100000000</summary>
         public ulong max_tets;
-        /// <summary>STUFFED: largest Hausdorff distance to the surface, as measured by
-        /// vox_io_measure_quality.</summary>
+        /// <summary>STUFFED: largest Hausdorff distance to the surface, as measured by vox_io_mesh_measure.</summary>
         public double max_distance;
         /// <summary>STUFFED: how many times cells away from the boundary may be merged, eight into one. 0 (the
         /// default): all tets have the same size.</summary>
@@ -2261,7 +2260,7 @@ namespace Voxtet
         /// <summary>a time: edges resist the rate of their strain with damping times their stiffness; &gt;= 0, default
         /// 0.01</summary>
         public double damping;
-        /// <summary>returned by vox_mesh_user_data on the sim's grid</summary>
+        /// <summary>returned by vox_body_get_user_data on the sim's grid</summary>
         public ulong user_data;
     }
 
@@ -2376,7 +2375,7 @@ namespace Voxtet
         public ulong tets;
         /// <summary>sum over all frames</summary>
         public ulong contacts;
-        /// <summary>combines vox_grid_hash of all frames; the same for every cell size and engine</summary>
+        /// <summary>combines vox_grid_get_hash of all frames; the same for every cell size and engine</summary>
         public ulong hash;
         /// <summary>initial distance of the centres, along the axis</summary>
         public double distance;
@@ -2473,7 +2472,7 @@ namespace Voxtet
         /// <summary>workers of a grid</summary>
         internal const uint VOX_MAX_WORKERS = 256;
         /// <summary>per grid, at one time, including retired slots</summary>
-        internal const uint VOX_MAX_MESHES = 1048576;
+        internal const uint VOX_MAX_BODIES = 1048576;
         /// <summary>uses of one mesh slot before it is retired</summary>
         internal const uint VOX_MAX_GENERATIONS = 4095;
         /// <summary>per grid</summary>
@@ -2481,7 +2480,7 @@ namespace Voxtet
         /// <summary>per grid</summary>
         internal const uint VOX_MAX_TETS = 2147483647;
         /// <summary>names no mesh</summary>
-        internal const uint VOX_NULL_MESH = 0;
+        internal const uint VOX_NULL_BODY = 0;
         /// <summary>vox_filter.self_rings</summary>
         internal const uint VOX_MAX_RINGS = 8;
         /// <summary>vox_failure.vertex where a failure is not about a vertex</summary>
@@ -2611,112 +2610,112 @@ namespace Voxtet
 
         /// <summary>Adds a mesh, which takes part from the next step on.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_insert(IntPtr grid, MeshDesc* desc, uint* out_mesh);
+        internal static extern Result vox_mesh_insert(IntPtr grid, MeshDesc* desc, uint* out_body);
 
         /// <summary>Removes a mesh.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_remove(IntPtr grid, uint mesh);
+        internal static extern Result vox_body_remove(IntPtr grid, uint body);
 
         /// <summary>1 when `mesh` names a mesh of the grid, else 0 (also for a null grid).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern uint vox_mesh_is_valid(IntPtr grid, uint mesh);
+        internal static extern uint vox_body_is_valid(IntPtr grid, uint body);
 
         /// <summary>The user_data the mesh was inserted with.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_user_data(IntPtr grid, uint mesh, ulong* out_user_data);
+        internal static extern Result vox_body_get_user_data(IntPtr grid, uint body, ulong* out_user_data);
 
         /// <summary>Copies the ids of the first `capacity` meshes of the grid, disabled ones included,
         /// ascending.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_meshes(IntPtr grid, uint* meshes, ulong capacity, ulong* out_count);
+        internal static extern Result vox_grid_get_bodies(IntPtr grid, uint* bodies, ulong capacity, ulong* out_count);
 
         /// <summary>Writes the fields that out_info-&gt;struct_size covers (set it first).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_get_info(IntPtr grid, uint mesh, MeshInfo* out_info);
+        internal static extern Result vox_body_get_info(IntPtr grid, uint body, BodyInfo* out_info);
 
         /// <summary>Copies the first `capacity` tetrahedra of a mesh: of tetrahedron t the corners, as they were given,
         /// to corners[4 * t] to corners[4 * t + 3], and to enabled[t] 1 or, if it is disabled or removed, 0.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_copy_tets(IntPtr grid, uint mesh, uint* corners, byte* enabled, ulong
+        internal static extern Result vox_mesh_get_tets(IntPtr grid, uint body, uint* corners, byte* enabled, ulong
             capacity, ulong* out_count);
 
         /// <summary>Borrows new positions for a mesh (vertex_count of them, byte_stride 0: tightly packed), under the
         /// rule of vox_mesh_desc.positions, and releases a copy made at insertion.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_bind_positions(IntPtr grid, uint mesh, IntPtr positions, Format format,
+        internal static extern Result vox_mesh_bind_positions(IntPtr grid, uint body, IntPtr positions, Format format,
             ulong byte_stride);
 
         /// <summary>The same with component_byte_stride as vox_mesh_desc.position_component_byte_stride, e.g. for
         /// columns.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_bind_strided_positions(IntPtr grid, uint mesh, IntPtr positions, Format
+        internal static extern Result vox_mesh_bind_strided_positions(IntPtr grid, uint body, IntPtr positions, Format
             format, ulong byte_stride, ulong component_byte_stride);
 
         /// <summary>Borrows the positions that the vertices of a mesh had before they moved to those of
         /// vox_mesh_bind_positions: in the following steps each vertex moves from one to the other in a straight line,
         /// at constant speed, and such steps also find vox_grid_passages.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_bind_previous_positions(IntPtr grid, uint mesh, IntPtr positions, Format
+        internal static extern Result vox_mesh_bind_previous_positions(IntPtr grid, uint body, IntPtr positions, Format
             format, ulong byte_stride, ulong component_byte_stride);
 
         /// <summary>Makes the next step process a mesh even if it is at rest (see vox_grid_step).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_mark_moved(IntPtr grid, uint mesh);
+        internal static extern Result vox_body_mark_moved(IntPtr grid, uint body);
 
         /// <summary>Sets what the mesh collides with, from the next step on (the filter is copied).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_set_filter(IntPtr grid, uint mesh, Filter* filter);
+        internal static extern Result vox_body_set_filter(IntPtr grid, uint body, Filter* filter);
 
         /// <summary>Writes the fields of the filter in use that out_filter-&gt;struct_size covers (set it
         /// first).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_filter(IntPtr grid, uint mesh, Filter* out_filter);
+        internal static extern Result vox_mesh_filter(IntPtr grid, uint body, Filter* out_filter);
 
         /// <summary>Disables a mesh (enabled 0), so that it takes no part in the following steps and its positions are
         /// not read, or enables it again (1, as at insertion).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_set_enabled(IntPtr grid, uint mesh, uint enabled);
+        internal static extern Result vox_body_set_enabled(IntPtr grid, uint body, uint enabled);
 
         /// <summary>With enabled 0, the two meshes do not collide in the following steps, whatever their filters say;
         /// with 1, their filters decide.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_set_pair_enabled(IntPtr grid, uint mesh_a, uint mesh_b, uint enabled);
+        internal static extern Result vox_grid_set_pair_enabled(IntPtr grid, uint body_a, uint body_b, uint enabled);
 
         /// <summary>Gives the mesh positions of its own that the caller may write to: vertex_count of them, tightly
         /// packed, in the format it was inserted with or bound to last.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_map_positions(IntPtr grid, uint mesh, IntPtr* out_positions, ulong*
+        internal static extern Result vox_mesh_map_positions(IntPtr grid, uint body, IntPtr* out_positions, ulong*
             out_byte_stride);
 
         /// <summary>Moves a mesh as a whole.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_set_transform(IntPtr grid, uint mesh, double* matrix);
+        internal static extern Result vox_body_set_transform(IntPtr grid, uint body, double* matrix);
 
         /// <summary>Replaces tetrahedra, vertices and positions, as if the mesh had been inserted with those of
         /// `desc`.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_set_topology(IntPtr grid, uint mesh, MeshDesc* desc);
+        internal static extern Result vox_mesh_set_topology(IntPtr grid, uint body, MeshDesc* desc);
 
         /// <summary>Disables the `count` tetrahedra named by `tets` (enabled 0), so that they contain no vertex and
         /// have no edges and facets, or enables them again (1, as at insertion).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_set_tets_enabled(IntPtr grid, uint mesh, uint* tets, ulong count, uint
+        internal static extern Result vox_mesh_set_tets_enabled(IntPtr grid, uint body, uint* tets, ulong count, uint
             enabled);
 
         /// <summary>Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3], copied, for each i
         /// below count.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_replace_tets(IntPtr grid, uint mesh, uint* tets, ulong count, uint*
+        internal static extern Result vox_mesh_replace_tets(IntPtr grid, uint body, uint* tets, ulong count, uint*
             corners);
 
         /// <summary>Adds `count` tetrahedra with 4 corners each, copied.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_append_tets(IntPtr grid, uint mesh, uint* corners, ulong count, uint*
+        internal static extern Result vox_mesh_append_tets(IntPtr grid, uint body, uint* corners, ulong count, uint*
             out_first);
 
         /// <summary>Removes tetrahedra, disabled ones included.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_remove_tets(IntPtr grid, uint mesh, uint* tets, ulong count);
+        internal static extern Result vox_mesh_remove_tets(IntPtr grid, uint body, uint* tets, ulong count);
 
         /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers: all 0.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2724,12 +2723,12 @@ namespace Voxtet
 
         /// <summary>Adds vertices, which belong to no tetrahedron yet.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_append_vertices(IntPtr grid, uint mesh, VerticesDesc* desc, uint*
+        internal static extern Result vox_mesh_append_vertices(IntPtr grid, uint body, VerticesDesc* desc, uint*
             out_first);
 
         /// <summary>Removes vertices; a vertex of an enabled tetrahedron is an INVALID_ARGUMENT.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_remove_vertices(IntPtr grid, uint mesh, uint* vertices, ulong count);
+        internal static extern Result vox_mesh_remove_vertices(IntPtr grid, uint body, uint* vertices, ulong count);
 
         /// <summary>Finds all contacts of the positions as they are now.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2742,14 +2741,14 @@ namespace Voxtet
             Result* results);
 
         /// <summary>The mesh that made the last step fail (index 0), or the meshes that it left out
-        /// (VOX_GRID_SKIP_BAD_MESHES): the index-th of them, in the order of ids.</summary>
+        /// (VOX_GRID_SKIP_BAD_BODIES): the index-th of them, in the order of ids.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_failure(IntPtr grid, uint index, Failure* out_failure);
+        internal static extern Result vox_grid_get_failure(IntPtr grid, uint index, Failure* out_failure);
 
         /// <summary>The contacts of the last step; count 0 before the first, after a failed one and after a
         /// clear.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_contacts(IntPtr grid, ContactView* out_view);
+        internal static extern Result vox_grid_get_contacts(IntPtr grid, ContactView* out_view);
 
         /// <summary>The contacts of `count` grids, one grid after the other: those of grid i begin at index offsets[i]
         /// and end before offsets[i + 1], where offsets has count + 1 numbers, all of which are written.</summary>
@@ -2768,7 +2767,7 @@ namespace Voxtet
 
         /// <summary>A hash of the contacts: all fields, in order.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_hash(IntPtr grid, ulong* out_hash);
+        internal static extern Result vox_grid_get_hash(IntPtr grid, ulong* out_hash);
 
         /// <summary>The penetrations of the last step; count 0 if it found no contacts, before the first step, after a
         /// failed one and after a clear.</summary>
@@ -2809,18 +2808,18 @@ namespace Voxtet
         /// <summary>The pairs that touched in the last step; count 0 before the first, after a failed one and after a
         /// clear.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_pairs(IntPtr grid, PairView* out_view);
+        internal static extern Result vox_grid_get_pairs(IntPtr grid, PairView* out_view);
 
-        /// <summary>Copies the first `capacity` of the last step's contacts in which `mesh` is mesh_a or mesh_b, pair
-        /// by pair, in the order of vox_grid_pairs.</summary>
+        /// <summary>Copies the first `capacity` of the last step's contacts in which `mesh` is body_a or body_b, pair
+        /// by pair, in the order of vox_grid_get_pairs.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_copy_contacts(IntPtr grid, uint mesh, Contact* contacts, ulong capacity,
+        internal static extern Result vox_mesh_copy_contacts(IntPtr grid, uint body, Contact* contacts, ulong capacity,
             ulong* out_count);
 
         /// <summary>The same for the contacts between two meshes, given in either order, or of one mesh with itself
-        /// (mesh_a = mesh_b): the contacts of their vox_pair.</summary>
+        /// (body_a = body_b): the contacts of their vox_pair.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_pair_copy_contacts(IntPtr grid, uint mesh_a, uint mesh_b, Contact* contacts,
+        internal static extern Result vox_pair_copy_contacts(IntPtr grid, uint body_a, uint body_b, Contact* contacts,
             ulong capacity, ulong* out_count);
 
         /// <summary>What the last step changed; count 0 before the first one.</summary>
@@ -2858,13 +2857,13 @@ namespace Voxtet
         /// <summary>As vox_mesh_copy_contacts, but copies the prepared readings of those contacts, in the same
         /// order.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_copy_readings(IntPtr grid, uint mesh, Reading* readings, ulong capacity,
+        internal static extern Result vox_mesh_copy_readings(IntPtr grid, uint body, Reading* readings, ulong capacity,
             ulong* out_count);
 
         /// <summary>As vox_pair_copy_contacts, but copies the prepared readings of those contacts, in the same
         /// order.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_pair_copy_readings(IntPtr grid, uint mesh_a, uint mesh_b, Reading* readings,
+        internal static extern Result vox_pair_copy_readings(IntPtr grid, uint body_a, uint body_b, Reading* readings,
             ulong capacity, ulong* out_count);
 
         /// <summary>Writes the grid as it is now to `bytes`, in a format that is the same on every machine
@@ -2948,7 +2947,7 @@ namespace Voxtet
 
         /// <summary>The user_data that a mesh of the view was inserted with.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_query_view_user_data(IntPtr view, uint mesh, ulong* out_user_data);
+        internal static extern Result vox_query_view_user_data(IntPtr view, uint body, ulong* out_user_data);
 
         /// <summary>As vox_grid_query_point.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2992,7 +2991,7 @@ namespace Voxtet
 
         /// <summary>Writes the fields that out_counters-&gt;struct_size covers (set it first).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_counters(IntPtr grid, Counters* out_counters);
+        internal static extern Result vox_grid_get_counters(IntPtr grid, Counters* out_counters);
 
         /// <summary>Writes the fields that out_profile-&gt;struct_size covers (set it first).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3106,7 +3105,7 @@ namespace Voxtet
 
         /// <summary>The edges or faces of a surface, numbered as everywhere in this header.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_surface_features(IntPtr surface, Feature feature, FeatureView* out_view);
+        internal static extern Result vox_surface_get_features(IntPtr surface, Feature feature, FeatureView* out_view);
 
         /// <summary>Fills `motion` with the defaults for the fields that `struct_size` covers.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3119,8 +3118,8 @@ namespace Voxtet
         /// <summary>All features `b` whose boxes overlap those of the features [first, first + count) of kind `a`;
         /// boxes that touch overlap.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_surface_pairs(IntPtr surface, Feature a, Feature b, ulong first, ulong count,
-            PairLists* out_lists);
+        internal static extern Result vox_surface_find_pairs(IntPtr surface, Feature a, Feature b, ulong first, ulong
+            count, PairLists* out_lists);
 
         /// <summary>Sets vox_surface_desc.cell_size, from the next call on.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3134,24 +3133,24 @@ namespace Voxtet
 
         /// <summary>Writes the fields that out_counters-&gt;struct_size covers (set it first).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_surface_counters(IntPtr surface, PairCounters* out_counters);
+        internal static extern Result vox_surface_get_counters(IntPtr surface, PairCounters* out_counters);
 
         /// <summary>All edges and faces that have a point in common and no vertex, at the end of the motion: whether
         /// the surface is free of intersections, and where it is not.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_surface_crossings(IntPtr surface, CrossingView* out_view);
+        internal static extern Result vox_surface_find_crossings(IntPtr surface, CrossingView* out_view);
 
         /// <summary>All pairs of features of kinds a and b that are at most `distance` apart, at the end of the motion:
         /// face and vertex, edge and edge, edge and vertex, vertex and vertex, in either order.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_surface_close(IntPtr surface, Feature a, Feature b, double distance,
-            CloseView* out_view);
+        internal static extern Result vox_surface_find_proximities(IntPtr surface, Feature a, Feature b, double
+            distance, CloseView* out_view);
 
         /// <summary>For each vertex a distance, at most `most`: while no vertex has moved further than its own, from
         /// the end of the motion, no face and vertex and no two edges touch that do not touch now (Chen et al. 2025,
         /// Offset Geometric Contact, Sect. 3.3).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_surface_clearance(IntPtr surface, double most, double* per_vertex, ulong
+        internal static extern Result vox_surface_find_clearances(IntPtr surface, double most, double* per_vertex, ulong
             vertex_count);
 
         /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
@@ -3161,12 +3160,12 @@ namespace Voxtet
         /// <summary>How much of the motion is free of contact: the least time of first contact of all pairs of faces
         /// and vertices, and of edges and edges.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_surface_safe_step(IntPtr surface, ContactTimeDesc* desc, SafeStep* @out);
+        internal static extern Result vox_surface_find_safe_step(IntPtr surface, ContactTimeDesc* desc, SafeStep* @out);
 
         /// <summary>All pairs of FACE and VERTEX, or of EDGE and EDGE, that may come into contact within the motion,
         /// each with its time; pairs that are left out are proven to stay apart. desc null: defaults.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_surface_contact_times(IntPtr surface, Feature a, Feature b, ContactTimeDesc*
+        internal static extern Result vox_surface_find_impacts(IntPtr surface, Feature a, Feature b, ContactTimeDesc*
             desc, TimedView* out_view);
 
         /// <summary>Fills `desc` with the defaults (AUTO, all meshes) for the fields that `struct_size`
@@ -3190,13 +3189,13 @@ namespace Voxtet
 
         /// <summary>The mesh's arrays.</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_io_mesh_get(IntPtr mesh, IoMeshView* out_view);
+        internal static extern Result vox_io_mesh_get_arrays(IntPtr mesh, IoMeshView* out_view);
 
         /// <summary>Describes the mesh for vox_mesh_insert and vox_suggest_cell_size: sets positions, their format
         /// (doubles) and strides, vertex_count, tets and tet_count, and leaves all other fields of `desc` as they
         /// are.</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_io_mesh_desc(IntPtr mesh, MeshDesc* desc);
+        internal static extern Result vox_io_mesh_describe(IntPtr mesh, MeshDesc* desc);
 
         /// <summary>Makes a mesh from arrays (copied) on the C++ runtime's heap.</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3204,12 +3203,12 @@ namespace Voxtet
 
         /// <summary>Writes the fields that out_report-&gt;struct_size covers (set it first).</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_io_mesh_report(IntPtr mesh, IoReport* out_report);
+        internal static extern Result vox_io_mesh_get_report(IntPtr mesh, IoReport* out_report);
 
         /// <summary>The problems in the report as text, one line each ("3 tets are inverted"); "" if there are
         /// none.</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern IntPtr vox_io_mesh_warnings(IntPtr mesh);
+        internal static extern IntPtr vox_io_mesh_get_warnings(IntPtr mesh);
 
         /// <summary>Name of a format, e.g. "Gmsh .msh".</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3227,7 +3226,7 @@ namespace Voxtet
 
         /// <summary>Measures `mesh` against the triangles of `surface`, which may be null.</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_io_measure_quality(IntPtr mesh, IntPtr surface, IoQuality* out_quality);
+        internal static extern Result vox_io_mesh_measure(IntPtr mesh, IntPtr surface, IoQuality* out_quality);
 
         /// <summary>Fills `desc` with the defaults (AUTO, text, no data) for the fields that `struct_size`
         /// covers.</summary>
@@ -3284,7 +3283,7 @@ namespace Voxtet
         /// <summary>The grid inside, for reading the contacts and penetrations of the last detection, counters and
         /// profile, and for setting the cell size and the number of workers.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_sim_grid(IntPtr sim, IntPtr* out_grid);
+        internal static extern Result vox_sim_get_grid(IntPtr sim, IntPtr* out_grid);
 
         /// <summary>Moves everything forward by `time_step`, or by max_time_step if that is less.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3304,7 +3303,7 @@ namespace Voxtet
 
         /// <summary>The body's arrays.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_sim_body_get(IntPtr sim, uint body, SimBodyView* out_view);
+        internal static extern Result vox_sim_body_get_view(IntPtr sim, uint body, SimBodyView* out_view);
 
         /// <summary>Sets a body's positions and velocities, 3 * vertex_count numbers each; null leaves them as they
         /// are.</summary>
@@ -3317,13 +3316,13 @@ namespace Voxtet
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_sim_body_set_acceleration(IntPtr sim, uint body, double* acceleration);
 
-        /// <summary>Energy and motion of a body, or of all bodies that are not fixed (body VOX_NULL_MESH).</summary>
+        /// <summary>Energy and motion of a body, or of all bodies that are not fixed (body VOX_NULL_BODY).</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_sim_energy(IntPtr sim, uint body, SimEnergies* out_energies);
+        internal static extern Result vox_sim_get_energy(IntPtr sim, uint body, SimEnergies* out_energies);
 
         /// <summary>Writes the fields that out_counts-&gt;struct_size covers (set it first).</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_sim_counters(IntPtr sim, SimCounts* out_counts);
+        internal static extern Result vox_sim_get_counters(IntPtr sim, SimCounts* out_counts);
 
         /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3480,25 +3479,25 @@ namespace Voxtet
             entries.Add(Entry("vox_mesh_desc.rest_position_component_byte_stride", (byte*)&s.rest_position_component_byte_stride - begin, 96, 88));
         }
 
-        static void AddMeshInfo(List<LayoutEntry> entries)
+        static void AddBodyInfo(List<LayoutEntry> entries)
         {
-            MeshInfo s;
+            BodyInfo s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_mesh_info", sizeof(MeshInfo), 176, 176));
-            entries.Add(Entry("vox_mesh_info.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_mesh_info.slot", (byte*)&s.slot - begin, 4, 4));
-            entries.Add(Entry("vox_mesh_info.user_data", (byte*)&s.user_data - begin, 8, 8));
-            entries.Add(Entry("vox_mesh_info.vertex_count", (byte*)&s.vertex_count - begin, 16, 16));
-            entries.Add(Entry("vox_mesh_info.tet_count", (byte*)&s.tet_count - begin, 24, 24));
-            entries.Add(Entry("vox_mesh_info.enabled_tet_count", (byte*)&s.enabled_tet_count - begin, 32, 32));
-            entries.Add(Entry("vox_mesh_info.enabled", (byte*)&s.enabled - begin, 40, 40));
-            entries.Add(Entry("vox_mesh_info.flags", (byte*)&s.flags - begin, 44, 44));
-            entries.Add(Entry("vox_mesh_info.position_format", (byte*)&s.position_format - begin, 48, 48));
-            entries.Add(Entry("vox_mesh_info.has_transform", (byte*)&s.has_transform - begin, 52, 52));
-            entries.Add(Entry("vox_mesh_info.positions", (byte*)&s.positions - begin, 56, 56));
-            entries.Add(Entry("vox_mesh_info.position_byte_stride", (byte*)&s.position_byte_stride - begin, 64, 64));
-            entries.Add(Entry("vox_mesh_info.position_component_byte_stride", (byte*)&s.position_component_byte_stride - begin, 72, 72));
-            entries.Add(Entry("vox_mesh_info.transform", (byte*)&s.transform - begin, 80, 80));
+            entries.Add(Entry("vox_body_info", sizeof(BodyInfo), 176, 176));
+            entries.Add(Entry("vox_body_info.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_body_info.slot", (byte*)&s.slot - begin, 4, 4));
+            entries.Add(Entry("vox_body_info.user_data", (byte*)&s.user_data - begin, 8, 8));
+            entries.Add(Entry("vox_body_info.vertex_count", (byte*)&s.vertex_count - begin, 16, 16));
+            entries.Add(Entry("vox_body_info.tet_count", (byte*)&s.tet_count - begin, 24, 24));
+            entries.Add(Entry("vox_body_info.enabled_tet_count", (byte*)&s.enabled_tet_count - begin, 32, 32));
+            entries.Add(Entry("vox_body_info.enabled", (byte*)&s.enabled - begin, 40, 40));
+            entries.Add(Entry("vox_body_info.flags", (byte*)&s.flags - begin, 44, 44));
+            entries.Add(Entry("vox_body_info.position_format", (byte*)&s.position_format - begin, 48, 48));
+            entries.Add(Entry("vox_body_info.has_transform", (byte*)&s.has_transform - begin, 52, 52));
+            entries.Add(Entry("vox_body_info.positions", (byte*)&s.positions - begin, 56, 56));
+            entries.Add(Entry("vox_body_info.position_byte_stride", (byte*)&s.position_byte_stride - begin, 64, 64));
+            entries.Add(Entry("vox_body_info.position_component_byte_stride", (byte*)&s.position_component_byte_stride - begin, 72, 72));
+            entries.Add(Entry("vox_body_info.transform", (byte*)&s.transform - begin, 80, 80));
         }
 
         static void AddVerticesDesc(List<LayoutEntry> entries)
@@ -3538,9 +3537,9 @@ namespace Voxtet
             Contact s;
             byte* begin = (byte*)&s;
             entries.Add(Entry("vox_contact", sizeof(Contact), 32, 32));
-            entries.Add(Entry("vox_contact.mesh_a", (byte*)&s.mesh_a - begin, 0, 0));
+            entries.Add(Entry("vox_contact.body_a", (byte*)&s.body_a - begin, 0, 0));
             entries.Add(Entry("vox_contact.vertex", (byte*)&s.vertex - begin, 4, 4));
-            entries.Add(Entry("vox_contact.mesh_b", (byte*)&s.mesh_b - begin, 8, 8));
+            entries.Add(Entry("vox_contact.body_b", (byte*)&s.body_b - begin, 8, 8));
             entries.Add(Entry("vox_contact.tet", (byte*)&s.tet - begin, 12, 12));
             entries.Add(Entry("vox_contact.barycentric", (byte*)&s.barycentric - begin, 16, 16));
         }
@@ -3572,9 +3571,9 @@ namespace Voxtet
             Penetration s;
             byte* begin = (byte*)&s;
             entries.Add(Entry("vox_penetration", sizeof(Penetration), 40, 40));
-            entries.Add(Entry("vox_penetration.mesh_a", (byte*)&s.mesh_a - begin, 0, 0));
+            entries.Add(Entry("vox_penetration.body_a", (byte*)&s.body_a - begin, 0, 0));
             entries.Add(Entry("vox_penetration.vertex", (byte*)&s.vertex - begin, 4, 4));
-            entries.Add(Entry("vox_penetration.mesh_b", (byte*)&s.mesh_b - begin, 8, 8));
+            entries.Add(Entry("vox_penetration.body_b", (byte*)&s.body_b - begin, 8, 8));
             entries.Add(Entry("vox_penetration.state", (byte*)&s.state - begin, 12, 12));
             entries.Add(Entry("vox_penetration.contact", (byte*)&s.contact - begin, 16, 16));
             entries.Add(Entry("vox_penetration.depth", (byte*)&s.depth - begin, 24, 24));
@@ -3617,9 +3616,9 @@ namespace Voxtet
             EdgeContact s;
             byte* begin = (byte*)&s;
             entries.Add(Entry("vox_edge_contact", sizeof(EdgeContact), 128, 128));
-            entries.Add(Entry("vox_edge_contact.mesh_a", (byte*)&s.mesh_a - begin, 0, 0));
+            entries.Add(Entry("vox_edge_contact.body_a", (byte*)&s.body_a - begin, 0, 0));
             entries.Add(Entry("vox_edge_contact.edge", (byte*)&s.edge - begin, 4, 4));
-            entries.Add(Entry("vox_edge_contact.mesh_b", (byte*)&s.mesh_b - begin, 12, 12));
+            entries.Add(Entry("vox_edge_contact.body_b", (byte*)&s.body_b - begin, 12, 12));
             entries.Add(Entry("vox_edge_contact.face", (byte*)&s.face - begin, 16, 16));
             entries.Add(Entry("vox_edge_contact.tet", (byte*)&s.tet - begin, 28, 28));
             entries.Add(Entry("vox_edge_contact.kind", (byte*)&s.kind - begin, 32, 32));
@@ -3646,9 +3645,9 @@ namespace Voxtet
             MarginContact s;
             byte* begin = (byte*)&s;
             entries.Add(Entry("vox_margin_contact", sizeof(MarginContact), 88, 88));
-            entries.Add(Entry("vox_margin_contact.mesh_a", (byte*)&s.mesh_a - begin, 0, 0));
+            entries.Add(Entry("vox_margin_contact.body_a", (byte*)&s.body_a - begin, 0, 0));
             entries.Add(Entry("vox_margin_contact.vertex", (byte*)&s.vertex - begin, 4, 4));
-            entries.Add(Entry("vox_margin_contact.mesh_b", (byte*)&s.mesh_b - begin, 8, 8));
+            entries.Add(Entry("vox_margin_contact.body_b", (byte*)&s.body_b - begin, 8, 8));
             entries.Add(Entry("vox_margin_contact.tet", (byte*)&s.tet - begin, 12, 12));
             entries.Add(Entry("vox_margin_contact.facet", (byte*)&s.facet - begin, 16, 16));
             entries.Add(Entry("vox_margin_contact.face", (byte*)&s.face - begin, 20, 20));
@@ -3673,9 +3672,9 @@ namespace Voxtet
             Passage s;
             byte* begin = (byte*)&s;
             entries.Add(Entry("vox_passage", sizeof(Passage), 40, 40));
-            entries.Add(Entry("vox_passage.mesh_a", (byte*)&s.mesh_a - begin, 0, 0));
+            entries.Add(Entry("vox_passage.body_a", (byte*)&s.body_a - begin, 0, 0));
             entries.Add(Entry("vox_passage.vertex", (byte*)&s.vertex - begin, 4, 4));
-            entries.Add(Entry("vox_passage.mesh_b", (byte*)&s.mesh_b - begin, 8, 8));
+            entries.Add(Entry("vox_passage.body_b", (byte*)&s.body_b - begin, 8, 8));
             entries.Add(Entry("vox_passage.tet", (byte*)&s.tet - begin, 12, 12));
             entries.Add(Entry("vox_passage.facet", (byte*)&s.facet - begin, 16, 16));
             entries.Add(Entry("vox_passage.face", (byte*)&s.face - begin, 20, 20));
@@ -3698,8 +3697,8 @@ namespace Voxtet
             Pair s;
             byte* begin = (byte*)&s;
             entries.Add(Entry("vox_pair", sizeof(Pair), 48, 48));
-            entries.Add(Entry("vox_pair.mesh_a", (byte*)&s.mesh_a - begin, 0, 0));
-            entries.Add(Entry("vox_pair.mesh_b", (byte*)&s.mesh_b - begin, 4, 4));
+            entries.Add(Entry("vox_pair.body_a", (byte*)&s.body_a - begin, 0, 0));
+            entries.Add(Entry("vox_pair.body_b", (byte*)&s.body_b - begin, 4, 4));
             entries.Add(Entry("vox_pair.user_data_a", (byte*)&s.user_data_a - begin, 8, 8));
             entries.Add(Entry("vox_pair.user_data_b", (byte*)&s.user_data_b - begin, 16, 16));
             entries.Add(Entry("vox_pair.first", (byte*)&s.first - begin, 24, 24));
@@ -3724,8 +3723,8 @@ namespace Voxtet
             TouchEvent s;
             byte* begin = (byte*)&s;
             entries.Add(Entry("vox_touch_event", sizeof(TouchEvent), 32, 32));
-            entries.Add(Entry("vox_touch_event.mesh_a", (byte*)&s.mesh_a - begin, 0, 0));
-            entries.Add(Entry("vox_touch_event.mesh_b", (byte*)&s.mesh_b - begin, 4, 4));
+            entries.Add(Entry("vox_touch_event.body_a", (byte*)&s.body_a - begin, 0, 0));
+            entries.Add(Entry("vox_touch_event.body_b", (byte*)&s.body_b - begin, 4, 4));
             entries.Add(Entry("vox_touch_event.user_data_a", (byte*)&s.user_data_a - begin, 8, 8));
             entries.Add(Entry("vox_touch_event.user_data_b", (byte*)&s.user_data_b - begin, 16, 16));
             entries.Add(Entry("vox_touch_event.kind", (byte*)&s.kind - begin, 24, 24));
@@ -3751,9 +3750,9 @@ namespace Voxtet
             ContactEvent s;
             byte* begin = (byte*)&s;
             entries.Add(Entry("vox_contact_event", sizeof(ContactEvent), 16, 16));
-            entries.Add(Entry("vox_contact_event.mesh_a", (byte*)&s.mesh_a - begin, 0, 0));
+            entries.Add(Entry("vox_contact_event.body_a", (byte*)&s.body_a - begin, 0, 0));
             entries.Add(Entry("vox_contact_event.vertex", (byte*)&s.vertex - begin, 4, 4));
-            entries.Add(Entry("vox_contact_event.mesh_b", (byte*)&s.mesh_b - begin, 8, 8));
+            entries.Add(Entry("vox_contact_event.body_b", (byte*)&s.body_b - begin, 8, 8));
             entries.Add(Entry("vox_contact_event.kind", (byte*)&s.kind - begin, 12, 12));
         }
 
@@ -3809,8 +3808,8 @@ namespace Voxtet
             entries.Add(Entry("vox_readings_desc", sizeof(ReadingsDesc), 24, 24));
             entries.Add(Entry("vox_readings_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_readings_desc.what", (byte*)&s.what - begin, 4, 4));
-            entries.Add(Entry("vox_readings_desc.mesh_a", (byte*)&s.mesh_a - begin, 8, 8));
-            entries.Add(Entry("vox_readings_desc.mesh_b", (byte*)&s.mesh_b - begin, 12, 12));
+            entries.Add(Entry("vox_readings_desc.body_a", (byte*)&s.body_a - begin, 8, 8));
+            entries.Add(Entry("vox_readings_desc.body_b", (byte*)&s.body_b - begin, 12, 12));
             entries.Add(Entry("vox_readings_desc.closest_budget", (byte*)&s.closest_budget - begin, 16, 16));
         }
 
@@ -4816,7 +4815,7 @@ namespace Voxtet
             AddGridDesc(entries);
             AddFilter(entries);
             AddMeshDesc(entries);
-            AddMeshInfo(entries);
+            AddBodyInfo(entries);
             AddVerticesDesc(entries);
             AddFailure(entries);
             AddContact(entries);

@@ -6,12 +6,12 @@ namespace Voxtet
     /// </summary>
     public readonly struct Mesh : IEquatable<Mesh>
     {
-        /// <summary>The number that contacts, pairs and events have in mesh_a and mesh_b.</summary>
+        /// <summary>The number that contacts, pairs and events have in body_a and body_b.</summary>
         public readonly uint Id;
 
         public Mesh(uint id) { Id = id; }
 
-        public static readonly Mesh None = new Mesh(Native.VOX_NULL_MESH);
+        public static readonly Mesh None = new Mesh(Native.VOX_NULL_BODY);
 
         public bool Equals(Mesh other) { return Id == other.Id; }
         public override bool Equals(object other) { return other is Mesh && Equals((Mesh)other); }

@@ -205,7 +205,7 @@ namespace Voxtet.Tests
                     grid.SetEnabled(mesh, call.Uint("enabled") != 0);
                     break;
                 case "set_pair_enabled":
-                    grid.SetPairEnabled(call.Mesh("mesh_a"), call.Mesh("mesh_b"), call.Uint("enabled") != 0);
+                    grid.SetPairEnabled(call.Mesh("body_a"), call.Mesh("body_b"), call.Uint("enabled") != 0);
                     break;
                 case "set_flags":
                     grid.Flags = (GridFlags)call.Uint("flags");

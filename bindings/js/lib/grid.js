@@ -13,7 +13,7 @@ const FILTER = ["group", "category", "mask", "selfCollision", "selfRings", "self
 const MESH = ["positions", "tets", "userData", "filter", "restPositions"];
 const TOPOLOGY = ["positions", "tets", "restPositions"];
 const VERTICES = ["positions", "copiesOf", "restPositions"];
-const READINGS = ["what", "meshA", "meshB", "closestBudget"];
+const READINGS = ["what", "bodyA", "bodyB", "closestBudget"];
 
 let logged;
 
@@ -149,15 +149,15 @@ export class Grid extends Queries {
   get meshes() {
     const memory = memoryOf(this);
     return memory.frame((frame) => {
-      const count = memory.number("count", (out) => this.#call("vox_grid_meshes", 0, 0, out));
+      const count = memory.number("count", (out) => this.#call("vox_grid_get_bodies", 0, 0, out));
       const ids = frame.take(4 * count);
-      memory.number("count", (out) => this.#call("vox_grid_meshes", ids, count, out));
+      memory.number("count", (out) => this.#call("vox_grid_get_bodies", ids, count, out));
       return Array.from(memory.copy("u32", ids, count), (id) => new Mesh(this, id));
     });
   }
 
-  setPairEnabled(meshA, meshB, enabled) {
-    this.#call("vox_grid_set_pair_enabled", meshId(meshA, "meshA"), meshId(meshB, "meshB"), flag(enabled, "enabled"));
+  setPairEnabled(bodyA, bodyB, enabled) {
+    this.#call("vox_grid_set_pair_enabled", meshId(bodyA, "bodyA"), meshId(bodyB, "bodyB"), flag(enabled, "enabled"));
   }
 
   // ---- step and results ----
@@ -171,11 +171,11 @@ export class Grid extends Queries {
   }
 
   get hash() {
-    return this.#number("u64", "vox_grid_hash");
+    return this.#number("u64", "vox_grid_get_hash");
   }
 
   get contacts() {
-    return this.#view("vox_grid_contacts", "vox_contact_view", "vox_contact")[1];
+    return this.#view("vox_grid_get_contacts", "vox_contact_view", "vox_contact")[1];
   }
 
   get contactInteriors() {
@@ -193,8 +193,8 @@ export class Grid extends Queries {
   }
 
   get pairs() {
-    const [view, pairs] = this.#view("vox_grid_pairs", "vox_pair_view", "vox_pair");
-    pairs.contacts = memoryOf(this).copy("u32", view.contacts, this.#get("vox_contact_view", "vox_grid_contacts").count);
+    const [view, pairs] = this.#view("vox_grid_get_pairs", "vox_pair_view", "vox_pair");
+    pairs.contacts = memoryOf(this).copy("u32", view.contacts, this.#get("vox_contact_view", "vox_grid_get_contacts").count);
     return pairs;
   }
 
@@ -225,12 +225,12 @@ export class Grid extends Queries {
     });
   }
 
-  contactsBetween(meshA, meshB) {
-    return this.copied("vox_pair_copy_contacts", "vox_contact", meshId(meshA, "meshA"), meshId(meshB, "meshB"));
+  contactsBetween(bodyA, bodyB) {
+    return this.copied("vox_pair_copy_contacts", "vox_contact", meshId(bodyA, "bodyA"), meshId(bodyB, "bodyB"));
   }
 
   failure(index = 0) {
-    const failure = this.#get("vox_failure", "vox_grid_failure", integer(index, "index", "u32"));
+    const failure = this.#get("vox_failure", "vox_grid_get_failure", integer(index, "index", "u32"));
     return failure.mesh === 0 ? null : failure;
   }
 
@@ -249,8 +249,8 @@ export class Grid extends Queries {
     return this.#view("vox_grid_reading_depths", "vox_depth_view", "vox_depth")[1];
   }
 
-  readingsBetween(meshA, meshB) {
-    return this.copied("vox_pair_copy_readings", "vox_reading", meshId(meshA, "meshA"), meshId(meshB, "meshB"));
+  readingsBetween(bodyA, bodyB) {
+    return this.copied("vox_pair_copy_readings", "vox_reading", meshId(bodyA, "bodyA"), meshId(bodyB, "bodyB"));
   }
 
   // ---- queries, snapshots, measurements ----
@@ -274,7 +274,7 @@ export class Grid extends Queries {
   }
 
   get counters() {
-    return this.#get("vox_counters", "vox_grid_counters");
+    return this.#get("vox_counters", "vox_grid_get_counters");
   }
 
   get profile() {
@@ -314,23 +314,23 @@ export class Mesh {
   }
 
   get valid() {
-    return this.#call("vox_mesh_is_valid") !== 0;
+    return this.#call("vox_body_is_valid") !== 0;
   }
 
   remove() {
-    this.#call("vox_mesh_remove");
+    this.#call("vox_body_remove");
   }
 
   get info() {
     const { positions: _, positionByteStride: _b, positionComponentByteStride: _c, ...info } = memoryOf(this.#grid).get(
-      "vox_mesh_info",
-      (out) => this.#call("vox_mesh_get_info", out),
+      "vox_body_info",
+      (out) => this.#call("vox_body_get_info", out),
     );
     return info;
   }
 
   get userData() {
-    return memoryOf(this.#grid).number("u64", (out) => this.#call("vox_mesh_user_data", out));
+    return memoryOf(this.#grid).number("u64", (out) => this.#call("vox_body_get_user_data", out));
   }
 
   /** The positions in the module's memory, which moves: take it anew where it is used. */
@@ -372,18 +372,18 @@ export class Mesh {
     const numbers = corners ? 4 * tetCount : tetCount;
     return memory.frame((frame) => {
       const at = frame.take(corners ? 4 * numbers : numbers);
-      memory.number("count", (out) => this.#call("vox_mesh_copy_tets", corners ? at : 0, corners ? 0 : at, tetCount, out));
+      memory.number("count", (out) => this.#call("vox_mesh_get_tets", corners ? at : 0, corners ? 0 : at, tetCount, out));
       return memory.copy(type, at, numbers);
     });
   }
 
   markMoved() {
-    this.#call("vox_mesh_mark_moved");
+    this.#call("vox_body_mark_moved");
   }
 
   setTransform(matrix) {
     const rows = matrix === null ? null : floats(matrix, "matrix", 12);
-    memoryOf(this.#grid).frame((frame) => this.#call("vox_mesh_set_transform", rows ? frame.numbers(rows) : 0));
+    memoryOf(this.#grid).frame((frame) => this.#call("vox_body_set_transform", rows ? frame.numbers(rows) : 0));
   }
 
   get filter() {
@@ -392,7 +392,7 @@ export class Mesh {
 
   set filter(value) {
     const given = fields(value, "filter", "vox_filter", FILTER);
-    memoryOf(this.#grid).frame((frame) => this.#call("vox_mesh_set_filter", frame.struct("vox_filter", given)));
+    memoryOf(this.#grid).frame((frame) => this.#call("vox_body_set_filter", frame.struct("vox_filter", given)));
   }
 
   get enabled() {
@@ -400,7 +400,7 @@ export class Mesh {
   }
 
   set enabled(value) {
-    this.#call("vox_mesh_set_enabled", flag(value, "enabled"));
+    this.#call("vox_body_set_enabled", flag(value, "enabled"));
   }
 
   get contacts() {

@@ -133,7 +133,7 @@ test("garbage in every argument", (t) => {
     () => ({ positions: value(), tets: value() }), () => ({ positions: new Float32Array(12), tets: [0, 1, 2, 3], userData: value(), filter: value() }),
     () => ({ positions: block(1).positions, tets: block(1).tets, restPositions: value() }), () => ({ mask: value() }), () => ({ radius: value() }),
     () => ({ category: value(), selfRings: value(), selfRestDistance: value() }), () => ({ maxDistance: value(), excluded: value() }),
-    () => ({ copiesOf: value(), positions: value() }), () => ({ what: value(), meshA: value(), meshB: value() }), () => ({ min: value(), max: value() }),
+    () => ({ copiesOf: value(), positions: value() }), () => ({ what: value(), bodyA: value(), bodyB: value() }), () => ({ min: value(), max: value() }),
     () => ({ engine: value(), cellSize: value(), flags: value(), log: value(), worldMin: value() }), () => ({ model: value(), pNc: value() }),
     () => ({ held: value(), asking: value(), known: value(), look: value(), weights: value(), radius: value() }),
     () => ({ held: { positions: block(1).positions, radius: value(), radii: value() }, leastCellSize: value() }),

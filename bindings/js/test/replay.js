@@ -157,7 +157,7 @@ export function replay(vox, script, arrays, assert) {
     set_enabled(call) {
       grid.mesh(call.mesh).enabled = call.enabled;
     },
-    set_pair_enabled: (call) => grid.setPairEnabled(call.mesh_a, call.mesh_b, call.enabled),
+    set_pair_enabled: (call) => grid.setPairEnabled(call.body_a, call.body_b, call.enabled),
     set_flags(call) {
       grid.flags = call.flags;
     },

@@ -25,7 +25,7 @@ test("results are columns and records of one copy", () => {
   assert.equal(all.length, contacts.length);
   all.forEach((contact, i) => {
     assert.deepEqual(contact, contacts.at(i));
-    for (const key of ["meshA", "vertex", "meshB", "tet"]) assert.equal(contact[key], contacts[key][i]);
+    for (const key of ["bodyA", "vertex", "bodyB", "tet"]) assert.equal(contact[key], contacts[key][i]);
     assert.deepEqual(contact.barycentric, [...contacts.barycentric.subarray(4 * i, 4 * i + 4)]);
   });
   assert.equal(contacts.vertex, contacts.vertex, "a column is made once");
@@ -46,7 +46,7 @@ test("results are columns and records of one copy", () => {
   assert.deepEqual(contacts.bytes, before);
   assert.ok(penetrations.depth.every((depth) => depth >= 0));
   assert.ok([...penetrations].every((p) => Object.values(PenetrationState).includes(p.state)));
-  assert.equal(contacts.meshA[0], left.id);
+  assert.equal(contacts.bodyA[0], left.id);
 });
 
 test("columns of 64 bits", () => {
@@ -128,7 +128,7 @@ test("the log, and what it throws", () => {
   // But not those that are stepped together with its own.
   const refused = [];
   const together = [0, 1, 2].map((i) => {
-    const each = new vox.Grid({ flags: GridFlags.SKIP_BAD_MESHES, log: (_, text) => {
+    const each = new vox.Grid({ flags: GridFlags.SKIP_BAD_BODIES, log: (_, text) => {
       for (const use of [() => together[2].dispose(), () => together[i].step(), () => together[0].hash])
         assert.throws(use, failure(Result.ERROR_INVALID_STATE));
       refused.push(text);
@@ -220,7 +220,7 @@ test("settings, failures and measurements", () => {
   grid.flags = GridFlags.CONTACT_EVENTS;
   assert.throws(() => grid.penetrations, failure(Result.ERROR_INVALID_STATE));
   grid.step();
-  assert.equal(grid.contactEvents.began.length, new Set([...grid.contacts].map((c) => `${c.meshA} ${c.vertex}`)).size);
+  assert.equal(grid.contactEvents.began.length, new Set([...grid.contacts].map((c) => `${c.bodyA} ${c.vertex}`)).size);
   assert.equal(grid.touchEvents.persisted.length, 1);
   grid.reserve(10, 1000);
   left.positions[4] = NaN;

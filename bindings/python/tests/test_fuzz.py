@@ -70,7 +70,7 @@ SET_MESH = ["positions", "transform", "filter", "enabled", "tag"]
 NAMES = {"add": ["copy", "user_data", "vertex_count", "filter", "self_collision", "rest_positions", "borrow_tets", "tag"],
          "append_vertices": ["copies_of", "rest_positions"], "set_topology": ["vertex_count", "copy", "rest_positions",
                                                                               "borrow_tets"],
-         "set_flags": ["penetrations", "contact_events", "skip_bad_meshes"], "query_points": ["mask"],
+         "set_flags": ["penetrations", "contact_events", "skip_bad_bodies"], "query_points": ["mask"],
          "query_closest": ["max_distance", "mask", "excluded"], "prepare_readings": ["position", "surface", "closest_budget"]}
 FREE = [lambda v: voxtet.Grid(v()), lambda v: voxtet.Grid(workers=v()), lambda v: voxtet.Grid(engine=v(), storage=v()),
         lambda v: voxtet.Grid(world=v()), lambda v: voxtet.Grid(log=v()), lambda v: voxtet.Grid(byte_budget=v()),

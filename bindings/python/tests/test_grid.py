@@ -25,7 +25,7 @@ class ReadmeScene(unittest.TestCase):
             a, b = grid.add(first, TET, user_data=1), grid.add(second, TET, user_data=2)
             grid.step()
             contact, = grid.contacts
-            self.assertEqual((contact.mesh_a, contact.vertex, contact.mesh_b, contact.tet), (a.id, 3, b.id, 0))
+            self.assertEqual((contact.body_a, contact.vertex, contact.body_b, contact.tet), (a.id, 3, b.id, 0))
             np.testing.assert_allclose(contact.barycentric, [.1, .2, .3, .4], atol=1e-6)
             self.assertEqual(f"{grid.hash:016x}", "2812279c886bc8d6")
 
@@ -38,19 +38,19 @@ class Results(GridCase):
         contacts = self.grid.contacts
         self.assertEqual(len(contacts), self.grid.counters.contacts)
         self.assertGreater(len(contacts), 10)
-        np.testing.assert_array_equal(contacts.mesh_a, contacts["mesh_a"])
-        self.assertIs(type(contacts.mesh_a), np.ndarray)
+        np.testing.assert_array_equal(contacts.body_a, contacts["body_a"])
+        self.assertIs(type(contacts.body_a), np.ndarray)
         self.assertTrue(np.shares_memory(contacts.tet, contacts))
         np.testing.assert_allclose(contacts.barycentric.sum(axis=1), 1, atol=1e-6)
         self.assertEqual(contacts[:3].barycentric.shape, (3, 4))
-        self.assertEqual({self.grid[i].tag for i in contacts.mesh_a}, {"a", "b"})
+        self.assertEqual({self.grid[i].tag for i in contacts.body_a}, {"a", "b"})
         self.assertIn("barycentric", dir(contacts))
         with self.assertRaises(AttributeError):
             contacts.nothing
         positions = {self.a.id: self.first, self.b.id: self.second}
         for c in contacts:  # the weights give the vertex back
-            corners = positions[c.mesh_b][self.tets[c.tet]]
-            np.testing.assert_allclose(c.barycentric @ corners, positions[c.mesh_a][c.vertex], atol=1e-6)
+            corners = positions[c.body_b][self.tets[c.tet]]
+            np.testing.assert_allclose(c.barycentric @ corners, positions[c.body_a][c.vertex], atol=1e-6)
 
     def test_results_are_the_callers_own(self):
         self.grid.step()
@@ -61,7 +61,7 @@ class Results(GridCase):
         self.grid.step()
         self.assertEqual(len(self.grid.contacts), 0)
         self.grid.close()
-        self.assertEqual(before[0].mesh_a, self.a.id)
+        self.assertEqual(before[0].body_a, self.a.id)
 
     def test_penetrations(self):
         self.grid.step()
@@ -84,7 +84,7 @@ class Results(GridCase):
         order = self.grid.pair_contacts
         np.testing.assert_array_equal(np.sort(order), np.arange(len(self.grid.contacts)))
         in_b = self.grid.contacts[order[pair.first:pair.first + pair.a_in_b]]
-        self.assertEqual(set(in_b.mesh_a), {self.a.id})
+        self.assertEqual(set(in_b.body_a), {self.a.id})
         self.assertEqual([len(part) for part in self.grid.events], [1, 0, 0])
         self.assertEqual(self.grid.events.began[0].kind, voxtet.Touch.BEGAN)
         entered = self.grid.contact_events.began
@@ -112,7 +112,7 @@ class Results(GridCase):
         contacts = self.grid.contacts
         positions = {self.a.id: self.first, self.b.id: self.second}
         for c, r in zip(contacts, readings):
-            np.testing.assert_array_equal(r.position, positions[c.mesh_a][c.vertex].astype(float))
+            np.testing.assert_array_equal(r.position, positions[c.body_a][c.vertex].astype(float))
         np.testing.assert_array_equal(np.linalg.norm(readings.position - readings.surface_position, axis=1) > 1,
                                       np.zeros(len(readings), bool))
         self.assertEqual(len(self.grid.reading_depths), len(readings))
@@ -330,7 +330,7 @@ class Meshes(GridCase):
         failure, = self.grid.failures
         self.assertEqual((failure.mesh, failure.vertex, failure.result), (self.b.id, 5, voxtet.Result.ERROR_NON_FINITE))
         self.assertTrue(math.isnan(failure.position[0]))
-        self.grid.set_flags(skip_bad_meshes=True)
+        self.grid.set_flags(skip_bad_bodies=True)
         self.grid.step()
         self.assertEqual(self.grid.counters.skipped_meshes, 1)
 

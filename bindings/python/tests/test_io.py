@@ -169,7 +169,7 @@ class Simulation(unittest.TestCase):
         self.assertGreater(above.positions[:, 2].mean(), z.mean() + 0.5)
         self.assertEqual(self.sim.counts.steps, 60)
         self.assertGreater(self.sim.energy.mass, 0)
-        self.assertEqual({self.sim.grid[c.mesh_a].tag for c in self.sim.grid.contacts} - {"box", "above"}, set())
+        self.assertEqual({self.sim.grid[c.body_a].tag for c in self.sim.grid.contacts} - {"box", "above"}, set())
         self.assertEqual([b.tag for b in self.sim], ["box", "above"])
         np.testing.assert_array_equal(self.sim.grid[self.body].positions, self.body.positions.astype(np.float32))
 

@@ -27,7 +27,7 @@ def counted(array):
 
 
 def flags_of(number):
-    return {"penetrations": bool(number & 1), "contact_events": bool(number & 2), "skip_bad_meshes": bool(number & 4)}
+    return {"penetrations": bool(number & 1), "contact_events": bool(number & 2), "skip_bad_bodies": bool(number & 4)}
 
 
 @unittest.skipUnless(os.path.exists(FOLDER), "the vectors are not beside the tests")
@@ -133,7 +133,7 @@ class Vectors(unittest.TestCase):
         self.grid[call["mesh"]].enabled = bool(call["enabled"]) if call["enabled"] < 2 else call["enabled"]
 
     def set_pair_enabled(self, call):
-        self.grid.set_pair_enabled(call["mesh_a"], call["mesh_b"], bool(call["enabled"]))
+        self.grid.set_pair_enabled(call["body_a"], call["body_b"], bool(call["enabled"]))
 
     def set_flags(self, call):
         if call["flags"] > 7:

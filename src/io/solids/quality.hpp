@@ -5,7 +5,7 @@
 
 namespace vox::io {
 
-// See vox_io_measure_quality. `surface` may be null.
+// See vox_io_mesh_measure. `surface` may be null.
 vox_io_quality measure_quality(const vox_io_mesh_view& mesh, const vox_io_mesh_view* surface);
 
 } // namespace vox::io

@@ -116,12 +116,12 @@ std::vector<vox_experiment::Frame> vox_experiment::record(const vox_experiment_d
     vox_sim_body_view views[2] = {};
     for (int i = 0; i < 2; ++i) {
         bodies[i].positions = i == 0 ? shapes_[0].positions.data() : b.positions.data();
-        vox_mesh id = VOX_NULL_MESH;
+        vox_body id = VOX_NULL_BODY;
         check(vox_sim_body_insert(sim.get(), &bodies[i], &id));
-        check(vox_sim_body_get(sim.get(), id, &views[i]));
+        check(vox_sim_body_get_view(sim.get(), id, &views[i]));
     }
     vox_grid* grid = nullptr;
-    check(vox_sim_grid(sim.get(), &grid));
+    check(vox_sim_get_grid(sim.get(), &grid));
 
     std::vector<Frame> frames(desc.frames);
     for (Frame& frame : frames) {
@@ -131,8 +131,8 @@ std::vector<vox_experiment::Frame> vox_experiment::record(const vox_experiment_d
                                       views[i].grid_positions + 3 * views[i].vertex_count);
         check(vox_sim_step(sim.get(), desc.time_step));
         vox_contact_view contacts{};
-        check(vox_grid_contacts(grid, &contacts));
-        check(vox_grid_hash(grid, &frame.hash));
+        check(vox_grid_get_contacts(grid, &contacts));
+        check(vox_grid_get_hash(grid, &frame.hash));
         frame.contacts = contacts.count;
         frame.share = share_in_contact(grid, views[0].tet_count + views[1].tet_count);
     }
@@ -218,7 +218,7 @@ vox_experiment_sample vox_experiment::measure(double cell_size, std::vector<std:
     for (const Frame& frame : frames_) {
         const double share = step(frame);
         std::uint64_t hash = 0;
-        check(vox_grid_hash(grid_.get(), &hash));
+        check(vox_grid_get_hash(grid_.get(), &hash));
         if (hash != frame.hash)
             throw Error(
                 VOX_ERROR_INTERNAL,
@@ -230,7 +230,7 @@ vox_experiment_sample vox_experiment::measure(double cell_size, std::vector<std:
         check(vox_grid_profile(grid_.get(), &profile));
         vox_counters counters{};
         counters.struct_size = sizeof counters;
-        check(vox_grid_counters(grid_.get(), &counters));
+        check(vox_grid_get_counters(grid_.get(), &counters));
         const std::uint64_t passed =
             profile.bin_ns + profile.broad_ns + profile.narrow_ns + profile.contacts_ns;
         const auto ns = static_cast<std::uint64_t>(std::llround(share * static_cast<double>(passed)));

@@ -39,6 +39,6 @@ private:
     std::vector<Frame> frames_;
     std::vector<double> shares_;
     vox::sim::GridHandle grid_; // whose steps are measured
-    vox_mesh meshes_[2] = {};
+    vox_body meshes_[2] = {};
     bool one_thread_ = false;
 };

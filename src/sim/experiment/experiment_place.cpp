@@ -60,14 +60,14 @@ void round_positions(const std::vector<double>& positions, std::vector<float>& r
 
 double share_in_contact(const vox_grid* grid, std::uint64_t tet_count) {
     vox_contact_view view{};
-    check(vox_grid_contacts(grid, &view));
+    check(vox_grid_get_contacts(grid, &view));
     std::vector<std::uint64_t> held;
     held.reserve(static_cast<std::size_t>(view.count));
     for (std::uint64_t i = 0; i < view.count; ++i) {
         vox_contact contact;
         std::memcpy(&contact, reinterpret_cast<const std::byte*>(view.data) + i * view.byte_stride,
                     sizeof contact);
-        held.push_back(std::uint64_t{contact.mesh_b} << 32 | contact.tet);
+        held.push_back(std::uint64_t{contact.body_b} << 32 | contact.tet);
     }
     std::sort(held.begin(), held.end());
     const auto end = std::unique(held.begin(), held.end());
@@ -87,7 +87,7 @@ ContactShare::ContactShare(const Shape& a, const Shape& b)
         mesh.vertex_count = shape->positions.size() / 3;
         mesh.tets = shape->tets.data();
         mesh.tet_count = shape->tets.size() / 4;
-        vox_mesh id = VOX_NULL_MESH;
+        vox_body id = VOX_NULL_BODY;
         check(vox_mesh_insert(grid_.get(), &mesh, &id));
     }
 }

@@ -8,7 +8,7 @@ int main(void) {
     vox_sim_body_desc desc = vox_default_sim_body_desc();
     vox_sim_body_view view;
     vox_sim* sim;
-    vox_mesh body;
+    vox_body body;
     desc.positions = positions;
     desc.vertex_count = 4;
     desc.tets = tet;
@@ -16,7 +16,7 @@ int main(void) {
     if (vox_sim_create(NULL, &sim) != VOX_OK) return puts(vox_last_error()), 1;
     if (vox_sim_body_insert(sim, &desc, &body) != VOX_OK) return puts(vox_last_error()), 1;
     if (vox_sim_step(sim, 0.02) != VOX_OK) return puts(vox_last_error()), 1;
-    if (vox_sim_body_get(sim, body, &view) != VOX_OK || view.positions[2] >= 9) return 1;
+    if (vox_sim_body_get_view(sim, body, &view) != VOX_OK || view.positions[2] >= 9) return 1;
     vox_sim_destroy(sim);
     return 0;
 }

@@ -41,7 +41,7 @@ public sealed class SoftBodies : MonoBehaviour
         if (grid == null || !Application.isPlaying) return;
         foreach (Penetration penetration in grid.Penetrations)
         {
-            Positions<float> positions = grid.GetPositions(new Voxtet.Mesh(penetration.mesh_a));
+            Positions<float> positions = grid.GetPositions(new Voxtet.Mesh(penetration.body_a));
             int v = 3 * (int)penetration.vertex;
             var at = new Vector3(positions[v], positions[v + 1], positions[v + 2]);
             var way = new Vector3(penetration.direction[0], penetration.direction[1], penetration.direction[2]);

@@ -10,11 +10,11 @@ from numpy import dtype
 VOX_ABI_VERSION = 1
 VOX_MAX_TASKS = 64
 VOX_MAX_WORKERS = 256
-VOX_MAX_MESHES = 1048576
+VOX_MAX_BODIES = 1048576
 VOX_MAX_GENERATIONS = 4095
 VOX_MAX_VERTICES = 2147483647
 VOX_MAX_TETS = 2147483647
-VOX_NULL_MESH = 0
+VOX_NULL_BODY = 0
 VOX_MAX_RINGS = 8
 VOX_NO_VERTEX = 4294967295
 VOX_MAX_CONTACTS = 4294967295
@@ -71,7 +71,7 @@ class Engine(enum.IntEnum):
 class GridFlags(enum.IntFlag):
     PENETRATIONS = 1
     CONTACT_EVENTS = 2
-    SKIP_BAD_MESHES = 4
+    SKIP_BAD_BODIES = 4
     EDGE_CONTACTS = 8
 
 
@@ -335,7 +335,7 @@ class vox_mesh_desc(Structure):
     ]
 
 
-class vox_mesh_info(Structure):
+class vox_body_info(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
         ("slot", c_uint32),
@@ -390,15 +390,15 @@ dtypes["vox_failure"] = dtype({
 
 class vox_contact(Structure):
     _fields_ = [
-        ("mesh_a", c_uint32),
+        ("body_a", c_uint32),
         ("vertex", c_uint32),
-        ("mesh_b", c_uint32),
+        ("body_b", c_uint32),
         ("tet", c_uint32),
         ("barycentric", c_float * 4),
     ]
 
 dtypes["vox_contact"] = dtype({
-    "names": ["mesh_a", "vertex", "mesh_b", "tet", "barycentric"],
+    "names": ["body_a", "vertex", "body_b", "tet", "barycentric"],
     "formats": ["u4", "u4", "u4", "u4", ("f4", (4,))],
     "offsets": [0, 4, 8, 12, 16],
     "itemsize": 32})
@@ -424,9 +424,9 @@ class vox_interior_view(Structure):
 
 class vox_penetration(Structure):
     _fields_ = [
-        ("mesh_a", c_uint32),
+        ("body_a", c_uint32),
         ("vertex", c_uint32),
-        ("mesh_b", c_uint32),
+        ("body_b", c_uint32),
         ("state", c_int32),
         ("contact", c_uint64),
         ("depth", c_float),
@@ -434,7 +434,7 @@ class vox_penetration(Structure):
     ]
 
 dtypes["vox_penetration"] = dtype({
-    "names": ["mesh_a", "vertex", "mesh_b", "state", "contact", "depth", "direction"],
+    "names": ["body_a", "vertex", "body_b", "state", "contact", "depth", "direction"],
     "formats": ["u4", "u4", "u4", "i4", "u8", "f4", ("f4", (3,))],
     "offsets": [0, 4, 8, 12, 16, 24, 28],
     "itemsize": 40})
@@ -473,9 +473,9 @@ class vox_depth_view(Structure):
 
 class vox_edge_contact(Structure):
     _fields_ = [
-        ("mesh_a", c_uint32),
+        ("body_a", c_uint32),
         ("edge", c_uint32 * 2),
-        ("mesh_b", c_uint32),
+        ("body_b", c_uint32),
         ("face", c_uint32 * 3),
         ("tet", c_uint32),
         ("kind", c_int32),
@@ -487,7 +487,7 @@ class vox_edge_contact(Structure):
     ]
 
 dtypes["vox_edge_contact"] = dtype({
-    "names": ["mesh_a", "edge", "mesh_b", "face", "tet", "kind", "reserved", "edge_weights", "face_weights", "position",
+    "names": ["body_a", "edge", "body_b", "face", "tet", "kind", "reserved", "edge_weights", "face_weights", "position",
         "normal"],
     "formats": ["u4", ("u4", (2,)), "u4", ("u4", (3,)), "u4", "i4", "u4", ("f8", (2,)), ("f8", (3,)), ("f8", (3,)),
         ("f8", (3,))],
@@ -506,9 +506,9 @@ class vox_edge_contact_view(Structure):
 
 class vox_margin_contact(Structure):
     _fields_ = [
-        ("mesh_a", c_uint32),
+        ("body_a", c_uint32),
         ("vertex", c_uint32),
-        ("mesh_b", c_uint32),
+        ("body_b", c_uint32),
         ("tet", c_uint32),
         ("facet", c_uint32),
         ("face", c_uint32 * 3),
@@ -518,7 +518,7 @@ class vox_margin_contact(Structure):
     ]
 
 dtypes["vox_margin_contact"] = dtype({
-    "names": ["mesh_a", "vertex", "mesh_b", "tet", "facet", "face", "face_weights", "distance", "normal"],
+    "names": ["body_a", "vertex", "body_b", "tet", "facet", "face", "face_weights", "distance", "normal"],
     "formats": ["u4", "u4", "u4", "u4", "u4", ("u4", (3,)), ("f8", (3,)), "f8", ("f8", (3,))],
     "offsets": [0, 4, 8, 12, 16, 20, 32, 56, 64],
     "itemsize": 88})
@@ -535,9 +535,9 @@ class vox_margin_contact_view(Structure):
 
 class vox_passage(Structure):
     _fields_ = [
-        ("mesh_a", c_uint32),
+        ("body_a", c_uint32),
         ("vertex", c_uint32),
-        ("mesh_b", c_uint32),
+        ("body_b", c_uint32),
         ("tet", c_uint32),
         ("facet", c_uint32),
         ("face", c_uint32 * 3),
@@ -545,7 +545,7 @@ class vox_passage(Structure):
     ]
 
 dtypes["vox_passage"] = dtype({
-    "names": ["mesh_a", "vertex", "mesh_b", "tet", "facet", "face", "time"],
+    "names": ["body_a", "vertex", "body_b", "tet", "facet", "face", "time"],
     "formats": ["u4", "u4", "u4", "u4", "u4", ("u4", (3,)), "f8"],
     "offsets": [0, 4, 8, 12, 16, 20, 32],
     "itemsize": 40})
@@ -562,8 +562,8 @@ class vox_passage_view(Structure):
 
 class vox_pair(Structure):
     _fields_ = [
-        ("mesh_a", c_uint32),
-        ("mesh_b", c_uint32),
+        ("body_a", c_uint32),
+        ("body_b", c_uint32),
         ("user_data_a", c_uint64),
         ("user_data_b", c_uint64),
         ("first", c_uint64),
@@ -572,7 +572,7 @@ class vox_pair(Structure):
     ]
 
 dtypes["vox_pair"] = dtype({
-    "names": ["mesh_a", "mesh_b", "user_data_a", "user_data_b", "first", "a_in_b", "b_in_a"],
+    "names": ["body_a", "body_b", "user_data_a", "user_data_b", "first", "a_in_b", "b_in_a"],
     "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8"],
     "offsets": [0, 4, 8, 16, 24, 32, 40],
     "itemsize": 48})
@@ -590,8 +590,8 @@ class vox_pair_view(Structure):
 
 class vox_touch_event(Structure):
     _fields_ = [
-        ("mesh_a", c_uint32),
-        ("mesh_b", c_uint32),
+        ("body_a", c_uint32),
+        ("body_b", c_uint32),
         ("user_data_a", c_uint64),
         ("user_data_b", c_uint64),
         ("kind", c_int32),
@@ -599,7 +599,7 @@ class vox_touch_event(Structure):
     ]
 
 dtypes["vox_touch_event"] = dtype({
-    "names": ["mesh_a", "mesh_b", "user_data_a", "user_data_b", "kind", "pair"],
+    "names": ["body_a", "body_b", "user_data_a", "user_data_b", "kind", "pair"],
     "formats": ["u4", "u4", "u8", "u8", "i4", "u4"],
     "offsets": [0, 4, 8, 16, 24, 28],
     "itemsize": 32})
@@ -619,14 +619,14 @@ class vox_touch_view(Structure):
 
 class vox_contact_event(Structure):
     _fields_ = [
-        ("mesh_a", c_uint32),
+        ("body_a", c_uint32),
         ("vertex", c_uint32),
-        ("mesh_b", c_uint32),
+        ("body_b", c_uint32),
         ("kind", c_int32),
     ]
 
 dtypes["vox_contact_event"] = dtype({
-    "names": ["mesh_a", "vertex", "mesh_b", "kind"],
+    "names": ["body_a", "vertex", "body_b", "kind"],
     "formats": ["u4", "u4", "u4", "i4"],
     "offsets": [0, 4, 8, 12],
     "itemsize": 16})
@@ -683,13 +683,13 @@ class vox_readings_desc(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
         ("what", c_uint32),
-        ("mesh_a", c_uint32),
-        ("mesh_b", c_uint32),
+        ("body_a", c_uint32),
+        ("body_b", c_uint32),
         ("closest_budget", c_uint64),
     ]
 
 dtypes["vox_readings_desc"] = dtype({
-    "names": ["struct_size", "what", "mesh_a", "mesh_b", "closest_budget"],
+    "names": ["struct_size", "what", "body_a", "body_b", "closest_budget"],
     "formats": ["u4", "u4", "u4", "u4", "u8"],
     "offsets": [0, 4, 8, 12, 16],
     "itemsize": 24})
@@ -1863,22 +1863,22 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_filter_init": (vox_result, (POINTER(vox_filter), c_uint32)),
         "vox_mesh_desc_init": (vox_result, (POINTER(vox_mesh_desc), c_uint32)),
         "vox_mesh_insert": (vox_result, (c_void_p, POINTER(vox_mesh_desc), POINTER(c_uint32))),
-        "vox_mesh_remove": (vox_result, (c_void_p, c_uint32)),
-        "vox_mesh_is_valid": (c_uint32, (c_void_p, c_uint32)),
-        "vox_mesh_user_data": (vox_result, (c_void_p, c_uint32, POINTER(c_uint64))),
-        "vox_grid_meshes": (vox_result, (c_void_p, c_void_p, c_uint64, POINTER(c_uint64))),
-        "vox_mesh_get_info": (vox_result, (c_void_p, c_uint32, POINTER(vox_mesh_info))),
-        "vox_mesh_copy_tets": (vox_result, (c_void_p, c_uint32, c_void_p, c_void_p, c_uint64, POINTER(c_uint64))),
+        "vox_body_remove": (vox_result, (c_void_p, c_uint32)),
+        "vox_body_is_valid": (c_uint32, (c_void_p, c_uint32)),
+        "vox_body_get_user_data": (vox_result, (c_void_p, c_uint32, POINTER(c_uint64))),
+        "vox_grid_get_bodies": (vox_result, (c_void_p, c_void_p, c_uint64, POINTER(c_uint64))),
+        "vox_body_get_info": (vox_result, (c_void_p, c_uint32, POINTER(vox_body_info))),
+        "vox_mesh_get_tets": (vox_result, (c_void_p, c_uint32, c_void_p, c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_mesh_bind_positions": (vox_result, (c_void_p, c_uint32, c_void_p, c_int32, c_uint64)),
         "vox_mesh_bind_strided_positions": (vox_result, (c_void_p, c_uint32, c_void_p, c_int32, c_uint64, c_uint64)),
         "vox_mesh_bind_previous_positions": (vox_result, (c_void_p, c_uint32, c_void_p, c_int32, c_uint64, c_uint64)),
-        "vox_mesh_mark_moved": (vox_result, (c_void_p, c_uint32)),
-        "vox_mesh_set_filter": (vox_result, (c_void_p, c_uint32, POINTER(vox_filter))),
+        "vox_body_mark_moved": (vox_result, (c_void_p, c_uint32)),
+        "vox_body_set_filter": (vox_result, (c_void_p, c_uint32, POINTER(vox_filter))),
         "vox_mesh_filter": (vox_result, (c_void_p, c_uint32, POINTER(vox_filter))),
-        "vox_mesh_set_enabled": (vox_result, (c_void_p, c_uint32, c_uint32)),
+        "vox_body_set_enabled": (vox_result, (c_void_p, c_uint32, c_uint32)),
         "vox_grid_set_pair_enabled": (vox_result, (c_void_p, c_uint32, c_uint32, c_uint32)),
         "vox_mesh_map_positions": (vox_result, (c_void_p, c_uint32, POINTER(c_void_p), POINTER(c_uint64))),
-        "vox_mesh_set_transform": (vox_result, (c_void_p, c_uint32, c_void_p)),
+        "vox_body_set_transform": (vox_result, (c_void_p, c_uint32, c_void_p)),
         "vox_mesh_set_topology": (vox_result, (c_void_p, c_uint32, POINTER(vox_mesh_desc))),
         "vox_mesh_set_tets_enabled": (vox_result, (c_void_p, c_uint32, c_void_p, c_uint64, c_uint32)),
         "vox_mesh_replace_tets": (vox_result, (c_void_p, c_uint32, c_void_p, c_uint64, c_void_p)),
@@ -1889,12 +1889,12 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_mesh_remove_vertices": (vox_result, (c_void_p, c_uint32, c_void_p, c_uint64)),
         "vox_grid_step": (vox_result, (c_void_p,)),
         "vox_grids_step": (vox_result, (c_void_p, c_uint64, POINTER(vox_task_system), c_uint32, c_void_p)),
-        "vox_grid_failure": (vox_result, (c_void_p, c_uint32, POINTER(vox_failure))),
-        "vox_grid_contacts": (vox_result, (c_void_p, POINTER(vox_contact_view))),
+        "vox_grid_get_failure": (vox_result, (c_void_p, c_uint32, POINTER(vox_failure))),
+        "vox_grid_get_contacts": (vox_result, (c_void_p, POINTER(vox_contact_view))),
         "vox_grids_copy_contacts": (vox_result, (c_void_p, c_uint64, c_void_p, c_uint64, c_void_p)),
         "vox_grid_contact_interiors": (vox_result, (c_void_p, POINTER(vox_interior_view))),
         "vox_grid_epoch": (vox_result, (c_void_p, POINTER(c_uint64))),
-        "vox_grid_hash": (vox_result, (c_void_p, POINTER(c_uint64))),
+        "vox_grid_get_hash": (vox_result, (c_void_p, POINTER(c_uint64))),
         "vox_grid_penetrations": (vox_result, (c_void_p, POINTER(vox_penetration_view))),
         "vox_grid_depths": (vox_result, (c_void_p, POINTER(vox_depth_view))),
         "vox_grid_edge_contacts": (vox_result, (c_void_p, POINTER(vox_edge_contact_view))),
@@ -1903,7 +1903,7 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_grid_edge_depths": (vox_result, (c_void_p, POINTER(vox_depth_view))),
         "vox_grid_margin_contacts": (vox_result, (c_void_p, POINTER(vox_margin_contact_view))),
         "vox_grid_passages": (vox_result, (c_void_p, POINTER(vox_passage_view))),
-        "vox_grid_pairs": (vox_result, (c_void_p, POINTER(vox_pair_view))),
+        "vox_grid_get_pairs": (vox_result, (c_void_p, POINTER(vox_pair_view))),
         "vox_mesh_copy_contacts": (vox_result, (c_void_p, c_uint32, c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_pair_copy_contacts": (vox_result, (c_void_p, c_uint32, c_uint32, c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_grid_touch_events": (vox_result, (c_void_p, POINTER(vox_touch_view))),
@@ -1946,7 +1946,7 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_query_view_ray_hits": (vox_result, (c_void_p, c_void_p, c_void_p, c_uint64, c_uint32, c_void_p, c_uint64,
             POINTER(c_uint64))),
         "vox_query_view_ray_any": (vox_result, (c_void_p, c_void_p, c_void_p, c_uint64, c_uint32, POINTER(c_uint32))),
-        "vox_grid_counters": (vox_result, (c_void_p, POINTER(vox_counters))),
+        "vox_grid_get_counters": (vox_result, (c_void_p, POINTER(vox_counters))),
         "vox_grid_profile": (vox_result, (c_void_p, POINTER(vox_profile))),
         "vox_suggest_desc_init": (vox_result, (POINTER(vox_suggest_desc), c_uint32)),
         "vox_suggest_cell_size": (vox_result, (POINTER(vox_suggest_desc), c_void_p, c_uint64, POINTER(vox_suggestion))),
@@ -1976,19 +1976,20 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_surface_desc_init": (vox_result, (POINTER(vox_surface_desc), c_uint32)),
         "vox_surface_create": (vox_result, (POINTER(vox_surface_desc), POINTER(c_void_p))),
         "vox_surface_destroy": (None, (c_void_p,)),
-        "vox_surface_features": (vox_result, (c_void_p, c_int32, POINTER(vox_feature_view))),
+        "vox_surface_get_features": (vox_result, (c_void_p, c_int32, POINTER(vox_feature_view))),
         "vox_motion_init": (vox_result, (POINTER(vox_motion), c_uint32)),
         "vox_surface_move": (vox_result, (c_void_p, POINTER(vox_motion))),
-        "vox_surface_pairs": (vox_result, (c_void_p, c_int32, c_int32, c_uint64, c_uint64, POINTER(vox_pair_lists))),
+        "vox_surface_find_pairs": (vox_result, (c_void_p, c_int32, c_int32, c_uint64, c_uint64,
+            POINTER(vox_pair_lists))),
         "vox_surface_set_cell_size": (vox_result, (c_void_p, c_double)),
         "vox_surface_suggest_cell_size": (vox_result, (c_void_p, c_int32, c_int32, POINTER(vox_foreign_suggestion))),
-        "vox_surface_counters": (vox_result, (c_void_p, POINTER(vox_pair_counters))),
-        "vox_surface_crossings": (vox_result, (c_void_p, POINTER(vox_crossing_view))),
-        "vox_surface_close": (vox_result, (c_void_p, c_int32, c_int32, c_double, POINTER(vox_close_view))),
-        "vox_surface_clearance": (vox_result, (c_void_p, c_double, c_void_p, c_uint64)),
+        "vox_surface_get_counters": (vox_result, (c_void_p, POINTER(vox_pair_counters))),
+        "vox_surface_find_crossings": (vox_result, (c_void_p, POINTER(vox_crossing_view))),
+        "vox_surface_find_proximities": (vox_result, (c_void_p, c_int32, c_int32, c_double, POINTER(vox_close_view))),
+        "vox_surface_find_clearances": (vox_result, (c_void_p, c_double, c_void_p, c_uint64)),
         "vox_contact_time_desc_init": (vox_result, (POINTER(vox_contact_time_desc), c_uint32)),
-        "vox_surface_safe_step": (vox_result, (c_void_p, POINTER(vox_contact_time_desc), POINTER(vox_safe_step))),
-        "vox_surface_contact_times": (vox_result, (c_void_p, c_int32, c_int32, POINTER(vox_contact_time_desc),
+        "vox_surface_find_safe_step": (vox_result, (c_void_p, POINTER(vox_contact_time_desc), POINTER(vox_safe_step))),
+        "vox_surface_find_impacts": (vox_result, (c_void_p, c_int32, c_int32, POINTER(vox_contact_time_desc),
             POINTER(vox_timed_view))),
     },
     "vox_io": {
@@ -1996,15 +1997,15 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_io_load": (vox_result, (c_char_p, POINTER(vox_io_load_desc), POINTER(c_void_p))),
         "vox_io_read": (vox_result, (c_void_p, c_size_t, POINTER(vox_io_load_desc), POINTER(c_void_p))),
         "vox_io_mesh_destroy": (None, (c_void_p,)),
-        "vox_io_mesh_get": (vox_result, (c_void_p, POINTER(vox_io_mesh_view))),
-        "vox_io_mesh_desc": (vox_result, (c_void_p, POINTER(vox_mesh_desc))),
+        "vox_io_mesh_get_arrays": (vox_result, (c_void_p, POINTER(vox_io_mesh_view))),
+        "vox_io_mesh_describe": (vox_result, (c_void_p, POINTER(vox_mesh_desc))),
         "vox_io_mesh_create": (vox_result, (POINTER(vox_io_mesh_view), POINTER(c_void_p))),
-        "vox_io_mesh_report": (vox_result, (c_void_p, POINTER(vox_io_report))),
-        "vox_io_mesh_warnings": (c_char_p, (c_void_p,)),
+        "vox_io_mesh_get_report": (vox_result, (c_void_p, POINTER(vox_io_report))),
+        "vox_io_mesh_get_warnings": (c_char_p, (c_void_p,)),
         "vox_io_format_string": (c_char_p, (c_int32,)),
         "vox_io_tetrahedralize_desc_init": (vox_result, (POINTER(vox_io_tetrahedralize_desc), c_uint32)),
         "vox_io_tetrahedralize": (vox_result, (c_void_p, POINTER(vox_io_tetrahedralize_desc), POINTER(c_void_p))),
-        "vox_io_measure_quality": (vox_result, (c_void_p, c_void_p, POINTER(vox_io_quality))),
+        "vox_io_mesh_measure": (vox_result, (c_void_p, c_void_p, POINTER(vox_io_quality))),
         "vox_io_write_desc_init": (vox_result, (POINTER(vox_io_write_desc), c_uint32)),
         "vox_io_write": (vox_result, (c_void_p, c_char_p, POINTER(vox_io_write_desc))),
         "vox_io_write_to": (vox_result, (c_void_p, POINTER(vox_io_write_desc), POINTER(vox_io_sink))),
@@ -2019,16 +2020,16 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_sim_desc_init": (vox_result, (POINTER(vox_sim_desc), c_uint32)),
         "vox_sim_create": (vox_result, (POINTER(vox_sim_desc), POINTER(c_void_p))),
         "vox_sim_destroy": (None, (c_void_p,)),
-        "vox_sim_grid": (vox_result, (c_void_p, POINTER(c_void_p))),
+        "vox_sim_get_grid": (vox_result, (c_void_p, POINTER(c_void_p))),
         "vox_sim_step": (vox_result, (c_void_p, c_double)),
         "vox_sim_body_desc_init": (vox_result, (POINTER(vox_sim_body_desc), c_uint32)),
         "vox_sim_body_insert": (vox_result, (c_void_p, POINTER(vox_sim_body_desc), POINTER(c_uint32))),
         "vox_sim_body_remove": (vox_result, (c_void_p, c_uint32)),
-        "vox_sim_body_get": (vox_result, (c_void_p, c_uint32, POINTER(vox_sim_body_view))),
+        "vox_sim_body_get_view": (vox_result, (c_void_p, c_uint32, POINTER(vox_sim_body_view))),
         "vox_sim_body_set_state": (vox_result, (c_void_p, c_uint32, c_void_p, c_void_p)),
         "vox_sim_body_set_acceleration": (vox_result, (c_void_p, c_uint32, c_void_p)),
-        "vox_sim_energy": (vox_result, (c_void_p, c_uint32, POINTER(vox_sim_energies))),
-        "vox_sim_counters": (vox_result, (c_void_p, POINTER(vox_sim_counts))),
+        "vox_sim_get_energy": (vox_result, (c_void_p, c_uint32, POINTER(vox_sim_energies))),
+        "vox_sim_get_counters": (vox_result, (c_void_p, POINTER(vox_sim_counts))),
         "vox_experiment_desc_init": (vox_result, (POINTER(vox_experiment_desc), c_uint32)),
         "vox_experiment_create": (vox_result, (POINTER(vox_experiment_desc), POINTER(c_void_p))),
         "vox_experiment_destroy": (None, (c_void_p,)),

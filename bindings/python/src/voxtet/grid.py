@@ -180,7 +180,7 @@ class Grid(Queries, Results):
     ...     a, b = grid.add(first, tet, tag="a"), grid.add(second, tet, tag="b")
     ...     grid.step()
     ...     for c in grid.contacts:
-    ...         print("vertex", c.vertex, "of", grid[c.mesh_a].tag, "in tet", c.tet, "of", grid[c.mesh_b].tag)
+    ...         print("vertex", c.vertex, "of", grid[c.body_a].tag, "in tet", c.tet, "of", grid[c.body_b].tag)
     vertex 3 of a in tet 0 of b
     """
 
@@ -189,7 +189,7 @@ class Grid(Queries, Results):
     def __init__(self, cell_size: float = 0.0, *, workers: int = 1, engine: str = "auto", storage: str = "auto",
                  hash: str = "mixed", world: Optional[tuple[ArrayLike, ArrayLike]] = None, byte_budget: int = 4 << 30,
                  hash_table_size: int = 0, penetrations: bool = True, contact_events: bool = False,
-                 skip_bad_meshes: bool = False, closest_budget: int = 0, log: Optional[Log] = None) -> None:
+                 skip_bad_bodies: bool = False, closest_budget: int = 0, log: Optional[Log] = None) -> None:
         desc = described(_c.vox_grid_desc)
         desc.cell_size = real(cell_size, "cell_size")
         desc.engine = choice(_c.Engine, engine, "engine")
@@ -203,7 +203,7 @@ class Grid(Queries, Results):
         desc.hash_table_size = integer(hash_table_size, "hash_table_size")
         desc.flags = (switch(penetrations, "penetrations") * _c.GridFlags.PENETRATIONS
                       | switch(contact_events, "contact_events") * _c.GridFlags.CONTACT_EVENTS
-                      | switch(skip_bad_meshes, "skip_bad_meshes") * _c.GridFlags.SKIP_BAD_MESHES)
+                      | switch(skip_bad_bodies, "skip_bad_bodies") * _c.GridFlags.SKIP_BAD_BODIES)
         self._prepare(desc, workers, byte_budget, closest_budget, log)
         pointer = ctypes.c_void_p()
         vox.vox_grid_create(desc, pointer)
@@ -344,11 +344,11 @@ class Grid(Queries, Results):
             self._settings["workers"] = count
 
     def set_flags(self, *, penetrations: Optional[bool] = None, contact_events: Optional[bool] = None,
-                  skip_bad_meshes: Optional[bool] = None) -> None:
+                  skip_bad_bodies: Optional[bool] = None) -> None:
         """Changes what the following steps do; what is None stays."""
         wanted = [(penetrations, "penetrations", _c.GridFlags.PENETRATIONS),
                   (contact_events, "contact_events", _c.GridFlags.CONTACT_EVENTS),
-                  (skip_bad_meshes, "skip_bad_meshes", _c.GridFlags.SKIP_BAD_MESHES)]
+                  (skip_bad_bodies, "skip_bad_bodies", _c.GridFlags.SKIP_BAD_BODIES)]
         with self._lock:
             before = ctypes.c_uint32()
             vox.vox_grid_get_flags(self._pointer, before)
@@ -414,14 +414,14 @@ class Grid(Queries, Results):
         id = self._id(mesh)
         with self._lock:
             self._refuse_positions(id, "removal of the mesh")
-            vox.vox_mesh_remove(self._pointer, id)
+            vox.vox_body_remove(self._pointer, id)
             self._keep(id, None, None)
             self._tags.pop(id, None)
             self._mapped.pop(id, None)
 
     def _ids(self) -> NDArray[np.uint32]:
         with self._lock:
-            return hits_of(lambda ids, room, count: vox.vox_grid_meshes(self._pointer, ids, room, count),  # type: ignore
+            return hits_of(lambda ids, room, count: vox.vox_grid_get_bodies(self._pointer, ids, room, count),  # type: ignore
                            np.ndarray, np.dtype(np.uint32), 16)
 
     @property
@@ -435,7 +435,7 @@ class Grid(Queries, Results):
     def __len__(self) -> int:
         count = ctypes.c_uint64()
         with self._lock:
-            vox.vox_grid_meshes(self._pointer, None, 0, count)
+            vox.vox_grid_get_bodies(self._pointer, None, 0, count)
         return count.value
 
     def __bool__(self) -> bool:
@@ -449,18 +449,18 @@ class Grid(Queries, Results):
         except (TypeError, InvalidArgumentError):
             return False
         with self._lock:
-            return id <= U32 and bool(vox.vox_mesh_is_valid(self._pointer, id))
+            return id <= U32 and bool(vox.vox_body_is_valid(self._pointer, id))
 
     def __getitem__(self, mesh: Union[Mesh, int]) -> Mesh:
         """The mesh with an id, e.g. of a contact."""
         id = self._id(mesh)
         with self._lock:
-            vox.vox_mesh_user_data(self._pointer, id, ctypes.c_uint64())
+            vox.vox_body_get_user_data(self._pointer, id, ctypes.c_uint64())
         return Mesh(self, id)
 
-    def set_pair_enabled(self, mesh_a: Union[Mesh, int], mesh_b: Union[Mesh, int], enabled: bool) -> None:
+    def set_pair_enabled(self, body_a: Union[Mesh, int], body_b: Union[Mesh, int], enabled: bool) -> None:
         """With False, the two meshes do not collide in the following steps, whatever their filters say."""
-        a, b, number = self._id(mesh_a, "mesh_a"), self._id(mesh_b, "mesh_b"), switch(enabled, "enabled")
+        a, b, number = self._id(body_a, "body_a"), self._id(body_b, "body_b"), switch(enabled, "enabled")
         with self._lock:
             vox.vox_grid_set_pair_enabled(self._pointer, a, b, number)
 
@@ -491,31 +491,31 @@ class Grid(Queries, Results):
         """Contacts of the last step in which the mesh is on either side, pair by pair."""
         return self._copied(vox.vox_mesh_copy_contacts, Contacts, _DTYPE_CONTACT, self._id(mesh))  # type: ignore[no-any-return]
 
-    def contacts_between(self, mesh_a: Union[Mesh, int], mesh_b: Union[Mesh, int]) -> Contacts:
+    def contacts_between(self, body_a: Union[Mesh, int], body_b: Union[Mesh, int]) -> Contacts:
         """Contacts of the last step between two meshes, or of one with itself."""
         return self._copied(vox.vox_pair_copy_contacts, Contacts, _DTYPE_CONTACT,  # type: ignore[no-any-return]
-                            self._id(mesh_a, "mesh_a"), self._id(mesh_b, "mesh_b"))
+                            self._id(body_a, "body_a"), self._id(body_b, "body_b"))
 
     # ---- readings ----
 
-    def prepare_readings(self, mesh_a: Union[Mesh, int, None] = None, mesh_b: Union[Mesh, int, None] = None, *,
+    def prepare_readings(self, body_a: Union[Mesh, int, None] = None, body_b: Union[Mesh, int, None] = None, *,
                          position: bool = True, surface: bool = True, depth: bool = True,
                          closest_budget: int = 0) -> None:
         """Computes the readings of the last step's contacts, or of those of one mesh or of a pair of meshes."""
         desc = described(_c.vox_readings_desc)
         desc.what = (switch(position, "position") * _c.ReadingFlags.POSITION | switch(surface, "surface")
                      * _c.ReadingFlags.SURFACE | switch(depth, "depth") * _c.ReadingFlags.DEPTH)
-        desc.mesh_a = 0 if mesh_a is None else self._id(mesh_a, "mesh_a")
-        desc.mesh_b = 0 if mesh_b is None else self._id(mesh_b, "mesh_b")
+        desc.body_a = 0 if body_a is None else self._id(body_a, "body_a")
+        desc.body_b = 0 if body_b is None else self._id(body_b, "body_b")
         desc.closest_budget = integer(closest_budget, "closest_budget")
         with self._lock:
             self._borrowed_readings.refuse("prepare_readings")
             vox.vox_grid_prepare_readings_of(self._pointer, desc)
 
-    def readings(self, mesh_a: Union[Mesh, int, None] = None, mesh_b: Union[Mesh, int, None] = None, *,
+    def readings(self, body_a: Union[Mesh, int, None] = None, body_b: Union[Mesh, int, None] = None, *,
                  position: bool = True, surface: bool = True, depth: bool = True, closest_budget: int = 0) -> Readings:
         """Prepares readings and returns them: what a response, a picture or a report needs for each contact."""
-        self.prepare_readings(mesh_a, mesh_b, position=position, surface=surface, depth=depth,
+        self.prepare_readings(body_a, body_b, position=position, surface=surface, depth=depth,
                               closest_budget=closest_budget)
         return self._array(results.READINGS)  # type: ignore[no-any-return]
 
@@ -528,10 +528,10 @@ class Grid(Queries, Results):
         """The prepared readings of `contacts_of(mesh)`."""
         return self._copied(vox.vox_mesh_copy_readings, Readings, _DTYPE_READING, self._id(mesh))  # type: ignore[no-any-return]
 
-    def readings_between(self, mesh_a: Union[Mesh, int], mesh_b: Union[Mesh, int]) -> Readings:
-        """The prepared readings of `contacts_between(mesh_a, mesh_b)`."""
+    def readings_between(self, body_a: Union[Mesh, int], body_b: Union[Mesh, int]) -> Readings:
+        """The prepared readings of `contacts_between(body_a, body_b)`."""
         return self._copied(vox.vox_pair_copy_readings, Readings, _DTYPE_READING,  # type: ignore[no-any-return]
-                            self._id(mesh_a, "mesh_a"), self._id(mesh_b, "mesh_b"))
+                            self._id(body_a, "body_a"), self._id(body_b, "body_b"))
 
     # ---- queries ----
 
@@ -580,14 +580,14 @@ class Grid(Queries, Results):
     @property
     def hash(self) -> int:
         """A hash of the contacts, the same on every machine and with every setting."""
-        return self._number(vox.vox_grid_hash)
+        return self._number(vox.vox_grid_get_hash)
 
     @property
     def counters(self) -> Counters:
         """What the last successful step did."""
         out = sized(_c.vox_counters)
         with self._lock:
-            vox.vox_grid_counters(self._pointer, out)
+            vox.vox_grid_get_counters(self._pointer, out)
         return values_of(Counters, out)
 
     @property
@@ -600,12 +600,12 @@ class Grid(Queries, Results):
 
     @property
     def failures(self) -> list[Failure]:
-        """The mesh that made the last step fail, or the meshes that it left out (skip_bad_meshes)."""
+        """The mesh that made the last step fail, or the meshes that it left out (skip_bad_bodies)."""
         found: list[Failure] = []
         with self._lock:
             while True:
                 f = sized(_c.vox_failure)
-                vox.vox_grid_failure(self._pointer, len(found), f)
+                vox.vox_grid_get_failure(self._pointer, len(found), f)
                 if not f.mesh:
                     return found
                 found.append(Failure(_c.Result(f.result), f.mesh, f.slot, f.user_data,

@@ -113,7 +113,7 @@ class MeshData:
     def _hold(self, pointer: ctypes.c_void_p) -> None:
         self._handle = Handle(pointer.value or 0, _io.vox_io_mesh_destroy)
         view = _c.vox_io_mesh_view()
-        _io.vox_io_mesh_get(self._handle.pointer, view)
+        _io.vox_io_mesh_get_arrays(self._handle.pointer, view)
         for name, address, count, width, dtype in (("positions", view.positions, view.vertex_count, 3, _DOUBLE),
                                                    ("tets", view.tets, view.tet_count, 4, _INDEX),
                                                    ("triangles", view.triangles, view.triangle_count, 3, _INDEX)):
@@ -124,13 +124,13 @@ class MeshData:
     def report(self) -> Report:
         """What is in the mesh, and what is odd about it."""
         out = sized(_c.vox_io_report)
-        _io.vox_io_mesh_report(self._handle.pointer, out)
+        _io.vox_io_mesh_get_report(self._handle.pointer, out)
         return values_of(Report, out)
 
     @property
     def warnings(self) -> list[str]:
         """The problems in the report as texts."""
-        return _io.vox_io_mesh_warnings(self._handle.pointer).decode().splitlines()  # type: ignore[no-any-return]
+        return _io.vox_io_mesh_get_warnings(self._handle.pointer).decode().splitlines()  # type: ignore[no-any-return]
 
     @property
     def format(self) -> str:
@@ -309,7 +309,7 @@ def quality(mesh: Any, surface: Any = None) -> Quality:
     out = sized(_c.vox_io_quality)
     data = _data_of(mesh)
     other = None if surface is None else surface if isinstance(surface, MeshData) else MeshData(*_surface(surface))
-    _io.vox_io_measure_quality(data._handle.pointer, None if other is None else other._handle.pointer, out)
+    _io.vox_io_mesh_measure(data._handle.pointer, None if other is None else other._handle.pointer, out)
     return values_of(Quality, out)
 
 

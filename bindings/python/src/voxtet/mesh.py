@@ -139,8 +139,8 @@ class Mesh:
             self.grid._tags[self.id] = tag
 
     def _raw_info(self) -> Any:
-        info = sized(_c.vox_mesh_info)
-        vox.vox_mesh_get_info(self.grid._pointer, self.id, info)
+        info = sized(_c.vox_body_info)
+        vox.vox_body_get_info(self.grid._pointer, self.id, info)
         return info
 
     @property
@@ -157,7 +157,7 @@ class Mesh:
         """The number that the mesh was added with."""
         number = ctypes.c_uint64()
         with self.grid._lock:
-            vox.vox_mesh_user_data(self.grid._pointer, self.id, number)
+            vox.vox_body_get_user_data(self.grid._pointer, self.id, number)
         return number.value
 
     # ---- positions ----
@@ -215,12 +215,12 @@ class Mesh:
     def transform(self, transform: Optional[ArrayLike]) -> None:
         numbers = None if transform is None else matrix(transform, "transform")
         with self.grid._lock:
-            vox.vox_mesh_set_transform(self.grid._pointer, self.id, numbers)
+            vox.vox_body_set_transform(self.grid._pointer, self.id, numbers)
 
     def mark_moved(self) -> None:
         """Makes the next step process the mesh even if it is at rest."""
         with self.grid._lock:
-            vox.vox_mesh_mark_moved(self.grid._pointer, self.id)
+            vox.vox_body_mark_moved(self.grid._pointer, self.id)
 
     # ---- what it collides with ----
 
@@ -239,7 +239,7 @@ class Mesh:
             raise TypeError(f"filter is of type {type(filter).__name__}; it must be a voxtet.Filter")
         struct = filter._struct()
         with self.grid._lock:
-            vox.vox_mesh_set_filter(self.grid._pointer, self.id, struct)
+            vox.vox_body_set_filter(self.grid._pointer, self.id, struct)
 
     @property
     def enabled(self) -> bool:
@@ -250,7 +250,7 @@ class Mesh:
     def enabled(self, enabled: bool) -> None:
         number = switch(enabled, "enabled")
         with self.grid._lock:
-            vox.vox_mesh_set_enabled(self.grid._pointer, self.id, number)
+            vox.vox_body_set_enabled(self.grid._pointer, self.id, number)
 
     # ---- results ----
 
@@ -289,7 +289,7 @@ class Mesh:
         with self.grid._lock:
             count = self._raw_info().tet_count
             corners, enabled = np.empty((count, 4), np.uint32), np.empty(count, np.bool_)
-            vox.vox_mesh_copy_tets(self.grid._pointer, self.id, corners.ctypes.data, enabled.ctypes.data, count,
+            vox.vox_mesh_get_tets(self.grid._pointer, self.id, corners.ctypes.data, enabled.ctypes.data, count,
                                    ctypes.c_uint64())
         return corners, enabled
 

@@ -35,13 +35,13 @@ def plot(grid: Grid, plotter: Optional[pyvista.Plotter] = None, *, opacity: floa
         elif len(points):
             plotter.add_mesh(pyvista.PolyData(points), color=colour, point_size=4)
     found = grid.contacts
-    known = np.isin(found.mesh_a, list(positions))
+    known = np.isin(found.body_a, list(positions))
     if contacts and known.any():
-        at = np.array([positions[c.mesh_a][c.vertex] for c in found[known]])
+        at = np.array([positions[c.body_a][c.vertex] for c in found[known]])
         plotter.add_mesh(pyvista.PolyData(at), color="red", point_size=8, render_points_as_spheres=True)
     if penetrations and grid.flags & GridFlags.PENETRATIONS:
-        deep = [p for p in grid.penetrations if p.mesh_a in positions and p.depth > 0]
+        deep = [p for p in grid.penetrations if p.body_a in positions and p.depth > 0]
         if deep:
-            at = np.array([positions[p.mesh_a][p.vertex] for p in deep])
+            at = np.array([positions[p.body_a][p.vertex] for p in deep])
             plotter.add_arrows(at, np.array([p.direction * p.depth for p in deep]), mag=1, color="black")
     return plotter

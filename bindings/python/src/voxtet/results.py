@@ -40,11 +40,11 @@ def record_type(struct: str) -> np.dtype[Any]:
 
 
 class Contacts(Records):
-    """Contacts of a step, sorted by (mesh_a, vertex, mesh_b, tet): the vertex of mesh_a is in the tetrahedron of mesh_b."""
+    """Contacts of a step, sorted by (body_a, vertex, body_b, tet): the vertex of body_a is in the tetrahedron of body_b."""
 
-    mesh_a: NDArray[np.uint32]
+    body_a: NDArray[np.uint32]
     vertex: NDArray[np.uint32]
-    mesh_b: NDArray[np.uint32]
+    body_b: NDArray[np.uint32]
     tet: NDArray[np.uint32]
     barycentric: NDArray[np.float32]
 
@@ -52,9 +52,9 @@ class Contacts(Records):
 class Penetrations(Records):
     """How deep each vertex is in another body, and which way leads out. `state` is a PenetrationState."""
 
-    mesh_a: NDArray[np.uint32]
+    body_a: NDArray[np.uint32]
     vertex: NDArray[np.uint32]
-    mesh_b: NDArray[np.uint32]
+    body_b: NDArray[np.uint32]
     state: NDArray[np.int32]
     contact: NDArray[np.uint64]
     depth: NDArray[np.float32]
@@ -71,8 +71,8 @@ class Depths(Records):
 class Pairs(Records):
     """Meshes that touch, and where their contacts are in `Grid.pair_contacts`."""
 
-    mesh_a: NDArray[np.uint32]
-    mesh_b: NDArray[np.uint32]
+    body_a: NDArray[np.uint32]
+    body_b: NDArray[np.uint32]
     user_data_a: NDArray[np.uint64]
     user_data_b: NDArray[np.uint64]
     first: NDArray[np.uint64]
@@ -83,8 +83,8 @@ class Pairs(Records):
 class TouchEvents(Records):
     """Pairs of meshes that began to touch, still touch, or ended. `kind` is a Touch."""
 
-    mesh_a: NDArray[np.uint32]
-    mesh_b: NDArray[np.uint32]
+    body_a: NDArray[np.uint32]
+    body_b: NDArray[np.uint32]
     user_data_a: NDArray[np.uint64]
     user_data_b: NDArray[np.uint64]
     kind: NDArray[np.int32]
@@ -94,9 +94,9 @@ class TouchEvents(Records):
 class ContactEvents(Records):
     """Vertices that entered a mesh or left it. `kind` is a Touch."""
 
-    mesh_a: NDArray[np.uint32]
+    body_a: NDArray[np.uint32]
     vertex: NDArray[np.uint32]
-    mesh_b: NDArray[np.uint32]
+    body_b: NDArray[np.uint32]
     kind: NDArray[np.int32]
 
 
@@ -149,11 +149,11 @@ def _view(function: Any, records: Any, dtype: Any, of_readings: bool = False) ->
     return View(function, struct, records, record_type(dtype) if isinstance(dtype, str) else dtype, of_readings)
 
 
-CONTACTS = _view(vox.vox_grid_contacts, Contacts, "vox_contact")
+CONTACTS = _view(vox.vox_grid_get_contacts, Contacts, "vox_contact")
 INTERIORS = _view(vox.vox_grid_contact_interiors, np.ndarray, np.dtype(np.bool_))
 PENETRATIONS = _view(vox.vox_grid_penetrations, Penetrations, "vox_penetration")
 DEPTHS = _view(vox.vox_grid_depths, Depths, "vox_depth")
-PAIRS = _view(vox.vox_grid_pairs, Pairs, "vox_pair")
+PAIRS = _view(vox.vox_grid_get_pairs, Pairs, "vox_pair")
 TOUCHES = _view(vox.vox_grid_touch_events, TouchEvents, "vox_touch_event")
 PASSAGES = _view(vox.vox_grid_contact_events, ContactEvents, "vox_contact_event")
 READINGS = _view(vox.vox_grid_readings, Readings, "vox_reading", of_readings=True)
@@ -276,7 +276,7 @@ class Results:
     @property
     def pair_contacts(self) -> NDArray[np.uint32]:
         """The index of each contact, pair by pair: those of a pair begin at `pair.first`, first `a_in_b` vertices of
-        mesh_a, then `b_in_a` of mesh_b."""
+        body_a, then `b_in_a` of body_b."""
         grid = self._source()
         with grid._lock:
             pairs, contacts = PAIRS.struct(), CONTACTS.struct()

@@ -127,7 +127,7 @@ class Body:
     @tag.setter
     def tag(self, tag: Any) -> None:
         with self.sim._lock:
-            _sim.vox_sim_body_get(self.sim._pointer, self.id, _c.vox_sim_body_view())
+            _sim.vox_sim_body_get_view(self.sim._pointer, self.id, _c.vox_sim_body_view())
             self.sim.grid._tags[self.id] = tag
 
     def __index__(self) -> int:
@@ -140,7 +140,7 @@ class Body:
         sim = self.sim
         with sim._lock:
             view = _c.vox_sim_body_view()
-            _sim.vox_sim_body_get(sim._pointer, self.id, view)
+            _sim.vox_sim_body_get_view(sim._pointer, self.id, view)
             lease = Lease(sim._handle, sim.grid._exports_of(self.id))
             count = view.tet_count if name == "tets" else view.vertex_count
             flat = borrow_of(getattr(view, name), count * width, dtype.itemsize, np.ndarray, dtype, lease)
@@ -172,7 +172,7 @@ class Body:
         sim = self.sim
         with sim._lock:
             view = _c.vox_sim_body_view()
-            _sim.vox_sim_body_get(sim._pointer, self.id, view)
+            _sim.vox_sim_body_get_view(sim._pointer, self.id, view)
             p = None if positions is None else _positions(positions, "positions", view.vertex_count)
             v = None if velocities is None else _positions(velocities, "velocities", view.vertex_count)
             _sim.vox_sim_body_set_state(sim._pointer, self.id, None if p is None else p.ctypes.data,
@@ -221,7 +221,7 @@ class Sim:
         _sim.vox_sim_create(desc, pointer)
         self._handle: Optional[Handle] = Handle(pointer.value or 0, _sim.vox_sim_destroy, grid_desc.log.write)
         self._pointer = pointer.value
-        _sim.vox_sim_grid(self._pointer, inside)
+        _sim.vox_sim_get_grid(self._pointer, inside)
         grid._hold(self._handle)
         grid._pointer = inside.value
         self.grid: Grid = grid  # contacts and penetrations of the last detection
@@ -305,7 +305,7 @@ class Sim:
     def _energy(self, id: int) -> Energies:
         out = sized(_c.vox_sim_energies)
         with self._lock:
-            _sim.vox_sim_energy(self._pointer, id, out)
+            _sim.vox_sim_get_energy(self._pointer, id, out)
         return values_of(Energies, out)
 
     @property
@@ -318,5 +318,5 @@ class Sim:
         """What the simulation has, and what it did."""
         out = sized(_c.vox_sim_counts)
         with self._lock:
-            _sim.vox_sim_counters(self._pointer, out)
+            _sim.vox_sim_get_counters(self._pointer, out)
         return values_of(Counts, out)

@@ -137,7 +137,7 @@ class Surface:
     def _features(self, feature: _c.Feature) -> NDArray[np.uint32]:
         view = sized(_c.vox_feature_view)
         with self._lock:
-            vox.vox_surface_features(self._handle.pointer, int(feature), view)
+            vox.vox_surface_get_features(self._handle.pointer, int(feature), view)
             return _copy(view.vertices, view.count * view.vertices_each, np.uint32).reshape(-1, view.vertices_each)
 
     @property
@@ -186,7 +186,7 @@ class Surface:
         while True:
             lists = sized(_c.vox_pair_lists)
             with self._lock:
-                vox.vox_surface_pairs(self._handle.pointer, kind_a, kind_b, first, count, lists)
+                vox.vox_surface_find_pairs(self._handle.pointer, kind_a, kind_b, first, count, lists)
                 piece = FeaturePairs(_copy(lists.offsets, lists.count + 1, np.uint64),
                                      _copy(lists.partners, lists.pair_count, np.uint32))
             yield piece
@@ -209,7 +209,7 @@ class Surface:
     def counters(self) -> SurfaceCounters:
         out = sized(_c.vox_pair_counters)
         with self._lock:
-            vox.vox_surface_counters(self._handle.pointer, out)
+            vox.vox_surface_get_counters(self._handle.pointer, out)
         return SurfaceCounters(*(getattr(out, name) for name in SurfaceCounters._fields))
 
     def crossings(self) -> NDArray[Any]:
@@ -217,7 +217,7 @@ class Surface:
         edge_weights, face_weights, position. Empty: the surface does not intersect itself."""
         view = sized(_c.vox_crossing_view)
         with self._lock:
-            vox.vox_surface_crossings(self._handle.pointer, view)
+            vox.vox_surface_find_crossings(self._handle.pointer, view)
             return _records(view, view.crossings, "vox_crossing")
 
     def close(self, a: FeatureName, b: FeatureName, distance: float) -> NDArray[Any]:
@@ -225,14 +225,14 @@ class Surface:
         kind_a, kind_b = choice(_c.Feature, a, "a"), choice(_c.Feature, b, "b")
         view = sized(_c.vox_close_view)
         with self._lock:
-            vox.vox_surface_close(self._handle.pointer, kind_a, kind_b, real(distance, "distance"), view)
+            vox.vox_surface_find_proximities(self._handle.pointer, kind_a, kind_b, real(distance, "distance"), view)
             return _records(view, view.pairs, "vox_close_pair")
 
     def clearance(self, most: float) -> NDArray[np.float64]:
         """For each vertex how far it may move, at most this far, so that nothing touches what it does not touch now."""
         out = np.empty(self._vertex_count)
         with self._lock:
-            vox.vox_surface_clearance(self._handle.pointer, real(most, "most"), out.ctypes.data, len(out))
+            vox.vox_surface_find_clearances(self._handle.pointer, real(most, "most"), out.ctypes.data, len(out))
         return out
 
     def _time_desc(self, distance: float, slack: float, most_iterations: int) -> Any:
@@ -246,7 +246,7 @@ class Surface:
         desc = self._time_desc(distance, slack, most_iterations)
         out = sized(_c.vox_safe_step)
         with self._lock:
-            vox.vox_surface_safe_step(self._handle.pointer, desc, out)
+            vox.vox_surface_find_safe_step(self._handle.pointer, desc, out)
         return SafeStep(out.step, out.pairs, out.unfinished, _c.Feature(out.kind_a), _c.Feature(out.kind_b), out.a, out.b)
 
     def contact_times(self, a: FeatureName, b: FeatureName, distance: float = 0.0, *, slack: float = 0.1,
@@ -256,5 +256,5 @@ class Surface:
         desc = self._time_desc(distance, slack, most_iterations)
         view = sized(_c.vox_timed_view)
         with self._lock:
-            vox.vox_surface_contact_times(self._handle.pointer, kind_a, kind_b, desc, view)
+            vox.vox_surface_find_impacts(self._handle.pointer, kind_a, kind_b, desc, view)
             return _records(view, view.pairs, "vox_timed_pair")

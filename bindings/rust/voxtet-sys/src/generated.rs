@@ -12,7 +12,7 @@ pub const VOX_MAX_TASKS: u32 = 64;
 /// workers of a grid
 pub const VOX_MAX_WORKERS: u32 = 256;
 /// per grid, at one time, including retired slots
-pub const VOX_MAX_MESHES: u32 = 1048576;
+pub const VOX_MAX_BODIES: u32 = 1048576;
 /// uses of one mesh slot before it is retired
 pub const VOX_MAX_GENERATIONS: u32 = 4095;
 /// per grid
@@ -20,7 +20,7 @@ pub const VOX_MAX_VERTICES: u32 = 2147483647;
 /// per grid
 pub const VOX_MAX_TETS: u32 = 2147483647;
 /// names no mesh
-pub const VOX_NULL_MESH: u32 = 0;
+pub const VOX_NULL_BODY: u32 = 0;
 /// vox_filter.self_rings
 pub const VOX_MAX_RINGS: u32 = 8;
 /// vox_failure.vertex where a failure is not about a vertex
@@ -115,9 +115,9 @@ pub const VOX_GRID_PENETRATIONS: vox_grid_flags = 1;
 pub const VOX_GRID_CONTACT_EVENTS: vox_grid_flags = 2;
 /// a mesh with a coordinate that VOX_FORMAT_DOUBLE3 does not allow (NaN, infinite, too large) takes no part in a step,
 /// in vox_grid_prepare_queries, in vox_grid_take_query_view and in vox_grid_suggest_cell_size, as if it were disabled;
-/// without this flag they fail. Counted (skipped_meshes), listed (vox_grid_failure), and logged once until the mesh is
-/// well again
-pub const VOX_GRID_SKIP_BAD_MESHES: vox_grid_flags = 4;
+/// without this flag they fail. Counted (skipped_meshes), listed (vox_grid_get_failure), and logged once until the mesh
+/// is well again
+pub const VOX_GRID_SKIP_BAD_BODIES: vox_grid_flags = 4;
 /// also find edges of surfaces through faces of others (vox_grid_edge_contacts); experimental. A mesh of more than
 /// 357913941 tets then gives VOX_ERROR_LIMIT
 pub const VOX_GRID_EDGE_CONTACTS: vox_grid_flags = 8;
@@ -137,13 +137,13 @@ pub const VOX_MESH_COPY_POSITIONS: vox_mesh_flags = 2;
 pub const VOX_MESH_BORROW_TETS: vox_mesh_flags = 4;
 
 /// How a penetration's depth and direction were found. In the following, p is the vertex; a colliding vertex is a
-/// vertex of mesh_a that has a contact with mesh_b; edges are those of mesh_a's tetrahedra; the surface of mesh_b
+/// vertex of body_a that has a contact with body_b; edges are those of body_a's tetrahedra; the surface of body_b
 /// consists of the facets of exactly one of its tetrahedra, duplicates counted once. SURFACE and PROPAGATED are the
 /// method of Heidelberger et al. 2004; the other states stand for cases in which it gives no answer. "Closest" means
-/// that depth is the distance from p to the closest point of mesh_b's surface, and direction points straight to it. For
+/// that depth is the distance from p to the closest point of body_b's surface, and direction points straight to it. For
 /// self-contact the surface is that of the fold that p has entered, never a triangle that has p as a corner.
 pub type vox_penetration_state = i32;
-/// edges lead from p out of mesh_b; mean over the points where they cross the surface
+/// edges lead from p out of body_b; mean over the points where they cross the surface
 pub const VOX_PENETRATION_SURFACE: vox_penetration_state = 0;
 /// all neighbours of p collide; mean over those closer to the surface
 pub const VOX_PENETRATION_PROPAGATED: vox_penetration_state = 1;
@@ -183,7 +183,7 @@ pub const VOX_TOUCH_ENDED: vox_touch = 3;
 pub type vox_reading_flags = u32;
 /// missing if the vertex or its mesh was removed after the step
 pub const VOX_READING_POSITION: vox_reading_flags = 1;
-/// missing where POSITION is or would be, if mesh_b was removed or has no surface, or if all of its tetrahedra that
+/// missing where POSITION is or would be, if body_b was removed or has no surface, or if all of its tetrahedra that
 /// contained the vertex were removed or disabled
 pub const VOX_READING_SURFACE: vox_reading_flags = 2;
 /// missing on grids without VOX_GRID_PENETRATIONS, and where vox_filter.penetration_mask rules it out
@@ -375,7 +375,7 @@ pub const VOX_SIM_BODY_FIXED: vox_sim_body_flags = 2;
 /// Identifies a mesh in its grid: slot and generation in one number. 0 is no mesh. The ids of a grid ascend in slot
 /// order, so a fresh grid orders meshes as they were inserted. The id of a removed mesh is never used again in that
 /// grid.
-pub type vox_mesh = u32;
+pub type vox_body = u32;
 
 /// An open grid: a set of meshes and the settings they collide under.
 #[repr(C)]
@@ -596,7 +596,7 @@ pub struct vox_mesh_desc {
     pub tets: *const u32,
     pub tet_count: u64,
     pub vertex_count: u64,
-    /// any number of the caller's, returned by vox_mesh_user_data
+    /// any number of the caller's, returned by vox_body_get_user_data
     pub user_data: u64,
     pub position_format: vox_format,
     /// 0
@@ -618,7 +618,7 @@ pub struct vox_mesh_desc {
 /// A mesh as it is now, e.g. after vox_grid_load.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct vox_mesh_info {
+pub struct vox_body_info {
     pub struct_size: u32,
     /// from 0
     pub slot: u32,
@@ -629,13 +629,13 @@ pub struct vox_mesh_info {
     /// with those that are disabled or removed: indices of tetrahedra are below it
     pub tet_count: u64,
     pub enabled_tet_count: u64,
-    /// 1, or 0 (see vox_mesh_set_enabled)
+    /// 1, or 0 (see vox_body_set_enabled)
     pub enabled: u32,
     /// vox_mesh_flags: SELF_COLLISION as the filter says, COPY_POSITIONS if the positions are the mesh's own (copied,
     /// mapped or loaded), BORROW_TETS while the tetrahedra are the caller's
     pub flags: u32,
     pub position_format: vox_format,
-    /// 1 if vox_mesh_set_transform gave it one
+    /// 1 if vox_body_set_transform gave it one
     pub has_transform: u32,
     /// The positions, without the transform; null if the mesh has none. They live until the mesh is removed, bound to
     /// other positions, mapped, or gets other or more vertices, or the grid is cleared or destroyed.
@@ -643,7 +643,7 @@ pub struct vox_mesh_info {
     /// of these, never 0 unless `positions` is null; see vox_mesh_desc
     pub position_byte_stride: u64,
     pub position_component_byte_stride: u64,
-    /// as vox_mesh_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0
+    /// as vox_body_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0
     pub transform: [f64; 12],
 }
 
@@ -686,8 +686,8 @@ pub struct vox_failure {
     /// NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not allow), INVALID_STATE (no positions),
     /// INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3); VOX_OK if there is none
     pub result: vox_result,
-    /// VOX_NULL_MESH if there is none
-    pub mesh: vox_mesh,
+    /// VOX_NULL_BODY if there is none
+    pub mesh: vox_body,
     /// of the mesh, from 0
     pub slot: u32,
     /// of the mesh, as given at insertion
@@ -699,22 +699,22 @@ pub struct vox_failure {
     pub position: [f64; 3],
 }
 
-/// Vertex `vertex` of mesh_a is in the closed tetrahedron `tet` of mesh_b and is not a corner of it. This is decided
-/// exactly for the coordinates given. For each (mesh_a, vertex, mesh_b) there is a contact for every tetrahedron that
+/// Vertex `vertex` of body_a is in the closed tetrahedron `tet` of body_b and is not a corner of it. This is decided
+/// exactly for the coordinates given. For each (body_a, vertex, body_b) there is a contact for every tetrahedron that
 /// has the vertex in its interior; if there is none, one for the tetrahedron of lowest index that has it on its
 /// boundary. A tetrahedron of exactly zero volume contains nothing. `barycentric` are the vertex's weights for the
 /// tetrahedron's four corners in their given order. Each is in [0, 1], and their sum is 1 up to rounding.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_contact {
-    pub mesh_a: vox_mesh,
+    pub body_a: vox_body,
     pub vertex: u32,
-    pub mesh_b: vox_mesh,
+    pub body_b: vox_body,
     pub tet: u32,
     pub barycentric: [f32; 4],
 }
 
-/// `count` contacts, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b, tet). `data` lives until the next step,
+/// `count` contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b, tet). `data` lives until the next step,
 /// clear, reserve, change of the flags or destroy of the grid; `epoch` is vox_grid_epoch() of that state.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -728,7 +728,7 @@ pub struct vox_contact_view {
 /// `count` bytes, `byte_stride` apart, one for each contact, in that order: 1 if the vertex is in the interior of the
 /// tetrahedron, 0 if it is on its boundary; decided exactly. On a face that two tetrahedra share, a vertex has a
 /// contact with one of them (see vox_contact): who joins the contacts of several grids, each with a part of a mesh,
-/// keeps the rule with this flag. Not part of vox_grid_hash. The data lives as long as that of the contacts' view.
+/// keeps the rule with this flag. Not part of vox_grid_get_hash. The data lives as long as that of the contacts' view.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_interior_view {
@@ -738,27 +738,27 @@ pub struct vox_interior_view {
     pub epoch: u64,
 }
 
-/// Vertex `vertex` of mesh_a is inside mesh_b (a = b: self-contact) and has to leave it: moving the vertex by depth *
-/// direction leads to the surface of mesh_b, exactly if the state says closest, and otherwise as well as edges and
-/// neighbours can estimate it. All values are finite, and direction is a unit vector up to rounding. If mesh_b has no
+/// Vertex `vertex` of body_a is inside body_b (a = b: self-contact) and has to leave it: moving the vertex by depth *
+/// direction leads to the surface of body_b, exactly if the state says closest, and otherwise as well as edges and
+/// neighbours can estimate it. All values are finite, and direction is a unit vector up to rounding. If body_b has no
 /// surface (each facet belongs to several tetrahedra), depth is 0 and direction the normal of a facet of the contact's
 /// tetrahedron. Does not depend on engine, cell size, workers or machine.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_penetration {
-    pub mesh_a: vox_mesh,
+    pub body_a: vox_body,
     pub vertex: u32,
-    pub mesh_b: vox_mesh,
+    pub body_b: vox_body,
     pub state: vox_penetration_state,
-    /// index in vox_grid_contacts of the first contact of (mesh_a, vertex, mesh_b)
+    /// index in vox_grid_get_contacts of the first contact of (body_a, vertex, body_b)
     pub contact: u64,
     /// >= 0, in the caller's unit
     pub depth: f32,
-    /// in the frame of the positions, out of mesh_b
+    /// in the frame of the positions, out of body_b
     pub direction: [f32; 3],
 }
 
-/// `count` penetrations, `byte_stride` apart: one for each (mesh_a, vertex, mesh_b) that has contacts, in that order,
+/// `count` penetrations, `byte_stride` apart: one for each (body_a, vertex, body_b) that has contacts, in that order,
 /// unless vox_filter.penetration_mask rules it out. A vertex inside two meshes has two. The data lives as long as that
 /// of the contacts' view.
 #[repr(C)]
@@ -789,7 +789,7 @@ pub struct vox_depth_view {
     pub epoch: u64,
 }
 
-/// An edge of the surface of mesh_a and a face of the surface of mesh_b that have a point in common (a = b:
+/// An edge of the surface of body_a and a face of the surface of body_b that have a point in common (a = b:
 /// self-contact; then they have no vertex in common). The surface of a mesh consists of the facets of exactly one of
 /// its enabled tetrahedra, duplicates counted once, and of their edges. Decided exactly for the coordinates given. So
 /// two bars laid across each other are seen, though no vertex of one is in the other. Where several points are common,
@@ -797,13 +797,13 @@ pub struct vox_depth_view {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_edge_contact {
-    pub mesh_a: vox_mesh,
-    /// vertices of mesh_a, the lower first
+    pub body_a: vox_body,
+    /// vertices of body_a, the lower first
     pub edge: [u32; 2],
-    pub mesh_b: vox_mesh,
-    /// vertices of mesh_b, the lowest first, counter-clockwise as seen from the side that the normal points to
+    pub body_b: vox_body,
+    /// vertices of body_b, the lowest first, counter-clockwise as seen from the side that the normal points to
     pub face: [u32; 3],
-    /// of mesh_b, behind the face; of doubled ones the lowest
+    /// of body_b, behind the face; of doubled ones the lowest
     pub tet: u32,
     pub kind: vox_crossing_kind,
     /// 0
@@ -819,7 +819,7 @@ pub struct vox_edge_contact {
     pub normal: [f64; 3],
 }
 
-/// `count` edge contacts, `byte_stride` apart, sorted by mesh_a, edge, mesh_b and the three vertices of the face in
+/// `count` edge contacts, `byte_stride` apart, sorted by body_a, edge, body_b and the three vertices of the face in
 /// ascending order. The data lives as long as that of the contacts' view.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -830,17 +830,17 @@ pub struct vox_edge_contact_view {
     pub epoch: u64,
 }
 
-/// Vertex `vertex` of mesh_a is in no tetrahedron of mesh_b, but no further than the margin from its surface. The point
-/// of the surface of mesh_b that is closest to it is on a facet of `tet`; of several at the same distance that of the
+/// Vertex `vertex` of body_a is in no tetrahedron of body_b, but no further than the margin from its surface. The point
+/// of the surface of body_b that is closest to it is on a facet of `tet`; of several at the same distance that of the
 /// lowest (tet, facet), as in vox_grid_query_closest. Computed in double.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_margin_contact {
-    pub mesh_a: vox_mesh,
+    pub body_a: vox_body,
     pub vertex: u32,
-    /// never mesh_a
-    pub mesh_b: vox_mesh,
-    /// of mesh_b
+    /// never body_a
+    pub body_b: vox_body,
+    /// of body_b
     pub tet: u32,
     /// of the tetrahedron, as in vox_surface_hit
     pub facet: u32,
@@ -854,7 +854,7 @@ pub struct vox_margin_contact {
     pub normal: [f64; 3],
 }
 
-/// `count` margin contacts, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b), each of which has one at most. The
+/// `count` margin contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b), each of which has one at most. The
 /// data lives as long as that of the contacts' view.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -865,17 +865,17 @@ pub struct vox_margin_contact_view {
     pub epoch: u64,
 }
 
-/// Vertex `vertex` of mesh_a met the surface of mesh_b while both moved from their previous positions to the present
+/// Vertex `vertex` of body_a met the surface of body_b while both moved from their previous positions to the present
 /// ones (vox_mesh_bind_previous_positions; a mesh without previous positions stands still), wherever it was before and
 /// is after: also where it went through a thin mesh and out again.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_passage {
-    pub mesh_a: vox_mesh,
+    pub body_a: vox_body,
     pub vertex: u32,
-    /// never mesh_a
-    pub mesh_b: vox_mesh,
-    /// of mesh_b
+    /// never body_a
+    pub body_b: vox_body,
+    /// of body_b
     pub tet: u32,
     /// of the tetrahedron, as in vox_surface_hit: the first that the vertex met; the lowest (tet, facet) of several at
     /// the same time
@@ -887,7 +887,7 @@ pub struct vox_passage {
     pub time: f64,
 }
 
-/// `count` passages, `byte_stride` apart, sorted by (mesh_a, vertex, mesh_b), each of which has one at most. The data
+/// `count` passages, `byte_stride` apart, sorted by (body_a, vertex, body_b), each of which has one at most. The data
 /// lives as long as that of the contacts' view.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -899,16 +899,16 @@ pub struct vox_passage_view {
 }
 
 /// Two meshes that touch: a vertex of one of them is in a tetrahedron of the other, or they have edge contacts
-/// (VOX_GRID_EDGE_CONTACTS). mesh_a <= mesh_b; they are equal if a mesh touches itself. The contacts of the pair are
-/// those whose indices begin at vox_pair_view.contacts[first]: first the a_in_b contacts of vertices of mesh_a in tets
-/// of mesh_b, then the b_in_a contacts of vertices of mesh_b in tets of mesh_a (0 for a mesh with itself), each in the
-/// order of vox_grid_contacts.
+/// (VOX_GRID_EDGE_CONTACTS). body_a <= body_b; they are equal if a mesh touches itself. The contacts of the pair are
+/// those whose indices begin at vox_pair_view.contacts[first]: first the a_in_b contacts of vertices of body_a in tets
+/// of body_b, then the b_in_a contacts of vertices of body_b in tets of body_a (0 for a mesh with itself), each in the
+/// order of vox_grid_get_contacts.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_pair {
-    pub mesh_a: vox_mesh,
-    pub mesh_b: vox_mesh,
-    /// of mesh_a, as given at insertion
+    pub body_a: vox_body,
+    pub body_b: vox_body,
+    /// of body_a, as given at insertion
     pub user_data_a: u64,
     pub user_data_b: u64,
     pub first: u64,
@@ -916,8 +916,8 @@ pub struct vox_pair {
     pub b_in_a: u64,
 }
 
-/// `count` pairs, `byte_stride` apart, sorted by (mesh_a, mesh_b). `contacts` holds the index of every contact of
-/// vox_grid_contacts() once, pair by pair. Both live as long as the data of the contacts' view.
+/// `count` pairs, `byte_stride` apart, sorted by (body_a, body_b). `contacts` holds the index of every contact of
+/// vox_grid_get_contacts() once, pair by pair. Both live as long as the data of the contacts' view.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_pair_view {
@@ -928,23 +928,23 @@ pub struct vox_pair_view {
     pub contacts: *const u32,
 }
 
-/// An event of a pair of meshes, mesh_a <= mesh_b. A pair that began persists in every following step until it ends,
-/// which it does exactly once, also if a mesh was removed, disabled or filtered, or the grid cleared. Then `mesh_a` and
-/// `mesh_b` may be stale ids; the user data are those of the meshes that they named.
+/// An event of a pair of meshes, body_a <= body_b. A pair that began persists in every following step until it ends,
+/// which it does exactly once, also if a mesh was removed, disabled or filtered, or the grid cleared. Then `body_a` and
+/// `body_b` may be stale ids; the user data are those of the meshes that they named.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_touch_event {
-    pub mesh_a: vox_mesh,
-    pub mesh_b: vox_mesh,
+    pub body_a: vox_body,
+    pub body_b: vox_body,
     pub user_data_a: u64,
     pub user_data_b: u64,
     pub kind: vox_touch,
-    /// index of the pair in vox_grid_pairs; VOX_NO_PAIR if it ended
+    /// index of the pair in vox_grid_get_pairs; VOX_NO_PAIR if it ended
     pub pair: u32,
 }
 
 /// All pairs that began, then all that persisted, then all that ended: `count` in total, `byte_stride` apart, each part
-/// sorted by (mesh_a, mesh_b). `data` lives until the next step or destroy of the grid. These are the events of one
+/// sorted by (body_a, body_b). `data` lives until the next step or destroy of the grid. These are the events of one
 /// step: a program that steps twice and reads once loses those of the first step. vox_counters.total_touches_began and
 /// total_touches_ended show the loss.
 #[repr(C)]
@@ -959,19 +959,19 @@ pub struct vox_touch_view {
     pub ended: u64,
 }
 
-/// Vertex `vertex` of mesh_a has entered mesh_b, or is in none of its tetrahedra any more. Moving from one tetrahedron
-/// of mesh_b to another is not an event.
+/// Vertex `vertex` of body_a has entered body_b, or is in none of its tetrahedra any more. Moving from one tetrahedron
+/// of body_b to another is not an event.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_contact_event {
-    pub mesh_a: vox_mesh,
+    pub body_a: vox_body,
     pub vertex: u32,
-    pub mesh_b: vox_mesh,
+    pub body_b: vox_body,
     /// VOX_TOUCH_BEGAN or VOX_TOUCH_ENDED
     pub kind: vox_touch,
 }
 
-/// All vertices that entered, then all that left, each part sorted by (mesh_a, vertex, mesh_b). `data` lives until the
+/// All vertices that entered, then all that left, each part sorted by (body_a, vertex, body_b). `data` lives until the
 /// next step, change of the flags or destroy of the grid. Events of one step, too: see vox_touch_view, and
 /// vox_counters.total_contacts_began and total_contacts_ended.
 #[repr(C)]
@@ -985,8 +985,8 @@ pub struct vox_contact_event_view {
     pub ended: u64,
 }
 
-/// Geometry of one contact. All contacts of the same (mesh_a, vertex, mesh_b) have the same reading except for the
-/// first field. `triangle` is the triangle closest to the vertex on the surface of mesh_b, which consists of the facets
+/// Geometry of one contact. All contacts of the same (body_a, vertex, body_b) have the same reading except for the
+/// first field. `triangle` is the triangle closest to the vertex on the surface of body_b, which consists of the facets
 /// of exactly one of its tetrahedra, duplicates counted once. It is computed in double, as by vox_grid_query_closest;
 /// of several at the same distance it is the one with the lowest corners, compared in ascending order. For self-contact
 /// it belongs to the fold that the vertex has entered and never has the vertex as a corner (see vox_penetration_state).
@@ -994,7 +994,7 @@ pub struct vox_contact_event_view {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_reading {
-    /// index of the contact in vox_grid_contacts
+    /// index of the contact in vox_grid_get_contacts
     pub contact: u64,
     /// vox_reading_flags, combined with |
     pub known: u32,
@@ -1013,10 +1013,10 @@ pub struct vox_reading {
     /// A unit vector out of the triangle's tetrahedron or, if that is flat, to the side away from the vertex. If the
     /// triangle has no area, it points from the vertex to the closest point, or is 0, 0, 1 if both coincide.
     pub normal: [f64; 3],
-    /// vertices of mesh_b, the lowest first, counter-clockwise as seen from the side that the normal points to
+    /// vertices of body_b, the lowest first, counter-clockwise as seen from the side that the normal points to
     pub triangle: [u32; 3],
     pub reserved: u32,
-    /// of mesh_a, as given at insertion
+    /// of body_a, as given at insertion
     pub user_data_a: u64,
     pub user_data_b: u64,
 }
@@ -1041,10 +1041,10 @@ pub struct vox_readings_desc {
     /// vox_reading_flags, combined with |; default: all. Without SURFACE a reading takes about as long as copying it.
     /// The other fields of vox_reading, such as user data, are always set
     pub what: u32,
-    /// VOX_NULL_MESH (the default): all contacts; else those that vox_mesh_copy_contacts copies
-    pub mesh_a: vox_mesh,
-    /// VOX_NULL_MESH (the default), or those that vox_pair_copy_contacts copies for mesh_a and it
-    pub mesh_b: vox_mesh,
+    /// VOX_NULL_BODY (the default): all contacts; else those that vox_mesh_copy_contacts copies
+    pub body_a: vox_body,
+    /// VOX_NULL_BODY (the default), or those that vox_pair_copy_contacts copies for body_a and it
+    pub body_b: vox_body,
     /// Most searches for a closest point. The first contacts that need one get it; the readings of the others lack
     /// VOX_READING_SURFACE in `known`, and the log has a warning. 0 (the default): no limit.
     pub closest_budget: u64,
@@ -1057,7 +1057,7 @@ pub struct vox_readings_desc {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_point_hit {
     pub point: u32,
-    pub mesh: vox_mesh,
+    pub mesh: vox_body,
     pub tet: u32,
     pub barycentric: [f32; 4],
 }
@@ -1066,7 +1066,7 @@ pub struct vox_point_hit {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_tet_hit {
-    pub mesh: vox_mesh,
+    pub mesh: vox_body,
     pub tet: u32,
 }
 
@@ -1076,8 +1076,8 @@ pub struct vox_tet_hit {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_surface_hit {
-    /// VOX_NULL_MESH if there is no such point; then all fields are zero
-    pub mesh: vox_mesh,
+    /// VOX_NULL_BODY if there is no such point; then all fields are zero
+    pub mesh: vox_body,
     pub tet: u32,
     pub facet: u32,
     pub reserved: u32,
@@ -1103,8 +1103,8 @@ pub struct vox_closest_desc {
     pub mask: u64,
     /// >= 0, in the caller's unit; default infinity
     pub max_distance: f64,
-    /// default VOX_NULL_MESH: none
-    pub excluded: vox_mesh,
+    /// default VOX_NULL_BODY: none
+    pub excluded: vox_body,
     /// 0
     pub reserved: u32,
     /// as vox_mesh_desc.position_component_byte_stride; default 0
@@ -1115,8 +1115,8 @@ pub struct vox_closest_desc {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_closest_hit {
-    /// VOX_NULL_MESH if no surface is within max_distance; then all other fields but `inside` are zero
-    pub mesh: vox_mesh,
+    /// VOX_NULL_BODY if no surface is within max_distance; then all other fields but `inside` are zero
+    pub mesh: vox_body,
     pub tet: u32,
     pub facet: u32,
     /// how many of the meshes that take part have the point in a closed tetrahedron; exact
@@ -1137,14 +1137,14 @@ pub struct vox_closest_hit {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_ray_hit {
-    /// mesh of the first tetrahedron; VOX_NULL_MESH if none is hit, then all fields are zero
-    pub mesh: vox_mesh,
+    /// mesh of the first tetrahedron; VOX_NULL_BODY if none is hit, then all fields are zero
+    pub mesh: vox_body,
     pub tet: u32,
     /// 0 if `from` is in the tetrahedron
     pub t: f64,
-    /// The first facet of a surface (see vox_surface_hit). VOX_NULL_MESH if there is none, e.g. for a segment that ends
+    /// The first facet of a surface (see vox_surface_hit). VOX_NULL_BODY if there is none, e.g. for a segment that ends
     /// before it leaves a mesh. A segment in the plane of a facet does not hit it.
-    pub surface_mesh: vox_mesh,
+    pub surface_mesh: vox_body,
     pub surface_tet: u32,
     pub surface_facet: u32,
     pub surface_side: vox_side,
@@ -1156,7 +1156,7 @@ pub struct vox_ray_hit {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_facet_hit {
-    pub mesh: vox_mesh,
+    pub mesh: vox_body,
     pub tet: u32,
     pub facet: u32,
     pub side: vox_side,
@@ -1201,7 +1201,7 @@ pub struct vox_counters {
     /// part of `contacts` carried over from the step before, between meshes at rest
     pub carried_contacts: u64,
     pub penetrations: u64,
-    /// edges from a colliding vertex to one outside mesh_b
+    /// edges from a colliding vertex to one outside body_b
     pub leaving_edges: u64,
     /// tetrahedra visited along those edges
     pub edge_tests: u64,
@@ -1209,7 +1209,7 @@ pub struct vox_counters {
     pub closest_searches: u64,
     /// triangles whose closest point was computed for that
     pub closest_tests: u64,
-    /// not included in `meshes` (see vox_mesh_set_enabled)
+    /// not included in `meshes` (see vox_body_set_enabled)
     pub disabled_meshes: u64,
     /// (vertex, tet) pairs of one mesh that self_rings or self_rest_distance ruled out
     pub filtered: u64,
@@ -1219,7 +1219,7 @@ pub struct vox_counters {
     pub unknown_penetrations: u64,
     /// part of `penetrations` carried over with their contacts
     pub carried_penetrations: u64,
-    /// left out for a coordinate (VOX_GRID_SKIP_BAD_MESHES); not included in `meshes`
+    /// left out for a coordinate (VOX_GRID_SKIP_BAD_BODIES); not included in `meshes`
     pub skipped_meshes: u64,
     /// part of `meshes`: their vertices collide, their edges and faces do not
     pub meshes_without_tets: u64,
@@ -1741,7 +1741,8 @@ pub struct vox_surface_desc {
     pub edge_count: u64,
     pub face_count: u64,
     /// 2 * edge_count indices of vertices, copied. Null, with edge_count 0: the edges are those of the faces, each
-    /// once, lower vertex first, ascending (vox_surface_features lists them). Not null, with edge_count 0: no edges.
+    /// once, lower vertex first, ascending (vox_surface_get_features lists them). Not null, with edge_count 0: no
+    /// edges.
     pub edges: *const u32,
     /// 3 * face_count indices of vertices, copied
     pub faces: *const u32,
@@ -1824,7 +1825,7 @@ pub struct vox_pair_lists {
     pub partners: *const u32,
 }
 
-/// What the last search for pairs did, also one by vox_surface_crossings and the like, and what the surface holds.
+/// What the last search for pairs did, also one by vox_surface_find_crossings and the like, and what the surface holds.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_pair_counters {
@@ -2062,7 +2063,7 @@ pub struct vox_io_tetrahedralize_desc {
     pub cell: f64,
     /// more tets fail with LIMIT; default 100000000
     pub max_tets: u64,
-    /// STUFFED: largest Hausdorff distance to the surface, as measured by vox_io_measure_quality. Cells at the boundary
+    /// STUFFED: largest Hausdorff distance to the surface, as measured by vox_io_mesh_measure. Cells at the boundary
     /// are halved until the distance is met, while those inside keep the size `cell`; thin details may need many tets.
     /// 0 (the default): cells are not halved, and no distance is guaranteed.
     pub max_distance: f64,
@@ -2216,7 +2217,7 @@ pub struct vox_sim_body_desc {
     pub bulk_modulus: f64,
     /// a time: edges resist the rate of their strain with damping times their stiffness; >= 0, default 0.01
     pub damping: f64,
-    /// returned by vox_mesh_user_data on the sim's grid
+    /// returned by vox_body_get_user_data on the sim's grid
     pub user_data: u64,
 }
 
@@ -2332,7 +2333,7 @@ pub struct vox_experiment_facts {
     pub tets: u64,
     /// sum over all frames
     pub contacts: u64,
-    /// combines vox_grid_hash of all frames; the same for every cell size and engine
+    /// combines vox_grid_get_hash of all frames; the same for every cell size and engine
     pub hash: u64,
     /// initial distance of the centres, along the axis
     pub distance: f64,
@@ -2424,7 +2425,7 @@ extern "C" {
     /// Allocates memory for what a grid keeps of that many meshes and contacts beside the meshes themselves, in
     /// advance; never releases any. A contact takes 69 bytes, with VOX_GRID_PENETRATIONS 88 more and with
     /// VOX_GRID_CONTACT_EVENTS 56 more; the closest points that a step searches (docs/depth.md) take up to 24 each.
-    /// Contacts stay, views end. Errors: LIMIT (more than VOX_MAX_MESHES), BUDGET, OUT_OF_MEMORY.
+    /// Contacts stay, views end. Errors: LIMIT (more than VOX_MAX_BODIES), BUDGET, OUT_OF_MEMORY.
     pub fn vox_grid_reserve(grid: *mut vox_grid, mesh_count: u32, contact_count: u64) -> vox_result;
     /// Sets the cell size of the following steps; 0: the library chooses. Never changes the contacts. Errors:
     /// INVALID_ARGUMENT when negative, infinite or NaN.
@@ -2467,41 +2468,41 @@ extern "C" {
     pub fn vox_mesh_insert(
         grid: *mut vox_grid,
         desc: *const vox_mesh_desc,
-        out_mesh: *mut vox_mesh,
+        out_body: *mut vox_body,
     ) -> vox_result;
     /// Removes a mesh. The contacts of the last step stay as they are until the next one.
-    pub fn vox_mesh_remove(grid: *mut vox_grid, mesh: vox_mesh) -> vox_result;
+    pub fn vox_body_remove(grid: *mut vox_grid, body: vox_body) -> vox_result;
     /// 1 when `mesh` names a mesh of the grid, else 0 (also for a null grid). Cannot fail.
-    pub fn vox_mesh_is_valid(grid: *const vox_grid, mesh: vox_mesh) -> u32;
+    pub fn vox_body_is_valid(grid: *const vox_grid, body: vox_body) -> u32;
     /// The user_data the mesh was inserted with.
-    pub fn vox_mesh_user_data(
+    pub fn vox_body_get_user_data(
         grid: *const vox_grid,
-        mesh: vox_mesh,
+        body: vox_body,
         out_user_data: *mut u64,
     ) -> vox_result;
     /// Copies the ids of the first `capacity` meshes of the grid, disabled ones included, ascending. *out_count is how
-    /// many there are, which may be more than were copied. `meshes` may be null if capacity is 0. Errors:
+    /// many there are, which may be more than were copied. `bodies` may be null if capacity is 0. Errors:
     /// INVALID_ARGUMENT.
-    pub fn vox_grid_meshes(
+    pub fn vox_grid_get_bodies(
         grid: *const vox_grid,
-        meshes: *mut vox_mesh,
+        bodies: *mut vox_body,
         capacity: u64,
         out_count: *mut u64,
     ) -> vox_result;
     /// Writes the fields that out_info->struct_size covers (set it first). How long `positions` live: see
-    /// vox_mesh_info. Errors: INVALID_ARGUMENT, INVALID_HANDLE.
-    pub fn vox_mesh_get_info(
+    /// vox_body_info. Errors: INVALID_ARGUMENT, INVALID_HANDLE.
+    pub fn vox_body_get_info(
         grid: *const vox_grid,
-        mesh: vox_mesh,
-        out_info: *mut vox_mesh_info,
+        body: vox_body,
+        out_info: *mut vox_body_info,
     ) -> vox_result;
     /// Copies the first `capacity` tetrahedra of a mesh: of tetrahedron t the corners, as they were given, to corners[4
     /// * t] to corners[4 * t + 3], and to enabled[t] 1 or, if it is disabled or removed, 0. Each of the two arrays may
-    /// be null, and is not written then. *out_count is how many tetrahedra there are (vox_mesh_info.tet_count). Errors:
+    /// be null, and is not written then. *out_count is how many tetrahedra there are (vox_body_info.tet_count). Errors:
     /// INVALID_ARGUMENT, INVALID_HANDLE.
-    pub fn vox_mesh_copy_tets(
+    pub fn vox_mesh_get_tets(
         grid: *const vox_grid,
-        mesh: vox_mesh,
+        body: vox_body,
         corners: *mut u32,
         enabled: *mut u8,
         capacity: u64,
@@ -2513,7 +2514,7 @@ extern "C" {
     /// and a stride that is too small.
     pub fn vox_mesh_bind_positions(
         grid: *mut vox_grid,
-        mesh: vox_mesh,
+        body: vox_body,
         positions: *const c_void,
         format: vox_format,
         byte_stride: u64,
@@ -2521,7 +2522,7 @@ extern "C" {
     /// The same with component_byte_stride as vox_mesh_desc.position_component_byte_stride, e.g. for columns.
     pub fn vox_mesh_bind_strided_positions(
         grid: *mut vox_grid,
-        mesh: vox_mesh,
+        body: vox_body,
         positions: *const c_void,
         format: vox_format,
         byte_stride: u64,
@@ -2532,11 +2533,11 @@ extern "C" {
     /// steps also find vox_grid_passages. Values may be written to the same memory between steps. The mesh's transform
     /// does not apply to them: they are where the vertices were. Null ends it, as do vox_mesh_set_topology and
     /// vox_mesh_append_vertices. Snapshots do not keep them. A step fails with NON_FINITE or LIMIT where they are not
-    /// as VOX_FORMAT_DOUBLE3 has it; VOX_GRID_SKIP_BAD_MESHES is about positions alone. Errors: as
+    /// as VOX_FORMAT_DOUBLE3 has it; VOX_GRID_SKIP_BAD_BODIES is about positions alone. Errors: as
     /// vox_mesh_bind_strided_positions.
     pub fn vox_mesh_bind_previous_positions(
         grid: *mut vox_grid,
-        mesh: vox_mesh,
+        body: vox_body,
         positions: *const c_void,
         format: vox_format,
         byte_stride: u64,
@@ -2544,34 +2545,34 @@ extern "C" {
     ) -> vox_result;
     /// Makes the next step process a mesh even if it is at rest (see vox_grid_step). Contacts are correct without it;
     /// it serves to measure steps over positions that stay the same.
-    pub fn vox_mesh_mark_moved(grid: *mut vox_grid, mesh: vox_mesh) -> vox_result;
+    pub fn vox_body_mark_moved(grid: *mut vox_grid, body: vox_body) -> vox_result;
     /// Sets what the mesh collides with, from the next step on (the filter is copied). This includes self_collision,
     /// which replaces the flag given at insertion. The tables of the self-contact filters, and what penetrations need
     /// if their mask was 0 before, are built in the call, in time and memory proportional to the mesh. Errors:
     /// INVALID_ARGUMENT, LIMIT (self_rings; tetrahedra of a mesh with penetrations), INVALID_STATE (a rest distance
     /// without a rest pose or positions), NON_FINITE (a rest position), BUDGET, OUT_OF_MEMORY.
-    pub fn vox_mesh_set_filter(
+    pub fn vox_body_set_filter(
         grid: *mut vox_grid,
-        mesh: vox_mesh,
+        body: vox_body,
         filter: *const vox_filter,
     ) -> vox_result;
     /// Writes the fields of the filter in use that out_filter->struct_size covers (set it first).
     pub fn vox_mesh_filter(
         grid: *const vox_grid,
-        mesh: vox_mesh,
+        body: vox_body,
         out_filter: *mut vox_filter,
     ) -> vox_result;
     /// Disables a mesh (enabled 0), so that it takes no part in the following steps and its positions are not read, or
     /// enables it again (1, as at insertion). Its contacts of the last step stay until the next one. Errors:
     /// INVALID_ARGUMENT for other numbers.
-    pub fn vox_mesh_set_enabled(grid: *mut vox_grid, mesh: vox_mesh, enabled: u32) -> vox_result;
+    pub fn vox_body_set_enabled(grid: *mut vox_grid, body: vox_body, enabled: u32) -> vox_result;
     /// With enabled 0, the two meshes do not collide in the following steps, whatever their filters say; with 1, their
     /// filters decide. The setting ends when either mesh is removed. Errors: INVALID_ARGUMENT for other numbers and for
-    /// mesh_a = mesh_b (see vox_filter.self_collision), BUDGET, OUT_OF_MEMORY.
+    /// body_a = body_b (see vox_filter.self_collision), BUDGET, OUT_OF_MEMORY.
     pub fn vox_grid_set_pair_enabled(
         grid: *mut vox_grid,
-        mesh_a: vox_mesh,
-        mesh_b: vox_mesh,
+        body_a: vox_body,
+        body_b: vox_body,
         enabled: u32,
     ) -> vox_result;
     /// Gives the mesh positions of its own that the caller may write to: vertex_count of them, tightly packed, in the
@@ -2582,7 +2583,7 @@ extern "C" {
     /// VOX_MESH_COPY_POSITIONS it is the copy made then. Errors: BUDGET, OUT_OF_MEMORY.
     pub fn vox_mesh_map_positions(
         grid: *mut vox_grid,
-        mesh: vox_mesh,
+        body: vox_body,
         out_positions: *mut *mut c_void,
         out_byte_stride: *mut u64,
     ) -> vox_result;
@@ -2592,9 +2593,9 @@ extern "C" {
     /// they exceed the limits of that format, the step fails. `matrix` is any affine map, three rows of four numbers,
     /// copied. Null (the default) means no transform. The transform stays when other positions are bound. Errors:
     /// INVALID_ARGUMENT (an element that is not finite); BUDGET, OUT_OF_MEMORY (for a first transform).
-    pub fn vox_mesh_set_transform(
+    pub fn vox_body_set_transform(
         grid: *mut vox_grid,
-        mesh: vox_mesh,
+        body: vox_body,
         matrix: *const [f64; 12],
     ) -> vox_result;
     /// Replaces tetrahedra, vertices and positions, as if the mesh had been inserted with those of `desc`. Its id, user
@@ -2602,10 +2603,10 @@ extern "C" {
     /// filter and the flag VOX_MESH_SELF_COLLISION are ignored. If desc->positions is null, the mesh keeps its
     /// positions and its rest pose if the number of vertices is unchanged; otherwise it has no positions until
     /// vox_mesh_bind_positions. The rest pose of a filter with a rest distance is taken from desc as at insertion.
-    /// Errors: also INVALID_STATE and NON_FINITE, as vox_mesh_set_filter.
+    /// Errors: also INVALID_STATE and NON_FINITE, as vox_body_set_filter.
     pub fn vox_mesh_set_topology(
         grid: *mut vox_grid,
-        mesh: vox_mesh,
+        body: vox_body,
         desc: *const vox_mesh_desc,
     ) -> vox_result;
     /// Disables the `count` tetrahedra named by `tets` (enabled 0), so that they contain no vertex and have no edges
@@ -2613,7 +2614,7 @@ extern "C" {
     /// Errors: INVALID_ARGUMENT for other numbers.
     pub fn vox_mesh_set_tets_enabled(
         grid: *mut vox_grid,
-        mesh: vox_mesh,
+        body: vox_body,
         tets: *const u32,
         count: u64,
         enabled: u32,
@@ -2623,7 +2624,7 @@ extern "C" {
     /// append copies of the vertices on the cut and let the tetrahedra of one side use those.
     pub fn vox_mesh_replace_tets(
         grid: *mut vox_grid,
-        mesh: vox_mesh,
+        body: vox_body,
         tets: *const u32,
         count: u64,
         corners: *const u32,
@@ -2632,7 +2633,7 @@ extern "C" {
     /// following indices.
     pub fn vox_mesh_append_tets(
         grid: *mut vox_grid,
-        mesh: vox_mesh,
+        body: vox_body,
         corners: *const u32,
         count: u64,
         out_first: *mut u32,
@@ -2640,7 +2641,7 @@ extern "C" {
     /// Removes tetrahedra, disabled ones included. Their vertices stay; see vox_mesh_remove_vertices.
     pub fn vox_mesh_remove_tets(
         grid: *mut vox_grid,
-        mesh: vox_mesh,
+        body: vox_body,
         tets: *const u32,
         count: u64,
     ) -> vox_result;
@@ -2651,7 +2652,7 @@ extern "C" {
     /// it), NON_FINITE (a position of the rest pose).
     pub fn vox_mesh_append_vertices(
         grid: *mut vox_grid,
-        mesh: vox_mesh,
+        body: vox_body,
         desc: *const vox_vertices_desc,
         out_first: *mut u32,
     ) -> vox_result;
@@ -2660,7 +2661,7 @@ extern "C" {
     /// best to leave them as they are.
     pub fn vox_mesh_remove_vertices(
         grid: *mut vox_grid,
-        mesh: vox_mesh,
+        body: vox_body,
         vertices: *const u32,
         count: u64,
     ) -> vox_result;
@@ -2674,7 +2675,7 @@ extern "C" {
     /// built-in scheduler, such as the stacks of its threads, is not the grid's and is not counted. Errors:
     /// INVALID_STATE (a mesh has no positions), NON_FINITE and LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not
     /// allow), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3, see vox_mesh_insert); all these name the mesh, as
-    /// does vox_grid_failure. LIMIT (more than VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET,
+    /// does vox_grid_get_failure. LIMIT (more than VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET,
     /// OUT_OF_MEMORY.
     pub fn vox_grid_step(grid: *mut vox_grid) -> vox_result;
     /// Steps `count` grids, which must differ, each as by vox_grid_step, several at the same time: for many small
@@ -2696,17 +2697,20 @@ extern "C" {
         worker_count: u32,
         results: *mut vox_result,
     ) -> vox_result;
-    /// The mesh that made the last step fail (index 0), or the meshes that it left out (VOX_GRID_SKIP_BAD_MESHES): the
-    /// index-th of them, in the order of ids. `mesh` is VOX_NULL_MESH beyond the last, after steps that failed for
+    /// The mesh that made the last step fail (index 0), or the meshes that it left out (VOX_GRID_SKIP_BAD_BODIES): the
+    /// index-th of them, in the order of ids. `mesh` is VOX_NULL_BODY beyond the last, after steps that failed for
     /// another reason and after a clear. Writes the fields that out_failure->struct_size covers (set it first). The
     /// mesh may have been removed since. Errors: INVALID_ARGUMENT (a null pointer, a bad struct_size).
-    pub fn vox_grid_failure(
+    pub fn vox_grid_get_failure(
         grid: *const vox_grid,
         index: u32,
         out_failure: *mut vox_failure,
     ) -> vox_result;
     /// The contacts of the last step; count 0 before the first, after a failed one and after a clear.
-    pub fn vox_grid_contacts(grid: *const vox_grid, out_view: *mut vox_contact_view) -> vox_result;
+    pub fn vox_grid_get_contacts(
+        grid: *const vox_grid,
+        out_view: *mut vox_contact_view,
+    ) -> vox_result;
     /// The contacts of `count` grids, one grid after the other: those of grid i begin at index offsets[i] and end
     /// before offsets[i + 1], where offsets has count + 1 numbers, all of which are written. Copies the first
     /// `capacity` contacts; `contacts` may be null if capacity is 0. Errors: INVALID_ARGUMENT.
@@ -2727,7 +2731,7 @@ extern "C" {
     /// its epoch equals it.
     pub fn vox_grid_epoch(grid: *const vox_grid, out_epoch: *mut u64) -> vox_result;
     /// A hash of the contacts: all fields, in order. The same for any cell size, storage, hash and engine.
-    pub fn vox_grid_hash(grid: *const vox_grid, out_hash: *mut u64) -> vox_result;
+    pub fn vox_grid_get_hash(grid: *const vox_grid, out_hash: *mut u64) -> vox_result;
     /// The penetrations of the last step; count 0 if it found no contacts, before the first step, after a failed one
     /// and after a clear. Errors: INVALID_STATE if the grid's flags lack VOX_GRID_PENETRATIONS.
     pub fn vox_grid_penetrations(
@@ -2739,9 +2743,9 @@ extern "C" {
     /// The edge contacts of the last step: the same for every engine, cell size and number of workers. Count 0 before
     /// the first step, after a failed one and after a clear. Which meshes collide is up to vox_filter and
     /// vox_grid_set_pair_enabled, as for contacts; a self-contact is ruled out where vox_filter rules out the contact
-    /// of either end of the edge with `tet`. Meshes that touch by edges alone are pairs of vox_grid_pairs, with no
-    /// contacts, and have touch events. vox_grid_hash and readings are of contacts alone. Errors: INVALID_STATE if the
-    /// grid's flags lack VOX_GRID_EDGE_CONTACTS.
+    /// of either end of the edge with `tet`. Meshes that touch by edges alone are pairs of vox_grid_get_pairs, with no
+    /// contacts, and have touch events. vox_grid_get_hash and readings are of contacts alone. Errors: INVALID_STATE if
+    /// the grid's flags lack VOX_GRID_EDGE_CONTACTS.
     pub fn vox_grid_edge_contacts(
         grid: *const vox_grid,
         out_view: *mut vox_edge_contact_view,
@@ -2750,9 +2754,9 @@ extern "C" {
     /// as vox_grid_edge_contacts.
     pub fn vox_grid_edge_hash(grid: *const vox_grid, out_hash: *mut u64) -> vox_result;
     /// Computes the way out for every edge contact of the last step (vox_grid_edge_depths). It reads positions, which
-    /// must still be those of the step. A program that does not need it pays nothing. The part of an edge inside mesh_b
+    /// must still be those of the step. A program that does not need it pays nothing. The part of an edge inside body_b
     /// begins and ends at contacts with it, or at an end of the edge. Moving its middle by depth * direction leads to
-    /// the closest point of the surface of mesh_b; of several, that of the first triangle. Where no part begins or
+    /// the closest point of the surface of body_b; of several, that of the first triangle. Where no part begins or
     /// ends, because the two only touch, depth is 0 and direction the normal. For self-contact the middle moves to the
     /// plane of the face, along the normal, instead. Errors: INVALID_STATE (as vox_grid_edge_contacts; or a mesh of a
     /// contact was removed or edited since the step, or lacks positions), NON_FINITE, BUDGET, OUT_OF_MEMORY.
@@ -2762,8 +2766,8 @@ extern "C" {
     pub fn vox_grid_edge_depths(grid: *const vox_grid, out_view: *mut vox_depth_view) -> vox_result;
     /// The margin contacts of the last step: the same for every engine, cell size and number of workers. Count 0 before
     /// the first step, after a failed one and after a clear. Which meshes collide is up to vox_filter and
-    /// vox_grid_set_pair_enabled, as for contacts. They are not part of vox_grid_hash, and no pairs or events come of
-    /// them. Errors: INVALID_STATE if the margin is 0 (vox_grid_set_margin).
+    /// vox_grid_set_pair_enabled, as for contacts. They are not part of vox_grid_get_hash, and no pairs or events come
+    /// of them. Errors: INVALID_STATE if the margin is 0 (vox_grid_set_margin).
     pub fn vox_grid_margin_contacts(
         grid: *const vox_grid,
         out_view: *mut vox_margin_contact_view,
@@ -2774,24 +2778,24 @@ extern "C" {
     /// the first step, after a failed one and after a clear.
     pub fn vox_grid_passages(grid: *const vox_grid, out_view: *mut vox_passage_view) -> vox_result;
     /// The pairs that touched in the last step; count 0 before the first, after a failed one and after a clear.
-    pub fn vox_grid_pairs(grid: *const vox_grid, out_view: *mut vox_pair_view) -> vox_result;
-    /// Copies the first `capacity` of the last step's contacts in which `mesh` is mesh_a or mesh_b, pair by pair, in
-    /// the order of vox_grid_pairs. *out_count is how many there are, which may be more than were copied. `contacts`
-    /// may be null if capacity is 0. The mesh may have been disabled since the step, but not removed. Errors:
-    /// INVALID_ARGUMENT, INVALID_HANDLE.
+    pub fn vox_grid_get_pairs(grid: *const vox_grid, out_view: *mut vox_pair_view) -> vox_result;
+    /// Copies the first `capacity` of the last step's contacts in which `mesh` is body_a or body_b, pair by pair, in
+    /// the order of vox_grid_get_pairs. *out_count is how many there are, which may be more than were copied.
+    /// `contacts` may be null if capacity is 0. The mesh may have been disabled since the step, but not removed.
+    /// Errors: INVALID_ARGUMENT, INVALID_HANDLE.
     pub fn vox_mesh_copy_contacts(
         grid: *const vox_grid,
-        mesh: vox_mesh,
+        body: vox_body,
         contacts: *mut vox_contact,
         capacity: u64,
         out_count: *mut u64,
     ) -> vox_result;
-    /// The same for the contacts between two meshes, given in either order, or of one mesh with itself (mesh_a =
-    /// mesh_b): the contacts of their vox_pair.
+    /// The same for the contacts between two meshes, given in either order, or of one mesh with itself (body_a =
+    /// body_b): the contacts of their vox_pair.
     pub fn vox_pair_copy_contacts(
         grid: *const vox_grid,
-        mesh_a: vox_mesh,
-        mesh_b: vox_mesh,
+        body_a: vox_body,
+        body_b: vox_body,
         contacts: *mut vox_contact,
         capacity: u64,
         out_count: *mut u64,
@@ -2823,7 +2827,7 @@ extern "C" {
     pub fn vox_readings_desc_init(desc: *mut vox_readings_desc, struct_size: u32) -> vox_result;
     /// As vox_grid_prepare_readings, which is the same with desc null, but computes only the parts desc->what of the
     /// readings of some contacts. All others are missing from the views and copies of the following functions. Errors:
-    /// as there; also INVALID_ARGUMENT (unknown parts, or mesh_b without mesh_a) and INVALID_HANDLE, after which the
+    /// as there; also INVALID_ARGUMENT (unknown parts, or body_b without body_a) and INVALID_HANDLE, after which the
     /// earlier readings stay.
     pub fn vox_grid_prepare_readings_of(
         grid: *mut vox_grid,
@@ -2841,7 +2845,7 @@ extern "C" {
     /// INVALID_ARGUMENT, INVALID_HANDLE, INVALID_STATE as vox_grid_readings.
     pub fn vox_mesh_copy_readings(
         grid: *const vox_grid,
-        mesh: vox_mesh,
+        body: vox_body,
         readings: *mut vox_reading,
         capacity: u64,
         out_count: *mut u64,
@@ -2850,8 +2854,8 @@ extern "C" {
     /// INVALID_ARGUMENT, INVALID_HANDLE, INVALID_STATE as vox_grid_readings.
     pub fn vox_pair_copy_readings(
         grid: *const vox_grid,
-        mesh_a: vox_mesh,
-        mesh_b: vox_mesh,
+        body_a: vox_body,
+        body_b: vox_body,
         readings: *mut vox_reading,
         capacity: u64,
         out_count: *mut u64,
@@ -2960,7 +2964,7 @@ extern "C" {
         from: *const [f64; 3],
         to: *const [f64; 3],
         mask: u64,
-        excluded: vox_mesh,
+        excluded: vox_body,
         hits: *mut vox_facet_hit,
         capacity: u64,
         out_count: *mut u64,
@@ -2972,7 +2976,7 @@ extern "C" {
         from: *const [f64; 3],
         to: *const [f64; 3],
         mask: u64,
-        excluded: vox_mesh,
+        excluded: vox_body,
         out_any: *mut u32,
     ) -> vox_result;
     /// Takes a view of the grid as it is now. It costs as much as vox_grid_prepare_queries, and does not change what
@@ -2993,7 +2997,7 @@ extern "C" {
     /// The user_data that a mesh of the view was inserted with. Errors: INVALID_HANDLE if the mesh is not in the view.
     pub fn vox_query_view_user_data(
         view: *const vox_query_view,
-        mesh: vox_mesh,
+        body: vox_body,
         out_user_data: *mut u64,
     ) -> vox_result;
     /// As vox_grid_query_point.
@@ -3055,7 +3059,7 @@ extern "C" {
         from: *const [f64; 3],
         to: *const [f64; 3],
         mask: u64,
-        excluded: vox_mesh,
+        excluded: vox_body,
         hits: *mut vox_facet_hit,
         capacity: u64,
         out_count: *mut u64,
@@ -3066,11 +3070,14 @@ extern "C" {
         from: *const [f64; 3],
         to: *const [f64; 3],
         mask: u64,
-        excluded: vox_mesh,
+        excluded: vox_body,
         out_any: *mut u32,
     ) -> vox_result;
     /// Writes the fields that out_counters->struct_size covers (set it first).
-    pub fn vox_grid_counters(grid: *const vox_grid, out_counters: *mut vox_counters) -> vox_result;
+    pub fn vox_grid_get_counters(
+        grid: *const vox_grid,
+        out_counters: *mut vox_counters,
+    ) -> vox_result;
     /// Writes the fields that out_profile->struct_size covers (set it first).
     pub fn vox_grid_profile(grid: *const vox_grid, out_profile: *mut vox_profile) -> vox_result;
     /// Fills `desc` with the defaults for the fields that `struct_size` covers.
@@ -3230,7 +3237,7 @@ extern "C" {
     /// The edges or faces of a surface, numbered as everywhere in this header. Set out_view->struct_size first. The
     /// view lives as long as the surface. Errors: INVALID_ARGUMENT (also for VOX_FEATURE_VERTEX, whose numbers are
     /// those of the positions).
-    pub fn vox_surface_features(
+    pub fn vox_surface_get_features(
         surface: *const vox_surface,
         feature: vox_feature,
         out_view: *mut vox_feature_view,
@@ -3248,9 +3255,9 @@ extern "C" {
     /// Ranges that reach beyond the last feature end there, and may not begin beyond it. If not all of it fits into the
     /// byte budget, the features up to lists->first + lists->count are answered, at least one; ask again from there. So
     /// any number of pairs can be had from any budget that holds the lists of one feature. Set out_lists->struct_size
-    /// first. The view lives until the next vox_surface_pairs or vox_surface_move, or the end of the surface. Errors:
-    /// INVALID_ARGUMENT, INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
-    pub fn vox_surface_pairs(
+    /// first. The view lives until the next vox_surface_find_pairs or vox_surface_move, or the end of the surface.
+    /// Errors: INVALID_ARGUMENT, INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
+    pub fn vox_surface_find_pairs(
         surface: *mut vox_surface,
         a: vox_feature,
         b: vox_feature,
@@ -3274,25 +3281,26 @@ extern "C" {
         out: *mut vox_foreign_suggestion,
     ) -> vox_result;
     /// Writes the fields that out_counters->struct_size covers (set it first).
-    pub fn vox_surface_counters(
+    pub fn vox_surface_get_counters(
         surface: *const vox_surface,
         out_counters: *mut vox_pair_counters,
     ) -> vox_result;
     /// All edges and faces that have a point in common and no vertex, at the end of the motion: whether the surface is
-    /// free of intersections, and where it is not. Decided exactly. Patches rule out pairs as for vox_surface_pairs;
-    /// the radius does not count. Set out_view->struct_size first. The view lives until the next vox_surface_crossings
-    /// or vox_surface_move, or the end of the surface. Errors: INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
-    pub fn vox_surface_crossings(
+    /// free of intersections, and where it is not. Decided exactly. Patches rule out pairs as for
+    /// vox_surface_find_pairs; the radius does not count. Set out_view->struct_size first. The view lives until the
+    /// next vox_surface_find_crossings or vox_surface_move, or the end of the surface. Errors: INVALID_STATE (no
+    /// positions yet), BUDGET, OUT_OF_MEMORY.
+    pub fn vox_surface_find_crossings(
         surface: *mut vox_surface,
         out_view: *mut vox_crossing_view,
     ) -> vox_result;
     /// All pairs of features of kinds a and b that are at most `distance` apart, at the end of the motion: face and
     /// vertex, edge and edge, edge and vertex, vertex and vertex, in either order. Which pairs are left out is as for
-    /// vox_surface_pairs; the radius does not count. Set out_view->struct_size first. The view lives until the next
-    /// vox_surface_close or vox_surface_move, or the end of the surface. While it grows, it may take more than twice
-    /// the bytes that it has in the end. Errors: INVALID_ARGUMENT (other kinds; a distance that is negative, infinite
-    /// or NaN), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
-    pub fn vox_surface_close(
+    /// vox_surface_find_pairs; the radius does not count. Set out_view->struct_size first. The view lives until the
+    /// next vox_surface_find_proximities or vox_surface_move, or the end of the surface. While it grows, it may take
+    /// more than twice the bytes that it has in the end. Errors: INVALID_ARGUMENT (other kinds; a distance that is
+    /// negative, infinite or NaN), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
+    pub fn vox_surface_find_proximities(
         surface: *mut vox_surface,
         a: vox_feature,
         b: vox_feature,
@@ -3305,7 +3313,7 @@ extern "C" {
     /// downwards. Pairs with a vertex in common, and those that patches rule out, do not count, and may touch.
     /// vertex_count must be that of the surface. Errors: INVALID_ARGUMENT (another vertex_count; `most` is not above 0,
     /// or not finite), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
-    pub fn vox_surface_clearance(
+    pub fn vox_surface_find_clearances(
         surface: *mut vox_surface,
         most: f64,
         per_vertex: *mut f64,
@@ -3318,18 +3326,18 @@ extern "C" {
     ) -> vox_result;
     /// How much of the motion is free of contact: the least time of first contact of all pairs of faces and vertices,
     /// and of edges and edges. Never later than the exact time. Pairs that touch at time 0 give the step 0. Pairs are
-    /// left out as for vox_surface_pairs. desc null: defaults. Set out->struct_size first. Errors: INVALID_ARGUMENT,
-    /// INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
-    pub fn vox_surface_safe_step(
+    /// left out as for vox_surface_find_pairs. desc null: defaults. Set out->struct_size first. Errors:
+    /// INVALID_ARGUMENT, INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
+    pub fn vox_surface_find_safe_step(
         surface: *mut vox_surface,
         desc: *const vox_contact_time_desc,
         out: *mut vox_safe_step,
     ) -> vox_result;
     /// All pairs of FACE and VERTEX, or of EDGE and EDGE, that may come into contact within the motion, each with its
     /// time; pairs that are left out are proven to stay apart. desc null: defaults. Set out_view->struct_size first.
-    /// The view lives until the next vox_surface_contact_times or vox_surface_move, or the end of the surface. Errors:
+    /// The view lives until the next vox_surface_find_impacts or vox_surface_move, or the end of the surface. Errors:
     /// INVALID_ARGUMENT (also for other kinds), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
-    pub fn vox_surface_contact_times(
+    pub fn vox_surface_find_impacts(
         surface: *mut vox_surface,
         a: vox_feature,
         b: vox_feature,
@@ -3364,14 +3372,17 @@ extern "C" {
     /// Releases a mesh. Null does nothing.
     pub fn vox_io_mesh_destroy(mesh: *mut vox_io_mesh);
     /// The mesh's arrays.
-    pub fn vox_io_mesh_get(mesh: *const vox_io_mesh, out_view: *mut vox_io_mesh_view) -> vox_result;
+    pub fn vox_io_mesh_get_arrays(
+        mesh: *const vox_io_mesh,
+        out_view: *mut vox_io_mesh_view,
+    ) -> vox_result;
     /// Describes the mesh for vox_mesh_insert and vox_suggest_cell_size: sets positions, their format (doubles) and
     /// strides, vertex_count, tets and tet_count, and leaves all other fields of `desc` as they are. Fill it with
     /// vox_default_mesh_desc() first. Positions are borrowed: keep the mesh as long as they are bound, or set
     /// VOX_MESH_COPY_POSITIONS. As they never change, a body that moves gets others: vox_mesh_map_positions,
-    /// vox_mesh_bind_positions or vox_mesh_set_transform. Triangles are not described. docs/files.md has a whole
+    /// vox_mesh_bind_positions or vox_body_set_transform. Triangles are not described. docs/files.md has a whole
     /// program. Errors: INVALID_ARGUMENT (null, or a struct_size that does not reach to position_format).
-    pub fn vox_io_mesh_desc(mesh: *const vox_io_mesh, desc: *mut vox_mesh_desc) -> vox_result;
+    pub fn vox_io_mesh_describe(mesh: *const vox_io_mesh, desc: *mut vox_mesh_desc) -> vox_result;
     /// Makes a mesh from arrays (copied) on the C++ runtime's heap. Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE,
     /// LIMIT (more than VOX_MAX_VERTICES or VOX_MAX_TETS), OUT_OF_MEMORY.
     pub fn vox_io_mesh_create(
@@ -3379,13 +3390,13 @@ extern "C" {
         out_mesh: *mut *mut vox_io_mesh,
     ) -> vox_result;
     /// Writes the fields that out_report->struct_size covers (set it first).
-    pub fn vox_io_mesh_report(
+    pub fn vox_io_mesh_get_report(
         mesh: *const vox_io_mesh,
         out_report: *mut vox_io_report,
     ) -> vox_result;
     /// The problems in the report as text, one line each ("3 tets are inverted"); "" if there are none. Lives until
     /// vox_io_mesh_destroy. Cannot fail; null for a null mesh.
-    pub fn vox_io_mesh_warnings(mesh: *const vox_io_mesh) -> *const c_char;
+    pub fn vox_io_mesh_get_warnings(mesh: *const vox_io_mesh) -> *const c_char;
     /// Name of a format, e.g. "Gmsh .msh". Static text; never null.
     pub fn vox_io_format_string(format: vox_io_format) -> *const c_char;
     /// Fills `desc` with the defaults for the fields that `struct_size` covers.
@@ -3409,7 +3420,7 @@ extern "C" {
     ) -> vox_result;
     /// Measures `mesh` against the triangles of `surface`, which may be null. Writes the fields that
     /// out_quality->struct_size covers (set it first). Errors: INVALID_ARGUMENT, OUT_OF_MEMORY.
-    pub fn vox_io_measure_quality(
+    pub fn vox_io_mesh_measure(
         mesh: *const vox_io_mesh,
         surface: *const vox_io_mesh,
         out_quality: *mut vox_io_quality,
@@ -3490,10 +3501,10 @@ extern "C" {
     /// destroy it. Contacts with other meshes inserted into it are found, but the sim does not respond to them. A body
     /// whose mesh was removed there moves on without contacts. Do not cut the mesh of a body there, move it or bind it
     /// elsewhere: vox_sim_step fails once a contact does not fit the body.
-    pub fn vox_sim_grid(sim: *const vox_sim, out_grid: *mut *mut vox_grid) -> vox_result;
+    pub fn vox_sim_get_grid(sim: *const vox_sim, out_grid: *mut *mut vox_grid) -> vox_result;
     /// Moves everything forward by `time_step`, or by max_time_step if that is less. Errors: INVALID_ARGUMENT (not a
     /// finite number of at least 1e-12), and those of vox_grid_step, which leave the bodies as they were after the last
-    /// completed substep; so does INVALID_STATE, for a body or the flags of the grid changed through vox_sim_grid,
+    /// completed substep; so does INVALID_STATE, for a body or the flags of the grid changed through vox_sim_get_grid,
     /// which names the two bodies of a contact.
     pub fn vox_sim_step(sim: *mut vox_sim, time_step: f64) -> vox_result;
     /// Fills `desc` with the defaults for the fields that `struct_size` covers.
@@ -3505,21 +3516,21 @@ extern "C" {
     pub fn vox_sim_body_insert(
         sim: *mut vox_sim,
         desc: *const vox_sim_body_desc,
-        out_body: *mut vox_mesh,
+        out_body: *mut vox_body,
     ) -> vox_result;
     /// Removes a body from the simulation and from its grid.
-    pub fn vox_sim_body_remove(sim: *mut vox_sim, body: vox_mesh) -> vox_result;
+    pub fn vox_sim_body_remove(sim: *mut vox_sim, body: vox_body) -> vox_result;
     /// The body's arrays.
-    pub fn vox_sim_body_get(
+    pub fn vox_sim_body_get_view(
         sim: *const vox_sim,
-        body: vox_mesh,
+        body: vox_body,
         out_view: *mut vox_sim_body_view,
     ) -> vox_result;
     /// Sets a body's positions and velocities, 3 * vertex_count numbers each; null leaves them as they are. The rest
     /// shape stays. Errors: NON_FINITE (names the vertex), INVALID_ARGUMENT (beyond 1e15).
     pub fn vox_sim_body_set_state(
         sim: *mut vox_sim,
-        body: vox_mesh,
+        body: vox_body,
         positions: *const f64,
         velocities: *const f64,
     ) -> vox_result;
@@ -3527,19 +3538,19 @@ extern "C" {
     /// INVALID_ARGUMENT (a component that is not a number of at most 1e15 in size).
     pub fn vox_sim_body_set_acceleration(
         sim: *mut vox_sim,
-        body: vox_mesh,
+        body: vox_body,
         acceleration: *const [f64; 3],
     ) -> vox_result;
-    /// Energy and motion of a body, or of all bodies that are not fixed (body VOX_NULL_MESH). They are those of the
-    /// middle of the last substep, to which the velocities belong; the positions of vox_sim_body_get are half a substep
-    /// later. Writes the fields that out_energies->struct_size covers (set it first).
-    pub fn vox_sim_energy(
+    /// Energy and motion of a body, or of all bodies that are not fixed (body VOX_NULL_BODY). They are those of the
+    /// middle of the last substep, to which the velocities belong; the positions of vox_sim_body_get_view are half a
+    /// substep later. Writes the fields that out_energies->struct_size covers (set it first).
+    pub fn vox_sim_get_energy(
         sim: *const vox_sim,
-        body: vox_mesh,
+        body: vox_body,
         out_energies: *mut vox_sim_energies,
     ) -> vox_result;
     /// Writes the fields that out_counts->struct_size covers (set it first).
-    pub fn vox_sim_counters(sim: *const vox_sim, out_counts: *mut vox_sim_counts) -> vox_result;
+    pub fn vox_sim_get_counters(sim: *const vox_sim, out_counts: *mut vox_sim_counts) -> vox_result;
     /// Fills `desc` with the defaults for the fields that `struct_size` covers.
     pub fn vox_experiment_desc_init(desc: *mut vox_experiment_desc, struct_size: u32) -> vox_result;
     /// Places the bodies, simulates the frames and records them. What `desc` points to is read during the call. The
@@ -3657,7 +3668,7 @@ layouts! {
         user_data: [48, 48], position_format: [56, 56], reserved: [60, 60], filter: [64, 64], rest_positions: [72, 68],
         rest_position_byte_stride: [80, 72], position_component_byte_stride: [88, 80],
         rest_position_component_byte_stride: [96, 88] }
-    vox_mesh_info: size [176, 176], alignment [8, 8], { struct_size: [0, 0], slot: [4, 4], user_data: [8, 8],
+    vox_body_info: size [176, 176], alignment [8, 8], { struct_size: [0, 0], slot: [4, 4], user_data: [8, 8],
         vertex_count: [16, 16], tet_count: [24, 24], enabled_tet_count: [32, 32], enabled: [40, 40], flags: [44, 44],
         position_format: [48, 48], has_transform: [52, 52], positions: [56, 56], position_byte_stride: [64, 64],
         position_component_byte_stride: [72, 72], transform: [80, 80] }
@@ -3667,41 +3678,41 @@ layouts! {
         rest_position_component_byte_stride: [64, 56] }
     vox_failure: size [56, 56], alignment [8, 8], { struct_size: [0, 0], result: [4, 4], mesh: [8, 8], slot: [12, 12],
         user_data: [16, 16], vertex: [24, 24], reserved: [28, 28], position: [32, 32] }
-    vox_contact: size [32, 32], alignment [4, 4], { mesh_a: [0, 0], vertex: [4, 4], mesh_b: [8, 8], tet: [12, 12],
+    vox_contact: size [32, 32], alignment [4, 4], { body_a: [0, 0], vertex: [4, 4], body_b: [8, 8], tet: [12, 12],
         barycentric: [16, 16] }
     vox_contact_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
         epoch: [24, 16] }
     vox_interior_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
         epoch: [24, 16] }
-    vox_penetration: size [40, 40], alignment [8, 8], { mesh_a: [0, 0], vertex: [4, 4], mesh_b: [8, 8], state: [12, 12],
+    vox_penetration: size [40, 40], alignment [8, 8], { body_a: [0, 0], vertex: [4, 4], body_b: [8, 8], state: [12, 12],
         contact: [16, 16], depth: [24, 24], direction: [28, 28] }
     vox_penetration_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
         epoch: [24, 16] }
     vox_depth: size [32, 32], alignment [8, 8], { depth: [0, 0], direction: [8, 8] }
     vox_depth_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
         epoch: [24, 16] }
-    vox_edge_contact: size [128, 128], alignment [8, 8], { mesh_a: [0, 0], edge: [4, 4], mesh_b: [12, 12],
+    vox_edge_contact: size [128, 128], alignment [8, 8], { body_a: [0, 0], edge: [4, 4], body_b: [12, 12],
         face: [16, 16], tet: [28, 28], kind: [32, 32], reserved: [36, 36], edge_weights: [40, 40],
         face_weights: [56, 56], position: [80, 80], normal: [104, 104] }
     vox_edge_contact_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
         epoch: [24, 16] }
-    vox_margin_contact: size [88, 88], alignment [8, 8], { mesh_a: [0, 0], vertex: [4, 4], mesh_b: [8, 8],
+    vox_margin_contact: size [88, 88], alignment [8, 8], { body_a: [0, 0], vertex: [4, 4], body_b: [8, 8],
         tet: [12, 12], facet: [16, 16], face: [20, 20], face_weights: [32, 32], distance: [56, 56], normal: [64, 64] }
     vox_margin_contact_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
         epoch: [24, 16] }
-    vox_passage: size [40, 40], alignment [8, 8], { mesh_a: [0, 0], vertex: [4, 4], mesh_b: [8, 8], tet: [12, 12],
+    vox_passage: size [40, 40], alignment [8, 8], { body_a: [0, 0], vertex: [4, 4], body_b: [8, 8], tet: [12, 12],
         facet: [16, 16], face: [20, 20], time: [32, 32] }
     vox_passage_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
         epoch: [24, 16] }
-    vox_pair: size [48, 48], alignment [8, 8], { mesh_a: [0, 0], mesh_b: [4, 4], user_data_a: [8, 8],
+    vox_pair: size [48, 48], alignment [8, 8], { body_a: [0, 0], body_b: [4, 4], user_data_a: [8, 8],
         user_data_b: [16, 16], first: [24, 24], a_in_b: [32, 32], b_in_a: [40, 40] }
     vox_pair_view: size [40, 32], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
         epoch: [24, 16], contacts: [32, 24] }
-    vox_touch_event: size [32, 32], alignment [8, 8], { mesh_a: [0, 0], mesh_b: [4, 4], user_data_a: [8, 8],
+    vox_touch_event: size [32, 32], alignment [8, 8], { body_a: [0, 0], body_b: [4, 4], user_data_a: [8, 8],
         user_data_b: [16, 16], kind: [24, 24], pair: [28, 28] }
     vox_touch_view: size [56, 48], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
         epoch: [24, 16], began: [32, 24], persisted: [40, 32], ended: [48, 40] }
-    vox_contact_event: size [16, 16], alignment [4, 4], { mesh_a: [0, 0], vertex: [4, 4], mesh_b: [8, 8],
+    vox_contact_event: size [16, 16], alignment [4, 4], { body_a: [0, 0], vertex: [4, 4], body_b: [8, 8],
         kind: [12, 12] }
     vox_contact_event_view: size [48, 40], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
         epoch: [24, 16], began: [32, 24], ended: [40, 32] }
@@ -3711,8 +3722,8 @@ layouts! {
         user_data_b: [160, 160] }
     vox_reading_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
         epoch: [24, 16] }
-    vox_readings_desc: size [24, 24], alignment [8, 8], { struct_size: [0, 0], what: [4, 4], mesh_a: [8, 8],
-        mesh_b: [12, 12], closest_budget: [16, 16] }
+    vox_readings_desc: size [24, 24], alignment [8, 8], { struct_size: [0, 0], what: [4, 4], body_a: [8, 8],
+        body_b: [12, 12], closest_budget: [16, 16] }
     vox_point_hit: size [28, 28], alignment [4, 4], { point: [0, 0], mesh: [4, 4], tet: [8, 8], barycentric: [12, 12] }
     vox_tet_hit: size [8, 8], alignment [4, 4], { mesh: [0, 0], tet: [4, 4] }
     vox_surface_hit: size [72, 72], alignment [8, 8], { mesh: [0, 0], tet: [4, 4], facet: [8, 8], reserved: [12, 12],

@@ -207,8 +207,8 @@ impl Grid {
     }
 
     /// Whether the following steps find penetrations, report events of single vertices, and leave out bad meshes.
-    pub fn set_flags(&mut self, penetrations: bool, contact_events: bool, skip_bad_meshes: bool) -> Result<()> {
-        let options = GridOptions { penetrations, contact_events, skip_bad_meshes, ..GridOptions::default() };
+    pub fn set_flags(&mut self, penetrations: bool, contact_events: bool, skip_bad_bodies: bool) -> Result<()> {
+        let options = GridOptions { penetrations, contact_events, skip_bad_bodies, ..GridOptions::default() };
         check(unsafe { sys::vox_grid_set_flags(self.get_mut(), options.flags()) })
     }
 
@@ -217,7 +217,7 @@ impl Grid {
         let mut flags = 0;
         unsafe { sys::vox_grid_get_flags(self.get(), &mut flags) };
         let has = |flag| flags & flag != 0;
-        (has(sys::VOX_GRID_PENETRATIONS), has(sys::VOX_GRID_CONTACT_EVENTS), has(sys::VOX_GRID_SKIP_BAD_MESHES))
+        (has(sys::VOX_GRID_PENETRATIONS), has(sys::VOX_GRID_CONTACT_EVENTS), has(sys::VOX_GRID_SKIP_BAD_BODIES))
     }
 
     // ---- meshes ----
@@ -245,7 +245,7 @@ impl Grid {
 
     fn insert(&mut self, mut desc: sys::vox_mesh_desc, filter: Filter) -> Result<Mesh> {
         let filter = filter.to_c();
-        let mut mesh = sys::VOX_NULL_MESH;
+        let mut mesh = sys::VOX_NULL_BODY;
         desc.flags = sys::VOX_MESH_COPY_POSITIONS;
         desc.filter = &filter;
         check(unsafe { sys::vox_mesh_insert(self.get_mut(), &desc, &mut mesh) })?;
@@ -254,27 +254,27 @@ impl Grid {
 
     /// Removes a mesh. The contacts of the last step stay as they are until the next one.
     pub fn remove(&mut self, mesh: Mesh) -> Result<()> {
-        check(unsafe { sys::vox_mesh_remove(self.get_mut(), mesh.0) })
+        check(unsafe { sys::vox_body_remove(self.get_mut(), mesh.0) })
     }
 
     /// Whether `mesh` names a mesh of this grid.
     pub fn contains(&self, mesh: Mesh) -> bool {
-        unsafe { sys::vox_mesh_is_valid(self.get(), mesh.0) != 0 }
+        unsafe { sys::vox_body_is_valid(self.get(), mesh.0) != 0 }
     }
 
     /// All meshes, in the order of their ids.
     pub fn meshes(&self) -> Vec<Mesh> {
-        copy_all(|meshes, capacity, count| unsafe { sys::vox_grid_meshes(self.get(), meshes, capacity, count) })
+        copy_all(|meshes, capacity, count| unsafe { sys::vox_grid_get_bodies(self.get(), meshes, capacity, count) })
             .unwrap_or_default()
             .into_iter()
             .map(Mesh)
             .collect()
     }
 
-    fn info_of(&self, mesh: Mesh) -> Result<sys::vox_mesh_info> {
-        let mut info: sys::vox_mesh_info = unsafe { std::mem::zeroed() };
-        info.struct_size = struct_size::<sys::vox_mesh_info>();
-        check(unsafe { sys::vox_mesh_get_info(self.get(), mesh.0, &mut info) })?;
+    fn info_of(&self, mesh: Mesh) -> Result<sys::vox_body_info> {
+        let mut info: sys::vox_body_info = unsafe { std::mem::zeroed() };
+        info.struct_size = struct_size::<sys::vox_body_info>();
+        check(unsafe { sys::vox_body_get_info(self.get(), mesh.0, &mut info) })?;
         Ok(info)
     }
 
@@ -295,14 +295,14 @@ impl Grid {
     /// The tetrahedra of a mesh as they were given, those that are disabled or removed, too.
     pub fn tets(&self, mesh: Mesh) -> Result<Vec<[u32; 4]>> {
         copy_all(|tets: *mut [u32; 4], capacity, count| unsafe {
-            sys::vox_mesh_copy_tets(self.get(), mesh.0, tets.cast(), null_mut(), capacity, count)
+            sys::vox_mesh_get_tets(self.get(), mesh.0, tets.cast(), null_mut(), capacity, count)
         })
     }
 
     /// Of each tetrahedron of a mesh, whether it is neither disabled nor removed.
     pub fn enabled_tets(&self, mesh: Mesh) -> Result<Vec<bool>> {
         let enabled: Vec<u8> = copy_all(|enabled, capacity, count| unsafe {
-            sys::vox_mesh_copy_tets(self.get(), mesh.0, null_mut(), enabled, capacity, count)
+            sys::vox_mesh_get_tets(self.get(), mesh.0, null_mut(), enabled, capacity, count)
         })?;
         Ok(enabled.into_iter().map(|e| e != 0).collect())
     }
@@ -340,12 +340,12 @@ impl Grid {
     /// Moves a mesh as a whole by an affine map, three rows of four; `None`: not at all.
     pub fn set_transform(&mut self, mesh: Mesh, matrix: Option<&[f64; 12]>) -> Result<()> {
         let matrix = matrix.map_or(null(), std::ptr::from_ref);
-        check(unsafe { sys::vox_mesh_set_transform(self.get_mut(), mesh.0, matrix) })
+        check(unsafe { sys::vox_body_set_transform(self.get_mut(), mesh.0, matrix) })
     }
 
     /// Sets what a mesh collides with.
     pub fn set_filter(&mut self, mesh: Mesh, filter: Filter) -> Result<()> {
-        check(unsafe { sys::vox_mesh_set_filter(self.get_mut(), mesh.0, &filter.to_c()) })
+        check(unsafe { sys::vox_body_set_filter(self.get_mut(), mesh.0, &filter.to_c()) })
     }
 
     /// What a mesh collides with.
@@ -357,7 +357,7 @@ impl Grid {
 
     /// Leaves a mesh out of the following steps, or takes it in again.
     pub fn set_enabled(&mut self, mesh: Mesh, enabled: bool) -> Result<()> {
-        check(unsafe { sys::vox_mesh_set_enabled(self.get_mut(), mesh.0, enabled.into()) })
+        check(unsafe { sys::vox_body_set_enabled(self.get_mut(), mesh.0, enabled.into()) })
     }
 
     /// Whether two meshes collide, if their filters let them.
@@ -367,7 +367,7 @@ impl Grid {
 
     /// Makes the next step process a mesh even if it did not move, for measurements.
     pub fn mark_moved(&mut self, mesh: Mesh) -> Result<()> {
-        check(unsafe { sys::vox_mesh_mark_moved(self.get_mut(), mesh.0) })
+        check(unsafe { sys::vox_body_mark_moved(self.get_mut(), mesh.0) })
     }
 
     // ---- cutting and growing ----
@@ -465,7 +465,7 @@ impl Grid {
         // that lives cannot fail.
         unsafe {
             let mut view: sys::vox_contact_view = std::mem::zeroed();
-            sys::vox_grid_contacts(self.get(), &mut view);
+            sys::vox_grid_get_contacts(self.get(), &mut view);
             View::new(view.data, view.byte_stride, view.count)
         }
     }
@@ -502,7 +502,7 @@ impl Grid {
         let contacts = self.contacts().len();
         unsafe {
             let mut view: sys::vox_pair_view = std::mem::zeroed();
-            sys::vox_grid_pairs(self.get(), &mut view);
+            sys::vox_grid_get_pairs(self.get(), &mut view);
             let indices = if view.count == 0 { 0 } else { contacts };
             Pairs {
                 pairs: View::new(view.data, view.byte_stride, view.count),
@@ -555,7 +555,7 @@ impl Grid {
     /// A hash of the contacts: the same on every machine and in every language.
     pub fn hash(&self) -> u64 {
         let mut hash = 0;
-        unsafe { sys::vox_grid_hash(self.get(), &mut hash) };
+        unsafe { sys::vox_grid_get_hash(self.get(), &mut hash) };
         hash
     }
 
@@ -572,8 +572,8 @@ impl Grid {
         loop {
             let mut failure: Failure = unsafe { std::mem::zeroed() };
             failure.struct_size = struct_size::<Failure>();
-            unsafe { sys::vox_grid_failure(self.get(), all.len() as u32, &mut failure) };
-            if failure.mesh == sys::VOX_NULL_MESH {
+            unsafe { sys::vox_grid_get_failure(self.get(), all.len() as u32, &mut failure) };
+            if failure.mesh == sys::VOX_NULL_BODY {
                 return all;
             }
             all.push(failure);
@@ -584,7 +584,7 @@ impl Grid {
     pub fn counters(&self) -> Counters {
         let mut counters: Counters = unsafe { std::mem::zeroed() };
         counters.struct_size = struct_size::<Counters>();
-        unsafe { sys::vox_grid_counters(self.get(), &mut counters) };
+        unsafe { sys::vox_grid_get_counters(self.get(), &mut counters) };
         counters
     }
 
@@ -617,8 +617,8 @@ impl Grid {
             desc
         };
         desc.what = what;
-        desc.mesh_a = mesh.map_or(sys::VOX_NULL_MESH, Mesh::id);
-        desc.mesh_b = other.map_or(sys::VOX_NULL_MESH, Mesh::id);
+        desc.body_a = mesh.map_or(sys::VOX_NULL_BODY, Mesh::id);
+        desc.body_b = other.map_or(sys::VOX_NULL_BODY, Mesh::id);
         check(unsafe { sys::vox_grid_prepare_readings_of(self.get_mut(), &desc) })
     }
 
@@ -685,7 +685,7 @@ fn check_length(name: &str, length: usize, expected: usize) -> Result<()> {
     Err(Error::new(ErrorCode::InvalidArgument, format!("{name} has {length} elements, expected {expected}")))
 }
 
-fn check_format<T: Scalar>(info: &sys::vox_mesh_info) -> Result<()> {
+fn check_format<T: Scalar>(info: &sys::vox_body_info) -> Result<()> {
     if info.position_format == T::FORMAT {
         return Ok(());
     }

@@ -177,7 +177,7 @@ impl MeshFile {
         // SAFETY: a mesh that lives; it cannot fail for that.
         unsafe {
             let mut view = std::mem::zeroed();
-            sys::vox_io_mesh_get(self.0.as_ptr(), &mut view);
+            sys::vox_io_mesh_get_arrays(self.0.as_ptr(), &mut view);
             view
         }
     }
@@ -205,14 +205,14 @@ impl MeshFile {
     pub fn report(&self) -> Result<Report> {
         let mut report: Report = unsafe { std::mem::zeroed() };
         report.struct_size = struct_size::<Report>();
-        check(unsafe { sys::vox_io_mesh_report(self.0.as_ptr(), &mut report) })?;
+        check(unsafe { sys::vox_io_mesh_get_report(self.0.as_ptr(), &mut report) })?;
         Ok(report)
     }
 
     /// What is odd about it in words, a line each.
     pub fn warnings(&self) -> String {
         // SAFETY: never null for a mesh.
-        unsafe { CStr::from_ptr(sys::vox_io_mesh_warnings(self.0.as_ptr())) }.to_string_lossy().into_owned()
+        unsafe { CStr::from_ptr(sys::vox_io_mesh_get_warnings(self.0.as_ptr())) }.to_string_lossy().into_owned()
     }
 
     /// How good it is, and how close to a surface.
@@ -220,7 +220,7 @@ impl MeshFile {
         let mut quality: Quality = unsafe { std::mem::zeroed() };
         quality.struct_size = struct_size::<Quality>();
         let surface = surface.map_or(null(), |surface| surface.0.as_ptr().cast_const());
-        check(unsafe { sys::vox_io_measure_quality(self.0.as_ptr(), surface, &mut quality) })?;
+        check(unsafe { sys::vox_io_mesh_measure(self.0.as_ptr(), surface, &mut quality) })?;
         Ok(quality)
     }
 

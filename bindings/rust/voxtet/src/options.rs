@@ -11,7 +11,7 @@ use crate::error::struct_size;
 pub struct Mesh(pub(crate) u32);
 
 impl Mesh {
-    /// The number that contacts, pairs and events have in `mesh_a` and `mesh_b`.
+    /// The number that contacts, pairs and events have in `body_a` and `body_b`.
     pub fn id(self) -> u32 {
         self.0
     }
@@ -88,7 +88,7 @@ pub struct GridOptions {
     /// Whether it reports events of single vertices.
     pub contact_events: bool,
     /// Whether meshes with NaN or infinite coordinates are left out of a step instead of failing it.
-    pub skip_bad_meshes: bool,
+    pub skip_bad_bodies: bool,
     /// Most searches for a closest point in a step; 0: no limit.
     pub closest_budget: u64,
     /// Receives warnings and notes, a line each.
@@ -110,7 +110,7 @@ impl Default for GridOptions {
             workers: desc.worker_count,
             penetrations: desc.flags & sys::VOX_GRID_PENETRATIONS != 0,
             contact_events: desc.flags & sys::VOX_GRID_CONTACT_EVENTS != 0,
-            skip_bad_meshes: desc.flags & sys::VOX_GRID_SKIP_BAD_MESHES != 0,
+            skip_bad_bodies: desc.flags & sys::VOX_GRID_SKIP_BAD_BODIES != 0,
             closest_budget: desc.closest_budget,
             log: None,
             tasks: None,
@@ -122,7 +122,7 @@ impl GridOptions {
     pub(crate) fn flags(&self) -> u32 {
         (if self.penetrations { sys::VOX_GRID_PENETRATIONS } else { 0 })
             | (if self.contact_events { sys::VOX_GRID_CONTACT_EVENTS } else { 0 })
-            | (if self.skip_bad_meshes { sys::VOX_GRID_SKIP_BAD_MESHES } else { 0 })
+            | (if self.skip_bad_bodies { sys::VOX_GRID_SKIP_BAD_BODIES } else { 0 })
     }
 
     /// Without callbacks.

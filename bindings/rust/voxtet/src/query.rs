@@ -87,7 +87,7 @@ macro_rules! queries {
             fn closest(&self, point: [f64; 3], radius: f64, mask: u64) -> Result<Option<SurfaceHit>> {
                 let mut hit: SurfaceHit = unsafe { std::mem::zeroed() };
                 check(unsafe { sys::$closest(self.$handle(), &point, radius, mask, &mut hit) })?;
-                Ok((hit.mesh != sys::VOX_NULL_MESH).then_some(hit))
+                Ok((hit.mesh != sys::VOX_NULL_BODY).then_some(hit))
             }
 
             fn closest_points<T: Scalar>(
@@ -107,7 +107,7 @@ macro_rules! queries {
                 desc.point_count = points.len() as u64;
                 desc.mask = mask;
                 desc.max_distance = max_distance;
-                desc.excluded = excluded.map_or(sys::VOX_NULL_MESH, Mesh::id);
+                desc.excluded = excluded.map_or(sys::VOX_NULL_BODY, Mesh::id);
                 let mut hits: Vec<ClosestHit> = Vec::with_capacity(points.len().max(1));
                 check(unsafe { sys::$closest_points(self.$handle(), &desc, hits.as_mut_ptr()) })?;
                 unsafe { hits.set_len(points.len()) };
@@ -127,14 +127,14 @@ macro_rules! queries {
                 mask: u64,
                 excluded: Option<Mesh>,
             ) -> Result<Vec<FacetHit>> {
-                let excluded = excluded.map_or(sys::VOX_NULL_MESH, Mesh::id);
+                let excluded = excluded.map_or(sys::VOX_NULL_BODY, Mesh::id);
                 collect(|hits, capacity, count| unsafe {
                     sys::$ray_hits(self.$handle(), &from, &to, mask, excluded, hits, capacity, count)
                 })
             }
 
             fn ray_any(&self, from: [f64; 3], to: [f64; 3], mask: u64, excluded: Option<Mesh>) -> Result<bool> {
-                let excluded = excluded.map_or(sys::VOX_NULL_MESH, Mesh::id);
+                let excluded = excluded.map_or(sys::VOX_NULL_BODY, Mesh::id);
                 let mut any = 0;
                 check(unsafe { sys::$ray_any(self.$handle(), &from, &to, mask, excluded, &mut any) })?;
                 Ok(any != 0)

@@ -164,7 +164,7 @@ impl<'grid> Pairs<'grid> {
         self.contacts
     }
 
-    /// Indices of the contacts of a pair: first those of vertices of `mesh_a`.
+    /// Indices of the contacts of a pair: first those of vertices of `body_a`.
     pub fn contacts_of(&self, pair: &Pair) -> &'grid [u32] {
         let all = self.contacts.as_slice().unwrap_or(&[]);
         let first = pair.first as usize;

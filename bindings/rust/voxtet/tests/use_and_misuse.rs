@@ -128,7 +128,7 @@ fn views() {
     grid.step().unwrap();
     assert!(grid.contacts().is_empty());
     assert_eq!(grid.touch_events().ended().len(), 1);
-    assert!(kept.iter().all(|contact| contact.mesh_a == a || contact.mesh_a == b));
+    assert!(kept.iter().all(|contact| contact.body_a == a || contact.body_a == b));
     assert_eq!(grid.counters().contacts, 0);
     assert!(grid.profile().step_ns > 0);
 }

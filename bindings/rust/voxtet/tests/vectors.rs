@@ -148,7 +148,7 @@ impl Replay {
             "set_filter" => self.grid.set_filter(mesh, filter_of(&call["filter"]))?,
             "set_enabled" => self.grid.set_enabled(mesh, call["enabled"] == 1)?,
             "set_pair_enabled" => {
-                let pair = ["mesh_a", "mesh_b"].map(|name| Mesh::from_id(call[name].as_u64().unwrap() as u32));
+                let pair = ["body_a", "body_b"].map(|name| Mesh::from_id(call[name].as_u64().unwrap() as u32));
                 self.grid.set_pair_enabled(pair[0], pair[1], call["enabled"] == 1)?;
             }
             "set_flags" => {

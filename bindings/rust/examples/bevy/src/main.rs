@@ -94,7 +94,7 @@ fn report(grid: Res<Contacts>, mut touches: MessageWriter<Touch>, mut pushes: Qu
         push.0 = Vec3::ZERO;
     }
     for penetration in grid.0.penetrations()? {
-        let entity = Entity::from_bits(grid.0.user_data(Mesh::from_id(penetration.mesh_a))?);
+        let entity = Entity::from_bits(grid.0.user_data(Mesh::from_id(penetration.body_a))?);
         let mut push = pushes.get_mut(entity)?;
         if penetration.depth > push.0.length() {
             push.0 = Vec3::from(penetration.direction) * penetration.depth;
