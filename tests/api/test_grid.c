@@ -179,7 +179,7 @@ START_TEST(null_arguments) {
     ck_fails(vox_grid_cell_size(grid, NULL), bad, "out_cell_size is null");
     ck_fails(vox_mesh_insert(NULL, &desc, &other), bad, "grid is null");
     ck_fails(vox_mesh_insert(grid, NULL, &other), bad, "desc is null");
-    ck_fails(vox_mesh_insert(grid, &desc, NULL), bad, "out_mesh is null");
+    ck_fails(vox_mesh_insert(grid, &desc, NULL), bad, "out_body is null");
     ck_fails(vox_body_remove(NULL, mesh), bad, "grid is null");
     ck_fails(vox_body_get_user_data(NULL, mesh, &count), bad, "grid is null");
     ck_fails(vox_body_get_user_data(grid, mesh, NULL), bad, "out_user_data is null");

@@ -217,7 +217,7 @@ START_TEST(arguments) {
     info.struct_size = sizeof info;
     ck_fails(vox_grid_get_bodies(NULL, NULL, 0, &count), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     ck_fails(vox_grid_get_bodies(grid, NULL, 0, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_count is null");
-    ck_fails(vox_grid_get_bodies(grid, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "meshes is null");
+    ck_fails(vox_grid_get_bodies(grid, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "bodies is null");
     ck_fails(vox_body_get_info(NULL, 1, &info), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     ck_fails(vox_body_get_info(grid, 1, &info), VOX_ERROR_INVALID_HANDLE, "");
     ck_fails(vox_mesh_get_tets(grid, 1, corners, NULL, 1, &count), VOX_ERROR_INVALID_HANDLE, "");
