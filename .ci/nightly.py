@@ -33,6 +33,7 @@ PARTS = {
     "long": ("./dev test long", "all tests with four times as many random scenes, and longer ones"),
     "soak": ("./dev soak", "a long random life of two grids against a model"),
     "guard": ("./dev guard", "instructions of a step"),
+    "bench": ("./dev bench --build", "every benchmark compiles"),
     "csharp": ("./dev bindings csharp", "the C# binding in full"),
     "js": ("./dev bindings js --all", "the JavaScript binding in full: every module"),
     "mujoco": ("./dev bindings mujoco", "the MuJoCo plugin in full"),

@@ -96,7 +96,7 @@ struct Parts {
         engine.detect(bodies, prepared, {.workers = &workers}, hits, counters, profile);
         vox::make_contacts(bodies, hits, contacts, &workers);
         if (options.depth) depth.find(bodies, of_bodies, hits, contacts, 0, &workers, penetrations, counters);
-        events.update(contacts, meshes.size(), [](vox_body) { return std::uint64_t{0}; });
+        events.update(contacts, {}, meshes.size(), [](vox_body) { return std::uint64_t{0}; });
     }
 
     double of_tiles(const std::function<double(const vox::TiledMesh&)>& bytes) const {
