@@ -239,10 +239,15 @@ void VertexFaceSearch::search(const Scene& scene, NearFacesVisitor& visitor) {
     for (const fast::Pair& pair : pairs_) {
         Worker& lists = workers_[0];
         if (!is_large(pair) || !list(pair, visitor, lists)) continue;
-        scene.workers->for_ranges(lists.tiles.size(), near_task_searches,
-                                  [&](std::size_t begin, std::size_t end, std::uint32_t w) {
-                                      search_tiles(pair, lists, begin, end, visitor, w);
-                                  });
+        // Each piece finds its own closest faces, so their number decides how many are found. It must not
+        // depend on how the pieces are shared.
+        const std::size_t tiles = lists.tiles.size(), workers = scene.workers->count();
+        const std::size_t pieces =
+            workers == 1 ? 1 : std::min((tiles - 1) / near_task_searches + 1, 4 * workers);
+        scene.workers->for_ranges(pieces, 1, [&](std::size_t begin, std::size_t end, std::uint32_t w) {
+            for (std::size_t i = begin; i < end; ++i)
+                search_tiles(pair, lists, i * tiles / pieces, (i + 1) * tiles / pieces, visitor, w);
+        });
     }
     workers_.level();
 }
