@@ -12,8 +12,9 @@ program with it:
     c++ -std=c++20 -O2 -DVOX_STATIC -ffp-contract=off -Iinclude -Isrc -Ithird_party -c all/core/*.cpp
     cc -DVOX_STATIC -Iinclude program.c *.o -lstdc++ -lm -pthread
 
-The files of all/core, all/io and all/sim include the sources, those of a folder together, which takes half the time. CMake takes
-the drop too, and needs nothing else. The same commit gives the same bytes wherever the same versions of the others' are installed.
+The files of all/core, all/io and all/sim include the sources: those of a folder together, which takes half the time, and in one
+file those that are compiled for each instruction set. CMake takes the drop too, and needs nothing else. The same commit gives the
+same bytes wherever the same versions of the others' are installed.
 """
 import argparse
 import io
