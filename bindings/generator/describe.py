@@ -1,9 +1,10 @@
-"""The description of the interface: what the public headers say, as one structure that programs can read. bindings/README.md
-explains its parts. Nothing is guessed: a pointer of which the headers do not say enough is an error."""
+"""The description of the interface: what the public headers and marks.toml say, as one structure that programs can read.
+bindings/README.md explains its parts. Nothing is guessed: a pointer of which they do not say enough is an error."""
 
 import json
 import os
 import re
+import tomllib
 
 import header
 
@@ -31,7 +32,7 @@ WIDTH = 260  # of api.json, where a parameter is on one line
 
 
 class Unclear(ValueError):
-    """The headers do not say enough; a line for each place."""
+    """The headers and marks.toml do not say enough; a line for each place."""
 
 
 def last_word(name):
@@ -39,13 +40,15 @@ def last_word(name):
 
 
 class Describer:
-    def __init__(self, headers, events):
+    def __init__(self, headers, marks):
         self.headers = headers  # name: header.Header
         self.all = [d for parsed in headers.values() for d in parsed.declarations]
         self.types = {d.name: d for d in self.all if d.kind in ("struct", "enum", "opaque", "callback", "alias")}
         self.numbers = {name: number for parsed in headers.values() for name, (number, *_) in parsed.numbers.items()}
         self.faults = []
-        self.events = events
+        self.marks = marks["vox"]
+        self.events = {name: words if isinstance(words, str) else ["vox_" + f for f in words]
+                       for name, words in marks["events"].items()}
         self.functions = {d.name: d for d in self.all if d.kind == "function"}
         self.read, self.written = set(), set()  # structs that functions are given, that functions fill
         for function in self.functions.values():
@@ -63,6 +66,23 @@ class Describer:
             t = self.type_of(type_text) if "(*)" not in type_text else {"kind": "function"}
             if t["kind"] == "struct":
                 self.note_use(uses, t["base"])
+
+    # ---- marks ----
+
+    def mark(self, owner, name, what):
+        """What marks.toml says of a parameter or field, or of the owner itself if `name` is empty."""
+        of_owner = self.marks.get(owner.name.removeprefix("vox_"), {})
+        return (of_owner.get(name, {}) if name else of_owner).get(what)
+
+    def check_marks(self):
+        """Each line of marks.toml is about something that exists."""
+        owners = {d.name.removeprefix("vox_"): d for d in self.all}
+        for name, marks in self.marks.items():
+            members = [m[1] for m in owners[name].fields + owners[name].parameters] if name in owners else []
+            for key, value in marks.items():
+                known = isinstance(value, dict) and key in members and set(value) <= {"length", "until"}
+                if name not in owners or not known and key not in ("until", "threads"):
+                    self.faults.append(f"marks.toml: {name}.{key}: there is no such thing")
 
     # ---- types ----
 
@@ -132,7 +152,7 @@ class Describer:
     def signature(self, call):
         result = self.type_of(call.result)
         if "pointers" in result:
-            result.update(self.pointer(call, header.Member(call.result, "", call.marks), result, call.parameters))
+            result.update(self.pointer(call, header.Member(call.result, "", call.optional), result, call.parameters))
         return {"result": result, "parameters": [self.member(call, p, call.parameters) for p in call.parameters]}
 
     # ---- pointers ----
@@ -143,7 +163,6 @@ class Describer:
 
     def pointer(self, owner, member, t, siblings):
         """Direction, nullability, length and lifetime of a pointer."""
-        marks = member.marks
         facts = {"direction": self.direction(owner, member, t)}
         length = self.length(owner, member, t, siblings)
         target = {"nullable": self.nullable(owner, member, length)}
@@ -152,7 +171,7 @@ class Describer:
         target.update(self.elements(owner, member, t, length, siblings))
         lifetime = self.lifetime(owner, member, t)
         if isinstance(lifetime, list) and not (set(lifetime) - set(self.functions)) <= set(self.events):
-            self.fault(owner, member, f"VOX_UNTIL({marks['VOX_UNTIL']}) names what is no function and no event")
+            self.fault(owner, member, f"until {', '.join(lifetime)}: what is no function and no event")
         target["lifetime"] = lifetime
         if lifetime == "owned":
             target["release"] = self.release_of(t["base"])
@@ -195,8 +214,8 @@ class Describer:
         following = following[0] if following else ""
         if t["kind"] in ("function", "callback"):
             return None
-        if "VOX_ARRAY" in member.marks:
-            return member.marks["VOX_ARRAY"]
+        if self.mark(owner, name, "length"):
+            return self.mark(owner, name, "length")
         if "array" in t:
             return t["array"][0]
         if t["kind"] == "void" and (OPAQUE.search(name) or not name and "size" not in names):
@@ -207,18 +226,20 @@ class Describer:
             return "capacity"
         if name == "data" and {"byte_stride", "count"} <= set(names):
             return "count"
-        if t["kind"] == "void" and owner.kind == "callback" and (following == "size" or not name):
+        if t["kind"] == "void" and (following == "size" or owner.kind == "callback" and not name):
             return "size"
         if t["kind"] == "void":
             self.fault(owner, member, "what does it point to, and how many?")
             return 1
         if t["kind"] == "opaque" and (t["pointers"] == 1 or "* const*" not in t["type"]):
             return 1
-        plural = name.endswith("s") and last_word(name) not in SINGULAR | {last_word(t["base"])}
         counted = following == "count" or following.endswith("_count") and name.startswith(following[:-6])
-        number = t["kind"] not in ("struct", "opaque") and not name.startswith("out_")
-        if plural or counted or number:
-            self.fault(owner, member, "how many elements? VOX_ARRAY says it")
+        number = t["kind"] not in ("struct", "opaque", "enum")
+        if counted and not number:
+            return following
+        plural = name.endswith("s") and last_word(name) not in SINGULAR | {last_word(t["base"])}
+        if plural or counted or number and not name.startswith("out_"):
+            self.fault(owner, member, "how many elements? marks.toml says it")
         return 1
 
     def elements(self, owner, member, t, length, siblings):
@@ -267,7 +288,7 @@ class Describer:
         return next((n for n, parsed in self.headers.items() if parsed.named(declaration.name)), None)
 
     def nullable(self, owner, member, length):
-        if "VOX_OPTIONAL" in member.marks or length == "opaque" or owner.kind == "callback" and not member[1]:
+        if member.optional or length == "opaque" or owner.kind == "callback" and not member[1]:
             return True
         if isinstance(length, str) and length != "text" and "+ 1" not in length:
             return "if empty"
@@ -275,14 +296,15 @@ class Describer:
 
     def lifetime(self, owner, member, t):
         """call, object (as long as what the call creates), static, owned by the caller, or a list of what ends it."""
-        until = member.marks.get("VOX_UNTIL")
+        until = self.mark(owner, member[1], "until")
+        if not until and owner.kind == "struct":
+            until = self.mark(owner, "", "until")
         if until:
-            words = [w.strip() for w in until.split(",")]
-            return [w if w in self.events else "vox_" + w for w in words]
+            return [w if w in self.events else "vox_" + w for w in until]
         if owner.kind == "struct" and (t["kind"] == "function" or OPAQUE.search(member[1])):
             return "object"
         if owner.kind == "struct" and owner.name not in self.read:
-            self.fault(owner, member, "how long is it valid? VOX_UNTIL says it")
+            self.fault(owner, member, "how long is it valid? marks.toml says it")
         if owner.kind == "callback":
             return "object" if not member[1] else "call"
         if t["kind"] == "opaque" and t.get("pointers") == 2 and "* const*" not in t["type"]:
@@ -291,7 +313,7 @@ class Describer:
             return "owned"
         if not member[1]:
             if "Static text" not in owner.comment:
-                self.fault(owner, member, "how long is the result valid? VOX_UNTIL says it")
+                self.fault(owner, member, "how long is the result valid? marks.toml says it")
             return "static"
         return "call"
 
@@ -353,7 +375,7 @@ class Describer:
                 "fields": fields}
 
     def opaque(self, d):
-        threads = "one" if "VOX_ONE_THREAD" in d.marks else "any" if "VOX_ANY_THREAD" in d.marks else "readers or one"
+        threads = self.mark(d, "", "threads") or "readers or one"
         return {"name": d.name, "section": d.section, "doc": d.comment, "release": self.release_of(d.name),
                 "threads": threads}
 
@@ -377,19 +399,10 @@ class Describer:
                 "structs": [self.struct(d) for d in of("struct")],
                 "functions": [self.function(d) for d in of("function")],
                 "inline": [{"name": d.name, "section": d.section, "doc": d.comment} for d in of("inline")]})
+        self.check_marks()
         if self.faults:
             raise Unclear("\n".join(self.faults))
         return found
-
-
-def events_of(text):
-    """What VOX_UNTIL may name beside functions, and what the comment on the marks says of it: functions, or words."""
-    lines = text[text.index(" *   VOX_UNTIL"): text.index(" *   VOX_ONE_THREAD")]
-    found = {}
-    for name, words in re.findall(r"^ \*       (\w+) +(.*(?:\n \*        .*)*)", lines, flags=re.M):
-        words = " ".join(words.replace("\n *", " ").split())
-        found[name] = words.split(", ") if words.startswith("vox_") else words
-    return found
 
 
 def text_of(name):
@@ -397,13 +410,19 @@ def text_of(name):
         return file.read()
 
 
-def describe(texts=None):
-    """The description of the headers with these texts by name; of the repository's own if there are none."""
+def own_marks():
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "marks.toml"), "rb") as file:
+        return tomllib.load(file)
+
+
+def describe(texts=None, marks=None):
+    """The description of the headers with these texts by name and of these marks; of the repository's own if there are
+    none."""
     texts = texts or {name: text_of(name) for name in HEADERS}
     version = ".".join(re.search(rf"#define VOX_VERSION_{part} (\d+)", texts["vox"])[1] for part in
                        ("MAJOR", "MINOR", "PATCH"))
     parsed = {name: header.parse(text) for name, text in texts.items()}
-    return Describer(parsed, events_of(texts["vox"])).describe(version)
+    return Describer(parsed, marks or own_marks()).describe(version)
 
 
 def as_text(value, indent=""):

@@ -1,20 +1,15 @@
-"""Reads a public header: its functions, types and constants, each with the comment right above or beside it, and with the
-marks that tell a program what C's types do not (the conventions of vox.h list them). Knows the C that these headers use,
-and fails on any other."""
+"""Reads a public header: its functions, types and constants, each with the comment right above or beside it. Knows the C
+that these headers use, and fails on any other."""
 
 import re
 from dataclasses import dataclass, field
 
-MARKS = {"VOX_OPTIONAL": False, "VOX_ARRAY": True, "VOX_UNTIL": True, "VOX_ONE_THREAD": False,
-         "VOX_ANY_THREAD": False}  # whether they have arguments
-
-
 class Member(tuple):
-    """(type, name) of a parameter, a field or a result, which has no name. `marks` by name, with their arguments."""
+    """(type, name) of a parameter, a field or a result, which has no name."""
 
-    def __new__(cls, type_text, name, marks=None, comment=""):
+    def __new__(cls, type_text, name, optional=False, comment=""):
         member = super().__new__(cls, (type_text, name))
-        member.marks, member.comment = marks or {}, comment
+        member.optional, member.comment = optional, comment  # optional: VOX_OPTIONAL
         return member
 
 
@@ -30,7 +25,7 @@ class Declaration:
     parameters: list = field(default_factory=list)  # Members
     fields: list = field(default_factory=list)  # Members of a struct; names alone, of an enum
     values: list = field(default_factory=list)  # (name, number, comment) of an enum
-    marks: dict = field(default_factory=dict)  # of the result, or of an opaque type
+    optional: bool = False  # its result
     inside: str = ""  # the comments of its fields or enumerators
     inherited: str = ""  # comments of those before it, where its own says "The same ..."
 
@@ -63,29 +58,18 @@ def words_of(comment):
     return " ".join(re.sub(r"^\s*\* ?", "", comment[2:-2], flags=re.M).split())
 
 
-def take_marks(text):
-    """The marks that a declaration begins with, and the rest of it."""
-    marks, text = {}, text.strip()
-    while True:
-        match = re.match(r"(VOX_\w+)\b(?:\(((?:[^()]|\([^()]*\))*)\))?\s*", text)
-        if not match or match[1] not in MARKS:
-            return marks, text
-        if (match[2] is not None) != MARKS[match[1]] or match[1] in marks:
-            raise ValueError(f"a wrong mark in '{text}'")
-        marks[match[1]] = " ".join(match[2].split()) if match[2] is not None else True
-        text = text[match.end():]
-
-
 def split_parameter(text, comment=""):
     """The name of a function pointer is inside its type."""
-    marks, text = take_marks(text)
+    text = text.strip()
+    optional = text.startswith("VOX_OPTIONAL ")
+    text = text.removeprefix("VOX_OPTIONAL ")
     pointer = re.fullmatch(r"(.*\(\*)(\w+)(\)\s*\(.*\))", text)
     if pointer:
-        return Member(pointer[1] + pointer[3], pointer[2], marks, comment)
+        return Member(pointer[1] + pointer[3], pointer[2], optional, comment)
     match = re.fullmatch(r"(.*?[\s*])(\w+)((?:\[\w+\])*)", text)
     if not match or "VOX_" in match[1]:
         raise ValueError(f"cannot read the declaration '{text}'")
-    return Member(match[1].strip() + match[3], match[2], marks, comment)
+    return Member(match[1].strip() + match[3], match[2], optional, comment)
 
 
 def split_list(text):
@@ -186,11 +170,9 @@ def parse(text):
         if code.startswith("#"):
             continue
         comment = words_of(above) if above else ""
-        marks = {}
-        leading = re.match(r"(VOX_API|VOX_EXPERIMENTAL|typedef) ", code)
-        if leading:
-            marks, rest = take_marks(code[leading.end():])
-            code = leading[0] + rest
+        optional = re.match(r"(VOX_API|VOX_EXPERIMENTAL) VOX_OPTIONAL ", code)
+        if optional:
+            code = optional[1] + code[optional.end() - 1:]
         new = None
         function = re.fullmatch(r"(VOX_API|VOX_EXPERIMENTAL) (.+?[ *])(\w+)\((.*)\);", code)
         struct = re.fullmatch(r"typedef (struct|enum) (\w+) \{(.*)\} (\w+);", code)
@@ -198,7 +180,8 @@ def parse(text):
         body = statement[statement.find("{") + 1: statement.rfind("}")]
         if function:
             new = Declaration("function", function[3], comment, line, section, function[1] == "VOX_API",
-                              function[2].strip(), parameters_of(function[4]), marks=marks)
+                              function[2].strip(), parameters_of(function[4]),
+                              optional=optional is not None)
         elif struct and struct[1] == "struct":
             fields = [split_parameter(*member) for member in members_of(body, ";")]
             new = Declaration("struct", struct[2], comment, line, section, fields=fields)
@@ -207,7 +190,7 @@ def parse(text):
             values = [(name, int(number, 0), words) for name, number, words in values]
             new = Declaration("enum", struct[2], comment, line, section, fields=[v[0] for v in values], values=values)
         elif re.fullmatch(r"typedef struct (\w+) \1;", code):
-            new = Declaration("opaque", code.split()[2], comment, line, section, marks=marks)
+            new = Declaration("opaque", code.split()[2], comment, line, section)
         elif callback:
             new = Declaration("callback", callback[2], comment, line, section, result=callback[1].strip(),
                               parameters=parameters_of(callback[3]))

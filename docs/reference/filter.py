@@ -13,8 +13,7 @@ import re
 import sys
 
 COMMENT = re.compile(r"/\*(.*?)\*/", re.S)
-MARKS = r"(?:VOX_\w+(?:\((?:[^()]|\([^()]*\))*\))? )*"
-FIELD = re.compile(rf"^ {{4}}{MARKS}(?:const )?(\w+)(?: const)?[ *]+(?:(\w+)(?:\[\w+\])*|\(\*(\w+)\)\(.*\));$")
+FIELD = re.compile(r"^ {4}(?:VOX_OPTIONAL )?(?:const )?(\w+)(?: const)?[ *]+(?:(\w+)(?:\[\w+\])*|\(\*(\w+)\)\(.*\));$")
 
 # What a field's name alone says: the same in all structs.
 BY_NAME = {
@@ -94,8 +93,6 @@ def fields(text):
     for i, line in enumerate(lines):
         begins = re.match(r"^typedef (struct|enum) (\w+) \{", line)
         before = lines[max(0, i - 40):i]
-        while before and re.fullmatch(rf" {{4}}{MARKS}", before[-1] + " "):  # a field's marks on a line of their own
-            del before[-1]
         above = re.search(r"/\*\*(?!<)(?:(?!\*/).)*\*/\Z", "\n".join(before), flags=re.S) is not None
         if begins:
             struct, has_comment = begins[2], above
@@ -112,9 +109,6 @@ def fields(text):
         kind, name = field[1], field[2] or field[3]
         if name in BY_NAME:
             lines[i] = f"{line} /**< {BY_NAME[name]} */"
-        elif "VOX_ARRAY" in line:
-            count = re.search(r"VOX_ARRAY\(((?:[^()]|\([^()]*\))*)\)", line)[1]
-            lines[i] = f"{line} /**< {escaped(count)} elements. */"
         elif kind.startswith("vox_"):
             lines[i] = f"{line} /**< See {kind}. */"
         else:

@@ -55,30 +55,7 @@
 #define VOX_API VOX_EXPORT
 #define VOX_EXPERIMENTAL VOX_EXPORT
 
-/* Marks: what the types of C do not say about a pointer, for people and for programs that read these headers
- * (bindings/README.md). A compiler sees nothing of them.
- *   VOX_OPTIONAL     It may be null. Without this mark it must not be, unless it is an array of no elements.
- *   VOX_ARRAY(n)     It points to n elements. n is written with parameters, or fields of the same struct; x.y stands
- *                    for the field y that a function gives for the parameter x, such as body.vertex_count of
- *                    vox_body_get_info. "or" separates what the comment tells apart. Without this mark: one element,
- *                    zero-terminated text, or `capacity` or `count` elements where such a number follows.
- *   VOX_UNTIL(f, g)  It is in use, or valid, until the next call of vox_f or vox_g for its object, or the end of that
- *                    object. Without this mark it is in use during the call: what it points to is read, written or
- *                    copied. Callbacks, and the pointers that are handed back to them, are in use as long as the
- *                    object that they were given to. Instead of a function:
- *       return       the call that it was given to returns
- *       failure      the next call that fails on the same thread
- *       epoch        vox_grid_step, vox_grids_step, vox_grid_clear, vox_grid_reserve, vox_grid_set_flags
- *       rebind       vox_body_remove, vox_mesh_bind_positions, vox_mesh_bind_strided_positions,
- *                    vox_mesh_map_positions, vox_mesh_set_topology, vox_mesh_append_vertices, vox_grid_clear
- *   VOX_ONE_THREAD, VOX_ANY_THREAD
- *                    An object that one thread at a time may use, even to read; one that any number may use at any
- *                    time. Without such a mark: the rule of "Threads" above. */
-#define VOX_OPTIONAL
-#define VOX_ARRAY(count)
-#define VOX_UNTIL(...)
-#define VOX_ONE_THREAD
-#define VOX_ANY_THREAD
+#define VOX_OPTIONAL /* may be null; without this mark a pointer may not, unless its array is empty */
 
 #ifdef __cplusplus
 extern "C" {
@@ -109,7 +86,7 @@ VOX_API const char* vox_result_string(vox_result result);
 
 /* The text of this thread's last failure, e.g. "tet 17 names vertex 900 of 812", or "" if nothing has failed yet.
  * It lives until the thread's next failing call. Successful calls leave it alone. Never null. */
-VOX_API VOX_UNTIL(failure) const char* vox_last_error(void);
+VOX_API const char* vox_last_error(void);
 
 /* Sets this thread's vox_last_error() text and returns `result`, so that libraries built on vox (vox_io among them) can
  * report failures the same way. The text is copied, its first 1023 bytes at most, and of UTF-8 no part of a character.
@@ -417,14 +394,14 @@ typedef struct vox_mesh_desc {
     uint32_t flags; /* vox_mesh_flags, combined with | */
     /* vertex_count positions; may be null until vox_mesh_bind_positions. Borrowed until the mesh is removed, bound to
      * other positions or mapped: vox_grid_step reads them, and while it runs they must be valid and unchanged. */
-    VOX_OPTIONAL VOX_ARRAY(vertex_count) VOX_UNTIL(rebind) const void* positions;
+    VOX_OPTIONAL const void* positions;
     uint64_t position_byte_stride; /* from one position to the next; 0: tightly packed (columns: one number) */
     /* tet_count * 4 vertex indices, copied unless VOX_MESH_BORROW_TETS is set. Both windings are accepted.
      * With that flag, they must stay valid and unchanged, as any function of the grid may read them, until the mesh is
      * removed or gets another topology, or the grid is cleared or destroyed. The first call that turns tetrahedra
      * off, replaces, removes or appends some copies them, and leaves the caller's array as it is and no longer needed.
      * A grid made from a snapshot has its own copy. */
-    VOX_ARRAY(4 * tet_count) VOX_UNTIL(body_remove, mesh_set_topology, grid_clear) const uint32_t* tets;
+    const uint32_t* tets;
     uint64_t tet_count;
     uint64_t vertex_count;
     uint64_t user_data; /* any number of the caller's, returned by vox_body_get_user_data */
@@ -433,7 +410,7 @@ typedef struct vox_mesh_desc {
     /* Copied; null: the defaults. VOX_MESH_SELF_COLLISION turns self_collision on as well. */
     VOX_OPTIONAL const vox_filter* filter;
     /* vertex_count positions of the rest pose, in position_format, copied; null: see vox_filter.self_rest_distance. */
-    VOX_OPTIONAL VOX_ARRAY(vertex_count) const void* rest_positions;
+    VOX_OPTIONAL const void* rest_positions;
     uint64_t rest_position_byte_stride; /* 0: tightly packed */
     /* From one coordinate of a position to the next. 0 (the default): the size of a number. For columns the distance
      * between two columns, at least vertex_count * position_byte_stride; with columns of n numbers and nothing between
@@ -509,7 +486,7 @@ typedef struct vox_body_info {
     uint32_t has_transform; /* 1 if vox_body_set_transform gave it one */
     /* The positions, without the transform; null if the mesh has none. They live until the mesh is removed, bound to
      * other positions, mapped, or gets other or more vertices, or the grid is cleared or destroyed. */
-    VOX_OPTIONAL VOX_ARRAY(vertex_count) VOX_UNTIL(rebind) const void* positions;
+    VOX_OPTIONAL const void* positions;
     uint64_t position_byte_stride;           /* of these, never 0 unless `positions` is null; see vox_mesh_desc */
     uint64_t position_component_byte_stride;
     double transform[12]; /* as vox_body_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0 */
@@ -524,8 +501,8 @@ VOX_API vox_result vox_body_get_info(const vox_grid* grid, vox_body body, vox_bo
  * and is not written then. *out_count is how many tetrahedra there are (vox_body_info.tet_count).
  * Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 VOX_API vox_result vox_mesh_get_tets(const vox_grid* grid, vox_body body,
-                                      VOX_OPTIONAL VOX_ARRAY(4 * capacity) uint32_t* corners,
-                                      VOX_OPTIONAL VOX_ARRAY(capacity) uint8_t* enabled, uint64_t capacity,
+                                      VOX_OPTIONAL uint32_t* corners,
+                                      VOX_OPTIONAL uint8_t* enabled, uint64_t capacity,
                                       uint64_t* out_count);
 
 /* Borrows new positions for a mesh (vertex_count of them, byte_stride 0: tightly packed), under the rule
@@ -533,12 +510,12 @@ VOX_API vox_result vox_mesh_get_tets(const vox_grid* grid, vox_body body,
  * between steps need no new call. Null is accepted for a mesh without vertices.
  * Errors: INVALID_ARGUMENT for an unknown format and a stride that is too small. */
 VOX_API vox_result vox_mesh_bind_positions(vox_grid* grid, vox_body body,
-                                           VOX_ARRAY(body.vertex_count) VOX_UNTIL(rebind) const void* positions,
+                                           const void* positions,
                                            vox_format format, uint64_t byte_stride);
 
 /* The same with component_byte_stride as vox_mesh_desc.position_component_byte_stride, e.g. for columns. */
 VOX_API vox_result vox_mesh_bind_strided_positions(vox_grid* grid, vox_body body,
-                                                   VOX_ARRAY(body.vertex_count) VOX_UNTIL(rebind) const void* positions,
+                                                   const void* positions,
                                                    vox_format format, uint64_t byte_stride,
                                                    uint64_t component_byte_stride);
 
@@ -551,7 +528,7 @@ VOX_API vox_result vox_mesh_bind_strided_positions(vox_grid* grid, vox_body body
  * Errors: as vox_mesh_bind_strided_positions. */
 VOX_EXPERIMENTAL vox_result vox_mesh_bind_previous_positions(
     vox_grid* grid, vox_body body,
-    VOX_OPTIONAL VOX_ARRAY(body.vertex_count) VOX_UNTIL(rebind) const void* positions, vox_format format,
+    VOX_OPTIONAL const void* positions, vox_format format,
     uint64_t byte_stride, uint64_t component_byte_stride);
 
 /* vox_mesh_bind_positions for tightly packed floats, with a typed pointer. Errors: as there. */
@@ -596,7 +573,7 @@ VOX_API vox_result vox_grid_set_pair_enabled(vox_grid* grid, vox_body body_a, vo
  * made then.
  * Errors: BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_mesh_map_positions(vox_grid* grid, vox_body body,
-                                          VOX_ARRAY(body.vertex_count) VOX_UNTIL(rebind) void** out_positions,
+                                          void** out_positions,
                                           uint64_t* out_byte_stride);
 
 /* Moves a mesh as a whole. In the following steps a vertex has the position
@@ -636,22 +613,22 @@ VOX_API vox_result vox_mesh_set_topology(vox_grid* grid, vox_body body, const vo
 /* Disables the `count` tetrahedra named by `tets` (enabled 0), so that they contain no vertex and have no edges and
  * facets, or enables them again (1, as at insertion). Their vertices stay and collide with others either way.
  * Errors: INVALID_ARGUMENT for other numbers. */
-VOX_API vox_result vox_mesh_set_tets_enabled(vox_grid* grid, vox_body body, VOX_ARRAY(count) const uint32_t* tets,
+VOX_API vox_result vox_mesh_set_tets_enabled(vox_grid* grid, vox_body body, const uint32_t* tets,
                                              uint64_t count, uint32_t enabled);
 
 /* Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3], copied, for each i below count. If an
  * index is named twice, the last corners are used. A disabled tetrahedron stays disabled. To cut a mesh open, append
  * copies of the vertices on the cut and let the tetrahedra of one side use those. */
-VOX_API vox_result vox_mesh_replace_tets(vox_grid* grid, vox_body body, VOX_ARRAY(count) const uint32_t* tets,
-                                         uint64_t count, VOX_ARRAY(4 * count) const uint32_t* corners);
+VOX_API vox_result vox_mesh_replace_tets(vox_grid* grid, vox_body body, const uint32_t* tets,
+                                         uint64_t count, const uint32_t* corners);
 
 /* Adds `count` tetrahedra with 4 corners each, copied. *out_first is the index of the first; the others have the
  * following indices. */
-VOX_API vox_result vox_mesh_append_tets(vox_grid* grid, vox_body body, VOX_ARRAY(4 * count) const uint32_t* corners,
+VOX_API vox_result vox_mesh_append_tets(vox_grid* grid, vox_body body, const uint32_t* corners,
                                         uint64_t count, uint32_t* out_first);
 
 /* Removes tetrahedra, disabled ones included. Their vertices stay; see vox_mesh_remove_vertices. */
-VOX_API vox_result vox_mesh_remove_tets(vox_grid* grid, vox_body body, VOX_ARRAY(count) const uint32_t* tets,
+VOX_API vox_result vox_mesh_remove_tets(vox_grid* grid, vox_body body, const uint32_t* tets,
                                         uint64_t count);
 
 /* Vertices to append, and their positions. All positions are in the format that the mesh was inserted with or bound to
@@ -665,14 +642,14 @@ typedef struct vox_vertices_desc {
      * For a mesh with positions of its own (copied, mapped, or loaded): `count` positions, copied; the array of
      * vox_mesh_map_positions becomes invalid. May be null for a mesh that has no positions yet and, together with
      * copies_of, for a mesh with positions of its own. */
-    VOX_OPTIONAL VOX_ARRAY(count or body.vertex_count + count) VOX_UNTIL(rebind) const void* positions;
+    VOX_OPTIONAL const void* positions;
     uint64_t position_byte_stride; /* 0: tightly packed */
     /* Null, or `count` indices of earlier vertices of the mesh: the vertex that each new one is a copy of. A copy gets
      * the rest position of that vertex and, if `positions` is null, its position, too. */
-    VOX_OPTIONAL VOX_ARRAY(count) const uint32_t* copies_of;
+    VOX_OPTIONAL const uint32_t* copies_of;
     /* For meshes with a rest pose (vox_filter.self_rest_distance): `count` positions in it, copied. Null: those of
      * copies_of or, if that is null too, the present positions of the new vertices. */
-    VOX_OPTIONAL VOX_ARRAY(count) const void* rest_positions;
+    VOX_OPTIONAL const void* rest_positions;
     uint64_t rest_position_byte_stride; /* 0: tightly packed */
     /* As vox_mesh_desc.position_component_byte_stride; 0 (the default): the size of a number. */
     uint64_t position_component_byte_stride;
@@ -697,7 +674,7 @@ VOX_API vox_result vox_mesh_append_vertices(vox_grid* grid, vox_body body, const
 /* Removes vertices; a vertex of an enabled tetrahedron is an INVALID_ARGUMENT. Removed vertices make no more contacts,
  * and no tetrahedron may name them again. Their positions are still read and must stay finite, so it is best to leave
  * them as they are. */
-VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_body body, VOX_ARRAY(count) const uint32_t* vertices,
+VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_body body, const uint32_t* vertices,
                                             uint64_t count);
 
 /* ---- step and contacts ------------------------------------------------------------------------ */
@@ -727,9 +704,9 @@ VOX_API vox_result vox_grid_step(vox_grid* grid);
  * and the call returns the result of the first of them and its text, after its index ("grid 17: ...").
  * Errors: as vox_grid_step; INVALID_ARGUMENT (a null or repeated grid, a worker_count) and OUT_OF_MEMORY, after which
  * no grid was stepped and `results` is not written, unless the task system broke its rules, see vox_task_system. */
-VOX_API vox_result vox_grids_step(VOX_ARRAY(count) vox_grid* const* grids, uint64_t count,
+VOX_API vox_result vox_grids_step(vox_grid* const* grids, uint64_t count,
                                   VOX_OPTIONAL const vox_task_system* tasks, uint32_t worker_count,
-                                  VOX_OPTIONAL VOX_ARRAY(count) vox_result* results);
+                                  VOX_OPTIONAL vox_result* results);
 
 /* A mesh that made a step fail, or that a step left out. */
 typedef struct vox_failure {
@@ -769,7 +746,7 @@ typedef struct vox_contact {
 /* `count` contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b, tet). `data` lives until the next step,
  * clear, reserve, change of the flags or destroy of the grid; `epoch` is vox_grid_epoch() of that state. */
 typedef struct vox_contact_view {
-    VOX_UNTIL(epoch) const vox_contact* data;
+    const vox_contact* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
@@ -781,16 +758,16 @@ VOX_API vox_result vox_grid_get_contacts(const vox_grid* grid, vox_contact_view*
 /* The contacts of `count` grids, one grid after the other: those of grid i begin at index offsets[i] and end before
  * offsets[i + 1], where offsets has count + 1 numbers, all of which are written. Copies the first `capacity` contacts;
  * `contacts` may be null if capacity is 0. Errors: INVALID_ARGUMENT. */
-VOX_API vox_result vox_grids_copy_contacts(VOX_ARRAY(count) const vox_grid* const* grids, uint64_t count,
+VOX_API vox_result vox_grids_copy_contacts(const vox_grid* const* grids, uint64_t count,
                                            vox_contact* contacts, uint64_t capacity,
-                                           VOX_ARRAY(count + 1) uint64_t* offsets);
+                                           uint64_t* offsets);
 
 /* `count` bytes, `byte_stride` apart, one for each contact, in that order: 1 if the vertex is in the interior of the
  * tetrahedron, 0 if it is on its boundary; decided exactly. On a face that two tetrahedra share, a vertex has a contact
  * with one of them (see vox_contact): who joins the contacts of several grids, each with a part of a mesh, keeps the
  * rule with this flag. Not part of vox_grid_get_hash. The data lives as long as that of the contacts' view. */
 typedef struct vox_interior_view {
-    VOX_UNTIL(epoch) const uint8_t* data;
+    const uint8_t* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
@@ -850,7 +827,7 @@ typedef struct vox_penetration {
  * unless vox_filter.penetration_mask rules it out. A vertex inside two meshes has two. The data lives as long as that
  * of the contacts' view. */
 typedef struct vox_penetration_view {
-    VOX_UNTIL(epoch) const vox_penetration* data;
+    const vox_penetration* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
@@ -869,7 +846,7 @@ typedef struct vox_depth {
 
 /* `count` depths, `byte_stride` apart. The data lives as long as the penetrations or readings that they belong to. */
 typedef struct vox_depth_view {
-    VOX_UNTIL(epoch, grid_prepare_readings, grid_prepare_readings_of, grid_prepare_edge_depths) const vox_depth* data;
+    const vox_depth* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
@@ -914,7 +891,7 @@ typedef struct vox_edge_contact {
 /* `count` edge contacts, `byte_stride` apart, sorted by body_a, edge, body_b and the three vertices of the face in
  * ascending order. The data lives as long as that of the contacts' view. */
 typedef struct vox_edge_contact_view {
-    VOX_UNTIL(epoch) const vox_edge_contact* data;
+    const vox_edge_contact* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
@@ -967,7 +944,7 @@ typedef struct vox_margin_contact {
 /* `count` margin contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b), each of which has one at most. The
  * data lives as long as that of the contacts' view. */
 typedef struct vox_margin_contact_view {
-    VOX_UNTIL(epoch) const vox_margin_contact* data;
+    const vox_margin_contact* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
@@ -997,7 +974,7 @@ typedef struct vox_passage {
 /* `count` passages, `byte_stride` apart, sorted by (body_a, vertex, body_b), each of which has one at most. The data
  * lives as long as that of the contacts' view. */
 typedef struct vox_passage_view {
-    VOX_UNTIL(epoch) const vox_passage* data;
+    const vox_passage* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
@@ -1031,11 +1008,11 @@ typedef struct vox_pair {
 /* `count` pairs, `byte_stride` apart, sorted by (body_a, body_b). `contacts` holds the index of every contact of
  * vox_grid_get_contacts() once, pair by pair. Both live as long as the data of the contacts' view. */
 typedef struct vox_pair_view {
-    VOX_UNTIL(epoch) const vox_pair* data;
+    const vox_pair* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
-    VOX_ARRAY(grid.contacts) VOX_UNTIL(epoch) const uint32_t* contacts;
+    const uint32_t* contacts;
 } vox_pair_view;
 
 /* The pairs that touched in the last step; count 0 before the first, after a failed one and after a clear. */
@@ -1080,7 +1057,7 @@ typedef struct vox_touch_event {
  * a program that steps twice and reads once loses those of the first step. vox_counters.total_touches_began and
  * total_touches_ended show the loss. */
 typedef struct vox_touch_view {
-    VOX_UNTIL(grid_step, grids_step) const vox_touch_event* data;
+    const vox_touch_event* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
@@ -1107,7 +1084,7 @@ typedef struct vox_contact_event {
  * next step, change of the flags or destroy of the grid. Events of one step, too: see vox_touch_view, and
  * vox_counters.total_contacts_began and total_contacts_ended. */
 typedef struct vox_contact_event_view {
-    VOX_UNTIL(grid_step, grids_step, grid_set_flags) const vox_contact_event* data;
+    const vox_contact_event* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
@@ -1166,7 +1143,6 @@ typedef struct vox_reading {
  * contacts. With that stride a single field, e.g. position, can be used as an array. `data` lives until readings are
  * prepared again or the next step, clear or destroy of the grid. */
 typedef struct vox_reading_view {
-    VOX_UNTIL(grid_prepare_readings, grid_prepare_readings_of, grid_step, grids_step, grid_clear)
     const vox_reading* data;
     size_t byte_stride;
     uint64_t count;
@@ -1246,7 +1222,7 @@ VOX_API vox_result vox_grid_save(const vox_grid* grid, VOX_OPTIONAL void* bytes,
  * stands for are known to be there, and the byte budget applies.
  * Errors: FORMAT (names chunk and byte), UNSUPPORTED (of a later version), INVALID_ARGUMENT, LIMIT, BUDGET,
  * OUT_OF_MEMORY. */
-VOX_API vox_result vox_grid_load(VOX_ARRAY(size) const void* bytes, uint64_t size,
+VOX_API vox_result vox_grid_load(const void* bytes, uint64_t size,
                                  VOX_OPTIONAL const vox_grid_desc* desc, vox_grid** out_grid);
 
 /* ---- queries ---------------------------------------------------------------------------------- */
@@ -1292,7 +1268,7 @@ VOX_API vox_result vox_grid_query_point(const vox_grid* grid, const double point
 /* The same for up to 2^32 - 1 points at once, `byte_stride` apart (0: tightly packed), sorted by (point, mesh, tet).
  * From 64 points on, and one for every 200 tetrahedra of the grid, they are found as vertices are in a step, several
  * times as fast as by single queries, whatever their order. */
-VOX_API vox_result vox_grid_query_points(const vox_grid* grid, VOX_ARRAY(point_count) const void* points,
+VOX_API vox_result vox_grid_query_points(const vox_grid* grid, const void* points,
                                          vox_format format, uint64_t byte_stride, uint64_t point_count, uint64_t mask,
                                          vox_point_hit* hits, uint64_t capacity, uint64_t* out_count);
 
@@ -1331,7 +1307,7 @@ VOX_API vox_result vox_grid_query_closest(const vox_grid* grid, const double poi
 typedef struct vox_closest_desc {
     uint32_t struct_size;
     vox_format format;
-    VOX_ARRAY(point_count) const void* points; /* read during the call; may be null if there are none */
+    const void* points; /* read during the call; may be null if there are none */
     uint64_t byte_stride; /* from one point to the next; 0: tightly packed */
     uint64_t point_count; /* at most 2^32 - 1 */
     uint64_t mask;        /* default UINT64_MAX: all meshes */
@@ -1369,7 +1345,7 @@ typedef struct vox_closest_hit {
  * Each search begins at the facet found for the point before, so points close together should follow each other.
  * Errors: also INVALID_ARGUMENT for a negative or NaN max_distance, LIMIT for too many points. */
 VOX_API vox_result vox_grid_query_closest_points(const vox_grid* grid, const vox_closest_desc* desc,
-                                                 VOX_ARRAY(desc->point_count) vox_closest_hit* out_hits);
+                                                 vox_closest_hit* out_hits);
 
 typedef enum vox_side {
     VOX_SIDE_NONE = 0,   /* the tetrahedron has no volume */
@@ -1440,7 +1416,7 @@ VOX_API vox_result vox_grid_query_ray_any(const vox_grid* grid, const double fro
  * taken. Errors of all: INVALID_ARGUMENT, NON_FINITE, LIMIT, OUT_OF_MEMORY. */
 
 /* What vox_grid_take_query_view takes. */
-typedef VOX_ANY_THREAD struct vox_query_view vox_query_view;
+typedef struct vox_query_view vox_query_view;
 
 /* Takes a view of the grid as it is now. It costs as much as vox_grid_prepare_queries, and does not change what that
  * prepared. The caller owns *out_view and releases it with vox_query_view_release. Errors: INVALID_STATE (a mesh has no
@@ -1466,7 +1442,7 @@ VOX_API vox_result vox_query_view_point(const vox_query_view* view, const double
                                         vox_point_hit* hits, uint64_t capacity, uint64_t* out_count);
 
 /* As vox_grid_query_points. */
-VOX_API vox_result vox_query_view_points(const vox_query_view* view, VOX_ARRAY(point_count) const void* points,
+VOX_API vox_result vox_query_view_points(const vox_query_view* view, const void* points,
                                          vox_format format, uint64_t byte_stride, uint64_t point_count, uint64_t mask,
                                          vox_point_hit* hits, uint64_t capacity, uint64_t* out_count);
 
@@ -1480,7 +1456,7 @@ VOX_API vox_result vox_query_view_closest(const vox_query_view* view, const doub
 
 /* As vox_grid_query_closest_points. */
 VOX_API vox_result vox_query_view_closest_points(const vox_query_view* view, const vox_closest_desc* desc,
-                                                 VOX_ARRAY(desc->point_count) vox_closest_hit* out_hits);
+                                                 vox_closest_hit* out_hits);
 
 /* As vox_grid_query_ray. */
 VOX_API vox_result vox_query_view_ray(const vox_query_view* view, const double from[3], const double to[3],
@@ -1721,7 +1697,7 @@ typedef struct vox_suggestion {
  * NON_FINITE, LIMIT (SURFACE: a mesh of more than 357913941 tets), OUT_OF_MEMORY; UNSUPPORTED for SURFACE in a build
  * without surfaces, as for WebAssembly. */
 VOX_API vox_result vox_suggest_cell_size(VOX_OPTIONAL const vox_suggest_desc* desc,
-                                         VOX_ARRAY(mesh_count) const vox_mesh_desc* meshes, uint64_t mesh_count,
+                                         const vox_mesh_desc* meshes, uint64_t mesh_count,
                                          vox_suggestion* out);
 
 /* The same for the meshes of a grid. With desc null, the model is that of the grid's engine, with the grid's storage
@@ -1746,7 +1722,7 @@ typedef struct vox_cost_prediction {
 /* The cost that desc->model (desc null: PAPER) predicts for these meshes at one cell size. Arguments and errors as
  * vox_suggest_cell_size; also INVALID_ARGUMENT for a cell size that is not a finite number above 0. */
 VOX_API vox_result vox_cost_predict(VOX_OPTIONAL const vox_suggest_desc* desc,
-                                    VOX_ARRAY(mesh_count) const vox_mesh_desc* meshes, uint64_t mesh_count,
+                                    const vox_mesh_desc* meshes, uint64_t mesh_count,
                                     double cell_size, vox_cost_prediction* out);
 
 /* The weights of REFERENCE and FAST: nanoseconds that one unit of each piece of work takes on a machine. Plain numbers
@@ -1833,7 +1809,7 @@ VOX_API vox_result vox_cost_minimise(vox_cost_function* cost, void* user, const 
                                      vox_cost_minimum* out);
 
 /* The same for the sum of `term_count` terms. */
-VOX_API vox_result vox_cost_minimise_terms(VOX_ARRAY(term_count) const vox_cost_term* terms, uint64_t term_count,
+VOX_API vox_result vox_cost_minimise_terms(const vox_cost_term* terms, uint64_t term_count,
                                            const vox_cost_bounds* bounds, vox_cost_minimum* out);
 
 /* Eq. 9: the distance of `n` from the optimum n_opt, in units of the optimal zone [n_min, n_max]. It is 0 at n = n_opt
@@ -1867,7 +1843,7 @@ typedef enum vox_primitive_type {
 typedef struct vox_primitives {
     uint32_t struct_size;
     vox_primitive_type type;
-    VOX_ARRAY(vertex_count) const void* positions; /* as in vox_mesh_desc */
+    const void* positions; /* as in vox_mesh_desc */
     uint64_t position_byte_stride;
     uint64_t position_component_byte_stride;
     uint64_t vertex_count;
@@ -1875,10 +1851,10 @@ typedef struct vox_primitives {
     vox_format radius_format; /* FLOAT3 stands for one single, DOUBLE3 for one double */
     /* The vertices of each primitive: two numbers an edge or a box, three a triangle, four a tetrahedron, one a point.
      * Null: 0, 1, 2, and so on, without sharing. */
-    VOX_OPTIONAL VOX_ARRAY(count or 2 * count or 3 * count or 4 * count) const uint32_t* indices;
+    VOX_OPTIONAL const uint32_t* indices;
     uint64_t index_byte_stride; /* from one primitive to the next; 0: tightly packed */
     uint64_t count;             /* primitives, at most 2^32 - 1 */
-    VOX_OPTIONAL VOX_ARRAY(count) const void* radii; /* of each primitive, >= 0 */
+    VOX_OPTIONAL const void* radii; /* of each primitive, >= 0 */
     uint64_t radius_byte_stride;                     /* 0: tightly packed */
     double radius;                                   /* of all primitives, added to their own, >= 0; default 0 */
 } vox_primitives;
@@ -2084,7 +2060,7 @@ typedef struct vox_grid_fit {
  * the grid has (`weights`, else `known`). Errors: as vox_suggest_for; also INVALID_ARGUMENT for fewer than three
  * different cell sizes (those within a millionth are one), sizes below the least legal one, and timings out of their
  * range, and LIMIT as vox_count_for. */
-VOX_API vox_result vox_cost_fit(const vox_foreign_grid* grid, VOX_ARRAY(count) const vox_grid_timing* timings,
+VOX_API vox_result vox_cost_fit(const vox_foreign_grid* grid, const vox_grid_timing* timings,
                                 uint64_t count, vox_grid_fit* out);
 
 /* Runs the caller's grid once at a cell size. Returns how many seconds that took, at least 1e-30; infinity, or more

@@ -30,7 +30,7 @@ extern "C" {
 
 /* A message: `size` bytes. */
 typedef struct vox_bytes {
-    VOX_OPTIONAL VOX_ARRAY(size) const void* data;
+    VOX_OPTIONAL const void* data;
     uint64_t size;
 } vox_bytes;
 
@@ -72,7 +72,7 @@ VOX_EXPERIMENTAL vox_result vox_transport_run(uint32_t size, uint32_t parallel, 
 /* ---- scene ------------------------------------------------------------------------------------ */
 
 /* The parts of bodies that lie on this rank, and what they found in the last step. */
-typedef VOX_ONE_THREAD struct vox_scene vox_scene;
+typedef struct vox_scene vox_scene;
 
 /* Settings of a scene. */
 typedef struct vox_scene_desc {
@@ -108,10 +108,10 @@ typedef struct vox_part_desc {
      * the same for all parts of a body. Rings and rest distance of a filter are UNSUPPORTED. */
     const vox_mesh_desc* mesh;
     /* Global numbers of vertices and tetrahedra, all different; null: 0, 1, 2 and so on. They are copied. */
-    VOX_OPTIONAL VOX_ARRAY(mesh->vertex_count) const uint64_t* vertex_ids;
-    VOX_OPTIONAL VOX_ARRAY(mesh->tet_count) const uint64_t* tet_ids;
+    VOX_OPTIONAL const uint64_t* vertex_ids;
+    VOX_OPTIONAL const uint64_t* tet_ids;
     /* 1 for each vertex that this rank owns, 0 for copies; null: it owns all. Copied. */
-    VOX_OPTIONAL VOX_ARRAY(mesh->vertex_count) const uint8_t* owned;
+    VOX_OPTIONAL const uint8_t* owned;
 } vox_part_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers. */
@@ -128,8 +128,7 @@ VOX_EXPERIMENTAL vox_result vox_scene_remove(vox_scene* scene, vox_part part);
 /* As vox_mesh_bind_strided_positions. Values written to the same memory between steps need no new call. Not collective.
  * Errors: INVALID_ARGUMENT. */
 VOX_EXPERIMENTAL vox_result vox_scene_bind_positions(vox_scene* scene, vox_part part,
-                                                     VOX_UNTIL(scene_remove, scene_bind_positions)
-                                                         const void* positions,
+                                                     const void* positions,
                                                      vox_format format, uint64_t byte_stride,
                                                      uint64_t component_byte_stride);
 
@@ -157,7 +156,7 @@ typedef struct vox_scene_contact {
 
 /* `count` contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b, tet). */
 typedef struct vox_scene_contact_view {
-    VOX_UNTIL(scene_step) const vox_scene_contact* data;
+    const vox_scene_contact* data;
     size_t byte_stride;
     uint64_t count;
 } vox_scene_contact_view;
@@ -182,8 +181,8 @@ typedef enum vox_direction {
  * contact. item_bytes, 1 to 65536, and direction are the same on all ranks. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY;
  * then out may be written in part. */
 VOX_EXPERIMENTAL vox_result vox_scene_send(vox_scene* scene, vox_direction direction, uint64_t item_bytes,
-                                           VOX_OPTIONAL VOX_ARRAY(item_bytes * contacts) const void* in,
-                                           VOX_OPTIONAL VOX_ARRAY(item_bytes * contacts) void* out);
+                                           VOX_OPTIONAL const void* in,
+                                           VOX_OPTIONAL void* out);
 
 /* Collective. A hash of all contacts of all ranks: the same on all ranks, and for any number of them and any partition. It
  * covers all fields of a vox_scene_contact that do not depend on the partition. */
@@ -211,9 +210,9 @@ typedef struct vox_scene_point {
 /* Collective. Finds the tetrahedra that contain `count` points of this rank, `byte_stride` apart (0: tightly packed), at
  * most 2^31 - 1. Other ranks ask for their own. Contacts stay. It keeps a second grid of the parts, made by the first call.
  * Errors: as vox_scene_step; the points are named by their index. */
-VOX_EXPERIMENTAL vox_result vox_scene_locate(vox_scene* scene, VOX_OPTIONAL VOX_ARRAY(count) const void* points,
+VOX_EXPERIMENTAL vox_result vox_scene_locate(vox_scene* scene, VOX_OPTIONAL const void* points,
                                              vox_format format, uint64_t byte_stride, uint64_t count,
-                                             VOX_OPTIONAL VOX_ARRAY(count) vox_scene_point* out_points);
+                                             VOX_OPTIONAL vox_scene_point* out_points);
 
 /* ---- checks and measurements ------------------------------------------------------------------ */
 

@@ -54,8 +54,8 @@ typedef struct vox_io_load_desc {
     vox_allocator allocator;
     /* Called now and then, on the calling thread, with the fraction of the work done, ascending from 0 to 1: about half
      * of it is reading, the rest the report. A result other than 0 cancels. May be null. */
-    VOX_OPTIONAL VOX_UNTIL(return) int32_t (*progress)(double fraction, void* user);
-    VOX_UNTIL(return) void* progress_user;
+    VOX_OPTIONAL int32_t (*progress)(double fraction, void* user);
+    void* progress_user;
 } vox_io_load_desc;
 
 #define VOX_IO_ALL_MESHES 0xffffffffu /* for vox_io_load_desc.mesh_index: joins all meshes of the scene */
@@ -66,7 +66,7 @@ VOX_API vox_result vox_io_load_desc_init(vox_io_load_desc* desc, uint32_t struct
 /* One file in memory. `name` supplies the extension and appears in error texts; may be null. */
 typedef struct vox_io_source {
     VOX_OPTIONAL const char* name;
-    VOX_ARRAY(size) const void* data;
+    const void* data;
     size_t size;
 } vox_io_source;
 
@@ -83,7 +83,7 @@ VOX_API vox_result vox_io_load(const char* path, VOX_OPTIONAL const vox_io_load_
                                vox_io_mesh** out_mesh);
 
 /* The same from memory. `sources` holds one file or, for TetGen, two: .node and .ele in any order. */
-VOX_API vox_result vox_io_read(VOX_ARRAY(source_count) const vox_io_source* sources, size_t source_count,
+VOX_API vox_result vox_io_read(const vox_io_source* sources, size_t source_count,
                                VOX_OPTIONAL const vox_io_load_desc* desc, vox_io_mesh** out_mesh);
 
 /* Releases a mesh. Null does nothing. */
@@ -91,11 +91,11 @@ VOX_API void vox_io_mesh_destroy(VOX_OPTIONAL vox_io_mesh* mesh);
 
 /* Arrays of a mesh; they live until vox_io_mesh_destroy. Indices count from 0. */
 typedef struct vox_io_mesh_view {
-    VOX_ARRAY(3 * vertex_count) VOX_UNTIL(io_mesh_destroy) const double* positions;
+    const double* positions;
     uint64_t vertex_count;
-    VOX_ARRAY(4 * tet_count) VOX_UNTIL(io_mesh_destroy) const uint32_t* tets; /* corners in the file's order */
+    const uint32_t* tets; /* corners in the file's order */
     uint64_t tet_count;
-    VOX_ARRAY(3 * triangle_count) VOX_UNTIL(io_mesh_destroy) const uint32_t* triangles; /* those of the file */
+    const uint32_t* triangles; /* those of the file */
     uint64_t triangle_count;
 } vox_io_mesh_view;
 
@@ -149,7 +149,7 @@ VOX_API vox_result vox_io_mesh_get_report(const vox_io_mesh* mesh, vox_io_report
 
 /* The problems in the report as text, one line each ("3 tets are inverted"); "" if there are none. Lives until
  * vox_io_mesh_destroy. Cannot fail; null for a null mesh. */
-VOX_API VOX_OPTIONAL VOX_UNTIL(io_mesh_destroy) const char* vox_io_mesh_get_warnings(VOX_OPTIONAL const vox_io_mesh* mesh);
+VOX_API VOX_OPTIONAL const char* vox_io_mesh_get_warnings(VOX_OPTIONAL const vox_io_mesh* mesh);
 
 /* Name of a format, e.g. "Gmsh .msh". Static text; never null. */
 VOX_API const char* vox_io_format_string(vox_io_format format);
@@ -180,8 +180,8 @@ typedef struct vox_io_tetrahedralize_desc {
     uint32_t reserved; /* 0 */
     /* Called now and then, on the calling thread, with the fraction of the work done, ascending from 0 to 1. A result
      * other than 0 cancels. May be null. */
-    VOX_OPTIONAL VOX_UNTIL(return) int32_t (*progress)(double fraction, void* user);
-    VOX_UNTIL(return) void* progress_user;
+    VOX_OPTIONAL int32_t (*progress)(double fraction, void* user);
+    void* progress_user;
     vox_allocator allocator; /* as vox_io_load_desc.allocator */
 } vox_io_tetrahedralize_desc;
 
@@ -240,7 +240,6 @@ typedef enum vox_io_write_format {
 typedef struct vox_io_point_data {
     const char* name; /* not empty, without control characters and double quotes */
     /* Finite numbers, `components` for each vertex, or for each cell. */
-    VOX_ARRAY(components * mesh.vertex_count or components * (mesh.triangle_count + mesh.tet_count))
     const double* values;
     uint32_t components;  /* 1 (scalars), 3 (vectors) or 9 (tensors) */
     uint32_t reserved;    /* 0 */
@@ -251,9 +250,9 @@ typedef struct vox_io_write_desc {
     vox_io_write_format format;
     uint32_t binary;   /* 0: text, from which the same doubles are read back; 1: binary, in this machine's byte order */
     uint32_t reserved; /* 0 */
-    VOX_ARRAY(point_data_count) const vox_io_point_data* point_data; /* read during the call */
+    const vox_io_point_data* point_data; /* read during the call */
     uint64_t point_data_count;
-    VOX_ARRAY(cell_data_count) const vox_io_point_data* cell_data; /* with values for each cell */
+    const vox_io_point_data* cell_data; /* with values for each cell */
     uint64_t cell_data_count;
 } vox_io_write_desc;
 

@@ -40,7 +40,7 @@ typedef enum vox_feature {
 } vox_feature;
 
 /* Vertices, edges and faces, and the positions of the last vox_surface_move. */
-typedef VOX_ONE_THREAD struct vox_surface vox_surface;
+typedef struct vox_surface vox_surface;
 
 /* What a surface is made of. Faces may have any winding; edges and faces may be degenerate (name a vertex twice) and
  * duplicated. A feature never makes a pair with itself, nor with one that has a vertex in common with it. */
@@ -53,15 +53,15 @@ typedef struct vox_surface_desc {
     uint64_t face_count;
     /* 2 * edge_count indices of vertices, copied. Null, with edge_count 0: the edges are those of the faces, each once,
      * lower vertex first, ascending (vox_surface_get_features lists them). Not null, with edge_count 0: no edges. */
-    VOX_OPTIONAL VOX_ARRAY(2 * edge_count) const uint32_t* edges;
-    VOX_OPTIONAL VOX_ARRAY(3 * face_count) const uint32_t* faces; /* 3 * face_count indices of vertices, copied */
+    VOX_OPTIONAL const uint32_t* edges;
+    VOX_OPTIONAL const uint32_t* faces; /* 3 * face_count indices of vertices, copied */
     /* The patch of each vertex, below patch_count, copied; null: all vertices are in one patch. Two features make no pair
      * unless some vertex of one and some vertex of the other may meet (as in IPC Toolkit). Two vertices may meet if the
      * category of the patch of each has a bit in common with the mask of the patch of the other. So static obstacles are
      * patches of a category that their own masks leave out. */
-    VOX_OPTIONAL VOX_ARRAY(vertex_count) const uint32_t* patches;
-    VOX_OPTIONAL VOX_ARRAY(patch_count) const uint64_t* patch_categories; /* copied; null: 1 each */
-    VOX_OPTIONAL VOX_ARRAY(patch_count) const uint64_t* patch_masks;      /* copied; null: all bits */
+    VOX_OPTIONAL const uint32_t* patches;
+    VOX_OPTIONAL const uint64_t* patch_categories; /* copied; null: 1 each */
+    VOX_OPTIONAL const uint64_t* patch_masks;      /* copied; null: all bits */
     uint64_t patch_count;
     /* Edge length of a cell of the grid in which pairs are looked for, > 0. 0 (the default): chosen at every motion by the
      * cost model. No answer depends on it. */
@@ -97,7 +97,7 @@ typedef struct vox_feature_view {
     uint32_t struct_size;
     uint32_t vertices_each; /* 2 of an edge, 3 of a face */
     uint64_t count;         /* edges or faces */
-    VOX_ARRAY(count * vertices_each) VOX_UNTIL(surface_destroy) const uint32_t* vertices;
+    const uint32_t* vertices;
 } vox_feature_view;
 
 /* The edges or faces of a surface, numbered as everywhere in this header. Set out_view->struct_size first. The view lives
@@ -119,8 +119,8 @@ typedef enum vox_motion_flags {
 typedef struct vox_motion {
     uint32_t struct_size;
     uint32_t flags; /* vox_motion_flags, combined with | */
-    VOX_ARRAY(vertex_count) const void* from;             /* at time 0, copied */
-    VOX_OPTIONAL VOX_ARRAY(vertex_count) const void* to;  /* the same, at time 1; null: everything stands still */
+    const void* from;             /* at time 0, copied */
+    VOX_OPTIONAL const void* to;  /* the same, at time 1; null: everything stands still */
     uint64_t vertex_count;          /* that of the surface; another number is an INVALID_ARGUMENT */
     vox_format format;
     uint32_t reserved;              /* 0 */
@@ -156,8 +156,8 @@ typedef struct vox_pair_lists {
     uint64_t first;
     uint64_t count;      /* features answered; where there is a byte budget they may be fewer than asked */
     uint64_t pair_count; /* offsets[count] */
-    VOX_ARRAY(count + 1) VOX_UNTIL(surface_find_pairs, surface_move) const uint64_t* offsets;
-    VOX_ARRAY(pair_count) VOX_UNTIL(surface_find_pairs, surface_move) const uint32_t* partners;
+    const uint64_t* offsets;
+    const uint32_t* partners;
 } vox_pair_lists;
 
 /* All features `b` whose boxes overlap those of the features [first, first + count) of kind `a`; boxes that touch
@@ -218,7 +218,7 @@ typedef struct vox_crossing_view {
     uint32_t struct_size;
     uint32_t byte_stride; /* from one element to the next */
     uint64_t count;
-    VOX_ARRAY(count) VOX_UNTIL(surface_find_crossings, surface_move) const vox_crossing* crossings; /* by edge, then face */
+    const vox_crossing* crossings; /* by edge, then face */
 } vox_crossing_view;
 
 /* All edges and faces that have a point in common and no vertex, at the end of the motion: whether the surface is free
@@ -244,7 +244,7 @@ typedef struct vox_close_view {
     uint32_t struct_size;
     uint32_t byte_stride; /* from one element to the next */
     uint64_t count;
-    VOX_ARRAY(count) VOX_UNTIL(surface_find_proximities, surface_move) const vox_close_pair* pairs; /* by a, then b */
+    const vox_close_pair* pairs; /* by a, then b */
 } vox_close_view;
 
 /* All pairs of features of kinds a and b that are at most `distance` apart, at the end of the motion: face and vertex,
@@ -263,7 +263,7 @@ VOX_EXPERIMENTAL vox_result vox_surface_find_proximities(vox_surface* surface, v
  * vertex_count must be that of the surface. Errors: INVALID_ARGUMENT (another vertex_count; `most` is not above 0, or not
  * finite), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
 VOX_EXPERIMENTAL vox_result vox_surface_find_clearances(vox_surface* surface, double most,
-                                                  VOX_ARRAY(vertex_count) double* per_vertex, uint64_t vertex_count);
+                                                  double* per_vertex, uint64_t vertex_count);
 
 /* ---- time of contact -------------------------------------------------------------------------- */
 
@@ -320,7 +320,7 @@ typedef struct vox_timed_view {
     uint32_t struct_size;
     uint32_t byte_stride; /* from one element to the next */
     uint64_t count;
-    VOX_ARRAY(count) VOX_UNTIL(surface_find_impacts, surface_move) const vox_timed_pair* pairs; /* by a, then b */
+    const vox_timed_pair* pairs; /* by a, then b */
 } vox_timed_view;
 
 /* All pairs of FACE and VERTEX, or of EDGE and EDGE, that may come into contact within the motion, each with its time;

@@ -29,7 +29,7 @@ extern "C" {
 /* ---- simulation ------------------------------------------------------------------------------- */
 
 /* Bodies, and the grid they collide in. */
-typedef VOX_ONE_THREAD struct vox_sim vox_sim;
+typedef struct vox_sim vox_sim;
 
 typedef struct vox_sim_desc {
     uint32_t struct_size;
@@ -84,7 +84,7 @@ VOX_API void vox_sim_destroy(VOX_OPTIONAL vox_sim* sim);
  * destroy it. Contacts with other meshes inserted into it are found, but the sim does not respond to them. A body whose
  * mesh was removed there moves on without contacts. Do not cut the mesh of a body there, move it or bind it elsewhere:
  * vox_sim_step fails once a contact does not fit the body. */
-VOX_API vox_result vox_sim_get_grid(const vox_sim* sim, VOX_UNTIL(sim_destroy) vox_grid** out_grid);
+VOX_API vox_result vox_sim_get_grid(const vox_sim* sim, vox_grid** out_grid);
 
 /* Moves everything forward by `time_step`, or by max_time_step if that is less.
  * Errors: INVALID_ARGUMENT (not a finite number of at least 1e-12), and those of vox_grid_step, which leave the bodies
@@ -105,11 +105,11 @@ typedef enum vox_sim_body_flags {
 typedef struct vox_sim_body_desc {
     uint32_t struct_size;
     uint32_t flags; /* vox_sim_body_flags, combined with | */
-    VOX_ARRAY(3 * vertex_count) const double* positions; /* within 1e15 of the origin on each axis */
+    const double* positions; /* within 1e15 of the origin on each axis */
     /* The undeformed shape; null (the default): `positions`. */
-    VOX_OPTIONAL VOX_ARRAY(3 * vertex_count) const double* rest_positions;
-    VOX_OPTIONAL VOX_ARRAY(3 * vertex_count) const double* velocities; /* null (the default): at rest */
-    VOX_ARRAY(4 * tet_count) const uint32_t* tets; /* both windings are accepted */
+    VOX_OPTIONAL const double* rest_positions;
+    VOX_OPTIONAL const double* velocities; /* null (the default): at rest */
+    const uint32_t* tets; /* both windings are accepted */
     uint64_t vertex_count;
     uint64_t tet_count; /* at least 1 */
     double density;     /* mass per rest volume, > 0; default 1000. Lumped to the vertices. No vertex gets less than a
@@ -144,12 +144,12 @@ VOX_API vox_result vox_sim_body_remove(vox_sim* sim, vox_body body);
 /* Arrays of a body with its state after the last step. Until the body is removed, the pointers stay the same and every
  * step updates the contents. */
 typedef struct vox_sim_body_view {
-    VOX_ARRAY(3 * vertex_count) VOX_UNTIL(sim_body_remove) const double* positions;
-    VOX_ARRAY(3 * vertex_count) VOX_UNTIL(sim_body_remove) const double* velocities;
-    VOX_ARRAY(vertex_count) VOX_UNTIL(sim_body_remove) const double* masses;
+    const double* positions;
+    const double* velocities;
+    const double* masses;
     /* `positions` rounded to float, which the grid borrows. */
-    VOX_ARRAY(3 * vertex_count) VOX_UNTIL(sim_body_remove) const float* grid_positions;
-    VOX_ARRAY(4 * tet_count) VOX_UNTIL(sim_body_remove) const uint32_t* tets;
+    const float* grid_positions;
+    const uint32_t* tets;
     uint64_t vertex_count;
     uint64_t tet_count;
 } vox_sim_body_view;
@@ -160,8 +160,8 @@ VOX_API vox_result vox_sim_body_get_view(const vox_sim* sim, vox_body body, vox_
 /* Sets a body's positions and velocities, 3 * vertex_count numbers each; null leaves them as they are. The rest shape
  * stays. Errors: NON_FINITE (names the vertex), INVALID_ARGUMENT (beyond 1e15). */
 VOX_API vox_result vox_sim_body_set_state(vox_sim* sim, vox_body body,
-                                          VOX_OPTIONAL VOX_ARRAY(3 * body.vertex_count) const double* positions,
-                                          VOX_OPTIONAL VOX_ARRAY(3 * body.vertex_count) const double* velocities);
+                                          VOX_OPTIONAL const double* positions,
+                                          VOX_OPTIONAL const double* velocities);
 
 /* Accelerates all particles of a body from now on, in addition to gravity; 0, 0, 0 at first.
  * Errors: INVALID_ARGUMENT (a component that is not a number of at most 1e15 in size). */
@@ -222,7 +222,7 @@ VOX_API vox_result vox_sim_get_counters(const vox_sim* sim, vox_sim_counts* out_
  * vox_experiment_create; then, for each round and each cell size in the order of vox_experiment_order,
  * vox_experiment_measure; then, for each cell size, vox_experiment_time over its rounds; and at last vox_fit_times,
  * vox_fit_zone, vox_experiment_suggest and vox_zone_distance. `vox sweep` does exactly that. */
-typedef VOX_ONE_THREAD struct vox_experiment vox_experiment;
+typedef struct vox_experiment vox_experiment;
 
 typedef struct vox_experiment_desc {
     uint32_t struct_size;
@@ -278,7 +278,7 @@ typedef struct vox_experiment_facts {
     double distance;   /* initial distance of the centres, along the axis */
     double mean_share; /* mean over the frames of the share of tets in contact */
     /* That share in each frame; lives until vox_experiment_destroy. */
-    VOX_ARRAY(frames) VOX_UNTIL(experiment_destroy) const double* shares;
+    const double* shares;
     double bounds_min[3]; /* bounding box of all vertices in all frames */
     double bounds_max[3];
 } vox_experiment_facts;
@@ -309,21 +309,21 @@ typedef struct vox_experiment_sample {
  * Errors: INVALID_ARGUMENT (a cell size that is not above 0 and finite), those of vox_grid_step, INTERNAL (the contacts
  * differ). */
 VOX_API vox_result vox_experiment_measure(vox_experiment* experiment, double cell_size,
-                                          VOX_OPTIONAL VOX_ARRAY(experiment.frames) uint64_t* frame_ns,
+                                          VOX_OPTIONAL uint64_t* frame_ns,
                                           vox_experiment_sample* out_sample);
 
 /* The order in which a round measures `count` cell sizes: the numbers 0 to count - 1, shuffled. It differs for each
  * round and seed and is the same on every machine. Thus a temporary disturbance of the machine does not always hit the
  * same cell sizes. Errors: INVALID_ARGUMENT (count 0). */
 VOX_API vox_result vox_experiment_order(uint64_t count, uint64_t seed, uint64_t round,
-                                        VOX_ARRAY(count) uint64_t* out_order);
+                                        uint64_t* out_order);
 
 /* The time of one cell size from its rounds: the mean over the frames of the median over the rounds. frame_ns holds
  * `frames` times for each round, round after round. A frame means the same work in every round, so a disturbance
  * affects only the frames in which it happens, not the whole round. Medians are used because on a busy machine the
  * minimum over the rounds depends on a few lucky ones (docs/paper.md has figures).
  * Errors: INVALID_ARGUMENT (no round, no frame), OUT_OF_MEMORY. */
-VOX_API vox_result vox_experiment_time(VOX_ARRAY(rounds * frames) const uint64_t* frame_ns, uint64_t rounds,
+VOX_API vox_result vox_experiment_time(const uint64_t* frame_ns, uint64_t rounds,
                                        uint64_t frames, double* out_ns);
 
 #define VOX_FIT_CAPACITY 9u /* most coefficients of a fit */
@@ -348,7 +348,7 @@ typedef struct vox_time_fit {
 /* Fits times > 0 (in any unit) to cell sizes > 0, which may repeat. Set out_fit->struct_size first.
  * Errors: INVALID_ARGUMENT (a number that is not finite and above 0, named by its index; fewer than five different cell
  * sizes), OUT_OF_MEMORY. */
-VOX_API vox_result vox_fit_times(VOX_ARRAY(count) const double* cell_sizes, VOX_ARRAY(count) const double* times,
+VOX_API vox_result vox_fit_times(const double* cell_sizes, const double* times,
                                  uint64_t count, vox_time_fit* out_fit);
 
 /* The fitted time at a cell size within the range. Errors: INVALID_ARGUMENT (a cell size outside the range, or a `fit`

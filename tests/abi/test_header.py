@@ -112,7 +112,9 @@ class Rules:
             object_type = self.types.get(base(type_text))
             if object_type and object_type.kind == "opaque" and pointers(type_text) == 1:
                 # What one thread at a time may use, even to read, may keep its answers in itself.
-                answers = "VOX_ONE_THREAD" in object_type.marks and not type_text.startswith("const")
+                noun = object_type.name.rsplit("_", 1)[-1]
+                one_thread = re.search(rf"One thread at a time may use [^.]*\b{noun}\b", header.words_of(self.header.conventions))
+                answers = one_thread and not type_text.startswith("const")
                 if bool(CHANGES.search(f.name)) == type_text.startswith("const") and not answers:
                     self.fault(f, f"takes {type_text}, which says that it {'reads' if 'const' in type_text else 'changes'}")
         if f.result == "vox_result":
