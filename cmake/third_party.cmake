@@ -33,7 +33,6 @@ function(vox_xml target)
       target_link_libraries(${target} PRIVATE pugixml::pugixml ZLIB::ZLIB)
     elseif(ZLIB_LIBRARY) # somebody's own
       vox_inside(${target} pugixml::pugixml)
-      set_target_properties(ZLIB::ZLIB PROPERTIES IMPORTED_GLOBAL TRUE) # tests link it by vox_io_internal
       target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:ZLIB::ZLIB>)
     else()
       vox_inside(${target} pugixml::pugixml ZLIB::ZLIB)

@@ -100,7 +100,7 @@ function(vox_with_hidden_symbols library)
   add_library(${name} STATIC EXCLUDE_FROM_ALL $<TARGET_OBJECTS:${library}>)
   set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
-  target_link_libraries(${name} PUBLIC $<TARGET_PROPERTY:${library},LINK_LIBRARIES>)
+  target_link_libraries(${name} PUBLIC $<GENEX_EVAL:$<TARGET_PROPERTY:${library},LINK_LIBRARIES>>)
   vox_target(${name})
 endfunction()
 
