@@ -156,13 +156,14 @@ private:
         if (!surface_) return;
         vox_motion motion = vox_default_motion();
         motion.flags = cull ? VOX_MOTION_CULL : 0;
-        motion.from = from.data();
-        motion.to = to;
-        motion.vertex_count = vertex_count_;
-        motion.format = VOX_FORMAT_DOUBLE3;
+        motion.from.data = from.data();
+        motion.to.data = to;
+        motion.from.count = motion.to.count = vertex_count_;
+        motion.from.format = motion.to.format = VOX_FORMAT_DOUBLE;
         if (vertex_count_ > 1) { // of one position, columns are rows
-            motion.byte_stride = sizeof(double);
-            motion.component_byte_stride = sizeof(double) * vertex_count_;
+            motion.from.byte_stride = motion.to.byte_stride = sizeof(double);
+            motion.from.component_byte_stride = motion.to.component_byte_stride =
+                sizeof(double) * vertex_count_;
         }
         motion.radius = radius;
         check(vox_surface_move(surface_.get(), &motion));

@@ -68,8 +68,7 @@ double place_by_contacts(const Solid (&solids)[2], const std::function<Pose(std:
     for (std::size_t b = 0; b < 2; ++b) {
         positions[b] = frame_positions(solids[b], pose(b, far), 0);
         vox_mesh_desc desc = vox_default_mesh_desc();
-        desc.positions = positions[b].data();
-        desc.vertex_count = solids[b].positions.size();
+        desc.positions = vox_float_positions(positions[b].data(), solids[b].positions.size());
         desc.tets = solids[b].tets.data();
         desc.tet_count = solids[b].tets.size() / 4;
         must(vox_mesh_insert(grid, &desc, &meshes[b]));
@@ -237,8 +236,7 @@ Scene file_self(const std::string& path, bool shuffled) {
 vox_mesh_desc Body::desc() const {
     vox_mesh_desc desc = vox_default_mesh_desc();
     if (self_collision) desc.flags = VOX_MESH_SELF_COLLISION;
-    desc.positions = positions.data();
-    desc.vertex_count = vertex_count();
+    desc.positions = vox_float_positions(positions.data(), vertex_count());
     desc.tets = tets.data();
     desc.tet_count = tet_count();
     return desc;

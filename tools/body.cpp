@@ -83,12 +83,11 @@ Body load_body(const std::string& path, const Placement& placement, const Fill& 
 
 vox_mesh_desc mesh_desc(const Body& body) {
     vox_mesh_desc desc = vox_default_mesh_desc();
-    desc.positions = body.positions.data();
+    desc.positions = vox_float_positions(body.positions.data(), body.view.vertex_count);
     if (!body.exact.empty()) {
-        desc.positions = body.exact.data();
-        desc.position_format = VOX_FORMAT_DOUBLE3;
+        desc.positions.data = body.exact.data();
+        desc.positions.format = VOX_FORMAT_DOUBLE;
     }
-    desc.vertex_count = body.view.vertex_count;
     desc.tets = body.view.tets;
     desc.tet_count = body.view.tet_count;
     return desc;

@@ -122,9 +122,7 @@ Checked check_file(const std::string& file, const CheckOptions& options) {
     check(vox_surface_create(&desc, &created));
     const std::unique_ptr<vox_surface, SurfaceDeleter> surface(created);
     vox_motion motion = vox_default_motion();
-    motion.vertex_count = desc.vertex_count;
-    motion.from = checked.surface.positions.data();
-    motion.format = VOX_FORMAT_DOUBLE3;
+    motion.from = vox_double_positions(checked.surface.positions.data(), desc.vertex_count);
     check(vox_surface_move(surface.get(), &motion));
     vox_feature_view edges{};
     edges.struct_size = sizeof edges;

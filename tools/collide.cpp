@@ -159,10 +159,10 @@ void bind_previous(vox_grid* grid, vox_body mesh, const Body& body, const Body& 
     if (before.view.vertex_count != body.view.vertex_count)
         throw Failure(before.name + " has " + std::to_string(before.view.vertex_count) + " vertices, but " +
                       body.name + " has " + std::to_string(body.view.vertex_count));
-    const bool doubles = !before.exact.empty();
-    check(vox_mesh_bind_previous_positions(
-        grid, mesh, doubles ? static_cast<const void*>(before.exact.data()) : before.positions.data(),
-        doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3, 0, 0));
+    const std::uint64_t count = before.view.vertex_count;
+    const vox_positions positions = before.exact.empty() ? vox_float_positions(before.positions.data(), count)
+                                                         : vox_double_positions(before.exact.data(), count);
+    check(vox_mesh_bind_previous_positions(grid, mesh, &positions));
 }
 
 void run_collide(const CollideOptions& options) {

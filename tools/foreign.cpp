@@ -72,9 +72,7 @@ void gather(const std::vector<Body>& bodies, const ForeignOptions& options, Prim
     }
     out.desc.type = tets ? VOX_PRIMITIVE_TET : triangles ? VOX_PRIMITIVE_TRIANGLE : VOX_PRIMITIVE_POINT;
     out.word = tets ? "tetrahedra" : triangles ? "triangles" : "points";
-    out.desc.positions = out.positions.data();
-    out.desc.position_format = VOX_FORMAT_DOUBLE3;
-    out.desc.vertex_count = first;
+    out.desc.positions = vox_double_positions(out.positions.data(), first);
     out.desc.indices = tets || triangles ? out.indices.data() : nullptr;
     out.desc.count = tets || triangles ? out.indices.size() / corners : first;
 }

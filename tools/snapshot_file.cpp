@@ -116,7 +116,7 @@ std::vector<DrawnMesh> drawn_meshes(const std::vector<unsigned char>& bytes) {
             const auto vertices = static_cast<std::size_t>(chunk.next<std::uint64_t>());
             const auto tets = static_cast<std::size_t>(chunk.next<std::uint64_t>());
             const bool placed = chunk.next<std::uint32_t>() != 0;
-            const bool doubles = chunk.next<std::uint32_t>() == VOX_FORMAT_DOUBLE3;
+            const bool doubles = chunk.next<std::uint32_t>() == VOX_FORMAT_DOUBLE;
             std::array<double, 12> transform{};
             if (bits & is_transformed)
                 for (double& value : transform) value = chunk.next<double>();

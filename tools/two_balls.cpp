@@ -117,8 +117,7 @@ TwoBalls::TwoBalls(std::span<const double> rest, std::span<const std::uint32_t> 
     for (std::vector<float>& positions : positions_) {
         positions.resize(rest.size());
         vox_mesh_desc& ball = balls.emplace_back(vox_default_mesh_desc());
-        ball.positions = positions.data();
-        ball.vertex_count = vertex_count();
+        ball.positions = vox_float_positions(positions.data(), vertex_count());
         ball.tets = tets.data();
         ball.tet_count = tet_count();
     }

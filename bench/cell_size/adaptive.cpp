@@ -80,8 +80,8 @@ public:
 
     void insert(const Ball& ball) {
         vox_mesh_desc desc = vox_default_mesh_desc();
-        desc.positions = ball.positions.data();
-        desc.vertex_count = ball.positions.size() / 3;
+        desc.positions.data = ball.positions.data();
+        desc.positions.count = ball.positions.size() / 3;
         desc.tets = ball.solid.tets.data();
         desc.tet_count = ball.solid.tets.size() / 4;
         vox_body mesh = 0;

@@ -235,10 +235,9 @@ void locate_rank(const vox_transport* transport, void* user) {
     const std::uint64_t end = std::uint64_t{Points::count} * (transport->rank + 1) / transport->size;
     std::vector<vox_scene_point> found(end - begin);
     if (mine.insert(points.scene[0], points.shares[0][transport->rank]) != VOX_OK) points.failed = true;
+    const vox_positions own = vox_double_positions(points.xyz.data() + 3 * begin, end - begin);
     const auto start = std::chrono::steady_clock::now();
-    if (vox_scene_locate(mine.scene, points.xyz.data() + 3 * begin, VOX_FORMAT_DOUBLE3, 0, end - begin,
-                         found.data()) != VOX_OK)
-        points.failed = true;
+    if (vox_scene_locate(mine.scene, &own, found.data()) != VOX_OK) points.failed = true;
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     if (transport->size == 1) points.seconds = took.count();
     for (std::uint64_t i = begin; i < end; ++i)

@@ -10,15 +10,19 @@ from ctypes import (CFUNCTYPE, POINTER, Structure, byref, c_char, c_char_p, c_do
 from losses import WEIGHTS, WORK
 
 CURVE, TERMS, NOTE, RUNS = 64, 12, 256, 32
-DOUBLE3 = 1
+DOUBLE = 1
 DENSE = 1
 
 
+class Positions(Structure):
+    _fields_ = [("data", c_void_p), ("count", c_uint64), ("format", c_int), ("reserved", c_uint32),
+                ("byte_stride", c_uint64), ("component_byte_stride", c_uint64)]
+
+
 class Primitives(Structure):
-    _fields_ = [("struct_size", c_uint32), ("type", c_int), ("positions", c_void_p), ("position_byte_stride", c_uint64),
-                ("position_component_byte_stride", c_uint64), ("vertex_count", c_uint64), ("position_format", c_int),
-                ("radius_format", c_int), ("indices", c_void_p), ("index_byte_stride", c_uint64), ("count", c_uint64),
-                ("radii", c_void_p), ("radius_byte_stride", c_uint64), ("radius", c_double)]
+    _fields_ = [("struct_size", c_uint32), ("type", c_int), ("positions", Positions), ("indices", c_void_p),
+                ("index_byte_stride", c_uint64), ("count", c_uint64), ("radii", c_void_p),
+                ("radius_byte_stride", c_uint64), ("radius_format", c_int), ("reserved", c_uint32), ("radius", c_double)]
 
 
 class Work(Structure):
@@ -114,13 +118,12 @@ class Described:
     def primitives(self, values):
         p = Primitives()
         self.vox.call("vox_primitives_init", p, sizeof(Primitives))
-        p.type, p.count, p.vertex_count = values["type"], values["count"], values["vertex_count"]
-        p.positions, p.position_format = address(values["positions"]), DOUBLE3
-        p.position_byte_stride = 24
+        p.type, p.count = values["type"], values["count"]
+        p.positions = Positions(data=address(values["positions"]), count=values["vertex_count"], format=DOUBLE)
         if values.get("indices") is not None:
             p.indices = address(values["indices"])
         if values.get("radii") is not None:
-            p.radii, p.radius_format = address(values["radii"]), DOUBLE3
+            p.radii, p.radius_format = address(values["radii"]), DOUBLE
         return p
 
     def weigh(self, known):

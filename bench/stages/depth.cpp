@@ -37,8 +37,8 @@ struct Row {
 
 vox_body insert(vox_grid* grid, const Mesh& mesh) {
     vox_mesh_desc desc = vox_default_mesh_desc();
-    desc.positions = mesh.positions.data();
-    desc.vertex_count = mesh.positions.size();
+    desc.positions.data = mesh.positions.data();
+    desc.positions.count = mesh.positions.size();
     desc.tets = mesh.tets.front().v;
     desc.tet_count = mesh.tets.size();
     vox_body id = VOX_NULL_BODY;

@@ -25,8 +25,9 @@ static void make_variant(variant* v, int kind, const scene* s, int frames) {
         desc.flags = s->self_collision ? VOX_MESH_SELF_COLLISION : 0;
         memcpy(v->positions[i], s->bodies[i].positions, 3 * sizeof(float) * s->bodies[i].vertex_count);
         check(vox_mesh_insert(v->grid, &desc, &v->ids[i]));
-        check(vox_mesh_bind_positions(v->grid, v->ids[i], v->positions[i],
-                                      is_double(kind) ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3, 0));
+        const uint64_t vertices = s->bodies[i].vertex_count;
+        check(is_double(kind) ? vox_mesh_bind_doubles(v->grid, v->ids[i], v->positions[i], vertices)
+                              : vox_mesh_bind_floats(v->grid, v->ids[i], v->positions[i], vertices));
     }
 }
 

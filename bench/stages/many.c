@@ -37,9 +37,11 @@ static void make_blocks(float aside) {
 
 static void show(scene* scenes, uint32_t count, uint32_t frame) {
     for (uint32_t s = 0; s < count; ++s)
-        for (int b = 0; b < 2; ++b)
-            check(vox_mesh_bind_floats(scenes[s].grid, scenes[s].meshes[b],
-                                       blocks[b][(scenes[s].first_frame + frame) % FRAMES].positions));
+        for (int b = 0; b < 2; ++b) {
+            const body* now = &blocks[b][(scenes[s].first_frame + frame) % FRAMES];
+            check(
+                vox_mesh_bind_floats(scenes[s].grid, scenes[s].meshes[b], now->positions, now->vertex_count));
+        }
 }
 
 static uint64_t contacts_of(const scene* scenes, uint32_t count) {

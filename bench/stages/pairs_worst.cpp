@@ -174,8 +174,8 @@ double step_time(const Scene& scene, vox_engine engine, Result& result, std::uin
             for (int a = 0; a < 3; ++a) positions.push_back(float(b.lo[a] + (high[a] ? b.side[a] : 0)));
         }
         vox_mesh_desc mesh = vox_default_mesh_desc();
-        mesh.positions = &positions[12 * i];
-        mesh.vertex_count = 4;
+        mesh.positions.data = &positions[12 * i];
+        mesh.positions.count = 4;
         mesh.tets = tet;
         mesh.tet_count = 1;
         mesh.filter = &scene.filters[i];

@@ -129,9 +129,8 @@ vox_grid* grid_of(const Scene& scene) {
     must(vox_grid_create(&settings, &grid));
     for (const Mesh& body : scene.bodies) {
         vox_mesh_desc desc = vox_default_mesh_desc();
-        desc.positions = body.positions.data();
-        desc.position_format = VOX_FORMAT_FLOAT3;
-        desc.vertex_count = body.positions.size();
+        desc.positions.data = body.positions.data();
+        desc.positions.count = body.positions.size();
         desc.tets = body.tets.front().v;
         desc.tet_count = body.tets.size();
         vox_body mesh = VOX_NULL_BODY;
@@ -153,7 +152,7 @@ void time_points(const vox_grid* grid, const std::string& name, const std::vecto
     std::vector<vox_point_hit> hits(4 * points.size() + 64), singly;
     std::uint64_t count = 0;
     const auto ask = [&] {
-        must(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE3, 0, points.size(), all_meshes,
+        must(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE, 0, points.size(), all_meshes,
                                    hits.data(), hits.size(), &count));
     };
     ask();

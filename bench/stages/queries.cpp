@@ -67,7 +67,7 @@ void time_queries(const vox_query_view* view, const std::vector<Vec3d>& points, 
         return vox_query_view_point(view, p, all_meshes, hits.data(), hits.size(), &count);
     });
     batch(times.points, [&] {
-        return vox_query_view_points(view, points.data(), VOX_FORMAT_DOUBLE3, 0, n, all_meshes, hits.data(),
+        return vox_query_view_points(view, points.data(), VOX_FORMAT_DOUBLE, 0, n, all_meshes, hits.data(),
                                      hits.size(), &count);
     });
     each(times.box, [&](const double* p, const double*) {
@@ -79,7 +79,7 @@ void time_queries(const vox_query_view* view, const std::vector<Vec3d>& points, 
         return vox_query_view_closest(view, p, INFINITY, all_meshes, &hit);
     });
     vox_closest_desc desc = vox_default_closest_desc();
-    desc.format = VOX_FORMAT_DOUBLE3;
+    desc.format = VOX_FORMAT_DOUBLE;
     desc.point_count = n;
     for (const bool follows : {false, true}) {
         desc.points = follows ? path.data() : points.data();
@@ -124,15 +124,14 @@ public:
         must(vox_grid_create(&settings, &grid_));
         for (const vox::test::Mesh& body : bodies_) {
             vox_mesh_desc desc = vox_default_mesh_desc();
-            desc.position_format = kind == doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
-            desc.vertex_count = body.positions.size();
+            desc.positions.format = kind == doubles ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT;
+            desc.positions.count = body.positions.size();
             desc.tets = body.tets.front().v;
             desc.tet_count = body.tets.size();
             vox_body mesh = VOX_NULL_BODY;
             must(vox_mesh_insert(grid_, &desc, &mesh));
             void* positions = nullptr;
-            std::uint64_t stride = 0;
-            must(vox_mesh_map_positions(grid_, mesh, &positions, &stride));
+            must(vox_mesh_map_positions(grid_, mesh, &positions));
             positions_.push_back(positions);
             if (kind == transform) {
                 const double turned[12] = {0.8, -0.6, 0, 0.1, 0.6, 0.8, 0, 0.2, 0, 0, 1, 0.3};
@@ -231,9 +230,9 @@ vox_query_view* view_of(const QueryDefinition& mesh, double* seconds = nullptr) 
     vox_grid* grid = nullptr;
     must(vox_grid_create(&settings, &grid));
     vox_mesh_desc desc = vox_default_mesh_desc();
-    desc.positions = mesh.positions().data();
-    desc.position_format = VOX_FORMAT_DOUBLE3;
-    desc.vertex_count = mesh.positions().size();
+    desc.positions.data = mesh.positions().data();
+    desc.positions.format = VOX_FORMAT_DOUBLE;
+    desc.positions.count = mesh.positions().size();
     desc.tets = mesh.tets().front().v;
     desc.tet_count = mesh.tets().size();
     vox_body id = VOX_NULL_BODY;
@@ -266,7 +265,7 @@ void check(const QueryDefinition& mesh, const char* name, Random& random) {
     std::vector<vox_closest_hit> closest(points.size());
     vox_closest_desc desc = vox_default_closest_desc();
     desc.points = points.data();
-    desc.format = VOX_FORMAT_DOUBLE3;
+    desc.format = VOX_FORMAT_DOUBLE;
     desc.point_count = points.size();
     must(vox_query_view_closest_points(view, &desc, closest.data()));
     std::uint64_t count = 0;

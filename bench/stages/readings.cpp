@@ -45,8 +45,8 @@ public:
         must(vox_grid_create(nullptr, &grid_));
         for (const Mesh& body : bodies_) {
             vox_mesh_desc desc = vox_default_mesh_desc();
-            desc.positions = body.positions.data();
-            desc.vertex_count = body.positions.size();
+            desc.positions.data = body.positions.data();
+            desc.positions.count = body.positions.size();
             desc.tets = body.tets.front().v;
             desc.tet_count = body.tets.size();
             if (body.self_collision) desc.flags = VOX_MESH_SELF_COLLISION;
@@ -207,8 +207,8 @@ void time_rest(double tets, int rounds) {
             vox::test::move(bodies.back(), 1, 1.6 * (i % across), 1.6 * (i / across % across),
                             1.6 * (i / across / across));
             vox_mesh_desc mesh = vox_default_mesh_desc();
-            mesh.positions = bodies.back().positions.data();
-            mesh.vertex_count = bodies.back().positions.size();
+            mesh.positions.data = bodies.back().positions.data();
+            mesh.positions.count = bodies.back().positions.size();
             mesh.tets = bodies.back().tets.front().v;
             mesh.tet_count = bodies.back().tets.size();
             vox_body id = VOX_NULL_BODY;

@@ -256,16 +256,15 @@ public:
         for (std::size_t b = 0; b < bodies.size(); ++b) {
             const Mesh& mesh = bodies[b];
             vox_mesh_desc mesh_desc = vox_default_mesh_desc();
-            mesh_desc.positions = mesh.positions.data();
-            mesh_desc.vertex_count = mesh.positions.size();
+            mesh_desc.positions.data = mesh.positions.data();
+            mesh_desc.positions.count = mesh.positions.size();
             mesh_desc.tets = mesh.tets.empty() ? nullptr : mesh.tets.front().v;
             mesh_desc.tet_count = mesh.tets.size();
             if (mesh.self_collision) mesh_desc.flags |= VOX_MESH_SELF_COLLISION;
             vox_body id = VOX_NULL_BODY;
             must(vox_mesh_insert(grid_, &mesh_desc, &id));
-            if (previous)
-                must(vox_mesh_bind_previous_positions(grid_, id, (*previous)[b].positions.data(),
-                                                      VOX_FORMAT_FLOAT3, 0, 0));
+            mesh_desc.positions.data = previous ? (*previous)[b].positions.data() : nullptr;
+            if (previous) must(vox_mesh_bind_previous_positions(grid_, id, &mesh_desc.positions));
         }
     }
     ~Grid() { vox_grid_destroy(grid_); }

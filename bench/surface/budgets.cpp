@@ -115,9 +115,9 @@ Asked ask(const Sheets& sheets, const Question& question, std::uint64_t budget) 
     desc.face_count = sheets.faces.size() / 3;
     desc.byte_budget = budget;
     vox_motion motion = vox_default_motion();
-    motion.from = sheets.from.data();
-    motion.to = sheets.to.data();
-    motion.vertex_count = desc.vertex_count;
+    motion.from.data = sheets.from.data();
+    motion.to.data = sheets.to.data();
+    motion.from.count = motion.to.count = desc.vertex_count;
     vox_surface* surface = nullptr;
     const auto fits = [](vox_result result) {
         if (result != VOX_ERROR_BUDGET) must(result);

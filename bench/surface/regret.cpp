@@ -87,10 +87,10 @@ public:
         desc.face_count = surface.faces.size() / 3;
         must(vox_surface_create(&desc, &surface_));
         vox_motion motion = vox_default_motion();
-        motion.from = surface.from.data();
-        motion.to = moves ? surface.to.data() : nullptr;
-        motion.vertex_count = desc.vertex_count;
-        motion.format = VOX_FORMAT_FLOAT3;
+        motion.from.data = surface.from.data();
+        motion.to.data = moves ? surface.to.data() : nullptr;
+        motion.from.count = motion.to.count = desc.vertex_count;
+        motion.from.format = motion.to.format = VOX_FORMAT_FLOAT;
         must(vox_surface_move(surface_, &motion));
     }
     ~Searches() { vox_surface_destroy(surface_); }

@@ -52,8 +52,7 @@ int main(int argc, char** argv) {
             for (uint32_t f = 0; f < frames; ++f) {
                 for (uint32_t b = 0; b < bodies; ++b) {
                     void* at;
-                    uint64_t stride;
-                    check(vox_mesh_map_positions(grid, meshes[b], &at, &stride));
+                    check(vox_mesh_map_positions(grid, meshes[b], &at));
                     memcpy(at, xyz, 12 * (size_t)counts[2 * b]);
                     xyz += 3 * counts[2 * b];
                 }

@@ -80,7 +80,7 @@ class Describer:
         for name, marks in self.marks.items():
             members = [m[1] for m in owners[name].fields + owners[name].parameters] if name in owners else []
             for key, value in marks.items():
-                known = isinstance(value, dict) and key in members and set(value) <= {"length", "until"}
+                known = isinstance(value, dict) and key in members and set(value) <= {"length", "until", "element"}
                 if name not in owners or not known and key not in ("until", "threads"):
                     self.faults.append(f"marks.toml: {name}.{key}: there is no such thing")
 
@@ -249,7 +249,7 @@ class Describer:
             return found
         stem = re.sub(r"^out_", "", member[1])
         if t["kind"] == "void":
-            element = ELEMENTS.get(last_word(stem) if stem else "memory")
+            element = self.mark(owner, member[1], "element") or ELEMENTS.get(last_word(stem) if stem else "memory")
             if element is None:
                 self.fault(owner, member, "what does this void* point to?")
             found["element"] = element
@@ -265,8 +265,8 @@ class Describer:
                 base = self.type_of(siblings[names.index(word.split("->")[0])][0])["base"]
                 if word.split("->")[1] in (f[1] for f in self.types[base].fields):
                     continue
-            elif "." in word and self.who_tells(owner, *word.split(".")):
-                asked[word] = self.who_tells(owner, *word.split("."))
+            elif "." in word and self.who_tells(owner, *word.split(".")[:2]):
+                asked[word] = self.who_tells(owner, *word.split(".")[:2])
                 continue
             self.fault(owner, member, f"there is no {word} to count its elements")
         if asked:
@@ -343,6 +343,8 @@ class Describer:
             found["flags"] = flags
         if found["kind"] == "function" or "pointers" in found or "array" in found and owner.kind != "struct":
             found.update(self.pointer(owner, member, found, siblings))
+        elif self.mark(owner, name, "until"):
+            found["lifetime"] = self.lifetime(owner, member, found)
         if found["kind"] == "opaque":
             if "target" in found:
                 found["access"] = "create" if found["target"]["lifetime"] == "owned" else "get"

@@ -53,12 +53,14 @@ class Nulls:
         elif described["grows"]:
             value.struct_size = ctypes.sizeof(value)
         for f in described["fields"]:
-            if f["name"] in ("positions", "tets") and "in" in f.get("direction", ""):
+            if f.get("base") == "vox_positions":
+                setattr(value, f["name"], _c.vox_positions(ctypes.addressof(POSITIONS), 4, _c.Format.DOUBLE))
+            elif f["name"] in ("positions", "tets") and "in" in f.get("direction", ""):
                 setattr(value, f["name"], ctypes.addressof(POSITIONS if f["name"] == "positions" else TETS))
             elif f["name"] in ("vertex_count", "tet_count"):
                 setattr(value, f["name"], 4 if f["name"] == "vertex_count" else 1)
-        if name == "vox_mesh_desc":
-            value.position_format = _c.Format.DOUBLE3
+        if name == "vox_positions":
+            value.data, value.count, value.format = ctypes.addressof(POSITIONS), 4, _c.Format.DOUBLE
         elif name == "vox_experiment_desc":
             a = self.struct("vox_sim_body_desc")
             self.keep.append(a)
@@ -66,14 +68,11 @@ class Nulls:
         elif name == "vox_closest_desc" and not is_empty:
             value.points, value.point_count = ctypes.addressof(POSITIONS), 1
         elif name == "vox_primitives":
-            value.position_format, value.count = _c.Format.DOUBLE3, 4
+            value.count = 4
         elif name == "vox_foreign_grid":
             value.held = ctypes.pointer(self.struct("vox_primitives"))
         elif name == "vox_cost_bounds":
             value.min, value.max = 1, 2
-        elif name == "vox_motion":
-            setattr(value, "from", ctypes.addressof(POSITIONS))
-            value.format = _c.Format.DOUBLE3
         elif name == "vox_surface_desc":
             value.faces, value.face_count = ctypes.addressof(TETS), 1
         elif name == "vox_io_write_desc":
@@ -96,7 +95,7 @@ class Nulls:
         mesh = ctypes.c_uint32()
         desc = self.struct("vox_mesh_desc")
         if is_mesh_empty:
-            desc.vertex_count = desc.tet_count = 0
+            desc.positions.count = desc.tet_count = 0
         self.check(self.core.vox_mesh_insert(found["vox_grid"], ctypes.byref(desc), ctypes.byref(mesh)))
         found["vox_body"] = mesh.value
         self.check(self.core.vox_grid_step(found["vox_grid"]))

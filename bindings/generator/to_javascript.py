@@ -90,8 +90,8 @@ class JavaScript:
         return "\n".join(lines) + "\n"
 
     def shown(self, struct):
-        """The fields that a program sees."""
-        return [f for f in struct["fields"] if self.type(f) != "pointer" and not f["name"].endswith("_stride")
+        """The fields that a program sees. Positions are arrays of the language's own."""
+        return [f for f in struct["fields"] if self.type(f) not in ("pointer", "vox_positions") and not f["name"].endswith("_stride")
                 and f["name"] not in ("struct_size", "reserved") and f["base"] not in self.callbacks]
 
     def value(self, field):

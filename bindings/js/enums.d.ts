@@ -32,6 +32,14 @@ export declare const Result: Readonly<{
 }>;
 export type Result = (typeof Result)[keyof typeof Result];
 
+export declare const Format: Readonly<{
+  /** IEEE 754 singles */
+  FLOAT: 0;
+  /** IEEE 754 doubles, of magnitudes below 2^128 - 2^103 (3.4028236e38), the largest float */
+  DOUBLE: 1;
+}>;
+export type Format = (typeof Format)[keyof typeof Format];
+
 /** Severity of a log line. */
 export declare const LogLevel: Readonly<{
   INFO: 0;
@@ -82,7 +90,7 @@ export declare const GridFlags: Readonly<{
   /** also report events of single vertices (vox_grid_contact_events) */
   CONTACT_EVENTS: 2;
   /**
-   * a mesh with a coordinate that VOX_FORMAT_DOUBLE3 does not allow (NaN, infinite, too large) takes no part in a step,
+   * a mesh with a coordinate that VOX_FORMAT_DOUBLE does not allow (NaN, infinite, too large) takes no part in a step,
    * in vox_grid_prepare_queries, in vox_grid_take_query_view and in vox_grid_suggest_cell_size, as if it were disabled;
    * without this flag they fail. Counted (skipped_meshes), listed (vox_grid_get_failure), and logged once until the
    * mesh is well again
@@ -95,14 +103,6 @@ export declare const GridFlags: Readonly<{
   EDGE_CONTACTS: 8;
 }>;
 export type GridFlags = number;
-
-export declare const Format: Readonly<{
-  /** three IEEE 754 singles x, y, z */
-  FLOAT3: 0;
-  /** three IEEE 754 doubles x, y, z, each of magnitude below 2^128 - 2^103 (3.4028236e38) */
-  DOUBLE3: 1;
-}>;
-export type Format = (typeof Format)[keyof typeof Format];
 
 export declare const MeshFlags: Readonly<{
   /** also report vertices of the mesh inside its own tetrahedra */

@@ -34,6 +34,11 @@ export const Result = Object.freeze({
   ERROR_INTERNAL: -12,
 });
 
+export const Format = Object.freeze({
+  FLOAT: 0,
+  DOUBLE: 1,
+});
+
 export const LogLevel = Object.freeze({
   INFO: 0,
   WARNING: 1,
@@ -61,11 +66,6 @@ export const GridFlags = Object.freeze({
   CONTACT_EVENTS: 2,
   SKIP_BAD_BODIES: 4,
   EDGE_CONTACTS: 8,
-});
-
-export const Format = Object.freeze({
-  FLOAT3: 0,
-  DOUBLE3: 1,
 });
 
 export const MeshFlags = Object.freeze({

@@ -111,8 +111,6 @@ export interface BodyInfo {
   slot: number;
   /** as given at insertion */
   userData: bigint;
-  /** with the removed ones: indices of vertices are below it */
-  vertexCount: number;
   /** with those that are disabled or removed: indices of tetrahedra are below it */
   tetCount: number;
   enabledTetCount: number;
@@ -123,7 +121,6 @@ export interface BodyInfo {
    * mapped or loaded), BORROW_TETS while the tetrahedra are the caller's
    */
   flags: number;
-  positionFormat: Format;
   /** 1 if vox_body_set_transform gave it one */
   hasTransform: number;
   /** as vox_body_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0 */
@@ -133,8 +130,8 @@ export interface BodyInfo {
 /** A mesh that made a step fail, or that a step left out. */
 export interface Failure {
   /**
-   * NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not allow), INVALID_STATE (no positions),
-   * INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3); VOX_OK if there is none
+   * NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE does not allow), INVALID_STATE (no positions),
+   * INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT); VOX_OK if there is none
    */
   result: Result;
   /** VOX_NULL_BODY if there is none */

@@ -1,6 +1,6 @@
 /// <reference lib="esnext.disposable" />
 // voxtet: vox in WebAssembly. Fields of options and results are those of the structs of vox.h, whose comments they have.
-import type { CellContent, CellLook, KnownGrid, LogLevel, PrimitiveType, Result } from "./enums.js";
+import type { CellContent, CellLook, Format, KnownGrid, LogLevel, PrimitiveType, Result } from "./enums.js";
 import type {
   ClosestHit, ClosestHitColumns, Contact, ContactColumns, ContactEvent, ContactEventColumns, CostBounds, CostMinimum,
   CostPrediction, CostTerm, CostWeights, Counters, Depth, DepthColumns, FacetHit, FacetHitColumns, Failure, Filter,
@@ -351,7 +351,7 @@ export interface Mesh {
   readonly grid: Grid;
   readonly valid: boolean;
   remove(): void;
-  readonly info: BodyInfo;
+  readonly info: BodyInfo & { vertexCount: number; positionFormat: Format };
   readonly userData: bigint;
   /**
    * The positions, of the kind of array that the mesh was added with. This is the module's memory: what is written to it moves

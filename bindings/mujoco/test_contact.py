@@ -49,7 +49,7 @@ def overlapping(**config):
 class MeshInfo(ctypes.Structure):
     """vox_body_info, up to its positions."""
 
-    _fields_ = [("struct_size", ctypes.c_uint32), ("before", ctypes.c_char * 52), ("positions", ctypes.c_void_p)]
+    _fields_ = [("struct_size", ctypes.c_uint32), ("before", ctypes.c_char * 44), ("positions", ctypes.c_void_p)]
 
 
 def grid_of(data):

@@ -154,14 +154,18 @@ std::unique_ptr<Instance> make_instance(const mjModel* m, int id) {
 }
 
 // Positions of the vertices of a flex.
-const mjtNum* flex_positions(const mjModel* m, const mjData* d, int flex) {
-    return d->flexvert_xpos + 3 * static_cast<ptrdiff_t>(m->flex_vertadr[flex]);
+vox_positions flex_positions(const mjModel* m, const mjData* d, int flex) {
+    vox_positions positions = VOX_ZERO;
+    positions.data = d->flexvert_xpos + 3 * static_cast<ptrdiff_t>(m->flex_vertadr[flex]);
+    positions.count = static_cast<uint64_t>(m->flex_vertnum[flex]);
+    positions.format = sizeof(mjtNum) == sizeof(double) ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT;
+    return positions;
 }
 
 // Corners of the tetrahedra of a flex, as its own vertices.
 const int* flex_tets(const mjModel* m, int flex) { return m->flex_elem + m->flex_elemdataadr[flex]; }
 
-constexpr vox_format format = sizeof(mjtNum) == sizeof(double) ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
+constexpr vox_format format = sizeof(mjtNum) == sizeof(double) ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT;
 
 // Gives the grid its meshes. This is done before the first step, not in `init`: tiles are made by the
 // positions at insertion, and mjData has none before kinematics.
@@ -174,8 +178,6 @@ void insert_meshes(Instance& instance, const mjModel* m, const mjData* d) {
     for (const int flex : instance.flexes) {
         vox_mesh_desc desc = vox_default_mesh_desc();
         desc.positions = flex_positions(m, d, flex);
-        desc.position_format = format;
-        desc.vertex_count = static_cast<uint64_t>(m->flex_vertnum[flex]);
         desc.tets = reinterpret_cast<const uint32_t*>(flex_tets(m, flex)); // no index is negative
         desc.tet_count = static_cast<uint64_t>(m->flex_elemnum[flex]);
         desc.user_data = static_cast<uint64_t>(flex);
@@ -191,9 +193,10 @@ void find_penetrations(Instance& instance, const mjModel* m, const mjData* d) {
     if (instance.meshes.size() != instance.flexes.size()) {
         insert_meshes(instance, m, d);
     } else if (instance.positions != d->flexvert_xpos) {
-        for (size_t i = 0; i < instance.flexes.size(); ++i)
-            check(vox_mesh_bind_positions(instance.grid.get(), instance.meshes[i],
-                                          flex_positions(m, d, instance.flexes[i]), format, 0));
+        for (size_t i = 0; i < instance.flexes.size(); ++i) {
+            const vox_positions positions = flex_positions(m, d, instance.flexes[i]);
+            check(vox_mesh_bind_positions(instance.grid.get(), instance.meshes[i], &positions));
+        }
         instance.positions = d->flexvert_xpos;
     }
     check(vox_grid_step(instance.grid.get()));

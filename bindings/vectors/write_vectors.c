@@ -124,7 +124,7 @@ static double* as_doubles(const body* b) {
 
 static uint64_t store_positions(const body* b, vox_format format) {
     double* doubles = as_doubles(b);
-    const uint64_t offset = format == VOX_FORMAT_DOUBLE3
+    const uint64_t offset = format == VOX_FORMAT_DOUBLE
                                 ? store(doubles, 3 * sizeof(double) * b->vertex_count)
                                 : store(b->positions, 3 * sizeof(float) * b->vertex_count);
     free(doubles);
@@ -137,8 +137,8 @@ static vox_body insert(const body* b, vox_format format, const vox_filter* filte
     vox_mesh_desc desc = body_desc(b);
     vox_body mesh = VOX_NULL_BODY;
     desc.flags = VOX_MESH_COPY_POSITIONS;
-    desc.position_format = format;
-    desc.positions = format == VOX_FORMAT_DOUBLE3 ? (const void*)doubles : b->positions;
+    desc.positions.format = format;
+    desc.positions.data = format == VOX_FORMAT_DOUBLE ? (const void*)doubles : b->positions;
     desc.filter = filter;
     desc.user_data = user_data;
     begin_call("insert");
@@ -158,10 +158,9 @@ static vox_body insert(const body* b, vox_format format, const vox_filter* filte
 
 static void move(vox_body mesh, const body* b, vox_format format) {
     void* positions;
-    uint64_t stride;
-    expect(vox_mesh_map_positions(grid, mesh, &positions, &stride), "move");
+    expect(vox_mesh_map_positions(grid, mesh, &positions), "move");
     double* doubles = as_doubles(b);
-    if (format == VOX_FORMAT_DOUBLE3)
+    if (format == VOX_FORMAT_DOUBLE)
         memcpy(positions, doubles, 3 * sizeof(double) * b->vertex_count);
     else
         memcpy(positions, b->positions, 3 * sizeof(float) * b->vertex_count);
@@ -244,7 +243,7 @@ static void query(const body* b) {
         for (int a = 0; a < 3; ++a)
             points[i][a] = (double)b->positions[3 * (i * (b->vertex_count - 1) / count) + (uint32_t)a];
     const uint64_t offset = store(points, sizeof points);
-    expect(vox_grid_query_points(grid, points, VOX_FORMAT_DOUBLE3, 0, count, UINT64_MAX, hits, capacity,
+    expect(vox_grid_query_points(grid, points, VOX_FORMAT_DOUBLE, 0, count, UINT64_MAX, hits, capacity,
                                  &hit_count),
            "query points");
     begin_call("query_points");
@@ -253,7 +252,7 @@ static void query(const body* b) {
     items_field("hits", hits, hit_count, sizeof *hits);
     end_call();
     vox_closest_desc desc = vox_default_closest_desc();
-    desc.format = VOX_FORMAT_DOUBLE3;
+    desc.format = VOX_FORMAT_DOUBLE;
     desc.points = points;
     desc.point_count = count;
     expect(vox_grid_query_closest_points(grid, &desc, closest), "query closest points");
@@ -334,8 +333,8 @@ static void meshes(void) {
                 "%s{\"mesh\": %u, \"user_data\": \"%" PRIu64 "\", \"vertices\": %" PRIu64
                 ", \"tet_count\": %" PRIu64 ", \"enabled_tets\": %" PRIu64
                 ", \"enabled\": %u, \"flags\": %u, \"format\": %d, \"tets\": \"%016" PRIx64 "\"}",
-                i ? ", " : "", ids[i], info.user_data, info.vertex_count, info.tet_count,
-                info.enabled_tet_count, info.enabled, info.flags, (int)info.position_format,
+                i ? ", " : "", ids[i], info.user_data, info.positions.count, info.tet_count,
+                info.enabled_tet_count, info.enabled, info.flags, (int)info.positions.format,
                 hash_words(tets, 16 * tet_count));
         free(tets);
     }
@@ -356,7 +355,7 @@ static void suggest(const scene* s, vox_cost_model model) {
     fprintf(script, ", \"meshes\": [");
     for (uint32_t i = 0; i < s->count; ++i) {
         const body* b = &s->bodies[i];
-        const uint64_t positions = store_positions(b, VOX_FORMAT_FLOAT3);
+        const uint64_t positions = store_positions(b, VOX_FORMAT_FLOAT);
         const uint64_t tets = store(b->tets, 16 * (size_t)b->tet_count);
         fprintf(script,
                 "%s{\"positions\": %" PRIu64 ", \"vertices\": %u, \"tets\": %" PRIu64 ", \"tet_count\": %u}",
@@ -395,11 +394,11 @@ static uint64_t store_once(const void* data, size_t size) {
 /* What is put into a grid, or asks it. */
 static void primitives_field(const char* name, const vox_primitives* p) {
     static const uint64_t vertices_of[] = {1, 2, 3, 4, 2};
-    const uint64_t number = p->position_format == VOX_FORMAT_DOUBLE3 ? sizeof(double) : sizeof(float);
+    const uint64_t number = p->positions.format == VOX_FORMAT_DOUBLE ? sizeof(double) : sizeof(float);
     fprintf(script,
             ", \"%s\": {\"type\": %d, \"format\": %d, \"positions\": %" PRIu64 ", \"vertices\": %" PRIu64,
-            name, (int)p->type, (int)p->position_format,
-            store_once(p->positions, 3 * number * p->vertex_count), p->vertex_count);
+            name, (int)p->type, (int)p->positions.format,
+            store_once(p->positions.data, 3 * number * p->positions.count), p->positions.count);
     if (p->indices) {
         const uint64_t size = p->count * vertices_of[p->type];
         field("indices", "%" PRIu64, store_once(p->indices, sizeof(uint32_t) * size));
@@ -662,7 +661,7 @@ static void readme(void) {
     uint32_t tet[4] = {0, 1, 2, 3};
     const body bodies[2] = {{first, tet, 4, 1}, {second, tet, 4, 1}};
     begin_scene("readme", "the two tetrahedra of the README", VOX_GRID_PENETRATIONS, 0);
-    for (uint32_t b = 0; b < 2; ++b) insert(&bodies[b], VOX_FORMAT_FLOAT3, NULL, b + 1);
+    for (uint32_t b = 0; b < 2; ++b) insert(&bodies[b], VOX_FORMAT_FLOAT, NULL, b + 1);
     step();
     read_contacts();
     end_scene();
@@ -677,15 +676,14 @@ static void life(void) {
     make_many(&s, 2, 2);
     pose_scene(&s, 0);
     begin_scene("life", "bodies come, go and change what they collide with", all_flags, 0.75);
-    for (uint32_t b = 0; b < 8; ++b)
-        ids[b] = insert(&s.bodies[b], VOX_FORMAT_FLOAT3, NULL, 1000000007ull * b);
+    for (uint32_t b = 0; b < 8; ++b) ids[b] = insert(&s.bodies[b], VOX_FORMAT_FLOAT, NULL, 1000000007ull * b);
     step();
     remove_mesh(ids[2]);
     set_enabled(ids[5], 0);
     set_pair_enabled(ids[0], ids[1], 0);
     step();
     meshes();
-    const vox_body again = insert(&s.bodies[2], VOX_FORMAT_DOUBLE3, NULL, 0xfedcba9876543210u);
+    const vox_body again = insert(&s.bodies[2], VOX_FORMAT_DOUBLE, NULL, 0xfedcba9876543210u);
     set_enabled(ids[5], 1);
     transform(ids[6], turned);
     vox_filter filter = vox_default_filter();
@@ -703,8 +701,8 @@ static void life(void) {
     remove_mesh(again);
     clear();
     step();
-    insert(&s.bodies[0], VOX_FORMAT_FLOAT3, NULL, 5);
-    insert(&s.bodies[1], VOX_FORMAT_FLOAT3, NULL, 6);
+    insert(&s.bodies[0], VOX_FORMAT_FLOAT, NULL, 5);
+    insert(&s.bodies[1], VOX_FORMAT_FLOAT, NULL, 6);
     step();
     end_scene();
     free_scene(&s);
@@ -720,8 +718,8 @@ static void cutting(void) {
     pose_scene(&s, 0);
     const body* b = &s.bodies[0];
     begin_scene("cutting", "a ball is cut open and loses tetrahedra", all_flags, 0);
-    const vox_body first = insert(b, VOX_FORMAT_FLOAT3, NULL, 1);
-    insert(&s.bodies[1], VOX_FORMAT_FLOAT3, NULL, 2);
+    const vox_body first = insert(b, VOX_FORMAT_FLOAT, NULL, 1);
+    insert(&s.bodies[1], VOX_FORMAT_FLOAT, NULL, 2);
     step();
     /* Vertices on the cut are those of tetrahedra on both sides; the upper side gets copies. */
     static uint8_t below[most], above[most];
@@ -767,7 +765,7 @@ static void snapshot(void) {
     make_pair(&s, 3);
     pose_scene(&s, 0);
     begin_scene("snapshot", "a grid is saved, and goes on from its bytes", all_flags, 0);
-    for (uint32_t b = 0; b < 2; ++b) ids[b] = insert(&s.bodies[b], VOX_FORMAT_DOUBLE3, NULL, 70 + b);
+    for (uint32_t b = 0; b < 2; ++b) ids[b] = insert(&s.bodies[b], VOX_FORMAT_DOUBLE, NULL, 70 + b);
     step();
     const uint64_t offset = save(&bytes, &size);
     ((char*)bytes)[size / 2] ^= 0x40;
@@ -778,7 +776,7 @@ static void snapshot(void) {
     meshes();
     step();
     pose_scene(&s, 90);
-    for (uint32_t b = 0; b < 2; ++b) move(ids[b], &s.bodies[b], VOX_FORMAT_DOUBLE3);
+    for (uint32_t b = 0; b < 2; ++b) move(ids[b], &s.bodies[b], VOX_FORMAT_DOUBLE);
     step();
     query(&s.bodies[1]);
     free(bytes);
@@ -793,12 +791,12 @@ static void errors(void) {
     make_pair(&s, 3);
     pose_scene(&s, 0);
     begin_scene("errors", "what is refused, with its code and text", VOX_GRID_PENETRATIONS, 0);
-    const vox_body first = insert(&s.bodies[0], VOX_FORMAT_FLOAT3, NULL, 11);
-    const vox_body second = insert(&s.bodies[1], VOX_FORMAT_FLOAT3, NULL, 12);
+    const vox_body first = insert(&s.bodies[0], VOX_FORMAT_FLOAT, NULL, 11);
+    const vox_body second = insert(&s.bodies[1], VOX_FORMAT_FLOAT, NULL, 12);
     step();
     const uint32_t tet = s.bodies[1].tets[70];
     s.bodies[1].tets[70] = s.bodies[1].vertex_count + 5;
-    insert(&s.bodies[1], VOX_FORMAT_FLOAT3, NULL, 13);
+    insert(&s.bodies[1], VOX_FORMAT_FLOAT, NULL, 13);
     s.bodies[1].tets[70] = tet;
     const uint32_t beyond[2] = {0, s.bodies[0].tet_count};
     switch_tets("remove_tets", first, beyond, 2, 0);
@@ -813,10 +811,10 @@ static void errors(void) {
     remove_mesh(first + 1);
     const float good = s.bodies[1].positions[17];
     s.bodies[1].positions[17] = (float)NAN;
-    move(second, &s.bodies[1], VOX_FORMAT_FLOAT3);
+    move(second, &s.bodies[1], VOX_FORMAT_FLOAT);
     step();
     s.bodies[1].positions[17] = good;
-    move(second, &s.bodies[1], VOX_FORMAT_FLOAT3);
+    move(second, &s.bodies[1], VOX_FORMAT_FLOAT);
     step();
     remove_mesh(second);
     remove_mesh(second);
@@ -841,8 +839,8 @@ static void suggestions(void) {
 static vox_primitives primitives_of(const body* b, vox_primitive_type type) {
     vox_primitives p = vox_default_primitives();
     p.type = type;
-    p.positions = b->positions;
-    p.vertex_count = b->vertex_count;
+    p.positions.data = b->positions;
+    p.positions.count = b->vertex_count;
     p.count = b->vertex_count;
     if (type == VOX_PRIMITIVE_TET) {
         p.indices = b->tets;
@@ -889,12 +887,12 @@ static void foreign_grids(void) {
     }
     /* Points with radii, in doubles, from 27 cells. */
     double* doubles = as_doubles(&s.bodies[1]);
-    points.positions = doubles;
-    points.position_format = VOX_FORMAT_DOUBLE3;
-    points.count = points.vertex_count = 16;
+    points.positions.data = doubles;
+    points.positions.format = VOX_FORMAT_DOUBLE;
+    points.count = points.positions.count = 16;
     for (int i = 0; i < 16; ++i) radii[i] = 0.125 * (i % 3);
     points.radii = radii;
-    points.radius_format = VOX_FORMAT_DOUBLE3;
+    points.radius_format = VOX_FORMAT_DOUBLE;
     points.radius = 0.5;
     g = vox_default_foreign_grid();
     g.held = &points;
@@ -971,16 +969,16 @@ int main(int argc, char** argv) {
     arrays = create(argv[1], "vectors.bin");
     fprintf(script, "{\"abi\": %u, \"scenes\": [", vox_abi_version());
     readme();
-    make_pair(&s, 4), frames(&s, "pair", "two balls that overlap", 1, VOX_FORMAT_FLOAT3, 0);
-    make_pair(&s, 3), frames(&s, "doubles", "two balls of doubles", 1, VOX_FORMAT_DOUBLE3, 0);
+    make_pair(&s, 4), frames(&s, "pair", "two balls that overlap", 1, VOX_FORMAT_FLOAT, 0);
+    make_pair(&s, 3), frames(&s, "doubles", "two balls of doubles", 1, VOX_FORMAT_DOUBLE, 0);
     make_ring(&s, 6),
-        frames(&s, "ring", "a ring through itself, without near neighbours", 1, VOX_FORMAT_FLOAT3, 1);
-    make_tangled(&s, 3), frames(&s, "tangled", "a ball of which hardly a tetrahedron is where it was", 1,
-                                VOX_FORMAT_FLOAT3, 0);
+        frames(&s, "ring", "a ring through itself, without near neighbours", 1, VOX_FORMAT_FLOAT, 1);
+    make_tangled(&s, 3),
+        frames(&s, "tangled", "a ball of which hardly a tetrahedron is where it was", 1, VOX_FORMAT_FLOAT, 0);
     make_soup(&s, 40, 60),
-        frames(&s, "soup", "flat, inverted, coincident tetrahedra", 1, VOX_FORMAT_FLOAT3, 0);
-    make_pair(&s, 3), frames(&s, "least", "positions that are denormal floats", 1e-41, VOX_FORMAT_FLOAT3, 0);
-    make_pair(&s, 3), frames(&s, "huge", "positions whose volumes are no floats", 1e30, VOX_FORMAT_FLOAT3, 0);
+        frames(&s, "soup", "flat, inverted, coincident tetrahedra", 1, VOX_FORMAT_FLOAT, 0);
+    make_pair(&s, 3), frames(&s, "least", "positions that are denormal floats", 1e-41, VOX_FORMAT_FLOAT, 0);
+    make_pair(&s, 3), frames(&s, "huge", "positions whose volumes are no floats", 1e30, VOX_FORMAT_FLOAT, 0);
     life();
     cutting();
     snapshot();

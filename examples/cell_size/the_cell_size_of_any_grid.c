@@ -103,8 +103,7 @@ int main(void) {
     /* What it is like. */
     vox_primitives held = vox_default_primitives();
     held.type = VOX_PRIMITIVE_BOX;
-    held.positions = boxes;
-    held.vertex_count = 2 * count;
+    held.positions = vox_float_positions(boxes[0][0], 2 * count);
     held.count = count;
     vox_foreign_grid grid = vox_default_foreign_grid();
     must(vox_foreign_grid_set_known(&grid, VOX_KNOWN_GRID_SORTED)); /* boxes in cells, a dense lattice */

@@ -25,8 +25,7 @@ int main(void) {
         positions[i][2] = (float)(i / 6);
     }
     vox_mesh_desc desc = vox_default_mesh_desc();
-    desc.positions = positions;
-    desc.vertex_count = corners_of_bar;
+    desc.positions = vox_float_positions(positions[0], corners_of_bar);
     desc.tets = bar_tets[0];
     desc.tet_count = 10;
     vox_body bar = VOX_NULL_BODY, probe = VOX_NULL_BODY;
@@ -34,8 +33,7 @@ int main(void) {
 
     const float points[2][3] = {{0.5f, 0.5f, 0.5f}, {1.5f, 0.5f, 0.5f}}; /* one in each cube */
     vox_mesh_desc sensors = vox_default_mesh_desc();
-    sensors.positions = points;
-    sensors.vertex_count = 2;
+    sensors.positions = vox_float_positions(points[0], 2);
     must(vox_mesh_insert(grid, &sensors, &probe));
     report(grid, "whole");
 
@@ -46,7 +44,7 @@ int main(void) {
     vox_vertices_desc copies = vox_default_vertices_desc();
     copies.count = corners_on_cut;
     copies.copies_of = on_cut;
-    copies.positions = positions; /* borrowed as before, but longer now */
+    copies.positions = vox_float_positions(positions[0], corners_of_bar + corners_on_cut); /* longer now */
     uint32_t first = 0;
     must(vox_mesh_append_vertices(grid, bar, &copies, &first));
 
@@ -77,7 +75,7 @@ int main(void) {
     /* One more vertex, and a tetrahedron from the cut to it, over the second probe. */
     vox_vertices_desc tip = vox_default_vertices_desc();
     tip.count = 1;
-    tip.positions = positions;
+    tip.positions = vox_float_positions(positions[0], corners_of_bar + corners_on_cut + 1);
     positions[16][0] = 3;
     positions[16][1] = positions[16][2] = 0.5f;
     must(vox_mesh_append_vertices(grid, bar, &tip, &first));

@@ -20,7 +20,8 @@ int main(void) {
     }
 
     const cube before = bullet; /* where its vertices were a frame ago */
-    must(vox_mesh_bind_previous_positions(grid, id, before.positions, VOX_FORMAT_FLOAT3, 0, 0));
+    const vox_positions came_from = vox_float_positions(before.positions[0], 8);
+    must(vox_mesh_bind_previous_positions(grid, id, &came_from));
     move_cube(&bullet, 0, 0, 8);
     must(vox_grid_step(grid));
     vox_contact_view contacts;

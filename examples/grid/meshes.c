@@ -13,12 +13,9 @@ int main(void) {
     const vox_body a = insert_cube(grid, &first), b = insert_cube(grid, &second);
     step(grid, "two cubes");
 
-    /* Points without tetrahedra, in vertices of another layout: sensors. */
-    const struct { float temperature, position[3]; } sensors[2] = {{20, {0.3f, 0.3f, 0.3f}}, {21, {5, 5, 5}}};
-    vox_mesh_desc desc = vox_default_mesh_desc();
-    desc.positions = sensors[0].position;
-    desc.position_byte_stride = sizeof sensors[0];
-    desc.vertex_count = 2;
+    /* Points without tetrahedra: sensors. */
+    const float sensors[2][3] = {{0.3f, 0.3f, 0.3f}, {5, 5, 5}};
+    vox_mesh_desc desc = vox_mesh_desc_floats(sensors[0], 2, NULL, 0);
     desc.user_data = 42; /* yours */
     vox_body points = VOX_NULL_BODY;
     must(vox_mesh_insert(grid, &desc, &points));

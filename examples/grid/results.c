@@ -7,12 +7,12 @@ int main(void) {
 
     const cube c = cube_at(0, 0, 0);
     vox_mesh_desc desc = cube_desc(&c);
-    desc.vertex_count = 7; /* but the tetrahedra name eight */
+    desc.positions.count = 7; /* but the tetrahedra name eight */
     vox_body mesh = VOX_NULL_BODY;
     const vox_result result = vox_mesh_insert(grid, &desc, &mesh);
     printf("%s: %s\n", vox_result_string(result), vox_last_error());
 
-    desc.vertex_count = 8;
+    desc.positions.count = 8;
     must(vox_mesh_insert(grid, &desc, &mesh));
     printf("mesh %u is in\n", (unsigned)mesh);
 

@@ -76,8 +76,9 @@ int main(int argc, char** argv) {
 
     /* The middle of the last block, asked for by rank 0. */
     const double point[3] = {0.7 * (transport.size - 1) + 0.55, 0.5, 0.5};
+    const vox_positions points = vox_double_positions(point, transport.rank == 0);
     vox_scene_point found;
-    check(vox_scene_locate(scene, point, VOX_FORMAT_DOUBLE3, 0, transport.rank == 0, &found));
+    check(vox_scene_locate(scene, &points, &found));
 
     uint64_t hash[2];
     check(vox_scene_hash(scene, hash));

@@ -8,7 +8,7 @@ static void feel(const vox_query_view* view, const double probe[3]) {
     vox_closest_hit hit;
     uint64_t epoch = 0;
     desc.points = probe;
-    desc.format = VOX_FORMAT_DOUBLE3;
+    desc.format = VOX_FORMAT_DOUBLE;
     desc.point_count = 1;
     must(vox_query_view_closest_points(view, &desc, &hit));
     must(vox_query_view_epoch(view, &epoch));

@@ -31,10 +31,8 @@ int main(void) {
     must(vox_surface_create(&desc, &surface));
 
     vox_motion motion = vox_default_motion();
-    motion.from = from;
-    motion.to = to;
-    motion.vertex_count = 2 * sheet;
-    motion.format = VOX_FORMAT_DOUBLE3;
+    motion.from = vox_double_positions(from[0], 2 * sheet);
+    motion.to = vox_double_positions(to[0], 2 * sheet);
     vox_pair_lists lists;
     lists.struct_size = sizeof lists;
     uint64_t pairs[2];
@@ -75,7 +73,7 @@ int main(void) {
     printf("cells of %.1f: %" PRIu64 " pairs overlapped, %" PRIu64 " of them were culled\n",
            counters.cell_size, counters.overlaps, counters.culled);
 
-    motion.to = NULL; /* where the sheets began */
+    motion.to.data = NULL; /* where the sheets began */
     must(vox_surface_move(surface, &motion));
     must(vox_surface_find_crossings(surface, &crossings));
     must(vox_surface_find_clearances(surface, 10, clearance, 2 * sheet));

@@ -58,7 +58,10 @@
 #define VOX_OPTIONAL /* may be null; without this mark a pointer may not, unless its array is empty */
 
 #ifdef __cplusplus
+#define VOX_ZERO {} /* initialises a struct with zeros */
 extern "C" {
+#else
+#define VOX_ZERO {0}
 #endif
 
 /* ---- results ---------------------------------------------------------------------------------- */
@@ -105,6 +108,46 @@ VOX_API uint32_t vox_abi_version(void);
 /* Compiler, language level, instruction sets, built-in scheduler and options of this build, in one line. Static text.
  * Cannot fail. */
 VOX_API const char* vox_build_info(void);
+
+/* ---- positions -------------------------------------------------------------------------------- */
+
+typedef enum vox_format {
+    VOX_FORMAT_FLOAT = 0,  /* IEEE 754 singles */
+    VOX_FORMAT_DOUBLE = 1, /* IEEE 754 doubles, of magnitudes below 2^128 - 2^103 (3.4028236e38), the largest float */
+    VOX_FORMAT_FORCE_32_BITS = 0x7fffffff
+} vox_format;
+
+/* An array of positions. Coordinate k (0, 1, 2 for x, y, z) of position i is at byte
+ *     i * byte_stride + k * component_byte_stride
+ * of `data`. With both strides 0 the array is packed: x y z, x y z, ... If positions are part of larger records, set
+ * byte_stride to the size of a record. For columns (all x, then all y, then all z, as in Eigen, Julia, Fortran and
+ * Matlab), set component_byte_stride to the distance between columns. Strides at which positions would overlap are an
+ * INVALID_ARGUMENT everywhere. */
+typedef struct vox_positions {
+    VOX_OPTIONAL const void* data; /* null: no positions */
+    uint64_t count;
+    vox_format format;
+    uint32_t reserved;              /* 0 */
+    uint64_t byte_stride;           /* 0: packed; for columns, the size of a number */
+    uint64_t component_byte_stride; /* 0: the size of a number */
+} vox_positions;
+
+/* An array of packed floats x y z. */
+static inline vox_positions vox_float_positions(const float* xyz, uint64_t count) {
+    vox_positions positions = VOX_ZERO;
+    positions.data = xyz;
+    positions.count = count;
+    return positions;
+}
+
+/* An array of packed doubles x y z. */
+static inline vox_positions vox_double_positions(const double* xyz, uint64_t count) {
+    vox_positions positions = VOX_ZERO;
+    positions.data = xyz;
+    positions.count = count;
+    positions.format = VOX_FORMAT_DOUBLE;
+    return positions;
+}
 
 /* ---- memory and log --------------------------------------------------------------------------- */
 
@@ -192,7 +235,7 @@ typedef enum vox_grid_flags {
     VOX_GRID_PENETRATIONS = 1, /* run the depth stage in a step (vox_grid_penetrations); on by default. A mesh of more
                                   than 357913941 tets then gives VOX_ERROR_LIMIT, unless its filter does without */
     VOX_GRID_CONTACT_EVENTS = 2, /* also report events of single vertices (vox_grid_contact_events) */
-    VOX_GRID_SKIP_BAD_BODIES = 4, /* a mesh with a coordinate that VOX_FORMAT_DOUBLE3 does not allow (NaN, infinite, too
+    VOX_GRID_SKIP_BAD_BODIES = 4, /* a mesh with a coordinate that VOX_FORMAT_DOUBLE does not allow (NaN, infinite, too
                                      large) takes no part in a step, in vox_grid_prepare_queries, in
                                      vox_grid_take_query_view and in vox_grid_suggest_cell_size, as if it were
                                      disabled; without this flag they fail.
@@ -327,12 +370,6 @@ VOX_API vox_result vox_grid_get_flags(const vox_grid* grid, uint32_t* out_flags)
 typedef uint32_t vox_body;
 #define VOX_NULL_BODY 0u /* names no mesh */
 
-typedef enum vox_format {
-    VOX_FORMAT_FLOAT3 = 0,  /* three IEEE 754 singles x, y, z */
-    VOX_FORMAT_DOUBLE3 = 1, /* three IEEE 754 doubles x, y, z, each of magnitude below 2^128 - 2^103 (3.4028236e38) */
-    VOX_FORMAT_FORCE_32_BITS = 0x7fffffff
-} vox_format;
-
 typedef enum vox_mesh_flags {
     VOX_MESH_SELF_COLLISION = 1, /* also report vertices of the mesh inside its own tetrahedra */
     VOX_MESH_COPY_POSITIONS = 2, /* copy `positions` at insertion instead of borrowing them */
@@ -385,17 +422,14 @@ static inline vox_filter vox_default_filter(void) {
 /* A body: vertices, and tetrahedra over them. Without tetrahedra (a surface, a set of points) its vertices still
  * collide with the tetrahedra of other meshes, but its edges and faces with nothing, so a thin blade may cross a body
  * without a contact. The first such mesh that a grid gets is written to its log as a warning;
- * vox_counters.meshes_without_tets counts them.
- * Coordinate c (0, 1, 2 for x, y, z) of position v is at byte v * position_byte_stride +
- * c * position_component_byte_stride. Two layouts are possible: positions one after the other (x y z, x y z, ...), and
- * columns (all x, all y, all z), as matrices of n rows and 3 columns are kept in Eigen, Julia, Fortran and Matlab. */
+ * vox_counters.meshes_without_tets counts them. */
 typedef struct vox_mesh_desc {
     uint32_t struct_size;
     uint32_t flags; /* vox_mesh_flags, combined with | */
-    /* vertex_count positions; may be null until vox_mesh_bind_positions. Borrowed until the mesh is removed, bound to
-     * other positions or mapped: vox_grid_step reads them, and while it runs they must be valid and unchanged. */
-    VOX_OPTIONAL const void* positions;
-    uint64_t position_byte_stride; /* from one position to the next; 0: tightly packed (columns: one number) */
+    /* positions.count is the number of vertices. The data is borrowed until the mesh is removed, bound to other
+     * positions or mapped. Every step reads it, and while it runs the data must stay unchanged: to move the mesh, write
+     * to it between steps. If it is null, bind positions before the next step. */
+    vox_positions positions;
     /* tet_count * 4 vertex indices, copied unless VOX_MESH_BORROW_TETS is set. Both windings are accepted.
      * With that flag, they must stay valid and unchanged, as any function of the grid may read them, until the mesh is
      * removed or gets another topology, or the grid is cleared or destroyed. The first call that turns tetrahedra
@@ -403,20 +437,10 @@ typedef struct vox_mesh_desc {
      * A grid made from a snapshot has its own copy. */
     const uint32_t* tets;
     uint64_t tet_count;
-    uint64_t vertex_count;
     uint64_t user_data; /* any number of the caller's, returned by vox_body_get_user_data */
-    vox_format position_format;
-    uint32_t reserved; /* 0 */
     /* Copied; null: the defaults. VOX_MESH_SELF_COLLISION turns self_collision on as well. */
     VOX_OPTIONAL const vox_filter* filter;
-    /* vertex_count positions of the rest pose, in position_format, copied; null: see vox_filter.self_rest_distance. */
-    VOX_OPTIONAL const void* rest_positions;
-    uint64_t rest_position_byte_stride; /* 0: tightly packed */
-    /* From one coordinate of a position to the next. 0 (the default): the size of a number. For columns the distance
-     * between two columns, at least vertex_count * position_byte_stride; with columns of n numbers and nothing between
-     * them n times the size of a number. Errors: INVALID_ARGUMENT (positions that would overlap). */
-    uint64_t position_component_byte_stride;
-    uint64_t rest_position_component_byte_stride; /* the same for rest_positions */
+    vox_positions rest_positions; /* of all vertices, copied; none: see vox_filter.self_rest_distance */
 } vox_mesh_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers. */
@@ -428,31 +452,29 @@ static inline vox_mesh_desc vox_default_mesh_desc(void) {
     return desc;
 }
 
-/* The description of a mesh with tightly packed positions x y z, as floats; the other fields have their defaults. The
- * arrays are borrowed and copied as vox_mesh_desc says. These two take a typed pointer, where `positions` is a void*:
- * doubles under VOX_FORMAT_FLOAT3 would be read as other numbers. */
-static inline vox_mesh_desc vox_mesh_desc_floats(const float* positions, uint64_t vertex_count, const uint32_t* tets,
+/* Describes a mesh with packed floats x y z; the other fields have their defaults. The arrays are borrowed and copied as
+ * vox_mesh_desc says. */
+static inline vox_mesh_desc vox_mesh_desc_floats(const float* xyz, uint64_t vertex_count, const uint32_t* tets,
                                                  uint64_t tet_count) {
     vox_mesh_desc desc = vox_default_mesh_desc();
-    desc.positions = positions;
-    desc.position_format = VOX_FORMAT_FLOAT3;
-    desc.vertex_count = vertex_count;
+    desc.positions = vox_float_positions(xyz, vertex_count);
     desc.tets = tets;
     desc.tet_count = tet_count;
     return desc;
 }
 
-/* The same for doubles. */
-static inline vox_mesh_desc vox_mesh_desc_doubles(const double* positions, uint64_t vertex_count, const uint32_t* tets,
+/* Describes a mesh with packed doubles x y z. */
+static inline vox_mesh_desc vox_mesh_desc_doubles(const double* xyz, uint64_t vertex_count, const uint32_t* tets,
                                                   uint64_t tet_count) {
-    vox_mesh_desc desc = vox_mesh_desc_floats(NULL, vertex_count, tets, tet_count);
-    desc.positions = positions;
-    desc.position_format = VOX_FORMAT_DOUBLE3;
+    vox_mesh_desc desc = vox_default_mesh_desc();
+    desc.positions = vox_double_positions(xyz, vertex_count);
+    desc.tets = tets;
+    desc.tet_count = tet_count;
     return desc;
 }
 
 /* Adds a mesh, which takes part from the next step on.
- * Packed positions in VOX_FORMAT_FLOAT3 that can only be doubles are refused: from 16 vertices on, every other number
+ * Packed positions in VOX_FORMAT_FLOAT that can only be doubles are refused: from 16 vertices on, every other number
  * would be of ordinary size, those between far too large and far too small by turns (as most bit patterns are). They
  * are looked at once for each format, here if they are copied, else when a step, suggestion or query reads them first.
  * Errors: INVALID_ARGUMENT, INVALID_MESH ("tet 17 names vertex 900 of 812"), LIMIT, BUDGET, OUT_OF_MEMORY. */
@@ -476,19 +498,17 @@ typedef struct vox_body_info {
     uint32_t struct_size;
     uint32_t slot;         /* from 0 */
     uint64_t user_data;    /* as given at insertion */
-    uint64_t vertex_count; /* with the removed ones: indices of vertices are below it */
     uint64_t tet_count;    /* with those that are disabled or removed: indices of tetrahedra are below it */
     uint64_t enabled_tet_count;
     uint32_t enabled;      /* 1, or 0 (see vox_body_set_enabled) */
     uint32_t flags;        /* vox_mesh_flags: SELF_COLLISION as the filter says, COPY_POSITIONS if the positions are the
                               mesh's own (copied, mapped or loaded), BORROW_TETS while the tetrahedra are the caller's */
-    vox_format position_format;
     uint32_t has_transform; /* 1 if vox_body_set_transform gave it one */
-    /* The positions, without the transform; null if the mesh has none. They live until the mesh is removed, bound to
-     * other positions, mapped, or gets other or more vertices, or the grid is cleared or destroyed. */
-    VOX_OPTIONAL const void* positions;
-    uint64_t position_byte_stride;           /* of these, never 0 unless `positions` is null; see vox_mesh_desc */
-    uint64_t position_component_byte_stride;
+    uint32_t reserved;      /* 0 */
+    /* The positions, without the transform; removed vertices are among them. The data is null if the mesh has none. It
+     * lives until the mesh is removed, bound to other positions, mapped, or gets other or more vertices, or the grid is
+     * cleared or destroyed. No stride is 0 unless the data is null. */
+    vox_positions positions;
     double transform[12]; /* as vox_body_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0 */
 } vox_body_info;
 
@@ -505,40 +525,31 @@ VOX_API vox_result vox_mesh_get_tets(const vox_grid* grid, vox_body body,
                                       VOX_OPTIONAL uint8_t* enabled, uint64_t capacity,
                                       uint64_t* out_count);
 
-/* Borrows new positions for a mesh (vertex_count of them, byte_stride 0: tightly packed), under the rule
- * of vox_mesh_desc.positions, and releases a copy made at insertion. Values written to the same memory
- * between steps need no new call. Null is accepted for a mesh without vertices.
- * Errors: INVALID_ARGUMENT for an unknown format and a stride that is too small. */
-VOX_API vox_result vox_mesh_bind_positions(vox_grid* grid, vox_body body,
-                                           const void* positions,
-                                           vox_format format, uint64_t byte_stride);
-
-/* The same with component_byte_stride as vox_mesh_desc.position_component_byte_stride, e.g. for columns. */
-VOX_API vox_result vox_mesh_bind_strided_positions(vox_grid* grid, vox_body body,
-                                                   const void* positions,
-                                                   vox_format format, uint64_t byte_stride,
-                                                   uint64_t component_byte_stride);
+/* Makes a mesh borrow another array of positions, one for each vertex, under the rule of vox_mesh_desc.positions, and
+ * releases one that it owned. There is no need to bind the same array again after writing to it.
+ * Errors: INVALID_ARGUMENT (e.g. another count). */
+VOX_API vox_result vox_mesh_bind_positions(vox_grid* grid, vox_body body, const vox_positions* positions);
 
 /* Borrows the positions that the vertices of a mesh had before they moved to those of vox_mesh_bind_positions: in the
  * following steps each vertex moves from one to the other in a straight line, at constant speed, and such steps also
  * find vox_grid_passages. Values may be written to the same memory between steps. The mesh's transform does not apply
  * to them: they are where the vertices were. Null ends it, as do vox_mesh_set_topology and vox_mesh_append_vertices.
- * Snapshots do not keep them. A step fails with NON_FINITE or LIMIT where they are not as VOX_FORMAT_DOUBLE3 has it;
+ * Snapshots do not keep them. A step fails with NON_FINITE or LIMIT where they are not as VOX_FORMAT_DOUBLE has it;
  * VOX_GRID_SKIP_BAD_BODIES is about positions alone.
- * Errors: as vox_mesh_bind_strided_positions. */
-VOX_EXPERIMENTAL vox_result vox_mesh_bind_previous_positions(
-    vox_grid* grid, vox_body body,
-    VOX_OPTIONAL const void* positions, vox_format format,
-    uint64_t byte_stride, uint64_t component_byte_stride);
+ * Errors: as vox_mesh_bind_positions. */
+VOX_EXPERIMENTAL vox_result vox_mesh_bind_previous_positions(vox_grid* grid, vox_body body,
+                                                             VOX_OPTIONAL const vox_positions* positions);
 
-/* vox_mesh_bind_positions for tightly packed floats, with a typed pointer. Errors: as there. */
-static inline vox_result vox_mesh_bind_floats(vox_grid* grid, vox_body body, const float* positions) {
-    return vox_mesh_bind_positions(grid, body, positions, VOX_FORMAT_FLOAT3, 0);
+/* Binds packed floats x y z. Errors: as vox_mesh_bind_positions. */
+static inline vox_result vox_mesh_bind_floats(vox_grid* grid, vox_body body, const float* xyz, uint64_t count) {
+    const vox_positions positions = vox_float_positions(xyz, count);
+    return vox_mesh_bind_positions(grid, body, &positions);
 }
 
-/* vox_mesh_bind_positions for tightly packed doubles, with a typed pointer. Errors: as there. */
-static inline vox_result vox_mesh_bind_doubles(vox_grid* grid, vox_body body, const double* positions) {
-    return vox_mesh_bind_positions(grid, body, positions, VOX_FORMAT_DOUBLE3, 0);
+/* Binds packed doubles x y z. Errors: as vox_mesh_bind_positions. */
+static inline vox_result vox_mesh_bind_doubles(vox_grid* grid, vox_body body, const double* xyz, uint64_t count) {
+    const vox_positions positions = vox_double_positions(xyz, count);
+    return vox_mesh_bind_positions(grid, body, &positions);
 }
 
 /* Makes the next step process a mesh even if it is at rest (see vox_grid_step). Contacts are correct without it; it
@@ -565,21 +576,19 @@ VOX_API vox_result vox_body_set_enabled(vox_grid* grid, vox_body body, uint32_t 
  * body_a = body_b (see vox_filter.self_collision), BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_set_pair_enabled(vox_grid* grid, vox_body body_a, vox_body body_b, uint32_t enabled);
 
-/* Gives the mesh positions of its own that the caller may write to: vertex_count of them, tightly packed, in the format
+/* Gives the mesh positions of its own that the caller may write to: one for each vertex, packed, in the format
  * it was inserted with or bound to last. At first they hold the mesh's present positions, or zeros if it has none.
  * From the next step on, the mesh uses what the caller has written there between steps. Calling it again returns the
  * same array. The array belongs to the library and lives until the mesh is removed or bound, or the grid is cleared or
  * destroyed. It is null for a mesh without vertices. For a mesh inserted with VOX_MESH_COPY_POSITIONS it is the copy
  * made then.
  * Errors: BUDGET, OUT_OF_MEMORY. */
-VOX_API vox_result vox_mesh_map_positions(vox_grid* grid, vox_body body,
-                                          void** out_positions,
-                                          uint64_t* out_byte_stride);
+VOX_API vox_result vox_mesh_map_positions(vox_grid* grid, vox_body body, void** out_positions);
 
 /* Moves a mesh as a whole. In the following steps a vertex has the position
  *     x' = ((m[0] * x + m[1] * y) + m[2] * z) + m[3], y' likewise from m[4..7], z' from m[8..11],
  * computed in double, in this order, each operation rounded. Contacts are exact for the resulting x', y', z', as if
- * these had been given as VOX_FORMAT_DOUBLE3. If they exceed the limits of that format, the step fails. `matrix` is any
+ * these had been given as VOX_FORMAT_DOUBLE. If they exceed the limits of that format, the step fails. `matrix` is any
  * affine map, three rows of four numbers, copied. Null (the default) means no transform. The transform stays when
  * other positions are bound.
  * Errors: INVALID_ARGUMENT (an element that is not finite); BUDGET, OUT_OF_MEMORY (for a first transform). */
@@ -631,29 +640,23 @@ VOX_API vox_result vox_mesh_append_tets(vox_grid* grid, vox_body body, const uin
 VOX_API vox_result vox_mesh_remove_tets(vox_grid* grid, vox_body body, const uint32_t* tets,
                                         uint64_t count);
 
-/* Vertices to append, and their positions. All positions are in the format that the mesh was inserted with or bound to
- * last. */
+/* Vertices to append. */
 typedef struct vox_vertices_desc {
     uint32_t struct_size;
     uint32_t reserved; /* 0 */
     uint64_t count;
     /* For a mesh that borrows its positions: an array of all positions, first those of the vertices it has, then those
      * of the new ones. It is borrowed from now on instead of the old array, under the rule of vox_mesh_desc.positions.
-     * For a mesh with positions of its own (copied, mapped, or loaded): `count` positions, copied; the array of
-     * vox_mesh_map_positions becomes invalid. May be null for a mesh that has no positions yet and, together with
+     * For a mesh with positions of its own (copied, mapped, or loaded): `count` positions in its format, copied; the array of
+     * vox_mesh_map_positions becomes invalid. There may be none for a mesh that has no positions yet and, together with
      * copies_of, for a mesh with positions of its own. */
-    VOX_OPTIONAL const void* positions;
-    uint64_t position_byte_stride; /* 0: tightly packed */
+    vox_positions positions;
     /* Null, or `count` indices of earlier vertices of the mesh: the vertex that each new one is a copy of. A copy gets
-     * the rest position of that vertex and, if `positions` is null, its position, too. */
+     * the rest position of that vertex and, without `positions`, its position, too. */
     VOX_OPTIONAL const uint32_t* copies_of;
-    /* For meshes with a rest pose (vox_filter.self_rest_distance): `count` positions in it, copied. Null: those of
+    /* For meshes with a rest pose (vox_filter.self_rest_distance): `count` positions in it, copied. None: those of
      * copies_of or, if that is null too, the present positions of the new vertices. */
-    VOX_OPTIONAL const void* rest_positions;
-    uint64_t rest_position_byte_stride; /* 0: tightly packed */
-    /* As vox_mesh_desc.position_component_byte_stride; 0 (the default): the size of a number. */
-    uint64_t position_component_byte_stride;
-    uint64_t rest_position_component_byte_stride; /* the same for rest_positions */
+    vox_positions rest_positions;
 } vox_vertices_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers: all 0. */
@@ -688,8 +691,8 @@ VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_body body, const
  * processes all meshes.
  * In the steady state (same meshes, no more work than before) it allocates nothing, with any number of workers. The
  * memory of the built-in scheduler, such as the stacks of its threads, is not the grid's and is not counted.
- * Errors: INVALID_STATE (a mesh has no positions), NON_FINITE and LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not
- * allow), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3, see vox_mesh_insert); all these name the mesh, as does
+ * Errors: INVALID_STATE (a mesh has no positions), NON_FINITE and LIMIT (a coordinate that VOX_FORMAT_DOUBLE does not
+ * allow), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT, see vox_mesh_insert); all these name the mesh, as does
  * vox_grid_get_failure. LIMIT (more than VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_step(vox_grid* grid);
 
@@ -711,8 +714,8 @@ VOX_API vox_result vox_grids_step(vox_grid* const* grids, uint64_t count,
 /* A mesh that made a step fail, or that a step left out. */
 typedef struct vox_failure {
     uint32_t struct_size;
-    vox_result result;  /* NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not allow), INVALID_STATE (no
-                           positions), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3); VOX_OK if there is none */
+    vox_result result;  /* NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE does not allow), INVALID_STATE (no
+                           positions), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT); VOX_OK if there is none */
     vox_body mesh;      /* VOX_NULL_BODY if there is none */
     uint32_t slot;      /* of the mesh, from 0 */
     uint64_t user_data; /* of the mesh, as given at insertion */
@@ -1245,7 +1248,7 @@ VOX_API vox_result vox_grid_load(const void* bytes, uint64_t size,
  * bytes a vertex and 40 a tetrahedron, kept until the grid is destroyed; 12 of the 40 follow from the tetrahedra alone,
  * are made by the first call after a mesh was inserted or edited, and are shared with query views. From now on a grid
  * of the reference engine also keeps tiles, as those of the fast engine do. Errors: INVALID_STATE (a mesh has no
- * positions), NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3, see vox_mesh_insert), BUDGET,
+ * positions), NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT, see vox_mesh_insert), BUDGET,
  * OUT_OF_MEMORY; after these, what was prepared before stays. INVALID_ARGUMENT for a defective task system (see
  * vox_task_system); after that nothing is prepared. */
 VOX_API vox_result vox_grid_prepare_queries(vox_grid* grid);
@@ -1314,7 +1317,7 @@ typedef struct vox_closest_desc {
     double max_distance;  /* >= 0, in the caller's unit; default infinity */
     vox_body excluded;    /* default VOX_NULL_BODY: none */
     uint32_t reserved;    /* 0 */
-    uint64_t component_byte_stride; /* as vox_mesh_desc.position_component_byte_stride; default 0 */
+    uint64_t component_byte_stride; /* as in vox_positions; default 0 */
 } vox_closest_desc;
 
 /* Fills `desc` with the defaults for the fields that `struct_size` covers. */
@@ -1420,7 +1423,7 @@ typedef struct vox_query_view vox_query_view;
 
 /* Takes a view of the grid as it is now. It costs as much as vox_grid_prepare_queries, and does not change what that
  * prepared. The caller owns *out_view and releases it with vox_query_view_release. Errors: INVALID_STATE (a mesh has no
- * positions), NON_FINITE, LIMIT, BUDGET, OUT_OF_MEMORY, INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3; see also
+ * positions), NON_FINITE, LIMIT, BUDGET, OUT_OF_MEMORY, INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT; see also
  * vox_task_system). */
 VOX_API vox_result vox_grid_take_query_view(vox_grid* grid, vox_query_view** out_view);
 
@@ -1843,20 +1846,17 @@ typedef enum vox_primitive_type {
 typedef struct vox_primitives {
     uint32_t struct_size;
     vox_primitive_type type;
-    const void* positions; /* as in vox_mesh_desc */
-    uint64_t position_byte_stride;
-    uint64_t position_component_byte_stride;
-    uint64_t vertex_count;
-    vox_format position_format;
-    vox_format radius_format; /* FLOAT3 stands for one single, DOUBLE3 for one double */
+    vox_positions positions; /* of vertices */
     /* The vertices of each primitive: two numbers an edge or a box, three a triangle, four a tetrahedron, one a point.
      * Null: 0, 1, 2, and so on, without sharing. */
     VOX_OPTIONAL const uint32_t* indices;
     uint64_t index_byte_stride; /* from one primitive to the next; 0: tightly packed */
     uint64_t count;             /* primitives, at most 2^32 - 1 */
-    VOX_OPTIONAL const void* radii; /* of each primitive, >= 0 */
-    uint64_t radius_byte_stride;                     /* 0: tightly packed */
-    double radius;                                   /* of all primitives, added to their own, >= 0; default 0 */
+    VOX_OPTIONAL const void* radii; /* one number of each primitive, >= 0; null: 0 */
+    uint64_t radius_byte_stride;    /* 0: tightly packed */
+    vox_format radius_format;
+    uint32_t reserved; /* 0 */
+    double radius;     /* of all primitives, added to their own, >= 0; default 0 */
 } vox_primitives;
 
 /* Fills `primitives` with the defaults for the fields that `struct_size` covers. */

@@ -666,13 +666,13 @@ struct misfit {
 
 // Positions that a call reads: a contiguous range of numbers (x y z x y z ...) or of elements of three or four numbers,
 // a view, or a matrix of n x 3 or 3 x n (where the compiler knows neither, three columns go before three rows).
-class points {
+class points : public vox_positions {
 public:
-    points() = default;
+    points() : vox_positions() {}
     template <class R, std::enable_if_t<detail::positions<R>::value, int> = 0>
-    points(const R& range) {
+    points(const R& range) : vox_positions() {
         using number = detail::number_of<R>;
-        format = std::is_same_v<number, double> ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
+        format = std::is_same_v<number, double> ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT;
         data = std::data(range);
         const std::uint64_t size = static_cast<std::uint64_t>(std::size(range));
         if constexpr (detail::matrix<R>::value) {
@@ -711,11 +711,6 @@ public:
         }
     }
 
-    const void* data = nullptr;
-    std::uint64_t count = 0;
-    vox_format format = VOX_FORMAT_FLOAT3;
-    std::uint64_t byte_stride = 0; // as vox_mesh_desc says
-    std::uint64_t component_byte_stride = 0;
     detail::misfit misfit;
 };
 
@@ -822,11 +817,7 @@ namespace detail {
 
 inline vox_result describe(const points& positions, const tets& tets, vox_mesh_desc& desc) {
     desc = vox_default_mesh_desc();
-    desc.positions = positions.data;
-    desc.position_format = positions.format;
-    desc.position_byte_stride = positions.byte_stride;
-    desc.position_component_byte_stride = positions.component_byte_stride;
-    desc.vertex_count = positions.count;
+    desc.positions = positions;
     desc.tets = tets.data;
     desc.tet_count = tets.count;
     const vox_result result = positions.misfit.result();
@@ -1018,7 +1009,7 @@ private:
     vox_result ask(const points& p, std::uint64_t mask, vox_point_hit* hits, std::uint64_t room,
                    std::uint64_t* count) const {
         vox_result result = p.misfit.result();
-        const std::uint64_t number = p.format == VOX_FORMAT_DOUBLE3 ? sizeof(double) : sizeof(float);
+        const std::uint64_t number = p.format == VOX_FORMAT_DOUBLE ? sizeof(double) : sizeof(float);
         if (result == VOX_OK && p.component_byte_stride != 0 && p.component_byte_stride != number)
             result = fail(VOX_ERROR_UNSUPPORTED, "query_points: numbers of a point are %llu bytes apart, not %llu",
                           p.component_byte_stride, number);
@@ -1194,51 +1185,34 @@ public:
     returns<std::vector<std::uint8_t>> tets_enabled(vox_body mesh) const {
         return detail::collect<std::uint8_t>(0, vox_mesh_get_tets, get(), mesh, nullptr);
     }
-    // vox_mesh_bind_strided_positions. Fails unless there are as many as the mesh has vertices.
+    // vox_mesh_bind_positions
     returns<void> bind(vox_body mesh, const borrowed_points& positions) {
-        vox_body_info info = detail::sized<vox_body_info>();
         vox_result result = positions.misfit.result();
-        if (result == VOX_OK) result = vox_body_get_info(get(), mesh, &info);
-        if (result == VOX_OK && info.vertex_count != positions.count)
-            result =
-                detail::fail(VOX_ERROR_INVALID_ARGUMENT, "bind: %llu positions for mesh %llu, which has %llu vertices",
-                             positions.count, mesh, info.vertex_count);
-        if (result == VOX_OK)
-            result = vox_mesh_bind_strided_positions(get(), mesh, positions.data, positions.format,
-                                                     positions.byte_stride, positions.component_byte_stride);
+        if (result == VOX_OK) result = vox_mesh_bind_positions(get(), mesh, &positions);
         return detail::give(rebound(mesh, result));
     }
-    // vox_mesh_bind_previous_positions. Fails unless there are as many as the mesh has vertices.
+    // vox_mesh_bind_previous_positions
     returns<void> bind_previous(vox_body mesh, const borrowed_points& positions) {
-        vox_body_info info = detail::sized<vox_body_info>();
         vox_result result = positions.misfit.result();
-        if (result == VOX_OK) result = vox_body_get_info(get(), mesh, &info);
-        if (result == VOX_OK && info.vertex_count != positions.count)
-            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT,
-                                  "bind_previous: %llu positions for mesh %llu, which has %llu vertices",
-                                  positions.count, mesh, info.vertex_count);
-        if (result == VOX_OK)
-            result = vox_mesh_bind_previous_positions(get(), mesh, positions.data, positions.format,
-                                                      positions.byte_stride, positions.component_byte_stride);
+        if (result == VOX_OK) result = vox_mesh_bind_previous_positions(get(), mesh, &positions);
         return detail::give(result);
     }
     // The mesh stands still from now on.
     returns<void> end_previous(vox_body mesh) {
-        return detail::give(vox_mesh_bind_previous_positions(get(), mesh, nullptr, VOX_FORMAT_FLOAT3, 0, 0));
+        return detail::give(vox_mesh_bind_previous_positions(get(), mesh, nullptr));
     }
     // vox_mesh_map_positions: float or double, as the mesh has them. The view ends with them.
     template <class T>
     returns<view<std::array<T, 3>>> map_positions(vox_body mesh) & {
         vox_body_info info = detail::sized<vox_body_info>();
         void* at = nullptr;
-        std::uint64_t stride = 0;
         vox_result result = vox_body_get_info(get(), mesh, &info);
         if (result == VOX_OK) result = same_format<T>(mesh, info);
-        if (result == VOX_OK) result = vox_mesh_map_positions(get(), mesh, &at, &stride);
-        if (at != info.positions) (void)rebound(mesh, result);
+        if (result == VOX_OK) result = vox_mesh_map_positions(get(), mesh, &at);
+        if (at != info.positions.data) (void)rebound(mesh, result);
         return detail::give(result,
-                            view<std::array<T, 3>>(static_cast<std::array<T, 3>*>(at), static_cast<std::size_t>(stride),
-                                                   static_cast<std::size_t>(info.vertex_count), 0,
+                            view<std::array<T, 3>>(static_cast<std::array<T, 3>*>(at), sizeof(std::array<T, 3>),
+                                                   static_cast<std::size_t>(info.positions.count), 0,
                                                    watching(0, detail::lasts::mapping, mesh)));
     }
     template <class T>
@@ -1249,14 +1223,14 @@ public:
         vox_body_info info = detail::sized<vox_body_info>();
         vox_result result = vox_body_get_info(get(), mesh, &info);
         if (result == VOX_OK) result = same_format<T>(mesh, info);
-        if (result == VOX_OK && info.positions && info.position_component_byte_stride != sizeof(T))
+        const vox_positions& of = info.positions;
+        if (result == VOX_OK && of.data && of.component_byte_stride != sizeof(T))
             result = detail::fail(VOX_ERROR_UNSUPPORTED, "positions of mesh %llu: their numbers are %llu bytes apart",
-                                  mesh, info.position_component_byte_stride);
-        const auto* first = static_cast<const std::array<T, 3>*>(info.positions);
-        const auto stride = static_cast<std::size_t>(info.position_byte_stride);
-        return detail::give(
-            result, view<const std::array<T, 3>>(first, stride, first ? static_cast<std::size_t>(info.vertex_count) : 0,
-                                                 0, watching(0, detail::lasts::mapping, mesh)));
+                                  mesh, of.component_byte_stride);
+        return detail::give(result, view<const std::array<T, 3>>(static_cast<const std::array<T, 3>*>(of.data),
+                                                                 static_cast<std::size_t>(of.byte_stride),
+                                                                 of.data ? static_cast<std::size_t>(of.count) : 0, 0,
+                                                                 watching(0, detail::lasts::mapping, mesh)));
     }
     template <class T>
     returns<view<const std::array<T, 3>>> positions(vox_body mesh) const&& = delete;
@@ -1333,26 +1307,16 @@ public:
         const vox_result result = rebound(mesh, vox_mesh_append_vertices(get(), mesh, &desc, &first));
         return detail::give(result, first);
     }
-    // The same for `count` vertices. Fails unless the positions are those of all vertices (a mesh that borrows them) or
-    // of the new ones (a mesh with positions of its own), in the format that the mesh has.
+    // The same for `count` vertices.
     returns<std::uint32_t> append_vertices(vox_body mesh, std::uint64_t count, const borrowed_points& positions,
                                            span<const std::uint32_t> copies_of = {}) {
-        vox_body_info info = detail::sized<vox_body_info>();
         vox_result result = positions.misfit.result();
-        if (result == VOX_OK) result = vox_body_get_info(get(), mesh, &info);
-        const std::uint64_t wanted = count + ((info.flags & VOX_MESH_COPY_POSITIONS) != 0 ? 0 : info.vertex_count);
-        if (result == VOX_OK && (positions.count != wanted || positions.format != info.position_format))
-            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT,
-                                  "append_vertices: %llu positions of format %llu, mesh %llu takes %llu of format %llu",
-                                  positions.count, positions.format, mesh, wanted, info.position_format);
         if (result == VOX_OK && !copies_of.empty() && copies_of.size() != count)
             result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "append_vertices: %llu vertices, copies of %llu", count,
                                   copies_of.size());
         vox_vertices_desc desc = vox_default_vertices_desc();
         desc.count = count;
-        desc.positions = positions.data;
-        desc.position_byte_stride = positions.byte_stride;
-        desc.position_component_byte_stride = positions.component_byte_stride;
+        desc.positions = positions;
         desc.copies_of = copies_of.empty() ? nullptr : copies_of.data();
         if (result != VOX_OK) return detail::give(result, std::uint32_t{0});
         return append_vertices(mesh, desc);
@@ -1542,10 +1506,10 @@ private:
     template <class T>
     static vox_result same_format(vox_body mesh, const vox_body_info& info) {
         static_assert(std::is_same_v<T, float> || std::is_same_v<T, double>);
-        if (info.position_format == (std::is_same_v<T, double> ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3)) return VOX_OK;
+        if (info.positions.format == (std::is_same_v<T, double> ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT)) return VOX_OK;
         return detail::fail(VOX_ERROR_INVALID_ARGUMENT,
                             "positions of mesh %llu are of format %llu, not numbers of %llu bytes", mesh,
-                            info.position_format, sizeof(T));
+                            info.positions.format, sizeof(T));
     }
     returns<vox_body> insert_with(std::uint32_t flags, const points& positions, const tets& tets,
                                   std::uint64_t user_data) {
@@ -1723,11 +1687,7 @@ inline returns<vox_primitives> primitives(vox_primitive_type type, const borrowe
                         width = static_cast<std::size_t>(type) < std::size(widths) ? widths[type] : 1;
     vox_primitives described = vox_default_primitives();
     described.type = type;
-    described.positions = positions.data;
-    described.position_format = positions.format;
-    described.position_byte_stride = positions.byte_stride;
-    described.position_component_byte_stride = positions.component_byte_stride;
-    described.vertex_count = positions.count;
+    described.positions = positions;
     described.indices = indices.data;
     described.count = size / width;
     vox_result result = positions.misfit.result();

@@ -125,12 +125,9 @@ VOX_EXPERIMENTAL vox_result vox_scene_insert(vox_scene* scene, const vox_part_de
  * INVALID_HANDLE. */
 VOX_EXPERIMENTAL vox_result vox_scene_remove(vox_scene* scene, vox_part part);
 
-/* As vox_mesh_bind_strided_positions. Values written to the same memory between steps need no new call. Not collective.
+/* As vox_mesh_bind_positions. Values written to the same memory between steps need no new call. Not collective.
  * Errors: INVALID_ARGUMENT. */
-VOX_EXPERIMENTAL vox_result vox_scene_bind_positions(vox_scene* scene, vox_part part,
-                                                     const void* positions,
-                                                     vox_format format, uint64_t byte_stride,
-                                                     uint64_t component_byte_stride);
+VOX_EXPERIMENTAL vox_result vox_scene_bind_positions(vox_scene* scene, vox_part part, const vox_positions* positions);
 
 /* ---- step ------------------------------------------------------------------------------------- */
 
@@ -207,11 +204,9 @@ typedef struct vox_scene_point {
     uint32_t interior;    /* 1 or, on the boundary of the tetrahedron, 0 */
 } vox_scene_point;
 
-/* Collective. Finds the tetrahedra that contain `count` points of this rank, `byte_stride` apart (0: tightly packed), at
- * most 2^31 - 1. Other ranks ask for their own. Contacts stay. It keeps a second grid of the parts, made by the first call.
+/* Collective. Finds the tetrahedra that contain points of this rank, at most 2^31 - 1: out_points[i] is for point i. Other ranks ask for their own. Contacts stay. It keeps a second grid of the parts, made by the first call.
  * Errors: as vox_scene_step; the points are named by their index. */
-VOX_EXPERIMENTAL vox_result vox_scene_locate(vox_scene* scene, VOX_OPTIONAL const void* points,
-                                             vox_format format, uint64_t byte_stride, uint64_t count,
+VOX_EXPERIMENTAL vox_result vox_scene_locate(vox_scene* scene, const vox_positions* points,
                                              VOX_OPTIONAL vox_scene_point* out_points);
 
 /* ---- checks and measurements ------------------------------------------------------------------ */

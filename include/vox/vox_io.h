@@ -102,12 +102,12 @@ typedef struct vox_io_mesh_view {
 /* The mesh's arrays. */
 VOX_API vox_result vox_io_mesh_get_arrays(const vox_io_mesh* mesh, vox_io_mesh_view* out_view);
 
-/* Describes the mesh for vox_mesh_insert and vox_suggest_cell_size: sets positions, their format (doubles) and strides,
- * vertex_count, tets and tet_count, and leaves all other fields of `desc` as they are. Fill it with
+/* Describes the mesh for vox_mesh_insert and vox_suggest_cell_size: sets positions, tets and tet_count,
+ * and leaves all other fields of `desc` as they are. Fill it with
  * vox_default_mesh_desc() first. Positions are borrowed: keep the mesh as long as they are bound, or set
  * VOX_MESH_COPY_POSITIONS. As they never change, a body that moves gets others: vox_mesh_map_positions,
  * vox_mesh_bind_positions or vox_body_set_transform. Triangles are not described. docs/files.md has a whole program.
- * Errors: INVALID_ARGUMENT (null, or a struct_size that does not reach to position_format). */
+ * Errors: INVALID_ARGUMENT (null, or a struct_size that does not reach to tet_count). */
 VOX_API vox_result vox_io_mesh_describe(const vox_io_mesh* mesh, vox_mesh_desc* desc);
 
 /* Makes a mesh from arrays (copied) on the C++ runtime's heap. Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE,

@@ -115,19 +115,14 @@ typedef enum vox_motion_flags {
 } vox_motion_flags;
 
 /* Positions of all vertices of a surface, or two, between which each vertex moves along a straight line at constant
- * speed. Strides, formats and ranges of numbers are those of vox_mesh_desc, so columns as well as rows can be read. */
+ * speed. */
 typedef struct vox_motion {
     uint32_t struct_size;
     uint32_t flags; /* vox_motion_flags, combined with | */
-    const void* from;             /* at time 0, copied */
-    VOX_OPTIONAL const void* to;  /* the same, at time 1; null: everything stands still */
-    uint64_t vertex_count;          /* that of the surface; another number is an INVALID_ARGUMENT */
-    vox_format format;
-    uint32_t reserved;              /* 0 */
-    uint64_t byte_stride;           /* from one position to the next; 0: tightly packed (columns: one number) */
-    uint64_t component_byte_stride; /* from one coordinate of a position to the next; 0: the size of a number */
+    vox_positions from; /* at time 0, copied; as many as the surface has vertices */
+    vox_positions to;   /* at time 1, copied, in the same format; none: everything stands still */
     /* The box of a vertex holds both its positions and reaches further by this on each side, rounded outward: to the
-     * next number of `format` below and above. That of an edge or a face holds those of its vertices. >= 0, may be
+     * next number of their format below and above. That of an edge or a face holds those of its vertices. >= 0, may be
      * infinite; default 0. */
     double radius;
 } vox_motion;

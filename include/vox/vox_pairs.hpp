@@ -139,24 +139,11 @@ private:
     returns<void> moved(const points& from, const points* to, double radius, std::uint32_t flags) {
         vox_motion motion = vox_default_motion();
         motion.flags = flags;
-        motion.from = from.data;
-        motion.to = to ? to->data : nullptr;
-        motion.vertex_count = from.count;
-        motion.format = from.format;
-        motion.byte_stride = from.byte_stride;
-        motion.component_byte_stride = from.component_byte_stride;
+        motion.from = from;
+        if (to) motion.to = *to;
         motion.radius = radius;
         vox_result result = from.misfit.result();
         if (result == VOX_OK && to) result = to->misfit.result();
-        if (result == VOX_OK && to && to->count != from.count)
-            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "move: from has %llu positions, to has %llu", from.count,
-                                  to->count);
-        if (result == VOX_OK && to &&
-            (to->format != from.format || to->byte_stride != from.byte_stride ||
-             to->component_byte_stride != from.component_byte_stride))
-            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT,
-                                  "move: from and to differ in their format or in their strides, %llu and %llu bytes",
-                                  from.byte_stride, to->byte_stride);
         if (result == VOX_OK) result = vox_surface_move(get(), &motion);
         return detail::give(result);
     }

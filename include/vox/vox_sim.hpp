@@ -22,7 +22,7 @@ inline returns<vox_sim_body_desc> describe(const borrowed_points& positions, con
     if (result == VOX_OK) result = tets.misfit.result();
     const std::uint64_t along = positions.byte_stride, across = positions.component_byte_stride;
     const bool packed = (along == 0 || along == 3 * sizeof(double)) && (across == 0 || across == sizeof(double));
-    if (result == VOX_OK && (positions.format != VOX_FORMAT_DOUBLE3 || !packed))
+    if (result == VOX_OK && (positions.format != VOX_FORMAT_DOUBLE || !packed))
         result = detail::fail(VOX_ERROR_INVALID_ARGUMENT,
                               "describe: positions of format %llu, %llu bytes apart, are no packed doubles",
                               positions.format, along);

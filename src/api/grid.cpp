@@ -201,32 +201,18 @@ vox_result vox_mesh_get_tets(const vox_grid* grid, vox_body body, uint32_t* corn
     });
 }
 
-vox_result vox_mesh_bind_positions(vox_grid* grid, vox_body body, const void* positions, vox_format format,
-                                   uint64_t byte_stride) {
-    return vox_mesh_bind_strided_positions(grid, body, positions, format, byte_stride, 0);
-}
-
-vox_result vox_mesh_bind_strided_positions(vox_grid* grid, vox_body body, const void* positions,
-                                           vox_format format, uint64_t byte_stride,
-                                           uint64_t component_byte_stride) {
+vox_result vox_mesh_bind_positions(vox_grid* grid, vox_body body, const vox_positions* positions) {
     return border(grid, "grid", [&] {
+        require(positions, "positions");
         Mesh& target = grid->mesh(body);
-        if (target.vertex_count() > 0) require(positions, "positions");
-        check_format(format, "");
-        target.bind(check_positions(positions, format, byte_stride, component_byte_stride,
-                                    target.vertex_count(), ""));
+        if (target.vertex_count() > 0) require(positions->data, "positions.data");
+        target.bind(check_positions_of(target.vertex_count(), *positions, "positions"));
     });
 }
 
-vox_result vox_mesh_map_positions(vox_grid* grid, vox_body body, void** out_positions,
-                                  uint64_t* out_byte_stride) {
-    return border(grid, "grid", [&] {
-        require(out_positions, "out_positions");
-        require(out_byte_stride, "out_byte_stride");
-        Mesh& target = grid->mesh(body);
-        *out_positions = target.map_positions();
-        *out_byte_stride = target.position_size();
-    });
+vox_result vox_mesh_map_positions(vox_grid* grid, vox_body body, void** out_positions) {
+    return border(grid, "grid", out_positions, "out_positions",
+                  [&] { return grid->mesh(body).map_positions(); });
 }
 
 vox_result vox_body_set_transform(vox_grid* grid, vox_body body, const double matrix[12]) {

@@ -14,14 +14,12 @@ vox_result vox_grid_margin(const vox_grid* grid, double* out_margin) {
     return border(grid, "grid", out_margin, "out_margin", [&] { return grid->margin(); });
 }
 
-vox_result vox_mesh_bind_previous_positions(vox_grid* grid, vox_body body, const void* positions,
-                                            vox_format format, uint64_t byte_stride,
-                                            uint64_t component_byte_stride) {
+vox_result vox_mesh_bind_previous_positions(vox_grid* grid, vox_body body, const vox_positions* positions) {
     return border(grid, "grid", [&] {
         const std::uint32_t vertices = grid->mesh(body).vertex_count();
-        check_format(format, "");
-        grid->bind_previous(
-            body, check_positions(positions, format, byte_stride, component_byte_stride, vertices, ""));
+        grid->bind_previous(body, positions && positions->data
+                                      ? check_positions_of(vertices, *positions, "positions")
+                                      : Positions{});
     });
 }
 

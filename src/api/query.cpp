@@ -67,12 +67,11 @@ vox_closest_desc closest_defaults() {
 Array<Vec3d> read_points(const void* points, const vox_format& point_format, std::uint64_t byte_stride,
                          std::uint64_t component_byte_stride, std::uint64_t count) {
     if (count > 0) require(points, "points");
-    check_format(point_format, "");
     if (count > UINT32_MAX)
         throw Error(VOX_ERROR_LIMIT, format("point_count is %llu, the limit is 2^32 - 1",
                                             static_cast<unsigned long long>(count)));
     const Positions positions =
-        check_positions(points, point_format, byte_stride, component_byte_stride, count, "");
+        check_positions({points, count, point_format, 0, byte_stride, component_byte_stride}, "points");
     Array<Vec3d> read(std::pmr::new_delete_resource());
     read.reserve(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < count; ++i) {

@@ -93,10 +93,11 @@ vox_result vox_scene_remove(vox_scene* scene, vox_part part) {
     return border(scene, "scene", [&] { scene->remove(part); });
 }
 
-vox_result vox_scene_bind_positions(vox_scene* scene, vox_part part, const void* positions, vox_format format,
-                                    uint64_t byte_stride, uint64_t component_byte_stride) {
-    return border(scene, "scene",
-                  [&] { scene->bind(part, positions, format, byte_stride, component_byte_stride); });
+vox_result vox_scene_bind_positions(vox_scene* scene, vox_part part, const vox_positions* positions) {
+    return border(scene, "scene", [&] {
+        require(positions, "positions");
+        scene->bind(part, *positions);
+    });
 }
 
 vox_result vox_scene_step(vox_scene* scene) {
@@ -140,9 +141,8 @@ vox_result vox_scene_hash_of_grid(const vox_grid* grid, uint64_t out_hash[2]) {
     });
 }
 
-vox_result vox_scene_locate(vox_scene* scene, const void* points, vox_format format, uint64_t byte_stride,
-                            uint64_t count, vox_scene_point* out_points) {
-    return border(scene, "scene", [&] { scene->locate(points, format, byte_stride, count, out_points); });
+vox_result vox_scene_locate(vox_scene* scene, const vox_positions* points, vox_scene_point* out_points) {
+    return border(scene, "scene", [&] { scene->locate(points, out_points); });
 }
 
 vox_result vox_scene_check(vox_scene* scene) {

@@ -13,7 +13,7 @@ void Rounds::take_points_of_this_rank(std::span<const Source> sources) {
     for (const Source& source : sources)
         for (const std::uint32_t v : source.clusters->order) {
             double position[3];
-            source.positions.get(v, position);
+            get(source.positions, v, position);
             if (!tets.holds(position)) continue;
             strangers_.push_back({v, group, v});
             xyz_.insert(xyz_.end(), position, position + 3);

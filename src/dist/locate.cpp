@@ -23,22 +23,16 @@ void place_parts(vox_scene& scene) {
     vox_filter filter = everything();
     filter.group = -1; // not with each other
     for (Part* part : scene.parts_) {
-        const Positions& p = part->positions;
-        const vox_format format = p.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
+        const vox_positions positions = as_given(part->positions, part->vertex_count);
         const auto known = std::find_if(side.placed.begin(), side.placed.end(),
                                         [&](const Placed& placed) { return placed.part == part; });
         if (known != side.placed.end()) {
-            check(vox_mesh_bind_strided_positions(side.grid.get(), known->mesh, p.data, format, p.stride,
-                                                  p.component_stride));
+            check(vox_mesh_bind_positions(side.grid.get(), known->mesh, &positions));
             continue;
         }
         vox_mesh_desc mesh = vox_default_mesh_desc();
         mesh.flags = VOX_MESH_BORROW_TETS;
-        mesh.positions = p.data;
-        mesh.position_format = format;
-        mesh.position_byte_stride = p.stride;
-        mesh.position_component_byte_stride = p.component_stride;
-        mesh.vertex_count = part->vertex_count;
+        mesh.positions = positions;
         mesh.tets = part->tets.data();
         mesh.tet_count = part->tet_count;
         mesh.filter = &filter;
@@ -59,8 +53,7 @@ auto order(const Found& f) noexcept {
 
 } // namespace
 
-void vox_scene::locate(const void* points, vox_format format, std::uint64_t stride, std::uint64_t count,
-                       vox_scene_point* out_points) {
+void vox_scene::locate(const vox_positions* points, vox_scene_point* out_points) {
     const auto before = counters_;
     counters_ = {};
     counters_.contacts = before.contacts;
@@ -70,34 +63,28 @@ void vox_scene::locate(const void* points, vox_format format, std::uint64_t stri
     Overview mine;
     mine.call = Call::locate;
     Clusters clusters(&memory_);
-    const bool doubles = enum_value(format) == VOX_FORMAT_DOUBLE3;
-    const std::uint64_t number_size = doubles ? sizeof(double) : sizeof(float);
-    const Positions positions{static_cast<const std::byte*>(points), stride == 0 ? 3 * number_size : stride,
-                              number_size, doubles};
+    Positions positions;
+    const std::uint64_t count = points ? points->count : 0;
     failure.guard([&] {
-        check_enum(format, VOX_FORMAT_DOUBLE3, "format");
+        require(points, "points");
         if (count > VOX_MAX_VERTICES)
-            throw Error(VOX_ERROR_LIMIT,
-                        vox::format("count is %llu, expected at most %u",
-                                    static_cast<unsigned long long>(count), VOX_MAX_VERTICES));
-        if (positions.stride < 3 * number_size)
-            refuse(vox::format("byte_stride is %llu, expected 0 or at least %llu",
-                               static_cast<unsigned long long>(stride),
-                               static_cast<unsigned long long>(3 * number_size)));
-        if (count) require(points, "points");
+            throw Error(VOX_ERROR_LIMIT, format("points.count is %llu, expected at most %u",
+                                                static_cast<unsigned long long>(count), VOX_MAX_VERTICES));
+        positions = check_positions(*points, "points");
+        if (count) require(points->data, "points.data");
         if (count) require(out_points, "out_points");
         double at[3];
         for (std::uint64_t i = 0; i < count; ++i) {
-            positions.get(i, at);
+            get(positions, i, at);
             check_position(at, {"point", i, 0, false});
         }
         look();
         place_parts(*this);
         clusters.make(static_cast<std::uint32_t>(count), 64,
-                      [&](std::uint32_t i, double out[3]) { positions.get(i, out); });
+                      [&](std::uint32_t i, double out[3]) { get(positions, i, out); });
         for (std::uint32_t c = 0; c < clusters.size(); ++c) {
             for (const std::uint32_t i : clusters.of(c)) {
-                positions.get(i, at);
+                get(positions, i, at);
                 add_point(clusters.boxes[c], at);
             }
             mine.vertices.add(clusters.boxes[c]);

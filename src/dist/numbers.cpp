@@ -69,7 +69,7 @@ void vox_scene::check_numbers() {
         for (const Part* part : parts_) {
             for (std::uint32_t v = 0; v < part->vertex_count; ++v) {
                 Numbered item{part->body, part->id_of(v), {}, me, part->owns(v) ? 0u : 1u};
-                part->positions.get(v, item.position);
+                get(part->positions, v, item.position);
                 send(item);
             }
             for (std::uint32_t t = 0; t < part->tet_count; ++t)

@@ -55,13 +55,13 @@ void add_point(Box& box, const double position[3]) noexcept {
 }
 
 void Part::take(const vox_part_desc& desc, const vox_mesh_desc& mesh) {
-    if (mesh.vertex_count > VOX_MAX_VERTICES || mesh.tet_count > VOX_MAX_TETS)
+    if (mesh.positions.count > VOX_MAX_VERTICES || mesh.tet_count > VOX_MAX_TETS)
         throw Error(VOX_ERROR_LIMIT,
                     format("the part has %llu vertices and %llu tets, expected at most %u of each",
-                           static_cast<unsigned long long>(mesh.vertex_count),
+                           static_cast<unsigned long long>(mesh.positions.count),
                            static_cast<unsigned long long>(mesh.tet_count), VOX_MAX_TETS));
     if (mesh.tet_count) require(mesh.tets, "mesh.tets");
-    vertex_count = static_cast<std::uint32_t>(mesh.vertex_count);
+    vertex_count = static_cast<std::uint32_t>(mesh.positions.count);
     tet_count = static_cast<std::uint32_t>(mesh.tet_count);
     if (desc.vertex_ids) {
         vertex_ids.assign(desc.vertex_ids, desc.vertex_ids + vertex_count);
@@ -100,14 +100,14 @@ std::optional<std::uint32_t> Part::find(std::uint64_t id) const noexcept {
 void Part::look(Memory* memory) {
     double at[3];
     for (std::uint32_t v = 0; v < vertex_count; ++v) {
-        positions.get(v, at);
+        get(positions, v, at);
         check_position(at, {"vertex", id_of(v), body, true});
     }
     if (!clustered) {
         const auto centre = [&](std::uint32_t tet, double out[3]) {
-            positions.get(tets[4 * std::size_t{tet}], out);
+            get(positions, tets[4 * std::size_t{tet}], out);
             double other[3];
-            positions.get(tets[4 * std::size_t{tet} + 2], other);
+            get(positions, tets[4 * std::size_t{tet} + 2], other);
             for (int axis = 0; axis < 3; ++axis) out[axis] = out[axis] / 2 + other[axis] / 2;
         };
         tet_clusters.make(tet_count, tets_of_a_cluster, centre);
@@ -131,7 +131,7 @@ void Part::look(Memory* memory) {
         for (std::uint32_t v = 0; v < vertex_count; ++v)
             if (owns(v)) mine.push_back(v);
         vertex_clusters.make(static_cast<std::uint32_t>(mine.size()), vertices_of_a_cluster,
-                             [&](std::uint32_t i, double out[3]) { positions.get(mine[i], out); });
+                             [&](std::uint32_t i, double out[3]) { get(positions, mine[i], out); });
         for (std::uint32_t& item : vertex_clusters.order) item = mine[item];
         clustered = true;
     }
@@ -141,7 +141,7 @@ void Part::look(Memory* memory) {
         for (std::uint32_t c = 0; c < clusters->size(); ++c) {
             Box box;
             for (const std::uint32_t vertex : clusters->of(c)) {
-                positions.get(vertex, at);
+                get(positions, vertex, at);
                 add_point(box, at);
             }
             clusters->boxes[c] = box;

@@ -1,6 +1,7 @@
 // A part of a body on this rank: its global numbers, and boxes around its tetrahedra and vertices.
 #pragma once
 
+#include "base/positions.hpp"
 #include "dist/messages.hpp"
 
 #include <optional>
@@ -8,24 +9,10 @@
 
 namespace vox::dist {
 
-// Positions of the caller's, in any layout that vox_mesh_desc allows.
-struct Positions {
-    const std::byte* data = nullptr;
-    std::uint64_t stride = 0, component_stride = 0;
-    bool doubles = false;
-
-    void get(std::uint64_t vertex, double out[3]) const noexcept {
-        const std::byte* at = data + vertex * stride;
-        for (int axis = 0; axis < 3; ++axis, at += component_stride)
-            if (doubles) {
-                std::memcpy(&out[axis], at, sizeof(double));
-            } else {
-                float number;
-                std::memcpy(&number, at, sizeof number);
-                out[axis] = number;
-            }
-    }
-};
+inline void get(const Positions& positions, std::uint64_t vertex, double out[3]) noexcept {
+    const Vec3d p = positions.exact(static_cast<std::size_t>(vertex));
+    out[0] = p.x, out[1] = p.y, out[2] = p.z;
+}
 
 // Throws NON_FINITE or LIMIT for a position that vox does not allow; `name` is printf's, with the number of
 // the vertex.

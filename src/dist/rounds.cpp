@@ -164,7 +164,7 @@ void Rounds::send_vertices_to(std::uint32_t neighbour, std::span<const Source> s
             if (near_cluster.empty()) continue;
             for (const std::uint32_t v : source.clusters->of(c)) {
                 double position[3];
-                source.positions.get(v, position);
+                get(source.positions, v, position);
                 if (std::none_of(near_cluster.begin(), near_cluster.end(),
                                  [&](const Box& box) { return box.holds(position); }))
                     continue;
@@ -210,7 +210,7 @@ void Rounds::take_vertices() {
                 }
                 if (const auto here = copies ? copies->find(vertex.id) : std::nullopt) {
                     double position[3];
-                    copies->positions.get(*here, position);
+                    get(copies->positions, *here, position);
                     if (!std::equal(position, position + 3, vertex.position))
                         throw Error(
                             VOX_ERROR_INVALID_STATE,

@@ -147,12 +147,10 @@ void vox_scene::remove(vox_part handle) {
     std::pmr::polymorphic_allocator<>(&memory_).delete_object(part);
 }
 
-void vox_scene::bind(vox_part handle, const void* positions, vox_format format, std::uint64_t stride,
-                     std::uint64_t component_stride) {
+void vox_scene::bind(vox_part handle, const vox_positions& positions) {
     if (std::none_of(parts_.begin(), parts_.end(), [&](const Part* p) { return p->handle == handle; }))
         throw Error(VOX_ERROR_INVALID_HANDLE, vox::format("there is no part %u", handle));
-    check(vox_mesh_bind_strided_positions(contacts_side_.grid.get(), handle, positions, format, stride,
-                                          component_stride));
+    check(vox_mesh_bind_positions(contacts_side_.grid.get(), handle, &positions));
 }
 
 void vox_scene::look() {
@@ -160,11 +158,10 @@ void vox_scene::look() {
         vox_body_info info{};
         info.struct_size = sizeof info;
         check(vox_body_get_info(contacts_side_.grid.get(), part->handle, &info));
-        if (!info.positions && part->vertex_count != 0)
+        if (!info.positions.data && part->vertex_count != 0)
             throw Error(VOX_ERROR_INVALID_STATE, format("the part of body %llu has no positions",
                                                         static_cast<unsigned long long>(part->body)));
-        part->positions = {static_cast<const std::byte*>(info.positions), info.position_byte_stride,
-                           info.position_component_byte_stride, info.position_format == VOX_FORMAT_DOUBLE3};
+        part->positions = check_positions(info.positions, "positions");
         part->look(&memory_);
     }
 }

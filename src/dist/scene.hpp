@@ -45,13 +45,11 @@ struct vox_scene {
 
     vox_part insert(const vox_part_desc& desc);
     void remove(vox_part part);
-    void bind(vox_part part, const void* positions, vox_format format, std::uint64_t stride,
-              std::uint64_t component_stride);
+    void bind(vox_part part, const vox_positions& positions);
     void step();
     void send(vox_direction direction, std::uint64_t item_bytes, const void* in, void* out);
     void hash(std::uint64_t out[2]);
-    void locate(const void* points, vox_format format, std::uint64_t stride, std::uint64_t count,
-                vox_scene_point* out_points);
+    void locate(const vox_positions* points, vox_scene_point* out_points);
     void check_numbers();
     std::uint64_t costs(vox_part_cost* costs, std::uint64_t capacity) const;
 

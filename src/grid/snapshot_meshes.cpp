@@ -112,7 +112,7 @@ void Snapshot::save_meshes(const vox_grid& grid, SnapshotWriter& out) {
         out.u64(body.vertex_count);
         out.u64(body.tets.size());
         out.u32(has_positions);
-        out.u32(positions.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3);
+        out.u32(positions.doubles ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT);
         if (mesh.has_transform_)
             for (const double element : mesh.transform_->rows) out.f64(element);
         for (std::uint32_t t = 0; t < body.tets.size(); ++t)
@@ -138,16 +138,15 @@ void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
     vox_mesh_desc desc = vox_default_mesh_desc();
     const std::uint32_t bits = in.u32();
     desc.user_data = in.u64();
-    desc.vertex_count = in.u64();
+    const std::uint64_t vertex_count = in.u64();
     desc.tet_count = in.u64();
     const bool has_positions = in.flag("whether it has positions");
     const std::uint32_t position_format = in.u32();
     if (bits & ~known_bits)
         in.refuse(
             format("flags are 0x%" PRIx32 ", of which 0x%" PRIx32 " is unknown", bits, bits & ~known_bits));
-    if (position_format != VOX_FORMAT_FLOAT3 && position_format != VOX_FORMAT_DOUBLE3)
+    if (position_format != VOX_FORMAT_FLOAT && position_format != VOX_FORMAT_DOUBLE)
         in.refuse(format("position format is %" PRIu32 ", not a vox_format", position_format));
-    desc.position_format = static_cast<vox_format>(position_format);
     std::array<double, 12> transform{};
     if (bits & transform_bit)
         for (double& element : transform) {
@@ -164,12 +163,14 @@ void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
     }
     Array<Vec3f> floats(&grid.memory_);
     Array<Vec3d> doubles(&grid.memory_);
-    if (has_positions && desc.position_format == VOX_FORMAT_DOUBLE3) {
-        load_points(in, desc.vertex_count, doubles);
-        desc.positions = doubles.data();
+    desc.positions.count = vertex_count;
+    desc.positions.format = static_cast<vox_format>(position_format);
+    if (has_positions && desc.positions.format == VOX_FORMAT_DOUBLE) {
+        load_points(in, vertex_count, doubles);
+        desc.positions.data = doubles.data();
     } else if (has_positions) {
-        load_points(in, desc.vertex_count, floats);
-        desc.positions = floats.data();
+        load_points(in, vertex_count, floats);
+        desc.positions.data = floats.data();
     }
     in.end();
 

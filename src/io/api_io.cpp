@@ -220,17 +220,12 @@ vox_result vox_io_mesh_describe(const vox_io_mesh* mesh, vox_mesh_desc* desc) {
     return border([&] {
         require(mesh, "mesh");
         vox_mesh_desc described = read_struct(desc, vox_default_mesh_desc(), "desc");
-        constexpr std::size_t least = offsetof(vox_mesh_desc, position_format) + sizeof(vox_format);
+        constexpr std::size_t least = offsetof(vox_mesh_desc, tet_count) + sizeof(described.tet_count);
         if (described.struct_size < least)
-            refuse(format(
-                "desc.struct_size is %u, which does not reach to position_format; expected at least %zu",
-                described.struct_size, least));
+            refuse(format("desc.struct_size is %u, which does not reach to tet_count; expected at least %zu",
+                          described.struct_size, least));
         const vox_io_mesh_view view = view_of(mesh->arrays);
-        described.positions = view.positions;
-        described.position_format = VOX_FORMAT_DOUBLE3;
-        described.position_byte_stride = 0;
-        described.position_component_byte_stride = 0;
-        described.vertex_count = view.vertex_count;
+        described.positions = vox_double_positions(view.positions, view.vertex_count);
         described.tets = view.tets;
         described.tet_count = view.tet_count;
         write_struct(desc, described, "desc");

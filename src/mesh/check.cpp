@@ -17,50 +17,6 @@ namespace vox {
 static_assert(sizeof(Tet) == 4 * sizeof(std::uint32_t) && alignof(Tet) == alignof(std::uint32_t),
               "tets are viewed in the caller's index array");
 
-Positions check_positions(const void* data, vox_format position_format, std::uint64_t byte_stride,
-                          std::uint64_t component_byte_stride, std::uint64_t vertex_count,
-                          const char* prefix) {
-    const std::uint64_t number = position_format == VOX_FORMAT_DOUBLE3 ? sizeof(double) : sizeof(float);
-    const std::uint64_t component = component_byte_stride == 0 ? number : component_byte_stride;
-    const bool together = component == number;
-    const std::uint64_t stride = byte_stride != 0 ? byte_stride : together ? 3 * number : number;
-    // No array is larger than this; a stride that would make it so is a mistake, not a huge mesh.
-    constexpr std::uint64_t most_bytes = std::numeric_limits<std::ptrdiff_t>::max();
-    if (vertex_count > 0 && stride > most_bytes / vertex_count)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%sbyte_stride is %" PRIu64 ", too large for %" PRIu64 " vertices", prefix, stride,
-                           vertex_count));
-    if (component > most_bytes / 4 ||
-        (vertex_count > 0 && stride > (most_bytes - 2 * component) / vertex_count))
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%scomponent_byte_stride is %" PRIu64 ", too large for %" PRIu64
-                           " vertices %" PRIu64 " bytes apart",
-                           prefix, component, vertex_count, stride));
-    const std::uint64_t least = together ? 3 * number : number;
-    if (stride < least && (together || vertex_count > 1))
-        throw Error(
-            VOX_ERROR_INVALID_ARGUMENT,
-            format("%sbyte_stride is %" PRIu64 ", expected 0 or at least %" PRIu64, prefix, stride, least));
-    const bool rows = stride >= 2 * component + number;
-    const bool columns = vertex_count <= 1 || component >= (vertex_count - 1) * stride + number;
-    if (component < number || (!rows && !columns))
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%scomponent_byte_stride is %" PRIu64 ", byte_stride %" PRIu64 ": %" PRIu64
-                           " positions would overlap; columns need at least %" PRIu64,
-                           prefix, component, stride, vertex_count, vertex_count * stride));
-    return {.data = static_cast<const std::byte*>(data),
-            .byte_stride = static_cast<std::size_t>(stride),
-            .doubles = position_format == VOX_FORMAT_DOUBLE3,
-            .component_gap = static_cast<std::size_t>(component - number)};
-}
-
-void check_format(const vox_format& position_format, const char* prefix) {
-    const std::int32_t value = enum_value(position_format);
-    if (value != VOX_FORMAT_FLOAT3 && value != VOX_FORMAT_DOUBLE3)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%sformat is %" PRId32 ", not a vox_format", prefix, value));
-}
-
 Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null_positions) {
     constexpr std::uint32_t known_flags =
         VOX_MESH_SELF_COLLISION | VOX_MESH_COPY_POSITIONS | VOX_MESH_BORROW_TETS;
@@ -68,23 +24,17 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("%sflags is 0x%" PRIx32 ", of which 0x%" PRIx32 " is unknown", where, desc.flags,
                            desc.flags & ~known_flags));
-    if (desc.reserved != 0)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%sreserved is %" PRIu32 ", expected 0", where, desc.reserved));
-    if (desc.vertex_count > VOX_MAX_VERTICES)
-        throw Error(VOX_ERROR_LIMIT, format("%svertex_count is %" PRIu64 ", the limit is %" PRIu32, where,
-                                            desc.vertex_count, VOX_MAX_VERTICES));
+    if (desc.positions.count > VOX_MAX_VERTICES)
+        throw Error(VOX_ERROR_LIMIT, format("%spositions.count is %" PRIu64 ", the limit is %" PRIu32, where,
+                                            desc.positions.count, VOX_MAX_VERTICES));
     if (desc.tet_count > VOX_MAX_TETS)
         throw Error(VOX_ERROR_LIMIT, format("%stet_count is %" PRIu64 ", the limit is %" PRIu32, where,
                                             desc.tet_count, VOX_MAX_TETS));
-    const std::string prefix = format("%sposition_", where);
-    check_format(desc.position_format, prefix.c_str());
-    const Positions positions =
-        check_positions(desc.positions, desc.position_format, desc.position_byte_stride,
-                        desc.position_component_byte_stride, desc.vertex_count, prefix.c_str());
-    if (!desc.positions && desc.vertex_count > 0 && null_positions == NullPositions::rejected)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%spositions is null, vertex_count is %" PRIu64, where, desc.vertex_count));
+    const Positions positions = check_positions(desc.positions, format("%spositions", where).c_str());
+    if (!desc.positions.data && desc.positions.count > 0 && null_positions == NullPositions::rejected)
+        throw Error(
+            VOX_ERROR_INVALID_ARGUMENT,
+            format("%spositions.data is null, positions.count is %" PRIu64, where, desc.positions.count));
     if (!desc.tets && desc.tet_count > 0)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("%stets is null, tet_count is %" PRIu64, where, desc.tet_count));
@@ -93,7 +43,7 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
                     format("%stets is not aligned to %zu bytes", where, alignof(Tet)));
 
     Body body;
-    body.vertex_count = static_cast<std::uint32_t>(desc.vertex_count);
+    body.vertex_count = static_cast<std::uint32_t>(desc.positions.count);
     body.user_data = desc.user_data;
     body.positions = positions;
     body.tets = {reinterpret_cast<const Tet*>(desc.tets), static_cast<std::size_t>(desc.tet_count)};
@@ -207,7 +157,7 @@ bool check_not_doubles(const Body& body) {
     if (!all.ordinary || all.tiny < enough || all.huge < enough) return true;
     throw MeshError(
         VOX_ERROR_INVALID_ARGUMENT, body,
-        format(": its positions are doubles, but position_format is VOX_FORMAT_FLOAT3 (of %zu numbers, "
+        format(": its positions are doubles, but their format is VOX_FORMAT_FLOAT (of %zu numbers, "
                "every other is of ordinary size; of those between, %" PRIu32 " are beyond 2^40 and %" PRIu32
                " below 2^-40)",
                numbers, all.huge, all.tiny));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/error.hpp"
+#include "base/positions.hpp"
 #include "base/scene.hpp"
 
 #include <vox/vox.h>
@@ -18,16 +19,6 @@ enum class NullPositions : bool { rejected, allowed };
 // it). `where` starts every error text: "" or e.g. "mesh 1: ". Throws Error: INVALID_ARGUMENT, INVALID_MESH,
 // LIMIT. The positions are not looked at: whether they are finite is known only when they are used.
 Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null_positions);
-
-// Checks the caller's strides, where 0 means tightly packed (see vox_mesh_desc), and views the positions.
-// `prefix` is what the names of these fields begin with, e.g. "mesh 1: position_" for position_byte_stride of
-// a mesh. Throws Error(INVALID_ARGUMENT).
-Positions check_positions(const void* data, vox_format format, std::uint64_t byte_stride,
-                          std::uint64_t component_byte_stride, std::uint64_t vertex_count,
-                          const char* prefix);
-
-// Throws INVALID_ARGUMENT for a format that this version does not know.
-void check_format(const vox_format& format, const char* prefix);
 
 // How errors and the log call a mesh: by its id, slot and user data, as far as it has these.
 std::string name_of(const Body& body);

@@ -148,31 +148,45 @@ std::uint32_t Mesh::append_tets(std::span<const Tet> corners) {
 
 // ---- vertices -------------------------------------------------------------------------------------
 
+Positions Mesh::check_appended(const vox_vertices_desc& desc, std::uint32_t count) const {
+    if (!desc.positions.data) return {};
+    const Positions given = check_positions(desc.positions, "positions");
+    if (desc.positions.count != count)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("positions.count is %" PRIu64 ", expected %" PRIu32 ": the mesh %s",
+                           desc.positions.count, count,
+                           owns_positions_ ? "has positions of its own, and needs those of the new vertices"
+                                           : "borrows its positions, and needs those of all vertices"));
+    if (owns_positions_ && given.doubles != positions_.doubles)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("positions.format is VOX_FORMAT_%s, that of the mesh is not",
+                           given.doubles ? "DOUBLE" : "FLOAT"));
+    return given;
+}
+
 std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
     const std::uint32_t before = vertex_count_;
     const auto added = static_cast<std::uint32_t>(desc.count), count = before + added;
     const bool owns = owns_positions_;
-    const vox_format position_format = positions_.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
     const std::size_t size = position_size();
-    const Positions given =
-        check_positions(desc.positions, position_format, desc.position_byte_stride,
-                        desc.position_component_byte_stride, owns ? added : count, "position_");
+    const Positions given = check_appended(desc, owns ? added : count);
     for (std::uint32_t i = 0; desc.copies_of && i < added; ++i)
         if (desc.copies_of[i] >= before)
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("copies_of[%" PRIu32 "] is %" PRIu32 ", the mesh has %" PRIu32 " vertices", i,
                                desc.copies_of[i], before));
     if (added == 0) return before;
-    if (!desc.positions && !owns && positions_.data)
+    if (!given.data && !owns && positions_.data)
         throw Error(
             VOX_ERROR_INVALID_ARGUMENT,
-            format("positions is null: the mesh borrows its positions, and needs all %" PRIu32, count));
-    if (owns && !desc.positions && !desc.copies_of)
+            format("positions.data is null: the mesh borrows its positions, and needs all %" PRIu32, count));
+    if (owns && !given.data && !desc.copies_of)
         throw Error(
             VOX_ERROR_INVALID_ARGUMENT,
-            format("positions and copies_of are null: the mesh has positions of its own, and needs %" PRIu32
-                   " more",
-                   added));
+            format(
+                "positions.data and copies_of are null: the mesh has positions of its own, and needs %" PRIu32
+                " more",
+                added));
 
     // Positions: all of them where they are borrowed, else those of the new vertices.
     Array<std::byte> news(memory()); // apart: growing owned_ moves what they may be copied from
@@ -188,10 +202,8 @@ std::uint32_t Mesh::append_vertices(const vox_vertices_desc& desc) {
     // The rest pose grows, too.
     RestPose rest(memory());
     const bool has_rest = !self_filter_->rest.empty() || (before == 0 && filter_.self_rest_distance > 0);
-    if (has_rest && desc.rest_positions) {
-        rest = rest_pose(check_positions(desc.rest_positions, position_format, desc.rest_position_byte_stride,
-                                         desc.rest_position_component_byte_stride, added, "rest_position_"),
-                         added);
+    if (has_rest && desc.rest_positions.data) {
+        rest = rest_pose(check_positions_of(added, desc.rest_positions, "rest_positions"), added);
     } else if (has_rest && desc.copies_of) {
         rest = self_filter_->rest.of({desc.copies_of, added});
     } else if (has_rest) {
@@ -335,9 +347,9 @@ void Mesh::apply_vertices(std::uint32_t count_before) noexcept {
 Mesh Mesh::with_topology(const vox_mesh_desc& desc, const Body& view) const {
     Mesh made(desc, view, filter_defaults(), memory());
     made.set_transform(has_transform_ ? transform_->rows.data() : nullptr);
-    if (!desc.positions && view.vertex_count == vertex_count_) {
+    if (!desc.positions.data && view.vertex_count == vertex_count_) {
         made.positions_ = positions_; // take_over() moves owned ones
-        if (!desc.rest_positions && !self_filter_->rest.empty())
+        if (!desc.rest_positions.data && !self_filter_->rest.empty())
             made.self_filter_.make(memory()).rest = self_filter_->rest;
     }
     made.set_filter(filter_);

@@ -19,11 +19,9 @@ Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter
         check_format_once(VOX_NULL_BODY);
         map_positions();
     }
-    if (desc.rest_positions)
+    if (desc.rest_positions.data)
         self_filter_.make(memory).rest = rest_pose(
-            check_positions(desc.rest_positions, desc.position_format, desc.rest_position_byte_stride,
-                            desc.rest_position_component_byte_stride, vertex_count_, "rest_position_"),
-            vertex_count_);
+            check_positions_of(vertex_count_, desc.rest_positions, "rest_positions"), vertex_count_);
     set_filter(filter);
 }
 
@@ -161,20 +159,14 @@ vox_body_info Mesh::info(std::uint32_t slot) const noexcept {
     info.struct_size = sizeof info;
     info.slot = slot;
     info.user_data = user_data_;
-    info.vertex_count = vertex_count_;
     info.tet_count = tet_count();
     info.enabled_tet_count = tet_count() - edits_->off.count();
     info.enabled = enabled_ ? 1 : 0;
     if (filter_.self_collision) info.flags |= VOX_MESH_SELF_COLLISION;
     if (owns_positions_) info.flags |= VOX_MESH_COPY_POSITIONS;
     if (borrows_tets()) info.flags |= VOX_MESH_BORROW_TETS;
-    info.position_format = positions_.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
-    if (positions_.data) {
-        const std::size_t number = position_size() / 3;
-        info.positions = positions_.data;
-        info.position_byte_stride = positions_.byte_stride;
-        info.position_component_byte_stride = number + positions_.component_gap;
-    }
+    info.positions = as_given(positions_, vertex_count_);
+    if (!positions_.data) info.positions.byte_stride = info.positions.component_byte_stride = 0;
     info.has_transform = has_transform_ ? 1 : 0;
     for (const std::size_t i : {0u, 5u, 10u}) info.transform[i] = 1;
     if (has_transform_) std::copy(transform_->rows.begin(), transform_->rows.end(), info.transform);

@@ -154,6 +154,9 @@ public:
 private:
     friend class Snapshot;
 
+    // Of the vertices to append, or of `count` in all.
+    Positions check_appended(const vox_vertices_desc& desc, std::uint32_t count) const;
+
     // One after the other, in the mesh's format.
     Positions packed(const void* data) const noexcept;
 

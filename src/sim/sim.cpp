@@ -143,8 +143,8 @@ vox_body vox_sim::insert(const vox_sim_body_desc& desc) {
 
     vox_mesh_desc mesh = vox_default_mesh_desc();
     if (desc.flags & VOX_SIM_BODY_SELF_COLLISION) mesh.flags |= VOX_MESH_SELF_COLLISION;
-    mesh.positions = body->grid_positions.data();
-    mesh.vertex_count = body->positions.size();
+    mesh.positions.data = body->grid_positions.data();
+    mesh.positions.count = body->positions.size();
     mesh.tets = body->tets.data();
     mesh.tet_count = desc.tet_count;
     mesh.user_data = desc.user_data;

@@ -27,9 +27,9 @@ vox_primitives boxes_as_primitives(const Array<Box>& boxes) {
     static_assert(sizeof(Box) == 2 * sizeof(Box::lo) && sizeof(Box::lo) == 4 * sizeof(float));
     vox_primitives primitives = primitives_defaults();
     primitives.type = VOX_PRIMITIVE_BOX;
-    primitives.positions = boxes.data();
-    primitives.position_byte_stride = sizeof(Box::lo);
-    primitives.vertex_count = 2 * boxes.size();
+    primitives.positions.data = boxes.data();
+    primitives.positions.count = 2 * boxes.size();
+    primitives.positions.byte_stride = sizeof(Box::lo);
     primitives.count = boxes.size();
     return primitives;
 }

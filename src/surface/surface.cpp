@@ -21,19 +21,16 @@ vox_surface::vox_surface(const vox_surface_desc& desc, const MemoryShare& memory
 
 void vox_surface::move(const vox_motion& motion) {
     const std::uint32_t count = topology_.vertex_count;
-    if (motion.vertex_count != count)
-        refuse(
-            format("vertex_count is %llu, but the surface has %u vertices", llu(motion.vertex_count), count));
-    check_format(motion.format, "");
-    require(motion.from, "from");
-    if (motion.reserved != 0) refuse(format("reserved is %u, expected 0", motion.reserved));
+    if (count > 0) require(motion.from.data, "from.data");
+    if (motion.to.data && motion.to.format != motion.from.format)
+        refuse(format("to.format is %d, from.format %d, expected the same", enum_value(motion.to.format),
+                      enum_value(motion.from.format)));
     if (motion.flags & ~std::uint32_t{VOX_MOTION_CULL})
         refuse(format("flags is %u, expected vox_motion_flags", motion.flags));
     if (!(motion.radius >= 0)) refuse(format("radius is %g, expected 0 or a length", motion.radius));
     // All that can fail comes first.
-    const auto checked = [&](const void* data, const char* name) {
-        const Positions positions =
-            check_positions(data, motion.format, motion.byte_stride, motion.component_byte_stride, count, "");
+    const auto checked = [&](const vox_positions& given, const char* name) {
+        const Positions positions = check_positions_of(count, given, name);
         const auto is_good = [](double x) { return std::isfinite(static_cast<float>(x)); };
         for (std::uint32_t v = 0; v < count; ++v) {
             const Vec3d p = positions.exact(v);
@@ -45,17 +42,17 @@ void vox_surface::move(const vox_motion& motion) {
         return positions;
     };
     const Positions from = checked(motion.from, "from");
-    const Positions to = motion.to ? checked(motion.to, "to") : from;
+    const Positions to = motion.to.data ? checked(motion.to, "to") : from;
     positions_[0].reserve(count);
-    if (motion.to) positions_[1].reserve(count);
+    if (motion.to.data) positions_[1].reserve(count);
     const auto copy = [count](const Positions& positions, Array<Vec3d>& out) {
         out.resize(count);
         for (std::uint32_t v = 0; v < count; ++v) out[v] = positions.exact(v);
     };
     copy(from, positions_[0]);
-    if (motion.to) copy(to, positions_[1]);
-    motion_ = {positions_[0], motion.to ? positions_[1] : positions_[0], motion.radius,
-               motion.format == VOX_FORMAT_DOUBLE3, (motion.flags & VOX_MOTION_CULL) != 0};
+    if (motion.to.data) copy(to, positions_[1]);
+    motion_ = {positions_[0], motion.to.data ? positions_[1] : positions_[0], motion.radius, from.doubles,
+               (motion.flags & VOX_MOTION_CULL) != 0};
     has_motion_ = true;
     search_.forget_boxes();
     piece_ = {};

@@ -145,7 +145,7 @@ START_TEST(which_mesh_failed) {
 
     /* A mesh that has no positions, and may be removed before anyone asks. */
     vox_mesh_desc bare = body_desc(&s.bodies[0]);
-    bare.positions = NULL;
+    bare.positions.data = NULL;
     bare.user_data = 7;
     const vox_body mesh = insert_mesh(s.grid, &bare);
     ck_fails(vox_grid_step(s.grid), VOX_ERROR_INVALID_STATE, "(slot 4, user data 7) has no positions");
@@ -232,7 +232,7 @@ START_TEST(bad_meshes_are_left_out) {
     }
     /* Only coordinates: a mesh without positions is a mistake of the program. */
     vox_mesh_desc bare = body_desc(&s.bodies[0]);
-    bare.positions = NULL;
+    bare.positions.data = NULL;
     const vox_body mesh = insert_mesh(s.grid, &bare);
     ck_fails(vox_grid_step(s.grid), VOX_ERROR_INVALID_STATE, "has no positions");
     ck_ok(vox_body_remove(s.grid, mesh));

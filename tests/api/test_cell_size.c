@@ -144,8 +144,8 @@ START_TEST(layout_and_winding_do_not_matter) {
     memset(bytes, 0xff, 1 + stride * box.vertex_count); /* what lies between is NaN */
     for (uint32_t v = 0; v < box.vertex_count; ++v)
         memcpy(bytes + 1 + stride * v, box.positions + 3 * v, 3 * sizeof(float));
-    mesh.positions = bytes + 1;
-    mesh.position_byte_stride = stride;
+    mesh.positions.data = bytes + 1;
+    mesh.positions.byte_stride = stride;
     const vox_suggestion strided = suggest_ok(NULL, &mesh, 1);
     ck_assert_mem_eq(&strided, &packed, sizeof packed);
 

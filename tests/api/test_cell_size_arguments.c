@@ -106,19 +106,20 @@ START_TEST(bad_mesh) {
     } while (0)
 
     BAD(flags = 8, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): flags is 0x8");
-    BAD(reserved = 7, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): reserved is 7");
-    BAD(positions = NULL, VOX_ERROR_INVALID_ARGUMENT,
-        "mesh 1 (user data 0): positions is null, vertex_count is 4");
+    BAD(positions.reserved = 7, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): positions.reserved is 7");
+    BAD(positions.data = NULL, VOX_ERROR_INVALID_ARGUMENT,
+        "mesh 1 (user data 0): positions.data is null, positions.count is 4");
     BAD(tets = NULL, VOX_ERROR_INVALID_ARGUMENT, "mesh 1 (user data 0): tets is null, tet_count is 1");
     BAD(tets = (const uint32_t*)((const char*)unit_tet + 1), VOX_ERROR_INVALID_ARGUMENT,
         "mesh 1 (user data 0): tets is not aligned");
-    BAD(position_byte_stride = 11, VOX_ERROR_INVALID_ARGUMENT,
-        "mesh 1 (user data 0): position_byte_stride is 11");
-    BAD(position_byte_stride = UINT64_MAX, VOX_ERROR_INVALID_ARGUMENT, "too large for 4 vertices");
-    BAD(position_format = (vox_format)77, VOX_ERROR_INVALID_ARGUMENT,
-        "mesh 1 (user data 0): position_format is 77");
-    BAD(vertex_count = 3, VOX_ERROR_INVALID_MESH, "mesh 1 (user data 0): tet 0 names vertex 3 of 3");
-    BAD(vertex_count = 1ull << 40, VOX_ERROR_LIMIT, "mesh 1 (user data 0): vertex_count is 1099511627776");
+    BAD(positions.byte_stride = 11, VOX_ERROR_INVALID_ARGUMENT,
+        "mesh 1 (user data 0): positions.byte_stride is 11");
+    BAD(positions.byte_stride = UINT64_MAX, VOX_ERROR_INVALID_ARGUMENT, "too large for 4 positions");
+    BAD(positions.format = (vox_format)77, VOX_ERROR_INVALID_ARGUMENT,
+        "mesh 1 (user data 0): positions.format is 77");
+    BAD(positions.count = 3, VOX_ERROR_INVALID_MESH, "mesh 1 (user data 0): tet 0 names vertex 3 of 3");
+    BAD(positions.count = 1ull << 40, VOX_ERROR_LIMIT,
+        "mesh 1 (user data 0): positions.count is 1099511627776");
     BAD(tet_count = 1ull << 40, VOX_ERROR_LIMIT, "mesh 1 (user data 0): tet_count is 1099511627776");
     BAD(struct_size = 0, VOX_ERROR_INVALID_ARGUMENT, "meshes[1].struct_size is 0");
     BAD(struct_size = sizeof(vox_mesh_desc) + 8, VOX_ERROR_INVALID_ARGUMENT, "that of meshes[0] is");

@@ -199,7 +199,7 @@ START_TEST(the_grid_suggests_by_its_engine) {
 
     ck_fails(vox_grid_suggest_cell_size(NULL, NULL, &found), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     vox_mesh_desc no_positions = p.meshes[0];
-    no_positions.positions = NULL;
+    no_positions.positions.data = NULL;
     insert_mesh(grid, &no_positions);
     ck_fails(vox_grid_suggest_cell_size(grid, NULL, &found), VOX_ERROR_INVALID_STATE, "no positions");
     vox_grid_destroy(grid);
@@ -285,9 +285,9 @@ START_TEST(a_vertex_of_no_tetrahedron_is_no_part_of_the_box) {
                 memcpy(positions + (first ? 0 : 3 * count), places[i], sizeof places[i]);
                 for (uint32_t c = 0; c < 4 * box.tet_count; ++c) tets[c] = box.tets[c] + (first ? 1u : 0u);
                 vox_mesh_desc with = without;
-                with.positions = positions;
+                with.positions.data = positions;
                 with.tets = tets;
-                with.vertex_count = count + 1;
+                with.positions.count = count + 1;
                 vox_suggest_desc desc = vox_default_suggest_desc();
                 desc.model = models[m];
                 const vox_suggestion given = suggest_ok(&desc, &without, 1),

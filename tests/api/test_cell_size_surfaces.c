@@ -69,9 +69,9 @@ START_TEST(the_size_of_the_surface_that_the_meshes_make) {
     vox_surface* surface = NULL;
     ck_ok(vox_surface_create(&surface_of_box, &surface));
     vox_motion motion = vox_default_motion();
-    motion.from = box.positions;
-    motion.vertex_count = box.vertex_count;
-    motion.format = VOX_FORMAT_FLOAT3;
+    motion.from.data = box.positions;
+    motion.from.count = motion.to.count = box.vertex_count;
+    motion.from.format = motion.to.format = VOX_FORMAT_FLOAT;
     ck_ok(vox_surface_move(surface, &motion));
     const vox_foreign_suggestion edges = of_kinds(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE);
     ck_assert_double_gt(edges.predicted_cost, 0);

@@ -36,8 +36,8 @@ static vox_suggestion suggest_for_ball(uint64_t tets, vox_size_reading reading) 
     for (uint64_t i = 0; i < 3 * view.vertex_count; ++i) positions[i] = (float)view.positions[i];
 
     vox_mesh_desc mesh = vox_default_mesh_desc();
-    mesh.positions = positions;
-    mesh.vertex_count = view.vertex_count;
+    mesh.positions.data = positions;
+    mesh.positions.count = view.vertex_count;
     mesh.tets = view.tets;
     mesh.tet_count = view.tet_count;
     vox_suggest_desc desc = vox_default_suggest_desc();

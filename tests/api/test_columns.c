@@ -17,16 +17,16 @@ typedef struct layout {
     int padding;                /* numbers between two columns, and bytes before the first */
 } layout;
 
-static const layout layouts[] = {{"columns", VOX_FORMAT_FLOAT3, 0, 1, 0},
-                                 {"columns", VOX_FORMAT_DOUBLE3, 0, 1, 0},
-                                 {"columns further apart, not aligned", VOX_FORMAT_FLOAT3, 4, 1, 5},
-                                 {"columns further apart, not aligned", VOX_FORMAT_DOUBLE3, 8, 1, 3},
-                                 {"columns with gaps", VOX_FORMAT_FLOAT3, 12, 1, 1},
-                                 {"columns with gaps", VOX_FORMAT_DOUBLE3, 40, 1, 0},
-                                 {"rows with gaps", VOX_FORMAT_FLOAT3, 36, 8, 0},
-                                 {"rows with gaps", VOX_FORMAT_DOUBLE3, 64, 16, 0},
-                                 {"rows, said in full", VOX_FORMAT_FLOAT3, 12, 4, 0},
-                                 {"rows, said in full", VOX_FORMAT_DOUBLE3, 0, 8, 0}};
+static const layout layouts[] = {{"columns", VOX_FORMAT_FLOAT, 0, 1, 0},
+                                 {"columns", VOX_FORMAT_DOUBLE, 0, 1, 0},
+                                 {"columns further apart, not aligned", VOX_FORMAT_FLOAT, 4, 1, 5},
+                                 {"columns further apart, not aligned", VOX_FORMAT_DOUBLE, 8, 1, 3},
+                                 {"columns with gaps", VOX_FORMAT_FLOAT, 12, 1, 1},
+                                 {"columns with gaps", VOX_FORMAT_DOUBLE, 40, 1, 0},
+                                 {"rows with gaps", VOX_FORMAT_FLOAT, 36, 8, 0},
+                                 {"rows with gaps", VOX_FORMAT_DOUBLE, 64, 16, 0},
+                                 {"rows, said in full", VOX_FORMAT_FLOAT, 12, 4, 0},
+                                 {"rows, said in full", VOX_FORMAT_DOUBLE, 0, 8, 0}};
 enum { layout_count = sizeof layouts / sizeof *layouts };
 
 /* An array of some positions in a layout; `component` 1 stands for columns. */
@@ -42,7 +42,7 @@ static void write_position(const laid_out* a, uint32_t v, const float position[3
     for (uint32_t axis = 0; axis < 3; ++axis) {
         unsigned char* to = a->data + v * a->real_stride + axis * a->real_component;
         const double d = (double)position[axis];
-        if (a->format == VOX_FORMAT_DOUBLE3)
+        if (a->format == VOX_FORMAT_DOUBLE)
             memcpy(to, &d, sizeof d);
         else
             memcpy(to, &position[axis], sizeof(float));
@@ -50,7 +50,7 @@ static void write_position(const laid_out* a, uint32_t v, const float position[3
 }
 
 static laid_out lay_out(const layout* l, const float* positions, uint32_t count) {
-    const uint64_t number = l->format == VOX_FORMAT_DOUBLE3 ? 8 : 4;
+    const uint64_t number = l->format == VOX_FORMAT_DOUBLE ? 8 : 4;
     const uint64_t padding = (uint64_t)l->padding;
     laid_out a = {NULL, NULL, l->format, l->stride, l->component, 0, 0};
     const int columns = l->component == 1;
@@ -71,12 +71,14 @@ static laid_out pack(vox_format format, const float* positions, uint32_t count) 
     return lay_out(&packed, positions, count);
 }
 
+static vox_positions positions_at(const laid_out* a, uint32_t count) {
+    const vox_positions positions = {a->data, count, a->format, 0, a->stride, a->component};
+    return positions;
+}
+
 static vox_mesh_desc laid_out_desc(const body* b, const laid_out* a) {
     vox_mesh_desc desc = body_desc(b);
-    desc.positions = a->data;
-    desc.position_format = a->format;
-    desc.position_byte_stride = a->stride;
-    desc.position_component_byte_stride = a->component;
+    desc.positions = positions_at(a, b->vertex_count);
     return desc;
 }
 
@@ -219,14 +221,13 @@ START_TEST(copied) {
     ck_ok(vox_grid_save(s.grid, saved[1], sizes[1], &sizes[1]));
     ck_assert_mem_eq(saved[0], saved[1], sizes[0]);
     void* mapped = NULL;
-    uint64_t stride = 0;
-    ck_ok(vox_mesh_map_positions(s.grid, s.ids[1], &mapped, &stride));
-    ck_assert_uint_eq(stride, l->format == VOX_FORMAT_FLOAT3 ? 12 : 24);
-    ck_assert_mem_eq(mapped, s.packed_arrays[1].data, stride * s.bodies[1].vertex_count);
+    ck_ok(vox_mesh_map_positions(s.grid, s.ids[1], &mapped));
+    ck_assert_mem_eq(mapped, s.packed_arrays[1].data,
+                     (l->format == VOX_FORMAT_FLOAT ? 12 : 24) * (size_t)s.bodies[1].vertex_count);
     step_both(&s);
     /* And bound again. */
-    ck_ok(vox_mesh_bind_strided_positions(s.grid, s.ids[1], s.arrays[1].data, s.arrays[1].format,
-                                          s.arrays[1].stride, s.arrays[1].component));
+    ck_ok(bind_array(s.grid, s.ids[1], s.arrays[1].data, s.arrays[1].format, s.arrays[1].stride,
+                     s.arrays[1].component));
     move(&s, 1, 0.0625f);
     step_both(&s);
     free_scene(&s);
@@ -248,10 +249,8 @@ START_TEST(rest_poses_and_growth) {
         filter.self_rest_distance = 1;
         vox_mesh_desc usual = laid_out_desc(&s.bodies[2], &s.packed_arrays[2]);
         vox_mesh_desc desc = laid_out_desc(&s.bodies[2], &s.arrays[2]);
-        usual.rest_positions = packed_rest.data;
-        desc.rest_positions = laid_rest.data;
-        desc.rest_position_byte_stride = laid_rest.stride;
-        desc.rest_position_component_byte_stride = laid_rest.component;
+        usual.rest_positions = positions_at(&packed_rest, rest.vertex_count);
+        desc.rest_positions = positions_at(&laid_rest, rest.vertex_count);
         usual.filter = desc.filter = &filter;
         usual.flags = desc.flags = grows_own ? VOX_MESH_COPY_POSITIONS : 0;
         ck_ok(vox_mesh_set_topology(s.packed, s.packed_ids[2], &usual));
@@ -277,15 +276,11 @@ START_TEST(rest_poses_and_growth) {
         vox_vertices_desc vertices = vox_default_vertices_desc();
         uint32_t first = 0;
         vertices.count = 3;
-        vertices.positions = packed_grown.data;
-        vertices.rest_positions = packed_new_rest.data;
+        vertices.positions = positions_at(&packed_grown, grows_own ? 3 : count);
+        vertices.rest_positions = positions_at(&packed_new_rest, 3);
         ck_ok(vox_mesh_append_vertices(s.packed, s.packed_ids[2], &vertices, &first));
-        vertices.positions = laid_grown.data;
-        vertices.position_byte_stride = laid_grown.stride;
-        vertices.position_component_byte_stride = laid_grown.component;
-        vertices.rest_positions = laid_new_rest.data;
-        vertices.rest_position_byte_stride = laid_new_rest.stride;
-        vertices.rest_position_component_byte_stride = laid_new_rest.component;
+        vertices.positions = positions_at(&laid_grown, grows_own ? 3 : count);
+        vertices.rest_positions = positions_at(&laid_new_rest, 3);
         ck_ok(vox_mesh_append_vertices(s.grid, s.ids[2], &vertices, &first));
         ck_assert_uint_eq(first, before);
         step_both(&s);
@@ -329,7 +324,7 @@ START_TEST(suggested_and_asked) {
         hits[i] = (vox_closest_hit*)calloc(box.vertex_count, sizeof *hits[i]);
         asked.point_count = box.vertex_count;
         asked.points = i ? (const void*)array.data : box.positions;
-        asked.format = i ? array.format : VOX_FORMAT_FLOAT3;
+        asked.format = i ? array.format : VOX_FORMAT_FLOAT;
         asked.byte_stride = i ? array.stride : 0;
         asked.component_byte_stride = i ? array.component : 0;
         ck_ok(vox_grid_query_closest_points(grid, &asked, hits[i]));
@@ -349,17 +344,16 @@ START_TEST(columns_of_nothing) {
     for (int maps = 0; maps < 2; ++maps) {
         body box = make_box(2, 0.5f, 0, 0, 0);
         vox_mesh_desc desc = vox_mesh_desc_floats(box.positions, 0, NULL, 0);
-        desc.position_component_byte_stride = 4000;
+        desc.positions.component_byte_stride = 4000;
         desc.flags = maps ? 0 : VOX_MESH_COPY_POSITIONS;
         vox_grid* grid = engine_grid();
         const vox_body grown = insert_mesh(grid, &desc);
         void* memory;
-        uint64_t stride;
-        if (maps) ck_ok(vox_mesh_map_positions(grid, grown, &memory, &stride));
+        if (maps) ck_ok(vox_mesh_map_positions(grid, grown, &memory));
         vox_vertices_desc vertices = vox_default_vertices_desc();
         uint32_t first;
         vertices.count = box.vertex_count;
-        vertices.positions = box.positions;
+        vertices.positions = vox_float_positions(box.positions, box.vertex_count);
         ck_ok(vox_mesh_append_vertices(grid, grown, &vertices, &first));
         ck_ok(vox_mesh_append_tets(grid, grown, box.tets, box.tet_count, &first));
         const vox_mesh_desc usual = body_desc(&box);
@@ -379,35 +373,34 @@ START_TEST(strides_that_are_refused) {
         vox_format format;
         uint64_t stride, component, count;
         const char* words;
-    } bad[] = {{VOX_FORMAT_FLOAT3, 0, 396, 100, "overlap; columns need at least 400"},
-               {VOX_FORMAT_FLOAT3, 0, 1, 100, "component_byte_stride is 1"},
-               {VOX_FORMAT_DOUBLE3, 0, 4, 100, "component_byte_stride is 4"},
-               {VOX_FORMAT_DOUBLE3, 16, 16, 100, "overlap"},
-               {VOX_FORMAT_DOUBLE3, 4, 800, 100, "is 4, expected 0 or at least 8"},
-               {VOX_FORMAT_DOUBLE3, 0, 1ull << 62, 100, "too large"},
-               {VOX_FORMAT_DOUBLE3, 1ull << 57, 0, 100, "too large"},
-               {VOX_FORMAT_DOUBLE3, 0, UINT64_MAX, 1, "too large"},
-               {VOX_FORMAT_FLOAT3, 8, 0, 100, "is 8, expected 0 or at least 12"}};
+    } bad[] = {{VOX_FORMAT_FLOAT, 0, 396, 100, "overlap; columns need at least 400"},
+               {VOX_FORMAT_FLOAT, 0, 1, 100, "component_byte_stride is 1"},
+               {VOX_FORMAT_DOUBLE, 0, 4, 100, "component_byte_stride is 4"},
+               {VOX_FORMAT_DOUBLE, 16, 16, 100, "overlap"},
+               {VOX_FORMAT_DOUBLE, 4, 800, 100, "is 4, expected 0 or at least 8"},
+               {VOX_FORMAT_DOUBLE, 0, 1ull << 62, 100, "too large"},
+               {VOX_FORMAT_DOUBLE, 1ull << 57, 0, 100, "too large"},
+               {VOX_FORMAT_DOUBLE, 0, UINT64_MAX, 1, "too large"},
+               {VOX_FORMAT_FLOAT, 8, 0, 100, "is 8, expected 0 or at least 12"}};
     double memory[300] = {0};
     vox_grid* grid = grid_of(NULL);
     vox_mesh_desc desc = vox_mesh_desc_doubles(memory, 100, NULL, 0);
     vox_body mesh = insert_mesh(grid, &desc), out = VOX_NULL_BODY;
     for (size_t i = 0; i < sizeof bad / sizeof *bad; ++i) {
         desc = vox_default_mesh_desc();
-        desc.vertex_count = bad[i].count;
-        desc.positions = memory;
-        desc.position_format = bad[i].format;
-        desc.position_byte_stride = bad[i].stride;
-        desc.position_component_byte_stride = bad[i].component;
+        desc.positions.count = bad[i].count;
+        desc.positions.data = memory;
+        desc.positions.format = bad[i].format;
+        desc.positions.byte_stride = bad[i].stride;
+        desc.positions.component_byte_stride = bad[i].component;
         ck_fails(vox_mesh_insert(grid, &desc, &out), VOX_ERROR_INVALID_ARGUMENT, bad[i].words);
-        desc.position_byte_stride = desc.position_component_byte_stride = 0;
-        desc.rest_positions = memory;
-        desc.rest_position_byte_stride = bad[i].stride;
-        desc.rest_position_component_byte_stride = bad[i].component;
+        desc.positions.byte_stride = desc.positions.component_byte_stride = 0;
+        desc.rest_positions = desc.positions;
+        desc.rest_positions.byte_stride = bad[i].stride;
+        desc.rest_positions.component_byte_stride = bad[i].component;
         ck_fails(vox_mesh_insert(grid, &desc, &out), VOX_ERROR_INVALID_ARGUMENT, bad[i].words);
         if (bad[i].count == 100)
-            ck_fails(vox_mesh_bind_strided_positions(grid, mesh, memory, bad[i].format, bad[i].stride,
-                                                     bad[i].component),
+            ck_fails(bind_array(grid, mesh, memory, bad[i].format, bad[i].stride, bad[i].component),
                      VOX_ERROR_INVALID_ARGUMENT, bad[i].words);
     }
     ck_assert_uint_eq(out, VOX_NULL_BODY);

@@ -286,21 +286,21 @@ START_TEST(strided_copied_rebound) {
     unsigned char* packed = malloc(1 + stride * other.vertex_count);
     for (uint32_t v = 0; v < other.vertex_count; ++v)
         memcpy(packed + 1 + stride * v, other.positions + 3 * v, 12);
-    ck_ok(vox_mesh_bind_positions(s.grid, s.b, packed + 1, VOX_FORMAT_FLOAT3, stride));
+    ck_ok(bind_array(s.grid, s.b, packed + 1, VOX_FORMAT_FLOAT, stride, 0));
     memset(other.positions, 0, 12 * other.vertex_count); /* no longer looked at */
     (void)stepped(s.grid);
     ck_assert_uint_eq(hash_of(s.grid), expected);
     vox_grid_destroy(s.grid);
 
     /* A copy taken at insertion does not see later changes; binding ends it. */
-    b.positions = packed + 1;
-    b.position_byte_stride = stride;
+    b.positions.data = packed + 1;
+    b.positions.byte_stride = stride;
     b.flags = VOX_MESH_COPY_POSITIONS;
     s = new_scene(&a, &b, 0);
     memset(packed, 0xff, 1 + stride * other.vertex_count); /* NaN, were they read */
     (void)stepped(s.grid);
     ck_assert_uint_eq(hash_of(s.grid), expected);
-    ck_ok(vox_mesh_bind_positions(s.grid, s.b, packed + 1, VOX_FORMAT_FLOAT3, stride));
+    ck_ok(bind_array(s.grid, s.b, packed + 1, VOX_FORMAT_FLOAT, stride, 0));
     ck_fails(vox_grid_step(s.grid), VOX_ERROR_NON_FINITE, "vertex 0");
     vox_grid_destroy(s.grid);
     free(packed);
@@ -313,7 +313,7 @@ START_TEST(unbound_positions) {
     vox_mesh_desc desc = vox_mesh_desc_floats(NULL, 4, unit_tet, 1);
     scene s = new_scene(&desc, NULL, 0);
     ck_fails(vox_grid_step(s.grid), VOX_ERROR_INVALID_STATE, "no positions");
-    ck_ok(vox_mesh_bind_positions(s.grid, s.a, unit_tet_positions, VOX_FORMAT_FLOAT3, 0));
+    ck_ok(bind_array(s.grid, s.a, unit_tet_positions, VOX_FORMAT_FLOAT, 0, 0));
     (void)stepped(s.grid);
     vox_grid_destroy(s.grid);
 }

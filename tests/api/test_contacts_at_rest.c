@@ -25,8 +25,8 @@ static float somewhere(void) { return (float)below(48) * 0.0625f; }
 static void insert(scene* s, int i) {
     vox_mesh_desc desc = body_desc(&s->bodies[i]);
     if (s->strided[i]) {
-        desc.positions = s->strided[i];
-        desc.position_byte_stride = 4 * sizeof(float);
+        desc.positions.data = s->strided[i];
+        desc.positions.byte_stride = 4 * sizeof(float);
     }
     if (s->self[i]) desc.flags = VOX_MESH_SELF_COLLISION;
     ck_ok(vox_mesh_insert(s->grid, &desc, &s->ids[i]));
@@ -342,14 +342,14 @@ START_TEST(bound_elsewhere) {
     const size_t bytes = 3 * sizeof(float) * s.bodies[0].vertex_count;
     float* const copy = (float*)malloc(bytes);
     memcpy(copy, s.bodies[0].positions, bytes);
-    ck_ok(vox_mesh_bind_positions(s.grid, s.ids[0], copy, VOX_FORMAT_FLOAT3, 0));
+    ck_ok(bind_array(s.grid, s.ids[0], copy, VOX_FORMAT_FLOAT, 0, 0));
     ck_assert_uint_eq(check_step(&s).moved_meshes, 0);
     s.bodies[0].positions[0] += 0.5f;
     memcpy(copy, s.bodies[0].positions, bytes);
     ck_assert_uint_eq(check_step(&s).moved_meshes, 1);
     s.bodies[0].positions[0] += 0.5f;
     s.bodies[0].positions[7] += 0.5f;
-    ck_ok(vox_mesh_bind_positions(s.grid, s.ids[0], s.bodies[0].positions, VOX_FORMAT_FLOAT3, 0));
+    ck_ok(bind_array(s.grid, s.ids[0], s.bodies[0].positions, VOX_FORMAT_FLOAT, 0, 0));
     ck_assert_uint_eq(check_step(&s).moved_meshes, 1);
     free(copy);
     free_scene(&s);

@@ -25,8 +25,8 @@ static void make_grid(void) {
         }
     boxes = vox_default_primitives();
     boxes.type = VOX_PRIMITIVE_BOX;
-    boxes.positions = corners;
-    boxes.vertex_count = 2 * count;
+    boxes.positions.data = corners;
+    boxes.positions.count = 2 * count;
     boxes.count = count;
     grid = vox_default_foreign_grid();
     grid.held = &boxes;

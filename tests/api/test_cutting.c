@@ -75,15 +75,19 @@ static uint32_t append_vertices(cut_scene* s, cut_mesh* m, uint32_t count, const
     m->vertices = had + count;
     desc.count = count;
     desc.copies_of = copies_of;
-    if (with_rest) desc.rest_positions = rest;
+    const vox_format format = m->doubles ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT;
+    const vox_positions of_new = {given, count, format, 0, 0, 0},
+                        rest_of_new = {rest, count, format, 0, 0, 0};
+    if (with_rest) desc.rest_positions = rest_of_new;
     if (m->owned) {
         write_positions(m, m->positions + 3 * had, count, given);
-        if (!copies_of || below(s, 2)) desc.positions = given;
+        if (!copies_of || below(s, 2)) desc.positions = of_new;
     } else { /* another array, and the one before is no good any more */
         void* array = calloc(3 * m->most_vertices, sizeof(double));
         memset(m->borrowed, 0xff, 3 * had * (m->doubles ? sizeof(double) : sizeof(float)));
         write_positions(m, m->positions, m->vertices, array);
-        desc.positions = array;
+        const vox_positions all = {array, m->vertices, format, 0, 0, 0};
+        desc.positions = all;
         ck_ok(vox_mesh_append_vertices(s->grid, m->id, &desc, &first));
         free(m->borrowed);
         m->borrowed = array;
@@ -177,14 +181,16 @@ static void set_topology(cut_scene* s, cut_mesh* m) {
         set_model(m, &box);
         free_body(&box);
         write_positions(m, m->positions, m->vertices, m->borrowed);
-        desc.positions = m->borrowed;
+        desc.positions.data = m->borrowed;
         rest = (float*)malloc(3 * sizeof(double) * m->vertices);
         for (uint32_t i = 0; i < 3 * m->vertices; ++i)
             if (m->doubles)
                 ((double*)(void*)rest)[i] = m->rest[i];
             else
                 rest[i] = m->rest[i];
-        desc.rest_positions = rest;
+        desc.rest_positions.data = rest;
+        desc.rest_positions.count = m->vertices;
+        desc.rest_positions.format = m->doubles ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT;
     } else {
         rest_of_mesh left = leave_rest(m);
         uint32_t* corners = (uint32_t*)calloc(4 * (left.mesh.tets + 1), sizeof(uint32_t));
@@ -199,11 +205,11 @@ static void set_topology(cut_scene* s, cut_mesh* m) {
         free(left.tet);
         free_model(&left.mesh);
     }
-    desc.vertex_count = m->vertices;
+    desc.positions.count = m->vertices;
     desc.tets = m->corners;
     desc.tet_count = m->tets;
-    desc.position_format = m->doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
-    if (m->owned && desc.positions) desc.flags = VOX_MESH_COPY_POSITIONS;
+    desc.positions.format = m->doubles ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT;
+    if (m->owned && desc.positions.data) desc.flags = VOX_MESH_COPY_POSITIONS;
     ck_ok(vox_mesh_set_topology(s->grid, m->id, &desc));
     free(rest);
 }

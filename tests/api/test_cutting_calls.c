@@ -80,9 +80,10 @@ START_TEST(arguments) {
     vertices.copies_of = corners + 3;
     ck_fails(vox_mesh_append_vertices(grid, mesh, &vertices, &first), VOX_ERROR_INVALID_ARGUMENT,
              "copies_of[0] is 8, the mesh has 8 vertices");
-    vertices.position_byte_stride = 5;
+    vertices.positions = vox_float_positions(unit_tet_positions, 9);
+    vertices.positions.byte_stride = 5;
     ck_fails(vox_mesh_append_vertices(grid, mesh, &vertices, &first), VOX_ERROR_INVALID_ARGUMENT,
-             "position_byte_stride is 5");
+             "positions.byte_stride is 5");
     vertices.reserved = 1;
     ck_fails(vox_mesh_append_vertices(grid, mesh, &vertices, &first), VOX_ERROR_INVALID_ARGUMENT,
              "reserved is 1");
@@ -160,9 +161,9 @@ START_TEST(smaller_struct) {
     vox_body mesh = insert_mesh(grid, &desc);
     vox_vertices_desc vertices;
     memset(&vertices, 0xff, sizeof vertices);
-    ck_ok(vox_vertices_desc_init(&vertices, 40));
+    ck_ok(vox_vertices_desc_init(&vertices, offsetof(vox_vertices_desc, rest_positions)));
     vertices.count = 1;
-    vertices.positions = place;
+    vertices.positions = vox_float_positions(place, 1);
     ck_ok(vox_mesh_append_vertices(grid, mesh, &vertices, &first));
     ck_assert_uint_eq(first, 8);
     vox_grid_destroy(grid);
@@ -245,7 +246,7 @@ START_TEST(topology_keeps_what_is_not_topology) {
     ck_assert_uint_eq(counters_of(grid).tets, 15);
     const double away[12] = {1, 0, 0, 50, 0, 1, 0, 0, 0, 0, 1, 0};
     ck_ok(vox_body_set_transform(grid, a, away));
-    anew.positions = NULL; /* those it has; the transform stays, too */
+    anew.positions.data = NULL; /* those it has; the transform stays, too */
     anew.tet_count = 40;
     ck_ok(vox_mesh_set_topology(grid, a, &anew));
     ck_ok(vox_grid_step(grid));
@@ -257,7 +258,7 @@ START_TEST(topology_keeps_what_is_not_topology) {
     ck_ok(vox_grid_step(grid));
     ck_ok(vox_grid_touch_events(grid, &events));
     ck_assert(events.ended == 1 && events.count == 1);
-    anew.vertex_count = 3; /* without positions */
+    anew.positions.count = 3; /* without positions */
     ck_ok(vox_mesh_set_topology(grid, b, &anew));
     ck_fails(vox_grid_step(grid), VOX_ERROR_INVALID_STATE, "has no positions");
     vox_grid_destroy(grid);
@@ -270,7 +271,7 @@ START_TEST(growing_from_nothing) {
     /* Vertex by vertex and tet by tet, from an empty mesh, in positions of its own. */
     body box = make_box(2, 1, 0, 0, 0);
     vox_mesh_desc desc = vox_default_mesh_desc(), whole = body_desc(&box);
-    uint64_t hash = 0, expected = 0, stride = 0;
+    uint64_t hash = 0, expected = 0;
     void* mapped = NULL;
     vox_grid* grid = engine_grid();
     vox_grid* other = engine_grid();
@@ -285,10 +286,10 @@ START_TEST(growing_from_nothing) {
         vox_vertices_desc vertices = vox_default_vertices_desc();
         uint32_t first = 0;
         vertices.count = 1;
-        vertices.positions = v == 0 ? box.positions : box.positions + 3 * v;
+        vertices.positions = vox_float_positions(box.positions + 3 * v, 1);
         ck_ok(vox_mesh_append_vertices(grid, grown, &vertices, &first));
         ck_assert_uint_eq(first, v);
-        if (v == 0) ck_ok(vox_mesh_map_positions(grid, grown, &mapped, &stride)); /* borrowed until here */
+        if (v == 0) ck_ok(vox_mesh_map_positions(grid, grown, &mapped)); /* borrowed until here */
         ck_ok(vox_grid_step(grid));
     }
     for (uint32_t t = 0; t < box.tet_count; ++t) {
@@ -327,8 +328,8 @@ START_TEST(sliver_that_came_turns_over) {
         const float facet = (positions[3 * a + i] + positions[3 * b + i] + positions[3 * c + i]) / 3;
         positions[3 * p + i] = facet + 0.01f * (positions[3 * d + i] - facet);
     }
-    desc.positions = positions;
-    desc.vertex_count = p + 1;
+    desc.positions.data = positions;
+    desc.positions.count = p + 1;
     desc.flags = VOX_MESH_SELF_COLLISION;
     vox_body mesh = insert_mesh(grid, &desc);
     for (int i = 0; i < 3; ++i) {
@@ -366,21 +367,26 @@ START_TEST(positions_of_its_own) {
                   solid = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
     vox_vertices_desc vertices = vox_default_vertices_desc();
     uint32_t first = 0, copy_of = 0;
-    uint64_t stride = 0;
     void* mapped = NULL;
     double place[3] = {0.125, 0.25, 0.125};
     vox_grid* grid = engine_grid();
     desc.flags = VOX_MESH_COPY_POSITIONS;
-    desc.position_format = VOX_FORMAT_DOUBLE3;
+    desc.positions.format = VOX_FORMAT_DOUBLE;
     vox_body mesh = insert_mesh(grid, &desc);
     insert_mesh(grid, &solid);
     vertices.count = 1;
     ck_fails(vox_mesh_append_vertices(grid, mesh, &vertices, &first), VOX_ERROR_INVALID_ARGUMENT,
              "needs 1 more");
-    vertices.positions = place;
+    vertices.positions = vox_float_positions((const float*)(const void*)place, 1);
+    ck_fails(vox_mesh_append_vertices(grid, mesh, &vertices, &first), VOX_ERROR_INVALID_ARGUMENT,
+             "positions.format is VOX_FORMAT_FLOAT, that of the mesh is not");
+    vertices.positions = vox_double_positions(place, 2);
+    ck_fails(vox_mesh_append_vertices(grid, mesh, &vertices, &first), VOX_ERROR_INVALID_ARGUMENT,
+             "positions.count is 2, expected 1");
+    vertices.positions.count = 1;
     ck_ok(vox_mesh_append_vertices(grid, mesh, &vertices, &first));
     place[0] = 50;
-    vertices.positions = NULL;
+    vertices.positions.data = NULL;
     vertices.copies_of = &copy_of;
     for (uint32_t i = 1; i < 100; ++i) {
         ck_ok(vox_mesh_append_vertices(grid, mesh, &vertices, &first));
@@ -389,18 +395,17 @@ START_TEST(positions_of_its_own) {
     ck_ok(vox_grid_step(grid));
     vox_contact_view view = contacts_of(grid);
     ck_assert_uint_eq(view.count, 100);
-    ck_ok(vox_mesh_map_positions(grid, mesh, &mapped, &stride));
-    ck_assert_uint_eq(stride, 24);
+    ck_ok(vox_mesh_map_positions(grid, mesh, &mapped));
     for (int i = 0; i < 100; ++i) ck_assert(((double*)mapped)[3 * i] == 0.125);
     /* Others over the same vertices: the positions stay its own. */
     vox_mesh_desc anew = vox_default_mesh_desc();
-    anew.vertex_count = 100;
+    anew.positions.count = 100;
     anew.tets = unit_tet;
     anew.tet_count = 1;
     ck_ok(vox_mesh_set_topology(grid, mesh, &anew));
     void* again = NULL;
-    ck_ok(vox_mesh_map_positions(grid, mesh, &again, &stride));
-    ck_assert(again == mapped && stride == 24);
+    ck_ok(vox_mesh_map_positions(grid, mesh, &again));
+    ck_assert(again == mapped);
     ck_ok(vox_grid_step(grid));
     vox_grid_destroy(grid);
 }

@@ -38,7 +38,7 @@ static vox_result run_edit(vox_grid* grid, vox_body mesh, const body* box, const
         return vox_mesh_append_tets(grid, mesh, box->tets + 400, 3, &first);
     case 4:
         vertices.count = 2;
-        vertices.positions = larger;
+        vertices.positions = vox_float_positions(larger, box->vertex_count + 2);
         vertices.copies_of = tets;
         return vox_mesh_append_vertices(grid, mesh, &vertices, &first);
     case 5:
@@ -232,7 +232,7 @@ START_TEST(two_tets_on_one_side) {
     memcpy(positions + 9, apices, sizeof apices);
     for (int i = 0; i < 15; ++i) positions[i] = 10 + scale * positions[i];
     vertices.count = 5;
-    vertices.positions = positions;
+    vertices.positions = vox_float_positions(positions, 5);
     ck_ok(vox_mesh_append_vertices(grid, mesh, &vertices, &first));
     for (int i = 0; i < 8; ++i) named[i] = first + corners[i];
     ck_ok(vox_mesh_append_tets(grid, mesh, named, 2, &first_tet));

@@ -89,8 +89,8 @@ static void insert(vox_grid* grid, const float_mode* mode, vox_mesh_desc desc) {
 static void insert_doubles(vox_grid* grid, const float_mode* mode, const double* positions, uint64_t vertices,
                            int has_tet) {
     vox_mesh_desc desc = vox_mesh_desc_floats(NULL, vertices, has_tet ? unit_tet : NULL, has_tet ? 1 : 0);
-    desc.positions = positions;
-    desc.position_format = VOX_FORMAT_DOUBLE3;
+    desc.positions.data = positions;
+    desc.positions.format = VOX_FORMAT_DOUBLE;
     insert(grid, mode, desc);
 }
 

@@ -24,8 +24,8 @@ static vox_primitives boxes(void) {
         }
     vox_primitives primitives = vox_default_primitives();
     primitives.type = VOX_PRIMITIVE_BOX;
-    primitives.positions = corners;
-    primitives.vertex_count = 2 * COUNT;
+    primitives.positions.data = corners;
+    primitives.positions.count = 2 * COUNT;
     primitives.count = COUNT;
     return primitives;
 }
@@ -123,16 +123,16 @@ START_TEST(primitives_in_any_form) {
     vox_foreign_grid grid = with_held(&floats);
     const vox_grid_work wanted = count(&grid, 1.3);
     vox_primitives other = floats;
-    other.positions = doubles;
-    other.position_format = VOX_FORMAT_DOUBLE3;
-    other.position_byte_stride = sizeof doubles[0][0];
+    other.positions.data = doubles;
+    other.positions.format = VOX_FORMAT_DOUBLE;
+    other.positions.byte_stride = sizeof doubles[0][0];
     grid.held = &other;
     vox_grid_work work = count(&grid, 1.3);
     ck_assert_double_eq_tol(work.reads, wanted.reads, 1e-6 * wanted.reads);
     ck_assert_double_eq_tol(work.entries, wanted.entries, 1e-5 * wanted.entries);
-    other.positions = columns;
-    other.position_byte_stride = 0;
-    other.position_component_byte_stride = sizeof columns[0];
+    other.positions.data = columns;
+    other.positions.byte_stride = 0;
+    other.positions.component_byte_stride = sizeof columns[0];
     work = count(&grid, 1.3);
     ck_assert_double_eq_tol(work.reads, wanted.reads, 1e-6 * wanted.reads);
     other = floats;
@@ -155,14 +155,14 @@ START_TEST(primitives_in_any_form) {
         }
     }
     other = floats;
-    other.positions = doubles;
-    other.position_format = VOX_FORMAT_DOUBLE3;
-    other.position_byte_stride = sizeof doubles[0][0];
+    other.positions.data = doubles;
+    other.positions.format = VOX_FORMAT_DOUBLE;
+    other.positions.byte_stride = sizeof doubles[0][0];
     const vox_grid_work as_boxes = count(&grid, 0.9);
     vox_primitives balls = vox_default_primitives();
-    balls.positions = centres;
-    balls.position_format = VOX_FORMAT_DOUBLE3;
-    balls.vertex_count = balls.count = COUNT;
+    balls.positions.data = centres;
+    balls.positions.format = VOX_FORMAT_DOUBLE;
+    balls.positions.count = balls.count = COUNT;
     balls.radii = radii;
     balls.radius = 0.125;
     grid.held = &balls;
@@ -186,8 +186,8 @@ START_TEST(the_least_size_is_exact) {
     points[2 * 123457 + 1][1] = points[2 * 123457][1] + 7;
     vox_primitives held = vox_default_primitives();
     held.type = VOX_PRIMITIVE_BOX;
-    held.positions = points;
-    held.vertex_count = 2 * many;
+    held.positions.data = points;
+    held.positions.count = 2 * many;
     held.count = many;
     vox_foreign_grid grid = with_held(&held);
     ck_assert_int_eq(vox_foreign_grid_set_known(&grid, VOX_KNOWN_GRID_PBAT), VOX_OK);
@@ -202,8 +202,8 @@ START_TEST(the_least_size_is_exact) {
     grid.least_cell_size = 0.25; /* the caller knows better */
     ck_assert_double_eq(suggest(&grid).least_cell_size, 0.25);
     vox_primitives asking = vox_default_primitives();
-    asking.positions = points;
-    asking.vertex_count = asking.count = 1000;
+    asking.positions.data = points;
+    asking.positions.count = asking.count = 1000;
     grid.asking = &asking;
     grid.least_cell_size = grid.radius = 0;
     ck_assert_double_eq_tol(suggest(&grid).least_cell_size, 3.5, 1e-5);
@@ -242,8 +242,8 @@ START_TEST(all_in_one_place) {
     static const float place[3] = {1, 2, 3};
     static uint32_t zeros[50];
     vox_primitives held = vox_default_primitives();
-    held.positions = place;
-    held.vertex_count = 1;
+    held.positions.data = place;
+    held.positions.count = 1;
     held.indices = zeros;
     held.count = 50;
     vox_foreign_grid grid = with_held(&held);
@@ -321,9 +321,7 @@ START_TEST(a_rule_far_from_any_run) {
     static const double both[4][3] = {{0, 0, 0}, {1e-200, 1e-200, 1e-200}, {1, 1, 1}, {1, 1, 1}};
     vox_primitives held = vox_default_primitives();
     held.type = VOX_PRIMITIVE_BOX;
-    held.positions = both;
-    held.position_format = VOX_FORMAT_DOUBLE3;
-    held.vertex_count = 4;
+    held.positions = vox_double_positions(both[0], 4);
     held.count = 2;
     held.radius = 0.25;
     const vox_foreign_grid grid = with_held(&held);
@@ -345,7 +343,7 @@ START_TEST(sizes_from_one_to_a_million) {
         }
     }
     vox_primitives held = boxes();
-    held.positions = wide;
+    held.positions.data = wide;
     for (int known = VOX_KNOWN_GRID_ANY; known <= VOX_KNOWN_GRID_NUMPY; ++known) {
         vox_foreign_grid grid = with_held(&held);
         grid.radius = 1e-4;
@@ -462,23 +460,23 @@ START_TEST(bad_primitives) {
     primitives_fail(&p, VOX_ERROR_LIMIT, "count is 4294967296,");
     p.count = COUNT + 1;
     primitives_fail(&p, VOX_ERROR_INVALID_MESH,
-                    "1729 primitives of 2 vertices each, but vertex_count is 3456");
+                    "1729 primitives of 2 vertices each, but positions.count is 3456");
     p = boxes();
-    p.positions = NULL;
-    primitives_fail(&p, VOX_ERROR_INVALID_ARGUMENT, "positions is null");
+    p.positions.data = NULL;
+    primitives_fail(&p, VOX_ERROR_INVALID_ARGUMENT, "positions.data is null");
     p = boxes();
     const int far_off = 5;
     memcpy(&p.type, &far_off, sizeof far_off);
     primitives_fail(&p, VOX_ERROR_INVALID_ARGUMENT, "type is 5,");
     p = boxes();
-    memcpy(&p.position_format, &far_off, sizeof far_off);
-    primitives_fail(&p, VOX_ERROR_INVALID_ARGUMENT, "position_format is 5,");
+    memcpy(&p.positions.format, &far_off, sizeof far_off);
+    primitives_fail(&p, VOX_ERROR_INVALID_ARGUMENT, "positions.format is 5,");
     p = boxes();
     memcpy(&p.radius_format, &far_off, sizeof far_off);
     primitives_fail(&p, VOX_ERROR_INVALID_ARGUMENT, "radius_format is 5,");
     p = boxes();
-    p.position_byte_stride = 8;
-    primitives_fail(&p, VOX_ERROR_INVALID_ARGUMENT, "position_byte_stride is 8,");
+    p.positions.byte_stride = 8;
+    primitives_fail(&p, VOX_ERROR_INVALID_ARGUMENT, "positions.byte_stride is 8,");
     p = boxes();
     p.indices = indices[0];
     p.index_byte_stride = 4;
@@ -491,7 +489,7 @@ START_TEST(bad_primitives) {
     primitives_fail(&p, VOX_ERROR_INVALID_MESH, "primitive 100 names vertex 3456 of 3456");
     indices[100][1] = 201;
     corners[30][1][2] = NAN;
-    p.positions = corners;
+    p.positions.data = corners;
     {
         const vox_foreign_grid grid = with_held(&p);
         fails(&grid, VOX_ERROR_NON_FINITE, "held: primitive 30 has vertex 61 at");
@@ -512,9 +510,7 @@ START_TEST(bad_primitives) {
     static double large[2][3];
     large[1][1] = 1e39;
     p = boxes();
-    p.positions = large;
-    p.position_format = VOX_FORMAT_DOUBLE3;
-    p.vertex_count = 2;
+    p.positions = vox_double_positions(large[0], 2);
     p.count = 1;
     primitives_fail(&p, VOX_ERROR_LIMIT, "primitive 0 has vertex 1 at (0, 1e+39, 0), too large");
 }

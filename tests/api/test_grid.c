@@ -183,13 +183,11 @@ START_TEST(null_arguments) {
     ck_fails(vox_body_remove(NULL, mesh), bad, "grid is null");
     ck_fails(vox_body_get_user_data(NULL, mesh, &count), bad, "grid is null");
     ck_fails(vox_body_get_user_data(grid, mesh, NULL), bad, "out_user_data is null");
-    ck_fails(vox_mesh_bind_positions(NULL, mesh, unit_tet_positions, VOX_FORMAT_FLOAT3, 0), bad,
-             "grid is null");
-    ck_fails(vox_mesh_bind_positions(grid, mesh, NULL, VOX_FORMAT_FLOAT3, 0), bad, "positions is null");
-    ck_fails(vox_mesh_bind_positions(grid, mesh, unit_tet_positions, (vox_format)9, 0), bad, "format is 9");
-    ck_fails(vox_mesh_bind_positions(grid, mesh, unit_tet_positions, VOX_FORMAT_FLOAT3, 11), bad,
-             "stride is 11");
-    ck_fails(vox_mesh_bind_positions(grid, mesh, unit_tet_positions, VOX_FORMAT_FLOAT3, UINT64_MAX), bad,
+    ck_fails(bind_array(NULL, mesh, unit_tet_positions, VOX_FORMAT_FLOAT, 0, 0), bad, "grid is null");
+    ck_fails(bind_array(grid, mesh, NULL, VOX_FORMAT_FLOAT, 0, 0), bad, "positions.data is null");
+    ck_fails(bind_array(grid, mesh, unit_tet_positions, (vox_format)9, 0, 0), bad, "format is 9");
+    ck_fails(bind_array(grid, mesh, unit_tet_positions, VOX_FORMAT_FLOAT, 11, 0), bad, "stride is 11");
+    ck_fails(bind_array(grid, mesh, unit_tet_positions, VOX_FORMAT_FLOAT, UINT64_MAX, 0), bad,
              "stride is 18446744073709551615");
     ck_fails(vox_grid_step(NULL), bad, "grid is null");
     ck_fails(vox_grid_get_contacts(NULL, &view), bad, "grid is null");
@@ -239,14 +237,14 @@ START_TEST(mesh_desc_fields) {
     } while (0)
     REFUSED(desc.struct_size = 0, VOX_ERROR_INVALID_ARGUMENT, "struct_size is 0");
     REFUSED(desc.flags = 0x80, VOX_ERROR_INVALID_ARGUMENT, "0x80");
-    REFUSED(desc.reserved = 3, VOX_ERROR_INVALID_ARGUMENT, "reserved is 3");
-    REFUSED(desc.position_format = (vox_format)4, VOX_ERROR_INVALID_ARGUMENT, "format is 4");
-    REFUSED(desc.position_byte_stride = 8, VOX_ERROR_INVALID_ARGUMENT, "stride is 8");
+    REFUSED(desc.positions.reserved = 3, VOX_ERROR_INVALID_ARGUMENT, "reserved is 3");
+    REFUSED(desc.positions.format = (vox_format)4, VOX_ERROR_INVALID_ARGUMENT, "format is 4");
+    REFUSED(desc.positions.byte_stride = 8, VOX_ERROR_INVALID_ARGUMENT, "stride is 8");
     REFUSED(desc.tets = NULL, VOX_ERROR_INVALID_ARGUMENT, "tets is null");
-    REFUSED(desc.vertex_count = 1ull << 40, VOX_ERROR_LIMIT, "vertex_count is 1099511627776");
+    REFUSED(desc.positions.count = 1ull << 40, VOX_ERROR_LIMIT, "positions.count is 1099511627776");
     REFUSED(desc.tet_count = 1ull << 62, VOX_ERROR_LIMIT, "tet_count is 4611686018427387904");
     REFUSED((desc.tets = tets, desc.tet_count = 2), VOX_ERROR_INVALID_MESH, "tet 1 names vertex 4 of 4");
-    REFUSED(desc.vertex_count = 0, VOX_ERROR_INVALID_MESH, "tet 0 names vertex 0 of 0");
+    REFUSED(desc.positions.count = 0, VOX_ERROR_INVALID_MESH, "tet 0 names vertex 0 of 0");
 #undef REFUSED
     ck_ok(vox_grid_step(grid));
     vox_counters counters = counters_of(grid);
@@ -273,7 +271,7 @@ START_TEST(ids) {
     for (int i = 0; i < 5; ++i) {
         ck_fails(vox_body_remove(grid, wrong[i]), VOX_ERROR_INVALID_HANDLE, "mesh id");
         ck_fails(vox_body_get_user_data(grid, wrong[i], &data), VOX_ERROR_INVALID_HANDLE, "mesh id");
-        ck_fails(vox_mesh_bind_positions(grid, wrong[i], unit_tet_positions, VOX_FORMAT_FLOAT3, 0),
+        ck_fails(bind_array(grid, wrong[i], unit_tet_positions, VOX_FORMAT_FLOAT, 0, 0),
                  VOX_ERROR_INVALID_HANDLE, "mesh id");
         ck_assert_uint_eq(vox_body_is_valid(grid, wrong[i]), 0);
     }

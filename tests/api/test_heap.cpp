@@ -71,11 +71,11 @@ void live(const Scene& scene, const vox_grid_desc& desc, heap::Life& life) {
         life([&] { return vox_grid_prepare_queries(held.grid); }) &&
         life([&] { return vox_grid_query_point(held.grid, point, UINT64_MAX, nullptr, 0, &count); }) &&
         life([&] {
-            return vox_grid_query_points(held.grid, point, VOX_FORMAT_DOUBLE3, 0, 1, UINT64_MAX, nullptr, 0,
+            return vox_grid_query_points(held.grid, point, VOX_FORMAT_DOUBLE, 0, 1, UINT64_MAX, nullptr, 0,
                                          &count);
         }) &&
         life([&] {
-            return vox_grid_query_points(held.grid, scene.many, VOX_FORMAT_DOUBLE3, 0, std::size(scene.many),
+            return vox_grid_query_points(held.grid, scene.many, VOX_FORMAT_DOUBLE, 0, std::size(scene.many),
                                          UINT64_MAX, nullptr, 0, &count);
         }) &&
         life([&] { return vox_grid_query_box(held.grid, point, far, UINT64_MAX, nullptr, 0, &count); }) &&

@@ -15,7 +15,7 @@ static vox_grid* new_grid(uint64_t byte_budget) {
 /* A mesh without positions as yet takes no memory for its vertices. */
 static vox_mesh_desc points(uint64_t count) {
     vox_mesh_desc desc = vox_default_mesh_desc();
-    desc.vertex_count = count;
+    desc.positions.count = count;
     return desc;
 }
 
@@ -36,7 +36,7 @@ START_TEST(vertices_of_a_grid) {
     ck_ok(vox_body_remove(grid, mesh));
     desc = points(VOX_MAX_VERTICES + 1ull);
     ck_fails(vox_mesh_insert(grid, &desc, &mesh), VOX_ERROR_LIMIT,
-             "vertex_count is 2147483648, the limit is 2147483647");
+             "positions.count is 2147483648, the limit is 2147483647");
     vox_grid_destroy(grid);
 }
 END_TEST
@@ -182,8 +182,8 @@ START_TEST(any_grid) {
     body box = make_box(3, 1, 0, 0, 0);
     vox_primitives held = vox_default_primitives();
     held.type = VOX_PRIMITIVE_TET;
-    held.positions = box.positions;
-    held.vertex_count = box.vertex_count;
+    held.positions.data = box.positions;
+    held.positions.count = box.vertex_count;
     held.indices = box.tets;
     held.count = box.tet_count;
     vox_foreign_grid grid = vox_default_foreign_grid();

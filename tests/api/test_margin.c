@@ -168,8 +168,8 @@ START_TEST(many_small_bodies) {
         vox_mesh_desc desc = vox_default_mesh_desc();
         memcpy(positions[i], corners, sizeof corners);
         for (int v = 0; v < 4; ++v) positions[i][3 * v] += 1.125f * (float)i;
-        desc.positions = positions[i];
-        desc.vertex_count = 4;
+        desc.positions.data = positions[i];
+        desc.positions.count = 4;
         desc.tets = tet;
         desc.tet_count = 1;
         insert_mesh(grid, &desc);

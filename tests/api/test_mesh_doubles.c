@@ -21,7 +21,7 @@ START_TEST(exact_for_the_doubles_given) {
                 solids[m] = make_solid(1 + random_below(&state, 3));
                 const double x = random_double(-1, 1), y = random_double(-1, 1), z = random_double(-1, 1);
                 place(&solids[m], &kinds[i], x, y, z);
-                write_solid(&solids[m], VOX_FORMAT_DOUBLE3, 24 + random_below(&state, 3) * 4);
+                write_solid(&solids[m], VOX_FORMAT_DOUBLE, 24 + random_below(&state, 3) * 4);
                 ids[m] = insert(grid, &solids[m], VOX_MESH_SELF_COLLISION);
             }
             ck_ok(vox_grid_step(grid));
@@ -51,7 +51,7 @@ START_TEST(floats_and_doubles_in_one_grid) {
             const double x = random_double(-1, 1), y = random_double(-1, 1);
             place(&solids[m], scene % 2 ? &far : &here, x, y, 0);
             const int floats = m < 2 ? (int)m : (int)random_below(&state, 2);
-            write_solid(&solids[m], floats ? VOX_FORMAT_FLOAT3 : VOX_FORMAT_DOUBLE3,
+            write_solid(&solids[m], floats ? VOX_FORMAT_FLOAT : VOX_FORMAT_DOUBLE,
                         (floats ? 12 : 24) + random_below(&state, 3) * 4);
             ids[m] = insert(grid, &solids[m], 0);
         }
@@ -71,11 +71,11 @@ START_TEST(less_than_a_float_apart) {
     double point[3] = {at + 0.25, at + 0.25, at};
     vox_grid* grid = new_grid(1);
     vox_mesh_desc a = vox_default_mesh_desc(), b = vox_default_mesh_desc();
-    a.position_format = b.position_format = VOX_FORMAT_DOUBLE3;
-    a.positions = point;
-    a.vertex_count = 1;
-    b.positions = tet;
-    b.vertex_count = 4;
+    a.positions.format = b.positions.format = VOX_FORMAT_DOUBLE;
+    a.positions.data = point;
+    a.positions.count = 1;
+    b.positions.data = tet;
+    b.positions.count = 4;
     b.tets = unit_tet;
     b.tet_count = 1;
     vox_body mesh = insert_mesh(grid, &a);
@@ -115,7 +115,7 @@ START_TEST(doubles_of_floats_are_those_floats) {
             for (uint32_t workers = 1; workers <= 3; ++workers) {
                 vox_grid* grid = new_grid(workers);
                 for (int m = 0; m < 2; ++m) {
-                    const vox_format f = format ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
+                    const vox_format f = format ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT;
                     if (!format)
                         write_solid(&solids[m], f, 12);
                     else
@@ -146,7 +146,7 @@ START_TEST(self_contact_of_large_bodies) {
             if (p[2] > 11) p[2] = 11 - 4 * (p[2] - 11); /* ... and its top pushed down into it */
             for (int a = 0; a < 3; ++a) p[a] += offsets[i == 2];
         }
-        write_solid(&s, i == 0 ? VOX_FORMAT_FLOAT3 : VOX_FORMAT_DOUBLE3, i == 0 ? 12 : 24);
+        write_solid(&s, i == 0 ? VOX_FORMAT_FLOAT : VOX_FORMAT_DOUBLE, i == 0 ? 12 : 24);
         vox_grid* grid = new_grid(1);
         (void)insert(grid, &s, VOX_MESH_SELF_COLLISION);
         hashes[i] = hash_of_step(grid);
@@ -172,7 +172,7 @@ START_TEST(engines_agree_on_large_bodies) {
             if (p[2] > 9) p[2] = 9 - 3 * (p[2] - 9); /* its top pushed down into it */
         }
         place(&s, &places[i / 2], 0, 0, 0);
-        write_solid(&s, VOX_FORMAT_DOUBLE3, 24);
+        write_solid(&s, VOX_FORMAT_DOUBLE, 24);
         uint64_t hashes[2], contacts = 0;
         for (int e = 0; e < 2; ++e) {
             suite_engine = e ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
@@ -203,8 +203,8 @@ START_TEST(limits) {
             a.positions[i] += far * 1e6;
             b.positions[i] += far * 1e6;
         }
-        write_solid(&a, VOX_FORMAT_DOUBLE3, 24);
-        write_solid(&b, VOX_FORMAT_DOUBLE3, far ? 24 : 32);
+        write_solid(&a, VOX_FORMAT_DOUBLE, 24);
+        write_solid(&b, VOX_FORMAT_DOUBLE, far ? 24 : 32);
         vox_grid* grid = new_grid(1);
         const vox_body other = insert(grid, &a, 0), mesh = insert(grid, &b, 0);
         const uint64_t hash = hash_of_step(grid);
@@ -226,14 +226,14 @@ START_TEST(limits) {
         for (int sign = -1; sign <= 1; sign += 2) {
             const double kept = b.positions[3 * 7 + 1];
             b.positions[3 * 7 + 1] = sign * nextafter(0x1.ffffffp127, 0);
-            write_solid(&b, VOX_FORMAT_DOUBLE3, b.stride);
-            ck_ok(vox_mesh_bind_positions(grid, mesh, b.bytes, b.format, b.stride));
+            write_solid(&b, VOX_FORMAT_DOUBLE, b.stride);
+            ck_ok(bind_array(grid, mesh, b.bytes, b.format, b.stride, 0));
             ck_ok(vox_grid_step(grid));
             solids[1] = b;
             (void)check_contacts(grid, solids, 2, ids, 0);
             b.positions[3 * 7 + 1] = kept;
-            write_solid(&b, VOX_FORMAT_DOUBLE3, b.stride);
-            ck_ok(vox_mesh_bind_positions(grid, mesh, b.bytes, b.format, b.stride));
+            write_solid(&b, VOX_FORMAT_DOUBLE, b.stride);
+            ck_ok(bind_array(grid, mesh, b.bytes, b.format, b.stride, 0));
         }
         vox_grid_destroy(grid);
     }
@@ -250,8 +250,8 @@ START_TEST(steady_state_holds_the_same_memory) {
     state = 6;
     place(&a, &kinds[0], 0, 0, 0);
     place(&b, &kinds[0], 0.5, 0.5, 0.5);
-    write_solid(&a, VOX_FORMAT_DOUBLE3, 24);
-    write_solid(&b, VOX_FORMAT_DOUBLE3, 24);
+    write_solid(&a, VOX_FORMAT_DOUBLE, 24);
+    write_solid(&b, VOX_FORMAT_DOUBLE, 24);
     vox_grid* grid = new_grid(1);
     (void)insert(grid, &a, VOX_MESH_SELF_COLLISION);
     (void)insert(grid, &b, 0);
@@ -276,7 +276,7 @@ START_TEST(suggested_cell_size) {
         if (i == 2)
             for (uint32_t v = 0; v < 3 * s.vertex_count; ++v)
                 s.positions[v] += 0x1p40; /* no float is there */
-        write_solid(&s, i == 0 ? VOX_FORMAT_FLOAT3 : VOX_FORMAT_DOUBLE3, i == 0 ? 12 : 24);
+        write_solid(&s, i == 0 ? VOX_FORMAT_FLOAT : VOX_FORMAT_DOUBLE, i == 0 ? 12 : 24);
         const vox_mesh_desc desc = solid_desc(&s);
         out[i].struct_size = sizeof out[i];
         ck_ok(vox_suggest_cell_size(NULL, &desc, 1, &out[i]));
@@ -285,7 +285,7 @@ START_TEST(suggested_cell_size) {
         ck_assert_double_eq(out[i].stats.bounds_max[1], 4 + (i == 2 ? 0x1p40 : 0));
     }
     s.positions[4] = 1e200;
-    write_solid(&s, VOX_FORMAT_DOUBLE3, 24);
+    write_solid(&s, VOX_FORMAT_DOUBLE, 24);
     const vox_mesh_desc desc = solid_desc(&s);
     ck_fails(vox_suggest_cell_size(NULL, &desc, 1, &out[0]), VOX_ERROR_LIMIT,
              "mesh 0 (user data 0), vertex 1");

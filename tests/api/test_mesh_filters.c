@@ -104,7 +104,7 @@ START_TEST(disabled_meshes) {
     body box = make_box(2, 1, 0, 0, 0), other = make_box(2, 1, 0.5f, 0.5f, 0.5f);
     const vox_mesh_desc desc = body_desc(&box);
     vox_mesh_desc later = body_desc(&other);
-    later.positions = NULL;
+    later.positions.data = NULL;
     insert(grid, &desc);
     const vox_body mesh = insert(grid, &later);
     ck_fails(vox_grid_step(grid), VOX_ERROR_INVALID_STATE, "has no positions");
@@ -114,7 +114,7 @@ START_TEST(disabled_meshes) {
     ck_assert_uint_eq(counters.meshes, 1);
     ck_assert_uint_eq(counters.disabled_meshes, 1);
     ck_assert_uint_eq(counters.tets, box.tet_count);
-    ck_ok(vox_mesh_bind_positions(grid, mesh, other.positions, VOX_FORMAT_FLOAT3, 0));
+    ck_ok(bind_array(grid, mesh, other.positions, VOX_FORMAT_FLOAT, 0, 0));
     ck_ok(vox_body_set_enabled(grid, mesh, 1));
     const uint64_t count = stepped(grid).count;
     ck_assert_uint_gt(count, 0);
@@ -204,16 +204,16 @@ START_TEST(arguments) {
 
     /* The rest pose: none to be had, or not finite. */
     desc = body_desc(&box);
-    desc.positions = NULL;
+    desc.positions.data = NULL;
     const vox_body bare = insert(grid, &desc);
     filter.self_rest_distance = 1;
     ck_fails(vox_body_set_filter(grid, bare, &filter), VOX_ERROR_INVALID_STATE, "rest_positions");
-    desc.rest_positions = box.positions;
-    desc.rest_position_byte_stride = 4;
+    desc.rest_positions = vox_float_positions(box.positions, box.vertex_count);
+    desc.rest_positions.byte_stride = 4;
     vox_body mesh_with_rest = 0;
     ck_fails(vox_mesh_insert(grid, &desc, &mesh_with_rest), VOX_ERROR_INVALID_ARGUMENT,
-             "rest_position_byte_stride is 4");
-    desc.rest_position_byte_stride = 12;
+             "rest_positions.byte_stride is 4");
+    desc.rest_positions.byte_stride = 12;
     mesh_with_rest = insert(grid, &desc);
     ck_ok(vox_body_set_filter(grid, mesh_with_rest, &filter));
     box.positions[4] = NAN;

@@ -69,14 +69,14 @@ START_TEST(fields) {
     vox_body_info info = info_of(grid, mesh);
     ck_assert_uint_eq(info.struct_size, sizeof info);
     ck_assert_uint_eq(info.user_data, desc.user_data);
-    ck_assert_uint_eq(info.vertex_count, box.vertex_count);
+    ck_assert_uint_eq(info.positions.count, box.vertex_count);
     ck_assert_uint_eq(info.tet_count, box.tet_count);
     ck_assert_uint_eq(info.enabled_tet_count, box.tet_count);
     ck_assert_uint_eq(info.flags, VOX_MESH_BORROW_TETS);
-    ck_assert_int_eq(info.position_format, VOX_FORMAT_FLOAT3);
-    ck_assert_ptr_eq(info.positions, box.positions);
-    ck_assert_uint_eq(info.position_byte_stride, 12);
-    ck_assert_uint_eq(info.position_component_byte_stride, 4);
+    ck_assert_int_eq(info.positions.format, VOX_FORMAT_FLOAT);
+    ck_assert_ptr_eq(info.positions.data, box.positions);
+    ck_assert_uint_eq(info.positions.byte_stride, 12);
+    ck_assert_uint_eq(info.positions.component_byte_stride, 4);
     ck_assert_uint_eq(info.has_transform, 0);
     ck_assert_mem_eq(info.transform, identity, sizeof identity);
 
@@ -84,41 +84,40 @@ START_TEST(fields) {
     const uint64_t n = box.vertex_count;
     double* columns = (double*)calloc(3 * n, sizeof *columns);
     const double matrix[12] = {2, 0, 0, 1, 0, 3, 0, 2, 0, 0, 4, 3};
-    ck_ok(vox_mesh_bind_strided_positions(grid, mesh, columns, VOX_FORMAT_DOUBLE3, 8, 8 * n));
+    ck_ok(bind_array(grid, mesh, columns, VOX_FORMAT_DOUBLE, 8, 8 * n));
     ck_ok(vox_body_set_transform(grid, mesh, matrix));
     vox_filter filter = vox_default_filter();
     filter.self_collision = 1;
     ck_ok(vox_body_set_filter(grid, mesh, &filter));
     info = info_of(grid, mesh);
-    ck_assert_int_eq(info.position_format, VOX_FORMAT_DOUBLE3);
-    ck_assert_ptr_eq(info.positions, columns);
-    ck_assert_uint_eq(info.position_byte_stride, 8);
-    ck_assert_uint_eq(info.position_component_byte_stride, 8 * n);
+    ck_assert_int_eq(info.positions.format, VOX_FORMAT_DOUBLE);
+    ck_assert_ptr_eq(info.positions.data, columns);
+    ck_assert_uint_eq(info.positions.byte_stride, 8);
+    ck_assert_uint_eq(info.positions.component_byte_stride, 8 * n);
     ck_assert_uint_eq(info.has_transform, 1);
     ck_assert_mem_eq(info.transform, matrix, sizeof matrix);
     ck_assert_uint_eq(info.flags, VOX_MESH_BORROW_TETS | VOX_MESH_SELF_COLLISION);
 
     /* Positions and tetrahedra of its own. */
     void* mapped = NULL;
-    uint64_t stride = 0;
     const uint32_t some[2] = {1, 3};
-    ck_ok(vox_mesh_map_positions(grid, mesh, &mapped, &stride));
+    ck_ok(vox_mesh_map_positions(grid, mesh, &mapped));
     ck_ok(vox_mesh_set_tets_enabled(grid, mesh, some, 2, 0));
     ck_ok(vox_mesh_remove_tets(grid, mesh, some, 1));
     info = info_of(grid, mesh);
     ck_assert_uint_eq(info.flags, VOX_MESH_COPY_POSITIONS | VOX_MESH_SELF_COLLISION);
-    ck_assert_ptr_eq(info.positions, mapped);
-    ck_assert_uint_eq(info.position_byte_stride, 24);
-    ck_assert_uint_eq(info.position_component_byte_stride, 8);
+    ck_assert_ptr_eq(info.positions.data, mapped);
+    ck_assert_uint_eq(info.positions.byte_stride, 24);
+    ck_assert_uint_eq(info.positions.component_byte_stride, 8);
     ck_assert_uint_eq(info.tet_count, box.tet_count);
     ck_assert_uint_eq(info.enabled_tet_count, box.tet_count - 2);
 
     /* None yet. */
-    desc.positions = NULL;
+    desc.positions.data = NULL;
     info = info_of(grid, insert_mesh(grid, &desc));
-    ck_assert_ptr_null(info.positions);
-    ck_assert_uint_eq(info.position_byte_stride, 0);
-    ck_assert_uint_eq(info.position_component_byte_stride, 0);
+    ck_assert_ptr_null(info.positions.data);
+    ck_assert_uint_eq(info.positions.byte_stride, 0);
+    ck_assert_uint_eq(info.positions.component_byte_stride, 0);
     vox_grid_destroy(grid);
     free(columns);
     free_body(&box);
@@ -187,10 +186,10 @@ START_TEST(loaded) {
         ck_ok(vox_mesh_get_tets(loaded, ids[b], corners, NULL, info.tet_count, &count));
         vox_mesh_desc desc = vox_default_mesh_desc();
         desc.positions = info.positions;
-        desc.position_format = info.position_format;
-        desc.position_byte_stride = info.position_byte_stride;
-        desc.position_component_byte_stride = info.position_component_byte_stride;
-        desc.vertex_count = info.vertex_count;
+        desc.positions.format = info.positions.format;
+        desc.positions.byte_stride = info.positions.byte_stride;
+        desc.positions.component_byte_stride = info.positions.component_byte_stride;
+        desc.positions.count = info.positions.count;
         desc.tets = corners;
         desc.tet_count = info.tet_count;
         desc.user_data = info.user_data;
@@ -234,7 +233,7 @@ START_TEST(arguments) {
     info.struct_size = offsetof(vox_body_info, transform);
     info.transform[0] = 17;
     ck_ok(vox_body_get_info(grid, mesh, &info));
-    ck_assert_uint_eq(info.vertex_count, 4);
+    ck_assert_uint_eq(info.positions.count, 4);
     ck_assert_double_eq(info.transform[0], 17);
     vox_grid_destroy(grid);
 }

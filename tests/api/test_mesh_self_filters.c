@@ -174,7 +174,7 @@ START_TEST(self_filters_by_definition) {
             filter.self_collision = 1;
             filter.self_rings = s->rings;
             filter.self_rest_distance = s->rest_distance;
-            desc.rest_positions = s->rest;
+            desc.rest_positions = vox_float_positions(s->rest, s->vertex_count);
             const int at_insertion = (int)random_below(&random, 2);
             desc.filter = at_insertion ? &filter : NULL;
             ids[m] = insert(grid, &desc);
@@ -296,14 +296,12 @@ START_TEST(rest_pose_in_double) {
     vox_filter filter = vox_default_filter();
     filter.self_collision = 1;
     filter.self_rest_distance = 0.5;
-    desc.positions = now;
-    desc.position_format = VOX_FORMAT_DOUBLE3;
-    desc.vertex_count = 5;
+    desc.positions = vox_double_positions(now, 5);
     desc.tets = unit_tet;
     desc.tet_count = 1;
     desc.filter = &filter;
-    desc.rest_positions = rest;
-    desc.rest_position_byte_stride = sizeof rest[0];
+    desc.rest_positions = vox_double_positions(&rest[0][0], 5);
+    desc.rest_positions.byte_stride = sizeof rest[0];
     const vox_body mesh = insert(grid, &desc);
     ck_assert_uint_eq(stepped(grid).count, 1); /* not closer than that */
     filter.self_rest_distance = 0.50000001;
@@ -341,9 +339,8 @@ START_TEST(rest_pose_far_away) {
         vox_filter filter = vox_default_filter();
         filter.self_collision = 1;
         filter.self_rest_distance = 0.5;
-        desc.positions = now;
-        desc.rest_positions = rest;
-        desc.position_format = VOX_FORMAT_DOUBLE3;
+        desc.positions = vox_double_positions(now, 8);
+        desc.rest_positions = vox_double_positions(rest, 8);
         desc.filter = &filter;
         insert(grid, &desc);
         if (i == 0) contacts = stepped(grid).count;
@@ -373,8 +370,7 @@ START_TEST(rest_pose_that_grows) {
     vox_filter filter = vox_default_filter();
     filter.self_collision = 1;
     filter.self_rest_distance = 0.5;
-    desc.positions = now;
-    desc.position_format = VOX_FORMAT_DOUBLE3;
+    desc.positions = vox_double_positions(now, 4);
     desc.filter = &filter;
     const vox_body mesh = insert(grid, &desc);
 
@@ -386,13 +382,14 @@ START_TEST(rest_pose_that_grows) {
     memcpy(grown_rest, rest, sizeof rest);
     vox_vertices_desc more = vox_default_vertices_desc();
     more.count = 8;
-    more.positions = grown;
-    more.rest_positions = grown_rest;
+    more.positions = vox_double_positions(grown, 12);
+    more.rest_positions = vox_double_positions(grown_rest, 8);
     ck_ok(vox_mesh_append_vertices(grid, mesh, &more, &first));
     ck_assert_uint_eq(first, 4);
     const uint32_t copied[4] = {8, 9, 10, 11};
     more.count = 4;
-    more.rest_positions = NULL;
+    more.positions.count = 16;
+    more.rest_positions.data = NULL;
     more.copies_of = copied;
     ck_ok(vox_mesh_append_vertices(grid, mesh, &more, &first));
     ck_assert_uint_eq(first, 12);

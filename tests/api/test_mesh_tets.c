@@ -119,7 +119,7 @@ START_TEST(new_topology_may_be_borrowed) {
     for (int axis = 0; axis < 3; ++axis) longer.positions[3 * loose + axis] = 0.7f;
     vox_vertices_desc vertices = vox_default_vertices_desc();
     vertices.count = 1;
-    vertices.positions = longer.positions;
+    vertices.positions = vox_float_positions(longer.positions, loose + 1);
     uint32_t first = 0;
     ck_ok(vox_mesh_append_vertices(copying, mesh, &vertices, &first));
     ck_ok(vox_mesh_append_vertices(borrowing, mesh, &vertices, &first));

@@ -72,11 +72,11 @@ START_TEST(exact_in_its_result) {
         vox_grid *grid = engine_grid(), *plain = engine_grid();
         vox_mesh_desc a = body_desc(&tool), b = body_desc(&soft), c = body_desc(&tool);
         if (doubles) {
-            a.positions = wide;
-            a.position_format = VOX_FORMAT_DOUBLE3;
+            a.positions.data = wide;
+            a.positions.format = VOX_FORMAT_DOUBLE;
         }
-        c.positions = moved;
-        c.position_format = VOX_FORMAT_DOUBLE3;
+        c.positions.data = moved;
+        c.positions.format = VOX_FORMAT_DOUBLE;
         const vox_body rigid = insert(grid, &a);
         (void)insert(grid, &b);
         (void)insert(plain, &c);
@@ -131,13 +131,13 @@ START_TEST(identity_null_and_other_positions) {
     ck_assert_uint_ne(hash_of_step(grid), hash);
     ck_assert_uint_eq(count_of(grid), 0);
     /* It stays when other positions are bound, and goes with null. */
-    ck_ok(vox_mesh_bind_positions(grid, mesh, c.positions, VOX_FORMAT_FLOAT3, 0));
+    ck_ok(bind_array(grid, mesh, c.positions, VOX_FORMAT_FLOAT, 0, 0));
     (void)hash_of_step(grid);
     ck_assert_uint_gt(count_of(grid), 0);
     ck_ok(vox_body_set_transform(grid, mesh, NULL));
     (void)hash_of_step(grid);
     ck_assert_uint_eq(count_of(grid), 0);
-    ck_ok(vox_mesh_bind_positions(grid, mesh, a.positions, VOX_FORMAT_FLOAT3, 0));
+    ck_ok(bind_array(grid, mesh, a.positions, VOX_FORMAT_FLOAT, 0, 0));
     ck_assert_uint_eq(hash_of_step(grid), hash);
     /* A slot's next mesh has none. */
     ck_ok(vox_body_set_transform(grid, mesh, aside));
@@ -188,7 +188,7 @@ START_TEST(what_does_not_fit) {
     float corner[12];
     memcpy(corner, unit_tet_positions, sizeof corner);
     corner[3] = corner[4] = 1; /* vertex 1 is at (1, 1, 0): the sum overflows */
-    ck_ok(vox_mesh_bind_positions(grid, mesh, corner, VOX_FORMAT_FLOAT3, 0));
+    ck_ok(bind_array(grid, mesh, corner, VOX_FORMAT_FLOAT, 0, 0));
     ck_ok(vox_body_set_transform(grid, mesh, sum));
     ck_fails(vox_grid_step(grid), VOX_ERROR_NON_FINITE, "vertex 1: position (1, inf, 0) is not finite");
     ck_ok(vox_body_set_transform(grid, mesh, NULL));
@@ -206,8 +206,7 @@ START_TEST(over_mapped_positions) {
     const vox_body mesh = insert(grid, &first);
     (void)insert(grid, &second);
     void* mapped = NULL;
-    uint64_t stride = 0;
-    ck_ok(vox_mesh_map_positions(grid, mesh, &mapped, &stride));
+    ck_ok(vox_mesh_map_positions(grid, mesh, &mapped));
     ck_ok(vox_body_set_transform(grid, mesh, aside));
     const uint64_t hash = hash_of_step(grid);
     ck_assert_uint_gt(count_of(grid), 0);
@@ -287,9 +286,7 @@ START_TEST(sensors_on_a_tool) {
     const double tip[9] = {0, 0, 0, 0, 0, 0.5, 0, 0, 5};
     vox_grid* grid = engine_grid();
     vox_mesh_desc solid = body_desc(&box), points = vox_default_mesh_desc();
-    points.positions = tip;
-    points.position_format = VOX_FORMAT_DOUBLE3;
-    points.vertex_count = 3;
+    points.positions = vox_double_positions(tip, 3);
     (void)insert(grid, &solid);
     const vox_body probe = insert(grid, &points);
     for (int step = 0; step <= 8; ++step) {

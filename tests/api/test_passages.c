@@ -21,7 +21,7 @@ static vox_passage_view passages_of(const vox_grid* grid) {
 }
 
 static void bind_previous(vox_grid* grid, const moving_body* m) {
-    ck_ok(vox_mesh_bind_previous_positions(grid, m->id, m->before, VOX_FORMAT_FLOAT3, 0, 0));
+    ck_ok(bind_previous_array(grid, m->id, m->before, VOX_FORMAT_FLOAT, 0, 0));
 }
 
 /* Stands still until it is moved. */
@@ -220,8 +220,7 @@ START_TEST(plate_shot_through) {
     ck_ok(vox_grid_step(grid));
     ck_assert_uint_eq(passages_of(grid).count, 0);
     /* Without previous positions, nothing moves. */
-    for (int i = 0; i < 2; ++i)
-        ck_ok(vox_mesh_bind_previous_positions(grid, bodies[i].id, NULL, VOX_FORMAT_FLOAT3, 0, 0));
+    for (int i = 0; i < 2; ++i) ck_ok(bind_previous_array(grid, bodies[i].id, NULL, VOX_FORMAT_FLOAT, 0, 0));
     ck_ok(vox_grid_step(grid));
     ck_assert_uint_eq(passages_of(grid).count, 0);
     vox_grid_destroy(grid);
@@ -244,8 +243,7 @@ START_TEST(formats_and_transforms) {
     double* columns = malloc(3 * sizeof(double) * vertices);
     for (uint32_t v = 0; v < vertices; ++v)
         for (uint32_t c = 0; c < 3; ++c) columns[c * vertices + v] = bodies[1].before[3 * v + c];
-    ck_ok(vox_mesh_bind_previous_positions(grid, bodies[1].id, columns, VOX_FORMAT_DOUBLE3, 8,
-                                           8 * (uint64_t)vertices));
+    ck_ok(bind_previous_array(grid, bodies[1].id, columns, VOX_FORMAT_DOUBLE, 8, 8 * (uint64_t)vertices));
     const double down[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, -3};
     for (int turn = 0; turn < 2; ++turn) {
         ck_ok(vox_grid_step(grid));
@@ -311,10 +309,10 @@ START_TEST(appended_vertices_end_it) {
     vox_vertices_desc desc;
     ck_ok(vox_vertices_desc_init(&desc, sizeof desc));
     desc.count = 1;
-    desc.positions = positions;
+    desc.positions = vox_float_positions(positions, m.now.vertex_count + 1);
     uint32_t first = 0;
     ck_ok(vox_mesh_append_vertices(grid, m.id, &desc, &first));
-    ck_ok(vox_mesh_bind_floats(grid, m.id, positions));
+    ck_ok(vox_mesh_bind_floats(grid, m.id, positions, m.now.vertex_count + 1));
     m.before[0] = NAN; /* would make the step fail */
     ck_ok(vox_grid_step(grid));
     vox_grid_destroy(grid);
@@ -329,14 +327,14 @@ START_TEST(arguments) {
     vox_passage_view view;
     ck_fails(vox_grid_passages(NULL, &view), VOX_ERROR_INVALID_ARGUMENT, "grid");
     ck_fails(vox_grid_passages(grid, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_view");
-    ck_fails(vox_mesh_bind_previous_positions(NULL, m.id, m.before, VOX_FORMAT_FLOAT3, 0, 0),
-             VOX_ERROR_INVALID_ARGUMENT, "grid");
-    ck_fails(vox_mesh_bind_previous_positions(grid, m.id + 1, m.before, VOX_FORMAT_FLOAT3, 0, 0),
-             VOX_ERROR_INVALID_HANDLE, "mesh");
-    ck_fails(vox_mesh_bind_previous_positions(grid, m.id, m.before, (vox_format)7, 0, 0),
-             VOX_ERROR_INVALID_ARGUMENT, "format");
-    ck_fails(vox_mesh_bind_previous_positions(grid, m.id, m.before, VOX_FORMAT_FLOAT3, 11, 0),
-             VOX_ERROR_INVALID_ARGUMENT, "stride");
+    ck_fails(bind_previous_array(NULL, m.id, m.before, VOX_FORMAT_FLOAT, 0, 0), VOX_ERROR_INVALID_ARGUMENT,
+             "grid");
+    ck_fails(bind_previous_array(grid, m.id + 1, m.before, VOX_FORMAT_FLOAT, 0, 0), VOX_ERROR_INVALID_HANDLE,
+             "mesh");
+    ck_fails(bind_previous_array(grid, m.id, m.before, (vox_format)7, 0, 0), VOX_ERROR_INVALID_ARGUMENT,
+             "format");
+    ck_fails(bind_previous_array(grid, m.id, m.before, VOX_FORMAT_FLOAT, 11, 0), VOX_ERROR_INVALID_ARGUMENT,
+             "stride");
     vox_grid_destroy(grid);
     free_moving(&m);
 }

@@ -306,12 +306,11 @@ START_TEST(strides_and_copies) {
             for (int i = 0; i < 5; ++i)
                 strided[b][5 * v + (uint32_t)i] = i < 3 ? from->positions[3 * v + (uint32_t)i] : NAN;
         vox_mesh_desc mesh = body_desc(from);
-        mesh.positions = b % 2 ? NULL : strided[b]; /* some arrive later */
-        mesh.position_byte_stride = 5 * sizeof(float);
+        mesh.positions.data = b % 2 ? NULL : strided[b]; /* some arrive later */
+        mesh.positions.byte_stride = 5 * sizeof(float);
         mesh.flags = (b == 4 ? VOX_MESH_SELF_COLLISION : 0u) | (b % 2 ? 0u : VOX_MESH_COPY_POSITIONS);
         ck_ok(vox_mesh_insert(grid, &mesh, &p.ids[b]));
-        if (b % 2)
-            ck_ok(vox_mesh_bind_positions(grid, p.ids[b], strided[b], VOX_FORMAT_FLOAT3, 5 * sizeof(float)));
+        if (b % 2) ck_ok(bind_array(grid, p.ids[b], strided[b], VOX_FORMAT_FLOAT, 5 * sizeof(float), 0));
     }
     ck_ok(vox_grid_step(grid));
     const vox_penetration_view view = penetrations_of(grid);
@@ -337,8 +336,8 @@ START_TEST(depths_in_double) {
         for (uint32_t i = 0; i < 3 * other.vertex_count; ++i)
             positions[i] = (double)other.positions[i] + 1e-11 * (i % 7) - (i % 3 == 2 ? steps[step] : 0);
         mesh = body_desc(&other);
-        mesh.positions = positions;
-        mesh.position_format = VOX_FORMAT_DOUBLE3;
+        mesh.positions.data = positions;
+        mesh.positions.format = VOX_FORMAT_DOUBLE;
         const vox_body b = insert_mesh(grid, &mesh);
         ck_ok(vox_grid_step(grid));
         check_penetrations(grid);
@@ -381,8 +380,8 @@ START_TEST(double_positions) {
             for (uint32_t i = 0; i < 3 * from->vertex_count; ++i)
                 positions[b][i] = scales[k] * (double)from->positions[i];
             vox_mesh_desc mesh = body_desc(from);
-            mesh.positions = positions[b];
-            mesh.position_format = VOX_FORMAT_DOUBLE3;
+            mesh.positions.data = positions[b];
+            mesh.positions.format = VOX_FORMAT_DOUBLE;
             mesh.flags = b == 4 ? VOX_MESH_SELF_COLLISION : 0u;
             ck_ok(vox_mesh_insert(grid, &mesh, &p.ids[b]));
         }
@@ -418,8 +417,8 @@ START_TEST(tiny_double_positions) {
             const body* from = b == 0 ? &box : &other;
             for (int i = 0; i < 24; ++i) positions[b][i] = scale * (double)from->positions[i];
             vox_mesh_desc mesh = body_desc(from);
-            mesh.positions = positions[b];
-            mesh.position_format = VOX_FORMAT_DOUBLE3;
+            mesh.positions.data = positions[b];
+            mesh.positions.format = VOX_FORMAT_DOUBLE;
             insert_mesh(grid, &mesh);
         }
         ck_ok(vox_grid_step(grid));

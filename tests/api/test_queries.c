@@ -56,7 +56,7 @@ START_TEST(points_by_definition) {
             for (int axis = 0; axis < 3; ++axis) exact[i][axis] = (double)points[i][axis];
         }
         uint64_t total = 0, count = 0, next = 0;
-        ck_ok(vox_grid_query_points(w.grid, points, VOX_FORMAT_FLOAT3, sizeof points[0], n, mask, together,
+        ck_ok(vox_grid_query_points(w.grid, points, VOX_FORMAT_FLOAT, sizeof points[0], n, mask, together,
                                     16384, &total));
         ck_assert_uint_le(total, 16384);
         for (uint32_t i = 0; i < n; ++i) {
@@ -75,7 +75,7 @@ START_TEST(points_by_definition) {
         all += total;
         /* The same as doubles, and with room for some. */
         vox_point_hit* some = (vox_point_hit*)calloc(total + 1, sizeof *some);
-        ck_ok(vox_grid_query_points(w.grid, exact, VOX_FORMAT_DOUBLE3, 0, n, mask, some, total / 2, &count));
+        ck_ok(vox_grid_query_points(w.grid, exact, VOX_FORMAT_DOUBLE, 0, n, mask, some, total / 2, &count));
         ck_assert_uint_eq(count, total);
         ck_assert_mem_eq(some, together, total / 2 * sizeof *some);
         ck_assert_uint_eq(some[total / 2].mesh, 0);
@@ -197,7 +197,7 @@ START_TEST(as_it_was_when_prepared) {
     ck_fails(vox_grid_query_point(grid, inside, 1, NULL, 0, &count), VOX_ERROR_INVALID_STATE,
              "prepare_queries");
     vox_mesh_desc bare = body;
-    bare.positions = NULL;
+    bare.positions.data = NULL;
     ck_ok(vox_mesh_insert(grid, &bare, &mesh));
     ck_fails(vox_grid_prepare_queries(grid), VOX_ERROR_INVALID_STATE, "has no positions");
     vox_grid_destroy(grid);
@@ -278,23 +278,23 @@ START_TEST(arguments) {
     ck_fails(vox_grid_query_point(w.grid, nan_point, 1, &hit, 1, &count), VOX_ERROR_NON_FINITE,
              "point is (0, nan, 0)");
     ck_fails(vox_grid_query_point(w.grid, huge, 1, &hit, 1, &count), VOX_ERROR_LIMIT, "4e+38");
-    ck_fails(vox_grid_query_points(NULL, p, VOX_FORMAT_DOUBLE3, 0, 1, 1, &hit, 1, &count),
+    ck_fails(vox_grid_query_points(NULL, p, VOX_FORMAT_DOUBLE, 0, 1, 1, &hit, 1, &count),
              VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_grid_query_points(w.grid, NULL, VOX_FORMAT_DOUBLE3, 0, 1, 1, &hit, 1, &count),
+    ck_fails(vox_grid_query_points(w.grid, NULL, VOX_FORMAT_DOUBLE, 0, 1, 1, &hit, 1, &count),
              VOX_ERROR_INVALID_ARGUMENT, "points is null");
-    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE3, 0, 1, 1, NULL, 1, &count),
+    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE, 0, 1, 1, NULL, 1, &count),
              VOX_ERROR_INVALID_ARGUMENT, "hits is null");
-    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE3, 0, 1, 1, &hit, 1, NULL),
+    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE, 0, 1, 1, &hit, 1, NULL),
              VOX_ERROR_INVALID_ARGUMENT, "out_count is null");
     ck_fails(vox_grid_query_points(w.grid, p, (vox_format)7, 0, 1, 1, &hit, 1, &count),
              VOX_ERROR_INVALID_ARGUMENT, "7");
-    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE3, 23, 1, 1, &hit, 1, &count),
+    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE, 23, 1, 1, &hit, 1, &count),
              VOX_ERROR_INVALID_ARGUMENT, "23");
-    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE3, 24, 1ull << 32, 1, &hit, 1, &count),
+    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE, 24, 1ull << 32, 1, &hit, 1, &count),
              VOX_ERROR_LIMIT, "4294967296");
-    ck_fails(vox_grid_query_points(w.grid, floats, VOX_FORMAT_FLOAT3, 0, 1, 1, &hit, 1, &count),
+    ck_fails(vox_grid_query_points(w.grid, floats, VOX_FORMAT_FLOAT, 0, 1, 1, &hit, 1, &count),
              VOX_ERROR_NON_FINITE, "point 0 is (1, 1, inf)");
-    ck_ok(vox_grid_query_points(w.grid, NULL, VOX_FORMAT_FLOAT3, 0, 0, 1, NULL, 0, &count));
+    ck_ok(vox_grid_query_points(w.grid, NULL, VOX_FORMAT_FLOAT, 0, 0, 1, NULL, 0, &count));
     ck_assert_uint_eq(count, 0);
     count = 77;
     ck_fails(vox_grid_query_box(NULL, p, p, 1, &tet, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "grid is null");

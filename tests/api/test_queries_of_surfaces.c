@@ -503,7 +503,7 @@ START_TEST(normals_without_volume) {
         vox_closest_desc desc = vox_default_closest_desc();
         vox_closest_hit hit;
         desc.points = cases[i].point;
-        desc.format = VOX_FORMAT_DOUBLE3;
+        desc.format = VOX_FORMAT_DOUBLE;
         desc.point_count = 1;
         ck_ok(vox_grid_query_closest_points(grid, &desc, &hit));
         ck_assert_uint_ne(hit.mesh, VOX_NULL_BODY);
@@ -542,7 +542,7 @@ START_TEST(arguments) {
     ck_fails(vox_grid_query_closest_points(w.grid, &desc, &hit), VOX_ERROR_NON_FINITE, "point 1 is (1, 1, ");
     desc.point_count = 1;
     desc.points = huge;
-    desc.format = VOX_FORMAT_DOUBLE3;
+    desc.format = VOX_FORMAT_DOUBLE;
     ck_fails(vox_query_view_closest_points(view, &desc, &hit), VOX_ERROR_LIMIT, "point 0 is (0, 0, 4e+38)");
     desc.points = p;
     desc.max_distance = -1;
@@ -559,7 +559,7 @@ START_TEST(arguments) {
     desc.byte_stride = 0;
     desc.format = (vox_format)9;
     ck_fails(vox_query_view_closest_points(view, &desc, &hit), VOX_ERROR_INVALID_ARGUMENT, "9");
-    desc.format = VOX_FORMAT_DOUBLE3;
+    desc.format = VOX_FORMAT_DOUBLE;
     desc.byte_stride = 24;
     desc.point_count = 1ull << 32;
     ck_fails(vox_query_view_closest_points(view, &desc, &hit), VOX_ERROR_LIMIT, "4294967296");
@@ -611,8 +611,8 @@ START_TEST(batches_answer_as_single_calls) {
         }
     vox_grid* grid = engine_grid();
     vox_mesh_desc mesh_desc = vox_default_mesh_desc();
-    mesh_desc.positions = positions;
-    mesh_desc.vertex_count = corners * corners * corners;
+    mesh_desc.positions.data = positions;
+    mesh_desc.positions.count = corners * corners * corners;
     mesh_desc.tets = tets[0];
     mesh_desc.tet_count = tet_count;
     vox_body mesh = VOX_NULL_BODY;

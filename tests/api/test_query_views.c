@@ -57,11 +57,11 @@ static uint64_t hash_of_answers(const vox_query_view* view, const vox_grid* grid
     vox_closest_desc desc = vox_default_closest_desc();
     vox_closest_hit closest[n];
     desc.points = asked;
-    desc.format = VOX_FORMAT_DOUBLE3;
+    desc.format = VOX_FORMAT_DOUBLE;
     desc.point_count = n;
     ASK(closest_points, &desc, closest);
     add_bytes(&hash, closest, sizeof closest);
-    ASK(points, asked, VOX_FORMAT_DOUBLE3, 0, n, UINT64_MAX, points, room, &count);
+    ASK(points, asked, VOX_FORMAT_DOUBLE, 0, n, UINT64_MAX, points, room, &count);
     add_bytes(&hash, points, (count < room ? count : room) * sizeof *points);
 #undef ASK
     ck_assert_uint_eq(met, count);
@@ -210,7 +210,7 @@ START_TEST(arguments) {
     w.bodies[0].positions[4] = kept;
     vox_mesh_desc bare = body_desc(&w.bodies[0]);
     vox_body mesh = VOX_NULL_BODY;
-    bare.positions = NULL;
+    bare.positions.data = NULL;
     ck_ok(vox_mesh_insert(w.grid, &bare, &mesh));
     ck_fails(vox_grid_take_query_view(w.grid, &view), VOX_ERROR_INVALID_STATE, "has no positions");
     ck_ok(vox_body_remove(w.grid, mesh));
@@ -458,7 +458,7 @@ static void* read_views(void* context) {
         vox_closest_hit closest;
         vox_closest_desc desc = vox_default_closest_desc();
         desc.points = left;
-        desc.format = VOX_FORMAT_DOUBLE3;
+        desc.format = VOX_FORMAT_DOUBLE;
         desc.point_count = 1;
         if (vox_query_view_point(view, inside, UINT64_MAX, &hit, 1, &count) != VOX_OK || count != 1 ||
             vox_query_view_closest_points(view, &desc, &closest) != VOX_OK || closest.distance != 1 ||

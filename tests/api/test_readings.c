@@ -294,11 +294,11 @@ START_TEST(odd_bodies) {
         for (int i = 0; i < 12; ++i) inner[i % 3] += corners[i] / 4;
         vox_grid* grid = new_grid(suite_engine, 0, 1);
         vox_mesh_desc desc = vox_mesh_desc_floats(NULL, 4, unit_tet, 1);
-        desc.positions = corners;
-        desc.position_format = VOX_FORMAT_DOUBLE3;
+        desc.positions.data = corners;
+        desc.positions.format = VOX_FORMAT_DOUBLE;
         insert_mesh(grid, &desc);
-        desc.positions = inner;
-        desc.vertex_count = 1;
+        desc.positions.data = inner;
+        desc.positions.count = 1;
         desc.tet_count = 0;
         insert_mesh(grid, &desc);
         ck_ok(vox_grid_step(grid));

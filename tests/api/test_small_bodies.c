@@ -17,8 +17,8 @@ static void place_tet(float* p, float x, float y, float z) {
 
 static vox_mesh_desc tet_desc(const float* positions) {
     vox_mesh_desc desc = vox_default_mesh_desc();
-    desc.positions = positions;
-    desc.vertex_count = corners;
+    desc.positions.data = positions;
+    desc.positions.count = corners;
     desc.tets = one_tet;
     desc.tet_count = 1;
     return desc;
@@ -119,7 +119,8 @@ START_TEST(contacts_of_wandering_bodies) {
             vox_vertices_desc more;
             more = vox_default_vertices_desc();
             more.count = 1;
-            more.positions = has_doubles[i] ? (const void*)as_doubles[i] : (const void*)at[i];
+            more.positions = has_doubles[i] ? vox_double_positions(as_doubles[i], corners + 1)
+                                            : vox_float_positions(at[i], corners + 1);
             for (int g = 0; g < 2; ++g) {
                 if (kind == 0) ck_ok(vox_mesh_set_tets_enabled(grids[g], meshes[g][i], &tet, 1, 0));
                 if (kind == 1) ck_ok(vox_mesh_set_tets_enabled(grids[g], meshes[g][i], &tet, 1, 1));
@@ -128,8 +129,7 @@ START_TEST(contacts_of_wandering_bodies) {
                     ck_ok(vox_mesh_append_vertices(grids[g], meshes[g][i], &more, &first));
                 if (kind == 4) ck_ok(vox_body_set_filter(grids[g], meshes[g][i], &filter));
                 if (kind == 5)
-                    ck_ok(vox_mesh_bind_positions(grids[g], meshes[g][i], as_doubles[i], VOX_FORMAT_DOUBLE3,
-                                                  24));
+                    ck_ok(bind_array(grids[g], meshes[g][i], as_doubles[i], VOX_FORMAT_DOUBLE, 24, 0));
                 if (kind == 6 && i != other)
                     ck_ok(vox_grid_set_pair_enabled(grids[g], meshes[g][i], meshes[g][other],
                                                     (uint32_t)step % 2));

@@ -197,7 +197,7 @@ START_TEST(an_empty_grid_and_one_without_positions) {
     f = save(grid);
     again = load(f, VOX_ENGINE_AUTO);
     ck_fails(vox_grid_step(again), VOX_ERROR_INVALID_STATE, "no positions");
-    ck_ok(vox_mesh_bind_positions(again, mesh, unit_tet_positions, VOX_FORMAT_FLOAT3, 0));
+    ck_ok(bind_array(again, mesh, unit_tet_positions, VOX_FORMAT_FLOAT, 0, 0));
     ck_ok(vox_grid_step(again));
     vox_grid_destroy(again);
     vox_grid_destroy(grid);

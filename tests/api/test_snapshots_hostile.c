@@ -92,7 +92,7 @@ static const defect defects[] = {
     {"MESH", 0, 40, 4, 27, VOX_ERROR_FORMAT, "mesh 1: tet 0 names vertex 27 of 27"},
     {"MESH", 5, 16, 8, 1ull << 60, VOX_ERROR_FORMAT, "positions"},
     {"MESH", 6, 16, 8, 1ull << 60, VOX_ERROR_LIMIT,
-     "vertex_count is 1152921504606846976"}, /* without positions */
+     "positions.count is 1152921504606846976"}, /* without positions */
     {"MESH", 6, -16, 4, 0x544c4946u, VOX_ERROR_FORMAT, "mesh 28673 is not in it"},
     {"pmsk", 0, 0, 4, 8193, VOX_ERROR_FORMAT, "mesh 8193 is not in it"},
     {"pmsk", 0, 4, 4, 1, VOX_ERROR_FORMAT, "a reserved word is 1"},

@@ -40,8 +40,8 @@ static vox_filter random_filter(soak* s) {
 
 static void bind_all(soak* s, int g) {
     for (uint32_t i = 0; i < s->count; ++i)
-        good(vox_mesh_bind_positions(s->grids[g], s->members[i].id, s->members[i].positions,
-                                     VOX_FORMAT_FLOAT3, s->members[i].stride * sizeof(float)));
+        good(bind_array(s->grids[g], s->members[i].id, s->members[i].positions, VOX_FORMAT_FLOAT,
+                        s->members[i].stride * sizeof(float), 0));
 }
 
 static void insert(soak* s) {
@@ -215,8 +215,8 @@ static void split(soak* s) {
     vox_vertices_desc desc = vox_default_vertices_desc();
     desc.count = 1;
     desc.copies_of = &v;
-    desc.positions = m->positions;
-    desc.position_byte_stride = m->stride * sizeof(float);
+    desc.positions = vox_float_positions(m->positions, m->shape.vertex_count);
+    desc.positions.byte_stride = m->stride * sizeof(float);
     for (int g = 0; g < 2; ++g) {
         uint32_t first = 0;
         edit(vox_mesh_append_vertices(s->grids[g], m->id, &desc, &first));

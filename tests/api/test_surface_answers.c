@@ -50,10 +50,10 @@ static vox_surface_desc desc_of_sheets(ledger* book) {
 /* To and fro; an even step begins with sheets that cross each other. */
 static vox_result move_sheets(vox_surface* surface, int step) {
     vox_motion motion = vox_default_motion();
-    motion.from = at[step & 1];
-    motion.to = at[!(step & 1)];
-    motion.vertex_count = vertices;
-    motion.format = VOX_FORMAT_DOUBLE3;
+    motion.from.data = at[step & 1];
+    motion.to.data = at[!(step & 1)];
+    motion.from.count = motion.to.count = vertices;
+    motion.from.format = motion.to.format = VOX_FORMAT_DOUBLE;
     motion.radius = 0.01;
     return vox_surface_move(surface, &motion);
 }

@@ -50,7 +50,7 @@ START_TEST(doubles_under_floats_are_refused) {
         vox_suggestion suggestion;
         vox_body mesh = VOX_NULL_BODY;
         desc.user_data = 77;
-        desc.position_format = VOX_FORMAT_FLOAT3; /* the mistake */
+        desc.positions.format = VOX_FORMAT_FLOAT; /* the mistake */
         suggestion.struct_size = sizeof suggestion;
 
         /* At the first step that reads them, as borrowed ones may be written until then. */
@@ -70,9 +70,9 @@ START_TEST(doubles_under_floats_are_refused) {
         ck_fails(vox_grid_suggest_cell_size(grid, NULL, &suggestion), VOX_ERROR_INVALID_ARGUMENT,
                  "are doubles");
         ck_fails(vox_grid_prepare_queries(grid), VOX_ERROR_INVALID_ARGUMENT, "are doubles");
-        ck_ok(vox_mesh_bind_doubles(grid, mesh, positions));
+        ck_ok(vox_mesh_bind_doubles(grid, mesh, positions, desc.positions.count));
         ck_ok(vox_grid_step(grid));
-        ck_ok(vox_mesh_bind_floats(grid, mesh, (const float*)(const void*)positions));
+        ck_ok(vox_mesh_bind_floats(grid, mesh, (const float*)(const void*)positions, desc.positions.count));
         ck_fails(vox_grid_step(grid), VOX_ERROR_INVALID_ARGUMENT, "are doubles");
 
         /* At once where they are copied, and where only they are used. */
@@ -101,7 +101,8 @@ START_TEST(doubles_that_come_later) {
         vox_vertices_desc vertices = vox_default_vertices_desc();
         uint32_t first;
         vertices.count = box.vertex_count - before;
-        vertices.positions = (const float*)(const void*)positions + 3 * before;
+        vertices.positions =
+            vox_float_positions((const float*)(const void*)positions + 3 * before, vertices.count);
         ck_ok(vox_mesh_append_vertices(grid, mesh, &vertices, &first));
         ck_fails(vox_grid_step(grid), VOX_ERROR_INVALID_ARGUMENT, "are doubles");
         vox_grid_destroy(grid);
@@ -163,14 +164,14 @@ START_TEST(typed_helpers) {
     const double doubles[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
     const uint32_t tets[4] = {0, 1, 2, 3};
     vox_mesh_desc expected = vox_default_mesh_desc();
-    expected.positions = floats;
-    expected.vertex_count = 4;
+    expected.positions.data = floats;
+    expected.positions.count = 4;
     expected.tets = tets;
     expected.tet_count = 1;
     vox_mesh_desc desc = vox_mesh_desc_floats(floats, 4, tets, 1);
     ck_assert_mem_eq(&desc, &expected, sizeof desc);
-    expected.positions = doubles;
-    expected.position_format = VOX_FORMAT_DOUBLE3;
+    expected.positions.data = doubles;
+    expected.positions.format = VOX_FORMAT_DOUBLE;
     desc = vox_mesh_desc_doubles(doubles, 4, tets, 1);
     ck_assert_mem_eq(&desc, &expected, sizeof desc);
 }

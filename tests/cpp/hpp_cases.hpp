@@ -135,9 +135,10 @@ START_TEST(margin_contacts_and_passages_equal_those_of_c) {
     ck_ok(vox_grid_get_bodies(c.grid, &first_of_c, 1, &count));
     vox_body_info info = sized_struct<vox_body_info>();
     ck_ok(vox_body_get_info(c.grid, first_of_c, &info));
-    before.assign(3 * static_cast<std::size_t>(info.vertex_count), 0.25f);
+    before.assign(3 * static_cast<std::size_t>(info.positions.count), 0.25f);
     with.grid.bind_previous(first, before);
-    ck_ok(vox_mesh_bind_previous_positions(c.grid, first_of_c, before.data(), VOX_FORMAT_FLOAT3, 0, 0));
+    const vox_positions from = vox_float_positions(before.data(), info.positions.count);
+    ck_ok(vox_mesh_bind_previous_positions(c.grid, first_of_c, &from));
     with.grid.step();
     ck_ok(vox_grid_step(c.grid));
     ck_ok(vox_grid_margin_contacts(c.grid, &margins));
@@ -377,11 +378,11 @@ START_TEST(arrays_of_another_size_are_errors) {
         },
         VOX_ERROR_INVALID_ARGUMENT, "2 tets to replace, by 1");
     odd.resize(12);
-    throws([&] { with.grid.bind(with.a, odd); }, VOX_ERROR_INVALID_ARGUMENT, "4 positions for mesh");
-    throws([&] { with.grid.bind(with.a, odd); }, VOX_ERROR_INVALID_ARGUMENT, "which has 64 vertices");
+    throws([&] { with.grid.bind(with.a, odd); }, VOX_ERROR_INVALID_ARGUMENT,
+           "positions.count is 4, expected 64");
     throws([&] { with.grid.bind(77, odd); }, VOX_ERROR_INVALID_HANDLE, "");
     throws([&] { with.grid.append_vertices(with.a, 1, odd); }, VOX_ERROR_INVALID_ARGUMENT,
-           "4 positions of format 0");
+           "positions.count is 4, expected 65");
     throws([&] { with.grid.map_positions<double>(with.a); }, VOX_ERROR_INVALID_ARGUMENT,
            "not numbers of 8 bytes");
     throws([&] { (void)with.grid.positions<double>(with.a); }, VOX_ERROR_INVALID_ARGUMENT,
@@ -782,7 +783,7 @@ START_TEST(arrays_of_all_kinds) {
     const std::vector<float> none;
     const vox_body empty = grid.insert(none);
     grid.bind(empty, none);
-    ck_assert_uint_eq(grid.info(empty).vertex_count, 0);
+    ck_assert_uint_eq(grid.info(empty).positions.count, 0);
     grid.step();
 }
 END_TEST
@@ -946,7 +947,7 @@ void queries_equal(const Q& asked, const Scene& scene, const vox_grid* c) {
     ck_assert_uint_eq(asked.query_point(p, first), count);
     ck_assert_mem_eq(first.data(), points.data(), sizeof first[0]);
     points.resize(10000);
-    ck_ok(vox_grid_query_points(c, scene.a.data(), VOX_FORMAT_FLOAT3, 0, scene.vertices(), vox::all_meshes,
+    ck_ok(vox_grid_query_points(c, scene.a.data(), VOX_FORMAT_FLOAT, 0, scene.vertices(), vox::all_meshes,
                                 points.data(), points.size(), &count));
     points.resize(count);
     same(asked.query_points(scene.a), points);
@@ -1004,7 +1005,7 @@ START_TEST(meshes_are_cut_as_in_c) {
     grown.insert(grown.end(), {0.6f, 0.5f, 0.4f});
     vox_vertices_desc vertices = vox_default_vertices_desc();
     vertices.count = 1;
-    vertices.positions = grown.data();
+    vertices.positions = vox_float_positions(grown.data(), grown.size() / 3);
     std::uint32_t first = 0, first_tet = 0;
     ck_ok(vox_mesh_set_tets_enabled(raw, c.meshes[0], some.data(), 2, 0));
     ck_ok(vox_mesh_append_vertices(raw, c.meshes[0], &vertices, &first));
@@ -1028,7 +1029,7 @@ START_TEST(meshes_are_cut_as_in_c) {
     with.grid.remove_vertices(own, added);
     throws([&] { with.grid.remove_vertices(own, added); }, VOX_ERROR_INVALID_ARGUMENT, "64");
     with.grid.set_topology(own, with.scene.a, with.scene.tets);
-    ck_assert_uint_eq(with.grid.info(own).vertex_count, 64);
+    ck_assert_uint_eq(with.grid.info(own).positions.count, 64);
     vox_mesh_desc desc = vox::describe(with.scene.b);
     with.grid.set_topology(own, desc);
     ck_assert_uint_eq(with.grid.info(own).tet_count, 0);
@@ -1049,15 +1050,15 @@ START_TEST(primitives_are_those_of_c) {
                                         vox::primitives(VOX_PRIMITIVE_TRIANGLE, xyz, triples),
                                         vox::primitives(VOX_PRIMITIVE_TRIANGLE, xyz, rows)}) {
         ck_assert_int_eq(found.type, VOX_PRIMITIVE_TRIANGLE);
-        ck_assert_ptr_eq(found.positions, xyz.data());
-        ck_assert_uint_eq(found.vertex_count, 64);
+        ck_assert_ptr_eq(found.positions.data, xyz.data());
+        ck_assert_uint_eq(found.positions.count, 64);
         ck_assert_uint_eq(found.count, 2);
         ck_assert_mem_eq(found.indices, flat.data(), 6 * sizeof flat[0]);
     }
     ck_assert_uint_eq(vox::primitives(VOX_PRIMITIVE_BOX, xyz).count, 32);
     ck_assert_ptr_null(vox::primitives(VOX_PRIMITIVE_POINT, xyz).indices);
     const Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Random(3, 10);
-    ck_assert_int_eq(vox::primitives(VOX_PRIMITIVE_POINT, points).position_format, VOX_FORMAT_DOUBLE3);
+    ck_assert_int_eq(vox::primitives(VOX_PRIMITIVE_POINT, points).positions.format, VOX_FORMAT_DOUBLE);
     throws([&] { (void)vox::primitives(VOX_PRIMITIVE_TRIANGLE, xyz, columns); }, VOX_ERROR_INVALID_ARGUMENT,
            "2 for each primitive, expected 3");
     throws([&] { (void)vox::primitives(VOX_PRIMITIVE_TET, xyz, triples); }, VOX_ERROR_INVALID_ARGUMENT,

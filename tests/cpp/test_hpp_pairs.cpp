@@ -75,11 +75,12 @@ START_TEST(motions) {
     vox_contact_time_desc closer = vox_default_contact_time_desc();
     closer.slack = 1e-6;
     ck_assert_double_gt(surface.safe_step(closer).step, step.step);
-    throws([&] { surface.move(from, crossed); }, VOX_ERROR_INVALID_ARGUMENT, "differ");
+    throws([&] { surface.move(from, crossed); }, VOX_ERROR_INVALID_ARGUMENT, "to.format is 1, from.format 0");
     throws([&] { surface.move(from, std::vector<std::array<float, 3>>(5)); }, VOX_ERROR_INVALID_ARGUMENT,
-           "to has 5");
+           "to.count is 5, expected 6");
     throws([&] { surface.move(std::vector<double>(17)); }, VOX_ERROR_INVALID_ARGUMENT, "17 numbers");
-    throws([&] { surface.move(std::vector<double>(15)); }, VOX_ERROR_INVALID_ARGUMENT, "vertex_count is 5");
+    throws([&] { surface.move(std::vector<double>(15)); }, VOX_ERROR_INVALID_ARGUMENT,
+           "from.count is 5, expected 6");
     throws(
         [&] {
             vox::surface(6, std::vector<std::uint32_t>{0, 1});

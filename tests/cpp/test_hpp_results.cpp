@@ -61,7 +61,7 @@ START_TEST(values_and_errors) {
     fails(grid.insert(scene.a, {0, 1, 2, 900}), VOX_ERROR_INVALID_MESH, "names vertex 900 of 64");
     fails(grid.insert(scene.a, {0, 1, 2}), VOX_ERROR_INVALID_ARGUMENT, "3 indices");
     fails(grid.bind(*a, vox::span<const float>(scene.a.data(), 12)), VOX_ERROR_INVALID_ARGUMENT,
-          "4 positions for mesh");
+          "positions.count is 4, expected 64");
     fails(grid.readings(), VOX_ERROR_INVALID_STATE, "readings");
     vox_grid_desc desc = vox_default_grid_desc();
     desc.worker_count = 1000;

@@ -237,12 +237,12 @@ private:
             const auto tets = grid_.tets_of(mesh);
             found.push_back({{"mesh", mesh},
                              {"user_data", std::to_string(grid_.user_data(mesh))},
-                             {"vertices", info.vertex_count},
+                             {"vertices", info.positions.count},
                              {"tet_count", info.tet_count},
                              {"enabled_tets", info.enabled_tet_count},
                              {"enabled", info.enabled},
                              {"flags", info.flags},
-                             {"format", info.position_format},
+                             {"format", info.positions.format},
                              {"tets", hash_words(tets.data(), tets.size() * sizeof(corners))}});
         }
         check(call, "meshes", found);
@@ -303,7 +303,7 @@ private:
         if (given.contains("radii")) {
             to.radii = array<double>(given["radii"], to.of.count);
             to.of.radii = to.radii.data();
-            to.of.radius_format = VOX_FORMAT_DOUBLE3;
+            to.of.radius_format = VOX_FORMAT_DOUBLE;
         }
         to.of.radius = given["radius"];
     }

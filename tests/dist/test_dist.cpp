@@ -61,8 +61,8 @@ void check_locate(Run& run, const vox_grid* grid, vox_scene* scene, std::uint32_
     std::vector<double> points;
     for (int i = 0; i < 3 * 20; ++i) points.push_back(below(random, 21) / 4.0);
     std::vector<vox_scene_point> found(20);
-    if (vox_scene_locate(scene, points.data(), VOX_FORMAT_DOUBLE3, 0, 20, found.data()) != VOX_OK)
-        return note(run, vox_last_error());
+    const vox_positions asked = vox_double_positions(points.data(), 20);
+    if (vox_scene_locate(scene, &asked, found.data()) != VOX_OK) return note(run, vox_last_error());
     for (std::uint32_t i = 0; i < 20; ++i) {
         vox_point_hit hits[64];
         std::uint64_t count = 0;
@@ -252,15 +252,15 @@ Snapshot saved(const Scene& scene, std::vector<std::vector<Share>>& all, std::ui
 }
 
 double number_at(const vox_body_info& info, std::uint64_t vertex, unsigned axis) {
-    const auto* at = static_cast<const std::byte*>(info.positions) + vertex * info.position_byte_stride +
-                     axis * info.position_component_byte_stride;
+    const auto* at = static_cast<const std::byte*>(info.positions.data) +
+                     vertex * info.positions.byte_stride + axis * info.positions.component_byte_stride;
     double number = 0;
     float single = 0;
-    if (info.position_format == VOX_FORMAT_DOUBLE3)
+    if (info.positions.format == VOX_FORMAT_DOUBLE)
         std::memcpy(&number, at, sizeof number);
     else
         std::memcpy(&single, at, sizeof single);
-    return info.position_format == VOX_FORMAT_DOUBLE3 ? number : static_cast<double>(single);
+    return info.positions.format == VOX_FORMAT_DOUBLE ? number : static_cast<double>(single);
 }
 
 // Puts what one rank saved into the whole bodies, which have room and no values.
@@ -279,8 +279,8 @@ void restore(const Snapshot& bytes, const std::vector<std::vector<Share>>& all, 
         Body& body = scene[info.user_data];
         ck_assert_int_eq(vox_mesh_filter(grid, mesh, &body.filter), VOX_OK);
         const Share& share = all[info.user_data][rank];
-        ck_assert_uint_eq(info.vertex_count, share.vertex_ids.size());
-        for (std::uint64_t v = 0; v < info.vertex_count; ++v)
+        ck_assert_uint_eq(info.positions.count, share.vertex_ids.size());
+        for (std::uint64_t v = 0; v < info.positions.count; ++v)
             for (unsigned axis = 0; axis < 3; ++axis)
                 body.xyz[3 * share.vertex_ids[v] + axis] = number_at(info, v, axis);
         std::vector<std::uint32_t> corners(4 * info.tet_count);

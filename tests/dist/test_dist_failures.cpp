@@ -119,7 +119,8 @@ using Operation = std::function<vox_result(vox_scene*)>;
 vox_result locate(vox_scene* scene) {
     const double points[6] = {0.5, 0.5, 1, 1.25, 1.25, 1.5};
     vox_scene_point found[2];
-    return vox_scene_locate(scene, points, VOX_FORMAT_DOUBLE3, 0, 2, found);
+    const vox_positions asked = vox_double_positions(points, 2);
+    return vox_scene_locate(scene, &asked, found);
 }
 
 vox_result send(vox_scene* scene) {
@@ -377,18 +378,19 @@ START_TEST(a_part_that_moves_to_other_memory) {
     corners[3] = 3;
     ck_ok(vox_scene_insert(scene, &part, &handle));
     const double point[3] = {0.6, 0.6, 0.6};
+    const vox_positions asked = vox_double_positions(point, 1);
+    const vox_positions places[2] = {vox_double_positions(xyz[0][0], 4), vox_double_positions(xyz[1][0], 4)};
     vox_scene_point found{};
-    ck_ok(vox_scene_locate(scene, point, VOX_FORMAT_DOUBLE3, 0, 1, &found));
+    ck_ok(vox_scene_locate(scene, &asked, &found));
     ck_assert_uint_eq(found.rank, VOX_NO_RANK);
-    ck_ok(vox_scene_bind_positions(scene, handle, xyz[1], VOX_FORMAT_DOUBLE3, 0, 0));
-    ck_ok(vox_scene_locate(scene, point, VOX_FORMAT_DOUBLE3, 0, 1, &found));
+    ck_ok(vox_scene_bind_positions(scene, handle, &places[1]));
+    ck_ok(vox_scene_locate(scene, &asked, &found));
     ck_assert_uint_eq(found.rank, 0);
     ck_assert_uint_eq(found.body, 5);
     ck_assert_uint_eq(found.interior, 1);
-    ck_fails(vox_scene_bind_positions(scene, handle + 1, xyz[0], VOX_FORMAT_DOUBLE3, 0, 0),
-             VOX_ERROR_INVALID_HANDLE, "part");
+    ck_fails(vox_scene_bind_positions(scene, handle + 1, &places[0]), VOX_ERROR_INVALID_HANDLE, "part");
     ck_ok(vox_scene_remove(scene, handle));
-    ck_ok(vox_scene_locate(scene, point, VOX_FORMAT_DOUBLE3, 0, 1, &found));
+    ck_ok(vox_scene_locate(scene, &asked, &found));
     ck_assert_uint_eq(found.rank, VOX_NO_RANK);
     vox_scene_destroy(scene);
 }

@@ -63,9 +63,8 @@ static vox_grid* grid_of(scene* s, vox_engine engine, int nearby, vox_body ids[m
         vox_mesh_desc mesh = vox_mesh_desc_floats(body->now, body->vertices, body->corners, body->tets);
         mesh.flags = body->flags;
         demand(vox_mesh_insert(grid, &mesh, &ids[k]) == VOX_OK);
-        if (nearby && body->moves)
-            demand(vox_mesh_bind_previous_positions(grid, ids[k], body->before, VOX_FORMAT_FLOAT3, 0, 0) ==
-                   VOX_OK);
+        const vox_positions before = vox_float_positions(body->before, body->vertices);
+        if (nearby && body->moves) demand(vox_mesh_bind_previous_positions(grid, ids[k], &before) == VOX_OK);
     }
     return grid;
 }

@@ -91,13 +91,14 @@ static vox_result move(vox_surface* surface, const scene* s, uint32_t flags) {
         }
     vox_motion motion = vox_default_motion();
     motion.flags = flags;
-    motion.from = from;
-    motion.to = s->moves ? to : NULL;
-    motion.vertex_count = s->vertices;
-    motion.format = VOX_FORMAT_DOUBLE3;
+    motion.from.data = from;
+    motion.to.data = s->moves ? to : NULL;
+    motion.from.count = motion.to.count = s->vertices;
+    motion.from.format = motion.to.format = VOX_FORMAT_DOUBLE;
     motion.radius = s->radius;
-    motion.byte_stride = s->columns ? sizeof(double) : 0;
-    motion.component_byte_stride = s->columns ? s->vertices * sizeof(double) : 0;
+    motion.from.byte_stride = motion.to.byte_stride = s->columns ? sizeof(double) : 0;
+    motion.from.component_byte_stride = motion.to.component_byte_stride =
+        s->columns ? s->vertices * sizeof(double) : 0;
     return vox_surface_move(surface, &motion);
 }
 

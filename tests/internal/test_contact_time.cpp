@@ -224,10 +224,10 @@ vox_surface* surface_of(const Sheets& s, std::uint32_t workers) {
 
 void move(vox_surface* surface, const Sheets& s) {
     vox_motion motion = vox_default_motion();
-    motion.from = s.from.data();
-    motion.to = s.to.data();
-    motion.vertex_count = s.vertices();
-    motion.format = VOX_FORMAT_DOUBLE3;
+    motion.from.data = s.from.data();
+    motion.to.data = s.to.data();
+    motion.from.count = motion.to.count = s.vertices();
+    motion.from.format = motion.to.format = VOX_FORMAT_DOUBLE;
     ck_ok(vox_surface_move(surface, &motion));
 }
 

@@ -37,9 +37,7 @@ struct Boxes {
     vox_primitives describe() const {
         vox_primitives p = vox_default_primitives();
         p.type = VOX_PRIMITIVE_BOX;
-        p.positions = corners.data();
-        p.position_format = VOX_FORMAT_DOUBLE3;
-        p.vertex_count = 2 * count();
+        p.positions = vox_double_positions(corners.data(), 2 * count());
         p.count = count();
         return p;
     }

@@ -124,7 +124,7 @@ struct Asked {
 void check_points(const Asked& asked, const std::vector<Vec3d>& points) {
     std::vector<vox_point_hit> hits(points.size() * asked.mesh.tets().size());
     std::uint64_t count = 0, next = 0;
-    ck_ok(vox_grid_query_points(asked.grid, points.data(), VOX_FORMAT_DOUBLE3, 0, points.size(), UINT64_MAX,
+    ck_ok(vox_grid_query_points(asked.grid, points.data(), VOX_FORMAT_DOUBLE, 0, points.size(), UINT64_MAX,
                                 hits.data(), hits.size(), &count));
     for (std::uint32_t i = 0; i < points.size(); ++i)
         for (const std::uint32_t tet : asked.mesh.tets_with(points[i])) {
@@ -139,7 +139,7 @@ void check_closest(const Asked& asked, const std::vector<Vec3d>& points) {
     std::vector<vox_closest_hit> hits(points.size());
     vox_closest_desc desc = vox_default_closest_desc();
     desc.points = points.data();
-    desc.format = VOX_FORMAT_DOUBLE3;
+    desc.format = VOX_FORMAT_DOUBLE;
     desc.point_count = points.size();
     ck_ok(vox_grid_query_closest_points(asked.grid, &desc, hits.data()));
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -160,7 +160,7 @@ void check_together(const vox_grid* grid, const std::vector<Vec3d>& points, std:
     std::vector<vox_point_hit> together(16), singly, of_one(4096);
     std::uint64_t count = 0, found = 0;
     const auto ask = [&](std::uint64_t capacity) {
-        ck_ok(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE3, 0, points.size(), mask,
+        ck_ok(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE, 0, points.size(), mask,
                                     together.data(), capacity, &count));
     };
     ask(16);
@@ -169,7 +169,7 @@ void check_together(const vox_grid* grid, const std::vector<Vec3d>& points, std:
     std::vector<vox_closest_hit> closest(points.size());
     vox_closest_desc desc = vox_default_closest_desc();
     desc.points = points.data();
-    desc.format = VOX_FORMAT_DOUBLE3;
+    desc.format = VOX_FORMAT_DOUBLE;
     desc.point_count = points.size();
     desc.mask = mask;
     desc.max_distance = 1;
@@ -232,10 +232,10 @@ vox_grid* grid_with_other_tiles(const QueryDefinition& mesh, vox_mesh_desc desc,
     std::vector<Vec3d> others;
     while (others.size() < mesh.positions().size()) others.push_back(random_vector(random, 1));
     vox_grid* grid = engine_grid();
-    desc.positions = others.data();
+    desc.positions.data = others.data();
     const vox_body id = insert_mesh(grid, &desc);
     ck_ok(vox_grid_prepare_queries(grid));
-    ck_ok(vox_mesh_bind_positions(grid, id, mesh.positions().data(), VOX_FORMAT_DOUBLE3, 0));
+    ck_ok(bind_array(grid, id, mesh.positions().data(), VOX_FORMAT_DOUBLE, 0, 0));
     ck_ok(vox_grid_prepare_queries(grid));
     return grid;
 }
@@ -263,9 +263,7 @@ START_TEST(bad_shapes_by_definition) {
             const QueryDefinition soup = make_soup(random, Shape(shape), 20 + random.below(300));
             vox_grid* grid = engine_grid();
             vox_mesh_desc mesh = vox_default_mesh_desc();
-            mesh.positions = soup.positions().data();
-            mesh.position_format = VOX_FORMAT_DOUBLE3;
-            mesh.vertex_count = soup.positions().size();
+            mesh.positions = vox_double_positions(&soup.positions().data()->x, soup.positions().size());
             mesh.tets = soup.tets().front().v;
             mesh.tet_count = soup.tets().size();
             insert_mesh(grid, &mesh);
@@ -319,12 +317,12 @@ START_TEST(many_points_as_alone) {
     }
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         vox_mesh_desc desc = vox_default_mesh_desc();
-        desc.position_format = b % 3 == 1 ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
+        desc.positions.format = b % 3 == 1 ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT;
         if (b % 3 == 1)
-            desc.positions = doubles[b].data();
+            desc.positions.data = doubles[b].data();
         else
-            desc.positions = bodies[b].positions.data();
-        desc.vertex_count = bodies[b].positions.size();
+            desc.positions.data = bodies[b].positions.data();
+        desc.positions.count = bodies[b].positions.size();
         desc.tets = bodies[b].tets.front().v;
         desc.tet_count = bodies[b].tets.size();
         desc.flags = VOX_MESH_COPY_POSITIONS;
@@ -377,11 +375,11 @@ START_TEST(many_points_as_alone) {
     while (points.size() < 150000) points.push_back(place(int(random.below(10))));
     std::vector<vox_point_hit> all(4 * points.size()), some(all.size());
     std::uint64_t count = 0, done = 0, next = 0;
-    ck_ok(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE3, 0, points.size(), UINT64_MAX,
+    ck_ok(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE, 0, points.size(), UINT64_MAX,
                                 all.data(), all.size(), &count));
     ck_assert_uint_le(count, all.size());
     for (std::size_t first = 0; first < points.size(); first += 10000) {
-        ck_ok(vox_grid_query_points(grid, &points[first], VOX_FORMAT_DOUBLE3, 0, 10000, UINT64_MAX,
+        ck_ok(vox_grid_query_points(grid, &points[first], VOX_FORMAT_DOUBLE, 0, 10000, UINT64_MAX,
                                     some.data(), some.size(), &done));
         for (std::uint64_t h = 0; h < done; ++h) some[h].point += std::uint32_t(first);
         ck_assert_uint_le(next + done, count);
@@ -390,7 +388,7 @@ START_TEST(many_points_as_alone) {
     }
     ck_assert_uint_eq(next, count);
     points[149999].y = std::nan("");
-    ck_fails(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE3, 0, points.size(), UINT64_MAX,
+    ck_fails(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE, 0, points.size(), UINT64_MAX,
                                    all.data(), all.size(), &count),
              VOX_ERROR_NON_FINITE, "point 149999");
     ck_assert_uint_eq(count, next);
@@ -416,9 +414,7 @@ START_TEST(many_points_beyond_floats) {
     }
     vox_grid* grid = engine_grid();
     vox_mesh_desc desc = vox_default_mesh_desc();
-    desc.positions = positions.data();
-    desc.position_format = VOX_FORMAT_DOUBLE3;
-    desc.vertex_count = positions.size();
+    desc.positions = vox_double_positions(&positions.data()->x, positions.size());
     desc.tets = tets.front().v;
     desc.tet_count = tets.size();
     insert_mesh(grid, &desc);

@@ -235,8 +235,8 @@ public:
         ck_assert_int_eq(vox_grid_create(&desc, &grid), VOX_OK);
         for (const Body& body : scene.bodies()) {
             vox_mesh_desc mesh = vox_default_mesh_desc();
-            mesh.positions = body.positions.data;
-            mesh.vertex_count = body.vertex_count;
+            mesh.positions.data = body.positions.data;
+            mesh.positions.count = body.vertex_count;
             mesh.tets = body.tets[0].v;
             mesh.tet_count = body.tets.size();
             vox_body id = 0;

@@ -58,9 +58,9 @@ vox_surface* surface_of(const Soup& s, std::uint32_t workers, std::uint64_t budg
 
 void put(vox_surface* surface, const std::vector<Vec3d>& at) {
     vox_motion motion = vox_default_motion();
-    motion.from = at.data();
-    motion.vertex_count = at.size();
-    motion.format = VOX_FORMAT_DOUBLE3;
+    motion.from.data = at.data();
+    motion.from.count = motion.to.count = at.size();
+    motion.from.format = motion.to.format = VOX_FORMAT_DOUBLE;
     ck_ok(vox_surface_move(surface, &motion));
 }
 
@@ -232,9 +232,9 @@ START_TEST(what_is_refused) {
     vox_surface_destroy(surface);
     vox_surface* const tight = surface_of(s, 1, 20000);
     vox_motion motion = vox_default_motion();
-    motion.from = s.at.data();
-    motion.vertex_count = s.at.size();
-    motion.format = VOX_FORMAT_DOUBLE3;
+    motion.from.data = s.at.data();
+    motion.from.count = motion.to.count = s.at.size();
+    motion.from.format = motion.to.format = VOX_FORMAT_DOUBLE;
     if (vox_surface_move(tight, &motion) == VOX_OK)
         ck_fails(vox_surface_find_proximities(tight, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 10, &view),
                  VOX_ERROR_BUDGET, "20000");

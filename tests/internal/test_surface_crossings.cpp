@@ -47,12 +47,12 @@ vox_surface* surface_of(const vox_surface_desc& desc) {
 }
 
 void move(vox_surface* surface, const TestSurface& of, const void* from, const void* to = nullptr,
-          vox_format format = VOX_FORMAT_DOUBLE3) {
+          vox_format format = VOX_FORMAT_DOUBLE) {
     vox_motion motion = vox_default_motion();
-    motion.vertex_count = of.vertex_count();
-    motion.from = from;
-    motion.to = to;
-    motion.format = format;
+    motion.from.count = motion.to.count = of.vertex_count();
+    motion.from.data = from;
+    motion.to.data = to;
+    motion.from.format = motion.to.format = format;
     motion.radius = 0.3; // does not count
     ck_ok(vox_surface_move(surface, &motion));
 }
@@ -163,7 +163,7 @@ START_TEST(random_surfaces_equal_brute_force) {
         // Floats give what their doubles give.
         std::vector<float> floats(s.positions.begin(), s.positions.end());
         s.positions.assign(floats.begin(), floats.end());
-        move(surface, s, floats.data(), nullptr, VOX_FORMAT_FLOAT3);
+        move(surface, s, floats.data(), nullptr, VOX_FORMAT_FLOAT);
         check_equal(crossings_of(surface), brute_force(s, edges));
         vox_surface_destroy(surface);
     }
@@ -260,9 +260,9 @@ START_TEST(budgets) {
     for (int share = 1; share <= 20; ++share) {
         desc.byte_budget = most * static_cast<std::uint64_t>(share) / 20;
         vox_motion motion = vox_default_motion();
-        motion.from = s.positions.data();
-        motion.vertex_count = s.vertex_count();
-        motion.format = VOX_FORMAT_DOUBLE3;
+        motion.from.data = s.positions.data();
+        motion.from.count = motion.to.count = s.vertex_count();
+        motion.from.format = motion.to.format = VOX_FORMAT_DOUBLE;
         surface = nullptr;
         if (vox_surface_create(&desc, &surface) != VOX_OK) continue;
         if (vox_surface_move(surface, &motion) == VOX_OK) {

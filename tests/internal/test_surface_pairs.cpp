@@ -134,13 +134,14 @@ void move(vox_surface* surface, const Scene& s, std::uint32_t flags = 0) {
     const CallerPositions from(s, s.from), to(s, s.moves ? s.to : s.from);
     vox_motion motion = vox_default_motion();
     motion.flags = flags;
-    motion.from = from.bytes.data();
-    motion.to = s.moves ? to.bytes.data() : nullptr;
-    motion.vertex_count = s.vertex_count;
-    motion.format = s.doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
+    motion.from.data = from.bytes.data();
+    motion.to.data = s.moves ? to.bytes.data() : nullptr;
+    motion.from.count = motion.to.count = s.vertex_count;
+    motion.from.format = motion.to.format = s.doubles ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT;
     if (s.columns) {
-        motion.byte_stride = s.doubles ? 8 : 4;
-        motion.component_byte_stride = motion.byte_stride * s.vertex_count;
+        motion.from.byte_stride = motion.to.byte_stride = s.doubles ? 8 : 4;
+        motion.from.component_byte_stride = motion.to.component_byte_stride =
+            motion.from.byte_stride * s.vertex_count;
     }
     motion.radius = s.radius;
     ck_assert_msg(vox_surface_move(surface, &motion) == VOX_OK, "%s", vox_last_error());

@@ -17,8 +17,8 @@ static vox_geometry_stats stats_of(const vox_io_mesh* mesh) {
     float* positions = (float*)malloc(3 * sizeof(float) * view.vertex_count);
     for (uint64_t i = 0; i < 3 * view.vertex_count; ++i) positions[i] = (float)view.positions[i];
     vox_mesh_desc desc = vox_default_mesh_desc();
-    desc.positions = positions;
-    desc.vertex_count = view.vertex_count;
+    desc.positions.data = positions;
+    desc.positions.count = view.vertex_count;
     desc.tets = view.tets;
     desc.tet_count = view.tet_count;
     vox_suggestion suggestion;

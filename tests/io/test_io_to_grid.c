@@ -41,34 +41,34 @@ START_TEST(described) {
     ck_assert_double_lt(suggestion.cell_size, 1);
 
     /* Whatever the geometry was before, and all else stays. */
-    desc.position_byte_stride = 99;
-    desc.position_component_byte_stride = 77;
-    desc.position_format = VOX_FORMAT_FLOAT3;
+    desc.positions.byte_stride = 99;
+    desc.positions.component_byte_stride = 77;
+    desc.positions.format = VOX_FORMAT_FLOAT;
     desc.user_data = 5;
     desc.flags = VOX_MESH_COPY_POSITIONS;
     desc.filter = &filter;
-    desc.rest_positions = view.positions;
-    desc.rest_position_byte_stride = 48;
+    desc.rest_positions.data = view.positions;
+    desc.rest_positions.byte_stride = 48;
     ck_ok(vox_io_mesh_describe(mesh, &desc));
     vox_mesh_desc expected = by_hand;
     expected.user_data = 5;
     expected.flags = VOX_MESH_COPY_POSITIONS;
     expected.filter = &filter;
-    expected.rest_positions = view.positions;
-    expected.rest_position_byte_stride = 48;
+    expected.rest_positions.data = view.positions;
+    expected.rest_positions.byte_stride = 48;
     ck_assert_mem_eq(&desc, &expected, sizeof desc);
 
-    /* An older program's struct, and one that holds no format. */
+    /* An older program's struct, and one that holds no tetrahedra. */
     memset(&desc, 0xaa, sizeof desc);
     desc.struct_size = offsetof(vox_mesh_desc, filter);
     ck_ok(vox_io_mesh_describe(mesh, &desc));
     ck_assert_uint_eq(desc.struct_size, offsetof(vox_mesh_desc, filter));
-    ck_assert_ptr_eq(desc.positions, view.positions);
-    ck_assert_int_eq(desc.position_format, VOX_FORMAT_DOUBLE3);
-    ck_assert_uint_eq(desc.position_component_byte_stride, 0xaaaaaaaaaaaaaaaau);
-    desc.struct_size = offsetof(vox_mesh_desc, position_format);
-    ck_fails(vox_io_mesh_describe(mesh, &desc), VOX_ERROR_INVALID_ARGUMENT,
-             "does not reach to position_format");
+    ck_assert_ptr_eq(desc.positions.data, view.positions);
+    ck_assert_int_eq(desc.positions.format, VOX_FORMAT_DOUBLE);
+    ck_assert_uint_eq(desc.positions.component_byte_stride, 0);
+    ck_assert_uint_eq(desc.user_data, 0xaaaaaaaaaaaaaaaau);
+    desc.struct_size = offsetof(vox_mesh_desc, tet_count);
+    ck_fails(vox_io_mesh_describe(mesh, &desc), VOX_ERROR_INVALID_ARGUMENT, "does not reach to tet_count");
     desc.struct_size = 0;
     ck_fails(vox_io_mesh_describe(mesh, &desc), VOX_ERROR_INVALID_ARGUMENT, "desc.struct_size is 0");
     ck_fails(vox_io_mesh_describe(mesh, NULL), VOX_ERROR_INVALID_ARGUMENT, "desc is null");
@@ -85,8 +85,8 @@ START_TEST(doubles_of_a_file_as_floats) {
     vox_suggestion suggestion;
     ck_ok(vox_io_make_lattice_ball(2000, 1, &mesh));
     ck_ok(vox_io_mesh_get_arrays(mesh, &view));
-    desc.positions = view.positions;
-    desc.vertex_count = view.vertex_count;
+    desc.positions.data = view.positions;
+    desc.positions.count = view.vertex_count;
     desc.tets = view.tets;
     desc.tet_count = view.tet_count;
     suggestion.struct_size = sizeof suggestion;

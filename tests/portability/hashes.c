@@ -250,10 +250,10 @@ static void write_doubles(const scene* s, double* const* to) {
 static vox_body mesh_of(uint32_t body) { return (body << 12) + 1; }
 
 static int bind_previous(const scene* s, vox_grid* grid) {
-    for (uint32_t b = 0; b < s->count; ++b)
-        if (vox_mesh_bind_previous_positions(grid, mesh_of(b), previous[b], VOX_FORMAT_DOUBLE3, 0, 0) !=
-            VOX_OK)
-            return 0;
+    for (uint32_t b = 0; b < s->count; ++b) {
+        const vox_positions before = vox_double_positions(previous[b], s->bodies[b].vertex_count);
+        if (vox_mesh_bind_previous_positions(grid, mesh_of(b), &before) != VOX_OK) return 0;
+    }
     return 1;
 }
 
@@ -264,7 +264,7 @@ static int fit_meshes(const scene* s, const settings* how, uint32_t rings, vox_g
     for (uint32_t b = 0; ok && b < s->count; ++b) {
         const vox_body mesh = mesh_of(b);
         if (how->doubles)
-            ok = vox_mesh_bind_positions(grid, mesh, as_doubles[b], VOX_FORMAT_DOUBLE3, 0) == VOX_OK;
+            ok = vox_mesh_bind_doubles(grid, mesh, as_doubles[b], s->bodies[b].vertex_count) == VOX_OK;
         if (how->moved) ok = ok && vox_body_set_transform(grid, mesh, here) == VOX_OK;
         if (rings > 0) {
             vox_filter filter = vox_default_filter();
@@ -478,10 +478,10 @@ static int run_surface(scene* s, const char* name, double factor, const settings
     ok = make_faces(s, how, how->cell_size * factor, &soup);
     for (int cull = 0; ok && cull < 2; ++cull) {
         vox_motion motion = vox_default_motion();
-        motion.from = soup.at[0];
-        motion.to = soup.at[1];
-        motion.vertex_count = soup.vertex_count;
-        motion.format = how->doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
+        motion.from.data = soup.at[0];
+        motion.to.data = soup.at[1];
+        motion.from.count = motion.to.count = soup.vertex_count;
+        motion.from.format = motion.to.format = how->doubles ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT;
         motion.flags = cull ? VOX_MOTION_CULL : 0;
         ok = vox_surface_move(soup.surface, &motion) == VOX_OK &&
              hash_pairs(soup.surface, &count, &parts[cull]);

@@ -96,8 +96,8 @@ START_TEST(first_frame_by_hand) {
         for (size_t i = 0; i < count; ++i)
             positions[b][i] = (float)(body.positions[i] + b * facts.distance * desc.axis[i % 3] / sqrt(14));
         vox_mesh_desc mesh = vox_default_mesh_desc();
-        mesh.positions = positions[b];
-        mesh.vertex_count = body.vertex_count;
+        mesh.positions.data = positions[b];
+        mesh.positions.count = body.vertex_count;
         mesh.tets = body.tets;
         mesh.tet_count = body.tet_count;
         vox_body id;

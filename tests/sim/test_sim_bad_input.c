@@ -410,8 +410,8 @@ START_TEST(the_grid_is_within_reach) {
     ck_ok(vox_sim_get_grid(sim, &grid));
     static const float point[3] = {0.1f, 0.1f, 0.1f};
     vox_mesh_desc probe = vox_default_mesh_desc();
-    probe.positions = point;
-    probe.vertex_count = 1;
+    probe.positions.data = point;
+    probe.positions.count = 1;
     vox_body probe_id;
     ck_ok(vox_mesh_insert(grid, &probe, &probe_id));
     steps(sim, 10);
@@ -438,8 +438,8 @@ static uint32_t crowd_tets[400];
 
 static void other_topology(vox_grid* grid, vox_body body) {
     vox_mesh_desc desc = vox_default_mesh_desc();
-    desc.positions = crowd;
-    desc.vertex_count = 100;
+    desc.positions.data = crowd;
+    desc.positions.count = 100;
     desc.tets = crowd_tets;
     desc.tet_count = 100;
     ck_ok(vox_mesh_set_topology(grid, body, &desc));
@@ -448,7 +448,7 @@ static void more_vertices(vox_grid* grid, vox_body body) {
     vox_vertices_desc desc = vox_default_vertices_desc();
     uint32_t first;
     desc.count = 92;
-    desc.positions = crowd;
+    desc.positions.data = crowd;
     ck_ok(vox_mesh_append_vertices(grid, body, &desc, &first));
 }
 static void more_tets(vox_grid* grid, vox_body body) {
@@ -463,7 +463,7 @@ static void other_tets(vox_grid* grid, vox_body body) {
     ck_ok(vox_mesh_replace_tets(grid, body, tets, 5, corners));
 }
 static void other_positions(vox_grid* grid, vox_body body) {
-    ck_ok(vox_mesh_bind_positions(grid, body, crowd, VOX_FORMAT_FLOAT3, 0));
+    ck_ok(bind_array(grid, body, crowd, VOX_FORMAT_FLOAT, 0, 0));
 }
 static void no_penetrations(vox_grid* grid, vox_body body) {
     (void)body;

@@ -53,8 +53,7 @@ static inline void write_positions(const cut_mesh* m, const double* from, uint32
 /* Gives the grid the positions of the model. */
 static inline void show_positions(cut_scene* s, cut_mesh* m) {
     void* to = m->borrowed;
-    uint64_t stride = 0;
-    if (m->owned) ck_ok(vox_mesh_map_positions(s->grid, m->id, &to, &stride));
+    if (m->owned) ck_ok(vox_mesh_map_positions(s->grid, m->id, &to));
     write_positions(m, m->positions, m->vertices, to);
 }
 
@@ -103,13 +102,14 @@ static inline void insert_model(cut_scene* s, cut_mesh* m) {
             ((double*)(void*)rest)[i] = m->rest[i];
         else
             rest[i] = m->rest[i];
-    desc.positions = m->borrowed;
-    desc.position_format = m->doubles ? VOX_FORMAT_DOUBLE3 : VOX_FORMAT_FLOAT3;
-    desc.vertex_count = m->vertices;
+    desc.positions.data = m->borrowed;
+    desc.positions.format = m->doubles ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT;
+    desc.positions.count = m->vertices;
     desc.tets = m->corners;
     desc.tet_count = m->tets;
     desc.filter = &m->filter;
-    desc.rest_positions = rest;
+    desc.rest_positions = desc.positions;
+    desc.rest_positions.data = rest;
     desc.user_data = m->user_data;
     if (m->owned) desc.flags = VOX_MESH_COPY_POSITIONS;
     ck_ok(vox_mesh_insert(s->grid, &desc, &m->id));

@@ -129,8 +129,8 @@ static inline vox_grid* new_grid(vox_engine engine, uint32_t flags, uint32_t wor
 static inline vox_mesh_desc desc_of(const model* m, int index) {
     vox_mesh_desc desc = body_desc(&m->shape);
     if (m->given) {
-        desc.positions = m->given;
-        desc.position_format = VOX_FORMAT_DOUBLE3;
+        desc.positions.data = m->given;
+        desc.positions.format = VOX_FORMAT_DOUBLE;
     }
     if (m->self) desc.flags |= VOX_MESH_SELF_COLLISION;
     desc.user_data = 1000 + (uint64_t)index;

@@ -147,14 +147,14 @@ static inline void make_scene(scene* s, vox_engine engine, double cell_size) {
     ck_assert_uint_le(s->bodies[5].vertex_count, 64);
     for (uint32_t i = 0; i < 3 * s->bodies[5].vertex_count; ++i)
         s->doubles[i] = s->bodies[5].positions[i] + 1e-12 * i; /* what no float could keep */
-    ck_ok(vox_mesh_bind_positions(s->grid, s->ids[5], s->doubles, VOX_FORMAT_DOUBLE3, 0));
+    ck_ok(bind_array(s->grid, s->ids[5], s->doubles, VOX_FORMAT_DOUBLE, 0, 0));
     static const double turn[12] = {0.8, -0.6, 0, 0.2, 0.6, 0.8, 0, 0.1, 0, 0, 1, 0.05};
     ck_ok(vox_body_set_transform(s->grid, s->ids[3], turn));
 
     vox_mesh_desc mesh = vox_mesh_desc_floats(NULL, 4, unit_tet, 1);
     ck_ok(vox_mesh_insert(s->grid, &mesh, &s->ids[6]));
     for (int v = 0; v < 4; ++v) memcpy(s->strided + 5 * v, unit_tet_positions + 3 * v, 3 * sizeof(float));
-    ck_ok(vox_mesh_bind_positions(s->grid, s->ids[6], s->strided, VOX_FORMAT_FLOAT3, 5 * sizeof(float)));
+    ck_ok(bind_array(s->grid, s->ids[6], s->strided, VOX_FORMAT_FLOAT, 5 * sizeof(float), 0));
     mesh = vox_default_mesh_desc();
     ck_ok(vox_mesh_insert(s->grid, &mesh, &s->ids[7]));
 

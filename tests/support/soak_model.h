@@ -104,8 +104,8 @@ static inline void never_seen_before(soak* s, vox_body id) {
 static inline vox_mesh_desc member_desc(const member* m) {
     vox_mesh_desc desc =
         vox_mesh_desc_floats(m->positions, m->shape.vertex_count, m->shape.tets, m->shape.tet_count);
-    desc.position_byte_stride = m->stride * sizeof(float);
-    desc.rest_positions = m->shape.positions;
+    desc.positions.byte_stride = m->stride * sizeof(float);
+    desc.rest_positions = vox_float_positions(m->shape.positions, m->shape.vertex_count);
     desc.user_data = m->user_data;
     desc.filter = &m->filter;
     return desc;

@@ -28,7 +28,7 @@ typedef struct solid {
 
 static inline solid make_solid(uint32_t n) {
     body box = make_box(n, 1, 0, 0, 0);
-    solid s = {NULL, box.tets, box.vertex_count, box.tet_count, VOX_FORMAT_DOUBLE3, 24, NULL};
+    solid s = {NULL, box.tets, box.vertex_count, box.tet_count, VOX_FORMAT_DOUBLE, 24, NULL};
     s.positions = (double*)malloc(3 * sizeof(double) * s.vertex_count);
     for (uint32_t i = 0; i < 3 * s.vertex_count; ++i) s.positions[i] = box.positions[i];
     free(box.positions);
@@ -45,9 +45,9 @@ static inline void write_solid(solid* s, vox_format format, uint64_t stride) {
         for (int a = 0; a < 3; ++a) {
             double* x = &s->positions[3 * v + a];
             rounded[a] = (float)*x;
-            if (format == VOX_FORMAT_FLOAT3) *x = (double)rounded[a];
+            if (format == VOX_FORMAT_FLOAT) *x = (double)rounded[a];
         }
-        if (format == VOX_FORMAT_FLOAT3)
+        if (format == VOX_FORMAT_FLOAT)
             memcpy(s->bytes + v * stride, rounded, sizeof rounded);
         else
             memcpy(s->bytes + v * stride, s->positions + 3 * v, 3 * sizeof(double));
@@ -62,10 +62,10 @@ static inline void free_solid(solid* s) {
 
 static inline vox_mesh_desc solid_desc(const solid* s) {
     vox_mesh_desc desc = vox_default_mesh_desc();
-    desc.positions = s->bytes;
-    desc.position_format = s->format;
-    desc.position_byte_stride = s->stride;
-    desc.vertex_count = s->vertex_count;
+    desc.positions.data = s->bytes;
+    desc.positions.format = s->format;
+    desc.positions.byte_stride = s->stride;
+    desc.positions.count = s->vertex_count;
     desc.tets = s->tets;
     desc.tet_count = s->tet_count;
     return desc;

@@ -39,6 +39,33 @@ static inline vox_body insert_mesh(vox_grid* grid, const vox_mesh_desc* desc) {
     return mesh;
 }
 
+/* As many positions as the mesh has vertices, wherever they are. */
+static inline vox_positions positions_for(const vox_grid* grid, vox_body mesh, const void* data,
+                                          vox_format format, uint64_t byte_stride,
+                                          uint64_t component_byte_stride) {
+    vox_body_info info;
+    info.struct_size = sizeof info;
+    if (vox_body_get_info(grid, mesh, &info) != VOX_OK) info.positions.count = 0;
+    const vox_positions positions = {data, info.positions.count, format,
+                                     0,    byte_stride,          component_byte_stride};
+    return positions;
+}
+
+static inline vox_result bind_array(vox_grid* grid, vox_body mesh, const void* data, vox_format format,
+                                    uint64_t byte_stride, uint64_t component_byte_stride) {
+    const vox_positions positions =
+        positions_for(grid, mesh, data, format, byte_stride, component_byte_stride);
+    return vox_mesh_bind_positions(grid, mesh, &positions);
+}
+
+static inline vox_result bind_previous_array(vox_grid* grid, vox_body mesh, const void* data,
+                                             vox_format format, uint64_t byte_stride,
+                                             uint64_t component_byte_stride) {
+    const vox_positions positions =
+        positions_for(grid, mesh, data, format, byte_stride, component_byte_stride);
+    return vox_mesh_bind_previous_positions(grid, mesh, &positions);
+}
+
 static inline vox_contact_view contacts_of(const vox_grid* grid) {
     vox_contact_view view = {NULL, 0, 99, 0}; /* a count that is not written shows */
     ck_ok(vox_grid_get_contacts(grid, &view));

@@ -243,7 +243,7 @@ void read_bodies(playground& play, const vox_grid* loaded, const Body& ring) {
         vox_body_info info{};
         info.struct_size = sizeof info;
         check(vox_body_get_info(loaded, mesh, &info));
-        if (info.tet_count == 0 || !info.positions) continue;
+        if (info.tet_count == 0 || !info.positions.data) continue;
         if (info.has_transform)
             fail(VOX_ERROR_UNSUPPORTED,
                  "the snapshot has a mesh with a transform, which this page does not show");
@@ -252,14 +252,14 @@ void read_bodies(playground& play, const vox_grid* loaded, const Body& ring) {
         check(vox_mesh_get_tets(loaded, mesh, corners.data(), enabled.data(), info.tet_count, &count));
         for (std::size_t t = 0; t < enabled.size(); ++t)
             if (enabled[t]) tets.insert(tets.end(), &corners[4 * t], &corners[4 * t] + 4);
-        std::vector<double> positions(3 * static_cast<std::size_t>(info.vertex_count));
-        const auto* data = static_cast<const unsigned char*>(info.positions);
-        const bool floats = info.position_format == VOX_FORMAT_FLOAT3;
+        std::vector<double> positions(3 * static_cast<std::size_t>(info.positions.count));
+        const auto* data = static_cast<const unsigned char*>(info.positions.data);
+        const bool floats = info.positions.format == VOX_FORMAT_FLOAT;
         const std::uint64_t number = floats ? sizeof(float) : sizeof(double);
         const std::uint64_t step =
-            info.position_component_byte_stride ? info.position_component_byte_stride : number;
+            info.positions.component_byte_stride ? info.positions.component_byte_stride : number;
         for (std::size_t i = 0; i < positions.size(); ++i) {
-            const unsigned char* place = data + i / 3 * info.position_byte_stride + i % 3 * step;
+            const unsigned char* place = data + i / 3 * info.positions.byte_stride + i % 3 * step;
             float single = 0;
             std::memcpy(floats ? static_cast<void*>(&single) : &positions[i], place, number);
             if (floats) positions[i] = static_cast<double>(single);

@@ -37,8 +37,8 @@ namespace Voxtet
                     pins[2 * i + 1] = GCHandle.Alloc(tets[i], GCHandleType.Pinned);
                     MeshDesc desc;
                     VoxException.Check(Native.vox_mesh_desc_init(&desc, (uint)sizeof(MeshDesc)));
-                    desc.positions = pins[2 * i].AddrOfPinnedObject();
-                    desc.vertex_count = (ulong)positions[i].Length / 3;
+                    desc.positions.data = pins[2 * i].AddrOfPinnedObject();
+                    desc.positions.count = (ulong)positions[i].Length / 3;
                     desc.tets = (uint*)pins[2 * i + 1].AddrOfPinnedObject();
                     desc.tet_count = (ulong)tets[i].Length / 4;
                     descs[i] = desc;

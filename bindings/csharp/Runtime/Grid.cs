@@ -157,9 +157,14 @@ namespace Voxtet
 
         static Format FormatOf<T>()
         {
-            if (typeof(T) == typeof(float)) return Format.Float3;
-            if (typeof(T) == typeof(double)) return Format.Double3;
+            if (typeof(T) == typeof(float)) return Format.Float;
+            if (typeof(T) == typeof(double)) return Format.Double;
             throw new ArgumentException("positions are float or double, not " + typeof(T).Name);
+        }
+
+        static Positions PositionsOf<T>(ReadOnlySpan<T> numbers, string name) where T : struct
+        {
+            return new Positions { count = Count(numbers.Length, 3, name), format = FormatOf<T>() };
         }
 
         internal static ulong Count(int numbers, int each, string name)
@@ -174,8 +179,7 @@ namespace Voxtet
             MeshDesc desc;
             VoxException.Check(Native.vox_mesh_desc_init(&desc, (uint)sizeof(MeshDesc)));
             desc.flags = MeshFlags.CopyPositions;
-            desc.position_format = FormatOf<T>();
-            desc.vertex_count = Count(positions.Length, 3, "positions");
+            desc.positions = PositionsOf(positions, "positions");
             desc.tet_count = Count(tets.Length, 4, "tets");
             return desc;
         }
@@ -184,8 +188,7 @@ namespace Voxtet
                        ReadOnlySpan<T> restPositions) where T : struct
         {
             MeshDesc desc = Describe(positions, tets);
-            if (!restPositions.IsEmpty && restPositions.Length != positions.Length)
-                throw new ArgumentException(restPositions.Length + " numbers, expected " + positions.Length, "restPositions");
+            desc.rest_positions = PositionsOf(restPositions, "restPositions");
             desc.user_data = userData;
             Filter copy = filter ?? DefaultFilter;
             desc.filter = &copy;
@@ -195,8 +198,8 @@ namespace Voxtet
             fixed (uint* t = &MemoryMarshal.GetReference(tets))
             using (var use = handle.Change())
             {
-                desc.positions = (IntPtr)p;
-                desc.rest_positions = (IntPtr)r;
+                desc.positions.data = (IntPtr)p;
+                desc.rest_positions.data = (IntPtr)r;
                 desc.tets = t;
                 VoxException.Check(Native.vox_mesh_insert(use.Pointer, &desc, &mesh));
             }
@@ -274,12 +277,12 @@ namespace Voxtet
             return new MeshFacts
             {
                 UserData = info.user_data,
-                VertexCount = info.vertex_count,
+                VertexCount = info.positions.count,
                 TetCount = info.tet_count,
                 EnabledTetCount = info.enabled_tet_count,
                 Enabled = info.enabled != 0,
                 Flags = info.flags,
-                Format = info.position_format
+                Format = info.positions.format
             };
         }
 
@@ -310,13 +313,12 @@ namespace Voxtet
             using (var use = handle.Change())
             {
                 BodyInfo info = InfoOf(use.Pointer, mesh);
-                if (info.position_format != FormatOf<T>())
-                    throw new ArgumentException("positions of " + mesh + " are " + info.position_format + ", asked for as " +
+                if (info.positions.format != FormatOf<T>())
+                    throw new ArgumentException("positions of " + mesh + " are " + info.positions.format + ", asked for as " +
                                                 FormatOf<T>());
                 IntPtr positions;
-                ulong stride;
-                VoxException.Check(Native.vox_mesh_map_positions(use.Pointer, mesh.Id, &positions, &stride));
-                return new Positions<T>(this, layout, (void*)positions, 3 * info.vertex_count);
+                VoxException.Check(Native.vox_mesh_map_positions(use.Pointer, mesh.Id, &positions));
+                return new Positions<T>(this, layout, (void*)positions, 3 * info.positions.count);
             }
         }
 
@@ -381,7 +383,7 @@ namespace Voxtet
             using (var use = handle.Change())
             {
                 ++layout;
-                desc.positions = (IntPtr)p;
+                desc.positions.data = (IntPtr)p;
                 desc.tets = t;
                 VoxException.Check(Native.vox_mesh_set_topology(use.Pointer, mesh.Id, &desc));
             }
@@ -450,12 +452,13 @@ namespace Voxtet
             VerticesDesc desc;
             VoxException.Check(Native.vox_vertices_desc_init(&desc, (uint)sizeof(VerticesDesc)));
             uint first;
-            desc.count = Count(positions.Length, 3, "positions");
+            desc.positions = PositionsOf(positions, "positions");
+            desc.count = desc.positions.count;
             fixed (float* p = &MemoryMarshal.GetReference(positions))
             using (var use = handle.Change())
             {
                 ++layout;
-                desc.positions = (IntPtr)p;
+                desc.positions.data = (IntPtr)p;
                 VoxException.Check(Native.vox_mesh_append_vertices(use.Pointer, mesh.Id, &desc, &first));
             }
             return first;

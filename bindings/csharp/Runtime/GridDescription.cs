@@ -67,13 +67,13 @@ namespace Voxtet
             if (Radii != null && Radii.Length != count)
                 throw new ArgumentException(Radii.Length + " radii, expected " + count, "Radii");
             desc.type = Type;
-            desc.positions = pin(positions);
-            desc.position_format = positions is double[] ? Format.Double3 : Format.Float3;
-            desc.vertex_count = (ulong)positions.Length / 3;
+            desc.positions.data = pin(positions);
+            desc.positions.format = positions is double[] ? Format.Double : Format.Float;
+            desc.positions.count = (ulong)positions.Length / 3;
             desc.indices = (uint*)pin(indices);
             desc.count = (ulong)count;
             desc.radii = pin(Radii);
-            desc.radius_format = Format.Double3;
+            desc.radius_format = Format.Double;
             desc.radius = Radius;
             return desc;
         }

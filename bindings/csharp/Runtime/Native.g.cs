@@ -37,6 +37,14 @@ namespace Voxtet
         ErrorInternal = -12,
     }
 
+    public enum Format : int
+    {
+        /// <summary>IEEE 754 singles</summary>
+        Float = 0,
+        /// <summary>IEEE 754 doubles, of magnitudes below 2^128 - 2^103 (3.4028236e38), the largest float</summary>
+        Double = 1,
+    }
+
     /// <summary>Severity of a log line.</summary>
     public enum LogLevel : int
     {
@@ -82,21 +90,13 @@ namespace Voxtet
         Penetrations = 1,
         /// <summary>also report events of single vertices (vox_grid_contact_events)</summary>
         ContactEvents = 2,
-        /// <summary>a mesh with a coordinate that VOX_FORMAT_DOUBLE3 does not allow (NaN, infinite, too large) takes no
+        /// <summary>a mesh with a coordinate that VOX_FORMAT_DOUBLE does not allow (NaN, infinite, too large) takes no
         /// part in a step, in vox_grid_prepare_queries, in vox_grid_take_query_view and in vox_grid_suggest_cell_size,
         /// as if it were disabled; without this flag they fail.</summary>
         SkipBadBodies = 4,
         /// <summary>also find edges of surfaces through faces of others (vox_grid_edge_contacts);
         /// experimental.</summary>
         EdgeContacts = 8,
-    }
-
-    public enum Format : int
-    {
-        /// <summary>three IEEE 754 singles x, y, z</summary>
-        Float3 = 0,
-        /// <summary>three IEEE 754 doubles x, y, z, each of magnitude below 2^128 - 2^103 (3.4028236e38)</summary>
-        Double3 = 1,
     }
 
     [Flags]
@@ -604,6 +604,22 @@ namespace Voxtet
         static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
 
+    /// <summary>An array of positions.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct Positions
+    {
+        /// <summary>null: no positions</summary>
+        public IntPtr data;
+        public ulong count;
+        public Format format;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>0: packed; for columns, the size of a number</summary>
+        public ulong byte_stride;
+        /// <summary>0: the size of a number</summary>
+        public ulong component_byte_stride;
+    }
+
     /// <summary>Per-grid allocator.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct Allocator
@@ -696,30 +712,17 @@ namespace Voxtet
         public uint struct_size;
         /// <summary>vox_mesh_flags, combined with |</summary>
         public MeshFlags flags;
-        /// <summary>vertex_count positions; may be null until vox_mesh_bind_positions.</summary>
-        public IntPtr positions;
-        /// <summary>from one position to the next; 0: tightly packed (columns: one number)</summary>
-        public ulong position_byte_stride;
+        /// <summary>positions.count is the number of vertices.</summary>
+        public Positions positions;
         /// <summary>tet_count * 4 vertex indices, copied unless VOX_MESH_BORROW_TETS is set.</summary>
         public uint* tets;
         public ulong tet_count;
-        public ulong vertex_count;
         /// <summary>any number of the caller's, returned by vox_body_get_user_data</summary>
         public ulong user_data;
-        public Format position_format;
-        /// <summary>0</summary>
-        public uint reserved;
         /// <summary>Copied; null: the defaults.</summary>
         public Filter* filter;
-        /// <summary>vertex_count positions of the rest pose, in position_format, copied; null: see
-        /// vox_filter.self_rest_distance.</summary>
-        public IntPtr rest_positions;
-        /// <summary>0: tightly packed</summary>
-        public ulong rest_position_byte_stride;
-        /// <summary>From one coordinate of a position to the next. 0 (the default): the size of a number.</summary>
-        public ulong position_component_byte_stride;
-        /// <summary>the same for rest_positions</summary>
-        public ulong rest_position_component_byte_stride;
+        /// <summary>of all vertices, copied; none: see vox_filter.self_rest_distance</summary>
+        public Positions rest_positions;
     }
 
     /// <summary>A mesh as it is now, e.g. after vox_grid_load.</summary>
@@ -731,8 +734,6 @@ namespace Voxtet
         public uint slot;
         /// <summary>as given at insertion</summary>
         public ulong user_data;
-        /// <summary>with the removed ones: indices of vertices are below it</summary>
-        public ulong vertex_count;
         /// <summary>with those that are disabled or removed: indices of tetrahedra are below it</summary>
         public ulong tet_count;
         public ulong enabled_tet_count;
@@ -741,19 +742,17 @@ namespace Voxtet
         /// <summary>vox_mesh_flags: SELF_COLLISION as the filter says, COPY_POSITIONS if the positions are the mesh's
         /// own (copied, mapped or loaded), BORROW_TETS while the tetrahedra are the caller's</summary>
         public MeshFlags flags;
-        public Format position_format;
         /// <summary>1 if vox_body_set_transform gave it one</summary>
         public uint has_transform;
-        /// <summary>The positions, without the transform; null if the mesh has none.</summary>
-        public IntPtr positions;
-        /// <summary>of these, never 0 unless `positions` is null; see vox_mesh_desc</summary>
-        public ulong position_byte_stride;
-        public ulong position_component_byte_stride;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>The positions, without the transform; removed vertices are among them.</summary>
+        public Positions positions;
         /// <summary>as vox_body_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0</summary>
         public Double12 transform;
     }
 
-    /// <summary>Vertices to append, and their positions.</summary>
+    /// <summary>Vertices to append.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct VerticesDesc
     {
@@ -763,21 +762,13 @@ namespace Voxtet
         public ulong count;
         /// <summary>For a mesh that borrows its positions: an array of all positions, first those of the vertices it
         /// has, then those of the new ones.</summary>
-        public IntPtr positions;
-        /// <summary>0: tightly packed</summary>
-        public ulong position_byte_stride;
+        public Positions positions;
         /// <summary>Null, or `count` indices of earlier vertices of the mesh: the vertex that each new one is a copy
         /// of.</summary>
         public uint* copies_of;
         /// <summary>For meshes with a rest pose (vox_filter.self_rest_distance): `count` positions in it,
         /// copied.</summary>
-        public IntPtr rest_positions;
-        /// <summary>0: tightly packed</summary>
-        public ulong rest_position_byte_stride;
-        /// <summary>As vox_mesh_desc.position_component_byte_stride; 0 (the default): the size of a number.</summary>
-        public ulong position_component_byte_stride;
-        /// <summary>the same for rest_positions</summary>
-        public ulong rest_position_component_byte_stride;
+        public Positions rest_positions;
     }
 
     /// <summary>A mesh that made a step fail, or that a step left out.</summary>
@@ -785,8 +776,8 @@ namespace Voxtet
     public struct Failure
     {
         public uint struct_size;
-        /// <summary>NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not allow), INVALID_STATE (no
-        /// positions), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3); VOX_OK if there is none</summary>
+        /// <summary>NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE does not allow), INVALID_STATE (no
+        /// positions), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT); VOX_OK if there is none</summary>
         public Result result;
         /// <summary>VOX_NULL_BODY if there is none</summary>
         public uint mesh;
@@ -1177,7 +1168,7 @@ namespace Voxtet
         public uint excluded;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>as vox_mesh_desc.position_component_byte_stride; default 0</summary>
+        /// <summary>as in vox_positions; default 0</summary>
         public ulong component_byte_stride;
     }
 
@@ -1568,14 +1559,8 @@ namespace Voxtet
     {
         public uint struct_size;
         public PrimitiveType type;
-        /// <summary>as in vox_mesh_desc</summary>
-        public IntPtr positions;
-        public ulong position_byte_stride;
-        public ulong position_component_byte_stride;
-        public ulong vertex_count;
-        public Format position_format;
-        /// <summary>FLOAT3 stands for one single, DOUBLE3 for one double</summary>
-        public Format radius_format;
+        /// <summary>of vertices</summary>
+        public Positions positions;
         /// <summary>The vertices of each primitive: two numbers an edge or a box, three a triangle, four a tetrahedron,
         /// one a point.</summary>
         public uint* indices;
@@ -1583,10 +1568,13 @@ namespace Voxtet
         public ulong index_byte_stride;
         /// <summary>primitives, at most 2^32 - 1</summary>
         public ulong count;
-        /// <summary>of each primitive, &gt;= 0</summary>
+        /// <summary>one number of each primitive, &gt;= 0; null: 0</summary>
         public IntPtr radii;
         /// <summary>0: tightly packed</summary>
         public ulong radius_byte_stride;
+        public Format radius_format;
+        /// <summary>0</summary>
+        public uint reserved;
         /// <summary>of all primitives, added to their own, &gt;= 0; default 0</summary>
         public double radius;
     }
@@ -1845,21 +1833,12 @@ namespace Voxtet
         public uint struct_size;
         /// <summary>vox_motion_flags, combined with |</summary>
         public MotionFlags flags;
-        /// <summary>at time 0, copied</summary>
-        public IntPtr from;
-        /// <summary>the same, at time 1; null: everything stands still</summary>
-        public IntPtr to;
-        /// <summary>that of the surface; another number is an INVALID_ARGUMENT</summary>
-        public ulong vertex_count;
-        public Format format;
-        /// <summary>0</summary>
-        public uint reserved;
-        /// <summary>from one position to the next; 0: tightly packed (columns: one number)</summary>
-        public ulong byte_stride;
-        /// <summary>from one coordinate of a position to the next; 0: the size of a number</summary>
-        public ulong component_byte_stride;
+        /// <summary>at time 0, copied; as many as the surface has vertices</summary>
+        public Positions from;
+        /// <summary>at time 1, copied, in the same format; none: everything stands still</summary>
+        public Positions to;
         /// <summary>The box of a vertex holds both its positions and reaches further by this on each side, rounded
-        /// outward: to the next number of `format` below and above.</summary>
+        /// outward: to the next number of their format below and above.</summary>
         public double radius;
     }
 
@@ -2639,24 +2618,16 @@ namespace Voxtet
         internal static extern Result vox_mesh_get_tets(IntPtr grid, uint body, uint* corners, byte* enabled, ulong
             capacity, ulong* out_count);
 
-        /// <summary>Borrows new positions for a mesh (vertex_count of them, byte_stride 0: tightly packed), under the
-        /// rule of vox_mesh_desc.positions, and releases a copy made at insertion.</summary>
+        /// <summary>Makes a mesh borrow another array of positions, one for each vertex, under the rule of
+        /// vox_mesh_desc.positions, and releases one that it owned.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_bind_positions(IntPtr grid, uint body, IntPtr positions, Format format,
-            ulong byte_stride);
-
-        /// <summary>The same with component_byte_stride as vox_mesh_desc.position_component_byte_stride, e.g. for
-        /// columns.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_bind_strided_positions(IntPtr grid, uint body, IntPtr positions, Format
-            format, ulong byte_stride, ulong component_byte_stride);
+        internal static extern Result vox_mesh_bind_positions(IntPtr grid, uint body, Positions* positions);
 
         /// <summary>Borrows the positions that the vertices of a mesh had before they moved to those of
         /// vox_mesh_bind_positions: in the following steps each vertex moves from one to the other in a straight line,
         /// at constant speed, and such steps also find vox_grid_passages.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_bind_previous_positions(IntPtr grid, uint body, IntPtr positions, Format
-            format, ulong byte_stride, ulong component_byte_stride);
+        internal static extern Result vox_mesh_bind_previous_positions(IntPtr grid, uint body, Positions* positions);
 
         /// <summary>Makes the next step process a mesh even if it is at rest (see vox_grid_step).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2681,11 +2652,10 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_set_pair_enabled(IntPtr grid, uint body_a, uint body_b, uint enabled);
 
-        /// <summary>Gives the mesh positions of its own that the caller may write to: vertex_count of them, tightly
-        /// packed, in the format it was inserted with or bound to last.</summary>
+        /// <summary>Gives the mesh positions of its own that the caller may write to: one for each vertex, packed, in
+        /// the format it was inserted with or bound to last.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_map_positions(IntPtr grid, uint body, IntPtr* out_positions, ulong*
-            out_byte_stride);
+        internal static extern Result vox_mesh_map_positions(IntPtr grid, uint body, IntPtr* out_positions);
 
         /// <summary>Moves a mesh as a whole.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3191,9 +3161,8 @@ namespace Voxtet
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_io_mesh_get_arrays(IntPtr mesh, IoMeshView* out_view);
 
-        /// <summary>Describes the mesh for vox_mesh_insert and vox_suggest_cell_size: sets positions, their format
-        /// (doubles) and strides, vertex_count, tets and tet_count, and leaves all other fields of `desc` as they
-        /// are.</summary>
+        /// <summary>Describes the mesh for vox_mesh_insert and vox_suggest_cell_size: sets positions, tets and
+        /// tet_count, and leaves all other fields of `desc` as they are.</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_io_mesh_describe(IntPtr mesh, MeshDesc* desc);
 
@@ -3390,6 +3359,19 @@ namespace Voxtet
             return new LayoutEntry { Name = name, Here = here, In64Bits = in64Bits, In32Bits = in32Bits };
         }
 
+        static void AddPositions(List<LayoutEntry> entries)
+        {
+            Positions s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_positions", sizeof(Positions), 40, 40));
+            entries.Add(Entry("vox_positions.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_positions.count", (byte*)&s.count - begin, 8, 8));
+            entries.Add(Entry("vox_positions.format", (byte*)&s.format - begin, 16, 16));
+            entries.Add(Entry("vox_positions.reserved", (byte*)&s.reserved - begin, 20, 20));
+            entries.Add(Entry("vox_positions.byte_stride", (byte*)&s.byte_stride - begin, 24, 24));
+            entries.Add(Entry("vox_positions.component_byte_stride", (byte*)&s.component_byte_stride - begin, 32, 32));
+        }
+
         static void AddAllocator(List<LayoutEntry> entries)
         {
             Allocator s;
@@ -3461,60 +3443,46 @@ namespace Voxtet
         {
             MeshDesc s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_mesh_desc", sizeof(MeshDesc), 104, 96));
+            entries.Add(Entry("vox_mesh_desc", sizeof(MeshDesc), 120, 120));
             entries.Add(Entry("vox_mesh_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_mesh_desc.flags", (byte*)&s.flags - begin, 4, 4));
             entries.Add(Entry("vox_mesh_desc.positions", (byte*)&s.positions - begin, 8, 8));
-            entries.Add(Entry("vox_mesh_desc.position_byte_stride", (byte*)&s.position_byte_stride - begin, 16, 16));
-            entries.Add(Entry("vox_mesh_desc.tets", (byte*)&s.tets - begin, 24, 24));
-            entries.Add(Entry("vox_mesh_desc.tet_count", (byte*)&s.tet_count - begin, 32, 32));
-            entries.Add(Entry("vox_mesh_desc.vertex_count", (byte*)&s.vertex_count - begin, 40, 40));
-            entries.Add(Entry("vox_mesh_desc.user_data", (byte*)&s.user_data - begin, 48, 48));
-            entries.Add(Entry("vox_mesh_desc.position_format", (byte*)&s.position_format - begin, 56, 56));
-            entries.Add(Entry("vox_mesh_desc.reserved", (byte*)&s.reserved - begin, 60, 60));
-            entries.Add(Entry("vox_mesh_desc.filter", (byte*)&s.filter - begin, 64, 64));
-            entries.Add(Entry("vox_mesh_desc.rest_positions", (byte*)&s.rest_positions - begin, 72, 68));
-            entries.Add(Entry("vox_mesh_desc.rest_position_byte_stride", (byte*)&s.rest_position_byte_stride - begin, 80, 72));
-            entries.Add(Entry("vox_mesh_desc.position_component_byte_stride", (byte*)&s.position_component_byte_stride - begin, 88, 80));
-            entries.Add(Entry("vox_mesh_desc.rest_position_component_byte_stride", (byte*)&s.rest_position_component_byte_stride - begin, 96, 88));
+            entries.Add(Entry("vox_mesh_desc.tets", (byte*)&s.tets - begin, 48, 48));
+            entries.Add(Entry("vox_mesh_desc.tet_count", (byte*)&s.tet_count - begin, 56, 56));
+            entries.Add(Entry("vox_mesh_desc.user_data", (byte*)&s.user_data - begin, 64, 64));
+            entries.Add(Entry("vox_mesh_desc.filter", (byte*)&s.filter - begin, 72, 72));
+            entries.Add(Entry("vox_mesh_desc.rest_positions", (byte*)&s.rest_positions - begin, 80, 80));
         }
 
         static void AddBodyInfo(List<LayoutEntry> entries)
         {
             BodyInfo s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_body_info", sizeof(BodyInfo), 176, 176));
+            entries.Add(Entry("vox_body_info", sizeof(BodyInfo), 184, 184));
             entries.Add(Entry("vox_body_info.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_body_info.slot", (byte*)&s.slot - begin, 4, 4));
             entries.Add(Entry("vox_body_info.user_data", (byte*)&s.user_data - begin, 8, 8));
-            entries.Add(Entry("vox_body_info.vertex_count", (byte*)&s.vertex_count - begin, 16, 16));
-            entries.Add(Entry("vox_body_info.tet_count", (byte*)&s.tet_count - begin, 24, 24));
-            entries.Add(Entry("vox_body_info.enabled_tet_count", (byte*)&s.enabled_tet_count - begin, 32, 32));
-            entries.Add(Entry("vox_body_info.enabled", (byte*)&s.enabled - begin, 40, 40));
-            entries.Add(Entry("vox_body_info.flags", (byte*)&s.flags - begin, 44, 44));
-            entries.Add(Entry("vox_body_info.position_format", (byte*)&s.position_format - begin, 48, 48));
-            entries.Add(Entry("vox_body_info.has_transform", (byte*)&s.has_transform - begin, 52, 52));
-            entries.Add(Entry("vox_body_info.positions", (byte*)&s.positions - begin, 56, 56));
-            entries.Add(Entry("vox_body_info.position_byte_stride", (byte*)&s.position_byte_stride - begin, 64, 64));
-            entries.Add(Entry("vox_body_info.position_component_byte_stride", (byte*)&s.position_component_byte_stride - begin, 72, 72));
-            entries.Add(Entry("vox_body_info.transform", (byte*)&s.transform - begin, 80, 80));
+            entries.Add(Entry("vox_body_info.tet_count", (byte*)&s.tet_count - begin, 16, 16));
+            entries.Add(Entry("vox_body_info.enabled_tet_count", (byte*)&s.enabled_tet_count - begin, 24, 24));
+            entries.Add(Entry("vox_body_info.enabled", (byte*)&s.enabled - begin, 32, 32));
+            entries.Add(Entry("vox_body_info.flags", (byte*)&s.flags - begin, 36, 36));
+            entries.Add(Entry("vox_body_info.has_transform", (byte*)&s.has_transform - begin, 40, 40));
+            entries.Add(Entry("vox_body_info.reserved", (byte*)&s.reserved - begin, 44, 44));
+            entries.Add(Entry("vox_body_info.positions", (byte*)&s.positions - begin, 48, 48));
+            entries.Add(Entry("vox_body_info.transform", (byte*)&s.transform - begin, 88, 88));
         }
 
         static void AddVerticesDesc(List<LayoutEntry> entries)
         {
             VerticesDesc s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_vertices_desc", sizeof(VerticesDesc), 72, 64));
+            entries.Add(Entry("vox_vertices_desc", sizeof(VerticesDesc), 104, 104));
             entries.Add(Entry("vox_vertices_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_vertices_desc.reserved", (byte*)&s.reserved - begin, 4, 4));
             entries.Add(Entry("vox_vertices_desc.count", (byte*)&s.count - begin, 8, 8));
             entries.Add(Entry("vox_vertices_desc.positions", (byte*)&s.positions - begin, 16, 16));
-            entries.Add(Entry("vox_vertices_desc.position_byte_stride", (byte*)&s.position_byte_stride - begin, 24, 24));
-            entries.Add(Entry("vox_vertices_desc.copies_of", (byte*)&s.copies_of - begin, 32, 32));
-            entries.Add(Entry("vox_vertices_desc.rest_positions", (byte*)&s.rest_positions - begin, 40, 36));
-            entries.Add(Entry("vox_vertices_desc.rest_position_byte_stride", (byte*)&s.rest_position_byte_stride - begin, 48, 40));
-            entries.Add(Entry("vox_vertices_desc.position_component_byte_stride", (byte*)&s.position_component_byte_stride - begin, 56, 48));
-            entries.Add(Entry("vox_vertices_desc.rest_position_component_byte_stride", (byte*)&s.rest_position_component_byte_stride - begin, 64, 56));
+            entries.Add(Entry("vox_vertices_desc.copies_of", (byte*)&s.copies_of - begin, 56, 56));
+            entries.Add(Entry("vox_vertices_desc.rest_positions", (byte*)&s.rest_positions - begin, 64, 64));
         }
 
         static void AddFailure(List<LayoutEntry> entries)
@@ -4157,21 +4125,18 @@ namespace Voxtet
         {
             Primitives s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_primitives", sizeof(Primitives), 96, 96));
+            entries.Add(Entry("vox_primitives", sizeof(Primitives), 104, 104));
             entries.Add(Entry("vox_primitives.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_primitives.type", (byte*)&s.type - begin, 4, 4));
             entries.Add(Entry("vox_primitives.positions", (byte*)&s.positions - begin, 8, 8));
-            entries.Add(Entry("vox_primitives.position_byte_stride", (byte*)&s.position_byte_stride - begin, 16, 16));
-            entries.Add(Entry("vox_primitives.position_component_byte_stride", (byte*)&s.position_component_byte_stride - begin, 24, 24));
-            entries.Add(Entry("vox_primitives.vertex_count", (byte*)&s.vertex_count - begin, 32, 32));
-            entries.Add(Entry("vox_primitives.position_format", (byte*)&s.position_format - begin, 40, 40));
-            entries.Add(Entry("vox_primitives.radius_format", (byte*)&s.radius_format - begin, 44, 44));
             entries.Add(Entry("vox_primitives.indices", (byte*)&s.indices - begin, 48, 48));
             entries.Add(Entry("vox_primitives.index_byte_stride", (byte*)&s.index_byte_stride - begin, 56, 56));
             entries.Add(Entry("vox_primitives.count", (byte*)&s.count - begin, 64, 64));
             entries.Add(Entry("vox_primitives.radii", (byte*)&s.radii - begin, 72, 72));
             entries.Add(Entry("vox_primitives.radius_byte_stride", (byte*)&s.radius_byte_stride - begin, 80, 80));
-            entries.Add(Entry("vox_primitives.radius", (byte*)&s.radius - begin, 88, 88));
+            entries.Add(Entry("vox_primitives.radius_format", (byte*)&s.radius_format - begin, 88, 88));
+            entries.Add(Entry("vox_primitives.reserved", (byte*)&s.reserved - begin, 92, 92));
+            entries.Add(Entry("vox_primitives.radius", (byte*)&s.radius - begin, 96, 96));
         }
 
         static void AddGridWork(List<LayoutEntry> entries)
@@ -4358,17 +4323,12 @@ namespace Voxtet
         {
             Motion s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_motion", sizeof(Motion), 64, 56));
+            entries.Add(Entry("vox_motion", sizeof(Motion), 96, 96));
             entries.Add(Entry("vox_motion.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_motion.flags", (byte*)&s.flags - begin, 4, 4));
             entries.Add(Entry("vox_motion.from", (byte*)&s.from - begin, 8, 8));
-            entries.Add(Entry("vox_motion.to", (byte*)&s.to - begin, 16, 12));
-            entries.Add(Entry("vox_motion.vertex_count", (byte*)&s.vertex_count - begin, 24, 16));
-            entries.Add(Entry("vox_motion.format", (byte*)&s.format - begin, 32, 24));
-            entries.Add(Entry("vox_motion.reserved", (byte*)&s.reserved - begin, 36, 28));
-            entries.Add(Entry("vox_motion.byte_stride", (byte*)&s.byte_stride - begin, 40, 32));
-            entries.Add(Entry("vox_motion.component_byte_stride", (byte*)&s.component_byte_stride - begin, 48, 40));
-            entries.Add(Entry("vox_motion.radius", (byte*)&s.radius - begin, 56, 48));
+            entries.Add(Entry("vox_motion.to", (byte*)&s.to - begin, 48, 48));
+            entries.Add(Entry("vox_motion.radius", (byte*)&s.radius - begin, 88, 88));
         }
 
         static void AddPairLists(List<LayoutEntry> entries)
@@ -4809,6 +4769,7 @@ namespace Voxtet
         internal static List<LayoutEntry> Entries()
         {
             var entries = new List<LayoutEntry>();
+            AddPositions(entries);
             AddAllocator(entries);
             AddLog(entries);
             AddTaskSystem(entries);

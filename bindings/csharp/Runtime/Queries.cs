@@ -27,7 +27,7 @@ namespace Voxtet
             fixed (double* p = &MemoryMarshal.GetReference(points))
             fixed (PointHit* h = &MemoryMarshal.GetReference(hits))
             using (var use = handle.Read())
-                VoxException.Check(Native.vox_grid_query_points(use.Pointer, PointsOf(p), Format.Double3, 0,
+                VoxException.Check(Native.vox_grid_query_points(use.Pointer, PointsOf(p), Format.Double, 0,
                                                                 Count(points.Length, 3, "points"), mask, h,
                                                                 (ulong)hits.Length, &count));
             return count;
@@ -41,7 +41,7 @@ namespace Voxtet
         {
             ClosestDesc desc;
             VoxException.Check(Native.vox_closest_desc_init(&desc, (uint)sizeof(ClosestDesc)));
-            desc.format = Format.Double3;
+            desc.format = Format.Double;
             desc.point_count = Count(points.Length, 3, "points");
             if ((ulong)hits < desc.point_count)
                 throw new ArgumentException(hits + " hits for " + desc.point_count + " points", "hits");
@@ -150,7 +150,7 @@ namespace Voxtet
             fixed (double* p = &MemoryMarshal.GetReference(points))
             fixed (PointHit* h = &MemoryMarshal.GetReference(hits))
             using (var use = handle.Read())
-                VoxException.Check(Native.vox_query_view_points(use.Pointer, Grid.PointsOf(p), Format.Double3, 0,
+                VoxException.Check(Native.vox_query_view_points(use.Pointer, Grid.PointsOf(p), Format.Double, 0,
                                                                 Grid.Count(points.Length, 3, "points"), mask, h,
                                                                 (ulong)hits.Length, &count));
             return count;

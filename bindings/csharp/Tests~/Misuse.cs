@@ -57,13 +57,13 @@ namespace Voxtet.Tests
             Test.Throws<VoxArgumentException>(() => grid.Add(unit, new uint[] { 0, 1, 2, 4 }), "names vertex 4 of 4");
             Test.Throws<ArgumentException>(() => grid.Add(unit, new uint[] { 0, 1, 2 }), "3 numbers, expected 4");
             Test.Throws<ArgumentException>(() => grid.Add(new float[4], tet), "4 numbers, expected 3");
-            Test.Throws<ArgumentException>(() => grid.Add(unit, tet, 0, null, new float[3]), "3 numbers, expected 12");
+            Test.Throws<VoxException>(() => grid.Add(unit, tet, 0, null, new float[3]), "rest_positions.count is 1, expected 4");
             Test.Throws<VoxArgumentException>(() => new Grid(new GridOptions { CellSize = -1 }), "cell_size is -1");
             Test.Throws<VoxException>(() => new Grid(new GridOptions { ByteBudget = 10 }), "budget is 10");
             Test.Throws<ArgumentNullException>(() => new Grid(null), "");
             Test.Throws<VoxArgumentException>(() => Grid.Load(new byte[5]), "snapshot");
             Test.Throws<VoxArgumentException>(() => Grid.Load(new byte[0]), "snapshot");
-            Test.Throws<ArgumentException>(() => grid.GetDoublePositions(mesh), "are Float3, asked for as Double3");
+            Test.Throws<ArgumentException>(() => grid.GetDoublePositions(mesh), "are Float, asked for as Double");
             Test.Throws<ArgumentException>(() => grid.GetPositions(mesh).Set(new float[3]), "3 numbers, expected 12");
             Test.Throws<IndexOutOfRangeException>(() => Put(grid, mesh, 12, 0), "");
             Test.Throws<VoxException>(() => { var r = grid.Readings; }, "");

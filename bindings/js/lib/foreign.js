@@ -31,13 +31,11 @@ function primitives(given, what, memory) {
   return (frame) =>
     frame.struct("vox_primitives", {
       type,
-      positions: frame.array(array),
-      positionFormat: array.BYTES_PER_ELEMENT === 8 ? Format.DOUBLE3 : Format.FLOAT3,
-      vertexCount: array.length / 3,
+      positions: frame.positions(array),
       indices: corners ? frame.array(corners) : 0,
       count,
       radii: radii ? frame.array(radii) : 0,
-      radiusFormat: Format.DOUBLE3,
+      radiusFormat: Format.DOUBLE,
       radius: found.radius ?? 0,
     });
 }

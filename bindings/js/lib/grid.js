@@ -322,11 +322,8 @@ export class Mesh {
   }
 
   get info() {
-    const { positions: _, positionByteStride: _b, positionComponentByteStride: _c, ...info } = memoryOf(this.#grid).get(
-      "vox_body_info",
-      (out) => this.#call("vox_body_get_info", out),
-    );
-    return info;
+    const { positions, ...info } = memoryOf(this.#grid).get("vox_body_info", (out) => this.#call("vox_body_get_info", out));
+    return { ...info, vertexCount: positions.count, positionFormat: positions.format };
   }
 
   get userData() {
@@ -338,11 +335,11 @@ export class Mesh {
     const memory = memoryOf(this.#grid);
     const { vertexCount, positionFormat } = this.info;
     return memory.frame((frame) => {
-      const out = frame.take(16);
-      this.#call("vox_mesh_map_positions", out, out + 8);
+      const out = frame.take(8);
+      this.#call("vox_mesh_map_positions", out);
       const numbers = 3 * vertexCount;
       const at = memory.data.getUint32(out, true);
-      const Array = positionFormat === Format.DOUBLE3 ? Float64Array : Float32Array;
+      const Array = positionFormat === Format.DOUBLE ? Float64Array : Float32Array;
       return numbers === 0 ? new Array() : new Array(memory.buffer, at, numbers);
     });
   }
@@ -464,17 +461,12 @@ export class Mesh {
     const copiesOf = given.copiesOf === undefined ? undefined : indices(given.copiesOf, "copiesOf", 1, memory);
     const count = array ? array.length / 3 : copiesOf ? copiesOf.length : 0;
     if (copiesOf) same("copiesOf", copiesOf.length, count);
-    if (rest) same("restPositions", rest.length / 3, count);
-    const width = this.info.positionFormat === Format.DOUBLE3 ? 8 : 4;
-    for (const [name, its] of [["positions", array], ["restPositions", rest]])
-      if (its && its.BYTES_PER_ELEMENT !== width)
-        throw new TypeError(`${name}: the positions of this mesh are a Float${8 * width}Array, got a ${its.constructor.name}`);
     return memory.frame((frame) => {
       const desc = frame.struct("vox_vertices_desc", {
         count,
-        positions: array ? frame.array(array) : 0,
+        positions: frame.positions(array),
         copiesOf: copiesOf ? frame.array(copiesOf) : 0,
-        restPositions: rest ? frame.array(rest) : 0,
+        restPositions: frame.positions(rest),
       });
       return memory.number("u32", (out) => this.#call("vox_mesh_append_vertices", desc, out));
     });

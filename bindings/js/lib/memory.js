@@ -1,5 +1,5 @@
 // The module's memory and functions, with structs and arrays that are read and written there.
-import { ABI_VERSION, Result } from "../enums.js";
+import { ABI_VERSION, Format, Result } from "../enums.js";
 import { functions, structs } from "../layout.js";
 import { camel } from "./check.js";
 import { VoxError } from "./errors.js";
@@ -94,6 +94,13 @@ class Frame {
 
   numbers(numbers) {
     return this.array(Float64Array.from(numbers));
+  }
+
+  /** The fields of a vox_positions of an array, of which there may be none. */
+  positions(array) {
+    if (!array) return {};
+    const format = array.BYTES_PER_ELEMENT === 8 ? Format.DOUBLE : Format.FLOAT;
+    return { data: this.array(array), count: array.length / 3, format };
   }
 
   /** A struct with these fields; the others are as its init function sets them, or 0. */

@@ -1,5 +1,5 @@
 // The arrays of a mesh, on their way to the library.
-import { Format, MeshFlags } from "../enums.js";
+import { MeshFlags } from "../enums.js";
 import { indices, positions } from "./check.js";
 
 export function same(what, found, expected) {
@@ -11,11 +11,6 @@ export function meshArrays(given, memory) {
   const array = positions(given.positions, "positions", memory);
   const tets = given.tets === undefined ? new Uint32Array() : indices(given.tets, "tets", 4, memory);
   const rest = given.restPositions === undefined ? undefined : positions(given.restPositions, "restPositions", memory);
-  if (rest) {
-    same("restPositions", rest.length / 3, array.length / 3);
-    if (rest.BYTES_PER_ELEMENT !== array.BYTES_PER_ELEMENT)
-      throw new TypeError(`restPositions: the positions are a ${array.constructor.name}, got a ${rest.constructor.name}`);
-  }
   return { array, tets, rest };
 }
 
@@ -23,12 +18,10 @@ export function meshArrays(given, memory) {
 export function meshFields(frame, { array, tets, rest }, further) {
   return {
     flags: MeshFlags.COPY_POSITIONS,
-    positions: frame.array(array),
-    positionFormat: array.BYTES_PER_ELEMENT === 8 ? Format.DOUBLE3 : Format.FLOAT3,
-    vertexCount: array.length / 3,
+    positions: frame.positions(array),
     tets: frame.array(tets),
     tetCount: tets.length / 4,
-    restPositions: rest ? frame.array(rest) : 0,
+    restPositions: frame.positions(rest),
     ...further,
   };
 }

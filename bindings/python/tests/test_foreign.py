@@ -62,7 +62,7 @@ class Held(unittest.TestCase):
         wide = np.zeros((len(CLOUD), 7))
         wide[:, 2:5] = CLOUD
         held = Primitives(wide[:, 2:5])
-        self.assertEqual(held._struct.positions, wide[:, 2:5].ctypes.data)
+        self.assertEqual(held._struct.positions.data, wide[:, 2:5].ctypes.data)
         self.same(Primitives(CLOUD, radius=0.05), Primitives(wide[:, 2:5], radius=0.05))
         for odd in (CLOUD[::-1], CLOUD[::-1].tolist(), np.broadcast_to(CLOUD[::-1], (500, 3))):  # copied
             self.same(Primitives(CLOUD[::-1].copy(), radius=0.05), Primitives(odd, radius=0.05))
@@ -114,12 +114,12 @@ class Held(unittest.TestCase):
         both = np.empty((len(CLOUD), 6))
         both[:, :3], both[:, 3:] = CLOUD, CLOUD + 0.05
         held = Primitives.boxes(both[:, :3], both[:, 3:])
-        self.assertEqual(held._struct.positions, both.ctypes.data)
+        self.assertEqual(held._struct.positions.data, both.ctypes.data)
         for low, high in ((CLOUD, CLOUD + 0.05), (CLOUD + 0.05, CLOUD), (both[:, 3:], both[:, :3]), (CLOUD.tolist(), CLOUD + 0.05)):
             self.same(held, Primitives.boxes(low, high))
         cubes = both.reshape(-1, 2, 3).astype(np.float32)
         held = Primitives.boxes(cubes[:, 0], cubes[:, 1])
-        self.assertEqual(held._struct.positions, cubes.ctypes.data)
+        self.assertEqual(held._struct.positions.data, cubes.ctypes.data)
         self.assertEqual(len(Primitives.boxes([[0, 0, 0]], [[1, 1, 1]])), 1)
         np.testing.assert_allclose(count_for(0.5, Primitives.boxes([[0, 0, 0]], [[1, 1, 1]], radius=0.5)).entries, 125)
         with self.assertRaises(ValueError):

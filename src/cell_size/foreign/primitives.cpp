@@ -49,9 +49,7 @@ vox_primitives primitives_defaults() {
 
 Primitives::Primitives(const vox_primitives& desc, const char* where) : where_(where) {
     check_enum(desc.type, VOX_PRIMITIVE_BOX, format("%stype", where).c_str());
-    const std::string prefix = format("%sposition_", where); // of fields
-    check_format(desc.position_format, prefix.c_str());
-    check_enum(desc.radius_format, VOX_FORMAT_DOUBLE3, format("%sradius_format", where).c_str());
+    check_enum(desc.radius_format, VOX_FORMAT_DOUBLE, format("%sradius_format", where).c_str());
     if (desc.count == 0) refuse(format("%scount is 0, expected at least one primitive", where));
     if (desc.count > std::numeric_limits<std::uint32_t>::max())
         throw Error(VOX_ERROR_LIMIT,
@@ -59,20 +57,20 @@ Primitives::Primitives(const vox_primitives& desc, const char* where) : where_(w
     count_ = desc.count;
     corners_ = corners_of_type[enum_value(desc.type)];
     is_box_ = enum_value(desc.type) == VOX_PRIMITIVE_BOX;
-    vertex_count_ = desc.vertex_count;
-    if (!desc.positions) refuse(format("%spositions is null", where));
-    positions_ = check_positions(desc.positions, desc.position_format, desc.position_byte_stride,
-                                 desc.position_component_byte_stride, desc.vertex_count, prefix.c_str());
+    if (desc.reserved != 0) refuse(format("%sreserved is %" PRIu32 ", expected 0", where, desc.reserved));
+    vertex_count_ = desc.positions.count;
+    if (!desc.positions.data) refuse(format("%spositions.data is null", where));
+    positions_ = check_positions(desc.positions, format("%spositions", where).c_str());
     indices_ = reinterpret_cast<const std::byte*>(desc.indices);
     const auto corners = static_cast<std::uint64_t>(corners_);
     index_stride_ = checked_stride(desc.index_byte_stride, corners * sizeof(std::uint32_t), count_, where,
                                    "index_byte_stride");
     if (!indices_ && vertex_count_ / corners < count_)
         throw Error(VOX_ERROR_INVALID_MESH, format("%s%" PRIu64 " primitives of %" PRIu64
-                                                   " vertices each, but vertex_count is %" PRIu64,
+                                                   " vertices each, but positions.count is %" PRIu64,
                                                    where, count_, corners, vertex_count_));
     radii_ = static_cast<const std::byte*>(desc.radii);
-    double_radii_ = enum_value(desc.radius_format) == VOX_FORMAT_DOUBLE3;
+    double_radii_ = enum_value(desc.radius_format) == VOX_FORMAT_DOUBLE;
     radius_stride_ = checked_stride(desc.radius_byte_stride, double_radii_ ? sizeof(double) : sizeof(float),
                                     count_, where, "radius_byte_stride");
     check_length(desc.radius, where, "radius");

@@ -169,8 +169,7 @@ vox_experiment_facts vox_experiment::facts() const {
 
 vox_mesh_desc vox_experiment::mesh_desc(int body, const Frame& frame) const {
     vox_mesh_desc desc = vox_default_mesh_desc();
-    desc.positions = frame.positions[body].data();
-    desc.vertex_count = frame.positions[body].size() / 3;
+    desc.positions = vox_float_positions(frame.positions[body].data(), frame.positions[body].size() / 3);
     desc.tets = shapes_[body].tets.data();
     desc.tet_count = shapes_[body].tets.size() / 4;
     return desc;
@@ -192,8 +191,8 @@ void vox_experiment::make_grid(const vox_grid_desc* given) {
 
 double vox_experiment::step(const Frame& frame) {
     for (int body = 0; body < 2; ++body)
-        check(vox_mesh_bind_positions(grid_.get(), meshes_[body], frame.positions[body].data(),
-                                      VOX_FORMAT_FLOAT3, 0));
+        check(vox_mesh_bind_floats(grid_.get(), meshes_[body], frame.positions[body].data(),
+                                   frame.positions[body].size() / 3));
     const std::uint64_t begin = nanoseconds(), thread_begin = thread_nanoseconds();
     check(vox_grid_step(grid_.get()));
     const auto used = static_cast<double>(thread_nanoseconds() - thread_begin);

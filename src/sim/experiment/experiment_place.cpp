@@ -83,8 +83,8 @@ ContactShare::ContactShare(const Shape& a, const Shape& b)
     b_positions_.resize(b.positions.size());
     for (const Shape* shape : {&a, &b}) {
         vox_mesh_desc mesh = vox_default_mesh_desc();
-        mesh.positions = (shape == &a ? a_positions_ : b_positions_).data();
-        mesh.vertex_count = shape->positions.size() / 3;
+        mesh.positions = vox_float_positions((shape == &a ? a_positions_ : b_positions_).data(),
+                                             shape->positions.size() / 3);
         mesh.tets = shape->tets.data();
         mesh.tet_count = shape->tets.size() / 4;
         vox_body id = VOX_NULL_BODY;

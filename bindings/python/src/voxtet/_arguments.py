@@ -98,18 +98,19 @@ def matrix(value: Any, name: str) -> Any:
 
 
 class Rows(NamedTuple):
-    """Positions as the library reads them: an address and two strides in bytes. `array` keeps them alive."""
+    """Positions as the library reads them. `array` keeps them alive."""
 
     array: Optional[NDArray[Any]]
-    address: Optional[int]
-    format: int
-    stride: int
-    component: int
-    length: int
+    struct: Any  # vox_positions
     pin: Any = None  # a memoryview of the memory below the array, so that nobody closes a mapping that is in use
 
 
-NOTHING = Rows(None, None, 0, 0, 0, 0)
+    @property
+    def length(self) -> int:
+        return int(self.struct.count)
+
+
+NOTHING = Rows(None, _c.vox_positions())
 
 _DEVICES = {2: "CUDA", 4: "OpenCL", 7: "Vulkan", 8: "Metal", 10: "ROCm", 13: "CUDA managed memory", 14: "oneAPI"}
 
@@ -163,8 +164,8 @@ def rows(value: Any, name: str) -> Rows:
         raise InvalidArgumentError(
             f"{name} has the strides {array.strides} (shape {array.shape}, {array.dtype}); the library reads rows "
             f"(n or more, {size}) or whole columns ({size} or more, n times that). Copy it with numpy.ascontiguousarray")
-    return Rows(array, array.ctypes.data, int(_c.Format.FLOAT3 if size == 4 else _c.Format.DOUBLE3), row, component,
-                count, pinned(array))
+    return Rows(array, _c.vox_positions(array.ctypes.data, count, _c.Format.FLOAT if size == 4 else _c.Format.DOUBLE, 0, row,
+                                        component), pinned(array))
 
 
 def _array_or_sequence(value: Any, name: str) -> NDArray[Any]:

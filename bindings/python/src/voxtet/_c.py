@@ -46,6 +46,11 @@ class Result(enum.IntEnum):
     ERROR_INTERNAL = -12
 
 
+class Format(enum.IntEnum):
+    FLOAT = 0
+    DOUBLE = 1
+
+
 class LogLevel(enum.IntEnum):
     INFO = 0
     WARNING = 1
@@ -73,11 +78,6 @@ class GridFlags(enum.IntFlag):
     CONTACT_EVENTS = 2
     SKIP_BAD_BODIES = 4
     EDGE_CONTACTS = 8
-
-
-class Format(enum.IntEnum):
-    FLOAT3 = 0
-    DOUBLE3 = 1
 
 
 class MeshFlags(enum.IntFlag):
@@ -246,6 +246,17 @@ vox_task = CFUNCTYPE(None, c_uint64, c_uint64, c_uint32, c_void_p)
 vox_cost_function = CFUNCTYPE(c_double, c_double, c_void_p)
 vox_grid_run = CFUNCTYPE(c_double, c_double, c_void_p)
 
+class vox_positions(Structure):
+    _fields_ = [
+        ("data", c_void_p),
+        ("count", c_uint64),
+        ("format", c_int32),
+        ("reserved", c_uint32),
+        ("byte_stride", c_uint64),
+        ("component_byte_stride", c_uint64),
+    ]
+
+
 vox_allocator_allocate = CFUNCTYPE(c_void_p, c_size_t, c_size_t, c_void_p)
 vox_allocator_release = CFUNCTYPE(None, c_void_p, c_size_t, c_size_t, c_void_p)
 class vox_allocator(Structure):
@@ -319,19 +330,12 @@ class vox_mesh_desc(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
         ("flags", c_uint32),
-        ("positions", c_void_p),
-        ("position_byte_stride", c_uint64),
+        ("positions", vox_positions),
         ("tets", c_void_p),
         ("tet_count", c_uint64),
-        ("vertex_count", c_uint64),
         ("user_data", c_uint64),
-        ("position_format", c_int32),
-        ("reserved", c_uint32),
         ("filter", POINTER(vox_filter)),
-        ("rest_positions", c_void_p),
-        ("rest_position_byte_stride", c_uint64),
-        ("position_component_byte_stride", c_uint64),
-        ("rest_position_component_byte_stride", c_uint64),
+        ("rest_positions", vox_positions),
     ]
 
 
@@ -340,16 +344,13 @@ class vox_body_info(Structure):
         ("struct_size", c_uint32),
         ("slot", c_uint32),
         ("user_data", c_uint64),
-        ("vertex_count", c_uint64),
         ("tet_count", c_uint64),
         ("enabled_tet_count", c_uint64),
         ("enabled", c_uint32),
         ("flags", c_uint32),
-        ("position_format", c_int32),
         ("has_transform", c_uint32),
-        ("positions", c_void_p),
-        ("position_byte_stride", c_uint64),
-        ("position_component_byte_stride", c_uint64),
+        ("reserved", c_uint32),
+        ("positions", vox_positions),
         ("transform", c_double * 12),
     ]
 
@@ -359,13 +360,9 @@ class vox_vertices_desc(Structure):
         ("struct_size", c_uint32),
         ("reserved", c_uint32),
         ("count", c_uint64),
-        ("positions", c_void_p),
-        ("position_byte_stride", c_uint64),
+        ("positions", vox_positions),
         ("copies_of", c_void_p),
-        ("rest_positions", c_void_p),
-        ("rest_position_byte_stride", c_uint64),
-        ("position_component_byte_stride", c_uint64),
-        ("rest_position_component_byte_stride", c_uint64),
+        ("rest_positions", vox_positions),
     ]
 
 
@@ -1130,17 +1127,14 @@ class vox_primitives(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
         ("type", c_int32),
-        ("positions", c_void_p),
-        ("position_byte_stride", c_uint64),
-        ("position_component_byte_stride", c_uint64),
-        ("vertex_count", c_uint64),
-        ("position_format", c_int32),
-        ("radius_format", c_int32),
+        ("positions", vox_positions),
         ("indices", c_void_p),
         ("index_byte_stride", c_uint64),
         ("count", c_uint64),
         ("radii", c_void_p),
         ("radius_byte_stride", c_uint64),
+        ("radius_format", c_int32),
+        ("reserved", c_uint32),
         ("radius", c_double),
     ]
 
@@ -1363,13 +1357,8 @@ class vox_motion(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
         ("flags", c_uint32),
-        ("from", c_void_p),
-        ("to", c_void_p),
-        ("vertex_count", c_uint64),
-        ("format", c_int32),
-        ("reserved", c_uint32),
-        ("byte_stride", c_uint64),
-        ("component_byte_stride", c_uint64),
+        ("from", vox_positions),
+        ("to", vox_positions),
         ("radius", c_double),
     ]
 
@@ -1869,15 +1858,14 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_grid_get_bodies": (vox_result, (c_void_p, c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_body_get_info": (vox_result, (c_void_p, c_uint32, POINTER(vox_body_info))),
         "vox_mesh_get_tets": (vox_result, (c_void_p, c_uint32, c_void_p, c_void_p, c_uint64, POINTER(c_uint64))),
-        "vox_mesh_bind_positions": (vox_result, (c_void_p, c_uint32, c_void_p, c_int32, c_uint64)),
-        "vox_mesh_bind_strided_positions": (vox_result, (c_void_p, c_uint32, c_void_p, c_int32, c_uint64, c_uint64)),
-        "vox_mesh_bind_previous_positions": (vox_result, (c_void_p, c_uint32, c_void_p, c_int32, c_uint64, c_uint64)),
+        "vox_mesh_bind_positions": (vox_result, (c_void_p, c_uint32, POINTER(vox_positions))),
+        "vox_mesh_bind_previous_positions": (vox_result, (c_void_p, c_uint32, POINTER(vox_positions))),
         "vox_body_mark_moved": (vox_result, (c_void_p, c_uint32)),
         "vox_body_set_filter": (vox_result, (c_void_p, c_uint32, POINTER(vox_filter))),
         "vox_mesh_filter": (vox_result, (c_void_p, c_uint32, POINTER(vox_filter))),
         "vox_body_set_enabled": (vox_result, (c_void_p, c_uint32, c_uint32)),
         "vox_grid_set_pair_enabled": (vox_result, (c_void_p, c_uint32, c_uint32, c_uint32)),
-        "vox_mesh_map_positions": (vox_result, (c_void_p, c_uint32, POINTER(c_void_p), POINTER(c_uint64))),
+        "vox_mesh_map_positions": (vox_result, (c_void_p, c_uint32, POINTER(c_void_p))),
         "vox_body_set_transform": (vox_result, (c_void_p, c_uint32, c_void_p)),
         "vox_mesh_set_topology": (vox_result, (c_void_p, c_uint32, POINTER(vox_mesh_desc))),
         "vox_mesh_set_tets_enabled": (vox_result, (c_void_p, c_uint32, c_void_p, c_uint64, c_uint32)),

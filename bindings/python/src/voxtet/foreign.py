@@ -113,7 +113,7 @@ class Primitives:
             positions, indices = primitives_of(positions)
         self._describe(_followed(positions, "positions"), radius)
         if indices is None:
-            self._struct.count = self._struct.vertex_count
+            self._struct.count = self._struct.positions.count
         else:
             self._set_indices(indices)
         if radii is not None:
@@ -128,12 +128,13 @@ class Primitives:
         low, high = _followed(minimum, "minimum"), _followed(maximum, "maximum")
         if low.length != high.length:
             raise InvalidArgumentError(f"minimum has {low.length} rows and maximum {high.length}")
-        apart = (high.address or 0) - (low.address or 0)
-        size = 4 if low.format == _c.Format.FLOAT3 else 8
-        if (low.length > 1 and low.format == high.format and low.component == high.component == size
-                and low.stride == high.stride == 2 * apart and apart >= 3 * size and apart % size == 0):
+        a, b = low.struct, high.struct
+        apart = (b.data or 0) - (a.data or 0)
+        size = 4 if a.format == _c.Format.FLOAT else 8
+        if (a.count > 1 and a.format == b.format and a.component_byte_stride == b.component_byte_stride == size
+                and a.byte_stride == b.byte_stride == 2 * apart and apart >= 3 * size and apart % size == 0):
             self._describe(low, radius)
-            self._struct.position_byte_stride, self._struct.vertex_count = apart, 2 * low.length
+            self._struct.positions.byte_stride, self._struct.positions.count = apart, 2 * a.count
             self._kept.append(high)
         else:
             both = np.stack([low.array, high.array], axis=1)
@@ -146,9 +147,7 @@ class Primitives:
     def _describe(self, found: Any, radius: float) -> None:
         self._struct = struct = described(_c.vox_primitives)
         self._kept: list[Any] = [found]
-        struct.positions, struct.position_format = found.address, found.format
-        struct.position_byte_stride, struct.position_component_byte_stride = found.stride, found.component
-        struct.vertex_count = found.length
+        struct.positions = found.struct
         struct.radius = real(radius, "radius")
 
     def _set_indices(self, value: Any) -> None:
@@ -179,7 +178,7 @@ class Primitives:
         self._kept += [array, pinned(array)]
         struct = self._struct
         struct.radii = array.ctypes.data
-        struct.radius_format = _c.Format.FLOAT3 if array.itemsize == 4 else _c.Format.DOUBLE3
+        struct.radius_format = _c.Format.FLOAT if array.itemsize == 4 else _c.Format.DOUBLE
         struct.radius_byte_stride = array.strides[0] if followed else 0
 
     def __len__(self) -> int:

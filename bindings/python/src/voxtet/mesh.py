@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _c
-from ._arguments import NOTHING, U32, U64, Rows, array_of, copied_rows, indices, integer, matrix, pinned, real, rows, switch
+from ._arguments import NOTHING, U32, U64, Rows, copied_rows, indices, integer, matrix, pinned, real, rows, switch
 from ._library import described, sized, vox
 from .errors import InvalidArgumentError
 from .results import Contacts, Lease, Readings, borrow_of
@@ -67,12 +67,11 @@ class Topology:
             self.rows = copied_rows(positions, "positions") if copy else rows(positions, "positions")
             if vertex_count is not None and vertex_count != self.rows.length:
                 raise InvalidArgumentError(f"vertex_count is {vertex_count}, but there are {self.rows.length} positions")
-            desc.position_format = self.rows.format
+            desc.positions = self.rows.struct
             if copy:
                 desc.flags |= _c.MeshFlags.COPY_POSITIONS
-        desc.vertex_count = self.rows.length if vertex_count is None else integer(vertex_count, "vertex_count")
-        desc.positions, desc.position_byte_stride = self.rows.address, self.rows.stride
-        desc.position_component_byte_stride = self.rows.component
+        elif vertex_count is not None:
+            desc.positions.count = integer(vertex_count, "vertex_count")
         self.tets: Optional[NDArray[np.uint32]] = None
         if tets is not None:
             if borrow_tets and not (isinstance(tets, np.ndarray) and tets.dtype == np.uint32
@@ -85,13 +84,7 @@ class Topology:
         self.rest = NOTHING
         if rest_positions is not None:
             self.rest = copied_rows(rest_positions, "rest_positions")
-            if self.rest.length != desc.vertex_count:
-                raise InvalidArgumentError(f"there are {self.rest.length} rest_positions for {desc.vertex_count} vertices")
-            if positions is not None and self.rest.format != desc.position_format:
-                raise InvalidArgumentError("rest_positions and positions have different dtypes")
-            desc.position_format = self.rest.format
-            desc.rest_positions, desc.rest_position_byte_stride = self.rest.address, self.rest.stride
-            desc.rest_position_component_byte_stride = self.rest.component
+            desc.rest_positions = self.rest.struct
 
     def kept(self) -> tuple[Optional[Rows], Any]:
         """What the library goes on reading after the call: positions and tets."""
@@ -148,7 +141,7 @@ class Mesh:
         """Counts and state, as they are now."""
         with self.grid._lock:
             i = self._raw_info()
-        return MeshInfo(i.slot, i.user_data, i.vertex_count, i.tet_count, i.enabled_tet_count, bool(i.enabled),
+        return MeshInfo(i.slot, i.user_data, i.positions.count, i.tet_count, i.enabled_tet_count, bool(i.enabled),
                         bool(i.flags & _c.MeshFlags.COPY_POSITIONS), bool(i.flags & _c.MeshFlags.BORROW_TETS),
                         bool(i.has_transform))
 
@@ -174,14 +167,15 @@ class Mesh:
             info = self._raw_info()
             if kept is not None and kept[0] is not None:
                 return kept[0].array
-            if not info.positions:
-                return None if info.vertex_count else np.empty((0, 3), np.float32)
+            at = info.positions
+            if not at.data:
+                return None if at.count else np.empty((0, 3), np.float32)
             own = bool(info.flags & _c.MeshFlags.COPY_POSITIONS)  # else those of a body of a voxtet.sim
-            address = ctypes.c_void_p(info.positions)
+            address = ctypes.c_void_p(at.data)
             if own:
-                vox.vox_mesh_map_positions(grid._pointer, self.id, address, ctypes.c_uint64())
-            kind = np.dtype(np.float64 if info.position_format == _c.Format.DOUBLE3 else np.float32)
-            flat = borrow_of(address.value or 0, 3 * info.vertex_count, kind.itemsize, np.ndarray, kind,
+                vox.vox_mesh_map_positions(grid._pointer, self.id, address)
+            kind = np.dtype(np.float64 if at.format == _c.Format.DOUBLE else np.float32)
+            flat = borrow_of(address.value or 0, 3 * at.count, kind.itemsize, np.ndarray, kind,
                              Lease(grid._handle, grid._exports_of(self.id)), writable=own)
             mapped: NDArray[Any] = flat.reshape(-1, 3)
             return mapped
@@ -192,16 +186,11 @@ class Mesh:
         new = rows(positions, "positions")
         with grid._lock:
             info = self._raw_info()
-            if new.length != info.vertex_count:
-                raise InvalidArgumentError(f"there are {new.length} positions for the {info.vertex_count} vertices of mesh "
-                                           f"{self.id}")
-            same = (info.positions, info.position_format, info.position_byte_stride) == new[1:4]
-            if same and info.flags & _c.MeshFlags.COPY_POSITIONS:
+            if info.flags & _c.MeshFlags.COPY_POSITIONS and bytes(info.positions) == bytes(new.struct):
                 return  # mesh.positions += ... : its own already
             grid._refuse_positions(self.id, "new positions")
             with grid._lending(new):
-                vox.vox_mesh_bind_strided_positions(grid._pointer, self.id, new.address, new.format, new.stride,
-                                                    new.component)
+                vox.vox_mesh_bind_positions(grid._pointer, self.id, new.struct)
                 grid._keep(self.id, positions=new)
 
     @property
@@ -339,21 +328,16 @@ class Mesh:
             borrowed = not own and positions is not None
             new = NOTHING if positions is None else rows(positions, "positions") if borrowed else \
                 copied_rows(positions, "positions")
-            if positions is not None and info.positions and new.format != info.position_format:
-                raise TypeError(f"positions have the dtype {array_of(positions, 'positions').dtype}; those of the mesh have "
-                                "another")
-            counts = [n for n in (None if positions is None else new.length - (info.vertex_count if borrowed else 0),
+            before = info.positions.count
+            counts = [n for n in (None if positions is None else new.length - (before if borrowed else 0),
                                   None if of is None else len(of), None if rest_positions is None else rest.length)
                       if n is not None]
             if not counts or min(counts) != max(counts) or counts[0] < 0:
-                raise InvalidArgumentError(f"mesh {self.id} of {info.vertex_count} vertices cannot get {counts} new ones, by "
+                raise InvalidArgumentError(f"mesh {self.id} of {before} vertices cannot get {counts} new ones, by "
                                            "positions, copies_of and rest_positions")
             desc.count = counts[0]
-            desc.positions, desc.position_byte_stride = new.address, new.stride
-            desc.position_component_byte_stride = new.component
+            desc.positions, desc.rest_positions = new.struct, rest.struct
             desc.copies_of = None if of is None else of.ctypes.data
-            desc.rest_positions, desc.rest_position_byte_stride = rest.address, rest.stride
-            desc.rest_position_component_byte_stride = rest.component
             grid._refuse_positions(self.id, "new vertices")
             first = ctypes.c_uint32()
             with grid._lending(new):
@@ -377,8 +361,8 @@ class Mesh:
         with grid._lock:
             before = self._raw_info()
             if positions is None and vertex_count is None:
-                new.desc.vertex_count = before.vertex_count
-            keeps = positions is None and new.desc.vertex_count == before.vertex_count
+                new.desc.positions.count = before.positions.count
+            keeps = positions is None and new.desc.positions.count == before.positions.count
             if not keeps:
                 grid._refuse_positions(self.id, "new positions")
             kept, borrowed_tets = new.kept()

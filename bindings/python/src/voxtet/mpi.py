@@ -328,9 +328,9 @@ class Scene:
         desc = described(_dist.vox_part_desc, dist)
         desc.body = integer(body, "body")
         desc.mesh = ctypes.pointer(new.desc)
-        arrays = [_numbers(vertex_ids, "vertex_ids", new.desc.vertex_count, np.uint64),
+        arrays = [_numbers(vertex_ids, "vertex_ids", new.desc.positions.count, np.uint64),
                   _numbers(tet_ids, "tet_ids", new.desc.tet_count, np.uint64),
-                  _numbers(owned, "owned", new.desc.vertex_count, np.uint8)]
+                  _numbers(owned, "owned", new.desc.positions.count, np.uint8)]
         desc.vertex_ids, desc.tet_ids, desc.owned = (None if a is None else a.ctypes.data for a in arrays)
         part = ctypes.c_uint32()
         with _Calls(self) as pointer:
@@ -350,10 +350,7 @@ class Scene:
         number = integer(part, "part", 0, 2**32 - 1)
         found = rows(positions, "positions")
         with _Calls(self) as pointer:
-            old = self._kept.get(number)
-            if old is not None and old.length != found.length:
-                raise InvalidArgumentError(f"positions has {found.length} rows; the part has {old.length} vertices")
-            dist.vox_scene_bind_positions(pointer, number, found.address, found.format, found.stride, found.component)
+            dist.vox_scene_bind_positions(pointer, number, found.struct)
             self._kept[number] = found
 
     def step(self) -> None:
@@ -418,10 +415,9 @@ class Scene:
                 found = point_rows(points)
                 out = np.zeros(found.length, _dist.point_type)
             except Exception:
-                _fail(dist.vox_scene_locate, pointer, None, 0, 0, 1, None)
+                _fail(dist.vox_scene_locate, pointer, None, None)
                 raise
-            dist.vox_scene_locate(pointer, found.address, found.format, found.stride, found.length,
-                                  out.ctypes.data if len(out) else None)
+            dist.vox_scene_locate(pointer, found.struct, out.ctypes.data if len(out) else None)
         return out.view(ScenePoints)
 
     def check(self) -> None:

@@ -124,9 +124,10 @@ class Queries:
                 return hits_of(lambda hits, room, count: call(self._pointer, one, mask, hits, room, count),  # type: ignore
                                PointHits, _POINT_HIT, 8)
         many, call = points(points_), self._questions.points
+        of = many.struct
         with self._lock:
             return hits_of(lambda hits, room, count: call(  # type: ignore[no-any-return]
-                self._pointer, many.address, many.format, many.stride, many.length, mask, hits, room, count),
+                self._pointer, of.data, of.format, of.byte_stride, of.count, mask, hits, room, count),
                 PointHits, _POINT_HIT, many.length + 8)
 
     def query_box(self, low: ArrayLike, high: ArrayLike, mask: int = ALL) -> TetHits:
@@ -142,8 +143,8 @@ class Queries:
         """The closest point on the surfaces of the meshes for each of the points, (n, 3) or one point (3,)."""
         many = points(np.reshape(points_, (1, 3)) if np.shape(points_) == (3,) else points_)
         desc = described(_c.vox_closest_desc)
-        desc.points, desc.format, desc.point_count = many.address, many.format, many.length
-        desc.byte_stride, desc.component_byte_stride = many.stride, many.component
+        desc.points, desc.format, desc.point_count = many.struct.data, many.struct.format, many.length
+        desc.byte_stride, desc.component_byte_stride = many.struct.byte_stride, many.struct.component_byte_stride
         desc.mask, desc.max_distance = integer(mask, "mask"), real(max_distance, "max_distance")
         hits = np.empty(many.length, _CLOSEST_HIT)
         with self._lock:

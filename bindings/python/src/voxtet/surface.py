@@ -160,20 +160,13 @@ class Surface:
         further apart than twice the radius."""
         motion = described(_c.vox_motion)
         first = copied_rows(start, "start")
-        setattr(motion, "from", first.address)
-        motion.vertex_count = first.length
-        motion.format, motion.byte_stride, motion.component_byte_stride = first.format, first.stride, first.component
         if end is not None:
             second = copied_rows(end, "end")
-            if second[2:6] != first[2:6]:
+            if first.struct.format != second.struct.format:
                 first, second = (copied_rows(np.ascontiguousarray(rows.array, np.float64), name)
                                  for rows, name in ((first, "start"), (second, "end")))
-                if first.length != second.length:
-                    raise InvalidArgumentError(f"start has {first.length} positions, end has {second.length}")
-                setattr(motion, "from", first.address)
-                motion.format, motion.byte_stride, motion.component_byte_stride = (first.format, first.stride,
-                                                                                   first.component)
-            motion.to = second.address
+            motion.to = second.struct
+        setattr(motion, "from", first.struct)
         motion.radius = real(radius, "radius")
         motion.flags = int(_c.MotionFlags.CULL) if switch(cull, "cull") else 0
         with self._lock:

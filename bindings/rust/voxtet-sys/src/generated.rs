@@ -76,6 +76,12 @@ pub const VOX_ERROR_FORMAT: vox_result = -11;
 /// a defect of the library: please report it
 pub const VOX_ERROR_INTERNAL: vox_result = -12;
 
+pub type vox_format = i32;
+/// IEEE 754 singles
+pub const VOX_FORMAT_FLOAT: vox_format = 0;
+/// IEEE 754 doubles, of magnitudes below 2^128 - 2^103 (3.4028236e38), the largest float
+pub const VOX_FORMAT_DOUBLE: vox_format = 1;
+
 /// Severity of a log line.
 pub type vox_log_level = i32;
 pub const VOX_LOG_INFO: vox_log_level = 0;
@@ -113,7 +119,7 @@ pub type vox_grid_flags = u32;
 pub const VOX_GRID_PENETRATIONS: vox_grid_flags = 1;
 /// also report events of single vertices (vox_grid_contact_events)
 pub const VOX_GRID_CONTACT_EVENTS: vox_grid_flags = 2;
-/// a mesh with a coordinate that VOX_FORMAT_DOUBLE3 does not allow (NaN, infinite, too large) takes no part in a step,
+/// a mesh with a coordinate that VOX_FORMAT_DOUBLE does not allow (NaN, infinite, too large) takes no part in a step,
 /// in vox_grid_prepare_queries, in vox_grid_take_query_view and in vox_grid_suggest_cell_size, as if it were disabled;
 /// without this flag they fail. Counted (skipped_meshes), listed (vox_grid_get_failure), and logged once until the mesh
 /// is well again
@@ -121,12 +127,6 @@ pub const VOX_GRID_SKIP_BAD_BODIES: vox_grid_flags = 4;
 /// also find edges of surfaces through faces of others (vox_grid_edge_contacts); experimental. A mesh of more than
 /// 357913941 tets then gives VOX_ERROR_LIMIT
 pub const VOX_GRID_EDGE_CONTACTS: vox_grid_flags = 8;
-
-pub type vox_format = i32;
-/// three IEEE 754 singles x, y, z
-pub const VOX_FORMAT_FLOAT3: vox_format = 0;
-/// three IEEE 754 doubles x, y, z, each of magnitude below 2^128 - 2^103 (3.4028236e38)
-pub const VOX_FORMAT_DOUBLE3: vox_format = 1;
 
 pub type vox_mesh_flags = u32;
 /// also report vertices of the mesh inside its own tetrahedra
@@ -441,6 +441,26 @@ pub type vox_cost_function = Option<unsafe extern "C" fn(cell_size: f64, user: *
 #[rustfmt::skip]
 pub type vox_grid_run = Option<unsafe extern "C" fn(cell_size: f64, user: *mut c_void) -> f64>;
 
+/// An array of positions. Coordinate k (0, 1, 2 for x, y, z) of position i is at byte i * byte_stride + k *
+/// component_byte_stride of `data`. With both strides 0 the array is packed: x y z, x y z, ... If positions are part of
+/// larger records, set byte_stride to the size of a record. For columns (all x, then all y, then all z, as in Eigen,
+/// Julia, Fortran and Matlab), set component_byte_stride to the distance between columns. Strides at which positions
+/// would overlap are an INVALID_ARGUMENT everywhere.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_positions {
+    /// null: no positions
+    pub data: *const c_void,
+    pub count: u64,
+    pub format: vox_format,
+    /// 0
+    pub reserved: u32,
+    /// 0: packed; for columns, the size of a number
+    pub byte_stride: u64,
+    /// 0: the size of a number
+    pub component_byte_stride: u64,
+}
+
 /// Per-grid allocator. `allocate` returns memory of at least `size` bytes at `alignment` (a power of two), or null;
 /// `release` gets the same size and alignment back. If both are null, the C++ runtime's heap is used. They are called
 /// only from functions of the grid they were given to, one call at a time. During a step, the calling thread may be one
@@ -573,21 +593,17 @@ pub struct vox_filter {
 /// A body: vertices, and tetrahedra over them. Without tetrahedra (a surface, a set of points) its vertices still
 /// collide with the tetrahedra of other meshes, but its edges and faces with nothing, so a thin blade may cross a body
 /// without a contact. The first such mesh that a grid gets is written to its log as a warning;
-/// vox_counters.meshes_without_tets counts them. Coordinate c (0, 1, 2 for x, y, z) of position v is at byte v *
-/// position_byte_stride + c * position_component_byte_stride. Two layouts are possible: positions one after the other
-/// (x y z, x y z, ...), and columns (all x, all y, all z), as matrices of n rows and 3 columns are kept in Eigen,
-/// Julia, Fortran and Matlab.
+/// vox_counters.meshes_without_tets counts them.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_mesh_desc {
     pub struct_size: u32,
     /// vox_mesh_flags, combined with |
     pub flags: u32,
-    /// vertex_count positions; may be null until vox_mesh_bind_positions. Borrowed until the mesh is removed, bound to
-    /// other positions or mapped: vox_grid_step reads them, and while it runs they must be valid and unchanged.
-    pub positions: *const c_void,
-    /// from one position to the next; 0: tightly packed (columns: one number)
-    pub position_byte_stride: u64,
+    /// positions.count is the number of vertices. The data is borrowed until the mesh is removed, bound to other
+    /// positions or mapped. Every step reads it, and while it runs the data must stay unchanged: to move the mesh,
+    /// write to it between steps. If it is null, bind positions before the next step.
+    pub positions: vox_positions,
     /// tet_count * 4 vertex indices, copied unless VOX_MESH_BORROW_TETS is set. Both windings are accepted. With that
     /// flag, they must stay valid and unchanged, as any function of the grid may read them, until the mesh is removed
     /// or gets another topology, or the grid is cleared or destroyed. The first call that turns tetrahedra off,
@@ -595,24 +611,12 @@ pub struct vox_mesh_desc {
     /// grid made from a snapshot has its own copy.
     pub tets: *const u32,
     pub tet_count: u64,
-    pub vertex_count: u64,
     /// any number of the caller's, returned by vox_body_get_user_data
     pub user_data: u64,
-    pub position_format: vox_format,
-    /// 0
-    pub reserved: u32,
     /// Copied; null: the defaults. VOX_MESH_SELF_COLLISION turns self_collision on as well.
     pub filter: *const vox_filter,
-    /// vertex_count positions of the rest pose, in position_format, copied; null: see vox_filter.self_rest_distance.
-    pub rest_positions: *const c_void,
-    /// 0: tightly packed
-    pub rest_position_byte_stride: u64,
-    /// From one coordinate of a position to the next. 0 (the default): the size of a number. For columns the distance
-    /// between two columns, at least vertex_count * position_byte_stride; with columns of n numbers and nothing between
-    /// them n times the size of a number. Errors: INVALID_ARGUMENT (positions that would overlap).
-    pub position_component_byte_stride: u64,
-    /// the same for rest_positions
-    pub rest_position_component_byte_stride: u64,
+    /// of all vertices, copied; none: see vox_filter.self_rest_distance
+    pub rest_positions: vox_positions,
 }
 
 /// A mesh as it is now, e.g. after vox_grid_load.
@@ -624,8 +628,6 @@ pub struct vox_body_info {
     pub slot: u32,
     /// as given at insertion
     pub user_data: u64,
-    /// with the removed ones: indices of vertices are below it
-    pub vertex_count: u64,
     /// with those that are disabled or removed: indices of tetrahedra are below it
     pub tet_count: u64,
     pub enabled_tet_count: u64,
@@ -634,21 +636,19 @@ pub struct vox_body_info {
     /// vox_mesh_flags: SELF_COLLISION as the filter says, COPY_POSITIONS if the positions are the mesh's own (copied,
     /// mapped or loaded), BORROW_TETS while the tetrahedra are the caller's
     pub flags: u32,
-    pub position_format: vox_format,
     /// 1 if vox_body_set_transform gave it one
     pub has_transform: u32,
-    /// The positions, without the transform; null if the mesh has none. They live until the mesh is removed, bound to
-    /// other positions, mapped, or gets other or more vertices, or the grid is cleared or destroyed.
-    pub positions: *const c_void,
-    /// of these, never 0 unless `positions` is null; see vox_mesh_desc
-    pub position_byte_stride: u64,
-    pub position_component_byte_stride: u64,
+    /// 0
+    pub reserved: u32,
+    /// The positions, without the transform; removed vertices are among them. The data is null if the mesh has none. It
+    /// lives until the mesh is removed, bound to other positions, mapped, or gets other or more vertices, or the grid
+    /// is cleared or destroyed. No stride is 0 unless the data is null.
+    pub positions: vox_positions,
     /// as vox_body_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0
     pub transform: [f64; 12],
 }
 
-/// Vertices to append, and their positions. All positions are in the format that the mesh was inserted with or bound to
-/// last.
+/// Vertices to append.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_vertices_desc {
@@ -658,24 +658,16 @@ pub struct vox_vertices_desc {
     pub count: u64,
     /// For a mesh that borrows its positions: an array of all positions, first those of the vertices it has, then those
     /// of the new ones. It is borrowed from now on instead of the old array, under the rule of vox_mesh_desc.positions.
-    /// For a mesh with positions of its own (copied, mapped, or loaded): `count` positions, copied; the array of
-    /// vox_mesh_map_positions becomes invalid. May be null for a mesh that has no positions yet and, together with
-    /// copies_of, for a mesh with positions of its own.
-    pub positions: *const c_void,
-    /// 0: tightly packed
-    pub position_byte_stride: u64,
+    /// For a mesh with positions of its own (copied, mapped, or loaded): `count` positions in its format, copied; the
+    /// array of vox_mesh_map_positions becomes invalid. There may be none for a mesh that has no positions yet and,
+    /// together with copies_of, for a mesh with positions of its own.
+    pub positions: vox_positions,
     /// Null, or `count` indices of earlier vertices of the mesh: the vertex that each new one is a copy of. A copy gets
-    /// the rest position of that vertex and, if `positions` is null, its position, too.
+    /// the rest position of that vertex and, without `positions`, its position, too.
     pub copies_of: *const u32,
-    /// For meshes with a rest pose (vox_filter.self_rest_distance): `count` positions in it, copied. Null: those of
+    /// For meshes with a rest pose (vox_filter.self_rest_distance): `count` positions in it, copied. None: those of
     /// copies_of or, if that is null too, the present positions of the new vertices.
-    pub rest_positions: *const c_void,
-    /// 0: tightly packed
-    pub rest_position_byte_stride: u64,
-    /// As vox_mesh_desc.position_component_byte_stride; 0 (the default): the size of a number.
-    pub position_component_byte_stride: u64,
-    /// the same for rest_positions
-    pub rest_position_component_byte_stride: u64,
+    pub rest_positions: vox_positions,
 }
 
 /// A mesh that made a step fail, or that a step left out.
@@ -683,8 +675,8 @@ pub struct vox_vertices_desc {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_failure {
     pub struct_size: u32,
-    /// NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not allow), INVALID_STATE (no positions),
-    /// INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3); VOX_OK if there is none
+    /// NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE does not allow), INVALID_STATE (no positions),
+    /// INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT); VOX_OK if there is none
     pub result: vox_result,
     /// VOX_NULL_BODY if there is none
     pub mesh: vox_body,
@@ -1107,7 +1099,7 @@ pub struct vox_closest_desc {
     pub excluded: vox_body,
     /// 0
     pub reserved: u32,
-    /// as vox_mesh_desc.position_component_byte_stride; default 0
+    /// as in vox_positions; default 0
     pub component_byte_stride: u64,
 }
 
@@ -1504,14 +1496,8 @@ pub struct vox_cost_minimum {
 pub struct vox_primitives {
     pub struct_size: u32,
     pub r#type: vox_primitive_type,
-    /// as in vox_mesh_desc
-    pub positions: *const c_void,
-    pub position_byte_stride: u64,
-    pub position_component_byte_stride: u64,
-    pub vertex_count: u64,
-    pub position_format: vox_format,
-    /// FLOAT3 stands for one single, DOUBLE3 for one double
-    pub radius_format: vox_format,
+    /// of vertices
+    pub positions: vox_positions,
     /// The vertices of each primitive: two numbers an edge or a box, three a triangle, four a tetrahedron, one a point.
     /// Null: 0, 1, 2, and so on, without sharing.
     pub indices: *const u32,
@@ -1519,10 +1505,13 @@ pub struct vox_primitives {
     pub index_byte_stride: u64,
     /// primitives, at most 2^32 - 1
     pub count: u64,
-    /// of each primitive, >= 0
+    /// one number of each primitive, >= 0; null: 0
     pub radii: *const c_void,
     /// 0: tightly packed
     pub radius_byte_stride: u64,
+    pub radius_format: vox_format,
+    /// 0
+    pub reserved: u32,
     /// of all primitives, added to their own, >= 0; default 0
     pub radius: f64,
 }
@@ -1782,28 +1771,19 @@ pub struct vox_feature_view {
 }
 
 /// Positions of all vertices of a surface, or two, between which each vertex moves along a straight line at constant
-/// speed. Strides, formats and ranges of numbers are those of vox_mesh_desc, so columns as well as rows can be read.
+/// speed.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_motion {
     pub struct_size: u32,
     /// vox_motion_flags, combined with |
     pub flags: u32,
-    /// at time 0, copied
-    pub from: *const c_void,
-    /// the same, at time 1; null: everything stands still
-    pub to: *const c_void,
-    /// that of the surface; another number is an INVALID_ARGUMENT
-    pub vertex_count: u64,
-    pub format: vox_format,
-    /// 0
-    pub reserved: u32,
-    /// from one position to the next; 0: tightly packed (columns: one number)
-    pub byte_stride: u64,
-    /// from one coordinate of a position to the next; 0: the size of a number
-    pub component_byte_stride: u64,
+    /// at time 0, copied; as many as the surface has vertices
+    pub from: vox_positions,
+    /// at time 1, copied, in the same format; none: everything stands still
+    pub to: vox_positions,
     /// The box of a vertex holds both its positions and reaches further by this on each side, rounded outward: to the
-    /// next number of `format` below and above. That of an edge or a face holds those of its vertices. >= 0, may be
+    /// next number of their format below and above. That of an edge or a face holds those of its vertices. >= 0, may be
     /// infinite; default 0.
     pub radius: f64,
 }
@@ -2460,7 +2440,7 @@ extern "C" {
     pub fn vox_filter_init(filter: *mut vox_filter, struct_size: u32) -> vox_result;
     /// Fills `desc` with the defaults for the fields that `struct_size` covers.
     pub fn vox_mesh_desc_init(desc: *mut vox_mesh_desc, struct_size: u32) -> vox_result;
-    /// Adds a mesh, which takes part from the next step on. Packed positions in VOX_FORMAT_FLOAT3 that can only be
+    /// Adds a mesh, which takes part from the next step on. Packed positions in VOX_FORMAT_FLOAT that can only be
     /// doubles are refused: from 16 vertices on, every other number would be of ordinary size, those between far too
     /// large and far too small by turns (as most bit patterns are). They are looked at once for each format, here if
     /// they are copied, else when a step, suggestion or query reads them first. Errors: INVALID_ARGUMENT, INVALID_MESH
@@ -2508,40 +2488,25 @@ extern "C" {
         capacity: u64,
         out_count: *mut u64,
     ) -> vox_result;
-    /// Borrows new positions for a mesh (vertex_count of them, byte_stride 0: tightly packed), under the rule of
-    /// vox_mesh_desc.positions, and releases a copy made at insertion. Values written to the same memory between steps
-    /// need no new call. Null is accepted for a mesh without vertices. Errors: INVALID_ARGUMENT for an unknown format
-    /// and a stride that is too small.
+    /// Makes a mesh borrow another array of positions, one for each vertex, under the rule of vox_mesh_desc.positions,
+    /// and releases one that it owned. There is no need to bind the same array again after writing to it. Errors:
+    /// INVALID_ARGUMENT (e.g. another count).
     pub fn vox_mesh_bind_positions(
         grid: *mut vox_grid,
         body: vox_body,
-        positions: *const c_void,
-        format: vox_format,
-        byte_stride: u64,
-    ) -> vox_result;
-    /// The same with component_byte_stride as vox_mesh_desc.position_component_byte_stride, e.g. for columns.
-    pub fn vox_mesh_bind_strided_positions(
-        grid: *mut vox_grid,
-        body: vox_body,
-        positions: *const c_void,
-        format: vox_format,
-        byte_stride: u64,
-        component_byte_stride: u64,
+        positions: *const vox_positions,
     ) -> vox_result;
     /// Borrows the positions that the vertices of a mesh had before they moved to those of vox_mesh_bind_positions: in
     /// the following steps each vertex moves from one to the other in a straight line, at constant speed, and such
     /// steps also find vox_grid_passages. Values may be written to the same memory between steps. The mesh's transform
     /// does not apply to them: they are where the vertices were. Null ends it, as do vox_mesh_set_topology and
     /// vox_mesh_append_vertices. Snapshots do not keep them. A step fails with NON_FINITE or LIMIT where they are not
-    /// as VOX_FORMAT_DOUBLE3 has it; VOX_GRID_SKIP_BAD_BODIES is about positions alone. Errors: as
-    /// vox_mesh_bind_strided_positions.
+    /// as VOX_FORMAT_DOUBLE has it; VOX_GRID_SKIP_BAD_BODIES is about positions alone. Errors: as
+    /// vox_mesh_bind_positions.
     pub fn vox_mesh_bind_previous_positions(
         grid: *mut vox_grid,
         body: vox_body,
-        positions: *const c_void,
-        format: vox_format,
-        byte_stride: u64,
-        component_byte_stride: u64,
+        positions: *const vox_positions,
     ) -> vox_result;
     /// Makes the next step process a mesh even if it is at rest (see vox_grid_step). Contacts are correct without it;
     /// it serves to measure steps over positions that stay the same.
@@ -2575,21 +2540,20 @@ extern "C" {
         body_b: vox_body,
         enabled: u32,
     ) -> vox_result;
-    /// Gives the mesh positions of its own that the caller may write to: vertex_count of them, tightly packed, in the
-    /// format it was inserted with or bound to last. At first they hold the mesh's present positions, or zeros if it
-    /// has none. From the next step on, the mesh uses what the caller has written there between steps. Calling it again
-    /// returns the same array. The array belongs to the library and lives until the mesh is removed or bound, or the
-    /// grid is cleared or destroyed. It is null for a mesh without vertices. For a mesh inserted with
-    /// VOX_MESH_COPY_POSITIONS it is the copy made then. Errors: BUDGET, OUT_OF_MEMORY.
+    /// Gives the mesh positions of its own that the caller may write to: one for each vertex, packed, in the format it
+    /// was inserted with or bound to last. At first they hold the mesh's present positions, or zeros if it has none.
+    /// From the next step on, the mesh uses what the caller has written there between steps. Calling it again returns
+    /// the same array. The array belongs to the library and lives until the mesh is removed or bound, or the grid is
+    /// cleared or destroyed. It is null for a mesh without vertices. For a mesh inserted with VOX_MESH_COPY_POSITIONS
+    /// it is the copy made then. Errors: BUDGET, OUT_OF_MEMORY.
     pub fn vox_mesh_map_positions(
         grid: *mut vox_grid,
         body: vox_body,
         out_positions: *mut *mut c_void,
-        out_byte_stride: *mut u64,
     ) -> vox_result;
     /// Moves a mesh as a whole. In the following steps a vertex has the position x' = ((m[0] * x + m[1] * y) + m[2] *
     /// z) + m[3], y' likewise from m[4..7], z' from m[8..11], computed in double, in this order, each operation
-    /// rounded. Contacts are exact for the resulting x', y', z', as if these had been given as VOX_FORMAT_DOUBLE3. If
+    /// rounded. Contacts are exact for the resulting x', y', z', as if these had been given as VOX_FORMAT_DOUBLE. If
     /// they exceed the limits of that format, the step fails. `matrix` is any affine map, three rows of four numbers,
     /// copied. Null (the default) means no transform. The transform stays when other positions are bound. Errors:
     /// INVALID_ARGUMENT (an element that is not finite); BUDGET, OUT_OF_MEMORY (for a first transform).
@@ -2673,9 +2637,9 @@ extern "C" {
     /// is made.) A step after a failed one, or after a change of a setting, processes all meshes. In the steady state
     /// (same meshes, no more work than before) it allocates nothing, with any number of workers. The memory of the
     /// built-in scheduler, such as the stacks of its threads, is not the grid's and is not counted. Errors:
-    /// INVALID_STATE (a mesh has no positions), NON_FINITE and LIMIT (a coordinate that VOX_FORMAT_DOUBLE3 does not
-    /// allow), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3, see vox_mesh_insert); all these name the mesh, as
-    /// does vox_grid_get_failure. LIMIT (more than VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET,
+    /// INVALID_STATE (a mesh has no positions), NON_FINITE and LIMIT (a coordinate that VOX_FORMAT_DOUBLE does not
+    /// allow), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT, see vox_mesh_insert); all these name the mesh, as does
+    /// vox_grid_get_failure. LIMIT (more than VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET,
     /// OUT_OF_MEMORY.
     pub fn vox_grid_step(grid: *mut vox_grid) -> vox_result;
     /// Steps `count` grids, which must differ, each as by vox_grid_step, several at the same time: for many small
@@ -2889,7 +2853,7 @@ extern "C" {
     /// about 36 bytes a vertex and 40 a tetrahedron, kept until the grid is destroyed; 12 of the 40 follow from the
     /// tetrahedra alone, are made by the first call after a mesh was inserted or edited, and are shared with query
     /// views. From now on a grid of the reference engine also keeps tiles, as those of the fast engine do. Errors:
-    /// INVALID_STATE (a mesh has no positions), NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT3,
+    /// INVALID_STATE (a mesh has no positions), NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT,
     /// see vox_mesh_insert), BUDGET, OUT_OF_MEMORY; after these, what was prepared before stays. INVALID_ARGUMENT for a
     /// defective task system (see vox_task_system); after that nothing is prepared.
     pub fn vox_grid_prepare_queries(grid: *mut vox_grid) -> vox_result;
@@ -2982,7 +2946,7 @@ extern "C" {
     /// Takes a view of the grid as it is now. It costs as much as vox_grid_prepare_queries, and does not change what
     /// that prepared. The caller owns *out_view and releases it with vox_query_view_release. Errors: INVALID_STATE (a
     /// mesh has no positions), NON_FINITE, LIMIT, BUDGET, OUT_OF_MEMORY, INVALID_ARGUMENT (doubles under
-    /// VOX_FORMAT_FLOAT3; see also vox_task_system).
+    /// VOX_FORMAT_FLOAT; see also vox_task_system).
     pub fn vox_grid_take_query_view(
         grid: *mut vox_grid,
         out_view: *mut *mut vox_query_view,
@@ -3376,12 +3340,12 @@ extern "C" {
         mesh: *const vox_io_mesh,
         out_view: *mut vox_io_mesh_view,
     ) -> vox_result;
-    /// Describes the mesh for vox_mesh_insert and vox_suggest_cell_size: sets positions, their format (doubles) and
-    /// strides, vertex_count, tets and tet_count, and leaves all other fields of `desc` as they are. Fill it with
-    /// vox_default_mesh_desc() first. Positions are borrowed: keep the mesh as long as they are bound, or set
-    /// VOX_MESH_COPY_POSITIONS. As they never change, a body that moves gets others: vox_mesh_map_positions,
-    /// vox_mesh_bind_positions or vox_body_set_transform. Triangles are not described. docs/files.md has a whole
-    /// program. Errors: INVALID_ARGUMENT (null, or a struct_size that does not reach to position_format).
+    /// Describes the mesh for vox_mesh_insert and vox_suggest_cell_size: sets positions, tets and tet_count, and leaves
+    /// all other fields of `desc` as they are. Fill it with vox_default_mesh_desc() first. Positions are borrowed: keep
+    /// the mesh as long as they are bound, or set VOX_MESH_COPY_POSITIONS. As they never change, a body that moves gets
+    /// others: vox_mesh_map_positions, vox_mesh_bind_positions or vox_body_set_transform. Triangles are not described.
+    /// docs/files.md has a whole program. Errors: INVALID_ARGUMENT (null, or a struct_size that does not reach to
+    /// tet_count).
     pub fn vox_io_mesh_describe(mesh: *const vox_io_mesh, desc: *mut vox_mesh_desc) -> vox_result;
     /// Makes a mesh from arrays (copied) on the C++ runtime's heap. Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE,
     /// LIMIT (more than VOX_MAX_VERTICES or VOX_MAX_TETS), OUT_OF_MEMORY.
@@ -3654,6 +3618,8 @@ macro_rules! layouts {
     };
 }
 layouts! {
+    vox_positions: size [40, 40], alignment [8, 8], { data: [0, 0], count: [8, 8], format: [16, 16], reserved: [20, 20],
+        byte_stride: [24, 24], component_byte_stride: [32, 32] }
     vox_allocator: size [24, 12], alignment [8, 4], { allocate: [0, 0], release: [8, 4], user: [16, 8] }
     vox_log: size [16, 8], alignment [8, 4], { write: [0, 0], user: [8, 4] }
     vox_task_system: size [24, 12], alignment [8, 4], { enqueue: [0, 0], finish: [8, 4], user: [16, 8] }
@@ -3663,19 +3629,13 @@ layouts! {
         flags: [156, 124], closest_budget: [160, 128], margin: [168, 136] }
     vox_filter: size [48, 48], alignment [8, 8], { struct_size: [0, 0], group: [4, 4], category: [8, 8], mask: [16, 16],
         self_collision: [24, 24], self_rings: [28, 28], self_rest_distance: [32, 32], penetration_mask: [40, 40] }
-    vox_mesh_desc: size [104, 96], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], positions: [8, 8],
-        position_byte_stride: [16, 16], tets: [24, 24], tet_count: [32, 32], vertex_count: [40, 40],
-        user_data: [48, 48], position_format: [56, 56], reserved: [60, 60], filter: [64, 64], rest_positions: [72, 68],
-        rest_position_byte_stride: [80, 72], position_component_byte_stride: [88, 80],
-        rest_position_component_byte_stride: [96, 88] }
-    vox_body_info: size [176, 176], alignment [8, 8], { struct_size: [0, 0], slot: [4, 4], user_data: [8, 8],
-        vertex_count: [16, 16], tet_count: [24, 24], enabled_tet_count: [32, 32], enabled: [40, 40], flags: [44, 44],
-        position_format: [48, 48], has_transform: [52, 52], positions: [56, 56], position_byte_stride: [64, 64],
-        position_component_byte_stride: [72, 72], transform: [80, 80] }
-    vox_vertices_desc: size [72, 64], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], count: [8, 8],
-        positions: [16, 16], position_byte_stride: [24, 24], copies_of: [32, 32], rest_positions: [40, 36],
-        rest_position_byte_stride: [48, 40], position_component_byte_stride: [56, 48],
-        rest_position_component_byte_stride: [64, 56] }
+    vox_mesh_desc: size [120, 120], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], positions: [8, 8],
+        tets: [48, 48], tet_count: [56, 56], user_data: [64, 64], filter: [72, 72], rest_positions: [80, 80] }
+    vox_body_info: size [184, 184], alignment [8, 8], { struct_size: [0, 0], slot: [4, 4], user_data: [8, 8],
+        tet_count: [16, 16], enabled_tet_count: [24, 24], enabled: [32, 32], flags: [36, 36], has_transform: [40, 40],
+        reserved: [44, 44], positions: [48, 48], transform: [88, 88] }
+    vox_vertices_desc: size [104, 104], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], count: [8, 8],
+        positions: [16, 16], copies_of: [56, 56], rest_positions: [64, 64] }
     vox_failure: size [56, 56], alignment [8, 8], { struct_size: [0, 0], result: [4, 4], mesh: [8, 8], slot: [12, 12],
         user_data: [16, 16], vertex: [24, 24], reserved: [28, 28], position: [32, 32] }
     vox_contact: size [32, 32], alignment [4, 4], { body_a: [0, 0], vertex: [4, 4], body_b: [8, 8], tet: [12, 12],
@@ -3784,10 +3744,9 @@ layouts! {
         max: [16, 16], zone_loss: [24, 24] }
     vox_cost_minimum: size [1064, 1064], alignment [8, 8], { struct_size: [0, 0], curve_count: [4, 4],
         cell_size: [8, 8], cost: [16, 16], zone_min: [24, 24], zone_max: [32, 32], curve: [40, 40] }
-    vox_primitives: size [96, 96], alignment [8, 8], { struct_size: [0, 0], r#type: [4, 4], positions: [8, 8],
-        position_byte_stride: [16, 16], position_component_byte_stride: [24, 24], vertex_count: [32, 32],
-        position_format: [40, 40], radius_format: [44, 44], indices: [48, 48], index_byte_stride: [56, 56],
-        count: [64, 64], radii: [72, 72], radius_byte_stride: [80, 80], radius: [88, 88] }
+    vox_primitives: size [104, 104], alignment [8, 8], { struct_size: [0, 0], r#type: [4, 4], positions: [8, 8],
+        indices: [48, 48], index_byte_stride: [56, 56], count: [64, 64], radii: [72, 72], radius_byte_stride: [80, 80],
+        radius_format: [88, 88], reserved: [92, 92], radius: [96, 96] }
     vox_grid_work: size [48, 48], alignment [8, 8], { entries: [0, 0], visits: [8, 8], empty: [16, 16], reads: [24, 24],
         occupied: [32, 32], cells: [40, 40] }
     vox_grid_weights: size [56, 56], alignment [8, 8], { fixed: [0, 0], entries: [8, 8], visits: [16, 16],
@@ -3818,9 +3777,8 @@ layouts! {
         cell_size: [80, 64], byte_budget: [88, 72], allocator: [96, 80], tasks: [120, 92] }
     vox_feature_view: size [24, 24], alignment [8, 8], { struct_size: [0, 0], vertices_each: [4, 4], count: [8, 8],
         vertices: [16, 16] }
-    vox_motion: size [64, 56], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], from: [8, 8], to: [16, 12],
-        vertex_count: [24, 16], format: [32, 24], reserved: [36, 28], byte_stride: [40, 32],
-        component_byte_stride: [48, 40], radius: [56, 48] }
+    vox_motion: size [96, 96], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], from: [8, 8], to: [48, 48],
+        radius: [88, 88] }
     vox_pair_lists: size [48, 40], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], first: [8, 8],
         count: [16, 16], pair_count: [24, 24], offsets: [32, 32], partners: [40, 36] }
     vox_pair_counters: size [72, 72], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], cell_size: [8, 8],

@@ -8,7 +8,7 @@ use voxtet_sys as sys;
 
 use crate::cell_size::{samples, terms, Call};
 use crate::error::{check, struct_size};
-use crate::grid::pointer;
+use crate::grid::{pointer, positions_to_c};
 use crate::options::Scalar;
 use crate::{Error, ErrorCode, GridWeights, GridWork, Result};
 
@@ -69,9 +69,7 @@ impl<'arrays> Primitives<'arrays> {
             desc
         };
         desc.r#type = type_of;
-        desc.positions = pointer(positions).cast();
-        desc.position_format = T::FORMAT;
-        desc.vertex_count = positions.len() as u64;
+        desc.positions = positions_to_c(positions);
         desc.count = count as u64;
         Self { desc, arrays: PhantomData }
     }

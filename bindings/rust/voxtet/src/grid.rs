@@ -95,6 +95,17 @@ pub(crate) fn pointer<T>(slice: &[T]) -> *const T {
     }
 }
 
+pub(crate) fn positions_to_c<T: Scalar>(positions: &[[T; 3]]) -> sys::vox_positions {
+    sys::vox_positions {
+        data: pointer(positions).cast(),
+        count: positions.len() as u64,
+        format: T::FORMAT,
+        reserved: 0,
+        byte_stride: 0,
+        component_byte_stride: 0,
+    }
+}
+
 pub(crate) fn mesh_desc<T: Scalar>(positions: &[[T; 3]], tets: &[[u32; 4]]) -> sys::vox_mesh_desc {
     // SAFETY: a struct of numbers and pointers, of its own size.
     let mut desc = unsafe {
@@ -102,9 +113,7 @@ pub(crate) fn mesh_desc<T: Scalar>(positions: &[[T; 3]], tets: &[[u32; 4]]) -> s
         sys::vox_mesh_desc_init(&mut desc, struct_size::<sys::vox_mesh_desc>());
         desc
     };
-    desc.positions = pointer(positions).cast();
-    desc.position_format = T::FORMAT;
-    desc.vertex_count = positions.len() as u64;
+    desc.positions = positions_to_c(positions);
     desc.tets = pointer(tets).cast();
     desc.tet_count = tets.len() as u64;
     desc
@@ -237,8 +246,7 @@ impl Grid {
         let mut desc = mesh_desc(positions, tets);
         desc.user_data = options.user_data;
         if let Some(rest) = options.rest_positions {
-            check_length("rest_positions", rest.len(), positions.len())?;
-            desc.rest_positions = pointer(rest).cast();
+            desc.rest_positions = positions_to_c(rest);
         }
         self.insert(desc, options.filter)
     }
@@ -283,11 +291,11 @@ impl Grid {
         let info = self.info_of(mesh)?;
         Ok(MeshInfo {
             user_data: info.user_data,
-            vertex_count: info.vertex_count,
+            vertex_count: info.positions.count,
             tet_count: info.tet_count,
             enabled_tet_count: info.enabled_tet_count,
             enabled: info.enabled != 0,
-            doubles: info.position_format == sys::VOX_FORMAT_DOUBLE3,
+            doubles: info.positions.format == sys::VOX_FORMAT_DOUBLE,
             transform: (info.has_transform != 0).then_some(info.transform),
         })
     }
@@ -316,11 +324,11 @@ impl Grid {
     pub fn positions<T: Scalar>(&self, mesh: Mesh) -> Result<&[[T; 3]]> {
         let info = self.info_of(mesh)?;
         check_format::<T>(&info)?;
-        if info.positions.is_null() || info.vertex_count == 0 {
+        if info.positions.data.is_null() || info.positions.count == 0 {
             return Ok(&[]);
         }
         // SAFETY: all meshes have positions of their own, one after the other, which only &mut self can change.
-        Ok(unsafe { std::slice::from_raw_parts(info.positions.cast(), info.vertex_count as usize) })
+        Ok(unsafe { std::slice::from_raw_parts(info.positions.data.cast(), info.positions.count as usize) })
     }
 
     /// The positions of a mesh, to be written before a step, if they are of type `T`, that of the array given to
@@ -328,13 +336,13 @@ impl Grid {
     pub fn positions_mut<T: Scalar>(&mut self, mesh: Mesh) -> Result<&mut [[T; 3]]> {
         let info = self.info_of(mesh)?;
         check_format::<T>(&info)?;
-        let (mut positions, mut stride) = (null_mut(), 0);
-        check(unsafe { sys::vox_mesh_map_positions(self.get_mut(), mesh.0, &mut positions, &mut stride) })?;
-        if positions.is_null() || info.vertex_count == 0 {
+        let mut positions = null_mut();
+        check(unsafe { sys::vox_mesh_map_positions(self.get_mut(), mesh.0, &mut positions) })?;
+        if positions.is_null() || info.positions.count == 0 {
             return Ok(&mut []);
         }
         // SAFETY: packed, and exclusively borrowed.
-        Ok(unsafe { std::slice::from_raw_parts_mut(positions.cast(), info.vertex_count as usize) })
+        Ok(unsafe { std::slice::from_raw_parts_mut(positions.cast(), info.positions.count as usize) })
     }
 
     /// Moves a mesh as a whole by an affine map, three rows of four; `None`: not at all.
@@ -433,7 +441,7 @@ impl Grid {
         self.positions_mut::<T>(mesh)?; // of its own, also in a mesh that has had no vertices
         self.append(mesh, |desc| {
             desc.count = positions.len() as u64;
-            desc.positions = pointer(positions).cast();
+            desc.positions = positions_to_c(positions);
         })
     }
 
@@ -686,13 +694,13 @@ fn check_length(name: &str, length: usize, expected: usize) -> Result<()> {
 }
 
 fn check_format<T: Scalar>(info: &sys::vox_body_info) -> Result<()> {
-    if info.position_format == T::FORMAT {
+    if info.positions.format == T::FORMAT {
         return Ok(());
     }
-    let name = |format| if format == sys::VOX_FORMAT_DOUBLE3 { "f64" } else { "f32" };
+    let name = |format| if format == sys::VOX_FORMAT_DOUBLE { "f64" } else { "f32" };
     Err(Error::new(
         ErrorCode::InvalidArgument,
-        format!("positions of the mesh are {}, asked for as {}", name(info.position_format), name(T::FORMAT)),
+        format!("positions of the mesh are {}, asked for as {}", name(info.positions.format), name(T::FORMAT)),
     ))
 }
 

@@ -239,9 +239,9 @@ pub trait Scalar: Copy + sealed::Sealed + 'static {
 }
 
 impl Scalar for f32 {
-    const FORMAT: sys::vox_format = sys::VOX_FORMAT_FLOAT3;
+    const FORMAT: sys::vox_format = sys::VOX_FORMAT_FLOAT;
 }
 
 impl Scalar for f64 {
-    const FORMAT: sys::vox_format = sys::VOX_FORMAT_DOUBLE3;
+    const FORMAT: sys::vox_format = sys::VOX_FORMAT_DOUBLE;
 }
