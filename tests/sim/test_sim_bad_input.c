@@ -410,8 +410,7 @@ START_TEST(the_grid_is_within_reach) {
     ck_ok(vox_sim_get_grid(sim, &grid));
     static const float point[3] = {0.1f, 0.1f, 0.1f};
     vox_mesh_desc probe = vox_default_mesh_desc();
-    probe.positions.data = point;
-    probe.positions.count = 1;
+    probe.positions = vox_float_positions(point, 1);
     vox_body probe_id;
     ck_ok(vox_mesh_insert(grid, &probe, &probe_id));
     steps(sim, 10);
@@ -438,8 +437,7 @@ static uint32_t crowd_tets[400];
 
 static void other_topology(vox_grid* grid, vox_body body) {
     vox_mesh_desc desc = vox_default_mesh_desc();
-    desc.positions.data = crowd;
-    desc.positions.count = 100;
+    desc.positions = vox_float_positions(crowd, 100);
     desc.tets = crowd_tets;
     desc.tet_count = 100;
     ck_ok(vox_mesh_set_topology(grid, body, &desc));
@@ -448,7 +446,7 @@ static void more_vertices(vox_grid* grid, vox_body body) {
     vox_vertices_desc desc = vox_default_vertices_desc();
     uint32_t first;
     desc.count = 92;
-    desc.positions.data = crowd;
+    desc.positions = vox_float_positions(crowd, 100);
     ck_ok(vox_mesh_append_vertices(grid, body, &desc, &first));
 }
 static void more_tets(vox_grid* grid, vox_body body) {
