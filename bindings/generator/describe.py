@@ -171,7 +171,7 @@ class Describer:
         target.update(self.elements(owner, member, t, length, siblings))
         lifetime = self.lifetime(owner, member, t)
         if isinstance(lifetime, list) and not (set(lifetime) - set(self.functions)) <= set(self.events):
-            self.fault(owner, member, f"until {', '.join(lifetime)}: what is no function and no event")
+            self.fault(owner, member, f"until {', '.join(lifetime)}: one of these is no function and no event")
         target["lifetime"] = lifetime
         if lifetime == "owned":
             target["release"] = self.release_of(t["base"])

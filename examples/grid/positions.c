@@ -3,7 +3,7 @@
 
 static const uint32_t tet[4] = {0, 1, 2, 3};
 
-/* How many points of the grid are in the tetrahedron. */
+/* Steps, and prints how many points are inside the tetrahedron. */
 static void step(vox_grid* grid, const char* what) {
     must(vox_grid_step(grid));
     printf("%-22s %" PRIu64 " inside\n", what, contact_count(grid));

@@ -452,8 +452,8 @@ static inline vox_mesh_desc vox_default_mesh_desc(void) {
     return desc;
 }
 
-/* Describes a mesh with packed floats x y z; the other fields have their defaults. The arrays are borrowed and copied as
- * vox_mesh_desc says. */
+/* Describes a mesh with packed floats x y z; the other fields have their defaults. The arrays are borrowed and copied
+ * as vox_mesh_desc says. */
 static inline vox_mesh_desc vox_mesh_desc_floats(const float* xyz, uint64_t vertex_count, const uint32_t* tets,
                                                  uint64_t tet_count) {
     vox_mesh_desc desc = vox_default_mesh_desc();
@@ -520,10 +520,8 @@ VOX_API vox_result vox_body_get_info(const vox_grid* grid, vox_body body, vox_bo
  * to corners[4 * t + 3], and to enabled[t] 1 or, if it is disabled or removed, 0. Each of the two arrays may be null,
  * and is not written then. *out_count is how many tetrahedra there are (vox_body_info.tet_count).
  * Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
-VOX_API vox_result vox_mesh_get_tets(const vox_grid* grid, vox_body body,
-                                      VOX_OPTIONAL uint32_t* corners,
-                                      VOX_OPTIONAL uint8_t* enabled, uint64_t capacity,
-                                      uint64_t* out_count);
+VOX_API vox_result vox_mesh_get_tets(const vox_grid* grid, vox_body body, VOX_OPTIONAL uint32_t* corners,
+                                     VOX_OPTIONAL uint8_t* enabled, uint64_t capacity, uint64_t* out_count);
 
 /* Makes a mesh borrow another array of positions, one for each vertex, under the rule of vox_mesh_desc.positions, and
  * releases one that it owned. There is no need to bind the same array again after writing to it.
@@ -622,23 +620,22 @@ VOX_API vox_result vox_mesh_set_topology(vox_grid* grid, vox_body body, const vo
 /* Disables the `count` tetrahedra named by `tets` (enabled 0), so that they contain no vertex and have no edges and
  * facets, or enables them again (1, as at insertion). Their vertices stay and collide with others either way.
  * Errors: INVALID_ARGUMENT for other numbers. */
-VOX_API vox_result vox_mesh_set_tets_enabled(vox_grid* grid, vox_body body, const uint32_t* tets,
-                                             uint64_t count, uint32_t enabled);
+VOX_API vox_result vox_mesh_set_tets_enabled(vox_grid* grid, vox_body body, const uint32_t* tets, uint64_t count,
+                                             uint32_t enabled);
 
 /* Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3], copied, for each i below count. If an
  * index is named twice, the last corners are used. A disabled tetrahedron stays disabled. To cut a mesh open, append
  * copies of the vertices on the cut and let the tetrahedra of one side use those. */
-VOX_API vox_result vox_mesh_replace_tets(vox_grid* grid, vox_body body, const uint32_t* tets,
-                                         uint64_t count, const uint32_t* corners);
+VOX_API vox_result vox_mesh_replace_tets(vox_grid* grid, vox_body body, const uint32_t* tets, uint64_t count,
+                                         const uint32_t* corners);
 
 /* Adds `count` tetrahedra with 4 corners each, copied. *out_first is the index of the first; the others have the
  * following indices. */
-VOX_API vox_result vox_mesh_append_tets(vox_grid* grid, vox_body body, const uint32_t* corners,
-                                        uint64_t count, uint32_t* out_first);
+VOX_API vox_result vox_mesh_append_tets(vox_grid* grid, vox_body body, const uint32_t* corners, uint64_t count,
+                                        uint32_t* out_first);
 
 /* Removes tetrahedra, disabled ones included. Their vertices stay; see vox_mesh_remove_vertices. */
-VOX_API vox_result vox_mesh_remove_tets(vox_grid* grid, vox_body body, const uint32_t* tets,
-                                        uint64_t count);
+VOX_API vox_result vox_mesh_remove_tets(vox_grid* grid, vox_body body, const uint32_t* tets, uint64_t count);
 
 /* Vertices to append. */
 typedef struct vox_vertices_desc {
@@ -647,9 +644,9 @@ typedef struct vox_vertices_desc {
     uint64_t count;
     /* For a mesh that borrows its positions: an array of all positions, first those of the vertices it has, then those
      * of the new ones. It is borrowed from now on instead of the old array, under the rule of vox_mesh_desc.positions.
-     * For a mesh with positions of its own (copied, mapped, or loaded): `count` positions in its format, copied; the array of
-     * vox_mesh_map_positions becomes invalid. There may be none for a mesh that has no positions yet and, together with
-     * copies_of, for a mesh with positions of its own. */
+     * For a mesh with positions of its own (copied, mapped, or loaded): `count` positions in its format, copied; the
+     * array of vox_mesh_map_positions becomes invalid. There may be none for a mesh that has no positions yet and,
+     * together with copies_of, for a mesh with positions of its own. */
     vox_positions positions;
     /* Null, or `count` indices of earlier vertices of the mesh: the vertex that each new one is a copy of. A copy gets
      * the rest position of that vertex and, without `positions`, its position, too. */
@@ -677,8 +674,7 @@ VOX_API vox_result vox_mesh_append_vertices(vox_grid* grid, vox_body body, const
 /* Removes vertices; a vertex of an enabled tetrahedron is an INVALID_ARGUMENT. Removed vertices make no more contacts,
  * and no tetrahedron may name them again. Their positions are still read and must stay finite, so it is best to leave
  * them as they are. */
-VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_body body, const uint32_t* vertices,
-                                            uint64_t count);
+VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_body body, const uint32_t* vertices, uint64_t count);
 
 /* ---- step and contacts ------------------------------------------------------------------------ */
 
@@ -707,9 +703,8 @@ VOX_API vox_result vox_grid_step(vox_grid* grid);
  * and the call returns the result of the first of them and its text, after its index ("grid 17: ...").
  * Errors: as vox_grid_step; INVALID_ARGUMENT (a null or repeated grid, a worker_count) and OUT_OF_MEMORY, after which
  * no grid was stepped and `results` is not written, unless the task system broke its rules, see vox_task_system. */
-VOX_API vox_result vox_grids_step(vox_grid* const* grids, uint64_t count,
-                                  VOX_OPTIONAL const vox_task_system* tasks, uint32_t worker_count,
-                                  VOX_OPTIONAL vox_result* results);
+VOX_API vox_result vox_grids_step(vox_grid* const* grids, uint64_t count, VOX_OPTIONAL const vox_task_system* tasks,
+                                  uint32_t worker_count, VOX_OPTIONAL vox_result* results);
 
 /* A mesh that made a step fail, or that a step left out. */
 typedef struct vox_failure {
@@ -761,9 +756,8 @@ VOX_API vox_result vox_grid_get_contacts(const vox_grid* grid, vox_contact_view*
 /* The contacts of `count` grids, one grid after the other: those of grid i begin at index offsets[i] and end before
  * offsets[i + 1], where offsets has count + 1 numbers, all of which are written. Copies the first `capacity` contacts;
  * `contacts` may be null if capacity is 0. Errors: INVALID_ARGUMENT. */
-VOX_API vox_result vox_grids_copy_contacts(const vox_grid* const* grids, uint64_t count,
-                                           vox_contact* contacts, uint64_t capacity,
-                                           uint64_t* offsets);
+VOX_API vox_result vox_grids_copy_contacts(const vox_grid* const* grids, uint64_t count, vox_contact* contacts,
+                                           uint64_t capacity, uint64_t* offsets);
 
 /* `count` bytes, `byte_stride` apart, one for each contact, in that order: 1 if the vertex is in the interior of the
  * tetrahedron, 0 if it is on its boundary; decided exactly. On a face that two tetrahedra share, a vertex has a contact
@@ -1225,8 +1219,8 @@ VOX_API vox_result vox_grid_save(const vox_grid* grid, VOX_OPTIONAL void* bytes,
  * stands for are known to be there, and the byte budget applies.
  * Errors: FORMAT (names chunk and byte), UNSUPPORTED (of a later version), INVALID_ARGUMENT, LIMIT, BUDGET,
  * OUT_OF_MEMORY. */
-VOX_API vox_result vox_grid_load(const void* bytes, uint64_t size,
-                                 VOX_OPTIONAL const vox_grid_desc* desc, vox_grid** out_grid);
+VOX_API vox_result vox_grid_load(const void* bytes, uint64_t size, VOX_OPTIONAL const vox_grid_desc* desc,
+                                 vox_grid** out_grid);
 
 /* ---- queries ---------------------------------------------------------------------------------- */
 
@@ -1271,9 +1265,9 @@ VOX_API vox_result vox_grid_query_point(const vox_grid* grid, const double point
 /* The same for up to 2^32 - 1 points at once, `byte_stride` apart (0: tightly packed), sorted by (point, mesh, tet).
  * From 64 points on, and one for every 200 tetrahedra of the grid, they are found as vertices are in a step, several
  * times as fast as by single queries, whatever their order. */
-VOX_API vox_result vox_grid_query_points(const vox_grid* grid, const void* points,
-                                         vox_format format, uint64_t byte_stride, uint64_t point_count, uint64_t mask,
-                                         vox_point_hit* hits, uint64_t capacity, uint64_t* out_count);
+VOX_API vox_result vox_grid_query_points(const vox_grid* grid, const void* points, vox_format format,
+                                         uint64_t byte_stride, uint64_t point_count, uint64_t mask, vox_point_hit* hits,
+                                         uint64_t capacity, uint64_t* out_count);
 
 /* Tetrahedron `tet` of `mesh`. */
 typedef struct vox_tet_hit {
@@ -1445,9 +1439,9 @@ VOX_API vox_result vox_query_view_point(const vox_query_view* view, const double
                                         vox_point_hit* hits, uint64_t capacity, uint64_t* out_count);
 
 /* As vox_grid_query_points. */
-VOX_API vox_result vox_query_view_points(const vox_query_view* view, const void* points,
-                                         vox_format format, uint64_t byte_stride, uint64_t point_count, uint64_t mask,
-                                         vox_point_hit* hits, uint64_t capacity, uint64_t* out_count);
+VOX_API vox_result vox_query_view_points(const vox_query_view* view, const void* points, vox_format format,
+                                         uint64_t byte_stride, uint64_t point_count, uint64_t mask, vox_point_hit* hits,
+                                         uint64_t capacity, uint64_t* out_count);
 
 /* As vox_grid_query_box. */
 VOX_API vox_result vox_query_view_box(const vox_query_view* view, const double min[3], const double max[3],
@@ -1699,9 +1693,8 @@ typedef struct vox_suggestion {
  * Errors: INVALID_ARGUMENT (also if there is no tetrahedron, or all have zero size; SURFACE: no such facet), INVALID_MESH,
  * NON_FINITE, LIMIT (SURFACE: a mesh of more than 357913941 tets), OUT_OF_MEMORY; UNSUPPORTED for SURFACE in a build
  * without surfaces, as for WebAssembly. */
-VOX_API vox_result vox_suggest_cell_size(VOX_OPTIONAL const vox_suggest_desc* desc,
-                                         const vox_mesh_desc* meshes, uint64_t mesh_count,
-                                         vox_suggestion* out);
+VOX_API vox_result vox_suggest_cell_size(VOX_OPTIONAL const vox_suggest_desc* desc, const vox_mesh_desc* meshes,
+                                         uint64_t mesh_count, vox_suggestion* out);
 
 /* The same for the meshes of a grid. With desc null, the model is that of the grid's engine, with the grid's storage
  * and byte budget. PAPER takes p_nc from the last step if that had contacts and desc is null or has the default p_nc.
@@ -1724,9 +1717,8 @@ typedef struct vox_cost_prediction {
 
 /* The cost that desc->model (desc null: PAPER) predicts for these meshes at one cell size. Arguments and errors as
  * vox_suggest_cell_size; also INVALID_ARGUMENT for a cell size that is not a finite number above 0. */
-VOX_API vox_result vox_cost_predict(VOX_OPTIONAL const vox_suggest_desc* desc,
-                                    const vox_mesh_desc* meshes, uint64_t mesh_count,
-                                    double cell_size, vox_cost_prediction* out);
+VOX_API vox_result vox_cost_predict(VOX_OPTIONAL const vox_suggest_desc* desc, const vox_mesh_desc* meshes,
+                                    uint64_t mesh_count, double cell_size, vox_cost_prediction* out);
 
 /* The weights of REFERENCE and FAST: nanoseconds that one unit of each piece of work takes on a machine. Plain numbers
  * above 0, which may be saved and loaded. */
@@ -2060,8 +2052,8 @@ typedef struct vox_grid_fit {
  * the grid has (`weights`, else `known`). Errors: as vox_suggest_for; also INVALID_ARGUMENT for fewer than three
  * different cell sizes (those within a millionth are one), sizes below the least legal one, and timings out of their
  * range, and LIMIT as vox_count_for. */
-VOX_API vox_result vox_cost_fit(const vox_foreign_grid* grid, const vox_grid_timing* timings,
-                                uint64_t count, vox_grid_fit* out);
+VOX_API vox_result vox_cost_fit(const vox_foreign_grid* grid, const vox_grid_timing* timings, uint64_t count,
+                                vox_grid_fit* out);
 
 /* Runs the caller's grid once at a cell size. Returns how many seconds that took, at least 1e-30; infinity, or more
  * than 1e30, if it cannot run at this size (it is then tried at others, none of them further away); or a negative

@@ -178,8 +178,7 @@ typedef enum vox_direction {
  * contact. item_bytes, 1 to 65536, and direction are the same on all ranks. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY;
  * then out may be written in part. */
 VOX_EXPERIMENTAL vox_result vox_scene_send(vox_scene* scene, vox_direction direction, uint64_t item_bytes,
-                                           VOX_OPTIONAL const void* in,
-                                           VOX_OPTIONAL void* out);
+                                           VOX_OPTIONAL const void* in, VOX_OPTIONAL void* out);
 
 /* Collective. A hash of all contacts of all ranks: the same on all ranks, and for any number of them and any partition. It
  * covers all fields of a vox_scene_contact that do not depend on the partition. */
@@ -204,7 +203,8 @@ typedef struct vox_scene_point {
     uint32_t interior;    /* 1 or, on the boundary of the tetrahedron, 0 */
 } vox_scene_point;
 
-/* Collective. Finds the tetrahedra that contain points of this rank, at most 2^31 - 1: out_points[i] is for point i. Other ranks ask for their own. Contacts stay. It keeps a second grid of the parts, made by the first call.
+/* Collective. Finds the tetrahedra that contain points of this rank, at most 2^31 - 1: out_points[i] is for point i.
+ * Other ranks ask for their own. Contacts stay. It keeps a second grid of the parts, made by the first call.
  * Errors: as vox_scene_step; the points are named by their index. */
 VOX_EXPERIMENTAL vox_result vox_scene_locate(vox_scene* scene, const vox_positions* points,
                                              VOX_OPTIONAL vox_scene_point* out_points);

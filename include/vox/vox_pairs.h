@@ -97,7 +97,7 @@ typedef struct vox_feature_view {
     uint32_t struct_size;
     uint32_t vertices_each; /* 2 of an edge, 3 of a face */
     uint64_t count;         /* edges or faces */
-    const uint32_t* vertices;
+    const uint32_t* vertices; /* vertices_each * count numbers */
 } vox_feature_view;
 
 /* The edges or faces of a surface, numbered as everywhere in this header. Set out_view->struct_size first. The view lives
@@ -151,8 +151,8 @@ typedef struct vox_pair_lists {
     uint64_t first;
     uint64_t count;      /* features answered; where there is a byte budget they may be fewer than asked */
     uint64_t pair_count; /* offsets[count] */
-    const uint64_t* offsets;
-    const uint32_t* partners;
+    const uint64_t* offsets;  /* count + 1 numbers */
+    const uint32_t* partners; /* pair_count numbers */
 } vox_pair_lists;
 
 /* All features `b` whose boxes overlap those of the features [first, first + count) of kind `a`; boxes that touch
@@ -257,8 +257,8 @@ VOX_EXPERIMENTAL vox_result vox_surface_find_proximities(vox_surface* surface, v
  * those that patches rule out, do not count, and may touch.
  * vertex_count must be that of the surface. Errors: INVALID_ARGUMENT (another vertex_count; `most` is not above 0, or not
  * finite), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
-VOX_EXPERIMENTAL vox_result vox_surface_find_clearances(vox_surface* surface, double most,
-                                                  double* per_vertex, uint64_t vertex_count);
+VOX_EXPERIMENTAL vox_result vox_surface_find_clearances(vox_surface* surface, double most, double* per_vertex,
+                                                        uint64_t vertex_count);
 
 /* ---- time of contact -------------------------------------------------------------------------- */
 

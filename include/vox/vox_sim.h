@@ -159,8 +159,7 @@ VOX_API vox_result vox_sim_body_get_view(const vox_sim* sim, vox_body body, vox_
 
 /* Sets a body's positions and velocities, 3 * vertex_count numbers each; null leaves them as they are. The rest shape
  * stays. Errors: NON_FINITE (names the vertex), INVALID_ARGUMENT (beyond 1e15). */
-VOX_API vox_result vox_sim_body_set_state(vox_sim* sim, vox_body body,
-                                          VOX_OPTIONAL const double* positions,
+VOX_API vox_result vox_sim_body_set_state(vox_sim* sim, vox_body body, VOX_OPTIONAL const double* positions,
                                           VOX_OPTIONAL const double* velocities);
 
 /* Accelerates all particles of a body from now on, in addition to gravity; 0, 0, 0 at first.
@@ -308,23 +307,20 @@ typedef struct vox_experiment_sample {
  * Set out_sample->struct_size first. The contacts are compared with those found during the simulation.
  * Errors: INVALID_ARGUMENT (a cell size that is not above 0 and finite), those of vox_grid_step, INTERNAL (the contacts
  * differ). */
-VOX_API vox_result vox_experiment_measure(vox_experiment* experiment, double cell_size,
-                                          VOX_OPTIONAL uint64_t* frame_ns,
+VOX_API vox_result vox_experiment_measure(vox_experiment* experiment, double cell_size, VOX_OPTIONAL uint64_t* frame_ns,
                                           vox_experiment_sample* out_sample);
 
 /* The order in which a round measures `count` cell sizes: the numbers 0 to count - 1, shuffled. It differs for each
  * round and seed and is the same on every machine. Thus a temporary disturbance of the machine does not always hit the
  * same cell sizes. Errors: INVALID_ARGUMENT (count 0). */
-VOX_API vox_result vox_experiment_order(uint64_t count, uint64_t seed, uint64_t round,
-                                        uint64_t* out_order);
+VOX_API vox_result vox_experiment_order(uint64_t count, uint64_t seed, uint64_t round, uint64_t* out_order);
 
 /* The time of one cell size from its rounds: the mean over the frames of the median over the rounds. frame_ns holds
  * `frames` times for each round, round after round. A frame means the same work in every round, so a disturbance
  * affects only the frames in which it happens, not the whole round. Medians are used because on a busy machine the
  * minimum over the rounds depends on a few lucky ones (docs/paper.md has figures).
  * Errors: INVALID_ARGUMENT (no round, no frame), OUT_OF_MEMORY. */
-VOX_API vox_result vox_experiment_time(const uint64_t* frame_ns, uint64_t rounds,
-                                       uint64_t frames, double* out_ns);
+VOX_API vox_result vox_experiment_time(const uint64_t* frame_ns, uint64_t rounds, uint64_t frames, double* out_ns);
 
 #define VOX_FIT_CAPACITY 9u /* most coefficients of a fit */
 
@@ -348,8 +344,7 @@ typedef struct vox_time_fit {
 /* Fits times > 0 (in any unit) to cell sizes > 0, which may repeat. Set out_fit->struct_size first.
  * Errors: INVALID_ARGUMENT (a number that is not finite and above 0, named by its index; fewer than five different cell
  * sizes), OUT_OF_MEMORY. */
-VOX_API vox_result vox_fit_times(const double* cell_sizes, const double* times,
-                                 uint64_t count, vox_time_fit* out_fit);
+VOX_API vox_result vox_fit_times(const double* cell_sizes, const double* times, uint64_t count, vox_time_fit* out_fit);
 
 /* The fitted time at a cell size within the range. Errors: INVALID_ARGUMENT (a cell size outside the range, or a `fit`
  * that vox_fit_times did not fill). */

@@ -333,6 +333,9 @@ START_TEST(arguments) {
              "mesh");
     ck_fails(bind_previous_array(grid, m.id, m.before, (vox_format)7, 0, 0), VOX_ERROR_INVALID_ARGUMENT,
              "format");
+    const vox_positions too_few = vox_float_positions(m.before, m.now.vertex_count - 1);
+    ck_fails(vox_mesh_bind_previous_positions(grid, m.id, &too_few), VOX_ERROR_INVALID_ARGUMENT,
+             "positions.count is 7, expected 8");
     ck_fails(bind_previous_array(grid, m.id, m.before, VOX_FORMAT_FLOAT, 11, 0), VOX_ERROR_INVALID_ARGUMENT,
              "stride");
     vox_grid_destroy(grid);

@@ -1822,6 +1822,7 @@ namespace Voxtet
         public uint vertices_each;
         /// <summary>edges or faces</summary>
         public ulong count;
+        /// <summary>vertices_each * count numbers</summary>
         public uint* vertices;
     }
 
@@ -1855,7 +1856,9 @@ namespace Voxtet
         public ulong count;
         /// <summary>offsets[count]</summary>
         public ulong pair_count;
+        /// <summary>count + 1 numbers</summary>
         public ulong* offsets;
+        /// <summary>pair_count numbers</summary>
         public uint* partners;
     }
 

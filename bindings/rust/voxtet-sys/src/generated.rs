@@ -1767,6 +1767,7 @@ pub struct vox_feature_view {
     pub vertices_each: u32,
     /// edges or faces
     pub count: u64,
+    /// vertices_each * count numbers
     pub vertices: *const u32,
 }
 
@@ -1801,7 +1802,9 @@ pub struct vox_pair_lists {
     pub count: u64,
     /// offsets[count]
     pub pair_count: u64,
+    /// count + 1 numbers
     pub offsets: *const u64,
+    /// pair_count numbers
     pub partners: *const u32,
 }
 
