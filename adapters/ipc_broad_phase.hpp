@@ -156,15 +156,11 @@ private:
         if (!surface_) return;
         vox_motion motion = vox_default_motion();
         motion.flags = cull ? VOX_MOTION_CULL : 0;
-        motion.from.data = from.data();
+        motion.from = vox_double_positions(from.data(), vertex_count_);
+        if (vertex_count_ > 1) // of one position, columns are rows
+            motion.from.component_byte_stride = sizeof(double) * vertex_count_;
+        motion.to = motion.from;
         motion.to.data = to;
-        motion.from.count = motion.to.count = vertex_count_;
-        motion.from.format = motion.to.format = VOX_FORMAT_DOUBLE;
-        if (vertex_count_ > 1) { // of one position, columns are rows
-            motion.from.byte_stride = motion.to.byte_stride = sizeof(double);
-            motion.from.component_byte_stride = motion.to.component_byte_stride =
-                sizeof(double) * vertex_count_;
-        }
         motion.radius = radius;
         check(vox_surface_move(surface_.get(), &motion));
         moved_ = true;

@@ -83,11 +83,9 @@ Body load_body(const std::string& path, const Placement& placement, const Fill& 
 
 vox_mesh_desc mesh_desc(const Body& body) {
     vox_mesh_desc desc = vox_default_mesh_desc();
-    desc.positions = vox_float_positions(body.positions.data(), body.view.vertex_count);
-    if (!body.exact.empty()) {
-        desc.positions.data = body.exact.data();
-        desc.positions.format = VOX_FORMAT_DOUBLE;
-    }
+    const std::uint64_t count = body.view.vertex_count;
+    desc.positions = body.exact.empty() ? vox_float_positions(body.positions.data(), count)
+                                        : vox_double_positions(body.exact.data(), count);
     desc.tets = body.view.tets;
     desc.tet_count = body.view.tet_count;
     return desc;

@@ -159,10 +159,8 @@ void bind_previous(vox_grid* grid, vox_body mesh, const Body& body, const Body& 
     if (before.view.vertex_count != body.view.vertex_count)
         throw Failure(before.name + " has " + std::to_string(before.view.vertex_count) + " vertices, but " +
                       body.name + " has " + std::to_string(body.view.vertex_count));
-    const std::uint64_t count = before.view.vertex_count;
-    const vox_positions positions = before.exact.empty() ? vox_float_positions(before.positions.data(), count)
-                                                         : vox_double_positions(before.exact.data(), count);
-    check(vox_mesh_bind_previous_positions(grid, mesh, &positions));
+    const vox_mesh_desc desc = mesh_desc(before);
+    check(vox_mesh_bind_previous_positions(grid, mesh, &desc.positions));
 }
 
 void run_collide(const CollideOptions& options) {
