@@ -235,7 +235,7 @@ Scene file_self(const std::string& path, bool shuffled) {
 
 vox_mesh_desc Body::desc() const {
     vox_mesh_desc desc = vox_default_mesh_desc();
-    if (self_collision) desc.flags = VOX_MESH_SELF_COLLISION;
+    if (self_collision) desc.filter.flags = VOX_FILTER_SELF_COLLISION;
     desc.positions = vox_float_positions(positions.data(), vertex_count());
     desc.tets = tets.data();
     desc.tet_count = tet_count();

@@ -2,6 +2,7 @@
 // as a machine without AVX-512 runs it, the same without the depth stage, and the paper's algorithm without
 // it.
 #include "entrant.hpp"
+#include "scenes/engines.h"
 
 #include "base/simd.hpp"
 #include "program.hpp"
@@ -116,7 +117,7 @@ vox_grid_desc grid_desc(const std::string& vox_entrant) {
     if (vox_entrant == subject_name || vox_entrant == avx2_name) return desc; // as a user gets it
     desc.flags &= ~static_cast<std::uint32_t>(VOX_GRID_PENETRATIONS);
     if (vox_entrant == reference_name)
-        desc.engine = VOX_ENGINE_REFERENCE;
+        use_engine(&desc, ENGINE_REFERENCE);
     else if (vox_entrant != contacts_name)
         throw std::invalid_argument(vox_entrant + " is no entrant of vox");
     return desc;

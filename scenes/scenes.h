@@ -147,7 +147,7 @@ static inline int insert_scene(const scene* s, vox_grid* grid) {
     for (uint32_t i = 0; i < s->count; ++i) {
         vox_body mesh;
         vox_mesh_desc desc = body_desc(&s->bodies[i]);
-        if (s->self_collision) desc.flags |= VOX_MESH_SELF_COLLISION;
+        if (s->self_collision) desc.filter.flags |= VOX_FILTER_SELF_COLLISION;
         if (vox_mesh_insert(grid, &desc, &mesh) != VOX_OK) {
             fprintf(stderr, "%s: %s\n", s->name, vox_last_error());
             return 0;

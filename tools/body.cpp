@@ -37,8 +37,7 @@ void place(Body& body, const Placement& placement) {
 Mesh load_mesh(const std::string& path, vox_io_report* report) {
     Progress progress;
     progress.begin_reading(path);
-    vox_io_load_desc desc;
-    check(vox_io_load_desc_init(&desc, sizeof desc));
+    vox_io_load_desc desc = vox_default_io_load_desc();
     desc.progress = [](double fraction, void* user) -> std::int32_t {
         static_cast<Progress*>(user)->show_read(fraction);
         return 0;
@@ -68,8 +67,7 @@ Body load_body(const std::string& path, const Placement& placement, const Fill& 
     body.mesh = load_mesh(path);
     check(vox_io_mesh_get_arrays(body.mesh.get(), &body.view));
     if (fill.surfaces && body.view.tet_count == 0) {
-        vox_io_tetrahedralize_desc desc;
-        check(vox_io_tetrahedralize_desc_init(&desc, sizeof desc));
+        vox_io_tetrahedralize_desc desc = vox_default_io_tetrahedralize_desc();
         desc.cell = fill.cell;
         vox_io_mesh* filled = nullptr;
         const vox_result result = vox_io_tetrahedralize(body.mesh.get(), &desc, &filled);

@@ -75,8 +75,7 @@ void put(int pipe, const void* data, std::size_t size) {
     limit(RLIMIT_FSIZE, 0);                          // it has no file to write
     const int nowhere = open("/dev/null", O_WRONLY); // what a library says as it dies
     if (nowhere >= 0) dup2(nowhere, STDERR_FILENO);
-    vox_io_load_desc desc;
-    vox_io_load_desc_init(&desc, sizeof desc);
+    vox_io_load_desc desc = vox_default_io_load_desc();
     desc.format = VOX_IO_FORMAT_ASSIMP;
     vox_io_mesh* mesh = nullptr;
     Answer answer{};

@@ -114,7 +114,7 @@ Checked check_file(const std::string& file, const CheckOptions& options) {
         throw Failure(file + " has no triangles and no tetrahedra to check");
     vox_surface_desc desc = vox_default_surface_desc();
     desc.worker_count = options.threads;
-    desc.byte_budget = 0;
+    desc.byte_budget = UINT64_MAX;
     desc.vertex_count = checked.surface.positions.size() / 3;
     desc.face_count = checked.surface.triangles.size();
     desc.faces = checked.surface.triangles.front().data();
@@ -203,8 +203,7 @@ void write_surface(const Checked& checked, const std::string& path) {
     const Mesh mesh(made);
     const vox_io_point_data points{"crossings", of_vertex.data(), 1, 0};
     const vox_io_point_data cells{"crossings", of_triangle.data(), 1, 0};
-    vox_io_write_desc desc;
-    check(vox_io_write_desc_init(&desc, sizeof desc));
+    vox_io_write_desc desc = vox_default_io_write_desc();
     desc.point_data = &points;
     desc.point_data_count = 1;
     desc.cell_data = &cells;

@@ -23,7 +23,7 @@ struct CollideOptions {
     std::vector<double> offset = {0, 0, 0};
     double scale = 1;
     bool keep_doubles = false;
-    vox_grid_desc grid = vox_default_grid_desc();
+    GridOptions grid;
     std::uint32_t repeat = 1;
     std::uint64_t limit = 10;
     bool no_depth = false, edges = false;
@@ -181,13 +181,14 @@ void run_collide(const CollideOptions& options) {
     if (!options.moving.empty())
         before = load_body(options.moving, {.keep_doubles = options.keep_doubles}, {});
     std::vector<vox_body> ids;
-    vox_grid_desc desc = options.grid;
+    GridOptions settings = options.grid;
+    vox_grid_desc desc = settings.grid_desc();
     if (options.no_depth) desc.flags &= ~std::uint32_t{VOX_GRID_PENETRATIONS};
     if (options.edges) desc.flags |= VOX_GRID_EDGE_CONTACTS;
     std::vector<vox_mesh_desc> meshes;
     for (const Body& body : bodies) meshes.push_back(mesh_desc(body));
     if (options.self)
-        for (vox_mesh_desc& mesh : meshes) mesh.flags |= VOX_MESH_SELF_COLLISION;
+        for (vox_mesh_desc& mesh : meshes) mesh.filter.flags |= VOX_FILTER_SELF_COLLISION;
     const Grid grid = make_grid(desc, meshes, ids);
     if (!options.moving.empty()) bind_previous(grid.get(), ids[0], bodies[0], before);
     const vox_profile profile = measure_steps(grid.get(), bodies, ids, options.repeat);
@@ -224,7 +225,7 @@ void add_collide(CommandLine& line) {
         .needs(b);
     command.flag("--double", options->keep_doubles, "Keep positions in double instead of rounding to float");
     command
-        .option("--margin", options->grid.margin,
+        .option("--margin", options->grid.desc.margin,
                 "Also find vertices outside, but within this distance of a surface")
         .not_negative();
     command
@@ -232,7 +233,7 @@ void add_collide(CommandLine& line) {
                 "Mesh file with where the vertices of A were: also find what meets a surface on the way")
         .shown_as("PREVIOUS");
     command.choice("--engine", options->grid.engine, engines, "Algorithm");
-    command.option("--cell-size", options->grid.cell_size, "Edge of a cell; 0: the library chooses")
+    command.option("--cell-size", options->grid.desc.cell_size, "Edge of a cell; 0: the library chooses")
         .not_negative();
     add_cells(command, options->grid);
     add_threads(command, options->grid);

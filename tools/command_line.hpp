@@ -73,8 +73,8 @@ public:
     Option flag(const std::string& name, bool& value, const std::string& description);
 
     // The choices must live as long as the command.
-    template <class Value, std::size_t count>
-    Option choice(const std::string& name, Value& value, const Choice<Value> (&choices)[count],
+    template <class Target, class Value, std::size_t count>
+    Option choice(const std::string& name, Target& value, const Choice<Value> (&choices)[count],
                   const std::string& description) {
         std::vector<std::string> names;
         for (const Choice<Value>& choice : choices) names.push_back(choice.name);

@@ -275,8 +275,7 @@ void suggest_foreign(const ForeignOptions& options, const std::vector<Body>& bod
     if (bodies.empty() && !(options.first > 0)) throw WrongUsage("--tune without a MESH needs --first SIZE");
     Primitives held, asking;
     vox_foreign_grid grid = vox_default_foreign_grid();
-    check(vox_foreign_grid_set_known(&grid, options.known == ForeignOptions::not_named ? VOX_KNOWN_GRID_ANY
-                                                                                       : options.known));
+    check(vox_foreign_grid_set_known(&grid, options.known.value_or(VOX_KNOWN_GRID_ANY)));
     grid.radius = options.radius;
     grid.zone_loss = zone_loss;
     if (!bodies.empty()) {

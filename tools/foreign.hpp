@@ -8,15 +8,14 @@
 #include <vox/vox.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace tool {
 
 struct ForeignOptions {
-    static constexpr vox_known_grid not_named = VOX_KNOWN_GRID_FORCE_32_BITS;
-
-    vox_known_grid known = not_named;
+    std::optional<vox_known_grid> known;
     bool points = false, triangles = false;
     std::vector<std::string> asking; // files whose primitives ask; none: those held ask themselves
     double radius = 0, first = 0;
@@ -24,7 +23,7 @@ struct ForeignOptions {
     std::uint32_t most_runs = 7;
 
     bool any() const {
-        return known != not_named || points || triangles || !asking.empty() || radius > 0 || !tune.empty();
+        return known.has_value() || points || triangles || !asking.empty() || radius > 0 || !tune.empty();
     }
 };
 

@@ -6,25 +6,53 @@
 
 #include <vox/vox.h>
 
+#include <cstdint>
+
 namespace tool {
 
-inline constexpr Choice<vox_engine> engines[] = {
-    {"auto", VOX_ENGINE_AUTO},
-    {"fast", VOX_ENGINE_FAST},
-    {"reference", VOX_ENGINE_REFERENCE},
-};
-inline constexpr Choice<vox_storage> storages[] = {
-    {"auto", VOX_STORAGE_AUTO}, {"hashed", VOX_STORAGE_HASHED}, {"dense", VOX_STORAGE_DENSE}};
-inline constexpr Choice<vox_hash> hashes[] = {{"mixed", VOX_HASH_MIXED}, {"paper", VOX_HASH_PAPER}};
+enum class Engine { automatic, fast, reference };
+enum class Cells { automatic, hashed, dense };
+enum class CellHash { mixed, paper };
 
-inline void add_threads(Command& command, vox_grid_desc& grid) {
-    command.option("--threads", grid.worker_count, "Threads of a step; 0: one per core")
-        .range(0, VOX_MAX_WORKERS);
+inline constexpr Choice<Engine> engines[] = {
+    {"auto", Engine::automatic}, {"fast", Engine::fast}, {"reference", Engine::reference}};
+inline constexpr Choice<Cells> storages[] = {
+    {"auto", Cells::automatic}, {"hashed", Cells::hashed}, {"dense", Cells::dense}};
+inline constexpr Choice<CellHash> hashes[] = {{"mixed", CellHash::mixed}, {"paper", CellHash::paper}};
+
+// Settings of a grid, as options name them.
+struct GridOptions {
+    vox_grid_desc desc = vox_default_grid_desc();
+    std::uint32_t threads = 1;
+    Engine engine = Engine::automatic;
+    Cells cells = Cells::automatic;
+    CellHash hash = CellHash::mixed;
+
+    // Who names how cells are stored means the engine that does.
+    bool is_reference() const {
+        return engine == Engine::reference || (engine == Engine::automatic && cells != Cells::automatic);
+    }
+    // Points into this object.
+    vox_grid_desc grid_desc() {
+        vox_grid_desc made = desc;
+        made.worker_count = threads == 0 ? VOX_ALL_CORES : threads;
+        if (cells == Cells::dense) reference.flags |= VOX_REFERENCE_DENSE;
+        if (hash == CellHash::paper) reference.flags |= VOX_REFERENCE_PAPER_HASH;
+        if (is_reference()) made.reference = &reference;
+        return made;
+    }
+
+private:
+    vox_reference_desc reference = vox_default_reference_desc();
+};
+
+inline void add_threads(Command& command, GridOptions& grid) {
+    command.option("--threads", grid.threads, "Threads of a step; 0: one per core").range(0, VOX_MAX_WORKERS);
 }
 
 // How the reference engine stores cells.
-inline void add_cells(Command& command, vox_grid_desc& grid) {
-    command.choice("--storage", grid.storage, storages, "How cells are stored");
+inline void add_cells(Command& command, GridOptions& grid) {
+    command.choice("--storage", grid.cells, storages, "How cells are stored");
     command.choice("--hash", grid.hash, hashes, "Hash of a cell, for hashed storage");
 }
 

@@ -21,7 +21,7 @@ namespace {
 
 struct ReplayOptions {
     std::vector<std::string> files;
-    vox_grid_desc grid = vox_default_grid_desc();
+    GridOptions grid;
     std::uint32_t steps = 1;
     std::string out;
     bool json = false;
@@ -66,6 +66,7 @@ void check_replay_usage(const ReplayOptions& options) {
 
 void run_replay(const ReplayOptions& options) {
     check_replay_usage(options);
+    GridOptions settings = options.grid;
     Progress progress;
     std::vector<Json> grids;
     std::vector<std::string> series;
@@ -75,7 +76,7 @@ void run_replay(const ReplayOptions& options) {
         if (options.files.size() > 1)
             progress.show("snapshot " + std::to_string(i + 1) + " of " +
                           std::to_string(options.files.size()));
-        const Snapshot snapshot = load_snapshot(file, options.grid);
+        const Snapshot snapshot = load_snapshot(file, settings.grid_desc());
         vox_grid* const grid = snapshot.grid.get();
         const std::uint64_t epoch = epoch_of(grid);
         for (std::uint32_t step = 0; step < options.steps; ++step) check(vox_grid_step(grid));
@@ -109,11 +110,14 @@ void run_replay(const ReplayOptions& options) {
 } // namespace
 
 void add_replay(CommandLine& line) {
+    static constexpr Choice<Engine> engines_of_replay[] = {{"auto", Engine::automatic},
+                                                           {"reference", Engine::reference}};
     const auto options = std::make_shared<ReplayOptions>();
     Command command = line.add("replay", "Run steps of the grids in snapshots");
     command.option("FILE", options->files, "Snapshots written by collide --save or vox_grid_save").required();
     command.option("--steps", options->steps, "Number of steps to run").range(1, 1000000);
-    command.choice("--engine", options->grid.engine, engines, "Algorithm; auto: that of the snapshot");
+    command.choice("--engine", options->grid.engine, engines_of_replay,
+                   "Algorithm; auto: that of the snapshot");
     add_threads(command, options->grid);
     command
         .option("-o,--output", options->out,

@@ -117,8 +117,6 @@ const char* model_name(vox_cost_model model) {
         return "fast";
     case VOX_COST_MODEL_SURFACE:
         return "surface";
-    case VOX_COST_MODEL_FORCE_32_BITS:
-        break;
     }
     return "unknown";
 }
@@ -136,7 +134,6 @@ const char* state_name(vox_penetration_state state) {
     case VOX_PENETRATION_COINCIDENT:
         return "coincident";
     case VOX_PENETRATION_UNKNOWN:
-    case VOX_PENETRATION_STATE_FORCE_32_BITS:
         break;
     }
     return "unknown";

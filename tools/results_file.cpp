@@ -143,8 +143,7 @@ void write_results(const std::string& path, std::span<const DrawnMesh> meshes, c
     vox_io_mesh* made = nullptr;
     check(vox_io_mesh_create(&arrays, &made));
     const Mesh mesh(made);
-    vox_io_write_desc desc;
-    check(vox_io_write_desc_init(&desc, sizeof desc));
+    vox_io_write_desc desc = vox_default_io_write_desc();
     desc.point_data = of_points.data();
     desc.point_data_count = of_points.size();
     desc.cell_data = of_cells.data();

@@ -126,7 +126,7 @@ void run_suggest(const SuggestOptions& options) {
         return suggest_foreign(options.foreign, bodies, options.desc.zone_loss, options.svg, options.json);
     for (const Body& body : bodies) meshes.push_back(mesh_desc(body));
     if (options.self)
-        for (vox_mesh_desc& mesh : meshes) mesh.flags |= VOX_MESH_SELF_COLLISION;
+        for (vox_mesh_desc& mesh : meshes) mesh.filter.flags |= VOX_FILTER_SELF_COLLISION;
     if (options.calibrate) check(vox_cost_calibrate(nullptr));
     vox_suggestion found{};
     found.struct_size = sizeof found;

@@ -32,7 +32,7 @@ struct SweepOptions {
     vox_experiment_desc experiment = vox_default_experiment_desc();
     std::vector<double> axis = {1, 0, 0};
     bool as_placed = false;
-    vox_grid_desc grid = vox_default_grid_desc();
+    GridOptions grid;
     double world = 0;
     std::vector<double> cell_sizes, cells_per_axis;
     std::uint32_t count = 24;
@@ -43,8 +43,7 @@ struct SweepOptions {
     bool json = false;
 };
 
-constexpr Choice<vox_engine> engine_choices[] = {{"reference", VOX_ENGINE_REFERENCE},
-                                                 {"fast", VOX_ENGINE_FAST}};
+constexpr Choice<Engine> engine_choices[] = {{"reference", Engine::reference}, {"fast", Engine::fast}};
 
 struct ExperimentDeleter {
     void operator()(vox_experiment* experiment) const noexcept { vox_experiment_destroy(experiment); }
@@ -72,7 +71,9 @@ Experiment make_experiment(const SweepOptions& options, const Body& a, const Bod
     vox_experiment_desc desc = options.experiment;
     desc.a = &bodies[0];
     desc.b = &bodies[1];
-    desc.grid = &options.grid;
+    GridOptions settings = options.grid;
+    const vox_grid_desc grid = settings.grid_desc();
+    desc.grid = &grid;
     std::copy(options.axis.begin(), options.axis.end(), desc.axis);
     desc.turn = options.as_placed ? 0 : 1;
     vox_experiment* created = nullptr;
@@ -82,7 +83,7 @@ Experiment make_experiment(const SweepOptions& options, const Body& a, const Bod
 
 // Of one thread the time in which it has a processor is taken; of several the time that passes, as they share
 // work.
-const char* clock_name(const vox_grid_desc& grid) { return grid.worker_count == 1 ? "processor" : "wall"; }
+const char* clock_name(const GridOptions& grid) { return grid.threads == 1 ? "processor" : "wall"; }
 
 // ---- cell sizes and samples -------------------------------------------------------------------------
 
@@ -312,7 +313,7 @@ void print_sweep_json(const Sweep& sweep) {
     const vox_experiment_facts& facts = sweep.facts;
     const Evaluation& found = sweep.found;
     Json json = {{"meshes", body_list(sweep.bodies)}};
-    json.add("engine", sweep.options.grid.engine == VOX_ENGINE_FAST ? "fast" : "reference");
+    json.add("engine", sweep.options.grid.engine == Engine::fast ? "fast" : "reference");
     json.add("tets", facts.tets);
     json.add("distance", facts.distance);
     json.add("frames", facts.frames);
@@ -398,10 +399,10 @@ void print_sweep(const Sweep& sweep) {
 
 // ---- the command ------------------------------------------------------------------------------------
 
-std::string engine_name(const vox_grid_desc& grid) {
-    return std::string(grid.engine == VOX_ENGINE_FAST ? "fast" : "reference") + "/" + clock_name(grid) + "/" +
-           std::to_string(static_cast<int>(grid.storage)) + "/" +
-           std::to_string(static_cast<int>(grid.hash)) + "/" + std::to_string(grid.worker_count);
+std::string engine_name(const GridOptions& grid) {
+    return std::string(grid.engine == Engine::fast ? "fast" : "reference") + "/" + clock_name(grid) + "/" +
+           std::to_string(static_cast<int>(grid.cells)) + "/" + std::to_string(static_cast<int>(grid.hash)) +
+           "/" + std::to_string(grid.threads);
 }
 
 void check_sweep_usage(const SweepOptions& options) {
@@ -455,7 +456,7 @@ void run_sweep(const SweepOptions& options) {
 
 void add_sweep(CommandLine& line) {
     const auto options = std::make_shared<SweepOptions>();
-    options->grid.engine = VOX_ENGINE_REFERENCE;
+    options->grid.engine = Engine::reference;
     Command command =
         line.add("sweep", "Measure the time of detection against cell size (the paper's experiment)");
     command.option("A", options->a, "Mesh file");

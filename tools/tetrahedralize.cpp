@@ -37,8 +37,7 @@ Mesh fill(const vox_io_mesh* surface, vox_io_tetrahedralize_desc desc) {
 }
 
 void write(const vox_io_mesh* mesh, const TetrahedralizeOptions& options) {
-    vox_io_write_desc desc;
-    check(vox_io_write_desc_init(&desc, sizeof desc));
+    vox_io_write_desc desc = vox_default_io_write_desc();
     desc.binary = options.binary ? 1 : 0;
     check(vox_io_write(mesh, options.out.c_str(), &desc));
 }
@@ -80,7 +79,7 @@ void run_tetrahedralize(const TetrahedralizeOptions& options) {
 
 void add_tetrahedralize(CommandLine& line) {
     const auto options = std::make_shared<TetrahedralizeOptions>();
-    check(vox_io_tetrahedralize_desc_init(&options->desc, sizeof options->desc));
+    options->desc = vox_default_io_tetrahedralize_desc();
     vox_io_tetrahedralize_desc& desc = options->desc;
     Command command = line.add("tetrahedralize", "Fill a closed surface with tetrahedra");
     command.option("SURFACE", options->surface, "Surface file").required();

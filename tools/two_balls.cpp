@@ -34,11 +34,11 @@ double time_of(std::size_t frame, std::size_t frames) {
     return frames > 1 ? static_cast<double>(frame) / static_cast<double>(frames - 1) : 0;
 }
 
-Contender make_contender(std::span<const vox_mesh_desc> balls, vox_engine engine, const char* rule,
-                         double cell_size) {
-    Contender contender{engine == VOX_ENGINE_FAST ? "fast" : "reference", rule, cell_size, {}, {}, {}};
+Contender make_contender(std::span<const vox_mesh_desc> balls, const vox_reference_desc* reference,
+                         const char* rule, double cell_size) {
+    Contender contender{reference ? "reference" : "fast", rule, cell_size, {}, {}, {}};
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = engine;
+    desc.reference = reference;
     desc.cell_size = cell_size;
     contender.grid = make_grid(desc, balls, contender.ids);
     check(vox_grid_step(contender.grid.get())); // warm up
@@ -124,7 +124,8 @@ TwoBalls::TwoBalls(std::span<const double> rest, std::span<const std::uint32_t> 
     move(0);
     suggestion_.struct_size = sizeof suggestion_;
     check(vox_suggest_cell_size(nullptr, balls.data(), balls.size(), &suggestion_));
-    for (const vox_engine engine : {VOX_ENGINE_FAST, VOX_ENGINE_REFERENCE}) {
+    const vox_reference_desc reference = vox_default_reference_desc();
+    for (const vox_reference_desc* engine : {static_cast<const vox_reference_desc*>(nullptr), &reference}) {
         contenders_.push_back(make_contender(balls, engine, "suggested", suggestion_.cell_size));
         contenders_.push_back(make_contender(balls, engine, "mean_edge", suggestion_.rules.mean_edge));
     }

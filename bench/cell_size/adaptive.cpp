@@ -6,6 +6,7 @@
 // them.
 #include "bodies.hpp"
 #include "program.hpp"
+#include "scenes/engines.h"
 #include "timing.h"
 
 #include <vox/vox.h>
@@ -67,11 +68,11 @@ std::vector<std::uint32_t> half_of(const Solid& solid) {
 
 class Grid {
 public:
-    explicit Grid(vox_engine engine) {
+    explicit Grid(engine_kind engine) {
         vox_grid_desc desc = vox_default_grid_desc();
-        desc.engine = engine;
+        use_engine(&desc, engine);
         desc.flags = 0; // contacts alone
-        desc.byte_budget = 0;
+        desc.byte_budget = UINT64_MAX;
         must(vox_grid_create(&desc, &grid_));
     }
     ~Grid() { vox_grid_destroy(grid_); }
@@ -149,7 +150,7 @@ double fixed_size(std::size_t i, std::size_t sizes) {
     return 0.25 * std::pow(16, static_cast<double>(i) / static_cast<double>(sizes - 1));
 }
 
-void run_engine(vox_engine engine, double tets, int sizes, std::FILE* out) {
+void run_engine(engine_kind engine, double tets, int sizes, std::FILE* out) {
     const double radius = ball_radius(tets / 2);
     std::vector<std::unique_ptr<Grid>> grids;
     const std::size_t fixed = static_cast<std::size_t>(sizes), all = choosing + fixed;
@@ -212,7 +213,7 @@ void run_engine(vox_engine engine, double tets, int sizes, std::FILE* out) {
                     throw std::runtime_error("contacts depend on the cell size");
             const vox_counters counters = grids[0]->counters();
             std::fprintf(out, "%s,%d,%s,%zu,%llu,%llu,%.5g,%.5g,%.4g,%.4g",
-                         engine == VOX_ENGINE_FAST ? "fast" : "reference", step, phase.name, all_tets,
+                         engine == ENGINE_FAST ? "fast" : "reference", step, phase.name, all_tets,
                          static_cast<unsigned long long>(counters.contacts),
                          static_cast<unsigned long long>(counters.cell_size_changes),
                          grids[0]->cell_size() / inflation, inflation, other[choosing / 2] * 1e3,
@@ -244,7 +245,7 @@ int run(int argc, char** argv) {
         std::fprintf(out, ",%.4g", fixed_size(static_cast<std::size_t>(i), static_cast<std::size_t>(sizes)));
     std::fprintf(out, "\n");
     for (const std::string& engine : engines)
-        run_engine(engine == "fast" ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE, tets, sizes, out);
+        run_engine(engine == "fast" ? ENGINE_FAST : ENGINE_REFERENCE, tets, sizes, out);
     if (std::fclose(out) != 0) throw std::runtime_error("cannot write " + csv);
     return 0;
 }

@@ -14,6 +14,7 @@
 #include "cell_size/unlike.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
+#include "scenes/engines.h"
 #include "timing.h"
 
 #include <vox/vox.h>
@@ -59,11 +60,11 @@ std::vector<SceneMaker> all_scenes(const std::string& meshes) {
 
 class Grid {
 public:
-    Grid(vox_engine engine, Scene& scene, std::uint32_t flags) : scene_(scene) {
+    Grid(engine_kind engine, Scene& scene, std::uint32_t flags) : scene_(scene) {
         vox_grid_desc desc = vox_default_grid_desc();
-        desc.engine = engine;
+        use_engine(&desc, engine);
         desc.flags = flags;
-        desc.byte_budget = 0;
+        desc.byte_budget = UINT64_MAX;
         must(vox_grid_create(&desc, &grid_));
         for (const vox_mesh_desc& mesh : descs(scene)) {
             vox_body id = 0;
@@ -284,10 +285,10 @@ double predicted(const vox_suggestion& suggestion, double size) {
     return 0;
 }
 
-Row measure(Scene& scene, vox_engine engine, const Settings& settings, std::vector<Sample>& curve) {
+Row measure(Scene& scene, engine_kind engine, const Settings& settings, std::vector<Sample>& curve) {
     Row row;
     row.scene = scene.name;
-    row.engine = engine == VOX_ENGINE_FAST ? "fast" : "reference";
+    row.engine = engine == ENGINE_FAST ? "fast" : "reference";
     row.tets = scene.tet_count();
     scene.pose(0);
 
@@ -296,7 +297,7 @@ Row measure(Scene& scene, vox_engine engine, const Settings& settings, std::vect
     paper.struct_size = model.struct_size = sizeof(vox_suggestion);
     must(vox_suggest_cell_size(nullptr, meshes.data(), meshes.size(), &paper));
     vox_suggest_desc desc = vox_default_suggest_desc();
-    desc.model = engine == VOX_ENGINE_FAST ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
+    desc.model = engine == ENGINE_FAST ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
     must(vox_suggest_cell_size(&desc, meshes.data(), meshes.size(), &model));
     row.uniform_loss = model.uniform_loss;
 
@@ -362,11 +363,11 @@ double seconds_of_call(const vox_suggest_desc& desc, const std::vector<vox_mesh_
 // What suggestions cost: of vox_suggest_cell_size, for the paper's model and the engine's; in a grid with the
 // depth stage, and without, the first one and later ones, in steps. And how far the grid's is from the
 // former: the cost at its size over the least one, both by what vox_suggest_cell_size has looked at.
-std::string suggestions(Scene& scene, vox_engine engine) {
+std::string suggestions(Scene& scene, engine_kind engine) {
     scene.pose(0);
     const std::vector<vox_mesh_desc> meshes = Grid::descs(scene);
     vox_suggest_desc desc = vox_default_suggest_desc();
-    desc.model = engine == VOX_ENGINE_FAST ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
+    desc.model = engine == ENGINE_FAST ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
     vox_suggestion model{};
     const vox_suggest_desc paper = vox_default_suggest_desc();
     const double paper_seconds = seconds_of_call(paper, meshes, model);
@@ -485,7 +486,7 @@ int run(int argc, char** argv) {
                     std::vector<Sample> curve;
                     Row row{};
                     std::string text = key(engine, scene.name, asked);
-                    const vox_engine kind = engine == "fast" ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
+                    const engine_kind kind = engine == "fast" ? ENGINE_FAST : ENGINE_REFERENCE;
                     if (only_suggest) {
                         text += suggestions(scene, kind);
                     } else {

@@ -13,7 +13,7 @@ import numpy as np
 import losses
 import scenes
 
-CENTRES, BOXES = 0, 1  # vox_cell_content
+BOXES, CENTRES = 0, 1  # vox_cell_content
 BOX, AROUND, PAIRS = 0, 1, 2  # vox_cell_look
 POINT, EDGE, TRIANGLE, TET, BOX_TYPE = range(5)  # vox_primitive_type
 _, SORTED, HASHED, WARP, IPC, IPC_PAIRS, VTK, PBAT, POINT_VOXELS, NUMPY = range(len(losses.KNOWN))

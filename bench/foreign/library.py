@@ -33,15 +33,11 @@ class Weights(Structure):
     _fields_ = [(name, c_double) for name in WEIGHTS]
 
 
-class Allocator(Structure):
-    _fields_ = [("allocate", c_void_p), ("release", c_void_p), ("user", c_void_p)]
-
-
 class Grid(Structure):
     _fields_ = [("struct_size", c_uint32), ("flags", c_uint32), ("content", c_int), ("look", c_int),
                 ("held", POINTER(Primitives)), ("asking", POINTER(Primitives)), ("radius", c_double),
                 ("least_cell_size", c_double), ("zone_loss", c_double), ("known", c_int), ("reserved", c_uint32),
-                ("weights", Weights), ("allocator", Allocator)]
+                ("weights", Weights), ("allocator", c_void_p)]
 
 
 class Rules(Structure):
@@ -105,8 +101,7 @@ class Described:
         """held, asking: {type, count, vertex_count, positions, indices, radii}, asking None for the same set; content and
         look None: the library's defaults."""
         self.vox, self.kept = vox, (held, asking)
-        self.grid = Grid()
-        vox.call("vox_foreign_grid_init", self.grid, sizeof(Grid))
+        self.grid = Grid(struct_size=sizeof(Grid))
         self.held = self.primitives(held)
         self.grid.held = ctypes.pointer(self.held)
         if asking is not None:
@@ -116,8 +111,7 @@ class Described:
             self.grid.content, self.grid.look, self.grid.flags = content, look, DENSE if dense else 0
 
     def primitives(self, values):
-        p = Primitives()
-        self.vox.call("vox_primitives_init", p, sizeof(Primitives))
+        p = Primitives(struct_size=sizeof(Primitives))
         p.type, p.count = values["type"], values["count"]
         p.positions = Positions(data=address(values["positions"]), count=values["vertex_count"], format=DOUBLE)
         if values.get("indices") is not None:
@@ -149,8 +143,7 @@ class Described:
 
     def tune(self, run):
         """run(size) returns seconds."""
-        described, found = TuneDesc(), Tuning(struct_size=sizeof(Tuning))
-        self.vox.call("vox_tune_desc_init", described, sizeof(TuneDesc))
+        described, found = TuneDesc(struct_size=sizeof(TuneDesc)), Tuning(struct_size=sizeof(Tuning))
         callback = Run(lambda size, _: run(size))
         self.vox.call("vox_cost_tune", self.grid, described, callback, c_void_p(), found)
         return found

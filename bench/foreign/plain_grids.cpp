@@ -17,7 +17,7 @@
 
 namespace {
 
-enum Content { CENTRES = 0, BOXES = 1 };      // as vox_cell_content
+enum Content { BOXES = 0, CENTRES = 1 };      // as vox_cell_content
 enum Look { BOX = 0, AROUND = 1, PAIRS = 2 }; // as vox_cell_look
 
 using Point = std::array<double, 3>;

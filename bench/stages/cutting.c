@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
             vox_mesh_desc desc = body_desc(&box);
             double micros[kinds], steps[2];
             const uint32_t none = 0;
-            desc.flags = VOX_MESH_SELF_COLLISION;
+            desc.filter.flags = VOX_FILTER_SELF_COLLISION;
             check(vox_grid_create(NULL, &grid));
             const double start = now();
             check(vox_mesh_insert(grid, &desc, &mesh));

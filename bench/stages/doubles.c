@@ -22,7 +22,7 @@ static void make_variant(variant* v, int kind, const scene* s, int frames) {
     for (uint32_t i = 0; i < s->count; ++i) {
         vox_mesh_desc desc = body_desc(&s->bodies[i]);
         v->positions[i] = malloc(3 * sizeof(double) * s->bodies[i].vertex_count);
-        desc.flags = s->self_collision ? VOX_MESH_SELF_COLLISION : 0;
+        desc.filter.flags = s->self_collision ? VOX_FILTER_SELF_COLLISION : 0;
         memcpy(v->positions[i], s->bodies[i].positions, 3 * sizeof(float) * s->bodies[i].vertex_count);
         check(vox_mesh_insert(v->grid, &desc, &v->ids[i]));
         const uint64_t vertices = s->bodies[i].vertex_count;

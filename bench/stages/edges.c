@@ -64,7 +64,7 @@ static void measure(scene* s, const char* name, int frames) {
         for (uint32_t i = 0; i < s->count; ++i) {
             vox_mesh_desc mesh = body_desc(&s->bodies[i]);
             vox_body id;
-            mesh.flags = s->self_collision ? VOX_MESH_SELF_COLLISION : 0;
+            mesh.filter.flags = s->self_collision ? VOX_FILTER_SELF_COLLISION : 0;
             check(vox_mesh_insert(variants[k].grid, &mesh, &id));
         }
     }

@@ -70,8 +70,8 @@ struct Parts {
             vox_mesh_desc desc = body.desc();
             desc.flags |= VOX_MESH_BORROW_TETS; // a copy is counted apart
             const vox::Body view = vox::check_mesh(desc, "", vox::NullPositions::rejected);
-            vox_filter filter = vox_default_filter();
-            filter.self_collision = view.self_collision;
+            vox_filter filter{};
+            filter.flags = view.self_collision ? VOX_FILTER_SELF_COLLISION : 0u;
             meshes.emplace_back(desc, view, filter, &of_meshes);
             states.emplace_back(&of_states);
             topologies.emplace_back(&of_topology);
@@ -113,7 +113,7 @@ struct Parts {
 
 double real_bytes(bench::Scene& scene, const Options& options) {
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.byte_budget = 0;
+    desc.byte_budget = UINT64_MAX;
     if (!options.depth) desc.flags &= ~static_cast<std::uint32_t>(VOX_GRID_PENETRATIONS);
     vox_grid* grid = nullptr;
     bench::must(vox_grid_create(&desc, &grid));

@@ -10,6 +10,7 @@
 // held, a body.
 #include "internal/random.hpp"
 #include "program.hpp"
+#include "scenes/engines.h"
 #include "timing.h"
 
 #include <vox/vox.h>
@@ -156,9 +157,9 @@ struct Result {
     double ratio() const { return fast / reference; }
 };
 
-double step_time(const Scene& scene, vox_engine engine, Result& result, std::uint64_t& hash) {
+double step_time(const Scene& scene, engine_kind engine, Result& result, std::uint64_t& hash) {
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = engine;
+    use_engine(&desc, engine);
     desc.flags = 0;
     desc.worker_count = 1;
     vox_grid* grid = nullptr;
@@ -178,7 +179,7 @@ double step_time(const Scene& scene, vox_engine engine, Result& result, std::uin
         mesh.positions.count = 4;
         mesh.tets = tet;
         mesh.tet_count = 1;
-        mesh.filter = &scene.filters[i];
+        mesh.filter = scene.filters[i];
         vox_body id;
         must(vox_mesh_insert(grid, &mesh, &id));
     }
@@ -194,7 +195,7 @@ double step_time(const Scene& scene, vox_engine engine, Result& result, std::uin
     vox_counters counters{};
     counters.struct_size = sizeof counters;
     must(vox_grid_get_counters(grid, &counters));
-    if (engine == VOX_ENGINE_FAST) result.bytes = double(counters.peak_bytes);
+    if (engine == ENGINE_FAST) result.bytes = double(counters.peak_bytes);
     result.contacts = counters.contacts;
     must(vox_grid_get_hash(grid, &hash));
     vox_grid_destroy(grid);
@@ -211,13 +212,13 @@ Result measure(const Kind& kind, const Filter& filter, std::size_t most, std::ui
     Scene scene;
     for (std::size_t i = 0; i < result.bodies; ++i) {
         scene.boxes.push_back(kind.box(i, result.bodies, result.p, result.q, random));
-        scene.filters.push_back(vox_default_filter());
+        scene.filters.push_back(vox_filter{});
         filter.set(i, third, random, scene.filters.back());
     }
     scene.half_at_rest = filter.half_at_rest;
     std::uint64_t hash = 0, reference_hash = 0;
-    result.fast = step_time(scene, VOX_ENGINE_FAST, result, hash);
-    result.reference = step_time(scene, VOX_ENGINE_REFERENCE, result, reference_hash);
+    result.fast = step_time(scene, ENGINE_FAST, result, hash);
+    result.reference = step_time(scene, ENGINE_REFERENCE, result, reference_hash);
     if (hash != reference_hash) throw std::runtime_error("the engines find different contacts");
     return result;
 }

@@ -123,7 +123,7 @@ std::vector<Vec3d> make_points(const Scene& scene, const std::string& kind, std:
 
 vox_grid* grid_of(const Scene& scene) {
     vox_grid_desc settings = vox_default_grid_desc();
-    settings.byte_budget = 0;
+    settings.byte_budget = UINT64_MAX;
     settings.flags = 0;
     vox_grid* grid = nullptr;
     must(vox_grid_create(&settings, &grid));

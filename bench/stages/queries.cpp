@@ -119,7 +119,7 @@ class Scene {
 public:
     Scene(Kind kind, const std::vector<vox::test::Mesh>& bodies) : kind_(kind), bodies_(bodies) {
         vox_grid_desc settings = vox_default_grid_desc();
-        settings.byte_budget = 0;
+        settings.byte_budget = UINT64_MAX;
         settings.flags = 0;
         must(vox_grid_create(&settings, &grid_));
         for (const vox::test::Mesh& body : bodies_) {

@@ -49,7 +49,7 @@ public:
             desc.positions.count = body.positions.size();
             desc.tets = body.tets.front().v;
             desc.tet_count = body.tets.size();
-            if (body.self_collision) desc.flags = VOX_MESH_SELF_COLLISION;
+            if (body.self_collision) desc.filter.flags = VOX_FILTER_SELF_COLLISION;
             vox_body id = VOX_NULL_BODY;
             must(vox_mesh_insert(grid_, &desc, &id));
             ids_.push_back(id);
@@ -137,8 +137,8 @@ private:
                         "a pair's readings are among all");
         }
         for (std::size_t b = 0; b < ids_.size(); ++b) { // so that a query can ask one mesh
-            vox_filter filter = vox_default_filter();
-            must(vox_mesh_filter(grid_, ids_[b], &filter));
+            vox_filter filter{};
+            must(filter_of(grid_, ids_[b], filter));
             filter.category = std::uint64_t{1} << b % 64;
             must(vox_body_set_filter(grid_, ids_[b], &filter));
         }

@@ -260,7 +260,7 @@ public:
             mesh_desc.positions.count = mesh.positions.size();
             mesh_desc.tets = mesh.tets.empty() ? nullptr : mesh.tets.front().v;
             mesh_desc.tet_count = mesh.tets.size();
-            if (mesh.self_collision) mesh_desc.flags |= VOX_MESH_SELF_COLLISION;
+            if (mesh.self_collision) mesh_desc.filter.flags |= VOX_FILTER_SELF_COLLISION;
             vox_body id = VOX_NULL_BODY;
             must(vox_mesh_insert(grid_, &mesh_desc, &id));
             mesh_desc.positions.data = previous ? (*previous)[b].positions.data() : nullptr;

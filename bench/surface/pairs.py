@@ -27,13 +27,17 @@ class Desc(ctypes.Structure):
         (name, ctypes.c_uint64) for name in ("vertex_count", "edge_count", "face_count")] + [
         (name, ctypes.c_void_p) for name in ("edges", "faces", "patches", "categories", "masks")] + [
         ("patch_count", ctypes.c_uint64), ("cell_size", ctypes.c_double), ("byte_budget", ctypes.c_uint64),
-        ("allocator", ctypes.c_void_p * 3), ("tasks", ctypes.c_void_p * 3)]
+        ("allocator", ctypes.c_void_p), ("tasks", ctypes.c_void_p)]
+
+
+class Positions(ctypes.Structure):
+    _fields_ = [("data", ctypes.c_void_p), ("count", ctypes.c_uint64), ("format", ctypes.c_int32), ("reserved", ctypes.c_uint32),
+                ("byte_stride", ctypes.c_uint64), ("component_byte_stride", ctypes.c_uint64)]
 
 
 class Motion(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_uint32), ("flags", ctypes.c_uint32), ("start", ctypes.c_void_p),
-                ("end", ctypes.c_void_p), ("vertex_count", ctypes.c_uint64), ("format", ctypes.c_int32), ("reserved", ctypes.c_uint32),
-                ("byte_stride", ctypes.c_uint64), ("component_byte_stride", ctypes.c_uint64), ("radius", ctypes.c_double)]
+    _fields_ = [("struct_size", ctypes.c_uint32), ("flags", ctypes.c_uint32), ("start", Positions), ("end", Positions),
+                ("radius", ctypes.c_double)]
 
 
 class Lists(ctypes.Structure):
@@ -51,8 +55,7 @@ class Counters(ctypes.Structure):
 class Surface:
     def __init__(self, vox, vertices, edges, faces):
         self.vox, self.handle = vox, ctypes.c_void_p()
-        desc = Desc()
-        assert vox.vox_surface_desc_init(ctypes.byref(desc), ctypes.sizeof(desc)) == 0
+        desc = Desc(struct_size=ctypes.sizeof(Desc))
         desc.vertex_count, desc.edge_count, desc.face_count = len(vertices), len(edges), len(faces)
         desc.edges, desc.faces = edges.ctypes.data, faces.ctypes.data
         self.ok(vox.vox_surface_create(ctypes.byref(desc), ctypes.byref(self.handle)))
@@ -63,8 +66,8 @@ class Surface:
 
     def move(self, start, end, radius, cull):
         """Columns, as Eigen has them."""
-        motion = Motion(ctypes.sizeof(Motion), int(cull), start.ctypes.data, end.ctypes.data, len(start), 1, 0, 8,
-                        8 * len(start), radius)
+        at = [Positions(a.ctypes.data, len(a), 1, 0, 8, 8 * len(a)) for a in (start, end)]
+        motion = Motion(ctypes.sizeof(Motion), int(cull), *at, radius)
         self.ok(self.vox.vox_surface_move(self.handle, ctypes.byref(motion)))
 
     def pairs(self, a, b):

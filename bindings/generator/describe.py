@@ -54,7 +54,7 @@ class Describer:
         for function in self.functions.values():
             for parameter in function.parameters:
                 t = self.type_of(parameter[0])
-                if t["kind"] == "struct" and not function.name.endswith("_init"):
+                if t["kind"] == "struct":
                     self.note_use(self.read if t.get("const") else self.written, t["base"])
 
     def note_use(self, uses, struct):
@@ -199,7 +199,7 @@ class Describer:
             return "in"
         if t["kind"] == "opaque" and t.get("pointers") == 1 or owner.kind == "callback":
             return "in"
-        if t["kind"] == "struct" and self.grows(t["base"]) and not owner.name.endswith("_init"):
+        if t["kind"] == "struct" and self.grows(t["base"]):
             return "inout"
         return "out"
 
@@ -369,12 +369,34 @@ class Describer:
         fields = []
         for i, member in enumerate(d.fields):
             fields.append({**self.member(d, member, d.fields), "offset": {m: layouts[m][2][i] for m in MODELS}})
-        init = d.name + "_init"
         return {"name": d.name, "section": d.section, "doc": d.comment,
                 "size": {m: layouts[m][0] for m in MODELS}, "alignment": {m: layouts[m][1] for m in MODELS},
                 "grows": d.fields[0][1] == "struct_size",
-                "init": init if any(f.name == init for f in self.all) else None,
+                "defaults": self.defaults(d),
                 "fields": fields}
+
+    def defaults(self, d):
+        """What vox_default_X sets, beside struct_size; None where there is no such function."""
+        inline = [f for f in self.all if f.name == d.name.replace("vox_", "vox_default_", 1)]
+        if not inline:
+            return None
+        found = {}
+        for target, text in inline[0].fields:
+            name, _, at = target.rstrip("]").partition("[")
+            if not at:
+                found[name] = self.value(text)
+                continue
+            length = next(int(re.search(r"\[(\d+)\]", t)[1]) for t, n in d.fields if n == name)
+            found.setdefault(name, [0] * length)[int(at)] = self.value(text)
+        return found
+
+    def value(self, text):
+        """A number or an enumerator, as C has it."""
+        values = {name: number for d in self.all if d.kind == "enum" for name, number, _ in d.values}
+        if text in values:
+            return values[text]
+        number = float(eval(text, {"__builtins__": {}}))  # of the project's own headers: "1.0 / 30"
+        return int(number) if number == int(number) else number
 
     def opaque(self, d):
         threads = self.mark(d, "", "threads") or "readers or one"

@@ -62,7 +62,7 @@ def split_parameter(text, comment=""):
     """The name of a function pointer is inside its type."""
     text = text.strip()
     optional = text.startswith("VOX_OPTIONAL ")
-    text = text.removeprefix("VOX_OPTIONAL ")
+    text = text.removeprefix("VOX_OPTIONAL ").replace("const struct vox_", "const vox_")
     pointer = re.fullmatch(r"(.*\(\*)(\w+)(\)\s*\(.*\))", text)
     if pointer:
         return Member(pointer[1] + pointer[3], pointer[2], optional, comment)
@@ -197,7 +197,12 @@ def parse(text):
         elif re.fullmatch(r"typedef \w+ \w+;", code):
             new = Declaration("alias", code[:-1].split()[2], comment, line, section, result=code.split()[1])
         elif code.startswith("static inline"):
-            new = Declaration("inline", re.search(r"(\w+)\(", code)[1], comment, line, section)
+            # Of vox_default_X the fields that it sets, beside struct_size: "substeps" or "gravity[2]".
+            sets = re.findall(r"\b\w+\.(\w+(?:\[\d\])?) = ([^;]+);", body)
+            new = Declaration("inline", re.search(r"(\w+)\(", code)[1], comment, line, section,
+                              fields=[s for s in sets if s[0] != "struct_size"])
+        elif re.fullmatch(r"typedef char \w+\[.+\];", code):
+            continue  # checked by the compiler, of no use to anyone
         else:
             raise ValueError(f"line {line}: cannot read '{code[:80]}'")
         if comment.startswith("The same") and header.declarations:

@@ -47,11 +47,13 @@ class Nulls:
         """One with its defaults, and what no default can give."""
         value = getattr(_c, name)()
         described = self.structs[name]
-        if described["init"]:
-            library = next(n for n, functions in _c.FUNCTIONS.items() if described["init"] in functions)
-            self.check(getattr(self.libraries[library], described["init"])(ctypes.byref(value), ctypes.sizeof(value)))
-        elif described["grows"]:
+        if described["grows"]:
             value.struct_size = ctypes.sizeof(value)
+        for field, default in (described["defaults"] or {}).items():
+            if isinstance(default, list):
+                getattr(value, field)[:] = default
+            else:
+                setattr(value, field, default)
         for f in described["fields"]:
             if f.get("base") == "vox_positions":
                 setattr(value, f["name"], _c.vox_positions(ctypes.addressof(POSITIONS), 4, _c.Format.DOUBLE))

@@ -1,5 +1,7 @@
 """JavaScript: layouts of wasm32, enums as objects, the functions to export; types of enums and structs for TypeScript."""
 
+import json
+
 from names import GENERATED, camel, pascal, short_values, whole_structs, wrapped
 from names import sections as all_sections
 
@@ -47,10 +49,11 @@ class JavaScript:
         return "\n".join(lines) + "\n"
 
     def layout(self):
-        lines = [f"// {GENERATED}", "", "// Of each struct: size, and [offset, type, elements] of each field.",
+        lines = [f"// {GENERATED}", "", "// Of each struct: size, what vox_default_X sets in it, and [offset, type, elements] of each field.",
                  "export const structs = {"]
         for s in sections(self.api, "structs"):
-            lines.append(f"  {s['name']}: {{ size: {s['size']['wasm32']}, fields: {{")
+            defaults = ", ".join(f"{camel(name)}: {json.dumps(value)}" for name, value in (s["defaults"] or {}).items())
+            lines.append(f"  {s['name']}: {{ size: {s['size']['wasm32']}, defaults: {{ {defaults} }}, fields: {{")
             for f in s["fields"]:
                 count = 1
                 for n in f.get("array", []):
@@ -118,7 +121,8 @@ class JavaScript:
                        if f["kind"] == "enum"})
         lines = [f"// {GENERATED}", "", *wrapped(f"import type {{ {', '.join(used)} }} from \"./enums.js\";", "")]
         for s in sections(self.api, "structs"):
-            arrays = any("length" in f and f["direction"] != "out" for f in s["fields"])
+            arrays = any("length" in f and f["direction"] != "out" and f["base"] not in self.callbacks | {"vox_reference_desc"}
+                         for f in s["fields"])
             if s["name"].endswith("_view") or s["name"] in self.callbacks or arrays:
                 continue
             lines += ["", *self.comment(s["doc"]), f"export interface {pascal(s['name'])} {{"]

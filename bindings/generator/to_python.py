@@ -111,6 +111,22 @@ class Python:
             yield ""
         yield ""
 
+    def in_order(self):
+        """The structs, each after those that its fields name."""
+        structs = {s["name"]: s for s in sections(self.api, "structs")}
+        found = {}
+
+        def add(s):
+            for f in s["fields"]:
+                if f.get("kind") == "struct" and f["base"] != s["name"] and f["base"] not in found:
+                    add(structs[f["base"]])
+            found[s["name"]] = s
+
+        for s in structs.values():
+            if s["name"] not in found:
+                add(s)
+        return found.values()
+
     def text(self):
         lines = [f'"""{GENERATED}"""', *BEGIN]
         for c in sections(self.api, "constants"):
@@ -125,8 +141,12 @@ class Python:
             lines.append(f"{c['name']} = {self.function_type(c)}")
         lines.append("")
         whole = whole_structs(self.api)
-        for s in sections(self.api, "structs"):
+        for s in self.in_order():
             lines += self.struct(s, whole)
+        lines += ["# What vox_default_X sets in a struct, beside struct_size, where that is not all 0.",
+                  "DEFAULTS: dict[str, dict[str, Any]] = {"]
+        lines += [f'    "{s["name"]}": {s["defaults"]},' for s in sections(self.api, "structs") if s["defaults"]]
+        lines += ["}", "", ""]
         lines += ["# Of each header: name, type of the result, types of the parameters.",
                   "FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {"]
         for part in self.api["headers"]:

@@ -40,47 +40,6 @@ export declare const Format: Readonly<{
 }>;
 export type Format = (typeof Format)[keyof typeof Format];
 
-/** Severity of a log line. */
-export declare const LogLevel: Readonly<{
-  INFO: 0;
-  WARNING: 1;
-}>;
-export type LogLevel = (typeof LogLevel)[keyof typeof LogLevel];
-
-/** How the reference engine stores cells; the fast engine ignores it. Contacts do not depend on it. */
-export declare const Storage: Readonly<{
-  /** the engine's choice */
-  AUTO: 0;
-  /** unbounded space: cells hashed into a table of prime size */
-  HASHED: 1;
-  /** one list per cell of a box: linear id k*nx*ny + j*nx + i */
-  DENSE: 2;
-}>;
-export type Storage = (typeof Storage)[keyof typeof Storage];
-
-/**
- * Hash of a cell (i, j, k) for hashed storage. Contacts do not depend on it. Where positions were chosen so that many
- * cells share a bucket, the step finds cells by binary search instead, so its time stays bounded.
- */
-export declare const Hash: Readonly<{
-  /** a well-mixed 64-bit hash: the default */
-  MIXED: 0;
-  /** i*73856093 xor j*19349663 xor k*83492791 (Teschner et al. 2003, Sect. 4.1) */
-  PAPER: 1;
-}>;
-export type Hash = (typeof Hash)[keyof typeof Hash];
-
-/** Which algorithm runs. Contacts do not depend on it. */
-export declare const Engine: Readonly<{
-  /** fast, or reference if a storage is requested */
-  AUTO: 0;
-  /** the paper's algorithm as printed (Sect. 3) */
-  REFERENCE: 1;
-  /** tiles of tets against dense windows of cells, with SIMD */
-  FAST: 2;
-}>;
-export type Engine = (typeof Engine)[keyof typeof Engine];
-
 export declare const GridFlags: Readonly<{
   /**
    * run the depth stage in a step (vox_grid_penetrations); on by default. A mesh of more than 357913941 tets then gives
@@ -104,13 +63,19 @@ export declare const GridFlags: Readonly<{
 }>;
 export type GridFlags = number;
 
-export declare const MeshFlags: Readonly<{
-  /** also report vertices of the mesh inside its own tetrahedra */
+export declare const FilterFlags: Readonly<{
+  /** the mesh also collides with itself */
   SELF_COLLISION: 1;
-  /** copy `positions` at insertion instead of borrowing them */
-  COPY_POSITIONS: 2;
-  /** borrow `tets` instead of copying them: 16 bytes less per tetrahedron */
-  BORROW_TETS: 4;
+  /** the mesh has contacts, but no penetrations; takes less memory */
+  SENSOR: 2;
+}>;
+export type FilterFlags = number;
+
+export declare const MeshFlags: Readonly<{
+  /** copy the positions instead of borrowing them */
+  COPY_POSITIONS: 1;
+  /** borrow the tetrahedra instead of copying them, 16 bytes each */
+  BORROW_TETS: 2;
 }>;
 export type MeshFlags = number;
 
@@ -180,10 +145,17 @@ export declare const ReadingFlags: Readonly<{
    * contained the vertex were removed or disabled
    */
   SURFACE: 2;
-  /** missing on grids without VOX_GRID_PENETRATIONS, and where vox_filter.penetration_mask rules it out */
+  /** missing on grids without VOX_GRID_PENETRATIONS, and where one of the meshes is a sensor */
   DEPTH: 4;
 }>;
 export type ReadingFlags = number;
+
+/** Severity of a log line. */
+export declare const LogLevel: Readonly<{
+  INFO: 0;
+  WARNING: 1;
+}>;
+export type LogLevel = (typeof LogLevel)[keyof typeof LogLevel];
 
 export declare const Side: Readonly<{
   /** the tetrahedron has no volume */
@@ -193,6 +165,16 @@ export declare const Side: Readonly<{
   LEAVES: 2;
 }>;
 export type Side = (typeof Side)[keyof typeof Side];
+
+export declare const ReferenceFlags: Readonly<{
+  /** store a list for every cell of a box (linear id k*nx*ny + j*nx + i), instead of hashing cells into a table */
+  DENSE: 1;
+  /**
+   * hash by i*73856093 xor j*19349663 xor k*83492791 (Teschner et al. 2003, Sect. 4.1), instead of by a well-mixed hash
+   */
+  PAPER_HASH: 2;
+}>;
+export type ReferenceFlags = number;
 
 export declare const CostModel: Readonly<{
   /** the paper's z(delta) (Sect. 4, Eqs. 3-8), from means; in cell visits */
@@ -247,10 +229,10 @@ export type PrimitiveType = (typeof PrimitiveType)[keyof typeof PrimitiveType];
 
 /** Which cells hold a primitive. */
 export declare const CellContent: Readonly<{
-  /** the one with the centre of its box; for a point, with the point */
-  CELLS_HOLD_CENTRES: 0;
   /** all that its box meets */
-  CELLS_HOLD_BOXES: 1;
+  CELLS_HOLD_BOXES: 0;
+  /** the one with the centre of its box; for a point, with the point */
+  CELLS_HOLD_CENTRES: 1;
 }>;
 export type CellContent = (typeof CellContent)[keyof typeof CellContent];
 
@@ -342,10 +324,8 @@ export type ForeignRule = (typeof ForeignRule)[keyof typeof ForeignRule];
  * part of the shared libraries' names (docs/abi.md).
  */
 export declare const ABI_VERSION: 1;
-/** tasks enqueued in one step */
-export declare const MAX_TASKS: 64;
-/** workers of a grid */
-export declare const MAX_WORKERS: 256;
+/** as a worker_count: one worker per core */
+export declare const ALL_CORES: 4294967295;
 /** per grid, at one time, including retired slots */
 export declare const MAX_BODIES: 1048576;
 /** uses of one mesh slot before it is retired */
@@ -354,6 +334,8 @@ export declare const MAX_GENERATIONS: 4095;
 export declare const MAX_VERTICES: 2147483647;
 /** per grid */
 export declare const MAX_TETS: 2147483647;
+/** workers of a grid */
+export declare const MAX_WORKERS: 256;
 /** names no mesh */
 export declare const NULL_BODY: 0;
 /** vox_filter.self_rings */
@@ -364,6 +346,8 @@ export declare const NO_VERTEX: 4294967295;
 export declare const MAX_CONTACTS: 4294967295;
 /** vox_touch_event.pair of a pair that ended */
 export declare const NO_PAIR: 4294967295;
+/** tasks enqueued in one step */
+export declare const MAX_TASKS: 64;
 /** most samples of a curve */
 export declare const COST_CURVE_CAPACITY: 64;
 /** most terms of a cost, in any model */

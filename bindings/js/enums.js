@@ -1,17 +1,18 @@
 // Written by bindings/generate.py from bindings/api.json. Do not edit.
 
 export const ABI_VERSION = 1;
-export const MAX_TASKS = 64;
-export const MAX_WORKERS = 256;
+export const ALL_CORES = 4294967295;
 export const MAX_BODIES = 1048576;
 export const MAX_GENERATIONS = 4095;
 export const MAX_VERTICES = 2147483647;
 export const MAX_TETS = 2147483647;
+export const MAX_WORKERS = 256;
 export const NULL_BODY = 0;
 export const MAX_RINGS = 8;
 export const NO_VERTEX = 4294967295;
 export const MAX_CONTACTS = 4294967295;
 export const NO_PAIR = 4294967295;
+export const MAX_TASKS = 64;
 export const COST_CURVE_CAPACITY = 64;
 export const COST_TERM_CAPACITY = 12;
 export const CELL_SIZE_LEVEL_CAPACITY = 4;
@@ -39,28 +40,6 @@ export const Format = Object.freeze({
   DOUBLE: 1,
 });
 
-export const LogLevel = Object.freeze({
-  INFO: 0,
-  WARNING: 1,
-});
-
-export const Storage = Object.freeze({
-  AUTO: 0,
-  HASHED: 1,
-  DENSE: 2,
-});
-
-export const Hash = Object.freeze({
-  MIXED: 0,
-  PAPER: 1,
-});
-
-export const Engine = Object.freeze({
-  AUTO: 0,
-  REFERENCE: 1,
-  FAST: 2,
-});
-
 export const GridFlags = Object.freeze({
   PENETRATIONS: 1,
   CONTACT_EVENTS: 2,
@@ -68,10 +47,14 @@ export const GridFlags = Object.freeze({
   EDGE_CONTACTS: 8,
 });
 
-export const MeshFlags = Object.freeze({
+export const FilterFlags = Object.freeze({
   SELF_COLLISION: 1,
-  COPY_POSITIONS: 2,
-  BORROW_TETS: 4,
+  SENSOR: 2,
+});
+
+export const MeshFlags = Object.freeze({
+  COPY_POSITIONS: 1,
+  BORROW_TETS: 2,
 });
 
 export const PenetrationState = Object.freeze({
@@ -101,10 +84,20 @@ export const ReadingFlags = Object.freeze({
   DEPTH: 4,
 });
 
+export const LogLevel = Object.freeze({
+  INFO: 0,
+  WARNING: 1,
+});
+
 export const Side = Object.freeze({
   NONE: 0,
   ENTERS: 1,
   LEAVES: 2,
+});
+
+export const ReferenceFlags = Object.freeze({
+  DENSE: 1,
+  PAPER_HASH: 2,
 });
 
 export const CostModel = Object.freeze({
@@ -135,8 +128,8 @@ export const PrimitiveType = Object.freeze({
 });
 
 export const CellContent = Object.freeze({
-  CELLS_HOLD_CENTRES: 0,
-  CELLS_HOLD_BOXES: 1,
+  CELLS_HOLD_BOXES: 0,
+  CELLS_HOLD_CENTRES: 1,
 });
 
 export const CellLook = Object.freeze({

@@ -1,8 +1,8 @@
 // Written by bindings/generate.py from bindings/api.json. Do not edit.
 
-// Of each struct: size, and [offset, type, elements] of each field.
+// Of each struct: size, what vox_default_X sets in it, and [offset, type, elements] of each field.
 export const structs = {
-  vox_positions: { size: 40, fields: {
+  vox_positions: { size: 40, defaults: {  }, fields: {
     data: [0, "pointer", 1],
     count: [8, "count", 1],
     format: [16, "i32", 1],
@@ -10,59 +10,40 @@ export const structs = {
     byte_stride: [24, "count", 1],
     component_byte_stride: [32, "count", 1],
   } },
-  vox_allocator: { size: 12, fields: {
-    allocate: [0, "pointer", 1],
-    release: [4, "pointer", 1],
-    user: [8, "pointer", 1],
-  } },
-  vox_log: { size: 8, fields: {
-    write: [0, "pointer", 1],
-    user: [4, "pointer", 1],
-  } },
-  vox_task_system: { size: 12, fields: {
-    enqueue: [0, "pointer", 1],
-    finish: [4, "pointer", 1],
-    user: [8, "pointer", 1],
-  } },
-  vox_grid_desc: { size: 144, fields: {
+  vox_grid_desc: { size: 64, defaults: { flags: 1 }, fields: {
     struct_size: [0, "u32", 1],
-    engine: [4, "i32", 1],
-    storage: [8, "i32", 1],
-    hash: [12, "i32", 1],
+    flags: [4, "u32", 1],
+    worker_count: [8, "u32", 1],
+    reserved: [12, "u32", 1],
     cell_size: [16, "f64", 1],
-    world_min: [24, "f64", 3],
-    world_max: [48, "f64", 3],
-    byte_budget: [72, "count", 1],
-    hash_table_size: [80, "count", 1],
-    allocator: [88, "vox_allocator", 1],
-    log: [100, "vox_log", 1],
-    tasks: [108, "vox_task_system", 1],
-    worker_count: [120, "u32", 1],
-    flags: [124, "u32", 1],
-    closest_budget: [128, "count", 1],
-    margin: [136, "f64", 1],
+    margin: [24, "f64", 1],
+    byte_budget: [32, "count", 1],
+    closest_budget: [40, "count", 1],
+    allocator: [48, "pointer", 1],
+    log: [52, "pointer", 1],
+    tasks: [56, "pointer", 1],
+    reference: [60, "pointer", 1],
   } },
-  vox_filter: { size: 48, fields: {
-    struct_size: [0, "u32", 1],
+  vox_filter: { size: 40, defaults: {  }, fields: {
+    flags: [0, "u32", 1],
     group: [4, "i32", 1],
     category: [8, "u64", 1],
     mask: [16, "u64", 1],
-    self_collision: [24, "u32", 1],
+    world: [24, "u32", 1],
     self_rings: [28, "u32", 1],
     self_rest_distance: [32, "f64", 1],
-    penetration_mask: [40, "u64", 1],
   } },
-  vox_mesh_desc: { size: 120, fields: {
+  vox_mesh_desc: { size: 152, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     flags: [4, "u32", 1],
     positions: [8, "vox_positions", 1],
     tets: [48, "pointer", 1],
     tet_count: [56, "count", 1],
     user_data: [64, "u64", 1],
-    filter: [72, "pointer", 1],
-    rest_positions: [80, "vox_positions", 1],
+    filter: [72, "vox_filter", 1],
+    rest_positions: [112, "vox_positions", 1],
   } },
-  vox_body_info: { size: 184, fields: {
+  vox_body_info: { size: 224, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     slot: [4, "u32", 1],
     user_data: [8, "u64", 1],
@@ -74,8 +55,9 @@ export const structs = {
     reserved: [44, "u32", 1],
     positions: [48, "vox_positions", 1],
     transform: [88, "f64", 12],
+    filter: [184, "vox_filter", 1],
   } },
-  vox_vertices_desc: { size: 104, fields: {
+  vox_vertices_desc: { size: 104, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     reserved: [4, "u32", 1],
     count: [8, "count", 1],
@@ -83,7 +65,7 @@ export const structs = {
     copies_of: [56, "pointer", 1],
     rest_positions: [64, "vox_positions", 1],
   } },
-  vox_failure: { size: 56, fields: {
+  vox_failure: { size: 56, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     result: [4, "i32", 1],
     mesh: [8, "u32", 1],
@@ -93,26 +75,26 @@ export const structs = {
     reserved: [28, "u32", 1],
     position: [32, "f64", 3],
   } },
-  vox_contact: { size: 32, fields: {
+  vox_contact: { size: 32, defaults: {  }, fields: {
     body_a: [0, "u32", 1],
     vertex: [4, "u32", 1],
     body_b: [8, "u32", 1],
     tet: [12, "u32", 1],
     barycentric: [16, "f32", 4],
   } },
-  vox_contact_view: { size: 24, fields: {
+  vox_contact_view: { size: 24, defaults: {  }, fields: {
     data: [0, "pointer", 1],
     byte_stride: [4, "u32", 1],
     count: [8, "count", 1],
     epoch: [16, "count", 1],
   } },
-  vox_interior_view: { size: 24, fields: {
+  vox_interior_view: { size: 24, defaults: {  }, fields: {
     data: [0, "pointer", 1],
     byte_stride: [4, "u32", 1],
     count: [8, "count", 1],
     epoch: [16, "count", 1],
   } },
-  vox_penetration: { size: 40, fields: {
+  vox_penetration: { size: 40, defaults: {  }, fields: {
     body_a: [0, "u32", 1],
     vertex: [4, "u32", 1],
     body_b: [8, "u32", 1],
@@ -121,23 +103,23 @@ export const structs = {
     depth: [24, "f32", 1],
     direction: [28, "f32", 3],
   } },
-  vox_penetration_view: { size: 24, fields: {
+  vox_penetration_view: { size: 24, defaults: {  }, fields: {
     data: [0, "pointer", 1],
     byte_stride: [4, "u32", 1],
     count: [8, "count", 1],
     epoch: [16, "count", 1],
   } },
-  vox_depth: { size: 32, fields: {
+  vox_depth: { size: 32, defaults: {  }, fields: {
     depth: [0, "f64", 1],
     direction: [8, "f64", 3],
   } },
-  vox_depth_view: { size: 24, fields: {
+  vox_depth_view: { size: 24, defaults: {  }, fields: {
     data: [0, "pointer", 1],
     byte_stride: [4, "u32", 1],
     count: [8, "count", 1],
     epoch: [16, "count", 1],
   } },
-  vox_edge_contact: { size: 128, fields: {
+  vox_edge_contact: { size: 128, defaults: {  }, fields: {
     body_a: [0, "u32", 1],
     edge: [4, "u32", 2],
     body_b: [12, "u32", 1],
@@ -150,13 +132,13 @@ export const structs = {
     position: [80, "f64", 3],
     normal: [104, "f64", 3],
   } },
-  vox_edge_contact_view: { size: 24, fields: {
+  vox_edge_contact_view: { size: 24, defaults: {  }, fields: {
     data: [0, "pointer", 1],
     byte_stride: [4, "u32", 1],
     count: [8, "count", 1],
     epoch: [16, "count", 1],
   } },
-  vox_margin_contact: { size: 88, fields: {
+  vox_margin_contact: { size: 88, defaults: {  }, fields: {
     body_a: [0, "u32", 1],
     vertex: [4, "u32", 1],
     body_b: [8, "u32", 1],
@@ -167,13 +149,13 @@ export const structs = {
     distance: [56, "f64", 1],
     normal: [64, "f64", 3],
   } },
-  vox_margin_contact_view: { size: 24, fields: {
+  vox_margin_contact_view: { size: 24, defaults: {  }, fields: {
     data: [0, "pointer", 1],
     byte_stride: [4, "u32", 1],
     count: [8, "count", 1],
     epoch: [16, "count", 1],
   } },
-  vox_passage: { size: 40, fields: {
+  vox_passage: { size: 40, defaults: {  }, fields: {
     body_a: [0, "u32", 1],
     vertex: [4, "u32", 1],
     body_b: [8, "u32", 1],
@@ -182,13 +164,13 @@ export const structs = {
     face: [20, "u32", 3],
     time: [32, "f64", 1],
   } },
-  vox_passage_view: { size: 24, fields: {
+  vox_passage_view: { size: 24, defaults: {  }, fields: {
     data: [0, "pointer", 1],
     byte_stride: [4, "u32", 1],
     count: [8, "count", 1],
     epoch: [16, "count", 1],
   } },
-  vox_pair: { size: 48, fields: {
+  vox_pair: { size: 48, defaults: {  }, fields: {
     body_a: [0, "u32", 1],
     body_b: [4, "u32", 1],
     user_data_a: [8, "u64", 1],
@@ -197,14 +179,14 @@ export const structs = {
     a_in_b: [32, "count", 1],
     b_in_a: [40, "count", 1],
   } },
-  vox_pair_view: { size: 32, fields: {
+  vox_pair_view: { size: 32, defaults: {  }, fields: {
     data: [0, "pointer", 1],
     byte_stride: [4, "u32", 1],
     count: [8, "count", 1],
     epoch: [16, "count", 1],
     contacts: [24, "pointer", 1],
   } },
-  vox_touch_event: { size: 32, fields: {
+  vox_touch_event: { size: 32, defaults: {  }, fields: {
     body_a: [0, "u32", 1],
     body_b: [4, "u32", 1],
     user_data_a: [8, "u64", 1],
@@ -212,7 +194,7 @@ export const structs = {
     kind: [24, "i32", 1],
     pair: [28, "u32", 1],
   } },
-  vox_touch_view: { size: 48, fields: {
+  vox_touch_view: { size: 48, defaults: {  }, fields: {
     data: [0, "pointer", 1],
     byte_stride: [4, "u32", 1],
     count: [8, "count", 1],
@@ -221,13 +203,13 @@ export const structs = {
     persisted: [32, "count", 1],
     ended: [40, "count", 1],
   } },
-  vox_contact_event: { size: 16, fields: {
+  vox_contact_event: { size: 16, defaults: {  }, fields: {
     body_a: [0, "u32", 1],
     vertex: [4, "u32", 1],
     body_b: [8, "u32", 1],
     kind: [12, "i32", 1],
   } },
-  vox_contact_event_view: { size: 40, fields: {
+  vox_contact_event_view: { size: 40, defaults: {  }, fields: {
     data: [0, "pointer", 1],
     byte_stride: [4, "u32", 1],
     count: [8, "count", 1],
@@ -235,7 +217,7 @@ export const structs = {
     began: [24, "count", 1],
     ended: [32, "count", 1],
   } },
-  vox_reading: { size: 168, fields: {
+  vox_reading: { size: 168, defaults: {  }, fields: {
     contact: [0, "count", 1],
     known: [8, "u32", 1],
     state: [12, "i32", 1],
@@ -251,30 +233,44 @@ export const structs = {
     user_data_a: [152, "u64", 1],
     user_data_b: [160, "u64", 1],
   } },
-  vox_reading_view: { size: 24, fields: {
+  vox_reading_view: { size: 24, defaults: {  }, fields: {
     data: [0, "pointer", 1],
     byte_stride: [4, "u32", 1],
     count: [8, "count", 1],
     epoch: [16, "count", 1],
   } },
-  vox_readings_desc: { size: 24, fields: {
+  vox_readings_desc: { size: 24, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     what: [4, "u32", 1],
     body_a: [8, "u32", 1],
     body_b: [12, "u32", 1],
     closest_budget: [16, "count", 1],
   } },
-  vox_point_hit: { size: 28, fields: {
+  vox_allocator: { size: 12, defaults: {  }, fields: {
+    allocate: [0, "pointer", 1],
+    release: [4, "pointer", 1],
+    user: [8, "pointer", 1],
+  } },
+  vox_log: { size: 8, defaults: {  }, fields: {
+    write: [0, "pointer", 1],
+    user: [4, "pointer", 1],
+  } },
+  vox_task_system: { size: 12, defaults: {  }, fields: {
+    enqueue: [0, "pointer", 1],
+    finish: [4, "pointer", 1],
+    user: [8, "pointer", 1],
+  } },
+  vox_point_hit: { size: 28, defaults: {  }, fields: {
     point: [0, "u32", 1],
     mesh: [4, "u32", 1],
     tet: [8, "u32", 1],
     barycentric: [12, "f32", 4],
   } },
-  vox_tet_hit: { size: 8, fields: {
+  vox_tet_hit: { size: 8, defaults: {  }, fields: {
     mesh: [0, "u32", 1],
     tet: [4, "u32", 1],
   } },
-  vox_surface_hit: { size: 72, fields: {
+  vox_surface_hit: { size: 72, defaults: {  }, fields: {
     mesh: [0, "u32", 1],
     tet: [4, "u32", 1],
     facet: [8, "u32", 1],
@@ -283,7 +279,7 @@ export const structs = {
     position: [40, "f64", 3],
     distance: [64, "f64", 1],
   } },
-  vox_closest_desc: { size: 64, fields: {
+  vox_closest_desc: { size: 64, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     format: [4, "i32", 1],
     points: [8, "pointer", 1],
@@ -295,7 +291,7 @@ export const structs = {
     reserved: [52, "u32", 1],
     component_byte_stride: [56, "count", 1],
   } },
-  vox_closest_hit: { size: 96, fields: {
+  vox_closest_hit: { size: 96, defaults: {  }, fields: {
     mesh: [0, "u32", 1],
     tet: [4, "u32", 1],
     facet: [8, "u32", 1],
@@ -305,7 +301,7 @@ export const structs = {
     normal: [64, "f64", 3],
     distance: [88, "f64", 1],
   } },
-  vox_ray_hit: { size: 64, fields: {
+  vox_ray_hit: { size: 64, defaults: {  }, fields: {
     mesh: [0, "u32", 1],
     tet: [4, "u32", 1],
     t: [8, "f64", 1],
@@ -316,7 +312,7 @@ export const structs = {
     surface_t: [32, "f64", 1],
     surface_barycentric: [40, "f64", 3],
   } },
-  vox_facet_hit: { size: 48, fields: {
+  vox_facet_hit: { size: 48, defaults: {  }, fields: {
     mesh: [0, "u32", 1],
     tet: [4, "u32", 1],
     facet: [8, "u32", 1],
@@ -324,7 +320,7 @@ export const structs = {
     t: [16, "f64", 1],
     barycentric: [24, "f64", 3],
   } },
-  vox_counters: { size: 304, fields: {
+  vox_counters: { size: 304, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     meshes: [4, "u32", 1],
     vertices: [8, "count", 1],
@@ -365,7 +361,7 @@ export const structs = {
     carried_margin_contacts: [288, "count", 1],
     passages: [296, "count", 1],
   } },
-  vox_profile: { size: 128, fields: {
+  vox_profile: { size: 128, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     reserved: [4, "u32", 1],
     step_ns: [8, "count", 1],
@@ -384,7 +380,14 @@ export const structs = {
     edges_ns: [112, "count", 1],
     margin_ns: [120, "count", 1],
   } },
-  vox_suggest_desc: { size: 96, fields: {
+  vox_reference_desc: { size: 64, defaults: {  }, fields: {
+    struct_size: [0, "u32", 1],
+    flags: [4, "u32", 1],
+    hash_table_size: [8, "count", 1],
+    world_min: [16, "f64", 3],
+    world_max: [40, "f64", 3],
+  } },
+  vox_suggest_desc: { size: 88, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     model: [4, "i32", 1],
     size_reading: [8, "i32", 1],
@@ -396,11 +399,11 @@ export const structs = {
     mean_edge_factor: [48, "f64", 1],
     resolution: [56, "f64", 1],
     byte_budget: [64, "count", 1],
-    storage: [72, "i32", 1],
+    reference_flags: [72, "u32", 1],
     reserved: [76, "u32", 1],
-    allocator: [80, "vox_allocator", 1],
+    allocator: [80, "pointer", 1],
   } },
-  vox_geometry_stats: { size: 160, fields: {
+  vox_geometry_stats: { size: 160, defaults: {  }, fields: {
     vertices: [0, "count", 1],
     tets: [8, "count", 1],
     edges: [16, "count", 1],
@@ -418,7 +421,7 @@ export const structs = {
     bounds_min: [112, "f64", 3],
     bounds_max: [136, "f64", 3],
   } },
-  vox_cell_size_rules: { size: 48, fields: {
+  vox_cell_size_rules: { size: 48, defaults: {  }, fields: {
     mean_edge: [0, "f64", 1],
     mean_edge_multiple: [8, "f64", 1],
     object_512: [16, "f64", 1],
@@ -426,17 +429,17 @@ export const structs = {
     mean_volume: [32, "f64", 1],
     median_box_side: [40, "f64", 1],
   } },
-  vox_cost_sample: { size: 16, fields: {
+  vox_cost_sample: { size: 16, defaults: {  }, fields: {
     cell_size: [0, "f64", 1],
     cost: [8, "f64", 1],
   } },
-  vox_cost_share: { size: 48, fields: {
+  vox_cost_share: { size: 48, defaults: {  }, fields: {
     name: [0, "char", 24],
     count: [24, "f64", 1],
     cost: [32, "f64", 1],
     share: [40, "f64", 1],
   } },
-  vox_suggestion: { size: 1968, fields: {
+  vox_suggestion: { size: 1968, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     model: [4, "i32", 1],
     cell_size: [8, "f64", 1],
@@ -457,14 +460,14 @@ export const structs = {
     level_count: [1960, "u32", 1],
     reserved: [1964, "u32", 1],
   } },
-  vox_cost_prediction: { size: 600, fields: {
+  vox_cost_prediction: { size: 600, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     term_count: [4, "u32", 1],
     cell_size: [8, "f64", 1],
     cost: [16, "f64", 1],
     terms: [24, "vox_cost_share", 12],
   } },
-  vox_cost_weights: { size: 136, fields: {
+  vox_cost_weights: { size: 136, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     measured: [4, "u32", 1],
     reference_classify_vertex: [8, "f64", 1],
@@ -484,18 +487,18 @@ export const structs = {
     reference_changed_list: [120, "f64", 1],
     reference_fetch_vertex: [128, "f64", 1],
   } },
-  vox_cost_term: { size: 16, fields: {
+  vox_cost_term: { size: 16, defaults: {  }, fields: {
     coefficient: [0, "f64", 1],
     power: [8, "f64", 1],
   } },
-  vox_cost_bounds: { size: 32, fields: {
+  vox_cost_bounds: { size: 32, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     reserved: [4, "u32", 1],
     min: [8, "f64", 1],
     max: [16, "f64", 1],
     zone_loss: [24, "f64", 1],
   } },
-  vox_cost_minimum: { size: 1064, fields: {
+  vox_cost_minimum: { size: 1064, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     curve_count: [4, "u32", 1],
     cell_size: [8, "f64", 1],
@@ -504,7 +507,7 @@ export const structs = {
     zone_max: [32, "f64", 1],
     curve: [40, "vox_cost_sample", 64],
   } },
-  vox_primitives: { size: 104, fields: {
+  vox_primitives: { size: 104, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     type: [4, "i32", 1],
     positions: [8, "vox_positions", 1],
@@ -517,7 +520,7 @@ export const structs = {
     reserved: [92, "u32", 1],
     radius: [96, "f64", 1],
   } },
-  vox_grid_work: { size: 48, fields: {
+  vox_grid_work: { size: 48, defaults: {  }, fields: {
     entries: [0, "f64", 1],
     visits: [8, "f64", 1],
     empty: [16, "f64", 1],
@@ -525,7 +528,7 @@ export const structs = {
     occupied: [32, "f64", 1],
     cells: [40, "f64", 1],
   } },
-  vox_grid_weights: { size: 56, fields: {
+  vox_grid_weights: { size: 56, defaults: {  }, fields: {
     fixed: [0, "f64", 1],
     entries: [8, "f64", 1],
     visits: [16, "f64", 1],
@@ -534,7 +537,7 @@ export const structs = {
     occupied: [40, "f64", 1],
     cells: [48, "f64", 1],
   } },
-  vox_foreign_grid: { size: 128, fields: {
+  vox_foreign_grid: { size: 120, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     flags: [4, "u32", 1],
     content: [8, "i32", 1],
@@ -547,16 +550,16 @@ export const structs = {
     known: [48, "i32", 1],
     reserved: [52, "u32", 1],
     weights: [56, "vox_grid_weights", 1],
-    allocator: [112, "vox_allocator", 1],
+    allocator: [112, "pointer", 1],
   } },
-  vox_foreign_rules: { size: 40, fields: {
+  vox_foreign_rules: { size: 40, defaults: {  }, fields: {
     mean_edge: [0, "f64", 1],
     mean_box_side: [8, "f64", 1],
     median_box_side: [16, "f64", 1],
     spacing: [24, "f64", 1],
     radius: [32, "f64", 1],
   } },
-  vox_foreign_suggestion: { size: 2104, fields: {
+  vox_foreign_suggestion: { size: 2104, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     warnings: [4, "u32", 1],
     cell_size: [8, "f64", 1],
@@ -576,11 +579,11 @@ export const structs = {
     reserved: [1844, "u32", 1],
     note: [1848, "char", 256],
   } },
-  vox_grid_timing: { size: 16, fields: {
+  vox_grid_timing: { size: 16, defaults: {  }, fields: {
     cell_size: [0, "f64", 1],
     seconds: [8, "f64", 1],
   } },
-  vox_grid_fit: { size: 1392, fields: {
+  vox_grid_fit: { size: 1392, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     warnings: [4, "u32", 1],
     weights: [8, "vox_grid_weights", 1],
@@ -594,7 +597,7 @@ export const structs = {
     reserved: [1132, "u32", 1],
     note: [1136, "char", 256],
   } },
-  vox_tune_desc: { size: 48, fields: {
+  vox_tune_desc: { size: 48, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     most_runs: [4, "u32", 1],
     min: [8, "f64", 1],
@@ -603,7 +606,7 @@ export const structs = {
     zone_loss: [32, "f64", 1],
     wanted_loss: [40, "f64", 1],
   } },
-  vox_tuning: { size: 1912, fields: {
+  vox_tuning: { size: 1912, defaults: {  }, fields: {
     struct_size: [0, "u32", 1],
     warnings: [4, "u32", 1],
     cell_size: [8, "f64", 1],
@@ -630,7 +633,6 @@ export const functions = {
   vox_version_string: ["pointer", []],
   vox_abi_version: ["u32", []],
   vox_build_info: ["pointer", []],
-  vox_grid_desc_init: ["result", ["pointer", "u32"]],
   vox_grid_create: ["result", ["pointer", "pointer"]],
   vox_grid_destroy: ["void", ["pointer"]],
   vox_grid_clear: ["result", ["pointer"]],
@@ -642,8 +644,6 @@ export const functions = {
   vox_grid_set_margin: ["result", ["pointer", "f64"]],
   vox_grid_margin: ["result", ["pointer", "pointer"]],
   vox_grid_get_flags: ["result", ["pointer", "pointer"]],
-  vox_filter_init: ["result", ["pointer", "u32"]],
-  vox_mesh_desc_init: ["result", ["pointer", "u32"]],
   vox_mesh_insert: ["result", ["pointer", "pointer", "pointer"]],
   vox_body_remove: ["result", ["pointer", "u32"]],
   vox_body_is_valid: ["u32", ["pointer", "u32"]],
@@ -655,7 +655,6 @@ export const functions = {
   vox_mesh_bind_previous_positions: ["result", ["pointer", "u32", "pointer"]],
   vox_body_mark_moved: ["result", ["pointer", "u32"]],
   vox_body_set_filter: ["result", ["pointer", "u32", "pointer"]],
-  vox_mesh_filter: ["result", ["pointer", "u32", "pointer"]],
   vox_body_set_enabled: ["result", ["pointer", "u32", "u32"]],
   vox_grid_set_pair_enabled: ["result", ["pointer", "u32", "u32", "u32"]],
   vox_mesh_map_positions: ["result", ["pointer", "u32", "pointer"]],
@@ -665,7 +664,6 @@ export const functions = {
   vox_mesh_replace_tets: ["result", ["pointer", "u32", "pointer", "count", "pointer"]],
   vox_mesh_append_tets: ["result", ["pointer", "u32", "pointer", "count", "pointer"]],
   vox_mesh_remove_tets: ["result", ["pointer", "u32", "pointer", "count"]],
-  vox_vertices_desc_init: ["result", ["pointer", "u32"]],
   vox_mesh_append_vertices: ["result", ["pointer", "u32", "pointer", "pointer"]],
   vox_mesh_remove_vertices: ["result", ["pointer", "u32", "pointer", "count"]],
   vox_grid_step: ["result", ["pointer"]],
@@ -690,7 +688,6 @@ export const functions = {
   vox_grid_touch_events: ["result", ["pointer", "pointer"]],
   vox_grid_contact_events: ["result", ["pointer", "pointer"]],
   vox_grid_prepare_readings: ["result", ["pointer"]],
-  vox_readings_desc_init: ["result", ["pointer", "u32"]],
   vox_grid_prepare_readings_of: ["result", ["pointer", "pointer"]],
   vox_grid_readings: ["result", ["pointer", "pointer"]],
   vox_grid_reading_depths: ["result", ["pointer", "pointer"]],
@@ -703,7 +700,6 @@ export const functions = {
   vox_grid_query_points: ["result", ["pointer", "pointer", "i32", "count", "count", "u64", "pointer", "count", "pointer"]],
   vox_grid_query_box: ["result", ["pointer", "pointer", "pointer", "u64", "pointer", "count", "pointer"]],
   vox_grid_query_closest: ["result", ["pointer", "pointer", "f64", "u64", "pointer"]],
-  vox_closest_desc_init: ["result", ["pointer", "u32"]],
   vox_grid_query_closest_points: ["result", ["pointer", "pointer", "pointer"]],
   vox_grid_query_ray: ["result", ["pointer", "pointer", "pointer", "u64", "pointer"]],
   vox_grid_query_ray_hits: ["result", ["pointer", "pointer", "pointer", "u64", "u32", "pointer", "count", "pointer"]],
@@ -723,23 +719,18 @@ export const functions = {
   vox_query_view_ray_any: ["result", ["pointer", "pointer", "pointer", "u64", "u32", "pointer"]],
   vox_grid_get_counters: ["result", ["pointer", "pointer"]],
   vox_grid_profile: ["result", ["pointer", "pointer"]],
-  vox_suggest_desc_init: ["result", ["pointer", "u32"]],
   vox_suggest_cell_size: ["result", ["pointer", "pointer", "count", "pointer"]],
   vox_grid_suggest_cell_size: ["result", ["pointer", "pointer", "pointer"]],
   vox_cost_predict: ["result", ["pointer", "pointer", "count", "f64", "pointer"]],
   vox_cost_calibrate: ["result", ["pointer"]],
   vox_cost_get_weights: ["result", ["pointer"]],
   vox_cost_set_weights: ["result", ["pointer"]],
-  vox_cost_bounds_init: ["result", ["pointer", "u32"]],
   vox_cost_minimise: ["result", ["pointer", "pointer", "pointer", "pointer"]],
   vox_cost_minimise_terms: ["result", ["pointer", "count", "pointer", "pointer"]],
   vox_zone_distance: ["result", ["f64", "f64", "f64", "f64", "pointer"]],
-  vox_primitives_init: ["result", ["pointer", "u32"]],
-  vox_foreign_grid_init: ["result", ["pointer", "u32"]],
   vox_foreign_grid_set_known: ["result", ["pointer", "i32"]],
   vox_suggest_for: ["result", ["pointer", "pointer"]],
   vox_count_for: ["result", ["pointer", "f64", "pointer"]],
   vox_cost_fit: ["result", ["pointer", "pointer", "count", "pointer"]],
-  vox_tune_desc_init: ["result", ["pointer", "u32"]],
   vox_cost_tune: ["result", ["pointer", "pointer", "pointer", "pointer", "pointer"]],
 };

@@ -1,108 +1,82 @@
 // Written by bindings/generate.py from bindings/api.json. Do not edit.
 
-import type { AreaReading, CellContent, CellLook, CostModel, CrossingKind, Engine, ForeignRule, Format, Hash, KnownGrid,
-PenetrationState, PrimitiveType, Result, Side, SizeReading, Storage, Touch } from "./enums.js";
+import type { AreaReading, CellContent, CellLook, CostModel, CrossingKind, ForeignRule, Format, KnownGrid,
+PenetrationState, PrimitiveType, Result, Side, SizeReading, Touch } from "./enums.js";
 
-/**
- * Settings of a grid. One whose fields are all 0 after struct_size is valid but not the default: it has no
- * penetrations, no byte budget and a thread per core. vox_grid_create then writes a warning to the log, if there is
- * one.
- */
+/** Settings of a grid. What the pointers name is copied. */
 export interface GridDesc {
-  engine: Engine;
-  storage: Storage;
-  hash: Hash;
+  /** vox_grid_flags, combined with | */
+  flags: number;
   /**
-   * Edge length of a cell, > 0. 0 (the default): the library chooses it. The reference engine chooses by its cost
-   * model, at the first step, and again when the counts of its steps show that another size would be better (bodies
-   * deform, come into contact, are inserted or removed). Every change is written to the log and counted in
-   * cell_size_changes. If the sizes of the tetrahedra differ so much that a single cell size would be expensive, it
-   * uses a few grids in turn: each has a cell size of its own, holds all vertices, and serves the tetrahedra of a range
-   * of sizes. The fast engine chooses a cell size for each body at every step, from the size of the tiles near other
-   * bodies.
-   */
-  cellSize: number;
-  /**
-   * World box for dense storage, min < max on each axis. Points outside of it are put into the nearest border cell. All
-   * zero (the default): the box of all positions, computed at every step.
-   */
-  worldMin: [number, number, number];
-  worldMax: [number, number, number];
-  /**
-   * Most bytes the grid may hold at any time. A call that would exceed it fails with VOX_ERROR_BUDGET. 0: no limit.
-   * Default 4 GiB.
-   */
-  byteBudget: number;
-  /**
-   * Buckets of the hash table, at most VOX_MAX_VERTICES, raised to the next prime. 0 (the default): the first prime
-   * that is at least twice the number of vertices.
-   */
-  hashTableSize: number;
-  /**
-   * Threads that run a step's tasks, at most VOX_MAX_WORKERS. 1 (the default): serial, on the calling thread; 0: one
-   * per core. With the caller's own task system it is the number of that system's workers, at least 1. Contacts do not
-   * depend on it. The reference engine is always serial. The built-in scheduler never uses more threads than there are
-   * cores, the calling thread being one of them, nor more than the system gives. It is oneTBB, or without it
-   * (vox_build_info says which) each such grid has threads of its own, from the first step that needs them until its
-   * end. They sleep between steps. Only builds for systems without threads, such as plain WebAssembly, are serial. In a
-   * process made by fork, a grid with threads of its own makes new ones.
+   * Threads that share a step, the calling one being one of them: up to VOX_MAX_WORKERS, or VOX_ALL_CORES; 0: one. With
+   * `tasks`, the number of that system's workers. Contacts do not depend on it. The built-in scheduler never uses more
+   * threads than there are cores, nor more than the system gives. It is oneTBB, or without it (vox_build_info says
+   * which) each grid has threads of its own, from the first step that needs them until its end, which sleep between
+   * steps; in a process made by fork it makes new ones. Builds for systems without threads are serial.
    */
   workerCount: number;
-  /** vox_grid_flags, combined with |; default VOX_GRID_PENETRATIONS */
-  flags: number;
+  /**
+   * Edge length of a cell; 0: the library chooses it. It never changes contacts. The fast engine chooses one for each
+   * body in every step, from the size of the tiles near other bodies; for the reference engine see vox_reference_desc.
+   */
+  cellSize: number;
+  /** see vox_grid_set_margin. Experimental */
+  margin: number;
+  /**
+   * most bytes the grid may hold; a call that would exceed it fails with VOX_ERROR_BUDGET. 0: 4 GiB; UINT64_MAX: no
+   * limit
+   */
+  byteBudget: number;
   /**
    * Most searches for a closest point that the depth stage makes in one step: for penetrations that would be ENCLOSED,
    * or CROSSING with nothing but a closest point to go by. The first ones, in the order of the penetrations, get them;
    * the others become VOX_PENETRATION_UNKNOWN, which is counted (unknown_penetrations) and written to the log. Those of
-   * meshes at rest, which are carried over from the last step, take nothing of it, and stay UNKNOWN where they are. 0
-   * (the default): no limit.
+   * meshes at rest, which are carried over from the last step, take nothing of it, and stay UNKNOWN where they are. 0:
+   * no limit.
    */
   closestBudget: number;
-  /** As vox_grid_set_margin; default 0. Experimental. */
-  margin: number;
 }
 
 /**
- * What a mesh does not collide with. A tetrahedron that a filter rules out for a vertex is treated as if it did not
- * exist: the rule of vox_contact (every tetrahedron with the vertex in its interior, or else the lowest with it on the
- * boundary) is applied to the remaining ones. No filter changes the order of contacts or allocates in the step.
+ * What a mesh collides with. With all fields 0, the default, it collides with every other mesh, but not with itself.
+ * Two meshes in different worlds never collide; use worlds for copies of a scene in one grid. Two meshes with the same
+ * group other than 0 collide if it is positive and do not collide if it is negative. Any other two collide if the
+ * category of each has a bit in common with the mask of the other, as in Box2D. A tetrahedron that is ruled out for a
+ * vertex is treated as if it did not exist: the rule of vox_contact (every tetrahedron with the vertex in its interior,
+ * or else the lowest with it on the boundary) is applied to the remaining ones.
  */
 export interface Filter {
-  /**
-   * Two meshes with the same group other than 0 collide if it is positive, and do not if it is negative. All others
-   * collide if the category of each has a bit in common with the mask of the other. Defaults: group 0, category 1, all
-   * bits of the mask. For a mesh with itself, see self_collision.
-   */
+  /** vox_filter_flags, combined with | */
+  flags: number;
   group: number;
-  /**
-   * With group, category, mask and self_collision all 0, as in a struct that was zeroed and not initialised, the mesh
-   * would collide with nothing: an INVALID_ARGUMENT. A mesh that collides with no other mesh (category or mask 0, no
-   * positive group) is allowed, and the first in a grid is written to the log as a warning.
-   */
+  /** 0: 1 */
   category: bigint;
+  /** 0: all bits */
   mask: bigint;
-  /** 1: vertices of the mesh inside its own tetrahedra are contacts; default 0 */
-  selfCollision: number;
+  world: number;
   /**
    * Self-contact skips tetrahedra that have a corner within this many edges of the vertex, along the edges of the
-   * mesh's tetrahedra; at most VOX_MAX_RINGS. 0 (the default) skips only tetrahedra that have the vertex as a corner.
-   * Takes memory for all vertices within this many edges of each vertex: about 60 bytes a vertex for 1, 260 for 2, 700
-   * for 3.
+   * mesh's tetrahedra; at most VOX_MAX_RINGS. 0 skips only tetrahedra that have the vertex as a corner. Takes about 60,
+   * 260 or 700 bytes a vertex for 1, 2 or 3.
    */
   selfRings: number;
   /**
-   * Self-contact skips tetrahedra that are closer to the vertex than this in the rest pose, in the caller's unit
-   * (distance to the closed tetrahedron, computed in double). 0 (the default): skips none. The rest pose is
-   * vox_mesh_desc.rest_positions or, without those, the positions at the time this was first set.
+   * Self-contact skips tetrahedra that are closer to the vertex than this in the rest pose (distance to the closed
+   * tetrahedron, computed in double). The rest pose is vox_mesh_desc.rest_positions or, without those, the positions at
+   * the time this was first set.
    */
   selfRestDistance: number;
-  /**
-   * Which contacts get a penetration, in a grid with VOX_GRID_PENETRATIONS. Vertices of one mesh in another have them
-   * if each of the two accepts the other: its penetration_mask has a bit in common with the other's category, or has
-   * all bits (the default). For self-contact the mesh has to accept itself. This rules out no contact. A mesh with the
-   * mask 0 has contacts alone, and is not prepared for penetrations, which saves about 30 bytes a tetrahedron.
-   */
-  penetrationMask: bigint;
+}
+
+/** Columns of Filter: of an array field, its elements one after the other. */
+export interface FilterColumns {
+  readonly flags: Uint32Array;
+  readonly group: Int32Array;
+  readonly category: BigUint64Array;
+  readonly mask: BigUint64Array;
+  readonly world: Uint32Array;
+  readonly selfRings: Uint32Array;
+  readonly selfRestDistance: Float64Array;
 }
 
 /** A mesh as it is now, e.g. after vox_grid_load. */
@@ -117,14 +91,16 @@ export interface BodyInfo {
   /** 1, or 0 (see vox_body_set_enabled) */
   enabled: number;
   /**
-   * vox_mesh_flags: SELF_COLLISION as the filter says, COPY_POSITIONS if the positions are the mesh's own (copied,
-   * mapped or loaded), BORROW_TETS while the tetrahedra are the caller's
+   * vox_mesh_flags: COPY_POSITIONS if the positions are the mesh's own (copied, mapped or loaded), BORROW_TETS while
+   * the tetrahedra are the caller's
    */
   flags: number;
   /** 1 if vox_body_set_transform gave it one */
   hasTransform: number;
   /** as vox_body_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0 */
   transform: number[];
+  /** in use: neither category nor mask is 0 */
+  filter: Filter;
 }
 
 /** A mesh that made a step fail, or that a step left out. */
@@ -465,17 +441,17 @@ export interface ReadingColumns {
 /** What to read. */
 export interface ReadingsDesc {
   /**
-   * vox_reading_flags, combined with |; default: all. Without SURFACE a reading takes about as long as copying it. The
-   * other fields of vox_reading, such as user data, are always set
+   * vox_reading_flags, combined with |; 0: all. Without SURFACE a reading takes about as long as copying it. The other
+   * fields of vox_reading, such as user data, are always set
    */
   what: number;
-  /** VOX_NULL_BODY (the default): all contacts; else those that vox_mesh_copy_contacts copies */
+  /** VOX_NULL_BODY: all contacts; else those that vox_mesh_copy_contacts copies */
   bodyA: number;
-  /** VOX_NULL_BODY (the default), or those that vox_pair_copy_contacts copies for body_a and it */
+  /** VOX_NULL_BODY, or those that vox_pair_copy_contacts copies for body_a and it */
   bodyB: number;
   /**
    * Most searches for a closest point. The first contacts that need one get it; the readings of the others lack
-   * VOX_READING_SURFACE in `known`, and the log has a warning. 0 (the default): no limit.
+   * VOX_READING_SURFACE in `known`, and the log has a warning. 0: no limit.
    */
   closestBudget: number;
 }
@@ -745,26 +721,48 @@ export interface Profile {
   marginNs: number;
 }
 
+/**
+ * The paper's engine (Sect. 3), for vox_grid_desc.reference. It is serial and finds what the fast engine finds. If the
+ * grid's cell_size is 0, it chooses by its cost model, at the first step, and again when the counts of its steps show
+ * that another size would be better; each change is written to the log and counted in cell_size_changes. If the sizes
+ * of the tetrahedra differ so much that a single cell size would be expensive, it uses a few grids in turn: each has a
+ * cell size of its own, holds all vertices, and serves the tetrahedra of a range of sizes. Where positions were chosen
+ * so that many cells share a bucket, the step finds cells by binary search instead, so its time stays bounded.
+ */
+export interface ReferenceDesc {
+  /** vox_reference_flags, combined with | */
+  flags: number;
+  /**
+   * buckets, at most VOX_MAX_VERTICES, raised to the next prime; 0: the first prime that is at least twice the number
+   * of vertices
+   */
+  hashTableSize: number;
+  /** DENSE: the box that has cells, min < max on each axis. Points outside go to */
+  worldMin: [number, number, number];
+  /** the nearest cell. All 0: the box of all positions, in every step */
+  worldMax: [number, number, number];
+}
+
 export interface SuggestDesc {
   model: CostModel;
   sizeReading: SizeReading;
   areaReading: AreaReading;
-  /** probability that a tet has no collision, in (0, 1); default 0.99 */
+  /** probability that a tet has no collision, in (0, 1); 0: 0.99 */
   pNc: number;
-  /** the paper's r: cost of a particle test divided by that of a cell visit, > 0; default 5 */
+  /** the paper's r: cost of a particle test divided by that of a cell visit; 0: 5 */
   costRatio: number;
   /** edge of the cubic world, for cells_per_axis; 0: longest side of the bounds */
   worldEdge: number;
-  /** the zone is where predicted cost <= (1 + zone_loss) * minimum; in [0, 1e6], default 0.05 */
+  /** the zone is where predicted cost <= (1 + zone_loss) * minimum; at most 1e6; 0: 0.05 */
   zoneLoss: number;
-  /** for rules.mean_edge_multiple (Gregory et al. 2000), > 0; default 2 */
+  /** for rules.mean_edge_multiple (Gregory et al. 2000); 0: 2 */
   meanEdgeFactor: number;
   /** for rules.resolution (McNeely et al. 1999): the required detail; 0: none */
   resolution: number;
-  /** REFERENCE with dense storage: most bytes its cells may take; 0 (the default): no limit */
+  /** REFERENCE with DENSE cells: most bytes that these may take; 0: no limit */
   byteBudget: number;
-  /** REFERENCE: as in vox_grid_desc, but AUTO means HASHED */
-  storage: Storage;
+  /** REFERENCE: vox_reference_flags, combined with | */
+  referenceFlags: number;
 }
 
 /**
@@ -959,7 +957,7 @@ export interface CostBounds {
   /** 0 < min <= max, finite */
   min: number;
   max: number;
-  /** as vox_suggest_desc.zone_loss; default 0.05 */
+  /** as vox_suggest_desc.zone_loss */
   zoneLoss: number;
 }
 
@@ -1117,18 +1115,18 @@ export interface GridFit {
   note: string;
 }
 
-/** How to tune. */
+/** How to tune; all 0 by default. */
 export interface TuneDesc {
-  /** 3 to VOX_TUNE_RUN_CAPACITY; default 7 */
+  /** 3 to VOX_TUNE_RUN_CAPACITY; 0: 7 */
   mostRuns: number;
-  /** cell sizes to try, 0 < min <= max; both 0 (the default): an eighth to eight times the first */
+  /** cell sizes to try, 0 < min <= max; both 0: an eighth to eight times the first */
   min: number;
   max: number;
-  /** the cell size to begin with; 0 (the default): what vox_suggest_for says. Must be set where there is no grid */
+  /** the cell size to begin with; 0: what vox_suggest_for says. Must be set where there is no grid */
   first: number;
-  /** as vox_suggest_desc.zone_loss; default 0.05 */
+  /** as vox_suggest_desc.zone_loss */
   zoneLoss: number;
-  /** stops where the cell size is within this of the best one, as far as it can tell; default 0.02 */
+  /** stops where the cell size is within this of the best one, as far as it can tell; 0: 0.02 */
   wantedLoss: number;
 }
 

@@ -2,12 +2,12 @@
 // voxtet: vox in WebAssembly. Fields of options and results are those of the structs of vox.h, whose comments they have.
 import type { CellContent, CellLook, Format, KnownGrid, LogLevel, PrimitiveType, Result } from "./enums.js";
 import type {
-  ClosestHit, ClosestHitColumns, Contact, ContactColumns, ContactEvent, ContactEventColumns, CostBounds, CostMinimum,
-  CostPrediction, CostTerm, CostWeights, Counters, Depth, DepthColumns, FacetHit, FacetHitColumns, Failure, Filter,
-  ForeignSuggestion as ForeignSuggestionStruct, GridDesc, GridFit as GridFitStruct, GridTiming, GridWeights, GridWork,
-  BodyInfo, Pair, PairColumns, Penetration, PenetrationColumns, PointHit, PointHitColumns, Profile, RayHit, Reading,
-  ReadingColumns, SuggestDesc, Suggestion as SuggestionStruct, SurfaceHit, TetHit, TetHitColumns, TouchEvent, TouchEventColumns,
-  TuneDesc, Tuning as TuningStruct,
+  BodyInfo, ClosestHit, ClosestHitColumns, Contact, ContactColumns, ContactEvent, ContactEventColumns, CostBounds,
+  CostMinimum, CostPrediction, CostTerm, CostWeights, Counters, Depth, DepthColumns, FacetHit, FacetHitColumns,
+  Failure, Filter, ForeignSuggestion as ForeignSuggestionStruct, GridDesc, GridFit as GridFitStruct, GridTiming,
+  GridWeights, GridWork, Pair, PairColumns, Penetration, PenetrationColumns, PointHit, PointHitColumns, Profile,
+  RayHit, Reading, ReadingColumns, ReferenceDesc, SuggestDesc, Suggestion as SuggestionStruct, SurfaceHit, TetHit,
+  TetHitColumns, TouchEvent, TouchEventColumns, TuneDesc, Tuning as TuningStruct,
 } from "./structs.js";
 
 export * from "./enums.js";
@@ -139,10 +139,9 @@ export type Pairs = Records<Pair, PairColumns> & { readonly contacts: Uint32Arra
 // ---- grids ----
 
 export interface GridOptions
-  extends Partial<Pick<GridDesc, "engine" | "storage" | "hash" | "cellSize" | "byteBudget" | "hashTableSize" | "closestBudget">> {
-  /** The box for dense storage. */
-  worldMin?: Vector;
-  worldMax?: Vector;
+  extends Partial<Pick<GridDesc, "cellSize" | "byteBudget" | "closestBudget">> {
+  /** The paper's engine, in place of the fast one. */
+  reference?: ReferenceOptions;
   /** GridFlags, combined with |; default GridFlags.PENETRATIONS. */
   flags?: number;
   /**
@@ -152,12 +151,15 @@ export interface GridOptions
   log?: (level: LogLevel, text: string) => void;
 }
 
-/** The default of selfCollision is false. */
-export interface FilterOptions extends Partial<Omit<Filter, "category" | "mask" | "penetrationMask" | "selfCollision">> {
+export interface ReferenceOptions extends Partial<Omit<ReferenceDesc, "worldMin" | "worldMax">> {
+  /** The box that has cells, where these are dense. */
+  worldMin?: Vector;
+  worldMax?: Vector;
+}
+
+export interface FilterOptions extends Partial<Omit<Filter, "category" | "mask">> {
   category?: Bits;
   mask?: Bits;
-  penetrationMask?: Bits;
-  selfCollision?: boolean | number;
 }
 
 export interface MeshOptions {
@@ -277,7 +279,7 @@ export interface QueryView extends Queries {
 
 export interface GridConstructor {
   new (options?: GridOptions): Grid;
-  /** A grid from what `save` gave, which need not be trusted. Of the options log, budgets and engine are used. */
+  /** A grid from what `save` gave, which need not be trusted. Of the options log, budgets and reference are used. */
   load(bytes: ArrayBuffer | ArrayBufferView, options?: GridOptions): Grid;
   readonly prototype: Grid;
 }

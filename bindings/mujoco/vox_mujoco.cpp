@@ -146,7 +146,8 @@ std::unique_ptr<Instance> make_instance(const mjModel* m, int id) {
     instance->meshes.reserve(instance->flexes.size());
     instance->load.resize(static_cast<size_t>(m->nbody));
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.worker_count = static_cast<uint32_t>(instance->settings.workers);
+    const int workers = instance->settings.workers;
+    desc.worker_count = workers == 0 ? VOX_ALL_CORES : static_cast<uint32_t>(workers);
     vox_grid* grid = nullptr;
     check(vox_grid_create(&desc, &grid));
     instance->grid.reset(grid);
@@ -172,8 +173,8 @@ constexpr vox_format format = sizeof(mjtNum) == sizeof(double) ? VOX_FORMAT_DOUB
 void insert_meshes(Instance& instance, const mjModel* m, const mjData* d) {
     check(vox_grid_clear(instance.grid.get()));
     instance.meshes.clear();
-    vox_filter filter = vox_default_filter();
-    filter.self_collision = static_cast<uint32_t>(instance.settings.self);
+    vox_filter filter{};
+    filter.flags = static_cast<uint32_t>(instance.settings.self) ? VOX_FILTER_SELF_COLLISION : 0u;
     filter.self_rings = static_cast<uint32_t>(instance.settings.rings);
     for (const int flex : instance.flexes) {
         vox_mesh_desc desc = vox_default_mesh_desc();
@@ -181,7 +182,7 @@ void insert_meshes(Instance& instance, const mjModel* m, const mjData* d) {
         desc.tets = reinterpret_cast<const uint32_t*>(flex_tets(m, flex)); // no index is negative
         desc.tet_count = static_cast<uint64_t>(m->flex_elemnum[flex]);
         desc.user_data = static_cast<uint64_t>(flex);
-        desc.filter = &filter;
+        desc.filter = filter;
         vox_body mesh = VOX_NULL_BODY;
         check(vox_mesh_insert(instance.grid.get(), &desc, &mesh));
         instance.meshes.push_back(mesh);

@@ -110,10 +110,8 @@ static vox_result finish(vox_result result) {
 static void filter_field(const vox_filter* f) {
     fprintf(script,
             ", \"filter\": {\"group\": %d, \"category\": \"%" PRIu64 "\", \"mask\": \"%" PRIu64
-            "\", \"self_collision\": %u, \"self_rings\": %u, \"self_rest_distance\": %.17g, "
-            "\"penetration_mask\": \"%" PRIu64 "\"}",
-            f->group, f->category, f->mask, f->self_collision, f->self_rings, f->self_rest_distance,
-            f->penetration_mask);
+            "\", \"flags\": %u, \"world\": %u, \"self_rings\": %u, \"self_rest_distance\": %.17g}",
+            f->group, f->category, f->mask, f->flags, f->world, f->self_rings, f->self_rest_distance);
 }
 
 static double* as_doubles(const body* b) {
@@ -139,7 +137,7 @@ static vox_body insert(const body* b, vox_format format, const vox_filter* filte
     desc.flags = VOX_MESH_COPY_POSITIONS;
     desc.positions.format = format;
     desc.positions.data = format == VOX_FORMAT_DOUBLE ? (const void*)doubles : b->positions;
-    desc.filter = filter;
+    if (filter) desc.filter = *filter;
     desc.user_data = user_data;
     begin_call("insert");
     field("format", "%d", (int)format);
@@ -634,8 +632,8 @@ static const uint32_t all_flags = VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENT
 static void frames(scene* s, const char* name, const char* what, double factor, vox_format format,
                    uint32_t rings) {
     vox_body ids[MOST_BODIES];
-    vox_filter filter = vox_default_filter();
-    filter.self_collision = s->self_collision ? 1 : 0;
+    vox_filter filter = VOX_ZERO;
+    filter.flags = s->self_collision ? VOX_FILTER_SELF_COLLISION : 0;
     filter.self_rings = rings;
     s->name = name;
     if (factor != 1) scale_scene(s, factor);
@@ -686,7 +684,7 @@ static void life(void) {
     const vox_body again = insert(&s.bodies[2], VOX_FORMAT_DOUBLE, NULL, 0xfedcba9876543210u);
     set_enabled(ids[5], 1);
     transform(ids[6], turned);
-    vox_filter filter = vox_default_filter();
+    vox_filter filter = VOX_ZERO;
     filter.category = 2;
     filter.mask = ~(uint64_t)2;
     set_filter(ids[3], &filter);
@@ -803,7 +801,7 @@ static void errors(void) {
     set_flags(0x41);
     set_enabled(first, 2);
     set_pair_enabled(first, first, 0);
-    vox_filter filter = vox_default_filter();
+    vox_filter filter = VOX_ZERO;
     filter.self_rings = VOX_MAX_RINGS + 1;
     set_filter(second, &filter);
     matrix[7] = NAN;

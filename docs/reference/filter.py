@@ -101,8 +101,6 @@ def fields(text):
                 lines[i] = f"/** {kind_of(*begins.groups())} */\n{line}"
         elif line.startswith("#define VOX_VERSION_"):
             lines[i] = line + " /**< Of the version that the header belongs to. */"
-        elif re.match(r"^ {4}\w+_FORCE_32_BITS = ", line):
-            lines[i] = line + " /**< No value: makes the type as wide as 32 bits. */"
         field = FIELD.match(line)
         if not field or above:
             continue
@@ -119,7 +117,7 @@ def fields(text):
 def kind_of(kind, name):
     if kind == "enum":
         return "Flags, combined with | in one number." if name.endswith("_flags") else "One of the values below."
-    return f"Settings; fill it with {name}_init." if name.endswith("_desc") else "Its fields are described below."
+    return f"Settings; begin with {name.replace('vox_', 'vox_default_', 1)}." if name.endswith("_desc") else "Its fields are described below."
 
 
 def readme(text):

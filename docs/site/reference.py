@@ -141,8 +141,9 @@ class Reference:
         if name.endswith("_flags"):
             return "Flags, combined with | in one number."
         if name.startswith("vox_default_"):
-            return f"The defaults, as {self.name(name.replace('default_', '', 1) + '_init', page)} fills them in."
-        return f"Settings; fill it with {self.name(name + '_init', page)}." if name.endswith("_desc") else ""
+            return "The defaults."
+        default = name.replace("vox_", "vox_default_", 1)
+        return f"Settings; begin with {self.name(default, page)}()." if name.endswith("_desc") else ""
 
     # ---- declarations ----
 

@@ -1,18 +1,15 @@
 /* Isolated scenes in one grid: copies of a scene at the same place, such as those of an optimiser or of a
- * learner, that do not see each other. Meshes with the same positive group collide; a mask of 0 keeps them
- * from all others. */
+ * learner, that do not see each other, since each is a world of its own. */
 #include "example.h"
 
 enum { scenes = 100 };
 
 static cube cubes[scenes][2];
 
-/* Inserts a cube into a scene; scenes count from 0, groups from 1. */
 static void insert_into(vox_grid* grid, const cube* c, int scene) {
     const vox_body mesh = insert_cube(grid, c);
-    vox_filter filter = vox_default_filter();
-    filter.group = scene + 1;
-    filter.mask = 0;
+    vox_filter filter = VOX_ZERO;
+    filter.world = (uint32_t)scene;
     must(vox_body_set_filter(grid, mesh, &filter));
 }
 

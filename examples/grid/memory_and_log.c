@@ -33,12 +33,13 @@ static void print(vox_log_level level, const char* text, void* user) {
 int main(void) {
     arena a = {0, 0};
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.allocator.allocate = take;
-    desc.allocator.release = give_back;
-    desc.allocator.user = &a;
-    desc.log.write = print;
+    const vox_allocator allocator = {take, give_back, &a};
+    desc.allocator = &allocator;
+    const vox_log log = {print, NULL};
+    desc.log = &log;
     desc.byte_budget = 1 << 20;
-    desc.engine = VOX_ENGINE_REFERENCE; /* it logs the cell size that it chooses */
+    const vox_reference_desc reference = vox_default_reference_desc();
+    desc.reference = &reference; /* it logs the cell size that it chooses */
 
     vox_grid* grid = NULL;
     must(vox_grid_create(&desc, &grid));

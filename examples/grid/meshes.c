@@ -21,7 +21,7 @@ int main(void) {
     must(vox_mesh_insert(grid, &desc, &points));
     step(grid, "and two points, one of them inside");
 
-    vox_filter filter = vox_default_filter();
+    vox_filter filter = VOX_ZERO;
     filter.mask = 2; /* the points feel meshes of category 2 only, and a and b are of category 1 */
     must(vox_body_set_filter(grid, points, &filter));
     step(grid, "the points filtered out");

@@ -48,11 +48,10 @@ int main(void) {
     for (int i = 0; i < cubes; ++i)
         many[i] = cube_at(0.8f * (float)(i % 10), 0.7f * (float)(i / 10 % 6), 0.9f * (float)(i / 60));
     vox_grid_desc serial = vox_default_grid_desc(), built_in = serial, own = serial;
-    built_in.worker_count = 0; /* a thread a core */
+    built_in.worker_count = VOX_ALL_CORES; /* a thread a core */
     own.worker_count = workers;
-    own.tasks.enqueue = enqueue;
-    own.tasks.finish = finish;
-    own.tasks.user = &q;
+    const vox_task_system tasks = {enqueue, finish, &q};
+    own.tasks = &tasks;
     const uint64_t one = hash_of_step(&serial, many), two = hash_of_step(&built_in, many),
                    three = hash_of_step(&own, many);
     printf("%s\n", one == two && two == three ? "the same contacts" : "DIFFERENT CONTACTS");

@@ -46,16 +46,14 @@ int main(int argc, char** argv) {
     static double positions[3 * VERTICES];
     static uint32_t tets[4 * TETS];
     MPI_Init(&argc, &argv);
-    vox_transport transport;
-    check(vox_transport_init(&transport, sizeof transport));
+    vox_transport transport = vox_default_transport();
     check(vox_mpi_transport_create(MPI_COMM_WORLD, &transport));
     make_block(0.7 * transport.rank, positions, tets);
 
     vox_scene* scene;
     check(vox_scene_create(NULL, &transport, &scene));
     const vox_mesh_desc mesh = vox_mesh_desc_doubles(positions, VERTICES, tets, TETS);
-    vox_part_desc desc;
-    check(vox_part_desc_init(&desc, sizeof desc));
+    vox_part_desc desc = vox_default_part_desc();
     desc.body = transport.rank; /* a whole body here; parts of one body would have the same number */
     desc.mesh = &mesh;
     vox_part part;

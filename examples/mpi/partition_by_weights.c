@@ -72,8 +72,7 @@ static void insert(int b) {
         }
     }
     const vox_mesh_desc mesh = vox_mesh_desc_doubles(p, vertices, tets, 6 * n * n * n);
-    vox_part_desc desc;
-    check(vox_part_desc_init(&desc, sizeof desc));
+    vox_part_desc desc = vox_default_part_desc();
     desc.body = (uint64_t)b;
     desc.mesh = &mesh;
     check(vox_scene_insert(scene, &desc, &bodies[b].part));
@@ -141,8 +140,7 @@ int main(int argc, char** argv) {
     MPI_Init(&argc, &argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);
-    vox_transport transport;
-    check(vox_transport_init(&transport, sizeof transport));
+    vox_transport transport = vox_default_transport();
     check(vox_mpi_transport_create(MPI_COMM_WORLD, &transport));
     check(vox_scene_create(NULL, &transport, &scene));
     for (int b = 0; b < BODIES; ++b)

@@ -112,8 +112,7 @@ static void write_frame(const scene* s, const char* folder, int frame) {
     const vox_io_point_data body = {"body", body_of_vertex, 1, 0};
     vox_io_mesh* mesh;
     must(vox_io_mesh_create(&all, &mesh));
-    vox_io_write_desc desc;
-    must(vox_io_write_desc_init(&desc, sizeof desc));
+    vox_io_write_desc desc = vox_default_io_write_desc();
     desc.binary = 1;
     desc.point_data = &body;
     desc.point_data_count = 1;

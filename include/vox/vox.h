@@ -11,10 +11,11 @@
  *             No function prints, exits, throws or asserts on user input, in any build.
  *             Every function may return INVALID_ARGUMENT for a null pointer that its comment does not allow,
  *             and INVALID_HANDLE for an id that names no mesh of the grid.
- *   Structs   Structs whose first field is struct_size may grow. Fill them with vox_X_init or
- *             vox_default_X. If a function writes the struct, set struct_size before the call. The library
- *             reads and writes only the fields that struct_size covers, so old programs run with new
- *             libraries and the reverse. A struct_size below 4 or above 65536 is an INVALID_ARGUMENT.
+ *   Structs   Structs whose first field is struct_size may grow. Begin with vox_default_X(): it sets struct_size and
+ *             the defaults, which are 0 unless its body says otherwise. If a function writes the struct, set
+ *             struct_size before the call. The library reads and writes only the fields that struct_size covers, so
+ *             old programs run with new libraries and the reverse. A struct_size below 4 or above 65536 is an
+ *             INVALID_ARGUMENT.
  *   Ownership The library copies what it is given, except positions bound as borrowed. Pointers it
  *             hands out belong to it and live as long as their comment says.
  *   Threads   One thread at a time may change a grid. Between changes any number of threads may read
@@ -64,6 +65,8 @@ extern "C" {
 #define VOX_ZERO {0}
 #endif
 
+#define VOX_ALL_CORES 0xffffffffu /* as a worker_count: one worker per core */
+
 /* ---- results ---------------------------------------------------------------------------------- */
 
 typedef enum vox_result {
@@ -80,9 +83,11 @@ typedef enum vox_result {
                                         an x86-64 without SSE4.2: nothing is created there, and no cell size found */
     VOX_ERROR_FILE = -10,            /* a file cannot be opened, read or written */
     VOX_ERROR_FORMAT = -11,          /* a file is malformed */
-    VOX_ERROR_INTERNAL = -12,        /* a defect of the library: please report it */
-    VOX_RESULT_FORCE_32_BITS = 0x7fffffff
+    VOX_ERROR_INTERNAL = -12         /* a defect of the library: please report it */
 } vox_result;
+
+/* Compiles only where enums have 32 bits (not with -fshort-enums). */
+typedef char vox_enums_have_32_bits[sizeof(vox_result) == 4 ? 1 : -1];
 
 /* Name of a result code, e.g. "VOX_ERROR_BUDGET". Static text; never null. Any thread. */
 VOX_API const char* vox_result_string(vox_result result);
@@ -113,8 +118,7 @@ VOX_API const char* vox_build_info(void);
 
 typedef enum vox_format {
     VOX_FORMAT_FLOAT = 0,  /* IEEE 754 singles */
-    VOX_FORMAT_DOUBLE = 1, /* IEEE 754 doubles, of magnitudes below 2^128 - 2^103 (3.4028236e38), the largest float */
-    VOX_FORMAT_FORCE_32_BITS = 0x7fffffff
+    VOX_FORMAT_DOUBLE = 1  /* IEEE 754 doubles, of magnitudes below 2^128 - 2^103 (3.4028236e38), the largest float */
 } vox_format;
 
 /* An array of positions. Coordinate k (0, 1, 2 for x, y, z) of position i is at byte
@@ -149,56 +153,6 @@ static inline vox_positions vox_double_positions(const double* xyz, uint64_t cou
     return positions;
 }
 
-/* ---- memory and log --------------------------------------------------------------------------- */
-
-/* Per-grid allocator. `allocate` returns memory of at least `size` bytes at `alignment` (a power of
- * two), or null; `release` gets the same size and alignment back. If both are null, the C++ runtime's heap is used.
- * They are called only from functions of the grid they were given to, one call at a time. During a step, the calling
- * thread may be one that runs its tasks. For query views that are released after vox_grid_destroy, `release` is called
- * from vox_query_view_release, so it must be usable until then. */
-typedef struct vox_allocator {
-    VOX_OPTIONAL void* (*allocate)(size_t size, size_t alignment, void* user);
-    VOX_OPTIONAL void (*release)(void* memory, size_t size, size_t alignment, void* user);
-    void* user;
-} vox_allocator;
-
-/* Severity of a log line. */
-typedef enum vox_log_level {
-    VOX_LOG_INFO = 0,
-    VOX_LOG_WARNING = 1,
-    VOX_LOG_LEVEL_FORCE_32_BITS = 0x7fffffff
-} vox_log_level;
-
-/* Receives one line of text (no newline), valid during the call only. A null `write` turns the log off. It is called
- * on the thread that called the library, and must not call the grid it came from. */
-typedef struct vox_log {
-    VOX_OPTIONAL void (*write)(vox_log_level level, const char* text, void* user);
-    void* user;
-} vox_log;
-
-/* ---- threads ---------------------------------------------------------------------------------- */
-
-/* Handles the items [begin, end). `worker` is below worker_count; calls that run at the same time have different
- * values of it. */
-typedef void vox_task(uint64_t begin, uint64_t end, uint32_t worker, void* context);
-
-/* The caller's scheduler, designed as in Box3D. `enqueue` splits the items [0, item_count) into ranges, of at
- * least min_range items where possible, and arranges that `task` is called once for each range, now or later, on any
- * thread. It returns a handle for `finish`, or null if all these calls have already returned. `finish` waits until
- * they have. Both are called on the thread that called the library, at most VOX_MAX_TASKS times in a step, at most
- * once by vox_grid_prepare_readings, and at most four times by vox_grid_prepare_queries and vox_grid_take_query_view.
- * If not every item was run exactly once, or a worker index was out of range or had by two calls at the same time, the
- * function fails with INVALID_ARGUMENT and leaves no contacts, no readings, nothing prepared for queries, or no view.
- * If both are null, the built-in scheduler is used. */
-typedef struct vox_task_system {
-    VOX_OPTIONAL void* (*enqueue)(vox_task* task, uint64_t item_count, uint64_t min_range, void* context, void* user);
-    VOX_OPTIONAL void (*finish)(void* handle, void* user);
-    void* user;
-} vox_task_system;
-
-#define VOX_MAX_TASKS 64u    /* tasks enqueued in one step */
-#define VOX_MAX_WORKERS 256u /* workers of a grid */
-
 /* ---- grid ------------------------------------------------------------------------------------- */
 
 /* Limits. Exceeding one gives VOX_ERROR_LIMIT. docs/limits.md lists these and all others. */
@@ -206,30 +160,7 @@ typedef struct vox_task_system {
 #define VOX_MAX_GENERATIONS 4095u         /* uses of one mesh slot before it is retired */
 #define VOX_MAX_VERTICES 2147483647u      /* per grid */
 #define VOX_MAX_TETS 2147483647u          /* per grid */
-
-/* How the reference engine stores cells; the fast engine ignores it. Contacts do not depend on it. */
-typedef enum vox_storage {
-    VOX_STORAGE_AUTO = 0,   /* the engine's choice */
-    VOX_STORAGE_HASHED = 1, /* unbounded space: cells hashed into a table of prime size */
-    VOX_STORAGE_DENSE = 2,  /* one list per cell of a box: linear id k*nx*ny + j*nx + i */
-    VOX_STORAGE_FORCE_32_BITS = 0x7fffffff
-} vox_storage;
-
-/* Hash of a cell (i, j, k) for hashed storage. Contacts do not depend on it. Where positions were chosen so that many
- * cells share a bucket, the step finds cells by binary search instead, so its time stays bounded. */
-typedef enum vox_hash {
-    VOX_HASH_MIXED = 0, /* a well-mixed 64-bit hash: the default */
-    VOX_HASH_PAPER = 1, /* i*73856093 xor j*19349663 xor k*83492791 (Teschner et al. 2003, Sect. 4.1) */
-    VOX_HASH_FORCE_32_BITS = 0x7fffffff
-} vox_hash;
-
-/* Which algorithm runs. Contacts do not depend on it. */
-typedef enum vox_engine {
-    VOX_ENGINE_AUTO = 0,      /* fast, or reference if a storage is requested */
-    VOX_ENGINE_REFERENCE = 1, /* the paper's algorithm as printed (Sect. 3) */
-    VOX_ENGINE_FAST = 2,      /* tiles of tets against dense windows of cells, with SIMD */
-    VOX_ENGINE_FORCE_32_BITS = 0x7fffffff
-} vox_engine;
+#define VOX_MAX_WORKERS 256u              /* workers of a grid */
 
 typedef enum vox_grid_flags {
     VOX_GRID_PENETRATIONS = 1, /* run the depth stage in a step (vox_grid_penetrations); on by default. A mesh of more
@@ -241,68 +172,48 @@ typedef enum vox_grid_flags {
                                      disabled; without this flag they fail.
                                      Counted (skipped_meshes), listed (vox_grid_get_failure), and logged once until the
                                      mesh is well again */
-    VOX_GRID_EDGE_CONTACTS = 8, /* also find edges of surfaces through faces of others (vox_grid_edge_contacts);
+    VOX_GRID_EDGE_CONTACTS = 8    /* also find edges of surfaces through faces of others (vox_grid_edge_contacts);
                                    experimental. A mesh of more than 357913941 tets then gives VOX_ERROR_LIMIT */
-    VOX_GRID_FLAGS_FORCE_32_BITS = 0x7fffffff
 } vox_grid_flags;
 
 /* An open grid: a set of meshes and the settings they collide under. */
 typedef struct vox_grid vox_grid;
 
-/* Settings of a grid. One whose fields are all 0 after struct_size is valid but not the default: it has no
- * penetrations, no byte budget and a thread per core. vox_grid_create then writes a warning to the log, if there is
- * one. */
+/* Settings of a grid. What the pointers name is copied. */
 typedef struct vox_grid_desc {
     uint32_t struct_size;
-    vox_engine engine;
-    vox_storage storage;
-    vox_hash hash;
-    /* Edge length of a cell, > 0. 0 (the default): the library chooses it. The reference engine chooses by its cost
-     * model, at the first step, and again when the counts of its steps show that another size
-     * would be better (bodies deform, come into contact, are inserted or removed). Every change is written to the
-     * log and counted in cell_size_changes. If the sizes of the tetrahedra differ so much that a single cell size would
-     * be expensive, it uses a few grids in turn: each has a cell size of its own, holds all vertices, and serves the
-     * tetrahedra of a range of sizes. The fast engine chooses a cell size for each body at every step, from the size of the tiles near other bodies. */
-    double cell_size;
-    /* World box for dense storage, min < max on each axis. Points outside of it are put into the nearest border
-     * cell. All zero (the default): the box of all positions, computed at every step. */
-    double world_min[3];
-    double world_max[3];
-    /* Most bytes the grid may hold at any time. A call that would exceed it fails with VOX_ERROR_BUDGET.
-     * 0: no limit. Default 4 GiB. */
-    uint64_t byte_budget;
-    /* Buckets of the hash table, at most VOX_MAX_VERTICES, raised to the next prime. 0 (the default): the
-     * first prime that is at least twice the number of vertices. */
-    uint64_t hash_table_size;
-    vox_allocator allocator;
-    vox_log log;
-    vox_task_system tasks;
-    /* Threads that run a step's tasks, at most VOX_MAX_WORKERS. 1 (the default): serial, on the calling thread; 0: one
-     * per core. With the caller's own task system it is the number of that system's workers, at least 1. Contacts do
-     * not depend on it. The reference engine is always serial. The built-in scheduler never uses more threads than there
-     * are cores, the calling thread being one of them, nor more than the system gives. It is oneTBB, or without it
-     * (vox_build_info says which) each such grid has threads of its own, from the first step that needs them until its
-     * end. They sleep between steps. Only builds for systems without threads, such as plain WebAssembly, are serial. In a
-     * process made by fork, a grid with threads of its own makes new ones. */
+    uint32_t flags; /* vox_grid_flags, combined with | */
+    /* Threads that share a step, the calling one being one of them: up to VOX_MAX_WORKERS, or VOX_ALL_CORES; 0: one.
+     * With `tasks`, the number of that system's workers. Contacts do not depend on it. The built-in scheduler never
+     * uses more threads than there are cores, nor more than the system gives. It is oneTBB, or without it
+     * (vox_build_info says which) each grid has threads of its own, from the first step that needs them until its end,
+     * which sleep between steps; in a process made by fork it makes new ones. Builds for systems without threads are
+     * serial. */
     uint32_t worker_count;
-    uint32_t flags; /* vox_grid_flags, combined with |; default VOX_GRID_PENETRATIONS */
+    uint32_t reserved; /* 0 */
+    /* Edge length of a cell; 0: the library chooses it. It never changes contacts. The fast engine chooses one for each
+     * body in every step, from the size of the tiles near other bodies; for the reference engine see
+     * vox_reference_desc. */
+    double cell_size;
+    double margin;        /* see vox_grid_set_margin. Experimental */
+    uint64_t byte_budget; /* most bytes the grid may hold; a call that would exceed it fails with VOX_ERROR_BUDGET. 0:
+                             4 GiB; UINT64_MAX: no limit */
     /* Most searches for a closest point that the depth stage makes in one step: for penetrations that would be
      * ENCLOSED, or CROSSING with nothing but a closest point to go by. The first ones, in the order of the
      * penetrations, get them; the others become VOX_PENETRATION_UNKNOWN, which is counted (unknown_penetrations) and
      * written to the log. Those of meshes at rest, which are carried over from the last step, take nothing of it, and
-     * stay UNKNOWN where they are. 0 (the default): no limit. */
+     * stay UNKNOWN where they are. 0: no limit. */
     uint64_t closest_budget;
-    /* As vox_grid_set_margin; default 0. Experimental. */
-    double margin;
+    VOX_OPTIONAL const struct vox_allocator* allocator;      /* null: the C++ runtime's heap */
+    VOX_OPTIONAL const struct vox_log* log;                  /* null: no log */
+    VOX_OPTIONAL const struct vox_task_system* tasks;        /* null: the built-in scheduler */
+    VOX_OPTIONAL const struct vox_reference_desc* reference; /* null: the fast engine; else the paper's */
 } vox_grid_desc;
 
-/* Fills `desc` with the defaults for the fields that `struct_size` covers.
- * Errors: INVALID_ARGUMENT when desc is null or struct_size is not in [4, 65536]. */
-VOX_API vox_result vox_grid_desc_init(vox_grid_desc* desc, uint32_t struct_size);
-
 static inline vox_grid_desc vox_default_grid_desc(void) {
-    vox_grid_desc desc;
-    (void)vox_grid_desc_init(&desc, (uint32_t)sizeof desc);
+    vox_grid_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
+    desc.flags = VOX_GRID_PENETRATIONS;
     return desc;
 }
 
@@ -333,8 +244,8 @@ VOX_API vox_result vox_grid_set_cell_size(vox_grid* grid, double cell_size);
  * it is 0. */
 VOX_API vox_result vox_grid_cell_size(const vox_grid* grid, double* out_cell_size);
 
-/* Sets vox_grid_desc.worker_count for the following steps. Errors: INVALID_ARGUMENT above VOX_MAX_WORKERS, and for 0
- * if the grid has a task system of the caller's. */
+/* Sets vox_grid_desc.worker_count for the following steps. Errors: INVALID_ARGUMENT (also VOX_ALL_CORES if the grid has
+ * a task system of the caller's). */
 VOX_API vox_result vox_grid_set_worker_count(vox_grid* grid, uint32_t worker_count);
 
 /* Sets vox_grid_desc.flags (all of them) for the following steps. With a changed flag, contacts stay, but views of the
@@ -345,14 +256,14 @@ VOX_API vox_result vox_grid_set_worker_count(vox_grid* grid, uint32_t worker_cou
  * step does. Switched off, it releases the memory of these events.
  * VOX_GRID_EDGE_CONTACTS switched on lets the next step prepare the surfaces of the meshes that are near others.
  * Switched off, it releases the memory of that.
- * Errors: INVALID_ARGUMENT (unknown flags), UNSUPPORTED (edge contacts in a build without), LIMIT, BUDGET, OUT_OF_MEMORY; after
- * these all meshes are as they were. */
+ * Errors: INVALID_ARGUMENT (unknown flags), UNSUPPORTED (edge contacts in a build without), LIMIT, BUDGET,
+ * OUT_OF_MEMORY; after these all meshes are as they were. */
 VOX_API vox_result vox_grid_set_flags(vox_grid* grid, uint32_t flags);
 
-/* From the next step on, also find the vertices of other meshes that are outside of the tetrahedra of a mesh, but within
- * `margin` (in the caller's unit) of its surface: vox_grid_margin_contacts. 0 (the default): none, at no cost, and the
- * memory that this took is released. Contacts stay, but views of the last step's results end. A mesh of more than
- * 357913941 tets then makes a step fail with LIMIT. Snapshots do not keep the margin.
+/* From the next step on, also find the vertices of other meshes that are outside of the tetrahedra of a mesh, but
+ * within `margin` (in the caller's unit) of its surface: vox_grid_margin_contacts. 0 (the default): none, at no cost,
+ * and the memory that this took is released. Contacts stay, but views of the last step's results end. A mesh of more
+ * than 357913941 tets then makes a step fail with LIMIT. Snapshots do not keep the margin.
  * Errors: INVALID_ARGUMENT when negative, NaN or above 2^125; UNSUPPORTED in a build without. */
 VOX_EXPERIMENTAL vox_result vox_grid_set_margin(vox_grid* grid, double margin);
 
@@ -370,54 +281,39 @@ VOX_API vox_result vox_grid_get_flags(const vox_grid* grid, uint32_t* out_flags)
 typedef uint32_t vox_body;
 #define VOX_NULL_BODY 0u /* names no mesh */
 
-typedef enum vox_mesh_flags {
-    VOX_MESH_SELF_COLLISION = 1, /* also report vertices of the mesh inside its own tetrahedra */
-    VOX_MESH_COPY_POSITIONS = 2, /* copy `positions` at insertion instead of borrowing them */
-    VOX_MESH_BORROW_TETS = 4,    /* borrow `tets` instead of copying them: 16 bytes less per tetrahedron */
-    VOX_MESH_FLAGS_FORCE_32_BITS = 0x7fffffff
-} vox_mesh_flags;
+typedef enum vox_filter_flags {
+    VOX_FILTER_SELF_COLLISION = 1, /* the mesh also collides with itself */
+    VOX_FILTER_SENSOR = 2          /* the mesh has contacts, but no penetrations; takes less memory */
+} vox_filter_flags;
 
 #define VOX_MAX_RINGS 8u /* vox_filter.self_rings */
 
-/* What a mesh does not collide with. A tetrahedron that a filter rules out for a vertex is treated as if it did not
- * exist: the rule of vox_contact (every tetrahedron with the vertex in its interior, or else the lowest with it on the
- * boundary) is applied to the remaining ones. No filter changes the order of contacts or allocates in the step. */
+/* What a mesh collides with. With all fields 0, the default, it collides with every other mesh, but not with itself.
+ * Two meshes in different worlds never collide; use worlds for copies of a scene in one grid. Two meshes with the same
+ * group other than 0 collide if it is positive and do not collide if it is negative. Any other two collide if the
+ * category of each has a bit in common with the mask of the other, as in Box2D. A tetrahedron that is ruled out for a
+ * vertex is treated as if it did not exist: the rule of vox_contact (every tetrahedron with the vertex in its interior,
+ * or else the lowest with it on the boundary) is applied to the remaining ones. */
 typedef struct vox_filter {
-    uint32_t struct_size;
-    /* Two meshes with the same group other than 0 collide if it is positive, and do not if it is negative. All others
-     * collide if the category of each has a bit in common with the mask of the other. Defaults: group 0, category 1,
-     * all bits of the mask. For a mesh with itself, see self_collision. */
+    uint32_t flags; /* vox_filter_flags, combined with | */
     int32_t group;
-    /* With group, category, mask and self_collision all 0, as in a struct that was zeroed and not initialised, the mesh
-     * would collide with nothing: an INVALID_ARGUMENT. A mesh that collides with no other mesh (category or mask 0, no
-     * positive group) is allowed, and the first in a grid is written to the log as a warning. */
-    uint64_t category;
-    uint64_t mask;
-    uint32_t self_collision; /* 1: vertices of the mesh inside its own tetrahedra are contacts; default 0 */
+    uint64_t category; /* 0: 1 */
+    uint64_t mask;     /* 0: all bits */
+    uint32_t world;
     /* Self-contact skips tetrahedra that have a corner within this many edges of the vertex, along the edges of the
-     * mesh's tetrahedra; at most VOX_MAX_RINGS. 0 (the default) skips only tetrahedra that have the vertex as a corner.
-     * Takes memory for all vertices within this many edges of each vertex: about 60 bytes a vertex for 1, 260 for 2,
-     * 700 for 3. */
+     * mesh's tetrahedra; at most VOX_MAX_RINGS. 0 skips only tetrahedra that have the vertex as a corner. Takes about
+     * 60, 260 or 700 bytes a vertex for 1, 2 or 3. */
     uint32_t self_rings;
-    /* Self-contact skips tetrahedra that are closer to the vertex than this in the rest pose, in the caller's unit
-     * (distance to the closed tetrahedron, computed in double). 0 (the default): skips none. The rest pose is
-     * vox_mesh_desc.rest_positions or, without those, the positions at the time this was first set. */
+    /* Self-contact skips tetrahedra that are closer to the vertex than this in the rest pose (distance to the closed
+     * tetrahedron, computed in double). The rest pose is vox_mesh_desc.rest_positions or, without those, the positions
+     * at the time this was first set. */
     double self_rest_distance;
-    /* Which contacts get a penetration, in a grid with VOX_GRID_PENETRATIONS. Vertices of one mesh in another have them
-     * if each of the two accepts the other: its penetration_mask has a bit in common with the other's category, or has
-     * all bits (the default). For self-contact the mesh has to accept itself. This rules out no contact. A mesh with
-     * the mask 0 has contacts alone, and is not prepared for penetrations, which saves about 30 bytes a tetrahedron. */
-    uint64_t penetration_mask;
 } vox_filter;
 
-/* Fills `filter` with the defaults for the fields that `struct_size` covers. */
-VOX_API vox_result vox_filter_init(vox_filter* filter, uint32_t struct_size);
-
-static inline vox_filter vox_default_filter(void) {
-    vox_filter filter;
-    (void)vox_filter_init(&filter, (uint32_t)sizeof filter);
-    return filter;
-}
+typedef enum vox_mesh_flags {
+    VOX_MESH_COPY_POSITIONS = 1, /* copy the positions instead of borrowing them */
+    VOX_MESH_BORROW_TETS = 2     /* borrow the tetrahedra instead of copying them, 16 bytes each */
+} vox_mesh_flags;
 
 /* A body: vertices, and tetrahedra over them. Without tetrahedra (a surface, a set of points) its vertices still
  * collide with the tetrahedra of other meshes, but its edges and faces with nothing, so a thin blade may cross a body
@@ -438,17 +334,13 @@ typedef struct vox_mesh_desc {
     const uint32_t* tets;
     uint64_t tet_count;
     uint64_t user_data; /* any number of the caller's, returned by vox_body_get_user_data */
-    /* Copied; null: the defaults. VOX_MESH_SELF_COLLISION turns self_collision on as well. */
-    VOX_OPTIONAL const vox_filter* filter;
+    vox_filter filter;
     vox_positions rest_positions; /* of all vertices, copied; none: see vox_filter.self_rest_distance */
 } vox_mesh_desc;
 
-/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
-VOX_API vox_result vox_mesh_desc_init(vox_mesh_desc* desc, uint32_t struct_size);
-
 static inline vox_mesh_desc vox_default_mesh_desc(void) {
-    vox_mesh_desc desc;
-    (void)vox_mesh_desc_init(&desc, (uint32_t)sizeof desc);
+    vox_mesh_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
     return desc;
 }
 
@@ -501,8 +393,8 @@ typedef struct vox_body_info {
     uint64_t tet_count;    /* with those that are disabled or removed: indices of tetrahedra are below it */
     uint64_t enabled_tet_count;
     uint32_t enabled;      /* 1, or 0 (see vox_body_set_enabled) */
-    uint32_t flags;        /* vox_mesh_flags: SELF_COLLISION as the filter says, COPY_POSITIONS if the positions are the
-                              mesh's own (copied, mapped or loaded), BORROW_TETS while the tetrahedra are the caller's */
+    uint32_t flags;        /* vox_mesh_flags: COPY_POSITIONS if the positions are the mesh's own (copied, mapped or
+                              loaded), BORROW_TETS while the tetrahedra are the caller's */
     uint32_t has_transform; /* 1 if vox_body_set_transform gave it one */
     uint32_t reserved;      /* 0 */
     /* The positions, without the transform; removed vertices are among them. The data is null if the mesh has none. It
@@ -510,6 +402,7 @@ typedef struct vox_body_info {
      * cleared or destroyed. No stride is 0 unless the data is null. */
     vox_positions positions;
     double transform[12]; /* as vox_body_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0 */
+    vox_filter filter;    /* in use: neither category nor mask is 0 */
 } vox_body_info;
 
 /* Writes the fields that out_info->struct_size covers (set it first). How long `positions` live: see vox_body_info.
@@ -554,15 +447,12 @@ static inline vox_result vox_mesh_bind_doubles(vox_grid* grid, vox_body body, co
  * serves to measure steps over positions that stay the same. */
 VOX_API vox_result vox_body_mark_moved(vox_grid* grid, vox_body body);
 
-/* Sets what the mesh collides with, from the next step on (the filter is copied). This includes self_collision, which
- * replaces the flag given at insertion. The tables of the self-contact filters, and what penetrations need if their
- * mask was 0 before, are built in the call, in time and memory proportional to the mesh.
+/* Sets what the mesh collides with, from the next step on (the filter is copied). The tables of the self-contact
+ * filters, and what penetrations need of a mesh that was a sensor, are built in the call, in time and memory
+ * proportional to the mesh.
  * Errors: INVALID_ARGUMENT, LIMIT (self_rings; tetrahedra of a mesh with penetrations), INVALID_STATE (a rest distance
  * without a rest pose or positions), NON_FINITE (a rest position), BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_body_set_filter(vox_grid* grid, vox_body body, const vox_filter* filter);
-
-/* Writes the fields of the filter in use that out_filter->struct_size covers (set it first). */
-VOX_API vox_result vox_mesh_filter(const vox_grid* grid, vox_body body, vox_filter* out_filter);
 
 /* Disables a mesh (enabled 0), so that it takes no part in the following steps and its positions are not read, or
  * enables it again (1, as at insertion). Its contacts of the last step stay until the next one.
@@ -571,7 +461,7 @@ VOX_API vox_result vox_body_set_enabled(vox_grid* grid, vox_body body, uint32_t 
 
 /* With enabled 0, the two meshes do not collide in the following steps, whatever their filters say; with 1, their
  * filters decide. The setting ends when either mesh is removed. Errors: INVALID_ARGUMENT for other numbers and for
- * body_a = body_b (see vox_filter.self_collision), BUDGET, OUT_OF_MEMORY. */
+ * body_a = body_b (see VOX_FILTER_SELF_COLLISION), BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_set_pair_enabled(vox_grid* grid, vox_body body_a, vox_body body_b, uint32_t enabled);
 
 /* Gives the mesh positions of its own that the caller may write to: one for each vertex, packed, in the format
@@ -610,8 +500,8 @@ VOX_API vox_result vox_body_set_transform(vox_grid* grid, vox_body body, VOX_OPT
  * ("tet 17 names vertex 900 of 812", or a vertex that was removed), LIMIT, BUDGET, OUT_OF_MEMORY. */
 
 /* Replaces tetrahedra, vertices and positions, as if the mesh had been inserted with those of `desc`. Its id, user
- * data, filter, transform, disabled pairs, and whether it is enabled stay as they are; of `desc`, user_data, filter and
- * the flag VOX_MESH_SELF_COLLISION are ignored. If desc->positions is null, the mesh keeps its positions and its rest
+ * data, filter, transform, disabled pairs, and whether it is enabled stay as they are; of `desc`, user_data and filter
+ * are ignored. If desc->positions is null, the mesh keeps its positions and its rest
  * pose if the number of vertices is unchanged; otherwise it has no positions until vox_mesh_bind_positions. The rest
  * pose of a filter with a rest distance is taken from desc as at insertion. Errors: also INVALID_STATE and NON_FINITE,
  * as vox_body_set_filter. */
@@ -656,12 +546,9 @@ typedef struct vox_vertices_desc {
     vox_positions rest_positions;
 } vox_vertices_desc;
 
-/* Fills `desc` with the defaults for the fields that `struct_size` covers: all 0. */
-VOX_API vox_result vox_vertices_desc_init(vox_vertices_desc* desc, uint32_t struct_size);
-
 static inline vox_vertices_desc vox_default_vertices_desc(void) {
-    vox_vertices_desc desc;
-    (void)vox_vertices_desc_init(&desc, (uint32_t)sizeof desc);
+    vox_vertices_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
     return desc;
 }
 
@@ -678,8 +565,8 @@ VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_body body, const
 
 /* ---- step and contacts ------------------------------------------------------------------------ */
 
-/* Finds all contacts of the positions as they are now. On success the previous contacts are replaced; on
- * failure they are gone and the grid stays usable.
+/* Finds all contacts of the positions as they are now. On success the previous contacts are replaced; on failure they
+ * are gone and the grid stays usable.
  * A mesh is at rest if its positions are bit for bit those of the last step; the fast engine keeps a copy to compare.
  * Contacts between meshes at rest, and of a mesh at rest with itself, are carried over from the last step with their
  * penetrations, so such meshes cost little more than reading their positions. (When a moving mesh comes to rest, it is
@@ -689,22 +576,24 @@ VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_body body, const
  * memory of the built-in scheduler, such as the stacks of its threads, is not the grid's and is not counted.
  * Errors: INVALID_STATE (a mesh has no positions), NON_FINITE and LIMIT (a coordinate that VOX_FORMAT_DOUBLE does not
  * allow), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT, see vox_mesh_insert); all these name the mesh, as does
- * vox_grid_get_failure. LIMIT (more than VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET, OUT_OF_MEMORY. */
+ * vox_grid_get_failure. LIMIT (more than VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET,
+ * OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_step(vox_grid* grid);
 
 /* Steps `count` grids, which must differ, each as by vox_grid_step, several at the same time: for many small scenes
- * that have nothing to do with each other. The grids are split among `worker_count` threads (0: one per core; at most
- * VOX_MAX_WORKERS) of `tasks` (null: the built-in scheduler), as one task; within it each grid uses workers of its own,
- * so 1 of them is best (the default of vox_grid_desc). What a grid finds does not depend on the others. Its callbacks
- * are called on the thread that steps it. One thread at a time may change each of the grids, so none of them may be
- * used until the call returns. Threads of the built-in scheduler may be kept for a next call with as many workers: those
- * of one call at most, at most VOX_MAX_WORKERS - 1, which sleep, until the process ends or the library is unloaded.
- * results: null, or `count` results, of the grids in their order. If grids fail, the others are stepped nevertheless,
- * and the call returns the result of the first of them and its text, after its index ("grid 17: ...").
+ * that have nothing to do with each other. The grids are split among `worker_count` threads (as in vox_grid_desc) of
+ * `tasks` (null: the built-in scheduler), as one task; within it each grid uses workers of its own, so one of them is
+ * best. What a grid finds does not depend on the others. Its callbacks are called on the thread that steps it. One
+ * thread at a time may change each of the grids, so none of them may be used until the call returns. Threads of the
+ * built-in scheduler may be kept for a next call with as many workers: those of one call at most, at most
+ * VOX_MAX_WORKERS - 1, which sleep, until the process ends or the library is unloaded. results: null, or `count`
+ * results, of the grids in their order. If grids fail, the others are stepped nevertheless, and the call returns the
+ * result of the first of them and its text, after its index ("grid 17: ...").
  * Errors: as vox_grid_step; INVALID_ARGUMENT (a null or repeated grid, a worker_count) and OUT_OF_MEMORY, after which
  * no grid was stepped and `results` is not written, unless the task system broke its rules, see vox_task_system. */
-VOX_API vox_result vox_grids_step(vox_grid* const* grids, uint64_t count, VOX_OPTIONAL const vox_task_system* tasks,
-                                  uint32_t worker_count, VOX_OPTIONAL vox_result* results);
+VOX_API vox_result vox_grids_step(vox_grid* const* grids, uint64_t count,
+                                  VOX_OPTIONAL const struct vox_task_system* tasks, uint32_t worker_count,
+                                  VOX_OPTIONAL vox_result* results);
 
 /* A mesh that made a step fail, or that a step left out. */
 typedef struct vox_failure {
@@ -800,9 +689,8 @@ typedef enum vox_penetration_state {
                                        vertices that p is connected with. The nearest way out alone: of the edges, or
                                        by a neighbour. Closest only if no edge of any of these vertices leads out */
     VOX_PENETRATION_COINCIDENT = 4, /* p lies on the surface; depth is 0, direction the surface's normal at p */
-    VOX_PENETRATION_UNKNOWN = 5,    /* the step's closest_budget was used up (see vox_grid_desc): depth is 0, direction
+    VOX_PENETRATION_UNKNOWN = 5     /* the step's closest_budget was used up (see vox_grid_desc): depth is 0, direction
                                        the normal of a facet of the contact's tetrahedron */
-    VOX_PENETRATION_STATE_FORCE_32_BITS = 0x7fffffff
 } vox_penetration_state;
 
 /* Vertex `vertex` of body_a is inside body_b (a = b: self-contact) and has to leave it: moving the vertex by
@@ -821,8 +709,8 @@ typedef struct vox_penetration {
 } vox_penetration;
 
 /* `count` penetrations, `byte_stride` apart: one for each (body_a, vertex, body_b) that has contacts, in that order,
- * unless vox_filter.penetration_mask rules it out. A vertex inside two meshes has two. The data lives as long as that
- * of the contacts' view. */
+ * unless one of them is a sensor (VOX_FILTER_SENSOR). A vertex inside two meshes has two. The data lives as long as
+ * that of the contacts' view. */
 typedef struct vox_penetration_view {
     const vox_penetration* data;
     size_t byte_stride;
@@ -858,14 +746,13 @@ VOX_API vox_result vox_grid_depths(const vox_grid* grid, vox_depth_view* out_vie
 typedef enum vox_crossing_kind {
     VOX_CROSSING_THROUGH = 0,  /* it passes through the interior of the face, with an end on either side */
     VOX_CROSSING_TOUCHING = 1, /* an end is on the face, or it passes through an edge or a corner of the face */
-    VOX_CROSSING_COPLANAR = 2, /* it lies in the plane of the face and meets it, or one of them is degenerate and they
+    VOX_CROSSING_COPLANAR = 2  /* it lies in the plane of the face and meets it, or one of them is degenerate and they
                                   meet */
-    VOX_CROSSING_KIND_FORCE_32_BITS = 0x7fffffff
 } vox_crossing_kind;
 
-/* An edge of the surface of body_a and a face of the surface of body_b that have a point in common (a = b: self-contact;
- * then they have no vertex in common). The surface of a mesh consists of the facets of exactly one of its enabled
- * tetrahedra, duplicates counted once, and of their edges. Decided exactly for the coordinates given.
+/* An edge of the surface of body_a and a face of the surface of body_b that have a point in common (a = b:
+ * self-contact; then they have no vertex in common). The surface of a mesh consists of the facets of exactly one of its
+ * enabled tetrahedra, duplicates counted once, and of their edges. Decided exactly for the coordinates given.
  * So two bars laid across each other are seen, though no vertex of one is in the other. Where several points are
  * common, the position is that of one of them: an end of the edge if one is, the lower vertex first. */
 typedef struct vox_edge_contact {
@@ -897,8 +784,8 @@ typedef struct vox_edge_contact_view {
 /* The edge contacts of the last step: the same for every engine, cell size and number of workers. Count 0 before the
  * first step, after a failed one and after a clear. Which meshes collide is up to vox_filter and
  * vox_grid_set_pair_enabled, as for contacts; a self-contact is ruled out where vox_filter rules out the contact of
- * either end of the edge with `tet`. Meshes that touch by edges alone are pairs of vox_grid_get_pairs, with no contacts, and
- * have touch events. vox_grid_get_hash and readings are of contacts alone.
+ * either end of the edge with `tet`. Meshes that touch by edges alone are pairs of vox_grid_get_pairs, with no
+ * contacts, and have touch events. vox_grid_get_hash and readings are of contacts alone.
  * Errors: INVALID_STATE if the grid's flags lack VOX_GRID_EDGE_CONTACTS. */
 VOX_EXPERIMENTAL vox_result vox_grid_edge_contacts(const vox_grid* grid, vox_edge_contact_view* out_view);
 
@@ -949,7 +836,8 @@ typedef struct vox_margin_contact_view {
 
 /* The margin contacts of the last step: the same for every engine, cell size and number of workers. Count 0 before the
  * first step, after a failed one and after a clear. Which meshes collide is up to vox_filter and
- * vox_grid_set_pair_enabled, as for contacts. They are not part of vox_grid_get_hash, and no pairs or events come of them.
+ * vox_grid_set_pair_enabled, as for contacts. They are not part of vox_grid_get_hash, and no pairs or events come of
+ * them.
  * Errors: INVALID_STATE if the margin is 0 (vox_grid_set_margin). */
 VOX_EXPERIMENTAL vox_result vox_grid_margin_contacts(const vox_grid* grid, vox_margin_contact_view* out_view);
 
@@ -1016,8 +904,8 @@ typedef struct vox_pair_view {
 VOX_API vox_result vox_grid_get_pairs(const vox_grid* grid, vox_pair_view* out_view);
 
 /* Copies the first `capacity` of the last step's contacts in which `mesh` is body_a or body_b, pair by pair, in the
- * order of vox_grid_get_pairs. *out_count is how many there are, which may be more than were copied. `contacts` may be null
- * if capacity is 0. The mesh may have been disabled since the step, but not removed.
+ * order of vox_grid_get_pairs. *out_count is how many there are, which may be more than were copied. `contacts` may be
+ * null if capacity is 0. The mesh may have been disabled since the step, but not removed.
  * Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 VOX_API vox_result vox_mesh_copy_contacts(const vox_grid* grid, vox_body body, vox_contact* contacts,
                                           uint64_t capacity, uint64_t* out_count);
@@ -1031,8 +919,7 @@ VOX_API vox_result vox_pair_copy_contacts(const vox_grid* grid, vox_body body_a,
 typedef enum vox_touch {
     VOX_TOUCH_BEGAN = 1,     /* touches now, and did not before */
     VOX_TOUCH_PERSISTED = 2, /* touches now, and did before */
-    VOX_TOUCH_ENDED = 3,     /* no longer touches, for whatever reason */
-    VOX_TOUCH_FORCE_32_BITS = 0x7fffffff
+    VOX_TOUCH_ENDED = 3      /* no longer touches, for whatever reason */
 } vox_touch;
 
 /* An event of a pair of meshes, body_a <= body_b. A pair that began persists in every following step until it ends,
@@ -1050,8 +937,8 @@ typedef struct vox_touch_event {
 #define VOX_NO_PAIR 0xffffffffu /* vox_touch_event.pair of a pair that ended */
 
 /* All pairs that began, then all that persisted, then all that ended: `count` in total, `byte_stride` apart, each part
- * sorted by (body_a, body_b). `data` lives until the next step or destroy of the grid. These are the events of one step:
- * a program that steps twice and reads once loses those of the first step. vox_counters.total_touches_began and
+ * sorted by (body_a, body_b). `data` lives until the next step or destroy of the grid. These are the events of one
+ * step: a program that steps twice and reads once loses those of the first step. vox_counters.total_touches_began and
  * total_touches_ended show the loss. */
 typedef struct vox_touch_view {
     const vox_touch_event* data;
@@ -1105,9 +992,8 @@ typedef enum vox_reading_flags {
     VOX_READING_POSITION = 1, /* missing if the vertex or its mesh was removed after the step */
     VOX_READING_SURFACE = 2,  /* missing where POSITION is or would be, if body_b was removed or has no surface, or if
                                  all of its tetrahedra that contained the vertex were removed or disabled */
-    VOX_READING_DEPTH = 4,    /* missing on grids without VOX_GRID_PENETRATIONS, and where
-                                 vox_filter.penetration_mask rules it out */
-    VOX_READING_FLAGS_FORCE_32_BITS = 0x7fffffff
+    VOX_READING_DEPTH = 4     /* missing on grids without VOX_GRID_PENETRATIONS, and where
+                                 one of the meshes is a sensor */
 } vox_reading_flags;
 
 /* Geometry of one contact. All contacts of the same (body_a, vertex, body_b) have the same reading except for the first
@@ -1160,21 +1046,18 @@ VOX_API vox_result vox_grid_prepare_readings(vox_grid* grid);
 /* What to read. */
 typedef struct vox_readings_desc {
     uint32_t struct_size;
-    uint32_t what; /* vox_reading_flags, combined with |; default: all. Without SURFACE a reading takes about as long as
+    uint32_t what; /* vox_reading_flags, combined with |; 0: all. Without SURFACE a reading takes about as long as
                       copying it. The other fields of vox_reading, such as user data, are always set */
-    vox_body body_a; /* VOX_NULL_BODY (the default): all contacts; else those that vox_mesh_copy_contacts copies */
-    vox_body body_b; /* VOX_NULL_BODY (the default), or those that vox_pair_copy_contacts copies for body_a and it */
+    vox_body body_a; /* VOX_NULL_BODY: all contacts; else those that vox_mesh_copy_contacts copies */
+    vox_body body_b; /* VOX_NULL_BODY, or those that vox_pair_copy_contacts copies for body_a and it */
     /* Most searches for a closest point. The first contacts that need one get it; the readings of the others lack
-     * VOX_READING_SURFACE in `known`, and the log has a warning. 0 (the default): no limit. */
+     * VOX_READING_SURFACE in `known`, and the log has a warning. 0: no limit. */
     uint64_t closest_budget;
 } vox_readings_desc;
 
-/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
-VOX_API vox_result vox_readings_desc_init(vox_readings_desc* desc, uint32_t struct_size);
-
 static inline vox_readings_desc vox_default_readings_desc(void) {
-    vox_readings_desc desc;
-    (void)vox_readings_desc_init(&desc, (uint32_t)sizeof desc);
+    vox_readings_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
     return desc;
 }
 
@@ -1205,22 +1088,70 @@ VOX_API vox_result vox_pair_copy_readings(const vox_grid* grid, vox_body body_a,
 
 /* Writes the grid as it is now to `bytes`, in a format that is the same on every machine (docs/snapshot.md): settings,
  * meshes with their ids, positions (borrowed ones too, read during the call), and the state that the next events are
- * derived from. Allocator, log, task system, worker count, both budgets, and the results of the last step are not saved.
- * *out_size is the number of bytes; with `bytes` null nothing is written, so the size can be asked first. Allocates
- * nothing. Errors: INVALID_ARGUMENT if the capacity is too small (gives both numbers). */
+ * derived from. Allocator, log, task system, worker count, both budgets, and the results of the last step are not
+ * saved. *out_size is the number of bytes; with `bytes` null nothing is written, so the size can be asked first.
+ * Allocates nothing. Errors: INVALID_ARGUMENT if the capacity is too small (gives both numbers). */
 VOX_API vox_result vox_grid_save(const vox_grid* grid, VOX_OPTIONAL void* bytes, uint64_t capacity, uint64_t* out_size);
 
 /* Creates a grid from a snapshot. Ids name the same meshes, meshes inserted later get the same ids as they would in the
  * saved grid, and steps find the same contacts and events in the same order, with the same hash and epoch. There are no
  * contacts until the first step. The meshes own their positions; to move them, bind others.
- * Of `desc` only allocator, log, tasks, worker_count, byte_budget, closest_budget, margin, and an engine other than AUTO are
- * used; null: the defaults. The caller owns *out_grid and releases it with vox_grid_destroy.
- * The bytes need not be trusted: everything in them is checked, no memory is reserved for a count before the bytes it
- * stands for are known to be there, and the byte budget applies.
+ * Of `desc` only allocator, log, tasks, worker_count, both budgets, margin and reference are used; null: the defaults.
+ * If reference is null, the engine is the one that was saved. The caller owns *out_grid and releases it with
+ * vox_grid_destroy. The bytes need not be trusted: everything in them is checked, no memory is reserved for a count
+ * before the bytes it stands for are known to be there, and the byte budget applies.
  * Errors: FORMAT (names chunk and byte), UNSUPPORTED (of a later version), INVALID_ARGUMENT, LIMIT, BUDGET,
  * OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_load(const void* bytes, uint64_t size, VOX_OPTIONAL const vox_grid_desc* desc,
                                  vox_grid** out_grid);
+
+/* ---- memory and log --------------------------------------------------------------------------- */
+
+/* An allocator. `allocate` returns memory of at least `size` bytes at `alignment` (a power of
+ * two), or null; `release` gets the same size and alignment back. If both are null, the C++ runtime's heap is used.
+ * They are called only from functions of the object they were given to, one call at a time. During a step, the calling
+ * thread may be one that runs its tasks. For query views that are released after vox_grid_destroy, `release` is called
+ * from vox_query_view_release, so it must be usable until then. */
+typedef struct vox_allocator {
+    VOX_OPTIONAL void* (*allocate)(size_t size, size_t alignment, void* user);
+    VOX_OPTIONAL void (*release)(void* memory, size_t size, size_t alignment, void* user);
+    void* user;
+} vox_allocator;
+
+/* Severity of a log line. */
+typedef enum vox_log_level {
+    VOX_LOG_INFO = 0,
+    VOX_LOG_WARNING = 1
+} vox_log_level;
+
+/* Receives one line of text (no newline), valid during the call only. A null `write` turns the log off. It is called
+ * on the thread that called the library, and must not call the grid it came from. */
+typedef struct vox_log {
+    VOX_OPTIONAL void (*write)(vox_log_level level, const char* text, void* user);
+    void* user;
+} vox_log;
+
+/* ---- threads ---------------------------------------------------------------------------------- */
+
+/* Handles the items [begin, end). `worker` is below worker_count; calls that run at the same time have different
+ * values of it. */
+typedef void vox_task(uint64_t begin, uint64_t end, uint32_t worker, void* context);
+
+/* The caller's scheduler, designed as in Box3D. `enqueue` splits the items [0, item_count) into ranges, of at
+ * least min_range items where possible, and arranges that `task` is called once for each range, now or later, on any
+ * thread. It returns a handle for `finish`, or null if all these calls have already returned. `finish` waits until
+ * they have. Both are called on the thread that called the library, at most VOX_MAX_TASKS times in a step, at most
+ * once by vox_grid_prepare_readings, and at most four times by vox_grid_prepare_queries and vox_grid_take_query_view.
+ * If not every item was run exactly once, or a worker index was out of range or had by two calls at the same time, the
+ * function fails with INVALID_ARGUMENT and leaves no contacts, no readings, nothing prepared for queries, or no view.
+ * If both are null, the built-in scheduler is used. */
+typedef struct vox_task_system {
+    VOX_OPTIONAL void* (*enqueue)(vox_task* task, uint64_t item_count, uint64_t min_range, void* context, void* user);
+    VOX_OPTIONAL void (*finish)(void* handle, void* user);
+    void* user;
+} vox_task_system;
+
+#define VOX_MAX_TASKS 64u /* tasks enqueued in one step */
 
 /* ---- queries ---------------------------------------------------------------------------------- */
 
@@ -1307,19 +1238,16 @@ typedef struct vox_closest_desc {
     const void* points; /* read during the call; may be null if there are none */
     uint64_t byte_stride; /* from one point to the next; 0: tightly packed */
     uint64_t point_count; /* at most 2^32 - 1 */
-    uint64_t mask;        /* default UINT64_MAX: all meshes */
-    double max_distance;  /* >= 0, in the caller's unit; default infinity */
-    vox_body excluded;    /* default VOX_NULL_BODY: none */
+    uint64_t mask;        /* 0: all meshes */
+    double max_distance;  /* in the caller's unit; 0: any distance */
+    vox_body excluded;    /* VOX_NULL_BODY: none */
     uint32_t reserved;    /* 0 */
-    uint64_t component_byte_stride; /* as in vox_positions; default 0 */
+    uint64_t component_byte_stride; /* as in vox_positions */
 } vox_closest_desc;
 
-/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
-VOX_API vox_result vox_closest_desc_init(vox_closest_desc* desc, uint32_t struct_size);
-
 static inline vox_closest_desc vox_default_closest_desc(void) {
-    vox_closest_desc desc;
-    (void)vox_closest_desc_init(&desc, (uint32_t)sizeof desc);
+    vox_closest_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
     return desc;
 }
 
@@ -1347,8 +1275,7 @@ VOX_API vox_result vox_grid_query_closest_points(const vox_grid* grid, const vox
 typedef enum vox_side {
     VOX_SIDE_NONE = 0,   /* the tetrahedron has no volume */
     VOX_SIDE_ENTERS = 1, /* the segment goes into the tetrahedron */
-    VOX_SIDE_LEAVES = 2,
-    VOX_SIDE_FORCE_32_BITS = 0x7fffffff
+    VOX_SIDE_LEAVES = 2
 } vox_side;
 
 /* What the closed segment from `from` to `to` hits first; t is 0 at `from` and 1 at `to`. Whether it hits a tetrahedron
@@ -1549,29 +1476,54 @@ VOX_API vox_result vox_grid_profile(const vox_grid* grid, vox_profile* out_profi
 
 /* ---- cell size -------------------------------------------------------------------------------- */
 
+typedef enum vox_reference_flags {
+    VOX_REFERENCE_DENSE = 1,     /* store a list for every cell of a box (linear id k*nx*ny + j*nx + i), instead of
+                                    hashing cells into a table */
+    VOX_REFERENCE_PAPER_HASH = 2 /* hash by i*73856093 xor j*19349663 xor k*83492791 (Teschner et al. 2003, Sect. 4.1),
+                                    instead of by a well-mixed hash */
+} vox_reference_flags;
+
+/* The paper's engine (Sect. 3), for vox_grid_desc.reference. It is serial and finds what the fast engine finds. If the
+ * grid's cell_size is 0, it chooses by its cost model, at the first step, and again when the counts of its steps show
+ * that another size would be better; each change is written to the log and counted in cell_size_changes. If the sizes
+ * of the tetrahedra differ so much that a single cell size would be expensive, it uses a few grids in turn: each has a
+ * cell size of its own, holds all vertices, and serves the tetrahedra of a range of sizes. Where positions were chosen
+ * so that many cells share a bucket, the step finds cells by binary search instead, so its time stays bounded. */
+typedef struct vox_reference_desc {
+    uint32_t struct_size;
+    uint32_t flags;           /* vox_reference_flags, combined with | */
+    uint64_t hash_table_size; /* buckets, at most VOX_MAX_VERTICES, raised to the next prime; 0: the first prime that is
+                                 at least twice the number of vertices */
+    double world_min[3];      /* DENSE: the box that has cells, min < max on each axis. Points outside go to */
+    double world_max[3];      /* the nearest cell. All 0: the box of all positions, in every step */
+} vox_reference_desc;
+
+static inline vox_reference_desc vox_default_reference_desc(void) {
+    vox_reference_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
+    return desc;
+}
+
 typedef enum vox_cost_model {
     VOX_COST_MODEL_PAPER = 0,     /* the paper's z(delta) (Sect. 4, Eqs. 3-8), from means; in cell visits */
     VOX_COST_MODEL_REFERENCE = 1, /* the reference engine, counted tet by tet; in nanoseconds of a step */
     VOX_COST_MODEL_FAST = 2,      /* the fast engine with one cell size in all windows; in nanoseconds of a step */
-    VOX_COST_MODEL_SURFACE = 3,   /* the searches of vox_pairs.h in the meshes' surfaces, for pairs of edges and of faces
+    VOX_COST_MODEL_SURFACE = 3    /* the searches of vox_pairs.h in the meshes' surfaces, for pairs of edges and of faces
                                      and vertices; in nanoseconds, of their grids alone */
-    VOX_COST_MODEL_FORCE_32_BITS = 0x7fffffff
 } vox_cost_model;
 
 /* How s, the size of a tetrahedron in Eq. 4, is measured. */
 typedef enum vox_size_reading {
     VOX_SIZE_MEAN_EDGE = 0,         /* mean length of the unique edges; reproduces the paper's tables */
     VOX_SIZE_MEAN_LONGEST_EDGE = 1, /* mean over tets of the longest edge; as worded in Sect. 4.2 */
-    VOX_SIZE_MEAN_BOX_SIDE = 2,     /* mean over tets of the longest side of the bounding box */
-    VOX_SIZE_READING_FORCE_32_BITS = 0x7fffffff
+    VOX_SIZE_MEAN_BOX_SIDE = 2      /* mean over tets of the longest side of the bounding box */
 } vox_size_reading;
 
 /* How A, the facet area in Eqs. 5-7, is measured. */
 typedef enum vox_area_reading {
     VOX_AREA_UNIQUE_FACETS = 0,   /* mean over all facets, shared ones counted once; reproduces the paper's tables */
     VOX_AREA_TET_FACETS = 1,      /* mean over the four facets of every tet */
-    VOX_AREA_BOUNDARY_FACETS = 2, /* mean over the facets of exactly one tet */
-    VOX_AREA_READING_FORCE_32_BITS = 0x7fffffff
+    VOX_AREA_BOUNDARY_FACETS = 2  /* mean over the facets of exactly one tet */
 } vox_area_reading;
 
 typedef struct vox_suggest_desc {
@@ -1579,28 +1531,21 @@ typedef struct vox_suggest_desc {
     vox_cost_model model;
     vox_size_reading size_reading;
     vox_area_reading area_reading;
-    double p_nc;               /* probability that a tet has no collision, in (0, 1); default 0.99 */
-    double cost_ratio;         /* the paper's r: cost of a particle test divided by that of a cell visit, > 0;
-                                  default 5 */
+    double p_nc;               /* probability that a tet has no collision, in (0, 1); 0: 0.99 */
+    double cost_ratio;         /* the paper's r: cost of a particle test divided by that of a cell visit; 0: 5 */
     double world_edge;         /* edge of the cubic world, for cells_per_axis; 0: longest side of the bounds */
-    double zone_loss;          /* the zone is where predicted cost <= (1 + zone_loss) * minimum; in [0, 1e6],
-                                  default 0.05 */
-    double mean_edge_factor;   /* for rules.mean_edge_multiple (Gregory et al. 2000), > 0; default 2 */
+    double zone_loss;          /* the zone is where predicted cost <= (1 + zone_loss) * minimum; at most 1e6; 0: 0.05 */
+    double mean_edge_factor;   /* for rules.mean_edge_multiple (Gregory et al. 2000); 0: 2 */
     double resolution;         /* for rules.resolution (McNeely et al. 1999): the required detail; 0: none */
-    uint64_t byte_budget;      /* REFERENCE with dense storage: most bytes its cells may take; 0 (the default): no
-                                  limit */
-    vox_storage storage;       /* REFERENCE: as in vox_grid_desc, but AUTO means HASHED */
+    uint64_t byte_budget;      /* REFERENCE with DENSE cells: most bytes that these may take; 0: no limit */
+    uint32_t reference_flags;  /* REFERENCE: vox_reference_flags, combined with | */
     uint32_t reserved;         /* 0 */
-    /* Where the memory of the call comes from, which it has released at its end; default: the C++ runtime's heap. */
-    vox_allocator allocator;
+    VOX_OPTIONAL const vox_allocator* allocator; /* of the call's memory; null: the C++ runtime's heap */
 } vox_suggest_desc;
 
-/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
-VOX_API vox_result vox_suggest_desc_init(vox_suggest_desc* desc, uint32_t struct_size);
-
 static inline vox_suggest_desc vox_default_suggest_desc(void) {
-    vox_suggest_desc desc;
-    (void)vox_suggest_desc_init(&desc, (uint32_t)sizeof desc);
+    vox_suggest_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
     return desc;
 }
 
@@ -1684,20 +1629,20 @@ typedef struct vox_suggestion {
 /* The cell size that minimises the cost model for these meshes (their positions as they are now).
  * desc null: defaults. Set out->struct_size first; the fields it covers are written.
  * `meshes` is an array whose elements are meshes[0].struct_size bytes apart, a multiple of 8, and all have that
- * struct_size. Of their flags, only VOX_MESH_SELF_COLLISION is used, by REFERENCE and FAST. Errors name a mesh by its
- * index in the array and its user data. All tets and vertices are checked; the models look at samples of them
+ * struct_size. Of their filters, only VOX_FILTER_SELF_COLLISION is used, by REFERENCE and FAST. Errors name a mesh by
+ * its index in the array and its user data. All tets and vertices are checked; the models look at samples of them
  * (docs/cell-size.md has times). Memory is from desc->allocator until the end of the call.
- * SURFACE suggests the cell size of one surface (vox_pairs.h) of all meshes, standing still with the radius 0: the facets
- * of exactly one enabled tetrahedron, duplicates counted once, their edges and their vertices. It reads all of them. For
- * surfaces without tetrahedra behind them, and for motions, vox_pairs.h has a function of its own.
- * Errors: INVALID_ARGUMENT (also if there is no tetrahedron, or all have zero size; SURFACE: no such facet), INVALID_MESH,
- * NON_FINITE, LIMIT (SURFACE: a mesh of more than 357913941 tets), OUT_OF_MEMORY; UNSUPPORTED for SURFACE in a build
- * without surfaces, as for WebAssembly. */
+ * SURFACE suggests the cell size of one surface (vox_pairs.h) of all meshes, standing still with the radius 0: the
+ * facets of exactly one enabled tetrahedron, duplicates counted once, their edges and their vertices. It reads all of
+ * them. For surfaces without tetrahedra behind them, and for motions, vox_pairs.h has a function of its own.
+ * Errors: INVALID_ARGUMENT (also if there is no tetrahedron, or all have zero size; SURFACE: no such facet),
+ * INVALID_MESH, NON_FINITE, LIMIT (SURFACE: a mesh of more than 357913941 tets), OUT_OF_MEMORY; UNSUPPORTED for SURFACE
+ * in a build without surfaces, as for WebAssembly. */
 VOX_API vox_result vox_suggest_cell_size(VOX_OPTIONAL const vox_suggest_desc* desc, const vox_mesh_desc* meshes,
                                          uint64_t mesh_count, vox_suggestion* out);
 
 /* The same for the meshes of a grid. With desc null, the model is that of the grid's engine, with the grid's storage
- * and byte budget. PAPER takes p_nc from the last step if that had contacts and desc is null or has the default p_nc.
+ * and byte budget. PAPER takes p_nc from the last step if that had contacts and p_nc is 0.
  * FAST takes from the last step which meshes are at rest and which need no cells for self-collision; both cost nothing.
  * It is quicker than vox_suggest_cell_size because its samples are smaller: means are accurate to a few per cent.
  * The first call after a mesh was inserted or edited reads all of that mesh, and keeps up to 11 KB on the C++ runtime's
@@ -1751,7 +1696,8 @@ VOX_API vox_result vox_cost_calibrate(VOX_OPTIONAL vox_cost_weights* out);
 /* The weights in use: those calibrated or set last, or else those shipped with the library. Any thread. */
 VOX_API vox_result vox_cost_get_weights(vox_cost_weights* out);
 /* Puts saved weights into use. Fields that struct_size does not cover get the values shipped with the library, the last
- * two in proportion to reference_visit_cell and reference_read_vertex; with null, all get the shipped values. Any thread.
+ * two in proportion to reference_visit_cell and reference_read_vertex; with null, all get the shipped values. Any
+ * thread.
  * Errors: INVALID_ARGUMENT (names the field that is not a finite number above 0). */
 VOX_API vox_result vox_cost_set_weights(VOX_OPTIONAL const vox_cost_weights* weights);
 
@@ -1773,15 +1719,12 @@ typedef struct vox_cost_bounds {
     uint32_t reserved;  /* 0 */
     double min;         /* 0 < min <= max, finite */
     double max;
-    double zone_loss;   /* as vox_suggest_desc.zone_loss; default 0.05 */
+    double zone_loss;   /* as vox_suggest_desc.zone_loss */
 } vox_cost_bounds;
 
-/* Fills `bounds` with the defaults for the fields that `struct_size` covers; min and max are 0 and must be set. */
-VOX_API vox_result vox_cost_bounds_init(vox_cost_bounds* bounds, uint32_t struct_size);
-
 static inline vox_cost_bounds vox_default_cost_bounds(void) {
-    vox_cost_bounds bounds;
-    (void)vox_cost_bounds_init(&bounds, (uint32_t)sizeof bounds);
+    vox_cost_bounds bounds = VOX_ZERO;
+    bounds.struct_size = (uint32_t)sizeof bounds;
     return bounds;
 }
 
@@ -1830,8 +1773,7 @@ typedef enum vox_primitive_type {
     VOX_PRIMITIVE_EDGE = 1,     /* two */
     VOX_PRIMITIVE_TRIANGLE = 2, /* three */
     VOX_PRIMITIVE_TET = 3,      /* four */
-    VOX_PRIMITIVE_BOX = 4,      /* two: opposite corners of a box along the axes, in any order */
-    VOX_PRIMITIVE_TYPE_FORCE_32_BITS = 0x7fffffff
+    VOX_PRIMITIVE_BOX = 4       /* two: opposite corners of a box along the axes, in any order */
 } vox_primitive_type;
 
 /* Primitives: each is a few vertices. Only its box counts: that of its vertices, grown by its radius on all sides. */
@@ -1848,23 +1790,19 @@ typedef struct vox_primitives {
     uint64_t radius_byte_stride;    /* 0: tightly packed */
     vox_format radius_format;
     uint32_t reserved; /* 0 */
-    double radius;     /* of all primitives, added to their own, >= 0; default 0 */
+    double radius;     /* of all primitives, added to their own, >= 0 */
 } vox_primitives;
 
-/* Fills `primitives` with the defaults for the fields that `struct_size` covers. */
-VOX_API vox_result vox_primitives_init(vox_primitives* primitives, uint32_t struct_size);
-
 static inline vox_primitives vox_default_primitives(void) {
-    vox_primitives primitives;
-    (void)vox_primitives_init(&primitives, (uint32_t)sizeof primitives);
+    vox_primitives primitives = VOX_ZERO;
+    primitives.struct_size = (uint32_t)sizeof primitives;
     return primitives;
 }
 
 /* Which cells hold a primitive. */
 typedef enum vox_cell_content {
-    VOX_CELLS_HOLD_CENTRES = 0, /* the one with the centre of its box; for a point, with the point */
-    VOX_CELLS_HOLD_BOXES = 1,   /* all that its box meets */
-    VOX_CELL_CONTENT_FORCE_32_BITS = 0x7fffffff
+    VOX_CELLS_HOLD_BOXES = 0,  /* all that its box meets */
+    VOX_CELLS_HOLD_CENTRES = 1 /* the one with the centre of its box; for a point, with the point */
 } vox_cell_content;
 
 /* Which cells a primitive that asks looks at. */
@@ -1872,9 +1810,8 @@ typedef enum vox_cell_look {
     VOX_LOOK_BOX = 0,    /* those that its box meets: one for a point, those of the ball's box for one with a radius */
     VOX_LOOK_AROUND = 1, /* 27: the one with the centre of its box, and those around. Only with HOLD_CENTRES, and only
                             legal where a cell is as large as the distance that matters along any axis */
-    VOX_LOOK_PAIRS = 2,  /* nobody asks: the grid goes through the cells and pairs what is in each. With two sets, both
+    VOX_LOOK_PAIRS = 2   /* nobody asks: the grid goes through the cells and pairs what is in each. With two sets, both
                             are put into cells, and pairs are of one of each */
-    VOX_CELL_LOOK_FORCE_32_BITS = 0x7fffffff
 } vox_cell_look;
 
 /* What a run of a grid does at one cell size. The means over all positions of the lattice. */
@@ -1909,46 +1846,41 @@ typedef enum vox_known_grid {
     VOX_KNOWN_GRID_VTK = 6,          /* VTK's vtkStaticCellLocator: boxes in all their cells, asked by points */
     VOX_KNOWN_GRID_PBAT = 7,         /* PBAT's HashGrid3: centres of boxes, asked from 27 cells */
     VOX_KNOWN_GRID_POINT_VOXELS = 8, /* hashed voxels of points asked by balls, as in PCL and Open3D */
-    VOX_KNOWN_GRID_NUMPY = 9,        /* a grid of sorted keys in numpy */
-    VOX_KNOWN_GRID_FORCE_32_BITS = 0x7fffffff
+    VOX_KNOWN_GRID_NUMPY = 9         /* a grid of sorted keys in numpy */
 } vox_known_grid;
 
 typedef enum vox_foreign_flags {
-    VOX_FOREIGN_DENSE = 1, /* the grid keeps a list for each cell of the box of all that it holds */
-    VOX_FOREIGN_FLAGS_FORCE_32_BITS = 0x7fffffff
+    VOX_FOREIGN_DENSE = 1 /* the grid keeps a list for each cell of the box of all that it holds */
 } vox_foreign_flags;
 
 /* A uniform grid that is not this library's. */
 typedef struct vox_foreign_grid {
     uint32_t struct_size;
     uint32_t flags; /* vox_foreign_flags, combined with | */
-    vox_cell_content content; /* default HOLD_BOXES */
-    vox_cell_look look;       /* default BOX */
+    vox_cell_content content;
+    vox_cell_look look;
     const vox_primitives* held;                 /* what is put into cells */
     VOX_OPTIONAL const vox_primitives* asking;  /* null: those held ask themselves, each of all, itself included */
-    double radius;          /* boxes that ask are larger by this on all sides, >= 0; default 0. With PAIRS, the boxes
+    double radius;          /* boxes that ask are larger by this on all sides, >= 0. With PAIRS, the boxes
                                of `asking` are, or those held where it is null */
-    /* The smallest cell size that gives right answers. 0 (the default): with AROUND, half the longest side of a box
+    /* The smallest cell size that gives right answers. 0: with AROUND, half the longest side of a box
      * held, and half that of one that asks with its radius; otherwise none. */
     double least_cell_size;
-    double zone_loss;       /* as vox_suggest_desc.zone_loss; default 0.05 */
-    vox_known_grid known;   /* whose weights are used where `weights` are all 0; default ANY */
+    double zone_loss;       /* as vox_suggest_desc.zone_loss */
+    vox_known_grid known;   /* whose weights are used where `weights` are all 0 */
     uint32_t reserved;      /* 0 */
-    vox_grid_weights weights; /* all 0 (the default): those of `known` */
-    vox_allocator allocator;  /* where the memory of the call comes from; default: the C++ runtime's heap */
+    vox_grid_weights weights; /* all 0: those of `known` */
+    VOX_OPTIONAL const vox_allocator* allocator; /* of the call's memory; null: the C++ runtime's heap */
 } vox_foreign_grid;
 
-/* Fills `grid` with the defaults for the fields that `struct_size` covers; `held` is null and must be set. */
-VOX_API vox_result vox_foreign_grid_init(vox_foreign_grid* grid, uint32_t struct_size);
-
 static inline vox_foreign_grid vox_default_foreign_grid(void) {
-    vox_foreign_grid grid;
-    (void)vox_foreign_grid_init(&grid, (uint32_t)sizeof grid);
+    vox_foreign_grid grid = VOX_ZERO;
+    grid.struct_size = (uint32_t)sizeof grid;
     return grid;
 }
 
 /* Sets what is known of a grid that people have: content, look, flags, known, weights. Other fields keep their
- * values. Set grid->struct_size first, e.g. by vox_foreign_grid_init. Errors: INVALID_ARGUMENT. */
+ * values. Set grid->struct_size first. Errors: INVALID_ARGUMENT. */
 VOX_API vox_result vox_foreign_grid_set_known(vox_foreign_grid* grid, vox_known_grid known);
 
 /* What an answer was based on, combined with |. `note` says the same in words, with numbers. */
@@ -1961,8 +1893,7 @@ typedef enum vox_foreign_warnings {
     VOX_FOREIGN_MODEL_DISAGREES = 32,  /* the timings do not follow the counts of the described grid */
     VOX_FOREIGN_TIMINGS_DISAGREE = 64, /* timings at the same cell size differ widely */
     VOX_FOREIGN_OUT_OF_RANGE = 128,    /* the best cell size is beyond those timed */
-    VOX_FOREIGN_STOPPED = 256,         /* the callback stopped, or failed at a cell size */
-    VOX_FOREIGN_WARNINGS_FORCE_32_BITS = 0x7fffffff
+    VOX_FOREIGN_STOPPED = 256          /* the callback stopped, or failed at a cell size */
 } vox_foreign_warnings;
 
 /* Cell sizes that other rules would choose; 0 where a rule does not apply. */
@@ -1981,8 +1912,7 @@ typedef enum vox_foreign_rule {
     VOX_RULE_MEAN_BOX_SIDE = 2,
     VOX_RULE_MEDIAN_BOX_SIDE = 3,
     VOX_RULE_SPACING = 4,
-    VOX_RULE_RADIUS = 5,
-    VOX_FOREIGN_RULE_FORCE_32_BITS = 0x7fffffff
+    VOX_RULE_RADIUS = 5
 } vox_foreign_rule;
 
 #define VOX_NOTE_CAPACITY 256u /* bytes of a note, its zero included */
@@ -2044,14 +1974,14 @@ typedef struct vox_grid_fit {
     char note[VOX_NOTE_CAPACITY];
 } vox_grid_fit;
 
-/* Fits the weights of a grid to timings of the whole run at three different cell sizes or more (0.6, 1.2 and 2.4
- * mean edges do), by non-negative least squares, and minimises the cost, from the smallest size timed over 1.2 to 1.2
- * times the largest. The least legal size, where it was timed, is the answer if less than 3 % is to be gained elsewhere:
- * some grids are much faster at exactly that size. Of several timings at one cell size the shortest counts. Slow timings count less than fast ones,
- * and less still if they are far above the fit. What few timings cannot tell apart is divided as in the weights that
- * the grid has (`weights`, else `known`). Errors: as vox_suggest_for; also INVALID_ARGUMENT for fewer than three
- * different cell sizes (those within a millionth are one), sizes below the least legal one, and timings out of their
- * range, and LIMIT as vox_count_for. */
+/* Fits the weights of a grid to timings of the whole run at three different cell sizes or more (0.6, 1.2 and 2.4 mean
+ * edges do), by non-negative least squares, and minimises the cost, from the smallest size timed over 1.2 to 1.2 times
+ * the largest. The least legal size, where it was timed, is the answer if less than 3 % is to be gained elsewhere: some
+ * grids are much faster at exactly that size. Of several timings at one cell size the shortest counts. Slow timings
+ * count less than fast ones, and less still if they are far above the fit. What few timings cannot tell apart is
+ * divided as in the weights that the grid has (`weights`, else `known`). Errors: as vox_suggest_for; also
+ * INVALID_ARGUMENT for fewer than three different cell sizes (those within a millionth are one), sizes below the least
+ * legal one, and timings out of their range, and LIMIT as vox_count_for. */
 VOX_API vox_result vox_cost_fit(const vox_foreign_grid* grid, const vox_grid_timing* timings, uint64_t count,
                                 vox_grid_fit* out);
 
@@ -2062,25 +1992,21 @@ typedef double vox_grid_run(double cell_size, void* user);
 
 #define VOX_TUNE_RUN_CAPACITY 32u /* most runs of vox_cost_tune */
 
-/* How to tune. */
+/* How to tune; all 0 by default. */
 typedef struct vox_tune_desc {
     uint32_t struct_size;
-    uint32_t most_runs; /* 3 to VOX_TUNE_RUN_CAPACITY; default 7 */
-    double min;         /* cell sizes to try, 0 < min <= max; both 0 (the default): an eighth to eight times the first */
+    uint32_t most_runs; /* 3 to VOX_TUNE_RUN_CAPACITY; 0: 7 */
+    double min;         /* cell sizes to try, 0 < min <= max; both 0: an eighth to eight times the first */
     double max;
-    double first;       /* the cell size to begin with; 0 (the default): what vox_suggest_for says. Must be set where
-                           there is no grid */
-    double zone_loss;   /* as vox_suggest_desc.zone_loss; default 0.05 */
-    double wanted_loss; /* stops where the cell size is within this of the best one, as far as it can tell; default
-                           0.02 */
+    double first;       /* the cell size to begin with; 0: what vox_suggest_for says. Must be set where there is no
+                           grid */
+    double zone_loss;   /* as vox_suggest_desc.zone_loss */
+    double wanted_loss; /* stops where the cell size is within this of the best one, as far as it can tell; 0: 0.02 */
 } vox_tune_desc;
 
-/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
-VOX_API vox_result vox_tune_desc_init(vox_tune_desc* desc, uint32_t struct_size);
-
 static inline vox_tune_desc vox_default_tune_desc(void) {
-    vox_tune_desc desc;
-    (void)vox_tune_desc_init(&desc, (uint32_t)sizeof desc);
+    vox_tune_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
     return desc;
 }
 
@@ -2106,9 +2032,9 @@ typedef struct vox_tuning {
 
 /* Finds the best cell size by running the grid: at three cell sizes an octave apart first, then where the fit to all
  * timings so far is lowest or least sure, which may be where it was run before, until that is sure enough
- * (desc->wanted_loss, after four runs at the earliest) and it was run a quarter of an octave to either side of the best,
- * or desc->most_runs are made. The answer is never beyond the sizes
- * that were run. The same times give the same runs and the same answer, bit for bit.
+ * (desc->wanted_loss, after four runs at the earliest) and it was run a quarter of an octave to either side of the
+ * best, or desc->most_runs are made. The answer is never beyond the sizes that were run. The same times give the same
+ * runs and the same answer, bit for bit.
  * grid: what is known of it; null: nothing, so the curve is a sum of powers of the cell size, and desc->first must be
  * set. desc null: defaults. If the callback stops, or cannot run at a size, the answer is from the other runs, with a
  * warning. Errors: as vox_suggest_for; also INVALID_STATE if no run succeeded, INVALID_ARGUMENT for a run of less than

@@ -874,7 +874,11 @@ struct callbacks {
         return nullptr;
     }
     static void finish(void*, void*) {}
-    vox_task_system task_system() { return {enqueue, finish, this}; }
+    const vox_log c_log{write, this};
+    const vox_task_system c_tasks{enqueue, finish, this};
+
+    callbacks() = default;
+    callbacks(const callbacks&) = delete;
 };
 
 // A desc with the callables in it, and what keeps them alive.
@@ -886,8 +890,8 @@ struct settings {
         kept = std::make_unique<callbacks>();
         kept->log = std::move(log);
         kept->tasks = std::move(tasks);
-        if (kept->log) desc.log = {callbacks::write, kept.get()};
-        if (kept->tasks) desc.tasks = kept->task_system();
+        if (kept->log) desc.log = &kept->c_log;
+        if (kept->tasks) desc.tasks = &kept->c_tasks;
     }
 };
 
@@ -1240,8 +1244,6 @@ public:
     returns<void> set_filter(vox_body mesh, const vox_filter& filter) {
         return detail::give(vox_body_set_filter(get(), mesh, &filter));
     }
-    // vox_mesh_filter
-    returns<vox_filter> filter(vox_body mesh) const { return detail::filled<vox_filter>(vox_mesh_filter, get(), mesh); }
     // vox_body_set_enabled
     returns<void> set_enabled(vox_body mesh, bool enabled) {
         return detail::give(vox_body_set_enabled(get(), mesh, enabled));
@@ -1563,7 +1565,7 @@ private:
 // ---- many grids ---------------------------------------------------------------------------------
 
 // vox_grids_step. `results` is empty or has room for one a grid.
-inline returns<void> step(span<grid> grids, std::uint32_t worker_count = 0, span<vox_result> results = {},
+inline returns<void> step(span<grid> grids, std::uint32_t worker_count = VOX_ALL_CORES, span<vox_result> results = {},
                           parallel_for tasks = {}) {
     std::vector<vox_grid*> raw;
     raw.reserve(grids.size());
@@ -1571,9 +1573,9 @@ inline returns<void> step(span<grid> grids, std::uint32_t worker_count = 0, span
     if (!results.empty() && results.size() < raw.size())
         return detail::give(detail::fail(VOX_ERROR_INVALID_ARGUMENT, "step: room for %llu results, of %llu grids",
                                          results.size(), raw.size()));
-    detail::callbacks own{{}, std::move(tasks), {}};
-    const vox_task_system system = own.task_system();
-    const vox_result result = vox_grids_step(raw.data(), raw.size(), own.tasks ? &system : nullptr, worker_count,
+    detail::callbacks own;
+    own.tasks = std::move(tasks);
+    const vox_result result = vox_grids_step(raw.data(), raw.size(), own.tasks ? &own.c_tasks : nullptr, worker_count,
                                              results.empty() ? nullptr : results.data());
     for (grid& one : grids)
         if (const auto& kept = one.grid_.get_deleter().kept) own.caught.take(kept->caught);

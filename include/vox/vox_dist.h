@@ -54,9 +54,12 @@ typedef struct vox_transport {
     void* user;
 } vox_transport;
 
-/* Fills `transport` with the defaults for the fields that `struct_size` covers: one rank, and no functions, which one
- * rank alone does not need. */
-VOX_EXPERIMENTAL vox_result vox_transport_init(vox_transport* transport, uint32_t struct_size);
+static inline vox_transport vox_default_transport(void) {
+    vox_transport transport = VOX_ZERO;
+    transport.struct_size = (uint32_t)sizeof transport;
+    transport.size = 1;
+    return transport;
+}
 
 /* What one rank does, on a thread of its own. */
 typedef void vox_rank_function(const vox_transport* transport, void* user);
@@ -84,8 +87,11 @@ typedef struct vox_scene_desc {
     VOX_OPTIONAL const vox_grid_desc* grid;
 } vox_scene_desc;
 
-/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
-VOX_EXPERIMENTAL vox_result vox_scene_desc_init(vox_scene_desc* desc, uint32_t struct_size);
+static inline vox_scene_desc vox_default_scene_desc(void) {
+    vox_scene_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
+    return desc;
+}
 
 /* Creates a scene without parts. desc null: all defaults; transport null: one rank. The transport is copied; what its
  * `user` names must live as long as the scene. Collective, unless the pointer out_scene is null. Errors:
@@ -114,8 +120,11 @@ typedef struct vox_part_desc {
     VOX_OPTIONAL const uint8_t* owned;
 } vox_part_desc;
 
-/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
-VOX_EXPERIMENTAL vox_result vox_part_desc_init(vox_part_desc* desc, uint32_t struct_size);
+static inline vox_part_desc vox_default_part_desc(void) {
+    vox_part_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
+    return desc;
+}
 
 /* Adds a part, which takes part from the next step on. Not collective. Errors: as vox_mesh_insert; INVALID_ARGUMENT (a
  * number that is there twice, a second part of a body, an owned that is not 0 or 1), UNSUPPORTED. */
@@ -169,8 +178,7 @@ VOX_EXPERIMENTAL vox_result vox_scene_incoming(const vox_scene* scene, vox_scene
 /* From which side of the contacts to which vox_scene_send sends. */
 typedef enum vox_direction {
     VOX_DIRECTION_TO_TETS = 0,     /* from vox_scene_contacts to vox_scene_incoming */
-    VOX_DIRECTION_TO_VERTICES = 1, /* back */
-    VOX_DIRECTION_FORCE_32_BITS = 0x7fffffff
+    VOX_DIRECTION_TO_VERTICES = 1  /* back */
 } vox_direction;
 
 /* Collective. Sends one item a contact from one side to the other, e.g. a force, or a value to interpolate: in[i] belongs

@@ -39,29 +39,28 @@ typedef enum vox_io_format {
     /* Any other surface that assimp reads. assimp is not made for damaged files: they can end the process, keep it
      * busy without end and fill its memory. So AUTO never chooses it, and a library that is built without it, as is the
      * default (docs/files.md), answers UNSUPPORTED. */
-    VOX_IO_FORMAT_ASSIMP = 8,
-    VOX_IO_FORMAT_FORCE_32_BITS = 0x7fffffff
+    VOX_IO_FORMAT_ASSIMP = 8
 } vox_io_format;
 
 typedef struct vox_io_load_desc {
     uint32_t struct_size;
     vox_io_format format;
-    /* Scene files with several meshes: index of the one to take, or VOX_IO_ALL_MESHES to join them. */
-    uint32_t mesh_index;
+    uint32_t mesh; /* which mesh of a scene file to take, from 1; 0: all, joined */
     uint32_t reserved; /* 0 */
-    /* Where the arrays of the mesh live until vox_io_mesh_destroy; default: the C++ runtime's heap. The memory that
+    /* Where the arrays of the mesh live until vox_io_mesh_destroy. Copied; null: the C++ runtime's heap. The memory that
      * reading needs besides is taken from that heap and released at the end of the call. */
-    vox_allocator allocator;
+    VOX_OPTIONAL const vox_allocator* allocator;
     /* Called now and then, on the calling thread, with the fraction of the work done, ascending from 0 to 1: about half
      * of it is reading, the rest the report. A result other than 0 cancels. May be null. */
     VOX_OPTIONAL int32_t (*progress)(double fraction, void* user);
     void* progress_user;
 } vox_io_load_desc;
 
-#define VOX_IO_ALL_MESHES 0xffffffffu /* for vox_io_load_desc.mesh_index: joins all meshes of the scene */
-
-/* Fills `desc` with the defaults (AUTO, all meshes) for the fields that `struct_size` covers. */
-VOX_API vox_result vox_io_load_desc_init(vox_io_load_desc* desc, uint32_t struct_size);
+static inline vox_io_load_desc vox_default_io_load_desc(void) {
+    vox_io_load_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
+    return desc;
+}
 
 /* One file in memory. `name` supplies the extension and appears in error texts; may be null. */
 typedef struct vox_io_source {
@@ -161,20 +160,19 @@ typedef enum vox_io_solid_kind {
     VOX_IO_SOLID_STUFFED = 0,
     /* Every lattice cube that the surface touches or encloses, uncut and split into five tets, so that the surface is
      * inside. For rough or open surfaces that are to be carried along by the tets around them. */
-    VOX_IO_SOLID_CUBES = 1,
-    VOX_IO_SOLID_KIND_FORCE_32_BITS = 0x7fffffff
+    VOX_IO_SOLID_CUBES = 1
 } vox_io_solid_kind;
 
 typedef struct vox_io_tetrahedralize_desc {
     uint32_t struct_size;
     vox_io_solid_kind kind;
-    double cell;       /* edge of a lattice cube, > 0; 0 (the default): a fiftieth of the surface's longest side */
-    uint64_t max_tets; /* more tets fail with LIMIT; default 100000000 */
+    double cell;       /* edge of a lattice cube; 0: a fiftieth of the surface's longest side */
+    uint64_t max_tets; /* more tets fail with LIMIT; 0: 100000000 */
     /* STUFFED: largest Hausdorff distance to the surface, as measured by vox_io_mesh_measure. Cells at the boundary
      * are halved until the distance is met, while those inside keep the size `cell`; thin details may need many tets.
-     * 0 (the default): cells are not halved, and no distance is guaranteed. */
+     * 0: cells are not halved, and no distance is guaranteed. */
     double max_distance;
-    /* STUFFED: how many times cells away from the boundary may be merged, eight into one. 0 (the default): all tets
+    /* STUFFED: how many times cells away from the boundary may be merged, eight into one. 0: all tets
      * have the same size. The boundary does not change. */
     uint32_t coarsen;
     uint32_t reserved; /* 0 */
@@ -182,11 +180,14 @@ typedef struct vox_io_tetrahedralize_desc {
      * other than 0 cancels. May be null. */
     VOX_OPTIONAL int32_t (*progress)(double fraction, void* user);
     void* progress_user;
-    vox_allocator allocator; /* as vox_io_load_desc.allocator */
+    VOX_OPTIONAL const vox_allocator* allocator; /* as vox_io_load_desc.allocator */
 } vox_io_tetrahedralize_desc;
 
-/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
-VOX_API vox_result vox_io_tetrahedralize_desc_init(vox_io_tetrahedralize_desc* desc, uint32_t struct_size);
+static inline vox_io_tetrahedralize_desc vox_default_io_tetrahedralize_desc(void) {
+    vox_io_tetrahedralize_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
+    return desc;
+}
 
 /* Fills the inside of a closed surface (the triangles of `surface`; its tets are ignored) with tetrahedra.
  * desc null: defaults. All tets have positive volume, no two overlap, and inner facets are shared by exactly two. The
@@ -231,8 +232,7 @@ typedef enum vox_io_write_format {
     VOX_IO_WRITE_AUTO = 0,   /* determined by the name's extension: .msh is MSH_41, .vtu is VTU */
     VOX_IO_WRITE_MSH_22 = 1, /* Gmsh .msh 2.2 */
     VOX_IO_WRITE_MSH_41 = 2, /* Gmsh .msh 4.1 */
-    VOX_IO_WRITE_VTU = 3,    /* VTK XML, for ParaView */
-    VOX_IO_WRITE_FORMAT_FORCE_32_BITS = 0x7fffffff
+    VOX_IO_WRITE_VTU = 3     /* VTK XML, for ParaView */
 } vox_io_write_format;
 
 /* Numbers attached to the vertices or cells, e.g. contacts or penetration depths. Cells are the triangles, then the
@@ -256,8 +256,11 @@ typedef struct vox_io_write_desc {
     uint64_t cell_data_count;
 } vox_io_write_desc;
 
-/* Fills `desc` with the defaults (AUTO, text, no data) for the fields that `struct_size` covers. */
-VOX_API vox_result vox_io_write_desc_init(vox_io_write_desc* desc, uint32_t struct_size);
+static inline vox_io_write_desc vox_default_io_write_desc(void) {
+    vox_io_write_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
+    return desc;
+}
 
 /* Writes vertices, triangles and tets, in the mesh's order. desc null: defaults. An existing file at `path`
  * is replaced at the end, and only if everything was written.

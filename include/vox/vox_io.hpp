@@ -10,23 +10,6 @@ namespace vox {
 inline namespace VOX_HPP_MODE {
 namespace io {
 
-// Defaults of vox_io's descs: vox_io_load_desc_init, vox_io_tetrahedralize_desc_init, vox_io_write_desc_init.
-inline vox_io_load_desc default_load_desc() noexcept {
-    vox_io_load_desc desc;
-    (void)vox_io_load_desc_init(&desc, static_cast<std::uint32_t>(sizeof desc));
-    return desc;
-}
-inline vox_io_tetrahedralize_desc default_tetrahedralize_desc() noexcept {
-    vox_io_tetrahedralize_desc desc;
-    (void)vox_io_tetrahedralize_desc_init(&desc, static_cast<std::uint32_t>(sizeof desc));
-    return desc;
-}
-inline vox_io_write_desc default_write_desc() noexcept {
-    vox_io_write_desc desc;
-    (void)vox_io_write_desc_init(&desc, static_cast<std::uint32_t>(sizeof desc));
-    return desc;
-}
-
 // vox_io_mesh. Move-only; its destructor is vox_io_mesh_destroy. One that was moved from is null: calls fail.
 class mesh {
 public:
@@ -95,10 +78,10 @@ public:
     returns<vox_io_quality> quality(const mesh& surface) const { return measured(surface.get()); }
     returns<vox_io_quality> quality() const { return measured(nullptr); }
     // vox_io_write
-    returns<void> write(const char* path, const vox_io_write_desc& desc = default_write_desc()) const {
+    returns<void> write(const char* path, const vox_io_write_desc& desc = vox_default_io_write_desc()) const {
         return detail::give(vox_io_write(get(), path, &desc));
     }
-    returns<void> write(const std::string& path, const vox_io_write_desc& desc = default_write_desc()) const {
+    returns<void> write(const std::string& path, const vox_io_write_desc& desc = vox_default_io_write_desc()) const {
         return write(path.c_str(), desc);
     }
     // vox_io_write_to: `sink` takes a span<const std::byte>. What it throws ends the writing.
@@ -139,10 +122,10 @@ inline vox_io_source source(const char* name, span<const std::byte> bytes) noexc
 }
 
 // vox_io_load
-inline returns<mesh> load(const char* path, const vox_io_load_desc& desc = default_load_desc()) {
+inline returns<mesh> load(const char* path, const vox_io_load_desc& desc = vox_default_io_load_desc()) {
     return mesh::made([&](vox_io_mesh** out) { return vox_io_load(path, &desc, out); });
 }
-inline returns<mesh> load(const std::string& path, const vox_io_load_desc& desc = default_load_desc()) {
+inline returns<mesh> load(const std::string& path, const vox_io_load_desc& desc = vox_default_io_load_desc()) {
     return load(path.c_str(), desc);
 }
 // The same with a callable for the progress: takes the fraction and returns whether to go on. What it throws cancels.
@@ -153,7 +136,7 @@ returns<mesh> load(const std::string& path, const vox_io_load_desc& desc, F&& pr
     });
 }
 // vox_io_read: one source, or both files of TetGen
-inline returns<mesh> read(span<const vox_io_source> sources, const vox_io_load_desc& desc = default_load_desc()) {
+inline returns<mesh> read(span<const vox_io_source> sources, const vox_io_load_desc& desc = vox_default_io_load_desc()) {
     return mesh::made([&](vox_io_mesh** out) { return vox_io_read(sources.data(), sources.size(), &desc, out); });
 }
 // vox_io_mesh_create, of packed doubles and indices, three a triangle
@@ -175,7 +158,7 @@ inline returns<mesh> create(span<const double> positions, const vox::tets& tets,
 }
 // vox_io_tetrahedralize
 inline returns<mesh> tetrahedralize(const mesh& surface,
-                                    const vox_io_tetrahedralize_desc& desc = default_tetrahedralize_desc()) {
+                                    const vox_io_tetrahedralize_desc& desc = vox_default_io_tetrahedralize_desc()) {
     return mesh::made([&](vox_io_mesh** out) { return vox_io_tetrahedralize(surface.get(), &desc, out); });
 }
 // The same with a callable for the progress, as for load.

@@ -35,8 +35,7 @@ extern "C" {
 typedef enum vox_feature {
     VOX_FEATURE_VERTEX = 0,
     VOX_FEATURE_EDGE = 1, /* of 2 vertices */
-    VOX_FEATURE_FACE = 2, /* a triangle, of 3 vertices */
-    VOX_FEATURE_FORCE_32_BITS = 0x7fffffff
+    VOX_FEATURE_FACE = 2  /* a triangle, of 3 vertices */
 } vox_feature;
 
 /* Vertices, edges and faces, and the positions of the last vox_surface_move. */
@@ -46,8 +45,7 @@ typedef struct vox_surface vox_surface;
  * duplicated. A feature never makes a pair with itself, nor with one that has a vertex in common with it. */
 typedef struct vox_surface_desc {
     uint32_t struct_size;
-    /* Threads that work, as in vox_grid_desc: 1 (the default): the calling one; 0: one per core. */
-    uint32_t worker_count;
+    uint32_t worker_count; /* as in vox_grid_desc */
     uint64_t vertex_count; /* at least 1 */
     uint64_t edge_count;
     uint64_t face_count;
@@ -55,38 +53,35 @@ typedef struct vox_surface_desc {
      * lower vertex first, ascending (vox_surface_get_features lists them). Not null, with edge_count 0: no edges. */
     VOX_OPTIONAL const uint32_t* edges;
     VOX_OPTIONAL const uint32_t* faces; /* 3 * face_count indices of vertices, copied */
-    /* The patch of each vertex, below patch_count, copied; null: all vertices are in one patch. Two features make no pair
-     * unless some vertex of one and some vertex of the other may meet (as in IPC Toolkit). Two vertices may meet if the
-     * category of the patch of each has a bit in common with the mask of the patch of the other. So static obstacles are
-     * patches of a category that their own masks leave out. */
+    /* The patch of each vertex, below patch_count, copied; null: all vertices are in one patch. Two features make no
+     * pair unless some vertex of one and some vertex of the other may meet (as in IPC Toolkit). Two vertices may meet
+     * if the category of the patch of each has a bit in common with the mask of the patch of the other. So static
+     * obstacles are patches of a category that their own masks leave out. */
     VOX_OPTIONAL const uint32_t* patches;
     VOX_OPTIONAL const uint64_t* patch_categories; /* copied; null: 1 each */
     VOX_OPTIONAL const uint64_t* patch_masks;      /* copied; null: all bits */
     uint64_t patch_count;
-    /* Edge length of a cell of the grid in which pairs are looked for, > 0. 0 (the default): chosen at every motion by the
-     * cost model. No answer depends on it. */
+    /* Edge length of a cell of the grid in which pairs are looked for. 0: chosen at every motion by the cost model. No
+     * answer depends on it. */
     double cell_size;
     /* Most bytes the surface may hold at any time, its answers included. A call that would exceed it fails with
-     * VOX_ERROR_BUDGET. 0: no limit. Default 4 GiB. */
+     * VOX_ERROR_BUDGET. 0: 4 GiB; UINT64_MAX: no limit. */
     uint64_t byte_budget;
-    vox_allocator allocator; /* called only from functions of this surface, one call at a time */
-    /* Default: the built-in scheduler. A call enqueues as often as the size of its answer needs, and waits for each before
-     * the next. */
-    vox_task_system tasks;
+    VOX_OPTIONAL const vox_allocator* allocator; /* copied; null: the C++ runtime's heap */
+    /* Copied; null: the built-in scheduler. A call enqueues as often as the size of its answer needs, and waits for
+     * each before the next. */
+    VOX_OPTIONAL const vox_task_system* tasks;
 } vox_surface_desc;
 
-/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
-VOX_EXPERIMENTAL vox_result vox_surface_desc_init(vox_surface_desc* desc, uint32_t struct_size);
-
 static inline vox_surface_desc vox_default_surface_desc(void) {
-    vox_surface_desc desc;
-    (void)vox_surface_desc_init(&desc, (uint32_t)sizeof desc);
+    vox_surface_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
     return desc;
 }
 
 /* Creates a surface without positions. The caller owns *out_surface and releases it with vox_surface_destroy.
- * Errors: INVALID_ARGUMENT (names the field and its value), INVALID_MESH ("face 17 names vertex 900 of 812"), UNSUPPORTED
- * (an x86-64 without SSE4.2), LIMIT, BUDGET, OUT_OF_MEMORY. */
+ * Errors: INVALID_ARGUMENT (names the field and its value), INVALID_MESH ("face 17 names vertex 900 of 812"),
+ * UNSUPPORTED (an x86-64 without SSE4.2), LIMIT, BUDGET, OUT_OF_MEMORY. */
 VOX_EXPERIMENTAL vox_result vox_surface_create(const vox_surface_desc* desc, vox_surface** out_surface);
 
 /* Destroys a surface. Its views become invalid. Null does nothing. */
@@ -100,8 +95,9 @@ typedef struct vox_feature_view {
     const uint32_t* vertices; /* vertices_each * count numbers */
 } vox_feature_view;
 
-/* The edges or faces of a surface, numbered as everywhere in this header. Set out_view->struct_size first. The view lives
- * as long as the surface. Errors: INVALID_ARGUMENT (also for VOX_FEATURE_VERTEX, whose numbers are those of the positions). */
+/* The edges or faces of a surface, numbered as everywhere in this header. Set out_view->struct_size first. The view
+ * lives as long as the surface. Errors: INVALID_ARGUMENT (also for VOX_FEATURE_VERTEX, whose numbers are those of the
+ * positions). */
 VOX_EXPERIMENTAL vox_result vox_surface_get_features(const vox_surface* surface, vox_feature feature,
                                                  vox_feature_view* out_view);
 
@@ -110,8 +106,7 @@ VOX_EXPERIMENTAL vox_result vox_surface_get_features(const vox_surface* surface,
 typedef enum vox_motion_flags {
     /* Leave out pairs that are proven to stay further apart than twice the radius, that is, whose features thickened by
      * the radius never touch. No other pair is left out. */
-    VOX_MOTION_CULL = 1,
-    VOX_MOTION_FLAGS_FORCE_32_BITS = 0x7fffffff
+    VOX_MOTION_CULL = 1
 } vox_motion_flags;
 
 /* Positions of all vertices of a surface, or two, between which each vertex moves along a straight line at constant
@@ -123,22 +118,20 @@ typedef struct vox_motion {
     vox_positions to;   /* at time 1, copied, in the same format; none: everything stands still */
     /* The box of a vertex holds both its positions and reaches further by this on each side, rounded outward: to the
      * next number of their format below and above. That of an edge or a face holds those of its vertices. >= 0, may be
-     * infinite; default 0. */
+     * infinite. */
     double radius;
 } vox_motion;
 
-/* Fills `motion` with the defaults for the fields that `struct_size` covers. */
-VOX_EXPERIMENTAL vox_result vox_motion_init(vox_motion* motion, uint32_t struct_size);
-
 static inline vox_motion vox_default_motion(void) {
-    vox_motion motion;
-    (void)vox_motion_init(&motion, (uint32_t)sizeof motion);
+    vox_motion motion = VOX_ZERO;
+    motion.struct_size = (uint32_t)sizeof motion;
     return motion;
 }
 
-/* Sets the motion that the other functions answer for. Views of answers end. The arrays are needed during the call only.
- * Errors: INVALID_ARGUMENT (names the field and its value), NON_FINITE (names the vertex, and which of its positions), LIMIT
- * (the same, for a coordinate of 2^128 or more), BUDGET, OUT_OF_MEMORY; the motion is then the one of before. */
+/* Sets the motion that the other functions answer for. Views of answers end. The arrays are needed during the call
+ * only.
+ * Errors: INVALID_ARGUMENT (names the field and its value), NON_FINITE (names the vertex, and which of its positions),
+ * LIMIT (the same, for a coordinate of 2^128 or more), BUDGET, OUT_OF_MEMORY; the motion is then the one of before. */
 VOX_EXPERIMENTAL vox_result vox_surface_move(vox_surface* surface, const vox_motion* motion);
 
 /* ---- pairs ------------------------------------------------------------------------------------ */
@@ -156,13 +149,13 @@ typedef struct vox_pair_lists {
 } vox_pair_lists;
 
 /* All features `b` whose boxes overlap those of the features [first, first + count) of kind `a`; boxes that touch
- * overlap. Where a and b are the same kind, each pair comes once, in the list of its lower feature. Left out: pairs with a
- * vertex in common, pairs that patches rule out, and with VOX_MOTION_CULL those proven to stay apart. Ranges that reach
- * beyond the last feature end there, and may not begin beyond it.
- * If not all of it fits into the byte budget, the features up to lists->first + lists->count are answered, at least one;
- * ask again from there. So any number of pairs can be had from any budget that holds the lists of one feature.
- * Set out_lists->struct_size first. The view lives until the next vox_surface_find_pairs or vox_surface_move, or the end of the
- * surface. Errors: INVALID_ARGUMENT, INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
+ * overlap. Where a and b are the same kind, each pair comes once, in the list of its lower feature. Left out: pairs
+ * with a vertex in common, pairs that patches rule out, and with VOX_MOTION_CULL those proven to stay apart. Ranges
+ * that reach beyond the last feature end there, and may not begin beyond it.
+ * If not all of it fits into the byte budget, the features up to lists->first + lists->count are answered, at least
+ * one; ask again from there. So any number of pairs can be had from any budget that holds the lists of one feature. Set
+ * out_lists->struct_size first. The view lives until the next vox_surface_find_pairs or vox_surface_move, or the end of
+ * the surface. Errors: INVALID_ARGUMENT, INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
 VOX_EXPERIMENTAL vox_result vox_surface_find_pairs(vox_surface* surface, vox_feature a, vox_feature b, uint64_t first,
                                               uint64_t count, vox_pair_lists* out_lists);
 
@@ -170,15 +163,16 @@ VOX_EXPERIMENTAL vox_result vox_surface_find_pairs(vox_surface* surface, vox_fea
  * infinite or NaN. */
 VOX_EXPERIMENTAL vox_result vox_surface_set_cell_size(vox_surface* surface, double cell_size);
 
-/* The cell size that minimises the cost of finding the pairs of kind `a` with kind `b` for the motion that is set. The grid
- * holds the boxes of tiles (at most 64 neighbouring features each) of kind b in all cells that they meet, and is asked by
- * those of kind a: described as a vox_foreign_grid, with weights of its own (docs/surface-pairs.md). Set out->struct_size
- * first. Errors: INVALID_ARGUMENT (also where there are no such features, or the radius is so large that boxes have no ends),
- * INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
+/* The cell size that minimises the cost of finding the pairs of kind `a` with kind `b` for the motion that is set. The
+ * grid holds the boxes of tiles (at most 64 neighbouring features each) of kind b in all cells that they meet, and is
+ * asked by those of kind a: described as a vox_foreign_grid, with weights of its own (docs/surface-pairs.md). Set
+ * out->struct_size first. Errors: INVALID_ARGUMENT (also where there are no such features, or the radius is so large
+ * that boxes have no ends), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
 VOX_EXPERIMENTAL vox_result vox_surface_suggest_cell_size(vox_surface* surface, vox_feature a, vox_feature b,
                                                           vox_foreign_suggestion* out);
 
-/* What the last search for pairs did, also one by vox_surface_find_crossings and the like, and what the surface holds. */
+/* What the last search for pairs did, also one by vox_surface_find_crossings and the like, and what the surface holds.
+ * */
 typedef struct vox_pair_counters {
     uint32_t struct_size;
     uint32_t reserved;       /* 0 */
@@ -217,9 +211,9 @@ typedef struct vox_crossing_view {
 } vox_crossing_view;
 
 /* All edges and faces that have a point in common and no vertex, at the end of the motion: whether the surface is free
- * of intersections, and where it is not. Decided exactly. Patches rule out pairs as for vox_surface_find_pairs; the radius does
- * not count. Set out_view->struct_size first. The view lives until the next vox_surface_find_crossings or vox_surface_move, or
- * the end of the surface. Errors: INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
+ * of intersections, and where it is not. Decided exactly. Patches rule out pairs as for vox_surface_find_pairs; the
+ * radius does not count. Set out_view->struct_size first. The view lives until the next vox_surface_find_crossings or
+ * vox_surface_move, or the end of the surface. Errors: INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
 VOX_EXPERIMENTAL vox_result vox_surface_find_crossings(vox_surface* surface, vox_crossing_view* out_view);
 
 /* ---- distance --------------------------------------------------------------------------------- */
@@ -243,20 +237,21 @@ typedef struct vox_close_view {
 } vox_close_view;
 
 /* All pairs of features of kinds a and b that are at most `distance` apart, at the end of the motion: face and vertex,
- * edge and edge, edge and vertex, vertex and vertex, in either order. Which pairs are left out is as for vox_surface_find_pairs;
- * the radius does not count. Set out_view->struct_size first. The view lives until the next vox_surface_find_proximities or
- * vox_surface_move, or the end of the surface. While it grows, it may take more than twice the bytes that it has in the end.
- * Errors: INVALID_ARGUMENT (other kinds; a distance that is negative, infinite or NaN), INVALID_STATE (no positions yet),
- * BUDGET, OUT_OF_MEMORY. */
+ * edge and edge, edge and vertex, vertex and vertex, in either order. Which pairs are left out is as for
+ * vox_surface_find_pairs; the radius does not count. Set out_view->struct_size first. The view lives until the next
+ * vox_surface_find_proximities or vox_surface_move, or the end of the surface. While it grows, it may take more than
+ * twice the bytes that it has in the end.
+ * Errors: INVALID_ARGUMENT (other kinds; a distance that is negative, infinite or NaN), INVALID_STATE (no positions
+ * yet), BUDGET, OUT_OF_MEMORY. */
 VOX_EXPERIMENTAL vox_result vox_surface_find_proximities(vox_surface* surface, vox_feature a, vox_feature b, double distance,
                                               vox_close_view* out_view);
 
-/* For each vertex a distance, at most `most`: while no vertex has moved further than its own, from the end of the motion,
- * no face and vertex and no two edges touch that do not touch now (Chen et al. 2025, Offset Geometric Contact, Sect. 3.3). It
- * is half of the least distance of such pairs that the vertex is part of, rounded downwards. Pairs with a vertex in common, and
- * those that patches rule out, do not count, and may touch.
- * vertex_count must be that of the surface. Errors: INVALID_ARGUMENT (another vertex_count; `most` is not above 0, or not
- * finite), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
+/* For each vertex a distance, at most `most`: while no vertex has moved further than its own, from the end of the
+ * motion, no face and vertex and no two edges touch that do not touch now (Chen et al. 2025, Offset Geometric Contact,
+ * Sect. 3.3). It is half of the least distance of such pairs that the vertex is part of, rounded downwards. Pairs with
+ * a vertex in common, and those that patches rule out, do not count, and may touch.
+ * vertex_count must be that of the surface. Errors: INVALID_ARGUMENT (another vertex_count; `most` is not above 0, or
+ * not finite), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
 VOX_EXPERIMENTAL vox_result vox_surface_find_clearances(vox_surface* surface, double most, double* per_vertex,
                                                         uint64_t vertex_count);
 
@@ -265,21 +260,19 @@ VOX_EXPERIMENTAL vox_result vox_surface_find_clearances(vox_surface* surface, do
 /* How the time of contact is computed. */
 typedef struct vox_contact_time_desc {
     uint32_t struct_size;
-    uint32_t most_iterations; /* of one pair; >= 1, default 10000. What is not finished then gives a time that is too
+    uint32_t most_iterations; /* of one pair; 0: 10000. What is not finished then gives a time that is too
                                  early, never one that is late */
-    double distance;          /* contact is where two features come this close, >= 0; default 0 */
-    /* At the time given, the features are still further apart than `distance` by at most this part of what it was at time 0;
-     * above 0 and below 1, default 0.1. Less takes longer and gives greater steps. So a pair that comes that near and does not
-     * touch limits the step, too. Where features are closer than some 1e-8 of their size, rounding may end it earlier. */
+    double distance;          /* contact is where two features come this close, >= 0 */
+    /* At the time given, the features are still further apart than `distance` by at most this part of what it was at
+     * time 0; below 1; 0: 0.1. Less takes longer and gives greater steps. So a pair that comes that near and does not
+     * touch limits the step, too. Where features are closer than some 1e-8 of their size, rounding may end it earlier.
+     * */
     double slack;
 } vox_contact_time_desc;
 
-/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
-VOX_EXPERIMENTAL vox_result vox_contact_time_desc_init(vox_contact_time_desc* desc, uint32_t struct_size);
-
 static inline vox_contact_time_desc vox_default_contact_time_desc(void) {
-    vox_contact_time_desc desc;
-    (void)vox_contact_time_desc_init(&desc, (uint32_t)sizeof desc);
+    vox_contact_time_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
     return desc;
 }
 
@@ -297,9 +290,9 @@ typedef struct vox_safe_step {
 } vox_safe_step;
 
 /* How much of the motion is free of contact: the least time of first contact of all pairs of faces and vertices, and of
- * edges and edges. Never later than the exact time. Pairs that touch at time 0 give the step 0. Pairs are left out as for
- * vox_surface_find_pairs. desc null: defaults. Set out->struct_size first. Errors: INVALID_ARGUMENT, INVALID_STATE (no
- * positions yet), BUDGET, OUT_OF_MEMORY. */
+ * edges and edges. Never later than the exact time. Pairs that touch at time 0 give the step 0. Pairs are left out as
+ * for vox_surface_find_pairs. desc null: defaults. Set out->struct_size first. Errors: INVALID_ARGUMENT, INVALID_STATE
+ * (no positions yet), BUDGET, OUT_OF_MEMORY. */
 VOX_EXPERIMENTAL vox_result vox_surface_find_safe_step(vox_surface* surface,
                                                   VOX_OPTIONAL const vox_contact_time_desc* desc,
                                                   vox_safe_step* out);
@@ -319,9 +312,9 @@ typedef struct vox_timed_view {
 } vox_timed_view;
 
 /* All pairs of FACE and VERTEX, or of EDGE and EDGE, that may come into contact within the motion, each with its time;
- * pairs that are left out are proven to stay apart. desc null: defaults. Set out_view->struct_size first. The view lives
- * until the next vox_surface_find_impacts or vox_surface_move, or the end of the surface. Errors: INVALID_ARGUMENT (also
- * for other kinds), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
+ * pairs that are left out are proven to stay apart. desc null: defaults. Set out_view->struct_size first. The view
+ * lives until the next vox_surface_find_impacts or vox_surface_move, or the end of the surface. Errors:
+ * INVALID_ARGUMENT (also for other kinds), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY. */
 VOX_EXPERIMENTAL vox_result vox_surface_find_impacts(vox_surface* surface, vox_feature a, vox_feature b,
                                                       VOX_OPTIONAL const vox_contact_time_desc* desc,
                                                       vox_timed_view* out_view);

@@ -57,18 +57,23 @@ typedef struct vox_sim_desc {
     double contact_slop;   /* penetration depth that is tolerated, so that resting contacts persist. Negative (the
                             * default is -1): a hundredth of the mean rest edge of the two bodies */
     VOX_OPTIONAL const vox_grid_desc* grid; /* settings of the grid inside, read during create; null: defaults */
-    vox_log log; /* log of the simulation; the grid has one of its own in its desc */
+    VOX_OPTIONAL const vox_log* log; /* of the simulation, copied; the grid has one of its own in its desc */
     /* Where the simulation and its bodies live, as does its grid unless `grid` names another allocator. Called only
-     * from functions of the simulation and its grid, one call at a time. Default: the C++ runtime's heap. */
-    vox_allocator allocator;
+     * from functions of the simulation and its grid, one call at a time. Copied; null: the C++ runtime's heap. */
+    VOX_OPTIONAL const vox_allocator* allocator;
 } vox_sim_desc;
 
-/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
-VOX_API vox_result vox_sim_desc_init(vox_sim_desc* desc, uint32_t struct_size);
-
 static inline vox_sim_desc vox_default_sim_desc(void) {
-    vox_sim_desc desc;
-    (void)vox_sim_desc_init(&desc, (uint32_t)sizeof desc);
+    vox_sim_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
+    desc.substeps = 10;
+    desc.detect_every = 1;
+    desc.gravity[2] = -9.81;
+    desc.max_time_step = 1.0 / 30;
+    desc.floor_normal[2] = 1;
+    desc.friction = 0.5;
+    desc.max_push_speed = 1;
+    desc.contact_slop = -1;
     return desc;
 }
 
@@ -98,8 +103,7 @@ VOX_API vox_result vox_sim_step(vox_sim* sim, double time_step);
 
 typedef enum vox_sim_body_flags {
     VOX_SIM_BODY_SELF_COLLISION = 1, /* collides with itself too */
-    VOX_SIM_BODY_FIXED = 2,          /* never moves; others collide with it */
-    VOX_SIM_BODY_FLAGS_FORCE_32_BITS = 0x7fffffff
+    VOX_SIM_BODY_FIXED = 2           /* never moves; others collide with it */
 } vox_sim_body_flags;
 
 typedef struct vox_sim_body_desc {
@@ -123,12 +127,13 @@ typedef struct vox_sim_body_desc {
     uint64_t user_data;  /* returned by vox_body_get_user_data on the sim's grid */
 } vox_sim_body_desc;
 
-/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
-VOX_API vox_result vox_sim_body_desc_init(vox_sim_body_desc* desc, uint32_t struct_size);
-
 static inline vox_sim_body_desc vox_default_sim_body_desc(void) {
-    vox_sim_body_desc desc;
-    (void)vox_sim_body_desc_init(&desc, (uint32_t)sizeof desc);
+    vox_sim_body_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
+    desc.density = 1000;
+    desc.youngs_modulus = 1e6;
+    desc.bulk_modulus = 1e6;
+    desc.damping = 0.01;
     return desc;
 }
 
@@ -245,12 +250,14 @@ typedef struct vox_experiment_desc {
     uint32_t reserved;             /* 0 */
 } vox_experiment_desc;
 
-/* Fills `desc` with the defaults for the fields that `struct_size` covers. */
-VOX_API vox_result vox_experiment_desc_init(vox_experiment_desc* desc, uint32_t struct_size);
-
 static inline vox_experiment_desc vox_default_experiment_desc(void) {
-    vox_experiment_desc desc;
-    (void)vox_experiment_desc_init(&desc, (uint32_t)sizeof desc);
+    vox_experiment_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
+    desc.frames = 10;
+    desc.axis[0] = 1;
+    desc.contact_share = 0.01;
+    desc.time_step = 0.01;
+    desc.turn = 1;
     return desc;
 }
 

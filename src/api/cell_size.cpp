@@ -29,9 +29,10 @@ constexpr bool has_surfaces = false;
 constexpr bool has_surfaces = true;
 #endif
 
-vox_suggest_desc read_suggest_desc(const vox_suggest_desc* desc) {
-    vox_suggest_desc settings =
-        desc ? read_struct(desc, suggest_defaults(), "vox_suggest_desc") : suggest_defaults();
+vox_suggest_desc read_suggest_desc(const vox_suggest_desc* desc, const vox_grid* grid = nullptr) {
+    vox_suggest_desc settings{};
+    if (desc) settings = read_struct(desc, "vox_suggest_desc");
+    if (grid) grid->describe(settings, desc != nullptr);
     check_suggest_desc(settings);
     if (!has_surfaces && settings.model == VOX_COST_MODEL_SURFACE)
         throw Error(VOX_ERROR_UNSUPPORTED, "this build has no surfaces");
@@ -56,8 +57,6 @@ void read_bodies(const vox_mesh_desc* meshes, std::uint64_t count, vox_cost_mode
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("meshes[0].struct_size is %u, expected a multiple of %zu", stride,
                            alignof(vox_mesh_desc)));
-    vox_mesh_desc defaults{};
-    defaults.struct_size = sizeof defaults;
     bodies.reserve(static_cast<std::size_t>(count));
     std::uint64_t tets = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -67,7 +66,7 @@ void read_bodies(const vox_mesh_desc* meshes, std::uint64_t count, vox_cost_mode
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("meshes[%u].struct_size is %u, that of meshes[0] is %u", i,
                                element->struct_size, stride));
-        const vox_mesh_desc desc = read_struct(element, defaults, "mesh");
+        const vox_mesh_desc desc = read_struct(element, "mesh");
         Body named; // a mesh of an array: it has no slot
         named.mesh_id = i;
         named.user_data = desc.user_data;
@@ -81,7 +80,9 @@ void read_bodies(const vox_mesh_desc* meshes, std::uint64_t count, vox_cost_mode
 }
 
 vox_cost_bounds read_bounds(const vox_cost_bounds* bounds) {
-    return read_struct(bounds, cost_bounds_defaults(), "bounds");
+    vox_cost_bounds read = read_struct(bounds, "bounds");
+    set_default(read.zone_loss, default_zone_loss);
+    return read;
 }
 
 // Whether the surfaces of the meshes are what is asked about.
@@ -101,10 +102,6 @@ void check_cells(double cells, const char* name) {
 
 } // namespace
 
-vox_result vox_suggest_desc_init(vox_suggest_desc* desc, uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, suggest_defaults(), "vox_suggest_desc"); });
-}
-
 vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_desc* meshes,
                                  uint64_t mesh_count, vox_suggestion* out) {
     return border([&] {
@@ -121,8 +118,7 @@ vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_de
                                       vox_suggestion* out) {
     return border(grid, "grid", [&] {
         check_out_struct(out, "out");
-        vox_suggest_desc settings = read_suggest_desc(desc);
-        grid->describe(settings, desc != nullptr);
+        const vox_suggest_desc settings = read_suggest_desc(desc, grid);
         CallerMemory caller(settings.allocator);
         Scratch<std::size_t{1} << 16> memory(&caller); // enough for a small scene
         CellSizeScene scene(&memory);
@@ -162,10 +158,6 @@ vox_result vox_cost_get_weights(vox_cost_weights* out) {
 
 vox_result vox_cost_set_weights(const vox_cost_weights* weights) {
     return border([&] { use_weights(read_weights(weights)); });
-}
-
-vox_result vox_cost_bounds_init(vox_cost_bounds* bounds, uint32_t struct_size) {
-    return border([&] { init_struct(bounds, struct_size, cost_bounds_defaults(), "vox_cost_bounds"); });
 }
 
 vox_result vox_cost_minimise(vox_cost_function* cost, void* user, const vox_cost_bounds* bounds,

@@ -12,12 +12,6 @@ using namespace vox;
 
 namespace {
 
-vox_vertices_desc vertices_defaults() {
-    vox_vertices_desc desc{};
-    desc.struct_size = sizeof desc;
-    return desc;
-}
-
 // `count` elements of `each` numbers; no more than there can be indices.
 std::span<const std::uint32_t> read_numbers(const std::uint32_t* numbers, std::uint64_t count,
                                             std::size_t each, const char* name) {
@@ -49,7 +43,7 @@ vox_result edit(vox_grid* grid, vox_body body, std::uint64_t count, Function&& f
 vox_result vox_mesh_set_topology(vox_grid* grid, vox_body body, const vox_mesh_desc* desc) {
     return border(grid, "grid", [&] {
         (void)grid->mesh(body); // throws for an id that names no body
-        const vox_mesh_desc settings = read_struct(desc, vox_default_mesh_desc(), "desc");
+        const vox_mesh_desc settings = read_struct(desc, "desc");
         grid->set_topology(body, settings, check_mesh(settings, "", NullPositions::allowed));
     });
 }
@@ -83,16 +77,12 @@ vox_result vox_mesh_remove_tets(vox_grid* grid, vox_body body, const uint32_t* t
                 [&](Mesh& edited) { edited.remove_tets(read_numbers(tets, count, 1, "tets")); });
 }
 
-vox_result vox_vertices_desc_init(vox_vertices_desc* desc, uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, vertices_defaults(), "desc"); });
-}
-
 vox_result vox_mesh_append_vertices(vox_grid* grid, vox_body body, const vox_vertices_desc* desc,
                                     uint32_t* out_first) {
     return border(grid, "grid", [&] {
         (void)grid->mesh(body);
         require(out_first, "out_first");
-        const vox_vertices_desc vertices = read_struct(desc, vertices_defaults(), "desc");
+        const vox_vertices_desc vertices = read_struct(desc, "desc");
         if (vertices.reserved != 0)
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("desc reserved is %" PRIu32 ", expected 0", vertices.reserved));

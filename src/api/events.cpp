@@ -71,27 +71,13 @@ vox_result vox_grid_contact_events(const vox_grid* grid, vox_contact_event_view*
 
 // ---- readings -------------------------------------------------------------------------------------
 
-namespace {
-
-vox_readings_desc readings_defaults() noexcept {
-    return {sizeof(vox_readings_desc), VOX_READING_POSITION | VOX_READING_SURFACE | VOX_READING_DEPTH,
-            VOX_NULL_BODY, VOX_NULL_BODY, 0};
-}
-
-} // namespace
-
-vox_result vox_readings_desc_init(vox_readings_desc* desc, uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, readings_defaults(), "desc"); });
-}
-
 vox_result vox_grid_prepare_readings(vox_grid* grid) {
-    return border(grid, "grid", [&] { grid->prepare_readings(readings_defaults()); });
+    return border(grid, "grid", [&] { grid->prepare_readings({}); });
 }
 
 vox_result vox_grid_prepare_readings_of(vox_grid* grid, const vox_readings_desc* desc) {
-    return border(grid, "grid", [&] {
-        grid->prepare_readings(desc ? read_struct(desc, readings_defaults(), "desc") : readings_defaults());
-    });
+    return border(grid, "grid",
+                  [&] { grid->prepare_readings(desc ? read_struct(desc, "desc") : vox_readings_desc{}); });
 }
 
 vox_result vox_grid_readings(const vox_grid* grid, vox_reading_view* out_view) {

@@ -13,17 +13,9 @@
 
 using namespace vox;
 
-vox_result vox_primitives_init(vox_primitives* primitives, uint32_t struct_size) {
-    return border([&] { init_struct(primitives, struct_size, primitives_defaults(), "vox_primitives"); });
-}
-
-vox_result vox_foreign_grid_init(vox_foreign_grid* grid, uint32_t struct_size) {
-    return border([&] { init_struct(grid, struct_size, foreign_grid_defaults(), "vox_foreign_grid"); });
-}
-
 vox_result vox_foreign_grid_set_known(vox_foreign_grid* grid, vox_known_grid known) {
     return border([&] {
-        vox_foreign_grid filled = read_struct(grid, foreign_grid_defaults(), "grid");
+        vox_foreign_grid filled = read_struct(grid, "grid");
         check_enum(known, VOX_KNOWN_GRID_NUMPY, "known");
         const KnownGrid& described = known_grid(known);
         filled.content = described.content;

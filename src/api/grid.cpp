@@ -65,37 +65,15 @@ const char* vox_build_info(void) {
 
 // ---- grid -----------------------------------------------------------------------------------------
 
-namespace {
-
-vox_grid_desc grid_defaults() {
-    vox_grid_desc desc{};
-    desc.struct_size = sizeof desc;
-    desc.byte_budget = 4ull << 30;
-    desc.worker_count = 1;
-    desc.flags = VOX_GRID_PENETRATIONS;
-    return desc;
-}
-
-vox_mesh_desc mesh_defaults() {
-    vox_mesh_desc desc{};
-    desc.struct_size = sizeof desc;
-    return desc;
-}
-
-} // namespace
-
-vox_result vox_grid_desc_init(vox_grid_desc* desc, uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, grid_defaults(), "desc"); });
-}
-
 vox_result vox_grid_create(const vox_grid_desc* desc, vox_grid** out_grid) {
     return border([&] {
         require(out_grid, "out_grid");
         simd::require_instructions();
-        const vox_grid_desc settings = desc ? read_struct(desc, grid_defaults(), "desc") : grid_defaults();
+        vox_grid_desc settings = desc ? read_struct(desc, "desc") : vox_default_grid_desc();
+        settings.byte_budget = byte_limit(settings.byte_budget);
         check_grid_desc(settings);
         constexpr std::size_t least = sizeof(GridMemory) + sizeof(vox_grid);
-        if (settings.byte_budget != 0 && settings.byte_budget < least)
+        if (settings.byte_budget < least)
             throw Error(VOX_ERROR_BUDGET,
                         format("an empty grid needs %zu bytes, its byte budget is %llu", least,
                                static_cast<unsigned long long>(settings.byte_budget)));
@@ -142,19 +120,12 @@ vox_result vox_grid_get_flags(const vox_grid* grid, uint32_t* out_flags) {
 
 // ---- meshes ---------------------------------------------------------------------------------------
 
-vox_result vox_mesh_desc_init(vox_mesh_desc* desc, uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, mesh_defaults(), "desc"); });
-}
-
 vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vox_body* out_body) {
     return border(grid, "grid", [&] {
         require(out_body, "out_body");
-        const vox_mesh_desc settings = read_struct(desc, mesh_defaults(), "desc");
+        const vox_mesh_desc settings = read_struct(desc, "desc");
         const Body view = check_mesh(settings, "", NullPositions::allowed);
-        vox_filter filter = read_filter(settings.filter);
-        if (view.self_collision) filter.self_collision = 1;
-        refuse_zeroed(filter);
-        *out_body = grid->insert(settings, view, filter);
+        *out_body = grid->insert(settings, view, checked_filter(settings.filter));
     });
 }
 

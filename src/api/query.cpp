@@ -56,14 +56,6 @@ void answer(Hit* hits, std::uint64_t capacity, std::uint64_t* out_count, Find&& 
     *out_count = found.size();
 }
 
-vox_closest_desc closest_defaults() {
-    vox_closest_desc desc{};
-    desc.struct_size = sizeof desc;
-    desc.mask = UINT64_MAX;
-    desc.max_distance = std::numeric_limits<double>::infinity();
-    return desc;
-}
-
 Array<Vec3d> read_points(const void* points, const vox_format& point_format, std::uint64_t byte_stride,
                          std::uint64_t component_byte_stride, std::uint64_t count) {
     if (count > 0) require(points, "points");
@@ -124,7 +116,9 @@ void ask_closest(const Queries& queries, const double* point, double radius, Que
 }
 
 void ask_closest_points(const Queries& queries, const vox_closest_desc* desc, vox_closest_hit* out_hits) {
-    const vox_closest_desc asked = read_struct(desc, closest_defaults(), "desc");
+    vox_closest_desc asked = read_struct(desc, "desc");
+    set_default(asked.mask, UINT64_MAX);
+    set_default(asked.max_distance, std::numeric_limits<double>::infinity());
     if (asked.point_count > 0) require(out_hits, "out_hits");
     if (!(asked.max_distance >= 0))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
@@ -169,10 +163,6 @@ vox_result of_view(const vox_query_view* view, Ask&& ask, const Arguments&... ar
 }
 
 } // namespace
-
-vox_result vox_closest_desc_init(vox_closest_desc* desc, uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, closest_defaults(), "desc"); });
-}
 
 // ---- of a grid --------------------------------------------------------------------------------------
 

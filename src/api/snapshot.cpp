@@ -36,11 +36,11 @@ vox_result vox_grid_load(const void* bytes, uint64_t size, const vox_grid_desc* 
     return border([&] {
         require(bytes, "bytes");
         require(out_grid, "out_grid");
-        const vox_grid_desc defaults = vox_default_grid_desc();
-        const vox_grid_desc machine = desc ? read_struct(desc, defaults, "desc") : defaults;
+        const vox_grid_desc machine = desc ? read_struct(desc, "desc") : vox_default_grid_desc();
         check_grid_desc(machine);
         const SnapshotReader in({static_cast<const std::byte*>(bytes), static_cast<std::size_t>(size)});
-        const vox_grid_desc settings = Snapshot::settings(in, machine);
+        vox_reference_desc reference;
+        const vox_grid_desc settings = Snapshot::settings(in, machine, reference);
         vox_grid* created = nullptr;
         const vox_result result = vox_grid_create(&settings, &created);
         if (result != VOX_OK) throw Error(result, vox_last_error());

@@ -14,42 +14,25 @@ using namespace vox;
 
 namespace {
 
-vox_surface_desc surface_defaults() {
-    vox_surface_desc desc{};
-    desc.struct_size = sizeof desc;
-    desc.worker_count = 1;
-    desc.byte_budget = 4ull << 30;
-    return desc;
-}
-
-vox_motion motion_defaults() {
-    vox_motion motion{};
-    motion.struct_size = sizeof motion;
-    return motion;
-}
-
 void check_surface_desc(const vox_surface_desc& desc) {
     check_allocator(desc.allocator, "allocator");
-    check_workers(desc.tasks, desc.worker_count);
+    check_workers(value_of(desc.tasks), desc.worker_count);
     if (!(desc.cell_size >= 0) || !std::isfinite(desc.cell_size))
         refuse(format("cell_size is %g, expected 0 or a length", desc.cell_size));
 }
 
 } // namespace
 
-vox_result vox_surface_desc_init(vox_surface_desc* desc, uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, surface_defaults(), "desc"); });
-}
-
 vox_result vox_surface_create(const vox_surface_desc* desc, vox_surface** out_surface) {
     return border([&] {
         require(desc, "desc");
         require(out_surface, "out_surface");
         simd::require_instructions();
-        const vox_surface_desc settings = read_struct(desc, surface_defaults(), "desc");
+        vox_surface_desc settings = read_struct(desc, "desc");
+        settings.byte_budget = byte_limit(settings.byte_budget);
         check_surface_desc(settings);
         constexpr std::size_t least = sizeof(GridMemory) + sizeof(vox_surface);
-        if (settings.byte_budget != 0 && settings.byte_budget < least)
+        if (settings.byte_budget < least)
             throw Error(VOX_ERROR_BUDGET,
                         format("an empty surface needs %zu bytes, its byte budget is %llu", least,
                                static_cast<unsigned long long>(settings.byte_budget)));
@@ -81,13 +64,8 @@ vox_result vox_surface_get_features(const vox_surface* surface, vox_feature feat
     });
 }
 
-vox_result vox_motion_init(vox_motion* motion, uint32_t struct_size) {
-    return border([&] { init_struct(motion, struct_size, motion_defaults(), "motion"); });
-}
-
 vox_result vox_surface_move(vox_surface* surface, const vox_motion* motion) {
-    return border(surface, "surface",
-                  [&] { surface->move(read_struct(motion, motion_defaults(), "motion")); });
+    return border(surface, "surface", [&] { surface->move(read_struct(motion, "motion")); });
 }
 
 vox_result vox_surface_find_pairs(vox_surface* surface, vox_feature a, vox_feature b, uint64_t first,

@@ -11,18 +11,11 @@ using namespace vox;
 
 namespace {
 
-vox_contact_time_desc contact_time_defaults() {
-    vox_contact_time_desc desc{};
-    desc.struct_size = sizeof desc;
-    desc.most_iterations = 10000;
-    desc.slack = 0.1;
-    return desc;
-}
-
 ContactTimeRule read_contact_time_desc(const vox_contact_time_desc* given) {
-    const vox_contact_time_desc desc =
-        given ? read_struct(given, contact_time_defaults(), "desc") : contact_time_defaults();
-    if (desc.most_iterations == 0) refuse("most_iterations is 0, expected at least 1");
+    vox_contact_time_desc desc{};
+    if (given) desc = read_struct(given, "desc");
+    set_default(desc.most_iterations, 10000u);
+    set_default(desc.slack, 0.1);
     if (!(desc.distance >= 0) || !std::isfinite(desc.distance))
         refuse(format("distance is %g, expected 0 or a length", desc.distance));
     if (!(desc.slack > 0 && desc.slack < 1))
@@ -31,10 +24,6 @@ ContactTimeRule read_contact_time_desc(const vox_contact_time_desc* given) {
 }
 
 } // namespace
-
-vox_result vox_contact_time_desc_init(vox_contact_time_desc* desc, uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, contact_time_defaults(), "desc"); });
-}
 
 vox_result vox_surface_find_safe_step(vox_surface* surface, const vox_contact_time_desc* desc,
                                       vox_safe_step* out) {

@@ -38,7 +38,9 @@ struct DescribedGrid {
 };
 
 vox_tune_desc read_tune_desc(const vox_tune_desc* desc) {
-    const vox_tune_desc settings = desc ? read_struct(desc, tune_defaults(), "desc") : tune_defaults();
+    vox_tune_desc settings{};
+    if (desc) settings = read_struct(desc, "desc");
+    complete(settings);
     check_tune_desc(settings);
     return settings;
 }
@@ -60,10 +62,6 @@ vox_result vox_cost_fit(const vox_foreign_grid* grid, const vox_grid_timing* tim
                                  &described.memory),
                      "out");
     });
-}
-
-vox_result vox_tune_desc_init(vox_tune_desc* desc, uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, tune_defaults(), "vox_tune_desc"); });
 }
 
 vox_result vox_cost_tune(const vox_foreign_grid* grid, const vox_tune_desc* desc, vox_grid_run* run,

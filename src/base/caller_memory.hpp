@@ -14,15 +14,16 @@
 namespace vox {
 
 // Throws INVALID_ARGUMENT for an allocator with only one of its two functions.
-inline void check_allocator(const vox_allocator& allocator, const char* name) {
-    if (!allocator.allocate != !allocator.release)
+inline void check_allocator(const vox_allocator* allocator, const char* name) {
+    if (allocator && !allocator->allocate != !allocator->release)
         refuse(format("%s has one of allocate and release, expected both or none", name));
 }
 
-// Without functions it is the C++ heap. One thread at a time may use it.
+// Of null, or without functions, it is the C++ heap. One thread at a time may use it.
 class CallerMemory final : public std::pmr::memory_resource {
 public:
-    explicit CallerMemory(const vox_allocator& allocator) noexcept : allocator_(allocator) {}
+    explicit CallerMemory(const vox_allocator* allocator) noexcept
+        : allocator_(allocator ? *allocator : vox_allocator{}) {}
 
 private:
     void* do_allocate(std::size_t size, std::size_t alignment) override {

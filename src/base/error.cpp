@@ -49,7 +49,6 @@ const char* vox_result_string(vox_result result) {
         return "VOX_ERROR_FORMAT";
     case VOX_ERROR_INTERNAL:
         return "VOX_ERROR_INTERNAL";
-    case VOX_RESULT_FORCE_32_BITS:
         break;
     }
     return "unknown vox_result";

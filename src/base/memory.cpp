@@ -62,6 +62,9 @@ void* allocated(const vox_allocator& allocator, std::size_t size, std::size_t al
 
 } // namespace
 
+MemoryShare::MemoryShare(const vox_allocator* caller, std::uint64_t byte_budget)
+    : MemoryShare(caller ? *caller : vox_allocator{}, byte_budget) {}
+
 MemoryShare::MemoryShare(const vox_allocator& allocator, std::uint64_t byte_budget)
     : memory_(*new (allocated(allocator, sizeof(GridMemory), alignof(GridMemory)))
                   GridMemory(allocator, byte_budget)) {}
@@ -75,7 +78,7 @@ MemoryShare::~MemoryShare() {
 
 void* GridMemory::do_allocate(std::size_t size, std::size_t alignment) {
     const std::lock_guard lock(mutex_);
-    if (budget_ != 0 && (size > budget_ || bytes_ > budget_ - size))
+    if (size > budget_ || bytes_ > budget_ - size)
         throw Error(VOX_ERROR_BUDGET,
                     format("%llu bytes are held and %llu more are needed; the byte budget is %llu",
                            static_cast<unsigned long long>(bytes_), static_cast<unsigned long long>(size),

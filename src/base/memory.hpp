@@ -14,7 +14,7 @@ namespace vox {
 // Many threads may use it at once; it calls the caller's functions from one at a time.
 class GridMemory final : public std::pmr::memory_resource {
 public:
-    std::uint64_t budget() const noexcept { return budget_; } // 0 for none
+    std::uint64_t budget() const noexcept { return budget_; }
     std::uint64_t bytes() const noexcept { return bytes_; }
     std::uint64_t peak_bytes() const noexcept { return peak_bytes_; }
 
@@ -41,7 +41,7 @@ private:
 class MemoryShare {
 public:
     // The first share. Takes the memory for the GridMemory itself from the allocator; throws std::bad_alloc.
-    MemoryShare(const vox_allocator& allocator, std::uint64_t byte_budget);
+    MemoryShare(const vox_allocator* allocator, std::uint64_t byte_budget);
     MemoryShare(const MemoryShare& other) noexcept : memory_(other.memory_) {
         memory_.shares_.fetch_add(1, std::memory_order_relaxed);
     }
@@ -52,8 +52,15 @@ public:
     GridMemory* operator->() const noexcept { return &memory_; }
 
 private:
+    MemoryShare(const vox_allocator& allocator, std::uint64_t byte_budget);
+
     GridMemory& memory_;
 };
+
+// The limit that a byte_budget of vox.h stands for.
+inline std::uint64_t byte_limit(std::uint64_t byte_budget) noexcept {
+    return byte_budget == 0 ? std::uint64_t{4} << 30 : byte_budget;
+}
 
 // One allocation from the caller's functions, or from the C++ heap when there are none. Null when there is no
 // memory.

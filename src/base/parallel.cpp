@@ -4,6 +4,7 @@
 #include "base/float_environment.hpp"
 #include "base/llu.hpp"
 #include "base/sampling.hpp"
+#include "base/structs.hpp"
 
 namespace vox {
 
@@ -11,12 +12,14 @@ void check_workers(const vox_task_system& tasks, std::uint32_t worker_count) {
     if (!tasks.enqueue != !tasks.finish)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     "grid tasks has one of enqueue and finish, expected both or none");
+    if (worker_count == VOX_ALL_CORES) {
+        if (!tasks.enqueue) return;
+        throw Error(VOX_ERROR_INVALID_ARGUMENT, "grid worker_count is VOX_ALL_CORES with a task system of "
+                                                "the caller's, expected how many it has");
+    }
     if (worker_count > VOX_MAX_WORKERS)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("grid worker_count is %u, the limit is %u", worker_count, VOX_MAX_WORKERS));
-    if (worker_count == 0 && tasks.enqueue)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    "grid worker_count is 0 with a task system of the caller's, expected how many it has");
 }
 
 Workers::Workers(const vox_task_system& tasks, std::uint32_t worker_count, Threads threads)
@@ -29,6 +32,7 @@ Workers::~Workers() {
 }
 
 void Workers::set_count(std::uint32_t worker_count) {
+    set_default(worker_count, 1u);
     if (tasks_.enqueue) {
         count_ = worker_count;
         return;

@@ -91,6 +91,7 @@ struct SelfFilter;
 struct PairFilter {
     std::uint64_t category = 1, mask = ~std::uint64_t{0};
     std::int32_t group = 0;
+    std::uint32_t world = 0;
 
     bool operator==(const PairFilter&) const = default;
 };
@@ -105,8 +106,8 @@ struct Body {
     Positions positions{};
     std::span<const Tet> tets{};
     bool self_collision = false;
+    bool sensor = false; // VOX_FILTER_SENSOR
     PairFilter filter{};
-    std::uint64_t penetration_mask = ~std::uint64_t{0}; // vox_filter
     // Ids of the meshes that it never collides with, ascending. Their lists have its id, too.
     std::span<const std::uint32_t> exceptions{};
     const SelfFilter* self_filter = nullptr; // null without a filter

@@ -40,20 +40,25 @@ void check_enum(const Enum& field, std::int32_t last, const char* name) {
         throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is %d, expected 0 to %d", name, value, last));
 }
 
-// Fills the caller's struct with `defaults`, as far as struct_size reaches.
+// Returns the caller's struct. Fields that its struct_size does not cover are 0, the default.
 template <class T>
-void init_struct(T* out, std::uint32_t struct_size, T defaults, const char* name) {
-    require(out, name);
-    check_struct_size(struct_size, name);
-    defaults.struct_size = struct_size;
-    std::memcpy(out, &defaults, std::min<std::size_t>(struct_size, sizeof(T)));
+T read_struct(const T* in, const char* name) {
+    T read{};
+    std::memcpy(&read, in, std::min<std::size_t>(checked_struct_size(in, name), sizeof(T)));
+    read.struct_size = sizeof read;
+    return read;
 }
 
-// Returns the caller's struct. Fields that its struct_size does not cover have their default.
+// What an optional pointer of a desc names, or zeros.
 template <class T>
-T read_struct(const T* in, T defaults, const char* name) {
-    std::memcpy(&defaults, in, std::min<std::size_t>(checked_struct_size(in, name), sizeof(T)));
-    return defaults;
+T value_of(const T* in) {
+    return in ? *in : T{};
+}
+
+// A field of which 0 stands for this.
+template <class T>
+void set_default(T& field, T value) {
+    if (field == T{}) field = value;
 }
 
 // Throws when `out` cannot be written. Call it before any work whose result goes there.

@@ -72,13 +72,13 @@ double few_box_sides(std::span<const Body> bodies) {
 
 } // namespace
 
-std::span<const CellLevel> AdaptiveCellSize::cell_sizes(std::span<const Body> bodies, vox_storage storage,
+std::span<const CellLevel> AdaptiveCellSize::cell_sizes(std::span<const Body> bodies, bool dense,
                                                         double byte_limit,
                                                         std::pmr::memory_resource* memory) {
     const Levels before = sizes_;
     if (must_choose()) {
         try {
-            sized_ = choose(bodies, storage, byte_limit, memory);
+            sized_ = choose(bodies, dense, byte_limit, memory);
         } catch (const std::bad_alloc&) {
             sized_ = false;
         } catch (const Error& error) {
@@ -128,7 +128,7 @@ void AdaptiveCellSize::adapt() noexcept {
     last_balance_ = balance_; // what the next step will count
 }
 
-bool AdaptiveCellSize::choose(std::span<const Body> bodies, vox_storage storage, double byte_limit,
+bool AdaptiveCellSize::choose(std::span<const Body> bodies, bool dense, double byte_limit,
                               std::pmr::memory_resource* memory) {
     std::uint64_t tets = 0, vertices = 0;
     for (const Body& body : bodies) {
@@ -142,11 +142,11 @@ bool AdaptiveCellSize::choose(std::span<const Body> bodies, vox_storage storage,
     // The first choice has to be made, so it is not charged.
     if (sizes_.count != 0)
         credit_ -= choice_ns(static_cast<double>(vertices), static_cast<double>(tets), scene.budget);
-    const ReferenceModel cost(scene, storage, weights_in_use());
+    const ReferenceModel cost(scene, dense, weights_in_use());
     std::optional<CellSizeRange> range = cost.range();
     if (!range) return false;
     floor_ = 0;
-    if (storage == VOX_STORAGE_DENSE) {
+    if (dense) {
         floor_ = cost.least_cell_size(byte_limit, *range);
         range->min = std::max(range->min, floor_);
         range->max = std::max(range->max, range->min);

@@ -34,8 +34,8 @@ public:
     // The cell sizes for a step with these bodies, at least one, valid until the next call. Dense storage has
     // at most `byte_limit` bytes of cells (0: any number). Where memory for a choice is refused, it is made
     // from a few tetrahedra. Throws NON_FINITE when a choice is due and a position is not finite.
-    std::span<const CellLevel> cell_sizes(std::span<const Body> bodies, vox_storage storage,
-                                          double byte_limit, std::pmr::memory_resource* memory);
+    std::span<const CellLevel> cell_sizes(std::span<const Body> bodies, bool dense, double byte_limit,
+                                          std::pmr::memory_resource* memory);
 
     // Call after that step with what it counted.
     void observe(const vox_counters& counters) noexcept;
@@ -46,7 +46,7 @@ public:
 private:
     bool must_choose() const noexcept;
     void adapt() noexcept;
-    bool choose(std::span<const Body> bodies, vox_storage storage, double byte_limit,
+    bool choose(std::span<const Body> bodies, bool dense, double byte_limit,
                 std::pmr::memory_resource* memory);
 
     Levels sizes_{};     // empty before the first choice

@@ -139,7 +139,7 @@ void measure_reference(Scene& scene, vox_cost_weights& weights) {
         for (Body& body : scene.bodies) body.self_collision = self;
         CellSizeScene described(Scene::memory());
         described.bodies.assign(scene.bodies.begin(), scene.bodies.end());
-        const ReferenceModel cost(described, VOX_STORAGE_HASHED, weights);
+        const ReferenceModel cost(described, false, weights);
         for (const double cell_size : cell_sizes) {
             ReferenceSettings settings;
             settings.cell_size = cell_size;

@@ -32,9 +32,8 @@ bool is_apart(const Body& body, std::size_t tet, const Lookup& box) {
 
 } // namespace
 
-ReferenceModel::ReferenceModel(const CellSizeScene& scene, vox_storage storage,
-                               const vox_cost_weights& weights)
-    : lookups_(scene.budget, scene.memory), weights_(weights), dense_(storage == VOX_STORAGE_DENSE) {
+ReferenceModel::ReferenceModel(const CellSizeScene& scene, bool dense, const vox_cost_weights& weights)
+    : lookups_(scene.budget, scene.memory), weights_(weights), dense_(dense) {
     std::size_t vertices = 0, tets = 0;
     for (const Body& body : scene.bodies) {
         vertices += body.vertex_count;

@@ -27,7 +27,7 @@ class ReferenceModel {
 public:
     // Measures the positions as they are now; all of them are finite. The scene is not needed afterwards, its
     // memory is.
-    ReferenceModel(const CellSizeScene& scene, vox_storage storage, const vox_cost_weights& weights);
+    ReferenceModel(const CellSizeScene& scene, bool dense, const vox_cost_weights& weights);
     ReferenceModel(const ReferenceModel&) = delete;
     ReferenceModel& operator=(const ReferenceModel&) = delete;
 

@@ -171,13 +171,6 @@ double CostTable::operator()(double log_size) {
 
 // ---- cost functions of users ------------------------------------------------------------------------
 
-vox_cost_bounds cost_bounds_defaults() {
-    vox_cost_bounds bounds{};
-    bounds.struct_size = sizeof bounds;
-    bounds.zone_loss = 0.05;
-    return bounds;
-}
-
 vox_cost_minimum minimise_within(const std::function<double(double cell_size)>& cost_at,
                                  const vox_cost_bounds& bounds) {
     if (!(bounds.min > 0 && bounds.min <= bounds.max && std::isfinite(bounds.max)))

@@ -14,6 +14,9 @@
 
 namespace vox {
 
+// What a zone_loss of 0 in vox.h stands for.
+constexpr double default_zone_loss = 0.05;
+
 // Cost at the cell size with this binary logarithm: costs are sums of powers of the size, so all searching is
 // done in the logarithm. A value that is not a finite number counts as infinite.
 using CostFunction = std::function<double(double log_size)>;
@@ -100,8 +103,6 @@ private:
 };
 
 // ---- cost functions of users ------------------------------------------------------------------------
-
-vox_cost_bounds cost_bounds_defaults();
 
 // Takes the cost at a size. Throws INVALID_ARGUMENT for bounds that vox.h does not allow, and for a cost that
 // is nowhere finite or negative where it is least.

@@ -31,17 +31,19 @@ void check_number(bool good, double value, const char* name, const char* expecte
 
 } // namespace
 
-vox_suggest_desc suggest_defaults() {
-    vox_suggest_desc desc{};
-    desc.struct_size = sizeof desc;
-    desc.p_nc = 0.99;
-    desc.cost_ratio = 5;
-    desc.zone_loss = 0.05;
-    desc.mean_edge_factor = 2;
-    return desc;
+void check_reference_flags(std::uint32_t flags, const char* name) {
+    constexpr std::uint32_t known_flags = VOX_REFERENCE_DENSE | VOX_REFERENCE_PAPER_HASH;
+    if (flags & ~known_flags)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT,
+                    format("%s is 0x%" PRIx32 ", of which 0x%" PRIx32 " is unknown", name, flags,
+                           flags & ~known_flags));
 }
 
-void check_suggest_desc(const vox_suggest_desc& desc) {
+void check_suggest_desc(vox_suggest_desc& desc) {
+    set_default(desc.p_nc, 0.99);
+    set_default(desc.cost_ratio, 5.0);
+    set_default(desc.zone_loss, default_zone_loss);
+    set_default(desc.mean_edge_factor, 2.0);
     check_enum(desc.model, VOX_COST_MODEL_SURFACE, "suggest model");
     check_enum(desc.size_reading, VOX_SIZE_MEAN_BOX_SIDE, "suggest size_reading");
     check_enum(desc.area_reading, VOX_AREA_BOUNDARY_FACETS, "suggest area_reading");
@@ -53,7 +55,7 @@ void check_suggest_desc(const vox_suggest_desc& desc) {
                  "a number from 0 to 1e6");
     check_number(desc.mean_edge_factor > 0, desc.mean_edge_factor, "mean_edge_factor", "a number above 0");
     check_number(desc.resolution >= 0, desc.resolution, "resolution", "0 or a length");
-    check_enum(desc.storage, VOX_STORAGE_DENSE, "suggest storage");
+    check_reference_flags(desc.reference_flags, "suggest reference_flags");
     if (desc.reserved != 0)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("suggest reserved is %" PRIu32 ", expected 0", desc.reserved));
@@ -62,6 +64,8 @@ void check_suggest_desc(const vox_suggest_desc& desc) {
 // ---- suggestion -----------------------------------------------------------------------------------
 
 namespace {
+
+bool is_dense(const vox_suggest_desc& desc) noexcept { return desc.reference_flags & VOX_REFERENCE_DENSE; }
 
 // References at vox_cell_size_rules.
 vox_cell_size_rules other_rules(const vox_suggest_desc& desc, const Geometry& geometry) {
@@ -138,11 +142,11 @@ constexpr double near = 1e-4; // of the cell size; no model is more accurate
 
 vox_suggestion suggest_reference(const vox_suggest_desc& desc, const CellSizeScene& scene,
                                  const vox_cost_weights& weights) {
-    const ReferenceModel model(scene, desc.storage, weights);
+    const ReferenceModel model(scene, is_dense(desc), weights);
     std::optional<CellSizeRange> range = model.range();
     if (!range) throw_no_size(scene.geometry.stats);
     vox_suggestion result{};
-    if (desc.storage == VOX_STORAGE_DENSE)
+    if (is_dense(desc))
         result.budget_cell_size = model.least_cell_size(static_cast<double>(desc.byte_budget), *range);
     range->min = std::max(range->min, result.budget_cell_size);
     range->max = std::max(range->max, range->min);
@@ -202,7 +206,7 @@ CostTerms predicted_terms(const vox_suggest_desc& desc, const CellSizeScene& sce
                           const vox_cost_weights& weights, double cell_size) {
     switch (desc.model) {
     case VOX_COST_MODEL_REFERENCE:
-        return ReferenceModel(scene, desc.storage, weights).terms(cell_size);
+        return ReferenceModel(scene, is_dense(desc), weights).terms(cell_size);
     case VOX_COST_MODEL_FAST:
         return FastModel(scene, weights).terms(cell_size, FastModel::Alignment::actual);
     default:

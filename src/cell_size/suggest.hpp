@@ -12,9 +12,12 @@
 
 namespace vox {
 
-vox_suggest_desc suggest_defaults();
-// Throws INVALID_ARGUMENT for a field that vox.h does not allow.
-void check_suggest_desc(const vox_suggest_desc& desc);
+// Throws INVALID_ARGUMENT for unknown ones of vox_reference_flags.
+void check_reference_flags(std::uint32_t flags, const char* name);
+
+// Sets the fields whose 0 stands for something else. Throws INVALID_ARGUMENT for one that vox.h does not
+// allow.
+void check_suggest_desc(vox_suggest_desc& desc);
 
 // Both prepare the scene for desc.model and take a desc that passed the check.
 

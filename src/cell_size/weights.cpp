@@ -73,8 +73,9 @@ void use_weights(const vox_cost_weights& weights) noexcept {
 vox_cost_weights read_weights(const vox_cost_weights* given) {
     vox_cost_weights weights = shipped_weights();
     if (!given) return weights;
-    weights = read_struct(given, weights, "vox_cost_weights");
-    if (weights.struct_size <= offsetof(vox_cost_weights, reference_changed_list)) {
+    weights = read_struct(given, "vox_cost_weights");
+    for (const auto& [name, field, shipped] : fields) set_default(weights.*field, shipped);
+    if (given->struct_size <= offsetof(vox_cost_weights, reference_changed_list)) {
         weights.reference_changed_list = list_over_visit * weights.reference_visit_cell;
         weights.reference_fetch_vertex = fetch_over_read * weights.reference_read_vertex;
     }
@@ -84,7 +85,6 @@ vox_cost_weights read_weights(const vox_cost_weights* given) {
             throw Error(VOX_ERROR_INVALID_ARGUMENT,
                         format("weight %s is %g, expected a finite number above 0", name, value));
     }
-    weights.struct_size = sizeof weights;
     return weights;
 }
 

@@ -22,7 +22,7 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
                       std::span<const Hit> hits, std::span<const vox_contact> contacts,
                       std::uint64_t closest_budget, Workers* workers, Penetrations& penetrations,
                       vox_counters& counters) {
-    const bool none = std::ranges::all_of(bodies, [](const Body& b) { return b.penetration_mask == 0; });
+    const bool none = std::ranges::all_of(bodies, [](const Body& b) { return b.sensor; });
     if (hits.empty() || none) return penetrations.clear();
     const Scene scene{bodies, topologies, hits, contacts, penetrations};
     reserve(hits.size());

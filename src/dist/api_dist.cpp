@@ -13,7 +13,7 @@ vox_transport checked(const vox_transport* transport) {
     vox_transport one{};
     one.size = 1;
     if (!transport) return one;
-    one = read_struct(transport, one, "transport");
+    one = read_struct(transport, "transport");
     if (one.size > INT32_MAX) refuse(format("transport.size is %u, at most 2147483647", one.size));
     if (one.rank >= one.size) refuse(format("transport.rank is %u of %u", one.rank, one.size));
     if (one.size > 1 && !(one.allgather && one.exchange && one.agree))
@@ -26,8 +26,7 @@ vox_grid_desc grid_settings(const vox_scene_desc& desc) {
     vox_grid_desc grid = vox_default_grid_desc();
     grid.flags = 0;
     if (!desc.grid) return grid;
-    grid = read_struct(desc.grid, grid, "desc.grid");
-    grid.struct_size = sizeof grid;
+    grid = read_struct(desc.grid, "desc.grid");
     if (grid.flags != 0)
         throw Error(
             VOX_ERROR_UNSUPPORTED,
@@ -43,10 +42,6 @@ vox_grid_desc grid_settings(const vox_scene_desc& desc) {
 
 } // namespace
 
-vox_result vox_scene_desc_init(vox_scene_desc* desc, uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, vox_scene_desc{}, "desc"); });
-}
-
 vox_result vox_scene_create(const vox_scene_desc* desc, const vox_transport* transport,
                             vox_scene** out_scene) {
     return border([&] {
@@ -55,8 +50,7 @@ vox_result vox_scene_create(const vox_scene_desc* desc, const vox_transport* tra
         vox_scene* scene = nullptr;
         Failure failure;
         failure.guard([&] {
-            const vox_scene_desc settings =
-                desc ? read_struct(desc, vox_scene_desc{}, "desc") : vox_scene_desc{};
+            const vox_scene_desc settings = desc ? read_struct(desc, "desc") : vox_scene_desc{};
             const vox_grid_desc grid = grid_settings(settings);
             CallerMemory memory(grid.allocator);
             scene = std::pmr::polymorphic_allocator<>(&memory).new_object<vox_scene>(grid, callbacks);
@@ -74,18 +68,14 @@ vox_result vox_scene_create(const vox_scene_desc* desc, const vox_transport* tra
 
 void vox_scene_destroy(vox_scene* scene) {
     if (!scene) return;
-    CallerMemory memory(scene->grid_desc_.allocator);
+    CallerMemory memory(scene->grid_desc_->allocator);
     std::pmr::polymorphic_allocator<>(&memory).delete_object(scene);
-}
-
-vox_result vox_part_desc_init(vox_part_desc* desc, uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, vox_part_desc{}, "desc"); });
 }
 
 vox_result vox_scene_insert(vox_scene* scene, const vox_part_desc* desc, vox_part* out_part) {
     return border(scene, "scene", [&] {
         require(out_part, "out_part");
-        *out_part = scene->insert(read_struct(desc, vox_part_desc{}, "desc"));
+        *out_part = scene->insert(read_struct(desc, "desc"));
     });
 }
 

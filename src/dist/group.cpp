@@ -152,14 +152,6 @@ vox_result agree(std::uint64_t* minima, std::uint32_t minimum_count, std::uint64
 
 using namespace vox;
 
-vox_result vox_transport_init(vox_transport* transport, uint32_t struct_size) {
-    return border([&] {
-        vox_transport one{};
-        one.size = 1;
-        init_struct(transport, struct_size, one, "transport");
-    });
-}
-
 vox_result vox_transport_run(uint32_t size, uint32_t parallel, vox_rank_function* function, void* user) {
     return border([&] {
         if (!function) refuse("function is null");

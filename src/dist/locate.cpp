@@ -17,7 +17,7 @@ void place_parts(vox_scene& scene) {
     Side& side = scene.points_side_;
     if (!side.grid) {
         vox_grid* grid = nullptr;
-        check(vox_grid_create(&scene.grid_desc_, &grid));
+        check(vox_grid_create(&*scene.grid_desc_, &grid));
         side.grid.reset(grid);
     }
     vox_filter filter = everything();
@@ -35,7 +35,7 @@ void place_parts(vox_scene& scene) {
         mesh.positions = positions;
         mesh.tets = part->tets.data();
         mesh.tet_count = part->tet_count;
-        mesh.filter = &filter;
+        mesh.filter = filter;
         reserve_growing(side.placed, side.placed.size() + 1);
         vox_body id = VOX_NULL_BODY;
         check(vox_mesh_insert(side.grid.get(), &mesh, &id));

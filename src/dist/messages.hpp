@@ -64,7 +64,7 @@ static_assert(sizeof(Overview) == 64);
 struct Filter {
     std::uint64_t category = 1, mask = UINT64_MAX;
     std::int32_t group = 0;
-    std::uint32_t self_collision = 0;
+    std::uint32_t world = 0, self_collision = 0, reserved = 0; // sent as they lie
     friend bool operator==(const Filter&, const Filter&) = default;
 };
 

@@ -30,6 +30,7 @@ void add_point(Box& box, const double position[3]) noexcept;
 // As vox_filter says.
 inline bool collide(std::uint64_t body_a, const Filter& a, std::uint64_t body_b, const Filter& b) noexcept {
     if (body_a == body_b) return a.self_collision != 0;
+    if (a.world != b.world) return false;
     if (a.group == b.group && a.group != 0) return a.group > 0;
     return (a.category & b.mask) != 0 && (b.category & a.mask) != 0;
 }

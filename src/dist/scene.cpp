@@ -12,7 +12,7 @@ using namespace vox::dist;
 namespace vox::dist {
 
 vox_filter everything() noexcept {
-    vox_filter filter = vox_default_filter();
+    vox_filter filter{};
     filter.category = UINT64_MAX;
     return filter;
 }
@@ -27,8 +27,7 @@ void Side::set_points(Array<double>& positions) {
     const std::uint64_t count = positions.size() / 3;
     if (points == VOX_NULL_BODY && count == 0) return;
     vox_mesh_desc desc = vox_mesh_desc_doubles(positions.data(), count, nullptr, 0);
-    const vox_filter filter = everything();
-    desc.filter = &filter;
+    desc.filter = everything();
     if (points == VOX_NULL_BODY)
         check(vox_mesh_insert(grid.get(), &desc, &points));
     else
@@ -45,23 +44,33 @@ GridHandle create_grid(const vox_grid_desc& desc) {
     return GridHandle(grid);
 }
 
-Filter read_filter(const vox_mesh_desc& mesh) {
-    vox_filter filter = vox_default_filter();
-    if (mesh.filter) {
-        filter = read_struct(mesh.filter, filter, "desc.mesh->filter");
-        if (filter.self_rings != 0 || filter.self_rest_distance != 0)
-            throw Error(VOX_ERROR_UNSUPPORTED,
-                        "self_rings and self_rest_distance are not supported for parts of bodies");
-    }
-    return {filter.category, filter.mask, filter.group,
-            filter.self_collision || (mesh.flags & VOX_MESH_SELF_COLLISION) ? 1u : 0u};
+Filter read_filter(const vox_filter& filter) {
+    if (filter.self_rings != 0 || filter.self_rest_distance != 0)
+        throw Error(VOX_ERROR_UNSUPPORTED,
+                    "self_rings and self_rest_distance are not supported for parts of bodies");
+    return {.category = filter.category != 0 ? filter.category : 1,
+            .mask = filter.mask != 0 ? filter.mask : UINT64_MAX,
+            .group = filter.group,
+            .world = filter.world,
+            .self_collision = filter.flags & VOX_FILTER_SELF_COLLISION ? 1u : 0u};
 }
 
 } // namespace
 } // namespace vox::dist
 
+vox_scene::OwnDesc::OwnDesc(const vox_grid_desc& desc)
+    : desc_(desc), allocator_(value_of(desc.allocator)), log_(value_of(desc.log)),
+      tasks_(value_of(desc.tasks)) {
+    desc_.allocator = &allocator_;
+    desc_.log = &log_;
+    desc_.tasks = &tasks_;
+    if (!desc.reference) return;
+    reference_ = read_struct(desc.reference, "desc.grid->reference");
+    desc_.reference = &reference_;
+}
+
 vox_scene::vox_scene(const vox_grid_desc& grid, const vox_transport& transport)
-    : memory_(grid.allocator), grid_desc_(grid), transport_(transport), parts_(&memory_),
+    : grid_desc_(grid), memory_(grid.allocator), transport_(transport), parts_(&memory_),
       contacts_side_(&memory_), points_side_(&memory_), contacts_(&memory_), incoming_(&memory_),
       overviews_(&memory_), ranks_(&memory_), out_(&memory_), in_(&memory_), in_contact_(&memory_) {
     overviews_.resize(transport.size);
@@ -69,7 +78,7 @@ vox_scene::vox_scene(const vox_grid_desc& grid, const vox_transport& transport)
     out_.resize(transport.size);
     in_.resize(transport.size);
     in_contact_.resize(transport.size);
-    contacts_side_.grid = create_grid(grid_desc_);
+    contacts_side_.grid = create_grid(*grid_desc_);
 }
 
 vox_scene::~vox_scene() {
@@ -84,12 +93,11 @@ Part* vox_scene::find_body(std::uint64_t body) const noexcept {
 }
 
 vox_part vox_scene::insert(const vox_part_desc& desc) {
-    vox_mesh_desc mesh = read_struct(desc.mesh, vox_default_mesh_desc(), "desc.mesh");
-    mesh.struct_size = sizeof mesh;
+    vox_mesh_desc mesh = read_struct(desc.mesh, "desc.mesh");
     if (find_body(desc.body))
         refuse(
             format("body %llu has a part on this rank already", static_cast<unsigned long long>(desc.body)));
-    const Filter filter = read_filter(mesh);
+    const Filter filter = read_filter(mesh.filter);
 
     std::pmr::polymorphic_allocator<> allocator(&memory_);
     const auto remove = [&](Part* part) { allocator.delete_object(part); };
@@ -100,21 +108,10 @@ vox_part vox_scene::insert(const vox_part_desc& desc) {
     reserve_growing(parts_, parts_.size() + 1);
     reserve_growing(contacts_side_.placed, contacts_side_.placed.size() + 1);
 
-    // The grid may find more than the filter allows; what it does not, is left out afterwards.
-    vox_filter grid_filter = vox_default_filter();
-    grid_filter.self_collision = filter.self_collision;
-    if (filter.category == 0 || filter.mask == 0) {
-        grid_filter.category = UINT64_MAX;
-    } else {
-        grid_filter.category = filter.category;
-        grid_filter.mask = filter.mask;
-        grid_filter.group = filter.group;
-    }
-    if (mesh.filter && filter.category == 0 && filter.mask == 0 && filter.group == 0 &&
-        !filter.self_collision)
-        refuse("the filter is all zero: vox_filter_init fills it");
+    // The grid may find more than the filter allows; what it does not, is left out afterwards. Vertices from
+    // other ranks are in no world.
+    mesh.filter.world = 0;
     mesh.tets = part->tets.data();
-    mesh.filter = &grid_filter;
     mesh.flags |= VOX_MESH_BORROW_TETS;
     mesh.user_data = desc.body;
     check(vox_mesh_insert(contacts_side_.grid.get(), &mesh, &part->handle));

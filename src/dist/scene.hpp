@@ -62,8 +62,24 @@ struct vox_scene {
     void exchange(std::uint64_t* sent_bytes, vox::dist::Failure& failure);
     vox::dist::Part* find_body(std::uint64_t body) const noexcept;
 
+    // A copy of a desc, with all that it names.
+    class OwnDesc {
+    public:
+        explicit OwnDesc(const vox_grid_desc& desc);
+        OwnDesc(const OwnDesc&) = delete;
+        const vox_grid_desc& operator*() const noexcept { return desc_; }
+        const vox_grid_desc* operator->() const noexcept { return &desc_; }
+
+    private:
+        vox_grid_desc desc_;
+        vox_allocator allocator_;
+        vox_log log_;
+        vox_task_system tasks_;
+        vox_reference_desc reference_;
+    };
+
+    OwnDesc grid_desc_;
     vox::CallerMemory memory_;
-    vox_grid_desc grid_desc_;
     vox::dist::Transport transport_;
     vox::Array<vox::dist::Part*> parts_; // in the order of bodies
     vox::dist::Side contacts_side_, points_side_;

@@ -5,6 +5,7 @@
 #include "base/array.hpp"
 #include "base/error.hpp"
 #include "base/llu.hpp"
+#include "base/structs.hpp"
 #include "grid/contacts.hpp"
 #include "mesh/check.hpp"
 
@@ -14,8 +15,9 @@ using namespace vox;
 
 // ---- readings --------------------------------------------------------------------------------------
 
-void vox_grid::prepare_readings(const vox_readings_desc& desc) {
+void vox_grid::prepare_readings(vox_readings_desc desc) {
     constexpr std::uint32_t known = VOX_READING_POSITION | VOX_READING_SURFACE | VOX_READING_DEPTH;
+    set_default(desc.what, known);
     if (desc.what & ~known)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("desc.what is 0x%x, of which 0x%x is unknown", desc.what, desc.what & ~known));

@@ -1,6 +1,7 @@
 #include "grid/grid.hpp"
 
 #include "base/array.hpp"
+#include "base/caller_memory.hpp"
 #include "base/error.hpp"
 #include "base/float_environment.hpp"
 #include "base/llu.hpp"
@@ -35,32 +36,39 @@ void check_margin(double margin) {
     check_surface_contacts(margin > 0);
 }
 
-} // namespace
-
-void check_grid_desc(const vox_grid_desc& desc) {
-    const auto refuse = [](const std::string& text) { throw Error(VOX_ERROR_INVALID_ARGUMENT, text); };
-    check_enum(desc.engine, VOX_ENGINE_FAST, "grid engine");
-    check_enum(desc.storage, VOX_STORAGE_DENSE, "grid storage");
-    check_enum(desc.hash, VOX_HASH_PAPER, "grid hash");
-    if (!(desc.cell_size >= 0) || std::isinf(desc.cell_size))
-        refuse(format("grid cell_size is %g, expected a finite number >= 0", desc.cell_size));
-
+ReferenceSettings read_reference(const vox_reference_desc* given) {
+    const vox_reference_desc desc = read_struct(given, "reference");
+    check_reference_flags(desc.flags, "reference flags");
     bool all_zero = true;
     for (int axis = 0; axis < 3; ++axis)
         all_zero = all_zero && desc.world_min[axis] == 0 && desc.world_max[axis] == 0;
     for (int axis = 0; axis < 3 && !all_zero; ++axis) {
         const double min = desc.world_min[axis], max = desc.world_max[axis];
         if (!std::isfinite(min) || !std::isfinite(max) || !(min < max))
-            refuse(format("grid world is [%g, %g] on axis %d, expected finite min < max", min, max, axis));
+            refuse(
+                format("reference world is [%g, %g] on axis %d, expected finite min < max", min, max, axis));
     }
     if (desc.hash_table_size > VOX_MAX_VERTICES)
-        refuse(format("grid hash_table_size is %llu, expected at most %u", llu(desc.hash_table_size),
+        refuse(format("reference hash_table_size is %llu, expected at most %u", llu(desc.hash_table_size),
                       VOX_MAX_VERTICES));
-    if (!desc.allocator.allocate != !desc.allocator.release)
-        refuse("grid allocator has one of allocate and release, expected both or none");
-    check_workers(desc.tasks, desc.worker_count);
+    return {.dense = (desc.flags & VOX_REFERENCE_DENSE) != 0,
+            .paper_hash = (desc.flags & VOX_REFERENCE_PAPER_HASH) != 0,
+            .hash_table_size = desc.hash_table_size,
+            .world_min = {desc.world_min[0], desc.world_min[1], desc.world_min[2]},
+            .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}};
+}
+
+} // namespace
+
+void check_grid_desc(const vox_grid_desc& desc) {
+    if (!(desc.cell_size >= 0) || std::isinf(desc.cell_size))
+        refuse(format("grid cell_size is %g, expected a finite number >= 0", desc.cell_size));
+    if (desc.reserved != 0) refuse(format("grid reserved is %u, expected 0", desc.reserved));
+    check_allocator(desc.allocator, "grid allocator");
+    check_workers(value_of(desc.tasks), desc.worker_count);
     check_flags(desc.flags);
     check_margin(desc.margin);
+    if (desc.reference) (void)read_reference(desc.reference);
 }
 
 void check_flags(std::uint32_t flags) {
@@ -72,34 +80,14 @@ void check_flags(std::uint32_t flags) {
     check_surface_contacts((flags & VOX_GRID_EDGE_CONTACTS) != 0);
 }
 
-namespace {
-
-// Whether nothing was set in the desc of a grid but what the caller hands in.
-bool is_zeroed(const vox_grid_desc& desc) noexcept {
-    const vox_grid_desc zero{};
-    vox_grid_desc bare = desc;
-    bare.struct_size = 0;
-    bare.allocator = {};
-    bare.log = {};
-    bare.tasks = {};
-    return std::memcmp(&bare, &zero, sizeof zero) == 0;
-}
-
-} // namespace
 } // namespace vox
 
 using namespace vox;
 
 vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
-    : share_(memory), memory_(*memory), log_(desc.log), tasks_(desc.tasks),
-      workers_(desc.tasks, desc.worker_count),
-      fast_(desc.engine == VOX_ENGINE_FAST ||
-            (desc.engine == VOX_ENGINE_AUTO && desc.storage == VOX_STORAGE_AUTO)),
-      settings_{.storage = desc.storage,
-                .hash = desc.hash,
-                .hash_table_size = desc.hash_table_size,
-                .world_min = {desc.world_min[0], desc.world_min[1], desc.world_min[2]},
-                .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}},
+    : share_(memory), memory_(*memory), log_(value_of(desc.log)), tasks_(value_of(desc.tasks)),
+      workers_(tasks_, desc.worker_count), fast_(!desc.reference),
+      settings_(desc.reference ? read_reference(desc.reference) : ReferenceSettings{}),
       skips_bad_meshes_((desc.flags & VOX_GRID_SKIP_BAD_BODIES) != 0), closest_budget_(desc.closest_budget),
       requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size), shared_tets_(&memory_),
       meshes_(&memory_), bodies_(&memory_), prepared_(&memory_), lone_(&memory_), fast_engine_(&memory_),
@@ -110,10 +98,6 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
     if (desc.flags & VOX_GRID_PENETRATIONS) depth_.emplace(&memory_, trees_);
     if (desc.flags & VOX_GRID_EDGE_CONTACTS) edges_.emplace(&memory_);
     set_margin(desc.margin);
-    if (is_zeroed(desc))
-        write_log(VOX_LOG_WARNING,
-                  "vox_grid_desc is all 0: no penetrations, no byte budget and a thread per core; "
-                  "vox_default_grid_desc and vox_grid_desc_init fill in the defaults");
 }
 
 // ---- meshes ---------------------------------------------------------------------------------------
@@ -145,13 +129,6 @@ void vox_grid::warn_of_traps(const Mesh& mesh, vox_body id) {
     const auto warn_of = [&](const char* text) noexcept {
         warn("mesh %u (slot %u, user data %llu) %s", id, slot_of(id), llu(mesh.user_data()), text);
     };
-    const vox_filter& filter = mesh.filter();
-    if (!warned_of_filter_ && filter.group <= 0 && (filter.category == 0 || filter.mask == 0)) {
-        warned_of_filter_ = true;
-        warn_of(filter.mask == 0
-                    ? "collides with no other mesh: the mask of its filter is 0 (said once for a grid)"
-                    : "collides with no other mesh: the category of its filter is 0 (said once for a grid)");
-    }
     if (warned_of_edges_ || mesh.tet_count() > 0 || mesh.vertex_count() == 0) return;
     warned_of_edges_ = true;
     warn_of("has no tetrahedra: its vertices collide with the tetrahedra of other meshes, its edges and "
@@ -439,12 +416,12 @@ void vox_grid::describe(CellSizeScene& scene) const {
 void vox_grid::describe(vox_suggest_desc& desc, bool chosen) const noexcept {
     if (!chosen) {
         desc.model = fast_ ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
-        desc.storage = settings_.storage;
+        desc.reference_flags = settings_.dense ? VOX_REFERENCE_DENSE : 0;
         desc.byte_budget = memory_.budget();
     }
     if (counters_.tets == 0) return;
     const double p_nc = 1 - static_cast<double>(counters_.contacts) / static_cast<double>(counters_.tets);
-    if (p_nc > 0 && p_nc < 1 && desc.p_nc == suggest_defaults().p_nc) desc.p_nc = p_nc;
+    if (p_nc > 0 && p_nc < 1 && desc.p_nc == 0) desc.p_nc = p_nc;
 }
 
 void vox_grid::write_log(vox_log_level level, const char* text) const {

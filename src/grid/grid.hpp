@@ -93,7 +93,7 @@ public:
 
     void step();
 
-    void prepare_readings(const vox_readings_desc& desc);
+    void prepare_readings(vox_readings_desc desc);
     const vox::Readings& readings() const {
         readings_.require_prepared();
         return readings_;
@@ -131,7 +131,7 @@ private:
     // Whether a step looks at surfaces, penetrations aside.
     bool finds_surfaces() const noexcept { return edges_ || near_faces_; }
     bool needs_topology(const vox_filter& filter) const noexcept {
-        return (finds_penetrations() && filter.penetration_mask != 0) || finds_surfaces();
+        return (finds_penetrations() && !vox::is_sensor(filter)) || finds_surfaces();
     }
     void prepare(vox::Mesh& mesh, vox::fast::MeshState& state);
     void find_penetrations();
@@ -216,6 +216,5 @@ private:
     vox_counters counters_{};
     vox_profile profile_{};
     std::uint64_t epoch_ = 0;
-    bool warned_of_edges_ = false;  // of a mesh without tetrahedra
-    bool warned_of_filter_ = false; // of one that collides with no other
+    bool warned_of_edges_ = false; // of a mesh without tetrahedra
 };

@@ -10,6 +10,8 @@
 
 namespace vox {
 
+// Of GRID.
+constexpr std::uint32_t reference_engine = 1, fast_engine = 2, hashed_cells = 1, dense_cells = 2;
 constexpr std::uint32_t live_bit = 1u << 31; // of a slot's word; the generation is in the others
 
 // ---- GRID: settings -------------------------------------------------------------------------------
@@ -17,9 +19,9 @@ constexpr std::uint32_t live_bit = 1u << 31; // of a slot's word; the generation
 void Snapshot::save_settings(const vox_grid& grid, SnapshotWriter& out) {
     const ReferenceSettings& settings = grid.settings_;
     out.begin_chunk("GRID");
-    out.u32(grid.fast_ ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE);
-    out.u32(settings.storage);
-    out.u32(settings.hash);
+    out.u32(grid.fast_ ? fast_engine : reference_engine);
+    out.u32(settings.dense ? dense_cells : hashed_cells);
+    out.u32(settings.paper_hash ? 1 : 0);
     out.u32(grid.flags());
     out.u64(settings.hash_table_size);
     for (const Vec3d& corner : {settings.world_min, settings.world_max})
@@ -31,21 +33,23 @@ void Snapshot::save_settings(const vox_grid& grid, SnapshotWriter& out) {
     out.end_chunk();
 }
 
-vox_grid_desc Snapshot::read_settings(SnapshotChunk& in, vox_grid_desc desc, vox_grid* grid) {
+vox_grid_desc Snapshot::read_settings(SnapshotChunk& in, vox_grid_desc desc, vox_reference_desc& reference,
+                                      vox_grid* grid) {
     const auto enumerator = [&](std::uint32_t last, const char* what) {
         const std::uint32_t value = in.u32();
         if (value > last) in.refuse(format("%s is %" PRIu32 ", expected 0 to %" PRIu32, what, value, last));
         return value;
     };
-    const auto engine = static_cast<vox_engine>(enumerator(VOX_ENGINE_FAST, "engine"));
-    if (engine == VOX_ENGINE_AUTO) in.refuse("engine is 0, expected the one in use");
-    if (desc.engine == VOX_ENGINE_AUTO) desc.engine = engine;
-    desc.storage = static_cast<vox_storage>(enumerator(VOX_STORAGE_DENSE, "storage"));
-    desc.hash = static_cast<vox_hash>(enumerator(VOX_HASH_PAPER, "hash"));
+    const std::uint32_t engine = enumerator(fast_engine, "engine");
+    if (engine == 0) in.refuse("engine is 0, expected the one in use");
+    reference = vox_default_reference_desc();
+    if (enumerator(dense_cells, "storage") == dense_cells) reference.flags |= VOX_REFERENCE_DENSE;
+    if (enumerator(1, "hash") == 1) reference.flags |= VOX_REFERENCE_PAPER_HASH;
+    if (engine == reference_engine && !desc.reference) desc.reference = &reference;
     desc.flags = in.u32();
-    desc.hash_table_size = in.u64();
-    for (double& x : desc.world_min) x = in.f64();
-    for (double& x : desc.world_max) x = in.f64();
+    reference.hash_table_size = in.u64();
+    for (double& x : reference.world_min) x = in.f64();
+    for (double& x : reference.world_max) x = in.f64();
     const double cell_size = in.f64();
     if (!(cell_size >= 0) || std::isinf(cell_size))
         in.refuse(format("cell size is %g, expected a finite number >= 0", cell_size));
@@ -62,6 +66,9 @@ vox_grid_desc Snapshot::read_settings(SnapshotChunk& in, vox_grid_desc desc, vox
     }
     try {
         check_grid_desc(desc);
+        vox_grid_desc saved = desc;
+        saved.reference = &reference; // also of a fast grid
+        check_grid_desc(saved);
     } catch (const Error& error) {
         in.refuse(error.what());
     }
@@ -69,7 +76,8 @@ vox_grid_desc Snapshot::read_settings(SnapshotChunk& in, vox_grid_desc desc, vox
 }
 
 void Snapshot::load_settings(SnapshotChunk& in, Loading& to) {
-    (void)read_settings(in, vox_default_grid_desc(), &to.grid);
+    vox_reference_desc reference;
+    (void)read_settings(in, vox_default_grid_desc(), reference, &to.grid);
 }
 
 // ---- SLOT: mesh slots, their generations, and which of them is taken next -------------------------
@@ -226,7 +234,6 @@ std::uint64_t Snapshot::save(const vox_grid& grid, std::byte* bytes) noexcept {
     SnapshotWriter out(bytes);
     save_settings(grid, out);
     save_slots(grid, out);
-    save_masks(grid, out);
     save_meshes(grid, out);
     save_cuts(grid, out);
     save_filters(grid, out);
@@ -235,18 +242,18 @@ std::uint64_t Snapshot::save(const vox_grid& grid, std::byte* bytes) noexcept {
     return out.finish();
 }
 
-vox_grid_desc Snapshot::settings(SnapshotReader in, const vox_grid_desc& machine) {
+vox_grid_desc Snapshot::settings(SnapshotReader in, const vox_grid_desc& machine,
+                                 vox_reference_desc& reference) {
     SnapshotChunk chunk;
     if (!in.next(chunk)) throw Error(VOX_ERROR_FORMAT, "snapshot: it has no chunk");
     if (!chunk.is("GRID")) chunk.refuse("expected chunk GRID first");
-    return read_settings(chunk, machine, nullptr);
+    return read_settings(chunk, machine, reference, nullptr);
 }
 
 void Snapshot::load(SnapshotReader in, vox_grid& grid) {
     Loading to{.grid = grid,
                .awaited = Array<vox_body>(&grid.memory_),
-               .free_slots = Array<std::uint32_t>(&grid.memory_),
-               .masks = Array<PenetrationMask>(&grid.memory_)};
+               .free_slots = Array<std::uint32_t>(&grid.memory_)};
     bool seen[std::size(parts)] = {};
     std::size_t last = 0; // the part that came last
     for (SnapshotChunk chunk; in.next(chunk);) {

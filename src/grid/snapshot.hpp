@@ -14,18 +14,12 @@
 
 namespace vox {
 
-struct PenetrationMask {
-    vox_body mesh;
-    std::uint64_t mask;
-};
-
 // What loading knows beside the grid.
 struct Loading {
     vox_grid& grid;
     Array<vox_body> awaited; // meshes whose chunk has to come, ascending
     std::size_t next = 0;    // index in `awaited`
     Array<std::uint32_t> free_slots;
-    Array<PenetrationMask> masks; // that are not the default, by mesh
     vox_body last_filtered = VOX_NULL_BODY, last_cut = VOX_NULL_BODY;
 };
 
@@ -48,19 +42,19 @@ public:
     static std::uint64_t save(const vox_grid& grid, std::byte* bytes) noexcept;
     // The settings in a snapshot, over a caller's for the machine it runs on (vox_grid_load), checked as a
     // grid needs them. Throws Error(FORMAT, UNSUPPORTED).
-    static vox_grid_desc settings(SnapshotReader in, const vox_grid_desc& machine);
+    static vox_grid_desc settings(SnapshotReader in, const vox_grid_desc& machine,
+                                  vox_reference_desc& reference);
     // Fills a grid made from these settings. Throws Error(FORMAT, UNSUPPORTED, LIMIT, BUDGET) or what the
     // memory throws; the grid is then only fit to be destroyed.
     static void load(SnapshotReader in, vox_grid& grid);
 
 private:
     static void save_settings(const vox_grid& grid, SnapshotWriter& out);
-    static vox_grid_desc read_settings(SnapshotChunk& in, vox_grid_desc desc, vox_grid* grid);
+    static vox_grid_desc read_settings(SnapshotChunk& in, vox_grid_desc desc, vox_reference_desc& reference,
+                                       vox_grid* grid);
     static void load_settings(SnapshotChunk& in, Loading& to);
     static void save_slots(const vox_grid& grid, SnapshotWriter& out);
     static void load_slots(SnapshotChunk& in, Loading& to);
-    static void save_masks(const vox_grid& grid, SnapshotWriter& out);
-    static void load_masks(SnapshotChunk& in, Loading& to);
     static void save_meshes(const vox_grid& grid, SnapshotWriter& out);
     static void load_mesh(SnapshotChunk& in, Loading& to);
     static void save_cuts(const vox_grid& grid, SnapshotWriter& out);
@@ -86,10 +80,10 @@ private:
         void (*load)(SnapshotChunk& in, Loading& to);
     };
     static constexpr Part parts[] = {
-        {"GRID", false, true, load_settings},   {"SLOT", false, true, load_slots},
-        {"pmsk", false, false, load_masks},     {"MESH", true, false, load_mesh},
-        {"CUTS", true, false, load_cuts},       {"FILT", true, false, load_filter},
-        {"PAIR", false, true, load_exceptions}, {"EVNT", false, true, load_events}};
+        {"GRID", false, true, load_settings}, {"SLOT", false, true, load_slots},
+        {"MESH", true, false, load_mesh},     {"CUTS", true, false, load_cuts},
+        {"FILT", true, false, load_filter},   {"PAIR", false, true, load_exceptions},
+        {"EVNT", false, true, load_events}};
 };
 
 } // namespace vox

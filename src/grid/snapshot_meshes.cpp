@@ -16,7 +16,8 @@ namespace vox {
 namespace {
 
 // Of a MESH chunk.
-constexpr std::uint32_t self_collision_bit = 1, disabled_bit = 2, transform_bit = 4, known_bits = 7;
+constexpr std::uint32_t self_collision_bit = 1, disabled_bit = 2, transform_bit = 4, sensor_bit = 8,
+                        known_bits = 15;
 // Of a FILT chunk.
 constexpr std::uint32_t no_rest = 0, rest_in_floats = 1, rest_in_doubles = 2;
 
@@ -59,41 +60,6 @@ void load_bits(SnapshotChunk& in, std::uint64_t count, const char* what, Array<s
 
 } // namespace
 
-// ---- pmsk: with which meshes a mesh has penetrations, where that is not the default ---------------
-
-// Before the meshes, which are prepared for penetrations when they are loaded. Its name lets older versions
-// skip it: contacts do not depend on it.
-void Snapshot::save_masks(const vox_grid& grid, SnapshotWriter& out) {
-    const auto is_usual = [](const Mesh& mesh) {
-        return mesh.filter().penetration_mask == filter_defaults().penetration_mask;
-    };
-    bool any = false;
-    for_each_mesh(grid, [&](vox_body, const Mesh& mesh) { any |= !is_usual(mesh); });
-    if (!any) return;
-    out.begin_chunk("pmsk");
-    for_each_mesh(grid, [&](vox_body id, const Mesh& mesh) {
-        if (is_usual(mesh)) return;
-        out.u32(id);
-        out.u32(0); // reserved
-        out.u64(mesh.filter().penetration_mask);
-    });
-    out.end_chunk();
-}
-
-void Snapshot::load_masks(SnapshotChunk& in, Loading& to) {
-    to.masks.reserve(std::min(static_cast<std::size_t>(in.left() / 16), to.awaited.size()));
-    while (in.left() > 0) {
-        const vox_body id = in.u32();
-        if (!std::ranges::binary_search(to.awaited, id))
-            in.refuse(format("mesh %" PRIu32 " is not in it", id));
-        if (!to.masks.empty() && id <= to.masks.back().mesh)
-            in.refuse(format("mesh %" PRIu32 " comes after mesh %" PRIu32, id, to.masks.back().mesh));
-        if (const std::uint32_t reserved = in.u32(); reserved != 0)
-            in.refuse(format("a reserved word is %" PRIu32 ", expected 0", reserved));
-        to.masks.push_back({id, in.u64()});
-    }
-}
-
 // ---- MESH: one mesh, in the order of ids ----------------------------------------------------------
 
 void Snapshot::save_meshes(const vox_grid& grid, SnapshotWriter& out) {
@@ -103,6 +69,7 @@ void Snapshot::save_meshes(const vox_grid& grid, SnapshotWriter& out) {
         const bool has_positions = positions.data != nullptr && body.vertex_count > 0;
         std::uint32_t bits = 0;
         if (body.self_collision) bits |= self_collision_bit;
+        if (body.sensor) bits |= sensor_bit;
         if (!mesh.is_enabled()) bits |= disabled_bit;
         if (mesh.has_transform_) bits |= transform_bit;
         out.begin_chunk("MESH");
@@ -175,7 +142,8 @@ void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
     in.end();
 
     desc.flags = VOX_MESH_COPY_POSITIONS;
-    if (bits & self_collision_bit) desc.flags |= VOX_MESH_SELF_COLLISION;
+    if (bits & self_collision_bit) desc.filter.flags |= VOX_FILTER_SELF_COLLISION;
+    if (bits & sensor_bit) desc.filter.flags |= VOX_FILTER_SENSOR;
     desc.tets = reinterpret_cast<const std::uint32_t*>(tets.data());
     // The slot becomes the only free one, and has had one mesh less: so the mesh gets its old id.
     const std::uint32_t slot = slot_of(id);
@@ -183,11 +151,7 @@ void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
     grid.meshes_.free_slots_.assign(1, slot);
     or_refuse(in, id, [&] {
         const Body view = check_mesh(desc, "", NullPositions::allowed);
-        vox_filter filter = filter_defaults();
-        filter.self_collision = view.self_collision;
-        const auto mask = std::ranges::lower_bound(to.masks, id, {}, &PenetrationMask::mesh);
-        if (mask != to.masks.end() && mask->mesh == id) filter.penetration_mask = mask->mask;
-        (void)grid.insert(desc, view, filter);
+        (void)grid.insert(desc, view, checked_filter(desc.filter));
         if (bits & disabled_bit) grid.set_enabled(id, false);
         if (bits & transform_bit) grid.mesh(id).set_transform(transform.data());
     });
@@ -230,17 +194,19 @@ void Snapshot::load_cuts(SnapshotChunk& in, Loading& to) {
 void Snapshot::save_filters(const vox_grid& grid, SnapshotWriter& out) {
     for_each_mesh(grid, [&](vox_body id, const Mesh& mesh) {
         const RestPose& rest = mesh.self_filter_->rest;
-        const vox_filter filter = mesh.filter(), usual = filter_defaults();
+        const vox_filter filter = mesh.filter(), usual = checked_filter({});
         if (rest.empty() && filter.group == usual.group && filter.category == usual.category &&
-            filter.mask == usual.mask && filter.self_rings == usual.self_rings &&
-            filter.self_rest_distance == usual.self_rest_distance)
-            return; // self-collision is in MESH
+            filter.mask == usual.mask && filter.world == usual.world &&
+            filter.self_rings == usual.self_rings && filter.self_rest_distance == usual.self_rest_distance)
+            return; // flags are in MESH
         out.begin_chunk("FILT");
         out.u32(id);
         out.u32(static_cast<std::uint32_t>(filter.group));
         out.u64(filter.category);
         out.u64(filter.mask);
+        out.u32(filter.world);
         out.u32(filter.self_rings);
+        out.u32(0); // reserved
         out.u32(rest.empty() ? no_rest : rest.in_doubles() ? rest_in_doubles : rest_in_floats);
         out.f64(filter.self_rest_distance);
         for (std::size_t v = 0; v < rest.size(); ++v)
@@ -264,7 +230,10 @@ void Snapshot::load_filter(SnapshotChunk& in, Loading& to) {
     filter.group = static_cast<std::int32_t>(in.u32());
     filter.category = in.u64();
     filter.mask = in.u64();
+    filter.world = in.u32();
     filter.self_rings = in.u32();
+    if (const std::uint32_t reserved = in.u32(); reserved != 0)
+        in.refuse(format("a reserved word is %" PRIu32 ", expected 0", reserved));
     const std::uint32_t rest = in.u32();
     if (rest > rest_in_doubles)
         in.refuse(
@@ -284,8 +253,7 @@ void Snapshot::load_filter(SnapshotChunk& in, Loading& to) {
     or_refuse(in, id, [&] {
         if (rest != no_rest)
             mesh.self_filter_.make(&to.grid.memory_).rest = mesh.rest_pose(given, mesh.vertex_count());
-        check_filter(filter);
-        mesh.set_filter(filter);
+        mesh.set_filter(checked_filter(filter));
     });
 }
 

@@ -299,7 +299,7 @@ void vox_grid::choose_cell_size() {
     if (!chooses_cell_size()) return;
     const double before = used_cell_size_;
     const std::uint64_t changes = adaptive_.changes();
-    settings_.levels = adaptive_.cell_sizes(bodies_, settings_.storage, byte_limit(), &memory_);
+    settings_.levels = adaptive_.cell_sizes(bodies_, settings_.dense, byte_limit(), &memory_);
     used_cell_size_ = settings_.levels[0].cell_size;
     if (before > 0 && adaptive_.changes() == changes) return;
     if (!log_.write) return;
@@ -315,7 +315,7 @@ void vox_grid::choose_cell_size() {
 // The most bytes that cells of dense storage may take: the budget less what the grid holds beside them, and
 // less what a first step will take. 0: no limit.
 double vox_grid::byte_limit() const noexcept {
-    if (memory_.budget() == 0) return 0;
+    if (memory_.budget() == UINT64_MAX) return 0;
     double held = static_cast<double>(memory_.bytes());
     if (counters_.vertices == 0) // of positions, links and cells, and of boxes
         held +=

@@ -11,16 +11,9 @@
 namespace vox::io {
 namespace {
 
-vox_io_load_desc default_load_desc() {
-    vox_io_load_desc desc{};
-    desc.format = VOX_IO_FORMAT_AUTO;
-    desc.mesh_index = VOX_IO_ALL_MESHES;
-    return desc;
-}
-
 vox_io_load_desc checked(const vox_io_load_desc* in) {
-    if (!in) return default_load_desc();
-    const vox_io_load_desc desc = read_struct(in, default_load_desc(), "vox_io_load_desc");
+    if (!in) return {};
+    const vox_io_load_desc desc = read_struct(in, "vox_io_load_desc");
     check_enum(desc.format, VOX_IO_FORMAT_ASSIMP, "vox_io_load_desc.format");
     check_allocator(desc.allocator, "vox_io_load_desc.allocator");
     if (desc.reserved != 0) refuse(format("vox_io_load_desc.reserved is %u, not 0", desc.reserved));
@@ -91,7 +84,7 @@ MeshData load(const std::string& path, const vox_io_load_desc& desc, const Progr
     file.progress = progress;
     refuse_other_content(file);
     const vox_io_format which = format_of(file, desc.format);
-    if (which != VOX_IO_FORMAT_TETGEN) return read_one(file, folder_of(path), which, desc.mesh_index);
+    if (which != VOX_IO_FORMAT_TETGEN) return read_one(file, folder_of(path), which, desc.mesh - 1);
 
     const std::string extension = extension_of(path);
     if (extension != "node" && extension != "ele")
@@ -122,7 +115,7 @@ MeshData read(const vox_io_source* sources, std::size_t count, const vox_io_load
         const vox_io_format which = format_of(first, desc.format);
         if (which == VOX_IO_FORMAT_TETGEN)
             refuse(format("%s: TetGen meshes need two sources, .node and .ele", first.name.c_str()));
-        return read_one(first, std::nullopt, which, desc.mesh_index);
+        return read_one(first, std::nullopt, which, desc.mesh - 1);
     }
     if (desc.format != VOX_IO_FORMAT_AUTO && desc.format != VOX_IO_FORMAT_TETGEN)
         refuse("source_count is 2, which only TetGen meshes need");
@@ -181,10 +174,6 @@ MeshData checked(const vox_io_mesh_view& arrays) {
 using namespace vox;
 using namespace vox::io;
 
-vox_result vox_io_load_desc_init(vox_io_load_desc* desc, uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, default_load_desc(), "vox_io_load_desc"); });
-}
-
 vox_result vox_io_load(const char* path, const vox_io_load_desc* desc, vox_io_mesh** out_mesh) {
     return border([&] {
         require(path, "path");
@@ -219,11 +208,11 @@ vox_result vox_io_mesh_get_arrays(const vox_io_mesh* mesh, vox_io_mesh_view* out
 vox_result vox_io_mesh_describe(const vox_io_mesh* mesh, vox_mesh_desc* desc) {
     return border([&] {
         require(mesh, "mesh");
-        vox_mesh_desc described = read_struct(desc, vox_default_mesh_desc(), "desc");
+        vox_mesh_desc described = read_struct(desc, "desc");
         constexpr std::size_t least = offsetof(vox_mesh_desc, tet_count) + sizeof(described.tet_count);
-        if (described.struct_size < least)
+        if (desc->struct_size < least)
             refuse(format("desc.struct_size is %u, which does not reach to tet_count; expected at least %zu",
-                          described.struct_size, least));
+                          desc->struct_size, least));
         const vox_io_mesh_view view = view_of(mesh->arrays);
         described.positions = vox_double_positions(view.positions, view.vertex_count);
         described.tets = view.tets;

@@ -16,13 +16,6 @@ using namespace vox::io;
 
 namespace {
 
-vox_io_tetrahedralize_desc default_tetrahedralize_desc() {
-    vox_io_tetrahedralize_desc desc{};
-    desc.kind = VOX_IO_SOLID_STUFFED;
-    desc.max_tets = 100000000;
-    return desc;
-}
-
 void require_length(double length, const char* name) {
     if (!std::isfinite(length) || length <= 0)
         refuse(format("%s is %g, expected a finite number above 0", name, length));
@@ -47,24 +40,21 @@ vox_result make_body(vox_io_mesh** out_mesh, std::initializer_list<std::pair<dou
 
 } // namespace
 
-vox_result vox_io_tetrahedralize_desc_init(vox_io_tetrahedralize_desc* desc, std::uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, default_tetrahedralize_desc(), "desc"); });
-}
-
 vox_result vox_io_tetrahedralize(const vox_io_mesh* surface, const vox_io_tetrahedralize_desc* desc,
                                  vox_io_mesh** out_mesh) {
     return border([&] {
         require(surface, "surface");
         require(out_mesh, "out_mesh");
-        vox_io_tetrahedralize_desc wanted = default_tetrahedralize_desc();
-        if (desc) wanted = read_struct(desc, wanted, "desc");
+        vox_io_tetrahedralize_desc wanted{};
+        if (desc) wanted = read_struct(desc, "desc");
+        set_default(wanted.max_tets, std::uint64_t{100000000});
         check_enum(wanted.kind, VOX_IO_SOLID_CUBES, "desc.kind");
         if (!std::isfinite(wanted.cell) || wanted.cell < 0)
             refuse(format("desc.cell is %g, expected a finite number above 0, or 0", wanted.cell));
         if (!std::isfinite(wanted.max_distance) || wanted.max_distance < 0)
             refuse(format("desc.max_distance is %g, expected a finite number above 0, or 0",
                           wanted.max_distance));
-        if (wanted.max_tets == 0 || wanted.max_tets > VOX_MAX_TETS)
+        if (wanted.max_tets > VOX_MAX_TETS)
             refuse(format("desc.max_tets is %llu, expected 1 to %u", llu(wanted.max_tets), VOX_MAX_TETS));
         check_allocator(wanted.allocator, "desc.allocator");
         if (wanted.reserved != 0) refuse(format("desc.reserved is %u, expected 0", wanted.reserved));

@@ -44,7 +44,7 @@ void check_data(const char* what, const char* owner, const vox_io_point_data* li
 
 vox_io_write_desc checked(const vox_io_write_desc* in, const vox_io_mesh& mesh) {
     vox_io_write_desc desc{};
-    if (in) desc = read_struct(in, desc, "vox_io_write_desc");
+    if (in) desc = read_struct(in, "vox_io_write_desc");
     check_enum(desc.format, VOX_IO_WRITE_VTU, "vox_io_write_desc.format");
     if (desc.binary > 1) refuse(format("vox_io_write_desc.binary is %u, neither 0 nor 1", desc.binary));
     if (desc.reserved != 0) refuse(format("vox_io_write_desc.reserved is %u, not 0", desc.reserved));
@@ -109,10 +109,6 @@ void write_file(const vox_io_mesh& mesh, const vox_io_write_desc& desc, const st
 
 using namespace vox;
 using namespace vox::io;
-
-vox_result vox_io_write_desc_init(vox_io_write_desc* desc, uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, vox_io_write_desc{}, "vox_io_write_desc"); });
-}
 
 vox_result vox_io_write(const vox_io_mesh* mesh, const char* path, const vox_io_write_desc* desc) {
     return border([&] {

@@ -17,7 +17,7 @@ Array<Number> moved(std::vector<Number>& from, std::pmr::memory_resource* memory
 
 } // namespace
 
-vox_io_mesh* make_mesh(MeshData data, const vox_allocator& allocator, const Progress& progress) {
+vox_io_mesh* make_mesh(MeshData data, const vox_allocator* allocator, const Progress& progress) {
     CallerMemory memory(allocator);
     MeshHandle mesh(std::pmr::polymorphic_allocator<>(&memory).new_object<vox_io_mesh>(memory));
     mesh->report = diagnose(data, progress);
@@ -26,7 +26,7 @@ vox_io_mesh* make_mesh(MeshData data, const vox_allocator& allocator, const Prog
     MeshData& own = mesh->data;
     own.notes = std::vector<std::string>(); // the warnings hold them
     mesh->arrays = arrays_of(own);
-    if (allocator.allocate) {
+    if (allocator && allocator->allocate) {
         mesh->positions = moved(own.positions, &mesh->memory);
         mesh->tets = moved(own.tets, &mesh->memory);
         mesh->triangles = moved(own.triangles, &mesh->memory);

@@ -23,6 +23,8 @@ struct MeshData {
     std::vector<std::string> notes; // lines for the warnings, from the reader
 };
 
+constexpr std::uint32_t all_meshes = ~std::uint32_t{0}; // as a mesh_index; vox_io_load_desc.mesh is one more
+
 // The arrays, wherever they are.
 struct MeshArrays {
     std::span<const double> positions;
@@ -39,6 +41,7 @@ inline vox_io_mesh_view view_of(const MeshArrays& arrays) {
 // Makes the public object, with report and warnings, from data whose positions are finite and whose indices
 // are below the number of vertices. This is the only way to make a vox_io_mesh. Its arrays are those of
 // `data`, or copies in the memory of an allocator that has functions, which has been checked.
-vox_io_mesh* make_mesh(MeshData data, const vox_allocator& allocator = {}, const Progress& progress = {});
+vox_io_mesh* make_mesh(MeshData data, const vox_allocator* allocator = nullptr,
+                       const Progress& progress = {});
 
 } // namespace vox::io

@@ -1,6 +1,7 @@
 #include "mesh/check.hpp"
 
 #include "base/structs.hpp"
+#include "mesh/filter.hpp"
 #include "mesh/highest_index.hpp"
 
 #include <algorithm>
@@ -18,8 +19,7 @@ static_assert(sizeof(Tet) == 4 * sizeof(std::uint32_t) && alignof(Tet) == aligno
               "tets are viewed in the caller's index array");
 
 Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null_positions) {
-    constexpr std::uint32_t known_flags =
-        VOX_MESH_SELF_COLLISION | VOX_MESH_COPY_POSITIONS | VOX_MESH_BORROW_TETS;
+    constexpr std::uint32_t known_flags = VOX_MESH_COPY_POSITIONS | VOX_MESH_BORROW_TETS;
     if (desc.flags & ~known_flags)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("%sflags is 0x%" PRIx32 ", of which 0x%" PRIx32 " is unknown", where, desc.flags,
@@ -47,7 +47,7 @@ Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null
     body.user_data = desc.user_data;
     body.positions = positions;
     body.tets = {reinterpret_cast<const Tet*>(desc.tets), static_cast<std::size_t>(desc.tet_count)};
-    body.self_collision = (desc.flags & VOX_MESH_SELF_COLLISION) != 0;
+    body.self_collision = collides_with_itself(desc.filter);
     if (body.tets.empty() || highest_index(desc.tets, 4 * body.tets.size()) < body.vertex_count) return body;
     for (std::size_t tet = 0; tet < body.tets.size(); ++tet)
         for (const std::uint32_t vertex : body.tets[tet].v)

@@ -345,7 +345,7 @@ void Mesh::apply_vertices(std::uint32_t count_before) noexcept {
 // ---- another topology -----------------------------------------------------------------------------
 
 Mesh Mesh::with_topology(const vox_mesh_desc& desc, const Body& view) const {
-    Mesh made(desc, view, filter_defaults(), memory());
+    Mesh made(desc, view, checked_filter({}), memory());
     made.set_transform(has_transform_ ? transform_->rows.data() : nullptr);
     if (!desc.positions.data && view.vertex_count == vertex_count_) {
         made.positions_ = positions_; // take_over() moves owned ones

@@ -6,6 +6,7 @@
 #include "base/array.hpp"
 #include "base/error.hpp"
 #include "base/room.hpp"
+#include "base/structs.hpp"
 #include "base/vectors.hpp"
 #include "exact/closest_point.hpp"
 #include "exact/predicates.hpp"
@@ -16,19 +17,13 @@
 
 namespace vox {
 
-vox_filter filter_defaults() noexcept {
-    vox_filter filter{};
-    filter.struct_size = sizeof filter;
-    filter.category = 1;
-    filter.mask = ~std::uint64_t{0};
-    filter.penetration_mask = ~std::uint64_t{0};
-    return filter;
-}
-
-void check_filter(const vox_filter& filter) {
-    if (filter.self_collision > 1)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("filter self_collision is %u, expected 0 or 1", filter.self_collision));
+vox_filter checked_filter(vox_filter filter) {
+    set_default(filter.category, std::uint64_t{1});
+    set_default(filter.mask, ~std::uint64_t{0});
+    constexpr std::uint32_t known_flags = VOX_FILTER_SELF_COLLISION | VOX_FILTER_SENSOR;
+    if (filter.flags & ~known_flags)
+        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("filter flags is 0x%x, of which 0x%x is unknown",
+                                                       filter.flags, filter.flags & ~known_flags));
     if (!(filter.self_rest_distance >= 0) || std::isinf(filter.self_rest_distance))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("filter self_rest_distance is %g, expected a finite number >= 0",
@@ -36,10 +31,12 @@ void check_filter(const vox_filter& filter) {
     if (filter.self_rings > VOX_MAX_RINGS)
         throw Error(VOX_ERROR_LIMIT,
                     format("filter self_rings is %u, the limit is %u", filter.self_rings, VOX_MAX_RINGS));
+    return filter;
 }
 
 bool collide(const Body& a, const Body& b) noexcept {
     const PairFilter &f = a.filter, &g = b.filter;
+    if (f.world != g.world) return false;
     if (f.group != 0 && f.group == g.group) {
         if (f.group < 0) return false;
     } else if ((f.category & g.mask) == 0 || (g.category & f.mask) == 0) {

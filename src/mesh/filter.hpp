@@ -17,21 +17,19 @@ namespace vox {
 
 struct TetChange;
 
-// Throws Error(INVALID_ARGUMENT), and Error(LIMIT) for too many rings.
-void check_filter(const vox_filter& filter);
-vox_filter filter_defaults() noexcept;
+// A caller's filter with its defaults. Throws Error(INVALID_ARGUMENT), and Error(LIMIT) for too many rings.
+vox_filter checked_filter(vox_filter filter);
+
+inline bool is_sensor(const vox_filter& filter) noexcept { return (filter.flags & VOX_FILTER_SENSOR) != 0; }
+inline bool collides_with_itself(const vox_filter& filter) noexcept {
+    return (filter.flags & VOX_FILTER_SELF_COLLISION) != 0;
+}
 
 // Whether vertices of one body may make contacts with tetrahedra of another one.
 bool collide(const Body& a, const Body& b) noexcept;
 
 // Whether contacts between the two, either way, have penetrations.
-inline bool have_penetrations(const Body& a, const Body& b) noexcept {
-    const auto accepts = [](const Body& body, const Body& other) {
-        return body.penetration_mask == ~std::uint64_t{0} ||
-               (body.penetration_mask & other.filter.category) != 0;
-    };
-    return accepts(a, b) && accepts(b, a);
-}
+inline bool have_penetrations(const Body& a, const Body& b) noexcept { return !a.sensor && !b.sensor; }
 
 // The vertices within so many edges of each vertex.
 struct Rings {

@@ -12,7 +12,7 @@ namespace vox {
 
 Mesh::Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
            std::pmr::memory_resource* memory)
-    : owned_(memory), filter_(filter_defaults()), user_data_(desc.user_data), positions_(view.positions),
+    : owned_(memory), filter_(checked_filter({})), user_data_(desc.user_data), positions_(view.positions),
       tets_(view.tets), vertex_count_(view.vertex_count) {
     if (!(desc.flags & VOX_MESH_BORROW_TETS) && !tets_.empty()) own_tets();
     if ((desc.flags & VOX_MESH_COPY_POSITIONS) && has_positions()) {
@@ -162,7 +162,6 @@ vox_body_info Mesh::info(std::uint32_t slot) const noexcept {
     info.tet_count = tet_count();
     info.enabled_tet_count = tet_count() - edits_->off.count();
     info.enabled = enabled_ ? 1 : 0;
-    if (filter_.self_collision) info.flags |= VOX_MESH_SELF_COLLISION;
     if (owns_positions_) info.flags |= VOX_MESH_COPY_POSITIONS;
     if (borrows_tets()) info.flags |= VOX_MESH_BORROW_TETS;
     info.positions = as_given(positions_, vertex_count_);
@@ -170,6 +169,7 @@ vox_body_info Mesh::info(std::uint32_t slot) const noexcept {
     info.has_transform = has_transform_ ? 1 : 0;
     for (const std::size_t i : {0u, 5u, 10u}) info.transform[i] = 1;
     if (has_transform_) std::copy(transform_->rows.begin(), transform_->rows.end(), info.transform);
+    info.filter = filter_;
     return info;
 }
 
@@ -178,9 +178,9 @@ Body Mesh::body(vox_body id) const noexcept {
             .vertex_count = vertex_count_,
             .positions = positions(),
             .tets = tets(),
-            .self_collision = filter_.self_collision != 0,
-            .filter = {filter_.category, filter_.mask, filter_.group},
-            .penetration_mask = filter_.penetration_mask,
+            .self_collision = collides_with_itself(filter_),
+            .sensor = is_sensor(filter_),
+            .filter = {filter_.category, filter_.mask, filter_.group, filter_.world},
             .exceptions = exceptions_->meshes,
             .self_filter =
                 filter_.self_rings != 0 || filter_.self_rest_distance > 0 ? &*self_filter_ : nullptr,
@@ -205,8 +205,9 @@ void Mesh::set_filter(const vox_filter& filter) {
     const bool other_rings = !has_rings_ || filter.self_rings != filter_.self_rings;
     if (other_rings) rings = Rings(tets(), vertex_count_, filter.self_rings, memory());
     // More is prepared of bodies with self-collision.
-    if (filter.self_collision && !filter_.self_collision && is_shared_) own_prepared();
-    if (has_tiles_ && filter.self_collision && !filter_.self_collision) {
+    const bool first_self = collides_with_itself(filter) && !collides_with_itself(filter_);
+    if (first_self && is_shared_) own_prepared();
+    if (has_tiles_ && first_self) {
         Body with_self = body(VOX_NULL_BODY);
         with_self.self_collision = true;
         PreparedTets& own = own_prepared();

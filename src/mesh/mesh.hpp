@@ -36,7 +36,7 @@ struct MeshEdits {
 class Mesh {
 public:
     // An empty slot's mesh.
-    explicit Mesh(std::pmr::memory_resource* memory) noexcept : owned_(memory), filter_(filter_defaults()) {}
+    explicit Mesh(std::pmr::memory_resource* memory) noexcept : owned_(memory), filter_(checked_filter({})) {}
     // Of a checked desc, whose arrays it copies or borrows as the flags say. `view` is what check_mesh() made
     // of it; `filter` is used in place of desc.filter.
     Mesh(const vox_mesh_desc& desc, const Body& view, const vox_filter& filter,
@@ -48,8 +48,8 @@ public:
     // Whether what is prepared of it can be shared with other meshes; once it is, it can not.
     bool may_share() const noexcept {
         return vertex_count_ <= SharedTets::most_vertices && tets_.size() <= SharedTets::most_tets &&
-               !tets_.empty() && !has_tiles_ && !has_topology_ && !is_shared_ && !filter_.self_collision &&
-               edits_->off.count() == 0;
+               !tets_.empty() && !has_tiles_ && !has_topology_ && !is_shared_ &&
+               !collides_with_itself(filter_) && edits_->off.count() == 0;
     }
     // Takes it from `shared` until the next edit. Throws what the memory throws, and changes nothing then.
     void share(SharedTets& shared);

@@ -75,11 +75,11 @@ void ReferenceEngine::detect_level(Step& step, double cell_size, const Sizes& si
     // clamping beyond that keeps the order.
     constexpr std::int32_t far = 1 << 30;
     const Lattice unbounded({0, 0, 0}, cell_size, {-far, -far, -far}, {far, far, far});
-    if (settings.storage == VOX_STORAGE_DENSE) {
+    if (settings.dense) {
         DenseAddress address{};
         const Lattice lattice = prepare_dense(settings, cell_size, address);
         run(step, sizes, lattice, address);
-    } else if (settings.hash == VOX_HASH_PAPER) {
+    } else if (settings.paper_hash) {
         run_hashed(step, sizes, unbounded, PaperAddress{prepare_hashed(settings)});
     } else {
         run_hashed(step, sizes, unbounded, MixedAddress{prepare_hashed(settings)});

@@ -17,9 +17,9 @@
 namespace vox {
 
 struct ReferenceSettings {
-    double cell_size = 0; // > 0, finite
-    vox_storage storage = VOX_STORAGE_HASHED;
-    vox_hash hash = VOX_HASH_MIXED;
+    double cell_size = 0;    // > 0, finite
+    bool dense = false;      // VOX_REFERENCE_DENSE
+    bool paper_hash = false; // VOX_REFERENCE_PAPER_HASH
     std::uint64_t hash_table_size = 0;
     Vec3d world_min{}, world_max{}; // dense storage: both zero means the box of all positions
     // If not empty, these replace the cell size. They ascend, and each has a grid of its own.

@@ -7,42 +7,12 @@
 
 using namespace vox;
 
-namespace {
-
-vox_sim_desc sim_defaults() {
-    vox_sim_desc desc{};
-    desc.substeps = 10;
-    desc.detect_every = 1;
-    desc.gravity[2] = -9.81;
-    desc.max_time_step = 1.0 / 30;
-    desc.floor_normal[2] = 1;
-    desc.friction = 0.5;
-    desc.max_push_speed = 1;
-    desc.contact_slop = -1;
-    return desc;
-}
-
-vox_sim_body_desc body_defaults() {
-    vox_sim_body_desc desc{};
-    desc.density = 1000;
-    desc.youngs_modulus = 1e6;
-    desc.bulk_modulus = 1e6;
-    desc.damping = 0.01;
-    return desc;
-}
-
-} // namespace
-
 // ---- simulation -----------------------------------------------------------------------------------
-
-vox_result vox_sim_desc_init(vox_sim_desc* desc, uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, sim_defaults(), "desc"); });
-}
 
 vox_result vox_sim_create(const vox_sim_desc* desc, vox_sim** out_sim) {
     return border([&] {
         require(out_sim, "out_sim");
-        const vox_sim_desc settings = desc ? read_struct(desc, sim_defaults(), "desc") : sim_defaults();
+        const vox_sim_desc settings = desc ? read_struct(desc, "desc") : vox_default_sim_desc();
         check_allocator(settings.allocator, "sim allocator");
         CallerMemory memory(settings.allocator);
         *out_sim = std::pmr::polymorphic_allocator<>(&memory).new_object<vox_sim>(settings);
@@ -72,15 +42,11 @@ vox_result vox_sim_step(vox_sim* sim, double time_step) {
 
 // ---- bodies ---------------------------------------------------------------------------------------
 
-vox_result vox_sim_body_desc_init(vox_sim_body_desc* desc, uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, body_defaults(), "desc"); });
-}
-
 vox_result vox_sim_body_insert(vox_sim* sim, const vox_sim_body_desc* desc, vox_body* out_body) {
     return border([&] {
         require(sim, "sim");
         require(out_body, "out_body");
-        *out_body = sim->insert(read_struct(desc, body_defaults(), "desc"));
+        *out_body = sim->insert(read_struct(desc, "desc"));
     });
 }
 

@@ -42,7 +42,7 @@ Floor floor_of(const vox_sim_desc& desc) {
 } // namespace
 
 vox_sim::vox_sim(const vox_sim_desc& desc)
-    : memory_(desc.allocator), log_(desc.log), gravity_(check_vector(desc.gravity, "gravity")),
+    : memory_(desc.allocator), log_(value_of(desc.log)), gravity_(check_vector(desc.gravity, "gravity")),
       max_time_step_(desc.max_time_step), substeps_(desc.substeps), detect_every_(desc.detect_every),
       contact_settings_{.friction = check_number(desc.friction, "friction"),
                         .compliance = check_number(desc.contact_compliance, "contact_compliance"),
@@ -58,9 +58,8 @@ vox_sim::vox_sim(const vox_sim_desc& desc)
         refuse(format("sim contact_slop is %g, expected a number up to 1e60", desc.contact_slop));
     if (desc.reserved != 0) refuse(format("sim reserved is %u, expected 0", desc.reserved));
     vox_grid_desc settings = vox_default_grid_desc();
-    if (desc.grid) settings = read_struct(desc.grid, settings, "sim grid");
-    settings.struct_size = sizeof settings;
-    if (!settings.allocator.allocate && !settings.allocator.release) settings.allocator = desc.allocator;
+    if (desc.grid) settings = read_struct(desc.grid, "sim grid");
+    if (!settings.allocator) settings.allocator = desc.allocator;
     grid_ = create_grid(&settings);
     vox_penetration_view penetrations;
     // Fails for a grid without penetrations, which the response needs.
@@ -142,7 +141,7 @@ vox_body vox_sim::insert(const vox_sim_body_desc& desc) {
     if (bodies_.size() == bodies_.capacity()) bodies_.reserve(2 * bodies_.size() + 8);
 
     vox_mesh_desc mesh = vox_default_mesh_desc();
-    if (desc.flags & VOX_SIM_BODY_SELF_COLLISION) mesh.flags |= VOX_MESH_SELF_COLLISION;
+    if (desc.flags & VOX_SIM_BODY_SELF_COLLISION) mesh.filter.flags |= VOX_FILTER_SELF_COLLISION;
     mesh.positions.data = body->grid_positions.data();
     mesh.positions.count = body->positions.size();
     mesh.tets = body->tets.data();

@@ -25,7 +25,7 @@ constexpr vox_grid_weights tile_weights{0, 12, 6, 2, 2, 2, 0};
 
 vox_primitives boxes_as_primitives(const Array<Box>& boxes) {
     static_assert(sizeof(Box) == 2 * sizeof(Box::lo) && sizeof(Box::lo) == 4 * sizeof(float));
-    vox_primitives primitives = primitives_defaults();
+    vox_primitives primitives = vox_default_primitives();
     primitives.type = VOX_PRIMITIVE_BOX;
     primitives.positions.data = boxes.data();
     primitives.positions.count = 2 * boxes.size();
@@ -48,9 +48,7 @@ struct DescribedTiles {
 
 private:
     ForeignGrid description(bool same) const {
-        vox_foreign_grid desc = foreign_grid_defaults();
-        desc.content = VOX_CELLS_HOLD_BOXES;
-        desc.look = VOX_LOOK_BOX;
+        vox_foreign_grid desc = vox_default_foreign_grid();
         desc.held = &held;
         desc.asking = same ? nullptr : &asking;
         desc.weights = tile_weights;

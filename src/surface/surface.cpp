@@ -14,7 +14,7 @@
 using namespace vox;
 
 vox_surface::vox_surface(const vox_surface_desc& desc, const MemoryShare& memory)
-    : share_(memory), workers_(desc.tasks, desc.worker_count), topology_(desc, &*memory),
+    : share_(memory), workers_(value_of(desc.tasks), desc.worker_count), topology_(desc, &*memory),
       cell_size_(desc.cell_size), positions_{Array<Vec3d>(&*memory), Array<Vec3d>(&*memory)},
       search_(&*memory), answer_(&*memory), candidates_(&*memory), crossings_(&*memory), timed_(&*memory),
       timed_in_ranges_(&*memory), close_(&*memory) {}

@@ -40,7 +40,9 @@ def main():
     if not is_program:
         check(re.search(r"FLAGS_1.*\bNODELETE\b", dynamic), "it can be unloaded under its threads: no NODELETE")
     if is_program:
-        check(not exported, f"it exports {len(exported)} symbols: {' '.join(sorted(exported)[:5])} ...")
+        # An instantiation of the C++ runtime's templates that a shared library has as well is one for both.
+        own = {name for name in exported if not re.match(r"_ZN?K?St", name)}
+        check(not own, f"it exports {len(own)} symbols: {' '.join(sorted(own)[:5])} ...")
     # endbr64; bti c or paciasp
     pads = {"-fcf-protection=full": ["f30f1efa"], "-mbranch-protection=standard": ["5f2403d5", "3f2303d5"]}
     text = re.search(r" \.text +PROGBITS +(\w+) (\w+)", output(READELF, "-SW", FILE))

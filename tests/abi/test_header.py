@@ -21,7 +21,7 @@ NUMBERS = {"uint8_t", "int32_t", "uint32_t", "int64_t", "uint64_t", "size_t", "f
 # What the conventions of vox.h must tell, for all the headers: what functions need not repeat.
 CONVENTIONS = {
     "Errors": ["vox_result", "vox_last_error", "INVALID_ARGUMENT for a null pointer", "INVALID_HANDLE"],
-    "Structs": ["struct_size", "vox_X_init", "set struct_size before", "INVALID_ARGUMENT"],
+    "Structs": ["struct_size", "vox_default_X", "set struct_size before", "INVALID_ARGUMENT"],
     "Ownership": ["copies", "borrowed", "live"],
     "Threads": ["One thread at a time", "any number of threads may read", "takes a const grid reads it, any other changes it",
                 "Functions without a grid run on any thread", "per thread"],
@@ -74,8 +74,6 @@ class Rules:
                 self.check_function(declaration)
             elif declaration.kind == "struct":
                 self.check_struct(declaration)
-            elif declaration.kind == "enum" and not declaration.fields[-1].endswith("FORCE_32_BITS"):
-                self.fault(declaration, "its last enumerator does not force 32 bits")
             elif declaration.kind == "callback" and not re.search(r"thread|at the same time", declaration.comment):
                 self.fault(declaration, "on which thread is it called?")
             if declaration.kind in ("struct", "enum", "opaque", "alias", "callback") and not declaration.comment:
@@ -87,7 +85,7 @@ class Rules:
         """What a comment names and no header declares; codes that are none, after the word Errors."""
         for name in re.findall(r"\b(?:vox|VOX)_\w+", comment):
             # `vox_` and a library's own name, and the patterns of the conventions, are no names.
-            if name not in self.names and name not in ("vox_pairs", "vox_io", "vox_sim", "vox_dist", "vox_mpi", "vox_X_init", "vox_default_X"):
+            if name not in self.names and name not in ("vox_pairs", "vox_io", "vox_sim", "vox_dist", "vox_mpi", "vox_default_X"):
                 yield f"there is no {name}"
         for name, field in re.findall(r"\b(vox_\w+)\.([a-z]\w*)", comment):
             struct = self.types.get(name)
@@ -140,8 +138,6 @@ class Rules:
             kind = self.types.get(base(type_text))
             if name.startswith("out") or name == "struct_size" or base(type_text) == "vox_body":
                 continue
-            if f.name.endswith("_init") and kind and kind.kind == "struct":
-                continue
             if not (kind and kind.kind == "opaque"):
                 return True
         return False
@@ -184,8 +180,9 @@ class Rules:
         if s.name.endswith("_desc"):
             if names[0] != "struct_size":
                 self.fault(s, "a desc that cannot grow")
-            if s.name + "_init" not in {d.name for d in self.header.declarations}:
-                self.fault(s, f"there is no {s.name}_init")
+            default = s.name.replace("vox_", "vox_default_", 1)
+            if default not in {d.name for d in self.header.declarations}:
+                self.fault(s, f"there is no {default}")
         if any("(*)" in t for t, _ in s.fields) and "thread" not in s.comment + s.inside:
             self.fault(s, "on which thread are its functions called?")
         for type_text, name in s.fields:
@@ -308,8 +305,11 @@ typedef struct vox_thing_desc {
     uint32_t struct_size;
     uint32_t flags;
 } vox_thing_desc;
-/* Defaults. */
-VOX_API vox_result vox_thing_desc_init(vox_thing_desc* desc, uint32_t struct_size);
+static inline vox_thing_desc vox_default_thing_desc(void) {
+    vox_thing_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
+    return desc;
+}
 /* Lives until the next call. */
 typedef struct vox_thing_view {
     const float* data;
@@ -345,8 +345,7 @@ VOX_API vox_result vox_thing_set_number(vox_thing* thing, uint32_t number);
              "an out-parameter is not last"),
             ("uint32_t struct_size;\n    uint32_t flags;", "uint32_t flags;\n    uint32_t struct_size;",
              "struct_size is not its first field"),
-            ("VOX_API vox_result vox_thing_desc_init(vox_thing_desc* desc, uint32_t struct_size);",
-             "VOX_API vox_result vox_thing_wipe(vox_thing_desc* out);", "there is no vox_thing_desc_init"),
+            ("vox_default_thing_desc", "vox_default_things", "there is no vox_default_thing_desc"),
             ("/* A thing. */\n", "", "vox_thing: no comment"),
             ("/* A number. */\n", "", "VOX_MAX_THINGS: no comment"),
             ("see vox_thing_get", "see vox_thing_gets", "vox_thing_set_number: there is no vox_thing_gets"),

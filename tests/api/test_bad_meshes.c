@@ -82,8 +82,8 @@ START_TEST(what_is_left_out_is_logged_once) {
     messages log = {0, ""};
     vox_grid_desc desc = engine_desc();
     desc.flags |= VOX_GRID_SKIP_BAD_BODIES;
-    desc.log.write = write_message;
-    desc.log.user = &log;
+    const vox_log log_lines = {write_message, &log};
+    desc.log = &log_lines;
     vox_grid* grid = grid_of(&desc);
     body bodies[2];
     for (int b = 0; b < 2; ++b) {
@@ -202,7 +202,7 @@ START_TEST(bad_meshes_are_left_out) {
             is_failure(failure_of(s.grid, 0), &s, 1, 20, VOX_ERROR_NON_FINITE);
             no_failure(s.grid, 1);
         }
-        if (suite_engine == VOX_ENGINE_FAST) /* the others are at rest, and are carried over */
+        if (suite_engine == ENGINE_FAST) /* the others are at rest, and are carried over */
             ck_assert_uint_eq(counters_of(s.grid).carried_contacts, contacts_of(s.grid).count);
         *y = -INFINITY;
         s.bodies[1].positions[1] = NAN; /* an earlier vertex */
@@ -284,7 +284,7 @@ END_TEST
 
 /* With meshes that are left out the steady state allocates nothing either, moving or not. */
 START_TEST(steady_state) {
-    ledger memory = {0, 0, 0, 0, 0};
+    ledger memory = {0};
     scene s = new_scene(VOX_GRID_SKIP_BAD_BODIES, &memory);
     uint64_t calls = 0;
     s.bodies[2].positions[10] = NAN;
@@ -303,7 +303,7 @@ END_TEST
 /* Every allocation of such a step may fail: then the step does, and the next one is right. */
 START_TEST(failing_allocations) {
     for (uint64_t n = 1; n < 60; ++n) {
-        ledger memory = {0, 0, 0, 0, 0};
+        ledger memory = {0};
         scene s = new_scene(VOX_GRID_SKIP_BAD_BODIES, &memory);
         const int one[] = {2};
         s.bodies[2].positions[10] = NAN;

@@ -284,10 +284,14 @@ START_TEST(zone_is_where_the_loss_is_small) {
         last_min = found.zone_min;
         last_max = found.zone_max;
     }
-    desc.zone_loss = 0;
+    desc.zone_loss = 1e-300; /* 0 is the default */
     const vox_suggestion point = suggest_ok(&desc, &mesh, 1);
     ck_assert_double_eq(point.zone_min, point.cell_size);
     ck_assert_double_eq(point.zone_max, point.cell_size);
+    vox_suggest_desc usual = desc;
+    desc.zone_loss = 0;
+    usual.zone_loss = 0.05;
+    ck_assert_double_eq(suggest_ok(&desc, &mesh, 1).zone_max, suggest_ok(&usual, &mesh, 1).zone_max);
     free_body(&box);
 }
 END_TEST

@@ -98,7 +98,7 @@ START_TEST(self_collision_counts) {
     vox_suggest_desc desc = vox_default_suggest_desc();
     desc.model = models[_i];
     const vox_suggestion apart = suggest_ok(&desc, p.meshes, 1);
-    p.meshes[0].flags = VOX_MESH_SELF_COLLISION;
+    p.meshes[0].filter.flags = VOX_FILTER_SELF_COLLISION;
     const vox_suggestion self = suggest_ok(&desc, p.meshes, 1);
     if (models[_i] == VOX_COST_MODEL_PAPER || models[_i] == VOX_COST_MODEL_SURFACE)
         ck_assert_double_eq(self.predicted_cost, apart.predicted_cost);
@@ -113,7 +113,7 @@ START_TEST(byte_budget_caps_the_cells) {
     pair p = make_pair(0.5f);
     vox_suggest_desc desc = vox_default_suggest_desc();
     desc.model = VOX_COST_MODEL_REFERENCE;
-    desc.storage = VOX_STORAGE_DENSE;
+    desc.reference_flags = VOX_REFERENCE_DENSE;
     const vox_suggestion free_choice = suggest_ok(&desc, p.meshes, 2);
     ck_assert_double_eq(free_choice.budget_cell_size, 0);
     desc.byte_budget = 4 * 100; /* a hundred cells */
@@ -148,7 +148,7 @@ END_TEST
 START_TEST(the_grid_suggests_by_its_engine) {
     pair p = make_pair(0.5f);
     vox_grid_desc grid_desc = vox_default_grid_desc();
-    grid_desc.engine = _i ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
+    use_engine(&grid_desc, _i ? ENGINE_FAST : ENGINE_REFERENCE);
     vox_suggestion found, given;
     found.struct_size = given.struct_size = sizeof found;
     vox_grid* grid = grid_of(&grid_desc);
@@ -316,7 +316,7 @@ END_TEST
 START_TEST(cut_bodies_are_what_is_left_of_them) {
     pair p = make_pair(0.5f);
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = _i ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
+    use_engine(&desc, _i ? ENGINE_FAST : ENGINE_REFERENCE);
     vox_body meshes[2];
     vox_suggestion whole, part;
     whole.struct_size = part.struct_size = sizeof whole;
@@ -355,18 +355,17 @@ static void remember(vox_log_level level, const char* text, void* user) {
 START_TEST(several_cell_sizes_where_they_pay) {
     body boxes[2] = {make_box(10, 1, 0, 0, 0), make_box(16, 0.05f, 4.2f, 4.3f, 4.1f)};
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = VOX_ENGINE_REFERENCE;
-    desc.storage = _i ? VOX_STORAGE_DENSE : VOX_STORAGE_HASHED;
+    desc.reference = reference_with(_i ? VOX_REFERENCE_DENSE : 0u);
     char log[4096] = "";
-    desc.log.write = remember;
-    desc.log.user = log;
+    const vox_log log_lines = {remember, log};
+    desc.log = &log_lines;
     vox_grid *several = NULL, *one = NULL;
     ck_ok(vox_grid_create(&desc, &several));
     vox_mesh_desc meshes[2];
     for (int b = 0; b < 2; ++b) meshes[b] = body_desc(&boxes[b]);
     vox_suggest_desc suggest = vox_default_suggest_desc();
     suggest.model = VOX_COST_MODEL_REFERENCE;
-    suggest.storage = desc.storage;
+    suggest.reference_flags = desc.reference->flags;
     const vox_suggestion found = suggest_ok(&suggest, meshes, 2);
     ck_assert_uint_ge(found.level_count, 2);
     ck_assert_double_gt(found.uniform_loss, 0.2);
@@ -412,17 +411,15 @@ START_TEST(an_outlier_does_not_explode_the_grid) {
     pair p = make_pair(0.5f);
     p.boxes[0].positions[0] = -outlier_reach[_i % 2]; /* a corner: of few tetrahedra */
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = storage == 2 ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
-    desc.storage = storage == 1 ? VOX_STORAGE_DENSE : VOX_STORAGE_AUTO;
+    desc.reference = storage == 2 ? NULL : reference_with(storage == 1 ? VOX_REFERENCE_DENSE : 0u);
     desc.byte_budget = 16 << 20;
     vox_grid *chosen = NULL, *fixed = NULL;
     ck_ok(vox_grid_create(&desc, &chosen));
-    desc.engine = VOX_ENGINE_REFERENCE;
-    desc.storage = VOX_STORAGE_HASHED;
+    use_engine(&desc, ENGINE_REFERENCE);
     desc.cell_size = 0.7;
     ck_ok(vox_grid_create(&desc, &fixed));
     for (int b = 0; b < 2; ++b) {
-        p.meshes[b].flags = VOX_MESH_SELF_COLLISION;
+        p.meshes[b].filter.flags = VOX_FILTER_SELF_COLLISION;
         vox_body mesh = insert_mesh(chosen, &p.meshes[b]);
         ck_ok(vox_mesh_insert(fixed, &p.meshes[b], &mesh));
     }
@@ -454,7 +451,7 @@ static uint64_t changes_of(const vox_grid* grid) { return counters_of(grid).cell
 START_TEST(the_grid_follows_its_bodies) {
     pair p = make_pair(0.5f);
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = VOX_ENGINE_REFERENCE;
+    use_engine(&desc, ENGINE_REFERENCE);
     vox_grid *grid = NULL, *fixed = NULL;
     ck_ok(vox_grid_create(&desc, &grid));
     desc.cell_size = 0.7;
@@ -514,8 +511,8 @@ START_TEST(weights_are_plain_numbers) {
     ck_ok(vox_cost_set_weights(&saved));
     ck_assert_double_gt(suggest_ok(&desc, p.meshes, 2).cell_size, 1.2 * before);
 
-    saved.fast_visit_row = 0;
-    ck_fails(vox_cost_set_weights(&saved), VOX_ERROR_INVALID_ARGUMENT, "fast_visit_row is 0");
+    saved.fast_visit_row = -1;
+    ck_fails(vox_cost_set_weights(&saved), VOX_ERROR_INVALID_ARGUMENT, "fast_visit_row is -1");
     saved.fast_visit_row = NAN;
     ck_fails(vox_cost_set_weights(&saved), VOX_ERROR_INVALID_ARGUMENT, "fast_visit_row is");
     /* A program with an older struct: the rest is as shipped. */

@@ -166,7 +166,7 @@ START_TEST(memory_is_the_callers) {
     const vox_mesh_desc mesh = body_desc(&box);
     uint64_t calls = 0;
     for (uint64_t fail_at = 0; fail_at <= calls; fail_at += 1 + fail_at / 8) {
-        ledger book = {0, 0, 0, 0, 0};
+        ledger book = {0};
         book.fail_at = fail_at;
         vox_suggest_desc desc = surface_desc();
         desc.allocator = ledger_allocator(&book);

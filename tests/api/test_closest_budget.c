@@ -30,7 +30,7 @@ static void free_scene(scene* s) {
 static void insert_scene(vox_grid* grid, const scene* s) {
     vox_mesh_desc tangled = body_desc(&s->tangled), inner = body_desc(&s->inner),
                   outer = body_desc(&s->outer);
-    tangled.flags = VOX_MESH_SELF_COLLISION;
+    tangled.filter.flags = VOX_FILTER_SELF_COLLISION;
     insert_mesh(grid, &inner);
     insert_mesh(grid, &tangled);
     insert_mesh(grid, &outer);
@@ -72,8 +72,8 @@ START_TEST(the_first_ones_in_order) {
     vox_grid_desc desc = engine_desc();
     ck_assert_uint_eq(desc.closest_budget, 0);
     messages log = {0, ""};
-    desc.log.write = write_message;
-    desc.log.user = &log;
+    const vox_log log_lines = {write_message, &log};
+    desc.log = &log_lines;
     vox_grid* unlimited = grid_of(&desc);
     insert_scene(unlimited, &s);
     ck_ok(vox_grid_step(unlimited));
@@ -173,7 +173,7 @@ END_TEST
 START_TEST(memory_is_steady) {
     scene s = make_scene();
     for (uint32_t workers = 1; workers <= 4; workers += 3) {
-        ledger l = {0, 0, 0, 0, 0};
+        ledger l = {0};
         vox_grid_desc desc = engine_desc();
         desc.allocator = ledger_allocator(&l);
         desc.worker_count = workers;

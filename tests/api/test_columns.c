@@ -106,7 +106,7 @@ static scene new_scene(const layout* l, uint32_t mesh_flags) {
         s.arrays[b] = lay_out(l, box->positions, box->vertex_count);
         vox_mesh_desc usual = laid_out_desc(box, &s.packed_arrays[b]);
         vox_mesh_desc desc = laid_out_desc(box, &s.arrays[b]);
-        if (b == 2) usual.flags = desc.flags = VOX_MESH_SELF_COLLISION;
+        if (b == 2) usual.filter.flags = desc.filter.flags = VOX_FILTER_SELF_COLLISION;
         desc.flags |= mesh_flags;
         s.packed_ids[b] = insert_mesh(s.packed, &usual);
         s.ids[b] = insert_mesh(s.grid, &desc);
@@ -195,7 +195,7 @@ START_TEST(same_as_packed) {
         step_both(&s);
         if (step % 3 == 0) same_answers(&s);
     }
-    ck_assert_uint_eq(counters_of(s.grid).moved_meshes, suite_engine == VOX_ENGINE_FAST ? 0 : most);
+    ck_assert_uint_eq(counters_of(s.grid).moved_meshes, suite_engine == ENGINE_FAST ? 0 : most);
     free_scene(&s);
 }
 END_TEST
@@ -244,14 +244,14 @@ START_TEST(rest_poses_and_growth) {
         body rest = make_box(4, 0.37f, 1.8f, 0.2f, 0.14f);
         laid_out packed_rest = pack(l->format, rest.positions, rest.vertex_count);
         laid_out laid_rest = lay_out(l, rest.positions, rest.vertex_count);
-        vox_filter filter = vox_default_filter();
-        filter.self_collision = 1;
+        vox_filter filter = plain_filter();
+        filter.flags = VOX_FILTER_SELF_COLLISION;
         filter.self_rest_distance = 1;
         vox_mesh_desc usual = laid_out_desc(&s.bodies[2], &s.packed_arrays[2]);
         vox_mesh_desc desc = laid_out_desc(&s.bodies[2], &s.arrays[2]);
         usual.rest_positions = positions_at(&packed_rest, rest.vertex_count);
         desc.rest_positions = positions_at(&laid_rest, rest.vertex_count);
-        usual.filter = desc.filter = &filter;
+        usual.filter = desc.filter = filter;
         usual.flags = desc.flags = grows_own ? VOX_MESH_COPY_POSITIONS : 0;
         ck_ok(vox_mesh_set_topology(s.packed, s.packed_ids[2], &usual));
         ck_ok(vox_mesh_set_topology(s.grid, s.ids[2], &desc));

@@ -148,7 +148,7 @@ START_TEST(self_contact) {
     scene without = new_scene(&desc, NULL, 0);
     ck_assert_uint_eq(stepped(without.grid).count, 0);
     vox_grid_destroy(without.grid);
-    desc.flags = VOX_MESH_SELF_COLLISION;
+    desc.filter.flags = VOX_FILTER_SELF_COLLISION;
     scene s = new_scene(&desc, NULL, 0);
     vox_contact_view view = stepped(s.grid);
     ck_assert_uint_eq(view.count, 1);
@@ -165,7 +165,7 @@ END_TEST
 START_TEST(both_directions_in_canonical_order) {
     body box = make_box(3, 0.25f, 0, 0, 0), other = make_box(3, 0.25f, 0.4f, 0.3f, 0.2f);
     vox_mesh_desc a = body_desc(&box), b = body_desc(&other);
-    a.flags = b.flags = VOX_MESH_SELF_COLLISION;
+    a.flags = b.filter.flags = VOX_FILTER_SELF_COLLISION;
     scene s = new_scene(&a, &b, 0);
     vox_contact_view view = stepped(s.grid);
     uint64_t from_a = 0;
@@ -204,34 +204,36 @@ START_TEST(settings_do_not_change_contacts) {
     uint64_t expected = 0, count = 0;
     const double sizes[] = {0, 0.05, 0.1, 0.25, 0.5, 2.0, 1e-6, 1e-300, 1e6, 1e300};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; ++i)
-        for (int storage = VOX_STORAGE_AUTO; storage <= VOX_STORAGE_DENSE; ++storage)
-            for (int hash = VOX_HASH_MIXED; hash <= VOX_HASH_PAPER; ++hash)
-                for (int world = 0; world < 2; ++world) {
-                    vox_grid_desc desc = vox_default_grid_desc();
-                    if (storage == VOX_STORAGE_DENSE && sizes[i] != 0 && sizes[i] < 0.01)
-                        continue; /* see below */
-                    desc.engine = suite_engine;
-                    desc.cell_size = sizes[i];
-                    desc.storage = (vox_storage)storage;
-                    desc.hash = (vox_hash)hash;
-                    desc.hash_table_size = world ? 7 : 0; /* a table so small that every list is long */
-                    for (int axis = 0; axis < 3 && world; ++axis)
-                        desc.world_min[axis] = -0.125, desc.world_max[axis] = 0.25; /* most lies outside */
-                    vox_grid* grid = grid_of(&desc);
-                    vox_body mesh = insert_mesh(grid, &a);
-                    ck_ok(vox_mesh_insert(grid, &b, &mesh));
-                    const vox_contact_view view = stepped(grid);
-                    if (!expected) expected = hash_of(grid), count = view.count;
-                    ck_assert_uint_gt(view.count, 0);
-                    ck_assert_uint_eq(view.count, count);
-                    ck_assert_uint_eq(hash_of(grid), expected);
-                    vox_grid_destroy(grid);
-                }
+        for (uint32_t flags = 0; flags < 4; ++flags)
+            for (int world = 0; world < 2; ++world) {
+                vox_grid_desc desc = vox_default_grid_desc();
+                vox_reference_desc reference = vox_default_reference_desc();
+                if ((flags & VOX_REFERENCE_DENSE) && sizes[i] != 0 && sizes[i] < 0.01)
+                    continue; /* see below */
+                desc.cell_size = sizes[i];
+                reference.flags = flags;
+                reference.hash_table_size = world ? 7 : 0; /* a table so small that every list is long */
+                for (int axis = 0; axis < 3 && world; ++axis)
+                    reference.world_min[axis] = -0.125,
+                    reference.world_max[axis] = 0.25; /* most lies outside */
+                if (suite_engine == ENGINE_REFERENCE)
+                    desc.reference = &reference;
+                else if (flags || world)
+                    continue;
+                vox_grid* grid = grid_of(&desc);
+                vox_body mesh = insert_mesh(grid, &a);
+                ck_ok(vox_mesh_insert(grid, &b, &mesh));
+                const vox_contact_view view = stepped(grid);
+                if (!expected) expected = hash_of(grid), count = view.count;
+                ck_assert_uint_gt(view.count, 0);
+                ck_assert_uint_eq(view.count, count);
+                ck_assert_uint_eq(hash_of(grid), expected);
+                vox_grid_destroy(grid);
+            }
     /* Dense cells that no memory holds: an error with numbers, and the grid stays usable. */
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = VOX_ENGINE_REFERENCE;
+    desc.reference = reference_with(VOX_REFERENCE_DENSE);
     desc.cell_size = 1e-6;
-    desc.storage = VOX_STORAGE_DENSE;
     vox_grid* grid = grid_of(&desc);
     vox_body mesh = insert_mesh(grid, &a);
     ck_ok(vox_mesh_insert(grid, &b, &mesh));
@@ -398,17 +400,16 @@ START_TEST(sliver_a_thousand_edges_long) {
     const float sliver[12] = {0, 0, 0, 125, 125, 125, 125.1f, 125, 125, 125, 125.1f, 125};
     const vox_mesh_desc a = body_desc(&box), b = vox_mesh_desc_floats(sliver, 4, unit_tet, 1);
     uint64_t expected = 0;
-    for (int storage = VOX_STORAGE_HASHED; storage <= VOX_STORAGE_DENSE; ++storage) {
+    for (int dense = 0; dense < (suite_engine == ENGINE_REFERENCE ? 2 : 1); ++dense) {
         scene s = {NULL, 0, 0};
         vox_grid_desc desc = engine_desc();
         desc.cell_size = 0.125;
-        desc.storage = (vox_storage)storage;
+        if (dense) desc.reference = reference_with(VOX_REFERENCE_DENSE);
         desc.byte_budget = 8u << 20;
         ck_ok(vox_grid_create(&desc, &s.grid));
         ck_ok(vox_mesh_insert(s.grid, &a, &s.a));
         ck_ok(vox_mesh_insert(s.grid, &b, &s.b));
-        if (storage == VOX_STORAGE_DENSE &&
-            suite_engine == VOX_ENGINE_REFERENCE) { /* 1000 cells an axis do not fit the budget */
+        if (dense) { /* 1000 cells an axis do not fit the budget */
             ck_fails(vox_grid_step(s.grid), VOX_ERROR_BUDGET, "cells");
             ck_ok(vox_grid_set_cell_size(s.grid, 4));
         }
@@ -475,7 +476,7 @@ START_TEST(flat_and_repeated_tets_hold_nothing) {
     ck_assert_uint_eq(stepped(s.grid).count, 0);
     vox_counters counters = counters_of(s.grid);
     /* The fast engine meets the flat one only: the point is not in the other's box. */
-    ck_assert_uint_eq(counters.skipped_degenerate, suite_engine == VOX_ENGINE_REFERENCE ? 2 : 1);
+    ck_assert_uint_eq(counters.skipped_degenerate, suite_engine == ENGINE_REFERENCE ? 2 : 1);
     vox_grid_destroy(s.grid);
 }
 END_TEST
@@ -520,7 +521,7 @@ START_TEST(counters_and_profile) {
     ck_assert_uint_le(c.entries, c.vertices);
     ck_assert_uint_ge(c.fullest_cell, (c.entries + c.cells - 1) / c.cells);
     ck_assert_uint_gt(c.visited_entries, 0);
-    if (suite_engine == VOX_ENGINE_REFERENCE) ck_assert_uint_ge(c.visited_entries, c.candidates);
+    if (suite_engine == ENGINE_REFERENCE) ck_assert_uint_ge(c.visited_entries, c.candidates);
     ck_assert_uint_ge(c.candidates, c.contacts);
     ck_assert_uint_gt(c.bytes, 0);
     ck_assert_uint_ge(c.peak_bytes, c.bytes);
@@ -536,14 +537,14 @@ END_TEST
 START_TEST(stage_times_add_up) {
     body box = make_box(6, 0.25f, 0, 0, 0), other = make_box(6, 0.25f, 0.4f, 0.3f, 0.2f);
     vox_mesh_desc a = body_desc(&box), b = body_desc(&other);
-    a.flags |= VOX_MESH_SELF_COLLISION;
+    a.filter.flags |= VOX_FILTER_SELF_COLLISION;
     scene s = new_scene(&a, &b, 0.25);
     (void)stepped(s.grid);
     vox_profile p = {.struct_size = sizeof p};
     ck_ok(vox_grid_profile(s.grid, &p));
     const uint64_t stages =
         p.stream_ns + p.winding_ns + p.broad_phase_ns + p.windows_ns + p.lookup_ns + p.decide_ns;
-    if (suite_engine == VOX_ENGINE_REFERENCE) {
+    if (suite_engine == ENGINE_REFERENCE) {
         ck_assert_uint_eq(stages, 0);
         ck_assert_uint_gt(p.bin_ns, 0);
     } else {

@@ -28,7 +28,7 @@ static void insert(scene* s, int i) {
         desc.positions.data = s->strided[i];
         desc.positions.byte_stride = 4 * sizeof(float);
     }
-    if (s->self[i]) desc.flags = VOX_MESH_SELF_COLLISION;
+    if (s->self[i]) desc.filter.flags = VOX_FILTER_SELF_COLLISION;
     ck_ok(vox_mesh_insert(s->grid, &desc, &s->ids[i]));
 }
 
@@ -95,7 +95,7 @@ static vox_counters check_step(scene* s) {
                 next = i;
         if (next < 0) break;
         vox_mesh_desc desc = body_desc(&s->bodies[next]);
-        if (s->self[next]) desc.flags = VOX_MESH_SELF_COLLISION;
+        if (s->self[next]) desc.filter.flags = VOX_FILTER_SELF_COLLISION;
         insert_mesh(grid, &desc);
         id_of[count++] = s->ids[next];
     }
@@ -414,7 +414,7 @@ END_TEST
 
 START_TEST(reference_engine_rests_never) {
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = VOX_ENGINE_REFERENCE;
+    use_engine(&desc, ENGINE_REFERENCE);
     scene s;
     random_state = 9;
     make_scene(&s, 4, &desc);

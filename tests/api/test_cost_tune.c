@@ -159,19 +159,6 @@ static void tune_fails(const vox_tune_desc* desc, vox_result code, const char* w
     ck_assert_int_eq(machine.calls, calls);
 }
 
-START_TEST(tune_defaults) {
-    const vox_tune_desc desc = vox_default_tune_desc();
-    ck_assert_uint_eq(desc.struct_size, sizeof desc);
-    ck_assert_uint_eq(desc.most_runs, 7);
-    ck_assert_double_eq(desc.min, 0);
-    ck_assert_double_eq(desc.max, 0);
-    ck_assert_double_eq(desc.first, 0);
-    ck_assert_double_eq(desc.zone_loss, 0.05);
-    ck_assert_double_eq(desc.wanted_loss, 0.02);
-    ck_fails(vox_tune_desc_init(NULL, sizeof desc), VOX_ERROR_INVALID_ARGUMENT, "vox_tune_desc is null");
-}
-END_TEST
-
 /* By the description, by a first size alone, and twice the same. */
 START_TEST(tune) {
     struct machine machine = {0, 0, 0, 0};
@@ -295,7 +282,6 @@ END_TEST
 
 SUITE(cost_tune) {
     TCase* tests = add_case(suite, "tune");
-    tcase_add_each(tests, fit, bad_timings, tune_defaults, tune, tune_that_stops_or_fails,
-                   bad_tune_arguments);
+    tcase_add_each(tests, fit, bad_timings, tune, tune_that_stops_or_fails, bad_tune_arguments);
     tcase_add_loop_test(tests, bad_desc, 0, sizeof bad_descs / sizeof bad_descs[0]);
 }

@@ -215,7 +215,7 @@ static void set_topology(cut_scene* s, cut_mesh* m) {
 }
 
 static void set_filter(cut_scene* s, cut_mesh* m) {
-    m->filter.self_collision = below(s, 4) != 0;
+    m->filter.flags = below(s, 4) != 0 ? VOX_FILTER_SELF_COLLISION : 0u;
     m->filter.self_rings = below(s, 4) ? 0 : 1 + below(s, 2);
     m->filter.self_rest_distance = below(s, 3) ? 0 : 0.25;
     ck_ok(vox_body_set_filter(s->grid, m->id, &m->filter));
@@ -324,7 +324,7 @@ static void run_edits(uint64_t seed, uint32_t edits) {
     memset(&s, 0, sizeof s);
     s.random = seed;
     s.count = most_cut_meshes;
-    fresh.engine = seed % 2 ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
+    use_engine(&fresh, seed % 2 ? ENGINE_FAST : ENGINE_REFERENCE);
     ck_ok(vox_grid_create(&desc, &s.grid));
     for (uint32_t i = 0; i < s.count; ++i) {
         cut_mesh* m = &s.meshes[i];
@@ -334,8 +334,8 @@ static void run_edits(uint64_t seed, uint32_t edits) {
         m->doubles = i % 2 == 1;
         m->owned = i / 2 == 1;
         m->user_data = 100 + i;
-        m->filter = vox_default_filter();
-        m->filter.self_collision = i != 3;
+        m->filter = plain_filter();
+        m->filter.flags = i != 3 ? VOX_FILTER_SELF_COLLISION : 0u;
         m->filter.self_rings = i == 1;
         m->filter.self_rest_distance = i == 2 ? 0.125 : 0;
         insert_model(&s, m);

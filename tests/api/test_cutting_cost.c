@@ -55,11 +55,11 @@ static vox_result run_edit(vox_grid* grid, vox_body mesh, const body* box, const
 /* Two bodies that overlap; the last vertex of the first is of no tet. */
 static void insert_scene(vox_grid* grid, const body* box, const body* other, vox_body* mesh) {
     vox_mesh_desc a = body_desc(box), b = body_desc(other);
-    vox_filter filter = vox_default_filter();
-    filter.self_collision = 1;
+    vox_filter filter = plain_filter();
+    filter.flags = VOX_FILTER_SELF_COLLISION;
     filter.self_rings = 1;
     filter.self_rest_distance = 0.01;
-    a.filter = &filter;
+    a.filter = filter;
     ck_ok(vox_mesh_insert(grid, &a, mesh));
     insert_mesh(grid, &b);
 }
@@ -124,11 +124,11 @@ START_TEST(edits_cost_what_they_change) {
     body box = make_box(20, 0.25f, 0, 0, 0);
     vox_mesh_desc desc = body_desc(&box);
     uint64_t random = 5;
-    vox_filter filter = vox_default_filter();
+    vox_filter filter = plain_filter();
     vox_grid* grid = make_grid(&l);
-    filter.self_collision = 1;
+    filter.flags = VOX_FILTER_SELF_COLLISION;
     filter.self_rings = 1;
-    desc.filter = &filter;
+    desc.filter = filter;
     desc.flags = VOX_MESH_COPY_POSITIONS;
     vox_body mesh = insert_mesh(grid, &desc);
     ck_ok(vox_grid_step(grid));
@@ -149,7 +149,7 @@ START_TEST(edits_cost_what_they_change) {
     /* Arrays that double once or twice, and 1000 edits of a few kilobytes. */
     ck_assert_msg(l.taken < 20 * whole, "%llu bytes, the body has %llu", (unsigned long long)l.taken,
                   (unsigned long long)whole);
-    filter.self_collision = 0; /* contacts take memory, too */
+    filter.flags = 0; /* contacts take memory, too */
     ck_ok(vox_body_set_filter(grid, mesh, &filter));
     l.taken = 0;
     ck_ok(vox_grid_step(grid)); /* to which nothing was left but buffers of more vertices */
@@ -169,7 +169,7 @@ START_TEST(compact_body) {
     uint8_t* off = (uint8_t*)calloc(box.tet_count, 1);
     uint32_t* kept = (uint32_t*)malloc(4 * sizeof(uint32_t) * box.tet_count);
     vox_grid* grid = make_grid(NULL);
-    desc.flags = VOX_MESH_SELF_COLLISION;
+    desc.filter.flags = VOX_FILTER_SELF_COLLISION;
     vox_body mesh = insert_mesh(grid, &desc);
     ck_ok(vox_grid_step(grid));
     for (int round = 0; round < 12; ++round) {
@@ -190,8 +190,8 @@ START_TEST(compact_body) {
             if (!off[t]) memcpy(kept + 4 * count++, box.tets + 4 * t, 4 * sizeof(uint32_t));
         vox_mesh_desc rest = vox_mesh_desc_floats(box.positions, box.vertex_count, kept, count);
         vox_grid_desc other_desc = vox_default_grid_desc();
-        rest.flags = VOX_MESH_SELF_COLLISION;
-        other_desc.engine = round % 2 ? VOX_ENGINE_REFERENCE : VOX_ENGINE_FAST;
+        rest.filter.flags = VOX_FILTER_SELF_COLLISION;
+        use_engine(&other_desc, round % 2 ? ENGINE_REFERENCE : ENGINE_FAST);
         vox_grid* other = grid_of(&other_desc);
         insert_mesh(other, &rest);
         ck_ok(vox_grid_step(other));
@@ -225,7 +225,8 @@ START_TEST(two_tets_on_one_side) {
     float positions[15];
     uint32_t first = 0, first_tet = 0, named[8];
     vox_grid* grid = make_grid(NULL);
-    desc.flags = VOX_MESH_SELF_COLLISION | VOX_MESH_COPY_POSITIONS;
+    desc.flags = VOX_MESH_COPY_POSITIONS;
+    desc.filter.flags = VOX_FILTER_SELF_COLLISION;
     vox_body mesh = insert_mesh(grid, &desc);
     ck_ok(vox_grid_step(grid));
     memcpy(positions, unit_tet_positions, 9 * sizeof(float));

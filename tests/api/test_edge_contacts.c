@@ -93,7 +93,7 @@ START_TEST(crossed_bars) {
         ck_ok(vox_grid_step(grid));
         ck_assert_uint_eq(edge_hash_of(grid), hash);
         ck_assert_uint_eq(events_of(grid).persisted, 1);
-        if (suite_engine == VOX_ENGINE_FAST)
+        if (suite_engine == ENGINE_FAST)
             ck_assert_uint_eq(counters_of(grid).carried_edge_contacts, edges_of(grid).count);
         move_body(&above, 0, 0, overlap);
         ck_ok(vox_grid_step(grid));
@@ -286,7 +286,7 @@ END_TEST
 START_TEST(steady_state_allocates_nothing) {
     const uint32_t workers[] = {1, 3};
     for (int w = 0; w < 2; ++w) {
-        if (suite_engine == VOX_ENGINE_REFERENCE && w > 0) break;
+        if (suite_engine == ENGINE_REFERENCE && w > 0) break;
         ledger l = {0};
         vox_grid_desc desc = engine_desc();
         desc.allocator = ledger_allocator(&l);

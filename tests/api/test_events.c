@@ -247,8 +247,8 @@ END_TEST
 /* Disabled, filtered, excepted: each ends the pair, and undoing it begins it again. */
 START_TEST(filters_end_and_begin) {
     meeting m = new_meeting();
-    vox_filter none = vox_default_filter(), all = none;
-    none.mask = 0;
+    vox_filter none = plain_filter(), all = none;
+    none.world = 1;
     ck_ok(vox_grid_step(m.grid));
     for (int way = 0; way < 3; ++way)
         for (uint32_t on = 0; on < 2; ++on) {
@@ -449,7 +449,7 @@ typedef struct actor {
 static void act(vox_grid* grid, actor* actors, uint64_t* random) {
     actor* one = &actors[random_below(random, most_meshes)];
     actor* other = &actors[random_below(random, most_meshes)];
-    vox_filter filter = vox_default_filter();
+    vox_filter filter = plain_filter();
     uint32_t cubes;
     float edge, at[3];
     switch (random_below(random, 12)) {
@@ -477,7 +477,8 @@ static void act(vox_grid* grid, actor* actors, uint64_t* random) {
         filter.group = (int32_t)random_below(random, 4) - 2;
         filter.category = 1u << random_below(random, 3);
         filter.mask = random_below(random, 3) ? UINT64_MAX : random_below(random, 8);
-        filter.self_collision = random_below(random, 2);
+        filter.world = random_below(random, 6) == 0;
+        filter.flags = random_below(random, 2) ? VOX_FILTER_SELF_COLLISION : 0u;
         filter.self_rings = random_below(random, 3);
         ck_ok(vox_body_set_filter(grid, one->mesh, &filter));
         break;

@@ -30,7 +30,7 @@ static void insert_bodies(scene* s, const vox_grid_desc* desc) {
     s->grid = grid_of(desc);
     for (int b = 0; b < most; ++b) {
         vox_mesh_desc mesh = body_desc(&s->bodies[b]);
-        if (b == 4) mesh.flags = VOX_MESH_SELF_COLLISION;
+        if (b == 4) mesh.filter.flags = VOX_FILTER_SELF_COLLISION;
         ck_ok(vox_mesh_insert(s->grid, &mesh, &s->ids[b]));
     }
 }
@@ -286,20 +286,12 @@ END_TEST
 
 /* ---- penetrations by pair ---- */
 
-typedef struct rule {
-    uint64_t category, mask;
-} rule;
-
-static void set_rule(vox_grid* grid, vox_body mesh, rule r) {
-    vox_filter filter = vox_default_filter();
-    ck_ok(vox_mesh_filter(grid, mesh, &filter));
-    filter.category = r.category;
-    filter.group = 1; /* so that categories do not decide about contacts */
-    filter.penetration_mask = r.mask;
+static void set_sensor(vox_grid* grid, vox_body mesh, uint32_t sensor) {
+    vox_filter filter = plain_filter();
+    ck_ok(get_filter(grid, mesh, &filter));
+    filter.flags = (filter.flags & VOX_FILTER_SELF_COLLISION) | (sensor ? VOX_FILTER_SENSOR : 0u);
     ck_ok(vox_body_set_filter(grid, mesh, &filter));
 }
-
-static int accepts(rule a, rule b) { return a.mask == UINT64_MAX || (a.mask & b.category) != 0; }
 
 static int body_of(const scene* s, vox_body mesh) {
     for (int b = 0; b < most; ++b)
@@ -308,15 +300,14 @@ static int body_of(const scene* s, vox_body mesh) {
     return -1;
 }
 
-/* The penetrations of `s` are those of `all`, which has them for every pair, that the rules leave. */
-static uint64_t check_rules(const scene* s, const vox_grid* all, const rule* rules) {
+/* The penetrations of `s` are those of `all`, which has them for every pair, without those of sensors. */
+static uint64_t check_sensors(const scene* s, const vox_grid* all, const uint32_t* sensors) {
     const vox_penetration_view found = penetrations_of(s->grid), every = penetrations_of(all);
     const vox_depth_view depths = depths_of(s->grid), every_depth = depths_of(all);
     uint64_t n = 0;
     for (uint64_t i = 0; i < every.count; ++i) {
         const vox_penetration* p = &every.data[i];
-        const rule a = rules[body_of(s, p->body_a)], b = rules[body_of(s, p->body_b)];
-        if (!accepts(a, b) || !accepts(b, a)) continue;
+        if (sensors[body_of(s, p->body_a)] || sensors[body_of(s, p->body_b)]) continue;
         ck_assert_uint_lt(n, found.count);
         ck_assert_mem_eq(&found.data[n], p, sizeof *p);
         ck_assert_mem_eq(&depths.data[n], &every_depth.data[i], sizeof *depths.data);
@@ -332,30 +323,23 @@ static uint64_t check_rules(const scene* s, const vox_grid* all, const rule* rul
     ck_ok(vox_grid_readings(s->grid, &readings));
     for (uint64_t i = 0; i < readings.count; ++i) {
         const vox_contact* c = &contacts.data[i];
-        const rule a = rules[body_of(s, c->body_a)], b = rules[body_of(s, c->body_b)];
-        ck_assert_int_eq((readings.data[i].known & VOX_READING_DEPTH) != 0, accepts(a, b) && accepts(b, a));
+        const uint32_t sensor = sensors[body_of(s, c->body_a)] || sensors[body_of(s, c->body_b)];
+        ck_assert_uint_eq((readings.data[i].known & VOX_READING_DEPTH) == 0, sensor);
     }
     return n;
 }
 
-START_TEST(rules_of_pairs) {
-    static const rule choices[] = {{1, UINT64_MAX}, {1, 0}, {1, 1},          {2, 1}, {2, UINT64_MAX},
-                                   {1, 2},          {0, 3}, {0, UINT64_MAX}, {6, 5}};
+START_TEST(sensors_have_none) {
     uint64_t random = 3, some = 0, left_out = 0;
     scene s, all;
     make_scene(&s, VOX_GRID_PENETRATIONS);
     make_scene(&all, VOX_GRID_PENETRATIONS);
+    uint32_t sensors[most] = {0};
     for (int step = 0; step < 60; ++step) {
-        rule rules[most];
         for (int b = 0; b < most; ++b) {
-            rules[b] = step < 9 ? choices[step] : choices[random_below(&random, 9)];
-            const rule plain = {1, UINT64_MAX};
             /* Some keep their filters, some move: what is carried over is as if it was found. */
-            if (step < 9 || random_below(&random, 2)) set_rule(s.grid, s.ids[b], rules[b]);
-            vox_filter filter = vox_default_filter();
-            ck_ok(vox_mesh_filter(s.grid, s.ids[b], &filter));
-            rules[b] = (rule){filter.category, filter.penetration_mask};
-            set_rule(all.grid, all.ids[b], plain);
+            if (random_below(&random, 2))
+                set_sensor(s.grid, s.ids[b], sensors[b] = random_below(&random, 3) == 0);
             if (random_below(&random, 3)) continue;
             const float by = random_float(&random, -0.05f, 0.05f);
             for (uint32_t v = 0; v < s.bodies[b].vertex_count; ++v) {
@@ -366,14 +350,14 @@ START_TEST(rules_of_pairs) {
         for (int again = 0; again < 2; ++again) {
             ck_ok(vox_grid_step(s.grid));
             ck_ok(vox_grid_step(all.grid));
-            const uint64_t n = check_rules(&s, all.grid, rules);
+            const uint64_t n = check_sensors(&s, all.grid, sensors);
             some += n;
             left_out += penetrations_of(all.grid).count - n;
         }
     }
     ck_assert_uint_gt(some, 3000);
     ck_assert_uint_gt(left_out, 3000);
-    if (suite_engine == VOX_ENGINE_FAST) ck_assert_uint_gt(counters_of(s.grid).carried_contacts, 0);
+    if (suite_engine == ENGINE_FAST) ck_assert_uint_gt(counters_of(s.grid).carried_contacts, 0);
     free_scene(&s);
     free_scene(&all);
 }
@@ -383,21 +367,20 @@ END_TEST
 START_TEST(memory_of_a_mesh) {
     scene s;
     uint64_t none[3];
-    const rule off = {1, 0};
     make_bodies(&s);
     for (int how = 0; how < 3; ++how) { /* no flag, at insertion, later */
         vox_grid_desc desc = engine_desc();
         if (how == 0) desc.flags = 0;
         vox_grid* grid = grid_of(&desc);
-        vox_filter filter = vox_default_filter();
-        if (how == 1) filter.penetration_mask = 0;
+        vox_filter filter = plain_filter();
+        if (how == 1) filter.flags |= VOX_FILTER_SENSOR;
         for (int b = 0; b < most; ++b) {
             vox_mesh_desc mesh = body_desc(&s.bodies[b]);
-            mesh.filter = &filter;
+            mesh.filter = filter;
             ck_ok(vox_mesh_insert(grid, &mesh, &s.ids[b]));
             const uint64_t with = counters_of(grid).bytes;
             if (how == 2) {
-                set_rule(grid, s.ids[b], off);
+                set_sensor(grid, s.ids[b], 1);
                 ck_assert_uint_gt(with, counters_of(grid).bytes + 20 * s.bodies[b].tet_count);
             }
         }
@@ -425,11 +408,11 @@ START_TEST(filter_all_or_nothing) {
     scene s;
     make_bodies(&s);
     insert_bodies(&s, &desc);
-    vox_filter filter = vox_default_filter();
-    filter.penetration_mask = 0;
+    vox_filter filter = plain_filter();
+    filter.flags |= VOX_FILTER_SENSOR;
     ck_ok(vox_body_set_filter(s.grid, s.ids[0], &filter));
     uint64_t failures = 0;
-    filter = vox_default_filter();
+    filter = plain_filter();
     filter.self_rings = 2;
     for (;; ++failures) {
         const uint64_t bytes = l.bytes;
@@ -440,9 +423,9 @@ START_TEST(filter_all_or_nothing) {
         if (result == VOX_OK) break;
         ck_assert_int_eq(result, VOX_ERROR_OUT_OF_MEMORY);
         ck_assert_uint_eq(l.bytes, bytes);
-        vox_filter kept = vox_default_filter();
-        ck_ok(vox_mesh_filter(s.grid, s.ids[0], &kept));
-        ck_assert_uint_eq(kept.penetration_mask, 0);
+        vox_filter kept = plain_filter();
+        ck_ok(get_filter(s.grid, s.ids[0], &kept));
+        ck_assert_uint_eq(kept.flags, VOX_FILTER_SENSOR);
         ck_assert_uint_eq(kept.self_rings, 0);
     }
     ck_assert_uint_gt(failures, 10);
@@ -452,26 +435,10 @@ START_TEST(filter_all_or_nothing) {
 }
 END_TEST
 
-/* Programs from before the field was there. */
-START_TEST(older_filters) {
-    vox_filter filter;
-    ck_ok(vox_filter_init(&filter, (uint32_t)sizeof filter));
-    ck_assert_uint_eq(filter.penetration_mask, UINT64_MAX);
-    scene s;
-    make_scene(&s, VOX_GRID_PENETRATIONS);
-    filter.struct_size = (uint32_t)offsetof(vox_filter, penetration_mask);
-    filter.penetration_mask = 0;
-    for (int b = 0; b < most - 1; ++b) ck_ok(vox_body_set_filter(s.grid, s.ids[b], &filter));
-    ck_ok(vox_grid_step(s.grid));
-    check_penetrations(s.grid);
-    free_scene(&s);
-}
-END_TEST
-
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, arguments, on_later_is_on_from_the_start, edits_while_off, memory_comes_back,
-                   all_or_nothing, budget, contact_events, rules_of_pairs, memory_of_a_mesh,
-                   filter_all_or_nothing, older_filters);
+                   all_or_nothing, budget, contact_events, sensors_have_none, memory_of_a_mesh,
+                   filter_all_or_nothing);
 }
 
 SUITE(flags) { add_for_each_engine(suite, add_tests); }

@@ -128,10 +128,10 @@ static void insert_boxes(vox_grid* grid, const float_mode* mode) {
     for (int i = 0; i < 2; ++i) {
         vox_body mesh;
         vox_mesh_desc desc = body_desc(&boxes[i]);
-        vox_filter filter = vox_default_filter();
-        filter.self_collision = (uint32_t)i;
+        vox_filter filter = plain_filter();
+        filter.flags = (uint32_t)i ? VOX_FILTER_SELF_COLLISION : 0u;
         filter.self_rest_distance = 0.1;
-        desc.filter = &filter;
+        desc.filter = filter;
         ck_in_mode(mode, vox_mesh_insert(grid, &desc, &mesh));
         if (i == 0) ck_in_mode(mode, vox_body_set_transform(grid, mesh, turned));
     }
@@ -199,17 +199,13 @@ static record results(int scene, const float_mode* mode, uint32_t workers, callb
     set_float_mode(mode);
     c->state = float_state();
     set_float_mode(&float_modes[0]);
-    desc.allocator.allocate = noted_allocate;
-    desc.allocator.release = noted_release;
-    desc.allocator.user = c;
-    desc.log.write = noted_log;
-    desc.log.user = c;
+    const vox_allocator allocator = {noted_allocate, noted_release, c};
+    desc.allocator = &allocator;
+    const vox_log log = {noted_log, c};
+    desc.log = &log;
     desc.worker_count = workers;
-    if (workers > 1) {
-        desc.tasks.enqueue = noted_enqueue;
-        desc.tasks.finish = noted_finish;
-        desc.tasks.user = c;
-    }
+    const vox_task_system tasks = {noted_enqueue, noted_finish, c};
+    if (workers > 1) desc.tasks = &tasks;
     ck_in_mode(mode, vox_grid_create(&desc, &grid));
     scenes[scene](grid, mode);
     ck_in_mode(mode, vox_grid_step(grid));
@@ -255,8 +251,8 @@ static void check_scene(int scene, uint32_t workers) {
             ck_assert_msg(c.wrong[i] == 0, "scene %d, %s: %u of %u callbacks %d saw another environment",
                           scene, float_modes[m].name, c.wrong[i], c.calls[i], i);
         ck_assert_uint_gt(c.calls[in_allocator], 0);
-        if (suite_engine == VOX_ENGINE_REFERENCE) ck_assert_uint_gt(c.calls[in_log], 0); /* the cell size */
-        if (scene == scene_of_boxes && workers > 1 && suite_engine == VOX_ENGINE_FAST)
+        if (suite_engine == ENGINE_REFERENCE) ck_assert_uint_gt(c.calls[in_log], 0); /* the cell size */
+        if (scene == scene_of_boxes && workers > 1 && suite_engine == ENGINE_FAST)
             ck_assert_uint_gt(c.calls[in_finish], 0);
         free(found.bytes);
     }

@@ -70,7 +70,6 @@ START_TEST(defaults) {
     ck_assert_int_eq(grid.look, VOX_LOOK_BOX);
     ck_assert_int_eq(grid.known, VOX_KNOWN_GRID_ANY);
     ck_assert_ptr_null(grid.held);
-    ck_assert_double_eq(grid.zone_loss, 0.05);
     const vox_primitives primitives = vox_default_primitives();
     ck_assert_int_eq(primitives.type, VOX_PRIMITIVE_POINT);
     ck_assert_double_eq(primitives.radius, 0);
@@ -554,7 +553,8 @@ START_TEST(memory_is_the_callers) {
         fails(&grid, VOX_ERROR_OUT_OF_MEMORY, "out of memory");
         ck_assert_uint_eq(failed.bytes, 0);
     }
-    grid.allocator.release = NULL;
+    grid.allocator = ledger_allocator(&used);
+    used.allocator.release = NULL;
     fails(&grid, VOX_ERROR_INVALID_ARGUMENT, "grid.allocator has one of allocate and release");
 }
 END_TEST

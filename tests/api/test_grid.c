@@ -73,28 +73,25 @@ END_TEST
 /* ---- growable structs ---- */
 
 START_TEST(struct_sizes) {
-    /* A desc of an older program: fields beyond its size stay untouched, and keep their defaults when read.
-     */
+    /* A desc of an older program: fields beyond its size have their defaults. */
     unsigned char bytes[sizeof(vox_grid_desc) + 64];
     vox_grid_desc* desc = (vox_grid_desc*)(void*)bytes;
-    const uint32_t old = offsetof(vox_grid_desc, world_min);
+    const uint32_t old = offsetof(vox_grid_desc, margin);
     memset(bytes, 0xab, sizeof bytes);
-    ck_ok(vox_grid_desc_init(desc, old));
-    ck_assert_uint_eq(desc->struct_size, old);
-    ck_assert_double_eq(desc->cell_size, 0);
-    for (size_t i = old; i < sizeof bytes; ++i) ck_assert_uint_eq(bytes[i], 0xab);
+    const vox_grid_desc whole = vox_default_grid_desc();
+    memcpy(desc, &whole, old);
+    desc->struct_size = old;
     desc->cell_size = 0.25;
     double cell_size = 0;
-    vox_grid* grid = grid_of(desc); /* the 0xab world and allocator behind it are not read */
+    vox_grid* grid = grid_of(desc); /* the margin and the allocator behind it are not read */
     ck_ok(vox_grid_cell_size(grid, &cell_size));
     ck_assert_double_eq(cell_size, 0.25);
     vox_grid_destroy(grid);
 
-    /* A desc of a newer program: what this version does not know stays untouched. */
+    /* A desc of a newer program: what this version does not know is not read. */
     memset(bytes, 0xab, sizeof bytes);
-    ck_ok(vox_grid_desc_init(desc, sizeof bytes));
-    ck_assert_uint_eq(desc->struct_size, sizeof bytes);
-    for (size_t i = sizeof(vox_grid_desc); i < sizeof bytes; ++i) ck_assert_uint_eq(bytes[i], 0xab);
+    *desc = whole;
+    desc->struct_size = sizeof bytes;
     ck_ok(vox_grid_create(desc, &grid));
 
     /* The same for results. */
@@ -113,14 +110,10 @@ START_TEST(struct_sizes) {
 
     const uint32_t bad[] = {0, 3, 65537, 0xffffffff};
     for (int i = 0; i < 4; ++i) {
-        ck_fails(vox_grid_desc_init(desc, bad[i]), VOX_ERROR_INVALID_ARGUMENT, "struct_size");
-        vox_mesh_desc mesh;
-        ck_fails(vox_mesh_desc_init(&mesh, bad[i]), VOX_ERROR_INVALID_ARGUMENT, "struct_size");
-        vox_suggest_desc suggest;
-        ck_fails(vox_suggest_desc_init(&suggest, bad[i]), VOX_ERROR_INVALID_ARGUMENT, "struct_size");
+        vox_grid_desc odd = whole;
+        odd.struct_size = bad[i];
+        ck_fails(vox_grid_create(&odd, &grid), VOX_ERROR_INVALID_ARGUMENT, "struct_size");
     }
-    ck_fails(vox_grid_desc_init(NULL, sizeof *desc), VOX_ERROR_INVALID_ARGUMENT, "desc is null");
-    ck_fails(vox_mesh_desc_init(NULL, sizeof *desc), VOX_ERROR_INVALID_ARGUMENT, "desc is null");
 }
 END_TEST
 
@@ -131,27 +124,28 @@ START_TEST(grid_desc_fields) {
     vox_grid* grid = untouched;
 #define REFUSED(change, words)                                                                               \
     do {                                                                                                     \
+        vox_reference_desc reference = vox_default_reference_desc();                                         \
+        vox_allocator allocator = VOX_ZERO;                                                                  \
         vox_grid_desc desc = vox_default_grid_desc();                                                        \
+        desc.reference = &reference;                                                                         \
+        desc.allocator = &allocator;                                                                         \
         change;                                                                                              \
         ck_fails(vox_grid_create(&desc, &grid), VOX_ERROR_INVALID_ARGUMENT, words);                          \
         ck_assert_ptr_eq(grid, untouched);                                                                   \
     } while (0)
     REFUSED(desc.struct_size = 0, "struct_size is 0");
-    REFUSED(desc.engine = (vox_engine)9, "engine is 9");
-    REFUSED(desc.engine = (vox_engine)-1, "engine is -1");
-    REFUSED(desc.storage = (vox_storage)3, "storage is 3");
-    REFUSED(desc.storage = (vox_storage)-1, "storage is -1");
-    REFUSED(desc.hash = (vox_hash)2, "hash is 2");
-    REFUSED(desc.hash = (vox_hash)-1, "hash is -1");
+    REFUSED(desc.reserved = 3, "reserved is 3");
+    REFUSED(reference.flags = 7, "reference flags is 0x7, of which 0x4 is unknown");
+    REFUSED(reference.struct_size = 3, "reference.struct_size is 3");
     REFUSED(desc.cell_size = -1, "cell_size is -1");
     REFUSED(desc.cell_size = NAN, "cell_size is");
     REFUSED(desc.cell_size = INFINITY, "cell_size is inf");
-    REFUSED(desc.world_min[1] = NAN, "axis");
-    REFUSED(desc.world_max[2] = 1, "[0, 0] on axis 0");
-    REFUSED(desc.world_max[2] = INFINITY, "axis");
-    REFUSED((desc.world_min[0] = 2, desc.world_max[0] = 1), "[2, 1] on axis 0");
-    REFUSED(desc.hash_table_size = UINT64_MAX, "hash_table_size is 18446744073709551615");
-    REFUSED(desc.allocator.allocate = (void* (*)(size_t, size_t, void*))(uintptr_t)8, "allocator");
+    REFUSED(reference.world_min[1] = NAN, "axis");
+    REFUSED(reference.world_max[2] = 1, "[0, 0] on axis 0");
+    REFUSED(reference.world_max[2] = INFINITY, "axis");
+    REFUSED((reference.world_min[0] = 2, reference.world_max[0] = 1), "[2, 1] on axis 0");
+    REFUSED(reference.hash_table_size = UINT64_MAX, "hash_table_size is 18446744073709551615");
+    REFUSED(allocator.allocate = (void* (*)(size_t, size_t, void*))(uintptr_t)8, "allocator");
 #undef REFUSED
     vox_grid_desc tiny = vox_default_grid_desc();
     tiny.byte_budget = 16;
@@ -333,9 +327,9 @@ static void keep_line(vox_log_level level, const char* text, void* user) {
 
 START_TEST(cell_size_is_chosen) {
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = VOX_ENGINE_REFERENCE;
-    desc.log.write = keep_line;
-    desc.log.user = logged;
+    use_engine(&desc, ENGINE_REFERENCE);
+    const vox_log log = {keep_line, logged};
+    desc.log = &log;
     body box = make_box(4, 0.5f, 0, 0, 0);
     vox_mesh_desc mesh_desc = body_desc(&box);
     double cell_size = -1, again = -1;
@@ -380,7 +374,7 @@ START_TEST(cell_size_without_extent) {
     /* Meshes that suggest nothing: the grid still steps. */
     const float point[12] = {1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3};
     vox_grid_desc grid_desc = vox_default_grid_desc();
-    grid_desc.engine = VOX_ENGINE_REFERENCE;
+    use_engine(&grid_desc, ENGINE_REFERENCE);
     vox_grid* grid = grid_of(&grid_desc);
     ck_ok(vox_grid_step(grid));
     vox_mesh_desc desc = vox_mesh_desc_floats(point, 4, NULL, 0);

@@ -155,8 +155,8 @@ START_TEST(arguments) {
     ck_fails(vox_grids_step(s.grids, count, NULL, VOX_MAX_WORKERS + 1, results), VOX_ERROR_INVALID_ARGUMENT,
              "worker_count is 257");
     ck_fails(vox_grids_step(s.grids, count, &half, 2, results), VOX_ERROR_INVALID_ARGUMENT, "one of enqueue");
-    ck_fails(vox_grids_step(s.grids, count, &whole, 0, results), VOX_ERROR_INVALID_ARGUMENT,
-             "worker_count is 0");
+    ck_fails(vox_grids_step(s.grids, count, &whole, VOX_ALL_CORES, results), VOX_ERROR_INVALID_ARGUMENT,
+             "worker_count is VOX_ALL_CORES");
     s.grids[2] = s.grids[count - 1];
     ck_fails(vox_grids_step(s.grids, count, NULL, 1, results), VOX_ERROR_INVALID_ARGUMENT,
              "grids[2] and grids[39] are the same");

@@ -49,11 +49,12 @@ void live(const Scene& scene, const vox_grid_desc& desc, heap::Life& life) {
     if (!life([&] { return vox_grid_create(&desc, &held.grid); })) return;
     for (int i = 0; i < 2; ++i) {
         vox_mesh_desc mesh = body_desc(i == 0 ? &scene.box : &scene.other);
-        mesh.flags = VOX_MESH_COPY_POSITIONS | VOX_MESH_SELF_COLLISION;
+        mesh.flags = VOX_MESH_COPY_POSITIONS;
+        mesh.filter.flags = VOX_FILTER_SELF_COLLISION;
         if (!life([&] { return vox_mesh_insert(held.grid, &mesh, &meshes[i]); })) return;
     }
-    vox_filter filter = vox_default_filter();
-    filter.self_collision = 1;
+    vox_filter filter{};
+    filter.flags = VOX_FILTER_SELF_COLLISION;
     filter.self_rings = 1;
     filter.self_rest_distance = 0.01;
     const std::uint32_t cut[] = {3, 9};
@@ -112,7 +113,8 @@ START_TEST(each_allocation_of_a_grid) {
     for (const std::uint32_t workers : {1u, 2u}) {
         vox_grid_desc desc = engine_desc();
         desc.worker_count = workers;
-        if (workers > 1) desc.tasks = {enqueue, finish, nullptr};
+        const vox_task_system tasks{enqueue, finish, nullptr};
+        if (workers > 1) desc.tasks = &tasks;
         heap::fail_each([&](heap::Life& life) { live(scene, desc, life); });
     }
 }

@@ -72,10 +72,11 @@ START_TEST(cells_of_dense_storage) {
     for (int more = 0; more < 2; ++more) {
         vox_grid_desc desc = vox_default_grid_desc();
         const vox_mesh_desc body = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
-        desc.engine = VOX_ENGINE_REFERENCE;
-        desc.storage = VOX_STORAGE_DENSE;
+        vox_reference_desc reference = vox_default_reference_desc();
+        reference.flags = VOX_REFERENCE_DENSE;
+        desc.reference = &reference;
         desc.cell_size = 1;
-        for (int axis = 0; axis < 3; ++axis) desc.world_max[axis] = 1290 + more;
+        for (int axis = 0; axis < 3; ++axis) reference.world_max[axis] = 1290 + more;
         vox_grid* grid = grid_of(&desc);
         insert_mesh(grid, &body);
         if (more)
@@ -91,16 +92,17 @@ END_TEST
 
 START_TEST(buckets_and_workers) {
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = VOX_ENGINE_REFERENCE;
-    desc.hash_table_size = VOX_MAX_VERTICES;
+    vox_reference_desc reference = vox_default_reference_desc();
+    desc.reference = &reference;
+    reference.hash_table_size = VOX_MAX_VERTICES;
     vox_grid* grid = grid_of(&desc);
     vox_grid_destroy(grid);
-    desc.hash_table_size = VOX_MAX_VERTICES + 1ull;
+    reference.hash_table_size = VOX_MAX_VERTICES + 1ull;
     grid = NULL;
     ck_fails(vox_grid_create(&desc, &grid), VOX_ERROR_INVALID_ARGUMENT,
              "hash_table_size is 2147483648, expected at most 2147483647");
     ck_assert_ptr_null(grid);
-    desc.hash_table_size = 0;
+    reference.hash_table_size = 0;
     desc.worker_count = VOX_MAX_WORKERS;
     ck_ok(vox_grid_create(&desc, &grid));
     ck_fails(vox_grid_set_worker_count(grid, VOX_MAX_WORKERS + 1), VOX_ERROR_INVALID_ARGUMENT, "257");

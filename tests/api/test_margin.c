@@ -35,9 +35,10 @@ static void insert_body(margin_scene* s, vox_grid* grid, body b) {
     vox_mesh_desc desc;
     s->bodies[i] = b;
     desc = body_desc(&b);
-    s->filters[i] = vox_default_filter();
+    s->filters[i] = plain_filter();
     s->filters[i].category = (uint64_t)1 << i;
-    desc.filter = &s->filters[i];
+    s->filters[i].mask = UINT64_MAX;
+    desc.filter = s->filters[i];
     s->ids[i] = insert_mesh(grid, &desc);
 }
 
@@ -217,7 +218,7 @@ START_TEST(at_rest_and_edited) {
         ck_ok(vox_grid_step(grid));
         ck_assert_uint_eq(check_margin(&s, grid, 0.5), all);
     }
-    if (suite_engine == VOX_ENGINE_FAST) ck_assert_uint_eq(counters_of(grid).carried_margin_contacts, all);
+    if (suite_engine == ENGINE_FAST) ck_assert_uint_eq(counters_of(grid).carried_margin_contacts, all);
     for (uint32_t i = 0; i < s.count; ++i) {
         move_body(&s.bodies[i], 0.1, 0.05, -0.1);
         ck_ok(vox_grid_step(grid));
@@ -395,7 +396,8 @@ START_TEST(steady_state_allocates_nothing) {
         desc.allocator = ledger_allocator(&l);
         desc.worker_count = workers;
         desc.margin = 0.5;
-        if (run == 2) desc.tasks = (vox_task_system){take_turns, taken, &t};
+        const vox_task_system tasks = {take_turns, taken, &t};
+        if (run == 2) desc.tasks = &tasks;
         vox_grid* grid = grid_of(&desc);
         for (uint64_t i = 0; i < 2; ++i) {
             body ball = make_lattice_ball(&five_cut, 8, 8);

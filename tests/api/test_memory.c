@@ -11,6 +11,7 @@ typedef struct ledger {
     size_t blocks;
     uint64_t calls;
     uint64_t fail_at; /* the call that returns null; 0: none */
+    vox_allocator allocator;
 } ledger;
 
 typedef struct block {
@@ -46,16 +47,16 @@ static void counted_release(void* memory, size_t size, size_t alignment, void* u
 
 static vox_grid_desc counted_desc(ledger* l) {
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.allocator.allocate = counted_allocate;
-    desc.allocator.release = counted_release;
-    desc.allocator.user = l;
-    desc.engine = suite_engine;
+    const vox_allocator allocator = {counted_allocate, counted_release, l};
+    l->allocator = allocator;
+    desc.allocator = &l->allocator;
+    use_engine(&desc, suite_engine);
     desc.cell_size = 0.25;
     return desc;
 }
 
 START_TEST(everything_comes_back) {
-    ledger l = {0, 0, 0, 0};
+    ledger l = {0};
     const vox_grid_desc desc = counted_desc(&l);
     body box = make_box(5, 0.25f, 0, 0, 0), other = make_box(5, 0.25f, 0.4f, 0.3f, 0.2f);
     vox_mesh_desc a = body_desc(&box), b = body_desc(&other);
@@ -79,14 +80,16 @@ START_TEST(everything_comes_back) {
 END_TEST
 
 START_TEST(steady_state_allocates_nothing) {
-    ledger l = {0, 0, 0, 0};
+    ledger l = {0};
     vox_grid_desc desc = counted_desc(&l);
     body box = make_box(8, 0.125f, 0, 0, 0), other = make_box(8, 0.125f, 0.2f, 0.3f, 0.2f);
     vox_mesh_desc a = body_desc(&box), b = body_desc(&other);
-    a.flags = VOX_MESH_SELF_COLLISION;
-    for (int storage = VOX_STORAGE_HASHED; storage <= VOX_STORAGE_DENSE; ++storage) {
-        desc.storage = (vox_storage)storage;
-        desc.world_max[0] = desc.world_max[1] = desc.world_max[2] = 2;
+    a.filter.flags = VOX_FILTER_SELF_COLLISION;
+    for (int dense = 0; dense < 2; ++dense) {
+        vox_reference_desc reference = vox_default_reference_desc();
+        if (dense) reference.flags = VOX_REFERENCE_DENSE;
+        reference.world_max[0] = reference.world_max[1] = reference.world_max[2] = 2;
+        if (suite_engine == ENGINE_REFERENCE) desc.reference = &reference;
         vox_grid* grid = grid_of(&desc);
         vox_body mesh = insert_mesh(grid, &a);
         ck_ok(vox_mesh_insert(grid, &b, &mesh));
@@ -136,16 +139,17 @@ static vox_result life(const vox_grid_desc* desc, const vox_mesh_desc* a, const 
 
 START_TEST(allocation_n_fails) {
     enum { without_grid = 2 }; /* as many allocations make a grid */
-    ledger l = {0, 0, 0, 0};
+    ledger l = {0};
     vox_grid_desc desc = counted_desc(&l);
     body box = make_box(3, 0.25f, 0, 0, 0), other = make_box(3, 0.25f, 0.4f, 0.3f, 0.2f);
     const vox_mesh_desc a = body_desc(&box);
     vox_mesh_desc b = body_desc(&other);
-    b.flags = VOX_MESH_COPY_POSITIONS | VOX_MESH_SELF_COLLISION;
-    for (int storage = VOX_STORAGE_HASHED; storage <= VOX_STORAGE_DENSE; ++storage) {
+    b.flags = VOX_MESH_COPY_POSITIONS;
+    b.filter.flags = VOX_FILTER_SELF_COLLISION;
+    for (uint32_t dense = 0; dense < 2; ++dense) {
         uint64_t expected = 0, hash = 0;
         l.fail_at = 0;
-        desc.storage = (vox_storage)storage;
+        if (suite_engine == ENGINE_REFERENCE) desc.reference = reference_with(dense * VOX_REFERENCE_DENSE);
         ck_ok(life(&desc, &a, &b, &l, &expected));
         uint64_t n = 1;
         for (vox_result result = VOX_ERROR_OUT_OF_MEMORY; result != VOX_OK; ++n) {
@@ -165,7 +169,7 @@ START_TEST(allocation_n_fails) {
 END_TEST
 
 START_TEST(budget_is_kept) {
-    ledger l = {0, 0, 0, 0};
+    ledger l = {0};
     vox_grid_desc desc = counted_desc(&l);
     body box = make_box(6, 0.25f, 0, 0, 0), other = make_box(6, 0.25f, 0.4f, 0.3f, 0.2f);
     const vox_mesh_desc a = body_desc(&box), b = body_desc(&other);
@@ -232,7 +236,7 @@ static void move_x(body* b, float distance) {
 static uint64_t bytes_of_contacts(int whole, uint64_t reserved, uint64_t closest_budget,
                                   vox_counters* counters) {
     enum { coarse = 16 };
-    ledger l = {0, 0, 0, 0};
+    ledger l = {0};
     vox_grid_desc desc = counted_desc(&l);
     desc.worker_count = 1;
     desc.closest_budget = closest_budget;
@@ -281,7 +285,7 @@ START_TEST(contacts_in_a_step) {
 END_TEST
 
 START_TEST(reserved_room) {
-    ledger l = {0, 0, 0, 0};
+    ledger l = {0};
     vox_grid_desc desc = counted_desc(&l);
     body box = make_box(3, 0.25f, 0, 0, 0), other = make_box(3, 0.25f, 0.4f, 0.3f, 0.2f);
     const vox_mesh_desc a = body_desc(&box), b = body_desc(&other), empty = vox_default_mesh_desc();

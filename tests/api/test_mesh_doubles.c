@@ -22,7 +22,7 @@ START_TEST(exact_for_the_doubles_given) {
                 const double x = random_double(-1, 1), y = random_double(-1, 1), z = random_double(-1, 1);
                 place(&solids[m], &kinds[i], x, y, z);
                 write_solid(&solids[m], VOX_FORMAT_DOUBLE, 24 + random_below(&state, 3) * 4);
-                ids[m] = insert(grid, &solids[m], VOX_MESH_SELF_COLLISION);
+                ids[m] = insert_self(grid, &solids[m]);
             }
             ck_ok(vox_grid_step(grid));
             contacts += check_contacts(grid, solids, count, ids, 1);
@@ -120,7 +120,7 @@ START_TEST(doubles_of_floats_are_those_floats) {
                         write_solid(&solids[m], f, 12);
                     else
                         write_solid(&solids[m], f, workers == 2 ? 40 : 24);
-                    (void)insert(grid, &solids[m], VOX_MESH_SELF_COLLISION);
+                    (void)insert_self(grid, &solids[m]);
                 }
                 hash[format][workers - 1] = hash_of_step(grid);
                 ck_assert_uint_gt(contacts_of(grid).count, 0);
@@ -148,7 +148,7 @@ START_TEST(self_contact_of_large_bodies) {
         }
         write_solid(&s, i == 0 ? VOX_FORMAT_FLOAT : VOX_FORMAT_DOUBLE, i == 0 ? 12 : 24);
         vox_grid* grid = new_grid(1);
-        (void)insert(grid, &s, VOX_MESH_SELF_COLLISION);
+        (void)insert_self(grid, &s);
         hashes[i] = hash_of_step(grid);
         count = contacts_of(grid).count;
         ck_assert_uint_gt(count, 50);
@@ -175,9 +175,9 @@ START_TEST(engines_agree_on_large_bodies) {
         write_solid(&s, VOX_FORMAT_DOUBLE, 24);
         uint64_t hashes[2], contacts = 0;
         for (int e = 0; e < 2; ++e) {
-            suite_engine = e ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
+            suite_engine = e ? ENGINE_FAST : ENGINE_REFERENCE;
             vox_grid* grid = new_grid(1);
-            (void)insert(grid, &s, VOX_MESH_SELF_COLLISION);
+            (void)insert_self(grid, &s);
             hashes[e] = hash_of_step(grid);
             contacts = contacts_of(grid).count;
             vox_grid_destroy(grid);
@@ -253,7 +253,7 @@ START_TEST(steady_state_holds_the_same_memory) {
     write_solid(&a, VOX_FORMAT_DOUBLE, 24);
     write_solid(&b, VOX_FORMAT_DOUBLE, 24);
     vox_grid* grid = new_grid(1);
-    (void)insert(grid, &a, VOX_MESH_SELF_COLLISION);
+    (void)insert_self(grid, &a);
     (void)insert(grid, &b, 0);
     vox_counters before = {.struct_size = sizeof before}, after = before;
     for (int step = 0; step < 12; ++step) {

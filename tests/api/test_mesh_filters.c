@@ -17,12 +17,13 @@ START_TEST(category_mask_and_group) {
         {0, 0, 1, 2, 2, 1, 1},
         {0, 0, 1, 2, 2, 2, 0}, /* one way is not enough */
         {0, 0, 1, 1, 2, 1, 0},
-        {0, 0, 0, UINT64_MAX, 1, UINT64_MAX, 0}, /* of no category */
+        {0, 0, 0, 0, 1, 1, 1}, /* 0: the defaults */
+        {0, 0, 0, 0, 2, 2, 0},
         {0, 0, 1ull << 63, 1ull << 63, 1ull << 63, 1ull << 63, 1},
-        {3, 3, 1, 0, 1, 0, 1}, /* the same positive group, whatever the masks */
+        {3, 3, 1, 2, 1, 2, 1}, /* the same positive group, whatever the masks */
         {-3, -3, 1, UINT64_MAX, 1, UINT64_MAX, 0},
         {3, -3, 1, UINT64_MAX, 1, UINT64_MAX, 1}, /* different groups: the masks */
-        {3, 4, 1, 0, 1, UINT64_MAX, 0},
+        {3, 4, 1, 2, 1, UINT64_MAX, 0},
         {-3, 0, 1, UINT64_MAX, 1, UINT64_MAX, 1},
         {INT32_MIN, INT32_MIN, 1, UINT64_MAX, 1, UINT64_MAX, 0},
     };
@@ -31,7 +32,7 @@ START_TEST(category_mask_and_group) {
         for (int at_insertion = 0; at_insertion < 2; ++at_insertion) {
             vox_grid* grid = new_grid();
             vox_mesh_desc descs[2] = {body_desc(&box), body_desc(&other)};
-            vox_filter filters[2] = {vox_default_filter(), vox_default_filter()};
+            vox_filter filters[2] = {plain_filter(), plain_filter()};
             filters[0].group = rows[i].group_a;
             filters[0].category = rows[i].category_a;
             filters[0].mask = rows[i].mask_a;
@@ -40,7 +41,7 @@ START_TEST(category_mask_and_group) {
             filters[1].mask = rows[i].mask_b;
             vox_body meshes[2];
             for (int m = 0; m < 2; ++m) {
-                descs[m].filter = at_insertion ? &filters[m] : NULL;
+                if (at_insertion) descs[m].filter = filters[m];
                 meshes[m] = insert(grid, &descs[m]);
             }
             if (!at_insertion) {
@@ -51,15 +52,51 @@ START_TEST(category_mask_and_group) {
             ck_assert_msg((view.count > 0) == rows[i].collide, "row %zu: %llu contacts", i,
                           (unsigned long long)view.count);
             const vox_filter back = filter_of(grid, meshes[1]);
+            if (filters[1].category == 0) filters[1].category = 1;
+            if (filters[1].mask == 0) filters[1].mask = UINT64_MAX;
             ck_assert_mem_eq(&back, &filters[1], sizeof back);
             if (!rows[i].collide) { /* nothing was looked at for it */
                 const vox_counters counters = counters_of(grid);
                 ck_assert_uint_eq(counters.candidates, 0);
                 ck_assert_uint_eq(counters.exact_tests, 0);
-                if (suite_engine == VOX_ENGINE_FAST) ck_assert_uint_eq(counters.entries, 0);
+                if (suite_engine == ENGINE_FAST) ck_assert_uint_eq(counters.entries, 0);
             }
             vox_grid_destroy(grid);
         }
+    free_body(&box);
+    free_body(&other);
+}
+END_TEST
+
+/* Copies of a scene in one grid: each finds what it finds alone, whatever groups and categories say. */
+START_TEST(worlds) {
+    enum { copies = 3 };
+    body box = make_box(2, 1, 0, 0, 0), other = make_box(2, 1, 0.5f, 0.5f, 0.5f);
+    vox_grid *grid = new_grid(), *alone = new_grid();
+    const vox_mesh_desc descs[2] = {body_desc(&box), body_desc(&other)};
+    vox_body meshes[copies][2];
+    for (int m = 0; m < 2; ++m) (void)insert(alone, &descs[m]);
+    const uint64_t expected = stepped(alone).count;
+    ck_assert_uint_gt(expected, 0);
+    for (uint32_t world = 0; world < copies; ++world)
+        for (int m = 0; m < 2; ++m) {
+            vox_mesh_desc desc = descs[m];
+            desc.filter.world = world == 2 ? UINT32_MAX : world;
+            desc.filter.group = 5; /* which would make all of them collide */
+            meshes[world][m] = insert(grid, &desc);
+        }
+    const vox_contact_view view = stepped(grid);
+    ck_assert_uint_eq(view.count, copies * expected);
+    for (int world = 0; world < copies; ++world)
+        ck_assert_uint_eq(contacts_between(view, meshes[world][0], meshes[world][1]), expected);
+    vox_filter filter = filter_of(grid, meshes[2][0]);
+    ck_assert_uint_eq(filter.world, UINT32_MAX);
+    filter.world = 1; /* it leaves its own world, and meets the other's two */
+    ck_ok(vox_body_set_filter(grid, meshes[2][0], &filter));
+    ck_assert_uint_eq(contacts_between(stepped(grid), meshes[2][0], meshes[2][1]), 0);
+    ck_assert_uint_eq(contacts_between(contacts_of(grid), meshes[2][0], meshes[1][1]), expected);
+    vox_grid_destroy(grid);
+    vox_grid_destroy(alone);
     free_body(&box);
     free_body(&other);
 }
@@ -135,20 +172,20 @@ END_TEST
 /* Pairs that are filtered out take no memory, however many there are. */
 START_TEST(many_bodies_in_one_place) {
     enum { bodies = 2000 };
-    const vox_engine engines[] = {VOX_ENGINE_FAST, VOX_ENGINE_REFERENCE};
+    const engine_kind engines[] = {ENGINE_FAST, ENGINE_REFERENCE};
     for (int e = 0; e < 2; ++e)
         for (int masks = 0; masks < 2; ++masks) {
             vox_grid_desc grid_desc = vox_default_grid_desc();
-            grid_desc.engine = engines[e];
+            use_engine(&grid_desc, engines[e]);
             vox_grid* grid = NULL;
             ck_ok(vox_grid_create(&grid_desc, &grid));
             body tet = make_box(1, 1, 0, 0, 0);
-            vox_filter filter = vox_default_filter();
+            vox_filter filter = plain_filter();
             vox_mesh_desc desc = body_desc(&tet);
-            desc.filter = &filter;
             for (uint32_t i = 0; i < bodies; ++i) {
                 if (!masks) filter.group = -7;
                 if (masks) filter.category = i % 2 + 1, filter.mask = 4;
+                desc.filter = filter;
                 insert(grid, &desc);
             }
             const uint64_t before = counters_of(grid).bytes;
@@ -169,33 +206,27 @@ START_TEST(arguments) {
     body box = make_box(1, 1, 0, 0, 0);
     vox_mesh_desc desc = body_desc(&box);
     const vox_body mesh = insert(grid, &desc), other = insert(grid, &desc);
-    vox_filter filter = vox_default_filter();
+    vox_filter filter = plain_filter();
     const vox_filter defaults = filter;
-    ck_assert_uint_eq(filter.struct_size, sizeof filter);
-    ck_assert_uint_eq(filter.category, 1);
-    ck_assert_uint_eq(filter.mask, UINT64_MAX);
-    ck_assert_int_eq(filter.group, 0);
-    ck_fails(vox_filter_init(NULL, sizeof filter), VOX_ERROR_INVALID_ARGUMENT, "filter is null");
-    ck_fails(vox_filter_init(&filter, 3), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 3");
+    ck_assert_uint_eq(filter_of(grid, mesh).category, 1);
+    ck_assert_uint_eq(filter_of(grid, mesh).mask, UINT64_MAX);
     ck_fails(vox_body_set_filter(NULL, mesh, &filter), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     ck_fails(vox_body_set_filter(grid, mesh, NULL), VOX_ERROR_INVALID_ARGUMENT, "filter is null");
     ck_fails(vox_body_set_filter(grid, 0, &filter), VOX_ERROR_INVALID_HANDLE, "mesh id is 0");
-    ck_fails(vox_mesh_filter(NULL, mesh, &filter), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_mesh_filter(grid, mesh, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_filter is null");
-    ck_fails(vox_mesh_filter(grid, mesh + 1, &filter), VOX_ERROR_INVALID_HANDLE, "stale");
     filter.self_rings = VOX_MAX_RINGS;
     ck_ok(vox_body_set_filter(grid, mesh, &filter));
     filter.self_rings = VOX_MAX_RINGS + 1;
     ck_fails(vox_body_set_filter(grid, mesh, &filter), VOX_ERROR_LIMIT, "self_rings is 9");
     filter = defaults;
-    filter.self_collision = 2;
-    ck_fails(vox_body_set_filter(grid, mesh, &filter), VOX_ERROR_INVALID_ARGUMENT, "self_collision is 2");
+    filter.flags = 4;
+    ck_fails(vox_body_set_filter(grid, mesh, &filter), VOX_ERROR_INVALID_ARGUMENT,
+             "filter flags is 0x4, of which 0x4 is unknown");
     filter = defaults;
     const double bad[] = {-1, NAN, INFINITY};
     for (int i = 0; i < 3; ++i) {
         filter.self_rest_distance = bad[i];
         ck_fails(vox_body_set_filter(grid, mesh, &filter), VOX_ERROR_INVALID_ARGUMENT, "self_rest_distance");
-        desc.filter = &filter;
+        desc.filter = filter;
         vox_body untouched = 77;
         ck_fails(vox_mesh_insert(grid, &desc, &untouched), VOX_ERROR_INVALID_ARGUMENT, "self_rest_distance");
         ck_assert_uint_eq(untouched, 77);
@@ -220,20 +251,6 @@ START_TEST(arguments) {
     ck_fails(vox_mesh_insert(grid, &desc, &mesh_with_rest), VOX_ERROR_NON_FINITE, "vertex 1");
     ck_fails(vox_body_set_filter(grid, other, &filter), VOX_ERROR_NON_FINITE, "vertex 1");
 
-    /* A struct of a smaller size keeps the defaults of what it does not cover; one of a larger size is read
-     * as far as it is known. */
-    struct {
-        vox_filter filter;
-        uint64_t more;
-    } grown = {defaults, 99};
-    grown.filter.struct_size = sizeof grown;
-    grown.filter.mask = 4;
-    ck_ok(vox_body_set_filter(grid, other, &grown.filter));
-    ck_assert_uint_eq(filter_of(grid, other).mask, 4);
-    grown.filter.struct_size = 16; /* up to `category` */
-    ck_ok(vox_body_set_filter(grid, other, &grown.filter));
-    ck_assert_uint_eq(filter_of(grid, other).mask, UINT64_MAX);
-
     ck_fails(vox_body_set_enabled(NULL, mesh, 1), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     ck_fails(vox_body_set_enabled(grid, mesh, 2), VOX_ERROR_INVALID_ARGUMENT, "enabled is 2");
     ck_fails(vox_body_set_enabled(grid, 0, 1), VOX_ERROR_INVALID_HANDLE, "mesh id is 0");
@@ -249,8 +266,8 @@ START_TEST(arguments) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, category_mask_and_group, pair_exceptions, disabled_meshes, many_bodies_in_one_place,
-                   arguments);
+    tcase_add_each(tests, category_mask_and_group, worlds, pair_exceptions, disabled_meshes,
+                   many_bodies_in_one_place, arguments);
 }
 
 SUITE(mesh_filters) { add_for_each_engine(suite, add_tests); }

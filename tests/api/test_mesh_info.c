@@ -86,8 +86,8 @@ START_TEST(fields) {
     const double matrix[12] = {2, 0, 0, 1, 0, 3, 0, 2, 0, 0, 4, 3};
     ck_ok(bind_array(grid, mesh, columns, VOX_FORMAT_DOUBLE, 8, 8 * n));
     ck_ok(vox_body_set_transform(grid, mesh, matrix));
-    vox_filter filter = vox_default_filter();
-    filter.self_collision = 1;
+    vox_filter filter = plain_filter();
+    filter.flags = VOX_FILTER_SELF_COLLISION;
     ck_ok(vox_body_set_filter(grid, mesh, &filter));
     info = info_of(grid, mesh);
     ck_assert_int_eq(info.positions.format, VOX_FORMAT_DOUBLE);
@@ -96,7 +96,9 @@ START_TEST(fields) {
     ck_assert_uint_eq(info.positions.component_byte_stride, 8 * n);
     ck_assert_uint_eq(info.has_transform, 1);
     ck_assert_mem_eq(info.transform, matrix, sizeof matrix);
-    ck_assert_uint_eq(info.flags, VOX_MESH_BORROW_TETS | VOX_MESH_SELF_COLLISION);
+    ck_assert_uint_eq(info.flags, VOX_MESH_BORROW_TETS);
+    ck_assert_uint_eq(info.filter.flags, VOX_FILTER_SELF_COLLISION);
+    ck_assert_uint_eq(info.filter.mask, UINT64_MAX);
 
     /* Positions and tetrahedra of its own. */
     void* mapped = NULL;
@@ -105,7 +107,7 @@ START_TEST(fields) {
     ck_ok(vox_mesh_set_tets_enabled(grid, mesh, some, 2, 0));
     ck_ok(vox_mesh_remove_tets(grid, mesh, some, 1));
     info = info_of(grid, mesh);
-    ck_assert_uint_eq(info.flags, VOX_MESH_COPY_POSITIONS | VOX_MESH_SELF_COLLISION);
+    ck_assert_uint_eq(info.flags, VOX_MESH_COPY_POSITIONS);
     ck_assert_ptr_eq(info.positions.data, mapped);
     ck_assert_uint_eq(info.positions.byte_stride, 24);
     ck_assert_uint_eq(info.positions.component_byte_stride, 8);

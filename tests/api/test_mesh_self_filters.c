@@ -170,13 +170,13 @@ START_TEST(self_filters_by_definition) {
                 random_below(&random, 2) ? (double)random_float(&random, 0.01f, 2.5f) : 0;
             const shape* s = &shapes[m];
             vox_mesh_desc desc = vox_mesh_desc_floats(s->positions, s->vertex_count, s->tets, s->tet_count);
-            vox_filter filter = vox_default_filter();
-            filter.self_collision = 1;
+            vox_filter filter = plain_filter();
+            filter.flags = VOX_FILTER_SELF_COLLISION;
             filter.self_rings = s->rings;
             filter.self_rest_distance = s->rest_distance;
             desc.rest_positions = vox_float_positions(s->rest, s->vertex_count);
             const int at_insertion = (int)random_below(&random, 2);
-            desc.filter = at_insertion ? &filter : NULL;
+            if (at_insertion) desc.filter = filter;
             ids[m] = insert(grid, &desc);
             if (!at_insertion) ck_ok(vox_body_set_filter(grid, ids[m], &filter));
             meshes[m] = (oracle_mesh){s->positions, s->tets, s->vertex_count, s->tet_count, 1};
@@ -219,14 +219,14 @@ START_TEST(lowest_tet_that_is_left) {
     const uint32_t tets[] = {5, 6, 7, 3, 0, 1, 2, 3, 0, 1, 2, 4};
     vox_grid* grid = new_grid();
     vox_mesh_desc desc = vox_mesh_desc_floats(positions, 8, tets, 3);
-    vox_filter filter = vox_default_filter();
-    desc.flags = VOX_MESH_SELF_COLLISION;
+    vox_filter filter = plain_filter();
+    desc.filter.flags = VOX_FILTER_SELF_COLLISION;
     const vox_body mesh = insert(grid, &desc);
     vox_contact_view view = stepped(grid);
     ck_assert_uint_eq(view.count, 1);
     ck_assert_uint_eq(view.data[0].vertex, 5);
     ck_assert_uint_eq(view.data[0].tet, 1);
-    filter.self_collision = 1;
+    filter.flags = VOX_FILTER_SELF_COLLISION;
     filter.self_rings = 1;
     ck_ok(vox_body_set_filter(grid, mesh, &filter));
     view = stepped(grid);
@@ -255,8 +255,8 @@ START_TEST(overlap_in_the_rest_pose) {
     }
     vox_grid* grid = new_grid();
     vox_mesh_desc desc = vox_mesh_desc_floats(positions, 2 * n, tets, 2 * m);
-    vox_filter filter = vox_default_filter();
-    filter.self_collision = 1;
+    vox_filter filter = plain_filter();
+    filter.flags = VOX_FILTER_SELF_COLLISION;
     const vox_body mesh = insert(grid, &desc);
     ck_ok(vox_body_set_filter(grid, mesh, &filter));
     const uint64_t overlapping = stepped(grid).count;
@@ -276,7 +276,7 @@ START_TEST(overlap_in_the_rest_pose) {
     filter.self_rest_distance = 0;
     ck_ok(vox_body_set_filter(grid, mesh, &filter));
     ck_assert_uint_gt(stepped(grid).count, overlapping);
-    filter.self_collision = 0;
+    filter.flags = 0;
     ck_ok(vox_body_set_filter(grid, mesh, &filter));
     ck_assert_uint_eq(stepped(grid).count, 0);
     vox_grid_destroy(grid);
@@ -293,13 +293,13 @@ START_TEST(rest_pose_in_double) {
     const double now[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.125, 0.25, 0.125};
     vox_grid* grid = new_grid();
     vox_mesh_desc desc = vox_default_mesh_desc();
-    vox_filter filter = vox_default_filter();
-    filter.self_collision = 1;
+    vox_filter filter = plain_filter();
+    filter.flags = VOX_FILTER_SELF_COLLISION;
     filter.self_rest_distance = 0.5;
     desc.positions = vox_double_positions(now, 5);
     desc.tets = unit_tet;
     desc.tet_count = 1;
-    desc.filter = &filter;
+    desc.filter = filter;
     desc.rest_positions = vox_double_positions(&rest[0][0], 5);
     desc.rest_positions.byte_stride = sizeof rest[0];
     const vox_body mesh = insert(grid, &desc);
@@ -336,12 +336,12 @@ START_TEST(rest_pose_far_away) {
         far_apart(offsets[i], rest, now);
         vox_grid *grid = new_grid(), *loaded;
         vox_mesh_desc desc = vox_mesh_desc_floats(NULL, 8, two_tets, 2);
-        vox_filter filter = vox_default_filter();
-        filter.self_collision = 1;
+        vox_filter filter = plain_filter();
+        filter.flags = VOX_FILTER_SELF_COLLISION;
         filter.self_rest_distance = 0.5;
         desc.positions = vox_double_positions(now, 8);
         desc.rest_positions = vox_double_positions(rest, 8);
-        desc.filter = &filter;
+        desc.filter = filter;
         insert(grid, &desc);
         if (i == 0) contacts = stepped(grid).count;
         ck_assert_uint_gt(contacts, 0);
@@ -367,11 +367,11 @@ START_TEST(rest_pose_that_grows) {
     for (int i = 0; i < 12; ++i) now[i] = rest[i] = (double)(float)rest[i]; /* all one point */
     vox_grid* grid = new_grid();
     vox_mesh_desc desc = vox_mesh_desc_floats(NULL, 4, unit_tet, 1);
-    vox_filter filter = vox_default_filter();
-    filter.self_collision = 1;
+    vox_filter filter = plain_filter();
+    filter.flags = VOX_FILTER_SELF_COLLISION;
     filter.self_rest_distance = 0.5;
     desc.positions = vox_double_positions(now, 4);
-    desc.filter = &filter;
+    desc.filter = filter;
     const vox_body mesh = insert(grid, &desc);
 
     /* The first tet once more, and the second. */
@@ -422,19 +422,19 @@ START_TEST(steps_with_filters_allocate_nothing) {
     shape s = crumpled(4, 0, &random);
     body others[3] = {make_box(3, 1, 0, 0, 0), make_box(3, 1, 0.5f, 0.5f, 0.5f), make_box(3, 1, 1, 1, 1)};
     vox_mesh_desc desc = vox_mesh_desc_floats(s.positions, s.vertex_count, s.tets, s.tet_count);
-    vox_filter filter = vox_default_filter();
-    filter.self_collision = 1;
+    vox_filter filter = plain_filter();
+    filter.flags = VOX_FILTER_SELF_COLLISION;
     filter.self_rings = 2;
     filter.self_rest_distance = 0.25;
     filter.category = 2;
-    desc.filter = &filter;
+    desc.filter = filter;
     insert(grid, &desc);
     vox_body meshes[3];
-    vox_filter blind = vox_default_filter();
+    vox_filter blind = plain_filter();
     blind.mask = 1;
     for (int i = 0; i < 3; ++i) {
         desc = body_desc(&others[i]);
-        desc.filter = i == 0 ? &blind : NULL;
+        desc.filter = i == 0 ? blind : plain_filter();
         meshes[i] = insert(grid, &desc);
     }
     ck_ok(vox_grid_set_pair_enabled(grid, meshes[1], meshes[2], 0));
@@ -463,8 +463,8 @@ START_TEST(failing_filters_change_nothing) {
     vox_grid* grid = counted_grid(&l);
     const vox_body mesh = insert(grid, &desc), second = insert(grid, &other);
     const uint64_t count = stepped(grid).count;
-    vox_filter filter = vox_default_filter();
-    filter.self_collision = 1;
+    vox_filter filter = plain_filter();
+    filter.flags = VOX_FILTER_SELF_COLLISION;
     filter.self_rings = 2;
     filter.self_rest_distance = 1;
     uint64_t failures = 0;
@@ -474,7 +474,7 @@ START_TEST(failing_filters_change_nothing) {
         l.fail_at = 0;
         if (result == VOX_OK) break;
         ck_assert_int_eq(result, VOX_ERROR_OUT_OF_MEMORY);
-        ck_assert_uint_eq(filter_of(grid, mesh).self_collision, 0);
+        ck_assert_uint_eq(filter_of(grid, mesh).flags, 0);
         ck_assert_uint_eq(stepped(grid).count, count);
     }
     ck_assert_uint_gt(failures, 4);

@@ -14,7 +14,8 @@ static vox_grid* grid_of_boxes(const body* box, const body* other, const uint32_
     vox_mesh_desc a = body_desc(box), b = body_desc(other);
     (void)insert_mesh(grid, &a);
     b.tets = tets;
-    b.flags = VOX_MESH_SELF_COLLISION | flags;
+    b.flags = flags;
+    b.filter.flags = VOX_FILTER_SELF_COLLISION;
     *mesh = insert_mesh(grid, &b);
     return grid;
 }
@@ -177,9 +178,8 @@ START_TEST(edit_without_memory_for_the_copy) {
     desc.flags = VOX_MESH_BORROW_TETS;
     int allowed = 1;
     vox_grid_desc grid_desc = engine_desc();
-    grid_desc.allocator.allocate = allocate_if_allowed;
-    grid_desc.allocator.release = release_always;
-    grid_desc.allocator.user = &allowed;
+    const vox_allocator allocator = {allocate_if_allowed, release_always, &allowed};
+    grid_desc.allocator = &allocator;
     vox_grid* grid = grid_of(&grid_desc);
     const vox_body mesh = insert_mesh(grid, &desc);
     (void)insert_mesh(grid, &desc);

@@ -244,7 +244,7 @@ START_TEST(cloth_falls_through_a_body) {
     float* cloth = make_cloth(n, 2);
     vox_grid* grid = engine_grid();
     vox_mesh_desc points = vox_mesh_desc_floats(cloth, n * n, NULL, 0), solid = body_desc(&box);
-    points.flags = VOX_MESH_SELF_COLLISION; /* nothing to collide with */
+    points.filter.flags = VOX_FILTER_SELF_COLLISION; /* nothing to collide with */
     const vox_body sheet = insert(grid, &points);
     const vox_body body_mesh = insert(grid, &solid);
     int inside = 0;
@@ -306,7 +306,7 @@ START_TEST(points_alone) {
     float* cloth = make_cloth(5, 0);
     vox_grid* grid = engine_grid();
     vox_mesh_desc points = vox_mesh_desc_floats(cloth, 25, NULL, 0);
-    points.flags = VOX_MESH_SELF_COLLISION;
+    points.filter.flags = VOX_FILTER_SELF_COLLISION;
     (void)insert(grid, &points);
     (void)insert(grid, &points);
     (void)hash_of_step(grid);

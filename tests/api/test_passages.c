@@ -306,8 +306,7 @@ START_TEST(appended_vertices_end_it) {
     float* positions = malloc(3 * sizeof(float) * (m.now.vertex_count + 1));
     memcpy(positions, m.now.positions, 3 * sizeof(float) * m.now.vertex_count);
     for (int c = 0; c < 3; ++c) positions[3 * m.now.vertex_count + (uint32_t)c] = 5;
-    vox_vertices_desc desc;
-    ck_ok(vox_vertices_desc_init(&desc, sizeof desc));
+    vox_vertices_desc desc = vox_default_vertices_desc();
     desc.count = 1;
     desc.positions = vox_float_positions(positions, m.now.vertex_count + 1);
     uint32_t first = 0;

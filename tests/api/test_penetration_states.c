@@ -5,7 +5,7 @@ static const vector up = {0, 0, 1}, down = {0, 0, -1};
 
 static vox_body insert(vox_grid* grid, const body* b, uint32_t flags) {
     vox_mesh_desc desc = body_desc(b);
-    desc.flags = flags;
+    desc.filter.flags = flags;
     return insert_mesh(grid, &desc);
 }
 
@@ -436,7 +436,7 @@ START_TEST(inverted_tets) {
     for (uint32_t i = 0; i < 3 * box.vertex_count; ++i)
         box.positions[i] += ((float)(random_quick(&random) >> 8) / 16777216.0f - 0.5f) * 0.5f;
     vox_grid* grid = engine_grid();
-    insert(grid, &box, VOX_MESH_SELF_COLLISION);
+    insert(grid, &box, VOX_FILTER_SELF_COLLISION);
     insert(grid, &upper, 0);
     step(grid);
     const vox_penetration_view view = penetrations_of(grid);
@@ -498,7 +498,7 @@ static body make_fold(void) {
 START_TEST(self_fold) {
     body bar = make_fold();
     vox_grid* grid = engine_grid();
-    const vox_body a = insert(grid, &bar, VOX_MESH_SELF_COLLISION);
+    const vox_body a = insert(grid, &bar, VOX_FILTER_SELF_COLLISION);
     step(grid);
     const vox_penetration_view view = penetrations_of(grid);
     uint64_t by_state[5] = {0, 0, 0, 0, 0}, in_middle = 0;

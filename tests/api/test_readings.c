@@ -54,7 +54,7 @@ START_TEST(by_definition) {
         vox_contact_view contacts = contacts_of(w.grid);
         for (uint64_t i = 0; i < readings.count; ++i) coincident += readings.data[i].distance == 0;
         for (int b = 0; b < w.count; ++b) { /* one mesh at a time can be asked alone: by its category */
-            vox_filter filter = vox_default_filter();
+            vox_filter filter = plain_filter();
             filter.category = (uint64_t)1 << b;
             ck_ok(vox_body_set_filter(w.grid, w.models[b].mesh, &filter));
         }
@@ -226,8 +226,8 @@ START_TEST(engines_and_workers) {
         ck_ok(vox_grid_prepare_readings(w.grid));
         ck_ok(vox_grid_readings(w.grid, &expected));
         for (uint32_t workers = 1; workers <= 8; ++workers) {
-            vox_grid* other = new_grid(workers % 2 ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE,
-                                       VOX_GRID_PENETRATIONS, workers);
+            vox_grid* other =
+                new_grid(workers % 2 ? ENGINE_FAST : ENGINE_REFERENCE, VOX_GRID_PENETRATIONS, workers);
             insert(&w, other);
             ck_ok(vox_grid_step(other));
             ck_ok(vox_grid_prepare_readings(other));

@@ -97,7 +97,7 @@ START_TEST(after_cuts_of_some) {
     vox_grid* grid = new_grid(suite_engine, VOX_GRID_PENETRATIONS, 1);
     vox_mesh_desc desc = vox_mesh_desc_floats(positions, self ? 12 : 8, tets, self ? 3 : 2);
     vox_body second = 0;
-    if (self) desc.flags = VOX_MESH_SELF_COLLISION;
+    if (self) desc.filter.flags = VOX_FILTER_SELF_COLLISION;
     vox_body mesh = insert_mesh(grid, &desc);
     desc = vox_mesh_desc_floats(positions + 24, 1, NULL, 0);
     if (!self) ck_ok(vox_mesh_insert(grid, &desc, &second));
@@ -404,8 +404,8 @@ START_TEST(task_systems) {
     vox_grid_desc desc = engine_desc();
     desc.flags = 0;
     desc.worker_count = 2;
-    desc.tasks.enqueue = run_in_two;
-    desc.tasks.finish = finish_nothing;
+    const vox_task_system tasks = {run_in_two, finish_nothing, NULL};
+    desc.tasks = &tasks;
     vox_grid* grid = grid_of(&desc);
     for (int b = 0; b < n; ++b) {
         bodies[b] = make_box(4, 1, 3.2f * (float)(b % 2), 3.3f * (float)(b / 2 % 2), 3.4f * (float)(b / 4));

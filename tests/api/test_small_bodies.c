@@ -41,7 +41,7 @@ START_TEST(bytes_of_a_body) {
     ck_assert_uint_eq(counters.vertices, 4 * count);
     ck_assert_uint_eq(counters.tets, count);
     ck_assert_uint_eq(counters.contacts, 0);
-    if (suite_engine == VOX_ENGINE_FAST) ck_assert_uint_le((counters.peak_bytes - before) / count, 600);
+    if (suite_engine == ENGINE_FAST) ck_assert_uint_le((counters.peak_bytes - before) / count, 600);
     vox_grid_destroy(grid);
     free(positions);
 }
@@ -80,7 +80,7 @@ START_TEST(contacts_of_wandering_bodies) {
     static double as_doubles[count][15];
     vox_grid *grid = engine_grid(), *reference = NULL;
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = VOX_ENGINE_REFERENCE;
+    use_engine(&desc, ENGINE_REFERENCE);
     reference = grid_of(&desc);
     vox_grid* grids[2] = {grid, reference};
     vox_body meshes[2][count + 1];
@@ -114,10 +114,9 @@ START_TEST(contacts_of_wandering_bodies) {
             const uint32_t tet = 0, kind = random_below(&random, 8);
             for (int k = 0; k < 15; ++k) as_doubles[i][k] = at[i][k];
             const double turn[12] = {0, 1, 0, 0.25, 1, 0, 0, 0, 0, 0, 1, 0};
-            vox_filter filter = vox_default_filter();
+            vox_filter filter = plain_filter();
             filter.group = -(int32_t)random_below(&random, 2);
-            vox_vertices_desc more;
-            more = vox_default_vertices_desc();
+            vox_vertices_desc more = vox_default_vertices_desc();
             more.count = 1;
             more.positions = has_doubles[i] ? vox_double_positions(as_doubles[i], corners + 1)
                                             : vox_float_positions(at[i], corners + 1);
@@ -155,7 +154,7 @@ START_TEST(contacts_of_wandering_bodies) {
         ck_assert_uint_eq(found.tets, by_reference.tets);
         ck_assert_uint_eq(found.penetrations, by_reference.penetrations);
         contacts += found.contacts;
-        if (step % 4 == 2 && suite_engine == VOX_ENGINE_FAST) {
+        if (step % 4 == 2 && suite_engine == ENGINE_FAST) {
             ck_assert_msg(found.moved_meshes == 0, "step %d: %llu moved", step,
                           (unsigned long long)found.moved_meshes);
             ck_assert_uint_eq(found.carried_contacts, found.contacts);
@@ -163,7 +162,7 @@ START_TEST(contacts_of_wandering_bodies) {
         }
     }
     ck_assert_uint_gt(contacts, 1000);
-    if (suite_engine == VOX_ENGINE_FAST) ck_assert_uint_gt(rested, 10);
+    if (suite_engine == ENGINE_FAST) ck_assert_uint_gt(rested, 10);
     vox_grid_destroy(grid);
     vox_grid_destroy(reference);
     free_body(&floor);
@@ -244,7 +243,7 @@ START_TEST(bytes_beside_a_bad_body) {
     const vox_counters counters = counters_of(grid);
     ck_assert_uint_eq(counters.skipped_meshes, 1);
     ck_assert_uint_eq(counters.meshes, count - 1);
-    if (suite_engine == VOX_ENGINE_FAST) ck_assert_uint_le(counters.peak_bytes / count, 650);
+    if (suite_engine == ENGINE_FAST) ck_assert_uint_le(counters.peak_bytes / count, 650);
     vox_grid_destroy(grid);
 }
 END_TEST

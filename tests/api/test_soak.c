@@ -28,11 +28,11 @@ static body make_shape(soak* s) {
 }
 
 static vox_filter random_filter(soak* s) {
-    vox_filter filter = vox_default_filter();
+    vox_filter filter = plain_filter();
     if (below(s, 2)) filter.group = (int32_t)below(s, 4) - 2;
     if (below(s, 2)) filter.category = 1u + below(s, 3);
     if (below(s, 2)) filter.mask = 1u + below(s, 3);
-    filter.self_collision = below(s, 3) == 0;
+    filter.flags = below(s, 3) == 0 ? VOX_FILTER_SELF_COLLISION : 0u;
     filter.self_rings = below(s, 3);
     filter.self_rest_distance = below(s, 3) == 0 ? 0.2 : 0;
     return filter;
@@ -50,7 +50,7 @@ static void insert(soak* s) {
     memset(&m, 0, sizeof m);
     m.shape = make_shape(s);
     m.user_data = random_next(&s->random);
-    m.filter = vox_default_filter();
+    m.filter = plain_filter();
     if (below(s, 3) == 0) m.filter = random_filter(s);
     m.enabled = 1;
     place(s, &m, below(s, 2) ? 3 : 5);

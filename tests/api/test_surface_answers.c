@@ -160,12 +160,13 @@ START_TEST(memory_that_runs_out) {
     uint64_t expected[ANSWERS], ignored = 0;
     expect(expected);
     for (uint32_t workers = 1; workers <= 3; workers += 2) {
-        ledger book = {0, 0, 0, 0, 0};
+        ledger book = {0};
         vox_surface_desc desc = desc_of_sheets(&book);
         desc.worker_count = workers;
         uint64_t failures = 0;
         for (uint64_t n = 1;; ++n) { /* the call that fails, counted from the question on */
             memset(&book, 0, sizeof book);
+            desc.allocator = ledger_allocator(&book);
             vox_surface* const surface = sheets(&desc);
             book.fail_at = book.calls + n;
             const vox_result result = ask(surface, _i, &ignored);
@@ -212,7 +213,7 @@ END_TEST
 
 /* After the first answers, the same motions take no more memory. */
 START_TEST(no_memory_in_the_steady_state) {
-    ledger book = {0, 0, 0, 0, 0};
+    ledger book = {0};
     vox_surface_desc desc = desc_of_sheets(&book);
     vox_surface* const surface = sheets(&desc);
     uint64_t calls = 0;
@@ -253,13 +254,12 @@ static void finish_nothing(void* handle, void* user) {
 START_TEST(tasks_of_the_caller) {
     uint64_t expected[ANSWERS], ignored = 0;
     expect(expected);
-    ledger book = {0, 0, 0, 0, 0};
+    ledger book = {0};
     queue q = {0, false};
     vox_surface_desc desc = desc_of_sheets(&book);
     desc.worker_count = 3;
-    desc.tasks.enqueue = run_in_three;
-    desc.tasks.finish = finish_nothing;
-    desc.tasks.user = &q;
+    const vox_task_system tasks = {run_in_three, finish_nothing, &q};
+    desc.tasks = &tasks;
     vox_surface* const surface = sheets(&desc);
     for (int which = 0; which < ANSWERS; ++which) {
         const uint64_t before = q.enqueued;

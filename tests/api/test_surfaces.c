@@ -356,14 +356,13 @@ END_TEST
 
 /* Where memory runs out, call by call: an error, nothing lost, and the same answer afterwards. */
 START_TEST(memory_that_runs_out) {
-    ledger book = {0, 0, 0, 0, 0};
+    ledger book = {0};
     uint64_t calls = 0;
     for (uint64_t fail_at = 0; fail_at <= calls; ++fail_at) {
         memset(&book, 0, sizeof book);
         vox_surface_desc desc = desc_of(6, two_faces, 2);
-        desc.allocator.allocate = ledger_allocate;
-        desc.allocator.release = ledger_release;
-        desc.allocator.user = &book;
+        const vox_allocator allocator = {ledger_allocate, ledger_release, &book};
+        desc.allocator = &allocator;
         book.fail_at = fail_at;
         vox_surface* surface = NULL;
         vox_result result = vox_surface_create(&desc, &surface);
@@ -411,11 +410,10 @@ START_TEST(no_memory_in_the_steady_state) {
             memcpy(faces + 3 * count, two, sizeof two);
             count += 2;
         }
-    ledger book = {0, 0, 0, 0, 0};
+    ledger book = {0};
     vox_surface_desc desc = desc_of(side * side, faces, count);
-    desc.allocator.allocate = ledger_allocate;
-    desc.allocator.release = ledger_release;
-    desc.allocator.user = &book;
+    const vox_allocator allocator = {ledger_allocate, ledger_release, &book};
+    desc.allocator = &allocator;
     vox_surface* const surface = surface_from(&desc);
     uint64_t calls = 0;
     for (int step = 0; step < 6; ++step) {

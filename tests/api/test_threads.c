@@ -25,6 +25,7 @@ typedef struct scheduler {
     uint32_t defect;       /* what it does wrong on purpose ... */
     uint32_t defect_at;    /* ... in this of its tasks only, from 1 on; 0: in all */
     queued waiting;
+    vox_task_system tasks;
 } scheduler;
 
 enum { loses_items = 1, wrong_worker = 2, wrong_range = 3, runs_twice = 4 };
@@ -129,7 +130,7 @@ static vox_grid* new_scene(const vox_grid_desc* desc) {
     vox_grid* grid = grid_of(desc);
     for (int i = 0; i < 2 + small_bodies; ++i) {
         vox_mesh_desc mesh_desc = body_desc(i < 2 ? &large[i] : &small[i - 2]);
-        mesh_desc.flags = i % 3 == 0 ? VOX_MESH_SELF_COLLISION : 0;
+        mesh_desc.filter.flags = i % 3 == 0 ? VOX_FILTER_SELF_COLLISION : 0;
         ck_ok(vox_mesh_insert(grid, &mesh_desc, &meshes[i]));
     }
     return grid;
@@ -163,15 +164,15 @@ static const struct {
 enum { runs_inline = 0, runs_late = 1, runs_threads = 2 };
 
 /* A grid of this engine whose tasks a scheduler of that kind runs. */
-static vox_grid_desc scheduled(vox_engine engine, scheduler* s, int kind, uint32_t workers) {
+static vox_grid_desc scheduled(engine_kind engine, scheduler* s, int kind, uint32_t workers) {
     vox_grid_desc desc = vox_default_grid_desc();
     memset(s, 0, sizeof *s);
     s->worker_count = workers;
-    desc.engine = engine;
+    use_engine(&desc, engine);
     desc.worker_count = workers;
-    desc.tasks.enqueue = systems[kind].enqueue;
-    desc.tasks.finish = systems[kind].finish;
-    desc.tasks.user = s;
+    const vox_task_system tasks = {systems[kind].enqueue, systems[kind].finish, s};
+    s->tasks = tasks;
+    desc.tasks = &s->tasks;
     return desc;
 }
 
@@ -194,7 +195,7 @@ START_TEST(same_for_any_task_system) {
                 mark_all(grid);
                 ck_assert_uint_eq(stepped_hash(grid, &counters), expected);
                 ck_assert_uint_le(s.enqueued, VOX_MAX_TASKS);
-                if (workers > 1 && suite_engine == VOX_ENGINE_FAST) ck_assert_uint_gt(s.enqueued, 0);
+                if (workers > 1 && suite_engine == ENGINE_FAST) ck_assert_uint_gt(s.enqueued, 0);
                 check_same_counters(&counters, &serial);
             }
             vox_grid_destroy(grid);
@@ -270,7 +271,7 @@ START_TEST(a_bad_mesh_costs_few_tasks) {
             ck_assert_uint_eq(stepped_hash(grid, &counters), expected);
             ck_assert_uint_eq(counters.skipped_meshes, 1);
             ck_assert_uint_le(s.enqueued, VOX_MAX_TASKS);
-            if (suite_engine == VOX_ENGINE_FAST) {
+            if (suite_engine == ENGINE_FAST) {
                 ck_assert_uint_ge(without, 5);
                 ck_assert_uint_eq(s.enqueued, without + (step == 0)); /* the stream, a second time */
             }
@@ -293,11 +294,11 @@ START_TEST(large_bodies_are_shared) {
     uint64_t expected = 0;
     body bodies[2] = {make_box(30, 0.0625f, 0, 0, 0), make_box(8, 0.0625f, 1.75f, 1.75f, 1.75f)};
     for (uint32_t workers = 1; workers <= 4; workers += 3) {
-        const vox_grid_desc desc = scheduled(VOX_ENGINE_FAST, &s, runs_threads, workers);
+        const vox_grid_desc desc = scheduled(ENGINE_FAST, &s, runs_threads, workers);
         ck_ok(vox_grid_create(&desc, &grid));
         for (int i = 0; i < 2; ++i) {
             vox_mesh_desc mesh_desc = body_desc(&bodies[i]);
-            mesh_desc.flags = VOX_MESH_SELF_COLLISION;
+            mesh_desc.filter.flags = VOX_FILTER_SELF_COLLISION;
             ck_ok(vox_mesh_insert(grid, &mesh_desc, &mesh));
         }
         const uint64_t hash = stepped_hash(grid, workers == 1 ? &serial : &counters);
@@ -420,7 +421,7 @@ START_TEST(defective_task_systems) {
     scheduler s;
     make_bodies();
     for (uint32_t defect = loses_items; defect <= runs_twice; ++defect) {
-        const vox_grid_desc desc = scheduled(VOX_ENGINE_FAST, &s, runs_inline, 4);
+        const vox_grid_desc desc = scheduled(ENGINE_FAST, &s, runs_inline, 4);
         vox_grid* grid = new_scene(&desc);
         vox_counters counters;
         s.defect = defect;
@@ -450,7 +451,7 @@ START_TEST(a_defect_in_any_one_task) {
     /* The scene is large enough that every stage is shared: each defect in each task of each function is
      * found, and the next call with a sound scheduler gives what it should. */
     vox_result (*const calls[])(vox_grid*) = {call_step, call_readings, call_queries, call_view};
-    const uint32_t least[] = {suite_engine == VOX_ENGINE_FAST ? 8 : 1, 1, 1, 1}; /* tasks there have to be */
+    const uint32_t least[] = {suite_engine == ENGINE_FAST ? 8 : 1, 1, 1, 1}; /* tasks there have to be */
     scheduler s;
     vox_counters counters;
     make_bodies();
@@ -490,15 +491,17 @@ START_TEST(bad_arguments) {
     desc.worker_count = VOX_MAX_WORKERS + 1;
     ck_fails(vox_grid_create(&desc, &grid), VOX_ERROR_INVALID_ARGUMENT, "worker_count is 257");
     desc.worker_count = 2;
-    desc.tasks.enqueue = inline_enqueue;
+    vox_task_system tasks = {inline_enqueue, NULL, NULL};
+    desc.tasks = &tasks;
     ck_fails(vox_grid_create(&desc, &grid), VOX_ERROR_INVALID_ARGUMENT, "enqueue and finish");
-    desc.tasks.finish = inline_finish;
-    desc.worker_count = 0;
-    ck_fails(vox_grid_create(&desc, &grid), VOX_ERROR_INVALID_ARGUMENT, "worker_count is 0");
+    tasks.finish = inline_finish;
+    desc.worker_count = VOX_ALL_CORES;
+    ck_fails(vox_grid_create(&desc, &grid), VOX_ERROR_INVALID_ARGUMENT, "worker_count is VOX_ALL_CORES");
     ck_assert_ptr_null(grid);
     desc.worker_count = 1;
     ck_ok(vox_grid_create(&desc, &grid));
-    ck_fails(vox_grid_set_worker_count(grid, 0), VOX_ERROR_INVALID_ARGUMENT, "worker_count is 0");
+    ck_fails(vox_grid_set_worker_count(grid, VOX_ALL_CORES), VOX_ERROR_INVALID_ARGUMENT,
+             "worker_count is VOX_ALL_CORES");
     ck_fails(vox_grid_set_worker_count(grid, 1000), VOX_ERROR_INVALID_ARGUMENT, "worker_count is 1000");
     ck_fails(vox_grid_set_worker_count(NULL, 1), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     vox_grid_destroy(grid);

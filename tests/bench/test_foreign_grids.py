@@ -19,7 +19,7 @@ import library  # noqa: E402
 import losses  # noqa: E402
 
 POINT, BOX_TYPE = 0, 4  # vox_primitive_type
-CENTRES, BOXES = 0, 1
+BOXES, CENTRES = 0, 1
 BOX, AROUND, PAIRS = 0, 1, 2
 SORTED, HASHED, IPC_PAIRS, PBAT = 1, 2, 5, 7  # vox_known_grid
 SIZES = [0.6 * 2 ** (k / 2) for k in range(-1, 5)]  # mean sides of boxes

@@ -263,10 +263,10 @@ START_TEST(meshes_tell_what_c_tells) {
     ck_assert_int_eq(std::accumulate(enabled.begin(), enabled.end(), 0), static_cast<int>(tets.size()) - 1);
     ck_assert_uint_eq(enabled[3], 0);
 
-    vox_filter filter = vox_default_filter();
+    vox_filter filter{};
     filter.group = -7;
     with.grid.set_filter(with.a, filter);
-    ck_assert_int_eq(grid.filter(with.a).group, -7);
+    ck_assert_int_eq(grid.info(with.a).filter.group, -7);
     with.grid.set_enabled(with.b, false);
     ck_assert_uint_eq(grid.info(with.b).enabled, 0);
     with.grid.set_enabled(with.b, true);
@@ -425,7 +425,8 @@ START_TEST(grids_move_and_release) {
     Counting memory;
     memory.most = 100 << 20;
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.allocator = vox::allocator_of(memory);
+    const vox_allocator allocator = vox::allocator_of(memory);
+    desc.allocator = &allocator;
     {
         vox::grid grid(desc);
         const vox_body a = grid.insert(scene.a, scene.tets);
@@ -813,7 +814,8 @@ START_TEST(logs_are_callables) {
     Counting none; // without memory
     std::string text;
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = VOX_ENGINE_REFERENCE;
+    const vox_reference_desc reference = vox_default_reference_desc();
+    desc.reference = &reference;
     const Scene scene;
     {
         vox::grid grid(desc, [&](vox_log_level, const char* line) { text += line; });

@@ -31,7 +31,7 @@ START_TEST(files_and_bodies) {
 
     // Written to memory, read back, and put into a grid.
     std::vector<std::byte> bytes;
-    vox_io_write_desc desc = vox::io::default_write_desc();
+    vox_io_write_desc desc = vox_default_io_write_desc();
     desc.format = VOX_IO_WRITE_MSH_41;
     ball.write_to(
         [&](vox::span<const std::byte> part) { bytes.insert(bytes.end(), part.begin(), part.end()); }, desc);
@@ -53,10 +53,10 @@ START_TEST(files_and_bodies) {
     ck_assert_uint_eq(vox::io::load(path).report().tets, arrays.tet_count);
     double last = 0;
     const auto watch = [&](double fraction) { return last = fraction, true; };
-    const vox::io::mesh watched = vox::io::load(path, vox::io::default_load_desc(), watch);
+    const vox::io::mesh watched = vox::io::load(path, vox_default_io_load_desc(), watch);
     ck_assert_double_eq(last, 1);
     ck_assert_uint_eq(watched.tets().size(), ball.tets().size());
-    throws([&] { vox::io::load(path, vox::io::default_load_desc(), [](double) { return false; }); },
+    throws([&] { vox::io::load(path, vox_default_io_load_desc(), [](double) { return false; }); },
            VOX_ERROR_INVALID_STATE, "cancel");
     ck_assert_int_eq(remove(path.c_str()), 0);
 
@@ -87,7 +87,7 @@ START_TEST(surfaces_are_filled_with_progress) {
     const std::vector<std::uint32_t> triangles = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
     const vox::io::mesh surface = vox::io::create(corners, {}, triangles);
     ck_assert_uint_eq(surface.triangles().size(), 12);
-    vox_io_tetrahedralize_desc desc = vox::io::default_tetrahedralize_desc();
+    vox_io_tetrahedralize_desc desc = vox_default_io_tetrahedralize_desc();
     desc.cell = 0.1;
     double last = 0;
     const vox::io::mesh filled =

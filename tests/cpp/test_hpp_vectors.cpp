@@ -41,14 +41,14 @@ json summary(const R& items) {
 std::uint64_t bits(const json& text) { return std::stoull(text.get<std::string>()); }
 
 vox_filter filter_of(const json& fields) {
-    vox_filter filter = vox_default_filter();
+    vox_filter filter{};
     filter.group = fields["group"];
     filter.category = bits(fields["category"]);
     filter.mask = bits(fields["mask"]);
-    filter.self_collision = fields["self_collision"];
+    filter.flags = fields["flags"];
+    filter.world = fields["world"];
     filter.self_rings = fields["self_rings"];
     filter.self_rest_distance = fields["self_rest_distance"];
-    filter.penetration_mask = bits(fields["penetration_mask"]);
     return filter;
 }
 
@@ -97,10 +97,9 @@ private:
         const auto positions = array<std::array<T, 3>>(call["positions"], call["vertices"]);
         const auto tets = array<corners>(call["tets"], call["tet_count"]);
         vox_mesh_desc desc = vox::describe(positions, tets);
-        vox_filter filter;
         desc.flags |= VOX_MESH_COPY_POSITIONS;
         desc.user_data = bits(call["user_data"]);
-        if (call.contains("filter")) desc.filter = &(filter = filter_of(call["filter"]));
+        if (call.contains("filter")) desc.filter = filter_of(call["filter"]);
         check(call, "mesh", grid_.insert(desc));
     }
 

@@ -20,7 +20,7 @@ inline std::uint32_t below(Random& random, std::uint32_t count) {
 struct Body {
     std::uint64_t number = 0;
     bool doubles = false;
-    vox_filter filter = vox_default_filter();
+    vox_filter filter{};
     std::vector<double> xyz;
     std::vector<std::uint32_t> tets;
     std::size_t vertices() const { return xyz.size() / 3; }
@@ -66,7 +66,8 @@ inline Scene lattice(std::uint64_t seed) {
         Body body = block(n, origin, below(random, 3) ? 1 : 0.5);
         body.number = std::uint64_t{1} << 40 | (count - b) * 7u;
         body.doubles = below(random, 2) != 0;
-        body.filter.self_collision = below(random, 2);
+        body.filter.flags = below(random, 2) ? std::uint32_t{VOX_FILTER_SELF_COLLISION} : 0u;
+        body.filter.world = below(random, 8) == 0;
         if (below(random, 4) == 0) body.filter.group = static_cast<std::int32_t>(below(random, 3)) - 1;
         if (below(random, 6) == 0) body.filter.category = 2, body.filter.mask = below(random, 2) ? 1 : 3;
         if (below(random, 3) == 0) // folded

@@ -239,7 +239,7 @@ Snapshot saved(const Scene& scene, std::vector<std::vector<Share>>& all, std::ui
                                  : vox_mesh_desc_floats(share.floats.data(), share.vertex_ids.size(),
                                                         share.tets.data(), share.tet_ids.size());
         mesh.user_data = b;
-        mesh.filter = &scene[b].filter;
+        mesh.filter = scene[b].filter;
         vox_body id;
         ck_assert_int_eq(vox_mesh_insert(grid, &mesh, &id), VOX_OK);
     }
@@ -277,7 +277,7 @@ void restore(const Snapshot& bytes, const std::vector<std::vector<Share>>& all, 
         info.struct_size = sizeof info;
         ck_assert_int_eq(vox_body_get_info(grid, mesh, &info), VOX_OK);
         Body& body = scene[info.user_data];
-        ck_assert_int_eq(vox_mesh_filter(grid, mesh, &body.filter), VOX_OK);
+        body.filter = info.filter;
         const Share& share = all[info.user_data][rank];
         ck_assert_uint_eq(info.positions.count, share.vertex_ids.size());
         for (std::uint64_t v = 0; v < info.positions.count; ++v)
@@ -305,7 +305,7 @@ std::string differs_after_restart(const Scene& scene, std::uint32_t before, std:
     for (Body& body : restored) {
         std::fill(body.xyz.begin(), body.xyz.end(), -1000);
         std::fill(body.tets.begin(), body.tets.end(), 0);
-        body.filter = vox_default_filter();
+        body.filter = vox_filter{};
     }
     for (std::uint32_t rank = 0; rank < before; ++rank) restore(saved(scene, all, rank), all, rank, restored);
 
@@ -377,7 +377,8 @@ void lone_body_rank(const vox_transport* transport, void* user) {
     if (mine.result != VOX_OK || mine.insert(body, run.shares[0][transport->rank]) != VOX_OK ||
         vox_scene_step(mine.scene) != VOX_OK || vox_scene_get_counters(mine.scene, &counters) != VOX_OK)
         return note(run, vox_last_error());
-    if ((counters.neighbours != 0) != (body.filter.self_collision != 0)) note(run, "other neighbours");
+    if ((counters.neighbours != 0) != ((body.filter.flags & VOX_FILTER_SELF_COLLISION) != 0))
+        note(run, "other neighbours");
 }
 
 START_TEST(ranks_of_one_body_are_neighbours_only_if_it_collides_with_itself) {
@@ -385,7 +386,7 @@ START_TEST(ranks_of_one_body_are_neighbours_only_if_it_collides_with_itself) {
     const double origin[3] = {0, 0, 0};
     for (const std::uint32_t self : {0u, 1u}) {
         Scene scene = {block(cubes, origin, 1)};
-        scene[0].filter.self_collision = self;
+        scene[0].filter.flags = self ? std::uint32_t{VOX_FILTER_SELF_COLLISION} : 0u;
         Random random(1);
         Run run;
         run.scene = &scene;

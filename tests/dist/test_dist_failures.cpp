@@ -31,7 +31,7 @@ struct Heap {
         --static_cast<Heap*>(user)->held;
         std::free(memory);
     }
-    vox_allocator allocator() { return {allocate, release, this}; }
+    const vox_allocator allocator{allocate, release, this};
 };
 
 // Two blocks, one half a cube within the other, cut at random: contacts on facets, edges and corners across
@@ -141,9 +141,8 @@ std::uint64_t fail_each(const Operation& operation, std::uint32_t bad, int steps
             {
                 vox_grid_desc grid = vox_default_grid_desc();
                 grid.flags = 0;
-                grid.allocator = heap.allocator();
-                vox_scene_desc desc;
-                (void)vox_scene_desc_init(&desc, sizeof desc);
+                grid.allocator = &heap.allocator;
+                vox_scene_desc desc = vox_default_scene_desc();
                 desc.grid = &grid;
                 Ranked mine(transport, &desc);
                 ranks.expect(mine.result == VOX_OK, "create");
@@ -220,9 +219,8 @@ START_TEST(each_failed_allocation_of_create) {
             heap.fail_at = transport->rank == 1 ? n : 0;
             vox_grid_desc grid = vox_default_grid_desc();
             grid.flags = 0;
-            grid.allocator = heap.allocator();
-            vox_scene_desc desc;
-            (void)vox_scene_desc_init(&desc, sizeof desc);
+            grid.allocator = &heap.allocator;
+            vox_scene_desc desc = vox_default_scene_desc();
             desc.grid = &grid;
             vox_scene* scene = nullptr;
             const vox_result result = vox_scene_create(&desc, transport, &scene);
@@ -246,8 +244,7 @@ START_TEST(a_budget_of_one_rank) {
             vox_grid_desc grid = vox_default_grid_desc();
             grid.flags = 0;
             if (transport->rank == 2) grid.byte_budget = budget;
-            vox_scene_desc desc;
-            (void)vox_scene_desc_init(&desc, sizeof desc);
+            vox_scene_desc desc = vox_default_scene_desc();
             desc.grid = &grid;
             Ranked mine(transport, &desc);
             if (mine.result != VOX_OK) return ranks.expect(mine.result == VOX_ERROR_BUDGET, "create");
@@ -360,17 +357,11 @@ START_TEST(a_part_that_moves_to_other_memory) {
     std::uint32_t corners[4] = {0, 1, 2, 4};
     vox_scene* scene = nullptr;
     ck_ok(vox_scene_create(nullptr, nullptr, &scene));
-    vox_filter filter = vox_default_filter();
     vox_mesh_desc mesh = vox_mesh_desc_doubles(xyz[0][0], 4, corners, 1);
-    mesh.filter = &filter;
-    vox_part_desc part;
-    ck_ok(vox_part_desc_init(&part, sizeof part));
+    vox_part_desc part = vox_default_part_desc();
     part.body = 5;
     part.mesh = &mesh;
     vox_part handle = 0;
-    filter.struct_size = 3;
-    ck_fails(vox_scene_insert(scene, &part, &handle), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 3");
-    filter.struct_size = sizeof filter;
     mesh.struct_size = 0;
     ck_fails(vox_scene_insert(scene, &part, &handle), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 0");
     mesh.struct_size = sizeof mesh;
@@ -456,8 +447,7 @@ END_TEST
 START_TEST(arguments) {
     const Scene bodies = two_blocks();
     vox_scene* scene = nullptr;
-    vox_scene_desc desc;
-    ck_ok(vox_scene_desc_init(&desc, sizeof desc));
+    vox_scene_desc desc = vox_default_scene_desc();
     vox_grid_desc grid = vox_default_grid_desc();
     desc.grid = &grid;
     grid.flags = VOX_GRID_EDGE_CONTACTS;
@@ -466,8 +456,7 @@ START_TEST(arguments) {
     grid.margin = 0.5;
     ck_fails(vox_scene_create(&desc, nullptr, &scene), VOX_ERROR_UNSUPPORTED, "margin is 0.5");
     ck_fails(vox_scene_create(nullptr, nullptr, nullptr), VOX_ERROR_INVALID_ARGUMENT, "out_scene");
-    vox_transport transport;
-    ck_ok(vox_transport_init(&transport, sizeof transport));
+    vox_transport transport = vox_default_transport();
     transport.size = 3;
     transport.rank = 3;
     ck_fails(vox_scene_create(nullptr, &transport, &scene), VOX_ERROR_INVALID_ARGUMENT, "rank is 3 of 3");
@@ -486,8 +475,7 @@ START_TEST(arguments) {
     std::vector<std::uint64_t> ids(body.vertices());
     std::vector<std::uint8_t> owned(body.vertices(), 1);
     for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = 1000 - i;
-    vox_part_desc part;
-    ck_ok(vox_part_desc_init(&part, sizeof part));
+    vox_part_desc part = vox_default_part_desc();
     part.body = 7;
     part.mesh = &mesh;
     part.vertex_ids = ids.data();
@@ -499,12 +487,12 @@ START_TEST(arguments) {
     owned[3] = 2;
     ck_fails(vox_scene_insert(scene, &part, &handle), VOX_ERROR_INVALID_ARGUMENT, "2");
     owned[3] = 1;
-    vox_filter filter = vox_default_filter();
-    filter.self_collision = 1;
+    vox_filter filter{};
+    filter.flags = VOX_FILTER_SELF_COLLISION;
     filter.self_rings = 1;
-    mesh.filter = &filter;
+    mesh.filter = filter;
     ck_fails(vox_scene_insert(scene, &part, &handle), VOX_ERROR_UNSUPPORTED, "ring");
-    mesh.filter = nullptr;
+    mesh.filter = {};
     ck_assert_uint_eq(handle, 0);
     ck_ok(vox_scene_insert(scene, &part, &handle));
     vox_part second = 0;

@@ -29,9 +29,8 @@ public:
                                                                   share.tets.data(), share.tet_ids.size())
                                           : vox_mesh_desc_floats(share.floats.data(), share.vertex_ids.size(),
                                                                  share.tets.data(), share.tet_ids.size());
-        mesh.filter = &body.filter;
-        vox_part_desc part;
-        (void)vox_part_desc_init(&part, sizeof part);
+        mesh.filter = body.filter;
+        vox_part_desc part = vox_default_part_desc();
         part.body = body.number;
         part.mesh = &mesh;
         part.vertex_ids = share.vertex_ids.data();
@@ -69,7 +68,7 @@ inline vox_grid* whole(const Scene& scene, std::vector<std::vector<float>>& floa
             body.doubles
                 ? vox_mesh_desc_doubles(body.xyz.data(), body.vertices(), body.tets.data(), body.tet_count())
                 : vox_mesh_desc_floats(floats[b].data(), body.vertices(), body.tets.data(), body.tet_count());
-        mesh.filter = &body.filter;
+        mesh.filter = body.filter;
         mesh.user_data = body.number;
         vox_body id;
         if (vox_mesh_insert(grid, &mesh, &id) != VOX_OK) return nullptr;

@@ -35,8 +35,7 @@ static void check(const vox_io_mesh* mesh) {
     if (view.tet_count == 0) return; /* a surface, which no tet reader takes back */
 
     static const vox_io_write_format formats[] = {VOX_IO_WRITE_MSH_22, VOX_IO_WRITE_MSH_41, VOX_IO_WRITE_VTU};
-    vox_io_write_desc desc;
-    demand(vox_io_write_desc_init(&desc, (uint32_t)sizeof desc) == VOX_OK);
+    vox_io_write_desc desc = vox_default_io_write_desc();
     desc.format = formats[view.vertex_count % 3];
     desc.binary = view.tet_count & 1;
     buffer out = {NULL, 0};
@@ -87,8 +86,7 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         sources[1].size = size - cut - 4;
         count = 2;
     }
-    vox_io_load_desc desc;
-    demand(vox_io_load_desc_init(&desc, (uint32_t)sizeof desc) == VOX_OK);
+    vox_io_load_desc desc = vox_default_io_load_desc();
     desc.format = format;
     vox_io_mesh* mesh = NULL;
     const vox_result result = vox_io_read(sources, count, &desc, &mesh);

@@ -138,7 +138,7 @@ START_TEST(reference_counts) {
     Scene scene;
     named.fill(scene);
     scene.prepare();
-    const ReferenceModel cost(Described(scene), VOX_STORAGE_HASHED, shipped_weights());
+    const ReferenceModel cost(Described(scene), false, shipped_weights());
     const Lookups& counts = cost.lookups();
     ReferenceEngine engine(heap);
     for (const double size : {0.7, 1.0, 1.5, 2.2}) {
@@ -185,10 +185,10 @@ START_TEST(reference_quick_look) {
     scene.prepare();
     const std::uint64_t tets = tets_of(scene);
     for (const bool large : {false, true}) {
-        const ReferenceModel all(Described(scene, large ? thorough : smooth(thorough)), VOX_STORAGE_HASHED,
+        const ReferenceModel all(Described(scene, large ? thorough : smooth(thorough)), false,
                                  shipped_weights());
         const ReferenceModel some(Described(scene, quick(VOX_COST_MODEL_REFERENCE, large ? 200000 : tets)),
-                                  VOX_STORAGE_HASHED, shipped_weights());
+                                  false, shipped_weights());
         const CellSizeRange range = all.range().value();
         const CostMinimum best = minimise(of_size(all), range, {.scans_per_octave = 16});
         const CostMinimum found = minimise(of_size(some), range, {.scans_per_octave = 16});
@@ -205,9 +205,9 @@ START_TEST(reference_usual_look) {
     Scene scene;
     named.fill(scene);
     scene.prepare();
-    const ReferenceModel all(Described(scene), VOX_STORAGE_HASHED, shipped_weights());
-    const ReferenceModel some(Described(scene, usual(VOX_COST_MODEL_REFERENCE, tets_of(scene))),
-                              VOX_STORAGE_HASHED, shipped_weights());
+    const ReferenceModel all(Described(scene), false, shipped_weights());
+    const ReferenceModel some(Described(scene, usual(VOX_COST_MODEL_REFERENCE, tets_of(scene))), false,
+                              shipped_weights());
     const CellSizeRange range = all.range().value();
     const CostMinimum best = minimise(of_size(all), range, {.scans_per_octave = 16});
     const CostMinimum found = minimise(of_size(some), range, {.scans_per_octave = 16});
@@ -263,7 +263,7 @@ START_TEST(reference_lists_of_other_length) {
     Scene scene;
     named.fill(scene);
     scene.prepare();
-    const ReferenceModel cost(Described(scene), VOX_STORAGE_HASHED, shipped_weights());
+    const ReferenceModel cost(Described(scene), false, shipped_weights());
     for (const double size : {0.7, 1.0, 1.5, 2.2}) {
         const double cell_size = size * named.unit;
         ck_near(named, size, "lists of another length", term(cost.terms(cell_size), "list of another length"),
@@ -284,7 +284,7 @@ START_TEST(cells_as_large_as_those_of_a_lattice) {
         move(mesh, 1, 0.21, 0.34, 0.43);
         scene.add(std::move(mesh), true);
         scene.prepare();
-        const ReferenceModel cost(Described(scene), VOX_STORAGE_HASHED, shipped_weights());
+        const ReferenceModel cost(Described(scene), false, shipped_weights());
         const double beside = std::min(cost(1 / 1.12), cost(1.12));
         if (jittered < 0.1)
             ck_assert_double_lt(cost(1), 0.97 * beside);
@@ -300,9 +300,7 @@ START_TEST(tets_in_no_order_fetch_their_vertices) {
     Scene scene;
     scenes[0].fill(scene);
     scene.prepare();
-    const auto terms = [&] {
-        return ReferenceModel(Described(scene), VOX_STORAGE_HASHED, shipped_weights()).terms(1.5);
-    };
+    const auto terms = [&] { return ReferenceModel(Described(scene), false, shipped_weights()).terms(1.5); };
     const CostTerms before = terms();
     Random random{5};
     for (Mesh& mesh : scene.meshes())
@@ -447,13 +445,13 @@ START_TEST(levels_where_they_pay) {
     Scene alike, unlike;
     scenes[0].fill(alike);
     alike.prepare();
-    const ReferenceModel one(Described(alike), VOX_STORAGE_HASHED, shipped_weights());
+    const ReferenceModel one(Described(alike), false, shipped_weights());
     CellSizeRange range = one.range().value();
     ck_assert_uint_eq(choose_levels(one, range).count, 1);
 
     scenes[5].fill(unlike);
     unlike.prepare();
-    const ReferenceModel cost(Described(unlike), VOX_STORAGE_HASHED, shipped_weights());
+    const ReferenceModel cost(Described(unlike), false, shipped_weights());
     range = cost.range().value();
     const Levels levels = choose_levels(cost, range);
     const CostMinimum uniform = minimise(of_size(cost), range);
@@ -469,7 +467,7 @@ START_TEST(levels_are_one_engine) {
         Scene scene;
         scenes[s].fill(scene);
         scene.prepare();
-        const ReferenceModel cost(Described(scene), VOX_STORAGE_HASHED, shipped_weights());
+        const ReferenceModel cost(Described(scene), false, shipped_weights());
         CellSizeRange range = cost.range().value();
         range.min = std::max(range.min, cost.least_cell_size(0, range)); // what dense storage can have
         const Levels best = choose_levels(cost, range);
@@ -477,7 +475,7 @@ START_TEST(levels_are_one_engine) {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         const CellLevel some[3] = {{0.5, 0.25}, {0.7, 1}, {1.5, infinity}};
         std::vector<Key> expected;
-        for (const vox_storage storage : {VOX_STORAGE_HASHED, VOX_STORAGE_DENSE})
+        for (const bool dense : {false, true})
             for (const std::span<const CellLevel> levels :
                  {std::span<const CellLevel>(), best.list(), std::span<const CellLevel>(some)}) {
                 ReferenceEngine engine(heap);
@@ -485,7 +483,7 @@ START_TEST(levels_are_one_engine) {
                 vox_counters counters{};
                 vox_profile profile{};
                 ReferenceSettings settings;
-                settings.storage = storage;
+                settings.dense = dense;
                 settings.cell_size = scenes[s].unit;
                 settings.levels = levels;
                 engine.detect(scene.bodies(), settings, hits, counters, profile);
@@ -529,7 +527,7 @@ double step(ReferenceEngine& engine, Scene& scene, AdaptiveCellSize& adaptive) {
     vox_counters counters{};
     vox_profile profile{};
     ReferenceSettings settings;
-    settings.levels = adaptive.cell_sizes(scene.bodies(), VOX_STORAGE_HASHED, 0, heap);
+    settings.levels = adaptive.cell_sizes(scene.bodies(), false, 0, heap);
     engine.detect(scene.bodies(), settings, hits, counters, profile);
     for (const Body& body : scene.bodies()) {
         counters.vertices += body.vertex_count;
@@ -542,7 +540,7 @@ double step(ReferenceEngine& engine, Scene& scene, AdaptiveCellSize& adaptive) {
 
 // The loss of a size for the scene as it is now, by the model without the term for lists of another length.
 double loss(Scene& scene, double cell_size) {
-    const ReferenceModel cost(Described(scene, smooth(thorough)), VOX_STORAGE_HASHED, shipped_weights());
+    const ReferenceModel cost(Described(scene, smooth(thorough)), false, shipped_weights());
     const CellSizeRange range = cost.range().value();
     return cost(cell_size) / minimise(of_size(cost), range).cost - 1;
 }

@@ -29,7 +29,7 @@ struct TestMesh {
     std::vector<std::uint8_t> on;
     bool self = false, enabled = true, doubles = false;
     std::vector<float> floats; // what the grid reads unless `doubles`
-    vox_filter filter = vox_default_filter();
+    vox_filter filter{};
     vox_body id = VOX_NULL_BODY;
 
     Vec3d at(std::uint32_t v) const {
@@ -102,7 +102,9 @@ Near rings_of(const TestMesh& mesh) {
 
 bool may_collide(const TestMesh& a, const TestMesh& b) {
     if (a.filter.group != 0 && a.filter.group == b.filter.group) return a.filter.group > 0;
-    return (a.filter.category & b.filter.mask) != 0 && (b.filter.category & a.filter.mask) != 0;
+    const std::uint64_t all = ~std::uint64_t{0};
+    return ((b.filter.mask ? b.filter.mask : all) & 1) != 0 &&
+           ((a.filter.mask ? a.filter.mask : all) & 1) != 0;
 }
 
 std::vector<Expected> brute_force(const std::vector<TestMesh>& meshes, const std::set<Edge>& exceptions) {
@@ -253,7 +255,7 @@ TestMesh make_mesh(Random& r, bool on_lattice) {
     if (mesh.self && r.below(4) == 0) mesh.filter.self_rings = 1 + r.below(2);
     if (r.below(6) == 0) mesh.filter.group = static_cast<std::int32_t>(r.below(3)) - 1;
     if (r.below(6) == 0) mesh.filter.mask = ~std::uint64_t{0} << r.below(2);
-    mesh.filter.self_collision = mesh.self;
+    mesh.filter.flags = mesh.self ? std::uint32_t{VOX_FILTER_SELF_COLLISION} : 0u;
     place(mesh, r, 2, on_lattice);
     return mesh;
 }
@@ -263,7 +265,7 @@ vox_body insert(vox_grid* grid, const TestMesh& mesh) {
                                                               mesh.tets.data(), mesh.tet_count())
                                       : vox_mesh_desc_floats(mesh.floats.data(), mesh.vertex_count(),
                                                              mesh.tets.data(), mesh.tet_count());
-    desc.filter = &mesh.filter;
+    desc.filter = mesh.filter;
     return insert_mesh(grid, &desc);
 }
 
@@ -306,7 +308,7 @@ void run_scene(std::uint64_t seed, int steps) {
     for (int g = 0; g < grid_count; ++g) {
         vox_grid_desc desc = vox_default_grid_desc();
         desc.flags = VOX_GRID_EDGE_CONTACTS | (seed % 2 ? std::uint32_t{VOX_GRID_PENETRATIONS} : 0u);
-        desc.engine = g == 0 ? VOX_ENGINE_REFERENCE : VOX_ENGINE_FAST;
+        use_engine(&desc, g == 0 ? ENGINE_REFERENCE : ENGINE_FAST);
         desc.worker_count = g == 2 ? 3 : 1;
         grids[g] = grid_of(&desc);
         for (TestMesh& mesh : meshes) mesh.id = insert(grids[g], mesh);
@@ -383,7 +385,7 @@ START_TEST(large_bodies_equal_the_definition) {
             meshes[i].tets.assign(b.tets, b.tets + 4 * b.tet_count);
             meshes[i].on.assign(b.tet_count, 1);
             meshes[i].self = kind == 2;
-            meshes[i].filter.self_collision = kind == 2;
+            meshes[i].filter.flags = kind == 2 ? std::uint32_t{VOX_FILTER_SELF_COLLISION} : 0u;
             meshes[i].round();
             free_body(&b);
         }

@@ -11,18 +11,18 @@ struct SelfEdges {
     std::uint64_t hash, count, candidates;
 };
 
-SelfEdges self_edges(Scene& scene, vox_engine engine, std::uint32_t workers) {
+SelfEdges self_edges(Scene& scene, engine_kind engine, std::uint32_t workers) {
     vox_grid_desc desc = vox_default_grid_desc();
     desc.flags |= VOX_GRID_EDGE_CONTACTS;
-    desc.engine = engine;
+    use_engine(&desc, engine);
     desc.worker_count = workers;
     vox_grid* grid = grid_of(&desc);
-    vox_filter filter = vox_default_filter();
-    filter.self_collision = 1;
+    vox_filter filter{};
+    filter.flags = VOX_FILTER_SELF_COLLISION;
     for (const Mesh& mesh : scene.meshes()) {
         vox_mesh_desc of = vox_mesh_desc_floats(&mesh.positions[0].x, mesh.positions.size(), mesh.tets[0].v,
                                                 mesh.tets.size());
-        of.filter = &filter;
+        of.filter = filter;
         insert_mesh(grid, &of);
     }
     ck_ok(vox_grid_step(grid));
@@ -35,9 +35,9 @@ SelfEdges self_edges(Scene& scene, vox_engine engine, std::uint32_t workers) {
 
 // What the reference engine finds, which certifies nothing, after both engines found the same.
 SelfEdges check_edges(Scene& scene, const char* name, std::uint64_t* candidates = nullptr) {
-    const SelfEdges expected = self_edges(scene, VOX_ENGINE_REFERENCE, 1);
+    const SelfEdges expected = self_edges(scene, ENGINE_REFERENCE, 1);
     for (const std::uint32_t workers : {1u, 3u}) {
-        const SelfEdges found = self_edges(scene, VOX_ENGINE_FAST, workers);
+        const SelfEdges found = self_edges(scene, ENGINE_FAST, workers);
         ck_assert_msg(found.hash == expected.hash, "%s: %llu edge contacts, expected %llu", name,
                       static_cast<unsigned long long>(found.count),
                       static_cast<unsigned long long>(expected.count));

@@ -9,17 +9,17 @@ namespace {
 
 void add_mesh(vox_grid* grid, const body& b) {
     vox_mesh_desc desc = body_desc(&b);
-    desc.flags = VOX_MESH_SELF_COLLISION | VOX_MESH_COPY_POSITIONS;
+    desc.flags = VOX_MESH_COPY_POSITIONS;
+    desc.filter.flags = VOX_FILTER_SELF_COLLISION;
     insert_mesh(grid, &desc);
 }
 
 START_TEST(nothing_from_the_default_resource) {
     body box = make_box(14, 0.125f, 0, 0, 0), other = make_box(6, 0.25f, 0.4f, 0.3f, 0.2f);
     std::pmr::memory_resource* const usual = std::pmr::set_default_resource(std::pmr::null_memory_resource());
-    for (const vox_storage storage : {VOX_STORAGE_HASHED, VOX_STORAGE_DENSE}) {
+    for (const std::uint32_t flags : {0u, std::uint32_t{VOX_REFERENCE_DENSE}}) {
         vox_grid_desc desc = vox_default_grid_desc();
-        desc.engine = suite_engine;
-        desc.storage = storage;
+        if (suite_engine == ENGINE_REFERENCE) desc.reference = reference_with(flags);
         vox_grid* grid = nullptr;
         ck_ok(vox_grid_create(&desc, &grid));
         add_mesh(grid, box);

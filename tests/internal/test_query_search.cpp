@@ -327,7 +327,7 @@ START_TEST(many_points_as_alone) {
         desc.tet_count = bodies[b].tets.size();
         desc.flags = VOX_MESH_COPY_POSITIONS;
         const vox_body mesh = insert_mesh(grid, &desc);
-        vox_filter filter = vox_default_filter();
+        vox_filter filter{};
         filter.category = 1u << b % 4;
         ck_ok(vox_body_set_filter(grid, mesh, &filter));
         const double turned[12] = {0.8, -0.6, 0, 1, 0.6, 0.8, 0, -1, 0, 0, 1, 0.1};

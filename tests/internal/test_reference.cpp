@@ -36,24 +36,23 @@ struct Engine {
 };
 
 struct Storage {
-    vox_storage storage;
-    vox_hash hash;
+    bool dense, paper_hash;
     std::uint64_t table_size;
     bool small_world; // dense storage in a box that leaves out much of the scene
 };
 
 constexpr Storage storages[] = {
-    {VOX_STORAGE_HASHED, VOX_HASH_MIXED, 0, false}, {VOX_STORAGE_HASHED, VOX_HASH_PAPER, 0, false},
-    {VOX_STORAGE_AUTO, VOX_HASH_MIXED, 1, false}, // two buckets: nearly every cell collides
-    {VOX_STORAGE_HASHED, VOX_HASH_PAPER, 7, false}, {VOX_STORAGE_DENSE, VOX_HASH_MIXED, 0, false},
-    {VOX_STORAGE_DENSE, VOX_HASH_MIXED, 0, true},
+    {false, false, 0, false}, {false, true, 0, false},
+    {false, false, 1, false}, // two buckets: nearly every cell collides
+    {false, true, 7, false},  {true, false, 0, false},
+    {true, false, 0, true},
 };
 
 // In units of the mean edge.
 constexpr double cell_sizes[] = {0.2, 0.5, 1, 1.5, 3, 8, 1e-6, 1e6};
 
 ReferenceSettings settings_of(const Storage& storage, double cell_size) {
-    ReferenceSettings settings{cell_size, storage.storage, storage.hash, storage.table_size, {}, {}};
+    ReferenceSettings settings{cell_size, storage.dense, storage.paper_hash, storage.table_size, {}, {}};
     if (storage.small_world) {
         settings.world_min = {-1.5 * cell_size, -1.5 * cell_size, 0};
         settings.world_max = {1.5 * cell_size, 2 * cell_size, 0.5 * cell_size};
@@ -112,7 +111,7 @@ std::size_t check_scene(Engine& engine, const Meshes& scene) {
                 engine.step(scene, settings);
             } catch (const Error& error) {
                 // Only dense storage may refuse, and only when there are too many cells.
-                ck_assert(storage.storage == VOX_STORAGE_DENSE && !storage.small_world);
+                ck_assert(storage.dense && !storage.small_world);
                 ck_assert_double_gt(dense_cells(scene, settings.cell_size), 1e6);
                 ck_assert(error.result() == VOX_ERROR_LIMIT || error.result() == VOX_ERROR_BUDGET);
                 ck_assert_ptr_nonnull(std::strstr(error.what(), "cells of size"));
@@ -394,8 +393,8 @@ START_TEST(counters_of_a_scene_counted_by_hand) {
              false},
         Mesh{{{0.75f, 0.75f, 0.75f}, {0.25f, 0.75f, 0.75f}, {2.25f, 2.25f, 2.25f}, {-5, -5, -5}}, {}, false}};
     Engine engine;
-    for (const vox_hash hash : {VOX_HASH_MIXED, VOX_HASH_PAPER}) {
-        engine.step(scene, {1, VOX_STORAGE_HASHED, hash, 0, {}, {}});
+    for (const bool paper_hash : {false, true}) {
+        engine.step(scene, {1, false, paper_hash, 0, {}, {}});
         const vox_counters& c = engine.counters;
         ck_assert_uint_eq(c.entries, 8);
         // (0,0,0) holds three; (2,0,0), (0,2,0), (0,0,2), (2,2,2) and (-5,-5,-5) hold one each.
@@ -409,7 +408,7 @@ START_TEST(counters_of_a_scene_counted_by_hand) {
         ck_assert_uint_eq(engine.contacts.size(), 1);
     }
     // With two cells an axis, the far point has a cell for itself, and all others share one.
-    engine.step(scene, {5, VOX_STORAGE_DENSE, VOX_HASH_MIXED, 0, {-5, -5, -5}, {5, 5, 5}});
+    engine.step(scene, {5, true, false, 0, {-5, -5, -5}, {5, 5, 5}});
     ck_assert_uint_eq(engine.counters.cells, 2);
     ck_assert_uint_eq(engine.counters.visited_cells, 1);
     ck_assert_uint_eq(engine.counters.visited_entries, 7);
@@ -430,8 +429,7 @@ START_TEST(every_objective_voxel_is_counted) {
     for (const Storage& storage : storages) {
         if (storage.small_world) continue;
         ReferenceSettings settings = settings_of(storage, 1);
-        if (storage.storage == VOX_STORAGE_DENSE)
-            settings.world_min = {-8, -8, -8}, settings.world_max = {8, 8, 8};
+        if (storage.dense) settings.world_min = {-8, -8, -8}, settings.world_max = {8, 8, 8};
         engine.step(scene, settings);
         ck_assert_uint_eq(engine.counters.cells, 64);
         ck_assert_uint_eq(engine.counters.visited_cells, 8);
@@ -473,7 +471,7 @@ START_TEST(budget_is_named_with_cells_and_bytes) {
     engine.memory.budget = 100000;
     const Meshes scene = two_blocks({0.5, 0.5, 0.5}); // 2.5 wide
     try {
-        engine.step(scene, {0.01, VOX_STORAGE_DENSE, VOX_HASH_MIXED, 0, {}, {}});
+        engine.step(scene, {0.01, true, false, 0, {}, {}});
         ck_abort_msg("15 million cells fit in 100000 bytes");
     } catch (const Error& error) {
         ck_assert_int_eq(error.result(), VOX_ERROR_BUDGET);
@@ -525,12 +523,10 @@ std::uint32_t longest_chain(const CellLists& lists) {
 
 START_TEST(chosen_cells_do_not_share_a_bucket) {
     constexpr std::size_t points = 2000, tets = 200;
-    const auto check = [](const Meshes& scene, vox_hash flooded) {
+    const auto check = [](const Meshes& scene, bool paper_hash) {
         Engine engine;
-        const ReferenceSettings settings{.cell_size = 1, .storage = VOX_STORAGE_HASHED, .hash = flooded};
-        const ReferenceSettings other{.cell_size = 1,
-                                      .storage = VOX_STORAGE_HASHED,
-                                      .hash = flooded == VOX_HASH_PAPER ? VOX_HASH_MIXED : VOX_HASH_PAPER};
+        const ReferenceSettings settings{.cell_size = 1, .paper_hash = paper_hash};
+        const ReferenceSettings other{.cell_size = 1, .paper_hash = !paper_hash};
         engine.step(scene, other); // a hash that these cells were not chosen for
         ck_assert_uint_le(longest_chain(engine.reference.cells()), 32);
         const std::uint64_t hash = hash_contacts(engine.contacts);
@@ -550,8 +546,8 @@ START_TEST(chosen_cells_do_not_share_a_bucket) {
         }
         ck_assert_uint_eq(engine.memory.allocations, allocations);
     };
-    check(flood<PaperAddress>(points, tets), VOX_HASH_PAPER);
-    check(flood<MixedAddress>(points, tets), VOX_HASH_MIXED);
+    check(flood<PaperAddress>(points, tets), true);
+    check(flood<MixedAddress>(points, tets), false);
 }
 END_TEST
 
@@ -561,8 +557,7 @@ START_TEST(steady_state_allocates_nothing) {
     const Meshes start = two_blocks({0.5, 0.5, 0.5});
     for (const Storage& storage : storages) {
         ReferenceSettings settings = settings_of(storage, 0.4);
-        if (storage.storage == VOX_STORAGE_DENSE)
-            settings.world_min = {-1, -1, -1}, settings.world_max = {4, 4, 4};
+        if (storage.dense) settings.world_min = {-1, -1, -1}, settings.world_max = {4, 4, 4};
         engine.step(start, settings);
         for (int i = 0; i < 10; ++i) {
             Meshes moved = start; // less overlap, other cells

@@ -231,7 +231,8 @@ END_TEST
 // ---- tuning -----------------------------------------------------------------------------------------
 
 TuneSettings settings_for(double first, std::uint32_t most_runs = 7, double least = 0) {
-    vox_tune_desc desc = tune_defaults();
+    vox_tune_desc desc{};
+    complete(desc);
     desc.first = first;
     desc.most_runs = most_runs;
     return TuneSettings(desc, 0, least);
@@ -419,7 +420,8 @@ START_TEST(stopped_and_too_short) {
 END_TEST
 
 START_TEST(ends_of_the_range) {
-    vox_tune_desc desc = tune_defaults();
+    vox_tune_desc desc{};
+    complete(desc);
     desc.first = 1;
     desc.min = 0.9;
     desc.max = 4;

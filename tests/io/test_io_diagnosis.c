@@ -202,14 +202,12 @@ START_TEST(bad_arguments) {
     vox_io_mesh* const untouched = (vox_io_mesh*)(void*)&random_state;
     vox_io_mesh* mesh = untouched;
     vox_io_load_desc desc, good;
-    ck_ok(vox_io_load_desc_init(&good, (uint32_t)sizeof good));
-    ck_assert_uint_eq(good.mesh_index, VOX_IO_ALL_MESHES);
+    good = vox_default_io_load_desc();
+    ck_assert_uint_eq(good.mesh, 0);
     const char text[] = "$MeshFormat";
     const vox_io_source source = {NULL, text, sizeof text - 1}, no_data = {"x.msh", NULL, 5},
                         empty = {"x.msh", NULL, 0};
 
-    ck_fails(vox_io_load_desc_init(NULL, 16), VOX_ERROR_INVALID_ARGUMENT, "null");
-    ck_fails(vox_io_load_desc_init(&desc, 2), VOX_ERROR_INVALID_ARGUMENT, "struct_size");
     ck_fails(vox_io_load(NULL, NULL, &mesh), VOX_ERROR_INVALID_ARGUMENT, "path");
     ck_fails(vox_io_load("x.msh", NULL, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_mesh");
     ck_fails(vox_io_read(NULL, 1, NULL, &mesh), VOX_ERROR_INVALID_ARGUMENT, "sources");
@@ -310,8 +308,7 @@ START_TEST(content_before_name) {
             vox_io_mesh_destroy(mesh);
         }
         /* Asked for as another format it is refused. */
-        vox_io_load_desc desc;
-        ck_ok(vox_io_load_desc_init(&desc, (uint32_t)sizeof desc));
+        vox_io_load_desc desc = vox_default_io_load_desc();
         desc.format = rows[i].format == VOX_IO_FORMAT_VTK ? VOX_IO_FORMAT_GMSH : VOX_IO_FORMAT_VTK;
         const vox_io_source source = {"named", file.data, file.size};
         vox_io_mesh* mesh = NULL;
@@ -435,16 +432,15 @@ START_TEST(scenes) {
 
     bytes file = read_file(VOX_TEST_DATA, "cube.obj");
     const vox_io_source source = {"cube.obj", file.data, file.size};
-    vox_io_load_desc desc;
-    ck_ok(vox_io_load_desc_init(&desc, (uint32_t)sizeof desc));
-    desc.mesh_index = 3; /* a side: assimp makes a mesh of each material */
+    vox_io_load_desc desc = vox_default_io_load_desc();
+    desc.mesh = 4; /* a side: assimp makes a mesh of each material */
     ck_ok(vox_io_read(&source, 1, &desc, &mesh));
     r = report_of(mesh);
     ck_assert_uint_eq(r.triangles, 2);
     ck_assert_uint_eq(r.open_edges, 4);
     ck_assert_ptr_nonnull(strstr(vox_io_mesh_get_warnings(mesh), "open"));
     vox_io_mesh_destroy(mesh);
-    desc.mesh_index = 6;
+    desc.mesh = 7;
     ck_fails(vox_io_read(&source, 1, &desc, &mesh), VOX_ERROR_INVALID_ARGUMENT, "holds 6");
     free(file.data);
 }

@@ -48,11 +48,11 @@ static record results(const float_mode* mode) {
     memset(&quality, 0, sizeof quality);
     report.struct_size = sizeof report;
     quality.struct_size = sizeof quality;
-    ck_ok(vox_io_tetrahedralize_desc_init(&fill, (uint32_t)sizeof fill));
-    ck_ok(vox_io_load_desc_init(&load, (uint32_t)sizeof load));
+    fill = vox_default_io_tetrahedralize_desc();
+    load = vox_default_io_load_desc();
     fill.progress = load.progress = watch;
     fill.progress_user = load.progress_user = &r;
-    ck_ok(vox_io_write_desc_init(&desc, (uint32_t)sizeof desc));
+    desc = vox_default_io_write_desc();
     desc.format = VOX_IO_WRITE_MSH_41;
     ck_in_mode(mode, vox_io_make_ball(0.7, 0.23, &meshes[1]));
     ck_in_mode(mode, vox_io_make_torus(1.0, 0.3, 0.17, &meshes[2]));

@@ -27,8 +27,7 @@ std::int32_t add_up(const void* data, std::size_t size, void* user) {
 // Writes a mesh in this format; the sum of its bytes goes to *sum.
 bool write_to(const vox_io_mesh* mesh, vox_io_write_format format, std::uint32_t binary, heap::Life& life,
               std::uint64_t* sum) {
-    vox_io_write_desc desc;
-    ck_ok(vox_io_write_desc_init(&desc, sizeof desc));
+    vox_io_write_desc desc = vox_default_io_write_desc();
     desc.format = format;
     desc.binary = binary;
     return life([&] {
@@ -99,8 +98,7 @@ END_TEST
 START_TEST(each_allocation_of_a_fill) {
     vox_io_mesh* surface = nullptr;
     ck_ok(vox_io_load(VOX_TEST_DATA "/cube.off", nullptr, &surface));
-    vox_io_tetrahedralize_desc desc;
-    ck_ok(vox_io_tetrahedralize_desc_init(&desc, sizeof desc));
+    vox_io_tetrahedralize_desc desc = vox_default_io_tetrahedralize_desc();
     desc.cell = 0.5;
     heap::fail_each(
         [&](heap::Life& life) {
@@ -120,9 +118,9 @@ void release(void* memory, std::size_t, std::size_t, void*) { std::free(memory);
 
 // A mesh in the memory of the caller leaves nothing of its arrays, or of the reader's notes, on the C++ heap.
 START_TEST(nothing_besides_memory_of_the_caller) {
-    vox_io_load_desc desc;
-    ck_ok(vox_io_load_desc_init(&desc, sizeof desc));
-    desc.allocator = {allocate, release, nullptr};
+    vox_io_load_desc desc = vox_default_io_load_desc();
+    const vox_allocator allocator{allocate, release, nullptr};
+    desc.allocator = &allocator;
     for (const char* name : {"box.mesh", "box.veg", "cube.off"}) {
         const std::string path = std::string(VOX_TEST_DATA "/") + name;
         vox_io_mesh* mesh = nullptr;

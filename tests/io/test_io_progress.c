@@ -89,7 +89,7 @@ static void write_tets(file* f, vox_io_write_format format, uint32_t binary) {
     vox_io_mesh* mesh = NULL;
     vox_io_write_desc desc;
     ck_ok(vox_io_mesh_create(&view, &mesh));
-    ck_ok(vox_io_write_desc_init(&desc, (uint32_t)sizeof desc));
+    desc = vox_default_io_write_desc();
     desc.format = format;
     desc.binary = binary;
     ck_ok(vox_io_write_to(mesh, &desc, &sink));
@@ -234,8 +234,7 @@ static int32_t watch(double fraction, void* user) {
 }
 
 static vox_io_load_desc watched_by(watched* w) {
-    vox_io_load_desc desc;
-    ck_ok(vox_io_load_desc_init(&desc, (uint32_t)sizeof desc));
+    vox_io_load_desc desc = vox_default_io_load_desc();
     ck_assert_ptr_null((void*)(size_t)desc.progress);
     desc.progress = watch;
     desc.progress_user = w;
@@ -248,7 +247,7 @@ START_TEST(from_nothing_to_all) {
     const vox_io_source sources[2] = {{files[0].name, files[0].data, files[0].size},
                                       {files[1].name, files[1].data, files[1].size}};
     const size_t count = files[1].name ? 2 : 1;
-    watched w = {0, 0, 0, 0, 0};
+    watched w = {0};
     vox_io_load_desc desc = watched_by(&w);
     vox_io_mesh *silent = NULL, *mesh = NULL;
     ck_ok(vox_io_read(sources, count, NULL, &silent));
@@ -262,7 +261,7 @@ START_TEST(from_nothing_to_all) {
     vox_io_mesh_destroy(silent);
     vox_io_mesh_destroy(mesh);
 
-    ledger memory = {0, 0, 0, 0, 0};
+    ledger memory = {0};
     desc.allocator = ledger_allocator(&memory);
     const int calls = w.calls;
     for (int at = 1; at <= calls; ++at) {
@@ -288,7 +287,7 @@ START_TEST(small_files) {
         "two_tetrahedra.glb"};
     char path[1024];
     snprintf(path, sizeof path, "%s/%s", VOX_TEST_DATA, names[_i]);
-    watched w = {0, 0, 0, 0, 0};
+    watched w = {0};
     const vox_io_load_desc desc = watched_by(&w);
     vox_io_mesh* mesh = NULL;
     ck_ok(vox_io_load(path, &desc, &mesh));
@@ -301,7 +300,9 @@ END_TEST
 START_TEST(older_descriptions) {
     vox_io_load_desc desc;
     memset(&desc, 0xff, sizeof desc);
-    ck_ok(vox_io_load_desc_init(&desc, offsetof(vox_io_load_desc, progress)));
+    const vox_io_load_desc defaults = vox_default_io_load_desc();
+    memcpy(&desc, &defaults, offsetof(vox_io_load_desc, progress));
+    desc.struct_size = offsetof(vox_io_load_desc, progress);
     vox_io_mesh* mesh = NULL;
     ck_ok(vox_io_load(VOX_TEST_DATA "/box_22.msh", &desc, &mesh)); /* what lies behind is not read */
     vox_io_mesh_destroy(mesh);

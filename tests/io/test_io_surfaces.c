@@ -7,11 +7,12 @@
 #include <unistd.h>
 #endif
 
+static const uint32_t all_meshes = UINT32_MAX; /* as an index of a mesh */
+
 static vox_io_mesh* read_bytes(const char* name, const void* data, size_t size, uint32_t mesh_index) {
     const vox_io_source source = {name, data, size};
-    vox_io_load_desc desc;
-    ck_ok(vox_io_load_desc_init(&desc, (uint32_t)sizeof desc));
-    desc.mesh_index = mesh_index;
+    vox_io_load_desc desc = vox_default_io_load_desc();
+    desc.mesh = mesh_index + 1;
     vox_io_mesh* mesh = NULL;
     const vox_result result = vox_io_read(&source, 1, &desc, &mesh);
     ck_assert_msg(result == VOX_OK, "%s: %s", name, vox_last_error());
@@ -20,7 +21,7 @@ static vox_io_mesh* read_bytes(const char* name, const void* data, size_t size, 
 }
 
 static vox_io_mesh* read_text(const char* name, const char* text) {
-    return read_bytes(name, text, strlen(text), VOX_IO_ALL_MESHES);
+    return read_bytes(name, text, strlen(text), all_meshes);
 }
 
 static uint64_t triangles_of(const char* name, const char* text, uint32_t mesh_index) {
@@ -61,15 +62,14 @@ START_TEST(points_alone) {
         "element face 0\nproperty list uchar int vertex_index\nend_header\n0 0 0\n1 0 0\n1 0 0\n",
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
         "element tristrips 0\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n1 0 0\n"};
-    vox_io_load_desc desc;
-    ck_ok(vox_io_load_desc_init(&desc, (uint32_t)sizeof desc));
+    vox_io_load_desc desc = vox_default_io_load_desc();
     for (int i = 0; i < 4; ++i) {
         const vox_io_source source = {i == 0 ? "cloud.obj" : "cloud.ply", files[i], strlen(files[i])};
         vox_io_mesh* mesh = NULL;
-        desc.mesh_index = 1; /* they are one mesh, that of index 0 */
+        desc.mesh = 2; /* they are one mesh, that of index 0 */
         ck_fails(vox_io_read(&source, 1, &desc, &mesh), VOX_ERROR_INVALID_ARGUMENT,
-                 "mesh 1 was asked for, but the file holds 1");
-        desc.mesh_index = i % 2 ? 0 : VOX_IO_ALL_MESHES;
+                 "mesh 2 was asked for, but the file holds 1");
+        desc.mesh = i % 2;
         ck_assert_msg(vox_io_read(&source, 1, &desc, &mesh) == VOX_OK, "%s", vox_last_error());
         vox_io_mesh_view view;
         ck_assert_int_eq(vox_io_mesh_get_arrays(mesh, &view), VOX_OK);
@@ -99,10 +99,10 @@ START_TEST(line_ends) {
         const size_t last = header && strstr(files[f], "_") && !strstr(files[f], "strips")
                                 ? (size_t)(header - (const char*)file.data) + 11
                                 : file.size;
-        vox_io_mesh* mesh = read_bytes(files[f], file.data, file.size, VOX_IO_ALL_MESHES);
+        vox_io_mesh* mesh = read_bytes(files[f], file.data, file.size, all_meshes);
         for (int way = 0; way < 2; ++way) {
             bytes other = with_line_ends(&file, way ? "\r" : "\r\n", last);
-            vox_io_mesh* again = read_bytes(files[f], other.data, other.size, VOX_IO_ALL_MESHES);
+            vox_io_mesh* again = read_bytes(files[f], other.data, other.size, all_meshes);
             check_same(mesh, again);
             vox_io_mesh_destroy(again);
             free(other.data);
@@ -140,7 +140,7 @@ START_TEST(first_byte_of_binary_data) {
                      "end_header%s",
                      n, n, n, n, n, n, n, n, n);
         memcpy(data + head, "\n\0\0\1\0\0\0\1\0\3\0\1\2", 13);
-        vox_io_mesh* mesh = read_bytes("first", data, (size_t)head + 13, VOX_IO_ALL_MESHES);
+        vox_io_mesh* mesh = read_bytes("first", data, (size_t)head + 13, all_meshes);
         ck_assert_double_eq(report_of(mesh).bounds_max[0], 10);
         vox_io_mesh_destroy(mesh);
     }
@@ -154,8 +154,8 @@ START_TEST(content_alone) {
                                         "two_tetrahedra.glb"};
     for (size_t f = 0; f < sizeof files / sizeof *files; ++f) {
         bytes file = read_file(VOX_TEST_DATA, files[f]);
-        vox_io_mesh* named = read_bytes(files[f], file.data, file.size, VOX_IO_ALL_MESHES);
-        vox_io_mesh* mesh = read_bytes(NULL, file.data, file.size, VOX_IO_ALL_MESHES);
+        vox_io_mesh* named = read_bytes(files[f], file.data, file.size, all_meshes);
+        vox_io_mesh* mesh = read_bytes(NULL, file.data, file.size, all_meshes);
         check_same(named, mesh);
         ck_assert_int_eq(report_of(mesh).format, VOX_IO_FORMAT_SURFACE);
         vox_io_mesh_destroy(named);
@@ -194,7 +194,7 @@ START_TEST(obj) {
     ck_assert_uint_eq(triangles_of("a.obj", parts, 0), 1);
     ck_assert_uint_eq(triangles_of("a.obj", parts, 1), 2);
     ck_assert_uint_eq(triangles_of("a.obj", parts, 2), 1);
-    ck_assert_uint_eq(triangles_of("a.obj", parts, VOX_IO_ALL_MESHES), 4);
+    ck_assert_uint_eq(triangles_of("a.obj", parts, all_meshes), 4);
 
     refused("a.obj", THREE "f 1 2 4\n", VOX_ERROR_FORMAT,
             "a.obj, line 4: expected a vertex number from 1 to 3");
@@ -218,10 +218,10 @@ START_TEST(stl) {
         "vertex 0 0 0\nVERTEX 1e0 0 0\nvertex 0 0 1\nendLoop\nendfacet\nENDSOLID\n";
     ck_assert_uint_eq(triangles_of("a.stl", two, 0), 2);
     ck_assert_uint_eq(triangles_of("a.stl", two, 1), 1);
-    ck_assert_uint_eq(triangles_of("a.stl", two, VOX_IO_ALL_MESHES), 3);
-    ck_assert_uint_eq(triangles_of(NULL, two, VOX_IO_ALL_MESHES), 3);
-    ck_assert_uint_eq(triangles_of(NULL, "SOLID A\n" FACET "ENDSOLID A\n", VOX_IO_ALL_MESHES), 1);
-    ck_assert_uint_eq(triangles_of(NULL, "\n Solid\r\n" FACET "endsolid", VOX_IO_ALL_MESHES), 1);
+    ck_assert_uint_eq(triangles_of("a.stl", two, all_meshes), 3);
+    ck_assert_uint_eq(triangles_of(NULL, two, all_meshes), 3);
+    ck_assert_uint_eq(triangles_of(NULL, "SOLID A\n" FACET "ENDSOLID A\n", all_meshes), 1);
+    ck_assert_uint_eq(triangles_of(NULL, "\n Solid\r\n" FACET "endsolid", all_meshes), 1);
     refused("a.stl", "solid a\n" FACET, VOX_ERROR_FORMAT,
             "line 9: expected facet or endsolid, found the end of the file");
     refused("a.stl", "solid a\n" FACET "endsolid\nrest\n", VOX_ERROR_FORMAT,
@@ -234,7 +234,7 @@ START_TEST(stl) {
     /* A binary file may begin with "solid" as well. */
     bytes file = read_file(VOX_TEST_DATA, "cube.stl");
     memcpy(file.data, "solid cube", 10);
-    vox_io_mesh* mesh = read_bytes("a.stl", file.data, file.size, VOX_IO_ALL_MESHES);
+    vox_io_mesh* mesh = read_bytes("a.stl", file.data, file.size, all_meshes);
     ck_assert_uint_eq(report_of(mesh).triangles, 12);
     vox_io_mesh* same = NULL;
     static const char* const headers[] = {"ply",         "glTF",           "{",     "STOFF",
@@ -243,7 +243,7 @@ START_TEST(stl) {
     for (size_t i = 0; i < 2 * sizeof headers / sizeof *headers; ++i) {
         memset(file.data, ' ', 80);
         memcpy(file.data, headers[i / 2], strlen(headers[i / 2]));
-        same = read_bytes(i % 2 ? NULL : "a.stl", file.data, file.size, VOX_IO_ALL_MESHES);
+        same = read_bytes(i % 2 ? NULL : "a.stl", file.data, file.size, all_meshes);
         check_same(mesh, same);
         vox_io_mesh_destroy(same);
     }
@@ -476,8 +476,7 @@ START_TEST(assimp) {
     refused("a.ac", ac, VOX_ERROR_UNSUPPORTED, "neither known content nor a known extension");
     refused("ogre.mesh", "\x10[MeshSerializer_v1.40]\n", VOX_ERROR_UNSUPPORTED, "neither known content");
     const vox_io_source source = {"a.ac", ac, sizeof ac - 1};
-    vox_io_load_desc desc;
-    ck_ok(vox_io_load_desc_init(&desc, (uint32_t)sizeof desc));
+    vox_io_load_desc desc = vox_default_io_load_desc();
     vox_io_mesh* mesh = NULL;
     desc.format = VOX_IO_FORMAT_SURFACE;
     ck_fails(vox_io_read(&source, 1, &desc, &mesh), VOX_ERROR_UNSUPPORTED, "expected a surface");

@@ -25,7 +25,7 @@ static uint64_t contacts_with_copy(const vox_mesh_desc* desc) {
 START_TEST(described) {
     vox_io_mesh* mesh = box_of(NULL);
     vox_io_mesh_view view;
-    vox_filter filter = vox_default_filter();
+    vox_filter filter = plain_filter();
     ck_ok(vox_io_mesh_get_arrays(mesh, &view));
     const vox_mesh_desc by_hand =
         vox_mesh_desc_doubles(view.positions, view.vertex_count, view.tets, view.tet_count);
@@ -46,14 +46,14 @@ START_TEST(described) {
     desc.positions.format = VOX_FORMAT_FLOAT;
     desc.user_data = 5;
     desc.flags = VOX_MESH_COPY_POSITIONS;
-    desc.filter = &filter;
+    desc.filter = filter;
     desc.rest_positions.data = view.positions;
     desc.rest_positions.byte_stride = 48;
     ck_ok(vox_io_mesh_describe(mesh, &desc));
     vox_mesh_desc expected = by_hand;
     expected.user_data = 5;
     expected.flags = VOX_MESH_COPY_POSITIONS;
-    expected.filter = &filter;
+    expected.filter = filter;
     expected.rest_positions.data = view.positions;
     expected.rest_positions.byte_stride = 48;
     ck_assert_mem_eq(&desc, &expected, sizeof desc);
@@ -109,11 +109,9 @@ static void check_same_report(const vox_io_mesh* a, const vox_io_mesh* b) {
 
 /* Loads, reads or fills a surface; `out` is untouched where that fails. */
 static vox_result make(int how, const vox_allocator* allocator, vox_io_mesh** out) {
-    vox_io_load_desc load;
-    vox_io_tetrahedralize_desc fill;
-    ck_ok(vox_io_load_desc_init(&load, sizeof load));
-    ck_ok(vox_io_tetrahedralize_desc_init(&fill, sizeof fill));
-    if (allocator) load.allocator = fill.allocator = *allocator;
+    vox_io_load_desc load = vox_default_io_load_desc();
+    vox_io_tetrahedralize_desc fill = vox_default_io_tetrahedralize_desc();
+    load.allocator = fill.allocator = allocator;
     if (how == 0) return vox_io_load(VOX_TEST_DATA "/box.mesh", &load, out);
     if (how == 1) {
         bytes file = read_file(VOX_TEST_DATA, "box_22.msh");
@@ -131,12 +129,12 @@ static vox_result make(int how, const vox_allocator* allocator, vox_io_mesh** ou
 }
 
 START_TEST(in_memory_of_the_caller) {
-    ledger memory = {0, 0, 0, 0, 0};
-    const vox_allocator allocator = ledger_allocator(&memory);
+    ledger memory = {0};
+    const vox_allocator* const allocator = ledger_allocator(&memory);
     vox_io_mesh *usual = NULL, *mesh = NULL;
     vox_io_mesh_view view;
     ck_ok(make(_i, NULL, &usual));
-    ck_ok(make(_i, &allocator, &mesh));
+    ck_ok(make(_i, allocator, &mesh));
     ck_ok(vox_io_mesh_get_arrays(mesh, &view));
     const uint64_t calls = memory.calls;
     ck_assert_uint_ge(memory.bytes, 24 * view.vertex_count + 16 * view.tet_count + 12 * view.triangle_count);
@@ -149,11 +147,11 @@ START_TEST(in_memory_of_the_caller) {
         vox_io_mesh* untouched = NULL;
         memory.calls = 0;
         memory.fail_at = n;
-        ck_fails(make(_i, &allocator, &untouched), VOX_ERROR_OUT_OF_MEMORY, "memory");
+        ck_fails(make(_i, allocator, &untouched), VOX_ERROR_OUT_OF_MEMORY, "memory");
         ck_assert_ptr_null(untouched);
         ck_assert_uint_eq(memory.bytes, 0);
     }
-    vox_allocator half = allocator;
+    vox_allocator half = *allocator;
     half.release = NULL;
     ck_fails(make(_i, &half, &mesh), VOX_ERROR_INVALID_ARGUMENT, "one of allocate and release");
     vox_io_mesh_destroy(usual);

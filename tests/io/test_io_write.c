@@ -28,8 +28,7 @@ static int32_t keep(const void* data, size_t size, void* user) {
 }
 
 static vox_io_write_desc way_desc(int way) {
-    vox_io_write_desc desc;
-    ck_ok(vox_io_write_desc_init(&desc, (uint32_t)sizeof desc));
+    vox_io_write_desc desc = vox_default_io_write_desc();
     desc.format = ways[way].format;
     desc.binary = ways[way].binary;
     return desc;
@@ -246,8 +245,6 @@ START_TEST(bad_arguments) {
     keeper k = {{NULL, 0}, -1};
     const vox_io_sink sink = {keep, &k}, no_write = {NULL, NULL};
     vox_io_write_desc desc = way_desc(0);
-    ck_fails(vox_io_write_desc_init(NULL, (uint32_t)sizeof desc), VOX_ERROR_INVALID_ARGUMENT, "null");
-    ck_fails(vox_io_write_desc_init(&desc, 0), VOX_ERROR_INVALID_ARGUMENT, "struct_size");
     ck_fails(vox_io_write(NULL, "x.msh", NULL), VOX_ERROR_INVALID_ARGUMENT, "mesh");
     ck_fails(vox_io_write(mesh, NULL, NULL), VOX_ERROR_INVALID_ARGUMENT, "path");
     ck_fails(vox_io_write_to(NULL, &desc, &sink), VOX_ERROR_INVALID_ARGUMENT, "mesh");
@@ -309,8 +306,8 @@ START_TEST(enums_of_any_bits) {
     vox_io_load_desc load;
     vox_io_write_desc desc = way_desc(0);
     vox_io_tetrahedralize_desc solid;
-    ck_ok(vox_io_load_desc_init(&load, (uint32_t)sizeof load));
-    ck_ok(vox_io_tetrahedralize_desc_init(&solid, (uint32_t)sizeof solid));
+    load = vox_default_io_load_desc();
+    solid = vox_default_io_tetrahedralize_desc();
     for (int i = 0; i < 4; ++i) {
         char expected[32];
         vox_io_format format;

@@ -24,7 +24,7 @@ START_TEST(fifty_cells) {
     vox_io_tetrahedralize_desc desc;
     vox_io_mesh *mesh = NULL, *again = NULL;
     ck_ok(vox_io_tetrahedralize(surface, NULL, &mesh));
-    ck_ok(vox_io_tetrahedralize_desc_init(&desc, sizeof desc));
+    desc = vox_default_io_tetrahedralize_desc();
     desc.cell = longest / 50;
     ck_ok(vox_io_tetrahedralize(surface, &desc, &again));
     check_same(mesh, again);
@@ -55,7 +55,7 @@ START_TEST(half_a_cell) {
     vox_io_mesh* surface = loaded(models[_i], &longest);
     vox_io_tetrahedralize_desc desc;
     vox_io_mesh* mesh = NULL;
-    ck_ok(vox_io_tetrahedralize_desc_init(&desc, sizeof desc));
+    desc = vox_default_io_tetrahedralize_desc();
     desc.cell = longest / 50;
     desc.max_distance = desc.cell / 2;
     ck_ok(vox_io_tetrahedralize(surface, &desc, &mesh));
@@ -91,7 +91,7 @@ START_TEST(million) {
     vox_io_mesh* surface = loaded("bunny", &longest);
     vox_io_tetrahedralize_desc desc;
     vox_io_mesh* mesh = NULL;
-    ck_ok(vox_io_tetrahedralize_desc_init(&desc, sizeof desc));
+    desc = vox_default_io_tetrahedralize_desc();
     desc.cell = longest / 75;
     ck_ok(vox_io_tetrahedralize(surface, &desc, &mesh));
     ck_assert_uint_gt(solid_view(mesh).tet_count, 1000000);

@@ -4,13 +4,14 @@
  * of positions: matrix.py, `./dev hashes`, `./dev cross`. hashes [--engine fast|reference] [--workers N]
  * [--doubles] [--moved] [--level 0..3] [--cell-size FACTOR] */
 #include "portability/simd_level.h"
+#include "scenes/engines.h"
 #include "scenes/scenes.h"
 
 #include <inttypes.h>
 #include <vox/vox_pairs.h>
 
 typedef struct settings {
-    vox_engine engine;
+    engine_kind engine;
     uint32_t workers;
     int doubles;      /* positions given as doubles, of the same values */
     int moved;        /* by a transform to where they are */
@@ -267,8 +268,8 @@ static int fit_meshes(const scene* s, const settings* how, uint32_t rings, vox_g
             ok = vox_mesh_bind_doubles(grid, mesh, as_doubles[b], s->bodies[b].vertex_count) == VOX_OK;
         if (how->moved) ok = ok && vox_body_set_transform(grid, mesh, here) == VOX_OK;
         if (rings > 0) {
-            vox_filter filter = vox_default_filter();
-            filter.self_collision = 1;
+            vox_filter filter = VOX_ZERO;
+            filter.flags = VOX_FILTER_SELF_COLLISION;
             filter.self_rings = rings;
             ok = ok && vox_body_set_filter(grid, mesh, &filter) == VOX_OK;
         }
@@ -326,7 +327,7 @@ static int run(scene* s, const char* name, double factor, uint32_t rings, double
         for (int i = 0; i < 2; ++i)
             (i ? previous : as_doubles)[b] = (double*)malloc(3 * sizeof(double) * s->bodies[b].vertex_count);
     write_doubles(s, as_doubles);
-    desc.engine = how->engine;
+    use_engine(&desc, how->engine);
     desc.worker_count = how->workers;
     desc.cell_size = how->cell_size * factor;
     desc.flags |= VOX_GRID_CONTACT_EVENTS | (margin > 0 ? VOX_GRID_EDGE_CONTACTS : 0);
@@ -510,7 +511,7 @@ static int refuse(scene* s, const settings* how) {
     make_pair(s, 3);
     pose_scene(s, 0);
     s->bodies[1].positions[7] = (float)(1e300 * 1e300);
-    desc.engine = how->engine;
+    use_engine(&desc, how->engine);
     const int ok = vox_grid_create(&desc, &grid) == VOX_OK && insert_scene(s, grid);
     if (ok) result = vox_grid_step(grid);
     printf("not finite: %s\n", vox_result_string(result));
@@ -528,7 +529,7 @@ static int usage(void) {
 
 int main(int argc, char** argv) {
     static scene s;
-    settings how = {VOX_ENGINE_FAST, 1, 0, 0, 0};
+    settings how = {ENGINE_FAST, 1, 0, 0, 0};
     int ok = 1;
     for (int i = 1; i < argc; ++i) {
         const char* value = i + 1 < argc ? argv[i + 1] : "";
@@ -538,7 +539,7 @@ int main(int argc, char** argv) {
             how.moved = 1;
         } else if (strcmp(argv[i], "--engine") == 0 &&
                    (strcmp(value, "fast") == 0 || strcmp(value, "reference") == 0)) {
-            how.engine = value[0] == 'f' ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
+            how.engine = value[0] == 'f' ? ENGINE_FAST : ENGINE_REFERENCE;
             ++i;
         } else if (strcmp(argv[i], "--workers") == 0 && atoi(value) > 0) {
             how.workers = (uint32_t)atoi(value);

@@ -37,8 +37,8 @@ static double* moved(const float_mode* mode, size_t* size) {
     set_float_mode(mode);
     log.state = float_state();
     set_float_mode(&float_modes[0]);
-    settings.log.write = note;
-    settings.log.user = &log;
+    const vox_log log_lines = {note, &log};
+    settings.log = &log_lines;
     ck_in_mode(mode, vox_sim_create(&settings, &sim));
     for (int b = 0; b < bodies; ++b) {
         vox_sim_body_desc desc = vox_default_sim_body_desc();

@@ -39,7 +39,7 @@ START_TEST(in_memory_of_the_caller) {
     vox_io_mesh* mesh = NULL;
     ck_ok(vox_io_make_lattice_ball(200, 0.5, &mesh));
     vox_sim_desc desc = weightless();
-    ledger memory = {0, 0, 0, 0, 0}, of_grid = {0, 0, 0, 0, 0};
+    ledger memory = {0}, of_grid = {0};
     uint64_t usual = 0, hash = 0;
     ck_ok(run(&desc, mesh, &usual));
     desc.allocator = ledger_allocator(&memory);
@@ -76,7 +76,7 @@ START_TEST(in_memory_of_the_caller) {
         ck_assert_uint_eq(memory.bytes, 0);
     }
     ck_assert_uint_ge(failed, tried - tried / 8);
-    desc.allocator.allocate = NULL;
+    memory.allocator.allocate = NULL;
     ck_fails(run(&desc, mesh, &hash), VOX_ERROR_INVALID_ARGUMENT, "one of allocate and release");
     vox_io_mesh_destroy(mesh);
 }

@@ -11,7 +11,7 @@ static inline vox_grid* new_grid(void) {
     static uint32_t grids = 0;
     vox_grid_desc desc = vox_default_grid_desc();
     desc.worker_count = 1 + grids++ % 3; /* of the fast engine: contacts do not depend on it */
-    desc.engine = suite_engine;
+    use_engine(&desc, suite_engine);
     desc.flags = 0;
     return grid_of(&desc);
 }
@@ -24,8 +24,8 @@ static inline vox_contact_view stepped(vox_grid* grid) {
 }
 
 static inline vox_filter filter_of(const vox_grid* grid, vox_body mesh) {
-    vox_filter filter = vox_default_filter();
-    ck_ok(vox_mesh_filter(grid, mesh, &filter));
+    vox_filter filter = plain_filter();
+    ck_ok(get_filter(grid, mesh, &filter));
     return filter;
 }
 

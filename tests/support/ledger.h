@@ -13,6 +13,7 @@ typedef struct ledger {
     uint64_t taken;   /* all that were ever taken */
     uint64_t calls;   /* to allocate, failed ones included */
     uint64_t fail_at; /* the one of these calls that fails; 0: none */
+    vox_allocator allocator;
 } ledger;
 
 static inline void* ledger_allocate(size_t size, size_t alignment, void* user) {
@@ -32,10 +33,11 @@ static inline void ledger_release(void* memory, size_t size, size_t alignment, v
     free_aligned(memory);
 }
 
-/* For vox_grid_desc.allocator. */
-static inline vox_allocator ledger_allocator(ledger* l) {
+/* For vox_grid_desc.allocator; lives as long as the ledger. */
+static inline const vox_allocator* ledger_allocator(ledger* l) {
     const vox_allocator allocator = {ledger_allocate, ledger_release, l};
-    return allocator;
+    l->allocator = allocator;
+    return &l->allocator;
 }
 
 #endif

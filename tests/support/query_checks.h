@@ -24,7 +24,7 @@ static inline world new_world(uint64_t* random, int coarse) {
     world w;
     vox_grid_desc desc = vox_default_grid_desc();
     memset(&w, 0, sizeof w);
-    desc.engine = suite_engine;
+    use_engine(&desc, suite_engine);
     desc.flags = 0;
     ck_ok(vox_grid_create(&desc, &w.grid));
     w.count = 1 + (int)random_below(random, most_bodies);
@@ -40,9 +40,9 @@ static inline world new_world(uint64_t* random, int coarse) {
                 coarse ? 0.25f * roundf(4 * moved) * (float)(random_below(random, 4) == 0) : moved;
         }
         vox_mesh_desc mesh = body_desc(&w.bodies[b]);
-        vox_filter filter = vox_default_filter();
+        vox_filter filter = plain_filter();
         filter.category = 1u << b;
-        mesh.filter = &filter;
+        mesh.filter = filter;
         ck_ok(vox_mesh_insert(w.grid, &mesh, &w.meshes[b]));
     }
     ck_ok(vox_grid_prepare_queries(w.grid));

@@ -118,9 +118,9 @@ typedef struct world {
     int count;
 } world;
 
-static inline vox_grid* new_grid(vox_engine engine, uint32_t flags, uint32_t workers) {
+static inline vox_grid* new_grid(engine_kind engine, uint32_t flags, uint32_t workers) {
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = engine;
+    use_engine(&desc, engine);
     desc.flags = flags;
     desc.worker_count = workers;
     return grid_of(&desc);
@@ -132,7 +132,7 @@ static inline vox_mesh_desc desc_of(const model* m, int index) {
         desc.positions.data = m->given;
         desc.positions.format = VOX_FORMAT_DOUBLE;
     }
-    if (m->self) desc.flags |= VOX_MESH_SELF_COLLISION;
+    if (m->self) desc.filter.flags |= VOX_FILTER_SELF_COLLISION;
     desc.user_data = 1000 + (uint64_t)index;
     return desc;
 }

@@ -28,10 +28,10 @@ static inline file save(const vox_grid* grid) {
     return f;
 }
 
-static inline vox_grid* load(file f, vox_engine engine) {
+static inline vox_grid* load(file f, engine_kind engine) {
     vox_grid_desc desc = vox_default_grid_desc();
     vox_grid* grid = NULL;
-    desc.engine = engine;
+    use_engine(&desc, engine);
     ck_ok(vox_grid_load(f.bytes, f.size, &desc, &grid));
     return grid;
 }
@@ -117,9 +117,9 @@ typedef struct scene {
 
 enum { scene_bodies = 6, removed_body = 2, disabled_body = 4 };
 
-static inline void make_scene(scene* s, vox_engine engine, double cell_size) {
+static inline void make_scene(scene* s, engine_kind engine, double cell_size) {
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = engine;
+    use_engine(&desc, engine);
     desc.cell_size = cell_size;
     desc.flags |= VOX_GRID_CONTACT_EVENTS;
     ck_ok(vox_grid_create(&desc, &s->grid));
@@ -128,20 +128,20 @@ static inline void make_scene(scene* s, vox_engine engine, double cell_size) {
         vox_mesh_desc mesh = body_desc(&s->bodies[i]);
         mesh.user_data = 1000 + i;
         if (i % 2) mesh.flags = VOX_MESH_COPY_POSITIONS;
-        if (i == 1) mesh.flags |= VOX_MESH_SELF_COLLISION;
+        if (i == 1) mesh.filter.flags |= VOX_FILTER_SELF_COLLISION;
         ck_ok(vox_mesh_insert(s->grid, &mesh, &s->ids[i]));
     }
-    vox_filter filter = vox_default_filter();
-    filter.self_collision = 1;
+    vox_filter filter = plain_filter();
+    filter.flags = VOX_FILTER_SELF_COLLISION;
     filter.self_rings = 1;
     filter.self_rest_distance = 0.01;
-    filter.penetration_mask = 5;
+    filter.world = 7; /* alone in it, but for itself */
     ck_ok(vox_body_set_filter(s->grid, s->ids[3], &filter));
-    filter = vox_default_filter();
+    filter = plain_filter();
     filter.group = -7;
     filter.category = 1ull << 63;
     filter.mask = ~2ull;
-    filter.penetration_mask = 0;
+    filter.flags |= VOX_FILTER_SENSOR;
     ck_ok(vox_body_set_filter(s->grid, s->ids[0], &filter));
     ck_ok(vox_grid_set_pair_enabled(s->grid, s->ids[5], s->ids[0], 0));
     ck_assert_uint_le(s->bodies[5].vertex_count, 64);

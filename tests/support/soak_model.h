@@ -83,7 +83,7 @@ static inline uint32_t below(soak* s, uint32_t count) { return random_below(&s->
 
 static inline vox_grid_desc grid_desc(soak* s, int g) {
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = g == 0 ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
+    use_engine(&desc, g == 0 ? ENGINE_FAST : ENGINE_REFERENCE);
     desc.flags |= VOX_GRID_CONTACT_EVENTS;
     desc.allocator = ledger_allocator(&s->ledgers[g]);
     return desc;
@@ -107,7 +107,7 @@ static inline vox_mesh_desc member_desc(const member* m) {
     desc.positions.byte_stride = m->stride * sizeof(float);
     desc.rest_positions = vox_float_positions(m->shape.positions, m->shape.vertex_count);
     desc.user_data = m->user_data;
-    desc.filter = &m->filter;
+    desc.filter = m->filter;
     return desc;
 }
 
@@ -215,7 +215,7 @@ static inline void check_against_fresh(soak* s, const vox_contact_view* view) {
     vox_grid* fresh = NULL;
     vox_body ids[max_members];
     uint32_t left[max_members][max_tets]; /* which tet the n-th one that is on is */
-    desc.engine = below(s, 2) ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE;
+    use_engine(&desc, below(s, 2) ? ENGINE_FAST : ENGINE_REFERENCE);
     desc.flags = 0;
     good(vox_grid_create(&desc, &fresh));
     for (uint32_t i = 0; i < s->count; ++i) {

@@ -83,6 +83,12 @@ static inline vox_body insert(vox_grid* grid, const solid* s, uint32_t flags) {
     return insert_mesh(grid, &desc);
 }
 
+static inline vox_body insert_self(vox_grid* grid, const solid* s) {
+    vox_mesh_desc desc = solid_desc(s);
+    desc.filter.flags = VOX_FILTER_SELF_COLLISION;
+    return insert_mesh(grid, &desc);
+}
+
 /* The grid's contacts are those of the solids, which were inserted in this order. */
 static inline size_t check_contacts(vox_grid* grid, const solid* solids, uint32_t count, const vox_body* ids,
                                     int self) {

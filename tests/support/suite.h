@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <vox/vox.h>
 
+#include "scenes/engines.h"
+
 #define ck_ok(call)                                                                                          \
     do {                                                                                                     \
         const vox_result result_ = (call);                                                                   \
@@ -31,6 +33,19 @@ static inline vox_grid* grid_of(const vox_grid_desc* desc) {
     vox_grid* grid = NULL;
     ck_ok(vox_grid_create(desc, &grid));
     return grid;
+}
+
+static inline vox_filter plain_filter(void) {
+    const vox_filter filter = VOX_ZERO;
+    return filter;
+}
+
+static inline vox_result get_filter(const vox_grid* grid, vox_body body, vox_filter* out) {
+    vox_body_info info;
+    info.struct_size = sizeof info;
+    const vox_result result = vox_body_get_info(grid, body, &info);
+    if (result == VOX_OK) *out = info.filter;
+    return result;
 }
 
 static inline vox_body insert_mesh(vox_grid* grid, const vox_mesh_desc* desc) {
@@ -108,12 +123,12 @@ static inline TCase* add_case(Suite* suite, const char* name) { return add_tagge
 
 /* Tests that hold for every engine: add_tests(tcase) is called for a case per engine, with `suite_engine`
  * set. */
-static vox_engine suite_engine = VOX_ENGINE_AUTO;
-static inline void use_reference(void) { suite_engine = VOX_ENGINE_REFERENCE; }
-static inline void use_fast(void) { suite_engine = VOX_ENGINE_FAST; }
+static engine_kind suite_engine = ENGINE_FAST;
+static inline void use_reference(void) { suite_engine = ENGINE_REFERENCE; }
+static inline void use_fast(void) { suite_engine = ENGINE_FAST; }
 static inline vox_grid_desc engine_desc(void) {
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = suite_engine;
+    use_engine(&desc, suite_engine);
     return desc;
 }
 static inline vox_grid* engine_grid(void) {

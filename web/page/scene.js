@@ -1,6 +1,6 @@
 // The scene's module: WebAssembly and the few functions that it asks for, with arrays and texts of JavaScript.
 
-/** vox_engine, and vox_cost_model: the one that predicts an engine's nanoseconds has its number. */
+/** Engines have the numbers of the vox_cost_model that predicts their nanoseconds. */
 export const ENGINE = { paper: 1, fast: 2 };
 /** play_kind. */
 export const KINDS = ["ball", "box", "ring", "capsule", "bar", "file"];

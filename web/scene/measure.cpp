@@ -11,8 +11,9 @@ namespace {
 vox_grid* grid_with(playground& play, std::uint32_t engine) {
     Grid& grid = play.measured[engine];
     if (grid) return grid.get();
+    const vox_reference_desc reference = vox_default_reference_desc();
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = static_cast<vox_engine>(engine);
+    if (engine == VOX_COST_MODEL_REFERENCE) desc.reference = &reference;
     desc.flags = 0;
     vox_grid* made = nullptr;
     check(vox_grid_create(&desc, &made));
@@ -20,8 +21,8 @@ vox_grid* grid_with(playground& play, std::uint32_t engine) {
     for (const Body& body : play.bodies) {
         vox_mesh_desc mesh = vox_mesh_desc_floats(body.view.grid_positions, body.view.vertex_count,
                                                   body.tets.data(), body.view.tet_count);
-        mesh.flags =
-            play.self_collision && body.kind != PLAY_FIXED ? std::uint32_t{VOX_MESH_SELF_COLLISION} : 0u;
+        mesh.filter.flags =
+            play.self_collision && body.kind != PLAY_FIXED ? std::uint32_t{VOX_FILTER_SELF_COLLISION} : 0u;
         vox_body id;
         check(vox_mesh_insert(made, &mesh, &id));
     }
@@ -53,11 +54,11 @@ std::uint64_t stepped(playground& play, vox_grid* grid, double cell_size, std::u
 vox_result play_measure(playground* play, uint32_t engine, double cell_size, uint32_t steps, double* out_ns,
                         uint32_t* out_same) {
     return guard([&] {
-        if (engine != VOX_ENGINE_REFERENCE && engine != VOX_ENGINE_FAST)
+        if (engine != VOX_COST_MODEL_REFERENCE && engine != VOX_COST_MODEL_FAST)
             fail(VOX_ERROR_INVALID_ARGUMENT, "there is no engine " + std::to_string(engine));
         if (play->default_hash_of != play->version) {
             double unused;
-            play->default_hash = stepped(*play, grid_with(*play, VOX_ENGINE_AUTO), 0, 1, unused);
+            play->default_hash = stepped(*play, grid_with(*play, VOX_COST_MODEL_FAST), 0, 1, unused);
             play->default_hash_of = play->version;
         }
         *out_same = stepped(*play, grid_with(*play, engine), cell_size, std::max(steps, 1u), *out_ns) ==
@@ -70,8 +71,7 @@ const double* play_suggest_numbers(playground* play, uint32_t model) {
     const vox_result result = guard([&] {
         vox_suggest_desc desc = vox_default_suggest_desc();
         desc.model = static_cast<vox_cost_model>(model);
-        vox_grid* grid =
-            grid_with(*play, model == VOX_COST_MODEL_FAST ? VOX_ENGINE_FAST : VOX_ENGINE_REFERENCE);
+        vox_grid* grid = grid_with(*play, model == VOX_COST_MODEL_FAST ? model : VOX_COST_MODEL_REFERENCE);
         s.struct_size = sizeof s;
         check(vox_grid_suggest_cell_size(grid, &desc, &s));
     });

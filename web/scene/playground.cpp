@@ -50,7 +50,8 @@ Sim make_sim(Account& account) {
     vox_sim_desc desc = vox_default_sim_desc();
     desc.substeps = 5;
     desc.detect_every = desc.substeps; // once a frame, as a game would
-    desc.allocator = {allocate, release, &account};
+    const vox_allocator allocator{allocate, release, &account};
+    desc.allocator = &allocator;
     vox_sim* sim = nullptr;
     check(vox_sim_create(&desc, &sim));
     return Sim(sim);
@@ -337,8 +338,7 @@ vox_result play_drop_file(playground* play, const char* name, const void* bytes,
         if (view.tet_count == 0) {
             const auto [low, high] = ends_of(view);
             const Vec side = high - low;
-            vox_io_tetrahedralize_desc desc;
-            check(vox_io_tetrahedralize_desc_init(&desc, sizeof desc));
+            vox_io_tetrahedralize_desc desc = vox_default_io_tetrahedralize_desc();
             // As if it filled a third of its box. One that fills less gets fewer tetrahedra, but cells of a
             // hundredth of the longest side at least.
             const double longest = std::max({side[0], side[1], side[2]});
@@ -578,7 +578,8 @@ vox_result play_save(playground* play, const void** out_bytes, uint64_t* out_siz
 vox_result play_load(playground* play, const void* bytes, uint64_t size) {
     return guard([&] {
         vox_grid_desc desc = vox_default_grid_desc();
-        desc.allocator = {allocate, release, &play->account};
+        const vox_allocator allocator{allocate, release, &play->account};
+        desc.allocator = &allocator;
         vox_grid* loaded = nullptr;
         check(vox_grid_load(bytes, size, &desc, &loaded));
         const Grid grid(loaded);

@@ -97,9 +97,9 @@ uint64_t play_hash(const playground* play);
 
 /* ---- the cell size ---- */
 
-/* Steps a grid of its own over the bodies as they are, with this engine (vox_engine) and cell size, `steps`
- * times, without depth. *out_ns: time of these steps together. *out_same: whether the contacts are those that
- * a grid of the default settings finds. */
+/* Steps a grid of its own over the bodies as they are, with this engine (the vox_cost_model that predicts it)
+ * and cell size, `steps` times, without depth. *out_ns: time of these steps together. *out_same: whether the
+ * contacts are those that a grid of the default settings finds. */
 vox_result play_measure(playground* play, uint32_t engine, double cell_size, uint32_t steps, double* out_ns,
                         uint32_t* out_same);
 /* What vox_grid_suggest_cell_size says of those bodies for a model (vox_cost_model), as numbers alone: cell

@@ -80,7 +80,7 @@ struct playground {
     std::string text;
 
     // Grids that measure; remade when the bodies are others.
-    play::Grid measured[3]; // by vox_engine
+    play::Grid measured[3]; // by the vox_cost_model that predicts the engine
     std::uint64_t default_hash = 0, default_hash_of = ~std::uint64_t{0};
     std::uint64_t version = 0; // of the bodies and their positions
 

@@ -29,10 +29,9 @@ namespace Voxtet
             self = GCHandle.Alloc(this, GCHandleType.Weak); // the grid holds this, and a log may hold its grid
         }
 
-        internal void Install(ref GridDesc desc)
+        internal Log Describe()
         {
-            desc.log.write = Marshal.GetFunctionPointerForDelegate(write);
-            desc.log.user = GCHandle.ToIntPtr(self);
+            return new Log { write = Marshal.GetFunctionPointerForDelegate(write), user = GCHandle.ToIntPtr(self) };
         }
 
         internal void Free()

@@ -35,17 +35,13 @@ namespace Voxtet
                                                     tets[i].Length + " indices, expected 3 a vertex and 4 a tetrahedron");
                     pins[2 * i] = GCHandle.Alloc(positions[i], GCHandleType.Pinned);
                     pins[2 * i + 1] = GCHandle.Alloc(tets[i], GCHandleType.Pinned);
-                    MeshDesc desc;
-                    VoxException.Check(Native.vox_mesh_desc_init(&desc, (uint)sizeof(MeshDesc)));
-                    desc.positions.data = pins[2 * i].AddrOfPinnedObject();
-                    desc.positions.count = (ulong)positions[i].Length / 3;
-                    desc.tets = (uint*)pins[2 * i + 1].AddrOfPinnedObject();
-                    desc.tet_count = (ulong)tets[i].Length / 4;
-                    descs[i] = desc;
+                    descs[i].struct_size = (uint)sizeof(MeshDesc);
+                    descs[i].positions.data = pins[2 * i].AddrOfPinnedObject();
+                    descs[i].positions.count = (ulong)positions[i].Length / 3;
+                    descs[i].tets = (uint*)pins[2 * i + 1].AddrOfPinnedObject();
+                    descs[i].tet_count = (ulong)tets[i].Length / 4;
                 }
-                SuggestDesc settings;
-                VoxException.Check(Native.vox_suggest_desc_init(&settings, (uint)sizeof(SuggestDesc)));
-                settings.model = model;
+                var settings = new SuggestDesc { struct_size = (uint)sizeof(SuggestDesc), model = model };
                 Suggestion suggestion;
                 suggestion.struct_size = (uint)sizeof(Suggestion);
                 fixed (MeshDesc* d = descs)
@@ -133,15 +129,14 @@ namespace Voxtet
         }
 
         /// <summary>The method for any algorithm: the cell size between min and max of least cost. What the function throws
-        /// goes on here.</summary>
-        public static CostMinimum Minimise(Func<double, double> cost, double min, double max, double zoneLoss = 0.05)
+        /// goes on here. zoneLoss as GridDescription has it.</summary>
+        public static CostMinimum Minimise(Func<double, double> cost, double min, double max, double zoneLoss = 0)
         {
             if (cost == null) throw new ArgumentNullException("cost");
-            CostBounds bounds;
-            VoxException.Check(Native.vox_cost_bounds_init(&bounds, (uint)sizeof(CostBounds)));
-            bounds.min = min;
-            bounds.max = max;
-            bounds.zone_loss = zoneLoss;
+            var bounds = new CostBounds
+            {
+                struct_size = (uint)sizeof(CostBounds), min = min, max = max, zone_loss = zoneLoss
+            };
             CostMinimum minimum;
             minimum.struct_size = (uint)sizeof(CostMinimum);
             CostBounds* b = &bounds;
@@ -187,28 +182,16 @@ namespace Voxtet
             }
         }
 
-        /// <summary>How Tune tunes by default, to be changed and given to it.</summary>
-        public static TuneDesc DefaultTuning
-        {
-            get
-            {
-                TuneDesc desc;
-                VoxException.Check(Native.vox_tune_desc_init(&desc, (uint)sizeof(TuneDesc)));
-                return desc;
-            }
-        }
-
         /// <summary>Runs a grid at the cell sizes that tell most about the best one. The function runs it once and returns
         /// how many seconds that took: infinity if it cannot run at this size, NaN to stop. What it throws goes on here.
-        /// Without a description the first cell size must be set: var desc = CellSize.DefaultTuning; desc.first = 0.1;
-        /// </summary>
-        public static Tuning Tune(Func<double, double> run, GridDescription grid = null, TuneDesc? settings = null)
+        /// Without a description the first cell size must be set: new TuneDesc { first = 0.1 }.</summary>
+        public static Tuning Tune(Func<double, double> run, GridDescription grid = null, TuneDesc settings = default(TuneDesc))
         {
             if (run == null) throw new ArgumentNullException("run");
-            TuneDesc desc = settings ?? DefaultTuning;
+            settings.struct_size = (uint)sizeof(TuneDesc);
             Tuning tuning;
             tuning.struct_size = (uint)sizeof(Tuning);
-            TuneDesc* d = &desc;
+            TuneDesc* d = &settings;
             Tuning* t = &tuning;
             using (DescribedGrid described = grid == null ? null : new DescribedGrid(grid))
             {
@@ -225,9 +208,7 @@ namespace Voxtet
         /// </summary>
         public Suggestion SuggestCellSize(CostModel? model = null)
         {
-            SuggestDesc settings;
-            VoxException.Check(Native.vox_suggest_desc_init(&settings, (uint)sizeof(SuggestDesc)));
-            settings.model = model ?? CostModel.Paper;
+            var settings = new SuggestDesc { struct_size = (uint)sizeof(SuggestDesc), model = model.GetValueOrDefault() };
             Suggestion suggestion;
             suggestion.struct_size = (uint)sizeof(Suggestion);
             using (var use = handle.Read())

@@ -14,35 +14,36 @@ namespace Voxtet
 
         public Grid() : this(new GridOptions()) { }
 
-        public Grid(GridOptions options)
+        public Grid(GridOptions options) : this(options, IntPtr.Zero, 0) { }
+
+        // A new grid, or one from the bytes of a snapshot. The library copies what the pointers of the desc name.
+        Grid(GridOptions options, IntPtr bytes, ulong size)
         {
             if (options == null) throw new ArgumentNullException("options");
             VoxException.CheckLibrary();
-            Callbacks callbacks;
-            GridDesc desc = options.Desc(out callbacks);
+            Callbacks callbacks = options.Log == null ? null : new Callbacks(options.Log);
+            Log log = callbacks == null ? new Log() : callbacks.Describe();
+            ReferenceDesc reference = options.Reference.GetValueOrDefault();
+            reference.struct_size = (uint)sizeof(ReferenceDesc);
+            var desc = new GridDesc
+            {
+                struct_size = (uint)sizeof(GridDesc), flags = options.Flags, worker_count = options.Workers,
+                cell_size = options.CellSize, byte_budget = options.ByteBudget, closest_budget = options.ClosestBudget,
+                log = &log, reference = options.Reference.HasValue ? &reference : null
+            };
             IntPtr grid;
-            handle = Owned(Native.vox_grid_create(&desc, &grid), &grid, callbacks);
-        }
-
-        Grid(GridHandle handle) { this.handle = handle; }
-
-        static GridHandle Owned(Result result, IntPtr* grid, Callbacks callbacks)
-        {
+            Result result = bytes == IntPtr.Zero ? Native.vox_grid_create(&desc, &grid)
+                                                 : Native.vox_grid_load(bytes, size, &desc, &grid);
             if (result != Result.Ok && callbacks != null) callbacks.Free();
             VoxException.Check(result);
-            return new GridHandle(*grid) { Callbacks = callbacks };
+            handle = new GridHandle(grid) { Callbacks = callbacks };
         }
 
         /// <summary>A grid from the bytes of Save, which need not be trusted.</summary>
         public static Grid Load(ReadOnlySpan<byte> bytes, GridOptions options = null)
         {
-            VoxException.CheckLibrary();
-            Callbacks callbacks;
-            GridDesc desc = (options ?? new GridOptions()).Desc(out callbacks);
-            IntPtr grid;
             fixed (byte* data = &MemoryMarshal.GetReference(NotNull(bytes)))
-                return new Grid(Owned(Native.vox_grid_load((IntPtr)data, (ulong)bytes.Length, &desc, &grid), &grid,
-                                      callbacks));
+                return new Grid(options ?? new GridOptions(), (IntPtr)data, (ulong)bytes.Length);
         }
 
         // A span of no elements has a null pointer, which is not allowed where something has to be read.
@@ -129,7 +130,10 @@ namespace Voxtet
             set { using (var use = handle.Change()) VoxException.Check(Native.vox_grid_set_cell_size(use.Pointer, value)); }
         }
 
-        /// <summary>Threads of the following steps; 0: one per core.</summary>
+        /// <summary>As a number of workers: one per core.</summary>
+        public const uint AllCores = Native.VOX_ALL_CORES;
+
+        /// <summary>Threads of the following steps, or AllCores; 0: one.</summary>
         public void SetWorkers(uint workers)
         {
             using (var use = handle.Change()) VoxException.Check(Native.vox_grid_set_worker_count(use.Pointer, workers));
@@ -176,22 +180,20 @@ namespace Voxtet
 
         static MeshDesc Describe<T>(ReadOnlySpan<T> positions, ReadOnlySpan<uint> tets) where T : struct
         {
-            MeshDesc desc;
-            VoxException.Check(Native.vox_mesh_desc_init(&desc, (uint)sizeof(MeshDesc)));
-            desc.flags = MeshFlags.CopyPositions;
-            desc.positions = PositionsOf(positions, "positions");
-            desc.tet_count = Count(tets.Length, 4, "tets");
-            return desc;
+            return new MeshDesc
+            {
+                struct_size = (uint)sizeof(MeshDesc), flags = MeshFlags.CopyPositions,
+                positions = PositionsOf(positions, "positions"), tet_count = Count(tets.Length, 4, "tets")
+            };
         }
 
-        Mesh Insert<T>(ReadOnlySpan<T> positions, ReadOnlySpan<uint> tets, ulong userData, Filter? filter,
+        Mesh Insert<T>(ReadOnlySpan<T> positions, ReadOnlySpan<uint> tets, ulong userData, Filter filter,
                        ReadOnlySpan<T> restPositions) where T : struct
         {
             MeshDesc desc = Describe(positions, tets);
             desc.rest_positions = PositionsOf(restPositions, "restPositions");
             desc.user_data = userData;
-            Filter copy = filter ?? DefaultFilter;
-            desc.filter = &copy;
+            desc.filter = filter;
             uint mesh;
             fixed (byte* p = &MemoryMarshal.GetReference(MemoryMarshal.AsBytes(positions)))
             fixed (byte* r = &MemoryMarshal.GetReference(MemoryMarshal.AsBytes(restPositions)))
@@ -208,28 +210,17 @@ namespace Voxtet
 
         /// <summary>Adds a mesh: three numbers a vertex, four indices a tetrahedron, both copied. GetPositions moves it.
         /// </summary>
-        public Mesh Add(ReadOnlySpan<float> positions, ReadOnlySpan<uint> tets, ulong userData = 0, Filter? filter = null,
-                        ReadOnlySpan<float> restPositions = default(ReadOnlySpan<float>))
+        public Mesh Add(ReadOnlySpan<float> positions, ReadOnlySpan<uint> tets, ulong userData = 0,
+                        Filter filter = default(Filter), ReadOnlySpan<float> restPositions = default(ReadOnlySpan<float>))
         {
             return Insert(positions, tets, userData, filter, restPositions);
         }
 
         /// <summary>The same of doubles.</summary>
-        public Mesh Add(ReadOnlySpan<double> positions, ReadOnlySpan<uint> tets, ulong userData = 0, Filter? filter = null,
-                        ReadOnlySpan<double> restPositions = default(ReadOnlySpan<double>))
+        public Mesh Add(ReadOnlySpan<double> positions, ReadOnlySpan<uint> tets, ulong userData = 0,
+                        Filter filter = default(Filter), ReadOnlySpan<double> restPositions = default(ReadOnlySpan<double>))
         {
             return Insert(positions, tets, userData, filter, restPositions);
-        }
-
-        /// <summary>A filter with the default of every field, to be changed.</summary>
-        public static Filter DefaultFilter
-        {
-            get
-            {
-                Filter filter;
-                VoxException.Check(Native.vox_filter_init(&filter, (uint)sizeof(Filter)));
-                return filter;
-            }
         }
 
         /// <summary>Removes a mesh. The contacts of the last step stay as they are until the next one.</summary>
@@ -347,9 +338,7 @@ namespace Voxtet
         /// <summary>What a mesh collides with.</summary>
         public Filter GetFilter(Mesh mesh)
         {
-            Filter filter = DefaultFilter;
-            using (var use = handle.Read()) VoxException.Check(Native.vox_mesh_filter(use.Pointer, mesh.Id, &filter));
-            return filter;
+            using (var use = handle.Read()) return InfoOf(use.Pointer, mesh).filter;
         }
 
         /// <summary>Leaves a mesh out of the following steps, or takes it in again.</summary>
@@ -431,14 +420,12 @@ namespace Voxtet
         /// <summary>Adds copies of vertices, where these are; the index of the first.</summary>
         public uint AppendCopies(Mesh mesh, ReadOnlySpan<uint> copiesOf)
         {
-            VerticesDesc desc;
-            VoxException.Check(Native.vox_vertices_desc_init(&desc, (uint)sizeof(VerticesDesc)));
+            var desc = new VerticesDesc { struct_size = (uint)sizeof(VerticesDesc), count = (ulong)copiesOf.Length };
             uint first;
             fixed (uint* c = &MemoryMarshal.GetReference(copiesOf))
             using (var use = handle.Change())
             {
                 ++layout;
-                desc.count = (ulong)copiesOf.Length;
                 desc.copies_of = c;
                 VoxException.Check(Native.vox_mesh_append_vertices(use.Pointer, mesh.Id, &desc, &first));
             }
@@ -449,8 +436,7 @@ namespace Voxtet
         public uint AppendVertices(Mesh mesh, ReadOnlySpan<float> positions)
         {
             GetPositions(mesh); // of its own, also in a mesh that has had no vertices
-            VerticesDesc desc;
-            VoxException.Check(Native.vox_vertices_desc_init(&desc, (uint)sizeof(VerticesDesc)));
+            var desc = new VerticesDesc { struct_size = (uint)sizeof(VerticesDesc) };
             uint first;
             desc.positions = PositionsOf(positions, "positions");
             desc.count = desc.positions.count;
@@ -484,9 +470,9 @@ namespace Voxtet
             }
         }
 
-        /// <summary>Steps many grids, several at the same time, on that many threads (0: one per core). If grids fail, the
-        /// others are stepped nevertheless; the text of the exception begins with the index of the first.</summary>
-        public static void StepAll(Grid[] grids, uint workers = 0)
+        /// <summary>Steps many grids, several at the same time, on that many threads (0: one). If grids fail, the others
+        /// are stepped nevertheless; the text of the exception begins with the index of the first.</summary>
+        public static void StepAll(Grid[] grids, uint workers = AllCores)
         {
             if (grids == null) throw new ArgumentNullException("grids");
             var uses = new Handle.Use[grids.Length];
@@ -696,16 +682,14 @@ namespace Voxtet
 
         // ---- readings ----
 
-        /// <summary>Computes position, closest surface and depth of the contacts of the last step, or those of one mesh, or of
-        /// a mesh with another.</summary>
-        public void PrepareReadings(ReadingFlags what = ReadingFlags.Position | ReadingFlags.Surface | ReadingFlags.Depth,
-                                    Mesh? mesh = null, Mesh? other = null)
+        /// <summary>Computes position, closest surface and depth (or not all of them) of the contacts of the last step, or
+        /// those of one mesh, or of a mesh with another.</summary>
+        public void PrepareReadings(ReadingFlags what = 0, Mesh mesh = default(Mesh), Mesh other = default(Mesh))
         {
-            ReadingsDesc desc;
-            VoxException.Check(Native.vox_readings_desc_init(&desc, (uint)sizeof(ReadingsDesc)));
-            desc.what = what;
-            desc.body_a = mesh.HasValue ? mesh.Value.Id : Native.VOX_NULL_BODY;
-            desc.body_b = other.HasValue ? other.Value.Id : Native.VOX_NULL_BODY;
+            var desc = new ReadingsDesc
+            {
+                struct_size = (uint)sizeof(ReadingsDesc), what = what, body_a = mesh.Id, body_b = other.Id
+            };
             using (var use = handle.Change())
             {
                 ++version;

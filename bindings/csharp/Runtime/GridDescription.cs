@@ -61,21 +61,20 @@ namespace Voxtet
 
         internal unsafe Primitives Describe(Func<Array, IntPtr> pin)
         {
-            Primitives desc;
-            VoxException.Check(Native.vox_primitives_init(&desc, (uint)sizeof(Primitives)));
             int count = (indices == null ? positions.Length / 3 : indices.Length) / Width;
             if (Radii != null && Radii.Length != count)
                 throw new ArgumentException(Radii.Length + " radii, expected " + count, "Radii");
-            desc.type = Type;
-            desc.positions.data = pin(positions);
-            desc.positions.format = positions is double[] ? Format.Double : Format.Float;
-            desc.positions.count = (ulong)positions.Length / 3;
-            desc.indices = (uint*)pin(indices);
-            desc.count = (ulong)count;
-            desc.radii = pin(Radii);
-            desc.radius_format = Format.Double;
-            desc.radius = Radius;
-            return desc;
+            return new Primitives
+            {
+                struct_size = (uint)sizeof(Primitives), type = Type,
+                positions = new Positions
+                {
+                    data = pin(positions), count = (ulong)positions.Length / 3,
+                    format = positions is double[] ? Format.Double : Format.Float
+                },
+                indices = (uint*)pin(indices), count = (ulong)count,
+                radii = pin(Radii), radius_format = Format.Double, radius = Radius
+            };
         }
     }
 
@@ -109,8 +108,8 @@ namespace Voxtet
         /// <summary>The smallest that gives right answers; 0: follows from the look.</summary>
         public double LeastCellSize { get; set; }
 
-        /// <summary>null: the library's default.</summary>
-        public double? ZoneLoss { get; set; }
+        /// <summary>The zone is where the predicted cost is at most 1 + this of the least; 0: 0.05.</summary>
+        public double ZoneLoss { get; set; }
     }
 
     /// <summary>A description as C has it, while a call lasts.</summary>
@@ -130,7 +129,11 @@ namespace Voxtet
                 memory = Marshal.AllocHGlobal(sizeof(ForeignGrid) + 2 * sizeof(Primitives));
                 ForeignGrid* desc = Grid;
                 var primitives = (Primitives*)(desc + 1);
-                VoxException.Check(Native.vox_foreign_grid_init(desc, (uint)sizeof(ForeignGrid)));
+                *desc = new ForeignGrid
+                {
+                    struct_size = (uint)sizeof(ForeignGrid), zone_loss = grid.ZoneLoss, radius = grid.Radius,
+                    least_cell_size = grid.LeastCellSize
+                };
                 VoxException.Check(Native.vox_foreign_grid_set_known(desc, grid.Known));
                 primitives[0] = grid.Held.Describe(Pin);
                 desc->held = primitives;
@@ -143,9 +146,6 @@ namespace Voxtet
                 desc->look = grid.Look ?? desc->look;
                 desc->flags = grid.Flags ?? desc->flags;
                 desc->weights = grid.Weights ?? desc->weights;
-                desc->zone_loss = grid.ZoneLoss ?? desc->zone_loss;
-                desc->radius = grid.Radius;
-                desc->least_cell_size = grid.LeastCellSize;
             }
             catch
             {

@@ -122,11 +122,10 @@ namespace Voxtet
         /// <summary>Fills the inside of this closed surface with tetrahedra; cell 0: a fiftieth of its longest side.</summary>
         public MeshFile Tetrahedralize(double cell = 0, double maxDistance = 0, IoSolidKind kind = IoSolidKind.Stuffed)
         {
-            IoTetrahedralizeDesc desc;
-            VoxException.Check(Native.vox_io_tetrahedralize_desc_init(&desc, (uint)sizeof(IoTetrahedralizeDesc)));
-            desc.cell = cell;
-            desc.max_distance = maxDistance;
-            desc.kind = kind;
+            var desc = new IoTetrahedralizeDesc
+            {
+                struct_size = (uint)sizeof(IoTetrahedralizeDesc), cell = cell, max_distance = maxDistance, kind = kind
+            };
             IntPtr mesh;
             using (var use = handle.Read())
                 return new MeshFile(Native.vox_io_tetrahedralize(use.Pointer, &desc, &mesh), mesh);

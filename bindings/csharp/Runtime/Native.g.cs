@@ -45,44 +45,6 @@ namespace Voxtet
         Double = 1,
     }
 
-    /// <summary>Severity of a log line.</summary>
-    public enum LogLevel : int
-    {
-        Info = 0,
-        Warning = 1,
-    }
-
-    /// <summary>How the reference engine stores cells; the fast engine ignores it.</summary>
-    public enum Storage : int
-    {
-        /// <summary>the engine's choice</summary>
-        Auto = 0,
-        /// <summary>unbounded space: cells hashed into a table of prime size</summary>
-        Hashed = 1,
-        /// <summary>one list per cell of a box: linear id k*nx*ny + j*nx + i</summary>
-        Dense = 2,
-    }
-
-    /// <summary>Hash of a cell (i, j, k) for hashed storage.</summary>
-    public enum Hash : int
-    {
-        /// <summary>a well-mixed 64-bit hash: the default</summary>
-        Mixed = 0,
-        /// <summary>i*73856093 xor j*19349663 xor k*83492791 (Teschner et al. 2003, Sect. 4.1)</summary>
-        Paper = 1,
-    }
-
-    /// <summary>Which algorithm runs.</summary>
-    public enum Engine : int
-    {
-        /// <summary>fast, or reference if a storage is requested</summary>
-        Auto = 0,
-        /// <summary>the paper's algorithm as printed (Sect. 3)</summary>
-        Reference = 1,
-        /// <summary>tiles of tets against dense windows of cells, with SIMD</summary>
-        Fast = 2,
-    }
-
     [Flags]
     public enum GridFlags : uint
     {
@@ -100,14 +62,21 @@ namespace Voxtet
     }
 
     [Flags]
+    public enum FilterFlags : uint
+    {
+        /// <summary>the mesh also collides with itself</summary>
+        SelfCollision = 1,
+        /// <summary>the mesh has contacts, but no penetrations; takes less memory</summary>
+        Sensor = 2,
+    }
+
+    [Flags]
     public enum MeshFlags : uint
     {
-        /// <summary>also report vertices of the mesh inside its own tetrahedra</summary>
-        SelfCollision = 1,
-        /// <summary>copy `positions` at insertion instead of borrowing them</summary>
-        CopyPositions = 2,
-        /// <summary>borrow `tets` instead of copying them: 16 bytes less per tetrahedron</summary>
-        BorrowTets = 4,
+        /// <summary>copy the positions instead of borrowing them</summary>
+        CopyPositions = 1,
+        /// <summary>borrow the tetrahedra instead of copying them, 16 bytes each</summary>
+        BorrowTets = 2,
     }
 
     /// <summary>How a penetration's depth and direction were found.</summary>
@@ -163,9 +132,15 @@ namespace Voxtet
         /// <summary>missing where POSITION is or would be, if body_b was removed or has no surface, or if all of its
         /// tetrahedra that contained the vertex were removed or disabled</summary>
         Surface = 2,
-        /// <summary>missing on grids without VOX_GRID_PENETRATIONS, and where vox_filter.penetration_mask rules it
-        /// out</summary>
+        /// <summary>missing on grids without VOX_GRID_PENETRATIONS, and where one of the meshes is a sensor</summary>
         Depth = 4,
+    }
+
+    /// <summary>Severity of a log line.</summary>
+    public enum LogLevel : int
+    {
+        Info = 0,
+        Warning = 1,
     }
 
     public enum Side : int
@@ -175,6 +150,17 @@ namespace Voxtet
         /// <summary>the segment goes into the tetrahedron</summary>
         Enters = 1,
         Leaves = 2,
+    }
+
+    [Flags]
+    public enum ReferenceFlags : uint
+    {
+        /// <summary>store a list for every cell of a box (linear id k*nx*ny + j*nx + i), instead of hashing cells into
+        /// a table</summary>
+        Dense = 1,
+        /// <summary>hash by i*73856093 xor j*19349663 xor k*83492791 (Teschner et al. 2003, Sect. 4.1), instead of by a
+        /// well-mixed hash</summary>
+        PaperHash = 2,
     }
 
     public enum CostModel : int
@@ -229,10 +215,10 @@ namespace Voxtet
     /// <summary>Which cells hold a primitive.</summary>
     public enum CellContent : int
     {
-        /// <summary>the one with the centre of its box; for a point, with the point</summary>
-        CellsHoldCentres = 0,
         /// <summary>all that its box meets</summary>
-        CellsHoldBoxes = 1,
+        CellsHoldBoxes = 0,
+        /// <summary>the one with the centre of its box; for a point, with the point</summary>
+        CellsHoldCentres = 1,
     }
 
     /// <summary>Which cells a primitive that asks looks at.</summary>
@@ -387,19 +373,6 @@ namespace Voxtet
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct Double3
-    {
-        public double x, y, z;
-        public const int Length = 3;
-        public double this[int i]
-        {
-            get { Check(i); fixed (double* p = &x) return p[i]; }
-            set { Check(i); fixed (double* p = &x) p[i] = value; }
-        }
-        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Double12
     {
         public double e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11;
@@ -408,6 +381,19 @@ namespace Voxtet
         {
             get { Check(i); fixed (double* p = &e0) return p[i]; }
             set { Check(i); fixed (double* p = &e0) p[i] = value; }
+        }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Double3
+    {
+        public double x, y, z;
+        public const int Length = 3;
+        public double this[int i]
+        {
+            get { Check(i); fixed (double* p = &x) return p[i]; }
+            set { Check(i); fixed (double* p = &x) p[i] = value; }
         }
         static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
@@ -620,89 +606,57 @@ namespace Voxtet
         public ulong component_byte_stride;
     }
 
-    /// <summary>Per-grid allocator.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct Allocator
-    {
-        public IntPtr allocate;
-        public IntPtr release;
-        public IntPtr user;
-    }
-
-    /// <summary>Receives one line of text (no newline), valid during the call only.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct Log
-    {
-        public IntPtr write;
-        public IntPtr user;
-    }
-
-    /// <summary>The caller's scheduler, designed as in Box3D.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct TaskSystem
-    {
-        public IntPtr enqueue;
-        public IntPtr finish;
-        public IntPtr user;
-    }
-
     /// <summary>Settings of a grid.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct GridDesc
     {
         public uint struct_size;
-        public Engine engine;
-        public Storage storage;
-        public Hash hash;
-        /// <summary>Edge length of a cell, &gt; 0. 0 (the default): the library chooses it.</summary>
-        public double cell_size;
-        /// <summary>World box for dense storage, min &lt; max on each axis.</summary>
-        public Double3 world_min;
-        public Double3 world_max;
-        /// <summary>Most bytes the grid may hold at any time.</summary>
-        public ulong byte_budget;
-        /// <summary>Buckets of the hash table, at most VOX_MAX_VERTICES, raised to the next prime. 0 (the default): the
-        /// first prime that is at least twice the number of vertices.</summary>
-        public ulong hash_table_size;
-        public Allocator allocator;
-        public Log log;
-        public TaskSystem tasks;
-        /// <summary>Threads that run a step's tasks, at most VOX_MAX_WORKERS. 1 (the default): serial, on the calling
-        /// thread; 0: one per core.</summary>
-        public uint worker_count;
-        /// <summary>vox_grid_flags, combined with |; default VOX_GRID_PENETRATIONS</summary>
+        /// <summary>vox_grid_flags, combined with |</summary>
         public GridFlags flags;
+        /// <summary>Threads that share a step, the calling one being one of them: up to VOX_MAX_WORKERS, or
+        /// VOX_ALL_CORES; 0: one.</summary>
+        public uint worker_count;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>Edge length of a cell; 0: the library chooses it.</summary>
+        public double cell_size;
+        /// <summary>see vox_grid_set_margin.</summary>
+        public double margin;
+        /// <summary>most bytes the grid may hold; a call that would exceed it fails with VOX_ERROR_BUDGET. 0: 4 GiB;
+        /// UINT64_MAX: no limit</summary>
+        public ulong byte_budget;
         /// <summary>Most searches for a closest point that the depth stage makes in one step: for penetrations that
         /// would be ENCLOSED, or CROSSING with nothing but a closest point to go by.</summary>
         public ulong closest_budget;
-        /// <summary>As vox_grid_set_margin; default 0.</summary>
-        public double margin;
+        /// <summary>null: the C++ runtime's heap</summary>
+        public Allocator* allocator;
+        /// <summary>null: no log</summary>
+        public Log* log;
+        /// <summary>null: the built-in scheduler</summary>
+        public TaskSystem* tasks;
+        /// <summary>null: the fast engine; else the paper's</summary>
+        public ReferenceDesc* reference;
     }
 
-    /// <summary>What a mesh does not collide with.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 48)]
+    /// <summary>What a mesh collides with.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 40)]
     public struct Filter
     {
-        public uint struct_size;
-        /// <summary>Two meshes with the same group other than 0 collide if it is positive, and do not if it is
-        /// negative.</summary>
+        /// <summary>vox_filter_flags, combined with |</summary>
+        public FilterFlags flags;
         public int group;
-        /// <summary>With group, category, mask and self_collision all 0, as in a struct that was zeroed and not
-        /// initialised, the mesh would collide with nothing: an INVALID_ARGUMENT.</summary>
+        /// <summary>0: 1</summary>
         public ulong category;
+        /// <summary>0: all bits</summary>
         public ulong mask;
-        /// <summary>1: vertices of the mesh inside its own tetrahedra are contacts; default 0</summary>
-        public uint self_collision;
+        public uint world;
         /// <summary>Self-contact skips tetrahedra that have a corner within this many edges of the vertex, along the
-        /// edges of the mesh's tetrahedra; at most VOX_MAX_RINGS. 0 (the default) skips only tetrahedra that have the
-        /// vertex as a corner.</summary>
+        /// edges of the mesh's tetrahedra; at most VOX_MAX_RINGS. 0 skips only tetrahedra that have the vertex as a
+        /// corner.</summary>
         public uint self_rings;
-        /// <summary>Self-contact skips tetrahedra that are closer to the vertex than this in the rest pose, in the
-        /// caller's unit (distance to the closed tetrahedron, computed in double). 0 (the default): skips
-        /// none.</summary>
+        /// <summary>Self-contact skips tetrahedra that are closer to the vertex than this in the rest pose (distance to
+        /// the closed tetrahedron, computed in double).</summary>
         public double self_rest_distance;
-        /// <summary>Which contacts get a penetration, in a grid with VOX_GRID_PENETRATIONS.</summary>
-        public ulong penetration_mask;
     }
 
     /// <summary>A body: vertices, and tetrahedra over them.</summary>
@@ -719,8 +673,7 @@ namespace Voxtet
         public ulong tet_count;
         /// <summary>any number of the caller's, returned by vox_body_get_user_data</summary>
         public ulong user_data;
-        /// <summary>Copied; null: the defaults.</summary>
-        public Filter* filter;
+        public Filter filter;
         /// <summary>of all vertices, copied; none: see vox_filter.self_rest_distance</summary>
         public Positions rest_positions;
     }
@@ -739,8 +692,8 @@ namespace Voxtet
         public ulong enabled_tet_count;
         /// <summary>1, or 0 (see vox_body_set_enabled)</summary>
         public uint enabled;
-        /// <summary>vox_mesh_flags: SELF_COLLISION as the filter says, COPY_POSITIONS if the positions are the mesh's
-        /// own (copied, mapped or loaded), BORROW_TETS while the tetrahedra are the caller's</summary>
+        /// <summary>vox_mesh_flags: COPY_POSITIONS if the positions are the mesh's own (copied, mapped or loaded),
+        /// BORROW_TETS while the tetrahedra are the caller's</summary>
         public MeshFlags flags;
         /// <summary>1 if vox_body_set_transform gave it one</summary>
         public uint has_transform;
@@ -750,6 +703,8 @@ namespace Voxtet
         public Positions positions;
         /// <summary>as vox_body_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0</summary>
         public Double12 transform;
+        /// <summary>in use: neither category nor mask is 0</summary>
+        public Filter filter;
     }
 
     /// <summary>Vertices to append.</summary>
@@ -844,7 +799,7 @@ namespace Voxtet
     }
 
     /// <summary>`count` penetrations, `byte_stride` apart: one for each (body_a, vertex, body_b) that has contacts, in
-    /// that order, unless vox_filter.penetration_mask rules it out.</summary>
+    /// that order, unless one of them is a sensor (VOX_FILTER_SENSOR).</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct PenetrationView
     {
@@ -1104,15 +1059,40 @@ namespace Voxtet
     public struct ReadingsDesc
     {
         public uint struct_size;
-        /// <summary>vox_reading_flags, combined with |; default: all.</summary>
+        /// <summary>vox_reading_flags, combined with |; 0: all.</summary>
         public ReadingFlags what;
-        /// <summary>VOX_NULL_BODY (the default): all contacts; else those that vox_mesh_copy_contacts copies</summary>
+        /// <summary>VOX_NULL_BODY: all contacts; else those that vox_mesh_copy_contacts copies</summary>
         public uint body_a;
-        /// <summary>VOX_NULL_BODY (the default), or those that vox_pair_copy_contacts copies for body_a and
-        /// it</summary>
+        /// <summary>VOX_NULL_BODY, or those that vox_pair_copy_contacts copies for body_a and it</summary>
         public uint body_b;
         /// <summary>Most searches for a closest point.</summary>
         public ulong closest_budget;
+    }
+
+    /// <summary>An allocator.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct Allocator
+    {
+        public IntPtr allocate;
+        public IntPtr release;
+        public IntPtr user;
+    }
+
+    /// <summary>Receives one line of text (no newline), valid during the call only.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct Log
+    {
+        public IntPtr write;
+        public IntPtr user;
+    }
+
+    /// <summary>The caller's scheduler, designed as in Box3D.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct TaskSystem
+    {
+        public IntPtr enqueue;
+        public IntPtr finish;
+        public IntPtr user;
     }
 
     /// <summary>Point `point` of the query is in the closed tetrahedron `tet` of `mesh`.</summary>
@@ -1160,15 +1140,15 @@ namespace Voxtet
         public ulong byte_stride;
         /// <summary>at most 2^32 - 1</summary>
         public ulong point_count;
-        /// <summary>default UINT64_MAX: all meshes</summary>
+        /// <summary>0: all meshes</summary>
         public ulong mask;
-        /// <summary>&gt;= 0, in the caller's unit; default infinity</summary>
+        /// <summary>in the caller's unit; 0: any distance</summary>
         public double max_distance;
-        /// <summary>default VOX_NULL_BODY: none</summary>
+        /// <summary>VOX_NULL_BODY: none</summary>
         public uint excluded;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>as in vox_positions; default 0</summary>
+        /// <summary>as in vox_positions</summary>
         public ulong component_byte_stride;
     }
 
@@ -1337,6 +1317,22 @@ namespace Voxtet
         public ulong margin_ns;
     }
 
+    /// <summary>The paper's engine (Sect. 3), for vox_grid_desc.reference.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 64)]
+    public struct ReferenceDesc
+    {
+        public uint struct_size;
+        /// <summary>vox_reference_flags, combined with |</summary>
+        public ReferenceFlags flags;
+        /// <summary>buckets, at most VOX_MAX_VERTICES, raised to the next prime; 0: the first prime that is at least
+        /// twice the number of vertices</summary>
+        public ulong hash_table_size;
+        /// <summary>DENSE: the box that has cells, min &lt; max on each axis.</summary>
+        public Double3 world_min;
+        /// <summary>the nearest cell.</summary>
+        public Double3 world_max;
+    }
+
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct SuggestDesc
     {
@@ -1344,28 +1340,26 @@ namespace Voxtet
         public CostModel model;
         public SizeReading size_reading;
         public AreaReading area_reading;
-        /// <summary>probability that a tet has no collision, in (0, 1); default 0.99</summary>
+        /// <summary>probability that a tet has no collision, in (0, 1); 0: 0.99</summary>
         public double p_nc;
-        /// <summary>the paper's r: cost of a particle test divided by that of a cell visit, &gt; 0; default 5</summary>
+        /// <summary>the paper's r: cost of a particle test divided by that of a cell visit; 0: 5</summary>
         public double cost_ratio;
         /// <summary>edge of the cubic world, for cells_per_axis; 0: longest side of the bounds</summary>
         public double world_edge;
-        /// <summary>the zone is where predicted cost &lt;= (1 + zone_loss) * minimum; in [0, 1e6], default
-        /// 0.05</summary>
+        /// <summary>the zone is where predicted cost &lt;= (1 + zone_loss) * minimum; at most 1e6; 0: 0.05</summary>
         public double zone_loss;
-        /// <summary>for rules.mean_edge_multiple (Gregory et al. 2000), &gt; 0; default 2</summary>
+        /// <summary>for rules.mean_edge_multiple (Gregory et al. 2000); 0: 2</summary>
         public double mean_edge_factor;
         /// <summary>for rules.resolution (McNeely et al. 1999): the required detail; 0: none</summary>
         public double resolution;
-        /// <summary>REFERENCE with dense storage: most bytes its cells may take; 0 (the default): no limit</summary>
+        /// <summary>REFERENCE with DENSE cells: most bytes that these may take; 0: no limit</summary>
         public ulong byte_budget;
-        /// <summary>REFERENCE: as in vox_grid_desc, but AUTO means HASHED</summary>
-        public Storage storage;
+        /// <summary>REFERENCE: vox_reference_flags, combined with |</summary>
+        public uint reference_flags;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>Where the memory of the call comes from, which it has released at its end; default: the C++
-        /// runtime's heap.</summary>
-        public Allocator allocator;
+        /// <summary>of the call's memory; null: the C++ runtime's heap</summary>
+        public Allocator* allocator;
     }
 
     /// <summary>Geometry of all meshes together, in the caller's unit.</summary>
@@ -1534,7 +1528,7 @@ namespace Voxtet
         /// <summary>0 &lt; min &lt;= max, finite</summary>
         public double min;
         public double max;
-        /// <summary>as vox_suggest_desc.zone_loss; default 0.05</summary>
+        /// <summary>as vox_suggest_desc.zone_loss</summary>
         public double zone_loss;
     }
 
@@ -1575,7 +1569,7 @@ namespace Voxtet
         public Format radius_format;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>of all primitives, added to their own, &gt;= 0; default 0</summary>
+        /// <summary>of all primitives, added to their own, &gt;= 0</summary>
         public double radius;
     }
 
@@ -1621,29 +1615,27 @@ namespace Voxtet
         public uint struct_size;
         /// <summary>vox_foreign_flags, combined with |</summary>
         public ForeignFlags flags;
-        /// <summary>default HOLD_BOXES</summary>
         public CellContent content;
-        /// <summary>default BOX</summary>
         public CellLook look;
         /// <summary>what is put into cells</summary>
         public Primitives* held;
         /// <summary>null: those held ask themselves, each of all, itself included</summary>
         public Primitives* asking;
-        /// <summary>boxes that ask are larger by this on all sides, &gt;= 0; default 0.</summary>
+        /// <summary>boxes that ask are larger by this on all sides, &gt;= 0.</summary>
         public double radius;
-        /// <summary>The smallest cell size that gives right answers. 0 (the default): with AROUND, half the longest
-        /// side of a box held, and half that of one that asks with its radius; otherwise none.</summary>
+        /// <summary>The smallest cell size that gives right answers. 0: with AROUND, half the longest side of a box
+        /// held, and half that of one that asks with its radius; otherwise none.</summary>
         public double least_cell_size;
-        /// <summary>as vox_suggest_desc.zone_loss; default 0.05</summary>
+        /// <summary>as vox_suggest_desc.zone_loss</summary>
         public double zone_loss;
-        /// <summary>whose weights are used where `weights` are all 0; default ANY</summary>
+        /// <summary>whose weights are used where `weights` are all 0</summary>
         public KnownGrid known;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>all 0 (the default): those of `known`</summary>
+        /// <summary>all 0: those of `known`</summary>
         public GridWeights weights;
-        /// <summary>where the memory of the call comes from; default: the C++ runtime's heap</summary>
-        public Allocator allocator;
+        /// <summary>of the call's memory; null: the C++ runtime's heap</summary>
+        public Allocator* allocator;
     }
 
     /// <summary>Cell sizes that other rules would choose; 0 where a rule does not apply.</summary>
@@ -1731,23 +1723,21 @@ namespace Voxtet
         public Byte256 note;
     }
 
-    /// <summary>How to tune.</summary>
+    /// <summary>How to tune; all 0 by default.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 48)]
     public struct TuneDesc
     {
         public uint struct_size;
-        /// <summary>3 to VOX_TUNE_RUN_CAPACITY; default 7</summary>
+        /// <summary>3 to VOX_TUNE_RUN_CAPACITY; 0: 7</summary>
         public uint most_runs;
-        /// <summary>cell sizes to try, 0 &lt; min &lt;= max; both 0 (the default): an eighth to eight times the
-        /// first</summary>
+        /// <summary>cell sizes to try, 0 &lt; min &lt;= max; both 0: an eighth to eight times the first</summary>
         public double min;
         public double max;
-        /// <summary>the cell size to begin with; 0 (the default): what vox_suggest_for says.</summary>
+        /// <summary>the cell size to begin with; 0: what vox_suggest_for says.</summary>
         public double first;
-        /// <summary>as vox_suggest_desc.zone_loss; default 0.05</summary>
+        /// <summary>as vox_suggest_desc.zone_loss</summary>
         public double zone_loss;
-        /// <summary>stops where the cell size is within this of the best one, as far as it can tell; default
-        /// 0.02</summary>
+        /// <summary>stops where the cell size is within this of the best one, as far as it can tell; 0: 0.02</summary>
         public double wanted_loss;
     }
 
@@ -1784,8 +1774,7 @@ namespace Voxtet
     internal unsafe struct SurfaceDesc
     {
         public uint struct_size;
-        /// <summary>Threads that work, as in vox_grid_desc: 1 (the default): the calling one; 0: one per
-        /// core.</summary>
+        /// <summary>as in vox_grid_desc</summary>
         public uint worker_count;
         /// <summary>at least 1</summary>
         public ulong vertex_count;
@@ -1802,15 +1791,15 @@ namespace Voxtet
         /// <summary>copied; null: all bits</summary>
         public ulong* patch_masks;
         public ulong patch_count;
-        /// <summary>Edge length of a cell of the grid in which pairs are looked for, &gt; 0. 0 (the default): chosen at
-        /// every motion by the cost model.</summary>
+        /// <summary>Edge length of a cell of the grid in which pairs are looked for. 0: chosen at every motion by the
+        /// cost model.</summary>
         public double cell_size;
         /// <summary>Most bytes the surface may hold at any time, its answers included.</summary>
         public ulong byte_budget;
-        /// <summary>called only from functions of this surface, one call at a time</summary>
-        public Allocator allocator;
-        /// <summary>Default: the built-in scheduler.</summary>
-        public TaskSystem tasks;
+        /// <summary>copied; null: the C++ runtime's heap</summary>
+        public Allocator* allocator;
+        /// <summary>Copied; null: the built-in scheduler.</summary>
+        public TaskSystem* tasks;
     }
 
     /// <summary>The vertices of the edges or faces of a surface.</summary>
@@ -1947,12 +1936,12 @@ namespace Voxtet
     public struct ContactTimeDesc
     {
         public uint struct_size;
-        /// <summary>of one pair; &gt;= 1, default 10000.</summary>
+        /// <summary>of one pair; 0: 10000.</summary>
         public uint most_iterations;
-        /// <summary>contact is where two features come this close, &gt;= 0; default 0</summary>
+        /// <summary>contact is where two features come this close, &gt;= 0</summary>
         public double distance;
         /// <summary>At the time given, the features are still further apart than `distance` by at most this part of
-        /// what it was at time 0; above 0 and below 1, default 0.1.</summary>
+        /// what it was at time 0; below 1; 0: 0.1.</summary>
         public double slack;
     }
 
@@ -2005,14 +1994,12 @@ namespace Voxtet
     {
         public uint struct_size;
         public IoFormat format;
-        /// <summary>Scene files with several meshes: index of the one to take, or VOX_IO_ALL_MESHES to join
-        /// them.</summary>
-        public uint mesh_index;
+        /// <summary>which mesh of a scene file to take, from 1; 0: all, joined</summary>
+        public uint mesh;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>Where the arrays of the mesh live until vox_io_mesh_destroy; default: the C++ runtime's
-        /// heap.</summary>
-        public Allocator allocator;
+        /// <summary>Where the arrays of the mesh live until vox_io_mesh_destroy.</summary>
+        public Allocator* allocator;
         /// <summary>Called now and then, on the calling thread, with the fraction of the work done, ascending from 0 to
         /// 1: about half of it is reading, the rest the report.</summary>
         public IntPtr progress;
@@ -2095,14 +2082,14 @@ namespace Voxtet
     {
         public uint struct_size;
         public IoSolidKind kind;
-        /// <summary>edge of a lattice cube, &gt; 0; 0 (the default): a fiftieth of the surface's longest side</summary>
+        /// <summary>edge of a lattice cube; 0: a fiftieth of the surface's longest side</summary>
         public double cell;
-        /// <summary>more tets fail with LIMIT; default 100000000</summary>
+        /// <summary>more tets fail with LIMIT; 0: 100000000</summary>
         public ulong max_tets;
         /// <summary>STUFFED: largest Hausdorff distance to the surface, as measured by vox_io_mesh_measure.</summary>
         public double max_distance;
-        /// <summary>STUFFED: how many times cells away from the boundary may be merged, eight into one. 0 (the
-        /// default): all tets have the same size.</summary>
+        /// <summary>STUFFED: how many times cells away from the boundary may be merged, eight into one. 0: all tets
+        /// have the same size.</summary>
         public uint coarsen;
         /// <summary>0</summary>
         public uint reserved;
@@ -2111,7 +2098,7 @@ namespace Voxtet
         public IntPtr progress;
         public IntPtr progress_user;
         /// <summary>as vox_io_load_desc.allocator</summary>
-        public Allocator allocator;
+        public Allocator* allocator;
     }
 
     /// <summary>How good a tet mesh is, and how close its boundary is to a surface.</summary>
@@ -2209,11 +2196,11 @@ namespace Voxtet
         public double contact_slop;
         /// <summary>settings of the grid inside, read during create; null: defaults</summary>
         public GridDesc* grid;
-        /// <summary>log of the simulation; the grid has one of its own in its desc</summary>
-        public Log log;
+        /// <summary>of the simulation, copied; the grid has one of its own in its desc</summary>
+        public Log* log;
         /// <summary>Where the simulation and its bodies live, as does its grid unless `grid` names another
         /// allocator.</summary>
-        public Allocator allocator;
+        public Allocator* allocator;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -2449,10 +2436,8 @@ namespace Voxtet
     {
         /// <summary>Version of the stable interface.</summary>
         internal const uint VOX_ABI_VERSION = 1;
-        /// <summary>tasks enqueued in one step</summary>
-        internal const uint VOX_MAX_TASKS = 64;
-        /// <summary>workers of a grid</summary>
-        internal const uint VOX_MAX_WORKERS = 256;
+        /// <summary>as a worker_count: one worker per core</summary>
+        internal const uint VOX_ALL_CORES = 4294967295;
         /// <summary>per grid, at one time, including retired slots</summary>
         internal const uint VOX_MAX_BODIES = 1048576;
         /// <summary>uses of one mesh slot before it is retired</summary>
@@ -2461,6 +2446,8 @@ namespace Voxtet
         internal const uint VOX_MAX_VERTICES = 2147483647;
         /// <summary>per grid</summary>
         internal const uint VOX_MAX_TETS = 2147483647;
+        /// <summary>workers of a grid</summary>
+        internal const uint VOX_MAX_WORKERS = 256;
         /// <summary>names no mesh</summary>
         internal const uint VOX_NULL_BODY = 0;
         /// <summary>vox_filter.self_rings</summary>
@@ -2471,6 +2458,8 @@ namespace Voxtet
         internal const uint VOX_MAX_CONTACTS = 4294967295;
         /// <summary>vox_touch_event.pair of a pair that ended</summary>
         internal const uint VOX_NO_PAIR = 4294967295;
+        /// <summary>tasks enqueued in one step</summary>
+        internal const uint VOX_MAX_TASKS = 64;
         /// <summary>most samples of a curve</summary>
         internal const uint VOX_COST_CURVE_CAPACITY = 64;
         /// <summary>most terms of a cost, in any model</summary>
@@ -2485,8 +2474,6 @@ namespace Voxtet
         internal const uint VOX_MAX_FEATURES = 2147483647;
         /// <summary>patches of a surface.</summary>
         internal const uint VOX_MAX_PATCHES = 65536;
-        /// <summary>for vox_io_load_desc.mesh_index: joins all meshes of the scene</summary>
-        internal const uint VOX_IO_ALL_MESHES = 4294967295;
         /// <summary>most coefficients of a fit</summary>
         internal const uint VOX_FIT_CAPACITY = 9;
 
@@ -2530,10 +2517,6 @@ namespace Voxtet
         /// line.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern IntPtr vox_build_info();
-
-        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_desc_init(GridDesc* desc, uint struct_size);
 
         /// <summary>Creates a grid. desc null: all defaults.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2581,14 +2564,6 @@ namespace Voxtet
         /// <summary>The flags in use.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_get_flags(IntPtr grid, GridFlags* out_flags);
-
-        /// <summary>Fills `filter` with the defaults for the fields that `struct_size` covers.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_filter_init(Filter* filter, uint struct_size);
-
-        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_desc_init(MeshDesc* desc, uint struct_size);
 
         /// <summary>Adds a mesh, which takes part from the next step on.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2640,11 +2615,6 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_body_set_filter(IntPtr grid, uint body, Filter* filter);
 
-        /// <summary>Writes the fields of the filter in use that out_filter-&gt;struct_size covers (set it
-        /// first).</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_filter(IntPtr grid, uint body, Filter* out_filter);
-
         /// <summary>Disables a mesh (enabled 0), so that it takes no part in the following steps and its positions are
         /// not read, or enables it again (1, as at insertion).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2689,10 +2659,6 @@ namespace Voxtet
         /// <summary>Removes tetrahedra, disabled ones included.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_remove_tets(IntPtr grid, uint body, uint* tets, ulong count);
-
-        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers: all 0.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_vertices_desc_init(VerticesDesc* desc, uint struct_size);
 
         /// <summary>Adds vertices, which belong to no tetrahedron yet.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2809,10 +2775,6 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_prepare_readings(IntPtr grid);
 
-        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_readings_desc_init(ReadingsDesc* desc, uint struct_size);
-
         /// <summary>As vox_grid_prepare_readings, which is the same with desc null, but computes only the parts
         /// desc-&gt;what of the readings of some contacts.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2875,10 +2837,6 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_query_closest(IntPtr grid, double* point, double radius, ulong mask,
             SurfaceHit* out_hit);
-
-        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_closest_desc_init(ClosestDesc* desc, uint struct_size);
 
         /// <summary>The same for many points at once, each no further away than desc-&gt;max_distance: out_hits[i] is
         /// that of point i.</summary>
@@ -2970,10 +2928,6 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_profile(IntPtr grid, Profile* out_profile);
 
-        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_suggest_desc_init(SuggestDesc* desc, uint struct_size);
-
         /// <summary>The cell size that minimises the cost model for these meshes (their positions as they are now).
         /// desc null: defaults.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3003,11 +2957,6 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_cost_set_weights(CostWeights* weights);
 
-        /// <summary>Fills `bounds` with the defaults for the fields that `struct_size` covers; min and max are 0 and
-        /// must be set.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_cost_bounds_init(CostBounds* bounds, uint struct_size);
-
         /// <summary>The cell size of least cost within the bounds, for a cost function of the caller's: a scan that is
         /// even in the logarithm of the cell size, then a golden-section search around its best point.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3024,15 +2973,6 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_zone_distance(double n, double n_min, double n_opt, double n_max, double*
             out_epsilon);
-
-        /// <summary>Fills `primitives` with the defaults for the fields that `struct_size` covers.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_primitives_init(Primitives* primitives, uint struct_size);
-
-        /// <summary>Fills `grid` with the defaults for the fields that `struct_size` covers; `held` is null and must be
-        /// set.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_foreign_grid_init(ForeignGrid* grid, uint struct_size);
 
         /// <summary>Sets what is known of a grid that people have: content, look, flags, known, weights.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3052,10 +2992,6 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_cost_fit(ForeignGrid* grid, GridTiming* timings, ulong count, GridFit* @out);
 
-        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_tune_desc_init(TuneDesc* desc, uint struct_size);
-
         /// <summary>Finds the best cell size by running the grid: at three cell sizes an octave apart first, then where
         /// the fit to all timings so far is lowest or least sure, which may be where it was run before, until that is
         /// sure enough (desc-&gt;wanted_loss, after four runs at the earliest) and it was run a quarter of an octave to
@@ -3063,10 +2999,6 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_cost_tune(ForeignGrid* grid, TuneDesc* desc, IntPtr run, IntPtr user, Tuning*
             @out);
-
-        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_surface_desc_init(SurfaceDesc* desc, uint struct_size);
 
         /// <summary>Creates a surface without positions.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3079,10 +3011,6 @@ namespace Voxtet
         /// <summary>The edges or faces of a surface, numbered as everywhere in this header.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_surface_get_features(IntPtr surface, Feature feature, FeatureView* out_view);
-
-        /// <summary>Fills `motion` with the defaults for the fields that `struct_size` covers.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_motion_init(Motion* motion, uint struct_size);
 
         /// <summary>Sets the motion that the other functions answer for.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3126,10 +3054,6 @@ namespace Voxtet
         internal static extern Result vox_surface_find_clearances(IntPtr surface, double most, double* per_vertex, ulong
             vertex_count);
 
-        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_contact_time_desc_init(ContactTimeDesc* desc, uint struct_size);
-
         /// <summary>How much of the motion is free of contact: the least time of first contact of all pairs of faces
         /// and vertices, and of edges and edges.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3140,11 +3064,6 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_surface_find_impacts(IntPtr surface, Feature a, Feature b, ContactTimeDesc*
             desc, TimedView* out_view);
-
-        /// <summary>Fills `desc` with the defaults (AUTO, all meshes) for the fields that `struct_size`
-        /// covers.</summary>
-        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_io_load_desc_init(IoLoadDesc* desc, uint struct_size);
 
         /// <summary>Reads the file at `path` (for TetGen either file of the pair; the other must be beside it, as must
         /// files that a .gltf names). desc null: defaults.</summary>
@@ -3186,10 +3105,6 @@ namespace Voxtet
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern IntPtr vox_io_format_string(IoFormat format);
 
-        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
-        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_io_tetrahedralize_desc_init(IoTetrahedralizeDesc* desc, uint struct_size);
-
         /// <summary>Fills the inside of a closed surface (the triangles of `surface`; its tets are ignored) with
         /// tetrahedra. desc null: defaults.</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3199,11 +3114,6 @@ namespace Voxtet
         /// <summary>Measures `mesh` against the triangles of `surface`, which may be null.</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_io_mesh_measure(IntPtr mesh, IntPtr surface, IoQuality* out_quality);
-
-        /// <summary>Fills `desc` with the defaults (AUTO, text, no data) for the fields that `struct_size`
-        /// covers.</summary>
-        [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_io_write_desc_init(IoWriteDesc* desc, uint struct_size);
 
         /// <summary>Writes vertices, triangles and tets, in the mesh's order. desc null: defaults.</summary>
         [DllImport(vox_io, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3240,10 +3150,6 @@ namespace Voxtet
         internal static extern Result vox_io_make_box(double size_x, double size_y, double size_z, double cell, IntPtr*
             out_mesh);
 
-        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
-        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_sim_desc_init(SimDesc* desc, uint struct_size);
-
         /// <summary>Creates a simulation without bodies. desc null: all defaults.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_sim_create(SimDesc* desc, IntPtr* out_sim);
@@ -3260,10 +3166,6 @@ namespace Voxtet
         /// <summary>Moves everything forward by `time_step`, or by max_time_step if that is less.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_sim_step(IntPtr sim, double time_step);
-
-        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
-        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_sim_body_desc_init(SimBodyDesc* desc, uint struct_size);
 
         /// <summary>Adds a body.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3295,10 +3197,6 @@ namespace Voxtet
         /// <summary>Writes the fields that out_counts-&gt;struct_size covers (set it first).</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_sim_get_counters(IntPtr sim, SimCounts* out_counts);
-
-        /// <summary>Fills `desc` with the defaults for the fields that `struct_size` covers.</summary>
-        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_experiment_desc_init(ExperimentDesc* desc, uint struct_size);
 
         /// <summary>Places the bodies, simulates the frames and records them.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3375,78 +3273,44 @@ namespace Voxtet
             entries.Add(Entry("vox_positions.component_byte_stride", (byte*)&s.component_byte_stride - begin, 32, 32));
         }
 
-        static void AddAllocator(List<LayoutEntry> entries)
-        {
-            Allocator s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_allocator", sizeof(Allocator), 24, 12));
-            entries.Add(Entry("vox_allocator.allocate", (byte*)&s.allocate - begin, 0, 0));
-            entries.Add(Entry("vox_allocator.release", (byte*)&s.release - begin, 8, 4));
-            entries.Add(Entry("vox_allocator.user", (byte*)&s.user - begin, 16, 8));
-        }
-
-        static void AddLog(List<LayoutEntry> entries)
-        {
-            Log s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_log", sizeof(Log), 16, 8));
-            entries.Add(Entry("vox_log.write", (byte*)&s.write - begin, 0, 0));
-            entries.Add(Entry("vox_log.user", (byte*)&s.user - begin, 8, 4));
-        }
-
-        static void AddTaskSystem(List<LayoutEntry> entries)
-        {
-            TaskSystem s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_task_system", sizeof(TaskSystem), 24, 12));
-            entries.Add(Entry("vox_task_system.enqueue", (byte*)&s.enqueue - begin, 0, 0));
-            entries.Add(Entry("vox_task_system.finish", (byte*)&s.finish - begin, 8, 4));
-            entries.Add(Entry("vox_task_system.user", (byte*)&s.user - begin, 16, 8));
-        }
-
         static void AddGridDesc(List<LayoutEntry> entries)
         {
             GridDesc s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_grid_desc", sizeof(GridDesc), 176, 144));
+            entries.Add(Entry("vox_grid_desc", sizeof(GridDesc), 80, 64));
             entries.Add(Entry("vox_grid_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_grid_desc.engine", (byte*)&s.engine - begin, 4, 4));
-            entries.Add(Entry("vox_grid_desc.storage", (byte*)&s.storage - begin, 8, 8));
-            entries.Add(Entry("vox_grid_desc.hash", (byte*)&s.hash - begin, 12, 12));
+            entries.Add(Entry("vox_grid_desc.flags", (byte*)&s.flags - begin, 4, 4));
+            entries.Add(Entry("vox_grid_desc.worker_count", (byte*)&s.worker_count - begin, 8, 8));
+            entries.Add(Entry("vox_grid_desc.reserved", (byte*)&s.reserved - begin, 12, 12));
             entries.Add(Entry("vox_grid_desc.cell_size", (byte*)&s.cell_size - begin, 16, 16));
-            entries.Add(Entry("vox_grid_desc.world_min", (byte*)&s.world_min - begin, 24, 24));
-            entries.Add(Entry("vox_grid_desc.world_max", (byte*)&s.world_max - begin, 48, 48));
-            entries.Add(Entry("vox_grid_desc.byte_budget", (byte*)&s.byte_budget - begin, 72, 72));
-            entries.Add(Entry("vox_grid_desc.hash_table_size", (byte*)&s.hash_table_size - begin, 80, 80));
-            entries.Add(Entry("vox_grid_desc.allocator", (byte*)&s.allocator - begin, 88, 88));
-            entries.Add(Entry("vox_grid_desc.log", (byte*)&s.log - begin, 112, 100));
-            entries.Add(Entry("vox_grid_desc.tasks", (byte*)&s.tasks - begin, 128, 108));
-            entries.Add(Entry("vox_grid_desc.worker_count", (byte*)&s.worker_count - begin, 152, 120));
-            entries.Add(Entry("vox_grid_desc.flags", (byte*)&s.flags - begin, 156, 124));
-            entries.Add(Entry("vox_grid_desc.closest_budget", (byte*)&s.closest_budget - begin, 160, 128));
-            entries.Add(Entry("vox_grid_desc.margin", (byte*)&s.margin - begin, 168, 136));
+            entries.Add(Entry("vox_grid_desc.margin", (byte*)&s.margin - begin, 24, 24));
+            entries.Add(Entry("vox_grid_desc.byte_budget", (byte*)&s.byte_budget - begin, 32, 32));
+            entries.Add(Entry("vox_grid_desc.closest_budget", (byte*)&s.closest_budget - begin, 40, 40));
+            entries.Add(Entry("vox_grid_desc.allocator", (byte*)&s.allocator - begin, 48, 48));
+            entries.Add(Entry("vox_grid_desc.log", (byte*)&s.log - begin, 56, 52));
+            entries.Add(Entry("vox_grid_desc.tasks", (byte*)&s.tasks - begin, 64, 56));
+            entries.Add(Entry("vox_grid_desc.reference", (byte*)&s.reference - begin, 72, 60));
         }
 
         static void AddFilter(List<LayoutEntry> entries)
         {
             Filter s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_filter", sizeof(Filter), 48, 48));
-            entries.Add(Entry("vox_filter.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_filter", sizeof(Filter), 40, 40));
+            entries.Add(Entry("vox_filter.flags", (byte*)&s.flags - begin, 0, 0));
             entries.Add(Entry("vox_filter.group", (byte*)&s.group - begin, 4, 4));
             entries.Add(Entry("vox_filter.category", (byte*)&s.category - begin, 8, 8));
             entries.Add(Entry("vox_filter.mask", (byte*)&s.mask - begin, 16, 16));
-            entries.Add(Entry("vox_filter.self_collision", (byte*)&s.self_collision - begin, 24, 24));
+            entries.Add(Entry("vox_filter.world", (byte*)&s.world - begin, 24, 24));
             entries.Add(Entry("vox_filter.self_rings", (byte*)&s.self_rings - begin, 28, 28));
             entries.Add(Entry("vox_filter.self_rest_distance", (byte*)&s.self_rest_distance - begin, 32, 32));
-            entries.Add(Entry("vox_filter.penetration_mask", (byte*)&s.penetration_mask - begin, 40, 40));
         }
 
         static void AddMeshDesc(List<LayoutEntry> entries)
         {
             MeshDesc s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_mesh_desc", sizeof(MeshDesc), 120, 120));
+            entries.Add(Entry("vox_mesh_desc", sizeof(MeshDesc), 152, 152));
             entries.Add(Entry("vox_mesh_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_mesh_desc.flags", (byte*)&s.flags - begin, 4, 4));
             entries.Add(Entry("vox_mesh_desc.positions", (byte*)&s.positions - begin, 8, 8));
@@ -3454,14 +3318,14 @@ namespace Voxtet
             entries.Add(Entry("vox_mesh_desc.tet_count", (byte*)&s.tet_count - begin, 56, 56));
             entries.Add(Entry("vox_mesh_desc.user_data", (byte*)&s.user_data - begin, 64, 64));
             entries.Add(Entry("vox_mesh_desc.filter", (byte*)&s.filter - begin, 72, 72));
-            entries.Add(Entry("vox_mesh_desc.rest_positions", (byte*)&s.rest_positions - begin, 80, 80));
+            entries.Add(Entry("vox_mesh_desc.rest_positions", (byte*)&s.rest_positions - begin, 112, 112));
         }
 
         static void AddBodyInfo(List<LayoutEntry> entries)
         {
             BodyInfo s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_body_info", sizeof(BodyInfo), 184, 184));
+            entries.Add(Entry("vox_body_info", sizeof(BodyInfo), 224, 224));
             entries.Add(Entry("vox_body_info.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_body_info.slot", (byte*)&s.slot - begin, 4, 4));
             entries.Add(Entry("vox_body_info.user_data", (byte*)&s.user_data - begin, 8, 8));
@@ -3473,6 +3337,7 @@ namespace Voxtet
             entries.Add(Entry("vox_body_info.reserved", (byte*)&s.reserved - begin, 44, 44));
             entries.Add(Entry("vox_body_info.positions", (byte*)&s.positions - begin, 48, 48));
             entries.Add(Entry("vox_body_info.transform", (byte*)&s.transform - begin, 88, 88));
+            entries.Add(Entry("vox_body_info.filter", (byte*)&s.filter - begin, 184, 184));
         }
 
         static void AddVerticesDesc(List<LayoutEntry> entries)
@@ -3784,6 +3649,35 @@ namespace Voxtet
             entries.Add(Entry("vox_readings_desc.closest_budget", (byte*)&s.closest_budget - begin, 16, 16));
         }
 
+        static void AddAllocator(List<LayoutEntry> entries)
+        {
+            Allocator s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_allocator", sizeof(Allocator), 24, 12));
+            entries.Add(Entry("vox_allocator.allocate", (byte*)&s.allocate - begin, 0, 0));
+            entries.Add(Entry("vox_allocator.release", (byte*)&s.release - begin, 8, 4));
+            entries.Add(Entry("vox_allocator.user", (byte*)&s.user - begin, 16, 8));
+        }
+
+        static void AddLog(List<LayoutEntry> entries)
+        {
+            Log s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_log", sizeof(Log), 16, 8));
+            entries.Add(Entry("vox_log.write", (byte*)&s.write - begin, 0, 0));
+            entries.Add(Entry("vox_log.user", (byte*)&s.user - begin, 8, 4));
+        }
+
+        static void AddTaskSystem(List<LayoutEntry> entries)
+        {
+            TaskSystem s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_task_system", sizeof(TaskSystem), 24, 12));
+            entries.Add(Entry("vox_task_system.enqueue", (byte*)&s.enqueue - begin, 0, 0));
+            entries.Add(Entry("vox_task_system.finish", (byte*)&s.finish - begin, 8, 4));
+            entries.Add(Entry("vox_task_system.user", (byte*)&s.user - begin, 16, 8));
+        }
+
         static void AddPointHit(List<LayoutEntry> entries)
         {
             PointHit s;
@@ -3949,11 +3843,23 @@ namespace Voxtet
             entries.Add(Entry("vox_profile.margin_ns", (byte*)&s.margin_ns - begin, 120, 120));
         }
 
+        static void AddReferenceDesc(List<LayoutEntry> entries)
+        {
+            ReferenceDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_reference_desc", sizeof(ReferenceDesc), 64, 64));
+            entries.Add(Entry("vox_reference_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_reference_desc.flags", (byte*)&s.flags - begin, 4, 4));
+            entries.Add(Entry("vox_reference_desc.hash_table_size", (byte*)&s.hash_table_size - begin, 8, 8));
+            entries.Add(Entry("vox_reference_desc.world_min", (byte*)&s.world_min - begin, 16, 16));
+            entries.Add(Entry("vox_reference_desc.world_max", (byte*)&s.world_max - begin, 40, 40));
+        }
+
         static void AddSuggestDesc(List<LayoutEntry> entries)
         {
             SuggestDesc s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_suggest_desc", sizeof(SuggestDesc), 104, 96));
+            entries.Add(Entry("vox_suggest_desc", sizeof(SuggestDesc), 88, 88));
             entries.Add(Entry("vox_suggest_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_suggest_desc.model", (byte*)&s.model - begin, 4, 4));
             entries.Add(Entry("vox_suggest_desc.size_reading", (byte*)&s.size_reading - begin, 8, 8));
@@ -3965,7 +3871,7 @@ namespace Voxtet
             entries.Add(Entry("vox_suggest_desc.mean_edge_factor", (byte*)&s.mean_edge_factor - begin, 48, 48));
             entries.Add(Entry("vox_suggest_desc.resolution", (byte*)&s.resolution - begin, 56, 56));
             entries.Add(Entry("vox_suggest_desc.byte_budget", (byte*)&s.byte_budget - begin, 64, 64));
-            entries.Add(Entry("vox_suggest_desc.storage", (byte*)&s.storage - begin, 72, 72));
+            entries.Add(Entry("vox_suggest_desc.reference_flags", (byte*)&s.reference_flags - begin, 72, 72));
             entries.Add(Entry("vox_suggest_desc.reserved", (byte*)&s.reserved - begin, 76, 76));
             entries.Add(Entry("vox_suggest_desc.allocator", (byte*)&s.allocator - begin, 80, 80));
         }
@@ -4173,7 +4079,7 @@ namespace Voxtet
         {
             ForeignGrid s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_foreign_grid", sizeof(ForeignGrid), 144, 128));
+            entries.Add(Entry("vox_foreign_grid", sizeof(ForeignGrid), 128, 120));
             entries.Add(Entry("vox_foreign_grid.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_foreign_grid.flags", (byte*)&s.flags - begin, 4, 4));
             entries.Add(Entry("vox_foreign_grid.content", (byte*)&s.content - begin, 8, 8));
@@ -4293,7 +4199,7 @@ namespace Voxtet
         {
             SurfaceDesc s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_surface_desc", sizeof(SurfaceDesc), 144, 104));
+            entries.Add(Entry("vox_surface_desc", sizeof(SurfaceDesc), 112, 88));
             entries.Add(Entry("vox_surface_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_surface_desc.worker_count", (byte*)&s.worker_count - begin, 4, 4));
             entries.Add(Entry("vox_surface_desc.vertex_count", (byte*)&s.vertex_count - begin, 8, 8));
@@ -4308,7 +4214,7 @@ namespace Voxtet
             entries.Add(Entry("vox_surface_desc.cell_size", (byte*)&s.cell_size - begin, 80, 64));
             entries.Add(Entry("vox_surface_desc.byte_budget", (byte*)&s.byte_budget - begin, 88, 72));
             entries.Add(Entry("vox_surface_desc.allocator", (byte*)&s.allocator - begin, 96, 80));
-            entries.Add(Entry("vox_surface_desc.tasks", (byte*)&s.tasks - begin, 120, 92));
+            entries.Add(Entry("vox_surface_desc.tasks", (byte*)&s.tasks - begin, 104, 84));
         }
 
         static void AddFeatureView(List<LayoutEntry> entries)
@@ -4467,14 +4373,14 @@ namespace Voxtet
         {
             IoLoadDesc s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_io_load_desc", sizeof(IoLoadDesc), 56, 36));
+            entries.Add(Entry("vox_io_load_desc", sizeof(IoLoadDesc), 40, 28));
             entries.Add(Entry("vox_io_load_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_io_load_desc.format", (byte*)&s.format - begin, 4, 4));
-            entries.Add(Entry("vox_io_load_desc.mesh_index", (byte*)&s.mesh_index - begin, 8, 8));
+            entries.Add(Entry("vox_io_load_desc.mesh", (byte*)&s.mesh - begin, 8, 8));
             entries.Add(Entry("vox_io_load_desc.reserved", (byte*)&s.reserved - begin, 12, 12));
             entries.Add(Entry("vox_io_load_desc.allocator", (byte*)&s.allocator - begin, 16, 16));
-            entries.Add(Entry("vox_io_load_desc.progress", (byte*)&s.progress - begin, 40, 28));
-            entries.Add(Entry("vox_io_load_desc.progress_user", (byte*)&s.progress_user - begin, 48, 32));
+            entries.Add(Entry("vox_io_load_desc.progress", (byte*)&s.progress - begin, 24, 20));
+            entries.Add(Entry("vox_io_load_desc.progress_user", (byte*)&s.progress_user - begin, 32, 24));
         }
 
         static void AddIoSource(List<LayoutEntry> entries)
@@ -4534,7 +4440,7 @@ namespace Voxtet
         {
             IoTetrahedralizeDesc s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_io_tetrahedralize_desc", sizeof(IoTetrahedralizeDesc), 80, 64));
+            entries.Add(Entry("vox_io_tetrahedralize_desc", sizeof(IoTetrahedralizeDesc), 64, 56));
             entries.Add(Entry("vox_io_tetrahedralize_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_io_tetrahedralize_desc.kind", (byte*)&s.kind - begin, 4, 4));
             entries.Add(Entry("vox_io_tetrahedralize_desc.cell", (byte*)&s.cell - begin, 8, 8));
@@ -4605,7 +4511,7 @@ namespace Voxtet
         {
             SimDesc s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_sim_desc", sizeof(SimDesc), 160, 136));
+            entries.Add(Entry("vox_sim_desc", sizeof(SimDesc), 136, 128));
             entries.Add(Entry("vox_sim_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_sim_desc.substeps", (byte*)&s.substeps - begin, 4, 4));
             entries.Add(Entry("vox_sim_desc.detect_every", (byte*)&s.detect_every - begin, 8, 8));
@@ -4620,7 +4526,7 @@ namespace Voxtet
             entries.Add(Entry("vox_sim_desc.contact_slop", (byte*)&s.contact_slop - begin, 104, 104));
             entries.Add(Entry("vox_sim_desc.grid", (byte*)&s.grid - begin, 112, 112));
             entries.Add(Entry("vox_sim_desc.log", (byte*)&s.log - begin, 120, 116));
-            entries.Add(Entry("vox_sim_desc.allocator", (byte*)&s.allocator - begin, 136, 124));
+            entries.Add(Entry("vox_sim_desc.allocator", (byte*)&s.allocator - begin, 128, 120));
         }
 
         static void AddSimBodyDesc(List<LayoutEntry> entries)
@@ -4773,9 +4679,6 @@ namespace Voxtet
         {
             var entries = new List<LayoutEntry>();
             AddPositions(entries);
-            AddAllocator(entries);
-            AddLog(entries);
-            AddTaskSystem(entries);
             AddGridDesc(entries);
             AddFilter(entries);
             AddMeshDesc(entries);
@@ -4804,6 +4707,9 @@ namespace Voxtet
             AddReading(entries);
             AddReadingView(entries);
             AddReadingsDesc(entries);
+            AddAllocator(entries);
+            AddLog(entries);
+            AddTaskSystem(entries);
             AddPointHit(entries);
             AddTetHit(entries);
             AddSurfaceHit(entries);
@@ -4813,6 +4719,7 @@ namespace Voxtet
             AddFacetHit(entries);
             AddCounters(entries);
             AddProfile(entries);
+            AddReferenceDesc(entries);
             AddSuggestDesc(entries);
             AddGeometryStats(entries);
             AddCellSizeRules(entries);

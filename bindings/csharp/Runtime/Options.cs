@@ -24,35 +24,20 @@ namespace Voxtet
     /// <summary>Settings of a grid. vox.h explains each under vox_grid_desc.</summary>
     public sealed class GridOptions
     {
-        public Engine Engine;
-        public Storage Storage;
         /// <summary>Edge of a cell; 0: the library chooses.</summary>
         public double CellSize;
-        /// <summary>Most bytes the grid may hold; 0: no limit.</summary>
-        public ulong ByteBudget = 4ul << 30;
-        /// <summary>Threads of a step; 0: one per core.</summary>
-        public uint Workers = 1;
+        /// <summary>Most bytes the grid may hold; 0: 4 GiB, ulong.MaxValue: no limit.</summary>
+        public ulong ByteBudget;
+        /// <summary>Threads of a step, or Grid.AllCores; 0: one.</summary>
+        public uint Workers;
         public GridFlags Flags = GridFlags.Penetrations;
         /// <summary>Most searches for a closest point in a step; 0: no limit.</summary>
         public ulong ClosestBudget;
         /// <summary>Receives warnings and notes, on the thread that called; it must not call the grid.</summary>
         public Action<LogLevel, string> Log;
-
-        internal unsafe GridDesc Desc(out Callbacks callbacks)
-        {
-            GridDesc desc;
-            VoxException.Check(Native.vox_grid_desc_init(&desc, (uint)sizeof(GridDesc)));
-            desc.engine = Engine;
-            desc.storage = Storage;
-            desc.cell_size = CellSize;
-            desc.byte_budget = ByteBudget;
-            desc.worker_count = Workers;
-            desc.flags = Flags;
-            desc.closest_budget = ClosestBudget;
-            callbacks = Log == null ? null : new Callbacks(Log);
-            if (callbacks != null) callbacks.Install(ref desc);
-            return desc;
-        }
+        /// <summary>The paper's engine with these settings; null: the fast engine, and in Load the one that was saved.
+        /// </summary>
+        public ReferenceDesc? Reference;
     }
 
     /// <summary>A mesh as it is now.</summary>

@@ -39,20 +39,17 @@ namespace Voxtet
         internal static ClosestDesc DescribeClosest(ReadOnlySpan<double> points, int hits, double maxDistance, ulong mask,
                                                     Mesh excluded)
         {
-            ClosestDesc desc;
-            VoxException.Check(Native.vox_closest_desc_init(&desc, (uint)sizeof(ClosestDesc)));
-            desc.format = Format.Double;
-            desc.point_count = Count(points.Length, 3, "points");
-            if ((ulong)hits < desc.point_count)
-                throw new ArgumentException(hits + " hits for " + desc.point_count + " points", "hits");
-            desc.max_distance = maxDistance;
-            desc.mask = mask;
-            desc.excluded = excluded.Id;
-            return desc;
+            ulong count = Count(points.Length, 3, "points");
+            if ((ulong)hits < count) throw new ArgumentException(hits + " hits for " + count + " points", "hits");
+            return new ClosestDesc
+            {
+                struct_size = (uint)sizeof(ClosestDesc), format = Format.Double, point_count = count,
+                max_distance = maxDistance, mask = mask, excluded = excluded.Id
+            };
         }
 
         /// <summary>The closest surface of each point, with a normal and a sign; its mesh is 0 where there is none within
-        /// the distance.</summary>
+        /// the distance. A maxDistance of 0 is any distance, a mask of 0 all meshes.</summary>
         public void QueryClosest(ReadOnlySpan<double> points, Span<ClosestHit> hits,
                                  double maxDistance = double.PositiveInfinity, ulong mask = ulong.MaxValue,
                                  Mesh excluded = default(Mesh))

@@ -57,9 +57,11 @@ namespace Voxtet.Tests
             Test.Throws<VoxArgumentException>(() => grid.Add(unit, new uint[] { 0, 1, 2, 4 }), "names vertex 4 of 4");
             Test.Throws<ArgumentException>(() => grid.Add(unit, new uint[] { 0, 1, 2 }), "3 numbers, expected 4");
             Test.Throws<ArgumentException>(() => grid.Add(new float[4], tet), "4 numbers, expected 3");
-            Test.Throws<VoxException>(() => grid.Add(unit, tet, 0, null, new float[3]), "rest_positions.count is 1, expected 4");
+            Test.Throws<VoxException>(() => grid.Add(unit, tet, 0, default(Filter), new float[3]), "rest_positions.count is 1, expected 4");
             Test.Throws<VoxArgumentException>(() => new Grid(new GridOptions { CellSize = -1 }), "cell_size is -1");
             Test.Throws<VoxException>(() => new Grid(new GridOptions { ByteBudget = 10 }), "budget is 10");
+            Test.Throws<VoxException>(() => new Grid(new GridOptions { Reference = new ReferenceDesc { hash_table_size = ulong.MaxValue } }),
+                                      "hash_table_size");
             Test.Throws<ArgumentNullException>(() => new Grid(null), "");
             Test.Throws<VoxArgumentException>(() => Grid.Load(new byte[5]), "snapshot");
             Test.Throws<VoxArgumentException>(() => Grid.Load(new byte[0]), "snapshot");
@@ -83,6 +85,22 @@ namespace Voxtet.Tests
             grid.Dispose();
             Test.Throws<ObjectDisposedException>(() => grid.Step(), "");
             Test.Throws<ObjectDisposedException>(() => { ulong hash = grid.Hash; }, "");
+        }
+
+        /// <summary>The paper's engine finds the same, and a sensor has contacts without penetrations.</summary>
+        public static void Settings()
+        {
+            Mesh a, b;
+            var options = new GridOptions { Reference = new ReferenceDesc { flags = ReferenceFlags.Dense }, ByteBudget = ulong.MaxValue };
+            using (Grid fast = TwoBlocks(out a, out b), paper = TwoBlocks(out a, out b, options))
+            {
+                paper.Step();
+                fast.SetFilter(a, new Filter { flags = FilterFlags.Sensor });
+                fast.Step();
+                Test.Same(fast.Hash, paper.Hash, "hash");
+                Test.That(fast.Penetrations.Length == 0 && paper.Penetrations.Length > 0, "penetrations");
+                Test.That(fast.GetFilter(a).flags == FilterFlags.Sensor && fast.GetFilter(b).mask == ulong.MaxValue, "filters");
+            }
         }
 
         public static void Views()
@@ -156,7 +174,7 @@ namespace Voxtet.Tests
         public static void Threads()
         {
             Mesh a, b;
-            Grid grid = TwoBlocks(out a, out b, new GridOptions { Workers = 0 }, 12);
+            Grid grid = TwoBlocks(out a, out b, new GridOptions { Workers = Grid.AllCores }, 12);
             grid.Step();
             ulong hash = grid.Hash;
             int refused = 0, wrong = 0;
@@ -416,10 +434,8 @@ namespace Voxtet.Tests
                         case 7: grid.CellSize = number; break;
                         case 8: grid.SetPairEnabled(mesh, new Mesh((uint)random.Next(9000)), random.Next(2) == 0); break;
                         case 9:
-                            Filter filter = Grid.DefaultFilter;
-                            filter.mask >>= random.Next(64);
-                            filter.self_collision = (uint)random.Next(3);
-                            grid.SetFilter(mesh, filter);
+                            ulong mask = ulong.MaxValue >> random.Next(64);
+                            grid.SetFilter(mesh, new Filter { flags = (FilterFlags)random.Next(5), mask = mask });
                             break;
                         case 10: grid.SetEnabled(mesh, random.Next(2) == 0); break;
                         case 11: grid.Flags = (GridFlags)random.Next(9); break;

@@ -99,15 +99,13 @@ namespace Voxtet.Tests
         static Filter FilterOf(Call call)
         {
             var fields = new Call((Dictionary<string, object>)call.Fields["filter"]);
-            Filter filter = Grid.DefaultFilter;
-            filter.group = (int)fields.Number("group");
-            filter.category = ulong.Parse(fields.Text("category"));
-            filter.mask = ulong.Parse(fields.Text("mask"));
-            filter.self_collision = fields.Uint("self_collision");
-            filter.self_rings = fields.Uint("self_rings");
-            filter.self_rest_distance = fields.Number("self_rest_distance");
-            filter.penetration_mask = ulong.Parse(fields.Text("penetration_mask"));
-            return filter;
+            return new Filter
+            {
+                flags = (FilterFlags)fields.Uint("flags"), group = (int)fields.Number("group"),
+                category = ulong.Parse(fields.Text("category")), mask = ulong.Parse(fields.Text("mask")),
+                world = fields.Uint("world"), self_rings = fields.Uint("self_rings"),
+                self_rest_distance = fields.Number("self_rest_distance")
+            };
         }
 
         static Double3 Point(Call call, string name)
@@ -131,8 +129,7 @@ namespace Voxtet.Tests
                 {
                     uint[] tets = Array<uint>(call, "tets", 4 * call.Uint("tet_count"));
                     ulong userData = ulong.Parse(call.Text("user_data"));
-                    Filter? filter = null;
-                    if (call.Has("filter")) filter = FilterOf(call);
+                    Filter filter = call.Has("filter") ? FilterOf(call) : default(Filter);
                     Mesh added = call.Uint("format") == 1
                                      ? grid.Add(Array<double>(call, "positions", 3 * call.Uint("vertices")), tets, userData, filter)
                                      : grid.Add(Array<float>(call, "positions", 3 * call.Uint("vertices")), tets, userData, filter);
@@ -418,9 +415,7 @@ namespace Voxtet.Tests
 
         void Tune(Call call)
         {
-            TuneDesc desc = CellSize.DefaultTuning;
-            desc.first = call.Number("first");
-            desc.most_runs = call.Uint("most_runs");
+            var desc = new TuneDesc { first = call.Number("first"), most_runs = call.Uint("most_runs") };
             List<double> seconds = ((List<object>)call.Fields["run"]).ConvertAll(x => (double)x);
             double most = call.Number("stops_after"), below = call.Number("fails_below");
             int runs = 0;

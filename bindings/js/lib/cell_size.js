@@ -1,11 +1,11 @@
-import { MeshFlags } from "../enums.js";
+import { FilterFlags } from "../enums.js";
 import { structs } from "../layout.js";
 import { callback, camel, fields, float, list, options } from "./check.js";
 import { foreignGrid } from "./foreign.js";
 import { meshArrays, meshFields } from "./mesh_arrays.js";
 
 const SUGGEST = ["model", "sizeReading", "areaReading", "pNc", "costRatio", "worldEdge", "zoneLoss", "meanEdgeFactor",
-  "resolution", "byteBudget", "storage"];
+  "resolution", "byteBudget", "referenceFlags"];
 const BOUNDS = ["min", "max", "zoneLoss"];
 const TUNE = ["mostRuns", "min", "max", "first", "zoneLoss", "wantedLoss"];
 const WEIGHTS = Object.keys(structs.vox_cost_weights.fields);
@@ -30,12 +30,12 @@ function withMeshes(memory, meshes, settings, use) {
   const all = list(meshes, "meshes", "{ positions, tets }").map((mesh, i) => {
     const { selfCollision = false, ...arrays } = options(mesh, `meshes[${i}]`, ["positions", "tets", "selfCollision"]);
     if (typeof selfCollision !== "boolean") throw new TypeError(`meshes[${i}].selfCollision: expected true or false`);
-    return [meshArrays(arrays, memory), selfCollision ? MeshFlags.SELF_COLLISION : 0];
+    return [meshArrays(arrays, memory), { flags: selfCollision ? FilterFlags.SELF_COLLISION : 0 }];
   });
   return memory.frame((frame) => {
     const { size } = structs.vox_mesh_desc;
     const list = frame.take(all.length * size);
-    all.forEach(([arrays, flags], i) => memory.fill(list + i * size, "vox_mesh_desc", meshFields(frame, arrays, { flags })));
+    all.forEach(([arrays, filter], i) => memory.fill(list + i * size, "vox_mesh_desc", meshFields(frame, arrays, { filter })));
     return use(frame.struct("vox_suggest_desc", given), list, all.length);
   });
 }

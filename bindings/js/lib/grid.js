@@ -7,9 +7,9 @@ import { guarded, memoryOf, pointerOf } from "./owned.js";
 import { GRID_QUERIES, Queries, QueryView } from "./queries.js";
 import { records } from "./records.js";
 
-const GRID = ["engine", "storage", "hash", "cellSize", "worldMin", "worldMax", "byteBudget", "hashTableSize", "flags",
-  "closestBudget", "log"];
-const FILTER = ["group", "category", "mask", "selfCollision", "selfRings", "selfRestDistance", "penetrationMask"];
+const GRID = ["cellSize", "byteBudget", "flags", "closestBudget", "log", "reference"];
+const REFERENCE = ["flags", "hashTableSize", "worldMin", "worldMax"];
+const FILTER = ["flags", "group", "category", "mask", "world", "selfRings", "selfRestDistance"];
 const MESH = ["positions", "tets", "userData", "filter", "restPositions"];
 const TOPOLOGY = ["positions", "tets", "restPositions"];
 const VERTICES = ["positions", "copiesOf", "restPositions"];
@@ -42,14 +42,16 @@ export class Grid extends Queries {
 
   /** @param {Uint8Array} [snapshot] what save() gave, instead of an empty grid */
   constructor(memory, settings, snapshot) {
-    const { log, ...given } = fields(settings, "options", "vox_grid_desc", GRID);
+    const { log, reference, ...given } = fields(settings, "options", "vox_grid_desc", GRID);
+    const paper = reference && fields(reference, "options.reference", "vox_reference_desc", REFERENCE);
     const owner = { log: log === undefined ? undefined : callback(log, "options.log") };
     const id = log ? memory.addCallback(logOf(owner)) : 0;
     let pointer = 0;
     try {
       pointer = memory.frame((frame) => {
+        if (paper) given.reference = frame.struct("vox_reference_desc", paper);
+        if (log) memory.exports.voxtet_set_log((given.log = frame.struct("vox_log")), id);
         const desc = frame.struct("vox_grid_desc", given);
-        if (log) memory.exports.voxtet_set_log(desc, id);
         memory.exports.voxtet_set_threads?.(desc);
         const out = frame.take(4);
         memory.data.setUint32(out, 0, true);
@@ -134,7 +136,7 @@ export class Grid extends Queries {
       memory.number("u32", (out) =>
         this.#call(
           "vox_mesh_insert",
-          meshDesc(frame, arrays, { userData, filter: filter ? frame.struct("vox_filter", filter) : 0 }),
+          meshDesc(frame, arrays, { userData, filter }),
           out,
         ),
       ),
@@ -384,7 +386,7 @@ export class Mesh {
   }
 
   get filter() {
-    return memoryOf(this.#grid).get("vox_filter", (out) => this.#call("vox_mesh_filter", out));
+    return this.info.filter;
   }
 
   set filter(value) {

@@ -103,7 +103,7 @@ class Frame {
     return { data: this.array(array), count: array.length / 3, format };
   }
 
-  /** A struct with these fields; the others are as its init function sets them, or 0. */
+  /** A struct with these fields; the others are as vox_default_X sets them, or 0. */
   struct(struct, fields) {
     const { size } = structs[struct];
     const at = this.take(size);
@@ -247,15 +247,13 @@ export class Memory {
     }
   }
 
-  /** Sets a whole struct: what `fields` does not name is as its init function sets it, or 0. */
+  /** Sets a whole struct: what `fields` does not name is as vox_default_X sets it, or 0. */
   fill(at, struct, fields = {}) {
-    const { size, fields: layout } = structs[struct];
+    const { size, defaults, fields: layout } = structs[struct];
     new Uint8Array(this.buffer, at, size).fill(0);
-    const init = this.call[`${struct}_init`];
-    if (init) init(at, size);
-    else if (layout.struct_size) this.data.setUint32(at, size, true);
+    if (layout.struct_size) this.data.setUint32(at, size, true);
     for (const [name, offset, type, count] of shownFields[struct]) {
-      const given = fields[name];
+      const given = fields[name] ?? defaults[name];
       if (given === undefined) continue;
       if (type in structs) this.fill(at + offset, type, given);
       if (!(type in writers)) continue;

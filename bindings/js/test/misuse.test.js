@@ -19,12 +19,12 @@ function scene() {
 test("errors say what was wrong", () => {
   const { grid, left } = scene();
   const cases = [
-    [() => new vox.Grid({ cellsize: 1 }), TypeError, /"cellsize" is not known; there are engine, .*cellSize/],
+    [() => new vox.Grid({ cellsize: 1 }), TypeError, /"cellsize" is not known; there are cellSize, .*reference/],
     [() => new vox.Grid(7), TypeError, /options: expected an object, got 7/],
     [() => new vox.Grid({ cellSize: "1" }), TypeError, /options.cellSize: expected a number, got "1"/],
     [() => new vox.Grid({ flags: 1.5 }), RangeError, /options.flags: expected a whole number from 0 to 4294967295, got 1.5/],
     [() => new vox.Grid({ log: 1 }), TypeError, /options.log: expected a function, got 1/],
-    [() => new vox.Grid({ engine: 99 }), VoxError, /engine/],
+    [() => new vox.Grid({ reference: { flags: 99 } }), VoxError, /reference flags/],
     [() => vox.Grid.load("snapshot"), TypeError, /bytes: expected an ArrayBuffer or a view of one, got "snapshot"/],
     [() => vox.Grid.load(new Uint8Array(100)), VoxError, /snapshot/],
     [() => grid.add(), TypeError, /positions: expected a Float32Array or Float64Array, got undefined/],
@@ -134,7 +134,7 @@ test("garbage in every argument", (t) => {
     () => ({ positions: block(1).positions, tets: block(1).tets, restPositions: value() }), () => ({ mask: value() }), () => ({ radius: value() }),
     () => ({ category: value(), selfRings: value(), selfRestDistance: value() }), () => ({ maxDistance: value(), excluded: value() }),
     () => ({ copiesOf: value(), positions: value() }), () => ({ what: value(), bodyA: value(), bodyB: value() }), () => ({ min: value(), max: value() }),
-    () => ({ engine: value(), cellSize: value(), flags: value(), log: value(), worldMin: value() }), () => ({ model: value(), pNc: value() }),
+    () => ({ reference: value(), cellSize: value(), flags: value(), log: value() }), () => ({ model: value(), pNc: value() }),
     () => ({ held: value(), asking: value(), known: value(), look: value(), weights: value(), radius: value() }),
     () => ({ held: { positions: block(1).positions, radius: value(), radii: value() }, leastCellSize: value() }),
     () => ({ first: value(), mostRuns: value(), grid: value() }), () => [{ cellSize: value(), seconds: value() }], () => value,

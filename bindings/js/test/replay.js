@@ -19,10 +19,10 @@ function filterOf(filter) {
   return {
     ...big,
     group: filter.group,
-    selfCollision: filter.self_collision,
+    flags: filter.flags,
+    world: filter.world,
     selfRings: filter.self_rings,
     selfRestDistance: filter.self_rest_distance,
-    penetrationMask: BigInt(filter.penetration_mask),
   };
 }
 

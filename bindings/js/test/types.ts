@@ -1,10 +1,10 @@
 // Compiled by tsc --strict, and never run: the types are those that a program can use.
-import { GridFlags, KnownGrid, load, PenetrationState, PrimitiveType, Result, VoxError, type Contacts, type Grid, type Tuning, type Vox } from "voxtet";
+import { FilterFlags, GridFlags, KnownGrid, load, PenetrationState, PrimitiveType, Result, VoxError, type Contacts, type Grid, type Tuning, type Vox } from "voxtet";
 
 export async function program(): Promise<number> {
   const vox: Vox = await load({ simd: false });
   using grid: Grid = new vox.Grid({ flags: GridFlags.PENETRATIONS | GridFlags.CONTACT_EVENTS, log: (level, text) => console.log(level, text) });
-  const mesh = grid.add({ positions: new Float32Array(12), tets: [0, 1, 2, 3], userData: 7n, filter: { selfCollision: true } });
+  const mesh = grid.add({ positions: new Float32Array(12), tets: [0, 1, 2, 3], userData: 7n, filter: { flags: FilterFlags.SELF_COLLISION } });
   mesh.positions.set([0, 1, 2]);
   mesh.positions = new Float64Array(12);
   grid.step();

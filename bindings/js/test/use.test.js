@@ -2,7 +2,8 @@ import assert from "node:assert/strict";
 import { once } from "node:events";
 import test from "node:test";
 import { Worker } from "node:worker_threads";
-import { ForeignWarnings, GridFlags, KnownGrid, LogLevel, PenetrationState, PrimitiveType, ReadingFlags, Result, VoxError } from "../voxtet.js";
+import { ForeignWarnings, GridFlags, KnownGrid, LogLevel, PenetrationState, PrimitiveType, ReadingFlags,
+  ReferenceFlags, Result, VoxError } from "../voxtet.js";
 import { block, loaded } from "./scenes.js";
 
 const vox = await loaded();
@@ -110,19 +111,20 @@ test("the log, and what it throws", () => {
     assert.throws(() => grid.step(), failure(Result.ERROR_INVALID_STATE));
     assert.throws(() => grid.dispose(), failure(Result.ERROR_INVALID_STATE));
   };
-  grid = new vox.Grid({ log });
-  const never = { category: 0n };
-  grid.add({ ...block(1), filter: never });
-  assert.equal(lines.length, 1, "a mesh that collides with nothing is a warning");
+  grid = new vox.Grid({ flags: GridFlags.SKIP_BAD_BODIES, log });
+  const points = grid.add({ positions: new Float32Array(3) });
+  assert.equal(lines.length, 1, "points have no edges, which is a warning");
   assert.equal(lines[0][0], LogLevel.WARNING);
-  assert.throws(() => grid.add({ positions: new Float32Array(3) }), /of the log/);
-  assert.equal(grid.meshes.length, 2, "the call had done its work");
+  points.positions[0] = NaN;
+  const { epoch } = grid;
+  assert.throws(() => grid.step(), /of the log/);
+  assert.notEqual(grid.epoch, epoch, "the call had done its work");
   grid.step();
   grid.dispose();
 
   const other = new vox.Grid();
   const asking = new vox.Grid({ log: () => other.add(block(1)) });
-  asking.add({ ...block(1), filter: never });
+  asking.add({ positions: new Float32Array(3) });
   assert.equal(other.meshes.length, 1, "a log may use other grids");
 
   // But not those that are stepped together with its own.
@@ -214,7 +216,10 @@ test("edits, and meshes by name", () => {
 });
 
 test("settings, failures and measurements", () => {
-  const { grid, left } = touching({ worldMin: [-1, -1, -1], worldMax: new Float64Array([9, 9, 9]), closestBudget: 1000 });
+  const { grid, left } = touching({
+    closestBudget: 1000,
+    reference: { flags: ReferenceFlags.DENSE, worldMin: [-1, -1, -1], worldMax: new Float64Array([9, 9, 9]) },
+  });
   grid.cellSize = 0.25;
   assert.equal(grid.cellSize, 0.25);
   grid.flags = GridFlags.CONTACT_EVENTS;

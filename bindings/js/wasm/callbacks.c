@@ -12,10 +12,10 @@ static void write_log(vox_log_level level, const char* text, void* user) { voxte
 
 static double cost(double cell_size, void* user) { return voxtet_cost(cell_size, user); }
 
-/* The grid's log goes to the function `user`. */
-EXPORT void voxtet_set_log(vox_grid_desc* desc, void* user) {
-    desc->log.write = write_log;
-    desc->log.user = user;
+/* A log that goes to the function `user`. */
+EXPORT void voxtet_set_log(vox_log* log, void* user) {
+    log->write = write_log;
+    log->user = user;
 }
 
 /* vox_cost_minimise with the function `user`. */

@@ -125,9 +125,9 @@ static void finish(void* handle, void* user) {
 
 /* The grid uses all threads. */
 EXPORT void voxtet_set_threads(vox_grid_desc* desc) {
+    static const vox_task_system tasks = {run, finish, NULL};
     if (thread_count == 0) return;
-    desc->tasks.enqueue = run;
-    desc->tasks.finish = finish;
+    desc->tasks = &tasks;
     desc->worker_count = thread_count + 1;
 }
 

@@ -14,7 +14,7 @@ print(
 
 hashes = set()
 for edges in (0.35, 0.7, suggested.cell_size / mean_edge, 2.8, 5.6):
-    with voxtet.Grid(edges * mean_edge, engine="reference") as grid:
+    with voxtet.Grid(edges * mean_edge, reference=voxtet.Reference()) as grid:
         grid.add(first, ball.tets)
         grid.add(second, ball.tets)
         grid.step()

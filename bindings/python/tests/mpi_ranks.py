@@ -131,7 +131,7 @@ def main():
         fails(bad, voxtet.InvalidArgumentError, lambda: scene.send(rows))
         fails(bad, voxtet.InvalidArgumentError, lambda: scene.send(rows[:len(rows) - bad], to="sideways" if bad else "tets"))
         fails(bad, TypeError, lambda: scene.locate(points.astype(np.float16 if bad else np.float64)))
-        fails(bad, voxtet.InvalidArgumentError, lambda: voxtet.mpi.Scene(world, engine="steam" if bad else "auto"))
+        fails(bad, TypeError, lambda: voxtet.mpi.Scene(world, reference="steam" if bad else None))
         assert np.array_equal(scene.send(scene.contacts.tet), scene.incoming.tet)
 
         # So does a lack of memory for a message, after which nothing is left over for the next exchange.

@@ -40,7 +40,7 @@ class Experiments(unittest.TestCase):
             positions, tets = self.body
 
         for a, b, options in ((Mesh, Mesh, {}), (self.body, list(self.body), {"density": 1000, "damping": 0.01}),
-                              (self.body, None, {"engine": "fast", "workers": 2})):
+                              (self.body, None, {"reference": None, "workers": 2})):
             with Experiment(a, b, frames=3, contact_share=0.03, **options) as same:
                 self.assertEqual(same.facts.hash, hash)
         with Experiment(self.body, frames=3, contact_share=0.03, youngs_modulus=1e4) as softer:
@@ -73,7 +73,7 @@ class Experiments(unittest.TestCase):
             with self.assertRaisesRegex(voxtet.InvalidStateError, "the experiment is closed"):
                 use()
         for wrong in ({"contact_share": 2}, {"contact_share": 0.9}, {"axis": (0, 0, 0)}, {"frames": 0}, {"time_step": -1},
-                      {"density": np.nan}, {"engine": "slow"}):
+                      {"density": np.nan}, {"frames": 0}):
             with self.assertRaises(voxtet.VoxError):
                 Experiment(self.body, **wrong)
         for wrong in ({"stiffness": 1}, {"turn": 1}, {"frames": 1.5}, {"fixed": True}, {"b": 3}):

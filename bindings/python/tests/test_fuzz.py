@@ -72,7 +72,7 @@ NAMES = {"add": ["copy", "user_data", "vertex_count", "filter", "self_collision"
                                                                               "borrow_tets"],
          "set_flags": ["penetrations", "contact_events", "skip_bad_bodies"], "query_points": ["mask"],
          "query_closest": ["max_distance", "mask", "excluded"], "prepare_readings": ["position", "surface", "closest_budget"]}
-FREE = [lambda v: voxtet.Grid(v()), lambda v: voxtet.Grid(workers=v()), lambda v: voxtet.Grid(engine=v(), storage=v()),
+FREE = [lambda v: voxtet.Grid(v()), lambda v: voxtet.Grid(workers=v()), lambda v: voxtet.Grid(reference=v()),
         lambda v: voxtet.Grid(world=v()), lambda v: voxtet.Grid(log=v()), lambda v: voxtet.Grid(byte_budget=v()),
         lambda v: voxtet.Grid.from_snapshot(v()), lambda v: voxtet.suggest_cell_size(v(), v(), model=v()),
         lambda v: voxtet.suggest_cell_size(v()), lambda v: voxtet.predict(v(), v(), v()), lambda v: voxtet.minimise(v(), v(), v()),

@@ -43,7 +43,7 @@ class Close(GridCase):
         repr(mesh)
 
     def test_a_failed_grid_is_dropped(self):
-        for options in ({"cell_size": -1}, {"workers": 1000}, {"engine": "slow"}, {"byte_budget": 1}):
+        for options in ({"cell_size": -1}, {"workers": 1000}, {"reference": voxtet.Reference(hash_table_size=2**40)}, {"byte_budget": 1}):
             with self.assertRaises(voxtet.VoxError):
                 voxtet.Grid(**options)
         gc.collect()
@@ -248,7 +248,7 @@ class Threads(GridCase):
 
     def test_a_step_lets_other_threads_run(self):
         positions, tets = box(24, dtype=np.float64)
-        with voxtet.Grid(engine="reference") as grid:
+        with voxtet.Grid(reference=voxtet.Reference()) as grid:
             grid.add(positions, tets)
             grid.add(positions + 0.013, tets)
             counted, stop = [0], threading.Event()

@@ -151,8 +151,8 @@ class OneRank(unittest.TestCase):
             self.scene.send([], to="sideways")
         with self.assertRaises(TypeError):
             voxtet.mpi.Scene("world")
-        with self.assertRaisesRegex(voxtet.InvalidArgumentError, "steam"):
-            voxtet.mpi.Scene(engine="steam")
+        with self.assertRaisesRegex(TypeError, "a voxtet.Reference"):
+            voxtet.mpi.Scene(reference="steam")
         with self.assertRaisesRegex(TypeError, "float16"):
             self.scene.locate(CORNERS.astype(np.float16))
         with self.assertRaisesRegex(TypeError, "a voxtet.Grid"):

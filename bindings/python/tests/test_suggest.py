@@ -30,7 +30,7 @@ class Suggestions(GridCase):
         self.assertEqual(both.stats.tets, 2 * len(self.tets))
         narrow = voxtet.suggest_cell_size(self.first, self.tets, zone_loss=0.01)
         self.assertLess(narrow.zone[1] - narrow.zone[0], both.zone[1] - both.zone[0])
-        voxtet.suggest_cell_size(self.first, self.tets, size_reading="mean_box_side", area_reading="tet_facets", storage="dense",
+        voxtet.suggest_cell_size(self.first, self.tets, size_reading="mean_box_side", area_reading="tet_facets", dense=True,
                                  model="reference", byte_budget=10**9, self_collision=True)
         with self.assertRaises(TypeError):
             voxtet.suggest_cell_size(self.first, self.tets, zone=0.1)

@@ -49,7 +49,8 @@ class Vectors(unittest.TestCase):
 
     def filter(self, call):
         numbers = {key: float(value) if key == "self_rest_distance" else int(value) for key, value in call["filter"].items()}
-        return voxtet.Filter(**{**numbers, "self_collision": bool(numbers["self_collision"])})
+        flags = numbers.pop("flags")
+        return voxtet.Filter(**numbers, self_collision=bool(flags & 1), sensor=bool(flags & 2))
 
     # ---- a method for each call; what it returns is compared ----
 
@@ -117,7 +118,7 @@ class Vectors(unittest.TestCase):
         found = []
         for mesh in self.grid:
             info = mesh.info
-            flags = mesh.filter.self_collision | info.owns_positions << 1 | info.borrows_tets << 2
+            flags = info.owns_positions | info.borrows_tets << 1
             found.append({"mesh": mesh.id, "user_data": str(mesh.user_data), "vertices": info.vertex_count,
                           "tet_count": info.tet_count, "enabled_tets": info.enabled_tet_count, "enabled": int(info.enabled),
                           "flags": flags, "format": int(mesh.positions.dtype == np.float64), "tets": hash_of(mesh.tets)})

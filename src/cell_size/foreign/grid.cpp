@@ -16,15 +16,6 @@ namespace vox {
 
 // ---- the caller's description ---------------------------------------------------------------------
 
-vox_foreign_grid foreign_grid_defaults() {
-    vox_foreign_grid grid{};
-    grid.struct_size = sizeof grid;
-    grid.content = VOX_CELLS_HOLD_BOXES;
-    grid.look = VOX_LOOK_BOX;
-    grid.zone_loss = 0.05;
-    return grid;
-}
-
 namespace {
 
 constexpr struct {
@@ -42,7 +33,8 @@ void check_grid_number(bool good, double value, const char* name, const char* ex
 }
 
 vox_foreign_grid checked(vox_foreign_grid grid) {
-    check_enum(grid.content, VOX_CELLS_HOLD_BOXES, "grid content");
+    set_default(grid.zone_loss, default_zone_loss);
+    check_enum(grid.content, VOX_CELLS_HOLD_CENTRES, "grid content");
     check_enum(grid.look, VOX_LOOK_PAIRS, "grid look");
     check_enum(grid.known, VOX_KNOWN_GRID_NUMPY, "grid known");
     if (grid.look == VOX_LOOK_AROUND && grid.content != VOX_CELLS_HOLD_CENTRES)
@@ -70,9 +62,8 @@ vox_foreign_grid checked(vox_foreign_grid grid) {
 } // namespace
 
 ForeignGrid::ForeignGrid(const vox_foreign_grid* from_caller)
-    : desc(checked(read_struct(from_caller, foreign_grid_defaults(), "grid"))),
-      held(read_struct(desc.held, primitives_defaults(), "held"), "held: ") {
-    if (desc.asking) asking.emplace(read_struct(desc.asking, primitives_defaults(), "asking"), "asking: ");
+    : desc(checked(read_struct(from_caller, "grid"))), held(read_struct(desc.held, "held"), "held: ") {
+    if (desc.asking) asking.emplace(read_struct(desc.asking, "asking"), "asking: ");
     const bool given = std::any_of(std::begin(weight_fields), std::end(weight_fields),
                                    [&](const auto& f) { return desc.weights.*f.field > 0; });
     const bool dense = desc.flags & VOX_FOREIGN_DENSE;

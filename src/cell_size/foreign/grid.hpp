@@ -19,8 +19,6 @@
 
 namespace vox {
 
-vox_foreign_grid foreign_grid_defaults();
-
 // The caller's description, read and checked. The arrays of primitives are borrowed.
 struct ForeignGrid {
     // Throws INVALID_ARGUMENT, INVALID_MESH, LIMIT.

@@ -41,12 +41,6 @@ std::size_t checked_stride(std::uint64_t stride, std::uint64_t size, std::uint64
 
 } // namespace
 
-vox_primitives primitives_defaults() {
-    vox_primitives primitives{};
-    primitives.struct_size = sizeof primitives;
-    return primitives;
-}
-
 Primitives::Primitives(const vox_primitives& desc, const char* where) : where_(where) {
     check_enum(desc.type, VOX_PRIMITIVE_BOX, format("%stype", where).c_str());
     check_enum(desc.radius_format, VOX_FORMAT_DOUBLE, format("%sradius_format", where).c_str());

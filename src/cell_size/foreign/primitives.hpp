@@ -75,8 +75,6 @@ private:
     int corners_;
 };
 
-vox_primitives primitives_defaults();
-
 // What is summed over primitives, from all of them or from a sample.
 struct PrimitiveSums {
     double count = 0;   // of all

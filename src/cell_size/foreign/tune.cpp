@@ -20,13 +20,10 @@
 
 namespace vox {
 
-vox_tune_desc tune_defaults() {
-    vox_tune_desc desc{};
-    desc.struct_size = sizeof desc;
-    desc.most_runs = 7;
-    desc.zone_loss = 0.05;
-    desc.wanted_loss = 0.02;
-    return desc;
+void complete(vox_tune_desc& desc) {
+    set_default(desc.most_runs, 7u);
+    set_default(desc.zone_loss, default_zone_loss);
+    set_default(desc.wanted_loss, 0.02);
 }
 
 void check_tune_desc(const vox_tune_desc& desc) {

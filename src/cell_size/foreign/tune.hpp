@@ -12,7 +12,8 @@
 
 namespace vox {
 
-vox_tune_desc tune_defaults();
+// Sets the fields whose 0 stands for something else.
+void complete(vox_tune_desc& desc);
 
 // Throws INVALID_ARGUMENT for what vox.h does not allow, whatever the grid.
 void check_tune_desc(const vox_tune_desc& desc);

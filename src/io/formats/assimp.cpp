@@ -43,11 +43,11 @@ class SceneReader {
 public:
     SceneReader(const aiScene& scene, const std::string& name, std::uint32_t mesh_index)
         : scene_(scene), name_(name), mesh_index_(mesh_index),
-          surface_(name, {max_count, max_count}, VOX_IO_ALL_MESHES) {}
+          surface_(name, {max_count, max_count}, all_meshes) {}
 
     MeshData read() {
-        if (mesh_index_ != VOX_IO_ALL_MESHES && mesh_index_ >= scene_.mNumMeshes)
-            refuse(format("%s: mesh %u was asked for, but the file holds %u", name_.c_str(), mesh_index_,
+        if (mesh_index_ != all_meshes && mesh_index_ >= scene_.mNumMeshes)
+            refuse(format("%s: mesh %u was asked for, but the file holds %u", name_.c_str(), mesh_index_ + 1,
                           scene_.mNumMeshes));
         if (scene_.mRootNode) add_node(*scene_.mRootNode);
         MeshData data = surface_.finish();
@@ -70,8 +70,7 @@ private:
             const Matrix matrix(entry.parent, entry.node->mTransformation);
             for (unsigned i = 0; i < entry.node->mNumMeshes; ++i) {
                 const unsigned mesh = entry.node->mMeshes[i];
-                if (mesh >= scene_.mNumMeshes || (mesh_index_ != VOX_IO_ALL_MESHES && mesh != mesh_index_))
-                    continue;
+                if (mesh >= scene_.mNumMeshes || (mesh_index_ != all_meshes && mesh != mesh_index_)) continue;
                 add_mesh(*scene_.mMeshes[mesh], matrix);
             }
             for (unsigned i = entry.node->mNumChildren; i-- > 0;)

@@ -58,12 +58,12 @@ class GltfReader {
 public:
     GltfReader(const File& file, const std::optional<std::string>& folder, std::uint32_t mesh_index)
         : document_(file, folder), mesh_index_(mesh_index),
-          surface_(file.name, surface_limits(document_.bytes()), VOX_IO_ALL_MESHES),
+          surface_(file.name, surface_limits(document_.bytes()), all_meshes),
           primitives_left_(surface_.limits().triangles) {
         const std::size_t meshes = document_.primitives().size();
-        if (mesh_index != VOX_IO_ALL_MESHES && mesh_index >= meshes)
-            refuse(format("%s: mesh %u was asked for, but the file holds %zu", file.name.c_str(), mesh_index,
-                          meshes));
+        if (mesh_index != all_meshes && mesh_index >= meshes)
+            refuse(format("%s: mesh %u was asked for, but the file holds %zu", file.name.c_str(),
+                          mesh_index + 1, meshes));
     }
 
     MeshData read() {
@@ -182,7 +182,7 @@ private:
         document_.check_number("a mesh", mesh, document_.mesh_count());
         const std::size_t last = document_.first_primitive(mesh + std::size_t{1});
         for (std::size_t p = document_.first_primitive(mesh); p < last; ++p)
-            if (mesh_index_ == VOX_IO_ALL_MESHES || mesh_index_ == p) {
+            if (mesh_index_ == all_meshes || mesh_index_ == p) {
                 if (primitives_left_-- == 0)
                     document_.fail("the scene shows more primitives than the limit for a file of its size",
                                    VOX_ERROR_LIMIT);

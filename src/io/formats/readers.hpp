@@ -17,8 +17,8 @@ MeshData read_vega(const File& file);
 MeshData read_vtk(const File& file);
 MeshData read_vtu(const File& file);
 
-// Surfaces, as triangles. mesh_index is as in vox_io_load_desc. Files that a .gltf names are looked for in
-// `folder`; without one it must be complete.
+// Surfaces, as triangles. mesh_index counts from 0, or is all_meshes. Files that a .gltf names are looked for
+// in `folder`; without one it must be complete.
 MeshData read_surface(const File& file, const std::optional<std::string>& folder, std::uint32_t mesh_index);
 MeshData read_gltf(const File& file, const std::optional<std::string>& folder, std::uint32_t mesh_index);
 MeshData read_obj(const File& file, std::uint32_t mesh_index);

@@ -127,8 +127,8 @@ void SurfaceBuilder::cut_ears(const Plane& plane) {
 }
 
 void SurfaceBuilder::check_mesh_index(std::uint64_t meshes) const {
-    if (mesh_index_ != VOX_IO_ALL_MESHES && mesh_index_ >= meshes)
-        refuse(format("%s: mesh %u was asked for, but the file holds %llu", name_.c_str(), mesh_index_,
+    if (mesh_index_ != all_meshes && mesh_index_ >= meshes)
+        refuse(format("%s: mesh %u was asked for, but the file holds %llu", name_.c_str(), mesh_index_ + 1,
                       llu(meshes)));
 }
 

@@ -41,7 +41,7 @@ inline std::size_t room_for(std::size_t count, std::size_t most) {
 // normal, texture coordinate or material that it has, which would leave a closed surface open.
 class SurfaceBuilder {
 public:
-    // mesh_index is as in vox_io_load_desc. More than the limits is a failure.
+    // mesh_index counts from 0, or is all_meshes. More than the limits is a failure.
     SurfaceBuilder(std::string name, const SurfaceLimits& limits, std::uint32_t mesh_index);
 
     const SurfaceLimits& limits() const noexcept { return limits_; }
@@ -57,7 +57,7 @@ public:
         has_elements_ = true;
         meshes_ += begins_;
         begins_ = false;
-        return mesh_index_ == VOX_IO_ALL_MESHES || meshes_ == mesh_index_ + std::uint64_t{1};
+        return mesh_index_ == all_meshes || meshes_ == mesh_index_ + std::uint64_t{1};
     }
 
     // The number of the vertex at `p`, which must be finite.

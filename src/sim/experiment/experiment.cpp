@@ -17,7 +17,7 @@ using namespace vox::sim;
 namespace {
 
 vox_sim_body_desc read_body(const vox_sim_body_desc* body, const char* name) {
-    const vox_sim_body_desc desc = read_struct(body, vox_default_sim_body_desc(), name);
+    const vox_sim_body_desc desc = read_struct(body, name);
     if (desc.vertex_count == 0 || desc.tet_count == 0 || !desc.positions || !desc.tets)
         refuse(format("%s has %" PRIu64 " vertices%s and %" PRIu64 " tets%s, expected some of both", name,
                       desc.vertex_count, desc.positions ? "" : " (null)", desc.tet_count,
@@ -38,10 +38,9 @@ vox_sim_body_desc read_body(const vox_sim_body_desc* body, const char* name) {
 vox_sim_desc sim_settings(const vox_sim_desc* given) {
     vox_sim_desc desc = vox_default_sim_desc();
     if (given)
-        desc = read_struct(given, desc, "desc.sim");
+        desc = read_struct(given, "desc.sim");
     else
         std::fill_n(desc.floor_normal, 3, 0.0);
-    desc.struct_size = sizeof desc;
     desc.detect_every = desc.substeps; // detects once a frame, as in the paper
     return desc;
 }
@@ -176,12 +175,12 @@ vox_mesh_desc vox_experiment::mesh_desc(int body, const Frame& frame) const {
 }
 
 void vox_experiment::make_grid(const vox_grid_desc* given) {
+    const vox_reference_desc reference = vox_default_reference_desc();
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.engine = VOX_ENGINE_REFERENCE;
-    if (given) desc = read_struct(given, vox_default_grid_desc(), "desc.grid");
-    desc.struct_size = sizeof desc;
+    desc.reference = &reference;
+    if (given) desc = read_struct(given, "desc.grid");
     desc.flags &= ~static_cast<std::uint32_t>(VOX_GRID_PENETRATIONS); // only detection is measured
-    one_thread_ = desc.worker_count == 1;
+    one_thread_ = desc.worker_count <= 1;
     grid_ = create_grid(&desc);
     for (int body = 0; body < 2; ++body) {
         const vox_mesh_desc mesh = mesh_desc(body, frames_.front());

@@ -17,16 +17,6 @@ namespace {
 
 constexpr std::uint32_t max_frames = 1000;
 
-vox_experiment_desc experiment_defaults() {
-    vox_experiment_desc desc{};
-    desc.frames = 10;
-    desc.axis[0] = 1;
-    desc.contact_share = 0.01;
-    desc.time_step = 0.01;
-    desc.turn = 1;
-    return desc;
-}
-
 void check_number(bool good, double value, const char* name, const char* expected) {
     if (!good || !std::isfinite(value)) refuse(format("%s is %.9g, expected %s", name, value, expected));
 }
@@ -58,7 +48,7 @@ double median(std::vector<std::uint64_t>& values) {
 }
 
 vox_time_fit read_fit(const vox_time_fit* in) {
-    const vox_time_fit fit = read_struct(in, vox_time_fit{}, "fit");
+    const vox_time_fit fit = read_struct(in, "fit");
     if (fit.degree < 2 || fit.degree > max_fit_degree || !(fit.range_min > 0) ||
         !(fit.range_max > fit.range_min) || !std::isfinite(fit.range_max) ||
         !(fit.cell_size >= fit.range_min && fit.cell_size <= fit.range_max))
@@ -70,14 +60,10 @@ vox_time_fit read_fit(const vox_time_fit* in) {
 
 } // namespace
 
-vox_result vox_experiment_desc_init(vox_experiment_desc* desc, std::uint32_t struct_size) {
-    return border([&] { init_struct(desc, struct_size, experiment_defaults(), "vox_experiment_desc"); });
-}
-
 vox_result vox_experiment_create(const vox_experiment_desc* desc, vox_experiment** out_experiment) {
     return border([&] {
         require(out_experiment, "out_experiment");
-        const vox_experiment_desc settings = read_struct(desc, experiment_defaults(), "desc");
+        const vox_experiment_desc settings = read_struct(desc, "desc");
         check_experiment_desc(settings);
         *out_experiment = new vox_experiment(settings);
     });

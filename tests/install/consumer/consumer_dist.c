@@ -8,13 +8,12 @@ static void each(const vox_transport* transport, void* user) {
     const double positions[] = {x, x, x, x + 1, x, x, x, x + 1, x, x, x, x + 1};
     static const uint32_t tet[] = {0, 1, 2, 3};
     const vox_mesh_desc mesh = vox_mesh_desc_doubles(positions, 4, tet, 1);
-    vox_part_desc desc;
+    vox_part_desc desc = vox_default_part_desc();
     vox_part part;
     vox_scene* scene;
     uint64_t hash[2];
     (void)user;
-    if (vox_scene_create(NULL, transport, &scene) != VOX_OK ||
-        vox_part_desc_init(&desc, sizeof desc) != VOX_OK) {
+    if (vox_scene_create(NULL, transport, &scene) != VOX_OK) {
         bad = 1;
         return;
     }

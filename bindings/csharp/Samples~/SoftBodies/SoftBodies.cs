@@ -13,7 +13,7 @@ public sealed class SoftBodies : MonoBehaviour
 
     void OnEnable()
     {
-        grid = new Grid(new GridOptions { Workers = 0, Log = (level, text) => Debug.Log(level + ": " + text) });
+        grid = new Grid(new GridOptions { Workers = Grid.AllCores, Log = (level, text) => Debug.Log(level + ": " + text) });
         using (MeshFile shape = MeshFile.Box(2, 0.5, 2, 0.25)) block = grid.Add(shape.GetFloatPositions(), shape.GetTets());
         using (MeshFile shape = MeshFile.Ball(0.5, 0.12))
         {

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ._c import (AreaReading, CellLook, CostModel, Engine, ForeignRule, ForeignWarnings, GridFlags, Hash, KnownGrid,
-                 PenetrationState, ReadingFlags, Result, Side, SizeReading, Storage, Touch)
+from ._c import (AreaReading, CellLook, CostModel, ForeignRule, ForeignWarnings, GridFlags, KnownGrid,
+                 PenetrationState, ReadingFlags, Result, Side, SizeReading, Touch)
 from ._library import vox as _vox
 from .errors import (BudgetError, FileError, FormatError, InternalError, InvalidArgumentError, InvalidHandleError,
                      InvalidMeshError, InvalidStateError, LimitError, MissingFileError, NonFiniteError, OutOfMemoryError,
                      UnsupportedError, VoxError)
 from .foreign import (CostFit, ForeignGrid, ForeignRules, ForeignSuggestion, GridWeights, GridWork, Primitives, Timing, Tuning,
                       cost_fit, count_for, suggest_for, tune)
-from .grid import Counters, Failure, Grid, Profile, contacts_of_all, step_all
+from .grid import ALL_CORES, Counters, Failure, Grid, Profile, contacts_of_all, step_all
 from .locate import Located, Locator, locate
 from .mesh import Filter, Mesh, MeshInfo
 from .queries import ClosestHits, FacetHits, PointHits, QueryView, TetHits
+from .reference import Reference
 from .results import Borrowed, ContactEvents, Contacts, Depths, Pairs, Passages, Penetrations, Readings, TouchEvents, Touches
 from .suggest import (Curve, Minimum, Prediction, Rules, Stats, Suggestion, Terms, calibrate, minimise, predict, set_weights,
                       suggest_cell_size, weights, zone_distance)

@@ -8,17 +8,18 @@ from typing import Any
 from numpy import dtype
 
 VOX_ABI_VERSION = 1
-VOX_MAX_TASKS = 64
-VOX_MAX_WORKERS = 256
+VOX_ALL_CORES = 4294967295
 VOX_MAX_BODIES = 1048576
 VOX_MAX_GENERATIONS = 4095
 VOX_MAX_VERTICES = 2147483647
 VOX_MAX_TETS = 2147483647
+VOX_MAX_WORKERS = 256
 VOX_NULL_BODY = 0
 VOX_MAX_RINGS = 8
 VOX_NO_VERTEX = 4294967295
 VOX_MAX_CONTACTS = 4294967295
 VOX_NO_PAIR = 4294967295
+VOX_MAX_TASKS = 64
 VOX_COST_CURVE_CAPACITY = 64
 VOX_COST_TERM_CAPACITY = 12
 VOX_CELL_SIZE_LEVEL_CAPACITY = 4
@@ -26,7 +27,6 @@ VOX_NOTE_CAPACITY = 256
 VOX_TUNE_RUN_CAPACITY = 32
 VOX_MAX_FEATURES = 2147483647
 VOX_MAX_PATCHES = 65536
-VOX_IO_ALL_MESHES = 4294967295
 VOX_FIT_CAPACITY = 9
 
 
@@ -51,28 +51,6 @@ class Format(enum.IntEnum):
     DOUBLE = 1
 
 
-class LogLevel(enum.IntEnum):
-    INFO = 0
-    WARNING = 1
-
-
-class Storage(enum.IntEnum):
-    AUTO = 0
-    HASHED = 1
-    DENSE = 2
-
-
-class Hash(enum.IntEnum):
-    MIXED = 0
-    PAPER = 1
-
-
-class Engine(enum.IntEnum):
-    AUTO = 0
-    REFERENCE = 1
-    FAST = 2
-
-
 class GridFlags(enum.IntFlag):
     PENETRATIONS = 1
     CONTACT_EVENTS = 2
@@ -80,10 +58,14 @@ class GridFlags(enum.IntFlag):
     EDGE_CONTACTS = 8
 
 
-class MeshFlags(enum.IntFlag):
+class FilterFlags(enum.IntFlag):
     SELF_COLLISION = 1
-    COPY_POSITIONS = 2
-    BORROW_TETS = 4
+    SENSOR = 2
+
+
+class MeshFlags(enum.IntFlag):
+    COPY_POSITIONS = 1
+    BORROW_TETS = 2
 
 
 class PenetrationState(enum.IntEnum):
@@ -113,10 +95,20 @@ class ReadingFlags(enum.IntFlag):
     DEPTH = 4
 
 
+class LogLevel(enum.IntEnum):
+    INFO = 0
+    WARNING = 1
+
+
 class Side(enum.IntEnum):
     NONE = 0
     ENTERS = 1
     LEAVES = 2
+
+
+class ReferenceFlags(enum.IntFlag):
+    DENSE = 1
+    PAPER_HASH = 2
 
 
 class CostModel(enum.IntEnum):
@@ -147,8 +139,8 @@ class PrimitiveType(enum.IntEnum):
 
 
 class CellContent(enum.IntEnum):
-    CELLS_HOLD_CENTRES = 0
-    CELLS_HOLD_BOXES = 1
+    CELLS_HOLD_BOXES = 0
+    CELLS_HOLD_CENTRES = 1
 
 
 class CellLook(enum.IntEnum):
@@ -285,45 +277,55 @@ class vox_task_system(Structure):
     ]
 
 
+class vox_reference_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("flags", c_uint32),
+        ("hash_table_size", c_uint64),
+        ("world_min", c_double * 3),
+        ("world_max", c_double * 3),
+    ]
+
+dtypes["vox_reference_desc"] = dtype({
+    "names": ["struct_size", "flags", "hash_table_size", "world_min", "world_max"],
+    "formats": ["u4", "u4", "u8", ("f8", (3,)), ("f8", (3,))],
+    "offsets": [0, 4, 8, 16, 40],
+    "itemsize": 64})
+
+
 class vox_grid_desc(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
-        ("engine", c_int32),
-        ("storage", c_int32),
-        ("hash", c_int32),
-        ("cell_size", c_double),
-        ("world_min", c_double * 3),
-        ("world_max", c_double * 3),
-        ("byte_budget", c_uint64),
-        ("hash_table_size", c_uint64),
-        ("allocator", vox_allocator),
-        ("log", vox_log),
-        ("tasks", vox_task_system),
-        ("worker_count", c_uint32),
         ("flags", c_uint32),
-        ("closest_budget", c_uint64),
+        ("worker_count", c_uint32),
+        ("reserved", c_uint32),
+        ("cell_size", c_double),
         ("margin", c_double),
+        ("byte_budget", c_uint64),
+        ("closest_budget", c_uint64),
+        ("allocator", POINTER(vox_allocator)),
+        ("log", POINTER(vox_log)),
+        ("tasks", POINTER(vox_task_system)),
+        ("reference", POINTER(vox_reference_desc)),
     ]
 
 
 class vox_filter(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
+        ("flags", c_uint32),
         ("group", c_int32),
         ("category", c_uint64),
         ("mask", c_uint64),
-        ("self_collision", c_uint32),
+        ("world", c_uint32),
         ("self_rings", c_uint32),
         ("self_rest_distance", c_double),
-        ("penetration_mask", c_uint64),
     ]
 
 dtypes["vox_filter"] = dtype({
-    "names": ["struct_size", "group", "category", "mask", "self_collision", "self_rings", "self_rest_distance",
-        "penetration_mask"],
-    "formats": ["u4", "i4", "u8", "u8", "u4", "u4", "f8", "u8"],
-    "offsets": [0, 4, 8, 16, 24, 28, 32, 40],
-    "itemsize": 48})
+    "names": ["flags", "group", "category", "mask", "world", "self_rings", "self_rest_distance"],
+    "formats": ["u4", "i4", "u8", "u8", "u4", "u4", "f8"],
+    "offsets": [0, 4, 8, 16, 24, 28, 32],
+    "itemsize": 40})
 
 
 class vox_mesh_desc(Structure):
@@ -334,7 +336,7 @@ class vox_mesh_desc(Structure):
         ("tets", c_void_p),
         ("tet_count", c_uint64),
         ("user_data", c_uint64),
-        ("filter", POINTER(vox_filter)),
+        ("filter", vox_filter),
         ("rest_positions", vox_positions),
     ]
 
@@ -352,6 +354,7 @@ class vox_body_info(Structure):
         ("reserved", c_uint32),
         ("positions", vox_positions),
         ("transform", c_double * 12),
+        ("filter", vox_filter),
     ]
 
 
@@ -912,9 +915,9 @@ class vox_suggest_desc(Structure):
         ("mean_edge_factor", c_double),
         ("resolution", c_double),
         ("byte_budget", c_uint64),
-        ("storage", c_int32),
+        ("reference_flags", c_uint32),
         ("reserved", c_uint32),
-        ("allocator", vox_allocator),
+        ("allocator", POINTER(vox_allocator)),
     ]
 
 
@@ -1188,7 +1191,7 @@ class vox_foreign_grid(Structure):
         ("known", c_int32),
         ("reserved", c_uint32),
         ("weights", vox_grid_weights),
-        ("allocator", vox_allocator),
+        ("allocator", POINTER(vox_allocator)),
     ]
 
 
@@ -1339,8 +1342,8 @@ class vox_surface_desc(Structure):
         ("patch_count", c_uint64),
         ("cell_size", c_double),
         ("byte_budget", c_uint64),
-        ("allocator", vox_allocator),
-        ("tasks", vox_task_system),
+        ("allocator", POINTER(vox_allocator)),
+        ("tasks", POINTER(vox_task_system)),
     ]
 
 
@@ -1514,9 +1517,9 @@ class vox_io_load_desc(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
         ("format", c_int32),
-        ("mesh_index", c_uint32),
+        ("mesh", c_uint32),
         ("reserved", c_uint32),
-        ("allocator", vox_allocator),
+        ("allocator", POINTER(vox_allocator)),
         ("progress", vox_io_load_desc_progress),
         ("progress_user", c_void_p),
     ]
@@ -1591,7 +1594,7 @@ class vox_io_tetrahedralize_desc(Structure):
         ("reserved", c_uint32),
         ("progress", vox_io_tetrahedralize_desc_progress),
         ("progress_user", c_void_p),
-        ("allocator", vox_allocator),
+        ("allocator", POINTER(vox_allocator)),
     ]
 
 
@@ -1664,8 +1667,8 @@ class vox_sim_desc(Structure):
         ("max_push_speed", c_double),
         ("contact_slop", c_double),
         ("grid", POINTER(vox_grid_desc)),
-        ("log", vox_log),
-        ("allocator", vox_allocator),
+        ("log", POINTER(vox_log)),
+        ("allocator", POINTER(vox_allocator)),
     ]
 
 
@@ -1827,6 +1830,15 @@ dtypes["vox_time_fit"] = dtype({
     "itemsize": 136})
 
 
+# What vox_default_X sets in a struct, beside struct_size, where that is not all 0.
+DEFAULTS: dict[str, dict[str, Any]] = {
+    "vox_grid_desc": {'flags': 1},
+    "vox_sim_desc": {'substeps': 10, 'detect_every': 1, 'gravity': [0, 0, -9.81], 'max_time_step': 0.03333333333333333, 'floor_normal': [0, 0, 1], 'friction': 0.5, 'max_push_speed': 1, 'contact_slop': -1},
+    "vox_sim_body_desc": {'density': 1000, 'youngs_modulus': 1000000, 'bulk_modulus': 1000000, 'damping': 0.01},
+    "vox_experiment_desc": {'frames': 10, 'axis': [1, 0, 0], 'contact_share': 0.01, 'time_step': 0.01, 'turn': 1},
+}
+
+
 # Of each header: name, type of the result, types of the parameters.
 FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
     "vox": {
@@ -1837,7 +1849,6 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_version_string": (c_char_p, ()),
         "vox_abi_version": (c_uint32, ()),
         "vox_build_info": (c_char_p, ()),
-        "vox_grid_desc_init": (vox_result, (POINTER(vox_grid_desc), c_uint32)),
         "vox_grid_create": (vox_result, (POINTER(vox_grid_desc), POINTER(c_void_p))),
         "vox_grid_destroy": (None, (c_void_p,)),
         "vox_grid_clear": (vox_result, (c_void_p,)),
@@ -1849,8 +1860,6 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_grid_set_margin": (vox_result, (c_void_p, c_double)),
         "vox_grid_margin": (vox_result, (c_void_p, POINTER(c_double))),
         "vox_grid_get_flags": (vox_result, (c_void_p, POINTER(c_uint32))),
-        "vox_filter_init": (vox_result, (POINTER(vox_filter), c_uint32)),
-        "vox_mesh_desc_init": (vox_result, (POINTER(vox_mesh_desc), c_uint32)),
         "vox_mesh_insert": (vox_result, (c_void_p, POINTER(vox_mesh_desc), POINTER(c_uint32))),
         "vox_body_remove": (vox_result, (c_void_p, c_uint32)),
         "vox_body_is_valid": (c_uint32, (c_void_p, c_uint32)),
@@ -1862,7 +1871,6 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_mesh_bind_previous_positions": (vox_result, (c_void_p, c_uint32, POINTER(vox_positions))),
         "vox_body_mark_moved": (vox_result, (c_void_p, c_uint32)),
         "vox_body_set_filter": (vox_result, (c_void_p, c_uint32, POINTER(vox_filter))),
-        "vox_mesh_filter": (vox_result, (c_void_p, c_uint32, POINTER(vox_filter))),
         "vox_body_set_enabled": (vox_result, (c_void_p, c_uint32, c_uint32)),
         "vox_grid_set_pair_enabled": (vox_result, (c_void_p, c_uint32, c_uint32, c_uint32)),
         "vox_mesh_map_positions": (vox_result, (c_void_p, c_uint32, POINTER(c_void_p))),
@@ -1872,7 +1880,6 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_mesh_replace_tets": (vox_result, (c_void_p, c_uint32, c_void_p, c_uint64, c_void_p)),
         "vox_mesh_append_tets": (vox_result, (c_void_p, c_uint32, c_void_p, c_uint64, POINTER(c_uint32))),
         "vox_mesh_remove_tets": (vox_result, (c_void_p, c_uint32, c_void_p, c_uint64)),
-        "vox_vertices_desc_init": (vox_result, (POINTER(vox_vertices_desc), c_uint32)),
         "vox_mesh_append_vertices": (vox_result, (c_void_p, c_uint32, POINTER(vox_vertices_desc), POINTER(c_uint32))),
         "vox_mesh_remove_vertices": (vox_result, (c_void_p, c_uint32, c_void_p, c_uint64)),
         "vox_grid_step": (vox_result, (c_void_p,)),
@@ -1897,7 +1904,6 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_grid_touch_events": (vox_result, (c_void_p, POINTER(vox_touch_view))),
         "vox_grid_contact_events": (vox_result, (c_void_p, POINTER(vox_contact_event_view))),
         "vox_grid_prepare_readings": (vox_result, (c_void_p,)),
-        "vox_readings_desc_init": (vox_result, (POINTER(vox_readings_desc), c_uint32)),
         "vox_grid_prepare_readings_of": (vox_result, (c_void_p, POINTER(vox_readings_desc))),
         "vox_grid_readings": (vox_result, (c_void_p, POINTER(vox_reading_view))),
         "vox_grid_reading_depths": (vox_result, (c_void_p, POINTER(vox_depth_view))),
@@ -1912,7 +1918,6 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_grid_query_box": (vox_result, (c_void_p, c_void_p, c_void_p, c_uint64, c_void_p, c_uint64,
             POINTER(c_uint64))),
         "vox_grid_query_closest": (vox_result, (c_void_p, c_void_p, c_double, c_uint64, POINTER(vox_surface_hit))),
-        "vox_closest_desc_init": (vox_result, (POINTER(vox_closest_desc), c_uint32)),
         "vox_grid_query_closest_points": (vox_result, (c_void_p, POINTER(vox_closest_desc), c_void_p)),
         "vox_grid_query_ray": (vox_result, (c_void_p, c_void_p, c_void_p, c_uint64, POINTER(vox_ray_hit))),
         "vox_grid_query_ray_hits": (vox_result, (c_void_p, c_void_p, c_void_p, c_uint64, c_uint32, c_void_p, c_uint64,
@@ -1936,7 +1941,6 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_query_view_ray_any": (vox_result, (c_void_p, c_void_p, c_void_p, c_uint64, c_uint32, POINTER(c_uint32))),
         "vox_grid_get_counters": (vox_result, (c_void_p, POINTER(vox_counters))),
         "vox_grid_profile": (vox_result, (c_void_p, POINTER(vox_profile))),
-        "vox_suggest_desc_init": (vox_result, (POINTER(vox_suggest_desc), c_uint32)),
         "vox_suggest_cell_size": (vox_result, (POINTER(vox_suggest_desc), c_void_p, c_uint64, POINTER(vox_suggestion))),
         "vox_grid_suggest_cell_size": (vox_result, (c_void_p, POINTER(vox_suggest_desc), POINTER(vox_suggestion))),
         "vox_cost_predict": (vox_result, (POINTER(vox_suggest_desc), c_void_p, c_uint64, c_double,
@@ -1944,28 +1948,22 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_cost_calibrate": (vox_result, (POINTER(vox_cost_weights),)),
         "vox_cost_get_weights": (vox_result, (POINTER(vox_cost_weights),)),
         "vox_cost_set_weights": (vox_result, (POINTER(vox_cost_weights),)),
-        "vox_cost_bounds_init": (vox_result, (POINTER(vox_cost_bounds), c_uint32)),
         "vox_cost_minimise": (vox_result, (vox_cost_function, c_void_p, POINTER(vox_cost_bounds),
             POINTER(vox_cost_minimum))),
         "vox_cost_minimise_terms": (vox_result, (c_void_p, c_uint64, POINTER(vox_cost_bounds),
             POINTER(vox_cost_minimum))),
         "vox_zone_distance": (vox_result, (c_double, c_double, c_double, c_double, POINTER(c_double))),
-        "vox_primitives_init": (vox_result, (POINTER(vox_primitives), c_uint32)),
-        "vox_foreign_grid_init": (vox_result, (POINTER(vox_foreign_grid), c_uint32)),
         "vox_foreign_grid_set_known": (vox_result, (POINTER(vox_foreign_grid), c_int32)),
         "vox_suggest_for": (vox_result, (POINTER(vox_foreign_grid), POINTER(vox_foreign_suggestion))),
         "vox_count_for": (vox_result, (POINTER(vox_foreign_grid), c_double, POINTER(vox_grid_work))),
         "vox_cost_fit": (vox_result, (POINTER(vox_foreign_grid), c_void_p, c_uint64, POINTER(vox_grid_fit))),
-        "vox_tune_desc_init": (vox_result, (POINTER(vox_tune_desc), c_uint32)),
         "vox_cost_tune": (vox_result, (POINTER(vox_foreign_grid), POINTER(vox_tune_desc), vox_grid_run, c_void_p,
             POINTER(vox_tuning))),
     },
     "vox_pairs": {
-        "vox_surface_desc_init": (vox_result, (POINTER(vox_surface_desc), c_uint32)),
         "vox_surface_create": (vox_result, (POINTER(vox_surface_desc), POINTER(c_void_p))),
         "vox_surface_destroy": (None, (c_void_p,)),
         "vox_surface_get_features": (vox_result, (c_void_p, c_int32, POINTER(vox_feature_view))),
-        "vox_motion_init": (vox_result, (POINTER(vox_motion), c_uint32)),
         "vox_surface_move": (vox_result, (c_void_p, POINTER(vox_motion))),
         "vox_surface_find_pairs": (vox_result, (c_void_p, c_int32, c_int32, c_uint64, c_uint64,
             POINTER(vox_pair_lists))),
@@ -1975,13 +1973,11 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_surface_find_crossings": (vox_result, (c_void_p, POINTER(vox_crossing_view))),
         "vox_surface_find_proximities": (vox_result, (c_void_p, c_int32, c_int32, c_double, POINTER(vox_close_view))),
         "vox_surface_find_clearances": (vox_result, (c_void_p, c_double, c_void_p, c_uint64)),
-        "vox_contact_time_desc_init": (vox_result, (POINTER(vox_contact_time_desc), c_uint32)),
         "vox_surface_find_safe_step": (vox_result, (c_void_p, POINTER(vox_contact_time_desc), POINTER(vox_safe_step))),
         "vox_surface_find_impacts": (vox_result, (c_void_p, c_int32, c_int32, POINTER(vox_contact_time_desc),
             POINTER(vox_timed_view))),
     },
     "vox_io": {
-        "vox_io_load_desc_init": (vox_result, (POINTER(vox_io_load_desc), c_uint32)),
         "vox_io_load": (vox_result, (c_char_p, POINTER(vox_io_load_desc), POINTER(c_void_p))),
         "vox_io_read": (vox_result, (c_void_p, c_size_t, POINTER(vox_io_load_desc), POINTER(c_void_p))),
         "vox_io_mesh_destroy": (None, (c_void_p,)),
@@ -1991,10 +1987,8 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_io_mesh_get_report": (vox_result, (c_void_p, POINTER(vox_io_report))),
         "vox_io_mesh_get_warnings": (c_char_p, (c_void_p,)),
         "vox_io_format_string": (c_char_p, (c_int32,)),
-        "vox_io_tetrahedralize_desc_init": (vox_result, (POINTER(vox_io_tetrahedralize_desc), c_uint32)),
         "vox_io_tetrahedralize": (vox_result, (c_void_p, POINTER(vox_io_tetrahedralize_desc), POINTER(c_void_p))),
         "vox_io_mesh_measure": (vox_result, (c_void_p, c_void_p, POINTER(vox_io_quality))),
-        "vox_io_write_desc_init": (vox_result, (POINTER(vox_io_write_desc), c_uint32)),
         "vox_io_write": (vox_result, (c_void_p, c_char_p, POINTER(vox_io_write_desc))),
         "vox_io_write_to": (vox_result, (c_void_p, POINTER(vox_io_write_desc), POINTER(vox_io_sink))),
         "vox_io_make_lattice_ball": (vox_result, (c_uint64, c_double, POINTER(c_void_p))),
@@ -2005,12 +1999,10 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_io_make_box": (vox_result, (c_double, c_double, c_double, c_double, POINTER(c_void_p))),
     },
     "vox_sim": {
-        "vox_sim_desc_init": (vox_result, (POINTER(vox_sim_desc), c_uint32)),
         "vox_sim_create": (vox_result, (POINTER(vox_sim_desc), POINTER(c_void_p))),
         "vox_sim_destroy": (None, (c_void_p,)),
         "vox_sim_get_grid": (vox_result, (c_void_p, POINTER(c_void_p))),
         "vox_sim_step": (vox_result, (c_void_p, c_double)),
-        "vox_sim_body_desc_init": (vox_result, (POINTER(vox_sim_body_desc), c_uint32)),
         "vox_sim_body_insert": (vox_result, (c_void_p, POINTER(vox_sim_body_desc), POINTER(c_uint32))),
         "vox_sim_body_remove": (vox_result, (c_void_p, c_uint32)),
         "vox_sim_body_get_view": (vox_result, (c_void_p, c_uint32, POINTER(vox_sim_body_view))),
@@ -2018,7 +2010,6 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_sim_body_set_acceleration": (vox_result, (c_void_p, c_uint32, c_void_p)),
         "vox_sim_get_energy": (vox_result, (c_void_p, c_uint32, POINTER(vox_sim_energies))),
         "vox_sim_get_counters": (vox_result, (c_void_p, POINTER(vox_sim_counts))),
-        "vox_experiment_desc_init": (vox_result, (POINTER(vox_experiment_desc), c_uint32)),
         "vox_experiment_create": (vox_result, (POINTER(vox_experiment_desc), POINTER(c_void_p))),
         "vox_experiment_destroy": (None, (c_void_p,)),
         "vox_experiment_get": (vox_result, (c_void_p, POINTER(vox_experiment_facts))),

@@ -83,10 +83,7 @@ point_type = np.dtype((np.record, dtype_of(vox_scene_point)))
 cost_type = np.dtype((np.record, dtype_of(vox_part_cost)))
 
 _ARGUMENTS: dict[str, list[Any]] = {
-    "vox_transport_init": [POINTER(vox_transport), c_uint32],
-    "vox_scene_desc_init": [POINTER(vox_scene_desc), c_uint32],
     "vox_scene_create": [POINTER(vox_scene_desc), POINTER(vox_transport), POINTER(c_void_p)],
-    "vox_part_desc_init": [POINTER(vox_part_desc), c_uint32],
     "vox_scene_insert": [c_void_p, POINTER(vox_part_desc), POINTER(c_uint32)],
     "vox_scene_remove": [c_void_p, c_uint32],
     "vox_scene_bind_positions": [c_void_p, c_uint32, POINTER(_c.vox_positions)],

@@ -97,10 +97,16 @@ def load_part(name: str) -> Any:
 vox: Any = _load_vox()
 
 
-def described(kind: type[_Struct], library: Any = vox) -> _Struct:
+def described(kind: type[_Struct]) -> _Struct:
     """A struct with the library's defaults."""
     desc = kind()
-    getattr(library, kind.__name__ + "_init")(desc, ctypes.sizeof(kind))
+    if hasattr(desc, "struct_size"):
+        desc.struct_size = ctypes.sizeof(kind)
+    for name, value in _c.DEFAULTS.get(kind.__name__, {}).items():
+        if isinstance(value, list):
+            getattr(desc, name)[:] = value
+        else:
+            setattr(desc, name, value)
     return desc
 
 

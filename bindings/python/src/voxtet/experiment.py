@@ -20,10 +20,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _c
-from ._arguments import U32, choice, integer, real, switch, vector
+from ._arguments import U32, integer, real, switch, vector
 from ._interop import arrays_of
 from ._library import Handle, described, load_part, sized, values_of
 from .errors import InvalidArgumentError, InvalidStateError
+from .reference import Reference, pointer_to
 from .sim import described_body
 from .suggest import Suggestion, suggest_desc
 
@@ -63,20 +64,20 @@ class Experiment:
 
     a, b: pairs of positions and tets, or meshes of voxtet.io, pyvista or meshio; without b, a copy of a. b is moved along
     `axis` until the share of the tets that are in contact is `contact_share` on average, and with `turn`, both are rotated
-    first. `material`: density, youngs_modulus, bulk_modulus and damping of both, as in `voxtet.sim.Sim.add`. engine and workers
+    first. `material`: density, youngs_modulus, bulk_modulus and damping of both, as in `voxtet.sim.Sim.add`. reference and workers
     are those of the grid that is measured."""
 
     def __init__(self, a: Any, b: Any = None, *, frames: int = 10, axis: ArrayLike = (1, 0, 0), contact_share: float = 0.01,
-                 time_step: float = 0.01, turn: bool = True, engine: str = "reference", workers: int = 1,
+                 time_step: float = 0.01, turn: bool = True, reference: Optional[Reference] = Reference(), workers: int = 1,
                  **material: float) -> None:
         self._handle: Optional[Handle] = None
         self._lock = threading.Lock()
-        desc, grid = described(_c.vox_experiment_desc, _sim), described(_c.vox_grid_desc)
+        desc, grid = described(_c.vox_experiment_desc), described(_c.vox_grid_desc)
         bodies = [described_body(*_arrays(body), **material) for body in (a, b) if body is not None]
         desc.a = ctypes.pointer(bodies[0].desc)
         if b is not None:
             desc.b = ctypes.pointer(bodies[1].desc)
-        grid.engine = choice(_c.Engine, engine, "engine")
+        grid.reference = pointer_to(reference)
         grid.worker_count = integer(workers, "workers", 0, U32)
         desc.grid = ctypes.pointer(grid)
         desc.frames = integer(frames, "frames", 0, U32)

@@ -13,14 +13,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _c, results
-from ._arguments import U32, Rows, choice, integer, real, switch
+from ._arguments import U32, Rows, integer, real, switch
 from ._library import Handle, described, sized, values_of, vox
 from .errors import InvalidArgumentError, InvalidHandleError, InvalidStateError
 from .mesh import Filter, Mesh, Topology
 from .queries import OF_GRIDS, Queries, QueryView, hits_of
+from .reference import Reference, pointer_to
 from .results import Borrowed, Contacts, Depths, Exports, Readings, Results, copy_of
 from .suggest import Suggestion, suggest_for_grid
 
+ALL_CORES = _c.VOX_ALL_CORES
 Log = Callable[[int, str], Any]
 _KEEP: Any = object()
 _LEVELS: dict[int, int] = {_c.LogLevel.INFO: logging.INFO, _c.LogLevel.WARNING: logging.WARNING}
@@ -166,8 +168,8 @@ def _log_function(grid: Grid, log: Log) -> Any:
 class Grid(Queries, Results):
     """A set of meshes that collide. `step` finds all contacts of their positions as they are then.
 
-    cell_size, worker_count (`workers`), engine, storage, hash, the byte budget and closest_budget are those of
-    vox_grid_desc. `log` is called with a level of `logging` and a text; `logging.getLogger("voxtet").log` is one.
+    cell_size, worker_count (`workers`: 0 or 1 thread, or ALL_CORES), the byte budget and closest_budget are those of
+    vox_grid_desc; `reference` chooses the paper's engine in place of the fast one. `log` is called with a level of `logging` and a text; `logging.getLogger("voxtet").log` is one.
 
     Arrays that a grid returns are copies of yours. Any thread may use a grid; one at a time does. `with Grid() as grid:`
     closes it at the end.
@@ -186,28 +188,19 @@ class Grid(Queries, Results):
 
     _questions = OF_GRIDS
 
-    def __init__(self, cell_size: float = 0.0, *, workers: int = 1, engine: str = "auto", storage: str = "auto",
-                 hash: str = "mixed", world: Optional[tuple[ArrayLike, ArrayLike]] = None, byte_budget: int = 4 << 30,
-                 hash_table_size: int = 0, penetrations: bool = True, contact_events: bool = False,
+    def __init__(self, cell_size: float = 0.0, *, workers: int = 1, reference: Optional[Reference] = None,
+                 byte_budget: int = 0, penetrations: bool = True, contact_events: bool = False,
                  skip_bad_bodies: bool = False, closest_budget: int = 0, log: Optional[Log] = None) -> None:
         desc = described(_c.vox_grid_desc)
         desc.cell_size = real(cell_size, "cell_size")
-        desc.engine = choice(_c.Engine, engine, "engine")
-        desc.storage = choice(_c.Storage, storage, "storage")
-        desc.hash = choice(_c.Hash, hash, "hash")
-        if world is not None:
-            corners = np.asarray(world)
-            if corners.shape != (2, 3) or corners.dtype.kind not in "iuf":
-                raise InvalidArgumentError("world must be two corners of three numbers")
-            desc.world_min[:], desc.world_max[:] = corners[0].tolist(), corners[1].tolist()
-        desc.hash_table_size = integer(hash_table_size, "hash_table_size")
+        desc.reference = pointer_to(reference)
         desc.flags = (switch(penetrations, "penetrations") * _c.GridFlags.PENETRATIONS
                       | switch(contact_events, "contact_events") * _c.GridFlags.CONTACT_EVENTS
                       | switch(skip_bad_bodies, "skip_bad_bodies") * _c.GridFlags.SKIP_BAD_BODIES)
         self._prepare(desc, workers, byte_budget, closest_budget, log)
         pointer = ctypes.c_void_p()
         vox.vox_grid_create(desc, pointer)
-        self._hold(Handle(pointer.value or 0, vox.vox_grid_destroy, desc.log.write))
+        self._hold(Handle(pointer.value or 0, vox.vox_grid_destroy, desc))
 
     def _prepare(self, desc: Any, workers: int, byte_budget: int, closest_budget: int, log: Optional[Log]) -> None:
         """The settings that a snapshot does not hold."""
@@ -221,7 +214,7 @@ class Grid(Queries, Results):
         if log is not None:
             if not callable(log):
                 raise TypeError(f"log is of type {type(log).__name__}; it must be a function of a level and a text")
-            desc.log.write = _log_function(self, log)
+            desc.log = ctypes.pointer(_c.vox_log(_log_function(self, log)))
 
     def _hold(self, handle: Handle) -> None:
         self._handle: Optional[Handle] = handle
@@ -389,8 +382,8 @@ class Grid(Queries, Results):
         if filter is not None:
             if not isinstance(filter, Filter):
                 raise TypeError(f"filter is of type {type(filter).__name__}; it must be a voxtet.Filter")
-            new.desc.filter = ctypes.pointer(filter._struct())
-        new.desc.flags |= switch(self_collision, "self_collision") * _c.MeshFlags.SELF_COLLISION
+            new.desc.filter = filter._struct()
+        new.desc.filter.flags |= switch(self_collision, "self_collision") * _c.FilterFlags.SELF_COLLISION
         mesh = ctypes.c_uint32()
         with self._lock:
             kept = new.kept()
@@ -624,18 +617,18 @@ class Grid(Queries, Results):
         return bytes_.raw
 
     @classmethod
-    def from_snapshot(cls, snapshot: Union[bytes, bytearray, memoryview], *, engine: str = "auto", workers: int = 1,
-                      byte_budget: int = 4 << 30, closest_budget: int = 0, log: Optional[Log] = None) -> Grid:
-        """A grid from a snapshot: the same ids, the same contacts, and with "auto" the same engine. Its meshes have
+    def from_snapshot(cls, snapshot: Union[bytes, bytearray, memoryview], *, reference: Optional[Reference] = None,
+                      workers: int = 1, byte_budget: int = 0, closest_budget: int = 0, log: Optional[Log] = None) -> Grid:
+        """A grid from a snapshot: the same ids, the same contacts, and without `reference` the same engine. Its meshes have
         positions of their own (`mesh.positions`). The bytes need not be trusted."""
         data = np.frombuffer(snapshot, np.uint8)
         grid = cls.__new__(cls)
         desc = described(_c.vox_grid_desc)
-        desc.engine = choice(_c.Engine, engine, "engine")
+        desc.reference = pointer_to(reference)
         grid._prepare(desc, workers, byte_budget, closest_budget, log)
         pointer = ctypes.c_void_p()
         vox.vox_grid_load(data.ctypes.data, data.size, desc, pointer)
-        grid._hold(Handle(pointer.value or 0, vox.vox_grid_destroy, desc.log.write))
+        grid._hold(Handle(pointer.value or 0, vox.vox_grid_destroy, desc))
         return grid
 
     def __reduce__(self) -> Any:
@@ -648,8 +641,8 @@ def _restored(kind: type[Grid], snapshot: bytes, settings: dict[str, Any], tags:
     return grid
 
 
-def step_all(grids: Iterable[Grid], workers: int = 0) -> None:
-    """Steps many grids in one call, several at the same time (workers 0: one for each core). For many small scenes. If
+def step_all(grids: Iterable[Grid], workers: int = ALL_CORES) -> None:
+    """Steps many grids in one call, several at the same time. For many small scenes. If
     some fail, the others are stepped nevertheless, and the exception is that of the first. A log function of one of them
     must not call another: it would wait for the end of this call, and this call for it."""
     count = integer(workers, "workers", 0, U32)

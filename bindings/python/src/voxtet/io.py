@@ -146,10 +146,10 @@ class MeshData:
 
 
 def _load_desc(format: Union[str, _c.IoFormat], mesh_index: Optional[int]) -> Any:
-    desc = described(_c.vox_io_load_desc, _io)
+    desc = described(_c.vox_io_load_desc)
     desc.format = choice(_c.IoFormat, format, "format")
     if mesh_index is not None:
-        desc.mesh_index = integer(mesh_index, "mesh_index", 0, U32 - 1)
+        desc.mesh = 1 + integer(mesh_index, "mesh_index", 0, U32 - 1)
     return desc
 
 
@@ -224,7 +224,7 @@ class _Writing:
 
     def __init__(self, data: MeshData, format: Union[str, _c.IoWriteFormat], binary: bool,
                  point_data: Optional[Mapping[str, ArrayLike]], cell_data: Optional[Mapping[str, ArrayLike]]) -> None:
-        self.desc = described(_c.vox_io_write_desc, _io)
+        self.desc = described(_c.vox_io_write_desc)
         self.desc.format = choice(_c.IoWriteFormat, format, "format")
         self.desc.binary = int(bool(binary))
         self._kept: list[Any] = []
@@ -286,7 +286,7 @@ def tetrahedralize(surface: Any, cell: float = 0.0, *, kind: str = "stuffed", ma
     a lattice cube; 0: a fiftieth of the longest side. kind: "stuffed" or "cubes". progress: called with a fraction from 0 to
     1 now and then; a result that is true cancels, and Ctrl-C does."""
     data = surface if isinstance(surface, MeshData) else MeshData(*_surface(surface))
-    desc = described(_c.vox_io_tetrahedralize_desc, _io)
+    desc = described(_c.vox_io_tetrahedralize_desc)
     desc.kind, desc.cell = choice(_c.IoSolidKind, kind, "kind"), real(cell, "cell")
     desc.max_tets, desc.max_distance = integer(max_tets, "max_tets"), real(max_distance, "max_distance")
     desc.coarsen = integer(coarsen, "coarsen", 0, U32)

@@ -26,19 +26,21 @@ class Filter:
     group: int = 0  # meshes with the same group collide if it is positive, and do not if it is negative
     category: int = 1  # otherwise they do if the category of each has a bit in common with the mask of the other
     mask: int = U64
+    world: int = 0  # meshes of different worlds never collide: for copies of a scene in one grid
     self_collision: bool = False  # vertices of the mesh inside its own tetrahedra are contacts
     self_rings: int = 0  # ... but not those within so many edges of the tetrahedron
     self_rest_distance: float = 0.0  # ... nor those closer to it than this in the rest pose
-    penetration_mask: int = U64  # 0: contacts of this mesh have no penetrations
+    sensor: bool = False  # contacts of this mesh have no penetrations
 
     def _struct(self) -> Any:
-        out = described(_c.vox_filter)
+        out = _c.vox_filter()
         out.group = integer(self.group, "group", -2**31, 2**31 - 1)
         out.category, out.mask = integer(self.category, "category"), integer(self.mask, "mask")
-        out.self_collision = switch(self.self_collision, "self_collision")
+        out.world = integer(self.world, "world", 0, U32)
+        out.flags = (switch(self.self_collision, "self_collision") * _c.FilterFlags.SELF_COLLISION
+                     | switch(self.sensor, "sensor") * _c.FilterFlags.SENSOR)
         out.self_rings = integer(self.self_rings, "self_rings", 0, U32)
         out.self_rest_distance = real(self.self_rest_distance, "self_rest_distance")
-        out.penetration_mask = integer(self.penetration_mask, "penetration_mask")
         return out
 
 
@@ -217,10 +219,11 @@ class Mesh:
     def filter(self) -> Filter:
         """What the mesh does not collide with."""
         with self.grid._lock:
-            f = sized(_c.vox_filter)
-            vox.vox_mesh_filter(self.grid._pointer, self.id, f)
-        return Filter(f.group, f.category, f.mask, bool(f.self_collision), f.self_rings, f.self_rest_distance,
-                      f.penetration_mask)
+            info = sized(_c.vox_body_info)
+            vox.vox_body_get_info(self.grid._pointer, self.id, info)
+        f, flags = info.filter, _c.FilterFlags(info.filter.flags)
+        return Filter(f.group, f.category, f.mask, f.world, _c.FilterFlags.SELF_COLLISION in flags, f.self_rings,
+                      f.self_rest_distance, _c.FilterFlags.SENSOR in flags)
 
     @filter.setter
     def filter(self, filter: Filter) -> None:

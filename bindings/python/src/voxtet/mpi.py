@@ -30,13 +30,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _c, _dist
-from ._arguments import choice, integer, real, rows, switch
+from ._arguments import integer, real, rows, switch
 from ._arguments import points as point_rows
 from ._dist import dist
 from ._library import Handle, described, sized, values_of
 from .errors import InvalidArgumentError, InvalidStateError, VoxError
 from .grid import Grid
 from .mesh import Filter, Topology
+from .reference import Reference, pointer_to
 from .results import Records, copy_of
 
 _LONGEST = 1 << 30  # bytes of one message of MPI, whose counts are ints
@@ -255,9 +256,9 @@ def _numbers(value: Optional[ArrayLike], name: str, count: int, dtype: Any) -> O
 
 class Scene:
     """The parts of bodies that lie on this rank. `communicator`: of mpi4py, duplicated here (all ranks make their scene together);
-    None: one rank. engine, cell_size, workers: as in `Grid`."""
+    None: one rank. reference, cell_size, workers: as in `Grid`."""
 
-    def __init__(self, communicator: Any = None, *, engine: str = "auto", cell_size: float = 0.0, workers: int = 1) -> None:
+    def __init__(self, communicator: Any = None, *, reference: Optional[Reference] = None, cell_size: float = 0.0, workers: int = 1) -> None:
         self._lock = threading.Lock()
         self._handle: Optional[Handle] = None
         self._kept: dict[int, Any] = {}  # what is borrowed, by part
@@ -265,11 +266,11 @@ class Scene:
         pointer = ctypes.c_void_p()
         transport = None if self._transport is None else ctypes.pointer(self._transport.struct)
         grid = described(_c.vox_grid_desc)
-        desc = described(_dist.vox_scene_desc, dist)
+        desc = described(_dist.vox_scene_desc)
         try:
             try:
                 grid.flags = 0
-                grid.engine = choice(_c.Engine, engine, "engine")
+                grid.reference = pointer_to(reference)
                 grid.cell_size = real(cell_size, "cell_size")
                 grid.worker_count = integer(workers, "workers", 0, _c.VOX_MAX_WORKERS)
                 desc.grid = ctypes.pointer(grid)
@@ -323,9 +324,9 @@ class Scene:
         if filter is not None:
             if not isinstance(filter, Filter):
                 raise TypeError(f"filter is of type {type(filter).__name__}; it must be a voxtet.Filter")
-            new.desc.filter = ctypes.pointer(filter._struct())
-        new.desc.flags |= switch(self_collision, "self_collision") * _c.MeshFlags.SELF_COLLISION
-        desc = described(_dist.vox_part_desc, dist)
+            new.desc.filter = filter._struct()
+        new.desc.filter.flags |= switch(self_collision, "self_collision") * _c.FilterFlags.SELF_COLLISION
+        desc = described(_dist.vox_part_desc)
         desc.body = integer(body, "body")
         desc.mesh = ctypes.pointer(new.desc)
         arrays = [_numbers(vertex_ids, "vertex_ids", new.desc.positions.count, np.uint64),

@@ -96,7 +96,7 @@ class DescribedBody(NamedTuple):
 def described_body(positions: ArrayLike, tets: ArrayLike, *, rest_positions: Optional[ArrayLike] = None,
                    velocities: Optional[ArrayLike] = None, **material: float) -> DescribedBody:
     """material: density, youngs_modulus, bulk_modulus, damping."""
-    desc = described(_c.vox_sim_body_desc, _sim)
+    desc = described(_c.vox_sim_body_desc)
     p, t = _positions(positions, "positions"), indices(tets, "tets", 4)
     rest = None if rest_positions is None else _positions(rest_positions, "rest_positions", len(p))
     speed = None if velocities is None else _positions(velocities, "velocities", len(p))
@@ -203,7 +203,7 @@ class Sim:
                  contact_slop: float = -1.0, workers: int = 1, cell_size: float = 0.0, log: Optional[Log] = None) -> None:
         self._pointer: Optional[int] = None
         grid = _SimGrid.__new__(_SimGrid)
-        grid_desc, desc = described(_c.vox_grid_desc), described(_c.vox_sim_desc, _sim)
+        grid_desc, desc = described(_c.vox_grid_desc), described(_c.vox_sim_desc)
         grid._prepare(grid_desc, workers, grid_desc.byte_budget, 0, log)
         grid_desc.cell_size = real(cell_size, "cell_size")
         desc.substeps = integer(substeps, "substeps", 0, U32)
@@ -215,11 +215,10 @@ class Sim:
                             ("contact_compliance", contact_compliance), ("max_push_speed", max_push_speed)):
             setattr(desc, name, real(value, name))
         desc.grid = ctypes.pointer(grid_desc)
-        if log is not None:
-            desc.log.write = grid_desc.log.write
+        desc.log = grid_desc.log
         pointer, inside = ctypes.c_void_p(), ctypes.c_void_p()
         _sim.vox_sim_create(desc, pointer)
-        self._handle: Optional[Handle] = Handle(pointer.value or 0, _sim.vox_sim_destroy, grid_desc.log.write)
+        self._handle: Optional[Handle] = Handle(pointer.value or 0, _sim.vox_sim_destroy, grid_desc)
         self._pointer = pointer.value
         _sim.vox_sim_get_grid(self._pointer, inside)
         grid._hold(self._handle)

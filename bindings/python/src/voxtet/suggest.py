@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _c
-from ._arguments import choice, integer, real
+from ._arguments import choice, integer, real, switch
 from ._library import Relay, described, sized, values_of, vox
 from .errors import InvalidArgumentError
 from .mesh import Topology
@@ -201,15 +201,15 @@ def suggest_desc(model: Union[str, _c.CostModel], options: dict[str, Any]) -> An
             setattr(desc, name, real(value, name))
         elif name == "byte_budget":
             desc.byte_budget = integer(value, name)
-        elif name == "storage":
-            desc.storage = choice(_c.Storage, value, name)
+        elif name == "dense":
+            desc.reference_flags = switch(value, name) * _c.ReferenceFlags.DENSE
         elif name == "size_reading":
             desc.size_reading = choice(_c.SizeReading, value, name)
         elif name == "area_reading":
             desc.area_reading = choice(_c.AreaReading, value, name)
         else:
             raise TypeError(f"there is no option {name!r}; those of vox_suggest_desc are {', '.join(_REALS)}, byte_budget, "
-                            "storage, size_reading, area_reading")
+                            "dense, size_reading, area_reading")
     return desc
 
 
@@ -226,7 +226,7 @@ class _Scene:
         self.topologies = [Topology(p, t, None, False, None, False) for p, t in pairs]
         if self_collision:
             for topology in self.topologies:
-                topology.desc.flags |= _c.MeshFlags.SELF_COLLISION
+                topology.desc.filter.flags |= _c.FilterFlags.SELF_COLLISION
         self.array = (_c.vox_mesh_desc * len(pairs))(*(t.desc for t in self.topologies))
 
     def __len__(self) -> int:

@@ -92,7 +92,7 @@ class Surface:
     def __init__(self, faces: Optional[ArrayLike] = None, *, edges: Optional[ArrayLike] = None,
                  vertex_count: Optional[int] = None, patches: Optional[ArrayLike] = None,
                  patch_categories: Optional[ArrayLike] = None, patch_masks: Optional[ArrayLike] = None,
-                 workers: int = 1, cell_size: float = 0.0, byte_budget: int = 4 << 30) -> None:
+                 workers: int = 1, cell_size: float = 0.0, byte_budget: int = 0) -> None:
         desc = described(_c.vox_surface_desc)
         kept: list[NDArray[Any]] = []
 

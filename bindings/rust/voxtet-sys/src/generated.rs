@@ -7,10 +7,8 @@ use core::marker::{PhantomData, PhantomPinned};
 /// Version of the stable interface. A program runs with every library that has the ABI version it was built with. It is
 /// part of the shared libraries' names (docs/abi.md).
 pub const VOX_ABI_VERSION: u32 = 1;
-/// tasks enqueued in one step
-pub const VOX_MAX_TASKS: u32 = 64;
-/// workers of a grid
-pub const VOX_MAX_WORKERS: u32 = 256;
+/// as a worker_count: one worker per core
+pub const VOX_ALL_CORES: u32 = 4294967295;
 /// per grid, at one time, including retired slots
 pub const VOX_MAX_BODIES: u32 = 1048576;
 /// uses of one mesh slot before it is retired
@@ -19,6 +17,8 @@ pub const VOX_MAX_GENERATIONS: u32 = 4095;
 pub const VOX_MAX_VERTICES: u32 = 2147483647;
 /// per grid
 pub const VOX_MAX_TETS: u32 = 2147483647;
+/// workers of a grid
+pub const VOX_MAX_WORKERS: u32 = 256;
 /// names no mesh
 pub const VOX_NULL_BODY: u32 = 0;
 /// vox_filter.self_rings
@@ -29,6 +29,8 @@ pub const VOX_NO_VERTEX: u32 = 4294967295;
 pub const VOX_MAX_CONTACTS: u32 = 4294967295;
 /// vox_touch_event.pair of a pair that ended
 pub const VOX_NO_PAIR: u32 = 4294967295;
+/// tasks enqueued in one step
+pub const VOX_MAX_TASKS: u32 = 64;
 /// most samples of a curve
 pub const VOX_COST_CURVE_CAPACITY: u32 = 64;
 /// most terms of a cost, in any model
@@ -43,8 +45,6 @@ pub const VOX_TUNE_RUN_CAPACITY: u32 = 32;
 pub const VOX_MAX_FEATURES: u32 = 2147483647;
 /// patches of a surface. More: VOX_ERROR_LIMIT
 pub const VOX_MAX_PATCHES: u32 = 65536;
-/// for vox_io_load_desc.mesh_index: joins all meshes of the scene
-pub const VOX_IO_ALL_MESHES: u32 = 4294967295;
 /// most coefficients of a fit
 pub const VOX_FIT_CAPACITY: u32 = 9;
 
@@ -82,37 +82,6 @@ pub const VOX_FORMAT_FLOAT: vox_format = 0;
 /// IEEE 754 doubles, of magnitudes below 2^128 - 2^103 (3.4028236e38), the largest float
 pub const VOX_FORMAT_DOUBLE: vox_format = 1;
 
-/// Severity of a log line.
-pub type vox_log_level = i32;
-pub const VOX_LOG_INFO: vox_log_level = 0;
-pub const VOX_LOG_WARNING: vox_log_level = 1;
-
-/// How the reference engine stores cells; the fast engine ignores it. Contacts do not depend on it.
-pub type vox_storage = i32;
-/// the engine's choice
-pub const VOX_STORAGE_AUTO: vox_storage = 0;
-/// unbounded space: cells hashed into a table of prime size
-pub const VOX_STORAGE_HASHED: vox_storage = 1;
-/// one list per cell of a box: linear id k*nx*ny + j*nx + i
-pub const VOX_STORAGE_DENSE: vox_storage = 2;
-
-/// Hash of a cell (i, j, k) for hashed storage. Contacts do not depend on it. Where positions were chosen so that many
-/// cells share a bucket, the step finds cells by binary search instead, so its time stays bounded.
-pub type vox_hash = i32;
-/// a well-mixed 64-bit hash: the default
-pub const VOX_HASH_MIXED: vox_hash = 0;
-/// i*73856093 xor j*19349663 xor k*83492791 (Teschner et al. 2003, Sect. 4.1)
-pub const VOX_HASH_PAPER: vox_hash = 1;
-
-/// Which algorithm runs. Contacts do not depend on it.
-pub type vox_engine = i32;
-/// fast, or reference if a storage is requested
-pub const VOX_ENGINE_AUTO: vox_engine = 0;
-/// the paper's algorithm as printed (Sect. 3)
-pub const VOX_ENGINE_REFERENCE: vox_engine = 1;
-/// tiles of tets against dense windows of cells, with SIMD
-pub const VOX_ENGINE_FAST: vox_engine = 2;
-
 pub type vox_grid_flags = u32;
 /// run the depth stage in a step (vox_grid_penetrations); on by default. A mesh of more than 357913941 tets then gives
 /// VOX_ERROR_LIMIT, unless its filter does without
@@ -128,13 +97,17 @@ pub const VOX_GRID_SKIP_BAD_BODIES: vox_grid_flags = 4;
 /// 357913941 tets then gives VOX_ERROR_LIMIT
 pub const VOX_GRID_EDGE_CONTACTS: vox_grid_flags = 8;
 
+pub type vox_filter_flags = u32;
+/// the mesh also collides with itself
+pub const VOX_FILTER_SELF_COLLISION: vox_filter_flags = 1;
+/// the mesh has contacts, but no penetrations; takes less memory
+pub const VOX_FILTER_SENSOR: vox_filter_flags = 2;
+
 pub type vox_mesh_flags = u32;
-/// also report vertices of the mesh inside its own tetrahedra
-pub const VOX_MESH_SELF_COLLISION: vox_mesh_flags = 1;
-/// copy `positions` at insertion instead of borrowing them
-pub const VOX_MESH_COPY_POSITIONS: vox_mesh_flags = 2;
-/// borrow `tets` instead of copying them: 16 bytes less per tetrahedron
-pub const VOX_MESH_BORROW_TETS: vox_mesh_flags = 4;
+/// copy the positions instead of borrowing them
+pub const VOX_MESH_COPY_POSITIONS: vox_mesh_flags = 1;
+/// borrow the tetrahedra instead of copying them, 16 bytes each
+pub const VOX_MESH_BORROW_TETS: vox_mesh_flags = 2;
 
 /// How a penetration's depth and direction were found. In the following, p is the vertex; a colliding vertex is a
 /// vertex of body_a that has a contact with body_b; edges are those of body_a's tetrahedra; the surface of body_b
@@ -186,8 +159,13 @@ pub const VOX_READING_POSITION: vox_reading_flags = 1;
 /// missing where POSITION is or would be, if body_b was removed or has no surface, or if all of its tetrahedra that
 /// contained the vertex were removed or disabled
 pub const VOX_READING_SURFACE: vox_reading_flags = 2;
-/// missing on grids without VOX_GRID_PENETRATIONS, and where vox_filter.penetration_mask rules it out
+/// missing on grids without VOX_GRID_PENETRATIONS, and where one of the meshes is a sensor
 pub const VOX_READING_DEPTH: vox_reading_flags = 4;
+
+/// Severity of a log line.
+pub type vox_log_level = i32;
+pub const VOX_LOG_INFO: vox_log_level = 0;
+pub const VOX_LOG_WARNING: vox_log_level = 1;
 
 pub type vox_side = i32;
 /// the tetrahedron has no volume
@@ -195,6 +173,12 @@ pub const VOX_SIDE_NONE: vox_side = 0;
 /// the segment goes into the tetrahedron
 pub const VOX_SIDE_ENTERS: vox_side = 1;
 pub const VOX_SIDE_LEAVES: vox_side = 2;
+
+pub type vox_reference_flags = u32;
+/// store a list for every cell of a box (linear id k*nx*ny + j*nx + i), instead of hashing cells into a table
+pub const VOX_REFERENCE_DENSE: vox_reference_flags = 1;
+/// hash by i*73856093 xor j*19349663 xor k*83492791 (Teschner et al. 2003, Sect. 4.1), instead of by a well-mixed hash
+pub const VOX_REFERENCE_PAPER_HASH: vox_reference_flags = 2;
 
 pub type vox_cost_model = i32;
 /// the paper's z(delta) (Sect. 4, Eqs. 3-8), from means; in cell visits
@@ -239,10 +223,10 @@ pub const VOX_PRIMITIVE_BOX: vox_primitive_type = 4;
 
 /// Which cells hold a primitive.
 pub type vox_cell_content = i32;
-/// the one with the centre of its box; for a point, with the point
-pub const VOX_CELLS_HOLD_CENTRES: vox_cell_content = 0;
 /// all that its box meets
-pub const VOX_CELLS_HOLD_BOXES: vox_cell_content = 1;
+pub const VOX_CELLS_HOLD_BOXES: vox_cell_content = 0;
+/// the one with the centre of its box; for a point, with the point
+pub const VOX_CELLS_HOLD_CENTRES: vox_cell_content = 1;
 
 /// Which cells a primitive that asks looks at.
 pub type vox_cell_look = i32;
@@ -461,133 +445,72 @@ pub struct vox_positions {
     pub component_byte_stride: u64,
 }
 
-/// Per-grid allocator. `allocate` returns memory of at least `size` bytes at `alignment` (a power of two), or null;
-/// `release` gets the same size and alignment back. If both are null, the C++ runtime's heap is used. They are called
-/// only from functions of the grid they were given to, one call at a time. During a step, the calling thread may be one
-/// that runs its tasks. For query views that are released after vox_grid_destroy, `release` is called from
-/// vox_query_view_release, so it must be usable until then.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_allocator {
-    #[rustfmt::skip]
-    pub allocate: Option<unsafe extern "C" fn(size: usize, alignment: usize, user: *mut c_void) -> *mut c_void>,
-    #[rustfmt::skip]
-    pub release: Option<unsafe extern "C" fn(memory: *mut c_void, size: usize, alignment: usize, user: *mut c_void)>,
-    pub user: *mut c_void,
-}
-
-/// Receives one line of text (no newline), valid during the call only. A null `write` turns the log off. It is called
-/// on the thread that called the library, and must not call the grid it came from.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_log {
-    #[rustfmt::skip]
-    pub write: Option<unsafe extern "C" fn(level: vox_log_level, text: *const c_char, user: *mut c_void)>,
-    pub user: *mut c_void,
-}
-
-/// The caller's scheduler, designed as in Box3D. `enqueue` splits the items [0, item_count) into ranges, of at least
-/// min_range items where possible, and arranges that `task` is called once for each range, now or later, on any thread.
-/// It returns a handle for `finish`, or null if all these calls have already returned. `finish` waits until they have.
-/// Both are called on the thread that called the library, at most VOX_MAX_TASKS times in a step, at most once by
-/// vox_grid_prepare_readings, and at most four times by vox_grid_prepare_queries and vox_grid_take_query_view. If not
-/// every item was run exactly once, or a worker index was out of range or had by two calls at the same time, the
-/// function fails with INVALID_ARGUMENT and leaves no contacts, no readings, nothing prepared for queries, or no view.
-/// If both are null, the built-in scheduler is used.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_task_system {
-    #[rustfmt::skip]
-    pub enqueue: Option<unsafe extern "C" fn(task: vox_task, item_count: u64, min_range: u64, context: *mut c_void, user: *mut c_void) -> *mut c_void>,
-    #[rustfmt::skip]
-    pub finish: Option<unsafe extern "C" fn(handle: *mut c_void, user: *mut c_void)>,
-    pub user: *mut c_void,
-}
-
-/// Settings of a grid. One whose fields are all 0 after struct_size is valid but not the default: it has no
-/// penetrations, no byte budget and a thread per core. vox_grid_create then writes a warning to the log, if there is
-/// one.
+/// Settings of a grid. What the pointers name is copied.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_grid_desc {
     pub struct_size: u32,
-    pub engine: vox_engine,
-    pub storage: vox_storage,
-    pub hash: vox_hash,
-    /// Edge length of a cell, > 0. 0 (the default): the library chooses it. The reference engine chooses by its cost
-    /// model, at the first step, and again when the counts of its steps show that another size would be better (bodies
-    /// deform, come into contact, are inserted or removed). Every change is written to the log and counted in
-    /// cell_size_changes. If the sizes of the tetrahedra differ so much that a single cell size would be expensive, it
-    /// uses a few grids in turn: each has a cell size of its own, holds all vertices, and serves the tetrahedra of a
-    /// range of sizes. The fast engine chooses a cell size for each body at every step, from the size of the tiles near
-    /// other bodies.
-    pub cell_size: f64,
-    /// World box for dense storage, min < max on each axis. Points outside of it are put into the nearest border cell.
-    /// All zero (the default): the box of all positions, computed at every step.
-    pub world_min: [f64; 3],
-    pub world_max: [f64; 3],
-    /// Most bytes the grid may hold at any time. A call that would exceed it fails with VOX_ERROR_BUDGET. 0: no limit.
-    /// Default 4 GiB.
-    pub byte_budget: u64,
-    /// Buckets of the hash table, at most VOX_MAX_VERTICES, raised to the next prime. 0 (the default): the first prime
-    /// that is at least twice the number of vertices.
-    pub hash_table_size: u64,
-    pub allocator: vox_allocator,
-    pub log: vox_log,
-    pub tasks: vox_task_system,
-    /// Threads that run a step's tasks, at most VOX_MAX_WORKERS. 1 (the default): serial, on the calling thread; 0: one
-    /// per core. With the caller's own task system it is the number of that system's workers, at least 1. Contacts do
-    /// not depend on it. The reference engine is always serial. The built-in scheduler never uses more threads than
-    /// there are cores, the calling thread being one of them, nor more than the system gives. It is oneTBB, or without
-    /// it (vox_build_info says which) each such grid has threads of its own, from the first step that needs them until
-    /// its end. They sleep between steps. Only builds for systems without threads, such as plain WebAssembly, are
-    /// serial. In a process made by fork, a grid with threads of its own makes new ones.
-    pub worker_count: u32,
-    /// vox_grid_flags, combined with |; default VOX_GRID_PENETRATIONS
+    /// vox_grid_flags, combined with |
     pub flags: u32,
+    /// Threads that share a step, the calling one being one of them: up to VOX_MAX_WORKERS, or VOX_ALL_CORES; 0: one.
+    /// With `tasks`, the number of that system's workers. Contacts do not depend on it. The built-in scheduler never
+    /// uses more threads than there are cores, nor more than the system gives. It is oneTBB, or without it
+    /// (vox_build_info says which) each grid has threads of its own, from the first step that needs them until its end,
+    /// which sleep between steps; in a process made by fork it makes new ones. Builds for systems without threads are
+    /// serial.
+    pub worker_count: u32,
+    /// 0
+    pub reserved: u32,
+    /// Edge length of a cell; 0: the library chooses it. It never changes contacts. The fast engine chooses one for
+    /// each body in every step, from the size of the tiles near other bodies; for the reference engine see
+    /// vox_reference_desc.
+    pub cell_size: f64,
+    /// see vox_grid_set_margin. Experimental
+    pub margin: f64,
+    /// most bytes the grid may hold; a call that would exceed it fails with VOX_ERROR_BUDGET. 0: 4 GiB; UINT64_MAX: no
+    /// limit
+    pub byte_budget: u64,
     /// Most searches for a closest point that the depth stage makes in one step: for penetrations that would be
     /// ENCLOSED, or CROSSING with nothing but a closest point to go by. The first ones, in the order of the
     /// penetrations, get them; the others become VOX_PENETRATION_UNKNOWN, which is counted (unknown_penetrations) and
     /// written to the log. Those of meshes at rest, which are carried over from the last step, take nothing of it, and
-    /// stay UNKNOWN where they are. 0 (the default): no limit.
+    /// stay UNKNOWN where they are. 0: no limit.
     pub closest_budget: u64,
-    /// As vox_grid_set_margin; default 0. Experimental.
-    pub margin: f64,
+    /// null: the C++ runtime's heap
+    pub allocator: *const vox_allocator,
+    /// null: no log
+    pub log: *const vox_log,
+    /// null: the built-in scheduler
+    pub tasks: *const vox_task_system,
+    /// null: the fast engine; else the paper's
+    pub reference: *const vox_reference_desc,
 }
 
-/// What a mesh does not collide with. A tetrahedron that a filter rules out for a vertex is treated as if it did not
-/// exist: the rule of vox_contact (every tetrahedron with the vertex in its interior, or else the lowest with it on the
-/// boundary) is applied to the remaining ones. No filter changes the order of contacts or allocates in the step.
+/// What a mesh collides with. With all fields 0, the default, it collides with every other mesh, but not with itself.
+/// Two meshes in different worlds never collide; use worlds for copies of a scene in one grid. Two meshes with the same
+/// group other than 0 collide if it is positive and do not collide if it is negative. Any other two collide if the
+/// category of each has a bit in common with the mask of the other, as in Box2D. A tetrahedron that is ruled out for a
+/// vertex is treated as if it did not exist: the rule of vox_contact (every tetrahedron with the vertex in its
+/// interior, or else the lowest with it on the boundary) is applied to the remaining ones.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_filter {
-    pub struct_size: u32,
-    /// Two meshes with the same group other than 0 collide if it is positive, and do not if it is negative. All others
-    /// collide if the category of each has a bit in common with the mask of the other. Defaults: group 0, category 1,
-    /// all bits of the mask. For a mesh with itself, see self_collision.
+    /// vox_filter_flags, combined with |
+    pub flags: u32,
     pub group: i32,
-    /// With group, category, mask and self_collision all 0, as in a struct that was zeroed and not initialised, the
-    /// mesh would collide with nothing: an INVALID_ARGUMENT. A mesh that collides with no other mesh (category or mask
-    /// 0, no positive group) is allowed, and the first in a grid is written to the log as a warning.
+    /// 0: 1
     pub category: u64,
+    /// 0: all bits
     pub mask: u64,
-    /// 1: vertices of the mesh inside its own tetrahedra are contacts; default 0
-    pub self_collision: u32,
+    pub world: u32,
     /// Self-contact skips tetrahedra that have a corner within this many edges of the vertex, along the edges of the
-    /// mesh's tetrahedra; at most VOX_MAX_RINGS. 0 (the default) skips only tetrahedra that have the vertex as a
-    /// corner. Takes memory for all vertices within this many edges of each vertex: about 60 bytes a vertex for 1, 260
-    /// for 2, 700 for 3.
+    /// mesh's tetrahedra; at most VOX_MAX_RINGS. 0 skips only tetrahedra that have the vertex as a corner. Takes about
+    /// 60, 260 or 700 bytes a vertex for 1, 2 or 3.
     pub self_rings: u32,
-    /// Self-contact skips tetrahedra that are closer to the vertex than this in the rest pose, in the caller's unit
-    /// (distance to the closed tetrahedron, computed in double). 0 (the default): skips none. The rest pose is
-    /// vox_mesh_desc.rest_positions or, without those, the positions at the time this was first set.
+    /// Self-contact skips tetrahedra that are closer to the vertex than this in the rest pose (distance to the closed
+    /// tetrahedron, computed in double). The rest pose is vox_mesh_desc.rest_positions or, without those, the positions
+    /// at the time this was first set.
     pub self_rest_distance: f64,
-    /// Which contacts get a penetration, in a grid with VOX_GRID_PENETRATIONS. Vertices of one mesh in another have
-    /// them if each of the two accepts the other: its penetration_mask has a bit in common with the other's category,
-    /// or has all bits (the default). For self-contact the mesh has to accept itself. This rules out no contact. A mesh
-    /// with the mask 0 has contacts alone, and is not prepared for penetrations, which saves about 30 bytes a
-    /// tetrahedron.
-    pub penetration_mask: u64,
 }
 
 /// A body: vertices, and tetrahedra over them. Without tetrahedra (a surface, a set of points) its vertices still
@@ -613,8 +536,7 @@ pub struct vox_mesh_desc {
     pub tet_count: u64,
     /// any number of the caller's, returned by vox_body_get_user_data
     pub user_data: u64,
-    /// Copied; null: the defaults. VOX_MESH_SELF_COLLISION turns self_collision on as well.
-    pub filter: *const vox_filter,
+    pub filter: vox_filter,
     /// of all vertices, copied; none: see vox_filter.self_rest_distance
     pub rest_positions: vox_positions,
 }
@@ -633,8 +555,8 @@ pub struct vox_body_info {
     pub enabled_tet_count: u64,
     /// 1, or 0 (see vox_body_set_enabled)
     pub enabled: u32,
-    /// vox_mesh_flags: SELF_COLLISION as the filter says, COPY_POSITIONS if the positions are the mesh's own (copied,
-    /// mapped or loaded), BORROW_TETS while the tetrahedra are the caller's
+    /// vox_mesh_flags: COPY_POSITIONS if the positions are the mesh's own (copied, mapped or loaded), BORROW_TETS while
+    /// the tetrahedra are the caller's
     pub flags: u32,
     /// 1 if vox_body_set_transform gave it one
     pub has_transform: u32,
@@ -646,6 +568,8 @@ pub struct vox_body_info {
     pub positions: vox_positions,
     /// as vox_body_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0
     pub transform: [f64; 12],
+    /// in use: neither category nor mask is 0
+    pub filter: vox_filter,
 }
 
 /// Vertices to append.
@@ -751,8 +675,8 @@ pub struct vox_penetration {
 }
 
 /// `count` penetrations, `byte_stride` apart: one for each (body_a, vertex, body_b) that has contacts, in that order,
-/// unless vox_filter.penetration_mask rules it out. A vertex inside two meshes has two. The data lives as long as that
-/// of the contacts' view.
+/// unless one of them is a sensor (VOX_FILTER_SENSOR). A vertex inside two meshes has two. The data lives as long as
+/// that of the contacts' view.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_penetration_view {
@@ -1030,16 +954,59 @@ pub struct vox_reading_view {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_readings_desc {
     pub struct_size: u32,
-    /// vox_reading_flags, combined with |; default: all. Without SURFACE a reading takes about as long as copying it.
-    /// The other fields of vox_reading, such as user data, are always set
+    /// vox_reading_flags, combined with |; 0: all. Without SURFACE a reading takes about as long as copying it. The
+    /// other fields of vox_reading, such as user data, are always set
     pub what: u32,
-    /// VOX_NULL_BODY (the default): all contacts; else those that vox_mesh_copy_contacts copies
+    /// VOX_NULL_BODY: all contacts; else those that vox_mesh_copy_contacts copies
     pub body_a: vox_body,
-    /// VOX_NULL_BODY (the default), or those that vox_pair_copy_contacts copies for body_a and it
+    /// VOX_NULL_BODY, or those that vox_pair_copy_contacts copies for body_a and it
     pub body_b: vox_body,
     /// Most searches for a closest point. The first contacts that need one get it; the readings of the others lack
-    /// VOX_READING_SURFACE in `known`, and the log has a warning. 0 (the default): no limit.
+    /// VOX_READING_SURFACE in `known`, and the log has a warning. 0: no limit.
     pub closest_budget: u64,
+}
+
+/// An allocator. `allocate` returns memory of at least `size` bytes at `alignment` (a power of two), or null; `release`
+/// gets the same size and alignment back. If both are null, the C++ runtime's heap is used. They are called only from
+/// functions of the object they were given to, one call at a time. During a step, the calling thread may be one that
+/// runs its tasks. For query views that are released after vox_grid_destroy, `release` is called from
+/// vox_query_view_release, so it must be usable until then.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_allocator {
+    #[rustfmt::skip]
+    pub allocate: Option<unsafe extern "C" fn(size: usize, alignment: usize, user: *mut c_void) -> *mut c_void>,
+    #[rustfmt::skip]
+    pub release: Option<unsafe extern "C" fn(memory: *mut c_void, size: usize, alignment: usize, user: *mut c_void)>,
+    pub user: *mut c_void,
+}
+
+/// Receives one line of text (no newline), valid during the call only. A null `write` turns the log off. It is called
+/// on the thread that called the library, and must not call the grid it came from.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_log {
+    #[rustfmt::skip]
+    pub write: Option<unsafe extern "C" fn(level: vox_log_level, text: *const c_char, user: *mut c_void)>,
+    pub user: *mut c_void,
+}
+
+/// The caller's scheduler, designed as in Box3D. `enqueue` splits the items [0, item_count) into ranges, of at least
+/// min_range items where possible, and arranges that `task` is called once for each range, now or later, on any thread.
+/// It returns a handle for `finish`, or null if all these calls have already returned. `finish` waits until they have.
+/// Both are called on the thread that called the library, at most VOX_MAX_TASKS times in a step, at most once by
+/// vox_grid_prepare_readings, and at most four times by vox_grid_prepare_queries and vox_grid_take_query_view. If not
+/// every item was run exactly once, or a worker index was out of range or had by two calls at the same time, the
+/// function fails with INVALID_ARGUMENT and leaves no contacts, no readings, nothing prepared for queries, or no view.
+/// If both are null, the built-in scheduler is used.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_task_system {
+    #[rustfmt::skip]
+    pub enqueue: Option<unsafe extern "C" fn(task: vox_task, item_count: u64, min_range: u64, context: *mut c_void, user: *mut c_void) -> *mut c_void>,
+    #[rustfmt::skip]
+    pub finish: Option<unsafe extern "C" fn(handle: *mut c_void, user: *mut c_void)>,
+    pub user: *mut c_void,
 }
 
 /// Point `point` of the query is in the closed tetrahedron `tet` of `mesh`. This is exact and follows the rule of
@@ -1091,15 +1058,15 @@ pub struct vox_closest_desc {
     pub byte_stride: u64,
     /// at most 2^32 - 1
     pub point_count: u64,
-    /// default UINT64_MAX: all meshes
+    /// 0: all meshes
     pub mask: u64,
-    /// >= 0, in the caller's unit; default infinity
+    /// in the caller's unit; 0: any distance
     pub max_distance: f64,
-    /// default VOX_NULL_BODY: none
+    /// VOX_NULL_BODY: none
     pub excluded: vox_body,
     /// 0
     pub reserved: u32,
-    /// as in vox_positions; default 0
+    /// as in vox_positions
     pub component_byte_stride: u64,
 }
 
@@ -1274,6 +1241,27 @@ pub struct vox_profile {
     pub margin_ns: u64,
 }
 
+/// The paper's engine (Sect. 3), for vox_grid_desc.reference. It is serial and finds what the fast engine finds. If the
+/// grid's cell_size is 0, it chooses by its cost model, at the first step, and again when the counts of its steps show
+/// that another size would be better; each change is written to the log and counted in cell_size_changes. If the sizes
+/// of the tetrahedra differ so much that a single cell size would be expensive, it uses a few grids in turn: each has a
+/// cell size of its own, holds all vertices, and serves the tetrahedra of a range of sizes. Where positions were chosen
+/// so that many cells share a bucket, the step finds cells by binary search instead, so its time stays bounded.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_reference_desc {
+    pub struct_size: u32,
+    /// vox_reference_flags, combined with |
+    pub flags: u32,
+    /// buckets, at most VOX_MAX_VERTICES, raised to the next prime; 0: the first prime that is at least twice the
+    /// number of vertices
+    pub hash_table_size: u64,
+    /// DENSE: the box that has cells, min < max on each axis. Points outside go to
+    pub world_min: [f64; 3],
+    /// the nearest cell. All 0: the box of all positions, in every step
+    pub world_max: [f64; 3],
+}
+
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_suggest_desc {
@@ -1281,26 +1269,26 @@ pub struct vox_suggest_desc {
     pub model: vox_cost_model,
     pub size_reading: vox_size_reading,
     pub area_reading: vox_area_reading,
-    /// probability that a tet has no collision, in (0, 1); default 0.99
+    /// probability that a tet has no collision, in (0, 1); 0: 0.99
     pub p_nc: f64,
-    /// the paper's r: cost of a particle test divided by that of a cell visit, > 0; default 5
+    /// the paper's r: cost of a particle test divided by that of a cell visit; 0: 5
     pub cost_ratio: f64,
     /// edge of the cubic world, for cells_per_axis; 0: longest side of the bounds
     pub world_edge: f64,
-    /// the zone is where predicted cost <= (1 + zone_loss) * minimum; in [0, 1e6], default 0.05
+    /// the zone is where predicted cost <= (1 + zone_loss) * minimum; at most 1e6; 0: 0.05
     pub zone_loss: f64,
-    /// for rules.mean_edge_multiple (Gregory et al. 2000), > 0; default 2
+    /// for rules.mean_edge_multiple (Gregory et al. 2000); 0: 2
     pub mean_edge_factor: f64,
     /// for rules.resolution (McNeely et al. 1999): the required detail; 0: none
     pub resolution: f64,
-    /// REFERENCE with dense storage: most bytes its cells may take; 0 (the default): no limit
+    /// REFERENCE with DENSE cells: most bytes that these may take; 0: no limit
     pub byte_budget: u64,
-    /// REFERENCE: as in vox_grid_desc, but AUTO means HASHED
-    pub storage: vox_storage,
+    /// REFERENCE: vox_reference_flags, combined with |
+    pub reference_flags: u32,
     /// 0
     pub reserved: u32,
-    /// Where the memory of the call comes from, which it has released at its end; default: the C++ runtime's heap.
-    pub allocator: vox_allocator,
+    /// of the call's memory; null: the C++ runtime's heap
+    pub allocator: *const vox_allocator,
 }
 
 /// Geometry of all meshes together, in the caller's unit. Above 1500 tets, and in grids, the means and the counts of
@@ -1472,7 +1460,7 @@ pub struct vox_cost_bounds {
     /// 0 < min <= max, finite
     pub min: f64,
     pub max: f64,
-    /// as vox_suggest_desc.zone_loss; default 0.05
+    /// as vox_suggest_desc.zone_loss
     pub zone_loss: f64,
 }
 
@@ -1512,7 +1500,7 @@ pub struct vox_primitives {
     pub radius_format: vox_format,
     /// 0
     pub reserved: u32,
-    /// of all primitives, added to their own, >= 0; default 0
+    /// of all primitives, added to their own, >= 0
     pub radius: f64,
 }
 
@@ -1558,30 +1546,28 @@ pub struct vox_foreign_grid {
     pub struct_size: u32,
     /// vox_foreign_flags, combined with |
     pub flags: u32,
-    /// default HOLD_BOXES
     pub content: vox_cell_content,
-    /// default BOX
     pub look: vox_cell_look,
     /// what is put into cells
     pub held: *const vox_primitives,
     /// null: those held ask themselves, each of all, itself included
     pub asking: *const vox_primitives,
-    /// boxes that ask are larger by this on all sides, >= 0; default 0. With PAIRS, the boxes of `asking` are, or those
-    /// held where it is null
+    /// boxes that ask are larger by this on all sides, >= 0. With PAIRS, the boxes of `asking` are, or those held where
+    /// it is null
     pub radius: f64,
-    /// The smallest cell size that gives right answers. 0 (the default): with AROUND, half the longest side of a box
-    /// held, and half that of one that asks with its radius; otherwise none.
+    /// The smallest cell size that gives right answers. 0: with AROUND, half the longest side of a box held, and half
+    /// that of one that asks with its radius; otherwise none.
     pub least_cell_size: f64,
-    /// as vox_suggest_desc.zone_loss; default 0.05
+    /// as vox_suggest_desc.zone_loss
     pub zone_loss: f64,
-    /// whose weights are used where `weights` are all 0; default ANY
+    /// whose weights are used where `weights` are all 0
     pub known: vox_known_grid,
     /// 0
     pub reserved: u32,
-    /// all 0 (the default): those of `known`
+    /// all 0: those of `known`
     pub weights: vox_grid_weights,
-    /// where the memory of the call comes from; default: the C++ runtime's heap
-    pub allocator: vox_allocator,
+    /// of the call's memory; null: the C++ runtime's heap
+    pub allocator: *const vox_allocator,
 }
 
 /// Cell sizes that other rules would choose; 0 where a rule does not apply.
@@ -1670,21 +1656,21 @@ pub struct vox_grid_fit {
     pub note: [c_char; 256],
 }
 
-/// How to tune.
+/// How to tune; all 0 by default.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_tune_desc {
     pub struct_size: u32,
-    /// 3 to VOX_TUNE_RUN_CAPACITY; default 7
+    /// 3 to VOX_TUNE_RUN_CAPACITY; 0: 7
     pub most_runs: u32,
-    /// cell sizes to try, 0 < min <= max; both 0 (the default): an eighth to eight times the first
+    /// cell sizes to try, 0 < min <= max; both 0: an eighth to eight times the first
     pub min: f64,
     pub max: f64,
-    /// the cell size to begin with; 0 (the default): what vox_suggest_for says. Must be set where there is no grid
+    /// the cell size to begin with; 0: what vox_suggest_for says. Must be set where there is no grid
     pub first: f64,
-    /// as vox_suggest_desc.zone_loss; default 0.05
+    /// as vox_suggest_desc.zone_loss
     pub zone_loss: f64,
-    /// stops where the cell size is within this of the best one, as far as it can tell; default 0.02
+    /// stops where the cell size is within this of the best one, as far as it can tell; 0: 0.02
     pub wanted_loss: f64,
 }
 
@@ -1723,7 +1709,7 @@ pub struct vox_tuning {
 #[derive(Clone, Copy, Debug)]
 pub struct vox_surface_desc {
     pub struct_size: u32,
-    /// Threads that work, as in vox_grid_desc: 1 (the default): the calling one; 0: one per core.
+    /// as in vox_grid_desc
     pub worker_count: u32,
     /// at least 1
     pub vertex_count: u64,
@@ -1745,17 +1731,17 @@ pub struct vox_surface_desc {
     /// copied; null: all bits
     pub patch_masks: *const u64,
     pub patch_count: u64,
-    /// Edge length of a cell of the grid in which pairs are looked for, > 0. 0 (the default): chosen at every motion by
-    /// the cost model. No answer depends on it.
+    /// Edge length of a cell of the grid in which pairs are looked for. 0: chosen at every motion by the cost model. No
+    /// answer depends on it.
     pub cell_size: f64,
     /// Most bytes the surface may hold at any time, its answers included. A call that would exceed it fails with
-    /// VOX_ERROR_BUDGET. 0: no limit. Default 4 GiB.
+    /// VOX_ERROR_BUDGET. 0: 4 GiB; UINT64_MAX: no limit.
     pub byte_budget: u64,
-    /// called only from functions of this surface, one call at a time
-    pub allocator: vox_allocator,
-    /// Default: the built-in scheduler. A call enqueues as often as the size of its answer needs, and waits for each
-    /// before the next.
-    pub tasks: vox_task_system,
+    /// copied; null: the C++ runtime's heap
+    pub allocator: *const vox_allocator,
+    /// Copied; null: the built-in scheduler. A call enqueues as often as the size of its answer needs, and waits for
+    /// each before the next.
+    pub tasks: *const vox_task_system,
 }
 
 /// The vertices of the edges or faces of a surface.
@@ -1785,7 +1771,7 @@ pub struct vox_motion {
     pub to: vox_positions,
     /// The box of a vertex holds both its positions and reaches further by this on each side, rounded outward: to the
     /// next number of their format below and above. That of an edge or a face holds those of its vertices. >= 0, may be
-    /// infinite; default 0.
+    /// infinite.
     pub radius: f64,
 }
 
@@ -1893,15 +1879,13 @@ pub struct vox_close_view {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_contact_time_desc {
     pub struct_size: u32,
-    /// of one pair; >= 1, default 10000. What is not finished then gives a time that is too early, never one that is
-    /// late
+    /// of one pair; 0: 10000. What is not finished then gives a time that is too early, never one that is late
     pub most_iterations: u32,
-    /// contact is where two features come this close, >= 0; default 0
+    /// contact is where two features come this close, >= 0
     pub distance: f64,
     /// At the time given, the features are still further apart than `distance` by at most this part of what it was at
-    /// time 0; above 0 and below 1, default 0.1. Less takes longer and gives greater steps. So a pair that comes that
-    /// near and does not touch limits the step, too. Where features are closer than some 1e-8 of their size, rounding
-    /// may end it earlier.
+    /// time 0; below 1; 0: 0.1. Less takes longer and gives greater steps. So a pair that comes that near and does not
+    /// touch limits the step, too. Where features are closer than some 1e-8 of their size, rounding may end it earlier.
     pub slack: f64,
 }
 
@@ -1952,13 +1936,13 @@ pub struct vox_timed_view {
 pub struct vox_io_load_desc {
     pub struct_size: u32,
     pub format: vox_io_format,
-    /// Scene files with several meshes: index of the one to take, or VOX_IO_ALL_MESHES to join them.
-    pub mesh_index: u32,
+    /// which mesh of a scene file to take, from 1; 0: all, joined
+    pub mesh: u32,
     /// 0
     pub reserved: u32,
-    /// Where the arrays of the mesh live until vox_io_mesh_destroy; default: the C++ runtime's heap. The memory that
-    /// reading needs besides is taken from that heap and released at the end of the call.
-    pub allocator: vox_allocator,
+    /// Where the arrays of the mesh live until vox_io_mesh_destroy. Copied; null: the C++ runtime's heap. The memory
+    /// that reading needs besides is taken from that heap and released at the end of the call.
+    pub allocator: *const vox_allocator,
     #[rustfmt::skip]
     /// Called now and then, on the calling thread, with the fraction of the work done, ascending from 0 to 1: about
     /// half of it is reading, the rest the report. A result other than 0 cancels. May be null.
@@ -2042,16 +2026,16 @@ pub struct vox_io_report {
 pub struct vox_io_tetrahedralize_desc {
     pub struct_size: u32,
     pub kind: vox_io_solid_kind,
-    /// edge of a lattice cube, > 0; 0 (the default): a fiftieth of the surface's longest side
+    /// edge of a lattice cube; 0: a fiftieth of the surface's longest side
     pub cell: f64,
-    /// more tets fail with LIMIT; default 100000000
+    /// more tets fail with LIMIT; 0: 100000000
     pub max_tets: u64,
     /// STUFFED: largest Hausdorff distance to the surface, as measured by vox_io_mesh_measure. Cells at the boundary
     /// are halved until the distance is met, while those inside keep the size `cell`; thin details may need many tets.
-    /// 0 (the default): cells are not halved, and no distance is guaranteed.
+    /// 0: cells are not halved, and no distance is guaranteed.
     pub max_distance: f64,
-    /// STUFFED: how many times cells away from the boundary may be merged, eight into one. 0 (the default): all tets
-    /// have the same size. The boundary does not change.
+    /// STUFFED: how many times cells away from the boundary may be merged, eight into one. 0: all tets have the same
+    /// size. The boundary does not change.
     pub coarsen: u32,
     /// 0
     pub reserved: u32,
@@ -2061,7 +2045,7 @@ pub struct vox_io_tetrahedralize_desc {
     pub progress: Option<unsafe extern "C" fn(fraction: f64, user: *mut c_void) -> i32>,
     pub progress_user: *mut c_void,
     /// as vox_io_load_desc.allocator
-    pub allocator: vox_allocator,
+    pub allocator: *const vox_allocator,
 }
 
 /// How good a tet mesh is, and how close its boundary is to a surface.
@@ -2166,11 +2150,11 @@ pub struct vox_sim_desc {
     pub contact_slop: f64,
     /// settings of the grid inside, read during create; null: defaults
     pub grid: *const vox_grid_desc,
-    /// log of the simulation; the grid has one of its own in its desc
-    pub log: vox_log,
+    /// of the simulation, copied; the grid has one of its own in its desc
+    pub log: *const vox_log,
     /// Where the simulation and its bodies live, as does its grid unless `grid` names another allocator. Called only
-    /// from functions of the simulation and its grid, one call at a time. Default: the C++ runtime's heap.
-    pub allocator: vox_allocator,
+    /// from functions of the simulation and its grid, one call at a time. Copied; null: the C++ runtime's heap.
+    pub allocator: *const vox_allocator,
 }
 
 #[repr(C)]
@@ -2393,9 +2377,6 @@ extern "C" {
     /// Compiler, language level, instruction sets, built-in scheduler and options of this build, in one line. Static
     /// text. Cannot fail.
     pub fn vox_build_info() -> *const c_char;
-    /// Fills `desc` with the defaults for the fields that `struct_size` covers. Errors: INVALID_ARGUMENT when desc is
-    /// null or struct_size is not in [4, 65536].
-    pub fn vox_grid_desc_init(desc: *mut vox_grid_desc, struct_size: u32) -> vox_result;
     /// Creates a grid. desc null: all defaults. The caller owns *out_grid and releases it with vox_grid_destroy.
     /// Errors: INVALID_ARGUMENT (names the field and its value), UNSUPPORTED (an x86-64 without SSE4.2), OUT_OF_MEMORY,
     /// BUDGET.
@@ -2417,8 +2398,8 @@ extern "C" {
     /// the smallest tetrahedra (reference engine) or of the last body that needed one (fast engine); if none was chosen
     /// yet, it is 0.
     pub fn vox_grid_cell_size(grid: *const vox_grid, out_cell_size: *mut f64) -> vox_result;
-    /// Sets vox_grid_desc.worker_count for the following steps. Errors: INVALID_ARGUMENT above VOX_MAX_WORKERS, and for
-    /// 0 if the grid has a task system of the caller's.
+    /// Sets vox_grid_desc.worker_count for the following steps. Errors: INVALID_ARGUMENT (also VOX_ALL_CORES if the
+    /// grid has a task system of the caller's).
     pub fn vox_grid_set_worker_count(grid: *mut vox_grid, worker_count: u32) -> vox_result;
     /// Sets vox_grid_desc.flags (all of them) for the following steps. With a changed flag, contacts stay, but views of
     /// the last step's results end. VOX_GRID_PENETRATIONS switched on prepares all meshes at once, as their insertion
@@ -2439,10 +2420,6 @@ extern "C" {
     pub fn vox_grid_margin(grid: *const vox_grid, out_margin: *mut f64) -> vox_result;
     /// The flags in use.
     pub fn vox_grid_get_flags(grid: *const vox_grid, out_flags: *mut u32) -> vox_result;
-    /// Fills `filter` with the defaults for the fields that `struct_size` covers.
-    pub fn vox_filter_init(filter: *mut vox_filter, struct_size: u32) -> vox_result;
-    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
-    pub fn vox_mesh_desc_init(desc: *mut vox_mesh_desc, struct_size: u32) -> vox_result;
     /// Adds a mesh, which takes part from the next step on. Packed positions in VOX_FORMAT_FLOAT that can only be
     /// doubles are refused: from 16 vertices on, every other number would be of ordinary size, those between far too
     /// large and far too small by turns (as most bit patterns are). They are looked at once for each format, here if
@@ -2514,21 +2491,15 @@ extern "C" {
     /// Makes the next step process a mesh even if it is at rest (see vox_grid_step). Contacts are correct without it;
     /// it serves to measure steps over positions that stay the same.
     pub fn vox_body_mark_moved(grid: *mut vox_grid, body: vox_body) -> vox_result;
-    /// Sets what the mesh collides with, from the next step on (the filter is copied). This includes self_collision,
-    /// which replaces the flag given at insertion. The tables of the self-contact filters, and what penetrations need
-    /// if their mask was 0 before, are built in the call, in time and memory proportional to the mesh. Errors:
-    /// INVALID_ARGUMENT, LIMIT (self_rings; tetrahedra of a mesh with penetrations), INVALID_STATE (a rest distance
-    /// without a rest pose or positions), NON_FINITE (a rest position), BUDGET, OUT_OF_MEMORY.
+    /// Sets what the mesh collides with, from the next step on (the filter is copied). The tables of the self-contact
+    /// filters, and what penetrations need of a mesh that was a sensor, are built in the call, in time and memory
+    /// proportional to the mesh. Errors: INVALID_ARGUMENT, LIMIT (self_rings; tetrahedra of a mesh with penetrations),
+    /// INVALID_STATE (a rest distance without a rest pose or positions), NON_FINITE (a rest position), BUDGET,
+    /// OUT_OF_MEMORY.
     pub fn vox_body_set_filter(
         grid: *mut vox_grid,
         body: vox_body,
         filter: *const vox_filter,
-    ) -> vox_result;
-    /// Writes the fields of the filter in use that out_filter->struct_size covers (set it first).
-    pub fn vox_mesh_filter(
-        grid: *const vox_grid,
-        body: vox_body,
-        out_filter: *mut vox_filter,
     ) -> vox_result;
     /// Disables a mesh (enabled 0), so that it takes no part in the following steps and its positions are not read, or
     /// enables it again (1, as at insertion). Its contacts of the last step stay until the next one. Errors:
@@ -2536,7 +2507,7 @@ extern "C" {
     pub fn vox_body_set_enabled(grid: *mut vox_grid, body: vox_body, enabled: u32) -> vox_result;
     /// With enabled 0, the two meshes do not collide in the following steps, whatever their filters say; with 1, their
     /// filters decide. The setting ends when either mesh is removed. Errors: INVALID_ARGUMENT for other numbers and for
-    /// body_a = body_b (see vox_filter.self_collision), BUDGET, OUT_OF_MEMORY.
+    /// body_a = body_b (see VOX_FILTER_SELF_COLLISION), BUDGET, OUT_OF_MEMORY.
     pub fn vox_grid_set_pair_enabled(
         grid: *mut vox_grid,
         body_a: vox_body,
@@ -2566,11 +2537,11 @@ extern "C" {
         matrix: *const [f64; 12],
     ) -> vox_result;
     /// Replaces tetrahedra, vertices and positions, as if the mesh had been inserted with those of `desc`. Its id, user
-    /// data, filter, transform, disabled pairs, and whether it is enabled stay as they are; of `desc`, user_data,
-    /// filter and the flag VOX_MESH_SELF_COLLISION are ignored. If desc->positions is null, the mesh keeps its
-    /// positions and its rest pose if the number of vertices is unchanged; otherwise it has no positions until
-    /// vox_mesh_bind_positions. The rest pose of a filter with a rest distance is taken from desc as at insertion.
-    /// Errors: also INVALID_STATE and NON_FINITE, as vox_body_set_filter.
+    /// data, filter, transform, disabled pairs, and whether it is enabled stay as they are; of `desc`, user_data and
+    /// filter are ignored. If desc->positions is null, the mesh keeps its positions and its rest pose if the number of
+    /// vertices is unchanged; otherwise it has no positions until vox_mesh_bind_positions. The rest pose of a filter
+    /// with a rest distance is taken from desc as at insertion. Errors: also INVALID_STATE and NON_FINITE, as
+    /// vox_body_set_filter.
     pub fn vox_mesh_set_topology(
         grid: *mut vox_grid,
         body: vox_body,
@@ -2612,8 +2583,6 @@ extern "C" {
         tets: *const u32,
         count: u64,
     ) -> vox_result;
-    /// Fills `desc` with the defaults for the fields that `struct_size` covers: all 0.
-    pub fn vox_vertices_desc_init(desc: *mut vox_vertices_desc, struct_size: u32) -> vox_result;
     /// Adds vertices, which belong to no tetrahedron yet. *out_first is the index of the first; the others have the
     /// following indices. Errors: also INVALID_STATE (the mesh has a rest pose, but a new vertex has no position for
     /// it), NON_FINITE (a position of the rest pose).
@@ -2646,17 +2615,17 @@ extern "C" {
     /// OUT_OF_MEMORY.
     pub fn vox_grid_step(grid: *mut vox_grid) -> vox_result;
     /// Steps `count` grids, which must differ, each as by vox_grid_step, several at the same time: for many small
-    /// scenes that have nothing to do with each other. The grids are split among `worker_count` threads (0: one per
-    /// core; at most VOX_MAX_WORKERS) of `tasks` (null: the built-in scheduler), as one task; within it each grid uses
-    /// workers of its own, so 1 of them is best (the default of vox_grid_desc). What a grid finds does not depend on
-    /// the others. Its callbacks are called on the thread that steps it. One thread at a time may change each of the
-    /// grids, so none of them may be used until the call returns. Threads of the built-in scheduler may be kept for a
-    /// next call with as many workers: those of one call at most, at most VOX_MAX_WORKERS - 1, which sleep, until the
-    /// process ends or the library is unloaded. results: null, or `count` results, of the grids in their order. If
-    /// grids fail, the others are stepped nevertheless, and the call returns the result of the first of them and its
-    /// text, after its index ("grid 17: ..."). Errors: as vox_grid_step; INVALID_ARGUMENT (a null or repeated grid, a
-    /// worker_count) and OUT_OF_MEMORY, after which no grid was stepped and `results` is not written, unless the task
-    /// system broke its rules, see vox_task_system.
+    /// scenes that have nothing to do with each other. The grids are split among `worker_count` threads (as in
+    /// vox_grid_desc) of `tasks` (null: the built-in scheduler), as one task; within it each grid uses workers of its
+    /// own, so one of them is best. What a grid finds does not depend on the others. Its callbacks are called on the
+    /// thread that steps it. One thread at a time may change each of the grids, so none of them may be used until the
+    /// call returns. Threads of the built-in scheduler may be kept for a next call with as many workers: those of one
+    /// call at most, at most VOX_MAX_WORKERS - 1, which sleep, until the process ends or the library is unloaded.
+    /// results: null, or `count` results, of the grids in their order. If grids fail, the others are stepped
+    /// nevertheless, and the call returns the result of the first of them and its text, after its index ("grid 17:
+    /// ..."). Errors: as vox_grid_step; INVALID_ARGUMENT (a null or repeated grid, a worker_count) and OUT_OF_MEMORY,
+    /// after which no grid was stepped and `results` is not written, unless the task system broke its rules, see
+    /// vox_task_system.
     pub fn vox_grids_step(
         grids: *const *mut vox_grid,
         count: u64,
@@ -2790,8 +2759,6 @@ extern "C" {
     /// OUT_OF_MEMORY; after these the earlier readings stay. INVALID_ARGUMENT (see vox_task_system); after that there
     /// are none.
     pub fn vox_grid_prepare_readings(grid: *mut vox_grid) -> vox_result;
-    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
-    pub fn vox_readings_desc_init(desc: *mut vox_readings_desc, struct_size: u32) -> vox_result;
     /// As vox_grid_prepare_readings, which is the same with desc null, but computes only the parts desc->what of the
     /// readings of some contacts. All others are missing from the views and copies of the following functions. Errors:
     /// as there; also INVALID_ARGUMENT (unknown parts, or body_b without body_a) and INVALID_HANDLE, after which the
@@ -2841,11 +2808,11 @@ extern "C" {
     /// Creates a grid from a snapshot. Ids name the same meshes, meshes inserted later get the same ids as they would
     /// in the saved grid, and steps find the same contacts and events in the same order, with the same hash and epoch.
     /// There are no contacts until the first step. The meshes own their positions; to move them, bind others. Of `desc`
-    /// only allocator, log, tasks, worker_count, byte_budget, closest_budget, margin, and an engine other than AUTO are
-    /// used; null: the defaults. The caller owns *out_grid and releases it with vox_grid_destroy. The bytes need not be
-    /// trusted: everything in them is checked, no memory is reserved for a count before the bytes it stands for are
-    /// known to be there, and the byte budget applies. Errors: FORMAT (names chunk and byte), UNSUPPORTED (of a later
-    /// version), INVALID_ARGUMENT, LIMIT, BUDGET, OUT_OF_MEMORY.
+    /// only allocator, log, tasks, worker_count, both budgets, margin and reference are used; null: the defaults. If
+    /// reference is null, the engine is the one that was saved. The caller owns *out_grid and releases it with
+    /// vox_grid_destroy. The bytes need not be trusted: everything in them is checked, no memory is reserved for a
+    /// count before the bytes it stands for are known to be there, and the byte budget applies. Errors: FORMAT (names
+    /// chunk and byte), UNSUPPORTED (of a later version), INVALID_ARGUMENT, LIMIT, BUDGET, OUT_OF_MEMORY.
     pub fn vox_grid_load(
         bytes: *const c_void,
         size: u64,
@@ -2905,8 +2872,6 @@ extern "C" {
         mask: u64,
         out_hit: *mut vox_surface_hit,
     ) -> vox_result;
-    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
-    pub fn vox_closest_desc_init(desc: *mut vox_closest_desc, struct_size: u32) -> vox_result;
     /// The same for many points at once, each no further away than desc->max_distance: out_hits[i] is that of point i.
     /// Each search begins at the facet found for the point before, so points close together should follow each other.
     /// Errors: also INVALID_ARGUMENT for a negative or NaN max_distance, LIMIT for too many points.
@@ -3047,12 +3012,10 @@ extern "C" {
     ) -> vox_result;
     /// Writes the fields that out_profile->struct_size covers (set it first).
     pub fn vox_grid_profile(grid: *const vox_grid, out_profile: *mut vox_profile) -> vox_result;
-    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
-    pub fn vox_suggest_desc_init(desc: *mut vox_suggest_desc, struct_size: u32) -> vox_result;
     /// The cell size that minimises the cost model for these meshes (their positions as they are now). desc null:
     /// defaults. Set out->struct_size first; the fields it covers are written. `meshes` is an array whose elements are
-    /// meshes[0].struct_size bytes apart, a multiple of 8, and all have that struct_size. Of their flags, only
-    /// VOX_MESH_SELF_COLLISION is used, by REFERENCE and FAST. Errors name a mesh by its index in the array and its
+    /// meshes[0].struct_size bytes apart, a multiple of 8, and all have that struct_size. Of their filters, only
+    /// VOX_FILTER_SELF_COLLISION is used, by REFERENCE and FAST. Errors name a mesh by its index in the array and its
     /// user data. All tets and vertices are checked; the models look at samples of them (docs/cell-size.md has times).
     /// Memory is from desc->allocator until the end of the call. SURFACE suggests the cell size of one surface
     /// (vox_pairs.h) of all meshes, standing still with the radius 0: the facets of exactly one enabled tetrahedron,
@@ -3068,11 +3031,11 @@ extern "C" {
         out: *mut vox_suggestion,
     ) -> vox_result;
     /// The same for the meshes of a grid. With desc null, the model is that of the grid's engine, with the grid's
-    /// storage and byte budget. PAPER takes p_nc from the last step if that had contacts and desc is null or has the
-    /// default p_nc. FAST takes from the last step which meshes are at rest and which need no cells for self-collision;
-    /// both cost nothing. It is quicker than vox_suggest_cell_size because its samples are smaller: means are accurate
-    /// to a few per cent. The first call after a mesh was inserted or edited reads all of that mesh, and keeps up to 11
-    /// KB on the C++ runtime's heap (docs/cell-size.md lists what each costs). Positions must be bound. Errors: as
+    /// storage and byte budget. PAPER takes p_nc from the last step if that had contacts and p_nc is 0. FAST takes from
+    /// the last step which meshes are at rest and which need no cells for self-collision; both cost nothing. It is
+    /// quicker than vox_suggest_cell_size because its samples are smaller: means are accurate to a few per cent. The
+    /// first call after a mesh was inserted or edited reads all of that mesh, and keeps up to 11 KB on the C++
+    /// runtime's heap (docs/cell-size.md lists what each costs). Positions must be bound. Errors: as
     /// vox_suggest_cell_size, and INVALID_STATE for a mesh without positions.
     pub fn vox_grid_suggest_cell_size(
         grid: *const vox_grid,
@@ -3098,8 +3061,6 @@ extern "C" {
     /// last two in proportion to reference_visit_cell and reference_read_vertex; with null, all get the shipped values.
     /// Any thread. Errors: INVALID_ARGUMENT (names the field that is not a finite number above 0).
     pub fn vox_cost_set_weights(weights: *const vox_cost_weights) -> vox_result;
-    /// Fills `bounds` with the defaults for the fields that `struct_size` covers; min and max are 0 and must be set.
-    pub fn vox_cost_bounds_init(bounds: *mut vox_cost_bounds, struct_size: u32) -> vox_result;
     /// The cell size of least cost within the bounds, for a cost function of the caller's: a scan that is even in the
     /// logarithm of the cell size, then a golden-section search around its best point. `cost` is called on this thread,
     /// some hundred times, and must not throw. Errors: INVALID_ARGUMENT (also if the cost was finite at no cell size
@@ -3128,12 +3089,8 @@ extern "C" {
         n_max: f64,
         out_epsilon: *mut f64,
     ) -> vox_result;
-    /// Fills `primitives` with the defaults for the fields that `struct_size` covers.
-    pub fn vox_primitives_init(primitives: *mut vox_primitives, struct_size: u32) -> vox_result;
-    /// Fills `grid` with the defaults for the fields that `struct_size` covers; `held` is null and must be set.
-    pub fn vox_foreign_grid_init(grid: *mut vox_foreign_grid, struct_size: u32) -> vox_result;
     /// Sets what is known of a grid that people have: content, look, flags, known, weights. Other fields keep their
-    /// values. Set grid->struct_size first, e.g. by vox_foreign_grid_init. Errors: INVALID_ARGUMENT.
+    /// values. Set grid->struct_size first. Errors: INVALID_ARGUMENT.
     pub fn vox_foreign_grid_set_known(
         grid: *mut vox_foreign_grid,
         known: vox_known_grid,
@@ -3168,8 +3125,6 @@ extern "C" {
         count: u64,
         out: *mut vox_grid_fit,
     ) -> vox_result;
-    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
-    pub fn vox_tune_desc_init(desc: *mut vox_tune_desc, struct_size: u32) -> vox_result;
     /// Finds the best cell size by running the grid: at three cell sizes an octave apart first, then where the fit to
     /// all timings so far is lowest or least sure, which may be where it was run before, until that is sure enough
     /// (desc->wanted_loss, after four runs at the earliest) and it was run a quarter of an octave to either side of the
@@ -3190,8 +3145,6 @@ extern "C" {
 
 #[rustfmt::skip]
 extern "C" {
-    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
-    pub fn vox_surface_desc_init(desc: *mut vox_surface_desc, struct_size: u32) -> vox_result;
     /// Creates a surface without positions. The caller owns *out_surface and releases it with vox_surface_destroy.
     /// Errors: INVALID_ARGUMENT (names the field and its value), INVALID_MESH ("face 17 names vertex 900 of 812"),
     /// UNSUPPORTED (an x86-64 without SSE4.2), LIMIT, BUDGET, OUT_OF_MEMORY.
@@ -3209,8 +3162,6 @@ extern "C" {
         feature: vox_feature,
         out_view: *mut vox_feature_view,
     ) -> vox_result;
-    /// Fills `motion` with the defaults for the fields that `struct_size` covers.
-    pub fn vox_motion_init(motion: *mut vox_motion, struct_size: u32) -> vox_result;
     /// Sets the motion that the other functions answer for. Views of answers end. The arrays are needed during the call
     /// only. Errors: INVALID_ARGUMENT (names the field and its value), NON_FINITE (names the vertex, and which of its
     /// positions), LIMIT (the same, for a coordinate of 2^128 or more), BUDGET, OUT_OF_MEMORY; the motion is then the
@@ -3286,11 +3237,6 @@ extern "C" {
         per_vertex: *mut f64,
         vertex_count: u64,
     ) -> vox_result;
-    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
-    pub fn vox_contact_time_desc_init(
-        desc: *mut vox_contact_time_desc,
-        struct_size: u32,
-    ) -> vox_result;
     /// How much of the motion is free of contact: the least time of first contact of all pairs of faces and vertices,
     /// and of edges and edges. Never later than the exact time. Pairs that touch at time 0 give the step 0. Pairs are
     /// left out as for vox_surface_find_pairs. desc null: defaults. Set out->struct_size first. Errors:
@@ -3316,8 +3262,6 @@ extern "C" {
 #[cfg(feature = "io")]
 #[rustfmt::skip]
 extern "C" {
-    /// Fills `desc` with the defaults (AUTO, all meshes) for the fields that `struct_size` covers.
-    pub fn vox_io_load_desc_init(desc: *mut vox_io_load_desc, struct_size: u32) -> vox_result;
     /// Reads the file at `path` (for TetGen either file of the pair; the other must be beside it, as must files that a
     /// .gltf names). desc null: defaults. A surface takes at most 16 times the size of its files and 16 MB of memory;
     /// one that stands for more triangles or vertices than that fails with LIMIT. A regular file is mapped into memory
@@ -3366,11 +3310,6 @@ extern "C" {
     pub fn vox_io_mesh_get_warnings(mesh: *const vox_io_mesh) -> *const c_char;
     /// Name of a format, e.g. "Gmsh .msh". Static text; never null.
     pub fn vox_io_format_string(format: vox_io_format) -> *const c_char;
-    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
-    pub fn vox_io_tetrahedralize_desc_init(
-        desc: *mut vox_io_tetrahedralize_desc,
-        struct_size: u32,
-    ) -> vox_result;
     /// Fills the inside of a closed surface (the triangles of `surface`; its tets are ignored) with tetrahedra. desc
     /// null: defaults. All tets have positive volume, no two overlap, and inner facets are shared by exactly two. The
     /// surface may have any orientation, consist of several parts, and intersect itself. Inside is where its winding
@@ -3392,8 +3331,6 @@ extern "C" {
         surface: *const vox_io_mesh,
         out_quality: *mut vox_io_quality,
     ) -> vox_result;
-    /// Fills `desc` with the defaults (AUTO, text, no data) for the fields that `struct_size` covers.
-    pub fn vox_io_write_desc_init(desc: *mut vox_io_write_desc, struct_size: u32) -> vox_result;
     /// Writes vertices, triangles and tets, in the mesh's order. desc null: defaults. An existing file at `path` is
     /// replaced at the end, and only if everything was written. Errors: FILE, INVALID_ARGUMENT (names the field),
     /// NON_FINITE, UNSUPPORTED (the extension), LIMIT (more elements than .msh 2.2 can number), OUT_OF_MEMORY.
@@ -3456,8 +3393,6 @@ extern "C" {
 #[cfg(feature = "sim")]
 #[rustfmt::skip]
 extern "C" {
-    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
-    pub fn vox_sim_desc_init(desc: *mut vox_sim_desc, struct_size: u32) -> vox_result;
     /// Creates a simulation without bodies. desc null: all defaults. The caller owns *out_sim and releases it with
     /// vox_sim_destroy. Errors: INVALID_ARGUMENT (names the field and its value), OUT_OF_MEMORY, BUDGET.
     pub fn vox_sim_create(desc: *const vox_sim_desc, out_sim: *mut *mut vox_sim) -> vox_result;
@@ -3474,8 +3409,6 @@ extern "C" {
     /// completed substep; so does INVALID_STATE, for a body or the flags of the grid changed through vox_sim_get_grid,
     /// which names the two bodies of a contact.
     pub fn vox_sim_step(sim: *mut vox_sim, time_step: f64) -> vox_result;
-    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
-    pub fn vox_sim_body_desc_init(desc: *mut vox_sim_body_desc, struct_size: u32) -> vox_result;
     /// Adds a body. Tets of zero rest volume get no volume constraint, and inverted ones keep their negative volume;
     /// both are counted and reported in one log line. Errors: INVALID_ARGUMENT (names the field and its value; also: no
     /// tet, or all of them flat, so that the body has no mass), INVALID_MESH, NON_FINITE (names the vertex), LIMIT,
@@ -3518,8 +3451,6 @@ extern "C" {
     ) -> vox_result;
     /// Writes the fields that out_counts->struct_size covers (set it first).
     pub fn vox_sim_get_counters(sim: *const vox_sim, out_counts: *mut vox_sim_counts) -> vox_result;
-    /// Fills `desc` with the defaults for the fields that `struct_size` covers.
-    pub fn vox_experiment_desc_init(desc: *mut vox_experiment_desc, struct_size: u32) -> vox_result;
     /// Places the bodies, simulates the frames and records them. What `desc` points to is read during the call. The
     /// caller owns *out_experiment and releases it with vox_experiment_destroy. The position is found by bisection from
     /// outside, so that b stands where the required share is first reached. Then the frames are simulated. Both are
@@ -3623,20 +3554,16 @@ macro_rules! layouts {
 layouts! {
     vox_positions: size [40, 40], alignment [8, 8], { data: [0, 0], count: [8, 8], format: [16, 16], reserved: [20, 20],
         byte_stride: [24, 24], component_byte_stride: [32, 32] }
-    vox_allocator: size [24, 12], alignment [8, 4], { allocate: [0, 0], release: [8, 4], user: [16, 8] }
-    vox_log: size [16, 8], alignment [8, 4], { write: [0, 0], user: [8, 4] }
-    vox_task_system: size [24, 12], alignment [8, 4], { enqueue: [0, 0], finish: [8, 4], user: [16, 8] }
-    vox_grid_desc: size [176, 144], alignment [8, 8], { struct_size: [0, 0], engine: [4, 4], storage: [8, 8],
-        hash: [12, 12], cell_size: [16, 16], world_min: [24, 24], world_max: [48, 48], byte_budget: [72, 72],
-        hash_table_size: [80, 80], allocator: [88, 88], log: [112, 100], tasks: [128, 108], worker_count: [152, 120],
-        flags: [156, 124], closest_budget: [160, 128], margin: [168, 136] }
-    vox_filter: size [48, 48], alignment [8, 8], { struct_size: [0, 0], group: [4, 4], category: [8, 8], mask: [16, 16],
-        self_collision: [24, 24], self_rings: [28, 28], self_rest_distance: [32, 32], penetration_mask: [40, 40] }
-    vox_mesh_desc: size [120, 120], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], positions: [8, 8],
-        tets: [48, 48], tet_count: [56, 56], user_data: [64, 64], filter: [72, 72], rest_positions: [80, 80] }
-    vox_body_info: size [184, 184], alignment [8, 8], { struct_size: [0, 0], slot: [4, 4], user_data: [8, 8],
+    vox_grid_desc: size [80, 64], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], worker_count: [8, 8],
+        reserved: [12, 12], cell_size: [16, 16], margin: [24, 24], byte_budget: [32, 32], closest_budget: [40, 40],
+        allocator: [48, 48], log: [56, 52], tasks: [64, 56], reference: [72, 60] }
+    vox_filter: size [40, 40], alignment [8, 8], { flags: [0, 0], group: [4, 4], category: [8, 8], mask: [16, 16],
+        world: [24, 24], self_rings: [28, 28], self_rest_distance: [32, 32] }
+    vox_mesh_desc: size [152, 152], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], positions: [8, 8],
+        tets: [48, 48], tet_count: [56, 56], user_data: [64, 64], filter: [72, 72], rest_positions: [112, 112] }
+    vox_body_info: size [224, 224], alignment [8, 8], { struct_size: [0, 0], slot: [4, 4], user_data: [8, 8],
         tet_count: [16, 16], enabled_tet_count: [24, 24], enabled: [32, 32], flags: [36, 36], has_transform: [40, 40],
-        reserved: [44, 44], positions: [48, 48], transform: [88, 88] }
+        reserved: [44, 44], positions: [48, 48], transform: [88, 88], filter: [184, 184] }
     vox_vertices_desc: size [104, 104], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], count: [8, 8],
         positions: [16, 16], copies_of: [56, 56], rest_positions: [64, 64] }
     vox_failure: size [56, 56], alignment [8, 8], { struct_size: [0, 0], result: [4, 4], mesh: [8, 8], slot: [12, 12],
@@ -3687,6 +3614,9 @@ layouts! {
         epoch: [24, 16] }
     vox_readings_desc: size [24, 24], alignment [8, 8], { struct_size: [0, 0], what: [4, 4], body_a: [8, 8],
         body_b: [12, 12], closest_budget: [16, 16] }
+    vox_allocator: size [24, 12], alignment [8, 4], { allocate: [0, 0], release: [8, 4], user: [16, 8] }
+    vox_log: size [16, 8], alignment [8, 4], { write: [0, 0], user: [8, 4] }
+    vox_task_system: size [24, 12], alignment [8, 4], { enqueue: [0, 0], finish: [8, 4], user: [16, 8] }
     vox_point_hit: size [28, 28], alignment [4, 4], { point: [0, 0], mesh: [4, 4], tet: [8, 8], barycentric: [12, 12] }
     vox_tet_hit: size [8, 8], alignment [4, 4], { mesh: [0, 0], tet: [4, 4] }
     vox_surface_hit: size [72, 72], alignment [8, 8], { mesh: [0, 0], tet: [4, 4], facet: [8, 8], reserved: [12, 12],
@@ -3716,10 +3646,12 @@ layouts! {
         bin_ns: [16, 16], broad_ns: [24, 24], narrow_ns: [32, 32], contacts_ns: [40, 40], depth_ns: [48, 48],
         events_ns: [56, 56], stream_ns: [64, 64], winding_ns: [72, 72], broad_phase_ns: [80, 80], windows_ns: [88, 88],
         lookup_ns: [96, 96], decide_ns: [104, 104], edges_ns: [112, 112], margin_ns: [120, 120] }
-    vox_suggest_desc: size [104, 96], alignment [8, 8], { struct_size: [0, 0], model: [4, 4], size_reading: [8, 8],
+    vox_reference_desc: size [64, 64], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], hash_table_size: [8, 8],
+        world_min: [16, 16], world_max: [40, 40] }
+    vox_suggest_desc: size [88, 88], alignment [8, 8], { struct_size: [0, 0], model: [4, 4], size_reading: [8, 8],
         area_reading: [12, 12], p_nc: [16, 16], cost_ratio: [24, 24], world_edge: [32, 32], zone_loss: [40, 40],
-        mean_edge_factor: [48, 48], resolution: [56, 56], byte_budget: [64, 64], storage: [72, 72], reserved: [76, 76],
-        allocator: [80, 80] }
+        mean_edge_factor: [48, 48], resolution: [56, 56], byte_budget: [64, 64], reference_flags: [72, 72],
+        reserved: [76, 76], allocator: [80, 80] }
     vox_geometry_stats: size [160, 160], alignment [8, 8], { vertices: [0, 0], tets: [8, 8], edges: [16, 16],
         facets: [24, 24], boundary_facets: [32, 32], degenerate_tets: [40, 40], mean_edge: [48, 48],
         mean_longest_edge: [56, 56], mean_box_side: [64, 64], median_box_side: [72, 72], mean_facet_area: [80, 80],
@@ -3754,7 +3686,7 @@ layouts! {
         occupied: [32, 32], cells: [40, 40] }
     vox_grid_weights: size [56, 56], alignment [8, 8], { fixed: [0, 0], entries: [8, 8], visits: [16, 16],
         found: [24, 24], reads: [32, 32], occupied: [40, 40], cells: [48, 48] }
-    vox_foreign_grid: size [144, 128], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], content: [8, 8],
+    vox_foreign_grid: size [128, 120], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], content: [8, 8],
         look: [12, 12], held: [16, 16], asking: [24, 20], radius: [32, 24], least_cell_size: [40, 32],
         zone_loss: [48, 40], known: [56, 48], reserved: [60, 52], weights: [64, 56], allocator: [120, 112] }
     vox_foreign_rules: size [40, 40], alignment [8, 8], { mean_edge: [0, 0], mean_box_side: [8, 8],
@@ -3774,10 +3706,10 @@ layouts! {
         zone_min: [16, 16], zone_max: [24, 24], seconds: [32, 32], expected_loss: [40, 40], noise: [48, 48],
         weights: [56, 56], runs: [112, 112], run_count: [624, 624], curve_count: [628, 628], curve: [632, 632],
         note: [1656, 1656] }
-    vox_surface_desc: size [144, 104], alignment [8, 8], { struct_size: [0, 0], worker_count: [4, 4],
+    vox_surface_desc: size [112, 88], alignment [8, 8], { struct_size: [0, 0], worker_count: [4, 4],
         vertex_count: [8, 8], edge_count: [16, 16], face_count: [24, 24], edges: [32, 32], faces: [40, 36],
         patches: [48, 40], patch_categories: [56, 44], patch_masks: [64, 48], patch_count: [72, 56],
-        cell_size: [80, 64], byte_budget: [88, 72], allocator: [96, 80], tasks: [120, 92] }
+        cell_size: [80, 64], byte_budget: [88, 72], allocator: [96, 80], tasks: [104, 84] }
     vox_feature_view: size [24, 24], alignment [8, 8], { struct_size: [0, 0], vertices_each: [4, 4], count: [8, 8],
         vertices: [16, 16] }
     vox_motion: size [96, 96], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], from: [8, 8], to: [48, 48],
@@ -3802,8 +3734,8 @@ layouts! {
     vox_timed_pair: size [16, 16], alignment [8, 8], { a: [0, 0], b: [4, 4], time: [8, 8] }
     vox_timed_view: size [24, 24], alignment [8, 8], { struct_size: [0, 0], byte_stride: [4, 4], count: [8, 8],
         pairs: [16, 16] }
-    vox_io_load_desc: size [56, 36], alignment [8, 4], { struct_size: [0, 0], format: [4, 4], mesh_index: [8, 8],
-        reserved: [12, 12], allocator: [16, 16], progress: [40, 28], progress_user: [48, 32] }
+    vox_io_load_desc: size [40, 28], alignment [8, 4], { struct_size: [0, 0], format: [4, 4], mesh: [8, 8],
+        reserved: [12, 12], allocator: [16, 16], progress: [24, 20], progress_user: [32, 24] }
     vox_io_source: size [24, 12], alignment [8, 4], { name: [0, 0], data: [8, 4], size: [16, 8] }
     vox_io_mesh_view: size [48, 48], alignment [8, 8], { positions: [0, 0], vertex_count: [8, 8], tets: [16, 16],
         tet_count: [24, 24], triangles: [32, 32], triangle_count: [40, 40] }
@@ -3814,7 +3746,7 @@ layouts! {
         boundary_facets: [104, 104], non_manifold_facets: [112, 112], open_edges: [120, 120],
         misoriented_edges: [128, 128], components: [136, 136], volume: [144, 144], bounds_min: [152, 152],
         bounds_max: [176, 176], unit_in_metres: [200, 200] }
-    vox_io_tetrahedralize_desc: size [80, 64], alignment [8, 8], { struct_size: [0, 0], kind: [4, 4], cell: [8, 8],
+    vox_io_tetrahedralize_desc: size [64, 56], alignment [8, 8], { struct_size: [0, 0], kind: [4, 4], cell: [8, 8],
         max_tets: [16, 16], max_distance: [24, 24], coarsen: [32, 32], reserved: [36, 36], progress: [40, 40],
         progress_user: [48, 44], allocator: [56, 48] }
     vox_io_quality: size [88, 88], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], vertices: [8, 8],
@@ -3826,10 +3758,10 @@ layouts! {
         reserved: [12, 12], point_data: [16, 16], point_data_count: [24, 24], cell_data: [32, 32],
         cell_data_count: [40, 40] }
     vox_io_sink: size [16, 8], alignment [8, 4], { write: [0, 0], user: [8, 4] }
-    vox_sim_desc: size [160, 136], alignment [8, 8], { struct_size: [0, 0], substeps: [4, 4], detect_every: [8, 8],
+    vox_sim_desc: size [136, 128], alignment [8, 8], { struct_size: [0, 0], substeps: [4, 4], detect_every: [8, 8],
         reserved: [12, 12], gravity: [16, 16], max_time_step: [40, 40], floor_normal: [48, 48], floor_offset: [72, 72],
         friction: [80, 80], contact_compliance: [88, 88], max_push_speed: [96, 96], contact_slop: [104, 104],
-        grid: [112, 112], log: [120, 116], allocator: [136, 124] }
+        grid: [112, 112], log: [120, 116], allocator: [128, 120] }
     vox_sim_body_desc: size [96, 80], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], positions: [8, 8],
         rest_positions: [16, 12], velocities: [24, 16], tets: [32, 20], vertex_count: [40, 24], tet_count: [48, 32],
         density: [56, 40], youngs_modulus: [64, 48], bulk_modulus: [72, 56], damping: [80, 64], user_data: [88, 72] }

@@ -20,7 +20,7 @@ pub enum LogLevel {
 
 /// Threads that run the tasks of a step.
 pub trait TaskSystem: Send + Sync {
-    /// How many workers there are, at least 1. Asked once, when the grid is made;
+    /// How many workers there are; 0: one. Asked once, when the grid is made;
     /// [`Grid::set_workers`](crate::Grid::set_workers) changes it.
     fn workers(&self) -> u32;
 
@@ -48,53 +48,34 @@ impl TaskSystem for RayonTasks {
     }
 }
 
-struct Tasks {
-    system: Arc<dyn TaskSystem>,
-    workers: AtomicU32, // the grid's worker_count
-}
-
 /// What a grid keeps for C to call, at a fixed address. Shared, as C's pointer to it is.
 pub(crate) struct Callbacks {
     log: Option<LogFunction>,
-    tasks: Option<Tasks>,
+    tasks: Option<Arc<dyn TaskSystem>>,
+    pub(crate) workers: AtomicU32, // the grid's worker_count
 }
 
 impl Callbacks {
-    /// None without callbacks. Sets the fields of `desc` that call them.
-    pub(crate) fn install(
-        log: Option<LogFunction>,
-        tasks: Option<Arc<dyn TaskSystem>>,
-        desc: &mut sys::vox_grid_desc,
-    ) -> Option<Arc<Self>> {
-        if log.is_none() && tasks.is_none() {
-            return None;
-        }
-        let tasks = tasks.map(|system| {
-            desc.worker_count = system.workers();
-            Tasks { system, workers: AtomicU32::new(desc.worker_count) }
-        });
-        let callbacks = Arc::new(Self { log, tasks });
-        let user = Arc::as_ptr(&callbacks).cast_mut().cast::<c_void>();
-        if callbacks.log.is_some() {
-            desc.log = sys::vox_log { write: Some(write), user };
-        }
-        if callbacks.tasks.is_some() {
-            desc.tasks = sys::vox_task_system { enqueue: Some(enqueue), finish: Some(finish), user };
-        }
-        Some(callbacks)
+    /// A task system says itself how many workers there are.
+    pub(crate) fn new(log: Option<LogFunction>, tasks: Option<Arc<dyn TaskSystem>>, workers: u32) -> Arc<Self> {
+        let workers = tasks.as_ref().map_or(workers, |tasks| tasks.workers()).into();
+        Arc::new(Self { log, tasks, workers })
     }
 
-    /// The grid has another worker_count.
-    pub(crate) fn set_workers(&self, workers: u32) {
-        if let Some(tasks) = &self.tasks {
-            tasks.workers.store(workers, Ordering::Relaxed);
-        }
+    /// As C calls them, while they live. Without a function the library does as without a struct.
+    pub(crate) fn to_c(self: &Arc<Self>) -> (sys::vox_log, sys::vox_task_system) {
+        let user = Arc::as_ptr(self).cast_mut().cast();
+        let (log, tasks) = (self.log.as_ref(), self.tasks.as_ref());
+        (
+            sys::vox_log { write: log.map(|_| write as _), user },
+            sys::vox_task_system { enqueue: tasks.map(|_| enqueue as _), finish: tasks.map(|_| finish as _), user },
+        )
     }
 }
 
 unsafe extern "C" fn write(level: sys::vox_log_level, text: *const c_char, user: *mut c_void) {
     let level = if level == sys::VOX_LOG_WARNING { LogLevel::Warning } else { LogLevel::Info };
-    // SAFETY: `user` is what install() gave, and lives as long as the grid; the text, during the call.
+    // SAFETY: `user` is what to_c() gave, and lives as long as the grid; the text, during the call.
     let (callbacks, text) = unsafe { (&*user.cast::<Callbacks>(), CStr::from_ptr(text)) };
     if let Some(log) = &callbacks.log {
         // A log that panics loses its line. The panic was reported by its hook.
@@ -116,7 +97,7 @@ unsafe extern "C" fn enqueue(
     // SAFETY: as in write().
     let callbacks = unsafe { &*user.cast::<Callbacks>() };
     if let (Some(tasks), Some(task)) = (&callbacks.tasks, task) {
-        let workers = u64::from(tasks.workers.load(Ordering::Relaxed));
+        let workers = u64::from(callbacks.workers.load(Ordering::Relaxed).max(1));
         // A few ranges for each worker, so that those which are done early take more. They are dealt out here: the
         // library's tasks would race if a task system ran an item twice at the same time.
         let size = items.div_ceil(8 * workers).max(min_range).max(1);
@@ -125,7 +106,7 @@ unsafe extern "C" fn enqueue(
         let context = &context;
         // Of a system that panics, the library sees that items are missing, and the step fails.
         let _ = catch_unwind(AssertUnwindSafe(|| {
-            tasks.system.run(workers.min(items.div_ceil(size)) as u32, &|worker| loop {
+            tasks.run(workers.min(items.div_ceil(size)) as u32, &|worker| loop {
                 let begin = next.fetch_add(size, Ordering::Relaxed);
                 if begin >= items {
                     break;
@@ -146,10 +127,10 @@ mod tests {
     use super::*;
     use std::sync::Mutex;
 
-    struct Threads;
+    struct Threads(u32);
     impl TaskSystem for Threads {
         fn workers(&self) -> u32 {
-            3
+            self.0
         }
         fn run(&self, workers: u32, task: &(dyn Fn(u32) + Sync)) {
             std::thread::scope(|scope| (0..workers).for_each(|worker| drop(scope.spawn(move || task(worker)))));
@@ -176,12 +157,10 @@ mod tests {
 
     /// How often each of `items` items runs.
     fn run(system: impl TaskSystem + 'static, items: usize, min_range: u64) -> Vec<u32> {
-        let mut desc: sys::vox_grid_desc = unsafe { std::mem::zeroed() };
-        let callbacks = Callbacks::install(None, Some(Arc::new(system)), &mut desc).unwrap();
-        assert_eq!(desc.worker_count, callbacks.tasks.as_ref().unwrap().system.workers());
+        let callbacks = Callbacks::new(None, Some(Arc::new(system)), 99);
+        let (_, tasks) = callbacks.to_c();
         let runs: Runs = Mutex::new(vec![0; items]);
         let context = std::ptr::from_ref(&runs).cast_mut().cast();
-        let tasks = desc.tasks;
         unsafe {
             let handle = tasks.enqueue.unwrap()(Some(count), items as u64, min_range, context, tasks.user);
             assert!(handle.is_null());
@@ -193,19 +172,21 @@ mod tests {
     #[test]
     fn each_item_runs_once() {
         for (items, min_range) in [(0, 1), (1, 1), (2, 0), (100, 1), (100, 7), (100, 1000)] {
-            assert_eq!(run(Threads, items, min_range), vec![1; items], "{items} items, ranges of {min_range}");
+            for workers in [0, 3] {
+                let found = run(Threads(workers), items, min_range);
+                assert_eq!(found, vec![1; items], "{workers} workers, {items} items, ranges of {min_range}");
+            }
         }
     }
 
     #[test]
     fn panics_do_not_cross() {
         assert_eq!(run(Panics, 50, 1), vec![1; 50]);
-        let mut desc: sys::vox_grid_desc = unsafe { std::mem::zeroed() };
-        let log: LogFunction = Box::new(|_, text| assert_eq!(text, "a line"));
-        let kept = Callbacks::install(Some(log), None, &mut desc).unwrap();
+        let callbacks = Callbacks::new(Some(Box::new(|_, text| assert_eq!(text, "a line"))), None, 0);
+        let (log, tasks) = callbacks.to_c();
+        assert!(tasks.enqueue.is_none());
         for text in [c"a line", c"another line"] {
-            unsafe { desc.log.write.unwrap()(sys::VOX_LOG_WARNING, text.as_ptr(), desc.log.user) };
+            unsafe { log.write.unwrap()(sys::VOX_LOG_WARNING, text.as_ptr(), log.user) };
         }
-        drop(kept);
     }
 }

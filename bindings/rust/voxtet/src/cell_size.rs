@@ -5,96 +5,62 @@ use std::ptr::null;
 
 use voxtet_sys as sys;
 
-use crate::error::{check, struct_size};
+use crate::error::{check, sized};
 use crate::grid::{mesh_desc, pointer};
 use crate::options::Scalar;
-use crate::{CostWeights, GeometryStats, Result, Storage};
+use crate::{CostWeights, GeometryStats, Result};
 
 /// Whose cost is minimised.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CostModel {
     /// The paper's, from means, in cell visits.
     #[default]
-    Paper,
+    Paper = sys::VOX_COST_MODEL_PAPER as isize,
     /// The reference engine's, counted tetrahedron by tetrahedron, in nanoseconds.
-    Reference,
+    Reference = sys::VOX_COST_MODEL_REFERENCE as isize,
     /// The fast engine's, with one cell size in all windows, in nanoseconds.
-    Fast,
+    Fast = sys::VOX_COST_MODEL_FAST as isize,
     /// That of the surfaces of the meshes, as `vox_pairs.h` has them, in nanoseconds of their grid alone.
-    Surface,
+    Surface = sys::VOX_COST_MODEL_SURFACE as isize,
 }
 
 /// How a cell size is chosen; `vox_suggest_desc` in vox.h explains each field.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SuggestOptions {
     /// Whose cost is minimised.
     pub model: CostModel,
-    /// Probability that a tetrahedron has no collision.
+    /// Probability that a tetrahedron has no collision; 0: 0.99.
     pub p_nc: f64,
-    /// Cost of a particle test divided by that of a cell visit.
+    /// Cost of a particle test divided by that of a cell visit; 0: 5.
     pub cost_ratio: f64,
     /// Edge of the cubic world; 0: the longest side of the bounds.
     pub world_edge: f64,
-    /// The zone is where the predicted cost is at most 1 + this times the minimum.
+    /// The zone is where the predicted cost is at most 1 + this times the minimum; 0: 0.05.
     pub zone_loss: f64,
-    /// For the rule of a multiple of the mean edge.
+    /// For the rule of a multiple of the mean edge; 0: 2.
     pub mean_edge_factor: f64,
     /// For the rule of a required resolution; 0: none.
     pub resolution: f64,
-    /// Most bytes of the cells of dense storage; 0: no limit.
+    /// Most bytes of dense cells; 0: no limit.
     pub byte_budget: u64,
-    /// Of the reference engine; `Auto` is hashed.
-    pub storage: Storage,
-}
-
-impl Default for SuggestOptions {
-    fn default() -> Self {
-        let desc = suggest_defaults();
-        Self {
-            model: CostModel::Paper,
-            p_nc: desc.p_nc,
-            cost_ratio: desc.cost_ratio,
-            world_edge: desc.world_edge,
-            zone_loss: desc.zone_loss,
-            mean_edge_factor: desc.mean_edge_factor,
-            resolution: desc.resolution,
-            byte_budget: desc.byte_budget,
-            storage: Storage::Auto,
-        }
-    }
-}
-
-fn suggest_defaults() -> sys::vox_suggest_desc {
-    // SAFETY: a struct of numbers and null pointers, of its own size. It cannot fail for that.
-    unsafe {
-        let mut desc = std::mem::zeroed();
-        sys::vox_suggest_desc_init(&mut desc, struct_size::<sys::vox_suggest_desc>());
-        desc
-    }
+    /// Of the reference engine; see [`Reference::dense`](crate::Reference::dense).
+    pub dense: bool,
 }
 
 impl SuggestOptions {
     fn desc(&self) -> sys::vox_suggest_desc {
-        let mut desc = suggest_defaults();
-        desc.model = match self.model {
-            CostModel::Paper => sys::VOX_COST_MODEL_PAPER,
-            CostModel::Reference => sys::VOX_COST_MODEL_REFERENCE,
-            CostModel::Fast => sys::VOX_COST_MODEL_FAST,
-            CostModel::Surface => sys::VOX_COST_MODEL_SURFACE,
-        };
-        desc.storage = match self.storage {
-            Storage::Auto => sys::VOX_STORAGE_AUTO,
-            Storage::Hashed => sys::VOX_STORAGE_HASHED,
-            Storage::Dense => sys::VOX_STORAGE_DENSE,
-        };
-        desc.p_nc = self.p_nc;
-        desc.cost_ratio = self.cost_ratio;
-        desc.world_edge = self.world_edge;
-        desc.zone_loss = self.zone_loss;
-        desc.mean_edge_factor = self.mean_edge_factor;
-        desc.resolution = self.resolution;
-        desc.byte_budget = self.byte_budget;
-        desc
+        sys::vox_suggest_desc {
+            model: self.model as sys::vox_cost_model,
+            p_nc: self.p_nc,
+            cost_ratio: self.cost_ratio,
+            world_edge: self.world_edge,
+            zone_loss: self.zone_loss,
+            mean_edge_factor: self.mean_edge_factor,
+            resolution: self.resolution,
+            byte_budget: self.byte_budget,
+            reference_flags: u32::from(self.dense) * sys::VOX_REFERENCE_DENSE,
+            ..sized!(sys::vox_suggest_desc)
+        }
     }
 }
 
@@ -117,7 +83,7 @@ impl<'arrays> MeshArrays<'arrays> {
 
     /// Vertices are looked for in the mesh's own tetrahedra, too (models of the engines).
     pub fn with_self_collision(mut self) -> Self {
-        self.desc.flags |= sys::VOX_MESH_SELF_COLLISION;
+        self.desc.filter.flags |= sys::VOX_FILTER_SELF_COLLISION;
         self
     }
 }
@@ -136,9 +102,7 @@ impl Suggestion {
         call: impl FnOnce(*const sys::vox_suggest_desc, *mut sys::vox_suggestion) -> sys::vox_result,
     ) -> Result<Self> {
         let desc = options.map(|options| options.desc());
-        // SAFETY: a struct of numbers.
-        let mut suggestion: Box<sys::vox_suggestion> = Box::new(unsafe { std::mem::zeroed() });
-        suggestion.struct_size = struct_size::<sys::vox_suggestion>();
+        let mut suggestion = Box::new(sized!(sys::vox_suggestion));
         check(call(desc.as_ref().map_or(null(), std::ptr::from_ref), &mut *suggestion))?;
         Ok(Self(suggestion))
     }
@@ -212,21 +176,17 @@ pub struct Prediction {
 /// The cost that a model predicts for these meshes at one cell size.
 pub fn predict(meshes: &[MeshArrays<'_>], cell_size: f64, options: SuggestOptions) -> Result<Prediction> {
     let descs = descs(meshes);
+    let mut prediction = sized!(sys::vox_cost_prediction);
     // SAFETY: as above.
-    let prediction = unsafe {
-        let mut prediction: sys::vox_cost_prediction = std::mem::zeroed();
-        prediction.struct_size = struct_size::<sys::vox_cost_prediction>();
-        check(sys::vox_cost_predict(&options.desc(), pointer(&descs), descs.len() as u64, cell_size, &mut prediction))?;
-        prediction
-    };
+    check(unsafe {
+        sys::vox_cost_predict(&options.desc(), pointer(&descs), descs.len() as u64, cell_size, &mut prediction)
+    })?;
     let terms = terms(&prediction.terms[..prediction.term_count as usize]).collect();
     Ok(Prediction { cost: prediction.cost, terms })
 }
 
 fn weights_from(call: impl FnOnce(*mut CostWeights) -> sys::vox_result) -> Result<CostWeights> {
-    // SAFETY: a struct of numbers.
-    let mut weights: CostWeights = unsafe { std::mem::zeroed() };
-    weights.struct_size = struct_size::<CostWeights>();
+    let mut weights = sized!(CostWeights);
     check(call(&mut weights))?;
     Ok(weights)
 }
@@ -297,16 +257,10 @@ impl<'f> Call<'f> {
 
 /// The method for any algorithm: the cell size between `min` and `max` of least `cost`. A panic of `cost` goes on here.
 pub fn minimise(mut cost: impl FnMut(f64) -> f64, min: f64, max: f64, zone_loss: f64) -> Result<Minimum> {
+    let bounds = sys::vox_cost_bounds { min, max, zone_loss, ..sized!(sys::vox_cost_bounds) };
+    let mut minimum = sized!(sys::vox_cost_minimum);
     // SAFETY: structs of their own size; the closure lives during the call.
-    let minimum = unsafe {
-        let mut bounds: sys::vox_cost_bounds = std::mem::zeroed();
-        sys::vox_cost_bounds_init(&mut bounds, struct_size::<sys::vox_cost_bounds>());
-        (bounds.min, bounds.max, bounds.zone_loss) = (min, max, zone_loss);
-        let mut minimum: sys::vox_cost_minimum = std::mem::zeroed();
-        minimum.struct_size = struct_size::<sys::vox_cost_minimum>();
-        Call::make(&mut cost, |call, user| sys::vox_cost_minimise(Some(call), user, &bounds, &mut minimum))?;
-        minimum
-    };
+    Call::make(&mut cost, |call, user| unsafe { sys::vox_cost_minimise(Some(call), user, &bounds, &mut minimum) })?;
     Ok(Minimum {
         cell_size: minimum.cell_size,
         cost: minimum.cost,

@@ -113,7 +113,12 @@ pub(crate) fn check(result: sys::vox_result) -> Result<()> {
     Err(Error::new(ErrorCode::of(result), text.to_string_lossy()))
 }
 
-/// As the C functions count.
-pub(crate) fn struct_size<T>() -> u32 {
-    std::mem::size_of::<T>() as u32
+/// A struct of C that may grow, with its size and otherwise zeros: the defaults.
+macro_rules! sized {
+    ($type:ty) => {{
+        type Struct = $type;
+        // SAFETY: it has numbers, pointers and optional functions, each of which may be zero.
+        Struct { struct_size: std::mem::size_of::<Struct>() as u32, ..unsafe { std::mem::zeroed() } }
+    }};
 }
+pub(crate) use sized;

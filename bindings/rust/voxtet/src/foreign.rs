@@ -7,7 +7,7 @@ use std::ptr::null;
 use voxtet_sys as sys;
 
 use crate::cell_size::{samples, terms, Call};
-use crate::error::{check, struct_size};
+use crate::error::{check, sized};
 use crate::grid::{pointer, positions_to_c};
 use crate::options::Scalar;
 use crate::{Error, ErrorCode, GridWeights, GridWork, Result};
@@ -61,16 +61,9 @@ unsafe impl Send for Primitives<'_> {}
 unsafe impl Sync for Primitives<'_> {}
 
 impl<'arrays> Primitives<'arrays> {
-    fn new<T: Scalar>(type_of: sys::vox_primitive_type, positions: &'arrays [[T; 3]], count: usize) -> Self {
-        // SAFETY: a struct of numbers and null pointers, of its own size. It cannot fail for that.
-        let mut desc = unsafe {
-            let mut desc = std::mem::zeroed();
-            sys::vox_primitives_init(&mut desc, struct_size::<sys::vox_primitives>());
-            desc
-        };
-        desc.r#type = type_of;
-        desc.positions = positions_to_c(positions);
-        desc.count = count as u64;
+    fn new<T: Scalar>(r#type: sys::vox_primitive_type, positions: &'arrays [[T; 3]], count: usize) -> Self {
+        let (positions, count) = (positions_to_c(positions), count as u64);
+        let desc = sys::vox_primitives { r#type, positions, count, ..sized!(sys::vox_primitives) };
         Self { desc, arrays: PhantomData }
     }
 
@@ -150,7 +143,7 @@ pub struct ForeignGrid<'arrays> {
     pub radius: f64,
     /// The smallest cell size that gives right answers; 0: follows from `look`.
     pub least_cell_size: f64,
-    /// The zone is where the cost is at most 1 + this times its minimum.
+    /// The zone is where the cost is at most 1 + this times its minimum; 0: 0.05.
     pub zone_loss: f64,
 }
 
@@ -167,19 +160,15 @@ impl<'arrays> ForeignGrid<'arrays> {
             weights: None,
             radius: 0.0,
             least_cell_size: 0.0,
-            zone_loss: 0.05,
+            zone_loss: 0.0,
         }
     }
 
     /// Makes a call with the description as C has it.
     fn described<R>(&self, call: impl FnOnce(&sys::vox_foreign_grid) -> Result<R>) -> Result<R> {
-        // SAFETY: structs of their own size.
-        let mut desc = unsafe {
-            let mut desc: sys::vox_foreign_grid = std::mem::zeroed();
-            check(sys::vox_foreign_grid_init(&mut desc, struct_size::<sys::vox_foreign_grid>()))?;
-            check(sys::vox_foreign_grid_set_known(&mut desc, self.known as sys::vox_known_grid))?;
-            desc
-        };
+        let mut desc = sized!(sys::vox_foreign_grid);
+        // SAFETY: a struct of its own size.
+        check(unsafe { sys::vox_foreign_grid_set_known(&mut desc, self.known as sys::vox_known_grid) })?;
         desc.held = &self.held.desc;
         desc.asking = self.asking.as_ref().map_or(null(), |asking| &asking.desc);
         desc.content = self.content.map_or(desc.content, |content| content as sys::vox_cell_content);
@@ -210,9 +199,7 @@ macro_rules! answer {
     ($answer:ident, $raw:ty) => {
         impl $answer {
             fn ask(call: impl FnOnce(*mut $raw) -> Result<()>) -> Result<Self> {
-                // SAFETY: a struct of numbers.
-                let mut found: Box<$raw> = Box::new(unsafe { std::mem::zeroed() });
-                found.struct_size = struct_size::<$raw>();
+                let mut found = Box::new(sized!($raw));
                 call(&mut *found)?;
                 Ok(Self(found))
             }
@@ -329,9 +316,9 @@ pub fn fit(grid: &ForeignGrid<'_>, timings: &[(f64, f64)]) -> Result<GridFit> {
 }
 
 /// How to tune; `vox_tune_desc` in vox.h explains each field.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TuneOptions {
-    /// 3 to 32.
+    /// 3 to 32; 0: 7.
     pub most_runs: u32,
     /// Cell sizes to try; both 0: an eighth to eight times the first.
     pub min: f64,
@@ -339,35 +326,17 @@ pub struct TuneOptions {
     pub max: f64,
     /// The cell size to begin with; 0: what [`suggest_for`] says. Must be set where no grid is described.
     pub first: f64,
-    /// The zone is where a run takes at most 1 + this times the shortest time.
+    /// The zone is where a run takes at most 1 + this times the shortest time; 0: 0.05.
     pub zone_loss: f64,
-    /// Stops where the cell size is within this of the best one, as far as it can tell.
+    /// Stops where the cell size is within this of the best one, as far as it can tell; 0: 0.02.
     pub wanted_loss: f64,
-}
-
-fn tune_defaults() -> sys::vox_tune_desc {
-    // SAFETY: a struct of numbers, of its own size. It cannot fail for that.
-    unsafe {
-        let mut desc = std::mem::zeroed();
-        sys::vox_tune_desc_init(&mut desc, struct_size::<sys::vox_tune_desc>());
-        desc
-    }
-}
-
-impl Default for TuneOptions {
-    fn default() -> Self {
-        let sys::vox_tune_desc { most_runs, min, max, first, zone_loss, wanted_loss, .. } = tune_defaults();
-        Self { most_runs, min, max, first, zone_loss, wanted_loss }
-    }
 }
 
 /// The best cell size of a grid, by running it. `run` runs it once at a cell size and returns how many seconds that took:
 /// infinity if it cannot run at this size, NaN to stop. A panic of it goes on here.
 pub fn tune(grid: Option<&ForeignGrid<'_>>, mut run: impl FnMut(f64) -> f64, options: TuneOptions) -> Result<Tuning> {
-    let mut desc = tune_defaults();
     let TuneOptions { most_runs, min, max, first, zone_loss, wanted_loss } = options;
-    (desc.most_runs, desc.min, desc.max, desc.first) = (most_runs, min, max, first);
-    (desc.zone_loss, desc.wanted_loss) = (zone_loss, wanted_loss);
+    let desc = sys::vox_tune_desc { most_runs, min, max, first, zone_loss, wanted_loss, ..sized!(sys::vox_tune_desc) };
     Tuning::ask(|out| {
         let mut call = |grid: *const sys::vox_foreign_grid| {
             Call::make(&mut run, |function, user| unsafe { sys::vox_cost_tune(grid, &desc, Some(function), user, out) })

@@ -1,12 +1,13 @@
 use std::ptr::{null, null_mut, NonNull};
+use std::sync::atomic::Ordering;
 use std::sync::Arc;
 
 use voxtet_sys as sys;
 
 use crate::callbacks::Callbacks;
 use crate::cell_size::{SuggestOptions, Suggestion};
-use crate::error::{check, struct_size};
-use crate::options::Scalar;
+use crate::error::{check, sized};
+use crate::options::{grid_flags, Reference, Scalar};
 use crate::view::{ContactEvents, TouchEvents};
 use crate::{
     Contact, Contacts, Depth, Error, ErrorCode, Events, Filter, GridOptions, Mesh, MeshOptions, Pairs, Penetration,
@@ -53,7 +54,7 @@ pub struct MeshInfo {
 /// ```
 pub struct Grid {
     grid: NonNull<sys::vox_grid>,
-    callbacks: Option<Arc<Callbacks>>, // for C to call
+    callbacks: Arc<Callbacks>, // for C to call
 }
 
 // SAFETY: vox.h: a grid belongs to no thread; different ones are independent; functions of a const grid may run on any
@@ -107,16 +108,13 @@ pub(crate) fn positions_to_c<T: Scalar>(positions: &[[T; 3]]) -> sys::vox_positi
 }
 
 pub(crate) fn mesh_desc<T: Scalar>(positions: &[[T; 3]], tets: &[[u32; 4]]) -> sys::vox_mesh_desc {
-    // SAFETY: a struct of numbers and pointers, of its own size.
-    let mut desc = unsafe {
-        let mut desc = std::mem::zeroed();
-        sys::vox_mesh_desc_init(&mut desc, struct_size::<sys::vox_mesh_desc>());
-        desc
-    };
-    desc.positions = positions_to_c(positions);
-    desc.tets = pointer(tets).cast();
-    desc.tet_count = tets.len() as u64;
-    desc
+    sys::vox_mesh_desc {
+        flags: sys::VOX_MESH_COPY_POSITIONS,
+        positions: positions_to_c(positions),
+        tets: pointer(tets).cast(),
+        tet_count: tets.len() as u64,
+        ..sized!(sys::vox_mesh_desc)
+    }
 }
 
 /// The count of `count_of(null, 0)`, and so many items copied.
@@ -138,24 +136,41 @@ impl Grid {
 
     /// A grid with these settings.
     pub fn with_options(options: GridOptions) -> Result<Self> {
-        check_abi()?;
-        let mut desc = options.desc();
-        let callbacks = Callbacks::install(options.log, options.tasks, &mut desc);
-        let mut grid = null_mut();
-        // SAFETY: a valid description; callbacks live as long as the grid.
-        check(unsafe { sys::vox_grid_create(&desc, &mut grid) })?;
-        Ok(Self { grid: NonNull::new(grid).expect("a grid"), callbacks })
+        // SAFETY: a valid description.
+        Self::made(options, |desc, out| unsafe { sys::vox_grid_create(desc, out) })
     }
 
     /// A grid from the bytes of [`Grid::save`], which need not be trusted. Of the options only log, tasks, workers, both
-    /// budgets and an engine other than `Auto` are used.
+    /// budgets and `reference` are used; without that, the engine is the one that was saved.
     pub fn load(bytes: &[u8], options: GridOptions) -> Result<Self> {
-        check_abi()?;
-        let mut desc = options.desc();
-        let callbacks = Callbacks::install(options.log, options.tasks, &mut desc);
-        let mut grid = null_mut();
         // SAFETY: as above; the bytes are checked.
-        check(unsafe { sys::vox_grid_load(bytes.as_ptr().cast(), bytes.len() as u64, &desc, &mut grid) })?;
+        Self::made(options, |desc, out| unsafe {
+            sys::vox_grid_load(bytes.as_ptr().cast(), bytes.len() as u64, desc, out)
+        })
+    }
+
+    /// By a function of C, which copies what the description points to. Callbacks live as long as the grid.
+    fn made(
+        options: GridOptions,
+        create: impl FnOnce(&sys::vox_grid_desc, &mut *mut sys::vox_grid) -> sys::vox_result,
+    ) -> Result<Self> {
+        check_abi()?;
+        let callbacks = Callbacks::new(options.log, options.tasks, options.workers);
+        let (log, tasks) = callbacks.to_c();
+        let reference = options.reference.map(Reference::to_c);
+        let desc = sys::vox_grid_desc {
+            flags: grid_flags(options.penetrations, options.contact_events, options.skip_bad_bodies),
+            worker_count: callbacks.workers.load(Ordering::Relaxed),
+            cell_size: options.cell_size,
+            byte_budget: options.byte_budget,
+            closest_budget: options.closest_budget,
+            log: &log,
+            tasks: &tasks,
+            reference: reference.as_ref().map_or(null(), std::ptr::from_ref),
+            ..sized!(sys::vox_grid_desc)
+        };
+        let mut grid = null_mut();
+        check(create(&desc, &mut grid))?;
         Ok(Self { grid: NonNull::new(grid).expect("a grid"), callbacks })
     }
 
@@ -206,19 +221,17 @@ impl Grid {
         cell_size
     }
 
-    /// Threads of the following steps; 0: one per core. With a task system: how many workers it gets, at least 1.
+    /// Threads of the following steps, as [`GridOptions::workers`]. With a task system: how many workers it gets.
     pub fn set_workers(&mut self, workers: u32) -> Result<()> {
         check(unsafe { sys::vox_grid_set_worker_count(self.get_mut(), workers) })?;
-        if let Some(callbacks) = &self.callbacks {
-            callbacks.set_workers(workers);
-        }
+        self.callbacks.workers.store(workers, Ordering::Relaxed);
         Ok(())
     }
 
     /// Whether the following steps find penetrations, report events of single vertices, and leave out bad meshes.
     pub fn set_flags(&mut self, penetrations: bool, contact_events: bool, skip_bad_bodies: bool) -> Result<()> {
-        let options = GridOptions { penetrations, contact_events, skip_bad_bodies, ..GridOptions::default() };
-        check(unsafe { sys::vox_grid_set_flags(self.get_mut(), options.flags()) })
+        let flags = grid_flags(penetrations, contact_events, skip_bad_bodies);
+        check(unsafe { sys::vox_grid_set_flags(self.get_mut(), flags) })
     }
 
     /// What [`set_flags`](Grid::set_flags) sets, in its order; of a loaded grid as it was saved.
@@ -233,7 +246,7 @@ impl Grid {
 
     /// Adds a mesh of these vertices and tetrahedra. Both arrays are copied; [`Grid::positions_mut`] moves the vertices.
     pub fn add<T: Scalar>(&mut self, positions: &[[T; 3]], tets: &[[u32; 4]]) -> Result<Mesh> {
-        self.insert(mesh_desc(positions, tets), Filter::default())
+        self.insert(&mesh_desc(positions, tets))
     }
 
     /// The same with user data, a filter or a rest pose.
@@ -245,18 +258,16 @@ impl Grid {
     ) -> Result<Mesh> {
         let mut desc = mesh_desc(positions, tets);
         desc.user_data = options.user_data;
+        desc.filter = options.filter.to_c();
         if let Some(rest) = options.rest_positions {
             desc.rest_positions = positions_to_c(rest);
         }
-        self.insert(desc, options.filter)
+        self.insert(&desc)
     }
 
-    fn insert(&mut self, mut desc: sys::vox_mesh_desc, filter: Filter) -> Result<Mesh> {
-        let filter = filter.to_c();
+    fn insert(&mut self, desc: &sys::vox_mesh_desc) -> Result<Mesh> {
         let mut mesh = sys::VOX_NULL_BODY;
-        desc.flags = sys::VOX_MESH_COPY_POSITIONS;
-        desc.filter = &filter;
-        check(unsafe { sys::vox_mesh_insert(self.get_mut(), &desc, &mut mesh) })?;
+        check(unsafe { sys::vox_mesh_insert(self.get_mut(), desc, &mut mesh) })?;
         Ok(Mesh(mesh))
     }
 
@@ -280,8 +291,7 @@ impl Grid {
     }
 
     fn info_of(&self, mesh: Mesh) -> Result<sys::vox_body_info> {
-        let mut info: sys::vox_body_info = unsafe { std::mem::zeroed() };
-        info.struct_size = struct_size::<sys::vox_body_info>();
+        let mut info = sized!(sys::vox_body_info);
         check(unsafe { sys::vox_body_get_info(self.get(), mesh.0, &mut info) })?;
         Ok(info)
     }
@@ -356,11 +366,9 @@ impl Grid {
         check(unsafe { sys::vox_body_set_filter(self.get_mut(), mesh.0, &filter.to_c()) })
     }
 
-    /// What a mesh collides with.
+    /// What a mesh collides with. Neither category nor mask is 0.
     pub fn filter(&self, mesh: Mesh) -> Result<Filter> {
-        let mut filter = Filter::default().to_c();
-        check(unsafe { sys::vox_mesh_filter(self.get(), mesh.0, &mut filter) })?;
-        Ok(Filter::of(&filter))
+        Ok(Filter::of(&self.info_of(mesh)?.filter))
     }
 
     /// Leaves a mesh out of the following steps, or takes it in again.
@@ -382,8 +390,7 @@ impl Grid {
 
     /// Replaces vertices, tetrahedra and positions of a mesh.
     pub fn set_topology<T: Scalar>(&mut self, mesh: Mesh, positions: &[[T; 3]], tets: &[[u32; 4]]) -> Result<()> {
-        let mut desc = mesh_desc(positions, tets);
-        desc.flags = sys::VOX_MESH_COPY_POSITIONS;
+        let desc = mesh_desc(positions, tets);
         check(unsafe { sys::vox_mesh_set_topology(self.get_mut(), mesh.0, &desc) })
     }
 
@@ -422,16 +429,9 @@ impl Grid {
         check(unsafe { sys::vox_mesh_remove_tets(self.get_mut(), mesh.0, pointer(tets), tets.len() as u64) })
     }
 
-    fn append(&mut self, mesh: Mesh, fill: impl FnOnce(&mut sys::vox_vertices_desc)) -> Result<u32> {
+    fn append(&mut self, mesh: Mesh, desc: &sys::vox_vertices_desc) -> Result<u32> {
         let mut first = 0;
-        // SAFETY: a struct of numbers and null pointers, of its own size.
-        let mut desc = unsafe {
-            let mut desc = std::mem::zeroed();
-            sys::vox_vertices_desc_init(&mut desc, struct_size::<sys::vox_vertices_desc>());
-            desc
-        };
-        fill(&mut desc);
-        check(unsafe { sys::vox_mesh_append_vertices(self.get_mut(), mesh.0, &desc, &mut first) })?;
+        check(unsafe { sys::vox_mesh_append_vertices(self.get_mut(), mesh.0, desc, &mut first) })?;
         Ok(first)
     }
 
@@ -439,18 +439,22 @@ impl Grid {
     pub fn append_vertices<T: Scalar>(&mut self, mesh: Mesh, positions: &[[T; 3]]) -> Result<u32> {
         check_format::<T>(&self.info_of(mesh)?)?;
         self.positions_mut::<T>(mesh)?; // of its own, also in a mesh that has had no vertices
-        self.append(mesh, |desc| {
-            desc.count = positions.len() as u64;
-            desc.positions = positions_to_c(positions);
-        })
+        let desc = sys::vox_vertices_desc {
+            count: positions.len() as u64,
+            positions: positions_to_c(positions),
+            ..sized!(sys::vox_vertices_desc)
+        };
+        self.append(mesh, &desc)
     }
 
     /// Adds copies of vertices, where these are; the index of the first.
     pub fn append_copies(&mut self, mesh: Mesh, copies_of: &[u32]) -> Result<u32> {
-        self.append(mesh, |desc| {
-            desc.count = copies_of.len() as u64;
-            desc.copies_of = pointer(copies_of);
-        })
+        let desc = sys::vox_vertices_desc {
+            count: copies_of.len() as u64,
+            copies_of: pointer(copies_of),
+            ..sized!(sys::vox_vertices_desc)
+        };
+        self.append(mesh, &desc)
     }
 
     /// Removes vertices that no enabled tetrahedron has.
@@ -578,8 +582,7 @@ impl Grid {
     pub fn failures(&self) -> Vec<Failure> {
         let mut all = Vec::new();
         loop {
-            let mut failure: Failure = unsafe { std::mem::zeroed() };
-            failure.struct_size = struct_size::<Failure>();
+            let mut failure = sized!(Failure);
             unsafe { sys::vox_grid_get_failure(self.get(), all.len() as u32, &mut failure) };
             if failure.mesh == sys::VOX_NULL_BODY {
                 return all;
@@ -590,16 +593,14 @@ impl Grid {
 
     /// What the last step did.
     pub fn counters(&self) -> Counters {
-        let mut counters: Counters = unsafe { std::mem::zeroed() };
-        counters.struct_size = struct_size::<Counters>();
+        let mut counters = sized!(Counters);
         unsafe { sys::vox_grid_get_counters(self.get(), &mut counters) };
         counters
     }
 
     /// Nanoseconds of the last step, by stage.
     pub fn profile(&self) -> Profile {
-        let mut profile: Profile = unsafe { std::mem::zeroed() };
-        profile.struct_size = struct_size::<Profile>();
+        let mut profile = sized!(Profile);
         unsafe { sys::vox_grid_profile(self.get(), &mut profile) };
         profile
     }
@@ -607,7 +608,7 @@ impl Grid {
     // ---- readings ----
 
     /// Computes position, closest surface and depth of the contacts of the last step, or the parts of it in `what`
-    /// ([`reading`](crate::reading)).
+    /// ([`reading`](crate::reading); 0: all).
     pub fn prepare_readings(&mut self, what: u32) -> Result<()> {
         self.prepare_some_readings(what, None, None)
     }
@@ -618,15 +619,12 @@ impl Grid {
     }
 
     fn prepare_some_readings(&mut self, what: u32, mesh: Option<Mesh>, other: Option<Mesh>) -> Result<()> {
-        // SAFETY: a struct of numbers, of its own size.
-        let mut desc = unsafe {
-            let mut desc = std::mem::zeroed();
-            sys::vox_readings_desc_init(&mut desc, struct_size::<sys::vox_readings_desc>());
-            desc
+        let desc = sys::vox_readings_desc {
+            what,
+            body_a: mesh.map_or(sys::VOX_NULL_BODY, Mesh::id),
+            body_b: other.map_or(sys::VOX_NULL_BODY, Mesh::id),
+            ..sized!(sys::vox_readings_desc)
         };
-        desc.what = what;
-        desc.body_a = mesh.map_or(sys::VOX_NULL_BODY, Mesh::id);
-        desc.body_b = other.map_or(sys::VOX_NULL_BODY, Mesh::id);
         check(unsafe { sys::vox_grid_prepare_readings_of(self.get_mut(), &desc) })
     }
 
@@ -704,7 +702,7 @@ fn check_format<T: Scalar>(info: &sys::vox_body_info) -> Result<()> {
     ))
 }
 
-/// Steps many grids, several at the same time, on `workers` threads (0: one per core). For many small scenes that have
+/// Steps many grids, several at the same time, on `workers` threads (as [`GridOptions::workers`]). For many small scenes that have
 /// nothing to do with each other. If grids fail, the others are stepped nevertheless: the error is that of the first of
 /// them, its text begins with its index, and the codes tell the others (empty if no grid was stepped).
 pub fn step_grids(grids: &mut [Grid], workers: u32) -> std::result::Result<(), (Error, Vec<Option<ErrorCode>>)> {

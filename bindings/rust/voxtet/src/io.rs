@@ -7,7 +7,7 @@ use std::ptr::{null, null_mut, NonNull};
 
 use voxtet_sys as sys;
 
-use crate::error::{check, struct_size, Error, ErrorCode};
+use crate::error::{check, sized, Error, ErrorCode};
 use crate::grid::pointer;
 use crate::Result;
 
@@ -155,17 +155,15 @@ impl MeshFile {
             }
         }
         let mut user = Call { progress: &mut progress, panic: None };
-        let mut desc: sys::vox_io_tetrahedralize_desc = unsafe {
-            let mut desc = std::mem::zeroed();
-            sys::vox_io_tetrahedralize_desc_init(&mut desc, struct_size::<sys::vox_io_tetrahedralize_desc>());
-            desc
+        let desc = sys::vox_io_tetrahedralize_desc {
+            kind: if options.cubes { sys::VOX_IO_SOLID_CUBES } else { sys::VOX_IO_SOLID_STUFFED },
+            cell: options.cell,
+            max_distance: options.max_distance,
+            coarsen: options.coarsen,
+            progress: Some(call),
+            progress_user: std::ptr::from_mut(&mut user).cast(),
+            ..sized!(sys::vox_io_tetrahedralize_desc)
         };
-        desc.kind = if options.cubes { sys::VOX_IO_SOLID_CUBES } else { sys::VOX_IO_SOLID_STUFFED };
-        desc.cell = options.cell;
-        desc.max_distance = options.max_distance;
-        desc.coarsen = options.coarsen;
-        desc.progress = Some(call);
-        desc.progress_user = std::ptr::from_mut(&mut user).cast();
         let mesh = made(|out| unsafe { sys::vox_io_tetrahedralize(self.0.as_ptr(), &desc, out) });
         if let Some(panic) = user.panic {
             resume_unwind(panic);
@@ -203,8 +201,7 @@ impl MeshFile {
 
     /// What was read, and what is odd about it.
     pub fn report(&self) -> Result<Report> {
-        let mut report: Report = unsafe { std::mem::zeroed() };
-        report.struct_size = struct_size::<Report>();
+        let mut report = sized!(Report);
         check(unsafe { sys::vox_io_mesh_get_report(self.0.as_ptr(), &mut report) })?;
         Ok(report)
     }
@@ -217,8 +214,7 @@ impl MeshFile {
 
     /// How good it is, and how close to a surface.
     pub fn quality(&self, surface: Option<&MeshFile>) -> Result<Quality> {
-        let mut quality: Quality = unsafe { std::mem::zeroed() };
-        quality.struct_size = struct_size::<Quality>();
+        let mut quality = sized!(Quality);
         let surface = surface.map_or(null(), |surface| surface.0.as_ptr().cast_const());
         check(unsafe { sys::vox_io_mesh_measure(self.0.as_ptr(), surface, &mut quality) })?;
         Ok(quality)

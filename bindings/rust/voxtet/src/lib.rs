@@ -23,7 +23,7 @@ pub use foreign::{
     Primitives, TuneOptions, Tuning,
 };
 pub use grid::{step_grids, Counters, Failure, Grid, MeshInfo, Profile};
-pub use options::{Engine, Filter, GridOptions, Mesh, MeshOptions, Storage};
+pub use options::{Filter, GridOptions, Mesh, MeshOptions, Reference};
 pub use query::{Queries, QueryView};
 pub use view::{Contacts, Events, Pairs, View};
 
@@ -31,6 +31,7 @@ pub use view::{Contacts, Events, Pairs, View};
 pub use callbacks::RayonTasks;
 
 pub use voxtet_sys as sys;
+pub use voxtet_sys::VOX_ALL_CORES as ALL_CORES;
 
 /// A vertex inside a tetrahedron; see `vox_contact` in vox.h.
 pub type Contact = sys::vox_contact;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use voxtet_sys as sys;
 
 use crate::callbacks::{LogLevel, TaskSystem};
-use crate::error::struct_size;
+use crate::error::sized;
 
 /// Names a mesh in its grid. A removed mesh's id is never used again, so a stale one is an error and nothing worse.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -40,48 +40,46 @@ impl PartialEq<Mesh> for u32 {
     }
 }
 
-/// Which algorithm runs. Contacts do not depend on it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Engine {
-    /// Fast, or reference if a storage is requested.
-    #[default]
-    Auto,
-    /// The paper's algorithm as printed.
-    Reference,
-    /// Tiles of tetrahedra against windows of cells, with SIMD.
-    Fast,
+/// The paper's engine, to compare with; `vox_reference_desc` in vox.h explains each field.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Reference {
+    /// One list for each cell of a box, instead of a hash table.
+    pub dense: bool,
+    /// The paper's hash, instead of a better one.
+    pub paper_hash: bool,
+    /// Buckets of the hash table; 0: twice the number of vertices.
+    pub hash_table_size: u64,
+    /// The box of dense cells, lowest and highest corner; all zero: the box of all positions.
+    pub world: [[f64; 3]; 2],
 }
 
-/// How the reference engine stores cells.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Storage {
-    /// The engine's choice.
-    #[default]
-    Auto,
-    /// Unbounded space, hashed.
-    Hashed,
-    /// One list for each cell of a box.
-    Dense,
+impl Reference {
+    pub(crate) fn to_c(self) -> sys::vox_reference_desc {
+        let [world_min, world_max] = self.world;
+        sys::vox_reference_desc {
+            flags: (u32::from(self.dense) * sys::VOX_REFERENCE_DENSE)
+                | (u32::from(self.paper_hash) * sys::VOX_REFERENCE_PAPER_HASH),
+            hash_table_size: self.hash_table_size,
+            world_min,
+            world_max,
+            ..sized!(sys::vox_reference_desc)
+        }
+    }
 }
 
 pub(crate) type LogFunction = Box<dyn Fn(LogLevel, &str) + Send + Sync>;
 
 /// Settings of a grid; `vox_grid_desc` in vox.h explains each. Fields that are not named have their defaults:
-/// `GridOptions { workers: 0, ..Default::default() }`.
+/// `GridOptions { workers: 4, ..Default::default() }`.
 pub struct GridOptions {
-    /// Which algorithm runs.
-    pub engine: Engine,
-    /// How the reference engine stores cells.
-    pub storage: Storage,
+    /// The paper's engine instead of the fast one, and how it stores cells. Contacts do not depend on it.
+    pub reference: Option<Reference>,
     /// Edge length of a cell; 0: the library chooses it.
     pub cell_size: f64,
-    /// World box for dense storage, lowest and highest corner; all zero: the box of all positions.
-    pub world: [[f64; 3]; 2],
-    /// Most bytes the grid may hold; 0: no limit.
+    /// Most bytes the grid may hold; 0: 4 GiB; `u64::MAX`: no limit.
     pub byte_budget: u64,
-    /// Buckets of the hash table; 0: twice the number of vertices.
-    pub hash_table_size: u64,
-    /// Threads of a step; 0: one per core. Not used with a task system, which says how many it has.
+    /// Threads of a step; 0: one; [`ALL_CORES`](crate::ALL_CORES): one per core. Not used with a task system, which says
+    /// how many it has.
     pub workers: u32,
     /// Whether a step finds penetrations.
     pub penetrations: bool,
@@ -99,119 +97,61 @@ pub struct GridOptions {
 
 impl Default for GridOptions {
     fn default() -> Self {
-        let desc = defaults();
         Self {
-            engine: Engine::Auto,
-            storage: Storage::Auto,
-            cell_size: desc.cell_size,
-            world: [desc.world_min, desc.world_max],
-            byte_budget: desc.byte_budget,
-            hash_table_size: desc.hash_table_size,
-            workers: desc.worker_count,
-            penetrations: desc.flags & sys::VOX_GRID_PENETRATIONS != 0,
-            contact_events: desc.flags & sys::VOX_GRID_CONTACT_EVENTS != 0,
-            skip_bad_bodies: desc.flags & sys::VOX_GRID_SKIP_BAD_BODIES != 0,
-            closest_budget: desc.closest_budget,
+            reference: None,
+            cell_size: 0.0,
+            byte_budget: 0,
+            workers: 0,
+            penetrations: true,
+            contact_events: false,
+            skip_bad_bodies: false,
+            closest_budget: 0,
             log: None,
             tasks: None,
         }
     }
 }
 
-impl GridOptions {
-    pub(crate) fn flags(&self) -> u32 {
-        (if self.penetrations { sys::VOX_GRID_PENETRATIONS } else { 0 })
-            | (if self.contact_events { sys::VOX_GRID_CONTACT_EVENTS } else { 0 })
-            | (if self.skip_bad_bodies { sys::VOX_GRID_SKIP_BAD_BODIES } else { 0 })
-    }
-
-    /// Without callbacks.
-    pub(crate) fn desc(&self) -> sys::vox_grid_desc {
-        let mut desc = defaults();
-        desc.engine = match self.engine {
-            Engine::Auto => sys::VOX_ENGINE_AUTO,
-            Engine::Reference => sys::VOX_ENGINE_REFERENCE,
-            Engine::Fast => sys::VOX_ENGINE_FAST,
-        };
-        desc.storage = match self.storage {
-            Storage::Auto => sys::VOX_STORAGE_AUTO,
-            Storage::Hashed => sys::VOX_STORAGE_HASHED,
-            Storage::Dense => sys::VOX_STORAGE_DENSE,
-        };
-        desc.cell_size = self.cell_size;
-        [desc.world_min, desc.world_max] = self.world;
-        desc.byte_budget = self.byte_budget;
-        desc.hash_table_size = self.hash_table_size;
-        desc.worker_count = self.workers;
-        desc.flags = self.flags();
-        desc.closest_budget = self.closest_budget;
-        desc
-    }
+pub(crate) fn grid_flags(penetrations: bool, contact_events: bool, skip_bad_bodies: bool) -> u32 {
+    (u32::from(penetrations) * sys::VOX_GRID_PENETRATIONS)
+        | (u32::from(contact_events) * sys::VOX_GRID_CONTACT_EVENTS)
+        | (u32::from(skip_bad_bodies) * sys::VOX_GRID_SKIP_BAD_BODIES)
 }
 
-fn defaults() -> sys::vox_grid_desc {
-    // SAFETY: a struct of numbers and null pointers, of its own size. It cannot fail for that.
-    unsafe {
-        let mut desc = std::mem::zeroed();
-        sys::vox_grid_desc_init(&mut desc, struct_size::<sys::vox_grid_desc>());
-        desc
-    }
-}
-
-/// What a mesh does not collide with; `vox_filter` in vox.h explains each field.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// What a mesh collides with; `vox_filter` in vox.h explains each field.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Filter {
-    /// Meshes with the same group other than 0 collide if it is positive, and do not if it is negative.
-    pub group: i32,
-    /// All others collide if the category of each has a bit in common with the mask of the other.
-    pub category: u64,
-    /// See `category`.
-    pub mask: u64,
     /// Whether vertices of the mesh inside its own tetrahedra are contacts.
     pub self_collision: bool,
+    /// Whether the mesh has contacts, but no penetrations.
+    pub sensor: bool,
+    /// Meshes with the same group other than 0 collide if it is positive, and do not if it is negative.
+    pub group: i32,
+    /// All others collide if the category of each has a bit in common with the mask of the other. 0 stands for 1.
+    pub category: u64,
+    /// See `category`. 0 stands for all bits.
+    pub mask: u64,
+    /// Meshes in different worlds never collide.
+    pub world: u32,
     /// Self-contact skips tetrahedra with a corner within this many edges of the vertex.
     pub self_rings: u32,
     /// Self-contact skips tetrahedra closer than this in the rest pose.
     pub self_rest_distance: f64,
-    /// Which contacts get a penetration.
-    pub penetration_mask: u64,
-}
-
-impl Default for Filter {
-    fn default() -> Self {
-        // SAFETY: a struct of numbers, of its own size. It cannot fail for that.
-        Self::of(&unsafe {
-            let mut filter = std::mem::zeroed();
-            sys::vox_filter_init(&mut filter, struct_size::<sys::vox_filter>());
-            filter
-        })
-    }
 }
 
 impl Filter {
     pub(crate) fn of(filter: &sys::vox_filter) -> Self {
-        Self {
-            group: filter.group,
-            category: filter.category,
-            mask: filter.mask,
-            self_collision: filter.self_collision != 0,
-            self_rings: filter.self_rings,
-            self_rest_distance: filter.self_rest_distance,
-            penetration_mask: filter.penetration_mask,
-        }
+        let &sys::vox_filter { flags, group, category, mask, world, self_rings, self_rest_distance } = filter;
+        let self_collision = flags & sys::VOX_FILTER_SELF_COLLISION != 0;
+        let sensor = flags & sys::VOX_FILTER_SENSOR != 0;
+        Self { self_collision, sensor, group, category, mask, world, self_rings, self_rest_distance }
     }
 
     pub(crate) fn to_c(self) -> sys::vox_filter {
-        sys::vox_filter {
-            struct_size: struct_size::<sys::vox_filter>(),
-            group: self.group,
-            category: self.category,
-            mask: self.mask,
-            self_collision: self.self_collision.into(),
-            self_rings: self.self_rings,
-            self_rest_distance: self.self_rest_distance,
-            penetration_mask: self.penetration_mask,
-        }
+        let Self { self_collision, sensor, group, category, mask, world, self_rings, self_rest_distance } = self;
+        let flags =
+            (u32::from(self_collision) * sys::VOX_FILTER_SELF_COLLISION) | (u32::from(sensor) * sys::VOX_FILTER_SENSOR);
+        sys::vox_filter { flags, group, category, mask, world, self_rings, self_rest_distance }
     }
 }
 
@@ -220,7 +160,7 @@ impl Filter {
 pub struct MeshOptions<'arrays, T> {
     /// Any number of the caller's, which comes back with pairs, events and readings.
     pub user_data: u64,
-    /// What the mesh does not collide with.
+    /// What the mesh collides with.
     pub filter: Filter,
     /// Positions of the rest pose, for [`Filter::self_rest_distance`].
     pub rest_positions: Option<&'arrays [[T; 3]]>,

@@ -2,7 +2,7 @@ use std::ptr::NonNull;
 
 use voxtet_sys as sys;
 
-use crate::error::{check, struct_size};
+use crate::error::{check, sized};
 use crate::grid::pointer;
 use crate::options::Scalar;
 use crate::{ClosestHit, FacetHit, Grid, Mesh, PointHit, RayHit, Result, SurfaceHit, TetHit};
@@ -19,7 +19,8 @@ pub trait Queries {
     fn in_box(&self, min: [f64; 3], max: [f64; 3], mask: u64) -> Result<Vec<TetHit>>;
     /// The closest point of all surfaces, if there is one within `radius`.
     fn closest(&self, point: [f64; 3], radius: f64, mask: u64) -> Result<Option<SurfaceHit>>;
-    /// The same for many points, with normals and signs; `mesh` is 0 where there is none within `max_distance`.
+    /// The same for many points, with normals and signs; `mesh` is 0 where there is none within `max_distance`. A mask
+    /// of 0 is all meshes here, and a `max_distance` of 0 any distance.
     fn closest_points<T: Scalar>(
         &self,
         points: &[[T; 3]],
@@ -97,17 +98,15 @@ macro_rules! queries {
                 mask: u64,
                 excluded: Option<Mesh>,
             ) -> Result<Vec<ClosestHit>> {
-                let mut desc: sys::vox_closest_desc = unsafe {
-                    let mut desc = std::mem::zeroed();
-                    sys::vox_closest_desc_init(&mut desc, struct_size::<sys::vox_closest_desc>());
-                    desc
+                let desc = sys::vox_closest_desc {
+                    format: T::FORMAT,
+                    points: pointer(points).cast(),
+                    point_count: points.len() as u64,
+                    mask,
+                    max_distance,
+                    excluded: excluded.map_or(sys::VOX_NULL_BODY, Mesh::id),
+                    ..sized!(sys::vox_closest_desc)
                 };
-                desc.format = T::FORMAT;
-                desc.points = pointer(points).cast();
-                desc.point_count = points.len() as u64;
-                desc.mask = mask;
-                desc.max_distance = max_distance;
-                desc.excluded = excluded.map_or(sys::VOX_NULL_BODY, Mesh::id);
                 let mut hits: Vec<ClosestHit> = Vec::with_capacity(points.len().max(1));
                 check(unsafe { sys::$closest_points(self.$handle(), &desc, hits.as_mut_ptr()) })?;
                 unsafe { hits.set_len(points.len()) };

@@ -135,7 +135,7 @@ fn views() {
 
 #[test]
 fn threads_read_one_grid() {
-    let (mut grid, ..) = two_blocks(GridOptions { workers: 0, ..GridOptions::default() });
+    let (mut grid, ..) = two_blocks(GridOptions { workers: ALL_CORES, ..GridOptions::default() });
     grid.step().unwrap();
     grid.prepare_queries().unwrap();
     let (grid, hash) = (&grid, grid.hash());
@@ -243,7 +243,7 @@ fn task_systems() {
             }
         }
         assert!(tasks.calls.load(Ordering::Relaxed) > 0);
-        assert_eq!(code(grid.set_workers(0)), ErrorCode::InvalidArgument);
+        assert_eq!(code(grid.set_workers(ALL_CORES)), ErrorCode::InvalidArgument);
     }
 }
 
@@ -271,13 +271,49 @@ fn many_grids() {
     assert!(grids.iter().all(|grid| grid.hash() == grids[0].hash() && !grid.contacts().is_empty()));
     let mesh = grids[7].meshes()[0];
     grids[7].positions_mut(mesh).unwrap()[3][0] = f32::INFINITY;
-    let (error, codes) = step_grids(&mut grids, 0).unwrap_err();
+    let (error, codes) = step_grids(&mut grids, ALL_CORES).unwrap_err();
     assert!(error.to_string().starts_with("grid 7: "), "{error}");
     assert_eq!(codes.iter().filter(|code| code.is_some()).count(), 1);
     assert_eq!(codes[7], Some(ErrorCode::NonFinite));
     let (error, codes) = step_grids(&mut grids, 1000).unwrap_err();
     assert_eq!(error.code(), ErrorCode::InvalidArgument);
     assert!(codes.is_empty());
+}
+
+#[test]
+fn filters() {
+    let (mut grid, a, b) = two_blocks(GridOptions::default());
+    let of = |grid: &Grid, mesh| grid.filter(mesh).unwrap();
+    assert_eq!(of(&grid, a), Filter { category: 1, mask: u64::MAX, ..Filter::default() });
+    grid.set_filter(b, Filter { sensor: true, self_collision: true, ..Filter::default() }).unwrap();
+    assert!(of(&grid, b).sensor && of(&grid, b).self_collision);
+    grid.step().unwrap();
+    assert!(!grid.contacts().is_empty() && grid.penetrations().unwrap().is_empty());
+    grid.set_filter(b, Filter { world: 7, ..Filter::default() }).unwrap();
+    assert_eq!(of(&grid, b).world, 7);
+    grid.step().unwrap();
+    assert!(grid.contacts().is_empty());
+}
+
+#[test]
+fn the_reference_engine() {
+    let (mut fast, ..) = two_blocks(GridOptions::default());
+    fast.step().unwrap();
+    let box_of = [[-1.0; 3], [20.0; 3]];
+    for reference in [
+        Reference::default(),
+        Reference { paper_hash: true, hash_table_size: 100, ..Reference::default() },
+        Reference { dense: true, world: box_of, ..Reference::default() },
+    ] {
+        let (mut grid, ..) = two_blocks(GridOptions { reference: Some(reference), ..GridOptions::default() });
+        grid.step().unwrap();
+        assert_eq!(grid.hash(), fast.hash(), "{reference:?}");
+    }
+    let reference = Some(Reference { dense: true, world: [[1.0; 3]; 2], ..Reference::default() });
+    assert_eq!(
+        code(Grid::with_options(GridOptions { reference, ..GridOptions::default() })),
+        ErrorCode::InvalidArgument
+    );
 }
 
 #[test]

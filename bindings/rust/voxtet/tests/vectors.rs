@@ -228,11 +228,10 @@ impl Replay {
             .into_iter()
             .map(|mesh| {
                 let info = self.grid.info(mesh).unwrap();
-                let self_collision = self.grid.filter(mesh).unwrap().self_collision;
                 serde_json::json!({
                     "mesh": mesh.id(), "user_data": info.user_data.to_string(), "vertices": info.vertex_count,
                     "tet_count": info.tet_count, "enabled_tets": info.enabled_tet_count,
-                    "enabled": u32::from(info.enabled), "flags": 2 + u32::from(self_collision),
+                    "enabled": u32::from(info.enabled), "flags": 1, // COPY_POSITIONS
                     "format": u32::from(info.doubles), "tets": hash_words(bytes_of(&self.grid.tets(mesh).unwrap())),
                 })
             })
@@ -305,7 +304,7 @@ impl Replay {
         let number = |name: &str| call[name].as_f64();
         let grid = |held| ForeignGrid {
             asking: call.get("asking").map(|value| asking.primitives(value)),
-            content: call["content"].as_u64().map(|n| [CellContent::Centres, CellContent::Boxes][n as usize]),
+            content: call["content"].as_u64().map(|n| [CellContent::Boxes, CellContent::Centres][n as usize]),
             look: call["look"].as_u64().map(|n| [CellLook::Box, CellLook::Around, CellLook::Pairs][n as usize]),
             dense: call["dense"].as_u64().map(|n| n == 1),
             weights: call["weights"].as_array().map(|w| {
@@ -437,14 +436,16 @@ fn number(value: &Value) -> u64 {
 }
 
 fn filter_of(value: &Value) -> Filter {
+    let flags = value["flags"].as_u64().unwrap();
     Filter {
+        self_collision: flags & 1 != 0,
+        sensor: flags & 2 != 0,
         group: value["group"].as_i64().unwrap() as i32,
         category: number(&value["category"]),
         mask: number(&value["mask"]),
-        self_collision: value["self_collision"] == 1,
+        world: value["world"].as_u64().unwrap() as u32,
         self_rings: value["self_rings"].as_u64().unwrap() as u32,
         self_rest_distance: value["self_rest_distance"].as_f64().unwrap(),
-        penetration_mask: number(&value["penetration_mask"]),
     }
 }
 
