@@ -91,9 +91,10 @@ public:
     }
 
     double cell_size() const override {
-        double size = 0;
-        must(vox_grid_cell_size(grid_, &size));
-        return size;
+        vox_grid_info info;
+        info.struct_size = sizeof info;
+        must(vox_grid_get_info(grid_, &info));
+        return info.cell_size;
     }
 
 private:

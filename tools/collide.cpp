@@ -125,7 +125,7 @@ void print_collide(const CollideOptions& options, const vox_grid* grid, const st
     if (!options.no_depth) print_penetrations(options, grid, ids);
     if (options.edges) print_edges(options, grid, ids);
     print_near(options, grid, ids);
-    std::printf("\nhash %s, cell size %.9g\n", hexadecimal(hash_of(grid)).c_str(), cell_size_of(grid));
+    std::printf("\nhash %s, cell size %.9g\n", hexadecimal(hash_of(grid)).c_str(), info_of(grid).cell_size);
     std::printf("step %.3f ms: ", milliseconds(profile.step_ns));
     if (profile.stream_ns > 0) // the fast engine
         std::printf("stream %.3f, winding %.3f, broad phase %.3f, windows %.3f, lookup %.3f, decide %.3f",
@@ -201,7 +201,7 @@ void run_collide(const CollideOptions& options) {
         write_results(options.out, drawn, grid.get(), !options.moving.empty());
     }
     if (!options.json) return print_collide(options, grid.get(), bodies, ids, profile);
-    Json json = {{"meshes", body_list(bodies)}, {"cell_size", cell_size_of(grid.get())}};
+    Json json = {{"meshes", body_list(bodies)}, {"cell_size", info_of(grid.get()).cell_size}};
     add_collision(json, grid.get(), ids, profile);
     if (has_margin(grid.get())) json.add("margin_contacts", margin_contacts(grid.get(), ids));
     if (!options.moving.empty()) json.add("passages", passages(grid.get(), ids));

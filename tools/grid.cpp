@@ -34,10 +34,11 @@ vox_counters counters_of(const vox_grid* grid) {
     return counters;
 }
 
-double cell_size_of(const vox_grid* grid) {
-    double cell_size = 0;
-    check(vox_grid_cell_size(grid, &cell_size));
-    return cell_size;
+vox_grid_info info_of(const vox_grid* grid) {
+    vox_grid_info info{};
+    info.struct_size = sizeof info;
+    check(vox_grid_get_info(grid, &info));
+    return info;
 }
 
 std::uint64_t hash_of(const vox_grid* grid) {
@@ -104,19 +105,11 @@ auto elements_of(const View& view) {
     return all;
 }
 
-bool has_flag(const vox_grid* grid, std::uint32_t flag) {
-    std::uint32_t flags = 0;
-    check(vox_grid_get_flags(grid, &flags));
-    return (flags & flag) != 0;
-}
+bool has_flag(const vox_grid* grid, std::uint32_t flag) { return (info_of(grid).flags & flag) != 0; }
 
 } // namespace
 
-bool has_margin(const vox_grid* grid) {
-    double margin = 0;
-    check(vox_grid_margin(grid, &margin));
-    return margin > 0;
-}
+bool has_margin(const vox_grid* grid) { return info_of(grid).margin > 0; }
 
 std::vector<vox_margin_contact> margin_contacts_of(const vox_grid* grid) {
     vox_margin_contact_view view;

@@ -21,7 +21,7 @@ Grid make_grid(const vox_grid_desc& desc, std::span<const vox_mesh_desc> meshes,
 
 vox_profile profile_of(const vox_grid* grid);
 vox_counters counters_of(const vox_grid* grid);
-double cell_size_of(const vox_grid* grid);
+vox_grid_info info_of(const vox_grid* grid);
 std::uint64_t hash_of(const vox_grid* grid);
 vox_contact_view contacts_of(const vox_grid* grid);
 vox_penetration_view penetrations_of(const vox_grid* grid);

@@ -36,12 +36,6 @@ std::string file_in_series(const std::string& out, std::size_t index) {
     return out.substr(0, out.size() - 4) + number;
 }
 
-std::uint64_t epoch_of(const vox_grid* grid) {
-    std::uint64_t epoch = 0;
-    check(vox_grid_epoch(grid, &epoch));
-    return epoch;
-}
-
 void print_replay(const ReplayOptions& options, const std::string& file, std::uint64_t epoch,
                   const vox_grid* grid) {
     const vox_counters counters = counters_of(grid);
@@ -51,7 +45,7 @@ void print_replay(const ReplayOptions& options, const std::string& file, std::ui
     std::printf("%llu %s, hash %s, cell size %.9g, last of %u %s in %.3f ms\n",
                 static_cast<unsigned long long>(counters.contacts),
                 counters.contacts == 1 ? "contact" : "contacts", hexadecimal(hash_of(grid)).c_str(),
-                cell_size_of(grid), options.steps, options.steps == 1 ? "step" : "steps",
+                info_of(grid).cell_size, options.steps, options.steps == 1 ? "step" : "steps",
                 static_cast<double>(profile_of(grid).step_ns) * 1e-6);
 }
 
@@ -78,7 +72,7 @@ void run_replay(const ReplayOptions& options) {
                           std::to_string(options.files.size()));
         const Snapshot snapshot = load_snapshot(file, settings.grid_desc());
         vox_grid* const grid = snapshot.grid.get();
-        const std::uint64_t epoch = epoch_of(grid);
+        const std::uint64_t epoch = info_of(grid).epoch;
         for (std::uint32_t step = 0; step < options.steps; ++step) check(vox_grid_step(grid));
         if (!options.out.empty()) {
             const std::string drawing = is_series(options.out) ? file_in_series(options.out, i) : options.out;
@@ -94,7 +88,7 @@ void run_replay(const ReplayOptions& options) {
         Json json = {{"file", file},
                      {"saved_epoch", epoch},
                      {"steps", options.steps},
-                     {"cell_size", cell_size_of(grid)}};
+                     {"cell_size", info_of(grid).cell_size}};
         json.add("contact_count", contacts_of(grid).count);
         add_result(json, grid, profile_of(grid));
         grids.push_back(json);

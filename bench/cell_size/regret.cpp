@@ -104,9 +104,10 @@ public:
     }
 
     double cell_size() const {
-        double size = 0;
-        must(vox_grid_cell_size(grid_, &size));
-        return size;
+        vox_grid_info info;
+        info.struct_size = sizeof info;
+        must(vox_grid_get_info(grid_, &info));
+        return info.cell_size;
     }
 
     struct Suggestion {

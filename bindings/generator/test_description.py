@@ -216,7 +216,7 @@ class Faults(unittest.TestCase):
             ("vox_grid_destroy(VOX_OPTIONAL vox_grid* grid)", "vox_grid_end(vox_grid* grid)",
              "no function releases a vox_grid"),
             ("uint64_t fullest_cell;", "uint64_t fullness;", "fullness: a count, or bits?"),
-            ("uint32_t flags; /* vox_grid_flags, combined", "uint32_t flags; /* of several kinds, combined", "which flags?"),
+            ("uint32_t flags; /* vox_mesh_flags, combined", "uint32_t flags; /* of several kinds, combined", "which flags?"),
         ]:
             with self.subTest(old=old, new=new), self.assertRaises(describe.Unclear) as raised:
                 describe.describe(self.changed(old, new))

@@ -37,6 +37,36 @@ export interface GridDesc {
   closestBudget: number;
 }
 
+/** A grid as it is now, and what its last successful step did. */
+export interface GridInfo {
+  /** vox_grid_flags, combined with | */
+  flags: number;
+  /**
+   * Number of steps, clears, reserves and changes of flags or margin so far, failed steps included. A view is valid
+   * while its epoch equals it.
+   */
+  epoch: number;
+  /**
+   * The one that was set, or else the one used last; 0 before the first step. If several were chosen, it is that of the
+   * smallest tetrahedra (reference engine) or of the last body that needed one (fast engine).
+   */
+  cellSize: number;
+  margin: number;
+  /** held now, without the caller's arrays */
+  bytes: number;
+  peakBytes: number;
+  /** nanoseconds */
+  stepNs: number;
+  /** bodies that were not at rest (see vox_grid_step) */
+  movedBodies: number;
+  /** bodies that were left out (VOX_GRID_SKIP_BAD_BODIES) */
+  skippedBodies: number;
+  /** pairs that began, in all steps so far */
+  totalBegan: number;
+  /** pairs that ended, in all steps so far */
+  totalEnded: number;
+}
+
 /**
  * What a mesh collides with. With all fields 0, the default, it collides with every other mesh, but not with itself.
  * Two meshes in different worlds never collide; use worlds for copies of a scene in one grid. Two meshes with the same

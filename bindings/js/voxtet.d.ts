@@ -4,8 +4,8 @@ import type { CellContent, CellLook, Format, KnownGrid, LogLevel, PrimitiveType,
 import type {
   BodyInfo, ClosestHit, ClosestHitColumns, Contact, ContactColumns, ContactEvent, ContactEventColumns, CostBounds,
   CostMinimum, CostPrediction, CostTerm, CostWeights, Counters, Depth, DepthColumns, FacetHit, FacetHitColumns,
-  Failure, Filter, ForeignSuggestion as ForeignSuggestionStruct, GridDesc, GridFit as GridFitStruct, GridTiming,
-  GridWeights, GridWork, Pair, PairColumns, Penetration, PenetrationColumns, PointHit, PointHitColumns, Profile,
+  Failure, Filter, ForeignSuggestion as ForeignSuggestionStruct, GridDesc, GridFit as GridFitStruct, GridInfo,
+  GridTiming, GridWeights, GridWork, Pair, PairColumns, Penetration, PenetrationColumns, PointHit, PointHitColumns, Profile,
   RayHit, Reading, ReadingColumns, ReferenceDesc, SuggestDesc, Suggestion as SuggestionStruct, SurfaceHit, TetHit,
   TetHitColumns, TouchEvent, TouchEventColumns, TuneDesc, Tuning as TuningStruct,
 } from "./structs.js";
@@ -13,7 +13,7 @@ import type {
 export * from "./enums.js";
 export type {
   CellSizeRules, ClosestHit, Contact, ContactEvent, CostSample, CostShare, CostTerm, CostWeights, Counters, Depth, FacetHit,
-  Failure, Filter, ForeignRules, GeometryStats, GridTiming, GridWeights, GridWork, BodyInfo, Pair, Penetration, PointHit, Profile, RayHit, Reading, SurfaceHit, TetHit, TouchEvent,
+  Failure, Filter, ForeignRules, GeometryStats, GridInfo, GridTiming, GridWeights, GridWork, BodyInfo, Pair, Penetration, PointHit, Profile, RayHit, Reading, SurfaceHit, TetHit, TouchEvent,
 } from "./structs.js";
 
 /** A call that vox refused. The message says what was wrong, with numbers in it; `code` is one of `Result`. */
@@ -340,6 +340,8 @@ export interface Grid extends Queries {
   /** The grid as bytes that are the same on every machine: settings, meshes, positions, state of the events. */
   save(): Uint8Array;
 
+  /** The grid as it is now. */
+  readonly info: GridInfo;
   readonly counters: Counters;
   /** Nanoseconds of the last step, by stage. */
   readonly profile: Profile;

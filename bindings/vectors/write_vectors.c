@@ -179,18 +179,17 @@ static void step(void) {
     vox_interior_view interiors;
     vox_pair_view pairs;
     vox_touch_view touches;
-    uint64_t hash, epoch;
-    uint32_t flags;
+    uint64_t hash;
+    vox_grid_info info = {.struct_size = sizeof info};
     expect(vox_grid_get_contacts(grid, &contacts), "contacts");
     expect(vox_grid_contact_interiors(grid, &interiors), "interiors");
     expect(vox_grid_get_pairs(grid, &pairs), "pairs");
     expect(vox_grid_touch_events(grid, &touches), "touches");
     expect(vox_grid_get_hash(grid, &hash), "hash");
-    expect(vox_grid_epoch(grid, &epoch), "epoch");
-    expect(vox_grid_get_flags(grid, &flags), "flags");
+    expect(vox_grid_get_info(grid, &info), "info");
     begin_call("results");
     field("hash", "\"%016" PRIx64 "\"", hash);
-    field("epoch", "%" PRIu64, epoch);
+    field("epoch", "%" PRIu64, info.epoch);
     items_field("contacts", contacts.data, contacts.count, sizeof *contacts.data);
     uint64_t inside = 0;
     for (uint64_t i = 0; i < interiors.count; ++i) inside += interiors.data[i];
@@ -200,7 +199,7 @@ static void step(void) {
     items_field("touches", touches.data, touches.count, sizeof *touches.data);
     field("touches_began_persisted_ended", "[%" PRIu64 ", %" PRIu64 ", %" PRIu64 "]", touches.began,
           touches.persisted, touches.ended);
-    if (flags & VOX_GRID_PENETRATIONS) {
+    if (info.flags & VOX_GRID_PENETRATIONS) {
         vox_penetration_view penetrations;
         vox_depth_view depths;
         expect(vox_grid_penetrations(grid, &penetrations), "penetrations");
@@ -208,7 +207,7 @@ static void step(void) {
         items_field("penetrations", penetrations.data, penetrations.count, sizeof *penetrations.data);
         items_field("depths", depths.data, depths.count, sizeof *depths.data);
     }
-    if (flags & VOX_GRID_CONTACT_EVENTS) {
+    if (info.flags & VOX_GRID_CONTACT_EVENTS) {
         vox_contact_event_view events;
         expect(vox_grid_contact_events(grid, &events), "contact events");
         items_field("contact_events", events.data, events.count, sizeof *events.data);

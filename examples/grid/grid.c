@@ -15,14 +15,14 @@ int main(void) {
         insert_cube(grid, &first);
         insert_cube(grid, &second);
         for (int i = 0; i < 3; ++i) {
-            double cell_size = 0;
+            vox_grid_info info = {.struct_size = sizeof info};
             uint64_t hash = 0;
             must(vox_grid_set_cell_size(grid, cell_sizes[i])); /* 0: the library chooses */
             must(vox_grid_step(grid));
-            must(vox_grid_cell_size(grid, &cell_size));
+            must(vox_grid_get_info(grid, &info));
             must(vox_grid_get_hash(grid, &hash));
             printf("%-9s cell size %-5.2g %" PRIu64 " contacts, hash %016" PRIx64 "\n", names[engine],
-                   cell_size, contact_count(grid), hash);
+                   info.cell_size, contact_count(grid), hash);
         }
         must(vox_grid_clear(grid));
         vox_grid_destroy(grid);

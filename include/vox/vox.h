@@ -239,11 +239,6 @@ VOX_API vox_result vox_grid_reserve(vox_grid* grid, uint32_t mesh_count, uint64_
  * Errors: INVALID_ARGUMENT when negative, infinite or NaN. */
 VOX_API vox_result vox_grid_set_cell_size(vox_grid* grid, double cell_size);
 
-/* The cell size in use: the one set, or the one chosen for the last step. If several were chosen, it is that of the
- * smallest tetrahedra (reference engine) or of the last body that needed one (fast engine); if none was chosen yet,
- * it is 0. */
-VOX_API vox_result vox_grid_cell_size(const vox_grid* grid, double* out_cell_size);
-
 /* Sets vox_grid_desc.worker_count for the following steps. Errors: INVALID_ARGUMENT (also VOX_ALL_CORES if the grid has
  * a task system of the caller's). */
 VOX_API vox_result vox_grid_set_worker_count(vox_grid* grid, uint32_t worker_count);
@@ -267,11 +262,28 @@ VOX_API vox_result vox_grid_set_flags(vox_grid* grid, uint32_t flags);
  * Errors: INVALID_ARGUMENT when negative, NaN or above 2^125; UNSUPPORTED in a build without. */
 VOX_EXPERIMENTAL vox_result vox_grid_set_margin(vox_grid* grid, double margin);
 
-/* The margin in use. */
-VOX_EXPERIMENTAL vox_result vox_grid_margin(const vox_grid* grid, double* out_margin);
+/* A grid as it is now, and what its last successful step did. */
+typedef struct vox_grid_info {
+    uint32_t struct_size;
+    uint32_t flags; /* vox_grid_flags, combined with | */
+    /* Number of steps, clears, reserves and changes of flags or margin so far, failed steps included. A view is valid
+     * while its epoch equals it. */
+    uint64_t epoch;
+    /* The one that was set, or else the one used last; 0 before the first step. If several were chosen, it is that of the
+     * smallest tetrahedra (reference engine) or of the last body that needed one (fast engine). */
+    double cell_size;
+    double margin;
+    uint64_t bytes;          /* held now, without the caller's arrays */
+    uint64_t peak_bytes;
+    uint64_t step_ns;        /* nanoseconds */
+    uint64_t moved_bodies;   /* bodies that were not at rest (see vox_grid_step) */
+    uint64_t skipped_bodies; /* bodies that were left out (VOX_GRID_SKIP_BAD_BODIES) */
+    uint64_t total_began;    /* pairs that began, in all steps so far */
+    uint64_t total_ended;    /* pairs that ended, in all steps so far */
+} vox_grid_info;
 
-/* The flags in use. */
-VOX_API vox_result vox_grid_get_flags(const vox_grid* grid, uint32_t* out_flags);
+/* Gets a grid's state. Set out_info->struct_size first. */
+VOX_API vox_result vox_grid_get_info(const vox_grid* grid, vox_grid_info* out_info);
 
 /* ---- meshes ----------------------------------------------------------------------------------- */
 
@@ -631,7 +643,7 @@ typedef struct vox_contact {
 } vox_contact;
 
 /* `count` contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b, tet). `data` lives until the next step,
- * clear, reserve, change of the flags or destroy of the grid; `epoch` is vox_grid_epoch() of that state. */
+ * clear, reserve, change of the flags or destroy of the grid; `epoch` is vox_grid_info.epoch of that state. */
 typedef struct vox_contact_view {
     const vox_contact* data;
     size_t byte_stride;
@@ -661,10 +673,6 @@ typedef struct vox_interior_view {
 
 /* Whether each contact of the last step is interior; count 0 before the first, after a failed one and after a clear. */
 VOX_API vox_result vox_grid_contact_interiors(const vox_grid* grid, vox_interior_view* out_view);
-
-/* Number of steps, clears, reserves and changes of the flags so far, failed steps included. A view is valid while its
- * epoch equals it. */
-VOX_API vox_result vox_grid_epoch(const vox_grid* grid, uint64_t* out_epoch);
 
 /* A hash of the contacts: all fields, in order. The same for any cell size, storage, hash and engine. */
 VOX_API vox_result vox_grid_get_hash(const vox_grid* grid, uint64_t* out_hash);
@@ -1355,7 +1363,7 @@ VOX_API vox_result vox_query_view_retain(vox_query_view* view);
 /* Ends the use of a view by one owner. The view is invalid once all have released it. Null does nothing. */
 VOX_API void vox_query_view_release(VOX_OPTIONAL vox_query_view* view);
 
-/* vox_grid_epoch when the view was taken: which step it shows. */
+/* vox_grid_info.epoch when the view was taken: which step it shows. */
 VOX_API vox_result vox_query_view_epoch(const vox_query_view* view, uint64_t* out_epoch);
 
 /* The user_data that a mesh of the view was inserted with. Errors: INVALID_HANDLE if the mesh is not in the view. */

@@ -361,7 +361,8 @@ public:
     // Writes why the view has ended to `text`; false if it has not.
     bool ended(char (&text)[160]) const noexcept {
         if (!watch_) return false;
-        std::uint64_t now = 0;
+        vox_grid_info now{};
+        now.struct_size = sizeof now;
         if (!watch_->grid) {
             std::snprintf(text, sizeof text, "a view is read whose grid was destroyed");
         } else if (until_ == lasts::mapping) {
@@ -369,10 +370,10 @@ public:
             std::snprintf(text, sizeof text,
                           "mapped positions of mesh %u are used that a removal or new positions ended",
                           static_cast<unsigned>(mesh_));
-        } else if (vox_grid_epoch(watch_->grid, &now) != VOX_OK || now != epoch_) {
+        } else if (vox_grid_get_info(watch_->grid, &now) != VOX_OK || now.epoch != epoch_) {
             std::snprintf(text, sizeof text,
                           "a view of epoch %llu is read in epoch %llu: a step, clear, reserve or other flags ended it",
-                          static_cast<unsigned long long>(epoch_), static_cast<unsigned long long>(now));
+                          static_cast<unsigned long long>(epoch_), static_cast<unsigned long long>(now.epoch));
         } else if (until_ == lasts::readings && watch_->prepared != mark_) {
             std::snprintf(text, sizeof text, "readings are read that were prepared again since: %llu times",
                           static_cast<unsigned long long>(watch_->prepared - mark_));
@@ -1134,20 +1135,16 @@ public:
     }
     // vox_grid_set_cell_size
     returns<void> set_cell_size(double size) { return detail::give(vox_grid_set_cell_size(get(), size)); }
-    // vox_grid_cell_size
-    returns<double> cell_size() const { return detail::filled<double>(vox_grid_cell_size, get()); }
+    // vox_grid_get_info
+    returns<vox_grid_info> info() const { return detail::filled<vox_grid_info>(vox_grid_get_info, get()); }
     // vox_grid_set_margin
     returns<void> set_margin(double margin) { return detail::give(vox_grid_set_margin(get(), margin)); }
-    // vox_grid_margin
-    returns<double> margin() const { return detail::filled<double>(vox_grid_margin, get()); }
     // vox_grid_set_worker_count
     returns<void> set_worker_count(std::uint32_t count) {
         return detail::give(vox_grid_set_worker_count(get(), count));
     }
     // vox_grid_set_flags
     returns<void> set_flags(std::uint32_t flags) { return detail::give(vox_grid_set_flags(get(), flags)); }
-    // vox_grid_get_flags
-    returns<std::uint32_t> flags() const { return detail::filled<std::uint32_t>(vox_grid_get_flags, get()); }
 
     // -- meshes
 
@@ -1395,8 +1392,6 @@ public:
     void readings() const&& = delete;
     void reading_depths() const&& = delete;
 
-    // vox_grid_epoch
-    returns<std::uint64_t> epoch() const { return detail::filled<std::uint64_t>(vox_grid_epoch, get()); }
     // vox_grid_get_hash
     returns<std::uint64_t> hash() const { return detail::filled<std::uint64_t>(vox_grid_get_hash, get()); }
     // vox_mesh_copy_contacts, vox_pair_copy_contacts

@@ -102,10 +102,6 @@ vox_result vox_grid_set_cell_size(vox_grid* grid, double cell_size) {
     return border(grid, "grid", [&] { grid->set_cell_size(cell_size); });
 }
 
-vox_result vox_grid_cell_size(const vox_grid* grid, double* out_cell_size) {
-    return border(grid, "grid", out_cell_size, "out_cell_size", [&] { return grid->cell_size(); });
-}
-
 vox_result vox_grid_set_worker_count(vox_grid* grid, uint32_t worker_count) {
     return border(grid, "grid", [&] { grid->set_worker_count(worker_count); });
 }
@@ -114,8 +110,8 @@ vox_result vox_grid_set_flags(vox_grid* grid, uint32_t flags) {
     return border(grid, "grid", [&] { grid->set_flags(flags); });
 }
 
-vox_result vox_grid_get_flags(const vox_grid* grid, uint32_t* out_flags) {
-    return border(grid, "grid", out_flags, "out_flags", [&] { return grid->flags(); });
+vox_result vox_grid_get_info(const vox_grid* grid, vox_grid_info* out_info) {
+    return border(grid, "grid", [&] { write_struct(out_info, grid->info(), "out_info"); });
 }
 
 // ---- meshes ---------------------------------------------------------------------------------------
@@ -225,10 +221,6 @@ vox_result vox_grid_penetrations(const vox_grid* grid, vox_penetration_view* out
 
 vox_result vox_grid_depths(const vox_grid* grid, vox_depth_view* out_view) {
     return border(grid, "grid", out_view, "out_view", [&] { return grid->depths(); });
-}
-
-vox_result vox_grid_epoch(const vox_grid* grid, uint64_t* out_epoch) {
-    return border(grid, "grid", out_epoch, "out_epoch", [&] { return grid->epoch(); });
 }
 
 vox_result vox_grid_get_hash(const vox_grid* grid, uint64_t* out_hash) {

@@ -10,10 +10,6 @@ vox_result vox_grid_set_margin(vox_grid* grid, double margin) {
     return border(grid, "grid", [&] { grid->set_margin(margin); });
 }
 
-vox_result vox_grid_margin(const vox_grid* grid, double* out_margin) {
-    return border(grid, "grid", out_margin, "out_margin", [&] { return grid->margin(); });
-}
-
 vox_result vox_mesh_bind_previous_positions(vox_grid* grid, vox_body body, const vox_positions* positions) {
     return border(grid, "grid", [&] {
         const std::uint32_t vertices = grid->mesh(body).vertex_count();

@@ -179,6 +179,21 @@ void vox_grid::require_penetrations() const {
 
 std::uint64_t vox_grid::hash() const noexcept { return hash_contacts(contacts_); }
 
+vox_grid_info vox_grid::info() const noexcept {
+    return {.struct_size = sizeof(vox_grid_info),
+            .flags = flags(),
+            .epoch = epoch_,
+            .cell_size = used_cell_size_,
+            .margin = margin_,
+            .bytes = memory_.bytes(),
+            .peak_bytes = memory_.peak_bytes(),
+            .step_ns = profile_.step_ns,
+            .moved_bodies = counters_.moved_meshes,
+            .skipped_bodies = counters_.skipped_meshes,
+            .total_began = counters_.total_touches_began,
+            .total_ended = counters_.total_touches_ended};
+}
+
 vox_counters vox_grid::counters() const noexcept {
     vox_counters counters = counters_;
     counters.bytes = memory_.bytes();

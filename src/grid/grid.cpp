@@ -98,6 +98,7 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
     if (desc.flags & VOX_GRID_PENETRATIONS) depth_.emplace(&memory_, trees_);
     if (desc.flags & VOX_GRID_EDGE_CONTACTS) edges_.emplace(&memory_);
     set_margin(desc.margin);
+    epoch_ = 0; // what a grid is made with is no change of it
 }
 
 // ---- meshes ---------------------------------------------------------------------------------------

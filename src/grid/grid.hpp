@@ -62,8 +62,7 @@ public:
     void set_flags(std::uint32_t flags);
     std::uint32_t flags() const noexcept;
     void set_margin(double margin);
-    double margin() const noexcept { return margin_; }
-    double cell_size() const noexcept { return used_cell_size_; }
+    vox_grid_info info() const noexcept;
 
     // For suggestions: the scene as it is now, and what the grid knows of a desc: its model, storage and
     // budget unless the caller chose these, and 1 - contacts / tets of the last step as a p_nc left at its

@@ -191,7 +191,6 @@ static record results(int scene, const float_mode* mode, uint32_t workers, callb
     vox_grid_desc desc = engine_desc();
     vox_suggestion suggestion;
     uint64_t size = 0;
-    double cell_size;
     memset(c, 0, sizeof *c);
     memset(&suggestion, 0, sizeof suggestion);
     suggestion.struct_size = sizeof suggestion;
@@ -214,8 +213,9 @@ static record results(int scene, const float_mode* mode, uint32_t workers, callb
     put_view(&r, mode, vox_depth_view, vox_depth, vox_grid_depths);
     ck_in_mode(mode, vox_grid_prepare_readings(grid));
     put_view(&r, mode, vox_reading_view, vox_reading, vox_grid_readings);
-    ck_in_mode(mode, vox_grid_cell_size(grid, &cell_size));
-    put(&r, &cell_size, sizeof cell_size);
+    vox_grid_info info = {.struct_size = sizeof info};
+    ck_in_mode(mode, vox_grid_get_info(grid, &info));
+    put(&r, &info.cell_size, sizeof info.cell_size);
     if (scene == scene_of_boxes) {
         ck_in_mode(mode, vox_grid_suggest_cell_size(grid, NULL, &suggestion));
         put(&r, &suggestion, sizeof suggestion);
@@ -279,10 +279,10 @@ START_TEST(arguments) {
         const float_mode* mode = &float_modes[m];
         vox_grid* grid = engine_grid();
         const double denormal = 0x1p-1074;
-        double cell_size = 0;
+        vox_grid_info info = {.struct_size = sizeof info};
         ck_in_mode(mode, vox_grid_set_cell_size(grid, denormal));
-        ck_in_mode(mode, vox_grid_cell_size(grid, &cell_size));
-        ck_assert_mem_eq(&cell_size, &denormal, sizeof denormal);
+        ck_in_mode(mode, vox_grid_get_info(grid, &info));
+        ck_assert_mem_eq(&info.cell_size, &denormal, sizeof denormal);
         set_float_mode(mode);
         const vox_result negative = vox_grid_set_cell_size(grid, -denormal);
         set_float_mode(&float_modes[0]);

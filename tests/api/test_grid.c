@@ -82,10 +82,8 @@ START_TEST(struct_sizes) {
     memcpy(desc, &whole, old);
     desc->struct_size = old;
     desc->cell_size = 0.25;
-    double cell_size = 0;
     vox_grid* grid = grid_of(desc); /* the margin and the allocator behind it are not read */
-    ck_ok(vox_grid_cell_size(grid, &cell_size));
-    ck_assert_double_eq(cell_size, 0.25);
+    ck_assert_double_eq(grid_info(grid).cell_size, 0.25);
     vox_grid_destroy(grid);
 
     /* A desc of a newer program: what this version does not know is not read. */
@@ -159,9 +157,9 @@ START_TEST(null_arguments) {
     vox_grid* grid = grid_of(NULL);
     vox_mesh_desc desc = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
     vox_body other = 77;
-    double number = 5;
     uint64_t count = 5;
     vox_contact_view view = {NULL, 1, 2, 3};
+    vox_grid_info info = {.struct_size = sizeof info, .epoch = 9};
     vox_counters counters = {.struct_size = sizeof counters, .tets = 9};
     vox_profile profile = {.struct_size = sizeof profile, .step_ns = 9};
     vox_body mesh = insert_mesh(grid, &desc);
@@ -169,8 +167,6 @@ START_TEST(null_arguments) {
     const vox_result bad = VOX_ERROR_INVALID_ARGUMENT;
     ck_fails(vox_grid_clear(NULL), bad, "grid is null");
     ck_fails(vox_grid_set_cell_size(NULL, 1), bad, "grid is null");
-    ck_fails(vox_grid_cell_size(NULL, &number), bad, "grid is null");
-    ck_fails(vox_grid_cell_size(grid, NULL), bad, "out_cell_size is null");
     ck_fails(vox_mesh_insert(NULL, &desc, &other), bad, "grid is null");
     ck_fails(vox_mesh_insert(grid, NULL, &other), bad, "desc is null");
     ck_fails(vox_mesh_insert(grid, &desc, NULL), bad, "out_body is null");
@@ -186,14 +182,16 @@ START_TEST(null_arguments) {
     ck_fails(vox_grid_step(NULL), bad, "grid is null");
     ck_fails(vox_grid_get_contacts(NULL, &view), bad, "grid is null");
     ck_fails(vox_grid_get_contacts(grid, NULL), bad, "out_view is null");
-    ck_fails(vox_grid_epoch(NULL, &count), bad, "grid is null");
-    ck_fails(vox_grid_epoch(grid, NULL), bad, "out_epoch is null");
     ck_fails(vox_grid_get_hash(NULL, &count), bad, "grid is null");
     ck_fails(vox_grid_get_hash(grid, NULL), bad, "out_hash is null");
+    ck_fails(vox_grid_get_info(NULL, &info), bad, "grid is null");
+    ck_fails(vox_grid_get_info(grid, NULL), bad, "out_info is null");
     ck_fails(vox_grid_get_counters(NULL, &counters), bad, "grid is null");
     ck_fails(vox_grid_get_counters(grid, NULL), bad, "out_counters is null");
     ck_fails(vox_grid_profile(NULL, &profile), bad, "grid is null");
     ck_fails(vox_grid_profile(grid, NULL), bad, "out_profile is null");
+    info.struct_size = 0;
+    ck_fails(vox_grid_get_info(grid, &info), bad, "struct_size is 0");
     counters.struct_size = 0;
     ck_fails(vox_grid_get_counters(grid, &counters), bad, "struct_size is 0");
     profile.struct_size = 1u << 20;
@@ -205,13 +203,12 @@ START_TEST(null_arguments) {
 
     /* Nothing was written, nothing has changed. */
     ck_assert_uint_eq(other, 77);
-    ck_assert_double_eq(number, 5);
+    ck_assert_uint_eq(info.epoch, 9);
     ck_assert_uint_eq(count, 5);
     ck_assert_uint_eq(view.epoch, 3);
     ck_assert_uint_eq(counters.tets, 9);
     ck_assert_uint_eq(profile.step_ns, 9);
-    ck_ok(vox_grid_epoch(grid, &count));
-    ck_assert_uint_eq(count, 0);
+    ck_assert_uint_eq(grid_info(grid).epoch, 0);
     ck_assert_uint_eq(vox_body_is_valid(grid, mesh), 1);
     ck_ok(vox_grid_step(grid));
     vox_grid_destroy(grid);
@@ -314,6 +311,44 @@ START_TEST(user_data) {
 }
 END_TEST
 
+/* What a grid says of itself is what it was told, and what its counters say of its last step. */
+START_TEST(info_of_the_last_step) {
+    vox_grid_desc desc = engine_desc();
+    desc.flags |= VOX_GRID_SKIP_BAD_BODIES | VOX_GRID_PENETRATIONS;
+    desc.margin = 0.125;
+    vox_grid* grid = grid_of(&desc);
+    const vox_mesh_desc mesh = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
+    static const float infinite[12] = {INFINITY};
+    const vox_mesh_desc bad = vox_mesh_desc_floats(infinite, 4, unit_tet, 1);
+    insert_mesh(grid, &mesh);
+    const vox_body second = insert_mesh(grid, &mesh);
+    insert_mesh(grid, &bad);
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_set_flags(grid, VOX_GRID_SKIP_BAD_BODIES));
+    ck_ok(vox_body_remove(grid, second));
+    ck_ok(vox_grid_step(grid));
+    const vox_grid_info info = grid_info(grid);
+    vox_counters counters = {.struct_size = sizeof counters};
+    vox_profile profile = {.struct_size = sizeof profile};
+    ck_ok(vox_grid_get_counters(grid, &counters));
+    ck_ok(vox_grid_profile(grid, &profile));
+    ck_assert_uint_eq(info.struct_size, sizeof info);
+    ck_assert_uint_eq(info.flags, VOX_GRID_SKIP_BAD_BODIES);
+    ck_assert_uint_eq(info.epoch, 3); /* two steps and a change of the flags */
+    ck_assert_double_eq(info.margin, 0.125);
+    ck_assert_uint_eq(info.skipped_bodies, 1);
+    ck_assert_uint_eq(info.total_began, 1);
+    ck_assert_uint_eq(info.total_ended, 1);
+    ck_assert_uint_gt(info.bytes, 0);
+    ck_assert_uint_eq(info.bytes, counters.bytes);
+    ck_assert_uint_eq(info.peak_bytes, counters.peak_bytes);
+    ck_assert_uint_eq(info.moved_bodies, counters.moved_meshes);
+    ck_assert_uint_gt(info.step_ns, 0);
+    ck_assert_uint_eq(info.step_ns, profile.step_ns);
+    vox_grid_destroy(grid);
+}
+END_TEST
+
 /* ---- cell size ---- */
 
 static char logged[256];
@@ -334,11 +369,11 @@ START_TEST(cell_size_is_chosen) {
     vox_mesh_desc mesh_desc = body_desc(&box);
     double cell_size = -1, again = -1;
     vox_grid* grid = grid_of(&desc);
-    ck_ok(vox_grid_cell_size(grid, &cell_size));
+    cell_size = grid_info(grid).cell_size;
     ck_assert_double_eq(cell_size, 0); /* none yet */
     vox_body mesh = insert_mesh(grid, &mesh_desc);
     ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_cell_size(grid, &cell_size));
+    cell_size = grid_info(grid).cell_size;
 
     /* The model of its engine: over a sample here, over all there. */
     vox_suggestion suggestion = {.struct_size = sizeof suggestion};
@@ -356,12 +391,12 @@ START_TEST(cell_size_is_chosen) {
     ck_ok(vox_mesh_insert(grid, &mesh_desc, &mesh));
     ck_ok(vox_grid_step(grid));
     ck_assert_int_eq(log_lines, 2);
-    ck_ok(vox_grid_cell_size(grid, &again));
+    again = grid_info(grid).cell_size;
     ck_assert_double_lt(again, cell_size);
 
     ck_ok(vox_grid_set_cell_size(grid, 3));
     ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_cell_size(grid, &again));
+    again = grid_info(grid).cell_size;
     ck_assert_double_eq(again, 3);
     ck_assert_int_eq(log_lines, 2);
     vox_grid_destroy(grid);
@@ -394,5 +429,5 @@ SUITE(grid) {
     TCase* tests = add_case(suite, "grid");
     tcase_add_each(tests, version, result_names, last_error, last_error_of_whole_characters, struct_sizes,
                    grid_desc_fields, null_arguments, mesh_desc_fields, ids, generations_run_out, user_data,
-                   cell_size_is_chosen, cell_size_without_extent);
+                   info_of_the_last_step, cell_size_is_chosen, cell_size_without_extent);
 }

@@ -127,7 +127,7 @@ START_TEST(margin_contacts_and_passages_equal_those_of_c) {
     const vox::grid& grid = with.grid;
     with.grid.set_margin(0.5);
     ck_ok(vox_grid_set_margin(c.grid, 0.5));
-    ck_assert_double_eq(grid.margin(), 0.5);
+    ck_assert_double_eq(grid.info().margin, 0.5);
     std::vector<float> before;
     std::uint64_t count = 0;
     vox_body first = VOX_NULL_BODY, first_of_c = VOX_NULL_BODY;
@@ -160,8 +160,8 @@ START_TEST(results_equal_those_of_c) {
     ck_ok(vox_grid_get_hash(c.grid, &hash));
     ck_assert_uint_eq(grid.hash(), hash);
     ck_ok(vox_grid_set_flags(c.grid, VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS));
-    ck_ok(vox_grid_epoch(with.grid.get(), &epoch));
-    ck_assert_uint_eq(grid.epoch(), epoch);
+    epoch = grid_info(with.grid.get()).epoch;
+    ck_assert_uint_eq(grid.info().epoch, epoch);
 
     vox_contact_view contacts;
     vox_interior_view interiors;
@@ -184,7 +184,7 @@ START_TEST(results_equal_those_of_c) {
     same_view<const vox_pair>(grid.pairs(), pairs);
     same_view<const vox_touch_event>(grid.touch_events(), touches);
     same_view<const vox_contact_event>(grid.contact_events(), events);
-    ck_assert_uint_eq(grid.contacts().epoch(), grid.epoch());
+    ck_assert_uint_eq(grid.contacts().epoch(), grid.info().epoch);
     ck_assert_uint_eq(grid.touch_events().began().size(), touches.began);
     ck_assert_uint_eq(grid.touch_events().persisted().size() + grid.touch_events().ended().size(), 0);
     ck_assert_uint_eq(grid.contact_events().began().size(), events.began);
@@ -198,8 +198,8 @@ START_TEST(results_equal_those_of_c) {
     ck_assert_uint_eq(grid.counters().contacts, counters.contacts);
     ck_assert_uint_gt(grid.profile().step_ns, 0);
     ck_assert_uint_eq(grid.failure().mesh, VOX_NULL_BODY);
-    ck_assert_uint_eq(grid.flags(), VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS);
-    ck_assert_double_gt(grid.cell_size(), 0);
+    ck_assert_uint_eq(grid.info().flags, VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS);
+    ck_assert_double_gt(grid.info().cell_size, 0);
 
     std::vector<vox_contact> some(contacts.count);
     std::uint64_t count = 0;
@@ -283,7 +283,7 @@ START_TEST(meshes_tell_what_c_tells) {
     with.grid.set_cell_size(0.25);
     with.grid.reserve(8, 100);
     with.grid.step();
-    ck_assert_double_eq(grid.cell_size(), 0.25);
+    ck_assert_double_eq(grid.info().cell_size, 0.25);
     with.grid.clear();
     ck_assert(grid.meshes().empty());
 }
@@ -449,7 +449,7 @@ START_TEST(grids_move_and_release) {
 
         // A view of queries outlives its grid; a copy is another owner.
         vox::query_view view = other.take_query_view();
-        ck_assert_uint_eq(view.epoch(), other.epoch());
+        ck_assert_uint_eq(view.epoch(), other.info().epoch);
         vox::query_view copy = view;
         view = vox::query_view();
         other = vox::grid();
@@ -539,7 +539,7 @@ START_TEST(grids_of_c_and_back) {
         ck_assert_uint_gt(borrowed.contacts().size(), 0);
         ck_assert_ptr_eq(borrowed.get(), c.grid);
         ck_ok(vox_grid_step(borrowed.get()));
-        ck_assert_uint_eq(borrowed.epoch(), 2);
+        ck_assert_uint_eq(borrowed.info().epoch, 2);
     }
     ck_assert_uint_eq(hash_of_step(c.grid), hash_without_exceptions(c.grid)); // it is alive
     vox::grid adopted = vox::grid::adopt(std::exchange(c.grid, nullptr));
@@ -555,7 +555,7 @@ START_TEST(views_know_when_they_have_ended) {
     vox::grid& grid = with.grid;
     const std::function<void()> changes[] = {
         [&] { grid.step(); }, [&] { ck_ok(vox_grid_step(grid.get())); }, [&] { grid.reserve(9, 99); },
-        [&] { grid.set_flags(grid.flags() ^ VOX_GRID_SKIP_BAD_BODIES); }, [&] { grid.clear(); }};
+        [&] { grid.set_flags(grid.info().flags ^ VOX_GRID_SKIP_BAD_BODIES); }, [&] { grid.clear(); }};
     for (const auto& change : changes) {
         grid.step();
         const auto contacts = grid.contacts();

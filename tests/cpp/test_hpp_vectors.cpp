@@ -207,7 +207,7 @@ private:
 
     void results(const json& call) const {
         check(call, "hash", digits_of(grid_.hash()));
-        check(call, "epoch", grid_.epoch());
+        check(call, "epoch", grid_.info().epoch);
         check(call, "contacts", summary(grid_.contacts()));
         std::uint64_t interior = 0;
         for (std::uint8_t inside : grid_.interiors()) interior += inside;

@@ -250,13 +250,14 @@ static inline void check_against_fresh(soak* s, const vox_contact_view* view) {
 }
 
 static inline void check(soak* s) {
-    uint64_t hashes[2] = {0, 0}, epoch = 0, user_data = 0;
+    uint64_t hashes[2] = {0, 0}, user_data = 0;
+    vox_grid_info info = {.struct_size = sizeof info};
     vox_contact_view views[2];
     for (int g = 0; g < 2; ++g) {
         good(vox_grid_get_contacts(s->grids[g], &views[g]));
         good(vox_grid_get_hash(s->grids[g], &hashes[g]));
-        good(vox_grid_epoch(s->grids[g], &epoch));
-        demand(epoch == s->epoch && views[g].epoch == epoch);
+        good(vox_grid_get_info(s->grids[g], &info));
+        demand(info.epoch == s->epoch && views[g].epoch == info.epoch);
         for (uint32_t i = 0; i < s->count; ++i) {
             demand(vox_body_is_valid(s->grids[g], s->members[i].id));
             good(vox_body_get_user_data(s->grids[g], s->members[i].id, &user_data));

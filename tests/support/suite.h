@@ -35,6 +35,13 @@ static inline vox_grid* grid_of(const vox_grid_desc* desc) {
     return grid;
 }
 
+static inline vox_grid_info grid_info(const vox_grid* grid) {
+    vox_grid_info info;
+    info.struct_size = sizeof info;
+    ck_ok(vox_grid_get_info(grid, &info));
+    return info;
+}
+
 static inline vox_filter plain_filter(void) {
     const vox_filter filter = VOX_ZERO;
     return filter;

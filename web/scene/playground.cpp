@@ -548,7 +548,9 @@ const play_facts* play_get_facts(playground* play) {
     for_each(penetrations_of(*play), [&facts](const vox_penetration& p) {
         facts.deepest = std::max(facts.deepest, static_cast<double>(p.depth));
     });
-    (void)vox_grid_cell_size(play->grid, &facts.cell_size);
+    vox_grid_info info{};
+    info.struct_size = sizeof info;
+    if (vox_grid_get_info(play->grid, &info) == VOX_OK) facts.cell_size = info.cell_size;
     facts.steps = static_cast<double>(play->steps);
     facts.asleep = play->asleep() ? 1 : 0;
     facts.bytes = static_cast<double>(play->account.bytes);

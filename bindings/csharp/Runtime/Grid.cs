@@ -121,12 +121,7 @@ namespace Voxtet
         /// choice.</summary>
         public double CellSize
         {
-            get
-            {
-                double size;
-                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_cell_size(use.Pointer, &size));
-                return size;
-            }
+            get { return Info.cell_size; }
             set { using (var use = handle.Change()) VoxException.Check(Native.vox_grid_set_cell_size(use.Pointer, value)); }
         }
 
@@ -141,12 +136,7 @@ namespace Voxtet
 
         public GridFlags Flags
         {
-            get
-            {
-                GridFlags flags;
-                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_get_flags(use.Pointer, &flags));
-                return flags;
-            }
+            get { return Info.flags; }
             set
             {
                 using (var use = handle.Change())
@@ -638,12 +628,7 @@ namespace Voxtet
         /// <summary>Number of steps and other changes so far.</summary>
         public ulong Epoch
         {
-            get
-            {
-                ulong epoch;
-                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_epoch(use.Pointer, &epoch));
-                return epoch;
-            }
+            get { return Info.epoch; }
         }
 
         /// <summary>The index-th mesh that made the last step fail or that it left out; its `mesh` is 0 beyond the last.
@@ -654,6 +639,18 @@ namespace Voxtet
             failure.struct_size = (uint)sizeof(Failure);
             using (var use = handle.Read()) VoxException.Check(Native.vox_grid_get_failure(use.Pointer, index, &failure));
             return failure;
+        }
+
+        /// <summary>The grid as it is now.</summary>
+        public GridInfo Info
+        {
+            get
+            {
+                GridInfo info;
+                info.struct_size = (uint)sizeof(GridInfo);
+                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_get_info(use.Pointer, &info));
+                return info;
+            }
         }
 
         /// <summary>What the last step did.</summary>

@@ -638,6 +638,34 @@ namespace Voxtet
         public ReferenceDesc* reference;
     }
 
+    /// <summary>A grid as it is now, and what its last successful step did.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 88)]
+    public struct GridInfo
+    {
+        public uint struct_size;
+        /// <summary>vox_grid_flags, combined with |</summary>
+        public GridFlags flags;
+        /// <summary>Number of steps, clears, reserves and changes of flags or margin so far, failed steps
+        /// included.</summary>
+        public ulong epoch;
+        /// <summary>The one that was set, or else the one used last; 0 before the first step.</summary>
+        public double cell_size;
+        public double margin;
+        /// <summary>held now, without the caller's arrays</summary>
+        public ulong bytes;
+        public ulong peak_bytes;
+        /// <summary>nanoseconds</summary>
+        public ulong step_ns;
+        /// <summary>bodies that were not at rest (see vox_grid_step)</summary>
+        public ulong moved_bodies;
+        /// <summary>bodies that were left out (VOX_GRID_SKIP_BAD_BODIES)</summary>
+        public ulong skipped_bodies;
+        /// <summary>pairs that began, in all steps so far</summary>
+        public ulong total_began;
+        /// <summary>pairs that ended, in all steps so far</summary>
+        public ulong total_ended;
+    }
+
     /// <summary>What a mesh collides with.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 40)]
     public struct Filter
@@ -2539,10 +2567,6 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_set_cell_size(IntPtr grid, double cell_size);
 
-        /// <summary>The cell size in use: the one set, or the one chosen for the last step.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_cell_size(IntPtr grid, double* out_cell_size);
-
         /// <summary>Sets vox_grid_desc.worker_count for the following steps.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_set_worker_count(IntPtr grid, uint worker_count);
@@ -2557,13 +2581,9 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_set_margin(IntPtr grid, double margin);
 
-        /// <summary>The margin in use.</summary>
+        /// <summary>Gets a grid's state.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_margin(IntPtr grid, double* out_margin);
-
-        /// <summary>The flags in use.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_get_flags(IntPtr grid, GridFlags* out_flags);
+        internal static extern Result vox_grid_get_info(IntPtr grid, GridInfo* out_info);
 
         /// <summary>Adds a mesh, which takes part from the next step on.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2699,10 +2719,6 @@ namespace Voxtet
         /// after a clear.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_contact_interiors(IntPtr grid, InteriorView* out_view);
-
-        /// <summary>Number of steps, clears, reserves and changes of the flags so far, failed steps included.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_epoch(IntPtr grid, ulong* out_epoch);
 
         /// <summary>A hash of the contacts: all fields, in order.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2872,7 +2888,7 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void vox_query_view_release(IntPtr view);
 
-        /// <summary>vox_grid_epoch when the view was taken: which step it shows.</summary>
+        /// <summary>vox_grid_info.epoch when the view was taken: which step it shows.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_query_view_epoch(IntPtr view, ulong* out_epoch);
 
@@ -3290,6 +3306,25 @@ namespace Voxtet
             entries.Add(Entry("vox_grid_desc.log", (byte*)&s.log - begin, 56, 52));
             entries.Add(Entry("vox_grid_desc.tasks", (byte*)&s.tasks - begin, 64, 56));
             entries.Add(Entry("vox_grid_desc.reference", (byte*)&s.reference - begin, 72, 60));
+        }
+
+        static void AddGridInfo(List<LayoutEntry> entries)
+        {
+            GridInfo s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_grid_info", sizeof(GridInfo), 88, 88));
+            entries.Add(Entry("vox_grid_info.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_grid_info.flags", (byte*)&s.flags - begin, 4, 4));
+            entries.Add(Entry("vox_grid_info.epoch", (byte*)&s.epoch - begin, 8, 8));
+            entries.Add(Entry("vox_grid_info.cell_size", (byte*)&s.cell_size - begin, 16, 16));
+            entries.Add(Entry("vox_grid_info.margin", (byte*)&s.margin - begin, 24, 24));
+            entries.Add(Entry("vox_grid_info.bytes", (byte*)&s.bytes - begin, 32, 32));
+            entries.Add(Entry("vox_grid_info.peak_bytes", (byte*)&s.peak_bytes - begin, 40, 40));
+            entries.Add(Entry("vox_grid_info.step_ns", (byte*)&s.step_ns - begin, 48, 48));
+            entries.Add(Entry("vox_grid_info.moved_bodies", (byte*)&s.moved_bodies - begin, 56, 56));
+            entries.Add(Entry("vox_grid_info.skipped_bodies", (byte*)&s.skipped_bodies - begin, 64, 64));
+            entries.Add(Entry("vox_grid_info.total_began", (byte*)&s.total_began - begin, 72, 72));
+            entries.Add(Entry("vox_grid_info.total_ended", (byte*)&s.total_ended - begin, 80, 80));
         }
 
         static void AddFilter(List<LayoutEntry> entries)
@@ -4680,6 +4715,7 @@ namespace Voxtet
             var entries = new List<LayoutEntry>();
             AddPositions(entries);
             AddGridDesc(entries);
+            AddGridInfo(entries);
             AddFilter(entries);
             AddMeshDesc(entries);
             AddBodyInfo(entries);

@@ -109,7 +109,7 @@ export class Grid extends Queries {
   }
 
   get cellSize() {
-    return this.#number("f64", "vox_grid_cell_size");
+    return this.info.cellSize;
   }
 
   set cellSize(value) {
@@ -117,7 +117,7 @@ export class Grid extends Queries {
   }
 
   get flags() {
-    return this.#number("u32", "vox_grid_get_flags");
+    return this.info.flags;
   }
 
   set flags(value) {
@@ -169,7 +169,7 @@ export class Grid extends Queries {
   }
 
   get epoch() {
-    return this.#number("count", "vox_grid_epoch");
+    return this.info.epoch;
   }
 
   get hash() {
@@ -273,6 +273,10 @@ export class Grid extends Queries {
       memory.number("count", (out) => this.#call("vox_grid_save", at, size, out));
       return memory.copy("u8", at, size);
     });
+  }
+
+  get info() {
+    return this.#get("vox_grid_info", "vox_grid_get_info");
   }
 
   get counters() {

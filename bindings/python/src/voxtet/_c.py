@@ -310,6 +310,30 @@ class vox_grid_desc(Structure):
     ]
 
 
+class vox_grid_info(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("flags", c_uint32),
+        ("epoch", c_uint64),
+        ("cell_size", c_double),
+        ("margin", c_double),
+        ("bytes", c_uint64),
+        ("peak_bytes", c_uint64),
+        ("step_ns", c_uint64),
+        ("moved_bodies", c_uint64),
+        ("skipped_bodies", c_uint64),
+        ("total_began", c_uint64),
+        ("total_ended", c_uint64),
+    ]
+
+dtypes["vox_grid_info"] = dtype({
+    "names": ["struct_size", "flags", "epoch", "cell_size", "margin", "bytes", "peak_bytes", "step_ns", "moved_bodies",
+        "skipped_bodies", "total_began", "total_ended"],
+    "formats": ["u4", "u4", "u8", "f8", "f8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80],
+    "itemsize": 88})
+
+
 class vox_filter(Structure):
     _fields_ = [
         ("flags", c_uint32),
@@ -1854,12 +1878,10 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_grid_clear": (vox_result, (c_void_p,)),
         "vox_grid_reserve": (vox_result, (c_void_p, c_uint32, c_uint64)),
         "vox_grid_set_cell_size": (vox_result, (c_void_p, c_double)),
-        "vox_grid_cell_size": (vox_result, (c_void_p, POINTER(c_double))),
         "vox_grid_set_worker_count": (vox_result, (c_void_p, c_uint32)),
         "vox_grid_set_flags": (vox_result, (c_void_p, c_uint32)),
         "vox_grid_set_margin": (vox_result, (c_void_p, c_double)),
-        "vox_grid_margin": (vox_result, (c_void_p, POINTER(c_double))),
-        "vox_grid_get_flags": (vox_result, (c_void_p, POINTER(c_uint32))),
+        "vox_grid_get_info": (vox_result, (c_void_p, POINTER(vox_grid_info))),
         "vox_mesh_insert": (vox_result, (c_void_p, POINTER(vox_mesh_desc), POINTER(c_uint32))),
         "vox_body_remove": (vox_result, (c_void_p, c_uint32)),
         "vox_body_is_valid": (c_uint32, (c_void_p, c_uint32)),
@@ -1888,7 +1910,6 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_grid_get_contacts": (vox_result, (c_void_p, POINTER(vox_contact_view))),
         "vox_grids_copy_contacts": (vox_result, (c_void_p, c_uint64, c_void_p, c_uint64, c_void_p)),
         "vox_grid_contact_interiors": (vox_result, (c_void_p, POINTER(vox_interior_view))),
-        "vox_grid_epoch": (vox_result, (c_void_p, POINTER(c_uint64))),
         "vox_grid_get_hash": (vox_result, (c_void_p, POINTER(c_uint64))),
         "vox_grid_penetrations": (vox_result, (c_void_p, POINTER(vox_penetration_view))),
         "vox_grid_depths": (vox_result, (c_void_p, POINTER(vox_depth_view))),

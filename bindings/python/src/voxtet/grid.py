@@ -310,13 +310,17 @@ class Grid(Queries, Results):
 
     # ---- settings ----
 
+    def _info(self) -> Any:
+        """The state of the grid, for a caller that has the lock."""
+        out = sized(_c.vox_grid_info)
+        vox.vox_grid_get_info(self._pointer, out)
+        return out
+
     @property
     def cell_size(self) -> float:
         """The cell size in use. Set it for the following steps; 0: the library chooses. It never changes the contacts."""
-        size = ctypes.c_double()
         with self._lock:
-            vox.vox_grid_cell_size(self._pointer, size)
-        return size.value
+            return self._info().cell_size
 
     @cell_size.setter
     def cell_size(self, cell_size: float) -> None:
@@ -343,23 +347,19 @@ class Grid(Queries, Results):
                   (contact_events, "contact_events", _c.GridFlags.CONTACT_EVENTS),
                   (skip_bad_bodies, "skip_bad_bodies", _c.GridFlags.SKIP_BAD_BODIES)]
         with self._lock:
-            before = ctypes.c_uint32()
-            vox.vox_grid_get_flags(self._pointer, before)
-            flags = before.value
+            before = flags = self._info().flags
             for value, name, flag in wanted:
                 if value is not None:
                     flags = flags & ~flag | switch(value, name) * flag
-            if flags != before.value:
+            if flags != before:
                 self._refuse("a change of the flags")
             vox.vox_grid_set_flags(self._pointer, flags)
 
     @property
     def flags(self) -> _c.GridFlags:
         """What the steps do."""
-        flags = ctypes.c_uint32()
         with self._lock:
-            vox.vox_grid_get_flags(self._pointer, flags)
-        return _c.GridFlags(flags.value)
+            return _c.GridFlags(self._info().flags)
 
     # ---- meshes ----
 
@@ -568,7 +568,8 @@ class Grid(Queries, Results):
     @property
     def epoch(self) -> int:
         """Number of steps, clears, reserves and changes of the flags so far."""
-        return self._number(vox.vox_grid_epoch)
+        with self._lock:
+            return self._info().epoch
 
     @property
     def hash(self) -> int:

@@ -486,6 +486,35 @@ pub struct vox_grid_desc {
     pub reference: *const vox_reference_desc,
 }
 
+/// A grid as it is now, and what its last successful step did.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_grid_info {
+    pub struct_size: u32,
+    /// vox_grid_flags, combined with |
+    pub flags: u32,
+    /// Number of steps, clears, reserves and changes of flags or margin so far, failed steps included. A view is valid
+    /// while its epoch equals it.
+    pub epoch: u64,
+    /// The one that was set, or else the one used last; 0 before the first step. If several were chosen, it is that of
+    /// the smallest tetrahedra (reference engine) or of the last body that needed one (fast engine).
+    pub cell_size: f64,
+    pub margin: f64,
+    /// held now, without the caller's arrays
+    pub bytes: u64,
+    pub peak_bytes: u64,
+    /// nanoseconds
+    pub step_ns: u64,
+    /// bodies that were not at rest (see vox_grid_step)
+    pub moved_bodies: u64,
+    /// bodies that were left out (VOX_GRID_SKIP_BAD_BODIES)
+    pub skipped_bodies: u64,
+    /// pairs that began, in all steps so far
+    pub total_began: u64,
+    /// pairs that ended, in all steps so far
+    pub total_ended: u64,
+}
+
 /// What a mesh collides with. With all fields 0, the default, it collides with every other mesh, but not with itself.
 /// Two meshes in different worlds never collide; use worlds for copies of a scene in one grid. Two meshes with the same
 /// group other than 0 collide if it is positive and do not collide if it is negative. Any other two collide if the
@@ -631,7 +660,7 @@ pub struct vox_contact {
 }
 
 /// `count` contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b, tet). `data` lives until the next step,
-/// clear, reserve, change of the flags or destroy of the grid; `epoch` is vox_grid_epoch() of that state.
+/// clear, reserve, change of the flags or destroy of the grid; `epoch` is vox_grid_info.epoch of that state.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_contact_view {
@@ -2394,10 +2423,6 @@ extern "C" {
     /// Sets the cell size of the following steps; 0: the library chooses. Never changes the contacts. Errors:
     /// INVALID_ARGUMENT when negative, infinite or NaN.
     pub fn vox_grid_set_cell_size(grid: *mut vox_grid, cell_size: f64) -> vox_result;
-    /// The cell size in use: the one set, or the one chosen for the last step. If several were chosen, it is that of
-    /// the smallest tetrahedra (reference engine) or of the last body that needed one (fast engine); if none was chosen
-    /// yet, it is 0.
-    pub fn vox_grid_cell_size(grid: *const vox_grid, out_cell_size: *mut f64) -> vox_result;
     /// Sets vox_grid_desc.worker_count for the following steps. Errors: INVALID_ARGUMENT (also VOX_ALL_CORES if the
     /// grid has a task system of the caller's).
     pub fn vox_grid_set_worker_count(grid: *mut vox_grid, worker_count: u32) -> vox_result;
@@ -2416,10 +2441,8 @@ extern "C" {
     /// of more than 357913941 tets then makes a step fail with LIMIT. Snapshots do not keep the margin. Errors:
     /// INVALID_ARGUMENT when negative, NaN or above 2^125; UNSUPPORTED in a build without.
     pub fn vox_grid_set_margin(grid: *mut vox_grid, margin: f64) -> vox_result;
-    /// The margin in use.
-    pub fn vox_grid_margin(grid: *const vox_grid, out_margin: *mut f64) -> vox_result;
-    /// The flags in use.
-    pub fn vox_grid_get_flags(grid: *const vox_grid, out_flags: *mut u32) -> vox_result;
+    /// Gets a grid's state. Set out_info->struct_size first.
+    pub fn vox_grid_get_info(grid: *const vox_grid, out_info: *mut vox_grid_info) -> vox_result;
     /// Adds a mesh, which takes part from the next step on. Packed positions in VOX_FORMAT_FLOAT that can only be
     /// doubles are refused: from 16 vertices on, every other number would be of ordinary size, those between far too
     /// large and far too small by turns (as most bit patterns are). They are looked at once for each format, here if
@@ -2663,9 +2686,6 @@ extern "C" {
         grid: *const vox_grid,
         out_view: *mut vox_interior_view,
     ) -> vox_result;
-    /// Number of steps, clears, reserves and changes of the flags so far, failed steps included. A view is valid while
-    /// its epoch equals it.
-    pub fn vox_grid_epoch(grid: *const vox_grid, out_epoch: *mut u64) -> vox_result;
     /// A hash of the contacts: all fields, in order. The same for any cell size, storage, hash and engine.
     pub fn vox_grid_get_hash(grid: *const vox_grid, out_hash: *mut u64) -> vox_result;
     /// The penetrations of the last step; count 0 if it found no contacts, before the first step, after a failed one
@@ -2924,7 +2944,7 @@ extern "C" {
     pub fn vox_query_view_retain(view: *mut vox_query_view) -> vox_result;
     /// Ends the use of a view by one owner. The view is invalid once all have released it. Null does nothing.
     pub fn vox_query_view_release(view: *mut vox_query_view);
-    /// vox_grid_epoch when the view was taken: which step it shows.
+    /// vox_grid_info.epoch when the view was taken: which step it shows.
     pub fn vox_query_view_epoch(view: *const vox_query_view, out_epoch: *mut u64) -> vox_result;
     /// The user_data that a mesh of the view was inserted with. Errors: INVALID_HANDLE if the mesh is not in the view.
     pub fn vox_query_view_user_data(
@@ -3557,6 +3577,9 @@ layouts! {
     vox_grid_desc: size [80, 64], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], worker_count: [8, 8],
         reserved: [12, 12], cell_size: [16, 16], margin: [24, 24], byte_budget: [32, 32], closest_budget: [40, 40],
         allocator: [48, 48], log: [56, 52], tasks: [64, 56], reference: [72, 60] }
+    vox_grid_info: size [88, 88], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], epoch: [8, 8],
+        cell_size: [16, 16], margin: [24, 24], bytes: [32, 32], peak_bytes: [40, 40], step_ns: [48, 48],
+        moved_bodies: [56, 56], skipped_bodies: [64, 64], total_began: [72, 72], total_ended: [80, 80] }
     vox_filter: size [40, 40], alignment [8, 8], { flags: [0, 0], group: [4, 4], category: [8, 8], mask: [16, 16],
         world: [24, 24], self_rings: [28, 28], self_rest_distance: [32, 32] }
     vox_mesh_desc: size [152, 152], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], positions: [8, 8],

@@ -16,6 +16,9 @@ use crate::{
 
 /// What the last step did; `vox_counters` in vox.h.
 pub type Counters = sys::vox_counters;
+
+/// A grid as it is now, and what its last step did; `vox_grid_info` in vox.h.
+pub type GridInfo = sys::vox_grid_info;
 /// Nanoseconds of the last step, by stage; `vox_profile` in vox.h.
 pub type Profile = sys::vox_profile;
 /// A mesh that made a step fail, or that a step left out; `vox_failure` in vox.h.
@@ -216,9 +219,7 @@ impl Grid {
 
     /// The cell size in use; 0 if none was chosen yet.
     pub fn cell_size(&self) -> f64 {
-        let mut cell_size = 0.0;
-        unsafe { sys::vox_grid_cell_size(self.get(), &mut cell_size) };
-        cell_size
+        self.state().cell_size
     }
 
     /// Threads of the following steps, as [`GridOptions::workers`]. With a task system: how many workers it gets.
@@ -236,8 +237,7 @@ impl Grid {
 
     /// What [`set_flags`](Grid::set_flags) sets, in its order; of a loaded grid as it was saved.
     pub fn flags(&self) -> (bool, bool, bool) {
-        let mut flags = 0;
-        unsafe { sys::vox_grid_get_flags(self.get(), &mut flags) };
+        let flags = self.state().flags;
         let has = |flag| flags & flag != 0;
         (has(sys::VOX_GRID_PENETRATIONS), has(sys::VOX_GRID_CONTACT_EVENTS), has(sys::VOX_GRID_SKIP_BAD_BODIES))
     }
@@ -573,9 +573,7 @@ impl Grid {
 
     /// Number of steps and other changes so far.
     pub fn epoch(&self) -> u64 {
-        let mut epoch = 0;
-        unsafe { sys::vox_grid_epoch(self.get(), &mut epoch) };
-        epoch
+        self.state().epoch
     }
 
     /// The mesh that made the last step fail, or those that it left out.
@@ -589,6 +587,13 @@ impl Grid {
             }
             all.push(failure);
         }
+    }
+
+    /// The grid as it is now.
+    pub fn state(&self) -> GridInfo {
+        let mut info = sized!(GridInfo);
+        unsafe { sys::vox_grid_get_info(self.get(), &mut info) };
+        info
     }
 
     /// What the last step did.
