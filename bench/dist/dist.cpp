@@ -1,7 +1,8 @@
 // What a step of bodies on many ranks sends, beside what one grid bins and beside a floor:
 // docs/distributed.md. Counts, so no machine matters. usage: bench_dist [TETS]: of each rank in the scenes
 // that grow; default 100000
-#include "dist/whole.hpp" // of tests/
+#include "dist/ranks.hpp" // of tests/
+#include "dist/whole.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,38 +24,38 @@ struct Run {
     std::mutex mutex;
     std::uint64_t vertices = 0, bytes = 0, floor = 0, contacts = 0, remote = 0;
     std::uint64_t most_bytes = 0, most_messages = 0, most_neighbours = 0;
-    double most_ns = 0, all_ns = 0;
+    double most_seconds = 0, all_seconds = 0;
     std::uint64_t hash[2] = {};
     bool failed = false;
 };
 
-void rank(const vox_transport* transport, void* user) {
-    Run& run = *static_cast<Run*>(user);
+void rank(const vox_dist_transport* transport, Run& run) {
     Ranked mine(transport);
     bool good = mine.result == VOX_OK;
     for (std::size_t b = 0; b < run.scene->size() && good; ++b)
         good = mine.insert((*run.scene)[b], run.shares[b][transport->rank]) == VOX_OK;
     std::uint64_t hash[2], parts = 0;
-    good = good && vox_scene_step(mine.scene) == VOX_OK && vox_scene_hash(mine.scene, hash) == VOX_OK;
+    good = good && vox_dist_scene_step(mine.scene) == VOX_OK &&
+           vox_dist_scene_get_hash(mine.scene, hash) == VOX_OK;
     if (!good) {
         std::printf("%s\n", vox_last_error());
         run.failed = true;
         return;
     }
-    vox_scene_counters counters;
+    vox_dist_counters counters;
     counters.struct_size = sizeof counters;
-    vox_scene_contact_view contacts{};
-    (void)vox_scene_get_counters(mine.scene, &counters);
-    (void)vox_scene_contacts(mine.scene, &contacts);
-    (void)vox_scene_costs(mine.scene, nullptr, 0, &parts);
-    std::vector<vox_part_cost> costs(parts);
-    (void)vox_scene_costs(mine.scene, costs.data(), parts, &parts);
-    double ns = 0;
-    for (const vox_part_cost& cost : costs) ns += cost.predicted_ns;
+    vox_dist_contact_view contacts{};
+    (void)vox_dist_scene_get_counters(mine.scene, &counters);
+    (void)vox_dist_scene_get_contacts(mine.scene, VOX_DIST_VERTICES, &contacts);
+    (void)vox_dist_scene_get_costs(mine.scene, nullptr, 0, &parts);
+    std::vector<vox_dist_cost> costs(parts);
+    (void)vox_dist_scene_get_costs(mine.scene, costs.data(), parts, &parts);
+    double seconds = 0;
+    for (const vox_dist_cost& cost : costs) seconds += cost.seconds;
     std::set<std::array<std::uint64_t, 3>> pairs; // body, vertex, rank
     std::uint64_t remote = 0;
     for (std::uint64_t i = 0; i < contacts.count; ++i) {
-        const vox_scene_contact& c = contacts.data[i];
+        const vox_dist_contact& c = contacts.data[i];
         if (c.rank == transport->rank) continue;
         pairs.insert({c.body_a, c.vertex, c.rank});
         ++remote;
@@ -69,8 +70,8 @@ void rank(const vox_transport* transport, void* user) {
     run.most_bytes = std::max(run.most_bytes, bytes);
     run.most_messages = std::max(run.most_messages, counters.messages);
     run.most_neighbours = std::max<std::uint64_t>(run.most_neighbours, counters.neighbours);
-    run.most_ns = std::max(run.most_ns, ns);
-    run.all_ns += ns;
+    run.most_seconds = std::max(run.most_seconds, seconds);
+    run.all_seconds += seconds;
     std::copy_n(hash, 2, run.hash);
 }
 
@@ -84,21 +85,22 @@ One one_grid(const Scene& scene) {
     vox_grid* grid = whole(scene, floats);
     vox_counters counters;
     counters.struct_size = sizeof counters;
-    vox_contact_view view{};
     One one{};
-    if (!grid || vox_grid_step(grid) != VOX_OK || vox_grid_get_counters(grid, &counters) != VOX_OK ||
-        vox_grid_get_contacts(grid, &view) != VOX_OK || vox_scene_hash_of_grid(grid, one.hash) != VOX_OK) {
+    if (!grid || vox_grid_step(grid) != VOX_OK || vox_grid_get_counters(grid, &counters) != VOX_OK) {
         std::printf("%s\n", vox_last_error());
         std::exit(EXIT_FAILURE);
     }
     one.entries = counters.entries;
-    one.contacts = view.count;
+    const std::vector<vox_dist_contact> contacts = global_contacts(grid);
+    one.contacts = contacts.size();
+    hash_of(contacts, one.hash);
     vox_grid_destroy(grid);
     return one;
 }
 
-void run_ranks(Run& run, std::uint32_t size) {
-    if (vox_transport_run(size, 1, rank, &run) != VOX_OK || run.failed) std::exit(EXIT_FAILURE);
+void run_on(Run& run, std::uint32_t size) {
+    run_ranks(size, 1, [&](const vox_dist_transport* transport) { rank(transport, run); });
+    if (run.failed) std::exit(EXIT_FAILURE);
 }
 
 // How the tetrahedra of a scene are dealt out to ranks.
@@ -138,7 +140,7 @@ void compare(const char* name, const Scene& scene, const One& one, std::uint32_t
     const auto ranks = deal(scene, size, how, random);
     for (std::size_t b = 0; b < scene.size(); ++b)
         run.shares.push_back(shares(scene[b], ranks[b], size, random));
-    run_ranks(run, size);
+    run_on(run, size);
     if (run.hash[0] != one.hash[0] || run.hash[1] != one.hash[1])
         std::printf("another hash\n"), std::exit(EXIT_FAILURE);
     std::printf("| %s | %u | %llu | %llu | %.2f | %.1f | %llu | %.1f | %.2f |\n", name, size,
@@ -148,7 +150,7 @@ void compare(const char* name, const Scene& scene, const One& one, std::uint32_t
                 static_cast<unsigned long long>(run.most_neighbours),
                 static_cast<double>(run.most_messages) /
                     static_cast<double>(std::max<std::uint64_t>(run.most_neighbours, 1)),
-                run.most_ns * size / run.all_ns);
+                run.most_seconds * size / run.all_seconds);
     std::fflush(stdout);
 }
 
@@ -201,11 +203,11 @@ void grow(std::uint32_t tets) {
             for (std::uint32_t r = 0; r < size; ++r)
                 run.shares.push_back(
                     shares(scene[r], std::vector<std::uint32_t>(scene[r].tet_count(), r), size, random));
-            run_ranks(run, size);
+            run_on(run, size);
             std::printf("| %u | in a %s | %llu | %llu | %llu | %.2f | %.2f |\n", size,
                         in_cube ? "cube" : "row", static_cast<unsigned long long>(run.most_bytes),
                         static_cast<unsigned long long>(run.most_messages),
-                        static_cast<unsigned long long>(run.most_neighbours), run.most_ns / 1e6,
+                        static_cast<unsigned long long>(run.most_neighbours), run.most_seconds * 1e3,
                         2e-3 * static_cast<double>(run.most_messages) +
                             1e-7 * static_cast<double>(run.most_bytes));
             std::fflush(stdout);
@@ -228,20 +230,19 @@ struct Points {
     }
 };
 
-void locate_rank(const vox_transport* transport, void* user) {
-    Points& points = *static_cast<Points*>(user);
+void locate_rank(const vox_dist_transport* transport, Points& points) {
     Ranked mine(transport);
     const std::uint64_t begin = std::uint64_t{Points::count} * transport->rank / transport->size;
     const std::uint64_t end = std::uint64_t{Points::count} * (transport->rank + 1) / transport->size;
-    std::vector<vox_scene_point> found(end - begin);
+    std::vector<vox_dist_location> found(end - begin);
     if (mine.insert(points.scene[0], points.shares[0][transport->rank]) != VOX_OK) points.failed = true;
     const vox_positions own = vox_double_positions(points.xyz.data() + 3 * begin, end - begin);
     const auto start = std::chrono::steady_clock::now();
-    if (vox_scene_locate(mine.scene, &own, found.data()) != VOX_OK) points.failed = true;
+    if (vox_dist_scene_locate(mine.scene, &own, found.data()) != VOX_OK) points.failed = true;
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     if (transport->size == 1) points.seconds = took.count();
     for (std::uint64_t i = begin; i < end; ++i)
-        points.tets[i] = found[i - begin].rank == VOX_NO_RANK ? UINT64_MAX : found[i - begin].tet;
+        points.tets[i] = found[i - begin].rank == VOX_NONE ? UINT64_MAX : found[i - begin].tet;
 }
 
 // Every point is found, in the same tetrahedron for any number of ranks.
@@ -253,8 +254,8 @@ void locate() {
     for (const std::uint32_t size : {1u, 2u, 8u, 64u}) {
         Random random(size);
         points.shares = {shares(points.scene[0], cut(points.scene[0], size, Cut::rcb, random), size, random)};
-        if (vox_transport_run(size, 1, locate_rank, &points) != VOX_OK || points.failed)
-            std::exit(EXIT_FAILURE);
+        run_ranks(size, 1, [&](const vox_dist_transport* transport) { locate_rank(transport, points); });
+        if (points.failed) std::exit(EXIT_FAILURE);
         if (first.empty()) first = points.tets;
         std::uint64_t others = 0;
         for (std::uint32_t i = 0; i < Points::count; ++i) others += first[i] != points.tets[i];

@@ -326,6 +326,8 @@ export type ForeignRule = (typeof ForeignRule)[keyof typeof ForeignRule];
 export declare const ABI_VERSION: 1;
 /** as a worker_count: one worker per core */
 export declare const ALL_CORES: 4294967295;
+/** as an index: none */
+export declare const NONE: 4294967295;
 /** per grid, at one time, including retired slots */
 export declare const MAX_BODIES: 1048576;
 /** uses of one mesh slot before it is retired */

@@ -2,6 +2,7 @@
 
 export const ABI_VERSION = 1;
 export const ALL_CORES = 4294967295;
+export const NONE = 4294967295;
 export const MAX_BODIES = 1048576;
 export const MAX_GENERATIONS = 4095;
 export const MAX_VERTICES = 2147483647;

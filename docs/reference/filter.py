@@ -101,7 +101,8 @@ def fields(text):
                 lines[i] = f"/** {kind_of(*begins.groups())} */\n{line}"
         elif line.startswith("#define VOX_VERSION_"):
             lines[i] = line + " /**< Of the version that the header belongs to. */"
-        field = FIELD.match(line)
+        # The parameters of a function may go on in a second line.
+        field = FIELD.match(line) or line.startswith(8 * " ") and FIELD.match(lines[i - 1] + line.strip())
         if not field or above:
             continue
         kind, name = field[1], field[2] or field[3]

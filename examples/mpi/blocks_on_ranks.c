@@ -1,8 +1,7 @@
 /* One block of tetrahedra a rank, each 0.3 into the next: contacts across ranks, a force for each contact,
  * and a point that only its rank knows. Of a build with -DVOX_MPI=ON that is installed:
  *
- *     mpicc blocks_on_ranks.c $(pkg-config --cflags --libs vox_mpi) -o blocks_on_ranks && mpirun -n 4
- * ./blocks_on_ranks
+ *     mpicc blocks_on_ranks.c $(pkg-config --cflags --libs vox_mpi) -o blocks && mpirun -n 4 ./blocks
  */
 #include <inttypes.h>
 #include <stdio.h>
@@ -46,40 +45,40 @@ int main(int argc, char** argv) {
     static double positions[3 * VERTICES];
     static uint32_t tets[4 * TETS];
     MPI_Init(&argc, &argv);
-    vox_transport transport = vox_default_transport();
+    vox_dist_transport transport;
+    transport.struct_size = (uint32_t)sizeof transport;
     check(vox_mpi_transport_create(MPI_COMM_WORLD, &transport));
     make_block(0.7 * transport.rank, positions, tets);
 
-    vox_scene* scene;
-    check(vox_scene_create(NULL, &transport, &scene));
+    vox_dist_scene* scene;
+    check(vox_dist_scene_create(NULL, &transport, &scene));
     const vox_mesh_desc mesh = vox_mesh_desc_doubles(positions, VERTICES, tets, TETS);
-    vox_part_desc desc = vox_default_part_desc();
+    vox_dist_part_desc desc = vox_default_dist_part_desc();
     desc.body = transport.rank; /* a whole body here; parts of one body would have the same number */
     desc.mesh = &mesh;
-    vox_part part;
-    check(vox_scene_insert(scene, &desc, &part));
-    check(vox_scene_step(scene));
+    check(vox_dist_scene_insert(scene, &desc));
+    check(vox_dist_scene_step(scene));
 
     /* Each vertex in contact pushes against the tetrahedron that it is in, wherever that lies. */
-    vox_scene_contact_view contacts, incoming;
-    check(vox_scene_contacts(scene, &contacts));
-    check(vox_scene_incoming(scene, &incoming));
+    vox_dist_contact_view contacts, of_tets;
+    check(vox_dist_scene_get_contacts(scene, VOX_DIST_VERTICES, &contacts));
+    check(vox_dist_scene_get_contacts(scene, VOX_DIST_TETS, &of_tets));
     double* out = (double*)malloc(sizeof(double) * (contacts.count + 1));
-    double* in = (double*)malloc(sizeof(double) * (incoming.count + 1));
+    double* in = (double*)malloc(sizeof(double) * (of_tets.count + 1));
     if (!out || !in) MPI_Abort(MPI_COMM_WORLD, 1);
     for (uint64_t i = 0; i < contacts.count; ++i) out[i] = 1;
-    check(vox_scene_send(scene, VOX_DIRECTION_TO_TETS, sizeof(double), out, in));
+    check(vox_dist_scene_send(scene, VOX_DIST_VERTICES, sizeof(double), out, in));
     double pushed = 0;
-    for (uint64_t i = 0; i < incoming.count; ++i) pushed += in[i];
+    for (uint64_t i = 0; i < of_tets.count; ++i) pushed += in[i];
 
     /* The middle of the last block, asked for by rank 0. */
     const double point[3] = {0.7 * (transport.size - 1) + 0.55, 0.5, 0.5};
     const vox_positions points = vox_double_positions(point, transport.rank == 0);
-    vox_scene_point found;
-    check(vox_scene_locate(scene, &points, &found));
+    vox_dist_location found;
+    check(vox_dist_scene_locate(scene, &points, &found));
 
     uint64_t hash[2];
-    check(vox_scene_hash(scene, hash));
+    check(vox_dist_scene_get_hash(scene, hash));
     const double mine[2] = {(double)contacts.count, pushed};
     double* all = (double*)malloc(sizeof mine * transport.size);
     if (!all) MPI_Abort(MPI_COMM_WORLD, 1);
@@ -94,7 +93,7 @@ int main(int argc, char** argv) {
                found.tet, found.body, found.rank, hash[0], hash[1]);
     free(out);
     free(in);
-    vox_scene_destroy(scene);
+    vox_dist_scene_destroy(scene);
     vox_mpi_transport_destroy(&transport);
     MPI_Finalize();
     return 0;

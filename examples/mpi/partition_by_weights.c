@@ -1,9 +1,9 @@
 /* Bodies of many sizes, dealt out by number, are dealt out again by what a step over each of them costs:
- * Zoltan's recursive bisection, with vox_scene_costs as weights. The hash of all contacts stays. Of a build
- * with -DVOX_MPI=ON that is installed, with Debian's libtrilinos-zoltan-dev:
+ * Zoltan's recursive bisection, with vox_dist_scene_get_costs as weights. The hash of all contacts stays. Of
+ * a build with -DVOX_MPI=ON that is installed, with Debian's libtrilinos-zoltan-dev:
  *
- *     mpicc partition_by_weights.c -I/usr/include/trilinos $(pkg-config --cflags --libs vox_mpi)
- * -ltrilinos_zoltan -o partition && mpirun -n 4 ./partition
+ *     mpicc partition_by_weights.c -I/usr/include/trilinos $(pkg-config --cflags --libs vox_mpi) \
+ *         -ltrilinos_zoltan -o partition && mpirun -n 4 ./partition
  */
 #include <inttypes.h>
 #include <stdio.h>
@@ -15,12 +15,12 @@ enum { BODIES = 96, MOST = 9 }; /* a body is a block of 2 to MOST cubes along ea
 
 typedef struct body {
     double* positions;
-    vox_part part; /* 0: not on this rank */
+    int here; /* 1: on this rank */
     float weight;
 } body;
 
 static body bodies[BODIES];
-static vox_scene* scene;
+static vox_dist_scene* scene;
 static int rank, size;
 
 static void check(vox_result result) {
@@ -72,30 +72,31 @@ static void insert(int b) {
         }
     }
     const vox_mesh_desc mesh = vox_mesh_desc_doubles(p, vertices, tets, 6 * n * n * n);
-    vox_part_desc desc = vox_default_part_desc();
+    vox_dist_part_desc desc = vox_default_dist_part_desc();
     desc.body = (uint64_t)b;
     desc.mesh = &mesh;
-    check(vox_scene_insert(scene, &desc, &bodies[b].part));
+    check(vox_dist_scene_insert(scene, &desc));
+    bodies[b].here = 1;
     free(tets); /* they were copied */
 }
 
 static void drop(int b) {
-    check(vox_scene_remove(scene, bodies[b].part));
+    check(vox_dist_scene_remove(scene, (uint64_t)b));
     free(bodies[b].positions);
-    bodies[b].part = 0;
+    bodies[b].here = 0;
 }
 
 /* Steps, and weighs the bodies here. Returns the predicted cost of the busiest rank over the mean. */
 static double step(uint64_t hash[2]) {
-    check(vox_scene_step(scene));
-    check(vox_scene_hash(scene, hash));
-    vox_part_cost costs[BODIES];
+    check(vox_dist_scene_step(scene));
+    check(vox_dist_scene_get_hash(scene, hash));
+    vox_dist_cost costs[BODIES];
     uint64_t count;
-    check(vox_scene_costs(scene, costs, BODIES, &count));
+    check(vox_dist_scene_get_costs(scene, costs, BODIES, &count));
     double mine = 0, most, all;
     for (uint64_t i = 0; i < count; ++i) {
-        bodies[costs[i].body].weight = (float)costs[i].predicted_ns;
-        mine += costs[i].predicted_ns;
+        bodies[costs[i].body].weight = (float)costs[i].seconds;
+        mine += costs[i].seconds;
     }
     MPI_Allreduce(&mine, &most, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
     MPI_Allreduce(&mine, &all, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
@@ -106,7 +107,7 @@ static double step(uint64_t hash[2]) {
 static int count_bodies(void* unused, int* error) {
     (void)unused;
     int count = 0;
-    for (int b = 0; b < BODIES; ++b) count += bodies[b].part != 0;
+    for (int b = 0; b < BODIES; ++b) count += bodies[b].here;
     *error = ZOLTAN_OK;
     return count;
 }
@@ -115,7 +116,7 @@ static void list_bodies(void* unused, int global_size, int local_size, ZOLTAN_ID
                         ZOLTAN_ID_PTR local, int weights, float* weight, int* error) {
     (void)unused, (void)global_size, (void)local_size, (void)local, (void)weights;
     for (int b = 0; b < BODIES; ++b)
-        if (bodies[b].part) {
+        if (bodies[b].here) {
             *global++ = (ZOLTAN_ID_TYPE)b;
             *weight++ = bodies[b].weight;
         }
@@ -140,9 +141,10 @@ int main(int argc, char** argv) {
     MPI_Init(&argc, &argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);
-    vox_transport transport = vox_default_transport();
+    vox_dist_transport transport;
+    transport.struct_size = (uint32_t)sizeof transport;
     check(vox_mpi_transport_create(MPI_COMM_WORLD, &transport));
-    check(vox_scene_create(NULL, &transport, &scene));
+    check(vox_dist_scene_create(NULL, &transport, &scene));
     for (int b = 0; b < BODIES; ++b)
         if (b * size / BODIES == rank) insert(b); /* as many on each rank */
     uint64_t before[2], after[2];
@@ -182,8 +184,8 @@ int main(int argc, char** argv) {
                "contacts, %016" PRIx64 "\n",
                size, skewed, even, moved, after[0]);
     for (int b = 0; b < BODIES; ++b)
-        if (bodies[b].part) drop(b);
-    vox_scene_destroy(scene);
+        if (bodies[b].here) drop(b);
+    vox_dist_scene_destroy(scene);
     vox_mpi_transport_destroy(&transport);
     MPI_Finalize();
     return 0;

@@ -66,6 +66,7 @@ extern "C" {
 #endif
 
 #define VOX_ALL_CORES 0xffffffffu /* as a worker_count: one worker per core */
+#define VOX_NONE 0xffffffffu      /* as an index: none */
 
 /* ---- results ---------------------------------------------------------------------------------- */
 

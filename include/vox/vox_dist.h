@@ -1,21 +1,19 @@
-/* vox_dist: bodies that lie on many machines, or are cut into parts that do. A separate library over the public interface
- * of vox; the core does not need it, and it needs no message passing library: it talks through the callbacks of a
- * vox_transport. vox_mpi.h makes one of an MPI communicator; vox_transport_run makes some inside a process.
+/* vox_dist: contacts of bodies that are distributed over many machines, whole or in parts. A library of its own. It
+ * talks through callbacks; vox_mpi.h provides them for MPI.
  *
- * Contacts are exact, and the same for any number of ranks and any partition (docs/distributed.md). Bodies, vertices and
- * tetrahedra have global numbers of 64 bits. A rank inserts parts: the tetrahedra of a body that lie there, and all
- * vertices that these name, its own and copies of those of other ranks. Each tetrahedron is on one rank. Each vertex is
- * owned by one rank; copies have the same position, bit for bit. vox_scene_check finds where this does not hold.
+ * Contacts are exact, and the same for any number of ranks and any partition (docs/distributed.md). Bodies, vertices
+ * and tetrahedra have global 64-bit numbers. Each tetrahedron lies on one rank, with all vertices that it names. Each
+ * vertex is owned by one rank; other ranks may have copies with the same position, bit for bit. vox_dist_scene_check
+ * checks this.
  *
- * The conventions of vox.h hold here too: vox_result, vox_last_error(), struct_size, untouched out-parameters on
- * failure.
- *
- *   Collective A function whose comment begins with "Collective" is called by all ranks, in the same order. It gives all
- *              ranks the same result: of several failures that of the lowest rank. There vox_last_error() has the
- *              reason; on the others it names that rank. After a failure the scene stays usable. A null scene is refused
- *              at once, on that rank alone, which others then wait for.
- *   Threads    One thread at a time may use a scene. Different scenes are independent, but for their transport.
- *   Machines   All ranks have the same order of bytes, and the same version of this library.
+ * Everything that this header declares is experimental. The conventions are those of vox.h, and
+ *   Collective  All ranks call such a function, in the same order, and get the same result: of several failures that
+ *               of the lowest rank, where vox_last_error() has the reason; on the others it names that rank. A scene
+ *               stays usable after a failure. What keeps a rank from talking (a null scene or out_scene, a bad
+ *               transport) is refused on that rank alone, and the others wait for it.
+ *   Threads     One thread at a time may use a scene, even to read it. Scenes with different transports are
+ *               independent.
+ *   Machines    All ranks have the same byte order and the same version of this library.
  */
 #ifndef VOX_VOX_DIST_H
 #define VOX_VOX_DIST_H
@@ -28,222 +26,173 @@ extern "C" {
 
 /* ---- transport -------------------------------------------------------------------------------- */
 
-/* A message: `size` bytes. */
-typedef struct vox_bytes {
+/* A message. */
+typedef struct vox_dist_message {
     VOX_OPTIONAL const void* data;
     uint64_t size;
-} vox_bytes;
+} vox_dist_message;
 
-/* How ranks talk. All ranks call the functions in the same order, each from the thread that called a collective function
- * of a scene. A failure of allgather or agree ends the collective function on that rank with its code; what happens on
- * others is up to the transport. After a failure of exchange, as for want of memory, the rank goes on with the calls that
- * the others make, so that none waits, and all ranks get its code; but not in the last exchange of a step, about boundaries.
- *   allgather  gives each rank the `bytes` bytes of every rank, at most 64, in the order of ranks.
- *   exchange   sends out[i] to the rank ranks[i] and sets in[i] to what that sent, for each i below count. The two ranks
- *              of each pair name each other; ranks ascend, and count may be 0. in[i] lives until the next call.
- *   agree      replaces each of the minima by its minimum over all ranks, and each of the sums by its sum. There are
- *              at most 8 of each. */
-typedef struct vox_transport {
+/* How ranks talk. All ranks call these functions in the same order, on the thread that called a collective function.
+ * Zero the struct, then set struct_size, rank, size and, for more than one rank, the functions.
+ *   allgather  gives every rank the `bytes` bytes of each rank, at most 64, in the order of ranks.
+ *   exchange   sends out[i] to rank ranks[i], and sets in[i] to what that rank sent to this one, which lives until the
+ *              next call. Two ranks that exchange messages name each other. Ranks ascend; count may be 0.
+ *   agree      replaces each of the minima by its minimum over all ranks, and each of the sums by its sum; at most 8
+ *              each.
+ * If one fails, so does the collective function. After a failed exchange the rank goes on with the calls that the
+ * others make, so that none of them waits and all get its result; only the last exchange of a step, which is about
+ * boundaries, may fail on one rank alone. After a failed allgather or agree it stops at once. */
+typedef struct vox_dist_transport {
     uint32_t struct_size;
-    uint32_t rank; /* below size */
-    uint32_t size; /* ranks, at least 1 */
+    uint32_t rank;     /* below size */
+    uint32_t size;     /* ranks */
     uint32_t reserved; /* 0 */
     vox_result (*allgather)(const void* in, uint64_t bytes, void* out, void* user);
-    vox_result (*exchange)(const uint32_t* ranks, uint32_t count, const vox_bytes* out, vox_bytes* in, void* user);
+    vox_result (*exchange)(const uint32_t* ranks, uint32_t count, const vox_dist_message* out, vox_dist_message* in,
+                           void* user);
     vox_result (*agree)(uint64_t* minima, uint32_t minimum_count, uint64_t* sums, uint32_t sum_count, void* user);
     void* user;
-} vox_transport;
-
-static inline vox_transport vox_default_transport(void) {
-    vox_transport transport = VOX_ZERO;
-    transport.struct_size = (uint32_t)sizeof transport;
-    transport.size = 1;
-    return transport;
-}
-
-/* What one rank does, on a thread of its own. */
-typedef void vox_rank_function(const vox_transport* transport, void* user);
-
-/* Runs `function` for `size` ranks of this process, each on a thread of its own, and returns when all have returned.
- * At most `parallel` of them run at the same time, the others wait for their turn; 0: all. With 1, the ranks take turns
- * as if on one thread. The transport lives until the function returns. For tests and for learning: one vox_grid does
- * the same work faster. Errors: INVALID_ARGUMENT (size 0 or above 4096), OUT_OF_MEMORY (also if the system gives no
- * thread; then `function` was not called). */
-VOX_EXPERIMENTAL vox_result vox_transport_run(uint32_t size, uint32_t parallel, vox_rank_function* function,
-                                              VOX_OPTIONAL void* user);
+} vox_dist_transport;
 
 /* ---- scene ------------------------------------------------------------------------------------ */
 
-/* The parts of bodies that lie on this rank, and what they found in the last step. */
-typedef struct vox_scene vox_scene;
+/* The parts of bodies that lie on this rank, and their contacts. */
+typedef struct vox_dist_scene vox_dist_scene;
 
-/* Settings of a scene. */
-typedef struct vox_scene_desc {
-    uint32_t struct_size;
-    uint32_t reserved; /* 0 */
-    /* Settings of the grid inside, read during create; null: the defaults without penetrations. Its allocator serves the
-     * whole scene; its budget is for the grid. It must have no flags: depth, events and edge contacts of bodies that
-     * are split are UNSUPPORTED, as is a margin. */
-    VOX_OPTIONAL const vox_grid_desc* grid;
-} vox_scene_desc;
+/* Collective. Creates a scene. `grid` has the settings of the grid inside; null: no flags, the default of the rest.
+ * Flags (vox_default_grid_desc sets one) and a margin are UNSUPPORTED. Its allocator serves the whole scene, its budget
+ * is for the grid alone. The transport is copied, and what its `user` names must outlive the scene; null: one rank. The
+ * caller owns *out_scene and releases it with vox_dist_scene_destroy.
+ * Errors: INVALID_ARGUMENT, UNSUPPORTED, OUT_OF_MEMORY, BUDGET. */
+VOX_EXPERIMENTAL vox_result vox_dist_scene_create(VOX_OPTIONAL const vox_grid_desc* grid,
+                                                  VOX_OPTIONAL const vox_dist_transport* transport,
+                                                  vox_dist_scene** out_scene);
 
-static inline vox_scene_desc vox_default_scene_desc(void) {
-    vox_scene_desc desc = VOX_ZERO;
-    desc.struct_size = (uint32_t)sizeof desc;
-    return desc;
-}
-
-/* Creates a scene without parts. desc null: all defaults; transport null: one rank. The transport is copied; what its
- * `user` names must live as long as the scene. Collective, unless the pointer out_scene is null. Errors:
- * INVALID_ARGUMENT, UNSUPPORTED (flags of the grid), OUT_OF_MEMORY, BUDGET. */
-VOX_EXPERIMENTAL vox_result vox_scene_create(VOX_OPTIONAL const vox_scene_desc* desc,
-                                             VOX_OPTIONAL const vox_transport* transport, vox_scene** out_scene);
-
-/* Destroys a scene; not collective. Its views become invalid. Null does nothing. */
-VOX_EXPERIMENTAL void vox_scene_destroy(VOX_OPTIONAL vox_scene* scene);
-
-/* A part in the scene of its rank. 0 is no part. */
-typedef uint32_t vox_part;
+/* Destroys a scene; not collective. Null does nothing. */
+VOX_EXPERIMENTAL void vox_dist_scene_destroy(VOX_OPTIONAL vox_dist_scene* scene);
 
 /* A part of a body. */
-typedef struct vox_part_desc {
+typedef struct vox_dist_part_desc {
     uint32_t struct_size;
-    uint32_t reserved; /* 0 */
-    uint64_t body;     /* its number, the same on all ranks; a rank has one part of a body at most */
-    /* Vertices and tetrahedra of the part, as in vox_mesh_insert; tetrahedra are copied in any case. The filter must be
-     * the same for all parts of a body. Rings and rest distance of a filter are UNSUPPORTED. */
-    const vox_mesh_desc* mesh;
-    /* Global numbers of vertices and tetrahedra, all different; null: 0, 1, 2 and so on. They are copied. */
-    VOX_OPTIONAL const uint64_t* vertex_ids;
-    VOX_OPTIONAL const uint64_t* tet_ids;
-    /* 1 for each vertex that this rank owns, 0 for copies; null: it owns all. Copied. */
-    VOX_OPTIONAL const uint8_t* owned;
-} vox_part_desc;
+    uint32_t reserved;         /* 0 */
+    uint64_t body;             /* a rank has one part of a body at most */
+    const vox_mesh_desc* mesh; /* as for vox_mesh_insert, but its tetrahedra are always copied; the parts of a body have
+                                  the same filter, without rings and rest distance */
+    VOX_OPTIONAL const uint64_t* vertex_ids; /* the global number of each vertex, copied; null: 0, 1, 2, ... */
+    VOX_OPTIONAL const uint64_t* tet_ids;    /* the global number of each tetrahedron, copied; null: 0, 1, 2, ... */
+    VOX_OPTIONAL const uint8_t* owned;       /* 1 for each vertex that this rank owns, else 0; copied; null: owns all */
+} vox_dist_part_desc;
 
-static inline vox_part_desc vox_default_part_desc(void) {
-    vox_part_desc desc = VOX_ZERO;
+static inline vox_dist_part_desc vox_default_dist_part_desc(void) {
+    vox_dist_part_desc desc = VOX_ZERO;
     desc.struct_size = (uint32_t)sizeof desc;
     return desc;
 }
 
-/* Adds a part, which takes part from the next step on. Not collective. Errors: as vox_mesh_insert; INVALID_ARGUMENT (a
- * number that is there twice, a second part of a body, an owned that is not 0 or 1), UNSUPPORTED. */
-VOX_EXPERIMENTAL vox_result vox_scene_insert(vox_scene* scene, const vox_part_desc* desc, vox_part* out_part);
+/* Adds the part of a body that lies here, for the next steps. Not collective.
+ * Errors: as vox_mesh_insert; INVALID_ARGUMENT (a number that occurs twice, a second part of a body, an `owned` that is
+ * not 0 or 1), UNSUPPORTED (rings or a rest distance). */
+VOX_EXPERIMENTAL vox_result vox_dist_scene_insert(vox_dist_scene* scene, const vox_dist_part_desc* desc);
 
-/* Removes a part. Not collective. The contacts of the last step stay as they are until the next one. Errors:
- * INVALID_HANDLE. */
-VOX_EXPERIMENTAL vox_result vox_scene_remove(vox_scene* scene, vox_part part);
+/* Removes the part of a body that lies here. Not collective. The contacts of the last step stay until the next one.
+ * Errors: INVALID_HANDLE (there is none). */
+VOX_EXPERIMENTAL vox_result vox_dist_scene_remove(vox_dist_scene* scene, uint64_t body);
 
-/* As vox_mesh_bind_positions. Values written to the same memory between steps need no new call. Not collective.
- * Errors: INVALID_ARGUMENT. */
-VOX_EXPERIMENTAL vox_result vox_scene_bind_positions(vox_scene* scene, vox_part part, const vox_positions* positions);
+/* Makes the part of a body that lies here borrow other positions, as vox_mesh_bind_positions does. Not collective.
+ * Errors: INVALID_HANDLE (there is no part of the body here), INVALID_ARGUMENT. */
+VOX_EXPERIMENTAL vox_result vox_dist_scene_bind_positions(vox_dist_scene* scene, uint64_t body,
+                                                          const vox_positions* positions);
 
 /* ---- step ------------------------------------------------------------------------------------- */
 
-/* Collective. Finds all contacts of the positions as they are now, between all bodies of all ranks. On success the
- * previous contacts are replaced; on failure they are gone. Errors: as vox_grid_step (NON_FINITE and LIMIT name body,
- * vertex and rank), INVALID_STATE (a copy with another position than its owner's, seen where it matters to a contact;
- * ranks that call different functions), and those of the transport. */
-VOX_EXPERIMENTAL vox_result vox_scene_step(vox_scene* scene);
+/* Collective. Finds all contacts between all bodies of all ranks, as they are now. After an error there are none.
+ * Errors: as vox_grid_step (the text names body and vertex); INVALID_STATE (a copy whose position differs from its
+ * owner's, where that was noticed; ranks that call different functions); those of the transport. */
+VOX_EXPERIMENTAL vox_result vox_dist_scene_step(vox_dist_scene* scene);
 
-/* Vertex `vertex` of body_a is in the closed tetrahedron `tet` of body_b: the contacts of one vox_grid of the whole, see
- * vox_contact, where the "lowest" tetrahedron is that of the lowest global number. */
-typedef struct vox_scene_contact {
+/* A contact, as one vox_grid with all bodies would find it: see vox_contact. The lowest tetrahedron is that with the
+ * lowest global number. */
+typedef struct vox_dist_contact {
     uint64_t body_a;
     uint64_t vertex; /* global number */
     uint64_t body_b;
     uint64_t tet; /* global number */
     float barycentric[4];
-    uint32_t index;    /* of the vertex (vox_scene_contacts) or the tetrahedron (vox_scene_incoming) in the part here */
-    uint32_t rank;     /* of the other side: where the tetrahedron lies, or the vertex is owned */
-    uint32_t interior; /* 1: the vertex is in the interior of the tetrahedron; 0: on its boundary */
+    uint32_t index;    /* of the vertex or the tetrahedron, in the part that lies here */
+    uint32_t rank;     /* where the other side of the contact is */
+    uint32_t interior; /* 1 if the vertex is in the interior of the tetrahedron, 0 if on its boundary */
     uint32_t reserved; /* 0 */
-} vox_scene_contact;
+} vox_dist_contact;
 
-/* `count` contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b, tet). */
-typedef struct vox_scene_contact_view {
-    const vox_scene_contact* data;
-    size_t byte_stride;
+/* Contacts, sorted by (body_a, vertex, body_b, tet). They live until the next step. */
+typedef struct vox_dist_contact_view {
+    const vox_dist_contact* data;
     uint64_t count;
-} vox_scene_contact_view;
+} vox_dist_contact_view;
 
-/* The contacts of the vertices that this rank owns, as the last step found them; none before the first and after a
- * failed one. The view lives until the next step. */
-VOX_EXPERIMENTAL vox_result vox_scene_contacts(const vox_scene* scene, vox_scene_contact_view* out_view);
+/* The two sides of contacts. */
+typedef enum vox_dist_side {
+    VOX_DIST_VERTICES = 0, /* contacts of the vertices that this rank owns */
+    VOX_DIST_TETS = 1      /* contacts with the tetrahedra that lie on this rank */
+} vox_dist_side;
 
-/* The contacts in the tetrahedra that lie on this rank: the same contacts, seen from the other side. The view
- * lives until the next step. */
-VOX_EXPERIMENTAL vox_result vox_scene_incoming(const vox_scene* scene, vox_scene_contact_view* out_view);
+/* Gets the contacts of one side, as the last step found them. Errors: INVALID_ARGUMENT (another side). */
+VOX_EXPERIMENTAL vox_result vox_dist_scene_get_contacts(const vox_dist_scene* scene, vox_dist_side side,
+                                                        vox_dist_contact_view* out_view);
 
-/* From which side of the contacts to which vox_scene_send sends. */
-typedef enum vox_direction {
-    VOX_DIRECTION_TO_TETS = 0,     /* from vox_scene_contacts to vox_scene_incoming */
-    VOX_DIRECTION_TO_VERTICES = 1  /* back */
-} vox_direction;
+/* Collective. Sends one item per contact from one side to the other, e.g. forces. Item i of `in` belongs to contact i
+ * of the side `from`. It arrives as item j of `out`, where contact j of the other side is the same contact.
+ * item_bytes is from 1 to 65536; it and `from` are the same on all ranks. `in` and `out` may be null on a rank without
+ * contacts of that side. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY; then `out` may be written in part. */
+VOX_EXPERIMENTAL vox_result vox_dist_scene_send(vox_dist_scene* scene, vox_dist_side from, uint64_t item_bytes,
+                                                VOX_OPTIONAL const void* in, VOX_OPTIONAL void* out);
 
-/* Collective. Sends one item a contact from one side to the other, e.g. a force, or a value to interpolate: in[i] belongs
- * to the i-th contact of the view it comes from, and arrives as out[j], where the j-th of the other view is the same
- * contact. item_bytes, 1 to 65536, and direction are the same on all ranks. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY;
- * then out may be written in part. */
-VOX_EXPERIMENTAL vox_result vox_scene_send(vox_scene* scene, vox_direction direction, uint64_t item_bytes,
-                                           VOX_OPTIONAL const void* in, VOX_OPTIONAL void* out);
-
-/* Collective. A hash of all contacts of all ranks: the same on all ranks, and for any number of them and any partition. It
- * covers all fields of a vox_scene_contact that do not depend on the partition. */
-VOX_EXPERIMENTAL vox_result vox_scene_hash(vox_scene* scene, uint64_t out_hash[2]);
-
-/* The same hash for the contacts of one grid of whole bodies: the user_data of each mesh is its body's number, and indices
- * are the global numbers. Not collective. Errors: INVALID_HANDLE (a mesh of a contact was removed). */
-VOX_EXPERIMENTAL vox_result vox_scene_hash_of_grid(const vox_grid* grid, uint64_t out_hash[2]);
+/* Collective. Gets a hash of all contacts, which is the same for any number of ranks and any partition. It covers all
+ * fields but `index` and `rank`. */
+VOX_EXPERIMENTAL vox_result vox_dist_scene_get_hash(vox_dist_scene* scene, uint64_t out_hash[2]);
 
 /* ---- points ----------------------------------------------------------------------------------- */
 
-#define VOX_NO_RANK 0xffffffffu /* vox_scene_point.rank of a point in no tetrahedron */
-
-/* Where a point is. Of the bodies that contain it this names that with the lowest number; of its tetrahedra the lowest
- * that has the point in its interior or, if there is none, the lowest that has it on its boundary: one for each point,
- * the same for any partition. Exact. */
-typedef struct vox_scene_point {
+/* Where a point is: in which tetrahedron of the lowest body that contains it. That is the lowest tetrahedron that has
+ * the point in its interior or, if there is none, the lowest that has it on its boundary. */
+typedef struct vox_dist_location {
     uint64_t body;
     uint64_t tet;         /* global number */
     float barycentric[4]; /* as in vox_contact */
-    uint32_t rank;        /* where the tetrahedron lies; VOX_NO_RANK: in none, and the other fields are 0 */
-    uint32_t interior;    /* 1 or, on the boundary of the tetrahedron, 0 */
-} vox_scene_point;
+    uint32_t rank;        /* where the tetrahedron lies; VOX_NONE: no tetrahedron contains the point; the other fields
+                             are 0 */
+    uint32_t interior;    /* 1 if the point is in the interior of the tetrahedron, 0 if on its boundary */
+} vox_dist_location;
 
-/* Collective. Finds the tetrahedra that contain points of this rank, at most 2^31 - 1: out_points[i] is for point i.
- * Other ranks ask for their own. Contacts stay. It keeps a second grid of the parts, made by the first call.
- * Errors: as vox_scene_step; the points are named by their index. */
-VOX_EXPERIMENTAL vox_result vox_scene_locate(vox_scene* scene, const vox_positions* points,
-                                             VOX_OPTIONAL vox_scene_point* out_points);
+/* Collective. Locates points of this rank, at most 2^31 - 1: out_locations[i] is for point i. The answers are the same
+ * for any partition. Contacts stay. The first call makes a second grid of the parts.
+ * Errors: as vox_dist_scene_step, where the text names a point by its index. */
+VOX_EXPERIMENTAL vox_result vox_dist_scene_locate(vox_dist_scene* scene, const vox_positions* points,
+                                                  vox_dist_location* out_locations);
 
 /* ---- checks and measurements ------------------------------------------------------------------ */
 
-/* Collective. Checks that each vertex has one owner, that its copies have the owner's position bit for bit, and that each
- * tetrahedron is on one rank. Sends every number and position once: for debugging, not for each step. Errors:
- * INVALID_STATE (names body, vertex or tetrahedron, and ranks), NON_FINITE, LIMIT, OUT_OF_MEMORY. */
-VOX_EXPERIMENTAL vox_result vox_scene_check(vox_scene* scene);
+/* Collective. Checks that owners, copies and numbers are consistent, by sending all of them once: for debugging.
+ * Errors: INVALID_STATE (names body, vertex or tetrahedron, and ranks), NON_FINITE, LIMIT, OUT_OF_MEMORY. */
+VOX_EXPERIMENTAL vox_result vox_dist_scene_check(vox_dist_scene* scene);
 
-/* What a part costs, as a weight for a partitioner. */
-typedef struct vox_part_cost {
+/* The cost of a part, for partitioners. */
+typedef struct vox_dist_cost {
     uint64_t body;
-    vox_part part;
-    uint32_t reserved;  /* 0 */
-    double predicted_ns; /* of a step: the part's share of what the fast engine's cost model predicts for this rank */
-} vox_part_cost;
+    double seconds; /* its share of a step of this rank, predicted by the cost model of the fast engine */
+} vox_dist_cost;
 
-/* Copies the costs of the first `capacity` parts, in the order of bodies, for positions as they are now and the vertices
- * that the last step received. *out_count is how many parts there are. Not collective. `costs` may be null if capacity
- * is 0. Errors: INVALID_STATE (no positions), NON_FINITE, LIMIT, OUT_OF_MEMORY. */
-VOX_EXPERIMENTAL vox_result vox_scene_costs(const vox_scene* scene, vox_part_cost* costs, uint64_t capacity,
-                                            uint64_t* out_count);
+/* Gets the costs of the first `capacity` parts of this rank, in the order of bodies. *out_count is the number of all.
+ * Not collective. Errors: INVALID_STATE (no positions), NON_FINITE, LIMIT, OUT_OF_MEMORY. */
+VOX_EXPERIMENTAL vox_result vox_dist_scene_get_costs(const vox_dist_scene* scene, vox_dist_cost* costs,
+                                                     uint64_t capacity, uint64_t* out_count);
 
-/* What the last step, or vox_scene_locate since, sent from this rank. */
-typedef struct vox_scene_counters {
+/* What the last step, or vox_dist_scene_locate since, sent from this rank. */
+typedef struct vox_dist_counters {
     uint32_t struct_size;
     uint32_t neighbours;        /* ranks whose boxes meet those of this one; not where both have one and the same
                                    body alone, which does not collide with itself */
-    uint64_t messages;          /* at most three a neighbour, and one more where a vertex is on a boundary
+    uint64_t messages;          /* at most three for each neighbour, and one more where a vertex is on a boundary
                                    of a body that has tetrahedra on several ranks */
     uint64_t collectives;       /* 2 */
     uint64_t replicated_bytes;  /* sent by each rank to all: 64 */
@@ -255,11 +204,11 @@ typedef struct vox_scene_counters {
     uint64_t vertices_here;     /* part of those received: copies of them are here in any case */
     uint64_t hits_sent;         /* contacts, before the rule over all ranks */
     uint64_t contacts;          /* of the vertices owned here */
-    uint64_t incoming;          /* in the tetrahedra here */
-} vox_scene_counters;
+    uint64_t incoming;          /* with the tetrahedra here */
+} vox_dist_counters;
 
-/* Writes the fields that out_counters->struct_size covers (set it first). */
-VOX_EXPERIMENTAL vox_result vox_scene_get_counters(const vox_scene* scene, vox_scene_counters* out_counters);
+/* Gets the counts. Writes the fields that out_counters->struct_size covers (set it first). */
+VOX_EXPERIMENTAL vox_result vox_dist_scene_get_counters(const vox_dist_scene* scene, vox_dist_counters* out_counters);
 
 #ifdef __cplusplus
 }

@@ -1,20 +1,50 @@
-// A hash of contacts that does not depend on their order.
+// A hash of contacts that does not depend on their order: a sum, modulo 2^128, of a mix of each. The tests
+// compute it of other contacts.
 #pragma once
 
 #include <vox/vox_dist.h>
 
 #include <cstdint>
+#include <cstring>
 
 namespace vox::dist {
 
+// The finaliser of SplitMix64 (Steele, Lea and Flood 2014).
+inline std::uint64_t split_mix(std::uint64_t x) noexcept {
+    x += 0x9e3779b97f4a7c15u;
+    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
+    return x ^ x >> 31;
+}
+
 struct ContactSum {
-    void add(const vox_scene_contact& contact) noexcept;
-    void carry() noexcept;
-    void write(std::uint64_t out[2]) noexcept;
+    void add(const vox_dist_contact& c) noexcept {
+        std::uint64_t words[7] = {c.body_a, c.vertex, c.body_b, c.tet, 0, 0, c.interior};
+        std::memcpy(&words[4], c.barycentric, sizeof c.barycentric);
+        std::uint64_t low = 1, high = 2;
+        for (const std::uint64_t word : words) {
+            low = split_mix(low ^ word);
+            high = split_mix(high + word * 0x9fb21c651e98df25u);
+        }
+        limbs[0] += low & 0xffffffff;
+        limbs[1] += low >> 32;
+        limbs[2] += high & 0xffffffff;
+        limbs[3] += high >> 32;
+        carry();
+    }
+    void carry() noexcept {
+        for (int i = 0; i < 4; ++i) {
+            if (i < 3) limbs[i + 1] += limbs[i] >> 32;
+            limbs[i] &= 0xffffffff;
+        }
+    }
+    void write(std::uint64_t out[2]) noexcept {
+        carry();
+        out[0] = limbs[1] << 32 | limbs[0];
+        out[1] = limbs[3] << 32 | limbs[2];
+    }
 
     std::uint64_t limbs[4] = {}; // 32 bits each, the lowest first
 };
-
-void hash_of_grid(const vox_grid* grid, std::uint64_t out[2]);
 
 } // namespace vox::dist

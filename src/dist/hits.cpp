@@ -48,9 +48,9 @@ void Rounds::collect_here() {
 namespace {
 
 // Without index and rank, which differ from side to side.
-vox_scene_contact between(std::uint64_t body_a, std::uint64_t vertex, const Part& part,
-                          const vox_contact& hit, bool interior) {
-    vox_scene_contact contact{};
+vox_dist_contact between(std::uint64_t body_a, std::uint64_t vertex, const Part& part, const vox_contact& hit,
+                         bool interior) {
+    vox_dist_contact contact{};
     contact.body_a = body_a;
     contact.vertex = vertex;
     contact.body_b = part.body;
@@ -66,7 +66,7 @@ void Rounds::collect_stranger(const Part& part, const vox_contact& hit, bool int
     const Stranger& stranger = strangers_[hit.vertex];
     const Group& group = groups_[stranger.group];
     if (!points_ && !collide(group.body, group.filter, part.body, part.filter)) return;
-    vox_scene_contact contact = between(group.body, stranger.id, part, hit, interior);
+    vox_dist_contact contact = between(group.body, stranger.id, part, hit, interior);
     if (group.neighbour == no_neighbour) {
         contact.index = stranger.place;
         contact.rank = scene_.transport_.rank();
@@ -81,7 +81,7 @@ void Rounds::collect_stranger(const Part& part, const vox_contact& hit, bool int
 void Rounds::collect(const Part& part, const vox_contact& hit, bool interior) {
     const Part& part_a = side_.part_of(hit.body_a);
     if (!collide(part_a.body, part_a.filter, part.body, part.filter)) return;
-    vox_scene_contact contact = between(part_a.body, part_a.id_of(hit.vertex), part, hit, interior);
+    vox_dist_contact contact = between(part_a.body, part_a.id_of(hit.vertex), part, hit, interior);
     if (part_a.owns(hit.vertex)) {
         contact.index = hit.vertex;
         contact.rank = scene_.transport_.rank();
@@ -116,7 +116,7 @@ void Rounds::write_hits() {
             const auto split_end =
                 told_split_.begin() + static_cast<std::ptrdiff_t>(told_split_begin_[i + 1]);
             for (; hit != outgoing.end() && hit->neighbour == i; ++hit) {
-                const vox_scene_contact& c = hit->contact;
+                const vox_dist_contact& c = hit->contact;
                 Hit message{c.tet, hit->place, 0, {}};
                 std::copy_n(c.barycentric, 4, message.weights);
                 const auto part =
@@ -152,7 +152,7 @@ void Rounds::read_hits(std::span<const Source> sources) {
                 throw Error(VOX_ERROR_INTERNAL, "another rank hit what it was not sent");
             const Sent& sent = sent_[sent_begin_[i] + hit.vertex];
             const Source& source = sources[sent.source];
-            vox_scene_contact contact{};
+            vox_dist_contact contact{};
             contact.body_a = source.part ? source.part->body : 0;
             contact.vertex = source.part ? source.part->id_of(sent.vertex) : sent.vertex;
             contact.body_b = part->body;

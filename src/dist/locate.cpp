@@ -13,7 +13,7 @@ using namespace vox::dist;
 namespace {
 
 // Parts that the second grid lacks are inserted; all get the positions that they have now.
-void place_parts(vox_scene& scene) {
+void place_parts(vox_dist_scene& scene) {
     Side& side = scene.points_side_;
     if (!side.grid) {
         vox_grid* grid = nullptr;
@@ -47,13 +47,13 @@ void place_parts(vox_scene& scene) {
 
 // Of the hits of a point the one that counts comes first.
 auto order(const Found& f) noexcept {
-    const vox_scene_contact& c = f.contact;
+    const vox_dist_contact& c = f.contact;
     return std::tuple(c.vertex, c.body_b, c.interior == 0, c.tet);
 }
 
 } // namespace
 
-void vox_scene::locate(const vox_positions* points, vox_scene_point* out_points) {
+void vox_dist_scene::locate(const vox_positions* points, vox_dist_location* out_locations) {
     const auto before = counters_;
     counters_ = {};
     counters_.contacts = before.contacts;
@@ -72,7 +72,7 @@ void vox_scene::locate(const vox_positions* points, vox_scene_point* out_points)
                                                 static_cast<unsigned long long>(count), VOX_MAX_VERTICES));
         positions = check_positions(*points, "points");
         if (count) require(points->data, "points.data");
-        if (count) require(out_points, "out_points");
+        if (count) require(out_locations, "out_locations");
         double at[3];
         for (std::uint64_t i = 0; i < count; ++i) {
             get(positions, i, at);
@@ -102,14 +102,14 @@ void vox_scene::locate(const vox_positions* points, vox_scene_point* out_points)
     });
     failure.agree(transport_);
     for (std::uint64_t i = 0; i < count; ++i) {
-        out_points[i] = {};
-        out_points[i].rank = VOX_NO_RANK;
+        out_locations[i] = {};
+        out_locations[i].rank = VOX_NONE;
     }
     for (const Found& f : rounds.found) {
-        vox_scene_point& point = out_points[f.contact.vertex];
-        if (point.rank != VOX_NO_RANK) continue;
-        point = {f.contact.body_b, f.contact.tet, {}, f.contact.rank, f.contact.interior};
-        std::copy_n(f.contact.barycentric, 4, point.barycentric);
+        vox_dist_location& location = out_locations[f.contact.vertex];
+        if (location.rank != VOX_NONE) continue;
+        location = {f.contact.body_b, f.contact.tet, {}, f.contact.rank, f.contact.interior};
+        std::copy_n(f.contact.barycentric, 4, location.barycentric);
     }
     counters_.messages = transport_.messages;
     counters_.collectives = transport_.collectives;

@@ -138,7 +138,7 @@ public:
     }
     std::size_t size() const noexcept { return bytes_.size(); }
     void shrink(std::size_t size) { bytes_.resize(size); }
-    vox_bytes bytes() const noexcept { return {bytes_.data(), bytes_.size()}; }
+    vox_dist_message bytes() const noexcept { return {bytes_.data(), bytes_.size()}; }
 
 private:
     Array<std::byte> bytes_;
@@ -146,7 +146,7 @@ private:
 
 class Reader {
 public:
-    explicit Reader(const vox_bytes& bytes) noexcept
+    explicit Reader(const vox_dist_message& bytes) noexcept
         : at_(static_cast<const std::byte*>(bytes.data)), left_(bytes.size) {}
     bool more() const noexcept { return left_ != 0; }
     template <class T>

@@ -46,7 +46,7 @@ void compare(const Numbered* begin, const Numbered* end) {
 
 } // namespace
 
-void vox_scene::check_numbers() {
+void vox_dist_scene::check_numbers() {
     Failure failure;
     Overview mine;
     mine.call = Call::check;
@@ -80,7 +80,7 @@ void vox_scene::check_numbers() {
     exchange(nullptr, failure);
     failure.guard([&] {
         Array<Numbered> items(&memory_);
-        const auto take = [&](const vox_bytes& bytes) {
+        const auto take = [&](const vox_dist_message& bytes) {
             for (Reader reader(bytes); reader.more();) items.push_back(reader.take<Numbered>());
         };
         take(writers[me].bytes());
@@ -99,20 +99,19 @@ void vox_scene::check_numbers() {
     failure.agree(transport_);
 }
 
-std::uint64_t vox_scene::costs(vox_part_cost* costs, std::uint64_t capacity) const {
+std::uint64_t vox_dist_scene::costs(vox_dist_cost* costs, std::uint64_t capacity) const {
     double tets = 0;
     for (const Part* part : parts_) tets += part->tet_count;
-    double predicted = 0;
+    double seconds = 0; // of a step of this rank
     if (tets > 0) {
         vox_suggest_desc desc = vox_default_suggest_desc();
         desc.model = VOX_COST_MODEL_FAST;
         vox_suggestion suggestion{};
         suggestion.struct_size = sizeof suggestion;
         check(vox_grid_suggest_cell_size(contacts_side_.grid.get(), &desc, &suggestion));
-        predicted = suggestion.predicted_cost;
+        seconds = suggestion.predicted_cost / 1e9;
     }
     for (std::size_t i = 0; i < parts_.size() && i < capacity; ++i)
-        costs[i] = {parts_[i]->body, parts_[i]->handle, 0,
-                    tets > 0 ? predicted * parts_[i]->tet_count / tets : 0.0};
+        costs[i] = {parts_[i]->body, tets > 0 ? seconds * parts_[i]->tet_count / tets : 0.0};
     return parts_.size();
 }

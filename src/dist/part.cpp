@@ -54,7 +54,7 @@ void add_point(Box& box, const double position[3]) noexcept {
     }
 }
 
-void Part::take(const vox_part_desc& desc, const vox_mesh_desc& mesh) {
+void Part::take(const vox_dist_part_desc& desc, const vox_mesh_desc& mesh) {
     if (mesh.positions.count > VOX_MAX_VERTICES || mesh.tet_count > VOX_MAX_TETS)
         throw Error(VOX_ERROR_LIMIT,
                     format("the part has %llu vertices and %llu tets, expected at most %u of each",

@@ -60,7 +60,7 @@ struct Part {
           owned(memory), tet_clusters(memory), vertex_clusters(memory) {}
 
     // The arrays of the caller, checked; tetrahedra in the order of their numbers.
-    void take(const vox_part_desc& desc, const vox_mesh_desc& mesh);
+    void take(const vox_dist_part_desc& desc, const vox_mesh_desc& mesh);
     // Looks at all positions: checks them, and computes the boxes.
     void look(Memory* memory);
 
@@ -76,7 +76,7 @@ struct Part {
     bool owns(std::uint32_t vertex) const noexcept { return owned.empty() || owned[vertex] != 0; }
     std::optional<std::uint32_t> find(std::uint64_t id) const noexcept; // a vertex
 
-    vox_part handle = 0;
+    vox_body mesh = VOX_NULL_BODY; // in the grid that finds contacts
     std::uint64_t body = 0;
     Filter filter;
     std::uint32_t vertex_count = 0, tet_count = 0;

@@ -6,7 +6,7 @@
 
 namespace vox::dist {
 
-Rounds::Rounds(vox_scene& scene, Side& side, bool points)
+Rounds::Rounds(vox_dist_scene& scene, Side& side, bool points)
     : outgoing(&scene.memory_), found(&scene.memory_), scene_(scene), side_(side), points_(points),
       memory_(&scene.memory_), writers_(memory_), remote_(memory_), remote_begin_(memory_), boxes_(memory_),
       boxes_begin_(memory_), split_(memory_), told_split_(memory_), told_split_begin_(memory_),

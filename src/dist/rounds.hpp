@@ -45,24 +45,24 @@ struct Group {
 
 // A hit here, of a vertex of a neighbour's.
 struct Outgoing {
-    vox_scene_contact contact; // as the side of the tetrahedron sees it
+    vox_dist_contact contact; // as the side of the tetrahedron sees it
     std::uint32_t neighbour;
     std::uint32_t place;
-    std::uint32_t part; // in vox_scene::parts_
+    std::uint32_t part; // in vox_dist_scene::parts_
 };
 
 // A hit of a vertex of this rank, here or at a neighbour's.
 struct Found {
-    vox_scene_contact contact; // as the side of the vertex sees it
-    std::uint32_t neighbour;   // none: here
-    std::uint32_t hit;         // its place among the neighbour's hits; here: the index of the tetrahedron
+    vox_dist_contact contact; // as the side of the vertex sees it
+    std::uint32_t neighbour;  // none: here
+    std::uint32_t hit;        // its place among the neighbour's hits; here: the index of the tetrahedron
 };
 constexpr std::uint32_t no_neighbour = UINT32_MAX;
 
 class Rounds {
 public:
     // `points`: each vertex collides with all bodies.
-    Rounds(vox_scene& scene, Side& side, bool points);
+    Rounds(vox_dist_scene& scene, Side& side, bool points);
 
     void run(std::span<const Source> sources, Failure& failure);
 
@@ -90,7 +90,7 @@ private:
         std::uint32_t source, vertex;
     };
 
-    vox_scene& scene_;
+    vox_dist_scene& scene_;
     Side& side_;
     const bool points_;
     Memory* memory_;

@@ -58,20 +58,20 @@ Filter read_filter(const vox_filter& filter) {
 } // namespace
 } // namespace vox::dist
 
-vox_scene::OwnDesc::OwnDesc(const vox_grid_desc& desc)
+vox_dist_scene::OwnDesc::OwnDesc(const vox_grid_desc& desc)
     : desc_(desc), allocator_(value_of(desc.allocator)), log_(value_of(desc.log)),
       tasks_(value_of(desc.tasks)) {
     desc_.allocator = &allocator_;
     desc_.log = &log_;
     desc_.tasks = &tasks_;
     if (!desc.reference) return;
-    reference_ = read_struct(desc.reference, "desc.grid->reference");
+    reference_ = read_struct(desc.reference, "grid->reference");
     desc_.reference = &reference_;
 }
 
-vox_scene::vox_scene(const vox_grid_desc& grid, const vox_transport& transport)
+vox_dist_scene::vox_dist_scene(const vox_grid_desc& grid, const vox_dist_transport& transport)
     : grid_desc_(grid), memory_(grid.allocator), transport_(transport), parts_(&memory_),
-      contacts_side_(&memory_), points_side_(&memory_), contacts_(&memory_), incoming_(&memory_),
+      contacts_side_(&memory_), points_side_(&memory_), contacts_(&memory_), tet_contacts_(&memory_),
       overviews_(&memory_), ranks_(&memory_), out_(&memory_), in_(&memory_), in_contact_(&memory_) {
     overviews_.resize(transport.size);
     ranks_.resize(transport.size);
@@ -81,18 +81,18 @@ vox_scene::vox_scene(const vox_grid_desc& grid, const vox_transport& transport)
     contacts_side_.grid = create_grid(*grid_desc_);
 }
 
-vox_scene::~vox_scene() {
+vox_dist_scene::~vox_dist_scene() {
     std::pmr::polymorphic_allocator<> allocator(&memory_);
     for (Part* part : parts_) allocator.delete_object(part);
 }
 
-Part* vox_scene::find_body(std::uint64_t body) const noexcept {
+Part* vox_dist_scene::find_body(std::uint64_t body) const noexcept {
     const auto place = std::lower_bound(parts_.begin(), parts_.end(), body,
                                         [](const Part* p, std::uint64_t b) { return p->body < b; });
     return place != parts_.end() && (*place)->body == body ? *place : nullptr;
 }
 
-vox_part vox_scene::insert(const vox_part_desc& desc) {
+void vox_dist_scene::insert(const vox_dist_part_desc& desc) {
     vox_mesh_desc mesh = read_struct(desc.mesh, "desc.mesh");
     if (find_body(desc.body))
         refuse(
@@ -114,25 +114,29 @@ vox_part vox_scene::insert(const vox_part_desc& desc) {
     mesh.tets = part->tets.data();
     mesh.flags |= VOX_MESH_BORROW_TETS;
     mesh.user_data = desc.body;
-    check(vox_mesh_insert(contacts_side_.grid.get(), &mesh, &part->handle));
+    check(vox_mesh_insert(contacts_side_.grid.get(), &mesh, &part->mesh));
 
-    const vox_part handle = part->handle;
+    const vox_body id = part->mesh;
     const auto place = std::upper_bound(parts_.begin(), parts_.end(), desc.body,
                                         [](std::uint64_t b, const Part* p) { return b < p->body; });
     auto& placed = contacts_side_.placed;
-    placed.insert(std::upper_bound(placed.begin(), placed.end(), handle,
+    placed.insert(std::upper_bound(placed.begin(), placed.end(), id,
                                    [](vox_body m, const Placed& p) { return m < p.mesh; }),
-                  Placed{handle, part.get()});
+                  Placed{id, part.get()});
     parts_.insert(place, part.release());
-    return handle;
 }
 
-void vox_scene::remove(vox_part handle) {
-    const auto is_it = [&](const Part* p) { return p->handle == handle; };
-    const auto place = std::find_if(parts_.begin(), parts_.end(), is_it);
-    if (place == parts_.end()) throw Error(VOX_ERROR_INVALID_HANDLE, format("there is no part %u", handle));
-    check(vox_body_remove(contacts_side_.grid.get(), handle));
-    Part* const part = *place;
+Part& vox_dist_scene::part_of(std::uint64_t body) const {
+    Part* const part = find_body(body);
+    if (!part)
+        throw Error(VOX_ERROR_INVALID_HANDLE, format("there is no part of body %llu on this rank",
+                                                     static_cast<unsigned long long>(body)));
+    return *part;
+}
+
+void vox_dist_scene::remove(std::uint64_t body) {
+    Part* const part = &part_of(body);
+    check(vox_body_remove(contacts_side_.grid.get(), part->mesh));
     for (Side* side : {&contacts_side_, &points_side_}) {
         const auto gone = std::find_if(side->placed.begin(), side->placed.end(),
                                        [&](const Placed& p) { return p.part == part; });
@@ -140,21 +144,19 @@ void vox_scene::remove(vox_part handle) {
         if (side == &points_side_) (void)vox_body_remove(side->grid.get(), gone->mesh);
         side->placed.erase(gone);
     }
-    parts_.erase(place);
+    parts_.erase(std::find(parts_.begin(), parts_.end(), part));
     std::pmr::polymorphic_allocator<>(&memory_).delete_object(part);
 }
 
-void vox_scene::bind(vox_part handle, const vox_positions& positions) {
-    if (std::none_of(parts_.begin(), parts_.end(), [&](const Part* p) { return p->handle == handle; }))
-        throw Error(VOX_ERROR_INVALID_HANDLE, vox::format("there is no part %u", handle));
-    check(vox_mesh_bind_positions(contacts_side_.grid.get(), handle, &positions));
+void vox_dist_scene::bind(std::uint64_t body, const vox_positions& positions) {
+    check(vox_mesh_bind_positions(contacts_side_.grid.get(), part_of(body).mesh, &positions));
 }
 
-void vox_scene::look() {
+void vox_dist_scene::look() {
     for (Part* part : parts_) {
         vox_body_info info{};
         info.struct_size = sizeof info;
-        check(vox_body_get_info(contacts_side_.grid.get(), part->handle, &info));
+        check(vox_body_get_info(contacts_side_.grid.get(), part->mesh, &info));
         if (!info.positions.data && part->vertex_count != 0)
             throw Error(VOX_ERROR_INVALID_STATE, format("the part of body %llu has no positions",
                                                         static_cast<unsigned long long>(part->body)));
@@ -163,7 +165,7 @@ void vox_scene::look() {
     }
 }
 
-void vox_scene::meet(Overview mine, const Failure& failure) {
+void vox_dist_scene::meet(Overview mine, const Failure& failure) {
     mine.result = failure.result();
     transport_.allgather(&mine, sizeof mine, overviews_.data());
     counters_.replicated_bytes = sizeof mine;
@@ -187,7 +189,7 @@ void vox_scene::meet(Overview mine, const Failure& failure) {
     counters_.neighbours = rank_count_;
 }
 
-void vox_scene::exchange(std::uint64_t* sent_bytes, Failure& failure) {
+void vox_dist_scene::exchange(std::uint64_t* sent_bytes, Failure& failure) {
     static constexpr std::byte failed{1}; // no other message has 1 byte
     if (failure)
         for (std::uint32_t i = 0; i < rank_count_; ++i) out_[i] = {&failed, 1};

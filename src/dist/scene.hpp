@@ -37,21 +37,22 @@ vox_filter everything() noexcept;
 
 } // namespace vox::dist
 
-struct vox_scene {
-    vox_scene(const vox_grid_desc& grid, const vox_transport& transport);
-    ~vox_scene();
-    vox_scene(const vox_scene&) = delete;
-    vox_scene& operator=(const vox_scene&) = delete;
+struct vox_dist_scene {
+    vox_dist_scene(const vox_grid_desc& grid, const vox_dist_transport& transport);
+    ~vox_dist_scene();
+    vox_dist_scene(const vox_dist_scene&) = delete;
+    vox_dist_scene& operator=(const vox_dist_scene&) = delete;
 
-    vox_part insert(const vox_part_desc& desc);
-    void remove(vox_part part);
-    void bind(vox_part part, const vox_positions& positions);
+    void insert(const vox_dist_part_desc& desc);
+    void remove(std::uint64_t body);
+    void bind(std::uint64_t body, const vox_positions& positions);
     void step();
-    void send(vox_direction direction, std::uint64_t item_bytes, const void* in, void* out);
+    void send(std::int32_t from, std::uint64_t item_bytes, const void* in,
+              void* out); // from: a vox_dist_side
     void hash(std::uint64_t out[2]);
-    void locate(const vox_positions* points, vox_scene_point* out_points);
+    void locate(const vox_positions* points, vox_dist_location* out_locations);
     void check_numbers();
-    std::uint64_t costs(vox_part_cost* costs, std::uint64_t capacity) const;
+    std::uint64_t costs(vox_dist_cost* costs, std::uint64_t capacity) const;
 
     // Reads where the positions of all parts are now, checks them and computes their boxes.
     void look();
@@ -61,6 +62,8 @@ struct vox_scene {
     // nothing, and goes on with what all ranks call next.
     void exchange(std::uint64_t* sent_bytes, vox::dist::Failure& failure);
     vox::dist::Part* find_body(std::uint64_t body) const noexcept;
+    // Throws INVALID_HANDLE where it has none.
+    vox::dist::Part& part_of(std::uint64_t body) const;
 
     // A copy of a desc, with all that it names.
     class OwnDesc {
@@ -83,12 +86,13 @@ struct vox_scene {
     vox::dist::Transport transport_;
     vox::Array<vox::dist::Part*> parts_; // in the order of bodies
     vox::dist::Side contacts_side_, points_side_;
-    vox::Array<vox_scene_contact> contacts_, incoming_;
-    vox_scene_counters counters_{};
+    vox::Array<vox_dist_contact> contacts_;     // of the vertices owned here
+    vox::Array<vox_dist_contact> tet_contacts_; // with the tetrahedra here
+    vox_dist_counters counters_{};
 
     vox::Array<vox::dist::Overview> overviews_; // of all ranks
     vox::Array<std::uint32_t> ranks_;           // who is talked to
-    vox::Array<vox_bytes> out_, in_;
+    vox::Array<vox_dist_message> out_, in_;
     std::uint32_t rank_count_ = 0;
     vox::Array<std::uint8_t> in_contact_; // each rank: whether it is, with this one
 };

@@ -12,22 +12,25 @@ namespace {
 
 struct Items {
     std::uint64_t bytes; // of one
-    std::uint64_t direction;
+    std::uint64_t from;  // the side
 };
+
+const char* name_of(std::uint64_t side) noexcept { return side == VOX_DIST_VERTICES ? "vertices" : "tets"; }
 
 } // namespace
 
-void vox_scene::send(vox_direction direction, std::uint64_t item_bytes, const void* in, void* out) {
+void vox_dist_scene::send(std::int32_t from, std::uint64_t item_bytes, const void* in, void* out) {
     Failure failure;
-    const bool to_tets = direction == VOX_DIRECTION_TO_TETS;
-    const Array<vox_scene_contact>& from = to_tets ? contacts_ : incoming_;
-    const Array<vox_scene_contact>& to = to_tets ? incoming_ : contacts_;
+    const bool from_vertices = from == VOX_DIST_VERTICES;
+    const std::uint64_t side = from_vertices ? VOX_DIST_VERTICES : VOX_DIST_TETS;
+    const Array<vox_dist_contact>& senders = from_vertices ? contacts_ : tet_contacts_;
+    const Array<vox_dist_contact>& receivers = from_vertices ? tet_contacts_ : contacts_;
 
     // Whom there is something to send to, or to get from: the same on both sides, and no memory is needed.
     const std::uint32_t me = transport_.rank();
     std::fill(in_contact_.begin(), in_contact_.end(), std::uint8_t{0});
-    for (const vox_scene_contact& contact : contacts_) in_contact_[contact.rank] = 1;
-    for (const vox_scene_contact& contact : incoming_) in_contact_[contact.rank] = 1;
+    for (const vox_dist_contact& contact : contacts_) in_contact_[contact.rank] = 1;
+    for (const vox_dist_contact& contact : tet_contacts_) in_contact_[contact.rank] = 1;
     rank_count_ = 0;
     for (std::uint32_t rank = 0; rank < transport_.size(); ++rank)
         if (rank != me && in_contact_[rank]) {
@@ -43,19 +46,19 @@ void vox_scene::send(vox_direction direction, std::uint64_t item_bytes, const vo
                                         ranks_.begin());
     };
     failure.guard([&] {
-        check_enum(direction, VOX_DIRECTION_TO_VERTICES, "direction");
+        check_enum(from, VOX_DIST_TETS, "from");
         if (item_bytes == 0 || item_bytes > 65536)
             refuse(format("item_bytes is %llu, expected 1 to 65536",
                           static_cast<unsigned long long>(item_bytes)));
-        if (!from.empty()) require(in, "in");
-        if (!to.empty()) require(out, "out");
+        if (!senders.empty()) require(in, "in");
+        if (!receivers.empty()) require(out, "out");
         for (std::uint32_t i = 0; i < rank_count_; ++i)
-            writers.emplace_back(&memory_).add(Items{item_bytes, to_tets ? 0u : 1u});
-        for (std::size_t i = 0; i < from.size(); ++i)
-            if (from[i].rank == me)
+            writers.emplace_back(&memory_).add(Items{item_bytes, side});
+        for (std::size_t i = 0; i < senders.size(); ++i)
+            if (senders[i].rank == me)
                 here.push_back(items + i * item_bytes);
             else
-                writers[place_of(from[i].rank)].add(items + i * item_bytes, item_bytes);
+                writers[place_of(senders[i].rank)].add(items + i * item_bytes, item_bytes);
         for (std::uint32_t i = 0; i < rank_count_; ++i) out_[i] = writers[i].bytes();
     });
     exchange(nullptr, failure);
@@ -63,16 +66,16 @@ void vox_scene::send(vox_direction direction, std::uint64_t item_bytes, const vo
         Array<Reader> readers(&memory_);
         for (std::uint32_t i = 0; i < rank_count_; ++i) {
             const auto items_of = readers.emplace_back(in_[i]).take<Items>();
-            if (items_of.bytes != item_bytes || items_of.direction != (to_tets ? 0u : 1u))
-                refuse(format(
-                    "rank %u sends items of %llu bytes in direction %llu, this rank of %llu in direction %u",
-                    ranks_[i], static_cast<unsigned long long>(items_of.bytes),
-                    static_cast<unsigned long long>(items_of.direction),
-                    static_cast<unsigned long long>(item_bytes), to_tets ? 0u : 1u));
+            if (items_of.bytes != item_bytes || items_of.from != side)
+                refuse(
+                    format("rank %u sends items of %llu bytes from the side of %s, this rank items of %llu "
+                           "bytes from that of %s",
+                           ranks_[i], static_cast<unsigned long long>(items_of.bytes), name_of(items_of.from),
+                           static_cast<unsigned long long>(item_bytes), name_of(side)));
         }
         auto* result = static_cast<std::byte*>(out);
         auto next_here = here.begin();
-        for (const vox_scene_contact& contact : to) {
+        for (const vox_dist_contact& contact : receivers) {
             if (contact.rank == me) {
                 std::memcpy(result, *next_here++, item_bytes);
             } else if (!readers[place_of(contact.rank)].take(result, item_bytes)) {

@@ -10,9 +10,9 @@ using namespace vox::dist;
 namespace vox::dist {
 namespace {
 
-auto key(const vox_scene_contact& c) noexcept { return std::tuple(c.body_a, c.vertex, c.body_b, c.tet); }
-bool before(const vox_scene_contact& a, const vox_scene_contact& b) noexcept { return key(a) < key(b); }
-bool same_pair(const vox_scene_contact& a, const vox_scene_contact& b) noexcept {
+auto key(const vox_dist_contact& c) noexcept { return std::tuple(c.body_a, c.vertex, c.body_b, c.tet); }
+bool before(const vox_dist_contact& a, const vox_dist_contact& b) noexcept { return key(a) < key(b); }
+bool same_pair(const vox_dist_contact& a, const vox_dist_contact& b) noexcept {
     return a.body_a == b.body_a && a.vertex == b.vertex && a.body_b == b.body_b;
 }
 
@@ -36,7 +36,7 @@ class Verdicts {
 public:
     explicit Verdicts(Memory* memory) : bytes_(memory), begins_(memory) {}
 
-    void judge(const vox_scene& scene, std::span<const Found> found) {
+    void judge(const vox_dist_scene& scene, std::span<const Found> found) {
         for (std::uint32_t i = 0; i < scene.rank_count_; ++i) {
             begins_.push_back(bytes_.size());
             Reader reader(scene.in_[i]);
@@ -47,7 +47,7 @@ public:
         });
     }
     // Of all hits of neighbour i, those that it knows of too, so that places are simple.
-    vox_bytes of(std::uint32_t i) const noexcept {
+    vox_dist_message of(std::uint32_t i) const noexcept {
         const std::uint64_t end = i + 1 < begins_.size() ? begins_[i + 1] : bytes_.size();
         return {bytes_.data() + begins_[i], end - begins_[i]};
     }
@@ -58,21 +58,21 @@ private:
 };
 
 // How many of the hits in a message need a verdict; both sides of the message know.
-std::uint64_t undecided_hits(const vox_bytes& message) noexcept {
+std::uint64_t undecided_hits(const vox_dist_message& message) noexcept {
     Hits header{};
     if (message.size >= sizeof header) std::memcpy(&header, message.data, sizeof header);
     return header.undecided;
 }
 
 // After all ranks agreed that nothing failed: the other side of undecided hits learns which of them are
-// contacts, and has them in `incoming`, for which it has the memory. Here only the transport can fail.
-void tell_verdicts(vox_scene& scene, const Rounds& rounds, const Verdicts& verdicts) {
+// contacts, and has them in tet_contacts_, for which it has the memory. Here only the transport can fail.
+void tell_verdicts(vox_dist_scene& scene, const Rounds& rounds, const Verdicts& verdicts) {
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < scene.rank_count_; ++i) {
         const std::uint64_t received = undecided_hits(scene.in_[i]);
         if (undecided_hits(scene.out_[i]) == 0 && received == 0) continue;
         scene.ranks_[count] = scene.ranks_[i];
-        scene.out_[count++] = received == 0 ? vox_bytes{nullptr, 0} : verdicts.of(i);
+        scene.out_[count++] = received == 0 ? vox_dist_message{nullptr, 0} : verdicts.of(i);
     }
     scene.rank_count_ = count;
     for (std::uint32_t i = 0; i < count; ++i) scene.counters_.hit_bytes += scene.out_[i].size;
@@ -83,20 +83,20 @@ void tell_verdicts(vox_scene& scene, const Rounds& rounds, const Verdicts& verdi
         const std::uint32_t rank = hit->contact.rank;
         const auto told = static_cast<std::size_t>(
             std::find(scene.ranks_.begin(), scene.ranks_.begin() + count, rank) - scene.ranks_.begin());
-        const vox_bytes message = told < count ? scene.in_[told] : vox_bytes{nullptr, 0};
+        const vox_dist_message message = told < count ? scene.in_[told] : vox_dist_message{nullptr, 0};
         const auto* verdict = static_cast<const std::uint8_t*>(message.data);
         for (std::uint64_t h = 0; hit != rounds.outgoing.end() && hit->contact.rank == rank; ++hit, ++h)
-            if (h >= message.size || verdict[h] != 0) scene.incoming_.push_back(hit->contact);
+            if (h >= message.size || verdict[h] != 0) scene.tet_contacts_.push_back(hit->contact);
     }
-    std::sort(scene.incoming_.begin(), scene.incoming_.end(), before);
+    std::sort(scene.tet_contacts_.begin(), scene.tet_contacts_.end(), before);
 }
 
 } // namespace
 } // namespace vox::dist
 
-void vox_scene::step() {
+void vox_dist_scene::step() {
     contacts_.clear();
-    incoming_.clear();
+    tet_contacts_.clear();
     counters_ = {};
     transport_.messages = transport_.collectives = 0;
     Failure failure;
@@ -131,22 +131,22 @@ void vox_scene::step() {
         apply_rule(rounds.found, [&](const Found& f) {
             contacts_.push_back(f.contact);
             if (f.neighbour != no_neighbour) return;
-            incoming_.push_back(f.contact);
-            incoming_.back().index = f.hit;
+            tet_contacts_.push_back(f.contact);
+            tet_contacts_.back().index = f.hit;
         });
     });
 
-    failure.guard([&] { incoming_.reserve(incoming_.size() + rounds.outgoing.size()); });
+    failure.guard([&] { tet_contacts_.reserve(tet_contacts_.size() + rounds.outgoing.size()); });
     try {
         failure.agree(transport_);
         tell_verdicts(*this, rounds, verdicts);
     } catch (...) {
         contacts_.clear();
-        incoming_.clear();
+        tet_contacts_.clear();
         throw;
     }
     counters_.messages = transport_.messages;
     counters_.collectives = transport_.collectives;
     counters_.contacts = contacts_.size();
-    counters_.incoming = incoming_.size();
+    counters_.incoming = tet_contacts_.size();
 }

@@ -20,7 +20,7 @@ inline void check(vox_result result) {
 
 class Transport {
 public:
-    explicit Transport(const vox_transport& callbacks) : callbacks_(callbacks) {}
+    explicit Transport(const vox_dist_transport& callbacks) : callbacks_(callbacks) {}
     std::uint32_t rank() const noexcept { return callbacks_.rank; }
     std::uint32_t size() const noexcept { return callbacks_.size; }
 
@@ -30,7 +30,8 @@ public:
         const CallersFloats floats;
         carried(callbacks_.allgather(in, bytes, out, callbacks_.user), "allgather");
     }
-    void exchange(const std::uint32_t* ranks, std::uint32_t count, const vox_bytes* out, vox_bytes* in) {
+    void exchange(const std::uint32_t* ranks, std::uint32_t count, const vox_dist_message* out,
+                  vox_dist_message* in) {
         messages += count;
         if (!callbacks_.exchange) return;
         const CallersFloats floats;
@@ -52,7 +53,7 @@ private:
         throw Error(result, format("the transport's %s failed with %s", function, vox_result_string(result)));
     }
 
-    vox_transport callbacks_;
+    vox_dist_transport callbacks_;
 };
 
 // What went wrong on this rank in a collective function, which goes on with messages that say so, so that no

@@ -4,6 +4,7 @@
 #include <vox/vox_mpi.h>
 
 #include "base/border.hpp"
+#include "base/structs.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -96,8 +97,8 @@ bool receive(Duplicate& mpi, std::uint32_t rank, std::vector<std::byte>& bytes) 
     return memory;
 }
 
-vox_result exchange(const std::uint32_t* ranks, std::uint32_t count, const vox_bytes* out, vox_bytes* in,
-                    void* user) {
+vox_result exchange(const std::uint32_t* ranks, std::uint32_t count, const vox_dist_message* out,
+                    vox_dist_message* in, void* user) {
     return border([&] {
         auto& mpi = *static_cast<Duplicate*>(user);
         mpi.requests.clear();
@@ -138,10 +139,10 @@ vox_result agree(std::uint64_t* minima, std::uint32_t minimum_count, std::uint64
 } // namespace
 } // namespace vox::mpi
 
-vox_result vox_mpi_transport_create(MPI_Comm comm, vox_transport* out_transport) {
+vox_result vox_mpi_transport_create(MPI_Comm comm, vox_dist_transport* out_transport) {
     using namespace vox;
     return border([&] {
-        require(out_transport, "out_transport");
+        check_out_struct(out_transport, "out_transport");
         int running = 0, ended = 0, between = 0;
         (void)MPI_Initialized(&running);
         (void)MPI_Finalized(&ended);
@@ -155,18 +156,19 @@ vox_result vox_mpi_transport_create(MPI_Comm comm, vox_transport* out_transport)
         auto duplicate = std::make_unique<mpi::Duplicate>(comm);
         duplicate->received.resize(static_cast<std::size_t>(size));
         duplicate->requests.reserve(static_cast<std::size_t>(size));
-        *out_transport = {sizeof *out_transport,
-                          static_cast<std::uint32_t>(rank),
-                          static_cast<std::uint32_t>(size),
-                          0,
-                          mpi::allgather,
-                          mpi::exchange,
-                          mpi::agree,
-                          duplicate.release()};
+        const vox_dist_transport transport{sizeof transport,
+                                           static_cast<std::uint32_t>(rank),
+                                           static_cast<std::uint32_t>(size),
+                                           0,
+                                           mpi::allgather,
+                                           mpi::exchange,
+                                           mpi::agree,
+                                           duplicate.release()};
+        write_struct(out_transport, transport, "out_transport");
     });
 }
 
-void vox_mpi_transport_destroy(vox_transport* transport) {
+void vox_mpi_transport_destroy(vox_dist_transport* transport) {
     if (!transport || !transport->user) return;
     delete static_cast<vox::mpi::Duplicate*>(transport->user);
     transport->user = nullptr;

@@ -17,7 +17,7 @@ HEADERS = ["vox.h", "vox_pairs.h", "vox_io.h", "vox_sim.h", "vox_dist.h"]
 
 # Functions, structs and fields of each header, which are not to grow unseen: a new function has two users outside of tests.
 BUDGETS = {"vox.h": (104, 64, 506), "vox_pairs.h": (13, 13, 83), "vox_io.h": (19, 9, 75), "vox_sim.h": (21, 9, 104),
-           "vox_dist.h": (16, 9, 55)}
+           "vox_dist.h": (13, 8, 49)}
 
 # Everything that a foreign-function interface can carry.
 NUMBERS = {"uint8_t", "int32_t", "uint32_t", "int64_t", "uint64_t", "size_t", "float", "double", "char", "void"}

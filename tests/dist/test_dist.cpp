@@ -1,5 +1,6 @@
 // Contacts of scenes that are cut among ranks: those of one grid, whatever the partition.
 #include "dist/packed_box.hpp"
+#include "dist/ranks.hpp"
 #include "dist/whole.hpp"
 
 #include "support/suite.h"
@@ -19,11 +20,11 @@ struct Run {
     const Scene* scene;
     std::vector<std::vector<Share>> shares; // of each body, of each rank
     std::uint64_t expected[2];
-    std::uint64_t expected_count;
+    std::vector<vox_dist_contact> expected_contacts;
     std::mutex mutex;
-    std::vector<vox_scene_contact> contacts, incoming;
-    const vox_grid* grid = nullptr; // of the whole
-    bool whole_bodies = false;      // no body has tetrahedra on two ranks
+    std::vector<vox_dist_contact> contacts, of_tets; // the two sides, of all ranks
+    const vox_grid* grid = nullptr;                  // of the whole
+    bool whole_bodies = false;                       // no body has tetrahedra on two ranks
     std::string fault;
 };
 
@@ -32,37 +33,70 @@ void note(Run& run, const std::string& text) {
     if (run.fault.empty()) run.fault = text;
 }
 
-void add(std::vector<vox_scene_contact>& all, const vox_scene_contact_view& view) {
+void add(std::vector<vox_dist_contact>& all, const vox_dist_contact_view& view) {
     all.insert(all.end(), view.data, view.data + view.count);
 }
 
+const Share& share_of(const Run& run, std::uint64_t body, std::uint32_t rank) {
+    std::size_t b = 0;
+    while ((*run.scene)[b].number != body) ++b;
+    return run.shares[b][rank];
+}
+
+bool owns(const Share& share, std::uint64_t vertex) {
+    for (std::size_t i = 0; i < share.vertex_ids.size(); ++i)
+        if (share.vertex_ids[i] == vertex) return share.owned[i] != 0;
+    return false;
+}
+
+// `index` is of the side that lies here, and `rank` is where the other side lies.
+void check_places(Run& run, std::uint32_t rank, const vox_dist_contact_view& contacts,
+                  const vox_dist_contact_view& of_tets) {
+    for (std::uint64_t i = 0; i < contacts.count; ++i) {
+        const vox_dist_contact& c = contacts.data[i];
+        const Share& here = share_of(run, c.body_a, rank);
+        const auto& tets_there = share_of(run, c.body_b, c.rank).tet_ids;
+        if (here.vertex_ids.at(c.index) != c.vertex || !here.owned[c.index])
+            return note(run, "a contact of a vertex that is not owned here: " + text_of(c));
+        if (std::find(tets_there.begin(), tets_there.end(), c.tet) == tets_there.end())
+            return note(run, "the tetrahedron is not on that rank: " + text_of(c));
+    }
+    for (std::uint64_t i = 0; i < of_tets.count; ++i) {
+        const vox_dist_contact& c = of_tets.data[i];
+        if (share_of(run, c.body_b, rank).tet_ids.at(c.index) != c.tet)
+            return note(run, "a contact with a tetrahedron that is not here: " + text_of(c));
+        if (!owns(share_of(run, c.body_a, c.rank), c.vertex))
+            return note(run, "that rank does not own the vertex: " + text_of(c));
+    }
+}
+
 // Items of 8 bytes there and back: each arrives at the contact it belongs to.
-void check_send(Run& run, vox_scene* scene, const vox_scene_contact_view& contacts,
-                const vox_scene_contact_view& incoming) {
-    const auto value = [](const vox_scene_contact& c) {
+void check_send(Run& run, vox_dist_scene* scene, const vox_dist_contact_view& contacts,
+                const vox_dist_contact_view& of_tets) {
+    const auto value = [](const vox_dist_contact& c) {
         return c.body_a * 31 + c.vertex * 1009 + c.body_b * 7919 + c.tet;
     };
-    std::vector<std::uint64_t> there(incoming.count), back(contacts.count), out;
+    std::vector<std::uint64_t> there(of_tets.count), back(contacts.count), out;
     for (std::uint64_t i = 0; i < contacts.count; ++i) out.push_back(value(contacts.data[i]));
-    if (vox_scene_send(scene, VOX_DIRECTION_TO_TETS, 8, out.data(), there.data()) != VOX_OK)
+    if (vox_dist_scene_send(scene, VOX_DIST_VERTICES, 8, out.data(), there.data()) != VOX_OK)
         return note(run, vox_last_error());
-    for (std::uint64_t i = 0; i < incoming.count; ++i)
-        if (there[i] != value(incoming.data[i])) return note(run, "an item went to another tetrahedron");
+    for (std::uint64_t i = 0; i < of_tets.count; ++i)
+        if (there[i] != value(of_tets.data[i])) return note(run, "an item went to another tetrahedron");
     for (std::uint64_t& item : there) item = ~item;
-    if (vox_scene_send(scene, VOX_DIRECTION_TO_VERTICES, 8, there.data(), back.data()) != VOX_OK)
+    if (vox_dist_scene_send(scene, VOX_DIST_TETS, 8, there.data(), back.data()) != VOX_OK)
         return note(run, vox_last_error());
     for (std::uint64_t i = 0; i < contacts.count; ++i)
         if (back[i] != ~out[i]) return note(run, "an item went back to another vertex");
 }
 
 // Points on multiples of 1/4: each is in the tetrahedron that one grid names.
-void check_locate(Run& run, const vox_grid* grid, vox_scene* scene, std::uint32_t rank) {
+void check_locate(Run& run, const vox_grid* grid, vox_dist_scene* scene, std::uint32_t rank) {
     Random random(rank);
     std::vector<double> points;
     for (int i = 0; i < 3 * 20; ++i) points.push_back(below(random, 21) / 4.0);
-    std::vector<vox_scene_point> found(20);
+    std::vector<vox_dist_location> found(20);
     const vox_positions asked = vox_double_positions(points.data(), 20);
-    if (vox_scene_locate(scene, &asked, found.data()) != VOX_OK) return note(run, vox_last_error());
+    if (vox_dist_scene_locate(scene, &asked, found.data()) != VOX_OK) return note(run, vox_last_error());
     for (std::uint32_t i = 0; i < 20; ++i) {
         vox_point_hit hits[64];
         std::uint64_t count = 0;
@@ -74,7 +108,7 @@ void check_locate(Run& run, const vox_grid* grid, vox_scene* scene, std::uint32_
             (void)vox_body_get_user_data(grid, hits[h].mesh, &number);
             if (!first || number < body) first = &hits[h], body = number;
         }
-        if ((found[i].rank == VOX_NO_RANK) != !first)
+        if ((found[i].rank == VOX_NONE) != !first)
             return note(run, "a point is found, or not, unlike in one grid");
         if (first && (found[i].body != body || found[i].tet != first->tet ||
                       std::memcmp(found[i].barycentric, first->barycentric, sizeof first->barycentric) != 0))
@@ -82,41 +116,37 @@ void check_locate(Run& run, const vox_grid* grid, vox_scene* scene, std::uint32_
     }
 }
 
-void rank(const vox_transport* transport, void* user) {
-    Run& run = *static_cast<Run*>(user);
+void rank(const vox_dist_transport* transport, Run& run) {
     Ranked mine(transport);
     if (mine.result != VOX_OK) return note(run, vox_last_error());
     for (std::size_t b = 0; b < run.scene->size(); ++b)
         if (mine.insert((*run.scene)[b], run.shares[b][transport->rank]) != VOX_OK)
             note(run, vox_last_error());
     for (int step = 0; step < 2; ++step) {
-        if (vox_scene_step(mine.scene) != VOX_OK) return note(run, vox_last_error());
+        if (vox_dist_scene_step(mine.scene) != VOX_OK) return note(run, vox_last_error());
         std::uint64_t hash[2];
-        if (vox_scene_hash(mine.scene, hash) != VOX_OK) return note(run, vox_last_error());
+        if (vox_dist_scene_get_hash(mine.scene, hash) != VOX_OK) return note(run, vox_last_error());
         if (hash[0] != run.expected[0] || hash[1] != run.expected[1]) note(run, "another hash");
     }
-    vox_scene_contact_view contacts, incoming;
-    (void)vox_scene_contacts(mine.scene, &contacts);
-    (void)vox_scene_incoming(mine.scene, &incoming);
-    vox_scene_counters counters;
+    vox_dist_contact_view contacts, of_tets;
+    (void)vox_dist_scene_get_contacts(mine.scene, VOX_DIST_VERTICES, &contacts);
+    (void)vox_dist_scene_get_contacts(mine.scene, VOX_DIST_TETS, &of_tets);
+    vox_dist_counters counters;
     counters.struct_size = sizeof counters;
-    (void)vox_scene_get_counters(mine.scene, &counters);
+    (void)vox_dist_scene_get_counters(mine.scene, &counters);
     if (counters.messages > (run.whole_bodies ? 3u : 4u) * counters.neighbours)
         note(run, std::to_string(counters.messages) + " messages for " + std::to_string(counters.neighbours) +
                       " neighbours");
     if (counters.collectives != 2) note(run, "not two collectives");
-    check_send(run, mine.scene, contacts, incoming);
+    check_places(run, transport->rank, contacts, of_tets);
+    check_send(run, mine.scene, contacts, of_tets);
     check_locate(run, run.grid, mine.scene, transport->rank);
-    if (vox_scene_check(mine.scene) != VOX_OK) note(run, vox_last_error());
+    if (vox_dist_scene_check(mine.scene) != VOX_OK) note(run, vox_last_error());
     std::uint64_t parts = 0;
-    if (vox_scene_costs(mine.scene, nullptr, 0, &parts) != VOX_OK) note(run, vox_last_error());
+    if (vox_dist_scene_get_costs(mine.scene, nullptr, 0, &parts) != VOX_OK) note(run, vox_last_error());
     const std::lock_guard lock(run.mutex);
     add(run.contacts, contacts);
-    add(run.incoming, incoming);
-}
-
-bool before(const vox_scene_contact& a, const vox_scene_contact& b) {
-    return std::tie(a.body_a, a.vertex, a.body_b, a.tet) < std::tie(b.body_a, b.vertex, b.body_b, b.tet);
+    add(run.of_tets, of_tets);
 }
 
 // Returns what differs, or "".
@@ -127,29 +157,24 @@ std::string differs(const Scene& scene, std::uint32_t size, Cut how, std::uint64
     if (!grid || vox_grid_step(grid) != VOX_OK) return vox_last_error();
     Run run;
     run.scene = &scene;
-    (void)vox_scene_hash_of_grid(grid, run.expected);
-    vox_contact_view view;
-    (void)vox_grid_get_contacts(grid, &view);
-    run.expected_count = view.count;
+    run.expected_contacts = global_contacts(grid);
+    hash_of(run.expected_contacts, run.expected);
     (void)vox_grid_prepare_queries(grid);
     run.grid = grid;
     run.whole_bodies = how == Cut::one;
     Random random(seed);
     for (const Body& body : scene)
         run.shares.push_back(shares(body, cut(body, size, how, random), size, random));
-    const vox_result result = vox_transport_run(size, parallel, rank, &run);
+    run_ranks(size, parallel, [&](const vox_dist_transport* transport) { rank(transport, run); });
     vox_grid_destroy(grid);
-    if (result != VOX_OK) return vox_last_error();
     if (!run.fault.empty()) return run.fault;
-    if (run.contacts.size() != run.expected_count) return "another number of contacts";
-    std::sort(run.contacts.begin(), run.contacts.end(), before);
-    std::sort(run.incoming.begin(), run.incoming.end(), before);
-    if (run.incoming.size() != run.contacts.size()) return "incoming contacts are others";
-    for (std::size_t i = 0; i < run.contacts.size(); ++i) {
-        const vox_scene_contact &a = run.contacts[i], &b = run.incoming[i];
-        if (before(a, b) || before(b, a) || a.interior != b.interior ||
-            std::memcmp(a.barycentric, b.barycentric, 16))
-            return "incoming differs from contacts: " + text_of(a) + " and " + text_of(b);
+    for (auto* side : {&run.contacts, &run.of_tets}) {
+        if (side->size() != run.expected_contacts.size()) return "another number of contacts";
+        std::sort(side->begin(), side->end(), before);
+        for (std::size_t i = 0; i < side->size(); ++i)
+            if (!same((*side)[i], run.expected_contacts[i]))
+                return std::string(side == &run.contacts ? "vertices" : "tets") + ": " + text_of((*side)[i]) +
+                       ", in one grid " + text_of(run.expected_contacts[i]);
     }
     return "";
 }
@@ -168,8 +193,7 @@ struct Moving {
     std::vector<std::array<std::uint64_t, 2>> expected;
 };
 
-void moving_rank(const vox_transport* transport, void* user) {
-    Moving& moving = *static_cast<Moving*>(user);
+void moving_rank(const vox_dist_transport* transport, Moving& moving) {
     Run& run = moving.run;
     const Scene& scene = *run.scene;
     Ranked mine(transport);
@@ -189,7 +213,7 @@ void moving_rank(const vox_transport* transport, void* user) {
             if (!present(b, frame) && was && mine.remove(scene[b]) != VOX_OK) note(run, vox_last_error());
         }
         std::uint64_t hash[2] = {};
-        if (vox_scene_step(mine.scene) != VOX_OK || vox_scene_hash(mine.scene, hash) != VOX_OK)
+        if (vox_dist_scene_step(mine.scene) != VOX_OK || vox_dist_scene_get_hash(mine.scene, hash) != VOX_OK)
             return note(run, vox_last_error());
         if (hash[0] != moving.expected[frame][0] || hash[1] != moving.expected[frame][1])
             note(run, "another hash in frame " + std::to_string(frame));
@@ -212,16 +236,16 @@ std::string differs_in_motion(const Scene& scene, std::uint32_t size, Cut how, s
         vox_grid* grid = whole(moved[frame], floats[frame]);
         moving.grids.push_back(grid);
         moving.expected.emplace_back();
-        if (!grid || vox_grid_step(grid) != VOX_OK || vox_grid_prepare_queries(grid) != VOX_OK ||
-            vox_scene_hash_of_grid(grid, moving.expected.back().data()) != VOX_OK)
+        if (!grid || vox_grid_step(grid) != VOX_OK || vox_grid_prepare_queries(grid) != VOX_OK)
             return vox_last_error();
+        hash_of(global_contacts(grid), moving.expected.back().data());
     }
     Random random(seed);
     for (const Body& body : scene)
         moving.run.shares.push_back(shares(body, cut(body, size, how, random), size, random));
-    const vox_result result = vox_transport_run(size, 2, moving_rank, &moving);
+    run_ranks(size, 2, [&](const vox_dist_transport* transport) { moving_rank(transport, moving); });
     for (vox_grid* grid : moving.grids) vox_grid_destroy(grid);
-    return result != VOX_OK ? vox_last_error() : moving.run.fault;
+    return moving.run.fault;
 }
 
 // A restart: ranks save grids of their parts, and what was saved goes on with other ranks and another
@@ -316,13 +340,13 @@ std::string differs_after_restart(const Scene& scene, std::uint32_t before, std:
     moving.run.scene = &restored;
     moving.grids.assign(1, grid);
     moving.expected.emplace_back();
-    (void)vox_scene_hash_of_grid(grid, moving.expected[0].data());
+    hash_of(global_contacts(grid), moving.expected[0].data());
     (void)vox_grid_prepare_queries(grid);
     for (const Body& body : restored)
         moving.run.shares.push_back(shares(body, cut(body, after, Cut::rcb, random), after, random));
-    const vox_result result = vox_transport_run(after, 2, moving_rank, &moving);
+    run_ranks(after, 2, [&](const vox_dist_transport* transport) { moving_rank(transport, moving); });
     vox_grid_destroy(grid);
-    return result != VOX_OK ? vox_last_error() : moving.run.fault;
+    return moving.run.fault;
 }
 
 std::uint64_t first_scene() { return number_from("VOX_DIST_FIRST", 0); }
@@ -368,14 +392,14 @@ START_TEST(a_restart_from_snapshots_on_other_ranks_has_the_same_contacts) {
 END_TEST
 
 // One block among four ranks, which have nothing to tell each other unless it collides with itself.
-void lone_body_rank(const vox_transport* transport, void* user) {
-    Run& run = *static_cast<Run*>(user);
+void lone_body_rank(const vox_dist_transport* transport, Run& run) {
     const Body& body = run.scene->front();
     Ranked mine(transport);
-    vox_scene_counters counters;
+    vox_dist_counters counters;
     counters.struct_size = sizeof counters;
     if (mine.result != VOX_OK || mine.insert(body, run.shares[0][transport->rank]) != VOX_OK ||
-        vox_scene_step(mine.scene) != VOX_OK || vox_scene_get_counters(mine.scene, &counters) != VOX_OK)
+        vox_dist_scene_step(mine.scene) != VOX_OK ||
+        vox_dist_scene_get_counters(mine.scene, &counters) != VOX_OK)
         return note(run, vox_last_error());
     if ((counters.neighbours != 0) != ((body.filter.flags & VOX_FILTER_SELF_COLLISION) != 0))
         note(run, "other neighbours");
@@ -391,7 +415,7 @@ START_TEST(ranks_of_one_body_are_neighbours_only_if_it_collides_with_itself) {
         Run run;
         run.scene = &scene;
         run.shares.push_back(shares(scene[0], cut(scene[0], 4, Cut::rcb, random), 4, random));
-        ck_assert_int_eq(vox_transport_run(4, 2, lone_body_rank, &run), VOX_OK);
+        run_ranks(4, 2, [&](const vox_dist_transport* transport) { lone_body_rank(transport, run); });
         ck_assert_msg(run.fault.empty(), "%s", run.fault.c_str());
     }
 }

@@ -21,7 +21,9 @@ int fail(const char* what, std::uint64_t seed, int rank) {
 
 int main(int argc, char** argv) {
     MPI_Init(&argc, &argv);
-    vox_transport transport;
+    vox_dist_transport transport{};
+    if (vox_mpi_transport_create(MPI_COMM_WORLD, &transport) != VOX_ERROR_INVALID_ARGUMENT)
+        return fail("a struct without a size is written", 0, -1);
     transport.struct_size = sizeof transport;
     if (vox_mpi_transport_create(MPI_COMM_WORLD, &transport) != VOX_OK) return fail("no transport", 0, -1);
     const int rank = static_cast<int>(transport.rank);
@@ -31,11 +33,10 @@ int main(int argc, char** argv) {
         std::vector<std::vector<float>> floats;
         vox_grid* grid = whole(scene, floats);
         std::uint64_t expected[2], hash[2];
-        vox_contact_view view;
-        if (!grid || vox_grid_step(grid) != VOX_OK || vox_scene_hash_of_grid(grid, expected) != VOX_OK ||
-            vox_grid_get_contacts(grid, &view) != VOX_OK)
-            return fail("one grid", seed, rank);
-        contacts += view.count;
+        if (!grid || vox_grid_step(grid) != VOX_OK) return fail("one grid", seed, rank);
+        const std::vector<vox_dist_contact> of_grid = global_contacts(grid);
+        hash_of(of_grid, expected);
+        contacts += of_grid.size();
         vox_grid_destroy(grid);
         Random random(seed);
         Ranked mine(&transport);
@@ -46,10 +47,10 @@ int main(int argc, char** argv) {
                                  transport.size, random));
         for (std::size_t b = 0; b < scene.size(); ++b)
             if (mine.insert(scene[b], all[b][transport.rank]) != VOX_OK) return fail("insert", seed, rank);
-        if (vox_scene_step(mine.scene) != VOX_OK || vox_scene_hash(mine.scene, hash) != VOX_OK)
+        if (vox_dist_scene_step(mine.scene) != VOX_OK || vox_dist_scene_get_hash(mine.scene, hash) != VOX_OK)
             return fail("step", seed, rank);
         if (hash[0] != expected[0] || hash[1] != expected[1]) return fail("another hash", seed, rank);
-        if (vox_scene_check(mine.scene) != VOX_OK) return fail("check", seed, rank);
+        if (vox_dist_scene_check(mine.scene) != VOX_OK) return fail("check", seed, rank);
         // A NaN on one rank is the same failure on all, and the next step works.
         const std::uint32_t bad = static_cast<std::uint32_t>(seed) % transport.size;
         std::uint64_t has_vertices = 0;
@@ -68,12 +69,13 @@ int main(int argc, char** argv) {
         const double old = changed_double ? *changed_double : changed_float ? *changed_float : 0;
         if (changed_double) *changed_double = NAN;
         if (changed_float) *changed_float = NAN;
-        if (vox_scene_step(mine.scene) != VOX_ERROR_NON_FINITE)
+        if (vox_dist_scene_step(mine.scene) != VOX_ERROR_NON_FINITE)
             return fail("not the same failure", seed, rank);
         if (changed_double) *changed_double = old;
         if (changed_float) *changed_float = static_cast<float>(old);
-        if (vox_scene_step(mine.scene) != VOX_OK || vox_scene_hash(mine.scene, hash) != VOX_OK ||
-            hash[0] != expected[0] || hash[1] != expected[1])
+        if (vox_dist_scene_step(mine.scene) != VOX_OK ||
+            vox_dist_scene_get_hash(mine.scene, hash) != VOX_OK || hash[0] != expected[0] ||
+            hash[1] != expected[1])
             return fail("the step after a failure", seed, rank);
     }
     if (contacts == 0) return fail("no contacts at all", 0, rank);

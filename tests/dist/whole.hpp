@@ -1,25 +1,27 @@
-// A scene in one grid, and among ranks.
+// A scene in one grid, and among ranks, and their contacts.
 #pragma once
 
+#include "dist/hash.hpp" // of src/
 #include "dist/scenes.hpp"
 
-#include <map>
+#include <set>
 #include <string>
+#include <tuple>
 
 namespace scenes {
 
-inline std::string text_of(const vox_scene_contact& c) {
+inline std::string text_of(const vox_dist_contact& c) {
     return std::to_string(c.body_a) + ' ' + std::to_string(c.vertex) + ' ' + std::to_string(c.body_b) + ' ' +
            std::to_string(c.tet) + ' ' + std::to_string(c.interior) + ' ' + std::to_string(c.barycentric[0]);
 }
 
-// A rank's share of a scene, in a vox_scene.
+// A rank's share of a scene.
 class Ranked {
 public:
-    Ranked(const vox_transport* transport, const vox_scene_desc* desc = nullptr) {
-        result = vox_scene_create(desc, transport, &scene);
+    Ranked(const vox_dist_transport* transport, const vox_grid_desc* grid = nullptr) {
+        result = vox_dist_scene_create(grid, transport, &scene);
     }
-    ~Ranked() { vox_scene_destroy(scene); }
+    ~Ranked() { vox_dist_scene_destroy(scene); }
     Ranked(const Ranked&) = delete;
     Ranked& operator=(const Ranked&) = delete;
 
@@ -30,28 +32,24 @@ public:
                                           : vox_mesh_desc_floats(share.floats.data(), share.vertex_ids.size(),
                                                                  share.tets.data(), share.tet_ids.size());
         mesh.filter = body.filter;
-        vox_part_desc part = vox_default_part_desc();
+        vox_dist_part_desc part = vox_default_dist_part_desc();
         part.body = body.number;
         part.mesh = &mesh;
         part.vertex_ids = share.vertex_ids.data();
         part.tet_ids = share.tet_ids.data();
         part.owned = share.owned.data();
-        vox_part handle;
-        const vox_result inserted = vox_scene_insert(scene, &part, &handle);
-        if (inserted == VOX_OK) parts[body.number] = handle;
+        const vox_result inserted = vox_dist_scene_insert(scene, &part);
+        if (inserted == VOX_OK) bodies.insert(body.number);
         return inserted;
     }
     vox_result remove(const Body& body) {
-        const auto part = parts.find(body.number);
-        if (part == parts.end()) return VOX_OK; // not on this rank
-        const vox_result removed = vox_scene_remove(scene, part->second);
-        parts.erase(part);
-        return removed;
+        if (!bodies.erase(body.number)) return VOX_OK; // not on this rank
+        return vox_dist_scene_remove(scene, body.number);
     }
 
-    vox_scene* scene = nullptr;
+    vox_dist_scene* scene = nullptr;
     vox_result result;
-    std::map<std::uint64_t, vox_part> parts; // of bodies
+    std::set<std::uint64_t> bodies; // with a part here
 };
 
 // All bodies in one grid, which borrows `floats`.
@@ -74,6 +72,46 @@ inline vox_grid* whole(const Scene& scene, std::vector<std::vector<float>>& floa
         if (vox_mesh_insert(grid, &mesh, &id) != VOX_OK) return nullptr;
     }
     return grid;
+}
+
+inline bool before(const vox_dist_contact& a, const vox_dist_contact& b) {
+    return std::tie(a.body_a, a.vertex, a.body_b, a.tet) < std::tie(b.body_a, b.vertex, b.body_b, b.tet);
+}
+
+// The contacts that a step of such a grid found, in the order and with the numbers of a vox_dist_scene.
+// Without index and rank.
+inline std::vector<vox_dist_contact> global_contacts(const vox_grid* grid) {
+    vox_contact_view contacts{};
+    vox_interior_view interiors{};
+    if (vox_grid_get_contacts(grid, &contacts) != VOX_OK ||
+        vox_grid_contact_interiors(grid, &interiors) != VOX_OK)
+        return {};
+    std::vector<vox_dist_contact> found(contacts.count);
+    for (std::uint64_t i = 0; i < contacts.count; ++i) {
+        const vox_contact& hit = contacts.data[i];
+        vox_dist_contact& contact = found[i];
+        (void)vox_body_get_user_data(grid, hit.body_a, &contact.body_a);
+        (void)vox_body_get_user_data(grid, hit.body_b, &contact.body_b);
+        contact.vertex = hit.vertex;
+        contact.tet = hit.tet;
+        std::copy_n(hit.barycentric, 4, contact.barycentric);
+        contact.interior = interiors.data[i];
+    }
+    std::sort(found.begin(), found.end(), before);
+    return found;
+}
+
+// Whether two contacts are the same, on whatever sides and ranks.
+inline bool same(const vox_dist_contact& a, const vox_dist_contact& b) {
+    return !before(a, b) && !before(b, a) && a.interior == b.interior &&
+           std::memcmp(a.barycentric, b.barycentric, sizeof a.barycentric) == 0;
+}
+
+// What vox_dist_scene_get_hash gives for these contacts.
+inline void hash_of(const std::vector<vox_dist_contact>& contacts, std::uint64_t out[2]) {
+    vox::dist::ContactSum sum;
+    for (const vox_dist_contact& contact : contacts) sum.add(contact);
+    sum.write(out);
 }
 
 } // namespace scenes

@@ -2466,6 +2466,8 @@ namespace Voxtet
         internal const uint VOX_ABI_VERSION = 1;
         /// <summary>as a worker_count: one worker per core</summary>
         internal const uint VOX_ALL_CORES = 4294967295;
+        /// <summary>as an index: none</summary>
+        internal const uint VOX_NONE = 4294967295;
         /// <summary>per grid, at one time, including retired slots</summary>
         internal const uint VOX_MAX_BODIES = 1048576;
         /// <summary>uses of one mesh slot before it is retired</summary>

@@ -38,13 +38,13 @@ with voxtet.mpi.Scene(world) as scene:
     # A force for each vertex in contact goes to the rank of the tetrahedron, which shares it among the corners by their weights.
     forces = np.zeros((len(scene.contacts), 3))
     forces[:, 0] = 1.0
-    arrived, incoming = scene.send(forces), scene.incoming
-    corners = incoming.barycentric[:, :, None] * arrived[:, None, :]
+    arrived, contacts = scene.send(forces), scene.tet_contacts
+    corners = contacts.barycentric[:, :, None] * arrived[:, None, :]
     total = world.allreduce(float(corners.sum()))
 
     # Where points of one rank are, on whichever rank.
     places = np.array([[-0.25, -0.25, -0.25], [0.75, 0.5, 0.5], [9.0, 9.0, 9.0]])
     found = scene.locate(places if world.rank == 0 else places[:0])
     if world.rank == 0:
-        inside = found.rank != voxtet.mpi.NO_RANK
+        inside = found.rank != voxtet.mpi.NONE
         print(f"forces add up to {total:.3f}; {np.count_nonzero(inside)} of 3 points are in bodies {found.body[inside].tolist()}")

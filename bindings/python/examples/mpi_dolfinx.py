@@ -41,8 +41,7 @@ for body, part in enumerate(kept):
     scene.insert(body, **part)
 scene.check()  # each vertex has one owner, and its copies are where that has it
 scene.step()
-hashed = scene.hash()
-contacts = world.reduce(len(scene.contacts))
+found = world.gather(np.asarray(scene.contacts))
 tets = world.gather([len(part["tets"]) for part in kept])
 
 # The whole, from the parts of all ranks, as one grid on rank 0: the same contacts.
@@ -59,8 +58,12 @@ if rank == 0:
         whole.append((positions, cells))
         grid.add(positions, cells, user_data=body)
     grid.step()
-    assert voxtet.mpi.hash_of_grid(grid) == hashed, "other contacts"
-    print(f"{contacts} contacts between parts of {tets} tetrahedra: those of one grid")
+    found, expected = np.sort(np.concatenate(found), order=["body_a", "vertex", "body_b", "tet"]), grid.contacts
+    number_of = {mesh.id: mesh.user_data for mesh in grid}
+    for name in ("body_a", "vertex", "body_b", "tet", "barycentric"):
+        values = [number_of[body] for body in expected[name]] if name.startswith("body") else expected[name]
+        assert np.array_equal(found[name], values), "other contacts"
+    print(f"{len(found)} contacts between parts of {tets} tetrahedra: those of one grid")
 
 # Points on vertices, and in the middle of edges, of the first mesh: each is in one tetrahedron, on one rank.
 random = np.random.default_rng(1)
@@ -69,7 +72,7 @@ mine = points[rank::world.Get_size()].copy()
 start = time.perf_counter()
 located = scene.locate(mine)
 seconds = world.allreduce(time.perf_counter() - start, MPI.MAX)
-missing = world.reduce(int(np.count_nonzero(located.rank == voxtet.mpi.NO_RANK)))
+missing = world.reduce(int(np.count_nonzero(located.rank == voxtet.mpi.NONE)))
 if rank == 0:
     print(f"{len(points)} points: {missing} in no tetrahedron, {1e6 * seconds / len(points):.2f} microseconds each")
 

@@ -12,7 +12,7 @@ import unittest
 import numpy as np
 
 import voxtet
-from support import mpi_command
+from support import global_contacts, mpi_command
 
 try:
     import voxtet.mpi
@@ -35,6 +35,7 @@ class Layout(unittest.TestCase):
             name = struct.__name__
             lines.append(f'printf("{name} %zu\\n", sizeof({name}));')
             lines += [f'printf("{name}.{field} %zu\\n", offsetof({name}, {field}));' for field, *_ in struct._fields_]
+        lines += [f'printf("{name} %u\\n", (unsigned){name});' for name in ("VOX_DIST_VERTICES", "VOX_DIST_TETS", "VOX_NONE")]
         program = "#include <vox/vox_dist.h>\n#include <stddef.h>\n#include <stdio.h>\nint main(void) {" + "\n".join(lines) + "}\n"
         with tempfile.TemporaryDirectory() as folder:
             source, built = os.path.join(folder, "layout.c"), os.path.join(folder, "layout")
@@ -49,13 +50,13 @@ class Layout(unittest.TestCase):
             self.assertEqual(int(expected[struct.__name__]), ctypes.sizeof(struct), struct)
             for field, *_ in struct._fields_:
                 self.assertEqual(int(expected[f"{struct.__name__}.{field}"]), getattr(struct, field).offset, (struct, field))
+        numbers = [int(expected[name]) for name in ("VOX_DIST_VERTICES", "VOX_DIST_TETS", "VOX_NONE")]
+        self.assertEqual(numbers, [_dist.VERTICES, _dist.TETS, voxtet.mpi.NONE])
 
     def test_every_function_of_the_header_is_there(self):
         with open(os.path.join(INCLUDE, "vox", "vox_dist.h"), encoding="utf-8") as file:
             declared = set(re.findall(r"VOX_EXPERIMENTAL (?:vox_result|void) (vox_\w+)\(", file.read()))
-        used = set(_dist._ARGUMENTS) | {"vox_scene_destroy"}
-        # Ranks in one process are for tests and for learning in C.
-        self.assertEqual(declared - used, {"vox_transport_run"})
+        self.assertEqual(declared, set(_dist._ARGUMENTS) | {"vox_dist_scene_destroy"})
 
 
 class OneRank(unittest.TestCase):
@@ -71,34 +72,43 @@ class OneRank(unittest.TestCase):
         for body, positions in bodies.items():
             self.scene.insert(body, positions, tets)
             grid.add(positions, tets, user_data=body)
+        hashes = set()
         for _ in range(3):
             self.scene.step()
             grid.step()
             self.assertGreater(len(grid.contacts), 20)
-            self.assertEqual(self.scene.hash(), voxtet.mpi.hash_of_grid(grid))
-            self.assertEqual(self.scene.contacts.vertex.tolist(), grid.contacts.vertex.tolist())
-            self.assertEqual(self.scene.contacts.barycentric.tolist(), grid.contacts.barycentric.tolist())
+            for side in (self.scene.contacts, self.scene.tet_contacts):
+                for name, values in global_contacts(grid).items():
+                    self.assertEqual(side[name].tolist(), values.tolist(), name)
+            hashes.add(self.scene.hash())
             for positions in bodies.values():
                 positions += random.uniform(-0.05, 0.05, positions.shape)
+        self.assertEqual(len(hashes), 3)
 
     def test_parts_come_move_and_go(self):
-        first = self.scene.insert(0, CORNERS, [[0, 1, 2, 3]])
+        self.assertIsNone(self.scene.insert(6, CORNERS, [[0, 1, 2, 3]]))
         small = (CORNERS * 0.5 + 0.1).astype(np.float32)
-        second = self.scene.insert(1, small, [[0, 1, 2, 3]])
+        self.scene.insert(2**63, small, [[0, 1, 2, 3]])
         self.scene.step()
         self.assertEqual(len(self.scene.contacts), 4)
         small += 5
         self.scene.step()
         self.assertEqual(len(self.scene.contacts), 0)
-        self.scene.move(second, CORNERS * 0.25 + 0.1)  # nobody else keeps this array
+        self.scene.move(2**63, CORNERS * 0.25 + 0.1)  # nobody else keeps this array
         self.scene.step()
         self.assertEqual(len(self.scene.contacts), 4)
-        self.assertEqual(self.scene.incoming.index.tolist(), [0] * 4)
-        self.scene.remove(first)
+        self.assertEqual(self.scene.tet_contacts.index.tolist(), [0] * 4)
+        self.scene.remove(6)
         self.scene.step()
         self.assertEqual(len(self.scene.contacts), 0)
         with self.assertRaisesRegex(voxtet.InvalidArgumentError, "count is 3, expected 4"):
-            self.scene.move(second, CORNERS[:3])
+            self.scene.move(2**63, CORNERS[:3])
+        for call in (lambda: self.scene.remove(6), lambda: self.scene.move(6, CORNERS)):
+            with self.assertRaisesRegex(voxtet.InvalidHandleError, "no part of body 6"):
+                call()
+        self.scene.insert(6, CORNERS, [[0, 1, 2, 3]])
+        self.scene.step()
+        self.assertEqual(len(self.scene.contacts), 4)
 
     def test_numbers_and_values(self):
         self.scene.insert(2, CORNERS, [[0, 1, 2, 3]], vertex_ids=[40, 30, 20, 10], tet_ids=[2**40], owned=[True] * 4)
@@ -108,11 +118,12 @@ class OneRank(unittest.TestCase):
         self.assertEqual(self.scene.contacts.vertex.tolist(), [2**50 + i for i in range(4)])
         forces = np.arange(12, dtype=np.float32).reshape(4, 3)
         self.assertEqual(self.scene.send(forces).tolist(), forces.tolist())
-        self.assertEqual(self.scene.send(np.arange(4), to="vertices").tolist(), [0, 1, 2, 3])
+        self.assertEqual(self.scene.send(np.arange(4), side="tets").tolist(), [0, 1, 2, 3])
         located = self.scene.locate([[0.1, 0.1, 0.1], [7, 7, 7]] * np.ones((2, 3)))
         self.assertEqual(located.body.tolist(), [1, 0])
-        self.assertEqual(located.rank.tolist(), [0, voxtet.mpi.NO_RANK])
+        self.assertEqual(located.rank.tolist(), [0, voxtet.mpi.NONE])
         self.assertEqual(self.scene.costs.body.tolist(), [1, 2])
+        self.assertTrue(np.all((self.scene.costs.seconds > 0) & (self.scene.costs.seconds < 1e-3)), self.scene.costs.seconds)
         self.assertEqual(self.scene.counters.contacts, 4)
         self.scene.check()
 
@@ -120,10 +131,10 @@ class OneRank(unittest.TestCase):
         for body, options in enumerate([dict(), dict(vertex_ids=[], tet_ids=[], owned=[]), dict(owned=np.empty(0, bool))]):
             self.scene.insert(body, np.empty((0, 3)), np.empty((0, 4), int), **options)
         self.scene.step()
-        self.assertEqual(len(self.scene.contacts) + len(self.scene.incoming), 0)
+        self.assertEqual(len(self.scene.contacts) + len(self.scene.tet_contacts), 0)
         self.assertEqual(self.scene.send(np.empty((0, 3))).shape, (0, 3))
         self.assertEqual(len(self.scene.locate(np.empty((0, 3)))), 0)
-        self.assertEqual(self.scene.locate([[0, 0, 0]]).rank.tolist(), [voxtet.mpi.NO_RANK])
+        self.assertEqual(self.scene.locate([[0, 0, 0]]).rank.tolist(), [voxtet.mpi.NONE])
 
     def test_bad_arguments_change_nothing(self):
         self.scene.insert(0, CORNERS, [[0, 1, 2, 3]])
@@ -148,15 +159,13 @@ class OneRank(unittest.TestCase):
         with self.assertRaisesRegex(voxtet.InvalidArgumentError, "0 rows"):
             self.scene.send([1.0])
         with self.assertRaisesRegex(voxtet.InvalidArgumentError, "sideways"):
-            self.scene.send([], to="sideways")
+            self.scene.send([], side="sideways")
         with self.assertRaises(TypeError):
             voxtet.mpi.Scene("world")
         with self.assertRaisesRegex(TypeError, "a voxtet.Reference"):
             voxtet.mpi.Scene(reference="steam")
         with self.assertRaisesRegex(TypeError, "float16"):
             self.scene.locate(CORNERS.astype(np.float16))
-        with self.assertRaisesRegex(TypeError, "a voxtet.Grid"):
-            voxtet.mpi.hash_of_grid(self.scene)
         self.scene.step()
         self.assertEqual(len(self.scene.costs), 1)
         self.scene.close()

@@ -1,31 +1,33 @@
 #include <stdio.h>
 #include <vox/vox_dist.h>
 
-/* A tetrahedron on each of three ranks, each with a vertex in that of the one before. */
-static int bad;
-static void each(const vox_transport* transport, void* user) {
-    const double x = 0.25 * transport->rank;
-    const double positions[] = {x, x, x, x + 1, x, x, x, x + 1, x, x, x, x + 1};
+/* Two tetrahedra on one rank, the second with a vertex in the first. */
+static int found(vox_dist_scene* scene, uint64_t* out_count) {
+    static double positions[2][12];
     static const uint32_t tet[] = {0, 1, 2, 3};
-    const vox_mesh_desc mesh = vox_mesh_desc_doubles(positions, 4, tet, 1);
-    vox_part_desc desc = vox_default_part_desc();
-    vox_part part;
-    vox_scene* scene;
+    vox_dist_contact_view contacts;
     uint64_t hash[2];
-    (void)user;
-    if (vox_scene_create(NULL, transport, &scene) != VOX_OK) {
-        bad = 1;
-        return;
+    for (uint64_t body = 0; body < 2; ++body) {
+        vox_dist_part_desc desc = vox_default_dist_part_desc();
+        const vox_mesh_desc mesh = vox_mesh_desc_doubles(positions[body], 4, tet, 1);
+        for (int i = 0; i < 12; ++i) positions[body][i] = 0.25 * (double)body + (i % 4 == 3);
+        desc.body = body;
+        desc.mesh = &mesh;
+        if (vox_dist_scene_insert(scene, &desc) != VOX_OK) return 0;
     }
-    desc.body = transport->rank;
-    desc.mesh = &mesh;
-    if (vox_scene_insert(scene, &desc, &part) != VOX_OK || vox_scene_step(scene) != VOX_OK ||
-        vox_scene_hash(scene, hash) != VOX_OK || hash[0] == 0)
-        bad = 1;
-    vox_scene_destroy(scene);
+    if (vox_dist_scene_step(scene) != VOX_OK || vox_dist_scene_get_hash(scene, hash) != VOX_OK ||
+        vox_dist_scene_get_contacts(scene, VOX_DIST_VERTICES, &contacts) != VOX_OK)
+        return 0;
+    *out_count = contacts.count;
+    return hash[0] != 0;
 }
 
 int main(void) {
-    if (vox_transport_run(3, 1, each, NULL) != VOX_OK) return puts(vox_last_error()), 1;
+    vox_dist_scene* scene;
+    uint64_t count = 0;
+    int bad;
+    if (vox_dist_scene_create(NULL, NULL, &scene) != VOX_OK) return puts(vox_last_error()), 1;
+    bad = !found(scene, &count) || count != 1;
+    vox_dist_scene_destroy(scene);
     return bad ? puts(vox_last_error()), 1 : 0;
 }

@@ -4,8 +4,7 @@ layout with the header's."""
 from __future__ import annotations
 
 import ctypes
-from ctypes import (CFUNCTYPE, POINTER, Structure, c_double, c_float, c_int32, c_size_t, c_uint32, c_uint64,
-                    c_void_p)
+from ctypes import (CFUNCTYPE, POINTER, Structure, c_double, c_float, c_int32, c_uint32, c_uint64, c_void_p)
 from typing import Any
 
 import numpy as np
@@ -13,59 +12,55 @@ import numpy as np
 from . import _c
 from ._library import check, load
 
-NO_RANK = 0xFFFFFFFF
+VERTICES, TETS = 0, 1  # vox_dist_side
 
 
-class vox_bytes(Structure):
+class vox_dist_message(Structure):
     _fields_ = [("data", c_void_p), ("size", c_uint64)]
 
 
 Allgather = CFUNCTYPE(c_int32, c_void_p, c_uint64, c_void_p, c_void_p)
-Exchange = CFUNCTYPE(c_int32, POINTER(c_uint32), c_uint32, POINTER(vox_bytes), POINTER(vox_bytes), c_void_p)
+Exchange = CFUNCTYPE(c_int32, POINTER(c_uint32), c_uint32, POINTER(vox_dist_message), POINTER(vox_dist_message), c_void_p)
 Agree = CFUNCTYPE(c_int32, POINTER(c_uint64), c_uint32, POINTER(c_uint64), c_uint32, c_void_p)
 
 
-class vox_transport(Structure):
+class vox_dist_transport(Structure):
     _fields_ = [("struct_size", c_uint32), ("rank", c_uint32), ("size", c_uint32), ("reserved", c_uint32),
                 ("allgather", Allgather), ("exchange", Exchange), ("agree", Agree), ("user", c_void_p)]
 
 
-class vox_scene_desc(Structure):
-    _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("grid", POINTER(_c.vox_grid_desc))]
-
-
-class vox_part_desc(Structure):
+class vox_dist_part_desc(Structure):
     _fields_ = [("struct_size", c_uint32), ("reserved", c_uint32), ("body", c_uint64),
                 ("mesh", POINTER(_c.vox_mesh_desc)), ("vertex_ids", c_void_p), ("tet_ids", c_void_p), ("owned", c_void_p)]
 
 
-class vox_scene_contact(Structure):
+class vox_dist_contact(Structure):
     _fields_ = [("body_a", c_uint64), ("vertex", c_uint64), ("body_b", c_uint64), ("tet", c_uint64),
                 ("barycentric", c_float * 4), ("index", c_uint32), ("rank", c_uint32), ("interior", c_uint32),
                 ("reserved", c_uint32)]
 
 
-class vox_scene_contact_view(Structure):
-    _fields_ = [("data", c_void_p), ("byte_stride", c_size_t), ("count", c_uint64)]
+class vox_dist_contact_view(Structure):
+    _fields_ = [("data", c_void_p), ("count", c_uint64)]
 
 
-class vox_scene_point(Structure):
+class vox_dist_location(Structure):
     _fields_ = [("body", c_uint64), ("tet", c_uint64), ("barycentric", c_float * 4), ("rank", c_uint32),
                 ("interior", c_uint32)]
 
 
-class vox_part_cost(Structure):
-    _fields_ = [("body", c_uint64), ("part", c_uint32), ("reserved", c_uint32), ("predicted_ns", c_double)]
+class vox_dist_cost(Structure):
+    _fields_ = [("body", c_uint64), ("seconds", c_double)]
 
 
-class vox_scene_counters(Structure):
+class vox_dist_counters(Structure):
     _fields_ = [("struct_size", c_uint32), ("neighbours", c_uint32)] + [(name, c_uint64) for name in (
         "messages", "collectives", "replicated_bytes", "box_bytes", "vertex_bytes", "hit_bytes", "vertices_sent",
         "vertices_received", "vertices_here", "hits_sent", "contacts", "incoming")]
 
 
-STRUCTS = [vox_bytes, vox_transport, vox_scene_desc, vox_part_desc, vox_scene_contact, vox_scene_contact_view,
-           vox_scene_point, vox_part_cost, vox_scene_counters]
+STRUCTS = [vox_dist_message, vox_dist_transport, vox_dist_part_desc, vox_dist_contact, vox_dist_contact_view,
+           vox_dist_location, vox_dist_cost, vox_dist_counters]
 
 
 def dtype_of(struct: type[Structure]) -> np.dtype[Any]:
@@ -78,25 +73,23 @@ def dtype_of(struct: type[Structure]) -> np.dtype[Any]:
     return found
 
 
-contact_type = np.dtype((np.record, dtype_of(vox_scene_contact)))
-point_type = np.dtype((np.record, dtype_of(vox_scene_point)))
-cost_type = np.dtype((np.record, dtype_of(vox_part_cost)))
+contact_type = np.dtype((np.record, dtype_of(vox_dist_contact)))
+location_type = np.dtype((np.record, dtype_of(vox_dist_location)))
+cost_type = np.dtype((np.record, dtype_of(vox_dist_cost)))
 
 _ARGUMENTS: dict[str, list[Any]] = {
-    "vox_scene_create": [POINTER(vox_scene_desc), POINTER(vox_transport), POINTER(c_void_p)],
-    "vox_scene_insert": [c_void_p, POINTER(vox_part_desc), POINTER(c_uint32)],
-    "vox_scene_remove": [c_void_p, c_uint32],
-    "vox_scene_bind_positions": [c_void_p, c_uint32, POINTER(_c.vox_positions)],
-    "vox_scene_step": [c_void_p],
-    "vox_scene_contacts": [c_void_p, POINTER(vox_scene_contact_view)],
-    "vox_scene_incoming": [c_void_p, POINTER(vox_scene_contact_view)],
-    "vox_scene_send": [c_void_p, c_int32, c_uint64, c_void_p, c_void_p],
-    "vox_scene_hash": [c_void_p, POINTER(c_uint64)],
-    "vox_scene_hash_of_grid": [c_void_p, POINTER(c_uint64)],
-    "vox_scene_locate": [c_void_p, POINTER(_c.vox_positions), c_void_p],
-    "vox_scene_check": [c_void_p],
-    "vox_scene_costs": [c_void_p, c_void_p, c_uint64, POINTER(c_uint64)],
-    "vox_scene_get_counters": [c_void_p, POINTER(vox_scene_counters)],
+    "vox_dist_scene_create": [POINTER(_c.vox_grid_desc), POINTER(vox_dist_transport), POINTER(c_void_p)],
+    "vox_dist_scene_insert": [c_void_p, POINTER(vox_dist_part_desc)],
+    "vox_dist_scene_remove": [c_void_p, c_uint64],
+    "vox_dist_scene_bind_positions": [c_void_p, c_uint64, POINTER(_c.vox_positions)],
+    "vox_dist_scene_step": [c_void_p],
+    "vox_dist_scene_get_contacts": [c_void_p, c_int32, POINTER(vox_dist_contact_view)],
+    "vox_dist_scene_send": [c_void_p, c_int32, c_uint64, c_void_p, c_void_p],
+    "vox_dist_scene_get_hash": [c_void_p, POINTER(c_uint64)],
+    "vox_dist_scene_locate": [c_void_p, POINTER(_c.vox_positions), c_void_p],
+    "vox_dist_scene_check": [c_void_p],
+    "vox_dist_scene_get_costs": [c_void_p, c_void_p, c_uint64, POINTER(c_uint64)],
+    "vox_dist_scene_get_counters": [c_void_p, POINTER(vox_dist_counters)],
 }
 
 
@@ -105,11 +98,11 @@ def _declared() -> Any:
     for name, arguments in _ARGUMENTS.items():
         function = getattr(library, name)
         function.argtypes, function.restype, function.errcheck = arguments, c_int32, check
-    library.vox_scene_destroy.argtypes, library.vox_scene_destroy.restype = [c_void_p], None
+    library.vox_dist_scene_destroy.argtypes, library.vox_dist_scene_destroy.restype = [c_void_p], None
     return library
 
 
 dist: Any = _declared()
 
-__all__ = ["NO_RANK", "STRUCTS", "Agree", "Allgather", "Exchange", "contact_type", "cost_type", "dist", "point_type",
-           "vox_bytes", "vox_part_desc", "vox_scene_contact_view", "vox_scene_counters", "vox_scene_desc", "vox_transport"]
+__all__ = ["STRUCTS", "TETS", "VERTICES", "Agree", "Allgather", "Exchange", "contact_type", "cost_type", "dist", "location_type",
+           "vox_dist_message", "vox_dist_part_desc", "vox_dist_contact_view", "vox_dist_counters", "vox_dist_transport"]

@@ -8,8 +8,8 @@ partition. Without a communicator a scene has one rank, and needs no mpi4py:
 >>> import numpy as np
 >>> corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
 >>> scene = Scene()
->>> first = scene.insert(0, corners, [[0, 1, 2, 3]])
->>> second = scene.insert(1, corners * 0.5 + 0.1, [[0, 1, 2, 3]])
+>>> scene.insert(0, corners, [[0, 1, 2, 3]])
+>>> scene.insert(1, corners * 0.5 + 0.1, [[0, 1, 2, 3]])
 >>> scene.step()
 >>> scene.contacts.vertex.tolist(), scene.contacts.body_b.tolist()
 ([0, 1, 2, 3], [0, 0, 0, 0])
@@ -35,7 +35,6 @@ from ._arguments import points as point_rows
 from ._dist import dist
 from ._library import Handle, described, sized, values_of
 from .errors import InvalidArgumentError, InvalidStateError, VoxError
-from .grid import Grid
 from .mesh import Filter, Topology
 from .reference import Reference, pointer_to
 from .results import Records, copy_of
@@ -46,7 +45,7 @@ _TAG = 1
 
 class SceneContacts(Records):
     """Contacts, sorted by (body_a, vertex, body_b, tet), in global numbers: the vertex of body_a is in the tetrahedron of body_b.
-    `index` is the vertex (in `Scene.contacts`) or the tetrahedron (in `Scene.incoming`) in the part of this rank, `rank` where the
+    `index` is the vertex (in `Scene.contacts`) or the tetrahedron (in `Scene.tet_contacts`) in the part of this rank, `rank` where the
     other side is. `interior` is 1, or 0 for a vertex on the boundary of the tetrahedron."""
 
     body_a: NDArray[np.uint64]
@@ -59,8 +58,8 @@ class SceneContacts(Records):
     interior: NDArray[np.uint32]
 
 
-class ScenePoints(Records):
-    """Where points are: body, tetrahedron and its rank, weights of its corners. `rank` is NO_RANK for a point in none."""
+class SceneLocations(Records):
+    """Where points are: body, tetrahedron and its rank, weights of its corners. `rank` is NONE for a point in no tetrahedron."""
 
     body: NDArray[np.uint64]
     tet: NDArray[np.uint64]
@@ -69,12 +68,11 @@ class ScenePoints(Records):
     interior: NDArray[np.uint32]
 
 
-class PartCosts(Records):
-    """What each part costs in a step, in nanoseconds by the cost model: weights for a partitioner."""
+class SceneCosts(Records):
+    """What the part of each body costs in a step, as the cost model predicts it: weights for a partitioner."""
 
     body: NDArray[np.uint64]
-    part: NDArray[np.uint32]
-    predicted_ns: NDArray[np.float64]
+    seconds: NDArray[np.float64]
 
 
 class SceneCounters(NamedTuple):
@@ -95,7 +93,8 @@ class SceneCounters(NamedTuple):
     incoming: int
 
 
-NO_RANK = _dist.NO_RANK
+NONE = _c.VOX_NONE  # SceneLocations.rank of a point in no tetrahedron
+_SIDES = {"vertices": _dist.VERTICES, "tets": _dist.TETS}
 
 
 def _bytes_at(address: Optional[int], size: int) -> Any:
@@ -108,7 +107,7 @@ def _room(size: int) -> NDArray[np.uint8]:
 
 
 class _Transport:
-    """The three functions of a vox_transport over a communicator. An exception must not cross the library: it gets a code, and goes
+    """The three functions of a vox_dist_transport over a communicator. An exception must not cross the library: it gets a code, and goes
     on with the calls that the other ranks wait for. `raise_kept` raises the exception after that."""
 
     def __init__(self, communicator: Any) -> None:
@@ -120,8 +119,8 @@ class _Transport:
         self._received: dict[int, NDArray[np.uint8]] = {}
         self.communicator = communicator.Dup()
         self.communicator.Set_errhandler(MPI.ERRORS_RETURN)  # as exceptions, also where the caller's end the program
-        self.struct = _dist.vox_transport(
-            ctypes.sizeof(_dist.vox_transport), self.communicator.Get_rank(), self.communicator.Get_size(), 0,
+        self.struct = _dist.vox_dist_transport(
+            ctypes.sizeof(_dist.vox_dist_transport), self.communicator.Get_rank(), self.communicator.Get_size(), 0,
             _dist.Allgather(self._guarded(self._allgather)), _dist.Exchange(self._guarded(self._exchange)),
             _dist.Agree(self._guarded(self._agree)), None)
 
@@ -261,29 +260,27 @@ class Scene:
     def __init__(self, communicator: Any = None, *, reference: Optional[Reference] = None, cell_size: float = 0.0, workers: int = 1) -> None:
         self._lock = threading.Lock()
         self._handle: Optional[Handle] = None
-        self._kept: dict[int, Any] = {}  # what is borrowed, by part
+        self._kept: dict[int, Any] = {}  # what is borrowed, by body
         self._transport = None if communicator is None else _Transport(communicator)
         pointer = ctypes.c_void_p()
         transport = None if self._transport is None else ctypes.pointer(self._transport.struct)
         grid = described(_c.vox_grid_desc)
-        desc = described(_dist.vox_scene_desc)
         try:
             try:
                 grid.flags = 0
                 grid.reference = pointer_to(reference)
                 grid.cell_size = real(cell_size, "cell_size")
                 grid.worker_count = integer(workers, "workers", 0, _c.VOX_MAX_WORKERS)
-                desc.grid = ctypes.pointer(grid)
             except Exception:
-                _fail(dist.vox_scene_create, _dist.vox_scene_desc(), transport, pointer)
+                _fail(dist.vox_dist_scene_create, _c.vox_grid_desc(), transport, pointer)
                 raise
-            dist.vox_scene_create(desc, transport, pointer)
+            dist.vox_dist_scene_create(grid, transport, pointer)
         except BaseException:
             if self._transport is not None:
                 self._transport.raise_kept()
                 self._transport.free()  # by all ranks, as all of them have failed
             raise
-        self._handle = Handle(pointer.value or 0, dist.vox_scene_destroy, self._transport)
+        self._handle = Handle(pointer.value or 0, dist.vox_dist_scene_destroy, self._transport)
 
     def close(self) -> None:
         """Releases everything. Called by all ranks, as it frees the communicator; a scene that is merely dropped leaves that to
@@ -313,8 +310,8 @@ class Scene:
 
     def insert(self, body: int, positions: Any, tets: Optional[ArrayLike] = None, *, vertex_ids: Optional[ArrayLike] = None,
                tet_ids: Optional[ArrayLike] = None, owned: Optional[ArrayLike] = None, filter: Optional[Filter] = None,
-               self_collision: bool = False) -> int:
-        """Adds a part of a body, which takes part from the next step on, and returns its number for `remove` and `move`.
+               self_collision: bool = False) -> None:
+        """Adds the part of a body that lies on this rank, for the next steps.
 
         body: its number, the same on all ranks; a rank has one part of a body at most. positions: as in `Grid.add`, borrowed, so
         move the part by writing to this array. vertex_ids, tet_ids: global numbers; None: 0, 1, 2 and so on. owned: whether this
@@ -326,78 +323,79 @@ class Scene:
                 raise TypeError(f"filter is of type {type(filter).__name__}; it must be a voxtet.Filter")
             new.desc.filter = filter._struct()
         new.desc.filter.flags |= switch(self_collision, "self_collision") * _c.FilterFlags.SELF_COLLISION
-        desc = described(_dist.vox_part_desc)
+        desc = described(_dist.vox_dist_part_desc)
         desc.body = integer(body, "body")
         desc.mesh = ctypes.pointer(new.desc)
         arrays = [_numbers(vertex_ids, "vertex_ids", new.desc.positions.count, np.uint64),
                   _numbers(tet_ids, "tet_ids", new.desc.tet_count, np.uint64),
                   _numbers(owned, "owned", new.desc.positions.count, np.uint8)]
         desc.vertex_ids, desc.tet_ids, desc.owned = (None if a is None else a.ctypes.data for a in arrays)
-        part = ctypes.c_uint32()
         with _Calls(self) as pointer:
-            dist.vox_scene_insert(pointer, desc, part)
-            self._kept[part.value] = new.kept()[0]
-        return part.value
+            dist.vox_dist_scene_insert(pointer, desc)
+            self._kept[desc.body] = new.kept()[0]
 
-    def remove(self, part: int) -> None:
-        """Removes a part."""
-        number = integer(part, "part", 0, 2**32 - 1)
+    def remove(self, body: int) -> None:
+        """Removes the part of a body that lies on this rank."""
+        number = integer(body, "body")
         with _Calls(self) as pointer:
-            dist.vox_scene_remove(pointer, number)
+            dist.vox_dist_scene_remove(pointer, number)
             self._kept.pop(number, None)
 
-    def move(self, part: int, positions: Any) -> None:
-        """Borrows other positions for a part, of as many vertices. What is written to the same array needs no such call."""
-        number = integer(part, "part", 0, 2**32 - 1)
+    def move(self, body: int, positions: Any) -> None:
+        """Borrows other positions for the part of a body that lies on this rank, of as many vertices. What is written to the same array
+        needs no such call."""
+        number = integer(body, "body")
         found = rows(positions, "positions")
         with _Calls(self) as pointer:
-            dist.vox_scene_bind_positions(pointer, number, found.struct)
+            dist.vox_dist_scene_bind_positions(pointer, number, found.struct)
             self._kept[number] = found
 
     def step(self) -> None:
         """By all ranks. Finds all contacts of the positions as they are now, between all bodies of all ranks."""
         with _Calls(self) as pointer:
-            dist.vox_scene_step(pointer)
+            dist.vox_dist_scene_step(pointer)
 
-    def _view(self, function: Any) -> SceneContacts:
-        view = _dist.vox_scene_contact_view()
+    def _contacts(self, side: int) -> SceneContacts:
+        view = _dist.vox_dist_contact_view()
         with _Calls(self) as pointer:
-            function(pointer, view)
-            found: SceneContacts = copy_of(view.data or 0, view.count, view.byte_stride, SceneContacts, _dist.contact_type)
+            dist.vox_dist_scene_get_contacts(pointer, side, view)
+            found: SceneContacts = copy_of(view.data or 0, view.count, _dist.contact_type.itemsize, SceneContacts, _dist.contact_type)
             return found
 
     @property
     def contacts(self) -> SceneContacts:
         """Of the vertices that this rank owns, as the last step found them."""
-        return self._view(dist.vox_scene_contacts)
+        return self._contacts(_dist.VERTICES)
 
     @property
-    def incoming(self) -> SceneContacts:
-        """In the tetrahedra that lie on this rank: the same contacts, seen from the other side."""
-        return self._view(dist.vox_scene_incoming)
+    def tet_contacts(self) -> SceneContacts:
+        """With the tetrahedra that lie on this rank: the same contacts, seen from the other side."""
+        return self._contacts(_dist.TETS)
 
-    def send(self, values: ArrayLike, to: str = "tets") -> NDArray[Any]:
-        """By all ranks. Sends a row for each contact: one for each of `contacts`, which arrive in the order of `incoming`, or with
-        to="vertices" the way back. Rows have the same shape and dtype on all ranks."""
+    def send(self, values: ArrayLike, side: str = "vertices") -> NDArray[Any]:
+        """By all ranks. Sends a row for each contact from one side to the other: one for each of `contacts`, which arrive in the order of
+        `tet_contacts`, or with side="tets" the way back. Rows have the same shape and dtype on all ranks."""
         with _Calls(self) as pointer:
             try:
-                if to not in ("tets", "vertices"):
-                    raise InvalidArgumentError(f"to is {to!r}; it must be 'tets' or 'vertices'")
+                if side not in _SIDES:
+                    raise InvalidArgumentError(f"side is {side!r}; it must be 'vertices' or 'tets'")
                 array = np.ascontiguousarray(values)
                 if array.dtype.hasobject:
                     raise TypeError(f"values has the dtype {array.dtype}; it must hold plain numbers")
-                views = [_dist.vox_scene_contact_view(), _dist.vox_scene_contact_view()]
-                dist.vox_scene_contacts(pointer, views[0])
-                dist.vox_scene_incoming(pointer, views[1])
-                given, wanted = (v.count for v in (views if to == "tets" else reversed(views)))
+                counts = []
+                for number in (_SIDES[side], 1 - _SIDES[side]):
+                    view = _dist.vox_dist_contact_view()
+                    dist.vox_dist_scene_get_contacts(pointer, number, view)
+                    counts.append(view.count)
+                given, wanted = counts
                 if array.ndim < 1 or len(array) != given:
                     raise InvalidArgumentError(f"values has the shape {array.shape}; it must have {given} rows")
                 out = np.empty((wanted, *array.shape[1:]), array.dtype)
                 item = int(np.prod(array.shape[1:], dtype=np.int64)) * array.dtype.itemsize
             except Exception:
-                _fail(dist.vox_scene_send, pointer, 0, 0, None, None)
+                _fail(dist.vox_dist_scene_send, pointer, 0, 0, None, None)
                 raise
-            dist.vox_scene_send(pointer, 0 if to == "tets" else 1, item, array.ctypes.data if given else None,
+            dist.vox_dist_scene_send(pointer, _SIDES[side], item, array.ctypes.data if given else None,
                                 out.ctypes.data if wanted else None)
         return out
 
@@ -405,51 +403,41 @@ class Scene:
         """By all ranks. A hash of all contacts of all ranks, of 128 bits, the same for any partition."""
         out = (ctypes.c_uint64 * 2)()
         with _Calls(self) as pointer:
-            dist.vox_scene_hash(pointer, out)
+            dist.vox_dist_scene_get_hash(pointer, out)
         return out[0] | out[1] << 64
 
-    def locate(self, points: Any) -> ScenePoints:
+    def locate(self, points: Any) -> SceneLocations:
         """By all ranks, each with points of its own, (n, 3). The body and the tetrahedron that contain each point: one, the same for
         any partition."""
         with _Calls(self) as pointer:
             try:
                 found = point_rows(points)
-                out = np.zeros(found.length, _dist.point_type)
+                out = np.zeros(found.length, _dist.location_type)
             except Exception:
-                _fail(dist.vox_scene_locate, pointer, None, None)
+                _fail(dist.vox_dist_scene_locate, pointer, None, None)
                 raise
-            dist.vox_scene_locate(pointer, found.struct, out.ctypes.data if len(out) else None)
-        return out.view(ScenePoints)
+            dist.vox_dist_scene_locate(pointer, found.struct, out.ctypes.data if len(out) else None)
+        return out.view(SceneLocations)
 
     def check(self) -> None:
         """By all ranks. Raises InvalidStateError where vertices have no owner or several, copies have other positions than their
         owner's, or a tetrahedron is on two ranks. For debugging: it sends every position."""
         with _Calls(self) as pointer:
-            dist.vox_scene_check(pointer)
+            dist.vox_dist_scene_check(pointer)
 
     @property
-    def costs(self) -> PartCosts:
+    def costs(self) -> SceneCosts:
         """Of the parts here, in the order of bodies."""
         out = np.zeros(len(self._kept), _dist.cost_type)
         count = ctypes.c_uint64()
         with _Calls(self) as pointer:
-            dist.vox_scene_costs(pointer, out.ctypes.data if len(out) else None, len(out), count)
-        return out[:count.value].view(PartCosts)
+            dist.vox_dist_scene_get_costs(pointer, out.ctypes.data if len(out) else None, len(out), count)
+        return out[:count.value].view(SceneCosts)
 
     @property
     def counters(self) -> SceneCounters:
         """What the last step sent."""
-        out = sized(_dist.vox_scene_counters)
+        out = sized(_dist.vox_dist_counters)
         with _Calls(self) as pointer:
-            dist.vox_scene_get_counters(pointer, out)
+            dist.vox_dist_scene_get_counters(pointer, out)
         return values_of(SceneCounters, out)
-
-
-def hash_of_grid(grid: Grid) -> int:
-    """The hash that `Scene.hash` has for the contacts of one grid of whole bodies, whose user_data are the bodies' numbers."""
-    if not isinstance(grid, Grid):
-        raise TypeError(f"grid is of type {type(grid).__name__}; it must be a voxtet.Grid")
-    out = (ctypes.c_uint64 * 2)()
-    with grid._lock:
-        dist.vox_scene_hash_of_grid(grid._pointer, out)
-    return out[0] | out[1] << 64

@@ -9,6 +9,8 @@ use core::marker::{PhantomData, PhantomPinned};
 pub const VOX_ABI_VERSION: u32 = 1;
 /// as a worker_count: one worker per core
 pub const VOX_ALL_CORES: u32 = 4294967295;
+/// as an index: none
+pub const VOX_NONE: u32 = 4294967295;
 /// per grid, at one time, including retired slots
 pub const VOX_MAX_BODIES: u32 = 1048576;
 /// uses of one mesh slot before it is retired
