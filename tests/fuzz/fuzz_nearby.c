@@ -35,7 +35,7 @@ static scene read_scene(bytes* b) {
         small_body* body = &s.bodies[k];
         const uint32_t kind = next(b);
         body->moves = kind & 1;
-        body->filter.flags = kind & 2 ? VOX_FILTER_SELF_COLLISION : 0;
+        body->flags = kind & 2 ? VOX_FILTER_SELF_COLLISION : 0;
         body->vertices = 4 + (kind >> 2) % (most_vertices - 3);
         body->tets = 1 + next(b) % most_tets;
         for (uint32_t i = 0; i < 4 * body->tets; ++i) body->corners[i] = next(b) % body->vertices;
@@ -48,9 +48,10 @@ static scene read_scene(bytes* b) {
     return s;
 }
 
-static vox_grid* grid_of(scene* s, engine_kind engine, int nearby, vox_body ids[most_bodies]) {
+static vox_grid* grid_of(scene* s, const vox_reference_desc* reference, int nearby,
+                         vox_body ids[most_bodies]) {
     vox_grid_desc desc = vox_default_grid_desc();
-    use_engine(&desc, engine);
+    desc.reference = reference;
     desc.byte_budget = 64u << 20;
     if (nearby) {
         desc.flags |= VOX_GRID_EDGE_CONTACTS;
@@ -61,7 +62,7 @@ static vox_grid* grid_of(scene* s, engine_kind engine, int nearby, vox_body ids[
     for (uint32_t k = 0; k < s->count; ++k) {
         small_body* body = &s->bodies[k];
         vox_mesh_desc mesh = vox_mesh_desc_floats(body->now, body->vertices, body->corners, body->tets);
-        mesh.flags = body->flags;
+        mesh.filter.flags = body->flags;
         demand(vox_mesh_insert(grid, &mesh, &ids[k]) == VOX_OK);
         const vox_positions before = vox_float_positions(body->before, body->vertices);
         if (nearby && body->moves) demand(vox_mesh_bind_previous_positions(grid, ids[k], &before) == VOX_OK);
@@ -147,8 +148,9 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     bytes b = {data, size};
     scene s = read_scene(&b);
     vox_body ids[most_bodies];
-    vox_grid *const plain = grid_of(&s, ENGINE_FAST, 0, ids), *const fast = grid_of(&s, ENGINE_FAST, 1, ids),
-                    *const reference = grid_of(&s, ENGINE_REFERENCE, 1, ids);
+    const vox_reference_desc slow = vox_default_reference_desc();
+    vox_grid *const plain = grid_of(&s, NULL, 0, ids), *const fast = grid_of(&s, NULL, 1, ids),
+                    *const reference = grid_of(&s, &slow, 1, ids);
     for (int step = 0; step < 3; ++step) {
         const vox_result result = vox_grid_step(fast);
         demand(vox_grid_step(reference) == result && vox_grid_step(plain) == result);
