@@ -137,10 +137,11 @@ private:
                         "a pair's readings are among all");
         }
         for (std::size_t b = 0; b < ids_.size(); ++b) { // so that a query can ask one mesh
-            vox_filter filter{};
-            must(filter_of(grid_, ids_[b], filter));
-            filter.category = std::uint64_t{1} << b % 64;
-            must(vox_body_set_filter(grid_, ids_[b], &filter));
+            vox_body_info info{};
+            info.struct_size = sizeof info;
+            must(vox_body_get_info(grid_, ids_[b], &info));
+            info.filter.category = std::uint64_t{1} << b % 64;
+            must(vox_body_set_filter(grid_, ids_[b], &info.filter));
         }
         must(vox_grid_prepare_queries(grid_));
         for (std::size_t i = 0; i < all.size() && ids_.size() <= 64; i += 1 + all.size() / 200) {

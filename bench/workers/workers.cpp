@@ -64,8 +64,9 @@ int run(int argc, char** argv) {
     bench::Scene scene = maker->make(std::strtod(argv[2], nullptr), false);
 
     Workers workers{1};
+    const vox_task_system tasks{enqueue, finish, &workers};
     vox_grid_desc desc = vox_default_grid_desc();
-    desc.tasks = {enqueue, finish, &workers};
+    desc.tasks = &tasks;
     desc.worker_count = 1;
     vox_grid* grid = nullptr;
     bench::must(vox_grid_create(&desc, &grid));
