@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 #include <memory_resource>
 
@@ -62,8 +63,9 @@ Array<Vec3d> read_points(const void* points, const vox_format& point_format, std
     if (count > UINT32_MAX)
         throw Error(VOX_ERROR_LIMIT, format("point_count is %llu, the limit is 2^32 - 1",
                                             static_cast<unsigned long long>(count)));
-    const Positions positions =
-        check_positions({points, count, point_format, 0, byte_stride, component_byte_stride}, "points");
+    vox_positions given{points, count, VOX_FORMAT_FLOAT, 0, byte_stride, component_byte_stride};
+    std::memcpy(&given.format, &point_format, sizeof point_format); // may be no vox_format
+    const Positions positions = check_positions(given, "points");
     Array<Vec3d> read(std::pmr::new_delete_resource());
     read.reserve(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < count; ++i) {

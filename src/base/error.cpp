@@ -1,5 +1,7 @@
 #include "base/error.hpp"
 
+#include "base/structs.hpp"
+
 #include <cstring>
 
 namespace {
@@ -22,7 +24,7 @@ vox_result vox_fail(vox_result result, const char* text) {
 const char* vox_last_error(void) { return last_error; }
 
 const char* vox_result_string(vox_result result) {
-    switch (result) {
+    switch (vox::enum_value(result)) {
     case VOX_OK:
         return "VOX_OK";
     case VOX_ERROR_INVALID_ARGUMENT:
