@@ -47,8 +47,8 @@ export interface GridInfo {
    */
   epoch: number;
   /**
-   * The one that was set, or else the one used last; 0 before the first step. If several were chosen, it is that of the
-   * smallest tetrahedra (reference engine) or of the last body that needed one (fast engine).
+   * The cell size that was set, or else the last one that was chosen; 0 before the first step. If a step chose several,
+   * it is that of the smallest tetrahedra (reference engine) or of the last body that needed one (fast).
    */
   cellSize: number;
   margin: number;

@@ -648,7 +648,8 @@ namespace Voxtet
         /// <summary>Number of steps, clears, reserves and changes of flags or margin so far, failed steps
         /// included.</summary>
         public ulong epoch;
-        /// <summary>The one that was set, or else the one used last; 0 before the first step.</summary>
+        /// <summary>The cell size that was set, or else the last one that was chosen; 0 before the first
+        /// step.</summary>
         public double cell_size;
         public double margin;
         /// <summary>held now, without the caller's arrays</summary>

@@ -498,8 +498,8 @@ pub struct vox_grid_info {
     /// Number of steps, clears, reserves and changes of flags or margin so far, failed steps included. A view is valid
     /// while its epoch equals it.
     pub epoch: u64,
-    /// The one that was set, or else the one used last; 0 before the first step. If several were chosen, it is that of
-    /// the smallest tetrahedra (reference engine) or of the last body that needed one (fast engine).
+    /// The cell size that was set, or else the last one that was chosen; 0 before the first step. If a step chose
+    /// several, it is that of the smallest tetrahedra (reference engine) or of the last body that needed one (fast).
     pub cell_size: f64,
     pub margin: f64,
     /// held now, without the caller's arrays
