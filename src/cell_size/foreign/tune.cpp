@@ -10,6 +10,7 @@
 
 #include "base/array.hpp"
 #include "base/error.hpp"
+#include "base/structs.hpp"
 
 #include <algorithm>
 #include <array>
