@@ -1,5 +1,5 @@
-// Many points at once (vox_grid_query_points), beside one by one: which tetrahedra they are in, for points
-// and meshes from harmless to as bad as can be.
+// Many points at once (vox_locator_find_point_hits), beside one by one: which tetrahedra they are in, for
+// points and meshes from harmless to as bad as can be.
 //
 //   bench_points [--tets N] [--rounds K]
 //
@@ -10,7 +10,7 @@
 #include "program.hpp"
 #include "timing.h"
 
-#include <vox/vox.h>
+#include <vox/vox_query.h>
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,6 @@ using vox::Vec3d;
 using vox::Vec3f;
 using vox::test::Mesh;
 
-constexpr std::uint64_t all_meshes = UINT64_MAX;
 constexpr std::size_t most_singly = 2000; // points that are also asked one by one
 
 struct Scene {
@@ -121,7 +120,7 @@ std::vector<Vec3d> make_points(const Scene& scene, const std::string& kind, std:
     return points;
 }
 
-vox_grid* grid_of(const Scene& scene) {
+vox_locator* locator_of(const Scene& scene) {
     vox_grid_desc settings = vox_default_grid_desc();
     settings.byte_budget = UINT64_MAX;
     settings.flags = 0;
@@ -136,8 +135,10 @@ vox_grid* grid_of(const Scene& scene) {
         vox_body mesh = VOX_NULL_BODY;
         must(vox_mesh_insert(grid, &desc, &mesh));
     }
-    must(vox_grid_prepare_queries(grid));
-    return grid;
+    vox_locator* locator = nullptr;
+    must(vox_grid_update_locator(grid, &locator));
+    vox_grid_destroy(grid);
+    return locator;
 }
 
 std::uint64_t hash_of(const vox_point_hit* hits, std::size_t count) { // FNV-1a
@@ -147,13 +148,13 @@ std::uint64_t hash_of(const vox_point_hit* hits, std::size_t count) { // FNV-1a
     return hash;
 }
 
-void time_points(const vox_grid* grid, const std::string& name, const std::vector<Vec3d>& points,
+void time_points(const vox_locator* locator, const std::string& name, const std::vector<Vec3d>& points,
                  int rounds) {
     std::vector<vox_point_hit> hits(4 * points.size() + 64), singly;
     std::uint64_t count = 0;
+    const vox_positions at = vox_double_positions(&points.data()->x, points.size());
     const auto ask = [&] {
-        must(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE, 0, points.size(), all_meshes,
-                                   hits.data(), hits.size(), &count));
+        must(vox_locator_find_point_hits(locator, &at, nullptr, hits.data(), hits.size(), &count));
     };
     ask();
     if (count > hits.size()) {
@@ -169,17 +170,18 @@ void time_points(const vox_grid* grid, const std::string& name, const std::vecto
                                           for (int i = 0; i < times; ++i) ask();
                                       }) / times);
         singly.clear();
-        alone = std::min(alone, seconds_of([&] {
-                             for (std::size_t i = 0; i < some; ++i) {
-                                 std::uint64_t found = 0;
-                                 must(vox_grid_query_point(grid, &points[i].x, all_meshes, one.data(),
-                                                           one.size(), &found));
-                                 for (std::size_t h = 0; h < found && round == 0; ++h) {
-                                     singly.push_back(one[h]);
-                                     singly.back().point = std::uint32_t(i);
-                                 }
-                             }
-                         }));
+        alone = std::min(
+            alone, seconds_of([&] {
+                for (std::size_t i = 0; i < some; ++i) {
+                    std::uint64_t found = 0;
+                    const vox_positions p = vox_double_positions(&points[i].x, 1);
+                    must(vox_locator_find_point_hits(locator, &p, nullptr, one.data(), one.size(), &found));
+                    for (std::size_t h = 0; h < found && round == 0; ++h) {
+                        singly.push_back(one[h]);
+                        singly.back().point = std::uint32_t(i);
+                    }
+                }
+            }));
         if (round > 0) continue;
         std::size_t same = 0;
         while (same < count && hits[same].point < some) ++same;
@@ -202,12 +204,12 @@ int main(int argc, char** argv) {
         Random random{9};
         std::printf("%-32s %8s %8s %8s %9s\n", "mesh, points", "points", "at once", "alone", "hits");
         for (const Scene& scene : make_scenes(size.tets, random)) {
-            vox_grid* grid = grid_of(scene);
+            vox_locator* locator = locator_of(scene);
             for (const char* kind : kinds)
                 for (const std::size_t count : {32u, 256u, 2048u, 20000u, 200000u})
-                    time_points(grid, scene.name + ", " + kind, make_points(scene, kind, count, random),
+                    time_points(locator, scene.name + ", " + kind, make_points(scene, kind, count, random),
                                 size.rounds);
-            vox_grid_destroy(grid);
+            vox_locator_release(locator);
         }
         return 0;
     });

@@ -1,5 +1,5 @@
-// What queries cost: preparing them and taking views, for floats, doubles and a transform, each query, and
-// the search for what is worst.
+// What queries cost: taking a locator, for floats, doubles and a transform, each question, and the search for
+// what is worst.
 //
 //   bench_queries [--tets N] [--rounds K]
 //
@@ -11,7 +11,7 @@
 #include "program.hpp"
 #include "timing.h"
 
-#include <vox/vox.h>
+#include <vox/vox_query.h>
 
 #include <algorithm>
 #include <array>
@@ -28,88 +28,87 @@ using vox::Vec3d;
 using vox::test::QueryDefinition;
 using vox::test::Shape;
 
-constexpr std::uint64_t all_meshes = UINT64_MAX;
-
-// Of a mesh that stays where it is.
 struct Times {
-    double point = 1e9, points = 1e9, box = 1e9, closest = 1e9, closest_points = 1e9, path = 1e9, ray = 1e9,
-           ray_hits = 1e9, ray_any = 1e9;
+    double point = 1e9, points = 1e9, box = 1e9, closest_one = 1e9, closest = 1e9, path = 1e9,
+           first_hit = 1e9, ray_hits = 1e9, blocked = 1e9;
 };
 
-// Each call for all points, each point as the beginning of a segment to the next one.
-void time_queries(const vox_query_view* view, const std::vector<Vec3d>& points, double box_side,
+vox_positions positions_of(const std::vector<Vec3d>& points) {
+    return vox_double_positions(&points.data()->x, points.size());
+}
+
+// The points that follow, and then the first.
+std::vector<Vec3d> next_ones(std::vector<Vec3d> points) {
+    std::rotate(points.begin(), points.begin() + 1, points.end());
+    return points;
+}
+
+// Each point is the beginning of a ray to the next one.
+void time_queries(const vox_locator* locator, const std::vector<Vec3d>& points, double box_side,
                   Times& times) {
     const std::size_t n = points.size();
     static std::vector<vox_point_hit> hits;
-    static std::vector<vox_tet_hit> tets;
-    static std::vector<vox_facet_hit> facets;
+    static std::vector<vox_box_hit> tets;
+    static std::vector<vox_ray_hit> facets;
     std::vector<vox_closest_hit> closest(n);
-    std::vector<Vec3d> path; // slowly along the points
+    std::vector<std::uint8_t> blocked(n);
+    std::vector<Vec3d> high, path; // path: slowly along the points
     for (std::size_t i = 0; i < n; ++i) {
         const double t = double(i % 100) / 100;
         path.push_back((1 - t) * points[i / 100] + t * points[i / 100 + 1]);
+        high.push_back(points[i] + Vec3d{box_side, box_side, box_side});
     }
     hits.resize(64 * n);
-    tets.resize(65536);
-    facets.resize(65536);
+    tets.resize(64 * n);
+    facets.resize(64 * n);
+    const std::vector<Vec3d> ends = next_ones(points);
+    const vox_positions all = positions_of(points), to = positions_of(ends), tops = positions_of(high),
+                        way = positions_of(path);
+    vox_query_desc first = vox_default_query_desc();
+    first.flags = VOX_QUERY_FIRST_HIT;
     std::uint64_t count = 0;
-    std::uint32_t any = 0;
-    const auto each = [&](double& least, auto&& ask) {
-        least = std::min(least, 1e9 / double(n) * seconds_of([&] {
-                                    for (std::size_t i = 0; i < n; ++i)
-                                        must(ask(&points[i].x, &points[(i + 1) % n].x));
-                                }));
-    };
-    const auto batch = [&](double& least, auto&& ask) {
+    const auto time = [&](double& least, auto&& ask) {
         least = std::min(least, 1e9 / double(n) * seconds_of([&] { must(ask()); }));
     };
-    each(times.point, [&](const double* p, const double*) {
-        return vox_query_view_point(view, p, all_meshes, hits.data(), hits.size(), &count);
+    const auto time_each = [&](double& least, auto&& ask) {
+        least = std::min(least, 1e9 / double(n) * seconds_of([&] {
+                                    for (const Vec3d& p : points) must(ask(vox_double_positions(&p.x, 1)));
+                                }));
+    };
+    time_each(times.point, [&](const vox_positions& p) {
+        return vox_locator_find_point_hits(locator, &p, nullptr, hits.data(), hits.size(), &count);
     });
-    batch(times.points, [&] {
-        return vox_query_view_points(view, points.data(), VOX_FORMAT_DOUBLE, 0, n, all_meshes, hits.data(),
-                                     hits.size(), &count);
+    time(times.points, [&] {
+        return vox_locator_find_point_hits(locator, &all, nullptr, hits.data(), hits.size(), &count);
     });
-    each(times.box, [&](const double* p, const double*) {
-        const double high[3] = {p[0] + box_side, p[1] + box_side, p[2] + box_side};
-        return vox_query_view_box(view, p, high, all_meshes, tets.data(), tets.size(), &count);
+    time(times.box, [&] {
+        return vox_locator_find_box_hits(locator, &all, &tops, nullptr, tets.data(), tets.size(), &count);
     });
-    each(times.closest, [&](const double* p, const double*) {
-        vox_surface_hit hit;
-        return vox_query_view_closest(view, p, INFINITY, all_meshes, &hit);
+    time_each(times.closest_one, [&](const vox_positions& p) {
+        return vox_locator_find_closest(locator, &p, nullptr, closest.data());
     });
-    vox_closest_desc desc = vox_default_closest_desc();
-    desc.format = VOX_FORMAT_DOUBLE;
-    desc.point_count = n;
-    for (const bool follows : {false, true}) {
-        desc.points = follows ? path.data() : points.data();
-        batch(follows ? times.path : times.closest_points,
-              [&] { return vox_query_view_closest_points(view, &desc, closest.data()); });
-    }
-    each(times.ray, [&](const double* p, const double* q) {
-        vox_ray_hit hit;
-        return vox_query_view_ray(view, p, q, all_meshes, &hit);
+    time(times.closest, [&] { return vox_locator_find_closest(locator, &all, nullptr, closest.data()); });
+    time(times.path, [&] { return vox_locator_find_closest(locator, &way, nullptr, closest.data()); });
+    time(times.first_hit, [&] {
+        return vox_locator_find_ray_hits(locator, &all, &to, &first, facets.data(), facets.size(), &count);
     });
-    each(times.ray_hits, [&](const double* p, const double* q) {
-        return vox_query_view_ray_hits(view, p, q, all_meshes, VOX_NULL_BODY, facets.data(), facets.size(),
-                                       &count);
+    time(times.ray_hits, [&] {
+        return vox_locator_find_ray_hits(locator, &all, &to, nullptr, facets.data(), facets.size(), &count);
     });
-    each(times.ray_any, [&](const double* p, const double* q) {
-        return vox_query_view_ray_any(view, p, q, all_meshes, VOX_NULL_BODY, &any);
-    });
+    time(times.blocked, [&] { return vox_locator_test_rays(locator, &all, &to, nullptr, blocked.data()); });
 }
 
 void print(const char* name, const Times& t) {
     std::printf("%-10s %8.0f %8.0f %8.0f %8.0f %8.0f %8.0f %8.0f %8.0f %8.0f\n", name, t.point, t.points,
-                t.box, t.closest, t.closest_points, t.path, t.ray, t.ray_hits, t.ray_any);
+                t.box, t.closest_one, t.closest, t.path, t.first_hit, t.ray_hits, t.blocked);
 }
 
 void print_header(const char* of) {
     std::printf("%-10s %8s %8s %8s %8s %8s %8s %8s %8s %8s\n", of, "point", "points", "box", "closest",
-                "batch", "path", "ray", "hits", "any");
+                "batch", "path", "first", "hits", "test");
 }
 
-// ---- preparing --------------------------------------------------------------------------------------
+// ---- taking them -------------------------------------------------------------------------------------
 
 enum Kind { floats, doubles, transform, kinds };
 constexpr const char* kind_names[] = {"floats", "doubles", "transform"};
@@ -140,7 +139,7 @@ public:
         }
     }
     ~Scene() {
-        vox_query_view_release(view_);
+        vox_locator_release(locator_);
         vox_grid_destroy(grid_);
     }
     Scene(const Scene&) = delete;
@@ -159,24 +158,17 @@ public:
             }
     }
 
-    void prepare(double& least) {
-        least = std::min(least, seconds_of([&] { must(vox_grid_prepare_queries(grid_)); }));
+    void update(double& least) {
+        least = std::min(least, seconds_of([&] { must(vox_grid_update_locator(grid_, &locator_)); }));
     }
-    // Instead of the view that is there, as in a frame.
-    void take(double& least) {
-        vox_query_view* taken = nullptr;
-        least = std::min(least, seconds_of([&] { must(vox_grid_take_query_view(grid_, &taken)); }));
-        vox_query_view_release(view_);
-        view_ = taken;
-    }
-    const vox_query_view* view() const { return view_; }
+    const vox_locator* locator() const { return locator_; }
 
 private:
     Kind kind_;
     const std::vector<vox::test::Mesh>& bodies_;
     vox_grid* grid_ = nullptr;
     std::vector<void*> positions_;
-    vox_query_view* view_ = nullptr;
+    vox_locator* locator_ = nullptr;
 };
 
 void time_all(double tets, int rounds) {
@@ -188,7 +180,7 @@ void time_all(double tets, int rounds) {
         for (vox::Vec3f& p : bodies.back().positions) p.x += float(b * 1.9 * radius);
     }
     const double count = double(bodies[0].tets.size() + bodies[1].tets.size());
-    double first[kinds], prepare[kinds], take[kinds];
+    double first[kinds], later[kinds];
     std::array<Times, kinds> times;
     std::vector<Vec3d> points;
     for (int i = 0; i < 2000; ++i)
@@ -197,23 +189,21 @@ void time_all(double tets, int rounds) {
                                                             1.2 * radius * (2 * random.unit() - 1)});
     Scene scenes[kinds] = {{floats, bodies}, {doubles, bodies}, {transform, bodies}};
     for (int k = 0; k < kinds; ++k) {
-        first[k] = prepare[k] = take[k] = 1e9;
+        first[k] = later[k] = 1e9;
         scenes[k].move(0);
-        scenes[k].prepare(first[k]);
+        scenes[k].update(first[k]);
     }
     for (int round = 1; round <= rounds; ++round)
         for (int k = 0; k < kinds; ++k) {
             scenes[k].move(round);
-            scenes[k].prepare(prepare[k]);
-            scenes[k].take(take[k]);
-            time_queries(scenes[k].view(), points, 1, times[std::size_t(k)]);
+            scenes[k].update(later[k]);
+            time_queries(scenes[k].locator(), points, 1, times[std::size_t(k)]);
         }
-    std::printf("two balls, %.0f tets: ns a tet\n%-10s %8s %8s %8s\n", count, "positions", "first", "prepare",
-                "view");
+    std::printf("two balls, %.0f tets: ns a tet of a locator\n%-10s %8s %8s\n", count, "positions", "first",
+                "later");
     for (int k = 0; k < kinds; ++k)
-        std::printf("%-10s %8.1f %8.1f %8.1f\n", kind_names[k], 1e9 * first[k] / count,
-                    1e9 * prepare[k] / count, 1e9 * take[k] / count);
-    std::printf("the queries of a view, ns each; path: a batch of points along a way\n");
+        std::printf("%-10s %8.1f %8.1f\n", kind_names[k], 1e9 * first[k] / count, 1e9 * later[k] / count);
+    std::printf("ns a question; path: points along a way\n");
     print_header("positions");
     for (int k = 0; k < kinds; ++k) print(kind_names[k], times[std::size_t(k)]);
 }
@@ -224,7 +214,7 @@ void agree(bool same, const char* what, const char* where) {
     if (!same) throw std::runtime_error(std::string(what) + " differ from brute force: " + where);
 }
 
-vox_query_view* view_of(const QueryDefinition& mesh, double* seconds = nullptr) {
+vox_locator* locator_of(const QueryDefinition& mesh, double* seconds = nullptr) {
     vox_grid_desc settings = vox_default_grid_desc();
     settings.flags = 0;
     vox_grid* grid = nullptr;
@@ -237,14 +227,13 @@ vox_query_view* view_of(const QueryDefinition& mesh, double* seconds = nullptr) 
     desc.tet_count = mesh.tets().size();
     vox_body id = VOX_NULL_BODY;
     must(vox_mesh_insert(grid, &desc, &id));
-    vox_query_view* view = nullptr;
+    vox_locator* locator = nullptr;
     for (int i = 0; i < (seconds ? 9 : 1); ++i) {
-        vox_query_view_release(view);
-        const double taken = seconds_of([&] { must(vox_grid_take_query_view(grid, &view)); });
+        const double taken = seconds_of([&] { must(vox_grid_update_locator(grid, &locator)); });
         if (seconds) *seconds = std::min(*seconds, taken);
     }
     vox_grid_destroy(grid);
-    return view;
+    return locator;
 }
 
 std::vector<Vec3d> points_near(const QueryDefinition& mesh, Random& random, std::size_t count) {
@@ -258,38 +247,34 @@ std::vector<Vec3d> points_near(const QueryDefinition& mesh, Random& random, std:
 }
 
 void check(const QueryDefinition& mesh, const char* name, Random& random) {
-    vox_query_view* view = view_of(mesh);
-    const std::vector<Vec3d> points = points_near(mesh, random, 120);
-    std::vector<vox_point_hit> hits(mesh.tets().size());
-    std::vector<vox_facet_hit> facets(4 * mesh.tets().size());
+    vox_locator* locator = locator_of(mesh);
+    const std::vector<Vec3d> points = points_near(mesh, random, 120), ends = next_ones(points);
+    const vox_positions from = positions_of(points), to = positions_of(ends);
+    std::vector<vox_point_hit> hits(points.size() * mesh.tets().size());
+    std::vector<vox_ray_hit> facets(4 * hits.size());
     std::vector<vox_closest_hit> closest(points.size());
-    vox_closest_desc desc = vox_default_closest_desc();
-    desc.points = points.data();
-    desc.format = VOX_FORMAT_DOUBLE;
-    desc.point_count = points.size();
-    must(vox_query_view_closest_points(view, &desc, closest.data()));
-    std::uint64_t count = 0;
-    std::uint32_t any = 0;
+    std::vector<std::uint8_t> blocked(points.size());
+    std::uint64_t hit_count = 0, facet_count = 0, h = 0, f = 0;
+    must(vox_locator_find_point_hits(locator, &from, nullptr, hits.data(), hits.size(), &hit_count));
+    must(vox_locator_find_closest(locator, &from, nullptr, closest.data()));
+    must(vox_locator_find_ray_hits(locator, &from, &to, nullptr, facets.data(), facets.size(), &facet_count));
+    must(vox_locator_test_rays(locator, &from, &to, nullptr, blocked.data()));
+    vox_locator_release(locator);
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const Vec3d &p = points[i], &q = points[(i + 1) % points.size()];
-        must(vox_query_view_point(view, &p.x, all_meshes, hits.data(), hits.size(), &count));
+        const Vec3d &p = points[i], &q = ends[i];
         std::vector<std::uint32_t> tets;
-        for (std::uint64_t h = 0; h < count; ++h) tets.push_back(hits[h].tet);
+        for (; h < hit_count && hits[h].point == i; ++h) tets.push_back(hits[h].tet);
         agree(tets == mesh.tets_with(p), "tetrahedra with a point", name);
         const auto [squared, facet] = mesh.closest(p);
         agree(std::abs(closest[i].distance) == std::sqrt(squared) && closest[i].tet == facet.first &&
                   closest[i].facet == facet.second && closest[i].inside == !tets.empty(),
               "closest points", name);
-        must(vox_query_view_ray_hits(view, &p.x, &q.x, all_meshes, VOX_NULL_BODY, facets.data(),
-                                     facets.size(), &count));
         std::vector<QueryDefinition::Facet> met;
-        for (std::uint64_t h = 0; h < count; ++h) met.emplace_back(facets[h].tet, facets[h].facet);
+        for (; f < facet_count && facets[f].ray == i; ++f) met.emplace_back(facets[f].tet, facets[f].facet);
         std::sort(met.begin(), met.end());
         agree(met == mesh.hits(p, q), "facets on a segment", name);
-        must(vox_query_view_ray_any(view, &p.x, &q.x, all_meshes, VOX_NULL_BODY, &any));
-        agree(any == mesh.any(p, q), "segments that hit anything", name);
+        agree(blocked[i] == mesh.any(p, q), "segments that hit anything", name);
     }
-    vox_query_view_release(view);
 }
 
 QueryDefinition whole_ball(double tets, Random& random) {
@@ -297,21 +282,22 @@ QueryDefinition whole_ball(double tets, Random& random) {
     return {{mesh.positions.begin(), mesh.positions.end()}, mesh.tets};
 }
 
-// Meshes as bad as can be: what preparing them costs, and how much more a query does.
+// Meshes as bad as can be: what a locator of them costs, and how much more a question does.
 void time_worst(std::size_t tets, int rounds) {
     Random random{7};
-    std::printf("bad shapes, %zu tets each that share no vertices: ns a tet for a view, ns a query\n", tets);
+    std::printf("bad shapes, %zu tets each that share no vertices: ns a tet for a locator, ns a question\n",
+                tets);
     print_header("shape");
     for (int s = 0; s < vox::test::shape_count; ++s) {
         const QueryDefinition soup = vox::test::make_soup(random, Shape(s), tets);
         double taken = 1e9;
-        vox_query_view* view = view_of(soup, &taken);
+        vox_locator* locator = locator_of(soup, &taken);
         const std::vector<Vec3d> points = points_near(soup, random, 100);
         Times times;
-        for (int round = 0; round < rounds; ++round) time_queries(view, points, 1e-3, times);
+        for (int round = 0; round < rounds; ++round) time_queries(locator, points, 1e-3, times);
         print(vox::test::shape_names[s], times);
-        std::printf("%10s view %.1f\n", "", 1e9 * taken / double(tets));
-        vox_query_view_release(view);
+        std::printf("%10s locator %.1f\n", "", 1e9 * taken / double(tets));
+        vox_locator_release(locator);
     }
 }
 

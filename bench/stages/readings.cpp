@@ -5,20 +5,19 @@
 // Two smooth balls of N / 2 tetrahedra each, at several overlaps, and many small ones; every row is one
 // scene. Times are the least of K rounds in which the rows take turns, on one thread, in nanoseconds a
 // contact. `copy` is a plain copy of the readings, for comparison. What is timed is checked: parts of
-// readings are parts of all, bit for bit, and distances are those of vox_grid_query_closest.
+// readings are parts of all, bit for bit, and distances are those of vox_locator_find_closest.
 #include "internal/meshes.hpp"
 #include "program.hpp"
 #include "stages/smooth_ball.hpp"
 #include "timing.h"
 
-#include <vox/vox.h>
+#include <vox/vox_query.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -143,16 +142,20 @@ private:
             info.filter.category = std::uint64_t{1} << b % 64;
             must(vox_body_set_filter(grid_, ids_[b], &info.filter));
         }
-        must(vox_grid_prepare_queries(grid_));
+        vox_locator* locator = nullptr;
+        must(vox_grid_update_locator(grid_, &locator));
+        vox_query_desc one = vox_default_query_desc();
         for (std::size_t i = 0; i < all.size() && ids_.size() <= 64; i += 1 + all.size() / 200) {
             if (contacts.data[i].body_a == contacts.data[i].body_b) continue; // another rule
             const auto b = std::find(ids_.begin(), ids_.end(), contacts.data[i].body_b) - ids_.begin();
-            vox_surface_hit hit{};
-            must(vox_grid_query_closest(grid_, all[i].position, std::numeric_limits<double>::infinity(),
-                                        std::uint64_t{1} << b, &hit));
-            require(std::abs(hit.distance - all[i].distance) <= 1e-12 * hit.distance,
+            one.mask = std::uint64_t{1} << b;
+            const vox_positions at = vox_double_positions(all[i].position, 1);
+            vox_closest_hit hit{};
+            must(vox_locator_find_closest(locator, &at, &one, &hit));
+            require(std::abs(std::abs(hit.distance) - all[i].distance) <= 1e-12 * all[i].distance,
                     "distances are those of queries");
         }
+        vox_locator_release(locator);
     }
 
     std::string name_;

@@ -95,7 +95,7 @@ class Description(unittest.TestCase):
             self.assertIn(o["release"], {f["name"] for f in sections(API, "functions")})
             self.assertIn(o["threads"], ("readers or one", "one", "any"))
         self.assertEqual({o["name"]: o["threads"] for o in sections(API, "opaque")},
-                         {"vox_grid": "readers or one", "vox_query_view": "any", "vox_io_mesh": "readers or one",
+                         {"vox_grid": "readers or one", "vox_locator": "any", "vox_io_mesh": "readers or one",
                           "vox_sim": "one", "vox_experiment": "one", "vox_surface": "one"})
 
     def test_events_are_functions_of_the_header(self):
@@ -262,7 +262,7 @@ class Faults(unittest.TestCase):
              {"enums.js", "enums.d.ts", "exports.txt"}),
             ("vox_grid_clear(vox_grid* grid);", "vox_grid_clear(vox_grid* grid, double rest);",
              {"enums.js", "enums.d.ts", "structs.d.ts", "exports.txt"}),
-            ("VOX_SIDE_LEAVES = 2", "VOX_SIDE_LEAVES = 3", {"layout.js", "structs.d.ts", "exports.txt"}),
+            ("VOX_LOG_WARNING = 1", "VOX_LOG_WARNING = 3", {"layout.js", "structs.d.ts", "exports.txt"}),
         ]:
             with self.subTest(new=new):
                 found = " ".join(generate.differences(BINDINGS, self.changed(old, new)))

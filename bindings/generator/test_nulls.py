@@ -1,5 +1,5 @@
 """Null pointers are refused where bindings/api.json says so, with the name of the parameter, and only there: what it says
-of them was not guessed. usage: test_nulls.py NAME=LIBRARY... for each header, in the order vox, vox_pairs,
+of them was not guessed. usage: test_nulls.py NAME=LIBRARY... for each header, in the order vox, vox_query, vox_pairs,
 vox_io, vox_sim."""
 
 import ctypes
@@ -62,13 +62,11 @@ class Nulls:
             elif f["name"] in ("vertex_count", "tet_count"):
                 setattr(value, f["name"], 4 if f["name"] == "vertex_count" else 1)
         if name == "vox_positions":
-            value.data, value.count, value.format = ctypes.addressof(POSITIONS), 4, _c.Format.DOUBLE
+            value.data, value.count, value.format = ctypes.addressof(POSITIONS), 0 if is_empty else 4, _c.Format.DOUBLE
         elif name == "vox_experiment_desc":
             a = self.struct("vox_sim_body_desc")
             self.keep.append(a)
             value.a = ctypes.pointer(a)
-        elif name == "vox_closest_desc" and not is_empty:
-            value.points, value.point_count = ctypes.addressof(POSITIONS), 1
         elif name == "vox_primitives":
             value.count = 4
         elif name == "vox_foreign_grid":
@@ -101,8 +99,7 @@ class Nulls:
         self.check(self.core.vox_mesh_insert(found["vox_grid"], ctypes.byref(desc), ctypes.byref(mesh)))
         found["vox_body"] = mesh.value
         self.check(self.core.vox_grid_step(found["vox_grid"]))
-        self.check(self.core.vox_grid_prepare_queries(found["vox_grid"]))
-        create("vox_query_view", self.core, "vox_grid_take_query_view", found["vox_grid"])
+        create("vox_locator", self.core, "vox_grid_update_locator", found["vox_grid"])
         if "vox_pairs" in self.libraries:
             create("vox_surface", self.core, "vox_surface_create", ctypes.byref(self.struct("vox_surface_desc")))
             self.check(self.core.vox_surface_move(found["vox_surface"], ctypes.byref(self.struct("vox_motion"))))
@@ -117,7 +114,7 @@ class Nulls:
         return found
 
     def destroy(self, objects):
-        for type_name, release in (("vox_query_view", "vox_query_view_release"), ("vox_grid", "vox_grid_destroy"),
+        for type_name, release in (("vox_locator", "vox_locator_release"), ("vox_grid", "vox_grid_destroy"),
                                    ("vox_io_mesh", "vox_io_mesh_destroy"),
                                    ("vox_surface", "vox_surface_destroy"), ("vox_sim", "vox_sim_destroy")):
             for library in self.libraries.values():

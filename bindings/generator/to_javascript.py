@@ -5,7 +5,7 @@ import json
 from names import GENERATED, camel, pascal, short_values, whole_structs, wrapped
 from names import sections as all_sections
 
-LIBRARIES = ("vox",)  # what the WebAssembly module holds
+HEADERS = ("vox", "vox_query")  # of what the WebAssembly module holds
 NUMBERS = {"uint8_t": "u8", "char": "char", "int32_t": "i32", "uint32_t": "u32", "int64_t": "i64", "uint64_t": "u64",
            "float": "f32", "double": "f64", "size_t": "u32"}
 
@@ -15,7 +15,7 @@ COLUMNS = {"u8": "Uint8Array", "i32": "Int32Array", "u32": "Uint32Array", "f32":
 
 
 def sections(api, kind):
-    return all_sections({"headers": [part for part in api["headers"] if part["name"] in LIBRARIES]}, kind)
+    return all_sections({"headers": [part for part in api["headers"] if part["name"] in HEADERS]}, kind)
 
 
 class JavaScript:

@@ -50,9 +50,8 @@ export declare const GridFlags: Readonly<{
   CONTACT_EVENTS: 2;
   /**
    * a mesh with a coordinate that VOX_FORMAT_DOUBLE does not allow (NaN, infinite, too large) takes no part in a step,
-   * in vox_grid_prepare_queries, in vox_grid_take_query_view and in vox_grid_suggest_cell_size, as if it were disabled;
-   * without this flag they fail. Counted (skipped_meshes), listed (vox_grid_get_failure), and logged once until the
-   * mesh is well again
+   * in vox_grid_suggest_cell_size and in locators (vox_query.h), as if it were disabled; without this flag they fail.
+   * Counted (skipped_meshes), listed (vox_grid_get_failure), and logged once until the mesh is well again
    */
   SKIP_BAD_BODIES: 4;
   /**
@@ -156,15 +155,6 @@ export declare const LogLevel: Readonly<{
   WARNING: 1;
 }>;
 export type LogLevel = (typeof LogLevel)[keyof typeof LogLevel];
-
-export declare const Side: Readonly<{
-  /** the tetrahedron has no volume */
-  NONE: 0;
-  /** the segment goes into the tetrahedron */
-  ENTERS: 1;
-  LEAVES: 2;
-}>;
-export type Side = (typeof Side)[keyof typeof Side];
 
 export declare const ReferenceFlags: Readonly<{
   /** store a list for every cell of a box (linear id k*nx*ny + j*nx + i), instead of hashing cells into a table */
@@ -318,6 +308,21 @@ export declare const ForeignRule: Readonly<{
   RADIUS: 5;
 }>;
 export type ForeignRule = (typeof ForeignRule)[keyof typeof ForeignRule];
+
+export declare const QueryFlags: Readonly<{
+  /** vox_locator_find_ray_hits: report only the first hit of each ray */
+  FIRST_HIT: 1;
+}>;
+export type QueryFlags = number;
+
+export declare const Side: Readonly<{
+  /** the facet's tetrahedron has no volume */
+  NONE: 0;
+  /** the ray goes into the tetrahedron */
+  ENTERS: 1;
+  LEAVES: 2;
+}>;
+export type Side = (typeof Side)[keyof typeof Side];
 
 /**
  * Version of the stable interface. A program runs with every library that has the ABI version it was built with. It is

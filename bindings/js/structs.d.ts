@@ -269,7 +269,7 @@ export interface EdgeContactColumns {
 /**
  * Vertex `vertex` of body_a is in no tetrahedron of body_b, but no further than the margin from its surface. The point
  * of the surface of body_b that is closest to it is on a facet of `tet`; of several at the same distance that of the
- * lowest (tet, facet), as in vox_grid_query_closest. Computed in double.
+ * lowest (tet, facet), as in vox_locator_find_closest (vox_query.h). Computed in double.
  */
 export interface MarginContact {
   bodyA: number;
@@ -278,7 +278,7 @@ export interface MarginContact {
   bodyB: number;
   /** of body_b */
   tet: number;
-  /** of the tetrahedron, as in vox_surface_hit */
+  /** of the tetrahedron, as in vox_closest_hit */
   facet: number;
   /** its vertices, in the order given there */
   face: [number, number, number];
@@ -316,7 +316,7 @@ export interface Passage {
   /** of body_b */
   tet: number;
   /**
-   * of the tetrahedron, as in vox_surface_hit: the first that the vertex met; the lowest (tet, facet) of several at the
+   * of the tetrahedron, as in vox_closest_hit: the first that the vertex met; the lowest (tet, facet) of several at the
    * same time
    */
   facet: number;
@@ -417,7 +417,7 @@ export interface ContactEventColumns {
 /**
  * Geometry of one contact. All contacts of the same (body_a, vertex, body_b) have the same reading except for the first
  * field. `triangle` is the triangle closest to the vertex on the surface of body_b, which consists of the facets of
- * exactly one of its tetrahedra, duplicates counted once. It is computed in double, as by vox_grid_query_closest; of
+ * exactly one of its tetrahedra, duplicates counted once. It is computed in double, as by vox_locator_find_closest; of
  * several at the same distance it is the one with the lowest corners, compared in ascending order. For self-contact it
  * belongs to the fold that the vertex has entered and never has the vertex as a corner (see vox_penetration_state). No
  * reading depends on engine, cell size, workers or machine.
@@ -484,155 +484,6 @@ export interface ReadingsDesc {
    * VOX_READING_SURFACE in `known`, and the log has a warning. 0: no limit.
    */
   closestBudget: number;
-}
-
-/**
- * Point `point` of the query is in the closed tetrahedron `tet` of `mesh`. This is exact and follows the rule of
- * vox_contact: every tetrahedron of a mesh that has the point in its interior, or else the lowest that has it on its
- * boundary. `barycentric` is as in vox_contact.
- */
-export interface PointHit {
-  point: number;
-  mesh: number;
-  tet: number;
-  barycentric: [number, number, number, number];
-}
-
-/** Columns of PointHit: of an array field, its elements one after the other. */
-export interface PointHitColumns {
-  readonly point: Uint32Array;
-  readonly mesh: Uint32Array;
-  readonly tet: Uint32Array;
-  readonly barycentric: Float32Array;
-}
-
-/** Tetrahedron `tet` of `mesh`. */
-export interface TetHit {
-  mesh: number;
-  tet: number;
-}
-
-/** Columns of TetHit: of an array field, its elements one after the other. */
-export interface TetHitColumns {
-  readonly mesh: Uint32Array;
-  readonly tet: Uint32Array;
-}
-
-/**
- * A point on facet `facet` of a tetrahedron, which is opposite corner `facet`. The facet's corners are facet 0: corners
- * 1, 2, 3 1: 0, 3, 2 2: 0, 1, 3 3: 0, 2, 1 of the tetrahedron, counter-clockwise as seen from outside if its volume is
- * positive. The surface of a mesh consists of the facets of exactly one tetrahedron.
- */
-export interface SurfaceHit {
-  /** VOX_NULL_BODY if there is no such point; then all fields are zero */
-  mesh: number;
-  tet: number;
-  facet: number;
-  /** weights of the facet's corners in that order, in [0, 1] up to rounding, with the sum 1 */
-  barycentric: [number, number, number];
-  position: [number, number, number];
-  distance: number;
-}
-
-/** Columns of SurfaceHit: of an array field, its elements one after the other. */
-export interface SurfaceHitColumns {
-  readonly mesh: Uint32Array;
-  readonly tet: Uint32Array;
-  readonly facet: Uint32Array;
-  readonly barycentric: Float64Array;
-  readonly position: Float64Array;
-  readonly distance: Float64Array;
-}
-
-/** The closest point of a surface, as in vox_surface_hit, with a normal and a sign. */
-export interface ClosestHit {
-  /** VOX_NULL_BODY if no surface is within max_distance; then all other fields but `inside` are zero */
-  mesh: number;
-  tet: number;
-  facet: number;
-  /** how many of the meshes that take part have the point in a closed tetrahedron; exact */
-  inside: number;
-  barycentric: [number, number, number];
-  position: [number, number, number];
-  /**
-   * A unit vector out of the facet's tetrahedron or, if that is flat, to the side away from the point. If the facet has
-   * no area, it points from the point to `position`, or is 0, 0, 1 if both coincide.
-   */
-  normal: [number, number, number];
-  /**
-   * from the point to `position`, in double; negative if `mesh` has the point in a closed tetrahedron, which is decided
-   * exactly
-   */
-  distance: number;
-}
-
-/** Columns of ClosestHit: of an array field, its elements one after the other. */
-export interface ClosestHitColumns {
-  readonly mesh: Uint32Array;
-  readonly tet: Uint32Array;
-  readonly facet: Uint32Array;
-  readonly inside: Uint32Array;
-  readonly barycentric: Float64Array;
-  readonly position: Float64Array;
-  readonly normal: Float64Array;
-  readonly distance: Float64Array;
-}
-
-/**
- * What the closed segment from `from` to `to` hits first; t is 0 at `from` and 1 at `to`. Whether it hits a tetrahedron
- * or a facet is decided exactly; t, and thus which of two hits is first, only up to rounding. Of several at the same t
- * it is the lowest (mesh, tet, facet).
- */
-export interface RayHit {
-  /** mesh of the first tetrahedron; VOX_NULL_BODY if none is hit, then all fields are zero */
-  mesh: number;
-  tet: number;
-  /** 0 if `from` is in the tetrahedron */
-  t: number;
-  /**
-   * The first facet of a surface (see vox_surface_hit). VOX_NULL_BODY if there is none, e.g. for a segment that ends
-   * before it leaves a mesh. A segment in the plane of a facet does not hit it.
-   */
-  surfaceMesh: number;
-  surfaceTet: number;
-  surfaceFacet: number;
-  surfaceSide: Side;
-  surfaceT: number;
-  surfaceBarycentric: [number, number, number];
-}
-
-/** Columns of RayHit: of an array field, its elements one after the other. */
-export interface RayHitColumns {
-  readonly mesh: Uint32Array;
-  readonly tet: Uint32Array;
-  readonly t: Float64Array;
-  readonly surfaceMesh: Uint32Array;
-  readonly surfaceTet: Uint32Array;
-  readonly surfaceFacet: Uint32Array;
-  readonly surfaceSide: Int32Array;
-  readonly surfaceT: Float64Array;
-  readonly surfaceBarycentric: Float64Array;
-}
-
-/** A facet of a surface that a segment hits; see vox_surface_hit and vox_ray_hit. */
-export interface FacetHit {
-  mesh: number;
-  tet: number;
-  facet: number;
-  side: Side;
-  t: number;
-  /** weights of the facet's corners, as in vox_surface_hit */
-  barycentric: [number, number, number];
-}
-
-/** Columns of FacetHit: of an array field, its elements one after the other. */
-export interface FacetHitColumns {
-  readonly mesh: Uint32Array;
-  readonly tet: Uint32Array;
-  readonly facet: Uint32Array;
-  readonly side: Int32Array;
-  readonly t: Float64Array;
-  readonly barycentric: Float64Array;
 }
 
 /**
@@ -1186,4 +1037,116 @@ export interface Tuning {
   /** in seconds */
   curve: CostSample[];
   note: string;
+}
+
+/** Which bodies answer, and how far to look. All fields are 0 by default: all bodies, at any distance. */
+export interface QueryDesc {
+  /** vox_query_flags, combined with | */
+  flags: number;
+  /** only bodies whose category had a bit in common with it; 0: all */
+  mask: bigint;
+  /** not this body, e.g. the one that asks; an id that the locator does not have excludes none */
+  excluded: number;
+  /** vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance */
+  maxDistance: number;
+}
+
+/** A tetrahedron that contains a point. */
+export interface PointHit {
+  /** index of the point */
+  point: number;
+  body: number;
+  tet: number;
+  /** of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one */
+  weights: [number, number, number, number];
+}
+
+/** Columns of PointHit: of an array field, its elements one after the other. */
+export interface PointHitColumns {
+  readonly point: Uint32Array;
+  readonly body: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly weights: Float64Array;
+}
+
+/**
+ * A point of a surface. The surface of a mesh consists of the facets of exactly one of its tetrahedra. Facet k is
+ * opposite corner k. The corners of facets are facet 0: corners 1, 2, 3 1: 0, 3, 2 2: 0, 1, 3 3: 0, 2, 1 of the
+ * tetrahedron, counter-clockwise as seen from outside if its volume is positive.
+ */
+export interface ClosestHit {
+  /** VOX_NULL_BODY: no surface is within max_distance; all other fields but `inside` are 0 */
+  body: number;
+  tet: number;
+  facet: number;
+  /** how many bodies contain the point; exact */
+  inside: number;
+  /** the vertices of the facet, in the order of its corners */
+  face: [number, number, number];
+  /** of these vertices, for the closest point, in [0, 1] */
+  weights: [number, number, number];
+  /** of the closest point */
+  position: [number, number, number];
+  /**
+   * A unit vector out of the facet's tetrahedron or, if that is flat, to the side away from the point. If the facet has
+   * no area, it points from the point to `position`, or is 0, 0, 1 if both coincide.
+   */
+  normal: [number, number, number];
+  /** from the point to `position`; negative if the body contains the point, which is exact */
+  distance: number;
+}
+
+/** Columns of ClosestHit: of an array field, its elements one after the other. */
+export interface ClosestHitColumns {
+  readonly body: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly facet: Uint32Array;
+  readonly inside: Uint32Array;
+  readonly face: Uint32Array;
+  readonly weights: Float64Array;
+  readonly position: Float64Array;
+  readonly normal: Float64Array;
+  readonly distance: Float64Array;
+}
+
+/** A tetrahedron whose bounding box meets a box. */
+export interface BoxHit {
+  /** index of the box */
+  box: number;
+  body: number;
+  tet: number;
+}
+
+/** Columns of BoxHit: of an array field, its elements one after the other. */
+export interface BoxHitColumns {
+  readonly box: Uint32Array;
+  readonly body: Uint32Array;
+  readonly tet: Uint32Array;
+}
+
+/** A facet of a surface that a ray meets; see vox_closest_hit. */
+export interface RayHit {
+  /** index of the ray */
+  ray: number;
+  body: number;
+  tet: number;
+  facet: number;
+  side: Side;
+  /** the vertices of the facet, in the order of its corners */
+  face: [number, number, number];
+  t: number;
+  /** of these vertices, in [0, 1] */
+  weights: [number, number, number];
+}
+
+/** Columns of RayHit: of an array field, its elements one after the other. */
+export interface RayHitColumns {
+  readonly ray: Uint32Array;
+  readonly body: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly facet: Uint32Array;
+  readonly side: Int32Array;
+  readonly face: Uint32Array;
+  readonly t: Float64Array;
+  readonly weights: Float64Array;
 }

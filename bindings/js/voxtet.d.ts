@@ -2,18 +2,18 @@
 // voxtet: vox in WebAssembly. Fields of options and results are those of the structs of vox.h, whose comments they have.
 import type { CellContent, CellLook, Format, KnownGrid, LogLevel, PrimitiveType, Result } from "./enums.js";
 import type {
-  BodyInfo, ClosestHit, ClosestHitColumns, Contact, ContactColumns, ContactEvent, ContactEventColumns, CostBounds,
-  CostMinimum, CostPrediction, CostTerm, CostWeights, Counters, Depth, DepthColumns, FacetHit, FacetHitColumns,
+  BodyInfo, BoxHit, BoxHitColumns, ClosestHit, ClosestHitColumns, Contact, ContactColumns, ContactEvent,
+  ContactEventColumns, CostBounds, CostMinimum, CostPrediction, CostTerm, CostWeights, Counters, Depth, DepthColumns,
   Failure, Filter, ForeignSuggestion as ForeignSuggestionStruct, GridDesc, GridFit as GridFitStruct, GridInfo,
   GridTiming, GridWeights, GridWork, Pair, PairColumns, Penetration, PenetrationColumns, PointHit, PointHitColumns, Profile,
-  RayHit, Reading, ReadingColumns, ReferenceDesc, SuggestDesc, Suggestion as SuggestionStruct, SurfaceHit, TetHit,
-  TetHitColumns, TouchEvent, TouchEventColumns, TuneDesc, Tuning as TuningStruct,
+  QueryDesc, RayHit, RayHitColumns, Reading, ReadingColumns, ReferenceDesc, SuggestDesc, Suggestion as SuggestionStruct,
+  TouchEvent, TouchEventColumns, TuneDesc, Tuning as TuningStruct,
 } from "./structs.js";
 
 export * from "./enums.js";
 export type {
-  CellSizeRules, ClosestHit, Contact, ContactEvent, CostSample, CostShare, CostTerm, CostWeights, Counters, Depth, FacetHit,
-  Failure, Filter, ForeignRules, GeometryStats, GridInfo, GridTiming, GridWeights, GridWork, BodyInfo, Pair, Penetration, PointHit, Profile, RayHit, Reading, SurfaceHit, TetHit, TouchEvent,
+  BoxHit, CellSizeRules, ClosestHit, Contact, ContactEvent, CostSample, CostShare, CostTerm, CostWeights, Counters, Depth,
+  Failure, Filter, ForeignRules, GeometryStats, GridInfo, GridTiming, GridWeights, GridWork, BodyInfo, Pair, Penetration, PointHit, Profile, RayHit, Reading, TouchEvent,
 } from "./structs.js";
 
 /** A call that vox refused. The message says what was wrong, with numbers in it; `code` is one of `Result`. */
@@ -130,9 +130,9 @@ export type Readings = Records<Reading, ReadingColumns>;
 export type TouchEvents = Records<TouchEvent, TouchEventColumns>;
 export type ContactEvents = Records<ContactEvent, ContactEventColumns>;
 export type PointHits = Records<PointHit, PointHitColumns>;
-export type TetHits = Records<TetHit, TetHitColumns>;
 export type ClosestHits = Records<ClosestHit, ClosestHitColumns>;
-export type FacetHits = Records<FacetHit, FacetHitColumns>;
+export type BoxHits = Records<BoxHit, BoxHitColumns>;
+export type RayHits = Records<RayHit, RayHitColumns>;
 /** The pairs that touch. `contacts`: the index of every contact once, pair by pair; those of a pair begin at its `first`. */
 export type Pairs = Records<Pair, PairColumns> & { readonly contacts: Uint32Array };
 
@@ -233,13 +233,12 @@ export interface ReadingOptions {
   closestBudget?: number;
 }
 
-export interface QueryOptions {
-  /** A mesh takes part if its filter's category has a bit in common; default: all. */
+/** Which meshes answer, and how far to look; by default all, at any distance. */
+export interface QueryOptions extends Partial<Pick<QueryDesc, "flags" | "maxDistance">> {
+  /** Only meshes whose filter's category had a bit in common; 0: all. */
   mask?: Bits;
-}
-export interface ExcludingOptions extends QueryOptions {
-  /** A mesh that takes no part. */
-  excluded?: MeshOrId | null;
+  /** Not this mesh. */
+  excluded?: MeshOrId;
 }
 
 /** In the memory of the module, until dispose(): what is forgotten instead is returned at some time after it was collected. */
@@ -250,31 +249,27 @@ export interface Owned {
   readonly disposed: boolean;
 }
 
-/** What can be asked of a grid, as it was at the last prepareQueries(), and of a query view. Decided exactly (vox.h). */
-export interface Queries extends Owned {
-  /** The tetrahedra that contain the point. */
-  queryPoint(point: Vector, options?: QueryOptions): PointHits;
-  /** The same for many points. */
-  queryPoints(points: Positions, options?: QueryOptions): PointHits;
-  /** The tetrahedra whose bounding box meets the box. */
-  queryBox(min: Vector, max: Vector, options?: QueryOptions): TetHits;
-  /** The closest point of the surfaces within the radius (default: infinity); null if there is none. */
-  queryClosest(point: Vector, options?: QueryOptions & { radius?: number }): SurfaceHit | null;
-  /** The same for many points, with normals and signs: record i is that of point i; its mesh is 0 if there is none. */
-  queryClosestPoints(points: Positions, options?: ExcludingOptions & { maxDistance?: number }): ClosestHits;
-  /** What the segment hits first: a tetrahedron, a surface. */
-  queryRay(from: Vector, to: Vector, options?: QueryOptions): RayHit;
-  /** All facets of surfaces that the segment hits. */
-  queryRayHits(from: Vector, to: Vector, options?: ExcludingOptions): FacetHits;
-  /** Whether the segment hits any tetrahedron. */
-  queryRayAny(from: Vector, to: Vector, options?: ExcludingOptions): boolean;
-}
-
-/** The meshes of a grid at one moment, to be asked at any later time, whatever became of the grid. */
-export interface QueryView extends Queries {
-  /** Grid.epoch when it was taken. */
+/**
+ * The meshes of a grid at one moment, to be asked at any later time, whatever became of the grid. Decided exactly
+ * (vox_query.h). Record lists are in copies of their own, sorted by what was asked about.
+ */
+export interface Locator extends Owned {
+  /** Takes the meshes of a grid as they are now instead of those it had. */
+  update(grid: Grid): void;
+  /** Grid.epoch when they were taken. */
   readonly epoch: number;
+  /** The number that a mesh was added with. */
   userData(mesh: MeshOrId): bigint;
+  /** The tetrahedra that contain points. */
+  findPointHits(points: Positions, options?: QueryOptions): PointHits;
+  /** The closest point of all surfaces: record i is that of point i; its body is 0 if there is none. */
+  findClosest(points: Positions, options?: QueryOptions): ClosestHits;
+  /** The tetrahedra whose bounding boxes meet boxes. */
+  findBoxHits(min: Positions, max: Positions, options?: QueryOptions): BoxHits;
+  /** The facets that rays meet, of each ray by t; with QueryFlags.FIRST_HIT only its first. */
+  findRayHits(from: Positions, to: Positions, options?: QueryOptions): RayHits;
+  /** Of each ray 1 if it meets a tetrahedron, else 0. */
+  testRays(from: Positions, to: Positions, options?: QueryOptions): Uint8Array;
 }
 
 export interface GridConstructor {
@@ -285,7 +280,7 @@ export interface GridConstructor {
 }
 
 /** A set of meshes that collide. */
-export interface Grid extends Queries {
+export interface Grid extends Owned {
   /** Removes all meshes and contacts and keeps the settings. */
   clear(): void;
   /** Takes memory for that many meshes and contacts in advance. */
@@ -333,9 +328,8 @@ export interface Grid extends Queries {
   readonly readingDepths: Depths;
   readingsBetween(bodyA: MeshOrId, bodyB: MeshOrId): Readings;
 
-  /** Copies the present positions for the queries. */
-  prepareQueries(): void;
-  takeQueryView(): QueryView;
+  /** The meshes as they are now, to be asked where they are. */
+  locator(): Locator;
 
   /** The grid as bytes that are the same on every machine: settings, meshes, positions, state of the events. */
   save(): Uint8Array;

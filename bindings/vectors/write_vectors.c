@@ -3,6 +3,8 @@
  * usage: write_vectors FOLDER */
 #include "scenes/scenes.h"
 
+#include <vox/vox_query.h>
+
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
@@ -12,6 +14,7 @@ static FILE *script, *arrays;
 static uint64_t array_size;
 static int scene_calls; /* of the scene that is being written */
 static vox_grid* grid;
+static vox_locator* locator;
 
 /* ---- writing ---- */
 
@@ -91,6 +94,8 @@ static void begin_scene(const char* name, const char* what, uint32_t flags, doub
 
 static void end_scene(void) {
     fprintf(script, "]}");
+    vox_locator_release(locator);
+    locator = NULL;
     vox_grid_destroy(grid);
     grid = NULL;
 }
@@ -225,68 +230,77 @@ static void read_contacts(void) {
     end_call();
 }
 
+/* How many hits there are, all of which a list with room for `capacity` has. */
+static uint64_t fitting(uint64_t count, uint64_t capacity) {
+    expect(count <= capacity ? VOX_OK : VOX_ERROR_LIMIT, "hits");
+    return count;
+}
+
+/* A question about `count` positions, or pairs of positions, at these offsets. */
+static void begin_question(const char* name, int count, const char* a, uint64_t at_a, const char* b,
+                           uint64_t at_b) {
+    begin_call(name);
+    field("count", "%d", count);
+    field(a, "%" PRIu64, at_a);
+    if (b) field(b, "%" PRIu64, at_b);
+}
+
 /* At vertices of a body, and from each to the one that is as far from the other end. */
 static void query(const body* b) {
-    enum { count = 24, capacity = 4096 };
-    static vox_point_hit hits[capacity];
-    static vox_tet_hit tets[capacity];
-    static vox_facet_hit facets[capacity];
+    enum { count = 24, capacity = 65536 };
+    static vox_point_hit points[capacity];
+    static vox_box_hit boxes[capacity];
+    static vox_ray_hit rays[capacity];
     vox_closest_hit closest[count];
-    double points[count][3];
+    uint8_t blocked[count];
+    double from[count][3], to[count][3], min[count][3], max[count][3];
     uint64_t hit_count = 0;
-    begin_call("prepare_queries");
-    finish(vox_grid_prepare_queries(grid));
+    begin_call("update_locator");
+    finish(vox_grid_update_locator(grid, &locator));
     for (uint32_t i = 0; i < count; ++i)
-        for (int a = 0; a < 3; ++a)
-            points[i][a] = (double)b->positions[3 * (i * (b->vertex_count - 1) / count) + (uint32_t)a];
-    const uint64_t offset = store(points, sizeof points);
-    expect(vox_grid_query_points(grid, points, VOX_FORMAT_DOUBLE, 0, count, UINT64_MAX, hits, capacity,
-                                 &hit_count),
-           "query points");
-    begin_call("query_points");
-    field("points", "%" PRIu64, offset);
-    field("count", "%d", (int)count);
-    items_field("hits", hits, hit_count, sizeof *hits);
+        for (int a = 0; a < 3; ++a) {
+            from[i][a] = (double)b->positions[3 * (i * (b->vertex_count - 1) / count) + (uint32_t)a];
+            to[count - 1 - i][a] = from[i][a];
+        }
+    for (uint32_t i = 0; i < count; ++i)
+        for (int a = 0; a < 3; ++a) {
+            min[i][a] = from[i][a] < to[i][a] ? from[i][a] : to[i][a];
+            max[i][a] = from[i][a] < to[i][a] ? to[i][a] : from[i][a];
+        }
+    const uint64_t at_from = store(from, sizeof from), at_to = store(to, sizeof to);
+    const uint64_t at_min = store(min, sizeof min), at_max = store(max, sizeof max);
+    const vox_positions begins = vox_double_positions(from[0], count),
+                        ends = vox_double_positions(to[0], count);
+    const vox_positions lows = vox_double_positions(min[0], count),
+                        highs = vox_double_positions(max[0], count);
+    expect(vox_locator_find_point_hits(locator, &begins, NULL, points, capacity, &hit_count), "point hits");
+    begin_question("find_point_hits", count, "points", at_from, NULL, 0);
+    items_field("hits", points, fitting(hit_count, capacity), sizeof *points);
     end_call();
-    vox_closest_desc desc = vox_default_closest_desc();
-    desc.format = VOX_FORMAT_DOUBLE;
-    desc.points = points;
-    desc.point_count = count;
-    expect(vox_grid_query_closest_points(grid, &desc, closest), "query closest points");
-    begin_call("query_closest_points");
-    field("points", "%" PRIu64, offset);
-    field("count", "%d", (int)count);
+    expect(vox_locator_find_closest(locator, &begins, NULL, closest), "closest");
+    begin_question("find_closest", count, "points", at_from, NULL, 0);
     items_field("hits", closest, count, sizeof *closest);
     end_call();
-    for (uint32_t i = 0; i < 4; ++i) {
-        const double *from = points[i], *to = points[count - 1 - i];
-        double min[3], max[3];
-        vox_ray_hit ray;
-        for (int a = 0; a < 3; ++a) {
-            min[a] = from[a] < to[a] ? from[a] : to[a];
-            max[a] = from[a] < to[a] ? to[a] : from[a];
-        }
-        expect(vox_grid_query_ray(grid, from, to, UINT64_MAX, &ray), "query ray");
-        begin_call("query_ray");
-        numbers_field("from", from, 3);
-        numbers_field("to", to, 3);
-        items_field("hits", &ray, 1, sizeof ray);
-        end_call();
-        expect(
-            vox_grid_query_ray_hits(grid, from, to, UINT64_MAX, VOX_NULL_BODY, facets, capacity, &hit_count),
-            "query ray hits");
-        begin_call("query_ray_hits");
-        numbers_field("from", from, 3);
-        numbers_field("to", to, 3);
-        items_field("hits", facets, hit_count, sizeof *facets);
-        end_call();
-        expect(vox_grid_query_box(grid, min, max, UINT64_MAX, tets, capacity, &hit_count), "query box");
-        begin_call("query_box");
-        numbers_field("min", min, 3);
-        numbers_field("max", max, 3);
-        items_field("hits", tets, hit_count, sizeof *tets);
+    expect(vox_locator_find_box_hits(locator, &lows, &highs, NULL, boxes, capacity, &hit_count), "box hits");
+    begin_question("find_box_hits", count, "min", at_min, "max", at_max);
+    items_field("hits", boxes, fitting(hit_count, capacity), sizeof *boxes);
+    end_call();
+    for (uint32_t flags = 0; flags <= VOX_QUERY_FIRST_HIT; ++flags) {
+        vox_query_desc desc = vox_default_query_desc();
+        desc.flags = flags;
+        expect(vox_locator_find_ray_hits(locator, &begins, &ends, &desc, rays, capacity, &hit_count),
+               "ray hits");
+        begin_question("find_ray_hits", count, "from", at_from, "to", at_to);
+        field("flags", "%" PRIu32, flags);
+        items_field("hits", rays, fitting(hit_count, capacity), sizeof *rays);
         end_call();
     }
+    expect(vox_locator_test_rays(locator, &begins, &ends, NULL, blocked), "rays");
+    begin_question("test_rays", count, "from", at_from, "to", at_to);
+    uint32_t sum = 0;
+    for (int i = 0; i < count; ++i) sum += blocked[i];
+    field("blocked", "%" PRIu32, sum);
+    end_call();
 }
 
 /* The bytes are the same on every machine. */

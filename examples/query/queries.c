@@ -1,33 +1,38 @@
-/* Queries: what is here, what is near, and what is in the way. */
+/* Queries: what is here, what is near, and what is in the way. Each call answers many of them. */
 #include "example.h"
+
+#include <vox/vox_query.h>
 
 int main(void) {
     vox_grid* grid = NULL;
+    vox_locator* locator = NULL;
     must(vox_grid_create(NULL, &grid));
     const cube first = cube_at(0, 0, 0), second = cube_at(3, 0, 0);
     insert_cube(grid, &first);
     insert_cube(grid, &second);
-    must(vox_grid_prepare_queries(grid)); /* looks at the positions as they are now */
+    must(vox_grid_update_locator(grid, &locator)); /* the cubes as they are now; no step is needed */
 
-    const double inside[3] = {0.1, 0.1, 0.1}, between[3] = {2, 0.5, 0.5}, far_right[3] = {9, 0.5, 0.5};
-    const double low[3] = {2.5, -1, -1}, high[3] = {9, 2, 2};
-    vox_point_hit hit;
+    const double xyz[2][3] = {{0.1, 0.1, 0.1}, {2, 0.5, 0.5}}, ends[2][3] = {{0.9, 0.9, 0.9}, {9, 2, 2}};
+    const vox_positions from = vox_double_positions(xyz[0], 2), to = vox_double_positions(ends[0], 2);
     uint64_t count = 0;
-    must(vox_grid_query_point(grid, inside, UINT64_MAX, &hit, 1, &count));
-    printf("(0.1, 0.1, 0.1) is in %" PRIu64 " tet: tet %u of mesh %u\n", count, (unsigned)hit.tet,
-           (unsigned)hit.mesh);
+    vox_point_hit hit;
+    must(vox_locator_find_point_hits(locator, &from, NULL, &hit, 1, &count));
+    printf("%" PRIu64 " hit: point %u is in tet %u of mesh %u\n", count, hit.point, hit.tet, hit.body);
 
-    must(vox_grid_query_box(grid, low, high, UINT64_MAX, NULL, 0, &count));
-    printf("%" PRIu64 " tets near the box right of x = 2.5\n", count);
+    vox_closest_hit closest[2];
+    must(vox_locator_find_closest(locator, &from, NULL, closest));
+    for (int i = 0; i < 2; ++i)
+        printf("closest to point %d: mesh %u, distance %g\n", i, closest[i].body, closest[i].distance);
 
-    vox_surface_hit closest;
-    must(vox_grid_query_closest(grid, between, 10, UINT64_MAX, &closest));
-    printf("closest to (2, 0.5, 0.5): mesh %u at (%g, %g, %g), distance %g\n", (unsigned)closest.mesh,
-           closest.position[0], closest.position[1], closest.position[2], closest.distance);
+    must(vox_locator_find_box_hits(locator, &from, &to, NULL, NULL, 0, &count));
+    printf("%" PRIu64 " tets near the boxes\n", count);
 
+    vox_query_desc desc = vox_default_query_desc();
+    desc.flags = VOX_QUERY_FIRST_HIT;
     vox_ray_hit ray;
-    must(vox_grid_query_ray(grid, between, far_right, UINT64_MAX, &ray));
-    printf("to the right: meets mesh %u after %g\n", (unsigned)ray.mesh, 7 * ray.t);
+    must(vox_locator_find_ray_hits(locator, &from, &to, &desc, &ray, 1, &count));
+    printf("ray %u meets mesh %u at x = %g\n", ray.ray, ray.body, xyz[ray.ray][0] + 7 * ray.t);
+    vox_locator_release(locator);
     vox_grid_destroy(grid);
     return 0;
 }

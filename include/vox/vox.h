@@ -168,9 +168,8 @@ typedef enum vox_grid_flags {
                                   than 357913941 tets then gives VOX_ERROR_LIMIT, unless its filter does without */
     VOX_GRID_CONTACT_EVENTS = 2, /* also report events of single vertices (vox_grid_contact_events) */
     VOX_GRID_SKIP_BAD_BODIES = 4, /* a mesh with a coordinate that VOX_FORMAT_DOUBLE does not allow (NaN, infinite, too
-                                     large) takes no part in a step, in vox_grid_prepare_queries, in
-                                     vox_grid_take_query_view and in vox_grid_suggest_cell_size, as if it were
-                                     disabled; without this flag they fail.
+                                     large) takes no part in a step, in vox_grid_suggest_cell_size and in locators
+                                     (vox_query.h), as if it were disabled; without this flag they fail.
                                      Counted (skipped_meshes), listed (vox_grid_get_failure), and logged once until the
                                      mesh is well again */
     VOX_GRID_EDGE_CONTACTS = 8    /* also find edges of surfaces through faces of others (vox_grid_edge_contacts);
@@ -223,8 +222,8 @@ static inline vox_grid_desc vox_default_grid_desc(void) {
  * OUT_OF_MEMORY, BUDGET. */
 VOX_API vox_result vox_grid_create(VOX_OPTIONAL const vox_grid_desc* desc, vox_grid** out_grid);
 
-/* Destroys a grid and releases all its memory. Its views and mesh ids become invalid, except for query views, which
- * live on with their memory until they are released. Null does nothing. */
+/* Destroys a grid and releases all its memory. Its views and mesh ids become invalid, except for
+ * locators (vox_query.h), which live on with their memory until they are released. Null does nothing. */
 VOX_API void vox_grid_destroy(VOX_OPTIONAL vox_grid* grid);
 
 /* Removes all meshes and contacts and keeps the settings. Old mesh ids become stale. */
@@ -381,7 +380,7 @@ static inline vox_mesh_desc vox_mesh_desc_doubles(const double* xyz, uint64_t ve
 /* Adds a mesh, which takes part from the next step on.
  * Packed positions in VOX_FORMAT_FLOAT that can only be doubles are refused: from 16 vertices on, every other number
  * would be of ordinary size, those between far too large and far too small by turns (as most bit patterns are). They
- * are looked at once for each format, here if they are copied, else when a step, suggestion or query reads them first.
+ * are looked at once for each format: here if they are copied, else when a step, suggestion or locator reads them.
  * Errors: INVALID_ARGUMENT, INVALID_MESH ("tet 17 names vertex 900 of 812"), LIMIT, BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vox_body* out_body);
 
@@ -499,9 +498,9 @@ VOX_API vox_result vox_body_set_transform(vox_grid* grid, vox_body body, VOX_OPT
 
 /* Edits of a mesh between steps. A tetrahedron or vertex keeps its index whatever happens to others. The index of a
  * removed one is never reused, and still counts towards the limits, until vox_mesh_set_topology replaces everything.
- * What an edit removes no longer exists for contacts, penetrations, queries, suggestions and the rings of a filter. The
- * contacts of the last step stay as they are until the next step, which derives its events as usual: a pair that still
- * touches persists.
+ * What an edit removes no longer exists for contacts, penetrations, locators, suggestions and the rings of a filter.
+ * The contacts of the last step stay as they are until the next step, which derives its events as usual: a pair that
+ * still touches persists.
  * Time: an edit takes time proportional to what it changes and to the tetrahedra around that. The following take time
  * proportional to the mesh: the first edit of a mesh; the first step after an edit of more than an eighth of its
  * tetrahedra, or after edits that together changed more than a quarter of them since the last such step; and a step
@@ -820,13 +819,13 @@ VOX_EXPERIMENTAL vox_result vox_grid_edge_depths(const vox_grid* grid, vox_depth
 
 /* Vertex `vertex` of body_a is in no tetrahedron of body_b, but no further than the margin from its surface. The point
  * of the surface of body_b that is closest to it is on a facet of `tet`; of several at the same distance that of the
- * lowest (tet, facet), as in vox_grid_query_closest. Computed in double. */
+ * lowest (tet, facet), as in vox_locator_find_closest (vox_query.h). Computed in double. */
 typedef struct vox_margin_contact {
     vox_body body_a;
     uint32_t vertex;
     vox_body body_b;        /* never body_a */
     uint32_t tet;           /* of body_b */
-    uint32_t facet;         /* of the tetrahedron, as in vox_surface_hit */
+    uint32_t facet;         /* of the tetrahedron, as in vox_closest_hit */
     uint32_t face[3];       /* its vertices, in the order given there */
     double face_weights[3]; /* of the closest point, in [0, 1], with the sum 1 up to rounding */
     double distance;        /* from the vertex to the closest point */
@@ -858,7 +857,7 @@ typedef struct vox_passage {
     uint32_t vertex;
     vox_body body_b;  /* never body_a */
     uint32_t tet;     /* of body_b */
-    uint32_t facet;   /* of the tetrahedron, as in vox_surface_hit: the first that the vertex met; the lowest
+    uint32_t facet;   /* of the tetrahedron, as in vox_closest_hit: the first that the vertex met; the lowest
                          (tet, facet) of several at the same time */
     uint32_t face[3]; /* its vertices, in the order given there */
     double time;      /* in [0, 1], 0 at the previous positions: when it met it; never too late, and too early by no
@@ -1007,7 +1006,7 @@ typedef enum vox_reading_flags {
 
 /* Geometry of one contact. All contacts of the same (body_a, vertex, body_b) have the same reading except for the first
  * field. `triangle` is the triangle closest to the vertex on the surface of body_b, which consists of the facets of
- * exactly one of its tetrahedra, duplicates counted once. It is computed in double, as by vox_grid_query_closest; of
+ * exactly one of its tetrahedra, duplicates counted once. It is computed in double, as by vox_locator_find_closest; of
  * several at the same distance it is the one with the lowest corners, compared in ascending order. For self-contact it
  * belongs to the fold that the vertex has entered and never has the vertex as a corner (see vox_penetration_state).
  * No reading depends on engine, cell size, workers or machine. */
@@ -1119,8 +1118,8 @@ VOX_API vox_result vox_grid_load(const void* bytes, uint64_t size, VOX_OPTIONAL 
 /* An allocator. `allocate` returns memory of at least `size` bytes at `alignment` (a power of
  * two), or null; `release` gets the same size and alignment back. If both are null, the C++ runtime's heap is used.
  * They are called only from functions of the object they were given to, one call at a time. During a step, the calling
- * thread may be one that runs its tasks. For query views that are released after vox_grid_destroy, `release` is called
- * from vox_query_view_release, so it must be usable until then. */
+ * thread may be one that runs its tasks. For locators (vox_query.h) that are released after vox_grid_destroy, `release`
+ * is called from vox_locator_release, so it must be usable until then. */
 typedef struct vox_allocator {
     VOX_OPTIONAL void* (*allocate)(size_t size, size_t alignment, void* user);
     VOX_OPTIONAL void (*release)(void* memory, size_t size, size_t alignment, void* user);
@@ -1150,9 +1149,9 @@ typedef void vox_task(uint64_t begin, uint64_t end, uint32_t worker, void* conte
  * least min_range items where possible, and arranges that `task` is called once for each range, now or later, on any
  * thread. It returns a handle for `finish`, or null if all these calls have already returned. `finish` waits until
  * they have. Both are called on the thread that called the library, at most VOX_MAX_TASKS times in a step, at most
- * once by vox_grid_prepare_readings, and at most four times by vox_grid_prepare_queries and vox_grid_take_query_view.
+ * once by vox_grid_prepare_readings, and at most four times by vox_grid_update_locator.
  * If not every item was run exactly once, or a worker index was out of range or had by two calls at the same time, the
- * function fails with INVALID_ARGUMENT and leaves no contacts, no readings, nothing prepared for queries, or no view.
+ * function fails with INVALID_ARGUMENT and leaves no contacts, no readings, or no new locator.
  * If both are null, the built-in scheduler is used. */
 typedef struct vox_task_system {
     VOX_OPTIONAL void* (*enqueue)(vox_task* task, uint64_t item_count, uint64_t min_range, void* context, void* user);
@@ -1161,248 +1160,6 @@ typedef struct vox_task_system {
 } vox_task_system;
 
 #define VOX_MAX_TASKS 64u /* tasks enqueued in one step */
-
-/* ---- queries ---------------------------------------------------------------------------------- */
-
-/* Queries see the meshes as they were at the last vox_grid_prepare_queries, e.g. after the step. Later moves, removals
- * and other changes do not show until it is called again, so an answer may name a mesh that was removed since;
- * vox_grid_clear discards what was prepared. Disabled meshes and meshes without tetrahedra take no part.
- * Preparing changes the grid. The queries only read it, so any number of threads may run them at once, but not while
- * the grid is changed, and vox_grid_step changes it. Query views (below) may be asked at any time, also during
- * a step. Their temporary memory is from the C++ runtime's heap.
- * Answers do not depend on engine, cell size, workers or machine.
- * `mask`: a mesh takes part if its filter's category, as it was at that time, has a bit in common; UINT64_MAX: all.
- * `excluded`: a mesh that takes no part, e.g. the one that asks; VOX_NULL_BODY, and any id that was not there when the
- * queries were prepared, excludes none.
- * `capacity`: the first `capacity` hits, in the order stated, are written; *out_count is how many there are.
- * Errors of all: INVALID_STATE (not prepared), INVALID_ARGUMENT, NON_FINITE (a coordinate of the query is not finite;
- * boxes and radii may be infinite), LIMIT (a coordinate of 2^128 or more), OUT_OF_MEMORY. */
-
-/* Copies the present positions for the queries. Takes time and memory proportional to vertices and tetrahedra: about 36
- * bytes a vertex and 40 a tetrahedron, kept until the grid is destroyed; 12 of the 40 follow from the tetrahedra alone,
- * are made by the first call after a mesh was inserted or edited, and are shared with query views. From now on a grid
- * of the reference engine also keeps tiles, as those of the fast engine do. Errors: INVALID_STATE (a mesh has no
- * positions), NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT, see vox_mesh_insert), BUDGET,
- * OUT_OF_MEMORY; after these, what was prepared before stays. INVALID_ARGUMENT for a defective task system (see
- * vox_task_system); after that nothing is prepared. */
-VOX_API vox_result vox_grid_prepare_queries(vox_grid* grid);
-
-/* Point `point` of the query is in the closed tetrahedron `tet` of `mesh`. This is exact and follows the rule of
- * vox_contact: every tetrahedron of a mesh that has the point in its interior, or else the lowest that has it on its
- * boundary. `barycentric` is as in vox_contact. */
-typedef struct vox_point_hit {
-    uint32_t point;
-    vox_body mesh;
-    uint32_t tet;
-    float barycentric[4];
-} vox_point_hit;
-
-/* The tetrahedra that contain a point, sorted by (mesh, tet); vox_point_hit.point is 0. `hits` may be null if capacity
- * is 0. */
-VOX_API vox_result vox_grid_query_point(const vox_grid* grid, const double point[3], uint64_t mask,
-                                        vox_point_hit* hits, uint64_t capacity, uint64_t* out_count);
-
-/* The same for up to 2^32 - 1 points at once, `byte_stride` apart (0: tightly packed), sorted by (point, mesh, tet).
- * From 64 points on, and one for every 200 tetrahedra of the grid, they are found as vertices are in a step, several
- * times as fast as by single queries, whatever their order. */
-VOX_API vox_result vox_grid_query_points(const vox_grid* grid, const void* points, vox_format format,
-                                         uint64_t byte_stride, uint64_t point_count, uint64_t mask, vox_point_hit* hits,
-                                         uint64_t capacity, uint64_t* out_count);
-
-/* Tetrahedron `tet` of `mesh`. */
-typedef struct vox_tet_hit {
-    vox_body mesh;
-    uint32_t tet;
-} vox_tet_hit;
-
-/* The tetrahedra whose bounding box has a point in common with the closed box from min to max, decided exactly and
- * sorted by (mesh, tet). They include all tetrahedra that intersect the box themselves; those of zero volume count,
- * too. Infinite corners are allowed. Errors: INVALID_ARGUMENT unless min <= max on each axis. */
-VOX_API vox_result vox_grid_query_box(const vox_grid* grid, const double min[3], const double max[3], uint64_t mask,
-                                      vox_tet_hit* hits, uint64_t capacity, uint64_t* out_count);
-
-/* A point on facet `facet` of a tetrahedron, which is opposite corner `facet`. The facet's corners are
- *     facet 0: corners 1, 2, 3    1: 0, 3, 2    2: 0, 1, 3    3: 0, 2, 1
- * of the tetrahedron, counter-clockwise as seen from outside if its volume is positive. The surface of a mesh consists
- * of the facets of exactly one tetrahedron. */
-typedef struct vox_surface_hit {
-    vox_body mesh; /* VOX_NULL_BODY if there is no such point; then all fields are zero */
-    uint32_t tet;
-    uint32_t facet;
-    uint32_t reserved;
-    double barycentric[3]; /* weights of the facet's corners in that order, in [0, 1] up to rounding, with the sum 1 */
-    double position[3];
-    double distance;
-} vox_surface_hit;
-
-/* The closest point to `point` on the surfaces of all meshes, if it is no further away than radius (which may be
- * infinite). Computed in double. Of several at the same distance it is the one with the lowest (mesh, tet, facet). */
-VOX_API vox_result vox_grid_query_closest(const vox_grid* grid, const double point[3], double radius, uint64_t mask,
-                                          vox_surface_hit* out_hit);
-
-/* Points for vox_grid_query_closest_points, and the surfaces to search. */
-typedef struct vox_closest_desc {
-    uint32_t struct_size;
-    vox_format format;
-    const void* points; /* read during the call; may be null if there are none */
-    uint64_t byte_stride; /* from one point to the next; 0: tightly packed */
-    uint64_t point_count; /* at most 2^32 - 1 */
-    uint64_t mask;        /* 0: all meshes */
-    double max_distance;  /* in the caller's unit; 0: any distance */
-    vox_body excluded;    /* VOX_NULL_BODY: none */
-    uint32_t reserved;    /* 0 */
-    uint64_t component_byte_stride; /* as in vox_positions */
-} vox_closest_desc;
-
-static inline vox_closest_desc vox_default_closest_desc(void) {
-    vox_closest_desc desc = VOX_ZERO;
-    desc.struct_size = (uint32_t)sizeof desc;
-    return desc;
-}
-
-/* The closest point of a surface, as in vox_surface_hit, with a normal and a sign. */
-typedef struct vox_closest_hit {
-    vox_body mesh; /* VOX_NULL_BODY if no surface is within max_distance; then all other fields but `inside` are zero */
-    uint32_t tet;
-    uint32_t facet;
-    uint32_t inside; /* how many of the meshes that take part have the point in a closed tetrahedron; exact */
-    double barycentric[3];
-    double position[3];
-    /* A unit vector out of the facet's tetrahedron or, if that is flat, to the side away from the point. If the facet
-     * has no area, it points from the point to `position`, or is 0, 0, 1 if both coincide. */
-    double normal[3];
-    double distance; /* from the point to `position`, in double; negative if `mesh` has the point in a closed
-                        tetrahedron, which is decided exactly */
-} vox_closest_hit;
-
-/* The same for many points at once, each no further away than desc->max_distance: out_hits[i] is that of point i.
- * Each search begins at the facet found for the point before, so points close together should follow each other.
- * Errors: also INVALID_ARGUMENT for a negative or NaN max_distance, LIMIT for too many points. */
-VOX_API vox_result vox_grid_query_closest_points(const vox_grid* grid, const vox_closest_desc* desc,
-                                                 vox_closest_hit* out_hits);
-
-typedef enum vox_side {
-    VOX_SIDE_NONE = 0,   /* the tetrahedron has no volume */
-    VOX_SIDE_ENTERS = 1, /* the segment goes into the tetrahedron */
-    VOX_SIDE_LEAVES = 2
-} vox_side;
-
-/* What the closed segment from `from` to `to` hits first; t is 0 at `from` and 1 at `to`. Whether it hits a tetrahedron
- * or a facet is decided exactly; t, and thus which of two hits is first, only up to rounding. Of several at the same t
- * it is the lowest (mesh, tet, facet). */
-typedef struct vox_ray_hit {
-    vox_body mesh; /* mesh of the first tetrahedron; VOX_NULL_BODY if none is hit, then all fields are zero */
-    uint32_t tet;
-    double t; /* 0 if `from` is in the tetrahedron */
-    /* The first facet of a surface (see vox_surface_hit). VOX_NULL_BODY if there is none, e.g. for a segment that ends
-     * before it leaves a mesh. A segment in the plane of a facet does not hit it. */
-    vox_body surface_mesh;
-    uint32_t surface_tet;
-    uint32_t surface_facet;
-    vox_side surface_side;
-    double surface_t;
-    double surface_barycentric[3];
-} vox_ray_hit;
-
-/* Finds the first tetrahedron and the first facet in one call. from = to queries a single point. */
-VOX_API vox_result vox_grid_query_ray(const vox_grid* grid, const double from[3], const double to[3], uint64_t mask,
-                                      vox_ray_hit* out_hit);
-
-/* A facet of a surface that a segment hits; see vox_surface_hit and vox_ray_hit. */
-typedef struct vox_facet_hit {
-    vox_body mesh;
-    uint32_t tet;
-    uint32_t facet;
-    vox_side side;
-    double t;
-    double barycentric[3]; /* weights of the facet's corners, as in vox_surface_hit */
-} vox_facet_hit;
-
-/* All facets of surfaces that the closed segment hits, sorted by (t, mesh, tet, facet). Which ones is decided exactly
- * by the rule of vox_ray_hit; t, and thus the order, only up to rounding. A segment through an edge or a corner hits
- * every facet there. */
-VOX_API vox_result vox_grid_query_ray_hits(const vox_grid* grid, const double from[3], const double to[3],
-                                           uint64_t mask, vox_body excluded, vox_facet_hit* hits, uint64_t capacity,
-                                           uint64_t* out_count);
-
-/* 1 if the closed segment hits any tetrahedron that has a volume, else 0; exact. Stops at the first one it finds, so it
- * is faster than vox_grid_query_ray. */
-VOX_API vox_result vox_grid_query_ray_any(const vox_grid* grid, const double from[3], const double to[3], uint64_t mask,
-                                          vox_body excluded, uint32_t* out_any);
-
-/* ---- query views ------------------------------------------------------------------------------ */
-
-/* The meshes of a grid at one moment, to be asked at any later time: e.g. by a thread of a thousand haptic frames a
- * second while the grid steps sixty times. A view never changes. It holds a copy of all that it needs, in particular
- * of the positions, so neither a step, an edit, the removal of a mesh, vox_grid_clear, vox_grid_destroy nor what the
- * caller writes to borrowed positions changes its answers.
- *   Threads   Any number of threads may ask, retain and release a view at any time, also while another thread changes
- *             or destroys its grid. Taking a view changes the grid.
- *   Lifetime  A view lives until it was released once for taking it and once for each vox_query_view_retain.
- *   Memory    It is taken from the grid's allocator by vox_grid_take_query_view, within the byte budget: about 36 bytes
- *             a vertex and 28 a tetrahedron, beside what all views of a grid share. It is not returned when a view is
- *             released, as the next view uses it again. So a program that takes a view in every frame and releases
- *             the old one allocates nothing in the steady state. vox_grid_clear returns the memory of released views,
- *             vox_grid_destroy as well. If a view outlives its grid, its last vox_query_view_release returns its
- *             memory, on the thread that calls.
- * The queries have the arguments, answers and errors of those of a grid, as if that had been prepared when the view was
- * taken. Errors of all: INVALID_ARGUMENT, NON_FINITE, LIMIT, OUT_OF_MEMORY. */
-
-/* What vox_grid_take_query_view takes. */
-typedef struct vox_query_view vox_query_view;
-
-/* Takes a view of the grid as it is now. It costs as much as vox_grid_prepare_queries, and does not change what that
- * prepared. The caller owns *out_view and releases it with vox_query_view_release. Errors: INVALID_STATE (a mesh has no
- * positions), NON_FINITE, LIMIT, BUDGET, OUT_OF_MEMORY, INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT; see also
- * vox_task_system). */
-VOX_API vox_result vox_grid_take_query_view(vox_grid* grid, vox_query_view** out_view);
-
-/* One more owner of a view, who releases it as well. The thread that calls must be sure that the view is not released
- * by all others meanwhile. */
-VOX_API vox_result vox_query_view_retain(vox_query_view* view);
-
-/* Ends the use of a view by one owner. The view is invalid once all have released it. Null does nothing. */
-VOX_API void vox_query_view_release(VOX_OPTIONAL vox_query_view* view);
-
-/* vox_grid_info.epoch when the view was taken: which step it shows. */
-VOX_API vox_result vox_query_view_epoch(const vox_query_view* view, uint64_t* out_epoch);
-
-/* The user_data that a mesh of the view was inserted with. Errors: INVALID_HANDLE if the mesh is not in the view. */
-VOX_API vox_result vox_query_view_user_data(const vox_query_view* view, vox_body body, uint64_t* out_user_data);
-
-/* As vox_grid_query_point. */
-VOX_API vox_result vox_query_view_point(const vox_query_view* view, const double point[3], uint64_t mask,
-                                        vox_point_hit* hits, uint64_t capacity, uint64_t* out_count);
-
-/* As vox_grid_query_points. */
-VOX_API vox_result vox_query_view_points(const vox_query_view* view, const void* points, vox_format format,
-                                         uint64_t byte_stride, uint64_t point_count, uint64_t mask, vox_point_hit* hits,
-                                         uint64_t capacity, uint64_t* out_count);
-
-/* As vox_grid_query_box. */
-VOX_API vox_result vox_query_view_box(const vox_query_view* view, const double min[3], const double max[3],
-                                      uint64_t mask, vox_tet_hit* hits, uint64_t capacity, uint64_t* out_count);
-
-/* As vox_grid_query_closest. */
-VOX_API vox_result vox_query_view_closest(const vox_query_view* view, const double point[3], double radius,
-                                          uint64_t mask, vox_surface_hit* out_hit);
-
-/* As vox_grid_query_closest_points. */
-VOX_API vox_result vox_query_view_closest_points(const vox_query_view* view, const vox_closest_desc* desc,
-                                                 vox_closest_hit* out_hits);
-
-/* As vox_grid_query_ray. */
-VOX_API vox_result vox_query_view_ray(const vox_query_view* view, const double from[3], const double to[3],
-                                      uint64_t mask, vox_ray_hit* out_hit);
-
-/* As vox_grid_query_ray_hits. */
-VOX_API vox_result vox_query_view_ray_hits(const vox_query_view* view, const double from[3], const double to[3],
-                                           uint64_t mask, vox_body excluded, vox_facet_hit* hits, uint64_t capacity,
-                                           uint64_t* out_count);
-
-/* As vox_grid_query_ray_any. */
-VOX_API vox_result vox_query_view_ray_any(const vox_query_view* view, const double from[3], const double to[3],
-                                          uint64_t mask, vox_body excluded, uint32_t* out_any);
 
 /* ---- measurements ----------------------------------------------------------------------------- */
 

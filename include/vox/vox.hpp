@@ -5,8 +5,7 @@
 // are those of vox.h. What is added:
 //   Errors     A call that fails throws vox::error. With -fno-exceptions, or VOX_HPP_NO_EXCEPTIONS defined, it returns
 //              a vox::expected instead: returns<T> below is T or expected<T>. A std::vector throws std::bad_alloc.
-//   Lifetime   Grids and query views are released by their destructors. Temporaries are not borrowed: such calls do
-//              not compile.
+//   Lifetime   Grids are released by their destructors. Temporaries are not borrowed: such calls do not compile.
 //   Views      A view has ended once its epoch is no longer that of its grid. Without NDEBUG, or with VOX_HPP_CHECKED
 //              defined as 1, reading such a view throws std::logic_error (without exceptions it prints and aborts, and
 //              view::check() gives an error); with VOX_HPP_CHECKED 0 a view is what it is in C.
@@ -802,18 +801,6 @@ public:
     detail::misfit misfit;
 };
 
-// A point in space: three numbers, or anything with [0], [1] and [2].
-class point {
-public:
-    constexpr point(double x, double y, double z) noexcept : x_{x, y, z} {}
-    template <class V, class = decltype(static_cast<double>(std::declval<const V&>()[2]))>
-    point(const V& v) : x_{static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])} {}
-    const double* data() const noexcept { return x_; }
-
-private:
-    double x_[3];
-};
-
 namespace detail {
 
 inline vox_result describe(const points& positions, const tets& tets, vox_mesh_desc& desc) {
@@ -914,157 +901,6 @@ inline vox_allocator allocator_of(std::pmr::memory_resource& memory) noexcept {
 }
 #endif
 
-// ---- queries ------------------------------------------------------------------------------------
-
-inline constexpr std::uint64_t all_meshes = UINT64_MAX; // a mask
-
-namespace detail {
-
-// The functions of C by their last word; a constant could not hold the address of one in a DLL.
-struct of_grid {
-    static auto point() noexcept { return vox_grid_query_point; }
-    static auto points() noexcept { return vox_grid_query_points; }
-    static auto box() noexcept { return vox_grid_query_box; }
-    static auto closest() noexcept { return vox_grid_query_closest; }
-    static auto closest_points() noexcept { return vox_grid_query_closest_points; }
-    static auto ray() noexcept { return vox_grid_query_ray; }
-    static auto ray_hits() noexcept { return vox_grid_query_ray_hits; }
-    static auto ray_any() noexcept { return vox_grid_query_ray_any; }
-};
-struct of_query_view {
-    static auto point() noexcept { return vox_query_view_point; }
-    static auto points() noexcept { return vox_query_view_points; }
-    static auto box() noexcept { return vox_query_view_box; }
-    static auto closest() noexcept { return vox_query_view_closest; }
-    static auto closest_points() noexcept { return vox_query_view_closest_points; }
-    static auto ray() noexcept { return vox_query_view_ray; }
-    static auto ray_hits() noexcept { return vox_query_view_ray_hits; }
-    static auto ray_any() noexcept { return vox_query_view_ray_any; }
-};
-
-// vox_grid_query_X and vox_query_view_X. Those with several answers return them all, or write the first ones to `out`
-// and return how many there are.
-template <class Self, class Api>
-class queries {
-public:
-    returns<std::vector<vox_point_hit>> query_point(const point& p, std::uint64_t mask = all_meshes) const {
-        return collect<vox_point_hit>(8, Api::point(), self(), p.data(), mask);
-    }
-    returns<std::uint64_t> query_point(const point& p, span<vox_point_hit> out, std::uint64_t mask = all_meshes) const {
-        return filled<std::uint64_t>(Api::point(), self(), p.data(), mask, out.data(), out.size());
-    }
-    returns<std::vector<vox_point_hit>> query_points(const points& p, std::uint64_t mask = all_meshes) const {
-        return collect<vox_point_hit>(static_cast<std::size_t>(p.count),
-                                      [&](auto... out) { return ask(p, mask, out...); });
-    }
-    returns<std::uint64_t> query_points(const points& p, span<vox_point_hit> out,
-                                        std::uint64_t mask = all_meshes) const {
-        return filled<std::uint64_t>([&](std::uint64_t* count) { return ask(p, mask, out.data(), out.size(), count); });
-    }
-    returns<std::vector<vox_tet_hit>> query_box(const point& min, const point& max,
-                                                std::uint64_t mask = all_meshes) const {
-        return collect<vox_tet_hit>(16, Api::box(), self(), min.data(), max.data(), mask);
-    }
-    returns<std::uint64_t> query_box(const point& min, const point& max, span<vox_tet_hit> out,
-                                     std::uint64_t mask = all_meshes) const {
-        return filled<std::uint64_t>(Api::box(), self(), min.data(), max.data(), mask, out.data(), out.size());
-    }
-    returns<vox_surface_hit> query_closest(const point& p, double radius = std::numeric_limits<double>::infinity(),
-                                           std::uint64_t mask = all_meshes) const {
-        return filled<vox_surface_hit>(Api::closest(), self(), p.data(), radius, mask);
-    }
-    // One hit a point.
-    returns<std::vector<vox_closest_hit>>
-    query_closest_points(const points& p, double max_distance = std::numeric_limits<double>::infinity(),
-                         std::uint64_t mask = all_meshes, vox_body excluded = VOX_NULL_BODY) const {
-        std::vector<vox_closest_hit> hits(static_cast<std::size_t>(p.count));
-        const vox_result result = ask(p, hits.data(), max_distance, mask, excluded);
-        return give(result, std::move(hits));
-    }
-    returns<void> query_closest_points(const points& p, span<vox_closest_hit> out,
-                                       double max_distance = std::numeric_limits<double>::infinity(),
-                                       std::uint64_t mask = all_meshes, vox_body excluded = VOX_NULL_BODY) const {
-        if (out.size() < p.count)
-            return give(fail(VOX_ERROR_INVALID_ARGUMENT, "query_closest_points: room for %llu hits, for %llu points",
-                             out.size(), p.count));
-        return give(ask(p, out.data(), max_distance, mask, excluded));
-    }
-    returns<vox_ray_hit> query_ray(const point& from, const point& to, std::uint64_t mask = all_meshes) const {
-        return filled<vox_ray_hit>(Api::ray(), self(), from.data(), to.data(), mask);
-    }
-    returns<std::vector<vox_facet_hit>> query_ray_hits(const point& from, const point& to,
-                                                       std::uint64_t mask = all_meshes,
-                                                       vox_body excluded = VOX_NULL_BODY) const {
-        return collect<vox_facet_hit>(16, Api::ray_hits(), self(), from.data(), to.data(), mask, excluded);
-    }
-    returns<std::uint64_t> query_ray_hits(const point& from, const point& to, span<vox_facet_hit> out,
-                                          std::uint64_t mask = all_meshes, vox_body excluded = VOX_NULL_BODY) const {
-        return filled<std::uint64_t>(Api::ray_hits(), self(), from.data(), to.data(), mask, excluded, out.data(),
-                                     out.size());
-    }
-    returns<bool> query_ray_any(const point& from, const point& to, std::uint64_t mask = all_meshes,
-                                vox_body excluded = VOX_NULL_BODY) const {
-        std::uint32_t any = 0;
-        const vox_result result = Api::ray_any()(self(), from.data(), to.data(), mask, excluded, &any);
-        return give(result, any == 1);
-    }
-
-private:
-    auto self() const noexcept { return static_cast<const Self*>(this)->get(); }
-    vox_result ask(const points& p, std::uint64_t mask, vox_point_hit* hits, std::uint64_t room,
-                   std::uint64_t* count) const {
-        vox_result result = p.misfit.result();
-        const std::uint64_t number = p.format == VOX_FORMAT_DOUBLE ? sizeof(double) : sizeof(float);
-        if (result == VOX_OK && p.component_byte_stride != 0 && p.component_byte_stride != number)
-            result = fail(VOX_ERROR_UNSUPPORTED, "query_points: numbers of a point are %llu bytes apart, not %llu",
-                          p.component_byte_stride, number);
-        if (result != VOX_OK) return result;
-        return Api::points()(self(), p.data, p.format, p.byte_stride, p.count, mask, hits, room, count);
-    }
-    vox_result ask(const points& p, vox_closest_hit* hits, double max_distance, std::uint64_t mask,
-                   vox_body excluded) const {
-        const vox_result result = p.misfit.result();
-        if (result != VOX_OK) return result;
-        vox_closest_desc desc = vox_default_closest_desc();
-        desc.format = p.format;
-        desc.points = p.data;
-        desc.byte_stride = p.byte_stride;
-        desc.component_byte_stride = p.component_byte_stride;
-        desc.point_count = p.count;
-        desc.max_distance = max_distance;
-        desc.mask = mask;
-        desc.excluded = excluded;
-        return Api::closest_points()(self(), &desc, hits);
-    }
-};
-
-} // namespace detail
-
-// vox_query_view. A copy is one more owner (vox_query_view_retain). It outlives its grid.
-class query_view : public detail::queries<query_view, detail::of_query_view> {
-public:
-    query_view() noexcept = default;
-    query_view(const query_view& other) noexcept : view_(other.view_) {
-        if (view_) (void)vox_query_view_retain(view_); // which fails for null alone
-    }
-    query_view(query_view&& other) noexcept : view_(std::exchange(other.view_, nullptr)) {}
-    query_view& operator=(query_view other) noexcept { return std::swap(view_, other.view_), *this; }
-    ~query_view() { vox_query_view_release(view_); }
-    // Takes over what vox_grid_take_query_view gave.
-    static query_view adopt(vox_query_view* raw) noexcept { return query_view(raw); }
-    const vox_query_view* get() const noexcept { return view_; }
-    // vox_query_view_epoch
-    returns<std::uint64_t> epoch() const { return detail::filled<std::uint64_t>(vox_query_view_epoch, view_); }
-    // vox_query_view_user_data
-    returns<std::uint64_t> user_data(vox_body mesh) const {
-        return detail::filled<std::uint64_t>(vox_query_view_user_data, view_, mesh);
-    }
-
-private:
-    explicit query_view(vox_query_view* raw) noexcept : view_(raw) {}
-    vox_query_view* view_ = nullptr;
-};
-
 // ---- grid ---------------------------------------------------------------------------------------
 
 namespace detail {
@@ -1096,7 +932,7 @@ struct grid_deleter {
 } // namespace detail
 
 // vox_grid. Move-only; its destructor is vox_grid_destroy. One that was moved from is null: calls fail.
-class grid : public detail::queries<grid, detail::of_grid> {
+class grid {
 public:
 #if VOX_HPP_THROWS
     grid() : grid(create()) {}
@@ -1421,16 +1257,6 @@ public:
         if (result == VOX_OK) result = vox_grid_save(get(), bytes.data(), bytes.size(), &size);
         return detail::give(result, std::move(bytes));
     }
-    // vox_grid_prepare_queries
-    returns<void> prepare_queries() { return done(vox_grid_prepare_queries(get())); }
-    // vox_grid_take_query_view
-    returns<query_view> take_query_view() {
-        vox_query_view* raw = nullptr;
-        const vox_result result = vox_grid_take_query_view(get(), &raw);
-        query_view taken = query_view::adopt(raw);
-        rethrow();
-        return detail::give(result, std::move(taken));
-    }
     // vox_grid_get_counters
     returns<vox_counters> counters() const { return detail::filled<vox_counters>(vox_grid_get_counters, get()); }
     // vox_grid_profile
@@ -1445,6 +1271,7 @@ public:
 
 private:
     friend class unique_mesh;
+    friend class locator; // vox_query.hpp
     friend returns<void> step(span<grid> grids, std::uint32_t worker_count, span<vox_result> results,
                               parallel_for tasks);
 

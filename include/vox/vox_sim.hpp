@@ -78,7 +78,7 @@ public:
         return detail::give(result);
     }
     // vox_sim_body_set_acceleration
-    returns<void> set_acceleration(vox_body body, const point& acceleration) {
+    returns<void> set_acceleration(vox_body body, const std::array<double, 3>& acceleration) {
         return detail::give(vox_sim_body_set_acceleration(get(), body, acceleration.data()));
     }
     // vox_sim_get_energy

@@ -261,8 +261,8 @@ void weights_of_block(std::span<const Body> bodies, std::span<const Hit> hits, s
         const Hit& hit = hits[first + i];
         const Positions& q = bodies[hit.body_b].positions;
         const Tet& tet = bodies[hit.body_b].tets[hit.tet];
-        weights[i] = barycentric(bodies[hit.body_a].positions.exact(hit.vertex), q.exact(tet.v[0]),
-                                 q.exact(tet.v[1]), q.exact(tet.v[2]), q.exact(tet.v[3]));
+        weights[i] = barycentric<float>(bodies[hit.body_a].positions.exact(hit.vertex), q.exact(tet.v[0]),
+                                        q.exact(tet.v[1]), q.exact(tet.v[2]), q.exact(tet.v[3]));
     }
 }
 

@@ -178,9 +178,14 @@ inline Containment locate(const Vec3d& p, const Vec3d& a, const Vec3d& b, const 
 }
 
 // The barycentric coordinates of a point p in the closed tetrahedron abcd of non-zero volume. Each is in [0,
-// 1] and within 2^-20 of the true one. Every engine takes them from this function, so that the bits are the
-// same.
-std::array<float, 4> barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
-                                 const Vec3d& d);
+// 1] and within 2^-20 of the true one, or 2^-41 as a double. Every engine takes them from this function, so
+// that the bits are the same.
+template <class Number>
+std::array<Number, 4> barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
+                                  const Vec3d& d);
+extern template std::array<float, 4> barycentric<float>(const Vec3d&, const Vec3d&, const Vec3d&,
+                                                        const Vec3d&, const Vec3d&);
+extern template std::array<double, 4> barycentric<double>(const Vec3d&, const Vec3d&, const Vec3d&,
+                                                          const Vec3d&, const Vec3d&);
 
 } // namespace vox

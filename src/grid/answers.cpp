@@ -89,16 +89,16 @@ void vox_grid::prepare_edge_depths() {
     edges_->prepare_depths(bodies, workers_);
 }
 
-// ---- queries ---------------------------------------------------------------------------------------
+// ---- locators ---------------------------------------------------------------------------------------
 
-void vox_grid::list_query_bodies() {
+vox_locator* vox_grid::take_locator() {
     query_bodies_.clear();
     meshes_.for_each([&](vox_body id, MeshSlot& slot) {
         Mesh& mesh = slot.mesh;
         if (!mesh.is_enabled() || mesh.tet_count() == 0) return;
         const Body body = mesh.body(id);
         if (!mesh.has_positions())
-            throw MeshError(VOX_ERROR_INVALID_STATE, body, " has no positions: bind some before the queries");
+            throw MeshError(VOX_ERROR_INVALID_STATE, body, " has no positions: bind some before");
         mesh.check_format_once(id);
         if (is_left_out(body)) return;
         if (!skips_bad_meshes_) check_finite(body); // else that has looked at it
@@ -109,19 +109,9 @@ void vox_grid::list_query_bodies() {
         }
         query_bodies_.push_back({body, slot.query_tets, mesh.user_data()});
     });
-}
-
-void vox_grid::prepare_queries() {
-    list_query_bodies();
-    queries_.prepare(query_bodies_, workers_);
+    vox_locator* const locator = locators_.take(query_bodies_, workers_, epoch_);
     query_bodies_.clear();
-}
-
-vox_query_view* vox_grid::take_query_view() {
-    list_query_bodies();
-    vox_query_view* view = query_views_.take(query_bodies_, workers_, epoch_);
-    query_bodies_.clear();
-    return view;
+    return locator;
 }
 
 // ---- results --------------------------------------------------------------------------------------

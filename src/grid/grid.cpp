@@ -94,7 +94,7 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
       reference_(&memory_), topologies_(&memory_), trees_(&memory_), hits_(&memory_),
       surface_versions_(&memory_), contacts_(&memory_), interiors_(&memory_), left_out_(&memory_),
       penetrations_(&memory_), events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0),
-      readings_(&memory_), queries_(&memory_), query_views_(share_), query_bodies_(&memory_) {
+      readings_(&memory_), locators_(share_), query_bodies_(&memory_) {
     if (desc.flags & VOX_GRID_PENETRATIONS) depth_.emplace(&memory_, trees_);
     if (desc.flags & VOX_GRID_EDGE_CONTACTS) edges_.emplace(&memory_);
     set_margin(desc.margin);
@@ -172,8 +172,7 @@ void vox_grid::clear() {
     contacts_hold_ = false;
     events_.hide_pairs();
     readings_.invalidate();
-    queries_.invalidate();
-    query_views_.clear();
+    locators_.clear();
     query_bodies_.clear();
     ++epoch_;
 }

@@ -18,8 +18,7 @@
 #include "grid/passages.hpp"
 #include "grid/readings.hpp"
 #include "grid/vertex_face_search.hpp"
-#include "query/queries.hpp"
-#include "query/view.hpp"
+#include "query/locator.hpp"
 #include "reference/engine.hpp"
 
 #include <vox/vox.h>
@@ -98,12 +97,7 @@ public:
         return readings_;
     }
 
-    void prepare_queries();
-    const vox::Queries& queries() const {
-        queries_.require_prepared();
-        return queries_;
-    }
-    vox_query_view* take_query_view();
+    vox_locator* take_locator();
 
     vox_contact_view contacts() const noexcept;
     vox_interior_view interiors() const noexcept;
@@ -159,7 +153,6 @@ private:
     // A warning about a call that has succeeded: it takes no memory, so that it cannot fail.
     VOX_PRINTF(2)
     void warn(const char* pattern, ...) const noexcept;
-    void list_query_bodies();
 
     vox::MemoryShare share_; // first, as all else is released to it
     vox::GridMemory& memory_;
@@ -209,8 +202,7 @@ private:
     vox::Penetrations penetrations_;
     vox::Events events_;
     vox::Readings readings_;
-    vox::Queries queries_;
-    vox::QueryViews query_views_;
+    vox::Locators locators_;
     vox::Array<vox::QueryBody> query_bodies_; // in one call
     vox_counters counters_{};
     vox_profile profile_{};

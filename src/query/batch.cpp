@@ -16,10 +16,10 @@ constexpr double cell_in_tile_sides = 0.6;
 
 } // namespace
 
-Queries::Batch::Batch(const Queries& queries, QueryMeshes which, bool weigh,
-                      std::pmr::memory_resource* memory, Array<PointHit>& found)
-    : queries_(queries), which_(which), weigh_(weigh), found_(found), collected_(memory), bins_(memory),
-      near_(memory), on_boundary_(memory), scratch_(1, memory) {
+Queries::Batch::Batch(const Queries& queries, QueryMeshes which, std::pmr::memory_resource* memory,
+                      Array<PointHit>& found)
+    : queries_(queries), which_(which), found_(found), collected_(memory), bins_(memory), near_(memory),
+      on_boundary_(memory), scratch_(1, memory) {
     for (const Mesh& mesh : queries.meshes_)
         if (wants(mesh, which)) add(region_, mesh.box);
 }
@@ -37,7 +37,6 @@ void Queries::Batch::find(std::span<const Vec3d> points) {
         if (wants(queries_.meshes_[m], which_) && overlap(queries_.meshes_[m].box, around))
             find_in_mesh(m, root);
     locate_all();
-    weigh_all();
 }
 
 // Rounds the points to floats and drops those that are in no mesh's box. Returns whether any are left.
@@ -87,30 +86,6 @@ void Queries::Batch::find_in_mesh(std::uint32_t m, std::uint32_t root) {
     fast::flush(scratch_[0], *this);
 }
 
-template <class Item>
-Item& Queries::Batch::Waiting<Item>::add(const Vec3d& p, const LeafTets& tets, std::size_t place) {
-    block.point[0][count] = p.x;
-    block.point[1][count] = p.y;
-    block.point[2][count] = p.z;
-    for (std::size_t c = 0; c < 4; ++c) {
-        const Vec3d& q = tets.corner(place, c);
-        block.corner[c][0][count] = q.x;
-        block.corner[c][1][count] = q.y;
-        block.corner[c][2][count] = q.z;
-    }
-    return items[count++];
-}
-
-template <class Item>
-std::size_t Queries::Batch::Waiting<Item>::end() {
-    for (std::size_t i = count; i % 8; ++i)
-        for (std::size_t a = 0; a < 3; ++a) {
-            block.point[a][i] = block.point[a][0];
-            for (std::size_t c = 0; c < 4; ++c) block.corner[c][a][i] = block.corner[c][a][0];
-        }
-    return std::exchange(count, 0);
-}
-
 // The lookup goes from tile to tile, so that the tile of a finding is that of the one before, or one of the
 // next.
 void Queries::Batch::take(std::span<const fast::Finding> findings) {
@@ -123,30 +98,43 @@ void Queries::Batch::take(std::span<const fast::Finding> findings) {
         if (!tets_ || tile_ != before) tets_.emplace(queries_.tets_of(queries_.leaves_[leaf]));
         const LeafTets& tets = *tets_;
         const std::uint32_t place = f.tet - tiles[tile_].first_tet;
-        if (!f.certain) {
-            // Member by member, as one that is copied at once would be read before it is written.
-            Unlocated& one = unlocated_.add(points_[f.vertex], tets, place);
-            one.point = f.vertex;
-            one.mesh = mesh_;
-            one.leaf = leaf;
-            one.place = place;
-            if (unlocated_.full()) locate_all();
-            continue;
-        }
-        found_.push_back({f.vertex, mesh_, tets.index(place), true, leaf, place, f.weights});
-        weigh_last(tets);
+        if (f.certain)
+            found_.push_back({f.vertex, mesh_, tets.index(place), true, leaf, place});
+        else
+            locate_later(f.vertex, leaf, place);
     }
 }
 
+void Queries::Batch::locate_later(std::uint32_t point, std::uint32_t leaf, std::uint32_t place) {
+    const std::size_t i = unlocated_count_++;
+    unlocated_[i] = {point, mesh_, leaf, place};
+    const Vec3d& p = points_[point];
+    block_.point[0][i] = p.x;
+    block_.point[1][i] = p.y;
+    block_.point[2][i] = p.z;
+    for (std::size_t c = 0; c < 4; ++c) {
+        const Vec3d& q = tets_->corner(place, c);
+        block_.corner[c][0][i] = q.x;
+        block_.corner[c][1][i] = q.y;
+        block_.corner[c][2][i] = q.z;
+    }
+    if (unlocated_count_ == barycentric_block) locate_all();
+}
+
 void Queries::Batch::locate_all() {
-    const std::size_t count = unlocated_.end();
+    const std::size_t count = std::exchange(unlocated_count_, 0);
     if (count == 0) return;
+    for (std::size_t i = count; i % 8; ++i) // fill up the last register
+        for (std::size_t a = 0; a < 3; ++a) {
+            block_.point[a][i] = block_.point[a][0];
+            for (std::size_t c = 0; c < 4; ++c) block_.corner[c][a][i] = block_.corner[c][a][0];
+        }
     std::uint64_t exact_tests = 0;
     VolumeBlock volumes;
-    const CertainLocations certain = locate(unlocated_.block, count, volumes);
+    const CertainLocations certain = locate(block_, count, volumes);
     for (std::size_t i = 0; i < count; ++i) {
         if (certain.outside >> i & 1) continue;
-        const Unlocated& one = unlocated_.items[i];
+        const Unlocated& one = unlocated_[i];
         const LeafTets tets = queries_.tets_of(queries_.leaves_[one.leaf]);
         bool interior = certain.interior >> i & 1;
         if (!interior && !(certain.boundary >> i & 1)) {
@@ -157,12 +145,10 @@ void Queries::Batch::locate_all() {
             interior = where == Containment::interior;
         }
         const PointHit hit{one.point, one.mesh, tets.index(one.place), interior, one.leaf, one.place};
-        if (!interior) {
+        if (interior)
+            found_.push_back(hit);
+        else
             keep_lowest(hit);
-            continue;
-        }
-        found_.push_back(hit);
-        weigh_last(tets);
     }
 }
 
@@ -176,24 +162,6 @@ void Queries::Batch::keep_lowest(const PointHit& hit) {
     } else if (hit.tet < found_[kept].tet) {
         found_[kept] = hit;
     }
-}
-
-// The last of found_ waits for its weights, if it has none and they are wanted.
-void Queries::Batch::weigh_last(const LeafTets& tets) {
-    const PointHit& hit = found_.back();
-    if (!weigh_ || hit.weights.known()) return;
-    unweighed_.add(points_[hit.point], tets, hit.place) = static_cast<std::uint32_t>(found_.size() - 1);
-    if (unweighed_.full()) weigh_all();
-}
-
-// What is uncertain stays unknown.
-void Queries::Batch::weigh_all() {
-    const std::size_t count = unweighed_.end();
-    if (count == 0) return;
-    Weights weights[barycentric_block];
-    const std::uint64_t uncertain = barycentric(unweighed_.block, count, weights[0].of);
-    for (std::size_t i = 0; i < count; ++i)
-        if (!(uncertain >> i & 1)) found_[unweighed_.items[i]].weights = weights[i];
 }
 
 } // namespace vox

@@ -18,8 +18,8 @@ namespace vox {
 class Queries::Batch final : public fast::Findings {
 public:
     // Appends what it finds to `found`, in no particular order; of tetrahedra of a mesh with a point on their
-    // boundary, the lowest only. `weigh` says whether barycentric coordinates are wanted.
-    Batch(const Queries& queries, QueryMeshes which, bool weigh, std::pmr::memory_resource* memory,
+    // boundary, the lowest only.
+    Batch(const Queries& queries, QueryMeshes which, std::pmr::memory_resource* memory,
           Array<PointHit>& found);
 
     void find(std::span<const Vec3d> points);
@@ -29,13 +29,11 @@ private:
     void find_in_mesh(std::uint32_t mesh, std::uint32_t root);
     void take(std::span<const fast::Finding> findings) override;
     void keep_lowest(const PointHit& hit);
+    void locate_later(std::uint32_t point, std::uint32_t leaf, std::uint32_t place);
     void locate_all();
-    void weigh_last(const LeafTets& tets);
-    void weigh_all();
 
     const Queries& queries_;
     const QueryMeshes which_;
-    const bool weigh_;
     Array<PointHit>& found_;
     Box region_ = empty_box;        // around the meshes
     std::span<const Vec3d> points_; // those asked for
@@ -50,25 +48,14 @@ private:
     // While findings are taken, in the order of tiles: where they are.
     std::uint32_t mesh_ = 0, tile_ = 0;
     std::optional<LeafTets> tets_;
-    // Points and tetrahedra that wait until there are enough of them for whole registers: for their location,
-    // or in found_, for their weights.
-    template <class Item>
-    struct Waiting {
-        Item items[barycentric_block];
-        std::size_t count = 0;
-        BarycentricBlock<double> block;
-
-        // The item is to be written.
-        Item& add(const Vec3d& p, const LeafTets& tets, std::size_t place);
-        bool full() const { return count == barycentric_block; }
-        // Fills up the last register, and returns how many items there were.
-        std::size_t end();
-    };
+    // Points that wait until there are enough of them for whole registers, and the tetrahedra that they may
+    // be in.
     struct Unlocated {
         std::uint32_t point, mesh, leaf, place; // as in PointHit
     };
-    Waiting<Unlocated> unlocated_;
-    Waiting<std::uint32_t> unweighed_;
+    Unlocated unlocated_[barycentric_block];
+    std::size_t unlocated_count_ = 0;
+    BarycentricBlock<double> block_; // of unlocated_
 };
 
 } // namespace vox

@@ -64,8 +64,8 @@ void Queries::sort_found(Array<PointHit>& found, std::size_t points) {
 }
 
 template <class Visit>
-void Queries::for_found(std::span<const Vec3d> points, QueryMeshes which, bool weigh,
-                        std::pmr::memory_resource* memory, Visit&& visit) const {
+void Queries::for_found(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
+                        Visit&& visit) const {
     Array<PointHit> found(memory);
     const auto visit_all = [&](std::span<const Vec3d> some, std::size_t first) {
         sort_found(found, some.size());
@@ -80,7 +80,7 @@ void Queries::for_found(std::span<const Vec3d> points, QueryMeshes which, bool w
         find_few(points, which, memory, found);
         return visit_all(points, 0);
     }
-    Batch batch(*this, which, weigh, memory, found);
+    Batch batch(*this, which, memory, found);
     const std::size_t at_once = std::max(points_at_once, points_a_tile * leaves_.size());
     for (std::size_t first = 0; first < points.size(); first += at_once) {
         const std::span<const Vec3d> some = points.subspan(first, std::min(at_once, points.size() - first));
@@ -90,42 +90,33 @@ void Queries::for_found(std::span<const Vec3d> points, QueryMeshes which, bool w
     }
 }
 
-std::uint64_t Queries::points(std::span<const Vec3d> points, QueryMeshes which,
-                              std::pmr::memory_resource* memory, vox_point_hit* hits,
-                              std::uint64_t capacity) const {
-    std::uint64_t count = 0;
-    for_found(points, which, true, memory, [&](std::size_t point, std::span<const PointHit> found) {
+void Queries::points(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
+                     HitList<vox_point_hit>& hits) const {
+    for_found(points, which, memory, [&](std::size_t point, std::span<const PointHit> found) {
         const bool any_interior =
             std::any_of(found.begin(), found.end(), [](const PointHit& hit) { return hit.interior; });
         // Report every tetrahedron with the point in its interior, or if there is none, the first with the
         // point on its boundary.
         for (const PointHit& hit : any_interior ? found : found.first(1)) {
             if (any_interior && !hit.interior) continue;
-            if (count++ >= capacity) continue;
-            Weights w = hit.weights;
-            if (!w.known()) {
-                const LeafTets tets = tets_of(leaves_[hit.leaf]);
-                const std::size_t t = hit.place;
-                const std::array<float, 4> of =
-                    barycentric(points[point], tets.corner(t, 0), tets.corner(t, 1), tets.corner(t, 2),
-                                tets.corner(t, 3));
-                std::copy(of.begin(), of.end(), w.of);
-            }
-            hits[count - 1] = {static_cast<std::uint32_t>(point),
-                               meshes_[hit.mesh].id,
-                               hit.tet,
-                               {w.of[0], w.of[1], w.of[2], w.of[3]}};
+            vox_point_hit* const out = hits.add();
+            if (!out) continue; // no room
+            const LeafTets tets = tets_of(leaves_[hit.leaf]);
+            const std::size_t t = hit.place;
+            *out = {static_cast<std::uint32_t>(point), meshes_[hit.mesh].id, hit.tet, 0, {}};
+            std::ranges::copy(barycentric<double>(points[point], tets.corner(t, 0), tets.corner(t, 1),
+                                                  tets.corner(t, 2), tets.corner(t, 3)),
+                              out->weights);
         }
     });
-    return count;
 }
 
 void Queries::count_inside(std::span<const Vec3d> points, QueryMeshes which,
                            std::pmr::memory_resource* memory, vox_closest_hit* hits) const {
-    for_found(points, which, false, memory, [&](std::size_t point, std::span<const PointHit> found) {
+    for_found(points, which, memory, [&](std::size_t point, std::span<const PointHit> found) {
         vox_closest_hit& hit = hits[point];
         ++hit.inside;
-        if (hit.mesh == meshes_[found[0].mesh].id && hit.distance > 0) hit.distance = -hit.distance;
+        if (hit.body == meshes_[found[0].mesh].id && hit.distance > 0) hit.distance = -hit.distance;
     });
 }
 
@@ -164,7 +155,7 @@ void Queries::find_in_leaf(std::uint32_t leaf, std::uint32_t point, const Points
     }
 }
 
-void Queries::box(const Vec3d& min, const Vec3d& max, QueryMeshes which, Array<vox_tet_hit>& hits) const {
+void Queries::box(const Vec3d& min, const Vec3d& max, QueryMeshes which, Array<vox_box_hit>& hits) const {
     // A finite box, which meets no empty one; no vertex is beyond.
     const auto low = [](double x) { return std::max(rounded_down(x), -std::numeric_limits<float>::max()); };
     const auto high = [](double x) { return std::min(rounded_up(x), std::numeric_limits<float>::max()); };
@@ -187,11 +178,11 @@ void Queries::box(const Vec3d& min, const Vec3d& max, QueryMeshes which, Array<v
         const LeafTets tets = tets_of(leaves_[leaf]);
         for (std::size_t i = 0; i < tets.size(); ++i)
             if (overlap(tets.box(i), around) && meets(tets, i))
-                hits.push_back({meshes_[leaves_[leaf].mesh].id, tets.index(i)});
+                hits.push_back({0, meshes_[leaves_[leaf].mesh].id, tets.index(i)});
     };
     tree_.visit_accepted([&](const Box3f& box) { return overlap(box, around); }, visit);
-    std::sort(hits.begin(), hits.end(), [](const vox_tet_hit& x, const vox_tet_hit& y) {
-        return std::tie(x.mesh, x.tet) < std::tie(y.mesh, y.tet);
+    std::sort(hits.begin(), hits.end(), [](const vox_box_hit& x, const vox_box_hit& y) {
+        return std::tie(x.body, x.tet) < std::tie(y.body, y.tet);
     });
 }
 

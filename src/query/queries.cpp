@@ -30,21 +30,11 @@ Queries::Queries(std::pmr::memory_resource* memory)
       surface_tree_(memory), leaf_boxes_(memory), surface_boxes_(memory), tile_boxes_(memory),
       groups_(memory) {}
 
-void Queries::require_prepared() const {
-    if (!prepared_)
-        throw Error(VOX_ERROR_INVALID_STATE, "the grid is not prepared: call vox_grid_prepare_queries first");
-}
-
-void Queries::invalidate() noexcept {
-    prepared_ = false;
-    meshes_.clear(); // and with it what is shared
-}
-
-std::uint64_t Queries::user_data(vox_body mesh) const {
-    const auto found = std::ranges::lower_bound(meshes_, mesh, {}, &Mesh::id);
-    if (found == meshes_.end() || found->id != mesh)
+std::uint64_t Queries::user_data(vox_body body) const {
+    const auto found = std::ranges::lower_bound(meshes_, body, {}, &Mesh::id);
+    if (found == meshes_.end() || found->id != body)
         throw Error(VOX_ERROR_INVALID_HANDLE,
-                    format("mesh %u is none of the %zu meshes of the view", mesh, meshes_.size()));
+                    format("body %u is none of the %zu of the locator", body, meshes_.size()));
     return found->user_data;
 }
 
@@ -69,7 +59,7 @@ void Queries::prepare(std::span<const QueryBody> bodies, Workers& workers) {
     tree_.reserve(leaves);
     surface_tree_.reserve(leaves);
 
-    invalidate();
+    meshes_.clear(); // and with it what is shared
     vertices_.resize(vertices);
     floats_.resize(vertices);
     boxes_.resize(tets);
@@ -98,7 +88,6 @@ void Queries::prepare(std::span<const QueryBody> bodies, Workers& workers) {
     join_tiles();
     tree_.build(leaf_boxes_, workers);
     surface_tree_.build(surface_boxes_, workers);
-    prepared_ = true;
 }
 
 // Those with indices [begin, end) in vertices_.

@@ -1,5 +1,5 @@
-// Queries on a copy of the enabled meshes at one moment and a tree of boxes over it. Once prepared, it is
-// only read, by any number of threads.
+// Queries on a copy of the enabled meshes at one moment and a tree of boxes over it: what a locator holds.
+// Once prepared, it is only read, by any number of threads.
 #pragma once
 
 #include "base/array.hpp"
@@ -11,7 +11,7 @@
 #include "query/box_tree.hpp"
 #include "query/tets.hpp"
 
-#include <vox/vox.h>
+#include <vox/vox_query.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +32,21 @@ struct QueryBody {
 // Which meshes take part in a query.
 struct QueryMeshes {
     std::uint64_t mask;
-    vox_body excluded = VOX_NULL_BODY;
+    vox_body excluded;
+};
+
+// A list of the caller: the first `capacity` hits are kept, all are counted.
+template <class Hit>
+class HitList {
+public:
+    HitList(Hit* hits, std::uint64_t capacity) noexcept : hits_(hits), capacity_(capacity) {}
+    // Where the next one goes; null where there is no room.
+    Hit* add() noexcept { return ++count_ <= capacity_ ? hits_ + (count_ - 1) : nullptr; }
+    std::uint64_t count() const noexcept { return count_; }
+
+private:
+    Hit* hits_;
+    std::uint64_t capacity_, count_ = 0;
 };
 
 class Queries {
@@ -41,29 +55,24 @@ public:
 
     // Copies the bodies, which are in the order of their ids and whose positions must be finite. Throws what
     // the memory resource throws, and changes nothing then; also what a task system of the caller makes the
-    // workers throw, and nothing is prepared then. Enqueues at most four tasks.
+    // workers throw, and is of no use then. Enqueues at most four tasks.
     void prepare(std::span<const QueryBody> bodies, Workers& workers);
-    void invalidate() noexcept;
-    // Throws Error(INVALID_STATE) when it is not prepared.
-    void require_prepared() const;
-    // Throws Error(INVALID_HANDLE) for a mesh that took no part.
-    std::uint64_t user_data(vox_body mesh) const;
+    // Throws Error(INVALID_HANDLE) for a body that took no part.
+    std::uint64_t user_data(vox_body body) const;
 
-    // Writes the first `capacity` hits of points[0], points[1], ... in canonical order and returns how many
-    // there are; `memory` is for temporary use.
-    std::uint64_t points(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
-                         vox_point_hit* hits, std::uint64_t capacity) const;
-    // The tetrahedra sorted by mesh and tet, into an empty `hits`.
-    void box(const Vec3d& min, const Vec3d& max, QueryMeshes which, Array<vox_tet_hit>& hits) const;
-    // The mesh of a result is 0 when nothing was hit.
-    vox_surface_hit closest(const Vec3d& p, double radius, QueryMeshes which) const noexcept;
+    // Hits of points[0], points[1], ... in canonical order; `memory` is for temporary use.
+    void points(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
+                HitList<vox_point_hit>& hits) const;
     // One hit a point; `memory` is for temporary use.
     void closest_points(std::span<const Vec3d> points, double max_distance, QueryMeshes which,
                         std::pmr::memory_resource* memory, vox_closest_hit* hits) const;
-    vox_ray_hit ray(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept;
-    // The facets sorted by (t, mesh, tet, facet), into an empty `hits`.
-    void ray_hits(const Vec3d& from, const Vec3d& to, QueryMeshes which, Array<vox_facet_hit>& hits) const;
-    bool ray_any(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept;
+    // The hits of box 0, sorted by (body, tet), into an empty `hits`.
+    void box(const Vec3d& min, const Vec3d& max, QueryMeshes which, Array<vox_box_hit>& hits) const;
+    // The hits of ray 0, sorted by (t, body, tet, facet), into an empty `hits`.
+    void ray_hits(const Vec3d& from, const Vec3d& to, QueryMeshes which, bool first_only,
+                  Array<vox_ray_hit>& hits) const;
+    // Whether a tetrahedron with a volume is on the ray.
+    bool blocks(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept;
 
 private:
     struct Mesh {
@@ -90,7 +99,6 @@ private:
         std::uint32_t point, mesh, tet; // the mesh in meshes_
         bool interior;
         std::uint32_t leaf, place; // where the tetrahedron is, in leaves_ and in the tile
-        Weights weights = Weights::unknown();
     };
     class Batch;
     using FacetKey = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>; // mesh in meshes_, tet, facet
@@ -107,11 +115,10 @@ private:
     LeafTets tets_of(const Leaf& leaf) const noexcept;
     void join_tiles() noexcept;
     // Calls visit(point, found) for each mesh that each point is in, in canonical order. Of tetrahedra with
-    // the point on their boundary, some after the lowest may be missing. `weigh` says whether weights are
-    // wanted, where they are found at little cost.
+    // the point on their boundary, some after the lowest may be missing.
     template <class Visit>
-    void for_found(std::span<const Vec3d> points, QueryMeshes which, bool weigh,
-                   std::pmr::memory_resource* memory, Visit&& visit) const;
+    void for_found(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
+                   Visit&& visit) const;
     static void sort_found(Array<PointHit>& found, std::size_t points);
     // Sets what `hits`, of the closest points, say of meshes that the points are in.
     void count_inside(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
@@ -125,10 +132,6 @@ private:
     template <class Bound, class Visit>
     void visit_facets(QueryMeshes which, const double& most, const Bound& bound, Visit&& visit) const;
     void find_closest(const Vec3d& p, QueryMeshes which, ClosestFacet& closest) const noexcept;
-    void find_first_tet(const Vec3d& from, const Vec3d& to, QueryMeshes which,
-                        vox_ray_hit& hit) const noexcept;
-    void find_first_facet(const Vec3d& from, const Vec3d& to, QueryMeshes which,
-                          vox_ray_hit& hit) const noexcept;
 
     Array<Mesh> meshes_;    // ascending by id
     Array<Vec3d> vertices_; // mesh after mesh
@@ -142,7 +145,6 @@ private:
     Array<Box3f> leaf_boxes_, surface_boxes_; // what the trees are built from
     // For many points at once: the boxes of leaves_ again, and of groups of some that follow each other.
     Array<Box> tile_boxes_, groups_;
-    bool prepared_ = false;
 };
 
 // The tetrahedra of a leaf, 0 to size() - 1.
@@ -165,6 +167,10 @@ public:
     }
     const Vec3d& at(std::uint32_t vertex) const noexcept { return positions_[vertex]; }
     const Vec3d& corner(std::size_t i, std::size_t corner) const noexcept { return at(vertex(i, corner)); }
+    // The vertices of a facet, in the order of its corners.
+    void write_face(std::size_t i, std::size_t facet, std::uint32_t (&face)[3]) const noexcept {
+        for (std::size_t c = 0; c < 3; ++c) face[c] = vertex(i, facet_corners[facet][c]);
+    }
 
 private:
     const QueryTets& tets_;

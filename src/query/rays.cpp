@@ -132,90 +132,38 @@ vox_side side_of(const Crossing& crossing, const Tets& tets, std::size_t tet, st
 
 } // namespace
 
-vox_ray_hit Queries::ray(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept {
-    vox_ray_hit hit{};
-    find_first_tet(from, to, which, hit);
-    if (hit.mesh) find_first_facet(from, to, which, hit); // whatever meets a surface meets a tetrahedron
-    return hit;
-}
-
-void Queries::find_first_tet(const Vec3d& from, const Vec3d& to, QueryMeshes which,
-                             vox_ray_hit& hit) const noexcept {
+void Queries::ray_hits(const Vec3d& from, const Vec3d& to, QueryMeshes which, bool first_only,
+                       Array<vox_ray_hit>& hits) const {
     const EntryBound bound(from, to);
+    const auto before = [](const vox_ray_hit& x, const vox_ray_hit& y) {
+        return std::tie(x.t, x.body, x.tet, x.facet) < std::tie(y.t, y.body, y.tet, y.facet);
+    };
     double most = 1;
-    std::pair<std::uint32_t, std::uint32_t> best; // mesh, tet
-    bool any = false;
-    tree_.visit_nearest_first(most, bound, [&](std::uint32_t leaf) {
-        if (!wants(leaves_[leaf], which)) return;
-        const LeafTets tets = tets_of(leaves_[leaf]);
-        for (std::size_t i = 0; i < tets.size(); ++i) {
-            const double least = bound(tets.box(i));
-            if (!(least <= most)) continue;
-            const double t = std::max(find_entry(from, to, tets, i), least); // see visit_facets()
-            const std::pair key(leaves_[leaf].mesh, tets.index(i));
-            if (!(t < most || (t == most && (!any || key < best)))) continue;
-            most = t;
-            best = key;
-            any = true;
-        }
-    });
-    if (!any) return;
-    hit.mesh = meshes_[best.first].id;
-    hit.tet = best.second;
-    hit.t = most;
-}
-
-void Queries::find_first_facet(const Vec3d& from, const Vec3d& to, QueryMeshes which,
-                               vox_ray_hit& hit) const noexcept {
-    const EntryBound bound(from, to);
-    double most = 1;
-    FacetKey best;
-    bool any = false;
     visit_facets(
         which, most, bound,
         [&](std::uint32_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet, double least) {
             const OrderedFacet f(tets, tet, facet);
             const Crossing crossing = find_crossing(from, to, tets, f);
-            const double t = std::max(crossing.t, least);
-            const FacetKey key(leaves_[leaf].mesh, tets.index(tet), facet);
-            if (!(t < most || (t == most && (!any || key < best)))) return;
-            most = t;
-            best = key;
-            any = true;
-            for (std::size_t n = 0; n < 3; ++n) hit.surface_barycentric[f.place[n]] = crossing.weight[n];
-            hit.surface_side = side_of(crossing, tets, tet, facet, f);
-        });
-    if (!any) return;
-    const auto [mesh, tet, facet] = best;
-    hit.surface_mesh = meshes_[mesh].id;
-    hit.surface_tet = tet;
-    hit.surface_facet = facet;
-    hit.surface_t = most;
-}
-
-void Queries::ray_hits(const Vec3d& from, const Vec3d& to, QueryMeshes which,
-                       Array<vox_facet_hit>& hits) const {
-    const double most = 1;
-    visit_facets(
-        which, most, EntryBound(from, to),
-        [&](std::uint32_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet, double least) {
-            const OrderedFacet f(tets, tet, facet);
-            const Crossing crossing = find_crossing(from, to, tets, f);
             if (!(crossing.t <= 1)) return;
-            vox_facet_hit& hit = hits.emplace_back();
-            hit.mesh = meshes_[leaves_[leaf].mesh].id;
+            vox_ray_hit hit{};
+            hit.body = meshes_[leaves_[leaf].mesh].id;
             hit.tet = tets.index(tet);
             hit.facet = facet;
-            hit.side = side_of(crossing, tets, tet, facet, f);
             hit.t = std::max(crossing.t, least);
-            for (std::size_t n = 0; n < 3; ++n) hit.barycentric[f.place[n]] = crossing.weight[n];
+            if (first_only && !hits.empty()) {
+                if (!before(hit, hits[0])) return;
+                hits.clear();
+            }
+            if (first_only) most = hit.t;
+            hit.side = side_of(crossing, tets, tet, facet, f);
+            tets.write_face(tet, facet, hit.face);
+            for (std::size_t n = 0; n < 3; ++n) hit.weights[f.place[n]] = crossing.weight[n];
+            hits.push_back(hit);
         });
-    std::sort(hits.begin(), hits.end(), [](const vox_facet_hit& x, const vox_facet_hit& y) {
-        return std::tie(x.t, x.mesh, x.tet, x.facet) < std::tie(y.t, y.mesh, y.tet, y.facet);
-    });
+    std::sort(hits.begin(), hits.end(), before);
 }
 
-bool Queries::ray_any(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept {
+bool Queries::blocks(const Vec3d& from, const Vec3d& to, QueryMeshes which) const noexcept {
     const EntryBound bound(from, to);
     double most = 1;
     tree_.visit_nearest_first(most, bound, [&](std::uint32_t leaf) {

@@ -78,17 +78,6 @@ struct Queries::ClosestFacet {
         if (!(distance < squared || (distance == squared && (!any || its_key < key)))) return;
         *this = {distance, true, its_key, found, of_leaf, tet};
     }
-
-    // What vox_surface_hit and vox_closest_hit have in common.
-    template <class Hit>
-    void write_to(Hit& hit, const Vec3d& p, vox_body mesh) const noexcept {
-        hit.mesh = mesh;
-        hit.tet = std::get<1>(key);
-        hit.facet = std::get<2>(key);
-        hit.distance = std::sqrt(squared);
-        std::ranges::copy(normalised(seen.at.weight), hit.barycentric);
-        write(hit.position, p + seen.way);
-    }
 };
 
 void Queries::find_closest(const Vec3d& p, QueryMeshes which, ClosestFacet& closest) const noexcept {
@@ -98,14 +87,6 @@ void Queries::find_closest(const Vec3d& p, QueryMeshes which, ClosestFacet& clos
         [&](std::uint32_t leaf, const LeafTets& tets, std::size_t tet, std::uint32_t facet, double least) {
             closest.try_facet(p, leaves_[leaf].mesh, leaf, tets, tet, facet, least);
         });
-}
-
-vox_surface_hit Queries::closest(const Vec3d& p, double radius, QueryMeshes which) const noexcept {
-    ClosestFacet closest{.squared = radius * radius};
-    find_closest(p, which, closest);
-    vox_surface_hit hit{};
-    if (closest.any) closest.write_to(hit, p, meshes_[std::get<0>(closest.key)].id);
-    return hit;
 }
 
 void Queries::closest_points(std::span<const Vec3d> points, double max_distance, QueryMeshes which,
@@ -128,11 +109,18 @@ void Queries::closest_points(std::span<const Vec3d> points, double max_distance,
         find_closest(p, which, closest);
         vox_closest_hit hit{};
         if (closest.any) {
-            closest.write_to(hit, p, meshes_[std::get<0>(closest.key)].id);
+            const auto [mesh, tet, facet] = closest.key;
             const LeafTets tets = tets_of(leaves_[closest.leaf]);
-            const OrderedFacet f(tets, closest.place, hit.facet);
+            hit.body = meshes_[mesh].id;
+            hit.tet = tet;
+            hit.facet = facet;
+            tets.write_face(closest.place, facet, hit.face);
+            hit.distance = std::sqrt(closest.squared);
+            std::ranges::copy(normalised(closest.seen.at.weight), hit.weights);
+            write(hit.position, p + closest.seen.way);
+            const OrderedFacet f(tets, closest.place, facet);
             write(hit.normal, facet_normal(tets.at(f.vertex[0]), tets.at(f.vertex[1]), tets.at(f.vertex[2]),
-                                           tets.corner(closest.place, hit.facet), p, closest.seen.way));
+                                           tets.corner(closest.place, facet), p, closest.seen.way));
         }
         hits[i] = hit;
     };

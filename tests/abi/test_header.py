@@ -13,10 +13,10 @@ import header  # noqa: E402
 sys.path.append(os.path.join(ROOT, "tests", "layout"))
 import plain_words  # noqa: E402
 INCLUDE = os.path.join(ROOT, "include", "vox")
-HEADERS = ["vox.h", "vox_pairs.h", "vox_io.h", "vox_sim.h", "vox_dist.h"]
+HEADERS = ["vox.h", "vox_query.h", "vox_pairs.h", "vox_io.h", "vox_sim.h", "vox_dist.h"]
 
 # Functions, structs and fields of each header, which are not to grow unseen: a new function has two users outside of tests.
-BUDGETS = {"vox.h": (104, 64, 506), "vox_pairs.h": (13, 13, 83), "vox_io.h": (19, 9, 75), "vox_sim.h": (21, 9, 104),
+BUDGETS = {"vox.h": (82, 57, 460), "vox_query.h": (10, 5, 32), "vox_pairs.h": (13, 13, 83), "vox_io.h": (19, 9, 75), "vox_sim.h": (21, 9, 104),
            "vox_dist.h": (13, 8, 49)}
 
 # Everything that a foreign-function interface can carry.
@@ -34,7 +34,7 @@ CONVENTIONS = {
 
 # Functions with such a verb change what they are called for; no other does.
 CHANGES = re.compile(r"_(append|bind|clear|destroy|experiment_measure|insert|map|mark|prepare|release|remove|replace|reserve|"
-                     r"retain|set|step|take)(_|$)")
+                     r"retain|set|step|take|update)(_|$)")
 
 
 def base(type_text):
@@ -89,7 +89,7 @@ class Rules:
         """What a comment names and no header declares; codes that are none, after the word Errors."""
         for name in re.findall(r"\b(?:vox|VOX)_\w+", comment):
             # `vox_` and a library's own name, and the patterns of the conventions, are no names.
-            if name not in self.names and name not in ("vox_pairs", "vox_io", "vox_sim", "vox_dist", "vox_mpi", "vox_default_X"):
+            if name not in self.names and name not in ("vox_query", "vox_pairs", "vox_io", "vox_sim", "vox_dist", "vox_mpi", "vox_default_X"):
                 yield f"there is no {name}"
         for name, field in re.findall(r"\b(vox_\w+)\.([a-z]\w*)", comment):
             struct = self.types.get(name)
@@ -120,7 +120,8 @@ class Rules:
                 if bool(CHANGES.search(f.name)) == type_text.startswith("const") and not answers:
                     self.fault(f, f"takes {type_text}, which says that it {'reads' if 'const' in type_text else 'changes'}")
         if f.result == "vox_result":
-            told = comment + f.inherited + self.header.sections.get(f.section, "")
+            of_all = re.search(r"Errors of all .*", header.words_of(self.header.conventions))
+            told = comment + f.inherited + self.header.sections.get(f.section, "") + (of_all[0] if of_all else "")
             if self.may_fail_in_its_own_way(f):
                 if not re.search(r"\berrors?\b|cannot fail", told, flags=re.I):
                     self.fault(f, "which errors?")
@@ -224,7 +225,7 @@ def number_of(constant):
 class Headers(unittest.TestCase):
     def test_every_rule_holds(self):
         for name in HEADERS:
-            faults = Rules(TEXTS[name], [CORE]).check()
+            faults = Rules(TEXTS[name], ALL).check()
             self.assertEqual(faults, [], f"{name}:\n" + "\n".join(faults))
 
     def test_conventions(self):
@@ -235,7 +236,7 @@ class Headers(unittest.TestCase):
             for phrase in phrases:
                 self.assertIn(phrase, words, topic)
         for name in HEADERS[1:]:
-            self.assertRegex(header.words_of(header.parse(TEXTS[name]).conventions), r"onventions .*vox\.h")
+            self.assertRegex(header.words_of(header.parse(TEXTS[name]).conventions), r"onventions\b.*vox\.h")
             self.assertRegex(header.parse(TEXTS[name]).conventions, r"\n \*\s+Threads[ :]")
 
     def test_every_section_has_an_example(self):
@@ -257,7 +258,7 @@ class Pages(unittest.TestCase):
     def test_names_exist(self):
         for page in ("limits.md", "abi.md"):
             for name in re.findall(r"\b(?:vox|VOX)_\w+", text_of("docs", page)):
-                self.assertTrue(name in NAMES or name in ("vox_pairs", "vox_io", "vox_sim", "vox_dist", "vox_mpi"), f"docs/{page}: {name}")
+                self.assertTrue(name in NAMES or name in ("vox_query", "vox_pairs", "vox_io", "vox_sim", "vox_dist", "vox_mpi"), f"docs/{page}: {name}")
 
     def test_every_limit_is_listed_with_its_number(self):
         page = text_of("docs", "limits.md")

@@ -5,7 +5,7 @@
 
 #include "scenes/bodies.h"
 #include "support/ledger.h"
-#include "support/suite.h"
+#include "support/locators.h"
 
 enum { most = 4 };
 
@@ -130,7 +130,8 @@ START_TEST(which_mesh_failed) {
              "mesh 8193 (slot 2, user data 102), vertex 11: position (");
     is_failure(failure_of(s.grid, 0), &s, 2, 11, VOX_ERROR_NON_FINITE);
     no_failure(s.grid, 1);
-    ck_fails(vox_grid_prepare_queries(s.grid), VOX_ERROR_NON_FINITE,
+    vox_locator* locator = NULL;
+    ck_fails(vox_grid_update_locator(s.grid, &locator), VOX_ERROR_NON_FINITE,
              "mesh 8193 (slot 2, user data 102), vertex 11");
     *coordinate = kept;
     ck_ok(vox_grid_step(s.grid));
@@ -213,11 +214,14 @@ START_TEST(bad_meshes_are_left_out) {
         no_failure(s.grid, 2);
         /* The other questions leave them out, too. */
         vox_suggestion suggestion;
-        vox_query_view* view = NULL;
         suggestion.struct_size = sizeof suggestion;
-        ck_ok(vox_grid_prepare_queries(s.grid));
-        ck_ok(vox_grid_take_query_view(s.grid, &view));
-        vox_query_view_release(view);
+        vox_locator* locator = take_locator(s.grid);
+        for (uint32_t b = 0; b < 4; ++b) {
+            uint64_t user_data = 0;
+            ck_assert_int_eq(vox_locator_get_user_data(locator, s.ids[b], &user_data),
+                             b % 2 ? VOX_ERROR_INVALID_HANDLE : VOX_OK);
+        }
+        vox_locator_release(locator);
         ck_ok(vox_grid_suggest_cell_size(s.grid, NULL, &suggestion));
         ck_assert_uint_eq(suggestion.stats.tets, s.bodies[0].tet_count + s.bodies[2].tet_count);
         ck_ok(vox_grid_prepare_readings(s.grid));

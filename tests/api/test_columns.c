@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "scenes/bodies.h"
-#include "support/suite.h"
+#include "support/locators.h"
 
 enum { most = 3 };
 
@@ -158,22 +158,23 @@ static void step_both(const scene* s) {
 
 static void same_answers(const scene* s) {
     const double from[3] = {-1, 0.7, 0.6}, to[3] = {5, 0.9, 0.8};
+    const vox_positions begin = vox_double_positions(from, 1), end = vox_double_positions(to, 1);
     vox_ray_hit hits[2];
-    vox_surface_hit closest[2];
+    vox_closest_hit closest[2];
     vox_suggestion suggested[2];
     vox_grid* const grids[2] = {s->packed, s->grid};
-    memset(hits, 0, sizeof hits);
-    memset(closest, 0, sizeof closest);
     memset(suggested, 0, sizeof suggested);
     for (int g = 0; g < 2; ++g) {
-        ck_ok(vox_grid_prepare_queries(grids[g]));
-        ck_ok(vox_grid_query_ray(grids[g], from, to, UINT64_MAX, &hits[g]));
-        ck_ok(vox_grid_query_closest(grids[g], from, INFINITY, UINT64_MAX, &closest[g]));
+        uint64_t count = 0;
+        vox_locator* locator = take_locator(grids[g]);
+        ck_ok(vox_locator_find_ray_hits(locator, &begin, &end, NULL, &hits[g], 1, &count));
+        ck_assert_uint_gt(count, 0);
+        closest[g] = closest_to(locator, from, NULL);
+        vox_locator_release(locator);
         suggested[g].struct_size = sizeof suggested[g];
         ck_ok(vox_grid_suggest_cell_size(grids[g], NULL, &suggested[g]));
         ck_ok(vox_grid_prepare_readings(grids[g]));
     }
-    ck_assert_uint_ne(hits[0].mesh, VOX_NULL_BODY);
     ck_assert_mem_eq(&hits[0], &hits[1], sizeof hits[0]);
     ck_assert_mem_eq(&closest[0], &closest[1], sizeof closest[0]);
     ck_assert_double_eq(suggested[0].stats.mean_edge, suggested[1].stats.mean_edge);
@@ -317,21 +318,17 @@ START_TEST(suggested_and_asked) {
 
     vox_grid* grid = engine_grid();
     (void)insert_mesh(grid, &usual);
-    ck_ok(vox_grid_prepare_queries(grid));
-    vox_closest_desc asked = vox_default_closest_desc();
+    vox_locator* locator = take_locator(grid);
     vox_closest_hit* hits[2];
     for (int i = 0; i < 2; ++i) {
+        const vox_positions asked = i ? desc.positions : usual.positions;
         hits[i] = (vox_closest_hit*)calloc(box.vertex_count, sizeof *hits[i]);
-        asked.point_count = box.vertex_count;
-        asked.points = i ? (const void*)array.data : box.positions;
-        asked.format = i ? array.format : VOX_FORMAT_FLOAT;
-        asked.byte_stride = i ? array.stride : 0;
-        asked.component_byte_stride = i ? array.component : 0;
-        ck_ok(vox_grid_query_closest_points(grid, &asked, hits[i]));
+        ck_ok(vox_locator_find_closest(locator, &asked, NULL, hits[i]));
     }
     ck_assert_mem_eq(hits[0], hits[1], box.vertex_count * sizeof *hits[0]);
     free(hits[0]);
     free(hits[1]);
+    vox_locator_release(locator);
     vox_grid_destroy(grid);
     free(array.memory);
     free_body(&box);

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "scenes/bodies.h"
-#include "support/suite.h"
+#include "support/locators.h"
 
 /* ---- arguments ---- */
 
@@ -416,25 +416,18 @@ END_TEST
 START_TEST(queries_and_suggestions_see_it) {
     body box = make_box(3, 1, 0, 0, 0);
     vox_mesh_desc desc = body_desc(&box);
-    vox_point_hit hit;
-    vox_surface_hit closest;
-    uint64_t count = 0;
     const double middle[3] = {1.5, 1.5, 1.5};
     vox_grid* grid = engine_grid();
     vox_body mesh = insert_mesh(grid, &desc);
-    ck_ok(vox_grid_prepare_queries(grid));
-    ck_ok(vox_grid_query_point(grid, middle, UINT64_MAX, &hit, 1, &count));
-    ck_assert_uint_eq(count, 1);
-    ck_ok(vox_grid_query_closest(grid, middle, 10, UINT64_MAX, &closest));
-    ck_assert(closest.distance == 1.5);
+    vox_locator* locator = take_locator(grid);
+    ck_assert_uint_eq(count_at(locator, middle), 1);
+    ck_assert(closest_to(locator, middle, NULL).distance == -1.5);
     uint32_t cube[5]; /* the one in the middle: a cavity */
     for (uint32_t i = 0; i < 5; ++i) cube[i] = 5 * 13 + i;
     ck_ok(vox_mesh_remove_tets(grid, mesh, cube, 5));
-    ck_ok(vox_grid_prepare_queries(grid));
-    ck_ok(vox_grid_query_point(grid, middle, UINT64_MAX, &hit, 1, &count));
-    ck_assert_uint_eq(count, 0);
-    ck_ok(vox_grid_query_closest(grid, middle, 10, UINT64_MAX, &closest));
-    ck_assert(closest.distance == 0.5);
+    ck_ok(vox_grid_update_locator(grid, &locator));
+    ck_assert_uint_eq(count_at(locator, middle), 0);
+    ck_assert(closest_to(locator, middle, NULL).distance == 0.5);
 
     vox_suggestion suggestion = {.struct_size = sizeof suggestion};
     ck_ok(vox_grid_suggest_cell_size(grid, NULL, &suggestion));
@@ -446,9 +439,9 @@ START_TEST(queries_and_suggestions_see_it) {
     for (uint32_t t = 0; t < 135; ++t) all[t] = t;
     ck_ok(vox_mesh_set_tets_enabled(grid, mesh, all, 65, 0));
     ck_ok(vox_mesh_set_tets_enabled(grid, mesh, all + 70, 65, 0));
-    ck_ok(vox_grid_prepare_queries(grid)); /* none is on */
-    ck_ok(vox_grid_query_closest(grid, middle, 10, UINT64_MAX, &closest));
-    ck_assert_uint_eq(closest.mesh, VOX_NULL_BODY);
+    ck_ok(vox_grid_update_locator(grid, &locator)); /* none is on */
+    ck_assert_uint_eq(closest_to(locator, middle, NULL).body, VOX_NULL_BODY);
+    vox_locator_release(locator);
     ck_ok(vox_grid_step(grid));
     ck_fails(vox_grid_suggest_cell_size(grid, NULL, &suggestion), VOX_ERROR_INVALID_ARGUMENT, "tet");
     vox_grid_destroy(grid);

@@ -7,6 +7,8 @@
 #include "support/float_modes.h"
 #include "support/suite.h"
 
+#include <vox/vox_query.h>
+
 /* ---- what a run finds, as bytes ---- */
 
 typedef struct record {
@@ -158,31 +160,36 @@ enum { scene_count = 3, scene_of_boxes = 2 };
         put(r, view_.data, (size_t)view_.count * sizeof(element));                                           \
     } while (0)
 
-static void put_queries(record* r, vox_grid* grid, const float_mode* mode) {
-    static vox_point_hit points[64];
-    static vox_tet_hit tets[64];
-    static vox_facet_hit facets[64];
-    const double at[4][3] = {{0.7, 0.6, 0.9}, {1.0 / 3, 0.5, 1.1}, {1, 1, 1}, {0x1p-1074, 0.25, 0.25}};
-    const double far_away[3] = {3, 3.1, 2.9}, a_third[3] = {1.0 / 3, 1.0 / 3, 2.0 / 3};
+static void put_answers(record* r, vox_grid* grid, const float_mode* mode) {
+    enum { n = 4, room = 64 };
+    static vox_point_hit points[room];
+    static vox_box_hit boxes[room];
+    static vox_ray_hit rays[room];
+    const double at[n][3] = {{0.7, 0.6, 0.9}, {1.0 / 3, 0.5, 1.1}, {1, 1, 1}, {0x1p-1074, 0.25, 0.25}};
+    const double far_away[n][3] = {{3, 3.1, 2.9}, {3, 3.1, 2.9}, {3, 3.1, 2.9}, {3, 3.1, 2.9}};
+    const double a_third[3] = {1.0 / 3, 1.0 / 3, 2.0 / 3};
+    const vox_positions from = vox_double_positions(at[0], n), to = vox_double_positions(far_away[0], n);
+    const vox_positions low = vox_double_positions(a_third, 1), high = vox_double_positions(at[0], 1);
+    vox_query_desc near = vox_default_query_desc();
+    near.max_distance = 0.7;
+    vox_closest_hit closest[n];
+    uint8_t blocked[n];
     uint64_t count;
-    ck_in_mode(mode, vox_grid_prepare_queries(grid));
-    for (int i = 0; i < 4; ++i) {
-        vox_surface_hit surface;
-        vox_ray_hit ray;
-        memset(&surface, 0, sizeof surface);
-        memset(&ray, 0, sizeof ray);
-        ck_in_mode(mode, vox_grid_query_point(grid, at[i], UINT64_MAX, points, 64, &count));
-        put(r, points, (size_t)count * sizeof *points);
-        ck_in_mode(mode, vox_grid_query_closest(grid, at[i], 0.7, UINT64_MAX, &surface));
-        put(r, &surface, sizeof surface);
-        ck_in_mode(mode, vox_grid_query_ray(grid, at[i], far_away, UINT64_MAX, &ray));
-        put(r, &ray, sizeof ray);
-        ck_in_mode(mode, vox_grid_query_ray_hits(grid, at[i], far_away, UINT64_MAX, VOX_NULL_BODY, facets, 64,
-                                                 &count));
-        put(r, facets, (size_t)count * sizeof *facets);
-    }
-    ck_in_mode(mode, vox_grid_query_box(grid, a_third, at[0], UINT64_MAX, tets, 64, &count));
+    vox_locator* locator = NULL;
+    ck_in_mode(mode, vox_grid_update_locator(grid, &locator));
+    ck_in_mode(mode, vox_locator_find_point_hits(locator, &from, NULL, points, room, &count));
+    ck_assert_uint_le(count, room);
+    put(r, points, (size_t)count * sizeof *points);
+    ck_in_mode(mode, vox_locator_find_closest(locator, &from, &near, closest));
+    put(r, closest, sizeof closest);
+    ck_in_mode(mode, vox_locator_find_ray_hits(locator, &from, &to, NULL, rays, room, &count));
+    ck_assert_uint_le(count, room);
+    put(r, rays, (size_t)count * sizeof *rays);
+    ck_in_mode(mode, vox_locator_test_rays(locator, &from, &to, NULL, blocked));
+    put(r, blocked, sizeof blocked);
+    ck_in_mode(mode, vox_locator_find_box_hits(locator, &low, &high, NULL, boxes, room, &count));
     put(r, &count, sizeof count);
+    vox_locator_release(locator);
 }
 
 static record results(int scene, const float_mode* mode, uint32_t workers, callbacks* c) {
@@ -227,7 +234,7 @@ static record results(int scene, const float_mode* mode, uint32_t workers, callb
         ck_assert_uint_gt(c->calls[in_allocator], calls);
         put(&r, &suggestion, sizeof suggestion);
     }
-    put_queries(&r, grid, mode);
+    put_answers(&r, grid, mode);
     ck_in_mode(mode, vox_grid_save(grid, NULL, 0, &size));
     void* bytes = malloc((size_t)size);
     ck_in_mode(mode, vox_grid_save(grid, bytes, size, &size));

@@ -3,8 +3,7 @@
 #include "scenes/bodies.h"
 #include "support/failing_heap.hpp"
 
-#include <iterator>
-#include <vector>
+#include <vox/vox_query.h>
 
 namespace {
 
@@ -16,12 +15,14 @@ void* enqueue(vox_task* task, std::uint64_t items, std::uint64_t, void* context,
 }
 void finish(void*, void*) {}
 
+constexpr std::size_t point_count = 300;
+
 struct Scene {
     body box = make_box(3, 0.25f, 0, 0, 0), other = make_box(3, 0.25f, 0.4f, 0.3f, 0.2f);
-    double many[300][3]; // along a diagonal of the boxes
+    double many[point_count][3]; // along a diagonal of the boxes
     Scene() {
-        for (std::size_t i = 0; i < std::size(many); ++i)
-            many[i][0] = many[i][1] = many[i][2] = 1.2 * double(i) / double(std::size(many)) - 0.1;
+        for (std::size_t i = 0; i < point_count; ++i)
+            many[i][0] = many[i][1] = many[i][2] = 1.2 * double(i) / double(point_count) - 0.1;
     }
     ~Scene() {
         free_body(&box);
@@ -33,12 +34,12 @@ struct Scene {
 struct Held {
     vox_grid* grid = nullptr;
     vox_grid* loaded = nullptr;
-    vox_query_view* view = nullptr;
+    vox_locator* locator = nullptr;
     void* bytes = nullptr;
     ~Held() {
         vox_grid_destroy(grid);
         vox_grid_destroy(loaded);
-        vox_query_view_release(view);
+        vox_locator_release(locator);
         std::free(bytes);
     }
 };
@@ -59,7 +60,13 @@ void live(const Scene& scene, const vox_grid_desc& desc, heap::Life& life) {
     filter.self_rest_distance = 0.01;
     const std::uint32_t cut[] = {3, 9};
     const vox_vertices_desc grown = vox_default_vertices_desc();
-    const double point[3] = {0.5, 0.4, 0.3}, far[3] = {3, 2, 1};
+    const double corners[2][3] = {{0.5, 0.4, 0.3}, {3, 2, 1}};
+    const vox_positions one = vox_double_positions(corners[0], 1), far = vox_double_positions(corners[1], 1);
+    const vox_positions many = vox_double_positions(scene.many[0], point_count);
+    const vox_positions from = vox_double_positions(scene.many[0], point_count / 2);
+    const vox_positions to = vox_double_positions(scene.many[point_count / 2], point_count / 2);
+    vox_closest_hit closest[point_count];
+    std::uint8_t blocked[point_count / 2];
     vox_suggestion suggestion;
     suggestion.struct_size = sizeof suggestion;
     std::uint64_t count = 0;
@@ -69,25 +76,18 @@ void live(const Scene& scene, const vox_grid_desc& desc, heap::Life& life) {
     const bool done =
         life([&] { return vox_body_set_filter(held.grid, meshes[0], &filter); }) && life(step) &&
         life([&] { return vox_grid_prepare_readings(held.grid); }) &&
-        life([&] { return vox_grid_prepare_queries(held.grid); }) &&
-        life([&] { return vox_grid_query_point(held.grid, point, UINT64_MAX, nullptr, 0, &count); }) &&
-        life([&] {
-            return vox_grid_query_points(held.grid, point, VOX_FORMAT_DOUBLE, 0, 1, UINT64_MAX, nullptr, 0,
-                                         &count);
+        life([&] { return vox_grid_update_locator(held.grid, &held.locator); }) &&
+        life([&] { return vox_locator_find_point_hits(held.locator, &one, nullptr, nullptr, 0, &count); }) &&
+        life([&] { return vox_locator_find_point_hits(held.locator, &many, nullptr, nullptr, 0, &count); }) &&
+        life([&] { return vox_locator_find_closest(held.locator, &many, nullptr, closest); }) && life([&] {
+            return vox_locator_find_box_hits(held.locator, &one, &far, nullptr, nullptr, 0, &count);
         }) &&
         life([&] {
-            return vox_grid_query_points(held.grid, scene.many, VOX_FORMAT_DOUBLE, 0, std::size(scene.many),
-                                         UINT64_MAX, nullptr, 0, &count);
+            return vox_locator_find_ray_hits(held.locator, &from, &to, nullptr, nullptr, 0, &count);
         }) &&
-        life([&] { return vox_grid_query_box(held.grid, point, far, UINT64_MAX, nullptr, 0, &count); }) &&
-        life([&] {
-            return vox_grid_query_ray_hits(held.grid, point, far, UINT64_MAX, VOX_NULL_BODY, nullptr, 0,
-                                           &count);
-        }) &&
-        life([&] { return vox_grid_take_query_view(held.grid, &held.view); }) &&
-        life([&] { return vox_query_view_point(held.view, point, UINT64_MAX, nullptr, 0, &count); }) &&
-        life(cut_tets) && life(step) &&
-        life([&] { return vox_mesh_append_vertices(held.grid, meshes[1], &grown, &first); }) &&
+        life([&] { return vox_locator_test_rays(held.locator, &from, &to, nullptr, blocked); }) &&
+        life([&] { return vox_grid_update_locator(held.grid, &held.locator); }) && life(cut_tets) &&
+        life(step) && life([&] { return vox_mesh_append_vertices(held.grid, meshes[1], &grown, &first); }) &&
         life([&] { return vox_mesh_append_tets(held.grid, meshes[1], scene.other.tets, 1, &first); }) &&
         life(step) && life([&] { return vox_grid_set_pair_enabled(held.grid, meshes[0], meshes[1], 0); }) &&
         life(step) && life([&] { return vox_grid_set_pair_enabled(held.grid, meshes[0], meshes[1], 1); }) &&

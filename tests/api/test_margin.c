@@ -1,11 +1,11 @@
-/* Margin contacts: each against vox_grid_query_closest_points, vertex by vertex and mesh by mesh, which
+/* Margin contacts: each against vox_locator_find_closest, vertex by vertex and mesh by mesh, which
  * tests/api/test_queries_of_surfaces.c compares with all facets; their life, memory and errors. */
 #include <math.h>
 #include <string.h>
 
 #include "scenes/bodies.h"
 #include "support/ledger.h"
-#include "support/suite.h"
+#include "support/locators.h"
 
 enum { most_meshes = 8 };
 
@@ -77,21 +77,19 @@ static int has_contact(const vox_grid* grid, vox_body a, uint32_t vertex, vox_bo
 static uint64_t check_margin(const margin_scene* s, vox_grid* grid, double margin) {
     const vox_margin_contact_view view = margins_of(grid);
     uint64_t next = 0;
-    ck_ok(vox_grid_prepare_queries(grid));
+    vox_locator* locator = take_locator(grid);
     for (uint32_t a = 0; a < s->count; ++a)
         for (uint32_t v = 0; v < s->bodies[a].vertex_count; ++v)
             for (uint32_t b = 0; b < s->count; ++b) {
                 if (a == b || !collide_in(s, a, b)) continue;
                 const float* p = s->bodies[a].positions + 3 * (size_t)v;
+                const vox_positions at = vox_float_positions(p, 1);
                 const vox_margin_contact* found = next < view.count ? &view.data[next] : NULL;
-                vox_closest_desc desc = vox_default_closest_desc();
+                vox_query_desc desc = query_of((uint64_t)1 << b, VOX_NULL_BODY);
                 vox_closest_hit hit;
-                desc.points = p;
-                desc.point_count = 1;
-                desc.mask = (uint64_t)1 << b;
                 desc.max_distance = margin;
-                ck_ok(vox_grid_query_closest_points(grid, &desc, &hit));
-                if (hit.mesh == VOX_NULL_BODY || has_contact(grid, s->ids[a], v, s->ids[b])) continue;
+                ck_ok(vox_locator_find_closest(locator, &at, &desc, &hit));
+                if (hit.body == VOX_NULL_BODY || has_contact(grid, s->ids[a], v, s->ids[b])) continue;
                 ck_assert_uint_lt(next, view.count);
                 ck_assert_uint_eq(found->body_a, s->ids[a]);
                 ck_assert_uint_eq(found->vertex, v);
@@ -101,16 +99,15 @@ static uint64_t check_margin(const margin_scene* s, vox_grid* grid, double margi
                 ck_assert_double_eq(found->distance, hit.distance);
                 double length = 0;
                 for (int c = 0; c < 3; ++c) {
-                    static const int corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-                    ck_assert_uint_eq(found->face[c],
-                                      s->bodies[b].tets[4 * hit.tet + (uint32_t)corners[hit.facet][c]]);
-                    ck_assert_double_eq(found->face_weights[c], hit.barycentric[c]);
+                    ck_assert_uint_eq(found->face[c], hit.face[c]);
+                    ck_assert_double_eq(found->face_weights[c], hit.weights[c]);
                     ck_assert(fabs(hit.position[c] + found->distance * found->normal[c] - p[c]) < 1e-6);
                     length += found->normal[c] * found->normal[c];
                 }
                 ck_assert(fabs(length - 1) < 1e-12);
                 ++next;
             }
+    vox_locator_release(locator);
     ck_assert_uint_eq(next, view.count);
     ck_assert_uint_eq(counters_of(grid).margin_contacts, view.count);
     return view.count;

@@ -1,14 +1,16 @@
-/* Queries between steps against brute force over every tetrahedron: exact where the answer is exact. */
+/* Questions about points and boxes against brute force over every tetrahedron, exact where the answer is
+ * exact; the errors of all questions. */
 #include <pthread.h>
 
 #include "support/oracle.h"
 #include "support/query_checks.h"
 
 /* The hits of one point by definition; returns how many. */
-static size_t hits_by_definition(const world* w, const float p[3], uint64_t mask, vox_point_hit* hits) {
+static size_t hits_by_definition(const world* w, const float p[3], uint32_t point, const vox_query_desc* desc,
+                                 vox_point_hit* hits) {
     size_t count = 0;
     for (int b = 0; b < w->count; ++b) {
-        if (!(mask >> b & 1)) continue;
+        if (!takes_part(w, b, desc)) continue;
         const size_t begin = count;
         int interior = 0;
         for (uint32_t t = 0; t < w->bodies[b].tet_count; ++t) {
@@ -20,66 +22,64 @@ static size_t hits_by_definition(const world* w, const float p[3], uint64_t mask
             if (where == ORACLE_INTERIOR && !interior)
                 count = begin; /* what was on a boundary does not count */
             interior |= where == ORACLE_INTERIOR;
-            double weights[4];
-            oracle_barycentric(p, corners, weights);
-            vox_point_hit hit = {0, w->meshes[b], t, {0}};
-            for (int c = 0; c < 4; ++c) hit.barycentric[c] = (float)weights[c];
+            vox_point_hit hit = {point, w->meshes[b], t, 0, {0}};
+            oracle_barycentric(p, corners, hit.weights);
             hits[count++] = hit;
         }
     }
     return count;
 }
 
-static void check_hits(const vox_point_hit* found, const vox_point_hit* expected, size_t count,
-                       uint32_t point) {
+static void check_hits(const vox_point_hit* found, const vox_point_hit* expected, size_t count) {
     for (size_t i = 0; i < count; ++i) {
-        ck_assert_uint_eq(found[i].point, point);
-        ck_assert_uint_eq(found[i].mesh, expected[i].mesh);
-        ck_assert_uint_eq(found[i].tet, expected[i].tet);
-        for (int c = 0; c < 4; ++c)
-            ck_assert_float_le(fabsf(found[i].barycentric[c] - expected[i].barycentric[c]), 1e-5f);
+        ck_assert_mem_eq(&found[i], &expected[i], offsetof(vox_point_hit, weights));
+        for (int c = 0; c < 4; ++c) {
+            const double weight = found[i].weights[c];
+            ck_assert(weight >= 0 && weight <= 1);
+            ck_assert_double_le(fabs(weight - expected[i].weights[c]), 0x1p-41);
+        }
     }
 }
 
 START_TEST(points_by_definition) {
-    enum { n = 200 };
+    enum { n = 200, room = 16384 };
+    static vox_point_hit expected[room], together[room], others[room];
     uint64_t random = 3, all = 0;
-    static vox_point_hit expected[4096], found[4096], together[16384];
     for (int scene = 0; scene < 24; ++scene) {
         const int coarse = scene % 2;
         world w = new_world(&random, coarse);
-        const uint64_t mask = scene % 3 ? UINT64_MAX : random_next(&random);
+        const vox_query_desc desc = random_bodies(&random, &w);
         float points[n][4]; /* three and a hole */
         double exact[n][3];
-        for (int i = 0; i < n; ++i) {
-            random_point(&random, coarse, points[i]);
-            for (int axis = 0; axis < 3; ++axis) exact[i][axis] = (double)points[i][axis];
-        }
-        uint64_t total = 0, count = 0, next = 0;
-        ck_ok(vox_grid_query_points(w.grid, points, VOX_FORMAT_FLOAT, sizeof points[0], n, mask, together,
-                                    16384, &total));
-        ck_assert_uint_le(total, 16384);
+        uint64_t total = 0, count = 0, wanted = 0, singly = 0;
         for (uint32_t i = 0; i < n; ++i) {
-            const size_t wanted = hits_by_definition(&w, points[i], mask, expected);
-            ck_ok(vox_grid_query_point(w.grid, exact[i], mask, found, 4096, &count));
-            ck_assert_uint_eq(count, wanted);
-            check_hits(found, expected, wanted, 0);
-            ck_assert_uint_le(next + wanted, total);
-            check_hits(together + next, expected, wanted, i);
-            for (size_t h = 0; h < wanted; ++h) /* the same bits */
-                ck_assert_mem_eq(together[next + h].barycentric, found[h].barycentric,
-                                 sizeof found[h].barycentric);
-            next += wanted;
+            random_point(&random, coarse, points[i]);
+            widen(points[i], exact[i]);
+            wanted += hits_by_definition(&w, points[i], i, &desc, expected + wanted);
         }
-        ck_assert_uint_eq(next, total);
-        all += total;
-        /* The same as doubles, and with room for some. */
-        vox_point_hit* some = (vox_point_hit*)calloc(total + 1, sizeof *some);
-        ck_ok(vox_grid_query_points(w.grid, exact, VOX_FORMAT_DOUBLE, 0, n, mask, some, total / 2, &count));
+        vox_positions asked = vox_float_positions(points[0], n);
+        asked.byte_stride = sizeof points[0];
+        ck_ok(vox_locator_find_point_hits(w.locator, &asked, &desc, together, room, &total));
+        ck_assert_uint_eq(total, wanted);
+        check_hits(together, expected, total);
+        for (uint32_t i = 0; i < n; ++i) {
+            asked = vox_double_positions(exact[i], 1);
+            ck_ok(vox_locator_find_point_hits(w.locator, &asked, &desc, others + singly, room - singly,
+                                              &count));
+            for (; count > 0; --count) {
+                ck_assert_uint_eq(others[singly].point, 0);
+                others[singly++].point = i;
+            }
+        }
+        ck_assert_uint_eq(singly, total);
+        ck_assert_mem_eq(others, together, total * sizeof *others);
+        memset(others, 0, sizeof others);
+        asked = vox_double_positions(exact[0], n); /* with room for some */
+        ck_ok(vox_locator_find_point_hits(w.locator, &asked, &desc, others, total / 2, &count));
         ck_assert_uint_eq(count, total);
-        ck_assert_mem_eq(some, together, total / 2 * sizeof *some);
-        ck_assert_uint_eq(some[total / 2].mesh, 0);
-        free(some);
+        ck_assert_mem_eq(others, together, total / 2 * sizeof *others);
+        ck_assert_uint_eq(others[total / 2].body, VOX_NULL_BODY);
+        all += total;
         end_world(&w);
     }
     ck_assert_uint_gt(all, 200);
@@ -89,44 +89,43 @@ END_TEST
 /* Points that no float is: between a facet and the next float on either side. */
 START_TEST(points_in_double) {
     const double in[3] = {0.25, 0.25, 1e-300}, out[3] = {0.25, 0.25, -1e-300}, on[3] = {0.25, 0.25, 0};
-    vox_grid_desc desc = engine_desc();
-    vox_grid* grid = grid_of(&desc);
+    vox_grid* grid = engine_grid();
     const vox_mesh_desc tet = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
     insert_mesh(grid, &tet);
-    ck_ok(vox_grid_prepare_queries(grid));
-    uint64_t count = 9;
-    ck_ok(vox_grid_query_point(grid, in, UINT64_MAX, NULL, 0, &count));
-    ck_assert_uint_eq(count, 1);
-    ck_ok(vox_grid_query_point(grid, on, UINT64_MAX, NULL, 0, &count));
-    ck_assert_uint_eq(count, 1);
-    ck_ok(vox_grid_query_point(grid, out, UINT64_MAX, NULL, 0, &count));
-    ck_assert_uint_eq(count, 0);
+    vox_locator* locator = take_locator(grid);
+    ck_assert_uint_eq(count_at(locator, in), 1);
+    ck_assert_uint_eq(count_at(locator, on), 1);
+    ck_assert_uint_eq(count_at(locator, out), 0);
+    vox_locator_release(locator);
     vox_grid_destroy(grid);
 }
 END_TEST
 
 START_TEST(boxes_by_definition) {
+    enum { n = 40, room = 65536 };
+    static vox_box_hit found[room], some[room];
     uint64_t random = 4, all = 0;
-    static vox_tet_hit found[8192];
     for (int scene = 0; scene < 40; ++scene) {
         world w = new_world(&random, scene % 2);
-        for (int i = 0; i < 40; ++i) {
+        double min[n][3], max[n][3];
+        for (int i = 0; i < n; ++i) {
             float p[3], q[3];
-            double min[3], max[3];
-            const uint64_t mask = i % 3 ? UINT64_MAX : random_next(&random);
             random_point(&random, scene % 2, p);
             random_point(&random, scene % 2, q);
+            if (i % 5 == 0) memcpy(q, p, sizeof q); /* a point now and then */
             for (int axis = 0; axis < 3; ++axis) {
-                min[axis] =
-                    (double)(i % 5 == 0 ? p[axis] : fminf(p[axis], q[axis])); /* a point now and then */
-                max[axis] = (double)(i % 5 == 0 ? p[axis] : fmaxf(p[axis], q[axis]));
-                if (i % 7 == 0) min[axis] = -INFINITY;
-                if (i % 11 == 0) max[axis] = INFINITY;
+                min[i][axis] = i % 7 == 0 ? -INFINITY : (double)fminf(p[axis], q[axis]);
+                max[i][axis] = i % 11 == 0 ? INFINITY : (double)fmaxf(p[axis], q[axis]);
             }
-            uint64_t count = 0, next = 0;
-            ck_ok(vox_grid_query_box(w.grid, min, max, mask, found, 8192, &count));
+        }
+        const vox_query_desc desc = random_bodies(&random, &w);
+        const vox_positions lows = vox_double_positions(min[0], n), highs = vox_double_positions(max[0], n);
+        uint64_t count = 0, next = 0;
+        ck_ok(vox_locator_find_box_hits(w.locator, &lows, &highs, &desc, found, room, &count));
+        ck_assert_uint_le(count, room);
+        for (uint32_t i = 0; i < n; ++i)
             for (int b = 0; b < w.count; ++b)
-                for (uint32_t t = 0; t < w.bodies[b].tet_count && (mask >> b & 1); ++t) {
+                for (uint32_t t = 0; t < w.bodies[b].tet_count && takes_part(&w, b, &desc); ++t) {
                     const float* corners[4];
                     int meets = 1;
                     corners_of(&w.bodies[b], t, corners);
@@ -136,83 +135,34 @@ START_TEST(boxes_by_definition) {
                             lo = fminf(lo, corners[c][axis]);
                             hi = fmaxf(hi, corners[c][axis]);
                         }
-                        meets &= (double)lo <= max[axis] && (double)hi >= min[axis];
+                        meets &= (double)lo <= max[i][axis] && (double)hi >= min[i][axis];
                     }
                     if (!meets) continue;
+                    const vox_box_hit expected = {i, w.meshes[b], t};
                     ck_assert_uint_lt(next, count);
-                    ck_assert_uint_eq(found[next].mesh, w.meshes[b]);
-                    ck_assert_uint_eq(found[next++].tet, t);
+                    ck_assert_mem_eq(&found[next++], &expected, sizeof expected);
                 }
-            ck_assert_uint_eq(next, count);
-            all += count;
-        }
+        ck_assert_uint_eq(next, count);
+        memset(some, 0, sizeof some);
+        ck_ok(vox_locator_find_box_hits(w.locator, &lows, &highs, &desc, some, count / 2, &next));
+        ck_assert_uint_eq(next, count);
+        ck_assert_mem_eq(some, found, count / 2 * sizeof *some);
+        ck_assert_uint_eq(some[count / 2].body, VOX_NULL_BODY);
+        all += count;
         end_world(&w);
     }
     ck_assert_uint_gt(all, 5000);
 }
 END_TEST
 
-static uint64_t count_at(const vox_grid* grid, const double p[3]) {
-    uint64_t count = 0;
-    ck_ok(vox_grid_query_point(grid, p, UINT64_MAX, NULL, 0, &count));
-    return count;
-}
-
-/* Answers are about the moment of preparing. */
-START_TEST(as_it_was_when_prepared) {
-    const double inside[3] = {0.3, 0.4, 0.6}, far_away[3] = {10.3, 0.4, 0.6};
-    body box = make_box(2, 1, 0, 0, 0);
-    vox_grid_desc desc = engine_desc();
-    vox_body other;
-    uint64_t count = 77;
-    vox_grid* grid = grid_of(&desc);
-    ck_fails(vox_grid_query_point(grid, inside, 1, NULL, 0, &count), VOX_ERROR_INVALID_STATE,
-             "prepare_queries");
-    ck_assert_uint_eq(count, 77);
-    ck_ok(vox_grid_prepare_queries(grid)); /* of nothing */
-    ck_assert_uint_eq(count_at(grid, inside), 0);
-    const vox_mesh_desc body = body_desc(&box);
-    vox_body mesh = insert_mesh(grid, &body);
-    ck_assert_uint_eq(count_at(grid, inside), 0);
-    ck_ok(vox_grid_prepare_queries(grid)); /* before the first step */
-    ck_assert_uint_eq(count_at(grid, inside), 1);
-    for (uint32_t v = 0; v < box.vertex_count; ++v) box.positions[3 * v] += 10;
-    ck_ok(vox_grid_step(grid));
-    ck_assert_uint_eq(count_at(grid, inside), 1);
-    ck_assert_uint_eq(count_at(grid, far_away), 0);
-    ck_ok(vox_grid_prepare_queries(grid));
-    ck_assert_uint_eq(count_at(grid, inside), 0);
-    ck_assert_uint_eq(count_at(grid, far_away), 1);
-    box.positions[0] = NAN; /* what fails leaves what was there */
-    ck_fails(vox_grid_prepare_queries(grid), VOX_ERROR_NON_FINITE, "not finite");
-    ck_assert_uint_eq(count_at(grid, far_away), 1);
-    ck_ok(vox_body_remove(grid, mesh));
-    ck_assert_uint_eq(count_at(grid, far_away), 1);
-    box.positions[0] = 10;
-    ck_ok(vox_mesh_insert(grid, &body, &other));
-    ck_ok(vox_body_set_enabled(grid, other, 0));
-    ck_ok(vox_grid_prepare_queries(grid));
-    ck_assert_uint_eq(count_at(grid, far_away), 0);
-    ck_ok(vox_grid_clear(grid));
-    ck_fails(vox_grid_query_point(grid, inside, 1, NULL, 0, &count), VOX_ERROR_INVALID_STATE,
-             "prepare_queries");
-    vox_mesh_desc bare = body;
-    bare.positions.data = NULL;
-    ck_ok(vox_mesh_insert(grid, &bare, &mesh));
-    ck_fails(vox_grid_prepare_queries(grid), VOX_ERROR_INVALID_STATE, "has no positions");
-    vox_grid_destroy(grid);
-    free_body(&box);
-}
-END_TEST
-
-/* Many threads at once: queries and suggestions, of which the first look at the meshes, are reads. */
+/* Many threads at once: questions and suggestions, of which the first look at the meshes, are reads. */
 typedef struct asker {
     const world* w;
     uint64_t seed;
     uint64_t sum;
 } asker;
 
-static void* ask(void* context) {
+static void* ask_many(void* context) {
     asker* a = (asker*)context;
     uint64_t random = a->seed;
     vox_suggestion suggestion;
@@ -223,18 +173,21 @@ static void* ask(void* context) {
         float p[3], q[3];
         random_point(&random, 0, p);
         random_point(&random, 0, q);
-        const double from[3] = {(double)p[0], (double)p[1], (double)p[2]},
-                     to[3] = {(double)q[0], (double)q[1], (double)q[2]};
+        const vox_positions from = vox_float_positions(p, 1), to = vox_float_positions(q, 1);
+        const vox_locator* locator = a->w->locator;
         vox_point_hit hits[8];
-        vox_surface_hit closest;
-        vox_ray_hit ray;
-        uint64_t count = 0, boxes = 0;
-        if (vox_grid_query_point(a->w->grid, from, UINT64_MAX, hits, 8, &count) ||
-            vox_grid_query_box(a->w->grid, from, from, UINT64_MAX, NULL, 0, &boxes) ||
-            vox_grid_query_closest(a->w->grid, from, 1, UINT64_MAX, &closest) ||
-            vox_grid_query_ray(a->w->grid, from, to, UINT64_MAX, &ray))
+        vox_closest_hit closest;
+        vox_ray_hit rays[8];
+        uint8_t blocked = 0;
+        uint64_t count = 0, boxes = 0, met = 0;
+        memset(rays, 0, sizeof rays);
+        if (vox_locator_find_point_hits(locator, &from, NULL, hits, 8, &count) ||
+            vox_locator_find_box_hits(locator, &from, &from, NULL, NULL, 0, &boxes) ||
+            vox_locator_find_closest(locator, &from, NULL, &closest) ||
+            vox_locator_find_ray_hits(locator, &from, &to, NULL, rays, 8, &met) ||
+            vox_locator_test_rays(locator, &from, &to, NULL, &blocked))
             return NULL;
-        a->sum = a->sum * 31 + count + boxes + closest.tet + ray.tet + ray.surface_tet;
+        a->sum = a->sum * 31 + count + boxes + closest.tet + met + rays[0].tet + blocked;
     }
     return context;
 }
@@ -246,7 +199,7 @@ START_TEST(many_threads) {
     pthread_t threads[4];
     for (int i = 0; i < 4; ++i) {
         askers[i] = (asker){&w, 17, 0};
-        ck_assert_int_eq(pthread_create(&threads[i], NULL, ask, &askers[i]), 0);
+        ck_assert_int_eq(pthread_create(&threads[i], NULL, ask_many, &askers[i]), 0);
     }
     for (int i = 0; i < 4; ++i) {
         void* done = NULL;
@@ -259,76 +212,145 @@ START_TEST(many_threads) {
 }
 END_TEST
 
+/* ---- arguments ---- */
+
+typedef enum question { point_hits, closest, box_hits, ray_hits, test_rays, question_count } question;
+static const char* const first_names[] = {"points", "points", "min", "from", "from"};
+
+/* Asks about `a` or, where questions are of pairs, `a` and `b`. What fails writes nothing. */
+static vox_result ask(question which, const vox_locator* locator, const vox_positions* a,
+                      const vox_positions* b, const vox_query_desc* desc) {
+    union {
+        vox_point_hit points[4];
+        vox_closest_hit closest[4];
+        vox_box_hit boxes[4];
+        vox_ray_hit rays[4];
+        uint8_t blocked[4];
+    } out, before;
+    uint64_t count = 77;
+    memset(&out, 0xaa, sizeof out);
+    before = out;
+    const vox_result result =
+        which == point_hits ? vox_locator_find_point_hits(locator, a, desc, out.points, 4, &count)
+        : which == closest  ? vox_locator_find_closest(locator, a, desc, out.closest)
+        : which == box_hits ? vox_locator_find_box_hits(locator, a, b, desc, out.boxes, 4, &count)
+        : which == ray_hits ? vox_locator_find_ray_hits(locator, a, b, desc, out.rays, 4, &count)
+                            : vox_locator_test_rays(locator, a, b, desc, out.blocked);
+    if (result != VOX_OK) {
+        ck_assert_mem_eq(&out, &before, sizeof out);
+        ck_assert_uint_eq(count, 77);
+    }
+    return result;
+}
+
+/* The call fails with this text, where %s is the name of the first array. */
+#define ck_question_fails(which, locator, a, b, desc, code, ...)                                             \
+    do {                                                                                                     \
+        char words_[96];                                                                                     \
+        (void)snprintf(words_, sizeof words_, __VA_ARGS__, first_names[which]);                              \
+        ck_fails(ask(which, locator, a, b, desc), code, words_);                                             \
+    } while (0)
+
 START_TEST(arguments) {
+    static const double p[4][3] = {{1, 1, 1}, {2, 1, 3}, {0, NAN, 0}, {0, 0, 4e38}};
+    uint64_t random = 9;
+    world w = new_world(&random, 0);
+    const vox_locator* locator = w.locator;
+    const vox_positions one = vox_double_positions(p[0], 1), two = vox_double_positions(p[0], 2);
+    const vox_positions no_number = vox_double_positions(p[1], 2), large = vox_double_positions(p[3], 1);
+    const vox_positions none = vox_float_positions(NULL, 0);
+    for (question q = point_hits; q < question_count; ++q) {
+        const int pairs = q >= box_hits;
+        vox_positions bad = one;
+        vox_query_desc desc = vox_default_query_desc();
+        ck_ok(ask(q, locator, &none, &none, &desc));
+        ck_ok(ask(q, locator, &two, &two, NULL));
+        ck_fails(ask(q, NULL, &one, &one, &desc), VOX_ERROR_INVALID_ARGUMENT, "locator is null");
+        ck_question_fails(q, locator, NULL, &one, &desc, VOX_ERROR_INVALID_ARGUMENT, "%s is null");
+        bad.data = NULL;
+        ck_question_fails(q, locator, &bad, &one, &desc, VOX_ERROR_INVALID_ARGUMENT, "%s.data is null");
+        ck_fails(ask(q, locator, &bad, &one, &desc), VOX_ERROR_INVALID_ARGUMENT, ".count is 1");
+        bad = one;
+        bad.count = 1ull << 32;
+        ck_question_fails(q, locator, &bad, &bad, &desc, VOX_ERROR_LIMIT, "%s.count is 4294967296");
+        bad = two;
+        bad.byte_stride = 23;
+        ck_question_fails(q, locator, &bad, &two, &desc, VOX_ERROR_INVALID_ARGUMENT, "%s.byte_stride is 23");
+        bad = one;
+        bad.format = (vox_format)9;
+        ck_question_fails(q, locator, &bad, &one, &desc, VOX_ERROR_INVALID_ARGUMENT, "%s.format is 9");
+        if (q != box_hits) {
+            ck_question_fails(q, locator, &no_number, &two, &desc, VOX_ERROR_NON_FINITE,
+                              "%s: position 1 is (0, nan, 0)");
+            ck_question_fails(q, locator, &large, &one, &desc, VOX_ERROR_LIMIT,
+                              "%s: position 0 is (0, 0, 4e+38)");
+        }
+        if (pairs) {
+            ck_question_fails(q, locator, &one, &two, &desc, VOX_ERROR_INVALID_ARGUMENT, "%s.count is 1, ");
+            ck_fails(ask(q, locator, &one, &two, &desc), VOX_ERROR_INVALID_ARGUMENT, ".count is 2");
+            ck_fails(ask(q, locator, &one, NULL, &desc), VOX_ERROR_INVALID_ARGUMENT,
+                     q == box_hits ? "max is null" : "to is null");
+        }
+        desc.flags = 6;
+        ck_fails(ask(q, locator, &one, &one, &desc), VOX_ERROR_INVALID_ARGUMENT, "desc.flags is 0x6");
+        desc.flags = 0;
+        desc.reserved = 3;
+        ck_fails(ask(q, locator, &one, &one, &desc), VOX_ERROR_INVALID_ARGUMENT, "desc.reserved is 3");
+        desc.reserved = 0;
+        desc.struct_size = 0;
+        ck_fails(ask(q, locator, &one, &one, &desc), VOX_ERROR_INVALID_ARGUMENT, "struct_size");
+        desc = vox_default_query_desc();
+        ck_assert_uint_eq(desc.struct_size, sizeof desc);
+        desc.max_distance = -1;
+        ck_fails(ask(q, locator, &one, &one, &desc), VOX_ERROR_INVALID_ARGUMENT, "desc.max_distance is -1");
+        desc.max_distance = NAN;
+        ck_fails(ask(q, locator, &one, &one, &desc), VOX_ERROR_INVALID_ARGUMENT, "desc.max_distance is");
+    }
+    ck_fails(ask(ray_hits, locator, &one, &large, NULL), VOX_ERROR_LIMIT, "to: position 0 is (0, 0, 4e+38)");
+    ck_fails(ask(test_rays, locator, &two, &no_number, NULL), VOX_ERROR_NON_FINITE, "to: position 1 is");
+    ck_fails(ask(box_hits, locator, &no_number, &two, NULL), VOX_ERROR_INVALID_ARGUMENT,
+             "box 0 is from (2, 1, 3) to (1, 1, 1)");
+    ck_fails(ask(box_hits, locator, &two, &no_number, NULL), VOX_ERROR_INVALID_ARGUMENT,
+             "box 1 is from (2, 1, 3) to (0, nan, 0)");
+    end_world(&w);
+}
+END_TEST
+
+START_TEST(null_outputs) {
+    static const double p[3] = {1, 1, 1};
     uint64_t random = 9, count = 77;
     world w = new_world(&random, 0);
-    const double p[3] = {1, 1, 1}, q[3] = {0, 2, 2}, nan_point[3] = {0, NAN, 0}, huge[3] = {0, 0, 4e38};
-    vox_point_hit hit;
-    vox_tet_hit tet;
-    vox_surface_hit surface;
+    const vox_positions one = vox_double_positions(p, 1), none = vox_double_positions(NULL, 0);
+    vox_point_hit point;
+    vox_box_hit box;
     vox_ray_hit ray;
-    const float floats[3] = {1, 1, INFINITY};
-    ck_fails(vox_grid_prepare_queries(NULL), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_grid_query_point(NULL, p, 1, &hit, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_grid_query_point(w.grid, NULL, 1, &hit, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
-             "point is null");
-    ck_fails(vox_grid_query_point(w.grid, p, 1, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "hits is null");
-    ck_fails(vox_grid_query_point(w.grid, p, 1, &hit, 1, NULL), VOX_ERROR_INVALID_ARGUMENT,
-             "out_count is null");
-    ck_fails(vox_grid_query_point(w.grid, nan_point, 1, &hit, 1, &count), VOX_ERROR_NON_FINITE,
-             "point is (0, nan, 0)");
-    ck_fails(vox_grid_query_point(w.grid, huge, 1, &hit, 1, &count), VOX_ERROR_LIMIT, "4e+38");
-    ck_fails(vox_grid_query_points(NULL, p, VOX_FORMAT_DOUBLE, 0, 1, 1, &hit, 1, &count),
-             VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_grid_query_points(w.grid, NULL, VOX_FORMAT_DOUBLE, 0, 1, 1, &hit, 1, &count),
-             VOX_ERROR_INVALID_ARGUMENT, "points is null");
-    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE, 0, 1, 1, NULL, 1, &count),
-             VOX_ERROR_INVALID_ARGUMENT, "hits is null");
-    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE, 0, 1, 1, &hit, 1, NULL),
-             VOX_ERROR_INVALID_ARGUMENT, "out_count is null");
-    ck_fails(vox_grid_query_points(w.grid, p, (vox_format)7, 0, 1, 1, &hit, 1, &count),
-             VOX_ERROR_INVALID_ARGUMENT, "7");
-    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE, 23, 1, 1, &hit, 1, &count),
-             VOX_ERROR_INVALID_ARGUMENT, "23");
-    ck_fails(vox_grid_query_points(w.grid, p, VOX_FORMAT_DOUBLE, 24, 1ull << 32, 1, &hit, 1, &count),
-             VOX_ERROR_LIMIT, "4294967296");
-    ck_fails(vox_grid_query_points(w.grid, floats, VOX_FORMAT_FLOAT, 0, 1, 1, &hit, 1, &count),
-             VOX_ERROR_NON_FINITE, "point 0 is (1, 1, inf)");
-    ck_ok(vox_grid_query_points(w.grid, NULL, VOX_FORMAT_FLOAT, 0, 0, 1, NULL, 0, &count));
-    ck_assert_uint_eq(count, 0);
-    count = 77;
-    ck_fails(vox_grid_query_box(NULL, p, p, 1, &tet, 1, &count), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_grid_query_box(w.grid, NULL, p, 1, &tet, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
-             "min is null");
-    ck_fails(vox_grid_query_box(w.grid, p, NULL, 1, &tet, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
-             "max is null");
-    ck_fails(vox_grid_query_box(w.grid, p, p, 1, NULL, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
-             "hits is null");
-    ck_fails(vox_grid_query_box(w.grid, p, p, 1, &tet, 1, NULL), VOX_ERROR_INVALID_ARGUMENT,
-             "out_count is null");
-    ck_fails(vox_grid_query_box(w.grid, p, q, 1, &tet, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
-             "[1, 0] on axis 0");
-    ck_fails(vox_grid_query_box(w.grid, nan_point, q, 1, &tet, 1, &count), VOX_ERROR_INVALID_ARGUMENT,
-             "on axis 1");
-    ck_fails(vox_grid_query_closest(NULL, p, 1, 1, &surface), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_grid_query_closest(w.grid, NULL, 1, 1, &surface), VOX_ERROR_INVALID_ARGUMENT,
-             "point is null");
-    ck_fails(vox_grid_query_closest(w.grid, p, 1, 1, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_hit is null");
-    ck_fails(vox_grid_query_closest(w.grid, p, -1, 1, &surface), VOX_ERROR_INVALID_ARGUMENT, "radius is -1");
-    ck_fails(vox_grid_query_closest(w.grid, p, NAN, 1, &surface), VOX_ERROR_INVALID_ARGUMENT, "radius is");
-    ck_fails(vox_grid_query_ray(NULL, p, q, 1, &ray), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_grid_query_ray(w.grid, NULL, q, 1, &ray), VOX_ERROR_INVALID_ARGUMENT, "from is null");
-    ck_fails(vox_grid_query_ray(w.grid, p, NULL, 1, &ray), VOX_ERROR_INVALID_ARGUMENT, "to is null");
-    ck_fails(vox_grid_query_ray(w.grid, p, q, 1, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_hit is null");
-    ck_fails(vox_grid_query_ray(w.grid, p, nan_point, 1, &ray), VOX_ERROR_NON_FINITE, "to is");
-    ck_assert_uint_eq(count, 77);
+#define ck_null_outputs(name, hit, ...)                                                                      \
+    do {                                                                                                     \
+        ck_fails(vox_locator_##name(w.locator, __VA_ARGS__, NULL, NULL, 1, &count),                          \
+                 VOX_ERROR_INVALID_ARGUMENT, "hits is null");                                                \
+        ck_fails(vox_locator_##name(w.locator, __VA_ARGS__, NULL, &hit, 1, NULL),                            \
+                 VOX_ERROR_INVALID_ARGUMENT, "out_count is null");                                           \
+        ck_assert_uint_eq(count, 77);                                                                        \
+        ck_ok(vox_locator_##name(w.locator, __VA_ARGS__, NULL, NULL, 0, &count));                            \
+        ck_assert_uint_ne(count, 77);                                                                        \
+        count = 77;                                                                                          \
+    } while (0)
+    ck_null_outputs(find_point_hits, point, &one);
+    ck_null_outputs(find_box_hits, box, &one, &one);
+    ck_null_outputs(find_ray_hits, ray, &one, &one);
+    ck_fails(vox_locator_find_closest(w.locator, &one, NULL, NULL), VOX_ERROR_INVALID_ARGUMENT,
+             "out_hits is null");
+    ck_fails(vox_locator_test_rays(w.locator, &one, &one, NULL, NULL), VOX_ERROR_INVALID_ARGUMENT,
+             "out_blocked is null");
+    ck_ok(vox_locator_find_closest(w.locator, &none, NULL, NULL));
+    ck_ok(vox_locator_test_rays(w.locator, &none, &none, NULL, NULL));
     end_world(&w);
 }
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, points_by_definition, points_in_double, boxes_by_definition,
-                   as_it_was_when_prepared, many_threads, arguments);
+    tcase_add_each(tests, points_by_definition, points_in_double, boxes_by_definition, many_threads,
+                   arguments, null_outputs);
 }
 
 SUITE(queries) { add_for_each_engine(suite, add_tests); }

@@ -1,4 +1,5 @@
 /* Readings of contacts against brute force, the same from every engine and any number of workers. */
+#include "support/locators.h"
 #include "support/reading_checks.h"
 
 /* Two boxes as one body, the second moved. */
@@ -48,7 +49,7 @@ START_TEST(by_definition) {
         ck_ok(vox_grid_step(w.grid));
         surfaces += check_readings(&w, 0);
         check_depths(&w);
-        /* The query for the closest point is the same search. */
+        /* The closest point is found by the same search. */
         vox_reading_view readings;
         ck_ok(vox_grid_readings(w.grid, &readings));
         vox_contact_view contacts = contacts_of(w.grid);
@@ -58,16 +59,18 @@ START_TEST(by_definition) {
             filter.category = (uint64_t)1 << b;
             ck_ok(vox_body_set_filter(w.grid, w.models[b].mesh, &filter));
         }
-        ck_ok(vox_grid_prepare_queries(w.grid));
+        vox_locator* locator = take_locator(w.grid);
         for (uint64_t i = 0; i < readings.count; i += 3) {
-            vox_surface_hit hit;
             const vox_reading* r = &readings.data[i];
             if (!(r->known & VOX_READING_SURFACE)) continue;
-            ck_ok(vox_grid_query_closest(w.grid, r->position, INFINITY,
-                                         (uint64_t)1 << index_of(&w, contacts.data[i].body_b), &hit));
-            ck_assert_uint_eq(hit.mesh, contacts.data[i].body_b);
-            ck_assert_double_le(fabs(hit.distance - r->distance), 1e-15 + 1e-12 * hit.distance);
+            const vox_query_desc desc =
+                query_of((uint64_t)1 << index_of(&w, contacts.data[i].body_b), VOX_NULL_BODY);
+            const vox_closest_hit hit = closest_to(locator, r->position, &desc);
+            const double distance = fabs(hit.distance);
+            ck_assert_uint_eq(hit.body, contacts.data[i].body_b);
+            ck_assert_double_le(fabs(distance - r->distance), 1e-15 + 1e-12 * distance);
         }
+        vox_locator_release(locator);
         end_world(&w);
     }
     ck_assert_uint_gt(surfaces, 2000);

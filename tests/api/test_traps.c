@@ -6,8 +6,8 @@
 
 #include "scenes/bodies.h"
 #include "support/ledger.h"
+#include "support/locators.h"
 #include "support/oracle.h"
-#include "support/suite.h"
 
 /* ---- the log ---- */
 
@@ -71,7 +71,9 @@ START_TEST(doubles_under_floats_are_refused) {
         ck_assert_uint_eq(failure.vertex, VOX_NO_VERTEX);
         ck_fails(vox_grid_suggest_cell_size(grid, NULL, &suggestion), VOX_ERROR_INVALID_ARGUMENT,
                  "are doubles");
-        ck_fails(vox_grid_prepare_queries(grid), VOX_ERROR_INVALID_ARGUMENT, "are doubles");
+        vox_locator* locator = NULL;
+        ck_fails(vox_grid_update_locator(grid, &locator), VOX_ERROR_INVALID_ARGUMENT, "are doubles");
+        ck_assert_ptr_null(locator);
         ck_ok(vox_mesh_bind_doubles(grid, mesh, positions, desc.positions.count));
         ck_ok(vox_grid_step(grid));
         ck_ok(vox_mesh_bind_floats(grid, mesh, (const float*)(const void*)positions, desc.positions.count));

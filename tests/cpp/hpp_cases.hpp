@@ -3,7 +3,7 @@
 // unchecked as C++17.
 #include <Eigen/Geometry>
 
-#include <vox/vox.hpp>
+#include <vox/vox_query.hpp>
 
 #include "cpp/scene.hpp"
 #include "cpp/throws.hpp"
@@ -387,13 +387,13 @@ START_TEST(arrays_of_another_size_are_errors) {
            "not numbers of 8 bytes");
     throws([&] { (void)with.grid.positions<double>(with.a); }, VOX_ERROR_INVALID_ARGUMENT,
            "not numbers of 8 bytes");
-    with.grid.prepare_queries();
+    const vox::locator locator(with.grid);
     const Eigen::Matrix<float, Eigen::Dynamic, 3> columns =
         Eigen::Matrix<float, Eigen::Dynamic, 3>::Zero(4, 3);
-    throws([&] { with.grid.query_points(columns); }, VOX_ERROR_UNSUPPORTED, "16 bytes apart, not 4");
-    ck_assert_uint_eq(with.grid.query_closest_points(columns).size(), 4);
+    ck_assert_uint_eq(locator.find_point_hits(columns).size(), 4);
+    ck_assert_uint_eq(locator.find_closest(columns).size(), 4);
     std::vector<vox_closest_hit> room(3);
-    throws([&] { with.grid.query_closest_points(columns, room); }, VOX_ERROR_INVALID_ARGUMENT,
+    throws([&] { locator.find_closest(columns, room); }, VOX_ERROR_INVALID_ARGUMENT,
            "room for 3 hits, for 4");
     with.grid.step(); // and the grid is as it was
     ck_assert_uint_eq(with.grid.meshes().size(), 2);
@@ -447,14 +447,17 @@ START_TEST(grids_move_and_release) {
         ck_assert(other.contains(a));
         ck_assert_uint_eq(contacts[0].body_a, a);
 
-        // A view of queries outlives its grid; a copy is another owner.
-        vox::query_view view = other.take_query_view();
-        ck_assert_uint_eq(view.epoch(), other.info().epoch);
-        vox::query_view copy = view;
-        view = vox::query_view();
+        // A locator outlives its grid; a copy is another owner.
+        vox::locator locator(other);
+        ck_assert_uint_eq(locator.epoch(), other.info().epoch);
+        vox::locator copy = locator;
+        other.step();
+        locator.update(other);
+        ck_assert_uint_eq(locator.epoch(), copy.epoch() + 1);
+        locator = vox::locator();
         other = vox::grid();
         ended([&] { return contacts.size() + contacts[0].tet; }, "grid was destroyed");
-        ck_assert_uint_eq(copy.query_point({0.1, 0.1, 0.1}).size(), 1);
+        ck_assert_uint_eq(copy.find_point_hits(std::vector<double>{0.1, 0.1, 0.1}).size(), 1);
         ck_assert_uint_eq(copy.user_data(a), 0);
         ck_assert_uint_gt(memory.bytes, 0);
     }
@@ -857,8 +860,8 @@ START_TEST(task_systems_are_callables) {
     ck_assert_int_gt(tasks, 0);
     const std::uint64_t hash = grid.hash();
     fails = true;
-    const std::function<void()> calls[] = {[&] { grid.step(); }, [&] { grid.prepare_queries(); },
-                                           [&] { (void)grid.take_query_view(); }};
+    vox::locator locator;
+    const std::function<void()> calls[] = {[&] { grid.step(); }, [&] { locator.update(grid); }};
     for (const auto& call : calls) {
         try {
             call();
@@ -933,67 +936,66 @@ START_TEST(cost_functions_are_callables) {
 }
 END_TEST
 
-// ---- queries, cutting, cell sizes, snapshots, many grids ----
+// ---- locators, cutting, cell sizes, snapshots, many grids ----
 
-// Every query of a grid or a view of it equals that of the grid in C.
-template <class Q>
-void queries_equal(const Q& asked, const Scene& scene, const vox_grid* c) {
-    const double p[3] = {0.45, 0.4, 0.3}, q[3] = {3, 2, 1};
-    const std::array<double, 3> point = {0.45, 0.4, 0.3};
+template <class Hit, class F>
+std::vector<Hit> hits_of_c(F&& ask) {
+    std::vector<Hit> hits(10000);
     std::uint64_t count = 0;
-    std::vector<vox_point_hit> points(1000);
-    ck_ok(vox_grid_query_point(c, p, vox::all_meshes, points.data(), points.size(), &count));
-    points.resize(count);
-    same(asked.query_point(point), points);
-    std::vector<vox_point_hit> first(1);
-    ck_assert_uint_eq(asked.query_point(p, first), count);
-    ck_assert_mem_eq(first.data(), points.data(), sizeof first[0]);
-    points.resize(10000);
-    ck_ok(vox_grid_query_points(c, scene.a.data(), VOX_FORMAT_FLOAT, 0, scene.vertices(), vox::all_meshes,
-                                points.data(), points.size(), &count));
-    points.resize(count);
-    same(asked.query_points(scene.a), points);
-    ck_assert_uint_eq(asked.query_points(scene.a, first), count);
-    std::vector<vox_tet_hit> tets(10000), one(1);
-    ck_ok(vox_grid_query_box(c, p, q, vox::all_meshes, tets.data(), tets.size(), &count));
-    tets.resize(count);
-    same(asked.query_box(p, q), tets);
-    ck_assert_uint_eq(asked.query_box(p, q, one), count);
-    vox_surface_hit surface;
-    ck_ok(vox_grid_query_closest(c, q, 100, vox::all_meshes, &surface));
-    const vox_surface_hit same_surface = asked.query_closest({3, 2, 1}, 100);
-    ck_assert_mem_eq(&same_surface, &surface, sizeof surface);
-    vox_closest_desc desc = vox_default_closest_desc();
-    desc.points = scene.a.data();
-    desc.point_count = scene.vertices();
-    std::vector<vox_closest_hit> closest(scene.vertices()), written(scene.vertices());
-    ck_ok(vox_grid_query_closest_points(c, &desc, closest.data()));
-    same(asked.query_closest_points(scene.a), closest);
-    asked.query_closest_points(scene.a, written);
-    same(written, closest);
-    vox_ray_hit ray;
-    ck_ok(vox_grid_query_ray(c, q, p, vox::all_meshes, &ray));
-    const vox_ray_hit same_ray = asked.query_ray(q, p);
-    ck_assert_mem_eq(&same_ray, &ray, sizeof ray);
-    std::vector<vox_facet_hit> facets(1000), facet(1);
-    ck_ok(vox_grid_query_ray_hits(c, q, p, vox::all_meshes, VOX_NULL_BODY, facets.data(), facets.size(),
-                                  &count));
-    facets.resize(count);
-    same(asked.query_ray_hits(q, p), facets);
-    ck_assert_uint_eq(asked.query_ray_hits(q, p, facet), count);
-    ck_assert(asked.query_ray_any(q, p) && !asked.query_ray_any(q, {4, 4, 4}));
-    ck_assert(!asked.query_ray_any(q, p, 0));
-    throws([&] { (void)asked.query_point({NAN, 0, 0}); }, VOX_ERROR_NON_FINITE, "nan");
+    ck_ok(ask(hits.data(), hits.size(), &count));
+    hits.resize(count);
+    return hits;
 }
 
-START_TEST(queries_equal_those_of_c) {
+START_TEST(locators_equal_those_of_c) {
     Stepped with;
     CGrid c(with.scene);
-    ck_ok(vox_grid_prepare_queries(c.grid));
-    throws([&] { (void)with.grid.query_point({0, 0, 0}); }, VOX_ERROR_INVALID_STATE, "");
-    with.grid.prepare_queries();
-    queries_equal(with.grid, with.scene, c.grid);
-    queries_equal(with.grid.take_query_view(), with.scene, c.grid);
+    vox_locator* raw = nullptr;
+    ck_ok(vox_grid_update_locator(c.grid, &raw));
+    const vox::locator of_c = vox::locator::adopt(raw), asked(with.grid);
+    const std::vector<float>&from = with.scene.a, &to = with.scene.b;
+    std::vector<float> max = from;
+    for (float& x : max) x += 0.3f;
+    const std::uint64_t count = with.scene.vertices();
+    const vox_positions begins = vox_float_positions(from.data(), count);
+    const vox_positions ends = vox_float_positions(to.data(), count);
+    const vox_positions highs = vox_float_positions(max.data(), count);
+    vox_query_desc desc = vox_default_query_desc();
+    desc.excluded = c.meshes[0];
+    desc.flags = VOX_QUERY_FIRST_HIT;
+    for (const vox_query_desc& which : {vox_default_query_desc(), desc}) {
+        const auto points = hits_of_c<vox_point_hit>(
+            [&](auto... out) { return vox_locator_find_point_hits(raw, &begins, &which, out...); });
+        const auto boxes = hits_of_c<vox_box_hit>(
+            [&](auto... out) { return vox_locator_find_box_hits(raw, &begins, &highs, &which, out...); });
+        const auto rays = hits_of_c<vox_ray_hit>(
+            [&](auto... out) { return vox_locator_find_ray_hits(raw, &begins, &ends, &which, out...); });
+        same(asked.find_point_hits(from, which), points);
+        same(asked.find_box_hits(from, max, which), boxes);
+        same(asked.find_ray_hits(from, to, which), rays);
+        std::vector<vox_point_hit> point(1);
+        std::vector<vox_box_hit> box(1);
+        std::vector<vox_ray_hit> ray(1);
+        ck_assert_uint_eq(asked.find_point_hits(from, point, which), points.size());
+        ck_assert_uint_eq(asked.find_box_hits(from, max, box, which), boxes.size());
+        ck_assert_uint_eq(asked.find_ray_hits(from, to, ray, which), rays.size());
+        ck_assert_mem_eq(point.data(), points.data(), sizeof point[0]);
+        ck_assert_mem_eq(box.data(), boxes.data(), sizeof box[0]);
+        ck_assert_mem_eq(ray.data(), rays.data(), sizeof ray[0]);
+        std::vector<vox_closest_hit> closest(count), written(count);
+        ck_ok(vox_locator_find_closest(raw, &begins, &which, closest.data()));
+        same(asked.find_closest(from, which), closest);
+        asked.find_closest(from, written, which);
+        same(written, closest);
+        std::vector<std::uint8_t> blocked(count);
+        ck_ok(vox_locator_test_rays(raw, &begins, &ends, &which, blocked.data()));
+        same(asked.test_rays(from, to, which), blocked);
+    }
+    same(asked.find_point_hits(from), of_c.find_point_hits(from));
+    const std::vector<double> bad = {NAN, 0, 0}, two(6);
+    throws([&] { (void)asked.find_point_hits(bad); }, VOX_ERROR_NON_FINITE, "nan");
+    throws([&] { (void)asked.test_rays(from, two); }, VOX_ERROR_INVALID_ARGUMENT, "to.count is 2");
+    throws([&] { (void)vox::locator().find_closest(from); }, VOX_ERROR_INVALID_ARGUMENT, "locator is null");
 }
 END_TEST
 
@@ -1228,7 +1230,7 @@ END_TEST
 void add_hpp_cases(Suite* suite) {
     tcase_add_each(add_case(suite, "results"), results_equal_those_of_c, edge_contacts_equal_those_of_c,
                    margin_contacts_and_passages_equal_those_of_c, readings_equal_those_of_c,
-                   meshes_tell_what_c_tells, transforms, queries_equal_those_of_c, meshes_are_cut_as_in_c,
+                   meshes_tell_what_c_tells, transforms, locators_equal_those_of_c, meshes_are_cut_as_in_c,
                    cell_sizes_equal_those_of_c, primitives_are_those_of_c,
                    cell_sizes_of_any_grid_equal_those_of_c, snapshots_hold_the_grid, many_grids_in_one_call,
                    versions);

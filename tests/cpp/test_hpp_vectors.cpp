@@ -1,11 +1,12 @@
 // Replays bindings/vectors through vox.hpp: the same results as in every other language.
 #define VOX_HPP_CHECKED 1
-#include <vox/vox.hpp>
+#include <vox/vox_query.hpp>
 
 #include <algorithm>
 #include <cinttypes>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "support/suite.h" // last: Check has a macro called fail
 
@@ -74,6 +75,7 @@ public:
 private:
     std::string arrays_;
     vox::grid grid_;
+    vox::locator locator_;
     std::string place_;
 
     void check(const json& call, const char* name, const json& found) const {
@@ -86,10 +88,13 @@ private:
         std::memcpy(items.data(), arrays_.data() + offset.get<std::size_t>(), items.size() * sizeof(T));
         return items;
     }
-    using point = std::array<double, 3>;
     using corners = std::array<std::uint32_t, 4>;
     std::vector<std::uint32_t> indices(const json& call, const char* name) const {
         return array<std::uint32_t>(call[name], call["count"]);
+    }
+
+    std::vector<std::array<double, 3>> points(const json& call, const char* name) const {
+        return array<std::array<double, 3>>(call[name], call["count"]);
     }
 
     template <class T>
@@ -114,7 +119,6 @@ private:
     void make(const json& call) {
         const std::string name = call["call"];
         const vox_body mesh = call.value("mesh", vox_body{VOX_NULL_BODY});
-        const auto at = [&](const char* corner) { return call[corner].get<point>(); };
         if (name == "create") {
             vox_grid_desc desc = vox_default_grid_desc();
             desc.flags = call["flags"];
@@ -131,21 +135,22 @@ private:
         } else if (name == "readings") {
             grid_.prepare_readings();
             check(call, "readings", summary(grid_.readings()));
-        } else if (name == "prepare_queries") {
-            grid_.prepare_queries();
-        } else if (name == "query_points") {
-            const auto points = array<point>(call["points"], call["count"]);
-            check(call, "hits", summary(grid_.query_points(points)));
-            check(call, "hits", summary(grid_.take_query_view().query_points(points)));
-        } else if (name == "query_closest_points") {
-            const auto points = array<point>(call["points"], call["count"]);
-            check(call, "hits", summary(grid_.query_closest_points(points)));
-        } else if (name == "query_ray") {
-            check(call, "hits", summary(std::array{grid_.query_ray(at("from"), at("to"))}));
-        } else if (name == "query_ray_hits") {
-            check(call, "hits", summary(grid_.query_ray_hits(at("from"), at("to"))));
-        } else if (name == "query_box") {
-            check(call, "hits", summary(grid_.query_box(at("min"), at("max"))));
+        } else if (name == "update_locator") {
+            locator_.update(grid_);
+        } else if (name == "find_point_hits") {
+            check(call, "hits", summary(locator_.find_point_hits(points(call, "points"))));
+        } else if (name == "find_closest") {
+            check(call, "hits", summary(locator_.find_closest(points(call, "points"))));
+        } else if (name == "find_box_hits") {
+            check(call, "hits", summary(locator_.find_box_hits(points(call, "min"), points(call, "max"))));
+        } else if (name == "find_ray_hits") {
+            vox_query_desc desc = vox_default_query_desc();
+            desc.flags = call["flags"];
+            check(call, "hits",
+                  summary(locator_.find_ray_hits(points(call, "from"), points(call, "to"), desc)));
+        } else if (name == "test_rays") {
+            const auto blocked = locator_.test_rays(points(call, "from"), points(call, "to"));
+            check(call, "blocked", std::accumulate(blocked.begin(), blocked.end(), 0));
         } else if (name == "meshes") {
             meshes(call);
         } else if (name == "set_transform") {

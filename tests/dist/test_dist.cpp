@@ -3,7 +3,7 @@
 #include "dist/ranks.hpp"
 #include "dist/whole.hpp"
 
-#include "support/suite.h"
+#include "support/locators.h"
 
 #include <array>
 #include <cstdlib>
@@ -23,7 +23,7 @@ struct Run {
     std::vector<vox_dist_contact> expected_contacts;
     std::mutex mutex;
     std::vector<vox_dist_contact> contacts, of_tets; // the two sides, of all ranks
-    const vox_grid* grid = nullptr;                  // of the whole
+    const vox_locator* locator = nullptr;            // of the whole
     bool whole_bodies = false;                       // no body has tetrahedra on two ranks
     std::string fault;
 };
@@ -90,7 +90,7 @@ void check_send(Run& run, vox_dist_scene* scene, const vox_dist_contact_view& co
 }
 
 // Points on multiples of 1/4: each is in the tetrahedron that one grid names.
-void check_locate(Run& run, const vox_grid* grid, vox_dist_scene* scene, std::uint32_t rank) {
+void check_locate(Run& run, const vox_locator* locator, vox_dist_scene* scene, std::uint32_t rank) {
     Random random(rank);
     std::vector<double> points;
     for (int i = 0; i < 3 * 20; ++i) points.push_back(below(random, 21) / 4.0);
@@ -100,18 +100,20 @@ void check_locate(Run& run, const vox_grid* grid, vox_dist_scene* scene, std::ui
     for (std::uint32_t i = 0; i < 20; ++i) {
         vox_point_hit hits[64];
         std::uint64_t count = 0;
-        (void)vox_grid_query_point(grid, &points[3 * i], UINT64_MAX, hits, 64, &count);
+        const vox_positions at = vox_double_positions(&points[3 * i], 1);
+        (void)vox_locator_find_point_hits(locator, &at, nullptr, hits, 64, &count);
         const vox_point_hit* first = nullptr;
         std::uint64_t body = 0;
         for (std::uint64_t h = 0; h < count; ++h) {
             std::uint64_t number;
-            (void)vox_body_get_user_data(grid, hits[h].mesh, &number);
+            (void)vox_locator_get_user_data(locator, hits[h].body, &number);
             if (!first || number < body) first = &hits[h], body = number;
         }
         if ((found[i].rank == VOX_NONE) != !first)
             return note(run, "a point is found, or not, unlike in one grid");
         if (first && (found[i].body != body || found[i].tet != first->tet ||
-                      std::memcmp(found[i].barycentric, first->barycentric, sizeof first->barycentric) != 0))
+                      !std::equal(first->weights, first->weights + 4, found[i].barycentric,
+                                  [](double x, float y) { return static_cast<float>(x) == y; })))
             return note(run, "a point is in another tetrahedron than in one grid");
     }
 }
@@ -140,7 +142,7 @@ void rank(const vox_dist_transport* transport, Run& run) {
     if (counters.collectives != 2) note(run, "not two collectives");
     check_places(run, transport->rank, contacts, of_tets);
     check_send(run, mine.scene, contacts, of_tets);
-    check_locate(run, run.grid, mine.scene, transport->rank);
+    check_locate(run, run.locator, mine.scene, transport->rank);
     if (vox_dist_scene_check(mine.scene) != VOX_OK) note(run, vox_last_error());
     std::uint64_t parts = 0;
     if (vox_dist_scene_get_costs(mine.scene, nullptr, 0, &parts) != VOX_OK) note(run, vox_last_error());
@@ -159,13 +161,14 @@ std::string differs(const Scene& scene, std::uint32_t size, Cut how, std::uint64
     run.scene = &scene;
     run.expected_contacts = global_contacts(grid);
     hash_of(run.expected_contacts, run.expected);
-    (void)vox_grid_prepare_queries(grid);
-    run.grid = grid;
+    vox_locator* locator = take_locator(grid);
+    run.locator = locator;
     run.whole_bodies = how == Cut::one;
     Random random(seed);
     for (const Body& body : scene)
         run.shares.push_back(shares(body, cut(body, size, how, random), size, random));
     run_ranks(size, parallel, [&](const vox_dist_transport* transport) { rank(transport, run); });
+    vox_locator_release(locator);
     vox_grid_destroy(grid);
     if (!run.fault.empty()) return run.fault;
     for (auto* side : {&run.contacts, &run.of_tets}) {
@@ -189,7 +192,7 @@ bool present(std::size_t body, std::uint32_t frame) { return body != 0 || (frame
 
 struct Moving {
     Run run;
-    std::vector<vox_grid*> grids; // of the whole, in each frame
+    std::vector<vox_locator*> locators; // of the whole, in each frame
     std::vector<std::array<std::uint64_t, 2>> expected;
 };
 
@@ -201,7 +204,7 @@ void moving_rank(const vox_dist_transport* transport, Moving& moving) {
     std::vector<Share> shares, still;
     for (std::size_t b = 0; b < scene.size(); ++b) still.push_back(run.shares[b][transport->rank]);
     shares = still;
-    for (std::uint32_t frame = 0; frame < moving.grids.size(); ++frame) {
+    for (std::uint32_t frame = 0; frame < moving.locators.size(); ++frame) {
         for (std::size_t b = 0; b < scene.size(); ++b) {
             for (std::size_t i = 0; i < still[b].xyz.size(); ++i) {
                 shares[b].xyz[i] = still[b].xyz[i] + offset(b, frame, static_cast<int>(i % 3));
@@ -217,7 +220,7 @@ void moving_rank(const vox_dist_transport* transport, Moving& moving) {
             return note(run, vox_last_error());
         if (hash[0] != moving.expected[frame][0] || hash[1] != moving.expected[frame][1])
             note(run, "another hash in frame " + std::to_string(frame));
-        check_locate(run, moving.grids[frame], mine.scene, transport->rank);
+        check_locate(run, moving.locators[frame], mine.scene, transport->rank);
     }
 }
 
@@ -234,17 +237,17 @@ std::string differs_in_motion(const Scene& scene, std::uint32_t size, Cut how, s
             if (!present(b, frame)) moved[frame].erase(moved[frame].begin() + static_cast<std::ptrdiff_t>(b));
         }
         vox_grid* grid = whole(moved[frame], floats[frame]);
-        moving.grids.push_back(grid);
         moving.expected.emplace_back();
-        if (!grid || vox_grid_step(grid) != VOX_OK || vox_grid_prepare_queries(grid) != VOX_OK)
-            return vox_last_error();
+        if (!grid || vox_grid_step(grid) != VOX_OK) return vox_last_error();
+        moving.locators.push_back(take_locator(grid));
         hash_of(global_contacts(grid), moving.expected.back().data());
+        vox_grid_destroy(grid);
     }
     Random random(seed);
     for (const Body& body : scene)
         moving.run.shares.push_back(shares(body, cut(body, size, how, random), size, random));
     run_ranks(size, 2, [&](const vox_dist_transport* transport) { moving_rank(transport, moving); });
-    for (vox_grid* grid : moving.grids) vox_grid_destroy(grid);
+    for (vox_locator* locator : moving.locators) vox_locator_release(locator);
     return moving.run.fault;
 }
 
@@ -338,14 +341,14 @@ std::string differs_after_restart(const Scene& scene, std::uint32_t before, std:
     if (!grid || vox_grid_step(grid) != VOX_OK) return vox_last_error();
     Moving moving;
     moving.run.scene = &restored;
-    moving.grids.assign(1, grid);
+    moving.locators.assign(1, take_locator(grid));
     moving.expected.emplace_back();
     hash_of(global_contacts(grid), moving.expected[0].data());
-    (void)vox_grid_prepare_queries(grid);
+    vox_grid_destroy(grid);
     for (const Body& body : restored)
         moving.run.shares.push_back(shares(body, cut(body, after, Cut::rcb, random), after, random));
     run_ranks(after, 2, [&](const vox_dist_transport* transport) { moving_rank(transport, moving); });
-    vox_grid_destroy(grid);
+    vox_locator_release(moving.locators[0]);
     return moving.run.fault;
 }
 

@@ -221,8 +221,8 @@ START_TEST(weights_have_the_bits_of_the_scalar_function) {
             for (const vox_contact& contact : contacts) {
                 const Tet& tet = mesh.tets[contact.tet];
                 const std::array<float, 4> expected =
-                    barycentric(positions[contact.vertex], positions[tet.v[0]], positions[tet.v[1]],
-                                positions[tet.v[2]], positions[tet.v[3]]);
+                    barycentric<float>(positions[contact.vertex], positions[tet.v[0]], positions[tet.v[1]],
+                                       positions[tet.v[2]], positions[tet.v[3]]);
                 ck_assert_mem_eq(expected.data(), contact.barycentric, sizeof expected);
             }
         }

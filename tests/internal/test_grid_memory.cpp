@@ -1,6 +1,6 @@
 // A grid takes all its memory from its own allocator: with no other memory resource at hand it still works.
 #include "scenes/bodies.h"
-#include "support/suite.h"
+#include "support/locators.h"
 
 #include <cstring>
 #include <memory_resource>
@@ -28,11 +28,10 @@ START_TEST(nothing_from_the_default_resource) {
         vox_contact_view view{};
         ck_ok(vox_grid_get_contacts(grid, &view));
         ck_assert_uint_gt(view.count, 0);
-        vox_query_view* query_view = nullptr;
-        ck_ok(vox_grid_prepare_queries(grid));
-        ck_ok(vox_grid_take_query_view(grid, &query_view));
+        vox_locator* locator = take_locator(grid);
+        ck_ok(vox_grid_update_locator(grid, &locator));
         vox_grid_destroy(grid);
-        vox_query_view_release(query_view);
+        vox_locator_release(locator);
     }
     std::pmr::set_default_resource(usual);
     free_body(&box);

@@ -6,7 +6,7 @@
 #include "internal/query_definition.hpp"
 #include "query/box_tree.hpp"
 #include "query/rounding.hpp"
-#include "support/suite.h"
+#include "support/locators.h"
 
 #include <algorithm>
 #include <cfloat>
@@ -117,34 +117,70 @@ END_TEST
 // ---- bad shapes -----------------------------------------------------------------------------------
 
 struct Asked {
-    vox_grid* grid;
+    const vox_locator* locator;
     const QueryDefinition& mesh;
 };
 
+vox_positions all_of(const std::vector<Vec3d>& points) {
+    return vox_double_positions(&points.data()->x, points.size());
+}
+
+vox_positions only(const Vec3d& p) { return vox_double_positions(&p.x, 1); }
+
+// All of a list, for which it asks a second time where there are more than `usual`.
+template <class Hit, class Ask>
+std::vector<Hit> list(Ask&& ask, std::size_t usual = 4096) {
+    std::vector<Hit> hits(usual);
+    std::uint64_t count = 0;
+    ck_ok(ask(hits.data(), hits.size(), &count));
+    const bool all = count <= usual;
+    hits.resize(count);
+    if (!all) ck_ok(ask(hits.data(), hits.size(), &count));
+    ck_assert_uint_eq(count, hits.size());
+    return hits;
+}
+
+std::vector<vox_point_hit> hits_of(const vox_locator* locator, const vox_positions& points,
+                                   const vox_query_desc* desc = nullptr) {
+    return list<vox_point_hit>([&](vox_point_hit* hits, std::uint64_t room, std::uint64_t* count) {
+        return vox_locator_find_point_hits(locator, &points, desc, hits, room, count);
+    });
+}
+
+std::vector<vox_ray_hit> hits_of(const vox_locator* locator, const vox_positions& from,
+                                 const vox_positions& to, std::uint32_t flags = 0) {
+    vox_query_desc desc = vox_default_query_desc();
+    desc.flags = flags;
+    return list<vox_ray_hit>([&](vox_ray_hit* hits, std::uint64_t room, std::uint64_t* count) {
+        return vox_locator_find_ray_hits(locator, &from, &to, &desc, hits, room, count);
+    });
+}
+
+template <class Hit>
+void check_equal(const std::vector<Hit>& x, const std::vector<Hit>& y) {
+    ck_assert_uint_eq(x.size(), y.size());
+    if (!x.empty()) ck_assert_mem_eq(x.data(), y.data(), x.size() * sizeof x[0]);
+}
+
 void check_points(const Asked& asked, const std::vector<Vec3d>& points) {
-    std::vector<vox_point_hit> hits(points.size() * asked.mesh.tets().size());
-    std::uint64_t count = 0, next = 0;
-    ck_ok(vox_grid_query_points(asked.grid, points.data(), VOX_FORMAT_DOUBLE, 0, points.size(), UINT64_MAX,
-                                hits.data(), hits.size(), &count));
+    const std::vector<vox_point_hit> hits = hits_of(asked.locator, all_of(points));
+    std::size_t next = 0;
     for (std::uint32_t i = 0; i < points.size(); ++i)
         for (const std::uint32_t tet : asked.mesh.tets_with(points[i])) {
-            ck_assert_uint_lt(next, count);
+            ck_assert_uint_lt(next, hits.size());
             ck_assert_uint_eq(hits[next].point, i);
             ck_assert_uint_eq(hits[next++].tet, tet);
         }
-    ck_assert_uint_eq(next, count);
+    ck_assert_uint_eq(next, hits.size());
 }
 
 void check_closest(const Asked& asked, const std::vector<Vec3d>& points) {
     std::vector<vox_closest_hit> hits(points.size());
-    vox_closest_desc desc = vox_default_closest_desc();
-    desc.points = points.data();
-    desc.format = VOX_FORMAT_DOUBLE;
-    desc.point_count = points.size();
-    ck_ok(vox_grid_query_closest_points(asked.grid, &desc, hits.data()));
+    const vox_positions at = all_of(points);
+    ck_ok(vox_locator_find_closest(asked.locator, &at, nullptr, hits.data()));
     for (std::size_t i = 0; i < points.size(); ++i) {
         const auto [squared, facet] = asked.mesh.closest(points[i]);
-        ck_assert_uint_ne(hits[i].mesh, VOX_NULL_BODY);
+        ck_assert_uint_ne(hits[i].body, VOX_NULL_BODY);
         ck_assert(std::abs(hits[i].distance) == std::sqrt(squared)); // all bits
         ck_assert_uint_eq(hits[i].tet, facet.first);
         ck_assert_uint_eq(hits[i].facet, facet.second);
@@ -156,75 +192,75 @@ void check_closest(const Asked& asked, const std::vector<Vec3d>& points) {
 
 // So many points that they are asked another way: hits and closest points are those of each point alone, all
 // bits.
-void check_together(const vox_grid* grid, const std::vector<Vec3d>& points, std::uint64_t mask = UINT64_MAX) {
-    std::vector<vox_point_hit> together(16), singly, of_one(4096);
-    std::uint64_t count = 0, found = 0;
-    const auto ask = [&](std::uint64_t capacity) {
-        ck_ok(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE, 0, points.size(), mask,
-                                    together.data(), capacity, &count));
-    };
-    ask(16);
-    together.assign(count + 1, vox_point_hit{});
-    ask(count);
-    std::vector<vox_closest_hit> closest(points.size());
-    vox_closest_desc desc = vox_default_closest_desc();
-    desc.points = points.data();
-    desc.format = VOX_FORMAT_DOUBLE;
-    desc.point_count = points.size();
-    desc.mask = mask;
+void check_together(const vox_locator* locator, const std::vector<Vec3d>& points, std::uint64_t mask = 0) {
+    vox_query_desc desc = query_of(mask, VOX_NULL_BODY);
     desc.max_distance = 1;
-    ck_ok(vox_grid_query_closest_points(grid, &desc, closest.data()));
+    const vox_positions at = all_of(points);
+    const std::vector<vox_point_hit> together = hits_of(locator, at, &desc);
+    std::vector<vox_point_hit> singly;
+    std::vector<vox_closest_hit> closest(points.size());
+    ck_ok(vox_locator_find_closest(locator, &at, &desc, closest.data()));
     for (std::uint32_t i = 0; i < points.size(); ++i) {
-        ck_ok(vox_grid_query_point(grid, &points[i].x, mask, of_one.data(), of_one.size(), &found));
-        for (std::uint64_t h = 0; h < found; ++h) {
-            singly.push_back(of_one[h]);
-            singly.back().point = i;
+        for (vox_point_hit& hit : hits_of(locator, only(points[i]), &desc)) {
+            hit.point = i;
+            singly.push_back(hit);
         }
-        vox_closest_hit alone;
-        desc.points = &points[i];
-        desc.point_count = 1;
         if (i % 16 == 0) {
-            ck_ok(vox_grid_query_closest_points(grid, &desc, &alone));
+            const vox_closest_hit alone = closest_to(locator, &points[i].x, &desc);
             ck_assert_mem_eq(&alone, &closest[i], sizeof alone);
         }
     }
-    ck_assert_uint_eq(count, singly.size());
-    ck_assert_uint_eq(together[count].mesh, VOX_NULL_BODY);
-    if (count > 0) ck_assert_mem_eq(together.data(), singly.data(), count * sizeof singly[0]);
-    together.assign(count + 1, vox_point_hit{}); // room for some
-    const std::uint64_t half = count / 2;
-    ask(half);
-    ck_assert_uint_eq(count, singly.size());
-    if (half > 0) ck_assert_mem_eq(together.data(), singly.data(), half * sizeof singly[0]);
-    ck_assert_uint_eq(together[half].mesh, VOX_NULL_BODY);
+    check_equal(together, singly);
+    std::vector<vox_point_hit> some(together.size() + 1); // room for half of them
+    std::uint64_t count = 0;
+    const std::size_t half = together.size() / 2;
+    ck_ok(vox_locator_find_point_hits(locator, &at, &desc, some.data(), half, &count));
+    ck_assert_uint_eq(count, together.size());
+    if (half > 0) ck_assert_mem_eq(some.data(), together.data(), half * sizeof some[0]);
+    ck_assert_uint_eq(some[half].body, VOX_NULL_BODY);
 }
 
-void check_segment(const Asked& asked, const Vec3d& from, const Vec3d& to) {
-    std::vector<vox_facet_hit> hits(4 * asked.mesh.tets().size());
-    std::vector<QueryDefinition::Facet> found;
-    std::uint64_t count = 0;
-    std::uint32_t any = 7;
-    vox_ray_hit first;
-    ck_ok(vox_grid_query_ray_hits(asked.grid, &from.x, &to.x, UINT64_MAX, VOX_NULL_BODY, hits.data(),
-                                  hits.size(), &count));
-    for (std::uint64_t h = 0; h < count; ++h) found.emplace_back(hits[h].tet, hits[h].facet);
-    std::sort(found.begin(), found.end());
-    ck_assert(found == asked.mesh.hits(from, to));
-    const bool meets = asked.mesh.any(from, to);
-    ck_ok(vox_grid_query_ray_any(asked.grid, &from.x, &to.x, UINT64_MAX, VOX_NULL_BODY, &any));
-    ck_assert_uint_eq(any, meets);
-    ck_ok(vox_grid_query_ray(asked.grid, &from.x, &to.x, UINT64_MAX, &first));
-    ck_assert_int_eq(first.mesh != VOX_NULL_BODY, meets);
+// The segments from each point to the next.
+void check_segments(const Asked& asked, const std::vector<Vec3d>& points) {
+    const vox_positions from = vox_double_positions(&points[0].x, points.size() - 1);
+    const vox_positions to = vox_double_positions(&points[1].x, points.size() - 1);
+    const std::vector<vox_ray_hit> hits = hits_of(asked.locator, from, to);
+    std::vector<vox_ray_hit> firsts;
+    std::vector<std::uint8_t> blocked(points.size() - 1);
+    ck_ok(vox_locator_test_rays(asked.locator, &from, &to, nullptr, blocked.data()));
+    std::size_t next = 0;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        std::vector<QueryDefinition::Facet> found;
+        if (next < hits.size() && hits[next].ray == i) firsts.push_back(hits[next]);
+        for (; next < hits.size() && hits[next].ray == i; ++next)
+            found.emplace_back(hits[next].tet, hits[next].facet);
+        std::sort(found.begin(), found.end());
+        ck_assert(found == asked.mesh.hits(points[i], points[i + 1]));
+        ck_assert_uint_eq(blocked[i], asked.mesh.any(points[i], points[i + 1]));
+    }
+    ck_assert_uint_eq(next, hits.size());
+    check_equal(hits_of(asked.locator, from, to, VOX_QUERY_FIRST_HIT), firsts);
 }
 
-void check_box(const Asked& asked, const Vec3d& p, const Vec3d& q) {
-    const Vec3d low = min(p, q), high = max(p, q);
-    std::vector<vox_tet_hit> hits(asked.mesh.tets().size());
-    std::uint64_t count = 0;
-    ck_ok(vox_grid_query_box(asked.grid, &low.x, &high.x, UINT64_MAX, hits.data(), hits.size(), &count));
-    const std::vector<std::uint32_t> near = asked.mesh.near(low, high);
-    ck_assert_uint_eq(count, near.size());
-    for (std::size_t i = 0; i < near.size(); ++i) ck_assert_uint_eq(hits[i].tet, near[i]);
+// The boxes around each point and the next.
+void check_boxes(const Asked& asked, const std::vector<Vec3d>& points) {
+    std::vector<Vec3d> lows, highs;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        lows.push_back(min(points[i - 1], points[i]));
+        highs.push_back(max(points[i - 1], points[i]));
+    }
+    const vox_positions low = all_of(lows), high = all_of(highs);
+    const auto hits = list<vox_box_hit>([&](vox_box_hit* found, std::uint64_t room, std::uint64_t* count) {
+        return vox_locator_find_box_hits(asked.locator, &low, &high, nullptr, found, room, count);
+    });
+    std::size_t next = 0;
+    for (std::uint32_t i = 0; i < lows.size(); ++i)
+        for (const std::uint32_t tet : asked.mesh.near(lows[i], highs[i])) {
+            ck_assert_uint_lt(next, hits.size());
+            ck_assert_uint_eq(hits[next].box, i);
+            ck_assert_uint_eq(hits[next++].tet, tet);
+        }
+    ck_assert_uint_eq(next, hits.size());
 }
 
 // The same mesh; its tiles, and so the trees, are those of other positions.
@@ -234,26 +270,9 @@ vox_grid* grid_with_other_tiles(const QueryDefinition& mesh, vox_mesh_desc desc,
     vox_grid* grid = engine_grid();
     desc.positions.data = others.data();
     const vox_body id = insert_mesh(grid, &desc);
-    ck_ok(vox_grid_prepare_queries(grid));
+    vox_locator_release(take_locator(grid));
     ck_ok(bind_array(grid, id, mesh.positions().data(), VOX_FORMAT_DOUBLE, 0, 0));
-    ck_ok(vox_grid_prepare_queries(grid));
     return grid;
-}
-
-void check_same(const vox_grid* x, const vox_grid* y, const Vec3d& from, const Vec3d& to) {
-    std::vector<vox_facet_hit> of_x(2000), of_y(2000);
-    vox_ray_hit first_x, first_y;
-    std::uint64_t count_x = 0, count_y = 0;
-    ck_ok(vox_grid_query_ray(x, &from.x, &to.x, UINT64_MAX, &first_x));
-    ck_ok(vox_grid_query_ray(y, &from.x, &to.x, UINT64_MAX, &first_y));
-    ck_assert_mem_eq(&first_x, &first_y, sizeof first_x);
-    ck_ok(vox_grid_query_ray_hits(x, &from.x, &to.x, UINT64_MAX, VOX_NULL_BODY, of_x.data(), of_x.size(),
-                                  &count_x));
-    ck_ok(vox_grid_query_ray_hits(y, &from.x, &to.x, UINT64_MAX, VOX_NULL_BODY, of_y.data(), of_y.size(),
-                                  &count_y));
-    ck_assert_uint_eq(count_x, count_y);
-    ck_assert_mem_eq(of_x.data(), of_y.data(),
-                     std::min<std::uint64_t>(count_x, of_x.size()) * sizeof of_x[0]);
 }
 
 START_TEST(bad_shapes_by_definition) {
@@ -267,7 +286,7 @@ START_TEST(bad_shapes_by_definition) {
             mesh.tets = soup.tets().front().v;
             mesh.tet_count = soup.tets().size();
             insert_mesh(grid, &mesh);
-            ck_ok(vox_grid_prepare_queries(grid));
+            vox_locator* locator = take_locator(grid);
             std::vector<Vec3d> points;
             for (int i = 0; i < 60; ++i) {
                 const std::uint32_t tet = random.below(std::uint32_t(soup.tets().size()));
@@ -278,22 +297,25 @@ START_TEST(bad_shapes_by_definition) {
                                  : i % 4 == 2 ? 0.5 * middle + 0.25 * corner(2) + 0.25 * corner(3)
                                               : middle);
             }
-            const Asked asked{grid, soup};
-            vox_grid* other = grid_with_other_tiles(soup, mesh, random);
+            vox_grid* other_grid = grid_with_other_tiles(soup, mesh, random);
+            vox_locator* other = take_locator(other_grid);
+            const Asked asked{locator, soup};
             check_points(asked, points);
             std::vector<Vec3d> many;
             while (many.size() < 400) many.push_back(points[random.below(std::uint32_t(points.size()))]);
-            check_together(grid, many);
+            check_together(locator, many);
             check_together(other, many);
             check_closest(asked, points);
             check_closest({other, soup}, points);
-            for (std::size_t i = 1; i < points.size(); ++i) {
-                check_segment(asked, points[i - 1], points[i]);
-                check_box(asked, points[i - 1], points[i]);
-                check_same(grid, other, points[i - 1], points[i]);
-            }
+            check_segments(asked, points);
+            check_boxes(asked, points);
+            const vox_positions from = vox_double_positions(&points[0].x, points.size() - 1);
+            const vox_positions to = vox_double_positions(&points[1].x, points.size() - 1);
+            check_equal(hits_of(locator, from, to), hits_of(other, from, to));
+            vox_locator_release(locator);
+            vox_locator_release(other);
             vox_grid_destroy(grid);
-            vox_grid_destroy(other);
+            vox_grid_destroy(other_grid);
         }
 }
 END_TEST
@@ -336,7 +358,7 @@ START_TEST(many_points_as_alone) {
         const std::uint32_t off[] = {0, 3, 4};
         if (b == 9) ck_ok(vox_mesh_set_tets_enabled(grid, mesh, off, 3, 0));
     }
-    ck_ok(vox_grid_prepare_queries(grid));
+    vox_locator* locator = take_locator(grid);
     const auto place = [&](int kind) {
         const Mesh& body = bodies[random.below(std::uint32_t(bodies.size()))];
         const Tet& tet = body.tets[random.below(std::uint32_t(body.tets.size()))];
@@ -368,30 +390,25 @@ START_TEST(many_points_as_alone) {
         for (const std::size_t count : {63u, 64u, 65u, 1000u}) {
             std::vector<Vec3d> points;
             while (points.size() < count) points.push_back(place(kind < 10 ? kind : int(random.below(10))));
-            check_together(grid, points);
-            check_together(grid, points, 2);
+            check_together(locator, points);
+            check_together(locator, points, 2);
         }
     std::vector<Vec3d> points;
     while (points.size() < 150000) points.push_back(place(int(random.below(10))));
-    std::vector<vox_point_hit> all(4 * points.size()), some(all.size());
-    std::uint64_t count = 0, done = 0, next = 0;
-    ck_ok(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE, 0, points.size(), UINT64_MAX,
-                                all.data(), all.size(), &count));
-    ck_assert_uint_le(count, all.size());
-    for (std::size_t first = 0; first < points.size(); first += 10000) {
-        ck_ok(vox_grid_query_points(grid, &points[first], VOX_FORMAT_DOUBLE, 0, 10000, UINT64_MAX,
-                                    some.data(), some.size(), &done));
-        for (std::uint64_t h = 0; h < done; ++h) some[h].point += std::uint32_t(first);
-        ck_assert_uint_le(next + done, count);
-        ck_assert_mem_eq(&all[next], some.data(), done * sizeof some[0]);
-        next += done;
-    }
-    ck_assert_uint_eq(next, count);
+    std::vector<vox_point_hit> all = hits_of(locator, all_of(points)), in_parts;
+    for (std::size_t first = 0; first < points.size(); first += 10000)
+        for (vox_point_hit& hit : hits_of(locator, vox_double_positions(&points[first].x, 10000))) {
+            hit.point += std::uint32_t(first);
+            in_parts.push_back(hit);
+        }
+    check_equal(all, in_parts);
     points[149999].y = std::nan("");
-    ck_fails(vox_grid_query_points(grid, points.data(), VOX_FORMAT_DOUBLE, 0, points.size(), UINT64_MAX,
-                                   all.data(), all.size(), &count),
-             VOX_ERROR_NON_FINITE, "point 149999");
-    ck_assert_uint_eq(count, next);
+    const vox_positions at = all_of(points);
+    std::uint64_t count = 77;
+    ck_fails(vox_locator_find_point_hits(locator, &at, nullptr, all.data(), all.size(), &count),
+             VOX_ERROR_NON_FINITE, "points: position 149999 is");
+    ck_assert_uint_eq(count, 77);
+    vox_locator_release(locator);
     vox_grid_destroy(grid);
 }
 END_TEST
@@ -418,7 +435,7 @@ START_TEST(many_points_beyond_floats) {
     desc.tets = tets.front().v;
     desc.tet_count = tets.size();
     insert_mesh(grid, &desc);
-    ck_ok(vox_grid_prepare_queries(grid));
+    vox_locator* locator = take_locator(grid);
     std::vector<Vec3d> points;
     while (points.size() < 2000) {
         const std::size_t i = random.below(std::uint32_t(positions.size()));
@@ -427,7 +444,8 @@ START_TEST(many_points_beyond_floats) {
         if (i % 7 == 0) p.x = std::copysign(beyond, p.x);
         points.push_back(p);
     }
-    check_together(grid, points);
+    check_together(locator, points);
+    vox_locator_release(locator);
     vox_grid_destroy(grid);
 }
 END_TEST

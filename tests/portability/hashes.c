@@ -1,5 +1,5 @@
 /* Steps built-in scenes and prints hashes of what every frame gives: contacts, vertices inside, pairs, edges,
- * proximities, impacts; penetrations, events, readings, answers of queries; answers of surfaces. The text
+ * proximities, impacts; penetrations, events, readings, answers of locators; answers of surfaces. The text
  * is the same on every machine, with every compiler and instruction set, engine, number of workers and format
  * of positions: matrix.py, `./dev hashes`, `./dev cross`. hashes [--engine fast|reference] [--workers N]
  * [--doubles] [--moved] [--level 0..3] [--cell-size FACTOR] */
@@ -9,6 +9,7 @@
 
 #include <inttypes.h>
 #include <vox/vox_pairs.h>
+#include <vox/vox_query.h>
 
 typedef struct settings {
     engine_kind engine;
@@ -92,43 +93,64 @@ static int hash_readings(vox_grid* grid, uint64_t* hash) {
     return 1;
 }
 
-/* Of a few points, boxes and segments around the first body's vertices. */
-static int hash_queries(vox_grid* grid, const scene* s, uint64_t* hash) {
-    static vox_point_hit points[4096];
-    static vox_tet_hit tets[4096];
+static void add_hit(uint64_t* hash, uint32_t question, vox_body body, uint32_t tet) {
+    add_number(hash, question), add_number(hash, body), add_number(hash, tet);
+}
+
+static void add_place(uint64_t* hash, uint32_t facet, const uint32_t face[3], const double weights[3]) {
+    add_number(hash, facet), add_doubles(hash, weights);
+    for (int c = 0; c < 3; ++c) add_number(hash, face[c]);
+}
+
+/* Of a few points, boxes and rays around the first body's vertices. */
+static int hash_answers(vox_grid* grid, const scene* s, uint64_t* hash) {
+    enum { most = 24, room = 16384 };
+    static vox_point_hit points[room];
+    static vox_box_hit boxes[room];
+    static vox_ray_hit rays[room];
+    vox_closest_hit closest[most];
+    uint8_t blocked[most];
+    double from[most][3], to[most][3], least[most][3], greatest[most][3];
+    uint64_t count = 0, point_count = 0, box_count = 0, ray_count = 0;
+    vox_locator* locator = NULL;
     const body* b = &s->bodies[0];
-    if (vox_grid_prepare_queries(grid) != VOX_OK) return 0;
-    for (uint32_t v = 0; v < b->vertex_count; v += 1 + b->vertex_count / 23) {
-        const float *at = b->positions + 3 * v, *to = b->positions + 3 * (b->vertex_count - 1 - v);
-        const double p[3] = {(double)at[0], (double)at[1], (double)at[2]};
-        const double q[3] = {(double)to[0], (double)to[1], (double)to[2]};
-        double least[3], most[3];
-        for (int i = 0; i < 3; ++i) {
-            least[i] = p[i] < q[i] ? p[i] : q[i];
-            most[i] = p[i] < q[i] ? q[i] : p[i];
+    for (uint32_t v = 0; v < b->vertex_count; v += 1 + b->vertex_count / 23, ++count)
+        for (uint32_t i = 0; i < 3; ++i) {
+            const double p = from[count][i] = (double)b->positions[3 * v + i];
+            const double q = to[count][i] = (double)b->positions[3 * (b->vertex_count - 1 - v) + i];
+            least[count][i] = p < q ? p : q;
+            greatest[count][i] = p < q ? q : p;
         }
-        vox_surface_hit closest;
-        vox_ray_hit ray;
-        uint64_t count = 0, tet_count = 0;
-        if (vox_grid_query_point(grid, p, UINT64_MAX, points, 4096, &count) != VOX_OK ||
-            vox_grid_query_box(grid, least, most, UINT64_MAX, tets, 4096, &tet_count) != VOX_OK ||
-            vox_grid_query_closest(grid, p, 1e300, UINT64_MAX, &closest) != VOX_OK ||
-            vox_grid_query_ray(grid, p, q, UINT64_MAX, &ray) != VOX_OK)
-            return 0;
-        add_number(hash, count), add_number(hash, tet_count);
-        for (uint64_t i = 0; i < count && i < 4096; ++i) {
-            add_number(hash, points[i].mesh), add_number(hash, points[i].tet);
-            add_floats(hash, points[i].barycentric, 4);
-        }
-        for (uint64_t i = 0; i < tet_count && i < 4096; ++i)
-            add_number(hash, tets[i].mesh), add_number(hash, tets[i].tet);
-        add_number(hash, closest.mesh), add_number(hash, closest.tet), add_number(hash, closest.facet);
-        add_doubles(hash, closest.barycentric), add_doubles(hash, closest.position),
-            add_double(hash, closest.distance);
-        add_number(hash, ray.mesh), add_number(hash, ray.tet), add_number(hash, ray.surface_mesh);
-        add_number(hash, ray.surface_tet), add_number(hash, ray.surface_facet),
-            add_number(hash, (uint64_t)ray.surface_side);
-        add_double(hash, ray.t), add_double(hash, ray.surface_t), add_doubles(hash, ray.surface_barycentric);
+    const vox_positions begins = vox_double_positions(from[0], count),
+                        ends = vox_double_positions(to[0], count);
+    const vox_positions lows = vox_double_positions(least[0], count),
+                        highs = vox_double_positions(greatest[0], count);
+    const int ok =
+        vox_grid_update_locator(grid, &locator) == VOX_OK &&
+        vox_locator_find_point_hits(locator, &begins, NULL, points, room, &point_count) == VOX_OK &&
+        vox_locator_find_closest(locator, &begins, NULL, closest) == VOX_OK &&
+        vox_locator_find_box_hits(locator, &lows, &highs, NULL, boxes, room, &box_count) == VOX_OK &&
+        vox_locator_find_ray_hits(locator, &begins, &ends, NULL, rays, room, &ray_count) == VOX_OK &&
+        vox_locator_test_rays(locator, &begins, &ends, NULL, blocked) == VOX_OK;
+    vox_locator_release(locator);
+    if (!ok) return 0;
+    add_number(hash, point_count), add_number(hash, box_count), add_number(hash, ray_count);
+    for (uint64_t i = 0; i < point_count && i < room; ++i) {
+        add_hit(hash, points[i].point, points[i].body, points[i].tet);
+        for (int c = 0; c < 4; ++c) add_double(hash, points[i].weights[c]);
+    }
+    for (uint64_t i = 0; i < box_count && i < room; ++i)
+        add_hit(hash, boxes[i].box, boxes[i].body, boxes[i].tet);
+    for (uint64_t i = 0; i < ray_count && i < room; ++i) {
+        add_hit(hash, rays[i].ray, rays[i].body, rays[i].tet);
+        add_place(hash, rays[i].facet, rays[i].face, rays[i].weights);
+        add_number(hash, (uint64_t)rays[i].side), add_double(hash, rays[i].t);
+    }
+    for (uint64_t i = 0; i < count; ++i) {
+        add_hit(hash, closest[i].inside, closest[i].body, closest[i].tet);
+        add_place(hash, closest[i].facet, closest[i].face, closest[i].weights);
+        add_doubles(hash, closest[i].position), add_doubles(hash, closest[i].normal);
+        add_double(hash, closest[i].distance), add_number(hash, blocked[i]);
     }
     return 1;
 }
@@ -283,7 +305,7 @@ static int print_contacts(vox_grid* grid, const scene* s, int frame) {
     uint64_t hash, parts[4] = {1, 2, 3, 4};
     if (vox_grid_get_contacts(grid, &view) != VOX_OK || vox_grid_get_hash(grid, &hash) != VOX_OK ||
         !hash_penetrations(grid, &parts[0]) || !hash_events(grid, &parts[1]) ||
-        !hash_readings(grid, &parts[2]) || !hash_queries(grid, s, &parts[3]))
+        !hash_readings(grid, &parts[2]) || !hash_answers(grid, s, &parts[3]))
         return 0;
     printf("%s, frame %d: %" PRIu64 " contacts %016" PRIx64 ", penetrations %016" PRIx64
            ", events %016" PRIx64 ", readings %016" PRIx64 ", queries %016" PRIx64 "\n",

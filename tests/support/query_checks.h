@@ -7,12 +7,13 @@
 
 #include "scenes/bodies.h"
 #include "scenes/random.h"
-#include "support/suite.h"
+#include "support/locators.h"
 
 enum { most_bodies = 4 };
 
 typedef struct world {
     vox_grid* grid;
+    vox_locator* locator;
     body bodies[most_bodies];
     vox_body meshes[most_bodies];
     int count;
@@ -45,18 +46,37 @@ static inline world new_world(uint64_t* random, int coarse) {
         mesh.filter = filter;
         ck_ok(vox_mesh_insert(w.grid, &mesh, &w.meshes[b]));
     }
-    ck_ok(vox_grid_prepare_queries(w.grid));
+    w.locator = take_locator(w.grid);
     return w;
 }
 
 static inline void end_world(world* w) {
     vox_grid_destroy(w->grid);
+    vox_locator_release(w->locator);
     for (int b = 0; b < w->count; ++b) free_body(&w->bodies[b]);
+}
+
+/* Some bodies by their category, and now and then one of them, or none, left out. */
+static inline vox_query_desc random_bodies(uint64_t* random, const world* w) {
+    const uint32_t which = random_below(random, 3 * (uint32_t)w->count), by = random_below(random, 4);
+    const vox_body none = which % 2 ? VOX_NULL_BODY : 4095u << 12 | 1;
+    return query_of(by == 0   ? random_next(random)
+                    : by == 1 ? UINT64_MAX
+                              : 0,
+                    which < (uint32_t)w->count ? w->meshes[which] : none);
+}
+
+static inline int takes_part(const world* w, int b, const vox_query_desc* desc) {
+    return (desc->mask == 0 || (desc->mask >> b & 1)) && w->meshes[b] != desc->excluded;
 }
 
 static inline void random_point(uint64_t* random, int coarse, float p[3]) {
     for (int axis = 0; axis < 3; ++axis)
         p[axis] = coarse ? 0.25f * (float)random_below(random, 28) - 0.5f : random_float(random, -0.5f, 6.5f);
+}
+
+static inline void widen(const float p[3], double wide[3]) {
+    for (int axis = 0; axis < 3; ++axis) wide[axis] = (double)p[axis];
 }
 
 static inline void corners_of(const body* b, uint32_t tet, const float* corners[4]) {

@@ -1,6 +1,7 @@
 #include "playground.hpp"
 
 #include <vox/vox_io.h>
+#include <vox/vox_query.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,6 +40,10 @@ struct DestroyMesh {
     void operator()(vox_io_mesh* mesh) const { vox_io_mesh_destroy(mesh); }
 };
 using Mesh = std::unique_ptr<vox_io_mesh, DestroyMesh>;
+
+struct ReleaseLocator {
+    void operator()(vox_locator* locator) const { vox_locator_release(locator); }
+};
 
 vox_io_mesh_view arrays_of(const Mesh& mesh) {
     vox_io_mesh_view view;
@@ -273,6 +278,19 @@ void read_bodies(playground& play, const vox_grid* loaded, const Body& ring) {
     if (play.bodies.empty()) fail(VOX_ERROR_FORMAT, "the snapshot has no mesh with tetrahedra");
 }
 
+// Whether there is a surface between two points, and the first that is.
+bool find_first_hit(const playground& play, const double from[3], const double to[3], vox_ray_hit& hit) {
+    vox_locator* taken = nullptr;
+    check(vox_grid_update_locator(play.grid, &taken));
+    const std::unique_ptr<vox_locator, ReleaseLocator> locator(taken);
+    const vox_positions begin = vox_double_positions(from, 1), end = vox_double_positions(to, 1);
+    vox_query_desc desc = vox_default_query_desc();
+    desc.flags = VOX_QUERY_FIRST_HIT;
+    std::uint64_t count = 0;
+    check(vox_locator_find_ray_hits(taken, &begin, &end, &desc, &hit, 1, &count));
+    return count > 0;
+}
+
 } // namespace
 
 } // namespace play
@@ -416,11 +434,10 @@ vox_result play_grab(playground* play, const double from[3], const double to[3],
     return guard([&] {
         *out_found = 0;
         play_let_go(play);
-        check(vox_grid_prepare_queries(play->grid));
         vox_ray_hit hit;
-        check(vox_grid_query_ray(play->grid, from, to, UINT64_MAX, &hit));
-        const auto body = find_body(*play, hit.mesh);
-        if (hit.mesh == VOX_NULL_BODY || body == play->bodies.end() || body->kind == PLAY_FIXED) return;
+        if (!find_first_hit(*play, from, to, hit)) return;
+        const auto body = find_body(*play, hit.body);
+        if (body == play->bodies.end() || body->kind == PLAY_FIXED) return;
         const Vec a = {from[0], from[1], from[2]}, b = {to[0], to[1], to[2]};
         const Vec point = a + hit.t * (b - a);
         const std::span positions = list(body->view.positions, 3 * body->view.vertex_count);
@@ -434,7 +451,7 @@ vox_result play_grab(playground* play, const double from[3], const double to[3],
                 held.push_back({v, way});
         }
         play->held = std::move(held);
-        play->held_mesh = hit.mesh;
+        play->held_mesh = hit.body;
         play->held_target = point;
         std::copy(point.begin(), point.end(), out_point);
         play->was_touched();

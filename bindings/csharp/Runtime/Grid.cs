@@ -87,6 +87,10 @@ namespace Voxtet
         }
 
         internal Handle.Use Read() { return handle.Read(); }
+        internal Handle.Use Change() { return handle.Change(); }
+
+        /// <summary>The meshes as they are now, to be asked where they are.</summary>
+        public Locator TakeLocator() { return new Locator(this); }
 
         /// <summary>Version of the library that is loaded, as "major.minor.patch".</summary>
         public static string LibraryVersion { get { return VoxException.Text(Native.vox_version_string()); } }
@@ -156,7 +160,7 @@ namespace Voxtet
             throw new ArgumentException("positions are float or double, not " + typeof(T).Name);
         }
 
-        static Positions PositionsOf<T>(ReadOnlySpan<T> numbers, string name) where T : struct
+        internal static Positions PositionsOf<T>(ReadOnlySpan<T> numbers, string name) where T : struct
         {
             return new Positions { count = Count(numbers.Length, 3, name), format = FormatOf<T>() };
         }

@@ -4,7 +4,7 @@ using System.Threading;
 
 namespace Voxtet
 {
-    /// <summary>Owns a grid, a view or a mesh of the library, and knows who uses it. What is disposed of or in use where it
+    /// <summary>Owns a grid, a locator or a mesh of the library, and knows who uses it. What is disposed of or in use where it
     /// must not be throws; the library itself would be undefined there.</summary>
     internal abstract class Handle : SafeHandle
     {
@@ -85,13 +85,20 @@ namespace Voxtet
         }
     }
 
-    internal sealed class QueryViewHandle : Handle
+    internal sealed class LocatorHandle : Handle
     {
-        internal QueryViewHandle(IntPtr view) : base(view) { }
+        internal LocatorHandle() : base(IntPtr.Zero) { }
+
+        internal unsafe void Update(IntPtr grid)
+        {
+            IntPtr locator = handle;
+            VoxException.Check(Native.vox_grid_update_locator(grid, &locator));
+            SetHandle(locator);
+        }
 
         protected override bool ReleaseHandle()
         {
-            Native.vox_query_view_release(handle);
+            Native.vox_locator_release(handle);
             return true;
         }
     }

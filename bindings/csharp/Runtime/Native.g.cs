@@ -5,7 +5,7 @@ using System.Runtime.InteropServices;
 
 namespace Voxtet
 {
-    // Names and layouts are those of vox.h, vox_pairs.h, vox_io.h and vox_sim.h.
+    // Names and layouts are those of vox.h, vox_query.h, vox_pairs.h, vox_io.h and vox_sim.h.
 
     public enum Result : int
     {
@@ -53,8 +53,8 @@ namespace Voxtet
         /// <summary>also report events of single vertices (vox_grid_contact_events)</summary>
         ContactEvents = 2,
         /// <summary>a mesh with a coordinate that VOX_FORMAT_DOUBLE does not allow (NaN, infinite, too large) takes no
-        /// part in a step, in vox_grid_prepare_queries, in vox_grid_take_query_view and in vox_grid_suggest_cell_size,
-        /// as if it were disabled; without this flag they fail.</summary>
+        /// part in a step, in vox_grid_suggest_cell_size and in locators (vox_query.h), as if it were disabled; without
+        /// this flag they fail.</summary>
         SkipBadBodies = 4,
         /// <summary>also find edges of surfaces through faces of others (vox_grid_edge_contacts);
         /// experimental.</summary>
@@ -141,15 +141,6 @@ namespace Voxtet
     {
         Info = 0,
         Warning = 1,
-    }
-
-    public enum Side : int
-    {
-        /// <summary>the tetrahedron has no volume</summary>
-        None = 0,
-        /// <summary>the segment goes into the tetrahedron</summary>
-        Enters = 1,
-        Leaves = 2,
     }
 
     [Flags]
@@ -298,6 +289,22 @@ namespace Voxtet
         MedianBoxSide = 3,
         Spacing = 4,
         Radius = 5,
+    }
+
+    [Flags]
+    public enum QueryFlags : uint
+    {
+        /// <summary>vox_locator_find_ray_hits: report only the first hit of each ray</summary>
+        FirstHit = 1,
+    }
+
+    public enum Side : int
+    {
+        /// <summary>the facet's tetrahedron has no volume</summary>
+        None = 0,
+        /// <summary>the ray goes into the tetrahedron</summary>
+        Enters = 1,
+        Leaves = 2,
     }
 
     /// <summary>What a surface consists of.</summary>
@@ -907,7 +914,7 @@ namespace Voxtet
         public uint body_b;
         /// <summary>of body_b</summary>
         public uint tet;
-        /// <summary>of the tetrahedron, as in vox_surface_hit</summary>
+        /// <summary>of the tetrahedron, as in vox_closest_hit</summary>
         public uint facet;
         /// <summary>its vertices, in the order given there</summary>
         public Uint3 face;
@@ -943,7 +950,7 @@ namespace Voxtet
         public uint body_b;
         /// <summary>of body_b</summary>
         public uint tet;
-        /// <summary>of the tetrahedron, as in vox_surface_hit: the first that the vertex met; the lowest (tet, facet)
+        /// <summary>of the tetrahedron, as in vox_closest_hit: the first that the vertex met; the lowest (tet, facet)
         /// of several at the same time</summary>
         public uint facet;
         /// <summary>its vertices, in the order given there</summary>
@@ -1122,115 +1129,6 @@ namespace Voxtet
         public IntPtr enqueue;
         public IntPtr finish;
         public IntPtr user;
-    }
-
-    /// <summary>Point `point` of the query is in the closed tetrahedron `tet` of `mesh`.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 28)]
-    public struct PointHit
-    {
-        public uint point;
-        public uint mesh;
-        public uint tet;
-        public Float4 barycentric;
-    }
-
-    /// <summary>Tetrahedron `tet` of `mesh`.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 8)]
-    public struct TetHit
-    {
-        public uint mesh;
-        public uint tet;
-    }
-
-    /// <summary>A point on facet `facet` of a tetrahedron, which is opposite corner `facet`.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 72)]
-    public struct SurfaceHit
-    {
-        /// <summary>VOX_NULL_BODY if there is no such point; then all fields are zero</summary>
-        public uint mesh;
-        public uint tet;
-        public uint facet;
-        public uint reserved;
-        /// <summary>weights of the facet's corners in that order, in [0, 1] up to rounding, with the sum 1</summary>
-        public Double3 barycentric;
-        public Double3 position;
-        public double distance;
-    }
-
-    /// <summary>Points for vox_grid_query_closest_points, and the surfaces to search.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct ClosestDesc
-    {
-        public uint struct_size;
-        public Format format;
-        /// <summary>read during the call; may be null if there are none</summary>
-        public IntPtr points;
-        /// <summary>from one point to the next; 0: tightly packed</summary>
-        public ulong byte_stride;
-        /// <summary>at most 2^32 - 1</summary>
-        public ulong point_count;
-        /// <summary>0: all meshes</summary>
-        public ulong mask;
-        /// <summary>in the caller's unit; 0: any distance</summary>
-        public double max_distance;
-        /// <summary>VOX_NULL_BODY: none</summary>
-        public uint excluded;
-        /// <summary>0</summary>
-        public uint reserved;
-        /// <summary>as in vox_positions</summary>
-        public ulong component_byte_stride;
-    }
-
-    /// <summary>The closest point of a surface, as in vox_surface_hit, with a normal and a sign.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 96)]
-    public struct ClosestHit
-    {
-        /// <summary>VOX_NULL_BODY if no surface is within max_distance; then all other fields but `inside` are
-        /// zero</summary>
-        public uint mesh;
-        public uint tet;
-        public uint facet;
-        /// <summary>how many of the meshes that take part have the point in a closed tetrahedron; exact</summary>
-        public uint inside;
-        public Double3 barycentric;
-        public Double3 position;
-        /// <summary>A unit vector out of the facet's tetrahedron or, if that is flat, to the side away from the
-        /// point.</summary>
-        public Double3 normal;
-        /// <summary>from the point to `position`, in double; negative if `mesh` has the point in a closed tetrahedron,
-        /// which is decided exactly</summary>
-        public double distance;
-    }
-
-    /// <summary>What the closed segment from `from` to `to` hits first; t is 0 at `from` and 1 at `to`.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 64)]
-    public struct RayHit
-    {
-        /// <summary>mesh of the first tetrahedron; VOX_NULL_BODY if none is hit, then all fields are zero</summary>
-        public uint mesh;
-        public uint tet;
-        /// <summary>0 if `from` is in the tetrahedron</summary>
-        public double t;
-        /// <summary>The first facet of a surface (see vox_surface_hit).</summary>
-        public uint surface_mesh;
-        public uint surface_tet;
-        public uint surface_facet;
-        public Side surface_side;
-        public double surface_t;
-        public Double3 surface_barycentric;
-    }
-
-    /// <summary>A facet of a surface that a segment hits; see vox_surface_hit and vox_ray_hit.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 48)]
-    public struct FacetHit
-    {
-        public uint mesh;
-        public uint tet;
-        public uint facet;
-        public Side side;
-        public double t;
-        /// <summary>weights of the facet's corners, as in vox_surface_hit</summary>
-        public Double3 barycentric;
     }
 
     /// <summary>What the last successful step did.</summary>
@@ -1796,6 +1694,89 @@ namespace Voxtet
         /// <summary>in seconds</summary>
         public CostSample64 curve;
         public Byte256 note;
+    }
+
+    /// <summary>Which bodies answer, and how far to look.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 32)]
+    public struct QueryDesc
+    {
+        public uint struct_size;
+        /// <summary>vox_query_flags, combined with |</summary>
+        public QueryFlags flags;
+        /// <summary>only bodies whose category had a bit in common with it; 0: all</summary>
+        public ulong mask;
+        /// <summary>not this body, e.g. the one that asks; an id that the locator does not have excludes none</summary>
+        public uint excluded;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance</summary>
+        public double max_distance;
+    }
+
+    /// <summary>A tetrahedron that contains a point.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 48)]
+    public struct PointHit
+    {
+        /// <summary>index of the point</summary>
+        public uint point;
+        public uint body;
+        public uint tet;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one</summary>
+        public Double4 weights;
+    }
+
+    /// <summary>A point of a surface.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 112)]
+    public struct ClosestHit
+    {
+        /// <summary>VOX_NULL_BODY: no surface is within max_distance; all other fields but `inside` are 0</summary>
+        public uint body;
+        public uint tet;
+        public uint facet;
+        /// <summary>how many bodies contain the point; exact</summary>
+        public uint inside;
+        /// <summary>the vertices of the facet, in the order of its corners</summary>
+        public Uint3 face;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>of these vertices, for the closest point, in [0, 1]</summary>
+        public Double3 weights;
+        /// <summary>of the closest point</summary>
+        public Double3 position;
+        /// <summary>A unit vector out of the facet's tetrahedron or, if that is flat, to the side away from the
+        /// point.</summary>
+        public Double3 normal;
+        /// <summary>from the point to `position`; negative if the body contains the point, which is exact</summary>
+        public double distance;
+    }
+
+    /// <summary>A tetrahedron whose bounding box meets a box.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 12)]
+    public struct BoxHit
+    {
+        /// <summary>index of the box</summary>
+        public uint box;
+        public uint body;
+        public uint tet;
+    }
+
+    /// <summary>A facet of a surface that a ray meets; see vox_closest_hit.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 64)]
+    public struct RayHit
+    {
+        /// <summary>index of the ray</summary>
+        public uint ray;
+        public uint body;
+        public uint tet;
+        public uint facet;
+        public Side side;
+        /// <summary>the vertices of the facet, in the order of its corners</summary>
+        public Uint3 face;
+        public double t;
+        /// <summary>of these vertices, in [0, 1]</summary>
+        public Double3 weights;
     }
 
     /// <summary>What a surface is made of.</summary>
@@ -2830,115 +2811,6 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_load(IntPtr bytes, ulong size, GridDesc* desc, IntPtr* out_grid);
 
-        /// <summary>Copies the present positions for the queries.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_prepare_queries(IntPtr grid);
-
-        /// <summary>The tetrahedra that contain a point, sorted by (mesh, tet); vox_point_hit.point is 0.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_query_point(IntPtr grid, double* point, ulong mask, PointHit* hits, ulong
-            capacity, ulong* out_count);
-
-        /// <summary>The same for up to 2^32 - 1 points at once, `byte_stride` apart (0: tightly packed), sorted by
-        /// (point, mesh, tet).</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_query_points(IntPtr grid, IntPtr points, Format format, ulong
-            byte_stride, ulong point_count, ulong mask, PointHit* hits, ulong capacity, ulong* out_count);
-
-        /// <summary>The tetrahedra whose bounding box has a point in common with the closed box from min to max,
-        /// decided exactly and sorted by (mesh, tet).</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_query_box(IntPtr grid, double* min, double* max, ulong mask, TetHit*
-            hits, ulong capacity, ulong* out_count);
-
-        /// <summary>The closest point to `point` on the surfaces of all meshes, if it is no further away than radius
-        /// (which may be infinite).</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_query_closest(IntPtr grid, double* point, double radius, ulong mask,
-            SurfaceHit* out_hit);
-
-        /// <summary>The same for many points at once, each no further away than desc-&gt;max_distance: out_hits[i] is
-        /// that of point i.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_query_closest_points(IntPtr grid, ClosestDesc* desc, ClosestHit*
-            out_hits);
-
-        /// <summary>Finds the first tetrahedron and the first facet in one call. from = to queries a single
-        /// point.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_query_ray(IntPtr grid, double* from, double* to, ulong mask, RayHit*
-            out_hit);
-
-        /// <summary>All facets of surfaces that the closed segment hits, sorted by (t, mesh, tet, facet).</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_query_ray_hits(IntPtr grid, double* from, double* to, ulong mask, uint
-            excluded, FacetHit* hits, ulong capacity, ulong* out_count);
-
-        /// <summary>1 if the closed segment hits any tetrahedron that has a volume, else 0; exact.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_query_ray_any(IntPtr grid, double* from, double* to, ulong mask, uint
-            excluded, uint* out_any);
-
-        /// <summary>Takes a view of the grid as it is now.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_take_query_view(IntPtr grid, IntPtr* out_view);
-
-        /// <summary>One more owner of a view, who releases it as well.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_query_view_retain(IntPtr view);
-
-        /// <summary>Ends the use of a view by one owner.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void vox_query_view_release(IntPtr view);
-
-        /// <summary>vox_grid_info.epoch when the view was taken: which step it shows.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_query_view_epoch(IntPtr view, ulong* out_epoch);
-
-        /// <summary>The user_data that a mesh of the view was inserted with.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_query_view_user_data(IntPtr view, uint body, ulong* out_user_data);
-
-        /// <summary>As vox_grid_query_point.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_query_view_point(IntPtr view, double* point, ulong mask, PointHit* hits, ulong
-            capacity, ulong* out_count);
-
-        /// <summary>As vox_grid_query_points.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_query_view_points(IntPtr view, IntPtr points, Format format, ulong
-            byte_stride, ulong point_count, ulong mask, PointHit* hits, ulong capacity, ulong* out_count);
-
-        /// <summary>As vox_grid_query_box.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_query_view_box(IntPtr view, double* min, double* max, ulong mask, TetHit*
-            hits, ulong capacity, ulong* out_count);
-
-        /// <summary>As vox_grid_query_closest.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_query_view_closest(IntPtr view, double* point, double radius, ulong mask,
-            SurfaceHit* out_hit);
-
-        /// <summary>As vox_grid_query_closest_points.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_query_view_closest_points(IntPtr view, ClosestDesc* desc, ClosestHit*
-            out_hits);
-
-        /// <summary>As vox_grid_query_ray.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_query_view_ray(IntPtr view, double* from, double* to, ulong mask, RayHit*
-            out_hit);
-
-        /// <summary>As vox_grid_query_ray_hits.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_query_view_ray_hits(IntPtr view, double* from, double* to, ulong mask, uint
-            excluded, FacetHit* hits, ulong capacity, ulong* out_count);
-
-        /// <summary>As vox_grid_query_ray_any.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_query_view_ray_any(IntPtr view, double* from, double* to, ulong mask, uint
-            excluded, uint* out_any);
-
         /// <summary>Writes the fields that out_counters-&gt;struct_size covers (set it first).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_get_counters(IntPtr grid, Counters* out_counters);
@@ -3018,6 +2890,56 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_cost_tune(ForeignGrid* grid, TuneDesc* desc, IntPtr run, IntPtr user, Tuning*
             @out);
+
+        /// <summary>Takes a locator of the grid as it is now, and releases the one that *locator held before, if
+        /// any.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_update_locator(IntPtr grid, IntPtr* locator);
+
+        /// <summary>Adds an owner, who has to release the locator as well: so one thread can still ask it while another
+        /// takes the next one.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_retain(IntPtr locator);
+
+        /// <summary>Removes an owner.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void vox_locator_release(IntPtr locator);
+
+        /// <summary>Gets vox_grid_info.epoch of the moment when the locator was taken.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_get_epoch(IntPtr locator, ulong* out_epoch);
+
+        /// <summary>Gets the user_data of a body, even if it was removed since.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_get_user_data(IntPtr locator, uint body, ulong* out_user_data);
+
+        /// <summary>Finds the tetrahedra that contain points, by the rule of vox_contact: every tetrahedron of a body
+        /// that has the point in its interior or, if there is none, the lowest that has it on its boundary.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_find_point_hits(IntPtr locator, Positions* points, QueryDesc* desc,
+            PointHit* hits, ulong capacity, ulong* out_count);
+
+        /// <summary>Finds the closest point of all surfaces: out_hits[i] is for point i.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_find_closest(IntPtr locator, Positions* points, QueryDesc* desc,
+            ClosestHit* out_hits);
+
+        /// <summary>Finds the tetrahedra whose bounding box has a point in common with the closed box from min[i] to
+        /// max[i], decided exactly and sorted by (box, body, tet).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_find_box_hits(IntPtr locator, Positions* min, Positions* max,
+            QueryDesc* desc, BoxHit* hits, ulong capacity, ulong* out_count);
+
+        /// <summary>Finds the facets of surfaces that rays meet, sorted by (ray, t, body, tet, facet).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_find_ray_hits(IntPtr locator, Positions* from, Positions* to,
+            QueryDesc* desc, RayHit* hits, ulong capacity, ulong* out_count);
+
+        /// <summary>Tests whether each ray meets a tetrahedron that has a volume: out_blocked[i] is 1 or 0, which is
+        /// exact.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_test_rays(IntPtr locator, Positions* from, Positions* to, QueryDesc*
+            desc, byte* out_blocked);
 
         /// <summary>Creates a surface without positions.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3716,101 +3638,6 @@ namespace Voxtet
             entries.Add(Entry("vox_task_system.user", (byte*)&s.user - begin, 16, 8));
         }
 
-        static void AddPointHit(List<LayoutEntry> entries)
-        {
-            PointHit s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_point_hit", sizeof(PointHit), 28, 28));
-            entries.Add(Entry("vox_point_hit.point", (byte*)&s.point - begin, 0, 0));
-            entries.Add(Entry("vox_point_hit.mesh", (byte*)&s.mesh - begin, 4, 4));
-            entries.Add(Entry("vox_point_hit.tet", (byte*)&s.tet - begin, 8, 8));
-            entries.Add(Entry("vox_point_hit.barycentric", (byte*)&s.barycentric - begin, 12, 12));
-        }
-
-        static void AddTetHit(List<LayoutEntry> entries)
-        {
-            TetHit s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_tet_hit", sizeof(TetHit), 8, 8));
-            entries.Add(Entry("vox_tet_hit.mesh", (byte*)&s.mesh - begin, 0, 0));
-            entries.Add(Entry("vox_tet_hit.tet", (byte*)&s.tet - begin, 4, 4));
-        }
-
-        static void AddSurfaceHit(List<LayoutEntry> entries)
-        {
-            SurfaceHit s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_surface_hit", sizeof(SurfaceHit), 72, 72));
-            entries.Add(Entry("vox_surface_hit.mesh", (byte*)&s.mesh - begin, 0, 0));
-            entries.Add(Entry("vox_surface_hit.tet", (byte*)&s.tet - begin, 4, 4));
-            entries.Add(Entry("vox_surface_hit.facet", (byte*)&s.facet - begin, 8, 8));
-            entries.Add(Entry("vox_surface_hit.reserved", (byte*)&s.reserved - begin, 12, 12));
-            entries.Add(Entry("vox_surface_hit.barycentric", (byte*)&s.barycentric - begin, 16, 16));
-            entries.Add(Entry("vox_surface_hit.position", (byte*)&s.position - begin, 40, 40));
-            entries.Add(Entry("vox_surface_hit.distance", (byte*)&s.distance - begin, 64, 64));
-        }
-
-        static void AddClosestDesc(List<LayoutEntry> entries)
-        {
-            ClosestDesc s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_closest_desc", sizeof(ClosestDesc), 64, 64));
-            entries.Add(Entry("vox_closest_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_closest_desc.format", (byte*)&s.format - begin, 4, 4));
-            entries.Add(Entry("vox_closest_desc.points", (byte*)&s.points - begin, 8, 8));
-            entries.Add(Entry("vox_closest_desc.byte_stride", (byte*)&s.byte_stride - begin, 16, 16));
-            entries.Add(Entry("vox_closest_desc.point_count", (byte*)&s.point_count - begin, 24, 24));
-            entries.Add(Entry("vox_closest_desc.mask", (byte*)&s.mask - begin, 32, 32));
-            entries.Add(Entry("vox_closest_desc.max_distance", (byte*)&s.max_distance - begin, 40, 40));
-            entries.Add(Entry("vox_closest_desc.excluded", (byte*)&s.excluded - begin, 48, 48));
-            entries.Add(Entry("vox_closest_desc.reserved", (byte*)&s.reserved - begin, 52, 52));
-            entries.Add(Entry("vox_closest_desc.component_byte_stride", (byte*)&s.component_byte_stride - begin, 56, 56));
-        }
-
-        static void AddClosestHit(List<LayoutEntry> entries)
-        {
-            ClosestHit s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_closest_hit", sizeof(ClosestHit), 96, 96));
-            entries.Add(Entry("vox_closest_hit.mesh", (byte*)&s.mesh - begin, 0, 0));
-            entries.Add(Entry("vox_closest_hit.tet", (byte*)&s.tet - begin, 4, 4));
-            entries.Add(Entry("vox_closest_hit.facet", (byte*)&s.facet - begin, 8, 8));
-            entries.Add(Entry("vox_closest_hit.inside", (byte*)&s.inside - begin, 12, 12));
-            entries.Add(Entry("vox_closest_hit.barycentric", (byte*)&s.barycentric - begin, 16, 16));
-            entries.Add(Entry("vox_closest_hit.position", (byte*)&s.position - begin, 40, 40));
-            entries.Add(Entry("vox_closest_hit.normal", (byte*)&s.normal - begin, 64, 64));
-            entries.Add(Entry("vox_closest_hit.distance", (byte*)&s.distance - begin, 88, 88));
-        }
-
-        static void AddRayHit(List<LayoutEntry> entries)
-        {
-            RayHit s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_ray_hit", sizeof(RayHit), 64, 64));
-            entries.Add(Entry("vox_ray_hit.mesh", (byte*)&s.mesh - begin, 0, 0));
-            entries.Add(Entry("vox_ray_hit.tet", (byte*)&s.tet - begin, 4, 4));
-            entries.Add(Entry("vox_ray_hit.t", (byte*)&s.t - begin, 8, 8));
-            entries.Add(Entry("vox_ray_hit.surface_mesh", (byte*)&s.surface_mesh - begin, 16, 16));
-            entries.Add(Entry("vox_ray_hit.surface_tet", (byte*)&s.surface_tet - begin, 20, 20));
-            entries.Add(Entry("vox_ray_hit.surface_facet", (byte*)&s.surface_facet - begin, 24, 24));
-            entries.Add(Entry("vox_ray_hit.surface_side", (byte*)&s.surface_side - begin, 28, 28));
-            entries.Add(Entry("vox_ray_hit.surface_t", (byte*)&s.surface_t - begin, 32, 32));
-            entries.Add(Entry("vox_ray_hit.surface_barycentric", (byte*)&s.surface_barycentric - begin, 40, 40));
-        }
-
-        static void AddFacetHit(List<LayoutEntry> entries)
-        {
-            FacetHit s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_facet_hit", sizeof(FacetHit), 48, 48));
-            entries.Add(Entry("vox_facet_hit.mesh", (byte*)&s.mesh - begin, 0, 0));
-            entries.Add(Entry("vox_facet_hit.tet", (byte*)&s.tet - begin, 4, 4));
-            entries.Add(Entry("vox_facet_hit.facet", (byte*)&s.facet - begin, 8, 8));
-            entries.Add(Entry("vox_facet_hit.side", (byte*)&s.side - begin, 12, 12));
-            entries.Add(Entry("vox_facet_hit.t", (byte*)&s.t - begin, 16, 16));
-            entries.Add(Entry("vox_facet_hit.barycentric", (byte*)&s.barycentric - begin, 24, 24));
-        }
-
         static void AddCounters(List<LayoutEntry> entries)
         {
             Counters s;
@@ -4231,6 +4058,73 @@ namespace Voxtet
             entries.Add(Entry("vox_tuning.curve_count", (byte*)&s.curve_count - begin, 628, 628));
             entries.Add(Entry("vox_tuning.curve", (byte*)&s.curve - begin, 632, 632));
             entries.Add(Entry("vox_tuning.note", (byte*)&s.note - begin, 1656, 1656));
+        }
+
+        static void AddQueryDesc(List<LayoutEntry> entries)
+        {
+            QueryDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_query_desc", sizeof(QueryDesc), 32, 32));
+            entries.Add(Entry("vox_query_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_query_desc.flags", (byte*)&s.flags - begin, 4, 4));
+            entries.Add(Entry("vox_query_desc.mask", (byte*)&s.mask - begin, 8, 8));
+            entries.Add(Entry("vox_query_desc.excluded", (byte*)&s.excluded - begin, 16, 16));
+            entries.Add(Entry("vox_query_desc.reserved", (byte*)&s.reserved - begin, 20, 20));
+            entries.Add(Entry("vox_query_desc.max_distance", (byte*)&s.max_distance - begin, 24, 24));
+        }
+
+        static void AddPointHit(List<LayoutEntry> entries)
+        {
+            PointHit s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_point_hit", sizeof(PointHit), 48, 48));
+            entries.Add(Entry("vox_point_hit.point", (byte*)&s.point - begin, 0, 0));
+            entries.Add(Entry("vox_point_hit.body", (byte*)&s.body - begin, 4, 4));
+            entries.Add(Entry("vox_point_hit.tet", (byte*)&s.tet - begin, 8, 8));
+            entries.Add(Entry("vox_point_hit.reserved", (byte*)&s.reserved - begin, 12, 12));
+            entries.Add(Entry("vox_point_hit.weights", (byte*)&s.weights - begin, 16, 16));
+        }
+
+        static void AddClosestHit(List<LayoutEntry> entries)
+        {
+            ClosestHit s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_closest_hit", sizeof(ClosestHit), 112, 112));
+            entries.Add(Entry("vox_closest_hit.body", (byte*)&s.body - begin, 0, 0));
+            entries.Add(Entry("vox_closest_hit.tet", (byte*)&s.tet - begin, 4, 4));
+            entries.Add(Entry("vox_closest_hit.facet", (byte*)&s.facet - begin, 8, 8));
+            entries.Add(Entry("vox_closest_hit.inside", (byte*)&s.inside - begin, 12, 12));
+            entries.Add(Entry("vox_closest_hit.face", (byte*)&s.face - begin, 16, 16));
+            entries.Add(Entry("vox_closest_hit.reserved", (byte*)&s.reserved - begin, 28, 28));
+            entries.Add(Entry("vox_closest_hit.weights", (byte*)&s.weights - begin, 32, 32));
+            entries.Add(Entry("vox_closest_hit.position", (byte*)&s.position - begin, 56, 56));
+            entries.Add(Entry("vox_closest_hit.normal", (byte*)&s.normal - begin, 80, 80));
+            entries.Add(Entry("vox_closest_hit.distance", (byte*)&s.distance - begin, 104, 104));
+        }
+
+        static void AddBoxHit(List<LayoutEntry> entries)
+        {
+            BoxHit s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_box_hit", sizeof(BoxHit), 12, 12));
+            entries.Add(Entry("vox_box_hit.box", (byte*)&s.box - begin, 0, 0));
+            entries.Add(Entry("vox_box_hit.body", (byte*)&s.body - begin, 4, 4));
+            entries.Add(Entry("vox_box_hit.tet", (byte*)&s.tet - begin, 8, 8));
+        }
+
+        static void AddRayHit(List<LayoutEntry> entries)
+        {
+            RayHit s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_ray_hit", sizeof(RayHit), 64, 64));
+            entries.Add(Entry("vox_ray_hit.ray", (byte*)&s.ray - begin, 0, 0));
+            entries.Add(Entry("vox_ray_hit.body", (byte*)&s.body - begin, 4, 4));
+            entries.Add(Entry("vox_ray_hit.tet", (byte*)&s.tet - begin, 8, 8));
+            entries.Add(Entry("vox_ray_hit.facet", (byte*)&s.facet - begin, 12, 12));
+            entries.Add(Entry("vox_ray_hit.side", (byte*)&s.side - begin, 16, 16));
+            entries.Add(Entry("vox_ray_hit.face", (byte*)&s.face - begin, 20, 20));
+            entries.Add(Entry("vox_ray_hit.t", (byte*)&s.t - begin, 32, 32));
+            entries.Add(Entry("vox_ray_hit.weights", (byte*)&s.weights - begin, 40, 40));
         }
 
         static void AddSurfaceDesc(List<LayoutEntry> entries)
@@ -4749,13 +4643,6 @@ namespace Voxtet
             AddAllocator(entries);
             AddLog(entries);
             AddTaskSystem(entries);
-            AddPointHit(entries);
-            AddTetHit(entries);
-            AddSurfaceHit(entries);
-            AddClosestDesc(entries);
-            AddClosestHit(entries);
-            AddRayHit(entries);
-            AddFacetHit(entries);
             AddCounters(entries);
             AddProfile(entries);
             AddReferenceDesc(entries);
@@ -4780,6 +4667,11 @@ namespace Voxtet
             AddGridFit(entries);
             AddTuneDesc(entries);
             AddTuning(entries);
+            AddQueryDesc(entries);
+            AddPointHit(entries);
+            AddClosestHit(entries);
+            AddBoxHit(entries);
+            AddRayHit(entries);
             AddSurfaceDesc(entries);
             AddFeatureView(entries);
             AddMotion(entries);

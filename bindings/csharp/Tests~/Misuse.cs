@@ -69,7 +69,6 @@ namespace Voxtet.Tests
             Test.Throws<ArgumentException>(() => grid.GetPositions(mesh).Set(new float[3]), "3 numbers, expected 12");
             Test.Throws<IndexOutOfRangeException>(() => Put(grid, mesh, 12, 0), "");
             Test.Throws<VoxException>(() => { var r = grid.Readings; }, "");
-            Test.Throws<VoxException>(() => grid.QueryRay(new Double3(), new Double3()), "");
             Test.Throws<ArgumentException>(() => grid.SetTransform(mesh, new double[3]), "3 numbers, expected 12");
             Test.Throws<ArgumentException>(() => grid.ReplaceTets(mesh, new uint[1], new uint[3]), "3 corners, expected 4");
             Put(grid, mesh, 5, float.NaN);
@@ -205,13 +204,13 @@ namespace Voxtet.Tests
             Test.Same(wrong, 0, "wrong results");
             grid.Step();
             Test.Same(grid.Hash, hash, "after " + refused + " refused calls");
-            // A view is asked while the grid steps and goes.
-            QueryView view = grid.TakeQueryView();
+            // A locator is asked while the grid steps and goes.
+            Locator locator = grid.TakeLocator();
             int found = 0;
             var asking = new Thread(() =>
             {
                 var hits = new PointHit[8];
-                for (int i = 0; i < 500; ++i) found += (int)view.QueryPoints(new[] { 7.5, 5.25, 3.125 }, hits);
+                for (int i = 0; i < 500; ++i) found += (int)locator.FindPointHits(new[] { 7.5, 5.25, 3.125 }, hits);
             });
             asking.Start();
             for (int i = 0; i < 10; ++i)
@@ -221,10 +220,54 @@ namespace Voxtet.Tests
             }
             grid.Dispose();
             asking.Join();
-            Test.Same(found, 1000, "hits of a view");
-            Test.Throws<ArgumentException>(() => view.QueryPoints(new double[4], new PointHit[1]), "4 numbers, expected 3");
-            view.Dispose();
-            Test.Throws<ObjectDisposedException>(() => { ulong epoch = view.Epoch; }, "");
+            Test.Same(found, 1000, "hits of a locator");
+            locator.Dispose();
+            Test.Throws<ObjectDisposedException>(() => { ulong epoch = locator.Epoch; }, "");
+            Test.Throws<ObjectDisposedException>(() => grid.TakeLocator(), "");
+        }
+
+        public static void Locators()
+        {
+            Mesh a, b;
+            Grid grid = TwoBlocks(out a, out b);
+            Locator locator = grid.TakeLocator();
+            double[] from = { -1, 0.5, 0.5, -1, 9, 0 }, to = { 9, 0.5, 0.5, 9, 9, 0 }, point = { -1, 0.5, 0.5 };
+            var hits = new RayHit[9];
+            var blocked = new byte[2];
+            var closest = new ClosestHit[1];
+            ulong all = locator.FindRayHits(from, to, hits);
+            Test.That(all > 2 && hits[0].body == a.Id && hits[0].ray == 0, all + " hits");
+            Test.Same(locator.FindRayHits(from, to, new RayHit[0]), all, "hits");
+            Test.Same(locator.FindRayHits(from, to, hits, new QueryDesc { flags = QueryFlags.FirstHit }), 1ul, "first hits");
+            locator.FindRayHits(from, to, hits, new QueryDesc { excluded = a.Id });
+            Test.Same(hits[0].body, b.Id, "body of a hit");
+            locator.TestRays(from, to, blocked);
+            Test.That(blocked[0] == 1 && blocked[1] == 0, "blocked rays");
+            locator.TestRays(from, to, blocked, new QueryDesc { mask = 2 });
+            Test.Same(blocked[0], (byte)0, "a ray that all pass");
+            locator.FindClosest(point, closest, new QueryDesc { max_distance = 0.5 });
+            Test.Same(closest[0].body, 0u, "nothing is near");
+            locator.FindClosest(point, closest);
+            Test.Same(closest[0].distance, 1.0, "distance");
+            Test.Throws<ArgumentException>(() => locator.FindPointHits(new double[4], new PointHit[1]), "4 numbers, expected 3");
+            Test.Throws<ArgumentException>(() => locator.FindClosest(from, closest), "room for 1, expected 2");
+            Test.Throws<ArgumentException>(() => locator.TestRays(from, to, new byte[1]), "room for 1, expected 2");
+            Test.Throws<VoxException>(() => locator.TestRays(from, point, blocked), "from.count is 2, to.count is 1");
+            Test.Throws<VoxException>(() => locator.FindClosest(point, closest, new QueryDesc { max_distance = -1 }), "max_distance is -1");
+            Test.Throws<ArgumentNullException>(() => locator.Update(null), "grid");
+            ulong epoch = locator.Epoch;
+            Put(grid, a, 0, float.NaN);
+            Test.Throws<VoxException>(() => locator.Update(grid), "vertex 0");
+            Test.Same(locator.Epoch, epoch, "the epoch stays");
+            grid.Remove(a);
+            Test.Same(locator.GetUserData(a), 0ul, "user data");
+            grid.Step();
+            locator.Update(grid);
+            Test.That(locator.Epoch > epoch, "the epoch of another moment");
+            Test.Throws<VoxException>(() => locator.GetUserData(a), "");
+            locator.Dispose();
+            Test.Throws<ObjectDisposedException>(() => locator.Update(grid), "");
+            grid.Dispose();
         }
 
         public static void Log()
@@ -393,9 +436,11 @@ namespace Voxtet.Tests
                 Mesh mesh = grid.Add(new float[0], new uint[0]);
                 Test.Same(grid.GetPositions(mesh).Length, 0, "positions");
                 grid.Step();
-                grid.PrepareQueries();
-                Test.Same(grid.QueryPoints(new double[0], new PointHit[0]), 0ul, "hits");
-                grid.QueryClosest(new double[0], new ClosestHit[0]);
+                using (Locator locator = grid.TakeLocator())
+                {
+                    Test.Same(locator.FindPointHits(new double[0], new PointHit[0]), 0ul, "hits");
+                    locator.FindClosest(new double[0], new ClosestHit[0]);
+                }
                 Test.Same(grid.AppendVertices(mesh, unit), 0u, "first vertex");
                 Test.Same(grid.AppendTets(mesh, tet), 0u, "first tet");
                 Test.Same(grid.GetPositions(mesh)[3], 1f, "positions");
@@ -410,6 +455,7 @@ namespace Voxtet.Tests
             var random = new Random(1);
             Mesh a, b;
             Grid grid = TwoBlocks(out a, out b);
+            Locator locator = grid.TakeLocator();
             int refused = 0, done = 0;
             for (int round = 0; round < 3000; ++round)
             {
@@ -446,7 +492,7 @@ namespace Voxtet.Tests
                             Block(3, random.Next(40) / 10f, out positions, out tets);
                             if (meshes.Length < 4) grid.Add(positions, tets);
                             break;
-                        case 14: grid.PrepareQueries(); grid.QueryPoints(new[] { number, 0, 0 }, new PointHit[2]); break;
+                        case 14: locator.Update(grid); locator.FindPointHits(new[] { number, 0, 0 }, new PointHit[2]); break;
                         case 15: grid.PrepareReadings((ReadingFlags)random.Next(9)); break;
                         default: grid.Step(); break;
                     }

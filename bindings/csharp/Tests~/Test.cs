@@ -34,8 +34,8 @@ namespace Voxtet.Tests
             var tests = new System.Collections.Generic.List<Action>
             {
                 Layouts, () => Vectors.Run(arguments[0]), Misuse.Errors, Misuse.Settings, Misuse.Views, Misuse.LongerRecords,
-                Misuse.Threads, Misuse.Log, Misuse.CellSizes, Misuse.GridsOfOthers, Misuse.Files, Misuse.ManyGrids, Misuse.EmptyArrays,
-                Misuse.AnythingGoes, Misuse.NoAllocation,
+                Misuse.Threads, Misuse.Locators, Misuse.Log, Misuse.CellSizes, Misuse.GridsOfOthers, Misuse.Files, Misuse.ManyGrids,
+                Misuse.EmptyArrays, Misuse.AnythingGoes, Misuse.NoAllocation,
                 Misuse.LogHoldsGrid, Misuse.NothingLeaks
             };
             int failed = 0;

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.IO;
+using System.Linq;
 using System.Runtime.InteropServices;
 
 namespace Voxtet.Tests
@@ -11,6 +12,7 @@ namespace Voxtet.Tests
         readonly byte[] arrays;
         readonly object script;
         Grid grid;
+        Locator locator;
         string place;
 
         Vectors(string folder)
@@ -30,6 +32,7 @@ namespace Voxtet.Tests
                     vectors.Replay(new Call(call));
                     ++calls;
                 }
+            vectors.locator.Dispose();
             vectors.grid.Dispose();
             Test.That(calls > 300, "only " + calls + " calls");
         }
@@ -108,12 +111,7 @@ namespace Voxtet.Tests
             };
         }
 
-        static Double3 Point(Call call, string name)
-        {
-            var point = new Double3();
-            for (int i = 0; i < 3; ++i) point[i] = (double)((List<object>)call.Fields[name])[i];
-            return point;
-        }
+        double[] Points(Call call, string name) { return Array<double>(call, name, 3 * call.Uint("count")); }
 
         void Make(Call call)
         {
@@ -152,41 +150,44 @@ namespace Voxtet.Tests
                     grid.PrepareReadings();
                     Check(call, "readings", grid.Readings.AsSpan());
                     break;
-                case "prepare_queries":
-                    grid.PrepareQueries();
+                case "update_locator":
+                    if (locator == null) locator = grid.TakeLocator();
+                    else locator.Update(grid);
                     break;
-                case "query_points":
+                case "find_point_hits":
                 {
-                    double[] points = Array<double>(call, "points", 3 * count);
                     var hits = new PointHit[4096];
-                    int found = (int)grid.QueryPoints(points, hits);
-                    Check(call, "hits", new ReadOnlySpan<PointHit>(hits, 0, found));
-                    using (QueryView view = grid.TakeQueryView()) found = (int)view.QueryPoints(points, hits);
+                    int found = (int)locator.FindPointHits(Points(call, "points"), hits);
                     Check(call, "hits", new ReadOnlySpan<PointHit>(hits, 0, found));
                     break;
                 }
-                case "query_closest_points":
+                case "find_closest":
                 {
                     var hits = new ClosestHit[count];
-                    grid.QueryClosest(Array<double>(call, "points", 3 * count), hits);
+                    locator.FindClosest(Points(call, "points"), hits);
                     Check<ClosestHit>(call, "hits", hits);
                     break;
                 }
-                case "query_ray":
-                    Check<RayHit>(call, "hits", new[] { grid.QueryRay(Point(call, "from"), Point(call, "to")) });
-                    break;
-                case "query_ray_hits":
+                case "find_box_hits":
                 {
-                    var hits = new FacetHit[4096];
-                    int found = (int)grid.QueryRayHits(Point(call, "from"), Point(call, "to"), hits);
-                    Check(call, "hits", new ReadOnlySpan<FacetHit>(hits, 0, found));
+                    var hits = new BoxHit[1 << 17];
+                    int found = (int)locator.FindBoxHits(Points(call, "min"), Points(call, "max"), hits);
+                    Check(call, "hits", new ReadOnlySpan<BoxHit>(hits, 0, found));
                     break;
                 }
-                case "query_box":
+                case "find_ray_hits":
                 {
-                    var hits = new TetHit[4096];
-                    int found = (int)grid.QueryBox(Point(call, "min"), Point(call, "max"), hits);
-                    Check(call, "hits", new ReadOnlySpan<TetHit>(hits, 0, found));
+                    var hits = new RayHit[4096];
+                    var desc = new QueryDesc { flags = (QueryFlags)call.Uint("flags") };
+                    int found = (int)locator.FindRayHits(Points(call, "from"), Points(call, "to"), hits, desc);
+                    Check(call, "hits", new ReadOnlySpan<RayHit>(hits, 0, found));
+                    break;
+                }
+                case "test_rays":
+                {
+                    var blocked = new byte[count];
+                    locator.TestRays(Points(call, "from"), Points(call, "to"), blocked);
+                    Check(call, "blocked", blocked.Sum(b => b));
                     break;
                 }
                 case "meshes":

@@ -2,9 +2,9 @@ import { Format } from "../enums.js";
 import { structs } from "../layout.js";
 import { bits, bytes, callback, fields, flag, float, floats, indices, integer, list, meshId, options, positions } from "./check.js";
 import { suggestFields, suggestion } from "./cell_size.js";
+import { Locator } from "./locator.js";
 import { meshArrays, meshDesc, same } from "./mesh_arrays.js";
-import { guarded, memoryOf, pointerOf } from "./owned.js";
-import { GRID_QUERIES, Queries, QueryView } from "./queries.js";
+import { guarded, memoryOf, Owned, pointerOf, pointerOfKind } from "./owned.js";
 import { records } from "./records.js";
 
 const GRID = ["cellSize", "byteBudget", "flags", "closestBudget", "log", "reference"];
@@ -37,7 +37,7 @@ function closing(memory, id) {
 }
 
 /** A set of meshes that collide. */
-export class Grid extends Queries {
+export class Grid extends Owned {
   #log;
 
   /** @param {Uint8Array} [snapshot] what save() gave, instead of an empty grid */
@@ -69,7 +69,7 @@ export class Grid extends Queries {
       memory.removeCallback(id);
       throw error;
     }
-    super(memory, "grid", pointer, closing(memory, id), GRID_QUERIES);
+    super(memory, "grid", pointer, closing(memory, id));
     this.#log = log;
     owner.grid = new WeakRef(this);
     owner.log = undefined;
@@ -81,10 +81,6 @@ export class Grid extends Queries {
 
   #call(name, ...given) {
     return memoryOf(this).call[name](pointerOf(this), ...given);
-  }
-
-  #number(type, name) {
-    return memoryOf(this).number(type, (out) => this.#call(name, out));
   }
 
   #get(struct, name, ...given) {
@@ -173,7 +169,7 @@ export class Grid extends Queries {
   }
 
   get hash() {
-    return this.#number("u64", "vox_grid_get_hash");
+    return memoryOf(this).number("u64", (out) => this.#call("vox_grid_get_hash", out));
   }
 
   get contacts() {
@@ -255,14 +251,10 @@ export class Grid extends Queries {
     return this.copied("vox_pair_copy_readings", "vox_reading", meshId(bodyA, "bodyA"), meshId(bodyB, "bodyB"));
   }
 
-  // ---- queries, snapshots, measurements ----
+  // ---- locators, snapshots, measurements ----
 
-  prepareQueries() {
-    this.#call("vox_grid_prepare_queries");
-  }
-
-  takeQueryView() {
-    return new QueryView(memoryOf(this), this.#number("pointer", "vox_grid_take_query_view"));
+  locator() {
+    return new Locator(this);
   }
 
   save() {
@@ -507,10 +499,7 @@ export function contactsOfGrids(memory, grids) {
 }
 
 function gridPointers(memory, grids) {
-  return Uint32Array.from(list(grids, "grids", "grids"), (grid, i) => {
-    if (!(grid instanceof Grid) || memoryOf(grid) !== memory) throw new TypeError(`grids[${i}]: expected a Grid of this module`);
-    return pointerOf(grid);
-  });
+  return Uint32Array.from(list(grids, "grids", "grids"), (grid, i) => pointerOfKind(grid, "grid", memory, `grids[${i}]`));
 }
 
 /** What save() gave. */

@@ -45,6 +45,21 @@ export function pointerOf(owned) {
   return pointer;
 }
 
+/** The pointer of what must be of this kind and module. */
+export function pointerOfKind(owned, kind, memory, what) {
+  if (!(owned instanceof Owned) || state(owned).kind !== kind || state(owned).memory !== memory)
+    throw new TypeError(`${what}: expected a ${kind} of this module`);
+  return pointerOf(owned);
+}
+
+/** The library has put something else in the place of what was owned. */
+export function setPointer(owned, pointer) {
+  const its = state(owned);
+  its.pointer = pointer;
+  its.memory.unwatch(owned);
+  its.memory.watch(owned, its.release, pointer);
+}
+
 /** Runs what calls logs, or is one: the library does not allow it to use any of `all`. */
 export function guarded(all, run) {
   const free = all.map(state).filter((its) => !its.calling);

@@ -20,7 +20,9 @@ function live(vox, log) {
   grid.step();
   grid.prepareReadings();
   assert.ok(grid.readings.length > 0);
-  grid.takeQueryView().dispose();
+  const locator = grid.locator();
+  locator.update(grid);
+  locator.dispose();
   return grid;
 }
 
@@ -37,7 +39,7 @@ test("grids that are forgotten", async () => {
   let bytes;
   for (let i = 0; i < ROUNDS; ++i) {
     const grid = live(vox, () => assert.ok(grid)); // a log that holds on to its grid
-    grid.takeQueryView();
+    grid.locator().update(grid);
     if (i % 100 !== 99) continue;
     gc();
     await setImmediate(); // collected objects are looked after between tasks

@@ -44,7 +44,7 @@ test("installed from what npm packs, the README's program prints what it says", 
     const run = (command, ...given) => execFileSync(command, given, { cwd: folder, encoding: "utf8", stdio: ["ignore", "pipe", "inherit"] });
     const [packed] = JSON.parse(run("npm", "pack", "--json", "--silent", here));
     const expected = ["LICENSE", "README.md", "enums.d.ts", "enums.js", "layout.js", "package.json", "structs.d.ts", "voxtet.d.ts",
-      "voxtet.js", ...["cell_size", "check", "errors", "foreign", "grid", "memory", "mesh_arrays", "owned", "queries", "records", "thread", "thread_imports", "threads"].map((n) => `lib/${n}.js`)];
+      "voxtet.js", ...["cell_size", "check", "errors", "foreign", "grid", "locator", "memory", "mesh_arrays", "owned", "records", "thread", "thread_imports", "threads"].map((n) => `lib/${n}.js`)];
     assert.deepEqual(packed.files.map((file) => file.path).sort(), [...expected, ...flavours].sort());
     const installed = path.join(folder, "node_modules", "voxtet");
     mkdirSync(installed, { recursive: true });
@@ -83,10 +83,9 @@ test("every name in the types is there, and the reverse", async () => {
   const proto = Object.getPrototypeOf;
   const gridClass = proto(proto(grid));
   assert.deepEqual(new Set(own(gridClass)), members("Grid"));
-  assert.deepEqual(new Set(own(proto(gridClass))), members("Queries"));
-  assert.deepEqual(new Set(own(proto(proto(gridClass))).filter((n) => n !== "Symbol(Symbol.dispose)")), members("Owned"));
+  assert.deepEqual(new Set(own(proto(gridClass)).filter((n) => n !== "Symbol(Symbol.dispose)")), members("Owned"));
   assert.deepEqual(new Set(own(proto(mesh))), members("Mesh"));
-  assert.deepEqual(new Set(own(proto(grid.takeQueryView()))), members("QueryView"));
+  assert.deepEqual(new Set(own(proto(grid.locator()))), members("Locator"));
   assert.deepEqual(new Set(own(vox)), members("Vox"));
   for (const name of [...types.matchAll(/export declare (?:function|class) (\w+)/g)].map((m) => m[1])) assert.ok(name in api, name);
 });

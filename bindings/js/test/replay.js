@@ -32,7 +32,9 @@ export function replay(vox, script, arrays, assert) {
   const array = (Type, offset, length) => new Type(arrays.slice(offset, offset + length * Type.BYTES_PER_ELEMENT).buffer);
   const positionsOf = (call) => array(call.format === 1 ? Float64Array : Float32Array, call.positions, 3 * call.vertices);
   let grid;
+  let locator;
   const indices = (call, name) => array(Uint32Array, call[name], call.count);
+  const points = (call, name) => array(Float64Array, call[name], 3 * call.count);
   const corners = (call) => array(Uint32Array, call.corners, 4 * call.count);
   /** Within one part in a million. */
   const near = (found, call) => {
@@ -117,23 +119,20 @@ export function replay(vox, script, arrays, assert) {
       grid.prepareReadings();
       return { readings: summary(grid.readings) };
     },
-    prepare_queries: () => grid.prepareQueries(),
-    query_points(call) {
-      const points = array(Float64Array, call.points, 3 * call.count);
-      const view = grid.takeQueryView();
-      assert.deepEqual(summary(view.queryPoints(points)), call.hits);
-      view.dispose();
-      return { hits: summary(grid.queryPoints(points)) };
+    update_locator() {
+      if (locator) locator.update(grid);
+      else locator = grid.locator();
     },
-    query_closest_points(call) {
-      return { hits: summary(grid.queryClosestPoints(array(Float64Array, call.points, 3 * call.count))) };
+    find_point_hits: (call) => ({ hits: summary(locator.findPointHits(points(call, "points"))) }),
+    find_closest: (call) => ({ hits: summary(locator.findClosest(points(call, "points"))) }),
+    find_box_hits: (call) => ({ hits: summary(locator.findBoxHits(points(call, "min"), points(call, "max"))) }),
+    find_ray_hits: (call) => ({
+      hits: summary(locator.findRayHits(points(call, "from"), points(call, "to"), { flags: call.flags })),
+    }),
+    test_rays(call) {
+      const blocked = locator.testRays(points(call, "from"), points(call, "to"));
+      return { blocked: blocked.reduce((sum, one) => sum + one, 0) };
     },
-    query_ray(call) {
-      const hit = grid.queryRay(call.from, call.to);
-      return { hits: [1, hashWords(rayBytes(hit))] };
-    },
-    query_ray_hits: (call) => ({ hits: summary(grid.queryRayHits(call.from, call.to)) }),
-    query_box: (call) => ({ hits: summary(grid.queryBox(call.min, call.max)) }),
     meshes: () => ({
       meshes: grid.meshes.map((mesh) => {
         const info = mesh.info;
@@ -243,16 +242,7 @@ export function replay(vox, script, arrays, assert) {
       const found = calls[call.call](call) ?? {};
       for (const [name, value] of Object.entries(found)) assert.deepEqual(value, call[name], `${name} of ${place}`);
     }
+  locator.dispose();
   grid.dispose();
   return count;
-}
-
-/** A vox_ray_hit as C has it. */
-function rayBytes(hit) {
-  const data = new DataView(new ArrayBuffer(72));
-  [hit.mesh, hit.tet].forEach((n, i) => data.setUint32(4 * i, n, true));
-  data.setFloat64(8, hit.t, true);
-  [hit.surfaceMesh, hit.surfaceTet, hit.surfaceFacet, hit.surfaceSide].forEach((n, i) => data.setUint32(16 + 4 * i, n, true));
-  [hit.surfaceT, ...hit.surfaceBarycentric].forEach((n, i) => data.setFloat64(32 + 8 * i, n, true));
-  return new Uint8Array(data.buffer, 0, 64);
 }

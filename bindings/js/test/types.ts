@@ -1,5 +1,5 @@
 // Compiled by tsc --strict, and never run: the types are those that a program can use.
-import { FilterFlags, GridFlags, KnownGrid, load, PenetrationState, PrimitiveType, Result, VoxError, type Contacts, type Grid, type Tuning, type Vox } from "voxtet";
+import { FilterFlags, GridFlags, KnownGrid, load, PenetrationState, PrimitiveType, QueryFlags, Result, VoxError, type Contacts, type Grid, type Tuning, type Vox } from "voxtet";
 
 export async function program(): Promise<number> {
   const vox: Vox = await load({ simd: false });
@@ -14,9 +14,11 @@ export async function program(): Promise<number> {
   for (const contact of contacts.slice(1)) sum += contact.barycentric[3];
   for (const { state, depth } of grid.penetrations) if (state === PenetrationState.SURFACE) sum += depth;
   const last: number | undefined = contacts.at(-1)?.tet;
-  const hit = grid.queryClosest([0, 0, 0], { mask: 1n, radius: 2 });
+  using locator = grid.locator();
+  const hit = locator.findClosest(new Float32Array(3), { mask: 1n, maxDistance: 2, excluded: mesh }).at(0);
+  const sides: Int32Array = locator.findRayHits(new Float32Array(3), new Float64Array(3), { flags: QueryFlags.FIRST_HIT }).side;
   const hash: bigint = grid.hash;
-  grid.takeQueryView().dispose();
+  locator.update(grid);
   const size: number = vox.suggestCellSize([{ positions: new Float32Array(12), tets: new Uint32Array(4) }], { pNc: 0.5 }).cellSize;
   const grids = { held: { type: PrimitiveType.TET, positions: new Float32Array(12), radii: [1] }, known: KnownGrid.VTK };
   const tuned: Tuning = vox.tune((cell) => 1 + cell, { grid: grids, mostRuns: 5 });
@@ -28,7 +30,7 @@ export async function program(): Promise<number> {
   } catch (error) {
     if (error instanceof VoxError && error.code === Result.ERROR_INVALID_HANDLE) return -1;
   }
-  return sum + (last ?? 0) + (hit?.distance ?? 0) + Number(hash) + size + note.length + copy.epoch;
+  return sum + sides.length + (last ?? 0) + (hit?.distance ?? 0) + Number(hash) + size + note.length + copy.epoch;
 }
 
 export async function mistakes(): Promise<void> {

@@ -2,8 +2,8 @@ import assert from "node:assert/strict";
 import { once } from "node:events";
 import test from "node:test";
 import { Worker } from "node:worker_threads";
-import { ForeignWarnings, GridFlags, KnownGrid, LogLevel, PenetrationState, PrimitiveType, ReadingFlags,
-  ReferenceFlags, Result, VoxError } from "../voxtet.js";
+import { ForeignWarnings, GridFlags, KnownGrid, LogLevel, PenetrationState, PrimitiveType, QueryFlags, ReadingFlags,
+  ReferenceFlags, Result, Side, VoxError } from "../voxtet.js";
 import { block, loaded } from "./scenes.js";
 
 const vox = await loaded();
@@ -146,7 +146,7 @@ test("the log, and what it throws", () => {
   }
 });
 
-test("readings, queries and views", () => {
+test("readings and locators", () => {
   const { grid, left, right } = touching();
   grid.prepareReadings({ what: ReadingFlags.POSITION | ReadingFlags.DEPTH });
   assert.equal(grid.readings.length, grid.contacts.length);
@@ -154,31 +154,30 @@ test("readings, queries and views", () => {
   assert.ok(grid.readings.known.every((known) => known === 5));
   assert.deepEqual(left.contacts.bytes, grid.contactsBetween(left, right).bytes);
   assert.deepEqual(left.readings.bytes, grid.readingsBetween(right.id, left).bytes);
-  assert.throws(() => grid.queryPoint([0, 0, 0]), failure(Result.ERROR_INVALID_STATE));
 
-  grid.prepareQueries();
-  const view = grid.takeQueryView();
-  assert.equal(view.epoch, 1);
-  const middle = [0.85, 0.6, 0.6];
-  const check = (asked) => {
-    assert.deepEqual([...new Set(asked.queryPoint(middle).mesh)], [left.id, right.id]);
-    assert.equal(asked.queryClosest(middle, { radius: 0.001 }), null);
-    assert.ok(asked.queryClosest(new Float32Array(middle)).distance < 0.16);
-    const far = asked.queryClosestPoints(new Float32Array([9, 9, 9, ...middle]), { maxDistance: 1, excluded: right });
-    assert.deepEqual([...far.mesh], [0, left.id]);
-    assert.equal(asked.queryRay([-1, 0.5, 0.5], [3, 0.5, 0.5]).mesh, left.id);
-    assert.equal(asked.queryRayHits([-1, 0.6, 0.61], [3, 0.6, 0.61], { excluded: right.id }).length, 2);
-    assert.equal(asked.queryRayAny([-1, 9, 0], [3, 9, 0]), false);
-    assert.equal(asked.queryRayAny([-1, 0.5, 0.5], [3, 0.5, 0.5], { mask: 0n }), false);
-    assert.ok(asked.queryBox([-9, -9, -9], [9, 9, 9]).length === 640, "more than there is room for at first");
-  };
-  check(grid);
+  const locator = grid.locator();
+  assert.equal(locator.epoch, 1);
+  const middle = new Float64Array([0.85, 0.6, 0.6]);
+  const [from, to] = [[-1, 0.6, 0.61, -1, 9, 0], [3, 0.6, 0.61, 3, 9, 0]].map((numbers) => new Float32Array(numbers));
   grid.clear();
   grid.dispose();
-  check(view);
-  assert.equal(view.userData(right), 2n ** 63n);
-  view.dispose();
-  assert.throws(() => view.epoch, failure(Result.ERROR_INVALID_STATE));
+  assert.deepEqual([...new Set(locator.findPointHits(middle).body)], [left.id, right.id]);
+  assert.deepEqual([...locator.findClosest(middle, { maxDistance: 0.001 }).body], [0]);
+  const far = locator.findClosest(new Float32Array([9, 9, 9, ...middle]), { maxDistance: 1, excluded: right });
+  assert.deepEqual([...far.body], [0, left.id]);
+  const hits = locator.findRayHits(from, to, { excluded: right.id });
+  assert.deepEqual([[...hits.ray], [...hits.side]], [[0, 0], [Side.ENTERS, Side.LEAVES]]);
+  assert.equal(locator.findRayHits(from, to, { flags: QueryFlags.FIRST_HIT }).length, 1);
+  assert.deepEqual([...locator.testRays(from, to)], [1, 0]);
+  assert.deepEqual([...locator.testRays(from, to, { mask: 2n })], [0, 0]);
+  const box = [new Float32Array([-9, -9, -9]), new Float32Array([9, 9, 9])];
+  assert.equal(locator.findBoxHits(...box).length, 640, "more than there is room for at first");
+  assert.equal(locator.findPointHits(new Float32Array()).length + locator.testRays(new Float32Array(), new Float32Array()).length, 0);
+  assert.equal(locator.userData(right), 2n ** 63n);
+  locator.update(touching().grid);
+  assert.equal(locator.findBoxHits(...box).length, 640);
+  locator.dispose();
+  assert.throws(() => locator.epoch, failure(Result.ERROR_INVALID_STATE));
 });
 
 test("edits, and meshes by name", () => {

@@ -58,9 +58,9 @@ def value(random_):
 
 
 GRID = ["add", "remove", "step", "clear", "reserve", "set_flags", "set_pair_enabled", "contacts_of", "contacts_between",
-        "prepare_readings", "readings", "readings_of", "readings_between", "prepare_queries", "query_points", "query_box",
-        "query_closest", "query_ray", "query_ray_hits", "query_ray_any", "suggest_cell_size", "snapshot", "__getitem__",
-        "__contains__", "close"]
+        "prepare_readings", "readings", "readings_of", "readings_between", "locator", "suggest_cell_size", "snapshot",
+        "__getitem__", "__contains__", "close"]
+LOCATOR = ["update", "find_point_hits", "find_closest", "find_box_hits", "find_ray_hits", "test_rays", "locate", "user_data"]
 MESH = ["append_tets", "append_vertices", "remove_tets", "remove_vertices", "replace_tets", "set_tets_enabled", "set_topology",
         "mark_moved", "remove"]
 READ = ["contacts", "penetrations", "pairs", "pair_contacts", "events", "contact_events", "reading_depths", "interiors", "depths",
@@ -70,8 +70,9 @@ SET_MESH = ["positions", "transform", "filter", "enabled", "tag"]
 NAMES = {"add": ["copy", "user_data", "vertex_count", "filter", "self_collision", "rest_positions", "borrow_tets", "tag"],
          "append_vertices": ["copies_of", "rest_positions"], "set_topology": ["vertex_count", "copy", "rest_positions",
                                                                               "borrow_tets"],
-         "set_flags": ["penetrations", "contact_events", "skip_bad_bodies"], "query_points": ["mask"],
-         "query_closest": ["max_distance", "mask", "excluded"], "prepare_readings": ["position", "surface", "closest_budget"]}
+         "set_flags": ["penetrations", "contact_events", "skip_bad_bodies"], "find_point_hits": ["mask", "excluded"],
+         "find_closest": ["max_distance", "mask", "excluded"], "find_ray_hits": ["first", "mask"],
+         "prepare_readings": ["position", "surface", "closest_budget"]}
 FREE = [lambda v: voxtet.Grid(v()), lambda v: voxtet.Grid(workers=v()), lambda v: voxtet.Grid(reference=v()),
         lambda v: voxtet.Grid(world=v()), lambda v: voxtet.Grid(log=v()), lambda v: voxtet.Grid(byte_budget=v()),
         lambda v: voxtet.Grid.from_snapshot(v()), lambda v: voxtet.suggest_cell_size(v(), v(), model=v()),
@@ -99,18 +100,18 @@ class Fuzz(unittest.TestCase):
         """One grid: good calls among garbage, on it, its meshes, and memory borrowed from it."""
         positions, tets = box(2)
         grid = voxtet.Grid(contact_events=random_.random() < 0.5, byte_budget=1 << 26)
-        meshes, held = [], []
+        meshes, held, locator = [], [], voxtet.Locator(positions, tets)
 
         def sane():
             p = positions + np.float32(random_.random())
             return random_.choice([
                 lambda: meshes.append(grid.add(p, tets, copy=random_.random() < 0.5)), grid.step,
-                lambda: held.append(meshes[-1].positions), held.clear, grid.prepare_queries,
-                lambda: held.append(grid.query_view()), lambda: held.append(grid.borrowed().__enter__()),
+                lambda: held.append(meshes[-1].positions), held.clear, lambda: held.append(grid.locator()),
+                lambda: held.append(grid.borrowed().__enter__()),
                 lambda: [held.append(h.contacts) for h in held if isinstance(h, voxtet.Borrowed)],
                 lambda: [np.sum(h["tet"]) for h in held if isinstance(h, voxtet.Contacts) and h.dtype.names],
                 lambda: [h.__setitem__(0, 1) for h in held if isinstance(h, np.ndarray)],
-                lambda: [h.query_points(p) for h in held if isinstance(h, voxtet.QueryView)],
+                lambda: [h.find_point_hits(p) for h in held if isinstance(h, voxtet.Locator)],
                 lambda: voxtet.Grid.from_snapshot(grid.snapshot()).step()])()
 
         def one():
@@ -118,7 +119,7 @@ class Fuzz(unittest.TestCase):
                 [random_.choice(meshes) if meshes and random_.random() < 0.3 else value(random_)
                  for _ in range(random_.randrange(4))],
                 {key: value(random_) for key in NAMES.get(name, ()) if random_.random() < 0.2})
-            case = random_.randrange(9)
+            case = random_.randrange(10)
             if case < 3:
                 sane()
             elif case == 3:
@@ -137,6 +138,10 @@ class Fuzz(unittest.TestCase):
                 setattr(grid, random_.choice(SET_GRID), value(random_))
             elif case == 7 and meshes:
                 setattr(random_.choice(meshes), random_.choice(SET_MESH), value(random_))
+            elif case == 8:
+                name = random_.choice(LOCATOR)
+                a, k = arguments(name)
+                getattr(locator, name)(*a, **k)
             else:
                 random_.choice(FREE)(lambda: value(random_))
 
@@ -174,7 +179,7 @@ class Fuzz(unittest.TestCase):
                         lambda: setattr(meshes[0], "positions", first + 0), lambda: grid.add(value(random_), value(random_)),
                         lambda: meshes[random_.randrange(2)].append_vertices(copies_of=[0]),
                         lambda: meshes[1].set_topology(second, tets, copy=random_.random() < 0.5),
-                        lambda: grid.query_view().query_points(value(random_))])()
+                        lambda: grid.locator().find_point_hits(value(random_))])()
                 except ALLOWED:
                     pass
                 except BaseException as error:

@@ -136,10 +136,10 @@ class Results(GridCase):
         self.assertEqual({f.name for f in dataclasses.fields(voxtet.Filter)} - {"self_collision", "sensor"},
                          {name for name, _ in _c.vox_filter._fields_ if name != "flags"})
         classes = [voxtet.Contacts, voxtet.Penetrations, voxtet.Depths, voxtet.Pairs, voxtet.TouchEvents,
-                   voxtet.ContactEvents, voxtet.Readings, voxtet.PointHits, voxtet.TetHits, voxtet.ClosestHits,
-                   voxtet.FacetHits]
+                   voxtet.ContactEvents, voxtet.Readings, voxtet.PointHits, voxtet.ClosestHits, voxtet.BoxHits,
+                   voxtet.RayHits]
         structs = ["contact", "penetration", "depth", "pair", "touch_event", "contact_event", "reading", "point_hit",
-                   "tet_hit", "closest_hit", "facet_hit"]
+                   "closest_hit", "box_hit", "ray_hit"]
         for kind, struct in zip(classes, structs):
             fields = _c.dtypes["vox_" + struct].fields
             self.assertEqual(kind.__annotations__, {name: f"NDArray[np.{fields[name][0].base.name}]" for name in fields

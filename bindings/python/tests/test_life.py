@@ -8,6 +8,7 @@ import tempfile
 import threading
 import time
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -19,7 +20,7 @@ from voxtet import _c, _library, errors
 class Close(GridCase):
     def test_every_use_after_close_raises(self):
         self.grid.step()
-        grid, mesh = self.grid, self.a
+        grid, mesh, locator = self.grid, self.a, self.grid.locator()
         with grid.borrowed() as r:
             pass
         grid.close()
@@ -27,11 +28,11 @@ class Close(GridCase):
         self.assertTrue(grid.closed)
         calls = [grid.step, lambda: grid.contacts, lambda: grid.penetrations, lambda: grid.add(self.first, self.tets),
                  lambda: grid.remove(mesh), lambda: len(grid), lambda: grid.meshes, lambda: grid.hash, grid.snapshot,
-                 grid.prepare_queries, lambda: grid.query_points([[0, 0, 0]]), lambda: grid.counters,
+                 grid.locator, lambda: locator.update(grid), lambda: grid.counters,
                  lambda: voxtet.step_all([grid]), grid.borrowed().__enter__, grid.__enter__, lambda: grid[mesh.id],
                  lambda: mesh.positions, lambda: setattr(mesh, "positions", self.first), lambda: mesh.info,
                  lambda: mesh.filter, mesh.remove, lambda: mesh in grid, grid.clear, lambda: grid.events,
-                 lambda: setattr(mesh, "tag", 1), grid.query_view]
+                 lambda: setattr(mesh, "tag", 1)]
         for call in calls:
             with self.assertRaises(voxtet.InvalidStateError) as caught:
                 call()
@@ -48,28 +49,30 @@ class Close(GridCase):
                 voxtet.Grid(**options)
         gc.collect()
 
-    def test_query_view(self):
-        self.grid.step()
-        with self.grid.query_view() as view:
+    def test_locator(self):
+        with self.grid.locator() as locator:
             self.grid.close()
-            self.assertGreater(len(view.query_points(self.first)), 0)
-        with self.assertRaises(voxtet.InvalidStateError):
-            view.query_points(self.first)
-        view.close()
+            self.assertGreater(len(locator.find_point_hits(self.first)), 0)
+        point = [0, 0, 0]
+        for call in (lambda: locator.find_point_hits(point), lambda: locator.find_closest(point), lambda: locator.locate(point),
+                     lambda: locator.find_box_hits(point, point), lambda: locator.find_ray_hits(point, point),
+                     lambda: locator.test_rays(point, point), lambda: locator.epoch, lambda: locator.user_data(1)):
+            with self.assertRaisesRegex(voxtet.InvalidStateError, "the locator is closed"):
+                call()
+        locator.close()
 
-
-    def test_a_query_view_that_is_closed_within_a_question(self):
+    def test_a_locator_that_is_closed_within_a_question(self):
         """... after the library said that there are more hits than expected, and before it is asked for them."""
-        view = self.grid.query_view()
-        box = view._questions.box
+        locator = self.grid.locator()
+        find = _library.vox.vox_locator_find_box_hits
 
         def closes(*arguments):
-            box(*arguments)
-            view.close()
+            find(*arguments)
+            locator.close()
 
-        view._questions = view._questions._replace(box=closes)
-        with self.assertRaisesRegex(voxtet.InvalidStateError, "the query view is closed"):
-            view.query_box([0, 0, 0], [2, 2, 2])
+        with unittest.mock.patch.object(_library.vox, "vox_locator_find_box_hits", closes):
+            hits = locator.find_box_hits([0, 0, 0], [2, 2, 2])
+        self.assertEqual(len(hits), 2 * len(self.tets))
 
 
 class Errors(unittest.TestCase):
@@ -154,11 +157,13 @@ class Threads(GridCase):
             with self.grid.borrowed() as r:
                 r.contacts.tet.sum()
 
-        def views():
-            with self.grid.query_view() as view:
-                view.query_points(self.first)
+        locator = self.grid.locator()
 
-        jobs = [self.grid.step, insert, borrow, views, lambda: self.grid.events, self.grid.clear,
+        def ask():
+            locator.update(self.grid)
+            locator.find_point_hits(self.first)
+
+        jobs = [self.grid.step, insert, borrow, ask, ask, lambda: self.grid.events, self.grid.clear,
                 lambda: [m.tag for m in self.grid], add, self.grid.snapshot]
         threads = [threading.Thread(target=repeat, args=(job,)) for job in jobs]
         [t.start() for t in threads]
@@ -173,14 +178,14 @@ class Threads(GridCase):
             grid = voxtet.Grid()
             grid.add(first, tets)
             grid.add(second, tets)
-            view, failed = grid.query_view(), []
+            locator, failed = grid.locator(), []
 
             def work():
                 try:
                     while True:
                         grid.step()
                         grid.contacts
-                        view.query_points(first)
+                        locator.find_point_hits(first)
                 except voxtet.InvalidStateError:  # never that of a null pointer
                     pass
                 except BaseException as error:
@@ -190,7 +195,7 @@ class Threads(GridCase):
             [t.start() for t in threads]
             time.sleep(0.01)
             grid.close()
-            view.close()
+            locator.close()
             [t.join() for t in threads]
             self.assertEqual(failed, [])
 
@@ -206,7 +211,7 @@ class Threads(GridCase):
                 texts.append(str(error))
 
         calls = (self.grid.step, lambda: self.grid.contacts, lambda: self.a.positions, lambda: voxtet.step_all([self.grid]),
-                 lambda: self.grid.query_points(self.first))
+                 self.grid.locator)
         threads = [threading.Thread(target=work, args=(call,)) for call in calls]
         lock = self.grid._lock
         with lock:
@@ -307,17 +312,17 @@ class Processes(GridCase):
             self.assertEqual(pool.apply(_hash_of, (self.grid,)), self.grid.hash)
 
     def test_end_of_the_interpreter(self):
-        """With grids, views and borrowed arrays alive, also in a cycle and in globals."""
+        """With grids, locators and borrowed arrays alive, also in a cycle and in globals."""
         code = """
 import sys; sys.path.insert(0, sys.argv[1])
 import numpy as np, voxtet
 from support import two_boxes
 a, b, tets = two_boxes()
 grid = voxtet.Grid(log=print); grid.add(a, tets); grid.add(b, tets, copy=True); grid.step()
-view = grid.query_view(); r = grid.borrowed(); r.__enter__(); array = r.contacts
+locator = grid.locator(); r = grid.borrowed(); r.__enter__(); array = r.contacts
 mapped = grid.meshes[1].positions
 cycle = [grid, array]; cycle.append(cycle)
-voxtet.keep = (grid, view, array)
+voxtet.keep = (grid, locator, array)
 """
         run = subprocess.run([sys.executable, "-c", code, os.path.dirname(os.path.abspath(__file__))], capture_output=True,
                              text=True, timeout=120)
@@ -351,7 +356,7 @@ class Memory(unittest.TestCase):
             b.positions[:] += 0
             a.positions = first
             if i % 10 == 0:
-                grid.query_view().query_points(first)
+                grid.locator().find_point_hits(first)
                 voxtet.Grid.from_snapshot(grid.snapshot())
                 grid.readings()
                 try:

@@ -62,6 +62,11 @@ class Packages(unittest.TestCase):
         self.assertEqual(mixed.celltypes[located.tet[0]], pyvista.CellType.TETRA)
         self.assertTrue(mixed.get_cell(located.tet[0]).bounds.x_min <= 0.3 <= mixed.get_cell(located.tet[0]).bounds.x_max)
         self.assertEqual(located.tet[1], -1)
+        locator = voxtet.Locator(mixed)
+        closest = locator.find_closest([[0.3, 0.4, 0.5], [90, 90, 90]], max_distance=9)
+        self.assertEqual(closest.body.tolist(), [1, 0])
+        for tets in (closest.tet[:1], locator.find_ray_hits([0.3, 0.4, -5], [0.3, 0.41, 5]).tet):
+            self.assertTrue((mixed.celltypes[tets] == pyvista.CellType.TETRA).all())
 
     @wants("trimesh")
     def test_trimesh(self):

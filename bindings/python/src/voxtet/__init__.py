@@ -13,9 +13,8 @@ from .errors import (BudgetError, FileError, FormatError, InternalError, Invalid
 from .foreign import (CostFit, ForeignGrid, ForeignRules, ForeignSuggestion, GridWeights, GridWork, Primitives, Timing, Tuning,
                       cost_fit, count_for, suggest_for, tune)
 from .grid import ALL_CORES, Counters, Failure, Grid, Profile, contacts_of_all, step_all
-from .locate import Located, Locator, locate
+from .locate import BoxHits, ClosestHits, Located, Locator, PointHits, RayHits, locate
 from .mesh import Filter, Mesh, MeshInfo
-from .queries import ClosestHits, FacetHits, PointHits, QueryView, TetHits
 from .reference import Reference
 from .results import Borrowed, ContactEvents, Contacts, Depths, Pairs, Passages, Penetrations, Readings, TouchEvents, Touches
 from .suggest import (Curve, Minimum, Prediction, Rules, Stats, Suggestion, Terms, calibrate, minimise, predict, set_weights,

@@ -101,12 +101,6 @@ class LogLevel(enum.IntEnum):
     WARNING = 1
 
 
-class Side(enum.IntEnum):
-    NONE = 0
-    ENTERS = 1
-    LEAVES = 2
-
-
 class ReferenceFlags(enum.IntFlag):
     DENSE = 1
     PAPER_HASH = 2
@@ -186,6 +180,16 @@ class ForeignRule(enum.IntEnum):
     MEDIAN_BOX_SIDE = 3
     SPACING = 4
     RADIUS = 5
+
+
+class QueryFlags(enum.IntFlag):
+    FIRST_HIT = 1
+
+
+class Side(enum.IntEnum):
+    NONE = 0
+    ENTERS = 1
+    LEAVES = 2
 
 
 class Feature(enum.IntEnum):
@@ -720,124 +724,6 @@ dtypes["vox_readings_desc"] = dtype({
     "itemsize": 24})
 
 
-class vox_point_hit(Structure):
-    _fields_ = [
-        ("point", c_uint32),
-        ("mesh", c_uint32),
-        ("tet", c_uint32),
-        ("barycentric", c_float * 4),
-    ]
-
-dtypes["vox_point_hit"] = dtype({
-    "names": ["point", "mesh", "tet", "barycentric"],
-    "formats": ["u4", "u4", "u4", ("f4", (4,))],
-    "offsets": [0, 4, 8, 12],
-    "itemsize": 28})
-
-
-class vox_tet_hit(Structure):
-    _fields_ = [
-        ("mesh", c_uint32),
-        ("tet", c_uint32),
-    ]
-
-dtypes["vox_tet_hit"] = dtype({
-    "names": ["mesh", "tet"],
-    "formats": ["u4", "u4"],
-    "offsets": [0, 4],
-    "itemsize": 8})
-
-
-class vox_surface_hit(Structure):
-    _fields_ = [
-        ("mesh", c_uint32),
-        ("tet", c_uint32),
-        ("facet", c_uint32),
-        ("reserved", c_uint32),
-        ("barycentric", c_double * 3),
-        ("position", c_double * 3),
-        ("distance", c_double),
-    ]
-
-dtypes["vox_surface_hit"] = dtype({
-    "names": ["mesh", "tet", "facet", "reserved", "barycentric", "position", "distance"],
-    "formats": ["u4", "u4", "u4", "u4", ("f8", (3,)), ("f8", (3,)), "f8"],
-    "offsets": [0, 4, 8, 12, 16, 40, 64],
-    "itemsize": 72})
-
-
-class vox_closest_desc(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("format", c_int32),
-        ("points", c_void_p),
-        ("byte_stride", c_uint64),
-        ("point_count", c_uint64),
-        ("mask", c_uint64),
-        ("max_distance", c_double),
-        ("excluded", c_uint32),
-        ("reserved", c_uint32),
-        ("component_byte_stride", c_uint64),
-    ]
-
-
-class vox_closest_hit(Structure):
-    _fields_ = [
-        ("mesh", c_uint32),
-        ("tet", c_uint32),
-        ("facet", c_uint32),
-        ("inside", c_uint32),
-        ("barycentric", c_double * 3),
-        ("position", c_double * 3),
-        ("normal", c_double * 3),
-        ("distance", c_double),
-    ]
-
-dtypes["vox_closest_hit"] = dtype({
-    "names": ["mesh", "tet", "facet", "inside", "barycentric", "position", "normal", "distance"],
-    "formats": ["u4", "u4", "u4", "u4", ("f8", (3,)), ("f8", (3,)), ("f8", (3,)), "f8"],
-    "offsets": [0, 4, 8, 12, 16, 40, 64, 88],
-    "itemsize": 96})
-
-
-class vox_ray_hit(Structure):
-    _fields_ = [
-        ("mesh", c_uint32),
-        ("tet", c_uint32),
-        ("t", c_double),
-        ("surface_mesh", c_uint32),
-        ("surface_tet", c_uint32),
-        ("surface_facet", c_uint32),
-        ("surface_side", c_int32),
-        ("surface_t", c_double),
-        ("surface_barycentric", c_double * 3),
-    ]
-
-dtypes["vox_ray_hit"] = dtype({
-    "names": ["mesh", "tet", "t", "surface_mesh", "surface_tet", "surface_facet", "surface_side", "surface_t",
-        "surface_barycentric"],
-    "formats": ["u4", "u4", "f8", "u4", "u4", "u4", "i4", "f8", ("f8", (3,))],
-    "offsets": [0, 4, 8, 16, 20, 24, 28, 32, 40],
-    "itemsize": 64})
-
-
-class vox_facet_hit(Structure):
-    _fields_ = [
-        ("mesh", c_uint32),
-        ("tet", c_uint32),
-        ("facet", c_uint32),
-        ("side", c_int32),
-        ("t", c_double),
-        ("barycentric", c_double * 3),
-    ]
-
-dtypes["vox_facet_hit"] = dtype({
-    "names": ["mesh", "tet", "facet", "side", "t", "barycentric"],
-    "formats": ["u4", "u4", "u4", "i4", "f8", ("f8", (3,))],
-    "offsets": [0, 4, 8, 12, 16, 24],
-    "itemsize": 48})
-
-
 class vox_counters(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
@@ -1350,6 +1236,93 @@ dtypes["vox_tuning"] = dtype({
         (32,)), "u4", "u4", (dtypes["vox_cost_sample"], (64,)), "S256"],
     "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 112, 624, 628, 632, 1656],
     "itemsize": 1912})
+
+
+class vox_query_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("flags", c_uint32),
+        ("mask", c_uint64),
+        ("excluded", c_uint32),
+        ("reserved", c_uint32),
+        ("max_distance", c_double),
+    ]
+
+dtypes["vox_query_desc"] = dtype({
+    "names": ["struct_size", "flags", "mask", "excluded", "reserved", "max_distance"],
+    "formats": ["u4", "u4", "u8", "u4", "u4", "f8"],
+    "offsets": [0, 4, 8, 16, 20, 24],
+    "itemsize": 32})
+
+
+class vox_point_hit(Structure):
+    _fields_ = [
+        ("point", c_uint32),
+        ("body", c_uint32),
+        ("tet", c_uint32),
+        ("reserved", c_uint32),
+        ("weights", c_double * 4),
+    ]
+
+dtypes["vox_point_hit"] = dtype({
+    "names": ["point", "body", "tet", "reserved", "weights"],
+    "formats": ["u4", "u4", "u4", "u4", ("f8", (4,))],
+    "offsets": [0, 4, 8, 12, 16],
+    "itemsize": 48})
+
+
+class vox_closest_hit(Structure):
+    _fields_ = [
+        ("body", c_uint32),
+        ("tet", c_uint32),
+        ("facet", c_uint32),
+        ("inside", c_uint32),
+        ("face", c_uint32 * 3),
+        ("reserved", c_uint32),
+        ("weights", c_double * 3),
+        ("position", c_double * 3),
+        ("normal", c_double * 3),
+        ("distance", c_double),
+    ]
+
+dtypes["vox_closest_hit"] = dtype({
+    "names": ["body", "tet", "facet", "inside", "face", "reserved", "weights", "position", "normal", "distance"],
+    "formats": ["u4", "u4", "u4", "u4", ("u4", (3,)), "u4", ("f8", (3,)), ("f8", (3,)), ("f8", (3,)), "f8"],
+    "offsets": [0, 4, 8, 12, 16, 28, 32, 56, 80, 104],
+    "itemsize": 112})
+
+
+class vox_box_hit(Structure):
+    _fields_ = [
+        ("box", c_uint32),
+        ("body", c_uint32),
+        ("tet", c_uint32),
+    ]
+
+dtypes["vox_box_hit"] = dtype({
+    "names": ["box", "body", "tet"],
+    "formats": ["u4", "u4", "u4"],
+    "offsets": [0, 4, 8],
+    "itemsize": 12})
+
+
+class vox_ray_hit(Structure):
+    _fields_ = [
+        ("ray", c_uint32),
+        ("body", c_uint32),
+        ("tet", c_uint32),
+        ("facet", c_uint32),
+        ("side", c_int32),
+        ("face", c_uint32 * 3),
+        ("t", c_double),
+        ("weights", c_double * 3),
+    ]
+
+dtypes["vox_ray_hit"] = dtype({
+    "names": ["ray", "body", "tet", "facet", "side", "face", "t", "weights"],
+    "formats": ["u4", "u4", "u4", "u4", "i4", ("u4", (3,)), "f8", ("f8", (3,))],
+    "offsets": [0, 4, 8, 12, 16, 20, 32, 40],
+    "itemsize": 64})
 
 
 class vox_surface_desc(Structure):
@@ -1933,34 +1906,6 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_pair_copy_readings": (vox_result, (c_void_p, c_uint32, c_uint32, c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_grid_save": (vox_result, (c_void_p, c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_grid_load": (vox_result, (c_void_p, c_uint64, POINTER(vox_grid_desc), POINTER(c_void_p))),
-        "vox_grid_prepare_queries": (vox_result, (c_void_p,)),
-        "vox_grid_query_point": (vox_result, (c_void_p, c_void_p, c_uint64, c_void_p, c_uint64, POINTER(c_uint64))),
-        "vox_grid_query_points": (vox_result, (c_void_p, c_void_p, c_int32, c_uint64, c_uint64, c_uint64, c_void_p,
-            c_uint64, POINTER(c_uint64))),
-        "vox_grid_query_box": (vox_result, (c_void_p, c_void_p, c_void_p, c_uint64, c_void_p, c_uint64,
-            POINTER(c_uint64))),
-        "vox_grid_query_closest": (vox_result, (c_void_p, c_void_p, c_double, c_uint64, POINTER(vox_surface_hit))),
-        "vox_grid_query_closest_points": (vox_result, (c_void_p, POINTER(vox_closest_desc), c_void_p)),
-        "vox_grid_query_ray": (vox_result, (c_void_p, c_void_p, c_void_p, c_uint64, POINTER(vox_ray_hit))),
-        "vox_grid_query_ray_hits": (vox_result, (c_void_p, c_void_p, c_void_p, c_uint64, c_uint32, c_void_p, c_uint64,
-            POINTER(c_uint64))),
-        "vox_grid_query_ray_any": (vox_result, (c_void_p, c_void_p, c_void_p, c_uint64, c_uint32, POINTER(c_uint32))),
-        "vox_grid_take_query_view": (vox_result, (c_void_p, POINTER(c_void_p))),
-        "vox_query_view_retain": (vox_result, (c_void_p,)),
-        "vox_query_view_release": (None, (c_void_p,)),
-        "vox_query_view_epoch": (vox_result, (c_void_p, POINTER(c_uint64))),
-        "vox_query_view_user_data": (vox_result, (c_void_p, c_uint32, POINTER(c_uint64))),
-        "vox_query_view_point": (vox_result, (c_void_p, c_void_p, c_uint64, c_void_p, c_uint64, POINTER(c_uint64))),
-        "vox_query_view_points": (vox_result, (c_void_p, c_void_p, c_int32, c_uint64, c_uint64, c_uint64, c_void_p,
-            c_uint64, POINTER(c_uint64))),
-        "vox_query_view_box": (vox_result, (c_void_p, c_void_p, c_void_p, c_uint64, c_void_p, c_uint64,
-            POINTER(c_uint64))),
-        "vox_query_view_closest": (vox_result, (c_void_p, c_void_p, c_double, c_uint64, POINTER(vox_surface_hit))),
-        "vox_query_view_closest_points": (vox_result, (c_void_p, POINTER(vox_closest_desc), c_void_p)),
-        "vox_query_view_ray": (vox_result, (c_void_p, c_void_p, c_void_p, c_uint64, POINTER(vox_ray_hit))),
-        "vox_query_view_ray_hits": (vox_result, (c_void_p, c_void_p, c_void_p, c_uint64, c_uint32, c_void_p, c_uint64,
-            POINTER(c_uint64))),
-        "vox_query_view_ray_any": (vox_result, (c_void_p, c_void_p, c_void_p, c_uint64, c_uint32, POINTER(c_uint32))),
         "vox_grid_get_counters": (vox_result, (c_void_p, POINTER(vox_counters))),
         "vox_grid_profile": (vox_result, (c_void_p, POINTER(vox_profile))),
         "vox_suggest_cell_size": (vox_result, (POINTER(vox_suggest_desc), c_void_p, c_uint64, POINTER(vox_suggestion))),
@@ -1981,6 +1926,22 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_cost_fit": (vox_result, (POINTER(vox_foreign_grid), c_void_p, c_uint64, POINTER(vox_grid_fit))),
         "vox_cost_tune": (vox_result, (POINTER(vox_foreign_grid), POINTER(vox_tune_desc), vox_grid_run, c_void_p,
             POINTER(vox_tuning))),
+    },
+    "vox_query": {
+        "vox_grid_update_locator": (vox_result, (c_void_p, POINTER(c_void_p))),
+        "vox_locator_retain": (vox_result, (c_void_p,)),
+        "vox_locator_release": (None, (c_void_p,)),
+        "vox_locator_get_epoch": (vox_result, (c_void_p, POINTER(c_uint64))),
+        "vox_locator_get_user_data": (vox_result, (c_void_p, c_uint32, POINTER(c_uint64))),
+        "vox_locator_find_point_hits": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_query_desc),
+            c_void_p, c_uint64, POINTER(c_uint64))),
+        "vox_locator_find_closest": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_query_desc), c_void_p)),
+        "vox_locator_find_box_hits": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_positions),
+            POINTER(vox_query_desc), c_void_p, c_uint64, POINTER(c_uint64))),
+        "vox_locator_find_ray_hits": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_positions),
+            POINTER(vox_query_desc), c_void_p, c_uint64, POINTER(c_uint64))),
+        "vox_locator_test_rays": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_positions),
+            POINTER(vox_query_desc), c_void_p)),
     },
     "vox_pairs": {
         "vox_surface_create": (vox_result, (POINTER(vox_surface_desc), POINTER(c_void_p))),
@@ -2047,7 +2008,7 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
 
 
 def declare(library: Any, name: str, check: Any = None) -> None:
-    """Gives the functions of the header `name` (vox, vox_pairs, vox_io, vox_sim) in a ctypes library their types. `check` becomes the errcheck
+    """Gives the functions of the header `name` (vox, vox_query, vox_pairs, vox_io, vox_sim) in a ctypes library their types. `check` becomes the errcheck
     of those whose result is a vox_result: a failure unless it is 0."""
     for function, (result, parameters) in FUNCTIONS[name].items():
         found = getattr(library, function)

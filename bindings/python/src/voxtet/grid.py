@@ -7,7 +7,7 @@ import ctypes
 import logging
 import threading
 import weakref
-from typing import Any, Callable, Iterable, Iterator, NamedTuple, Optional, Union
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Iterator, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,10 +17,12 @@ from ._arguments import U32, Rows, integer, real, switch
 from ._library import Handle, described, sized, values_of, vox
 from .errors import InvalidArgumentError, InvalidHandleError, InvalidStateError
 from .mesh import Filter, Mesh, Topology
-from .queries import OF_GRIDS, Queries, QueryView, hits_of
 from .reference import Reference, pointer_to
-from .results import Borrowed, Contacts, Depths, Exports, Readings, Results, copy_of
+from .results import Borrowed, Contacts, Depths, Exports, Readings, Results, copy_of, hits_of
 from .suggest import Suggestion, suggest_for_grid
+
+if TYPE_CHECKING:
+    from .locate import Locator
 
 ALL_CORES = _c.VOX_ALL_CORES
 Log = Callable[[int, str], Any]
@@ -165,7 +167,7 @@ def _log_function(grid: Grid, log: Log) -> Any:
     return _c.vox_log_write(write)
 
 
-class Grid(Queries, Results):
+class Grid(Results):
     """A set of meshes that collide. `step` finds all contacts of their positions as they are then.
 
     cell_size, worker_count (`workers`: 0 or 1 thread, or ALL_CORES), the byte budget and closest_budget are those of
@@ -185,8 +187,6 @@ class Grid(Queries, Results):
     ...         print("vertex", c.vertex, "of", grid[c.body_a].tag, "in tet", c.tet, "of", grid[c.body_b].tag)
     vertex 3 of a in tet 0 of b
     """
-
-    _questions = OF_GRIDS
 
     def __init__(self, cell_size: float = 0.0, *, workers: int = 1, reference: Optional[Reference] = None,
                  byte_budget: int = 0, penetrations: bool = True, contact_events: bool = False,
@@ -320,7 +320,7 @@ class Grid(Queries, Results):
     def cell_size(self) -> float:
         """The cell size in use. Set it for the following steps; 0: the library chooses. It never changes the contacts."""
         with self._lock:
-            return self._info().cell_size
+            return float(self._info().cell_size)
 
     @cell_size.setter
     def cell_size(self, cell_size: float) -> None:
@@ -398,9 +398,6 @@ class Grid(Queries, Results):
         if isinstance(mesh, Mesh) and mesh.grid is not self:
             raise InvalidHandleError(f"{name} is mesh {mesh.id} of another grid")
         return integer(mesh, name, 0, U32)
-
-    def _excluded(self, mesh: Union[Mesh, int, None]) -> int:
-        return 0 if mesh is None else self._id(mesh, "excluded")
 
     def remove(self, mesh: Union[Mesh, int]) -> None:
         """Removes a mesh. The contacts of the last step stay until the next one."""
@@ -528,17 +525,10 @@ class Grid(Queries, Results):
 
     # ---- queries ----
 
-    def prepare_queries(self) -> None:
-        """Lets the queries see the meshes as they are now, e.g. after a step."""
-        with self._lock:
-            vox.vox_grid_prepare_queries(self._pointer)
-
-    def query_view(self) -> QueryView:
+    def locator(self) -> Locator:
         """The meshes as they are now, to be asked at any time and by any thread, also while the grid steps."""
-        view = ctypes.c_void_p()
-        with self._lock:
-            vox.vox_grid_take_query_view(self._pointer, view)
-        return QueryView(Handle(view.value or 0, vox.vox_query_view_release))
+        from .locate import Locator
+        return Locator(self)
 
     # ---- cell size and pictures ----
 
@@ -569,7 +559,7 @@ class Grid(Queries, Results):
     def epoch(self) -> int:
         """Number of steps, clears, reserves and changes of the flags so far."""
         with self._lock:
-            return self._info().epoch
+            return int(self._info().epoch)
 
     @property
     def hash(self) -> int:

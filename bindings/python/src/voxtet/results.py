@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import sys
 import weakref
-from typing import TYPE_CHECKING, Any, NamedTuple, Optional
+from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional
 
 import numpy as np
 from numpy.typing import NDArray
@@ -179,6 +179,18 @@ def copy_of(address: int, count: int, stride: int, records: Any, dtype: np.dtype
     memory = np.empty(count * size, _BYTE)
     ctypes.memmove(ctypes.byref(_from_buffer(memory)), address, count * size)
     return _new(records, count, dtype, memory)
+
+
+def hits_of(call: Callable[[int, int, Any], Any], records: Any, dtype: np.dtype[Any], guess: int) -> Any:
+    """What a function finds that writes as many hits as there is room for, and says how many there are."""
+    count = ctypes.c_uint64()
+    while True:
+        hits = np.empty(guess, dtype)
+        call(hits.ctypes.data, guess, count)
+        if count.value <= guess:
+            found = hits[:count.value]
+            return (found if 2 * count.value >= guess else found.copy()).view(records)
+        guess = count.value
 
 
 class Exports(list["weakref.ref[Any]"]):

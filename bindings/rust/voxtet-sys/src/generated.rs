@@ -91,9 +91,8 @@ pub const VOX_GRID_PENETRATIONS: vox_grid_flags = 1;
 /// also report events of single vertices (vox_grid_contact_events)
 pub const VOX_GRID_CONTACT_EVENTS: vox_grid_flags = 2;
 /// a mesh with a coordinate that VOX_FORMAT_DOUBLE does not allow (NaN, infinite, too large) takes no part in a step,
-/// in vox_grid_prepare_queries, in vox_grid_take_query_view and in vox_grid_suggest_cell_size, as if it were disabled;
-/// without this flag they fail. Counted (skipped_meshes), listed (vox_grid_get_failure), and logged once until the mesh
-/// is well again
+/// in vox_grid_suggest_cell_size and in locators (vox_query.h), as if it were disabled; without this flag they fail.
+/// Counted (skipped_meshes), listed (vox_grid_get_failure), and logged once until the mesh is well again
 pub const VOX_GRID_SKIP_BAD_BODIES: vox_grid_flags = 4;
 /// also find edges of surfaces through faces of others (vox_grid_edge_contacts); experimental. A mesh of more than
 /// 357913941 tets then gives VOX_ERROR_LIMIT
@@ -168,13 +167,6 @@ pub const VOX_READING_DEPTH: vox_reading_flags = 4;
 pub type vox_log_level = i32;
 pub const VOX_LOG_INFO: vox_log_level = 0;
 pub const VOX_LOG_WARNING: vox_log_level = 1;
-
-pub type vox_side = i32;
-/// the tetrahedron has no volume
-pub const VOX_SIDE_NONE: vox_side = 0;
-/// the segment goes into the tetrahedron
-pub const VOX_SIDE_ENTERS: vox_side = 1;
-pub const VOX_SIDE_LEAVES: vox_side = 2;
 
 pub type vox_reference_flags = u32;
 /// store a list for every cell of a box (linear id k*nx*ny + j*nx + i), instead of hashing cells into a table
@@ -299,6 +291,17 @@ pub const VOX_RULE_MEDIAN_BOX_SIDE: vox_foreign_rule = 3;
 pub const VOX_RULE_SPACING: vox_foreign_rule = 4;
 pub const VOX_RULE_RADIUS: vox_foreign_rule = 5;
 
+pub type vox_query_flags = u32;
+/// vox_locator_find_ray_hits: report only the first hit of each ray
+pub const VOX_QUERY_FIRST_HIT: vox_query_flags = 1;
+
+pub type vox_side = i32;
+/// the facet's tetrahedron has no volume
+pub const VOX_SIDE_NONE: vox_side = 0;
+/// the ray goes into the tetrahedron
+pub const VOX_SIDE_ENTERS: vox_side = 1;
+pub const VOX_SIDE_LEAVES: vox_side = 2;
+
 /// What a surface consists of.
 pub type vox_feature = i32;
 pub const VOX_FEATURE_VERTEX: vox_feature = 0;
@@ -370,9 +373,9 @@ pub struct vox_grid {
     _marker: PhantomData<(*mut u8, PhantomPinned)>,
 }
 
-/// What vox_grid_take_query_view takes.
+/// The meshes of a grid at one moment.
 #[repr(C)]
-pub struct vox_query_view {
+pub struct vox_locator {
     _data: [u8; 0],
     _marker: PhantomData<(*mut u8, PhantomPinned)>,
 }
@@ -779,7 +782,7 @@ pub struct vox_edge_contact_view {
 
 /// Vertex `vertex` of body_a is in no tetrahedron of body_b, but no further than the margin from its surface. The point
 /// of the surface of body_b that is closest to it is on a facet of `tet`; of several at the same distance that of the
-/// lowest (tet, facet), as in vox_grid_query_closest. Computed in double.
+/// lowest (tet, facet), as in vox_locator_find_closest (vox_query.h). Computed in double.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_margin_contact {
@@ -789,7 +792,7 @@ pub struct vox_margin_contact {
     pub body_b: vox_body,
     /// of body_b
     pub tet: u32,
-    /// of the tetrahedron, as in vox_surface_hit
+    /// of the tetrahedron, as in vox_closest_hit
     pub facet: u32,
     /// its vertices, in the order given there
     pub face: [u32; 3],
@@ -824,7 +827,7 @@ pub struct vox_passage {
     pub body_b: vox_body,
     /// of body_b
     pub tet: u32,
-    /// of the tetrahedron, as in vox_surface_hit: the first that the vertex met; the lowest (tet, facet) of several at
+    /// of the tetrahedron, as in vox_closest_hit: the first that the vertex met; the lowest (tet, facet) of several at
     /// the same time
     pub facet: u32,
     /// its vertices, in the order given there
@@ -934,7 +937,7 @@ pub struct vox_contact_event_view {
 
 /// Geometry of one contact. All contacts of the same (body_a, vertex, body_b) have the same reading except for the
 /// first field. `triangle` is the triangle closest to the vertex on the surface of body_b, which consists of the facets
-/// of exactly one of its tetrahedra, duplicates counted once. It is computed in double, as by vox_grid_query_closest;
+/// of exactly one of its tetrahedra, duplicates counted once. It is computed in double, as by vox_locator_find_closest;
 /// of several at the same distance it is the one with the lowest corners, compared in ascending order. For self-contact
 /// it belongs to the fold that the vertex has entered and never has the vertex as a corner (see vox_penetration_state).
 /// No reading depends on engine, cell size, workers or machine.
@@ -1000,8 +1003,8 @@ pub struct vox_readings_desc {
 /// An allocator. `allocate` returns memory of at least `size` bytes at `alignment` (a power of two), or null; `release`
 /// gets the same size and alignment back. If both are null, the C++ runtime's heap is used. They are called only from
 /// functions of the object they were given to, one call at a time. During a step, the calling thread may be one that
-/// runs its tasks. For query views that are released after vox_grid_destroy, `release` is called from
-/// vox_query_view_release, so it must be usable until then.
+/// runs its tasks. For locators (vox_query.h) that are released after vox_grid_destroy, `release` is called from
+/// vox_locator_release, so it must be usable until then.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_allocator {
@@ -1026,10 +1029,10 @@ pub struct vox_log {
 /// min_range items where possible, and arranges that `task` is called once for each range, now or later, on any thread.
 /// It returns a handle for `finish`, or null if all these calls have already returned. `finish` waits until they have.
 /// Both are called on the thread that called the library, at most VOX_MAX_TASKS times in a step, at most once by
-/// vox_grid_prepare_readings, and at most four times by vox_grid_prepare_queries and vox_grid_take_query_view. If not
-/// every item was run exactly once, or a worker index was out of range or had by two calls at the same time, the
-/// function fails with INVALID_ARGUMENT and leaves no contacts, no readings, nothing prepared for queries, or no view.
-/// If both are null, the built-in scheduler is used.
+/// vox_grid_prepare_readings, and at most four times by vox_grid_update_locator. If not every item was run exactly
+/// once, or a worker index was out of range or had by two calls at the same time, the function fails with
+/// INVALID_ARGUMENT and leaves no contacts, no readings, or no new locator. If both are null, the built-in scheduler is
+/// used.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_task_system {
@@ -1038,121 +1041,6 @@ pub struct vox_task_system {
     #[rustfmt::skip]
     pub finish: Option<unsafe extern "C" fn(handle: *mut c_void, user: *mut c_void)>,
     pub user: *mut c_void,
-}
-
-/// Point `point` of the query is in the closed tetrahedron `tet` of `mesh`. This is exact and follows the rule of
-/// vox_contact: every tetrahedron of a mesh that has the point in its interior, or else the lowest that has it on its
-/// boundary. `barycentric` is as in vox_contact.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_point_hit {
-    pub point: u32,
-    pub mesh: vox_body,
-    pub tet: u32,
-    pub barycentric: [f32; 4],
-}
-
-/// Tetrahedron `tet` of `mesh`.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_tet_hit {
-    pub mesh: vox_body,
-    pub tet: u32,
-}
-
-/// A point on facet `facet` of a tetrahedron, which is opposite corner `facet`. The facet's corners are facet 0:
-/// corners 1, 2, 3 1: 0, 3, 2 2: 0, 1, 3 3: 0, 2, 1 of the tetrahedron, counter-clockwise as seen from outside if its
-/// volume is positive. The surface of a mesh consists of the facets of exactly one tetrahedron.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_surface_hit {
-    /// VOX_NULL_BODY if there is no such point; then all fields are zero
-    pub mesh: vox_body,
-    pub tet: u32,
-    pub facet: u32,
-    pub reserved: u32,
-    /// weights of the facet's corners in that order, in [0, 1] up to rounding, with the sum 1
-    pub barycentric: [f64; 3],
-    pub position: [f64; 3],
-    pub distance: f64,
-}
-
-/// Points for vox_grid_query_closest_points, and the surfaces to search.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_closest_desc {
-    pub struct_size: u32,
-    pub format: vox_format,
-    /// read during the call; may be null if there are none
-    pub points: *const c_void,
-    /// from one point to the next; 0: tightly packed
-    pub byte_stride: u64,
-    /// at most 2^32 - 1
-    pub point_count: u64,
-    /// 0: all meshes
-    pub mask: u64,
-    /// in the caller's unit; 0: any distance
-    pub max_distance: f64,
-    /// VOX_NULL_BODY: none
-    pub excluded: vox_body,
-    /// 0
-    pub reserved: u32,
-    /// as in vox_positions
-    pub component_byte_stride: u64,
-}
-
-/// The closest point of a surface, as in vox_surface_hit, with a normal and a sign.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_closest_hit {
-    /// VOX_NULL_BODY if no surface is within max_distance; then all other fields but `inside` are zero
-    pub mesh: vox_body,
-    pub tet: u32,
-    pub facet: u32,
-    /// how many of the meshes that take part have the point in a closed tetrahedron; exact
-    pub inside: u32,
-    pub barycentric: [f64; 3],
-    pub position: [f64; 3],
-    /// A unit vector out of the facet's tetrahedron or, if that is flat, to the side away from the point. If the facet
-    /// has no area, it points from the point to `position`, or is 0, 0, 1 if both coincide.
-    pub normal: [f64; 3],
-    /// from the point to `position`, in double; negative if `mesh` has the point in a closed tetrahedron, which is
-    /// decided exactly
-    pub distance: f64,
-}
-
-/// What the closed segment from `from` to `to` hits first; t is 0 at `from` and 1 at `to`. Whether it hits a
-/// tetrahedron or a facet is decided exactly; t, and thus which of two hits is first, only up to rounding. Of several
-/// at the same t it is the lowest (mesh, tet, facet).
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_ray_hit {
-    /// mesh of the first tetrahedron; VOX_NULL_BODY if none is hit, then all fields are zero
-    pub mesh: vox_body,
-    pub tet: u32,
-    /// 0 if `from` is in the tetrahedron
-    pub t: f64,
-    /// The first facet of a surface (see vox_surface_hit). VOX_NULL_BODY if there is none, e.g. for a segment that ends
-    /// before it leaves a mesh. A segment in the plane of a facet does not hit it.
-    pub surface_mesh: vox_body,
-    pub surface_tet: u32,
-    pub surface_facet: u32,
-    pub surface_side: vox_side,
-    pub surface_t: f64,
-    pub surface_barycentric: [f64; 3],
-}
-
-/// A facet of a surface that a segment hits; see vox_surface_hit and vox_ray_hit.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_facet_hit {
-    pub mesh: vox_body,
-    pub tet: u32,
-    pub facet: u32,
-    pub side: vox_side,
-    pub t: f64,
-    /// weights of the facet's corners, as in vox_surface_hit
-    pub barycentric: [f64; 3],
 }
 
 /// What the last successful step did. The counters from `cells` to `skipped_degenerate` do not include what was carried
@@ -1732,6 +1620,91 @@ pub struct vox_tuning {
     /// in seconds
     pub curve: [vox_cost_sample; 64],
     pub note: [c_char; 256],
+}
+
+/// Which bodies answer, and how far to look. All fields are 0 by default: all bodies, at any distance.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_query_desc {
+    pub struct_size: u32,
+    /// vox_query_flags, combined with |
+    pub flags: u32,
+    /// only bodies whose category had a bit in common with it; 0: all
+    pub mask: u64,
+    /// not this body, e.g. the one that asks; an id that the locator does not have excludes none
+    pub excluded: vox_body,
+    /// 0
+    pub reserved: u32,
+    /// vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance
+    pub max_distance: f64,
+}
+
+/// A tetrahedron that contains a point.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_point_hit {
+    /// index of the point
+    pub point: u32,
+    pub body: vox_body,
+    pub tet: u32,
+    /// 0
+    pub reserved: u32,
+    /// of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one
+    pub weights: [f64; 4],
+}
+
+/// A point of a surface. The surface of a mesh consists of the facets of exactly one of its tetrahedra. Facet k is
+/// opposite corner k. The corners of facets are facet 0: corners 1, 2, 3 1: 0, 3, 2 2: 0, 1, 3 3: 0, 2, 1 of the
+/// tetrahedron, counter-clockwise as seen from outside if its volume is positive.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_closest_hit {
+    /// VOX_NULL_BODY: no surface is within max_distance; all other fields but `inside` are 0
+    pub body: vox_body,
+    pub tet: u32,
+    pub facet: u32,
+    /// how many bodies contain the point; exact
+    pub inside: u32,
+    /// the vertices of the facet, in the order of its corners
+    pub face: [u32; 3],
+    /// 0
+    pub reserved: u32,
+    /// of these vertices, for the closest point, in [0, 1]
+    pub weights: [f64; 3],
+    /// of the closest point
+    pub position: [f64; 3],
+    /// A unit vector out of the facet's tetrahedron or, if that is flat, to the side away from the point. If the facet
+    /// has no area, it points from the point to `position`, or is 0, 0, 1 if both coincide.
+    pub normal: [f64; 3],
+    /// from the point to `position`; negative if the body contains the point, which is exact
+    pub distance: f64,
+}
+
+/// A tetrahedron whose bounding box meets a box.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_box_hit {
+    /// index of the box
+    pub r#box: u32,
+    pub body: vox_body,
+    pub tet: u32,
+}
+
+/// A facet of a surface that a ray meets; see vox_closest_hit.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_ray_hit {
+    /// index of the ray
+    pub ray: u32,
+    pub body: vox_body,
+    pub tet: u32,
+    pub facet: u32,
+    pub side: vox_side,
+    /// the vertices of the facet, in the order of its corners
+    pub face: [u32; 3],
+    pub t: f64,
+    /// of these vertices, in [0, 1]
+    pub weights: [f64; 3],
 }
 
 /// What a surface is made of. Faces may have any winding; edges and faces may be degenerate (name a vertex twice) and
@@ -2412,8 +2385,8 @@ extern "C" {
     /// Errors: INVALID_ARGUMENT (names the field and its value), UNSUPPORTED (an x86-64 without SSE4.2), OUT_OF_MEMORY,
     /// BUDGET.
     pub fn vox_grid_create(desc: *const vox_grid_desc, out_grid: *mut *mut vox_grid) -> vox_result;
-    /// Destroys a grid and releases all its memory. Its views and mesh ids become invalid, except for query views,
-    /// which live on with their memory until they are released. Null does nothing.
+    /// Destroys a grid and releases all its memory. Its views and mesh ids become invalid, except for locators
+    /// (vox_query.h), which live on with their memory until they are released. Null does nothing.
     pub fn vox_grid_destroy(grid: *mut vox_grid);
     /// Removes all meshes and contacts and keeps the settings. Old mesh ids become stale.
     pub fn vox_grid_clear(grid: *mut vox_grid) -> vox_result;
@@ -2447,8 +2420,8 @@ extern "C" {
     pub fn vox_grid_get_info(grid: *const vox_grid, out_info: *mut vox_grid_info) -> vox_result;
     /// Adds a mesh, which takes part from the next step on. Packed positions in VOX_FORMAT_FLOAT that can only be
     /// doubles are refused: from 16 vertices on, every other number would be of ordinary size, those between far too
-    /// large and far too small by turns (as most bit patterns are). They are looked at once for each format, here if
-    /// they are copied, else when a step, suggestion or query reads them first. Errors: INVALID_ARGUMENT, INVALID_MESH
+    /// large and far too small by turns (as most bit patterns are). They are looked at once for each format: here if
+    /// they are copied, else when a step, suggestion or locator reads them. Errors: INVALID_ARGUMENT, INVALID_MESH
     /// ("tet 17 names vertex 900 of 812"), LIMIT, BUDGET, OUT_OF_MEMORY.
     pub fn vox_mesh_insert(
         grid: *mut vox_grid,
@@ -2841,192 +2814,6 @@ extern "C" {
         desc: *const vox_grid_desc,
         out_grid: *mut *mut vox_grid,
     ) -> vox_result;
-    /// Copies the present positions for the queries. Takes time and memory proportional to vertices and tetrahedra:
-    /// about 36 bytes a vertex and 40 a tetrahedron, kept until the grid is destroyed; 12 of the 40 follow from the
-    /// tetrahedra alone, are made by the first call after a mesh was inserted or edited, and are shared with query
-    /// views. From now on a grid of the reference engine also keeps tiles, as those of the fast engine do. Errors:
-    /// INVALID_STATE (a mesh has no positions), NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT,
-    /// see vox_mesh_insert), BUDGET, OUT_OF_MEMORY; after these, what was prepared before stays. INVALID_ARGUMENT for a
-    /// defective task system (see vox_task_system); after that nothing is prepared.
-    pub fn vox_grid_prepare_queries(grid: *mut vox_grid) -> vox_result;
-    /// The tetrahedra that contain a point, sorted by (mesh, tet); vox_point_hit.point is 0. `hits` may be null if
-    /// capacity is 0.
-    pub fn vox_grid_query_point(
-        grid: *const vox_grid,
-        point: *const [f64; 3],
-        mask: u64,
-        hits: *mut vox_point_hit,
-        capacity: u64,
-        out_count: *mut u64,
-    ) -> vox_result;
-    /// The same for up to 2^32 - 1 points at once, `byte_stride` apart (0: tightly packed), sorted by (point, mesh,
-    /// tet). From 64 points on, and one for every 200 tetrahedra of the grid, they are found as vertices are in a step,
-    /// several times as fast as by single queries, whatever their order.
-    pub fn vox_grid_query_points(
-        grid: *const vox_grid,
-        points: *const c_void,
-        format: vox_format,
-        byte_stride: u64,
-        point_count: u64,
-        mask: u64,
-        hits: *mut vox_point_hit,
-        capacity: u64,
-        out_count: *mut u64,
-    ) -> vox_result;
-    /// The tetrahedra whose bounding box has a point in common with the closed box from min to max, decided exactly and
-    /// sorted by (mesh, tet). They include all tetrahedra that intersect the box themselves; those of zero volume
-    /// count, too. Infinite corners are allowed. Errors: INVALID_ARGUMENT unless min <= max on each axis.
-    pub fn vox_grid_query_box(
-        grid: *const vox_grid,
-        min: *const [f64; 3],
-        max: *const [f64; 3],
-        mask: u64,
-        hits: *mut vox_tet_hit,
-        capacity: u64,
-        out_count: *mut u64,
-    ) -> vox_result;
-    /// The closest point to `point` on the surfaces of all meshes, if it is no further away than radius (which may be
-    /// infinite). Computed in double. Of several at the same distance it is the one with the lowest (mesh, tet, facet).
-    pub fn vox_grid_query_closest(
-        grid: *const vox_grid,
-        point: *const [f64; 3],
-        radius: f64,
-        mask: u64,
-        out_hit: *mut vox_surface_hit,
-    ) -> vox_result;
-    /// The same for many points at once, each no further away than desc->max_distance: out_hits[i] is that of point i.
-    /// Each search begins at the facet found for the point before, so points close together should follow each other.
-    /// Errors: also INVALID_ARGUMENT for a negative or NaN max_distance, LIMIT for too many points.
-    pub fn vox_grid_query_closest_points(
-        grid: *const vox_grid,
-        desc: *const vox_closest_desc,
-        out_hits: *mut vox_closest_hit,
-    ) -> vox_result;
-    /// Finds the first tetrahedron and the first facet in one call. from = to queries a single point.
-    pub fn vox_grid_query_ray(
-        grid: *const vox_grid,
-        from: *const [f64; 3],
-        to: *const [f64; 3],
-        mask: u64,
-        out_hit: *mut vox_ray_hit,
-    ) -> vox_result;
-    /// All facets of surfaces that the closed segment hits, sorted by (t, mesh, tet, facet). Which ones is decided
-    /// exactly by the rule of vox_ray_hit; t, and thus the order, only up to rounding. A segment through an edge or a
-    /// corner hits every facet there.
-    pub fn vox_grid_query_ray_hits(
-        grid: *const vox_grid,
-        from: *const [f64; 3],
-        to: *const [f64; 3],
-        mask: u64,
-        excluded: vox_body,
-        hits: *mut vox_facet_hit,
-        capacity: u64,
-        out_count: *mut u64,
-    ) -> vox_result;
-    /// 1 if the closed segment hits any tetrahedron that has a volume, else 0; exact. Stops at the first one it finds,
-    /// so it is faster than vox_grid_query_ray.
-    pub fn vox_grid_query_ray_any(
-        grid: *const vox_grid,
-        from: *const [f64; 3],
-        to: *const [f64; 3],
-        mask: u64,
-        excluded: vox_body,
-        out_any: *mut u32,
-    ) -> vox_result;
-    /// Takes a view of the grid as it is now. It costs as much as vox_grid_prepare_queries, and does not change what
-    /// that prepared. The caller owns *out_view and releases it with vox_query_view_release. Errors: INVALID_STATE (a
-    /// mesh has no positions), NON_FINITE, LIMIT, BUDGET, OUT_OF_MEMORY, INVALID_ARGUMENT (doubles under
-    /// VOX_FORMAT_FLOAT; see also vox_task_system).
-    pub fn vox_grid_take_query_view(
-        grid: *mut vox_grid,
-        out_view: *mut *mut vox_query_view,
-    ) -> vox_result;
-    /// One more owner of a view, who releases it as well. The thread that calls must be sure that the view is not
-    /// released by all others meanwhile.
-    pub fn vox_query_view_retain(view: *mut vox_query_view) -> vox_result;
-    /// Ends the use of a view by one owner. The view is invalid once all have released it. Null does nothing.
-    pub fn vox_query_view_release(view: *mut vox_query_view);
-    /// vox_grid_info.epoch when the view was taken: which step it shows.
-    pub fn vox_query_view_epoch(view: *const vox_query_view, out_epoch: *mut u64) -> vox_result;
-    /// The user_data that a mesh of the view was inserted with. Errors: INVALID_HANDLE if the mesh is not in the view.
-    pub fn vox_query_view_user_data(
-        view: *const vox_query_view,
-        body: vox_body,
-        out_user_data: *mut u64,
-    ) -> vox_result;
-    /// As vox_grid_query_point.
-    pub fn vox_query_view_point(
-        view: *const vox_query_view,
-        point: *const [f64; 3],
-        mask: u64,
-        hits: *mut vox_point_hit,
-        capacity: u64,
-        out_count: *mut u64,
-    ) -> vox_result;
-    /// As vox_grid_query_points.
-    pub fn vox_query_view_points(
-        view: *const vox_query_view,
-        points: *const c_void,
-        format: vox_format,
-        byte_stride: u64,
-        point_count: u64,
-        mask: u64,
-        hits: *mut vox_point_hit,
-        capacity: u64,
-        out_count: *mut u64,
-    ) -> vox_result;
-    /// As vox_grid_query_box.
-    pub fn vox_query_view_box(
-        view: *const vox_query_view,
-        min: *const [f64; 3],
-        max: *const [f64; 3],
-        mask: u64,
-        hits: *mut vox_tet_hit,
-        capacity: u64,
-        out_count: *mut u64,
-    ) -> vox_result;
-    /// As vox_grid_query_closest.
-    pub fn vox_query_view_closest(
-        view: *const vox_query_view,
-        point: *const [f64; 3],
-        radius: f64,
-        mask: u64,
-        out_hit: *mut vox_surface_hit,
-    ) -> vox_result;
-    /// As vox_grid_query_closest_points.
-    pub fn vox_query_view_closest_points(
-        view: *const vox_query_view,
-        desc: *const vox_closest_desc,
-        out_hits: *mut vox_closest_hit,
-    ) -> vox_result;
-    /// As vox_grid_query_ray.
-    pub fn vox_query_view_ray(
-        view: *const vox_query_view,
-        from: *const [f64; 3],
-        to: *const [f64; 3],
-        mask: u64,
-        out_hit: *mut vox_ray_hit,
-    ) -> vox_result;
-    /// As vox_grid_query_ray_hits.
-    pub fn vox_query_view_ray_hits(
-        view: *const vox_query_view,
-        from: *const [f64; 3],
-        to: *const [f64; 3],
-        mask: u64,
-        excluded: vox_body,
-        hits: *mut vox_facet_hit,
-        capacity: u64,
-        out_count: *mut u64,
-    ) -> vox_result;
-    /// As vox_grid_query_ray_any.
-    pub fn vox_query_view_ray_any(
-        view: *const vox_query_view,
-        from: *const [f64; 3],
-        to: *const [f64; 3],
-        mask: u64,
-        excluded: vox_body,
-        out_any: *mut u32,
-    ) -> vox_result;
     /// Writes the fields that out_counters->struct_size covers (set it first).
     pub fn vox_grid_get_counters(
         grid: *const vox_grid,
@@ -3162,6 +2949,91 @@ extern "C" {
         run: vox_grid_run,
         user: *mut c_void,
         out: *mut vox_tuning,
+    ) -> vox_result;
+}
+
+#[rustfmt::skip]
+extern "C" {
+    /// Takes a locator of the grid as it is now, and releases the one that *locator held before, if any. The caller
+    /// owns *locator and releases it with vox_locator_release. The first call after a mesh was inserted or edited takes
+    /// longer. If the call fails, *locator stays as it is. A locator uses the grid's memory, within its byte budget:
+    /// about 36 bytes a vertex and 28 a tetrahedron, and 12 a tetrahedron that all locators of a grid share. The memory
+    /// of released locators is used again, so that a program that takes one in every frame soon allocates nothing;
+    /// vox_grid_clear and vox_grid_destroy return it. If a locator outlives its grid, its last release returns its
+    /// memory, on the thread that calls. Errors: INVALID_STATE (a mesh without positions), NON_FINITE, LIMIT,
+    /// INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT, see vox_mesh_insert; a defective task system), BUDGET,
+    /// OUT_OF_MEMORY.
+    pub fn vox_grid_update_locator(
+        grid: *mut vox_grid,
+        locator: *mut *mut vox_locator,
+    ) -> vox_result;
+    /// Adds an owner, who has to release the locator as well: so one thread can still ask it while another takes the
+    /// next one. The caller must be sure that nobody releases the last owner meanwhile.
+    pub fn vox_locator_retain(locator: *mut vox_locator) -> vox_result;
+    /// Removes an owner. The locator ends with its last owner. Null does nothing.
+    pub fn vox_locator_release(locator: *mut vox_locator);
+    /// Gets vox_grid_info.epoch of the moment when the locator was taken.
+    pub fn vox_locator_get_epoch(locator: *const vox_locator, out_epoch: *mut u64) -> vox_result;
+    /// Gets the user_data of a body, even if it was removed since. Errors: INVALID_HANDLE (the locator does not have
+    /// it).
+    pub fn vox_locator_get_user_data(
+        locator: *const vox_locator,
+        body: vox_body,
+        out_user_data: *mut u64,
+    ) -> vox_result;
+    /// Finds the tetrahedra that contain points, by the rule of vox_contact: every tetrahedron of a body that has the
+    /// point in its interior or, if there is none, the lowest that has it on its boundary. Sorted by (point, body,
+    /// tet). Many points in one call are found several times as fast as one by one, whatever their order.
+    pub fn vox_locator_find_point_hits(
+        locator: *const vox_locator,
+        points: *const vox_positions,
+        desc: *const vox_query_desc,
+        hits: *mut vox_point_hit,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
+    /// Finds the closest point of all surfaces: out_hits[i] is for point i. If several are equally close, it is the one
+    /// with the lowest (body, tet, facet). Points that are close together should follow each other: each search begins
+    /// at the facet found before. Errors: also INVALID_ARGUMENT (a negative or NaN max_distance).
+    pub fn vox_locator_find_closest(
+        locator: *const vox_locator,
+        points: *const vox_positions,
+        desc: *const vox_query_desc,
+        out_hits: *mut vox_closest_hit,
+    ) -> vox_result;
+    /// Finds the tetrahedra whose bounding box has a point in common with the closed box from min[i] to max[i], decided
+    /// exactly and sorted by (box, body, tet). They include all tetrahedra that meet the box themselves, and those of
+    /// zero volume. Corners may be infinite. Errors: INVALID_ARGUMENT (arrays of different lengths; a min that is not
+    /// <= its max).
+    pub fn vox_locator_find_box_hits(
+        locator: *const vox_locator,
+        min: *const vox_positions,
+        max: *const vox_positions,
+        desc: *const vox_query_desc,
+        hits: *mut vox_box_hit,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
+    /// Finds the facets of surfaces that rays meet, sorted by (ray, t, body, tet, facet). Which facets a ray meets is
+    /// exact; t, and so the order, is rounded. A ray through an edge or a vertex meets all facets there. A ray in the
+    /// plane of a facet does not meet it.
+    pub fn vox_locator_find_ray_hits(
+        locator: *const vox_locator,
+        from: *const vox_positions,
+        to: *const vox_positions,
+        desc: *const vox_query_desc,
+        hits: *mut vox_ray_hit,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
+    /// Tests whether each ray meets a tetrahedron that has a volume: out_blocked[i] is 1 or 0, which is exact. The
+    /// search for a ray ends at the first such tetrahedron. from[i] = to[i] tests a point.
+    pub fn vox_locator_test_rays(
+        locator: *const vox_locator,
+        from: *const vox_positions,
+        to: *const vox_positions,
+        desc: *const vox_query_desc,
+        out_blocked: *mut u8,
     ) -> vox_result;
 }
 
@@ -3642,20 +3514,6 @@ layouts! {
     vox_allocator: size [24, 12], alignment [8, 4], { allocate: [0, 0], release: [8, 4], user: [16, 8] }
     vox_log: size [16, 8], alignment [8, 4], { write: [0, 0], user: [8, 4] }
     vox_task_system: size [24, 12], alignment [8, 4], { enqueue: [0, 0], finish: [8, 4], user: [16, 8] }
-    vox_point_hit: size [28, 28], alignment [4, 4], { point: [0, 0], mesh: [4, 4], tet: [8, 8], barycentric: [12, 12] }
-    vox_tet_hit: size [8, 8], alignment [4, 4], { mesh: [0, 0], tet: [4, 4] }
-    vox_surface_hit: size [72, 72], alignment [8, 8], { mesh: [0, 0], tet: [4, 4], facet: [8, 8], reserved: [12, 12],
-        barycentric: [16, 16], position: [40, 40], distance: [64, 64] }
-    vox_closest_desc: size [64, 64], alignment [8, 8], { struct_size: [0, 0], format: [4, 4], points: [8, 8],
-        byte_stride: [16, 16], point_count: [24, 24], mask: [32, 32], max_distance: [40, 40], excluded: [48, 48],
-        reserved: [52, 52], component_byte_stride: [56, 56] }
-    vox_closest_hit: size [96, 96], alignment [8, 8], { mesh: [0, 0], tet: [4, 4], facet: [8, 8], inside: [12, 12],
-        barycentric: [16, 16], position: [40, 40], normal: [64, 64], distance: [88, 88] }
-    vox_ray_hit: size [64, 64], alignment [8, 8], { mesh: [0, 0], tet: [4, 4], t: [8, 8], surface_mesh: [16, 16],
-        surface_tet: [20, 20], surface_facet: [24, 24], surface_side: [28, 28], surface_t: [32, 32],
-        surface_barycentric: [40, 40] }
-    vox_facet_hit: size [48, 48], alignment [8, 8], { mesh: [0, 0], tet: [4, 4], facet: [8, 8], side: [12, 12],
-        t: [16, 16], barycentric: [24, 24] }
     vox_counters: size [304, 304], alignment [8, 8], { struct_size: [0, 0], meshes: [4, 4], vertices: [8, 8],
         tets: [16, 16], cells: [24, 24], entries: [32, 32], fullest_cell: [40, 40], visited_cells: [48, 48],
         visited_entries: [56, 56], candidates: [64, 64], exact_tests: [72, 72], contacts: [80, 80],
@@ -3731,6 +3589,16 @@ layouts! {
         zone_min: [16, 16], zone_max: [24, 24], seconds: [32, 32], expected_loss: [40, 40], noise: [48, 48],
         weights: [56, 56], runs: [112, 112], run_count: [624, 624], curve_count: [628, 628], curve: [632, 632],
         note: [1656, 1656] }
+    vox_query_desc: size [32, 32], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], mask: [8, 8],
+        excluded: [16, 16], reserved: [20, 20], max_distance: [24, 24] }
+    vox_point_hit: size [48, 48], alignment [8, 8], { point: [0, 0], body: [4, 4], tet: [8, 8], reserved: [12, 12],
+        weights: [16, 16] }
+    vox_closest_hit: size [112, 112], alignment [8, 8], { body: [0, 0], tet: [4, 4], facet: [8, 8], inside: [12, 12],
+        face: [16, 16], reserved: [28, 28], weights: [32, 32], position: [56, 56], normal: [80, 80],
+        distance: [104, 104] }
+    vox_box_hit: size [12, 12], alignment [4, 4], { r#box: [0, 0], body: [4, 4], tet: [8, 8] }
+    vox_ray_hit: size [64, 64], alignment [8, 8], { ray: [0, 0], body: [4, 4], tet: [8, 8], facet: [12, 12],
+        side: [16, 16], face: [20, 20], t: [32, 32], weights: [40, 40] }
     vox_surface_desc: size [112, 88], alignment [8, 8], { struct_size: [0, 0], worker_count: [4, 4],
         vertex_count: [8, 8], edge_count: [16, 16], face_count: [24, 24], edges: [32, 32], faces: [40, 36],
         patches: [48, 40], patch_categories: [56, 44], patch_masks: [64, 48], patch_count: [72, 56],

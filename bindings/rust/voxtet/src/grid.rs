@@ -10,8 +10,8 @@ use crate::error::{check, sized};
 use crate::options::{grid_flags, Reference, Scalar};
 use crate::view::{ContactEvents, TouchEvents};
 use crate::{
-    Contact, Contacts, Depth, Error, ErrorCode, Events, Filter, GridOptions, Mesh, MeshOptions, Pairs, Penetration,
-    QueryView, Reading, Result, View,
+    Contact, Contacts, Depth, Error, ErrorCode, Events, Filter, GridOptions, Locator, Mesh, MeshOptions, Pairs,
+    Penetration, Reading, Result, View,
 };
 
 /// What the last step did; `vox_counters` in vox.h.
@@ -665,22 +665,11 @@ impl Grid {
         })
     }
 
-    // ---- queries and suggestions ----
+    // ---- locators and suggestions ----
 
-    /// Copies the present positions for the [`Queries`](crate::Queries) of this grid.
-    pub fn prepare_queries(&mut self) -> Result<()> {
-        check(unsafe { sys::vox_grid_prepare_queries(self.get_mut()) })
-    }
-
-    /// A view of the meshes as they are now, which other threads may ask while this grid steps.
-    pub fn take_query_view(&mut self) -> Result<QueryView> {
-        let mut view = null_mut();
-        check(unsafe { sys::vox_grid_take_query_view(self.get_mut(), &mut view) })?;
-        Ok(QueryView::new(NonNull::new(view).expect("a view")))
-    }
-
-    pub(crate) fn raw(&self) -> *const sys::vox_grid {
-        self.get()
+    /// The meshes as they are now, to be asked where they are.
+    pub fn locator(&mut self) -> Result<Locator> {
+        Locator::of(self)
     }
 
     /// The cell size that minimises the cost model for the meshes of this grid. Without options, that of its engine.

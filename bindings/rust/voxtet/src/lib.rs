@@ -8,8 +8,8 @@ mod foreign;
 mod grid;
 #[cfg(feature = "io")]
 pub mod io;
+mod locator;
 mod options;
-mod query;
 mod view;
 
 pub use callbacks::{LogLevel, TaskSystem};
@@ -23,8 +23,8 @@ pub use foreign::{
     Primitives, TuneOptions, Tuning,
 };
 pub use grid::{step_grids, Counters, Failure, Grid, MeshInfo, Profile};
+pub use locator::{Locator, QueryOptions};
 pub use options::{Filter, GridOptions, Mesh, MeshOptions, Reference};
-pub use query::{Queries, QueryView};
 pub use view::{Contacts, Events, Pairs, View};
 
 #[cfg(feature = "rayon")]
@@ -47,18 +47,14 @@ pub type TouchEvent = sys::vox_touch_event;
 pub type ContactEvent = sys::vox_contact_event;
 /// Geometry of a contact: where the vertex is, the closest part of the surface, how deep it is.
 pub type Reading = sys::vox_reading;
-/// A point in a tetrahedron.
+/// A tetrahedron that contains a point.
 pub type PointHit = sys::vox_point_hit;
-/// A tetrahedron.
-pub type TetHit = sys::vox_tet_hit;
-/// The closest point of a surface.
-pub type SurfaceHit = sys::vox_surface_hit;
 /// The closest point of a surface, with a normal and a sign.
 pub type ClosestHit = sys::vox_closest_hit;
-/// What a segment hits first.
+/// A tetrahedron whose bounding box meets a box.
+pub type BoxHit = sys::vox_box_hit;
+/// A facet that a ray meets. `side` is one of the constants in [`side`].
 pub type RayHit = sys::vox_ray_hit;
-/// A facet that a segment hits.
-pub type FacetHit = sys::vox_facet_hit;
 /// Lengths, areas, volumes and counts of meshes.
 pub type GeometryStats = sys::vox_geometry_stats;
 /// The weights of the cost models, in nanoseconds.
@@ -80,6 +76,11 @@ pub mod penetration_state {
 /// Values of [`TouchEvent::kind`] and [`ContactEvent::kind`].
 pub mod touch {
     pub use voxtet_sys::{VOX_TOUCH_BEGAN as BEGAN, VOX_TOUCH_ENDED as ENDED, VOX_TOUCH_PERSISTED as PERSISTED};
+}
+
+/// Values of [`RayHit::side`].
+pub mod side {
+    pub use voxtet_sys::{VOX_SIDE_ENTERS as ENTERS, VOX_SIDE_LEAVES as LEAVES, VOX_SIDE_NONE as NONE};
 }
 
 /// Parts of a [`Reading`], for [`Grid::prepare_readings`] and [`Reading::known`](sys::vox_reading::known).

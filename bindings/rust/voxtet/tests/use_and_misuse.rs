@@ -60,7 +60,6 @@ fn errors() {
     assert_eq!(code(grid.positions_mut::<f64>(mesh)), ErrorCode::InvalidArgument);
     assert_eq!(code(grid.readings()), ErrorCode::InvalidState);
     assert_eq!(code(grid.contact_events()), ErrorCode::InvalidState);
-    assert_eq!(code(grid.point([0.0; 3], u64::MAX)), ErrorCode::InvalidState);
     assert_eq!(code(grid.replace_tets(mesh, &[0], &[])), ErrorCode::InvalidArgument);
     assert_eq!(code(grid.remove_tets(mesh, &[1])), ErrorCode::InvalidArgument);
     let options = MeshOptions { rest_positions: Some(&UNIT[..3]), ..MeshOptions::default() };
@@ -95,9 +94,10 @@ fn empty_arrays() {
     assert_eq!(grid.contacts().as_slice(), Some(&[][..]));
     assert_eq!(grid.contacts().iter().count(), 0);
     assert!(grid.pairs().is_empty());
-    grid.prepare_queries().unwrap();
-    assert!(grid.points(&none, u64::MAX).unwrap().is_empty());
-    assert!(grid.closest_points(&none, 1.0, u64::MAX, None).unwrap().is_empty());
+    let (locator, all) = (grid.locator().unwrap(), QueryOptions::default());
+    assert!(locator.find_point_hits(&none, all).unwrap().is_empty());
+    assert!(locator.find_closest(&none, all).unwrap().is_empty());
+    assert!(locator.test_rays(&none, &none, all).unwrap().is_empty());
     assert_eq!(grid.append_vertices(mesh, &UNIT).unwrap(), 0);
     assert_eq!(grid.append_tets(mesh, &TET).unwrap(), 0);
     assert_eq!(grid.positions::<f32>(mesh).unwrap(), &UNIT);
@@ -137,7 +137,6 @@ fn views() {
 fn threads_read_one_grid() {
     let (mut grid, ..) = two_blocks(GridOptions { workers: ALL_CORES, ..GridOptions::default() });
     grid.step().unwrap();
-    grid.prepare_queries().unwrap();
     let (grid, hash) = (&grid, grid.hash());
     std::thread::scope(|scope| {
         for _ in 0..4 {
@@ -145,7 +144,6 @@ fn threads_read_one_grid() {
                 for _ in 0..50 {
                     assert_eq!(grid.hash(), hash);
                     assert!(!grid.contacts().is_empty());
-                    assert_eq!(grid.point([4.5, 2.25, 3.125], u64::MAX).unwrap().len(), 2);
                 }
             });
         }
@@ -153,12 +151,13 @@ fn threads_read_one_grid() {
 }
 
 #[test]
-fn a_view_outlives_its_grid() {
+fn a_locator_outlives_its_grid() {
     let (mut grid, a, _) = two_blocks(GridOptions::default());
-    let view = grid.take_query_view().unwrap();
-    let asking = view.clone();
+    let locator = grid.locator().unwrap();
+    let asking = locator.clone();
     let thread = std::thread::spawn(move || {
-        (0..200).map(|_| asking.point([4.5, 2.25, 3.125], u64::MAX).unwrap().len()).sum::<usize>()
+        let hits = || asking.find_point_hits(&[[4.5, 2.25, 3.125]], QueryOptions::default());
+        (0..200).map(|_| hits().unwrap().len()).sum::<usize>()
     });
     for _ in 0..5 {
         for p in grid.positions_mut::<f32>(a).unwrap() {
@@ -168,8 +167,40 @@ fn a_view_outlives_its_grid() {
     }
     drop(grid);
     assert_eq!(thread.join().unwrap(), 400);
-    assert_eq!(view.user_data(a).unwrap(), 0);
-    assert!(view.ray_any([-1.0, 2.5, 2.5], [2.0, 2.5, 2.5], u64::MAX, None).unwrap());
+    assert_eq!(locator.user_data(a).unwrap(), 0);
+}
+
+#[test]
+fn locators() {
+    let (mut grid, a, b) = two_blocks(GridOptions::default());
+    let mut locator = grid.locator().unwrap();
+    let all = QueryOptions::default();
+    let (from, to) = ([[-1.0, 0.5, 0.5], [-1.0, 9.0, 0.0]], [[9.0, 0.5, 0.5], [9.0, 9.0, 0.0]]);
+    let hits = locator.find_ray_hits(&from, &to, all).unwrap();
+    assert!(hits.len() > 2 && hits.iter().all(|hit| hit.ray == 0));
+    assert_eq!((hits[0].body, hits[0].side), (a.id(), side::ENTERS));
+    let first = locator.find_ray_hits(&from, &to, QueryOptions { first_hit: true, ..all }).unwrap();
+    assert_eq!(first, hits[..1]);
+    let others = locator.find_ray_hits(&from, &to, QueryOptions { excluded: Some(a), ..all }).unwrap();
+    assert!(others[0].body == b);
+    assert_eq!(locator.test_rays(&from, &to, all).unwrap(), [true, false]);
+    assert_eq!(locator.test_rays(&from, &to, QueryOptions { mask: 2, ..all }).unwrap(), [false, false]);
+    assert_eq!(code(locator.test_rays(&from, &to[..1], all)), ErrorCode::InvalidArgument);
+    assert_eq!(locator.find_closest(&from[..1], all).unwrap()[0].distance, 1.0);
+    let near = QueryOptions { max_distance: 0.5, ..all };
+    assert_eq!(locator.find_closest(&from[..1], near).unwrap()[0].body, 0);
+    let found = locator.find_box_hits(&[[-9.0f32; 3]], &[[99.0; 3]], all).unwrap();
+    assert_eq!(found.len(), 2 * 6 * 6 * 6 * 5); // more than there is room for at first
+    let (before, epoch) = (locator.clone(), locator.epoch());
+    grid.positions_mut::<f32>(a).unwrap()[0][0] = f32::NAN;
+    assert_eq!(code(locator.update(&mut grid)), ErrorCode::NonFinite);
+    grid.remove(a).unwrap();
+    assert!(locator.user_data(a).is_ok());
+    grid.step().unwrap();
+    locator.update(&mut grid).unwrap();
+    assert_eq!(code(locator.user_data(a)), ErrorCode::InvalidHandle);
+    assert!(before.user_data(a).is_ok());
+    assert!(before.epoch() == epoch && locator.epoch() > epoch);
 }
 
 #[test]
@@ -450,7 +481,7 @@ fn anything_goes() {
                 let (positions, tets) = block(3, random(40) as f32 / 10.0);
                 grid.add(&positions, &tets).map(drop)
             }
-            15 => grid.prepare_queries().and_then(|()| grid.point([number; 3], u64::MAX).map(drop)),
+            15 => grid.locator().and_then(|l| l.find_point_hits(&[[number; 3]], QueryOptions::default()).map(drop)),
             16 => grid.prepare_readings(random(9) as u32).and_then(|()| grid.readings().map(drop)),
             _ => grid.step(),
         };

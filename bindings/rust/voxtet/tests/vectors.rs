@@ -4,7 +4,7 @@ use serde_json::Value;
 use std::path::PathBuf;
 use voxtet::{
     suggest_cell_size, CellContent, CellLook, CostModel, Filter, ForeignGrid, Grid, GridOptions, GridWeights,
-    KnownGrid, Mesh, MeshArrays, MeshOptions, Primitives, Queries, SuggestOptions, TuneOptions,
+    KnownGrid, Locator, Mesh, MeshArrays, MeshOptions, Primitives, QueryOptions, SuggestOptions, TuneOptions,
 };
 
 fn bytes_of<T: Copy>(items: &[T]) -> &[u8] {
@@ -33,6 +33,7 @@ fn summary<T: Copy>(items: &[T]) -> Value {
 struct Replay {
     arrays: Vec<u8>,
     grid: Grid,
+    locator: Locator,
     scene: String,
 }
 
@@ -80,7 +81,8 @@ impl Replay {
 
     fn make(&mut self, name: &str, call: &Value) -> voxtet::Result<()> {
         let mesh = Mesh::from_id(call["mesh"].as_u64().unwrap_or(0) as u32);
-        let point = |name: &str| std::array::from_fn(|i| call[name][i].as_f64().unwrap());
+        let positions = |name: &str| self.array::<3, f64>(call, name, "count", f64_of);
+        let all = QueryOptions::default();
         match name {
             "create" => {
                 let flags = call["flags"].as_u64().unwrap();
@@ -119,25 +121,25 @@ impl Replay {
                 self.grid.prepare_readings(voxtet::reading::ALL)?;
                 self.check(call, "readings", summary(self.grid.readings()?.as_slice().unwrap()));
             }
-            "prepare_queries" => self.grid.prepare_queries()?,
-            "query_points" => {
-                let points: Vec<[f64; 3]> = self.array(call, "points", "count", f64_of);
-                self.check(call, "hits", summary(&self.grid.points(&points, u64::MAX)?));
-                let view = self.grid.take_query_view()?;
-                self.check(call, "hits", summary(&view.points(&points, u64::MAX)?));
+            "update_locator" => self.locator.update(&mut self.grid)?,
+            "find_point_hits" => {
+                self.check(call, "hits", summary(&self.locator.find_point_hits(&positions("points"), all)?));
             }
-            "query_closest_points" => {
-                let points: Vec<[f64; 3]> = self.array(call, "points", "count", f64_of);
-                let hits = self.grid.closest_points(&points, f64::INFINITY, u64::MAX, None)?;
+            "find_closest" => {
+                self.check(call, "hits", summary(&self.locator.find_closest(&positions("points"), all)?));
+            }
+            "find_box_hits" => {
+                let hits = self.locator.find_box_hits(&positions("min"), &positions("max"), all)?;
                 self.check(call, "hits", summary(&hits));
             }
-            "query_ray" => self.check(call, "hits", summary(&[self.grid.ray(point("from"), point("to"), u64::MAX)?])),
-            "query_ray_hits" => {
-                let hits = self.grid.ray_hits(point("from"), point("to"), u64::MAX, None)?;
+            "find_ray_hits" => {
+                let options = QueryOptions { first_hit: call["flags"] == 1, ..all };
+                let hits = self.locator.find_ray_hits(&positions("from"), &positions("to"), options)?;
                 self.check(call, "hits", summary(&hits));
             }
-            "query_box" => {
-                self.check(call, "hits", summary(&self.grid.in_box(point("min"), point("max"), u64::MAX)?));
+            "test_rays" => {
+                let blocked = self.locator.test_rays(&positions("from"), &positions("to"), all)?;
+                self.check(call, "blocked", blocked.iter().filter(|&&is| is).count().into());
             }
             "meshes" => self.meshes(call),
             "set_transform" => {
@@ -460,7 +462,9 @@ fn vectors() {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../vectors");
     let read = |name: &str| std::fs::read(folder.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
     let script: Value = serde_json::from_slice(&read("vectors.json")).unwrap();
-    let mut replay = Replay { arrays: read("vectors.bin"), grid: Grid::new().unwrap(), scene: String::new() };
+    let mut grid = Grid::new().unwrap();
+    let locator = grid.locator().unwrap();
+    let mut replay = Replay { arrays: read("vectors.bin"), grid, locator, scene: String::new() };
     let mut calls = 0;
     for scene in script["scenes"].as_array().unwrap() {
         replay.scene = scene["name"].as_str().unwrap().to_owned();
@@ -469,5 +473,5 @@ fn vectors() {
             calls += 1;
         }
     }
-    assert!(calls > 300, "{calls} calls");
+    assert!(calls > 250, "{calls} calls");
 }

@@ -1,0 +1,185 @@
+/* vox_query: which tetrahedra are at a point, in a box, on a line? Where is the closest surface?
+ *
+ * A locator holds the meshes of a grid as they were at one moment and answers questions about them, many at a time. It
+ * has copies of all that it needs, so it may be asked while the grid steps, and after the grid is destroyed:
+ *
+ *     vox_locator* locator = NULL;
+ *     vox_grid_update_locator(grid, &locator);         after every step whose bodies are asked about
+ *     vox_locator_find_closest(locator, &points, NULL, hits);
+ *     vox_locator_release(locator);                    at the end
+ *
+ * To ask about meshes and nothing else: create a grid, insert the meshes, take a locator, destroy the grid. No step is
+ * needed.
+ *
+ * Conventions: those of vox.h, and
+ *   Threads    Any number of threads may ask, retain and release a locator at any time, also while another thread
+ *              changes or destroys its grid. Taking a locator changes the grid.
+ *   Bodies     A locator has the enabled meshes with tetrahedra. Nothing that happens to them later changes its
+ *              answers.
+ *   Points     All arrays of positions are read during the call. Their `data` may be null if `count` is 0.
+ *   Answers    do not depend on engine, cell size, workers or machine. Whether a tetrahedron contains a point, and what
+ *              a segment meets, is decided exactly. Weights, distances and t are computed in double.
+ *   Lists      A function that fills a list writes its first `capacity` elements, and sets *out_count to the number of
+ *              all. The list may be null if capacity is 0.
+ *   Errors     of all questions: INVALID_ARGUMENT, NON_FINITE (a coordinate), LIMIT (a coordinate of 2^128 or more;
+ *              more than 2^32 - 1 questions), OUT_OF_MEMORY. Their temporary memory is from the C++ runtime's heap.
+ */
+#ifndef VOX_VOX_QUERY_H
+#define VOX_VOX_QUERY_H
+
+#include "vox.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- locators --------------------------------------------------------------------------------- */
+
+/* The meshes of a grid at one moment. */
+typedef struct vox_locator vox_locator;
+
+/* Takes a locator of the grid as it is now, and releases the one that *locator held before, if any. The caller owns
+ * *locator and releases it with vox_locator_release. The first call after a mesh was inserted or edited takes longer.
+ * If the call fails, *locator stays as it is.
+ * A locator uses the grid's memory, within its byte budget: about 36 bytes a vertex and 28 a tetrahedron, and 12 a
+ * tetrahedron that all locators of a grid share. The memory of released locators is used again, so that a program that
+ * takes one in every frame soon allocates nothing; vox_grid_clear and vox_grid_destroy return it. If a locator outlives
+ * its grid, its last release returns its memory, on the thread that calls.
+ * Errors: INVALID_STATE (a mesh without positions), NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles under
+ * VOX_FORMAT_FLOAT, see vox_mesh_insert; a defective task system), BUDGET, OUT_OF_MEMORY. */
+VOX_API vox_result vox_grid_update_locator(vox_grid* grid, vox_locator** locator);
+
+/* Adds an owner, who has to release the locator as well: so one thread can still ask it while another takes the next
+ * one. The caller must be sure that nobody releases the last owner meanwhile. */
+VOX_API vox_result vox_locator_retain(vox_locator* locator);
+
+/* Removes an owner. The locator ends with its last owner. Null does nothing. */
+VOX_API void vox_locator_release(VOX_OPTIONAL vox_locator* locator);
+
+/* Gets vox_grid_info.epoch of the moment when the locator was taken. */
+VOX_API vox_result vox_locator_get_epoch(const vox_locator* locator, uint64_t* out_epoch);
+
+/* Gets the user_data of a body, even if it was removed since. Errors: INVALID_HANDLE (the locator does not have it). */
+VOX_API vox_result vox_locator_get_user_data(const vox_locator* locator, vox_body body, uint64_t* out_user_data);
+
+/* ---- which bodies answer ---------------------------------------------------------------------- */
+
+typedef enum vox_query_flags {
+    VOX_QUERY_FIRST_HIT = 1 /* vox_locator_find_ray_hits: report only the first hit of each ray */
+} vox_query_flags;
+
+/* Which bodies answer, and how far to look. All fields are 0 by default: all bodies, at any distance. */
+typedef struct vox_query_desc {
+    uint32_t struct_size;
+    uint32_t flags;      /* vox_query_flags, combined with | */
+    uint64_t mask;       /* only bodies whose category had a bit in common with it; 0: all */
+    vox_body excluded;   /* not this body, e.g. the one that asks; an id that the locator does not have excludes none */
+    uint32_t reserved;   /* 0 */
+    double max_distance; /* vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance */
+} vox_query_desc;
+
+static inline vox_query_desc vox_default_query_desc(void) {
+    vox_query_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
+    return desc;
+}
+
+/* ---- points ----------------------------------------------------------------------------------- */
+
+/* A tetrahedron that contains a point. */
+typedef struct vox_point_hit {
+    uint32_t point; /* index of the point */
+    vox_body body;
+    uint32_t tet;
+    uint32_t reserved; /* 0 */
+    double weights[4]; /* of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one */
+} vox_point_hit;
+
+/* Finds the tetrahedra that contain points, by the rule of vox_contact: every tetrahedron of a body that has the point
+ * in its interior or, if there is none, the lowest that has it on its boundary. Sorted by (point, body, tet). Many
+ * points in one call are found several times as fast as one by one, whatever their order. */
+VOX_API vox_result vox_locator_find_point_hits(const vox_locator* locator, const vox_positions* points,
+                                               VOX_OPTIONAL const vox_query_desc* desc, vox_point_hit* hits,
+                                               uint64_t capacity, uint64_t* out_count);
+
+/* A point of a surface. The surface of a mesh consists of the facets of exactly one of its tetrahedra. Facet k is
+ * opposite corner k. The corners of facets are
+ *     facet 0: corners 1, 2, 3    1: 0, 3, 2    2: 0, 1, 3    3: 0, 2, 1
+ * of the tetrahedron, counter-clockwise as seen from outside if its volume is positive. */
+typedef struct vox_closest_hit {
+    vox_body body;      /* VOX_NULL_BODY: no surface is within max_distance; all other fields but `inside` are 0 */
+    uint32_t tet;
+    uint32_t facet;
+    uint32_t inside;    /* how many bodies contain the point; exact */
+    uint32_t face[3];   /* the vertices of the facet, in the order of its corners */
+    uint32_t reserved;  /* 0 */
+    double weights[3];  /* of these vertices, for the closest point, in [0, 1] */
+    double position[3]; /* of the closest point */
+    /* A unit vector out of the facet's tetrahedron or, if that is flat, to the side away from the point. If the facet
+     * has no area, it points from the point to `position`, or is 0, 0, 1 if both coincide. */
+    double normal[3];
+    double distance;    /* from the point to `position`; negative if the body contains the point, which is exact */
+} vox_closest_hit;
+
+/* Finds the closest point of all surfaces: out_hits[i] is for point i. If several are equally close, it is the one with
+ * the lowest (body, tet, facet). Points that are close together should follow each other: each search begins at the
+ * facet found before. Errors: also INVALID_ARGUMENT (a negative or NaN max_distance). */
+VOX_API vox_result vox_locator_find_closest(const vox_locator* locator, const vox_positions* points,
+                                            VOX_OPTIONAL const vox_query_desc* desc, vox_closest_hit* out_hits);
+
+/* ---- boxes ------------------------------------------------------------------------------------ */
+
+/* A tetrahedron whose bounding box meets a box. */
+typedef struct vox_box_hit {
+    uint32_t box; /* index of the box */
+    vox_body body;
+    uint32_t tet;
+} vox_box_hit;
+
+/* Finds the tetrahedra whose bounding box has a point in common with the closed box from min[i] to max[i], decided
+ * exactly and sorted by (box, body, tet). They include all tetrahedra that meet the box themselves, and those of zero
+ * volume. Corners may be infinite. Errors: INVALID_ARGUMENT (arrays of different lengths; a min that is not <= its
+ * max). */
+VOX_API vox_result vox_locator_find_box_hits(const vox_locator* locator, const vox_positions* min,
+                                             const vox_positions* max, VOX_OPTIONAL const vox_query_desc* desc,
+                                             vox_box_hit* hits, uint64_t capacity, uint64_t* out_count);
+
+/* ---- rays ------------------------------------------------------------------------------------- */
+
+/* Ray i is the closed segment from from[i], where t is 0, to to[i], where t is 1. Both arrays have the same length. */
+
+typedef enum vox_side {
+    VOX_SIDE_NONE = 0,   /* the facet's tetrahedron has no volume */
+    VOX_SIDE_ENTERS = 1, /* the ray goes into the tetrahedron */
+    VOX_SIDE_LEAVES = 2
+} vox_side;
+
+/* A facet of a surface that a ray meets; see vox_closest_hit. */
+typedef struct vox_ray_hit {
+    uint32_t ray; /* index of the ray */
+    vox_body body;
+    uint32_t tet;
+    uint32_t facet;
+    vox_side side;
+    uint32_t face[3]; /* the vertices of the facet, in the order of its corners */
+    double t;
+    double weights[3]; /* of these vertices, in [0, 1] */
+} vox_ray_hit;
+
+/* Finds the facets of surfaces that rays meet, sorted by (ray, t, body, tet, facet). Which facets a ray meets is exact;
+ * t, and so the order, is rounded. A ray through an edge or a vertex meets all facets there. A ray in the plane of a
+ * facet does not meet it. */
+VOX_API vox_result vox_locator_find_ray_hits(const vox_locator* locator, const vox_positions* from,
+                                             const vox_positions* to, VOX_OPTIONAL const vox_query_desc* desc,
+                                             vox_ray_hit* hits, uint64_t capacity, uint64_t* out_count);
+
+/* Tests whether each ray meets a tetrahedron that has a volume: out_blocked[i] is 1 or 0, which is exact. The search
+ * for a ray ends at the first such tetrahedron. from[i] = to[i] tests a point. */
+VOX_API vox_result vox_locator_test_rays(const vox_locator* locator, const vox_positions* from, const vox_positions* to,
+                                         VOX_OPTIONAL const vox_query_desc* desc, uint8_t* out_blocked);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
