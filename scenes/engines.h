@@ -2,7 +2,7 @@
 #ifndef VOX_SCENES_ENGINES_H
 #define VOX_SCENES_ENGINES_H
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 typedef enum engine_kind { ENGINE_REFERENCE = 0, ENGINE_FAST = 1 } engine_kind;
 

@@ -1,7 +1,7 @@
 // Draws a curve of costs: the cost over the cell size, the zone, and the sizes that other rules choose.
 #pragma once
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <span>
 #include <string>

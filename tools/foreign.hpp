@@ -5,7 +5,7 @@
 #include "body.hpp"
 #include "command_line.hpp"
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <cstdint>
 #include <optional>

@@ -4,7 +4,7 @@
 #include "body.hpp"
 #include "command_line.hpp"
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <cstdint>
 

@@ -17,7 +17,7 @@
 #include "scenes/engines.h"
 #include "timing.h"
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <CLI/CLI.hpp>
 

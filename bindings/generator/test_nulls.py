@@ -1,5 +1,5 @@
 """Null pointers are refused where bindings/api.json says so, with the name of the parameter, and only there: what it says
-of them was not guessed. usage: test_nulls.py NAME=LIBRARY... for each header, in the order vox, vox_query, vox_pairs,
+of them was not guessed. usage: test_nulls.py NAME=LIBRARY... for each header, in the order vox, vox_query, vox_cell_size, vox_pairs,
 vox_io, vox_sim."""
 
 import ctypes

@@ -5,7 +5,7 @@ import json
 from names import GENERATED, camel, pascal, short_values, whole_structs, wrapped
 from names import sections as all_sections
 
-HEADERS = ("vox", "vox_query")  # of what the WebAssembly module holds
+HEADERS = ("vox", "vox_query", "vox_cell_size")  # of what the WebAssembly module holds
 NUMBERS = {"uint8_t": "u8", "char": "char", "int32_t": "i32", "uint32_t": "u32", "int64_t": "i64", "uint64_t": "u64",
            "float": "f32", "double": "f64", "size_t": "u32"}
 

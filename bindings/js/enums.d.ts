@@ -156,6 +156,21 @@ export declare const LogLevel: Readonly<{
 }>;
 export type LogLevel = (typeof LogLevel)[keyof typeof LogLevel];
 
+export declare const QueryFlags: Readonly<{
+  /** vox_locator_find_ray_hits: report only the first hit of each ray */
+  FIRST_HIT: 1;
+}>;
+export type QueryFlags = number;
+
+export declare const Side: Readonly<{
+  /** the facet's tetrahedron has no volume */
+  NONE: 0;
+  /** the ray goes into the tetrahedron */
+  ENTERS: 1;
+  LEAVES: 2;
+}>;
+export type Side = (typeof Side)[keyof typeof Side];
+
 export declare const ReferenceFlags: Readonly<{
   /** store a list for every cell of a box (linear id k*nx*ny + j*nx + i), instead of hashing cells into a table */
   DENSE: 1;
@@ -308,21 +323,6 @@ export declare const ForeignRule: Readonly<{
   RADIUS: 5;
 }>;
 export type ForeignRule = (typeof ForeignRule)[keyof typeof ForeignRule];
-
-export declare const QueryFlags: Readonly<{
-  /** vox_locator_find_ray_hits: report only the first hit of each ray */
-  FIRST_HIT: 1;
-}>;
-export type QueryFlags = number;
-
-export declare const Side: Readonly<{
-  /** the facet's tetrahedron has no volume */
-  NONE: 0;
-  /** the ray goes into the tetrahedron */
-  ENTERS: 1;
-  LEAVES: 2;
-}>;
-export type Side = (typeof Side)[keyof typeof Side];
 
 /**
  * Version of the stable interface. A program runs with every library that has the ABI version it was built with. It is

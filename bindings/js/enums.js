@@ -90,6 +90,16 @@ export const LogLevel = Object.freeze({
   WARNING: 1,
 });
 
+export const QueryFlags = Object.freeze({
+  FIRST_HIT: 1,
+});
+
+export const Side = Object.freeze({
+  NONE: 0,
+  ENTERS: 1,
+  LEAVES: 2,
+});
+
 export const ReferenceFlags = Object.freeze({
   DENSE: 1,
   PAPER_HASH: 2,
@@ -169,14 +179,4 @@ export const ForeignRule = Object.freeze({
   MEDIAN_BOX_SIDE: 3,
   SPACING: 4,
   RADIUS: 5,
-});
-
-export const QueryFlags = Object.freeze({
-  FIRST_HIT: 1,
-});
-
-export const Side = Object.freeze({
-  NONE: 0,
-  ENTERS: 1,
-  LEAVES: 2,
 });

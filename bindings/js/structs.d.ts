@@ -602,6 +602,118 @@ export interface Profile {
   marginNs: number;
 }
 
+/** Which bodies answer, and how far to look. All fields are 0 by default: all bodies, at any distance. */
+export interface QueryDesc {
+  /** vox_query_flags, combined with | */
+  flags: number;
+  /** only bodies whose category had a bit in common with it; 0: all */
+  mask: bigint;
+  /** not this body, e.g. the one that asks; an id that the locator does not have excludes none */
+  excluded: number;
+  /** vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance */
+  maxDistance: number;
+}
+
+/** A tetrahedron that contains a point. */
+export interface PointHit {
+  /** index of the point */
+  point: number;
+  body: number;
+  tet: number;
+  /** of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one */
+  weights: [number, number, number, number];
+}
+
+/** Columns of PointHit: of an array field, its elements one after the other. */
+export interface PointHitColumns {
+  readonly point: Uint32Array;
+  readonly body: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly weights: Float64Array;
+}
+
+/**
+ * A point of a surface. The surface of a mesh consists of the facets of exactly one of its tetrahedra. Facet k is
+ * opposite corner k. The corners of facets are facet 0: corners 1, 2, 3 1: 0, 3, 2 2: 0, 1, 3 3: 0, 2, 1 of the
+ * tetrahedron, counter-clockwise as seen from outside if its volume is positive.
+ */
+export interface ClosestHit {
+  /** VOX_NULL_BODY: no surface is within max_distance; all other fields but `inside` are 0 */
+  body: number;
+  tet: number;
+  facet: number;
+  /** how many bodies contain the point; exact */
+  inside: number;
+  /** the vertices of the facet, in the order of its corners */
+  face: [number, number, number];
+  /** of these vertices, for the closest point, in [0, 1] */
+  weights: [number, number, number];
+  /** of the closest point */
+  position: [number, number, number];
+  /**
+   * A unit vector out of the facet's tetrahedron or, if that is flat, to the side away from the point. If the facet has
+   * no area, it points from the point to `position`, or is 0, 0, 1 if both coincide.
+   */
+  normal: [number, number, number];
+  /** from the point to `position`; negative if the body contains the point, which is exact */
+  distance: number;
+}
+
+/** Columns of ClosestHit: of an array field, its elements one after the other. */
+export interface ClosestHitColumns {
+  readonly body: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly facet: Uint32Array;
+  readonly inside: Uint32Array;
+  readonly face: Uint32Array;
+  readonly weights: Float64Array;
+  readonly position: Float64Array;
+  readonly normal: Float64Array;
+  readonly distance: Float64Array;
+}
+
+/** A tetrahedron whose bounding box meets a box. */
+export interface BoxHit {
+  /** index of the box */
+  box: number;
+  body: number;
+  tet: number;
+}
+
+/** Columns of BoxHit: of an array field, its elements one after the other. */
+export interface BoxHitColumns {
+  readonly box: Uint32Array;
+  readonly body: Uint32Array;
+  readonly tet: Uint32Array;
+}
+
+/** A facet of a surface that a ray meets; see vox_closest_hit. */
+export interface RayHit {
+  /** index of the ray */
+  ray: number;
+  body: number;
+  tet: number;
+  facet: number;
+  side: Side;
+  /** the vertices of the facet, in the order of its corners */
+  face: [number, number, number];
+  t: number;
+  /** of these vertices, in [0, 1] */
+  weights: [number, number, number];
+}
+
+/** Columns of RayHit: of an array field, its elements one after the other. */
+export interface RayHitColumns {
+  readonly ray: Uint32Array;
+  readonly body: Uint32Array;
+  readonly tet: Uint32Array;
+  readonly facet: Uint32Array;
+  readonly side: Int32Array;
+  readonly face: Uint32Array;
+  readonly t: Float64Array;
+  readonly weights: Float64Array;
+}
+
 /**
  * The paper's engine (Sect. 3), for vox_grid_desc.reference. It is serial and finds what the fast engine finds. If the
  * grid's cell_size is 0, it chooses by its cost model, at the first step, and again when the counts of its steps show
@@ -1037,116 +1149,4 @@ export interface Tuning {
   /** in seconds */
   curve: CostSample[];
   note: string;
-}
-
-/** Which bodies answer, and how far to look. All fields are 0 by default: all bodies, at any distance. */
-export interface QueryDesc {
-  /** vox_query_flags, combined with | */
-  flags: number;
-  /** only bodies whose category had a bit in common with it; 0: all */
-  mask: bigint;
-  /** not this body, e.g. the one that asks; an id that the locator does not have excludes none */
-  excluded: number;
-  /** vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance */
-  maxDistance: number;
-}
-
-/** A tetrahedron that contains a point. */
-export interface PointHit {
-  /** index of the point */
-  point: number;
-  body: number;
-  tet: number;
-  /** of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one */
-  weights: [number, number, number, number];
-}
-
-/** Columns of PointHit: of an array field, its elements one after the other. */
-export interface PointHitColumns {
-  readonly point: Uint32Array;
-  readonly body: Uint32Array;
-  readonly tet: Uint32Array;
-  readonly weights: Float64Array;
-}
-
-/**
- * A point of a surface. The surface of a mesh consists of the facets of exactly one of its tetrahedra. Facet k is
- * opposite corner k. The corners of facets are facet 0: corners 1, 2, 3 1: 0, 3, 2 2: 0, 1, 3 3: 0, 2, 1 of the
- * tetrahedron, counter-clockwise as seen from outside if its volume is positive.
- */
-export interface ClosestHit {
-  /** VOX_NULL_BODY: no surface is within max_distance; all other fields but `inside` are 0 */
-  body: number;
-  tet: number;
-  facet: number;
-  /** how many bodies contain the point; exact */
-  inside: number;
-  /** the vertices of the facet, in the order of its corners */
-  face: [number, number, number];
-  /** of these vertices, for the closest point, in [0, 1] */
-  weights: [number, number, number];
-  /** of the closest point */
-  position: [number, number, number];
-  /**
-   * A unit vector out of the facet's tetrahedron or, if that is flat, to the side away from the point. If the facet has
-   * no area, it points from the point to `position`, or is 0, 0, 1 if both coincide.
-   */
-  normal: [number, number, number];
-  /** from the point to `position`; negative if the body contains the point, which is exact */
-  distance: number;
-}
-
-/** Columns of ClosestHit: of an array field, its elements one after the other. */
-export interface ClosestHitColumns {
-  readonly body: Uint32Array;
-  readonly tet: Uint32Array;
-  readonly facet: Uint32Array;
-  readonly inside: Uint32Array;
-  readonly face: Uint32Array;
-  readonly weights: Float64Array;
-  readonly position: Float64Array;
-  readonly normal: Float64Array;
-  readonly distance: Float64Array;
-}
-
-/** A tetrahedron whose bounding box meets a box. */
-export interface BoxHit {
-  /** index of the box */
-  box: number;
-  body: number;
-  tet: number;
-}
-
-/** Columns of BoxHit: of an array field, its elements one after the other. */
-export interface BoxHitColumns {
-  readonly box: Uint32Array;
-  readonly body: Uint32Array;
-  readonly tet: Uint32Array;
-}
-
-/** A facet of a surface that a ray meets; see vox_closest_hit. */
-export interface RayHit {
-  /** index of the ray */
-  ray: number;
-  body: number;
-  tet: number;
-  facet: number;
-  side: Side;
-  /** the vertices of the facet, in the order of its corners */
-  face: [number, number, number];
-  t: number;
-  /** of these vertices, in [0, 1] */
-  weights: [number, number, number];
-}
-
-/** Columns of RayHit: of an array field, its elements one after the other. */
-export interface RayHitColumns {
-  readonly ray: Uint32Array;
-  readonly body: Uint32Array;
-  readonly tet: Uint32Array;
-  readonly facet: Uint32Array;
-  readonly side: Int32Array;
-  readonly face: Uint32Array;
-  readonly t: Float64Array;
-  readonly weights: Float64Array;
 }

@@ -3,6 +3,7 @@
  * usage: write_vectors FOLDER */
 #include "scenes/scenes.h"
 
+#include <vox/vox_cell_size.h>
 #include <vox/vox_query.h>
 
 #include <errno.h>

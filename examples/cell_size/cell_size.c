@@ -1,6 +1,8 @@
 /* Cell size: the best one for some meshes, before there is a grid, and what other rules would have taken. */
 #include "example.h"
 
+#include <vox/vox_cell_size.h>
+
 int main(void) {
     const cube cubes[2] = {cube_at(0, 0, 0), cube_at(0.5f, 0.5f, 0.5f)};
     const vox_mesh_desc meshes[2] = {cube_desc(&cubes[0]), cube_desc(&cubes[1])};

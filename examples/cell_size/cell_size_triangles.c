@@ -15,6 +15,8 @@
  * the cost is a table of powers of d, and needs no code at all. */
 #include "example.h"
 
+#include <vox/vox_cell_size.h>
+
 int main(void) {
     const double side = 0.02, area = 0.00017; /* of a triangle: metres, square metres */
     const double occupied = 0.3;              /* part of the voxels there that hold surface */

@@ -18,6 +18,8 @@
  * vox_cost_minimise, and checked with counters and a clock. */
 #include "example.h"
 
+#include <vox/vox_cell_size.h>
+
 #include <time.h>
 
 enum { side = 24, count = side * side * side, most_cells = 400000 };

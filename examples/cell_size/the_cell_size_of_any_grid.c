@@ -1,7 +1,7 @@
 /* The best cell size of a grid that is not vox's, in three ways: from what it holds, from three timings, and
  * by running it. The grid puts boxes into all cells that they meet; then each box looks at its cells for
  * others that it overlaps. */
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <math.h>
 #include <stdio.h>

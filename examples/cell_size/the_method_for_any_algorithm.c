@@ -2,6 +2,8 @@
  * among particles: visiting a cell costs 1, and so does looking at five particles. */
 #include "example.h"
 
+#include <vox/vox_cell_size.h>
+
 /* Of a search within radius 1 among 64 particles a unit of volume, with cells of edge `cell_size`. */
 static double cost(double cell_size, void* user) {
     const double per_particle = *(const double*)user;

@@ -1,7 +1,7 @@
 // ../grid/first_contact.c in C++: two bodies of one tetrahedron each; vertex 3 of the first lies inside the
 // second.
 #include <cstdio>
-#include <vox/vox.hpp>
+#include <vox/vox_cell_size.hpp>
 
 int main() try {
     const std::vector<std::uint32_t> tet = {0, 1, 2, 3};

@@ -1,6 +1,6 @@
 /* Two bodies, their contact by the names that the program gave them, and the cell size for them. */
 #include <stdio.h>
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 static int failed(void) { return fprintf(stderr, "%s\n", vox_last_error()), 1; }
 

@@ -1,6 +1,8 @@
 /* Grid: engines and cell sizes change how contacts are found, never which. */
 #include "example.h"
 
+#include <vox/vox_cell_size.h>
+
 int main(void) {
     static const char* const names[] = {"reference", "fast"};
     static const double cell_sizes[] = {0, 0.1, 10};

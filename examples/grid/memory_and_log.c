@@ -1,6 +1,8 @@
 /* Memory and log: a grid that lives in memory of one's own, under a budget, and logs what it does. */
 #include "example.h"
 
+#include <vox/vox_cell_size.h>
+
 typedef struct arena {
     uint64_t bytes, calls;
 } arena;

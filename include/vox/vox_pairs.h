@@ -20,7 +20,7 @@
 #ifndef VOX_VOX_PAIRS_H
 #define VOX_VOX_PAIRS_H
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #ifdef __cplusplus
 extern "C" {

@@ -27,7 +27,7 @@
 #ifndef VOX_VOX_QUERY_H
 #define VOX_VOX_QUERY_H
 
-#include "vox.h"
+#include <vox/vox.h>
 
 #ifdef __cplusplus
 extern "C" {

@@ -3,7 +3,7 @@
 #ifndef VOX_VOX_SIM_HPP
 #define VOX_VOX_SIM_HPP
 
-#include <vox/vox.hpp>
+#include <vox/vox_cell_size.hpp>
 #include <vox/vox_sim.h>
 
 namespace vox {

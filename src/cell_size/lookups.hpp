@@ -13,7 +13,7 @@
 #include "cell_size/branch_misses.hpp"
 #include "fast/window.hpp"
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <algorithm>
 #include <array>

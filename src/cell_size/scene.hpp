@@ -9,7 +9,7 @@
 #include "mesh/mesh.hpp"
 #include "mesh/tiles.hpp"
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <cstdint>
 #include <memory_resource>

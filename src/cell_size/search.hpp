@@ -4,7 +4,7 @@
 
 #include "base/array.hpp"
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <array>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "cell_size/scene.hpp"
 #include "cell_size/search.hpp"
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <cstdint>
 #include <functional>

@@ -1,7 +1,7 @@
 // What a unit of each piece of work costs: the weights of the cost models, one set for the whole process.
 #pragma once
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 namespace vox {
 

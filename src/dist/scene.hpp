@@ -5,6 +5,8 @@
 #include "dist/part.hpp"
 #include "dist/transport.hpp"
 
+#include <vox/vox_cell_size.h>
+
 #include <memory>
 
 namespace vox::dist {

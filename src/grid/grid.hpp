@@ -21,7 +21,7 @@
 #include "query/locator.hpp"
 #include "reference/engine.hpp"
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <memory_resource>
 #include <optional>

@@ -8,7 +8,7 @@
 #include "reference/cell_lists.hpp"
 #include "reference/levels.hpp"
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <array>
 #include <memory_resource>

@@ -5,7 +5,7 @@
 #include "cell_size/scene.hpp"
 #include "surface/feature_tiles.hpp"
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <memory_resource>
 

@@ -13,11 +13,12 @@ import header  # noqa: E402
 sys.path.append(os.path.join(ROOT, "tests", "layout"))
 import plain_words  # noqa: E402
 INCLUDE = os.path.join(ROOT, "include", "vox")
-HEADERS = ["vox.h", "vox_query.h", "vox_pairs.h", "vox_io.h", "vox_sim.h", "vox_dist.h"]
+HEADERS = ["vox.h", "vox_query.h", "vox_cell_size.h", "vox_pairs.h", "vox_io.h", "vox_sim.h", "vox_dist.h"]
 
 # Functions, structs and fields of each header, which are not to grow unseen: a new function has two users outside of tests.
-BUDGETS = {"vox.h": (82, 57, 460), "vox_query.h": (10, 5, 32), "vox_pairs.h": (13, 13, 83), "vox_io.h": (19, 9, 75), "vox_sim.h": (21, 9, 104),
-           "vox_dist.h": (13, 8, 49)}
+BUDGETS = {"vox.h": (68, 35, 262), "vox_query.h": (10, 5, 32), "vox_cell_size.h": (14, 22, 198), "vox_pairs.h": (13, 13, 83),
+           "vox_io.h": (19, 9, 75), "vox_sim.h": (21, 9, 104), "vox_dist.h": (13, 8, 49)}
+LIBRARIES = {name[:-2] for name in BUDGETS} | {"vox_mpi"}
 
 # Everything that a foreign-function interface can carry.
 NUMBERS = {"uint8_t", "int32_t", "uint32_t", "int64_t", "uint64_t", "size_t", "float", "double", "char", "void"}
@@ -89,7 +90,7 @@ class Rules:
         """What a comment names and no header declares; codes that are none, after the word Errors."""
         for name in re.findall(r"\b(?:vox|VOX)_\w+", comment):
             # `vox_` and a library's own name, and the patterns of the conventions, are no names.
-            if name not in self.names and name not in ("vox_query", "vox_pairs", "vox_io", "vox_sim", "vox_dist", "vox_mpi", "vox_default_X"):
+            if name not in self.names and name not in LIBRARIES | {"vox_default_X"}:
                 yield f"there is no {name}"
         for name, field in re.findall(r"\b(vox_\w+)\.([a-z]\w*)", comment):
             struct = self.types.get(name)
@@ -258,7 +259,7 @@ class Pages(unittest.TestCase):
     def test_names_exist(self):
         for page in ("limits.md", "abi.md"):
             for name in re.findall(r"\b(?:vox|VOX)_\w+", text_of("docs", page)):
-                self.assertTrue(name in NAMES or name in ("vox_query", "vox_pairs", "vox_io", "vox_sim", "vox_dist", "vox_mpi"), f"docs/{page}: {name}")
+                self.assertTrue(name in NAMES or name in LIBRARIES, f"docs/{page}: {name}")
 
     def test_every_limit_is_listed_with_its_number(self):
         page = text_of("docs", "limits.md")

@@ -3,6 +3,7 @@
 // unchecked as C++17.
 #include <Eigen/Geometry>
 
+#include <vox/vox_cell_size.hpp>
 #include <vox/vox_query.hpp>
 
 #include "cpp/scene.hpp"
@@ -1150,14 +1151,15 @@ START_TEST(cell_sizes_equal_those_of_c) {
     ck_assert_uint_eq(vox::curve(suggestion).size(), expected.curve_count);
     ck_assert_uint_eq(vox::terms(suggestion).size(), expected.term_count);
     ck_ok(vox_grid_suggest_cell_size(with.grid.get(), nullptr, &expected));
-    ck_assert_double_eq(with.grid.suggest_cell_size().cell_size, expected.cell_size);
-    ck_assert_int_eq(with.grid.suggest_cell_size().model, VOX_COST_MODEL_FAST);
+    ck_assert_double_eq(vox::suggest_cell_size(with.grid).cell_size, expected.cell_size);
+    ck_assert_int_eq(vox::suggest_cell_size(with.grid).model, VOX_COST_MODEL_FAST);
     desc.model = VOX_COST_MODEL_REFERENCE;
-    ck_assert_int_eq(with.grid.suggest_cell_size(desc).model, VOX_COST_MODEL_REFERENCE);
+    ck_assert_int_eq(vox::suggest_cell_size(with.grid, desc).model, VOX_COST_MODEL_REFERENCE);
     vox_cost_prediction prediction = sized_struct<vox_cost_prediction>();
     ck_ok(vox_cost_predict(&desc, meshes.data(), 2, 0.3, &prediction));
     ck_assert_double_eq(vox::predict_cost(meshes, 0.3, desc).cost, prediction.cost);
-    throws([&] { (void)vox::suggest_cell_size({}); }, VOX_ERROR_INVALID_ARGUMENT, "");
+    throws([&] { (void)vox::suggest_cell_size(vox::span<const vox_mesh_desc>()); },
+           VOX_ERROR_INVALID_ARGUMENT, "");
 
     const vox_cost_weights shipped = vox::cost_weights();
     vox_cost_weights weights = shipped;

@@ -1,6 +1,6 @@
 // vox.hpp without exceptions and without type information: every call returns a value or an error.
 #define VOX_HPP_CHECKED 1
-#include <vox/vox.hpp>
+#include <vox/vox_cell_size.hpp>
 
 #include "cpp/scene.hpp"
 

@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include "bytes.h"
 

@@ -7,7 +7,7 @@
 #include "internal/random.hpp"
 #include "support/suite.h"
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <algorithm>
 #include <bit>

@@ -8,7 +8,7 @@
 #include "support/failing_heap.hpp"
 #include "support/suite.h"
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <algorithm>
 #include <array>

@@ -8,7 +8,7 @@
 #ifndef VOX_WEB_PLAYGROUND_H
 #define VOX_WEB_PLAYGROUND_H
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #ifdef __cplusplus
 extern "C" {

@@ -5,7 +5,7 @@ using System.Runtime.InteropServices;
 
 namespace Voxtet
 {
-    // Names and layouts are those of vox.h, vox_query.h, vox_pairs.h, vox_io.h and vox_sim.h.
+    // Names and layouts are those of vox.h, vox_query.h, vox_cell_size.h, vox_pairs.h, vox_io.h and vox_sim.h.
 
     public enum Result : int
     {
@@ -141,6 +141,22 @@ namespace Voxtet
     {
         Info = 0,
         Warning = 1,
+    }
+
+    [Flags]
+    public enum QueryFlags : uint
+    {
+        /// <summary>vox_locator_find_ray_hits: report only the first hit of each ray</summary>
+        FirstHit = 1,
+    }
+
+    public enum Side : int
+    {
+        /// <summary>the facet's tetrahedron has no volume</summary>
+        None = 0,
+        /// <summary>the ray goes into the tetrahedron</summary>
+        Enters = 1,
+        Leaves = 2,
     }
 
     [Flags]
@@ -289,22 +305,6 @@ namespace Voxtet
         MedianBoxSide = 3,
         Spacing = 4,
         Radius = 5,
-    }
-
-    [Flags]
-    public enum QueryFlags : uint
-    {
-        /// <summary>vox_locator_find_ray_hits: report only the first hit of each ray</summary>
-        FirstHit = 1,
-    }
-
-    public enum Side : int
-    {
-        /// <summary>the facet's tetrahedron has no volume</summary>
-        None = 0,
-        /// <summary>the ray goes into the tetrahedron</summary>
-        Enters = 1,
-        Leaves = 2,
     }
 
     /// <summary>What a surface consists of.</summary>
@@ -471,6 +471,19 @@ namespace Voxtet
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Double4
+    {
+        public double x, y, z, w;
+        public const int Length = 4;
+        public double this[int i]
+        {
+            get { Check(i); fixed (double* p = &x) return p[i]; }
+            set { Check(i); fixed (double* p = &x) p[i] = value; }
+        }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Byte24
     {
         public byte e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11, e12, e13, e14, e15, e16, e17, e18, e19, e20, e21,
@@ -518,19 +531,6 @@ namespace Voxtet
         {
             get { Check(i); fixed (CostShare* p = &e0) return p[i]; }
             set { Check(i); fixed (CostShare* p = &e0) p[i] = value; }
-        }
-        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct Double4
-    {
-        public double x, y, z, w;
-        public const int Length = 4;
-        public double this[int i]
-        {
-            get { Check(i); fixed (double* p = &x) return p[i]; }
-            set { Check(i); fixed (double* p = &x) p[i] = value; }
         }
         static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
@@ -1244,6 +1244,89 @@ namespace Voxtet
         public ulong margin_ns;
     }
 
+    /// <summary>Which bodies answer, and how far to look.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 32)]
+    public struct QueryDesc
+    {
+        public uint struct_size;
+        /// <summary>vox_query_flags, combined with |</summary>
+        public QueryFlags flags;
+        /// <summary>only bodies whose category had a bit in common with it; 0: all</summary>
+        public ulong mask;
+        /// <summary>not this body, e.g. the one that asks; an id that the locator does not have excludes none</summary>
+        public uint excluded;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance</summary>
+        public double max_distance;
+    }
+
+    /// <summary>A tetrahedron that contains a point.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 48)]
+    public struct PointHit
+    {
+        /// <summary>index of the point</summary>
+        public uint point;
+        public uint body;
+        public uint tet;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one</summary>
+        public Double4 weights;
+    }
+
+    /// <summary>A point of a surface.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 112)]
+    public struct ClosestHit
+    {
+        /// <summary>VOX_NULL_BODY: no surface is within max_distance; all other fields but `inside` are 0</summary>
+        public uint body;
+        public uint tet;
+        public uint facet;
+        /// <summary>how many bodies contain the point; exact</summary>
+        public uint inside;
+        /// <summary>the vertices of the facet, in the order of its corners</summary>
+        public Uint3 face;
+        /// <summary>0</summary>
+        public uint reserved;
+        /// <summary>of these vertices, for the closest point, in [0, 1]</summary>
+        public Double3 weights;
+        /// <summary>of the closest point</summary>
+        public Double3 position;
+        /// <summary>A unit vector out of the facet's tetrahedron or, if that is flat, to the side away from the
+        /// point.</summary>
+        public Double3 normal;
+        /// <summary>from the point to `position`; negative if the body contains the point, which is exact</summary>
+        public double distance;
+    }
+
+    /// <summary>A tetrahedron whose bounding box meets a box.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 12)]
+    public struct BoxHit
+    {
+        /// <summary>index of the box</summary>
+        public uint box;
+        public uint body;
+        public uint tet;
+    }
+
+    /// <summary>A facet of a surface that a ray meets; see vox_closest_hit.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 64)]
+    public struct RayHit
+    {
+        /// <summary>index of the ray</summary>
+        public uint ray;
+        public uint body;
+        public uint tet;
+        public uint facet;
+        public Side side;
+        /// <summary>the vertices of the facet, in the order of its corners</summary>
+        public Uint3 face;
+        public double t;
+        /// <summary>of these vertices, in [0, 1]</summary>
+        public Double3 weights;
+    }
+
     /// <summary>The paper's engine (Sect. 3), for vox_grid_desc.reference.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 64)]
     public struct ReferenceDesc
@@ -1694,89 +1777,6 @@ namespace Voxtet
         /// <summary>in seconds</summary>
         public CostSample64 curve;
         public Byte256 note;
-    }
-
-    /// <summary>Which bodies answer, and how far to look.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 32)]
-    public struct QueryDesc
-    {
-        public uint struct_size;
-        /// <summary>vox_query_flags, combined with |</summary>
-        public QueryFlags flags;
-        /// <summary>only bodies whose category had a bit in common with it; 0: all</summary>
-        public ulong mask;
-        /// <summary>not this body, e.g. the one that asks; an id that the locator does not have excludes none</summary>
-        public uint excluded;
-        /// <summary>0</summary>
-        public uint reserved;
-        /// <summary>vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance</summary>
-        public double max_distance;
-    }
-
-    /// <summary>A tetrahedron that contains a point.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 48)]
-    public struct PointHit
-    {
-        /// <summary>index of the point</summary>
-        public uint point;
-        public uint body;
-        public uint tet;
-        /// <summary>0</summary>
-        public uint reserved;
-        /// <summary>of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one</summary>
-        public Double4 weights;
-    }
-
-    /// <summary>A point of a surface.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 112)]
-    public struct ClosestHit
-    {
-        /// <summary>VOX_NULL_BODY: no surface is within max_distance; all other fields but `inside` are 0</summary>
-        public uint body;
-        public uint tet;
-        public uint facet;
-        /// <summary>how many bodies contain the point; exact</summary>
-        public uint inside;
-        /// <summary>the vertices of the facet, in the order of its corners</summary>
-        public Uint3 face;
-        /// <summary>0</summary>
-        public uint reserved;
-        /// <summary>of these vertices, for the closest point, in [0, 1]</summary>
-        public Double3 weights;
-        /// <summary>of the closest point</summary>
-        public Double3 position;
-        /// <summary>A unit vector out of the facet's tetrahedron or, if that is flat, to the side away from the
-        /// point.</summary>
-        public Double3 normal;
-        /// <summary>from the point to `position`; negative if the body contains the point, which is exact</summary>
-        public double distance;
-    }
-
-    /// <summary>A tetrahedron whose bounding box meets a box.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 12)]
-    public struct BoxHit
-    {
-        /// <summary>index of the box</summary>
-        public uint box;
-        public uint body;
-        public uint tet;
-    }
-
-    /// <summary>A facet of a surface that a ray meets; see vox_closest_hit.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 64)]
-    public struct RayHit
-    {
-        /// <summary>index of the ray</summary>
-        public uint ray;
-        public uint body;
-        public uint tet;
-        public uint facet;
-        public Side side;
-        /// <summary>the vertices of the facet, in the order of its corners</summary>
-        public Uint3 face;
-        public double t;
-        /// <summary>of these vertices, in [0, 1]</summary>
-        public Double3 weights;
     }
 
     /// <summary>What a surface is made of.</summary>
@@ -2819,6 +2819,56 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_profile(IntPtr grid, Profile* out_profile);
 
+        /// <summary>Takes a locator of the grid as it is now, and releases the one that *locator held before, if
+        /// any.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_update_locator(IntPtr grid, IntPtr* locator);
+
+        /// <summary>Adds an owner, who has to release the locator as well: so one thread can still ask it while another
+        /// takes the next one.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_retain(IntPtr locator);
+
+        /// <summary>Removes an owner.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern void vox_locator_release(IntPtr locator);
+
+        /// <summary>Gets vox_grid_info.epoch of the moment when the locator was taken.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_get_epoch(IntPtr locator, ulong* out_epoch);
+
+        /// <summary>Gets the user_data of a body, even if it was removed since.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_get_user_data(IntPtr locator, uint body, ulong* out_user_data);
+
+        /// <summary>Finds the tetrahedra that contain points, by the rule of vox_contact: every tetrahedron of a body
+        /// that has the point in its interior or, if there is none, the lowest that has it on its boundary.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_find_point_hits(IntPtr locator, Positions* points, QueryDesc* desc,
+            PointHit* hits, ulong capacity, ulong* out_count);
+
+        /// <summary>Finds the closest point of all surfaces: out_hits[i] is for point i.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_find_closest(IntPtr locator, Positions* points, QueryDesc* desc,
+            ClosestHit* out_hits);
+
+        /// <summary>Finds the tetrahedra whose bounding box has a point in common with the closed box from min[i] to
+        /// max[i], decided exactly and sorted by (box, body, tet).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_find_box_hits(IntPtr locator, Positions* min, Positions* max,
+            QueryDesc* desc, BoxHit* hits, ulong capacity, ulong* out_count);
+
+        /// <summary>Finds the facets of surfaces that rays meet, sorted by (ray, t, body, tet, facet).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_find_ray_hits(IntPtr locator, Positions* from, Positions* to,
+            QueryDesc* desc, RayHit* hits, ulong capacity, ulong* out_count);
+
+        /// <summary>Tests whether each ray meets a tetrahedron that has a volume: out_blocked[i] is 1 or 0, which is
+        /// exact.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_locator_test_rays(IntPtr locator, Positions* from, Positions* to, QueryDesc*
+            desc, byte* out_blocked);
+
         /// <summary>The cell size that minimises the cost model for these meshes (their positions as they are now).
         /// desc null: defaults.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2890,56 +2940,6 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_cost_tune(ForeignGrid* grid, TuneDesc* desc, IntPtr run, IntPtr user, Tuning*
             @out);
-
-        /// <summary>Takes a locator of the grid as it is now, and releases the one that *locator held before, if
-        /// any.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_update_locator(IntPtr grid, IntPtr* locator);
-
-        /// <summary>Adds an owner, who has to release the locator as well: so one thread can still ask it while another
-        /// takes the next one.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_locator_retain(IntPtr locator);
-
-        /// <summary>Removes an owner.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void vox_locator_release(IntPtr locator);
-
-        /// <summary>Gets vox_grid_info.epoch of the moment when the locator was taken.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_locator_get_epoch(IntPtr locator, ulong* out_epoch);
-
-        /// <summary>Gets the user_data of a body, even if it was removed since.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_locator_get_user_data(IntPtr locator, uint body, ulong* out_user_data);
-
-        /// <summary>Finds the tetrahedra that contain points, by the rule of vox_contact: every tetrahedron of a body
-        /// that has the point in its interior or, if there is none, the lowest that has it on its boundary.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_locator_find_point_hits(IntPtr locator, Positions* points, QueryDesc* desc,
-            PointHit* hits, ulong capacity, ulong* out_count);
-
-        /// <summary>Finds the closest point of all surfaces: out_hits[i] is for point i.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_locator_find_closest(IntPtr locator, Positions* points, QueryDesc* desc,
-            ClosestHit* out_hits);
-
-        /// <summary>Finds the tetrahedra whose bounding box has a point in common with the closed box from min[i] to
-        /// max[i], decided exactly and sorted by (box, body, tet).</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_locator_find_box_hits(IntPtr locator, Positions* min, Positions* max,
-            QueryDesc* desc, BoxHit* hits, ulong capacity, ulong* out_count);
-
-        /// <summary>Finds the facets of surfaces that rays meet, sorted by (ray, t, body, tet, facet).</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_locator_find_ray_hits(IntPtr locator, Positions* from, Positions* to,
-            QueryDesc* desc, RayHit* hits, ulong capacity, ulong* out_count);
-
-        /// <summary>Tests whether each ray meets a tetrahedron that has a volume: out_blocked[i] is 1 or 0, which is
-        /// exact.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_locator_test_rays(IntPtr locator, Positions* from, Positions* to, QueryDesc*
-            desc, byte* out_blocked);
 
         /// <summary>Creates a surface without positions.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3708,6 +3708,73 @@ namespace Voxtet
             entries.Add(Entry("vox_profile.margin_ns", (byte*)&s.margin_ns - begin, 120, 120));
         }
 
+        static void AddQueryDesc(List<LayoutEntry> entries)
+        {
+            QueryDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_query_desc", sizeof(QueryDesc), 32, 32));
+            entries.Add(Entry("vox_query_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_query_desc.flags", (byte*)&s.flags - begin, 4, 4));
+            entries.Add(Entry("vox_query_desc.mask", (byte*)&s.mask - begin, 8, 8));
+            entries.Add(Entry("vox_query_desc.excluded", (byte*)&s.excluded - begin, 16, 16));
+            entries.Add(Entry("vox_query_desc.reserved", (byte*)&s.reserved - begin, 20, 20));
+            entries.Add(Entry("vox_query_desc.max_distance", (byte*)&s.max_distance - begin, 24, 24));
+        }
+
+        static void AddPointHit(List<LayoutEntry> entries)
+        {
+            PointHit s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_point_hit", sizeof(PointHit), 48, 48));
+            entries.Add(Entry("vox_point_hit.point", (byte*)&s.point - begin, 0, 0));
+            entries.Add(Entry("vox_point_hit.body", (byte*)&s.body - begin, 4, 4));
+            entries.Add(Entry("vox_point_hit.tet", (byte*)&s.tet - begin, 8, 8));
+            entries.Add(Entry("vox_point_hit.reserved", (byte*)&s.reserved - begin, 12, 12));
+            entries.Add(Entry("vox_point_hit.weights", (byte*)&s.weights - begin, 16, 16));
+        }
+
+        static void AddClosestHit(List<LayoutEntry> entries)
+        {
+            ClosestHit s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_closest_hit", sizeof(ClosestHit), 112, 112));
+            entries.Add(Entry("vox_closest_hit.body", (byte*)&s.body - begin, 0, 0));
+            entries.Add(Entry("vox_closest_hit.tet", (byte*)&s.tet - begin, 4, 4));
+            entries.Add(Entry("vox_closest_hit.facet", (byte*)&s.facet - begin, 8, 8));
+            entries.Add(Entry("vox_closest_hit.inside", (byte*)&s.inside - begin, 12, 12));
+            entries.Add(Entry("vox_closest_hit.face", (byte*)&s.face - begin, 16, 16));
+            entries.Add(Entry("vox_closest_hit.reserved", (byte*)&s.reserved - begin, 28, 28));
+            entries.Add(Entry("vox_closest_hit.weights", (byte*)&s.weights - begin, 32, 32));
+            entries.Add(Entry("vox_closest_hit.position", (byte*)&s.position - begin, 56, 56));
+            entries.Add(Entry("vox_closest_hit.normal", (byte*)&s.normal - begin, 80, 80));
+            entries.Add(Entry("vox_closest_hit.distance", (byte*)&s.distance - begin, 104, 104));
+        }
+
+        static void AddBoxHit(List<LayoutEntry> entries)
+        {
+            BoxHit s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_box_hit", sizeof(BoxHit), 12, 12));
+            entries.Add(Entry("vox_box_hit.box", (byte*)&s.box - begin, 0, 0));
+            entries.Add(Entry("vox_box_hit.body", (byte*)&s.body - begin, 4, 4));
+            entries.Add(Entry("vox_box_hit.tet", (byte*)&s.tet - begin, 8, 8));
+        }
+
+        static void AddRayHit(List<LayoutEntry> entries)
+        {
+            RayHit s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_ray_hit", sizeof(RayHit), 64, 64));
+            entries.Add(Entry("vox_ray_hit.ray", (byte*)&s.ray - begin, 0, 0));
+            entries.Add(Entry("vox_ray_hit.body", (byte*)&s.body - begin, 4, 4));
+            entries.Add(Entry("vox_ray_hit.tet", (byte*)&s.tet - begin, 8, 8));
+            entries.Add(Entry("vox_ray_hit.facet", (byte*)&s.facet - begin, 12, 12));
+            entries.Add(Entry("vox_ray_hit.side", (byte*)&s.side - begin, 16, 16));
+            entries.Add(Entry("vox_ray_hit.face", (byte*)&s.face - begin, 20, 20));
+            entries.Add(Entry("vox_ray_hit.t", (byte*)&s.t - begin, 32, 32));
+            entries.Add(Entry("vox_ray_hit.weights", (byte*)&s.weights - begin, 40, 40));
+        }
+
         static void AddReferenceDesc(List<LayoutEntry> entries)
         {
             ReferenceDesc s;
@@ -4058,73 +4125,6 @@ namespace Voxtet
             entries.Add(Entry("vox_tuning.curve_count", (byte*)&s.curve_count - begin, 628, 628));
             entries.Add(Entry("vox_tuning.curve", (byte*)&s.curve - begin, 632, 632));
             entries.Add(Entry("vox_tuning.note", (byte*)&s.note - begin, 1656, 1656));
-        }
-
-        static void AddQueryDesc(List<LayoutEntry> entries)
-        {
-            QueryDesc s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_query_desc", sizeof(QueryDesc), 32, 32));
-            entries.Add(Entry("vox_query_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_query_desc.flags", (byte*)&s.flags - begin, 4, 4));
-            entries.Add(Entry("vox_query_desc.mask", (byte*)&s.mask - begin, 8, 8));
-            entries.Add(Entry("vox_query_desc.excluded", (byte*)&s.excluded - begin, 16, 16));
-            entries.Add(Entry("vox_query_desc.reserved", (byte*)&s.reserved - begin, 20, 20));
-            entries.Add(Entry("vox_query_desc.max_distance", (byte*)&s.max_distance - begin, 24, 24));
-        }
-
-        static void AddPointHit(List<LayoutEntry> entries)
-        {
-            PointHit s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_point_hit", sizeof(PointHit), 48, 48));
-            entries.Add(Entry("vox_point_hit.point", (byte*)&s.point - begin, 0, 0));
-            entries.Add(Entry("vox_point_hit.body", (byte*)&s.body - begin, 4, 4));
-            entries.Add(Entry("vox_point_hit.tet", (byte*)&s.tet - begin, 8, 8));
-            entries.Add(Entry("vox_point_hit.reserved", (byte*)&s.reserved - begin, 12, 12));
-            entries.Add(Entry("vox_point_hit.weights", (byte*)&s.weights - begin, 16, 16));
-        }
-
-        static void AddClosestHit(List<LayoutEntry> entries)
-        {
-            ClosestHit s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_closest_hit", sizeof(ClosestHit), 112, 112));
-            entries.Add(Entry("vox_closest_hit.body", (byte*)&s.body - begin, 0, 0));
-            entries.Add(Entry("vox_closest_hit.tet", (byte*)&s.tet - begin, 4, 4));
-            entries.Add(Entry("vox_closest_hit.facet", (byte*)&s.facet - begin, 8, 8));
-            entries.Add(Entry("vox_closest_hit.inside", (byte*)&s.inside - begin, 12, 12));
-            entries.Add(Entry("vox_closest_hit.face", (byte*)&s.face - begin, 16, 16));
-            entries.Add(Entry("vox_closest_hit.reserved", (byte*)&s.reserved - begin, 28, 28));
-            entries.Add(Entry("vox_closest_hit.weights", (byte*)&s.weights - begin, 32, 32));
-            entries.Add(Entry("vox_closest_hit.position", (byte*)&s.position - begin, 56, 56));
-            entries.Add(Entry("vox_closest_hit.normal", (byte*)&s.normal - begin, 80, 80));
-            entries.Add(Entry("vox_closest_hit.distance", (byte*)&s.distance - begin, 104, 104));
-        }
-
-        static void AddBoxHit(List<LayoutEntry> entries)
-        {
-            BoxHit s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_box_hit", sizeof(BoxHit), 12, 12));
-            entries.Add(Entry("vox_box_hit.box", (byte*)&s.box - begin, 0, 0));
-            entries.Add(Entry("vox_box_hit.body", (byte*)&s.body - begin, 4, 4));
-            entries.Add(Entry("vox_box_hit.tet", (byte*)&s.tet - begin, 8, 8));
-        }
-
-        static void AddRayHit(List<LayoutEntry> entries)
-        {
-            RayHit s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_ray_hit", sizeof(RayHit), 64, 64));
-            entries.Add(Entry("vox_ray_hit.ray", (byte*)&s.ray - begin, 0, 0));
-            entries.Add(Entry("vox_ray_hit.body", (byte*)&s.body - begin, 4, 4));
-            entries.Add(Entry("vox_ray_hit.tet", (byte*)&s.tet - begin, 8, 8));
-            entries.Add(Entry("vox_ray_hit.facet", (byte*)&s.facet - begin, 12, 12));
-            entries.Add(Entry("vox_ray_hit.side", (byte*)&s.side - begin, 16, 16));
-            entries.Add(Entry("vox_ray_hit.face", (byte*)&s.face - begin, 20, 20));
-            entries.Add(Entry("vox_ray_hit.t", (byte*)&s.t - begin, 32, 32));
-            entries.Add(Entry("vox_ray_hit.weights", (byte*)&s.weights - begin, 40, 40));
         }
 
         static void AddSurfaceDesc(List<LayoutEntry> entries)
@@ -4645,6 +4645,11 @@ namespace Voxtet
             AddTaskSystem(entries);
             AddCounters(entries);
             AddProfile(entries);
+            AddQueryDesc(entries);
+            AddPointHit(entries);
+            AddClosestHit(entries);
+            AddBoxHit(entries);
+            AddRayHit(entries);
             AddReferenceDesc(entries);
             AddSuggestDesc(entries);
             AddGeometryStats(entries);
@@ -4667,11 +4672,6 @@ namespace Voxtet
             AddGridFit(entries);
             AddTuneDesc(entries);
             AddTuning(entries);
-            AddQueryDesc(entries);
-            AddPointHit(entries);
-            AddClosestHit(entries);
-            AddBoxHit(entries);
-            AddRayHit(entries);
             AddSurfaceDesc(entries);
             AddFeatureView(entries);
             AddMotion(entries);

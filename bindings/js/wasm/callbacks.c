@@ -1,6 +1,6 @@
 /* Callbacks into JavaScript. WebAssembly reaches JavaScript through imports alone, so each kind of callback
  * is one import, and `user` says which function is meant. */
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #define IMPORT(name) __attribute__((import_module("env"), import_name(#name)))
 #define EXPORT __attribute__((used, visibility("default")))

@@ -2,7 +2,7 @@
 // takes.
 #pragma once
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <functional>
 

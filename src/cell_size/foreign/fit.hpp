@@ -6,7 +6,7 @@
 #include "cell_size/foreign/least_squares.hpp"
 #include "cell_size/search.hpp"
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <cstdint>
 #include <functional>

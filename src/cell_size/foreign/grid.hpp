@@ -8,7 +8,7 @@
 #include "cell_size/foreign/primitives.hpp"
 #include "cell_size/search.hpp"
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // Grids that people have, as they are described and what their work takes.
 #pragma once
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <cstdint>
 

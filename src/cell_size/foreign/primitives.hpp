@@ -5,7 +5,7 @@
 #include "base/scene.hpp"
 #include "cell_size/lookups.hpp"
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <cstddef>
 #include <cstdint>

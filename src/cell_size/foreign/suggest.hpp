@@ -3,7 +3,7 @@
 
 #include "cell_size/foreign/grid.hpp"
 
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 namespace vox {
 

@@ -101,6 +101,16 @@ class LogLevel(enum.IntEnum):
     WARNING = 1
 
 
+class QueryFlags(enum.IntFlag):
+    FIRST_HIT = 1
+
+
+class Side(enum.IntEnum):
+    NONE = 0
+    ENTERS = 1
+    LEAVES = 2
+
+
 class ReferenceFlags(enum.IntFlag):
     DENSE = 1
     PAPER_HASH = 2
@@ -180,16 +190,6 @@ class ForeignRule(enum.IntEnum):
     MEDIAN_BOX_SIDE = 3
     SPACING = 4
     RADIUS = 5
-
-
-class QueryFlags(enum.IntFlag):
-    FIRST_HIT = 1
-
-
-class Side(enum.IntEnum):
-    NONE = 0
-    ENTERS = 1
-    LEAVES = 2
 
 
 class Feature(enum.IntEnum):
@@ -813,6 +813,93 @@ dtypes["vox_profile"] = dtype({
     "itemsize": 128})
 
 
+class vox_query_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("flags", c_uint32),
+        ("mask", c_uint64),
+        ("excluded", c_uint32),
+        ("reserved", c_uint32),
+        ("max_distance", c_double),
+    ]
+
+dtypes["vox_query_desc"] = dtype({
+    "names": ["struct_size", "flags", "mask", "excluded", "reserved", "max_distance"],
+    "formats": ["u4", "u4", "u8", "u4", "u4", "f8"],
+    "offsets": [0, 4, 8, 16, 20, 24],
+    "itemsize": 32})
+
+
+class vox_point_hit(Structure):
+    _fields_ = [
+        ("point", c_uint32),
+        ("body", c_uint32),
+        ("tet", c_uint32),
+        ("reserved", c_uint32),
+        ("weights", c_double * 4),
+    ]
+
+dtypes["vox_point_hit"] = dtype({
+    "names": ["point", "body", "tet", "reserved", "weights"],
+    "formats": ["u4", "u4", "u4", "u4", ("f8", (4,))],
+    "offsets": [0, 4, 8, 12, 16],
+    "itemsize": 48})
+
+
+class vox_closest_hit(Structure):
+    _fields_ = [
+        ("body", c_uint32),
+        ("tet", c_uint32),
+        ("facet", c_uint32),
+        ("inside", c_uint32),
+        ("face", c_uint32 * 3),
+        ("reserved", c_uint32),
+        ("weights", c_double * 3),
+        ("position", c_double * 3),
+        ("normal", c_double * 3),
+        ("distance", c_double),
+    ]
+
+dtypes["vox_closest_hit"] = dtype({
+    "names": ["body", "tet", "facet", "inside", "face", "reserved", "weights", "position", "normal", "distance"],
+    "formats": ["u4", "u4", "u4", "u4", ("u4", (3,)), "u4", ("f8", (3,)), ("f8", (3,)), ("f8", (3,)), "f8"],
+    "offsets": [0, 4, 8, 12, 16, 28, 32, 56, 80, 104],
+    "itemsize": 112})
+
+
+class vox_box_hit(Structure):
+    _fields_ = [
+        ("box", c_uint32),
+        ("body", c_uint32),
+        ("tet", c_uint32),
+    ]
+
+dtypes["vox_box_hit"] = dtype({
+    "names": ["box", "body", "tet"],
+    "formats": ["u4", "u4", "u4"],
+    "offsets": [0, 4, 8],
+    "itemsize": 12})
+
+
+class vox_ray_hit(Structure):
+    _fields_ = [
+        ("ray", c_uint32),
+        ("body", c_uint32),
+        ("tet", c_uint32),
+        ("facet", c_uint32),
+        ("side", c_int32),
+        ("face", c_uint32 * 3),
+        ("t", c_double),
+        ("weights", c_double * 3),
+    ]
+
+dtypes["vox_ray_hit"] = dtype({
+    "names": ["ray", "body", "tet", "facet", "side", "face", "t", "weights"],
+    "formats": ["u4", "u4", "u4", "u4", "i4", ("u4", (3,)), "f8", ("f8", (3,))],
+    "offsets": [0, 4, 8, 12, 16, 20, 32, 40],
+    "itemsize": 64})
+
+
 class vox_suggest_desc(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
@@ -1236,93 +1323,6 @@ dtypes["vox_tuning"] = dtype({
         (32,)), "u4", "u4", (dtypes["vox_cost_sample"], (64,)), "S256"],
     "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 112, 624, 628, 632, 1656],
     "itemsize": 1912})
-
-
-class vox_query_desc(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("flags", c_uint32),
-        ("mask", c_uint64),
-        ("excluded", c_uint32),
-        ("reserved", c_uint32),
-        ("max_distance", c_double),
-    ]
-
-dtypes["vox_query_desc"] = dtype({
-    "names": ["struct_size", "flags", "mask", "excluded", "reserved", "max_distance"],
-    "formats": ["u4", "u4", "u8", "u4", "u4", "f8"],
-    "offsets": [0, 4, 8, 16, 20, 24],
-    "itemsize": 32})
-
-
-class vox_point_hit(Structure):
-    _fields_ = [
-        ("point", c_uint32),
-        ("body", c_uint32),
-        ("tet", c_uint32),
-        ("reserved", c_uint32),
-        ("weights", c_double * 4),
-    ]
-
-dtypes["vox_point_hit"] = dtype({
-    "names": ["point", "body", "tet", "reserved", "weights"],
-    "formats": ["u4", "u4", "u4", "u4", ("f8", (4,))],
-    "offsets": [0, 4, 8, 12, 16],
-    "itemsize": 48})
-
-
-class vox_closest_hit(Structure):
-    _fields_ = [
-        ("body", c_uint32),
-        ("tet", c_uint32),
-        ("facet", c_uint32),
-        ("inside", c_uint32),
-        ("face", c_uint32 * 3),
-        ("reserved", c_uint32),
-        ("weights", c_double * 3),
-        ("position", c_double * 3),
-        ("normal", c_double * 3),
-        ("distance", c_double),
-    ]
-
-dtypes["vox_closest_hit"] = dtype({
-    "names": ["body", "tet", "facet", "inside", "face", "reserved", "weights", "position", "normal", "distance"],
-    "formats": ["u4", "u4", "u4", "u4", ("u4", (3,)), "u4", ("f8", (3,)), ("f8", (3,)), ("f8", (3,)), "f8"],
-    "offsets": [0, 4, 8, 12, 16, 28, 32, 56, 80, 104],
-    "itemsize": 112})
-
-
-class vox_box_hit(Structure):
-    _fields_ = [
-        ("box", c_uint32),
-        ("body", c_uint32),
-        ("tet", c_uint32),
-    ]
-
-dtypes["vox_box_hit"] = dtype({
-    "names": ["box", "body", "tet"],
-    "formats": ["u4", "u4", "u4"],
-    "offsets": [0, 4, 8],
-    "itemsize": 12})
-
-
-class vox_ray_hit(Structure):
-    _fields_ = [
-        ("ray", c_uint32),
-        ("body", c_uint32),
-        ("tet", c_uint32),
-        ("facet", c_uint32),
-        ("side", c_int32),
-        ("face", c_uint32 * 3),
-        ("t", c_double),
-        ("weights", c_double * 3),
-    ]
-
-dtypes["vox_ray_hit"] = dtype({
-    "names": ["ray", "body", "tet", "facet", "side", "face", "t", "weights"],
-    "formats": ["u4", "u4", "u4", "u4", "i4", ("u4", (3,)), "f8", ("f8", (3,))],
-    "offsets": [0, 4, 8, 12, 16, 20, 32, 40],
-    "itemsize": 64})
 
 
 class vox_surface_desc(Structure):
@@ -1908,6 +1908,24 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_grid_load": (vox_result, (c_void_p, c_uint64, POINTER(vox_grid_desc), POINTER(c_void_p))),
         "vox_grid_get_counters": (vox_result, (c_void_p, POINTER(vox_counters))),
         "vox_grid_profile": (vox_result, (c_void_p, POINTER(vox_profile))),
+    },
+    "vox_query": {
+        "vox_grid_update_locator": (vox_result, (c_void_p, POINTER(c_void_p))),
+        "vox_locator_retain": (vox_result, (c_void_p,)),
+        "vox_locator_release": (None, (c_void_p,)),
+        "vox_locator_get_epoch": (vox_result, (c_void_p, POINTER(c_uint64))),
+        "vox_locator_get_user_data": (vox_result, (c_void_p, c_uint32, POINTER(c_uint64))),
+        "vox_locator_find_point_hits": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_query_desc),
+            c_void_p, c_uint64, POINTER(c_uint64))),
+        "vox_locator_find_closest": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_query_desc), c_void_p)),
+        "vox_locator_find_box_hits": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_positions),
+            POINTER(vox_query_desc), c_void_p, c_uint64, POINTER(c_uint64))),
+        "vox_locator_find_ray_hits": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_positions),
+            POINTER(vox_query_desc), c_void_p, c_uint64, POINTER(c_uint64))),
+        "vox_locator_test_rays": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_positions),
+            POINTER(vox_query_desc), c_void_p)),
+    },
+    "vox_cell_size": {
         "vox_suggest_cell_size": (vox_result, (POINTER(vox_suggest_desc), c_void_p, c_uint64, POINTER(vox_suggestion))),
         "vox_grid_suggest_cell_size": (vox_result, (c_void_p, POINTER(vox_suggest_desc), POINTER(vox_suggestion))),
         "vox_cost_predict": (vox_result, (POINTER(vox_suggest_desc), c_void_p, c_uint64, c_double,
@@ -1926,22 +1944,6 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_cost_fit": (vox_result, (POINTER(vox_foreign_grid), c_void_p, c_uint64, POINTER(vox_grid_fit))),
         "vox_cost_tune": (vox_result, (POINTER(vox_foreign_grid), POINTER(vox_tune_desc), vox_grid_run, c_void_p,
             POINTER(vox_tuning))),
-    },
-    "vox_query": {
-        "vox_grid_update_locator": (vox_result, (c_void_p, POINTER(c_void_p))),
-        "vox_locator_retain": (vox_result, (c_void_p,)),
-        "vox_locator_release": (None, (c_void_p,)),
-        "vox_locator_get_epoch": (vox_result, (c_void_p, POINTER(c_uint64))),
-        "vox_locator_get_user_data": (vox_result, (c_void_p, c_uint32, POINTER(c_uint64))),
-        "vox_locator_find_point_hits": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_query_desc),
-            c_void_p, c_uint64, POINTER(c_uint64))),
-        "vox_locator_find_closest": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_query_desc), c_void_p)),
-        "vox_locator_find_box_hits": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_positions),
-            POINTER(vox_query_desc), c_void_p, c_uint64, POINTER(c_uint64))),
-        "vox_locator_find_ray_hits": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_positions),
-            POINTER(vox_query_desc), c_void_p, c_uint64, POINTER(c_uint64))),
-        "vox_locator_test_rays": (vox_result, (c_void_p, POINTER(vox_positions), POINTER(vox_positions),
-            POINTER(vox_query_desc), c_void_p)),
     },
     "vox_pairs": {
         "vox_surface_create": (vox_result, (POINTER(vox_surface_desc), POINTER(c_void_p))),
@@ -2008,7 +2010,7 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
 
 
 def declare(library: Any, name: str, check: Any = None) -> None:
-    """Gives the functions of the header `name` (vox, vox_query, vox_pairs, vox_io, vox_sim) in a ctypes library their types. `check` becomes the errcheck
+    """Gives the functions of the header `name` (vox, vox_query, vox_cell_size, vox_pairs, vox_io, vox_sim) in a ctypes library their types. `check` becomes the errcheck
     of those whose result is a vox_result: a failure unless it is 0."""
     for function, (result, parameters) in FUNCTIONS[name].items():
         found = getattr(library, function)

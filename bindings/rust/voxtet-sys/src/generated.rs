@@ -168,6 +168,17 @@ pub type vox_log_level = i32;
 pub const VOX_LOG_INFO: vox_log_level = 0;
 pub const VOX_LOG_WARNING: vox_log_level = 1;
 
+pub type vox_query_flags = u32;
+/// vox_locator_find_ray_hits: report only the first hit of each ray
+pub const VOX_QUERY_FIRST_HIT: vox_query_flags = 1;
+
+pub type vox_side = i32;
+/// the facet's tetrahedron has no volume
+pub const VOX_SIDE_NONE: vox_side = 0;
+/// the ray goes into the tetrahedron
+pub const VOX_SIDE_ENTERS: vox_side = 1;
+pub const VOX_SIDE_LEAVES: vox_side = 2;
+
 pub type vox_reference_flags = u32;
 /// store a list for every cell of a box (linear id k*nx*ny + j*nx + i), instead of hashing cells into a table
 pub const VOX_REFERENCE_DENSE: vox_reference_flags = 1;
@@ -290,17 +301,6 @@ pub const VOX_RULE_MEAN_BOX_SIDE: vox_foreign_rule = 2;
 pub const VOX_RULE_MEDIAN_BOX_SIDE: vox_foreign_rule = 3;
 pub const VOX_RULE_SPACING: vox_foreign_rule = 4;
 pub const VOX_RULE_RADIUS: vox_foreign_rule = 5;
-
-pub type vox_query_flags = u32;
-/// vox_locator_find_ray_hits: report only the first hit of each ray
-pub const VOX_QUERY_FIRST_HIT: vox_query_flags = 1;
-
-pub type vox_side = i32;
-/// the facet's tetrahedron has no volume
-pub const VOX_SIDE_NONE: vox_side = 0;
-/// the ray goes into the tetrahedron
-pub const VOX_SIDE_ENTERS: vox_side = 1;
-pub const VOX_SIDE_LEAVES: vox_side = 2;
 
 /// What a surface consists of.
 pub type vox_feature = i32;
@@ -1160,6 +1160,91 @@ pub struct vox_profile {
     pub margin_ns: u64,
 }
 
+/// Which bodies answer, and how far to look. All fields are 0 by default: all bodies, at any distance.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_query_desc {
+    pub struct_size: u32,
+    /// vox_query_flags, combined with |
+    pub flags: u32,
+    /// only bodies whose category had a bit in common with it; 0: all
+    pub mask: u64,
+    /// not this body, e.g. the one that asks; an id that the locator does not have excludes none
+    pub excluded: vox_body,
+    /// 0
+    pub reserved: u32,
+    /// vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance
+    pub max_distance: f64,
+}
+
+/// A tetrahedron that contains a point.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_point_hit {
+    /// index of the point
+    pub point: u32,
+    pub body: vox_body,
+    pub tet: u32,
+    /// 0
+    pub reserved: u32,
+    /// of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one
+    pub weights: [f64; 4],
+}
+
+/// A point of a surface. The surface of a mesh consists of the facets of exactly one of its tetrahedra. Facet k is
+/// opposite corner k. The corners of facets are facet 0: corners 1, 2, 3 1: 0, 3, 2 2: 0, 1, 3 3: 0, 2, 1 of the
+/// tetrahedron, counter-clockwise as seen from outside if its volume is positive.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_closest_hit {
+    /// VOX_NULL_BODY: no surface is within max_distance; all other fields but `inside` are 0
+    pub body: vox_body,
+    pub tet: u32,
+    pub facet: u32,
+    /// how many bodies contain the point; exact
+    pub inside: u32,
+    /// the vertices of the facet, in the order of its corners
+    pub face: [u32; 3],
+    /// 0
+    pub reserved: u32,
+    /// of these vertices, for the closest point, in [0, 1]
+    pub weights: [f64; 3],
+    /// of the closest point
+    pub position: [f64; 3],
+    /// A unit vector out of the facet's tetrahedron or, if that is flat, to the side away from the point. If the facet
+    /// has no area, it points from the point to `position`, or is 0, 0, 1 if both coincide.
+    pub normal: [f64; 3],
+    /// from the point to `position`; negative if the body contains the point, which is exact
+    pub distance: f64,
+}
+
+/// A tetrahedron whose bounding box meets a box.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_box_hit {
+    /// index of the box
+    pub r#box: u32,
+    pub body: vox_body,
+    pub tet: u32,
+}
+
+/// A facet of a surface that a ray meets; see vox_closest_hit.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_ray_hit {
+    /// index of the ray
+    pub ray: u32,
+    pub body: vox_body,
+    pub tet: u32,
+    pub facet: u32,
+    pub side: vox_side,
+    /// the vertices of the facet, in the order of its corners
+    pub face: [u32; 3],
+    pub t: f64,
+    /// of these vertices, in [0, 1]
+    pub weights: [f64; 3],
+}
+
 /// The paper's engine (Sect. 3), for vox_grid_desc.reference. It is serial and finds what the fast engine finds. If the
 /// grid's cell_size is 0, it chooses by its cost model, at the first step, and again when the counts of its steps show
 /// that another size would be better; each change is written to the log and counted in cell_size_changes. If the sizes
@@ -1620,91 +1705,6 @@ pub struct vox_tuning {
     /// in seconds
     pub curve: [vox_cost_sample; 64],
     pub note: [c_char; 256],
-}
-
-/// Which bodies answer, and how far to look. All fields are 0 by default: all bodies, at any distance.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_query_desc {
-    pub struct_size: u32,
-    /// vox_query_flags, combined with |
-    pub flags: u32,
-    /// only bodies whose category had a bit in common with it; 0: all
-    pub mask: u64,
-    /// not this body, e.g. the one that asks; an id that the locator does not have excludes none
-    pub excluded: vox_body,
-    /// 0
-    pub reserved: u32,
-    /// vox_locator_find_closest: no further than this, in the caller's unit; 0: any distance
-    pub max_distance: f64,
-}
-
-/// A tetrahedron that contains a point.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_point_hit {
-    /// index of the point
-    pub point: u32,
-    pub body: vox_body,
-    pub tet: u32,
-    /// 0
-    pub reserved: u32,
-    /// of the tetrahedron's corners, in [0, 1], each within 2^-41 of the true one
-    pub weights: [f64; 4],
-}
-
-/// A point of a surface. The surface of a mesh consists of the facets of exactly one of its tetrahedra. Facet k is
-/// opposite corner k. The corners of facets are facet 0: corners 1, 2, 3 1: 0, 3, 2 2: 0, 1, 3 3: 0, 2, 1 of the
-/// tetrahedron, counter-clockwise as seen from outside if its volume is positive.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_closest_hit {
-    /// VOX_NULL_BODY: no surface is within max_distance; all other fields but `inside` are 0
-    pub body: vox_body,
-    pub tet: u32,
-    pub facet: u32,
-    /// how many bodies contain the point; exact
-    pub inside: u32,
-    /// the vertices of the facet, in the order of its corners
-    pub face: [u32; 3],
-    /// 0
-    pub reserved: u32,
-    /// of these vertices, for the closest point, in [0, 1]
-    pub weights: [f64; 3],
-    /// of the closest point
-    pub position: [f64; 3],
-    /// A unit vector out of the facet's tetrahedron or, if that is flat, to the side away from the point. If the facet
-    /// has no area, it points from the point to `position`, or is 0, 0, 1 if both coincide.
-    pub normal: [f64; 3],
-    /// from the point to `position`; negative if the body contains the point, which is exact
-    pub distance: f64,
-}
-
-/// A tetrahedron whose bounding box meets a box.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_box_hit {
-    /// index of the box
-    pub r#box: u32,
-    pub body: vox_body,
-    pub tet: u32,
-}
-
-/// A facet of a surface that a ray meets; see vox_closest_hit.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_ray_hit {
-    /// index of the ray
-    pub ray: u32,
-    pub body: vox_body,
-    pub tet: u32,
-    pub facet: u32,
-    pub side: vox_side,
-    /// the vertices of the facet, in the order of its corners
-    pub face: [u32; 3],
-    pub t: f64,
-    /// of these vertices, in [0, 1]
-    pub weights: [f64; 3],
 }
 
 /// What a surface is made of. Faces may have any winding; edges and faces may be degenerate (name a vertex twice) and
@@ -2821,6 +2821,95 @@ extern "C" {
     ) -> vox_result;
     /// Writes the fields that out_profile->struct_size covers (set it first).
     pub fn vox_grid_profile(grid: *const vox_grid, out_profile: *mut vox_profile) -> vox_result;
+}
+
+#[rustfmt::skip]
+extern "C" {
+    /// Takes a locator of the grid as it is now, and releases the one that *locator held before, if any. The caller
+    /// owns *locator and releases it with vox_locator_release. The first call after a mesh was inserted or edited takes
+    /// longer. If the call fails, *locator stays as it is. A locator uses the grid's memory, within its byte budget:
+    /// about 36 bytes a vertex and 28 a tetrahedron, and 12 a tetrahedron that all locators of a grid share. The memory
+    /// of released locators is used again, so that a program that takes one in every frame soon allocates nothing;
+    /// vox_grid_clear and vox_grid_destroy return it. If a locator outlives its grid, its last release returns its
+    /// memory, on the thread that calls. Errors: INVALID_STATE (a mesh without positions), NON_FINITE, LIMIT,
+    /// INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT, see vox_mesh_insert; a defective task system), BUDGET,
+    /// OUT_OF_MEMORY.
+    pub fn vox_grid_update_locator(
+        grid: *mut vox_grid,
+        locator: *mut *mut vox_locator,
+    ) -> vox_result;
+    /// Adds an owner, who has to release the locator as well: so one thread can still ask it while another takes the
+    /// next one. The caller must be sure that nobody releases the last owner meanwhile.
+    pub fn vox_locator_retain(locator: *mut vox_locator) -> vox_result;
+    /// Removes an owner. The locator ends with its last owner. Null does nothing.
+    pub fn vox_locator_release(locator: *mut vox_locator);
+    /// Gets vox_grid_info.epoch of the moment when the locator was taken.
+    pub fn vox_locator_get_epoch(locator: *const vox_locator, out_epoch: *mut u64) -> vox_result;
+    /// Gets the user_data of a body, even if it was removed since. Errors: INVALID_HANDLE (the locator does not have
+    /// it).
+    pub fn vox_locator_get_user_data(
+        locator: *const vox_locator,
+        body: vox_body,
+        out_user_data: *mut u64,
+    ) -> vox_result;
+    /// Finds the tetrahedra that contain points, by the rule of vox_contact: every tetrahedron of a body that has the
+    /// point in its interior or, if there is none, the lowest that has it on its boundary. Sorted by (point, body,
+    /// tet). Many points in one call are found several times as fast as one by one, whatever their order.
+    pub fn vox_locator_find_point_hits(
+        locator: *const vox_locator,
+        points: *const vox_positions,
+        desc: *const vox_query_desc,
+        hits: *mut vox_point_hit,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
+    /// Finds the closest point of all surfaces: out_hits[i] is for point i. If several are equally close, it is the one
+    /// with the lowest (body, tet, facet). Points that are close together should follow each other: each search begins
+    /// at the facet found before. Errors: also INVALID_ARGUMENT (a negative or NaN max_distance).
+    pub fn vox_locator_find_closest(
+        locator: *const vox_locator,
+        points: *const vox_positions,
+        desc: *const vox_query_desc,
+        out_hits: *mut vox_closest_hit,
+    ) -> vox_result;
+    /// Finds the tetrahedra whose bounding box has a point in common with the closed box from min[i] to max[i], decided
+    /// exactly and sorted by (box, body, tet). They include all tetrahedra that meet the box themselves, and those of
+    /// zero volume. Corners may be infinite. Errors: INVALID_ARGUMENT (arrays of different lengths; a min that is not
+    /// <= its max).
+    pub fn vox_locator_find_box_hits(
+        locator: *const vox_locator,
+        min: *const vox_positions,
+        max: *const vox_positions,
+        desc: *const vox_query_desc,
+        hits: *mut vox_box_hit,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
+    /// Finds the facets of surfaces that rays meet, sorted by (ray, t, body, tet, facet). Which facets a ray meets is
+    /// exact; t, and so the order, is rounded. A ray through an edge or a vertex meets all facets there. A ray in the
+    /// plane of a facet does not meet it.
+    pub fn vox_locator_find_ray_hits(
+        locator: *const vox_locator,
+        from: *const vox_positions,
+        to: *const vox_positions,
+        desc: *const vox_query_desc,
+        hits: *mut vox_ray_hit,
+        capacity: u64,
+        out_count: *mut u64,
+    ) -> vox_result;
+    /// Tests whether each ray meets a tetrahedron that has a volume: out_blocked[i] is 1 or 0, which is exact. The
+    /// search for a ray ends at the first such tetrahedron. from[i] = to[i] tests a point.
+    pub fn vox_locator_test_rays(
+        locator: *const vox_locator,
+        from: *const vox_positions,
+        to: *const vox_positions,
+        desc: *const vox_query_desc,
+        out_blocked: *mut u8,
+    ) -> vox_result;
+}
+
+#[rustfmt::skip]
+extern "C" {
     /// The cell size that minimises the cost model for these meshes (their positions as they are now). desc null:
     /// defaults. Set out->struct_size first; the fields it covers are written. `meshes` is an array whose elements are
     /// meshes[0].struct_size bytes apart, a multiple of 8, and all have that struct_size. Of their filters, only
@@ -2949,91 +3038,6 @@ extern "C" {
         run: vox_grid_run,
         user: *mut c_void,
         out: *mut vox_tuning,
-    ) -> vox_result;
-}
-
-#[rustfmt::skip]
-extern "C" {
-    /// Takes a locator of the grid as it is now, and releases the one that *locator held before, if any. The caller
-    /// owns *locator and releases it with vox_locator_release. The first call after a mesh was inserted or edited takes
-    /// longer. If the call fails, *locator stays as it is. A locator uses the grid's memory, within its byte budget:
-    /// about 36 bytes a vertex and 28 a tetrahedron, and 12 a tetrahedron that all locators of a grid share. The memory
-    /// of released locators is used again, so that a program that takes one in every frame soon allocates nothing;
-    /// vox_grid_clear and vox_grid_destroy return it. If a locator outlives its grid, its last release returns its
-    /// memory, on the thread that calls. Errors: INVALID_STATE (a mesh without positions), NON_FINITE, LIMIT,
-    /// INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT, see vox_mesh_insert; a defective task system), BUDGET,
-    /// OUT_OF_MEMORY.
-    pub fn vox_grid_update_locator(
-        grid: *mut vox_grid,
-        locator: *mut *mut vox_locator,
-    ) -> vox_result;
-    /// Adds an owner, who has to release the locator as well: so one thread can still ask it while another takes the
-    /// next one. The caller must be sure that nobody releases the last owner meanwhile.
-    pub fn vox_locator_retain(locator: *mut vox_locator) -> vox_result;
-    /// Removes an owner. The locator ends with its last owner. Null does nothing.
-    pub fn vox_locator_release(locator: *mut vox_locator);
-    /// Gets vox_grid_info.epoch of the moment when the locator was taken.
-    pub fn vox_locator_get_epoch(locator: *const vox_locator, out_epoch: *mut u64) -> vox_result;
-    /// Gets the user_data of a body, even if it was removed since. Errors: INVALID_HANDLE (the locator does not have
-    /// it).
-    pub fn vox_locator_get_user_data(
-        locator: *const vox_locator,
-        body: vox_body,
-        out_user_data: *mut u64,
-    ) -> vox_result;
-    /// Finds the tetrahedra that contain points, by the rule of vox_contact: every tetrahedron of a body that has the
-    /// point in its interior or, if there is none, the lowest that has it on its boundary. Sorted by (point, body,
-    /// tet). Many points in one call are found several times as fast as one by one, whatever their order.
-    pub fn vox_locator_find_point_hits(
-        locator: *const vox_locator,
-        points: *const vox_positions,
-        desc: *const vox_query_desc,
-        hits: *mut vox_point_hit,
-        capacity: u64,
-        out_count: *mut u64,
-    ) -> vox_result;
-    /// Finds the closest point of all surfaces: out_hits[i] is for point i. If several are equally close, it is the one
-    /// with the lowest (body, tet, facet). Points that are close together should follow each other: each search begins
-    /// at the facet found before. Errors: also INVALID_ARGUMENT (a negative or NaN max_distance).
-    pub fn vox_locator_find_closest(
-        locator: *const vox_locator,
-        points: *const vox_positions,
-        desc: *const vox_query_desc,
-        out_hits: *mut vox_closest_hit,
-    ) -> vox_result;
-    /// Finds the tetrahedra whose bounding box has a point in common with the closed box from min[i] to max[i], decided
-    /// exactly and sorted by (box, body, tet). They include all tetrahedra that meet the box themselves, and those of
-    /// zero volume. Corners may be infinite. Errors: INVALID_ARGUMENT (arrays of different lengths; a min that is not
-    /// <= its max).
-    pub fn vox_locator_find_box_hits(
-        locator: *const vox_locator,
-        min: *const vox_positions,
-        max: *const vox_positions,
-        desc: *const vox_query_desc,
-        hits: *mut vox_box_hit,
-        capacity: u64,
-        out_count: *mut u64,
-    ) -> vox_result;
-    /// Finds the facets of surfaces that rays meet, sorted by (ray, t, body, tet, facet). Which facets a ray meets is
-    /// exact; t, and so the order, is rounded. A ray through an edge or a vertex meets all facets there. A ray in the
-    /// plane of a facet does not meet it.
-    pub fn vox_locator_find_ray_hits(
-        locator: *const vox_locator,
-        from: *const vox_positions,
-        to: *const vox_positions,
-        desc: *const vox_query_desc,
-        hits: *mut vox_ray_hit,
-        capacity: u64,
-        out_count: *mut u64,
-    ) -> vox_result;
-    /// Tests whether each ray meets a tetrahedron that has a volume: out_blocked[i] is 1 or 0, which is exact. The
-    /// search for a ray ends at the first such tetrahedron. from[i] = to[i] tests a point.
-    pub fn vox_locator_test_rays(
-        locator: *const vox_locator,
-        from: *const vox_positions,
-        to: *const vox_positions,
-        desc: *const vox_query_desc,
-        out_blocked: *mut u8,
     ) -> vox_result;
 }
 
@@ -3529,6 +3533,16 @@ layouts! {
         bin_ns: [16, 16], broad_ns: [24, 24], narrow_ns: [32, 32], contacts_ns: [40, 40], depth_ns: [48, 48],
         events_ns: [56, 56], stream_ns: [64, 64], winding_ns: [72, 72], broad_phase_ns: [80, 80], windows_ns: [88, 88],
         lookup_ns: [96, 96], decide_ns: [104, 104], edges_ns: [112, 112], margin_ns: [120, 120] }
+    vox_query_desc: size [32, 32], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], mask: [8, 8],
+        excluded: [16, 16], reserved: [20, 20], max_distance: [24, 24] }
+    vox_point_hit: size [48, 48], alignment [8, 8], { point: [0, 0], body: [4, 4], tet: [8, 8], reserved: [12, 12],
+        weights: [16, 16] }
+    vox_closest_hit: size [112, 112], alignment [8, 8], { body: [0, 0], tet: [4, 4], facet: [8, 8], inside: [12, 12],
+        face: [16, 16], reserved: [28, 28], weights: [32, 32], position: [56, 56], normal: [80, 80],
+        distance: [104, 104] }
+    vox_box_hit: size [12, 12], alignment [4, 4], { r#box: [0, 0], body: [4, 4], tet: [8, 8] }
+    vox_ray_hit: size [64, 64], alignment [8, 8], { ray: [0, 0], body: [4, 4], tet: [8, 8], facet: [12, 12],
+        side: [16, 16], face: [20, 20], t: [32, 32], weights: [40, 40] }
     vox_reference_desc: size [64, 64], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], hash_table_size: [8, 8],
         world_min: [16, 16], world_max: [40, 40] }
     vox_suggest_desc: size [88, 88], alignment [8, 8], { struct_size: [0, 0], model: [4, 4], size_reading: [8, 8],
@@ -3589,16 +3603,6 @@ layouts! {
         zone_min: [16, 16], zone_max: [24, 24], seconds: [32, 32], expected_loss: [40, 40], noise: [48, 48],
         weights: [56, 56], runs: [112, 112], run_count: [624, 624], curve_count: [628, 628], curve: [632, 632],
         note: [1656, 1656] }
-    vox_query_desc: size [32, 32], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], mask: [8, 8],
-        excluded: [16, 16], reserved: [20, 20], max_distance: [24, 24] }
-    vox_point_hit: size [48, 48], alignment [8, 8], { point: [0, 0], body: [4, 4], tet: [8, 8], reserved: [12, 12],
-        weights: [16, 16] }
-    vox_closest_hit: size [112, 112], alignment [8, 8], { body: [0, 0], tet: [4, 4], facet: [8, 8], inside: [12, 12],
-        face: [16, 16], reserved: [28, 28], weights: [32, 32], position: [56, 56], normal: [80, 80],
-        distance: [104, 104] }
-    vox_box_hit: size [12, 12], alignment [4, 4], { r#box: [0, 0], body: [4, 4], tet: [8, 8] }
-    vox_ray_hit: size [64, 64], alignment [8, 8], { ray: [0, 0], body: [4, 4], tet: [8, 8], facet: [12, 12],
-        side: [16, 16], face: [20, 20], t: [32, 32], weights: [40, 40] }
     vox_surface_desc: size [112, 88], alignment [8, 8], { struct_size: [0, 0], worker_count: [4, 4],
         vertex_count: [8, 8], edge_count: [16, 16], face_count: [24, 24], edges: [32, 32], faces: [40, 36],
         patches: [48, 40], patch_categories: [56, 44], patch_masks: [64, 48], patch_count: [72, 56],

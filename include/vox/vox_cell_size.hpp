@@ -1,0 +1,165 @@
+// vox_cell_size.hpp: vox_cell_size.h for C++17 and later, under the rules of vox.hpp. Every function here stands for the
+// one of vox_cell_size.h that its comment names.
+#ifndef VOX_VOX_CELL_SIZE_HPP
+#define VOX_VOX_CELL_SIZE_HPP
+
+#include <vox/vox.hpp>
+#include <vox/vox_cell_size.h>
+
+namespace vox {
+inline namespace VOX_HPP_MODE {
+
+// ---- cell size ----------------------------------------------------------------------------------
+
+// vox_grid_suggest_cell_size, with desc null or given
+inline returns<vox_suggestion> suggest_cell_size(const grid& of) {
+    return detail::filled<vox_suggestion>(vox_grid_suggest_cell_size, of.get(), nullptr);
+}
+inline returns<vox_suggestion> suggest_cell_size(const grid& of, const vox_suggest_desc& desc) {
+    return detail::filled<vox_suggestion>(vox_grid_suggest_cell_size, of.get(), &desc);
+}
+
+// vox_suggest_cell_size
+inline returns<vox_suggestion> suggest_cell_size(span<const vox_mesh_desc> meshes,
+                                                 const vox_suggest_desc& desc = vox_default_suggest_desc()) {
+    return detail::filled<vox_suggestion>(vox_suggest_cell_size, &desc, meshes.data(), meshes.size());
+}
+
+// vox_cost_predict
+inline returns<vox_cost_prediction> predict_cost(span<const vox_mesh_desc> meshes, double cell_size,
+                                                 const vox_suggest_desc& desc = vox_default_suggest_desc()) {
+    return detail::filled<vox_cost_prediction>(vox_cost_predict, &desc, meshes.data(), meshes.size(), cell_size);
+}
+
+// vox_cost_calibrate, vox_cost_get_weights, vox_cost_set_weights; without an argument those shipped with the library.
+inline returns<vox_cost_weights> calibrate() { return detail::filled<vox_cost_weights>(vox_cost_calibrate); }
+inline returns<vox_cost_weights> cost_weights() { return detail::filled<vox_cost_weights>(vox_cost_get_weights); }
+inline returns<void> set_cost_weights(const vox_cost_weights& weights) {
+    return detail::give(vox_cost_set_weights(&weights));
+}
+inline returns<void> set_cost_weights() { return detail::give(vox_cost_set_weights(nullptr)); }
+
+// A vox_cost_bounds with the default zone.
+inline vox_cost_bounds cost_bounds(double min, double max) noexcept {
+    vox_cost_bounds bounds = vox_default_cost_bounds();
+    bounds.min = min;
+    bounds.max = max;
+    return bounds;
+}
+
+namespace detail {
+// Of a cell size, from the callable of a called_back; NaN ends the search if it has thrown.
+template <class F>
+double cost_of(double cell_size, void* user) {
+    auto& at = *static_cast<called_back<F>*>(user);
+    double value = std::numeric_limits<double>::quiet_NaN();
+    at.caught.run([&] { value = static_cast<double>(at.call(cell_size)); });
+    return value;
+}
+} // namespace detail
+
+// vox_cost_minimise, for any callable that takes a cell size and returns a number. What it throws ends the search.
+template <class F, std::enable_if_t<std::is_invocable_r_v<double, F&, double>, int> = 0>
+returns<vox_cost_minimum> minimise(F&& cost, const vox_cost_bounds& bounds) {
+    using callable = std::remove_reference_t<F>;
+    detail::called_back<callable> with{cost};
+    vox_cost_minimum minimum = detail::sized<vox_cost_minimum>();
+    const vox_result result = vox_cost_minimise(detail::cost_of<callable>, &with, &bounds, &minimum);
+    with.caught.rethrow();
+    return detail::give(result, minimum);
+}
+
+// vox_cost_minimise_terms
+inline returns<vox_cost_minimum> minimise(span<const vox_cost_term> terms, const vox_cost_bounds& bounds) {
+    return detail::filled<vox_cost_minimum>(vox_cost_minimise_terms, terms.data(), terms.size(), &bounds);
+}
+
+// vox_zone_distance
+inline returns<double> zone_distance(double n, double n_min, double n_opt, double n_max) {
+    return detail::filled<double>(vox_zone_distance, n, n_min, n_opt, n_max);
+}
+
+// ---- the cell size of any grid ------------------------------------------------------------------
+
+// A vox_primitives of arrays, which it borrows. Radii are the caller's to set; without indices the vertices of a
+// primitive follow each other.
+inline returns<vox_primitives> primitives(vox_primitive_type type, const borrowed_points& positions,
+                                          const borrowed_indices& indices = {}) {
+    constexpr std::uint64_t widths[] = {1, 2, 3, 4, 2};
+    const std::uint64_t size = indices.given ? indices.size : positions.count,
+                        width = static_cast<std::size_t>(type) < std::size(widths) ? widths[type] : 1;
+    vox_primitives described = vox_default_primitives();
+    described.type = type;
+    described.positions = positions;
+    described.indices = indices.data;
+    described.count = size / width;
+    vox_result result = positions.misfit.result();
+    if (result == VOX_OK) result = indices.misfit.result();
+    if (result == VOX_OK && indices.each != 1 && indices.each != width)
+        result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "indices: %llu for each primitive, expected %llu",
+                              indices.each, width);
+    if (result == VOX_OK && size % width != 0)
+        result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "primitives: %llu vertices are not %llu for each", size,
+                              width);
+    return detail::give(result, described);
+}
+
+// vox_foreign_grid_set_known, of a vox_foreign_grid of primitives, which it borrows. Its other fields are the caller's
+// to set.
+inline returns<vox_foreign_grid> foreign_grid(const vox_primitives& held, vox_known_grid known = VOX_KNOWN_GRID_ANY) {
+    vox_foreign_grid grid = vox_default_foreign_grid();
+    grid.held = &held;
+    const vox_result result = vox_foreign_grid_set_known(&grid, known);
+    return detail::give(result, grid);
+}
+returns<vox_foreign_grid> foreign_grid(const vox_primitives&& temporary, vox_known_grid = VOX_KNOWN_GRID_ANY) = delete;
+
+// vox_suggest_for
+inline returns<vox_foreign_suggestion> suggest_for(const vox_foreign_grid& grid) {
+    return detail::filled<vox_foreign_suggestion>(vox_suggest_for, &grid);
+}
+
+// vox_count_for
+inline returns<vox_grid_work> count_for(const vox_foreign_grid& grid, double cell_size) {
+    return detail::filled<vox_grid_work>(vox_count_for, &grid, cell_size);
+}
+
+// vox_cost_fit
+inline returns<vox_grid_fit> cost_fit(const vox_foreign_grid& grid, span<const vox_grid_timing> timings) {
+    return detail::filled<vox_grid_fit>(vox_cost_fit, &grid, timings.data(), timings.size());
+}
+
+// vox_cost_tune, for any callable that takes a cell size and returns seconds. What it throws ends the runs. Without a
+// description, by a null pointer, nothing is known of the grid.
+template <class F, std::enable_if_t<std::is_invocable_r_v<double, F&, double>, int> = 0>
+returns<vox_tuning> cost_tune(const vox_foreign_grid* grid, F&& run,
+                              const vox_tune_desc& desc = vox_default_tune_desc()) {
+    using callable = std::remove_reference_t<F>;
+    detail::called_back<callable> with{run};
+    vox_tuning tuning = detail::sized<vox_tuning>();
+    const vox_result result = vox_cost_tune(grid, &desc, detail::cost_of<callable>, &with, &tuning);
+    with.caught.rethrow();
+    return detail::give(result, tuning);
+}
+
+// The curve of a suggestion, fit, tuning or vox_cost_minimum; the terms of a suggestion or vox_cost_prediction; the
+// runs of a vox_tuning.
+template <class S>
+span<const vox_cost_sample> curve(const S& of) {
+    return {of.curve, of.curve_count};
+}
+template <class S>
+span<const vox_cost_share> terms(const S& of) {
+    return {of.terms, of.term_count};
+}
+inline span<const vox_grid_timing> runs(const vox_tuning& of) { return {of.runs, of.run_count}; }
+template <class S>
+void curve(const S&& temporary) = delete;
+template <class S>
+void terms(const S&& temporary) = delete;
+void runs(const vox_tuning&& temporary) = delete;
+
+} // namespace VOX_HPP_MODE
+} // namespace vox
+
+#endif
