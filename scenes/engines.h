@@ -8,10 +8,10 @@ typedef enum engine_kind { ENGINE_REFERENCE = 0, ENGINE_FAST = 1 } engine_kind;
 
 /* The reference engine, with vox_reference_flags. */
 static inline const vox_reference_desc* reference_with(uint32_t flags) {
-    static const vox_reference_desc all[4] = {{sizeof all[0], 0, 0, {0, 0, 0}, {0, 0, 0}},
-                                              {sizeof all[0], 1, 0, {0, 0, 0}, {0, 0, 0}},
-                                              {sizeof all[0], 2, 0, {0, 0, 0}, {0, 0, 0}},
-                                              {sizeof all[0], 3, 0, {0, 0, 0}, {0, 0, 0}}};
+    static const vox_reference_desc all[4] = {{sizeof all[0], 0, 0, {0, 0, 0}, {0, 0, 0}, NULL},
+                                              {sizeof all[0], 1, 0, {0, 0, 0}, {0, 0, 0}, NULL},
+                                              {sizeof all[0], 2, 0, {0, 0, 0}, {0, 0, 0}, NULL},
+                                              {sizeof all[0], 3, 0, {0, 0, 0}, {0, 0, 0}, NULL}};
     return &all[flags];
 }
 

@@ -127,10 +127,16 @@ void run_suggest(const SuggestOptions& options) {
     for (const Body& body : bodies) meshes.push_back(mesh_desc(body));
     if (options.self)
         for (vox_mesh_desc& mesh : meshes) mesh.filter.flags |= VOX_FILTER_SELF_COLLISION;
-    if (options.calibrate) check(vox_cost_calibrate(nullptr));
+    vox_suggest_desc desc = options.desc;
+    vox_cost_weights weights{};
+    weights.struct_size = sizeof weights;
+    if (options.calibrate) {
+        check(vox_cost_calibrate(&weights));
+        desc.weights = &weights;
+    }
     vox_suggestion found{};
     found.struct_size = sizeof found;
-    check(vox_suggest_cell_size(&options.desc, meshes.data(), meshes.size(), &found));
+    check(vox_suggest_cell_size(&desc, meshes.data(), meshes.size(), &found));
     if (!options.svg.empty()) {
         if (!collides(found))
             throw Failure(options.svg + ": nothing collides, so that there is no cost to draw");

@@ -9,6 +9,7 @@
 #include "report.hpp"
 #include "sweep_log.hpp"
 #include "terminal.hpp"
+#include "zone_distance.h"
 
 #include <vox/vox_sim.h>
 
@@ -250,10 +251,7 @@ std::optional<double> fitted_time(const vox_time_fit& fit, double cell_size) {
 
 // Eq. 9, in cells per axis.
 double epsilon(double cell_size, const Evaluation& found, const Zone& zone, double world) {
-    double result = 0;
-    check(vox_zone_distance(world / cell_size, world / zone.max, world / found.fit.cell_size,
-                            world / zone.min, &result));
-    return result;
+    return zone_distance(world / cell_size, world / zone.max, world / found.fit.cell_size, world / zone.min);
 }
 
 std::optional<double> regret(std::optional<double> time, double best) {

@@ -150,6 +150,7 @@ struct Settings {
     double sizes = 40; // of a sweep from 0.2 to 10 mean edges
     double seconds = 10;
     int least_rounds = 6, most_rounds = 40;
+    vox_cost_weights weights{}; // all 0: those shipped
 };
 
 struct Sample {
@@ -299,6 +300,7 @@ Row measure(Scene& scene, engine_kind engine, const Settings& settings, std::vec
     must(vox_suggest_cell_size(nullptr, meshes.data(), meshes.size(), &paper));
     vox_suggest_desc desc = vox_default_suggest_desc();
     desc.model = engine == ENGINE_FAST ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
+    desc.weights = &settings.weights;
     must(vox_suggest_cell_size(&desc, meshes.data(), meshes.size(), &model));
     row.uniform_loss = model.uniform_loss;
 
@@ -464,7 +466,8 @@ int run(int argc, char** argv) {
                  "Measure what suggestions cost, and nothing else; --csv makes rows of their own kind");
     CLI11_PARSE(app, argc, argv);
     settings.least_rounds = std::min(settings.least_rounds, settings.most_rounds);
-    if (calibrate) must(vox_cost_calibrate(nullptr));
+    settings.weights.struct_size = sizeof settings.weights;
+    if (calibrate) must(vox_cost_calibrate(&settings.weights));
 
     const std::set<std::string> done = csv.empty() ? std::set<std::string>{} : rows_of(csv);
     const std::string title = only_suggest ? suggestions_head() : head();

@@ -71,8 +71,6 @@ class Nulls:
             value.count = 4
         elif name == "vox_foreign_grid":
             value.held = ctypes.pointer(self.struct("vox_primitives"))
-        elif name == "vox_cost_bounds":
-            value.min, value.max = 1, 2
         elif name == "vox_surface_desc":
             value.faces, value.face_count = ctypes.addressof(TETS), 1
         elif name == "vox_io_write_desc":

@@ -121,7 +121,7 @@ class JavaScript:
                        if f["kind"] == "enum"})
         lines = [f"// {GENERATED}", "", *wrapped(f"import type {{ {', '.join(used)} }} from \"./enums.js\";", "")]
         for s in sections(self.api, "structs"):
-            arrays = any("length" in f and f["direction"] != "out" and f["base"] not in self.callbacks | {"vox_reference_desc"}
+            arrays = any("length" in f and f["direction"] != "out" and f["base"] not in self.callbacks | {"vox_reference_desc", "vox_cost_weights"}
                          for f in s["fields"])
             if s["name"].endswith("_view") or s["name"] in self.callbacks or arrays:
                 continue

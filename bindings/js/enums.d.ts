@@ -355,6 +355,8 @@ export declare const MAX_CONTACTS: 4294967295;
 export declare const NO_PAIR: 4294967295;
 /** tasks enqueued in one step */
 export declare const MAX_TASKS: 64;
+/** numbers of vox_cost_weights */
+export declare const COST_WEIGHT_CAPACITY: 24;
 /** most samples of a curve */
 export declare const COST_CURVE_CAPACITY: 64;
 /** most terms of a cost, in any model */

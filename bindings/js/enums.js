@@ -14,6 +14,7 @@ export const NO_VERTEX = 4294967295;
 export const MAX_CONTACTS = 4294967295;
 export const NO_PAIR = 4294967295;
 export const MAX_TASKS = 64;
+export const COST_WEIGHT_CAPACITY = 24;
 export const COST_CURVE_CAPACITY = 64;
 export const COST_TERM_CAPACITY = 12;
 export const CELL_SIZE_LEVEL_CAPACITY = 4;

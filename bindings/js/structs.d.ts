@@ -715,6 +715,17 @@ export interface RayHitColumns {
 }
 
 /**
+ * How many nanoseconds one unit of each piece of work takes on a machine: what the models REFERENCE and FAST, and the
+ * reference engine, choose a cell size by. From vox_cost_calibrate; plain numbers, which may be saved and loaded.
+ */
+export interface CostWeights {
+  /** 1: by vox_cost_calibrate */
+  measured: number;
+  /** in the library's own order, finite, >= 0; 0: the one shipped with the library */
+  ns: number[];
+}
+
+/**
  * The paper's engine (Sect. 3), for vox_grid_desc.reference. It is serial and finds what the fast engine finds. If the
  * grid's cell_size is 0, it chooses by its cost model, at the first step, and again when the counts of its steps show
  * that another size would be better; each change is written to the log and counted in cell_size_changes. If the sizes
@@ -892,76 +903,15 @@ export interface Suggestion {
   levelCount: number;
 }
 
-/** A cost at one cell size, term by term. */
-export interface CostPrediction {
-  termCount: number;
-  cellSize: number;
-  cost: number;
-  terms: CostShare[];
-}
-
-/**
- * The weights of REFERENCE and FAST: nanoseconds that one unit of each piece of work takes on a machine. Plain numbers
- * above 0, which may be saved and loaded.
- */
-export interface CostWeights {
-  /** 1: on the machine they are for; 0: shipped with the library */
-  measured: number;
-  referenceClassifyVertex: number;
-  /** its box */
-  referencePrepareTet: number;
-  /** whose list is as long as the one before */
-  referenceVisitCell: number;
-  /** an occupied one, gone through instead of a box that meets more cells */
-  referenceScanCell: number;
-  referenceReadVertex: number;
-  referenceTestBox: number;
-  /** or its own corner, which is in the box as well */
-  referenceTestTet: number;
-  referenceClearBucket: number;
-  fastBinVertex: number;
-  fastClearCell: number;
-  /** for one window */
-  fastVisitTile: number;
-  fastVisitRow: number;
-  fastReadVertex: number;
-  /** one in a tile's box, against its tets */
-  fastTestVertex: number;
-  /** in a visited cell, of another length than the one before */
-  referenceChangedList: number;
-  /** passed over, and not read just before */
-  referenceFetchVertex: number;
-}
-
-/** coefficient * cell_size ^ power. A cost is a sum of these: (s / delta + 1)^3 is four of them. */
-export interface CostTerm {
-  coefficient: number;
-  power: number;
-}
-
-/** Columns of CostTerm: of an array field, its elements one after the other. */
-export interface CostTermColumns {
-  readonly coefficient: Float64Array;
-  readonly power: Float64Array;
-}
-
-/** Cell sizes to choose from, and how wide the zone is. */
-export interface CostBounds {
-  /** 0 < min <= max, finite */
-  min: number;
-  max: number;
-  /** as vox_suggest_desc.zone_loss */
-  zoneLoss: number;
-}
-
+/** The least cost, and where it is. */
 export interface CostMinimum {
   curveCount: number;
   cellSize: number;
   cost: number;
-  /** the range around cell_size, within the bounds, where the cost is at most (1 + zone_loss) times the least */
+  /** the range around cell_size, within [min, max], where the cost is at most (1 + zone_loss) times the least */
   zoneMin: number;
   zoneMax: number;
-  /** over the bounds, evenly spaced in the logarithm */
+  /** from min to max, evenly spaced in the logarithm */
   curve: CostSample[];
 }
 

@@ -3,7 +3,7 @@
 import type { CellContent, CellLook, Format, KnownGrid, LogLevel, PrimitiveType, Result } from "./enums.js";
 import type {
   BodyInfo, BoxHit, BoxHitColumns, ClosestHit, ClosestHitColumns, Contact, ContactColumns, ContactEvent,
-  ContactEventColumns, CostBounds, CostMinimum, CostPrediction, CostTerm, CostWeights, Counters, Depth, DepthColumns,
+  ContactEventColumns, CostMinimum, CostWeights, Counters, Depth, DepthColumns,
   Failure, Filter, ForeignSuggestion as ForeignSuggestionStruct, GridDesc, GridFit as GridFitStruct, GridInfo,
   GridTiming, GridWeights, GridWork, Pair, PairColumns, Penetration, PenetrationColumns, PointHit, PointHitColumns, Profile,
   QueryDesc, RayHit, RayHitColumns, Reading, ReadingColumns, ReferenceDesc, SuggestDesc, Suggestion as SuggestionStruct,
@@ -12,7 +12,7 @@ import type {
 
 export * from "./enums.js";
 export type {
-  BoxHit, CellSizeRules, ClosestHit, Contact, ContactEvent, CostSample, CostShare, CostTerm, CostWeights, Counters, Depth,
+  BoxHit, CellSizeRules, ClosestHit, Contact, ContactEvent, CostSample, CostShare, CostWeights, Counters, Depth,
   Failure, Filter, ForeignRules, GeometryStats, GridInfo, GridTiming, GridWeights, GridWork, BodyInfo, Pair, Penetration, PointHit, Profile, RayHit, Reading, TouchEvent,
 } from "./structs.js";
 
@@ -67,17 +67,10 @@ export interface Vox {
 
   /** The cell size that minimises the cost model for these meshes. */
   suggestCellSize(meshes: readonly SuggestMesh[], options?: SuggestOptions): Suggestion;
-  /** The cost that the model predicts at a cell size, term by term. */
-  predictCost(meshes: readonly SuggestMesh[], cellSize: number, options?: SuggestOptions): Omit<CostPrediction, "termCount">;
-  /** Measures the weights of the cost models on this machine, and puts them into use for this module. */
+  /** Measures what work costs on this machine, for `weights` of SuggestOptions and ReferenceOptions; plain numbers. */
   calibrate(): CostWeights;
-  /** The weights in use. Those that an assignment does not name stay; null: those shipped with the library. */
-  get costWeights(): CostWeights;
-  set costWeights(weights: Partial<CostWeights> | null);
-  /** The cell size of least cost, for a cost function of one's own. */
-  minimiseCost(cost: (cellSize: number) => number, bounds: Bounds): Omit<CostMinimum, "curveCount">;
-  /** The same for a sum of terms coefficient * cellSize ** power. */
-  minimiseCostTerms(terms: readonly CostTerm[], bounds: Bounds): Omit<CostMinimum, "curveCount">;
+  /** The cell size of least cost between min and max, for a cost function of one's own; `zoneLoss` as in SuggestOptions. */
+  minimiseCost(cost: (cellSize: number) => number, min: number, max: number, zoneLoss?: number): Omit<CostMinimum, "curveCount">;
 
   /** The cell size that costs a grid of another program least. Costs are nanoseconds of a run. */
   suggestFor(grid: ForeignGridOptions): ForeignSuggestion;
@@ -90,9 +83,6 @@ export interface Vox {
    * cannot run at this size, NaN to stop. What it throws is thrown here. Without a `grid`, `first` must be set.
    */
   tune(run: (cellSize: number) => number, options?: TuneOptions): Tuning;
-
-  /** Eq. 9: the distance of n from the optimum, in units of the optimal zone. */
-  zoneDistance(n: number, nMin: number, nOpt: number, nMax: number): number;
 }
 
 // ---- arrays ----
@@ -155,6 +145,8 @@ export interface ReferenceOptions extends Partial<Omit<ReferenceDesc, "worldMin"
   /** The box that has cells, where these are dense. */
   worldMin?: Vector;
   worldMax?: Vector;
+  /** Missing: those shipped with the library. */
+  weights?: CostWeights;
 }
 
 export interface FilterOptions extends Partial<Omit<Filter, "category" | "mask">> {
@@ -179,9 +171,11 @@ export interface SuggestMesh {
   selfCollision?: boolean;
 }
 
-export type SuggestOptions = Partial<SuggestDesc>;
+export interface SuggestOptions extends Partial<SuggestDesc> {
+  /** Of the models REFERENCE and FAST. Missing: those of the grid's reference engine, or those shipped with the library. */
+  weights?: CostWeights;
+}
 export type Suggestion = Omit<SuggestionStruct, "curveCount" | "termCount" | "levelCount">;
-export type Bounds = Pick<CostBounds, "min" | "max"> & Partial<CostBounds>;
 
 /** What a grid holds, or what asks it. Of each primitive only the box counts. */
 export interface Primitives {

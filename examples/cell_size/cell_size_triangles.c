@@ -15,34 +15,23 @@
  * the cost is a table of powers of d, and needs no code at all. */
 #include "example.h"
 
+#include <math.h>
 #include <vox/vox_cell_size.h>
 
-int main(void) {
+/* Nanoseconds of a frame: visits of the voxels around each triangle, and tests against the points in them. */
+static double cost(double d, void* user) {
     const double side = 0.02, area = 0.00017; /* of a triangle: metres, square metres */
     const double occupied = 0.3;              /* part of the voxels there that hold surface */
     const double visit = 12, test = 90;       /* nanoseconds, measured */
     const double triangles = 20000;           /* of the moving object */
+    (void)user;
+    return triangles * pow(side / d + 1, 3) * (visit + test * occupied / area * pow(side / d + 1, 2) * d * d);
+}
 
-    /* (s/d + 1)^3 = 1 + 3 s/d + 3 s^2/d^2 + s^3/d^3, and for the tests (s/d + 1)^5 d^2. */
-    static const double cubic[4] = {1, 3, 3, 1}, quintic[6] = {1, 5, 10, 10, 5, 1};
-    vox_cost_term terms[10];
-    uint64_t count = 0;
-    double power_of_side = 1;
-    for (int i = 0; i < 6; ++i, power_of_side *= side) {
-        if (i < 4) {
-            terms[count].coefficient = triangles * visit * cubic[i] * power_of_side;
-            terms[count++].power = -i;
-        }
-        terms[count].coefficient = triangles * test * occupied / area * quintic[i] * power_of_side;
-        terms[count++].power = 2 - i;
-    }
-
-    vox_cost_bounds bounds = vox_default_cost_bounds();
+int main(void) {
     vox_cost_minimum best;
-    bounds.min = side / 20;
-    bounds.max = side * 20;
     best.struct_size = sizeof best;
-    must(vox_cost_minimise_terms(terms, count, &bounds, &best));
+    must(vox_cost_minimise(cost, NULL, 0.001, 0.4, 0, &best));
     const vox_cost_sample* largest = &best.curve[best.curve_count - 1];
     printf("voxels of %.1f mm, good from %.1f to %.1f mm: %.1f ms a frame; with %.0f mm %.0f times that\n",
            1e3 * best.cell_size, 1e3 * best.zone_min, 1e3 * best.zone_max, 1e-6 * best.cost,

@@ -168,12 +168,9 @@ int main(void) {
     for (int i = 0; i < measured; ++i) times[i] = measure(sizes[i] = parts[i] * radius, &done);
     fit(sizes, times, measured, weight);
 
-    vox_cost_bounds bounds = vox_default_cost_bounds();
-    bounds.min = radius / 6;
-    bounds.max = 4 * radius;
     vox_cost_minimum best;
     best.struct_size = sizeof best;
-    must(vox_cost_minimise(cost, weight, &bounds, &best));
+    must(vox_cost_minimise(cost, weight, radius / 6, 4 * radius, 0, &best));
     printf("a row %.1f ns, a particle %.2f ns, a surprise %.1f ns: cells of %.2f radii, good from %.2f to "
            "%.2f\n",
            weight[0], weight[1], weight[2], best.cell_size / radius, best.zone_min / radius,

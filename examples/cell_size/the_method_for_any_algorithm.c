@@ -14,12 +14,9 @@ static double cost(double cell_size, void* user) {
 
 int main(void) {
     double per_particle = 0.2;
-    vox_cost_bounds bounds = vox_default_cost_bounds();
     vox_cost_minimum best;
-    bounds.min = 0.01;
-    bounds.max = 10;
     best.struct_size = sizeof best;
-    must(vox_cost_minimise(cost, &per_particle, &bounds, &best));
+    must(vox_cost_minimise(cost, &per_particle, 0.01, 10, 0, &best));
     printf("cell size %.2f, good from %.2f to %.2f; cost %.1f, with the radius as the cell size %.1f\n",
            best.cell_size, best.zone_min, best.zone_max, best.cost, cost(1, &per_particle));
     return 0;

@@ -22,6 +22,19 @@
 extern "C" {
 #endif
 
+/* ---- weights ---------------------------------------------------------------------------------- */
+
+#define VOX_COST_WEIGHT_CAPACITY 24u /* numbers of vox_cost_weights */
+
+/* How many nanoseconds one unit of each piece of work takes on a machine: what the models REFERENCE and FAST, and the
+ * reference engine, choose a cell size by. From vox_cost_calibrate; plain numbers, which may be saved and loaded. */
+typedef struct vox_cost_weights {
+    uint32_t struct_size;
+    uint32_t measured;                   /* 1: by vox_cost_calibrate */
+    double ns[VOX_COST_WEIGHT_CAPACITY]; /* in the library's own order, finite, >= 0; 0: the one shipped with the
+                                            library */
+} vox_cost_weights;
+
 /* ---- reference engine ------------------------------------------------------------------------- */
 
 typedef enum vox_reference_flags {
@@ -44,6 +57,7 @@ typedef struct vox_reference_desc {
                                  at least twice the number of vertices */
     double world_min[3];      /* DENSE: the box that has cells, min < max on each axis. Points outside go to */
     double world_max[3];      /* the nearest cell. All 0: the box of all positions, in every step */
+    VOX_OPTIONAL const vox_cost_weights* weights; /* copied; null: those shipped with the library */
 } vox_reference_desc;
 
 static inline vox_reference_desc vox_default_reference_desc(void) {
@@ -90,7 +104,8 @@ typedef struct vox_suggest_desc {
     uint64_t byte_budget;      /* REFERENCE with DENSE cells: most bytes that these may take; 0: no limit */
     uint32_t reference_flags;  /* REFERENCE: vox_reference_flags, combined with | */
     uint32_t reserved;         /* 0 */
-    VOX_OPTIONAL const vox_allocator* allocator; /* of the call's memory; null: the C++ runtime's heap */
+    VOX_OPTIONAL const vox_cost_weights* weights; /* REFERENCE and FAST; null: those shipped with the library */
+    VOX_OPTIONAL const vox_allocator* allocator;  /* of the call's memory; null: the C++ runtime's heap */
 } vox_suggest_desc;
 
 static inline vox_suggest_desc vox_default_suggest_desc(void) {
@@ -196,60 +211,14 @@ VOX_API vox_result vox_suggest_cell_size(VOX_OPTIONAL const vox_suggest_desc* de
  * FAST takes from the last step which meshes are at rest and which need no cells for self-collision; both cost nothing.
  * It is quicker than vox_suggest_cell_size because its samples are smaller: means are accurate to a few per cent.
  * The first call after a mesh was inserted or edited reads all of that mesh, and keeps up to 11 KB on the C++ runtime's
- * heap (docs/cell-size.md lists what each costs). Positions must be bound. Errors: as vox_suggest_cell_size, and
- * INVALID_STATE for a mesh without positions. */
+ * heap (docs/cell-size.md lists what each costs). Where weights are null, those of the grid's reference engine hold.
+ * Positions must be bound. Errors: as vox_suggest_cell_size, and INVALID_STATE for a mesh without positions. */
 VOX_API vox_result vox_grid_suggest_cell_size(const vox_grid* grid, VOX_OPTIONAL const vox_suggest_desc* desc,
                                               vox_suggestion* out);
 
-/* A cost at one cell size, term by term. */
-typedef struct vox_cost_prediction {
-    uint32_t struct_size;
-    uint32_t term_count;
-    double cell_size;
-    double cost;
-    vox_cost_share terms[VOX_COST_TERM_CAPACITY];
-} vox_cost_prediction;
-
-/* The cost that desc->model (desc null: PAPER) predicts for these meshes at one cell size. Arguments and errors as
- * vox_suggest_cell_size; also INVALID_ARGUMENT for a cell size that is not a finite number above 0. */
-VOX_API vox_result vox_cost_predict(VOX_OPTIONAL const vox_suggest_desc* desc, const vox_mesh_desc* meshes,
-                                    uint64_t mesh_count, double cell_size, vox_cost_prediction* out);
-
-/* The weights of REFERENCE and FAST: nanoseconds that one unit of each piece of work takes on a machine. Plain numbers
- * above 0, which may be saved and loaded. */
-typedef struct vox_cost_weights {
-    uint32_t struct_size;
-    uint32_t measured; /* 1: on the machine they are for; 0: shipped with the library */
-    double reference_classify_vertex;
-    double reference_prepare_tet; /* its box */
-    double reference_visit_cell; /* whose list is as long as the one before */
-    double reference_scan_cell; /* an occupied one, gone through instead of a box that meets more cells */
-    double reference_read_vertex;
-    double reference_test_box;
-    double reference_test_tet; /* or its own corner, which is in the box as well */
-    double reference_clear_bucket;
-    double fast_bin_vertex;
-    double fast_clear_cell;
-    double fast_visit_tile; /* for one window */
-    double fast_visit_row;
-    double fast_read_vertex;
-    double fast_test_vertex; /* one in a tile's box, against its tets */
-    double reference_changed_list; /* in a visited cell, of another length than the one before */
-    double reference_fetch_vertex; /* passed over, and not read just before */
-} vox_cost_weights;
-
-/* Measures the weights by running steps of both engines over a small built-in scene, and puts them into use for all
- * suggestions and grids of the process. The first call takes about ten milliseconds; later ones use its result.
- * out may be null; otherwise set out->struct_size first. Any thread. Errors: OUT_OF_MEMORY. */
-VOX_API vox_result vox_cost_calibrate(VOX_OPTIONAL vox_cost_weights* out);
-
-/* The weights in use: those calibrated or set last, or else those shipped with the library. Any thread. */
-VOX_API vox_result vox_cost_get_weights(vox_cost_weights* out);
-/* Puts saved weights into use. Fields that struct_size does not cover get the values shipped with the library, the last
- * two in proportion to reference_visit_cell and reference_read_vertex; with null, all get the shipped values. Any
- * thread.
- * Errors: INVALID_ARGUMENT (names the field that is not a finite number above 0). */
-VOX_API vox_result vox_cost_set_weights(VOX_OPTIONAL const vox_cost_weights* weights);
+/* Measures this machine's weights by steps of both engines over a small built-in scene, in about ten milliseconds. Set
+ * out->struct_size first. Errors: UNSUPPORTED (an x86-64 without SSE4.2), OUT_OF_MEMORY. */
+VOX_API vox_result vox_cost_calibrate(vox_cost_weights* out);
 
 /* ---- the method for any algorithm ------------------------------------------------------------- */
 
@@ -257,55 +226,25 @@ VOX_API vox_result vox_cost_set_weights(VOX_OPTIONAL const vox_cost_weights* wei
  * vox_cost_minimise. */
 typedef double vox_cost_function(double cell_size, void* user);
 
-/* coefficient * cell_size ^ power. A cost is a sum of these: (s / delta + 1)^3 is four of them. */
-typedef struct vox_cost_term {
-    double coefficient;
-    double power;
-} vox_cost_term;
-
-/* Cell sizes to choose from, and how wide the zone is. */
-typedef struct vox_cost_bounds {
-    uint32_t struct_size;
-    uint32_t reserved;  /* 0 */
-    double min;         /* 0 < min <= max, finite */
-    double max;
-    double zone_loss;   /* as vox_suggest_desc.zone_loss */
-} vox_cost_bounds;
-
-static inline vox_cost_bounds vox_default_cost_bounds(void) {
-    vox_cost_bounds bounds = VOX_ZERO;
-    bounds.struct_size = (uint32_t)sizeof bounds;
-    return bounds;
-}
-
+/* The least cost, and where it is. */
 typedef struct vox_cost_minimum {
     uint32_t struct_size;
     uint32_t curve_count;
     double cell_size;
     double cost;
-    double zone_min; /* the range around cell_size, within the bounds, where the cost is at most (1 + zone_loss) times
+    double zone_min; /* the range around cell_size, within [min, max], where the cost is at most (1 + zone_loss) times
                         the least */
     double zone_max;
-    vox_cost_sample curve[VOX_COST_CURVE_CAPACITY]; /* over the bounds, evenly spaced in the logarithm */
+    vox_cost_sample curve[VOX_COST_CURVE_CAPACITY]; /* from min to max, evenly spaced in the logarithm */
 } vox_cost_minimum;
 
-/* The cell size of least cost within the bounds, for a cost function of the caller's: a scan that is even in the
- * logarithm of the cell size, then a golden-section search around its best point. `cost` is called on this thread,
- * some hundred times, and must not throw. Errors: INVALID_ARGUMENT (also if the cost was finite at no cell size that
- * was tried, or if the least cost is negative). */
-VOX_API vox_result vox_cost_minimise(vox_cost_function* cost, void* user, const vox_cost_bounds* bounds,
+/* Finds the cell size between min and max with the least cost: a scan that is even in the logarithm of the cell size,
+ * then a golden-section search around its best point. `cost` is called on this thread, some hundred times, and must not
+ * throw. zone_loss is as in vox_suggest_desc. Set out->struct_size first.
+ * Errors: INVALID_ARGUMENT (unless 0 < min <= max, finite; a bad zone_loss; also if the cost was finite at no cell size
+ * that was tried, or if the least cost is negative). */
+VOX_API vox_result vox_cost_minimise(vox_cost_function* cost, void* user, double min, double max, double zone_loss,
                                      vox_cost_minimum* out);
-
-/* The same for the sum of `term_count` terms. */
-VOX_API vox_result vox_cost_minimise_terms(const vox_cost_term* terms, uint64_t term_count,
-                                           const vox_cost_bounds* bounds, vox_cost_minimum* out);
-
-/* Eq. 9: the distance of `n` from the optimum n_opt, in units of the optimal zone [n_min, n_max]. It is 0 at n = n_opt
- * and below 1 inside the zone. All arguments are in cells per axis, > 0, with n_min <= n_opt <= n_max. If the zone has
- * no width on the side of n, *out_epsilon is infinity (0 at n = n_opt).
- * Errors: INVALID_ARGUMENT (numbers that do not meet these conditions). */
-VOX_API vox_result vox_zone_distance(double n, double n_min, double n_opt, double n_max,
-                                     double* out_epsilon);
 
 /* ---- the cell size of any grid ---------------------------------------------------------------- */
 

@@ -25,27 +25,8 @@ inline returns<vox_suggestion> suggest_cell_size(span<const vox_mesh_desc> meshe
     return detail::filled<vox_suggestion>(vox_suggest_cell_size, &desc, meshes.data(), meshes.size());
 }
 
-// vox_cost_predict
-inline returns<vox_cost_prediction> predict_cost(span<const vox_mesh_desc> meshes, double cell_size,
-                                                 const vox_suggest_desc& desc = vox_default_suggest_desc()) {
-    return detail::filled<vox_cost_prediction>(vox_cost_predict, &desc, meshes.data(), meshes.size(), cell_size);
-}
-
-// vox_cost_calibrate, vox_cost_get_weights, vox_cost_set_weights; without an argument those shipped with the library.
+// vox_cost_calibrate
 inline returns<vox_cost_weights> calibrate() { return detail::filled<vox_cost_weights>(vox_cost_calibrate); }
-inline returns<vox_cost_weights> cost_weights() { return detail::filled<vox_cost_weights>(vox_cost_get_weights); }
-inline returns<void> set_cost_weights(const vox_cost_weights& weights) {
-    return detail::give(vox_cost_set_weights(&weights));
-}
-inline returns<void> set_cost_weights() { return detail::give(vox_cost_set_weights(nullptr)); }
-
-// A vox_cost_bounds with the default zone.
-inline vox_cost_bounds cost_bounds(double min, double max) noexcept {
-    vox_cost_bounds bounds = vox_default_cost_bounds();
-    bounds.min = min;
-    bounds.max = max;
-    return bounds;
-}
 
 namespace detail {
 // Of a cell size, from the callable of a called_back; NaN ends the search if it has thrown.
@@ -60,23 +41,13 @@ double cost_of(double cell_size, void* user) {
 
 // vox_cost_minimise, for any callable that takes a cell size and returns a number. What it throws ends the search.
 template <class F, std::enable_if_t<std::is_invocable_r_v<double, F&, double>, int> = 0>
-returns<vox_cost_minimum> minimise(F&& cost, const vox_cost_bounds& bounds) {
+returns<vox_cost_minimum> minimise(F&& cost, double min, double max, double zone_loss = 0) {
     using callable = std::remove_reference_t<F>;
     detail::called_back<callable> with{cost};
     vox_cost_minimum minimum = detail::sized<vox_cost_minimum>();
-    const vox_result result = vox_cost_minimise(detail::cost_of<callable>, &with, &bounds, &minimum);
+    const vox_result result = vox_cost_minimise(detail::cost_of<callable>, &with, min, max, zone_loss, &minimum);
     with.caught.rethrow();
     return detail::give(result, minimum);
-}
-
-// vox_cost_minimise_terms
-inline returns<vox_cost_minimum> minimise(span<const vox_cost_term> terms, const vox_cost_bounds& bounds) {
-    return detail::filled<vox_cost_minimum>(vox_cost_minimise_terms, terms.data(), terms.size(), &bounds);
-}
-
-// vox_zone_distance
-inline returns<double> zone_distance(double n, double n_min, double n_opt, double n_max) {
-    return detail::filled<double>(vox_zone_distance, n, n_min, n_opt, n_max);
 }
 
 // ---- the cell size of any grid ------------------------------------------------------------------
@@ -142,8 +113,8 @@ returns<vox_tuning> cost_tune(const vox_foreign_grid* grid, F&& run,
     return detail::give(result, tuning);
 }
 
-// The curve of a suggestion, fit, tuning or vox_cost_minimum; the terms of a suggestion or vox_cost_prediction; the
-// runs of a vox_tuning.
+// The curve of a suggestion, fit, tuning or vox_cost_minimum; the terms of a suggestion; the runs of
+// a vox_tuning.
 template <class S>
 span<const vox_cost_sample> curve(const S& of) {
     return {of.curve, of.curve_count};

@@ -225,7 +225,7 @@ VOX_API vox_result vox_sim_get_counters(const vox_sim* sim, vox_sim_counts* out_
  * created, and every sample detects the contacts of the same recorded frames. A complete experiment calls
  * vox_experiment_create; then, for each round and each cell size in the order of vox_experiment_order,
  * vox_experiment_measure; then, for each cell size, vox_experiment_time over its rounds; and at last vox_fit_times,
- * vox_fit_zone, vox_experiment_suggest and vox_zone_distance. `vox sweep` does exactly that. */
+ * vox_fit_zone and vox_experiment_suggest. `vox sweep` does exactly that. */
 typedef struct vox_experiment vox_experiment;
 
 typedef struct vox_experiment_desc {

@@ -1,4 +1,4 @@
-// The C border of vox.h's cell-size section.
+// The C border of cell sizes for meshes and for any algorithm (vox_cell_size.h).
 
 #include "base/array.hpp"
 #include "base/border.hpp"
@@ -79,25 +79,16 @@ void read_bodies(const vox_mesh_desc* meshes, std::uint64_t count, vox_cost_mode
     scene.budget = usual(model, tets);
 }
 
-vox_cost_bounds read_bounds(const vox_cost_bounds* bounds) {
-    vox_cost_bounds read = read_struct(bounds, "bounds");
-    set_default(read.zone_loss, default_zone_loss);
-    return read;
-}
-
 // Whether the surfaces of the meshes are what is asked about.
 bool is_of_surfaces(const vox_suggest_desc& settings) {
     return has_surfaces && settings.model == VOX_COST_MODEL_SURFACE;
 }
 
-vox_suggestion suggestion(const vox_suggest_desc& settings, CellSizeScene& scene) {
-    return is_of_surfaces(settings) ? suggest_for_surfaces(settings, scene)
-                                    : suggest(settings, scene, weights_in_use());
-}
-
-void check_cells(double cells, const char* name) {
-    if (!(cells > 0) || !std::isfinite(cells))
-        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is %.9g, expected a number above 0", name, cells));
+// `usual`: the weights of a scene for which none are given.
+vox_suggestion suggestion(const vox_suggest_desc& settings, CellSizeScene& scene, const CostWeights& usual) {
+    return is_of_surfaces(settings)
+               ? suggest_for_surfaces(settings, scene)
+               : suggest(settings, scene, settings.weights ? read_weights(settings.weights) : usual);
 }
 
 } // namespace
@@ -110,7 +101,7 @@ vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_de
         CallerMemory memory(settings.allocator);
         CellSizeScene scene(&memory);
         read_bodies(meshes, mesh_count, settings.model, scene);
-        write_struct(out, suggestion(settings, scene), "out");
+        write_struct(out, suggestion(settings, scene, shipped_weights), "out");
     });
 }
 
@@ -123,85 +114,29 @@ vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_de
         Scratch<std::size_t{1} << 16> memory(&caller); // enough for a small scene
         CellSizeScene scene(&memory);
         grid->describe(scene);
-        write_struct(out, suggestion(settings, scene), "out");
-    });
-}
-
-vox_result vox_cost_predict(const vox_suggest_desc* desc, const vox_mesh_desc* meshes, uint64_t mesh_count,
-                            double cell_size, vox_cost_prediction* out) {
-    return border([&] {
-        check_out_struct(out, "out");
-        const vox_suggest_desc settings = read_suggest_desc(desc);
-        check_cells(cell_size, "cell_size");
-        CallerMemory memory(settings.allocator);
-        CellSizeScene scene(&memory);
-        read_bodies(meshes, mesh_count, settings.model, scene);
-        write_struct(out,
-                     is_of_surfaces(settings) ? predict_for_surfaces(settings, scene, cell_size)
-                                              : predict(settings, scene, weights_in_use(), cell_size),
-                     "out");
+        write_struct(out, suggestion(settings, scene, grid->weights()), "out");
     });
 }
 
 vox_result vox_cost_calibrate(vox_cost_weights* out) {
     return border([&] {
-        if (out) check_out_struct(out, "out");
+        check_out_struct(out, "out");
         simd::require_instructions();
-        use_weights(measured_weights());
-        if (out) write_struct(out, measured_weights(), "out");
+        vox_cost_weights weights = as_given(measured_weights());
+        weights.measured = 1;
+        write_struct(out, weights, "out");
     });
 }
 
-vox_result vox_cost_get_weights(vox_cost_weights* out) {
-    return border([&] { write_struct(out, weights_in_use(), "out"); });
-}
-
-vox_result vox_cost_set_weights(const vox_cost_weights* weights) {
-    return border([&] { use_weights(read_weights(weights)); });
-}
-
-vox_result vox_cost_minimise(vox_cost_function* cost, void* user, const vox_cost_bounds* bounds,
+vox_result vox_cost_minimise(vox_cost_function* cost, void* user, double min, double max, double zone_loss,
                              vox_cost_minimum* out) {
     return border([&] {
         check_out_struct(out, "out");
         if (!cost) throw Error(VOX_ERROR_INVALID_ARGUMENT, "cost is null");
+        set_default(zone_loss, default_zone_loss);
         write_struct(
             out,
-            minimise_within([&](double cell_size) { return cost(cell_size, user); }, read_bounds(bounds)),
+            minimise_within([&](double cell_size) { return cost(cell_size, user); }, {min, max}, zone_loss),
             "out");
-    });
-}
-
-vox_result vox_cost_minimise_terms(const vox_cost_term* terms, uint64_t term_count,
-                                   const vox_cost_bounds* bounds, vox_cost_minimum* out) {
-    return border([&] {
-        check_out_struct(out, "out");
-        if (term_count > 0) require(terms, "terms");
-        for (std::uint64_t i = 0; i < term_count; ++i)
-            if (!std::isfinite(terms[i].coefficient) || !std::isfinite(terms[i].power))
-                throw Error(VOX_ERROR_INVALID_ARGUMENT, format("term %" PRIu64 " is %g * size^%g", i,
-                                                               terms[i].coefficient, terms[i].power));
-        const auto sum = [&](double cell_size) {
-            double cost = 0;
-            for (std::uint64_t i = 0; i < term_count; ++i)
-                cost += terms[i].coefficient * std::pow(cell_size, terms[i].power);
-            return cost;
-        };
-        write_struct(out, minimise_within(sum, read_bounds(bounds)), "out");
-    });
-}
-
-vox_result vox_zone_distance(double n, double n_min, double n_opt, double n_max, double* out_epsilon) {
-    return border([&] {
-        require(out_epsilon, "out_epsilon");
-        check_cells(n, "n");
-        check_cells(n_min, "n_min");
-        check_cells(n_opt, "n_opt");
-        check_cells(n_max, "n_max");
-        if (!(n_min <= n_opt && n_opt <= n_max))
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("n_min %.9g, n_opt %.9g, n_max %.9g: expected in ascending order", n_min,
-                               n_opt, n_max));
-        *out_epsilon = zone_distance(n, n_min, n_opt, n_max);
     });
 }

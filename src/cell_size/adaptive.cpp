@@ -3,7 +3,6 @@
 #include "base/error.hpp"
 #include "base/sampling.hpp"
 #include "cell_size/reference_model.hpp"
-#include "cell_size/weights.hpp"
 #include "mesh/check.hpp"
 
 #include <algorithm>
@@ -42,11 +41,10 @@ double choice_ns(double vertices, double tets, const SampleBudget& budget) {
 // What a visited cell costs with its list, in visits of empty cells.
 constexpr double cell_visits = 5;
 
-double step_ns(const vox_counters& c, const vox_cost_weights& w) {
-    return static_cast<double>(c.vertices) * w.reference_classify_vertex +
-           static_cast<double>(c.tets) * w.reference_prepare_tet +
-           static_cast<double>(c.visited_cells) * cell_visits * w.reference_visit_cell +
-           static_cast<double>(c.visited_entries) * w.reference_read_vertex;
+double step_ns(const vox_counters& c, const CostWeights& w) {
+    return static_cast<double>(c.vertices) * w.classify_vertex + static_cast<double>(c.tets) * w.prepare_tet +
+           static_cast<double>(c.visited_cells) * cell_visits * w.visit_cell +
+           static_cast<double>(c.visited_entries) * w.read_vertex;
 }
 
 // Mean longest side of the boxes of a few tetrahedra, for when there is no memory for more.
@@ -142,7 +140,7 @@ bool AdaptiveCellSize::choose(std::span<const Body> bodies, bool dense, double b
     // The first choice has to be made, so it is not charged.
     if (sizes_.count != 0)
         credit_ -= choice_ns(static_cast<double>(vertices), static_cast<double>(tets), scene.budget);
-    const ReferenceModel cost(scene, dense, weights_in_use());
+    const ReferenceModel cost(scene, dense, weights_);
     std::optional<CellSizeRange> range = cost.range();
     if (!range) return false;
     floor_ = 0;
@@ -176,7 +174,7 @@ bool AdaptiveCellSize::choose(std::span<const Body> bodies, bool dense, double b
 void AdaptiveCellSize::observe(const vox_counters& counters) noexcept {
     price_ = choice_ns(static_cast<double>(counters.vertices), static_cast<double>(counters.tets),
                        quick(VOX_COST_MODEL_REFERENCE, counters.tets));
-    credit_ = std::min(credit_ + time_share * step_ns(counters, weights_in_use()), price_);
+    credit_ = std::min(credit_ + time_share * step_ns(counters, weights_), price_);
     if (counters.visited_entries == 0 || counters.visited_cells == 0) return;
     last_balance_ =
         std::log(static_cast<double>(counters.visited_entries) / static_cast<double>(counters.visited_cells));

@@ -15,6 +15,7 @@
 
 #include "base/scene.hpp"
 #include "cell_size/levels.hpp"
+#include "cell_size/weights.hpp"
 
 #include <vox/vox.h>
 
@@ -26,10 +27,11 @@ namespace vox {
 
 class AdaptiveCellSize {
 public:
+    explicit AdaptiveCellSize(const CostWeights& weights) noexcept : weights_(weights) {}
     // Call after meshes were added, removed or cut.
     void scene_changed() noexcept { scene_changed_ = true; }
     // The next step chooses as if it were the first.
-    void restart() noexcept { *this = {}; }
+    void restart() noexcept { *this = AdaptiveCellSize(weights_); }
 
     // The cell sizes for a step with these bodies, at least one, valid until the next call. Dense storage has
     // at most `byte_limit` bytes of cells (0: any number). Where memory for a choice is refused, it is made
@@ -40,6 +42,7 @@ public:
     // Call after that step with what it counted.
     void observe(const vox_counters& counters) noexcept;
 
+    const CostWeights& weights() const noexcept { return weights_; }
     // How often cell_sizes() returned other sizes than the time before.
     std::uint64_t changes() const noexcept { return changes_; }
 
@@ -49,6 +52,7 @@ private:
     bool choose(std::span<const Body> bodies, bool dense, double byte_limit,
                 std::pmr::memory_resource* memory);
 
+    CostWeights weights_;
     Levels sizes_{};     // empty before the first choice
     double floor_ = 0;   // the smallest size that the byte limit allows
     double moved_ = 0;   // logarithm of how far the sizes have been scaled since the last choice

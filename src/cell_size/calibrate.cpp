@@ -129,7 +129,7 @@ double shortest(int times, Work&& work) {
     return best;
 }
 
-void measure_reference(Scene& scene, vox_cost_weights& weights) {
+void measure_reference(Scene& scene, CostWeights& weights) {
     ReferenceEngine engine(Scene::memory());
     Array<Hit> hits(Scene::memory());
     vox_counters counters{};
@@ -151,31 +151,29 @@ void measure_reference(Scene& scene, vox_cost_weights& weights) {
             const double tets =
                 static_cast<double>(scene.bodies[0].tets.size() + scene.bodies[1].tets.size());
             const auto vertices = static_cast<double>(counters.entries);
-            const double fixed =
-                vertices * (weights.reference_classify_vertex + 2 * weights.reference_clear_bucket) +
-                tets * weights.reference_prepare_tet +
-                cost.lookups().candidates() * weights.reference_test_tet;
+            const double fixed = vertices * (weights.classify_vertex + 2 * weights.clear_bucket) +
+                                 tets * weights.prepare_tet + cost.lookups().candidates() * weights.test_tet;
             const ReferenceModel::Work work = cost.work(cell_size);
             timings.push_back(
                 {time, {fixed, work.visited, work.changed, work.read, work.fetched, work.tested}});
         }
     }
-    const std::array<double, unknowns> x = fit(
-        timings, {1, weights.reference_visit_cell, weights.reference_changed_list,
-                  weights.reference_read_vertex, weights.reference_fetch_vertex, weights.reference_test_box});
-    weights.reference_classify_vertex *= x[0];
-    weights.reference_prepare_tet *= x[0];
-    weights.reference_test_tet *= x[0];
-    weights.reference_clear_bucket *= x[0];
-    weights.reference_scan_cell *= x[1] / weights.reference_visit_cell;
-    weights.reference_visit_cell = x[1];
-    weights.reference_changed_list = x[2];
-    weights.reference_read_vertex = x[3];
-    weights.reference_fetch_vertex = x[4];
-    weights.reference_test_box = x[5];
+    const std::array<double, unknowns> x =
+        fit(timings, {1, weights.visit_cell, weights.changed_list, weights.read_vertex, weights.fetch_vertex,
+                      weights.test_box});
+    weights.classify_vertex *= x[0];
+    weights.prepare_tet *= x[0];
+    weights.test_tet *= x[0];
+    weights.clear_bucket *= x[0];
+    weights.scan_cell *= x[1] / weights.visit_cell;
+    weights.visit_cell = x[1];
+    weights.changed_list = x[2];
+    weights.read_vertex = x[3];
+    weights.fetch_vertex = x[4];
+    weights.test_box = x[5];
 }
 
-void measure_fast(Scene& scene, vox_cost_weights& weights) {
+void measure_fast(Scene& scene, CostWeights& weights) {
     FastEngine engine(Scene::memory());
     Array<Hit> hits(Scene::memory());
     vox_counters counters{};
@@ -196,32 +194,28 @@ void measure_fast(Scene& scene, vox_cost_weights& weights) {
             engine.detect(scene.bodies, scene.prepared, settings, hits, counters, profile);
         });
         const FastModel::Counts c = cost.counts(cell_size, FastModel::Alignment::actual);
-        const double fixed = c.vertices * weights.fast_bin_vertex + c.looks * weights.fast_visit_tile +
-                             c.tested * weights.fast_test_vertex;
+        const double fixed =
+            c.vertices * weights.bin_vertex + c.looks * weights.visit_tile + c.tested * weights.test_vertex;
         timings.push_back({time, {fixed, c.cells, c.rows, c.read, 0, 0}});
     }
     const std::array<double, unknowns> x =
-        fit(timings, {1, weights.fast_clear_cell, weights.fast_visit_row, weights.fast_read_vertex, 1, 1});
-    weights.fast_bin_vertex *= x[0];
-    weights.fast_visit_tile *= x[0];
-    weights.fast_test_vertex *= x[0];
-    weights.fast_clear_cell = x[1];
-    weights.fast_visit_row = x[2];
-    weights.fast_read_vertex = x[3];
+        fit(timings, {1, weights.clear_cell, weights.visit_row, weights.found_vertex, 1, 1});
+    weights.bin_vertex *= x[0];
+    weights.visit_tile *= x[0];
+    weights.test_vertex *= x[0];
+    weights.clear_cell = x[1];
+    weights.visit_row = x[2];
+    weights.found_vertex = x[3];
 }
 
 } // namespace
 
-const vox_cost_weights& measured_weights() {
-    static const vox_cost_weights measured = [] {
-        vox_cost_weights weights = shipped_weights();
-        Scene scene(6, 1.5f);
-        measure_reference(scene, weights);
-        measure_fast(scene, weights);
-        weights.measured = 1;
-        return weights;
-    }();
-    return measured;
+CostWeights measured_weights() {
+    CostWeights weights = shipped_weights;
+    Scene scene(6, 1.5f);
+    measure_reference(scene, weights);
+    measure_fast(scene, weights);
+    return weights;
 }
 
 } // namespace vox

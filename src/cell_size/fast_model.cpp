@@ -55,7 +55,7 @@ void append_tiles(const CellSizeScene& scene, std::uint32_t body, const Box& reg
 
 } // namespace
 
-FastModel::FastModel(const CellSizeScene& scene, const vox_cost_weights& weights)
+FastModel::FastModel(const CellSizeScene& scene, const CostWeights& weights)
     : pools_(scene.memory), weights_(weights), budget_(scene.budget) {
     const fast::BroadPhase& near = scene.broad_phase();
     Array<Box> tiles(scene.memory);              // that meet the regions
@@ -238,12 +238,12 @@ FastModel::Counts FastModel::counts(double cell_size, Alignment alignment) const
 CostTerms FastModel::terms(double cell_size, Alignment alignment) const {
     const Counts c = counts(cell_size, alignment);
     CostTerms terms;
-    terms.add("bin a vertex", c.vertices, weights_.fast_bin_vertex);
-    terms.add("clear a cell", c.cells, weights_.fast_clear_cell);
-    terms.add("visit a tile", c.looks, weights_.fast_visit_tile);
-    terms.add("visit a row", c.rows, weights_.fast_visit_row);
-    terms.add("read a vertex", c.read, weights_.fast_read_vertex);
-    terms.add("test a vertex", c.tested, weights_.fast_test_vertex);
+    terms.add("bin a vertex", c.vertices, weights_.bin_vertex);
+    terms.add("clear a cell", c.cells, weights_.clear_cell);
+    terms.add("visit a tile", c.looks, weights_.visit_tile);
+    terms.add("visit a row", c.rows, weights_.visit_row);
+    terms.add("read a vertex", c.read, weights_.found_vertex);
+    terms.add("test a vertex", c.tested, weights_.test_vertex);
     return terms;
 }
 

@@ -16,6 +16,7 @@
 #include "cell_size/lookups.hpp"
 #include "cell_size/scene.hpp"
 #include "cell_size/search.hpp"
+#include "cell_size/weights.hpp"
 
 #include <vox/vox_cell_size.h>
 
@@ -28,7 +29,7 @@ namespace vox {
 class FastModel {
 public:
     // Of a scene that was prepared for this model. It is not needed afterwards, its memory is.
-    FastModel(const CellSizeScene& scene, const vox_cost_weights& weights);
+    FastModel(const CellSizeScene& scene, const CostWeights& weights);
 
     // A window's lattice begins at its corner. In small windows the counts depend on how the tiles happen to
     // lie there: `actual` counts them so. `average` takes the mean over all alignments, which is smooth in
@@ -83,7 +84,7 @@ private:
     Pool& pool_of(double smallest_cell);
 
     Array<Pool> pools_;
-    vox_cost_weights weights_;
+    CostWeights weights_;
     SampleBudget budget_;
 };
 

@@ -83,12 +83,4 @@ CostTerms PaperModel::terms(double cell_size) const {
     return terms;
 }
 
-// As printed, Eq. 9 has the factors a = floor(n_opt / n) and b = floor(n / n_opt) to choose the side that n
-// lies on. One of them is zero, and the other cancels out.
-double zone_distance(double n, double n_min, double n_opt, double n_max) {
-    if (n == n_opt) return 0;
-    const double width = n < n_opt ? n_opt - n_min : n_max - n_opt;
-    return width > 0 ? std::abs(n_opt - n) / width : std::numeric_limits<double>::infinity();
-}
-
 } // namespace vox

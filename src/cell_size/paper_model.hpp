@@ -37,7 +37,4 @@ private:
     double cost_ratio_, s_, k_;
 };
 
-// How far n cells per axis are from the best number n_opt, in units of the zone from n_min to n_max (Eq. 9).
-double zone_distance(double n, double n_min, double n_opt, double n_max);
-
 } // namespace vox

@@ -32,7 +32,7 @@ bool is_apart(const Body& body, std::size_t tet, const Lookup& box) {
 
 } // namespace
 
-ReferenceModel::ReferenceModel(const CellSizeScene& scene, bool dense, const vox_cost_weights& weights)
+ReferenceModel::ReferenceModel(const CellSizeScene& scene, bool dense, const CostWeights& weights)
     : lookups_(scene.budget, scene.memory), weights_(weights), dense_(dense) {
     std::size_t vertices = 0, tets = 0;
     for (const Body& body : scene.bodies) {
@@ -190,33 +190,32 @@ ReferenceModel::Work ReferenceModel::work(double cell_size) const noexcept {
 CostTerms ReferenceModel::terms(double cell_size) const {
     const Work w = work(cell_size);
     CostTerms terms;
-    terms.add("classify a vertex", vertices_, weights_.reference_classify_vertex);
-    terms.add("prepare a tet", tets_, weights_.reference_prepare_tet);
-    terms.add("visit a cell", w.visited, weights_.reference_visit_cell);
-    terms.add("list of another length", w.changed, weights_.reference_changed_list);
-    terms.add("scan an occupied cell", w.scanned, weights_.reference_scan_cell);
-    terms.add("read a vertex", w.read, weights_.reference_read_vertex);
-    terms.add("fetch a vertex", w.fetched, weights_.reference_fetch_vertex);
-    terms.add("test a box", w.tested, weights_.reference_test_box);
-    terms.add("handle one in the box", lookups_.candidates(), weights_.reference_test_tet);
-    terms.add("clear a bucket", buckets(cell_size), weights_.reference_clear_bucket);
+    terms.add("classify a vertex", vertices_, weights_.classify_vertex);
+    terms.add("prepare a tet", tets_, weights_.prepare_tet);
+    terms.add("visit a cell", w.visited, weights_.visit_cell);
+    terms.add("list of another length", w.changed, weights_.changed_list);
+    terms.add("scan an occupied cell", w.scanned, weights_.scan_cell);
+    terms.add("read a vertex", w.read, weights_.read_vertex);
+    terms.add("fetch a vertex", w.fetched, weights_.fetch_vertex);
+    terms.add("test a box", w.tested, weights_.test_box);
+    terms.add("handle one in the box", lookups_.candidates(), weights_.test_tet);
+    terms.add("clear a bucket", buckets(cell_size), weights_.clear_bucket);
     return terms;
 }
 
 double ReferenceModel::of_grid(double cell_size) const noexcept {
-    return vertices_ * weights_.reference_classify_vertex +
-           buckets(cell_size) * weights_.reference_clear_bucket;
+    return vertices_ * weights_.classify_vertex + buckets(cell_size) * weights_.clear_bucket;
 }
 
 double ReferenceModel::of_class(const SizeClass& c, double cell_size, double occupied) const noexcept {
     const Work w = work(c, cell_size, occupied);
-    return w.visited * weights_.reference_visit_cell + w.changed * weights_.reference_changed_list +
-           w.scanned * weights_.reference_scan_cell + w.read * weights_.reference_read_vertex +
-           w.fetched * weights_.reference_fetch_vertex + w.tested * weights_.reference_test_box;
+    return w.visited * weights_.visit_cell + w.changed * weights_.changed_list +
+           w.scanned * weights_.scan_cell + w.read * weights_.read_vertex +
+           w.fetched * weights_.fetch_vertex + w.tested * weights_.test_box;
 }
 
 double ReferenceModel::shared() const noexcept {
-    return tets_ * weights_.reference_prepare_tet + lookups_.candidates() * weights_.reference_test_tet;
+    return tets_ * weights_.prepare_tet + lookups_.candidates() * weights_.test_tet;
 }
 
 } // namespace vox

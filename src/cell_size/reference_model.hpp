@@ -16,6 +16,7 @@
 #include "cell_size/lookups.hpp"
 #include "cell_size/scene.hpp"
 #include "cell_size/search.hpp"
+#include "cell_size/weights.hpp"
 
 #include <vox/vox_cell_size.h>
 
@@ -27,7 +28,7 @@ class ReferenceModel {
 public:
     // Measures the positions as they are now; all of them are finite. The scene is not needed afterwards, its
     // memory is.
-    ReferenceModel(const CellSizeScene& scene, bool dense, const vox_cost_weights& weights);
+    ReferenceModel(const CellSizeScene& scene, bool dense, const CostWeights& weights);
     ReferenceModel(const ReferenceModel&) = delete;
     ReferenceModel& operator=(const ReferenceModel&) = delete;
 
@@ -65,7 +66,7 @@ private:
     double buckets(double cell_size) const noexcept;
 
     Lookups lookups_;
-    vox_cost_weights weights_;
+    CostWeights weights_;
     bool dense_;
     double vertices_ = 0, tets_ = 0;
     double sides_[3] = {0, 0, 0}; // of the box of all vertices

@@ -172,26 +172,23 @@ double CostTable::operator()(double log_size) {
 // ---- cost functions of users ------------------------------------------------------------------------
 
 vox_cost_minimum minimise_within(const std::function<double(double cell_size)>& cost_at,
-                                 const vox_cost_bounds& bounds) {
-    if (!(bounds.min > 0 && bounds.min <= bounds.max && std::isfinite(bounds.max)))
+                                 const CellSizeRange& range, double zone_loss) {
+    if (!(range.min > 0 && range.min <= range.max && std::isfinite(range.max)))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("bounds are %g to %g, expected 0 < min <= max", bounds.min, bounds.max));
-    if (!(bounds.zone_loss >= 0 && bounds.zone_loss <= 1e6))
+                    format("min is %g, max is %g, expected 0 < min <= max", range.min, range.max));
+    if (!(zone_loss >= 0 && zone_loss <= 1e6))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("bounds zone_loss is %g, expected a number from 0 to 1e6", bounds.zone_loss));
-    if (bounds.reserved != 0)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("bounds reserved is %u, expected 0", bounds.reserved));
-    const CellSizeRange range{bounds.min, bounds.max};
+                    format("zone_loss is %g, expected a number from 0 to 1e6", zone_loss));
     const CostFunction cost = [&](double place) { return cost_at(size_at(place, range)); };
     const CostMinimum best = minimise(cost, range);
     if (!std::isfinite(best.cost))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("no finite cost for a cell size from %g to %g", bounds.min, bounds.max));
+                    format("no finite cost for a cell size from %g to %g", range.min, range.max));
     if (best.cost < 0)
         throw Error(
             VOX_ERROR_INVALID_ARGUMENT,
             format("the cost is %g at cell size %g, expected none below 0", best.cost, best.cell_size));
-    const CellSizeRange zone = zone_around(best, (1 + bounds.zone_loss) * best.cost, cost, range);
+    const CellSizeRange zone = zone_around(best, (1 + zone_loss) * best.cost, cost, range);
     vox_cost_minimum result{};
     result.cell_size = best.cell_size;
     result.cost = best.cost;

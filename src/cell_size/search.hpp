@@ -107,6 +107,6 @@ private:
 // Takes the cost at a size. Throws INVALID_ARGUMENT for bounds that vox.h does not allow, and for a cost that
 // is nowhere finite or negative where it is least.
 vox_cost_minimum minimise_within(const std::function<double(double cell_size)>& cost_at,
-                                 const vox_cost_bounds& bounds);
+                                 const CellSizeRange& range, double zone_loss);
 
 } // namespace vox

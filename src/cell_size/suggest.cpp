@@ -56,6 +56,7 @@ void check_suggest_desc(vox_suggest_desc& desc) {
     check_number(desc.mean_edge_factor > 0, desc.mean_edge_factor, "mean_edge_factor", "a number above 0");
     check_number(desc.resolution >= 0, desc.resolution, "resolution", "0 or a length");
     check_reference_flags(desc.reference_flags, "suggest reference_flags");
+    (void)read_weights(desc.weights);
     if (desc.reserved != 0)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("suggest reserved is %" PRIu32 ", expected 0", desc.reserved));
@@ -141,7 +142,7 @@ vox_suggestion suggest_paper(const vox_suggest_desc& desc, const CellSizeScene& 
 constexpr double near = 1e-4; // of the cell size; no model is more accurate
 
 vox_suggestion suggest_reference(const vox_suggest_desc& desc, const CellSizeScene& scene,
-                                 const vox_cost_weights& weights) {
+                                 const CostWeights& weights) {
     const ReferenceModel model(scene, is_dense(desc), weights);
     std::optional<CellSizeRange> range = model.range();
     if (!range) throw_no_size(scene.geometry.stats);
@@ -176,7 +177,7 @@ vox_suggestion suggest_reference(const vox_suggest_desc& desc, const CellSizeSce
 }
 
 vox_suggestion suggest_fast(const vox_suggest_desc& desc, const CellSizeScene& scene,
-                            const vox_cost_weights& weights) {
+                            const CostWeights& weights) {
     const vox_geometry_stats& stats = scene.geometry.stats;
     const FastModel model(scene, weights);
     if (stats.tets == 0 || !(stats.mean_box_side > 0)) throw_no_size(stats);
@@ -202,21 +203,9 @@ vox_suggestion suggest_fast(const vox_suggest_desc& desc, const CellSizeScene& s
     return result;
 }
 
-CostTerms predicted_terms(const vox_suggest_desc& desc, const CellSizeScene& scene,
-                          const vox_cost_weights& weights, double cell_size) {
-    switch (desc.model) {
-    case VOX_COST_MODEL_REFERENCE:
-        return ReferenceModel(scene, is_dense(desc), weights).terms(cell_size);
-    case VOX_COST_MODEL_FAST:
-        return FastModel(scene, weights).terms(cell_size, FastModel::Alignment::actual);
-    default:
-        return PaperModel(scene, desc).terms(cell_size);
-    }
-}
-
 } // namespace
 
-vox_suggestion suggest(const vox_suggest_desc& desc, CellSizeScene& scene, const vox_cost_weights& weights) {
+vox_suggestion suggest(const vox_suggest_desc& desc, CellSizeScene& scene, const CostWeights& weights) {
     scene.prepare(desc.model);
     switch (desc.model) {
     case VOX_COST_MODEL_REFERENCE:
@@ -226,12 +215,6 @@ vox_suggestion suggest(const vox_suggest_desc& desc, CellSizeScene& scene, const
     default:
         return suggest_paper(desc, scene);
     }
-}
-
-vox_cost_prediction predict(const vox_suggest_desc& desc, CellSizeScene& scene,
-                            const vox_cost_weights& weights, double cell_size) {
-    scene.prepare(desc.model);
-    return prediction_of(predicted_terms(desc, scene, weights, cell_size), cell_size);
 }
 
 vox_suggestion suggest_by(const vox_suggest_desc& desc, const Geometry& geometry,
@@ -248,14 +231,6 @@ vox_suggestion suggest_by(const vox_suggest_desc& desc, const Geometry& geometry
         zone_around(best, (1 + desc.zone_loss) * best.cost, curve, {range.min / 8, range.max * 8}, fineness),
         curve, terms(best.cell_size));
     return result;
-}
-
-vox_cost_prediction prediction_of(const CostTerms& terms, double cell_size) {
-    vox_cost_prediction prediction{};
-    prediction.cell_size = cell_size;
-    prediction.cost = terms.cost();
-    write_shares(terms, prediction.terms, prediction.term_count);
-    return prediction;
 }
 
 } // namespace vox

@@ -4,6 +4,7 @@
 
 #include "cell_size/scene.hpp"
 #include "cell_size/search.hpp"
+#include "cell_size/weights.hpp"
 
 #include <vox/vox_cell_size.h>
 
@@ -15,25 +16,18 @@ namespace vox {
 // Throws INVALID_ARGUMENT for unknown ones of vox_reference_flags.
 void check_reference_flags(std::uint32_t flags, const char* name);
 
-// Sets the fields whose 0 stands for something else. Throws INVALID_ARGUMENT for one that vox.h does not
-// allow.
+// Sets the fields whose 0 stands for something else. Throws INVALID_ARGUMENT for one that
+// vox_cell_size.h does not allow.
 void check_suggest_desc(vox_suggest_desc& desc);
 
-// Both prepare the scene for desc.model and take a desc that passed the check.
-
-// Sets all fields but struct_size. Throws INVALID_ARGUMENT where the scene has no tetrahedra, none of any
-// size, or sizes beyond computation.
-vox_suggestion suggest(const vox_suggest_desc& desc, CellSizeScene& scene, const vox_cost_weights& weights);
-
-// What the model predicts at one cell size, as the bodies lie. Throws as suggest().
-vox_cost_prediction predict(const vox_suggest_desc& desc, CellSizeScene& scene,
-                            const vox_cost_weights& weights, double cell_size);
+// Takes a desc that passed the check, prepares the scene for its model, and sets all fields but struct_size.
+// Throws INVALID_ARGUMENT where the scene has no tetrahedra, none of any size, or sizes beyond computation.
+vox_suggestion suggest(const vox_suggest_desc& desc, CellSizeScene& scene, const CostWeights& weights);
 
 // The same for a cost that is described elsewhere, whose terms are given: it is least in `range`, and the
 // zone reaches three octaves beyond that at most.
 vox_suggestion suggest_by(const vox_suggest_desc& desc, const Geometry& geometry,
                           const std::function<CostTerms(double cell_size)>& terms,
                           const CellSizeRange& range);
-vox_cost_prediction prediction_of(const CostTerms& terms, double cell_size);
 
 } // namespace vox

@@ -67,6 +67,9 @@ vox_dist_scene::OwnDesc::OwnDesc(const vox_grid_desc& desc)
     if (!desc.reference) return;
     reference_ = read_struct(desc.reference, "grid->reference");
     desc_.reference = &reference_;
+    if (!reference_.weights) return;
+    weights_ = read_struct(reference_.weights, "grid->reference->weights");
+    reference_.weights = &weights_;
 }
 
 vox_dist_scene::vox_dist_scene(const vox_grid_desc& grid, const vox_dist_transport& transport)

@@ -81,6 +81,7 @@ struct vox_dist_scene {
         vox_log log_;
         vox_task_system tasks_;
         vox_reference_desc reference_;
+        vox_cost_weights weights_;
     };
 
     OwnDesc grid_desc_;

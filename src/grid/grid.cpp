@@ -58,6 +58,10 @@ ReferenceSettings read_reference(const vox_reference_desc* given) {
             .world_max = {desc.world_max[0], desc.world_max[1], desc.world_max[2]}};
 }
 
+CostWeights weights_of(const vox_reference_desc* given) {
+    return read_weights(given ? read_struct(given, "reference").weights : nullptr);
+}
+
 } // namespace
 
 void check_grid_desc(const vox_grid_desc& desc) {
@@ -69,6 +73,7 @@ void check_grid_desc(const vox_grid_desc& desc) {
     check_flags(desc.flags);
     check_margin(desc.margin);
     if (desc.reference) (void)read_reference(desc.reference);
+    (void)weights_of(desc.reference);
 }
 
 void check_flags(std::uint32_t flags) {
@@ -89,12 +94,13 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
       workers_(tasks_, desc.worker_count), fast_(!desc.reference),
       settings_(desc.reference ? read_reference(desc.reference) : ReferenceSettings{}),
       skips_bad_meshes_((desc.flags & VOX_GRID_SKIP_BAD_BODIES) != 0), closest_budget_(desc.closest_budget),
-      requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size), shared_tets_(&memory_),
-      meshes_(&memory_), bodies_(&memory_), prepared_(&memory_), lone_(&memory_), fast_engine_(&memory_),
-      reference_(&memory_), topologies_(&memory_), trees_(&memory_), hits_(&memory_),
-      surface_versions_(&memory_), contacts_(&memory_), interiors_(&memory_), left_out_(&memory_),
-      penetrations_(&memory_), events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0),
-      readings_(&memory_), locators_(share_), query_bodies_(&memory_) {
+      requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size),
+      adaptive_(weights_of(desc.reference)), shared_tets_(&memory_), meshes_(&memory_), bodies_(&memory_),
+      prepared_(&memory_), lone_(&memory_), fast_engine_(&memory_), reference_(&memory_),
+      topologies_(&memory_), trees_(&memory_), hits_(&memory_), surface_versions_(&memory_),
+      contacts_(&memory_), interiors_(&memory_), left_out_(&memory_), penetrations_(&memory_),
+      events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_), locators_(share_),
+      query_bodies_(&memory_) {
     if (desc.flags & VOX_GRID_PENETRATIONS) depth_.emplace(&memory_, trees_);
     if (desc.flags & VOX_GRID_EDGE_CONTACTS) edges_.emplace(&memory_);
     set_margin(desc.margin);

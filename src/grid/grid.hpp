@@ -68,6 +68,7 @@ public:
     // default. The first throws INVALID_STATE for a mesh without positions.
     void describe(vox::CellSizeScene& scene) const;
     void describe(vox_suggest_desc& desc, bool chosen) const noexcept;
+    const vox::CostWeights& weights() const noexcept { return adaptive_.weights(); }
 
     // `view` is what check_mesh() makes of `desc`, whose filter is not looked at; `filter` is checked.
     vox_body insert(const vox_mesh_desc& desc, const vox::Body& view, const vox_filter& filter);

@@ -160,12 +160,4 @@ vox_suggestion suggest_for_surfaces(const vox_suggest_desc& desc, CellSizeScene&
         desc, scene.geometry, [&](double cell_size) { return model.terms(cell_size); }, model.range());
 }
 
-vox_cost_prediction predict_for_surfaces(const vox_suggest_desc& desc, CellSizeScene& scene,
-                                         double cell_size) {
-    scene.prepare(desc.model);
-    check_size(scene.geometry.stats);
-    SurfaceModel model(scene.bodies, scene.memory);
-    return prediction_of(model.terms(cell_size), cell_size);
-}
-
 } // namespace vox

@@ -15,11 +15,9 @@ namespace vox {
 vox_foreign_suggestion suggest_for_tiles(const FeatureTiles& a, const FeatureTiles& b,
                                          std::pmr::memory_resource* memory);
 
-// What VOX_COST_MODEL_SURFACE suggests, and predicts at a cell size: for the surfaces of all bodies as one
+// What VOX_COST_MODEL_SURFACE suggests: for the surfaces of all bodies as one
 // surface, asked for pairs of edges, and of faces and vertices. Throws INVALID_ARGUMENT where there is none,
 // or all of it is in one place.
 vox_suggestion suggest_for_surfaces(const vox_suggest_desc& desc, CellSizeScene& scene);
-vox_cost_prediction predict_for_surfaces(const vox_suggest_desc& desc, CellSizeScene& scene,
-                                         double cell_size);
 
 } // namespace vox

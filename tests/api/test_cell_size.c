@@ -1,6 +1,7 @@
 /* The cell size: what the geometry of small scenes must be by hand, and that the answer is the minimum of the
  * cost function, in any unit. */
 #include "support/suggest_scenes.h"
+#include "tools/zone_distance.h"
 
 #include <float.h>
 #include <math.h>
@@ -359,28 +360,22 @@ END_TEST
 
 /* ---- distance from the zone ------------------------------------------------------------------- */
 
-static double epsilon_of(double n, double n_min, double n_opt, double n_max) {
-    double epsilon = -1;
-    ck_ok(vox_zone_distance(n, n_min, n_opt, n_max, &epsilon));
-    return epsilon;
-}
-
 /* Eq. 9 as printed, with its two floors; they are both 1 at the optimum. */
 static double epsilon_as_printed(double n, double n_min, double n_opt, double n_max) {
     const double a = floor(n_opt / n), b = floor(n / n_opt);
     return fabs(n_opt - n) * (a + b) / ((n_opt - n_min) * a + (n_max - n_opt) * b);
 }
 
-START_TEST(zone_distance) {
+START_TEST(distance_from_the_zone) {
     for (double n = 1; n < 200; n += 0.7) /* from a 30th to 7 times the optimum */
-        ck_assert_double_eq_tol(epsilon_of(n, 20, 30, 50), epsilon_as_printed(n, 20, 30, 50), 1e-12);
-    ck_assert_double_eq(epsilon_of(30, 20, 30, 50), 0);
-    ck_assert_double_eq(epsilon_of(20, 20, 30, 50), 1);
-    ck_assert_double_eq(epsilon_of(50, 20, 30, 50), 1);
-    ck_assert_double_infinite(epsilon_of(40, 20, 30, 30));
-    ck_assert_double_infinite(epsilon_of(10, 30, 30, 40));
-    ck_assert_double_eq(epsilon_of(25, 20, 30, 30), 0.5);
-    ck_assert_double_eq(epsilon_of(30, 30, 30, 30), 0);
+        ck_assert_double_eq_tol(zone_distance(n, 20, 30, 50), epsilon_as_printed(n, 20, 30, 50), 1e-12);
+    ck_assert_double_eq(zone_distance(30, 20, 30, 50), 0);
+    ck_assert_double_eq(zone_distance(20, 20, 30, 50), 1);
+    ck_assert_double_eq(zone_distance(50, 20, 30, 50), 1);
+    ck_assert_double_infinite(zone_distance(40, 20, 30, 30));
+    ck_assert_double_infinite(zone_distance(10, 30, 30, 40));
+    ck_assert_double_eq(zone_distance(25, 20, 30, 30), 0.5);
+    ck_assert_double_eq(zone_distance(30, 30, 30, 30), 0);
 }
 END_TEST
 
@@ -395,6 +390,6 @@ SUITE(cell_size) {
     tcase_add_test(tests, readings_change_the_answer);
     tcase_add_loop_test(tests, zone_is_where_the_loss_is_small, 0, parameter_count);
     tcase_add_loop_test(tests, any_unit_gives_the_same_answer, 0, 7);
-    tcase_add_each(tests, extremes_stay_finite, zone_distance);
+    tcase_add_each(tests, extremes_stay_finite, distance_from_the_zone);
     add_argument_tests(suite);
 }

@@ -298,12 +298,6 @@ START_TEST(memory_of_the_caller) {
     }
     ck_assert_uint_gt(failed, tried / 2);
     memory.fail_at = 0;
-    memory.calls = 0;
-    vox_cost_prediction prediction;
-    prediction.struct_size = sizeof prediction;
-    ck_ok(vox_cost_predict(&desc, meshes, 2, 0.3, &prediction));
-    ck_assert_uint_gt(memory.calls, 0);
-    ck_assert_uint_eq(memory.bytes, 0);
 
     /* Of a grid, too: what does not fit on the stack. */
     vox_grid* grid = grid_of(NULL);
@@ -320,27 +314,11 @@ START_TEST(memory_of_the_caller) {
 }
 END_TEST
 
-START_TEST(bad_zone_distance) {
-    const double bad[] = {0, -1, NAN, INFINITY};
-    double epsilon = 42;
-    ck_fails(vox_zone_distance(1, 1, 1, 1, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_epsilon is null");
-    for (int i = 0; i < 4; ++i) {
-        ck_fails(vox_zone_distance(bad[i], 1, 2, 3, &epsilon), VOX_ERROR_INVALID_ARGUMENT, "n is");
-        ck_fails(vox_zone_distance(2, bad[i], 2, 3, &epsilon), VOX_ERROR_INVALID_ARGUMENT, "n_min is");
-        ck_fails(vox_zone_distance(2, 1, bad[i], 3, &epsilon), VOX_ERROR_INVALID_ARGUMENT, "n_opt is");
-        ck_fails(vox_zone_distance(2, 1, 2, bad[i], &epsilon), VOX_ERROR_INVALID_ARGUMENT, "n_max is");
-    }
-    ck_fails(vox_zone_distance(2, 3, 2, 4, &epsilon), VOX_ERROR_INVALID_ARGUMENT, "n_min 3, n_opt 2");
-    ck_fails(vox_zone_distance(2, 1, 4, 3, &epsilon), VOX_ERROR_INVALID_ARGUMENT, "n_opt 4, n_max 3");
-    ck_assert_double_eq(epsilon, 42);
-}
-END_TEST
-
 void add_argument_tests(Suite* suite) {
     TCase* tests = add_case(suite, "arguments");
     tcase_add_test(tests, defaults);
     tcase_add_loop_test(tests, memory_of_the_caller, 0, 3);
     tcase_add_loop_test(tests, bad_number, 0, sizeof bad_numbers / sizeof bad_numbers[0]);
     tcase_add_each(tests, bad_enum, bad_mesh, non_finite_positions, nothing_to_measure, bad_struct_sizes,
-                   smaller_structs, larger_structs, bad_zone_distance);
+                   smaller_structs, larger_structs);
 }

@@ -55,7 +55,7 @@ START_TEST(a_suggestion_explains_itself) {
     ck_assert_double_eq_tol(cost, found.predicted_cost, 1e-9 * cost);
     ck_assert_double_eq_tol(share, 1, 1e-12);
 
-    /* What a rule would cost is what the model predicts at its size, and no less than the least. */
+    /* What a rule would cost is no less than the least. */
     const double rules[][2] = {{found.rules.mean_edge, found.rule_costs.mean_edge},
                                {found.rules.mean_edge_multiple, found.rule_costs.mean_edge_multiple},
                                {found.rules.object_512, found.rule_costs.object_512},
@@ -64,13 +64,6 @@ START_TEST(a_suggestion_explains_itself) {
                                {found.rules.median_box_side, found.rule_costs.median_box_side}};
     for (size_t i = 0; i < sizeof rules / sizeof rules[0]; ++i) {
         ck_assert_double_ge(rules[i][1], found.predicted_cost * (1 - 1e-9));
-        if (models[_i] == VOX_COST_MODEL_FAST) continue; /* a prediction is of the bodies as they lie */
-        vox_cost_prediction prediction;
-        prediction.struct_size = sizeof prediction;
-        ck_ok(vox_cost_predict(&desc, p.meshes, 2, rules[i][0], &prediction));
-        ck_assert_double_eq_tol(prediction.cost, rules[i][1], 1e-9 * prediction.cost);
-        ck_assert_double_eq(prediction.cell_size, rules[i][0]);
-        ck_assert_uint_eq(prediction.term_count, found.term_count);
     }
     for (uint32_t i = 0; i < found.curve_count; ++i)
         ck_assert_double_ge(found.curve[i].cost, found.predicted_cost * (1 - 1e-9));
@@ -489,56 +482,73 @@ END_TEST
 /* ---- weights ---------------------------------------------------------------------------------- */
 
 START_TEST(weights_are_plain_numbers) {
-    vox_cost_weights shipped = {.struct_size = sizeof shipped}, measured = shipped, saved, in_use = shipped;
-    ck_ok(vox_cost_set_weights(NULL));
-    ck_ok(vox_cost_get_weights(&shipped));
-    ck_assert_uint_eq(shipped.measured, 0);
+    vox_cost_weights measured = {.struct_size = sizeof measured}, given = measured;
     ck_ok(vox_cost_calibrate(&measured));
     ck_assert_uint_eq(measured.measured, 1);
-    ck_ok(vox_cost_calibrate(NULL)); /* from the cache: the same */
-    ck_ok(vox_cost_get_weights(&in_use));
-    ck_assert_mem_eq(&in_use, &measured, sizeof in_use);
-    ck_assert_double_gt(measured.reference_visit_cell, 0.1);
-    ck_assert_double_lt(measured.reference_visit_cell, 1e5);
+    uint32_t count = 0;
+    while (count < VOX_COST_WEIGHT_CAPACITY && measured.ns[count] > 0) ++count;
+    ck_assert_uint_gt(count, 10);
+    for (uint32_t i = count; i < VOX_COST_WEIGHT_CAPACITY; ++i) ck_assert_double_eq(measured.ns[i], 0);
 
-    saved = measured;
-    saved.reference_visit_cell *= 8; /* a visit is expensive: larger cells */
-    saved.reference_changed_list *= 8;
+    /* 0 stands for the shipped one; each of the reference engine's counts, and nothing outlives the call. */
     pair p = make_pair(0.5f);
     vox_suggest_desc desc = vox_default_suggest_desc();
     desc.model = VOX_COST_MODEL_REFERENCE;
+    const vox_suggestion shipped = suggest_ok(&desc, p.meshes, 2);
+    desc.weights = &given;
+    ck_assert_double_eq(suggest_ok(&desc, p.meshes, 2).predicted_cost, shipped.predicted_cost);
+    uint32_t changed = 0, changed_fast = 0;
+    for (uint32_t i = 0; i < count; ++i) {
+        given = (vox_cost_weights){.struct_size = sizeof given};
+        given.ns[i] = 8 * measured.ns[i];
+        desc.model = VOX_COST_MODEL_REFERENCE;
+        const double cost = suggest_ok(&desc, p.meshes, 2).predicted_cost;
+        changed += cost != shipped.predicted_cost;
+        desc.model = VOX_COST_MODEL_FAST;
+        changed_fast += suggest_ok(&desc, p.meshes, 2).predicted_cost != cost;
+    }
+    ck_assert_uint_ge(changed, 8);
+    ck_assert_uint_gt(changed_fast, 0);
+    desc.model = VOX_COST_MODEL_REFERENCE;
+    given = measured;
     const double before = suggest_ok(&desc, p.meshes, 2).cell_size;
-    ck_ok(vox_cost_set_weights(&saved));
+    given.ns[2] *= 8; /* a visit is expensive: larger cells */
+    given.ns[8] *= 8;
     ck_assert_double_gt(suggest_ok(&desc, p.meshes, 2).cell_size, 1.2 * before);
 
-    saved.fast_visit_row = -1;
-    ck_fails(vox_cost_set_weights(&saved), VOX_ERROR_INVALID_ARGUMENT, "fast_visit_row is -1");
-    saved.fast_visit_row = NAN;
-    ck_fails(vox_cost_set_weights(&saved), VOX_ERROR_INVALID_ARGUMENT, "fast_visit_row is");
-    /* A program with an older struct: the rest is as shipped. */
-    saved = measured;
-    saved.struct_size = (uint32_t)offsetof(vox_cost_weights, fast_bin_vertex);
-    saved.fast_bin_vertex = -1;
-    ck_ok(vox_cost_set_weights(&saved));
-    ck_ok(vox_cost_get_weights(&in_use));
-    ck_assert_double_eq(in_use.fast_bin_vertex, shipped.fast_bin_vertex);
-    ck_assert_double_eq(in_use.reference_visit_cell, measured.reference_visit_cell);
-    /* The last two fields keep their proportion to those that stood for them before. */
-    const double visits = measured.reference_visit_cell / shipped.reference_visit_cell;
-    const double reads = measured.reference_read_vertex / shipped.reference_read_vertex;
-    ck_assert_double_eq_tol(in_use.reference_changed_list / shipped.reference_changed_list, visits,
-                            1e-12 * visits);
-    ck_assert_double_eq_tol(in_use.reference_fetch_vertex / shipped.reference_fetch_vertex, reads,
-                            1e-12 * reads);
-    /* Each of them counts. */
-    saved = shipped;
-    saved.reference_changed_list *= 8;
-    ck_ok(vox_cost_set_weights(&saved));
-    ck_assert_double_gt(suggest_ok(&desc, p.meshes, 2).cell_size, 1.1 * before);
-    saved.reference_fetch_vertex = -1;
-    ck_fails(vox_cost_set_weights(&saved), VOX_ERROR_INVALID_ARGUMENT, "reference_fetch_vertex is -1");
-    ck_ok(vox_cost_set_weights(NULL));
-    ck_fails(vox_cost_get_weights(NULL), VOX_ERROR_INVALID_ARGUMENT, "null");
+    /* A grid's reference engine has its own. */
+    vox_grid_desc of_grid = vox_default_grid_desc();
+    vox_reference_desc reference = vox_default_reference_desc();
+    of_grid.reference = &reference;
+    double sizes[2];
+    for (int own = 0; own < 2; ++own) {
+        reference.weights = own ? &given : &measured;
+        vox_grid* grid = grid_of(&of_grid);
+        for (int b = 0; b < 2; ++b) (void)insert_mesh(grid, &p.meshes[b]);
+        vox_suggestion found = {.struct_size = sizeof found};
+        ck_ok(vox_grid_suggest_cell_size(grid, NULL, &found));
+        sizes[own] = found.cell_size;
+        ck_ok(vox_grid_step(grid));
+        ck_assert_double_gt(grid_info(grid).cell_size, 0);
+        vox_grid_destroy(grid);
+    }
+    ck_assert_double_gt(sizes[1], 1.1 * sizes[0]);
+
+    vox_suggestion found = {.struct_size = sizeof found};
+    desc.weights = NULL;
+    ck_assert_double_eq(suggest_ok(&desc, p.meshes, 2).predicted_cost, shipped.predicted_cost);
+    const double bad[] = {-1, NAN, INFINITY};
+    for (int i = 0; i < 3; ++i) {
+        given.ns[3] = bad[i];
+        desc.weights = &given;
+        ck_fails(vox_suggest_cell_size(&desc, p.meshes, 2, &found), VOX_ERROR_INVALID_ARGUMENT,
+                 "weights.ns[3] is ");
+        vox_grid* grid = NULL;
+        reference.weights = &given;
+        ck_fails(vox_grid_create(&of_grid, &grid), VOX_ERROR_INVALID_ARGUMENT, "weights.ns[3] is ");
+        ck_assert_ptr_null(grid);
+    }
+    ck_fails(vox_cost_calibrate(NULL), VOX_ERROR_INVALID_ARGUMENT, "out is null");
     free_pair(&p);
 }
 END_TEST
@@ -562,68 +572,42 @@ static double negative(double d, void* user) {
 }
 
 START_TEST(minimum_of_a_function) {
-    const double c[2] = {3, 5};
-    vox_cost_bounds bounds = vox_default_cost_bounds();
-    bounds.min = 1e-3;
-    bounds.max = 1e3;
-    vox_cost_minimum found, table;
-    found.struct_size = table.struct_size = sizeof found;
-    ck_ok(vox_cost_minimise(power_law, (void*)c, &bounds, &found));
+    const double c[2] = {3, 5}, min = 1e-3, max = 1e3;
+    vox_cost_minimum found, wide;
+    found.struct_size = wide.struct_size = sizeof found;
+    ck_ok(vox_cost_minimise(power_law, (void*)c, min, max, 0, &found));
     const double expected = pow(1.5 * c[0] / c[1], 0.2);
     ck_assert_double_eq_tol(found.cell_size, expected, 1e-6);
     ck_assert_double_eq_tol(power_law(found.zone_min, (void*)c), 1.05 * found.cost, 1e-9);
     ck_assert_double_eq_tol(power_law(found.zone_max, (void*)c), 1.05 * found.cost, 1e-9);
     ck_assert_uint_eq(found.curve_count, VOX_COST_CURVE_CAPACITY);
-    ck_assert_double_eq(found.curve[0].cell_size, bounds.min);
-    ck_assert_double_eq(found.curve[found.curve_count - 1].cell_size, bounds.max);
+    ck_assert_double_eq(found.curve[0].cell_size, min);
+    ck_assert_double_eq(found.curve[found.curve_count - 1].cell_size, max);
     for (uint32_t i = 0; i < found.curve_count; ++i)
         ck_assert_double_eq(found.curve[i].cost, power_law(found.curve[i].cell_size, (void*)c));
-
-    const vox_cost_term terms[2] = {{c[0], -3}, {c[1], 2}};
-    ck_ok(vox_cost_minimise_terms(terms, 2, &bounds, &table));
-    ck_assert_double_eq_tol(table.cell_size, found.cell_size, 1e-6);
-    ck_assert_double_eq_tol(table.cost, found.cost, 1e-9 * found.cost);
+    ck_ok(vox_cost_minimise(power_law, (void*)c, min, max, 0.2, &wide));
+    ck_assert_double_eq(wide.cell_size, found.cell_size);
+    ck_assert_double_eq_tol(power_law(wide.zone_max, (void*)c), 1.2 * found.cost, 1e-9);
 }
 END_TEST
 
 START_TEST(bad_functions_and_bounds) {
     double c[2] = {1, 1};
-    vox_cost_bounds good = vox_default_cost_bounds(), bad;
-    good.min = 0.5;
-    good.max = 8;
     vox_cost_minimum out, before;
     memset(&out, 0x5a, sizeof out);
     out.struct_size = sizeof out;
     before = out;
     const vox_result argument = VOX_ERROR_INVALID_ARGUMENT;
-    ck_fails(vox_cost_minimise(NULL, c, &good, &out), argument, "cost is null");
-    ck_fails(vox_cost_minimise(power_law, c, NULL, &out), argument, "bounds is null");
-    ck_fails(vox_cost_minimise(power_law, c, &good, NULL), argument, "out is null");
-    ck_fails(vox_cost_minimise(nowhere, NULL, &good, &out), argument, "no finite cost");
-    ck_fails(vox_cost_minimise(negative, NULL, &good, &out), argument, "the cost is -1.5");
-    const double bad_bounds[][2] = {{0, 1}, {-1, 1}, {2, 1}, {1, INFINITY}, {NAN, 1}, {1, NAN}};
-    for (size_t i = 0; i < sizeof bad_bounds / sizeof bad_bounds[0]; ++i) {
-        bad = good;
-        bad.min = bad_bounds[i][0];
-        bad.max = bad_bounds[i][1];
-        ck_fails(vox_cost_minimise(power_law, c, &bad, &out), argument, "bounds are");
-    }
-    bad = good;
-    bad.zone_loss = -1;
-    ck_fails(vox_cost_minimise(power_law, c, &bad, &out), argument, "zone_loss is -1");
-    bad = good;
-    bad.reserved = 3;
-    ck_fails(vox_cost_minimise(power_law, c, &bad, &out), argument, "reserved is 3");
-    const vox_cost_term term = {INFINITY, 1};
-    ck_fails(vox_cost_minimise_terms(&term, 1, &good, &out), argument, "term 0 is inf");
-    ck_fails(vox_cost_minimise_terms(NULL, 1, &good, &out), argument, "terms is null");
-
-    vox_cost_prediction prediction;
-    prediction.struct_size = sizeof prediction;
-    const vox_mesh_desc mesh = vox_mesh_desc_floats(regular_positions, 4, unit_tet, 1);
-    ck_fails(vox_cost_predict(NULL, &mesh, 1, 0, &prediction), argument, "cell_size is 0");
-    ck_fails(vox_cost_predict(NULL, &mesh, 1, NAN, &prediction), argument, "cell_size is");
-    ck_fails(vox_cost_predict(NULL, &mesh, 1, 1, NULL), argument, "out is null");
+    ck_fails(vox_cost_minimise(NULL, c, 0.5, 8, 0, &out), argument, "cost is null");
+    ck_fails(vox_cost_minimise(power_law, c, 0.5, 8, 0, NULL), argument, "out is null");
+    ck_fails(vox_cost_minimise(nowhere, NULL, 0.5, 8, 0, &out), argument, "no finite cost");
+    ck_fails(vox_cost_minimise(negative, NULL, 0.5, 8, 0, &out), argument, "the cost is -1.5");
+    const double bad[][2] = {{0, 1}, {-1, 1}, {2, 1}, {1, INFINITY}, {NAN, 1}, {1, NAN}};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i)
+        ck_fails(vox_cost_minimise(power_law, c, bad[i][0], bad[i][1], 0, &out), argument,
+                 "expected 0 < min <= max");
+    ck_fails(vox_cost_minimise(power_law, c, 0.5, 8, -1, &out), argument, "zone_loss is -1");
+    ck_fails(vox_cost_minimise(power_law, c, 0.5, 8, NAN, &out), argument, "zone_loss is");
     ck_assert_mem_eq(&out, &before, sizeof out);
 }
 END_TEST

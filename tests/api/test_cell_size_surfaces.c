@@ -14,14 +14,6 @@ static vox_suggest_desc surface_desc(void) {
     return desc;
 }
 
-static double cost_at(const vox_mesh_desc* meshes, uint64_t count, double cell_size) {
-    const vox_suggest_desc desc = surface_desc();
-    vox_cost_prediction prediction;
-    prediction.struct_size = sizeof prediction;
-    ck_ok(vox_cost_predict(&desc, meshes, count, cell_size, &prediction));
-    return prediction.cost;
-}
-
 /* The facets that a tetrahedron shares with no other one, in the order of tetrahedra. */
 static uint32_t* surface_of(const body* b, uint64_t* out_count) {
     static const int corners[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
@@ -76,12 +68,11 @@ START_TEST(the_size_of_the_surface_that_the_meshes_make) {
     const vox_foreign_suggestion edges = of_kinds(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE);
     ck_assert_double_gt(edges.predicted_cost, 0);
     ck_assert_double_ge(found.predicted_cost, edges.predicted_cost);
-    ck_assert_double_le(found.predicted_cost, cost_at(&mesh, 1, edges.cell_size) * (1 + 1e-9));
     ck_assert_double_gt(found.cell_size, edges.zone_min / 4);
     ck_assert_double_lt(found.cell_size, edges.zone_max * 4);
-    for (int i = -6; i <= 0; ++i) /* none is better; larger ones are alike here, where one cell holds all */
-        ck_assert_double_ge(cost_at(&mesh, 1, found.cell_size * pow(2, i / 2.)),
-                            found.predicted_cost * (1 - 1e-3));
+    ck_assert_uint_gt(found.curve_count, 30);
+    for (uint32_t i = 0; i < found.curve_count; ++i) /* none is better */
+        ck_assert_double_ge(found.curve[i].cost, found.predicted_cost * (1 - 1e-3));
     /* The surface takes it, and answers the same. */
     vox_pair_lists lists;
     lists.struct_size = sizeof lists;
@@ -140,10 +131,6 @@ START_TEST(what_has_no_surface) {
     ck_fails(vox_suggest_cell_size(&desc, &mesh, 1, &out), VOX_ERROR_NON_FINITE, "vertex 1");
     memset(at, 0, sizeof at);
     ck_fails(vox_suggest_cell_size(&desc, &mesh, 1, &out), VOX_ERROR_INVALID_ARGUMENT, "1 tets of no size");
-    vox_cost_prediction prediction;
-    prediction.struct_size = sizeof prediction;
-    ck_fails(vox_cost_predict(&desc, &mesh, 1, 1, &prediction), VOX_ERROR_INVALID_ARGUMENT,
-             "1 tets of no size");
     ck_assert_mem_eq(&out, &before, sizeof out);
     /* Twice the same tetrahedron is one; sizes at the ends of the range. */
     const uint32_t doubled[8] = {0, 1, 2, 3, 0, 1, 2, 3};

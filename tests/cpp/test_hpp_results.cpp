@@ -68,7 +68,7 @@ START_TEST(values_and_errors) {
     fails(vox::grid::create(desc), VOX_ERROR_INVALID_ARGUMENT, "1000");
     vox::grid moved = std::move(grid);
     fails(grid.step(), VOX_ERROR_INVALID_ARGUMENT, "null"); // NOLINT: what a moved-from grid does
-    const auto minimum = vox::minimise([](double d) { return d + 1 / d; }, vox::cost_bounds(0.1, 10));
+    const auto minimum = vox::minimise([](double d) { return d + 1 / d; }, 0.1, 10);
     ck_assert(minimum && minimum->cell_size > 0.99 && minimum->cell_size < 1.01);
     aborts([&] { (void)*moved.user_data(99); });
     aborts([&] { moved.set_cell_size(-1).value(); });

@@ -138,7 +138,7 @@ START_TEST(reference_counts) {
     Scene scene;
     named.fill(scene);
     scene.prepare();
-    const ReferenceModel cost(Described(scene), false, shipped_weights());
+    const ReferenceModel cost(Described(scene), false, shipped_weights);
     const Lookups& counts = cost.lookups();
     ReferenceEngine engine(heap);
     for (const double size : {0.7, 1.0, 1.5, 2.2}) {
@@ -186,9 +186,9 @@ START_TEST(reference_quick_look) {
     const std::uint64_t tets = tets_of(scene);
     for (const bool large : {false, true}) {
         const ReferenceModel all(Described(scene, large ? thorough : smooth(thorough)), false,
-                                 shipped_weights());
+                                 shipped_weights);
         const ReferenceModel some(Described(scene, quick(VOX_COST_MODEL_REFERENCE, large ? 200000 : tets)),
-                                  false, shipped_weights());
+                                  false, shipped_weights);
         const CellSizeRange range = all.range().value();
         const CostMinimum best = minimise(of_size(all), range, {.scans_per_octave = 16});
         const CostMinimum found = minimise(of_size(some), range, {.scans_per_octave = 16});
@@ -205,9 +205,9 @@ START_TEST(reference_usual_look) {
     Scene scene;
     named.fill(scene);
     scene.prepare();
-    const ReferenceModel all(Described(scene), false, shipped_weights());
+    const ReferenceModel all(Described(scene), false, shipped_weights);
     const ReferenceModel some(Described(scene, usual(VOX_COST_MODEL_REFERENCE, tets_of(scene))), false,
-                              shipped_weights());
+                              shipped_weights);
     const CellSizeRange range = all.range().value();
     const CostMinimum best = minimise(of_size(all), range, {.scans_per_octave = 16});
     const CostMinimum found = minimise(of_size(some), range, {.scans_per_octave = 16});
@@ -263,7 +263,7 @@ START_TEST(reference_lists_of_other_length) {
     Scene scene;
     named.fill(scene);
     scene.prepare();
-    const ReferenceModel cost(Described(scene), false, shipped_weights());
+    const ReferenceModel cost(Described(scene), false, shipped_weights);
     for (const double size : {0.7, 1.0, 1.5, 2.2}) {
         const double cell_size = size * named.unit;
         ck_near(named, size, "lists of another length", term(cost.terms(cell_size), "list of another length"),
@@ -284,7 +284,7 @@ START_TEST(cells_as_large_as_those_of_a_lattice) {
         move(mesh, 1, 0.21, 0.34, 0.43);
         scene.add(std::move(mesh), true);
         scene.prepare();
-        const ReferenceModel cost(Described(scene), false, shipped_weights());
+        const ReferenceModel cost(Described(scene), false, shipped_weights);
         const double beside = std::min(cost(1 / 1.12), cost(1.12));
         if (jittered < 0.1)
             ck_assert_double_lt(cost(1), 0.97 * beside);
@@ -300,7 +300,7 @@ START_TEST(tets_in_no_order_fetch_their_vertices) {
     Scene scene;
     scenes[0].fill(scene);
     scene.prepare();
-    const auto terms = [&] { return ReferenceModel(Described(scene), false, shipped_weights()).terms(1.5); };
+    const auto terms = [&] { return ReferenceModel(Described(scene), false, shipped_weights).terms(1.5); };
     const CostTerms before = terms();
     Random random{5};
     for (Mesh& mesh : scene.meshes())
@@ -328,7 +328,7 @@ START_TEST(fast_counts) {
     Scene scene;
     named.fill(scene);
     scene.prepare();
-    const FastModel cost(Described(scene, thorough, {}), shipped_weights());
+    const FastModel cost(Described(scene, thorough, {}), shipped_weights);
     FastEngine engine(heap);
     for (const double size : {1.0, 1.4, 2.0, 2.8}) {
         FastModel::Counts predicted;
@@ -363,8 +363,8 @@ START_TEST(fast_quick_look) {
     named.fill(scene);
     scene.prepare();
     const std::uint64_t tets = tets_of(scene);
-    const FastModel all(Described(scene, thorough, {}), shipped_weights());
-    const FastModel some(Described(scene, quick(VOX_COST_MODEL_FAST, tets), {}), shipped_weights());
+    const FastModel all(Described(scene, thorough, {}), shipped_weights);
+    const FastModel some(Described(scene, quick(VOX_COST_MODEL_FAST, tets), {}), shipped_weights);
     const CellSizeRange range = all.range().value();
     const CostMinimum best = minimise(of_size(all), range);
     const CostFunction quick_cost = of_size(some);
@@ -382,10 +382,10 @@ START_TEST(fast_usual_look) {
     Scene scene;
     named.fill(scene);
     scene.prepare();
-    const FastModel all(Described(scene, thorough, {}), shipped_weights());
+    const FastModel all(Described(scene, thorough, {}), shipped_weights);
     Described sketched(scene, usual(VOX_COST_MODEL_FAST, tets_of(scene)));
     sketched.prepare(VOX_COST_MODEL_FAST);
-    const FastModel some(sketched, shipped_weights());
+    const FastModel some(sketched, shipped_weights);
     const CellSizeRange range = all.range().value();
     const CostMinimum best = minimise(of_size(all), range);
     const CostFunction cost = of_size(some);
@@ -412,7 +412,7 @@ START_TEST(fast_bodies_at_rest) {
     scene.prepare();
     std::vector<std::uint8_t> at_rest(scene.bodies().size(), 1);
     const auto counts = [&] {
-        return FastModel(Described(scene, thorough, at_rest), shipped_weights())
+        return FastModel(Described(scene, thorough, at_rest), shipped_weights)
             .counts(2, FastModel::Alignment::actual);
     };
     ck_assert_double_eq(counts().vertices, 0);
@@ -445,13 +445,13 @@ START_TEST(levels_where_they_pay) {
     Scene alike, unlike;
     scenes[0].fill(alike);
     alike.prepare();
-    const ReferenceModel one(Described(alike), false, shipped_weights());
+    const ReferenceModel one(Described(alike), false, shipped_weights);
     CellSizeRange range = one.range().value();
     ck_assert_uint_eq(choose_levels(one, range).count, 1);
 
     scenes[5].fill(unlike);
     unlike.prepare();
-    const ReferenceModel cost(Described(unlike), false, shipped_weights());
+    const ReferenceModel cost(Described(unlike), false, shipped_weights);
     range = cost.range().value();
     const Levels levels = choose_levels(cost, range);
     const CostMinimum uniform = minimise(of_size(cost), range);
@@ -467,7 +467,7 @@ START_TEST(levels_are_one_engine) {
         Scene scene;
         scenes[s].fill(scene);
         scene.prepare();
-        const ReferenceModel cost(Described(scene), false, shipped_weights());
+        const ReferenceModel cost(Described(scene), false, shipped_weights);
         CellSizeRange range = cost.range().value();
         range.min = std::max(range.min, cost.least_cell_size(0, range)); // what dense storage can have
         const Levels best = choose_levels(cost, range);
@@ -540,7 +540,7 @@ double step(ReferenceEngine& engine, Scene& scene, AdaptiveCellSize& adaptive) {
 
 // The loss of a size for the scene as it is now, by the model without the term for lists of another length.
 double loss(Scene& scene, double cell_size) {
-    const ReferenceModel cost(Described(scene, smooth(thorough)), false, shipped_weights());
+    const ReferenceModel cost(Described(scene, smooth(thorough)), false, shipped_weights);
     const CellSizeRange range = cost.range().value();
     return cost(cell_size) / minimise(of_size(cost), range).cost - 1;
 }
@@ -551,7 +551,7 @@ START_TEST(adaptive_follows) {
     scenes[0].fill(scene);
     scene.prepare();
     ReferenceEngine engine(heap);
-    AdaptiveCellSize adaptive;
+    AdaptiveCellSize adaptive(shipped_weights);
     const double first = step(engine, scene, adaptive);
     for (int i = 0; i < 20; ++i) ck_assert_double_eq(step(engine, scene, adaptive), first);
     ck_assert_uint_eq(adaptive.changes(), 0);

@@ -59,7 +59,7 @@ START_TEST(the_model_looks_at_few) {
             for (const Tiles* of : scene.tiles()) described.tiles.push_back(of);
             described.budget = quick(VOX_COST_MODEL_FAST, 2 * tets);
             described.prepare(VOX_COST_MODEL_FAST);
-            const FastModel cost(described, shipped_weights());
+            const FastModel cost(described, shipped_weights);
             const std::uint64_t points = cost.points_looked_at(), looks = cost.looks_per_call();
             // All pools together: windows of unlike sizes have one each.
             ck_assert_uint_gt(points, 0);
@@ -88,7 +88,7 @@ START_TEST(a_suggestion_looks_at_samples) {
         described.bodies.assign(scene.bodies().begin(), scene.bodies().end());
         described.budget = usual(VOX_COST_MODEL_FAST, 2 * tets);
         described.prepare(VOX_COST_MODEL_FAST);
-        const FastModel cost(described, shipped_weights());
+        const FastModel cost(described, shipped_weights);
         ck_assert_uint_gt(cost.points_looked_at(), 0);
         ck_assert_msg(cost.points_looked_at() <= 50000, "%zu tets: %llu points", tets,
                       static_cast<unsigned long long>(cost.points_looked_at()));

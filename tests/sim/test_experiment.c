@@ -1,6 +1,7 @@
 /* The experiment: two bodies placed in light contact, the recorded frames, and samples of them at any cell
  * size. */
 #include "support/suite.h"
+#include "tools/zone_distance.h"
 
 #include <math.h>
 #include <string.h>
@@ -213,9 +214,9 @@ START_TEST(from_create_to_epsilon) {
     double min = 0, max = 0, epsilon = -1;
     ck_ok(vox_fit_zone(&fit, 1.05 * fit.time, &min, &max));
     ck_assert(sizes[0] <= min && min <= fit.cell_size && fit.cell_size <= max && max <= sizes[count - 1]);
-    ck_ok(vox_zone_distance(4 / fit.cell_size, 4 / max, 4 / fit.cell_size, 4 / min, &epsilon));
+    epsilon = zone_distance(4 / fit.cell_size, 4 / max, 4 / fit.cell_size, 4 / min);
     ck_assert(epsilon == 0);
-    ck_ok(vox_zone_distance(4 / suggestion.cell_size, 4 / max, 4 / fit.cell_size, 4 / min, &epsilon));
+    epsilon = zone_distance(4 / suggestion.cell_size, 4 / max, 4 / fit.cell_size, 4 / min);
     ck_assert_double_ge(epsilon, 0);
     vox_experiment_destroy(experiment);
 }

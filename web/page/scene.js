@@ -41,7 +41,6 @@ export class Scene {
     Object.assign((imports.env ??= {}), { emscripten_notify_memory_growth: () => {} });
     scene.#exports = (await WebAssembly.instantiate(module, imports)).exports;
     scene.#exports._initialize?.();
-    scene.#exports.vox_cost_calibrate(0);
     scene.#play = scene.#out(4, (at) => scene.#check(scene.#exports.play_create(BigInt(byteLimit), at)), (view) => view.getUint32(0, true));
     return scene;
   }

@@ -71,6 +71,7 @@ const double* play_suggest_numbers(playground* play, uint32_t model) {
     const vox_result result = guard([&] {
         vox_suggest_desc desc = vox_default_suggest_desc();
         desc.model = static_cast<vox_cost_model>(model);
+        desc.weights = &play->weights;
         vox_grid* grid = grid_with(*play, model == VOX_COST_MODEL_FAST ? model : VOX_COST_MODEL_REFERENCE);
         s.struct_size = sizeof s;
         check(vox_grid_suggest_cell_size(grid, &desc, &s));

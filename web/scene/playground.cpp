@@ -301,6 +301,8 @@ vox_result play_create(uint64_t byte_limit, playground** out) {
     return guard([&] {
         auto play = std::make_unique<playground>();
         play->account.limit = byte_limit;
+        play->weights.struct_size = sizeof play->weights;
+        check(vox_cost_calibrate(&play->weights));
         play->sim = make_sim(play->account);
         check(vox_sim_get_grid(play->sim.get(), &play->grid));
         make_ring(*play);

@@ -84,6 +84,7 @@ struct playground {
     std::uint64_t default_hash = 0, default_hash_of = ~std::uint64_t{0};
     std::uint64_t version = 0; // of the bodies and their positions
 
+    vox_cost_weights weights{};
     vox_suggestion suggestion;
     double suggestion_numbers[18 + 2 * VOX_COST_CURVE_CAPACITY + 3 * VOX_COST_TERM_CAPACITY];
     std::vector<float> arrows, boxes;

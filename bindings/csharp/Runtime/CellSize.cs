@@ -8,15 +8,17 @@ namespace Voxtet
     public static unsafe class CellSize
     {
         /// <summary>The cell size that minimises the cost model for a mesh: three numbers a vertex, four indices a
-        /// tetrahedron.</summary>
+        /// tetrahedron. Weights are for the models of the engines, from Calibrate; null: those shipped with the library.
+        /// </summary>
         public static Suggestion Suggest(ReadOnlySpan<float> positions, ReadOnlySpan<uint> tets,
-                                         CostModel model = CostModel.Paper)
+                                         CostModel model = CostModel.Paper, CostWeights? weights = null)
         {
-            return Suggest(new[] { positions.ToArray() }, new[] { tets.ToArray() }, model);
+            return Suggest(new[] { positions.ToArray() }, new[] { tets.ToArray() }, model, weights);
         }
 
         /// <summary>The same for several meshes, positions[i] with tets[i].</summary>
-        public static Suggestion Suggest(float[][] positions, uint[][] tets, CostModel model = CostModel.Paper)
+        public static Suggestion Suggest(float[][] positions, uint[][] tets, CostModel model = CostModel.Paper,
+                                         CostWeights? weights = null)
         {
             if (positions == null) throw new ArgumentNullException("positions");
             if (tets == null) throw new ArgumentNullException("tets");
@@ -41,7 +43,8 @@ namespace Voxtet
                     descs[i].tets = (uint*)pins[2 * i + 1].AddrOfPinnedObject();
                     descs[i].tet_count = (ulong)tets[i].Length / 4;
                 }
-                var settings = new SuggestDesc { struct_size = (uint)sizeof(SuggestDesc), model = model };
+                CostWeights w = Sized(weights);
+                var settings = new SuggestDesc { struct_size = (uint)sizeof(SuggestDesc), model = model, weights = &w };
                 Suggestion suggestion;
                 suggestion.struct_size = (uint)sizeof(Suggestion);
                 fixed (MeshDesc* d = descs)
@@ -55,34 +58,20 @@ namespace Voxtet
             }
         }
 
-        /// <summary>Measures the weights of the models of the engines on this machine, and uses them from now on.</summary>
+        // As the library reads them: zeros are those shipped with it.
+        internal static CostWeights Sized(CostWeights? weights)
+        {
+            CostWeights sized = weights.GetValueOrDefault();
+            sized.struct_size = (uint)sizeof(CostWeights);
+            return sized;
+        }
+
+        /// <summary>Measures the weights of the models of the engines on this machine, in about ten milliseconds.</summary>
         public static CostWeights Calibrate()
         {
-            CostWeights weights;
-            weights.struct_size = (uint)sizeof(CostWeights);
+            CostWeights weights = Sized(null);
             VoxException.Check(Native.vox_cost_calibrate(&weights));
             return weights;
-        }
-
-        /// <summary>The weights in use.</summary>
-        public static CostWeights Weights
-        {
-            get
-            {
-                CostWeights weights;
-                weights.struct_size = (uint)sizeof(CostWeights);
-                VoxException.Check(Native.vox_cost_get_weights(&weights));
-                return weights;
-            }
-            set { VoxException.Check(Native.vox_cost_set_weights(&value)); }
-        }
-
-        /// <summary>The paper's Eq. 9: how far n cells per axis are from the best number, in units of the zone.</summary>
-        public static double ZoneDistance(double n, double min, double best, double max)
-        {
-            double distance;
-            VoxException.Check(Native.vox_zone_distance(n, min, best, max, &distance));
-            return distance;
         }
 
         sealed class Caller
@@ -133,15 +122,10 @@ namespace Voxtet
         public static CostMinimum Minimise(Func<double, double> cost, double min, double max, double zoneLoss = 0)
         {
             if (cost == null) throw new ArgumentNullException("cost");
-            var bounds = new CostBounds
-            {
-                struct_size = (uint)sizeof(CostBounds), min = min, max = max, zone_loss = zoneLoss
-            };
             CostMinimum minimum;
             minimum.struct_size = (uint)sizeof(CostMinimum);
-            CostBounds* b = &bounds;
             CostMinimum* m = &minimum;
-            Calling(cost, (function, user) => Native.vox_cost_minimise(function, user, b, m));
+            Calling(cost, (function, user) => Native.vox_cost_minimise(function, user, min, max, zoneLoss, m));
             return minimum;
         }
 
@@ -205,10 +189,15 @@ namespace Voxtet
     public sealed unsafe partial class Grid
     {
         /// <summary>The cell size that minimises a cost model for the meshes of this grid; without one, that of its engine.
-        /// </summary>
-        public Suggestion SuggestCellSize(CostModel? model = null)
+        /// Weights need a model; null: those of GridOptions.Reference.</summary>
+        public Suggestion SuggestCellSize(CostModel? model = null, CostWeights? weights = null)
         {
-            var settings = new SuggestDesc { struct_size = (uint)sizeof(SuggestDesc), model = model.GetValueOrDefault() };
+            if (weights.HasValue && !model.HasValue) throw new ArgumentException("weights need a model", "weights");
+            CostWeights w = Voxtet.CellSize.Sized(weights);
+            var settings = new SuggestDesc
+            {
+                struct_size = (uint)sizeof(SuggestDesc), model = model.GetValueOrDefault(), weights = weights.HasValue ? &w : null
+            };
             Suggestion suggestion;
             suggestion.struct_size = (uint)sizeof(Suggestion);
             using (var use = handle.Read())

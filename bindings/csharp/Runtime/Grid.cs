@@ -23,13 +23,18 @@ namespace Voxtet
             VoxException.CheckLibrary();
             Callbacks callbacks = options.Log == null ? null : new Callbacks(options.Log);
             Log log = callbacks == null ? new Log() : callbacks.Describe();
-            ReferenceDesc reference = options.Reference.GetValueOrDefault();
-            reference.struct_size = (uint)sizeof(ReferenceDesc);
+            ReferenceOptions paper = options.Reference ?? new ReferenceOptions();
+            CostWeights weights = Voxtet.CellSize.Sized(paper.Weights);
+            var reference = new ReferenceDesc
+            {
+                struct_size = (uint)sizeof(ReferenceDesc), flags = paper.Flags, hash_table_size = paper.HashTableSize,
+                world_min = paper.WorldMin, world_max = paper.WorldMax, weights = &weights
+            };
             var desc = new GridDesc
             {
                 struct_size = (uint)sizeof(GridDesc), flags = options.Flags, worker_count = options.Workers,
                 cell_size = options.CellSize, byte_budget = options.ByteBudget, closest_budget = options.ClosestBudget,
-                log = &log, reference = options.Reference.HasValue ? &reference : null
+                log = &log, reference = options.Reference == null ? null : &reference
             };
             IntPtr grid;
             Result result = bytes == IntPtr.Zero ? Native.vox_grid_create(&desc, &grid)

@@ -484,6 +484,20 @@ namespace Voxtet
     }
 
     [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Double24
+    {
+        public double e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11, e12, e13, e14, e15, e16, e17, e18, e19, e20,
+            e21, e22, e23;
+        public const int Length = 24;
+        public double this[int i]
+        {
+            get { Check(i); fixed (double* p = &e0) return p[i]; }
+            set { Check(i); fixed (double* p = &e0) p[i] = value; }
+        }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct Byte24
     {
         public byte e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11, e12, e13, e14, e15, e16, e17, e18, e19, e20, e21,
@@ -1327,9 +1341,21 @@ namespace Voxtet
         public Double3 weights;
     }
 
+    /// <summary>How many nanoseconds one unit of each piece of work takes on a machine: what the models REFERENCE and
+    /// FAST, and the reference engine, choose a cell size by.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 200)]
+    public struct CostWeights
+    {
+        public uint struct_size;
+        /// <summary>1: by vox_cost_calibrate</summary>
+        public uint measured;
+        /// <summary>in the library's own order, finite, &gt;= 0; 0: the one shipped with the library</summary>
+        public Double24 ns;
+    }
+
     /// <summary>The paper's engine (Sect. 3), for vox_grid_desc.reference.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 64)]
-    public struct ReferenceDesc
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct ReferenceDesc
     {
         public uint struct_size;
         /// <summary>vox_reference_flags, combined with |</summary>
@@ -1341,6 +1367,8 @@ namespace Voxtet
         public Double3 world_min;
         /// <summary>the nearest cell.</summary>
         public Double3 world_max;
+        /// <summary>copied; null: those shipped with the library</summary>
+        public CostWeights* weights;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -1368,6 +1396,8 @@ namespace Voxtet
         public uint reference_flags;
         /// <summary>0</summary>
         public uint reserved;
+        /// <summary>REFERENCE and FAST; null: those shipped with the library</summary>
+        public CostWeights* weights;
         /// <summary>of the call's memory; null: the C++ runtime's heap</summary>
         public Allocator* allocator;
     }
@@ -1475,73 +1505,7 @@ namespace Voxtet
         public uint reserved;
     }
 
-    /// <summary>A cost at one cell size, term by term.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 600)]
-    public struct CostPrediction
-    {
-        public uint struct_size;
-        public uint term_count;
-        public double cell_size;
-        public double cost;
-        public CostShare12 terms;
-    }
-
-    /// <summary>The weights of REFERENCE and FAST: nanoseconds that one unit of each piece of work takes on a
-    /// machine.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 136)]
-    public struct CostWeights
-    {
-        public uint struct_size;
-        /// <summary>1: on the machine they are for; 0: shipped with the library</summary>
-        public uint measured;
-        public double reference_classify_vertex;
-        /// <summary>its box</summary>
-        public double reference_prepare_tet;
-        /// <summary>whose list is as long as the one before</summary>
-        public double reference_visit_cell;
-        /// <summary>an occupied one, gone through instead of a box that meets more cells</summary>
-        public double reference_scan_cell;
-        public double reference_read_vertex;
-        public double reference_test_box;
-        /// <summary>or its own corner, which is in the box as well</summary>
-        public double reference_test_tet;
-        public double reference_clear_bucket;
-        public double fast_bin_vertex;
-        public double fast_clear_cell;
-        /// <summary>for one window</summary>
-        public double fast_visit_tile;
-        public double fast_visit_row;
-        public double fast_read_vertex;
-        /// <summary>one in a tile's box, against its tets</summary>
-        public double fast_test_vertex;
-        /// <summary>in a visited cell, of another length than the one before</summary>
-        public double reference_changed_list;
-        /// <summary>passed over, and not read just before</summary>
-        public double reference_fetch_vertex;
-    }
-
-    /// <summary>coefficient * cell_size ^ power.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 16)]
-    public struct CostTerm
-    {
-        public double coefficient;
-        public double power;
-    }
-
-    /// <summary>Cell sizes to choose from, and how wide the zone is.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 32)]
-    public struct CostBounds
-    {
-        public uint struct_size;
-        /// <summary>0</summary>
-        public uint reserved;
-        /// <summary>0 &lt; min &lt;= max, finite</summary>
-        public double min;
-        public double max;
-        /// <summary>as vox_suggest_desc.zone_loss</summary>
-        public double zone_loss;
-    }
-
+    /// <summary>The least cost, and where it is.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 1064)]
     public struct CostMinimum
     {
@@ -1549,11 +1513,11 @@ namespace Voxtet
         public uint curve_count;
         public double cell_size;
         public double cost;
-        /// <summary>the range around cell_size, within the bounds, where the cost is at most (1 + zone_loss) times the
+        /// <summary>the range around cell_size, within [min, max], where the cost is at most (1 + zone_loss) times the
         /// least</summary>
         public double zone_min;
         public double zone_max;
-        /// <summary>over the bounds, evenly spaced in the logarithm</summary>
+        /// <summary>from min to max, evenly spaced in the logarithm</summary>
         public CostSample64 curve;
     }
 
@@ -2472,6 +2436,8 @@ namespace Voxtet
         internal const uint VOX_NO_PAIR = 4294967295;
         /// <summary>tasks enqueued in one step</summary>
         internal const uint VOX_MAX_TASKS = 64;
+        /// <summary>numbers of vox_cost_weights</summary>
+        internal const uint VOX_COST_WEIGHT_CAPACITY = 24;
         /// <summary>most samples of a curve</summary>
         internal const uint VOX_COST_CURVE_CAPACITY = 64;
         /// <summary>most terms of a cost, in any model</summary>
@@ -2879,41 +2845,16 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_suggest_cell_size(IntPtr grid, SuggestDesc* desc, Suggestion* @out);
 
-        /// <summary>The cost that desc-&gt;model (desc null: PAPER) predicts for these meshes at one cell
-        /// size.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_cost_predict(SuggestDesc* desc, MeshDesc* meshes, ulong mesh_count, double
-            cell_size, CostPrediction* @out);
-
-        /// <summary>Measures the weights by running steps of both engines over a small built-in scene, and puts them
-        /// into use for all suggestions and grids of the process.</summary>
+        /// <summary>Measures this machine's weights by steps of both engines over a small built-in scene, in about ten
+        /// milliseconds.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_cost_calibrate(CostWeights* @out);
 
-        /// <summary>The weights in use: those calibrated or set last, or else those shipped with the library.</summary>
+        /// <summary>Finds the cell size between min and max with the least cost: a scan that is even in the logarithm
+        /// of the cell size, then a golden-section search around its best point.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_cost_get_weights(CostWeights* @out);
-
-        /// <summary>Puts saved weights into use.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_cost_set_weights(CostWeights* weights);
-
-        /// <summary>The cell size of least cost within the bounds, for a cost function of the caller's: a scan that is
-        /// even in the logarithm of the cell size, then a golden-section search around its best point.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_cost_minimise(IntPtr cost, IntPtr user, CostBounds* bounds, CostMinimum*
-            @out);
-
-        /// <summary>The same for the sum of `term_count` terms.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_cost_minimise_terms(CostTerm* terms, ulong term_count, CostBounds* bounds,
-            CostMinimum* @out);
-
-        /// <summary>Eq. 9: the distance of `n` from the optimum n_opt, in units of the optimal zone [n_min,
-        /// n_max].</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_zone_distance(double n, double n_min, double n_opt, double n_max, double*
-            out_epsilon);
+        internal static extern Result vox_cost_minimise(IntPtr cost, IntPtr user, double min, double max, double
+            zone_loss, CostMinimum* @out);
 
         /// <summary>Sets what is known of a grid that people have: content, look, flags, known, weights.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3775,23 +3716,34 @@ namespace Voxtet
             entries.Add(Entry("vox_ray_hit.weights", (byte*)&s.weights - begin, 40, 40));
         }
 
+        static void AddCostWeights(List<LayoutEntry> entries)
+        {
+            CostWeights s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_cost_weights", sizeof(CostWeights), 200, 200));
+            entries.Add(Entry("vox_cost_weights.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_cost_weights.measured", (byte*)&s.measured - begin, 4, 4));
+            entries.Add(Entry("vox_cost_weights.ns", (byte*)&s.ns - begin, 8, 8));
+        }
+
         static void AddReferenceDesc(List<LayoutEntry> entries)
         {
             ReferenceDesc s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_reference_desc", sizeof(ReferenceDesc), 64, 64));
+            entries.Add(Entry("vox_reference_desc", sizeof(ReferenceDesc), 72, 72));
             entries.Add(Entry("vox_reference_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_reference_desc.flags", (byte*)&s.flags - begin, 4, 4));
             entries.Add(Entry("vox_reference_desc.hash_table_size", (byte*)&s.hash_table_size - begin, 8, 8));
             entries.Add(Entry("vox_reference_desc.world_min", (byte*)&s.world_min - begin, 16, 16));
             entries.Add(Entry("vox_reference_desc.world_max", (byte*)&s.world_max - begin, 40, 40));
+            entries.Add(Entry("vox_reference_desc.weights", (byte*)&s.weights - begin, 64, 64));
         }
 
         static void AddSuggestDesc(List<LayoutEntry> entries)
         {
             SuggestDesc s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_suggest_desc", sizeof(SuggestDesc), 88, 88));
+            entries.Add(Entry("vox_suggest_desc", sizeof(SuggestDesc), 96, 88));
             entries.Add(Entry("vox_suggest_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_suggest_desc.model", (byte*)&s.model - begin, 4, 4));
             entries.Add(Entry("vox_suggest_desc.size_reading", (byte*)&s.size_reading - begin, 8, 8));
@@ -3805,7 +3757,8 @@ namespace Voxtet
             entries.Add(Entry("vox_suggest_desc.byte_budget", (byte*)&s.byte_budget - begin, 64, 64));
             entries.Add(Entry("vox_suggest_desc.reference_flags", (byte*)&s.reference_flags - begin, 72, 72));
             entries.Add(Entry("vox_suggest_desc.reserved", (byte*)&s.reserved - begin, 76, 76));
-            entries.Add(Entry("vox_suggest_desc.allocator", (byte*)&s.allocator - begin, 80, 80));
+            entries.Add(Entry("vox_suggest_desc.weights", (byte*)&s.weights - begin, 80, 80));
+            entries.Add(Entry("vox_suggest_desc.allocator", (byte*)&s.allocator - begin, 88, 84));
         }
 
         static void AddGeometryStats(List<LayoutEntry> entries)
@@ -3888,64 +3841,6 @@ namespace Voxtet
             entries.Add(Entry("vox_suggestion.levels", (byte*)&s.levels - begin, 1928, 1928));
             entries.Add(Entry("vox_suggestion.level_count", (byte*)&s.level_count - begin, 1960, 1960));
             entries.Add(Entry("vox_suggestion.reserved", (byte*)&s.reserved - begin, 1964, 1964));
-        }
-
-        static void AddCostPrediction(List<LayoutEntry> entries)
-        {
-            CostPrediction s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_cost_prediction", sizeof(CostPrediction), 600, 600));
-            entries.Add(Entry("vox_cost_prediction.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_cost_prediction.term_count", (byte*)&s.term_count - begin, 4, 4));
-            entries.Add(Entry("vox_cost_prediction.cell_size", (byte*)&s.cell_size - begin, 8, 8));
-            entries.Add(Entry("vox_cost_prediction.cost", (byte*)&s.cost - begin, 16, 16));
-            entries.Add(Entry("vox_cost_prediction.terms", (byte*)&s.terms - begin, 24, 24));
-        }
-
-        static void AddCostWeights(List<LayoutEntry> entries)
-        {
-            CostWeights s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_cost_weights", sizeof(CostWeights), 136, 136));
-            entries.Add(Entry("vox_cost_weights.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_cost_weights.measured", (byte*)&s.measured - begin, 4, 4));
-            entries.Add(Entry("vox_cost_weights.reference_classify_vertex", (byte*)&s.reference_classify_vertex - begin, 8, 8));
-            entries.Add(Entry("vox_cost_weights.reference_prepare_tet", (byte*)&s.reference_prepare_tet - begin, 16, 16));
-            entries.Add(Entry("vox_cost_weights.reference_visit_cell", (byte*)&s.reference_visit_cell - begin, 24, 24));
-            entries.Add(Entry("vox_cost_weights.reference_scan_cell", (byte*)&s.reference_scan_cell - begin, 32, 32));
-            entries.Add(Entry("vox_cost_weights.reference_read_vertex", (byte*)&s.reference_read_vertex - begin, 40, 40));
-            entries.Add(Entry("vox_cost_weights.reference_test_box", (byte*)&s.reference_test_box - begin, 48, 48));
-            entries.Add(Entry("vox_cost_weights.reference_test_tet", (byte*)&s.reference_test_tet - begin, 56, 56));
-            entries.Add(Entry("vox_cost_weights.reference_clear_bucket", (byte*)&s.reference_clear_bucket - begin, 64, 64));
-            entries.Add(Entry("vox_cost_weights.fast_bin_vertex", (byte*)&s.fast_bin_vertex - begin, 72, 72));
-            entries.Add(Entry("vox_cost_weights.fast_clear_cell", (byte*)&s.fast_clear_cell - begin, 80, 80));
-            entries.Add(Entry("vox_cost_weights.fast_visit_tile", (byte*)&s.fast_visit_tile - begin, 88, 88));
-            entries.Add(Entry("vox_cost_weights.fast_visit_row", (byte*)&s.fast_visit_row - begin, 96, 96));
-            entries.Add(Entry("vox_cost_weights.fast_read_vertex", (byte*)&s.fast_read_vertex - begin, 104, 104));
-            entries.Add(Entry("vox_cost_weights.fast_test_vertex", (byte*)&s.fast_test_vertex - begin, 112, 112));
-            entries.Add(Entry("vox_cost_weights.reference_changed_list", (byte*)&s.reference_changed_list - begin, 120, 120));
-            entries.Add(Entry("vox_cost_weights.reference_fetch_vertex", (byte*)&s.reference_fetch_vertex - begin, 128, 128));
-        }
-
-        static void AddCostTerm(List<LayoutEntry> entries)
-        {
-            CostTerm s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_cost_term", sizeof(CostTerm), 16, 16));
-            entries.Add(Entry("vox_cost_term.coefficient", (byte*)&s.coefficient - begin, 0, 0));
-            entries.Add(Entry("vox_cost_term.power", (byte*)&s.power - begin, 8, 8));
-        }
-
-        static void AddCostBounds(List<LayoutEntry> entries)
-        {
-            CostBounds s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_cost_bounds", sizeof(CostBounds), 32, 32));
-            entries.Add(Entry("vox_cost_bounds.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_cost_bounds.reserved", (byte*)&s.reserved - begin, 4, 4));
-            entries.Add(Entry("vox_cost_bounds.min", (byte*)&s.min - begin, 8, 8));
-            entries.Add(Entry("vox_cost_bounds.max", (byte*)&s.max - begin, 16, 16));
-            entries.Add(Entry("vox_cost_bounds.zone_loss", (byte*)&s.zone_loss - begin, 24, 24));
         }
 
         static void AddCostMinimum(List<LayoutEntry> entries)
@@ -4650,6 +4545,7 @@ namespace Voxtet
             AddClosestHit(entries);
             AddBoxHit(entries);
             AddRayHit(entries);
+            AddCostWeights(entries);
             AddReferenceDesc(entries);
             AddSuggestDesc(entries);
             AddGeometryStats(entries);
@@ -4657,10 +4553,6 @@ namespace Voxtet
             AddCostSample(entries);
             AddCostShare(entries);
             AddSuggestion(entries);
-            AddCostPrediction(entries);
-            AddCostWeights(entries);
-            AddCostTerm(entries);
-            AddCostBounds(entries);
             AddCostMinimum(entries);
             AddPrimitives(entries);
             AddGridWork(entries);

@@ -37,7 +37,19 @@ namespace Voxtet
         public Action<LogLevel, string> Log;
         /// <summary>The paper's engine with these settings; null: the fast engine, and in Load the one that was saved.
         /// </summary>
-        public ReferenceDesc? Reference;
+        public ReferenceOptions Reference;
+    }
+
+    /// <summary>Settings of the paper's engine. vox_cell_size.h explains each under vox_reference_desc.</summary>
+    public sealed class ReferenceOptions
+    {
+        public ReferenceFlags Flags;
+        /// <summary>Buckets; 0: twice the number of vertices.</summary>
+        public ulong HashTableSize;
+        /// <summary>Dense: the box that has cells; all 0: that of all positions.</summary>
+        public Double3 WorldMin, WorldMax;
+        /// <summary>By which it chooses its cell size, from CellSize.Calibrate; null: those shipped with the library.</summary>
+        public CostWeights? Weights;
     }
 
     /// <summary>A mesh as it is now.</summary>

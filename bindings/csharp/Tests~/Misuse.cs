@@ -60,7 +60,7 @@ namespace Voxtet.Tests
             Test.Throws<VoxException>(() => grid.Add(unit, tet, 0, default(Filter), new float[3]), "rest_positions.count is 1, expected 4");
             Test.Throws<VoxArgumentException>(() => new Grid(new GridOptions { CellSize = -1 }), "cell_size is -1");
             Test.Throws<VoxException>(() => new Grid(new GridOptions { ByteBudget = 10 }), "budget is 10");
-            Test.Throws<VoxException>(() => new Grid(new GridOptions { Reference = new ReferenceDesc { hash_table_size = ulong.MaxValue } }),
+            Test.Throws<VoxException>(() => new Grid(new GridOptions { Reference = new ReferenceOptions { HashTableSize = ulong.MaxValue } }),
                                       "hash_table_size");
             Test.Throws<ArgumentNullException>(() => new Grid(null), "");
             Test.Throws<VoxArgumentException>(() => Grid.Load(new byte[5]), "snapshot");
@@ -90,7 +90,7 @@ namespace Voxtet.Tests
         public static void Settings()
         {
             Mesh a, b;
-            var options = new GridOptions { Reference = new ReferenceDesc { flags = ReferenceFlags.Dense }, ByteBudget = ulong.MaxValue };
+            var options = new GridOptions { Reference = new ReferenceOptions { Flags = ReferenceFlags.Dense }, ByteBudget = ulong.MaxValue };
             using (Grid fast = TwoBlocks(out a, out b), paper = TwoBlocks(out a, out b, options))
             {
                 paper.Step();
@@ -317,13 +317,21 @@ namespace Voxtet.Tests
                 Test.That(error.StackTrace.Contains("ThrowingCost"), "where it was thrown: " + error.StackTrace);
             }
             Test.Throws<VoxArgumentException>(() => CellSize.Minimise(x => x, 2, 1), "");
-            Test.Same(CellSize.ZoneDistance(3, 1, 3, 9), 0.0, "distance");
-            CostWeights weights = CellSize.Weights;
-            CellSize.Weights = weights;
-            Test.Same(CellSize.Weights.fast_bin_vertex, weights.fast_bin_vertex, "weights");
+            CostWeights weights = CellSize.Calibrate(), twice = weights;
+            for (int i = 0; i < Double24.Length; ++i) twice.ns[i] *= 2;
+            Test.Same(CellSize.Suggest(positions, tets, CostModel.Reference, twice).predicted_cost,
+                      2 * CellSize.Suggest(positions, tets, CostModel.Reference, weights).predicted_cost, "weights");
             Mesh a, b;
             using (Grid grid = TwoBlocks(out a, out b))
                 Test.That(grid.SuggestCellSize().cell_size > 0 && grid.SuggestCellSize(CostModel.Paper).cell_size > 0, "a grid");
+            using (Grid grid = TwoBlocks(out a, out b, new GridOptions { Reference = new ReferenceOptions { Weights = weights } }))
+            {
+                Test.Same(grid.SuggestCellSize(CostModel.Reference, twice).predicted_cost, 2 * grid.SuggestCellSize().predicted_cost,
+                          "weights of a grid");
+                Test.Throws<ArgumentException>(() => grid.SuggestCellSize(null, weights), "need a model");
+            }
+            twice.ns[2] = -1;
+            Test.Throws<VoxArgumentException>(() => CellSize.Suggest(unit, tet, CostModel.Fast, twice), "weights.ns[2] is -1");
         }
 
         public static void GridsOfOthers()

@@ -1,17 +1,22 @@
 import { FilterFlags } from "../enums.js";
 import { structs } from "../layout.js";
-import { callback, camel, fields, float, list, options } from "./check.js";
+import { callback, fields, float, list, options } from "./check.js";
 import { foreignGrid } from "./foreign.js";
 import { meshArrays, meshFields } from "./mesh_arrays.js";
 
 const SUGGEST = ["model", "sizeReading", "areaReading", "pNc", "costRatio", "worldEdge", "zoneLoss", "meanEdgeFactor",
   "resolution", "byteBudget", "referenceFlags"];
-const BOUNDS = ["min", "max", "zoneLoss"];
 const TUNE = ["mostRuns", "min", "max", "first", "zoneLoss", "wantedLoss"];
-const WEIGHTS = Object.keys(structs.vox_cost_weights.fields);
 
-export function suggestFields(settings) {
-  return fields(settings, "options", "vox_suggest_desc", SUGGEST);
+/** Settings with weights, checked: a function that makes the struct of C of them. */
+export function weighted(settings, what, struct, known) {
+  const { weights, ...given } = fields(settings, what, struct, [...known, "weights"]);
+  const numbers = weights === undefined ? 0 : fields(weights, `${what}.weights`, "vox_cost_weights", ["measured", "ns"]);
+  return (frame) => frame.struct(struct, { ...given, weights: numbers ? frame.struct("vox_cost_weights", numbers) : 0 });
+}
+
+export function suggestOptions(settings) {
+  return weighted(settings, "options", "vox_suggest_desc", SUGGEST);
 }
 
 /** Arrays that C fills in part, cut to what there is. */
@@ -26,7 +31,7 @@ export function suggestion({ curveCount, termCount, levelCount, runCount, ...fou
 
 /** Runs `use` with options and meshes as C wants them. */
 function withMeshes(memory, meshes, settings, use) {
-  const given = suggestFields(settings);
+  const described = suggestOptions(settings);
   const all = list(meshes, "meshes", "{ positions, tets }").map((mesh, i) => {
     const { selfCollision = false, ...arrays } = options(mesh, `meshes[${i}]`, ["positions", "tets", "selfCollision"]);
     if (typeof selfCollision !== "boolean") throw new TypeError(`meshes[${i}].selfCollision: expected true or false`);
@@ -36,21 +41,13 @@ function withMeshes(memory, meshes, settings, use) {
     const { size } = structs.vox_mesh_desc;
     const list = frame.take(all.length * size);
     all.forEach(([arrays, filter], i) => memory.fill(list + i * size, "vox_mesh_desc", meshFields(frame, arrays, { filter })));
-    return use(frame.struct("vox_suggest_desc", given), list, all.length);
+    return use(described(frame), list, all.length);
   });
 }
 
 /** The functions of a module about cell sizes. */
 export function cellSizes(memory) {
   const { call } = memory;
-  const minimum = (bounds, ask) => {
-    const given = fields(bounds, "bounds", "vox_cost_bounds", BOUNDS);
-    return memory.frame((frame) => {
-      const out = frame.struct("vox_cost_minimum");
-      ask(frame, frame.struct("vox_cost_bounds", given), out);
-      return suggestion(memory.read("vox_cost_minimum", out));
-    });
-  };
   /** Runs `use` with the number of a function that C may call. */
   const calling = (given, what, use) => {
     callback(given, what);
@@ -67,38 +64,16 @@ export function cellSizes(memory) {
         suggestion(memory.get("vox_suggestion", (out) => call.vox_suggest_cell_size(desc, list, count, out))),
       ),
 
-    predictCost(meshes, cellSize, settings) {
-      const size = float(cellSize, "cellSize");
-      return withMeshes(memory, meshes, settings, (desc, list, count) =>
-        suggestion(memory.get("vox_cost_prediction", (out) => call.vox_cost_predict(desc, list, count, size, out))),
-      );
-    },
-
     calibrate: () => memory.get("vox_cost_weights", (out) => call.vox_cost_calibrate(out)),
 
-    get costWeights() {
-      return memory.get("vox_cost_weights", (out) => call.vox_cost_get_weights(out));
-    },
-
-    set costWeights(weights) {
-      const given = weights === null ? null : fields(weights, "costWeights", "vox_cost_weights", WEIGHTS.map(camel));
-      memory.frame((frame) => {
-        if (!given) return call.vox_cost_set_weights(0);
-        const all = { ...memory.get("vox_cost_weights", (out) => call.vox_cost_get_weights(out)), ...given };
-        return call.vox_cost_set_weights(frame.struct("vox_cost_weights", all));
-      });
-    },
-
-    minimiseCost: (cost, bounds) =>
-      calling(cost, "cost", (id) => minimum(bounds, (_, desc, out) => call.voxtet_cost_minimise(id, desc, out))),
-
-    minimiseCostTerms(terms, bounds) {
-      const numbers = list(terms, "terms", "{ coefficient, power }").flatMap((term, i) => {
-        const { coefficient, power } = options(term, `terms[${i}]`, ["coefficient", "power"]);
-        return [float(coefficient, `terms[${i}].coefficient`), float(power, `terms[${i}].power`)];
-      });
-      return minimum(bounds, (frame, desc, out) =>
-        call.vox_cost_minimise_terms(frame.numbers(numbers), numbers.length / 2, desc, out),
+    minimiseCost(cost, min, max, zoneLoss = 0) {
+      const given = Object.entries({ min, max, zoneLoss }).map(([name, value]) => float(value, name));
+      return calling(cost, "cost", (id) =>
+        memory.frame((frame) => {
+          const out = frame.struct("vox_cost_minimum");
+          call.voxtet_cost_minimise(id, ...given, out);
+          return suggestion(memory.read("vox_cost_minimum", out));
+        }),
       );
     },
 
@@ -140,11 +115,6 @@ export function cellSizes(memory) {
           return suggestion(memory.read("vox_tuning", out));
         }),
       );
-    },
-
-    zoneDistance(n, nMin, nOpt, nMax) {
-      const given = Object.entries({ n, nMin, nOpt, nMax }).map(([name, value]) => float(value, name));
-      return memory.number("f64", (out) => call.vox_zone_distance(...given, out));
     },
   };
 }

@@ -1,7 +1,7 @@
 import { Format } from "../enums.js";
 import { structs } from "../layout.js";
 import { bits, bytes, callback, fields, flag, float, floats, indices, integer, list, meshId, options, positions } from "./check.js";
-import { suggestFields, suggestion } from "./cell_size.js";
+import { suggestion, suggestOptions, weighted } from "./cell_size.js";
 import { Locator } from "./locator.js";
 import { meshArrays, meshDesc, same } from "./mesh_arrays.js";
 import { guarded, memoryOf, Owned, pointerOf, pointerOfKind } from "./owned.js";
@@ -43,13 +43,13 @@ export class Grid extends Owned {
   /** @param {Uint8Array} [snapshot] what save() gave, instead of an empty grid */
   constructor(memory, settings, snapshot) {
     const { log, reference, ...given } = fields(settings, "options", "vox_grid_desc", GRID);
-    const paper = reference && fields(reference, "options.reference", "vox_reference_desc", REFERENCE);
+    const paper = reference && weighted(reference, "options.reference", "vox_reference_desc", REFERENCE);
     const owner = { log: log === undefined ? undefined : callback(log, "options.log") };
     const id = log ? memory.addCallback(logOf(owner)) : 0;
     let pointer = 0;
     try {
       pointer = memory.frame((frame) => {
-        if (paper) given.reference = frame.struct("vox_reference_desc", paper);
+        if (paper) given.reference = paper(frame);
         if (log) memory.exports.voxtet_set_log((given.log = frame.struct("vox_log")), id);
         const desc = frame.struct("vox_grid_desc", given);
         memory.exports.voxtet_set_threads?.(desc);
@@ -280,12 +280,11 @@ export class Grid extends Owned {
   }
 
   suggestCellSize(settings) {
-    const given = settings === undefined ? undefined : suggestFields(settings);
+    const described = settings === undefined ? () => 0 : suggestOptions(settings);
     const memory = memoryOf(this);
-    return memory.frame((frame) => {
-      const desc = given ? frame.struct("vox_suggest_desc", given) : 0;
-      return suggestion(this.#get("vox_suggestion", "vox_grid_suggest_cell_size", desc));
-    });
+    return memory.frame((frame) =>
+      suggestion(this.#get("vox_suggestion", "vox_grid_suggest_cell_size", described(frame))),
+    );
   }
 }
 

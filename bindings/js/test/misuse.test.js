@@ -46,8 +46,11 @@ test("errors say what was wrong", () => {
     [() => locator.findClosest(point, { radius: 1 }), TypeError, /"radius" is not known; there are flags, mask, excluded, maxDistance/],
     [() => locator.update(locator), TypeError, /grid: expected a grid of this module/],
     [() => vox.stepGrids([locator]), TypeError, /grids\[0\]: expected a grid of this module/],
-    [() => vox.minimiseCost(7, { min: 1, max: 2 }), TypeError, /cost: expected a function/],
-    [() => vox.minimiseCost(() => "1", { min: 1, max: 2 }), TypeError, /what cost returned: expected a number, got "1"/],
+    [() => vox.minimiseCost(7, 1, 2), TypeError, /cost: expected a function/],
+    [() => vox.minimiseCost(() => "1", 1, 2), TypeError, /what cost returned: expected a number, got "1"/],
+    [() => vox.minimiseCost(() => 1, 1), TypeError, /max: expected a number, got undefined/],
+    [() => vox.suggestCellSize([], { weights: { ns: [1] } }), RangeError, /options.weights.ns: expected 24 numbers, got 1/],
+    [() => new vox.Grid({ reference: { weights: { ns: Array(24).fill(-1) } } }), VoxError, /weights.ns\[0\] is -1/],
     [() => vox.suggestFor({ hold: {} }), TypeError, /"hold" is not known; there are held, asking/],
     [() => vox.suggestFor({}), TypeError, /grid.held.positions: expected a Float32Array or Float64Array/],
     [() => vox.suggestFor({ held: { positions: new Float32Array(9), type: 3 } }), RangeError, /3 vertices, which is not a multiple of 4/],
@@ -139,11 +142,11 @@ test("garbage in every argument", (t) => {
     () => ({ positions: block(1).positions, tets: block(1).tets, restPositions: value() }), () => ({ mask: value(), flags: value() }),
     () => ({ category: value(), selfRings: value(), selfRestDistance: value() }), () => ({ maxDistance: value(), excluded: value() }),
     () => ({ copiesOf: value(), positions: value() }), () => ({ what: value(), bodyA: value(), bodyB: value() }), () => ({ min: value(), max: value() }),
-    () => ({ reference: value(), cellSize: value(), flags: value(), log: value() }), () => ({ model: value(), pNc: value() }),
+    () => ({ reference: value(), cellSize: value(), flags: value(), log: value() }), () => ({ model: value(), pNc: value(), weights: { ns: value() } }),
     () => ({ held: value(), asking: value(), known: value(), look: value(), weights: value(), radius: value() }),
     () => ({ held: { positions: block(1).positions, radius: value(), radii: value() }, leastCellSize: value() }),
     () => ({ first: value(), mostRuns: value(), grid: value() }), () => [{ cellSize: value(), seconds: value() }], () => value,
-    () => [{ coefficient: value(), power: value() }], () => [{ positions: block(1).positions, tets: block(1).tets, selfCollision: value() }],
+    () => [{ positions: block(1).positions, tets: block(1).tets, selfCollision: value() }],
   ];
   const value = () => pick(values)();
 
@@ -192,7 +195,6 @@ test("garbage in every argument", (t) => {
     now.grid.dispose();
     now.locator.dispose();
   }
-  vox.costWeights = null;
   const { grid } = scene();
   assert.equal(grid.contacts.length, scene().grid.contacts.length);
   t.diagnostic(`${counts.calls} calls, ${counts.refused} refused`);

@@ -19,7 +19,7 @@ export async function program(): Promise<number> {
   const sides: Int32Array = locator.findRayHits(new Float32Array(3), new Float64Array(3), { flags: QueryFlags.FIRST_HIT }).side;
   const hash: bigint = grid.hash;
   locator.update(grid);
-  const size: number = vox.suggestCellSize([{ positions: new Float32Array(12), tets: new Uint32Array(4) }], { pNc: 0.5 }).cellSize;
+  const size: number = vox.suggestCellSize([{ positions: new Float32Array(12), tets: new Uint32Array(4) }], { pNc: 0.5, weights: vox.calibrate() }).cellSize;
   const grids = { held: { type: PrimitiveType.TET, positions: new Float32Array(12), radii: [1] }, known: KnownGrid.VTK };
   const tuned: Tuning = vox.tune((cell) => 1 + cell, { grid: grids, mostRuns: 5 });
   const note: string = vox.costFit(grids, tuned.runs).note + vox.suggestFor({ ...grids, weights: { reads: 2 } }).note;

@@ -2,8 +2,8 @@ import assert from "node:assert/strict";
 import { once } from "node:events";
 import test from "node:test";
 import { Worker } from "node:worker_threads";
-import { ForeignWarnings, GridFlags, KnownGrid, LogLevel, PenetrationState, PrimitiveType, QueryFlags, ReadingFlags,
-  ReferenceFlags, Result, Side, VoxError } from "../voxtet.js";
+import { COST_WEIGHT_CAPACITY, ForeignWarnings, GridFlags, KnownGrid, LogLevel, PenetrationState, PrimitiveType, QueryFlags,
+  ReadingFlags, ReferenceFlags, Result, Side, VoxError } from "../voxtet.js";
 import { block, loaded } from "./scenes.js";
 
 const vox = await loaded();
@@ -249,22 +249,23 @@ test("costs and cell sizes", () => {
   const found = vox.suggestCellSize(meshes, { model: 1, pNc: 0.9 });
   assert.equal(found.curve.length, 64);
   assert.ok(found.terms.length > 0 && found.terms.every((term) => term.name.length > 0));
-  const cost = vox.predictCost(meshes, found.cellSize, { model: 1 });
-  assert.ok(Math.abs(cost.cost / found.predictedCost - 1) < 1e-6);
-  const least = vox.minimiseCost((size) => size + 4 / size, { min: 0.1, max: 10 });
+  const weights = vox.calibrate();
+  assert.ok(weights.measured === 1 && weights.ns.length === COST_WEIGHT_CAPACITY && weights.ns.some((ns) => ns > 0));
+  weights.ns = weights.ns.map((ns) => 1000 * ns); // of a machine that is far slower
+  const shipped = { ns: new Float64Array(COST_WEIGHT_CAPACITY) };
+  const costs = (suggest) => [{ weights }, { weights: shipped }, {}].map((more) => suggest({ model: 1, ...more }).predictedCost);
+  const [slow, zeros, none] = costs((settings) => vox.suggestCellSize(meshes, settings));
+  assert.ok(slow > 10 * none && zeros === none);
+  const grid = new vox.Grid({ reference: { weights } });
+  for (const { positions, tets } of meshes) grid.add({ positions, tets });
+  const [given, others, own] = costs((settings) => grid.suggestCellSize(settings));
+  assert.ok(own > 10 * others && given === own);
+
+  const least = vox.minimiseCost((size) => size + 4 / size, 0.1, 10);
   assert.ok(Math.abs(least.cellSize - 2) < 1e-3 && least.zoneMin < 2);
-  const terms = [{ coefficient: 1, power: 1 }, { coefficient: 4, power: -1 }];
-  assert.ok(Math.abs(vox.minimiseCostTerms(terms, { min: 0.1, max: 10 }).cellSize - 2) < 1e-3);
-  assert.throws(() => vox.minimiseCost(() => { throw new Error("of the cost"); }, { min: 1, max: 2 }), /of the cost/);
-  assert.throws(() => vox.minimiseCost((size) => size, { min: 3, max: 2 }), failure(Result.ERROR_INVALID_ARGUMENT));
-  assert.equal(vox.zoneDistance(10, 5, 10, 20), 0);
-  const weights = vox.costWeights;
-  vox.costWeights = { fastVisitTile: 2 * weights.fastVisitTile };
-  assert.deepEqual(vox.costWeights, { ...weights, fastVisitTile: 2 * weights.fastVisitTile });
-  vox.costWeights = null;
-  assert.deepEqual(vox.costWeights, weights);
-  assert.equal(vox.calibrate().measured, 1);
-  vox.costWeights = null;
+  assert.ok(vox.minimiseCost((size) => size + 4 / size, 0.1, 10, 0.5).zoneMin < least.zoneMin);
+  assert.throws(() => vox.minimiseCost(() => { throw new Error("of the cost"); }, 1, 2), /of the cost/);
+  assert.throws(() => vox.minimiseCost((size) => size, 3, 2), failure(Result.ERROR_INVALID_ARGUMENT));
 });
 
 test("the cell size of a grid of another program", () => {

@@ -19,8 +19,9 @@ EXPORT void voxtet_set_log(vox_log* log, void* user) {
 }
 
 /* vox_cost_minimise with the function `user`. */
-EXPORT vox_result voxtet_cost_minimise(void* user, const vox_cost_bounds* bounds, vox_cost_minimum* out) {
-    return vox_cost_minimise(cost, user, bounds, out);
+EXPORT vox_result voxtet_cost_minimise(void* user, double min, double max, double zone_loss,
+                                       vox_cost_minimum* out) {
+    return vox_cost_minimise(cost, user, min, max, zone_loss, out);
 }
 
 /* vox_cost_tune with the function `user`. */

@@ -76,9 +76,9 @@ NAMES = {"add": ["copy", "user_data", "vertex_count", "filter", "self_collision"
 FREE = [lambda v: voxtet.Grid(v()), lambda v: voxtet.Grid(workers=v()), lambda v: voxtet.Grid(reference=v()),
         lambda v: voxtet.Grid(world=v()), lambda v: voxtet.Grid(log=v()), lambda v: voxtet.Grid(byte_budget=v()),
         lambda v: voxtet.Grid.from_snapshot(v()), lambda v: voxtet.suggest_cell_size(v(), v(), model=v()),
-        lambda v: voxtet.suggest_cell_size(v()), lambda v: voxtet.predict(v(), v(), v()), lambda v: voxtet.minimise(v(), v(), v()),
-        lambda v: voxtet.zone_distance(v(), v(), v(), v()), lambda v: voxtet.locate(v(), v(), v()), lambda v: voxtet.step_all(v()),
-        lambda v: voxtet.contacts_of_all(v()), lambda v: voxtet.set_weights(v()),
+        lambda v: voxtet.suggest_cell_size(v()), lambda v: voxtet.suggest_cell_size(*box(2), weights=v()),
+        lambda v: voxtet.Grid(reference=voxtet.Reference(weights=v())), lambda v: voxtet.minimise(v(), v(), v()),
+        lambda v: voxtet.locate(v(), v(), v()), lambda v: voxtet.step_all(v()), lambda v: voxtet.contacts_of_all(v()),
         lambda v: voxtet.suggest_for(v()), lambda v: voxtet.suggest_for(v(), v(), radius=v()), lambda v: voxtet.count_for(v(), v()),
         lambda v: voxtet.suggest_for((v(), v()), known=v()), lambda v: voxtet.Primitives.boxes(v(), v(), radii=v()),
         lambda v: voxtet.suggest_for(voxtet.Primitives(v(), v(), radii=v(), radius=v()), content=v(), look=v(), dense=v()),
@@ -94,7 +94,6 @@ class Fuzz(unittest.TestCase):
         warnings.simplefilter("ignore")  # numpy's, about garbage
         self.seed = int(os.environ.get("VOXTET_FUZZ_SEED", random.SystemRandom().getrandbits(32)))
         print(f"VOXTET_FUZZ_SEED={self.seed}", file=sys.stderr, flush=True)
-        self.addCleanup(voxtet.set_weights, None)
 
     def life(self, random_, steps):
         """One grid: good calls among garbage, on it, its meshes, and memory borrowed from it."""

@@ -90,7 +90,7 @@ class Pictures(GridCase):
         import matplotlib
         matplotlib.use("Agg")
         from matplotlib import pyplot
-        for drawn in (voxtet.suggest_cell_size(self.first, self.tets), voxtet.minimise([(1, 1), (1, -1)], 0.1, 10)):
+        for drawn in (voxtet.suggest_cell_size(self.first, self.tets), voxtet.minimise(lambda d: d + 1 / d, 0.1, 10)):
             axes = drawn.plot()
             self.assertIs(drawn.plot(axes), axes)
             self.assertGreater(len(axes.lines), 1)

@@ -6,7 +6,7 @@ import unittest
 import numpy as np
 
 import voxtet
-from support import GridCase, box
+from support import GridCase
 from voxtet import _c
 
 
@@ -50,28 +50,28 @@ class Suggestions(GridCase):
         with self.assertRaises(ValueError):
             self.grid.suggest_cell_size(zone_loss=0.2)
 
-    def test_prediction(self):
-        s = voxtet.suggest_cell_size(self.first, self.tets)
-        p = voxtet.predict(s.cell_size, self.first, self.tets)
-        self.assertAlmostEqual(p.cost, s.predicted_cost)
-        self.assertAlmostEqual(p.terms.cost.sum(), p.cost)
-        with self.assertRaises(ValueError):
-            voxtet.predict(-1, self.first, self.tets)
-
     def test_weights(self):
-        shipped = voxtet.weights()
-        try:
-            self.assertEqual(set(voxtet.calibrate()), set(shipped))
-            mine = {name: 2 * value for name, value in shipped.items()}
-            voxtet.set_weights(mine)
-            self.assertEqual(voxtet.weights(), mine)
+        weights = voxtet.calibrate()
+        self.assertEqual((weights.shape, weights.dtype), ((24,), np.float64))
+        self.assertTrue((weights[:16] > 0).all())
+        both = [(self.first, self.tets), (self.second, self.tets)]
+        for model in ("reference", "fast"):
+            once, twice, shipped, zero = (voxtet.suggest_cell_size(both, model=model, weights=w)
+                                          for w in (weights, 2 * weights, None, [0] * 24))
+            self.assertEqual(twice.cell_size, once.cell_size)
+            self.assertEqual(twice.predicted_cost, 2 * once.predicted_cost)
+            self.assertEqual(zero.predicted_cost, shipped.predicted_cost)
+        with voxtet.Grid(reference=voxtet.Reference(weights=weights)) as grid:
+            for positions, tets in both:
+                grid.add(positions, tets)
+            grid.step()
+            ratio = grid.suggest_cell_size("reference", weights=2 * weights).predicted_cost / grid.suggest_cell_size().predicted_cost
+            self.assertEqual(ratio, 2)  # without weights, those of its engine
+        for wrong in (weights[:-1], -weights, np.full(24, math.inf), 3):
             with self.assertRaises(ValueError):
-                voxtet.set_weights({**mine, "fast_bin_vertex": -1})
+                voxtet.suggest_cell_size(both, model="fast", weights=wrong)
             with self.assertRaises(ValueError):
-                voxtet.set_weights({"fast_bin_vertex": 1})
-        finally:
-            voxtet.set_weights(None)
-        self.assertEqual(voxtet.weights(), shipped)
+                voxtet.Grid(reference=voxtet.Reference(weights=wrong))
 
     def test_stats_and_rules_are_the_librarys(self):
         self.assertEqual(list(voxtet.Stats._fields), [n for n, *_ in _c.vox_geometry_stats._fields_])
@@ -79,13 +79,12 @@ class Suggestions(GridCase):
 
 
 class Minimise(unittest.TestCase):
-    def test_function_and_terms(self):
-        for cost in (lambda d: (1 / d + 1) ** 3 * d**2, [(1, -1), (3, 0), (3, 1), (1, 2)]):
-            m = voxtet.minimise(cost, 0.01, 100, zone_loss=0.1)
-            self.assertAlmostEqual(m.cell_size, 0.5, 2)
-            self.assertTrue(m.zone[0] < m.cell_size < m.zone[1])
-            self.assertEqual(len(m.curve), 64)
-            repr(m)
+    def test_function(self):
+        m = voxtet.minimise(lambda d: (1 / d + 1) ** 3 * d**2, 0.01, 100, zone_loss=0.1)
+        self.assertAlmostEqual(m.cell_size, 0.5, 2)
+        self.assertTrue(m.zone[0] < m.cell_size < m.zone[1])
+        self.assertEqual(len(m.curve), 64)
+        repr(m)
 
     def test_exceptions_pass(self):
         for kind in (KeyError, KeyboardInterrupt, SystemExit):
@@ -104,15 +103,9 @@ class Minimise(unittest.TestCase):
     def test_wrong(self):
         for low, high in ((0, 1), (2, 1), (1, math.inf), (math.nan, 1)):
             with self.assertRaises(ValueError):
-                voxtet.minimise([(1, 1)], low, high)
+                voxtet.minimise(lambda size: size, low, high)
         with self.assertRaises(ValueError):
             voxtet.minimise(lambda size: math.nan, 1, 2)
-
-    def test_zone_distance(self):
-        self.assertEqual(voxtet.zone_distance(10, 5, 10, 20), 0)
-        self.assertEqual(voxtet.zone_distance(20, 5, 10, 20), 1)
-        with self.assertRaises(ValueError):
-            voxtet.zone_distance(1, 5, 4, 20)
 
 
 if __name__ == "__main__":

@@ -17,8 +17,7 @@ from .locate import BoxHits, ClosestHits, Located, Locator, PointHits, RayHits, 
 from .mesh import Filter, Mesh, MeshInfo
 from .reference import Reference
 from .results import Borrowed, ContactEvents, Contacts, Depths, Pairs, Passages, Penetrations, Readings, TouchEvents, Touches
-from .suggest import (Curve, Minimum, Prediction, Rules, Stats, Suggestion, Terms, calibrate, minimise, predict, set_weights,
-                      suggest_cell_size, weights, zone_distance)
+from .suggest import Curve, Minimum, Rules, Stats, Suggestion, Terms, calibrate, minimise, suggest_cell_size
 
 if TYPE_CHECKING:
     from . import experiment, io, ipctk, mpi, mujoco, newton, sim, surface

@@ -85,6 +85,14 @@ def _doubles(value: Any, name: str, shape: tuple[int, ...], kind: Any) -> Any:
     return kind(*array.astype(np.float64).ravel().tolist())
 
 
+def weights_pointer(value: Any) -> Any:
+    """A pointer to vox_cost_weights; None for None: those shipped with the library."""
+    if value is None:
+        return None
+    ns = _doubles(value, "weights", (_c.VOX_COST_WEIGHT_CAPACITY,), ctypes.c_double * _c.VOX_COST_WEIGHT_CAPACITY)
+    return ctypes.pointer(_c.vox_cost_weights(ctypes.sizeof(_c.vox_cost_weights), 0, ns))
+
+
 def matrix(value: Any, name: str) -> Any:
     """Three rows of four numbers; a fourth row must be 0 0 0 1."""
     array = np.asarray(value)

@@ -21,6 +21,7 @@ VOX_NO_VERTEX = 4294967295
 VOX_MAX_CONTACTS = 4294967295
 VOX_NO_PAIR = 4294967295
 VOX_MAX_TASKS = 64
+VOX_COST_WEIGHT_CAPACITY = 24
 VOX_COST_CURVE_CAPACITY = 64
 VOX_COST_TERM_CAPACITY = 12
 VOX_CELL_SIZE_LEVEL_CAPACITY = 4
@@ -282,6 +283,20 @@ class vox_task_system(Structure):
     ]
 
 
+class vox_cost_weights(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("measured", c_uint32),
+        ("ns", c_double * 24),
+    ]
+
+dtypes["vox_cost_weights"] = dtype({
+    "names": ["struct_size", "measured", "ns"],
+    "formats": ["u4", "u4", ("f8", (24,))],
+    "offsets": [0, 4, 8],
+    "itemsize": 200})
+
+
 class vox_reference_desc(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
@@ -289,13 +304,8 @@ class vox_reference_desc(Structure):
         ("hash_table_size", c_uint64),
         ("world_min", c_double * 3),
         ("world_max", c_double * 3),
+        ("weights", POINTER(vox_cost_weights)),
     ]
-
-dtypes["vox_reference_desc"] = dtype({
-    "names": ["struct_size", "flags", "hash_table_size", "world_min", "world_max"],
-    "formats": ["u4", "u4", "u8", ("f8", (3,)), ("f8", (3,))],
-    "offsets": [0, 4, 8, 16, 40],
-    "itemsize": 64})
 
 
 class vox_grid_desc(Structure):
@@ -915,6 +925,7 @@ class vox_suggest_desc(Structure):
         ("byte_budget", c_uint64),
         ("reference_flags", c_uint32),
         ("reserved", c_uint32),
+        ("weights", POINTER(vox_cost_weights)),
         ("allocator", POINTER(vox_allocator)),
     ]
 
@@ -1026,84 +1037,6 @@ dtypes["vox_suggestion"] = dtype({
         dtypes["vox_cell_size_rules"], "f8", "f8", ("f8", (4,)), "u4", "u4"],
     "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 96, 256, 1280, 1284, 1288, 1864, 1912, 1920, 1928, 1960, 1964],
     "itemsize": 1968})
-
-
-class vox_cost_prediction(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("term_count", c_uint32),
-        ("cell_size", c_double),
-        ("cost", c_double),
-        ("terms", vox_cost_share * 12),
-    ]
-
-dtypes["vox_cost_prediction"] = dtype({
-    "names": ["struct_size", "term_count", "cell_size", "cost", "terms"],
-    "formats": ["u4", "u4", "f8", "f8", (dtypes["vox_cost_share"], (12,))],
-    "offsets": [0, 4, 8, 16, 24],
-    "itemsize": 600})
-
-
-class vox_cost_weights(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("measured", c_uint32),
-        ("reference_classify_vertex", c_double),
-        ("reference_prepare_tet", c_double),
-        ("reference_visit_cell", c_double),
-        ("reference_scan_cell", c_double),
-        ("reference_read_vertex", c_double),
-        ("reference_test_box", c_double),
-        ("reference_test_tet", c_double),
-        ("reference_clear_bucket", c_double),
-        ("fast_bin_vertex", c_double),
-        ("fast_clear_cell", c_double),
-        ("fast_visit_tile", c_double),
-        ("fast_visit_row", c_double),
-        ("fast_read_vertex", c_double),
-        ("fast_test_vertex", c_double),
-        ("reference_changed_list", c_double),
-        ("reference_fetch_vertex", c_double),
-    ]
-
-dtypes["vox_cost_weights"] = dtype({
-    "names": ["struct_size", "measured", "reference_classify_vertex", "reference_prepare_tet", "reference_visit_cell",
-        "reference_scan_cell", "reference_read_vertex", "reference_test_box", "reference_test_tet",
-        "reference_clear_bucket", "fast_bin_vertex", "fast_clear_cell", "fast_visit_tile", "fast_visit_row",
-        "fast_read_vertex", "fast_test_vertex", "reference_changed_list", "reference_fetch_vertex"],
-    "formats": ["u4", "u4", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8",
-        "f8"],
-    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120, 128],
-    "itemsize": 136})
-
-
-class vox_cost_term(Structure):
-    _fields_ = [
-        ("coefficient", c_double),
-        ("power", c_double),
-    ]
-
-dtypes["vox_cost_term"] = dtype({
-    "names": ["coefficient", "power"],
-    "formats": ["f8", "f8"],
-    "offsets": [0, 8],
-    "itemsize": 16})
-
-
-class vox_cost_bounds(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("min", c_double),
-        ("max", c_double),
-        ("zone_loss", c_double),
-    ]
-
-dtypes["vox_cost_bounds"] = dtype({
-    "names": ["struct_size", "reserved", "min", "max", "zone_loss"],
-    "formats": ["u4", "u4", "f8", "f8", "f8"],
-    "offsets": [0, 4, 8, 16, 24],
-    "itemsize": 32})
 
 
 class vox_cost_minimum(Structure):
@@ -1928,16 +1861,9 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
     "vox_cell_size": {
         "vox_suggest_cell_size": (vox_result, (POINTER(vox_suggest_desc), c_void_p, c_uint64, POINTER(vox_suggestion))),
         "vox_grid_suggest_cell_size": (vox_result, (c_void_p, POINTER(vox_suggest_desc), POINTER(vox_suggestion))),
-        "vox_cost_predict": (vox_result, (POINTER(vox_suggest_desc), c_void_p, c_uint64, c_double,
-            POINTER(vox_cost_prediction))),
         "vox_cost_calibrate": (vox_result, (POINTER(vox_cost_weights),)),
-        "vox_cost_get_weights": (vox_result, (POINTER(vox_cost_weights),)),
-        "vox_cost_set_weights": (vox_result, (POINTER(vox_cost_weights),)),
-        "vox_cost_minimise": (vox_result, (vox_cost_function, c_void_p, POINTER(vox_cost_bounds),
+        "vox_cost_minimise": (vox_result, (vox_cost_function, c_void_p, c_double, c_double, c_double,
             POINTER(vox_cost_minimum))),
-        "vox_cost_minimise_terms": (vox_result, (c_void_p, c_uint64, POINTER(vox_cost_bounds),
-            POINTER(vox_cost_minimum))),
-        "vox_zone_distance": (vox_result, (c_double, c_double, c_double, c_double, POINTER(c_double))),
         "vox_foreign_grid_set_known": (vox_result, (POINTER(vox_foreign_grid), c_int32)),
         "vox_suggest_for": (vox_result, (POINTER(vox_foreign_grid), POINTER(vox_foreign_suggestion))),
         "vox_count_for": (vox_result, (POINTER(vox_foreign_grid), c_double, POINTER(vox_grid_work))),

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _c
-from ._arguments import integer, switch
+from ._arguments import integer, switch, weights_pointer
 from ._library import described
 from .errors import InvalidArgumentError
 
@@ -23,6 +23,7 @@ class Reference:
     paper_hash: bool = False  # the hash of Teschner et al. 2003
     hash_table_size: int = 0  # 0: twice the number of vertices
     world: Optional[tuple[ArrayLike, ArrayLike]] = None  # dense: two corners of the box that has cells; None: that of all positions
+    weights: Optional[ArrayLike] = None  # by which it chooses its cell size, from `calibrate`; None: those shipped with the library
 
     def _struct(self) -> Any:
         out = described(_c.vox_reference_desc)
@@ -34,6 +35,7 @@ class Reference:
             if corners.shape != (2, 3) or corners.dtype.kind not in "iuf":
                 raise InvalidArgumentError("world must be two corners of three numbers")
             out.world_min[:], out.world_max[:] = corners[0].tolist(), corners[1].tolist()
+        out.weights = weights_pointer(self.weights)
         return out
 
 

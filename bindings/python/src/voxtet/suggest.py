@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import ctypes
 import io
 import math
-from typing import TYPE_CHECKING, Any, Callable, Iterable, NamedTuple, Optional, Union
+from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _c
-from ._arguments import choice, integer, real, switch
+from ._arguments import choice, integer, real, switch, weights_pointer
 from ._library import Relay, described, sized, values_of, vox
 from .errors import InvalidArgumentError
 from .mesh import Topology
@@ -177,18 +176,6 @@ class Minimum(Plotted):
                 f"{self.zone[1]:.6g}>")
 
 
-class Prediction:
-    """The cost at one cell size, term by term."""
-
-    def __init__(self, out: Any) -> None:
-        self.cell_size: float = out.cell_size
-        self.cost: float = out.cost
-        self.terms = terms_of(out)
-
-    def __repr__(self) -> str:
-        return f"<voxtet.Prediction: cost {self.cost:.6g} at cell size {self.cell_size:.6g}>"
-
-
 _REALS = ("p_nc", "cost_ratio", "world_edge", "zone_loss", "mean_edge_factor", "resolution")
 
 
@@ -207,9 +194,11 @@ def suggest_desc(model: Union[str, _c.CostModel], options: dict[str, Any]) -> An
             desc.size_reading = choice(_c.SizeReading, value, name)
         elif name == "area_reading":
             desc.area_reading = choice(_c.AreaReading, value, name)
+        elif name == "weights":
+            desc.weights = weights_pointer(value)
         else:
             raise TypeError(f"there is no option {name!r}; those of vox_suggest_desc are {', '.join(_REALS)}, byte_budget, "
-                            "dense, size_reading, area_reading")
+                            "dense, size_reading, area_reading, weights")
     return desc
 
 
@@ -238,7 +227,7 @@ def suggest_cell_size(positions: Any, tets: Optional[ArrayLike] = None, *, model
     """The cell size that minimises a cost model for a mesh, or for several: `suggest_cell_size([(p, t), (q, u)])`.
 
     model: "paper", "reference", "fast" or "surface". options: the other fields of vox_suggest_desc, e.g. zone_loss, p_nc,
-    size_reading="mean_edge".
+    size_reading="mean_edge", weights=calibrate().
 
     >>> import numpy as np
     >>> cube = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], float)
@@ -261,73 +250,22 @@ def suggest_for_grid(grid: Grid, model: Union[str, _c.CostModel, None], options:
     return Suggestion(out)
 
 
-def predict(cell_size: float, positions: Any, tets: Optional[ArrayLike] = None, *,
-            model: Union[str, _c.CostModel] = "paper", self_collision: bool = False, **options: Any) -> Prediction:
-    """The cost that a model predicts at one cell size. Arguments as `suggest_cell_size`."""
-    desc, scene, out = suggest_desc(model, options), _Scene(positions, tets, self_collision), sized(_c.vox_cost_prediction)
-    vox.vox_cost_predict(desc, scene.array, len(scene), real(cell_size, "cell_size"), out)
-    return Prediction(out)
-
-
-_WEIGHTS = [name for name, *_ in _c.vox_cost_weights._fields_ if name not in ("struct_size", "measured")]
-
-
-def _weights(out: Any) -> dict[str, float]:
-    return {name: getattr(out, name) for name in _WEIGHTS}
-
-
-def calibrate() -> dict[str, float]:
-    """Measures the weights of the models "reference" and "fast" on this machine, and puts them into use. Takes about ten
-    milliseconds the first time."""
+def calibrate() -> NDArray[np.float64]:
+    """Measures the weights of the models "reference" and "fast" on this machine, in about ten milliseconds: nanoseconds of
+    one unit of each piece of work, in the library's own order. For `weights` of a suggestion and of a `Reference`."""
     out = sized(_c.vox_cost_weights)
     vox.vox_cost_calibrate(out)
-    return _weights(out)
+    return np.array(out.ns)
 
 
-def weights() -> dict[str, float]:
-    """The weights in use: nanoseconds of one unit of each piece of work."""
-    out = sized(_c.vox_cost_weights)
-    vox.vox_cost_get_weights(out)
-    return _weights(out)
-
-
-def set_weights(weights: Optional[dict[str, float]]) -> None:
-    """Puts saved weights into use; None: those shipped with the library."""
-    struct = None
-    if weights is not None:
-        if set(weights) != set(_WEIGHTS):
-            raise InvalidArgumentError(f"weights must have the keys {', '.join(_WEIGHTS)}")
-        struct = sized(_c.vox_cost_weights)
-        for name, value in weights.items():
-            setattr(struct, name, real(value, name))
-    vox.vox_cost_set_weights(struct)
-
-
-def minimise(cost: Union[Callable[[float], float], Iterable[tuple[float, float]]], low: float, high: float, *,
-             zone_loss: float = 0.05) -> Minimum:
-    """The cell size from low to high of least cost, for an algorithm of your own. `cost` is a function of the cell size, or
-    terms (coefficient, power) to be summed: coefficient * cell_size ** power.
+def minimise(cost: Callable[[float], float], low: float, high: float, *, zone_loss: float = 0.05) -> Minimum:
+    """The cell size from low to high of least cost, for an algorithm of your own. `cost` is a function of the cell size.
 
     >>> round(minimise(lambda size: size + 4 / size, 0.1, 100).cell_size, 3)
     2.0
-    >>> round(minimise([(1, 1), (4, -1)], 0.1, 100).cell_size, 3)
-    2.0
     """
-    bounds, out = described(_c.vox_cost_bounds), sized(_c.vox_cost_minimum)
-    bounds.min, bounds.max, bounds.zone_loss = real(low, "low"), real(high, "high"), real(zone_loss, "zone_loss")
-    if not callable(cost):
-        terms = [_c.vox_cost_term(real(c, "coefficient"), real(p, "power")) for c, p in cost]
-        vox.vox_cost_minimise_terms((_c.vox_cost_term * len(terms))(*terms), len(terms), bounds, out)
-        return Minimum(out)
-    function = cost
-    called = Relay(lambda size, _user: float(function(size)), math.nan)
+    out, called = sized(_c.vox_cost_minimum), Relay(lambda size, _user: float(cost(size)), math.nan)
     with called:
-        vox.vox_cost_minimise(_c.vox_cost_function(called), None, bounds, out)
+        vox.vox_cost_minimise(_c.vox_cost_function(called), None, real(low, "low"), real(high, "high"),
+                              real(zone_loss, "zone_loss"), out)
     return Minimum(out)
-
-
-def zone_distance(n: float, n_min: float, n_opt: float, n_max: float) -> float:
-    """Eq. 9 of the paper: how far n cells an axis are from the optimum, in units of the optimal zone."""
-    epsilon = ctypes.c_double()
-    vox.vox_zone_distance(real(n, "n"), real(n_min, "n_min"), real(n_opt, "n_opt"), real(n_max, "n_max"), epsilon)
-    return epsilon.value

@@ -33,6 +33,8 @@ pub const VOX_MAX_CONTACTS: u32 = 4294967295;
 pub const VOX_NO_PAIR: u32 = 4294967295;
 /// tasks enqueued in one step
 pub const VOX_MAX_TASKS: u32 = 64;
+/// numbers of vox_cost_weights
+pub const VOX_COST_WEIGHT_CAPACITY: u32 = 24;
 /// most samples of a curve
 pub const VOX_COST_CURVE_CAPACITY: u32 = 64;
 /// most terms of a cost, in any model
@@ -407,7 +409,7 @@ pub struct vox_sim {
 /// created, and every sample detects the contacts of the same recorded frames. A complete experiment calls
 /// vox_experiment_create; then, for each round and each cell size in the order of vox_experiment_order,
 /// vox_experiment_measure; then, for each cell size, vox_experiment_time over its rounds; and at last vox_fit_times,
-/// vox_fit_zone, vox_experiment_suggest and vox_zone_distance. `vox sweep` does exactly that.
+/// vox_fit_zone and vox_experiment_suggest. `vox sweep` does exactly that.
 #[repr(C)]
 pub struct vox_experiment {
     _data: [u8; 0],
@@ -1245,6 +1247,18 @@ pub struct vox_ray_hit {
     pub weights: [f64; 3],
 }
 
+/// How many nanoseconds one unit of each piece of work takes on a machine: what the models REFERENCE and FAST, and the
+/// reference engine, choose a cell size by. From vox_cost_calibrate; plain numbers, which may be saved and loaded.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_cost_weights {
+    pub struct_size: u32,
+    /// 1: by vox_cost_calibrate
+    pub measured: u32,
+    /// in the library's own order, finite, >= 0; 0: the one shipped with the library
+    pub ns: [f64; 24],
+}
+
 /// The paper's engine (Sect. 3), for vox_grid_desc.reference. It is serial and finds what the fast engine finds. If the
 /// grid's cell_size is 0, it chooses by its cost model, at the first step, and again when the counts of its steps show
 /// that another size would be better; each change is written to the log and counted in cell_size_changes. If the sizes
@@ -1252,7 +1266,7 @@ pub struct vox_ray_hit {
 /// cell size of its own, holds all vertices, and serves the tetrahedra of a range of sizes. Where positions were chosen
 /// so that many cells share a bucket, the step finds cells by binary search instead, so its time stays bounded.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub struct vox_reference_desc {
     pub struct_size: u32,
     /// vox_reference_flags, combined with |
@@ -1264,6 +1278,8 @@ pub struct vox_reference_desc {
     pub world_min: [f64; 3],
     /// the nearest cell. All 0: the box of all positions, in every step
     pub world_max: [f64; 3],
+    /// copied; null: those shipped with the library
+    pub weights: *const vox_cost_weights,
 }
 
 #[repr(C)]
@@ -1291,6 +1307,8 @@ pub struct vox_suggest_desc {
     pub reference_flags: u32,
     /// 0
     pub reserved: u32,
+    /// REFERENCE and FAST; null: those shipped with the library
+    pub weights: *const vox_cost_weights,
     /// of the call's memory; null: the C++ runtime's heap
     pub allocator: *const vox_allocator,
 }
@@ -1401,73 +1419,7 @@ pub struct vox_suggestion {
     pub reserved: u32,
 }
 
-/// A cost at one cell size, term by term.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_cost_prediction {
-    pub struct_size: u32,
-    pub term_count: u32,
-    pub cell_size: f64,
-    pub cost: f64,
-    pub terms: [vox_cost_share; 12],
-}
-
-/// The weights of REFERENCE and FAST: nanoseconds that one unit of each piece of work takes on a machine. Plain numbers
-/// above 0, which may be saved and loaded.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_cost_weights {
-    pub struct_size: u32,
-    /// 1: on the machine they are for; 0: shipped with the library
-    pub measured: u32,
-    pub reference_classify_vertex: f64,
-    /// its box
-    pub reference_prepare_tet: f64,
-    /// whose list is as long as the one before
-    pub reference_visit_cell: f64,
-    /// an occupied one, gone through instead of a box that meets more cells
-    pub reference_scan_cell: f64,
-    pub reference_read_vertex: f64,
-    pub reference_test_box: f64,
-    /// or its own corner, which is in the box as well
-    pub reference_test_tet: f64,
-    pub reference_clear_bucket: f64,
-    pub fast_bin_vertex: f64,
-    pub fast_clear_cell: f64,
-    /// for one window
-    pub fast_visit_tile: f64,
-    pub fast_visit_row: f64,
-    pub fast_read_vertex: f64,
-    /// one in a tile's box, against its tets
-    pub fast_test_vertex: f64,
-    /// in a visited cell, of another length than the one before
-    pub reference_changed_list: f64,
-    /// passed over, and not read just before
-    pub reference_fetch_vertex: f64,
-}
-
-/// coefficient * cell_size ^ power. A cost is a sum of these: (s / delta + 1)^3 is four of them.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_cost_term {
-    pub coefficient: f64,
-    pub power: f64,
-}
-
-/// Cell sizes to choose from, and how wide the zone is.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_cost_bounds {
-    pub struct_size: u32,
-    /// 0
-    pub reserved: u32,
-    /// 0 < min <= max, finite
-    pub min: f64,
-    pub max: f64,
-    /// as vox_suggest_desc.zone_loss
-    pub zone_loss: f64,
-}
-
+/// The least cost, and where it is.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_cost_minimum {
@@ -1475,10 +1427,10 @@ pub struct vox_cost_minimum {
     pub curve_count: u32,
     pub cell_size: f64,
     pub cost: f64,
-    /// the range around cell_size, within the bounds, where the cost is at most (1 + zone_loss) times the least
+    /// the range around cell_size, within [min, max], where the cost is at most (1 + zone_loss) times the least
     pub zone_min: f64,
     pub zone_max: f64,
-    /// over the bounds, evenly spaced in the logarithm
+    /// from min to max, evenly spaced in the logarithm
     pub curve: [vox_cost_sample; 64],
 }
 
@@ -2933,59 +2885,29 @@ extern "C" {
     /// the last step which meshes are at rest and which need no cells for self-collision; both cost nothing. It is
     /// quicker than vox_suggest_cell_size because its samples are smaller: means are accurate to a few per cent. The
     /// first call after a mesh was inserted or edited reads all of that mesh, and keeps up to 11 KB on the C++
-    /// runtime's heap (docs/cell-size.md lists what each costs). Positions must be bound. Errors: as
-    /// vox_suggest_cell_size, and INVALID_STATE for a mesh without positions.
+    /// runtime's heap (docs/cell-size.md lists what each costs). Where weights are null, those of the grid's reference
+    /// engine hold. Positions must be bound. Errors: as vox_suggest_cell_size, and INVALID_STATE for a mesh without
+    /// positions.
     pub fn vox_grid_suggest_cell_size(
         grid: *const vox_grid,
         desc: *const vox_suggest_desc,
         out: *mut vox_suggestion,
     ) -> vox_result;
-    /// The cost that desc->model (desc null: PAPER) predicts for these meshes at one cell size. Arguments and errors as
-    /// vox_suggest_cell_size; also INVALID_ARGUMENT for a cell size that is not a finite number above 0.
-    pub fn vox_cost_predict(
-        desc: *const vox_suggest_desc,
-        meshes: *const vox_mesh_desc,
-        mesh_count: u64,
-        cell_size: f64,
-        out: *mut vox_cost_prediction,
-    ) -> vox_result;
-    /// Measures the weights by running steps of both engines over a small built-in scene, and puts them into use for
-    /// all suggestions and grids of the process. The first call takes about ten milliseconds; later ones use its
-    /// result. out may be null; otherwise set out->struct_size first. Any thread. Errors: OUT_OF_MEMORY.
+    /// Measures this machine's weights by steps of both engines over a small built-in scene, in about ten milliseconds.
+    /// Set out->struct_size first. Errors: UNSUPPORTED (an x86-64 without SSE4.2), OUT_OF_MEMORY.
     pub fn vox_cost_calibrate(out: *mut vox_cost_weights) -> vox_result;
-    /// The weights in use: those calibrated or set last, or else those shipped with the library. Any thread.
-    pub fn vox_cost_get_weights(out: *mut vox_cost_weights) -> vox_result;
-    /// Puts saved weights into use. Fields that struct_size does not cover get the values shipped with the library, the
-    /// last two in proportion to reference_visit_cell and reference_read_vertex; with null, all get the shipped values.
-    /// Any thread. Errors: INVALID_ARGUMENT (names the field that is not a finite number above 0).
-    pub fn vox_cost_set_weights(weights: *const vox_cost_weights) -> vox_result;
-    /// The cell size of least cost within the bounds, for a cost function of the caller's: a scan that is even in the
-    /// logarithm of the cell size, then a golden-section search around its best point. `cost` is called on this thread,
-    /// some hundred times, and must not throw. Errors: INVALID_ARGUMENT (also if the cost was finite at no cell size
-    /// that was tried, or if the least cost is negative).
+    /// Finds the cell size between min and max with the least cost: a scan that is even in the logarithm of the cell
+    /// size, then a golden-section search around its best point. `cost` is called on this thread, some hundred times,
+    /// and must not throw. zone_loss is as in vox_suggest_desc. Set out->struct_size first. Errors: INVALID_ARGUMENT
+    /// (unless 0 < min <= max, finite; a bad zone_loss; also if the cost was finite at no cell size that was tried, or
+    /// if the least cost is negative).
     pub fn vox_cost_minimise(
         cost: vox_cost_function,
         user: *mut c_void,
-        bounds: *const vox_cost_bounds,
+        min: f64,
+        max: f64,
+        zone_loss: f64,
         out: *mut vox_cost_minimum,
-    ) -> vox_result;
-    /// The same for the sum of `term_count` terms.
-    pub fn vox_cost_minimise_terms(
-        terms: *const vox_cost_term,
-        term_count: u64,
-        bounds: *const vox_cost_bounds,
-        out: *mut vox_cost_minimum,
-    ) -> vox_result;
-    /// Eq. 9: the distance of `n` from the optimum n_opt, in units of the optimal zone [n_min, n_max]. It is 0 at n =
-    /// n_opt and below 1 inside the zone. All arguments are in cells per axis, > 0, with n_min <= n_opt <= n_max. If
-    /// the zone has no width on the side of n, *out_epsilon is infinity (0 at n = n_opt). Errors: INVALID_ARGUMENT
-    /// (numbers that do not meet these conditions).
-    pub fn vox_zone_distance(
-        n: f64,
-        n_min: f64,
-        n_opt: f64,
-        n_max: f64,
-        out_epsilon: *mut f64,
     ) -> vox_result;
     /// Sets what is known of a grid that people have: content, look, flags, known, weights. Other fields keep their
     /// values. Set grid->struct_size first. Errors: INVALID_ARGUMENT.
@@ -3543,12 +3465,13 @@ layouts! {
     vox_box_hit: size [12, 12], alignment [4, 4], { r#box: [0, 0], body: [4, 4], tet: [8, 8] }
     vox_ray_hit: size [64, 64], alignment [8, 8], { ray: [0, 0], body: [4, 4], tet: [8, 8], facet: [12, 12],
         side: [16, 16], face: [20, 20], t: [32, 32], weights: [40, 40] }
-    vox_reference_desc: size [64, 64], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], hash_table_size: [8, 8],
-        world_min: [16, 16], world_max: [40, 40] }
-    vox_suggest_desc: size [88, 88], alignment [8, 8], { struct_size: [0, 0], model: [4, 4], size_reading: [8, 8],
+    vox_cost_weights: size [200, 200], alignment [8, 8], { struct_size: [0, 0], measured: [4, 4], ns: [8, 8] }
+    vox_reference_desc: size [72, 72], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], hash_table_size: [8, 8],
+        world_min: [16, 16], world_max: [40, 40], weights: [64, 64] }
+    vox_suggest_desc: size [96, 88], alignment [8, 8], { struct_size: [0, 0], model: [4, 4], size_reading: [8, 8],
         area_reading: [12, 12], p_nc: [16, 16], cost_ratio: [24, 24], world_edge: [32, 32], zone_loss: [40, 40],
         mean_edge_factor: [48, 48], resolution: [56, 56], byte_budget: [64, 64], reference_flags: [72, 72],
-        reserved: [76, 76], allocator: [80, 80] }
+        reserved: [76, 76], weights: [80, 80], allocator: [88, 84] }
     vox_geometry_stats: size [160, 160], alignment [8, 8], { vertices: [0, 0], tets: [8, 8], edges: [16, 16],
         facets: [24, 24], boundary_facets: [32, 32], degenerate_tets: [40, 40], mean_edge: [48, 48],
         mean_longest_edge: [56, 56], mean_box_side: [64, 64], median_box_side: [72, 72], mean_facet_area: [80, 80],
@@ -3563,17 +3486,6 @@ layouts! {
         stats: [96, 96], curve: [256, 256], curve_count: [1280, 1280], term_count: [1284, 1284], terms: [1288, 1288],
         rule_costs: [1864, 1864], budget_cell_size: [1912, 1912], uniform_loss: [1920, 1920], levels: [1928, 1928],
         level_count: [1960, 1960], reserved: [1964, 1964] }
-    vox_cost_prediction: size [600, 600], alignment [8, 8], { struct_size: [0, 0], term_count: [4, 4],
-        cell_size: [8, 8], cost: [16, 16], terms: [24, 24] }
-    vox_cost_weights: size [136, 136], alignment [8, 8], { struct_size: [0, 0], measured: [4, 4],
-        reference_classify_vertex: [8, 8], reference_prepare_tet: [16, 16], reference_visit_cell: [24, 24],
-        reference_scan_cell: [32, 32], reference_read_vertex: [40, 40], reference_test_box: [48, 48],
-        reference_test_tet: [56, 56], reference_clear_bucket: [64, 64], fast_bin_vertex: [72, 72],
-        fast_clear_cell: [80, 80], fast_visit_tile: [88, 88], fast_visit_row: [96, 96], fast_read_vertex: [104, 104],
-        fast_test_vertex: [112, 112], reference_changed_list: [120, 120], reference_fetch_vertex: [128, 128] }
-    vox_cost_term: size [16, 16], alignment [8, 8], { coefficient: [0, 0], power: [8, 8] }
-    vox_cost_bounds: size [32, 32], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], min: [8, 8],
-        max: [16, 16], zone_loss: [24, 24] }
     vox_cost_minimum: size [1064, 1064], alignment [8, 8], { struct_size: [0, 0], curve_count: [4, 4],
         cell_size: [8, 8], cost: [16, 16], zone_min: [24, 24], zone_max: [32, 32], curve: [40, 40] }
     vox_primitives: size [104, 104], alignment [8, 8], { struct_size: [0, 0], r#type: [4, 4], positions: [8, 8],

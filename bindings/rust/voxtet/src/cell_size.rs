@@ -1,13 +1,12 @@
 use std::ffi::{c_void, CStr};
 use std::marker::PhantomData;
 use std::panic::{catch_unwind, resume_unwind, AssertUnwindSafe};
-use std::ptr::null;
 
 use voxtet_sys as sys;
 
 use crate::error::{check, sized};
-use crate::grid::{mesh_desc, pointer};
-use crate::options::Scalar;
+use crate::grid::{mesh_desc, or_null, pointer};
+use crate::options::{weights_to_c, Scalar};
 use crate::{CostWeights, GeometryStats, Result};
 
 /// Whose cost is minimised.
@@ -45,10 +44,12 @@ pub struct SuggestOptions {
     pub byte_budget: u64,
     /// Of the reference engine; see [`Reference::dense`](crate::Reference::dense).
     pub dense: bool,
+    /// Of the models of the engines; `None`: those of the grid's reference engine, or those shipped with the library.
+    pub weights: Option<CostWeights>,
 }
 
 impl SuggestOptions {
-    fn desc(&self) -> sys::vox_suggest_desc {
+    fn desc(&self, weights: &Option<sys::vox_cost_weights>) -> sys::vox_suggest_desc {
         sys::vox_suggest_desc {
             model: self.model as sys::vox_cost_model,
             p_nc: self.p_nc,
@@ -59,6 +60,7 @@ impl SuggestOptions {
             resolution: self.resolution,
             byte_budget: self.byte_budget,
             reference_flags: u32::from(self.dense) * sys::VOX_REFERENCE_DENSE,
+            weights: or_null(weights),
             ..sized!(sys::vox_suggest_desc)
         }
     }
@@ -101,9 +103,10 @@ impl Suggestion {
         options: Option<SuggestOptions>,
         call: impl FnOnce(*const sys::vox_suggest_desc, *mut sys::vox_suggestion) -> sys::vox_result,
     ) -> Result<Self> {
-        let desc = options.map(|options| options.desc());
+        let weights = options.and_then(|options| options.weights).map(weights_to_c);
+        let desc = options.map(|options| options.desc(&weights));
         let mut suggestion = Box::new(sized!(sys::vox_suggestion));
-        check(call(desc.as_ref().map_or(null(), std::ptr::from_ref), &mut *suggestion))?;
+        check(call(or_null(&desc), &mut *suggestion))?;
         Ok(Self(suggestion))
     }
 
@@ -164,47 +167,13 @@ pub fn suggest_cell_size(meshes: &[MeshArrays<'_>], options: SuggestOptions) -> 
     })
 }
 
-/// A cost at one cell size.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Prediction {
-    /// The whole.
-    pub cost: f64,
-    /// Name of a piece of work, how often it is done, what that costs.
-    pub terms: Vec<(String, f64, f64)>,
-}
-
-/// The cost that a model predicts for these meshes at one cell size.
-pub fn predict(meshes: &[MeshArrays<'_>], cell_size: f64, options: SuggestOptions) -> Result<Prediction> {
-    let descs = descs(meshes);
-    let mut prediction = sized!(sys::vox_cost_prediction);
-    // SAFETY: as above.
-    check(unsafe {
-        sys::vox_cost_predict(&options.desc(), pointer(&descs), descs.len() as u64, cell_size, &mut prediction)
-    })?;
-    let terms = terms(&prediction.terms[..prediction.term_count as usize]).collect();
-    Ok(Prediction { cost: prediction.cost, terms })
-}
-
-fn weights_from(call: impl FnOnce(*mut CostWeights) -> sys::vox_result) -> Result<CostWeights> {
-    let mut weights = sized!(CostWeights);
-    check(call(&mut weights))?;
-    Ok(weights)
-}
-
-/// Measures the weights of the models of the engines on this machine, and uses them from now on in this process.
+/// Measures what work costs on this machine, for [`SuggestOptions::weights`] and
+/// [`Reference::weights`](crate::Reference::weights), in about ten milliseconds.
 pub fn calibrate() -> Result<CostWeights> {
-    // SAFETY: here and below, a struct of its own size.
-    weights_from(|out| unsafe { sys::vox_cost_calibrate(out) })
-}
-
-/// The weights in use.
-pub fn weights() -> Result<CostWeights> {
-    weights_from(|out| unsafe { sys::vox_cost_get_weights(out) })
-}
-
-/// Uses saved weights, or with `None` those that the library has for all machines.
-pub fn set_weights(weights: Option<&CostWeights>) -> Result<()> {
-    check(unsafe { sys::vox_cost_set_weights(weights.map_or(null(), std::ptr::from_ref)) })
+    let mut weights = sized!(sys::vox_cost_weights);
+    // SAFETY: a struct of its own size.
+    check(unsafe { sys::vox_cost_calibrate(&mut weights) })?;
+    Ok(weights.ns)
 }
 
 /// Where a cost function is least.
@@ -255,23 +224,18 @@ impl<'f> Call<'f> {
     }
 }
 
-/// The method for any algorithm: the cell size between `min` and `max` of least `cost`. A panic of `cost` goes on here.
+/// The method for any algorithm: the cell size between `min` and `max` of least `cost`; `zone_loss` is as in
+/// [`SuggestOptions`]. A panic of `cost` goes on here.
 pub fn minimise(mut cost: impl FnMut(f64) -> f64, min: f64, max: f64, zone_loss: f64) -> Result<Minimum> {
-    let bounds = sys::vox_cost_bounds { min, max, zone_loss, ..sized!(sys::vox_cost_bounds) };
     let mut minimum = sized!(sys::vox_cost_minimum);
-    // SAFETY: structs of their own size; the closure lives during the call.
-    Call::make(&mut cost, |call, user| unsafe { sys::vox_cost_minimise(Some(call), user, &bounds, &mut minimum) })?;
+    // SAFETY: a struct of its own size; the closure lives during the call.
+    Call::make(&mut cost, |call, user| unsafe {
+        sys::vox_cost_minimise(Some(call), user, min, max, zone_loss, &mut minimum)
+    })?;
     Ok(Minimum {
         cell_size: minimum.cell_size,
         cost: minimum.cost,
         zone: (minimum.zone_min, minimum.zone_max),
         curve: samples(&minimum.curve[..minimum.curve_count as usize]).collect(),
     })
-}
-
-/// The paper's Eq. 9: how far `n` cells per axis are from the best number, in units of the zone.
-pub fn zone_distance(n: f64, n_min: f64, n_opt: f64, n_max: f64) -> Result<f64> {
-    let mut distance = 0.0;
-    check(unsafe { sys::vox_zone_distance(n, n_min, n_opt, n_max, &mut distance) })?;
-    Ok(distance)
 }

@@ -7,7 +7,7 @@ use voxtet_sys as sys;
 use crate::callbacks::Callbacks;
 use crate::cell_size::{SuggestOptions, Suggestion};
 use crate::error::{check, sized};
-use crate::options::{grid_flags, Reference, Scalar};
+use crate::options::{grid_flags, weights_to_c, Scalar};
 use crate::view::{ContactEvents, TouchEvents};
 use crate::{
     Contact, Contacts, Depth, Error, ErrorCode, Events, Filter, GridOptions, Locator, Mesh, MeshOptions, Pairs,
@@ -99,6 +99,10 @@ pub(crate) fn pointer<T>(slice: &[T]) -> *const T {
     }
 }
 
+pub(crate) fn or_null<T>(value: &Option<T>) -> *const T {
+    value.as_ref().map_or(null(), std::ptr::from_ref)
+}
+
 pub(crate) fn positions_to_c<T: Scalar>(positions: &[[T; 3]]) -> sys::vox_positions {
     sys::vox_positions {
         data: pointer(positions).cast(),
@@ -160,7 +164,8 @@ impl Grid {
         check_abi()?;
         let callbacks = Callbacks::new(options.log, options.tasks, options.workers);
         let (log, tasks) = callbacks.to_c();
-        let reference = options.reference.map(Reference::to_c);
+        let weights = options.reference.and_then(|reference| reference.weights).map(weights_to_c);
+        let reference = options.reference.map(|reference| reference.to_c(&weights));
         let desc = sys::vox_grid_desc {
             flags: grid_flags(options.penetrations, options.contact_events, options.skip_bad_bodies),
             worker_count: callbacks.workers.load(Ordering::Relaxed),
@@ -169,7 +174,7 @@ impl Grid {
             closest_budget: options.closest_budget,
             log: &log,
             tasks: &tasks,
-            reference: reference.as_ref().map_or(null(), std::ptr::from_ref),
+            reference: or_null(&reference),
             ..sized!(sys::vox_grid_desc)
         };
         let mut grid = null_mut();

@@ -14,8 +14,7 @@ mod view;
 
 pub use callbacks::{LogLevel, TaskSystem};
 pub use cell_size::{
-    calibrate, minimise, predict, set_weights, suggest_cell_size, weights, zone_distance, CostModel, MeshArrays,
-    Minimum, Prediction, SuggestOptions, Suggestion,
+    calibrate, minimise, suggest_cell_size, CostModel, MeshArrays, Minimum, SuggestOptions, Suggestion,
 };
 pub use error::{Error, ErrorCode, Result};
 pub use foreign::{
@@ -57,8 +56,8 @@ pub type BoxHit = sys::vox_box_hit;
 pub type RayHit = sys::vox_ray_hit;
 /// Lengths, areas, volumes and counts of meshes.
 pub type GeometryStats = sys::vox_geometry_stats;
-/// The weights of the cost models, in nanoseconds.
-pub type CostWeights = sys::vox_cost_weights;
+/// Nanoseconds of each piece of the engines' work, for their models, from [`calibrate`]; 0: as shipped with the library.
+pub type CostWeights = [f64; sys::VOX_COST_WEIGHT_CAPACITY as usize];
 /// What a run of a grid does at one cell size.
 pub type GridWork = sys::vox_grid_work;
 /// Nanoseconds of each piece of a grid's work.

@@ -5,6 +5,8 @@ use voxtet_sys as sys;
 
 use crate::callbacks::{LogLevel, TaskSystem};
 use crate::error::sized;
+use crate::grid::or_null;
+use crate::CostWeights;
 
 /// Names a mesh in its grid. A removed mesh's id is never used again, so a stale one is an error and nothing worse.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -51,10 +53,16 @@ pub struct Reference {
     pub hash_table_size: u64,
     /// The box of dense cells, lowest and highest corner; all zero: the box of all positions.
     pub world: [[f64; 3]; 2],
+    /// What it chooses a cell size by; `None`: those shipped with the library.
+    pub weights: Option<CostWeights>,
+}
+
+pub(crate) fn weights_to_c(ns: CostWeights) -> sys::vox_cost_weights {
+    sys::vox_cost_weights { ns, ..sized!(sys::vox_cost_weights) }
 }
 
 impl Reference {
-    pub(crate) fn to_c(self) -> sys::vox_reference_desc {
+    pub(crate) fn to_c(self, weights: &Option<sys::vox_cost_weights>) -> sys::vox_reference_desc {
         let [world_min, world_max] = self.world;
         sys::vox_reference_desc {
             flags: (u32::from(self.dense) * sys::VOX_REFERENCE_DENSE)
@@ -62,6 +70,7 @@ impl Reference {
             hash_table_size: self.hash_table_size,
             world_min,
             world_max,
+            weights: or_null(weights),
             ..sized!(sys::vox_reference_desc)
         }
     }

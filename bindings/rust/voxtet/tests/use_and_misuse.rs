@@ -367,20 +367,31 @@ fn cell_sizes() {
     let (low, high) = suggestion.zone();
     assert!(low < suggestion.cell_size() && suggestion.cell_size() < high);
     assert!(suggestion.terms().all(|(name, ..)| !name.is_empty()));
-    let prediction = predict(&meshes, suggestion.cell_size(), SuggestOptions::default()).unwrap();
-    assert!((prediction.cost / suggestion.predicted_cost() - 1.0).abs() < 1e-6);
-    assert_eq!(code(predict(&meshes, 0.0, SuggestOptions::default())), ErrorCode::InvalidArgument);
     assert_eq!(code(suggest_cell_size(&[], SuggestOptions::default())), ErrorCode::InvalidArgument);
     let least = minimise(|x| (x - 2.0).powi(2) + 1.0, 0.1, 10.0, 0.05).unwrap();
     assert!((least.cell_size - 2.0).abs() < 1e-3 && (least.cost - 1.0).abs() < 1e-6);
     assert!(std::panic::catch_unwind(|| minimise(|_| panic!("of a cost"), 0.1, 10.0, 0.05)).is_err());
-    assert_eq!(zone_distance(3.0, 1.0, 3.0, 9.0).unwrap(), 0.0);
-    let saved = weights().unwrap();
-    set_weights(Some(&saved)).unwrap();
-    assert_eq!(weights().unwrap(), saved);
-    set_weights(None).unwrap();
+    assert_eq!(code(minimise(|x| x, 2.0, 1.0, 0.0)), ErrorCode::InvalidArgument);
     let (grid, ..) = two_blocks(GridOptions::default());
     assert!(grid.suggest_cell_size(None).unwrap().cell_size() > 0.0);
+}
+
+#[test]
+fn weights() {
+    let (positions, tets) = block(4, 0.0);
+    let meshes = [MeshArrays::new(&positions, &tets).with_self_collision()];
+    let slow = calibrate().unwrap().map(|ns| 1000.0 * ns); // of a machine that is far slower
+    let reference = Some(Reference { weights: Some(slow), ..Reference::default() });
+    let (grid, ..) = two_blocks(GridOptions { reference, ..GridOptions::default() });
+    let options = |weights| SuggestOptions { model: CostModel::Reference, weights, ..SuggestOptions::default() };
+    let costs = [Some(slow), Some([0.0; 24]), None].map(|weights| {
+        let of_meshes = suggest_cell_size(&meshes, options(weights)).unwrap();
+        let of_grid = grid.suggest_cell_size(Some(options(weights))).unwrap();
+        (of_meshes.predicted_cost(), of_grid.predicted_cost())
+    });
+    assert!(costs[0].0 > 10.0 * costs[1].0 && costs[0].1 > 10.0 * costs[1].1);
+    assert_eq!(costs[2], (costs[1].0, costs[0].1)); // those shipped, those of the grid's engine
+    assert_eq!(code(suggest_cell_size(&meshes, options(Some([-1.0; 24])))), ErrorCode::InvalidArgument);
 }
 
 #[test]
