@@ -14,7 +14,7 @@
 #pragma once
 
 #include <ipc/broad_phase/broad_phase.hpp>
-#include <vox/vox_pairs.h>
+#include <vox/vox_surface.h>
 
 #include <Eigen/Core>
 

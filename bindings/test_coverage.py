@@ -22,7 +22,7 @@ LANGUAGES = {
     "python": ["bindings/python/src/voxtet/[!_]*.py", "bindings/python/src/voxtet/__init__.py",
                "bindings/python/src/voxtet/_library.py"],  # all but _c.py
 }
-HEADERS = ["vox.h", "vox_query.h", "vox_cell_size.h", "vox_pairs.h", "vox_io.h", "vox_sim.h"]
+HEADERS = ["vox.h", "vox_query.h", "vox_cell_size.h", "vox_surface.h", "vox_io.h", "vox_sim.h"]
 
 
 def words_of(text):

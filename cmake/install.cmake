@@ -8,7 +8,7 @@ function(vox_install library) # and its headers, a component that needs no build
   list(TRANSFORM ARGN PREPEND include/vox/)
   install(FILES ${ARGN} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vox COMPONENT headers)
 endfunction()
-vox_install(vox vox.h vox.hpp vox_query.h vox_query.hpp vox_cell_size.h vox_cell_size.hpp vox_pairs.h vox_pairs.hpp)
+vox_install(vox vox.h vox.hpp vox_query.h vox_query.hpp vox_cell_size.h vox_cell_size.hpp vox_surface.h vox_surface.hpp)
 # #include <vox/adapters/ipc_broad_phase.hpp>
 install(FILES adapters/ipc_broad_phase.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/vox/adapters COMPONENT headers)
 if(VOX_BUILD_IO)

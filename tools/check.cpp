@@ -5,7 +5,7 @@
 #include "output_file.hpp"
 #include "report.hpp"
 
-#include <vox/vox_pairs.h>
+#include <vox/vox_surface.h>
 
 #include <algorithm>
 #include <array>

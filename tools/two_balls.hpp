@@ -4,6 +4,8 @@
 
 #include "grid.hpp"
 
+#include <vox/vox_cell_size.h>
+
 #include <array>
 #include <cstdint>
 #include <span>

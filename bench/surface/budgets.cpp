@@ -6,7 +6,7 @@
 #include "program.hpp"
 #include "timing.h"
 
-#include <vox/vox_pairs.h>
+#include <vox/vox_surface.h>
 
 #include <cmath>
 #include <cstdint>

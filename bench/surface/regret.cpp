@@ -13,7 +13,7 @@
 #include "scenes.hpp"
 #include "timing.h"
 
-#include <vox/vox_pairs.h>
+#include <vox/vox_surface.h>
 
 #include <algorithm>
 #include <array>

@@ -9,8 +9,8 @@ import tomllib
 import header
 
 ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", ".."))
-HEADERS = ["vox", "vox_query", "vox_cell_size", "vox_pairs", "vox_io", "vox_sim"]
-LIBRARY_OF = {"vox_query": "vox", "vox_cell_size": "vox", "vox_pairs": "vox"}  # of the others: the library of the same name
+HEADERS = ["vox", "vox_query", "vox_cell_size", "vox_surface", "vox_io", "vox_sim"]
+LIBRARY_OF = {"vox_query": "vox", "vox_cell_size": "vox", "vox_surface": "vox"}  # of the others: the library of the same name
 
 MODELS = {"lp64": 8, "wasm32": 4}  # bytes of a pointer; everything is aligned to its own size
 NUMBERS = {"uint8_t": 1, "char": 1, "int32_t": 4, "uint32_t": 4, "int64_t": 8, "uint64_t": 8, "float": 4, "double": 8}

@@ -1,5 +1,5 @@
 """Null pointers are refused where bindings/api.json says so, with the name of the parameter, and only there: what it says
-of them was not guessed. usage: test_nulls.py NAME=LIBRARY... for each header, in the order vox, vox_query, vox_cell_size, vox_pairs,
+of them was not guessed. usage: test_nulls.py NAME=LIBRARY... for each header, in the order vox, vox_query, vox_cell_size, vox_surface,
 vox_io, vox_sim."""
 
 import ctypes
@@ -98,7 +98,7 @@ class Nulls:
         found["vox_body"] = mesh.value
         self.check(self.core.vox_grid_step(found["vox_grid"]))
         create("vox_locator", self.core, "vox_grid_update_locator", found["vox_grid"])
-        if "vox_pairs" in self.libraries:
+        if "vox_surface" in self.libraries:
             create("vox_surface", self.core, "vox_surface_create", ctypes.byref(self.struct("vox_surface_desc")))
             self.check(self.core.vox_surface_move(found["vox_surface"], ctypes.byref(self.struct("vox_motion"))))
         if "vox_io" in self.libraries:

@@ -198,7 +198,7 @@ class CSharp:
     def text(self):
         lines = [f"// {GENERATED}", "using System;", "using System.Collections.Generic;",
                  "using System.Runtime.InteropServices;", "", "namespace Voxtet", "{"]
-        lines.append("    // Names and layouts are those of vox.h, vox_query.h, vox_cell_size.h, vox_pairs.h, vox_io.h and vox_sim.h.")
+        lines.append("    // Names and layouts are those of vox.h, vox_query.h, vox_cell_size.h, vox_surface.h, vox_io.h and vox_sim.h.")
         for e in sections(self.api, "enums"):
             lines += self.enum(e)
         structs = [line for s in sections(self.api, "structs") for line in self.struct(s)]

@@ -18,7 +18,7 @@ from numpy import dtype
 END = '''
 
 def declare(library: Any, name: str, check: Any = None) -> None:
-    """Gives the functions of the header `name` (vox, vox_query, vox_cell_size, vox_pairs, vox_io, vox_sim) in a ctypes library their types. `check` becomes the errcheck
+    """Gives the functions of the header `name` (vox, vox_query, vox_cell_size, vox_surface, vox_io, vox_sim) in a ctypes library their types. `check` becomes the errcheck
     of those whose result is a vox_result: a failure unless it is 0."""
     for function, (result, parameters) in FUNCTIONS[name].items():
         found = getattr(library, function)

@@ -189,8 +189,8 @@ export declare const CostModel: Readonly<{
   /** the fast engine with one cell size in all windows; in nanoseconds of a step */
   FAST: 2;
   /**
-   * the searches of vox_pairs.h in the meshes' surfaces, for pairs of edges and of faces and vertices; in nanoseconds,
-   * of their grids alone
+   * the searches of vox_surface.h in the meshes' surfaces, for pairs of edges and of faces and vertices; in
+   * nanoseconds, of their grids alone
    */
   SURFACE: 3;
 }>;

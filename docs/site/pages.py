@@ -44,7 +44,7 @@ LANGUAGES = {
 # Pages that lie elsewhere on the site. The README is not the first page there: docs/site/home.md is.
 PLACES = {"docs/site/home.md": "index.md", "README.md": "overview.md"}
 REFERENCE = {
-    f"include/vox/{name}.h": f"reference/{name}/README.md" for name in ("vox", "vox_query", "vox_cell_size", "vox_pairs", "vox_io", "vox_sim")
+    f"include/vox/{name}.h": f"reference/{name}/README.md" for name in ("vox", "vox_query", "vox_cell_size", "vox_surface", "vox_io", "vox_sim")
 }
 
 LINK = re.compile(r"(!?\[(?:[^\[\]]|\[[^\]]*\])*\])\(([^()\s]+)\)")

@@ -3,7 +3,7 @@
  * touches, which are close, whether the sheets cross where they end, and the cell size behind it. */
 #include "example.h"
 
-#include <vox/vox_pairs.h>
+#include <vox/vox_surface.h>
 
 enum { side = 11, sheet = side * side };
 

@@ -72,8 +72,8 @@ typedef enum vox_cost_model {
     VOX_COST_MODEL_PAPER = 0,     /* the paper's z(delta) (Sect. 4, Eqs. 3-8), from means; in cell visits */
     VOX_COST_MODEL_REFERENCE = 1, /* the reference engine, counted tet by tet; in nanoseconds of a step */
     VOX_COST_MODEL_FAST = 2,      /* the fast engine with one cell size in all windows; in nanoseconds of a step */
-    VOX_COST_MODEL_SURFACE = 3    /* the searches of vox_pairs.h in the meshes' surfaces, for pairs of edges and of faces
-                                     and vertices; in nanoseconds, of their grids alone */
+    VOX_COST_MODEL_SURFACE = 3    /* the searches of vox_surface.h in the meshes' surfaces, for pairs of edges and of
+                                     faces and vertices; in nanoseconds, of their grids alone */
 } vox_cost_model;
 
 /* How s, the size of a tetrahedron in Eq. 4, is measured. */
@@ -197,9 +197,9 @@ typedef struct vox_suggestion {
  * struct_size. Of their filters, only VOX_FILTER_SELF_COLLISION is used, by REFERENCE and FAST. Errors name a mesh by
  * its index in the array and its user data. All tets and vertices are checked; the models look at samples of them
  * (docs/cell-size.md has times). Memory is from desc->allocator until the end of the call.
- * SURFACE suggests the cell size of one surface (vox_pairs.h) of all meshes, standing still with the radius 0: the
+ * SURFACE suggests the cell size of one surface (vox_surface.h) of all meshes, standing still with the radius 0: the
  * facets of exactly one enabled tetrahedron, duplicates counted once, their edges and their vertices. It reads all of
- * them. For surfaces without tetrahedra behind them, and for motions, vox_pairs.h has a function of its own.
+ * them. For surfaces without tetrahedra behind them, and for motions, vox_surface.h has a function of its own.
  * Errors: INVALID_ARGUMENT (also if there is no tetrahedron, or all have zero size; SURFACE: no such facet),
  * INVALID_MESH, NON_FINITE, LIMIT (SURFACE: a mesh of more than 357913941 tets), OUT_OF_MEMORY; UNSUPPORTED for SURFACE
  * in a build without surfaces, as for WebAssembly. */
@@ -375,7 +375,8 @@ VOX_API vox_result vox_foreign_grid_set_known(vox_foreign_grid* grid, vox_known_
 /* What an answer was based on, combined with |. `note` says the same in words, with numbers. */
 typedef enum vox_foreign_warnings {
     VOX_FOREIGN_WEIGHTS_UNKNOWN = 1,   /* nothing is known of the grid's times: a few timings would help */
-    VOX_FOREIGN_BY_RULE = 2,           /* cell_size is that of `rule`: by the weights, a guess, no gain over it is sure */
+    VOX_FOREIGN_BY_RULE = 2,           /* cell_size is that of `rule`: by the weights, a guess, no gain over it is
+                                          sure */
     VOX_FOREIGN_AT_LEAST_SIZE = 4,     /* the least legal size; a smaller one would be faster */
     VOX_FOREIGN_NO_SIZE = 8,           /* the primitives have no size: the cell size follows from their distances */
     VOX_FOREIGN_ONE_PLACE = 16,        /* all are in one place: any cell size that is large enough does */

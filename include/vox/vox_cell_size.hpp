@@ -1,5 +1,5 @@
-// vox_cell_size.hpp: vox_cell_size.h for C++17 and later, under the rules of vox.hpp. Every function here stands for the
-// one of vox_cell_size.h that its comment names.
+// vox_cell_size.hpp: vox_cell_size.h for C++17 and later, under the rules of vox.hpp. Every function here stands for the one
+// of vox_cell_size.h that its comment names.
 #ifndef VOX_VOX_CELL_SIZE_HPP
 #define VOX_VOX_CELL_SIZE_HPP
 

@@ -1,4 +1,4 @@
-// The C border of vox_pairs.h: surfaces, motion, pairs.
+// The C border of vox_surface.h: surfaces, motion, pairs.
 
 #include "surface/surface.hpp"
 #include "base/border.hpp"

@@ -1,4 +1,4 @@
-// The C border of vox_pairs.h's section on the time of contact.
+// The C border of vox_surface.h's section on the time of contact.
 
 #include "base/border.hpp"
 #include "base/structs.hpp"

@@ -1,4 +1,4 @@
-// The C border of vox_pairs.h: crossings.
+// The C border of vox_surface.h: crossings.
 
 #include "base/border.hpp"
 #include "base/structs.hpp"

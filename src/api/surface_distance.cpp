@@ -1,4 +1,4 @@
-// The C border of vox_pairs.h: what is close, and how far it may move.
+// The C border of vox_surface.h: what is close, and how far it may move.
 
 #include "base/border.hpp"
 #include "base/llu.hpp"

@@ -5,7 +5,7 @@
 #include "surface/gathered.hpp"
 #include "surface/pairs.hpp"
 
-#include <vox/vox_pairs.h>
+#include <vox/vox_surface.h>
 
 #include <atomic>
 #include <cstdint>

@@ -6,7 +6,7 @@
 #include "surface/pairs.hpp"
 #include "surface/topology.hpp"
 
-#include <vox/vox_pairs.h>
+#include <vox/vox_surface.h>
 
 #include <memory_resource>
 #include <span>

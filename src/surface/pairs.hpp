@@ -13,7 +13,7 @@
 #include "surface/tile_grid.hpp"
 #include "surface/topology.hpp"
 
-#include <vox/vox_pairs.h>
+#include <vox/vox_surface.h>
 
 #include <array>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // A surface: vertices, edges and faces, with or without tetrahedra behind them, and the motion that it is
-// asked about (vox_pairs.h).
+// asked about (vox_surface.h).
 #pragma once
 
 #include "base/array.hpp"
@@ -12,7 +12,7 @@
 #include "surface/pairs.hpp"
 #include "surface/topology.hpp"
 
-#include <vox/vox_pairs.h>
+#include <vox/vox_surface.h>
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include "base/array.hpp"
 #include "base/scene.hpp"
 
-#include <vox/vox_pairs.h>
+#include <vox/vox_surface.h>
 
 #include <array>
 #include <cstdint>

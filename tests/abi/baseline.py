@@ -20,7 +20,7 @@ import header  # noqa: E402
 
 INCLUDE = os.path.join(ROOT, "include", "vox")
 # Folders of src/, and headers.
-LIBRARIES = {"vox": (["api", "base"], ["vox", "vox_query", "vox_cell_size", "vox_pairs"]), "vox_io": (["io"], ["vox_io"]), "vox_sim": (["sim"], ["vox_sim"]),
+LIBRARIES = {"vox": (["api", "base"], ["vox", "vox_query", "vox_cell_size", "vox_surface"]), "vox_io": (["io"], ["vox_io"]), "vox_sim": (["sim"], ["vox_sim"]),
              "vox_dist": (["dist"], ["vox_dist"])}
 
 

@@ -13,7 +13,7 @@ sys.path.append(os.path.join(HERE, "..", "..", "bindings", "generator"))
 import header  # noqa: E402
 
 INCLUDE = os.path.join(HERE, "..", "..", "include")
-HEADERS = ["vox", "vox_query", "vox_cell_size", "vox_pairs", "vox_io", "vox_sim", "vox_dist"]
+HEADERS = ["vox", "vox_query", "vox_cell_size", "vox_surface", "vox_io", "vox_sim", "vox_dist"]
 
 
 def numbers(parsed):

@@ -5,7 +5,7 @@ set -eu
 clang=$1 include=$2
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-for header in vox vox_query vox_cell_size vox_pairs vox_io vox_sim; do
+for header in vox vox_query vox_cell_size vox_surface vox_io vox_sim; do
     echo "#include <vox/$header.h>" >"$scratch/$header.c"
     for language in /TC /TP; do
         for macro in VOX_USER VOX_BUILD VOX_STATIC; do

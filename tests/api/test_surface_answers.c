@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
-#include <vox/vox_pairs.h>
+#include <vox/vox_surface.h>
 
 #include "support/ledger.h"
 #include "support/suite.h"

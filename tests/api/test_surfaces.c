@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <vox/vox_pairs.h>
+#include <vox/vox_surface.h>
 
 #include "support/ledger.h"
 #include "support/suite.h"

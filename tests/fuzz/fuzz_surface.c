@@ -1,12 +1,12 @@
-/* libFuzzer target: vox_pairs.h. The bytes are a small surface, its motion and a budget. Pairs are those of a
- * loop over all boxes, in ascending order, whatever the budget and the cell size; what is culled is one of
+/* libFuzzer target: vox_surface.h. The bytes are a small surface, its motion and a budget. Pairs are those of
+ * a loop over all boxes, in ascending order, whatever the budget and the cell size; what is culled is one of
  * them; all other answers are in order and in range. */
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <vox/vox_pairs.h>
+#include <vox/vox_surface.h>
 
 #include "bytes.h"
 

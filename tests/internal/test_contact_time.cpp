@@ -4,7 +4,7 @@
 #include "internal/random.hpp"
 #include "surface/contact_time.hpp"
 
-#include <vox/vox_pairs.h>
+#include <vox/vox_surface.h>
 
 #include <algorithm>
 #include <cmath>
@@ -184,7 +184,7 @@ START_TEST(plain_cases) {
 }
 END_TEST
 
-// ---- through vox_pairs.h ----------------------------------------------------------------------------
+// ---- through vox_surface.h ----------------------------------------------------------------------------
 
 constexpr int side = 12;
 

@@ -3,7 +3,7 @@
 #include "internal/feature_distance.hpp"
 #include "internal/random.hpp"
 
-#include <vox/vox_pairs.h>
+#include <vox/vox_surface.h>
 
 #include <cmath>
 #include <limits>

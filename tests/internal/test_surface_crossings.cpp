@@ -4,7 +4,7 @@
 #include "scenes/bodies.h"
 #include "support/suite.h"
 
-#include <vox/vox_pairs.h>
+#include <vox/vox_surface.h>
 
 #include <cmath>
 #include <cstring>

@@ -2,7 +2,7 @@
 #include "base/simd.hpp"
 #include "internal/random.hpp"
 
-#include <vox/vox_pairs.h>
+#include <vox/vox_surface.h>
 
 #include <algorithm>
 #include <cfloat>

@@ -8,8 +8,8 @@
 #include "scenes/scenes.h"
 
 #include <inttypes.h>
-#include <vox/vox_pairs.h>
 #include <vox/vox_query.h>
+#include <vox/vox_surface.h>
 
 typedef struct settings {
     engine_kind engine;

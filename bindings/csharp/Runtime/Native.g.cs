@@ -5,7 +5,7 @@ using System.Runtime.InteropServices;
 
 namespace Voxtet
 {
-    // Names and layouts are those of vox.h, vox_query.h, vox_cell_size.h, vox_pairs.h, vox_io.h and vox_sim.h.
+    // Names and layouts are those of vox.h, vox_query.h, vox_cell_size.h, vox_surface.h, vox_io.h and vox_sim.h.
 
     public enum Result : int
     {
@@ -178,8 +178,8 @@ namespace Voxtet
         Reference = 1,
         /// <summary>the fast engine with one cell size in all windows; in nanoseconds of a step</summary>
         Fast = 2,
-        /// <summary>the searches of vox_pairs.h in the meshes' surfaces, for pairs of edges and of faces and vertices;
-        /// in nanoseconds, of their grids alone</summary>
+        /// <summary>the searches of vox_surface.h in the meshes' surfaces, for pairs of edges and of faces and
+        /// vertices; in nanoseconds, of their grids alone</summary>
         Surface = 3,
     }
 

@@ -1871,7 +1871,7 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_cost_tune": (vox_result, (POINTER(vox_foreign_grid), POINTER(vox_tune_desc), vox_grid_run, c_void_p,
             POINTER(vox_tuning))),
     },
-    "vox_pairs": {
+    "vox_surface": {
         "vox_surface_create": (vox_result, (POINTER(vox_surface_desc), POINTER(c_void_p))),
         "vox_surface_destroy": (None, (c_void_p,)),
         "vox_surface_get_features": (vox_result, (c_void_p, c_int32, POINTER(vox_feature_view))),
@@ -1936,7 +1936,7 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
 
 
 def declare(library: Any, name: str, check: Any = None) -> None:
-    """Gives the functions of the header `name` (vox, vox_query, vox_cell_size, vox_pairs, vox_io, vox_sim) in a ctypes library their types. `check` becomes the errcheck
+    """Gives the functions of the header `name` (vox, vox_query, vox_cell_size, vox_surface, vox_io, vox_sim) in a ctypes library their types. `check` becomes the errcheck
     of those whose result is a vox_result: a failure unless it is 0."""
     for function, (result, parameters) in FUNCTIONS[name].items():
         found = getattr(library, function)

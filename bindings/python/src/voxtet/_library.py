@@ -82,7 +82,7 @@ def _load_vox() -> Any:
     if found != _c.VOX_ABI_VERSION:
         raise ImportError(f"{find('vox')} has version {found} of the binary interface; this package was made for version "
                           f"{_c.VOX_ABI_VERSION}")
-    for header in ("vox", "vox_query", "vox_cell_size", "vox_pairs"):
+    for header in ("vox", "vox_query", "vox_cell_size", "vox_surface"):
         _c.declare(library, header, check)
     return library
 

@@ -194,7 +194,7 @@ pub const VOX_COST_MODEL_PAPER: vox_cost_model = 0;
 pub const VOX_COST_MODEL_REFERENCE: vox_cost_model = 1;
 /// the fast engine with one cell size in all windows; in nanoseconds of a step
 pub const VOX_COST_MODEL_FAST: vox_cost_model = 2;
-/// the searches of vox_pairs.h in the meshes' surfaces, for pairs of edges and of faces and vertices; in nanoseconds,
+/// the searches of vox_surface.h in the meshes' surfaces, for pairs of edges and of faces and vertices; in nanoseconds,
 /// of their grids alone
 pub const VOX_COST_MODEL_SURFACE: vox_cost_model = 3;
 
@@ -2868,11 +2868,11 @@ extern "C" {
     /// VOX_FILTER_SELF_COLLISION is used, by REFERENCE and FAST. Errors name a mesh by its index in the array and its
     /// user data. All tets and vertices are checked; the models look at samples of them (docs/cell-size.md has times).
     /// Memory is from desc->allocator until the end of the call. SURFACE suggests the cell size of one surface
-    /// (vox_pairs.h) of all meshes, standing still with the radius 0: the facets of exactly one enabled tetrahedron,
+    /// (vox_surface.h) of all meshes, standing still with the radius 0: the facets of exactly one enabled tetrahedron,
     /// duplicates counted once, their edges and their vertices. It reads all of them. For surfaces without tetrahedra
-    /// behind them, and for motions, vox_pairs.h has a function of its own. Errors: INVALID_ARGUMENT (also if there is
-    /// no tetrahedron, or all have zero size; SURFACE: no such facet), INVALID_MESH, NON_FINITE, LIMIT (SURFACE: a mesh
-    /// of more than 357913941 tets), OUT_OF_MEMORY; UNSUPPORTED for SURFACE in a build without surfaces, as for
+    /// behind them, and for motions, vox_surface.h has a function of its own. Errors: INVALID_ARGUMENT (also if there
+    /// is no tetrahedron, or all have zero size; SURFACE: no such facet), INVALID_MESH, NON_FINITE, LIMIT (SURFACE: a
+    /// mesh of more than 357913941 tets), OUT_OF_MEMORY; UNSUPPORTED for SURFACE in a build without surfaces, as for
     /// WebAssembly.
     pub fn vox_suggest_cell_size(
         desc: *const vox_suggest_desc,

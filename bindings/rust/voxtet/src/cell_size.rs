@@ -19,7 +19,7 @@ pub enum CostModel {
     Reference = sys::VOX_COST_MODEL_REFERENCE as isize,
     /// The fast engine's, with one cell size in all windows, in nanoseconds.
     Fast = sys::VOX_COST_MODEL_FAST as isize,
-    /// That of the surfaces of the meshes, as `vox_pairs.h` has them, in nanoseconds of their grid alone.
+    /// That of the surfaces of the meshes, as `vox_surface.h` has them, in nanoseconds of their grid alone.
     Surface = sys::VOX_COST_MODEL_SURFACE as isize,
 }
 

@@ -1,5 +1,5 @@
-// vox_pairs.hpp beside vox_pairs.h.
-#include <vox/vox_pairs.hpp>
+// vox_surface.hpp beside vox_surface.h.
+#include <vox/vox_surface.hpp>
 
 #include <array>
 #include <type_traits>
@@ -110,7 +110,7 @@ END_TEST
 
 } // namespace
 
-SUITE(hpp_pairs) {
+SUITE(hpp_surface) {
     TCase* tests = add_case(suite, "surfaces");
     tcase_add_each(tests, what_c_answers, motions, ownership);
 }

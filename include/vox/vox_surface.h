@@ -1,6 +1,6 @@
-/* vox_pairs: pairs of surface features. Vertices, edges and triangles of deforming surfaces, with or without
- * tetrahedra behind them: whose boxes overlap while they move, which cross, which are close, and how far everything may
- * move before anything touches. For solvers with a barrier or a time of contact (IPC, OGC), for cloth, and for tools.
+/* vox_surface: vertices, edges and triangles of deforming surfaces, with or without tetrahedra behind them: whose boxes
+ * overlap while they move, which cross, which are close, and how far everything may move before anything touches. For
+ * solvers with a barrier or a time of contact (IPC, OGC), for cloth, and for tools.
  *
  * A surface is made once from its topology. vox_surface_move gives it positions, or two sets of positions between which
  * every vertex moves along a straight line; the other functions then answer for that motion. It is part of the library
@@ -17,8 +17,8 @@
  *             Views live as their comment says.
  *   Units     Lengths are in the caller's own unit, times are fractions of the motion, from 0 to 1.
  */
-#ifndef VOX_VOX_PAIRS_H
-#define VOX_VOX_PAIRS_H
+#ifndef VOX_VOX_SURFACE_H
+#define VOX_VOX_SURFACE_H
 
 #include <vox/vox_cell_size.h>
 

@@ -1,10 +1,10 @@
-// vox_pairs.hpp: vox_pairs.h for C++17 and later, under the rules of vox.hpp. Every function here stands for the one of
-// vox_pairs.h that its comment names. Experimental, as that is.
-#ifndef VOX_VOX_PAIRS_HPP
-#define VOX_VOX_PAIRS_HPP
+// vox_surface.hpp: vox_surface.h for C++17 and later, under the rules of vox.hpp. Every function here stands for the one
+// of vox_surface.h that its comment names. Experimental, as that is.
+#ifndef VOX_VOX_SURFACE_HPP
+#define VOX_VOX_SURFACE_HPP
 
 #include <vox/vox_cell_size.hpp>
-#include <vox/vox_pairs.h>
+#include <vox/vox_surface.h>
 
 namespace vox {
 inline namespace VOX_HPP_MODE {
@@ -31,7 +31,7 @@ private:
 };
 
 // vox_surface. Move-only; its destructor is vox_surface_destroy. One that was moved from is null: calls fail. What it
-// hands out as spans and lists lives as vox_pairs.h says of the views.
+// hands out as spans and lists lives as vox_surface.h says of the views.
 class surface {
 public:
 #if VOX_HPP_THROWS
