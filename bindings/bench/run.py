@@ -31,7 +31,7 @@ def build(folder, out):
     run("cc", "-std=c99", *flags, f"{HERE}/scene.c", "-o", f"{out}/scene", *link)
     run(f"{out}/scene", path)
     run("cc", "-std=gnu99", *flags, f"{HERE}/step.c", "-o", f"{out}/step_c", *link)
-    run("c++", "-std=c++17", *flags, f"{HERE}/step.cpp", "-o", f"{out}/step_cpp", *link)
+    run("c++", "-std=c++20", *flags, f"{HERE}/step.cpp", "-o", f"{out}/step_cpp", *link)
     programs = {"C": [f"{out}/step_c"], "C again": [f"{out}/step_c"], "C++": [f"{out}/step_cpp"]}
     if shutil.which("mcs") and shutil.which("mono"):
         sources = sorted(glob.glob(f"{HERE}/../csharp/Runtime/*.cs"))

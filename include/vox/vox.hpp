@@ -1,14 +1,10 @@
-// vox.hpp: vox.h for C++17 and later, header only; docs/cpp.md shows how it is used.
+// vox.hpp: vox.h for C++20, header only; docs/cpp.md shows how it is used.
 //
 // Every function here stands for the one of vox.h that its comment names, and vox.h says what that does: units, errors,
 // threads, what ends a view. A const member reads, any other changes, as a const vox_grid does. Structs and enumerators
 // are those of vox.h. What is added:
-//   Errors     A call that fails throws vox::error. With -fno-exceptions, or VOX_HPP_NO_EXCEPTIONS defined, it returns
-//              a vox::expected instead: returns<T> below is T or expected<T>. A std::vector throws std::bad_alloc.
+//   Errors     A call that fails throws vox::error. A std::vector throws std::bad_alloc.
 //   Lifetime   Grids are released by their destructors. Temporaries are not borrowed: such calls do not compile.
-//   Views      A view has ended once its epoch is no longer that of its grid. Without NDEBUG, or with VOX_HPP_CHECKED
-//              defined as 1, reading such a view throws std::logic_error (without exceptions it prints and aborts, and
-//              view::check() gives an error); with VOX_HPP_CHECKED 0 a view is what it is in C.
 //   Callables  What a callable throws passes through to the caller, but for a log's exceptions, which are dropped.
 #ifndef VOX_VOX_HPP
 #define VOX_VOX_HPP
@@ -16,64 +12,27 @@
 #include <vox/vox.h>
 
 #include <array>
-#include <cmath>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <functional>
+#include <initializer_list>
 #include <iterator>
-#include <limits>
 #include <memory>
-#include <new>
-#include <stdexcept>
-#include <string>
-#include <type_traits>
-#include <unordered_map>
-#include <utility>
-#include <variant>
-#include <vector>
-#if __has_include(<memory_resource>)
 #include <memory_resource>
-#endif
-#if __cplusplus >= 202002L || (defined(_MSVC_LANG) && _MSVC_LANG >= 202002L)
+#include <new>
 #include <ranges>
 #include <span>
-#endif
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 // Eigen maps of views: where Eigen was included before this header, or VOX_HPP_EIGEN asks for it.
 #if defined(VOX_HPP_EIGEN) && __has_include(<Eigen/Core>)
 #include <Eigen/Core>
-#endif
-
-#if defined(__cpp_exceptions) || defined(_CPPUNWIND)
-#define VOX_HPP_CATCHES 1
-#else
-#define VOX_HPP_CATCHES 0
-#endif
-#if VOX_HPP_CATCHES && !defined(VOX_HPP_NO_EXCEPTIONS)
-#define VOX_HPP_THROWS 1
-#else
-#define VOX_HPP_THROWS 0
-#endif
-#if !defined(VOX_HPP_CHECKED) && defined(NDEBUG)
-#define VOX_HPP_CHECKED 0
-#elif !defined(VOX_HPP_CHECKED)
-#define VOX_HPP_CHECKED 1
-#endif
-
-// Files compiled in different modes may be linked together: their names differ, but for vox::error, so that each
-// catches what others throw.
-#if VOX_HPP_THROWS && VOX_HPP_CHECKED
-#define VOX_HPP_MODE throwing_checked
-#elif VOX_HPP_THROWS
-#define VOX_HPP_MODE throwing
-#elif VOX_HPP_CHECKED
-#define VOX_HPP_MODE returning_checked
-#else
-#define VOX_HPP_MODE returning
 #endif
 
 namespace vox {
@@ -109,135 +68,30 @@ private:
     std::unique_ptr<char[]> text_;
 };
 
-inline namespace VOX_HPP_MODE {
-
-// ---- spans --------------------------------------------------------------------------------------
+using std::span;
 
 namespace detail {
+
 // A view, whose elements may have gaps between them.
-template <class R, class = void>
-struct has_stride : std::false_type {};
 template <class R>
-struct has_stride<R, std::void_t<decltype(std::declval<const R&>().byte_stride())>> : std::true_type {};
-} // namespace detail
-
-#if defined(__cpp_lib_span)
-template <class T>
-using span = std::span<T>;
-#else
-// As much of std::span as is needed before C++20. A view is none, since it may have gaps.
-template <class T>
-class span {
-public:
-    using element_type = T;
-    using value_type = std::remove_cv_t<T>;
-    constexpr span() noexcept = default;
-    constexpr span(T* data, std::size_t size) noexcept : data_(data), size_(size) {}
-    template <std::size_t N>
-    constexpr span(T (&array)[N]) noexcept : data_(array), size_(N) {}
-    // Anything with data() and size(); a temporary only where the span cannot write, as for std::span.
-    template <class R, class = std::enable_if_t<
-                           !std::is_array_v<std::remove_reference_t<R>> &&
-                           !std::is_same_v<std::remove_cv_t<std::remove_reference_t<R>>, span> &&
-                           !detail::has_stride<R>::value &&
-                           (std::is_lvalue_reference_v<R> || std::is_const_v<T>)&&std::is_convertible_v<
-                               std::remove_pointer_t<decltype(std::data(std::declval<R&>()))> (*)[], T (*)[]>>>
-    constexpr span(R&& range) noexcept : data_(std::data(range)), size_(static_cast<std::size_t>(std::size(range))) {}
-    constexpr T* data() const noexcept { return data_; }
-    constexpr std::size_t size() const noexcept { return size_; }
-    constexpr bool empty() const noexcept { return size_ == 0; }
-    constexpr T* begin() const noexcept { return data_; }
-    constexpr T* end() const noexcept { return data_ + size_; }
-    constexpr T& operator[](std::size_t i) const { return data_[i]; }
-    constexpr span subspan(std::size_t first, std::size_t count) const { return {data_ + first, count}; }
-
-private:
-    T* data_ = nullptr;
-    std::size_t size_ = 0;
-};
-#endif
-
-// ---- values or errors ---------------------------------------------------------------------------
-
-// A value, or the error that there is instead of it; as much of std::expected as is needed. Reading the value of an
-// error prints its text and aborts.
-template <class T>
-class [[nodiscard]] expected {
-public:
-    expected(T value) : state_(std::in_place_index<1>, std::move(value)) {}
-    expected(vox::error error) : state_(std::in_place_index<0>, std::move(error)) {}
-    bool has_value() const noexcept { return state_.index() == 1; }
-    explicit operator bool() const noexcept { return has_value(); }
-    const vox::error& error() const noexcept { return *std::get_if<0>(&state_); }
-    T& value() & { return *found(state_); }
-    const T& value() const& { return *found(state_); }
-    T value() && { return std::move(*found(state_)); } // by value: `for (auto& c : *grid.contacts())` is sound
-    T& operator*() & { return *found(state_); }
-    const T& operator*() const& { return *found(state_); }
-    T operator*() && { return std::move(*found(state_)); }
-    T* operator->() { return found(state_); }
-    const T* operator->() const { return found(state_); }
-    T value_or(T other) && { return has_value() ? std::move(*found(state_)) : std::move(other); }
-
-private:
-    template <class S>
-    static auto found(S& state) noexcept -> decltype(std::get_if<1>(&state)) {
-        if (const auto* error = std::get_if<0>(&state)) {
-            std::fprintf(stderr, "vox: %s\n", error->what());
-            std::abort();
-        }
-        return std::get_if<1>(&state);
-    }
-    std::variant<vox::error, T> state_;
-};
-template <>
-class [[nodiscard]] expected<void> : public expected<std::monostate> {
-public:
-    expected() : expected<std::monostate>(std::monostate()) {}
-    expected(vox::error error) : expected<std::monostate>(std::move(error)) {}
-    void value() const { (void)expected<std::monostate>::value(); }
+concept strided = requires(const R& range) {
+    range.byte_stride();
 };
 
-#if VOX_HPP_THROWS
-template <class T>
-using returns = T;
-#else
-template <class T>
-using returns = expected<T>;
-#endif
-
-namespace detail {
-
-#if VOX_HPP_THROWS
-[[noreturn]] inline void raise(vox_result result) { throw error(result); }
-#endif
-
-inline returns<void> give(vox_result result) {
-#if VOX_HPP_THROWS
-    if (result != VOX_OK) raise(result);
-#else
-    if (result != VOX_OK) return error(result);
-    return {};
-#endif
-}
-
-// `value` if the call that was to set it has done so.
-template <class T>
-returns<T> give(vox_result result, T value) {
-#if VOX_HPP_THROWS
-    if (result != VOX_OK) raise(result);
-#else
-    if (result != VOX_OK) return error(result);
-#endif
-    return value;
+inline void check(vox_result result) {
+    if (result != VOX_OK) throw error(result);
 }
 
 // A failure of this header's own, with its numbers.
 template <class... N>
-vox_result fail(vox_result result, const char* format, N... numbers) {
+[[noreturn]] void refuse(vox_result result, const char* format, N... numbers) {
     char text[256];
     std::snprintf(text, sizeof text, format, static_cast<unsigned long long>(numbers)...);
-    return vox_fail(result, text);
+    throw error(vox_fail(result, text));
+}
+template <class... N>
+[[noreturn]] void refuse(const char* format, N... numbers) {
+    refuse(VOX_ERROR_INVALID_ARGUMENT, format, numbers...);
 }
 
 // Keeps what a callable throws, since no exception may cross the library, until the call has returned.
@@ -246,36 +100,25 @@ public:
     // False if `call` threw, now or before; then it is not run again.
     template <class F>
     bool run(F&& call) noexcept {
-#if VOX_HPP_CATCHES
         if (thrown_) return false;
         try {
             call();
         } catch (...) {
             thrown_ = std::current_exception();
-            return false;
         }
-#else
-        call();
-#endif
-        return true;
+        return !thrown_;
     }
     // Also keeps what another has caught, which then has nothing; the first exception stays.
-    void take([[maybe_unused]] catcher& other) noexcept {
-#if VOX_HPP_CATCHES
+    void take(catcher& other) noexcept {
         std::exception_ptr theirs = std::exchange(other.thrown_, nullptr);
         if (!thrown_) thrown_ = std::move(theirs);
-#endif
     }
     void rethrow() {
-#if VOX_HPP_CATCHES
         if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
-#endif
     }
 
 private:
-#if VOX_HPP_CATCHES
     std::exception_ptr thrown_;
-#endif
 };
 
 // A callable for a function pointer's `user`, and what it has thrown.
@@ -286,38 +129,34 @@ struct called_back {
 };
 
 // What a function fills: zero, but for a struct_size.
-template <class T, class = void>
-struct has_size : std::false_type {};
-template <class T>
-struct has_size<T, std::void_t<decltype(T::struct_size)>> : std::true_type {};
 template <class T>
 T sized() noexcept {
     T value{};
-    if constexpr (has_size<T>::value) value.struct_size = static_cast<std::uint32_t>(sizeof value);
+    if constexpr (requires { value.struct_size; }) value.struct_size = static_cast<std::uint32_t>(sizeof value);
     return value;
 }
 
 // A call that ends with where to write one value: that value.
 template <class T, class F, class... A>
-returns<T> filled(F&& call, A... arguments) {
+T filled(F&& call, A... arguments) {
     T value = sized<T>();
-    const vox_result result = call(arguments..., &value);
-    return give(result, value);
+    check(call(arguments..., &value));
+    return value;
 }
 
 // A call that ends with room for several values, and where to write how many there are: all of them. There is room for
 // `guess` of them at first.
 template <class T, class F, class... A>
-returns<std::vector<T>> collect(std::size_t guess, F&& call, A... arguments) {
+std::vector<T> collect(std::size_t guess, F&& call, A... arguments) {
     std::vector<T> found(guess);
     std::uint64_t count = 0;
-    vox_result result = call(arguments..., found.data(), found.size(), &count);
-    if (result == VOX_OK && count > found.size()) {
+    check(call(arguments..., found.data(), found.size(), &count));
+    if (count > found.size()) {
         found.resize(static_cast<std::size_t>(count));
-        result = call(arguments..., found.data(), found.size(), &count);
+        check(call(arguments..., found.data(), found.size(), &count));
     }
-    if (result == VOX_OK) found.resize(static_cast<std::size_t>(count));
-    return give(result, std::move(found));
+    found.resize(static_cast<std::size_t>(count));
+    return found;
 }
 
 } // namespace detail
@@ -325,94 +164,6 @@ returns<std::vector<T>> collect(std::size_t guess, F&& call, A... arguments) {
 // ---- views --------------------------------------------------------------------------------------
 
 namespace detail {
-
-#if VOX_HPP_CHECKED
-// What the views of a grid look at. It outlives the grid.
-struct watch {
-    explicit watch(const vox_grid* watched) noexcept : grid(watched) {}
-    const vox_grid* grid;                                // null once it was destroyed, or let go by a borrow()
-    bool destroyed = false;
-    std::uint64_t prepared = 0;                          // readings, so many times
-    std::unordered_map<vox_body, std::uint64_t> rebound; // mapped positions of a mesh ended, so many times
-    std::uint64_t rebound_of(vox_body mesh) const noexcept {
-        const auto found = rebound.find(mesh);
-        return found == rebound.end() ? 0 : found->second;
-    }
-};
-using watched = std::shared_ptr<watch>;
-#else
-struct watched {};
-#endif
-
-// What ends a view.
-enum class lasts { step, readings, mapping };
-
-// Knows whether a view has ended. Empty, and nothing is asked, in an unchecked build.
-class guard {
-public:
-    guard() = default;
-#if VOX_HPP_CHECKED
-    guard(const watched& watch, std::uint64_t epoch, lasts until, vox_body mesh = VOX_NULL_BODY)
-        : watch_(watch), until_(until), mesh_(mesh), epoch_(epoch) {
-        if (watch && until == lasts::readings) mark_ = watch->prepared;
-        if (watch && until == lasts::mapping) mark_ = watch->rebound_of(mesh);
-    }
-    // Writes why the view has ended to `text`; false if it has not.
-    bool ended(char (&text)[160]) const noexcept {
-        if (!watch_) return false;
-        vox_grid_info now{};
-        now.struct_size = sizeof now;
-        if (!watch_->grid) {
-            std::snprintf(text, sizeof text, "a view is read whose grid was destroyed");
-        } else if (until_ == lasts::mapping) {
-            if (watch_->rebound_of(mesh_) == mark_ && vox_body_is_valid(watch_->grid, mesh_) == 1) return false;
-            std::snprintf(text, sizeof text,
-                          "mapped positions of mesh %u are used that a removal or new positions ended",
-                          static_cast<unsigned>(mesh_));
-        } else if (vox_grid_get_info(watch_->grid, &now) != VOX_OK || now.epoch != epoch_) {
-            std::snprintf(text, sizeof text,
-                          "a view of epoch %llu is read in epoch %llu: a step, clear, reserve or other flags ended it",
-                          static_cast<unsigned long long>(epoch_), static_cast<unsigned long long>(now.epoch));
-        } else if (until_ == lasts::readings && watch_->prepared != mark_) {
-            std::snprintf(text, sizeof text, "readings are read that were prepared again since: %llu times",
-                          static_cast<unsigned long long>(watch_->prepared - mark_));
-        } else {
-            return false;
-        }
-        return true;
-    }
-    void check() const {
-        char text[160];
-        if (ended(text)) stop(text);
-    }
-    static void check(std::size_t i, std::size_t count) {
-        if (i < count) return;
-        char text[160];
-        std::snprintf(text, sizeof text, "element %zu of a view of %zu is read", i, count);
-        stop(text);
-    }
-    [[noreturn]] static void stop(const char* text) {
-#if VOX_HPP_THROWS
-        throw std::logic_error(text);
-#else
-        std::fprintf(stderr, "vox: %s\n", text);
-        std::abort();
-#endif
-    }
-
-private:
-    watched watch_;
-    lasts until_ = lasts::step;
-    vox_body mesh_ = VOX_NULL_BODY;
-    std::uint64_t epoch_ = 0;
-    std::uint64_t mark_ = 0;
-#else
-    guard(const watched&, std::uint64_t, lasts, vox_body = VOX_NULL_BODY) noexcept {}
-    void check() const noexcept {}
-    static void check(std::size_t, std::size_t) noexcept {}
-#endif
-};
-
 template <class M>
 struct as_object {
     using type = M;
@@ -421,23 +172,18 @@ template <class M, std::size_t N>
 struct as_object<M[N]> {
     using type = std::array<M, N>;
 };
-
 } // namespace detail
 
-// Elements `byte_stride` apart, which belong to the grid, with the epoch of vox_X_view: a random-access range.
+// Elements `byte_stride` apart, which belong to the grid and live as long as vox.h says: a random-access range.
 template <class T>
-class view : private detail::guard {
+class view {
     using byte = std::conditional_t<std::is_const_v<T>, const unsigned char, unsigned char>;
 
 public:
     using element_type = T;
     using value_type = std::remove_cv_t<T>;
-    using size_type = std::size_t;
-    using difference_type = std::ptrdiff_t;
-    using reference = T&;
-    using pointer = T*;
 
-    class iterator : private detail::guard {
+    class iterator {
     public:
         using iterator_category = std::random_access_iterator_tag;
         using value_type = std::remove_cv_t<T>;
@@ -445,9 +191,9 @@ public:
         using reference = T&;
         using pointer = T*;
         iterator() = default;
-        T& operator*() const { return check(), *at_; }
-        T* operator->() const { return check(), at_; }
-        T& operator[](difference_type n) const { return *(*this + n); }
+        T& operator*() const noexcept { return *at_; }
+        T* operator->() const noexcept { return at_; }
+        T& operator[](difference_type n) const noexcept { return *(*this + n); }
         iterator& operator+=(difference_type n) noexcept {
             at_ = reinterpret_cast<T*>(reinterpret_cast<byte*>(at_) + n * stride_);
             return *this;
@@ -455,55 +201,42 @@ public:
         iterator& operator-=(difference_type n) noexcept { return *this += -n; }
         iterator& operator++() noexcept { return *this += 1; }
         iterator& operator--() noexcept { return *this += -1; }
-        iterator operator++(int) noexcept {
-            iterator old = *this;
-            return ++*this, old;
-        }
-        iterator operator--(int) noexcept {
-            iterator old = *this;
-            return --*this, old;
-        }
+        iterator operator++(int) noexcept { return std::exchange(*this, *this + 1); }
+        iterator operator--(int) noexcept { return std::exchange(*this, *this - 1); }
         friend iterator operator+(iterator i, difference_type n) noexcept { return i += n; }
         friend iterator operator+(difference_type n, iterator i) noexcept { return i += n; }
         friend iterator operator-(iterator i, difference_type n) noexcept { return i -= n; }
         friend difference_type operator-(const iterator& a, const iterator& b) noexcept {
-            return a.at_ == b.at_ ? 0 : (reinterpret_cast<byte*>(a.at_) - reinterpret_cast<byte*>(b.at_)) / a.stride_;
+            return (reinterpret_cast<byte*>(a.at_) - reinterpret_cast<byte*>(b.at_)) / a.stride_;
         }
-        friend bool operator==(const iterator& a, const iterator& b) noexcept { return a.at_ == b.at_; }
-        friend bool operator!=(const iterator& a, const iterator& b) noexcept { return a.at_ != b.at_; }
-        friend bool operator<(const iterator& a, const iterator& b) noexcept { return a.at_ < b.at_; }
-        friend bool operator>(const iterator& a, const iterator& b) noexcept { return b < a; }
-        friend bool operator<=(const iterator& a, const iterator& b) noexcept { return !(b < a); }
-        friend bool operator>=(const iterator& a, const iterator& b) noexcept { return !(a < b); }
+        bool operator==(const iterator& other) const noexcept { return at_ == other.at_; }
+        auto operator<=>(const iterator& other) const noexcept { return at_ <=> other.at_; }
 
     private:
         friend class view;
-        iterator(T* at, std::size_t stride, const detail::guard& of)
-            : detail::guard(of), at_(at), stride_(static_cast<difference_type>(stride)) {}
+        iterator(T* at, std::size_t stride) : at_(at), stride_(static_cast<difference_type>(stride)) {}
         T* at_ = nullptr;
         difference_type stride_ = sizeof(T);
     };
     using const_iterator = iterator;
 
     view() = default;
-    view(T* data, std::size_t byte_stride, std::size_t size, std::uint64_t epoch = 0, detail::guard of = {})
-        : detail::guard(std::move(of)), data_(data), stride_(byte_stride), size_(size), epoch_(epoch) {}
+    view(T* data, std::size_t byte_stride, std::size_t size, std::uint64_t epoch = 0)
+        : data_(data), stride_(byte_stride), size_(size), epoch_(epoch) {}
 
     std::size_t size() const noexcept { return size_; }
     bool empty() const noexcept { return size_ == 0; }
     std::size_t byte_stride() const noexcept { return stride_; }
     std::uint64_t epoch() const noexcept { return epoch_; }
     // The first element; the next is byte_stride() further.
-    T* data() const { return detail::guard::check(), data_; }
-    T& operator[](std::size_t i) const { return detail::guard::check(), detail::guard::check(i, size_), *address(i); }
-    T& front() const { return (*this)[0]; }
-    T& back() const { return (*this)[size_ - 1]; }
-    iterator begin() const { return detail::guard::check(), iterator(data_, stride_, *this); }
-    iterator end() const { return iterator(address(size_), stride_, *this); }
+    T* data() const noexcept { return data_; }
+    T& operator[](std::size_t i) const noexcept { return *address(i); }
+    T& front() const noexcept { return (*this)[0]; }
+    T& back() const noexcept { return (*this)[size_ - 1]; }
+    iterator begin() const noexcept { return {data_, stride_}; }
+    iterator end() const noexcept { return {address(size_), stride_}; }
     // `count` elements from `first` on.
-    view subview(std::size_t first, std::size_t count) const {
-        return view(address(first), stride_, count, epoch_, *this);
-    }
+    view subview(std::size_t first, std::size_t count) const { return {address(first), stride_, count, epoch_}; }
     // Copies that stay.
     std::vector<value_type> to_vector() const { return std::vector<value_type>(begin(), end()); }
     // One field of every element, e.g. field(&vox_reading::position), of std::array where the field is an array.
@@ -513,28 +246,15 @@ public:
         using object = typename detail::as_object<M>::type;
         using result = std::conditional_t<std::is_const_v<T>, const object, object>;
         static_assert(sizeof(object) == sizeof(M));
-        detail::guard::check();
         result* first = size_ == 0 ? nullptr : reinterpret_cast<result*>(&(data_->*member));
-        return view<result>(first, stride_, size_, epoch_, *this);
+        return view<result>(first, stride_, size_, epoch_);
     }
     // The same memory as elements of type V, of the same size: view<std::array<float, 3>> as<glm::vec3>().
     template <class V>
     auto as() const {
         using result = std::conditional_t<std::is_const_v<T>, const V, V>;
         static_assert(sizeof(V) == sizeof(T) && alignof(V) <= alignof(T), "elements of another size or alignment");
-        return view<result>(reinterpret_cast<result*>(data()), stride_, size_, epoch_, *this);
-    }
-    // Fails with INVALID_STATE (throws std::logic_error) if the view has ended; in an unchecked build never.
-    returns<void> check() const {
-#if VOX_HPP_CHECKED && !VOX_HPP_THROWS
-        char text[160];
-        if (this->ended(text)) return error(VOX_ERROR_INVALID_STATE, text);
-#endif
-#if VOX_HPP_THROWS
-        detail::guard::check();
-#else
-        return {};
-#endif
+        return view<result>(reinterpret_cast<result*>(data_), stride_, size_, epoch_);
     }
 
 private:
@@ -554,7 +274,6 @@ public:
     pair_view(const view<const vox_pair>& pairs, const std::uint32_t* contacts) : view(pairs), contacts_(contacts) {}
     // Indices of the pair's contacts in grid::contacts(): first a in b, then b in a.
     span<const std::uint32_t> contacts(const vox_pair& pair) const {
-        (void)data();
         return {contacts_ + pair.first, static_cast<std::size_t>(pair.a_in_b + pair.b_in_a)};
     }
 
@@ -582,10 +301,11 @@ private:
 
 // What an array's elements are made of: `count` numbers of a type, of which a position uses the first three. Specialise
 // it for a vector type of your own; numbers, arrays, std::array, and vectors like those of Eigen and glm are known.
-template <class E, class = void>
+template <class E>
 struct element {};
 template <class E>
-struct element<E, std::enable_if_t<std::is_arithmetic_v<E>>> {
+requires std::is_arithmetic_v<E>
+struct element<E> {
     using number = E;
     static constexpr std::size_t count = 1;
 };
@@ -600,12 +320,12 @@ struct element<std::array<E, N>> {
     static constexpr std::size_t count = N;
 };
 template <class E>
-struct element<E, std::enable_if_t<(E::SizeAtCompileTime > 1)>> { // Eigen
+requires(E::SizeAtCompileTime > 1) struct element<E> { // Eigen
     using number = typename E::Scalar;
     static constexpr std::size_t count = static_cast<std::size_t>(E::SizeAtCompileTime);
 };
 template <class E>
-struct element<E, std::enable_if_t<(E::length() > 1)>> { // glm
+requires(E::length() > 1) struct element<E> { // glm
     using number = typename E::value_type;
     static constexpr std::size_t count = static_cast<std::size_t>(E::length());
 };
@@ -618,49 +338,29 @@ template <class R>
 using number_of = typename element<element_of<R>>::number;
 
 // A matrix that lies in memory, like Eigen's.
-template <class R, class = void>
-struct matrix : std::false_type {};
 template <class R>
-struct matrix<R, std::void_t<typename R::Scalar, decltype(std::declval<const R&>().rowStride())>> : std::true_type {};
+concept matrix = requires(const R& range) {
+    typename R::Scalar;
+    range.rowStride();
+};
 
 template <class N>
 inline constexpr bool is_real = std::is_same_v<N, float> || std::is_same_v<N, double>;
 template <class N>
 inline constexpr bool is_index = std::is_integral_v<N> && sizeof(N) == sizeof(std::uint32_t);
 
-template <class R, class = void>
-struct positions : std::false_type {};
 template <class R>
-struct positions<R, std::enable_if_t<is_real<number_of<R>> && element<element_of<R>>::count != 2>>
-    : std::bool_constant<element<element_of<R>>::count <= 4> {};
-template <class R, class = void>
-struct corners : std::false_type {};
+concept positions = is_real<number_of<R>> && element<element_of<R>>::count != 2 && element<element_of<R>>::count <= 4;
 template <class R>
-struct corners<R, std::enable_if_t<is_index<number_of<R>>>>
-    : std::bool_constant<element<element_of<R>>::count == 1 || element<element_of<R>>::count == 4> {};
+concept indices = is_index<number_of<R>>;
+template <class R>
+concept corners = indices<R> &&(element<element_of<R>>::count == 1 || element<element_of<R>>::count == 4);
 
-// Types that own nothing, so that a temporary may be borrowed.
-template <class R, class = void>
-struct owns_nothing : std::false_type {};
-#if defined(__cpp_lib_ranges)
+// Types that own nothing, so that a temporary may be borrowed: ranges such as spans, and an Eigen::Map.
 template <class R>
-struct owns_nothing<R, std::enable_if_t<std::ranges::enable_borrowed_range<R>>> : std::true_type {};
-#else
-template <class T>
-struct owns_nothing<span<T>> : std::true_type {};
-template <class T>
-struct owns_nothing<view<T>> : std::true_type {};
-#endif
-template <class R> // an Eigen::Map
-struct owns_nothing<R, std::enable_if_t<matrix<R>::value && !std::is_same_v<R, typename R::PlainObject>>>
-    : std::true_type {};
-
-// Numbers that do not fit the shape, told when they are used.
-struct misfit {
-    const char* format = nullptr;
-    std::uint64_t a = 0, b = 0;
-    vox_result result() const { return format ? fail(VOX_ERROR_INVALID_ARGUMENT, format, a, b) : VOX_OK; }
-};
+inline constexpr bool owns_nothing = std::ranges::enable_borrowed_range<R>;
+template <matrix R>
+inline constexpr bool owns_nothing<R> = !std::is_same_v<R, typename R::PlainObject>;
 
 } // namespace detail
 
@@ -669,13 +369,13 @@ struct misfit {
 class points : public vox_positions {
 public:
     points() : vox_positions() {}
-    template <class R, std::enable_if_t<detail::positions<R>::value, int> = 0>
+    template <detail::positions R>
     points(const R& range) : vox_positions() {
         using number = detail::number_of<R>;
         format = std::is_same_v<number, double> ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT;
         data = std::data(range);
         const std::uint64_t size = static_cast<std::uint64_t>(std::size(range));
-        if constexpr (detail::matrix<R>::value) {
+        if constexpr (detail::matrix<R>) {
             if constexpr (!R::IsVectorAtCompileTime) {
                 const std::uint64_t rows = static_cast<std::uint64_t>(range.rows()),
                                     columns = static_cast<std::uint64_t>(range.cols());
@@ -683,46 +383,44 @@ public:
                                     across = sizeof(number) * static_cast<std::uint64_t>(range.colStride());
                 const bool in_rows = int(R::ColsAtCompileTime) == 3 || (int(R::RowsAtCompileTime) != 3 && columns == 3);
                 if (!in_rows && rows != 3)
-                    misfit = {"positions: a matrix of %llu x %llu has neither three rows nor three columns", rows,
-                              columns};
+                    detail::refuse("positions: a matrix of %llu x %llu has neither three rows nor three columns", rows,
+                                   columns);
                 count = in_rows ? rows : columns;
                 byte_stride = in_rows ? along : across;
                 component_byte_stride = in_rows ? across : along;
                 return;
             } else if (range.innerStride() != 1) {
-                misfit = {"positions: a vector whose numbers are %llu apart",
-                          static_cast<std::uint64_t>(range.innerStride()), 0};
+                detail::refuse("positions: a vector whose numbers are %llu apart",
+                               static_cast<std::uint64_t>(range.innerStride()));
             }
         }
         using E = element<detail::element_of<R>>;
-        if constexpr (E::count == 1 || detail::matrix<R>::value) {
+        if constexpr (E::count == 1 || detail::matrix<R>) {
             count = size / 3;
-            if (size % 3 != 0) misfit = {"positions: %llu numbers are not three for each vertex", size, 0};
-            if constexpr (detail::has_stride<R>::value)
+            if (size % 3 != 0) detail::refuse("positions: %llu numbers are not three for each vertex", size);
+            if constexpr (detail::strided<R>)
                 if (range.byte_stride() != sizeof(number))
-                    misfit = {"positions: a view whose numbers are %llu bytes apart", range.byte_stride(), 0};
+                    detail::refuse("positions: a view whose numbers are %llu bytes apart", range.byte_stride());
         } else {
             static_assert(sizeof(detail::element_of<R>) >= 3 * sizeof(number));
             count = size;
-            if constexpr (detail::has_stride<R>::value)
+            if constexpr (detail::strided<R>)
                 byte_stride = range.byte_stride();
             else
                 byte_stride = sizeof(detail::element_of<R>);
         }
     }
-
-    detail::misfit misfit;
 };
 
 // Positions that a grid goes on reading after the call, so temporaries that own them are refused.
 class borrowed_points : public points {
 public:
     borrowed_points() = default;
-    template <class R, std::enable_if_t<detail::positions<R>::value, int> = 0>
+    template <detail::positions R>
     borrowed_points(const R& range) : points(range) {}
-    template <class R, std::enable_if_t<
-                           detail::positions<R>::value && !detail::owns_nothing<std::remove_cv_t<R>>::value, int> = 0>
-    borrowed_points(const R&& temporary) = delete;
+    template <detail::positions R>
+    requires(!detail::owns_nothing<std::remove_cv_t<R>>) borrowed_points(const R&& temporary)
+    = delete;
 };
 
 // Corners of tetrahedra that a call reads: a contiguous range of 32-bit integers, or of elements of four, or a matrix
@@ -732,40 +430,39 @@ public:
     tets() = default;
     tets(std::initializer_list<std::uint32_t> corners)
         : tets(span<const std::uint32_t>(corners.begin(), corners.size())) {}
-    template <class R, std::enable_if_t<detail::corners<R>::value, int> = 0>
+    template <detail::corners R>
     tets(const R& range) {
         data = reinterpret_cast<const std::uint32_t*>(std::data(range));
         std::uint64_t size = static_cast<std::uint64_t>(std::size(range));
-        if constexpr (detail::matrix<R>::value) {
+        if constexpr (detail::matrix<R>) {
             const bool one_each = range.innerStride() == 1 &&
                                   (R::IsVectorAtCompileTime || (range.outerStride() == 4 && range.innerSize() == 4));
             if (!one_each)
-                misfit = {"tets: in a matrix of %llu x %llu the corners of a tet do not lie one after the other",
-                          static_cast<std::uint64_t>(range.rows()), static_cast<std::uint64_t>(range.cols())};
+                detail::refuse("tets: in a matrix of %llu x %llu the corners of a tet do not lie one after the other",
+                               static_cast<std::uint64_t>(range.rows()), static_cast<std::uint64_t>(range.cols()));
         } else {
-            if constexpr (detail::has_stride<R>::value)
+            if constexpr (detail::strided<R>)
                 if (range.byte_stride() != sizeof(detail::element_of<R>))
-                    misfit = {"tets: a view whose elements are %llu bytes apart", range.byte_stride(), 0};
+                    detail::refuse("tets: a view whose elements are %llu bytes apart", range.byte_stride());
             size *= element<detail::element_of<R>>::count;
         }
         count = size / 4;
-        if (size % 4 != 0) misfit = {"tets: %llu indices are not four for each tet", size, 0};
+        if (size % 4 != 0) detail::refuse("tets: %llu indices are not four for each tet", size);
     }
 
     const std::uint32_t* data = nullptr;
     std::uint64_t count = 0;
-    detail::misfit misfit;
 };
 
 // Tetrahedra that go on being read after the call.
 class borrowed_tets : public tets {
 public:
     borrowed_tets() = default;
-    template <class R, std::enable_if_t<detail::corners<R>::value, int> = 0>
+    template <detail::corners R>
     borrowed_tets(const R& range) : tets(range) {}
-    template <class R,
-              std::enable_if_t<detail::corners<R>::value && !detail::owns_nothing<std::remove_cv_t<R>>::value, int> = 0>
-    borrowed_tets(const R&& temporary) = delete;
+    template <detail::corners R>
+    requires(!detail::owns_nothing<std::remove_cv_t<R>>) borrowed_tets(const R&& temporary)
+    = delete;
 };
 
 // Vertices of primitives, which go on being read after the call: a contiguous range of 32-bit integers, or of elements
@@ -773,52 +470,46 @@ public:
 class borrowed_indices {
 public:
     borrowed_indices() = default;
-    template <class R,
-              std::enable_if_t<detail::is_index<detail::number_of<R>> && !detail::has_stride<R>::value, int> = 0>
-    borrowed_indices(const R& range) {
+    template <detail::indices R>
+    requires(!detail::strided<R>) borrowed_indices(const R& range) {
         given = true;
         data = reinterpret_cast<const std::uint32_t*>(std::data(range));
         size = static_cast<std::uint64_t>(std::size(range));
-        if constexpr (detail::matrix<R>::value) {
+        if constexpr (detail::matrix<R>) {
             if (!R::IsVectorAtCompileTime) each = static_cast<std::uint64_t>(range.innerSize());
             if (range.innerStride() != 1 || (!R::IsVectorAtCompileTime && range.outerStride() != range.innerSize()))
-                misfit = {"indices: in a matrix of %llu x %llu they do not lie one after the other",
-                          static_cast<std::uint64_t>(range.rows()), static_cast<std::uint64_t>(range.cols())};
+                detail::refuse("indices: in a matrix of %llu x %llu they do not lie one after the other",
+                               static_cast<std::uint64_t>(range.rows()), static_cast<std::uint64_t>(range.cols()));
         } else {
             each = element<detail::element_of<R>>::count;
             size *= each;
         }
     }
-    template <class R, std::enable_if_t<detail::is_index<detail::number_of<R>> && !detail::has_stride<R>::value &&
-                                            !detail::owns_nothing<std::remove_cv_t<R>>::value,
-                                        int> = 0>
-    borrowed_indices(const R&& temporary) = delete;
+    template <detail::indices R>
+    requires(!detail::strided<R> && !detail::owns_nothing<std::remove_cv_t<R>>) borrowed_indices(const R&& temporary)
+    = delete;
 
     bool given = false;
     const std::uint32_t* data = nullptr;
     std::uint64_t size = 0;
     std::uint64_t each = 1; // of a primitive; 1: any number
-    detail::misfit misfit;
 };
 
 namespace detail {
 
-inline vox_result describe(const points& positions, const tets& tets, vox_mesh_desc& desc) {
-    desc = vox_default_mesh_desc();
+inline vox_mesh_desc desc_of(const points& positions, const tets& tets) {
+    vox_mesh_desc desc = vox_default_mesh_desc();
     desc.positions = positions;
     desc.tets = tets.data;
     desc.tet_count = tets.count;
-    const vox_result result = positions.misfit.result();
-    return result == VOX_OK ? tets.misfit.result() : result;
+    return desc;
 }
 
 } // namespace detail
 
 // A vox_mesh_desc of arrays, which it borrows; its other fields have their defaults, see vox_default_mesh_desc.
-inline returns<vox_mesh_desc> describe(const borrowed_points& positions, const borrowed_tets& tets = {}) {
-    vox_mesh_desc desc;
-    const vox_result result = detail::describe(positions, tets, desc);
-    return detail::give(result, desc);
+inline vox_mesh_desc describe(const borrowed_points& positions, const borrowed_tets& tets = {}) {
+    return detail::desc_of(positions, tets);
 }
 
 // ---- callables ----------------------------------------------------------------------------------
@@ -885,7 +576,6 @@ struct settings {
 
 } // namespace detail
 
-#if defined(__cpp_lib_memory_resource)
 // vox_allocator over a memory resource, which must live as long as the allocator is used.
 inline vox_allocator allocator_of(std::pmr::memory_resource& memory) noexcept {
     return {[](std::size_t size, std::size_t alignment, void* user) -> void* {
@@ -899,32 +589,16 @@ inline vox_allocator allocator_of(std::pmr::memory_resource& memory) noexcept {
             },
             &memory};
 }
-#endif
 
 // ---- grid ---------------------------------------------------------------------------------------
 
 namespace detail {
 
-inline watched watch_of(vox_grid* grid) {
-#if VOX_HPP_CHECKED
-    return std::make_shared<watch>(grid);
-#else
-    return (void)grid, watched();
-#endif
-}
-
 // What ends with a grid.
 struct grid_deleter {
     bool owned = true;
     std::unique_ptr<callbacks> kept;
-    watched watching{};
     void operator()(vox_grid* grid) noexcept {
-#if VOX_HPP_CHECKED
-        if (watching) {
-            watching->grid = nullptr;
-            watching->destroyed = owned;
-        }
-#endif
         if (owned) vox_grid_destroy(grid);
     }
 };
@@ -934,20 +608,13 @@ struct grid_deleter {
 // vox_grid. Move-only; its destructor is vox_grid_destroy. One that was moved from is null: calls fail.
 class grid {
 public:
-#if VOX_HPP_THROWS
-    grid() : grid(create()) {}
-    explicit grid(const vox_grid_desc& desc, log_function log = {}, parallel_for tasks = {})
-        : grid(create(desc, std::move(log), std::move(tasks))) {}
-#endif
     // vox_grid_create; a log or a parallel_for replaces that of the desc.
-    static returns<grid> create(const vox_grid_desc& desc = vox_default_grid_desc(), log_function log = {},
-                                parallel_for tasks = {}) {
-        return made(detail::settings(desc, std::move(log), std::move(tasks)),
-                    [](const vox_grid_desc* with, vox_grid** out) { return vox_grid_create(with, out); });
-    }
+    grid() : grid(vox_default_grid_desc()) {}
+    explicit grid(const vox_grid_desc& desc, log_function log = {}, parallel_for tasks = {})
+        : grid(made(detail::settings(desc, std::move(log), std::move(tasks)), vox_grid_create)) {}
     // vox_grid_load
-    static returns<grid> load(span<const std::byte> bytes, const vox_grid_desc& desc = vox_default_grid_desc(),
-                              log_function log = {}, parallel_for tasks = {}) {
+    static grid load(span<const std::byte> bytes, const vox_grid_desc& desc = vox_default_grid_desc(),
+                     log_function log = {}, parallel_for tasks = {}) {
         return made(detail::settings(desc, std::move(log), std::move(tasks)),
                     [&](const vox_grid_desc* with, vox_grid** out) {
                         return vox_grid_load(bytes.data(), bytes.size(), with, out);
@@ -956,263 +623,222 @@ public:
     // Takes over a grid made in C, to destroy it; with borrow() it stays its owner's, who keeps it alive.
     static grid adopt(vox_grid* raw) { return grid(raw, true); }
     static grid borrow(vox_grid* raw) { return grid(raw, false); }
-    // For calls in C. The grid keeps its owner. What a parallel_for throws in such a call comes out of the next one here;
-    // until then it runs nothing.
+    // For calls in C. The grid keeps its owner. What a parallel_for throws in such a call comes out of the next one
+    // here; until then it runs nothing.
     vox_grid* get() noexcept { return grid_.get(); }
     const vox_grid* get() const noexcept { return grid_.get(); }
 
     // vox_grid_clear
-    returns<void> clear() {
-        return detail::give(noted(vox_grid_clear(get()), [](auto& watch) { watch.rebound.clear(); }));
-    }
+    void clear() { detail::check(vox_grid_clear(get())); }
     // vox_grid_reserve
-    returns<void> reserve(std::uint32_t mesh_count, std::uint64_t contact_count) {
-        return detail::give(vox_grid_reserve(get(), mesh_count, contact_count));
+    void reserve(std::uint32_t mesh_count, std::uint64_t contact_count) {
+        detail::check(vox_grid_reserve(get(), mesh_count, contact_count));
     }
     // vox_grid_set_cell_size
-    returns<void> set_cell_size(double size) { return detail::give(vox_grid_set_cell_size(get(), size)); }
+    void set_cell_size(double size) { detail::check(vox_grid_set_cell_size(get(), size)); }
     // vox_grid_get_info
-    returns<vox_grid_info> info() const { return detail::filled<vox_grid_info>(vox_grid_get_info, get()); }
+    vox_grid_info info() const { return detail::filled<vox_grid_info>(vox_grid_get_info, get()); }
     // vox_grid_set_margin
-    returns<void> set_margin(double margin) { return detail::give(vox_grid_set_margin(get(), margin)); }
+    void set_margin(double margin) { detail::check(vox_grid_set_margin(get(), margin)); }
     // vox_grid_set_worker_count
-    returns<void> set_worker_count(std::uint32_t count) {
-        return detail::give(vox_grid_set_worker_count(get(), count));
-    }
+    void set_worker_count(std::uint32_t count) { detail::check(vox_grid_set_worker_count(get(), count)); }
     // vox_grid_set_flags
-    returns<void> set_flags(std::uint32_t flags) { return detail::give(vox_grid_set_flags(get(), flags)); }
+    void set_flags(std::uint32_t flags) { detail::check(vox_grid_set_flags(get(), flags)); }
 
     // -- meshes
 
     // vox_mesh_insert. The positions are borrowed, the tetrahedra copied; describe() is for all else a mesh can have.
-    returns<vox_body> insert(const borrowed_points& positions, const tets& tets = {}, std::uint64_t user_data = 0) {
+    vox_body insert(const borrowed_points& positions, const tets& tets = {}, std::uint64_t user_data = 0) {
         return insert_with(0, positions, tets, user_data);
     }
     // The same with VOX_MESH_COPY_POSITIONS.
-    returns<vox_body> insert_copy(const points& positions, const tets& tets = {}, std::uint64_t user_data = 0) {
+    vox_body insert_copy(const points& positions, const tets& tets = {}, std::uint64_t user_data = 0) {
         return insert_with(VOX_MESH_COPY_POSITIONS, positions, tets, user_data);
     }
     // vox_mesh_insert
-    returns<vox_body> insert(const vox_mesh_desc& desc) {
-        return detail::filled<vox_body>(vox_mesh_insert, get(), &desc);
-    }
+    vox_body insert(const vox_mesh_desc& desc) { return detail::filled<vox_body>(vox_mesh_insert, get(), &desc); }
     // vox_body_remove
-    returns<void> remove(vox_body mesh) {
-        return detail::give(noted(vox_body_remove(get(), mesh), [&](auto& watch) { watch.rebound.erase(mesh); }));
-    }
+    void remove(vox_body mesh) { detail::check(vox_body_remove(get(), mesh)); }
     // vox_body_is_valid
     bool contains(vox_body mesh) const noexcept { return vox_body_is_valid(get(), mesh) == 1; }
     // vox_grid_get_bodies
-    returns<std::vector<vox_body>> meshes() const { return detail::collect<vox_body>(16, vox_grid_get_bodies, get()); }
+    std::vector<vox_body> meshes() const { return detail::collect<vox_body>(16, vox_grid_get_bodies, get()); }
     // vox_body_get_info
-    returns<vox_body_info> info(vox_body mesh) const {
-        return detail::filled<vox_body_info>(vox_body_get_info, get(), mesh);
-    }
+    vox_body_info info(vox_body mesh) const { return detail::filled<vox_body_info>(vox_body_get_info, get(), mesh); }
     // vox_body_get_user_data
-    returns<std::uint64_t> user_data(vox_body mesh) const {
+    std::uint64_t user_data(vox_body mesh) const {
         return detail::filled<std::uint64_t>(vox_body_get_user_data, get(), mesh);
     }
     // vox_mesh_get_tets: corners, and whether each is enabled.
-    returns<std::vector<std::array<std::uint32_t, 4>>> tets_of(vox_body mesh) const {
+    std::vector<std::array<std::uint32_t, 4>> tets_of(vox_body mesh) const {
         using corners = std::array<std::uint32_t, 4>;
         return detail::collect<corners>(0, [&](corners* out, std::uint64_t room, std::uint64_t* count) {
             return vox_mesh_get_tets(get(), mesh, reinterpret_cast<std::uint32_t*>(out), nullptr, room, count);
         });
     }
-    returns<std::vector<std::uint8_t>> tets_enabled(vox_body mesh) const {
+    std::vector<std::uint8_t> tets_enabled(vox_body mesh) const {
         return detail::collect<std::uint8_t>(0, vox_mesh_get_tets, get(), mesh, nullptr);
     }
     // vox_mesh_bind_positions
-    returns<void> bind(vox_body mesh, const borrowed_points& positions) {
-        vox_result result = positions.misfit.result();
-        if (result == VOX_OK) result = vox_mesh_bind_positions(get(), mesh, &positions);
-        return detail::give(rebound(mesh, result));
+    void bind(vox_body mesh, const borrowed_points& positions) {
+        detail::check(vox_mesh_bind_positions(get(), mesh, &positions));
     }
     // vox_mesh_bind_previous_positions
-    returns<void> bind_previous(vox_body mesh, const borrowed_points& positions) {
-        vox_result result = positions.misfit.result();
-        if (result == VOX_OK) result = vox_mesh_bind_previous_positions(get(), mesh, &positions);
-        return detail::give(result);
+    void bind_previous(vox_body mesh, const borrowed_points& positions) {
+        detail::check(vox_mesh_bind_previous_positions(get(), mesh, &positions));
     }
     // The mesh stands still from now on.
-    returns<void> end_previous(vox_body mesh) {
-        return detail::give(vox_mesh_bind_previous_positions(get(), mesh, nullptr));
-    }
+    void end_previous(vox_body mesh) { detail::check(vox_mesh_bind_previous_positions(get(), mesh, nullptr)); }
     // vox_mesh_map_positions: float or double, as the mesh has them. The view ends with them.
     template <class T>
-    returns<view<std::array<T, 3>>> map_positions(vox_body mesh) & {
-        vox_body_info info = detail::sized<vox_body_info>();
+    view<std::array<T, 3>> map_positions(vox_body mesh) & {
+        const vox_positions of = positions_of<T>(mesh);
         void* at = nullptr;
-        vox_result result = vox_body_get_info(get(), mesh, &info);
-        if (result == VOX_OK) result = same_format<T>(mesh, info);
-        if (result == VOX_OK) result = vox_mesh_map_positions(get(), mesh, &at);
-        if (at != info.positions.data) (void)rebound(mesh, result);
-        return detail::give(result,
-                            view<std::array<T, 3>>(static_cast<std::array<T, 3>*>(at), sizeof(std::array<T, 3>),
-                                                   static_cast<std::size_t>(info.positions.count), 0,
-                                                   watching(0, detail::lasts::mapping, mesh)));
+        detail::check(vox_mesh_map_positions(get(), mesh, &at));
+        return {static_cast<std::array<T, 3>*>(at), sizeof(std::array<T, 3>), static_cast<std::size_t>(of.count)};
     }
     template <class T>
-    returns<view<std::array<T, 3>>> map_positions(vox_body mesh) && = delete;
+    view<std::array<T, 3>> map_positions(vox_body mesh) && = delete;
     // vox_body_info.positions, to read; UNSUPPORTED for columns.
     template <class T>
-    returns<view<const std::array<T, 3>>> positions(vox_body mesh) const& {
-        vox_body_info info = detail::sized<vox_body_info>();
-        vox_result result = vox_body_get_info(get(), mesh, &info);
-        if (result == VOX_OK) result = same_format<T>(mesh, info);
-        const vox_positions& of = info.positions;
-        if (result == VOX_OK && of.data && of.component_byte_stride != sizeof(T))
-            result = detail::fail(VOX_ERROR_UNSUPPORTED, "positions of mesh %llu: their numbers are %llu bytes apart",
-                                  mesh, of.component_byte_stride);
-        return detail::give(result, view<const std::array<T, 3>>(static_cast<const std::array<T, 3>*>(of.data),
-                                                                 static_cast<std::size_t>(of.byte_stride),
-                                                                 of.data ? static_cast<std::size_t>(of.count) : 0, 0,
-                                                                 watching(0, detail::lasts::mapping, mesh)));
+    view<const std::array<T, 3>> positions(vox_body mesh) const& {
+        const vox_positions of = positions_of<T>(mesh);
+        if (of.data && of.component_byte_stride != sizeof(T))
+            detail::refuse(VOX_ERROR_UNSUPPORTED, "positions of mesh %llu: their numbers are %llu bytes apart", mesh,
+                           of.component_byte_stride);
+        return {static_cast<const std::array<T, 3>*>(of.data), static_cast<std::size_t>(of.byte_stride),
+                of.data ? static_cast<std::size_t>(of.count) : 0};
     }
     template <class T>
-    returns<view<const std::array<T, 3>>> positions(vox_body mesh) const&& = delete;
+    view<const std::array<T, 3>> positions(vox_body mesh) const&& = delete;
     // vox_body_mark_moved
-    returns<void> mark_moved(vox_body mesh) { return detail::give(vox_body_mark_moved(get(), mesh)); }
+    void mark_moved(vox_body mesh) { detail::check(vox_body_mark_moved(get(), mesh)); }
     // vox_body_set_filter
-    returns<void> set_filter(vox_body mesh, const vox_filter& filter) {
-        return detail::give(vox_body_set_filter(get(), mesh, &filter));
+    void set_filter(vox_body mesh, const vox_filter& filter) {
+        detail::check(vox_body_set_filter(get(), mesh, &filter));
     }
     // vox_body_set_enabled
-    returns<void> set_enabled(vox_body mesh, bool enabled) {
-        return detail::give(vox_body_set_enabled(get(), mesh, enabled));
-    }
+    void set_enabled(vox_body mesh, bool enabled) { detail::check(vox_body_set_enabled(get(), mesh, enabled)); }
     // vox_grid_set_pair_enabled
-    returns<void> set_pair_enabled(vox_body a, vox_body b, bool enabled) {
-        return detail::give(vox_grid_set_pair_enabled(get(), a, b, enabled));
+    void set_pair_enabled(vox_body a, vox_body b, bool enabled) {
+        detail::check(vox_grid_set_pair_enabled(get(), a, b, enabled));
     }
     // vox_body_set_transform: twelve numbers row by row, or a matrix of at least 3 x 4 that is read as m(row, column).
-    returns<void> set_transform(vox_body mesh, const double (&rows)[12]) {
-        return detail::give(vox_body_set_transform(get(), mesh, rows));
+    void set_transform(vox_body mesh, const double (&rows)[12]) {
+        detail::check(vox_body_set_transform(get(), mesh, rows));
     }
-    returns<void> set_transform(vox_body mesh, const std::array<double, 12>& rows) {
-        return detail::give(vox_body_set_transform(get(), mesh, rows.data()));
+    void set_transform(vox_body mesh, const std::array<double, 12>& rows) {
+        detail::check(vox_body_set_transform(get(), mesh, rows.data()));
     }
     template <class M, class = decltype(static_cast<double>(std::declval<const M&>()(0, 0)))>
-    returns<void> set_transform(vox_body mesh, const M& matrix) {
+    void set_transform(vox_body mesh, const M& matrix) {
         double rows[12];
         for (int i = 0; i < 12; ++i) rows[i] = static_cast<double>(matrix(i / 4, i % 4));
         return set_transform(mesh, rows);
     }
-    returns<void> clear_transform(vox_body mesh) { return detail::give(vox_body_set_transform(get(), mesh, nullptr)); }
+    void clear_transform(vox_body mesh) { detail::check(vox_body_set_transform(get(), mesh, nullptr)); }
 
     // -- cutting and growing
 
     // vox_mesh_set_topology
-    returns<void> set_topology(vox_body mesh, const vox_mesh_desc& desc) {
-        return detail::give(rebound(mesh, vox_mesh_set_topology(get(), mesh, &desc)));
+    void set_topology(vox_body mesh, const vox_mesh_desc& desc) {
+        detail::check(vox_mesh_set_topology(get(), mesh, &desc));
     }
-    returns<void> set_topology(vox_body mesh, const borrowed_points& positions, const tets& tets) {
-        vox_mesh_desc desc;
-        vox_result result = detail::describe(positions, tets, desc);
-        if (result == VOX_OK) result = rebound(mesh, vox_mesh_set_topology(get(), mesh, &desc));
-        return detail::give(result);
+    void set_topology(vox_body mesh, const borrowed_points& positions, const tets& tets) {
+        set_topology(mesh, detail::desc_of(positions, tets));
     }
     // vox_mesh_set_tets_enabled
-    returns<void> set_tets_enabled(vox_body mesh, span<const std::uint32_t> indices, bool enabled) {
-        return detail::give(vox_mesh_set_tets_enabled(get(), mesh, indices.data(), indices.size(), enabled));
+    void set_tets_enabled(vox_body mesh, span<const std::uint32_t> indices, bool enabled) {
+        detail::check(vox_mesh_set_tets_enabled(get(), mesh, indices.data(), indices.size(), enabled));
     }
     // vox_mesh_replace_tets
-    returns<void> replace_tets(vox_body mesh, span<const std::uint32_t> indices, const tets& corners) {
-        vox_result result = corners.misfit.result();
-        if (result == VOX_OK && corners.count != indices.size())
-            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "replace_tets: %llu tets to replace, by %llu",
-                                  indices.size(), corners.count);
-        if (result == VOX_OK) result = vox_mesh_replace_tets(get(), mesh, indices.data(), indices.size(), corners.data);
-        return detail::give(result);
+    void replace_tets(vox_body mesh, span<const std::uint32_t> indices, const tets& corners) {
+        if (corners.count != indices.size())
+            detail::refuse("replace_tets: %llu tets to replace, by %llu", indices.size(), corners.count);
+        detail::check(vox_mesh_replace_tets(get(), mesh, indices.data(), indices.size(), corners.data));
     }
     // vox_mesh_append_tets
-    returns<std::uint32_t> append_tets(vox_body mesh, const tets& corners) {
+    std::uint32_t append_tets(vox_body mesh, const tets& corners) {
         std::uint32_t first = 0;
-        vox_result result = corners.misfit.result();
-        if (result == VOX_OK) result = vox_mesh_append_tets(get(), mesh, corners.data, corners.count, &first);
-        return detail::give(result, first);
+        detail::check(vox_mesh_append_tets(get(), mesh, corners.data, corners.count, &first));
+        return first;
     }
     // vox_mesh_remove_tets
-    returns<void> remove_tets(vox_body mesh, span<const std::uint32_t> indices) {
-        return detail::give(vox_mesh_remove_tets(get(), mesh, indices.data(), indices.size()));
+    void remove_tets(vox_body mesh, span<const std::uint32_t> indices) {
+        detail::check(vox_mesh_remove_tets(get(), mesh, indices.data(), indices.size()));
     }
     // vox_mesh_append_vertices
-    returns<std::uint32_t> append_vertices(vox_body mesh, const vox_vertices_desc& desc) {
+    std::uint32_t append_vertices(vox_body mesh, const vox_vertices_desc& desc) {
         std::uint32_t first = 0;
-        const vox_result result = rebound(mesh, vox_mesh_append_vertices(get(), mesh, &desc, &first));
-        return detail::give(result, first);
+        detail::check(vox_mesh_append_vertices(get(), mesh, &desc, &first));
+        return first;
     }
     // The same for `count` vertices.
-    returns<std::uint32_t> append_vertices(vox_body mesh, std::uint64_t count, const borrowed_points& positions,
-                                           span<const std::uint32_t> copies_of = {}) {
-        vox_result result = positions.misfit.result();
-        if (result == VOX_OK && !copies_of.empty() && copies_of.size() != count)
-            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "append_vertices: %llu vertices, copies of %llu", count,
-                                  copies_of.size());
+    std::uint32_t append_vertices(vox_body mesh, std::uint64_t count, const borrowed_points& positions,
+                                  span<const std::uint32_t> copies_of = {}) {
+        if (!copies_of.empty() && copies_of.size() != count)
+            detail::refuse("append_vertices: %llu vertices, copies of %llu", count, copies_of.size());
         vox_vertices_desc desc = vox_default_vertices_desc();
         desc.count = count;
         desc.positions = positions;
         desc.copies_of = copies_of.empty() ? nullptr : copies_of.data();
-        if (result != VOX_OK) return detail::give(result, std::uint32_t{0});
         return append_vertices(mesh, desc);
     }
     // vox_mesh_remove_vertices
-    returns<void> remove_vertices(vox_body mesh, span<const std::uint32_t> vertices) {
-        return detail::give(vox_mesh_remove_vertices(get(), mesh, vertices.data(), vertices.size()));
+    void remove_vertices(vox_body mesh, span<const std::uint32_t> vertices) {
+        detail::check(vox_mesh_remove_vertices(get(), mesh, vertices.data(), vertices.size()));
     }
 
     // -- step and results
 
     // vox_grid_step
-    returns<void> step() { return done(vox_grid_step(get())); }
+    void step() { return done(vox_grid_step(get())); }
     // vox_grid_get_failure
-    returns<vox_failure> failure(std::uint32_t index = 0) const {
+    vox_failure failure(std::uint32_t index = 0) const {
         return detail::filled<vox_failure>(vox_grid_get_failure, get(), index);
     }
     // vox_grid_get_contacts
-    returns<view<const vox_contact>> contacts() const& { return read(vox_grid_get_contacts); }
+    view<const vox_contact> contacts() const& { return read(vox_grid_get_contacts); }
     // vox_grid_contact_interiors
-    returns<view<const std::uint8_t>> interiors() const& { return read(vox_grid_contact_interiors); }
+    view<const std::uint8_t> interiors() const& { return read(vox_grid_contact_interiors); }
     // vox_grid_penetrations
-    returns<view<const vox_penetration>> penetrations() const& { return read(vox_grid_penetrations); }
+    view<const vox_penetration> penetrations() const& { return read(vox_grid_penetrations); }
     // vox_grid_depths
-    returns<view<const vox_depth>> depths() const& { return read(vox_grid_depths); }
+    view<const vox_depth> depths() const& { return read(vox_grid_depths); }
     // vox_grid_edge_contacts
-    returns<view<const vox_edge_contact>> edge_contacts() const& { return read(vox_grid_edge_contacts); }
+    view<const vox_edge_contact> edge_contacts() const& { return read(vox_grid_edge_contacts); }
     // vox_grid_edge_hash
-    returns<std::uint64_t> edge_hash() const { return detail::filled<std::uint64_t>(vox_grid_edge_hash, get()); }
+    std::uint64_t edge_hash() const { return detail::filled<std::uint64_t>(vox_grid_edge_hash, get()); }
     // vox_grid_prepare_edge_depths
-    returns<void> prepare_edge_depths() { return detail::give(vox_grid_prepare_edge_depths(get())); }
+    void prepare_edge_depths() { detail::check(vox_grid_prepare_edge_depths(get())); }
     // vox_grid_edge_depths
-    returns<view<const vox_depth>> edge_depths() const& { return read(vox_grid_edge_depths); }
+    view<const vox_depth> edge_depths() const& { return read(vox_grid_edge_depths); }
     // vox_grid_margin_contacts
-    returns<view<const vox_margin_contact>> margin_contacts() const& { return read(vox_grid_margin_contacts); }
+    view<const vox_margin_contact> margin_contacts() const& { return read(vox_grid_margin_contacts); }
     // vox_grid_passages
-    returns<view<const vox_passage>> passages() const& { return read(vox_grid_passages); }
+    view<const vox_passage> passages() const& { return read(vox_grid_passages); }
     // vox_grid_get_pairs
-    returns<pair_view> pairs() const& {
+    pair_view pairs() const& {
         vox_pair_view view{};
-        const vox_result result = vox_grid_get_pairs(get(), &view);
-        return detail::give(result, pair_view(viewed(view), view.contacts));
+        detail::check(vox_grid_get_pairs(get(), &view));
+        return pair_view(viewed(view), view.contacts);
     }
     // vox_grid_touch_events
-    returns<event_view<vox_touch_event>> touch_events() const& {
+    event_view<vox_touch_event> touch_events() const& {
         vox_touch_view view{};
-        const vox_result result = vox_grid_touch_events(get(), &view);
-        return detail::give(result, event_view<vox_touch_event>(viewed(view), view.began, view.persisted));
+        detail::check(vox_grid_touch_events(get(), &view));
+        return event_view<vox_touch_event>(viewed(view), view.began, view.persisted);
     }
     // vox_grid_contact_events
-    returns<event_view<vox_contact_event>> contact_events() const& {
+    event_view<vox_contact_event> contact_events() const& {
         vox_contact_event_view view{};
-        const vox_result result = vox_grid_contact_events(get(), &view);
-        return detail::give(result, event_view<vox_contact_event>(viewed(view), view.began, 0));
+        detail::check(vox_grid_contact_events(get(), &view));
+        return event_view<vox_contact_event>(viewed(view), view.began, 0);
     }
     // vox_grid_readings
-    returns<view<const vox_reading>> readings() const& { return read(vox_grid_readings, detail::lasts::readings); }
+    view<const vox_reading> readings() const& { return read(vox_grid_readings); }
     // vox_grid_reading_depths
-    returns<view<const vox_depth>> reading_depths() const& {
-        return read(vox_grid_reading_depths, detail::lasts::readings);
-    }
+    view<const vox_depth> reading_depths() const& { return read(vox_grid_reading_depths); }
     // A temporary grid has no results to look at.
     void contacts() const&& = delete;
     void interiors() const&& = delete;
@@ -1229,112 +855,86 @@ public:
     void reading_depths() const&& = delete;
 
     // vox_grid_get_hash
-    returns<std::uint64_t> hash() const { return detail::filled<std::uint64_t>(vox_grid_get_hash, get()); }
+    std::uint64_t hash() const { return detail::filled<std::uint64_t>(vox_grid_get_hash, get()); }
     // vox_mesh_copy_contacts, vox_pair_copy_contacts
-    returns<std::vector<vox_contact>> contacts_of(vox_body mesh) const {
+    std::vector<vox_contact> contacts_of(vox_body mesh) const {
         return detail::collect<vox_contact>(16, vox_mesh_copy_contacts, get(), mesh);
     }
-    returns<std::vector<vox_contact>> contacts_of(vox_body a, vox_body b) const {
+    std::vector<vox_contact> contacts_of(vox_body a, vox_body b) const {
         return detail::collect<vox_contact>(16, vox_pair_copy_contacts, get(), a, b);
     }
     // vox_grid_prepare_readings, vox_grid_prepare_readings_of
-    returns<void> prepare_readings() { return prepared(vox_grid_prepare_readings(get())); }
-    returns<void> prepare_readings(const vox_readings_desc& desc) {
-        return prepared(vox_grid_prepare_readings_of(get(), &desc));
-    }
+    void prepare_readings() { return done(vox_grid_prepare_readings(get())); }
+    void prepare_readings(const vox_readings_desc& desc) { return done(vox_grid_prepare_readings_of(get(), &desc)); }
     // vox_mesh_copy_readings, vox_pair_copy_readings
-    returns<std::vector<vox_reading>> readings_of(vox_body mesh) const {
+    std::vector<vox_reading> readings_of(vox_body mesh) const {
         return detail::collect<vox_reading>(16, vox_mesh_copy_readings, get(), mesh);
     }
-    returns<std::vector<vox_reading>> readings_of(vox_body a, vox_body b) const {
+    std::vector<vox_reading> readings_of(vox_body a, vox_body b) const {
         return detail::collect<vox_reading>(16, vox_pair_copy_readings, get(), a, b);
     }
     // vox_grid_save
-    returns<std::vector<std::byte>> save() const {
+    std::vector<std::byte> save() const {
         std::uint64_t size = 0;
-        vox_result result = vox_grid_save(get(), nullptr, 0, &size);
+        detail::check(vox_grid_save(get(), nullptr, 0, &size));
         std::vector<std::byte> bytes(static_cast<std::size_t>(size));
-        if (result == VOX_OK) result = vox_grid_save(get(), bytes.data(), bytes.size(), &size);
-        return detail::give(result, std::move(bytes));
+        detail::check(vox_grid_save(get(), bytes.data(), bytes.size(), &size));
+        return bytes;
     }
     // vox_grid_get_counters
-    returns<vox_counters> counters() const { return detail::filled<vox_counters>(vox_grid_get_counters, get()); }
+    vox_counters counters() const { return detail::filled<vox_counters>(vox_grid_get_counters, get()); }
     // vox_grid_profile
-    returns<vox_profile> profile() const { return detail::filled<vox_profile>(vox_grid_profile, get()); }
+    vox_profile profile() const { return detail::filled<vox_profile>(vox_grid_profile, get()); }
 
 private:
-    friend class unique_mesh;
     friend class locator; // vox_query.hpp
-    friend returns<void> step(span<grid> grids, std::uint32_t worker_count, span<vox_result> results,
-                              parallel_for tasks);
+    friend void step(span<grid> grids, std::uint32_t worker_count, span<vox_result> results, parallel_for tasks);
 
     grid(vox_grid* raw, bool owned, std::unique_ptr<detail::callbacks> kept = nullptr)
-        : grid_(raw, detail::grid_deleter{owned, std::move(kept), detail::watch_of(raw)}) {}
+        : grid_(raw, detail::grid_deleter{owned, std::move(kept)}) {}
 
     template <class F>
-    static returns<grid> made(detail::settings&& with, F&& call) {
+    static grid made(detail::settings&& with, F&& call) {
         grid made(nullptr, true, std::move(with.kept));
         vox_grid* raw = nullptr;
         const vox_result result = call(&with.desc, &raw);
         made.grid_.reset(raw);
-#if VOX_HPP_CHECKED
-        made.grid_.get_deleter().watching->grid = raw;
-#endif
-        return detail::give(result, std::move(made));
-    }
-    detail::guard watching(std::uint64_t epoch, detail::lasts until, vox_body mesh = VOX_NULL_BODY) const {
-        return detail::guard(grid_.get_deleter().watching, epoch, until, mesh);
+        detail::check(result);
+        return made;
     }
     template <class V>
     using view_of = view<std::remove_pointer_t<decltype(V::data)>>;
     template <class V>
-    view_of<V> viewed(const V& v, detail::lasts until = detail::lasts::step) const {
-        return {v.data, v.byte_stride, static_cast<std::size_t>(v.count), v.epoch, watching(v.epoch, until)};
+    view_of<V> viewed(const V& v) const {
+        return {v.data, v.byte_stride, static_cast<std::size_t>(v.count), v.epoch};
     }
     template <class V>
-    returns<view_of<V>> read(vox_result (*results)(const vox_grid*, V*),
-                             detail::lasts until = detail::lasts::step) const {
+    view_of<V> read(vox_result (*results)(const vox_grid*, V*)) const {
         V v{};
-        const vox_result result = results(get(), &v);
-        return detail::give(result, viewed(v, until));
+        detail::check(results(get(), &v));
+        return viewed(v);
     }
     // After calls that run the task system.
     void rethrow() {
         if (const auto& kept = grid_.get_deleter().kept) kept->caught.rethrow();
     }
-    returns<void> done(vox_result result) {
+    void done(vox_result result) {
         rethrow();
-        return detail::give(result);
-    }
-    // In a checked build, notes for views what a call that has succeeded has ended.
-    template <class F>
-    vox_result noted(vox_result result, [[maybe_unused]] F&& note) {
-#if VOX_HPP_CHECKED
-        if (const auto& watching = grid_.get_deleter().watching; watching && result == VOX_OK) note(*watching);
-#endif
-        return result;
-    }
-    returns<void> prepared(vox_result result) {
-        return done(noted(result, [](auto& watch) { ++watch.prepared; }));
-    }
-    vox_result rebound(vox_body mesh, vox_result result) {
-        return noted(result, [&](auto& watch) { ++watch.rebound[mesh]; });
+        detail::check(result);
     }
     template <class T>
-    static vox_result same_format(vox_body mesh, const vox_body_info& info) {
+    vox_positions positions_of(vox_body mesh) const {
         static_assert(std::is_same_v<T, float> || std::is_same_v<T, double>);
-        if (info.positions.format == (std::is_same_v<T, double> ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT)) return VOX_OK;
-        return detail::fail(VOX_ERROR_INVALID_ARGUMENT,
-                            "positions of mesh %llu are of format %llu, not numbers of %llu bytes", mesh,
-                            info.positions.format, sizeof(T));
+        const vox_positions of = info(mesh).positions;
+        if (of.format != (std::is_same_v<T, double> ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT))
+            detail::refuse("positions of mesh %llu are of format %llu, not numbers of %llu bytes", mesh, of.format,
+                           sizeof(T));
+        return of;
     }
-    returns<vox_body> insert_with(std::uint32_t flags, const points& positions, const tets& tets,
-                                  std::uint64_t user_data) {
-        vox_mesh_desc desc;
-        const vox_result result = detail::describe(positions, tets, desc);
+    vox_body insert_with(std::uint32_t flags, const points& positions, const tets& tets, std::uint64_t user_data) {
+        vox_mesh_desc desc = detail::desc_of(positions, tets);
         desc.flags = flags;
         desc.user_data = user_data;
-        if (result != VOX_OK) return detail::give(result, vox_body{VOX_NULL_BODY});
         return insert(desc);
     }
 
@@ -1345,17 +945,14 @@ private:
 class unique_mesh {
 public:
     unique_mesh() noexcept = default;
-    unique_mesh(grid& grid, vox_body mesh)
-        : grid_(grid.get()), mesh_(mesh), watching_(grid.grid_.get_deleter().watching) {}
+    unique_mesh(grid& grid, vox_body mesh) : grid_(grid.get()), mesh_(mesh) {}
     unique_mesh(grid&& grid, vox_body mesh) = delete;
-    unique_mesh(unique_mesh&& other) noexcept
-        : grid_(other.grid_), mesh_(other.release()), watching_(std::move(other.watching_)) {}
+    unique_mesh(unique_mesh&& other) noexcept : grid_(other.grid_), mesh_(other.release()) {}
     unique_mesh& operator=(unique_mesh&& other) noexcept {
         if (this == &other) return *this;
         reset();
         grid_ = other.grid_;
         mesh_ = other.release();
-        watching_ = std::move(other.watching_);
         return *this;
     }
     ~unique_mesh() { reset(); }
@@ -1363,31 +960,24 @@ public:
     vox_body release() noexcept { return std::exchange(mesh_, vox_body{VOX_NULL_BODY}); } // stays in the grid
     void reset() noexcept {
         const vox_body mesh = release();
-        if (mesh == VOX_NULL_BODY) return;
-#if VOX_HPP_CHECKED
-        if (!watching_ || watching_->destroyed) return; // with its grid
-        watching_->rebound.erase(mesh);
-#endif
-        (void)vox_body_remove(grid_, mesh); // may be gone already
+        if (mesh != VOX_NULL_BODY) (void)vox_body_remove(grid_, mesh); // may be gone already
     }
 
 private:
     vox_grid* grid_ = nullptr;
     vox_body mesh_ = VOX_NULL_BODY;
-    detail::watched watching_{};
 };
 
 // ---- many grids ---------------------------------------------------------------------------------
 
 // vox_grids_step. `results` is empty or has room for one a grid.
-inline returns<void> step(span<grid> grids, std::uint32_t worker_count = VOX_ALL_CORES, span<vox_result> results = {},
-                          parallel_for tasks = {}) {
+inline void step(span<grid> grids, std::uint32_t worker_count = VOX_ALL_CORES, span<vox_result> results = {},
+                 parallel_for tasks = {}) {
     std::vector<vox_grid*> raw;
     raw.reserve(grids.size());
     for (grid& one : grids) raw.push_back(one.get());
     if (!results.empty() && results.size() < raw.size())
-        return detail::give(detail::fail(VOX_ERROR_INVALID_ARGUMENT, "step: room for %llu results, of %llu grids",
-                                         results.size(), raw.size()));
+        detail::refuse("step: room for %llu results, of %llu grids", results.size(), raw.size());
     detail::callbacks own;
     own.tasks = std::move(tasks);
     const vox_result result = vox_grids_step(raw.data(), raw.size(), own.tasks ? &own.c_tasks : nullptr, worker_count,
@@ -1395,7 +985,7 @@ inline returns<void> step(span<grid> grids, std::uint32_t worker_count = VOX_ALL
     for (grid& one : grids)
         if (const auto& kept = one.grid_.get_deleter().kept) own.caught.take(kept->caught);
     own.caught.rethrow();
-    return detail::give(result);
+    detail::check(result);
 }
 
 // Contacts of several grids, one grid after the other.
@@ -1409,19 +999,17 @@ struct grouped_contacts {
 };
 
 // vox_grids_copy_contacts
-inline returns<grouped_contacts> copy_contacts(span<const grid> grids) {
+inline grouped_contacts copy_contacts(span<const grid> grids) {
     std::vector<const vox_grid*> raw;
     raw.reserve(grids.size());
     for (const grid& one : grids) raw.push_back(one.get());
     grouped_contacts all;
     all.offsets.resize(raw.size() + 1);
-    vox_result result = vox_grids_copy_contacts(raw.data(), raw.size(), nullptr, 0, all.offsets.data());
-    if (result == VOX_OK) {
-        all.contacts.resize(static_cast<std::size_t>(all.offsets.back()));
-        result = vox_grids_copy_contacts(raw.data(), raw.size(), all.contacts.data(), all.contacts.size(),
-                                         all.offsets.data());
-    }
-    return detail::give(result, std::move(all));
+    detail::check(vox_grids_copy_contacts(raw.data(), raw.size(), nullptr, 0, all.offsets.data()));
+    all.contacts.resize(static_cast<std::size_t>(all.offsets.back()));
+    detail::check(
+        vox_grids_copy_contacts(raw.data(), raw.size(), all.contacts.data(), all.contacts.size(), all.offsets.data()));
+    return all;
 }
 
 // ---- version ------------------------------------------------------------------------------------
@@ -1450,14 +1038,11 @@ auto eigen_map(const view<A>& elements) {
 }
 #endif
 
-} // namespace VOX_HPP_MODE
 } // namespace vox
 
-#if defined(__cpp_lib_ranges)
 template <class T>
 inline constexpr bool std::ranges::enable_borrowed_range<vox::view<T>> = true;
 template <class T>
 inline constexpr bool std::ranges::enable_view<vox::view<T>> = true;
-#endif
 
 #endif

@@ -1,4 +1,4 @@
-// vox_io.hpp: vox_io.h for C++17 and later, under the rules of vox.hpp. Every function here stands for the one of
+// vox_io.hpp: vox_io.h for C++20, under the rules of vox.hpp. Every function here stands for the one of
 // vox_io.h that its comment names.
 #ifndef VOX_VOX_IO_HPP
 #define VOX_VOX_IO_HPP
@@ -7,7 +7,6 @@
 #include <vox/vox_io.h>
 
 namespace vox {
-inline namespace VOX_HPP_MODE {
 namespace io {
 
 // vox_io_mesh. Move-only; its destructor is vox_io_mesh_destroy. One that was moved from is null: calls fail.
@@ -18,14 +17,14 @@ public:
     static mesh adopt(vox_io_mesh* raw) noexcept { return mesh(raw); }
     // The mesh that `call` makes in C.
     template <class F>
-    static returns<mesh> made(F&& call) {
+    static mesh made(F&& call) {
         vox_io_mesh* raw = nullptr;
-        const vox_result result = call(&raw);
-        return detail::give(result, mesh(raw));
+        detail::check(call(&raw));
+        return mesh(raw);
     }
     // The same under a desc with a callable for its progress. What that throws cancels the call.
     template <class D, class F, class C>
-    static returns<mesh> made(D desc, F& progress, C&& call) {
+    static mesh made(D desc, F& progress, C&& call) {
         using context = detail::called_back<F>;
         context with{progress};
         desc.progress = [](double fraction, void* user) -> std::int32_t {
@@ -39,12 +38,13 @@ public:
         const vox_result result = call(desc, &raw);
         mesh made(raw);
         with.caught.rethrow();
-        return detail::give(result, std::move(made));
+        detail::check(result);
+        return made;
     }
     const vox_io_mesh* get() const noexcept { return mesh_.get(); }
 
     // vox_io_mesh_get_arrays. The spans live as long as the mesh.
-    returns<vox_io_mesh_view> view() const& { return detail::filled<vox_io_mesh_view>(vox_io_mesh_get_arrays, get()); }
+    vox_io_mesh_view view() const& { return detail::filled<vox_io_mesh_view>(vox_io_mesh_get_arrays, get()); }
     void view() const&& = delete;
     // Three numbers a vertex, four corners a tetrahedron, three a triangle; empty for a null mesh.
     span<const double> positions() const& noexcept {
@@ -63,30 +63,31 @@ public:
     void tets() const&& = delete;
     void triangles() const&& = delete;
     // vox_io_mesh_describe over the defaults, for grid::insert: borrows the mesh.
-    returns<vox_mesh_desc> desc() const& {
+    vox_mesh_desc desc() const& {
         vox_mesh_desc desc = vox_default_mesh_desc();
-        const vox_result result = vox_io_mesh_describe(get(), &desc);
-        return detail::give(result, desc);
+        detail::check(vox_io_mesh_describe(get(), &desc));
+        return desc;
     }
     void desc() const&& = delete;
     // vox_io_mesh_get_report
-    returns<vox_io_report> report() const { return detail::filled<vox_io_report>(vox_io_mesh_get_report, get()); }
+    vox_io_report report() const { return detail::filled<vox_io_report>(vox_io_mesh_get_report, get()); }
     // vox_io_mesh_get_warnings
     const char* warnings() const& noexcept { return vox_io_mesh_get_warnings(get()); }
     void warnings() const&& = delete;
     // vox_io_mesh_measure, beside a surface or by itself
-    returns<vox_io_quality> quality(const mesh& surface) const { return measured(surface.get()); }
-    returns<vox_io_quality> quality() const { return measured(nullptr); }
+    vox_io_quality quality(const mesh& surface) const { return measured(surface.get()); }
+    vox_io_quality quality() const { return measured(nullptr); }
     // vox_io_write
-    returns<void> write(const char* path, const vox_io_write_desc& desc = vox_default_io_write_desc()) const {
-        return detail::give(vox_io_write(get(), path, &desc));
+    void write(const char* path, const vox_io_write_desc& desc = vox_default_io_write_desc()) const {
+        return detail::check(vox_io_write(get(), path, &desc));
     }
-    returns<void> write(const std::string& path, const vox_io_write_desc& desc = vox_default_io_write_desc()) const {
+    void write(const std::string& path, const vox_io_write_desc& desc = vox_default_io_write_desc()) const {
         return write(path.c_str(), desc);
     }
     // vox_io_write_to: `sink` takes a span<const std::byte>. What it throws ends the writing.
-    template <class F, class = std::enable_if_t<std::is_invocable_v<F&, span<const std::byte>>>>
-    returns<void> write_to(F&& sink, const vox_io_write_desc& desc) const {
+    template <class F>
+    requires std::is_invocable_v<F&, span<const std::byte>>
+    void write_to(F&& sink, const vox_io_write_desc& desc) const {
         using context = detail::called_back<std::remove_reference_t<F>>;
         context with{sink};
         const vox_io_sink to = {[](const void* data, std::size_t size, void* user) -> std::int32_t {
@@ -97,7 +98,7 @@ public:
                                 &with};
         const vox_result result = vox_io_write_to(get(), &desc, &to);
         with.caught.rethrow();
-        return detail::give(result);
+        detail::check(result);
     }
 
 private:
@@ -110,7 +111,7 @@ private:
         if (mesh_) (void)vox_io_mesh_get_arrays(get(), &view);
         return view;
     }
-    returns<vox_io_quality> measured(const vox_io_mesh* surface) const {
+    vox_io_quality measured(const vox_io_mesh* surface) const {
         return detail::filled<vox_io_quality>(vox_io_mesh_measure, get(), surface);
     }
     std::unique_ptr<vox_io_mesh, deleter> mesh_;
@@ -122,26 +123,26 @@ inline vox_io_source source(const char* name, span<const std::byte> bytes) noexc
 }
 
 // vox_io_load
-inline returns<mesh> load(const char* path, const vox_io_load_desc& desc = vox_default_io_load_desc()) {
+inline mesh load(const char* path, const vox_io_load_desc& desc = vox_default_io_load_desc()) {
     return mesh::made([&](vox_io_mesh** out) { return vox_io_load(path, &desc, out); });
 }
-inline returns<mesh> load(const std::string& path, const vox_io_load_desc& desc = vox_default_io_load_desc()) {
+inline mesh load(const std::string& path, const vox_io_load_desc& desc = vox_default_io_load_desc()) {
     return load(path.c_str(), desc);
 }
 // The same with a callable for the progress: takes the fraction and returns whether to go on. What it throws cancels.
-template <class F, class = std::enable_if_t<std::is_invocable_r_v<bool, F&, double>>>
-returns<mesh> load(const std::string& path, const vox_io_load_desc& desc, F&& progress) {
+template <class F>
+requires std::is_invocable_r_v<bool, F&, double> mesh load(const std::string& path, const vox_io_load_desc& desc,
+                                                           F&& progress) {
     return mesh::made(desc, progress, [&](const vox_io_load_desc& with, vox_io_mesh** out) {
         return vox_io_load(path.c_str(), &with, out);
     });
 }
 // vox_io_read: one source, or both files of TetGen
-inline returns<mesh> read(span<const vox_io_source> sources, const vox_io_load_desc& desc = vox_default_io_load_desc()) {
+inline mesh read(span<const vox_io_source> sources, const vox_io_load_desc& desc = vox_default_io_load_desc()) {
     return mesh::made([&](vox_io_mesh** out) { return vox_io_read(sources.data(), sources.size(), &desc, out); });
 }
 // vox_io_mesh_create, of packed doubles and indices, three a triangle
-inline returns<mesh> create(span<const double> positions, const vox::tets& tets,
-                            span<const std::uint32_t> triangles = {}) {
+inline mesh create(span<const double> positions, const vox::tets& tets, span<const std::uint32_t> triangles = {}) {
     vox_io_mesh_view arrays{};
     arrays.positions = positions.data();
     arrays.vertex_count = positions.size() / 3;
@@ -149,21 +150,20 @@ inline returns<mesh> create(span<const double> positions, const vox::tets& tets,
     arrays.tet_count = tets.count;
     arrays.triangles = triangles.data();
     arrays.triangle_count = triangles.size() / 3;
-    vox_result result = tets.misfit.result();
-    if (result == VOX_OK && (positions.size() % 3 != 0 || triangles.size() % 3 != 0))
-        result = detail::fail(VOX_ERROR_INVALID_ARGUMENT,
-                              "create: %llu numbers of positions and %llu of triangles, not in threes",
-                              positions.size(), triangles.size());
-    return mesh::made([&](vox_io_mesh** out) { return result == VOX_OK ? vox_io_mesh_create(&arrays, out) : result; });
+    if (positions.size() % 3 != 0 || triangles.size() % 3 != 0)
+        detail::refuse("create: %llu numbers of positions and %llu of triangles, not in threes", positions.size(),
+                       triangles.size());
+    return mesh::made([&](vox_io_mesh** out) { return vox_io_mesh_create(&arrays, out); });
 }
 // vox_io_tetrahedralize
-inline returns<mesh> tetrahedralize(const mesh& surface,
-                                    const vox_io_tetrahedralize_desc& desc = vox_default_io_tetrahedralize_desc()) {
+inline mesh tetrahedralize(const mesh& surface,
+                           const vox_io_tetrahedralize_desc& desc = vox_default_io_tetrahedralize_desc()) {
     return mesh::made([&](vox_io_mesh** out) { return vox_io_tetrahedralize(surface.get(), &desc, out); });
 }
 // The same with a callable for the progress, as for load.
-template <class F, class = std::enable_if_t<std::is_invocable_r_v<bool, F&, double>>>
-returns<mesh> tetrahedralize(const mesh& surface, const vox_io_tetrahedralize_desc& desc, F&& progress) {
+template <class F>
+requires std::is_invocable_r_v<bool, F&, double>
+    mesh tetrahedralize(const mesh& surface, const vox_io_tetrahedralize_desc& desc, F&& progress) {
     return mesh::made(desc, progress, [&](const vox_io_tetrahedralize_desc& with, vox_io_mesh** out) {
         return vox_io_tetrahedralize(surface.get(), &with, out);
     });
@@ -173,27 +173,26 @@ returns<mesh> tetrahedralize(const mesh& surface, const vox_io_tetrahedralize_de
 inline const char* name_of(vox_io_format format) noexcept { return vox_io_format_string(format); }
 
 // vox_io_make_X
-inline returns<mesh> make_lattice_ball(std::uint64_t tet_count, double radius) {
+inline mesh make_lattice_ball(std::uint64_t tet_count, double radius) {
     return mesh::made([&](vox_io_mesh** out) { return vox_io_make_lattice_ball(tet_count, radius, out); });
 }
-inline returns<mesh> make_ball(double radius, double cell) {
+inline mesh make_ball(double radius, double cell) {
     return mesh::made([&](vox_io_mesh** out) { return vox_io_make_ball(radius, cell, out); });
 }
-inline returns<mesh> make_torus(double radius, double tube_radius, double cell) {
+inline mesh make_torus(double radius, double tube_radius, double cell) {
     return mesh::made([&](vox_io_mesh** out) { return vox_io_make_torus(radius, tube_radius, cell, out); });
 }
-inline returns<mesh> make_capsule(double radius, double length, double cell) {
+inline mesh make_capsule(double radius, double length, double cell) {
     return mesh::made([&](vox_io_mesh** out) { return vox_io_make_capsule(radius, length, cell, out); });
 }
-inline returns<mesh> make_cylinder(double radius, double length, double cell) {
+inline mesh make_cylinder(double radius, double length, double cell) {
     return mesh::made([&](vox_io_mesh** out) { return vox_io_make_cylinder(radius, length, cell, out); });
 }
-inline returns<mesh> make_box(double size_x, double size_y, double size_z, double cell) {
+inline mesh make_box(double size_x, double size_y, double size_z, double cell) {
     return mesh::made([&](vox_io_mesh** out) { return vox_io_make_box(size_x, size_y, size_z, cell, out); });
 }
 
 } // namespace io
-} // namespace VOX_HPP_MODE
 } // namespace vox
 
 #endif

@@ -1,4 +1,4 @@
-// vox_query.hpp: vox_query.h for C++17 and later, under the rules of vox.hpp. Every function here stands for the one of
+// vox_query.hpp: vox_query.h for C++20, under the rules of vox.hpp. Every function here stands for the one of
 // vox_query.h that its comment names.
 #ifndef VOX_VOX_QUERY_HPP
 #define VOX_VOX_QUERY_HPP
@@ -7,16 +7,12 @@
 #include <vox/vox_query.h>
 
 namespace vox {
-inline namespace VOX_HPP_MODE {
-
 // vox_locator. A copy is one more owner (vox_locator_retain). One that was not taken yet is null: calls fail.
 // Questions with lists for an answer return all of it, or write the first ones to `out` and return how many there are.
 class locator {
 public:
     locator() noexcept = default;
-#if VOX_HPP_THROWS
     explicit locator(grid& of) { update(of); }
-#endif
     locator(const locator& other) noexcept : raw_(other.raw_) {
         if (raw_) (void)vox_locator_retain(raw_); // which fails for null alone
     }
@@ -28,92 +24,75 @@ public:
     const vox_locator* get() const noexcept { return raw_; }
 
     // vox_grid_update_locator
-    returns<void> update(grid& of) { return of.done(vox_grid_update_locator(of.get(), &raw_)); }
+    void update(grid& of) { return of.done(vox_grid_update_locator(of.get(), &raw_)); }
     // vox_locator_get_epoch
-    returns<std::uint64_t> epoch() const { return detail::filled<std::uint64_t>(vox_locator_get_epoch, raw_); }
+    std::uint64_t epoch() const { return detail::filled<std::uint64_t>(vox_locator_get_epoch, raw_); }
     // vox_locator_get_user_data
-    returns<std::uint64_t> user_data(vox_body body) const {
+    std::uint64_t user_data(vox_body body) const {
         return detail::filled<std::uint64_t>(vox_locator_get_user_data, raw_, body);
     }
 
     // vox_locator_find_point_hits
-    returns<std::vector<vox_point_hit>> find_point_hits(const points& at, const vox_query_desc& desc = any()) const {
-        return detail::collect<vox_point_hit>(static_cast<std::size_t>(at.count),
-                                              [&](auto... out) { return point_hits(at, desc, out...); });
+    std::vector<vox_point_hit> find_point_hits(const points& at, const vox_query_desc& desc = any()) const {
+        return detail::collect<vox_point_hit>(static_cast<std::size_t>(at.count), [&](auto... out) {
+            return vox_locator_find_point_hits(raw_, &at, &desc, out...);
+        });
     }
-    returns<std::uint64_t> find_point_hits(const points& at, span<vox_point_hit> out,
-                                           const vox_query_desc& desc = any()) const {
-        return detail::filled<std::uint64_t>(
-            [&](std::uint64_t* count) { return point_hits(at, desc, out.data(), out.size(), count); });
+    std::uint64_t find_point_hits(const points& at, span<vox_point_hit> out, const vox_query_desc& desc = any()) const {
+        return detail::filled<std::uint64_t>([&](std::uint64_t* count) {
+            return vox_locator_find_point_hits(raw_, &at, &desc, out.data(), out.size(), count);
+        });
     }
     // vox_locator_find_closest: one hit a point
-    returns<std::vector<vox_closest_hit>> find_closest(const points& at, const vox_query_desc& desc = any()) const {
+    std::vector<vox_closest_hit> find_closest(const points& at, const vox_query_desc& desc = any()) const {
         std::vector<vox_closest_hit> hits(static_cast<std::size_t>(at.count));
-        const vox_result result = closest(at, desc, hits.data());
-        return detail::give(result, std::move(hits));
+        find_closest(at, hits, desc);
+        return hits;
     }
-    returns<void> find_closest(const points& at, span<vox_closest_hit> out, const vox_query_desc& desc = any()) const {
-        return detail::give(out.size() < at.count ? detail::fail(VOX_ERROR_INVALID_ARGUMENT,
-                                                                 "find_closest: room for %llu hits, for %llu points",
-                                                                 out.size(), at.count)
-                                                  : closest(at, desc, out.data()));
+    void find_closest(const points& at, span<vox_closest_hit> out, const vox_query_desc& desc = any()) const {
+        if (out.size() < at.count)
+            detail::refuse("find_closest: room for %llu hits, for %llu points", out.size(), at.count);
+        detail::check(vox_locator_find_closest(raw_, &at, &desc, out.data()));
     }
     // vox_locator_find_box_hits
-    returns<std::vector<vox_box_hit>> find_box_hits(const points& min, const points& max,
-                                                    const vox_query_desc& desc = any()) const {
+    std::vector<vox_box_hit> find_box_hits(const points& min, const points& max,
+                                           const vox_query_desc& desc = any()) const {
         return detail::collect<vox_box_hit>(
-            16, [&](auto... out) { return pairs(min, max, vox_locator_find_box_hits, desc, out...); });
+            16, [&](auto... out) { return vox_locator_find_box_hits(raw_, &min, &max, &desc, out...); });
     }
-    returns<std::uint64_t> find_box_hits(const points& min, const points& max, span<vox_box_hit> out,
-                                         const vox_query_desc& desc = any()) const {
+    std::uint64_t find_box_hits(const points& min, const points& max, span<vox_box_hit> out,
+                                const vox_query_desc& desc = any()) const {
         return detail::filled<std::uint64_t>([&](std::uint64_t* count) {
-            return pairs(min, max, vox_locator_find_box_hits, desc, out.data(), out.size(), count);
+            return vox_locator_find_box_hits(raw_, &min, &max, &desc, out.data(), out.size(), count);
         });
     }
     // vox_locator_find_ray_hits
-    returns<std::vector<vox_ray_hit>> find_ray_hits(const points& from, const points& to,
-                                                    const vox_query_desc& desc = any()) const {
+    std::vector<vox_ray_hit> find_ray_hits(const points& from, const points& to,
+                                           const vox_query_desc& desc = any()) const {
         return detail::collect<vox_ray_hit>(
-            16, [&](auto... out) { return pairs(from, to, vox_locator_find_ray_hits, desc, out...); });
+            16, [&](auto... out) { return vox_locator_find_ray_hits(raw_, &from, &to, &desc, out...); });
     }
-    returns<std::uint64_t> find_ray_hits(const points& from, const points& to, span<vox_ray_hit> out,
-                                         const vox_query_desc& desc = any()) const {
+    std::uint64_t find_ray_hits(const points& from, const points& to, span<vox_ray_hit> out,
+                                const vox_query_desc& desc = any()) const {
         return detail::filled<std::uint64_t>([&](std::uint64_t* count) {
-            return pairs(from, to, vox_locator_find_ray_hits, desc, out.data(), out.size(), count);
+            return vox_locator_find_ray_hits(raw_, &from, &to, &desc, out.data(), out.size(), count);
         });
     }
     // vox_locator_test_rays: 1 or 0 a ray
-    returns<std::vector<std::uint8_t>> test_rays(const points& from, const points& to,
-                                                 const vox_query_desc& desc = any()) const {
+    std::vector<std::uint8_t> test_rays(const points& from, const points& to,
+                                        const vox_query_desc& desc = any()) const {
         std::vector<std::uint8_t> blocked(static_cast<std::size_t>(from.count));
-        const vox_result result = pairs(from, to, vox_locator_test_rays, desc, blocked.data());
-        return detail::give(result, std::move(blocked));
+        detail::check(vox_locator_test_rays(raw_, &from, &to, &desc, blocked.data()));
+        return blocked;
     }
 
 private:
     explicit locator(vox_locator* raw) noexcept : raw_(raw) {}
     static vox_query_desc any() noexcept { return vox_default_query_desc(); }
-    vox_result point_hits(const points& at, const vox_query_desc& desc, vox_point_hit* hits, std::uint64_t room,
-                          std::uint64_t* count) const {
-        const vox_result result = at.misfit.result();
-        return result == VOX_OK ? vox_locator_find_point_hits(raw_, &at, &desc, hits, room, count) : result;
-    }
-    vox_result closest(const points& at, const vox_query_desc& desc, vox_closest_hit* hits) const {
-        const vox_result result = at.misfit.result();
-        return result == VOX_OK ? vox_locator_find_closest(raw_, &at, &desc, hits) : result;
-    }
-    // A question about pairs of positions.
-    template <class F, class... Out>
-    vox_result pairs(const points& a, const points& b, F* ask, const vox_query_desc& desc, Out... out) const {
-        vox_result result = a.misfit.result();
-        if (result == VOX_OK) result = b.misfit.result();
-        return result == VOX_OK ? ask(raw_, &a, &b, &desc, out...) : result;
-    }
 
     vox_locator* raw_ = nullptr;
 };
 
-} // namespace VOX_HPP_MODE
 } // namespace vox
 
 #endif

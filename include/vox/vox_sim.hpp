@@ -1,4 +1,4 @@
-// vox_sim.hpp: vox_sim.h for C++17 and later, under the rules of vox.hpp. Every function here stands for the one of
+// vox_sim.hpp: vox_sim.h for C++20, under the rules of vox.hpp. Every function here stands for the one of
 // vox_sim.h that its comment names.
 #ifndef VOX_VOX_SIM_HPP
 #define VOX_VOX_SIM_HPP
@@ -7,41 +7,30 @@
 #include <vox/vox_sim.h>
 
 namespace vox {
-inline namespace VOX_HPP_MODE {
 namespace sim {
 
 // A vox_sim_body_desc of arrays, which are read when the body is inserted; its other fields have their defaults. The
 // positions are packed doubles.
-inline returns<vox_sim_body_desc> describe(const borrowed_points& positions, const borrowed_tets& tets) {
+inline vox_sim_body_desc describe(const borrowed_points& positions, const borrowed_tets& tets) {
     vox_sim_body_desc desc = vox_default_sim_body_desc();
     desc.positions = static_cast<const double*>(positions.data);
     desc.vertex_count = positions.count;
     desc.tets = tets.data;
     desc.tet_count = tets.count;
-    vox_result result = positions.misfit.result();
-    if (result == VOX_OK) result = tets.misfit.result();
     const std::uint64_t along = positions.byte_stride, across = positions.component_byte_stride;
     const bool packed = (along == 0 || along == 3 * sizeof(double)) && (across == 0 || across == sizeof(double));
-    if (result == VOX_OK && (positions.format != VOX_FORMAT_DOUBLE || !packed))
-        result = detail::fail(VOX_ERROR_INVALID_ARGUMENT,
-                              "describe: positions of format %llu, %llu bytes apart, are no packed doubles",
-                              positions.format, along);
-    return detail::give(result, desc);
+    if (positions.format != VOX_FORMAT_DOUBLE || !packed)
+        detail::refuse("describe: positions of format %llu, %llu bytes apart, are no packed doubles", positions.format,
+                       along);
+    return desc;
 }
 
 // vox_sim. Move-only; its destructor is vox_sim_destroy. One that was moved from is null: calls fail.
 class simulation {
 public:
-#if VOX_HPP_THROWS
-    simulation() : simulation(create()) {}
-    explicit simulation(const vox_sim_desc& desc) : simulation(create(desc)) {}
-#endif
     // vox_sim_create
-    static returns<simulation> create(const vox_sim_desc& desc = vox_default_sim_desc()) {
-        vox_sim* raw = nullptr;
-        const vox_result result = vox_sim_create(&desc, &raw);
-        return detail::give(result, simulation(raw));
-    }
+    simulation() : simulation(vox_default_sim_desc()) {}
+    explicit simulation(const vox_sim_desc& desc) : simulation(detail::filled<vox_sim*>(vox_sim_create, &desc)) {}
     // Takes over a simulation made in C.
     static simulation adopt(vox_sim* raw) { return simulation(raw); }
     vox_sim* get() noexcept { return sim_.get(); }
@@ -52,41 +41,38 @@ public:
     const vox::grid& grid() const& noexcept { return grid_; }
     void grid() && = delete;
     // vox_sim_step
-    returns<void> step(double time_step) { return detail::give(vox_sim_step(get(), time_step)); }
+    void step(double time_step) { detail::check(vox_sim_step(get(), time_step)); }
     // vox_sim_body_insert
-    returns<vox_body> insert(const vox_sim_body_desc& desc) {
+    vox_body insert(const vox_sim_body_desc& desc) {
         return detail::filled<vox_body>(vox_sim_body_insert, get(), &desc);
     }
     // vox_sim_body_remove
-    returns<void> remove(vox_body body) { return detail::give(vox_sim_body_remove(get(), body)); }
+    void remove(vox_body body) { detail::check(vox_sim_body_remove(get(), body)); }
     // vox_sim_body_get_view. The arrays live until the body is removed; every step writes them.
-    returns<vox_sim_body_view> body(vox_body body) const& {
+    vox_sim_body_view body(vox_body body) const& {
         return detail::filled<vox_sim_body_view>(vox_sim_body_get_view, get(), body);
     }
     void body(vox_body body) const&& = delete;
     // vox_sim_body_set_state. An empty span leaves positions or velocities as they are.
-    returns<void> set_state(vox_body body, span<const double> positions, span<const double> velocities) {
+    void set_state(vox_body body, span<const double> positions, span<const double> velocities) {
         vox_sim_body_view view{};
-        vox_result result = vox_sim_body_get_view(get(), body, &view);
+        detail::check(vox_sim_body_get_view(get(), body, &view));
         for (const auto& numbers : {positions, velocities})
-            if (result == VOX_OK && !numbers.empty() && numbers.size() != 3 * view.vertex_count)
-                result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "set_state: %llu numbers for %llu vertices",
-                                      numbers.size(), view.vertex_count);
-        if (result == VOX_OK)
-            result = vox_sim_body_set_state(get(), body, positions.empty() ? nullptr : positions.data(),
-                                            velocities.empty() ? nullptr : velocities.data());
-        return detail::give(result);
+            if (!numbers.empty() && numbers.size() != 3 * view.vertex_count)
+                detail::refuse("set_state: %llu numbers for %llu vertices", numbers.size(), view.vertex_count);
+        detail::check(vox_sim_body_set_state(get(), body, positions.empty() ? nullptr : positions.data(),
+                                             velocities.empty() ? nullptr : velocities.data()));
     }
     // vox_sim_body_set_acceleration
-    returns<void> set_acceleration(vox_body body, const std::array<double, 3>& acceleration) {
-        return detail::give(vox_sim_body_set_acceleration(get(), body, acceleration.data()));
+    void set_acceleration(vox_body body, const std::array<double, 3>& acceleration) {
+        detail::check(vox_sim_body_set_acceleration(get(), body, acceleration.data()));
     }
     // vox_sim_get_energy
-    returns<vox_sim_energies> energy(vox_body body = VOX_NULL_BODY) const {
+    vox_sim_energies energy(vox_body body = VOX_NULL_BODY) const {
         return detail::filled<vox_sim_energies>(vox_sim_get_energy, get(), body);
     }
     // vox_sim_get_counters
-    returns<vox_sim_counts> counters() const { return detail::filled<vox_sim_counts>(vox_sim_get_counters, get()); }
+    vox_sim_counts counters() const { return detail::filled<vox_sim_counts>(vox_sim_get_counters, get()); }
 
 private:
     struct deleter {
@@ -105,37 +91,31 @@ private:
 // vox_experiment. Move-only; its destructor is vox_experiment_destroy.
 class experiment {
 public:
-#if VOX_HPP_THROWS
     explicit experiment(const vox_experiment_desc& desc) : experiment(create(desc)) {}
-#endif
     // vox_experiment_create
-    static returns<experiment> create(const vox_experiment_desc& desc) {
+    static experiment create(const vox_experiment_desc& desc) {
         vox_experiment* raw = nullptr;
-        const vox_result result = vox_experiment_create(&desc, &raw);
-        return detail::give(result, experiment(raw));
+        detail::check(vox_experiment_create(&desc, &raw));
+        return experiment(raw);
     }
     vox_experiment* get() noexcept { return experiment_.get(); }
     const vox_experiment* get() const noexcept { return experiment_.get(); }
     // vox_experiment_get. Its shares live as long as the experiment.
-    returns<vox_experiment_facts> facts() const& {
-        return detail::filled<vox_experiment_facts>(vox_experiment_get, get());
-    }
+    vox_experiment_facts facts() const& { return detail::filled<vox_experiment_facts>(vox_experiment_get, get()); }
     void facts() const&& = delete;
     // vox_experiment_suggest
-    returns<vox_suggestion> suggest_cell_size(const vox_suggest_desc& desc = vox_default_suggest_desc()) const {
+    vox_suggestion suggest_cell_size(const vox_suggest_desc& desc = vox_default_suggest_desc()) const {
         return detail::filled<vox_suggestion>(vox_experiment_suggest, get(), &desc);
     }
     // vox_experiment_measure. `frame_ns` is empty or takes the time of each frame.
-    returns<vox_experiment_sample> measure(double cell_size, span<std::uint64_t> frame_ns = {}) {
+    vox_experiment_sample measure(double cell_size, span<std::uint64_t> frame_ns = {}) {
         vox_experiment_facts facts = detail::sized<vox_experiment_facts>();
         vox_experiment_sample sample = detail::sized<vox_experiment_sample>();
-        vox_result result = vox_experiment_get(get(), &facts);
-        if (result == VOX_OK && !frame_ns.empty() && frame_ns.size() < facts.frames)
-            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "measure: room for %llu times, of %llu frames",
-                                  frame_ns.size(), facts.frames);
-        if (result == VOX_OK)
-            result = vox_experiment_measure(get(), cell_size, frame_ns.empty() ? nullptr : frame_ns.data(), &sample);
-        return detail::give(result, sample);
+        detail::check(vox_experiment_get(get(), &facts));
+        if (!frame_ns.empty() && frame_ns.size() < facts.frames)
+            detail::refuse("measure: room for %llu times, of %llu frames", frame_ns.size(), facts.frames);
+        detail::check(vox_experiment_measure(get(), cell_size, frame_ns.empty() ? nullptr : frame_ns.data(), &sample));
+        return sample;
     }
 
 private:
@@ -147,45 +127,39 @@ private:
 };
 
 // vox_experiment_order
-inline returns<std::vector<std::uint64_t>> order(std::size_t count, std::uint64_t seed, std::uint64_t round) {
+inline std::vector<std::uint64_t> order(std::size_t count, std::uint64_t seed, std::uint64_t round) {
     std::vector<std::uint64_t> order(count);
-    const vox_result result = vox_experiment_order(count, seed, round, order.data());
-    return detail::give(result, std::move(order));
+    detail::check(vox_experiment_order(count, seed, round, order.data()));
+    return order;
 }
 // vox_experiment_time, of rounds with `frames` times each
-inline returns<double> time_of(span<const std::uint64_t> frame_ns, std::size_t frames) {
+inline double time_of(span<const std::uint64_t> frame_ns, std::size_t frames) {
     double time = 0;
-    vox_result result = VOX_OK;
     if (frames != 0 && frame_ns.size() % frames != 0)
-        result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "time_of: %llu times are no whole rounds of %llu frames",
-                              frame_ns.size(), frames);
-    if (result == VOX_OK)
-        result = vox_experiment_time(frame_ns.data(), frames == 0 ? 0 : frame_ns.size() / frames, frames, &time);
-    return detail::give(result, time);
+        detail::refuse("time_of: %llu times are no whole rounds of %llu frames", frame_ns.size(), frames);
+    detail::check(vox_experiment_time(frame_ns.data(), frames == 0 ? 0 : frame_ns.size() / frames, frames, &time));
+    return time;
 }
 // vox_fit_times
-inline returns<vox_time_fit> fit_times(span<const double> cell_sizes, span<const double> times) {
+inline vox_time_fit fit_times(span<const double> cell_sizes, span<const double> times) {
     vox_time_fit fit = detail::sized<vox_time_fit>();
-    vox_result result = VOX_OK;
     if (cell_sizes.size() != times.size())
-        result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "fit_times: %llu cell sizes and %llu times",
-                              cell_sizes.size(), times.size());
-    if (result == VOX_OK) result = vox_fit_times(cell_sizes.data(), times.data(), times.size(), &fit);
-    return detail::give(result, fit);
+        detail::refuse("fit_times: %llu cell sizes and %llu times", cell_sizes.size(), times.size());
+    detail::check(vox_fit_times(cell_sizes.data(), times.data(), times.size(), &fit));
+    return fit;
 }
 // vox_fit_time_at
-inline returns<double> time_at(const vox_time_fit& fit, double cell_size) {
+inline double time_at(const vox_time_fit& fit, double cell_size) {
     return detail::filled<double>(vox_fit_time_at, &fit, cell_size);
 }
 // vox_fit_zone: its smallest and largest cell size
-inline returns<std::pair<double, double>> zone(const vox_time_fit& fit, double limit) {
+inline std::pair<double, double> zone(const vox_time_fit& fit, double limit) {
     std::pair<double, double> zone;
-    const vox_result result = vox_fit_zone(&fit, limit, &zone.first, &zone.second);
-    return detail::give(result, zone);
+    detail::check(vox_fit_zone(&fit, limit, &zone.first, &zone.second));
+    return zone;
 }
 
 } // namespace sim
-} // namespace VOX_HPP_MODE
 } // namespace vox
 
 #endif

@@ -1,4 +1,4 @@
-// vox_surface.hpp: vox_surface.h for C++17 and later, under the rules of vox.hpp. Every function here stands for the one
+// vox_surface.hpp: vox_surface.h for C++20, under the rules of vox.hpp. Every function here stands for the one
 // of vox_surface.h that its comment names. Experimental, as that is.
 #ifndef VOX_VOX_SURFACE_HPP
 #define VOX_VOX_SURFACE_HPP
@@ -7,8 +7,6 @@
 #include <vox/vox_surface.h>
 
 namespace vox {
-inline namespace VOX_HPP_MODE {
-
 // The partners of features first, first + 1, ...: of feature first + i they are lists[i]. It ends where vox_pair_lists
 // does: with the next search for pairs, the next motion and the surface. Nothing checks that.
 class pair_lists {
@@ -34,96 +32,72 @@ private:
 // hands out as spans and lists lives as vox_surface.h says of the views.
 class surface {
 public:
-#if VOX_HPP_THROWS
-    explicit surface(const vox_surface_desc& desc) : surface(create(desc)) {}
-    surface(std::uint64_t vertex_count, span<const std::uint32_t> faces) : surface(create(vertex_count, faces)) {}
-#endif
     // vox_surface_create
-    static returns<surface> create(const vox_surface_desc& desc) {
-        vox_surface* raw = nullptr;
-        const vox_result result = vox_surface_create(&desc, &raw);
-        return detail::give(result, surface(raw));
-    }
+    explicit surface(const vox_surface_desc& desc) : surface(detail::filled<vox_surface*>(vox_surface_create, &desc)) {}
     // The same of faces, three vertices each; their edges follow from them.
-    static returns<surface> create(std::uint64_t vertex_count, span<const std::uint32_t> faces) {
-        vox_surface* raw = nullptr;
-        vox_surface_desc desc = vox_default_surface_desc();
-        desc.vertex_count = vertex_count;
-        desc.faces = faces.data();
-        desc.face_count = faces.size() / 3;
-        vox_result result = VOX_OK;
-        if (faces.size() % 3 != 0)
-            result = detail::fail(VOX_ERROR_INVALID_ARGUMENT, "surface: %llu indices are not three for each face",
-                                  faces.size(), 0);
-        if (result == VOX_OK) result = vox_surface_create(&desc, &raw);
-        return detail::give(result, surface(raw));
-    }
+    surface(std::uint64_t vertex_count, span<const std::uint32_t> faces) : surface(desc_of(vertex_count, faces)) {}
     // Takes over a surface made in C.
     static surface adopt(vox_surface* raw) { return surface(raw); }
     vox_surface* get() noexcept { return surface_.get(); }
     const vox_surface* get() const noexcept { return surface_.get(); }
 
     // vox_surface_get_features: the vertices of all edges or faces, one after the other
-    returns<span<const std::uint32_t>> features(vox_feature feature) const& {
+    span<const std::uint32_t> features(vox_feature feature) const& {
         vox_feature_view view = detail::sized<vox_feature_view>();
-        const vox_result result = vox_surface_get_features(get(), feature, &view);
-        const std::size_t size = result == VOX_OK ? static_cast<std::size_t>(view.count * view.vertices_each) : 0;
-        return detail::give(result, span<const std::uint32_t>(view.vertices, size));
+        detail::check(vox_surface_get_features(get(), feature, &view));
+        return {view.vertices, static_cast<std::size_t>(view.count * view.vertices_each)};
     }
     void features(vox_feature) const&& = delete;
     // vox_surface_move
-    returns<void> move(const vox_motion& motion) { return detail::give(vox_surface_move(get(), &motion)); }
+    void move(const vox_motion& motion) { detail::check(vox_surface_move(get(), &motion)); }
     // The same, standing still, and from one place to another. Positions are what vox::points takes, and are copied.
-    returns<void> move(const points& at, double radius = 0, std::uint32_t flags = 0) {
+    void move(const points& at, double radius = 0, std::uint32_t flags = 0) {
         return moved(at, nullptr, radius, flags);
     }
-    returns<void> move(const points& from, const points& to, double radius = 0, std::uint32_t flags = 0) {
+    void move(const points& from, const points& to, double radius = 0, std::uint32_t flags = 0) {
         return moved(from, &to, radius, flags);
     }
     // vox_surface_find_pairs
-    returns<pair_lists> pairs(vox_feature a, vox_feature b, std::uint64_t first = 0,
-                              std::uint64_t count = std::numeric_limits<std::uint64_t>::max()) & {
+    pair_lists pairs(vox_feature a, vox_feature b, std::uint64_t first = 0,
+                     std::uint64_t count = std::numeric_limits<std::uint64_t>::max()) & {
         vox_pair_lists lists = detail::sized<vox_pair_lists>();
-        const vox_result result = vox_surface_find_pairs(get(), a, b, first, count, &lists);
-        return detail::give(result, pair_lists(lists));
+        detail::check(vox_surface_find_pairs(get(), a, b, first, count, &lists));
+        return pair_lists(lists);
     }
     // vox_surface_set_cell_size
-    returns<void> set_cell_size(double size) { return detail::give(vox_surface_set_cell_size(get(), size)); }
+    void set_cell_size(double size) { detail::check(vox_surface_set_cell_size(get(), size)); }
     // vox_surface_suggest_cell_size
-    returns<vox_foreign_suggestion> suggest_cell_size(vox_feature a, vox_feature b) {
+    vox_foreign_suggestion suggest_cell_size(vox_feature a, vox_feature b) {
         return detail::filled<vox_foreign_suggestion>(vox_surface_suggest_cell_size, get(), a, b);
     }
     // vox_surface_get_counters
-    returns<vox_pair_counters> counters() const {
-        return detail::filled<vox_pair_counters>(vox_surface_get_counters, get());
-    }
+    vox_pair_counters counters() const { return detail::filled<vox_pair_counters>(vox_surface_get_counters, get()); }
     // vox_surface_find_crossings
-    returns<view<const vox_crossing>> crossings() & {
+    view<const vox_crossing> crossings() & {
         vox_crossing_view found = detail::sized<vox_crossing_view>();
-        const vox_result result = vox_surface_find_crossings(get(), &found);
-        return detail::give(result, seen(found.crossings, found));
+        detail::check(vox_surface_find_crossings(get(), &found));
+        return seen(found.crossings, found);
     }
     // vox_surface_find_proximities
-    returns<view<const vox_close_pair>> close(vox_feature a, vox_feature b, double distance) & {
+    view<const vox_close_pair> close(vox_feature a, vox_feature b, double distance) & {
         vox_close_view found = detail::sized<vox_close_view>();
-        const vox_result result = vox_surface_find_proximities(get(), a, b, distance, &found);
-        return detail::give(result, seen(found.pairs, found));
+        detail::check(vox_surface_find_proximities(get(), a, b, distance, &found));
+        return seen(found.pairs, found);
     }
     // vox_surface_find_clearances; `per_vertex` has a number for each vertex.
-    returns<void> clearance(double most, span<double> per_vertex) {
-        return detail::give(vox_surface_find_clearances(get(), most, per_vertex.data(), per_vertex.size()));
+    void clearance(double most, span<double> per_vertex) {
+        detail::check(vox_surface_find_clearances(get(), most, per_vertex.data(), per_vertex.size()));
     }
     // vox_surface_find_safe_step
-    returns<vox_safe_step> safe_step(const vox_contact_time_desc& desc = vox_default_contact_time_desc()) {
+    vox_safe_step safe_step(const vox_contact_time_desc& desc = vox_default_contact_time_desc()) {
         return detail::filled<vox_safe_step>(vox_surface_find_safe_step, get(), &desc);
     }
     // vox_surface_find_impacts
-    returns<view<const vox_timed_pair>>
-    contact_times(vox_feature a, vox_feature b,
-                  const vox_contact_time_desc& desc = vox_default_contact_time_desc()) & {
+    view<const vox_timed_pair> contact_times(vox_feature a, vox_feature b,
+                                             const vox_contact_time_desc& desc = vox_default_contact_time_desc()) & {
         vox_timed_view found = detail::sized<vox_timed_view>();
-        const vox_result result = vox_surface_find_impacts(get(), a, b, &desc, &found);
-        return detail::give(result, seen(found.pairs, found));
+        detail::check(vox_surface_find_impacts(get(), a, b, &desc, &found));
+        return seen(found.pairs, found);
     }
 
 private:
@@ -132,25 +106,29 @@ private:
     };
     explicit surface(vox_surface* raw) noexcept : surface_(raw) {}
 
+    static vox_surface_desc desc_of(std::uint64_t vertex_count, span<const std::uint32_t> faces) {
+        if (faces.size() % 3 != 0) detail::refuse("surface: %llu indices are not three for each face", faces.size());
+        vox_surface_desc desc = vox_default_surface_desc();
+        desc.vertex_count = vertex_count;
+        desc.faces = faces.data();
+        desc.face_count = faces.size() / 3;
+        return desc;
+    }
     template <class T, class V>
     static view<const T> seen(const T* data, const V& found) {
         return view<const T>(data, found.byte_stride, static_cast<std::size_t>(found.count));
     }
-    returns<void> moved(const points& from, const points* to, double radius, std::uint32_t flags) {
+    void moved(const points& from, const points* to, double radius, std::uint32_t flags) {
         vox_motion motion = vox_default_motion();
         motion.flags = flags;
         motion.from = from;
         if (to) motion.to = *to;
         motion.radius = radius;
-        vox_result result = from.misfit.result();
-        if (result == VOX_OK && to) result = to->misfit.result();
-        if (result == VOX_OK) result = vox_surface_move(get(), &motion);
-        return detail::give(result);
+        detail::check(vox_surface_move(get(), &motion));
     }
     std::unique_ptr<vox_surface, deleter> surface_;
 };
 
-} // namespace VOX_HPP_MODE
 } // namespace vox
 
 #endif

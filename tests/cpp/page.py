@@ -3,8 +3,7 @@
 import re
 import sys
 
-BEGIN = """#define VOX_HPP_CHECKED 1
-#include <vox/vox_cell_size.hpp>
+BEGIN = """#include <vox/vox_cell_size.hpp>
 #include "cpp/scene.hpp"
 #include <cstdio>
 static std::uint64_t hits;

@@ -1,5 +1,4 @@
 // Replays bindings/vectors through vox.hpp: the same results as in every other language.
-#define VOX_HPP_CHECKED 1
 #include <vox/vox_cell_size.hpp>
 #include <vox/vox_query.hpp>
 

@@ -28,7 +28,7 @@ PKG_CONFIG_PATH=$(dirname "$(find "$scratch/prefix" -name vox.pc)")
 export PKG_CONFIG_PATH
 "$cc" -std=c99 "$scratch/consumer.c" $(pkg-config --cflags --libs vox) -o "$scratch/consumer"
 LD_LIBRARY_PATH=$(pkg-config --variable=libdir vox) "$scratch/consumer"
-"$cxx" -std=c++17 "$scratch/consumer_cpp.cpp" $(pkg-config --cflags --libs vox) -o "$scratch/consumer_cpp"
+"$cxx" -std=c++20 "$scratch/consumer_cpp.cpp" $(pkg-config --cflags --libs vox) -o "$scratch/consumer_cpp"
 LD_LIBRARY_PATH=$(pkg-config --variable=libdir vox) "$scratch/consumer_cpp"
 
 # Shared libraries have what they need linked in: nobody installs its development files to use them.
