@@ -24,11 +24,16 @@ int fail(const char* words) {
     return 1;
 }
 
+std::string version() { // "vox 0.1.0, gcc ..."
+    const std::string info = vox_build_info();
+    return info.substr(4, info.find(',') - 4);
+}
+
 // What cmake runs to make the files that are installed beside the program.
 void add_generate(tool::CommandLine& line) {
     using Make = std::string (*)(const tool::Usage&);
     static constexpr tool::Choice<Make> makes[] = {
-        {"man", [](const tool::Usage& usage) { return tool::manual_page(usage, vox_version_string()); }},
+        {"man", [](const tool::Usage& usage) { return tool::manual_page(usage, version()); }},
         {"bash", tool::bash_completion},
         {"zsh", tool::zsh_completion},
         {"fish", tool::fish_completion}};
@@ -42,8 +47,7 @@ void add_generate(tool::CommandLine& line) {
 }
 
 int run(int argc, char** argv) {
-    tool::CommandLine line("vox",
-                           std::string("vox ") + vox_version_string() + "\nlibrary: " + vox_build_info(),
+    tool::CommandLine line("vox", vox_build_info(),
                            "Exact collision detection for deformable tetrahedral meshes on a voxel grid");
     tool::add_demo(line);
     tool::add_info(line);

@@ -211,8 +211,6 @@ class Faults(unittest.TestCase):
         for old, new, words in [
             ("const void* bytes, uint64_t size", "const void* bytes", "bytes: what does it point to"),
             ("const void* bytes, uint64_t size", "const void* stuff, uint64_t size", "stuff: what does this void*"),
-            ('The same as "major.minor.patch". Static text.', 'The same as "major.minor.patch".',
-             "vox_version_string: how long is the result"),
             ("vox_grid_destroy(VOX_OPTIONAL vox_grid* grid)", "vox_grid_end(vox_grid* grid)",
              "no function releases a vox_grid"),
             ("uint64_t fullest_cell;", "uint64_t fullness;", "fullness: a count, or bits?"),

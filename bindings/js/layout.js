@@ -96,17 +96,12 @@ export const structs = {
     tet: [12, "u32", 1],
     barycentric: [16, "f32", 4],
   } },
-  vox_contact_view: { size: 24, defaults: {  }, fields: {
+  vox_contact_view: { size: 32, defaults: {  }, fields: {
     data: [0, "pointer", 1],
     byte_stride: [4, "u32", 1],
     count: [8, "count", 1],
     epoch: [16, "count", 1],
-  } },
-  vox_interior_view: { size: 24, defaults: {  }, fields: {
-    data: [0, "pointer", 1],
-    byte_stride: [4, "u32", 1],
-    count: [8, "count", 1],
-    epoch: [16, "count", 1],
+    interiors: [24, "pointer", 1],
   } },
   vox_penetration: { size: 40, defaults: {  }, fields: {
     body_a: [0, "u32", 1],
@@ -595,7 +590,6 @@ export const functions = {
   vox_last_error: ["pointer", []],
   vox_fail: ["result", ["i32", "pointer"]],
   vox_version: ["u32", []],
-  vox_version_string: ["pointer", []],
   vox_abi_version: ["u32", []],
   vox_build_info: ["pointer", []],
   vox_grid_create: ["result", ["pointer", "pointer"]],
@@ -634,7 +628,6 @@ export const functions = {
   vox_grid_get_failure: ["result", ["pointer", "u32", "pointer"]],
   vox_grid_get_contacts: ["result", ["pointer", "pointer"]],
   vox_grids_copy_contacts: ["result", ["pointer", "count", "pointer", "count", "pointer"]],
-  vox_grid_contact_interiors: ["result", ["pointer", "pointer"]],
   vox_grid_get_hash: ["result", ["pointer", "pointer"]],
   vox_grid_penetrations: ["result", ["pointer", "pointer"]],
   vox_grid_depths: ["result", ["pointer", "pointer"]],

@@ -59,7 +59,7 @@ export async function load({ simd = simdSupported(), threads = 1, wasm } = {}) {
       Grid: boundGrid(memory),
       stepGrids: (grids) => stepGrids(memory, grids),
       contactsOf: (grids) => contactsOfGrids(memory, grids),
-      version: memory.text(call.vox_version_string()),
+      version: memory.text(call.vox_build_info()).match(/[\d.]+/)[0],
       buildInfo: memory.text(call.vox_build_info()),
       module,
       threads: memory.threads,

@@ -182,13 +182,11 @@ static void step(void) {
     begin_call("step");
     if (finish(vox_grid_step(grid)) != VOX_OK) return;
     vox_contact_view contacts;
-    vox_interior_view interiors;
     vox_pair_view pairs;
     vox_touch_view touches;
     uint64_t hash;
     vox_grid_info info = {.struct_size = sizeof info};
     expect(vox_grid_get_contacts(grid, &contacts), "contacts");
-    expect(vox_grid_contact_interiors(grid, &interiors), "interiors");
     expect(vox_grid_get_pairs(grid, &pairs), "pairs");
     expect(vox_grid_touch_events(grid, &touches), "touches");
     expect(vox_grid_get_hash(grid, &hash), "hash");
@@ -198,7 +196,7 @@ static void step(void) {
     field("epoch", "%" PRIu64, info.epoch);
     items_field("contacts", contacts.data, contacts.count, sizeof *contacts.data);
     uint64_t inside = 0;
-    for (uint64_t i = 0; i < interiors.count; ++i) inside += interiors.data[i];
+    for (uint64_t i = 0; i < contacts.count; ++i) inside += contacts.interiors[i];
     field("interior", "%" PRIu64, inside);
     items_field("pairs", pairs.data, pairs.count, sizeof *pairs.data);
     items_field("pair_contacts", pairs.contacts, contacts.count, sizeof *pairs.contacts);

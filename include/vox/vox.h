@@ -106,13 +106,13 @@ VOX_API vox_result vox_fail(vox_result result, VOX_OPTIONAL const char* text);
 
 /* Version of the library that is running: major * 1000000 + minor * 1000 + patch. Cannot fail. */
 VOX_API uint32_t vox_version(void);
-/* The same as "major.minor.patch". Static text. Cannot fail. */
-VOX_API const char* vox_version_string(void);
+
 /* VOX_ABI_VERSION of the library that is running. A program that loads the library by its name at run time compares it
  * with that of the header it was written for. Cannot fail. */
 VOX_API uint32_t vox_abi_version(void);
-/* Compiler, language level, instruction sets, built-in scheduler and options of this build, in one line. Static text.
- * Cannot fail. */
+
+/* "vox", the version, compiler, language level, instruction sets, built-in scheduler and options of this build, in one
+ * line. Static text. Cannot fail. */
 VOX_API const char* vox_build_info(void);
 
 /* ---- positions -------------------------------------------------------------------------------- */
@@ -642,13 +642,17 @@ typedef struct vox_contact {
     float barycentric[4];
 } vox_contact;
 
-/* `count` contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b, tet). `data` lives until the next step,
- * clear, reserve, change of the flags or destroy of the grid; `epoch` is vox_grid_info.epoch of that state. */
+/* `count` contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b, tet). They live until the next step, clear,
+ * reserve, change of the flags or destroy of the grid; `epoch` is vox_grid_info.epoch of that state. */
 typedef struct vox_contact_view {
     const vox_contact* data;
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
+    /* One for each contact: 1 if the vertex is in the interior of the tetrahedron, 0 if it is on its boundary; exact. On
+     * a face that two tetrahedra share, a vertex has a contact with one of them (see vox_contact): who joins the
+     * contacts of several grids, each with a part of a mesh, keeps the rule with this. Not part of vox_grid_get_hash. */
+    const uint8_t* interiors;
 } vox_contact_view;
 
 /* The contacts of the last step; count 0 before the first, after a failed one and after a clear. */
@@ -659,20 +663,6 @@ VOX_API vox_result vox_grid_get_contacts(const vox_grid* grid, vox_contact_view*
  * `contacts` may be null if capacity is 0. Errors: INVALID_ARGUMENT. */
 VOX_API vox_result vox_grids_copy_contacts(const vox_grid* const* grids, uint64_t count, vox_contact* contacts,
                                            uint64_t capacity, uint64_t* offsets);
-
-/* `count` bytes, `byte_stride` apart, one for each contact, in that order: 1 if the vertex is in the interior of the
- * tetrahedron, 0 if it is on its boundary; decided exactly. On a face that two tetrahedra share, a vertex has a contact
- * with one of them (see vox_contact): who joins the contacts of several grids, each with a part of a mesh, keeps the
- * rule with this flag. Not part of vox_grid_get_hash. The data lives as long as that of the contacts' view. */
-typedef struct vox_interior_view {
-    const uint8_t* data;
-    size_t byte_stride;
-    uint64_t count;
-    uint64_t epoch;
-} vox_interior_view;
-
-/* Whether each contact of the last step is interior; count 0 before the first, after a failed one and after a clear. */
-VOX_API vox_result vox_grid_contact_interiors(const vox_grid* grid, vox_interior_view* out_view);
 
 /* A hash of the contacts: all fields, in order. The same for any cell size, storage, hash and engine. */
 VOX_API vox_result vox_grid_get_hash(const vox_grid* grid, uint64_t* out_hash);

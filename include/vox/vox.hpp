@@ -799,8 +799,12 @@ public:
     }
     // vox_grid_get_contacts
     view<const vox_contact> contacts() const& { return read(vox_grid_get_contacts); }
-    // vox_grid_contact_interiors
-    view<const std::uint8_t> interiors() const& { return read(vox_grid_contact_interiors); }
+    // vox_contact_view.interiors
+    view<const std::uint8_t> interiors() const& {
+        vox_contact_view contacts{};
+        detail::check(vox_grid_get_contacts(get(), &contacts));
+        return {contacts.interiors, 1, static_cast<std::size_t>(contacts.count), contacts.epoch};
+    }
     // vox_grid_penetrations
     view<const vox_penetration> penetrations() const& { return read(vox_grid_penetrations); }
     // vox_grid_depths
@@ -1014,10 +1018,9 @@ inline grouped_contacts copy_contacts(span<const grid> grids) {
 
 // ---- version ------------------------------------------------------------------------------------
 
-inline std::uint32_t version() noexcept { return vox_version(); }             // vox_version
-inline const char* version_string() noexcept { return vox_version_string(); } // vox_version_string
-inline std::uint32_t abi_version() noexcept { return vox_abi_version(); }     // vox_abi_version
-inline const char* build_info() noexcept { return vox_build_info(); }         // vox_build_info
+inline std::uint32_t version() noexcept { return vox_version(); }         // vox_version
+inline std::uint32_t abi_version() noexcept { return vox_abi_version(); } // vox_abi_version
+inline const char* build_info() noexcept { return vox_build_info(); }     // vox_build_info
 
 // ---- Eigen --------------------------------------------------------------------------------------
 

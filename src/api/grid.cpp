@@ -25,10 +25,6 @@ uint32_t vox_version(void) {
     return VOX_VERSION_MAJOR * 1000000u + VOX_VERSION_MINOR * 1000u + VOX_VERSION_PATCH;
 }
 
-const char* vox_version_string(void) {
-    return VOX_STRING(VOX_VERSION_MAJOR) "." VOX_STRING(VOX_VERSION_MINOR) "." VOX_STRING(VOX_VERSION_PATCH);
-}
-
 uint32_t vox_abi_version(void) { return VOX_ABI_VERSION; }
 
 const char* vox_build_info(void) {
@@ -205,10 +201,6 @@ vox_result vox_grid_step(vox_grid* grid) {
 
 vox_result vox_grid_get_contacts(const vox_grid* grid, vox_contact_view* out_view) {
     return border(grid, "grid", out_view, "out_view", [&] { return grid->contacts(); });
-}
-
-vox_result vox_grid_contact_interiors(const vox_grid* grid, vox_interior_view* out_view) {
-    return border(grid, "grid", out_view, "out_view", [&] { return grid->interiors(); });
 }
 
 vox_result vox_grid_get_failure(const vox_grid* grid, uint32_t index, vox_failure* out_failure) {

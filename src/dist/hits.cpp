@@ -27,14 +27,11 @@ void Rounds::step_grid() {
 
 void Rounds::collect_here() {
     vox_contact_view contacts;
-    vox_interior_view interiors;
     check(vox_grid_get_contacts(side_.grid.get(), &contacts));
-    check(vox_grid_contact_interiors(side_.grid.get(), &interiors));
     const auto* contact = reinterpret_cast<const std::byte*>(contacts.data);
-    const auto* interior = reinterpret_cast<const std::byte*>(interiors.data);
     for (std::uint64_t i = 0; i < contacts.count; ++i) {
         const auto& hit = *reinterpret_cast<const vox_contact*>(contact + i * contacts.byte_stride);
-        const bool inside = interior[i * interiors.byte_stride] != std::byte{0};
+        const bool inside = contacts.interiors[i] != 0;
         const Part& part = side_.part_of(hit.body_b);
         if (hit.body_a == side_.points)
             collect_stranger(part, hit, inside);

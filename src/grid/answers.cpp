@@ -117,11 +117,7 @@ vox_locator* vox_grid::take_locator() {
 // ---- results --------------------------------------------------------------------------------------
 
 vox_contact_view vox_grid::contacts() const noexcept {
-    return {contacts_.data(), sizeof(vox_contact), contacts_.size(), epoch_};
-}
-
-vox_interior_view vox_grid::interiors() const noexcept {
-    return {interiors_.data(), sizeof(std::uint8_t), interiors_.size(), epoch_};
+    return {contacts_.data(), sizeof(vox_contact), contacts_.size(), epoch_, interiors_.data()};
 }
 
 vox_failure vox_grid::failure(std::uint32_t index) const noexcept {

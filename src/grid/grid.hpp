@@ -101,7 +101,6 @@ public:
     vox_locator* take_locator();
 
     vox_contact_view contacts() const noexcept;
-    vox_interior_view interiors() const noexcept;
     vox_failure failure(std::uint32_t index) const noexcept;
     vox_penetration_view penetrations() const;
     vox_depth_view depths() const;

@@ -145,7 +145,6 @@ static void move(scene* s, int b, float by) {
 
 static void same_results(const scene* s) {
     same_view(vox_contact_view, vox_grid_get_contacts);
-    same_view(vox_interior_view, vox_grid_contact_interiors);
     same_view(vox_penetration_view, vox_grid_penetrations);
     same_view(vox_depth_view, vox_grid_depths);
 }

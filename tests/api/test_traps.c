@@ -252,12 +252,6 @@ END_TEST
 
 /* ---- interior or boundary ---- */
 
-static vox_interior_view interiors_of(const vox_grid* grid) {
-    vox_interior_view view = {NULL, 0, 99, 0};
-    ck_ok(vox_grid_contact_interiors(grid, &view));
-    return view;
-}
-
 /* Compares with the oracle; returns how many contacts are on a boundary. */
 static uint64_t check_interiors(const vox_grid* grid, const body* bodies, uint32_t count) {
     oracle_mesh meshes[3];
@@ -268,14 +262,13 @@ static uint64_t check_interiors(const vox_grid* grid, const body* bodies, uint32
         meshes[b] = mesh;
     }
     const size_t contacts = oracle_contacts(meshes, count, &expected);
-    const vox_interior_view view = interiors_of(grid);
+    const vox_contact_view view = contacts_of(grid);
     uint64_t epoch = 0, boundary = 0;
     epoch = grid_info(grid).epoch;
     ck_assert_uint_eq(view.epoch, epoch);
     ck_assert_uint_eq(view.count, contacts);
-    ck_assert_uint_eq(view.count, contacts_of(grid).count);
     for (size_t i = 0; i < contacts; ++i) {
-        const uint8_t interior = view.data[i * view.byte_stride];
+        const uint8_t interior = view.interiors[i];
         ck_assert_uint_eq(interior, (uint8_t)(expected[i].interior != 0));
         boundary += !interior;
     }
@@ -287,7 +280,7 @@ START_TEST(interior_and_boundary) {
     body bodies[3] = {make_box(3, 0.5f, 0, 0, 0), make_box(3, 0.5f, 0.5f, 0.25f, 0),
                       make_box(2, 0.5f, 0.3f, 0.4f, 0.6f)};
     vox_grid* grid = engine_grid();
-    ck_assert_uint_eq(interiors_of(grid).count, 0);
+    ck_assert_uint_eq(contacts_of(grid).count, 0);
     for (int b = 0; b < 3; ++b) {
         const vox_mesh_desc desc = body_desc(&bodies[b]);
         (void)insert_mesh(grid, &desc);
@@ -302,12 +295,12 @@ START_TEST(interior_and_boundary) {
     }
     bodies[0].positions[0] = NAN;
     ck_fails(vox_grid_step(grid), VOX_ERROR_NON_FINITE, "not finite");
-    ck_assert_uint_eq(interiors_of(grid).count, 0);
+    ck_assert_uint_eq(contacts_of(grid).count, 0);
     bodies[0].positions[0] = 0;
     ck_ok(vox_grid_step(grid));
     (void)check_interiors(grid, bodies, 3);
     ck_ok(vox_grid_clear(grid));
-    ck_assert_uint_eq(interiors_of(grid).count, 0);
+    ck_assert_uint_eq(contacts_of(grid).count, 0);
     vox_grid_destroy(grid);
     for (int b = 0; b < 3; ++b) free_body(&bodies[b]);
 }

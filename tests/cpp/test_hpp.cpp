@@ -137,21 +137,20 @@ START_TEST(results_equal_those_of_c) {
     ck_assert_uint_eq(grid.info().epoch, epoch);
 
     vox_contact_view contacts;
-    vox_interior_view interiors;
     vox_penetration_view penetrations;
     vox_depth_view depths;
     vox_pair_view pairs;
     vox_touch_view touches;
     vox_contact_event_view events;
     ck_ok(vox_grid_get_contacts(c.grid, &contacts));
-    ck_ok(vox_grid_contact_interiors(c.grid, &interiors));
     ck_ok(vox_grid_penetrations(c.grid, &penetrations));
     ck_ok(vox_grid_depths(c.grid, &depths));
     ck_ok(vox_grid_get_pairs(c.grid, &pairs));
     ck_ok(vox_grid_touch_events(c.grid, &touches));
     ck_ok(vox_grid_contact_events(c.grid, &events));
     same_view(grid.contacts(), contacts);
-    same_view(grid.interiors(), interiors);
+    ck_assert_uint_eq(grid.interiors().size(), contacts.count);
+    ck_assert_mem_eq(grid.interiors().data(), contacts.interiors, contacts.count);
     same_view(grid.penetrations(), penetrations);
     same_view(grid.depths(), depths);
     same_view<const vox_pair>(grid.pairs(), pairs);
@@ -526,7 +525,6 @@ START_TEST(views_are_ranges) {
     static_assert(std::ranges::random_access_range<vox::view<const vox_contact>>);
     static_assert(std::ranges::view<vox::view<const vox_contact>> &&
                   std::ranges::borrowed_range<vox::view<const vox_contact>>);
-    static_assert(sizeof(vox::view<const vox_contact>) == sizeof(vox_contact_view));
     // By the stride alone: every second number.
     const float numbers[] = {1, -1, 2, -2, 3, -3};
     const vox::view<const float> odd(numbers, 2 * sizeof(float), 3);
@@ -1093,7 +1091,6 @@ END_TEST
 START_TEST(versions) {
     ck_assert_uint_eq(vox::version(), vox_version());
     ck_assert_uint_eq(vox::abi_version(), VOX_ABI_VERSION);
-    ck_assert_str_eq(vox::version_string(), vox_version_string());
     ck_assert_str_eq(vox::build_info(), vox_build_info());
 }
 END_TEST

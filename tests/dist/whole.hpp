@@ -82,10 +82,7 @@ inline bool before(const vox_dist_contact& a, const vox_dist_contact& b) {
 // Without index and rank.
 inline std::vector<vox_dist_contact> global_contacts(const vox_grid* grid) {
     vox_contact_view contacts{};
-    vox_interior_view interiors{};
-    if (vox_grid_get_contacts(grid, &contacts) != VOX_OK ||
-        vox_grid_contact_interiors(grid, &interiors) != VOX_OK)
-        return {};
+    if (vox_grid_get_contacts(grid, &contacts) != VOX_OK) return {};
     std::vector<vox_dist_contact> found(contacts.count);
     for (std::uint64_t i = 0; i < contacts.count; ++i) {
         const vox_contact& hit = contacts.data[i];
@@ -95,7 +92,7 @@ inline std::vector<vox_dist_contact> global_contacts(const vox_grid* grid) {
         contact.vertex = hit.vertex;
         contact.tet = hit.tet;
         std::copy_n(hit.barycentric, 4, contact.barycentric);
-        contact.interior = interiors.data[i];
+        contact.interior = contacts.interiors[i];
     }
     std::sort(found.begin(), found.end(), before);
     return found;

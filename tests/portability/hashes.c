@@ -159,15 +159,12 @@ static int hash_answers(vox_grid* grid, const scene* s, uint64_t* hash) {
 
 static int hash_contacts(const vox_grid* grid, uint64_t* count, uint64_t* hash) {
     vox_contact_view view;
-    vox_interior_view interiors;
-    if (vox_grid_get_contacts(grid, &view) != VOX_OK ||
-        vox_grid_contact_interiors(grid, &interiors) != VOX_OK)
-        return 0;
+    if (vox_grid_get_contacts(grid, &view) != VOX_OK) return 0;
     *count = view.count;
     for (uint64_t i = 0; i < view.count; ++i) {
         const vox_contact* c = &view.data[i];
         add_number(hash, c->body_a), add_number(hash, c->vertex), add_number(hash, c->body_b);
-        add_number(hash, c->tet), add_number(hash, interiors.data[i]);
+        add_number(hash, c->tet), add_number(hash, view.interiors[i]);
     }
     return 1;
 }

@@ -94,7 +94,7 @@ export class Scene {
   }
 
   get version() {
-    return this.#text(this.#exports.vox_version_string());
+    return this.#text(this.#exports.vox_build_info()).match(/[\d.]+/)[0];
   }
 
   drop(kind, tets) {

@@ -98,7 +98,7 @@ namespace Voxtet
         public Locator TakeLocator() { return new Locator(this); }
 
         /// <summary>Version of the library that is loaded, as "major.minor.patch".</summary>
-        public static string LibraryVersion { get { return VoxException.Text(Native.vox_version_string()); } }
+        public static string LibraryVersion { get { return LibraryBuild.Split(' ', ',')[1]; } }
 
         /// <summary>Compiler, instruction sets and options of that library.</summary>
         public static string LibraryBuild { get { return VoxException.Text(Native.vox_build_info()); } }
@@ -519,10 +519,9 @@ namespace Voxtet
         {
             get
             {
-                InteriorView view;
+                ContactView view;
                 using (var use = handle.Read())
-                    return ViewOf<byte>(Native.vox_grid_contact_interiors(use.Pointer, &view),
-                                        view.data, view.byte_stride, view.count);
+                    return ViewOf<byte>(Native.vox_grid_get_contacts(use.Pointer, &view), view.interiors, new UIntPtr(1), view.count);
             }
         }
 

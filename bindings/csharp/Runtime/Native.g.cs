@@ -817,17 +817,9 @@ namespace Voxtet
         public UIntPtr byte_stride;
         public ulong count;
         public ulong epoch;
-    }
-
-    /// <summary>`count` bytes, `byte_stride` apart, one for each contact, in that order: 1 if the vertex is in the
-    /// interior of the tetrahedron, 0 if it is on its boundary; decided exactly.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct InteriorView
-    {
-        public byte* data;
-        public UIntPtr byte_stride;
-        public ulong count;
-        public ulong epoch;
+        /// <summary>One for each contact: 1 if the vertex is in the interior of the tetrahedron, 0 if it is on its
+        /// boundary; exact.</summary>
+        public byte* interiors;
     }
 
     /// <summary>Vertex `vertex` of body_a is inside body_b (a = b: self-contact) and has to leave it: moving the vertex
@@ -2483,16 +2475,12 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern uint vox_version();
 
-        /// <summary>The same as "major.minor.patch".</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern IntPtr vox_version_string();
-
         /// <summary>VOX_ABI_VERSION of the library that is running.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern uint vox_abi_version();
 
-        /// <summary>Compiler, language level, instruction sets, built-in scheduler and options of this build, in one
-        /// line.</summary>
+        /// <summary>"vox", the version, compiler, language level, instruction sets, built-in scheduler and options of
+        /// this build, in one line.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern IntPtr vox_build_info();
 
@@ -2664,11 +2652,6 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grids_copy_contacts(IntPtr* grids, ulong count, Contact* contacts, ulong
             capacity, ulong* offsets);
-
-        /// <summary>Whether each contact of the last step is interior; count 0 before the first, after a failed one and
-        /// after a clear.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_contact_interiors(IntPtr grid, InteriorView* out_view);
 
         /// <summary>A hash of the contacts: all fields, in order.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -3285,22 +3268,12 @@ namespace Voxtet
         {
             ContactView s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_contact_view", sizeof(ContactView), 32, 24));
+            entries.Add(Entry("vox_contact_view", sizeof(ContactView), 40, 32));
             entries.Add(Entry("vox_contact_view.data", (byte*)&s.data - begin, 0, 0));
             entries.Add(Entry("vox_contact_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
             entries.Add(Entry("vox_contact_view.count", (byte*)&s.count - begin, 16, 8));
             entries.Add(Entry("vox_contact_view.epoch", (byte*)&s.epoch - begin, 24, 16));
-        }
-
-        static void AddInteriorView(List<LayoutEntry> entries)
-        {
-            InteriorView s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_interior_view", sizeof(InteriorView), 32, 24));
-            entries.Add(Entry("vox_interior_view.data", (byte*)&s.data - begin, 0, 0));
-            entries.Add(Entry("vox_interior_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
-            entries.Add(Entry("vox_interior_view.count", (byte*)&s.count - begin, 16, 8));
-            entries.Add(Entry("vox_interior_view.epoch", (byte*)&s.epoch - begin, 24, 16));
+            entries.Add(Entry("vox_contact_view.interiors", (byte*)&s.interiors - begin, 32, 24));
         }
 
         static void AddPenetration(List<LayoutEntry> entries)
@@ -4515,7 +4488,6 @@ namespace Voxtet
             AddFailure(entries);
             AddContact(entries);
             AddContactView(entries);
-            AddInteriorView(entries);
             AddPenetration(entries);
             AddPenetrationView(entries);
             AddDepth(entries);

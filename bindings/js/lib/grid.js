@@ -177,9 +177,8 @@ export class Grid extends Owned {
   }
 
   get contactInteriors() {
-    const view = this.#get("vox_interior_view", "vox_grid_contact_interiors");
-    const copy = memoryOf(this).items(view.data, view.count, view.byteStride);
-    return view.byteStride === 1 ? copy : copy.filter((_, i) => i % view.byteStride === 0);
+    const view = this.#get("vox_contact_view", "vox_grid_get_contacts");
+    return memoryOf(this).items(view.interiors, view.count, 1);
   }
 
   get penetrations() {

@@ -22,8 +22,8 @@ from .suggest import Curve, Minimum, Rules, Stats, Suggestion, Terms, calibrate,
 if TYPE_CHECKING:
     from . import experiment, io, ipctk, mpi, mujoco, newton, sim, surface
 
-__version__: str = _vox.vox_version_string().decode()
 build_info: str = _vox.vox_build_info().decode()
+__version__: str = build_info.split()[1].rstrip(",")
 
 
 def __getattr__(name: str) -> Any:

@@ -449,15 +449,7 @@ class vox_contact_view(Structure):
         ("byte_stride", c_size_t),
         ("count", c_uint64),
         ("epoch", c_uint64),
-    ]
-
-
-class vox_interior_view(Structure):
-    _fields_ = [
-        ("data", c_void_p),
-        ("byte_stride", c_size_t),
-        ("count", c_uint64),
-        ("epoch", c_uint64),
+        ("interiors", c_void_p),
     ]
 
 
@@ -1777,7 +1769,6 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_last_error": (c_char_p, ()),
         "vox_fail": (vox_result, (c_int32, c_char_p)),
         "vox_version": (c_uint32, ()),
-        "vox_version_string": (c_char_p, ()),
         "vox_abi_version": (c_uint32, ()),
         "vox_build_info": (c_char_p, ()),
         "vox_grid_create": (vox_result, (POINTER(vox_grid_desc), POINTER(c_void_p))),
@@ -1816,7 +1807,6 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_grid_get_failure": (vox_result, (c_void_p, c_uint32, POINTER(vox_failure))),
         "vox_grid_get_contacts": (vox_result, (c_void_p, POINTER(vox_contact_view))),
         "vox_grids_copy_contacts": (vox_result, (c_void_p, c_uint64, c_void_p, c_uint64, c_void_p)),
-        "vox_grid_contact_interiors": (vox_result, (c_void_p, POINTER(vox_interior_view))),
         "vox_grid_get_hash": (vox_result, (c_void_p, POINTER(c_uint64))),
         "vox_grid_penetrations": (vox_result, (c_void_p, POINTER(vox_penetration_view))),
         "vox_grid_depths": (vox_result, (c_void_p, POINTER(vox_depth_view))),

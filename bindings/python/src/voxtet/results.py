@@ -150,7 +150,7 @@ def _view(function: Any, records: Any, dtype: Any, of_readings: bool = False) ->
 
 
 CONTACTS = _view(vox.vox_grid_get_contacts, Contacts, "vox_contact")
-INTERIORS = _view(vox.vox_grid_contact_interiors, np.ndarray, np.dtype(np.bool_))
+INTERIORS = View(None, None, np.ndarray, np.dtype(np.bool_), False)  # beside the contacts
 PENETRATIONS = _view(vox.vox_grid_penetrations, Penetrations, "vox_penetration")
 DEPTHS = _view(vox.vox_grid_depths, Depths, "vox_depth")
 PAIRS = _view(vox.vox_grid_get_pairs, Pairs, "vox_pair")
@@ -268,7 +268,11 @@ class Results:
     @property
     def interiors(self) -> NDArray[np.bool_]:
         """For each contact, whether the vertex is in the interior of the tetrahedron (and not on its boundary); exact."""
-        return self._array(INTERIORS)  # type: ignore[no-any-return]
+        grid = self._source()
+        with grid._lock:
+            out = CONTACTS.struct()
+            CONTACTS.function(grid._pointer, out)
+            return self._make(INTERIORS, out.interiors, out.count, 1)  # type: ignore[no-any-return]
 
     @property
     def penetrations(self) -> Penetrations:

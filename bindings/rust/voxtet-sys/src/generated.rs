@@ -666,7 +666,7 @@ pub struct vox_contact {
     pub barycentric: [f32; 4],
 }
 
-/// `count` contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b, tet). `data` lives until the next step,
+/// `count` contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b, tet). They live until the next step,
 /// clear, reserve, change of the flags or destroy of the grid; `epoch` is vox_grid_info.epoch of that state.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -675,19 +675,10 @@ pub struct vox_contact_view {
     pub byte_stride: usize,
     pub count: u64,
     pub epoch: u64,
-}
-
-/// `count` bytes, `byte_stride` apart, one for each contact, in that order: 1 if the vertex is in the interior of the
-/// tetrahedron, 0 if it is on its boundary; decided exactly. On a face that two tetrahedra share, a vertex has a
-/// contact with one of them (see vox_contact): who joins the contacts of several grids, each with a part of a mesh,
-/// keeps the rule with this flag. Not part of vox_grid_get_hash. The data lives as long as that of the contacts' view.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_interior_view {
-    pub data: *const u8,
-    pub byte_stride: usize,
-    pub count: u64,
-    pub epoch: u64,
+    /// One for each contact: 1 if the vertex is in the interior of the tetrahedron, 0 if it is on its boundary; exact.
+    /// On a face that two tetrahedra share, a vertex has a contact with one of them (see vox_contact): who joins the
+    /// contacts of several grids, each with a part of a mesh, keeps the rule with this. Not part of vox_grid_get_hash.
+    pub interiors: *const u8,
 }
 
 /// Vertex `vertex` of body_a is inside body_b (a = b: self-contact) and has to leave it: moving the vertex by depth *
@@ -2325,13 +2316,11 @@ extern "C" {
     pub fn vox_fail(result: vox_result, text: *const c_char) -> vox_result;
     /// Version of the library that is running: major * 1000000 + minor * 1000 + patch. Cannot fail.
     pub fn vox_version() -> u32;
-    /// The same as "major.minor.patch". Static text. Cannot fail.
-    pub fn vox_version_string() -> *const c_char;
     /// VOX_ABI_VERSION of the library that is running. A program that loads the library by its name at run time
     /// compares it with that of the header it was written for. Cannot fail.
     pub fn vox_abi_version() -> u32;
-    /// Compiler, language level, instruction sets, built-in scheduler and options of this build, in one line. Static
-    /// text. Cannot fail.
+    /// "vox", the version, compiler, language level, instruction sets, built-in scheduler and options of this build, in
+    /// one line. Static text. Cannot fail.
     pub fn vox_build_info() -> *const c_char;
     /// Creates a grid. desc null: all defaults. The caller owns *out_grid and releases it with vox_grid_destroy.
     /// Errors: INVALID_ARGUMENT (names the field and its value), UNSUPPORTED (an x86-64 without SSE4.2), OUT_OF_MEMORY,
@@ -2606,12 +2595,6 @@ extern "C" {
         contacts: *mut vox_contact,
         capacity: u64,
         offsets: *mut u64,
-    ) -> vox_result;
-    /// Whether each contact of the last step is interior; count 0 before the first, after a failed one and after a
-    /// clear.
-    pub fn vox_grid_contact_interiors(
-        grid: *const vox_grid,
-        out_view: *mut vox_interior_view,
     ) -> vox_result;
     /// A hash of the contacts: all fields, in order. The same for any cell size, storage, hash and engine.
     pub fn vox_grid_get_hash(grid: *const vox_grid, out_hash: *mut u64) -> vox_result;
@@ -3393,10 +3376,8 @@ layouts! {
         user_data: [16, 16], vertex: [24, 24], reserved: [28, 28], position: [32, 32] }
     vox_contact: size [32, 32], alignment [4, 4], { body_a: [0, 0], vertex: [4, 4], body_b: [8, 8], tet: [12, 12],
         barycentric: [16, 16] }
-    vox_contact_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
-        epoch: [24, 16] }
-    vox_interior_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
-        epoch: [24, 16] }
+    vox_contact_view: size [40, 32], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
+        epoch: [24, 16], interiors: [32, 24] }
     vox_penetration: size [40, 40], alignment [8, 8], { body_a: [0, 0], vertex: [4, 4], body_b: [8, 8], state: [12, 12],
         contact: [16, 16], depth: [24, 24], direction: [28, 28] }
     vox_penetration_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],

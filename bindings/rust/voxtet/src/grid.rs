@@ -490,9 +490,9 @@ impl Grid {
     /// For each contact 1 if the vertex is in the interior of the tetrahedron, 0 if on its boundary.
     pub fn interiors(&self) -> View<'_, u8> {
         unsafe {
-            let mut view: sys::vox_interior_view = std::mem::zeroed();
-            sys::vox_grid_contact_interiors(self.get(), &mut view);
-            View::new(view.data, view.byte_stride, view.count)
+            let mut view: sys::vox_contact_view = std::mem::zeroed();
+            sys::vox_grid_get_contacts(self.get(), &mut view);
+            View::new(view.interiors, 1, view.count)
         }
     }
 

@@ -103,12 +103,11 @@ pub mod foreign_warning {
 
 /// Version of the C library that is linked, as "major.minor.patch".
 pub fn version() -> &'static str {
-    // SAFETY: static text, zero-terminated and ASCII.
-    unsafe { std::ffi::CStr::from_ptr(sys::vox_version_string()) }.to_str().unwrap_or("")
+    build_info().split([' ', ',']).nth(1).unwrap_or("")
 }
 
 /// Compiler, instruction sets and options of that library.
 pub fn build_info() -> &'static str {
-    // SAFETY: as above.
+    // SAFETY: static text, zero-terminated and ASCII.
     unsafe { std::ffi::CStr::from_ptr(sys::vox_build_info()) }.to_str().unwrap_or("")
 }
