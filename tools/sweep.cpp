@@ -2,6 +2,8 @@
 // two bodies in contact.
 #include "body.hpp"
 #include "commands.hpp"
+#include "experiment/experiment.hpp"
+#include "experiment/fit.hpp"
 #include "failure.hpp"
 #include "options.hpp"
 #include "output_file.hpp"
@@ -10,8 +12,6 @@
 #include "sweep_log.hpp"
 #include "terminal.hpp"
 #include "zone_distance.h"
-
-#include <vox/vox_sim.h>
 
 #include <algorithm>
 #include <array>
@@ -30,9 +30,7 @@ struct SweepOptions {
     std::string a, b;
     std::uint64_t ball = 0; // tetrahedra of the balls that replace the files; 0: files
     Fill fill;
-    vox_experiment_desc experiment = vox_default_experiment_desc();
-    std::vector<double> axis = {1, 0, 0};
-    bool as_placed = false;
+    ExperimentSettings experiment;
     GridOptions grid;
     double world = 0;
     std::vector<double> cell_sizes, cells_per_axis;
@@ -46,11 +44,6 @@ struct SweepOptions {
 
 constexpr Choice<Engine> engine_choices[] = {{"reference", Engine::reference}, {"fast", Engine::fast}};
 
-struct ExperimentDeleter {
-    void operator()(vox_experiment* experiment) const noexcept { vox_experiment_destroy(experiment); }
-};
-using Experiment = std::unique_ptr<vox_experiment, ExperimentDeleter>;
-
 // Makes one of the paper's spheres.
 Body make_ball(std::uint64_t tets) {
     vox_io_mesh* mesh = nullptr;
@@ -58,28 +51,13 @@ Body make_ball(std::uint64_t tets) {
     return own_body("ball of " + std::to_string(tets) + " tetrahedra", mesh);
 }
 
-vox_sim_body_desc sim_body(const Body& body) {
-    vox_sim_body_desc desc = vox_default_sim_body_desc();
-    desc.positions = body.view.positions;
-    desc.vertex_count = body.view.vertex_count;
-    desc.tets = body.view.tets;
-    desc.tet_count = body.view.tet_count;
-    return desc;
-}
-
-Experiment make_experiment(const SweepOptions& options, const Body& a, const Body& b) {
-    const vox_sim_body_desc bodies[2] = {sim_body(a), sim_body(b)};
-    vox_experiment_desc desc = options.experiment;
-    desc.a = &bodies[0];
-    desc.b = &bodies[1];
-    GridOptions settings = options.grid;
-    const vox_grid_desc grid = settings.grid_desc();
-    desc.grid = &grid;
-    std::copy(options.axis.begin(), options.axis.end(), desc.axis);
-    desc.turn = options.as_placed ? 0 : 1;
-    vox_experiment* created = nullptr;
-    check(vox_experiment_create(&desc, &created));
-    return Experiment(created);
+ExperimentBody experiment_body(const Body& body) {
+    const vox_io_mesh_view& view = body.view;
+    if (view.vertex_count == 0 || view.tet_count == 0)
+        throw Failure(body.name + " has " + std::to_string(view.vertex_count) + " vertices and " +
+                      std::to_string(view.tet_count) + " tets, expected some of both");
+    return {{view.positions, view.positions + 3 * view.vertex_count},
+            {view.tets, view.tets + 4 * view.tet_count}};
 }
 
 // Of one thread the time in which it has a processor is taken; of several the time that passes, as they share
@@ -102,6 +80,9 @@ std::vector<Size> choose_sizes(const SweepOptions& options, const vox_suggestion
     if (!options.cell_sizes.empty()) range = {options.cell_sizes[0], options.cell_sizes[1]};
     if (!options.cells_per_axis.empty())
         range = {world / options.cells_per_axis[1], world / options.cells_per_axis[0]};
+    if (!(range[0] > 0) || !std::isfinite(range[1]))
+        throw Failure("the range of cell sizes is " + std::to_string(range[0]) + " to " +
+                      std::to_string(range[1]));
     std::vector<Size> sizes;
     for (std::uint32_t i = 0; i < options.count; ++i) {
         const double cell_size =
@@ -147,17 +128,15 @@ void warn_if_busy(std::chrono::duration<double> passed, double processor) {
         passed.count(), processor);
 }
 
-void measure(const SweepOptions& options, vox_experiment* experiment, const vox_suggestion& suggestion,
+void measure(const SweepOptions& options, Experiment& experiment, const vox_suggestion& suggestion,
              SweepLog& log, const std::vector<Size>& sizes) {
     Progress progress;
     const auto begin = std::chrono::steady_clock::now();
     const std::clock_t used = std::clock();
     const std::size_t total = sizes.size() * options.rounds;
     std::size_t done = 0, measured = 0;
-    std::vector<std::uint64_t> order(sizes.size());
     for (std::uint32_t round = 0; round < options.rounds; ++round) {
-        check(vox_experiment_order(order.size(), options.seed, round, order.data()));
-        for (const std::uint64_t i : order) {
+        for (const std::size_t i : order_of_round(sizes.size(), options.seed, round)) {
             const Size& size = sizes[i];
             ++done;
             if (log.find(size.cell_size, round) || !worth_measuring(size, suggestion)) continue;
@@ -167,18 +146,9 @@ void measure(const SweepOptions& options, vox_experiment* experiment, const vox_
                 bar(share, 24) + " sample " + std::to_string(done) + " of " + std::to_string(total) +
                 (measured == 0 ? ""
                                : ", " + remaining(passed / double(measured) * double(total - done + 1))));
-            SweepSample sample;
+            SweepSample sample = experiment.measure(size.cell_size);
             sample.name = size.rule;
-            sample.cell_size = size.cell_size;
             sample.round = round;
-            sample.frame_ns.resize(options.experiment.frames);
-            vox_experiment_sample found{};
-            found.struct_size = sizeof found;
-            check(vox_experiment_measure(experiment, size.cell_size, sample.frame_ns.data(), &found));
-            sample.contacts = found.contacts;
-            sample.visited_cells = found.visited_cells;
-            sample.visited_entries = found.visited_entries;
-            sample.candidates = found.candidates;
             log.add(sample);
             ++measured;
         }
@@ -188,22 +158,16 @@ void measure(const SweepOptions& options, vox_experiment* experiment, const vox_
 }
 
 void collect(const SweepOptions& options, const SweepLog& log, std::vector<Size>& sizes) {
-    const std::size_t frames = options.experiment.frames;
     for (Size& size : sizes) {
-        std::vector<std::uint64_t> times;
+        std::vector<std::vector<std::uint64_t>> times;
         for (std::uint32_t round = 0; round < options.rounds; ++round) {
             const SweepSample* sample = log.find(size.cell_size, round);
             if (!sample) break; // it was not worth measuring
             if (round == 0) size.sample = sample;
-            double mean = 0;
-            for (const std::uint64_t ns : sample->frame_ns) mean += double(ns) / double(frames);
-            size.rounds.push_back(mean);
-            times.insert(times.end(), sample->frame_ns.begin(), sample->frame_ns.end());
+            times.push_back(sample->frame_ns);
+            size.rounds.push_back(time_of_rounds({sample->frame_ns}));
         }
-        if (times.empty()) continue;
-        double time = 0;
-        check(vox_experiment_time(times.data(), options.rounds, frames, &time));
-        size.time = time;
+        if (!times.empty()) size.time = time_of_rounds(times);
     }
     std::stable_sort(sizes.begin(), sizes.end(),
                      [](const Size& x, const Size& y) { return x.cell_size < y.cell_size; });
@@ -217,7 +181,7 @@ struct Zone {
 };
 
 struct Evaluation {
-    vox_time_fit fit{};
+    TimeFit fit{};
     Zone one_millisecond{}, five_percent{};
     double least_time = HUGE_VAL; // least of all measured times
 };
@@ -232,21 +196,18 @@ Evaluation evaluate(const std::vector<Size>& sizes, double range_min, double ran
         cell_sizes.push_back(size.cell_size);
         times.push_back(*size.time);
     }
-    result.fit.struct_size = sizeof result.fit;
-    check(vox_fit_times(cell_sizes.data(), times.data(), times.size(), &result.fit));
+    result.fit = fit_times(cell_sizes, times);
     for (auto [zone, limit] : {std::pair(&result.one_millisecond, result.fit.time + 1e6),
                                std::pair(&result.five_percent, result.fit.time * 1.05)}) {
-        zone->limit = limit;
-        check(vox_fit_zone(&result.fit, limit, &zone->min, &zone->max));
+        const FitZone found = fit_zone(result.fit, limit);
+        *zone = {limit, found.min, found.max};
     }
     return result;
 }
 
-std::optional<double> fitted_time(const vox_time_fit& fit, double cell_size) {
+std::optional<double> time_in_range(const TimeFit& fit, double cell_size) {
     if (cell_size < fit.range_min || cell_size > fit.range_max) return {};
-    double time = 0;
-    check(vox_fit_time_at(&fit, cell_size, &time));
-    return time;
+    return fitted_time(fit, cell_size);
 }
 
 // Eq. 9, in cells per axis.
@@ -264,7 +225,7 @@ std::optional<double> regret(std::optional<double> time, double best) {
 struct Sweep {
     const SweepOptions& options;
     const std::vector<Body>& bodies;
-    vox_experiment_facts facts;
+    const Experiment& experiment;
     vox_suggestion suggestion;
     double world;
     std::vector<Size> sizes;
@@ -287,7 +248,7 @@ Json sample_json(const Size& size, const Sweep& sweep) {
     Json json = size_json(size.cell_size, sweep.world);
     json.add("rule", size.rule.empty() ? Json() : Json(size.rule));
     json.add("time_ns", size.time);
-    json.add("fitted_ns", fitted_time(sweep.found.fit, size.cell_size));
+    json.add("fitted_ns", time_in_range(sweep.found.fit, size.cell_size));
     json.add("rounds_ns", Json::array_of(size.rounds));
     json.add("contacts", size.sample->contacts);
     json.add("visited_cells", size.sample->visited_cells);
@@ -296,32 +257,32 @@ Json sample_json(const Size& size, const Sweep& sweep) {
     return json;
 }
 
-Json fit_json(const vox_time_fit& fit) {
+Json fit_json(const TimeFit& fit) {
     Json coefficients = Json::array();
-    for (std::uint32_t k = 0; k <= fit.degree; ++k) coefficients.push_back(fit.coefficients[k]);
+    for (std::size_t k = 0; k <= fit.degree; ++k) coefficients.push_back(fit.coefficients[k]);
     return {{"degree", fit.degree},
             {"coefficients", coefficients},
             {"range", {{"min", fit.range_min}, {"max", fit.range_max}}},
             {"r_squared", fit.r_squared},
             {"prediction_error", fit.prediction_error},
-            {"bracketed", fit.bracketed != 0}};
+            {"bracketed", fit.bracketed}};
 }
 
 void print_sweep_json(const Sweep& sweep) {
-    const vox_experiment_facts& facts = sweep.facts;
+    const Experiment& experiment = sweep.experiment;
     const Evaluation& found = sweep.found;
     Json json = {{"meshes", body_list(sweep.bodies)}};
     json.add("engine", sweep.options.grid.engine == Engine::fast ? "fast" : "reference");
-    json.add("tets", facts.tets);
-    json.add("distance", facts.distance);
-    json.add("frames", facts.frames);
+    json.add("tets", experiment.tets());
+    json.add("distance", experiment.distance());
+    json.add("frames", experiment.shares().size());
     json.add("rounds", sweep.options.rounds);
     json.add("clock", clock_name(sweep.options.grid));
-    json.add("contacts", facts.contacts);
+    json.add("contacts", experiment.contacts());
     json.add("contact_share", {{"wanted", sweep.options.experiment.contact_share},
-                               {"mean", facts.mean_share},
-                               {"frames", Json::array_of(std::span(facts.shares, facts.frames))}});
-    json.add("hash", hexadecimal(facts.hash));
+                               {"mean", experiment.mean_share()},
+                               {"frames", Json::array_of(experiment.shares())}});
+    json.add("hash", hexadecimal(experiment.hash()));
     json.add("world", sweep.world);
     Json samples = Json::array();
     for (const Size& size : sweep.sizes)
@@ -344,7 +305,7 @@ void print_sweep_json(const Sweep& sweep) {
         epsilon_ms.add(size.rule, epsilon(size.cell_size, found, found.one_millisecond, sweep.world));
         epsilon_percent.add(size.rule, epsilon(size.cell_size, found, found.five_percent, sweep.world));
         measured.add(size.rule, regret(size.time, found.least_time));
-        fitted.add(size.rule, regret(fitted_time(found.fit, size.cell_size), found.fit.time));
+        fitted.add(size.rule, regret(time_in_range(found.fit, size.cell_size), found.fit.time));
     }
     json.add("rules", rules);
     json.add("epsilon", epsilon_ms);
@@ -362,8 +323,8 @@ void print_sweep(const Sweep& sweep) {
     const double mean_edge = sweep.suggestion.rules.mean_edge;
     std::printf("%s against %s, %llu tetrahedra, %.2f %% of them in contact (mean over %u frames).\n\n",
                 sweep.bodies.front().name.c_str(), sweep.bodies.back().name.c_str(),
-                static_cast<unsigned long long>(sweep.facts.tets), 100 * sweep.facts.mean_share,
-                sweep.facts.frames);
+                static_cast<unsigned long long>(sweep.experiment.tets()), 100 * sweep.experiment.mean_share(),
+                sweep.options.experiment.frames);
     std::printf("  %12s %8s %8s %11s\n", "cell size", "edges", "n", "time (ms)");
     double most = 0;
     for (const Size& size : sweep.sizes) most = std::max(most, size.time.value_or(0));
@@ -373,7 +334,7 @@ void print_sweep(const Sweep& sweep) {
                         sweep.world / size.cell_size, *size.time * 1e-6, bar(*size.time / most, 24).c_str(),
                         size.rule.empty() ? "" : " ", size.rule.c_str());
     std::printf(
-        "\nThe fit, a polynomial of degree %u in the logarithms, predicts a time left out to %.1f %%.\n",
+        "\nThe fit, a polynomial of degree %zu in the logarithms, predicts a time left out to %.1f %%.\n",
         found.fit.degree, 100 * found.fit.prediction_error);
     std::printf("Best cell size %.6g, %.2f mean edges, n = %.2f: %.4f ms%s.\n", found.fit.cell_size,
                 found.fit.cell_size / mean_edge, sweep.world / found.fit.cell_size, found.fit.time * 1e-6,
@@ -415,8 +376,9 @@ void check_sweep_usage(const SweepOptions& options) {
         throw Failure(options.csv + ": there is such a file; --resume continues it, --force replaces it");
     for (const std::string& path : {options.csv, options.resume})
         if (!path.empty()) check_output(path);
-    if (options.axis[0] == 0 && options.axis[1] == 0 && options.axis[2] == 0)
-        throw WrongUsage("--axis: expected a direction, found 0 0 0");
+    const std::vector<double>& axis = options.experiment.axis;
+    const double length = std::hypot(axis[0], axis[1], axis[2]);
+    if (length == 0 || !std::isfinite(length)) throw WrongUsage("--axis: expected a direction");
 }
 
 void run_sweep(const SweepOptions& options) {
@@ -424,27 +386,28 @@ void run_sweep(const SweepOptions& options) {
     std::vector<Body> bodies;
     for (const std::string& file : {options.a, options.b.empty() ? options.a : options.b})
         bodies.push_back(options.ball > 0 ? make_ball(options.ball) : load_body(file, {}, options.fill));
-    const Experiment experiment = make_experiment(options, bodies[0], bodies[1]);
+    ExperimentSettings settings = options.experiment;
+    GridOptions grid = options.grid;
+    settings.grid = grid.grid_desc();
+    Experiment experiment(settings, experiment_body(bodies[0]), experiment_body(bodies[1]));
 
-    Sweep sweep{options, bodies, {}, {}, options.world, {}, {}};
-    sweep.facts.struct_size = sizeof sweep.facts;
-    check(vox_experiment_get(experiment.get(), &sweep.facts));
     vox_suggest_desc paper = vox_default_suggest_desc();
     paper.model = VOX_COST_MODEL_PAPER;
-    sweep.suggestion.struct_size = sizeof sweep.suggestion;
-    check(vox_experiment_suggest(experiment.get(), &paper, &sweep.suggestion));
-    if (!(sweep.world > 0))
-        for (int axis = 0; axis < 3; ++axis)
-            sweep.world = std::max(sweep.world, sweep.facts.bounds_max[axis] - sweep.facts.bounds_min[axis]);
+    Sweep sweep{options, bodies, experiment, experiment.suggest(paper), options.world, {}, {}};
+    if (!(sweep.world > 0)) {
+        const Bounds bounds = experiment.bounds();
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            sweep.world = std::max(sweep.world, bounds.max[axis] - bounds.min[axis]);
+    }
 
     sweep.sizes = choose_sizes(options, sweep.suggestion, sweep.world);
     const double range_min = sweep.sizes.front().cell_size,
                  range_max = sweep.sizes[options.count - 1].cell_size;
-    const std::string name = hexadecimal(sweep.facts.hash) + "/" + engine_name(options.grid);
+    const std::string name = hexadecimal(experiment.hash()) + "/" + engine_name(options.grid);
     const std::string& path = options.resume.empty() ? options.csv : options.resume;
     SweepLog log;
     if (!path.empty()) log = SweepLog(path, name, options.experiment.frames, !options.resume.empty());
-    measure(options, experiment.get(), sweep.suggestion, log, sweep.sizes);
+    measure(options, experiment, sweep.suggestion, log, sweep.sizes);
     collect(options, log, sweep.sizes);
     sweep.found = evaluate(sweep.sizes, range_min, range_max);
     options.json ? print_sweep_json(sweep) : print_sweep(sweep);
@@ -464,13 +427,13 @@ void add_sweep(CommandLine& line) {
         .shown_as("TETS")
         .range(1, VOX_MAX_TETS / 4);
     add_fill(command, options->fill);
-    command.option("--axis", options->axis, "Direction X Y Z from A to B")
+    command.option("--axis", options->experiment.axis, "Direction X Y Z from A to B")
         .count(3)
         .shown_as("FLOAT")
         .finite();
     command.option("--share", options->experiment.contact_share, "Share of the tetrahedra in contact")
         .fraction();
-    command.flag("--as-placed", options->as_placed, "Do not rotate the bodies");
+    command.flag("--as-placed", options->experiment.as_placed, "Do not rotate the bodies");
     command.option("--frames", options->experiment.frames, "Number of detections in a sample").range(1, 1000);
     command.option("--time-step", options->experiment.time_step, "Duration of a frame").positive();
     command.choice("--engine", options->grid.engine, engine_choices, "Algorithm");

@@ -2,6 +2,8 @@
 // continue.
 #pragma once
 
+#include "experiment/samples.hpp"
+
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -9,14 +11,6 @@
 #include <vector>
 
 namespace tool {
-
-struct SweepSample {
-    std::string name; // the rule that the cell size comes from; "" for a size of the range
-    double cell_size = 0;
-    std::uint64_t round = 0;
-    std::vector<std::uint64_t> frame_ns;
-    std::uint64_t contacts = 0, visited_cells = 0, visited_entries = 0, candidates = 0; // of all frames
-};
 
 class SweepLog {
 public:

@@ -73,7 +73,7 @@ class Model:
         return (sizes >= self["range_min"]) & (sizes <= self["range_max"])
 
     def fitted(self, n):
-        """Fitted milliseconds at n cells per axis: the power series of vox_time_fit."""
+        """Fitted milliseconds at n cells per axis: the power series of the fit of vox sweep."""
         low, high = math.log(self["range_min"]), math.log(self["range_max"])
         u = 2 * (numpy.log(4 / n) - low) / (high - low) - 1
         powers = [float(word) for word in self.row["coefficients"].split()]

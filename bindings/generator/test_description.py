@@ -96,7 +96,7 @@ class Description(unittest.TestCase):
             self.assertIn(o["threads"], ("readers or one", "one", "any"))
         self.assertEqual({o["name"]: o["threads"] for o in sections(API, "opaque")},
                          {"vox_grid": "readers or one", "vox_locator": "any", "vox_io_mesh": "readers or one",
-                          "vox_sim": "one", "vox_experiment": "one", "vox_surface": "one"})
+                          "vox_sim": "one", "vox_surface": "one"})
 
     def test_events_are_functions_of_the_header(self):
         names = {f["name"] for f in sections(API, "functions")}

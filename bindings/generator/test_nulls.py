@@ -19,8 +19,6 @@ SKIPPED = {
     "vox_fail": "it fails with the text that it is given",
     "vox_io_write_to": "null for desc is refused as what it stands for, defaults that need a file's name",
 }
-# Objects that take long to make. Their functions take structs and arrays of kinds that others are asked for.
-EXPENSIVE = {"vox_experiment"}
 ROOM = 1 << 16
 POSITIONS = (ctypes.c_double * 12)(0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1)
 TETS = (ctypes.c_uint32 * 4)(0, 1, 2, 3)
@@ -63,10 +61,6 @@ class Nulls:
                 setattr(value, f["name"], 4 if f["name"] == "vertex_count" else 1)
         if name == "vox_positions":
             value.data, value.count, value.format = ctypes.addressof(POSITIONS), 0 if is_empty else 4, _c.Format.DOUBLE
-        elif name == "vox_experiment_desc":
-            a = self.struct("vox_sim_body_desc")
-            self.keep.append(a)
-            value.a = ctypes.pointer(a)
         elif name == "vox_primitives":
             value.count = 4
         elif name == "vox_foreign_grid":
@@ -128,7 +122,7 @@ class Nulls:
             if p["kind"] == "alias":
                 return objects.get("vox_" + p["name"], objects["vox_body"])
             number = p["base"] in ("float", "double")
-            counts = p["name"] in ("count", "capacity", "rounds", "frames") or p["name"].endswith(("count", "size"))
+            counts = p["name"] in ("count", "capacity") or p["name"].endswith(("count", "size"))
             return 1.0 if number else (0 if is_empty else 1) if counts else 0
         if p["kind"] == "callback":
             return getattr(_c, p["base"])(lambda *arguments: 1.0)
@@ -196,8 +190,7 @@ def main():
     nulls = Nulls(libraries)
     for part in API["headers"]:
         for f in part["functions"] if part["name"] in libraries else []:
-            takes = {p.get("base") for p in f["parameters"] if "target" not in p}
-            if f["result"].get("base") == "vox_result" and f["name"] not in SKIPPED and not takes & EXPENSIVE:
+            if f["result"].get("base") == "vox_result" and f["name"] not in SKIPPED:
                 nulls.ask(part["name"], f)
     print(f"{nulls.calls} calls, {nulls.refused} refused for a null pointer")
     if nulls.faults:

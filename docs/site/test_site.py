@@ -140,7 +140,7 @@ class Repository(unittest.TestCase):
                     self.assertGreater(len(after.split()), 1, thing["name"])
                 for value in thing.get("values", []):
                     self.assertIn(f'id="{value["name"]}"', texts[page])
-        self.assertGreater(count, 300)
+        self.assertGreater(count, 250)
 
     def test_live_figures_exist(self):
         with open(os.path.join(build.HERE, "live", "figures.js"), encoding="utf-8") as file:

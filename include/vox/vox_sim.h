@@ -1,8 +1,8 @@
 /* vox_sim: deformable bodies that fall, collide and rest, built on the public interface of vox. A separate library; the
  * core does not need it.
  *
- * It serves the experiment (time of detection against cell size), the examples and the demo, and is small, clear and
- * robust rather than complete. A game or a film needs an engine of its own, with vox inside.
+ * It serves the paper's experiment (vox sweep), the examples and the demo, and is small, clear and robust rather than
+ * complete. A game or a film needs an engine of its own, with vox inside.
  *
  * Bodies are particles joined by tetrahedra. vox_sim_step divides the time step into substeps. In each of them the grid
  * finds the penetrations (vox_grid_penetrations), the particles move freely, and then constraints for edge lengths,
@@ -11,7 +11,7 @@
  * The conventions of vox.h hold here too: vox_result, vox_last_error(), struct_size, untouched out-parameters on
  * failure. Everything is double; the same calls give the same bits, for any number of workers of the grid.
  *
- *   Threads   One thread at a time may use a sim, or an experiment. Different ones are independent.
+ *   Threads   One thread at a time may use a sim. Different ones are independent.
  *   Units     One unit of length, mass and time throughout. The defaults suit metres, kilograms and seconds.
  *   Ownership Everything that is passed in is copied. Views live as their comment says.
  *   Limits    Positions, velocities and accelerations are at most 1e15 in size on each axis, other numbers at most
@@ -20,7 +20,7 @@
 #ifndef VOX_VOX_SIM_H
 #define VOX_VOX_SIM_H
 
-#include <vox/vox_cell_size.h>
+#include <vox/vox.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -215,152 +215,6 @@ typedef struct vox_sim_counts {
 
 /* Writes the fields that out_counts->struct_size covers (set it first). */
 VOX_API vox_result vox_sim_get_counters(const vox_sim* sim, vox_sim_counts* out_counts);
-
-/* ---- the experiment --------------------------------------------------------------------------- */
-
-/* Time of detection against cell size, as in Sect. 5 of the paper. Two bodies are placed so that about 1 % of their
- * tetrahedra are in contact; the response pushes them apart and deforms them; the detection of ten frames is timed.
- *
- * Contacts do not depend on the cell size, so the motion does not either. It is simulated once, when the experiment is
- * created, and every sample detects the contacts of the same recorded frames. A complete experiment calls
- * vox_experiment_create; then, for each round and each cell size in the order of vox_experiment_order,
- * vox_experiment_measure; then, for each cell size, vox_experiment_time over its rounds; and at last vox_fit_times,
- * vox_fit_zone and vox_experiment_suggest. `vox sweep` does exactly that. */
-typedef struct vox_experiment vox_experiment;
-
-typedef struct vox_experiment_desc {
-    uint32_t struct_size;
-    uint32_t frames;               /* detections in a sample, 1 to 1000; default 10 */
-    const vox_sim_body_desc* a;    /* keeps its place */
-    /* Is moved until it touches a; null (the default): a copy of a. */
-    VOX_OPTIONAL const vox_sim_body_desc* b;
-    /* Settings of the motion; null (the default): vox_sim's defaults, without a floor. */
-    VOX_OPTIONAL const vox_sim_desc* sim;
-    /* Settings of the grid that is measured, except its cell size; null (the default): vox's defaults with the
-     * reference engine. */
-    VOX_OPTIONAL const vox_grid_desc* grid;
-    double axis[3];                /* direction from a to b. The centre of b moves along this line through the centre
-                                    * of a (centres of the bounding boxes); default 1, 0, 0 */
-    double contact_share;          /* required share of all tets that contain a vertex of the other body, as the mean
-                                    * over the frames, in (0, 1); default 0.01 */
-    double time_step;              /* duration of a frame, > 0; default 1/100 */
-    uint32_t turn;                 /* 1 (the default): both bodies are first rotated about their centres by fixed
-                                    * angles, which differ, so that bodies cut from a lattice align neither with the
-                                    * cells nor with each other; 0: they are not rotated */
-    uint32_t reserved;             /* 0 */
-} vox_experiment_desc;
-
-static inline vox_experiment_desc vox_default_experiment_desc(void) {
-    vox_experiment_desc desc = VOX_ZERO;
-    desc.struct_size = (uint32_t)sizeof desc;
-    desc.frames = 10;
-    desc.axis[0] = 1;
-    desc.contact_share = 0.01;
-    desc.time_step = 0.01;
-    desc.turn = 1;
-    return desc;
-}
-
-/* Places the bodies, simulates the frames and records them. What `desc` points to is read during the call. The caller
- * owns *out_experiment and releases it with vox_experiment_destroy.
- * The position is found by bisection from outside, so that b stands where the required share is first reached. Then the
- * frames are simulated. Both are repeated a few times until the mean share over the frames is the required one. It is
- * met only roughly, since the number of tets is finite and the bodies may part quickly; vox_experiment_facts has the
- * result. Errors: INVALID_ARGUMENT (names the field and its value), INVALID_STATE (the share cannot be reached on this
- * axis; gives the largest that can), and those of vox_sim_create, vox_sim_body_insert and vox_grid_step. */
-VOX_API vox_result vox_experiment_create(const vox_experiment_desc* desc, vox_experiment** out_experiment);
-
-/* Destroys an experiment. Null does nothing. */
-VOX_API void vox_experiment_destroy(VOX_OPTIONAL vox_experiment* experiment);
-
-/* Placement and motion of the two bodies. */
-typedef struct vox_experiment_facts {
-    uint32_t struct_size;
-    uint32_t frames;
-    uint64_t vertices; /* of both bodies together */
-    uint64_t tets;     /* of both bodies together */
-    uint64_t contacts; /* sum over all frames */
-    uint64_t hash;     /* combines vox_grid_get_hash of all frames; the same for every cell size and engine */
-    double distance;   /* initial distance of the centres, along the axis */
-    double mean_share; /* mean over the frames of the share of tets in contact */
-    /* That share in each frame; lives until vox_experiment_destroy. */
-    const double* shares;
-    double bounds_min[3]; /* bounding box of all vertices in all frames */
-    double bounds_max[3];
-} vox_experiment_facts;
-
-/* Writes the fields that out_facts->struct_size covers (set it first); the shares live as long as the experiment. */
-VOX_API vox_result vox_experiment_get(const vox_experiment* experiment, vox_experiment_facts* out_facts);
-
-/* vox_suggest_cell_size for the two bodies as they are in the first frame, with its errors. */
-VOX_API vox_result vox_experiment_suggest(const vox_experiment* experiment,
-                                          VOX_OPTIONAL const vox_suggest_desc* desc, vox_suggestion* out);
-
-/* One sample: the detection of all frames at one cell size. The counts are sums over the frames. */
-typedef struct vox_experiment_sample {
-    uint32_t struct_size;
-    uint32_t reserved;
-    double cell_size;
-    double mean_ns; /* mean time of detection in a frame (vox_profile's bin, broad, narrow and contacts, without depth),
-                     * without the motion. Of a grid with one worker, the processor time of the calling thread, which a
-                     * busy machine lengthens much less; of several, the time that passes */
-    uint64_t contacts;
-    uint64_t visited_cells;
-    uint64_t visited_entries;
-    uint64_t candidates;
-} vox_experiment_sample;
-
-/* Measures one sample, after one step that is not timed. frame_ns receives the time of each frame; may be null.
- * Set out_sample->struct_size first. The contacts are compared with those found during the simulation.
- * Errors: INVALID_ARGUMENT (a cell size that is not above 0 and finite), those of vox_grid_step, INTERNAL (the contacts
- * differ). */
-VOX_API vox_result vox_experiment_measure(vox_experiment* experiment, double cell_size, VOX_OPTIONAL uint64_t* frame_ns,
-                                          vox_experiment_sample* out_sample);
-
-/* The order in which a round measures `count` cell sizes: the numbers 0 to count - 1, shuffled. It differs for each
- * round and seed and is the same on every machine. Thus a temporary disturbance of the machine does not always hit the
- * same cell sizes. Errors: INVALID_ARGUMENT (count 0). */
-VOX_API vox_result vox_experiment_order(uint64_t count, uint64_t seed, uint64_t round, uint64_t* out_order);
-
-/* The time of one cell size from its rounds: the mean over the frames of the median over the rounds. frame_ns holds
- * `frames` times for each round, round after round. A frame means the same work in every round, so a disturbance
- * affects only the frames in which it happens, not the whole round. Medians are used because on a busy machine the
- * minimum over the rounds depends on a few lucky ones (docs/paper.md has figures).
- * Errors: INVALID_ARGUMENT (no round, no frame), OUT_OF_MEMORY. */
-VOX_API vox_result vox_experiment_time(const uint64_t* frame_ns, uint64_t rounds, uint64_t frames, double* out_ns);
-
-#define VOX_FIT_CAPACITY 9u /* most coefficients of a fit */
-
-/* A polynomial fitted to the logarithms of times: ln(time) = sum of coefficients[k] * u^k for k = 0 to degree, where u
- * goes from -1 at range_min to 1 at range_max and is linear in ln(cell size). */
-typedef struct vox_time_fit {
-    uint32_t struct_size;
-    uint32_t degree; /* 2 to VOX_FIT_CAPACITY - 1, the one with the least prediction_error */
-    double range_min; /* smallest and largest cell size */
-    double range_max;
-    double coefficients[VOX_FIT_CAPACITY];
-    double r_squared;        /* share of the variance of ln(time) that is explained */
-    double prediction_error; /* root mean square error of predicting each point from a fit to all others, in ln(time),
-                              * so roughly a relative error */
-    double cell_size;        /* cell size of the least fitted time */
-    double time;             /* that time, in the unit of the times given */
-    uint32_t bracketed;      /* 1: cell_size is inside the range; 0: it is at one end, so the best may be beyond it */
-    uint32_t reserved;
-} vox_time_fit;
-
-/* Fits times > 0 (in any unit) to cell sizes > 0, which may repeat. Set out_fit->struct_size first.
- * Errors: INVALID_ARGUMENT (a number that is not finite and above 0, named by its index; fewer than five different cell
- * sizes), OUT_OF_MEMORY. */
-VOX_API vox_result vox_fit_times(const double* cell_sizes, const double* times, uint64_t count, vox_time_fit* out_fit);
-
-/* The fitted time at a cell size within the range. Errors: INVALID_ARGUMENT (a cell size outside the range, or a `fit`
- * that vox_fit_times did not fill). */
-VOX_API vox_result vox_fit_time_at(const vox_time_fit* fit, double cell_size, double* out_time);
-
-/* The zone: the range of cell sizes around the best one in which the fitted time is at most `limit`. It ends at
- * range_min or range_max if the time stays below the limit up to there.
- * Errors: INVALID_ARGUMENT (a limit below fit->time). */
-VOX_API vox_result vox_fit_zone(const vox_time_fit* fit, double limit, double* out_min, double* out_max);
 
 #ifdef __cplusplus
 }

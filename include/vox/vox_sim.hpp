@@ -3,7 +3,7 @@
 #ifndef VOX_VOX_SIM_HPP
 #define VOX_VOX_SIM_HPP
 
-#include <vox/vox_cell_size.hpp>
+#include <vox/vox.hpp>
 #include <vox/vox_sim.h>
 
 namespace vox {
@@ -87,77 +87,6 @@ private:
     std::unique_ptr<vox_sim, deleter> sim_;
     vox::grid grid_; // ends first, with its views
 };
-
-// vox_experiment. Move-only; its destructor is vox_experiment_destroy.
-class experiment {
-public:
-    explicit experiment(const vox_experiment_desc& desc) : experiment(create(desc)) {}
-    // vox_experiment_create
-    static experiment create(const vox_experiment_desc& desc) {
-        vox_experiment* raw = nullptr;
-        detail::check(vox_experiment_create(&desc, &raw));
-        return experiment(raw);
-    }
-    vox_experiment* get() noexcept { return experiment_.get(); }
-    const vox_experiment* get() const noexcept { return experiment_.get(); }
-    // vox_experiment_get. Its shares live as long as the experiment.
-    vox_experiment_facts facts() const& { return detail::filled<vox_experiment_facts>(vox_experiment_get, get()); }
-    void facts() const&& = delete;
-    // vox_experiment_suggest
-    vox_suggestion suggest_cell_size(const vox_suggest_desc& desc = vox_default_suggest_desc()) const {
-        return detail::filled<vox_suggestion>(vox_experiment_suggest, get(), &desc);
-    }
-    // vox_experiment_measure. `frame_ns` is empty or takes the time of each frame.
-    vox_experiment_sample measure(double cell_size, span<std::uint64_t> frame_ns = {}) {
-        vox_experiment_facts facts = detail::sized<vox_experiment_facts>();
-        vox_experiment_sample sample = detail::sized<vox_experiment_sample>();
-        detail::check(vox_experiment_get(get(), &facts));
-        if (!frame_ns.empty() && frame_ns.size() < facts.frames)
-            detail::refuse("measure: room for %llu times, of %llu frames", frame_ns.size(), facts.frames);
-        detail::check(vox_experiment_measure(get(), cell_size, frame_ns.empty() ? nullptr : frame_ns.data(), &sample));
-        return sample;
-    }
-
-private:
-    struct deleter {
-        void operator()(vox_experiment* raw) const noexcept { vox_experiment_destroy(raw); }
-    };
-    explicit experiment(vox_experiment* raw) noexcept : experiment_(raw) {}
-    std::unique_ptr<vox_experiment, deleter> experiment_;
-};
-
-// vox_experiment_order
-inline std::vector<std::uint64_t> order(std::size_t count, std::uint64_t seed, std::uint64_t round) {
-    std::vector<std::uint64_t> order(count);
-    detail::check(vox_experiment_order(count, seed, round, order.data()));
-    return order;
-}
-// vox_experiment_time, of rounds with `frames` times each
-inline double time_of(span<const std::uint64_t> frame_ns, std::size_t frames) {
-    double time = 0;
-    if (frames != 0 && frame_ns.size() % frames != 0)
-        detail::refuse("time_of: %llu times are no whole rounds of %llu frames", frame_ns.size(), frames);
-    detail::check(vox_experiment_time(frame_ns.data(), frames == 0 ? 0 : frame_ns.size() / frames, frames, &time));
-    return time;
-}
-// vox_fit_times
-inline vox_time_fit fit_times(span<const double> cell_sizes, span<const double> times) {
-    vox_time_fit fit = detail::sized<vox_time_fit>();
-    if (cell_sizes.size() != times.size())
-        detail::refuse("fit_times: %llu cell sizes and %llu times", cell_sizes.size(), times.size());
-    detail::check(vox_fit_times(cell_sizes.data(), times.data(), times.size(), &fit));
-    return fit;
-}
-// vox_fit_time_at
-inline double time_at(const vox_time_fit& fit, double cell_size) {
-    return detail::filled<double>(vox_fit_time_at, &fit, cell_size);
-}
-// vox_fit_zone: its smallest and largest cell size
-inline std::pair<double, double> zone(const vox_time_fit& fit, double limit) {
-    std::pair<double, double> zone;
-    detail::check(vox_fit_zone(&fit, limit, &zone.first, &zone.second));
-    return zone;
-}
 
 } // namespace sim
 } // namespace vox

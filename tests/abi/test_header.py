@@ -17,7 +17,7 @@ HEADERS = ["vox.h", "vox_query.h", "vox_cell_size.h", "vox_surface.h", "vox_io.h
 
 # Functions, structs and fields of each header, which are not to grow unseen: a new function has two users outside of tests.
 BUDGETS = {"vox.h": (66, 34, 259), "vox_query.h": (10, 5, 32), "vox_cell_size.h": (9, 19, 173), "vox_surface.h": (13, 13, 83),
-           "vox_io.h": (19, 9, 75), "vox_sim.h": (21, 9, 104), "vox_dist.h": (13, 8, 49)}
+           "vox_io.h": (19, 9, 75), "vox_sim.h": (11, 5, 63), "vox_dist.h": (13, 8, 49)}
 LIBRARIES = {name[:-2] for name in BUDGETS} | {"vox_mpi"}
 
 # Everything that a foreign-function interface can carry.
@@ -34,8 +34,8 @@ CONVENTIONS = {
 }
 
 # Functions with such a verb change what they are called for; no other does.
-CHANGES = re.compile(r"_(append|bind|clear|destroy|experiment_measure|insert|map|mark|prepare|release|remove|replace|reserve|"
-                     r"retain|set|step|take|update)(_|$)")
+CHANGES = re.compile(r"_(append|bind|clear|destroy|insert|map|mark|prepare|release|remove|replace|reserve|retain|"
+                     r"set|step|take|update)(_|$)")
 
 
 def base(type_text):

@@ -143,38 +143,9 @@ START_TEST(bodies_fall_as_in_c) {
 }
 END_TEST
 
-START_TEST(experiments) {
-    const vox::io::mesh ball = vox::io::make_lattice_ball(1000, 1);
-    const vox_sim_body_desc a = vox::sim::describe(ball.positions(), ball.tets());
-    vox_experiment_desc desc = vox_default_experiment_desc();
-    desc.a = &a;
-    desc.frames = 2;
-    vox::sim::experiment experiment(desc);
-    const vox_experiment_facts facts = experiment.facts();
-    ck_assert_uint_eq(facts.frames, 2);
-    std::vector<std::uint64_t> times(2);
-    ck_assert_uint_eq(experiment.measure(0.3, times).contacts, facts.contacts);
-    throws([&] { experiment.measure(0.3, vox::span<std::uint64_t>(times.data(), 1)); },
-           VOX_ERROR_INVALID_ARGUMENT, "room for 1 times, of 2 frames");
-    ck_assert_double_gt(experiment.suggest_cell_size().cell_size, 0);
-    ck_assert_uint_eq(vox::sim::order(5, 1, 2).size(), 5);
-    const std::vector<std::uint64_t> rounds = {10, 20, 30, 20, 10, 20};
-    ck_assert_double_eq(vox::sim::time_of(rounds, 2), 15);
-    throws([&] { (void)vox::sim::time_of(rounds, 4); }, VOX_ERROR_INVALID_ARGUMENT,
-           "6 times are no whole rounds of 4");
-    const std::vector<double> sizes = {0.25, 0.5, 1, 2, 4, 8}, measured = {9, 4, 1, 1, 4, 9};
-    const vox_time_fit fit = vox::sim::fit_times(sizes, measured);
-    ck_assert_double_gt(vox::sim::time_at(fit, 1), 0);
-    const auto [min, max] = vox::sim::zone(fit, 1.5 * fit.time);
-    ck_assert(min < fit.cell_size && fit.cell_size < max);
-    throws([&] { (void)vox::sim::fit_times(sizes, {}); }, VOX_ERROR_INVALID_ARGUMENT,
-           "6 cell sizes and 0 times");
-}
-END_TEST
-
 } // namespace
 
 SUITE(hpp_libraries) {
     tcase_add_each(add_case(suite, "all"), files_and_bodies, surfaces_are_filled_with_progress,
-                   bodies_fall_as_in_c, experiments);
+                   bodies_fall_as_in_c);
 }

@@ -1,5 +1,4 @@
-// vox_sim over a C++ heap that fails: every allocation in turn in the life of two bodies, and in an
-// experiment.
+// vox_sim over a C++ heap that fails: every allocation in turn in the life of two bodies.
 #include "scenes/bodies.h"
 #include "support/failing_heap.hpp"
 
@@ -50,36 +49,6 @@ START_TEST(each_allocation_of_a_simulation) {
 }
 END_TEST
 
-START_TEST(each_allocation_of_an_experiment) {
-    const Shape shape;
-    heap::fail_each(
-        [&](heap::Life& life) {
-            struct Held {
-                vox_experiment* experiment = nullptr;
-                ~Held() { vox_experiment_destroy(experiment); }
-            } held;
-            const vox_sim_body_desc a = shape.desc();
-            vox_experiment_desc desc = vox_default_experiment_desc();
-            desc.a = &a;
-            desc.frames = 1;
-            desc.contact_share = 0.2;
-            vox_experiment_facts facts;
-            facts.struct_size = sizeof facts;
-            vox_experiment_sample sample;
-            sample.struct_size = sizeof sample;
-            if (!life([&] { return vox_experiment_create(&desc, &held.experiment); }) ||
-                !life([&] { return vox_experiment_measure(held.experiment, 0.5, nullptr, &sample); }))
-                return;
-            ck_ok(vox_experiment_get(held.experiment, &facts));
-            life.hash = facts.hash;
-        },
-        7);
-}
-END_TEST
-
 } // namespace
 
-SUITE(sim_heap) {
-    TCase* tests = add_case(suite, "heap");
-    tcase_add_each(tests, each_allocation_of_a_simulation, each_allocation_of_an_experiment);
-}
+SUITE(sim_heap) { tcase_add_test(add_case(suite, "heap"), each_allocation_of_a_simulation); }

@@ -598,19 +598,6 @@ namespace Voxtet
         static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
 
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct Double9
-    {
-        public double e0, e1, e2, e3, e4, e5, e6, e7, e8;
-        public const int Length = 9;
-        public double this[int i]
-        {
-            get { Check(i); fixed (double* p = &e0) return p[i]; }
-            set { Check(i); fixed (double* p = &e0) p[i] = value; }
-        }
-        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
-    }
-
     /// <summary>An array of positions.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct Positions
@@ -2268,103 +2255,6 @@ namespace Voxtet
         public ulong solve_ns;
     }
 
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct ExperimentDesc
-    {
-        public uint struct_size;
-        /// <summary>detections in a sample, 1 to 1000; default 10</summary>
-        public uint frames;
-        /// <summary>keeps its place</summary>
-        public SimBodyDesc* a;
-        /// <summary>Is moved until it touches a; null (the default): a copy of a.</summary>
-        public SimBodyDesc* b;
-        /// <summary>Settings of the motion; null (the default): vox_sim's defaults, without a floor.</summary>
-        public SimDesc* sim;
-        /// <summary>Settings of the grid that is measured, except its cell size; null (the default): vox's defaults
-        /// with the reference engine.</summary>
-        public GridDesc* grid;
-        /// <summary>direction from a to b.</summary>
-        public Double3 axis;
-        /// <summary>required share of all tets that contain a vertex of the other body, as the mean over the frames, in
-        /// (0, 1); default 0.01</summary>
-        public double contact_share;
-        /// <summary>duration of a frame, &gt; 0; default 1/100</summary>
-        public double time_step;
-        /// <summary>1 (the default): both bodies are first rotated about their centres by fixed angles, which differ,
-        /// so that bodies cut from a lattice align neither with the cells nor with each other; 0: they are not
-        /// rotated</summary>
-        public uint turn;
-        /// <summary>0</summary>
-        public uint reserved;
-    }
-
-    /// <summary>Placement and motion of the two bodies.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct ExperimentFacts
-    {
-        public uint struct_size;
-        public uint frames;
-        /// <summary>of both bodies together</summary>
-        public ulong vertices;
-        /// <summary>of both bodies together</summary>
-        public ulong tets;
-        /// <summary>sum over all frames</summary>
-        public ulong contacts;
-        /// <summary>combines vox_grid_get_hash of all frames; the same for every cell size and engine</summary>
-        public ulong hash;
-        /// <summary>initial distance of the centres, along the axis</summary>
-        public double distance;
-        /// <summary>mean over the frames of the share of tets in contact</summary>
-        public double mean_share;
-        /// <summary>That share in each frame; lives until vox_experiment_destroy.</summary>
-        public double* shares;
-        /// <summary>bounding box of all vertices in all frames</summary>
-        public Double3 bounds_min;
-        public Double3 bounds_max;
-    }
-
-    /// <summary>One sample: the detection of all frames at one cell size.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 56)]
-    public struct ExperimentSample
-    {
-        public uint struct_size;
-        public uint reserved;
-        public double cell_size;
-        /// <summary>mean time of detection in a frame (vox_profile's bin, broad, narrow and contacts, without depth),
-        /// without the motion.</summary>
-        public double mean_ns;
-        public ulong contacts;
-        public ulong visited_cells;
-        public ulong visited_entries;
-        public ulong candidates;
-    }
-
-    /// <summary>A polynomial fitted to the logarithms of times: ln(time) = sum of coefficients[k] * u^k for k = 0 to
-    /// degree, where u goes from -1 at range_min to 1 at range_max and is linear in ln(cell size).</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 136)]
-    public struct TimeFit
-    {
-        public uint struct_size;
-        /// <summary>2 to VOX_FIT_CAPACITY - 1, the one with the least prediction_error</summary>
-        public uint degree;
-        /// <summary>smallest and largest cell size</summary>
-        public double range_min;
-        public double range_max;
-        public Double9 coefficients;
-        /// <summary>share of the variance of ln(time) that is explained</summary>
-        public double r_squared;
-        /// <summary>root mean square error of predicting each point from a fit to all others, in ln(time), so roughly a
-        /// relative error</summary>
-        public double prediction_error;
-        /// <summary>cell size of the least fitted time</summary>
-        public double cell_size;
-        /// <summary>that time, in the unit of the times given</summary>
-        public double time;
-        /// <summary>1: cell_size is inside the range; 0: it is at one end, so the best may be beyond it</summary>
-        public uint bracketed;
-        public uint reserved;
-    }
-
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal delegate void Task(ulong begin, ulong end, uint worker, IntPtr context);
 
@@ -2444,8 +2334,6 @@ namespace Voxtet
         internal const uint VOX_MAX_FEATURES = 2147483647;
         /// <summary>patches of a surface.</summary>
         internal const uint VOX_MAX_PATCHES = 65536;
-        /// <summary>most coefficients of a fit</summary>
-        internal const uint VOX_FIT_CAPACITY = 9;
 
 #if (UNITY_IOS || UNITY_WEBGL) && !UNITY_EDITOR
         const string vox = "__Internal";
@@ -3062,52 +2950,6 @@ namespace Voxtet
         /// <summary>Writes the fields that out_counts-&gt;struct_size covers (set it first).</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_sim_get_counters(IntPtr sim, SimCounts* out_counts);
-
-        /// <summary>Places the bodies, simulates the frames and records them.</summary>
-        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_experiment_create(ExperimentDesc* desc, IntPtr* out_experiment);
-
-        /// <summary>Destroys an experiment.</summary>
-        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern void vox_experiment_destroy(IntPtr experiment);
-
-        /// <summary>Writes the fields that out_facts-&gt;struct_size covers (set it first); the shares live as long as
-        /// the experiment.</summary>
-        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_experiment_get(IntPtr experiment, ExperimentFacts* out_facts);
-
-        /// <summary>vox_suggest_cell_size for the two bodies as they are in the first frame, with its errors.</summary>
-        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_experiment_suggest(IntPtr experiment, SuggestDesc* desc, Suggestion* @out);
-
-        /// <summary>Measures one sample, after one step that is not timed. frame_ns receives the time of each frame;
-        /// may be null.</summary>
-        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_experiment_measure(IntPtr experiment, double cell_size, ulong* frame_ns,
-            ExperimentSample* out_sample);
-
-        /// <summary>The order in which a round measures `count` cell sizes: the numbers 0 to count - 1,
-        /// shuffled.</summary>
-        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_experiment_order(ulong count, ulong seed, ulong round, ulong* out_order);
-
-        /// <summary>The time of one cell size from its rounds: the mean over the frames of the median over the rounds.
-        /// frame_ns holds `frames` times for each round, round after round.</summary>
-        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_experiment_time(ulong* frame_ns, ulong rounds, ulong frames, double* out_ns);
-
-        /// <summary>Fits times &gt; 0 (in any unit) to cell sizes &gt; 0, which may repeat.</summary>
-        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_fit_times(double* cell_sizes, double* times, ulong count, TimeFit* out_fit);
-
-        /// <summary>The fitted time at a cell size within the range.</summary>
-        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_fit_time_at(TimeFit* fit, double cell_size, double* out_time);
-
-        /// <summary>The zone: the range of cell sizes around the best one in which the fitted time is at most
-        /// `limit`.</summary>
-        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_fit_zone(TimeFit* fit, double limit, double* out_min, double* out_max);
     }
 
     /// <summary>A size or an offset here, and what it is for the library.</summary>
@@ -4405,75 +4247,6 @@ namespace Voxtet
             entries.Add(Entry("vox_sim_counts.solve_ns", (byte*)&s.solve_ns - begin, 136, 136));
         }
 
-        static void AddExperimentDesc(List<LayoutEntry> entries)
-        {
-            ExperimentDesc s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_experiment_desc", sizeof(ExperimentDesc), 88, 72));
-            entries.Add(Entry("vox_experiment_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_experiment_desc.frames", (byte*)&s.frames - begin, 4, 4));
-            entries.Add(Entry("vox_experiment_desc.a", (byte*)&s.a - begin, 8, 8));
-            entries.Add(Entry("vox_experiment_desc.b", (byte*)&s.b - begin, 16, 12));
-            entries.Add(Entry("vox_experiment_desc.sim", (byte*)&s.sim - begin, 24, 16));
-            entries.Add(Entry("vox_experiment_desc.grid", (byte*)&s.grid - begin, 32, 20));
-            entries.Add(Entry("vox_experiment_desc.axis", (byte*)&s.axis - begin, 40, 24));
-            entries.Add(Entry("vox_experiment_desc.contact_share", (byte*)&s.contact_share - begin, 64, 48));
-            entries.Add(Entry("vox_experiment_desc.time_step", (byte*)&s.time_step - begin, 72, 56));
-            entries.Add(Entry("vox_experiment_desc.turn", (byte*)&s.turn - begin, 80, 64));
-            entries.Add(Entry("vox_experiment_desc.reserved", (byte*)&s.reserved - begin, 84, 68));
-        }
-
-        static void AddExperimentFacts(List<LayoutEntry> entries)
-        {
-            ExperimentFacts s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_experiment_facts", sizeof(ExperimentFacts), 112, 112));
-            entries.Add(Entry("vox_experiment_facts.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_experiment_facts.frames", (byte*)&s.frames - begin, 4, 4));
-            entries.Add(Entry("vox_experiment_facts.vertices", (byte*)&s.vertices - begin, 8, 8));
-            entries.Add(Entry("vox_experiment_facts.tets", (byte*)&s.tets - begin, 16, 16));
-            entries.Add(Entry("vox_experiment_facts.contacts", (byte*)&s.contacts - begin, 24, 24));
-            entries.Add(Entry("vox_experiment_facts.hash", (byte*)&s.hash - begin, 32, 32));
-            entries.Add(Entry("vox_experiment_facts.distance", (byte*)&s.distance - begin, 40, 40));
-            entries.Add(Entry("vox_experiment_facts.mean_share", (byte*)&s.mean_share - begin, 48, 48));
-            entries.Add(Entry("vox_experiment_facts.shares", (byte*)&s.shares - begin, 56, 56));
-            entries.Add(Entry("vox_experiment_facts.bounds_min", (byte*)&s.bounds_min - begin, 64, 64));
-            entries.Add(Entry("vox_experiment_facts.bounds_max", (byte*)&s.bounds_max - begin, 88, 88));
-        }
-
-        static void AddExperimentSample(List<LayoutEntry> entries)
-        {
-            ExperimentSample s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_experiment_sample", sizeof(ExperimentSample), 56, 56));
-            entries.Add(Entry("vox_experiment_sample.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_experiment_sample.reserved", (byte*)&s.reserved - begin, 4, 4));
-            entries.Add(Entry("vox_experiment_sample.cell_size", (byte*)&s.cell_size - begin, 8, 8));
-            entries.Add(Entry("vox_experiment_sample.mean_ns", (byte*)&s.mean_ns - begin, 16, 16));
-            entries.Add(Entry("vox_experiment_sample.contacts", (byte*)&s.contacts - begin, 24, 24));
-            entries.Add(Entry("vox_experiment_sample.visited_cells", (byte*)&s.visited_cells - begin, 32, 32));
-            entries.Add(Entry("vox_experiment_sample.visited_entries", (byte*)&s.visited_entries - begin, 40, 40));
-            entries.Add(Entry("vox_experiment_sample.candidates", (byte*)&s.candidates - begin, 48, 48));
-        }
-
-        static void AddTimeFit(List<LayoutEntry> entries)
-        {
-            TimeFit s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_time_fit", sizeof(TimeFit), 136, 136));
-            entries.Add(Entry("vox_time_fit.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_time_fit.degree", (byte*)&s.degree - begin, 4, 4));
-            entries.Add(Entry("vox_time_fit.range_min", (byte*)&s.range_min - begin, 8, 8));
-            entries.Add(Entry("vox_time_fit.range_max", (byte*)&s.range_max - begin, 16, 16));
-            entries.Add(Entry("vox_time_fit.coefficients", (byte*)&s.coefficients - begin, 24, 24));
-            entries.Add(Entry("vox_time_fit.r_squared", (byte*)&s.r_squared - begin, 96, 96));
-            entries.Add(Entry("vox_time_fit.prediction_error", (byte*)&s.prediction_error - begin, 104, 104));
-            entries.Add(Entry("vox_time_fit.cell_size", (byte*)&s.cell_size - begin, 112, 112));
-            entries.Add(Entry("vox_time_fit.time", (byte*)&s.time - begin, 120, 120));
-            entries.Add(Entry("vox_time_fit.bracketed", (byte*)&s.bracketed - begin, 128, 128));
-            entries.Add(Entry("vox_time_fit.reserved", (byte*)&s.reserved - begin, 132, 132));
-        }
-
         /// <summary>All structs and fields. A program whose entries differ must not call the library.</summary>
         internal static List<LayoutEntry> Entries()
         {
@@ -4563,10 +4336,6 @@ namespace Voxtet
             AddSimBodyView(entries);
             AddSimEnergies(entries);
             AddSimCounts(entries);
-            AddExperimentDesc(entries);
-            AddExperimentFacts(entries);
-            AddExperimentSample(entries);
-            AddTimeFit(entries);
             return entries;
         }
     }

@@ -5,18 +5,20 @@ from __future__ import annotations
 import os
 import sys
 
+from ._library import tool
+from .errors import MissingFileError
+
 
 def main() -> None:
     """Runs the tool with the arguments of this process, and ends with its status."""
-    name = "vox.exe" if sys.platform == "win32" else "vox"
-    tool = os.path.join(os.path.dirname(os.path.abspath(__file__)), "bin", name)
-    if not os.path.exists(tool):
-        sys.exit(f"voxtet: there is no {tool}; the wheels have it")
-    arguments = [tool, *sys.argv[1:]]
+    try:
+        arguments = [tool(), *sys.argv[1:]]
+    except MissingFileError as error:
+        sys.exit(f"voxtet: {error}")
     if sys.platform == "win32":
         import subprocess
         sys.exit(subprocess.call(arguments))
-    os.execv(tool, arguments)
+    os.execv(arguments[0], arguments)
 
 
 if __name__ == "__main__":

@@ -29,7 +29,6 @@ VOX_NOTE_CAPACITY = 256
 VOX_TUNE_RUN_CAPACITY = 32
 VOX_MAX_FEATURES = 2147483647
 VOX_MAX_PATCHES = 65536
-VOX_FIT_CAPACITY = 9
 
 
 class Result(enum.IntEnum):
@@ -1678,87 +1677,11 @@ dtypes["vox_sim_counts"] = dtype({
     "itemsize": 144})
 
 
-class vox_experiment_desc(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("frames", c_uint32),
-        ("a", POINTER(vox_sim_body_desc)),
-        ("b", POINTER(vox_sim_body_desc)),
-        ("sim", POINTER(vox_sim_desc)),
-        ("grid", POINTER(vox_grid_desc)),
-        ("axis", c_double * 3),
-        ("contact_share", c_double),
-        ("time_step", c_double),
-        ("turn", c_uint32),
-        ("reserved", c_uint32),
-    ]
-
-
-class vox_experiment_facts(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("frames", c_uint32),
-        ("vertices", c_uint64),
-        ("tets", c_uint64),
-        ("contacts", c_uint64),
-        ("hash", c_uint64),
-        ("distance", c_double),
-        ("mean_share", c_double),
-        ("shares", c_void_p),
-        ("bounds_min", c_double * 3),
-        ("bounds_max", c_double * 3),
-    ]
-
-
-class vox_experiment_sample(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("cell_size", c_double),
-        ("mean_ns", c_double),
-        ("contacts", c_uint64),
-        ("visited_cells", c_uint64),
-        ("visited_entries", c_uint64),
-        ("candidates", c_uint64),
-    ]
-
-dtypes["vox_experiment_sample"] = dtype({
-    "names": ["struct_size", "reserved", "cell_size", "mean_ns", "contacts", "visited_cells", "visited_entries",
-        "candidates"],
-    "formats": ["u4", "u4", "f8", "f8", "u8", "u8", "u8", "u8"],
-    "offsets": [0, 4, 8, 16, 24, 32, 40, 48],
-    "itemsize": 56})
-
-
-class vox_time_fit(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("degree", c_uint32),
-        ("range_min", c_double),
-        ("range_max", c_double),
-        ("coefficients", c_double * 9),
-        ("r_squared", c_double),
-        ("prediction_error", c_double),
-        ("cell_size", c_double),
-        ("time", c_double),
-        ("bracketed", c_uint32),
-        ("reserved", c_uint32),
-    ]
-
-dtypes["vox_time_fit"] = dtype({
-    "names": ["struct_size", "degree", "range_min", "range_max", "coefficients", "r_squared", "prediction_error",
-        "cell_size", "time", "bracketed", "reserved"],
-    "formats": ["u4", "u4", "f8", "f8", ("f8", (9,)), "f8", "f8", "f8", "f8", "u4", "u4"],
-    "offsets": [0, 4, 8, 16, 24, 96, 104, 112, 120, 128, 132],
-    "itemsize": 136})
-
-
 # What vox_default_X sets in a struct, beside struct_size, where that is not all 0.
 DEFAULTS: dict[str, dict[str, Any]] = {
     "vox_grid_desc": {'flags': 1},
     "vox_sim_desc": {'substeps': 10, 'detect_every': 1, 'gravity': [0, 0, -9.81], 'max_time_step': 0.03333333333333333, 'floor_normal': [0, 0, 1], 'friction': 0.5, 'max_push_speed': 1, 'contact_slop': -1},
     "vox_sim_body_desc": {'density': 1000, 'youngs_modulus': 1000000, 'bulk_modulus': 1000000, 'damping': 0.01},
-    "vox_experiment_desc": {'frames': 10, 'axis': [1, 0, 0], 'contact_share': 0.01, 'time_step': 0.01, 'turn': 1},
 }
 
 
@@ -1911,16 +1834,6 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_sim_body_set_acceleration": (vox_result, (c_void_p, c_uint32, c_void_p)),
         "vox_sim_get_energy": (vox_result, (c_void_p, c_uint32, POINTER(vox_sim_energies))),
         "vox_sim_get_counters": (vox_result, (c_void_p, POINTER(vox_sim_counts))),
-        "vox_experiment_create": (vox_result, (POINTER(vox_experiment_desc), POINTER(c_void_p))),
-        "vox_experiment_destroy": (None, (c_void_p,)),
-        "vox_experiment_get": (vox_result, (c_void_p, POINTER(vox_experiment_facts))),
-        "vox_experiment_suggest": (vox_result, (c_void_p, POINTER(vox_suggest_desc), POINTER(vox_suggestion))),
-        "vox_experiment_measure": (vox_result, (c_void_p, c_double, c_void_p, POINTER(vox_experiment_sample))),
-        "vox_experiment_order": (vox_result, (c_uint64, c_uint64, c_uint64, c_void_p)),
-        "vox_experiment_time": (vox_result, (c_void_p, c_uint64, c_uint64, POINTER(c_double))),
-        "vox_fit_times": (vox_result, (c_void_p, c_void_p, c_uint64, POINTER(vox_time_fit))),
-        "vox_fit_time_at": (vox_result, (POINTER(vox_time_fit), c_double, POINTER(c_double))),
-        "vox_fit_zone": (vox_result, (POINTER(vox_time_fit), c_double, POINTER(c_double), POINTER(c_double))),
     },
 }
 

@@ -8,7 +8,7 @@ import sys
 from typing import Any, Callable, Optional, TypeVar
 
 from . import _c
-from .errors import InvalidStateError, error_of
+from .errors import InvalidStateError, MissingFileError, error_of
 
 _HERE = os.path.dirname(os.path.abspath(__file__))
 _OF_A_BUILD = ("src", "src/io", "src/sim", "src/dist", "bin")  # where CMake leaves the libraries, bin on Windows
@@ -41,6 +41,16 @@ def find(name: str) -> str:
         if os.path.exists(path):
             return path
     return file_name(name)
+
+
+def tool() -> str:
+    """The native command line, vox: the package's own; else that of a build folder in VOXTET_LIBRARY_DIR."""
+    name = "vox.exe" if sys.platform == "win32" else "vox"
+    own = os.path.join(_HERE, "bin", name)
+    for path in (own, *(os.path.join(folder, part, name) for folder in _named() for part in ("tools", "bin"))):
+        if os.path.exists(path):
+            return path
+    raise MissingFileError(f"there is no {own}; the wheels have it")
 
 
 def load(name: str) -> Any:

@@ -49,8 +49,6 @@ pub const VOX_TUNE_RUN_CAPACITY: u32 = 32;
 pub const VOX_MAX_FEATURES: u32 = 2147483647;
 /// patches of a surface. More: VOX_ERROR_LIMIT
 pub const VOX_MAX_PATCHES: u32 = 65536;
-/// most coefficients of a fit
-pub const VOX_FIT_CAPACITY: u32 = 9;
 
 pub type vox_result = i32;
 pub const VOX_OK: vox_result = 0;
@@ -399,19 +397,6 @@ pub struct vox_io_mesh {
 /// Bodies, and the grid they collide in.
 #[repr(C)]
 pub struct vox_sim {
-    _data: [u8; 0],
-    _marker: PhantomData<(*mut u8, PhantomPinned)>,
-}
-
-/// Time of detection against cell size, as in Sect. 5 of the paper. Two bodies are placed so that about 1 % of their
-/// tetrahedra are in contact; the response pushes them apart and deforms them; the detection of ten frames is timed.
-/// Contacts do not depend on the cell size, so the motion does not either. It is simulated once, when the experiment is
-/// created, and every sample detects the contacts of the same recorded frames. A complete experiment calls
-/// vox_experiment_create; then, for each round and each cell size in the order of vox_experiment_order,
-/// vox_experiment_measure; then, for each cell size, vox_experiment_time over its rounds; and at last vox_fit_times,
-/// vox_fit_zone and vox_experiment_suggest. `vox sweep` does exactly that.
-#[repr(C)]
-pub struct vox_experiment {
     _data: [u8; 0],
     _marker: PhantomData<(*mut u8, PhantomPinned)>,
 }
@@ -2205,104 +2190,6 @@ pub struct vox_sim_counts {
     pub solve_ns: u64,
 }
 
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_experiment_desc {
-    pub struct_size: u32,
-    /// detections in a sample, 1 to 1000; default 10
-    pub frames: u32,
-    /// keeps its place
-    pub a: *const vox_sim_body_desc,
-    /// Is moved until it touches a; null (the default): a copy of a.
-    pub b: *const vox_sim_body_desc,
-    /// Settings of the motion; null (the default): vox_sim's defaults, without a floor.
-    pub sim: *const vox_sim_desc,
-    /// Settings of the grid that is measured, except its cell size; null (the default): vox's defaults with the
-    /// reference engine.
-    pub grid: *const vox_grid_desc,
-    /// direction from a to b. The centre of b moves along this line through the centre of a (centres of the bounding
-    /// boxes); default 1, 0, 0
-    pub axis: [f64; 3],
-    /// required share of all tets that contain a vertex of the other body, as the mean over the frames, in (0, 1);
-    /// default 0.01
-    pub contact_share: f64,
-    /// duration of a frame, > 0; default 1/100
-    pub time_step: f64,
-    /// 1 (the default): both bodies are first rotated about their centres by fixed angles, which differ, so that bodies
-    /// cut from a lattice align neither with the cells nor with each other; 0: they are not rotated
-    pub turn: u32,
-    /// 0
-    pub reserved: u32,
-}
-
-/// Placement and motion of the two bodies.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_experiment_facts {
-    pub struct_size: u32,
-    pub frames: u32,
-    /// of both bodies together
-    pub vertices: u64,
-    /// of both bodies together
-    pub tets: u64,
-    /// sum over all frames
-    pub contacts: u64,
-    /// combines vox_grid_get_hash of all frames; the same for every cell size and engine
-    pub hash: u64,
-    /// initial distance of the centres, along the axis
-    pub distance: f64,
-    /// mean over the frames of the share of tets in contact
-    pub mean_share: f64,
-    /// That share in each frame; lives until vox_experiment_destroy.
-    pub shares: *const f64,
-    /// bounding box of all vertices in all frames
-    pub bounds_min: [f64; 3],
-    pub bounds_max: [f64; 3],
-}
-
-/// One sample: the detection of all frames at one cell size. The counts are sums over the frames.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_experiment_sample {
-    pub struct_size: u32,
-    pub reserved: u32,
-    pub cell_size: f64,
-    /// mean time of detection in a frame (vox_profile's bin, broad, narrow and contacts, without depth), without the
-    /// motion. Of a grid with one worker, the processor time of the calling thread, which a busy machine lengthens much
-    /// less; of several, the time that passes
-    pub mean_ns: f64,
-    pub contacts: u64,
-    pub visited_cells: u64,
-    pub visited_entries: u64,
-    pub candidates: u64,
-}
-
-/// A polynomial fitted to the logarithms of times: ln(time) = sum of coefficients[k] * u^k for k = 0 to degree, where u
-/// goes from -1 at range_min to 1 at range_max and is linear in ln(cell size).
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_time_fit {
-    pub struct_size: u32,
-    /// 2 to VOX_FIT_CAPACITY - 1, the one with the least prediction_error
-    pub degree: u32,
-    /// smallest and largest cell size
-    pub range_min: f64,
-    pub range_max: f64,
-    pub coefficients: [f64; 9],
-    /// share of the variance of ln(time) that is explained
-    pub r_squared: f64,
-    /// root mean square error of predicting each point from a fit to all others, in ln(time), so roughly a relative
-    /// error
-    pub prediction_error: f64,
-    /// cell size of the least fitted time
-    pub cell_size: f64,
-    /// that time, in the unit of the times given
-    pub time: f64,
-    /// 1: cell_size is inside the range; 0: it is at one end, so the best may be beyond it
-    pub bracketed: u32,
-    pub reserved: u32,
-}
-
 #[rustfmt::skip]
 extern "C" {
     /// Name of a result code, e.g. "VOX_ERROR_BUDGET". Static text; never null. Any thread.
@@ -3254,85 +3141,6 @@ extern "C" {
     ) -> vox_result;
     /// Writes the fields that out_counts->struct_size covers (set it first).
     pub fn vox_sim_get_counters(sim: *const vox_sim, out_counts: *mut vox_sim_counts) -> vox_result;
-    /// Places the bodies, simulates the frames and records them. What `desc` points to is read during the call. The
-    /// caller owns *out_experiment and releases it with vox_experiment_destroy. The position is found by bisection from
-    /// outside, so that b stands where the required share is first reached. Then the frames are simulated. Both are
-    /// repeated a few times until the mean share over the frames is the required one. It is met only roughly, since the
-    /// number of tets is finite and the bodies may part quickly; vox_experiment_facts has the result. Errors:
-    /// INVALID_ARGUMENT (names the field and its value), INVALID_STATE (the share cannot be reached on this axis; gives
-    /// the largest that can), and those of vox_sim_create, vox_sim_body_insert and vox_grid_step.
-    pub fn vox_experiment_create(
-        desc: *const vox_experiment_desc,
-        out_experiment: *mut *mut vox_experiment,
-    ) -> vox_result;
-    /// Destroys an experiment. Null does nothing.
-    pub fn vox_experiment_destroy(experiment: *mut vox_experiment);
-    /// Writes the fields that out_facts->struct_size covers (set it first); the shares live as long as the experiment.
-    pub fn vox_experiment_get(
-        experiment: *const vox_experiment,
-        out_facts: *mut vox_experiment_facts,
-    ) -> vox_result;
-    /// vox_suggest_cell_size for the two bodies as they are in the first frame, with its errors.
-    pub fn vox_experiment_suggest(
-        experiment: *const vox_experiment,
-        desc: *const vox_suggest_desc,
-        out: *mut vox_suggestion,
-    ) -> vox_result;
-    /// Measures one sample, after one step that is not timed. frame_ns receives the time of each frame; may be null.
-    /// Set out_sample->struct_size first. The contacts are compared with those found during the simulation. Errors:
-    /// INVALID_ARGUMENT (a cell size that is not above 0 and finite), those of vox_grid_step, INTERNAL (the contacts
-    /// differ).
-    pub fn vox_experiment_measure(
-        experiment: *mut vox_experiment,
-        cell_size: f64,
-        frame_ns: *mut u64,
-        out_sample: *mut vox_experiment_sample,
-    ) -> vox_result;
-    /// The order in which a round measures `count` cell sizes: the numbers 0 to count - 1, shuffled. It differs for
-    /// each round and seed and is the same on every machine. Thus a temporary disturbance of the machine does not
-    /// always hit the same cell sizes. Errors: INVALID_ARGUMENT (count 0).
-    pub fn vox_experiment_order(
-        count: u64,
-        seed: u64,
-        round: u64,
-        out_order: *mut u64,
-    ) -> vox_result;
-    /// The time of one cell size from its rounds: the mean over the frames of the median over the rounds. frame_ns
-    /// holds `frames` times for each round, round after round. A frame means the same work in every round, so a
-    /// disturbance affects only the frames in which it happens, not the whole round. Medians are used because on a busy
-    /// machine the minimum over the rounds depends on a few lucky ones (docs/paper.md has figures). Errors:
-    /// INVALID_ARGUMENT (no round, no frame), OUT_OF_MEMORY.
-    pub fn vox_experiment_time(
-        frame_ns: *const u64,
-        rounds: u64,
-        frames: u64,
-        out_ns: *mut f64,
-    ) -> vox_result;
-    /// Fits times > 0 (in any unit) to cell sizes > 0, which may repeat. Set out_fit->struct_size first. Errors:
-    /// INVALID_ARGUMENT (a number that is not finite and above 0, named by its index; fewer than five different cell
-    /// sizes), OUT_OF_MEMORY.
-    pub fn vox_fit_times(
-        cell_sizes: *const f64,
-        times: *const f64,
-        count: u64,
-        out_fit: *mut vox_time_fit,
-    ) -> vox_result;
-    /// The fitted time at a cell size within the range. Errors: INVALID_ARGUMENT (a cell size outside the range, or a
-    /// `fit` that vox_fit_times did not fill).
-    pub fn vox_fit_time_at(
-        fit: *const vox_time_fit,
-        cell_size: f64,
-        out_time: *mut f64,
-    ) -> vox_result;
-    /// The zone: the range of cell sizes around the best one in which the fitted time is at most `limit`. It ends at
-    /// range_min or range_max if the time stays below the limit up to there. Errors: INVALID_ARGUMENT (a limit below
-    /// fit->time).
-    pub fn vox_fit_zone(
-        fit: *const vox_time_fit,
-        limit: f64,
-        out_min: *mut f64,
-        out_max: *mut f64,
-    ) -> vox_result;
 }
 
 // Of each struct size, alignment, and offsets of its fields: [on 64-bit machines, in WebAssembly and on other 32-bit
@@ -3565,16 +3373,4 @@ layouts! {
         raised_masses: [56, 56], softened: [64, 64], steps: [72, 72], substeps: [80, 80], detections: [88, 88],
         clamped_steps: [96, 96], penetrations: [104, 104], floor_contacts: [112, 112], step_ns: [120, 120],
         detect_ns: [128, 128], solve_ns: [136, 136] }
-    vox_experiment_desc: size [88, 72], alignment [8, 8], { struct_size: [0, 0], frames: [4, 4], a: [8, 8], b: [16, 12],
-        sim: [24, 16], grid: [32, 20], axis: [40, 24], contact_share: [64, 48], time_step: [72, 56], turn: [80, 64],
-        reserved: [84, 68] }
-    vox_experiment_facts: size [112, 112], alignment [8, 8], { struct_size: [0, 0], frames: [4, 4], vertices: [8, 8],
-        tets: [16, 16], contacts: [24, 24], hash: [32, 32], distance: [40, 40], mean_share: [48, 48], shares: [56, 56],
-        bounds_min: [64, 64], bounds_max: [88, 88] }
-    vox_experiment_sample: size [56, 56], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], cell_size: [8, 8],
-        mean_ns: [16, 16], contacts: [24, 24], visited_cells: [32, 32], visited_entries: [40, 40],
-        candidates: [48, 48] }
-    vox_time_fit: size [136, 136], alignment [8, 8], { struct_size: [0, 0], degree: [4, 4], range_min: [8, 8],
-        range_max: [16, 16], coefficients: [24, 24], r_squared: [96, 96], prediction_error: [104, 104],
-        cell_size: [112, 112], time: [120, 120], bracketed: [128, 128], reserved: [132, 132] }
 }

@@ -8,14 +8,15 @@
 // Both axes are logarithms. The cost is a sum of falling and rising powers of the cell size. Its logarithm
 // over the logarithm of the cell size is a smooth bowl between two straight lines, which polynomials
 // approximate well. The noise of a time is proportional to it, so all points get the same weight.
-#include "sim/experiment/fit.hpp"
+#include "experiment/fit.hpp"
+
+#include "failure.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <vector>
 
-namespace vox::sim {
+namespace tool {
 
 namespace {
 
@@ -23,6 +24,12 @@ double dot(std::span<const double> a, std::span<const double> b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
     return sum;
+}
+
+std::size_t count_distinct(std::span<const double> values) {
+    std::vector<double> sorted(values.begin(), values.end());
+    std::sort(sorted.begin(), sorted.end());
+    return std::size_t(std::unique(sorted.begin(), sorted.end()) - sorted.begin());
 }
 
 // One orthonormal polynomial, as its values at the points and as a power series.
@@ -58,18 +65,18 @@ double power_series(const double (&coefficients)[max_fit_degree + 1], std::size_
     return sum;
 }
 
-double cell_size_at(const vox_time_fit& fit, double u) {
+double cell_size_at(const TimeFit& fit, double u) {
     if (u == -1) return fit.range_min;
     if (u == 1) return fit.range_max;
     return fit.range_min * std::pow(fit.range_max / fit.range_min, (u + 1) / 2);
 }
 
-double place_of(const vox_time_fit& fit, double cell_size) {
+double place_of(const TimeFit& fit, double cell_size) {
     return 2 * std::log(cell_size / fit.range_min) / std::log(fit.range_max / fit.range_min) - 1;
 }
 
 // The fit of least leave-one-out error; sets degree, coefficients, r_squared and prediction_error.
-void fit_polynomial(std::span<const double> u, std::span<const double> y, vox_time_fit& fit) {
+void fit_polynomial(std::span<const double> u, std::span<const double> y, TimeFit& fit) {
     const std::size_t count = u.size();
     Basis last, before;
     last.values.assign(count, 1);
@@ -100,7 +107,7 @@ void fit_polynomial(std::span<const double> u, std::span<const double> y, vox_ti
         // A straight line has no minimum inside the range.
         if (degree >= 2 && (least < 0 || squares < least)) {
             least = squares;
-            fit.degree = static_cast<std::uint32_t>(degree);
+            fit.degree = degree;
             std::copy(std::begin(series), std::end(series), fit.coefficients);
             fit.r_squared = spread > 0 ? 1 - left / spread : 1;
             fit.prediction_error = std::sqrt(squares / double(count));
@@ -113,7 +120,7 @@ void fit_polynomial(std::span<const double> u, std::span<const double> y, vox_ti
 }
 
 // Where the least value over [-1, 1] is, by a scan and then a golden-section search around its best point.
-double minimiser(const vox_time_fit& fit) {
+double minimiser(const TimeFit& fit) {
     const auto value = [&](double u) { return power_series(fit.coefficients, fit.degree, u); };
     constexpr int steps = 1024;
     const auto scan = [](int i) { return double(2 * i - steps) / steps; };
@@ -136,7 +143,7 @@ double minimiser(const vox_time_fit& fit) {
 }
 
 // Where the fitted logarithm first exceeds `limit` on the way from `inside`, where it does not, to `end`.
-double crossing(const vox_time_fit& fit, double limit, double inside, double end) {
+double crossing(const TimeFit& fit, double limit, double inside, double end) {
     const auto over = [&](double u) { return power_series(fit.coefficients, fit.degree, u) > limit; };
     constexpr int steps = 1024;
     const double start = inside;
@@ -155,18 +162,17 @@ double crossing(const vox_time_fit& fit, double limit, double inside, double end
 
 } // namespace
 
-std::size_t count_distinct(std::span<const double> values) {
-    std::vector<double> sorted(values.begin(), values.end());
-    std::sort(sorted.begin(), sorted.end());
-    return std::size_t(std::unique(sorted.begin(), sorted.end()) - sorted.begin());
-}
-
-double fitted_time(const vox_time_fit& fit, double cell_size) {
+double fitted_time(const TimeFit& fit, double cell_size) {
     return std::exp(power_series(fit.coefficients, fit.degree, place_of(fit, cell_size)));
 }
 
-vox_time_fit fit_times(std::span<const double> cell_sizes, std::span<const double> times) {
-    vox_time_fit fit{};
+TimeFit fit_times(std::span<const double> cell_sizes, std::span<const double> times) {
+    if (const std::size_t distinct = count_distinct(cell_sizes); distinct < 5)
+        throw Failure(std::to_string(distinct) + " different cell sizes, expected at least 5");
+    // A clock may be too coarse for what it measures.
+    if (!(*std::min_element(times.begin(), times.end()) > 0))
+        throw Failure("the time of a cell size is 0, expected more");
+    TimeFit fit{};
     const auto [smallest, largest] = std::minmax_element(cell_sizes.begin(), cell_sizes.end());
     fit.range_min = *smallest;
     fit.range_max = *largest;
@@ -177,15 +183,15 @@ vox_time_fit fit_times(std::span<const double> cell_sizes, std::span<const doubl
     const double best = minimiser(fit);
     fit.cell_size = cell_size_at(fit, best);
     fit.time = std::exp(power_series(fit.coefficients, fit.degree, best));
-    fit.bracketed = best > -1 && best < 1 ? 1 : 0;
+    fit.bracketed = best > -1 && best < 1;
     return fit;
 }
 
-FitZone fit_zone(const vox_time_fit& fit, double limit) {
+FitZone fit_zone(const TimeFit& fit, double limit) {
     const double best = std::clamp(place_of(fit, fit.cell_size), -1.0, 1.0);
     const double log_limit = std::max(std::log(limit), power_series(fit.coefficients, fit.degree, best));
     return {std::min(cell_size_at(fit, crossing(fit, log_limit, best, -1)), fit.cell_size),
             std::max(cell_size_at(fit, crossing(fit, log_limit, best, 1)), fit.cell_size)};
 }
 
-} // namespace vox::sim
+} // namespace tool

@@ -1,14 +1,14 @@
-#include "sim/experiment/experiment_place.hpp"
+#include "experiment/place.hpp"
 
-#include "base/error.hpp"
+#include "failure.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <cstdio>
 
-namespace vox::sim {
+namespace tool {
 
-// ---- shapes -----------------------------------------------------------------------------------------
+// ---- bodies -----------------------------------------------------------------------------------------
 
 Point Bounds::centre() const { return {(min[0] + max[0]) / 2, (min[1] + max[1]) / 2, (min[2] + max[2]) / 2}; }
 
@@ -50,23 +50,22 @@ void move(std::vector<double>& positions, const Point& by) {
     for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += by[i % 3];
 }
 
-void round_positions(const std::vector<double>& positions, std::vector<float>& rounded) {
-    rounded.resize(positions.size());
-    std::transform(positions.begin(), positions.end(), rounded.begin(),
-                   [](double x) { return static_cast<float>(x); });
+vox_mesh_desc mesh_of(const std::vector<float>& positions, const std::vector<std::uint32_t>& tets) {
+    vox_mesh_desc desc = vox_default_mesh_desc();
+    desc.positions = vox_float_positions(positions.data(), positions.size() / 3);
+    desc.tets = tets.data();
+    desc.tet_count = tets.size() / 4;
+    return desc;
 }
 
 // ---- shares -----------------------------------------------------------------------------------------
 
 double share_in_contact(const vox_grid* grid, std::uint64_t tet_count) {
-    vox_contact_view view{};
-    check(vox_grid_get_contacts(grid, &view));
+    const vox_contact_view view = contacts_of(grid);
     std::vector<std::uint64_t> held;
     held.reserve(static_cast<std::size_t>(view.count));
     for (std::uint64_t i = 0; i < view.count; ++i) {
-        vox_contact contact;
-        std::memcpy(&contact, reinterpret_cast<const std::byte*>(view.data) + i * view.byte_stride,
-                    sizeof contact);
+        const vox_contact contact = contact_at(view, i);
         held.push_back(std::uint64_t{contact.body_b} << 32 | contact.tet);
     }
     std::sort(held.begin(), held.end());
@@ -74,22 +73,15 @@ double share_in_contact(const vox_grid* grid, std::uint64_t tet_count) {
     return static_cast<double>(end - held.begin()) / static_cast<double>(tet_count);
 }
 
-ContactShare::ContactShare(const Shape& a, const Shape& b)
+ContactShare::ContactShare(const ExperimentBody& a, const ExperimentBody& b)
     : b_(b), tet_count_((a.tets.size() + b.tets.size()) / 4) {
+    a_positions_.assign(a.positions.begin(), a.positions.end()); // rounds
+    b_positions_.resize(b.positions.size());
+    const vox_mesh_desc meshes[2] = {mesh_of(a_positions_, a.tets), mesh_of(b_positions_, b.tets)};
     vox_grid_desc desc = vox_default_grid_desc();
     desc.flags = 0; // contacts alone
-    grid_ = create_grid(&desc);
-    round_positions(a.positions, a_positions_);
-    b_positions_.resize(b.positions.size());
-    for (const Shape* shape : {&a, &b}) {
-        vox_mesh_desc mesh = vox_default_mesh_desc();
-        mesh.positions = vox_float_positions((shape == &a ? a_positions_ : b_positions_).data(),
-                                             shape->positions.size() / 3);
-        mesh.tets = shape->tets.data();
-        mesh.tet_count = shape->tets.size() / 4;
-        vox_body id = VOX_NULL_BODY;
-        check(vox_mesh_insert(grid_.get(), &mesh, &id));
-    }
+    std::vector<vox_body> ids;
+    grid_ = make_grid(desc, meshes, ids);
 }
 
 double ContactShare::at(const Point& offset) {
@@ -99,8 +91,9 @@ double ContactShare::at(const Point& offset) {
     return share_in_contact(grid_.get(), tet_count_);
 }
 
-double place_at_share(ContactShare& share, const Shape& a, const Shape& b, const Point& axis, double wanted) {
-    const auto shadow = [&](const Shape& shape) {
+double place_at_share(ContactShare& share, const ExperimentBody& a, const ExperimentBody& b,
+                      const Point& axis, double wanted) {
+    const auto shadow = [&](const ExperimentBody& shape) {
         double min = HUGE_VAL, max = -HUGE_VAL;
         for (std::size_t i = 0; i < shape.positions.size(); i += 3) {
             const double along = shape.positions[i] * axis[0] + shape.positions[i + 1] * axis[1] +
@@ -128,11 +121,14 @@ double place_at_share(ContactShare& share, const Shape& a, const Shape& b, const
         reached = share_at(inside);
         most = std::max(most, reached);
     }
-    if (reached < wanted)
-        throw Error(VOX_ERROR_INVALID_STATE,
-                    format("at most %.3g of the tets come into contact along the axis (%.9g, %.9g, %.9g), "
-                           "expected %.3g",
-                           most, axis[0], axis[1], axis[2], wanted));
+    if (reached < wanted) {
+        char text[160];
+        std::snprintf(text, sizeof text,
+                      "at most %.3g of the tets come into contact along the axis (%.9g, %.9g, %.9g), "
+                      "expected %.3g",
+                      most, axis[0], axis[1], axis[2], wanted);
+        throw Failure(text);
+    }
     while (std::abs(reached - wanted) > 0.005 * wanted) {
         const double middle = inside + (outside - inside) / 2;
         if (middle == inside || middle == outside) break;
@@ -149,4 +145,4 @@ double place_at_share(ContactShare& share, const Shape& a, const Shape& b, const
     return inside;
 }
 
-} // namespace vox::sim
+} // namespace tool
