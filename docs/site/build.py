@@ -89,6 +89,7 @@ NAVIGATION = [
             {"How it works": "src/README.md"},
             "docs/engine.md",
             "docs/abi.md",
+            "docs/renamed.md",
             {"Speed": "bench/README.md"},
             {"Tests": "tests/README.md"},
             "CONTRIBUTING.md",

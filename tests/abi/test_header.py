@@ -261,6 +261,16 @@ class Pages(unittest.TestCase):
             for name in re.findall(r"\b(?:vox|VOX)_\w+", text_of("docs", page)):
                 self.assertTrue(name in NAMES or name in LIBRARIES, f"docs/{page}: {name}")
 
+    def test_every_old_name_has_a_new_one(self):
+        old = set(text_of("tests", "abi", "old_names.txt").split())
+        rows = dict(re.findall(r"^\| `(vox_\w+)` \| (.+) \|$", text_of("docs", "renamed.md"), flags=re.M))
+        functions = {f.name for parsed in [*ALL, header.parse(text_of("include", "vox", "vox_mpi.h"))] for f in parsed.of_kind("function")}
+        self.assertEqual(set(rows), old - functions)
+        for name in old - functions:
+            told = set(re.findall(r"`(vox_\w+)", rows[name]))
+            self.assertLessEqual(told, NAMES, name)
+            self.assertTrue(told or re.match("none: |zero it", rows[name]), name)
+
     def test_every_limit_is_listed_with_its_number(self):
         page = text_of("docs", "limits.md")
         for parsed in ALL:
