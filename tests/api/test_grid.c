@@ -157,7 +157,7 @@ START_TEST(null_arguments) {
     vox_mesh_desc desc = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
     vox_body other = 77;
     uint64_t count = 5;
-    vox_contact_view view = {NULL, 1, 2, 3};
+    vox_contact_view view = {NULL, 1, 2, 3, NULL};
     vox_grid_info info = {.struct_size = sizeof info, .epoch = 9};
     vox_counters counters = {.struct_size = sizeof counters, .tets = 9};
     vox_profile profile = {.struct_size = sizeof profile, .step_ns = 9};

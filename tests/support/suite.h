@@ -89,7 +89,7 @@ static inline vox_result bind_previous_array(vox_grid* grid, vox_body mesh, cons
 }
 
 static inline vox_contact_view contacts_of(const vox_grid* grid) {
-    vox_contact_view view = {NULL, 0, 99, 0}; /* a count that is not written shows */
+    vox_contact_view view = {NULL, 0, 99, 0, NULL}; /* a count that is not written shows */
     ck_ok(vox_grid_get_contacts(grid, &view));
     return view;
 }
