@@ -2,6 +2,7 @@
 // as a machine without AVX-512 runs it, the same without the depth stage, and the paper's algorithm without
 // it.
 #include "entrant.hpp"
+#include "scenes/counters.h"
 #include "scenes/engines.h"
 
 #include "base/simd.hpp"
@@ -84,9 +85,8 @@ public:
     }
 
     std::size_t bytes() const override {
-        vox_counters counters{};
-        counters.struct_size = sizeof counters;
-        must(vox_grid_get_counters(grid_, &counters));
+        grid_counts counters{};
+        counters = counters_of(grid_);
         return counters.bytes;
     }
 

@@ -2,6 +2,7 @@
 // one, and the least nanoseconds of each stage, in the order of wasm.mjs. Such as WebAssembly, on one thread.
 // usage: wasm_native SCENE OFFSET STEPS portable|sse4|avx2|avx512
 #include "base/simd.hpp"
+#include "scenes/counters.h"
 
 #include <vox/vox.h>
 
@@ -64,9 +65,8 @@ int main(int argc, char** argv) {
         const Clock::time_point began = Clock::now();
         check(vox_grid_step(grid));
         least = std::min(least, std::chrono::duration<double, std::milli>(Clock::now() - began).count());
-        vox_profile p{};
-        p.struct_size = sizeof p;
-        check(vox_grid_profile(grid, &p));
+        grid_times p{};
+        p = times_of(grid);
         const std::array<std::uint64_t, 8> now = {p.stream_ns, p.broad_phase_ns, p.windows_ns, p.lookup_ns,
                                                   p.decide_ns, p.contacts_ns,    p.depth_ns,   p.events_ns};
         for (std::size_t k = 0; k < now.size(); ++k) stages[k] = std::min(stages[k], now[k]);

@@ -97,7 +97,7 @@ void print_near(const CollideOptions& options, const vox_grid* grid, const std::
 }
 
 void print_collide(const CollideOptions& options, const vox_grid* grid, const std::vector<Body>& bodies,
-                   const std::vector<vox_body>& ids, const vox_profile& profile) {
+                   const std::vector<vox_body>& ids, const Counters& times) {
     for (std::size_t i = 0; i < bodies.size(); ++i)
         std::printf("%c  %s: %llu vertices, %llu tetrahedra%s\n", i == 0 ? 'A' : 'B', bodies[i].name.c_str(),
                     static_cast<unsigned long long>(bodies[i].view.vertex_count),
@@ -126,18 +126,19 @@ void print_collide(const CollideOptions& options, const vox_grid* grid, const st
     if (options.edges) print_edges(options, grid, ids);
     print_near(options, grid, ids);
     std::printf("\nhash %s, cell size %.9g\n", hexadecimal(hash_of(grid)).c_str(), info_of(grid).cell_size);
-    std::printf("step %.3f ms: ", milliseconds(profile.step_ns));
-    if (profile.stream_ns > 0) // the fast engine
+    std::printf("step %.3f ms: ", milliseconds(value_of(times, "step_ns")));
+    if (value_of(times, "stream_ns") > 0) // the fast engine
         std::printf("stream %.3f, winding %.3f, broad phase %.3f, windows %.3f, lookup %.3f, decide %.3f",
-                    milliseconds(profile.stream_ns), milliseconds(profile.winding_ns),
-                    milliseconds(profile.broad_phase_ns), milliseconds(profile.windows_ns),
-                    milliseconds(profile.lookup_ns), milliseconds(profile.decide_ns));
+                    milliseconds(value_of(times, "stream_ns")), milliseconds(value_of(times, "winding_ns")),
+                    milliseconds(value_of(times, "broad_phase_ns")),
+                    milliseconds(value_of(times, "windows_ns")), milliseconds(value_of(times, "lookup_ns")),
+                    milliseconds(value_of(times, "decide_ns")));
     else
-        std::printf("bin %.3f, broad phase %.3f, narrow phase %.3f", milliseconds(profile.bin_ns),
-                    milliseconds(profile.broad_ns), milliseconds(profile.narrow_ns));
-    if (options.edges) std::printf(", edges %.3f", milliseconds(profile.edges_ns));
-    std::printf(", contacts %.3f, depth %.3f (%s)\n", milliseconds(profile.contacts_ns),
-                milliseconds(profile.depth_ns),
+        std::printf("bin %.3f, broad phase %.3f, narrow phase %.3f", milliseconds(value_of(times, "bin_ns")),
+                    milliseconds(value_of(times, "broad_ns")), milliseconds(value_of(times, "narrow_ns")));
+    if (options.edges) std::printf(", edges %.3f", milliseconds(value_of(times, "edges_ns")));
+    std::printf(", contacts %.3f, depth %.3f (%s)\n", milliseconds(value_of(times, "contacts_ns")),
+                milliseconds(value_of(times, "depth_ns")),
                 options.repeat == 1
                     ? "one step, in which all vertices move; --repeat N gives medians"
                     : ("medians of " + std::to_string(options.repeat) + " steps, in which all vertices move")
@@ -191,7 +192,7 @@ void run_collide(const CollideOptions& options) {
         for (vox_mesh_desc& mesh : meshes) mesh.filter.flags |= VOX_FILTER_SELF_COLLISION;
     const Grid grid = make_grid(desc, meshes, ids);
     if (!options.moving.empty()) bind_previous(grid.get(), ids[0], bodies[0], before);
-    const vox_profile profile = measure_steps(grid.get(), bodies, ids, options.repeat);
+    const Counters times = measure_steps(grid.get(), bodies, ids, options.repeat);
     if (options.edges) check(vox_grid_prepare_edge_depths(grid.get()));
     if (!options.save.empty()) save_snapshot(grid.get(), options.save);
     if (!options.csv.empty()) write_contacts(options.csv, ids, grid.get());
@@ -200,9 +201,9 @@ void run_collide(const CollideOptions& options) {
         for (std::size_t i = 0; i < bodies.size(); ++i) drawn.push_back(drawn_mesh(bodies[i], ids[i]));
         write_results(options.out, drawn, grid.get(), !options.moving.empty());
     }
-    if (!options.json) return print_collide(options, grid.get(), bodies, ids, profile);
+    if (!options.json) return print_collide(options, grid.get(), bodies, ids, times);
     Json json = {{"meshes", body_list(bodies)}, {"cell_size", info_of(grid.get()).cell_size}};
-    add_collision(json, grid.get(), ids, profile);
+    add_collision(json, grid.get(), ids, times);
     if (has_margin(grid.get())) json.add("margin_contacts", margin_contacts(grid.get(), ids));
     if (!options.moving.empty()) json.add("passages", passages(grid.get(), ids));
     print(json);

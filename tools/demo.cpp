@@ -27,8 +27,8 @@ void print_demo_json(TwoBalls& balls) {
     for (std::size_t i = 0; i < contacts.size(); ++i)
         frames.push_back({{"frame", i},
                           {"contacts", contacts[i]},
-                          {"step_ns", contenders[0].frames[i].step_ns},
-                          {"reference_step_ns", contenders[2].frames[i].step_ns}});
+                          {"step_ns", contenders[0].frames[i]},
+                          {"reference_step_ns", contenders[2].frames[i]}});
     for (const Contender& contender : contenders)
         comparison.push_back({{"engine", contender.engine},
                               {"rule", contender.rule},

@@ -20,18 +20,16 @@ Grid make_grid(const vox_grid_desc& desc, std::span<const vox_mesh_desc> meshes,
     return grid;
 }
 
-vox_profile profile_of(const vox_grid* grid) {
-    vox_profile profile{};
-    profile.struct_size = sizeof profile;
-    check(vox_grid_profile(grid, &profile));
-    return profile;
+Counters counters_of(const vox_grid* grid) {
+    vox_counter_view view{};
+    check(vox_grid_get_counters(grid, &view));
+    return {view.data, view.data + view.count};
 }
 
-vox_counters counters_of(const vox_grid* grid) {
-    vox_counters counters{};
-    counters.struct_size = sizeof counters;
-    check(vox_grid_get_counters(grid, &counters));
-    return counters;
+std::uint64_t value_of(const Counters& counters, std::string_view name) {
+    for (const vox_counter& counter : counters)
+        if (counter.name == name) return counter.value;
+    throw Failure("vox counts no " + std::string(name));
 }
 
 vox_grid_info info_of(const vox_grid* grid) {
@@ -71,21 +69,15 @@ vox_depth_view edge_depths_of(const vox_grid* grid) {
     return view;
 }
 
-vox_profile median(std::span<const vox_profile> profiles) {
-    std::vector<std::uint64_t> times(profiles.size());
-    const auto median_of = [&](std::uint64_t vox_profile::*time) {
-        for (std::size_t i = 0; i < profiles.size(); ++i) times[i] = profiles[i].*time;
-        std::sort(times.begin(), times.end());
-        const std::size_t middle = times.size() / 2;
-        return times.size() % 2 ? times[middle] : (times[middle - 1] + times[middle]) / 2;
-    };
-    vox_profile result = profiles.front();
-    for (const auto time :
-         {&vox_profile::step_ns, &vox_profile::bin_ns, &vox_profile::broad_ns, &vox_profile::narrow_ns,
-          &vox_profile::contacts_ns, &vox_profile::depth_ns, &vox_profile::stream_ns,
-          &vox_profile::winding_ns, &vox_profile::broad_phase_ns, &vox_profile::windows_ns,
-          &vox_profile::lookup_ns, &vox_profile::decide_ns, &vox_profile::edges_ns, &vox_profile::margin_ns})
-        result.*time = median_of(time);
+Counters median(std::span<const Counters> steps) {
+    Counters result = steps.front();
+    std::vector<std::uint64_t> values(steps.size());
+    for (std::size_t c = 0; c < result.size(); ++c) {
+        for (std::size_t i = 0; i < steps.size(); ++i) values[i] = steps[i][c].value;
+        std::sort(values.begin(), values.end());
+        const std::size_t middle = values.size() / 2;
+        result[c].value = values.size() % 2 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+    }
     return result;
 }
 

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <memory>
 #include <span>
+#include <string_view>
 #include <vector>
 
 namespace tool {
@@ -19,8 +20,11 @@ using Grid = std::unique_ptr<vox_grid, GridDeleter>;
 // Creates a grid and inserts the meshes, whose positions it borrows. ids[i] names meshes[i].
 Grid make_grid(const vox_grid_desc& desc, std::span<const vox_mesh_desc> meshes, std::vector<vox_body>& ids);
 
-vox_profile profile_of(const vox_grid* grid);
-vox_counters counters_of(const vox_grid* grid);
+// What the grid counts and times, by name: a copy of its counters.
+using Counters = std::vector<vox_counter>;
+Counters counters_of(const vox_grid* grid);
+std::uint64_t value_of(const Counters& counters, std::string_view name);
+inline bool is_time(const vox_counter& counter) { return std::string_view(counter.name).ends_with("_ns"); }
 vox_grid_info info_of(const vox_grid* grid);
 std::uint64_t hash_of(const vox_grid* grid);
 vox_contact_view contacts_of(const vox_grid* grid);
@@ -60,8 +64,8 @@ inline vox_depth depth_at(const vox_depth_view& view, std::uint64_t index) {
     return depth;
 }
 
-// The median of each time, taken separately. There must be at least one profile.
-vox_profile median(std::span<const vox_profile> profiles);
+// The median of each, taken separately. There must be at least one.
+Counters median(std::span<const Counters> steps);
 
 // Runs a step for timing, which processes all meshes even if none has moved since the last step.
 void step_anew(vox_grid* grid, std::span<const vox_body> ids);

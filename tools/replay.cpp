@@ -38,15 +38,16 @@ std::string file_in_series(const std::string& out, std::size_t index) {
 
 void print_replay(const ReplayOptions& options, const std::string& file, std::uint64_t epoch,
                   const vox_grid* grid) {
-    const vox_counters counters = counters_of(grid);
-    std::printf("%s: %u meshes, %llu vertices, %llu tetrahedra, saved at epoch %llu\n", file.c_str(),
-                counters.meshes, static_cast<unsigned long long>(counters.vertices),
-                static_cast<unsigned long long>(counters.tets), static_cast<unsigned long long>(epoch));
-    std::printf("%llu %s, hash %s, cell size %.9g, last of %u %s in %.3f ms\n",
-                static_cast<unsigned long long>(counters.contacts),
-                counters.contacts == 1 ? "contact" : "contacts", hexadecimal(hash_of(grid)).c_str(),
+    const Counters counters = counters_of(grid);
+    const auto count = [&](const char* name) {
+        return static_cast<unsigned long long>(value_of(counters, name));
+    };
+    std::printf("%s: %llu meshes, %llu vertices, %llu tetrahedra, saved at epoch %llu\n", file.c_str(),
+                count("meshes"), count("vertices"), count("tets"), static_cast<unsigned long long>(epoch));
+    std::printf("%llu %s, hash %s, cell size %.9g, last of %u %s in %.3f ms\n", count("contacts"),
+                count("contacts") == 1 ? "contact" : "contacts", hexadecimal(hash_of(grid)).c_str(),
                 info_of(grid).cell_size, options.steps, options.steps == 1 ? "step" : "steps",
-                static_cast<double>(profile_of(grid).step_ns) * 1e-6);
+                static_cast<double>(info_of(grid).step_ns) * 1e-6);
 }
 
 void check_replay_usage(const ReplayOptions& options) {
@@ -90,7 +91,7 @@ void run_replay(const ReplayOptions& options) {
                      {"steps", options.steps},
                      {"cell_size", info_of(grid).cell_size}};
         json.add("contact_count", contacts_of(grid).count);
-        add_result(json, grid, profile_of(grid));
+        add_result(json, grid, counters_of(grid));
         grids.push_back(json);
     }
     progress.hide();

@@ -21,47 +21,6 @@ Json rules(const vox_cell_size_rules& rules) {
             {"mean_volume", rule(rules.mean_volume)}, {"median_box_side", rule(rules.median_box_side)}};
 }
 
-Json counters_json(const vox_counters& counters) {
-    return {{"meshes", counters.meshes},
-            {"vertices", counters.vertices},
-            {"tets", counters.tets},
-            {"cells", counters.cells},
-            {"entries", counters.entries},
-            {"fullest_cell", counters.fullest_cell},
-            {"visited_cells", counters.visited_cells},
-            {"visited_entries", counters.visited_entries},
-            {"candidates", counters.candidates},
-            {"exact_tests", counters.exact_tests},
-            {"contacts", counters.contacts},
-            {"skipped_degenerate", counters.skipped_degenerate},
-            {"bytes", counters.bytes},
-            {"peak_bytes", counters.peak_bytes},
-            {"moved_meshes", counters.moved_meshes},
-            {"carried_contacts", counters.carried_contacts},
-            {"penetrations", counters.penetrations},
-            {"leaving_edges", counters.leaving_edges},
-            {"edge_tests", counters.edge_tests},
-            {"closest_searches", counters.closest_searches},
-            {"closest_tests", counters.closest_tests},
-            {"disabled_meshes", counters.disabled_meshes},
-            {"filtered", counters.filtered},
-            {"cell_size_changes", counters.cell_size_changes},
-            {"unknown_penetrations", counters.unknown_penetrations},
-            {"carried_penetrations", counters.carried_penetrations},
-            {"skipped_meshes", counters.skipped_meshes},
-            {"meshes_without_tets", counters.meshes_without_tets},
-            {"total_touches_began", counters.total_touches_began},
-            {"total_touches_ended", counters.total_touches_ended},
-            {"total_contacts_began", counters.total_contacts_began},
-            {"total_contacts_ended", counters.total_contacts_ended},
-            {"edge_contacts", counters.edge_contacts},
-            {"carried_edge_contacts", counters.carried_edge_contacts},
-            {"edge_candidates", counters.edge_candidates},
-            {"margin_contacts", counters.margin_contacts},
-            {"carried_margin_contacts", counters.carried_margin_contacts},
-            {"passages", counters.passages}};
-}
-
 Json penetrations(const vox_grid* grid, const std::vector<vox_body>& ids) {
     const vox_penetration_view view = penetrations_of(grid);
     Json list = Json::array();
@@ -197,7 +156,7 @@ void add_suggestion(Json& json, const vox_suggestion& suggestion) {
 }
 
 void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_body>& ids,
-                   const vox_profile& profile) {
+                   const Counters& times) {
     const vox_contact_view view = contacts_of(grid);
     json.add("contact_count", view.count);
     Json contacts = Json::array();
@@ -212,7 +171,7 @@ void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_body>
     json.add("contacts", contacts);
     json.add("penetrations", has_penetrations(grid) ? penetrations(grid, ids) : Json());
     if (has_edge_contacts(grid)) json.add("edge_contacts", edge_contacts(grid, ids));
-    add_result(json, grid, profile);
+    add_result(json, grid, times);
 }
 
 Json margin_contacts(const vox_grid* grid, const std::vector<vox_body>& ids) {
@@ -241,23 +200,22 @@ Json passages(const vox_grid* grid, const std::vector<vox_body>& ids) {
     return list;
 }
 
-void add_result(Json& json, const vox_grid* grid, const vox_profile& profile) {
+void add_result(Json& json, const vox_grid* grid, const Counters& times) {
+    Json profile = Json::object(), counters = Json::object();
+    for (const vox_counter& c : times)
+        if (is_time(c)) profile.add(c.name, c.value);
+    for (const vox_counter& c : counters_of(grid))
+        if (!is_time(c)) counters.add(c.name, c.value);
+    const vox_grid_info info = info_of(grid);
+    counters.add("bytes", info.bytes);
+    counters.add("peak_bytes", info.peak_bytes);
+    counters.add("moved_bodies", info.moved_bodies);
+    counters.add("skipped_bodies", info.skipped_bodies);
+    counters.add("total_began", info.total_began);
+    counters.add("total_ended", info.total_ended);
     json.add("hash", hexadecimal(hash_of(grid)));
-    json.add("profile", {{"step_ns", profile.step_ns},
-                         {"bin_ns", profile.bin_ns},
-                         {"broad_ns", profile.broad_ns},
-                         {"narrow_ns", profile.narrow_ns},
-                         {"contacts_ns", profile.contacts_ns},
-                         {"depth_ns", profile.depth_ns},
-                         {"stream_ns", profile.stream_ns},
-                         {"winding_ns", profile.winding_ns},
-                         {"broad_phase_ns", profile.broad_phase_ns},
-                         {"windows_ns", profile.windows_ns},
-                         {"lookup_ns", profile.lookup_ns},
-                         {"decide_ns", profile.decide_ns},
-                         {"edges_ns", profile.edges_ns},
-                         {"margin_ns", profile.margin_ns}});
-    json.add("counters", counters_json(counters_of(grid)));
+    json.add("profile", profile);
+    json.add("counters", counters);
 }
 
 Json body_list(const std::vector<Body>& bodies) {

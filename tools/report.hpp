@@ -24,8 +24,7 @@ void add_suggestion(Json& json, const vox_suggestion& suggestion);
 
 // Adds the keys of `vox collide` but for the cell size, for a grid that has run a step. In contacts, a mesh
 // is given by its index in `ids`.
-void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_body>& ids,
-                   const vox_profile& profile);
+void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_body>& ids, const Counters& times);
 
 // Lists of the margin contacts and of the passages of the last step, meshes by their indices in `ids`.
 Json margin_contacts(const vox_grid* grid, const std::vector<vox_body>& ids);
@@ -41,7 +40,7 @@ const char* state_name(vox_penetration_state state);
 const char* kind_name(vox_crossing_kind kind);
 
 // Adds the results of a step other than contacts: hash, profile, counters.
-void add_result(Json& json, const vox_grid* grid, const vox_profile& profile);
+void add_result(Json& json, const vox_grid* grid, const Counters& times);
 
 // A list of {file, vertices, tets} for each body, in the order that contacts refer to.
 Json body_list(const std::vector<Body>& bodies);

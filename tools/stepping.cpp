@@ -61,22 +61,22 @@ private:
 
 } // namespace
 
-vox_profile measure_steps(vox_grid* grid, std::span<Body> bodies, std::span<const vox_body> ids,
-                          std::uint32_t repeat) {
+Counters measure_steps(vox_grid* grid, std::span<Body> bodies, std::span<const vox_body> ids,
+                       std::uint32_t repeat) {
     Progress progress;
     progress.show("first step");
     check(vox_grid_step(grid));
     std::vector<Wobble> wobbles(bodies.begin(), bodies.end());
-    std::vector<vox_profile> profiles;
+    std::vector<Counters> steps;
     for (std::uint32_t i = 0; i < repeat; ++i) {
         progress.show("step " + std::to_string(i + 1) + " of " + std::to_string(repeat));
         for (std::size_t b = 0; b < bodies.size(); ++b) wobbles[b].move(bodies[b], i + 1);
         step_anew(grid, ids);
-        profiles.push_back(profile_of(grid));
+        steps.push_back(counters_of(grid));
     }
     for (std::size_t b = 0; b < bodies.size(); ++b) wobbles[b].restore(bodies[b]);
     step_anew(grid, ids);
-    return median(profiles);
+    return median(steps);
 }
 
 } // namespace tool

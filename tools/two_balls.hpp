@@ -20,7 +20,7 @@ struct Contender {
     double cell_size;
     Grid grid;
     std::vector<vox_body> ids;
-    std::vector<vox_profile> frames; // median of each frame's steps
+    std::vector<std::uint64_t> frames; // nanoseconds: median of each frame's steps
 
     double mean_step_ns() const;
 };

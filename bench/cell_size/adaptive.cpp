@@ -6,6 +6,7 @@
 // them.
 #include "bodies.hpp"
 #include "program.hpp"
+#include "scenes/counters.h"
 #include "scenes/engines.h"
 #include "timing.h"
 
@@ -108,17 +109,15 @@ public:
         must(vox_grid_get_info(grid_, &info));
         return info.cell_size;
     }
-    vox_counters counters() const {
-        vox_counters counters{};
-        counters.struct_size = sizeof counters;
-        must(vox_grid_get_counters(grid_, &counters));
+    grid_counts counters() const {
+        grid_counts counters{};
+        counters = counters_of(grid_);
         return counters;
     }
     // Of the last step, outside all stages: where the cell size is chosen.
     double other_seconds() const {
-        vox_profile p{};
-        p.struct_size = sizeof p;
-        must(vox_grid_profile(grid_, &p));
+        grid_times p{};
+        p = times_of(grid_);
         return 1e-9 * static_cast<double>(p.step_ns - p.bin_ns - p.broad_ns - p.narrow_ns - p.contacts_ns -
                                           p.depth_ns - p.events_ns);
     }
@@ -212,7 +211,7 @@ void run_engine(engine_kind engine, double tets, int sizes, std::FILE* out) {
             for (auto& grid : grids)
                 if (grid->hash() != grids[0]->hash())
                     throw std::runtime_error("contacts depend on the cell size");
-            const vox_counters counters = grids[0]->counters();
+            const grid_counts counters = grids[0]->counters();
             std::fprintf(out, "%s,%d,%s,%zu,%llu,%llu,%.5g,%.5g,%.4g,%.4g",
                          engine == ENGINE_FAST ? "fast" : "reference", step, phase.name, all_tets,
                          static_cast<unsigned long long>(counters.contacts),

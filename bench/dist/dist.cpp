@@ -3,6 +3,7 @@
 // that grow; default 100000
 #include "dist/ranks.hpp" // of tests/
 #include "dist/whole.hpp"
+#include "scenes/counters.h"
 
 #include <algorithm>
 #include <array>
@@ -83,13 +84,12 @@ struct One {
 One one_grid(const Scene& scene) {
     std::vector<std::vector<float>> floats;
     vox_grid* grid = whole(scene, floats);
-    vox_counters counters;
-    counters.struct_size = sizeof counters;
     One one{};
-    if (!grid || vox_grid_step(grid) != VOX_OK || vox_grid_get_counters(grid, &counters) != VOX_OK) {
+    if (!grid || vox_grid_step(grid) != VOX_OK) {
         std::printf("%s\n", vox_last_error());
         std::exit(EXIT_FAILURE);
     }
+    const grid_counts counters = counters_of(grid);
     one.entries = counters.entries;
     const std::vector<vox_dist_contact> contacts = global_contacts(grid);
     one.contacts = contacts.size();

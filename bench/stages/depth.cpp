@@ -4,11 +4,12 @@
 //   bench_depth [--tets N] [--rounds K]
 //
 // Two balls of N / 2 tetrahedra each approach until they overlap by half; every row is one overlap. Times are
-// those of vox_profile, on one thread: the least of K steps in which the rows take turns, since what disturbs
+// those of grid_times, on one thread: the least of K steps in which the rows take turns, since what disturbs
 // a machine only adds. Between steps the bodies move, so that no step profits from the last one's data more
 // than in a simulation.
 #include "internal/fast_scenes.hpp"
 #include "program.hpp"
+#include "scenes/counters.h"
 #include "stages/smooth_ball.hpp"
 #include "timing.h"
 
@@ -32,7 +33,7 @@ struct Row {
     double radius = 1; // of the second ball
     std::uint64_t depth_ns = ~std::uint64_t{0}, step_ns = ~std::uint64_t{0};
     double readings_ns = 1e18; // vox_grid_prepare_readings
-    vox_counters counters{};
+    grid_counts counters{};
 };
 
 vox_body insert(vox_grid* grid, const Mesh& mesh) {
@@ -64,11 +65,9 @@ public:
     void step(Row& row) {
         for (vox::Vec3f& p : b_.positions) p.y = -p.y; // another pose, mirrored: as much work
         must(vox_grid_step(grid_));
-        vox_profile profile{};
-        profile.struct_size = sizeof profile;
-        row.counters.struct_size = sizeof row.counters;
-        must(vox_grid_profile(grid_, &profile));
-        must(vox_grid_get_counters(grid_, &row.counters));
+        grid_times profile{};
+        profile = times_of(grid_);
+        row.counters = counters_of(grid_);
         row.depth_ns = std::min(row.depth_ns, profile.depth_ns);
         row.step_ns = std::min(row.step_ns, profile.step_ns);
         const double start = now();
@@ -115,7 +114,7 @@ void run(double tets, int rounds) {
                 "vertices", "edges", "passed", "closest", "depth ns", "ns each", "of step", "readings",
                 "of step");
     for (const Row& row : rows) {
-        const vox_counters& c = row.counters;
+        const grid_counts& c = row.counters;
         const double n = double(std::max<std::uint64_t>(c.penetrations, 1));
         std::printf("%-10s %8.2f %8llu %9llu %10.2f %8.2f %9llu %9llu %9.0f %7.1f%% %9.0f %7.1f%%\n",
                     row.name, row.overlap, static_cast<unsigned long long>(c.tets),

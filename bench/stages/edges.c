@@ -2,6 +2,7 @@
  * VOX_GRID_EDGE_CONTACTS and in one with a margin of half an edge, stepped in turn over the same positions,
  * all of which move; the ratio of their lower quartiles of processor time. Usage: bench_edges [frames
  * [tetrahedra of a ball [scene]]], 40, 500000 and every scene by default. */
+#include "scenes/counters.h"
 #include "scenes/scenes.h"
 #include "scenes/solids.h"
 #include "timing.h"
@@ -50,10 +51,8 @@ static const double margin = 0.5; /* the edges of all scenes are about 1 long */
 
 static void measure(scene* s, const char* name, int frames) {
     variant variants[VARIANTS];
-    vox_counters counters;
-    vox_profile profile;
-    counters.struct_size = sizeof counters;
-    profile.struct_size = sizeof profile;
+    grid_counts counters;
+    grid_times profile;
     for (int k = 0; k < VARIANTS; ++k) {
         vox_grid_desc desc = vox_default_grid_desc();
         if (k == WITH) desc.flags |= VOX_GRID_EDGE_CONTACTS;
@@ -77,11 +76,11 @@ static void measure(scene* s, const char* name, int frames) {
             const double end = now();
             if (frame < 0) continue;
             variants[k].seconds[frame] = end - start;
-            check(vox_grid_profile(variants[k].grid, &profile));
+            profile = times_of(variants[k].grid);
             variants[k].part[frame] = 1e-9 * (double)(k == MARGIN ? profile.margin_ns : profile.edges_ns);
         }
     }
-    check(vox_grid_get_counters(variants[WITH].grid, &counters));
+    counters = counters_of(variants[WITH].grid);
     const double without = quartile(variants[WITHOUT].seconds, frames),
                  with = quartile(variants[WITH].seconds, frames),
                  edges = quartile(variants[WITH].part, frames),
@@ -92,7 +91,7 @@ static void measure(scene* s, const char* name, int frames) {
            name, 1e3 * without, 1e3 * with, with / without, 1e3 * edges,
            (unsigned long long)counters.contacts, (unsigned long long)counters.edge_contacts,
            (unsigned long long)counters.edge_candidates);
-    check(vox_grid_get_counters(variants[MARGIN].grid, &counters));
+    counters = counters_of(variants[MARGIN].grid);
     printf("         margin %g: %8.3f ms: %.3f; %.3f of it margin; %llu margin contacts\n", margin,
            1e3 * near, near / without, 1e3 * quartile(variants[MARGIN].part, frames),
            (unsigned long long)counters.margin_contacts);

@@ -12,6 +12,7 @@
 #include "internal/counting_memory.hpp"
 #include "internal/fast_scenes.hpp"
 #include "reference/engine.hpp"
+#include "scenes/counters.h"
 #include "timing.h"
 
 #include <cmath>
@@ -237,8 +238,8 @@ bool run(const Named& named, const Options& options) {
     ReferenceEngine reference(std::pmr::new_delete_resource());
     vox::Array<Hit> fast_hits(&memory), reference_hits(std::pmr::new_delete_resource());
     vox::Array<vox_contact> contacts(std::pmr::new_delete_resource());
-    vox_counters counters{}, reference_counters{};
-    vox_profile profile{}, reference_profile{};
+    Counters counters{}, reference_counters{};
+    Profile profile{}, reference_profile{};
     FastSettings fast_settings;
     fast_settings.cell_size = options.cell_size;
     ReferenceSettings reference_settings;

@@ -3,6 +3,7 @@
  *
  *     bench_many [SCENES] [ROUNDS] */
 #include "../timing.h"
+#include "scenes/counters.h"
 
 #include "scenes/bodies.h"
 
@@ -98,9 +99,8 @@ static void run(const char* name, uint32_t flags, uint32_t count, uint32_t round
     }
     uint64_t bytes = 0;
     for (uint32_t s = 0; s < count; ++s) {
-        vox_counters counters;
-        counters.struct_size = sizeof counters;
-        check(vox_grid_get_counters(grids[s], &counters));
+        grid_counts counters;
+        counters = counters_of(grids[s]);
         bytes += counters.bytes;
     }
     printf("%-26s %8.1f contacts a scene  %10.0f scene-steps/s in a loop  %10.0f in one call  %+5.1f %%  "

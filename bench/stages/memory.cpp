@@ -1,5 +1,5 @@
 // Where the bytes of a grid are: what each of its parts holds after some steps, in bytes a tetrahedron, in
-// the scenes of the benchmark. A grid by itself shows one sum (vox_counters.bytes), so its parts are put
+// the scenes of the benchmark. A grid by itself shows one sum (vox_grid_info.bytes), so its parts are put
 // together here, each with a memory resource of its own that counts; the last line compares their sum with
 // that of a real grid.
 //
@@ -17,6 +17,7 @@
 #include "mesh/mesh.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
+#include "scenes/counters.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -90,8 +91,8 @@ struct Parts {
             prepared.push_back({&meshes[i].tiled().tiles, &meshes[i].tiled().boundary, &states[i]});
             of_bodies.push_back(&topologies[i]);
         }
-        vox_counters counters{};
-        vox_profile profile{};
+        vox::Counters counters{};
+        vox::Profile profile{};
         hits.clear();
         engine.detect(bodies, prepared, {.workers = &workers}, hits, counters, profile);
         vox::make_contacts(bodies, hits, contacts, &workers);
@@ -127,9 +128,8 @@ double real_bytes(bench::Scene& scene, const Options& options) {
         scene.pose(frame);
         bench::must(vox_grid_step(grid));
     }
-    vox_counters counters{};
-    counters.struct_size = sizeof counters;
-    bench::must(vox_grid_get_counters(grid, &counters));
+    grid_counts counters{};
+    counters = counters_of(grid);
     vox_grid_destroy(grid);
     return static_cast<double>(counters.bytes);
 }

@@ -10,6 +10,7 @@
 // held, a body.
 #include "internal/random.hpp"
 #include "program.hpp"
+#include "scenes/counters.h"
 #include "scenes/engines.h"
 #include "timing.h"
 
@@ -192,9 +193,8 @@ double step_time(const Scene& scene, engine_kind engine, Result& result, std::ui
         for (std::size_t i = 0; i < moved; ++i)
             positions[i] = std::nextafter(positions[i], s % 2 ? -1e9f : 1e9f);
     }
-    vox_counters counters{};
-    counters.struct_size = sizeof counters;
-    must(vox_grid_get_counters(grid, &counters));
+    grid_counts counters{};
+    counters = counters_of(grid);
     if (engine == ENGINE_FAST) result.bytes = double(counters.peak_bytes);
     result.contacts = counters.contacts;
     must(vox_grid_get_hash(grid, &hash));

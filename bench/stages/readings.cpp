@@ -8,6 +8,7 @@
 // readings are parts of all, bit for bit, and distances are those of vox_locator_find_closest.
 #include "internal/meshes.hpp"
 #include "program.hpp"
+#include "scenes/counters.h"
 #include "stages/smooth_ball.hpp"
 #include "timing.h"
 
@@ -198,8 +199,7 @@ std::unique_ptr<Scene> many_balls(const char* name, double tets, int across) {
 void time_rest(double tets, int rounds) {
     constexpr int across = 4;
     double least[2] = {1e18, 1e18};
-    vox_counters counters{};
-    counters.struct_size = sizeof counters;
+    grid_counts counters{};
     for (std::uint32_t flags = 0; flags < 2; ++flags) {
         vox_grid* grid = nullptr;
         vox_grid_desc desc = vox_default_grid_desc();
@@ -223,7 +223,7 @@ void time_rest(double tets, int rounds) {
             const double seconds = seconds_of([&] { must(vox_grid_step(grid)); });
             if (round > 3) least[flags] = std::min(least[flags], 1e6 * seconds);
         }
-        must(vox_grid_get_counters(grid, &counters));
+        counters = counters_of(grid);
         vox_grid_destroy(grid);
     }
     std::printf(

@@ -1,6 +1,7 @@
 // A row of bodies of one tetrahedron that do not touch, and the same vertices in a hundred bodies, all
 // moving: bytes a body, insertion, and steps by turns. usage: bench_small_bodies [--tets N] [--rounds K]
 #include "program.hpp"
+#include "scenes/counters.h"
 #include "timing.h"
 
 #include <algorithm>
@@ -46,9 +47,8 @@ public:
         if (round > 0) least_step = std::min(least_step, now() - start); // the first one prepares
     }
     double bytes() const {
-        vox_counters counters;
-        counters.struct_size = sizeof counters;
-        must(vox_grid_get_counters(grid_, &counters));
+        grid_counts counters;
+        counters = counters_of(grid_);
         if (counters.contacts != 0) throw std::runtime_error("bodies of the row touch");
         return static_cast<double>(counters.bytes) / static_cast<double>(bodies_);
     }

@@ -16,6 +16,7 @@
 #include "base/boxes.hpp"
 #include "internal/meshes.hpp"
 #include "program.hpp"
+#include "scenes/counters.h"
 #include "stages/smooth_ball.hpp"
 #include "timing.h"
 
@@ -300,10 +301,9 @@ public:
             return hash_of(passages);
         }
     }
-    vox_counters counters() const {
-        vox_counters counters{};
-        counters.struct_size = sizeof counters;
-        must(vox_grid_get_counters(grid_, &counters));
+    grid_counts counters() const {
+        grid_counts counters{};
+        counters = counters_of(grid_);
         return counters;
     }
 
@@ -314,11 +314,11 @@ private:
 struct Result {
     Parameters parameters{};
     double ratio = 0, alone = 1e9, whole = 1e9; // seconds
-    vox_counters counters{};
+    grid_counts counters{};
     std::uint64_t hash = 0;
 };
 
-std::uint64_t found(What what, const vox_counters& counters) {
+std::uint64_t found(What what, const grid_counts& counters) {
     return what == What::depth    ? counters.penetrations
            : what == What::edges  ? counters.edge_contacts
            : what == What::margin ? counters.margin_contacts

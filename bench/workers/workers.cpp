@@ -4,6 +4,7 @@
 #include "hard_scenes.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
+#include "scenes/counters.h"
 
 #include <vox/vox.h>
 
@@ -89,9 +90,8 @@ int run(int argc, char** argv) {
         if (count > 1 && hash != first)
             throw std::runtime_error("the contacts depend on the number of workers");
     }
-    vox_counters counters{};
-    counters.struct_size = sizeof counters;
-    bench::must(vox_grid_get_counters(grid, &counters));
+    grid_counts counters{};
+    counters = counters_of(grid);
     std::printf("%s: %zu tets, %llu contacts, %llu penetrations\n", scene.name.c_str(), scene.tet_count(),
                 static_cast<unsigned long long>(counters.contacts),
                 static_cast<unsigned long long>(counters.penetrations));

@@ -103,7 +103,7 @@ class Description(unittest.TestCase):
         for event, functions in API["events"].items():
             if isinstance(functions, list):
                 self.assertLessEqual(set(functions), names, event)
-        self.assertEqual(set(API["events"]), {"return", "failure", "epoch", "rebind"})
+        self.assertEqual(set(API["events"]), {"return", "failure", "unload", "epoch", "rebind"})
 
     def test_packages_have_the_version_of_the_library(self):
         self.assertEqual(version.version(), API["version"])
@@ -213,7 +213,7 @@ class Faults(unittest.TestCase):
             ("const void* bytes, uint64_t size", "const void* stuff, uint64_t size", "stuff: what does this void*"),
             ("vox_grid_destroy(VOX_OPTIONAL vox_grid* grid)", "vox_grid_end(vox_grid* grid)",
              "no function releases a vox_grid"),
-            ("uint64_t fullest_cell;", "uint64_t fullness;", "fullness: a count, or bits?"),
+            ("uint64_t step_ns; ", "uint64_t fullness; ", "fullness: a count, or bits?"),
             ("uint32_t flags; /* vox_mesh_flags, combined", "uint32_t flags; /* of several kinds, combined", "which flags?"),
         ]:
             with self.subTest(old=old, new=new), self.assertRaises(describe.Unclear) as raised:

@@ -51,7 +51,7 @@ export declare const GridFlags: Readonly<{
   /**
    * a mesh with a coordinate that VOX_FORMAT_DOUBLE does not allow (NaN, infinite, too large) takes no part in a step,
    * in vox_grid_suggest_cell_size and in locators (vox_query.h), as if it were disabled; without this flag they fail.
-   * Counted (skipped_meshes), listed (vox_grid_get_failure), and logged once until the mesh is well again
+   * Counted (vox_grid_info.skipped_bodies), listed (vox_grid_get_failure), and logged once until the mesh is well again
    */
   SKIP_BAD_BODIES: 4;
   /**

@@ -3,17 +3,17 @@
 import type { CellContent, CellLook, Format, KnownGrid, LogLevel, PrimitiveType, Result } from "./enums.js";
 import type {
   BodyInfo, BoxHit, BoxHitColumns, ClosestHit, ClosestHitColumns, Contact, ContactColumns, ContactEvent,
-  ContactEventColumns, CostMinimum, CostWeights, Counters, Depth, DepthColumns,
+  ContactEventColumns, CostMinimum, CostWeights, Depth, DepthColumns,
   Failure, Filter, ForeignSuggestion as ForeignSuggestionStruct, GridDesc, GridFit as GridFitStruct, GridInfo,
-  GridTiming, GridWeights, GridWork, Pair, PairColumns, Penetration, PenetrationColumns, PointHit, PointHitColumns, Profile,
+  GridTiming, GridWeights, GridWork, Pair, PairColumns, Penetration, PenetrationColumns, PointHit, PointHitColumns,
   QueryDesc, RayHit, RayHitColumns, Reading, ReadingColumns, ReferenceDesc, SuggestDesc, Suggestion as SuggestionStruct,
   TouchEvent, TouchEventColumns, TuneDesc, Tuning as TuningStruct,
 } from "./structs.js";
 
 export * from "./enums.js";
 export type {
-  BoxHit, CellSizeRules, ClosestHit, Contact, ContactEvent, CostSample, CostShare, CostWeights, Counters, Depth,
-  Failure, Filter, ForeignRules, GeometryStats, GridInfo, GridTiming, GridWeights, GridWork, BodyInfo, Pair, Penetration, PointHit, Profile, RayHit, Reading, TouchEvent,
+  BoxHit, CellSizeRules, ClosestHit, Contact, ContactEvent, CostSample, CostShare, CostWeights, Depth,
+  Failure, Filter, ForeignRules, GeometryStats, GridInfo, GridTiming, GridWeights, GridWork, BodyInfo, Pair, Penetration, PointHit, RayHit, Reading, TouchEvent,
 } from "./structs.js";
 
 /** A call that vox refused. The message says what was wrong, with numbers in it; `code` is one of `Result`. */
@@ -330,9 +330,8 @@ export interface Grid extends Owned {
 
   /** The grid as it is now. */
   readonly info: GridInfo;
-  readonly counters: Counters;
-  /** Nanoseconds of the last step, by stage. */
-  readonly profile: Profile;
+  /** What the last step did, and how long each stage of it took, by the names of vox_grid_get_counters. */
+  readonly counters: Record<string, number>;
   /** The cell size that minimises the cost model for the meshes of the grid. */
   suggestCellSize(options?: SuggestOptions): Suggestion;
 }

@@ -27,17 +27,15 @@ static void measure(uint32_t n) {
     if (n > 0) must(vox_mesh_insert(grid, &slab_desc, &slab_id));
 
     uint64_t in_air = UINT64_MAX, on_floor = UINT64_MAX; /* least of 20 steps */
-    vox_counters counters = {.struct_size = sizeof counters};
+    vox_grid_info info = {.struct_size = sizeof info};
     for (int step = 0; step < 40; ++step) {
         const float down = step == 20 ? 0.012f : step % 2 == 0 ? 0.001f : -0.001f;
         for (uint32_t v = 0; v < box.vertex_count; ++v) box.positions[3 * v + 2] -= down;
         must(vox_grid_step(grid));
-        vox_profile profile = {.struct_size = sizeof profile};
-        must(vox_grid_profile(grid, &profile));
+        must(vox_grid_get_info(grid, &info));
         uint64_t* least = step < 20 ? &in_air : &on_floor;
-        if (profile.step_ns < *least) *least = profile.step_ns;
+        if (info.step_ns < *least) *least = info.step_ns;
     }
-    must(vox_grid_get_counters(grid, &counters));
     uint64_t inside = 0, straight_up = 0; /* vertices of the body in the floor */
     vox_penetration_view found;
     must(vox_grid_penetrations(grid, &found));
@@ -49,7 +47,7 @@ static void measure(uint32_t n) {
     printf("floor of %5" PRIu64 " tets: %4.0f us a step in the air, %4.0f us on it; meshes moved: %" PRIu64
            ", vertices in the floor: %" PRIu64 ", pushed straight up: %" PRIu64 "\n",
            n > 0 ? (uint64_t)slab.tet_count : 0, 1e-3 * (double)in_air, 1e-3 * (double)on_floor,
-           counters.moved_meshes, inside, straight_up);
+           info.moved_bodies, inside, straight_up);
     vox_grid_destroy(grid);
     free_body(&box);
     free_body(&slab);

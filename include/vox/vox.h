@@ -170,8 +170,8 @@ typedef enum vox_grid_flags {
     VOX_GRID_SKIP_BAD_BODIES = 4, /* a mesh with a coordinate that VOX_FORMAT_DOUBLE does not allow (NaN, infinite, too
                                      large) takes no part in a step, in vox_grid_suggest_cell_size and in locators
                                      (vox_query.h), as if it were disabled; without this flag they fail.
-                                     Counted (skipped_meshes), listed (vox_grid_get_failure), and logged once until the
-                                     mesh is well again */
+                                     Counted (vox_grid_info.skipped_bodies), listed (vox_grid_get_failure), and logged
+                                     once until the mesh is well again */
     VOX_GRID_EDGE_CONTACTS = 8    /* also find edges of surfaces through faces of others (vox_grid_edge_contacts);
                                    experimental. A mesh of more than 357913941 tets then gives VOX_ERROR_LIMIT */
 } vox_grid_flags;
@@ -330,7 +330,7 @@ typedef enum vox_mesh_flags {
 /* A body: vertices, and tetrahedra over them. Without tetrahedra (a surface, a set of points) its vertices still
  * collide with the tetrahedra of other meshes, but its edges and faces with nothing, so a thin blade may cross a body
  * without a contact. The first such mesh that a grid gets is written to its log as a warning;
- * vox_counters.meshes_without_tets counts them. */
+ * the counter meshes_without_tets is how many. */
 typedef struct vox_mesh_desc {
     uint32_t struct_size;
     uint32_t flags; /* vox_mesh_flags, combined with | */
@@ -649,9 +649,9 @@ typedef struct vox_contact_view {
     size_t byte_stride;
     uint64_t count;
     uint64_t epoch;
-    /* One for each contact: 1 if the vertex is in the interior of the tetrahedron, 0 if it is on its boundary; exact. On
-     * a face that two tetrahedra share, a vertex has a contact with one of them (see vox_contact): who joins the
-     * contacts of several grids, each with a part of a mesh, keeps the rule with this. Not part of vox_grid_get_hash. */
+    /* One for each contact: 1 if the vertex is in the interior of the tetrahedron, 0 if it is on its boundary; exact.
+     * On a face that two tetrahedra share, a vertex has a contact with one of them (see vox_contact): who joins the
+     * contacts of several grids, each with a part of a mesh, keeps the rule with this. No part of vox_grid_get_hash. */
     const uint8_t* interiors;
 } vox_contact_view;
 
@@ -936,8 +936,8 @@ typedef struct vox_touch_event {
 
 /* All pairs that began, then all that persisted, then all that ended: `count` in total, `byte_stride` apart, each part
  * sorted by (body_a, body_b). `data` lives until the next step or destroy of the grid. These are the events of one
- * step: a program that steps twice and reads once loses those of the first step. vox_counters.total_touches_began and
- * total_touches_ended show the loss. */
+ * step: a program that steps twice and reads once loses those of the first step. vox_grid_info.total_began and
+ * total_ended show the loss. */
 typedef struct vox_touch_view {
     const vox_touch_event* data;
     size_t byte_stride;
@@ -964,7 +964,7 @@ typedef struct vox_contact_event {
 
 /* All vertices that entered, then all that left, each part sorted by (body_a, vertex, body_b). `data` lives until the
  * next step, change of the flags or destroy of the grid. Events of one step, too: see vox_touch_view, and
- * vox_counters.total_contacts_began and total_contacts_ended. */
+ * the counters total_contacts_began and total_contacts_ended. */
 typedef struct vox_contact_event_view {
     const vox_contact_event* data;
     size_t byte_stride;
@@ -1153,82 +1153,22 @@ typedef struct vox_task_system {
 
 /* ---- measurements ----------------------------------------------------------------------------- */
 
-/* What the last successful step did. The counters from `cells` to `skipped_degenerate` do not include what was carried
- * over from the step before, nor do those from `leaving_edges` to `closest_tests`. `tets` counts enabled tetrahedra.
- * `skipped_degenerate` counts tetrahedra of exactly zero volume: with the reference engine all of them, with the fast
- * engine those that had a vertex to test. */
-typedef struct vox_counters {
-    uint32_t struct_size;
-    uint32_t meshes;
-    uint64_t vertices;
-    uint64_t tets;
-    uint64_t cells;              /* occupied cells, summed over the cell sizes if there are several */
-    uint64_t entries;            /* vertices in those cells */
-    uint64_t fullest_cell;       /* most vertices in one cell */
-    uint64_t visited_cells;      /* cells visited for tetrahedra (the paper's objective voxels) */
-    uint64_t visited_entries;    /* vertices found there */
-    uint64_t candidates;         /* (vertex, tet) pairs that passed the box test: the narrow phase's input */
-    uint64_t exact_tests;        /* orientations that needed exact arithmetic */
-    uint64_t contacts;
-    uint64_t skipped_degenerate;
-    uint64_t bytes;              /* held by the grid now, without the caller's arrays */
-    uint64_t peak_bytes;         /* most bytes the grid ever held */
-    uint64_t moved_meshes;       /* meshes that were not at rest (see vox_grid_step) */
-    uint64_t carried_contacts;   /* part of `contacts` carried over from the step before, between meshes at rest */
-    uint64_t penetrations;
-    uint64_t leaving_edges;      /* edges from a colliding vertex to one outside body_b */
-    uint64_t edge_tests;         /* tetrahedra visited along those edges */
-    uint64_t closest_searches;   /* penetrations that needed the closest point of the surface */
-    uint64_t closest_tests;      /* triangles whose closest point was computed for that */
-    uint64_t disabled_meshes;    /* not included in `meshes` (see vox_body_set_enabled) */
-    uint64_t filtered;           /* (vertex, tet) pairs of one mesh that self_rings or self_rest_distance ruled out */
-    uint64_t cell_size_changes;  /* how often the reference engine chose another cell size (see vox_grid_desc) */
-    uint64_t unknown_penetrations; /* part of `penetrations` for which closest_budget left no search */
-    uint64_t carried_penetrations; /* part of `penetrations` carried over with their contacts */
-    uint64_t skipped_meshes;     /* left out for a coordinate (VOX_GRID_SKIP_BAD_BODIES); not included in `meshes` */
-    uint64_t meshes_without_tets; /* part of `meshes`: their vertices collide, their edges and faces do not */
-    /* Events of all steps since the grid was created or loaded: sums of `began` and `ended` of the views that each step
-     * gave (vox_grid_touch_events, vox_grid_contact_events). A reader that has added up less has lost events. */
-    uint64_t total_touches_began;
-    uint64_t total_touches_ended;
-    uint64_t total_contacts_began;
-    uint64_t total_contacts_ended;
-    uint64_t edge_contacts;         /* 0 without VOX_GRID_EDGE_CONTACTS, as are the next two */
-    uint64_t carried_edge_contacts; /* part of `edge_contacts` carried over from the step before */
-    uint64_t edge_candidates;       /* edges and faces whose boxes overlap */
-    uint64_t margin_contacts;       /* 0 without a margin (vox_grid_set_margin), as is the next one */
-    uint64_t carried_margin_contacts; /* part of `margin_contacts` carried over from the step before */
-    uint64_t passages;              /* 0 without previous positions (vox_mesh_bind_previous_positions) */
-} vox_counters;
+/* A count, or a time in nanoseconds. */
+typedef struct vox_counter {
+    const char* name; /* static text, e.g. "candidates", or for a time "lookup_ns" */
+    uint64_t value;
+} vox_counter;
 
-/* Writes the fields that out_counters->struct_size covers (set it first). */
-VOX_API vox_result vox_grid_get_counters(const vox_grid* grid, vox_counters* out_counters);
+/* `count` counters. A library always has the same ones, in the same order. `data` lives until the next step, clear or
+ * destroy of the grid. */
+typedef struct vox_counter_view {
+    const vox_counter* data;
+    uint64_t count;
+} vox_counter_view;
 
-/* Nanoseconds of the last successful step, in total and by stage. stream_ns to decide_ns are the stages of the fast
- * engine, and bin_ns, broad_ns and narrow_ns are sums of them. The reference engine has just those three stages, and
- * leaves stream_ns to decide_ns 0. */
-typedef struct vox_profile {
-    uint32_t struct_size;
-    uint32_t reserved;
-    uint64_t step_ns;
-    uint64_t bin_ns;         /* classify the vertices, recompute the boxes: stream + winding + windows */
-    uint64_t broad_ns;       /* cells and box tests: broad_phase + lookup */
-    uint64_t narrow_ns;      /* exact decisions: decide */
-    uint64_t contacts_ns;    /* canonical order, barycentric coordinates */
-    uint64_t depth_ns;       /* penetrations */
-    uint64_t events_ns;      /* touching pairs and events */
-    uint64_t stream_ns;      /* read all positions: boxes, and which meshes moved */
-    uint64_t winding_ns;     /* rule out self-contacts by winding numbers; of the worker that took longest over them */
-    uint64_t broad_phase_ns; /* regions in which meshes may be in contact */
-    uint64_t windows_ns;     /* bin the vertices that lie there */
-    uint64_t lookup_ns;       /* tetrahedra against these: box tests, and all that floats can decide */
-    uint64_t decide_ns;      /* decide the rest exactly; of the worker that took longest over it */
-    uint64_t edges_ns;       /* edge contacts, with either engine */
-    uint64_t margin_ns;      /* margin contacts and passages, with either engine */
-} vox_profile;
-
-/* Writes the fields that out_profile->struct_size covers (set it first). */
-VOX_API vox_result vox_grid_profile(const vox_grid* grid, vox_profile* out_profile);
+/* What the last successful step did, and how long each stage of it took: all 0 before the first. docs/engine.md lists
+ * the names; what programs act on is in vox_grid_info. */
+VOX_API vox_result vox_grid_get_counters(const vox_grid* grid, vox_counter_view* out_view);
 
 #ifdef __cplusplus
 }

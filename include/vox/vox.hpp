@@ -886,9 +886,11 @@ public:
         return bytes;
     }
     // vox_grid_get_counters
-    vox_counters counters() const { return detail::filled<vox_counters>(vox_grid_get_counters, get()); }
-    // vox_grid_profile
-    vox_profile profile() const { return detail::filled<vox_profile>(vox_grid_profile, get()); }
+    span<const vox_counter> counters() const& {
+        const vox_counter_view view = detail::filled<vox_counter_view>(vox_grid_get_counters, get());
+        return {view.data, static_cast<std::size_t>(view.count)};
+    }
+    void counters() const&& = delete;
 
 private:
     friend class locator; // vox_query.hpp

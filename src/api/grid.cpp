@@ -219,10 +219,6 @@ vox_result vox_grid_get_hash(const vox_grid* grid, uint64_t* out_hash) {
     return border(grid, "grid", out_hash, "out_hash", [&] { return grid->hash(); });
 }
 
-vox_result vox_grid_get_counters(const vox_grid* grid, vox_counters* out_counters) {
-    return border(grid, "grid", [&] { write_struct(out_counters, grid->counters(), "out_counters"); });
-}
-
-vox_result vox_grid_profile(const vox_grid* grid, vox_profile* out_profile) {
-    return border(grid, "grid", [&] { write_struct(out_profile, grid->profile(), "out_profile"); });
+vox_result vox_grid_get_counters(const vox_grid* grid, vox_counter_view* out_view) {
+    return border(grid, "grid", out_view, "out_view", [&] { return grid->counters(); });
 }

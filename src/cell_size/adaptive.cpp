@@ -41,7 +41,7 @@ double choice_ns(double vertices, double tets, const SampleBudget& budget) {
 // What a visited cell costs with its list, in visits of empty cells.
 constexpr double cell_visits = 5;
 
-double step_ns(const vox_counters& c, const CostWeights& w) {
+double step_ns(const Counters& c, const CostWeights& w) {
     return static_cast<double>(c.vertices) * w.classify_vertex + static_cast<double>(c.tets) * w.prepare_tet +
            static_cast<double>(c.visited_cells) * cell_visits * w.visit_cell +
            static_cast<double>(c.visited_entries) * w.read_vertex;
@@ -171,7 +171,7 @@ bool AdaptiveCellSize::choose(std::span<const Body> bodies, bool dense, double b
     return true;
 }
 
-void AdaptiveCellSize::observe(const vox_counters& counters) noexcept {
+void AdaptiveCellSize::observe(const Counters& counters) noexcept {
     price_ = choice_ns(static_cast<double>(counters.vertices), static_cast<double>(counters.tets),
                        quick(VOX_COST_MODEL_REFERENCE, counters.tets));
     credit_ = std::min(credit_ + time_share * step_ns(counters, weights_), price_);

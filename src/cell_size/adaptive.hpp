@@ -13,6 +13,7 @@
 // of the time of the steps, estimated from counters, so that the same calls always give the same sizes.
 #pragma once
 
+#include "base/counters.hpp"
 #include "base/scene.hpp"
 #include "cell_size/levels.hpp"
 #include "cell_size/weights.hpp"
@@ -40,7 +41,7 @@ public:
                                           std::pmr::memory_resource* memory);
 
     // Call after that step with what it counted.
-    void observe(const vox_counters& counters) noexcept;
+    void observe(const Counters& counters) noexcept;
 
     const CostWeights& weights() const noexcept { return weights_; }
     // How often cell_sizes() returned other sizes than the time before.

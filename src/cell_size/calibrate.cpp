@@ -132,8 +132,8 @@ double shortest(int times, Work&& work) {
 void measure_reference(Scene& scene, CostWeights& weights) {
     ReferenceEngine engine(Scene::memory());
     Array<Hit> hits(Scene::memory());
-    vox_counters counters{};
-    vox_profile profile{};
+    Counters counters{};
+    Profile profile{};
     std::vector<Timing> timings;
     for (const bool self : {false, true}) {
         for (Body& body : scene.bodies) body.self_collision = self;
@@ -176,8 +176,8 @@ void measure_reference(Scene& scene, CostWeights& weights) {
 void measure_fast(Scene& scene, CostWeights& weights) {
     FastEngine engine(Scene::memory());
     Array<Hit> hits(Scene::memory());
-    vox_counters counters{};
-    vox_profile profile{};
+    Counters counters{};
+    Profile profile{};
     for (Body& body : scene.bodies) body.self_collision = true;
     CellSizeScene described(Scene::memory());
     described.bodies.assign(scene.bodies.begin(), scene.bodies.end());

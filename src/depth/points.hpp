@@ -26,7 +26,7 @@ struct BodyPair {
 };
 
 struct Counts {
-    std::uint64_t leaving_edges = 0, edge_tests = 0, closest_tests = 0; // as in vox_counters
+    std::uint64_t leaving_edges = 0, edge_tests = 0, closest_tests = 0; // as in Counters
 };
 
 inline bool has_corner(const Triangle& triangle, std::uint32_t vertex) noexcept {

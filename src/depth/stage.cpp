@@ -21,7 +21,7 @@ Solid DepthStage::Scene::solid(std::uint32_t body) const {
 void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
                       std::span<const Hit> hits, std::span<const vox_contact> contacts,
                       std::uint64_t closest_budget, Workers* workers, Penetrations& penetrations,
-                      vox_counters& counters) {
+                      Counters& counters) {
     const bool none = std::ranges::all_of(bodies, [](const Body& b) { return b.sensor; });
     if (hits.empty() || none) return penetrations.clear();
     const Scene scene{bodies, topologies, hits, contacts, penetrations};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/counters.hpp"
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
 #include "depth/consistent.hpp"
@@ -38,7 +39,7 @@ public:
     // not depend on them.
     void find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
               std::span<const Hit> hits, std::span<const vox_contact> contacts, std::uint64_t closest_budget,
-              Workers* workers, Penetrations& penetrations, vox_counters& counters);
+              Workers* workers, Penetrations& penetrations, Counters& counters);
 
     // Room for so many contacts, but for closest points that are searched. Throws what the memory throws.
     void reserve(std::uint64_t contacts);

@@ -14,8 +14,8 @@ FastEngine::FastEngine(std::pmr::memory_resource* memory)
       workers_(memory), degenerate_(memory) {}
 
 void FastEngine::detect(std::span<const Body> bodies, std::span<const fast::PreparedBody> prepared,
-                        const FastSettings& settings, Array<Hit>& hits, vox_counters& counters,
-                        vox_profile& profile) {
+                        const FastSettings& settings, Array<Hit>& hits, Counters& counters,
+                        Profile& profile) {
     const std::uint64_t start = nanoseconds();
     begin(bodies, prepared, settings);
     fast::stream(step_, boxes_, stream_);
@@ -87,7 +87,7 @@ void FastEngine::look_up(Array<Hit>& hits) {
 }
 
 // Sums, and largest ones: which worker did what does not matter.
-void FastEngine::count(vox_counters& counters) {
+void FastEngine::count(Counters& counters) {
     counters.cells = counters.entries = counters.fullest_cell = 0;
     counters.visited_cells = counters.visited_entries = counters.candidates = 0;
     counters.exact_tests = counters.filtered = counters.moved_meshes = 0;

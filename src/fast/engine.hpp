@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/counters.hpp"
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
 #include "fast/broad_phase.hpp"
@@ -48,7 +49,7 @@ public:
     // Nothing but times and the order of hits depends on the workers. With more than one, the memory given to
     // the constructor and that of `hits` are used by many threads at once.
     void detect(std::span<const Body> bodies, std::span<const fast::PreparedBody> prepared,
-                const FastSettings& settings, Array<Hit>& hits, vox_counters& counters, vox_profile& profile);
+                const FastSettings& settings, Array<Hit>& hits, Counters& counters, Profile& profile);
 
     // For the pairs of boxes that are looked for between steps: good until the next one.
     fast::PairBuffers& pair_buffers() noexcept { return broad_phase_.pair_buffers; }
@@ -87,7 +88,7 @@ private:
     void begin(std::span<const Body> bodies, std::span<const fast::PreparedBody> prepared,
                const FastSettings& settings);
     void look_up(Array<Hit>& hits);
-    void count(vox_counters& counters);
+    void count(Counters& counters);
 
     fast::Step step_;
     fast::StepBoxes boxes_;

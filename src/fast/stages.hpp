@@ -1,5 +1,5 @@
 // The stages of a step of the fast engine, by the name each has everywhere: its file or folder, its time in
-// vox_profile (with _ns), its row in bench/stages, and its line in src/README.md.
+// Profile (with _ns), its row in bench/stages, and its line in src/README.md.
 #pragma once
 
 namespace vox::fast {

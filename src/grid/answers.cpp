@@ -180,9 +180,8 @@ vox_grid_info vox_grid::info() const noexcept {
             .total_ended = counters_.total_touches_ended};
 }
 
-vox_counters vox_grid::counters() const noexcept {
-    vox_counters counters = counters_;
-    counters.bytes = memory_.bytes();
-    counters.peak_bytes = memory_.peak_bytes();
-    return counters;
+void vox_grid::list_counters() noexcept {
+    vox_counter* out = counter_list_;
+    for (const NamedCounter& c : named_counters) *out++ = {c.name, counters_.*c.field};
+    for (const NamedTime& t : named_times) *out++ = {t.name, profile_.*t.field};
 }

@@ -66,7 +66,7 @@ void EdgeContacts::forget(vox_body mesh) noexcept {
     erase_if(surfaces_, [mesh](const Surface& surface) { return surface.mesh == mesh; });
 }
 
-void EdgeContacts::find(const EdgeScene& scene, vox_counters& counters) {
+void EdgeContacts::find(const EdgeScene& scene, Counters& counters) {
     has_depths_ = false;
     workers_.grow(scene.workers->count());
     for (Worker& worker : workers_) {

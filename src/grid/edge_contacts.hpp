@@ -4,6 +4,7 @@
 
 #include "base/array.hpp"
 #include "base/boxes.hpp"
+#include "base/counters.hpp"
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
 #include "depth/closest.hpp"
@@ -57,7 +58,7 @@ public:
 
     // Replaces the contacts. Those between bodies at rest are carried over; the surfaces of bodies that are
     // near others are prepared. Sets the counters of edge contacts. If it throws, clear() is to be called.
-    void find(const EdgeScene& scene, vox_counters& counters);
+    void find(const EdgeScene& scene, Counters& counters);
 
     std::span<const vox_edge_contact> all() const noexcept { return contacts_; }
     std::uint64_t hash() const noexcept;

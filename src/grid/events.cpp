@@ -164,7 +164,7 @@ vox_touch_view Events::touch_events(std::uint64_t epoch) const noexcept {
             .ended = count - began_ - persisted_};
 }
 
-void Events::count(vox_counters& counters) const noexcept {
+void Events::count(Counters& counters) const noexcept {
     counters.total_touches_began = touches_.began;
     counters.total_touches_ended = touches_.ended;
     counters.total_contacts_began = vertices_.began;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/counters.hpp"
 #include "grid/contact_pairs.hpp"
 
 #include <vox/vox.h>
@@ -73,7 +74,7 @@ public:
     // Throws Error(INVALID_STATE) without `of_contacts`.
     vox_contact_event_view contact_events(std::uint64_t epoch) const;
     // Sets the counters from `total_touches_began` to `total_contacts_ended`.
-    void count(vox_counters& counters) const noexcept;
+    void count(Counters& counters) const noexcept;
 
 private:
     friend class Snapshot;

@@ -105,6 +105,7 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
     if (desc.flags & VOX_GRID_EDGE_CONTACTS) edges_.emplace(&memory_);
     set_margin(desc.margin);
     epoch_ = 0; // what a grid is made with is no change of it
+    list_counters();
 }
 
 // ---- meshes ---------------------------------------------------------------------------------------
@@ -139,7 +140,7 @@ void vox_grid::warn_of_traps(const Mesh& mesh, vox_body id) {
     if (warned_of_edges_ || mesh.tet_count() > 0 || mesh.vertex_count() == 0) return;
     warned_of_edges_ = true;
     warn_of("has no tetrahedra: its vertices collide with the tetrahedra of other meshes, its edges and "
-            "faces with nothing (said once for a grid; vox_counters.meshes_without_tets counts such "
+            "faces with nothing (said once for a grid; the counter meshes_without_tets counts such "
             "meshes)");
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/counters.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/parallel.hpp"
@@ -113,8 +114,7 @@ public:
     std::uint64_t epoch() const noexcept { return epoch_; }
     const vox::Events& events() const noexcept { return events_; }
     std::uint64_t hash() const noexcept;
-    vox_counters counters() const noexcept;
-    const vox_profile& profile() const noexcept { return profile_; }
+    vox_counter_view counters() const noexcept { return {counter_list_, std::size(counter_list_)}; }
     const vox::MemoryShare& memory() const noexcept { return share_; }
 
 private:
@@ -131,22 +131,23 @@ private:
     void stop_finding_penetrations() noexcept;
     void drop_surfaces() noexcept;
     void look_near() noexcept;
-    void find_near(vox_counters& counters);
-    bool find_edges(vox_counters& counters);
+    void list_counters() noexcept;
+    void find_near(vox::Counters& counters);
+    bool find_edges(vox::Counters& counters);
     void require_penetrations() const;
     void scene_changed() noexcept;
     bool chooses_cell_size() const noexcept { return requested_cell_size_ == 0; }
-    void gather_bodies(vox_counters& counters);
-    void detect(bool& carry, vox_counters& counters, vox_profile& profile);
+    void gather_bodies(vox::Counters& counters);
+    void detect(bool& carry, vox::Counters& counters, vox::Profile& profile);
     void leave_out_bad_meshes();
     void forget_contacts() noexcept;
     bool is_left_out(const vox::Body& body) const noexcept;
     vox_failure failure_of(vox_result result, vox_body mesh, std::uint32_t vertex) const noexcept;
     void warn_of_traps(const vox::Mesh& mesh, vox_body id);
     void drop_removed_vertices();
-    void detect_fast(bool carry, vox_counters& counters, vox_profile& profile);
+    void detect_fast(bool carry, vox::Counters& counters, vox::Profile& profile);
     std::uint64_t carry_contacts();
-    void detect_reference(vox_counters& counters, vox_profile& profile);
+    void detect_reference(vox::Counters& counters, vox::Profile& profile);
     void choose_cell_size();
     double byte_limit() const noexcept;
     void write_log(vox_log_level level, const char* text) const;
@@ -204,8 +205,9 @@ private:
     vox::Readings readings_;
     vox::Locators locators_;
     vox::Array<vox::QueryBody> query_bodies_; // in one call
-    vox_counters counters_{};
-    vox_profile profile_{};
+    vox::Counters counters_{};
+    vox::Profile profile_{};
+    vox_counter counter_list_[std::size(vox::named_counters) + std::size(vox::named_times)]; // of both
     std::uint64_t epoch_ = 0;
     bool warned_of_edges_ = false; // of a mesh without tetrahedra
 };

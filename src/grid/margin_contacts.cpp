@@ -52,7 +52,7 @@ Vec3d normal_to(const Vec3d& p, const Vec3d (&corner)[3], const SeenPoint& seen,
 } // namespace
 
 void MarginContacts::find(const EdgeScene& scene, double margin, std::span<const vox_contact> contacts,
-                          VertexFaceSearch& search, vox_counters& counters) {
+                          VertexFaceSearch& search, Counters& counters) {
     scene_ = &scene;
     inside_ = contacts;
     most_ = margin * margin;

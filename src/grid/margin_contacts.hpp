@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/counters.hpp"
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
 #include "exact/closest_point.hpp"
@@ -26,7 +27,7 @@ public:
     // Replaces the margin contacts; `contacts` are those of the step, in canonical order. Those between
     // bodies at rest are carried over. If it throws, clear() is to be called.
     void find(const EdgeScene& scene, double margin, std::span<const vox_contact> contacts,
-              VertexFaceSearch& search, vox_counters& counters);
+              VertexFaceSearch& search, Counters& counters);
 
     std::span<const vox_margin_contact> all() const noexcept { return contacts_; }
     void clear() noexcept { contacts_.clear(); }

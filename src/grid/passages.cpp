@@ -29,7 +29,7 @@ void Passages::forget(vox_body mesh) noexcept {
     erase_if(bound_, [mesh](const Bound& bound) { return bound.mesh == mesh; });
 }
 
-void Passages::find(const EdgeScene& scene, VertexFaceSearch& search, vox_counters& counters) {
+void Passages::find(const EdgeScene& scene, VertexFaceSearch& search, Counters& counters) {
     scene_ = &scene;
     previous_.assign(scene.bodies.size(), {});
     for (std::size_t b = 0, i = 0; b < scene.bodies.size(); ++b) {

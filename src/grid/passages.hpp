@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/counters.hpp"
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
 #include "exact/meeting_time.hpp"
@@ -29,7 +30,7 @@ public:
     bool any_bound() const noexcept { return !bound_.empty(); }
 
     // Replaces the passages. If it throws, clear() is to be called.
-    void find(const EdgeScene& scene, VertexFaceSearch& search, vox_counters& counters);
+    void find(const EdgeScene& scene, VertexFaceSearch& search, Counters& counters);
 
     std::span<const vox_passage> all() const noexcept { return passages_; }
     void clear() noexcept { passages_.clear(); }

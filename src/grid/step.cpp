@@ -29,8 +29,8 @@ void vox_grid::step() {
     }
     ++epoch_;
 
-    vox_counters counters{};
-    vox_profile profile{};
+    Counters counters{};
+    Profile profile{};
     try {
         detect(carry, counters, profile);
         drop_removed_vertices();
@@ -101,6 +101,7 @@ void vox_grid::step() {
     counters_ = counters;
     profile.step_ns = nanoseconds() - start;
     profile_ = profile;
+    list_counters();
     contacts_hold_ = fast_;
     meshes_hold_ = fast_ && left_out_.empty() && lone_.totals().bodies == 0;
     if (counters.unknown_penetrations > 0)
@@ -109,7 +110,7 @@ void vox_grid::step() {
 }
 
 // Returns whether there are the same edge contacts as in the last step, or none are looked for.
-bool vox_grid::find_edges(vox_counters& counters) {
+bool vox_grid::find_edges(Counters& counters) {
     if (!finds_surface_contacts || !edges_) return true;
     edges_->find({bodies_, topologies_, surface_versions_, fast_ ? &fast_engine_ : nullptr, &workers_},
                  counters);
@@ -117,7 +118,7 @@ bool vox_grid::find_edges(vox_counters& counters) {
 }
 
 // Vertices near or through surfaces that they are not inside of.
-void vox_grid::find_near(vox_counters& counters) {
+void vox_grid::find_near(Counters& counters) {
     if constexpr (!finds_surface_contacts) return;
     const EdgeScene scene{bodies_, topologies_, surface_versions_, fast_ ? &fast_engine_ : nullptr,
                           &workers_};
@@ -138,7 +139,7 @@ void vox_grid::forget_contacts() noexcept {
 // Finds the hits. If a coordinate of a mesh makes that fail, it starts again without all such meshes, where
 // the flags ask for that. Then nothing is carried over, as the engine may have taken in the positions of
 // others already.
-void vox_grid::detect(bool& carry, vox_counters& counters, vox_profile& profile) {
+void vox_grid::detect(bool& carry, Counters& counters, Profile& profile) {
     const auto detect_once = [&] {
         if (fast_ && !shared_tets_.empty() && !near_faces_) // a body near others is not alone
             lone_.find(meshes_, fast_engine_.last_step().moved_origin(), fast_engine_.pair_buffers(),
@@ -195,7 +196,7 @@ vox_failure vox_grid::failure_of(vox_result result, vox_body id, std::uint32_t v
     return failure;
 }
 
-void vox_grid::gather_bodies(vox_counters& counters) {
+void vox_grid::gather_bodies(Counters& counters) {
     counters.disabled_meshes = 0;
     left_out_.clear();
     bodies_.clear();
@@ -251,7 +252,7 @@ void vox_grid::drop_removed_vertices() {
              [this](const Hit& hit) { return has_bit(bodies_[hit.body_a].removed_vertices, hit.vertex); });
 }
 
-void vox_grid::detect_fast(bool carry, vox_counters& counters, vox_profile& profile) {
+void vox_grid::detect_fast(bool carry, Counters& counters, Profile& profile) {
     // The engine chooses a cell size for each of its windows unless one is set.
     const FastSettings settings{.cell_size = requested_cell_size_,
                                 .workers = &workers_,
@@ -287,7 +288,7 @@ std::uint64_t vox_grid::carry_contacts() {
     return hits_.size() - found;
 }
 
-void vox_grid::detect_reference(vox_counters& counters, vox_profile& profile) {
+void vox_grid::detect_reference(Counters& counters, Profile& profile) {
     choose_cell_size();
     counters.moved_meshes = bodies_.size();
     reference_.detect(bodies_, settings_, hits_, counters, profile);

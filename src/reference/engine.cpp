@@ -23,8 +23,8 @@ struct ReferenceEngine::Step {
     std::span<const Body> bodies;
     const ReferenceSettings& settings;
     Array<Hit>& hits;
-    vox_counters& counters;
-    vox_profile& profile;
+    Counters& counters;
+    Profile& profile;
     bool some_filtered = false; // whether some pairs of bodies must not collide
 };
 
@@ -45,7 +45,7 @@ ReferenceEngine::ReferenceEngine(std::pmr::memory_resource* memory)
       sorted_(memory) {}
 
 void ReferenceEngine::detect(std::span<const Body> bodies, const ReferenceSettings& settings,
-                             Array<Hit>& hits, vox_counters& counters, vox_profile& profile) {
+                             Array<Hit>& hits, Counters& counters, Profile& profile) {
     counters.cells = counters.entries = counters.fullest_cell = 0;
     counters.visited_cells = counters.visited_entries = counters.candidates = 0;
     counters.exact_tests = counters.filtered = counters.skipped_degenerate = 0;

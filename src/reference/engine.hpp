@@ -4,6 +4,7 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/counters.hpp"
 #include "base/scene.hpp"
 #include "reference/cell_lists.hpp"
 #include "reference/levels.hpp"
@@ -38,7 +39,7 @@ public:
     // again after that. Sets the counters from `cells` to `skipped_degenerate` and the stage times from
     // `bin_ns` to `narrow_ns`.
     void detect(std::span<const Body> bodies, const ReferenceSettings& settings, Array<Hit>& hits,
-                vox_counters& counters, vox_profile& profile);
+                Counters& counters, Profile& profile);
 
     // Those of the last level.
     const CellLists& cells() const noexcept { return cells_; }

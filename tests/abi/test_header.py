@@ -16,7 +16,7 @@ INCLUDE = os.path.join(ROOT, "include", "vox")
 HEADERS = ["vox.h", "vox_query.h", "vox_cell_size.h", "vox_surface.h", "vox_io.h", "vox_sim.h", "vox_dist.h"]
 
 # Functions, structs and fields of each header, which are not to grow unseen: a new function has two users outside of tests.
-BUDGETS = {"vox.h": (66, 34, 259), "vox_query.h": (10, 5, 32), "vox_cell_size.h": (9, 19, 173), "vox_surface.h": (13, 13, 83),
+BUDGETS = {"vox.h": (65, 34, 207), "vox_query.h": (10, 5, 32), "vox_cell_size.h": (9, 19, 173), "vox_surface.h": (13, 13, 83),
            "vox_io.h": (19, 9, 75), "vox_sim.h": (11, 5, 63), "vox_dist.h": (13, 8, 49)}
 LIBRARIES = {name[:-2] for name in BUDGETS} | {"vox_mpi"}
 

@@ -375,7 +375,7 @@ START_TEST(several_cell_sizes_where_they_pay) {
     ck_ok(vox_grid_get_hash(several, &hash));
     ck_ok(vox_grid_get_hash(one, &expected));
     ck_assert_uint_eq(hash, expected);
-    const vox_counters with = counters_of(several), without = counters_of(one);
+    const grid_counts with = counters_of(several), without = counters_of(one);
     ck_assert_uint_gt(with.contacts, 0);
     ck_assert_uint_eq(with.candidates, without.candidates);
     ck_assert_uint_eq(with.entries % without.entries, 0);
@@ -423,7 +423,7 @@ START_TEST(an_outlier_does_not_explode_the_grid) {
         ck_ok(vox_grid_get_hash(chosen, &hash));
         ck_ok(vox_grid_get_hash(fixed, &expected));
         ck_assert_uint_eq(hash, expected);
-        const vox_counters counters = counters_of(chosen);
+        const grid_counts counters = counters_of(chosen);
         ck_assert_uint_le(counters.peak_bytes, desc.byte_budget);
         ck_assert_uint_lt(counters.visited_cells, 200 * counters.tets);
         /* Dense storage may have to lay everything into one cell: all vertices for each tetrahedron, no more.

@@ -115,7 +115,7 @@ START_TEST(the_first_ones_in_order) {
                 ck_assert(fabs(norm(direction_of(found)) - 1) < 1e-6);
                 ck_assert_uint_eq(found->contact, expected->contact);
             }
-            const vox_counters counters = counters_of(grid);
+            const grid_counts counters = counters_of(grid);
             ck_assert_uint_eq(counters.unknown_penetrations, unknown);
             ck_assert_uint_eq(counters.closest_searches, searches - unknown);
             ck_assert_int_eq(log.count, unknown > 0);

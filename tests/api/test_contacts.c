@@ -385,7 +385,7 @@ START_TEST(huge_coordinates) {
             ck_assert_uint_gt(view.count, 0);
             if (!expected) expected = hash_of(s.grid);
             ck_assert_uint_eq(hash_of(s.grid), expected);
-            vox_counters counters = counters_of(s.grid);
+            grid_counts counters = counters_of(s.grid);
             ck_assert_uint_lt(counters.peak_bytes, 4u << 20);
             vox_grid_destroy(s.grid);
         }
@@ -474,7 +474,7 @@ START_TEST(flat_and_repeated_tets_hold_nothing) {
                         b = vox_mesh_desc_floats(corners, 5, tets, 2);
     scene s = new_scene(&a, &b, 0.5);
     ck_assert_uint_eq(stepped(s.grid).count, 0);
-    vox_counters counters = counters_of(s.grid);
+    grid_counts counters = counters_of(s.grid);
     /* The fast engine meets the flat one only: the point is not in the other's box. */
     ck_assert_uint_eq(counters.skipped_degenerate, suite_engine == ENGINE_REFERENCE ? 2 : 1);
     vox_grid_destroy(s.grid);
@@ -509,9 +509,9 @@ START_TEST(counters_and_profile) {
     const vox_mesh_desc a = body_desc(&box), b = body_desc(&other);
     scene s = new_scene(&a, &b, 0.25);
     const vox_contact_view view = stepped(s.grid);
-    vox_profile p = {.struct_size = sizeof p};
-    vox_counters c = counters_of(s.grid);
-    ck_ok(vox_grid_profile(s.grid, &p));
+    grid_times p;
+    grid_counts c = counters_of(s.grid);
+    p = times_of(s.grid);
     ck_assert_uint_eq(c.meshes, 2);
     ck_assert_uint_eq(c.vertices, box.vertex_count + other.vertex_count);
     ck_assert_uint_eq(c.tets, box.tet_count + other.tet_count);
@@ -540,8 +540,8 @@ START_TEST(stage_times_add_up) {
     a.filter.flags |= VOX_FILTER_SELF_COLLISION;
     scene s = new_scene(&a, &b, 0.25);
     (void)stepped(s.grid);
-    vox_profile p = {.struct_size = sizeof p};
-    ck_ok(vox_grid_profile(s.grid, &p));
+    grid_times p;
+    p = times_of(s.grid);
     const uint64_t stages =
         p.stream_ns + p.winding_ns + p.broad_phase_ns + p.windows_ns + p.lookup_ns + p.decide_ns;
     if (suite_engine == ENGINE_REFERENCE) {
@@ -558,17 +558,6 @@ START_TEST(stage_times_add_up) {
         ck_assert_uint_gt(p.lookup_ns, 0);
         ck_assert_uint_le(stages + p.contacts_ns + p.depth_ns + p.events_ns, p.step_ns);
     }
-    /* Callers from before the stages: nothing is written past their struct. */
-    vox_profile old;
-    memset(&old, 0xee, sizeof old);
-    old.struct_size = offsetof(vox_profile, stream_ns);
-    ck_ok(vox_grid_profile(s.grid, &old));
-    ck_assert_uint_eq(old.struct_size, offsetof(vox_profile, stream_ns));
-    ck_assert_uint_eq(old.step_ns, p.step_ns);
-    ck_assert_uint_eq(old.bin_ns, p.bin_ns);
-    ck_assert_uint_eq(old.events_ns, p.events_ns);
-    ck_assert_uint_eq(old.stream_ns, 0xeeeeeeeeeeeeeeee);
-    ck_assert_uint_eq(old.decide_ns, 0xeeeeeeeeeeeeeeee);
     vox_grid_destroy(s.grid);
     free_body(&box);
     free_body(&other);

@@ -80,7 +80,7 @@ static void move_one(scene* s, int i) {
 
 /* Steps, and compares contacts and penetrations with those of a new grid over the same meshes in the same
  * order. */
-static vox_counters check_step(scene* s) {
+static grid_counts check_step(scene* s) {
     vox_body id_of[most_bodies] = {0};
     vox_grid* grid = NULL;
     ck_ok(vox_grid_step(s->grid));
@@ -124,7 +124,7 @@ static vox_counters check_step(scene* s) {
         ck_assert_mem_eq(&x.data[i], &y.data[i], sizeof *x.data);
     }
     vox_grid_destroy(grid);
-    const vox_counters counters = counters_of(s->grid);
+    const grid_counts counters = counters_of(s->grid);
     ck_assert_uint_eq(counters.contacts, mine.count);
     ck_assert_uint_le(counters.carried_contacts, mine.count);
     ck_assert_uint_le(counters.carried_penetrations, counters.carried_contacts);
@@ -153,7 +153,7 @@ START_TEST(some_move) {
                 move_one(&s, i);
                 ++moving;
             }
-            const vox_counters counters = check_step(&s);
+            const grid_counts counters = check_step(&s);
             ck_assert_uint_eq(counters.meshes, present);
             if (step == 0) ck_assert_uint_eq(counters.moved_meshes, present);
             carried += counters.carried_contacts;
@@ -174,7 +174,7 @@ START_TEST(nothing_moves) {
     scene s;
     random_state = 2;
     make_scene(&s, 8, NULL);
-    vox_counters counters = check_step(&s);
+    grid_counts counters = check_step(&s);
     const uint64_t contacts = counters.contacts;
     ck_assert_uint_gt(contacts, 20);
     ck_assert_uint_eq(counters.moved_meshes, 8);
@@ -254,7 +254,7 @@ START_TEST(failed_steps) {
         }
         *p = was;
         moved(&s, i);
-        const vox_counters counters = check_step(&s);
+        const grid_counts counters = check_step(&s);
         ck_assert_uint_eq(counters.moved_meshes, 6);
         ck_assert_uint_eq(counters.carried_contacts, 0);
     }
@@ -390,7 +390,7 @@ START_TEST(budget_of_searches) {
         insert_mesh(grid, &mesh);
     }
     ck_ok(vox_grid_step(grid));
-    vox_counters counters = counters_of(grid);
+    grid_counts counters = counters_of(grid);
     const uint64_t unknown = counters.unknown_penetrations;
     ck_assert_uint_eq(counters.closest_searches, 5);
     ck_assert_uint_gt(unknown, 27); /* all in the second pair of boxes are among them */
@@ -419,7 +419,7 @@ START_TEST(reference_engine_rests_never) {
     random_state = 9;
     make_scene(&s, 4, &desc);
     for (int step = 0; step < 3; ++step) {
-        const vox_counters counters = check_step(&s);
+        const grid_counts counters = check_step(&s);
         ck_assert_uint_eq(counters.moved_meshes, 4);
         ck_assert_uint_eq(counters.carried_contacts, 0);
         ck_assert_uint_gt(counters.candidates, 0);

@@ -127,7 +127,7 @@ START_TEST(nothing_to_do) {
     vox_body mesh = insert_mesh(grid, &desc);
     insert_mesh(grid, &more);
     for (int step = 0; step < 3; ++step) ck_ok(vox_grid_step(grid));
-    const vox_counters before = counters_of(grid);
+    const grid_counts before = counters_of(grid);
     ck_assert_uint_eq(before.moved_meshes, suite_engine == ENGINE_FAST ? 0 : 2);
     for (int kind = 0; kind < 6; ++kind) {
         if (kind == 0) ck_ok(vox_mesh_set_tets_enabled(grid, mesh, NULL, 0, 0));
@@ -137,7 +137,7 @@ START_TEST(nothing_to_do) {
         if (kind == 4) ck_ok(vox_mesh_append_vertices(grid, mesh, &vertices, &first));
         if (kind == 5) ck_ok(vox_mesh_remove_vertices(grid, mesh, NULL, 0));
         ck_ok(vox_grid_step(grid));
-        const vox_counters after = counters_of(grid);
+        const grid_counts after = counters_of(grid);
         ck_assert_uint_eq(after.moved_meshes, before.moved_meshes);
         ck_assert_uint_eq(after.carried_contacts, before.carried_contacts);
         ck_assert_uint_eq(after.bytes, before.bytes);

@@ -136,7 +136,7 @@ static void read_events(const vox_grid* grid, totals* sums) {
 }
 
 static void check_totals(const vox_grid* grid, const totals* sums) {
-    const vox_counters counters = counters_of(grid);
+    const grid_counts counters = counters_of(grid);
     ck_assert_uint_eq(counters.total_touches_began, sums->touches_began);
     ck_assert_uint_eq(counters.total_touches_ended, sums->touches_ended);
     ck_assert_uint_eq(counters.total_contacts_began, sums->contacts_began);
@@ -169,7 +169,7 @@ START_TEST(totals_show_events_that_nobody_read) {
         if (step % 2 == 1) read_events(m.grid, &half);
     }
     ck_assert_uint_ge(all.touches_ended, 3);
-    const vox_counters counters = counters_of(m.grid);
+    const grid_counts counters = counters_of(m.grid);
     ck_assert_uint_gt(counters.total_touches_began, half.touches_began);
     ck_assert_uint_gt(counters.total_contacts_began, half.contacts_began);
     ck_assert_uint_eq(counters.total_touches_began - counters.total_touches_ended, pairs_of(m.grid).count);

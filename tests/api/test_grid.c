@@ -92,17 +92,17 @@ START_TEST(struct_sizes) {
     ck_ok(vox_grid_create(desc, &grid));
 
     /* The same for results. */
-    vox_counters counters[2];
-    memset(counters, 0xab, sizeof counters);
-    counters[0].struct_size = offsetof(vox_counters, tets);
-    ck_ok(vox_grid_get_counters(grid, counters));
-    ck_assert_uint_eq(counters[0].struct_size, offsetof(vox_counters, tets));
-    ck_assert_uint_eq(counters[0].vertices, 0);
-    ck_assert_uint_eq(counters[0].tets, 0xababababababababu);
-    counters[0].struct_size = sizeof counters;
-    ck_ok(vox_grid_get_counters(grid, counters));
-    ck_assert_uint_eq(counters[0].tets, 0);
-    ck_assert_uint_eq(counters[1].struct_size, 0xabababab);
+    vox_grid_info info[2];
+    memset(info, 0xab, sizeof info);
+    info[0].struct_size = offsetof(vox_grid_info, cell_size);
+    ck_ok(vox_grid_get_info(grid, info));
+    ck_assert_uint_eq(info[0].struct_size, offsetof(vox_grid_info, cell_size));
+    ck_assert_uint_lt(info[0].epoch, 9);
+    ck_assert_uint_eq(info[0].bytes, 0xababababababababu);
+    info[0].struct_size = sizeof info;
+    ck_ok(vox_grid_get_info(grid, info));
+    ck_assert_uint_gt(info[0].bytes, 0);
+    ck_assert_uint_eq(info[1].struct_size, 0xabababab);
     vox_grid_destroy(grid);
 
     const uint32_t bad[] = {0, 3, 65537, 0xffffffff};
@@ -152,6 +152,28 @@ START_TEST(grid_desc_fields) {
 }
 END_TEST
 
+START_TEST(counters_have_names) {
+    vox_grid* grid = grid_of(NULL);
+    vox_counter_view before, after;
+    ck_ok(vox_grid_get_counters(grid, &before));
+    ck_assert_uint_gt(before.count, 40);
+    for (uint64_t i = 0; i < before.count; ++i) {
+        ck_assert_uint_eq(before.data[i].value, 0);
+        for (uint64_t j = 0; j < i; ++j) ck_assert_str_ne(before.data[i].name, before.data[j].name);
+    }
+    const vox_mesh_desc desc = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
+    (void)insert_mesh(grid, &desc);
+    ck_ok(vox_grid_step(grid));
+    ck_ok(vox_grid_get_counters(grid, &after));
+    ck_assert_uint_eq(after.count, before.count);
+    ck_assert_str_eq(after.data[2].name, "tets");
+    ck_assert_uint_eq(after.data[2].value, 1);
+    ck_assert_uint_eq(counter_of(grid, "vertices"), 4);
+    ck_assert_uint_gt(counter_of(grid, "step_ns"), 0);
+    vox_grid_destroy(grid);
+}
+END_TEST
+
 START_TEST(null_arguments) {
     vox_grid* grid = grid_of(NULL);
     vox_mesh_desc desc = vox_mesh_desc_floats(unit_tet_positions, 4, unit_tet, 1);
@@ -159,8 +181,7 @@ START_TEST(null_arguments) {
     uint64_t count = 5;
     vox_contact_view view = {NULL, 1, 2, 3, NULL};
     vox_grid_info info = {.struct_size = sizeof info, .epoch = 9};
-    vox_counters counters = {.struct_size = sizeof counters, .tets = 9};
-    vox_profile profile = {.struct_size = sizeof profile, .step_ns = 9};
+    vox_counter_view counters = {NULL, 9};
     vox_body mesh = insert_mesh(grid, &desc);
 
     const vox_result bad = VOX_ERROR_INVALID_ARGUMENT;
@@ -186,15 +207,9 @@ START_TEST(null_arguments) {
     ck_fails(vox_grid_get_info(NULL, &info), bad, "grid is null");
     ck_fails(vox_grid_get_info(grid, NULL), bad, "out_info is null");
     ck_fails(vox_grid_get_counters(NULL, &counters), bad, "grid is null");
-    ck_fails(vox_grid_get_counters(grid, NULL), bad, "out_counters is null");
-    ck_fails(vox_grid_profile(NULL, &profile), bad, "grid is null");
-    ck_fails(vox_grid_profile(grid, NULL), bad, "out_profile is null");
+    ck_fails(vox_grid_get_counters(grid, NULL), bad, "out_view is null");
     info.struct_size = 0;
     ck_fails(vox_grid_get_info(grid, &info), bad, "struct_size is 0");
-    counters.struct_size = 0;
-    ck_fails(vox_grid_get_counters(grid, &counters), bad, "struct_size is 0");
-    profile.struct_size = 1u << 20;
-    ck_fails(vox_grid_profile(grid, &profile), bad, "struct_size is 1048576");
     const double sizes[] = {-1, NAN, INFINITY, -INFINITY};
     for (int i = 0; i < 4; ++i) ck_fails(vox_grid_set_cell_size(grid, sizes[i]), bad, "cell_size is");
     ck_assert_uint_eq(vox_body_is_valid(NULL, mesh), 0);
@@ -205,8 +220,7 @@ START_TEST(null_arguments) {
     ck_assert_uint_eq(info.epoch, 9);
     ck_assert_uint_eq(count, 5);
     ck_assert_uint_eq(view.epoch, 3);
-    ck_assert_uint_eq(counters.tets, 9);
-    ck_assert_uint_eq(profile.step_ns, 9);
+    ck_assert_uint_eq(counters.count, 9);
     ck_assert_uint_eq(grid_info(grid).epoch, 0);
     ck_assert_uint_eq(vox_body_is_valid(grid, mesh), 1);
     ck_ok(vox_grid_step(grid));
@@ -237,7 +251,7 @@ START_TEST(mesh_desc_fields) {
     REFUSED(desc.positions.count = 0, VOX_ERROR_INVALID_MESH, "tet 0 names vertex 0 of 0");
 #undef REFUSED
     ck_ok(vox_grid_step(grid));
-    vox_counters counters = counters_of(grid);
+    grid_counts counters = counters_of(grid);
     ck_assert_uint_eq(counters.meshes, 0);
     vox_grid_destroy(grid);
 }
@@ -327,10 +341,10 @@ START_TEST(info_of_the_last_step) {
     ck_ok(vox_body_remove(grid, second));
     ck_ok(vox_grid_step(grid));
     const vox_grid_info info = grid_info(grid);
-    vox_counters counters = {.struct_size = sizeof counters};
-    vox_profile profile = {.struct_size = sizeof profile};
-    ck_ok(vox_grid_get_counters(grid, &counters));
-    ck_ok(vox_grid_profile(grid, &profile));
+    grid_counts counters;
+    grid_times profile;
+    counters = counters_of(grid);
+    profile = times_of(grid);
     ck_assert_uint_eq(info.struct_size, sizeof info);
     ck_assert_uint_eq(info.flags, VOX_GRID_SKIP_BAD_BODIES);
     ck_assert_uint_eq(info.epoch, 3); /* two steps and a change of the flags */
@@ -417,7 +431,7 @@ START_TEST(cell_size_without_extent) {
     desc = vox_mesh_desc_floats(point, 4, unit_tet, 1);
     ck_ok(vox_mesh_insert(grid, &desc, &mesh));
     ck_ok(vox_grid_step(grid));
-    vox_counters counters = counters_of(grid);
+    grid_counts counters = counters_of(grid);
     ck_assert_uint_eq(counters.contacts, 0);
     ck_assert_uint_eq(counters.skipped_degenerate, 1);
     vox_grid_destroy(grid);
@@ -427,6 +441,7 @@ END_TEST
 SUITE(grid) {
     TCase* tests = add_case(suite, "grid");
     tcase_add_each(tests, version, result_names, last_error, last_error_of_whole_characters, struct_sizes,
-                   grid_desc_fields, null_arguments, mesh_desc_fields, ids, generations_run_out, user_data,
-                   info_of_the_last_step, cell_size_is_chosen, cell_size_without_extent);
+                   grid_desc_fields, counters_have_names, null_arguments, mesh_desc_fields, ids,
+                   generations_run_out, user_data, info_of_the_last_step, cell_size_is_chosen,
+                   cell_size_without_extent);
 }

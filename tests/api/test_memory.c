@@ -67,7 +67,7 @@ START_TEST(everything_comes_back) {
         ck_ok(vox_mesh_insert(grid, &a, &mesh));
         ck_ok(vox_mesh_insert(grid, &b, &mesh));
         ck_ok(vox_grid_step(grid));
-        vox_counters counters = counters_of(grid);
+        grid_counts counters = counters_of(grid);
         ck_assert_uint_eq(counters.bytes, l.bytes); /* what counters say is what the allocator saw */
         ck_ok(vox_grid_clear(grid));
     }
@@ -180,7 +180,7 @@ START_TEST(budget_is_kept) {
     vox_body mesh = insert_mesh(grid, &a);
     ck_ok(vox_mesh_insert(grid, &b, &mesh));
     ck_ok(vox_grid_step(grid));
-    vox_counters counters = counters_of(grid);
+    grid_counts counters = counters_of(grid);
     needed = counters.peak_bytes;
     vox_grid_destroy(grid);
 
@@ -192,7 +192,7 @@ START_TEST(budget_is_kept) {
             if (result == VOX_OK) result = vox_mesh_insert(grid, &b, &mesh);
             if (result == VOX_OK) result = vox_grid_step(grid);
             ck_assert_uint_le(l.bytes, budget);
-            ck_ok(vox_grid_get_counters(grid, &counters));
+            counters = counters_of(grid);
             ck_assert_uint_le(counters.peak_bytes, budget);
             vox_grid_destroy(grid);
         }
@@ -234,7 +234,7 @@ static void move_x(body* b, float distance) {
  * vertices, so that what the vertices take hardly counts. `reserved` contacts have room before. Returns the
  * bytes that are held for contacts. */
 static uint64_t bytes_of_contacts(int whole, uint64_t reserved, uint64_t closest_budget,
-                                  vox_counters* counters) {
+                                  grid_counts* counters) {
     enum { coarse = 16 };
     ledger l = {0};
     vox_grid_desc desc = counted_desc(&l);
@@ -268,7 +268,7 @@ static uint64_t bytes_of_contacts(int whole, uint64_t reserved, uint64_t closest
 START_TEST(contacts_in_a_step) {
     enum { each_reserved = 69 + 88, each_searched = 20, with_a_budget = 4, for_vertices = 12 };
     for (int whole = 0; whole < 2; ++whole) {
-        vox_counters counters;
+        grid_counts counters;
         const uint64_t held = bytes_of_contacts(whole, 0, 0, &counters), count = counters.contacts;
         ck_assert_uint_ge(count, 19000);
         ck_assert_uint_eq(counters.penetrations, count);

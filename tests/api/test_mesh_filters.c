@@ -56,7 +56,7 @@ START_TEST(category_mask_and_group) {
             if (filters[1].mask == 0) filters[1].mask = UINT64_MAX;
             ck_assert_mem_eq(&back, &filters[1], sizeof back);
             if (!rows[i].collide) { /* nothing was looked at for it */
-                const vox_counters counters = counters_of(grid);
+                const grid_counts counters = counters_of(grid);
                 ck_assert_uint_eq(counters.candidates, 0);
                 ck_assert_uint_eq(counters.exact_tests, 0);
                 if (suite_engine == ENGINE_FAST) ck_assert_uint_eq(counters.entries, 0);
@@ -147,7 +147,7 @@ START_TEST(disabled_meshes) {
     ck_fails(vox_grid_step(grid), VOX_ERROR_INVALID_STATE, "has no positions");
     ck_ok(vox_body_set_enabled(grid, mesh, 0));
     ck_assert_uint_eq(stepped(grid).count, 0); /* its positions are not missed */
-    vox_counters counters = counters_of(grid);
+    grid_counts counters = counters_of(grid);
     ck_assert_uint_eq(counters.meshes, 1);
     ck_assert_uint_eq(counters.disabled_meshes, 1);
     ck_assert_uint_eq(counters.tets, box.tet_count);
@@ -190,7 +190,7 @@ START_TEST(many_bodies_in_one_place) {
             }
             const uint64_t before = counters_of(grid).bytes;
             ck_ok(vox_grid_step(grid));
-            const vox_counters counters = counters_of(grid);
+            const grid_counts counters = counters_of(grid);
             ck_assert_uint_eq(counters.contacts, 0);
             ck_assert_uint_lt((counters.peak_bytes - before) / bodies, 2000);
             vox_grid_destroy(grid);

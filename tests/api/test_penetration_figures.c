@@ -146,7 +146,7 @@ END_TEST
 
 /* The counters when a ball of radius 0.5 sinks by `depth` into the middle of the top of a box of n * n * n /
  * 2 cubes. */
-static vox_counters work_of(uint32_t n, double cell, double depth) {
+static grid_counts work_of(uint32_t n, double cell, double depth) {
     body box = make_box(n, 0.1f, -0.05f * (float)n, -0.05f * (float)n, -0.1f * (float)n);
     body ball = make_ball(0.5, cell, 0.2, 0.017);
     for (uint32_t v = 0; v < ball.vertex_count; ++v) ball.positions[3 * v + 2] += (float)(0.5 - depth);
@@ -154,7 +154,7 @@ static vox_counters work_of(uint32_t n, double cell, double depth) {
     insert(grid, &box);
     insert(grid, &ball);
     ck_ok(vox_grid_step(grid));
-    const vox_counters counters = counters_of(grid);
+    const grid_counts counters = counters_of(grid);
     vox_grid_destroy(grid);
     free_body(&box);
     free_body(&ball);
@@ -164,7 +164,7 @@ static vox_counters work_of(uint32_t n, double cell, double depth) {
 START_TEST(work_is_that_of_the_colliding_vertices) {
     /* A body of eight times as many tetrahedra, of which as many are hit: the same work, but for the
      * lattice's parity. */
-    const vox_counters small = work_of(16, 0.04, 0.1), large = work_of(32, 0.04, 0.1);
+    const grid_counts small = work_of(16, 0.04, 0.1), large = work_of(32, 0.04, 0.1);
     ck_assert_uint_eq(small.penetrations, large.penetrations);
     ck_assert_uint_eq(small.leaving_edges, large.leaving_edges);
     ck_assert_uint_eq(small.edge_tests, large.edge_tests);
@@ -172,7 +172,7 @@ START_TEST(work_is_that_of_the_colliding_vertices) {
     /* More colliding vertices: no more edges than these have, each through no more tetrahedra than lie on it.
      */
     for (double cell = 0.06; cell > 0.02; cell *= 0.7) {
-        const vox_counters work = work_of(16, cell, 0.1);
+        const grid_counts work = work_of(16, cell, 0.1);
         ck_assert_uint_gt(work.penetrations, 20);
         ck_assert_uint_le(work.leaving_edges, 10 * work.penetrations);
         ck_assert_uint_ge(work.edge_tests, work.leaving_edges);
@@ -184,7 +184,7 @@ END_TEST
 START_TEST(searches_are_short) {
     /* All of a ball inside a box of 20 times as many triangles or of 80 times: hardly more of them are looked
      * at. */
-    const vox_counters small = work_of(16, 0.1, 1.2), large = work_of(32, 0.1, 1.2);
+    const grid_counts small = work_of(16, 0.1, 1.2), large = work_of(32, 0.1, 1.2);
     ck_assert_uint_gt(small.closest_searches, 100);
     ck_assert_uint_eq(small.closest_searches, large.closest_searches);
     ck_assert_uint_le(large.closest_tests, 60 * large.closest_searches);

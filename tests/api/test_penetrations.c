@@ -74,9 +74,9 @@ START_TEST(flag) {
         insert_pile(grid, &p);
         ck_ok(vox_grid_step(grid));
         ck_ok(vox_grid_get_hash(grid, &hash[flags]));
-        const vox_counters counters = counters_of(grid);
-        vox_profile profile = {.struct_size = sizeof profile};
-        ck_ok(vox_grid_profile(grid, &profile));
+        const grid_counts counters = counters_of(grid);
+        grid_times profile;
+        profile = times_of(grid);
         bytes[flags] = counters.bytes;
         if (flags == 0) {
             vox_penetration_view view = {NULL, 0, 0, 0};
@@ -156,7 +156,7 @@ START_TEST(no_contacts_no_work) {
     vox_body mesh = insert_mesh(grid, &a);
     ck_ok(vox_mesh_insert(grid, &b, &mesh));
     ck_ok(vox_grid_step(grid));
-    const vox_counters counters = counters_of(grid);
+    const grid_counts counters = counters_of(grid);
     ck_assert_uint_eq(
         counters.contacts + counters.penetrations + counters.leaving_edges + counters.edge_tests, 0);
     ck_assert_uint_eq(counters.closest_searches + counters.closest_tests, 0);

@@ -353,12 +353,11 @@ START_TEST(budget) {
     world w;
     two_in_each_other(&w, 8, 0);
     ck_ok(vox_grid_step(w.grid));
-    vox_counters counters;
-    counters.struct_size = sizeof counters;
-    ck_ok(vox_grid_get_counters(w.grid, &counters));
+    grid_counts counters;
+    counters = counters_of(w.grid);
     const uint64_t without = counters.peak_bytes;
     ck_ok(vox_grid_prepare_readings(w.grid));
-    ck_ok(vox_grid_get_counters(w.grid, &counters));
+    counters = counters_of(w.grid);
     ck_assert_uint_gt(counters.peak_bytes, without);
     vox_grid_destroy(w.grid);
     vox_grid_desc desc = engine_desc();

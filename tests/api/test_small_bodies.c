@@ -36,7 +36,7 @@ START_TEST(bytes_of_a_body) {
         insert_mesh(grid, &desc);
     }
     ck_ok(vox_grid_step(grid));
-    const vox_counters counters = counters_of(grid);
+    const grid_counts counters = counters_of(grid);
     ck_assert_uint_eq(counters.meshes, count);
     ck_assert_uint_eq(counters.vertices, 4 * count);
     ck_assert_uint_eq(counters.tets, count);
@@ -148,7 +148,7 @@ START_TEST(contacts_of_wandering_bodies) {
         }
         const uint64_t hash = hash_of_step(grid), expected = hash_of_step(reference);
         ck_assert_msg(hash == expected, "step %d", step);
-        const vox_counters found = counters_of(grid), by_reference = counters_of(reference);
+        const grid_counts found = counters_of(grid), by_reference = counters_of(reference);
         ck_assert_uint_eq(found.meshes, by_reference.meshes);
         ck_assert_uint_eq(found.vertices, by_reference.vertices);
         ck_assert_uint_eq(found.tets, by_reference.tets);
@@ -240,7 +240,7 @@ START_TEST(bytes_beside_a_bad_body) {
         insert_mesh(grid, &of_tet);
     }
     for (int step = 0; step < 2; ++step) ck_ok(vox_grid_step(grid));
-    const vox_counters counters = counters_of(grid);
+    const grid_counts counters = counters_of(grid);
     ck_assert_uint_eq(counters.skipped_meshes, 1);
     ck_assert_uint_eq(counters.meshes, count - 1);
     if (suite_engine == ENGINE_FAST) ck_assert_uint_le(counters.peak_bytes / count, 650);

@@ -136,16 +136,15 @@ static vox_grid* new_scene(const vox_grid_desc* desc) {
     return grid;
 }
 
-static uint64_t stepped_hash(vox_grid* grid, vox_counters* counters) {
+static uint64_t stepped_hash(vox_grid* grid, grid_counts* counters) {
     const uint64_t hash = hash_of_step(grid);
-    counters->struct_size = sizeof *counters;
-    ck_ok(vox_grid_get_counters(grid, counters));
+    *counters = counters_of(grid);
     return hash;
 }
 
 /* What was done is the same; only how much memory it took may depend on the workers. */
-static void check_same_counters(const vox_counters* a, const vox_counters* b) {
-    vox_counters x = *a, y = *b;
+static void check_same_counters(const grid_counts* a, const grid_counts* b) {
+    grid_counts x = *a, y = *b;
     x.bytes = y.bytes = x.peak_bytes = y.peak_bytes = 0;
     ck_assert_mem_eq(&x, &y, sizeof x);
 }
@@ -178,7 +177,7 @@ static vox_grid_desc scheduled(engine_kind engine, scheduler* s, int kind, uint3
 
 START_TEST(same_for_any_task_system) {
     scheduler s;
-    vox_counters serial, counters;
+    grid_counts serial, counters;
     vox_grid_desc desc = engine_desc();
     make_bodies();
     vox_grid* grid = new_scene(&desc);
@@ -205,7 +204,7 @@ START_TEST(same_for_any_task_system) {
 END_TEST
 
 START_TEST(same_for_any_worker_count) {
-    vox_counters serial, counters;
+    grid_counts serial, counters;
     vox_grid_desc desc = engine_desc();
     make_bodies();
     vox_grid* grid = new_scene(&desc);
@@ -243,7 +242,7 @@ END_TEST
 /* A step that finds a bad mesh begins again without it: what it enqueued until then counts, too. */
 START_TEST(a_bad_mesh_costs_few_tasks) {
     scheduler s;
-    vox_counters counters;
+    grid_counts counters;
     vox_grid_desc desc = scheduled(suite_engine, &s, runs_threads, 4);
     desc.flags |= VOX_GRID_SKIP_BAD_BODIES;
     make_bodies();
@@ -288,7 +287,7 @@ END_TEST
 START_TEST(large_bodies_are_shared) {
     /* One body large enough that the workers share the making of its window, and one that is not. */
     scheduler s;
-    vox_counters serial, counters;
+    grid_counts serial, counters;
     vox_grid* grid = NULL;
     vox_body mesh = 0;
     uint64_t expected = 0;
@@ -356,7 +355,7 @@ START_TEST(steady_state_allocates_nothing) {
     for (uint32_t workers = 1; workers <= 7; workers += 3) {
         ledger l = {0};
         uint64_t before = 0;
-        vox_counters counters;
+        grid_counts counters;
         vox_grid_desc desc = scheduled(suite_engine, &s, runs_inline, workers);
         desc.allocator = ledger_allocator(&l);
         desc.flags = 0;
@@ -378,7 +377,7 @@ END_TEST
 
 START_TEST(budget_that_ends_in_a_task) {
     scheduler s;
-    vox_counters full;
+    grid_counts full;
     uint32_t failures = 0;
     vox_grid_desc desc = scheduled(suite_engine, &s, runs_threads, 4);
     make_bodies();
@@ -423,7 +422,7 @@ START_TEST(defective_task_systems) {
     for (uint32_t defect = loses_items; defect <= runs_twice; ++defect) {
         const vox_grid_desc desc = scheduled(ENGINE_FAST, &s, runs_inline, 4);
         vox_grid* grid = new_scene(&desc);
-        vox_counters counters;
+        grid_counts counters;
         s.defect = defect;
         ck_fails(vox_grid_step(grid), VOX_ERROR_INVALID_ARGUMENT, words[defect - 1]);
         s.defect = 0;
@@ -452,7 +451,7 @@ START_TEST(a_defect_in_any_one_task) {
     vox_result (*const calls[])(vox_grid*) = {call_step, call_readings, call_locator};
     const uint32_t least[] = {suite_engine == ENGINE_FAST ? 8 : 1, 1, 1}; /* tasks there have to be */
     scheduler s;
-    vox_counters counters;
+    grid_counts counters;
     make_bodies();
     const vox_grid_desc desc = scheduled(suite_engine, &s, runs_inline, 4);
     vox_grid* grid = new_scene(&desc);

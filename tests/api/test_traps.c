@@ -243,7 +243,7 @@ START_TEST(edges_collide_with_nothing) {
     ck_assert_uint_eq(log.warnings, 1);
     ck_ok(vox_grid_step(grid));
     ck_assert_uint_eq(contacts_of(grid).count, 0);
-    const vox_counters counters = counters_of(grid);
+    const grid_counts counters = counters_of(grid);
     ck_assert_uint_eq(counters.meshes, 3);
     ck_assert_uint_eq(counters.meshes_without_tets, 2);
     vox_grid_destroy(grid);

@@ -3,6 +3,7 @@
 #include "base/simd.hpp"
 #include "entrant.hpp"
 #include "hard_scenes.hpp"
+#include "scenes/counters.h"
 #include "support/suite.h"
 
 #include <algorithm>
@@ -55,10 +56,9 @@ struct UserGrid {
     }
     ~UserGrid() { vox_grid_destroy(grid); }
 
-    vox_counters counters() const {
-        vox_counters counters{};
-        counters.struct_size = sizeof counters;
-        ck_ok(vox_grid_get_counters(grid, &counters));
+    grid_counts counters() const {
+        grid_counts counters{};
+        counters = counters_of(grid);
         return counters;
     }
 

@@ -38,10 +38,10 @@ inline std::vector<Key> brute_force(const std::vector<vox::Body>& bodies) {
 }
 
 inline std::vector<Key> run_fast(vox::FastEngine& engine, Scene& scene, double cell_size,
-                                 vox_counters* out = nullptr) {
+                                 vox::Counters* out = nullptr) {
     vox::Array<vox::Hit> hits(std::pmr::get_default_resource());
-    vox_counters counters{};
-    vox_profile profile{};
+    vox::Counters counters{};
+    vox::Profile profile{};
     vox::FastSettings settings;
     settings.cell_size = cell_size;
     engine.detect(scene.bodies(), scene.prepared(), settings, hits, counters, profile);
@@ -51,8 +51,8 @@ inline std::vector<Key> run_fast(vox::FastEngine& engine, Scene& scene, double c
 
 inline std::vector<Key> run_reference(Scene& scene, double cell_size) {
     vox::Array<vox::Hit> hits(std::pmr::get_default_resource());
-    vox_counters counters{};
-    vox_profile profile{};
+    vox::Counters counters{};
+    vox::Profile profile{};
     vox::ReferenceSettings settings;
     settings.cell_size = cell_size;
     vox::ReferenceEngine engine(std::pmr::get_default_resource());
@@ -67,10 +67,10 @@ inline constexpr vox::simd::Level levels[] = {vox::simd::Level::portable, vox::s
 inline void check_scene(Scene& scene, const std::vector<Key>& expected, const char* name, double edge = 1) {
     vox::FastEngine engine(std::pmr::get_default_resource());
     for (const double cells : {0.0, 0.3, 1.0, 3.0, 1e4}) {
-        vox_counters first{};
+        vox::Counters first{};
         for (const vox::simd::Level level : levels) {
             if (vox::simd::force_level(level) != level) continue; // not on this machine
-            vox_counters counters{};
+            vox::Counters counters{};
             const std::vector<Key> found = run_fast(engine, scene, cells * edge, &counters);
             ck_assert_msg(found == expected, "%s, cell size %g, %s: %zu hits, expected %zu", name,
                           cells * edge, vox::simd::level_name(level), found.size(), expected.size());

@@ -148,8 +148,8 @@ START_TEST(reference_counts) {
         constexpr int places = 9;
         for (int place = 0; place < places; ++place) {
             vox::Array<Hit> hits(heap);
-            vox_counters counters{};
-            vox_profile profile{};
+            vox::Counters counters{};
+            vox::Profile profile{};
             engine.detect(scene.bodies(), settings, hits, counters, profile);
             cells += double(counters.visited_cells) / places;
             read += double(counters.visited_entries) / places;
@@ -336,8 +336,8 @@ START_TEST(fast_counts) {
         constexpr int sizes = 9;
         for (int i = 0; i < sizes; ++i) {
             vox::Array<Hit> hits(heap);
-            vox_counters counters{};
-            vox_profile profile{};
+            vox::Counters counters{};
+            vox::Profile profile{};
             FastSettings settings;
             settings.cell_size = size * named.unit * std::pow(1.2, (i - 4.0) / sizes);
             settings.winding = false; // the model counts self-collision as if nothing were culled
@@ -419,8 +419,8 @@ START_TEST(fast_bodies_at_rest) {
     at_rest[0] = 0;
     FastEngine engine(heap);
     vox::Array<Hit> hits(heap);
-    vox_counters counters{};
-    vox_profile profile{};
+    vox::Counters counters{};
+    vox::Profile profile{};
     FastSettings settings;
     settings.cell_size = 2;
     settings.carry = true;
@@ -480,8 +480,8 @@ START_TEST(levels_are_one_engine) {
                  {std::span<const CellLevel>(), best.list(), std::span<const CellLevel>(some)}) {
                 ReferenceEngine engine(heap);
                 vox::Array<Hit> hits(heap);
-                vox_counters counters{};
-                vox_profile profile{};
+                vox::Counters counters{};
+                vox::Profile profile{};
                 ReferenceSettings settings;
                 settings.dense = dense;
                 settings.cell_size = scenes[s].unit;
@@ -505,8 +505,8 @@ START_TEST(levels_are_one_engine) {
         for (int place = 0; place < places; ++place) {
             ReferenceEngine engine(heap);
             vox::Array<Hit> hits(heap);
-            vox_counters counters{};
-            vox_profile profile{};
+            vox::Counters counters{};
+            vox::Profile profile{};
             ReferenceSettings settings;
             settings.levels = best.list();
             engine.detect(scene.bodies(), settings, hits, counters, profile);
@@ -524,8 +524,8 @@ END_TEST
 
 double step(ReferenceEngine& engine, Scene& scene, AdaptiveCellSize& adaptive) {
     vox::Array<Hit> hits(heap);
-    vox_counters counters{};
-    vox_profile profile{};
+    vox::Counters counters{};
+    vox::Profile profile{};
     ReferenceSettings settings;
     settings.levels = adaptive.cell_sizes(scene.bodies(), false, 0, heap);
     engine.detect(scene.bodies(), settings, hits, counters, profile);

@@ -299,8 +299,8 @@ START_TEST(steady_state_allocates_nothing) {
     CountingMemory memory;
     FastEngine engine(&memory);
     vox::Array<Hit> hits(&memory);
-    vox_counters counters{};
-    vox_profile profile{};
+    vox::Counters counters{};
+    vox::Profile profile{};
     std::size_t allocations = 0;
     for (int step = 0; step < 4; ++step) {
         if (step == 1) allocations = memory.allocations;
@@ -342,7 +342,7 @@ START_TEST(outliers_do_not_fill_a_cell) {
                                                                              -1e30f};
     scene.prepare();
     FastEngine engine(std::pmr::get_default_resource());
-    vox_counters counters{};
+    vox::Counters counters{};
     ck_assert(run_fast(engine, scene, 0, &counters) == run_reference(scene, 1.3));
     ck_assert_uint_lt(counters.fullest_cell, 200); // of 6750 vertices
 }
@@ -375,7 +375,7 @@ START_TEST(clumps_far_apart) {
         }
         CountingMemory memory;
         FastEngine engine(&memory);
-        vox_counters counters{};
+        vox::Counters counters{};
         (void)run_fast(engine, scene, 0, &counters);
         ck_assert_uint_lt(counters.fullest_cell, 129);
         ck_assert_uint_lt(counters.visited_entries, 40 * scene.bodies()[0].tets.size());

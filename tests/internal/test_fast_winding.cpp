@@ -26,7 +26,7 @@ SelfEdges self_edges(Scene& scene, engine_kind engine, std::uint32_t workers) {
         insert_mesh(grid, &of);
     }
     ck_ok(vox_grid_step(grid));
-    const vox_counters counters = counters_of(grid);
+    const grid_counts counters = counters_of(grid);
     SelfEdges found{0, counters.edge_contacts, counters.edge_candidates};
     ck_ok(vox_grid_edge_hash(grid, &found.hash));
     vox_grid_destroy(grid);
@@ -57,8 +57,8 @@ std::uint64_t check_winding(Scene& scene, const char* name) {
         FastEngine engine(std::pmr::get_default_resource());
         for (const bool winding : {true, false}) {
             vox::Array<Hit> hits(std::pmr::get_default_resource());
-            vox_counters counters{};
-            vox_profile profile{};
+            vox::Counters counters{};
+            vox::Profile profile{};
             engine.detect(scene.bodies(), scene.prepared(), {0, winding}, hits, counters, profile);
             const std::vector<Key> found = keys(hits);
             ck_assert_msg(found == expected, "%s, %s, winding %d: %zu hits, expected %zu", name,

@@ -22,8 +22,8 @@ struct Engine {
     ReferenceEngine reference{&memory};
     vox::Array<Hit> hits{&memory};
     vox::Array<vox_contact> contacts{&memory};
-    vox_counters counters{};
-    vox_profile profile{};
+    vox::Counters counters{};
+    vox::Profile profile{};
 
     void detect(const Meshes& scene, const ReferenceSettings& settings) {
         hits.clear();
@@ -122,7 +122,7 @@ std::size_t check_scene(Engine& engine, const Meshes& scene) {
             first = false;
             ck_assert_uint_eq(hash_contacts(engine.contacts), hash); // the weights too, bit for bit
 
-            const vox_counters& c = engine.counters;
+            const vox::Counters& c = engine.counters;
             ck_assert_uint_eq(c.skipped_degenerate, degenerate);
             ck_assert_uint_eq(c.entries, vertices);
             ck_assert_uint_le(c.cells, c.entries);
@@ -395,7 +395,7 @@ START_TEST(counters_of_a_scene_counted_by_hand) {
     Engine engine;
     for (const bool paper_hash : {false, true}) {
         engine.step(scene, {1, false, paper_hash, 0, {}, {}});
-        const vox_counters& c = engine.counters;
+        const vox::Counters& c = engine.counters;
         ck_assert_uint_eq(c.entries, 8);
         // (0,0,0) holds three; (2,0,0), (0,2,0), (0,0,2), (2,2,2) and (-5,-5,-5) hold one each.
         ck_assert_uint_eq(c.cells, 6);
@@ -530,7 +530,7 @@ START_TEST(chosen_cells_do_not_share_a_bucket) {
         engine.step(scene, other); // a hash that these cells were not chosen for
         ck_assert_uint_le(longest_chain(engine.reference.cells()), 32);
         const std::uint64_t hash = hash_contacts(engine.contacts);
-        const vox_counters expected = engine.counters;
+        const vox::Counters expected = engine.counters;
         ck_assert_uint_ge(expected.contacts + engine.contacts.size(), tets);
 
         std::size_t allocations = 0;

@@ -269,10 +269,7 @@ static inline void step_and_compare(cut_scene* s, const vox_grid_desc* desc) {
                       depths.data[i].direction[2], p.state, p.depth, p.direction[0], p.direction[1],
                       p.direction[2]);
     }
-    vox_counters counters = {.struct_size = sizeof counters},
-                 fresh_counters = {.struct_size = sizeof counters};
-    ck_ok(vox_grid_get_counters(s->grid, &counters));
-    ck_ok(vox_grid_get_counters(other.grid, &fresh_counters));
+    const grid_counts counters = counters_of(s->grid), fresh_counters = counters_of(other.grid);
     ck_assert_uint_eq(counters.tets, fresh_counters.tets);
     if (suite_engine == ENGINE_REFERENCE && desc->reference) /* which meets all of them */
         ck_assert_uint_eq(counters.skipped_degenerate, fresh_counters.skipped_degenerate);

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <vox/vox.h>
 
+#include "scenes/counters.h"
 #include "scenes/engines.h"
 
 #define ck_ok(call)                                                                                          \
@@ -92,13 +93,6 @@ static inline vox_contact_view contacts_of(const vox_grid* grid) {
     vox_contact_view view = {NULL, 0, 99, 0, NULL}; /* a count that is not written shows */
     ck_ok(vox_grid_get_contacts(grid, &view));
     return view;
-}
-
-static inline vox_counters counters_of(const vox_grid* grid) {
-    vox_counters counters;
-    counters.struct_size = sizeof counters;
-    ck_ok(vox_grid_get_counters(grid, &counters));
-    return counters;
 }
 
 /* Steps the grid; the hash of the contacts that it found. */

@@ -428,9 +428,9 @@ class CommandLine(Files):
         for double in [], ["--double"]:
             near = ["collide", self.one, self.one, "--scale", 2, "--offset", 0.0001, 0.2, 0.3, *double]
             once, often = run_json(*near)["counters"], run_json(*near, "--repeat", 20)["counters"]
-            self.assertEqual(once["total_touches_began"], 1)
-            self.assertGreater(often["total_touches_began"], 1)
-            self.assertEqual(often["total_touches_ended"], often["total_touches_began"] - 1)
+            self.assertEqual(once["total_began"], 1)
+            self.assertGreater(often["total_began"], 1)
+            self.assertEqual(often["total_ended"], often["total_began"] - 1)
 
     def test_collide_as_text(self):
         done = run("collide", self.two, self.two, "--limit", 2)

@@ -190,16 +190,16 @@ SweepSample Experiment::measure(double cell_size) {
                           sample.frame_ns.size(), cell_size);
             throw Failure(text);
         }
-        const vox_profile profile = profile_of(grid_.get());
-        const vox_counters counters = counters_of(grid_.get());
+        const Counters counters = counters_of(grid_.get());
+        const auto count = [&](const char* name) { return value_of(counters, name); };
         const std::uint64_t passed =
-            profile.bin_ns + profile.broad_ns + profile.narrow_ns + profile.contacts_ns;
+            count("bin_ns") + count("broad_ns") + count("narrow_ns") + count("contacts_ns");
         sample.frame_ns.push_back(
             static_cast<std::uint64_t>(std::llround(share * static_cast<double>(passed))));
-        sample.contacts += counters.contacts;
-        sample.visited_cells += counters.visited_cells;
-        sample.visited_entries += counters.visited_entries;
-        sample.candidates += counters.candidates;
+        sample.contacts += count("contacts");
+        sample.visited_cells += count("visited_cells");
+        sample.visited_entries += count("visited_entries");
+        sample.candidates += count("candidates");
     }
     return sample;
 }

@@ -39,10 +39,10 @@ std::uint64_t stepped(playground& play, vox_grid* grid, double cell_size, std::u
     for (std::uint32_t i = 0; i < steps; ++i) {
         for (const vox_body mesh : meshes) check(vox_body_mark_moved(grid, mesh)); // or nothing is left to do
         check(vox_grid_step(grid));
-        vox_profile profile{};
-        profile.struct_size = sizeof profile;
-        check(vox_grid_profile(grid, &profile));
-        ns += static_cast<double>(profile.step_ns);
+        vox_grid_info info{};
+        info.struct_size = sizeof info;
+        check(vox_grid_get_info(grid, &info));
+        ns += static_cast<double>(info.step_ns);
     }
     std::uint64_t hash = 0;
     check(vox_grid_get_hash(grid, &hash));

@@ -552,14 +552,13 @@ const uint32_t* play_touches(playground* play, uint32_t* out_count) {
 
 const play_facts* play_get_facts(playground* play) {
     play_facts& facts = play->facts;
-    vox_counters counters{};
-    counters.struct_size = sizeof counters;
+    vox_contact_view contacts{};
     vox_sim_counts counts{};
     counts.struct_size = sizeof counts;
-    if (vox_grid_get_counters(play->grid, &counters) == VOX_OK &&
+    if (vox_grid_get_contacts(play->grid, &contacts) == VOX_OK &&
         vox_sim_get_counters(play->sim.get(), &counts) == VOX_OK) {
         facts.tets = static_cast<double>(counts.tets);
-        facts.contacts = static_cast<double>(counters.contacts);
+        facts.contacts = static_cast<double>(contacts.count);
         facts.step_ns = static_cast<double>(counts.step_ns);
         facts.detect_ns = static_cast<double>(counts.detect_ns);
     }

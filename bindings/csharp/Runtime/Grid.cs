@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Runtime.InteropServices;
 
 namespace Voxtet
@@ -661,27 +662,21 @@ namespace Voxtet
             }
         }
 
-        /// <summary>What the last step did.</summary>
-        public Counters Counters
+        /// <summary>A copy of what vox_grid_get_counters gives, by its names: what the last step did, and how long each stage
+        /// of it took.</summary>
+        public Dictionary<string, ulong> Counters
         {
             get
             {
-                Counters counters;
-                counters.struct_size = (uint)sizeof(Counters);
-                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_get_counters(use.Pointer, &counters));
+                var counters = new Dictionary<string, ulong>();
+                CounterView view;
+                using (var use = handle.Read())
+                {
+                    VoxException.Check(Native.vox_grid_get_counters(use.Pointer, &view));
+                    for (ulong i = 0; i < view.count; ++i)
+                        counters.Add(VoxException.Text(view.data[i].name), view.data[i].value);
+                }
                 return counters;
-            }
-        }
-
-        /// <summary>Nanoseconds of the last step, by stage.</summary>
-        public Profile Profile
-        {
-            get
-            {
-                Profile profile;
-                profile.struct_size = (uint)sizeof(Profile);
-                using (var use = handle.Read()) VoxException.Check(Native.vox_grid_profile(use.Pointer, &profile));
-                return profile;
             }
         }
 

@@ -1124,117 +1124,21 @@ namespace Voxtet
         public IntPtr user;
     }
 
-    /// <summary>What the last successful step did.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 304)]
-    public struct Counters
+    /// <summary>A count, or a time in nanoseconds.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct Counter
     {
-        public uint struct_size;
-        public uint meshes;
-        public ulong vertices;
-        public ulong tets;
-        /// <summary>occupied cells, summed over the cell sizes if there are several</summary>
-        public ulong cells;
-        /// <summary>vertices in those cells</summary>
-        public ulong entries;
-        /// <summary>most vertices in one cell</summary>
-        public ulong fullest_cell;
-        /// <summary>cells visited for tetrahedra (the paper's objective voxels)</summary>
-        public ulong visited_cells;
-        /// <summary>vertices found there</summary>
-        public ulong visited_entries;
-        /// <summary>(vertex, tet) pairs that passed the box test: the narrow phase's input</summary>
-        public ulong candidates;
-        /// <summary>orientations that needed exact arithmetic</summary>
-        public ulong exact_tests;
-        public ulong contacts;
-        public ulong skipped_degenerate;
-        /// <summary>held by the grid now, without the caller's arrays</summary>
-        public ulong bytes;
-        /// <summary>most bytes the grid ever held</summary>
-        public ulong peak_bytes;
-        /// <summary>meshes that were not at rest (see vox_grid_step)</summary>
-        public ulong moved_meshes;
-        /// <summary>part of `contacts` carried over from the step before, between meshes at rest</summary>
-        public ulong carried_contacts;
-        public ulong penetrations;
-        /// <summary>edges from a colliding vertex to one outside body_b</summary>
-        public ulong leaving_edges;
-        /// <summary>tetrahedra visited along those edges</summary>
-        public ulong edge_tests;
-        /// <summary>penetrations that needed the closest point of the surface</summary>
-        public ulong closest_searches;
-        /// <summary>triangles whose closest point was computed for that</summary>
-        public ulong closest_tests;
-        /// <summary>not included in `meshes` (see vox_body_set_enabled)</summary>
-        public ulong disabled_meshes;
-        /// <summary>(vertex, tet) pairs of one mesh that self_rings or self_rest_distance ruled out</summary>
-        public ulong filtered;
-        /// <summary>how often the reference engine chose another cell size (see vox_grid_desc)</summary>
-        public ulong cell_size_changes;
-        /// <summary>part of `penetrations` for which closest_budget left no search</summary>
-        public ulong unknown_penetrations;
-        /// <summary>part of `penetrations` carried over with their contacts</summary>
-        public ulong carried_penetrations;
-        /// <summary>left out for a coordinate (VOX_GRID_SKIP_BAD_BODIES); not included in `meshes`</summary>
-        public ulong skipped_meshes;
-        /// <summary>part of `meshes`: their vertices collide, their edges and faces do not</summary>
-        public ulong meshes_without_tets;
-        /// <summary>Events of all steps since the grid was created or loaded: sums of `began` and `ended` of the views
-        /// that each step gave (vox_grid_touch_events, vox_grid_contact_events).</summary>
-        public ulong total_touches_began;
-        public ulong total_touches_ended;
-        public ulong total_contacts_began;
-        public ulong total_contacts_ended;
-        /// <summary>0 without VOX_GRID_EDGE_CONTACTS, as are the next two</summary>
-        public ulong edge_contacts;
-        /// <summary>part of `edge_contacts` carried over from the step before</summary>
-        public ulong carried_edge_contacts;
-        /// <summary>edges and faces whose boxes overlap</summary>
-        public ulong edge_candidates;
-        /// <summary>0 without a margin (vox_grid_set_margin), as is the next one</summary>
-        public ulong margin_contacts;
-        /// <summary>part of `margin_contacts` carried over from the step before</summary>
-        public ulong carried_margin_contacts;
-        /// <summary>0 without previous positions (vox_mesh_bind_previous_positions)</summary>
-        public ulong passages;
+        /// <summary>static text, e.g. "candidates", or for a time "lookup_ns"</summary>
+        public IntPtr name;
+        public ulong value;
     }
 
-    /// <summary>Nanoseconds of the last successful step, in total and by stage. stream_ns to decide_ns are the stages
-    /// of the fast engine, and bin_ns, broad_ns and narrow_ns are sums of them.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 128)]
-    public struct Profile
+    /// <summary>`count` counters.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct CounterView
     {
-        public uint struct_size;
-        public uint reserved;
-        public ulong step_ns;
-        /// <summary>classify the vertices, recompute the boxes: stream + winding + windows</summary>
-        public ulong bin_ns;
-        /// <summary>cells and box tests: broad_phase + lookup</summary>
-        public ulong broad_ns;
-        /// <summary>exact decisions: decide</summary>
-        public ulong narrow_ns;
-        /// <summary>canonical order, barycentric coordinates</summary>
-        public ulong contacts_ns;
-        /// <summary>penetrations</summary>
-        public ulong depth_ns;
-        /// <summary>touching pairs and events</summary>
-        public ulong events_ns;
-        /// <summary>read all positions: boxes, and which meshes moved</summary>
-        public ulong stream_ns;
-        /// <summary>rule out self-contacts by winding numbers; of the worker that took longest over them</summary>
-        public ulong winding_ns;
-        /// <summary>regions in which meshes may be in contact</summary>
-        public ulong broad_phase_ns;
-        /// <summary>bin the vertices that lie there</summary>
-        public ulong windows_ns;
-        /// <summary>tetrahedra against these: box tests, and all that floats can decide</summary>
-        public ulong lookup_ns;
-        /// <summary>decide the rest exactly; of the worker that took longest over it</summary>
-        public ulong decide_ns;
-        /// <summary>edge contacts, with either engine</summary>
-        public ulong edges_ns;
-        /// <summary>margin contacts and passages, with either engine</summary>
-        public ulong margin_ns;
+        public Counter* data;
+        public ulong count;
     }
 
     /// <summary>Which bodies answer, and how far to look.</summary>
@@ -2648,13 +2552,10 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_load(IntPtr bytes, ulong size, GridDesc* desc, IntPtr* out_grid);
 
-        /// <summary>Writes the fields that out_counters-&gt;struct_size covers (set it first).</summary>
+        /// <summary>What the last successful step did, and how long each stage of it took: all 0 before the first.
+        /// docs/engine.md lists the names; what programs act on is in vox_grid_info.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_get_counters(IntPtr grid, Counters* out_counters);
-
-        /// <summary>Writes the fields that out_profile-&gt;struct_size covers (set it first).</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_profile(IntPtr grid, Profile* out_profile);
+        internal static extern Result vox_grid_get_counters(IntPtr grid, CounterView* out_view);
 
         /// <summary>Takes a locator of the grid as it is now, and releases the one that *locator held before, if
         /// any.</summary>
@@ -3394,74 +3295,22 @@ namespace Voxtet
             entries.Add(Entry("vox_task_system.user", (byte*)&s.user - begin, 16, 8));
         }
 
-        static void AddCounters(List<LayoutEntry> entries)
+        static void AddCounter(List<LayoutEntry> entries)
         {
-            Counters s;
+            Counter s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_counters", sizeof(Counters), 304, 304));
-            entries.Add(Entry("vox_counters.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_counters.meshes", (byte*)&s.meshes - begin, 4, 4));
-            entries.Add(Entry("vox_counters.vertices", (byte*)&s.vertices - begin, 8, 8));
-            entries.Add(Entry("vox_counters.tets", (byte*)&s.tets - begin, 16, 16));
-            entries.Add(Entry("vox_counters.cells", (byte*)&s.cells - begin, 24, 24));
-            entries.Add(Entry("vox_counters.entries", (byte*)&s.entries - begin, 32, 32));
-            entries.Add(Entry("vox_counters.fullest_cell", (byte*)&s.fullest_cell - begin, 40, 40));
-            entries.Add(Entry("vox_counters.visited_cells", (byte*)&s.visited_cells - begin, 48, 48));
-            entries.Add(Entry("vox_counters.visited_entries", (byte*)&s.visited_entries - begin, 56, 56));
-            entries.Add(Entry("vox_counters.candidates", (byte*)&s.candidates - begin, 64, 64));
-            entries.Add(Entry("vox_counters.exact_tests", (byte*)&s.exact_tests - begin, 72, 72));
-            entries.Add(Entry("vox_counters.contacts", (byte*)&s.contacts - begin, 80, 80));
-            entries.Add(Entry("vox_counters.skipped_degenerate", (byte*)&s.skipped_degenerate - begin, 88, 88));
-            entries.Add(Entry("vox_counters.bytes", (byte*)&s.bytes - begin, 96, 96));
-            entries.Add(Entry("vox_counters.peak_bytes", (byte*)&s.peak_bytes - begin, 104, 104));
-            entries.Add(Entry("vox_counters.moved_meshes", (byte*)&s.moved_meshes - begin, 112, 112));
-            entries.Add(Entry("vox_counters.carried_contacts", (byte*)&s.carried_contacts - begin, 120, 120));
-            entries.Add(Entry("vox_counters.penetrations", (byte*)&s.penetrations - begin, 128, 128));
-            entries.Add(Entry("vox_counters.leaving_edges", (byte*)&s.leaving_edges - begin, 136, 136));
-            entries.Add(Entry("vox_counters.edge_tests", (byte*)&s.edge_tests - begin, 144, 144));
-            entries.Add(Entry("vox_counters.closest_searches", (byte*)&s.closest_searches - begin, 152, 152));
-            entries.Add(Entry("vox_counters.closest_tests", (byte*)&s.closest_tests - begin, 160, 160));
-            entries.Add(Entry("vox_counters.disabled_meshes", (byte*)&s.disabled_meshes - begin, 168, 168));
-            entries.Add(Entry("vox_counters.filtered", (byte*)&s.filtered - begin, 176, 176));
-            entries.Add(Entry("vox_counters.cell_size_changes", (byte*)&s.cell_size_changes - begin, 184, 184));
-            entries.Add(Entry("vox_counters.unknown_penetrations", (byte*)&s.unknown_penetrations - begin, 192, 192));
-            entries.Add(Entry("vox_counters.carried_penetrations", (byte*)&s.carried_penetrations - begin, 200, 200));
-            entries.Add(Entry("vox_counters.skipped_meshes", (byte*)&s.skipped_meshes - begin, 208, 208));
-            entries.Add(Entry("vox_counters.meshes_without_tets", (byte*)&s.meshes_without_tets - begin, 216, 216));
-            entries.Add(Entry("vox_counters.total_touches_began", (byte*)&s.total_touches_began - begin, 224, 224));
-            entries.Add(Entry("vox_counters.total_touches_ended", (byte*)&s.total_touches_ended - begin, 232, 232));
-            entries.Add(Entry("vox_counters.total_contacts_began", (byte*)&s.total_contacts_began - begin, 240, 240));
-            entries.Add(Entry("vox_counters.total_contacts_ended", (byte*)&s.total_contacts_ended - begin, 248, 248));
-            entries.Add(Entry("vox_counters.edge_contacts", (byte*)&s.edge_contacts - begin, 256, 256));
-            entries.Add(Entry("vox_counters.carried_edge_contacts", (byte*)&s.carried_edge_contacts - begin, 264, 264));
-            entries.Add(Entry("vox_counters.edge_candidates", (byte*)&s.edge_candidates - begin, 272, 272));
-            entries.Add(Entry("vox_counters.margin_contacts", (byte*)&s.margin_contacts - begin, 280, 280));
-            entries.Add(Entry("vox_counters.carried_margin_contacts", (byte*)&s.carried_margin_contacts - begin, 288, 288));
-            entries.Add(Entry("vox_counters.passages", (byte*)&s.passages - begin, 296, 296));
+            entries.Add(Entry("vox_counter", sizeof(Counter), 16, 16));
+            entries.Add(Entry("vox_counter.name", (byte*)&s.name - begin, 0, 0));
+            entries.Add(Entry("vox_counter.value", (byte*)&s.value - begin, 8, 8));
         }
 
-        static void AddProfile(List<LayoutEntry> entries)
+        static void AddCounterView(List<LayoutEntry> entries)
         {
-            Profile s;
+            CounterView s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_profile", sizeof(Profile), 128, 128));
-            entries.Add(Entry("vox_profile.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_profile.reserved", (byte*)&s.reserved - begin, 4, 4));
-            entries.Add(Entry("vox_profile.step_ns", (byte*)&s.step_ns - begin, 8, 8));
-            entries.Add(Entry("vox_profile.bin_ns", (byte*)&s.bin_ns - begin, 16, 16));
-            entries.Add(Entry("vox_profile.broad_ns", (byte*)&s.broad_ns - begin, 24, 24));
-            entries.Add(Entry("vox_profile.narrow_ns", (byte*)&s.narrow_ns - begin, 32, 32));
-            entries.Add(Entry("vox_profile.contacts_ns", (byte*)&s.contacts_ns - begin, 40, 40));
-            entries.Add(Entry("vox_profile.depth_ns", (byte*)&s.depth_ns - begin, 48, 48));
-            entries.Add(Entry("vox_profile.events_ns", (byte*)&s.events_ns - begin, 56, 56));
-            entries.Add(Entry("vox_profile.stream_ns", (byte*)&s.stream_ns - begin, 64, 64));
-            entries.Add(Entry("vox_profile.winding_ns", (byte*)&s.winding_ns - begin, 72, 72));
-            entries.Add(Entry("vox_profile.broad_phase_ns", (byte*)&s.broad_phase_ns - begin, 80, 80));
-            entries.Add(Entry("vox_profile.windows_ns", (byte*)&s.windows_ns - begin, 88, 88));
-            entries.Add(Entry("vox_profile.lookup_ns", (byte*)&s.lookup_ns - begin, 96, 96));
-            entries.Add(Entry("vox_profile.decide_ns", (byte*)&s.decide_ns - begin, 104, 104));
-            entries.Add(Entry("vox_profile.edges_ns", (byte*)&s.edges_ns - begin, 112, 112));
-            entries.Add(Entry("vox_profile.margin_ns", (byte*)&s.margin_ns - begin, 120, 120));
+            entries.Add(Entry("vox_counter_view", sizeof(CounterView), 16, 16));
+            entries.Add(Entry("vox_counter_view.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_counter_view.count", (byte*)&s.count - begin, 8, 8));
         }
 
         static void AddQueryDesc(List<LayoutEntry> entries)
@@ -4283,8 +4132,8 @@ namespace Voxtet
             AddAllocator(entries);
             AddLog(entries);
             AddTaskSystem(entries);
-            AddCounters(entries);
-            AddProfile(entries);
+            AddCounter(entries);
+            AddCounterView(entries);
             AddQueryDesc(entries);
             AddPointHit(entries);
             AddClosestHit(entries);

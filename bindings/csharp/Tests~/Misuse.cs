@@ -204,6 +204,7 @@ namespace Voxtet.Tests
             Test.Same(wrong, 0, "wrong results");
             grid.Step();
             Test.Same(grid.Hash, hash, "after " + refused + " refused calls");
+            Test.Same(grid.Counters["contacts"], (ulong)grid.Contacts.Length, "counters");
             // A locator is asked while the grid steps and goes.
             Locator locator = grid.TakeLocator();
             int found = 0;
@@ -539,7 +540,7 @@ namespace Voxtet.Tests
             positions[0] = positions[0] > 0 ? 0 : 0.01f;
             grid.Step();
             foreach (Penetration penetration in grid.Penetrations) sum += penetration.depth;
-            sum += grid.TouchEvents.Persisted + (double)grid.Counters.contacts;
+            sum += grid.TouchEvents.Persisted + (double)grid.Info.moved_bodies;
         }
 
         static readonly List<WeakReference> forgotten = new List<WeakReference>();

@@ -271,11 +271,10 @@ export class Grid extends Owned {
   }
 
   get counters() {
-    return this.#get("vox_counters", "vox_grid_get_counters");
-  }
-
-  get profile() {
-    return this.#get("vox_profile", "vox_grid_profile");
+    const memory = memoryOf(this);
+    const { data, count } = this.#get("vox_counter_view", "vox_grid_get_counters");
+    const all = records("vox_counter", memory.items(data, count, structs.vox_counter.size), count);
+    return Object.fromEntries(Array.from(all, ({ name, value }) => [memory.text(name), value]));
   }
 
   suggestCellSize(settings) {

@@ -98,7 +98,7 @@ test("positions of doubles, and of meshes without vertices", () => {
   assert.equal(empty.tets.length, 0);
   grid.add({ positions: new Float32Array([0.5, 0.5, 0.5]) });
   grid.step();
-  assert.equal(grid.counters.meshesWithoutTets, 1);
+  assert.equal(grid.counters.meshes_without_tets, 1);
   grid.dispose();
 });
 
@@ -234,7 +234,7 @@ test("settings, failures and measurements", () => {
   left.positions[4] = 0;
   grid.step();
   assert.equal(grid.failure(), null);
-  assert.ok(grid.profile.stepNs > 0);
+  assert.ok(grid.counters.step_ns > 0);
   assert.equal(grid.counters.meshes, 2);
   assert.ok(grid.suggestCellSize().cellSize > 0);
   assert.equal(grid.suggestCellSize({ model: 0 }).model, 0);

@@ -30,19 +30,12 @@ def least(functions, calls, rounds, clock=time.perf_counter_ns):
     return best
 
 
-def c_loop(pointer):
-    """Microseconds of vox_grid_step within the library, without Python: its own measurement."""
-    profile = _library.sized(voxtet._c.vox_profile)
-    _library.vox.vox_grid_profile(pointer, profile)
-    return profile.step_ns / 1000
-
-
 def calls():
     empty = voxtet.Grid()
     raw = ctypes.CDLL(_library.vox._name).vox_grid_step
     raw.argtypes = [ctypes.c_void_p]
     nothing, ctypes_alone, step = least([lambda: None, lambda: raw(empty._pointer), lambda: empty.step()], 50, 3000)
-    inside = min(c_loop(empty._pointer) for _ in range(300) if not empty.step())
+    inside = min(empty.counters["step_ns"] for _ in range(300) if not empty.step()) / 1000
     print(f"step of an empty grid: {step - nothing:.2f} us from Python, {ctypes_alone - nothing:.2f} by ctypes alone, "
           f"{inside:.2f} within the library")
     for cells in (2, 6, 12, 24):

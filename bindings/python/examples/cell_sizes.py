@@ -20,7 +20,7 @@ for edges in (0.35, 0.7, suggested.cell_size / mean_edge, 2.8, 5.6):
         grid.step()
         work = grid.counters
         print(
-            f"{edges:4.2f} mean edges: {work.visited_cells:8} cells visited, {work.visited_entries:8} vertices met, {len(grid.contacts)} contacts"
+            f"{edges:4.2f} mean edges: {work['visited_cells']:8} cells visited, {work['visited_entries']:8} vertices met, {len(grid.contacts)} contacts"
         )
         hashes.add(grid.hash)
 print("the same contacts" if len(hashes) == 1 else "a defect")

@@ -64,7 +64,7 @@ LOCATOR = ["update", "find_point_hits", "find_closest", "find_box_hits", "find_r
 MESH = ["append_tets", "append_vertices", "remove_tets", "remove_vertices", "replace_tets", "set_tets_enabled", "set_topology",
         "mark_moved", "remove"]
 READ = ["contacts", "penetrations", "pairs", "pair_contacts", "events", "contact_events", "reading_depths", "interiors", "depths",
-        "meshes", "counters", "profile", "failures", "epoch", "hash", "flags"]
+        "meshes", "counters", "info", "failures", "epoch", "hash", "flags"]
 SET_GRID = ["cell_size", "workers"]
 SET_MESH = ["positions", "transform", "filter", "enabled", "tag"]
 NAMES = {"add": ["copy", "user_data", "vertex_count", "filter", "self_collision", "rest_positions", "borrow_tets", "tag"],

@@ -28,7 +28,7 @@ class Close(GridCase):
         self.assertTrue(grid.closed)
         calls = [grid.step, lambda: grid.contacts, lambda: grid.penetrations, lambda: grid.add(self.first, self.tets),
                  lambda: grid.remove(mesh), lambda: len(grid), lambda: grid.meshes, lambda: grid.hash, grid.snapshot,
-                 grid.locator, lambda: locator.update(grid), lambda: grid.counters,
+                 grid.locator, lambda: locator.update(grid), lambda: grid.counters, lambda: grid.info,
                  lambda: voxtet.step_all([grid]), grid.borrowed().__enter__, grid.__enter__, lambda: grid[mesh.id],
                  lambda: mesh.positions, lambda: setattr(mesh, "positions", self.first), lambda: mesh.info,
                  lambda: mesh.filter, mesh.remove, lambda: mesh in grid, grid.clear, lambda: grid.events,

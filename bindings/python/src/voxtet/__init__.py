@@ -12,7 +12,7 @@ from .errors import (BudgetError, FileError, FormatError, InternalError, Invalid
                      UnsupportedError, VoxError)
 from .foreign import (CostFit, ForeignGrid, ForeignRules, ForeignSuggestion, GridWeights, GridWork, Primitives, Timing, Tuning,
                       cost_fit, count_for, suggest_for, tune)
-from .grid import ALL_CORES, Counters, Failure, Grid, Profile, contacts_of_all, step_all
+from .grid import ALL_CORES, Failure, Grid, contacts_of_all, step_all
 from .locate import BoxHits, ClosestHits, Located, Locator, PointHits, RayHits, locate
 from .mesh import Filter, Mesh, MeshInfo
 from .reference import Reference

@@ -725,93 +725,18 @@ dtypes["vox_readings_desc"] = dtype({
     "itemsize": 24})
 
 
-class vox_counters(Structure):
+class vox_counter(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
-        ("meshes", c_uint32),
-        ("vertices", c_uint64),
-        ("tets", c_uint64),
-        ("cells", c_uint64),
-        ("entries", c_uint64),
-        ("fullest_cell", c_uint64),
-        ("visited_cells", c_uint64),
-        ("visited_entries", c_uint64),
-        ("candidates", c_uint64),
-        ("exact_tests", c_uint64),
-        ("contacts", c_uint64),
-        ("skipped_degenerate", c_uint64),
-        ("bytes", c_uint64),
-        ("peak_bytes", c_uint64),
-        ("moved_meshes", c_uint64),
-        ("carried_contacts", c_uint64),
-        ("penetrations", c_uint64),
-        ("leaving_edges", c_uint64),
-        ("edge_tests", c_uint64),
-        ("closest_searches", c_uint64),
-        ("closest_tests", c_uint64),
-        ("disabled_meshes", c_uint64),
-        ("filtered", c_uint64),
-        ("cell_size_changes", c_uint64),
-        ("unknown_penetrations", c_uint64),
-        ("carried_penetrations", c_uint64),
-        ("skipped_meshes", c_uint64),
-        ("meshes_without_tets", c_uint64),
-        ("total_touches_began", c_uint64),
-        ("total_touches_ended", c_uint64),
-        ("total_contacts_began", c_uint64),
-        ("total_contacts_ended", c_uint64),
-        ("edge_contacts", c_uint64),
-        ("carried_edge_contacts", c_uint64),
-        ("edge_candidates", c_uint64),
-        ("margin_contacts", c_uint64),
-        ("carried_margin_contacts", c_uint64),
-        ("passages", c_uint64),
+        ("name", c_char_p),
+        ("value", c_uint64),
     ]
 
-dtypes["vox_counters"] = dtype({
-    "names": ["struct_size", "meshes", "vertices", "tets", "cells", "entries", "fullest_cell", "visited_cells",
-        "visited_entries", "candidates", "exact_tests", "contacts", "skipped_degenerate", "bytes", "peak_bytes",
-        "moved_meshes", "carried_contacts", "penetrations", "leaving_edges", "edge_tests", "closest_searches",
-        "closest_tests", "disabled_meshes", "filtered", "cell_size_changes", "unknown_penetrations",
-        "carried_penetrations", "skipped_meshes", "meshes_without_tets", "total_touches_began", "total_touches_ended",
-        "total_contacts_began", "total_contacts_ended", "edge_contacts", "carried_edge_contacts", "edge_candidates",
-        "margin_contacts", "carried_margin_contacts", "passages"],
-    "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8",
-        "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8",
-        "u8", "u8", "u8", "u8"],
-    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120, 128, 136, 144, 152, 160, 168, 176,
-        184, 192, 200, 208, 216, 224, 232, 240, 248, 256, 264, 272, 280, 288, 296],
-    "itemsize": 304})
 
-
-class vox_profile(Structure):
+class vox_counter_view(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("step_ns", c_uint64),
-        ("bin_ns", c_uint64),
-        ("broad_ns", c_uint64),
-        ("narrow_ns", c_uint64),
-        ("contacts_ns", c_uint64),
-        ("depth_ns", c_uint64),
-        ("events_ns", c_uint64),
-        ("stream_ns", c_uint64),
-        ("winding_ns", c_uint64),
-        ("broad_phase_ns", c_uint64),
-        ("windows_ns", c_uint64),
-        ("lookup_ns", c_uint64),
-        ("decide_ns", c_uint64),
-        ("edges_ns", c_uint64),
-        ("margin_ns", c_uint64),
+        ("data", c_void_p),
+        ("count", c_uint64),
     ]
-
-dtypes["vox_profile"] = dtype({
-    "names": ["struct_size", "reserved", "step_ns", "bin_ns", "broad_ns", "narrow_ns", "contacts_ns", "depth_ns",
-        "events_ns", "stream_ns", "winding_ns", "broad_phase_ns", "windows_ns", "lookup_ns", "decide_ns", "edges_ns",
-        "margin_ns"],
-    "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
-    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120],
-    "itemsize": 128})
 
 
 class vox_query_desc(Structure):
@@ -1752,8 +1677,7 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_pair_copy_readings": (vox_result, (c_void_p, c_uint32, c_uint32, c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_grid_save": (vox_result, (c_void_p, c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_grid_load": (vox_result, (c_void_p, c_uint64, POINTER(vox_grid_desc), POINTER(c_void_p))),
-        "vox_grid_get_counters": (vox_result, (c_void_p, POINTER(vox_counters))),
-        "vox_grid_profile": (vox_result, (c_void_p, POINTER(vox_profile))),
+        "vox_grid_get_counters": (vox_result, (c_void_p, POINTER(vox_counter_view))),
     },
     "vox_query": {
         "vox_grid_update_locator": (vox_result, (c_void_p, POINTER(c_void_p))),

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _c, results
 from ._arguments import U32, Rows, integer, real, switch
-from ._library import Handle, described, sized, values_of, vox
+from ._library import Handle, described, sized, vox
 from .errors import InvalidArgumentError, InvalidHandleError, InvalidStateError
 from .mesh import Filter, Mesh, Topology
 from .reference import Reference, pointer_to
@@ -31,69 +31,6 @@ _LEVELS: dict[int, int] = {_c.LogLevel.INFO: logging.INFO, _c.LogLevel.WARNING: 
 _DTYPE_CONTACT = results.CONTACTS.dtype
 _DTYPE_READING = results.READINGS.dtype
 _step = vox.vox_grid_step
-
-
-class Counters(NamedTuple):
-    """What the last successful step did (vox_counters)."""
-
-    meshes: int
-    vertices: int
-    tets: int
-    cells: int
-    entries: int
-    fullest_cell: int
-    visited_cells: int
-    visited_entries: int
-    candidates: int
-    exact_tests: int
-    contacts: int
-    skipped_degenerate: int
-    bytes: int
-    peak_bytes: int
-    moved_meshes: int
-    carried_contacts: int
-    penetrations: int
-    leaving_edges: int
-    edge_tests: int
-    closest_searches: int
-    closest_tests: int
-    disabled_meshes: int
-    filtered: int
-    cell_size_changes: int
-    unknown_penetrations: int
-    carried_penetrations: int
-    skipped_meshes: int
-    meshes_without_tets: int
-    total_touches_began: int
-    total_touches_ended: int
-    total_contacts_began: int
-    total_contacts_ended: int
-    edge_contacts: int
-    carried_edge_contacts: int
-    edge_candidates: int
-    margin_contacts: int
-    carried_margin_contacts: int
-    passages: int
-
-
-class Profile(NamedTuple):
-    """Nanoseconds of the last successful step, in total and by stage (vox_profile)."""
-
-    step_ns: int
-    bin_ns: int
-    broad_ns: int
-    narrow_ns: int
-    contacts_ns: int
-    depth_ns: int
-    events_ns: int
-    stream_ns: int
-    winding_ns: int
-    broad_phase_ns: int
-    windows_ns: int
-    lookup_ns: int
-    decide_ns: int
-    edges_ns: int
-    margin_ns: int
 
 
 class Failure(NamedTuple):
@@ -567,20 +504,20 @@ class Grid(Results):
         return self._number(vox.vox_grid_get_hash)
 
     @property
-    def counters(self) -> Counters:
-        """What the last successful step did."""
-        out = sized(_c.vox_counters)
+    def info(self) -> dict[str, Any]:
+        """State and sums of the grid, such as its bytes and the bodies that moved: the fields of `vox_grid_info` by name."""
         with self._lock:
-            vox.vox_grid_get_counters(self._pointer, out)
-        return values_of(Counters, out)
+            out = self._info()
+        return {name: getattr(out, name) for name, *_ in out._fields_ if name != "struct_size"}
 
     @property
-    def profile(self) -> Profile:
-        """Nanoseconds of the last successful step, by stage."""
-        out = sized(_c.vox_profile)
+    def counters(self) -> dict[str, int]:
+        """What the last successful step did, and how many nanoseconds its stages took (names that end with _ns).
+        docs/engine.md lists the names."""
+        view = _c.vox_counter_view()
         with self._lock:
-            vox.vox_grid_profile(self._pointer, out)
-        return values_of(Profile, out)
+            vox.vox_grid_get_counters(self._pointer, view)
+            return {c.name.decode(): c.value for c in (_c.vox_counter * view.count).from_address(view.data)}
 
     @property
     def failures(self) -> list[Failure]:

@@ -92,7 +92,7 @@ pub const VOX_GRID_PENETRATIONS: vox_grid_flags = 1;
 pub const VOX_GRID_CONTACT_EVENTS: vox_grid_flags = 2;
 /// a mesh with a coordinate that VOX_FORMAT_DOUBLE does not allow (NaN, infinite, too large) takes no part in a step,
 /// in vox_grid_suggest_cell_size and in locators (vox_query.h), as if it were disabled; without this flag they fail.
-/// Counted (skipped_meshes), listed (vox_grid_get_failure), and logged once until the mesh is well again
+/// Counted (vox_grid_info.skipped_bodies), listed (vox_grid_get_failure), and logged once until the mesh is well again
 pub const VOX_GRID_SKIP_BAD_BODIES: vox_grid_flags = 4;
 /// also find edges of surfaces through faces of others (vox_grid_edge_contacts); experimental. A mesh of more than
 /// 357913941 tets then gives VOX_ERROR_LIMIT
@@ -536,8 +536,8 @@ pub struct vox_filter {
 
 /// A body: vertices, and tetrahedra over them. Without tetrahedra (a surface, a set of points) its vertices still
 /// collide with the tetrahedra of other meshes, but its edges and faces with nothing, so a thin blade may cross a body
-/// without a contact. The first such mesh that a grid gets is written to its log as a warning;
-/// vox_counters.meshes_without_tets counts them.
+/// without a contact. The first such mesh that a grid gets is written to its log as a warning; the counter
+/// meshes_without_tets is how many.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_mesh_desc {
@@ -662,7 +662,7 @@ pub struct vox_contact_view {
     pub epoch: u64,
     /// One for each contact: 1 if the vertex is in the interior of the tetrahedron, 0 if it is on its boundary; exact.
     /// On a face that two tetrahedra share, a vertex has a contact with one of them (see vox_contact): who joins the
-    /// contacts of several grids, each with a part of a mesh, keeps the rule with this. Not part of vox_grid_get_hash.
+    /// contacts of several grids, each with a part of a mesh, keeps the rule with this. No part of vox_grid_get_hash.
     pub interiors: *const u8,
 }
 
@@ -873,8 +873,8 @@ pub struct vox_touch_event {
 
 /// All pairs that began, then all that persisted, then all that ended: `count` in total, `byte_stride` apart, each part
 /// sorted by (body_a, body_b). `data` lives until the next step or destroy of the grid. These are the events of one
-/// step: a program that steps twice and reads once loses those of the first step. vox_counters.total_touches_began and
-/// total_touches_ended show the loss.
+/// step: a program that steps twice and reads once loses those of the first step. vox_grid_info.total_began and
+/// total_ended show the loss.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_touch_view {
@@ -900,8 +900,8 @@ pub struct vox_contact_event {
 }
 
 /// All vertices that entered, then all that left, each part sorted by (body_a, vertex, body_b). `data` lives until the
-/// next step, change of the flags or destroy of the grid. Events of one step, too: see vox_touch_view, and
-/// vox_counters.total_contacts_began and total_contacts_ended.
+/// next step, change of the flags or destroy of the grid. Events of one step, too: see vox_touch_view, and the counters
+/// total_contacts_began and total_contacts_ended.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_contact_event_view {
@@ -1021,121 +1021,22 @@ pub struct vox_task_system {
     pub user: *mut c_void,
 }
 
-/// What the last successful step did. The counters from `cells` to `skipped_degenerate` do not include what was carried
-/// over from the step before, nor do those from `leaving_edges` to `closest_tests`. `tets` counts enabled tetrahedra.
-/// `skipped_degenerate` counts tetrahedra of exactly zero volume: with the reference engine all of them, with the fast
-/// engine those that had a vertex to test.
+/// A count, or a time in nanoseconds.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_counters {
-    pub struct_size: u32,
-    pub meshes: u32,
-    pub vertices: u64,
-    pub tets: u64,
-    /// occupied cells, summed over the cell sizes if there are several
-    pub cells: u64,
-    /// vertices in those cells
-    pub entries: u64,
-    /// most vertices in one cell
-    pub fullest_cell: u64,
-    /// cells visited for tetrahedra (the paper's objective voxels)
-    pub visited_cells: u64,
-    /// vertices found there
-    pub visited_entries: u64,
-    /// (vertex, tet) pairs that passed the box test: the narrow phase's input
-    pub candidates: u64,
-    /// orientations that needed exact arithmetic
-    pub exact_tests: u64,
-    pub contacts: u64,
-    pub skipped_degenerate: u64,
-    /// held by the grid now, without the caller's arrays
-    pub bytes: u64,
-    /// most bytes the grid ever held
-    pub peak_bytes: u64,
-    /// meshes that were not at rest (see vox_grid_step)
-    pub moved_meshes: u64,
-    /// part of `contacts` carried over from the step before, between meshes at rest
-    pub carried_contacts: u64,
-    pub penetrations: u64,
-    /// edges from a colliding vertex to one outside body_b
-    pub leaving_edges: u64,
-    /// tetrahedra visited along those edges
-    pub edge_tests: u64,
-    /// penetrations that needed the closest point of the surface
-    pub closest_searches: u64,
-    /// triangles whose closest point was computed for that
-    pub closest_tests: u64,
-    /// not included in `meshes` (see vox_body_set_enabled)
-    pub disabled_meshes: u64,
-    /// (vertex, tet) pairs of one mesh that self_rings or self_rest_distance ruled out
-    pub filtered: u64,
-    /// how often the reference engine chose another cell size (see vox_grid_desc)
-    pub cell_size_changes: u64,
-    /// part of `penetrations` for which closest_budget left no search
-    pub unknown_penetrations: u64,
-    /// part of `penetrations` carried over with their contacts
-    pub carried_penetrations: u64,
-    /// left out for a coordinate (VOX_GRID_SKIP_BAD_BODIES); not included in `meshes`
-    pub skipped_meshes: u64,
-    /// part of `meshes`: their vertices collide, their edges and faces do not
-    pub meshes_without_tets: u64,
-    /// Events of all steps since the grid was created or loaded: sums of `began` and `ended` of the views that each
-    /// step gave (vox_grid_touch_events, vox_grid_contact_events). A reader that has added up less has lost events.
-    pub total_touches_began: u64,
-    pub total_touches_ended: u64,
-    pub total_contacts_began: u64,
-    pub total_contacts_ended: u64,
-    /// 0 without VOX_GRID_EDGE_CONTACTS, as are the next two
-    pub edge_contacts: u64,
-    /// part of `edge_contacts` carried over from the step before
-    pub carried_edge_contacts: u64,
-    /// edges and faces whose boxes overlap
-    pub edge_candidates: u64,
-    /// 0 without a margin (vox_grid_set_margin), as is the next one
-    pub margin_contacts: u64,
-    /// part of `margin_contacts` carried over from the step before
-    pub carried_margin_contacts: u64,
-    /// 0 without previous positions (vox_mesh_bind_previous_positions)
-    pub passages: u64,
+#[derive(Clone, Copy, Debug)]
+pub struct vox_counter {
+    /// static text, e.g. "candidates", or for a time "lookup_ns"
+    pub name: *const c_char,
+    pub value: u64,
 }
 
-/// Nanoseconds of the last successful step, in total and by stage. stream_ns to decide_ns are the stages of the fast
-/// engine, and bin_ns, broad_ns and narrow_ns are sums of them. The reference engine has just those three stages, and
-/// leaves stream_ns to decide_ns 0.
+/// `count` counters. A library always has the same ones, in the same order. `data` lives until the next step, clear or
+/// destroy of the grid.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_profile {
-    pub struct_size: u32,
-    pub reserved: u32,
-    pub step_ns: u64,
-    /// classify the vertices, recompute the boxes: stream + winding + windows
-    pub bin_ns: u64,
-    /// cells and box tests: broad_phase + lookup
-    pub broad_ns: u64,
-    /// exact decisions: decide
-    pub narrow_ns: u64,
-    /// canonical order, barycentric coordinates
-    pub contacts_ns: u64,
-    /// penetrations
-    pub depth_ns: u64,
-    /// touching pairs and events
-    pub events_ns: u64,
-    /// read all positions: boxes, and which meshes moved
-    pub stream_ns: u64,
-    /// rule out self-contacts by winding numbers; of the worker that took longest over them
-    pub winding_ns: u64,
-    /// regions in which meshes may be in contact
-    pub broad_phase_ns: u64,
-    /// bin the vertices that lie there
-    pub windows_ns: u64,
-    /// tetrahedra against these: box tests, and all that floats can decide
-    pub lookup_ns: u64,
-    /// decide the rest exactly; of the worker that took longest over it
-    pub decide_ns: u64,
-    /// edge contacts, with either engine
-    pub edges_ns: u64,
-    /// margin contacts and passages, with either engine
-    pub margin_ns: u64,
+#[derive(Clone, Copy, Debug)]
+pub struct vox_counter_view {
+    pub data: *const vox_counter,
+    pub count: u64,
 }
 
 /// Which bodies answer, and how far to look. All fields are 0 by default: all bodies, at any distance.
@@ -2636,13 +2537,12 @@ extern "C" {
         desc: *const vox_grid_desc,
         out_grid: *mut *mut vox_grid,
     ) -> vox_result;
-    /// Writes the fields that out_counters->struct_size covers (set it first).
+    /// What the last successful step did, and how long each stage of it took: all 0 before the first. docs/engine.md
+    /// lists the names; what programs act on is in vox_grid_info.
     pub fn vox_grid_get_counters(
         grid: *const vox_grid,
-        out_counters: *mut vox_counters,
+        out_view: *mut vox_counter_view,
     ) -> vox_result;
-    /// Writes the fields that out_profile->struct_size covers (set it first).
-    pub fn vox_grid_profile(grid: *const vox_grid, out_profile: *mut vox_profile) -> vox_result;
 }
 
 #[rustfmt::skip]
@@ -3229,21 +3129,8 @@ layouts! {
     vox_allocator: size [24, 12], alignment [8, 4], { allocate: [0, 0], release: [8, 4], user: [16, 8] }
     vox_log: size [16, 8], alignment [8, 4], { write: [0, 0], user: [8, 4] }
     vox_task_system: size [24, 12], alignment [8, 4], { enqueue: [0, 0], finish: [8, 4], user: [16, 8] }
-    vox_counters: size [304, 304], alignment [8, 8], { struct_size: [0, 0], meshes: [4, 4], vertices: [8, 8],
-        tets: [16, 16], cells: [24, 24], entries: [32, 32], fullest_cell: [40, 40], visited_cells: [48, 48],
-        visited_entries: [56, 56], candidates: [64, 64], exact_tests: [72, 72], contacts: [80, 80],
-        skipped_degenerate: [88, 88], bytes: [96, 96], peak_bytes: [104, 104], moved_meshes: [112, 112],
-        carried_contacts: [120, 120], penetrations: [128, 128], leaving_edges: [136, 136], edge_tests: [144, 144],
-        closest_searches: [152, 152], closest_tests: [160, 160], disabled_meshes: [168, 168], filtered: [176, 176],
-        cell_size_changes: [184, 184], unknown_penetrations: [192, 192], carried_penetrations: [200, 200],
-        skipped_meshes: [208, 208], meshes_without_tets: [216, 216], total_touches_began: [224, 224],
-        total_touches_ended: [232, 232], total_contacts_began: [240, 240], total_contacts_ended: [248, 248],
-        edge_contacts: [256, 256], carried_edge_contacts: [264, 264], edge_candidates: [272, 272],
-        margin_contacts: [280, 280], carried_margin_contacts: [288, 288], passages: [296, 296] }
-    vox_profile: size [128, 128], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], step_ns: [8, 8],
-        bin_ns: [16, 16], broad_ns: [24, 24], narrow_ns: [32, 32], contacts_ns: [40, 40], depth_ns: [48, 48],
-        events_ns: [56, 56], stream_ns: [64, 64], winding_ns: [72, 72], broad_phase_ns: [80, 80], windows_ns: [88, 88],
-        lookup_ns: [96, 96], decide_ns: [104, 104], edges_ns: [112, 112], margin_ns: [120, 120] }
+    vox_counter: size [16, 16], alignment [8, 8], { name: [0, 0], value: [8, 8] }
+    vox_counter_view: size [16, 16], alignment [8, 8], { data: [0, 0], count: [8, 8] }
     vox_query_desc: size [32, 32], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], mask: [8, 8],
         excluded: [16, 16], reserved: [20, 20], max_distance: [24, 24] }
     vox_point_hit: size [48, 48], alignment [8, 8], { point: [0, 0], body: [4, 4], tet: [8, 8], reserved: [12, 12],

@@ -1,3 +1,5 @@
+use std::collections::BTreeMap;
+use std::ffi::CStr;
 use std::ptr::{null, null_mut, NonNull};
 use std::sync::atomic::Ordering;
 use std::sync::Arc;
@@ -14,13 +16,8 @@ use crate::{
     Penetration, Reading, Result, View,
 };
 
-/// What the last step did; `vox_counters` in vox.h.
-pub type Counters = sys::vox_counters;
-
 /// A grid as it is now, and what its last step did; `vox_grid_info` in vox.h.
 pub type GridInfo = sys::vox_grid_info;
-/// Nanoseconds of the last step, by stage; `vox_profile` in vox.h.
-pub type Profile = sys::vox_profile;
 /// A mesh that made a step fail, or that a step left out; `vox_failure` in vox.h.
 pub type Failure = sys::vox_failure;
 
@@ -529,7 +526,7 @@ impl Grid {
     }
 
     /// Pairs that began, persisted and ended in the last step. Who steps twice and reads once loses those of the first
-    /// step; [`Counters::total_touches_began`](sys::vox_counters::total_touches_began) shows it.
+    /// step; [`total_began`](sys::vox_grid_info::total_began) of [`Grid::state`] shows it.
     pub fn touch_events(&self) -> TouchEvents<'_> {
         unsafe {
             let mut view: sys::vox_touch_view = std::mem::zeroed();
@@ -601,18 +598,14 @@ impl Grid {
         info
     }
 
-    /// What the last step did.
-    pub fn counters(&self) -> Counters {
-        let mut counters = sized!(Counters);
-        unsafe { sys::vox_grid_get_counters(self.get(), &mut counters) };
-        counters
-    }
-
-    /// Nanoseconds of the last step, by stage.
-    pub fn profile(&self) -> Profile {
-        let mut profile = sized!(Profile);
-        unsafe { sys::vox_grid_profile(self.get(), &mut profile) };
-        profile
+    /// What the last step did, and how long each stage of it took; `vox_grid_get_counters` in vox.h.
+    pub fn counters(&self) -> BTreeMap<&'static str, u64> {
+        unsafe {
+            let mut view: sys::vox_counter_view = std::mem::zeroed();
+            sys::vox_grid_get_counters(self.get(), &mut view);
+            let counters = View::new(view.data, std::mem::size_of::<sys::vox_counter>(), view.count);
+            counters.iter().map(|c| (CStr::from_ptr(c.name).to_str().unwrap_or_default(), c.value)).collect()
+        }
     }
 
     // ---- readings ----

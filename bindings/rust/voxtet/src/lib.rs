@@ -21,7 +21,7 @@ pub use foreign::{
     count_for, fit, suggest_for, tune, CellContent, CellLook, ForeignGrid, ForeignSuggestion, GridFit, KnownGrid,
     Primitives, TuneOptions, Tuning,
 };
-pub use grid::{step_grids, Counters, Failure, Grid, MeshInfo, Profile};
+pub use grid::{step_grids, Failure, Grid, MeshInfo};
 pub use locator::{Locator, QueryOptions};
 pub use options::{Filter, GridOptions, Mesh, MeshOptions, Reference};
 pub use view::{Contacts, Events, Pairs, View};

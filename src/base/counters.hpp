@@ -1,0 +1,136 @@
+// What a step counts, and how long its stages take: vox_counter has the names, but for those in
+// vox_grid_info.
+#pragma once
+
+#include <cstdint>
+
+namespace vox {
+
+// Counters from `cells` to `skipped_degenerate` do not include what was carried over from the step before,
+// nor do those from `leaving_edges` to `closest_tests`. `tets` counts enabled tetrahedra.
+// `skipped_degenerate` counts tetrahedra of exactly zero volume: with the reference engine all of them, with
+// the fast engine those that had a vertex to test.
+struct Counters {
+    std::uint64_t meshes = 0;
+    std::uint64_t vertices = 0;
+    std::uint64_t tets = 0;
+    std::uint64_t cells = 0;           // occupied cells, summed over the cell sizes if there are several
+    std::uint64_t entries = 0;         // vertices in those cells
+    std::uint64_t fullest_cell = 0;    // most vertices in one cell
+    std::uint64_t visited_cells = 0;   // cells visited for tetrahedra (the paper's objective voxels)
+    std::uint64_t visited_entries = 0; // vertices found there
+    std::uint64_t candidates = 0;  // (vertex, tet) pairs that passed the box test: the narrow phase's input
+    std::uint64_t exact_tests = 0; // orientations that needed exact arithmetic
+    std::uint64_t contacts = 0;
+    std::uint64_t skipped_degenerate = 0;
+    std::uint64_t moved_meshes = 0; // meshes that were not at rest (see vox_grid_step)
+    std::uint64_t carried_contacts =
+        0; // part of `contacts` carried over from the step before, between meshes at rest
+    std::uint64_t penetrations = 0;
+    std::uint64_t leaving_edges = 0;    // edges from a colliding vertex to one outside body_b
+    std::uint64_t edge_tests = 0;       // tetrahedra visited along those edges
+    std::uint64_t closest_searches = 0; // penetrations that needed the closest point of the surface
+    std::uint64_t closest_tests = 0;    // triangles whose closest point was computed for that
+    std::uint64_t disabled_meshes = 0;  // not included in `meshes` (see vox_body_set_enabled)
+    std::uint64_t filtered =
+        0; // (vertex, tet) pairs of one mesh that self_rings or self_rest_distance ruled out
+    std::uint64_t cell_size_changes =
+        0; // how often the reference engine chose another cell size (see vox_grid_desc)
+    std::uint64_t unknown_penetrations = 0; // part of `penetrations` for which closest_budget left no search
+    std::uint64_t carried_penetrations = 0; // part of `penetrations` carried over with their contacts
+    std::uint64_t skipped_meshes =
+        0; // left out for a coordinate (VOX_GRID_SKIP_BAD_BODIES); not included in `meshes`
+    std::uint64_t meshes_without_tets =
+        0; // part of `meshes`: their vertices collide, their edges and faces do not
+    // Events of all steps since the grid was created or loaded: sums of `began` and `ended` of the views that
+    // each step gave (vox_grid_touch_events, vox_grid_contact_events). A reader that has added up less has
+    // lost events.
+    std::uint64_t total_touches_began = 0;
+    std::uint64_t total_touches_ended = 0;
+    std::uint64_t total_contacts_began = 0;
+    std::uint64_t total_contacts_ended = 0;
+    std::uint64_t edge_contacts = 0;           // 0 without VOX_GRID_EDGE_CONTACTS, as are the next two
+    std::uint64_t carried_edge_contacts = 0;   // part of `edge_contacts` carried over from the step before
+    std::uint64_t edge_candidates = 0;         // edges and faces whose boxes overlap
+    std::uint64_t margin_contacts = 0;         // 0 without a margin (vox_grid_set_margin), as is the next one
+    std::uint64_t carried_margin_contacts = 0; // part of `margin_contacts` carried over from the step before
+    std::uint64_t passages = 0; // 0 without previous positions (vox_mesh_bind_previous_positions)
+};
+
+// Nanoseconds. stream_ns to decide_ns are the stages of the fast engine, and bin_ns, broad_ns and narrow_ns
+// are sums of them. The reference engine has just those three stages.
+struct Profile {
+    std::uint64_t step_ns = 0;
+    std::uint64_t bin_ns = 0;      // classify the vertices, recompute the boxes: stream + winding + windows
+    std::uint64_t broad_ns = 0;    // cells and box tests: broad_phase + lookup
+    std::uint64_t narrow_ns = 0;   // exact decisions: decide
+    std::uint64_t contacts_ns = 0; // canonical order, barycentric coordinates
+    std::uint64_t depth_ns = 0;    // penetrations
+    std::uint64_t events_ns = 0;   // touching pairs and events
+    std::uint64_t stream_ns = 0;   // read all positions: boxes, and which meshes moved
+    std::uint64_t winding_ns =
+        0; // rule out self-contacts by winding numbers; of the worker that took longest over them
+    std::uint64_t broad_phase_ns = 0; // regions in which meshes may be in contact
+    std::uint64_t windows_ns = 0;     // bin the vertices that lie there
+    std::uint64_t lookup_ns = 0;      // tetrahedra against these: box tests, and all that floats can decide
+    std::uint64_t decide_ns = 0;      // decide the rest exactly; of the worker that took longest over it
+    std::uint64_t edges_ns = 0;       // edge contacts, with either engine
+    std::uint64_t margin_ns = 0;      // margin contacts and passages, with either engine
+};
+
+// A name and its field, in the order of vox_counter_view.
+struct NamedCounter {
+    const char* name;
+    std::uint64_t Counters::*field;
+};
+struct NamedTime {
+    const char* name;
+    std::uint64_t Profile::*field;
+};
+
+inline constexpr NamedCounter named_counters[] = {
+    {"meshes", &Counters::meshes},
+    {"vertices", &Counters::vertices},
+    {"tets", &Counters::tets},
+    {"cells", &Counters::cells},
+    {"entries", &Counters::entries},
+    {"fullest_cell", &Counters::fullest_cell},
+    {"visited_cells", &Counters::visited_cells},
+    {"visited_entries", &Counters::visited_entries},
+    {"candidates", &Counters::candidates},
+    {"exact_tests", &Counters::exact_tests},
+    {"contacts", &Counters::contacts},
+    {"skipped_degenerate", &Counters::skipped_degenerate},
+    {"carried_contacts", &Counters::carried_contacts},
+    {"penetrations", &Counters::penetrations},
+    {"leaving_edges", &Counters::leaving_edges},
+    {"edge_tests", &Counters::edge_tests},
+    {"closest_searches", &Counters::closest_searches},
+    {"closest_tests", &Counters::closest_tests},
+    {"disabled_meshes", &Counters::disabled_meshes},
+    {"filtered", &Counters::filtered},
+    {"cell_size_changes", &Counters::cell_size_changes},
+    {"unknown_penetrations", &Counters::unknown_penetrations},
+    {"carried_penetrations", &Counters::carried_penetrations},
+    {"meshes_without_tets", &Counters::meshes_without_tets},
+    {"total_contacts_began", &Counters::total_contacts_began},
+    {"total_contacts_ended", &Counters::total_contacts_ended},
+    {"edge_contacts", &Counters::edge_contacts},
+    {"carried_edge_contacts", &Counters::carried_edge_contacts},
+    {"edge_candidates", &Counters::edge_candidates},
+    {"margin_contacts", &Counters::margin_contacts},
+    {"carried_margin_contacts", &Counters::carried_margin_contacts},
+    {"passages", &Counters::passages},
+};
+inline constexpr NamedTime named_times[] = {
+    {"step_ns", &Profile::step_ns},         {"bin_ns", &Profile::bin_ns},
+    {"broad_ns", &Profile::broad_ns},       {"narrow_ns", &Profile::narrow_ns},
+    {"contacts_ns", &Profile::contacts_ns}, {"depth_ns", &Profile::depth_ns},
+    {"events_ns", &Profile::events_ns},     {"stream_ns", &Profile::stream_ns},
+    {"winding_ns", &Profile::winding_ns},   {"broad_phase_ns", &Profile::broad_phase_ns},
+    {"windows_ns", &Profile::windows_ns},   {"lookup_ns", &Profile::lookup_ns},
+    {"decide_ns", &Profile::decide_ns},     {"edges_ns", &Profile::edges_ns},
+    {"margin_ns", &Profile::margin_ns},
+};
+
+} // namespace vox
