@@ -51,7 +51,7 @@ class CommandLine(Files):
     def test_version_and_help(self):
         done = run("--version")
         self.assertEqual(done.returncode, 0)
-        self.assertRegex(done.stdout.decode(), r"\Avox \d+\.\d+\.\d+\n.+\n\Z")
+        self.assertRegex(done.stdout.decode(), r"\Avox \d+\.\d+\.\d+, .+\n\Z")
         self.assertEqual(done.stderr, b"")
         for command in [], ["info"], ["suggest"], ["collide"], ["demo"], ["tetrahedralize"]:
             done = run(*command, "--help")
