@@ -2,6 +2,7 @@
 #pragma once
 
 #include "body.hpp"
+#include "grid.hpp"
 #include "json.hpp"
 
 #include <vox/vox_cell_size.h>
