@@ -41,7 +41,7 @@ void print_demo_json(TwoBalls& balls) {
         static_cast<std::uint32_t>(std::max_element(contacts.begin(), contacts.end()) - contacts.begin());
     json.add("frame", busiest);
     balls.show(busiest);
-    add_collision(json, contenders[0].grid.get(), contenders[0].ids, contenders[0].frames[busiest]);
+    add_collision(json, contenders[0].grid.get(), contenders[0].ids, counters_of(contenders[0].grid.get()));
     print(json);
 }
 
