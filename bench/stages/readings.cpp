@@ -73,6 +73,7 @@ public:
         least(times_.position, [&] { prepare(VOX_READING_POSITION, 0, 0); });
         vox_pair_view pairs{};
         must(vox_grid_get_pairs(grid_, &pairs));
+        if (pairs.count == 0) throw std::runtime_error(name_ + ": no contacts; more tetrahedra are needed");
         const vox_pair& pair = pairs.data[pairs.count / 2];
         of_pair_ = pair.a_in_b + pair.b_in_a;
         least(times_.pair, [&] { prepare(whole, pair.body_a, pair.body_b); });

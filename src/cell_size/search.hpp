@@ -104,8 +104,8 @@ private:
 
 // ---- cost functions of users ------------------------------------------------------------------------
 
-// Takes the cost at a size. Throws INVALID_ARGUMENT for bounds that vox.h does not allow, and for a cost that
-// is nowhere finite or negative where it is least.
+// Takes the cost at a size. Throws INVALID_ARGUMENT for bounds that vox_cell_size.h does not allow, and for a
+// cost that is nowhere finite or negative where it is least.
 vox_cost_minimum minimise_within(const std::function<double(double cell_size)>& cost_at,
                                  const CellSizeRange& range, double zone_loss);
 

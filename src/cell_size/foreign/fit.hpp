@@ -102,7 +102,7 @@ struct FitSettings {
     double zone_loss = 0.05;
 };
 
-// Throws INVALID_ARGUMENT for timings that vox.h does not allow.
+// Throws INVALID_ARGUMENT for timings that vox_cell_size.h does not allow.
 vox_grid_fit fit_timings(const CostBasis& described, const FitSettings& settings,
                          std::span<const vox_grid_timing> timings, std::pmr::memory_resource* memory);
 
