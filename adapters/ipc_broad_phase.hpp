@@ -197,12 +197,11 @@ private:
         if (!moved_) return;
         const bool all = accepts_all(can_vertices_collide, 0);
         for (std::uint64_t first = 0;;) { // in pieces where one would not fit into the byte budget
-            vox_pair_lists lists{};
-            lists.struct_size = sizeof lists;
+            vox_partner_lists lists{};
             check(vox_surface_find_pairs(surface_.get(), a, b, first,
                                          std::numeric_limits<std::uint64_t>::max(), &lists));
             if (lists.count == 0) return;
-            candidates.reserve(candidates.size() + static_cast<std::size_t>(lists.pair_count));
+            candidates.reserve(candidates.size() + static_cast<std::size_t>(lists.offsets[lists.count]));
             for (std::uint64_t i = 0; i < lists.count; ++i)
                 for (std::uint64_t k = lists.offsets[i]; k < lists.offsets[i + 1]; ++k) {
                     const auto own = static_cast<std::uint32_t>(first + i), partner = lists.partners[k];

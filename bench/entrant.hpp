@@ -46,10 +46,9 @@ struct EntrantMaker {
     std::function<std::unique_ptr<Entrant>()> make;
 };
 
-extern const std::string subject_name; // the default grid, whose figures are judged
-extern const std::string avx2_name;    // the default grid with no more than AVX2
-extern const std::string
-    contacts_name; // the same without the depth stage: contacts alone, as the peers find them
+extern const std::string subject_name;   // a grid with constraints, whose figures are judged
+extern const std::string avx2_name;      // the same with no more than AVX2
+extern const std::string contacts_name;  // the default grid: contacts alone, as the peers find them
 extern const std::string reference_name; // the paper's algorithm, contacts alone, that ratios are taken to
 
 std::vector<EntrantMaker> vox_entrants();

@@ -4,9 +4,9 @@ import csv
 from collections import OrderedDict
 from dataclasses import dataclass, field
 
-SUBJECT = "vox"  # the default grid, with all that its step does
-CONTACTS = "vox contacts"  # the same without the depth stage: contacts alone, as the peers find them
-AVX2 = "vox AVX2"  # the default grid with no more than AVX2
+SUBJECT = "vox"  # a grid with constraints, with all that its step does
+CONTACTS = "vox contacts"  # the default grid: contacts alone, as the peers find them
+AVX2 = "vox AVX2"  # the subject with no more than AVX2
 REFERENCE = "vox reference"  # the paper's algorithm, contacts alone
 F1 = "F1 positions"
 F2 = "F2 tet boxes"

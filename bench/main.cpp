@@ -50,7 +50,7 @@ struct Running {
 };
 
 bool same(const std::vector<vox_contact>& x, const std::vector<vox_contact>& y) {
-    static_assert(sizeof(vox_contact) == 32, "no padding");
+    static_assert(sizeof(vox_contact) == 16, "no padding");
     return x.size() == y.size() &&
            (x.empty() || std::memcmp(x.data(), y.data(), x.size() * sizeof(vox_contact)) == 0);
 }

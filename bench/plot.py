@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Draws the benchmark's results: nanoseconds a tetrahedron for every scene and entrant, and how vox grows: the default
-step, and contacts alone.
+"""Draws the benchmark's results: nanoseconds a tetrahedron for every scene and entrant, and how vox grows: with
+constraints, and contacts alone.
 
 usage: plot.py RESULTS.csv CHART.svg
 """
@@ -16,8 +16,8 @@ from figures import AVX2, CONTACTS, F1, F2, REFERENCE, SUBJECT, read
 
 SUBJECT_COLOUR = "#c2185b"
 REFERENCE_COLOUR = "#333333"
-STEPS = {SUBJECT: "default step", CONTACTS: "contacts alone"}
-LABELS = {SUBJECT: "vox, default step", CONTACTS: "vox, contacts alone", REFERENCE: "paper's algorithm, contacts alone"}
+STEPS = {SUBJECT: "with constraints", CONTACTS: "contacts alone"}
+LABELS = {SUBJECT: "vox, with constraints", CONTACTS: "vox, contacts alone", REFERENCE: "paper's algorithm, contacts alone"}
 PEER_COLOURS = ["#1f77b4", "#6baed6", "#ff7f0e", "#2ca02c", "#9467bd", "#8c564b", "#bcbd22", "#17becf"]
 PEER_MARKERS = "s<D^vPX>"
 
@@ -45,7 +45,7 @@ def draw_scenes(axes, scenes):
     entrants, peers = [], []
     for scene in scenes:
         for name, row in scene.rows.items():
-            if name not in entrants and name != AVX2:  # it would hide the default
+            if name not in entrants and name != AVX2:  # it would hide the subject
                 entrants.append(name)
                 if row["kind"] == "peer":
                     peers.append(name)

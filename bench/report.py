@@ -17,7 +17,7 @@ from collections import namedtuple
 from figures import AVX2, CONTACTS, F1, F2, REFERENCE, SUBJECT, read
 from page import put
 
-# What is aimed at in a scene; None: nothing. The default step takes at most `over` times as long as contacts alone, and is
+# What is aimed at in a scene; None: nothing. A step with constraints takes at most `over` times as long as contacts alone, and is
 # at least `peer` times as fast as the best peer, which finds contacts alone. Contacts alone are found at least so many
 # times as fast as by the reference engine at its best cell size and by the best peer, and take at most so many times a
 # floor. The figures of scenes made to size are for a million tetrahedra.
@@ -89,25 +89,25 @@ def inverse(value):
 
 
 def over_contacts(scene):
-    """How many times as long as contacts alone the default step takes, or None."""
+    """How many times as long as contacts alone a step with constraints takes, or None."""
     return inverse(scene.times_faster(SUBJECT, CONTACTS))
 
 
 def over_avx512(scene):
-    """How many times as long the default step takes with AVX2, or None."""
+    """How many times as long a step with constraints takes with AVX2, or None."""
     return scene.times_faster(SUBJECT, AVX2)
 
 
 def aims(scenes):
-    """Each figure beside what is aimed at: first the default step, then contacts alone."""
-    default, alone = [], []
+    """Each figure beside what is aimed at: first the step with constraints, then contacts alone."""
+    full, alone = [], []
     for goal in GOALS:
         scene = goal_scene(scenes, goal.scene)
         if scene is None:
             continue
         start, best = [scene.label(), str(scene.tets)], scene.best_peer()
-        default.append(start + [judged(over_contacts(scene), goal.over, False),
-                                judged(scene.times_faster(SUBJECT, best), goal.peer, True)])
+        full.append(start + [judged(over_contacts(scene), goal.over, False),
+                             judged(scene.times_faster(SUBJECT, best), goal.peer, True)])
         if goal.reference is None:
             continue
         on_floor = "-"
@@ -116,30 +116,30 @@ def aims(scenes):
             on_floor = judged(inverse(scene.times_faster(CONTACTS, floor)), limit, False) + f" ({floor.split()[0]})"
         alone.append(start + [judged(scene.times_faster(CONTACTS, REFERENCE), goal.reference, True),
                               judged(scene.times_faster(CONTACTS, best), goal.contacts_peer, True), on_floor])
-    if not default:
+    if not full:
         print("The aims are for a million tetrahedra; this run has no such scene.\n")
         return
-    print("The default step, which finds contacts and penetrations:\n")
-    table(["scene", "tets", "× contacts alone", "× as fast as the best peer, which finds contacts alone"], default)
-    print("Contacts alone, without the depth stage:\n")
+    print("A step with constraints (`VOX_GRID_CONSTRAINTS`):\n")
+    table(["scene", "tets", "× contacts alone", "× as fast as the best peer, which finds contacts alone"], full)
+    print("Contacts alone, the default:\n")
     table(["scene", "tets", "× as fast as the reference engine", "× as fast as the best peer", "× a floor"], alone)
     most, per_tet = most_bytes(scenes, SUBJECT)
     if most:
-        print(f"* Memory of a default grid, bytes a tetrahedron beyond the caller's arrays, the worst scene but for the hard "
+        print(f"* Memory of a grid with constraints, bytes a tetrahedron beyond the caller's arrays, the worst scene but for the hard "
               f"ones ({most.name}, {most.tets} tets): {judged(per_tet, GOAL_BYTES_PER_TET, False)}.")
     slowest = max((scene for scene in scenes if AVX2 in scene.rows and SUBJECT in scene.rows), key=over_avx512,
                   default=None)
     if slowest:
-        print(f"* The default step with AVX2 beside AVX-512, the worst scene ({slowest.name}, {slowest.tets} tets): "
+        print(f"* A step with constraints with AVX2 beside AVX-512, the worst scene ({slowest.name}, {slowest.tets} tets): "
               f"{judged(over_avx512(slowest), GOAL_AVX2, False)}.")
     largest, rate = insertion(scenes, SUBJECT)
     if largest:
-        print(f"* Insertion into a default grid, million tetrahedra a second ({largest.name}, {largest.tets} tets): "
+        print(f"* Insertion into a grid with constraints, million tetrahedra a second ({largest.name}, {largest.tets} tets): "
               f"{judged(rate / 1e6, GOAL_INSERTED_PER_SECOND / 1e6, True)}.")
 
 
 def in_short(scenes):
-    """The default step beside contacts alone and the best of the others, then contacts alone beside the others."""
+    """The step with constraints beside contacts alone and the best of the others, then contacts alone beside the others."""
     rows = []
     for scene in scenes:
         best = scene.best_peer()
@@ -148,12 +148,12 @@ def in_short(scenes):
                      number(scene.times_faster(SUBJECT, best)), number(scene.times_faster(CONTACTS, best)), best or "-",
                      number(scene.times_faster(CONTACTS, REFERENCE)),
                      number(inverse(scene.times_faster(CONTACTS, F2)))])
-    table(["scene", "tets", "default step, ms", "contacts alone, ms", "default / contacts alone",
-           "default with AVX2 / with AVX-512", "default: × as fast as the best other library", "contacts alone: × as fast as it", "which",
+    table(["scene", "tets", "with constraints, ms", "contacts alone, ms", "constraints / contacts alone",
+           "constraints with AVX2 / with AVX-512", "constraints: × as fast as the best other library", "contacts alone: × as fast as it", "which",
            "contacts alone: × as fast as the paper's algorithm",
            "contacts alone: × the time of making all boxes (F2)"], rows)
-    print("A default step finds contacts and penetrations. The other libraries and the paper's algorithm find contacts "
-          "alone.\n")
+    print("A step with constraints finds depths, normals and stencils, too. A default step, the other libraries and the paper's "
+          "algorithm find contacts alone.\n")
 
 
 def most_bytes(scenes, entrant):
@@ -170,7 +170,7 @@ def insertion(scenes, entrant):
 
 
 def memory_and_insertion(scenes):
-    for entrant, grid in ((SUBJECT, "a default grid"), (CONTACTS, "one without the depth stage")):
+    for entrant, grid in ((SUBJECT, "a grid with constraints"), (CONTACTS, "a default grid")):
         most, per_tet = most_bytes(scenes, entrant)
         if not most:
             continue
@@ -182,7 +182,7 @@ def memory_and_insertion(scenes):
 
 def growth(scenes):
     """Time over size in logarithms: the slope of the least-squares line."""
-    for entrant, step in ((SUBJECT, "default step"), (CONTACTS, "contacts alone")):
+    for entrant, step in ((SUBJECT, "with constraints"), (CONTACTS, "contacts alone")):
         by_name = {}
         for scene in scenes:
             if not scene.is_comparison() and entrant in scene.rows:
@@ -224,18 +224,18 @@ def headlines(scenes):
     if scene is None:
         raise SystemExit(f"the headlines need {SUBJECT} and {CONTACTS} in the scene {HEADLINE}")
     tets = f"{scene.tets:,} tetrahedra in all"
-    default, alone = number(scene.ms(SUBJECT), 2), number(scene.ms(CONTACTS), 2)
-    fast = (f"A default step over two bodies in contact, {tets}, takes\n  {default} ms on one thread, penetration depth "
-            f"included; contacts alone take {alone} ms.")
-    text = (f"\nTwo bodies, {tets}, 1 % of them in contact, one thread: a default step, which finds contacts and\n"
-            f"penetrations, takes {default} ms; with the depth stage off, contacts alone take {alone} ms.")
+    full, alone = number(scene.ms(SUBJECT), 2), number(scene.ms(CONTACTS), 2)
+    fast = (f"A default step over two bodies in contact, {tets}, takes\n  {alone} ms on one thread; with constraints, "
+            f"penetration depth included, {full} ms.")
+    text = (f"\nTwo bodies, {tets}, 1 % of them in contact, one thread: a default step, which finds\n"
+            f"contacts alone, takes {alone} ms; with constraints, depths and normals included, it takes {full} ms.")
     best = scene.best_peer()
     if best and REFERENCE in scene.rows:
         text += (f" In the same run the best of the other\nlibraries, which find contacts alone, takes "
-                 f"{number(scene.times_faster(SUBJECT, best), 2)} times as long as the default step, and "
-                 f"{number(scene.times_faster(CONTACTS, best), 2)} times as long as\ncontacts alone; the paper's "
-                 f"algorithm at its best cell size takes {number(scene.times_faster(SUBJECT, REFERENCE), 2)} and "
-                 f"{number(scene.times_faster(CONTACTS, REFERENCE), 2)} times as long.")
+                 f"{number(scene.times_faster(CONTACTS, best), 2)} times as long as the default step, and "
+                 f"{number(scene.times_faster(SUBJECT, best), 2)} times as long as\none with constraints; the paper's "
+                 f"algorithm at its best cell size takes {number(scene.times_faster(CONTACTS, REFERENCE), 2)} and "
+                 f"{number(scene.times_faster(SUBJECT, REFERENCE), 2)} times as long.")
     return {"fast": fast, "how-fast": text + "\n"}
 
 
@@ -258,8 +258,8 @@ def main():
     command = re.sub(r"(--meshes)[ =]\S+", r"\1 FOLDER", run["command"])
     print("# Performance\n")
     print("Written by `bench/report.py` from the benchmark's results; [bench/README.md](../bench/README.md) says what is "
-          f"timed and how, what was tried, and what is aimed at. `{SUBJECT}` is the default grid with all that its step "
-          f"does, `{CONTACTS}` the same without the depth stage.\n")
+          f"timed and how, what was tried, and what is aimed at. `{SUBJECT}` is a grid with constraints with all that its step "
+          f"does, `{CONTACTS}` the default grid.\n")
     print(f"    {command}\n")
     print(f"* Machine: {run['cpu']}, one thread\n* Build: {run['build']}\n* Date: {run['date']}\n"
           f"* Contacts: {'the same from all' if all(r['agrees'] == '1' for r in rows) else '**NOT** the same from all'}\n")

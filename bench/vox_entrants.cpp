@@ -1,6 +1,6 @@
-// vox through its C interface, as a user would call it: the default grid and all that its step does, the same
-// as a machine without AVX-512 runs it, the same without the depth stage, and the paper's algorithm without
-// it.
+// vox through its C interface, as a user would call it: a grid with constraints and all that its step does,
+// the same as a machine without AVX-512 runs it, the default grid, which finds contacts alone, and the
+// paper's algorithm, which does so too.
 #include "entrant.hpp"
 #include "scenes/counters.h"
 #include "scenes/engines.h"
@@ -115,9 +115,9 @@ std::vector<EntrantMaker> vox_entrants() {
 
 vox_grid_desc grid_desc(const std::string& vox_entrant) {
     vox_grid_desc desc = vox_default_grid_desc();
-    if (vox_entrant == subject_name || vox_entrant == avx2_name) return desc; // as a user gets it
-    desc.flags &= ~static_cast<std::uint32_t>(VOX_GRID_PENETRATIONS);
-    if (vox_entrant == reference_name)
+    if (vox_entrant == subject_name || vox_entrant == avx2_name)
+        desc.flags = VOX_GRID_CONSTRAINTS;
+    else if (vox_entrant == reference_name)
         use_engine(&desc, ENGINE_REFERENCE);
     else if (vox_entrant != contacts_name)
         throw std::invalid_argument(vox_entrant + " is no entrant of vox");

@@ -23,7 +23,7 @@ for (const file of modules) flavours[path.basename(file)] = await load({ wasm: r
 
 // Two blocks of 5 n^3 tetrahedra, one of which moves to and fro; how far they overlap.
 const scenes = [["2k tets", 6, 0.9], ["40k tets, light", 16, 0.97], ["40k tets, deep", 16, 0.6], ["200k tets", 27, 0.97]];
-const STAGES = ["stream", "broad_phase", "windows", "lookup", "decide", "contacts", "depth", "events"];
+const STAGES = ["stream", "broad_phase", "windows", "lookup", "decide", "contacts", "depth", "constraints", "pairs"];
 const STEPS = 60;
 
 class Times {
@@ -36,7 +36,7 @@ class Times {
 }
 
 function scene(vox, arrays, offset) {
-  const grid = new vox.Grid();
+  const grid = new vox.Grid({ flags: vox.GridFlags.CONSTRAINTS });
   grid.add(arrays);
   const body = grid.add(arrays);
   const times = new Times();

@@ -11,7 +11,7 @@ import subprocess
 import sys
 import tempfile
 
-HASH = "2812279c886bc8d6"
+HASH = "20dfe036a1d1bec0"
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(HERE)
 

@@ -47,9 +47,9 @@ static inline vox_mesh_desc cube_desc(const cube* c) {
 
 static inline vox_body insert_cube(vox_grid* grid, const cube* c) {
     const vox_mesh_desc desc = cube_desc(c);
-    vox_body mesh = VOX_NULL_BODY;
-    must(vox_mesh_insert(grid, &desc, &mesh));
-    return mesh;
+    vox_body id = VOX_NULL_BODY;
+    must(vox_mesh_insert(grid, &desc, &id));
+    return id;
 }
 
 static inline uint64_t contact_count(const vox_grid* grid) {

@@ -33,10 +33,9 @@
     X(unknown_penetrations)                                                                                  \
     X(carried_penetrations)                                                                                  \
     X(meshes_without_tets)                                                                                   \
-    X(total_contacts_began)                                                                                  \
-    X(total_contacts_ended)                                                                                  \
     X(edge_contacts)                                                                                         \
-    X(carried_edge_contacts) X(edge_candidates) X(margin_contacts) X(carried_margin_contacts) X(passages)
+    X(carried_edge_contacts)                                                                                 \
+    X(edge_candidates) X(margin_contacts) X(carried_margin_contacts) X(passages) X(constraints)
 #define GRID_TIMES(X)                                                                                        \
     X(step_ns)                                                                                               \
     X(bin_ns)                                                                                                \
@@ -44,7 +43,8 @@
     X(narrow_ns)                                                                                             \
     X(contacts_ns)                                                                                           \
     X(depth_ns)                                                                                              \
-    X(events_ns)                                                                                             \
+    X(constraints_ns)                                                                                        \
+    X(pairs_ns)                                                                                              \
     X(stream_ns)                                                                                             \
     X(winding_ns) X(broad_phase_ns) X(windows_ns) X(lookup_ns) X(decide_ns) X(edges_ns) X(margin_ns)
 

@@ -26,6 +26,10 @@ struct CheckOptions {
     bool json = false;
 };
 
+const char* crossing_name(vox_crossing_kind kind) {
+    return kind == VOX_CROSSING_THROUGH ? "through" : kind == VOX_CROSSING_TOUCHING ? "touching" : "coplanar";
+}
+
 using Triangle = std::array<std::uint32_t, 3>;
 
 // The surface of a mesh: its triangles, or the facets of exactly one of its tetrahedra. Vertices at the same
@@ -125,13 +129,11 @@ Checked check_file(const std::string& file, const CheckOptions& options) {
     motion.from = vox_double_positions(checked.surface.positions.data(), desc.vertex_count);
     check(vox_surface_move(surface.get(), &motion));
     vox_feature_view edges{};
-    edges.struct_size = sizeof edges;
     check(vox_surface_get_features(surface.get(), VOX_FEATURE_EDGE, &edges));
     checked.edges.assign(edges.vertices, edges.vertices + 2 * edges.count);
     vox_crossing_view view{};
-    view.struct_size = sizeof view;
     check(vox_surface_find_crossings(surface.get(), &view));
-    checked.crossings.assign(view.crossings, view.crossings + view.count);
+    checked.crossings.assign(view.data, view.data + view.count);
     return checked;
 }
 
@@ -153,7 +155,7 @@ void print_check(const Checked& checked, std::uint64_t limit) {
         const Triangle& face = checked.surface.triangles[c.face];
         std::printf("  edge %u %u, triangle %u %u %u, at %.9g %.9g %.9g, %s\n", checked.edges[2 * c.edge],
                     checked.edges[2 * c.edge + 1], face[0], face[1], face[2], c.position[0], c.position[1],
-                    c.position[2], kind_name(c.kind));
+                    c.position[2], crossing_name(c.kind));
     }
     if (shown < checked.crossings.size())
         std::printf("  and %llu more (--limit N prints N of them, --json all of them)\n",
@@ -166,7 +168,7 @@ Json check_json(const Checked& checked) {
         const Triangle& face = checked.surface.triangles[c.face];
         list.push_back({{"edge", Json::array({checked.edges[2 * c.edge], checked.edges[2 * c.edge + 1]})},
                         {"triangle", Json::array_of(face)},
-                        {"kind", kind_name(c.kind)},
+                        {"kind", crossing_name(c.kind)},
                         {"position", Json::array_of(c.position)}});
     }
     return {{"file", checked.file},

@@ -33,67 +33,39 @@ struct CollideOptions {
 
 double milliseconds(std::uint64_t nanoseconds) { return static_cast<double>(nanoseconds) * 1e-6; }
 
-void print_penetrations(const CollideOptions& options, const vox_grid* grid,
-                        const std::vector<vox_body>& ids) {
-    const vox_penetration_view view = penetrations_of(grid);
-    if (view.count == 0) return;
-    std::printf("\n%llu %s\n", static_cast<unsigned long long>(view.count),
-                view.count == 1 ? "penetrating vertex" : "penetrating vertices");
-    const std::uint64_t shown = std::min(view.count, options.limit);
-    if (shown > 0) std::printf("  %12s in        depth   direction out, state\n", "vertex");
-    for (std::uint64_t i = 0; i < shown; ++i) {
-        const vox_penetration p = penetration_at(view, i);
-        std::printf("  %c %10u  %c %12.6g   %9.6f %9.6f %9.6f, %s\n",
-                    place_of(ids, p.body_a) == 0 ? 'A' : 'B', p.vertex,
-                    place_of(ids, p.body_b) == 0 ? 'A' : 'B', static_cast<double>(p.depth),
-                    static_cast<double>(p.direction[0]), static_cast<double>(p.direction[1]),
-                    static_cast<double>(p.direction[2]), state_name(p.state));
-    }
-    if (shown < view.count)
-        std::printf("  and %llu more\n", static_cast<unsigned long long>(view.count - shown));
+void print_rest(std::uint64_t count) {
+    if (count > 0)
+        std::printf("  and %llu more (--limit N prints N of them, --json all of them)\n",
+                    static_cast<unsigned long long>(count));
 }
 
-void print_edges(const CollideOptions& options, const vox_grid* grid, const std::vector<vox_body>& ids) {
-    const vox_edge_contact_view view = edge_contacts_of(grid);
-    const vox_depth_view depths = edge_depths_of(grid);
-    std::printf("\n%llu %s\n", static_cast<unsigned long long>(view.count),
-                view.count == 1 ? "edge contact" : "edge contacts");
-    const std::uint64_t shown = std::min(view.count, options.limit);
-    if (shown > 0)
-        std::printf("  %23s   %34s   position, depth, direction out, kind\n", "edge", "through face");
-    for (std::uint64_t i = 0; i < shown; ++i) {
-        const vox_edge_contact c = edge_contact_at(view, i);
-        const vox_depth depth = depth_at(depths, i);
-        std::printf("  %c %10u %10u   %c %10u %10u %10u   %.6g %.6g %.6g, %.6g, %.6f %.6f %.6f, %s\n",
-                    place_of(ids, c.body_a) == 0 ? 'A' : 'B', c.edge[0], c.edge[1],
-                    place_of(ids, c.body_b) == 0 ? 'A' : 'B', c.face[0], c.face[1], c.face[2], c.position[0],
-                    c.position[1], c.position[2], depth.depth, depth.direction[0], depth.direction[1],
-                    depth.direction[2], kind_name(c.kind));
+void print_constraints(const CollideOptions& options, const vox_grid* grid,
+                       const std::vector<vox_body>& ids) {
+    const std::span<const vox_constraint> all = constraints_of(grid);
+    std::printf("\n%zu %s", all.size(), all.size() == 1 ? "constraint" : "constraints");
+    const char* separator = ": ";
+    for (const vox_constraint_kind kind :
+         {VOX_CONSTRAINT_INSIDE, VOX_CONSTRAINT_EDGE, VOX_CONSTRAINT_PROXIMITY, VOX_CONSTRAINT_IMPACT})
+        if (const auto count = std::ranges::count(all, kind, &vox_constraint::kind); count > 0) {
+            std::printf("%s%td %s", separator, count, kind_name(kind));
+            separator = ", ";
+        }
+    std::printf("\n");
+    const std::size_t shown = static_cast<std::size_t>(std::min<std::uint64_t>(all.size(), options.limit));
+    if (shown > 0) std::printf("  kind       vertices, those of the other body; gap, normal, state\n");
+    for (const vox_constraint& c : all.first(shown)) {
+        std::printf("  %-9s ", kind_name(c.kind));
+        for (std::uint32_t i = 0; i < c.count; ++i) {
+            if (i == 0 || i == c.count_a)
+                std::printf("  %c", place_of(ids, i == 0 ? c.body_a : c.body_b) == 0 ? 'A' : 'B');
+            std::printf(" %u", c.vertices[i]);
+        }
+        std::printf("; %.6g, %.6f %.6f %.6f, %s", c.gap, c.normal[0], c.normal[1], c.normal[2],
+                    state_name(c.state));
+        if (c.time < 1) std::printf(", at %.9g of the way", c.time);
+        std::printf("\n");
     }
-    if (shown < view.count)
-        std::printf("  and %llu more\n", static_cast<unsigned long long>(view.count - shown));
-}
-
-void print_near(const CollideOptions& options, const vox_grid* grid, const std::vector<vox_body>& ids) {
-    const auto letter = [&](vox_body mesh) { return place_of(ids, mesh) == 0 ? 'A' : 'B'; };
-    const auto title = [](std::size_t count, const char* one, const char* many) {
-        std::printf("\n%zu %s\n", count, count == 1 ? one : many);
-    };
-    if (has_margin(grid)) {
-        const std::vector<vox_margin_contact> all = margin_contacts_of(grid);
-        title(all.size(), "vertex within the margin", "vertices within the margin");
-        for (std::size_t i = 0; i < std::min<std::uint64_t>(all.size(), options.limit); ++i)
-            std::printf("  %c %10u  %c %12.6g   %9.6f %9.6f %9.6f\n", letter(all[i].body_a), all[i].vertex,
-                        letter(all[i].body_b), all[i].distance, all[i].normal[0], all[i].normal[1],
-                        all[i].normal[2]);
-    }
-    if (!options.moving.empty()) {
-        const std::vector<vox_passage> all = passages_of(grid);
-        title(all.size(), "vertex met a surface on the way", "vertices met a surface on the way");
-        for (std::size_t i = 0; i < std::min<std::uint64_t>(all.size(), options.limit); ++i)
-            std::printf("  %c %10u  %c face %u %u %u at %.9g\n", letter(all[i].body_a), all[i].vertex,
-                        letter(all[i].body_b), all[i].face[0], all[i].face[1], all[i].face[2], all[i].time);
-    }
+    print_rest(all.size() - shown);
 }
 
 void print_collide(const CollideOptions& options, const vox_grid* grid, const std::vector<Body>& bodies,
@@ -105,26 +77,16 @@ void print_collide(const CollideOptions& options, const vox_grid* grid, const st
                     bodies[i].view.tet_count > 0
                         ? ""
                         : " (a surface: its vertices collide, but it has no inside; --fill makes one)");
-    const vox_contact_view view = contacts_of(grid);
-    std::printf("\n%llu %s\n", static_cast<unsigned long long>(view.count),
-                view.count == 1 ? "contact" : "contacts");
-    const std::uint64_t shown = view.count < options.limit ? view.count : options.limit;
-    if (shown > 0) std::printf("  %12s %14s   weights of the corners\n", "vertex", "in tet");
-    for (std::uint64_t i = 0; i < shown; ++i) {
-        const vox_contact contact = contact_at(view, i);
-        const float* weight = contact.barycentric;
-        std::printf("  %c %10u   %c %10u   %.9g %.9g %.9g %.9g\n",
-                    place_of(ids, contact.body_a) == 0 ? 'A' : 'B', contact.vertex,
-                    place_of(ids, contact.body_b) == 0 ? 'A' : 'B', contact.tet,
-                    static_cast<double>(weight[0]), static_cast<double>(weight[1]),
-                    static_cast<double>(weight[2]), static_cast<double>(weight[3]));
-    }
-    if (shown < view.count)
-        std::printf("  and %llu more (--limit N prints N of them, --json all of them)\n",
-                    static_cast<unsigned long long>(view.count - shown));
-    if (!options.no_depth) print_penetrations(options, grid, ids);
-    if (options.edges) print_edges(options, grid, ids);
-    print_near(options, grid, ids);
+    const std::span<const vox_contact> contacts = contacts_of(grid);
+    std::printf("\n%zu %s\n", contacts.size(), contacts.size() == 1 ? "contact" : "contacts");
+    const std::size_t shown =
+        static_cast<std::size_t>(std::min<std::uint64_t>(contacts.size(), options.limit));
+    if (shown > 0) std::printf("  %12s %14s\n", "vertex", "in tet");
+    for (const vox_contact& contact : contacts.first(shown))
+        std::printf("  %c %10u   %c %10u\n", place_of(ids, contact.body_a) == 0 ? 'A' : 'B', contact.vertex,
+                    place_of(ids, contact.body_b) == 0 ? 'A' : 'B', contact.tet);
+    print_rest(contacts.size() - shown);
+    print_constraints(options, grid, ids);
     std::printf("\nhash %s, cell size %.9g\n", hexadecimal(hash_of(grid)).c_str(), info_of(grid).cell_size);
     std::printf("step %.3f ms: ", milliseconds(value_of(times, "step_ns")));
     if (value_of(times, "stream_ns") > 0) // the fast engine
@@ -137,8 +99,9 @@ void print_collide(const CollideOptions& options, const vox_grid* grid, const st
         std::printf("bin %.3f, broad phase %.3f, narrow phase %.3f", milliseconds(value_of(times, "bin_ns")),
                     milliseconds(value_of(times, "broad_ns")), milliseconds(value_of(times, "narrow_ns")));
     if (options.edges) std::printf(", edges %.3f", milliseconds(value_of(times, "edges_ns")));
-    std::printf(", contacts %.3f, depth %.3f (%s)\n", milliseconds(value_of(times, "contacts_ns")),
-                milliseconds(value_of(times, "depth_ns")),
+    std::printf(", contacts %.3f, depth %.3f, constraints %.3f (%s)\n",
+                milliseconds(value_of(times, "contacts_ns")), milliseconds(value_of(times, "depth_ns")),
+                milliseconds(value_of(times, "constraints_ns")),
                 options.repeat == 1
                     ? "one step, in which all vertices move; --repeat N gives medians"
                     : ("medians of " + std::to_string(options.repeat) + " steps, in which all vertices move")
@@ -184,8 +147,8 @@ void run_collide(const CollideOptions& options) {
     std::vector<vox_body> ids;
     GridOptions settings = options.grid;
     vox_grid_desc desc = settings.grid_desc();
-    if (options.no_depth) desc.flags &= ~std::uint32_t{VOX_GRID_PENETRATIONS};
-    if (options.edges) desc.flags |= VOX_GRID_EDGE_CONTACTS;
+    if (!options.no_depth) desc.flags |= VOX_GRID_CONSTRAINTS;
+    if (options.edges) desc.flags |= VOX_GRID_EDGES;
     std::vector<vox_mesh_desc> meshes;
     for (const Body& body : bodies) meshes.push_back(mesh_desc(body));
     if (options.self)
@@ -193,19 +156,21 @@ void run_collide(const CollideOptions& options) {
     const Grid grid = make_grid(desc, meshes, ids);
     if (!options.moving.empty()) bind_previous(grid.get(), ids[0], bodies[0], before);
     const Counters times = measure_steps(grid.get(), bodies, ids, options.repeat);
-    if (options.edges) check(vox_grid_prepare_edge_depths(grid.get()));
+    if (options.no_depth) {
+        vox_constraint_desc bare = vox_default_constraint_desc();
+        bare.method = VOX_DEPTH_METHOD_NONE;
+        check(vox_grid_find_constraints(grid.get(), &bare));
+    }
     if (!options.save.empty()) save_snapshot(grid.get(), options.save);
-    if (!options.csv.empty()) write_contacts(options.csv, ids, grid.get());
+    if (!options.csv.empty()) write_constraints(options.csv, ids, grid.get());
     if (!options.out.empty()) {
         std::vector<DrawnMesh> drawn;
         for (std::size_t i = 0; i < bodies.size(); ++i) drawn.push_back(drawn_mesh(bodies[i], ids[i]));
-        write_results(options.out, drawn, grid.get(), !options.moving.empty());
+        write_results(options.out, drawn, grid.get());
     }
     if (!options.json) return print_collide(options, grid.get(), bodies, ids, times);
     Json json = {{"meshes", body_list(bodies)}, {"cell_size", info_of(grid.get()).cell_size}};
     add_collision(json, grid.get(), ids, times);
-    if (has_margin(grid.get())) json.add("margin_contacts", margin_contacts(grid.get(), ids));
-    if (!options.moving.empty()) json.add("passages", passages(grid.get(), ids));
     print(json);
 }
 
@@ -230,8 +195,9 @@ void add_collide(CommandLine& line) {
                 "Also find vertices outside, but within this distance of a surface")
         .not_negative();
     command
-        .option("--moving", options->moving,
-                "Mesh file with where the vertices of A were: also find what meets a surface on the way")
+        .option(
+            "--moving", options->moving,
+            "Mesh file with where the vertices of A were: also find what went through a surface on the way")
         .shown_as("PREVIOUS");
     command.choice("--engine", options->grid.engine, engines, "Algorithm");
     command.option("--cell-size", options->grid.desc.cell_size, "Edge of a cell; 0: the library chooses")
@@ -242,13 +208,15 @@ void add_collide(CommandLine& line) {
         .option("--repeat", options->repeat,
                 "Number of steps to time, after one to warm up; the bodies wobble, and come back")
         .range(1, 1000000);
-    command.option("--limit", options->limit, "Most contacts to print as text");
-    command.flag("--no-depth", options->no_depth, "Find contacts only, without depths and directions");
+    command.option("--limit", options->limit, "Most contacts, and constraints, to print as text");
+    command.flag("--no-depth", options->no_depth,
+                 "Leave out depths: the gaps of vertices inside are 0, and so are their normals");
     command.flag("--edges", options->edges, "Also find edges of one mesh through faces of the other");
     command
-        .option("-o,--output", options->out, "Write meshes, contacts and depths to this file, .vtu or .msh")
+        .option("-o,--output", options->out,
+                "Write meshes, contacts and constraints to this file, .vtu or .msh")
         .shown_as("FILE");
-    command.option("--csv", options->csv, "Write all contacts to this file, a line each").shown_as("FILE");
+    command.option("--csv", options->csv, "Write all constraints to this file, a line each").shown_as("FILE");
     command.option("--save", options->save, "Write a snapshot of the grid to this file, for vox replay")
         .shown_as("FILE");
     command.flag("--json", options->json, "Print one JSON object");

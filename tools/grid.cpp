@@ -3,7 +3,6 @@
 #include "failure.hpp"
 
 #include <algorithm>
-#include <type_traits>
 
 namespace tool {
 
@@ -45,28 +44,16 @@ std::uint64_t hash_of(const vox_grid* grid) {
     return hash;
 }
 
-vox_contact_view contacts_of(const vox_grid* grid) {
+std::span<const vox_contact> contacts_of(const vox_grid* grid) {
     vox_contact_view view{};
     check(vox_grid_get_contacts(grid, &view));
-    return view;
+    return {view.data, static_cast<std::size_t>(view.count)};
 }
 
-vox_penetration_view penetrations_of(const vox_grid* grid) {
-    vox_penetration_view view{};
-    check(vox_grid_penetrations(grid, &view));
-    return view;
-}
-
-vox_edge_contact_view edge_contacts_of(const vox_grid* grid) {
-    vox_edge_contact_view view{};
-    check(vox_grid_edge_contacts(grid, &view));
-    return view;
-}
-
-vox_depth_view edge_depths_of(const vox_grid* grid) {
-    vox_depth_view view{};
-    check(vox_grid_edge_depths(grid, &view));
-    return view;
+std::span<const vox_constraint> constraints_of(const vox_grid* grid) {
+    vox_constraint_view view{};
+    check(vox_grid_get_constraints(grid, &view));
+    return {view.data, static_cast<std::size_t>(view.count)};
 }
 
 Counters median(std::span<const Counters> steps) {
@@ -85,38 +72,5 @@ void step_anew(vox_grid* grid, std::span<const vox_body> ids) {
     for (const vox_body id : ids) check(vox_body_mark_moved(grid, id));
     check(vox_grid_step(grid));
 }
-
-namespace {
-
-// The elements of a view, which may be larger than this program knows them.
-template <class View>
-auto elements_of(const View& view) {
-    std::vector<std::remove_cvref_t<decltype(*view.data)>> all(view.count);
-    for (std::uint64_t i = 0; i < view.count; ++i)
-        std::memcpy(&all[i], reinterpret_cast<const char*>(view.data) + i * view.byte_stride, sizeof all[i]);
-    return all;
-}
-
-bool has_flag(const vox_grid* grid, std::uint32_t flag) { return (info_of(grid).flags & flag) != 0; }
-
-} // namespace
-
-bool has_margin(const vox_grid* grid) { return info_of(grid).margin > 0; }
-
-std::vector<vox_margin_contact> margin_contacts_of(const vox_grid* grid) {
-    vox_margin_contact_view view;
-    check(vox_grid_margin_contacts(grid, &view));
-    return elements_of(view);
-}
-
-std::vector<vox_passage> passages_of(const vox_grid* grid) {
-    vox_passage_view view;
-    check(vox_grid_passages(grid, &view));
-    return elements_of(view);
-}
-
-bool has_penetrations(const vox_grid* grid) { return has_flag(grid, VOX_GRID_PENETRATIONS); }
-
-bool has_edge_contacts(const vox_grid* grid) { return has_flag(grid, VOX_GRID_EDGE_CONTACTS); }
 
 } // namespace tool

@@ -77,6 +77,7 @@ void run_replay(const ReplayOptions& options) {
         for (std::uint32_t step = 0; step < options.steps; ++step) check(vox_grid_step(grid));
         if (!options.out.empty()) {
             const std::string drawing = is_series(options.out) ? file_in_series(options.out, i) : options.out;
+            check(vox_grid_find_constraints(grid, nullptr));
             write_results(drawing, drawn_meshes(snapshot.bytes), grid);
             series.push_back(utf8_of(path_of(drawing).filename()));
             times.push_back(epoch);
@@ -90,7 +91,7 @@ void run_replay(const ReplayOptions& options) {
                      {"saved_epoch", epoch},
                      {"steps", options.steps},
                      {"cell_size", info_of(grid).cell_size}};
-        json.add("contact_count", contacts_of(grid).count);
+        json.add("contact_count", contacts_of(grid).size());
         add_result(json, grid, counters_of(grid));
         grids.push_back(json);
     }
@@ -116,7 +117,7 @@ void add_replay(CommandLine& line) {
     add_threads(command, options->grid);
     command
         .option("-o,--output", options->out,
-                "Write meshes, contacts and depths: .vtu or .msh, or a series of snapshots, .pvd")
+                "Write meshes, contacts and constraints: .vtu or .msh, or a series of snapshots, .pvd")
         .shown_as("FILE");
     command.flag("--json", options->json, "Print one JSON object");
     command.runs([options] { run_replay(*options); });

@@ -21,49 +21,38 @@ Json rules(const vox_cell_size_rules& rules) {
             {"mean_volume", rule(rules.mean_volume)}, {"median_box_side", rule(rules.median_box_side)}};
 }
 
-Json penetrations(const vox_grid* grid, const std::vector<vox_body>& ids) {
-    const vox_penetration_view view = penetrations_of(grid);
+Json constraints(const vox_grid* grid, const std::vector<vox_body>& ids) {
     Json list = Json::array();
-    for (std::uint64_t i = 0; i < view.count; ++i) {
-        const vox_penetration p = penetration_at(view, i);
-        list.push_back({{"body_a", place_of(ids, p.body_a)},
-                        {"vertex", p.vertex},
-                        {"body_b", place_of(ids, p.body_b)},
-                        {"state", state_name(p.state)},
-                        {"contact", p.contact},
-                        {"depth", p.depth},
-                        {"direction", Json::array_of(p.direction)}});
-    }
-    return list;
-}
-
-Json edge_contacts(const vox_grid* grid, const std::vector<vox_body>& ids) {
-    const vox_edge_contact_view view = edge_contacts_of(grid);
-    const vox_depth_view depths = edge_depths_of(grid);
-    Json list = Json::array();
-    for (std::uint64_t i = 0; i < view.count; ++i) {
-        const vox_edge_contact c = edge_contact_at(view, i);
-        const vox_depth depth = depth_at(depths, i);
-        list.push_back({{"body_a", place_of(ids, c.body_a)},
-                        {"edge", Json::array_of(c.edge)},
+    for (const vox_constraint& c : constraints_of(grid))
+        list.push_back({{"kind", kind_name(c.kind)},
+                        {"state", state_name(c.state)},
+                        {"body_a", place_of(ids, c.body_a)},
                         {"body_b", place_of(ids, c.body_b)},
-                        {"face", Json::array_of(c.face)},
-                        {"tet", c.tet},
-                        {"kind", kind_name(c.kind)},
-                        {"edge_weights", Json::array_of(c.edge_weights)},
-                        {"face_weights", Json::array_of(c.face_weights)},
-                        {"position", Json::array_of(c.position)},
+                        {"count_a", c.count_a},
+                        {"vertices", Json::array_of(std::span(c.vertices).first(c.count))},
+                        {"weights", Json::array_of(std::span(c.weights).first(c.count))},
+                        {"element_b", c.element_b},
+                        {"gap", c.gap},
                         {"normal", Json::array_of(c.normal)},
-                        {"depth", depth.depth},
-                        {"direction", Json::array_of(depth.direction)}});
-    }
+                        {"position", Json::array_of(c.position)},
+                        {"time", c.time}});
     return list;
 }
 
 } // namespace
 
-const char* kind_name(vox_crossing_kind kind) {
-    return kind == VOX_CROSSING_THROUGH ? "through" : kind == VOX_CROSSING_TOUCHING ? "touching" : "coplanar";
+const char* kind_name(vox_constraint_kind kind) {
+    switch (kind) {
+    case VOX_CONSTRAINT_INSIDE:
+        return "inside";
+    case VOX_CONSTRAINT_EDGE:
+        return "edge";
+    case VOX_CONSTRAINT_PROXIMITY:
+        return "proximity";
+    case VOX_CONSTRAINT_IMPACT:
+        break;
+    }
+    return "impact";
 }
 
 const char* model_name(vox_cost_model model) {
@@ -80,19 +69,21 @@ const char* model_name(vox_cost_model model) {
     return "unknown";
 }
 
-const char* state_name(vox_penetration_state state) {
+const char* state_name(vox_depth_state state) {
     switch (state) {
-    case VOX_PENETRATION_SURFACE:
+    case VOX_DEPTH_SURFACE:
         return "surface";
-    case VOX_PENETRATION_PROPAGATED:
+    case VOX_DEPTH_PROPAGATED:
         return "propagated";
-    case VOX_PENETRATION_ENCLOSED:
-        return "enclosed";
-    case VOX_PENETRATION_CROSSING:
-        return "crossing";
-    case VOX_PENETRATION_COINCIDENT:
-        return "coincident";
-    case VOX_PENETRATION_UNKNOWN:
+    case VOX_DEPTH_CLOSEST:
+        return "closest";
+    case VOX_DEPTH_AMBIGUOUS:
+        return "ambiguous";
+    case VOX_DEPTH_TOUCHING:
+        return "touching";
+    case VOX_DEPTH_PLANE:
+        return "plane";
+    case VOX_DEPTH_UNKNOWN:
         break;
     }
     return "unknown";
@@ -157,47 +148,16 @@ void add_suggestion(Json& json, const vox_suggestion& suggestion) {
 
 void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_body>& ids,
                    const Counters& times) {
-    const vox_contact_view view = contacts_of(grid);
-    json.add("contact_count", view.count);
     Json contacts = Json::array();
-    for (std::uint64_t i = 0; i < view.count; ++i) {
-        const vox_contact contact = contact_at(view, i);
+    for (const vox_contact& contact : contacts_of(grid))
         contacts.push_back({{"body_a", place_of(ids, contact.body_a)},
                             {"vertex", contact.vertex},
                             {"body_b", place_of(ids, contact.body_b)},
-                            {"tet", contact.tet},
-                            {"barycentric", Json::array_of(contact.barycentric)}});
-    }
+                            {"tet", contact.tet}});
+    json.add("contact_count", contacts_of(grid).size());
     json.add("contacts", contacts);
-    json.add("penetrations", has_penetrations(grid) ? penetrations(grid, ids) : Json());
-    if (has_edge_contacts(grid)) json.add("edge_contacts", edge_contacts(grid, ids));
+    json.add("constraints", constraints(grid, ids));
     add_result(json, grid, times);
-}
-
-Json margin_contacts(const vox_grid* grid, const std::vector<vox_body>& ids) {
-    Json list = Json::array();
-    for (const vox_margin_contact& c : margin_contacts_of(grid))
-        list.push_back({{"body_a", place_of(ids, c.body_a)},
-                        {"vertex", c.vertex},
-                        {"body_b", place_of(ids, c.body_b)},
-                        {"tet", c.tet},
-                        {"face", Json::array_of(c.face)},
-                        {"face_weights", Json::array_of(c.face_weights)},
-                        {"distance", c.distance},
-                        {"normal", Json::array_of(c.normal)}});
-    return list;
-}
-
-Json passages(const vox_grid* grid, const std::vector<vox_body>& ids) {
-    Json list = Json::array();
-    for (const vox_passage& p : passages_of(grid))
-        list.push_back({{"body_a", place_of(ids, p.body_a)},
-                        {"vertex", p.vertex},
-                        {"body_b", place_of(ids, p.body_b)},
-                        {"tet", p.tet},
-                        {"face", Json::array_of(p.face)},
-                        {"time", p.time}});
-    return list;
 }
 
 void add_result(Json& json, const vox_grid* grid, const Counters& times) {

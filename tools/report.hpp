@@ -23,22 +23,18 @@ bool collides(const vox_suggestion& suggestion);
 // Adds the keys of `vox suggest`.
 void add_suggestion(Json& json, const vox_suggestion& suggestion);
 
-// Adds the keys of `vox collide` but for the cell size, for a grid that has run a step. In contacts, a mesh
-// is given by its index in `ids`.
+// Adds the keys of `vox collide` but for the cell size, for a grid whose constraints were looked for. In
+// contacts and constraints, a mesh is given by its index in `ids`.
 void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_body>& ids, const Counters& times);
-
-// Lists of the margin contacts and of the passages of the last step, meshes by their indices in `ids`.
-Json margin_contacts(const vox_grid* grid, const std::vector<vox_body>& ids);
-Json passages(const vox_grid* grid, const std::vector<vox_body>& ids);
 
 // Returns "paper", "reference", "fast" or "surface".
 const char* model_name(vox_cost_model model);
 
-// Returns "surface", "propagated", "enclosed", "crossing", "coincident" or "unknown".
-const char* state_name(vox_penetration_state state);
+// Returns "inside", "edge", "proximity" or "impact".
+const char* kind_name(vox_constraint_kind kind);
 
-// Returns "through", "touching" or "coplanar".
-const char* kind_name(vox_crossing_kind kind);
+// Returns "surface", "propagated", "closest", "ambiguous", "touching", "unknown" or "plane".
+const char* state_name(vox_depth_state state);
 
 // Adds the results of a step other than contacts: hash, profile, counters.
 void add_result(Json& json, const vox_grid* grid, const Counters& times);

@@ -18,10 +18,8 @@ struct Start {
 };
 
 struct Results {
-    std::vector<double> mesh, number, contacts;  // of vertices, or of cells
-    std::vector<double> depth, direction, state; // of vertices
-    std::vector<double> edge_contacts;           // of vertices
-    std::vector<double> margin_distance, margin_normal, passage_time;
+    std::vector<double> mesh, number, contacts;   // of vertices, or of cells
+    std::vector<double> kind, state, gap, normal; // of vertices
 };
 
 vox_io_point_data data(const char* name, const std::vector<double>& values, std::uint32_t components = 1) {
@@ -39,8 +37,7 @@ DrawnMesh drawn_mesh(const Body& body, vox_body id) {
     return mesh;
 }
 
-void write_results(const std::string& path, std::span<const DrawnMesh> meshes, const vox_grid* grid,
-                   bool moving) {
+void write_results(const std::string& path, std::span<const DrawnMesh> meshes, const vox_grid* grid) {
     std::vector<double> positions;
     std::vector<std::uint32_t> triangles, tets;
     std::vector<Start> starts;
@@ -73,9 +70,7 @@ void write_results(const std::string& path, std::span<const DrawnMesh> meshes, c
 
     vertices.contacts.assign(vertices.mesh.size(), 0);
     cells.contacts.assign(cells.mesh.size(), 0);
-    const vox_contact_view contacts = contacts_of(grid);
-    for (std::uint64_t i = 0; i < contacts.count; ++i) {
-        const vox_contact contact = contact_at(contacts, i);
+    for (const vox_contact& contact : contacts_of(grid)) {
         const std::size_t b = places.at(contact.body_b);
         std::size_t tet = contact.tet;
         if (const auto& numbers = meshes[b].numbers; !numbers.empty()) // ascending
@@ -84,57 +79,24 @@ void write_results(const std::string& path, std::span<const DrawnMesh> meshes, c
         vertices.contacts[starts[places.at(contact.body_a)].vertex + contact.vertex] += 1;
         cells.contacts[starts[b].tet + tet] += 1;
     }
-    std::vector<vox_io_point_data> of_points = {data("mesh", vertices.mesh), data("vertex", vertices.number),
-                                                data("contacts", vertices.contacts)};
-    if (has_penetrations(grid)) {
-        vertices.depth.assign(vertices.mesh.size(), 0);
-        vertices.direction.assign(3 * vertices.mesh.size(), 0);
-        vertices.state.assign(vertices.mesh.size(), -1);
-        const vox_penetration_view penetrations = penetrations_of(grid);
-        for (std::uint64_t i = 0; i < penetrations.count; ++i) {
-            const vox_penetration p = penetration_at(penetrations, i);
-            const std::size_t vertex = starts[places.at(p.body_a)].vertex + p.vertex;
-            if (vertices.state[vertex] >= 0 && vertices.depth[vertex] >= static_cast<double>(p.depth))
-                continue;
-            vertices.depth[vertex] = static_cast<double>(p.depth);
-            std::copy(p.direction, p.direction + 3, vertices.direction.begin() + 3 * std::ptrdiff_t(vertex));
-            vertices.state[vertex] = p.state;
+    vertices.kind.assign(vertices.mesh.size(), -1);
+    vertices.state.assign(vertices.mesh.size(), -1);
+    vertices.gap.assign(vertices.mesh.size(), 0);
+    vertices.normal.assign(3 * vertices.mesh.size(), 0);
+    for (const vox_constraint& c : constraints_of(grid))
+        for (const std::uint32_t v : std::span(c.vertices).first(c.count_a)) {
+            const std::size_t vertex = starts[places.at(c.body_a)].vertex + v;
+            if (vertices.state[vertex] >= 0 && vertices.gap[vertex] <= c.gap) continue;
+            vertices.kind[vertex] = c.kind;
+            vertices.state[vertex] = c.state;
+            vertices.gap[vertex] = c.gap;
+            std::copy(c.normal, c.normal + 3, vertices.normal.begin() + 3 * std::ptrdiff_t(vertex));
         }
-        of_points.push_back(data("depth", vertices.depth));
-        of_points.push_back(data("direction", vertices.direction, 3));
-        of_points.push_back(data("state", vertices.state));
-    }
-    if (has_edge_contacts(grid)) {
-        vertices.edge_contacts.assign(vertices.mesh.size(), 0);
-        const vox_edge_contact_view edges = edge_contacts_of(grid);
-        for (std::uint64_t i = 0; i < edges.count; ++i) {
-            const vox_edge_contact contact = edge_contact_at(edges, i);
-            for (const std::uint32_t vertex : contact.edge)
-                vertices.edge_contacts[starts[places.at(contact.body_a)].vertex + vertex] += 1;
-        }
-        of_points.push_back(data("edge_contacts", vertices.edge_contacts));
-    }
-    if (has_margin(grid)) {
-        vertices.margin_distance.assign(vertices.mesh.size(), -1);
-        vertices.margin_normal.assign(3 * vertices.mesh.size(), 0);
-        for (const vox_margin_contact& c : margin_contacts_of(grid)) {
-            const std::size_t vertex = starts[places.at(c.body_a)].vertex + c.vertex;
-            double& distance = vertices.margin_distance[vertex];
-            if (distance >= 0 && distance <= c.distance) continue;
-            distance = c.distance;
-            std::copy(c.normal, c.normal + 3, vertices.margin_normal.begin() + 3 * std::ptrdiff_t(vertex));
-        }
-        of_points.push_back(data("margin_distance", vertices.margin_distance));
-        of_points.push_back(data("margin_normal", vertices.margin_normal, 3));
-    }
-    if (moving) {
-        vertices.passage_time.assign(vertices.mesh.size(), -1);
-        for (const vox_passage& p : passages_of(grid)) {
-            double& time = vertices.passage_time[starts[places.at(p.body_a)].vertex + p.vertex];
-            if (time < 0 || p.time < time) time = p.time;
-        }
-        of_points.push_back(data("passage_time", vertices.passage_time));
-    }
+    const std::vector<vox_io_point_data> of_points = {
+        data("mesh", vertices.mesh),         data("vertex", vertices.number),
+        data("contacts", vertices.contacts), data("kind", vertices.kind),
+        data("state", vertices.state),       data("gap", vertices.gap),
+        data("normal", vertices.normal, 3)};
     const std::vector<vox_io_point_data> of_cells = {data("mesh", cells.mesh), data("tet", cells.number),
                                                      data("contacts", cells.contacts)};
 
@@ -151,32 +113,31 @@ void write_results(const std::string& path, std::span<const DrawnMesh> meshes, c
     check(vox_io_write(mesh.get(), path.c_str(), &desc));
 }
 
-void write_contacts(const std::string& path, const std::vector<vox_body>& ids, const vox_grid* grid) {
-    const bool deep = has_penetrations(grid);
-    std::string text = "body_a,vertex,body_b,tet,weight_0,weight_1,weight_2,weight_3";
-    text += deep ? ",depth,direction_x,direction_y,direction_z,state\n" : "\n";
-    const vox_contact_view contacts = contacts_of(grid);
-    const vox_penetration_view penetrations = deep ? penetrations_of(grid) : vox_penetration_view{};
-    std::uint64_t at = 0; // the penetration of the contact at hand
-    for (std::uint64_t i = 0; i < contacts.count; ++i) {
-        const vox_contact contact = contact_at(contacts, i);
-        const float* weight = contact.barycentric;
-        char line[256];
-        std::snprintf(line, sizeof line, "%zu,%u,%zu,%u,%.9g,%.9g,%.9g,%.9g", place_of(ids, contact.body_a),
-                      contact.vertex, place_of(ids, contact.body_b), contact.tet,
-                      static_cast<double>(weight[0]), static_cast<double>(weight[1]),
-                      static_cast<double>(weight[2]), static_cast<double>(weight[3]));
-        text += line;
-        if (deep) {
-            // The contacts of a vertex in one mesh stand together. They share a penetration, which names the
-            // first of them.
-            if (at + 1 < penetrations.count && penetration_at(penetrations, at + 1).contact == i) ++at;
-            const vox_penetration p = penetration_at(penetrations, at);
-            std::snprintf(line, sizeof line, ",%.9g,%.9g,%.9g,%.9g,%s", static_cast<double>(p.depth),
-                          static_cast<double>(p.direction[0]), static_cast<double>(p.direction[1]),
-                          static_cast<double>(p.direction[2]), state_name(p.state));
-            text += line;
-        }
+void write_constraints(const std::string& path, const std::vector<vox_body>& ids, const vox_grid* grid) {
+    std::string text = "kind,state,body_a,body_b";
+    for (const char* column : {"vertex", "weight"})
+        for (std::uint32_t i = 0; i < VOX_STENCIL_CAPACITY; ++i)
+            text += "," + std::string(column) + "_" + std::to_string(i);
+    text += ",gap,normal_x,normal_y,normal_z,position_x,position_y,position_z,time\n";
+    const auto add = [&](double value) {
+        char number[32];
+        std::snprintf(number, sizeof number, ",%.17g", value);
+        text += number;
+    };
+    for (const vox_constraint& c : constraints_of(grid)) {
+        text += std::string(kind_name(c.kind)) + "," + state_name(c.state) + "," +
+                std::to_string(place_of(ids, c.body_a)) + "," + std::to_string(place_of(ids, c.body_b));
+        for (std::uint32_t i = 0; i < VOX_STENCIL_CAPACITY; ++i)
+            text += i < c.count ? "," + std::to_string(c.vertices[i]) : ",";
+        for (std::uint32_t i = 0; i < VOX_STENCIL_CAPACITY; ++i)
+            if (i < c.count)
+                add(c.weights[i]);
+            else
+                text += ",";
+        add(c.gap);
+        for (const double x : c.normal) add(x);
+        for (const double x : c.position) add(x);
+        add(c.time);
         text += '\n';
     }
     write_file(path, text);

@@ -153,7 +153,7 @@ void TwoBalls::run(std::uint32_t frames) {
         measure_frame(std::span(contenders_).first(2));
         measure_frame(std::span(contenders_).last(2));
         require_same_contacts(contenders_);
-        contacts_.push_back(contacts_of(contenders_[0].grid.get()).count);
+        contacts_.push_back(contacts_of(contenders_[0].grid.get()).size());
     }
 }
 
@@ -170,6 +170,7 @@ void TwoBalls::print_results(const char* program) const {
 void TwoBalls::show(std::uint32_t frame) {
     move(time_of(frame, contacts_.size()));
     check(vox_grid_step(contenders_[0].grid.get()));
+    check(vox_grid_find_constraints(contenders_[0].grid.get(), nullptr));
 }
 
 } // namespace tool

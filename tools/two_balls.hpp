@@ -45,7 +45,7 @@ public:
     // The fast engine with the suggested cell size and with the mean edge, then the reference engine.
     std::span<const Contender> contenders() const { return contenders_; }
     std::span<const std::uint64_t> contacts() const { return contacts_; } // of each frame
-    // Steps the first contender once more, in a frame that has been run.
+    // Steps the first contender once more, in a frame that has been run, and finds its constraints.
     void show(std::uint32_t frame);
 
 private:

@@ -119,7 +119,7 @@ public:
         grid_times p{};
         p = times_of(grid_);
         return 1e-9 * static_cast<double>(p.step_ns - p.bin_ns - p.broad_ns - p.narrow_ns - p.contacts_ns -
-                                          p.depth_ns - p.events_ns);
+                                          p.depth_ns - p.pairs_ns);
     }
     std::uint64_t hash() const {
         std::uint64_t hash = 0;

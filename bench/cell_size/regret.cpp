@@ -363,8 +363,8 @@ double seconds_of_call(const vox_suggest_desc& desc, const std::vector<vox_mesh_
     return least;
 }
 
-// What suggestions cost: of vox_suggest_cell_size, for the paper's model and the engine's; in a grid with the
-// depth stage, and without, the first one and later ones, in steps. And how far the grid's is from the
+// What suggestions cost: of vox_suggest_cell_size, for the paper's model and the engine's; in a grid with
+// constraints, and without, the first one and later ones, in steps. And how far the grid's is from the
 // former: the cost at its size over the least one, both by what vox_suggest_cell_size has looked at.
 std::string suggestions(Scene& scene, engine_kind engine) {
     scene.pose(0);
@@ -378,7 +378,7 @@ std::string suggestions(Scene& scene, engine_kind engine) {
     char calls[80];
     std::snprintf(calls, sizeof calls, ",%.1f,%.1f", paper_seconds * 1e6, model_seconds * 1e6);
     std::string text = "," + std::to_string(scene.tet_count()) + calls;
-    for (const std::uint32_t flags : {std::uint32_t{VOX_GRID_PENETRATIONS}, std::uint32_t{0}}) {
+    for (const std::uint32_t flags : {std::uint32_t{VOX_GRID_CONSTRAINTS}, std::uint32_t{0}}) {
         const Grid::Suggestion found = Grid(engine, scene, flags).suggest(15);
         const double size = found.answer.cell_size;
         std::vector<double> first;

@@ -13,6 +13,8 @@
 #include <cstdlib>
 #include <mutex>
 #include <set>
+#include <span>
+#include <string_view>
 
 using namespace scenes;
 
@@ -43,10 +45,14 @@ void rank(const vox_dist_transport* transport, Run& run) {
         run.failed = true;
         return;
     }
-    vox_dist_counters counters;
-    counters.struct_size = sizeof counters;
     vox_dist_contact_view contacts{};
-    (void)vox_dist_scene_get_counters(mine.scene, &counters);
+    const auto counter = [&](std::string_view name) {
+        vox_counter_view view{};
+        (void)vox_dist_scene_get_counters(mine.scene, &view);
+        for (const vox_counter& c : std::span(view.data, view.count))
+            if (c.name == name) return c.value;
+        return std::uint64_t{0};
+    };
     (void)vox_dist_scene_get_contacts(mine.scene, VOX_DIST_VERTICES, &contacts);
     (void)vox_dist_scene_get_costs(mine.scene, nullptr, 0, &parts);
     std::vector<vox_dist_cost> costs(parts);
@@ -61,16 +67,16 @@ void rank(const vox_dist_transport* transport, Run& run) {
         pairs.insert({c.body_a, c.vertex, c.rank});
         ++remote;
     }
-    const std::uint64_t bytes = counters.box_bytes + counters.vertex_bytes + counters.hit_bytes;
+    const std::uint64_t bytes = counter("box_bytes") + counter("vertex_bytes") + counter("hit_bytes");
     const std::lock_guard lock(run.mutex);
-    run.vertices += counters.vertices_sent;
+    run.vertices += counter("vertices_sent");
     run.bytes += bytes;
     run.floor += 16 * pairs.size() + 28 * remote;
     run.contacts += contacts.count;
     run.remote += remote;
     run.most_bytes = std::max(run.most_bytes, bytes);
-    run.most_messages = std::max(run.most_messages, counters.messages);
-    run.most_neighbours = std::max<std::uint64_t>(run.most_neighbours, counters.neighbours);
+    run.most_messages = std::max(run.most_messages, counter("messages"));
+    run.most_neighbours = std::max(run.most_neighbours, counter("neighbours"));
     run.most_seconds = std::max(run.most_seconds, seconds);
     run.all_seconds += seconds;
     std::copy_n(hash, 2, run.hash);
@@ -91,7 +97,7 @@ One one_grid(const Scene& scene) {
     }
     const grid_counts counters = counters_of(grid);
     one.entries = counters.entries;
-    const std::vector<vox_dist_contact> contacts = global_contacts(grid);
+    const std::vector<vox_dist_contact> contacts = global_contacts(scene, grid);
     one.contacts = contacts.size();
     hash_of(contacts, one.hash);
     vox_grid_destroy(grid);

@@ -1,16 +1,16 @@
 /* One small scene, stepped a few times; guard.py counts the instructions of vox_grid_step. The data are the
- * same bit for bit on every machine (scenes/scenes.h). The grid is the default one where the name says so;
- * else it finds contacts alone. */
+ * same bit for bit on every machine (scenes/scenes.h). The grid has constraints where the name says so; else
+ * it is the default one. */
 #include "scenes/scenes.h"
 
 int main(int argc, char** argv) {
     static scene s;
     s.name = argc == 2 ? argv[1] : "";
     vox_grid_desc desc = vox_default_grid_desc();
-    if (strncmp(s.name, "default-", 8) == 0)
-        s.name += 8;
-    else
-        desc.flags = 0;
+    if (strncmp(s.name, "constraints-", 12) == 0) {
+        s.name += 12;
+        desc.flags = VOX_GRID_CONSTRAINTS;
+    }
     if (strcmp(s.name, "--build") == 0) { /* which compiler the baseline must be of */
         puts(vox_build_info());
         return EXIT_SUCCESS;
@@ -23,9 +23,8 @@ int main(int argc, char** argv) {
     } else if (strcmp(s.name, "tangled") == 0) {
         make_tangled(&s, 6);
     } else {
-        fprintf(
-            stderr,
-            "usage: guard --build | [default-]pair | [default-]self | [default-]many | [default-]tangled\n");
+        fprintf(stderr, "usage: guard --build | [constraints-]pair | [constraints-]self | [constraints-]many "
+                        "| [constraints-]tangled\n");
         return 2;
     }
 

@@ -1,7 +1,7 @@
 // What all peers share: which bodies to look at, which parts of them, and the decision. A peer gives
 // candidate pairs of a vertex and a tetrahedron; the exact test here, the library's own, decides for all of
-// them alike. Only the hits are part of a peer's time: order, shared boundaries and barycentric coordinates,
-// which vox includes, are made afterwards.
+// them alike. Only the hits are part of a peer's time: order and shared boundaries, which vox
+// includes, are made afterwards.
 #pragma once
 
 #include "base/array.hpp"

@@ -1,5 +1,4 @@
-// Cost of the depth stage per colliding vertex, of reading contacts, and of what the stage adds to the
-// insertion of a mesh.
+// Cost of the depth stage per colliding vertex, and of what it adds to the insertion of a mesh.
 //
 //   bench_depth [--tets N] [--rounds K]
 //
@@ -32,7 +31,6 @@ struct Row {
     double tets = 1;   // of the second ball, over those of the first
     double radius = 1; // of the second ball
     std::uint64_t depth_ns = ~std::uint64_t{0}, step_ns = ~std::uint64_t{0};
-    double readings_ns = 1e18; // vox_grid_prepare_readings
     grid_counts counters{};
 };
 
@@ -51,7 +49,9 @@ class Scene {
 public:
     Scene(double tets, const Row& row)
         : a_(smooth_ball(tets / 2, 1)), b_(smooth_ball(tets / 2 * row.tets, row.radius)) {
-        must(vox_grid_create(nullptr, &grid_));
+        vox_grid_desc desc = vox_default_grid_desc();
+        desc.flags = VOX_GRID_CONSTRAINTS;
+        must(vox_grid_create(&desc, &grid_));
         for (vox::Vec3f& p : b_.positions)
             p = {p.x + float(1 + row.radius - row.overlap), p.y + 0.0123f, p.z + 0.0271f};
         insert(grid_, a_);
@@ -65,14 +65,10 @@ public:
     void step(Row& row) {
         for (vox::Vec3f& p : b_.positions) p.y = -p.y; // another pose, mirrored: as much work
         must(vox_grid_step(grid_));
-        grid_times profile{};
-        profile = times_of(grid_);
+        const grid_times profile = times_of(grid_);
         row.counters = counters_of(grid_);
         row.depth_ns = std::min(row.depth_ns, profile.depth_ns);
         row.step_ns = std::min(row.step_ns, profile.step_ns);
-        const double start = now();
-        must(vox_grid_prepare_readings(grid_));
-        row.readings_ns = std::min(row.readings_ns, 1e9 * (now() - start));
     }
 
 private:
@@ -87,7 +83,7 @@ void time_insertion(double tets, int rounds) {
     for (int round = 0; round < rounds; ++round)
         for (std::uint32_t flags = 0; flags < 2; ++flags) {
             vox_grid_desc desc = vox_default_grid_desc();
-            desc.flags = flags;
+            desc.flags = flags; // 0, or VOX_GRID_CONSTRAINTS
             vox_grid* grid = nullptr;
             must(vox_grid_create(&desc, &grid));
             const double start = now();
@@ -96,7 +92,7 @@ void time_insertion(double tets, int rounds) {
             vox_grid_destroy(grid);
         }
     const double millions = double(mesh.tets.size()) * 1e-6;
-    std::printf("insertion: %.2f M tets/s, %.2f without VOX_GRID_PENETRATIONS\n", millions / seconds[1],
+    std::printf("insertion: %.2f M tets/s, %.2f without VOX_GRID_CONSTRAINTS\n", millions / seconds[1],
                 millions / seconds[0]);
 }
 
@@ -110,21 +106,18 @@ void run(double tets, int rounds) {
     for (int round = 0; round < rounds; ++round)
         for (std::size_t i = 0; i < scenes.size(); ++i)
             for (int step = 0; step < 4; ++step) scenes[i]->step(rows[i]);
-    std::printf("%-10s %8s %8s %9s %10s %8s %9s %9s %9s %8s %9s %8s\n", "scene", "overlap", "tets",
-                "vertices", "edges", "passed", "closest", "depth ns", "ns each", "of step", "readings",
-                "of step");
+    std::printf("%-10s %8s %8s %9s %10s %8s %9s %9s %9s %8s\n", "scene", "overlap", "tets", "vertices",
+                "edges", "passed", "closest", "depth ns", "ns each", "of step");
     for (const Row& row : rows) {
         const grid_counts& c = row.counters;
         const double n = double(std::max<std::uint64_t>(c.penetrations, 1));
-        std::printf("%-10s %8.2f %8llu %9llu %10.2f %8.2f %9llu %9llu %9.0f %7.1f%% %9.0f %7.1f%%\n",
-                    row.name, row.overlap, static_cast<unsigned long long>(c.tets),
-                    static_cast<unsigned long long>(c.penetrations), double(c.leaving_edges) / n,
+        std::printf("%-10s %8.2f %8llu %9llu %10.2f %8.2f %9llu %9llu %9.0f %7.1f%%\n", row.name, row.overlap,
+                    static_cast<unsigned long long>(c.tets), static_cast<unsigned long long>(c.penetrations),
+                    double(c.leaving_edges) / n,
                     double(c.edge_tests) / double(std::max<std::uint64_t>(c.leaving_edges, 1)),
                     static_cast<unsigned long long>(c.closest_searches),
                     static_cast<unsigned long long>(row.depth_ns), double(row.depth_ns) / n,
-                    100 * double(row.depth_ns) / double(row.step_ns),
-                    row.readings_ns / double(std::max<std::uint64_t>(c.contacts, 1)),
-                    100 * row.readings_ns / double(row.step_ns));
+                    100 * double(row.depth_ns) / double(row.step_ns));
     }
 }
 
@@ -136,9 +129,7 @@ int main(int argc, char** argv) {
     const double tets = size.tets;
     const int rounds = size.rounds;
     return bench::run_program("bench_depth", [&] {
-        std::printf("depth stage: edges a vertex, tetrahedra passed an edge; readings: ns a contact; least "
-                    "of %d rounds\n",
-                    rounds);
+        std::printf("depth stage: edges a vertex, tetrahedra passed an edge; least of %d rounds\n", rounds);
         run(tets, rounds);
         time_insertion(tets, rounds);
         return 0;

@@ -1,7 +1,7 @@
-/* What edge contacts and margin contacts cost: each scene in a grid without them, in one with
- * VOX_GRID_EDGE_CONTACTS and in one with a margin of half an edge, stepped in turn over the same positions,
- * all of which move; the ratio of their lower quartiles of processor time. Usage: bench_edges [frames
- * [tetrahedra of a ball [scene]]], 40, 500000 and every scene by default. */
+/* What constraints of edges and within a margin cost: each scene in a grid with constraints of vertices
+ * inside alone, in one with VOX_GRID_EDGES and in one with a margin of half an edge, stepped in turn over the
+ * same positions, all of which move; the ratio of their lower quartiles of processor time. Usage: bench_edges
+ * [frames [tetrahedra of a ball [scene]]], 40, 500000 and every scene by default. */
 #include "scenes/counters.h"
 #include "scenes/scenes.h"
 #include "scenes/solids.h"
@@ -55,7 +55,7 @@ static void measure(scene* s, const char* name, int frames) {
     grid_times profile;
     for (int k = 0; k < VARIANTS; ++k) {
         vox_grid_desc desc = vox_default_grid_desc();
-        if (k == WITH) desc.flags |= VOX_GRID_EDGE_CONTACTS;
+        desc.flags = k == WITH ? VOX_GRID_CONSTRAINTS | VOX_GRID_EDGES : VOX_GRID_CONSTRAINTS;
         if (k == MARGIN) desc.margin = margin;
         check(vox_grid_create(&desc, &variants[k].grid));
         variants[k].seconds = (double*)malloc(sizeof(double) * (size_t)frames);
@@ -85,14 +85,13 @@ static void measure(scene* s, const char* name, int frames) {
                  with = quartile(variants[WITH].seconds, frames),
                  edges = quartile(variants[WITH].part, frames),
                  near = quartile(variants[MARGIN].seconds, frames);
-    printf("%-8s %8.3f ms without, %8.3f with: %.3f; %.3f of it edges; %llu contacts, %llu edge contacts of "
-           "%llu "
-           "candidates\n",
+    printf("%-8s %8.3f ms without, %8.3f with: %.3f; %.3f of it edges; %llu contacts, %llu edges through "
+           "faces of %llu candidates\n",
            name, 1e3 * without, 1e3 * with, with / without, 1e3 * edges,
            (unsigned long long)counters.contacts, (unsigned long long)counters.edge_contacts,
            (unsigned long long)counters.edge_candidates);
     counters = counters_of(variants[MARGIN].grid);
-    printf("         margin %g: %8.3f ms: %.3f; %.3f of it margin; %llu margin contacts\n", margin,
+    printf("         margin %g: %8.3f ms: %.3f; %.3f of it margin; %llu vertices within it\n", margin,
            1e3 * near, near / without, 1e3 * quartile(variants[MARGIN].part, frames),
            (unsigned long long)counters.margin_contacts);
     fflush(stdout);

@@ -5,15 +5,18 @@
 //
 //   bench_memory [--tets N] [--scene NAME] [--meshes FOLDER] [--contacts] [--copy] [--steps K]
 //
-// --contacts leaves the depth stage out, and --copy has meshes copy their tetrahedra. A line that begins
+// --contacts leaves constraints out, and --copy has meshes copy their tetrahedra. A line that begins
 // with a dash is part of the one above it.
 #include "base/array.hpp"
 #include "depth/stage.hpp"
 #include "fast/engine.hpp"
+#include "grid/constraints.hpp"
 #include "grid/contacts.hpp"
-#include "grid/events.hpp"
+#include "grid/pairs.hpp"
 #include "internal/counting_memory.hpp"
 #include "mesh/check.hpp"
+#include "mesh/filter.hpp"
+#include "mesh/ids.hpp"
 #include "mesh/mesh.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
@@ -31,7 +34,7 @@ namespace {
 struct Options {
     double tets = 1e6;
     std::string scene, folder;
-    bool depth = true, borrow = true;
+    bool constraints = true, borrow = true;
     std::size_t steps = 4;
 };
 
@@ -53,7 +56,7 @@ double room(const Vectors&... vectors) {
 // The parts of a grid of the fast engine, which steps as vox_grid::step does.
 struct Parts {
     CountingMemory of_topology, of_meshes, of_states, of_engine, of_hits, of_depth, of_trees, of_penetrations,
-        of_events;
+        of_constraints, of_pairs;
     std::vector<vox::Mesh> meshes;
     std::vector<vox::fast::MeshState> states;
     std::vector<vox::Topology> topologies;
@@ -63,7 +66,8 @@ struct Parts {
     vox::depth::SurfaceTrees trees{&of_trees};
     vox::DepthStage depth{&of_depth, trees};
     vox::Penetrations penetrations{&of_penetrations};
-    vox::Events events{&of_events, false};
+    vox::Constraints constraints{&of_constraints};
+    vox::Pairs pairs{&of_pairs};
     vox::Workers workers{{}, 1};
 
     Parts(const bench::Scene& scene, const Options& options) {
@@ -71,12 +75,10 @@ struct Parts {
             vox_mesh_desc desc = body.desc();
             desc.flags |= VOX_MESH_BORROW_TETS; // a copy is counted apart
             const vox::Body view = vox::check_mesh(desc, "", vox::NullPositions::rejected);
-            vox_filter filter{};
-            filter.flags = view.self_collision ? VOX_FILTER_SELF_COLLISION : 0u;
-            meshes.emplace_back(desc, view, filter, &of_meshes);
+            meshes.emplace_back(desc, view, vox::checked_filter(desc.filter), &of_meshes);
             states.emplace_back(&of_states);
             topologies.emplace_back(&of_topology);
-            if (options.depth) vox::make_topology(view.tets, view.vertex_count, topologies.back());
+            if (options.constraints) vox::make_topology(view.tets, view.vertex_count, topologies.back());
             meshes.back().make_tiles();
             states.back().update(meshes.back().tiled(), meshes.back().tiles_version(), view.vertex_count);
         }
@@ -87,7 +89,7 @@ struct Parts {
         std::vector<vox::fast::PreparedBody> prepared;
         std::vector<const vox::Topology*> of_bodies;
         for (std::size_t i = 0; i < meshes.size(); ++i) {
-            bodies.push_back(meshes[i].body(static_cast<vox_body>(i)));
+            bodies.push_back(meshes[i].body(vox::make_id(static_cast<std::uint32_t>(i), 1)));
             prepared.push_back({&meshes[i].tiled().tiles, &meshes[i].tiled().boundary, &states[i]});
             of_bodies.push_back(&topologies[i]);
         }
@@ -96,8 +98,21 @@ struct Parts {
         hits.clear();
         engine.detect(bodies, prepared, {.workers = &workers}, hits, counters, profile);
         vox::make_contacts(bodies, hits, contacts, &workers);
-        if (options.depth) depth.find(bodies, of_bodies, hits, contacts, 0, &workers, penetrations, counters);
-        events.update(contacts, {}, meshes.size(), [](vox_body) { return std::uint64_t{0}; });
+        pairs.update(contacts, {}, {}, meshes.size(), [](vox_body) { return std::uint64_t{0}; });
+        constraints.begin_step(true);
+        if (options.constraints) {
+            depth.find(bodies, of_bodies, hits, false, 0, &workers, penetrations, counters);
+            const std::vector<std::uint8_t> all(pairs.pending().size(), 1);
+            vox::ConstraintSources sources{};
+            sources.bodies = bodies;
+            sources.topologies = of_bodies;
+            sources.pairs = pairs.pending();
+            sources.chosen = all;
+            sources.hits = hits;
+            sources.penetrations = &penetrations;
+            constraints.find(sources, workers);
+        }
+        pairs.commit();
     }
 
     double of_tiles(const std::function<double(const vox::TiledMesh&)>& bytes) const {
@@ -115,7 +130,7 @@ struct Parts {
 double real_bytes(bench::Scene& scene, const Options& options) {
     vox_grid_desc desc = vox_default_grid_desc();
     desc.byte_budget = UINT64_MAX;
-    if (!options.depth) desc.flags &= ~static_cast<std::uint32_t>(VOX_GRID_PENETRATIONS);
+    if (options.constraints) desc.flags = VOX_GRID_CONSTRAINTS;
     vox_grid* grid = nullptr;
     bench::must(vox_grid_create(&desc, &grid));
     for (const bench::Body& body : scene.bodies) {
@@ -146,7 +161,7 @@ void report(bench::Scene& scene, const Options& options) {
     double sum = copy;
     for (const CountingMemory* memory :
          {&parts.of_topology, &parts.of_meshes, &parts.of_states, &parts.of_engine, &parts.of_hits,
-          &parts.of_depth, &parts.of_trees, &parts.of_penetrations, &parts.of_events})
+          &parts.of_depth, &parts.of_trees, &parts.of_penetrations, &parts.of_constraints, &parts.of_pairs})
         sum += held(*memory);
     const double real = real_bytes(scene, options);
     std::printf("\n%s: %zu tets, %zu vertices, %zu bodies, %zu contacts; bytes a tetrahedron:\n",
@@ -180,7 +195,7 @@ void report(bench::Scene& scene, const Options& options) {
         binned += room(bins.points.x, bins.points.y, bins.points.z, bins.points.id, bins.begin, bins.windows);
     table.add("- windows", binned);
     table.add("hits and contacts", held(parts.of_hits));
-    if (options.depth) {
+    if (options.constraints) {
         table.add("topology", held(parts.of_topology));
         double across = 0;
         for (const vox::Topology& topology : parts.topologies)
@@ -189,8 +204,9 @@ void report(bench::Scene& scene, const Options& options) {
         table.add("depth stage", held(parts.of_depth));
         table.add("trees of surfaces", held(parts.of_trees));
         table.add("penetrations", held(parts.of_penetrations));
+        table.add("constraints", held(parts.of_constraints));
     }
-    table.add("events", held(parts.of_events));
+    table.add("pairs", held(parts.of_pairs));
     std::printf("  %-34s %8.2f   (a grid: %.2f)\n", "sum", sum / tets, real / tets);
 }
 
@@ -210,7 +226,7 @@ int run(int argc, char** argv) {
         else if (!std::strcmp(argv[i], "--steps"))
             options.steps = static_cast<std::size_t>(std::atoi(value()));
         else if (!std::strcmp(argv[i], "--contacts"))
-            options.depth = false;
+            options.constraints = false;
         else if (!std::strcmp(argv[i], "--copy"))
             options.borrow = false;
         else

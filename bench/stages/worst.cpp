@@ -1,16 +1,17 @@
-// Looks for the scene in which something beyond the contacts costs most beside them alone: the depth stage,
-// edge contacts, contacts within a margin, or passages.
+// Looks for the scene in which something beyond the contacts costs most beside them alone: constraints of
+// vertices inside, which need the depth stage; edges through faces; vertices within a margin; or passages of
+// vertices through surfaces.
 //
 //   bench_worst [--what depth|edges|margin|passages] [--tets N] [--samples K] [--climb K] [--steps K]
 //               [--seed S] [--scene NAME] [--meshes FOLDER] [--budget SEARCHES]
 //
 // Every kind of scene has up to four parameters in [0, 1]. Of each, K are drawn at random (the first has all
 // parameters 1/2), then K more are drawn around the worst so far, ever closer. A scene's ratio is the time of
-// a step of a grid that finds more over that of a grid that finds contacts alone: least times of steps in
+// a step that finds more over that of a grid that finds contacts alone: least times of steps in
 // which the two take turns. Both have to find the same contacts. The margin is half an edge; for passages,
 // every other body came 2 edges along x within the step, and the others stood still. Columns: what was found
 // beyond contacts, the share of penetrations that needed a closest point, the nanoseconds for each that was
-// found, and a hash of them, so that two versions of the library can be compared.
+// found, and a hash of the constraints, so that two versions of the library can be compared.
 //
 // FOLDER has bunny.msh and cow.msh for one more scene.
 #include "base/boxes.hpp"
@@ -223,18 +224,6 @@ Bodies before(Bodies bodies) {
     return bodies;
 }
 
-// FNV-1a over the bytes of a view.
-template <class View>
-std::uint64_t hash_of(const View& view) {
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    for (std::uint64_t i = 0; i < view.count; ++i) {
-        unsigned char bytes[sizeof *view.data];
-        std::memcpy(bytes, reinterpret_cast<const char*>(view.data) + i * view.byte_stride, sizeof bytes);
-        for (const unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3u;
-    }
-    return hash;
-}
-
 class Grid {
 public:
     // Contacts alone.
@@ -242,16 +231,15 @@ public:
     Grid(const Bodies& bodies, What what, const Bodies& previous, std::uint64_t budget)
         : Grid(bodies, what == What::passages ? &previous : nullptr, [&] {
               vox_grid_desc desc = vox_default_grid_desc();
-              desc.flags = what == What::depth   ? VOX_GRID_PENETRATIONS
-                           : what == What::edges ? VOX_GRID_EDGE_CONTACTS
-                                                 : 0;
+              desc.flags = what == What::edges ? VOX_GRID_EDGES : 0;
               desc.margin = what == What::margin ? margin : 0;
-              desc.closest_budget = budget;
               return desc;
-          }()) {}
+          }()) {
+        if (what == What::depth) method_ = VOX_DEPTH_METHOD_CONSISTENT;
+        budget_ = budget;
+    }
     Grid(const Bodies& bodies, const Bodies* previous, const std::optional<vox_grid_desc>& with) {
         vox_grid_desc desc = vox_default_grid_desc();
-        desc.flags = 0;
         if (with) desc = *with;
         must(vox_grid_create(&desc, &grid_));
         for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -272,42 +260,41 @@ public:
     Grid(const Grid&) = delete;
     Grid& operator=(const Grid&) = delete;
 
-    // Seconds of a step.
+    // Seconds of a step, and of depths where these are looked for.
     double step() {
-        return seconds_of([&] { must(vox_grid_step(grid_)); });
+        return seconds_of([&] {
+            must(vox_grid_step(grid_));
+            if (method_ != VOX_DEPTH_METHOD_NONE) find_constraints();
+        });
     }
     std::uint64_t hash() const {
         std::uint64_t hash = 0;
         must(vox_grid_get_hash(grid_, &hash));
         return hash;
     }
-    std::uint64_t hash_of_found(What what) const {
-        vox_penetration_view depths;
-        vox_edge_contact_view edges;
-        vox_margin_contact_view near;
-        vox_passage_view passages;
-        switch (what) {
-        case What::depth:
-            must(vox_grid_penetrations(grid_, &depths));
-            return hash_of(depths);
-        case What::edges:
-            must(vox_grid_edge_contacts(grid_, &edges));
-            return hash_of(edges);
-        case What::margin:
-            must(vox_grid_margin_contacts(grid_, &near));
-            return hash_of(near);
-        default:
-            must(vox_grid_passages(grid_, &passages));
-            return hash_of(passages);
-        }
+    // FNV-1a over the bytes of the constraints.
+    std::uint64_t hash_of_constraints() {
+        if (method_ == VOX_DEPTH_METHOD_NONE) find_constraints();
+        vox_constraint_view view{};
+        must(vox_grid_get_constraints(grid_, &view));
+        std::uint64_t hash = 0xcbf29ce484222325u;
+        const auto* const bytes = reinterpret_cast<const unsigned char*>(view.data);
+        for (std::size_t i = 0; i < view.count * sizeof *view.data; ++i)
+            hash = (hash ^ bytes[i]) * 0x100000001b3u;
+        return hash;
     }
-    grid_counts counters() const {
-        grid_counts counters{};
-        counters = counters_of(grid_);
-        return counters;
-    }
+    grid_counts counters() const { return counters_of(grid_); }
 
 private:
+    void find_constraints() {
+        vox_constraint_desc desc = vox_default_constraint_desc();
+        desc.method = method_;
+        desc.closest_budget = budget_;
+        must(vox_grid_find_constraints(grid_, &desc));
+    }
+
+    vox_depth_method method_ = VOX_DEPTH_METHOD_NONE;
+    std::uint64_t budget_ = 0;
     vox_grid* grid_ = nullptr;
 };
 
@@ -355,7 +342,7 @@ Result measure(What what, const Kind& kind, const Setting& setting, const Parame
             result.alone = std::min(result.alone, alone_seconds);
             result.whole = std::min(result.whole, whole_seconds);
         }
-        result.hash = 31 * result.hash + whole.hash_of_found(what);
+        result.hash = 31 * result.hash + whole.hash_of_constraints();
     }
     result.counters = whole.counters();
     result.ratio = result.whole / result.alone;

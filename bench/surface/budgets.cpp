@@ -61,15 +61,13 @@ const Question questions[] = {
     {"crossings",
      [](vox_surface* surface, double& answer) {
          vox_crossing_view view{};
-         view.struct_size = sizeof view;
          const vox_result result = vox_surface_find_crossings(surface, &view);
          answer = static_cast<double>(view.count);
          return result;
      }},
     {"close edges",
      [](vox_surface* surface, double& answer) {
-         vox_close_view view{};
-         view.struct_size = sizeof view;
+         vox_proximity_view view{};
          const vox_result result =
              vox_surface_find_proximities(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, near, &view);
          answer = static_cast<double>(view.count);
@@ -77,23 +75,20 @@ const Question questions[] = {
      }},
     {"clearance",
      [](vox_surface* surface, double& answer) {
-         const vox_result result =
-             vox_surface_find_clearances(surface, near, per_vertex.data(), per_vertex.size());
+         const vox_result result = vox_surface_find_clearances(surface, near, per_vertex.data());
          answer = std::accumulate(per_vertex.begin(), per_vertex.end(), 0.0);
          return result;
      }},
     {"safe step",
      [](vox_surface* surface, double& answer) {
          vox_safe_step found{};
-         found.struct_size = sizeof found;
          const vox_result result = vox_surface_find_safe_step(surface, nullptr, &found);
          answer = found.step;
          return result;
      }},
     {"times of edges",
      [](vox_surface* surface, double& answer) {
-         vox_timed_view view{};
-         view.struct_size = sizeof view;
+         vox_impact_view view{};
          const vox_result result =
              vox_surface_find_impacts(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, nullptr, &view);
          answer = static_cast<double>(view.count);
@@ -128,10 +123,9 @@ Asked ask(const Sheets& sheets, const Question& question, std::uint64_t budget) 
                  fits(question.ask(surface, asked.answer));
     if (asked.fits) {
         asked.seconds = seconds_of([&] { asked.fits = fits(question.ask(surface, asked.answer)); });
-        vox_pair_counters counters{};
-        counters.struct_size = sizeof counters;
+        vox_counter_view counters;
         must(vox_surface_get_counters(surface, &counters));
-        asked.peak = counters.peak_bytes;
+        asked.peak = counters.data[counters.count - 1].value; // peak_bytes
     }
     vox_surface_destroy(surface);
     return asked;

@@ -41,15 +41,26 @@ class Motion(ctypes.Structure):
 
 
 class Lists(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("first", ctypes.c_uint64),
-                ("count", ctypes.c_uint64), ("pair_count", ctypes.c_uint64), ("offsets", ctypes.c_void_p),
-                ("partners", ctypes.c_void_p)]
+    _fields_ = [("offsets", ctypes.POINTER(ctypes.c_uint64)), ("partners", ctypes.POINTER(ctypes.c_uint32)), ("first", ctypes.c_uint64),
+                ("count", ctypes.c_uint64)]
+
+    @property
+    def pair_count(self):
+        return self.offsets[self.count]
 
 
-class Counters(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("cell_size", ctypes.c_double)] + [
-        (name, ctypes.c_uint64) for name in ("cells", "tile_pairs", "boxes_compared", "overlaps", "culled", "bytes",
-                                             "peak_bytes")]
+class View(ctypes.Structure):
+    """Any list."""
+    _fields_ = [("data", ctypes.c_void_p), ("count", ctypes.c_uint64)]
+
+
+class Counter(ctypes.Structure):
+    _fields_ = [("name", ctypes.c_char_p), ("value", ctypes.c_uint64)]
+
+
+class Suggestion(ctypes.Structure):
+    """Its first fields."""
+    _fields_ = [("struct_size", ctypes.c_uint32), ("warnings", ctypes.c_uint32), ("cell_size", ctypes.c_double)]
 
 
 class Surface:
@@ -71,23 +82,26 @@ class Surface:
         self.ok(self.vox.vox_surface_move(self.handle, ctypes.byref(motion)))
 
     def pairs(self, a, b):
-        lists = Lists(ctypes.sizeof(Lists))
+        lists = Lists()
         self.ok(self.vox.vox_surface_find_pairs(self.handle, a, b, 0, ctypes.c_uint64(2**63), ctypes.byref(lists)))
         return lists
 
     def arrays(self, a, b):
         lists = self.pairs(a, b)
-        offsets = np.ctypeslib.as_array(ctypes.cast(lists.offsets, ctypes.POINTER(ctypes.c_uint64)), (lists.count + 1,))
+        offsets = np.ctypeslib.as_array(lists.offsets, (lists.count + 1,))
         if lists.pair_count == 0:
             return offsets.copy(), np.zeros(0, np.uint32)
-        partners = np.ctypeslib.as_array(ctypes.cast(lists.partners, ctypes.POINTER(ctypes.c_uint32)),
-                                         (lists.pair_count,))
-        return offsets.copy(), partners.copy()
+        return offsets.copy(), np.ctypeslib.as_array(lists.partners, (lists.pair_count,)).copy()
 
     def counters(self):
-        counters = Counters(ctypes.sizeof(Counters))
-        self.ok(self.vox.vox_surface_get_counters(self.handle, ctypes.byref(counters)))
-        return counters
+        view = View()
+        self.ok(self.vox.vox_surface_get_counters(self.handle, ctypes.byref(view)))
+        return {c.name.decode(): c.value for c in (Counter * view.count).from_address(view.data)}
+
+    def suggest_cell_size(self, a, b):
+        out = Suggestion(ctypes.sizeof(Suggestion))
+        self.ok(self.vox.vox_surface_suggest_cell_size(self.handle, a, b, ctypes.byref(out)))
+        return out.cell_size
 
 
 def read_ply(path):
@@ -193,30 +207,28 @@ def run_scene(vox, folder, name, options, ipctk):
             missing = np.setdiff1d(true, found)
             row[f"{kind} true"] = len(true)
             row[f"{kind} lost" + (" by culling" if cull else "")] = len(missing)
-            counters = surface.counters()
-            false_pairs += counters.overlaps - len(true)
+            false_pairs += surface.counters()["overlaps"] - len(true)
             kept_false += len(found) - len(true)
         if cull:
             row["false pairs culled"] = 1 - kept_false / max(false_pairs, 1)
             row["cull ns a pair"] = (row["cull ms"] - row["vox ms"]) * 1e6 / max(total, 1)
     features = len(v0) + len(edges) + len(faces)
     surface = Surface(vox, v0, edges, np.ascontiguousarray(faces))
-    empty = surface.counters().bytes
+    empty = surface.counters()["bytes"]
     surface.move(v0, v1, radius, True)
     surface.pairs(FACE, VERTEX)
     surface.pairs(EDGE, VERTEX)
     lists = surface.pairs(EDGE, EDGE) # the longest lists, last: their room is kept
-    held = surface.counters()
-    row["bytes a feature"] = (held.bytes - 24 * 2 * len(v0) - 8 * len(edges) - 12 * len(faces) -
+    held = surface.counters()["bytes"]
+    row["bytes a feature"] = (held - 24 * 2 * len(v0) - 8 * len(edges) - 12 * len(faces) -
                               8 * lists.count - 4 * lists.pair_count) / features
-    row["bytes held"] = held.bytes
+    row["bytes held"] = held
     row["bytes empty"] = empty
     if options.sweep:
         row["cell sizes"] = []
         surface.move(v0, v1, radius, False)
-        surface.pairs(EDGE, EDGE)
-        chosen = surface.counters().cell_size
-        sizes = [0.0] + [chosen * 2 ** (k / 3) for k in range(-9, 10)]
+        suggested = surface.suggest_cell_size(EDGE, EDGE)
+        sizes = [0.0] + [suggested * 2 ** (k / 3) for k in range(-9, 10)]
         best = {size: [] for size in sizes}
         for _ in range(options.rounds):
             for size in sizes:
@@ -224,7 +236,7 @@ def run_scene(vox, folder, name, options, ipctk):
                 begin = time.perf_counter()
                 surface.pairs(EDGE, EDGE)
                 best[size].append(time.perf_counter() - begin)
-        row["cell sizes"] = [(size / chosen, least(values)) for size, values in best.items()]
+        row["cell sizes"] = [(size / suggested, least(values)) for size, values in best.items()]
         times_of = [ms for _, ms in row["cell sizes"]]
         row["cell size loss"] = times_of[0] / min(times_of) - 1
     return row

@@ -98,13 +98,11 @@ public:
     Searches& operator=(const Searches&) = delete;
 
     std::uint64_t pairs() {
-        vox_pair_lists lists{};
-        lists.struct_size = sizeof lists;
-        std::uint64_t count = 0;
+        vox_partner_lists lists{};
         must(vox_surface_find_pairs(surface_, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
-        count += lists.pair_count;
+        const std::uint64_t of_edges = lists.offsets[lists.count];
         must(vox_surface_find_pairs(surface_, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX, 0, UINT64_MAX, &lists));
-        return count + lists.pair_count;
+        return of_edges + lists.offsets[lists.count];
     }
     // Seconds of both searches; a turn is long enough to be measured.
     double turn(double cell_size) {

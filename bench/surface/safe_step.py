@@ -16,29 +16,18 @@ import numpy as np
 import pairs
 
 
-class TimeDesc(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_uint32), ("most_iterations", ctypes.c_uint32), ("distance", ctypes.c_double),
-                ("slack", ctypes.c_double)]
-
-
 class SafeStep(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_uint32), ("reserved", ctypes.c_uint32), ("step", ctypes.c_double),
-                ("pairs", ctypes.c_uint64), ("unfinished", ctypes.c_uint64), ("kind_a", ctypes.c_int32),
-                ("kind_b", ctypes.c_int32), ("a", ctypes.c_uint32), ("b", ctypes.c_uint32)]
-
-
-class TimedView(ctypes.Structure):
-    _fields_ = [("struct_size", ctypes.c_uint32), ("byte_stride", ctypes.c_uint32), ("count", ctypes.c_uint64),
-                ("pairs", ctypes.c_void_p)]
+    _fields_ = [("step", ctypes.c_double), ("pairs", ctypes.c_uint64), ("kind_a", ctypes.c_int32), ("kind_b", ctypes.c_int32),
+                ("a", ctypes.c_uint32), ("b", ctypes.c_uint32), ("unfinished", ctypes.c_uint32), ("reserved", ctypes.c_uint32)]
 
 
 def timed(surface, a, b):
-    view = TimedView(ctypes.sizeof(TimedView))
+    view = pairs.View()
     surface.ok(surface.vox.vox_surface_find_impacts(surface.handle, a, b, None, ctypes.byref(view)))
     record = np.dtype([("a", "u4"), ("b", "u4"), ("time", "f8")])
     if view.count == 0:
         return np.zeros(0, record)
-    bytes_of = ctypes.cast(view.pairs, ctypes.POINTER(ctypes.c_uint8 * (view.count * record.itemsize)))
+    bytes_of = ctypes.cast(view.data, ctypes.POINTER(ctypes.c_uint8 * (view.count * record.itemsize)))
     return np.frombuffer(bytes(bytes_of.contents), record)
 
 
@@ -72,7 +61,7 @@ def main():
             best["ipctk"].append(time.perf_counter() - begin)
             begin = time.perf_counter()
             surface.move(v0, v1, 0, True)
-            out = SafeStep(ctypes.sizeof(SafeStep))
+            out = SafeStep()
             surface.ok(vox.vox_surface_find_safe_step(surface.handle, None, ctypes.byref(out)))
             best["vox"].append(time.perf_counter() - begin)
         lost = 0

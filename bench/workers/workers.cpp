@@ -1,6 +1,6 @@
-// Steps of a default grid with 1, 2, 4 and 8 workers, whose tasks run one by one on this thread, so that an
-// instruction counter can tell what is within a task from what is not: workers.py runs this program and reads
-// the counts.
+// Steps of a grid with constraints and 1, 2, 4 and 8 workers, whose tasks run one by one on this thread, so
+// that an instruction counter can tell what is within a task from what is not: workers.py runs this program
+// and reads the counts.
 #include "hard_scenes.hpp"
 #include "program.hpp"
 #include "scenes.hpp"
@@ -67,6 +67,7 @@ int run(int argc, char** argv) {
     Workers workers{1};
     const vox_task_system tasks{enqueue, finish, &workers};
     vox_grid_desc desc = vox_default_grid_desc();
+    desc.flags = VOX_GRID_CONSTRAINTS;
     desc.tasks = &tasks;
     desc.worker_count = 1;
     vox_grid* grid = nullptr;

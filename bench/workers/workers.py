@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What share of a default step's instructions is serial, that is outside the tasks that its workers share, with 1, 2, 4
+"""What share of a step's instructions is serial, with constraints, that is outside the tasks that its workers share, with 1, 2, 4
 and 8 workers.
 
 usage: workers.py PROGRAM SCENE TETS, e.g. workers.py build/release/bench/bench_workers overlap-50 1000000

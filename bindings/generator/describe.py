@@ -16,9 +16,9 @@ MODELS = {"lp64": 8, "wasm32": 4}  # bytes of a pointer; everything is aligned t
 NUMBERS = {"uint8_t": 1, "char": 1, "int32_t": 4, "uint32_t": 4, "int64_t": 8, "uint64_t": 8, "float": 4, "double": 8}
 
 # 64-bit numbers all of whose bits may be in use, and those that are counts, sizes, indices or times, below 2^53.
-BITS = re.compile(r"(^|_)(hash|mask|category|user_data(_[ab])?|seed)$")
+BITS = re.compile(r"(^|_)(hash|mask|reserved|category|user_data(_[ab])?|seed)$")
 COUNT = re.compile(r"([^s]s|(^|_)(began|begin|budget|capacity|cell|compared|contact|count|culled|end|ended|epoch|filtered|first|order|"
-                   r"persisted|range|round|size|softened|stride|unfinished|value)|_in_[ab])$")
+                   r"persisted|range|round|size|softened|stride|value)|_in_[ab])$")
 # Pointers that are handed back and that nobody looks behind.
 OPAQUE = re.compile(r"(^|_)(user|context|handle)$")
 # What a void* with a length points to.
@@ -274,7 +274,8 @@ class Describer:
         return found
 
     def who_tells(self, owner, name, field):
-        """The function that gives `field` of what the parameter `name` stands for; of the owner's header first."""
+        """The function that gives `field` of what the parameter `name` stands for, of the owner's header first; or else the one that
+        creates such an object from a desc with that field."""
         found = []
         for function in self.functions.values():
             names = [p[1] for p in function.parameters]
@@ -282,6 +283,9 @@ class Describer:
             if name in names and out.get("kind") == "struct" and not out.get("const"):
                 if field in (f[1] for f in self.types[out["base"]].fields):
                     found.append((self.header_of(function) != self.header_of(owner), len(names), function.name))
+        create = self.functions.get(f"vox_{name}_create")
+        if not found and create and field in (f[1] for f in self.types[self.type_of(create.parameters[0][0])["base"]].fields):
+            return create.name
         return min(found)[-1] if found else None
 
     def header_of(self, declaration):

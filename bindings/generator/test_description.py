@@ -76,7 +76,7 @@ class Description(unittest.TestCase):
 
     def test_every_pointer_is_described(self):
         found = list(pointers(API["headers"]))
-        self.assertGreater(len(found), 350)
+        self.assertGreater(len(found), 300)
         for place, pointer in found:
             with self.subTest(place=place):
                 self.assertIn(pointer["direction"], ("in", "out", "inout"))
@@ -255,8 +255,7 @@ class Faults(unittest.TestCase):
     def test_a_changed_header_is_noticed_in_every_file(self):
         everything = {"bindings/" + path for path in generate.files()}
         for old, new, without in [
-            ("    uint32_t vertex;\n    vox_body body_b;\n    uint32_t tet;\n    float barycentric[4];",
-             "    uint32_t vertex;\n    vox_body body_b;\n    uint32_t tet;\n    double barycentric[4];",
+            ("    double offset;\n    double position[3];", "    double offset;\n    float position[3];",
              {"enums.js", "enums.d.ts", "exports.txt"}),
             ("vox_grid_clear(vox_grid* grid);", "vox_grid_clear(vox_grid* grid, double rest);",
              {"enums.js", "enums.d.ts", "structs.d.ts", "exports.txt"}),
@@ -268,7 +267,7 @@ class Faults(unittest.TestCase):
                     self.assertEqual(path in found, os.path.basename(path) not in without, path)
 
     def test_a_changed_comment_is_noticed(self):
-        found = list(generate.differences(BINDINGS, self.changed("Removes all meshes and contacts", "Removes meshes")))
+        found = list(generate.differences(BINDINGS, self.changed("Removes all bodies and results", "Removes bodies")))
         self.assertIn("bindings/api.json does not fit the headers", found)
 
     def test_a_changed_or_missing_file_is_noticed(self):

@@ -138,8 +138,8 @@ class JavaScript:
         return "\n".join(lines) + "\n"
 
     def exports(self):
-        """For the linker: what the WebAssembly module exports. It is small, so that experiments are left out."""
-        return "".join(f["name"] + "\n" for f in sections(self.api, "functions") if f["stable"])
+        """For the linker: what the WebAssembly module exports."""
+        return "".join(f["name"] + "\n" for f in sections(self.api, "functions"))
 
 
 def generate(api):

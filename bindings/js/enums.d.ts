@@ -2,30 +2,27 @@
 
 export declare const Result: Readonly<{
   OK: 0;
-  /** a null pointer, an unknown enum, a bad number */
+  /** a null pointer, an unknown enumerator, a bad number */
   ERROR_INVALID_ARGUMENT: -1;
-  /** a mesh id that is null, stale or from another grid */
+  /** an id that is null, stale or of another grid */
   ERROR_INVALID_HANDLE: -2;
-  /** a tetrahedron names a vertex that does not exist */
+  /** a tetrahedron or triangle names a vertex that does not exist */
   ERROR_INVALID_MESH: -3;
-  /** the call does not fit the state, e.g. no positions bound */
+  /** the call does not fit the state, e.g. a mesh has no positions yet */
   ERROR_INVALID_STATE: -4;
   /** a position is NaN or infinite */
   ERROR_NON_FINITE: -5;
-  /** a documented limit would be passed */
+  /** a documented limit would be exceeded */
   ERROR_LIMIT: -6;
-  /** the grid's byte budget would be passed */
+  /** the byte budget would be exceeded */
   ERROR_BUDGET: -7;
   /** the allocator returned null */
   ERROR_OUT_OF_MEMORY: -8;
-  /**
-   * recognised, but not supported by this build or version; or the processor is an x86-64 without SSE4.2: nothing is
-   * created there, and no cell size found
-   */
+  /** not in this build or version */
   ERROR_UNSUPPORTED: -9;
   /** a file cannot be opened, read or written */
   ERROR_FILE: -10;
-  /** a file is malformed */
+  /** a file or a snapshot is malformed */
   ERROR_FORMAT: -11;
   /** a defect of the library: please report it */
   ERROR_INTERNAL: -12;
@@ -33,39 +30,27 @@ export declare const Result: Readonly<{
 export type Result = (typeof Result)[keyof typeof Result];
 
 export declare const Format: Readonly<{
-  /** IEEE 754 singles */
   FLOAT: 0;
-  /** IEEE 754 doubles, of magnitudes below 2^128 - 2^103 (3.4028236e38), the largest float */
+  /** magnitudes below 2^128 - 2^103, the largest float */
   DOUBLE: 1;
 }>;
 export type Format = (typeof Format)[keyof typeof Format];
 
+/** What a step does besides finding contacts and pairs. */
 export declare const GridFlags: Readonly<{
-  /**
-   * run the depth stage in a step (vox_grid_penetrations); on by default. A mesh of more than 357913941 tets then gives
-   * VOX_ERROR_LIMIT, unless its filter does without
-   */
-  PENETRATIONS: 1;
-  /** also report events of single vertices (vox_grid_contact_events) */
-  CONTACT_EVENTS: 2;
-  /**
-   * a mesh with a coordinate that VOX_FORMAT_DOUBLE does not allow (NaN, infinite, too large) takes no part in a step,
-   * in vox_grid_suggest_cell_size and in locators (vox_query.h), as if it were disabled; without this flag they fail.
-   * Counted (vox_grid_info.skipped_bodies), listed (vox_grid_get_failure), and logged once until the mesh is well again
-   */
+  /** also find constraints: as vox_grid_find_constraints with the defaults */
+  CONSTRAINTS: 1;
+  /** also find edges that pass through faces. Experimental */
+  EDGES: 2;
+  /** leave out a body with a bad coordinate (NaN, infinite, too large) instead of failing (vox_grid_get_failure) */
   SKIP_BAD_BODIES: 4;
-  /**
-   * also find edges of surfaces through faces of others (vox_grid_edge_contacts); experimental. A mesh of more than
-   * 357913941 tets then gives VOX_ERROR_LIMIT
-   */
-  EDGE_CONTACTS: 8;
 }>;
 export type GridFlags = number;
 
 export declare const FilterFlags: Readonly<{
   /** the mesh also collides with itself */
   SELF_COLLISION: 1;
-  /** the mesh has contacts, but no penetrations; takes less memory */
+  /** the body has contacts and pairs, but no constraints; takes less memory */
   SENSOR: 2;
 }>;
 export type FilterFlags = number;
@@ -78,78 +63,69 @@ export declare const MeshFlags: Readonly<{
 }>;
 export type MeshFlags = number;
 
-/**
- * How a penetration's depth and direction were found. In the following, p is the vertex; a colliding vertex is a vertex
- * of body_a that has a contact with body_b; edges are those of body_a's tetrahedra; the surface of body_b consists of
- * the facets of exactly one of its tetrahedra, duplicates counted once. SURFACE and PROPAGATED are the method of
- * Heidelberger et al. 2004; the other states stand for cases in which it gives no answer. "Closest" means that depth is
- * the distance from p to the closest point of body_b's surface, and direction points straight to it. For self-contact
- * the surface is that of the fold that p has entered, never a triangle that has p as a corner.
- */
-export declare const PenetrationState: Readonly<{
-  /** edges lead from p out of body_b; mean over the points where they cross the surface */
-  SURFACE: 0;
-  /** all neighbours of p collide; mean over those closer to the surface */
-  PROPAGATED: 1;
-  /**
-   * closest: no edge leads out from p or from a colliding vertex connected with it, or p has no edges, as in meshes
-   * without tetrahedra
-   */
-  ENCLOSED: 2;
-  /**
-   * the means are unusable, as the normals nearly cancel (edges leave on opposite sides), the depth would not be
-   * positive, or an edge that leads out crosses no surface (inverted tetrahedra, non-manifold facets); or this is the
-   * case for all vertices that p is connected with. The nearest way out alone: of the edges, or by a neighbour. Closest
-   * only if no edge of any of these vertices leads out
-   */
-  CROSSING: 3;
-  /** p lies on the surface; depth is 0, direction the surface's normal at p */
-  COINCIDENT: 4;
-  /**
-   * the step's closest_budget was used up (see vox_grid_desc): depth is 0, direction the normal of a facet of the
-   * contact's tetrahedron
-   */
-  UNKNOWN: 5;
-}>;
-export type PenetrationState = (typeof PenetrationState)[keyof typeof PenetrationState];
-
-/** How an edge meets a face. */
-export declare const CrossingKind: Readonly<{
-  /** it passes through the interior of the face, with an end on either side */
-  THROUGH: 0;
-  /** an end is on the face, or it passes through an edge or a corner of the face */
-  TOUCHING: 1;
-  /** it lies in the plane of the face and meets it, or one of them is degenerate and they meet */
-  COPLANAR: 2;
-}>;
-export type CrossingKind = (typeof CrossingKind)[keyof typeof CrossingKind];
-
-/** What an event reports: how the last successful step differs from the successful step before it. */
-export declare const Touch: Readonly<{
-  /** touches now, and did not before */
+/** What changed since the last successful step. */
+export declare const PairState: Readonly<{
+  /** does not touch, but is within the margin */
+  NEAR: 0;
+  /** touches now and did not before */
   BEGAN: 1;
-  /** touches now, and did before */
+  /** touches now and did before */
   PERSISTED: 2;
-  /** no longer touches, for whatever reason */
+  /** touched before and does not now */
   ENDED: 3;
 }>;
-export type Touch = (typeof Touch)[keyof typeof Touch];
+export type PairState = (typeof PairState)[keyof typeof PairState];
 
-/** Which parts of a vox_reading are wanted, or present; all fields of the other parts are zero. */
-export declare const ReadingFlags: Readonly<{
-  /** missing if the vertex or its mesh was removed after the step */
-  POSITION: 1;
+/** Why there is a constraint. A vertex has at most one INSIDE, PROXIMITY or IMPACT constraint with each body. */
+export declare const ConstraintKind: Readonly<{
+  /** a vertex of body_a is inside body_b */
+  INSIDE: 0;
+  /** an edge of body_a meets a face of body_b (VOX_GRID_EDGES) */
+  EDGE: 1;
+  /** a vertex of body_a is outside body_b and within the margin (vox_grid_set_margin) */
+  PROXIMITY: 2;
   /**
-   * missing where POSITION is or would be, if body_b was removed or has no surface, or if all of its tetrahedra that
-   * contained the vertex were removed or disabled
+   * a vertex of body_a is not inside body_b, but went in within the step and is behind the face that it met first
+   * (vox_mesh_bind_previous_positions)
    */
-  SURFACE: 2;
-  /** missing on grids without VOX_GRID_PENETRATIONS, and where one of the meshes is a sensor */
-  DEPTH: 4;
+  IMPACT: 3;
 }>;
-export type ReadingFlags = number;
+export type ConstraintKind = (typeof ConstraintKind)[keyof typeof ConstraintKind];
 
-/** Severity of a log line. */
+/** How gap and normal were found, and thus how far to trust them (docs/depth.md). */
+export declare const DepthState: Readonly<{
+  /** a mean over the edges that lead from the vertex out of body_b */
+  SURFACE: 0;
+  /** a mean over neighbouring vertices that are closer to the surface */
+  PROPAGATED: 1;
+  /** the closest point of the surface, which may jump from step to step */
+  CLOSEST: 2;
+  /** the bodies pass through each other: the nearest way out, which may be the wrong side */
+  AMBIGUOUS: 3;
+  /** the bodies only touch here: gap 0 */
+  TOUCHING: 4;
+  /** closest_budget was used up: gap 0; or no depth was asked for: gap and normal 0 */
+  UNKNOWN: 5;
+  /** the plane of the face: for IMPACT, and for EDGE of a mesh with itself */
+  PLANE: 6;
+}>;
+export type DepthState = (typeof DepthState)[keyof typeof DepthState];
+
+/** How the depth of a vertex inside a mesh is found. */
+export declare const DepthMethod: Readonly<{
+  /** smooth along the surface; neighbouring vertices leave on the same side: for response (Heidelberger et al. 2004) */
+  CONSISTENT: 0;
+  /**
+   * to the closest point of the surface, with the vertices of its face in place of those of the tetrahedron: for finite
+   * elements, pictures, reports
+   */
+  CLOSEST: 1;
+  /** none: vertices, weights and position alone. Quick */
+  NONE: 2;
+}>;
+export type DepthMethod = (typeof DepthMethod)[keyof typeof DepthMethod];
+
+/** How serious a line of the log is. */
 export declare const LogLevel: Readonly<{
   INFO: 0;
   WARNING: 1;
@@ -324,36 +300,31 @@ export declare const ForeignRule: Readonly<{
 }>;
 export type ForeignRule = (typeof ForeignRule)[keyof typeof ForeignRule];
 
-/**
- * Version of the stable interface. A program runs with every library that has the ABI version it was built with. It is
- * part of the shared libraries' names (docs/abi.md).
- */
+/** A program runs with any library of the ABI version that it was built with (docs/abi.md). */
 export declare const ABI_VERSION: 1;
-/** as a worker_count: one worker per core */
-export declare const ALL_CORES: 4294967295;
 /** as an index: none */
 export declare const NONE: 4294967295;
-/** per grid, at one time, including retired slots */
+/** as a worker_count: one worker per core */
+export declare const ALL_CORES: 4294967295;
+/** in a grid at one time */
 export declare const MAX_BODIES: 1048576;
-/** uses of one mesh slot before it is retired */
-export declare const MAX_GENERATIONS: 4095;
-/** per grid */
+/** in a grid */
 export declare const MAX_VERTICES: 2147483647;
-/** per grid */
+/** in a grid */
 export declare const MAX_TETS: 2147483647;
-/** workers of a grid */
+/** in a mesh whose surface is needed: constraints, edges, margin, queries */
+export declare const MAX_SURFACE_TETS: 357913941;
+/** in a step */
+export declare const MAX_CONTACTS: 4294967295;
+/** of a grid */
 export declare const MAX_WORKERS: 256;
-/** names no mesh */
+/** names no body */
 export declare const NULL_BODY: 0;
 /** vox_filter.self_rings */
 export declare const MAX_RINGS: 8;
-/** vox_failure.vertex where a failure is not about a vertex */
-export declare const NO_VERTEX: 4294967295;
-/** contacts of one step; a step with more fails with VOX_ERROR_LIMIT */
-export declare const MAX_CONTACTS: 4294967295;
-/** vox_touch_event.pair of a pair that ended */
-export declare const NO_PAIR: 4294967295;
-/** tasks enqueued in one step */
+/** most vertices of a constraint */
+export declare const STENCIL_CAPACITY: 5;
+/** in one call */
 export declare const MAX_TASKS: 64;
 /** numbers of vox_cost_weights */
 export declare const COST_WEIGHT_CAPACITY: 24;

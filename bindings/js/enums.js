@@ -1,18 +1,17 @@
 // Written by bindings/generate.py from bindings/api.json. Do not edit.
 
 export const ABI_VERSION = 1;
-export const ALL_CORES = 4294967295;
 export const NONE = 4294967295;
+export const ALL_CORES = 4294967295;
 export const MAX_BODIES = 1048576;
-export const MAX_GENERATIONS = 4095;
 export const MAX_VERTICES = 2147483647;
 export const MAX_TETS = 2147483647;
+export const MAX_SURFACE_TETS = 357913941;
+export const MAX_CONTACTS = 4294967295;
 export const MAX_WORKERS = 256;
 export const NULL_BODY = 0;
 export const MAX_RINGS = 8;
-export const NO_VERTEX = 4294967295;
-export const MAX_CONTACTS = 4294967295;
-export const NO_PAIR = 4294967295;
+export const STENCIL_CAPACITY = 5;
 export const MAX_TASKS = 64;
 export const COST_WEIGHT_CAPACITY = 24;
 export const COST_CURVE_CAPACITY = 64;
@@ -43,10 +42,9 @@ export const Format = Object.freeze({
 });
 
 export const GridFlags = Object.freeze({
-  PENETRATIONS: 1,
-  CONTACT_EVENTS: 2,
+  CONSTRAINTS: 1,
+  EDGES: 2,
   SKIP_BAD_BODIES: 4,
-  EDGE_CONTACTS: 8,
 });
 
 export const FilterFlags = Object.freeze({
@@ -59,31 +57,34 @@ export const MeshFlags = Object.freeze({
   BORROW_TETS: 2,
 });
 
-export const PenetrationState = Object.freeze({
-  SURFACE: 0,
-  PROPAGATED: 1,
-  ENCLOSED: 2,
-  CROSSING: 3,
-  COINCIDENT: 4,
-  UNKNOWN: 5,
-});
-
-export const CrossingKind = Object.freeze({
-  THROUGH: 0,
-  TOUCHING: 1,
-  COPLANAR: 2,
-});
-
-export const Touch = Object.freeze({
+export const PairState = Object.freeze({
+  NEAR: 0,
   BEGAN: 1,
   PERSISTED: 2,
   ENDED: 3,
 });
 
-export const ReadingFlags = Object.freeze({
-  POSITION: 1,
-  SURFACE: 2,
-  DEPTH: 4,
+export const ConstraintKind = Object.freeze({
+  INSIDE: 0,
+  EDGE: 1,
+  PROXIMITY: 2,
+  IMPACT: 3,
+});
+
+export const DepthState = Object.freeze({
+  SURFACE: 0,
+  PROPAGATED: 1,
+  CLOSEST: 2,
+  AMBIGUOUS: 3,
+  TOUCHING: 4,
+  UNKNOWN: 5,
+  PLANE: 6,
+});
+
+export const DepthMethod = Object.freeze({
+  CONSISTENT: 0,
+  CLOSEST: 1,
+  NONE: 2,
 });
 
 export const LogLevel = Object.freeze({

@@ -1,79 +1,28 @@
 // Written by bindings/generate.py from bindings/api.json. Do not edit.
 
-import type { AreaReading, CellContent, CellLook, CostModel, CrossingKind, ForeignRule, Format, KnownGrid,
-PenetrationState, PrimitiveType, Result, Side, SizeReading, Touch } from "./enums.js";
+import type { AreaReading, CellContent, CellLook, ConstraintKind, CostModel, DepthMethod, DepthState, ForeignRule,
+Format, KnownGrid, PairState, PrimitiveType, Result, Side, SizeReading } from "./enums.js";
 
-/** Settings of a grid. What the pointers name is copied. */
+/** Settings of a grid; all 0 by default. What the pointers name is copied. */
 export interface GridDesc {
   /** vox_grid_flags, combined with | */
   flags: number;
-  /**
-   * Threads that share a step, the calling one being one of them: up to VOX_MAX_WORKERS, or VOX_ALL_CORES; 0: one. With
-   * `tasks`, the number of that system's workers. Contacts do not depend on it. The built-in scheduler never uses more
-   * threads than there are cores, nor more than the system gives. It is oneTBB, or without it (vox_build_info says
-   * which) each grid has threads of its own, from the first step that needs them until its end, which sleep between
-   * steps; in a process made by fork it makes new ones. Builds for systems without threads are serial.
-   */
+  /** threads that share a step: up to VOX_MAX_WORKERS, or VOX_ALL_CORES; 0: one */
   workerCount: number;
-  /**
-   * Edge length of a cell; 0: the library chooses it. It never changes contacts. The fast engine chooses one for each
-   * body in every step, from the size of the tiles near other bodies; for the reference engine see vox_reference_desc.
-   */
+  /** edge length of a cell; 0: the library chooses it in every step. Never changes results */
   cellSize: number;
-  /** see vox_grid_set_margin. Experimental */
+  /** see vox_grid_set_margin */
   margin: number;
-  /**
-   * most bytes the grid may hold; a call that would exceed it fails with VOX_ERROR_BUDGET. 0: 4 GiB; UINT64_MAX: no
-   * limit
-   */
+  /** most bytes the grid may hold; 0: 4 GiB; UINT64_MAX: no limit */
   byteBudget: number;
-  /**
-   * Most searches for a closest point that the depth stage makes in one step: for penetrations that would be ENCLOSED,
-   * or CROSSING with nothing but a closest point to go by. The first ones, in the order of the penetrations, get them;
-   * the others become VOX_PENETRATION_UNKNOWN, which is counted (unknown_penetrations) and written to the log. Those of
-   * meshes at rest, which are carried over from the last step, take nothing of it, and stay UNKNOWN where they are. 0:
-   * no limit.
-   */
-  closestBudget: number;
-}
-
-/** A grid as it is now, and what its last successful step did. */
-export interface GridInfo {
-  /** vox_grid_flags, combined with | */
-  flags: number;
-  /**
-   * Number of steps, clears, reserves and changes of flags or margin so far, failed steps included. A view is valid
-   * while its epoch equals it.
-   */
-  epoch: number;
-  /**
-   * The cell size that was set, or else the last one that was chosen; 0 before the first step. If a step chose several,
-   * it is that of the smallest tetrahedra (reference engine) or of the last body that needed one (fast).
-   */
-  cellSize: number;
-  margin: number;
-  /** held now, without the caller's arrays */
-  bytes: number;
-  peakBytes: number;
-  /** nanoseconds */
-  stepNs: number;
-  /** bodies that were not at rest (see vox_grid_step) */
-  movedBodies: number;
-  /** bodies that were left out (VOX_GRID_SKIP_BAD_BODIES) */
-  skippedBodies: number;
-  /** pairs that began, in all steps so far */
-  totalBegan: number;
-  /** pairs that ended, in all steps so far */
-  totalEnded: number;
 }
 
 /**
- * What a mesh collides with. With all fields 0, the default, it collides with every other mesh, but not with itself.
- * Two meshes in different worlds never collide; use worlds for copies of a scene in one grid. Two meshes with the same
+ * What a body collides with. With all fields 0, the default, it collides with every other body, but not with itself.
+ * Two bodies in different worlds never collide; use worlds for copies of a scene in one grid. Two bodies with the same
  * group other than 0 collide if it is positive and do not collide if it is negative. Any other two collide if the
  * category of each has a bit in common with the mask of the other, as in Box2D. A tetrahedron that is ruled out for a
- * vertex is treated as if it did not exist: the rule of vox_contact (every tetrahedron with the vertex in its interior,
- * or else the lowest with it on the boundary) is applied to the remaining ones.
+ * vertex is treated as if it did not exist.
  */
 export interface Filter {
   /** vox_filter_flags, combined with | */
@@ -85,15 +34,13 @@ export interface Filter {
   mask: bigint;
   world: number;
   /**
-   * Self-contact skips tetrahedra that have a corner within this many edges of the vertex, along the edges of the
-   * mesh's tetrahedra; at most VOX_MAX_RINGS. 0 skips only tetrahedra that have the vertex as a corner. Takes about 60,
-   * 260 or 700 bytes a vertex for 1, 2 or 3.
+   * Self-contact ignores tetrahedra that have a corner within this many edges of the vertex; at most VOX_MAX_RINGS.
+   * Takes about 60, 260 or 700 bytes per vertex for 1, 2 or 3.
    */
   selfRings: number;
   /**
-   * Self-contact skips tetrahedra that are closer to the vertex than this in the rest pose (distance to the closed
-   * tetrahedron, computed in double). The rest pose is vox_mesh_desc.rest_positions or, without those, the positions at
-   * the time this was first set.
+   * Self-contact ignores tetrahedra that are closer to the vertex than this in the rest pose. The rest pose is
+   * vox_mesh_desc.rest_positions or, without these, the positions when this distance is first set.
    */
   selfRestDistance: number;
 }
@@ -109,62 +56,17 @@ export interface FilterColumns {
   readonly selfRestDistance: Float64Array;
 }
 
-/** A mesh as it is now, e.g. after vox_grid_load. */
-export interface BodyInfo {
-  /** from 0 */
-  slot: number;
-  /** as given at insertion */
-  userData: bigint;
-  /** with those that are disabled or removed: indices of tetrahedra are below it */
-  tetCount: number;
-  enabledTetCount: number;
-  /** 1, or 0 (see vox_body_set_enabled) */
-  enabled: number;
-  /**
-   * vox_mesh_flags: COPY_POSITIONS if the positions are the mesh's own (copied, mapped or loaded), BORROW_TETS while
-   * the tetrahedra are the caller's
-   */
-  flags: number;
-  /** 1 if vox_body_set_transform gave it one */
-  hasTransform: number;
-  /** as vox_body_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0 */
-  transform: number[];
-  /** in use: neither category nor mask is 0 */
-  filter: Filter;
-}
-
-/** A mesh that made a step fail, or that a step left out. */
-export interface Failure {
-  /**
-   * NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE does not allow), INVALID_STATE (no positions),
-   * INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT); VOX_OK if there is none
-   */
-  result: Result;
-  /** VOX_NULL_BODY if there is none */
-  mesh: number;
-  /** of the mesh, from 0 */
-  slot: number;
-  /** of the mesh, as given at insertion */
-  userData: bigint;
-  /** the first with such a coordinate; VOX_NO_VERTEX if the failure is about none */
-  vertex: number;
-  /** of that vertex, as it would collide: in double and transformed; else 0 */
-  position: [number, number, number];
-}
-
 /**
- * Vertex `vertex` of body_a is in the closed tetrahedron `tet` of body_b and is not a corner of it. This is decided
- * exactly for the coordinates given. For each (body_a, vertex, body_b) there is a contact for every tetrahedron that
- * has the vertex in its interior; if there is none, one for the tetrahedron of lowest index that has it on its
- * boundary. A tetrahedron of exactly zero volume contains nothing. `barycentric` are the vertex's weights for the
- * tetrahedron's four corners in their given order. Each is in [0, 1], and their sum is 1 up to rounding.
+ * Vertex `vertex` of body_a lies in the closed tetrahedron `tet` of body_b and is not one of its corners. This is
+ * decided exactly. For each vertex and body_b there is a contact for every tetrahedron that has the vertex in its
+ * interior; if there is none, there is one for the lowest tetrahedron that has it on its boundary. A tetrahedron of
+ * zero volume contains nothing.
  */
 export interface Contact {
   bodyA: number;
   vertex: number;
   bodyB: number;
   tet: number;
-  barycentric: [number, number, number, number];
 }
 
 /** Columns of Contact: of an array field, its elements one after the other. */
@@ -173,189 +75,24 @@ export interface ContactColumns {
   readonly vertex: Uint32Array;
   readonly bodyB: Uint32Array;
   readonly tet: Uint32Array;
-  readonly barycentric: Float32Array;
 }
 
 /**
- * Vertex `vertex` of body_a is inside body_b (a = b: self-contact) and has to leave it: moving the vertex by depth *
- * direction leads to the surface of body_b, exactly if the state says closest, and otherwise as well as edges and
- * neighbours can estimate it. All values are finite, and direction is a unit vector up to rounding. If body_b has no
- * surface (each facet belongs to several tetrahedra), depth is 0 and direction the normal of a facet of the contact's
- * tetrahedron. Does not depend on engine, cell size, workers or machine.
- */
-export interface Penetration {
-  bodyA: number;
-  vertex: number;
-  bodyB: number;
-  state: PenetrationState;
-  /** index in vox_grid_get_contacts of the first contact of (body_a, vertex, body_b) */
-  contact: number;
-  /** >= 0, in the caller's unit */
-  depth: number;
-  /** in the frame of the positions, out of body_b */
-  direction: [number, number, number];
-}
-
-/** Columns of Penetration: of an array field, its elements one after the other. */
-export interface PenetrationColumns {
-  readonly bodyA: Uint32Array;
-  readonly vertex: Uint32Array;
-  readonly bodyB: Uint32Array;
-  readonly state: Int32Array;
-  readonly contact: Float64Array;
-  readonly depth: Float32Array;
-  readonly direction: Float32Array;
-}
-
-/**
- * Depth and direction of a vox_penetration as computed, in double; rounded to floats they are those of the
- * vox_penetration.
- */
-export interface Depth {
-  depth: number;
-  direction: [number, number, number];
-}
-
-/** Columns of Depth: of an array field, its elements one after the other. */
-export interface DepthColumns {
-  readonly depth: Float64Array;
-  readonly direction: Float64Array;
-}
-
-/**
- * An edge of the surface of body_a and a face of the surface of body_b that have a point in common (a = b:
- * self-contact; then they have no vertex in common). The surface of a mesh consists of the facets of exactly one of its
- * enabled tetrahedra, duplicates counted once, and of their edges. Decided exactly for the coordinates given. So two
- * bars laid across each other are seen, though no vertex of one is in the other. Where several points are common, the
- * position is that of one of them: an end of the edge if one is, the lower vertex first.
- */
-export interface EdgeContact {
-  bodyA: number;
-  /** vertices of body_a, the lower first */
-  edge: [number, number];
-  bodyB: number;
-  /** vertices of body_b, the lowest first, counter-clockwise as seen from the side that the normal points to */
-  face: [number, number, number];
-  /** of body_b, behind the face; of doubled ones the lowest */
-  tet: number;
-  kind: CrossingKind;
-  /** of the point, in [0, 1], with the sum 1 up to rounding */
-  edgeWeights: [number, number];
-  /** of the same point */
-  faceWeights: [number, number, number];
-  /** of the point, rounded */
-  position: [number, number, number];
-  /**
-   * A unit vector out of `tet` or, if that is flat, to the side away from the lower vertex of the edge; 0, 0, 1 if the
-   * face has no area.
-   */
-  normal: [number, number, number];
-}
-
-/** Columns of EdgeContact: of an array field, its elements one after the other. */
-export interface EdgeContactColumns {
-  readonly bodyA: Uint32Array;
-  readonly edge: Uint32Array;
-  readonly bodyB: Uint32Array;
-  readonly face: Uint32Array;
-  readonly tet: Uint32Array;
-  readonly kind: Int32Array;
-  readonly edgeWeights: Float64Array;
-  readonly faceWeights: Float64Array;
-  readonly position: Float64Array;
-  readonly normal: Float64Array;
-}
-
-/**
- * Vertex `vertex` of body_a is in no tetrahedron of body_b, but no further than the margin from its surface. The point
- * of the surface of body_b that is closest to it is on a facet of `tet`; of several at the same distance that of the
- * lowest (tet, facet), as in vox_locator_find_closest (vox_query.h). Computed in double.
- */
-export interface MarginContact {
-  bodyA: number;
-  vertex: number;
-  /** never body_a */
-  bodyB: number;
-  /** of body_b */
-  tet: number;
-  /** of the tetrahedron, as in vox_closest_hit */
-  facet: number;
-  /** its vertices, in the order given there */
-  face: [number, number, number];
-  /** of the closest point, in [0, 1], with the sum 1 up to rounding */
-  faceWeights: [number, number, number];
-  /** from the vertex to the closest point */
-  distance: number;
-  /** a unit vector from the closest point to the vertex; out of the tetrahedron if there is no distance between them */
-  normal: [number, number, number];
-}
-
-/** Columns of MarginContact: of an array field, its elements one after the other. */
-export interface MarginContactColumns {
-  readonly bodyA: Uint32Array;
-  readonly vertex: Uint32Array;
-  readonly bodyB: Uint32Array;
-  readonly tet: Uint32Array;
-  readonly facet: Uint32Array;
-  readonly face: Uint32Array;
-  readonly faceWeights: Float64Array;
-  readonly distance: Float64Array;
-  readonly normal: Float64Array;
-}
-
-/**
- * Vertex `vertex` of body_a met the surface of body_b while both moved from their previous positions to the present
- * ones (vox_mesh_bind_previous_positions; a mesh without previous positions stands still), wherever it was before and
- * is after: also where it went through a thin mesh and out again.
- */
-export interface Passage {
-  bodyA: number;
-  vertex: number;
-  /** never body_a */
-  bodyB: number;
-  /** of body_b */
-  tet: number;
-  /**
-   * of the tetrahedron, as in vox_closest_hit: the first that the vertex met; the lowest (tet, facet) of several at the
-   * same time
-   */
-  facet: number;
-  /** its vertices, in the order given there */
-  face: [number, number, number];
-  /**
-   * in [0, 1], 0 at the previous positions: when it met it; never too late, and too early by no more than rounding
-   * errors make necessary
-   */
-  time: number;
-}
-
-/** Columns of Passage: of an array field, its elements one after the other. */
-export interface PassageColumns {
-  readonly bodyA: Uint32Array;
-  readonly vertex: Uint32Array;
-  readonly bodyB: Uint32Array;
-  readonly tet: Uint32Array;
-  readonly facet: Uint32Array;
-  readonly face: Uint32Array;
-  readonly time: Float64Array;
-}
-
-/**
- * Two meshes that touch: a vertex of one of them is in a tetrahedron of the other, or they have edge contacts
- * (VOX_GRID_EDGE_CONTACTS). body_a <= body_b; they are equal if a mesh touches itself. The contacts of the pair are
- * those whose indices begin at vox_pair_view.contacts[first]: first the a_in_b contacts of vertices of body_a in tets
- * of body_b, then the b_in_a contacts of vertices of body_b in tets of body_a (0 for a mesh with itself), each in the
- * order of vox_grid_get_contacts.
+ * Two bodies that touch, or touched in the step before. They touch if a vertex of one is inside the other or went
+ * through it within the step, or if an edge of one meets a face of the other. body_a < body_b; they are equal for a
+ * mesh that touches itself. A pair that began ends exactly once, even if a body is removed, disabled or filtered out,
+ * or the grid is cleared. Its ids may be stale then.
  */
 export interface Pair {
   bodyA: number;
   bodyB: number;
-  /** of body_a, as given at insertion */
   userDataA: bigint;
   userDataB: bigint;
-  first: number;
-  aInB: number;
-  bInA: number;
+  state: PairState;
+  /** see vox_pair_view.contacts */
+  firstContact: number;
+  /** 0 if the two touch in another way, or no longer */
+  contactCount: number;
 }
 
 /** Columns of Pair: of an array field, its elements one after the other. */
@@ -364,131 +101,145 @@ export interface PairColumns {
   readonly bodyB: Uint32Array;
   readonly userDataA: BigUint64Array;
   readonly userDataB: BigUint64Array;
-  readonly first: Float64Array;
-  readonly aInB: Float64Array;
-  readonly bInA: Float64Array;
-}
-
-/**
- * An event of a pair of meshes, body_a <= body_b. A pair that began persists in every following step until it ends,
- * which it does exactly once, also if a mesh was removed, disabled or filtered, or the grid cleared. Then `body_a` and
- * `body_b` may be stale ids; the user data are those of the meshes that they named.
- */
-export interface TouchEvent {
-  bodyA: number;
-  bodyB: number;
-  userDataA: bigint;
-  userDataB: bigint;
-  kind: Touch;
-  /** index of the pair in vox_grid_get_pairs; VOX_NO_PAIR if it ended */
-  pair: number;
-}
-
-/** Columns of TouchEvent: of an array field, its elements one after the other. */
-export interface TouchEventColumns {
-  readonly bodyA: Uint32Array;
-  readonly bodyB: Uint32Array;
-  readonly userDataA: BigUint64Array;
-  readonly userDataB: BigUint64Array;
-  readonly kind: Int32Array;
-  readonly pair: Uint32Array;
-}
-
-/**
- * Vertex `vertex` of body_a has entered body_b, or is in none of its tetrahedra any more. Moving from one tetrahedron
- * of body_b to another is not an event.
- */
-export interface ContactEvent {
-  bodyA: number;
-  vertex: number;
-  bodyB: number;
-  /** VOX_TOUCH_BEGAN or VOX_TOUCH_ENDED */
-  kind: Touch;
-}
-
-/** Columns of ContactEvent: of an array field, its elements one after the other. */
-export interface ContactEventColumns {
-  readonly bodyA: Uint32Array;
-  readonly vertex: Uint32Array;
-  readonly bodyB: Uint32Array;
-  readonly kind: Int32Array;
-}
-
-/**
- * Geometry of one contact. All contacts of the same (body_a, vertex, body_b) have the same reading except for the first
- * field. `triangle` is the triangle closest to the vertex on the surface of body_b, which consists of the facets of
- * exactly one of its tetrahedra, duplicates counted once. It is computed in double, as by vox_locator_find_closest; of
- * several at the same distance it is the one with the lowest corners, compared in ascending order. For self-contact it
- * belongs to the fold that the vertex has entered and never has the vertex as a corner (see vox_penetration_state). No
- * reading depends on engine, cell size, workers or machine.
- */
-export interface Reading {
-  /** index of the contact in vox_grid_get_contacts */
-  contact: number;
-  /** vox_reading_flags, combined with | */
-  known: number;
-  /** DEPTH: state, depth and direction of the vertex's vox_penetration */
-  state: PenetrationState;
-  depth: number;
-  direction: [number, number, number];
-  /** POSITION: the vertex as it collides, in double and transformed */
-  position: [number, number, number];
-  /** SURFACE (up to `triangle`): distance from the vertex to surface_position */
-  distance: number;
-  /** the closest point of `triangle` */
-  surfacePosition: [number, number, number];
-  /** its weights for the triangle's corners, in [0, 1], with the sum 1 up to rounding */
-  barycentric: [number, number, number];
-  /**
-   * A unit vector out of the triangle's tetrahedron or, if that is flat, to the side away from the vertex. If the
-   * triangle has no area, it points from the vertex to the closest point, or is 0, 0, 1 if both coincide.
-   */
-  normal: [number, number, number];
-  /** vertices of body_b, the lowest first, counter-clockwise as seen from the side that the normal points to */
-  triangle: [number, number, number];
-  /** of body_a, as given at insertion */
-  userDataA: bigint;
-  userDataB: bigint;
-}
-
-/** Columns of Reading: of an array field, its elements one after the other. */
-export interface ReadingColumns {
-  readonly contact: Float64Array;
-  readonly known: Uint32Array;
   readonly state: Int32Array;
-  readonly depth: Float32Array;
-  readonly direction: Float32Array;
-  readonly position: Float64Array;
-  readonly distance: Float64Array;
-  readonly surfacePosition: Float64Array;
-  readonly barycentric: Float64Array;
-  readonly normal: Float64Array;
-  readonly triangle: Uint32Array;
-  readonly userDataA: BigUint64Array;
-  readonly userDataB: BigUint64Array;
+  readonly firstContact: Float64Array;
+  readonly contactCount: Float64Array;
 }
 
-/** What to read. */
-export interface ReadingsDesc {
-  /**
-   * vox_reading_flags, combined with |; 0: all. Without SURFACE a reading takes about as long as copying it. The other
-   * fields of vox_reading, such as user data, are always set
-   */
-  what: number;
-  /** VOX_NULL_BODY: all contacts; else those that vox_mesh_copy_contacts copies */
+/**
+ * A point of body_a and a point of body_b that must not pass through each other. Each is a weighted sum of vertices.
+ * All vertices are in one list: first those of body_a, whose weights add up to 1; then those of body_b, whose weights
+ * are negative and add up to -1. When vertex i is at x[i], gap = offset + dot(normal, sum of weights[i] * x[i])
+ * (vox_constraint_gap) is negative while the two overlap. Its gradient for vertex i is weights[i] * normal, so a solver
+ * pushes vertex i in that direction, whatever the kind. With velocities in place of x, the sum is the velocity of the
+ * point of body_a relative to that of body_b, for damping and friction. kind vertices of body_a vertices of body_b gap
+ * in the step INSIDE the vertex the tetrahedron that contains it minus the depth EDGE the edge the face minus the depth
+ * of its part inside, from the middle of that part PROXIMITY the vertex the face with the closest point the distance
+ * IMPACT the vertex the face that it met first minus the distance behind its plane
+ */
+export interface Constraint {
   bodyA: number;
-  /** VOX_NULL_BODY, or those that vox_pair_copy_contacts copies for body_a and it */
   bodyB: number;
+  kind: ConstraintKind;
+  state: DepthState;
+  /** how many vertices of body_a */
+  countA: number;
+  /** how many vertices in all */
+  count: number;
+  /** those beyond `count` are 0, and so are their weights */
+  vertices: number[];
+  /** tetrahedron of body_b: the lowest that contains the vertex, or the one behind the face */
+  elementB: number;
+  weights: number[];
+  /** a unit vector out of body_b, the way for body_a */
+  normal: [number, number, number];
+  gap: number;
+  offset: number;
+  /** of the point of body_a */
+  position: [number, number, number];
+  /** when within the step, from 0 to 1, a vertex met the surface; 1 if that is not known */
+  time: number;
+  userDataA: bigint;
+  userDataB: bigint;
+  /** index of its pair in vox_grid_get_pairs */
+  pair: number;
   /**
-   * Most searches for a closest point. The first contacts that need one get it; the readings of the others lack
-   * VOX_READING_SURFACE in `known`, and the log has a warning. 0: no limit.
+   * index of the same constraint in the list of the step before, for a warm start; VOX_NONE if it is new. Same means
+   * the same vertex and body_b, or the same edge and face
+   */
+  previous: number;
+}
+
+/** Columns of Constraint: of an array field, its elements one after the other. */
+export interface ConstraintColumns {
+  readonly bodyA: Uint32Array;
+  readonly bodyB: Uint32Array;
+  readonly kind: Int32Array;
+  readonly state: Int32Array;
+  readonly countA: Uint32Array;
+  readonly count: Uint32Array;
+  readonly vertices: Uint32Array;
+  readonly elementB: Uint32Array;
+  readonly weights: Float64Array;
+  readonly normal: Float64Array;
+  readonly gap: Float64Array;
+  readonly offset: Float64Array;
+  readonly position: Float64Array;
+  readonly time: Float64Array;
+  readonly userDataA: BigUint64Array;
+  readonly userDataB: BigUint64Array;
+  readonly pair: Uint32Array;
+  readonly previous: Uint32Array;
+}
+
+/** Which constraints to find. By default all fields are 0: all constraints, with consistent depth. */
+export interface ConstraintDesc {
+  method: DepthMethod;
+  /** only pairs of this body; VOX_NULL_BODY: all pairs */
+  bodyA: number;
+  /** only its pair with body_a; VOX_NULL_BODY: all pairs of body_a */
+  bodyB: number;
+  /** only pairs in which the category of a body has a bit in common with it; 0: all pairs */
+  mask: bigint;
+  /**
+   * most searches for a closest point; constraints that get none are UNKNOWN, and the log has a warning. 0: no limit
    */
   closestBudget: number;
 }
 
-/** A count, or a time in nanoseconds. */
+/** A body as it is now. */
+export interface BodyInfo {
+  userData: bigint;
+  /** 1 or 0 */
+  enabled: number;
+  /** vox_mesh_flags: COPY_POSITIONS if the grid owns the positions, BORROW_TETS while the caller owns the tetrahedra */
+  flags: number;
+  /** with disabled and removed ones: indices are below it */
+  tetCount: number;
+  enabledTetCount: number;
+  filter: Filter;
+  transform: number[];
+}
+
+/** A grid as it is now, and what its last successful step did. */
+export interface GridInfo {
+  /** vox_grid_flags */
+  flags: number;
+  /** counts up when an epoch ends (see Ownership above) */
+  epoch: number;
+  /** the one that was set, or else the one used last; 0 before the first step */
+  cellSize: number;
+  margin: number;
+  /** held now, without the caller's arrays */
+  bytes: number;
+  peakBytes: number;
+  /** nanoseconds */
+  stepNs: number;
+  /** bodies that were not at rest */
+  movedBodies: number;
+  /** bodies that were left out (VOX_GRID_SKIP_BAD_BODIES) */
+  skippedBodies: number;
+  /** pairs that began, in all steps so far */
+  totalBegan: number;
+  /** pairs that ended, in all steps so far */
+  totalEnded: number;
+}
+
+/** A count, or a time in nanoseconds, with its name. */
 export interface Counter {
   value: number;
+}
+
+/** A body that made a step fail, or that a step left out. */
+export interface Failure {
+  /** VOX_OK: there is no such body */
+  result: Result;
+  body: number;
+  /** the first vertex with a bad coordinate; VOX_NONE if the failure is not about a vertex */
+  vertex: number;
+  userData: bigint;
+  /** of that vertex, transformed */
+  position: [number, number, number];
 }
 
 /** Which bodies answer, and how far to look. All fields are 0 by default: all bodies, at any distance. */

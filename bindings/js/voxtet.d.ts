@@ -2,18 +2,17 @@
 // voxtet: vox in WebAssembly. Fields of options and results are those of the structs of vox.h, whose comments they have.
 import type { CellContent, CellLook, Format, KnownGrid, LogLevel, PrimitiveType, Result } from "./enums.js";
 import type {
-  BodyInfo, BoxHit, BoxHitColumns, ClosestHit, ClosestHitColumns, Contact, ContactColumns, ContactEvent,
-  ContactEventColumns, CostMinimum, CostWeights, Depth, DepthColumns,
-  Failure, Filter, ForeignSuggestion as ForeignSuggestionStruct, GridDesc, GridFit as GridFitStruct, GridInfo,
-  GridTiming, GridWeights, GridWork, Pair, PairColumns, Penetration, PenetrationColumns, PointHit, PointHitColumns,
-  QueryDesc, RayHit, RayHitColumns, Reading, ReadingColumns, ReferenceDesc, SuggestDesc, Suggestion as SuggestionStruct,
-  TouchEvent, TouchEventColumns, TuneDesc, Tuning as TuningStruct,
+  BodyInfo, BoxHit, BoxHitColumns, ClosestHit, ClosestHitColumns, Constraint, ConstraintColumns, ConstraintDesc, Contact,
+  ContactColumns, CostMinimum, CostWeights, Failure, Filter, ForeignSuggestion as ForeignSuggestionStruct, GridDesc,
+  GridFit as GridFitStruct, GridInfo, GridTiming, GridWeights, GridWork, Pair, PairColumns, PointHit, PointHitColumns,
+  QueryDesc, RayHit, RayHitColumns, ReferenceDesc, SuggestDesc, Suggestion as SuggestionStruct, TuneDesc,
+  Tuning as TuningStruct,
 } from "./structs.js";
 
 export * from "./enums.js";
 export type {
-  BoxHit, CellSizeRules, ClosestHit, Contact, ContactEvent, CostSample, CostShare, CostWeights, Depth,
-  Failure, Filter, ForeignRules, GeometryStats, GridInfo, GridTiming, GridWeights, GridWork, BodyInfo, Pair, Penetration, PointHit, RayHit, Reading, TouchEvent,
+  BodyInfo, BoxHit, CellSizeRules, ClosestHit, Constraint, Contact, CostSample, CostShare, CostWeights, Failure, Filter,
+  ForeignRules, GeometryStats, GridInfo, GridTiming, GridWeights, GridWork, Pair, PointHit, RayHit,
 } from "./structs.js";
 
 /** A call that vox refused. The message says what was wrong, with numbers in it; `code` is one of `Result`. */
@@ -62,8 +61,6 @@ export interface Vox {
   /** Steps all of them, one after the other. If some fail, all others have had their step when the first failure is thrown.
    * A log that is called meanwhile must not use any of them. */
   stepGrids(grids: readonly Grid[]): void;
-  /** The contacts of many grids in one copy: those of grid i begin at offsets[i] and end before offsets[i + 1]. */
-  contactsOf(grids: readonly Grid[]): { contacts: Contacts; offsets: number[] };
 
   /** The cell size that minimises the cost model for these meshes. */
   suggestCellSize(meshes: readonly SuggestMesh[], options?: SuggestOptions): Suggestion;
@@ -114,25 +111,22 @@ export interface RecordsOf<Item, Columns> extends Iterable<Item> {
 export type Records<Item, Columns> = RecordsOf<Item, Columns> & Columns;
 
 export type Contacts = Records<Contact, ContactColumns>;
-export type Penetrations = Records<Penetration, PenetrationColumns>;
-export type Depths = Records<Depth, DepthColumns>;
-export type Readings = Records<Reading, ReadingColumns>;
-export type TouchEvents = Records<TouchEvent, TouchEventColumns>;
-export type ContactEvents = Records<ContactEvent, ContactEventColumns>;
 export type PointHits = Records<PointHit, PointHitColumns>;
 export type ClosestHits = Records<ClosestHit, ClosestHitColumns>;
 export type BoxHits = Records<BoxHit, BoxHitColumns>;
 export type RayHits = Records<RayHit, RayHitColumns>;
-/** The pairs that touch. `contacts`: the index of every contact once, pair by pair; those of a pair begin at its `first`. */
+/** `contacts`: the index of every contact once, pair by pair; those of a pair begin at its `firstContact`. */
 export type Pairs = Records<Pair, PairColumns> & { readonly contacts: Uint32Array };
+/** Those of pair p are slice(pairOffsets[p], pairOffsets[p + 1]). */
+export type Constraints = Records<Constraint, ConstraintColumns> & { readonly pairOffsets: number[] };
 
 // ---- grids ----
 
 export interface GridOptions
-  extends Partial<Pick<GridDesc, "cellSize" | "byteBudget" | "closestBudget">> {
+  extends Partial<Pick<GridDesc, "cellSize" | "margin" | "byteBudget">> {
   /** The paper's engine, in place of the fast one. */
   reference?: ReferenceOptions;
-  /** GridFlags, combined with |; default GridFlags.PENETRATIONS. */
+  /** GridFlags, combined with |; default none. */
   flags?: number;
   /**
    * Gets the lines that the library writes. It must not use the grid that it belongs to. What it throws is thrown by the call
@@ -217,14 +211,14 @@ export type GridFit = Omit<GridFitStruct, "curveCount">;
 export type TuneOptions = Partial<TuneDesc> & { grid?: ForeignGridOptions };
 export type Tuning = Omit<TuningStruct, "curveCount" | "runCount">;
 
-export interface ReadingOptions {
-  /** ReadingFlags, combined with |; default: all. */
-  what?: number;
-  /** Only contacts of this mesh, */
+/** Which constraints to find; by default all, with consistent depth. */
+export interface ConstraintOptions extends Partial<Pick<ConstraintDesc, "method" | "closestBudget">> {
+  /** Only pairs of this mesh, */
   bodyA?: MeshOrId;
   /** and this one. */
   bodyB?: MeshOrId;
-  closestBudget?: number;
+  /** Only pairs in which the category of a mesh has a bit in common; 0: all. */
+  mask?: Bits;
 }
 
 /** Which meshes answer, and how far to look; by default all, at any distance. */
@@ -268,7 +262,7 @@ export interface Locator extends Owned {
 
 export interface GridConstructor {
   new (options?: GridOptions): Grid;
-  /** A grid from what `save` gave, which need not be trusted. Of the options log, budgets and reference are used. */
+  /** A grid from what `save` gave, which need not be trusted. Of the options `log`, `byteBudget`, `margin` and `reference` are used. */
   load(bytes: ArrayBuffer | ArrayBufferView, options?: GridOptions): Grid;
   readonly prototype: Grid;
 }
@@ -281,6 +275,9 @@ export interface Grid extends Owned {
   reserve(meshes: number, contacts: number): void;
   /** Edge length of a cell; 0: the library chooses. */
   cellSize: number;
+  /** Vertices outside a mesh, but within this distance, have constraints of ConstraintKind.PROXIMITY. May change in any
+   * release. */
+  margin: number;
   /** GridFlags, combined with |. */
   flags: number;
 
@@ -295,7 +292,7 @@ export interface Grid extends Owned {
 
   /** Finds all contacts of the positions as they are now. */
   step(): void;
-  /** Number of steps, clears, reserves and changes of the flags so far. */
+  /** Number of steps, clears, reserves and changes of flags or margin so far. */
   readonly epoch: number;
   /** A hash of the contacts: the same on every machine. */
   readonly hash: bigint;
@@ -303,29 +300,18 @@ export interface Grid extends Owned {
   readonly contacts: Contacts;
   /** Of each contact 1 if the vertex is in the interior of the tetrahedron, 0 if on its boundary. */
   readonly contactInteriors: Uint8Array;
-  readonly penetrations: Penetrations;
-  /** Those of the penetrations, in double. */
-  readonly depths: Depths;
+  /** The pairs that touch, and those that ended in this step or are within the margin: see `state`. */
   readonly pairs: Pairs;
-  readonly touchEvents: { all: TouchEvents; began: TouchEvents; persisted: TouchEvents; ended: TouchEvents };
-  /** For grids with GridFlags.CONTACT_EVENTS. */
-  readonly contactEvents: { all: ContactEvents; began: ContactEvents; ended: ContactEvents };
-  /** The contacts between two meshes. */
-  contactsBetween(bodyA: MeshOrId, bodyB: MeshOrId): Contacts;
+  /** Finds what `constraints` gives, for the last step. With GridFlags.CONSTRAINTS each step does, by the defaults. */
+  findConstraints(options?: ConstraintOptions): void;
+  readonly constraints: Constraints;
   /** The mesh that made the last step fail, or one of those that it left out; null beyond the last. */
   failure(index?: number): Failure | null;
-
-  /** Computes what `readings` gives, for the contacts of the last step. */
-  prepareReadings(options?: ReadingOptions): void;
-  readonly readings: Readings;
-  /** Depth and direction of the readings, in double. */
-  readonly readingDepths: Depths;
-  readingsBetween(bodyA: MeshOrId, bodyB: MeshOrId): Readings;
 
   /** The meshes as they are now, to be asked where they are. */
   locator(): Locator;
 
-  /** The grid as bytes that are the same on every machine: settings, meshes, positions, state of the events. */
+  /** The grid as bytes that are the same on every machine: settings, meshes, positions, pairs that touch. */
   save(): Uint8Array;
 
   /** The grid as it is now. */
@@ -351,6 +337,11 @@ export interface Mesh {
    */
   get positions(): Positions;
   set positions(positions: Positions);
+  /**
+   * Copies the positions from which the vertices move in the following steps: then vertices that go through a surface
+   * within a step have constraints of ConstraintKind.IMPACT. Null ends this. May change in any release.
+   */
+  bindPreviousPositions(positions: Positions | null): void;
   /** A copy of the tetrahedra as they were given, those that are disabled or removed, too. */
   readonly tets: Uint32Array;
   /** Of each tetrahedron 1, or 0 if it is disabled or removed. */
@@ -364,10 +355,6 @@ export interface Mesh {
   set filter(filter: FilterOptions);
   /** Whether the mesh takes part in steps. */
   enabled: boolean;
-  /** The contacts of the last step that the mesh has a part in. */
-  readonly contacts: Contacts;
-  /** The prepared readings of these. */
-  readonly readings: Readings;
 
   /** Replaces vertices, tetrahedra and positions. */
   setTopology(mesh: Pick<MeshOptions, "positions" | "tets" | "restPositions">): void;

@@ -3,7 +3,7 @@ import { MAX_WORKERS } from "./enums.js";
 import { cellSizes } from "./lib/cell_size.js";
 import { integer } from "./lib/check.js";
 import { VoxError } from "./lib/errors.js";
-import { contactsOfGrids, Grid, snapshotBytes, stepGrids } from "./lib/grid.js";
+import { Grid, snapshotBytes, stepGrids } from "./lib/grid.js";
 import { Memory } from "./lib/memory.js";
 import { coreCount, threadsSupported } from "./lib/threads.js";
 
@@ -58,7 +58,6 @@ export async function load({ simd = simdSupported(), threads = 1, wasm } = {}) {
     {
       Grid: boundGrid(memory),
       stepGrids: (grids) => stepGrids(memory, grids),
-      contactsOf: (grids) => contactsOfGrids(memory, grids),
       version: memory.text(call.vox_build_info()).match(/[\d.]+/)[0],
       buildInfo: memory.text(call.vox_build_info()),
       module,

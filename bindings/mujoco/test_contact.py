@@ -49,7 +49,7 @@ def overlapping(**config):
 class MeshInfo(ctypes.Structure):
     """vox_body_info, up to its positions."""
 
-    _fields_ = [("struct_size", ctypes.c_uint32), ("before", ctypes.c_char * 44), ("positions", ctypes.c_void_p)]
+    _fields_ = [("struct_size", ctypes.c_uint32), ("before", ctypes.c_char * 36), ("positions", ctypes.c_void_p)]
 
 
 def grid_of(data):
@@ -180,8 +180,8 @@ class Contacts(unittest.TestCase):
         self.assertGreater(found["contact_count"], 0)
         self.assertEqual(f"{grid_hash(d):016x}", found["hash"])
         count, depth = d.sensor("found").data
-        self.assertEqual(count, len(found["penetrations"]))
-        self.assertAlmostEqual(depth, max(p["depth"] for p in found["penetrations"]), places=6)
+        self.assertEqual(count, len(found["constraints"]))
+        self.assertAlmostEqual(depth, max(-c["gap"] for c in found["constraints"]), places=6)
 
     def test_positions_are_borrowed(self):
         m = overlapping()

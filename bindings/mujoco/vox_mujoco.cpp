@@ -10,6 +10,7 @@
 #include <locale>
 #include <memory>
 #include <new>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -146,6 +147,7 @@ std::unique_ptr<Instance> make_instance(const mjModel* m, int id) {
     instance->meshes.reserve(instance->flexes.size());
     instance->load.resize(static_cast<size_t>(m->nbody));
     vox_grid_desc desc = vox_default_grid_desc();
+    desc.flags = VOX_GRID_CONSTRAINTS;
     const int workers = instance->settings.workers;
     desc.worker_count = workers == 0 ? VOX_ALL_CORES : static_cast<uint32_t>(workers);
     vox_grid* grid = nullptr;
@@ -163,11 +165,6 @@ vox_positions flex_positions(const mjModel* m, const mjData* d, int flex) {
     return positions;
 }
 
-// Corners of the tetrahedra of a flex, as its own vertices.
-const int* flex_tets(const mjModel* m, int flex) { return m->flex_elem + m->flex_elemdataadr[flex]; }
-
-constexpr vox_format format = sizeof(mjtNum) == sizeof(double) ? VOX_FORMAT_DOUBLE : VOX_FORMAT_FLOAT;
-
 // Gives the grid its meshes. This is done before the first step, not in `init`: tiles are made by the
 // positions at insertion, and mjData has none before kinematics.
 void insert_meshes(Instance& instance, const mjModel* m, const mjData* d) {
@@ -179,7 +176,8 @@ void insert_meshes(Instance& instance, const mjModel* m, const mjData* d) {
     for (const int flex : instance.flexes) {
         vox_mesh_desc desc = vox_default_mesh_desc();
         desc.positions = flex_positions(m, d, flex);
-        desc.tets = reinterpret_cast<const uint32_t*>(flex_tets(m, flex)); // no index is negative
+        desc.tets =
+            reinterpret_cast<const uint32_t*>(m->flex_elem + m->flex_elemdataadr[flex]); // none is negative
         desc.tet_count = static_cast<uint64_t>(m->flex_elemnum[flex]);
         desc.user_data = static_cast<uint64_t>(flex);
         desc.filter = filter;
@@ -213,7 +211,10 @@ double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 Vector cross(Vector a, Vector b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-Vector vector(const mjtNum* v) { return {v[0], v[1], v[2]}; }
+template <typename Number>
+Vector vector(const Number* v) {
+    return {v[0], v[1], v[2]};
+}
 
 // From the point that spatial vectors of a body refer to, the centre of mass of its tree, to a vertex.
 Vector lever(const mjModel* m, const mjData* d, int vertex, int body) {
@@ -242,34 +243,6 @@ void apply(const mjModel* m, mjData* d, int vertex, Vector force) {
     }
 }
 
-// A vertex in a tetrahedron, as the five vertices of the model that it moves: itself by 1, and the
-// tetrahedron's corners by minus their weights.
-struct Constraint {
-    std::array<int, 5> vertices;
-    std::array<double, 5> weights;
-    double friction;
-};
-
-Constraint constraint(const mjModel* m, const Instance& instance, const vox_contact& contact) {
-    const auto flex_of = [&](vox_body mesh) {
-        const auto place = std::lower_bound(instance.meshes.begin(), instance.meshes.end(), mesh);
-        return instance.flexes[static_cast<size_t>(place - instance.meshes.begin())];
-    };
-    const int a = flex_of(contact.body_a), b = flex_of(contact.body_b);
-    const int* corners = flex_tets(m, b) + 4 * static_cast<ptrdiff_t>(contact.tet);
-    const float* w = contact.barycentric;
-    Constraint made;
-    made.vertices[0] = m->flex_vertadr[a] + static_cast<int>(contact.vertex);
-    for (size_t i = 0; i < 4; ++i) made.vertices[i + 1] = m->flex_vertadr[b] + corners[i];
-    // The sum is exactly 0 but for one rounding in double, so that forces neither push nor turn the two
-    // flexes together.
-    const double last = 1 - (static_cast<double>(w[0]) + w[1] + w[2]);
-    made.weights = {1, -w[0], -w[1], -w[2], -last};
-    made.friction =
-        std::max(m->flex_friction[3 * a], m->flex_friction[3 * b]); // as MuJoCo combines two frictions
-    return made;
-}
-
 // Forces that end the penetrations: a spring and a damper along each direction, and friction across it.
 //
 // Stiffness follows from the masses, so that no mesh is too fine. Let J have a row for each penetration, the
@@ -280,56 +253,50 @@ Constraint constraint(const mjModel* m, const Instance& instance, const vox_cont
 // most. A step of semi-implicit Euler is then stable if (h/t)^2 + 4 h/t < 4, so for t >= 2 h with room for
 // the flexes' own elasticity.
 void respond(Instance& instance, const mjModel* m, mjData* d) {
-    vox_contact_view contacts{};
-    vox_penetration_view penetrations{};
-    vox_depth_view depths{};
-    check(vox_grid_get_contacts(instance.grid.get(), &contacts));
-    check(vox_grid_penetrations(instance.grid.get(), &penetrations));
-    check(vox_grid_depths(instance.grid.get(), &depths));
-    const auto at = [](const auto& view, uint64_t i) -> decltype(*view.data) {
-        const auto* bytes = reinterpret_cast<const char*>(view.data) + i * view.byte_stride;
-        return *reinterpret_cast<decltype(view.data)>(bytes);
+    vox_constraint_view view{};
+    check(vox_grid_get_constraints(instance.grid.get(), &view));
+    const std::span constraints(view.data, static_cast<size_t>(view.count));
+    const auto vertex = [m](const vox_constraint& c, size_t i) {
+        return m->flex_vertadr[i < c.count_a ? c.user_data_a : c.user_data_b] +
+               static_cast<int>(c.vertices[i]);
     };
-    const auto constraint_of = [&](uint64_t i) {
-        return constraint(m, instance, at(contacts, at(penetrations, i).contact));
+    const auto body = [&](const vox_constraint& c, size_t i) {
+        return static_cast<size_t>(m->flex_vertbodyid[vertex(c, i)]);
     };
-    const auto body_of = [&](int vertex) { return static_cast<size_t>(m->flex_vertbodyid[vertex]); };
 
-    for (uint64_t i = 0; i < penetrations.count; ++i) {
-        const Constraint c = constraint_of(i);
-        for (size_t k = 0; k < 5; ++k) instance.load[body_of(c.vertices[k])] += std::abs(c.weights[k]);
-    }
+    for (const vox_constraint& c : constraints)
+        for (size_t i = 0; i < c.count; ++i) instance.load[body(c, i)] += std::abs(c.weights[i]);
     const Settings& settings = instance.settings;
     const double timeconst = std::max(settings.timeconst, least_timesteps * m->opt.timestep);
-    instance.penetrations = static_cast<double>(penetrations.count);
-    for (uint64_t i = 0; i < penetrations.count; ++i) {
-        const Constraint c = constraint_of(i);
-        const vox_depth& found = at(depths, i);
-        instance.greatest_depth = std::max(instance.greatest_depth, found.depth);
+    instance.penetrations = static_cast<double>(constraints.size());
+    for (const vox_constraint& c : constraints) {
+        instance.greatest_depth = std::max(instance.greatest_depth, -c.gap);
         double inverse_mass = 0;
         Vector speed; // of the vertex, as seen from the tetrahedron
-        for (size_t k = 0; k < 5; ++k) {
-            const size_t body = body_of(c.vertices[k]);
-            inverse_mass += std::abs(c.weights[k]) * instance.load[body] * m->body_invweight0[2 * body];
-            speed = speed + c.weights[k] * velocity(m, d, c.vertices[k]);
+        for (size_t i = 0; i < c.count; ++i) {
+            inverse_mass +=
+                std::abs(c.weights[i]) * instance.load[body(c, i)] * m->body_invweight0[2 * body(c, i)];
+            speed = speed + c.weights[i] * velocity(m, d, vertex(c, i));
         }
         if (!(inverse_mass > 0)) continue; // nothing that could move
         const double mass = 1 / inverse_mass;
         const double stiffness =
             settings.stiffness >= 0 ? settings.stiffness : mass / (timeconst * timeconst);
         const double damping = settings.damping >= 0 ? settings.damping : 2 * std::sqrt(stiffness * mass);
-        const Vector normal{found.direction[0], found.direction[1], found.direction[2]};
+        const double friction = std::max(m->flex_friction[3 * c.user_data_a], // as MuJoCo combines two
+                                         m->flex_friction[3 * c.user_data_b]);
+        const Vector normal = vector(c.normal);
         const double leaving = dot(speed, normal);
-        const double pressure = std::max(0.0, stiffness * found.depth - damping * leaving);
+        const double pressure = std::max(0.0, -stiffness * c.gap - damping * leaving);
         // Friction by Coulomb's law, and no more of it than the damper needs to end the sliding.
         const Vector sliding = speed - leaving * normal;
         const double rate = std::sqrt(dot(sliding, sliding));
-        const double drag = damping * rate > c.friction * pressure ? c.friction * pressure / rate : damping;
+        const double drag = damping * rate > friction * pressure ? friction * pressure / rate : damping;
         const Vector force = pressure * normal - drag * sliding;
-        for (size_t k = 0; k < 5; ++k) apply(m, d, c.vertices[k], c.weights[k] * force);
+        for (size_t i = 0; i < c.count; ++i) apply(m, d, vertex(c, i), c.weights[i] * force);
     }
-    for (uint64_t i = 0; i < penetrations.count; ++i)
-        for (const int vertex : constraint_of(i).vertices) instance.load[body_of(vertex)] = 0;
+    for (const vox_constraint& c : constraints)
+        for (size_t i = 0; i < c.count; ++i) instance.load[body(c, i)] = 0;
 }
 
 Instance* get(const mjData* d, int instance) { return reinterpret_cast<Instance*>(d->plugin_data[instance]); }

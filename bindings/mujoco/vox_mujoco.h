@@ -17,7 +17,7 @@ extern "C" {
 #endif
 
 /* The grid of plugin instance `instance` in `d`, whose last step saw d->flexvert_xpos as they were when
- * passive forces were computed last: for its contacts, pairs, events and penetrations. Mesh by mesh it has
+ * passive forces were computed last: for its contacts, pairs and constraints. Mesh by mesh it has
  * the flexes that take part, in the order of the model; vox_body_get_user_data is the id of the flex. It
  * belongs to the plugin and lives as long as `d`; whoever uses it has to be the thread that may use `d`. Null
  * if there is no such instance of vox.contact. It has no meshes before passive forces were computed for the

@@ -101,12 +101,17 @@ static void end_scene(void) {
     grid = NULL;
 }
 
-/* Ends a call: what it gave if it failed. */
-static vox_result finish(vox_result result) {
+/* What a call gave if it failed. */
+static vox_result tell(vox_result result) {
     if (result != VOX_OK) {
         field("fails", "%d", (int)result);
         field("text", "\"%s\"", vox_last_error()); /* without quotation marks and backslashes */
     }
+    return result;
+}
+
+static vox_result finish(vox_result result) {
+    tell(result);
     end_call();
     return result;
 }
@@ -177,18 +182,23 @@ static void move(vox_body mesh, const body* b, vox_format format) {
     end_call();
 }
 
+static void constraints_fields(void) {
+    vox_constraint_view view;
+    expect(vox_grid_get_constraints(grid, &view), "constraints");
+    items_field("constraints", view.data, view.count, sizeof *view.data);
+    items_field("pair_offsets", view.pair_offsets, view.pair_count + 1, sizeof *view.pair_offsets);
+}
+
 /* A step, and everything that it leaves. */
 static void step(void) {
     begin_call("step");
     if (finish(vox_grid_step(grid)) != VOX_OK) return;
     vox_contact_view contacts;
     vox_pair_view pairs;
-    vox_touch_view touches;
     uint64_t hash;
     vox_grid_info info = {.struct_size = sizeof info};
     expect(vox_grid_get_contacts(grid, &contacts), "contacts");
     expect(vox_grid_get_pairs(grid, &pairs), "pairs");
-    expect(vox_grid_touch_events(grid, &touches), "touches");
     expect(vox_grid_get_hash(grid, &hash), "hash");
     expect(vox_grid_get_info(grid, &info), "info");
     begin_call("results");
@@ -200,32 +210,16 @@ static void step(void) {
     field("interior", "%" PRIu64, inside);
     items_field("pairs", pairs.data, pairs.count, sizeof *pairs.data);
     items_field("pair_contacts", pairs.contacts, contacts.count, sizeof *pairs.contacts);
-    items_field("touches", touches.data, touches.count, sizeof *touches.data);
-    field("touches_began_persisted_ended", "[%" PRIu64 ", %" PRIu64 ", %" PRIu64 "]", touches.began,
-          touches.persisted, touches.ended);
-    if (info.flags & VOX_GRID_PENETRATIONS) {
-        vox_penetration_view penetrations;
-        vox_depth_view depths;
-        expect(vox_grid_penetrations(grid, &penetrations), "penetrations");
-        expect(vox_grid_depths(grid, &depths), "depths");
-        items_field("penetrations", penetrations.data, penetrations.count, sizeof *penetrations.data);
-        items_field("depths", depths.data, depths.count, sizeof *depths.data);
-    }
-    if (info.flags & VOX_GRID_CONTACT_EVENTS) {
-        vox_contact_event_view events;
-        expect(vox_grid_contact_events(grid, &events), "contact events");
-        items_field("contact_events", events.data, events.count, sizeof *events.data);
-        field("contact_events_began_ended", "[%" PRIu64 ", %" PRIu64 "]", events.began, events.ended);
-    }
+    if (info.flags & VOX_GRID_CONSTRAINTS) constraints_fields();
     end_call();
 }
 
-static void read_contacts(void) {
-    vox_reading_view readings;
-    begin_call("readings");
-    expect(vox_grid_prepare_readings(grid), "prepare readings");
-    expect(vox_grid_readings(grid, &readings), "readings");
-    items_field("readings", readings.data, readings.count, sizeof *readings.data);
+static void find_constraints(vox_depth_method method) {
+    vox_constraint_desc desc = vox_default_constraint_desc();
+    desc.method = method;
+    begin_call("find_constraints");
+    field("method", "%d", (int)method);
+    if (tell(vox_grid_find_constraints(grid, &desc)) == VOX_OK) constraints_fields();
     end_call();
 }
 
@@ -638,7 +632,7 @@ static void append_tets(vox_body mesh, const uint32_t* corners, uint64_t count) 
 
 /* ---- scenes ---- */
 
-static const uint32_t all_flags = VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS;
+static const uint32_t all_flags = VOX_GRID_CONSTRAINTS | VOX_GRID_EDGES;
 
 /* Frames of a scene with all that a step gives, the last one at rest. */
 static void frames(scene* s, const char* name, const char* what, double factor, vox_format format,
@@ -658,7 +652,8 @@ static void frames(scene* s, const char* name, const char* what, double factor, 
         for (uint32_t b = 0; b < s->count; ++b) move(ids[b], &s->bodies[b], format);
         step();
     }
-    read_contacts();
+    for (int m = VOX_DEPTH_METHOD_CLOSEST; m <= VOX_DEPTH_METHOD_NONE; ++m)
+        find_constraints((vox_depth_method)m);
     query(&s->bodies[0]);
     step();
     end_scene();
@@ -670,10 +665,10 @@ static void readme(void) {
     float second[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
     uint32_t tet[4] = {0, 1, 2, 3};
     const body bodies[2] = {{first, tet, 4, 1}, {second, tet, 4, 1}};
-    begin_scene("readme", "the two tetrahedra of the README", VOX_GRID_PENETRATIONS, 0);
+    begin_scene("readme", "the two tetrahedra of the README", VOX_GRID_CONSTRAINTS, 0);
     for (uint32_t b = 0; b < 2; ++b) insert(&bodies[b], VOX_FORMAT_FLOAT, NULL, b + 1);
     step();
-    read_contacts();
+    find_constraints(VOX_DEPTH_METHOD_CLOSEST);
     end_scene();
 }
 
@@ -705,7 +700,7 @@ static void life(void) {
     transform(ids[6], back);
     set_flags(0);
     step();
-    set_flags(VOX_GRID_PENETRATIONS);
+    set_flags(VOX_GRID_CONSTRAINTS);
     step();
     meshes();
     remove_mesh(again);
@@ -761,7 +756,7 @@ static void cutting(void) {
     append_tets(first, b->tets, 3);
     meshes();
     step();
-    read_contacts();
+    find_constraints(VOX_DEPTH_METHOD_CLOSEST);
     end_scene();
     free_scene(&s);
 }
@@ -800,7 +795,7 @@ static void errors(void) {
     double matrix[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     make_pair(&s, 3);
     pose_scene(&s, 0);
-    begin_scene("errors", "what is refused, with its code and text", VOX_GRID_PENETRATIONS, 0);
+    begin_scene("errors", "what is refused, with its code and text", VOX_GRID_CONSTRAINTS, 0);
     const vox_body first = insert(&s.bodies[0], VOX_FORMAT_FLOAT, NULL, 11);
     const vox_body second = insert(&s.bodies[1], VOX_FORMAT_FLOAT, NULL, 12);
     step();

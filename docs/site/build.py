@@ -147,17 +147,16 @@ def environment(offline):
 
 
 def examples_of_sections(site):
-    """Links to examples by section of vox.h, as examples/README.md lists them."""
-    text = site.read("examples/README.md").split("## By section of vox.h", 1)[1].split("From files to contacts")[0]
-    found = {}
-    for entry in " ".join(text.split()).split("·"):
-        name, _, links = entry.strip().partition(":")
-        found[name.strip()] = [
+    """Links to examples by section of the headers, as the table in examples/README.md lists them."""
+    text = site.read("examples/README.md").split("## By section of the headers", 1)[1]
+    return {
+        name.strip("`"): [
             f"[{label}](../../{site.place_of('examples/' + target)})"
             for label, target in re.findall(r"\[([^\]]+)\]\(([^)]+)\)", links)
             if not target.startswith("..")
         ]
-    return found
+        for name, links in re.findall(r"^\| ([^|]+) \| (.*) \|$", text, flags=re.M)
+    }
 
 
 def write(path, text):

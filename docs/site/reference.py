@@ -46,8 +46,9 @@ class Reference:
         for parsed in self.api["headers"]:
             self.read(parsed["name"])
         for parsed in self.api["headers"]:
+            first = next(thing["section"] for thing in things_of(parsed) if thing["section"])
             for thing in things_of(parsed):
-                thing["section"] = thing["section"] or "version"  # what stands above the first heading
+                thing["section"] = thing["section"] or first  # what stands above the first heading
         self.places = {}  # name: (page, anchor)
         for parsed in self.api["headers"]:
             for thing in things_of(parsed):
@@ -331,7 +332,7 @@ class Reference:
         for parsed in self.api["headers"]:
             found.update([self.header_page(parsed)])
             for section in parsed["sections"]:
-                found.update([self.section(parsed, section["name"], (examples or {}).get(section["name"], []))])
+                found.update([self.section(parsed, section["name"], (examples or {}).get(section["name"].split(":")[0], []))])
         return found
 
     def navigation(self):

@@ -12,9 +12,8 @@ int main() try {
     grid.insert(second, tet, 2);
     grid.step(); // once a frame
     for (const vox_contact& c : grid.contacts())
-        std::printf("vertex %u of body %u in tet %u of body %u, weights %.2f %.2f %.2f %.2f\n", c.vertex,
-                    (unsigned)grid.user_data(c.body_a), c.tet, (unsigned)grid.user_data(c.body_b),
-                    c.barycentric[0], c.barycentric[1], c.barycentric[2], c.barycentric[3]);
+        std::printf("vertex %u of body %u in tet %u of body %u\n", c.vertex,
+                    (unsigned)grid.user_data(c.body_a), c.tet, (unsigned)grid.user_data(c.body_b));
 
     // No grid yet? One call gives the cell size for these meshes.
     const vox_suggestion best =

@@ -29,9 +29,7 @@ int main(void) {
         uint64_t a = 0, b = 0;
         vox_body_get_user_data(grid, c->body_a, &a);
         vox_body_get_user_data(grid, c->body_b, &b);
-        printf("vertex %u of body %u in tet %u of body %u, weights %.2f %.2f %.2f %.2f\n", c->vertex,
-               (unsigned)a, c->tet, (unsigned)b, c->barycentric[0], c->barycentric[1], c->barycentric[2],
-               c->barycentric[3]);
+        printf("vertex %u of body %u in tet %u of body %u\n", c->vertex, (unsigned)a, c->tet, (unsigned)b);
     }
     vox_grid_destroy(grid);
 

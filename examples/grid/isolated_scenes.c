@@ -28,7 +28,7 @@ int main(void) {
     vox_pair_view pairs;
     must(vox_grid_get_pairs(grid, &pairs));
     uint64_t contacts = 0;
-    for (uint64_t i = 0; i < pairs.count; ++i) contacts += pairs.data[i].a_in_b + pairs.data[i].b_in_a;
+    for (uint64_t i = 0; i < pairs.count; ++i) contacts += pairs.data[i].contact_count;
     printf("%d scenes in one place: %" PRIu64 " pairs touch, with %" PRIu64 " contacts each\n", scenes,
            pairs.count, contacts / pairs.count);
     vox_grid_destroy(grid);

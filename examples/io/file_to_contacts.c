@@ -6,10 +6,12 @@
 
 int main(int count, char** paths) {
     if (count != 3) return fprintf(stderr, "usage: %s FIXED.msh MOVING.msh\n", paths[0]), EXIT_FAILURE;
+    vox_grid_desc grid_desc = vox_default_grid_desc();
+    grid_desc.flags = VOX_GRID_CONSTRAINTS; /* how deep, and which way out */
     vox_grid* grid = NULL;
     vox_io_mesh* files[2] = {NULL, NULL};
     vox_body meshes[2];
-    must(vox_grid_create(NULL, &grid));
+    must(vox_grid_create(&grid_desc, &grid));
     for (int i = 0; i < 2; ++i) {
         must(vox_io_load(paths[i + 1], NULL, &files[i]));
         fputs(vox_io_mesh_get_warnings(files[i]), stdout);
@@ -23,20 +25,15 @@ int main(int count, char** paths) {
         const double place[12] = {1, 0, 0, x, 0, 1, 0, 0.25, 0, 0, 1, 0.0625};
         must(vox_body_set_transform(grid, meshes[1], place));
         must(vox_grid_step(grid));
-        vox_contact_view contacts;
-        vox_penetration_view penetrations;
-        must(vox_grid_get_contacts(grid, &contacts));
-        must(vox_grid_penetrations(grid, &penetrations));
-        printf("moved by %g: %" PRIu64 " contacts\n", x, contacts.count);
-        for (uint64_t i = 0; i < penetrations.count && i < 2; ++i) {
-            const vox_penetration* p = &penetrations.data[i];
-            uint64_t a = 0, b = 0;
-            must(vox_body_get_user_data(grid, p->body_a, &a));
-            must(vox_body_get_user_data(grid, p->body_b, &b));
+        vox_constraint_view found;
+        must(vox_grid_get_constraints(grid, &found));
+        printf("moved by %g: %" PRIu64 " contacts\n", x, contact_count(grid));
+        for (uint64_t i = 0; i < found.count && i < 2; ++i) {
+            const vox_constraint* c = &found.data[i];
             printf("  vertex %" PRIu32 " of file %" PRIu64 " is %.3f deep in file %" PRIu64
                    ", out along (%.2f, %.2f, %.2f)\n",
-                   p->vertex, a, (double)p->depth, b, (double)p->direction[0], (double)p->direction[1],
-                   (double)p->direction[2]);
+                   c->vertices[0], c->user_data_a, -c->gap, c->user_data_b, c->normal[0], c->normal[1],
+                   c->normal[2]);
         }
     }
     vox_grid_destroy(grid);

@@ -1,32 +1,56 @@
-/* vox: exact collision detection for deformable tetrahedral meshes on a voxel grid. Vertices collide with tetrahedra;
- * the edges and faces of triangle meshes and point sets, which have no tetrahedra, collide with nothing.
+/* vox: exact collision detection for deformable tetrahedral meshes.
  *
- * This header is the whole interface of the core library: plain C99 with fixed-width types. No struct is
- * passed by value. The version is written here and nowhere else.
+ * A whole program: which vertex of one tetrahedron is inside another one? It prints "vertex 3 in tet 0".
  *
- * Conventions that hold for every function unless its comment says otherwise
- *   Errors    A function that can fail returns vox_result. On failure the out-parameters are left
- *             untouched, nothing has changed, and vox_last_error() gives the reason with numbers in it. It names a
- *             mesh by its id, its slot, which counts from 0, and its user data.
- *             No function prints, exits, throws or asserts on user input, in any build.
- *             Every function may return INVALID_ARGUMENT for a null pointer that its comment does not allow,
- *             and INVALID_HANDLE for an id that names no mesh of the grid.
- *   Structs   Structs whose first field is struct_size may grow. Begin with vox_default_X(): it sets struct_size and
- *             the defaults, which are 0 unless its body says otherwise. If a function writes the struct, set
- *             struct_size before the call. The library reads and writes only the fields that struct_size covers, so
- *             old programs run with new libraries and the reverse. A struct_size below 4 or above 65536 is an
- *             INVALID_ARGUMENT.
- *   Ownership The library copies what it is given, except positions bound as borrowed. Pointers it
- *             hands out belong to it and live as long as their comment says.
- *   Threads   One thread at a time may change a grid. Between changes any number of threads may read
- *             it: a function that takes a const grid reads it, any other changes it. Different grids are
- *             independent. Functions without a grid run on any thread, at any time. vox_last_error() is
- *             per thread.
- *   Floats    Whatever floating-point environment the calling thread has (rounding, denormals flushed to zero, as
- *             -ffast-math does, traps), the library computes in the default one, gives the same bits, and leaves the
- *             thread's own as it was, flags included. Callbacks run in that of the thread that made the call; those of
- *             a grid inside a vox_sim, an experiment or vox_grids_step, in the default one.
- *   Units     Lengths are in the caller's own unit; nothing in the library has a length built in.
+ *     #include <stdio.h>
+ *     #include <vox/vox.h>
+ *     int main(void) {
+ *         const float one[] = {5, 5, 5, 6, 5, 5, 5, 6, 5, .2f, .3f, .4f}, two[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+ *         const uint32_t tet[] = {0, 1, 2, 3};
+ *         const vox_mesh_desc a = vox_mesh_desc_floats(one, 4, tet, 1), b = vox_mesh_desc_floats(two, 4, tet, 1);
+ *         vox_grid* grid = NULL;
+ *         vox_body id;
+ *         vox_contact_view found;
+ *         if (vox_grid_create(NULL, &grid) || vox_mesh_insert(grid, &a, &id) || vox_mesh_insert(grid, &b, &id) ||
+ *             vox_grid_step(grid) || vox_grid_get_contacts(grid, &found)) return puts(vox_last_error()), 1;
+ *         for (uint64_t i = 0; i < found.count; ++i)
+ *             printf("vertex %u in tet %u\n", found.data[i].vertex, found.data[i].tet);
+ *         vox_grid_destroy(grid);
+ *     }
+ *
+ * Most programs need ten functions:
+ *     vox_grid_create, vox_grid_destroy    a grid: bodies that collide
+ *     vox_mesh_insert, vox_body_remove     a tetrahedral mesh in it
+ *     vox_mesh_bind_positions              where its vertices are; or write to the array that it borrows
+ *     vox_grid_step                        finds all contacts of the bodies as they are now
+ *     vox_grid_get_contacts                which vertex is in which tetrahedron
+ *     vox_grid_get_pairs                   which bodies touch, began to touch or stopped touching
+ *     vox_grid_get_constraints             what a solver needs: vertices, weights, normal, depth (VOX_GRID_CONSTRAINTS)
+ *     vox_last_error                       why a call failed
+ *
+ * Other headers: vox_query.h asks where points, boxes and rays are. vox_cell_size.h finds the best cell size of any
+ * grid. vox_surface.h is for triangle surfaces without tetrahedra (cloth, IPC). vox_io.h, vox_sim.h and vox_dist.h
+ * are libraries of their own: mesh files, moving bodies, many machines.
+ *
+ * Conventions
+ *   Exact      Which vertex is in which tetrahedron is decided as if in infinite precision, for the coordinates
+ *              given. All results come in one order and have the same bits for any cell size, number of threads and
+ *              machine.
+ *   Errors     A function that can fail returns a vox_result: 0 or an error. After an error nothing has changed,
+ *              outputs are not written, and vox_last_error() gives the reason with numbers in it. Nothing prints,
+ *              exits or throws. Not repeated below: INVALID_ARGUMENT for a null pointer that is not VOX_OPTIONAL, and
+ *              INVALID_HANDLE for an id that names no body of the grid.
+ *   Names      vox_X_get_Y reads; vox_X_set_Y and every other verb changes X.
+ *   Structs    A struct that begins with struct_size may grow in later versions. Begin with vox_default_X(): it sets
+ *              struct_size and leaves the rest 0, the defaults. Where a function fills such a struct, set its
+ *              struct_size to its sizeof before the call. Other structs never change.
+ *   Ownership  The library copies what it is given, except borrowed positions and tetrahedra. What it hands out
+ *              belongs to it and lives as long as the comment says. "The epoch" lasts until the grid is next stepped,
+ *              cleared, reserved or destroyed, or its flags or margin set.
+ *   Threads    One thread at a time may change a grid. Between changes any number of threads may read it: functions
+ *              that take a const grid. Different grids are independent. vox_last_error() is per thread.
+ *   Floats     Results do not depend on the caller's floating-point environment, which stays as it was.
+ *   Units      Lengths are in the caller's unit. No length is built in.
  */
 #ifndef VOX_VOX_H
 #define VOX_VOX_H
@@ -37,9 +61,7 @@
 #define VOX_VERSION_MAJOR 0
 #define VOX_VERSION_MINOR 1
 #define VOX_VERSION_PATCH 0
-
-/* Version of the stable interface. A program runs with every library that has the ABI version it was built with. It is
- * part of the shared libraries' names (docs/abi.md). */
+/* A program runs with any library of the ABI version that it was built with (docs/abi.md). */
 #define VOX_ABI_VERSION 1
 
 #if defined(VOX_STATIC)
@@ -51,12 +73,9 @@
 #else
 #define VOX_EXPORT __attribute__((visibility("default")))
 #endif
-
-/* VOX_API: part of the stable interface. VOX_EXPERIMENTAL: may change in any release. docs/abi.md lists which. */
-#define VOX_API VOX_EXPORT
-#define VOX_EXPERIMENTAL VOX_EXPORT
-
-#define VOX_OPTIONAL /* may be null; without this mark a pointer may not, unless its array is empty */
+#define VOX_API VOX_EXPORT          /* stable */
+#define VOX_EXPERIMENTAL VOX_EXPORT /* may change in any release */
+#define VOX_OPTIONAL                /* may be null; without this mark a pointer may not, unless its array is empty */
 
 #ifdef __cplusplus
 #define VOX_ZERO {} /* initialises a struct with zeros */
@@ -65,61 +84,42 @@ extern "C" {
 #define VOX_ZERO {0}
 #endif
 
-#define VOX_ALL_CORES 0xffffffffu /* as a worker_count: one worker per core */
 #define VOX_NONE 0xffffffffu      /* as an index: none */
+#define VOX_ALL_CORES 0xffffffffu /* as a worker_count: one worker per core */
 
-/* ---- results ---------------------------------------------------------------------------------- */
+/* ---- errors ----------------------------------------------------------------------------------- */
 
 typedef enum vox_result {
     VOX_OK = 0,
-    VOX_ERROR_INVALID_ARGUMENT = -1, /* a null pointer, an unknown enum, a bad number */
-    VOX_ERROR_INVALID_HANDLE = -2,   /* a mesh id that is null, stale or from another grid */
-    VOX_ERROR_INVALID_MESH = -3,     /* a tetrahedron names a vertex that does not exist */
-    VOX_ERROR_INVALID_STATE = -4,    /* the call does not fit the state, e.g. no positions bound */
+    VOX_ERROR_INVALID_ARGUMENT = -1, /* a null pointer, an unknown enumerator, a bad number */
+    VOX_ERROR_INVALID_HANDLE = -2,   /* an id that is null, stale or of another grid */
+    VOX_ERROR_INVALID_MESH = -3,     /* a tetrahedron or triangle names a vertex that does not exist */
+    VOX_ERROR_INVALID_STATE = -4,    /* the call does not fit the state, e.g. a mesh has no positions yet */
     VOX_ERROR_NON_FINITE = -5,       /* a position is NaN or infinite */
-    VOX_ERROR_LIMIT = -6,            /* a documented limit would be passed */
-    VOX_ERROR_BUDGET = -7,           /* the grid's byte budget would be passed */
+    VOX_ERROR_LIMIT = -6,            /* a documented limit would be exceeded */
+    VOX_ERROR_BUDGET = -7,           /* the byte budget would be exceeded */
     VOX_ERROR_OUT_OF_MEMORY = -8,    /* the allocator returned null */
-    VOX_ERROR_UNSUPPORTED = -9,      /* recognised, but not supported by this build or version; or the processor is
-                                        an x86-64 without SSE4.2: nothing is created there, and no cell size found */
+    VOX_ERROR_UNSUPPORTED = -9,      /* not in this build or version */
     VOX_ERROR_FILE = -10,            /* a file cannot be opened, read or written */
-    VOX_ERROR_FORMAT = -11,          /* a file is malformed */
+    VOX_ERROR_FORMAT = -11,          /* a file or a snapshot is malformed */
     VOX_ERROR_INTERNAL = -12         /* a defect of the library: please report it */
 } vox_result;
 
 /* Compiles only where enums have 32 bits (not with -fshort-enums). */
 typedef char vox_enums_have_32_bits[sizeof(vox_result) == 4 ? 1 : -1];
 
-/* Name of a result code, e.g. "VOX_ERROR_BUDGET". Static text; never null. Any thread. */
-VOX_API const char* vox_result_string(vox_result result);
-
-/* The text of this thread's last failure, e.g. "tet 17 names vertex 900 of 812", or "" if nothing has failed yet.
- * It lives until the thread's next failing call. Successful calls leave it alone. Never null. */
+/* Why the last failing call on this thread failed, e.g. "tet 17 names vertex 900 of 812"; "" if no call has failed.
+ * Bodies are named by id, slot and user data. Never null. The text lives until the next failing call on this thread. */
 VOX_API const char* vox_last_error(void);
 
-/* Sets this thread's vox_last_error() text and returns `result`, so that libraries built on vox (vox_io among them) can
- * report failures the same way. The text is copied, its first 1023 bytes at most, and of UTF-8 no part of a character.
- * A null text counts as "". Cannot fail itself. */
-VOX_API vox_result vox_fail(vox_result result, VOX_OPTIONAL const char* text);
-
-/* ---- version ---------------------------------------------------------------------------------- */
-
-/* Version of the library that is running: major * 1000000 + minor * 1000 + patch. Cannot fail. */
-VOX_API uint32_t vox_version(void);
-
-/* VOX_ABI_VERSION of the library that is running. A program that loads the library by its name at run time compares it
- * with that of the header it was written for. Cannot fail. */
-VOX_API uint32_t vox_abi_version(void);
-
-/* "vox", the version, compiler, language level, instruction sets, built-in scheduler and options of this build, in one
- * line. Static text. Cannot fail. */
-VOX_API const char* vox_build_info(void);
+/* Name of a result, e.g. "VOX_ERROR_BUDGET". Static text; never null. */
+VOX_API const char* vox_result_string(vox_result result);
 
 /* ---- positions -------------------------------------------------------------------------------- */
 
 typedef enum vox_format {
-    VOX_FORMAT_FLOAT = 0,  /* IEEE 754 singles */
-    VOX_FORMAT_DOUBLE = 1  /* IEEE 754 doubles, of magnitudes below 2^128 - 2^103 (3.4028236e38), the largest float */
+    VOX_FORMAT_FLOAT = 0,
+    VOX_FORMAT_DOUBLE = 1 /* magnitudes below 2^128 - 2^103, the largest float */
 } vox_format;
 
 /* An array of positions. Coordinate k (0, 1, 2 for x, y, z) of position i is at byte
@@ -139,186 +139,105 @@ typedef struct vox_positions {
 
 /* An array of packed floats x y z. */
 static inline vox_positions vox_float_positions(const float* xyz, uint64_t count) {
-    vox_positions positions = VOX_ZERO;
-    positions.data = xyz;
-    positions.count = count;
-    return positions;
+    vox_positions p = VOX_ZERO;
+    p.data = xyz;
+    p.count = count;
+    return p;
 }
 
 /* An array of packed doubles x y z. */
 static inline vox_positions vox_double_positions(const double* xyz, uint64_t count) {
-    vox_positions positions = VOX_ZERO;
-    positions.data = xyz;
-    positions.count = count;
-    positions.format = VOX_FORMAT_DOUBLE;
-    return positions;
+    vox_positions p = VOX_ZERO;
+    p.data = xyz;
+    p.count = count;
+    p.format = VOX_FORMAT_DOUBLE;
+    return p;
 }
 
 /* ---- grid ------------------------------------------------------------------------------------- */
 
-/* Limits. Exceeding one gives VOX_ERROR_LIMIT. docs/limits.md lists these and all others. */
-#define VOX_MAX_BODIES 1048576u           /* per grid, at one time, including retired slots */
-#define VOX_MAX_GENERATIONS 4095u         /* uses of one mesh slot before it is retired */
-#define VOX_MAX_VERTICES 2147483647u      /* per grid */
-#define VOX_MAX_TETS 2147483647u          /* per grid */
-#define VOX_MAX_WORKERS 256u              /* workers of a grid */
+/* Limits; exceeding one gives VOX_ERROR_LIMIT. docs/limits.md has all. */
+#define VOX_MAX_BODIES 1048576u         /* in a grid at one time */
+#define VOX_MAX_VERTICES 2147483647u    /* in a grid */
+#define VOX_MAX_TETS 2147483647u        /* in a grid */
+#define VOX_MAX_SURFACE_TETS 357913941u /* in a mesh whose surface is needed: constraints, edges, margin, queries */
+#define VOX_MAX_CONTACTS 4294967295u    /* in a step */
+#define VOX_MAX_WORKERS 256u            /* of a grid */
 
-typedef enum vox_grid_flags {
-    VOX_GRID_PENETRATIONS = 1, /* run the depth stage in a step (vox_grid_penetrations); on by default. A mesh of more
-                                  than 357913941 tets then gives VOX_ERROR_LIMIT, unless its filter does without */
-    VOX_GRID_CONTACT_EVENTS = 2, /* also report events of single vertices (vox_grid_contact_events) */
-    VOX_GRID_SKIP_BAD_BODIES = 4, /* a mesh with a coordinate that VOX_FORMAT_DOUBLE does not allow (NaN, infinite, too
-                                     large) takes no part in a step, in vox_grid_suggest_cell_size and in locators
-                                     (vox_query.h), as if it were disabled; without this flag they fail.
-                                     Counted (vox_grid_info.skipped_bodies), listed (vox_grid_get_failure), and logged
-                                     once until the mesh is well again */
-    VOX_GRID_EDGE_CONTACTS = 8    /* also find edges of surfaces through faces of others (vox_grid_edge_contacts);
-                                   experimental. A mesh of more than 357913941 tets then gives VOX_ERROR_LIMIT */
-} vox_grid_flags;
-
-/* An open grid: a set of meshes and the settings they collide under. */
+/* A set of bodies, and the settings for finding their contacts. */
 typedef struct vox_grid vox_grid;
 
-/* Settings of a grid. What the pointers name is copied. */
+/* What a step does besides finding contacts and pairs. */
+typedef enum vox_grid_flags {
+    VOX_GRID_CONSTRAINTS = 1,    /* also find constraints: as vox_grid_find_constraints with the defaults */
+    VOX_GRID_EDGES = 2,          /* also find edges that pass through faces. Experimental */
+    VOX_GRID_SKIP_BAD_BODIES = 4 /* leave out a body with a bad coordinate (NaN, infinite, too large) instead of
+                                    failing (vox_grid_get_failure) */
+} vox_grid_flags;
+
+/* Settings of a grid; all 0 by default. What the pointers name is copied. */
 typedef struct vox_grid_desc {
     uint32_t struct_size;
-    uint32_t flags; /* vox_grid_flags, combined with | */
-    /* Threads that share a step, the calling one being one of them: up to VOX_MAX_WORKERS, or VOX_ALL_CORES; 0: one.
-     * With `tasks`, the number of that system's workers. Contacts do not depend on it. The built-in scheduler never
-     * uses more threads than there are cores, nor more than the system gives. It is oneTBB, or without it
-     * (vox_build_info says which) each grid has threads of its own, from the first step that needs them until its end,
-     * which sleep between steps; in a process made by fork it makes new ones. Builds for systems without threads are
-     * serial. */
-    uint32_t worker_count;
-    uint32_t reserved; /* 0 */
-    /* Edge length of a cell; 0: the library chooses it. It never changes contacts. The fast engine chooses one for each
-     * body in every step, from the size of the tiles near other bodies; for the reference engine see
-     * vox_reference_desc. */
-    double cell_size;
-    double margin;        /* see vox_grid_set_margin. Experimental */
-    uint64_t byte_budget; /* most bytes the grid may hold; a call that would exceed it fails with VOX_ERROR_BUDGET. 0:
-                             4 GiB; UINT64_MAX: no limit */
-    /* Most searches for a closest point that the depth stage makes in one step: for penetrations that would be
-     * ENCLOSED, or CROSSING with nothing but a closest point to go by. The first ones, in the order of the
-     * penetrations, get them; the others become VOX_PENETRATION_UNKNOWN, which is counted (unknown_penetrations) and
-     * written to the log. Those of meshes at rest, which are carried over from the last step, take nothing of it, and
-     * stay UNKNOWN where they are. 0: no limit. */
-    uint64_t closest_budget;
+    uint32_t flags;        /* vox_grid_flags, combined with | */
+    uint32_t worker_count; /* threads that share a step: up to VOX_MAX_WORKERS, or VOX_ALL_CORES; 0: one */
+    uint32_t reserved;     /* 0 */
+    double cell_size;      /* edge length of a cell; 0: the library chooses it in every step. Never changes results */
+    double margin;         /* see vox_grid_set_margin */
+    uint64_t byte_budget;  /* most bytes the grid may hold; 0: 4 GiB; UINT64_MAX: no limit */
     VOX_OPTIONAL const struct vox_allocator* allocator;      /* null: the C++ runtime's heap */
     VOX_OPTIONAL const struct vox_log* log;                  /* null: no log */
     VOX_OPTIONAL const struct vox_task_system* tasks;        /* null: the built-in scheduler */
-    VOX_OPTIONAL const struct vox_reference_desc* reference; /* null: the fast engine; else the paper's */
+    VOX_OPTIONAL const struct vox_reference_desc* reference; /* null: the fast engine; else the paper's engine, which
+                                                                is slower and finds the same (vox_cell_size.h) */
 } vox_grid_desc;
 
 static inline vox_grid_desc vox_default_grid_desc(void) {
     vox_grid_desc desc = VOX_ZERO;
     desc.struct_size = (uint32_t)sizeof desc;
-    desc.flags = VOX_GRID_PENETRATIONS;
     return desc;
 }
 
-/* Creates a grid. desc null: all defaults. The caller owns *out_grid and releases it with
- * vox_grid_destroy. Errors: INVALID_ARGUMENT (names the field and its value), UNSUPPORTED (an x86-64 without SSE4.2),
- * OUT_OF_MEMORY, BUDGET. */
+/* Creates a grid. The caller owns *out_grid and releases it with vox_grid_destroy.
+ * Errors: INVALID_ARGUMENT (names the field), OUT_OF_MEMORY, BUDGET. */
 VOX_API vox_result vox_grid_create(VOX_OPTIONAL const vox_grid_desc* desc, vox_grid** out_grid);
 
-/* Destroys a grid and releases all its memory. Its views and mesh ids become invalid, except for
- * locators (vox_query.h), which live on with their memory until they are released. Null does nothing. */
+/* Destroys a grid, its bodies and results. Null does nothing. */
 VOX_API void vox_grid_destroy(VOX_OPTIONAL vox_grid* grid);
-
-/* Removes all meshes and contacts and keeps the settings. Old mesh ids become stale. */
-VOX_API vox_result vox_grid_clear(vox_grid* grid);
-
-/* Allocates memory for what a grid keeps of that many meshes and contacts beside the meshes themselves, in advance;
- * never releases any. A contact takes 69 bytes, with VOX_GRID_PENETRATIONS 88 more and with VOX_GRID_CONTACT_EVENTS 56
- * more; the closest points that a step searches (docs/depth.md) take up to 24 each. Contacts stay, views end. Errors:
- * LIMIT (more than VOX_MAX_BODIES), BUDGET, OUT_OF_MEMORY. */
-VOX_API vox_result vox_grid_reserve(vox_grid* grid, uint32_t mesh_count, uint64_t contact_count);
-
-/* Sets the cell size of the following steps; 0: the library chooses. Never changes the contacts.
- * Errors: INVALID_ARGUMENT when negative, infinite or NaN. */
-VOX_API vox_result vox_grid_set_cell_size(vox_grid* grid, double cell_size);
-
-/* Sets vox_grid_desc.worker_count for the following steps. Errors: INVALID_ARGUMENT (also VOX_ALL_CORES if the grid has
- * a task system of the caller's). */
-VOX_API vox_result vox_grid_set_worker_count(vox_grid* grid, uint32_t worker_count);
-
-/* Sets vox_grid_desc.flags (all of them) for the following steps. With a changed flag, contacts stay, but views of the
- * last step's results end.
- * VOX_GRID_PENETRATIONS switched on prepares all meshes at once, as their insertion would have done, in time and memory
- * proportional to them; vox_grid_penetrations is empty until the next step. Switched off, it releases all that memory.
- * VOX_GRID_CONTACT_EVENTS switched on lets the next step report each vertex in contact as one that began, as a first
- * step does. Switched off, it releases the memory of these events.
- * VOX_GRID_EDGE_CONTACTS switched on lets the next step prepare the surfaces of the meshes that are near others.
- * Switched off, it releases the memory of that.
- * Errors: INVALID_ARGUMENT (unknown flags), UNSUPPORTED (edge contacts in a build without), LIMIT, BUDGET,
- * OUT_OF_MEMORY; after these all meshes are as they were. */
-VOX_API vox_result vox_grid_set_flags(vox_grid* grid, uint32_t flags);
-
-/* From the next step on, also find the vertices of other meshes that are outside of the tetrahedra of a mesh, but
- * within `margin` (in the caller's unit) of its surface: vox_grid_margin_contacts. 0 (the default): none, at no cost,
- * and the memory that this took is released. Contacts stay, but views of the last step's results end. A mesh of more
- * than 357913941 tets then makes a step fail with LIMIT. Snapshots do not keep the margin.
- * Errors: INVALID_ARGUMENT when negative, NaN or above 2^125; UNSUPPORTED in a build without. */
-VOX_EXPERIMENTAL vox_result vox_grid_set_margin(vox_grid* grid, double margin);
-
-/* A grid as it is now, and what its last successful step did. */
-typedef struct vox_grid_info {
-    uint32_t struct_size;
-    uint32_t flags; /* vox_grid_flags, combined with | */
-    /* Number of steps, clears, reserves and changes of flags or margin so far, failed steps included. A view is valid
-     * while its epoch equals it. */
-    uint64_t epoch;
-    /* The cell size that was set, or else the last one that was chosen; 0 before the first step. If a step chose
-     * several, it is that of the smallest tetrahedra (reference engine) or of the last body that needed one (fast). */
-    double cell_size;
-    double margin;
-    uint64_t bytes;          /* held now, without the caller's arrays */
-    uint64_t peak_bytes;
-    uint64_t step_ns;        /* nanoseconds */
-    uint64_t moved_bodies;   /* bodies that were not at rest (see vox_grid_step) */
-    uint64_t skipped_bodies; /* bodies that were left out (VOX_GRID_SKIP_BAD_BODIES) */
-    uint64_t total_began;    /* pairs that began, in all steps so far */
-    uint64_t total_ended;    /* pairs that ended, in all steps so far */
-} vox_grid_info;
-
-/* Gets a grid's state. Set out_info->struct_size first. */
-VOX_API vox_result vox_grid_get_info(const vox_grid* grid, vox_grid_info* out_info);
 
 /* ---- meshes ----------------------------------------------------------------------------------- */
 
-/* Identifies a mesh in its grid: slot and generation in one number. 0 is no mesh. The ids of a grid ascend in slot
- * order, so a fresh grid orders meshes as they were inserted. The id of a removed mesh is never used again in that
- * grid. */
+/* A body of a grid: a mesh. An id is never used again in the same grid. Ids ascend with slots, so in
+ * a new grid they ascend in the order of insertion. */
 typedef uint32_t vox_body;
-#define VOX_NULL_BODY 0u /* names no mesh */
+#define VOX_NULL_BODY 0u /* names no body */
+
+/* The slot of a body: a small index from 0, for arrays with one element per body. Slots of removed bodies are used
+ * again. */
+static inline uint32_t vox_body_slot(vox_body body) { return body >> 12; }
 
 typedef enum vox_filter_flags {
     VOX_FILTER_SELF_COLLISION = 1, /* the mesh also collides with itself */
-    VOX_FILTER_SENSOR = 2          /* the mesh has contacts, but no penetrations; takes less memory */
+    VOX_FILTER_SENSOR = 2          /* the body has contacts and pairs, but no constraints; takes less memory */
 } vox_filter_flags;
 
 #define VOX_MAX_RINGS 8u /* vox_filter.self_rings */
 
-/* What a mesh collides with. With all fields 0, the default, it collides with every other mesh, but not with itself.
- * Two meshes in different worlds never collide; use worlds for copies of a scene in one grid. Two meshes with the same
- * group other than 0 collide if it is positive and do not collide if it is negative. Any other two collide if the
- * category of each has a bit in common with the mask of the other, as in Box2D. A tetrahedron that is ruled out for a
- * vertex is treated as if it did not exist: the rule of vox_contact (every tetrahedron with the vertex in its interior,
- * or else the lowest with it on the boundary) is applied to the remaining ones. */
+/* What a body collides with. With all fields 0, the default, it collides with every other body, but not with itself.
+ * Two bodies in different worlds never collide; use worlds for copies of a scene in one grid. Two bodies with the
+ * same group other than 0 collide if it is positive and do not collide if it is negative. Any other two collide if
+ * the category of each has a bit in common with the mask of the other, as in Box2D. A tetrahedron that is ruled out
+ * for a vertex is treated as if it did not exist. */
 typedef struct vox_filter {
     uint32_t flags; /* vox_filter_flags, combined with | */
     int32_t group;
     uint64_t category; /* 0: 1 */
     uint64_t mask;     /* 0: all bits */
     uint32_t world;
-    /* Self-contact skips tetrahedra that have a corner within this many edges of the vertex, along the edges of the
-     * mesh's tetrahedra; at most VOX_MAX_RINGS. 0 skips only tetrahedra that have the vertex as a corner. Takes about
-     * 60, 260 or 700 bytes a vertex for 1, 2 or 3. */
+    /* Self-contact ignores tetrahedra that have a corner within this many edges of the vertex; at most VOX_MAX_RINGS.
+     * Takes about 60, 260 or 700 bytes per vertex for 1, 2 or 3. */
     uint32_t self_rings;
-    /* Self-contact skips tetrahedra that are closer to the vertex than this in the rest pose (distance to the closed
-     * tetrahedron, computed in double). The rest pose is vox_mesh_desc.rest_positions or, without those, the positions
-     * at the time this was first set. */
+    /* Self-contact ignores tetrahedra that are closer to the vertex than this in the rest pose. The rest pose is
+     * vox_mesh_desc.rest_positions or, without these, the positions when this distance is first set. */
     double self_rest_distance;
 } vox_filter;
 
@@ -327,27 +246,21 @@ typedef enum vox_mesh_flags {
     VOX_MESH_BORROW_TETS = 2     /* borrow the tetrahedra instead of copying them, 16 bytes each */
 } vox_mesh_flags;
 
-/* A body: vertices, and tetrahedra over them. Without tetrahedra (a surface, a set of points) its vertices still
- * collide with the tetrahedra of other meshes, but its edges and faces with nothing, so a thin blade may cross a body
- * without a contact. The first such mesh that a grid gets is written to its log as a warning;
- * the counter meshes_without_tets is how many. */
+/* A mesh: vertices, and tetrahedra between them. A mesh without tetrahedra is a set of points: they collide with
+ * the tetrahedra of other meshes, the edges and faces between them with nothing. */
 typedef struct vox_mesh_desc {
     uint32_t struct_size;
     uint32_t flags; /* vox_mesh_flags, combined with | */
-    /* positions.count is the number of vertices. The data is borrowed until the mesh is removed, bound to other
-     * positions or mapped. Every step reads it, and while it runs the data must stay unchanged: to move the mesh, write
-     * to it between steps. If it is null, bind positions before the next step. */
+    /* positions.count is the number of vertices. The data is borrowed until the mesh is removed or bound to other
+     * positions. Every step reads it: to move the mesh, write to it between steps. If it is null, bind positions
+     * before the next step. */
     vox_positions positions;
-    /* tet_count * 4 vertex indices, copied unless VOX_MESH_BORROW_TETS is set. Both windings are accepted.
-     * With that flag, they must stay valid and unchanged, as any function of the grid may read them, until the mesh is
-     * removed or gets another topology, or the grid is cleared or destroyed. The first call that turns tetrahedra
-     * off, replaces, removes or appends some copies them, and leaves the caller's array as it is and no longer needed.
-     * A grid made from a snapshot has its own copy. */
-    const uint32_t* tets;
+    VOX_OPTIONAL const uint32_t* tets; /* 4 * tet_count vertex indices, in either winding. Copied; or borrowed until
+                                          the mesh is removed or edited */
     uint64_t tet_count;
-    uint64_t user_data; /* any number of the caller's, returned by vox_body_get_user_data */
+    uint64_t user_data; /* any number; results repeat it */
     vox_filter filter;
-    vox_positions rest_positions; /* of all vertices, copied; none: see vox_filter.self_rest_distance */
+    vox_positions rest_positions; /* copied; see vox_filter.self_rest_distance */
 } vox_mesh_desc;
 
 static inline vox_mesh_desc vox_default_mesh_desc(void) {
@@ -356,8 +269,7 @@ static inline vox_mesh_desc vox_default_mesh_desc(void) {
     return desc;
 }
 
-/* Describes a mesh with packed floats x y z; the other fields have their defaults. The arrays are borrowed and copied
- * as vox_mesh_desc says. */
+/* Describes a mesh with packed floats x y z. */
 static inline vox_mesh_desc vox_mesh_desc_floats(const float* xyz, uint64_t vertex_count, const uint32_t* tets,
                                                  uint64_t tet_count) {
     vox_mesh_desc desc = vox_default_mesh_desc();
@@ -377,166 +289,402 @@ static inline vox_mesh_desc vox_mesh_desc_doubles(const double* xyz, uint64_t ve
     return desc;
 }
 
-/* Adds a mesh, which takes part from the next step on.
- * Packed positions in VOX_FORMAT_FLOAT that can only be doubles are refused: from 16 vertices on, every other number
- * would be of ordinary size, those between far too large and far too small by turns (as most bit patterns are). They
- * are looked at once for each format: here if they are copied, else when a step, suggestion or locator reads them.
- * Errors: INVALID_ARGUMENT, INVALID_MESH ("tet 17 names vertex 900 of 812"), LIMIT, BUDGET, OUT_OF_MEMORY. */
+/* Adds a mesh, which takes part from the next step on. Positions whose format is FLOAT, but that can only be doubles,
+ * are refused when they are first read.
+ * Errors: INVALID_ARGUMENT, INVALID_MESH, LIMIT, INVALID_STATE and NON_FINITE (rest pose), BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_mesh_insert(vox_grid* grid, const vox_mesh_desc* desc, vox_body* out_body);
 
-/* Removes a mesh. The contacts of the last step stay as they are until the next one. */
+/* Removes a body. The results of the last step stay as they are; the next step ends the body's pairs. */
 VOX_API vox_result vox_body_remove(vox_grid* grid, vox_body body);
 
-/* 1 when `mesh` names a mesh of the grid, else 0 (also for a null grid). Cannot fail. */
-VOX_API uint32_t vox_body_is_valid(VOX_OPTIONAL const vox_grid* grid, vox_body body);
-
-/* The user_data the mesh was inserted with. */
-VOX_API vox_result vox_body_get_user_data(const vox_grid* grid, vox_body body, uint64_t* out_user_data);
-
-/* Copies the ids of the first `capacity` meshes of the grid, disabled ones included, ascending. *out_count is how many
- * there are, which may be more than were copied. `bodies` may be null if capacity is 0. Errors: INVALID_ARGUMENT. */
-VOX_API vox_result vox_grid_get_bodies(const vox_grid* grid, vox_body* bodies, uint64_t capacity, uint64_t* out_count);
-
-/* A mesh as it is now, e.g. after vox_grid_load. */
-typedef struct vox_body_info {
-    uint32_t struct_size;
-    uint32_t slot;         /* from 0 */
-    uint64_t user_data;    /* as given at insertion */
-    uint64_t tet_count;    /* with those that are disabled or removed: indices of tetrahedra are below it */
-    uint64_t enabled_tet_count;
-    uint32_t enabled;      /* 1, or 0 (see vox_body_set_enabled) */
-    uint32_t flags;        /* vox_mesh_flags: COPY_POSITIONS if the positions are the mesh's own (copied, mapped or
-                              loaded), BORROW_TETS while the tetrahedra are the caller's */
-    uint32_t has_transform; /* 1 if vox_body_set_transform gave it one */
-    uint32_t reserved;      /* 0 */
-    /* The positions, without the transform; removed vertices are among them. The data is null if the mesh has none. It
-     * lives until the mesh is removed, bound to other positions, mapped, or gets other or more vertices, or the grid is
-     * cleared or destroyed. No stride is 0 unless the data is null. */
-    vox_positions positions;
-    double transform[12]; /* as vox_body_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0 */
-    vox_filter filter;    /* in use: neither category nor mask is 0 */
-} vox_body_info;
-
-/* Writes the fields that out_info->struct_size covers (set it first). How long `positions` live: see vox_body_info.
- * Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
-VOX_API vox_result vox_body_get_info(const vox_grid* grid, vox_body body, vox_body_info* out_info);
-
-/* Copies the first `capacity` tetrahedra of a mesh: of tetrahedron t the corners, as they were given, to corners[4 * t]
- * to corners[4 * t + 3], and to enabled[t] 1 or, if it is disabled or removed, 0. Each of the two arrays may be null,
- * and is not written then. *out_count is how many tetrahedra there are (vox_body_info.tet_count).
- * Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
-VOX_API vox_result vox_mesh_get_tets(const vox_grid* grid, vox_body body, VOX_OPTIONAL uint32_t* corners,
-                                     VOX_OPTIONAL uint8_t* enabled, uint64_t capacity, uint64_t* out_count);
-
-/* Makes a mesh borrow another array of positions, one for each vertex, under the rule of vox_mesh_desc.positions, and
- * releases one that it owned. There is no need to bind the same array again after writing to it.
- * Errors: INVALID_ARGUMENT (e.g. another count). */
+/* Makes a mesh borrow another array of positions, one for each vertex, in place of the one that it borrowed or owned.
+ * There is no need to bind the same array again after writing to it. Errors: INVALID_ARGUMENT (e.g. another count). */
 VOX_API vox_result vox_mesh_bind_positions(vox_grid* grid, vox_body body, const vox_positions* positions);
 
-/* Borrows the positions that the vertices of a mesh had before they moved to those of vox_mesh_bind_positions: in the
- * following steps each vertex moves from one to the other in a straight line, at constant speed, and such steps also
- * find vox_grid_passages. Values may be written to the same memory between steps. The mesh's transform does not apply
- * to them: they are where the vertices were. Null ends it, as do vox_mesh_set_topology and vox_mesh_append_vertices.
- * Snapshots do not keep them. A step fails with NON_FINITE or LIMIT where they are not as VOX_FORMAT_DOUBLE has it;
- * VOX_GRID_SKIP_BAD_BODIES is about positions alone.
- * Errors: as vox_mesh_bind_positions. */
-VOX_EXPERIMENTAL vox_result vox_mesh_bind_previous_positions(vox_grid* grid, vox_body body,
-                                                             VOX_OPTIONAL const vox_positions* positions);
-
-/* Binds packed floats x y z. Errors: as vox_mesh_bind_positions. */
+/* Binds packed floats x y z. */
 static inline vox_result vox_mesh_bind_floats(vox_grid* grid, vox_body body, const float* xyz, uint64_t count) {
     const vox_positions positions = vox_float_positions(xyz, count);
     return vox_mesh_bind_positions(grid, body, &positions);
 }
 
-/* Binds packed doubles x y z. Errors: as vox_mesh_bind_positions. */
+/* Binds packed doubles x y z. */
 static inline vox_result vox_mesh_bind_doubles(vox_grid* grid, vox_body body, const double* xyz, uint64_t count) {
     const vox_positions positions = vox_double_positions(xyz, count);
     return vox_mesh_bind_positions(grid, body, &positions);
 }
 
-/* Makes the next step process a mesh even if it is at rest (see vox_grid_step). Contacts are correct without it; it
- * serves to measure steps over positions that stay the same. */
-VOX_API vox_result vox_body_mark_moved(vox_grid* grid, vox_body body);
+/* ---- step ------------------------------------------------------------------------------------- */
 
-/* Sets what the mesh collides with, from the next step on (the filter is copied). The tables of the self-contact
- * filters, and what penetrations need of a mesh that was a sensor, are built in the call, in time and memory
- * proportional to the mesh.
- * Errors: INVALID_ARGUMENT, LIMIT (self_rings; tetrahedra of a mesh with penetrations), INVALID_STATE (a rest distance
- * without a rest pose or positions), NON_FINITE (a rest position), BUDGET, OUT_OF_MEMORY. */
-VOX_API vox_result vox_body_set_filter(vox_grid* grid, vox_body body, const vox_filter* filter);
+/* Finds all contacts of the bodies as they are now, and whatever the flags ask for. This replaces the results of the
+ * previous step. If the step fails there are no results, and the grid stays usable. A body that has not moved costs
+ * little more than reading its positions. In the steady state a step allocates no memory.
+ * Errors: INVALID_STATE (a mesh without positions), NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles read as floats; a
+ * task system that broke its rules), BUDGET, OUT_OF_MEMORY. vox_grid_get_failure names the body. */
+VOX_API vox_result vox_grid_step(vox_grid* grid);
 
-/* Disables a mesh (enabled 0), so that it takes no part in the following steps and its positions are not read, or
- * enables it again (1, as at insertion). Its contacts of the last step stay until the next one.
- * Errors: INVALID_ARGUMENT for other numbers. */
+/* Steps many different grids, several at a time: for many small scenes. worker_count and `tasks` are those of
+ * vox_grid_desc; each grid is stepped by one thread and should have a worker_count of 0 itself. If a grid fails, the
+ * others are stepped nevertheless; `results` receives the result of each. Returns the first failure, whose text says
+ * which grid.
+ * Errors: as vox_grid_step; INVALID_ARGUMENT (a null or repeated grid) or OUT_OF_MEMORY before any grid is stepped. */
+VOX_API vox_result vox_grids_step(vox_grid* const* grids, uint64_t count, uint32_t worker_count,
+                                  VOX_OPTIONAL const struct vox_task_system* tasks, VOX_OPTIONAL vox_result* results);
+
+/* ---- contacts: which vertex is in which tetrahedron ------------------------------------------- */
+
+/* Vertex `vertex` of body_a lies in the closed tetrahedron `tet` of body_b and is not one of its corners. This is
+ * decided exactly. For each vertex and body_b there is a contact for every tetrahedron that has the vertex in its
+ * interior; if there is none, there is one for the lowest tetrahedron that has it on its boundary. A tetrahedron of
+ * zero volume contains nothing. */
+typedef struct vox_contact {
+    vox_body body_a;
+    uint32_t vertex;
+    vox_body body_b;
+    uint32_t tet;
+} vox_contact;
+
+/* Contacts, sorted by (body_a, vertex, body_b, tet). The arrays live until the end of the epoch. */
+typedef struct vox_contact_view {
+    const vox_contact* data;
+    uint64_t count;
+    const uint8_t* interiors; /* one for each contact: 1 if the vertex is in the interior, 0 if on the boundary */
+} vox_contact_view;
+
+/* Gets the contacts of the last step. There are none before the first step and after a failed one. */
+VOX_API vox_result vox_grid_get_contacts(const vox_grid* grid, vox_contact_view* out_view);
+
+/* Gets a hash of the contacts and their order, which is the same on every machine. */
+VOX_API vox_result vox_grid_get_hash(const vox_grid* grid, uint64_t* out_hash);
+
+/* ---- pairs: which bodies touch ---------------------------------------------------------------- */
+
+/* What changed since the last successful step. */
+typedef enum vox_pair_state {
+    VOX_PAIR_NEAR = 0,      /* does not touch, but is within the margin */
+    VOX_PAIR_BEGAN = 1,     /* touches now and did not before */
+    VOX_PAIR_PERSISTED = 2, /* touches now and did before */
+    VOX_PAIR_ENDED = 3      /* touched before and does not now */
+} vox_pair_state;
+
+/* Two bodies that touch, or touched in the step before. They touch if a vertex of one is inside the other or went
+ * through it within the step, or if an edge of one meets a face of the other. body_a < body_b; they are equal for a
+ * mesh that touches itself. A pair that began ends exactly once, even if a body is removed, disabled or filtered out,
+ * or the grid is cleared. Its ids may be stale then. */
+typedef struct vox_pair {
+    vox_body body_a;
+    vox_body body_b;
+    uint64_t user_data_a;
+    uint64_t user_data_b;
+    vox_pair_state state;
+    uint32_t reserved;
+    uint64_t first_contact; /* see vox_pair_view.contacts */
+    uint64_t contact_count; /* 0 if the two touch in another way, or no longer */
+} vox_pair;
+
+/* Pairs, sorted by (body_a, body_b). The arrays live until the end of the epoch. */
+typedef struct vox_pair_view {
+    const vox_pair* data;
+    uint64_t count;
+    const uint32_t* contacts; /* indices of contacts. A pair has contact_count of them, from contacts[first_contact]
+                                 on: first for vertices of body_a, then for vertices of body_b */
+} vox_pair_view;
+
+/* Gets the pairs of the last step. There are none before the first step and after a failed one. Read them after every
+ * step, as each step reports only its own changes. The totals in vox_grid_info show whether a program has missed
+ * some. */
+VOX_API vox_result vox_grid_get_pairs(const vox_grid* grid, vox_pair_view* out_view);
+
+/* ---- constraints: what a solver needs --------------------------------------------------------- */
+
+/* Why there is a constraint. A vertex has at most one INSIDE, PROXIMITY or IMPACT constraint with each body. */
+typedef enum vox_constraint_kind {
+    VOX_CONSTRAINT_INSIDE = 0,    /* a vertex of body_a is inside body_b */
+    VOX_CONSTRAINT_EDGE = 1,      /* an edge of body_a meets a face of body_b (VOX_GRID_EDGES) */
+    VOX_CONSTRAINT_PROXIMITY = 2, /* a vertex of body_a is outside body_b and within the margin (vox_grid_set_margin) */
+    VOX_CONSTRAINT_IMPACT = 3     /* a vertex of body_a is not inside body_b, but went in within the step and is
+                                     behind the face that it met first
+                                     (vox_mesh_bind_previous_positions) */
+} vox_constraint_kind;
+
+/* How gap and normal were found, and thus how far to trust them (docs/depth.md). */
+typedef enum vox_depth_state {
+    VOX_DEPTH_SURFACE = 0,    /* a mean over the edges that lead from the vertex out of body_b */
+    VOX_DEPTH_PROPAGATED = 1, /* a mean over neighbouring vertices that are closer to the surface */
+    VOX_DEPTH_CLOSEST = 2,    /* the closest point of the surface, which may jump from step to step */
+    VOX_DEPTH_AMBIGUOUS = 3,  /* the bodies pass through each other: the nearest way out, which may be the wrong side */
+    VOX_DEPTH_TOUCHING = 4,   /* the bodies only touch here: gap 0 */
+    VOX_DEPTH_UNKNOWN = 5,    /* closest_budget was used up: gap 0; or no depth was asked for: gap and normal 0 */
+    VOX_DEPTH_PLANE = 6       /* the plane of the face: for IMPACT, and for EDGE of a mesh with itself */
+} vox_depth_state;
+
+#define VOX_STENCIL_CAPACITY 5u /* most vertices of a constraint */
+
+/* A point of body_a and a point of body_b that must not pass through each other. Each is a weighted sum of vertices.
+ * All vertices are in one list: first those of body_a, whose weights add up to 1; then those of body_b, whose weights
+ * are negative and add up to -1. When vertex i is at x[i],
+ *
+ *     gap = offset + dot(normal, sum of weights[i] * x[i])        (vox_constraint_gap)
+ *
+ * is negative while the two overlap. Its gradient for vertex i is weights[i] * normal, so a solver pushes vertex i in
+ * that direction, whatever the kind. With velocities in place of x, the sum is the velocity of the point of body_a
+ * relative to that of body_b, for damping and friction.
+ *
+ *     kind        vertices of body_a    vertices of body_b                        gap in the step
+ *     INSIDE      the vertex            the tetrahedron that contains it          minus the depth
+ *     EDGE        the edge              the face                                  minus the depth of its part inside,
+ *                                                                                 from the middle of that part
+ *     PROXIMITY   the vertex            the face with the closest point           the distance
+ *     IMPACT      the vertex            the face that it met first                minus the distance behind its plane
+ */
+typedef struct vox_constraint {
+    vox_body body_a;
+    vox_body body_b;
+    vox_constraint_kind kind;
+    vox_depth_state state;
+    uint32_t count_a;                        /* how many vertices of body_a */
+    uint32_t count;                          /* how many vertices in all */
+    uint32_t vertices[VOX_STENCIL_CAPACITY]; /* those beyond `count` are 0, and so are their weights */
+    uint32_t element_b;                      /* tetrahedron of body_b: the lowest that contains the vertex, or the one
+                                                behind the face */
+    double weights[VOX_STENCIL_CAPACITY];
+    double normal[3]; /* a unit vector out of body_b, the way for body_a */
+    double gap;
+    double offset;
+    double position[3]; /* of the point of body_a */
+    double time;        /* when within the step, from 0 to 1, a vertex met the surface; 1 if that is not known */
+    uint64_t user_data_a;
+    uint64_t user_data_b;
+    uint32_t pair;     /* index of its pair in vox_grid_get_pairs */
+    uint32_t previous; /* index of the same constraint in the list of the step before, for a warm start; VOX_NONE if
+                          it is new. Same means the same vertex and body_b, or the same edge and face */
+    uint64_t reserved; /* 0 */
+} vox_constraint;
+
+/* The gap when the two bodies have these positions: packed doubles x y z, transformed. */
+static inline double vox_constraint_gap(const vox_constraint* c, const double* positions_a,
+                                        const double* positions_b) {
+    double gap = c->offset;
+    uint32_t i;
+    for (i = 0; i < c->count; ++i) {
+        const double* x = (i < c->count_a ? positions_a : positions_b) + 3 * (size_t)c->vertices[i];
+        gap += c->weights[i] * (c->normal[0] * x[0] + c->normal[1] * x[1] + c->normal[2] * x[2]);
+    }
+    return gap;
+}
+
+/* How the depth of a vertex inside a mesh is found. */
+typedef enum vox_depth_method {
+    VOX_DEPTH_METHOD_CONSISTENT = 0, /* smooth along the surface; neighbouring vertices leave on the same side: for
+                                        response (Heidelberger et al. 2004) */
+    VOX_DEPTH_METHOD_CLOSEST = 1,    /* to the closest point of the surface, with the vertices of its face in place of
+                                        those of the tetrahedron: for finite elements, pictures, reports */
+    VOX_DEPTH_METHOD_NONE = 2        /* none: vertices, weights and position alone. Quick */
+} vox_depth_method;
+
+/* Which constraints to find. By default all fields are 0: all constraints, with consistent depth. */
+typedef struct vox_constraint_desc {
+    uint32_t struct_size;
+    vox_depth_method method;
+    vox_body body_a;         /* only pairs of this body; VOX_NULL_BODY: all pairs */
+    vox_body body_b;         /* only its pair with body_a; VOX_NULL_BODY: all pairs of body_a */
+    uint64_t mask;           /* only pairs in which the category of a body has a bit in common with it; 0: all pairs */
+    uint64_t closest_budget; /* most searches for a closest point; constraints that get none are UNKNOWN, and the log
+                                has a warning. 0: no limit */
+} vox_constraint_desc;
+
+static inline vox_constraint_desc vox_default_constraint_desc(void) {
+    vox_constraint_desc desc = VOX_ZERO;
+    desc.struct_size = (uint32_t)sizeof desc;
+    return desc;
+}
+
+/* Constraints, sorted by pair, then by kind, body_a and vertices, those of a face in ascending order. Those of pair p
+ * of vox_grid_get_pairs are data[pair_offsets[p]] to data[pair_offsets[p + 1] - 1]. The arrays live until the end of the
+ * epoch, or until constraints are found again. */
+typedef struct vox_constraint_view {
+    const vox_constraint* data;
+    uint64_t count;
+    const uint64_t* pair_offsets; /* pair_count + 1 */
+    uint64_t pair_count;          /* as in vox_pair_view.count */
+} vox_constraint_view;
+
+/* Finds the constraints of the last step. This replaces constraints that were found before. With VOX_GRID_CONSTRAINTS
+ * every step does so itself. Call it before anything moves: positions must be those of the step, and no body of a
+ * pair may have been removed or edited. Constraints between bodies at rest are carried over.
+ * Errors: INVALID_STATE (no step yet; a body was removed or edited), INVALID_ARGUMENT, NON_FINITE, LIMIT, BUDGET,
+ * OUT_OF_MEMORY. */
+VOX_API vox_result vox_grid_find_constraints(vox_grid* grid, VOX_OPTIONAL const vox_constraint_desc* desc);
+
+/* Gets the constraints that were found last. Errors: INVALID_STATE if none were looked for since the last step. */
+VOX_API vox_result vox_grid_get_constraints(const vox_grid* grid, vox_constraint_view* out_view);
+
+/* ---- bodies: more about them ------------------------------------------------------------------ */
+
+/* Places a body. In the following steps a position x, y, z stands for
+ *     x' = ((m[0] * x + m[1] * y) + m[2] * z) + m[3], y' likewise with m[4..7], z' with m[8..11],
+ * computed in double in this order. Contacts are exact for x', y', z'. It is any affine map,
+ * and copied; null: none. Errors: INVALID_ARGUMENT (a number that is not finite), BUDGET, OUT_OF_MEMORY. */
+VOX_API vox_result vox_body_set_transform(vox_grid* grid, vox_body body, VOX_OPTIONAL const double matrix[12]);
+
+/* Disables a body (0), or enables it again (1). A disabled body takes no part in steps; its positions are not read.
+ * Errors: INVALID_ARGUMENT (another number). */
 VOX_API vox_result vox_body_set_enabled(vox_grid* grid, vox_body body, uint32_t enabled);
 
-/* With enabled 0, the two meshes do not collide in the following steps, whatever their filters say; with 1, their
- * filters decide. The setting ends when either mesh is removed. Errors: INVALID_ARGUMENT for other numbers and for
- * body_a = body_b (see VOX_FILTER_SELF_COLLISION), BUDGET, OUT_OF_MEMORY. */
+/* Sets what a body collides with from the next step on. Rings and rest distance are prepared in the call.
+ * Errors: INVALID_ARGUMENT, LIMIT, INVALID_STATE (no rest pose), NON_FINITE, BUDGET, OUT_OF_MEMORY. */
+VOX_API vox_result vox_body_set_filter(vox_grid* grid, vox_body body, const vox_filter* filter);
+
+/* Keeps two bodies from colliding, whatever their filters say (0), or lets their filters decide again (1). Ends when
+ * either body is removed. Errors: INVALID_ARGUMENT (another number; twice the same body), BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_set_pair_enabled(vox_grid* grid, vox_body body_a, vox_body body_b, uint32_t enabled);
 
-/* Gives the mesh positions of its own that the caller may write to: one for each vertex, packed, in the format
- * it was inserted with or bound to last. At first they hold the mesh's present positions, or zeros if it has none.
- * From the next step on, the mesh uses what the caller has written there between steps. Calling it again returns the
- * same array. The array belongs to the library and lives until the mesh is removed or bound, or the grid is cleared or
- * destroyed. It is null for a mesh without vertices. For a mesh inserted with VOX_MESH_COPY_POSITIONS it is the copy
- * made then.
- * Errors: BUDGET, OUT_OF_MEMORY. */
+/* Makes the next step treat a body as if it had moved: for measurements. */
+VOX_API vox_result vox_body_mark_moved(vox_grid* grid, vox_body body);
+
+/* Gives a mesh a packed array of its own, in its format, which the caller may write to between steps. It starts with
+ * the present positions, or zeros. It belongs to the grid and lives until other positions are bound, vertices are
+ * appended or replaced, or the mesh is removed. Calling this again returns the same array. Errors: BUDGET,
+ * OUT_OF_MEMORY. */
 VOX_API vox_result vox_mesh_map_positions(vox_grid* grid, vox_body body, void** out_positions);
 
-/* Moves a mesh as a whole. In the following steps a vertex has the position
- *     x' = ((m[0] * x + m[1] * y) + m[2] * z) + m[3], y' likewise from m[4..7], z' from m[8..11],
- * computed in double, in this order, each operation rounded. Contacts are exact for the resulting x', y', z', as if
- * these had been given as VOX_FORMAT_DOUBLE. If they exceed the limits of that format, the step fails. `matrix` is any
- * affine map, three rows of four numbers, copied. Null (the default) means no transform. The transform stays when
- * other positions are bound.
- * Errors: INVALID_ARGUMENT (an element that is not finite); BUDGET, OUT_OF_MEMORY (for a first transform). */
-VOX_API vox_result vox_body_set_transform(vox_grid* grid, vox_body body, VOX_OPTIONAL const double matrix[12]);
+/* Makes a mesh borrow the positions that its vertices had before. In the following steps each vertex moves from there
+ * to its position, in a straight line at constant speed, and steps also find IMPACT constraints. None is missed. A
+ * vertex that misses a surface by no more than rounding errors may be reported. Bodies without previous positions
+ * stand still. The transform does not apply to previous positions. Null ends this, as does a change of the mesh's
+ * vertices. Snapshots do not keep it.
+ * Errors: INVALID_ARGUMENT. */
+VOX_EXPERIMENTAL vox_result vox_mesh_bind_previous_positions(vox_grid* grid, vox_body body,
+                                                             VOX_OPTIONAL const vox_positions* positions);
+
+/* A body as it is now. */
+typedef struct vox_body_info {
+    uint32_t struct_size;
+    uint32_t reserved;  /* 0 */
+    uint64_t user_data;
+    uint32_t enabled;   /* 1 or 0 */
+    uint32_t flags;     /* vox_mesh_flags: COPY_POSITIONS if the grid owns the positions, BORROW_TETS while the caller
+                           owns the tetrahedra */
+    uint64_t tet_count; /* with disabled and removed ones: indices are below it */
+    uint64_t enabled_tet_count;
+    vox_positions positions; /* of a mesh, without its transform; valid as long as they stay bound or mapped */
+    vox_filter filter;
+    double transform[12];
+} vox_body_info;
+
+/* Gets a body's state. Set out_info->struct_size first. `positions` lives as its comment says. */
+VOX_API vox_result vox_body_get_info(const vox_grid* grid, vox_body body, vox_body_info* out_info);
+
+/* Gets the user_data that a body was inserted with. */
+VOX_API vox_result vox_body_get_user_data(const vox_grid* grid, vox_body body, uint64_t* out_user_data);
+
+/* Returns 1 if `body` names a body of the grid, else 0; gives 0 for a null grid. Cannot fail. */
+VOX_API uint32_t vox_body_is_valid(VOX_OPTIONAL const vox_grid* grid, vox_body body);
+
+/* Gets the first `capacity` bodies of the grid in ascending order, disabled ones included; `bodies` may be null if it
+ * is 0. *out_count is the number of all. Errors: INVALID_ARGUMENT. */
+VOX_API vox_result vox_grid_get_bodies(const vox_grid* grid, vox_body* bodies, uint64_t capacity, uint64_t* out_count);
+
+/* ---- measurements: and settings of a grid ----------------------------------------------------- */
+
+/* Removes all bodies and results, and keeps the settings. The next step ends all pairs. */
+VOX_API vox_result vox_grid_clear(vox_grid* grid);
+
+/* Allocates memory for this many bodies and contacts in advance, besides what the bodies themselves need.
+ * Errors: LIMIT, BUDGET, OUT_OF_MEMORY. */
+VOX_API vox_result vox_grid_reserve(vox_grid* grid, uint32_t body_count, uint64_t contact_count);
+
+/* Sets vox_grid_desc.cell_size for the following steps. Errors: INVALID_ARGUMENT (negative, infinite, NaN). */
+VOX_API vox_result vox_grid_set_cell_size(vox_grid* grid, double cell_size);
+
+/* Sets vox_grid_desc.worker_count for the following steps. Errors: INVALID_ARGUMENT. */
+VOX_API vox_result vox_grid_set_worker_count(vox_grid* grid, uint32_t worker_count);
+
+/* Sets all vox_grid_desc.flags for the following steps. Memory that is no longer needed is released.
+ * Errors: INVALID_ARGUMENT, UNSUPPORTED (in this build). */
+VOX_API vox_result vox_grid_set_flags(vox_grid* grid, uint32_t flags);
+
+/* Sets the margin for the following steps: vertices outside another body, but no further than this from its surface,
+ * have PROXIMITY constraints, and the two bodies are a pair. 0, the default: none, at no cost. Snapshots lack it.
+ * Errors: INVALID_ARGUMENT (negative, NaN, above 2^125), UNSUPPORTED (in this build). */
+VOX_EXPERIMENTAL vox_result vox_grid_set_margin(vox_grid* grid, double margin);
+
+/* A grid as it is now, and what its last successful step did. */
+typedef struct vox_grid_info {
+    uint32_t struct_size;
+    uint32_t flags;          /* vox_grid_flags */
+    uint64_t epoch;          /* counts up when an epoch ends (see Ownership above) */
+    double cell_size;        /* the one that was set, or else the one used last; 0 before the first step */
+    double margin;
+    uint64_t bytes;          /* held now, without the caller's arrays */
+    uint64_t peak_bytes;
+    uint64_t step_ns;        /* nanoseconds */
+    uint64_t moved_bodies;   /* bodies that were not at rest */
+    uint64_t skipped_bodies; /* bodies that were left out (VOX_GRID_SKIP_BAD_BODIES) */
+    uint64_t total_began;    /* pairs that began, in all steps so far */
+    uint64_t total_ended;    /* pairs that ended, in all steps so far */
+} vox_grid_info;
+
+/* Gets a grid's state. Set out_info->struct_size first. */
+VOX_API vox_result vox_grid_get_info(const vox_grid* grid, vox_grid_info* out_info);
+
+/* A count, or a time in nanoseconds, with its name. */
+typedef struct vox_counter {
+    const char* name; /* static text, e.g. "candidates" or "lookup_ns" */
+    uint64_t value;
+} vox_counter;
+
+/* Counters. A library always has the same ones in the same order. */
+typedef struct vox_counter_view {
+    const vox_counter* data;
+    uint64_t count;
+} vox_counter_view;
+
+/* Gets counts and times of the last step, stage by stage (docs/engine.md lists them). They live until the end of the
+ * epoch. */
+VOX_API vox_result vox_grid_get_counters(const vox_grid* grid, vox_counter_view* out_view);
+
+/* A body that made a step fail, or that a step left out. */
+typedef struct vox_failure {
+    uint32_t struct_size;
+    vox_result result;  /* VOX_OK: there is no such body */
+    vox_body body;
+    uint32_t vertex;    /* the first vertex with a bad coordinate; VOX_NONE if the failure is not about a vertex */
+    uint64_t user_data;
+    double position[3]; /* of that vertex, transformed */
+} vox_failure;
+
+/* Gets the body that made the last step fail, with index 0; or else the bodies that it left out, with indices from 0
+ * on. Set out_failure->struct_size first. Errors: INVALID_ARGUMENT. */
+VOX_API vox_result vox_grid_get_failure(const vox_grid* grid, uint32_t index, vox_failure* out_failure);
 
 /* ---- cutting and growing ---------------------------------------------------------------------- */
 
-/* Edits of a mesh between steps. A tetrahedron or vertex keeps its index whatever happens to others. The index of a
- * removed one is never reused, and still counts towards the limits, until vox_mesh_set_topology replaces everything.
- * What an edit removes no longer exists for contacts, penetrations, locators, suggestions and the rings of a filter.
- * The contacts of the last step stay as they are until the next step, which derives its events as usual: a pair that
- * still touches persists.
- * Time: an edit takes time proportional to what it changes and to the tetrahedra around that. The following take time
- * proportional to the mesh: the first edit of a mesh; the first step after an edit of more than an eighth of its
- * tetrahedra, or after edits that together changed more than a quarter of them since the last such step; and a step
- * after an edit that could not get memory for its repairs. Memory: about 20 bytes a tetrahedron and 35 a vertex from
- * the first edit on, and 16 more a tetrahedron once one was disabled; another 16 from the first edit of borrowed
- * tetrahedra on (VOX_MESH_BORROW_TETS), which are copied then. The first step after an edit may allocate.
- * Positions must be bound before the next step, as usual. `count` 0 does nothing; an index may be named several times.
- * Errors of all: INVALID_ARGUMENT (also for an index that the mesh does not have, or that was removed), INVALID_MESH
- * ("tet 17 names vertex 900 of 812", or a vertex that was removed), LIMIT, BUDGET, OUT_OF_MEMORY. */
+/* Edits of a mesh between steps. Vertices and tetrahedra keep their indices whatever happens to others; the indices
+ * of removed ones are not used again. An edit takes time in proportion to what it changes. The first edit of a mesh,
+ * and a step after edits of more than an eighth of it, take time in proportion to the mesh. docs/cutting.md shows how
+ * to cut a mesh open.
+ * Errors of all: INVALID_ARGUMENT (e.g. an index that does not exist or was removed), INVALID_MESH, LIMIT, BUDGET,
+ * OUT_OF_MEMORY. */
 
-/* Replaces tetrahedra, vertices and positions, as if the mesh had been inserted with those of `desc`. Its id, user
- * data, filter, transform, disabled pairs, and whether it is enabled stay as they are; of `desc`, user_data and filter
- * are ignored. If desc->positions is null, the mesh keeps its positions and its rest
- * pose if the number of vertices is unchanged; otherwise it has no positions until vox_mesh_bind_positions. The rest
- * pose of a filter with a rest distance is taken from desc as at insertion. Errors: also INVALID_STATE and NON_FINITE,
- * as vox_body_set_filter. */
+/* Replaces vertices, tetrahedra and positions by those of desc. Id, user data, filter, transform and disabled pairs
+ * stay. If desc has no positions, but as many vertices as the mesh, positions and rest pose stay, too.
+ * Errors: also INVALID_STATE and NON_FINITE (rest pose). */
 VOX_API vox_result vox_mesh_set_topology(vox_grid* grid, vox_body body, const vox_mesh_desc* desc);
 
-/* Disables the `count` tetrahedra named by `tets` (enabled 0), so that they contain no vertex and have no edges and
- * facets, or enables them again (1, as at insertion). Their vertices stay and collide with others either way.
- * Errors: INVALID_ARGUMENT for other numbers. */
+/* Disables tetrahedra (0), or enables them again (1). A disabled tetrahedron contains no vertices and has no edges
+ * and faces. Its vertices still collide with others. */
 VOX_API vox_result vox_mesh_set_tets_enabled(vox_grid* grid, vox_body body, const uint32_t* tets, uint64_t count,
                                              uint32_t enabled);
 
-/* Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3], copied, for each i below count. If an
- * index is named twice, the last corners are used. A disabled tetrahedron stays disabled. To cut a mesh open, append
- * copies of the vertices on the cut and let the tetrahedra of one side use those. */
+/* Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3]. */
 VOX_API vox_result vox_mesh_replace_tets(vox_grid* grid, vox_body body, const uint32_t* tets, uint64_t count,
                                          const uint32_t* corners);
 
-/* Adds `count` tetrahedra with 4 corners each, copied. *out_first is the index of the first; the others have the
- * following indices. */
+/* Adds `count` tetrahedra with four corners each. *out_first is the index of the first; the others follow. */
 VOX_API vox_result vox_mesh_append_tets(vox_grid* grid, vox_body body, const uint32_t* corners, uint64_t count,
                                         uint32_t* out_first);
 
-/* Removes tetrahedra, disabled ones included. Their vertices stay; see vox_mesh_remove_vertices. */
+/* Removes tetrahedra. Their vertices stay. */
 VOX_API vox_result vox_mesh_remove_tets(vox_grid* grid, vox_body body, const uint32_t* tets, uint64_t count);
 
 /* Vertices to append. */
@@ -544,18 +692,13 @@ typedef struct vox_vertices_desc {
     uint32_t struct_size;
     uint32_t reserved; /* 0 */
     uint64_t count;
-    /* For a mesh that borrows its positions: an array of all positions, first those of the vertices it has, then those
-     * of the new ones. It is borrowed from now on instead of the old array, under the rule of vox_mesh_desc.positions.
-     * For a mesh with positions of its own (copied, mapped, or loaded): `count` positions in its format, copied; the
-     * array of vox_mesh_map_positions becomes invalid. There may be none for a mesh that has no positions yet and,
-     * together with copies_of, for a mesh with positions of its own. */
+    /* In the mesh's format. If the mesh borrows its positions: an array for all vertices, the old ones first,
+     * borrowed from now on. If it owns them: the positions of the new vertices, copied; or none, with copies_of. */
     vox_positions positions;
-    /* Null, or `count` indices of earlier vertices of the mesh: the vertex that each new one is a copy of. A copy gets
-     * the rest position of that vertex and, without `positions`, its position, too. */
-    VOX_OPTIONAL const uint32_t* copies_of;
-    /* For meshes with a rest pose (vox_filter.self_rest_distance): `count` positions in it, copied. None: those of
-     * copies_of or, if that is null too, the present positions of the new vertices. */
-    vox_positions rest_positions;
+    VOX_OPTIONAL const uint32_t* copies_of; /* `count` indices: the vertex whose position and rest position each one
+                                               gets */
+    vox_positions rest_positions; /* of the new vertices, if the mesh has a rest pose. Default: those of copies_of, or
+                                     else `positions` */
 } vox_vertices_desc;
 
 static inline vox_vertices_desc vox_default_vertices_desc(void) {
@@ -564,566 +707,51 @@ static inline vox_vertices_desc vox_default_vertices_desc(void) {
     return desc;
 }
 
-/* Adds vertices, which belong to no tetrahedron yet. *out_first is the index of the first; the others have the
- * following indices. Errors: also INVALID_STATE (the mesh has a rest pose, but a new vertex has no position for it),
- * NON_FINITE (a position of the rest pose). */
+/* Adds vertices, which belong to no tetrahedron yet. *out_first is the index of the first; the others follow.
+ * Errors: also INVALID_STATE (a mesh with a rest pose, a vertex without), NON_FINITE. */
 VOX_API vox_result vox_mesh_append_vertices(vox_grid* grid, vox_body body, const vox_vertices_desc* desc,
                                             uint32_t* out_first);
 
-/* Removes vertices; a vertex of an enabled tetrahedron is an INVALID_ARGUMENT. Removed vertices make no more contacts,
- * and no tetrahedron may name them again. Their positions are still read and must stay finite, so it is best to leave
- * them as they are. */
+/* Removes vertices that belong to no enabled tetrahedron. Their positions are still read and must stay finite. */
 VOX_API vox_result vox_mesh_remove_vertices(vox_grid* grid, vox_body body, const uint32_t* vertices, uint64_t count);
 
-/* ---- step and contacts ------------------------------------------------------------------------ */
-
-/* Finds all contacts of the positions as they are now. On success the previous contacts are replaced; on failure they
- * are gone and the grid stays usable.
- * A mesh is at rest if its positions are bit for bit those of the last step; the fast engine keeps a copy to compare.
- * Contacts between meshes at rest, and of a mesh at rest with itself, are carried over from the last step with their
- * penetrations, so such meshes cost little more than reading their positions. (When a moving mesh comes to rest, it is
- * processed in one more step, in which the copy is made.) A step after a failed one, or after a change of a setting,
- * processes all meshes.
- * In the steady state (same meshes, no more work than before) it allocates nothing, with any number of workers. The
- * memory of the built-in scheduler, such as the stacks of its threads, is not the grid's and is not counted.
- * Errors: INVALID_STATE (a mesh has no positions), NON_FINITE and LIMIT (a coordinate that VOX_FORMAT_DOUBLE does not
- * allow), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT, see vox_mesh_insert); all these name the mesh, as does
- * vox_grid_get_failure. LIMIT (more than VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET,
- * OUT_OF_MEMORY. */
-VOX_API vox_result vox_grid_step(vox_grid* grid);
-
-/* Steps `count` grids, which must differ, each as by vox_grid_step, several at the same time: for many small scenes
- * that have nothing to do with each other. The grids are split among `worker_count` threads (as in vox_grid_desc) of
- * `tasks` (null: the built-in scheduler), as one task; within it each grid uses workers of its own, so one of them is
- * best. What a grid finds does not depend on the others. Its callbacks are called on the thread that steps it. One
- * thread at a time may change each of the grids, so none of them may be used until the call returns. Threads of the
- * built-in scheduler may be kept for a next call with as many workers: those of one call at most, at most
- * VOX_MAX_WORKERS - 1, which sleep, until the process ends or the library is unloaded. results: null, or `count`
- * results, of the grids in their order. If grids fail, the others are stepped nevertheless, and the call returns the
- * result of the first of them and its text, after its index ("grid 17: ...").
- * Errors: as vox_grid_step; INVALID_ARGUMENT (a null or repeated grid, a worker_count) and OUT_OF_MEMORY, after which
- * no grid was stepped and `results` is not written, unless the task system broke its rules, see vox_task_system. */
-VOX_API vox_result vox_grids_step(vox_grid* const* grids, uint64_t count,
-                                  VOX_OPTIONAL const struct vox_task_system* tasks, uint32_t worker_count,
-                                  VOX_OPTIONAL vox_result* results);
-
-/* A mesh that made a step fail, or that a step left out. */
-typedef struct vox_failure {
-    uint32_t struct_size;
-    vox_result result;  /* NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE does not allow), INVALID_STATE (no
-                           positions), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT); VOX_OK if there is none */
-    vox_body mesh;      /* VOX_NULL_BODY if there is none */
-    uint32_t slot;      /* of the mesh, from 0 */
-    uint64_t user_data; /* of the mesh, as given at insertion */
-    uint32_t vertex;    /* the first with such a coordinate; VOX_NO_VERTEX if the failure is about none */
-    uint32_t reserved;
-    double position[3]; /* of that vertex, as it would collide: in double and transformed; else 0 */
-} vox_failure;
-
-#define VOX_NO_VERTEX 0xffffffffu /* vox_failure.vertex where a failure is not about a vertex */
-
-/* The mesh that made the last step fail (index 0), or the meshes that it left out (VOX_GRID_SKIP_BAD_BODIES): the
- * index-th of them, in the order of ids. `mesh` is VOX_NULL_BODY beyond the last, after steps that failed for another
- * reason and after a clear. Writes the fields that out_failure->struct_size covers (set it first). The mesh may have
- * been removed since. Errors: INVALID_ARGUMENT (a null pointer, a bad struct_size). */
-VOX_API vox_result vox_grid_get_failure(const vox_grid* grid, uint32_t index, vox_failure* out_failure);
-
-/* Vertex `vertex` of body_a is in the closed tetrahedron `tet` of body_b and is not a corner of it.
- * This is decided exactly for the coordinates given. For each (body_a, vertex, body_b) there is a contact for every
- * tetrahedron that has the vertex in its interior; if there is none, one for the tetrahedron of lowest index that has
- * it on its boundary. A tetrahedron of exactly zero volume contains nothing.
- * `barycentric` are the vertex's weights for the tetrahedron's four corners in their given order. Each is in
- * [0, 1], and their sum is 1 up to rounding. */
-typedef struct vox_contact {
-    vox_body body_a;
-    uint32_t vertex;
-    vox_body body_b;
-    uint32_t tet;
-    float barycentric[4];
-} vox_contact;
-
-/* `count` contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b, tet). They live until the next step, clear,
- * reserve, change of the flags or destroy of the grid; `epoch` is vox_grid_info.epoch of that state. */
-typedef struct vox_contact_view {
-    const vox_contact* data;
-    size_t byte_stride;
-    uint64_t count;
-    uint64_t epoch;
-    /* One for each contact: 1 if the vertex is in the interior of the tetrahedron, 0 if it is on its boundary; exact.
-     * On a face that two tetrahedra share, a vertex has a contact with one of them (see vox_contact): who joins the
-     * contacts of several grids, each with a part of a mesh, keeps the rule with this. No part of vox_grid_get_hash. */
-    const uint8_t* interiors;
-} vox_contact_view;
-
-/* The contacts of the last step; count 0 before the first, after a failed one and after a clear. */
-VOX_API vox_result vox_grid_get_contacts(const vox_grid* grid, vox_contact_view* out_view);
-
-/* The contacts of `count` grids, one grid after the other: those of grid i begin at index offsets[i] and end before
- * offsets[i + 1], where offsets has count + 1 numbers, all of which are written. Copies the first `capacity` contacts;
- * `contacts` may be null if capacity is 0. Errors: INVALID_ARGUMENT. */
-VOX_API vox_result vox_grids_copy_contacts(const vox_grid* const* grids, uint64_t count, vox_contact* contacts,
-                                           uint64_t capacity, uint64_t* offsets);
-
-/* A hash of the contacts: all fields, in order. The same for any cell size, storage, hash and engine. */
-VOX_API vox_result vox_grid_get_hash(const vox_grid* grid, uint64_t* out_hash);
-
-/* ---- penetrations ----------------------------------------------------------------------------- */
-
-/* How a penetration's depth and direction were found. In the following, p is the vertex; a colliding vertex is a vertex
- * of body_a that has a contact with body_b; edges are those of body_a's tetrahedra; the surface of body_b consists of
- * the facets of exactly one of its tetrahedra, duplicates counted once. SURFACE and PROPAGATED are the method of
- * Heidelberger et al. 2004; the other states stand for cases in which it gives no answer. "Closest" means that depth is
- * the distance from p to the closest point of body_b's surface, and direction points straight to it. For self-contact
- * the surface is that of the fold that p has entered, never a triangle that has p as a corner. */
-typedef enum vox_penetration_state {
-    VOX_PENETRATION_SURFACE = 0,    /* edges lead from p out of body_b; mean over the points where they cross the
-                                       surface */
-    VOX_PENETRATION_PROPAGATED = 1, /* all neighbours of p collide; mean over those closer to the surface */
-    VOX_PENETRATION_ENCLOSED = 2,   /* closest: no edge leads out from p or from a colliding vertex connected with it,
-                                       or p has no edges, as in meshes without tetrahedra */
-    VOX_PENETRATION_CROSSING = 3,   /* the means are unusable, as the normals nearly cancel (edges leave on opposite
-                                       sides), the depth would not be positive, or an edge that leads out crosses no
-                                       surface (inverted tetrahedra, non-manifold facets); or this is the case for all
-                                       vertices that p is connected with. The nearest way out alone: of the edges, or
-                                       by a neighbour. Closest only if no edge of any of these vertices leads out */
-    VOX_PENETRATION_COINCIDENT = 4, /* p lies on the surface; depth is 0, direction the surface's normal at p */
-    VOX_PENETRATION_UNKNOWN = 5     /* the step's closest_budget was used up (see vox_grid_desc): depth is 0, direction
-                                       the normal of a facet of the contact's tetrahedron */
-} vox_penetration_state;
-
-/* Vertex `vertex` of body_a is inside body_b (a = b: self-contact) and has to leave it: moving the vertex by
- * depth * direction leads to the surface of body_b, exactly if the state says closest, and otherwise as well as edges
- * and neighbours can estimate it. All values are finite, and direction is a unit vector up to rounding. If body_b has
- * no surface (each facet belongs to several tetrahedra), depth is 0 and direction the normal of a facet of the
- * contact's tetrahedron. Does not depend on engine, cell size, workers or machine. */
-typedef struct vox_penetration {
-    vox_body body_a;
-    uint32_t vertex;
-    vox_body body_b;
-    vox_penetration_state state;
-    uint64_t contact;   /* index in vox_grid_get_contacts of the first contact of (body_a, vertex, body_b) */
-    float depth;        /* >= 0, in the caller's unit */
-    float direction[3]; /* in the frame of the positions, out of body_b */
-} vox_penetration;
-
-/* `count` penetrations, `byte_stride` apart: one for each (body_a, vertex, body_b) that has contacts, in that order,
- * unless one of them is a sensor (VOX_FILTER_SENSOR). A vertex inside two meshes has two. The data lives as long as
- * that of the contacts' view. */
-typedef struct vox_penetration_view {
-    const vox_penetration* data;
-    size_t byte_stride;
-    uint64_t count;
-    uint64_t epoch;
-} vox_penetration_view;
-
-/* The penetrations of the last step; count 0 if it found no contacts, before the first step, after a failed one and
- * after a clear. Errors: INVALID_STATE if the grid's flags lack VOX_GRID_PENETRATIONS. */
-VOX_API vox_result vox_grid_penetrations(const vox_grid* grid, vox_penetration_view* out_view);
-
-/* Depth and direction of a vox_penetration as computed, in double; rounded to floats they are those of the
- * vox_penetration. */
-typedef struct vox_depth {
-    double depth;
-    double direction[3];
-} vox_depth;
-
-/* `count` depths, `byte_stride` apart. The data lives as long as the penetrations or readings that they belong to. */
-typedef struct vox_depth_view {
-    const vox_depth* data;
-    size_t byte_stride;
-    uint64_t count;
-    uint64_t epoch;
-} vox_depth_view;
-
-/* The depths of vox_grid_penetrations, one for each, in that order. Errors: as vox_grid_penetrations. */
-VOX_API vox_result vox_grid_depths(const vox_grid* grid, vox_depth_view* out_view);
-
-/* ---- edge contacts ---------------------------------------------------------------------------- */
-
-/* How an edge meets a face. */
-typedef enum vox_crossing_kind {
-    VOX_CROSSING_THROUGH = 0,  /* it passes through the interior of the face, with an end on either side */
-    VOX_CROSSING_TOUCHING = 1, /* an end is on the face, or it passes through an edge or a corner of the face */
-    VOX_CROSSING_COPLANAR = 2  /* it lies in the plane of the face and meets it, or one of them is degenerate and they
-                                  meet */
-} vox_crossing_kind;
-
-/* An edge of the surface of body_a and a face of the surface of body_b that have a point in common (a = b:
- * self-contact; then they have no vertex in common). The surface of a mesh consists of the facets of exactly one of its
- * enabled tetrahedra, duplicates counted once, and of their edges. Decided exactly for the coordinates given.
- * So two bars laid across each other are seen, though no vertex of one is in the other. Where several points are
- * common, the position is that of one of them: an end of the edge if one is, the lower vertex first. */
-typedef struct vox_edge_contact {
-    vox_body body_a;
-    uint32_t edge[2];       /* vertices of body_a, the lower first */
-    vox_body body_b;
-    uint32_t face[3];       /* vertices of body_b, the lowest first, counter-clockwise as seen from the side that the
-                               normal points to */
-    uint32_t tet;           /* of body_b, behind the face; of doubled ones the lowest */
-    vox_crossing_kind kind;
-    uint32_t reserved;      /* 0 */
-    double edge_weights[2]; /* of the point, in [0, 1], with the sum 1 up to rounding */
-    double face_weights[3]; /* of the same point */
-    double position[3];     /* of the point, rounded */
-    /* A unit vector out of `tet` or, if that is flat, to the side away from the lower vertex of the edge; 0, 0, 1 if
-     * the face has no area. */
-    double normal[3];
-} vox_edge_contact;
-
-/* `count` edge contacts, `byte_stride` apart, sorted by body_a, edge, body_b and the three vertices of the face in
- * ascending order. The data lives as long as that of the contacts' view. */
-typedef struct vox_edge_contact_view {
-    const vox_edge_contact* data;
-    size_t byte_stride;
-    uint64_t count;
-    uint64_t epoch;
-} vox_edge_contact_view;
-
-/* The edge contacts of the last step: the same for every engine, cell size and number of workers. Count 0 before the
- * first step, after a failed one and after a clear. Which meshes collide is up to vox_filter and
- * vox_grid_set_pair_enabled, as for contacts; a self-contact is ruled out where vox_filter rules out the contact of
- * either end of the edge with `tet`. Meshes that touch by edges alone are pairs of vox_grid_get_pairs, with no
- * contacts, and have touch events. vox_grid_get_hash and readings are of contacts alone.
- * Errors: INVALID_STATE if the grid's flags lack VOX_GRID_EDGE_CONTACTS. */
-VOX_EXPERIMENTAL vox_result vox_grid_edge_contacts(const vox_grid* grid, vox_edge_contact_view* out_view);
-
-/* A hash of the edge contacts: all fields, in order. The same for any cell size, storage, hash and engine. Errors: as
- * vox_grid_edge_contacts. */
-VOX_EXPERIMENTAL vox_result vox_grid_edge_hash(const vox_grid* grid, uint64_t* out_hash);
-
-/* Computes the way out for every edge contact of the last step (vox_grid_edge_depths). It reads positions, which must
- * still be those of the step. A program that does not need it pays nothing.
- * The part of an edge inside body_b begins and ends at contacts with it, or at an end of the edge. Moving its middle by
- * depth * direction leads to the closest point of the surface of body_b; of several, that of the first triangle. Where
- * no part begins or ends, because the two only touch, depth is 0 and direction the normal. For self-contact the middle
- * moves to the plane of the face, along the normal, instead.
- * Errors: INVALID_STATE (as vox_grid_edge_contacts; or a mesh of a contact was removed or edited since the step, or
- * lacks positions), NON_FINITE, BUDGET, OUT_OF_MEMORY. */
-VOX_EXPERIMENTAL vox_result vox_grid_prepare_edge_depths(vox_grid* grid);
-
-/* The depth and direction of each edge contact, in the order of vox_grid_edge_contacts. Errors: INVALID_STATE before
- * vox_grid_prepare_edge_depths. */
-VOX_EXPERIMENTAL vox_result vox_grid_edge_depths(const vox_grid* grid, vox_depth_view* out_view);
-
-/* ---- margin contacts and passages ------------------------------------------------------------- */
-
-/* Vertex `vertex` of body_a is in no tetrahedron of body_b, but no further than the margin from its surface. The point
- * of the surface of body_b that is closest to it is on a facet of `tet`; of several at the same distance that of the
- * lowest (tet, facet), as in vox_locator_find_closest (vox_query.h). Computed in double. */
-typedef struct vox_margin_contact {
-    vox_body body_a;
-    uint32_t vertex;
-    vox_body body_b;        /* never body_a */
-    uint32_t tet;           /* of body_b */
-    uint32_t facet;         /* of the tetrahedron, as in vox_closest_hit */
-    uint32_t face[3];       /* its vertices, in the order given there */
-    double face_weights[3]; /* of the closest point, in [0, 1], with the sum 1 up to rounding */
-    double distance;        /* from the vertex to the closest point */
-    double normal[3];       /* a unit vector from the closest point to the vertex; out of the tetrahedron if there is
-                               no distance between them */
-} vox_margin_contact;
-
-/* `count` margin contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b), each of which has one at most. The
- * data lives as long as that of the contacts' view. */
-typedef struct vox_margin_contact_view {
-    const vox_margin_contact* data;
-    size_t byte_stride;
-    uint64_t count;
-    uint64_t epoch;
-} vox_margin_contact_view;
-
-/* The margin contacts of the last step: the same for every engine, cell size and number of workers. Count 0 before the
- * first step, after a failed one and after a clear. Which meshes collide is up to vox_filter and
- * vox_grid_set_pair_enabled, as for contacts. They are not part of vox_grid_get_hash, and no pairs or events come of
- * them.
- * Errors: INVALID_STATE if the margin is 0 (vox_grid_set_margin). */
-VOX_EXPERIMENTAL vox_result vox_grid_margin_contacts(const vox_grid* grid, vox_margin_contact_view* out_view);
-
-/* Vertex `vertex` of body_a met the surface of body_b while both moved from their previous positions to the present
- * ones (vox_mesh_bind_previous_positions; a mesh without previous positions stands still), wherever it was before
- * and is after: also where it went through a thin mesh and out again. */
-typedef struct vox_passage {
-    vox_body body_a;
-    uint32_t vertex;
-    vox_body body_b;  /* never body_a */
-    uint32_t tet;     /* of body_b */
-    uint32_t facet;   /* of the tetrahedron, as in vox_closest_hit: the first that the vertex met; the lowest
-                         (tet, facet) of several at the same time */
-    uint32_t face[3]; /* its vertices, in the order given there */
-    double time;      /* in [0, 1], 0 at the previous positions: when it met it; never too late, and too early by no
-                         more than rounding errors make necessary */
-} vox_passage;
-
-/* `count` passages, `byte_stride` apart, sorted by (body_a, vertex, body_b), each of which has one at most. The data
- * lives as long as that of the contacts' view. */
-typedef struct vox_passage_view {
-    const vox_passage* data;
-    size_t byte_stride;
-    uint64_t count;
-    uint64_t epoch;
-} vox_passage_view;
-
-/* The passages of the last step, between meshes of which one has previous positions: the same for every engine, cell
- * size and number of workers. None is missed; a vertex that comes as close to a surface as rounding errors are large
- * may be reported as well. Filters as for contacts. Count 0 where no mesh has previous positions, before the first
- * step, after a failed one and after a clear. */
-VOX_EXPERIMENTAL vox_result vox_grid_passages(const vox_grid* grid, vox_passage_view* out_view);
-
-/* ---- touching pairs and events ---------------------------------------------------------------- */
-
-/* Two meshes that touch: a vertex of one of them is in a tetrahedron of the other, or they have edge contacts
- * (VOX_GRID_EDGE_CONTACTS). body_a <= body_b; they are equal if
- * a mesh touches itself. The contacts of the pair are those whose indices begin at vox_pair_view.contacts[first]: first
- * the a_in_b contacts of vertices of body_a in tets of body_b, then the b_in_a contacts of vertices of body_b in tets
- * of body_a (0 for a mesh with itself), each in the order of vox_grid_get_contacts. */
-typedef struct vox_pair {
-    vox_body body_a;
-    vox_body body_b;
-    uint64_t user_data_a; /* of body_a, as given at insertion */
-    uint64_t user_data_b;
-    uint64_t first;
-    uint64_t a_in_b;
-    uint64_t b_in_a;
-} vox_pair;
-
-#define VOX_MAX_CONTACTS 4294967295u /* contacts of one step; a step with more fails with VOX_ERROR_LIMIT */
-
-/* `count` pairs, `byte_stride` apart, sorted by (body_a, body_b). `contacts` holds the index of every contact of
- * vox_grid_get_contacts() once, pair by pair. Both live as long as the data of the contacts' view. */
-typedef struct vox_pair_view {
-    const vox_pair* data;
-    size_t byte_stride;
-    uint64_t count;
-    uint64_t epoch;
-    const uint32_t* contacts;
-} vox_pair_view;
-
-/* The pairs that touched in the last step; count 0 before the first, after a failed one and after a clear. */
-VOX_API vox_result vox_grid_get_pairs(const vox_grid* grid, vox_pair_view* out_view);
-
-/* Copies the first `capacity` of the last step's contacts in which `mesh` is body_a or body_b, pair by pair, in the
- * order of vox_grid_get_pairs. *out_count is how many there are, which may be more than were copied. `contacts` may be
- * null if capacity is 0. The mesh may have been disabled since the step, but not removed.
- * Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
-VOX_API vox_result vox_mesh_copy_contacts(const vox_grid* grid, vox_body body, vox_contact* contacts,
-                                          uint64_t capacity, uint64_t* out_count);
-
-/* The same for the contacts between two meshes, given in either order, or of one mesh with itself (body_a = body_b):
- * the contacts of their vox_pair. */
-VOX_API vox_result vox_pair_copy_contacts(const vox_grid* grid, vox_body body_a, vox_body body_b,
-                                          vox_contact* contacts, uint64_t capacity, uint64_t* out_count);
-
-/* What an event reports: how the last successful step differs from the successful step before it. */
-typedef enum vox_touch {
-    VOX_TOUCH_BEGAN = 1,     /* touches now, and did not before */
-    VOX_TOUCH_PERSISTED = 2, /* touches now, and did before */
-    VOX_TOUCH_ENDED = 3      /* no longer touches, for whatever reason */
-} vox_touch;
-
-/* An event of a pair of meshes, body_a <= body_b. A pair that began persists in every following step until it ends,
- * which it does exactly once, also if a mesh was removed, disabled or filtered, or the grid cleared. Then `body_a` and
- * `body_b` may be stale ids; the user data are those of the meshes that they named. */
-typedef struct vox_touch_event {
-    vox_body body_a;
-    vox_body body_b;
-    uint64_t user_data_a;
-    uint64_t user_data_b;
-    vox_touch kind;
-    uint32_t pair; /* index of the pair in vox_grid_get_pairs; VOX_NO_PAIR if it ended */
-} vox_touch_event;
-
-#define VOX_NO_PAIR 0xffffffffu /* vox_touch_event.pair of a pair that ended */
-
-/* All pairs that began, then all that persisted, then all that ended: `count` in total, `byte_stride` apart, each part
- * sorted by (body_a, body_b). `data` lives until the next step or destroy of the grid. These are the events of one
- * step: a program that steps twice and reads once loses those of the first step. vox_grid_info.total_began and
- * total_ended show the loss. */
-typedef struct vox_touch_view {
-    const vox_touch_event* data;
-    size_t byte_stride;
-    uint64_t count;
-    uint64_t epoch;
-    uint64_t began;
-    uint64_t persisted;
-    uint64_t ended;
-} vox_touch_view;
-
-/* What the last step changed; count 0 before the first one. A failed step has no events, and none are lost: the
- * next step is compared with the last successful one. Removing meshes and clearing the grid give no events at once;
- * the next step ends their pairs. Destroying the grid ends them without events. */
-VOX_API vox_result vox_grid_touch_events(const vox_grid* grid, vox_touch_view* out_view);
-
-/* Vertex `vertex` of body_a has entered body_b, or is in none of its tetrahedra any more. Moving from one tetrahedron
- * of body_b to another is not an event. */
-typedef struct vox_contact_event {
-    vox_body body_a;
-    uint32_t vertex;
-    vox_body body_b;
-    vox_touch kind; /* VOX_TOUCH_BEGAN or VOX_TOUCH_ENDED */
-} vox_contact_event;
-
-/* All vertices that entered, then all that left, each part sorted by (body_a, vertex, body_b). `data` lives until the
- * next step, change of the flags or destroy of the grid. Events of one step, too: see vox_touch_view, and
- * the counters total_contacts_began and total_contacts_ended. */
-typedef struct vox_contact_event_view {
-    const vox_contact_event* data;
-    size_t byte_stride;
-    uint64_t count;
-    uint64_t epoch;
-    uint64_t began;
-    uint64_t ended;
-} vox_contact_event_view;
-
-/* The same for single vertices, under the same rules. Errors: INVALID_STATE for a grid without
- * VOX_GRID_CONTACT_EVENTS. */
-VOX_API vox_result vox_grid_contact_events(const vox_grid* grid, vox_contact_event_view* out_view);
-
-/* ---- readings --------------------------------------------------------------------------------- */
-
-/* What a program that responds to contacts, draws or reports them needs for each contact: where the vertex is, the
- * closest part of the surface, and how deep the vertex is. vox_grid_prepare_readings, or vox_grid_prepare_readings_of
- * for a part of it, computes this once after a step, so programs that do not need it pay nothing. These two calls
- * change the grid; the functions after them only read. */
-
-/* Which parts of a vox_reading are wanted, or present; all fields of the other parts are zero. */
-typedef enum vox_reading_flags {
-    VOX_READING_POSITION = 1, /* missing if the vertex or its mesh was removed after the step */
-    VOX_READING_SURFACE = 2,  /* missing where POSITION is or would be, if body_b was removed or has no surface, or if
-                                 all of its tetrahedra that contained the vertex were removed or disabled */
-    VOX_READING_DEPTH = 4     /* missing on grids without VOX_GRID_PENETRATIONS, and where
-                                 one of the meshes is a sensor */
-} vox_reading_flags;
-
-/* Geometry of one contact. All contacts of the same (body_a, vertex, body_b) have the same reading except for the first
- * field. `triangle` is the triangle closest to the vertex on the surface of body_b, which consists of the facets of
- * exactly one of its tetrahedra, duplicates counted once. It is computed in double, as by vox_locator_find_closest; of
- * several at the same distance it is the one with the lowest corners, compared in ascending order. For self-contact it
- * belongs to the fold that the vertex has entered and never has the vertex as a corner (see vox_penetration_state).
- * No reading depends on engine, cell size, workers or machine. */
-typedef struct vox_reading {
-    uint64_t contact;            /* index of the contact in vox_grid_get_contacts */
-    uint32_t known;              /* vox_reading_flags, combined with | */
-    vox_penetration_state state; /* DEPTH: state, depth and direction of the vertex's vox_penetration */
-    float depth;
-    float direction[3];
-    double position[3];         /* POSITION: the vertex as it collides, in double and transformed */
-    double distance;            /* SURFACE (up to `triangle`): distance from the vertex to surface_position */
-    double surface_position[3]; /* the closest point of `triangle` */
-    double barycentric[3];      /* its weights for the triangle's corners, in [0, 1], with the sum 1 up to rounding */
-    /* A unit vector out of the triangle's tetrahedron or, if that is flat, to the side away from the vertex. If the
-     * triangle has no area, it points from the vertex to the closest point, or is 0, 0, 1 if both coincide. */
-    double normal[3];
-    uint32_t triangle[3];       /* vertices of body_b, the lowest first, counter-clockwise as seen from the side that
-                                   the normal points to */
-    uint32_t reserved;
-    uint64_t user_data_a;       /* of body_a, as given at insertion */
-    uint64_t user_data_b;
-} vox_reading;
-
-/* `count` readings, `byte_stride` apart, one for each contact or for each that was asked for, in the order of the
- * contacts. With that stride a single field, e.g. position, can be used as an array. `data` lives until readings are
- * prepared again or the next step, clear or destroy of the grid. */
-typedef struct vox_reading_view {
-    const vox_reading* data;
-    size_t byte_stride;
-    uint64_t count;
-    uint64_t epoch;
-} vox_reading_view;
-
-/* Computes the readings of the last step's contacts from the meshes as they are now, so borrowed positions must still
- * be those of the step. vox_reading.known shows what is missing because it was removed or changed since. May be called
- * repeatedly; each call replaces what was prepared before. Takes time proportional to the contacts and, for
- * VOX_READING_SURFACE, to the vertices and surfaces of the meshes that the vertices are in. The memory for contacts and
- * triangles is kept until the grid is destroyed, so a call that needs no more of it than an earlier one allocates
- * nothing. Enqueues at most one task.
- * Errors: NON_FINITE and LIMIT (positions that changed since the step, where they are read, or a mesh of more
- * tetrahedra than VOX_GRID_PENETRATIONS allows), BUDGET, OUT_OF_MEMORY; after these the earlier readings stay.
- * INVALID_ARGUMENT (see vox_task_system); after that there are none. */
-VOX_API vox_result vox_grid_prepare_readings(vox_grid* grid);
-
-/* What to read. */
-typedef struct vox_readings_desc {
-    uint32_t struct_size;
-    uint32_t what; /* vox_reading_flags, combined with |; 0: all. Without SURFACE a reading takes about as long as
-                      copying it. The other fields of vox_reading, such as user data, are always set */
-    vox_body body_a; /* VOX_NULL_BODY: all contacts; else those that vox_mesh_copy_contacts copies */
-    vox_body body_b; /* VOX_NULL_BODY, or those that vox_pair_copy_contacts copies for body_a and it */
-    /* Most searches for a closest point. The first contacts that need one get it; the readings of the others lack
-     * VOX_READING_SURFACE in `known`, and the log has a warning. 0: no limit. */
-    uint64_t closest_budget;
-} vox_readings_desc;
-
-static inline vox_readings_desc vox_default_readings_desc(void) {
-    vox_readings_desc desc = VOX_ZERO;
-    desc.struct_size = (uint32_t)sizeof desc;
-    return desc;
-}
-
-/* As vox_grid_prepare_readings, which is the same with desc null, but computes only the parts desc->what of the
- * readings of some contacts. All others are missing from the views and copies of the following functions.
- * Errors: as there; also INVALID_ARGUMENT (unknown parts, or body_b without body_a) and INVALID_HANDLE, after which the
- * earlier readings stay. */
-VOX_API vox_result vox_grid_prepare_readings_of(vox_grid* grid, VOX_OPTIONAL const vox_readings_desc* desc);
-
-/* The prepared readings. Errors: INVALID_STATE if none were prepared since the last step or clear. */
-VOX_API vox_result vox_grid_readings(const vox_grid* grid, vox_reading_view* out_view);
-
-/* Depth and direction of the prepared readings in double, one for each, in that order; zero where vox_reading.known
- * lacks VOX_READING_DEPTH. Count 0 if that part was not asked for. Errors: as vox_grid_readings. */
-VOX_API vox_result vox_grid_reading_depths(const vox_grid* grid, vox_depth_view* out_view);
-
-/* As vox_mesh_copy_contacts, but copies the prepared readings of those contacts, in the same order.
- * Errors: INVALID_ARGUMENT, INVALID_HANDLE, INVALID_STATE as vox_grid_readings. */
-VOX_API vox_result vox_mesh_copy_readings(const vox_grid* grid, vox_body body, vox_reading* readings, uint64_t capacity,
-                                          uint64_t* out_count);
-
-/* As vox_pair_copy_contacts, but copies the prepared readings of those contacts, in the same order.
- * Errors: INVALID_ARGUMENT, INVALID_HANDLE, INVALID_STATE as vox_grid_readings. */
-VOX_API vox_result vox_pair_copy_readings(const vox_grid* grid, vox_body body_a, vox_body body_b, vox_reading* readings,
-                                          uint64_t capacity, uint64_t* out_count);
+/* Copies the first `capacity` tetrahedra: four corners each, and 1 if it is enabled or 0 if it is disabled or
+ * removed. *out_count is the number of all. */
+VOX_API vox_result vox_mesh_get_tets(const vox_grid* grid, vox_body body, VOX_OPTIONAL uint32_t* corners,
+                                     VOX_OPTIONAL uint8_t* enabled, uint64_t capacity, uint64_t* out_count);
 
 /* ---- snapshots -------------------------------------------------------------------------------- */
 
-/* Writes the grid as it is now to `bytes`, in a format that is the same on every machine (docs/snapshot.md): settings,
- * meshes with their ids, positions (borrowed ones too, read during the call), and the state that the next events are
- * derived from. Allocator, log, task system, worker count, both budgets, and the results of the last step are not
- * saved. *out_size is the number of bytes; with `bytes` null nothing is written, so the size can be asked first.
- * Allocates nothing. Errors: INVALID_ARGUMENT if the capacity is too small (gives both numbers). */
+/* Writes a grid to `bytes`, in a format that is the same on every machine (docs/snapshot.md): settings, bodies with
+ * their ids and positions, and which pairs touch. It does not contain allocator, log, tasks, worker_count,
+ * byte_budget, margin, previous positions and results. *out_size is the number of bytes; with `bytes` null nothing is
+ * written.
+ * Errors: INVALID_ARGUMENT (the capacity is too small). */
 VOX_API vox_result vox_grid_save(const vox_grid* grid, VOX_OPTIONAL void* bytes, uint64_t capacity, uint64_t* out_size);
 
-/* Creates a grid from a snapshot. Ids name the same meshes, meshes inserted later get the same ids as they would in the
- * saved grid, and steps find the same contacts and events in the same order, with the same hash and epoch. There are no
- * contacts until the first step. The meshes own their positions; to move them, bind others.
- * Of `desc` only allocator, log, tasks, worker_count, both budgets, margin and reference are used; null: the defaults.
- * If reference is null, the engine is the one that was saved. The caller owns *out_grid and releases it with
- * vox_grid_destroy. The bytes need not be trusted: everything in them is checked, no memory is reserved for a count
- * before the bytes it stands for are known to be there, and the byte budget applies.
- * Errors: FORMAT (names chunk and byte), UNSUPPORTED (of a later version), INVALID_ARGUMENT, LIMIT, BUDGET,
- * OUT_OF_MEMORY. */
+/* Creates a grid from a snapshot. Ids name the same bodies, and steps give the same results. Meshes own their
+ * positions; map or bind positions to move them. desc supplies what snapshots do not contain; its flags and cell_size
+ * are ignored. The bytes need not be trusted. The caller owns *out_grid and releases it with vox_grid_destroy.
+ * Errors: FORMAT (names the place), UNSUPPORTED (a later version), INVALID_ARGUMENT, LIMIT, BUDGET, OUT_OF_MEMORY. */
 VOX_API vox_result vox_grid_load(const void* bytes, uint64_t size, VOX_OPTIONAL const vox_grid_desc* desc,
                                  vox_grid** out_grid);
 
 /* ---- memory and log --------------------------------------------------------------------------- */
 
-/* An allocator. `allocate` returns memory of at least `size` bytes at `alignment` (a power of
- * two), or null; `release` gets the same size and alignment back. If both are null, the C++ runtime's heap is used.
- * They are called only from functions of the object they were given to, one call at a time. During a step, the calling
- * thread may be one that runs its tasks. For locators (vox_query.h) that are released after vox_grid_destroy, `release`
- * is called from vox_locator_release, so it must be usable until then. */
+/* An allocator. `allocate` returns `size` bytes at `alignment` (a power of two), or null. `release` receives the same
+ * size and alignment again. If both are null, the C++ runtime's heap is used. They are called only from functions of
+ * the object they were given to, one call at a time, on the calling thread or on a thread that runs its tasks. A
+ * locator that outlives its grid calls `release` on the thread that releases it. */
 typedef struct vox_allocator {
     VOX_OPTIONAL void* (*allocate)(size_t size, size_t alignment, void* user);
     VOX_OPTIONAL void (*release)(void* memory, size_t size, size_t alignment, void* user);
     void* user;
 } vox_allocator;
 
-/* Severity of a log line. */
-typedef enum vox_log_level {
-    VOX_LOG_INFO = 0,
-    VOX_LOG_WARNING = 1
-} vox_log_level;
+/* How serious a line of the log is. */
+typedef enum vox_log_level { VOX_LOG_INFO = 0, VOX_LOG_WARNING = 1 } vox_log_level;
 
-/* Receives one line of text (no newline), valid during the call only. A null `write` turns the log off. It is called
- * on the thread that called the library, and must not call the grid it came from. */
+/* Receives lines of text, valid during the call, on the thread that called the library. It must not call the grid. */
 typedef struct vox_log {
     VOX_OPTIONAL void (*write)(vox_log_level level, const char* text, void* user);
     void* user;
@@ -1131,44 +759,37 @@ typedef struct vox_log {
 
 /* ---- threads ---------------------------------------------------------------------------------- */
 
-/* Handles the items [begin, end). `worker` is below worker_count; calls that run at the same time have different
- * values of it. */
+/* Does the items [begin, end) of a task, on any thread. `worker` is below worker_count; two calls at the same time
+ * have different ones. */
 typedef void vox_task(uint64_t begin, uint64_t end, uint32_t worker, void* context);
 
-/* The caller's scheduler, designed as in Box3D. `enqueue` splits the items [0, item_count) into ranges, of at
- * least min_range items where possible, and arranges that `task` is called once for each range, now or later, on any
- * thread. It returns a handle for `finish`, or null if all these calls have already returned. `finish` waits until
- * they have. Both are called on the thread that called the library, at most VOX_MAX_TASKS times in a step, at most
- * once by vox_grid_prepare_readings, and at most four times by vox_grid_update_locator.
- * If not every item was run exactly once, or a worker index was out of range or had by two calls at the same time, the
- * function fails with INVALID_ARGUMENT and leaves no contacts, no readings, or no new locator.
- * If both are null, the built-in scheduler is used. */
+/* The caller's scheduler, as in Box3D. `enqueue` splits the items [0, item_count) into ranges, of at least min_range
+ * items where possible, and has `task` called once for each, now or later, on any thread. It returns a handle, for
+ * which `finish` waits until these calls have returned; or null if they have already. If both are null, the built-in
+ * scheduler is used. Both are called on the thread that called the library, at most VOX_MAX_TASKS times in a call. If
+ * not every item is done exactly once, the library's call fails with INVALID_ARGUMENT. */
 typedef struct vox_task_system {
     VOX_OPTIONAL void* (*enqueue)(vox_task* task, uint64_t item_count, uint64_t min_range, void* context, void* user);
     VOX_OPTIONAL void (*finish)(void* handle, void* user);
     void* user;
 } vox_task_system;
 
-#define VOX_MAX_TASKS 64u /* tasks enqueued in one step */
+#define VOX_MAX_TASKS 64u /* in one call */
 
-/* ---- measurements ----------------------------------------------------------------------------- */
+/* ---- version: and what libraries over this one need ------------------------------------------- */
 
-/* A count, or a time in nanoseconds. */
-typedef struct vox_counter {
-    const char* name; /* static text, e.g. "candidates", or for a time "lookup_ns" */
-    uint64_t value;
-} vox_counter;
+/* The version of the library at run time: major * 1000000 + minor * 1000 + patch. Cannot fail. */
+VOX_API uint32_t vox_version(void);
 
-/* `count` counters. A library always has the same ones, in the same order. `data` lives until the next step, clear or
- * destroy of the grid. */
-typedef struct vox_counter_view {
-    const vox_counter* data;
-    uint64_t count;
-} vox_counter_view;
+/* The VOX_ABI_VERSION of the library at run time. Cannot fail. */
+VOX_API uint32_t vox_abi_version(void);
 
-/* What the last successful step did, and how long each stage of it took: all 0 before the first. docs/engine.md lists
- * the names; what programs act on is in vox_grid_info. */
-VOX_API vox_result vox_grid_get_counters(const vox_grid* grid, vox_counter_view* out_view);
+/* Version, compiler, instruction sets, scheduler and options of the library, in one line. Static text; never null. */
+VOX_API const char* vox_build_info(void);
+
+/* Sets this thread's vox_last_error() to a copy of `text`, of 1023 bytes at most, and returns `result`: for libraries
+ * that report failures in the same way. Null counts as "". Cannot fail itself. */
+VOX_API vox_result vox_fail(vox_result result, VOX_OPTIONAL const char* text);
 
 #ifdef __cplusplus
 }

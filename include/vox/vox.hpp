@@ -11,8 +11,8 @@
 
 #include <vox/vox.h>
 
+#include <algorithm>
 #include <array>
-#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -20,7 +20,6 @@
 #include <exception>
 #include <functional>
 #include <initializer_list>
-#include <iterator>
 #include <memory>
 #include <memory_resource>
 #include <new>
@@ -30,7 +29,7 @@
 #include <utility>
 #include <vector>
 
-// Eigen maps of views: where Eigen was included before this header, or VOX_HPP_EIGEN asks for it.
+// Eigen maps of arrays: where Eigen was included before this header, or VOX_HPP_EIGEN asks for it.
 #if defined(VOX_HPP_EIGEN) && __has_include(<Eigen/Core>)
 #include <Eigen/Core>
 #endif
@@ -71,12 +70,6 @@ private:
 using std::span;
 
 namespace detail {
-
-// A view, whose elements may have gaps between them.
-template <class R>
-concept strided = requires(const R& range) {
-    range.byte_stride();
-};
 
 inline void check(vox_result result) {
     if (result != VOX_OK) throw error(result);
@@ -161,142 +154,6 @@ std::vector<T> collect(std::size_t guess, F&& call, A... arguments) {
 
 } // namespace detail
 
-// ---- views --------------------------------------------------------------------------------------
-
-namespace detail {
-template <class M>
-struct as_object {
-    using type = M;
-};
-template <class M, std::size_t N>
-struct as_object<M[N]> {
-    using type = std::array<M, N>;
-};
-} // namespace detail
-
-// Elements `byte_stride` apart, which belong to the grid and live as long as vox.h says: a random-access range.
-template <class T>
-class view {
-    using byte = std::conditional_t<std::is_const_v<T>, const unsigned char, unsigned char>;
-
-public:
-    using element_type = T;
-    using value_type = std::remove_cv_t<T>;
-
-    class iterator {
-    public:
-        using iterator_category = std::random_access_iterator_tag;
-        using value_type = std::remove_cv_t<T>;
-        using difference_type = std::ptrdiff_t;
-        using reference = T&;
-        using pointer = T*;
-        iterator() = default;
-        T& operator*() const noexcept { return *at_; }
-        T* operator->() const noexcept { return at_; }
-        T& operator[](difference_type n) const noexcept { return *(*this + n); }
-        iterator& operator+=(difference_type n) noexcept {
-            at_ = reinterpret_cast<T*>(reinterpret_cast<byte*>(at_) + n * stride_);
-            return *this;
-        }
-        iterator& operator-=(difference_type n) noexcept { return *this += -n; }
-        iterator& operator++() noexcept { return *this += 1; }
-        iterator& operator--() noexcept { return *this += -1; }
-        iterator operator++(int) noexcept { return std::exchange(*this, *this + 1); }
-        iterator operator--(int) noexcept { return std::exchange(*this, *this - 1); }
-        friend iterator operator+(iterator i, difference_type n) noexcept { return i += n; }
-        friend iterator operator+(difference_type n, iterator i) noexcept { return i += n; }
-        friend iterator operator-(iterator i, difference_type n) noexcept { return i -= n; }
-        friend difference_type operator-(const iterator& a, const iterator& b) noexcept {
-            return (reinterpret_cast<byte*>(a.at_) - reinterpret_cast<byte*>(b.at_)) / a.stride_;
-        }
-        bool operator==(const iterator& other) const noexcept { return at_ == other.at_; }
-        auto operator<=>(const iterator& other) const noexcept { return at_ <=> other.at_; }
-
-    private:
-        friend class view;
-        iterator(T* at, std::size_t stride) : at_(at), stride_(static_cast<difference_type>(stride)) {}
-        T* at_ = nullptr;
-        difference_type stride_ = sizeof(T);
-    };
-    using const_iterator = iterator;
-
-    view() = default;
-    view(T* data, std::size_t byte_stride, std::size_t size, std::uint64_t epoch = 0)
-        : data_(data), stride_(byte_stride), size_(size), epoch_(epoch) {}
-
-    std::size_t size() const noexcept { return size_; }
-    bool empty() const noexcept { return size_ == 0; }
-    std::size_t byte_stride() const noexcept { return stride_; }
-    std::uint64_t epoch() const noexcept { return epoch_; }
-    // The first element; the next is byte_stride() further.
-    T* data() const noexcept { return data_; }
-    T& operator[](std::size_t i) const noexcept { return *address(i); }
-    T& front() const noexcept { return (*this)[0]; }
-    T& back() const noexcept { return (*this)[size_ - 1]; }
-    iterator begin() const noexcept { return {data_, stride_}; }
-    iterator end() const noexcept { return {address(size_), stride_}; }
-    // `count` elements from `first` on.
-    view subview(std::size_t first, std::size_t count) const { return {address(first), stride_, count, epoch_}; }
-    // Copies that stay.
-    std::vector<value_type> to_vector() const { return std::vector<value_type>(begin(), end()); }
-    // One field of every element, e.g. field(&vox_reading::position), of std::array where the field is an array.
-    template <class M, class S>
-    auto field(M S::*member) const {
-        static_assert(std::is_same_v<S, value_type>);
-        using object = typename detail::as_object<M>::type;
-        using result = std::conditional_t<std::is_const_v<T>, const object, object>;
-        static_assert(sizeof(object) == sizeof(M));
-        result* first = size_ == 0 ? nullptr : reinterpret_cast<result*>(&(data_->*member));
-        return view<result>(first, stride_, size_, epoch_);
-    }
-    // The same memory as elements of type V, of the same size: view<std::array<float, 3>> as<glm::vec3>().
-    template <class V>
-    auto as() const {
-        using result = std::conditional_t<std::is_const_v<T>, const V, V>;
-        static_assert(sizeof(V) == sizeof(T) && alignof(V) <= alignof(T), "elements of another size or alignment");
-        return view<result>(reinterpret_cast<result*>(data_), stride_, size_, epoch_);
-    }
-
-private:
-    T* address(std::size_t i) const noexcept {
-        return reinterpret_cast<T*>(reinterpret_cast<byte*>(data_) + i * stride_);
-    }
-    T* data_ = nullptr;
-    std::size_t stride_ = sizeof(T);
-    std::size_t size_ = 0;
-    std::uint64_t epoch_ = 0;
-};
-
-// vox_pair_view.
-class pair_view : public view<const vox_pair> {
-public:
-    pair_view() = default;
-    pair_view(const view<const vox_pair>& pairs, const std::uint32_t* contacts) : view(pairs), contacts_(contacts) {}
-    // Indices of the pair's contacts in grid::contacts(): first a in b, then b in a.
-    span<const std::uint32_t> contacts(const vox_pair& pair) const {
-        return {contacts_ + pair.first, static_cast<std::size_t>(pair.a_in_b + pair.b_in_a)};
-    }
-
-private:
-    const std::uint32_t* contacts_ = nullptr;
-};
-
-// vox_touch_view and vox_contact_event_view.
-template <class T>
-class event_view : public view<const T> {
-public:
-    event_view() = default;
-    event_view(const view<const T>& events, std::uint64_t began, std::uint64_t persisted)
-        : view<const T>(events), began_(static_cast<std::size_t>(began)),
-          persisted_(static_cast<std::size_t>(persisted)) {}
-    view<const T> began() const { return this->subview(0, began_); }
-    view<const T> persisted() const { return this->subview(began_, persisted_); } // none for single vertices
-    view<const T> ended() const { return this->subview(began_ + persisted_, this->size() - began_ - persisted_); }
-
-private:
-    std::size_t began_ = 0, persisted_ = 0;
-};
-
 // ---- what is passed in --------------------------------------------------------------------------
 
 // What an array's elements are made of: `count` numbers of a type, of which a position uses the first three. Specialise
@@ -365,10 +222,11 @@ inline constexpr bool owns_nothing<R> = !std::is_same_v<R, typename R::PlainObje
 } // namespace detail
 
 // Positions that a call reads: a contiguous range of numbers (x y z x y z ...) or of elements of three or four numbers,
-// a view, or a matrix of n x 3 or 3 x n (where the compiler knows neither, three columns go before three rows).
+// a matrix of n x 3 or 3 x n (where the compiler knows neither, three columns go before three rows), or vox_positions.
 class points : public vox_positions {
 public:
     points() : vox_positions() {}
+    points(const vox_positions& raw) : vox_positions(raw) {}
     template <detail::positions R>
     points(const R& range) : vox_positions() {
         using number = detail::number_of<R>;
@@ -398,16 +256,10 @@ public:
         if constexpr (E::count == 1 || detail::matrix<R>) {
             count = size / 3;
             if (size % 3 != 0) detail::refuse("positions: %llu numbers are not three for each vertex", size);
-            if constexpr (detail::strided<R>)
-                if (range.byte_stride() != sizeof(number))
-                    detail::refuse("positions: a view whose numbers are %llu bytes apart", range.byte_stride());
         } else {
             static_assert(sizeof(detail::element_of<R>) >= 3 * sizeof(number));
             count = size;
-            if constexpr (detail::strided<R>)
-                byte_stride = range.byte_stride();
-            else
-                byte_stride = sizeof(detail::element_of<R>);
+            byte_stride = sizeof(detail::element_of<R>);
         }
     }
 };
@@ -416,6 +268,7 @@ public:
 class borrowed_points : public points {
 public:
     borrowed_points() = default;
+    borrowed_points(const vox_positions& raw) : points(raw) {}
     template <detail::positions R>
     borrowed_points(const R& range) : points(range) {}
     template <detail::positions R>
@@ -441,9 +294,6 @@ public:
                 detail::refuse("tets: in a matrix of %llu x %llu the corners of a tet do not lie one after the other",
                                static_cast<std::uint64_t>(range.rows()), static_cast<std::uint64_t>(range.cols()));
         } else {
-            if constexpr (detail::strided<R>)
-                if (range.byte_stride() != sizeof(detail::element_of<R>))
-                    detail::refuse("tets: a view whose elements are %llu bytes apart", range.byte_stride());
             size *= element<detail::element_of<R>>::count;
         }
         count = size / 4;
@@ -471,7 +321,7 @@ class borrowed_indices {
 public:
     borrowed_indices() = default;
     template <detail::indices R>
-    requires(!detail::strided<R>) borrowed_indices(const R& range) {
+    borrowed_indices(const R& range) {
         given = true;
         data = reinterpret_cast<const std::uint32_t*>(std::data(range));
         size = static_cast<std::uint64_t>(std::size(range));
@@ -486,7 +336,7 @@ public:
         }
     }
     template <detail::indices R>
-    requires(!detail::strided<R> && !detail::owns_nothing<std::remove_cv_t<R>>) borrowed_indices(const R&& temporary)
+    requires(!detail::owns_nothing<std::remove_cv_t<R>>) borrowed_indices(const R&& temporary)
     = delete;
 
     bool given = false;
@@ -689,28 +539,27 @@ public:
     }
     // The mesh stands still from now on.
     void end_previous(vox_body mesh) { detail::check(vox_mesh_bind_previous_positions(get(), mesh, nullptr)); }
-    // vox_mesh_map_positions: float or double, as the mesh has them. The view ends with them.
+    // vox_mesh_map_positions: float or double, as the mesh has them. The span ends with them.
     template <class T>
-    view<std::array<T, 3>> map_positions(vox_body mesh) & {
+    span<std::array<T, 3>> map_positions(vox_body mesh) & {
         const vox_positions of = positions_of<T>(mesh);
         void* at = nullptr;
         detail::check(vox_mesh_map_positions(get(), mesh, &at));
-        return {static_cast<std::array<T, 3>*>(at), sizeof(std::array<T, 3>), static_cast<std::size_t>(of.count)};
+        return {static_cast<std::array<T, 3>*>(at), static_cast<std::size_t>(of.count)};
     }
     template <class T>
-    view<std::array<T, 3>> map_positions(vox_body mesh) && = delete;
-    // vox_body_info.positions, to read; UNSUPPORTED for columns.
+    void map_positions(vox_body mesh) && = delete;
+    // vox_body_info.positions, to read; UNSUPPORTED unless they are packed.
     template <class T>
-    view<const std::array<T, 3>> positions(vox_body mesh) const& {
+    span<const std::array<T, 3>> positions(vox_body mesh) const& {
         const vox_positions of = positions_of<T>(mesh);
-        if (of.data && of.component_byte_stride != sizeof(T))
-            detail::refuse(VOX_ERROR_UNSUPPORTED, "positions of mesh %llu: their numbers are %llu bytes apart", mesh,
-                           of.component_byte_stride);
-        return {static_cast<const std::array<T, 3>*>(of.data), static_cast<std::size_t>(of.byte_stride),
-                of.data ? static_cast<std::size_t>(of.count) : 0};
+        if (of.data && (of.component_byte_stride != sizeof(T) || of.byte_stride != 3 * sizeof(T)))
+            detail::refuse(VOX_ERROR_UNSUPPORTED, "positions of mesh %llu are %llu bytes apart, their numbers %llu",
+                           mesh, of.byte_stride, of.component_byte_stride);
+        return {static_cast<const std::array<T, 3>*>(of.data), of.data ? static_cast<std::size_t>(of.count) : 0};
     }
     template <class T>
-    view<const std::array<T, 3>> positions(vox_body mesh) const&& = delete;
+    void positions(vox_body mesh) const&& = delete;
     // vox_body_mark_moved
     void mark_moved(vox_body mesh) { detail::check(vox_body_mark_moved(get(), mesh)); }
     // vox_body_set_filter
@@ -797,86 +646,47 @@ public:
     vox_failure failure(std::uint32_t index = 0) const {
         return detail::filled<vox_failure>(vox_grid_get_failure, get(), index);
     }
-    // vox_grid_get_contacts
-    view<const vox_contact> contacts() const& { return read(vox_grid_get_contacts); }
+    // vox_grid_get_contacts. This and all below live as long as vox.h says.
+    span<const vox_contact> contacts() const& { return all(vox_grid_get_contacts); }
     // vox_contact_view.interiors
-    view<const std::uint8_t> interiors() const& {
-        vox_contact_view contacts{};
-        detail::check(vox_grid_get_contacts(get(), &contacts));
-        return {contacts.interiors, 1, static_cast<std::size_t>(contacts.count), contacts.epoch};
+    span<const std::uint8_t> interiors() const& {
+        const vox_contact_view view = read(vox_grid_get_contacts);
+        return {view.interiors, static_cast<std::size_t>(view.count)};
     }
-    // vox_grid_penetrations
-    view<const vox_penetration> penetrations() const& { return read(vox_grid_penetrations); }
-    // vox_grid_depths
-    view<const vox_depth> depths() const& { return read(vox_grid_depths); }
-    // vox_grid_edge_contacts
-    view<const vox_edge_contact> edge_contacts() const& { return read(vox_grid_edge_contacts); }
-    // vox_grid_edge_hash
-    std::uint64_t edge_hash() const { return detail::filled<std::uint64_t>(vox_grid_edge_hash, get()); }
-    // vox_grid_prepare_edge_depths
-    void prepare_edge_depths() { detail::check(vox_grid_prepare_edge_depths(get())); }
-    // vox_grid_edge_depths
-    view<const vox_depth> edge_depths() const& { return read(vox_grid_edge_depths); }
-    // vox_grid_margin_contacts
-    view<const vox_margin_contact> margin_contacts() const& { return read(vox_grid_margin_contacts); }
-    // vox_grid_passages
-    view<const vox_passage> passages() const& { return read(vox_grid_passages); }
     // vox_grid_get_pairs
-    pair_view pairs() const& {
-        vox_pair_view view{};
-        detail::check(vox_grid_get_pairs(get(), &view));
-        return pair_view(viewed(view), view.contacts);
+    span<const vox_pair> pairs() const& { return all(vox_grid_get_pairs); }
+    // vox_pair_view.contacts: indices in contacts() of those of a pair of the last step.
+    span<const std::uint32_t> contacts_of(const vox_pair& pair) const& {
+        return {read(vox_grid_get_pairs).contacts + pair.first_contact, static_cast<std::size_t>(pair.contact_count)};
     }
-    // vox_grid_touch_events
-    event_view<vox_touch_event> touch_events() const& {
-        vox_touch_view view{};
-        detail::check(vox_grid_touch_events(get(), &view));
-        return event_view<vox_touch_event>(viewed(view), view.began, view.persisted);
+    // vox_grid_find_constraints
+    void find_constraints(const vox_constraint_desc& desc = vox_default_constraint_desc()) {
+        return done(vox_grid_find_constraints(get(), &desc));
     }
-    // vox_grid_contact_events
-    event_view<vox_contact_event> contact_events() const& {
-        vox_contact_event_view view{};
-        detail::check(vox_grid_contact_events(get(), &view));
-        return event_view<vox_contact_event>(viewed(view), view.began, 0);
+    // vox_grid_get_constraints
+    span<const vox_constraint> constraints() const& { return all(vox_grid_get_constraints); }
+    // vox_constraint_view.pair_offsets: those of a pair of the last step.
+    span<const vox_constraint> constraints_of(const vox_pair& pair) const& {
+        const vox_constraint_view found = read(vox_grid_get_constraints);
+        const span<const vox_pair> sorted = pairs();
+        const auto before = [](const vox_pair& a, const vox_pair& b) {
+            return a.body_a != b.body_a ? a.body_a < b.body_a : a.body_b < b.body_b;
+        };
+        const auto at = std::lower_bound(sorted.begin(), sorted.end(), pair, before);
+        if (at == sorted.end() || before(pair, *at)) return {};
+        const std::uint64_t* offsets = found.pair_offsets + (at - sorted.begin());
+        return {found.data + offsets[0], static_cast<std::size_t>(offsets[1] - offsets[0])};
     }
-    // vox_grid_readings
-    view<const vox_reading> readings() const& { return read(vox_grid_readings); }
-    // vox_grid_reading_depths
-    view<const vox_depth> reading_depths() const& { return read(vox_grid_reading_depths); }
     // A temporary grid has no results to look at.
     void contacts() const&& = delete;
     void interiors() const&& = delete;
-    void edge_contacts() const&& = delete;
-    void edge_depths() const&& = delete;
-    void margin_contacts() const&& = delete;
-    void passages() const&& = delete;
-    void penetrations() const&& = delete;
-    void depths() const&& = delete;
     void pairs() const&& = delete;
-    void touch_events() const&& = delete;
-    void contact_events() const&& = delete;
-    void readings() const&& = delete;
-    void reading_depths() const&& = delete;
+    void contacts_of(const vox_pair&) const&& = delete;
+    void constraints() const&& = delete;
+    void constraints_of(const vox_pair&) const&& = delete;
 
     // vox_grid_get_hash
     std::uint64_t hash() const { return detail::filled<std::uint64_t>(vox_grid_get_hash, get()); }
-    // vox_mesh_copy_contacts, vox_pair_copy_contacts
-    std::vector<vox_contact> contacts_of(vox_body mesh) const {
-        return detail::collect<vox_contact>(16, vox_mesh_copy_contacts, get(), mesh);
-    }
-    std::vector<vox_contact> contacts_of(vox_body a, vox_body b) const {
-        return detail::collect<vox_contact>(16, vox_pair_copy_contacts, get(), a, b);
-    }
-    // vox_grid_prepare_readings, vox_grid_prepare_readings_of
-    void prepare_readings() { return done(vox_grid_prepare_readings(get())); }
-    void prepare_readings(const vox_readings_desc& desc) { return done(vox_grid_prepare_readings_of(get(), &desc)); }
-    // vox_mesh_copy_readings, vox_pair_copy_readings
-    std::vector<vox_reading> readings_of(vox_body mesh) const {
-        return detail::collect<vox_reading>(16, vox_mesh_copy_readings, get(), mesh);
-    }
-    std::vector<vox_reading> readings_of(vox_body a, vox_body b) const {
-        return detail::collect<vox_reading>(16, vox_pair_copy_readings, get(), a, b);
-    }
     // vox_grid_save
     std::vector<std::byte> save() const {
         std::uint64_t size = 0;
@@ -886,10 +696,7 @@ public:
         return bytes;
     }
     // vox_grid_get_counters
-    span<const vox_counter> counters() const& {
-        const vox_counter_view view = detail::filled<vox_counter_view>(vox_grid_get_counters, get());
-        return {view.data, static_cast<std::size_t>(view.count)};
-    }
+    span<const vox_counter> counters() const& { return all(vox_grid_get_counters); }
     void counters() const&& = delete;
 
 private:
@@ -909,16 +716,13 @@ private:
         return made;
     }
     template <class V>
-    using view_of = view<std::remove_pointer_t<decltype(V::data)>>;
-    template <class V>
-    view_of<V> viewed(const V& v) const {
-        return {v.data, v.byte_stride, static_cast<std::size_t>(v.count), v.epoch};
+    V read(vox_result (*results)(const vox_grid*, V*)) const {
+        return detail::filled<V>(results, get());
     }
     template <class V>
-    view_of<V> read(vox_result (*results)(const vox_grid*, V*)) const {
-        V v{};
-        detail::check(results(get(), &v));
-        return viewed(v);
+    span<std::remove_pointer_t<decltype(V::data)>> all(vox_result (*results)(const vox_grid*, V*)) const {
+        const V view = read(results);
+        return {view.data, static_cast<std::size_t>(view.count)};
     }
     // After calls that run the task system.
     void rethrow() {
@@ -986,7 +790,7 @@ inline void step(span<grid> grids, std::uint32_t worker_count = VOX_ALL_CORES, s
         detail::refuse("step: room for %llu results, of %llu grids", results.size(), raw.size());
     detail::callbacks own;
     own.tasks = std::move(tasks);
-    const vox_result result = vox_grids_step(raw.data(), raw.size(), own.tasks ? &own.c_tasks : nullptr, worker_count,
+    const vox_result result = vox_grids_step(raw.data(), raw.size(), worker_count, own.tasks ? &own.c_tasks : nullptr,
                                              results.empty() ? nullptr : results.data());
     for (grid& one : grids)
         if (const auto& kept = one.grid_.get_deleter().kept) own.caught.take(kept->caught);
@@ -994,28 +798,12 @@ inline void step(span<grid> grids, std::uint32_t worker_count = VOX_ALL_CORES, s
     detail::check(result);
 }
 
-// Contacts of several grids, one grid after the other.
-struct grouped_contacts {
-    std::vector<vox_contact> contacts;
-    std::vector<std::uint64_t> offsets; // one more than there are grids
-    span<const vox_contact> of(std::size_t grid) const& {
-        return {contacts.data() + offsets[grid], static_cast<std::size_t>(offsets[grid + 1] - offsets[grid])};
-    }
-    void of(std::size_t grid) const&& = delete;
-};
+// ---- constraints --------------------------------------------------------------------------------
 
-// vox_grids_copy_contacts
-inline grouped_contacts copy_contacts(span<const grid> grids) {
-    std::vector<const vox_grid*> raw;
-    raw.reserve(grids.size());
-    for (const grid& one : grids) raw.push_back(one.get());
-    grouped_contacts all;
-    all.offsets.resize(raw.size() + 1);
-    detail::check(vox_grids_copy_contacts(raw.data(), raw.size(), nullptr, 0, all.offsets.data()));
-    all.contacts.resize(static_cast<std::size_t>(all.offsets.back()));
-    detail::check(
-        vox_grids_copy_contacts(raw.data(), raw.size(), all.contacts.data(), all.contacts.size(), all.offsets.data()));
-    return all;
+// vox_constraint_gap, of packed positions, three numbers each.
+inline double constraint_gap(const vox_constraint& c, span<const double> positions_a,
+                             span<const double> positions_b) noexcept {
+    return vox_constraint_gap(&c, positions_a.data(), positions_b.data());
 }
 
 // ---- version ------------------------------------------------------------------------------------
@@ -1027,27 +815,34 @@ inline const char* build_info() noexcept { return vox_build_info(); }     // vox
 // ---- Eigen --------------------------------------------------------------------------------------
 
 #if defined(EIGEN_WORLD_VERSION)
-// The memory of a view as a matrix of a column an element: eigen_map(readings.field(&vox_reading::position)).
-template <class A>
-auto eigen_map(const view<A>& elements) {
-    using E = element<std::remove_const_t<A>>;
-    using T = typename E::number;
+namespace detail {
+template <class E, class N>
+auto eigen_map(N* first, std::size_t count, std::size_t byte_stride) {
     constexpr int rows = static_cast<int>(E::count);
-    using matrix = Eigen::Matrix<T, rows, Eigen::Dynamic>;
-    using mapped = std::conditional_t<std::is_const_v<A>, const matrix, matrix>;
+    using matrix = Eigen::Matrix<std::remove_const_t<N>, rows, Eigen::Dynamic>;
+    using mapped = std::conditional_t<std::is_const_v<N>, const matrix, matrix>;
     using stride = std::conditional_t<rows == 1, Eigen::InnerStride<>, Eigen::OuterStride<>>;
-    using pointer = std::conditional_t<std::is_const_v<A>, const T*, T*>;
-    return Eigen::Map<mapped, Eigen::Unaligned, stride>(
-        reinterpret_cast<pointer>(elements.data()), rows, static_cast<Eigen::Index>(elements.size()),
-        stride(static_cast<Eigen::Index>(elements.byte_stride() / sizeof(T))));
+    return Eigen::Map<mapped, Eigen::Unaligned, stride>(first, rows, static_cast<Eigen::Index>(count),
+                                                        stride(static_cast<Eigen::Index>(byte_stride / sizeof(N))));
+}
+} // namespace detail
+
+// The memory of an array, or of one field of its elements, as a matrix of a column an element:
+// eigen_map(grid.constraints(), &vox_constraint::normal).
+template <class A>
+auto eigen_map(span<A> elements) {
+    using E = element<std::remove_const_t<A>>;
+    using N = std::conditional_t<std::is_const_v<A>, const typename E::number, typename E::number>;
+    return detail::eigen_map<E>(reinterpret_cast<N*>(elements.data()), elements.size(), sizeof(A));
+}
+template <class S, class M>
+auto eigen_map(span<const S> elements, M S::*field) {
+    using E = element<M>;
+    const void* first = elements.empty() ? nullptr : &(elements.front().*field);
+    return detail::eigen_map<E>(static_cast<const typename E::number*>(first), elements.size(), sizeof(S));
 }
 #endif
 
 } // namespace vox
-
-template <class T>
-inline constexpr bool std::ranges::enable_borrowed_range<vox::view<T>> = true;
-template <class T>
-inline constexpr bool std::ranges::enable_view<vox::view<T>> = true;
 
 #endif

@@ -60,7 +60,7 @@ typedef struct vox_dist_transport {
 typedef struct vox_dist_scene vox_dist_scene;
 
 /* Collective. Creates a scene. `grid` has the settings of the grid inside; null: no flags, the default of the rest.
- * Flags (vox_default_grid_desc sets one) and a margin are UNSUPPORTED. Its allocator serves the whole scene, its budget
+ * Flags and a margin are UNSUPPORTED. Its allocator serves the whole scene, its budget
  * is for the grid alone. The transport is copied, and what its `user` names must outlive the scene; null: one rank. The
  * caller owns *out_scene and releases it with vox_dist_scene_destroy.
  * Errors: INVALID_ARGUMENT, UNSUPPORTED, OUT_OF_MEMORY, BUDGET. */
@@ -117,7 +117,7 @@ typedef struct vox_dist_contact {
     uint64_t vertex; /* global number */
     uint64_t body_b;
     uint64_t tet; /* global number */
-    float barycentric[4];
+    double weights[4]; /* barycentric weights of the vertex in the tetrahedron */
     uint32_t index;    /* of the vertex or the tetrahedron, in the part that lies here */
     uint32_t rank;     /* where the other side of the contact is */
     uint32_t interior; /* 1 if the vertex is in the interior of the tetrahedron, 0 if on its boundary */
@@ -158,7 +158,7 @@ VOX_EXPERIMENTAL vox_result vox_dist_scene_get_hash(vox_dist_scene* scene, uint6
 typedef struct vox_dist_location {
     uint64_t body;
     uint64_t tet;         /* global number */
-    float barycentric[4]; /* as in vox_contact */
+    double weights[4]; /* barycentric weights of the point in the tetrahedron */
     uint32_t rank;        /* where the tetrahedron lies; VOX_NONE: no tetrahedron contains the point; the other fields
                              are 0 */
     uint32_t interior;    /* 1 if the point is in the interior of the tetrahedron, 0 if on its boundary */
@@ -187,28 +187,9 @@ typedef struct vox_dist_cost {
 VOX_EXPERIMENTAL vox_result vox_dist_scene_get_costs(const vox_dist_scene* scene, vox_dist_cost* costs,
                                                      uint64_t capacity, uint64_t* out_count);
 
-/* What the last step, or vox_dist_scene_locate since, sent from this rank. */
-typedef struct vox_dist_counters {
-    uint32_t struct_size;
-    uint32_t neighbours;        /* ranks whose boxes meet those of this one; not where both have one and the same
-                                   body alone, which does not collide with itself */
-    uint64_t messages;          /* at most three for each neighbour, and one more where a vertex is on a boundary
-                                   of a body that has tetrahedra on several ranks */
-    uint64_t collectives;       /* 2 */
-    uint64_t replicated_bytes;  /* sent by each rank to all: 64 */
-    uint64_t box_bytes;         /* of the finer boxes sent to neighbours */
-    uint64_t vertex_bytes;
-    uint64_t hit_bytes;
-    uint64_t vertices_sent;     /* a vertex sent to two ranks counts twice */
-    uint64_t vertices_received;
-    uint64_t vertices_here;     /* part of those received: copies of them are here in any case */
-    uint64_t hits_sent;         /* contacts, before the rule over all ranks */
-    uint64_t contacts;          /* of the vertices owned here */
-    uint64_t incoming;          /* with the tetrahedra here */
-} vox_dist_counters;
-
-/* Gets the counts. Writes the fields that out_counters->struct_size covers (set it first). */
-VOX_EXPERIMENTAL vox_result vox_dist_scene_get_counters(const vox_dist_scene* scene, vox_dist_counters* out_counters);
+/* Gets what the last step, or vox_dist_scene_locate since, sent from this rank (docs/distributed.md lists the names).
+ * The view lives until the next call that changes the scene. */
+VOX_EXPERIMENTAL vox_result vox_dist_scene_get_counters(const vox_dist_scene* scene, vox_counter_view* out_view);
 
 #ifdef __cplusplus
 }

@@ -5,7 +5,7 @@
  * complete. A game or a film needs an engine of its own, with vox inside.
  *
  * Bodies are particles joined by tetrahedra. vox_sim_step divides the time step into substeps. In each of them the grid
- * finds the penetrations (vox_grid_penetrations), the particles move freely, and then constraints for edge lengths,
+ * finds the constraints (VOX_GRID_CONSTRAINTS), the particles move freely, and then constraints for edge lengths,
  * volumes, contacts and the floor are solved by XPBD, one sweep each in a fixed order (docs/sim.md).
  *
  * The conventions of vox.h hold here too: vox_result, vox_last_error(), struct_size, untouched out-parameters on
@@ -84,7 +84,7 @@ VOX_API vox_result vox_sim_create(VOX_OPTIONAL const vox_sim_desc* desc, vox_sim
 /* Destroys a simulation with its bodies and its grid. All views become invalid. Null does nothing. */
 VOX_API void vox_sim_destroy(VOX_OPTIONAL vox_sim* sim);
 
-/* The grid inside, for reading the contacts and penetrations of the last detection, counters and profile, and for
+/* The grid inside, for reading the contacts and constraints of the last detection and counters, and for
  * setting the cell size and the number of workers. It borrows the bodies' positions and belongs to the sim: do not
  * destroy it. Contacts with other meshes inserted into it are found, but the sim does not respond to them. A body whose
  * mesh was removed there moves on without contacts. Do not cut the mesh of a body there, move it or bind it elsewhere:
@@ -190,31 +190,8 @@ typedef struct vox_sim_energies {
  * Writes the fields that out_energies->struct_size covers (set it first). */
 VOX_API vox_result vox_sim_get_energy(const vox_sim* sim, vox_body body, vox_sim_energies* out_energies);
 
-typedef struct vox_sim_counts {
-    uint32_t struct_size;
-    uint32_t bodies;
-    uint64_t vertices;
-    uint64_t tets;
-    uint64_t edges;         /* edge constraints */
-    uint64_t volumes;       /* volume constraints */
-    uint64_t flat_tets;     /* tets of zero rest volume */
-    uint64_t inverted_tets; /* tets of negative rest volume */
-    uint64_t raised_masses; /* vertices that would have been lighter than a hundredth of the body's mean */
-    uint64_t softened;      /* constraints that were softened, as the last step's substeps cannot handle their
-                             * stiffness */
-    uint64_t steps;         /* total since the creation, like the next three */
-    uint64_t substeps;
-    uint64_t detections;
-    uint64_t clamped_steps; /* steps that were clamped to max_time_step */
-    uint64_t penetrations;  /* penetrations of the last detection */
-    uint64_t floor_contacts; /* particles that the floor held in the last substep */
-    uint64_t step_ns;       /* nanoseconds of the last step */
-    uint64_t detect_ns;     /* its part in vox_grid_step */
-    uint64_t solve_ns;      /* the rest of it */
-} vox_sim_counts;
-
-/* Writes the fields that out_counts->struct_size covers (set it first). */
-VOX_API vox_result vox_sim_get_counters(const vox_sim* sim, vox_sim_counts* out_counts);
+/* Gets sizes, totals and times (docs/sim.md lists them). They live until the next call that changes the simulation. */
+VOX_API vox_result vox_sim_get_counters(const vox_sim* sim, vox_counter_view* out_view);
 
 #ifdef __cplusplus
 }

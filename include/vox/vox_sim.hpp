@@ -72,7 +72,11 @@ public:
         return detail::filled<vox_sim_energies>(vox_sim_get_energy, get(), body);
     }
     // vox_sim_get_counters
-    vox_sim_counts counters() const { return detail::filled<vox_sim_counts>(vox_sim_get_counters, get()); }
+    std::span<const vox_counter> counters() const {
+        vox_counter_view view;
+        detail::check(vox_sim_get_counters(get(), &view));
+        return {view.data, static_cast<std::size_t>(view.count)};
+    }
 
 private:
     struct deleter {

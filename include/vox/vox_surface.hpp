@@ -7,29 +7,27 @@
 #include <vox/vox_surface.h>
 
 namespace vox {
-// The partners of features first, first + 1, ...: of feature first + i they are lists[i]. It ends where vox_pair_lists
-// does: with the next search for pairs, the next motion and the surface. Nothing checks that.
-class pair_lists {
+// vox_partner_lists: the partners of feature first + i are lists[i]. It lives as long as that, which nothing checks.
+class partner_lists {
 public:
-    explicit pair_lists(const vox_pair_lists& raw) noexcept : raw_(raw) {}
+    explicit partner_lists(const vox_partner_lists& raw) noexcept : raw_(raw) {}
     std::uint64_t first() const noexcept { return raw_.first; }
-    std::size_t size() const noexcept { return static_cast<std::size_t>(raw_.count); } // features answered
-    std::uint64_t pair_count() const noexcept { return raw_.pair_count; }
+    std::size_t size() const noexcept { return static_cast<std::size_t>(raw_.count); } // features with a list
     span<const std::uint32_t> operator[](std::size_t i) const noexcept {
         const std::uint64_t begin = raw_.offsets[i];
         return {raw_.partners + begin, static_cast<std::size_t>(raw_.offsets[i + 1] - begin)};
     }
     span<const std::uint64_t> offsets() const noexcept { return {raw_.offsets, size() + 1}; }
     span<const std::uint32_t> partners() const noexcept {
-        return {raw_.partners, static_cast<std::size_t>(raw_.pair_count)};
+        return {raw_.partners, static_cast<std::size_t>(raw_.offsets[size()])};
     }
 
 private:
-    vox_pair_lists raw_;
+    vox_partner_lists raw_;
 };
 
 // vox_surface. Move-only; its destructor is vox_surface_destroy. One that was moved from is null: calls fail. What it
-// hands out as spans and lists lives as vox_surface.h says of the views.
+// hands out as spans and lists lives as vox_surface.h says.
 class surface {
 public:
     // vox_surface_create
@@ -43,9 +41,8 @@ public:
 
     // vox_surface_get_features: the vertices of all edges or faces, one after the other
     span<const std::uint32_t> features(vox_feature feature) const& {
-        vox_feature_view view = detail::sized<vox_feature_view>();
-        detail::check(vox_surface_get_features(get(), feature, &view));
-        return {view.vertices, static_cast<std::size_t>(view.count * view.vertices_each)};
+        const auto view = detail::filled<vox_feature_view>(vox_surface_get_features, get(), feature);
+        return {view.vertices, static_cast<std::size_t>(view.count) * (feature == VOX_FEATURE_EDGE ? 2 : 3)};
     }
     void features(vox_feature) const&& = delete;
     // vox_surface_move
@@ -58,11 +55,28 @@ public:
         return moved(from, &to, radius, flags);
     }
     // vox_surface_find_pairs
-    pair_lists pairs(vox_feature a, vox_feature b, std::uint64_t first = 0,
-                     std::uint64_t count = std::numeric_limits<std::uint64_t>::max()) & {
-        vox_pair_lists lists = detail::sized<vox_pair_lists>();
-        detail::check(vox_surface_find_pairs(get(), a, b, first, count, &lists));
-        return pair_lists(lists);
+    partner_lists find_pairs(vox_feature a, vox_feature b, std::uint64_t first = 0,
+                             std::uint64_t count = std::numeric_limits<std::uint64_t>::max()) & {
+        return partner_lists(detail::filled<vox_partner_lists>(vox_surface_find_pairs, get(), a, b, first, count));
+    }
+    // vox_surface_find_crossings
+    span<const vox_crossing> find_crossings() & { return all<vox_crossing_view>(vox_surface_find_crossings, get()); }
+    // vox_surface_find_proximities
+    span<const vox_proximity> find_proximities(vox_feature a, vox_feature b, double distance) & {
+        return all<vox_proximity_view>(vox_surface_find_proximities, get(), a, b, distance);
+    }
+    // vox_surface_find_clearances; `out` has room for a number for each vertex.
+    void find_clearances(double max_distance, span<double> out) {
+        detail::check(vox_surface_find_clearances(get(), max_distance, out.data()));
+    }
+    // vox_surface_find_safe_step
+    vox_safe_step find_safe_step(const vox_impact_desc& desc = vox_default_impact_desc()) {
+        return detail::filled<vox_safe_step>(vox_surface_find_safe_step, get(), &desc);
+    }
+    // vox_surface_find_impacts
+    span<const vox_impact> find_impacts(vox_feature a, vox_feature b,
+                                        const vox_impact_desc& desc = vox_default_impact_desc()) & {
+        return all<vox_impact_view>(vox_surface_find_impacts, get(), a, b, &desc);
     }
     // vox_surface_set_cell_size
     void set_cell_size(double size) { detail::check(vox_surface_set_cell_size(get(), size)); }
@@ -71,34 +85,8 @@ public:
         return detail::filled<vox_foreign_suggestion>(vox_surface_suggest_cell_size, get(), a, b);
     }
     // vox_surface_get_counters
-    vox_pair_counters counters() const { return detail::filled<vox_pair_counters>(vox_surface_get_counters, get()); }
-    // vox_surface_find_crossings
-    view<const vox_crossing> crossings() & {
-        vox_crossing_view found = detail::sized<vox_crossing_view>();
-        detail::check(vox_surface_find_crossings(get(), &found));
-        return seen(found.crossings, found);
-    }
-    // vox_surface_find_proximities
-    view<const vox_close_pair> close(vox_feature a, vox_feature b, double distance) & {
-        vox_close_view found = detail::sized<vox_close_view>();
-        detail::check(vox_surface_find_proximities(get(), a, b, distance, &found));
-        return seen(found.pairs, found);
-    }
-    // vox_surface_find_clearances; `per_vertex` has a number for each vertex.
-    void clearance(double most, span<double> per_vertex) {
-        detail::check(vox_surface_find_clearances(get(), most, per_vertex.data(), per_vertex.size()));
-    }
-    // vox_surface_find_safe_step
-    vox_safe_step safe_step(const vox_contact_time_desc& desc = vox_default_contact_time_desc()) {
-        return detail::filled<vox_safe_step>(vox_surface_find_safe_step, get(), &desc);
-    }
-    // vox_surface_find_impacts
-    view<const vox_timed_pair> contact_times(vox_feature a, vox_feature b,
-                                             const vox_contact_time_desc& desc = vox_default_contact_time_desc()) & {
-        vox_timed_view found = detail::sized<vox_timed_view>();
-        detail::check(vox_surface_find_impacts(get(), a, b, &desc, &found));
-        return seen(found.pairs, found);
-    }
+    span<const vox_counter> counters() const& { return all<vox_counter_view>(vox_surface_get_counters, get()); }
+    void counters() const&& = delete;
 
 private:
     struct deleter {
@@ -114,9 +102,10 @@ private:
         desc.face_count = faces.size() / 3;
         return desc;
     }
-    template <class T, class V>
-    static view<const T> seen(const T* data, const V& found) {
-        return view<const T>(data, found.byte_stride, static_cast<std::size_t>(found.count));
+    template <class V, class... A>
+    static span<std::remove_pointer_t<decltype(V::data)>> all(A... call) {
+        const V view = detail::filled<V>(call...);
+        return {view.data, static_cast<std::size_t>(view.count)};
     }
     void moved(const points& from, const points* to, double radius, std::uint32_t flags) {
         vox_motion motion = vox_default_motion();

@@ -23,7 +23,7 @@ using namespace vox;
 
 namespace {
 
-#if defined(VOX_WITHOUT_SURFACE_CONTACTS)
+#if defined(VOX_WITHOUT_SURFACES)
 constexpr bool has_surfaces = false;
 #else
 constexpr bool has_surfaces = true;

@@ -147,8 +147,7 @@ vox_result vox_grid_get_bodies(const vox_grid* grid, vox_body* bodies, uint64_t 
 }
 
 vox_result vox_body_get_info(const vox_grid* grid, vox_body body, vox_body_info* out_info) {
-    return border(grid, "grid",
-                  [&] { write_struct(out_info, grid->mesh(body).info(slot_of(body)), "out_info"); });
+    return border(grid, "grid", [&] { write_struct(out_info, grid->mesh(body).info(), "out_info"); });
 }
 
 vox_result vox_mesh_get_tets(const vox_grid* grid, vox_body body, uint32_t* corners, uint8_t* enabled,
@@ -205,14 +204,6 @@ vox_result vox_grid_get_contacts(const vox_grid* grid, vox_contact_view* out_vie
 
 vox_result vox_grid_get_failure(const vox_grid* grid, uint32_t index, vox_failure* out_failure) {
     return border(grid, "grid", [&] { write_struct(out_failure, grid->failure(index), "out_failure"); });
-}
-
-vox_result vox_grid_penetrations(const vox_grid* grid, vox_penetration_view* out_view) {
-    return border(grid, "grid", out_view, "out_view", [&] { return grid->penetrations(); });
-}
-
-vox_result vox_grid_depths(const vox_grid* grid, vox_depth_view* out_view) {
-    return border(grid, "grid", out_view, "out_view", [&] { return grid->depths(); });
 }
 
 vox_result vox_grid_get_hash(const vox_grid* grid, uint64_t* out_hash) {

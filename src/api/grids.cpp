@@ -57,8 +57,8 @@ private:
 
 } // namespace
 
-vox_result vox_grids_step(vox_grid* const* grids, uint64_t count, const vox_task_system* tasks,
-                          uint32_t worker_count, vox_result* results) {
+vox_result vox_grids_step(vox_grid* const* grids, uint64_t count, uint32_t worker_count,
+                          const vox_task_system* tasks, vox_result* results) {
     return border([&] {
         check_grids(grids, count);
         check_different(grids, count);
@@ -74,23 +74,5 @@ vox_result vox_grids_step(vox_grid* const* grids, uint64_t count, const vox_task
                 }
             });
         failure.rethrow();
-    });
-}
-
-vox_result vox_grids_copy_contacts(const vox_grid* const* grids, uint64_t count, vox_contact* contacts,
-                                   uint64_t capacity, uint64_t* offsets) {
-    return border([&] {
-        check_grids(grids, count);
-        require(offsets, "offsets");
-        if (capacity > 0) require(contacts, "contacts");
-        std::uint64_t offset = 0;
-        for (std::uint64_t i = 0; i < count; ++i) {
-            const vox_contact_view view = grids[i]->contacts();
-            offsets[i] = offset;
-            if (offset < capacity)
-                std::copy_n(view.data, std::min(view.count, capacity - offset), contacts + offset);
-            offset += view.count;
-        }
-        offsets[count] = offset;
     });
 }

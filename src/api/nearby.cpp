@@ -1,4 +1,4 @@
-// The C border of margin contacts and passages.
+// The C border of the margin and of previous positions.
 
 #include "base/border.hpp"
 #include "grid/grid.hpp"
@@ -17,12 +17,4 @@ vox_result vox_mesh_bind_previous_positions(vox_grid* grid, vox_body body, const
                                       ? check_positions_of(vertices, *positions, "positions")
                                       : Positions{});
     });
-}
-
-vox_result vox_grid_passages(const vox_grid* grid, vox_passage_view* out_view) {
-    return border(grid, "grid", out_view, "out_view", [&] { return grid->passages(); });
-}
-
-vox_result vox_grid_margin_contacts(const vox_grid* grid, vox_margin_contact_view* out_view) {
-    return border(grid, "grid", out_view, "out_view", [&] { return grid->margin_contacts(); });
 }

@@ -51,16 +51,12 @@ void vox_surface_destroy(vox_surface* surface) {
 
 vox_result vox_surface_get_features(const vox_surface* surface, vox_feature feature,
                                     vox_feature_view* out_view) {
-    return border(surface, "surface", [&] {
-        check_out_struct(out_view, "out_view");
+    return border(surface, "surface", out_view, "out_view", [&] {
         check_enum(feature, VOX_FEATURE_FACE, "feature");
         if (feature == VOX_FEATURE_VERTEX) refuse("feature is VOX_FEATURE_VERTEX, expected edges or faces");
         const SurfaceTopology& topology = surface->topology();
-        vox_feature_view view{};
-        view.vertices_each = corners_of(feature);
-        view.count = topology.count(feature);
-        if (view.count > 0) view.vertices = topology.corners(feature, 0);
-        write_struct(out_view, view, "out_view");
+        const std::uint64_t count = topology.count(feature);
+        return vox_feature_view{count > 0 ? topology.corners(feature, 0) : nullptr, count};
     });
 }
 
@@ -69,19 +65,12 @@ vox_result vox_surface_move(vox_surface* surface, const vox_motion* motion) {
 }
 
 vox_result vox_surface_find_pairs(vox_surface* surface, vox_feature a, vox_feature b, uint64_t first,
-                                  uint64_t count, vox_pair_lists* out_lists) {
-    return border(surface, "surface", [&] {
-        check_out_struct(out_lists, "out_lists");
+                                  uint64_t count, vox_partner_lists* out_lists) {
+    return border(surface, "surface", out_lists, "out_lists", [&] {
         check_enum(a, VOX_FEATURE_FACE, "a");
         check_enum(b, VOX_FEATURE_FACE, "b");
         const FeaturePairs& pairs = surface->pairs(a, b, first, count);
-        vox_pair_lists lists{};
-        lists.first = pairs.first;
-        lists.count = pairs.count;
-        lists.pair_count = pairs.partners.size();
-        lists.offsets = pairs.offsets.data();
-        lists.partners = pairs.partners.data();
-        write_struct(out_lists, lists, "out_lists");
+        return vox_partner_lists{pairs.offsets.data(), pairs.partners.data(), pairs.first, pairs.count};
     });
 }
 
@@ -99,9 +88,6 @@ vox_result vox_surface_suggest_cell_size(vox_surface* surface, vox_feature a, vo
     });
 }
 
-vox_result vox_surface_get_counters(const vox_surface* surface, vox_pair_counters* out_counters) {
-    return border(surface, "surface", [&] {
-        check_out_struct(out_counters, "out_counters");
-        write_struct(out_counters, surface->counters(), "out_counters");
-    });
+vox_result vox_surface_get_counters(const vox_surface* surface, vox_counter_view* out_view) {
+    return border(surface, "surface", out_view, "out_view", [&] { return surface->counters(); });
 }

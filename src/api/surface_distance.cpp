@@ -1,11 +1,9 @@
 // The C border of vox_surface.h: what is close, and how far it may move.
 
 #include "base/border.hpp"
-#include "base/llu.hpp"
 #include "base/structs.hpp"
 #include "surface/surface.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 using namespace vox;
@@ -20,9 +18,8 @@ const char* name_of(vox_feature feature) noexcept {
 } // namespace
 
 vox_result vox_surface_find_proximities(vox_surface* surface, vox_feature a, vox_feature b, double distance,
-                                        vox_close_view* out_view) {
-    return border(surface, "surface", [&] {
-        check_out_struct(out_view, "out_view");
+                                        vox_proximity_view* out_view) {
+    return border(surface, "surface", out_view, "out_view", [&] {
         check_enum(a, VOX_FEATURE_FACE, "a");
         check_enum(b, VOX_FEATURE_FACE, "b");
         if (corners_of(a) + corners_of(b) > 4)
@@ -32,24 +29,16 @@ vox_result vox_surface_find_proximities(vox_surface* surface, vox_feature a, vox
                           name_of(a), name_of(b)));
         if (!(distance >= 0) || !std::isfinite(distance))
             refuse(format("distance is %g, expected 0 or a length", distance));
-        const std::span<const vox_close_pair> pairs = surface->close_pairs(a, b, distance);
-        vox_close_view view{};
-        view.byte_stride = sizeof(vox_close_pair);
-        view.count = pairs.size();
-        view.pairs = pairs.data();
-        write_struct(out_view, view, "out_view");
+        const std::span<const vox_proximity> found = surface->proximities(a, b, distance);
+        return vox_proximity_view{found.data(), found.size()};
     });
 }
 
-vox_result vox_surface_find_clearances(vox_surface* surface, double most, double* per_vertex,
-                                       uint64_t vertex_count) {
+vox_result vox_surface_find_clearances(vox_surface* surface, double max_distance, double* out_distances) {
     return border(surface, "surface", [&] {
-        require(per_vertex, "per_vertex");
-        if (vertex_count != surface->topology().vertex_count)
-            refuse(format("vertex_count is %llu, but the surface has %u vertices", llu(vertex_count),
-                          surface->topology().vertex_count));
-        if (!(most > 0) || !std::isfinite(most))
-            refuse(format("most is %g, expected a length above 0", most));
-        surface->clearance(most, per_vertex);
+        if (surface->topology().count(VOX_FEATURE_VERTEX) > 0) require(out_distances, "out_distances");
+        if (!(max_distance > 0) || !std::isfinite(max_distance))
+            refuse(format("max_distance is %g, expected a length above 0", max_distance));
+        surface->clearances(max_distance, out_distances);
     });
 }

@@ -42,18 +42,15 @@ struct Counters {
         0; // left out for a coordinate (VOX_GRID_SKIP_BAD_BODIES); not included in `meshes`
     std::uint64_t meshes_without_tets =
         0; // part of `meshes`: their vertices collide, their edges and faces do not
-    // Events of all steps since the grid was created or loaded: sums of `began` and `ended` of the views that
-    // each step gave (vox_grid_touch_events, vox_grid_contact_events). A reader that has added up less has
-    // lost events.
+    // Pairs that began and ended in all steps since the grid was created or loaded.
     std::uint64_t total_touches_began = 0;
     std::uint64_t total_touches_ended = 0;
-    std::uint64_t total_contacts_began = 0;
-    std::uint64_t total_contacts_ended = 0;
-    std::uint64_t edge_contacts = 0;           // 0 without VOX_GRID_EDGE_CONTACTS, as are the next two
+    std::uint64_t edge_contacts = 0;           // 0 without VOX_GRID_EDGES, as are the next two
     std::uint64_t carried_edge_contacts = 0;   // part of `edge_contacts` carried over from the step before
     std::uint64_t edge_candidates = 0;         // edges and faces whose boxes overlap
     std::uint64_t margin_contacts = 0;         // 0 without a margin (vox_grid_set_margin), as is the next one
     std::uint64_t carried_margin_contacts = 0; // part of `margin_contacts` carried over from the step before
+    std::uint64_t constraints = 0;             // that were found last; 0 where none were looked for
     std::uint64_t passages = 0; // 0 without previous positions (vox_mesh_bind_previous_positions)
 };
 
@@ -66,8 +63,9 @@ struct Profile {
     std::uint64_t narrow_ns = 0;   // exact decisions: decide
     std::uint64_t contacts_ns = 0; // canonical order, barycentric coordinates
     std::uint64_t depth_ns = 0;    // penetrations
-    std::uint64_t events_ns = 0;   // touching pairs and events
-    std::uint64_t stream_ns = 0;   // read all positions: boxes, and which meshes moved
+    std::uint64_t constraints_ns = 0; // what constraints take beside depth
+    std::uint64_t pairs_ns = 0;       // which bodies touch
+    std::uint64_t stream_ns = 0;      // read all positions: boxes, and which meshes moved
     std::uint64_t winding_ns =
         0; // rule out self-contacts by winding numbers; of the worker that took longest over them
     std::uint64_t broad_phase_ns = 0; // regions in which meshes may be in contact
@@ -113,23 +111,30 @@ inline constexpr NamedCounter named_counters[] = {
     {"unknown_penetrations", &Counters::unknown_penetrations},
     {"carried_penetrations", &Counters::carried_penetrations},
     {"meshes_without_tets", &Counters::meshes_without_tets},
-    {"total_contacts_began", &Counters::total_contacts_began},
-    {"total_contacts_ended", &Counters::total_contacts_ended},
     {"edge_contacts", &Counters::edge_contacts},
     {"carried_edge_contacts", &Counters::carried_edge_contacts},
     {"edge_candidates", &Counters::edge_candidates},
     {"margin_contacts", &Counters::margin_contacts},
     {"carried_margin_contacts", &Counters::carried_margin_contacts},
+    {"constraints", &Counters::constraints},
     {"passages", &Counters::passages},
 };
 inline constexpr NamedTime named_times[] = {
-    {"step_ns", &Profile::step_ns},         {"bin_ns", &Profile::bin_ns},
-    {"broad_ns", &Profile::broad_ns},       {"narrow_ns", &Profile::narrow_ns},
-    {"contacts_ns", &Profile::contacts_ns}, {"depth_ns", &Profile::depth_ns},
-    {"events_ns", &Profile::events_ns},     {"stream_ns", &Profile::stream_ns},
-    {"winding_ns", &Profile::winding_ns},   {"broad_phase_ns", &Profile::broad_phase_ns},
-    {"windows_ns", &Profile::windows_ns},   {"lookup_ns", &Profile::lookup_ns},
-    {"decide_ns", &Profile::decide_ns},     {"edges_ns", &Profile::edges_ns},
+    {"step_ns", &Profile::step_ns},
+    {"bin_ns", &Profile::bin_ns},
+    {"broad_ns", &Profile::broad_ns},
+    {"narrow_ns", &Profile::narrow_ns},
+    {"contacts_ns", &Profile::contacts_ns},
+    {"depth_ns", &Profile::depth_ns},
+    {"constraints_ns", &Profile::constraints_ns},
+    {"pairs_ns", &Profile::pairs_ns},
+    {"stream_ns", &Profile::stream_ns},
+    {"winding_ns", &Profile::winding_ns},
+    {"broad_phase_ns", &Profile::broad_phase_ns},
+    {"windows_ns", &Profile::windows_ns},
+    {"lookup_ns", &Profile::lookup_ns},
+    {"decide_ns", &Profile::decide_ns},
+    {"edges_ns", &Profile::edges_ns},
     {"margin_ns", &Profile::margin_ns},
 };
 

@@ -124,14 +124,6 @@ struct Body {
     std::uint64_t user_data = 0;
 };
 
-// Barycentric coordinates of a point in a tetrahedron.
-struct Weights {
-    float of[4];
-
-    static constexpr Weights unknown() noexcept { return {{-1, 0, 0, 0}}; }
-    bool known() const noexcept { return of[0] >= 0; }
-};
-
 // A vertex in a closed tetrahedron, as an engine finds it. Bodies are indices into the scene; the canonical
 // order comes later (make_contacts).
 struct Hit {
@@ -139,8 +131,7 @@ struct Hit {
     std::uint32_t vertex;
     std::uint32_t body_b;
     std::uint32_t tet : 31;
-    std::uint32_t interior : 1;           // strictly inside, on no face
-    Weights weights = Weights::unknown(); // set only by stages that have all corners at hand
+    std::uint32_t interior : 1; // strictly inside, on no face
 };
 
 } // namespace vox

@@ -11,6 +11,7 @@ inline Vec3d vec(const Vec3f& p) noexcept { return {double{p.x}, double{p.y}, do
 inline Vec3f nearest_floats(const Vec3d& p) noexcept {
     return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
 }
+inline Vec3d vector_of(const double (&from)[3]) noexcept { return {from[0], from[1], from[2]}; }
 inline Vec3d operator+(const Vec3d& a, const Vec3d& b) noexcept { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline Vec3d operator-(const Vec3d& a, const Vec3d& b) noexcept { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline Vec3d operator*(double s, const Vec3d& a) noexcept { return {s * a.x, s * a.y, s * a.z}; }

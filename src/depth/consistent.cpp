@@ -64,15 +64,15 @@ public:
     }
 
     // Returns the state of the point. Without neighbours, depth and direction stay what they are.
-    vox_penetration_state write(Depth& out) const {
-        if (squared_ == infinity) return VOX_PENETRATION_CROSSING;
+    vox_depth_state write(Depth& out) const {
+        if (squared_ == infinity) return VOX_DEPTH_AMBIGUOUS;
         out.set(depth_ + dot(way_, direction_), direction_);
-        if (out.depth > 0) return VOX_PENETRATION_CROSSING;
+        if (out.depth > 0) return VOX_DEPTH_AMBIGUOUS;
         const Vec3d straight = way_ + depth_ * direction_; // to the surface
         out.depth = length(straight);
-        if (!(out.depth > 0)) return VOX_PENETRATION_COINCIDENT; // at a neighbour that is on the surface
+        if (!(out.depth > 0)) return VOX_DEPTH_TOUCHING; // at a neighbour that is on the surface
         out.set(out.depth, (1 / out.depth) * straight);
-        return VOX_PENETRATION_CROSSING;
+        return VOX_DEPTH_AMBIGUOUS;
     }
 
 private:
@@ -85,9 +85,9 @@ constexpr std::size_t walks_at_once = 64;
 
 class Stages {
 public:
-    Stages(const BodyPair& pair, std::span<const vox_contact> contacts, Penetrations& penetrations,
+    Stages(const BodyPair& pair, std::span<const Hit> hits, Penetrations& penetrations,
            std::span<std::uint32_t> queue, ConsistentScratch& scratch, Counts& counts)
-        : pair_(pair), contacts_(contacts), penetrations_(penetrations), waves_(scratch.waves), queue_(queue),
+        : pair_(pair), hits_(hits), penetrations_(penetrations), waves_(scratch.waves), queue_(queue),
           normals_(scratch.normals), counts_(counts) {
         normals_.begin(pair_.b);
         waves_.reserve(pair_.vertex_count_a);
@@ -110,9 +110,7 @@ private:
     Vec3d position(std::uint32_t vertex) const { return pair_.positions_a.exact(vertex); }
     LinkRange neighbours(std::uint32_t vertex) const { return pair_.topology_a->neighbours_of(vertex); }
     std::uint32_t vertex_at(std::uint32_t place) const { return penetrations_.of(place).vertex; }
-    vox_penetration_state& state(std::uint32_t vertex) {
-        return penetrations_.of(waves_[vertex].place).state;
-    }
+    vox_depth_state& state(std::uint32_t vertex) { return penetrations_.of(waves_[vertex].place).state; }
     Depth& depth(std::uint32_t vertex) { return penetrations_.depth_of(waves_[vertex].place); }
     std::uint32_t wave_of(std::uint32_t vertex) const { return waves_[vertex].wave; }
     void push(std::uint32_t vertex, std::uint32_t wave) {
@@ -144,8 +142,7 @@ private:
     void prefetch_links(std::size_t next) const;
     void prefetch_queued(std::size_t next) const;
     void find_border();
-    bool is_certainly_interior(const vox_contact& contact) const;
-    bool is_coincident(std::uint32_t place, std::uint32_t tet, bool& interior);
+    bool is_coincident(std::uint32_t place, std::uint32_t tet);
     Vec3d inside(const Vec3d& p, std::uint32_t tet) const;
     void follow(std::uint32_t vertex, std::uint32_t tet, const Vec3d& from, std::uint32_t neighbour);
     void take_walks();
@@ -157,7 +154,7 @@ private:
     void mark_unreached();
 
     const BodyPair& pair_;
-    std::span<const vox_contact> contacts_;
+    std::span<const Hit> hits_;
     Penetrations& penetrations_;
     static constexpr std::uint32_t unreached = 0, unusable = WaveTable::absent - 1;
 
@@ -176,7 +173,7 @@ private:
     static constexpr std::uint32_t no_vertex = ~0u;
     struct Border {
         std::uint32_t vertex = no_vertex;
-        vox_penetration_state* state = nullptr;
+        vox_depth_state* state = nullptr;
         Depth* depth = nullptr;
         Vec3d position{};
         NeighbourMean mean{};
@@ -215,20 +212,19 @@ void Stages::find_border() {
     for (std::size_t i = 0; i < pair_.places.size(); ++i) {
         prefetch_links(i);
         const std::uint32_t place = pair_.places[i], vertex = vertex_at(place);
-        const vox_contact& contact = contacts_[penetrations_.of(place).contact];
-        bool interior = is_certainly_interior(contact);
-        const bool coincident = !interior && is_coincident(place, contact.tet, interior);
+        const Hit hit = hits_[penetrations_.of(place).contact];
+        const bool coincident = !hit.interior && is_coincident(place, hit.tet);
         bool border = false;
         Vec3d from;
         for (const std::uint32_t q : neighbours(vertex)) {
             if (wave_of(q) != WaveTable::absent) continue;
             if (!border && !coincident) {
                 from = position(vertex);
-                if (!interior) from = inside(from, contact.tet);
+                if (!hit.interior) from = inside(from, hit.tet);
             }
             border = true;
             if (coincident) break;
-            follow(vertex, contact.tet, from, q);
+            follow(vertex, hit.tet, from, q);
         }
         if (!border || !coincident) continue;
         push(vertex, 1);
@@ -237,16 +233,9 @@ void Stages::find_border() {
     finish_border_point();
 }
 
-// If not, the vertex may be on the boundary of its tetrahedron.
-bool Stages::is_certainly_interior(const vox_contact& contact) const {
-    const float* weight = contact.barycentric; // within 2^-20 of the true ones
-    return *std::min_element(weight, weight + 4) > 0x1p-19f;
-}
-
-// Whether a point, which may be on the boundary of its tetrahedron, is on the surface. It is when the corners
-// whose weights are not zero are corners of one triangle of the surface. Sets its state and direction then.
-// Tells whether it is in the interior of the tetrahedron.
-bool Stages::is_coincident(std::uint32_t place, std::uint32_t number, bool& interior) {
+// Whether a point on the boundary of its tetrahedron is on the surface. It is when the corners whose weights
+// are not zero are corners of one triangle of the surface. Sets its state and direction then.
+bool Stages::is_coincident(std::uint32_t place, std::uint32_t number) {
     const Solid& b = pair_.b;
     const Tet& tet = b.tets[number];
     const std::uint32_t vertex = vertex_at(place);
@@ -261,7 +250,6 @@ bool Stages::is_coincident(std::uint32_t place, std::uint32_t number, bool& inte
         else
             on = i;
     }
-    interior = count == 4;
     if (count == 0 || count == 4) return false;
     bool on_surface = false;
     Vec3d direction{0, 0, 0};
@@ -278,7 +266,7 @@ bool Stages::is_coincident(std::uint32_t place, std::uint32_t number, bool& inte
     if (!on_surface) return false;
     if (!(length(direction) > 0)) direction = facet_normal(b, number, on); // all triangles are without area
     penetrations_.depth_of(place).set(0, direction);
-    penetrations_.of(place).state = VOX_PENETRATION_COINCIDENT;
+    penetrations_.of(place).state = VOX_DEPTH_TOUCHING;
     return true;
 }
 
@@ -317,7 +305,7 @@ void Stages::take_walks() {
                        .depth = &depth(vertex),
                        .position = position(vertex)};
         }
-        if (*border_.state != VOX_PENETRATION_COINCIDENT) take_edge(walks[i]);
+        if (*border_.state != VOX_DEPTH_TOUCHING) take_edge(walks[i]);
     }
 }
 
@@ -339,18 +327,18 @@ void Stages::take_edge(const Walk& walk) {
         border_.mean.add(1 / squared, way, 0, normal);
         border_.nearest.add(squared, way, 0, normal);
     } else {
-        *border_.state = VOX_PENETRATION_COINCIDENT;
+        *border_.state = VOX_DEPTH_TOUCHING;
         border_.depth->set(0, normal);
     }
 }
 
 void Stages::finish_border_point() {
     if (border_.vertex == no_vertex) return;
-    if (*border_.state != VOX_PENETRATION_COINCIDENT)
+    if (*border_.state != VOX_DEPTH_TOUCHING)
         *border_.state = !border_.lost && border_.mean.write(*border_.depth)
-                             ? VOX_PENETRATION_SURFACE
+                             ? VOX_DEPTH_SURFACE
                              : border_.nearest.write(*border_.depth);
-    const bool is_crossing = *border_.state == VOX_PENETRATION_CROSSING;
+    const bool is_crossing = *border_.state == VOX_DEPTH_AMBIGUOUS;
     lost_ += is_crossing && !has_answer(*border_.depth);
     push(border_.vertex, is_crossing ? unusable : 1);
 }
@@ -369,12 +357,12 @@ std::uint32_t Stages::propagate(std::uint32_t wave, bool is_crossing) {
         }
         for (std::size_t i = last; i < queued_; ++i) {
             prefetch_queued(i);
-            if (state(queue_[i]) != VOX_PENETRATION_COINCIDENT) take_mean(queue_[i], is_crossing);
+            if (state(queue_[i]) != VOX_DEPTH_TOUCHING) take_mean(queue_[i], is_crossing);
         }
         if (is_crossing) continue;
         // Only now, because points of one wave must not see each other.
         for (std::size_t i = last; i < queued_; ++i)
-            if (state(queue_[i]) == VOX_PENETRATION_CROSSING) waves_.set_wave(queue_[i], unusable);
+            if (state(queue_[i]) == VOX_DEPTH_AMBIGUOUS) waves_.set_wave(queue_[i], unusable);
     }
     return wave;
 }
@@ -410,7 +398,7 @@ void Stages::take_mean(std::uint32_t vertex, bool is_crossing) {
         mean.add(at_one ? 1 : 1 / squared, way, depth, direction);
     });
     if (mean.write(depth(vertex))) {
-        state(vertex) = is_crossing ? VOX_PENETRATION_CROSSING : VOX_PENETRATION_PROPAGATED;
+        state(vertex) = is_crossing ? VOX_DEPTH_AMBIGUOUS : VOX_DEPTH_PROPAGATED;
         return;
     }
     NearestNeighbour nearest;
@@ -426,23 +414,21 @@ void Stages::mark_unreached() {
     if (queued_ == queue_.size()) return; // all were reached
     queued_ = 0;
     for (const std::uint32_t place : pair_.places)
-        if (wave_of(vertex_at(place)) == unreached &&
-            penetrations_.of(place).state == VOX_PENETRATION_CROSSING)
+        if (wave_of(vertex_at(place)) == unreached && penetrations_.of(place).state == VOX_DEPTH_AMBIGUOUS)
             push(vertex_at(place), unusable);
     for (std::size_t first = 0; first < queued_; ++first)
         for_colliding(queue_[first], unreached, unreached + 1, [&](std::uint32_t to, std::uint32_t place) {
-            vox_penetration_state& state = penetrations_.of(place).state;
-            if (state != VOX_PENETRATION_COINCIDENT) state = VOX_PENETRATION_CROSSING;
+            vox_depth_state& state = penetrations_.of(place).state;
+            if (state != VOX_DEPTH_TOUCHING) state = VOX_DEPTH_AMBIGUOUS;
             push(to, unusable);
         });
 }
 
 } // namespace
 
-void find_consistent_depths(const BodyPair& pair, std::span<const vox_contact> contacts,
-                            Penetrations& penetrations, std::span<std::uint32_t> queue,
-                            ConsistentScratch& scratch, Counts& counts) {
-    Stages(pair, contacts, penetrations, queue, scratch, counts).run();
+void find_consistent_depths(const BodyPair& pair, std::span<const Hit> hits, Penetrations& penetrations,
+                            std::span<std::uint32_t> queue, ConsistentScratch& scratch, Counts& counts) {
+    Stages(pair, hits, penetrations, queue, scratch, counts).run();
 }
 
 } // namespace vox::depth

@@ -53,8 +53,8 @@ struct ConsistentScratch {
 // Sets the states of the pair's penetrations, which begin() made, and depth and direction of all but those
 // that need a closest point: ENCLOSED ones, and CROSSING ones to which no edge helps (has_answer() of
 // points.hpp). `queue` is as long as pair.places, and is written to. Throws what the memory throws.
-void find_consistent_depths(const BodyPair& pair, std::span<const vox_contact> contacts,
-                            Penetrations& penetrations, std::span<std::uint32_t> queue,
-                            ConsistentScratch& scratch, Counts& counts);
+// `hits` are those that the penetrations are of.
+void find_consistent_depths(const BodyPair& pair, std::span<const Hit> hits, Penetrations& penetrations,
+                            std::span<std::uint32_t> queue, ConsistentScratch& scratch, Counts& counts);
 
 } // namespace vox::depth

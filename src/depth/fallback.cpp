@@ -21,8 +21,8 @@ constexpr std::size_t chunk_size = 64;
 const Hit& Fallback::Scene::hit(std::uint32_t place) const { return hits[penetrations.of(place).contact]; }
 
 bool Fallback::Scene::needs_search(std::uint32_t place) const {
-    const vox_penetration_state state = penetrations.of(place).state;
-    return (state == VOX_PENETRATION_ENCLOSED || state == VOX_PENETRATION_CROSSING) &&
+    const vox_depth_state state = penetrations.of(place).state;
+    return (state == VOX_DEPTH_CLOSEST || state == VOX_DEPTH_AMBIGUOUS) &&
            !has_answer(penetrations.depth_of(place));
 }
 
@@ -76,7 +76,7 @@ std::uint64_t Fallback::spend(const Scene& scene, std::uint64_t budget) {
         if (place < end) {
             items_.push_back({hit.body_b, SurfaceTree::all_parts, 0, place});
         } else {
-            scene.penetrations.of(place).state = VOX_PENETRATION_UNKNOWN;
+            scene.penetrations.of(place).state = VOX_DEPTH_UNKNOWN;
             scene.penetrations.depth_of(place).set(0, facet_normal(scene.solid(hit.body_b), hit.tet, 0));
         }
     }
@@ -160,12 +160,12 @@ void Fallback::search_one(const Scene& scene, const Item& item, const SurfaceTre
     const Hit& hit = scene.hit(item.place);
     const bool self = hit.body_a == hit.body_b;
     const std::uint32_t tet = hit.tet;
-    vox_penetration_state& point_state = scene.penetrations.of(item.place).state;
+    vox_depth_state& point_state = scene.penetrations.of(item.place).state;
     Depth& out = scene.penetrations.depth_of(item.place);
     const Vec3d p = scene.position(hit);
     const Solid solid = scene.solid(item.body_b);
     Closest closest;
-    const bool is_crossing = point_state == VOX_PENETRATION_CROSSING;
+    const bool is_crossing = point_state == VOX_DEPTH_AMBIGUOUS;
     const bool found = tree && (!self         ? tree->find(p, SurfaceTree::no_vertex, state, closest)
                                 : is_crossing ? tree->find_in_part(p, hit.vertex, tet, state, closest)
                                               : tree->find_in_fold(p, hit.vertex, tet, state, closest));
@@ -174,7 +174,7 @@ void Fallback::search_one(const Scene& scene, const Item& item, const SurfaceTre
     Vec3d direction = found ? normalised(closest.way) : Vec3d{0, 0, 0};
     if (length(direction) > 0) return out.set(length(closest.way), direction);
     if (found) { // on the surface of a part of b that overlaps the part with the hit
-        point_state = VOX_PENETRATION_COINCIDENT;
+        point_state = VOX_DEPTH_TOUCHING;
         worker.normals.begin(solid);
         const Vec3d apex = solid.at(solid.topology->triangles[closest.at.triangle].apex);
         direction = worker.normals.at(closest.at, p - apex);

@@ -3,7 +3,6 @@
 #include "base/room.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <tuple>
 
 namespace vox {
@@ -33,7 +32,7 @@ void Penetrations::begin(std::span<const Body> bodies, std::span<const Hit> hits
 // Moves those that are carried to the front, and returns how many there are with the others. Both lists are
 // sorted, and every vertex that is carried is in the old one.
 std::size_t Penetrations::keep_carried(std::span<const Body> bodies, std::span<const Hit> hits) noexcept {
-    const auto key = [](const vox_penetration& p) { return std::tuple(p.body_a, p.vertex, p.body_b); };
+    const auto key = [](const Penetration& p) { return std::tuple(p.body_a, p.vertex, p.body_b); };
     std::size_t old = 0, count = 0;
     carried_ = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -62,7 +61,7 @@ void Penetrations::spread_carried(std::span<const Body> bodies, std::span<const 
         if (source == PenetrationSource::none) continue;
         --place;
         if (source == PenetrationSource::found) {
-            all_[place] = {a.mesh_id, hit.vertex, b.mesh_id, VOX_PENETRATION_ENCLOSED, i - 1, 0, {}};
+            all_[place] = {a.mesh_id, hit.vertex, b.mesh_id, VOX_DEPTH_CLOSEST, i - 1};
             depths_[place].set(0, {0, 0, 0});
             closest_[place] = no_triangle;
             continue;
@@ -73,13 +72,6 @@ void Penetrations::spread_carried(std::span<const Body> bodies, std::span<const 
         depths_[place] = depths_[left];
         closest_[place] = closest_[left];
     }
-}
-
-void Penetrations::round(std::uint32_t place) noexcept {
-    const Depth& from = depths_[place];
-    vox_penetration& to = all_[place];
-    to.depth = static_cast<float>(std::min<double>(from.depth, std::numeric_limits<float>::max()));
-    for (int axis = 0; axis < 3; ++axis) to.direction[axis] = static_cast<float>(from.direction[axis]);
 }
 
 } // namespace vox

@@ -16,7 +16,10 @@
 namespace vox {
 
 // In half a cache line, since those of neighbours are looked at.
-struct alignas(32) Depth : vox_depth {
+struct alignas(32) Depth {
+    double depth;
+    double direction[3];
+
     Vec3d way_out() const noexcept { return {direction[0], direction[1], direction[2]}; }
     void set(double new_depth, const Vec3d& new_direction) noexcept {
         depth = new_depth;
@@ -25,7 +28,16 @@ struct alignas(32) Depth : vox_depth {
         direction[2] = new_direction.z;
     }
 };
-static_assert(sizeof(Depth) == sizeof(vox_depth));
+static_assert(sizeof(Depth) == 32);
+
+// Vertex `vertex` of body_a is inside body_b and leaves it by moving its depth along the direction of that.
+struct Penetration {
+    vox_body body_a;
+    std::uint32_t vertex;
+    vox_body body_b;
+    vox_depth_state state;
+    std::uint64_t contact; // index of the first of (body_a, vertex, body_b)
+};
 
 constexpr std::uint32_t no_triangle = 0xffffffffu;
 
@@ -57,17 +69,12 @@ public:
     void begin(std::span<const Body> bodies, std::span<const Hit> hits);
 
     // What the stage finds, in place: state, depth and direction in double, and the closest triangle.
-    vox_penetration& of(std::uint32_t place) noexcept { return all_[place]; }
+    Penetration& of(std::uint32_t place) noexcept { return all_[place]; }
     Depth& depth_of(std::uint32_t place) noexcept { return depths_[place]; }
     std::uint32_t& closest_of(std::uint32_t place) noexcept { return closest_[place]; }
-    // Sets depth and direction of the vox_penetration, too.
-    void round(std::uint32_t place) noexcept;
 
-    std::span<const vox_penetration> all() const noexcept { return all_; }
-    std::span<const vox_depth> depths() const noexcept { // of each
-        const vox_depth* first = depths_.data();
-        return {first, depths_.size()};
-    }
+    std::span<const Penetration> all() const noexcept { return all_; }
+    std::span<const Depth> depths() const noexcept { return depths_; } // of each
     // For each the triangle of body_b's surface that is closest, where that was searched, or no_triangle.
     std::span<const std::uint32_t> closest() const noexcept { return closest_; }
 
@@ -78,7 +85,7 @@ private:
     std::size_t keep_carried(std::span<const Body> bodies, std::span<const Hit> hits) noexcept;
     void spread_carried(std::span<const Body> bodies, std::span<const Hit> hits) noexcept;
 
-    Array<vox_penetration> all_;
+    Array<Penetration> all_;
     Array<Depth> depths_;
     Array<std::uint32_t> closest_;
     std::size_t carried_ = 0;

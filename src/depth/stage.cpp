@@ -19,12 +19,11 @@ Solid DepthStage::Scene::solid(std::uint32_t body) const {
 }
 
 void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
-                      std::span<const Hit> hits, std::span<const vox_contact> contacts,
-                      std::uint64_t closest_budget, Workers* workers, Penetrations& penetrations,
-                      Counters& counters) {
+                      std::span<const Hit> hits, bool closest, std::uint64_t closest_budget, Workers* workers,
+                      Penetrations& penetrations, Counters& counters) {
     const bool none = std::ranges::all_of(bodies, [](const Body& b) { return b.sensor; });
     if (hits.empty() || none) return penetrations.clear();
-    const Scene scene{bodies, topologies, hits, contacts, penetrations};
+    const Scene scene{bodies, topologies, hits, penetrations};
     reserve(hits.size());
     penetrations.begin(bodies, hits);
     list_places(scene);
@@ -35,25 +34,18 @@ void DepthStage::find(std::span<const Body> bodies, std::span<const Topology* co
     const auto find_pairs = [&](std::size_t begin, std::size_t end, std::uint32_t worker) {
         for (std::size_t i = begin; i < end; ++i) find_consistent(scene, i, workers_[worker]);
     };
-    if (!workers || places_.size() <= least)
+    if (!closest && (!workers || places_.size() <= least))
         find_pairs(0, pairs_.size(), 0);
-    else
+    else if (!closest)
         workers->for_ranges(pairs_.size(), std::max<std::size_t>(pairs_.size() * least / places_.size(), 1),
                             find_pairs);
+    // With `closest` all are as begin() left them, and the fallback finds them.
     Counts fallback_counts;
     const auto [searches, unknown] = fallback_.find({bodies, topologies, hits, places_, penetrations},
                                                     closest_budget, workers, fallback_counts);
 
     workers_.level();
 
-    const auto round = [&](std::size_t begin, std::size_t end, std::uint32_t) {
-        for (std::size_t i = begin; i < end; ++i) penetrations.round(places_[i]);
-    };
-    constexpr std::size_t least_rounded = 4096; // that are worth a task
-    if (workers && places_.size() > least_rounded)
-        workers->for_ranges(places_.size(), least_rounded, round);
-    else
-        round(0, places_.size(), 0);
     counters.closest_searches = searches;
     counters.closest_tests = fallback_counts.closest_tests;
     counters.unknown_penetrations = unknown;
@@ -115,7 +107,7 @@ void DepthStage::find_consistent(const Scene& scene, std::size_t i, Worker& work
                         scene.solid(hit.body_b),
                         hit.body_a == hit.body_b,
                         std::span(places_).subspan(first, last - first)};
-    find_consistent_depths(pair, scene.contacts, scene.penetrations,
+    find_consistent_depths(pair, scene.hits, scene.penetrations,
                            std::span(queue_).subspan(first, last - first), worker.consistent, worker.counts);
 }
 

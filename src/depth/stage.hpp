@@ -32,14 +32,15 @@ public:
     DepthStage(const DepthStage&) = delete;
     DepthStage& operator=(const DepthStage&) = delete;
 
-    // Replaces `penetrations` by those of `contacts`; those of bodies at rest stay. `hits` are what the
-    // contacts were made of, in the same order (make_contacts), and `topologies` has one for each body.
-    // `closest_budget` as in vox_grid_desc; what stays takes nothing of it. Sets the counters from
+    // Replaces `penetrations` by those of `hits`, in the order of make_contacts(); those of bodies at rest
+    // stay. `topologies` has one for each body.
+    // With `closest`, each is found by the closest point alone. `closest_budget` as in vox_constraint_desc;
+    // what stays takes nothing of it. Sets the counters from
     // `leaving_edges` to `closest_tests`, and `unknown_penetrations`. `workers` may be null; the result does
     // not depend on them.
     void find(std::span<const Body> bodies, std::span<const Topology* const> topologies,
-              std::span<const Hit> hits, std::span<const vox_contact> contacts, std::uint64_t closest_budget,
-              Workers* workers, Penetrations& penetrations, Counters& counters);
+              std::span<const Hit> hits, bool closest, std::uint64_t closest_budget, Workers* workers,
+              Penetrations& penetrations, Counters& counters);
 
     // Room for so many contacts, but for closest points that are searched. Throws what the memory throws.
     void reserve(std::uint64_t contacts);
@@ -57,7 +58,6 @@ private:
         std::span<const Body> bodies;
         std::span<const Topology* const> topologies;
         std::span<const Hit> hits;
-        std::span<const vox_contact> contacts;
         Penetrations& penetrations;
 
         depth::Solid solid(std::uint32_t body) const;

@@ -27,11 +27,10 @@ vox_grid_desc grid_settings(const vox_grid_desc* desc) {
     if (!desc) return grid;
     grid = read_struct(desc, "grid");
     if (grid.flags != 0)
-        throw Error(
-            VOX_ERROR_UNSUPPORTED,
-            format("grid->flags is %u, expected 0: depth, events and edge contacts of bodies that are "
-                   "split are not supported",
-                   grid.flags));
+        throw Error(VOX_ERROR_UNSUPPORTED,
+                    format("grid->flags is %u, expected 0: constraints and edges of bodies that are "
+                           "split are not supported",
+                           grid.flags));
     if (grid.margin != 0)
         throw Error(VOX_ERROR_UNSUPPORTED,
                     format("grid->margin is %g, expected 0: a margin is not supported", grid.margin));
@@ -132,6 +131,6 @@ vox_result vox_dist_scene_get_costs(const vox_dist_scene* scene, vox_dist_cost* 
     });
 }
 
-vox_result vox_dist_scene_get_counters(const vox_dist_scene* scene, vox_dist_counters* out_counters) {
-    return border(scene, "scene", [&] { write_struct(out_counters, scene->counters_, "out_counters"); });
+vox_result vox_dist_scene_get_counters(const vox_dist_scene* scene, vox_counter_view* out_view) {
+    return border(scene, "scene", out_view, "out_view", [&] { return scene->counters(); });
 }

@@ -19,8 +19,8 @@ inline std::uint64_t split_mix(std::uint64_t x) noexcept {
 
 struct ContactSum {
     void add(const vox_dist_contact& c) noexcept {
-        std::uint64_t words[7] = {c.body_a, c.vertex, c.body_b, c.tet, 0, 0, c.interior};
-        std::memcpy(&words[4], c.barycentric, sizeof c.barycentric);
+        std::uint64_t words[9] = {c.body_a, c.vertex, c.body_b, c.tet, 0, 0, 0, 0, c.interior};
+        std::memcpy(&words[4], c.weights, sizeof c.weights);
         std::uint64_t low = 1, high = 2;
         for (const std::uint64_t word : words) {
             low = split_mix(low ^ word);

@@ -1,6 +1,8 @@
 // From the contacts of the grid to those of the vertices' owners.
 #include "dist/rounds.hpp"
 
+#include "exact/predicates.hpp"
+
 #include <algorithm>
 #include <tuple>
 
@@ -28,9 +30,8 @@ void Rounds::step_grid() {
 void Rounds::collect_here() {
     vox_contact_view contacts;
     check(vox_grid_get_contacts(side_.grid.get(), &contacts));
-    const auto* contact = reinterpret_cast<const std::byte*>(contacts.data);
     for (std::uint64_t i = 0; i < contacts.count; ++i) {
-        const auto& hit = *reinterpret_cast<const vox_contact*>(contact + i * contacts.byte_stride);
+        const vox_contact& hit = contacts.data[i];
         const bool inside = contacts.interiors[i] != 0;
         const Part& part = side_.part_of(hit.body_b);
         if (hit.body_a == side_.points)
@@ -44,15 +45,18 @@ void Rounds::collect_here() {
 
 namespace {
 
-// Without index and rank, which differ from side to side.
-vox_dist_contact between(std::uint64_t body_a, std::uint64_t vertex, const Part& part, const vox_contact& hit,
-                         bool interior) {
+// Without index and rank, which differ from side to side. The vertex is at p.
+vox_dist_contact between(std::uint64_t body_a, std::uint64_t vertex, const Vec3d& p, const Part& part,
+                         const vox_contact& hit, bool interior) {
     vox_dist_contact contact{};
     contact.body_a = body_a;
     contact.vertex = vertex;
     contact.body_b = part.body;
     contact.tet = part.id_of_tet(hit.tet);
-    std::copy_n(hit.barycentric, 4, contact.barycentric);
+    const auto corner = [&](std::size_t c) {
+        return part.positions.exact(part.tets[4 * std::size_t{hit.tet} + c]);
+    };
+    std::ranges::copy(barycentric(p, corner(0), corner(1), corner(2), corner(3)), contact.weights);
     contact.interior = interior;
     return contact;
 }
@@ -63,7 +67,8 @@ void Rounds::collect_stranger(const Part& part, const vox_contact& hit, bool int
     const Stranger& stranger = strangers_[hit.vertex];
     const Group& group = groups_[stranger.group];
     if (!points_ && !collide(group.body, group.filter, part.body, part.filter)) return;
-    vox_dist_contact contact = between(group.body, stranger.id, part, hit, interior);
+    const double* x = side_.xyz.data() + 3 * std::size_t{hit.vertex};
+    vox_dist_contact contact = between(group.body, stranger.id, {x[0], x[1], x[2]}, part, hit, interior);
     if (group.neighbour == no_neighbour) {
         contact.index = stranger.place;
         contact.rank = scene_.transport_.rank();
@@ -78,7 +83,8 @@ void Rounds::collect_stranger(const Part& part, const vox_contact& hit, bool int
 void Rounds::collect(const Part& part, const vox_contact& hit, bool interior) {
     const Part& part_a = side_.part_of(hit.body_a);
     if (!collide(part_a.body, part_a.filter, part.body, part.filter)) return;
-    vox_dist_contact contact = between(part_a.body, part_a.id_of(hit.vertex), part, hit, interior);
+    vox_dist_contact contact = between(part_a.body, part_a.id_of(hit.vertex),
+                                       part_a.positions.exact(hit.vertex), part, hit, interior);
     if (part_a.owns(hit.vertex)) {
         contact.index = hit.vertex;
         contact.rank = scene_.transport_.rank();
@@ -115,7 +121,7 @@ void Rounds::write_hits() {
             for (; hit != outgoing.end() && hit->neighbour == i; ++hit) {
                 const vox_dist_contact& c = hit->contact;
                 Hit message{c.tet, hit->place, 0, {}};
-                std::copy_n(c.barycentric, 4, message.weights);
+                std::copy_n(c.weights, 4, message.weights);
                 const auto part =
                     std::lower_bound(scene_.parts_.begin(), scene_.parts_.end(), c.body_b,
                                      [](const Part* p, std::uint64_t b) { return p->body < b; });
@@ -154,7 +160,7 @@ void Rounds::read_hits(std::span<const Source> sources) {
             contact.vertex = source.part ? source.part->id_of(sent.vertex) : sent.vertex;
             contact.body_b = part->body;
             contact.tet = hit.tet;
-            std::copy_n(hit.weights, 4, contact.barycentric);
+            std::copy_n(hit.weights, 4, contact.weights);
             contact.index = sent.vertex;
             contact.rank = scene_.ranks_[i];
             contact.interior = (hit.part & interior_bit) != 0;

@@ -109,7 +109,7 @@ void vox_dist_scene::locate(const vox_positions* points, vox_dist_location* out_
         vox_dist_location& location = out_locations[f.contact.vertex];
         if (location.rank != VOX_NONE) continue;
         location = {f.contact.body_b, f.contact.tet, {}, f.contact.rank, f.contact.interior};
-        std::copy_n(f.contact.barycentric, 4, location.barycentric);
+        std::copy_n(f.contact.weights, 4, location.weights);
     }
     counters_.messages = transport_.messages;
     counters_.collectives = transport_.collectives;

@@ -109,9 +109,9 @@ struct Hit {
     std::uint64_t tet;
     std::uint32_t vertex; // its place among those that were sent to the rank
     std::uint32_t part;   // as in PartBoxes; the highest bit: the vertex is in the interior
-    float weights[4];
+    double weights[4];
 };
-static_assert(sizeof(Hit) == 32);
+static_assert(sizeof(Hit) == 48);
 constexpr std::uint32_t interior_bit = 0x80000000u;
 
 using Memory = std::pmr::memory_resource;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 using namespace vox;
 using namespace vox::dist;
@@ -153,6 +154,13 @@ void vox_dist_scene::remove(std::uint64_t body) {
 
 void vox_dist_scene::bind(std::uint64_t body, const vox_positions& positions) {
     check(vox_mesh_bind_positions(contacts_side_.grid.get(), part_of(body).mesh, &positions));
+}
+
+vox_counter_view vox_dist_scene::counters() const noexcept {
+    std::ranges::transform(named_counts, counter_list_, [this](const NamedCount& c) {
+        return vox_counter{c.name, counters_.*c.field};
+    });
+    return {counter_list_, std::size(counter_list_)};
 }
 
 void vox_dist_scene::look() {

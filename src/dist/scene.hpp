@@ -7,6 +7,9 @@
 
 #include <vox/vox_cell_size.h>
 
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
 #include <memory>
 
 namespace vox::dist {
@@ -37,6 +40,34 @@ struct Side {
 
 vox_filter everything() noexcept;
 
+// What a step sends from this rank.
+struct Counts {
+    std::uint64_t neighbours = 0, messages = 0, collectives = 0;
+    std::uint64_t replicated_bytes = 0, box_bytes = 0, vertex_bytes = 0, hit_bytes = 0;
+    std::uint64_t vertices_sent = 0, vertices_received = 0, vertices_here = 0, hits_sent = 0;
+    std::uint64_t contacts = 0, incoming = 0;
+};
+
+struct NamedCount {
+    const char* name;
+    std::uint64_t Counts::*field;
+};
+inline constexpr NamedCount named_counts[] = {
+    {"neighbours", &Counts::neighbours},
+    {"messages", &Counts::messages},
+    {"collectives", &Counts::collectives},
+    {"replicated_bytes", &Counts::replicated_bytes},
+    {"box_bytes", &Counts::box_bytes},
+    {"vertex_bytes", &Counts::vertex_bytes},
+    {"hit_bytes", &Counts::hit_bytes},
+    {"vertices_sent", &Counts::vertices_sent},
+    {"vertices_received", &Counts::vertices_received},
+    {"vertices_here", &Counts::vertices_here},
+    {"hits_sent", &Counts::hits_sent},
+    {"contacts", &Counts::contacts},
+    {"incoming", &Counts::incoming},
+};
+
 } // namespace vox::dist
 
 struct vox_dist_scene {
@@ -55,6 +86,7 @@ struct vox_dist_scene {
     void locate(const vox_positions* points, vox_dist_location* out_locations);
     void check_numbers();
     std::uint64_t costs(vox_dist_cost* costs, std::uint64_t capacity) const;
+    vox_counter_view counters() const noexcept;
 
     // Reads where the positions of all parts are now, checks them and computes their boxes.
     void look();
@@ -91,7 +123,8 @@ struct vox_dist_scene {
     vox::dist::Side contacts_side_, points_side_;
     vox::Array<vox_dist_contact> contacts_;     // of the vertices owned here
     vox::Array<vox_dist_contact> tet_contacts_; // with the tetrahedra here
-    vox_dist_counters counters_{};
+    vox::dist::Counts counters_;
+    mutable vox_counter counter_list_[std::size(vox::dist::named_counts)]; // as they are when asked for
 
     vox::Array<vox::dist::Overview> overviews_; // of all ranks
     vox::Array<std::uint32_t> ranks_;           // who is talked to

@@ -177,15 +177,12 @@ inline Containment locate(const Vec3d& p, const Vec3d& a, const Vec3d& b, const 
     return in_solid;
 }
 
+// Volumes that are off by less than this part of their sum are good enough for barycentric().
+inline constexpr double barycentric_error = 0x1p-44;
+
 // The barycentric coordinates of a point p in the closed tetrahedron abcd of non-zero volume. Each is in [0,
-// 1] and within 2^-20 of the true one, or 2^-41 as a double. Every engine takes them from this function, so
-// that the bits are the same.
-template <class Number>
-std::array<Number, 4> barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
+// 1] and within 2^-41 of the true one.
+std::array<double, 4> barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c,
                                   const Vec3d& d);
-extern template std::array<float, 4> barycentric<float>(const Vec3d&, const Vec3d&, const Vec3d&,
-                                                        const Vec3d&, const Vec3d&);
-extern template std::array<double, 4> barycentric<double>(const Vec3d&, const Vec3d&, const Vec3d&,
-                                                          const Vec3d&, const Vec3d&);
 
 } // namespace vox

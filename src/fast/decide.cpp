@@ -21,9 +21,8 @@ void ExactDecisions::take(std::span<const Finding> findings) {
             continue;
         }
         // In place and as a whole: bit fields set one by one are slow to read back.
-        hits[count++] = {
-            f.body,   f.vertex, body_, f.tet & 0x7fffffffu, where == Containment::interior ? 1u : 0u,
-            f.weights};
+        hits[count++] = {f.body, f.vertex, body_, f.tet & 0x7fffffffu,
+                         where == Containment::interior ? 1u : 0u};
         if (count == std::size(hits)) {
             append(std::span(hits, count));
             count = 0;

@@ -329,25 +329,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace vox::fast {
 
-// Computes the barycentric coordinates of the findings here, where the points are in the cache; later they
-// would not be.
-void weigh(LookupScratch& s) {
-    for (std::uint32_t first = 0; first < s.finding_count; first += barycentric_block) {
-        Finding* findings = s.findings + first;
-        const std::uint32_t count = std::min<std::uint32_t>(s.finding_count - first, barycentric_block);
-        if (std::none_of(findings, findings + count, [](const Finding& f) { return f.weights.known(); }))
-            continue;
-        Weights weights[barycentric_block];
-        const std::uint64_t uncertain =
-            barycentric(s.points[first / barycentric_block], count, weights[0].of);
-        for (std::uint32_t i = 0; i < count; ++i)
-            if (findings[i].weights.known())
-                findings[i].weights = uncertain >> i & 1 ? Weights::unknown() : weights[i];
-    }
-}
-
 void hand_over(LookupScratch& scratch, Findings& out) {
-    weigh(scratch);
     out.take(std::span<const Finding>(scratch.findings, scratch.finding_count));
     scratch.finding_count = 0;
 }

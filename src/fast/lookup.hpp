@@ -2,7 +2,6 @@
 #pragma once
 
 #include "base/array.hpp"
-#include "exact/barycentric.hpp"
 #include "fast/broad_phase.hpp"
 #include "fast/windows.hpp"
 #include "mesh/tiles.hpp"
@@ -21,7 +20,6 @@ struct Finding {
     std::uint32_t vertex;      // the caller's indices
     std::uint32_t tet : 31;    // or its place in Tiles::tets (TiledBody)
     std::uint32_t certain : 1; // strictly inside; else exact arithmetic has to decide
-    Weights weights;           // or Weights::unknown()
 };
 
 struct LookupCounters {
@@ -44,7 +42,7 @@ struct TileVertices {
     alignas(64) float x[tile_size], y[tile_size], z[tile_size];
 };
 
-// Buffers of a worker, for one tile at a time. About 27 KiB.
+// Buffers of a worker, for one tile at a time. About 14 KiB.
 struct alignas(64) LookupScratch : TileVertices {
     static constexpr std::uint32_t most_candidates = 256; // handled at a time
     static constexpr std::uint32_t most_pairs = 1024;
@@ -69,7 +67,6 @@ struct alignas(64) LookupScratch : TileVertices {
     // Pairs: place of the candidate << 6 | tet.
     alignas(64) std::uint32_t pairs[most_pairs + 64];
     Finding findings[most_findings];
-    BarycentricBlock<float> points[most_findings / barycentric_block]; // of findings
     std::uint32_t finding_count = 0;
     // For self-collision: stamps[v] is tag << 6 | local index when v is a vertex of the current tile.
     std::uint32_t tag = 0;

@@ -190,26 +190,10 @@ HWY_NOINLINE void Narrow(const TetNames& tets, LookupScratch& s, std::uint32_t c
     for (std::uint32_t i = 0; i < kept_count; ++i) {
         const std::uint32_t pair = s.pairs[i] & ~certain_pair;
         const std::uint32_t place = pair >> 6, tet = pair & 63, f = s.finding_count++;
-        // Written as a whole, as bit fields set one by one are slow to read back. The weights are computed
-        // when the buffer is full.
-        s.findings[f] = {s.candidate_body[s.meeting[place]],
-                         s.candidate_id[s.meeting[place]],
+        // Written as a whole, as bit fields set one by one are slow to read back.
+        s.findings[f] = {s.candidate_body[s.meeting[place]], s.candidate_id[s.meeting[place]],
                          (tets.index ? tets.index[tet] : tets.first + tet) & 0x7fffffffu,
-                         (s.pairs[i] & certain_pair) != 0,
-                         {{kRounded ? -1.0f : 0.0f, 0, 0, 0}}};
-        if constexpr (!kRounded) {
-            BarycentricBlock<float>& block = s.points[f / barycentric_block];
-            const std::size_t at = f % barycentric_block;
-            block.point[0][at] = s.candidate_x[place];
-            block.point[1][at] = s.candidate_y[place];
-            block.point[2][at] = s.candidate_z[place];
-            for (std::uint32_t c = 0; c < 4; ++c) {
-                const std::uint32_t v = s.corners[tet] >> (8 * c) & 255;
-                block.corner[c][0][at] = s.x[v];
-                block.corner[c][1][at] = s.y[v];
-                block.corner[c][2][at] = s.z[v];
-            }
-        }
+                         (s.pairs[i] & certain_pair) != 0};
         if (s.finding_count == LookupScratch::most_findings) hand_over(s, out);
     }
 }

@@ -35,32 +35,52 @@ void for_runs(std::span<const vox_contact> contacts, Visit&& visit) {
     }
 }
 
-} // namespace
-
-// From behind, so that each pair moves once.
-void add_pairs(std::span<const EdgePair> touching, Array<vox_pair>& pairs) {
-    const auto id_of = [](const vox_pair& pair) { return EdgePair{pair.body_a, pair.body_b}; };
+// Adds those of `more`, which ascend, that `pairs` lacks, as pair_of(element) without contacts; calls
+// known(pair) for the others. From behind, so that each pair moves once.
+template <class Element, class PairOf, class Known>
+void add(std::span<const Element> more, Array<vox_pair>& pairs, PairOf&& pair_of, Known&& known) {
+    const auto id_of = [](const auto& pair) { return IdPair{pair.body_a, pair.body_b}; };
     std::size_t added = 0;
     auto at = pairs.begin();
-    for (const EdgePair& pair : touching) {
-        while (at != pairs.end() && id_of(*at) < pair) ++at;
-        added += at == pairs.end() || id_of(*at) != pair;
+    for (const Element& element : more) {
+        while (at != pairs.end() && id_of(*at) < id_of(element)) ++at;
+        if (at == pairs.end() || id_of(*at) != id_of(element))
+            ++added;
+        else
+            known(*at);
     }
     if (added == 0) return;
     // Those without contacts name the place of the next one's.
-    std::uint64_t end = pairs.empty() ? 0 : pairs.back().first + pairs.back().a_in_b + pairs.back().b_in_a;
+    std::uint64_t end = pairs.empty() ? 0 : pairs.back().first_contact + pairs.back().contact_count;
     std::size_t left = pairs.size();
     reserve_growing(pairs, pairs.size() + added);
     pairs.resize(pairs.size() + added);
     std::size_t to = pairs.size();
-    for (std::size_t i = touching.size(); i-- > 0;) {
-        while (left > 0 && touching[i] < id_of(pairs[left - 1])) {
+    for (std::size_t i = more.size(); i-- > 0;) {
+        while (left > 0 && id_of(more[i]) < id_of(pairs[left - 1])) {
             pairs[--to] = pairs[--left];
-            end = pairs[to].first;
+            end = pairs[to].first_contact;
         }
-        if (left > 0 && touching[i] == id_of(pairs[left - 1])) continue;
-        pairs[--to] = {touching[i].body_a, touching[i].body_b, 0, 0, end, 0, 0};
+        if (left > 0 && id_of(more[i]) == id_of(pairs[left - 1])) continue;
+        pairs[--to] = pair_of(more[i]);
+        pairs[to].first_contact = end;
+        pairs[to].contact_count = 0;
     }
+}
+
+} // namespace
+
+void add_pairs(std::span<const IdPair> more, vox_pair_state state, Array<vox_pair>& pairs) {
+    add(
+        more, pairs,
+        [state](const IdPair& pair) { return vox_pair{pair.body_a, pair.body_b, 0, 0, state, 0, 0, 0}; },
+        [](const vox_pair&) {});
+}
+
+void add_ended(std::span<const vox_pair> ended, Array<vox_pair>& pairs) {
+    add(
+        ended, pairs, [](const vox_pair& pair) { return pair; },
+        [](vox_pair& near) { near.state = VOX_PAIR_ENDED; });
 }
 
 void check_contact_count(std::size_t count, const char* what) {
@@ -103,8 +123,8 @@ void find_touching(std::span<const vox_contact> contacts, std::size_t slots, Tou
         d.next = placed;
         const vox_body a = low(d), b = high(d);
         if (pairs.empty() || pairs.back().body_a != a || pairs.back().body_b != b)
-            pairs.push_back({a, b, 0, 0, placed, 0, 0});
-        (d.body_a == a ? pairs.back().a_in_b : pairs.back().b_in_a) = d.count;
+            pairs.push_back({a, b, 0, 0, VOX_PAIR_BEGAN, 0, placed, 0});
+        pairs.back().contact_count += d.count;
         placed += d.count;
     }
     // Which of `directed` a run belongs to is found again, as keeping it would take memory for each contact:

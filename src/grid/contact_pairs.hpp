@@ -2,9 +2,11 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/room.hpp"
 
 #include <vox/vox.h>
 
+#include <algorithm>
 #include <compare>
 #include <cstdint>
 #include <memory_resource>
@@ -30,21 +32,37 @@ struct TouchingBuffers {
 };
 
 // Two meshes, the lower id first.
-struct EdgePair {
+struct IdPair {
     vox_body body_a, body_b;
 
-    auto operator<=>(const EdgePair&) const = default;
+    auto operator<=>(const IdPair&) const = default;
 };
 
 // Throws Error(LIMIT) where a step has more than VOX_MAX_CONTACTS of `what`, e.g. "edge contacts".
 void check_contact_count(std::size_t count, const char* what);
 
-// Adds those of `touching`, which ascend, that `pairs` lacks: pairs without contacts.
-void add_pairs(std::span<const EdgePair> touching, Array<vox_pair>& pairs);
+// Adds those of `more`, which ascend, that `pairs` lacks, without contacts and user data.
+void add_pairs(std::span<const IdPair> more, vox_pair_state state, Array<vox_pair>& pairs);
+// The same for pairs that touch no more; those that `pairs` has, as they are near, get that state.
+void add_ended(std::span<const vox_pair> ended, Array<vox_pair>& pairs);
 
-// Makes what vox_pair_view has of `contacts` in canonical order: the pairs, without user data, and the
-// indices of the contacts, pair by pair; `slots` is above the slot of every mesh. Throws Error(LIMIT) beyond
-// VOX_MAX_CONTACTS.
+// Replaces `pairs` by those of contacts or the like, each once, in order.
+template <class Contact>
+void list_pairs(std::span<const Contact> contacts, Array<IdPair>& pairs) {
+    pairs.clear();
+    for (const Contact& contact : contacts) {
+        const IdPair pair{std::min(contact.body_a, contact.body_b), std::max(contact.body_a, contact.body_b)};
+        if (!pairs.empty() && pairs.back() == pair) continue;
+        reserve_growing(pairs, pairs.size() + 1);
+        pairs.push_back(pair);
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+// Makes what vox_pair_view has of `contacts` in canonical order: the pairs, BEGAN and without user data, and
+// the indices of the contacts, pair by pair; `slots` is above the slot of every mesh. Throws Error(LIMIT)
+// beyond VOX_MAX_CONTACTS.
 void find_touching(std::span<const vox_contact> contacts, std::size_t slots, TouchingBuffers& buffers,
                    Array<vox_pair>& pairs, Array<std::uint32_t>& by_pair);
 

@@ -5,7 +5,6 @@
 
 #include "base/array.hpp"
 #include "base/parallel.hpp"
-#include "exact/barycentric.hpp"
 
 #include <algorithm>
 #include <array>
@@ -242,31 +241,6 @@ Hit* sort_and_keep(std::span<const Body> bodies, std::span<Hit> hits, std::span<
     return keep_all(hits.size(), at, hits.data(), hits.data());
 }
 
-// The contacts of the block of hits from `first` on, and which of them are interior unless that is null.
-void write_block(std::span<const Body> bodies, bool rounded, std::span<const Hit> hits, std::size_t first,
-                 vox_contact* out, std::uint8_t* interior) {
-    const std::size_t count = std::min(barycentric_block, hits.size() - first);
-    const std::span<const Hit> block = hits.subspan(first, count);
-    for (std::size_t i = 0; interior && i < count; ++i) interior[first + i] = block[i].interior;
-    bool complete = true;
-    for (std::size_t i = 0; i < count; ++i) {
-        const Hit& hit = block[i];
-        const float* w = hit.weights.of;
-        out[first + i] = {bodies[hit.body_a].mesh_id,
-                          hit.vertex,
-                          bodies[hit.body_b].mesh_id,
-                          std::uint32_t(hit.tet),
-                          {w[0], w[1], w[2], w[3]}};
-        complete &= hit.weights.known();
-    }
-    if (complete) return;
-    BarycentricWeights weights;
-    barycentric(bodies, rounded, hits, first, weights);
-    for (std::size_t i = 0; i < count; ++i)
-        if (!block[i].weights.known())
-            std::copy(weights[i].begin(), weights[i].end(), out[first + i].barycentric);
-}
-
 // With room for a few more, so that a few more contacts in a later step allocate nothing.
 template <class Item>
 void resize(Array<Item>& items, std::size_t count) {
@@ -295,19 +269,19 @@ void make_contacts(std::span<const Body> bodies, Array<Hit>& hits, Array<vox_con
     contacts.resize(hits.size());
     if (interiors) resize(*interiors, hits.size());
 
-    const bool rounded =
-        std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.positions.rounded(); });
-    const std::size_t blocks = (hits.size() + barycentric_block - 1) / barycentric_block;
     const auto write = [&](std::size_t begin, std::size_t end, std::uint32_t) {
-        for (std::size_t b = begin; b < end; ++b)
-            write_block(bodies, rounded, hits, b * barycentric_block, contacts.data(),
-                        interiors ? interiors->data() : nullptr);
+        for (std::size_t i = begin; i < end; ++i) {
+            const Hit hit = hits[i];
+            contacts[i] = {bodies[hit.body_a].mesh_id, hit.vertex, bodies[hit.body_b].mesh_id,
+                           std::uint32_t(hit.tet)};
+            if (interiors) (*interiors)[i] = hit.interior;
+        }
     };
-    constexpr std::size_t least_blocks = 16; // worth a task
-    if (workers && blocks > least_blocks)
-        workers->for_ranges(blocks, least_blocks, write);
+    constexpr std::size_t least = 8192; // worth a task
+    if (workers && hits.size() > least)
+        workers->for_ranges(hits.size(), least, write);
     else
-        write(0, blocks, 0);
+        write(0, hits.size(), 0);
 }
 
 std::uint64_t hash_contacts(std::span<const vox_contact> contacts) noexcept {
@@ -320,10 +294,6 @@ std::uint64_t hash_contacts(std::span<const vox_contact> contacts) noexcept {
     for (const vox_contact& contact : contacts) {
         add(contact.body_a, contact.vertex);
         add(contact.body_b, contact.tet);
-        add(std::bit_cast<std::uint32_t>(contact.barycentric[0]),
-            std::bit_cast<std::uint32_t>(contact.barycentric[1]));
-        add(std::bit_cast<std::uint32_t>(contact.barycentric[2]),
-            std::bit_cast<std::uint32_t>(contact.barycentric[3]));
     }
     return state;
 }

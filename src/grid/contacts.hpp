@@ -1,5 +1,5 @@
-// From hits to contacts: the canonical order and the one-contact rule for shared faces (see vox_contact),
-// barycentric coordinates, and the hash.
+// From hits to contacts: the canonical order and the one-contact rule for shared faces (see vox_contact), and
+// the hash.
 #pragma once
 
 #include "base/array.hpp"
@@ -23,9 +23,8 @@ void make_contacts(std::span<const Body> bodies, Array<Hit>& hits, Array<vox_con
                    Workers* workers = nullptr, Array<std::uint8_t>* interiors = nullptr);
 
 // vox_grid_get_hash of a list of contacts: of its length and of all fields in order, as numbers, so that byte
-// order and padding do not matter. Each contact is taken as the four 64-bit words
-//     body_a + vertex * 2^32, body_b + tet * 2^32, and the bits of barycentric[0] + [1] * 2^32, [2] + [3] *
-//     2^32;
+// order and padding do not matter. Each contact is taken as the two 64-bit words
+//     body_a + vertex * 2^32, body_b + tet * 2^32;
 // a word w turns the state h, at first the number of contacts, into h' = m ^ (m >> 29) with
 //     m = (h ^ w) * 0x9fb21c651e98df25 mod 2^64,
 // a bijection of h for every w and of w for every h.

@@ -44,11 +44,6 @@ const fast::CertifiedCells* certified_for(const EdgeScene& scene, const fast::Pa
     return pair.a == pair.b && scene.engine ? scene.engine->certified(pair.a) : nullptr;
 }
 
-EdgePair pair_of(const vox_edge_contact& contact) {
-    const auto [low, high] = std::minmax(contact.body_a, contact.body_b);
-    return {low, high};
-}
-
 } // namespace
 
 EdgeContacts::EdgeContacts(std::pmr::memory_resource* memory)
@@ -59,7 +54,7 @@ EdgeContacts::EdgeContacts(std::pmr::memory_resource* memory)
 void EdgeContacts::clear() noexcept {
     contacts_.clear();
     pairs_.clear();
-    unchanged_ = has_depths_ = false;
+    unchanged_ = false;
 }
 
 void EdgeContacts::forget(vox_body mesh) noexcept {
@@ -67,7 +62,6 @@ void EdgeContacts::forget(vox_body mesh) noexcept {
 }
 
 void EdgeContacts::find(const EdgeScene& scene, Counters& counters) {
-    has_depths_ = false;
     workers_.grow(scene.workers->count());
     for (Worker& worker : workers_) {
         worker.candidates = worker.exact_tests = 0;
@@ -86,7 +80,7 @@ void EdgeContacts::find(const EdgeScene& scene, Counters& counters) {
     unchanged_ = found_.size() == carried && carried == contacts_.size();
     if (!unchanged_) {
         put_in_order();
-        list_touching();
+        vox::list_pairs(std::span<const EdgeContact>(contacts_), pairs_);
     }
     counters.edge_contacts = contacts_.size();
     counters.carried_edge_contacts = carried;
@@ -107,10 +101,10 @@ void EdgeContacts::carry(const EdgeScene& scene) {
         return body != scene.bodies.end() && body->mesh_id == mesh &&
                !scene.engine->moved(static_cast<std::size_t>(body - scene.bodies.begin()));
     };
-    EdgePair last{};
+    IdPair last{};
     bool last_rests = false;
-    for (const vox_edge_contact& contact : contacts_) {
-        const EdgePair pair{contact.body_a, contact.body_b};
+    for (const EdgeContact& contact : contacts_) {
+        const IdPair pair{contact.body_a, contact.body_b};
         if (pair != last) last_rests = rests(pair.body_a) && rests(pair.body_b);
         last = pair;
         if (!last_rests) continue;
@@ -468,17 +462,13 @@ void EdgeContacts::decide(const EdgeScene& scene, const LoadedTile& edges, std::
     const std::size_t second = inside > 0 ? 2 : 1, third = 3 - second;
     Vec3d normal = normalised(cross(scaled(corner[second] - corner[0]), scaled(corner[third] - corner[0])));
     if (!(length(normal) > 0)) normal = {0, 0, 1};
-    const vox_crossing_kind kind = found.kind == CrossingKind::through    ? VOX_CROSSING_THROUGH
-                                   : found.kind == CrossingKind::touching ? VOX_CROSSING_TOUCHING
-                                                                          : VOX_CROSSING_COPLANAR;
-    const vox_edge_contact contact{
+    const EdgeContact contact{
         .body_a = scene.bodies[edges.body].mesh_id,
         .edge = {low, high},
         .body_b = scene.bodies[faces.body].mesh_id,
         .face = {v[0], v[second], v[third]},
         .tet = tet,
-        .kind = kind,
-        .reserved = 0,
+        .kind = found.kind,
         .edge_weights = {found.edge_weights[0], found.edge_weights[1]},
         .face_weights = {found.face_weights[0], found.face_weights[second], found.face_weights[third]},
         .position = {found.position.x, found.position.y, found.position.z},
@@ -492,7 +482,7 @@ void EdgeContacts::put_in_order() {
     check_contact_count(found_.size(), "edge contacts");
     keys_.clear();
     reserve_sparingly(keys_, found_.size());
-    for (const vox_edge_contact& c : found_) {
+    for (const EdgeContact& c : found_) {
         const auto [middle, last] = std::minmax(c.face[1], c.face[2]);
         keys_.push_back({{c.body_a, c.edge[0], c.edge[1], c.body_b, c.face[0], middle, last},
                          static_cast<std::uint32_t>(keys_.size())});
@@ -501,41 +491,6 @@ void EdgeContacts::put_in_order() {
     contacts_.clear();
     reserve_sparingly(contacts_, found_.size());
     for (const Key& key : keys_) contacts_.push_back(found_[key.index]);
-}
-
-void EdgeContacts::list_touching() {
-    pairs_.clear();
-    for (const vox_edge_contact& contact : contacts_)
-        if (const EdgePair pair = pair_of(contact); pairs_.empty() || pairs_.back() != pair) {
-            reserve_growing(pairs_, pairs_.size() + 1);
-            pairs_.push_back(pair);
-        }
-    std::sort(pairs_.begin(), pairs_.end());
-    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
-}
-
-std::uint64_t EdgeContacts::hash() const noexcept {
-    std::uint64_t state = contacts_.size();
-    const auto add = [&state](std::uint64_t word) { // as hash_contacts()
-        state = (state ^ word) * 0x9fb21c651e98df25u;
-        state ^= state >> 29;
-    };
-    const auto add_two = [&](std::uint32_t low, std::uint32_t high) { add(low | std::uint64_t{high} << 32); };
-    const auto add_all = [&](const auto& numbers) {
-        for (const double x : numbers) add(std::bit_cast<std::uint64_t>(x + 0.0)); // one zero
-    };
-    for (const vox_edge_contact& c : contacts_) {
-        add_two(c.body_a, c.edge[0]);
-        add_two(c.edge[1], c.body_b);
-        add_two(c.face[0], c.face[1]);
-        add_two(c.face[2], c.tet);
-        add(static_cast<std::uint64_t>(c.kind));
-        add_all(c.edge_weights);
-        add_all(c.face_weights);
-        add_all(c.position);
-        add_all(c.normal);
-    }
-    return state;
 }
 
 } // namespace vox

@@ -1,5 +1,5 @@
-// Edge contacts: edges of the surface of one body through faces of the surface of another, or of its own
-// (vox_edge_contact). Found in every step of a grid with VOX_GRID_EDGE_CONTACTS, for both engines alike.
+// Edge contacts: edges of the surface of one body through faces of the surface of another, or of its own.
+// Found in every step of a grid with VOX_GRID_EDGES, for both engines alike.
 #pragma once
 
 #include "base/array.hpp"
@@ -8,6 +8,8 @@
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
 #include "depth/closest.hpp"
+#include "depth/penetrations.hpp"
+#include "exact/crossing.hpp"
 #include "exact/predicates.hpp"
 #include "fast/body_pairs.hpp"
 #include "grid/box_lanes.hpp"
@@ -52,6 +54,24 @@ struct EdgeBody {
     const depth::SurfaceTree* tree; // fitted; null where no edge of another mesh passes through the surface
 };
 
+// An edge of the surface of body_a and a face of the surface of body_b that have a point in common (a = b:
+// self-contact; then they have no vertex in common). The surface of a mesh consists of the facets of exactly
+// one of its enabled tetrahedra, duplicates counted once, and of their edges. Decided exactly. Where several
+// points are common, the position is that of one of them: an end of the edge if one is, the lower vertex
+// first.
+struct EdgeContact {
+    vox_body body_a;
+    std::uint32_t edge[2]; // vertices of body_a, the lower first
+    vox_body body_b;
+    std::uint32_t face[3]; // vertices of body_b, the lowest first, counter-clockwise as seen from outside
+    std::uint32_t tet;     // of body_b, behind the face; of doubled ones the lowest
+    CrossingKind kind;
+    double edge_weights[2]; // of the point; they add up to 1 up to rounding
+    double face_weights[3];
+    double position[3];
+    double normal[3]; // facet_normal() of the face, for the lower vertex of the edge
+};
+
 class EdgeContacts {
 public:
     explicit EdgeContacts(std::pmr::memory_resource* memory);
@@ -60,18 +80,16 @@ public:
     // near others are prepared. Sets the counters of edge contacts. If it throws, clear() is to be called.
     void find(const EdgeScene& scene, Counters& counters);
 
-    std::span<const vox_edge_contact> all() const noexcept { return contacts_; }
-    std::uint64_t hash() const noexcept;
+    std::span<const EdgeContact> all() const noexcept { return contacts_; }
     // Whether the last step found what the one before had, all of it carried over.
     bool unchanged() const noexcept { return unchanged_; }
     // The meshes that have edge contacts, in order.
-    std::span<const EdgePair> pairs() const noexcept { return pairs_; }
+    std::span<const IdPair> pairs() const noexcept { return pairs_; }
 
-    // Finds the way out for each contact; `bodies` are those of the contacts, ascending. Throws what the
-    // memory throws; no depths are known then.
+    // Finds the way out for each contact between `bodies`, which ascend. Throws what the memory throws; no
+    // depths are known then.
     void prepare_depths(std::span<const EdgeBody> bodies, Workers& workers);
-    // Throws Error(INVALID_STATE) before prepare_depths(), after a step.
-    std::span<const vox_depth> depths() const;
+    std::span<const Depth> depths() const noexcept { return depths_; } // after prepare_depths()
 
     void clear() noexcept;
     // Of a mesh that is gone, or whose tetrahedra are others.
@@ -156,7 +174,6 @@ private:
     void decide(const EdgeScene& scene, const LoadedTile& edges, std::size_t edge, const LoadedTile& faces,
                 std::size_t face, Worker& worker);
     void put_in_order();
-    void list_touching();
 
     std::pmr::memory_resource* memory() const noexcept { return surfaces_.memory(); }
 
@@ -175,14 +192,14 @@ private:
     Array<Box> tile_boxes_; // empty beyond that
     PerWorker<Worker> workers_;
     std::mutex mutex_; // of found_
-    Array<vox_edge_contact> found_;
+    Array<EdgeContact> found_;
     Array<Key> keys_;
 
     // Results.
-    Array<vox_edge_contact> contacts_;
-    Array<EdgePair> pairs_;
-    Array<vox_depth> depths_;
-    bool unchanged_ = false, has_depths_ = false;
+    Array<EdgeContact> contacts_;
+    Array<IdPair> pairs_;
+    Array<Depth> depths_;
+    bool unchanged_ = false;
 };
 
 } // namespace vox

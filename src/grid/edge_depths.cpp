@@ -3,7 +3,6 @@
 #include "base/array.hpp"
 #include "grid/edge_contacts.hpp"
 
-#include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/vectors.hpp"
 #include "exact/facet_normal.hpp"
@@ -16,14 +15,14 @@ namespace vox {
 
 namespace {
 
-Vec3d vector_of(const double (&from)[3]) { return {from[0], from[1], from[2]}; }
-
-const EdgeBody& edge_body_of(std::span<const EdgeBody> bodies, vox_body mesh) {
-    return *std::lower_bound(bodies.begin(), bodies.end(), mesh,
-                             [](const EdgeBody& b, vox_body id) { return b.body.mesh_id < id; });
+// Null where it is not among them.
+const EdgeBody* edge_body_of(std::span<const EdgeBody> bodies, vox_body mesh) {
+    const auto at = std::lower_bound(bodies.begin(), bodies.end(), mesh,
+                                     [](const EdgeBody& b, vox_body id) { return b.body.mesh_id < id; });
+    return at != bodies.end() && at->body.mesh_id == mesh ? &*at : nullptr;
 }
 
-bool same_edge(const vox_edge_contact& x, const vox_edge_contact& y) {
+bool same_edge(const EdgeContact& x, const EdgeContact& y) {
     return x.body_a == y.body_a && x.edge[0] == y.edge[0] && x.edge[1] == y.edge[1] && x.body_b == y.body_b;
 }
 
@@ -47,14 +46,16 @@ double middle_of_part(std::span<const double> crossed_at, double at, bool enters
 void EdgeContacts::prepare_depths(std::span<const EdgeBody> bodies, Workers& workers) {
     constexpr std::size_t least_searches = 256; // that are worth a task
     depths_.reserve(contacts_.size());
-    has_depths_ = false;
     depths_.resize(contacts_.size());
-    const auto find_depth = [&](std::span<const double> crossed_at, const vox_edge_contact& contact,
-                                depth::SearchState& state) -> vox_depth {
+    const auto find_depth = [&](std::span<const double> crossed_at, const EdgeContact& contact,
+                                depth::SearchState& state) -> Depth {
         const Vec3d normal = vector_of(contact.normal);
-        vox_depth out{0, {normal.x, normal.y, normal.z}};
-        if (contact.kind != VOX_CROSSING_THROUGH) return out;
-        const EdgeBody &a = edge_body_of(bodies, contact.body_a), &b = edge_body_of(bodies, contact.body_b);
+        Depth out{0, {normal.x, normal.y, normal.z}};
+        if (contact.kind != CrossingKind::through) return out;
+        const EdgeBody *of_a = edge_body_of(bodies, contact.body_a),
+                       *of_b = edge_body_of(bodies, contact.body_b);
+        if (!of_a || !of_b) return out;
+        const EdgeBody &a = *of_a, &b = *of_b;
         const Vec3d p = a.body.positions.exact(contact.edge[0]), q = a.body.positions.exact(contact.edge[1]);
         std::uint64_t exact_tests = 0;
         const bool enters =
@@ -66,7 +67,7 @@ void EdgeContacts::prepare_depths(std::span<const EdgeBody> bodies, Workers& wor
             return out;
         }
         depth::Closest closest;
-        if (!b.tree->find(middle, depth::SurfaceTree::no_vertex, state, closest)) return out;
+        if (!b.tree || !b.tree->find(middle, depth::SurfaceTree::no_vertex, state, closest)) return out;
         const Vec3d way = normalised(scaled(closest.way));
         if (!(length(way) > 0)) return out;
         return {std::sqrt(closest.squared), {way.x, way.y, way.z}};
@@ -79,7 +80,7 @@ void EdgeContacts::prepare_depths(std::span<const EdgeBody> bodies, Workers& wor
             vox_body last = VOX_NULL_BODY;
             std::size_t past = begin; // the contacts of one edge with one mesh end there
             for (std::size_t i = begin; i < end; ++i) {
-                const vox_edge_contact& contact = contacts_[i];
+                const EdgeContact& contact = contacts_[i];
                 if (i >= past) {
                     std::size_t first = i;
                     while (first > 0 && same_edge(contacts_[first - 1], contact)) --first;
@@ -95,15 +96,6 @@ void EdgeContacts::prepare_depths(std::span<const EdgeBody> bodies, Workers& wor
             }
         });
     workers_.level();
-    has_depths_ = true;
-}
-
-std::span<const vox_depth> EdgeContacts::depths() const {
-    if (!has_depths_)
-        throw Error(VOX_ERROR_INVALID_STATE,
-                    "the depths of the edge contacts of the last step are not known: "
-                    "call vox_grid_prepare_edge_depths after it");
-    return depths_;
 }
 
 } // namespace vox

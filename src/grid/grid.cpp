@@ -20,12 +20,6 @@ namespace vox {
 
 namespace {
 
-void check_surface_contacts(bool wanted) {
-    if (!finds_surface_contacts && wanted)
-        throw Error(VOX_ERROR_UNSUPPORTED,
-                    "this build finds no edge contacts, contacts within a margin or passages");
-}
-
 // Boxes of floats cannot grow by more (vertex_face_search.cpp).
 constexpr double most_margin = 0x1p125;
 
@@ -33,7 +27,6 @@ void check_margin(double margin) {
     if (!(margin >= 0 && margin <= most_margin))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("margin is %g, expected a number from 0 to %g", margin, most_margin));
-    check_surface_contacts(margin > 0);
 }
 
 ReferenceSettings read_reference(const vox_reference_desc* given) {
@@ -77,12 +70,10 @@ void check_grid_desc(const vox_grid_desc& desc) {
 }
 
 void check_flags(std::uint32_t flags) {
-    constexpr std::uint32_t known_flags =
-        VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS | VOX_GRID_SKIP_BAD_BODIES | VOX_GRID_EDGE_CONTACTS;
+    constexpr std::uint32_t known_flags = VOX_GRID_CONSTRAINTS | VOX_GRID_SKIP_BAD_BODIES | VOX_GRID_EDGES;
     if (flags & ~known_flags)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("grid flags is 0x%x, of which 0x%x is unknown", flags, flags & ~known_flags));
-    check_surface_contacts((flags & VOX_GRID_EDGE_CONTACTS) != 0);
 }
 
 } // namespace vox
@@ -93,16 +84,17 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
     : share_(memory), memory_(*memory), log_(value_of(desc.log)), tasks_(value_of(desc.tasks)),
       workers_(tasks_, desc.worker_count), fast_(!desc.reference),
       settings_(desc.reference ? read_reference(desc.reference) : ReferenceSettings{}),
-      skips_bad_meshes_((desc.flags & VOX_GRID_SKIP_BAD_BODIES) != 0), closest_budget_(desc.closest_budget),
-      requested_cell_size_(desc.cell_size), used_cell_size_(desc.cell_size),
-      adaptive_(weights_of(desc.reference)), shared_tets_(&memory_), meshes_(&memory_), bodies_(&memory_),
-      prepared_(&memory_), lone_(&memory_), fast_engine_(&memory_), reference_(&memory_),
-      topologies_(&memory_), trees_(&memory_), hits_(&memory_), surface_versions_(&memory_),
-      contacts_(&memory_), interiors_(&memory_), left_out_(&memory_), penetrations_(&memory_),
-      events_(&memory_, (desc.flags & VOX_GRID_CONTACT_EVENTS) != 0), readings_(&memory_), locators_(share_),
-      query_bodies_(&memory_) {
-    if (desc.flags & VOX_GRID_PENETRATIONS) depth_.emplace(&memory_, trees_);
-    if (desc.flags & VOX_GRID_EDGE_CONTACTS) edges_.emplace(&memory_);
+      skips_bad_meshes_((desc.flags & VOX_GRID_SKIP_BAD_BODIES) != 0), requested_cell_size_(desc.cell_size),
+      used_cell_size_(desc.cell_size), adaptive_(weights_of(desc.reference)), shared_tets_(&memory_),
+      meshes_(&memory_), bodies_(&memory_), prepared_(&memory_), lone_(&memory_), fast_engine_(&memory_),
+      reference_(&memory_), topologies_(&memory_), trees_(&memory_),
+      finds_constraints_((desc.flags & VOX_GRID_CONSTRAINTS) != 0), hits_(&memory_),
+      surface_versions_(&memory_), contacts_(&memory_), interiors_(&memory_), left_out_(&memory_),
+      penetrations_(&memory_), pairs_(&memory_), touching_pairs_(&memory_), constraints_(&memory_),
+      chosen_pairs_(&memory_), chosen_hits_(&memory_), edge_bodies_(&memory_), entered_bodies_(&memory_),
+      locators_(share_), query_bodies_(&memory_) {
+    if (finds_constraints_) depth_.emplace(&memory_, trees_);
+    if (desc.flags & VOX_GRID_EDGES) edges_.emplace(&memory_);
     set_margin(desc.margin);
     epoch_ = 0; // what a grid is made with is no change of it
     list_counters();
@@ -174,11 +166,13 @@ void vox_grid::clear() {
     contacts_.clear();
     interiors_.clear();
     penetrations_.clear();
+    depths_ = {};
+    constraints_.clear(true);
+    stepped_ = false;
     failure_ = {};
     left_out_.clear();
     contacts_hold_ = false;
-    events_.hide_pairs();
-    readings_.invalidate();
+    pairs_.hide();
     locators_.clear();
     query_bodies_.clear();
     ++epoch_;
@@ -231,7 +225,6 @@ void vox_grid::set_pair_enabled(vox_body a, vox_body b, bool enabled) {
 
 void vox_grid::bind_previous(vox_body id, const Positions& positions) {
     (void)mesh(id); // throws for an id that names no mesh
-    check_surface_contacts(positions.data != nullptr);
     if (!passages_ && !positions.data) return;
     if (!passages_) passages_.emplace(&memory_);
     passages_->bind(id, positions);
@@ -243,6 +236,7 @@ void vox_grid::bind_previous(vox_body id, const Positions& positions) {
 void vox_grid::was_edited(vox_body id, std::uint64_t count) {
     if (count == 0) return;
     meshes_[id].query_tets = nullptr;
+    meshes_[id].edited = true;
     mark_moved(id);
     trees_.topology_changed(id);
     adaptive_.scene_changed();
@@ -255,6 +249,7 @@ void vox_grid::set_topology(vox_body id, const vox_mesh_desc& desc, const Body& 
     fast::MeshState state(&memory_);
     prepare(made, state);
     meshes_.replace(id, std::move(made), std::move(state));
+    meshes_[id].edited = true;
     trees_.topology_changed(id);
     if (edges_) edges_->forget(id);
     if (near_faces_) near_faces_->forget(id);
@@ -294,8 +289,9 @@ void vox_grid::reserve(std::uint32_t mesh_count, std::uint64_t contact_count) {
     if (finds_penetrations()) {
         penetrations_.reserve(contact_count);
         depth_->reserve(contact_count);
+        constraints_.reserve(mesh_count, static_cast<std::size_t>(contact_count));
     }
-    events_.reserve(mesh_count, static_cast<std::size_t>(contact_count));
+    pairs_.reserve(mesh_count, static_cast<std::size_t>(contact_count));
     ++epoch_; // views of the contacts were left behind if they moved
 }
 
@@ -315,25 +311,23 @@ void vox_grid::set_worker_count(std::uint32_t worker_count) {
 }
 
 std::uint32_t vox_grid::flags() const noexcept {
-    return (finds_penetrations() ? std::uint32_t{VOX_GRID_PENETRATIONS} : 0u) |
-           (events_.of_contacts() ? std::uint32_t{VOX_GRID_CONTACT_EVENTS} : 0u) |
+    return (finds_penetrations() ? std::uint32_t{VOX_GRID_CONSTRAINTS} : 0u) |
            (skips_bad_meshes_ ? std::uint32_t{VOX_GRID_SKIP_BAD_BODIES} : 0u) |
-           (edges_ ? std::uint32_t{VOX_GRID_EDGE_CONTACTS} : 0u);
+           (edges_ ? std::uint32_t{VOX_GRID_EDGES} : 0u);
 }
 
 void vox_grid::set_flags(std::uint32_t flags) {
     check_flags(flags);
     if (flags == this->flags()) return;
-    const bool find = (flags & VOX_GRID_PENETRATIONS) != 0;
+    const bool find = (flags & VOX_GRID_CONSTRAINTS) != 0;
     if (find && !finds_penetrations()) find_penetrations();
     if (!find && finds_penetrations()) stop_finding_penetrations();
-    const bool edges = (flags & VOX_GRID_EDGE_CONTACTS) != 0;
+    const bool edges = (flags & VOX_GRID_EDGES) != 0;
     if (edges && !edges_) edges_.emplace(&memory_); // the next step prepares what it needs
     if (!edges && edges_) {
         edges_.reset();
         drop_surfaces();
     }
-    events_.set_of_contacts((flags & VOX_GRID_CONTACT_EVENTS) != 0);
     skips_bad_meshes_ = (flags & VOX_GRID_SKIP_BAD_BODIES) != 0;
     contacts_hold_ = false; // there is more, or less, to do with those of meshes at rest
     ++epoch_;
@@ -341,7 +335,8 @@ void vox_grid::set_flags(std::uint32_t flags) {
 
 // All meshes get what the depth stage needs, or none.
 void vox_grid::find_penetrations() {
-    depth_.emplace(&memory_, trees_);
+    if (!depth_) depth_.emplace(&memory_, trees_);
+    finds_constraints_ = true;
     Array<Mesh*> prepared(&memory_);
     try {
         prepared.reserve(meshes_.slot_count());
@@ -352,6 +347,7 @@ void vox_grid::find_penetrations() {
         });
     } catch (...) {
         for (Mesh* mesh : prepared) mesh->drop_topology();
+        finds_constraints_ = false;
         depth_.reset();
         throw;
     }
@@ -363,13 +359,19 @@ void vox_grid::stop_finding_penetrations() noexcept {
     depth_.reset();
     trees_.forget_all();
     penetrations_ = Penetrations(&memory_);
+    constraints_ = Constraints(&memory_);
+    chosen_pairs_ = Array<std::uint8_t>(&memory_);
+    chosen_hits_ = Array<Hit>(&memory_);
+    depths_ = {};
+    depths_may_carry_ = false;
+    finds_constraints_ = false;
 }
 
 void vox_grid::set_margin(double margin) {
     check_margin(margin);
     if (margin == margin_) return;
     margin_ = margin;
-    if (finds_surface_contacts && margin > 0 && !margin_contacts_) margin_contacts_.emplace(&memory_);
+    if (margin > 0 && !margin_contacts_) margin_contacts_.emplace(&memory_);
     if (margin == 0) margin_contacts_.reset();
     look_near();
     contacts_hold_ = false; // there is more, or less, to do with meshes at rest

@@ -11,13 +11,13 @@
 #include "cell_size/scene.hpp"
 #include "depth/stage.hpp"
 #include "fast/engine.hpp"
+#include "grid/constraints.hpp"
 #include "grid/edge_contacts.hpp"
-#include "grid/events.hpp"
 #include "grid/lone_bodies.hpp"
 #include "grid/margin_contacts.hpp"
 #include "grid/mesh_table.hpp"
+#include "grid/pairs.hpp"
 #include "grid/passages.hpp"
-#include "grid/readings.hpp"
 #include "grid/vertex_face_search.hpp"
 #include "query/locator.hpp"
 #include "reference/engine.hpp"
@@ -29,14 +29,6 @@
 
 namespace vox {
 
-// Whether this build has edge contacts, contacts within a margin and passages. The module for WebAssembly,
-// where nobody could read them, is a twentieth smaller without.
-#if defined(VOX_WITHOUT_SURFACE_CONTACTS)
-inline constexpr bool finds_surface_contacts = false;
-#else
-inline constexpr bool finds_surface_contacts = true;
-#endif
-
 class Snapshot;
 
 // Throw Error(INVALID_ARGUMENT) naming the field and its value.
@@ -45,7 +37,7 @@ void check_flags(std::uint32_t flags);
 
 } // namespace vox
 
-// What the public functions of a grid do; those of a mesh, of events, readings, queries and snapshots go on
+// What the public functions of a grid do; those of a mesh, of pairs, readings, queries and snapshots go on
 // from here to their own classes. Members that are not noexcept throw; one that throws has changed nothing
 // (for step, see vox_grid_step).
 struct vox_grid {
@@ -93,26 +85,16 @@ public:
 
     void step();
 
-    void prepare_readings(vox_readings_desc desc);
-    const vox::Readings& readings() const {
-        readings_.require_prepared();
-        return readings_;
-    }
+    void find_constraints(vox_constraint_desc desc);
+    // Throws INVALID_STATE unless they were found since the last step.
+    vox_constraint_view constraints() const;
 
     vox_locator* take_locator();
 
     vox_contact_view contacts() const noexcept;
     vox_failure failure(std::uint32_t index) const noexcept;
-    vox_penetration_view penetrations() const;
-    vox_depth_view depths() const;
-    // Throws INVALID_STATE without VOX_GRID_EDGE_CONTACTS.
-    const vox::EdgeContacts& edge_contacts() const;
-    void prepare_edge_depths();
-    // Throws INVALID_STATE without a margin.
-    vox_margin_contact_view margin_contacts() const;
-    vox_passage_view passages() const noexcept;
     std::uint64_t epoch() const noexcept { return epoch_; }
-    const vox::Events& events() const noexcept { return events_; }
+    const vox::Pairs& pairs() const noexcept { return pairs_; }
     std::uint64_t hash() const noexcept;
     vox_counter_view counters() const noexcept { return {counter_list_, std::size(counter_list_)}; }
     const vox::MemoryShare& memory() const noexcept { return share_; }
@@ -120,13 +102,26 @@ public:
 private:
     friend class vox::Snapshot;
 
-    bool finds_penetrations() const noexcept { return depth_.has_value(); }
+    bool finds_penetrations() const noexcept { return finds_constraints_; }
     // Whether a step looks at surfaces, penetrations aside.
     bool finds_surfaces() const noexcept { return edges_ || near_faces_; }
     bool needs_topology(const vox_filter& filter) const noexcept {
         return (finds_penetrations() && !vox::is_sensor(filter)) || finds_surfaces();
     }
     void prepare(vox::Mesh& mesh, vox::fast::MeshState& state);
+    // Which penetrations there are: none, or those of all contacts of a step.
+    struct FoundDepths {
+        bool all = false;
+        vox_depth_method method = VOX_DEPTH_METHOD_CONSISTENT;
+        std::uint64_t closest_budget = 0;
+
+        bool operator==(const FoundDepths&) const = default;
+    };
+    void find_depths(const FoundDepths& wanted, vox::Counters& counters);
+    bool choose_pairs(const vox_constraint_desc& desc, bool in_step);
+    void make_constraints(const vox_constraint_desc& desc, bool in_step, vox::Counters& counters,
+                          vox::Profile& profile);
+    void find_edge_depths();
     void find_penetrations();
     void stop_finding_penetrations() noexcept;
     void drop_surfaces() noexcept;
@@ -134,7 +129,7 @@ private:
     void list_counters() noexcept;
     void find_near(vox::Counters& counters);
     bool find_edges(vox::Counters& counters);
-    void require_penetrations() const;
+    std::span<const vox::IdPair> touching_pairs();
     void scene_changed() noexcept;
     bool chooses_cell_size() const noexcept { return requested_cell_size_ == 0; }
     void gather_bodies(vox::Counters& counters);
@@ -165,7 +160,6 @@ private:
     bool fast_;
     vox::ReferenceSettings settings_; // each step sets the cell size in it
     bool skips_bad_meshes_;
-    std::uint64_t closest_budget_;
     double requested_cell_size_;     // 0: the library chooses it; the fast engine itself, for each window
     double used_cell_size_;          // in the last step; before the first one the requested one
     vox::AdaptiveCellSize adaptive_; // chooses for the reference engine
@@ -181,7 +175,8 @@ private:
     vox::ReferenceEngine reference_;
     vox::Array<const vox::Topology*> topologies_; // of each body, for the depth stage
     vox::depth::SurfaceTrees trees_;              // that depths and readings search
-    std::optional<vox::DepthStage> depth_;        // while it finds penetrations
+    bool finds_constraints_;                      // every step does
+    std::optional<vox::DepthStage> depth_;        // once depths were looked for
     vox::Array<vox::Hit> hits_;
     vox::Array<vox::SurfaceVersion> surface_versions_; // of each body, while it finds edge contacts
     std::optional<vox::EdgeContacts> edges_;           // while it finds them; has the results as well
@@ -201,8 +196,16 @@ private:
     // Whether the meshes, positions aside, are those of the last step of the fast engine.
     bool meshes_hold_ = false;
     vox::Penetrations penetrations_;
-    vox::Events events_;
-    vox::Readings readings_;
+    FoundDepths depths_;            // what is in penetrations_
+    bool depths_may_carry_ = false; // those of the last step, to this one
+    bool stepped_ = false;          // the last step succeeded, and the grid was not cleared since
+    vox::Pairs pairs_;
+    vox::Array<vox::IdPair> touching_pairs_; // in one step
+    vox::Constraints constraints_;
+    vox::Array<std::uint8_t> chosen_pairs_; // in one call
+    vox::Array<vox::Hit> chosen_hits_;      // of some pairs, once they alone were asked for
+    vox::Array<vox::EdgeBody> edge_bodies_; // while depths of edges are looked for
+    vox::Array<vox_body> entered_bodies_;
     vox::Locators locators_;
     vox::Array<vox::QueryBody> query_bodies_; // in one call
     vox::Counters counters_{};

@@ -11,7 +11,6 @@
 #include "exact/facet_normal.hpp"
 #include "exact/predicates.hpp"
 #include "fast/engine.hpp"
-#include "grid/contact_pairs.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -90,7 +89,7 @@ void MarginContacts::carry(const EdgeScene& scene) {
     };
     vox_body last_a = VOX_NULL_BODY, last_b = VOX_NULL_BODY;
     bool last_rests = false;
-    for (const vox_margin_contact& contact : contacts_) {
+    for (const MarginContact& contact : contacts_) {
         if (contact.body_a != last_a || contact.body_b != last_b)
             last_rests = rests(contact.body_a) && rests(contact.body_b);
         last_a = contact.body_a;
@@ -223,18 +222,19 @@ void MarginContacts::put_in_order() {
     reserve_sparingly(order_, found_.size());
     for (std::uint32_t i = 0; i < found_.size(); ++i) order_.push_back(i);
     std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t j) {
-        const vox_margin_contact &x = found_[i].contact, &y = found_[j].contact;
+        const MarginContact &x = found_[i].contact, &y = found_[j].contact;
         return std::tie(x.body_a, x.vertex, x.body_b, found_[i].squared, x.tet, x.facet) <
                std::tie(y.body_a, y.vertex, y.body_b, found_[j].squared, y.tet, y.facet);
     });
     contacts_.clear();
     reserve_sparingly(contacts_, found_.size());
     for (const std::uint32_t i : order_) {
-        const vox_margin_contact& found = found_[i].contact;
+        const MarginContact& found = found_[i].contact;
         if (!contacts_.empty() && place(contacts_.back()) == place(found)) continue;
         contacts_.push_back(found);
     }
     check_contact_count(contacts_.size(), "margin contacts");
+    list_pairs(std::span<const MarginContact>(contacts_), pairs_);
 }
 
 } // namespace vox

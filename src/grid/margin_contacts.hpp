@@ -1,5 +1,5 @@
 // Margin contacts: vertices outside of the tetrahedra of another body, but within a distance of its surface
-// (vox_margin_contact). Found in every step of a grid with a margin, for both engines alike.
+// Found in every step of a grid with a margin, for both engines alike.
 #pragma once
 
 #include "base/array.hpp"
@@ -7,6 +7,7 @@
 #include "base/per_worker.hpp"
 #include "base/scene.hpp"
 #include "exact/closest_point.hpp"
+#include "grid/contact_pairs.hpp"
 #include "grid/vertex_face_search.hpp"
 
 #include <vox/vox.h>
@@ -19,22 +20,39 @@
 
 namespace vox {
 
+// The point of the surface of body_b that is closest to the vertex is on a facet of `tet`; of several at the
+// same distance that of the lowest (tet, facet), as in vox_locator_find_closest. Computed in double.
+struct MarginContact {
+    vox_body body_a;
+    std::uint32_t vertex;
+    vox_body body_b; // never body_a
+    std::uint32_t tet, facet;
+    std::uint32_t face[3]; // vertices of body_b
+    double face_weights[3];
+    double distance;
+    double normal[3]; // from the closest point to the vertex; out of the tetrahedron if there is no distance
+};
+
 class MarginContacts final : NearFacesVisitor {
 public:
     explicit MarginContacts(std::pmr::memory_resource* memory)
-        : workers_(memory), found_(memory), order_(memory), contacts_(memory) {}
+        : workers_(memory), found_(memory), order_(memory), contacts_(memory), pairs_(memory) {}
 
     // Replaces the margin contacts; `contacts` are those of the step, in canonical order. Those between
     // bodies at rest are carried over. If it throws, clear() is to be called.
     void find(const EdgeScene& scene, double margin, std::span<const vox_contact> contacts,
               VertexFaceSearch& search, Counters& counters);
 
-    std::span<const vox_margin_contact> all() const noexcept { return contacts_; }
-    void clear() noexcept { contacts_.clear(); }
+    std::span<const MarginContact> all() const noexcept { return contacts_; }
+    std::span<const IdPair> pairs() const noexcept { return pairs_; } // of bodies, in order
+    void clear() noexcept {
+        contacts_.clear();
+        pairs_.clear();
+    }
 
 private:
     struct Found {
-        vox_margin_contact contact;
+        MarginContact contact;
         double squared; // distance
     };
     // The closest face so far of a vertex.
@@ -84,7 +102,8 @@ private:
     double most_ = 0; // the margin, squared
     Array<Found> found_;
     Array<std::uint32_t> order_;
-    Array<vox_margin_contact> contacts_;
+    Array<MarginContact> contacts_;
+    Array<IdPair> pairs_;
 };
 
 } // namespace vox

@@ -76,7 +76,7 @@ void MeshTable::vacate(std::uint32_t index) noexcept {
     tet_count_ -= slot.mesh.tet_count();
     slot = MeshSlot(memory(), generation);
     // A slot whose generations are used up is retired, so that no old id becomes valid again.
-    if (generation < VOX_MAX_GENERATIONS) free_slots_.push_back(index);
+    if (generation < most_generations) free_slots_.push_back(index);
 }
 
 void MeshTable::check_growth(std::uint64_t vertices, std::uint64_t tets, const Mesh* old) const {

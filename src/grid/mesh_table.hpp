@@ -30,9 +30,9 @@ struct MeshSlot {
     std::uint32_t generation; // of the mesh that lives here, or of the last one that did; 0: there was none
     bool live = false;
     bool left_out = false; // for a coordinate, in the last step
+    bool edited = false;   // since the last step
     static constexpr std::uint32_t none = ~0u;
     std::uint32_t body = none;                   // index in the last step; none when it took no part
-    std::uint32_t topology_version = 0;          // of the mesh in the last step
     fast::MeshState state;                       // of the mesh, for the fast engine
     std::shared_ptr<const QueryTets> query_tets; // of the mesh as it is now; null until queries need it
 };

@@ -5,7 +5,9 @@
 #include "base/parallel.hpp"
 #include "base/room.hpp"
 #include "base/vectors.hpp"
-#include "grid/contact_pairs.hpp"
+#include "exact/closest_point.hpp"
+#include "exact/facet_normal.hpp"
+#include "exact/predicates.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -29,7 +31,8 @@ void Passages::forget(vox_body mesh) noexcept {
     erase_if(bound_, [mesh](const Bound& bound) { return bound.mesh == mesh; });
 }
 
-void Passages::find(const EdgeScene& scene, VertexFaceSearch& search, Counters& counters) {
+void Passages::find(const EdgeScene& scene, std::span<const vox_contact> contacts, VertexFaceSearch& search,
+                    Counters& counters) {
     scene_ = &scene;
     previous_.assign(scene.bodies.size(), {});
     for (std::size_t b = 0, i = 0; b < scene.bodies.size(); ++b) {
@@ -56,18 +59,57 @@ void Passages::find(const EdgeScene& scene, VertexFaceSearch& search, Counters& 
     workers_.level();
 
     // The first of each vertex and mesh.
-    std::sort(found_.begin(), found_.end(), [](const vox_passage& x, const vox_passage& y) {
+    std::sort(found_.begin(), found_.end(), [](const Passage& x, const Passage& y) {
         return std::tie(x.body_a, x.vertex, x.body_b, x.time, x.tet, x.facet) <
                std::tie(y.body_a, y.vertex, y.body_b, y.time, y.tet, y.facet);
     });
     passages_.clear();
     reserve_sparingly(passages_, found_.size());
     std::unique_copy(found_.begin(), found_.end(), std::back_inserter(passages_),
-                     [](const vox_passage& x, const vox_passage& y) {
+                     [](const Passage& x, const Passage& y) {
                          return x.body_a == y.body_a && x.vertex == y.vertex && x.body_b == y.body_b;
                      });
     check_contact_count(passages_.size(), "passages");
     counters.passages = passages_.size();
+    list_impacts(contacts);
+}
+
+void Passages::list_impacts(std::span<const vox_contact> contacts) {
+    impacts_.clear();
+    reserve_sparingly(impacts_, passages_.size());
+    const auto place = [](const auto& c) { return std::tuple(c.body_a, c.vertex, c.body_b); };
+    const auto body_of = [&](vox_body id) {
+        return static_cast<std::uint32_t>(std::ranges::lower_bound(scene_->bodies, id, {}, &Body::mesh_id) -
+                                          scene_->bodies.begin());
+    };
+    auto inside = contacts.begin();
+    for (const Passage& passage : passages_) {
+        inside =
+            std::lower_bound(inside, contacts.end(), place(passage),
+                             [&](const vox_contact& c, const auto& sought) { return place(c) < sought; });
+        if (inside != contacts.end() && place(*inside) == place(passage)) continue;
+        const std::uint32_t a = body_of(passage.body_a), b = body_of(passage.body_b);
+        const Positions &of_a = scene_->bodies[a].positions, &of_b = scene_->bodies[b].positions;
+        const Vec3d p = of_a.exact(passage.vertex);
+        const Vec3d corner[3] = {of_b.exact(passage.face[0]), of_b.exact(passage.face[1]),
+                                 of_b.exact(passage.face[2])};
+        const Vec3d apex = of_b.exact(scene_->bodies[b].tets[passage.tet].v[passage.facet]);
+        std::uint64_t exact_tests = 0;
+        const int side = orientation(corner[0], corner[1], corner[2], p, exact_tests),
+                  inner = orientation(corner[0], corner[1], corner[2], apex, exact_tests);
+        if (side == 0 || side == -inner) continue;
+        const auto at = [&](const Vec3d& from, const Vec3d& to) { return from + passage.time * (to - from); };
+        Vec3d met[3];
+        for (int i = 0; i < 3; ++i) met[i] = at(before(b, passage.face[i]), corner[i]);
+        const SeenPoint seen = closest_seen_from(at(before(a, passage.vertex), p), met[0], met[1], met[2]);
+        const std::array<double, 3> weights = normalised(seen.at.weight);
+        const Vec3d normal = facet_normal(corner[0], corner[1], corner[2], apex, p, seen.way);
+        impacts_.push_back({passage,
+                            {weights[0], weights[1], weights[2]},
+                            {normal.x, normal.y, normal.z},
+                            std::min(dot(normal, p - corner[0]), 0.0)});
+    }
+    list_pairs(std::span<const Impact>(impacts_), pairs_);
 }
 
 Vec3d Passages::before(std::uint32_t body, std::uint32_t vertex) const noexcept {

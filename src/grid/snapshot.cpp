@@ -107,14 +107,14 @@ void Snapshot::load_slots(SnapshotChunk& in, Loading& to) {
     std::uint32_t reusable = 0;
     for (std::uint32_t slot = 0; slot < slots; ++slot) {
         const std::uint32_t word = in.u32(), generation = word & ~live_bit;
-        if (generation == 0 || generation > VOX_MAX_GENERATIONS)
+        if (generation == 0 || generation > most_generations)
             in.refuse(format("slot %" PRIu32 " has generation %" PRIu32 ", expected 1 to %" PRIu32, slot,
-                             generation, VOX_MAX_GENERATIONS));
+                             generation, most_generations));
         grid.meshes_.slots_.emplace_back(&grid.memory_, generation);
         if (word & live_bit)
             to.awaited.push_back(make_id(slot, generation));
         else
-            reusable += generation < VOX_MAX_GENERATIONS;
+            reusable += generation < most_generations;
     }
     if (free != reusable)
         in.refuse(format("%" PRIu32 " free slots are listed, %" PRIu32 " are free", free, reusable));
@@ -125,7 +125,7 @@ void Snapshot::load_slots(SnapshotChunk& in, Loading& to) {
     for (std::uint32_t i = 0; i < free; ++i) {
         const std::uint32_t slot = in.u32();
         if (slot >= slots) in.refuse(format("free slot %" PRIu32 " of %" PRIu32 " slots", slot, slots));
-        if (listed[slot] || grid.meshes_.slots_[slot].generation == VOX_MAX_GENERATIONS)
+        if (listed[slot] || grid.meshes_.slots_[slot].generation == most_generations)
             in.refuse(format("slot %" PRIu32 " is listed as free, but it is taken, retired or listed before",
                              slot));
         listed[slot] = true;
@@ -160,25 +160,19 @@ void Snapshot::load_exceptions(SnapshotChunk& in, Loading& to) {
     }
 }
 
-// ---- EVNT: what the next step's events are counted from -------------------------------------------
+// ---- EVNT: what the next step is compared with -----------------------------------------------------
 
-void Snapshot::save_events(const vox_grid& grid, SnapshotWriter& out) {
-    const Events& events = grid.events_;
-    const Array<vox_pair>& pairs = events.touching_[events.current_];
-    const Array<Events::Inside>& inside = events.inside_[events.current_];
+void Snapshot::save_pairs(const vox_grid& grid, SnapshotWriter& out) {
+    const Array<vox_pair>& pairs = grid.pairs_.pairs_[grid.pairs_.current_];
     out.begin_chunk("EVNT");
-    out.u64(pairs.size());
-    out.u64(inside.size());
+    out.u64(static_cast<std::uint64_t>(std::ranges::count_if(pairs, touches)));
+    out.u64(0);
     for (const vox_pair& pair : pairs) {
+        if (!touches(pair)) continue;
         out.u32(pair.body_a);
         out.u32(pair.body_b);
         out.u64(pair.user_data_a);
         out.u64(pair.user_data_b);
-    }
-    for (const Events::Inside& vertex : inside) {
-        out.u32(vertex.body_a);
-        out.u32(vertex.vertex);
-        out.u32(vertex.body_b);
     }
     out.end_chunk();
 }
@@ -193,37 +187,24 @@ vox_body Snapshot::mesh_that_was(SnapshotChunk& in, const vox_grid& grid) {
     return id;
 }
 
-void Snapshot::load_events(SnapshotChunk& in, Loading& to) {
-    Events& events = to.grid.events_;
-    Array<vox_pair>& pairs = events.touching_[events.current_];
-    Array<Events::Inside>& inside = events.inside_[events.current_];
-    const std::uint64_t pair_count = in.u64(), inside_count = in.u64();
-    in.expect(pair_count, 24, "pairs");
-    pairs.reserve(static_cast<std::size_t>(pair_count));
-    for (std::uint64_t i = 0; i < pair_count; ++i) {
+void Snapshot::load_pairs(SnapshotChunk& in, Loading& to) {
+    Array<vox_pair>& pairs = to.grid.pairs_.pairs_[to.grid.pairs_.current_];
+    const std::uint64_t count = in.u64(), reserved = in.u64();
+    if (reserved != 0) in.refuse(format("a reserved number is %" PRIu64 ", expected 0", reserved));
+    in.expect(count, 24, "pairs");
+    pairs.reserve(static_cast<std::size_t>(count));
+    for (std::uint64_t i = 0; i < count; ++i) {
         vox_pair pair{};
         pair.body_a = mesh_that_was(in, to.grid);
         pair.body_b = mesh_that_was(in, to.grid);
         pair.user_data_a = in.u64();
         pair.user_data_b = in.u64();
+        pair.state = VOX_PAIR_PERSISTED;
         if (pair.body_a > pair.body_b || (i > 0 && std::tie(pairs.back().body_a, pairs.back().body_b) >=
                                                        std::tie(pair.body_a, pair.body_b)))
             in.refuse(format("pair %" PRIu64 " (%" PRIu32 ", %" PRIu32 ") is out of order", i, pair.body_a,
                              pair.body_b));
         pairs.push_back(pair);
-    }
-    if (inside_count > 0 && !events.of_contacts_)
-        in.refuse(format("%" PRIu64 " vertices in meshes, but the grid does not follow them", inside_count));
-    in.expect(inside_count, 12, "vertices in meshes");
-    inside.reserve(static_cast<std::size_t>(inside_count));
-    for (std::uint64_t i = 0; i < inside_count; ++i) {
-        Events::Inside vertex{};
-        vertex.body_a = mesh_that_was(in, to.grid);
-        vertex.vertex = in.u32();
-        vertex.body_b = mesh_that_was(in, to.grid);
-        if (i > 0 && inside.back() >= vertex)
-            in.refuse(format("vertex in mesh %" PRIu64 " of %" PRIu64 " is out of order", i, inside_count));
-        inside.push_back(vertex);
     }
     in.end();
 }
@@ -238,7 +219,7 @@ std::uint64_t Snapshot::save(const vox_grid& grid, std::byte* bytes) noexcept {
     save_cuts(grid, out);
     save_filters(grid, out);
     save_exceptions(grid, out);
-    save_events(grid, out);
+    save_pairs(grid, out);
     return out.finish();
 }
 

@@ -63,8 +63,8 @@ private:
     static void load_filter(SnapshotChunk& in, Loading& to);
     static void save_exceptions(const vox_grid& grid, SnapshotWriter& out);
     static void load_exceptions(SnapshotChunk& in, Loading& to);
-    static void save_events(const vox_grid& grid, SnapshotWriter& out);
-    static void load_events(SnapshotChunk& in, Loading& to);
+    static void save_pairs(const vox_grid& grid, SnapshotWriter& out);
+    static void load_pairs(SnapshotChunk& in, Loading& to);
 
     template <class Function>
     static void for_each_mesh(const vox_grid& grid, Function&& function) {
@@ -83,7 +83,7 @@ private:
         {"GRID", false, true, load_settings}, {"SLOT", false, true, load_slots},
         {"MESH", true, false, load_mesh},     {"CUTS", true, false, load_cuts},
         {"FILT", true, false, load_filter},   {"PAIR", false, true, load_exceptions},
-        {"EVNT", false, true, load_events}};
+        {"EVNT", false, true, load_pairs}};
 };
 
 } // namespace vox

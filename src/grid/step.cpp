@@ -1,4 +1,4 @@
-// One step of a grid: gather the bodies, detect, contacts, depth, events.
+// One step of a grid: gather the bodies, detect, contacts, depth, pairs.
 #include "grid/grid.hpp"
 
 #include "base/clock.hpp"
@@ -18,9 +18,10 @@ void vox_grid::step() {
     bool carry = contacts_hold_;
     contacts_hold_ = meshes_hold_ = false;
     hits_.clear();
-    events_.hide_pairs();
-    events_.hide_events();
-    readings_.invalidate();
+    pairs_.hide();
+    constraints_.begin_step(stepped_);
+    const bool had_depths = depths_.all && stepped_;
+    depths_may_carry_ = stepped_ = false;
     failure_ = {};
     left_out_.clear();
     if (passages_ && !passages_->any_bound()) {
@@ -37,7 +38,7 @@ void vox_grid::step() {
 
         const std::uint64_t detected = nanoseconds();
         if (carry && counters.moved_meshes < bodies_.size()) counters.carried_contacts = carry_contacts();
-        // If every old contact was carried and no new one found, contacts, depth and events are unchanged.
+        // If every old contact was carried and no new one found, contacts, depth and pairs are unchanged.
         const bool all_carried =
             counters.carried_contacts == contacts_.size() && hits_.size() == contacts_.size();
         if (!all_carried) make_contacts(bodies_, hits_, contacts_, &workers_, &interiors_);
@@ -54,21 +55,19 @@ void vox_grid::step() {
             contacts_made += profile.margin_ns;
         }
 
-        if (all_carried) counters.carried_penetrations = penetrations_.all().size();
-        if (depth_ && !all_carried) {
-            depth_->find(bodies_, topologies_, hits_, contacts_, closest_budget_, &workers_, penetrations_,
-                         counters);
-            counters.carried_penetrations = penetrations_.carried();
-            profile.depth_ns = nanoseconds() - contacts_made;
-            contacts_made += profile.depth_ns;
-        }
+        // If every contact was carried, so are the depths.
+        if (!(carry && all_carried && had_depths)) depths_.all = false;
+        depths_may_carry_ = carry && had_depths;
+        if (depths_.all) counters.carried_penetrations = penetrations_.all().size();
 
-        if (carry && all_carried && same_edges)
-            events_.repeat();
+        if (carry && all_carried && same_edges && !near_faces_)
+            pairs_.repeat();
         else
-            events_.update(contacts_, edges_ ? edges_->pairs() : std::span<const EdgePair>(),
-                           meshes_.slot_count(), [this](vox_body id) { return mesh(id).user_data(); });
-        profile.events_ns = nanoseconds() - contacts_made;
+            pairs_.update(contacts_, touching_pairs(),
+                          margin_contacts_ ? margin_contacts_->pairs() : std::span<const IdPair>(),
+                          meshes_.slot_count(), [this](vox_body id) { return mesh(id).user_data(); });
+        profile.pairs_ns = nanoseconds() - contacts_made;
+        if (finds_constraints_) make_constraints({}, true, counters, profile);
     } catch (const MeshError& error) {
         forget_contacts();
         failure_ = failure_of(error.result(), error.mesh, error.vertex);
@@ -89,29 +88,37 @@ void vox_grid::step() {
     }
     counters.skipped_meshes = left_out_.size();
     counters.contacts = contacts_.size();
-    counters.penetrations = penetrations_.all().size();
-    events_.count(counters);
+    pairs_.commit();
+    pairs_.count(counters);
     if (chooses_cell_size() && !fast_) {
         adaptive_.observe(counters);
         counters.cell_size_changes = adaptive_.changes();
     }
-    if (closest_budget_ > 0) // those carried over included
-        counters.unknown_penetrations = static_cast<std::uint64_t>(
-            std::ranges::count(penetrations_.all(), VOX_PENETRATION_UNKNOWN, &vox_penetration::state));
     counters_ = counters;
     profile.step_ns = nanoseconds() - start;
     profile_ = profile;
     list_counters();
+    stepped_ = true;
     contacts_hold_ = fast_;
     meshes_hold_ = fast_ && left_out_.empty() && lone_.totals().bodies == 0;
-    if (counters.unknown_penetrations > 0)
-        warn("%llu of %llu penetrations are unknown: the closest_budget of %llu was used up",
-             llu(counters.unknown_penetrations), llu(counters.penetrations), llu(closest_budget_));
+}
+
+// Pairs that touch by edges, or by vertices that went through.
+std::span<const IdPair> vox_grid::touching_pairs() {
+    const auto edges = edges_ ? edges_->pairs() : std::span<const IdPair>();
+    const auto impacts = passages_ ? passages_->pairs() : std::span<const IdPair>();
+    if (impacts.empty()) return edges;
+    touching_pairs_.clear();
+    reserve_growing(touching_pairs_, edges.size() + impacts.size());
+    touching_pairs_.resize(edges.size() + impacts.size());
+    std::ranges::merge(edges, impacts, touching_pairs_.begin());
+    touching_pairs_.erase(std::unique(touching_pairs_.begin(), touching_pairs_.end()), touching_pairs_.end());
+    return touching_pairs_;
 }
 
 // Returns whether there are the same edge contacts as in the last step, or none are looked for.
 bool vox_grid::find_edges(Counters& counters) {
-    if (!finds_surface_contacts || !edges_) return true;
+    if (!edges_) return true;
     edges_->find({bodies_, topologies_, surface_versions_, fast_ ? &fast_engine_ : nullptr, &workers_},
                  counters);
     return edges_->unchanged();
@@ -119,10 +126,9 @@ bool vox_grid::find_edges(Counters& counters) {
 
 // Vertices near or through surfaces that they are not inside of.
 void vox_grid::find_near(Counters& counters) {
-    if constexpr (!finds_surface_contacts) return;
     const EdgeScene scene{bodies_, topologies_, surface_versions_, fast_ ? &fast_engine_ : nullptr,
                           &workers_};
-    if (passages_) passages_->find(scene, *near_faces_, counters);
+    if (passages_) passages_->find(scene, contacts_, *near_faces_, counters);
     if (margin_contacts_) margin_contacts_->find(scene, margin_, contacts_, *near_faces_, counters);
 }
 
@@ -133,6 +139,8 @@ void vox_grid::forget_contacts() noexcept {
     contacts_.clear();
     interiors_.clear();
     penetrations_.clear();
+    depths_ = {};
+    constraints_.clear(false);
     left_out_.clear();
 }
 
@@ -155,7 +163,7 @@ void vox_grid::detect(bool& carry, Counters& counters, Profile& profile) {
     try {
         return detect_once();
     } catch (const MeshError& error) {
-        if (!skips_bad_meshes_ || error.vertex == VOX_NO_VERTEX) throw;
+        if (!skips_bad_meshes_ || error.vertex == VOX_NONE) throw;
     }
     leave_out_bad_meshes();
     carry = false;
@@ -169,7 +177,7 @@ void vox_grid::leave_out_bad_meshes() {
         if (slot.body == MeshSlot::none) return;
         const Body body = slot.mesh.body(id);
         const std::uint32_t vertex = first_bad_vertex(body);
-        if (vertex == VOX_NO_VERTEX) return;
+        if (vertex == VOX_NONE) return;
         slot.left_out = true;
         slot.state.invalidate_positions(); // a later step must not take it for one at rest
         if (log_.write) warn("left out of the step: %s", position_error(body, vertex).what());
@@ -177,14 +185,13 @@ void vox_grid::leave_out_bad_meshes() {
 }
 
 bool vox_grid::is_left_out(const Body& body) const noexcept {
-    return skips_bad_meshes_ && first_bad_vertex(body) != VOX_NO_VERTEX;
+    return skips_bad_meshes_ && first_bad_vertex(body) != VOX_NONE;
 }
 
 vox_failure vox_grid::failure_of(vox_result result, vox_body id, std::uint32_t vertex) const noexcept {
     vox_failure failure{};
     failure.result = result;
-    failure.mesh = id;
-    failure.slot = slot_of(id);
+    failure.body = id;
     failure.vertex = vertex;
     if (const MeshSlot* slot = meshes_.find(id)) {
         failure.user_data = slot->mesh.user_data();
@@ -216,7 +223,7 @@ void vox_grid::gather_bodies(Counters& counters) {
         mesh.check_format_once(id);
         if (slot.left_out) { // looked at before the engine does, as others may be at rest
             const std::uint32_t vertex = first_bad_vertex(mesh.body(id));
-            slot.left_out = skips_bad_meshes_ && vertex != VOX_NO_VERTEX;
+            slot.left_out = skips_bad_meshes_ && vertex != VOX_NONE;
             if (slot.left_out) {
                 left_out_.push_back(failure_of(bad_position(mesh.body(id), vertex), id, vertex));
                 return;
@@ -233,7 +240,7 @@ void vox_grid::gather_bodies(Counters& counters) {
         }
         topologies_.push_back(&mesh.topology());
         if (finds_surfaces()) surface_versions_.push_back({mesh.topology_version(), mesh.tiles_version()});
-        slot.topology_version = mesh.topology_version();
+        slot.edited = false;
         if (fast_)
             prepared_.push_back({&mesh.tiled().tiles, &mesh.tiled().boundary, &slot.state,
                                  lone_.compared(slot_of(id)), lone_.moved(slot_of(id))});
@@ -281,7 +288,6 @@ std::uint64_t vox_grid::carry_contacts() {
         hit.vertex = contact.vertex;
         hit.tet = contact.tet & 0x7fffffffu;
         hit.interior = interiors_[static_cast<std::size_t>(&contact - contacts_.data())] != 0;
-        std::copy(contact.barycentric, contact.barycentric + 4, hit.weights.of);
         reserve_sparingly(hits_, hits_.size() + 1);
         hits_.push_back(hit);
     }

@@ -169,7 +169,7 @@ void VertexFaceSearch::prepare_bodies(const Scene& scene, std::span<const Positi
         if (moves(b)) {
             Body moving = body;
             moving.positions = previous[b];
-            if (const std::uint32_t vertex = first_bad_vertex(moving); vertex != VOX_NO_VERTEX)
+            if (const std::uint32_t vertex = first_bad_vertex(moving); vertex != VOX_NONE)
                 throw MeshError(
                     bad_position(moving, vertex), body,
                     format(", vertex %u: a coordinate of the previous position is %s", vertex,

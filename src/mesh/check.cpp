@@ -78,7 +78,7 @@ bool is_finite(const Body& body, std::uint32_t vertex) noexcept { return all_fin
 std::uint32_t first_bad_vertex(const Body& body) noexcept {
     for (std::uint32_t v = 0; v < body.vertex_count; ++v)
         if (!is_finite(body, v)) return v;
-    return VOX_NO_VERTEX;
+    return VOX_NONE;
 }
 
 vox_result bad_position(const Body& body, std::uint32_t vertex) noexcept {
@@ -86,7 +86,7 @@ vox_result bad_position(const Body& body, std::uint32_t vertex) noexcept {
 }
 
 void check_finite(const Body& body) {
-    if (const std::uint32_t vertex = first_bad_vertex(body); vertex != VOX_NO_VERTEX)
+    if (const std::uint32_t vertex = first_bad_vertex(body); vertex != VOX_NONE)
         throw position_error(body, vertex);
 }
 

@@ -26,8 +26,7 @@ std::string name_of(const Body& body);
 // A failure that is about one mesh.
 class MeshError : public Error {
 public:
-    MeshError(vox_result result, const Body& body, const std::string& text,
-              std::uint32_t vertex = VOX_NO_VERTEX)
+    MeshError(vox_result result, const Body& body, const std::string& text, std::uint32_t vertex = VOX_NONE)
         : Error(result, name_of(body) + text), mesh(body.mesh_id), vertex(vertex) {}
 
     std::uint32_t mesh, vertex;
@@ -36,7 +35,7 @@ public:
 // Whether a coordinate is finite, and rounds to a finite float.
 bool is_finite(const Body& body, std::uint32_t vertex) noexcept;
 
-// The first vertex of which that is not so; VOX_NO_VERTEX if there is none.
+// The first vertex of which that is not so; VOX_NONE if there is none.
 std::uint32_t first_bad_vertex(const Body& body) noexcept;
 
 // Why: NON_FINITE, or LIMIT where the coordinates are finite.

@@ -7,13 +7,13 @@
 namespace vox {
 
 constexpr std::uint32_t generation_bits = 12;
-static_assert(VOX_MAX_GENERATIONS == (1u << generation_bits) - 1);
+constexpr std::uint32_t most_generations = (1u << generation_bits) - 1; // uses of a slot before it is retired
 static_assert(VOX_MAX_BODIES == 1u << (32 - generation_bits));
 
 constexpr vox_body make_id(std::uint32_t slot, std::uint32_t generation) noexcept {
     return slot << generation_bits | generation;
 }
 constexpr std::uint32_t slot_of(vox_body id) noexcept { return id >> generation_bits; }
-constexpr std::uint32_t generation_of(vox_body id) noexcept { return id & VOX_MAX_GENERATIONS; }
+constexpr std::uint32_t generation_of(vox_body id) noexcept { return id & most_generations; }
 
 } // namespace vox

@@ -154,10 +154,9 @@ void Mesh::set_transform(const double* matrix) {
     has_transform_ = matrix != nullptr;
 }
 
-vox_body_info Mesh::info(std::uint32_t slot) const noexcept {
+vox_body_info Mesh::info() const noexcept {
     vox_body_info info{};
     info.struct_size = sizeof info;
-    info.slot = slot;
     info.user_data = user_data_;
     info.tet_count = tet_count();
     info.enabled_tet_count = tet_count() - edits_->off.count();
@@ -166,7 +165,6 @@ vox_body_info Mesh::info(std::uint32_t slot) const noexcept {
     if (borrows_tets()) info.flags |= VOX_MESH_BORROW_TETS;
     info.positions = as_given(positions_, vertex_count_);
     if (!positions_.data) info.positions.byte_stride = info.positions.component_byte_stride = 0;
-    info.has_transform = has_transform_ ? 1 : 0;
     for (const std::size_t i : {0u, 5u, 10u}) info.transform[i] = 1;
     if (has_transform_) std::copy(transform_->rows.begin(), transform_->rows.end(), info.transform);
     info.filter = filter_;

@@ -126,7 +126,7 @@ public:
     std::uint32_t vertex_count() const noexcept { return vertex_count_; }
     std::uint64_t tet_count() const noexcept { return tets().size(); }
     std::uint64_t user_data() const noexcept { return user_data_; }
-    vox_body_info info(std::uint32_t slot) const noexcept;
+    vox_body_info info() const noexcept;
 
     // Corners as given by the caller, also of a tet that is off.
     const Tet& given(std::uint32_t tet) const noexcept {

@@ -14,7 +14,7 @@ namespace vox {
 void check_tet_count(std::uint64_t tets) {
     if (tets > most_tets)
         throw Error(VOX_ERROR_LIMIT,
-                    format("the mesh has %llu tets, a grid with VOX_GRID_PENETRATIONS takes at most %u",
+                    format("the mesh has %llu tets, a grid with VOX_GRID_CONSTRAINTS takes at most %u",
                            static_cast<unsigned long long>(tets), most_tets));
 }
 

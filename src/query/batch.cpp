@@ -118,7 +118,7 @@ void Queries::Batch::locate_later(std::uint32_t point, std::uint32_t leaf, std::
         block_.corner[c][1][i] = q.y;
         block_.corner[c][2][i] = q.z;
     }
-    if (unlocated_count_ == barycentric_block) locate_all();
+    if (unlocated_count_ == point_block) locate_all();
 }
 
 void Queries::Batch::locate_all() {

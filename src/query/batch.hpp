@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/array.hpp"
-#include "exact/barycentric.hpp"
+#include "exact/point_location.hpp"
 #include "fast/lookup.hpp"
 #include "fast/window.hpp"
 #include "query/queries.hpp"
@@ -53,9 +53,9 @@ private:
     struct Unlocated {
         std::uint32_t point, mesh, leaf, place; // as in PointHit
     };
-    Unlocated unlocated_[barycentric_block];
+    Unlocated unlocated_[point_block];
     std::size_t unlocated_count_ = 0;
-    BarycentricBlock<double> block_; // of unlocated_
+    PointBlock block_; // of unlocated_
 };
 
 } // namespace vox

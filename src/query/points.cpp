@@ -104,8 +104,8 @@ void Queries::points(std::span<const Vec3d> points, QueryMeshes which, std::pmr:
             const LeafTets tets = tets_of(leaves_[hit.leaf]);
             const std::size_t t = hit.place;
             *out = {static_cast<std::uint32_t>(point), meshes_[hit.mesh].id, hit.tet, 0, {}};
-            std::ranges::copy(barycentric<double>(points[point], tets.corner(t, 0), tets.corner(t, 1),
-                                                  tets.corner(t, 2), tets.corner(t, 3)),
+            std::ranges::copy(barycentric(points[point], tets.corner(t, 0), tets.corner(t, 1),
+                                          tets.corner(t, 2), tets.corner(t, 3)),
                               out->weights);
         }
     });

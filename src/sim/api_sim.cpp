@@ -104,9 +104,10 @@ vox_result vox_sim_get_energy(const vox_sim* sim, vox_body body, vox_sim_energie
     });
 }
 
-vox_result vox_sim_get_counters(const vox_sim* sim, vox_sim_counts* out_counts) {
+vox_result vox_sim_get_counters(const vox_sim* sim, vox_counter_view* out_view) {
     return border([&] {
         require(sim, "sim");
-        write_struct(out_counts, sim->counts(), "out_counts");
+        require(out_view, "out_view");
+        *out_view = sim->counters();
     });
 }

@@ -6,28 +6,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace vox::sim {
 
 namespace {
 
-template <class T>
-const T& element(const T* data, std::size_t byte_stride, std::uint64_t i) {
-    return *reinterpret_cast<const T*>(reinterpret_cast<const std::byte*>(data) + i * byte_stride);
-}
-
-// The position of the vertex relative to the point of the tet at which it was found.
+// The point of a relative to the point of b.
 Vec3 relative(const Contact& c, const Array<Vec3> Body::*positions) {
-    Vec3 r = (c.a->*positions)[c.vertex];
-    for (int k = 0; k < 4; ++k) r -= c.weights[k] * (c.b->*positions)[c.corners[k]];
+    Vec3 r = Vec3::Zero();
+    for (std::uint32_t i = 0; i < c.count; ++i) r += c.weights[i] * (c.body(i).*positions)[c.vertices[i]];
     return r;
 }
 
-// Moves the vertex by `impulse` / its mass, and the tet's corners in the opposite direction.
+// Moves each vertex by its part of `impulse`, over its mass.
 void apply(const Contact& c, Array<Vec3> Body::*positions, const Vec3& impulse) {
-    (c.a->*positions)[c.vertex] += c.a->inverse_masses[c.vertex] * impulse;
-    for (int k = 0; k < 4; ++k)
-        (c.b->*positions)[c.corners[k]] -= (c.weights[k] * c.b->inverse_masses[c.corners[k]]) * impulse;
+    for (std::uint32_t i = 0; i < c.count; ++i)
+        (c.body(i).*positions)[c.vertices[i]] +=
+            (c.weights[i] * c.body(i).inverse_masses[c.vertices[i]]) * impulse;
 }
 
 // The impulse against a penetration. Its part `push` undoes earlier penetration; the rest stops the motion.
@@ -56,33 +52,27 @@ Vec3 friction_impulse(const Vec3& moved, const Vec3& normal, double normal_impul
     return (-bound / length) * slipped;
 }
 
-// The caller may have cut a body, or bound other positions to it, through vox_sim_get_grid. Its contacts are
-// not those of the particles that move here then. Throws INVALID_STATE where that shows: a contact names a
-// vertex or tet that the body does not have, or the weights do not give the vertex. (They are within 2^-20,
-// see vox_contact.)
-void check_contact(const Body& a, std::uint32_t vertex, const Body& b, std::uint32_t tet,
-                   const float weights[4]) {
-    const std::size_t vertices = a.positions.size(), tets = b.tets.size() / 4;
+// The caller may have cut a body, or bound other positions to it, through vox_sim_get_grid. Its constraints
+// are not those of the particles that move here then. Throws INVALID_STATE where that shows: a constraint
+// names a vertex that the body does not have, or its gap is another one.
+void check_contact(const Body& a, const Body& b, const vox_constraint& c) {
     const auto changed = [&](const std::string& what) {
         throw Error(VOX_ERROR_INVALID_STATE, format("%s or %s was changed through vox_sim_get_grid: %s",
                                                     name_of(a).c_str(), name_of(b).c_str(), what.c_str()));
     };
-    if (vertex >= vertices || tet >= tets)
-        changed(
-            format("a contact names vertex %u (of %zu) and tet %u (of %zu)", vertex, vertices, tet, tets));
-    double size = 0, miss = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        double sum = 0;
-        for (std::size_t k = 0; k < 4; ++k) {
-            const double side =
-                static_cast<double>(b.grid_positions[3 * b.tets[4 * std::size_t{tet} + k] + axis]) -
-                static_cast<double>(a.grid_positions[3 * std::size_t{vertex} + axis]);
-            sum += static_cast<double>(weights[k]) * side;
-            size = std::max(size, std::abs(side));
+    double gap = c.offset, size = 0;
+    for (std::uint32_t i = 0; i < c.count; ++i) {
+        const Body& body = i < c.count_a ? a : b;
+        if (c.vertices[i] >= body.positions.size())
+            changed(format("a constraint names vertex %u of %zu", c.vertices[i], body.positions.size()));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double x = static_cast<double>(body.grid_positions[3 * std::size_t{c.vertices[i]} + axis]);
+            gap += c.weights[i] * c.normal[axis] * x;
+            size = std::max(size, std::abs(x - c.position[axis]));
         }
-        miss = std::max(miss, std::abs(sum));
     }
-    if (!(miss <= size / 1000)) changed(format("vertex %u is %g off its place in tet %u", vertex, miss, tet));
+    if (!(std::abs(gap - c.gap) <= size / 1000))
+        changed(format("the gap at vertex %u is %g instead of %g", c.vertices[0], gap, c.gap));
 }
 
 } // namespace
@@ -95,30 +85,24 @@ Body* find_body(std::span<const BodyHandle> bodies, vox_body mesh) {
 
 void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies,
                      const ContactSettings& settings, Array<Contact>& contacts) {
-    vox_contact_view found{};
-    vox_penetration_view penetrations{};
+    vox_constraint_view found{};
     contacts.clear();
-    check(vox_grid_get_contacts(grid, &found));
-    check(vox_grid_penetrations(grid, &penetrations));
-    for (std::uint64_t i = 0; i < penetrations.count; ++i) {
-        const vox_penetration& p = element(penetrations.data, penetrations.byte_stride, i);
-        const vox_contact& in_tet = element(found.data, found.byte_stride, p.contact);
+    check(vox_grid_get_constraints(grid, &found));
+    for (const vox_constraint& from : std::span(found.data, found.count)) {
         Contact c{};
-        c.a = find_body(bodies, p.body_a);
-        c.b = find_body(bodies, p.body_b);
+        c.a = find_body(bodies, from.body_a);
+        c.b = find_body(bodies, from.body_b);
         if (!c.a || !c.b || (c.a->fixed && c.b->fixed)) continue;
-        check_contact(*c.a, p.vertex, *c.b, in_tet.tet, in_tet.barycentric);
-        c.vertex = p.vertex;
-        c.depth = static_cast<double>(p.depth);
-        c.direction = Vec3(static_cast<double>(p.direction[0]), static_cast<double>(p.direction[1]),
-                           static_cast<double>(p.direction[2]));
+        check_contact(*c.a, *c.b, from);
+        c.count_a = from.count_a;
+        c.count = from.count;
+        std::copy_n(from.vertices, from.count, c.vertices);
+        std::copy_n(from.weights, from.count, c.weights);
+        c.depth = -from.offset;
+        c.direction = Vec3(from.normal[0], from.normal[1], from.normal[2]);
         c.slop = settings.slop >= 0 ? settings.slop : (c.a->mean_edge + c.b->mean_edge) / 200;
-        c.inverse_mass = c.a->inverse_masses[c.vertex];
-        for (std::size_t k = 0; k < 4; ++k) {
-            c.corners[k] = c.b->tets[4 * std::size_t{in_tet.tet} + k];
-            c.weights[k] = static_cast<double>(in_tet.barycentric[k]);
-            c.inverse_mass += c.weights[k] * c.weights[k] * c.b->inverse_masses[c.corners[k]];
-        }
+        for (std::uint32_t i = 0; i < c.count; ++i)
+            c.inverse_mass += c.weights[i] * c.weights[i] * c.body(i).inverse_masses[c.vertices[i]];
         if (c.inverse_mass > 0) contacts.push_back(c);
     }
 }

@@ -1,8 +1,7 @@
 // The response to contacts between bodies and with the floor in a substep: penalty forces and friction.
 //
-// A vertex that the depth stage found inside another body (Heidelberger et al. 2004) is pushed along the
-// stage's direction with a force linear in its depth. The tetrahedron that contains it is pushed with the
-// opposite force, distributed by the vertex's barycentric weights. The force is integrated implicitly, as an
+// The vertices of a constraint (vox_constraint) whose gap is negative are pushed along its normal, each in
+// proportion to its weight, with a force linear in the depth. The force is integrated implicitly, as an
 // XPBD constraint on the depth (Macklin et al. 2016), so that any stiffness is stable. Two rules, both as in
 // Box2D 3, keep contacts calm. Penetration from before the substep is undone at a bounded speed, which does
 // not add to the velocities. A small depth, the slop, is tolerated, so that a resting contact is found again
@@ -17,17 +16,19 @@
 
 namespace vox::sim {
 
-// Vertex of body a in a tet of body b; a = b for self-contact.
+// A point of body a and one of body b, which may be the same (vox_constraint).
 struct Contact {
     Body* a;
     Body* b;
-    std::uint32_t vertex;
-    std::uint32_t corners[4];
-    double weights[4]; // barycentric weights of the vertex when it was found
-    Vec3 direction;    // out of b
-    double depth;      // depth when it was found
+    std::uint32_t count_a, count; // of vertices: first those of a
+    std::uint32_t vertices[VOX_STENCIL_CAPACITY];
+    double weights[VOX_STENCIL_CAPACITY];
+    Vec3 direction; // out of b
+    double depth;   // where the two points coincide
     double slop;
-    double inverse_mass; // of the relative motion of vertex and tet
+    double inverse_mass; // of the relative motion of the two points
+
+    Body& body(std::uint32_t i) const noexcept { return i < count_a ? *a : *b; }
 };
 
 struct ContactSettings {
@@ -46,7 +47,7 @@ struct Floor {
 // The body of a mesh, or null if there is none. `bodies` must ascend in mesh.
 Body* find_body(std::span<const BodyHandle> bodies, vox_body mesh);
 
-// Reads the contacts of the grid's last step, except those of meshes not in `bodies` and of pairs of fixed
+// Reads the constraints of the grid's last step, except those of meshes not in `bodies` and of pairs of fixed
 // bodies.
 void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies,
                      const ContactSettings& settings, Array<Contact>& contacts);

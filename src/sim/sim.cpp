@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 using namespace vox;
 using namespace vox::sim;
@@ -60,10 +61,8 @@ vox_sim::vox_sim(const vox_sim_desc& desc)
     vox_grid_desc settings = vox_default_grid_desc();
     if (desc.grid) settings = read_struct(desc.grid, "sim grid");
     if (!settings.allocator) settings.allocator = desc.allocator;
+    settings.flags |= VOX_GRID_CONSTRAINTS; // which the response needs
     grid_ = create_grid(&settings);
-    vox_penetration_view penetrations;
-    // Fails for a grid without penetrations, which the response needs.
-    check(vox_grid_penetrations(grid(), &penetrations));
 }
 
 // ---- step -----------------------------------------------------------------------------------------
@@ -113,7 +112,7 @@ void vox_sim::detect() {
     counts_.detect_ns += nanoseconds() - start;
     gather_contacts(grid_.get(), bodies_, contact_settings_, contacts_);
     ++counts_.detections;
-    counts_.penetrations = contacts_.size();
+    counts_.constraints = contacts_.size();
 }
 
 void vox_sim::substep(double h) {
@@ -148,11 +147,8 @@ vox_body vox_sim::insert(const vox_sim_body_desc& desc) {
     mesh.tet_count = desc.tet_count;
     mesh.user_data = desc.user_data;
     check(vox_mesh_insert(grid_.get(), &mesh, &body->mesh));
-    vox_body_info info{};
-    info.struct_size = sizeof info;
-    check(vox_body_get_info(grid_.get(), body->mesh, &info)); // cannot fail for a mesh that is there
-    body->slot = info.slot;
-    body->user_data = info.user_data;
+    body->slot = vox_body_slot(body->mesh);
+    body->user_data = desc.user_data;
 
     const Body& inserted = *body;
     // The grid may reuse a slot, so the new body's id need not be the greatest.
@@ -213,20 +209,40 @@ vox_sim_energies vox_sim::energies(vox_body mesh) const {
     return sum;
 }
 
-vox_sim_counts vox_sim::counts() const {
-    vox_sim_counts counts = counts_;
-    counts.bodies = static_cast<std::uint32_t>(bodies_.size());
+vox_counter_view vox_sim::counters() const {
+    std::uint64_t vertices = 0, tets = 0, edges = 0, volumes = 0, flat = 0, inverted = 0, raised = 0,
+                  softened = 0;
     for (const auto& body : bodies_) {
-        counts.vertices += body->positions.size();
-        counts.tets += body->tets.size() / 4;
-        counts.edges += body->edges.size();
-        counts.volumes += body->volumes.size();
-        counts.flat_tets += body->flat_tets;
-        counts.inverted_tets += body->inverted_tets;
-        counts.raised_masses += body->raised_masses;
-        counts.softened += body->softened;
+        vertices += body->positions.size();
+        tets += body->tets.size() / 4;
+        edges += body->edges.size();
+        volumes += body->volumes.size();
+        flat += body->flat_tets;
+        inverted += body->inverted_tets;
+        raised += body->raised_masses;
+        softened += body->softened;
     }
-    return counts;
+    const vox_counter list[] = {{"bodies", bodies_.size()},
+                                {"vertices", vertices},
+                                {"tets", tets},
+                                {"edges", edges},
+                                {"volumes", volumes},
+                                {"flat_tets", flat},
+                                {"inverted_tets", inverted},
+                                {"raised_masses", raised},
+                                {"softened", softened},
+                                {"steps", counts_.steps},
+                                {"substeps", counts_.substeps},
+                                {"detections", counts_.detections},
+                                {"clamped_steps", counts_.clamped_steps},
+                                {"constraints", counts_.constraints},
+                                {"floor_contacts", counts_.floor_contacts},
+                                {"step_ns", counts_.step_ns},
+                                {"detect_ns", counts_.detect_ns},
+                                {"solve_ns", counts_.solve_ns}};
+    static_assert(std::size(list) == vox::sim::counter_count);
+    std::ranges::copy(list, counter_list_);
+    return {counter_list_, std::size(counter_list_)};
 }
 
 void vox_sim::write_log(vox_log_level level, const std::string& text) const {

@@ -7,7 +7,22 @@
 #include "sim/contacts.hpp"
 #include "sim/library.hpp"
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
+
+namespace vox::sim {
+
+// Totals since the creation, and times of the last step.
+struct Counts {
+    std::uint64_t steps = 0, substeps = 0, detections = 0, clamped_steps = 0;
+    std::uint64_t constraints = 0, floor_contacts = 0;
+    std::uint64_t step_ns = 0, detect_ns = 0, solve_ns = 0;
+};
+
+inline constexpr std::size_t counter_count = 18;
+
+} // namespace vox::sim
 
 // Every public vox_sim_* function is a member here. All of them throw, and change nothing if they do, except
 // step (see vox_sim_step).
@@ -25,7 +40,7 @@ public:
     vox::sim::Body& body(vox_body mesh) const;
 
     vox_sim_energies energies(vox_body mesh) const;
-    vox_sim_counts counts() const;
+    vox_counter_view counters() const;
 
 private:
     void set_substeps(double h);
@@ -47,5 +62,6 @@ private:
     vox::Array<vox::sim::Contact> contacts_;  // of the last detection
 
     bool softening_logged_ = false;
-    vox_sim_counts counts_{};
+    vox::sim::Counts counts_;
+    mutable vox_counter counter_list_[vox::sim::counter_count]; // as they are when asked for
 };

@@ -47,8 +47,8 @@ void lower(std::atomic<double>& least, double value) noexcept {
 CloseSearch::CloseSearch(std::pmr::memory_resource* memory) noexcept
     : gathered_(memory), found_(memory), clearance_(memory) {}
 
-std::span<const vox_close_pair> CloseSearch::find(vox_surface& surface, vox_feature a, vox_feature b,
-                                                  double distance) {
+std::span<const vox_proximity> CloseSearch::find(vox_surface& surface, vox_feature a, vox_feature b,
+                                                 double distance) {
     const SurfaceTopology& topology = surface.topology();
     const std::span<const Vec3d> positions = surface.motion().to;
     double largest = 0;
@@ -60,7 +60,7 @@ std::span<const vox_close_pair> CloseSearch::find(vox_surface& surface, vox_feat
     const SurfaceMotion still = surface.at_end(radius);
     found_.clear();
     surface.for_pieces(still, a, b, [&](const FeaturePairs& pairs) {
-        const auto find_partners = [&](std::uint32_t i, Array<vox_close_pair>& found) {
+        const auto find_partners = [&](std::uint32_t i, Array<vox_proximity>& found) {
             const std::uint64_t begin = pairs.offsets[i], end = pairs.offsets[i + 1];
             if (begin == end) return;
             const std::uint32_t own_index = static_cast<std::uint32_t>(pairs.first) + i;
@@ -70,7 +70,7 @@ std::span<const vox_close_pair> CloseSearch::find(vox_surface& surface, vox_feat
                 const CornersAt other(topology, positions, b, partner);
                 const CloseFeatures at = closest_features(own.positions(), other.positions());
                 if (!(at.distance <= distance)) continue;
-                vox_close_pair& pair = found.emplace_back();
+                vox_proximity& pair = found.emplace_back();
                 pair.a = own_index;
                 pair.b = partner;
                 pair.distance = at.distance;
@@ -96,7 +96,7 @@ bool CloseSearch::release_found() noexcept {
 // face and a vertex, or of two edges. Each of their vertices moves by less than d / 2, and so does each point
 // of them, being a convex combination; so no two points, at least d apart, can meet. Where nothing moves
 // further than `most`, only pairs closer than 2 * most can: those whose boxes, grown by `most`, overlap.
-void CloseSearch::clearance(vox_surface& surface, double most, double* per_vertex) {
+void CloseSearch::clearance(vox_surface& surface, double most, double* out_distances) {
     const SurfaceTopology& topology = surface.topology();
     const SurfaceMotion still = surface.at_end(most);
     clearance_.resize(topology.vertex_count);
@@ -123,7 +123,7 @@ void CloseSearch::clearance(vox_surface& surface, double most, double* per_verte
         });
     }
     for (std::uint32_t v = 0; v < topology.vertex_count; ++v)
-        per_vertex[v] = clearance_[v].number.load(std::memory_order_relaxed);
+        out_distances[v] = clearance_[v].number.load(std::memory_order_relaxed);
 }
 
 } // namespace vox

@@ -27,15 +27,15 @@ public:
 
     // As vox_surface_find_proximities, for kinds and a distance that it accepts. The answer lives until the
     // next call.
-    std::span<const vox_close_pair> find(vox_surface& surface, vox_feature a, vox_feature b, double distance);
-    // As vox_surface_find_clearances; `per_vertex` is written when nothing can fail any more.
-    void clearance(vox_surface& surface, double most, double* per_vertex);
+    std::span<const vox_proximity> find(vox_surface& surface, vox_feature a, vox_feature b, double distance);
+    // As vox_surface_find_clearances; the distances are written when nothing can fail any more.
+    void clearance(vox_surface& surface, double most, double* out_distances);
     // The memory of an answer that has ended. Whether there was any.
     bool release_found() noexcept;
 
 private:
-    Gathered<vox_close_pair> gathered_;
-    Array<vox_close_pair> found_;
+    Gathered<vox_proximity> gathered_;
+    Array<vox_proximity> found_;
     Array<SharedLeast> clearance_; // of each vertex
 };
 

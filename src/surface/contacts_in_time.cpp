@@ -51,8 +51,8 @@ void first_contact(const SurfaceTopology& topology, const SurfaceMotion& motion,
 
 void all_contacts(const SurfaceTopology& topology, const SurfaceMotion& motion, vox_feature a, vox_feature b,
                   const FeaturePairs& pairs, const ContactTimeRule& rule, Workers& workers,
-                  Gathered<vox_timed_pair>& gathered, Array<vox_timed_pair>& out) {
-    const auto find = [&](std::uint32_t i, Array<vox_timed_pair>& found) {
+                  Gathered<vox_impact>& gathered, Array<vox_impact>& out) {
+    const auto find = [&](std::uint32_t i, Array<vox_impact>& found) {
         const std::uint32_t own = static_cast<std::uint32_t>(pairs.first) + i;
         for (std::uint64_t k = pairs.offsets[i]; k < pairs.offsets[i + 1]; ++k) {
             const std::uint32_t partner = pairs.partners[k];

@@ -23,6 +23,6 @@ void first_contact(const SurfaceTopology& topology, const SurfaceMotion& motion,
 // Appends those that may come into contact within the motion, in their order.
 void all_contacts(const SurfaceTopology& topology, const SurfaceMotion& motion, vox_feature a, vox_feature b,
                   const FeaturePairs& pairs, const ContactTimeRule& rule, Workers& workers,
-                  Gathered<vox_timed_pair>& gathered, Array<vox_timed_pair>& out);
+                  Gathered<vox_impact>& gathered, Array<vox_impact>& out);
 
 } // namespace vox

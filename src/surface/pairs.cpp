@@ -448,7 +448,6 @@ void PairSearch::run(const SurfaceTopology& topology, const SurfaceMotion& motio
         return;
     }
     grid_.fill(tiles_b.tile_boxes, cell_size > 0 ? cell_size : choose_cell_size(a, b));
-    counters_.cell_size = grid_.cell_size();
     counters_.cells = grid_.occupied();
 
     workers_.grow(workers.count());

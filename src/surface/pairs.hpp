@@ -33,7 +33,6 @@ struct FeaturePairs {
 };
 
 struct PairCounters {
-    double cell_size = 0;
     std::uint64_t cells = 0, tile_pairs = 0, boxes_compared = 0, overlaps = 0, culled = 0;
 };
 

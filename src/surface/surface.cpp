@@ -16,8 +16,8 @@ using namespace vox;
 vox_surface::vox_surface(const vox_surface_desc& desc, const MemoryShare& memory)
     : share_(memory), workers_(value_of(desc.tasks), desc.worker_count), topology_(desc, &*memory),
       cell_size_(desc.cell_size), positions_{Array<Vec3d>(&*memory), Array<Vec3d>(&*memory)},
-      search_(&*memory), answer_(&*memory), candidates_(&*memory), crossings_(&*memory), timed_(&*memory),
-      timed_in_ranges_(&*memory), close_(&*memory) {}
+      search_(&*memory), answer_(&*memory), candidates_(&*memory), crossings_(&*memory), impacts_(&*memory),
+      impacts_in_ranges_(&*memory), close_(&*memory) {}
 
 void vox_surface::move(const vox_motion& motion) {
     const std::uint32_t count = topology_.vertex_count;
@@ -110,8 +110,8 @@ bool vox_surface::release_ended() noexcept {
     release(living_.pairs, answer_.offsets);
     release(living_.pairs, answer_.partners);
     release(living_.crossings, crossings_);
-    release(living_.times, timed_);
-    if (!living_.close) released |= close_.release_found();
+    release(living_.impacts, impacts_);
+    if (!living_.proximities) released |= close_.release_found();
     return released;
 }
 
@@ -207,38 +207,34 @@ vox_safe_step vox_surface::safe_step(const ContactTimeRule& rule) {
     });
 }
 
-std::span<const vox_timed_pair> vox_surface::contact_times(vox_feature a, vox_feature b,
-                                                           const ContactTimeRule& rule) {
+std::span<const vox_impact> vox_surface::impacts(vox_feature a, vox_feature b, const ContactTimeRule& rule) {
     const SurfaceMotion reach = reaching(motion(), rule.distance);
-    answer(living_.times, [&] {
-        timed_.clear();
+    answer(living_.impacts, [&] {
+        impacts_.clear();
         for_pieces(reach, a, b, [&](const FeaturePairs& pairs) {
-            all_contacts(topology_, reach, a, b, pairs, rule, workers_, timed_in_ranges_, timed_);
+            all_contacts(topology_, reach, a, b, pairs, rule, workers_, impacts_in_ranges_, impacts_);
         });
     });
-    return timed_;
+    return impacts_;
 }
 
-std::span<const vox_close_pair> vox_surface::close_pairs(vox_feature a, vox_feature b, double distance) {
-    return answer(living_.close, [&] { return close_.find(*this, a, b, distance); });
+std::span<const vox_proximity> vox_surface::proximities(vox_feature a, vox_feature b, double distance) {
+    return answer(living_.proximities, [&] { return close_.find(*this, a, b, distance); });
 }
 
-void vox_surface::clearance(double most, double* per_vertex) {
+void vox_surface::clearances(double max_distance, double* out_distances) {
     bool nothing_lives;
-    answer(nothing_lives, [&] { close_.clearance(*this, most, per_vertex); });
+    answer(nothing_lives, [&] { close_.clearance(*this, max_distance, out_distances); });
 }
 
-vox_pair_counters vox_surface::counters() const {
+vox_counter_view vox_surface::counters() const {
     const PairCounters& last = search_.counters();
-    vox_pair_counters out{};
-    out.struct_size = sizeof out;
-    out.cell_size = last.cell_size;
-    out.cells = last.cells;
-    out.tile_pairs = last.tile_pairs;
-    out.boxes_compared = last.boxes_compared;
-    out.overlaps = last.overlaps;
-    out.culled = last.culled;
-    out.bytes = share_->bytes();
-    out.peak_bytes = share_->peak_bytes();
-    return out;
+    counter_list_ = {{{"cells", last.cells},
+                      {"tile_pairs", last.tile_pairs},
+                      {"boxes_compared", last.boxes_compared},
+                      {"overlaps", last.overlaps},
+                      {"culled", last.culled},
+                      {"bytes", share_->bytes()},
+                      {"peak_bytes", share_->peak_bytes()}}};
+    return {counter_list_.data(), counter_list_.size()};
 }

@@ -60,16 +60,15 @@ public:
     vox_safe_step safe_step(const vox::ContactTimeRule& rule);
     // Pairs within a distance; they live until the next call or move(). Throws as
     // vox_surface_find_proximities.
-    std::span<const vox_close_pair> close_pairs(vox_feature a, vox_feature b, double distance);
+    std::span<const vox_proximity> proximities(vox_feature a, vox_feature b, double distance);
     // Throws as vox_surface_find_clearances.
-    void clearance(double most, double* per_vertex);
+    void clearances(double max_distance, double* out_distances);
     // Of two kinds; lives until the next call or move().
-    std::span<const vox_timed_pair> contact_times(vox_feature a, vox_feature b,
-                                                  const vox::ContactTimeRule& rule);
+    std::span<const vox_impact> impacts(vox_feature a, vox_feature b, const vox::ContactTimeRule& rule);
     // Of the end of the motion. Lives until the next call or move().
     std::span<const vox_crossing> crossings();
 
-    vox_pair_counters counters() const;
+    vox_counter_view counters() const;
 
 private:
     // The partners of features [first, first + count) of kind a, or of the first of them: as many as fit into
@@ -94,7 +93,7 @@ private:
         std::uint32_t first, count; // count 0: none
     };
     struct Living { // answers, of which the caller may have a view
-        bool pairs, crossings, times, close;
+        bool pairs, crossings, impacts, proximities;
     };
     Living living_{};
     Piece piece_{}; // the last answer, where not all of what was asked fitted
@@ -103,7 +102,8 @@ private:
     static constexpr std::uint32_t many_at_once = 1u << 20, few_at_once = 1u << 10;
     std::uint32_t most_at_once_ = many_at_once;
     vox::Array<vox_crossing> crossings_;
-    vox::Array<vox_timed_pair> timed_;
-    vox::Gathered<vox_timed_pair> timed_in_ranges_;
+    vox::Array<vox_impact> impacts_;
+    vox::Gathered<vox_impact> impacts_in_ranges_;
     vox::CloseSearch close_;
+    mutable std::array<vox_counter, 7> counter_list_; // as they are when asked for
 };

@@ -20,7 +20,6 @@ public:
     // Throws what the memory throws.
     void fill(std::span<const Box> boxes, double cell_size);
 
-    double cell_size() const noexcept { return cell_size_; }
     std::uint64_t occupied() const noexcept { return occupied_; } // cells that hold something
     std::uint64_t entries() const noexcept { return entries_.size(); }
 

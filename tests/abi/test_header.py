@@ -16,8 +16,8 @@ INCLUDE = os.path.join(ROOT, "include", "vox")
 HEADERS = ["vox.h", "vox_query.h", "vox_cell_size.h", "vox_surface.h", "vox_io.h", "vox_sim.h", "vox_dist.h"]
 
 # Functions, structs and fields of each header, which are not to grow unseen: a new function has two users outside of tests.
-BUDGETS = {"vox.h": (65, 34, 207), "vox_query.h": (10, 5, 32), "vox_cell_size.h": (9, 19, 173), "vox_surface.h": (13, 13, 83),
-           "vox_io.h": (19, 9, 75), "vox_sim.h": (11, 5, 63), "vox_dist.h": (13, 8, 49)}
+BUDGETS = {"vox.h": (48, 20, 125), "vox_query.h": (10, 5, 32), "vox_cell_size.h": (9, 19, 173), "vox_surface.h": (13, 12, 61),
+           "vox_io.h": (19, 9, 75), "vox_sim.h": (11, 4, 44), "vox_dist.h": (13, 7, 35)}
 LIBRARIES = {name[:-2] for name in BUDGETS} | {"vox_mpi"}
 
 # Everything that a foreign-function interface can carry.
@@ -26,16 +26,15 @@ NUMBERS = {"uint8_t", "int32_t", "uint32_t", "int64_t", "uint64_t", "size_t", "f
 # What the conventions of vox.h must tell, for all the headers: what functions need not repeat.
 CONVENTIONS = {
     "Errors": ["vox_result", "vox_last_error", "INVALID_ARGUMENT for a null pointer", "INVALID_HANDLE"],
-    "Structs": ["struct_size", "vox_default_X", "set struct_size before", "INVALID_ARGUMENT"],
-    "Ownership": ["copies", "borrowed", "live"],
-    "Threads": ["One thread at a time", "any number of threads may read", "takes a const grid reads it, any other changes it",
-                "Functions without a grid run on any thread", "per thread"],
-    "Units": ["caller's own unit"],
+    "Structs": ["struct_size", "vox_default_X", "before the call"],
+    "Ownership": ["copies", "borrowed", "lives"],
+    "Threads": ["One thread at a time may change a grid", "any number of threads may read", "take a const grid", "per thread"],
+    "Units": ["caller's unit"],
 }
 
 # Functions with such a verb change what they are called for; no other does.
 CHANGES = re.compile(r"_(append|bind|clear|destroy|insert|map|mark|prepare|release|remove|replace|reserve|retain|"
-                     r"set|step|take|update)(_|$)")
+                     r"set|step|take|update)(_|$)|^vox_grid_find_")
 
 
 def base(type_text):
@@ -90,7 +89,7 @@ class Rules:
         """What a comment names and no header declares; codes that are none, after the word Errors."""
         for name in re.findall(r"\b(?:vox|VOX)_\w+", comment):
             # `vox_` and a library's own name, and the patterns of the conventions, are no names.
-            if name not in self.names and name not in LIBRARIES | {"vox_default_X"}:
+            if name not in self.names and name not in LIBRARIES | {"vox_default_X", "vox_X_get_Y", "vox_X_set_Y"}:
                 yield f"there is no {name}"
         for name, field in re.findall(r"\b(vox_\w+)\.([a-z]\w*)", comment):
             struct = self.types.get(name)
@@ -161,8 +160,9 @@ class Rules:
         return False
 
     def says(self, f, pattern):
-        """In the function's comment, or in those of the types that it fills."""
-        texts = [f.comment + f.inherited] + [self.types[base(t)].comment for t, _ in f.parameters if base(t) in self.types]
+        """In the function's comment, in those of the types that it fills, or for all lists of the header."""
+        texts = [f.comment + f.inherited, *re.findall(r"Lifetime .*", header.words_of(self.header.conventions)),
+                 *(self.types[base(t)].comment for t, _ in f.parameters if base(t) in self.types)]
         return any(re.search(pattern, text, flags=re.I) for text in texts)
 
     # ---- C ----
@@ -204,7 +204,7 @@ def names_in(parsed):
         if d.kind == "enum":
             yield from d.fields
     yield from parsed.constants
-    yield from ("VOX_API", "VOX_EXPERIMENTAL", "VOX_VERSION_MAJOR", "VOX_VERSION_MINOR", "VOX_VERSION_PATCH")
+    yield from ("VOX_API", "VOX_EXPERIMENTAL", "VOX_OPTIONAL", "VOX_VERSION_MAJOR", "VOX_VERSION_MINOR", "VOX_VERSION_PATCH")
 
 
 def text_of(*path):
@@ -241,8 +241,8 @@ class Headers(unittest.TestCase):
             self.assertRegex(header.parse(TEXTS[name]).conventions, r"\n \*\s+Threads[ :]")
 
     def test_every_section_has_an_example(self):
-        for section in CORE.sections:
-            name = re.sub(r"\W+", "_", section) + ".c"
+        for section in CORE.sections: # "pairs: which bodies touch" has pairs.c
+            name = re.sub(r"\W+", "_", section.split(":")[0]) + ".c"
             folders = os.listdir(os.path.join(ROOT, "examples"))
             self.assertTrue(any(os.path.exists(os.path.join(ROOT, "examples", folder, name)) for folder in folders),
                             f"examples/*/{name}")

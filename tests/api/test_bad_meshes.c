@@ -19,7 +19,7 @@ typedef struct scene {
 static scene new_scene(uint32_t flags, ledger* memory) {
     scene s;
     vox_grid_desc desc = engine_desc();
-    desc.flags |= flags;
+    desc.flags = flags | VOX_GRID_CONSTRAINTS;
     if (memory) desc.allocator = ledger_allocator(memory);
     s.grid = grid_of(&desc);
     for (int b = 0; b < most; ++b) {
@@ -48,19 +48,18 @@ static vox_failure failure_of(const vox_grid* grid, uint32_t index) {
 static void no_failure(const vox_grid* grid, uint32_t index) {
     const vox_failure failure = failure_of(grid, index);
     ck_assert_int_eq(failure.result, VOX_OK);
-    ck_assert_uint_eq(failure.mesh, VOX_NULL_BODY);
-    ck_assert_uint_eq(failure.vertex, VOX_NO_VERTEX);
+    ck_assert_uint_eq(failure.body, VOX_NULL_BODY);
+    ck_assert_uint_eq(failure.vertex, VOX_NONE);
 }
 
 static void is_failure(vox_failure failure, const scene* s, int b, uint32_t vertex, vox_result result) {
     ck_assert_int_eq(failure.result, result);
-    ck_assert_uint_eq(failure.mesh, s->ids[b]);
-    ck_assert_uint_eq(failure.slot, (uint32_t)b);
+    ck_assert_uint_eq(failure.body, s->ids[b]);
     ck_assert_uint_eq(failure.user_data, 100 + (uint64_t)b);
     ck_assert_uint_eq(failure.vertex, vertex);
     for (int axis = 0; axis < 3; ++axis) {
         const double expected =
-            vertex == VOX_NO_VERTEX ? 0 : (double)s->bodies[b].positions[3 * vertex + (uint32_t)axis];
+            vertex == VOX_NONE ? 0 : (double)s->bodies[b].positions[3 * vertex + (uint32_t)axis];
         ck_assert(failure.position[axis] == expected || (isnan(failure.position[axis]) && isnan(expected)));
     }
 }
@@ -153,9 +152,9 @@ START_TEST(which_mesh_failed) {
     ck_ok(vox_body_remove(s.grid, mesh));
     failure = failure_of(s.grid, 0);
     ck_assert_int_eq(failure.result, VOX_ERROR_INVALID_STATE);
-    ck_assert_uint_eq(failure.mesh, mesh);
+    ck_assert_uint_eq(failure.body, mesh);
     ck_assert_uint_eq(failure.user_data, 7);
-    ck_assert_uint_eq(failure.vertex, VOX_NO_VERTEX);
+    ck_assert_uint_eq(failure.vertex, VOX_NONE);
     ck_ok(vox_grid_step(s.grid));
     no_failure(s.grid, 0);
     *coordinate = INFINITY;
@@ -181,9 +180,7 @@ static uint64_t hash_without(const scene* s, const int* out, int count) {
 START_TEST(bad_meshes_are_left_out) {
     scene s = new_scene(VOX_GRID_SKIP_BAD_BODIES, NULL);
     const int one[] = {1}, two[] = {1, 3};
-    uint32_t flags = 0;
-    flags = grid_info(s.grid).flags;
-    ck_assert_uint_eq(flags, VOX_GRID_PENETRATIONS | VOX_GRID_SKIP_BAD_BODIES);
+    ck_assert_uint_eq(grid_info(s.grid).flags, VOX_GRID_CONSTRAINTS | VOX_GRID_SKIP_BAD_BODIES);
     const uint64_t all = hash_of_step(s.grid);
     ck_assert_uint_eq(all, hash_without(&s, NULL, 0));
     ck_assert_uint_eq(counters_of(s.grid).skipped_meshes, 0);
@@ -224,7 +221,7 @@ START_TEST(bad_meshes_are_left_out) {
         vox_locator_release(locator);
         ck_ok(vox_grid_suggest_cell_size(s.grid, NULL, &suggestion));
         ck_assert_uint_eq(suggestion.stats.tets, s.bodies[0].tet_count + s.bodies[2].tet_count);
-        ck_ok(vox_grid_prepare_readings(s.grid));
+        ck_ok(vox_grid_find_constraints(s.grid, NULL));
 
         s.bodies[1].positions[1] = s.bodies[0].positions[1] + 0.1f;
         *x = kept_x;
@@ -243,7 +240,7 @@ START_TEST(bad_meshes_are_left_out) {
     /* Without the flag the step fails again. */
     *x = NAN;
     ck_assert_uint_eq(hash_of_step(s.grid), hash_without(&s, one, 1));
-    ck_ok(vox_grid_set_flags(s.grid, VOX_GRID_PENETRATIONS));
+    ck_ok(vox_grid_set_flags(s.grid, VOX_GRID_CONSTRAINTS));
     ck_fails(vox_grid_step(s.grid), VOX_ERROR_NON_FINITE, "slot 1");
     free_scene(&s);
 }
@@ -265,23 +262,22 @@ START_TEST(all_are_bad) {
 }
 END_TEST
 
-/* Events end and begin once. */
-START_TEST(events_of_a_mesh_that_is_left_out) {
+/* They end and begin once. */
+START_TEST(pairs_of_a_mesh_that_is_left_out) {
     scene s = new_scene(VOX_GRID_SKIP_BAD_BODIES, NULL);
-    vox_touch_view view;
     ck_ok(vox_grid_step(s.grid));
     s.bodies[0].positions[0] = NAN;
     for (int step = 0; step < 2; ++step) {
         ck_ok(vox_grid_step(s.grid));
-        ck_ok(vox_grid_touch_events(s.grid, &view));
-        ck_assert_uint_eq(view.ended, step == 0);
-        ck_assert_uint_eq(view.began, 0);
+        ck_assert_uint_eq(count_pairs(s.grid, VOX_PAIR_ENDED), step == 0);
+        ck_assert_uint_eq(count_pairs(s.grid, VOX_PAIR_BEGAN), 0);
+        for (uint64_t i = 0; i < constraints_of(s.grid).count; ++i)
+            ck_assert_uint_ne(constraints_of(s.grid).data[i].body_a, s.ids[0]);
     }
     s.bodies[0].positions[0] = 0;
     ck_ok(vox_grid_step(s.grid));
-    ck_ok(vox_grid_touch_events(s.grid, &view));
-    ck_assert_uint_eq(view.began, 1);
-    ck_assert_uint_eq(view.ended, 0);
+    ck_assert_uint_eq(count_pairs(s.grid, VOX_PAIR_BEGAN), 1);
+    ck_assert_uint_eq(count_pairs(s.grid, VOX_PAIR_ENDED), 0);
     free_scene(&s);
 }
 END_TEST
@@ -323,7 +319,7 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, which_mesh_failed, what_is_left_out_is_logged_once, bad_meshes_are_left_out,
-                   all_are_bad, events_of_a_mesh_that_is_left_out, steady_state, failing_allocations);
+                   all_are_bad, pairs_of_a_mesh_that_is_left_out, steady_state, failing_allocations);
 }
 
 SUITE(bad_meshes) { add_for_each_engine(suite, add_tests); }

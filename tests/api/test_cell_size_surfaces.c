@@ -74,13 +74,12 @@ START_TEST(the_size_of_the_surface_that_the_meshes_make) {
     for (uint32_t i = 0; i < found.curve_count; ++i) /* none is better */
         ck_assert_double_ge(found.curve[i].cost, found.predicted_cost * (1 - 1e-3));
     /* The surface takes it, and answers the same. */
-    vox_pair_lists lists;
-    lists.struct_size = sizeof lists;
+    vox_partner_lists lists;
     ck_ok(vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
-    const uint64_t pairs = lists.pair_count;
+    const uint64_t pairs = lists.offsets[lists.count];
     ck_ok(vox_surface_set_cell_size(surface, found.cell_size));
     ck_ok(vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
-    ck_assert_uint_eq(lists.pair_count, pairs);
+    ck_assert_uint_eq(lists.offsets[lists.count], pairs);
     vox_surface_destroy(surface);
     free(faces);
     free_body(&box);

@@ -1,4 +1,4 @@
-/* closest_budget: which penetrations get a closest point, and what becomes of the others. */
+/* closest_budget: which vertices get a closest point, and what becomes of the others. */
 #include <stdio.h>
 
 #include "scenes/random.h"
@@ -48,118 +48,124 @@ static void write_message(vox_log_level level, const char* text, void* user) {
     snprintf(to->last, sizeof to->last, "%s", text);
 }
 
-/* Whether each penetration of a scene takes a search: the first one, and all that are UNKNOWN with a budget
- * of 1. */
-static uint8_t* searched_ones(const scene* s, uint64_t count) {
-    uint8_t* searched = (uint8_t*)calloc(count, 1);
-    vox_grid_desc desc = engine_desc();
-    desc.closest_budget = 1;
-    vox_grid* grid = grid_of(&desc);
-    insert_scene(grid, s);
-    ck_ok(vox_grid_step(grid));
-    const vox_penetration_view view = penetrations_of(grid);
-    ck_assert_uint_eq(view.count, count);
-    ck_assert_int_eq(penetration_at(view, 0)->state, VOX_PENETRATION_ENCLOSED); /* of the ball in the box */
-    searched[0] = 1;
-    for (uint64_t i = 1; i < count; ++i)
-        searched[i] = penetration_at(view, i)->state == VOX_PENETRATION_UNKNOWN;
-    vox_grid_destroy(grid);
+static void find(vox_grid* grid, vox_depth_method method, uint64_t budget) {
+    vox_constraint_desc desc = vox_default_constraint_desc();
+    ck_assert_uint_eq(desc.closest_budget, 0);
+    desc.method = method;
+    desc.closest_budget = budget;
+    ck_ok(vox_grid_find_constraints(grid, &desc));
+}
+
+/* In the order in which they get searches: that of the contacts. */
+static int is_before(const vox_constraint* x, const vox_constraint* y) {
+    if (x->body_a != y->body_a) return x->body_a < y->body_a;
+    return x->vertices[0] != y->vertices[0] ? x->vertices[0] < y->vertices[0] : x->body_b < y->body_b;
+}
+
+/* Which constraints take a search. With consistent depth these are the first one, and all that are UNKNOWN
+ * with a budget of 1. */
+static uint8_t* searched_ones(vox_grid* grid, vox_depth_method method) {
+    find(grid, method, 1);
+    const vox_constraint_view view = constraints_of(grid);
+    uint8_t* searched = (uint8_t*)calloc(view.count, 1);
+    ck_assert_int_eq(view.data[0].state, VOX_DEPTH_CLOSEST); /* of the ball in the box */
+    for (uint64_t i = 0; i < view.count; ++i)
+        searched[i] = method == VOX_DEPTH_METHOD_CLOSEST || i == 0 || view.data[i].state == VOX_DEPTH_UNKNOWN;
     return searched;
 }
 
-START_TEST(the_first_ones_in_order) {
-    scene s = make_scene();
-    vox_grid_desc desc = engine_desc();
-    ck_assert_uint_eq(desc.closest_budget, 0);
+static void check_budgets(const scene* s, vox_depth_method method, uint32_t workers) {
     messages log = {0, ""};
     const vox_log log_lines = {write_message, &log};
+    vox_grid_desc desc = engine_desc();
     desc.log = &log_lines;
-    vox_grid* unlimited = grid_of(&desc);
-    insert_scene(unlimited, &s);
-    ck_ok(vox_grid_step(unlimited));
-    check_penetrations(unlimited);
-    const vox_penetration_view all = penetrations_of(unlimited);
-    const uint64_t searches = counters_of(unlimited).closest_searches;
+    desc.worker_count = workers;
+    vox_grid* grid = grid_of(&desc);
+    insert_scene(grid, s);
+    const uint64_t hash = hash_of_step(grid);
+    find(grid, method, 0);
+    check_depths(grid);
+    kept_constraints all = keep_constraints(grid);
+    const uint64_t searches = counters_of(grid).closest_searches;
     ck_assert_uint_gt(searches, 100);
-    ck_assert_uint_eq(counters_of(unlimited).unknown_penetrations, 0);
+    ck_assert_uint_eq(counters_of(grid).unknown_penetrations, 0);
     ck_assert_int_eq(log.count, 0);
-    uint64_t hash = 0;
-    ck_ok(vox_grid_get_hash(unlimited, &hash));
-    uint8_t* is_searched = searched_ones(&s, all.count);
+    uint8_t* is_searched = searched_ones(grid, method);
     uint64_t sum = 0;
     for (uint64_t i = 0; i < all.count; ++i) sum += is_searched[i];
     ck_assert_uint_eq(sum, searches);
 
     const uint64_t budgets[] = {1, 2, searches / 2, searches - 1, searches, searches + 1, UINT64_MAX};
-    for (int k = 0; k < 7; ++k)
-        for (uint32_t workers = 1; workers <= 4; workers += 3) {
-            log.count = 0;
-            desc.closest_budget = budgets[k];
-            desc.worker_count = workers;
-            vox_grid* grid = grid_of(&desc);
-            insert_scene(grid, &s);
-            ck_ok(vox_grid_step(grid));
-            const vox_penetration_view view = penetrations_of(grid);
-            ck_assert_uint_eq(view.count, all.count);
-            uint64_t left = budgets[k], unknown = 0;
-            for (uint64_t i = 0; i < all.count; ++i) {
-                const vox_penetration *expected = penetration_at(all, i), *found = penetration_at(view, i);
-                if (!is_searched[i] || left > 0) {
-                    if (is_searched[i]) --left;
-                    ck_assert_mem_eq(found, expected, sizeof *found);
-                    continue;
-                }
-                ++unknown;
-                ck_assert_int_eq(found->state, VOX_PENETRATION_UNKNOWN);
-                ck_assert(found->depth == 0);
-                ck_assert(fabs(norm(direction_of(found)) - 1) < 1e-6);
-                ck_assert_uint_eq(found->contact, expected->contact);
+    for (int k = 0; k < 7; ++k) {
+        log.count = 0;
+        find(grid, method, budgets[k]);
+        const vox_constraint_view view = check_depths(grid);
+        ck_assert_uint_eq(view.count, all.count);
+        uint64_t unknown = 0;
+        const vox_constraint *last_known = NULL, *first_unknown = NULL;
+        for (uint64_t i = 0; i < all.count; ++i) {
+            const vox_constraint *expected = &all.data[i], *found = &view.data[i];
+            if (found->state != VOX_DEPTH_UNKNOWN) {
+                ck_assert_mem_eq(found, expected, sizeof *found);
+                if (is_searched[i] && (!last_known || is_before(last_known, found))) last_known = found;
+                continue;
             }
-            const grid_counts counters = counters_of(grid);
-            ck_assert_uint_eq(counters.unknown_penetrations, unknown);
-            ck_assert_uint_eq(counters.closest_searches, searches - unknown);
-            ck_assert_int_eq(log.count, unknown > 0);
-            if (unknown > 0) ck_assert_ptr_nonnull(strstr(log.last, "closest_budget"));
-            uint64_t other = 0;
-            ck_ok(vox_grid_get_hash(grid, &other));
-            ck_assert_uint_eq(other, hash);
-            vox_grid_destroy(grid);
+            ck_assert(is_searched[i]);
+            ++unknown;
+            if (!first_unknown || is_before(found, first_unknown)) first_unknown = found;
+            ck_assert(found->gap == 0);
+            ck_assert_double_eq_tol(norm(normal_of(found)), 1, 1e-14);
+            ck_assert_uint_eq(found->count, 5);
+            ck_assert_uint_eq(found->element_b, expected->element_b);
         }
-    vox_grid_destroy(unlimited);
+        ck_assert_uint_eq(unknown, budgets[k] < searches ? searches - budgets[k] : 0);
+        if (unknown > 0) ck_assert(is_before(last_known, first_unknown));
+        const grid_counts counters = counters_of(grid);
+        ck_assert_uint_eq(counters.unknown_penetrations, unknown);
+        ck_assert_uint_eq(counters.closest_searches, searches - unknown);
+        ck_assert_int_eq(log.count, unknown > 0);
+        if (unknown > 0) ck_assert_ptr_nonnull(strstr(log.last, "closest_budget"));
+        uint64_t other = 0;
+        ck_ok(vox_grid_get_hash(grid, &other));
+        ck_assert_uint_eq(other, hash);
+    }
+    vox_grid_destroy(grid);
+    free(all.data);
     free(is_searched);
+}
+
+START_TEST(the_first_ones_in_order) {
+    scene s = make_scene();
+    for (uint32_t workers = 1; workers <= 4; workers += 3) {
+        check_budgets(&s, VOX_DEPTH_METHOD_CONSISTENT, workers);
+        check_budgets(&s, VOX_DEPTH_METHOD_CLOSEST, workers);
+    }
     free_scene(&s);
 }
 END_TEST
 
-/* The direction of an unknown penetration is the normal of a facet of the contact's tetrahedron, outwards. */
+/* The normal of an unknown one is that of a facet of its tetrahedron, outwards. */
 START_TEST(normals_of_facets) {
     scene s = make_scene();
-    vox_grid_desc desc = engine_desc();
-    desc.closest_budget = 1;
-    vox_grid* grid = grid_of(&desc);
+    vox_grid* grid = engine_grid();
     const vox_mesh_desc first = body_desc(&s.inner), second = body_desc(&s.outer);
     insert_mesh(grid, &first);
     insert_mesh(grid, &second);
     ck_ok(vox_grid_step(grid));
-    const vox_penetration_view view = penetrations_of(grid);
-    const vox_contact_view contacts = contacts_of(grid);
+    find(grid, VOX_DEPTH_METHOD_CONSISTENT, 1);
+    const vox_constraint_view view = constraints_of(grid);
     uint64_t unknown = 0;
     for (uint64_t i = 0; i < view.count; ++i) {
-        const vox_penetration* p = penetration_at(view, i);
-        if (p->state != VOX_PENETRATION_UNKNOWN) continue;
+        const vox_constraint* c = &view.data[i];
+        if (c->state != VOX_DEPTH_UNKNOWN) continue;
         ++unknown;
-        const vox_contact* c =
-            (const vox_contact*)(const void*)((const char*)contacts.data + p->contact * contacts.byte_stride);
-        const uint32_t* v = s.outer.tets + 4 * (c->tet & 0x7fffffffu);
         int is_normal = 0;
         for (int apex = 0; apex < 4; ++apex) {
-            const vector a = place(s.outer.positions, v[(apex + 1) % 4]),
-                         b = place(s.outer.positions, v[(apex + 2) % 4]),
-                         d = place(s.outer.positions, v[(apex + 3) % 4]),
-                         inside = place(s.outer.positions, v[apex]);
-            vector n = outer(minus(b, a), minus(d, a));
-            if (inner(n, minus(inside, a)) > 0) n = minus((vector){0, 0, 0}, n);
-            is_normal |= degrees_between(n, direction_of(p)) < 0.01;
+            vector x[4];
+            for (int k = 0; k < 4; ++k) x[k] = place(s.outer.positions, c->vertices[1 + (apex + k) % 4]);
+            vector n = outer(minus(x[2], x[1]), minus(x[3], x[1]));
+            if (inner(n, minus(x[0], x[1])) > 0) n = minus((vector){0, 0, 0}, n);
+            is_normal |= degrees_between(n, normal_of(c)) < 0.01;
         }
         ck_assert(is_normal);
     }
@@ -174,7 +180,7 @@ START_TEST(memory_is_steady) {
     scene s = make_scene();
     for (uint32_t workers = 1; workers <= 4; workers += 3) {
         ledger l = {0};
-        vox_grid_desc desc = engine_desc();
+        vox_grid_desc desc = depth_desc();
         desc.allocator = ledger_allocator(&l);
         desc.worker_count = workers;
         vox_grid* grid = grid_of(&desc);
@@ -194,12 +200,14 @@ START_TEST(memory_is_steady) {
             ck_assert_uint_eq(counters_of(grid).bytes, l.bytes);
         }
         ck_assert_uint_eq(l.calls, calls);
-        ck_ok(vox_grid_clear(grid));
-        const uint64_t rest = l.bytes;
-        insert_scene(grid, &s);
-        ck_ok(vox_grid_step(grid));
-        ck_ok(vox_grid_clear(grid));
-        ck_assert_uint_le(l.bytes, rest);
+        uint64_t rest = 0;
+        for (int round = 0; round < 3; ++round) { /* the second step has pairs that ended besides its own */
+            ck_ok(vox_grid_clear(grid));
+            if (round == 2) ck_assert_uint_eq(l.bytes, rest);
+            rest = l.bytes;
+            insert_scene(grid, &s);
+            ck_ok(vox_grid_step(grid));
+        }
         vox_grid_destroy(grid);
         ck_assert_uint_eq(l.bytes, 0);
     }
@@ -210,8 +218,7 @@ END_TEST
 /* What a step finds does not depend on the steps before, nor on meshes that came and went. */
 START_TEST(steps_before_do_not_matter) {
     scene s = make_scene();
-    vox_grid_desc desc = engine_desc();
-    vox_grid *fresh = grid_of(&desc), *old = grid_of(&desc);
+    vox_grid *fresh = depth_grid(), *old = depth_grid();
     insert_scene(fresh, &s);
     insert_scene(old, &s);
     uint64_t random = 5;
@@ -225,9 +232,9 @@ START_TEST(steps_before_do_not_matter) {
     memcpy(s.tangled.positions, rest, 3 * sizeof(float) * s.tangled.vertex_count);
     ck_ok(vox_grid_step(old));
     ck_ok(vox_grid_step(fresh));
-    const vox_penetration_view a = penetrations_of(old), b = penetrations_of(fresh);
-    ck_assert_uint_eq(a.count, b.count);
-    ck_assert_mem_eq(a.data, b.data, a.count * sizeof(vox_penetration));
+    kept_constraints expected = keep_constraints(fresh);
+    same_constraints(old, &expected);
+    free(expected.data);
     vox_grid_destroy(fresh);
     vox_grid_destroy(old);
     free(rest);

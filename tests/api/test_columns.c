@@ -92,8 +92,10 @@ typedef struct scene {
 
 static scene new_scene(const layout* l, uint32_t mesh_flags) {
     scene s;
-    s.packed = engine_grid();
-    s.grid = engine_grid();
+    vox_grid_desc grid_desc = engine_desc();
+    grid_desc.flags = VOX_GRID_CONSTRAINTS;
+    s.packed = grid_of(&grid_desc);
+    s.grid = grid_of(&grid_desc);
     for (int b = 0; b < most; ++b) {
         body* box = &s.bodies[b];
         *box = make_box(4, 0.37f, 0.9f * (float)b, 0.1f * (float)b, 0.07f * (float)b);
@@ -133,20 +135,17 @@ static void move(scene* s, int b, float by) {
     }
 }
 
-#define same_view(type, function)                                                                            \
+#define same_view(get)                                                                                       \
     do {                                                                                                     \
-        type x, y;                                                                                           \
-        ck_ok(function(s->packed, &x));                                                                      \
-        ck_ok(function(s->grid, &y));                                                                        \
-        ck_assert_uint_gt(x.count, 20);                                                                      \
-        ck_assert_uint_eq(x.count, y.count);                                                                 \
-        ck_assert_mem_eq(x.data, y.data, x.count* x.byte_stride);                                            \
+        ck_assert_uint_gt(get(s->packed).count, 20);                                                         \
+        ck_assert_uint_eq(get(s->packed).count, get(s->grid).count);                                         \
+        ck_assert_mem_eq(get(s->packed).data, get(s->grid).data,                                             \
+                         get(s->grid).count * sizeof *get(s->grid).data);                                    \
     } while (0)
 
 static void same_results(const scene* s) {
-    same_view(vox_contact_view, vox_grid_get_contacts);
-    same_view(vox_penetration_view, vox_grid_penetrations);
-    same_view(vox_depth_view, vox_grid_depths);
+    same_view(contacts_of);
+    same_view(constraints_of);
 }
 
 static void step_both(const scene* s) {
@@ -162,6 +161,8 @@ static void same_answers(const scene* s) {
     vox_closest_hit closest[2];
     vox_suggestion suggested[2];
     vox_grid* const grids[2] = {s->packed, s->grid};
+    vox_constraint_desc by_closest = vox_default_constraint_desc();
+    by_closest.method = VOX_DEPTH_METHOD_CLOSEST;
     memset(suggested, 0, sizeof suggested);
     for (int g = 0; g < 2; ++g) {
         uint64_t count = 0;
@@ -172,7 +173,7 @@ static void same_answers(const scene* s) {
         vox_locator_release(locator);
         suggested[g].struct_size = sizeof suggested[g];
         ck_ok(vox_grid_suggest_cell_size(grids[g], NULL, &suggested[g]));
-        ck_ok(vox_grid_prepare_readings(grids[g]));
+        ck_ok(vox_grid_find_constraints(grids[g], &by_closest));
     }
     ck_assert_mem_eq(&hits[0], &hits[1], sizeof hits[0]);
     ck_assert_mem_eq(&closest[0], &closest[1], sizeof closest[0]);
@@ -180,7 +181,7 @@ static void same_answers(const scene* s) {
     ck_assert_mem_eq(suggested[0].stats.bounds_max, suggested[1].stats.bounds_max,
                      sizeof suggested[0].stats.bounds_max);
     ck_assert_double_eq_tol(suggested[0].cell_size, suggested[1].cell_size, 0.05 * suggested[0].cell_size);
-    same_view(vox_reading_view, vox_grid_readings);
+    same_view(constraints_of);
 }
 
 START_TEST(same_as_packed) {

@@ -13,7 +13,9 @@ START_TEST(arguments) {
     body box = make_box(1, 1, 0, 0, 0);
     vox_mesh_desc desc = body_desc(&box);
     vox_vertices_desc vertices = vox_default_vertices_desc();
-    vox_grid* grid = engine_grid();
+    vox_grid_desc grid_desc = engine_desc();
+    grid_desc.flags = VOX_GRID_CONSTRAINTS;
+    vox_grid* grid = grid_of(&grid_desc);
     vox_body mesh = insert_mesh(grid, &desc);
 
     ck_fails(vox_mesh_set_topology(NULL, mesh, &desc), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
@@ -55,7 +57,7 @@ START_TEST(arguments) {
     ck_fails(vox_mesh_append_tets(grid, mesh, zero, VOX_MAX_TETS, &first), VOX_ERROR_LIMIT,
              "the grid holds 5 tets and cannot take 2147483647 more");
     ck_fails(vox_mesh_append_tets(grid, mesh, zero, 400000000, &first), VOX_ERROR_LIMIT,
-             "the mesh has 400000005 tets, a grid with VOX_GRID_PENETRATIONS takes at most 357913941");
+             "the mesh has 400000005 tets, a grid with VOX_GRID_CONSTRAINTS takes at most 357913941");
     ck_fails(vox_mesh_append_tets(grid, mesh, corners, 1, &first), VOX_ERROR_INVALID_MESH,
              "tet 5 names vertex 8 of 8");
     ck_fails(vox_mesh_replace_tets(grid, mesh, five, 1, zero), VOX_ERROR_INVALID_ARGUMENT, "tets[0] is 5");
@@ -177,7 +179,6 @@ START_TEST(off_and_on) {
     body box = make_box(2, 1, 0, 0, 0);
     const float point[3] = {0.5f, 0.5f, 0.5f}; /* in the middle tet of the first cube */
     vox_mesh_desc desc = body_desc(&box), sensor = vox_mesh_desc_floats(point, 1, NULL, 0);
-    vox_touch_view events;
     vox_grid* grid = engine_grid();
     vox_body solid = insert_mesh(grid, &desc);
     insert_mesh(grid, &sensor);
@@ -191,9 +192,8 @@ START_TEST(off_and_on) {
         ck_assert_uint_eq(view.count, 1); /* until the next step */
         ck_ok(vox_grid_step(grid));
         ck_ok(vox_grid_get_contacts(grid, &view));
-        ck_ok(vox_grid_touch_events(grid, &events));
         ck_assert_uint_eq(view.count, 0);
-        ck_assert(events.ended == 1 && events.count == 1);
+        ck_assert(count_pairs(grid, VOX_PAIR_ENDED) == 1 && pairs_of(grid).count == 1);
         ck_assert_uint_eq(counters_of(grid).tets, 39);
         ck_assert_uint_eq(counters_of(grid).skipped_degenerate, 0);
         ck_ok(vox_mesh_set_tets_enabled(grid, solid, &tet, 1, 1));
@@ -205,8 +205,7 @@ START_TEST(off_and_on) {
     ck_ok(vox_mesh_set_tets_enabled(grid, solid, &tet, 1, 0));
     ck_ok(vox_mesh_set_tets_enabled(grid, solid, &tet, 1, 1));
     ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_touch_events(grid, &events));
-    ck_assert(events.persisted == 1 && events.count == 1);
+    ck_assert(count_pairs(grid, VOX_PAIR_PERSISTED) == 1 && pairs_of(grid).count == 1);
     vox_grid_destroy(grid);
     free_body(&box);
 }
@@ -216,7 +215,6 @@ START_TEST(topology_keeps_what_is_not_topology) {
     body box = make_box(2, 1, 0, 0, 0), other = make_box(1, 1, 0.25f, 0.25f, 0.25f);
     vox_mesh_desc desc = body_desc(&box), more = body_desc(&other);
     uint64_t user_data = 0;
-    vox_touch_view events;
     vox_filter filter = plain_filter();
     vox_grid* grid = engine_grid();
     desc.user_data = 41;
@@ -229,8 +227,7 @@ START_TEST(topology_keeps_what_is_not_topology) {
     const double up[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0.125};
     ck_ok(vox_body_set_transform(grid, a, up));
     ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_touch_events(grid, &events));
-    ck_assert_uint_eq(events.began, 2); /* a and b, b and c */
+    ck_assert_uint_eq(count_pairs(grid, VOX_PAIR_BEGAN), 2); /* a and b, b and c */
 
     vox_mesh_desc anew = body_desc(&box);
     anew.tet_count = 5; /* the first cube alone */
@@ -241,8 +238,8 @@ START_TEST(topology_keeps_what_is_not_topology) {
     ck_ok(get_filter(grid, a, &filter));
     ck_assert_uint_eq(filter.category, 6);
     ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_touch_events(grid, &events));
-    ck_assert(events.persisted == 2 && events.count == 2); /* a and c still do not collide */
+    ck_assert(count_pairs(grid, VOX_PAIR_PERSISTED) == 2 &&
+              pairs_of(grid).count == 2); /* a and c still do not collide */
     ck_assert_uint_eq(counters_of(grid).tets, 15);
     const double away[12] = {1, 0, 0, 50, 0, 1, 0, 0, 0, 0, 1, 0};
     ck_ok(vox_body_set_transform(grid, a, away));
@@ -250,14 +247,12 @@ START_TEST(topology_keeps_what_is_not_topology) {
     anew.tet_count = 40;
     ck_ok(vox_mesh_set_topology(grid, a, &anew));
     ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_touch_events(grid, &events));
-    ck_assert(events.persisted == 1 && events.ended == 1);
+    ck_assert(count_pairs(grid, VOX_PAIR_PERSISTED) == 1 && count_pairs(grid, VOX_PAIR_ENDED) == 1);
 
     anew = vox_default_mesh_desc(); /* nothing at all */
     ck_ok(vox_mesh_set_topology(grid, b, &anew));
     ck_ok(vox_grid_step(grid));
-    ck_ok(vox_grid_touch_events(grid, &events));
-    ck_assert(events.ended == 1 && events.count == 1);
+    ck_assert(count_pairs(grid, VOX_PAIR_ENDED) == 1 && pairs_of(grid).count == 1);
     anew.positions.count = 3; /* without positions */
     ck_ok(vox_mesh_set_topology(grid, b, &anew));
     ck_fails(vox_grid_step(grid), VOX_ERROR_INVALID_STATE, "has no positions");

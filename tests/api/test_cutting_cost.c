@@ -9,7 +9,7 @@
 
 static vox_grid* make_grid(ledger* l) {
     vox_grid_desc desc = engine_desc();
-    desc.flags |= VOX_GRID_CONTACT_EVENTS;
+    desc.flags = VOX_GRID_CONSTRAINTS;
     if (l) {
         memset(l, 0, sizeof *l);
         desc.allocator = ledger_allocator(l);

@@ -1,6 +1,4 @@
-/* Flags of a grid that change, and which pairs of meshes have penetrations. */
-#include <stddef.h>
-
+/* Flags of a grid that change, and sensors, which have no constraints. */
 #include "scenes/random.h"
 #include "support/depth_checks.h"
 #include "support/ledger.h"
@@ -47,97 +45,110 @@ static void free_scene(scene* s) {
     for (int b = 0; b < most; ++b) free_body(&s->bodies[b]);
 }
 
-static uint32_t flags_of(const vox_grid* grid) {
-    uint32_t flags = 77;
-    flags = grid_info(grid).flags;
-    return flags;
+static uint32_t flags_of(const vox_grid* grid) { return grid_info(grid).flags; }
+
+static uint64_t epoch_of(const vox_grid* grid) { return grid_info(grid).epoch; }
+
+/* But for `previous`, as the two may have begun to look for them at different times. */
+static void same_in_both(const vox_grid* a, const vox_grid* b) {
+    kept_constraints kept = keep_constraints(a);
+    ck_assert_uint_gt(kept.count, 50);
+    same_constraints(b, &kept);
+    free(kept.data);
 }
 
-static uint64_t epoch_of(const vox_grid* grid) {
-    uint64_t epoch = 0;
-    epoch = grid_info(grid).epoch;
-    return epoch;
-}
-
-static void same_penetrations(const vox_grid* a, const vox_grid* b) {
-    const vox_penetration_view p = penetrations_of(a), q = penetrations_of(b);
-    const vox_depth_view x = depths_of(a), y = depths_of(b);
-    ck_assert_uint_gt(p.count, 50);
-    ck_assert_uint_eq(p.count, q.count);
-    ck_assert_uint_eq(x.count, y.count);
-    ck_assert_mem_eq(p.data, q.data, p.count * sizeof *p.data);
-    ck_assert_mem_eq(x.data, y.data, x.count * sizeof *x.data);
-}
-
-/* ---- penetrations on and off ---- */
+/* ---- constraints on and off ---- */
 
 START_TEST(arguments) {
     vox_grid* grid = grid_of(NULL);
-    uint32_t flags = 77;
     ck_fails(vox_grid_set_flags(NULL, 0), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     ck_fails(vox_grid_set_flags(grid, 0x41), VOX_ERROR_INVALID_ARGUMENT,
              "flags is 0x41, of which 0x40 is unknown");
-    ck_assert_uint_eq(flags, 77);
-    ck_assert_uint_eq(flags_of(grid), VOX_GRID_PENETRATIONS);
-    for (flags = 0; flags < 4; ++flags) {
+    ck_assert_uint_eq(flags_of(grid), 0);
+    for (uint32_t flags = 0; flags < 8; ++flags) {
         ck_ok(vox_grid_set_flags(grid, flags));
         ck_assert_uint_eq(flags_of(grid), flags);
     }
-    vox_depth_view view = {NULL, 7, 7, 7};
-    ck_fails(vox_grid_depths(NULL, &view), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_grid_depths(grid, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_view is null");
-    ck_ok(vox_grid_set_flags(grid, 0));
-    ck_fails(vox_grid_depths(grid, &view), VOX_ERROR_INVALID_STATE, "lack VOX_GRID_PENETRATIONS");
-    ck_assert_uint_eq(view.count, 7);
     vox_grid_destroy(grid);
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.flags = 0x4000 | VOX_GRID_CONSTRAINTS;
+    grid = NULL;
+    ck_fails(vox_grid_create(&desc, &grid), VOX_ERROR_INVALID_ARGUMENT, "flags is 0x4001, of which 0x4000");
 }
 END_TEST
 
 START_TEST(on_later_is_on_from_the_start) {
     scene s, later;
-    make_scene(&s, VOX_GRID_PENETRATIONS);
+    make_scene(&s, VOX_GRID_CONSTRAINTS);
     make_scene(&later, 0);
     ck_ok(vox_grid_step(s.grid));
     for (int round = 0; round < 3; ++round) {
-        vox_penetration_view view = {NULL, 0, 0, 0};
+        vox_constraint_view view;
         ck_ok(vox_grid_step(later.grid));
-        ck_fails(vox_grid_penetrations(later.grid, &view), VOX_ERROR_INVALID_STATE,
-                 "lack VOX_GRID_PENETRATIONS");
+        ck_fails(vox_grid_get_constraints(later.grid, &view), VOX_ERROR_INVALID_STATE,
+                 "set VOX_GRID_CONSTRAINTS");
         const vox_contact_view contacts = contacts_of(later.grid);
         const uint64_t epoch = epoch_of(later.grid);
-        ck_ok(vox_grid_set_flags(later.grid, VOX_GRID_PENETRATIONS));
-        /* The contacts are still there; penetrations come with the next step. */
+        ck_ok(vox_grid_set_flags(later.grid, VOX_GRID_CONSTRAINTS));
+        /* The contacts are still there; constraints come with the next step, or when they are asked for. */
         ck_assert_uint_gt(epoch_of(later.grid), epoch);
         ck_assert_uint_eq(contacts_of(later.grid).count, contacts.count);
-        ck_assert_uint_eq(penetrations_of(later.grid).count, 0);
-        ck_assert_uint_eq(depths_of(later.grid).count, 0);
-        vox_reading_view readings;
-        ck_ok(vox_grid_prepare_readings(later.grid));
-        ck_ok(vox_grid_readings(later.grid, &readings));
-        ck_assert_uint_eq(readings.count, contacts.count);
-        for (uint64_t i = 0; i < readings.count; ++i)
-            ck_assert(!(readings.data[i].known & VOX_READING_DEPTH));
+        ck_fails(vox_grid_get_constraints(later.grid, &view), VOX_ERROR_INVALID_STATE, "since the last step");
+        if (round == 1) {
+            ck_ok(vox_grid_find_constraints(later.grid, NULL));
+            same_in_both(s.grid, later.grid);
+        }
         for (int step = 0; step < 3; ++step) { /* at rest, too */
             ck_ok(vox_grid_step(later.grid));
-            check_penetrations(later.grid);
-            same_penetrations(s.grid, later.grid);
+            check_depths(later.grid);
+            same_in_both(s.grid, later.grid);
         }
         const uint64_t before = epoch_of(later.grid);
-        ck_ok(vox_grid_set_flags(later.grid, VOX_GRID_PENETRATIONS)); /* no change */
+        ck_ok(vox_grid_set_flags(later.grid, VOX_GRID_CONSTRAINTS)); /* no change */
         ck_assert_uint_eq(epoch_of(later.grid), before);
         ck_ok(vox_grid_set_flags(later.grid, 0));
         ck_assert_uint_eq(contacts_of(later.grid).count, contacts.count);
+        if (round == 1) {
+            ck_ok(vox_grid_find_constraints(later.grid, NULL));
+            same_in_both(s.grid, later.grid);
+        }
     }
     free_scene(&s);
     free_scene(&later);
 }
 END_TEST
 
+/* Bars laid across each other, whose edges alone meet: what was prepared is given up with the flag, and made
+ * again where constraints are asked for. */
+START_TEST(off_after_a_step) {
+    vox_grid_desc settings = engine_desc();
+    settings.flags = VOX_GRID_EDGES | VOX_GRID_CONSTRAINTS;
+    vox_grid* grid = grid_of(&settings);
+    body bars[2] = {make_block(&five_cut, 3, 1, 1), make_block(&five_cut, 1, 3, 1)};
+    for (int b = 0; b < 2; ++b) {
+        for (uint32_t v = 0; v < bars[b].vertex_count; ++v) bars[b].positions[3 * v + (uint32_t)b] *= 3;
+        move_body(&bars[b], b ? -0.5 : -4.5, b ? -4.5 : -0.5, b ? 0.75 : 0);
+        const vox_mesh_desc desc = body_desc(&bars[b]);
+        insert_mesh(grid, &desc);
+    }
+    ck_ok(vox_grid_step(grid));
+    ck_assert_uint_eq(contacts_of(grid).count, 0);
+    kept_constraints kept = keep_constraints(grid);
+    ck_assert_uint_gt(kept.count, 4);
+    ck_ok(vox_grid_set_flags(grid, VOX_GRID_EDGES));
+    ck_ok(vox_grid_find_constraints(grid, NULL));
+    same_constraints(grid, &kept);
+    free(kept.data);
+    vox_grid_destroy(grid);
+    for (int b = 0; b < 2; ++b) free_body(&bars[b]);
+}
+END_TEST
+
 /* Edits while it is off are in what is prepared when it is on again. */
 START_TEST(edits_while_off) {
     scene s, later;
-    make_scene(&s, VOX_GRID_PENETRATIONS);
-    make_scene(&later, VOX_GRID_PENETRATIONS);
+    make_scene(&s, VOX_GRID_CONSTRAINTS);
+    make_scene(&later, VOX_GRID_CONSTRAINTS);
     ck_ok(vox_grid_step(later.grid));
     ck_ok(vox_grid_set_flags(later.grid, 0));
     for (int g = 0; g < 2; ++g) {
@@ -149,11 +160,11 @@ START_TEST(edits_while_off) {
         const vox_mesh_desc other = body_desc(&s.bodies[3]);
         ck_ok(vox_mesh_set_topology(grid, s.ids[2], &other));
     }
-    ck_ok(vox_grid_set_flags(later.grid, VOX_GRID_PENETRATIONS));
+    ck_ok(vox_grid_set_flags(later.grid, VOX_GRID_CONSTRAINTS));
     ck_ok(vox_grid_step(s.grid));
     ck_ok(vox_grid_step(later.grid));
-    check_penetrations(later.grid);
-    same_penetrations(s.grid, later.grid);
+    check_depths(later.grid);
+    same_in_both(s.grid, later.grid);
     free_scene(&s);
     free_scene(&later);
 }
@@ -195,7 +206,7 @@ START_TEST(all_or_nothing) {
     scene s;
     make_bodies(&s);
     uint64_t failures = 0, hash = 0, again = 0;
-    desc.flags = VOX_GRID_CONTACT_EVENTS;
+    desc.flags = VOX_GRID_SKIP_BAD_BODIES;
     insert_bodies(&s, &desc);
     ck_ok(vox_grid_step(s.grid));
     ck_ok(vox_grid_get_hash(s.grid, &hash));
@@ -203,23 +214,23 @@ START_TEST(all_or_nothing) {
         const uint64_t bytes = l.bytes, epoch = epoch_of(s.grid);
         l.calls = 0;
         l.fail_at = failures + 1;
-        result = vox_grid_set_flags(s.grid, VOX_GRID_PENETRATIONS);
+        result = vox_grid_set_flags(s.grid, VOX_GRID_CONSTRAINTS);
         l.fail_at = 0;
         if (result == VOX_OK) break;
         ++failures;
         ck_assert_int_eq(result, VOX_ERROR_OUT_OF_MEMORY);
         ck_assert_uint_eq(l.bytes, bytes);
         ck_assert_uint_eq(epoch_of(s.grid), epoch);
-        ck_assert_uint_eq(flags_of(s.grid), VOX_GRID_CONTACT_EVENTS);
+        ck_assert_uint_eq(flags_of(s.grid), VOX_GRID_SKIP_BAD_BODIES);
         if (failures % 8 != 1) continue;
         ck_ok(vox_grid_step(s.grid));
         ck_ok(vox_grid_get_hash(s.grid, &again));
         ck_assert_uint_eq(hash, again);
     }
     ck_assert_uint_gt(failures, 20);
-    ck_assert_uint_eq(flags_of(s.grid), VOX_GRID_PENETRATIONS);
+    ck_assert_uint_eq(flags_of(s.grid), VOX_GRID_CONSTRAINTS);
     ck_ok(vox_grid_step(s.grid));
-    check_penetrations(s.grid);
+    check_depths(s.grid);
     free_scene(&s);
     ck_assert_uint_eq(l.bytes, 0);
 }
@@ -229,7 +240,7 @@ START_TEST(budget) {
     scene s;
     make_scene(&s, 0);
     const uint64_t without = counters_of(s.grid).bytes;
-    ck_ok(vox_grid_set_flags(s.grid, VOX_GRID_PENETRATIONS));
+    ck_ok(vox_grid_set_flags(s.grid, VOX_GRID_CONSTRAINTS));
     const uint64_t with = counters_of(s.grid).bytes;
     free_scene(&s);
     vox_grid_desc desc = engine_desc();
@@ -237,52 +248,14 @@ START_TEST(budget) {
     desc.byte_budget = (without + with) / 2;
     make_bodies(&s);
     insert_bodies(&s, &desc);
-    ck_fails(vox_grid_set_flags(s.grid, VOX_GRID_PENETRATIONS), VOX_ERROR_BUDGET, "budget");
+    ck_fails(vox_grid_set_flags(s.grid, VOX_GRID_CONSTRAINTS), VOX_ERROR_BUDGET, "budget");
     ck_assert_uint_eq(counters_of(s.grid).bytes, without);
     ck_assert_uint_eq(flags_of(s.grid), 0);
     free_scene(&s);
 }
 END_TEST
 
-/* ---- events of vertices on and off ---- */
-
-START_TEST(contact_events) {
-    scene s;
-    vox_contact_event_view events;
-    make_scene(&s, VOX_GRID_CONTACT_EVENTS);
-    ck_ok(vox_grid_step(s.grid));
-    ck_ok(vox_grid_contact_events(s.grid, &events));
-    const uint64_t inside = events.began;
-    ck_assert_uint_gt(inside, 50);
-    const uint64_t bytes = counters_of(s.grid).bytes;
-    ck_ok(vox_grid_set_flags(s.grid, 0));
-    ck_assert_uint_lt(counters_of(s.grid).bytes, bytes);
-    ck_fails(vox_grid_contact_events(s.grid, &events), VOX_ERROR_INVALID_STATE,
-             "lack VOX_GRID_CONTACT_EVENTS");
-    for (int round = 0; round < 2; ++round) {
-        ck_ok(vox_grid_step(s.grid));
-        vox_touch_view touches; /* those of pairs go on */
-        ck_ok(vox_grid_touch_events(s.grid, &touches));
-        ck_assert_uint_eq(touches.persisted, touches.count);
-        ck_assert_uint_gt(touches.count, 3);
-        ck_ok(vox_grid_set_flags(s.grid, VOX_GRID_CONTACT_EVENTS));
-        ck_ok(vox_grid_contact_events(s.grid, &events));
-        ck_assert_uint_eq(events.count, 0);
-        /* All of them begin, also where nothing moved, and then go on. */
-        ck_ok(vox_grid_step(s.grid));
-        ck_ok(vox_grid_contact_events(s.grid, &events));
-        ck_assert_uint_eq(events.began, inside);
-        ck_assert_uint_eq(events.ended, 0);
-        ck_ok(vox_grid_step(s.grid));
-        ck_ok(vox_grid_contact_events(s.grid, &events));
-        ck_assert_uint_eq(events.count, 0);
-        ck_ok(vox_grid_set_flags(s.grid, 0));
-    }
-    free_scene(&s);
-}
-END_TEST
-
-/* ---- penetrations by pair ---- */
+/* ---- sensors ---- */
 
 static void set_sensor(vox_grid* grid, vox_body mesh, uint32_t sensor) {
     vox_filter filter = plain_filter();
@@ -298,42 +271,37 @@ static int body_of(const scene* s, vox_body mesh) {
     return -1;
 }
 
-/* The penetrations of `s` are those of `all`, which has them for every pair, without those of sensors. */
+/* The contacts and pairs of `s` are those of `all`, and so are its constraints, without those of sensors. */
 static uint64_t check_sensors(const scene* s, const vox_grid* all, const uint32_t* sensors) {
-    const vox_penetration_view found = penetrations_of(s->grid), every = penetrations_of(all);
-    const vox_depth_view depths = depths_of(s->grid), every_depth = depths_of(all);
-    uint64_t n = 0;
+    const vox_constraint_view found = check_depths(s->grid), every = constraints_of(all);
+    const vox_pair_view pairs = pairs_of(s->grid), all_pairs = pairs_of(all);
+    uint64_t hashes[2], n = 0;
+    ck_ok(vox_grid_get_hash(s->grid, &hashes[0]));
+    ck_ok(vox_grid_get_hash(all, &hashes[1]));
+    ck_assert_uint_eq(hashes[0], hashes[1]);
+    ck_assert_uint_eq(pairs.count, all_pairs.count);
+    ck_assert_mem_eq(pairs.data, all_pairs.data, pairs.count * sizeof *pairs.data);
     for (uint64_t i = 0; i < every.count; ++i) {
-        const vox_penetration* p = &every.data[i];
-        if (sensors[body_of(s, p->body_a)] || sensors[body_of(s, p->body_b)]) continue;
+        vox_constraint c = every.data[i];
+        if (sensors[body_of(s, c.body_a)] || sensors[body_of(s, c.body_b)]) continue;
         ck_assert_uint_lt(n, found.count);
-        ck_assert_mem_eq(&found.data[n], p, sizeof *p);
-        ck_assert_mem_eq(&depths.data[n], &every_depth.data[i], sizeof *depths.data);
+        c.previous = found.data[n].previous;
+        ck_assert_mem_eq(&found.data[n], &c, sizeof c);
         ++n;
     }
     ck_assert_uint_eq(n, found.count);
-    ck_assert_uint_eq(n, depths.count);
-    ck_assert_uint_eq(n, counters_of(s->grid).penetrations);
-    /* Readings tell the same. */
-    vox_reading_view readings;
-    const vox_contact_view contacts = contacts_of(s->grid);
-    ck_ok(vox_grid_prepare_readings(s->grid));
-    ck_ok(vox_grid_readings(s->grid, &readings));
-    for (uint64_t i = 0; i < readings.count; ++i) {
-        const vox_contact* c = &contacts.data[i];
-        const uint32_t sensor = sensors[body_of(s, c->body_a)] || sensors[body_of(s, c->body_b)];
-        ck_assert_uint_eq((readings.data[i].known & VOX_READING_DEPTH) == 0, sensor);
-    }
     return n;
 }
 
 START_TEST(sensors_have_none) {
     uint64_t random = 3, some = 0, left_out = 0;
     scene s, all;
-    make_scene(&s, VOX_GRID_PENETRATIONS);
-    make_scene(&all, VOX_GRID_PENETRATIONS);
+    make_scene(&s, VOX_GRID_CONSTRAINTS | VOX_GRID_EDGES);
+    make_scene(&all, VOX_GRID_CONSTRAINTS | VOX_GRID_EDGES);
+    ck_ok(vox_grid_set_margin(s.grid, 0.05));
+    ck_ok(vox_grid_set_margin(all.grid, 0.05));
     uint32_t sensors[most] = {0};
-    for (int step = 0; step < 60; ++step) {
+    for (int step = 0; step < 30; ++step) {
         for (int b = 0; b < most; ++b) {
             /* Some keep their filters, some move: what is carried over is as if it was found. */
             if (random_below(&random, 2))
@@ -350,7 +318,10 @@ START_TEST(sensors_have_none) {
             ck_ok(vox_grid_step(all.grid));
             const uint64_t n = check_sensors(&s, all.grid, sensors);
             some += n;
-            left_out += penetrations_of(all.grid).count - n;
+            left_out += constraints_of(all.grid).count - n;
+            /* Nor where they are asked for. */
+            ck_ok(vox_grid_find_constraints(s.grid, NULL));
+            (void)check_sensors(&s, all.grid, sensors);
         }
     }
     ck_assert_uint_gt(some, 3000);
@@ -361,15 +332,13 @@ START_TEST(sensors_have_none) {
 }
 END_TEST
 
-/* A mesh without penetrations is not prepared for them, whenever that is said. */
+/* A sensor is not prepared for constraints, whenever that is said. */
 START_TEST(memory_of_a_mesh) {
     scene s;
     uint64_t none[3];
     make_bodies(&s);
     for (int how = 0; how < 3; ++how) { /* no flag, at insertion, later */
-        vox_grid_desc desc = engine_desc();
-        if (how == 0) desc.flags = 0;
-        vox_grid* grid = grid_of(&desc);
+        vox_grid* grid = how == 0 ? engine_grid() : depth_grid();
         vox_filter filter = plain_filter();
         if (how == 1) filter.flags |= VOX_FILTER_SENSOR;
         for (int b = 0; b < most; ++b) {
@@ -386,10 +355,10 @@ START_TEST(memory_of_a_mesh) {
         ck_assert_uint_eq(none[how], none[0]);
         if (how > 0) { /* off and on again: nothing to prepare */
             ck_ok(vox_grid_set_flags(grid, 0));
-            ck_ok(vox_grid_set_flags(grid, VOX_GRID_PENETRATIONS));
+            ck_ok(vox_grid_set_flags(grid, VOX_GRID_CONSTRAINTS));
             ck_assert_uint_eq(counters_of(grid).bytes, none[0]);
             ck_ok(vox_grid_step(grid));
-            ck_assert_uint_eq(penetrations_of(grid).count, 0);
+            ck_assert_uint_eq(constraints_of(grid).count, 0);
             ck_assert_uint_gt(contacts_of(grid).count, 0);
         }
         vox_grid_destroy(grid);
@@ -398,10 +367,10 @@ START_TEST(memory_of_a_mesh) {
 }
 END_TEST
 
-/* No memory for a mesh that is to have penetrations again: its filter stays. */
+/* No memory for a mesh that is to be no sensor any more: its filter stays. */
 START_TEST(filter_all_or_nothing) {
     ledger l = {0};
-    vox_grid_desc desc = engine_desc();
+    vox_grid_desc desc = depth_desc();
     desc.allocator = ledger_allocator(&l);
     scene s;
     make_bodies(&s);
@@ -428,14 +397,14 @@ START_TEST(filter_all_or_nothing) {
     }
     ck_assert_uint_gt(failures, 10);
     ck_ok(vox_grid_step(s.grid));
-    check_penetrations(s.grid);
+    check_depths(s.grid);
     free_scene(&s);
 }
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, arguments, on_later_is_on_from_the_start, edits_while_off, memory_comes_back,
-                   all_or_nothing, budget, contact_events, sensors_have_none, memory_of_a_mesh,
+    tcase_add_each(tests, arguments, on_later_is_on_from_the_start, off_after_a_step, edits_while_off,
+                   memory_comes_back, all_or_nothing, budget, sensors_have_none, memory_of_a_mesh,
                    filter_all_or_nothing);
 }
 

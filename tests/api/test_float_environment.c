@@ -209,6 +209,7 @@ static record results(int scene, const float_mode* mode, uint32_t workers, callb
     desc.allocator = &allocator;
     const vox_log log = {noted_log, c};
     desc.log = &log;
+    desc.flags = VOX_GRID_CONSTRAINTS;
     desc.worker_count = workers;
     const vox_task_system tasks = {noted_enqueue, noted_finish, c};
     if (workers > 1) desc.tasks = &tasks;
@@ -216,10 +217,12 @@ static record results(int scene, const float_mode* mode, uint32_t workers, callb
     scenes[scene](grid, mode);
     ck_in_mode(mode, vox_grid_step(grid));
     put_view(&r, mode, vox_contact_view, vox_contact, vox_grid_get_contacts);
-    put_view(&r, mode, vox_penetration_view, vox_penetration, vox_grid_penetrations);
-    put_view(&r, mode, vox_depth_view, vox_depth, vox_grid_depths);
-    ck_in_mode(mode, vox_grid_prepare_readings(grid));
-    put_view(&r, mode, vox_reading_view, vox_reading, vox_grid_readings);
+    put_view(&r, mode, vox_pair_view, vox_pair, vox_grid_get_pairs);
+    put_view(&r, mode, vox_constraint_view, vox_constraint, vox_grid_get_constraints);
+    vox_constraint_desc closest = vox_default_constraint_desc();
+    closest.method = VOX_DEPTH_METHOD_CLOSEST;
+    ck_in_mode(mode, vox_grid_find_constraints(grid, &closest));
+    put_view(&r, mode, vox_constraint_view, vox_constraint, vox_grid_get_constraints);
     vox_grid_info info = {.struct_size = sizeof info};
     ck_in_mode(mode, vox_grid_get_info(grid, &info));
     put(&r, &info.cell_size, sizeof info.cell_size);

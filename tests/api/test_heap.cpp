@@ -71,11 +71,13 @@ void live(const Scene& scene, const vox_grid_desc& desc, heap::Life& life) {
     suggestion.struct_size = sizeof suggestion;
     std::uint64_t count = 0;
     std::uint32_t first = 0;
+    vox_constraint_desc by_closest = vox_default_constraint_desc();
+    by_closest.method = VOX_DEPTH_METHOD_CLOSEST;
     const auto step = [&] { return vox_grid_step(held.grid); };
     const auto cut_tets = [&] { return vox_mesh_set_tets_enabled(held.grid, meshes[1], cut, 2, 0); };
     const bool done =
         life([&] { return vox_body_set_filter(held.grid, meshes[0], &filter); }) && life(step) &&
-        life([&] { return vox_grid_prepare_readings(held.grid); }) &&
+        life([&] { return vox_grid_find_constraints(held.grid, &by_closest); }) &&
         life([&] { return vox_grid_update_locator(held.grid, &held.locator); }) &&
         life([&] { return vox_locator_find_point_hits(held.locator, &one, nullptr, nullptr, 0, &count); }) &&
         life([&] { return vox_locator_find_point_hits(held.locator, &many, nullptr, nullptr, 0, &count); }) &&
@@ -91,8 +93,7 @@ void live(const Scene& scene, const vox_grid_desc& desc, heap::Life& life) {
         life([&] { return vox_mesh_append_tets(held.grid, meshes[1], scene.other.tets, 1, &first); }) &&
         life(step) && life([&] { return vox_grid_set_pair_enabled(held.grid, meshes[0], meshes[1], 0); }) &&
         life(step) && life([&] { return vox_grid_set_pair_enabled(held.grid, meshes[0], meshes[1], 1); }) &&
-        life(
-            [&] { return vox_grid_set_flags(held.grid, VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS); }) &&
+        life([&] { return vox_grid_set_flags(held.grid, VOX_GRID_CONSTRAINTS); }) &&
         life([&] { return vox_grid_reserve(held.grid, 4, 1000); }) && life(step) &&
         life([&] { return vox_grid_suggest_cell_size(held.grid, nullptr, &suggestion); });
     if (!done) return;

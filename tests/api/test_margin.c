@@ -1,9 +1,10 @@
-/* Margin contacts: each against vox_locator_find_closest, vertex by vertex and mesh by mesh, which
+/* Vertices within the margin: each against vox_locator_find_closest, vertex by vertex and mesh by mesh, which
  * tests/api/test_queries_of_surfaces.c compares with all facets; their life, memory and errors. */
 #include <math.h>
 #include <string.h>
 
 #include "scenes/bodies.h"
+#include "support/constraint_checks.h"
 #include "support/ledger.h"
 #include "support/locators.h"
 
@@ -17,16 +18,17 @@ typedef struct margin_scene {
     uint32_t count;
 } margin_scene;
 
-static vox_margin_contact_view margins_of(const vox_grid* grid) {
-    vox_margin_contact_view view = {NULL, 0, 99, 0}; /* a count that is not written shows */
-    ck_ok(vox_grid_margin_contacts(grid, &view));
-    ck_assert_uint_eq(view.byte_stride, sizeof(vox_margin_contact));
-    return view;
+static uint64_t count_near(const vox_grid* grid) { return count_constraints(grid, VOX_CONSTRAINT_PROXIMITY); }
+
+static vox_grid_desc margin_desc(double margin) {
+    vox_grid_desc desc = engine_desc();
+    desc.flags = VOX_GRID_CONSTRAINTS;
+    desc.margin = margin;
+    return desc;
 }
 
 static vox_grid* margin_grid(double margin) {
-    vox_grid_desc desc = engine_desc();
-    desc.margin = margin;
+    const vox_grid_desc desc = margin_desc(margin);
     return grid_of(&desc);
 }
 
@@ -73,44 +75,57 @@ static int has_contact(const vox_grid* grid, vox_body a, uint32_t vertex, vox_bo
     return 0;
 }
 
-/* Compares all margin contacts of the last step with queries; returns how many there are. */
+/* The constraint after *next of a vertex near a mesh, as a query finds it; none where it has a contact or is
+ * too far. */
+static void check_vertex(const margin_scene* s, const vox_grid* grid, const vox_locator* locator,
+                         double margin, const uint32_t of[2], uint32_t vertex, uint64_t* next) {
+    const vox_constraint_view view = constraints_of(grid);
+    const float* p = s->bodies[of[0]].positions + 3 * (size_t)vertex;
+    const vox_positions at = vox_float_positions(p, 1);
+    vox_query_desc desc = query_of((uint64_t)1 << of[1], VOX_NULL_BODY);
+    vox_closest_hit hit;
+    desc.max_distance = margin;
+    ck_ok(vox_locator_find_closest(locator, &at, &desc, &hit));
+    if (hit.body == VOX_NULL_BODY || has_contact(grid, s->ids[of[0]], vertex, s->ids[of[1]])) return;
+    while (*next < view.count && view.data[*next].kind != VOX_CONSTRAINT_PROXIMITY) ++*next;
+    ck_assert_uint_lt(*next, view.count);
+    const vox_constraint* found = &view.data[(*next)++];
+    ck_assert_uint_eq(found->body_a, s->ids[of[0]]);
+    ck_assert_uint_eq(found->vertices[0], vertex);
+    ck_assert_uint_eq(found->body_b, s->ids[of[1]]);
+    ck_assert_uint_eq(found->element_b, hit.tet);
+    ck_assert_double_eq(found->gap, hit.distance);
+    ck_assert_int_eq(found->state, hit.distance > 0 ? VOX_DEPTH_CLOSEST : VOX_DEPTH_TOUCHING);
+    for (int c = 0; c < 3; ++c) {
+        ck_assert_uint_eq(found->vertices[1 + c], hit.face[c]);
+        ck_assert_double_eq(found->weights[1 + c], -hit.weights[c]);
+        ck_assert_double_eq(found->position[c], (double)p[c]);
+        ck_assert(fabs(hit.position[c] + found->gap * found->normal[c] - p[c]) < 1e-6);
+    }
+}
+
+/* Compares all of the last step with queries; returns how many there are. */
 static uint64_t check_margin(const margin_scene* s, vox_grid* grid, double margin) {
-    const vox_margin_contact_view view = margins_of(grid);
     uint64_t next = 0;
+    const vox_constraint_view view = checked_constraints(grid);
+    const vox_pair_view pairs = pairs_of(grid);
     vox_locator* locator = take_locator(grid);
-    for (uint32_t a = 0; a < s->count; ++a)
-        for (uint32_t v = 0; v < s->bodies[a].vertex_count; ++v)
-            for (uint32_t b = 0; b < s->count; ++b) {
-                if (a == b || !collide_in(s, a, b)) continue;
-                const float* p = s->bodies[a].positions + 3 * (size_t)v;
-                const vox_positions at = vox_float_positions(p, 1);
-                const vox_margin_contact* found = next < view.count ? &view.data[next] : NULL;
-                vox_query_desc desc = query_of((uint64_t)1 << b, VOX_NULL_BODY);
-                vox_closest_hit hit;
-                desc.max_distance = margin;
-                ck_ok(vox_locator_find_closest(locator, &at, &desc, &hit));
-                if (hit.body == VOX_NULL_BODY || has_contact(grid, s->ids[a], v, s->ids[b])) continue;
-                ck_assert_uint_lt(next, view.count);
-                ck_assert_uint_eq(found->body_a, s->ids[a]);
-                ck_assert_uint_eq(found->vertex, v);
-                ck_assert_uint_eq(found->body_b, s->ids[b]);
-                ck_assert_uint_eq(found->tet, hit.tet);
-                ck_assert_uint_eq(found->facet, hit.facet);
-                ck_assert_double_eq(found->distance, hit.distance);
-                double length = 0;
-                for (int c = 0; c < 3; ++c) {
-                    ck_assert_uint_eq(found->face[c], hit.face[c]);
-                    ck_assert_double_eq(found->face_weights[c], hit.weights[c]);
-                    ck_assert(fabs(hit.position[c] + found->distance * found->normal[c] - p[c]) < 1e-6);
-                    length += found->normal[c] * found->normal[c];
-                }
-                ck_assert(fabs(length - 1) < 1e-12);
-                ++next;
+    for (uint32_t a = 0; a < s->count; ++a) /* pair by pair */
+        for (uint32_t b = a + 1; b < s->count; ++b)
+            for (int swapped = 0; swapped < 2 && collide_in(s, a, b); ++swapped) {
+                const uint32_t of[2] = {swapped ? b : a, swapped ? a : b};
+                for (uint32_t v = 0; v < s->bodies[of[0]].vertex_count; ++v)
+                    check_vertex(s, grid, locator, margin, of, v, &next);
             }
     vox_locator_release(locator);
-    ck_assert_uint_eq(next, view.count);
-    ck_assert_uint_eq(counters_of(grid).margin_contacts, view.count);
-    return view.count;
+    for (; next < view.count; ++next) ck_assert_int_eq(view.data[next].kind, VOX_CONSTRAINT_INSIDE);
+    ck_assert_uint_eq(counters_of(grid).margin_contacts, count_near(grid));
+    for (uint64_t p = 0; p < pairs.count; ++p) { /* those without contacts are near */
+        const int is_near =
+            pairs.data[p].contact_count == 0 && view.pair_offsets[p] < view.pair_offsets[p + 1];
+        ck_assert(pairs.data[p].state == VOX_PAIR_ENDED || (pairs.data[p].state == VOX_PAIR_NEAR) == is_near);
+    }
+    return count_near(grid);
 }
 
 START_TEST(as_queries_find_them) {
@@ -140,16 +155,20 @@ START_TEST(boxes_face_to_face) {
     insert_body(&s, grid, make_box(2, 1, 0, 0, 0));
     insert_body(&s, grid, make_box(2, 1, 0.5f, 0.5f, 2.25f));
     ck_ok(vox_grid_step(grid));
-    const vox_margin_contact_view view = margins_of(grid);
+    const vox_constraint_view view = checked_constraints(grid);
     ck_assert_uint_eq(view.count, 8); /* four of each, at most as far as the margin */
     for (uint64_t i = 0; i < view.count; ++i) {
-        ck_assert_double_eq(view.data[i].distance, 0.25);
+        ck_assert_int_eq(view.data[i].kind, VOX_CONSTRAINT_PROXIMITY);
+        ck_assert_double_eq(view.data[i].gap, 0.25);
         ck_assert_double_eq(view.data[i].normal[2], view.data[i].body_a == s.ids[1] ? 1 : -1);
     }
     ck_assert_uint_eq(contacts_of(grid).count, 0);
+    ck_assert_uint_eq(pairs_of(grid).count, 1);
+    ck_assert_int_eq(pairs_of(grid).data[0].state, VOX_PAIR_NEAR);
     ck_ok(vox_grid_set_margin(grid, nextafter(0.25, 0)));
     ck_ok(vox_grid_step(grid));
-    ck_assert_uint_eq(margins_of(grid).count, 0);
+    ck_assert_uint_eq(constraints_of(grid).count, 0);
+    ck_assert_uint_eq(pairs_of(grid).count, 0); /* it did not touch, so it does not end */
     vox_grid_destroy(grid);
     free_margin_scene(&s);
 }
@@ -175,7 +194,8 @@ START_TEST(many_small_bodies) {
     ck_ok(vox_grid_step(grid));
     ck_assert_uint_eq(contacts_of(grid).count, 0);
     /* The tip of each is 0.125 from a corner of the next one, and no other two vertices are as close. */
-    ck_assert_uint_eq(margins_of(grid).count, 2 * (small - 1));
+    ck_assert_uint_eq(checked_constraints(grid).count, 2 * (small - 1));
+    ck_assert_uint_eq(count_pairs(grid, VOX_PAIR_NEAR), small - 1);
     vox_grid_destroy(grid);
 }
 END_TEST
@@ -196,7 +216,7 @@ START_TEST(filters_and_pairs) {
             for (uint32_t j = i + 1; j < s.count; ++j)
                 ck_ok(vox_grid_set_pair_enabled(grid, s.ids[i], s.ids[j], 0));
         ck_ok(vox_grid_step(grid));
-        ck_assert_uint_eq(margins_of(grid).count, 0);
+        ck_assert_uint_eq(constraints_of(grid).count, 0);
         vox_grid_destroy(grid);
         free_margin_scene(&s);
     }
@@ -228,14 +248,14 @@ START_TEST(at_rest_and_edited) {
         ck_ok(vox_grid_step(grid));
         (void)check_margin(&s, grid, 0.5);
     }
-    uint64_t before = margins_of(grid).count;
+    const uint64_t before = count_near(grid);
     ck_ok(vox_body_set_enabled(grid, s.ids[0], 0));
     ck_ok(vox_grid_step(grid));
-    uint64_t without = margins_of(grid).count;
-    ck_assert_uint_le(without, before);
-    for (uint64_t i = 0; i < without; ++i) {
-        ck_assert_uint_ne(margins_of(grid).data[i].body_a, s.ids[0]);
-        ck_assert_uint_ne(margins_of(grid).data[i].body_b, s.ids[0]);
+    (void)checked_constraints(grid);
+    ck_assert_uint_lt(count_near(grid), before);
+    for (uint64_t i = 0; i < constraints_of(grid).count; ++i) {
+        ck_assert_uint_ne(constraints_of(grid).data[i].body_a, s.ids[0]);
+        ck_assert_uint_ne(constraints_of(grid).data[i].body_b, s.ids[0]);
     }
     ck_ok(vox_body_set_enabled(grid, s.ids[0], 1));
     ck_ok(vox_grid_step(grid));
@@ -246,12 +266,11 @@ START_TEST(at_rest_and_edited) {
     ck_assert_uint_ge(check_margin(&s, grid, 1), before);
     ck_ok(vox_body_remove(grid, s.ids[0]));
     ck_ok(vox_grid_step(grid));
-    for (uint64_t i = 0; i < margins_of(grid).count; ++i)
-        ck_assert_uint_ne(margins_of(grid).data[i].body_b, s.ids[0]);
+    for (uint64_t i = 0; i < constraints_of(grid).count; ++i)
+        ck_assert_uint_ne(constraints_of(grid).data[i].body_b, s.ids[0]);
     ck_ok(vox_grid_clear(grid));
-    ck_assert_uint_eq(margins_of(grid).count, 0);
     ck_ok(vox_grid_step(grid));
-    ck_assert_uint_eq(margins_of(grid).count, 0);
+    ck_assert_uint_eq(constraints_of(grid).count, 0);
     vox_grid_destroy(grid);
     free_margin_scene(&s);
 }
@@ -259,12 +278,10 @@ END_TEST
 
 /* The same bytes for any number of workers. */
 START_TEST(workers) {
-    vox_margin_contact* first = NULL;
-    uint64_t count = 0;
+    kept_constraints first = {NULL, 0};
     for (uint32_t workers = 1; workers <= 4; ++workers) {
         margin_scene s = {0};
-        vox_grid_desc desc = engine_desc();
-        desc.margin = 0.7;
+        vox_grid_desc desc = margin_desc(0.7);
         desc.worker_count = workers;
         vox_grid* grid = grid_of(&desc);
         for (int i = 0; i < 2; ++i) {
@@ -274,49 +291,32 @@ START_TEST(workers) {
             insert_body(&s, grid, ball);
         }
         ck_ok(vox_grid_step(grid));
-        const vox_margin_contact_view view = margins_of(grid);
-        if (workers == 1) {
-            count = view.count;
-            ck_assert_uint_gt(count, 20);
-            first = malloc(count * sizeof *first);
-            memcpy(first, view.data, count * sizeof *first);
-        }
-        ck_assert_uint_eq(view.count, count);
-        ck_assert_mem_eq(view.data, first, count * sizeof *first);
+        ck_assert_uint_gt(count_near(grid), 20);
+        if (workers == 1) first = keep_constraints(grid);
+        same_constraints(grid, &first);
         vox_grid_destroy(grid);
         free_margin_scene(&s);
     }
-    free(first);
+    free(first.data);
 }
 END_TEST
 
 START_TEST(arguments) {
     vox_grid* grid = engine_grid();
-    vox_margin_contact_view view;
-    double margin = -1;
-    margin = grid_info(grid).margin;
-    ck_assert_double_eq(margin, 0);
-    ck_fails(vox_grid_margin_contacts(grid, &view), VOX_ERROR_INVALID_STATE, "vox_grid_set_margin");
-    ck_fails(vox_grid_margin_contacts(NULL, &view), VOX_ERROR_INVALID_ARGUMENT, "grid");
-    ck_fails(vox_grid_margin_contacts(grid, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_view");
+    ck_assert_double_eq(grid_info(grid).margin, 0);
     ck_fails(vox_grid_set_margin(NULL, 1), VOX_ERROR_INVALID_ARGUMENT, "grid");
     ck_ok(vox_grid_set_margin(grid, 0.5));
     const double bad[] = {-0.5, INFINITY, NAN, 5e37};
     for (int i = 0; i < 4; ++i) {
         ck_fails(vox_grid_set_margin(grid, bad[i]), VOX_ERROR_INVALID_ARGUMENT, "margin is");
-        margin = grid_info(grid).margin;
-        ck_assert_double_eq(margin, 0.5);
-        vox_grid_desc desc = engine_desc();
+        ck_assert_double_eq(grid_info(grid).margin, 0.5);
+        const vox_grid_desc desc = margin_desc(bad[i]);
         vox_grid* other = NULL;
-        desc.margin = bad[i];
         ck_fails(vox_grid_create(&desc, &other), VOX_ERROR_INVALID_ARGUMENT, "margin is");
     }
-    ck_assert_uint_eq(margins_of(grid).count, 0); /* before the first step */
-    uint64_t before = 0, after = 0;
-    before = grid_info(grid).epoch;
+    const uint64_t before = grid_info(grid).epoch;
     ck_ok(vox_grid_set_margin(grid, 0.25));
-    after = grid_info(grid).epoch;
-    ck_assert_uint_eq(after, before + 1);
+    ck_assert_uint_eq(grid_info(grid).epoch, before + 1);
     vox_grid_destroy(grid);
 }
 END_TEST
@@ -330,8 +330,11 @@ START_TEST(after_a_failure) {
     const uint64_t all = check_margin(&s, grid, 0.5);
     const float x = s.bodies[2].positions[0];
     s.bodies[2].positions[0] = NAN;
+    vox_constraint_view none;
     ck_assert_int_eq(vox_grid_step(grid), VOX_ERROR_NON_FINITE);
-    ck_assert_uint_eq(margins_of(grid).count, 0);
+    ck_fails(vox_grid_get_constraints(grid, &none), VOX_ERROR_INVALID_STATE,
+             "no constraints were looked for");
+    ck_assert_uint_eq(pairs_of(grid).count, 0);
     s.bodies[2].positions[0] = x;
     ck_ok(vox_grid_step(grid));
     ck_assert_uint_eq(check_margin(&s, grid, 0.5), all);
@@ -342,18 +345,18 @@ END_TEST
 
 START_TEST(off_releases_its_memory) {
     margin_scene s;
-    vox_grid_desc desc = engine_desc();
-    desc.flags = 0;
-    vox_grid* grid = grid_of(&desc);
+    vox_grid* grid = engine_grid();
     make_random_scene(&s, grid, 51);
     ck_ok(vox_grid_step(grid));
     uint64_t bytes = 0;
     for (int round = 0; round < 3; ++round) {
         ck_ok(vox_grid_set_margin(grid, 0.5));
         ck_ok(vox_grid_step(grid));
-        ck_assert_uint_gt(margins_of(grid).count, 0);
+        ck_assert_uint_gt(count_pairs(grid, VOX_PAIR_NEAR), 0);
+        ck_assert_uint_gt(counters_of(grid).margin_contacts, 0);
         ck_ok(vox_grid_set_margin(grid, 0));
         ck_ok(vox_grid_step(grid));
+        ck_assert_uint_eq(count_pairs(grid, VOX_PAIR_NEAR), 0);
         if (round == 1) bytes = counters_of(grid).bytes;
         if (round == 2) ck_assert_uint_eq(counters_of(grid).bytes, bytes);
     }
@@ -387,10 +390,9 @@ START_TEST(steady_state_allocates_nothing) {
         turns t = {workers, 0};
         margin_scene s = {0};
         ledger l = {0};
-        vox_grid_desc desc = engine_desc();
+        vox_grid_desc desc = margin_desc(0.5);
         desc.allocator = ledger_allocator(&l);
         desc.worker_count = workers;
-        desc.margin = 0.5;
         const vox_task_system tasks = {take_turns, taken, &t};
         if (run == 2) desc.tasks = &tasks;
         vox_grid* grid = grid_of(&desc);
@@ -426,10 +428,9 @@ END_TEST
 /* Every allocation of a step fails once; the grid stays usable. */
 START_TEST(without_memory) {
     ledger l = {0};
-    vox_grid_desc desc = engine_desc();
+    vox_grid_desc desc = margin_desc(0.5);
     int failures = 0;
     desc.allocator = ledger_allocator(&l);
-    desc.margin = 0.5;
     for (uint64_t n = 1;; ++n) {
         margin_scene s;
         vox_grid* grid = grid_of(&desc);
@@ -441,7 +442,7 @@ START_TEST(without_memory) {
         const int is_last = l.calls < n;
         if (result != VOX_OK) {
             ck_assert_int_eq(result, VOX_ERROR_OUT_OF_MEMORY);
-            ck_assert_uint_eq(margins_of(grid).count, 0);
+            ck_assert_uint_eq(pairs_of(grid).count, 0);
             ++failures;
         }
         ck_ok(vox_grid_step(grid));
@@ -463,8 +464,7 @@ START_TEST(budget) {
     vox_result result = VOX_OK;
     while (result == VOX_OK) {
         margin_scene s;
-        vox_grid_desc desc = engine_desc();
-        desc.margin = 0.5;
+        vox_grid_desc desc = margin_desc(0.5);
         desc.byte_budget = (uint64_t)(share * (double)peak);
         vox_grid* grid = grid_of(&desc);
         make_random_scene(&s, grid, 71);
@@ -474,7 +474,7 @@ START_TEST(budget) {
             share -= 0.01;
         } else {
             ck_assert_int_eq(result, VOX_ERROR_BUDGET);
-            ck_assert_uint_eq(margins_of(grid).count, 0);
+            ck_assert_uint_eq(pairs_of(grid).count, 0);
         }
         vox_grid_destroy(grid);
         free_margin_scene(&s);

@@ -52,6 +52,7 @@ static vox_grid_desc counted_desc(ledger* l) {
     desc.allocator = &l->allocator;
     use_engine(&desc, suite_engine);
     desc.cell_size = 0.25;
+    desc.flags = VOX_GRID_CONSTRAINTS;
     return desc;
 }
 
@@ -209,37 +210,25 @@ START_TEST(budget_is_kept) {
 }
 END_TEST
 
-/* What vox.h says that a reserved contact takes, exactly. */
-START_TEST(reserved_contacts) {
-    enum { contacts = 1000000 };
-    for (uint32_t flags = 0; flags < 4; ++flags) {
-        vox_grid_desc desc = vox_default_grid_desc();
-        desc.flags = flags;
-        vox_grid* grid = grid_of(&desc);
-        const uint64_t before = counters_of(grid).bytes;
-        ck_ok(vox_grid_reserve(grid, 0, contacts));
-        const uint64_t each =
-            69 + (flags & VOX_GRID_PENETRATIONS ? 88 : 0) + (flags & VOX_GRID_CONTACT_EVENTS ? 56 : 0);
-        ck_assert_uint_eq(counters_of(grid).bytes - before, each * contacts);
-        vox_grid_destroy(grid);
-    }
-}
-END_TEST
-
 static void move_x(body* b, float distance) {
     for (uint32_t v = 0; v < b->vertex_count; ++v) b->positions[3 * v] += distance;
 }
 
+/* What a grid holds for the contacts of a step. */
+typedef struct contact_bytes {
+    uint64_t reserved, step; /* by vox_grid_reserve, and by the step after it */
+    grid_counts counts;
+} contact_bytes;
+
 /* Steps over a fine box in many coarse ones, which hold half of it or the whole: many contacts of few
- * vertices, so that what the vertices take hardly counts. `reserved` contacts have room before. Returns the
- * bytes that are held for contacts. */
-static uint64_t bytes_of_contacts(int whole, uint64_t reserved, uint64_t closest_budget,
-                                  grid_counts* counters) {
+ * vertices, so that what the vertices take hardly counts. `reserved` contacts have room before. */
+static contact_bytes bytes_of_contacts(int whole, uint64_t reserved, uint32_t flags) {
     enum { coarse = 16 };
     ledger l = {0};
+    contact_bytes held;
     vox_grid_desc desc = counted_desc(&l);
     desc.worker_count = 1;
-    desc.closest_budget = closest_budget;
+    desc.flags = flags;
     vox_grid* grid = grid_of(&desc);
     body bodies[coarse + 1];
     bodies[0] = make_box(12, 1 / 12.0f, 1000, 0.017f, 0.019f); /* far from the others */
@@ -254,33 +243,35 @@ static uint64_t bytes_of_contacts(int whole, uint64_t reserved, uint64_t closest
     ck_ok(vox_grid_step(grid));
     const uint64_t apart = l.bytes;
     ck_ok(vox_grid_reserve(grid, 0, reserved));
+    held.reserved = l.bytes - apart;
     move_x(&bodies[0], -1000);
     ck_ok(vox_grid_step(grid));
-    *counters = counters_of(grid);
-    const uint64_t held = l.bytes - apart;
+    held.counts = counters_of(grid);
+    held.step = l.bytes - apart - held.reserved;
     vox_grid_destroy(grid);
     for (int b = 0; b <= coarse; ++b) free_body(&bodies[b]);
     return held;
 }
 
-/* At most 200 bytes each in a default grid, and with vox_grid_reserve only what vox.h says of closest points.
- */
+/* A contact takes at most 48 bytes, with its constraint 500; with vox_grid_reserve a step takes no more than
+ * what vertices need and a search for a closest point. */
 START_TEST(contacts_in_a_step) {
-    enum { each_reserved = 69 + 88, each_searched = 20, with_a_budget = 4, for_vertices = 12 };
-    for (int whole = 0; whole < 2; ++whole) {
-        grid_counts counters;
-        const uint64_t held = bytes_of_contacts(whole, 0, 0, &counters), count = counters.contacts;
-        ck_assert_uint_ge(count, 19000);
-        ck_assert_uint_eq(counters.penetrations, count);
-        ck_assert_uint_ge(counters.closest_searches, whole ? 35000 : 0);
-        ck_assert_uint_le(held, 200 * count);
-        for (int has_budget = 0; has_budget < 2; ++has_budget) {
-            const uint64_t more = bytes_of_contacts(whole, count, has_budget ? 1u << 30 : 0, &counters);
-            ck_assert_uint_le(more, (each_reserved + for_vertices) * count +
-                                        (each_searched + (has_budget ? with_a_budget : 0)) *
-                                            counters.closest_searches);
+    enum { each_searched = 24, for_vertices = 12 };
+    for (int whole = 0; whole < 2; ++whole)
+        for (uint32_t flags = 0; flags < 2; ++flags) {
+            const uint64_t each = flags & VOX_GRID_CONSTRAINTS ? 500 : 48;
+            const contact_bytes grown = bytes_of_contacts(whole, 0, flags);
+            const uint64_t count = grown.counts.contacts;
+            ck_assert_uint_ge(count, 19000);
+            ck_assert_uint_eq(grown.counts.constraints, flags ? count : 0);
+            ck_assert_uint_ge(grown.counts.closest_searches, flags && whole ? 35000 : 0);
+            ck_assert_uint_le(grown.step, each * count);
+            const contact_bytes reserved = bytes_of_contacts(whole, count, flags);
+            ck_assert_uint_le(reserved.reserved, each * count);
+            ck_assert_uint_ge(reserved.reserved, sizeof(vox_contact) * count);
+            ck_assert_uint_le(reserved.step,
+                              for_vertices * count + each_searched * reserved.counts.closest_searches);
         }
-    }
 }
 END_TEST
 
@@ -296,13 +287,13 @@ START_TEST(reserved_room) {
     ck_ok(vox_grid_step(grid));
     vox_contact_view view = contacts_of(grid);
     ck_ok(vox_grid_get_hash(grid, &before));
-    epoch = view.epoch, count = view.count;
+    epoch = grid_info(grid).epoch, count = view.count;
     ck_ok(vox_grid_reserve(grid, 100, 10000));
     ck_ok(vox_grid_get_contacts(grid, &view)); /* the same contacts, a new view */
     ck_ok(vox_grid_get_hash(grid, &after));
     ck_assert_uint_eq(view.count, count);
     ck_assert_uint_eq(before, after);
-    ck_assert_uint_gt(view.epoch, epoch);
+    ck_assert_uint_gt(grid_info(grid).epoch, epoch);
     ck_assert_uint_ge(l.bytes, 3 * 10000 * 16);
 
     const uint64_t calls = l.calls, bytes = l.bytes;
@@ -338,7 +329,7 @@ END_TEST
 
 static void add_tests(TCase* tests) {
     tcase_add_each(tests, everything_comes_back, steady_state_allocates_nothing, allocation_n_fails,
-                   budget_is_kept, reserved_contacts, contacts_in_a_step, reserved_room, many_meshes);
+                   budget_is_kept, contacts_in_a_step, reserved_room, many_meshes);
 }
 
 SUITE(memory) { add_for_each_engine(suite, add_tests); }

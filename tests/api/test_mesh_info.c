@@ -45,11 +45,11 @@ START_TEST(meshes) {
     ck_assert_uint_eq(found[2], ids[3]);
     ck_assert_uint_eq(info_of(grid, ids[2]).enabled, 0);
     ck_assert_uint_eq(info_of(grid, ids[3]).enabled, 1);
-    ck_assert_uint_eq(info_of(grid, ids[3]).slot, 3);
+    ck_assert_uint_eq(vox_body_slot(ids[3]), 3);
     ids[1] = insert_mesh(grid, &desc); /* in the slot that is free */
     ck_assert_uint_eq(meshes_of(grid, found), 4);
     ck_assert_uint_eq(found[1], ids[1]);
-    ck_assert_uint_eq(info_of(grid, ids[1]).slot, 1);
+    ck_assert_uint_eq(vox_body_slot(ids[1]), 1);
     ck_ok(vox_grid_clear(grid));
     ck_assert_uint_eq(meshes_of(grid, found), 0);
     vox_grid_destroy(grid);
@@ -77,7 +77,6 @@ START_TEST(fields) {
     ck_assert_ptr_eq(info.positions.data, box.positions);
     ck_assert_uint_eq(info.positions.byte_stride, 12);
     ck_assert_uint_eq(info.positions.component_byte_stride, 4);
-    ck_assert_uint_eq(info.has_transform, 0);
     ck_assert_mem_eq(info.transform, identity, sizeof identity);
 
     /* Columns of doubles, a transform, a filter. */
@@ -94,7 +93,6 @@ START_TEST(fields) {
     ck_assert_ptr_eq(info.positions.data, columns);
     ck_assert_uint_eq(info.positions.byte_stride, 8);
     ck_assert_uint_eq(info.positions.component_byte_stride, 8 * n);
-    ck_assert_uint_eq(info.has_transform, 1);
     ck_assert_mem_eq(info.transform, matrix, sizeof matrix);
     ck_assert_uint_eq(info.flags, VOX_MESH_BORROW_TETS);
     ck_assert_uint_eq(info.filter.flags, VOX_FILTER_SELF_COLLISION);
@@ -230,7 +228,7 @@ START_TEST(arguments) {
     ck_assert_uint_eq(count, 99);
     info.struct_size = 3;
     ck_fails(vox_body_get_info(grid, mesh, &info), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 3");
-    ck_assert_uint_eq(info.slot, 0x55555555);
+    ck_assert_uint_eq(info.enabled, 0x55555555);
     /* An older program's struct ends before the transform. */
     info.struct_size = offsetof(vox_body_info, transform);
     info.transform[0] = 17;

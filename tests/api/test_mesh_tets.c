@@ -10,7 +10,10 @@
  */
 static vox_grid* grid_of_boxes(const body* box, const body* other, const uint32_t* tets, uint32_t flags,
                                vox_body* mesh) {
-    vox_grid* grid = engine_grid();
+    vox_grid_desc desc = engine_desc();
+    desc.flags =
+        VOX_GRID_CONSTRAINTS; /* what is prepared for these does not depend on whose the tetrahedra are */
+    vox_grid* grid = grid_of(&desc);
     vox_mesh_desc a = body_desc(box), b = body_desc(other);
     (void)insert_mesh(grid, &a);
     b.tets = tets;

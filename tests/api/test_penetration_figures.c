@@ -1,4 +1,4 @@
-/* What is promised of depths and directions on smooth convex bodies, and of the work that they take. */
+/* What is promised of depths and normals on smooth convex bodies, and of the work that they take. */
 #include <vox/vox_io.h>
 
 #include "support/depth_checks.h"
@@ -36,36 +36,34 @@ START_TEST(two_balls) {
     const double overlap = overlaps[_i];
     body balls[2] = {make_ball(1, 0.06, 0.3, 2 - overlap), make_ball(1, 0.06, 0, 0)};
     const double centre[2] = {2 - overlap, 0};
-    vox_grid* grid = grid_of(NULL);
+    vox_grid* grid = depth_grid();
     vox_body ids[2];
     surface surfaces[2];
     for (int b = 0; b < 2; ++b) {
         ids[b] = insert(grid, &balls[b]);
-        surfaces[b] = surface_of(balls[b].tets, balls[b].tet_count);
+        surfaces[b] = surface_of(&balls[b]);
     }
     ck_ok(vox_grid_step(grid));
-    check_penetrations(grid);
-    const vox_penetration_view view = penetrations_of(grid);
+    const vox_constraint_view view = check_depths(grid);
     ck_assert_uint_gt(view.count, 50);
     double worst_depth = 0, worst_angle = 0;
     for (uint64_t i = 0; i < view.count; ++i) {
-        const vox_penetration* p = penetration_at(view, i);
+        const vox_constraint* p = &view.data[i];
         const int a = p->body_a == ids[0] ? 0 : 1, b = 1 - a;
-        ck_assert(p->state == VOX_PENETRATION_SURFACE || p->state == VOX_PENETRATION_PROPAGATED);
+        ck_assert(p->state == VOX_DEPTH_SURFACE || p->state == VOX_DEPTH_PROPAGATED);
         /* The true distance to the surface, as it is triangulated, ... */
-        const vector at = place(balls[a].positions, p->vertex),
-                     way = way_to(surfaces[b], balls[b].positions, at);
-        worst_depth = fmax(worst_depth, fabs((double)p->depth / norm(way) - 1));
-        worst_angle = fmax(worst_angle, degrees_between(direction_of(p), way));
+        const vector at = vector_of(p->position), way = way_to(&surfaces[b], at);
+        worst_depth = fmax(worst_depth, fabs(depth_of(p) / norm(way) - 1));
+        worst_angle = fmax(worst_angle, degrees_between(normal_of(p), way));
         /* ... and to the sphere, whose triangles are up to cell^2 / 8 inside it. */
         const vector from_centre = {at.x - centre[b], at.y, at.z};
-        ck_assert(fabs((double)p->depth - (1 - norm(from_centre))) < 0.01 * overlap + 0.06 * 0.06 / 4);
+        ck_assert(fabs(depth_of(p) - (1 - norm(from_centre))) < 0.01 * overlap + 0.06 * 0.06 / 4);
     }
     ck_assert_msg(worst_depth < 0.05, "depth off by %.2f %%", 100 * worst_depth);
     ck_assert_msg(worst_angle < 5, "direction off by %.2f degrees", worst_angle);
     vox_grid_destroy(grid);
     for (int b = 0; b < 2; ++b) {
-        free(surfaces[b].triangles);
+        free_surface(&surfaces[b]);
         free_body(&balls[b]);
     }
 }
@@ -75,29 +73,28 @@ END_TEST
 START_TEST(directions_change_smoothly) {
     const double overlap = _i == 0 ? 0.1 : _i == 1 ? 0.3 : 0.5;
     body balls[2] = {make_ball(1, 0.09, 0.3, 2 - overlap), make_ball(1, 0.09, 0, 0)};
-    vox_grid* grid = grid_of(NULL);
+    vox_grid* grid = depth_grid();
     for (int b = 0; b < 2; ++b) {
         const vox_body id = insert(grid, &balls[b]);
         ck_assert_uint_eq(vox_body_is_valid(grid, id), 1);
     }
     ck_ok(vox_grid_step(grid));
-    check_penetrations(grid);
-    const vox_penetration_view view = penetrations_of(grid);
+    const vox_constraint_view view = check_depths(grid);
     double worst = 0;
     uint64_t edges = 0;
     for (int b = 0; b < 2; ++b) {
-        const vox_penetration** of = (const vox_penetration**)calloc(balls[b].vertex_count, sizeof *of);
+        const vox_constraint** of = (const vox_constraint**)calloc(balls[b].vertex_count, sizeof *of);
         for (uint64_t i = 0; i < view.count; ++i)
-            if ((penetration_at(view, i)->body_a > penetration_at(view, i)->body_b) == (b == 1))
-                of[penetration_at(view, i)->vertex] = penetration_at(view, i);
+            if ((view.data[i].body_a > view.data[i].body_b) == (b == 1))
+                of[view.data[i].vertices[0]] = &view.data[i];
         for (uint32_t t = 0; t < balls[b].tet_count; ++t)
             for (int i = 0; i < 4; ++i)
                 for (int j = 0; j < i; ++j) {
-                    const vox_penetration *p = of[balls[b].tets[4 * t + (uint32_t)i]],
-                                          *q = of[balls[b].tets[4 * t + (uint32_t)j]];
+                    const vox_constraint *p = of[balls[b].tets[4 * t + (uint32_t)i]],
+                                         *q = of[balls[b].tets[4 * t + (uint32_t)j]];
                     if (!p || !q) continue;
                     ++edges;
-                    worst = fmax(worst, degrees_between(direction_of(p), direction_of(q)));
+                    worst = fmax(worst, degrees_between(normal_of(p), normal_of(q)));
                 }
         free(of);
     }
@@ -112,31 +109,29 @@ START_TEST(ball_in_a_box) {
     /* Resting on the inside of nothing: a ball deep in a box of tetrahedra, and one that sinks into its top.
      */
     body box = make_box(10, 0.4f, -2, -2, -2), ball = make_ball(0.5, 0.08, 0.2, 0.1);
-    const surface s = surface_of(box.tets, box.tet_count);
+    surface s = surface_of(&box);
     for (int sunk = 0; sunk < 2; ++sunk) {
         if (sunk)
             for (uint32_t v = 0; v < ball.vertex_count; ++v) ball.positions[3 * v + 2] += 2.3f;
-        vox_grid* grid = grid_of(NULL);
+        vox_grid* grid = depth_grid();
         const vox_body b = insert(grid, &box), a = insert(grid, &ball);
         ck_ok(vox_grid_step(grid));
-        check_penetrations(grid);
-        const vox_penetration_view view = penetrations_of(grid);
-        ck_assert_uint_eq(count_state(grid, a, VOX_PENETRATION_ENCLOSED), sunk ? 0 : ball.vertex_count);
+        const vox_constraint_view view = check_depths(grid);
+        ck_assert_uint_eq(count_state(grid, a, VOX_DEPTH_CLOSEST), sunk ? 0 : ball.vertex_count);
         for (uint64_t i = 0; i < view.count; ++i) {
-            const vox_penetration* p = penetration_at(view, i);
+            const vox_constraint* p = &view.data[i];
             if (p->body_a != a) continue;
             ck_assert_uint_eq(p->body_b, b);
-            const vector at = place(ball.positions, p->vertex);
             if (!sunk) {
-                check_closest(p, at, s, box.positions, 1);
+                check_closest(p, &s);
             } else { /* the top is flat */
-                ck_assert(fabs((double)p->depth - (2 - at.z)) < 1e-5);
-                ck_assert(degrees_between(direction_of(p), (vector){0, 0, 1}) < 0.01);
+                ck_assert(fabs(depth_of(p) - (2 - p->position[2])) < 1e-5);
+                ck_assert(degrees_between(normal_of(p), (vector){0, 0, 1}) < 0.01);
             }
         }
         vox_grid_destroy(grid);
     }
-    free(s.triangles);
+    free_surface(&s);
     free_body(&box);
     free_body(&ball);
 }
@@ -150,7 +145,7 @@ static grid_counts work_of(uint32_t n, double cell, double depth) {
     body box = make_box(n, 0.1f, -0.05f * (float)n, -0.05f * (float)n, -0.1f * (float)n);
     body ball = make_ball(0.5, cell, 0.2, 0.017);
     for (uint32_t v = 0; v < ball.vertex_count; ++v) ball.positions[3 * v + 2] += (float)(0.5 - depth);
-    vox_grid* grid = grid_of(NULL);
+    vox_grid* grid = depth_grid();
     insert(grid, &box);
     insert(grid, &ball);
     ck_ok(vox_grid_step(grid));

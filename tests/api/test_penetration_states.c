@@ -1,4 +1,4 @@
-/* Every state of a penetration: when it comes, and what depth and direction are then. */
+/* Every state of the depth of a vertex: when it comes, and what gap and normal are then. */
 #include "support/depth_checks.h"
 
 static const vector up = {0, 0, 1}, down = {0, 0, -1};
@@ -17,19 +17,19 @@ static vox_body insert_arrays(vox_grid* grid, const float* positions, uint64_t v
 
 static void step(vox_grid* grid) {
     ck_ok(vox_grid_step(grid));
-    check_penetrations(grid);
+    check_depths(grid);
 }
 
-/* Depth and direction as they have to be, to the rounding of floats. */
-static void expect(const vox_grid* grid, vox_body a, uint32_t vertex, vox_body b, vox_penetration_state state,
+/* Depth and direction as they have to be. */
+static void expect(const vox_grid* grid, vox_body a, uint32_t vertex, vox_body b, vox_depth_state state,
                    double depth, vector direction) {
-    const vox_penetration* p = penetration_of(grid, a, vertex, b);
-    ck_assert_msg(p != NULL, "vertex %u has no penetration", vertex);
+    const vox_constraint* p = inside_of(grid, a, vertex, b);
+    ck_assert_msg(p != NULL, "vertex %u is not inside", vertex);
     ck_assert_msg(p->state == state, "vertex %u: state %d, expected %d", vertex, (int)p->state, (int)state);
-    ck_assert_msg(fabs((double)p->depth - depth) < 1e-6, "vertex %u: depth %.9g, expected %.9g", vertex,
-                  (double)p->depth, depth);
-    ck_assert_msg(degrees_between(direction_of(p), direction) < 0.01, "vertex %u: direction (%g, %g, %g)",
-                  vertex, (double)p->direction[0], (double)p->direction[1], (double)p->direction[2]);
+    ck_assert_msg(fabs(depth_of(p) - depth) < 1e-14, "vertex %u: depth %.9g, expected %.9g", vertex,
+                  depth_of(p), depth);
+    ck_assert_msg(degrees_between(normal_of(p), direction) < 0.01, "vertex %u: direction (%g, %g, %g)",
+                  vertex, p->normal[0], p->normal[1], p->normal[2]);
 }
 
 /* A tetrahedron that pokes its vertex 0 into the top of the unit box, by `depth`. */
@@ -45,13 +45,13 @@ START_TEST(one_vertex_in_a_box) {
     body box = make_box(4, 0.25f, 0, 0, 0);
     float positions[12];
     for (int i = 1; i < 20; ++i) {
-        vox_grid* grid = engine_grid();
+        vox_grid* grid = depth_grid();
         make_poke(positions, (float)i * 0.01f);
         const vox_body b = insert(grid, &box, 0), a = insert_arrays(grid, positions, 4, poke_tet, 1);
         step(grid);
-        expect(grid, a, 0, b, VOX_PENETRATION_SURFACE, 1 - (double)positions[2], up);
+        expect(grid, a, 0, b, VOX_DEPTH_SURFACE, 1 - (double)positions[2], up);
         if (i < 8) { /* later a vertex of the box is in the tetrahedron, too */
-            ck_assert_uint_eq(penetrations_of(grid).count, 1);
+            ck_assert_uint_eq(constraints_of(grid).count, 1);
             ck_assert_uint_eq(counters_of(grid).leaving_edges, 3);
         }
         ck_assert_uint_eq(counters_of(grid).closest_searches, 0);
@@ -64,7 +64,7 @@ END_TEST
 START_TEST(waves_reach_deep_vertices) {
     /* A narrow block sunk into a wide one: its sides lead through the top face only. */
     body wide = make_box(8, 0.25f, 0, 0, 0), narrow = make_box(6, 0.125f, 0.6f, 0.65f, 1.45f);
-    vox_grid* grid = engine_grid();
+    vox_grid* grid = depth_grid();
     const vox_body b = insert(grid, &wide, 0), a = insert(grid, &narrow, 0);
     step(grid);
     uint32_t surface = 0, propagated = 0;
@@ -72,7 +72,7 @@ START_TEST(waves_reach_deep_vertices) {
         const double depth = 2 - (double)narrow.positions[3 * v + 2];
         if (depth <= 0) continue;
         const int top = depth < 0.125; /* the layer whose neighbours are out */
-        expect(grid, a, v, b, top ? VOX_PENETRATION_SURFACE : VOX_PENETRATION_PROPAGATED, depth, up);
+        expect(grid, a, v, b, top ? VOX_DEPTH_SURFACE : VOX_DEPTH_PROPAGATED, depth, up);
         surface += top;
         propagated += !top;
     }
@@ -88,32 +88,30 @@ START_TEST(the_faces_of_a_box_stay_flat) {
     /* Near an edge, too: normals are not smoothed over it. */
     body box = make_box(3, 1.0f / 3, 0, 0, 0);
     float positions[12] = {0.9f, 0.5f, 0.97f, 0.85f, 0.45f, 1.1f, 0.95f, 0.45f, 1.1f, 0.9f, 0.55f, 1.1f};
-    vox_grid* grid = engine_grid();
+    vox_grid* grid = depth_grid();
     const vox_body b = insert(grid, &box, 0), a = insert_arrays(grid, positions, 4, poke_tet, 1);
     step(grid);
-    expect(grid, a, 0, b, VOX_PENETRATION_SURFACE, 1 - (double)positions[2], up);
+    expect(grid, a, 0, b, VOX_DEPTH_SURFACE, 1 - (double)positions[2], up);
     vox_grid_destroy(grid);
     free_body(&box);
 }
 END_TEST
 
-/* ---- enclosed ---- */
+/* ---- closest ---- */
 
 START_TEST(body_inside_a_body) {
     body outer_box = make_box(6, 0.25f, 0, 0, 0), inner_box = make_box(3, 0.0625f, 0.3f, 0.55f, 0.9f);
-    const surface s = surface_of(outer_box.tets, outer_box.tet_count);
-    vox_grid* grid = engine_grid();
+    surface s = surface_of(&outer_box);
+    vox_grid* grid = depth_grid();
     const vox_body b = insert(grid, &outer_box, 0), a = insert(grid, &inner_box, 0);
     step(grid);
-    ck_assert_uint_eq(count_state(grid, a, VOX_PENETRATION_ENCLOSED), inner_box.vertex_count);
-    ck_assert_uint_eq(penetrations_of(grid).count, inner_box.vertex_count);
+    ck_assert_uint_eq(count_state(grid, a, VOX_DEPTH_CLOSEST), inner_box.vertex_count);
+    ck_assert_uint_eq(constraints_of(grid).count, inner_box.vertex_count);
     ck_assert_uint_eq(counters_of(grid).closest_searches, inner_box.vertex_count);
     ck_assert_uint_eq(counters_of(grid).leaving_edges, 0);
-    for (uint32_t v = 0; v < inner_box.vertex_count; ++v)
-        check_closest(penetration_of(grid, a, v, b), place(inner_box.positions, v), s, outer_box.positions,
-                      1);
+    for (uint32_t v = 0; v < inner_box.vertex_count; ++v) check_closest(inside_of(grid, a, v, b), &s);
     vox_grid_destroy(grid);
-    free(s.triangles);
+    free_surface(&s);
     free_body(&outer_box);
     free_body(&inner_box);
 }
@@ -122,17 +120,17 @@ END_TEST
 START_TEST(points_without_edges) {
     body box = make_box(4, 0.25f, 0, 0, 0);
     const float points[6] = {0.5f, 0.5f, 0.9f, 0.1f, 0.4f, 0.5f};
-    vox_grid* grid = engine_grid();
+    vox_grid* grid = depth_grid();
     const vox_body b = insert(grid, &box, 0), a = insert_arrays(grid, points, 2, NULL, 0);
     step(grid);
-    expect(grid, a, 0, b, VOX_PENETRATION_ENCLOSED, 1 - (double)points[2], up);
-    expect(grid, a, 1, b, VOX_PENETRATION_ENCLOSED, (double)points[3], (vector){-1, 0, 0});
+    expect(grid, a, 0, b, VOX_DEPTH_CLOSEST, 1 - (double)points[2], up);
+    expect(grid, a, 1, b, VOX_DEPTH_CLOSEST, (double)points[3], (vector){-1, 0, 0});
     vox_grid_destroy(grid);
     free_body(&box);
 }
 END_TEST
 
-/* ---- crossing ---- */
+/* ---- ambiguous ---- */
 
 /* A plate of 8 x 8 x 1 cubes of edge 1/8, and a tetrahedron whose vertex 0 is in it and whose edges leave on
  * both sides. */
@@ -144,21 +142,21 @@ static body make_plate(void) {
 
 START_TEST(edges_leave_on_opposite_sides) {
     body plate = make_plate();
-    const surface s = surface_of(plate.tets, plate.tet_count);
+    surface s = surface_of(&plate);
     /* Two above and two below, as far away: a pair of tetrahedra over a common edge. */
     const float positions[18] = {0.5f, 0.5f, 0.0625f,  0.6f, 0.5f, 0.3625f,  0.4f, 0.5f, 0.3625f,
                                  0.5f, 0.6f, -0.2375f, 0.5f, 0.4f, -0.2375f, 0.5f, 0.5f, 0.9f};
     const uint32_t tets[8] = {0, 1, 2, 3, 0, 1, 2, 4};
-    vox_grid* grid = engine_grid();
+    vox_grid* grid = depth_grid();
     const vox_body b = insert(grid, &plate, 0), a = insert_arrays(grid, positions, 5, tets, 2);
     step(grid);
-    const vox_penetration* p = penetration_of(grid, a, 0, b);
+    const vox_constraint* p = inside_of(grid, a, 0, b);
     ck_assert_ptr_nonnull(p);
-    ck_assert_int_eq(p->state, VOX_PENETRATION_CROSSING);
-    check_closest(p, place(positions, 0), s, plate.positions, 1);
-    ck_assert(fabs((double)p->depth - 0.0625) < 1e-7);
+    ck_assert_int_eq(p->state, VOX_DEPTH_AMBIGUOUS);
+    check_closest(p, &s);
+    ck_assert(fabs(depth_of(p) - 0.0625) < 1e-15);
     vox_grid_destroy(grid);
-    free(s.triangles);
+    free_surface(&s);
     free_body(&plate);
 }
 END_TEST
@@ -172,35 +170,32 @@ START_TEST(crossing_bars) {
         p[0] += 0.01f, p[1] *= 0.3f, p[2] = 0.3f * p[2] + 0.01f;
         q[0] *= 0.3f, q[1] = 0.7f * q[1] + 0.02f, q[2] *= 0.3f;
     }
-    const surface of_x = surface_of(x_bar.tets, x_bar.tet_count),
-                  of_y = surface_of(y_bar.tets, y_bar.tet_count);
-    vox_grid* grid = engine_grid();
+    surface of_x = surface_of(&x_bar), of_y = surface_of(&y_bar);
+    vox_grid* grid = depth_grid();
     const vox_body a = insert(grid, &x_bar, 0), b = insert(grid, &y_bar, 0);
     step(grid);
-    const vox_penetration_view view = penetrations_of(grid);
+    const vox_constraint_view view = constraints_of(grid);
     uint64_t by_state[5] = {0, 0, 0, 0, 0};
     for (uint64_t i = 0; i < view.count; ++i) {
-        const vox_penetration* p = penetration_at(view, i);
+        const vox_constraint* p = &view.data[i];
         ++by_state[p->state];
-        ck_assert_float_lt(p->depth, 0.5f); /* half of a bar's width, and a bit */
-        if (p->state == VOX_PENETRATION_CROSSING) {
+        ck_assert_double_lt(depth_of(p), 0.5); /* half of a bar's width, and a bit */
+        if (p->state == VOX_DEPTH_AMBIGUOUS) {
             const int of_x_bar = p->body_a == a;
-            const vector end = plus_times(place(of_x_bar ? x_bar.positions : y_bar.positions, p->vertex),
-                                          (double)p->depth, direction_of(p));
-            ck_assert(norm(way_to(of_x_bar ? of_y : of_x, of_x_bar ? y_bar.positions : x_bar.positions,
-                                  end)) < 1e-6);
-            ck_assert(fabs((double)p->direction[of_x_bar ? 0 : 1]) > 0.999999);
+            const vector end = plus_times(vector_of(p->position), depth_of(p), normal_of(p));
+            ck_assert(norm(way_to(of_x_bar ? &of_y : &of_x, end)) < 1e-14);
+            ck_assert(fabs(p->normal[of_x_bar ? 0 : 1]) > 0.999999);
         }
     }
-    ck_assert_uint_gt(by_state[VOX_PENETRATION_SURFACE], 0);
-    ck_assert_uint_gt(by_state[VOX_PENETRATION_PROPAGATED], 0);
-    ck_assert_uint_gt(by_state[VOX_PENETRATION_CROSSING], 0);
-    ck_assert_uint_eq(by_state[VOX_PENETRATION_ENCLOSED], 0);
+    ck_assert_uint_gt(by_state[VOX_DEPTH_SURFACE], 0);
+    ck_assert_uint_gt(by_state[VOX_DEPTH_PROPAGATED], 0);
+    ck_assert_uint_gt(by_state[VOX_DEPTH_AMBIGUOUS], 0);
+    ck_assert_uint_eq(by_state[VOX_DEPTH_CLOSEST], 0);
     ck_assert_uint_eq(counters_of(grid).closest_searches, 0);
     (void)b;
     vox_grid_destroy(grid);
-    free(of_x.triangles);
-    free(of_y.triangles);
+    free_surface(&of_x);
+    free_surface(&of_y);
     free_body(&x_bar);
     free_body(&y_bar);
 }
@@ -209,20 +204,21 @@ END_TEST
 /* Vertex 0 of a small tetrahedron is in the lower of three that share the facet (0, 1, 2); the way up leads
  * through it. */
 START_TEST(no_way_through_a_facet_of_three) {
-    const float solid[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.3f, 0.3f, -1, 0.3f, 0.3f, 1, 0.4f, 0.2f, 0.5f};
-    const uint32_t tets[12] = {0, 1, 2, 3, 0, 1, 2, 4, 0, 1, 2, 5};
+    float solid[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0.3f, 0.3f, -1, 0.3f, 0.3f, 1, 0.4f, 0.2f, 0.5f};
+    uint32_t tets[12] = {0, 1, 2, 3, 0, 1, 2, 4, 0, 1, 2, 5};
     const float poke[12] = {0.3f, 0.3f, -0.05f, 0.2f, 0.3f, 1.5f, 0.4f, 0.3f, 1.5f, 0.3f, 0.4f, 1.5f};
-    const surface s = surface_of(tets, 3);
+    const body of_three = {solid, tets, 6, 3};
+    surface s = surface_of(&of_three);
     ck_assert_uint_eq(s.count, 9);
-    vox_grid* grid = engine_grid();
+    vox_grid* grid = depth_grid();
     const vox_body b = insert_arrays(grid, solid, 6, tets, 3), a = insert_arrays(grid, poke, 4, poke_tet, 1);
     step(grid);
-    const vox_penetration* p = penetration_of(grid, a, 0, b);
+    const vox_constraint* p = inside_of(grid, a, 0, b);
     ck_assert_ptr_nonnull(p);
-    ck_assert_int_eq(p->state, VOX_PENETRATION_CROSSING);
-    check_closest(p, place(poke, 0), s, solid, 1);
+    ck_assert_int_eq(p->state, VOX_DEPTH_AMBIGUOUS);
+    check_closest(p, &s);
     vox_grid_destroy(grid);
-    free(s.triangles);
+    free_surface(&s);
 }
 END_TEST
 
@@ -231,38 +227,37 @@ START_TEST(no_surface_at_all) {
     const float solid[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.25f, 0.25f, 0.25f};
     const uint32_t tets[20] = {0, 1, 2, 3, 0, 1, 2, 4, 0, 1, 3, 4, 0, 2, 3, 4, 1, 2, 3, 4};
     const float poke[12] = {0.3f, 0.3f, 0.3f, 0.2f, 0.3f, 1.5f, 0.4f, 0.3f, 1.5f, 0.3f, 0.4f, 1.5f};
-    vox_grid* grid = engine_grid();
+    vox_grid* grid = depth_grid();
     const vox_body b = insert_arrays(grid, solid, 5, tets, 5), a = insert_arrays(grid, poke, 4, poke_tet, 1);
     step(grid);
-    const vox_penetration* p = penetration_of(grid, a, 0, b);
+    const vox_constraint* p = inside_of(grid, a, 0, b);
     ck_assert_ptr_nonnull(p);
-    ck_assert_int_eq(p->state, VOX_PENETRATION_CROSSING);
-    ck_assert(p->depth == 0);
+    ck_assert_int_eq(p->state, VOX_DEPTH_AMBIGUOUS);
+    ck_assert(p->gap == 0);
     vox_grid_destroy(grid);
 }
 END_TEST
 
-/* ---- coincident ---- */
+/* ---- touching ---- */
 
 START_TEST(coincident_bodies) {
     body one = make_box(4, 0.25f, 0, 0, 0), other = make_box(4, 0.25f, 0, 0, 0);
-    const surface s = surface_of(one.tets, one.tet_count);
-    vox_grid* grid = engine_grid();
+    surface s = surface_of(&one);
+    vox_grid* grid = depth_grid();
     const vox_body a = insert(grid, &one, 0), b = insert(grid, &other, 0);
     step(grid);
-    ck_assert_uint_eq(penetrations_of(grid).count, 2 * one.vertex_count);
+    ck_assert_uint_eq(constraints_of(grid).count, 2 * one.vertex_count);
     for (uint32_t v = 0; v < one.vertex_count; ++v) {
-        const vox_penetration* p = penetration_of(grid, a, v, b);
+        const vox_constraint* p = inside_of(grid, a, v, b);
         const vector at = place(one.positions, v);
         const int inside = at.x > 0 && at.x < 1 && at.y > 0 && at.y < 1 && at.z > 0 && at.z < 1;
-        ck_assert_int_eq(p->state, inside ? VOX_PENETRATION_ENCLOSED : VOX_PENETRATION_COINCIDENT);
-        check_closest(p, at, s, other.positions, 1);
+        ck_assert_int_eq(p->state, inside ? VOX_DEPTH_CLOSEST : VOX_DEPTH_TOUCHING);
+        check_closest(p, &s);
         const vector from_middle = {at.x - 0.5, at.y - 0.5, at.z - 0.5};
-        if (!inside)
-            ck_assert(inner(direction_of(p), from_middle) > 0.49); /* the normal of a face it is on */
+        if (!inside) ck_assert(inner(normal_of(p), from_middle) > 0.49); /* the normal of a face it is on */
     }
     vox_grid_destroy(grid);
-    free(s.triangles);
+    free_surface(&s);
     free_body(&one);
     free_body(&other);
 }
@@ -272,23 +267,23 @@ START_TEST(stacked_boxes_touch) {
     /* Vertices on faces, edges and corners of tetrahedra, all on the plane between two boxes. */
     body lower = make_box(4, 0.25f, 0, 0, 0), upper = make_box(4, 0.25f, 0.125f, 0.125f, 1),
          aligned = make_box(4, 0.25f, 3, 0, 1), under = make_box(4, 0.25f, 3, 0, 0);
-    vox_grid* grid = engine_grid();
+    vox_grid* grid = depth_grid();
     const vox_body a = insert(grid, &lower, 0), b = insert(grid, &upper, 0), c = insert(grid, &aligned, 0),
                    d = insert(grid, &under, 0);
     step(grid);
-    const vox_penetration_view view = penetrations_of(grid);
+    const vox_constraint_view view = constraints_of(grid);
     ck_assert_uint_eq(view.count, 16 + 16 + 25 + 25);
     for (uint64_t i = 0; i < view.count; ++i) {
-        const vox_penetration* p = penetration_at(view, i);
-        ck_assert_int_eq(p->state, VOX_PENETRATION_COINCIDENT);
+        const vox_constraint* p = &view.data[i];
+        ck_assert_int_eq(p->state, VOX_DEPTH_TOUCHING);
         const vector out = p->body_a == a || p->body_a == d ? down : up; /* up: out of the lower one */
         const int on_edge = p->body_a == c || p->body_a == d; /* where it may be another face's normal */
-        if (!on_edge) ck_assert(degrees_between(direction_of(p), out) < 0.01);
+        if (!on_edge) ck_assert(degrees_between(normal_of(p), out) < 0.01);
     }
     for (uint32_t v = 0; v < aligned.vertex_count; ++v) {
         const vector at = place(aligned.positions, v);
         if (at.z == 1 && at.x > 3 && at.x < 4 && at.y > 0 && at.y < 1)
-            expect(grid, c, v, d, VOX_PENETRATION_COINCIDENT, 0, up);
+            expect(grid, c, v, d, VOX_DEPTH_TOUCHING, 0, up);
     }
     (void)b;
     vox_grid_destroy(grid);
@@ -303,16 +298,16 @@ START_TEST(lattices_that_coincide) {
     /* Every vertex of one lies on vertices, edges and facets inside the other; the ways out run along them.
      */
     body lower = make_box(8, 0.125f, 0, 0, 0), upper = make_box(4, 0.125f, 0.25f, 0.25f, 0.75f);
-    vox_grid* grid = engine_grid();
+    vox_grid* grid = depth_grid();
     const vox_body b = insert(grid, &lower, 0), a = insert(grid, &upper, 0);
     step(grid);
     for (uint32_t v = 0; v < upper.vertex_count; ++v) {
         const double depth = 1 - (double)upper.positions[3 * v + 2];
         if (depth < 0) continue;
         if (depth == 0)
-            expect(grid, a, v, b, VOX_PENETRATION_COINCIDENT, 0, up);
+            expect(grid, a, v, b, VOX_DEPTH_TOUCHING, 0, up);
         else if (depth == 0.125 || depth == 0.25)
-            expect(grid, a, v, b, VOX_PENETRATION_PROPAGATED, depth, up);
+            expect(grid, a, v, b, VOX_DEPTH_PROPAGATED, depth, up);
     }
     vox_grid_destroy(grid);
     free_body(&lower);
@@ -330,12 +325,12 @@ START_TEST(on_the_surface_of_a_part_and_inside_another) {
     memcpy(positions + 3 * 27, high.positions, sizeof positions / 2);
     for (uint32_t i = 0; i < 4 * 40; ++i) tets[i] = low.tets[i], tets[4 * 40 + i] = high.tets[i] + 27;
     const float point[3] = {0.55f, 0.6f, 1};
-    vox_grid* grid = engine_grid();
+    vox_grid* grid = depth_grid();
     const vox_body b = insert_arrays(grid, positions, 54, tets, 80),
                    a = insert_arrays(grid, point, 1, NULL, 0);
     step(grid);
     ck_assert_uint_eq(counters_of(grid).contacts, 1);
-    expect(grid, a, 0, b, VOX_PENETRATION_COINCIDENT, 0, up);
+    expect(grid, a, 0, b, VOX_DEPTH_TOUCHING, 0, up);
     vox_grid_destroy(grid);
     free_body(&low);
     free_body(&high);
@@ -355,22 +350,22 @@ static void swap_corners(body* b, uint32_t from, uint32_t every) {
 START_TEST(winding_does_not_matter) {
     body plain = make_box(6, 0.25f, 0, 0, 0), upper = make_box(6, 0.2f, 0.1f, 0.15f, 1.3f);
     body wound = make_box(6, 0.25f, 0, 0, 0);
-    vox_grid* grid = engine_grid();
+    vox_grid* grid = depth_grid();
     const vox_body b = insert(grid, &plain, 0), a = insert(grid, &upper, 0);
     step(grid);
     for (uint32_t every = 1; every <= 3; ++every) { /* all of them, and mixed */
-        vox_grid* again = engine_grid();
+        vox_grid* again = depth_grid();
         swap_corners(&wound, 0, every);
         ck_assert_uint_eq(insert(again, &wound, 0), b);
         ck_assert_uint_eq(insert(again, &upper, 0), a);
         step(again);
-        const vox_penetration_view before = penetrations_of(grid), after = penetrations_of(again);
+        const vox_constraint_view before = constraints_of(grid), after = constraints_of(again);
         ck_assert_uint_eq(before.count, after.count);
         for (uint64_t i = 0; i < before.count; ++i) {
-            const vox_penetration *p = penetration_at(before, i), *q = penetration_at(after, i);
+            const vox_constraint *p = &before.data[i], *q = &after.data[i];
             ck_assert_int_eq(p->state, q->state);
-            ck_assert(fabsf(p->depth - q->depth) < 1e-6f);
-            ck_assert(degrees_between(direction_of(p), direction_of(q)) < 0.01);
+            ck_assert(fabs(p->gap - q->gap) < 1e-14);
+            ck_assert(degrees_between(normal_of(p), normal_of(q)) < 0.01);
         }
         vox_grid_destroy(again);
     }
@@ -388,11 +383,11 @@ START_TEST(doubled_tets) {
     memcpy(twice + 4 * box.tet_count, box.tets, 4 * sizeof(uint32_t) * box.tet_count);
     float positions[12];
     make_poke(positions, 0.3f);
-    vox_grid* grid = engine_grid();
+    vox_grid* grid = depth_grid();
     const vox_body b = insert_arrays(grid, box.positions, box.vertex_count, twice, 2 * box.tet_count),
                    a = insert_arrays(grid, positions, 4, poke_tet, 1);
     step(grid);
-    expect(grid, a, 0, b, VOX_PENETRATION_SURFACE, 1 - (double)positions[2], up);
+    expect(grid, a, 0, b, VOX_DEPTH_SURFACE, 1 - (double)positions[2], up);
     vox_grid_destroy(grid);
     free(twice);
     free_body(&box);
@@ -410,16 +405,16 @@ START_TEST(flat_tets_on_the_surface) {
         const uint32_t flat[8] = {v, v + 1, v + 5, v + 6, v, v + 1, v + 1, v + 7};
         memcpy(tets + 4 * (n + 2 * i), flat, sizeof flat);
     }
-    vox_grid* grid = engine_grid();
+    vox_grid* grid = depth_grid();
     const vox_body b = insert_arrays(grid, box.positions, box.vertex_count, tets, n + 8);
     body upper = make_box(6, 0.125f, 0.12f, 0.11f, 0.93f);
     const vox_body a = insert(grid, &upper, 0);
     step(grid);
     for (uint32_t v = 0; v < upper.vertex_count; ++v) {
         if (upper.positions[3 * v + 2] >= 1) continue;
-        const vox_penetration* p = penetration_of(grid, a, v, b);
-        ck_assert(fabs((double)p->depth - (1 - (double)upper.positions[3 * v + 2])) < 1e-6);
-        ck_assert(degrees_between(direction_of(p), up) < 0.01);
+        const vox_constraint* p = inside_of(grid, a, v, b);
+        ck_assert(fabs(depth_of(p) - (1 - (double)upper.positions[3 * v + 2])) < 1e-14);
+        ck_assert(degrees_between(normal_of(p), up) < 0.01);
     }
     vox_grid_destroy(grid);
     free(tets);
@@ -435,19 +430,19 @@ START_TEST(inverted_tets) {
     uint32_t random = 1;
     for (uint32_t i = 0; i < 3 * box.vertex_count; ++i)
         box.positions[i] += ((float)(random_quick(&random) >> 8) / 16777216.0f - 0.5f) * 0.5f;
-    vox_grid* grid = engine_grid();
+    vox_grid* grid = depth_grid();
     insert(grid, &box, VOX_FILTER_SELF_COLLISION);
     insert(grid, &upper, 0);
     step(grid);
-    const vox_penetration_view view = penetrations_of(grid);
-    uint64_t crossing = 0;
+    const vox_constraint_view view = constraints_of(grid);
+    uint64_t ambiguous = 0;
     for (uint64_t i = 0; i < view.count; ++i) {
-        const vox_penetration* p = penetration_at(view, i);
-        ck_assert_float_lt(p->depth, 1);
-        crossing += p->state == VOX_PENETRATION_CROSSING;
+        const vox_constraint* p = &view.data[i];
+        ck_assert_double_lt(depth_of(p), 1);
+        ambiguous += p->state == VOX_DEPTH_AMBIGUOUS;
     }
-    ck_assert_uint_gt(crossing, 50);
-    ck_assert_uint_lt(counters_of(grid).closest_searches, crossing / 4);
+    ck_assert_uint_gt(ambiguous, 50);
+    ck_assert_uint_lt(counters_of(grid).closest_searches, ambiguous / 4);
     vox_grid_destroy(grid);
     free_body(&box);
     free_body(&upper);
@@ -497,34 +492,34 @@ static body make_fold(void) {
 
 START_TEST(self_fold) {
     body bar = make_fold();
-    vox_grid* grid = engine_grid();
+    vox_grid* grid = depth_grid();
     const vox_body a = insert(grid, &bar, VOX_FILTER_SELF_COLLISION);
     step(grid);
-    const vox_penetration_view view = penetrations_of(grid);
+    const vox_constraint_view view = constraints_of(grid);
     uint64_t by_state[5] = {0, 0, 0, 0, 0}, in_middle = 0;
     for (uint64_t i = 0; i < view.count; ++i) {
-        const vox_penetration* p = penetration_at(view, i);
+        const vox_constraint* p = &view.data[i];
         ck_assert_uint_eq(p->body_a, a);
         ck_assert_uint_eq(p->body_b, a);
         ++by_state[p->state];
-        const vector at = place(bar.positions, p->vertex);
+        const vector at = place(bar.positions, p->vertices[0]);
         /* Near the sides and the ends, the ways out lead there. */
-        if (p->vertex / 5 % 5 != 2 || at.x < 0.8) continue;
+        if (p->vertices[0] / 5 % 5 != 2 || at.x < 0.8) continue;
         ++in_middle;
         /* The lower arm's top is z = 0.5; the upper arm's bottom falls to the left. Out of the other arm: */
-        const int upper = p->vertex >= bar.vertex_count / 2;
+        const int upper = p->vertices[0] >= bar.vertex_count / 2;
         const double slope = 0.24, into_lower = 0.5 - at.z, into_upper = at.z - (2 - slope * (8 - at.x));
         const double depth = upper ? into_lower : into_upper / sqrt(1 + slope * slope);
         const vector out = upper ? up : (vector){slope, 0, -1};
-        ck_assert_int_eq(p->state, VOX_PENETRATION_SURFACE);
-        ck_assert_msg(fabs((double)p->depth - depth) < 1e-5, "vertex %u: depth %g, not %g", p->vertex,
-                      (double)p->depth, depth);
-        ck_assert_msg(degrees_between(direction_of(p), out) < 0.01, "vertex %u: direction (%g, %g, %g)",
-                      p->vertex, (double)p->direction[0], (double)p->direction[1], (double)p->direction[2]);
+        ck_assert_int_eq(p->state, VOX_DEPTH_SURFACE);
+        ck_assert_msg(fabs(depth_of(p) - depth) < 1e-6, "vertex %u: depth %g, not %g", p->vertices[0],
+                      depth_of(p), depth);
+        ck_assert_msg(degrees_between(normal_of(p), out) < 0.01, "vertex %u: direction (%g, %g, %g)",
+                      p->vertices[0], p->normal[0], p->normal[1], p->normal[2]);
     }
     ck_assert_uint_gt(in_middle, 5);
-    ck_assert_uint_gt(by_state[VOX_PENETRATION_SURFACE], 20);
-    ck_assert_uint_eq(by_state[VOX_PENETRATION_ENCLOSED], 0);
+    ck_assert_uint_gt(by_state[VOX_DEPTH_SURFACE], 20);
+    ck_assert_uint_eq(by_state[VOX_DEPTH_CLOSEST], 0);
     vox_grid_destroy(grid);
     free_body(&bar);
 }
@@ -534,12 +529,13 @@ START_TEST(one_vertex_in_two_bodies) {
     body low = make_box(4, 0.25f, 0, 0, 0), wide = make_box(4, 0.5f, -0.5f, -0.5f, -1.05f);
     float positions[12];
     make_poke(positions, 0.2f);
-    vox_grid* grid = engine_grid();
+    vox_grid* grid = depth_grid();
     const vox_body b = insert(grid, &low, 0), a = insert_arrays(grid, positions, 4, poke_tet, 1),
                    c = insert(grid, &wide, 0);
     step(grid);
-    expect(grid, a, 0, b, VOX_PENETRATION_SURFACE, 1 - (double)positions[2], up);
-    expect(grid, a, 0, c, VOX_PENETRATION_SURFACE, 0.95 - (double)positions[2], up);
+    expect(grid, a, 0, b, VOX_DEPTH_SURFACE, 1 - (double)positions[2], up);
+    const double top = (double)wide.positions[3 * wide.vertex_count - 1];
+    expect(grid, a, 0, c, VOX_DEPTH_SURFACE, top - (double)positions[2], up);
     vox_grid_destroy(grid);
     free_body(&low);
     free_body(&wide);

@@ -5,10 +5,9 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <vox/vox_surface.h>
 
 #include "support/ledger.h"
-#include "support/suite.h"
+#include "support/surface_counter.h"
 
 /* Two triangles that cross each other. */
 static const double crossed[18] = {0, 0, 0, 1, 0, 0, 0, 1, 0, .25, .25, -1, .25, .25, 1, 2, 2, 0};
@@ -37,11 +36,10 @@ static vox_motion motion_of(const double* from, const double* to, uint64_t verti
     return motion;
 }
 
-static vox_pair_lists lists_of(vox_surface* surface, vox_feature a, vox_feature b) {
-    vox_pair_lists lists;
-    lists.struct_size = sizeof lists;
+static uint64_t pair_count(vox_surface* surface, vox_feature a, vox_feature b) {
+    vox_partner_lists lists;
     ck_ok(vox_surface_find_pairs(surface, a, b, 0, UINT64_MAX, &lists));
-    return lists;
+    return lists.offsets[lists.count];
 }
 
 START_TEST(descriptions_that_are_refused) {
@@ -94,13 +92,12 @@ END_TEST
 START_TEST(motions_that_are_refused) {
     const vox_surface_desc desc = desc_of(6, two_faces, 2);
     vox_surface* const surface = surface_from(&desc);
-    vox_pair_lists lists;
-    lists.struct_size = sizeof lists;
+    vox_partner_lists lists;
     ck_fails(vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, 0, 1, &lists),
              VOX_ERROR_INVALID_STATE, "no positions");
     vox_motion good = motion_of(crossed, NULL, 6);
     ck_ok(vox_surface_move(surface, &good));
-    const uint64_t pairs = lists_of(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE).pair_count;
+    const uint64_t pairs = pair_count(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE);
     ck_assert_uint_gt(pairs, 0);
 
     vox_motion bad = good;
@@ -150,7 +147,7 @@ START_TEST(motions_that_are_refused) {
         ck_fails(vox_surface_move(surface, &bad), i < 3 ? VOX_ERROR_NON_FINITE : VOX_ERROR_LIMIT,
                  "to: vertex 1");
     }
-    ck_assert_uint_eq(lists_of(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE).pair_count,
+    ck_assert_uint_eq(pair_count(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE),
                       pairs); /* the motion of before */
     vox_surface_destroy(surface);
 }
@@ -161,8 +158,7 @@ START_TEST(questions_that_are_refused) {
     vox_surface* const surface = surface_from(&desc);
     const vox_motion motion = motion_of(crossed, NULL, 6);
     ck_ok(vox_surface_move(surface, &motion));
-    vox_pair_lists lists;
-    lists.struct_size = sizeof lists;
+    vox_partner_lists lists;
     lists.count = 77;
     ck_fails(vox_surface_find_pairs(surface, (vox_feature)3, VOX_FEATURE_EDGE, 0, 1, &lists),
              VOX_ERROR_INVALID_ARGUMENT, "3");
@@ -181,12 +177,10 @@ START_TEST(questions_that_are_refused) {
     ck_fails(vox_surface_set_cell_size(surface, -1), VOX_ERROR_INVALID_ARGUMENT, "-1");
     ck_fails(vox_surface_set_cell_size(surface, NAN), VOX_ERROR_INVALID_ARGUMENT, "nan");
     vox_feature_view view;
-    view.struct_size = sizeof view;
     ck_fails(vox_surface_get_features(surface, VOX_FEATURE_VERTEX, &view), VOX_ERROR_INVALID_ARGUMENT,
              "VERTEX");
     ck_ok(vox_surface_get_features(surface, VOX_FEATURE_EDGE, &view));
     ck_assert_uint_eq(view.count, 6);
-    ck_assert_uint_eq(view.vertices_each, 2);
     ck_assert_uint_eq(view.vertices[0], 0);
     ck_assert_uint_eq(view.vertices[1], 1);
     vox_foreign_suggestion suggestion;
@@ -223,8 +217,8 @@ START_TEST(degenerate_scenes) {
                 ck_ok(vox_surface_move(surface, &motion));
                 for (int a = 0; a < 3; ++a)
                     for (int b = 0; b < 3; ++b) {
-                        const vox_pair_lists lists = lists_of(surface, (vox_feature)a, (vox_feature)b);
-                        if (r == 2 && a == 0 && b == 0) ck_assert_uint_eq(lists.pair_count, 15); /* all */
+                        const uint64_t pairs = pair_count(surface, (vox_feature)a, (vox_feature)b);
+                        if (r == 2 && a == 0 && b == 0) ck_assert_uint_eq(pairs, 15); /* all */
                     }
                 vox_surface_destroy(surface);
             }
@@ -254,8 +248,8 @@ START_TEST(sizes_beyond_floats) {
             }
             ck_ok(vox_surface_move(surface, &motion));
             for (int a = 0; a < 3; ++a)
-                for (int b = 0; b < 3; ++b) (void)lists_of(surface, (vox_feature)a, (vox_feature)b);
-            vox_crossing_view crossings = {.struct_size = sizeof crossings};
+                for (int b = 0; b < 3; ++b) (void)pair_count(surface, (vox_feature)a, (vox_feature)b);
+            vox_crossing_view crossings;
             ck_ok(vox_surface_find_crossings(surface, &crossings));
             vox_surface_destroy(surface);
         }
@@ -287,7 +281,6 @@ START_TEST(suggestions_that_are_refused) {
 }
 END_TEST
 
-/* Static obstacles do not meet each other. */
 /* Null: those of the faces, each once; else those given, also none of them. */
 START_TEST(edges_of_a_surface) {
     static const uint32_t faces[6] = {2, 1, 0, 1, 2, 3}, given[4] = {5, 0, 4, 4};
@@ -297,7 +290,7 @@ START_TEST(edges_of_a_surface) {
         desc.edges = i == 0 ? NULL : given;
         desc.edge_count = i == 2 ? 2 : 0;
         vox_surface* const surface = surface_from(&desc);
-        vox_feature_view view = {.struct_size = sizeof view};
+        vox_feature_view view;
         ck_ok(vox_surface_get_features(surface, VOX_FEATURE_EDGE, &view));
         const uint64_t counts[3] = {5, 0, 2};
         ck_assert_uint_eq(view.count, counts[i]);
@@ -321,20 +314,21 @@ START_TEST(times_that_are_given_up) {
     ck_ok(vox_surface_move(surface, &motion));
     double times[2];
     for (int i = 0; i < 2; ++i) {
-        vox_contact_time_desc rule = vox_default_contact_time_desc();
+        vox_impact_desc rule = vox_default_impact_desc();
         rule.slack = 1e-6;
-        if (i == 0) rule.most_iterations = 1;
-        vox_timed_view view = {.struct_size = sizeof view};
+        if (i == 0) rule.max_iterations = 1;
+        vox_impact_view view;
         ck_ok(vox_surface_find_impacts(surface, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX, &rule, &view));
         ck_assert_uint_eq(view.count, 1);
-        ck_assert_uint_eq(view.pairs[0].b, 3);
-        times[i] = view.pairs[0].time;
+        ck_assert_uint_eq(view.data[0].b, 3);
+        times[i] = view.data[0].time;
     }
     ck_assert(0 < times[0] && times[0] < times[1] && times[1] < 1);
     vox_surface_destroy(surface);
 }
 END_TEST
 
+/* Static obstacles do not meet each other. */
 START_TEST(patches_that_do_not_meet) {
     const uint32_t patches[6] = {0, 0, 0, 1, 1, 1};
     const uint64_t categories[2] = {1, 2}, meet[2] = {3, 3}, apart[2] = {1, 2};
@@ -347,7 +341,7 @@ START_TEST(patches_that_do_not_meet) {
         vox_surface* const surface = surface_from(&desc);
         const vox_motion motion = motion_of(crossed, NULL, 6);
         ck_ok(vox_surface_move(surface, &motion));
-        const uint64_t pairs = lists_of(surface, VOX_FEATURE_FACE, VOX_FEATURE_FACE).pair_count;
+        const uint64_t pairs = pair_count(surface, VOX_FEATURE_FACE, VOX_FEATURE_FACE);
         ck_assert_uint_eq(pairs, off ? 0 : 1);
         vox_surface_destroy(surface);
     }
@@ -369,8 +363,7 @@ START_TEST(memory_that_runs_out) {
         if (result == VOX_OK) {
             vox_motion motion = motion_of(crossed, NULL, 6);
             motion.flags = VOX_MOTION_CULL;
-            vox_pair_lists lists;
-            lists.struct_size = sizeof lists;
+            vox_partner_lists lists;
             result = vox_surface_move(surface, &motion);
             if (result == VOX_OK)
                 result = vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, 0, 6, &lists);
@@ -380,7 +373,7 @@ START_TEST(memory_that_runs_out) {
             } else {
                 ck_assert_int_eq(result, VOX_ERROR_OUT_OF_MEMORY);
                 ck_ok(vox_surface_move(surface, &motion));
-                ck_assert_uint_eq(lists_of(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE).pair_count, 2);
+                ck_assert_uint_eq(pair_count(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE), 2);
             }
             vox_surface_destroy(surface);
         } else {
@@ -421,26 +414,17 @@ START_TEST(no_memory_in_the_steady_state) {
         motion.flags = VOX_MOTION_CULL;
         motion.radius = 0.01;
         ck_ok(vox_surface_move(surface, &motion));
-        (void)lists_of(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE);
-        vox_pair_counters counters;
-        counters.struct_size = sizeof counters;
-        ck_ok(vox_surface_get_counters(surface, &counters));
-        ck_assert_uint_gt(counters.overlaps, 0);
-        ck_assert_uint_eq(counters.culled, counters.overlaps); /* it moves as a whole */
-        (void)lists_of(surface, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX);
+        (void)pair_count(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE);
+        const uint64_t overlaps = surface_counter(surface, "overlaps");
+        ck_assert_uint_gt(overlaps, 0);
+        ck_assert_uint_eq(surface_counter(surface, "culled"), overlaps); /* it moves as a whole */
+        (void)pair_count(surface, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX);
         if (step == 2) calls = book.calls;
         if (step > 2) ck_assert_uint_eq(book.calls, calls);
     }
     vox_surface_destroy(surface);
 }
 END_TEST
-
-static vox_pair_counters counters_of_surface(const vox_surface* surface) {
-    vox_pair_counters counters;
-    counters.struct_size = sizeof counters;
-    ck_ok(vox_surface_get_counters(surface, &counters));
-    return counters;
-}
 
 static vox_surface* many_in_one_place(uint64_t vertices, uint64_t byte_budget) {
     float* at = (float*)calloc(3 * vertices, sizeof *at);
@@ -460,21 +444,19 @@ static vox_surface* many_in_one_place(uint64_t vertices, uint64_t byte_budget) {
 START_TEST(answers_beyond_the_budget) {
     enum { n = 3000 };
     vox_surface* const surface = many_in_one_place(n, 4 << 20);
-    vox_close_view close;
-    close.struct_size = sizeof close;
+    vox_proximity_view close;
     close.count = 77;
     ck_fails(vox_surface_find_proximities(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 1, &close),
              VOX_ERROR_BUDGET, "4194304");
     ck_assert_uint_eq(close.count, 77);
     uint64_t pairs = 0;
     for (uint64_t first = 0; first < n;) {
-        vox_pair_lists lists;
-        lists.struct_size = sizeof lists;
+        vox_partner_lists lists;
         ck_ok(vox_surface_find_pairs(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, first, UINT64_MAX,
                                      &lists));
         ck_assert_uint_gt(lists.count, 0);
-        ck_assert_uint_le(counters_of_surface(surface).peak_bytes, 4 << 20);
-        pairs += lists.pair_count;
+        ck_assert_uint_le(surface_counter(surface, "peak_bytes"), 4 << 20);
+        pairs += lists.offsets[lists.count];
         first += lists.count;
     }
     ck_assert_uint_eq(pairs, n * (n - 1) / 2);
@@ -482,11 +464,10 @@ START_TEST(answers_beyond_the_budget) {
 
     /* Less than a search of one feature needs. */
     vox_surface* const tight = many_in_one_place(n, 300 << 10);
-    vox_pair_lists lists;
-    lists.struct_size = sizeof lists;
+    vox_partner_lists lists;
     ck_fails(vox_surface_find_pairs(tight, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, 1, &lists),
              VOX_ERROR_BUDGET, "307200");
-    ck_assert_uint_le(counters_of_surface(tight).peak_bytes, 300 << 10);
+    ck_assert_uint_le(surface_counter(tight, "peak_bytes"), 300 << 10);
     vox_surface_destroy(tight);
 }
 END_TEST
@@ -495,14 +476,14 @@ END_TEST
 START_TEST(budget_of_answers_that_ended) {
     enum { n = 3000 };
     vox_surface* const surface = many_in_one_place(n, 4 << 20);
-    vox_pair_lists lists = {.struct_size = sizeof lists};
+    vox_partner_lists lists;
     ck_ok(vox_surface_find_pairs(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, UINT64_MAX,
                                  &lists)); /* fills it */
-    ck_assert_uint_gt(counters_of_surface(surface).bytes, 2 << 20);
+    ck_assert_uint_gt(surface_counter(surface, "bytes"), 2 << 20);
     double at[3 * n];
     for (int i = 0; i < 3 * n; ++i) at[i] = i;
     const vox_motion motion = motion_of(at, NULL, n);
-    vox_close_view close = {.struct_size = sizeof close};
+    vox_proximity_view close;
     ck_ok(vox_surface_move(surface, &motion));
     ck_ok(vox_surface_find_proximities(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 20, &close));
     ck_assert_uint_eq(close.count, 3 * n - 6); /* three on each side of a vertex */
@@ -517,8 +498,7 @@ START_TEST(a_thousand_million_pairs) {
     const uint64_t firsts[] = {0, n / 2, n - 300};
     for (int i = 0; i < 3; ++i) {
         const uint64_t first = firsts[i];
-        vox_pair_lists lists;
-        lists.struct_size = sizeof lists;
+        vox_partner_lists lists;
         ck_ok(vox_surface_find_pairs(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, first, UINT64_MAX,
                                      &lists));
         ck_assert_uint_gt(lists.count, 100);
@@ -529,11 +509,10 @@ START_TEST(a_thousand_million_pairs) {
             ck_assert_uint_eq(lists.partners[lists.offsets[v]], first + v + 1);
             ck_assert_uint_eq(lists.partners[lists.offsets[v + 1] - 1], n - 1);
         }
-        if (i == 0) ck_assert_uint_lt(lists.pair_count, all);
+        if (i == 0) ck_assert_uint_lt(lists.offsets[lists.count], all);
     }
-    ck_assert_uint_le(counters_of_surface(surface).peak_bytes, 64 << 20);
-    vox_close_view close;
-    close.struct_size = sizeof close;
+    ck_assert_uint_le(surface_counter(surface, "peak_bytes"), 64 << 20);
+    vox_proximity_view close;
     ck_fails(vox_surface_find_proximities(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, &close),
              VOX_ERROR_BUDGET, "67108864");
     vox_surface_destroy(surface);

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "scenes/bodies.h"
+#include "support/constraint_checks.h"
 #include "support/ledger.h"
 #include "support/locators.h"
 
@@ -168,6 +169,7 @@ static vox_grid_desc scheduled(engine_kind engine, scheduler* s, int kind, uint3
     memset(s, 0, sizeof *s);
     s->worker_count = workers;
     use_engine(&desc, engine);
+    desc.flags = VOX_GRID_CONSTRAINTS;
     desc.worker_count = workers;
     const vox_task_system tasks = {systems[kind].enqueue, systems[kind].finish, s};
     s->tasks = tasks;
@@ -179,10 +181,13 @@ START_TEST(same_for_any_task_system) {
     scheduler s;
     grid_counts serial, counters;
     vox_grid_desc desc = engine_desc();
+    desc.flags = VOX_GRID_CONSTRAINTS;
     make_bodies();
     vox_grid* grid = new_scene(&desc);
     const uint64_t expected = stepped_hash(grid, &serial);
     ck_assert_uint_gt(serial.contacts, 1000);
+    const kept_constraints constraints = keep_constraints(grid);
+    ck_assert_uint_gt(constraints.count, 1000);
     vox_grid_destroy(grid);
 
     for (int kind = runs_inline; kind <= runs_threads; ++kind)
@@ -196,9 +201,11 @@ START_TEST(same_for_any_task_system) {
                 ck_assert_uint_le(s.enqueued, VOX_MAX_TASKS);
                 if (workers > 1 && suite_engine == ENGINE_FAST) ck_assert_uint_gt(s.enqueued, 0);
                 check_same_counters(&counters, &serial);
+                same_constraints(grid, &constraints);
             }
             vox_grid_destroy(grid);
         }
+    free(constraints.data);
     free_bodies();
 }
 END_TEST
@@ -206,6 +213,7 @@ END_TEST
 START_TEST(same_for_any_worker_count) {
     grid_counts serial, counters;
     vox_grid_desc desc = engine_desc();
+    desc.flags = VOX_GRID_CONSTRAINTS;
     make_bodies();
     vox_grid* grid = new_scene(&desc);
     const uint64_t expected = stepped_hash(grid, &serial);
@@ -319,7 +327,6 @@ START_TEST(trees_of_many_bodies_are_few_tasks) {
     body plate = make_block(&five_cut, 46, 46, 1);
     float points[3 * plates];
     vox_body mesh = 0;
-    vox_penetration_view found;
     const vox_grid_desc desc = scheduled(suite_engine, &s, runs_threads, 4);
     vox_grid* grid = grid_of(&desc);
     for (uint32_t i = 0; i < plates; ++i) {
@@ -336,11 +343,11 @@ START_TEST(trees_of_many_bodies_are_few_tasks) {
     s.enqueued = 0;
     ck_ok(vox_grid_step(grid));
     ck_assert_uint_le(s.enqueued, VOX_MAX_TASKS);
-    ck_ok(vox_grid_penetrations(grid, &found));
+    const vox_constraint_view found = constraints_of(grid);
     ck_assert_uint_eq(found.count, plates);
     for (uint32_t i = 0; i < plates; ++i) {
-        ck_assert_int_eq(found.data[i].state, VOX_PENETRATION_ENCLOSED);
-        ck_assert_float_eq(found.data[i].depth, 0.25f);
+        ck_assert_int_eq(found.data[i].state, VOX_DEPTH_CLOSEST);
+        ck_assert_double_eq(found.data[i].gap, -0.25);
     }
     vox_grid_destroy(grid);
     free_body(&plate);
@@ -358,7 +365,6 @@ START_TEST(steady_state_allocates_nothing) {
         grid_counts counters;
         vox_grid_desc desc = scheduled(suite_engine, &s, runs_inline, workers);
         desc.allocator = ledger_allocator(&l);
-        desc.flags = 0;
         make_bodies();
         vox_grid* grid = new_scene(&desc);
         for (int step = 0; step < 12; ++step) {
@@ -436,7 +442,11 @@ END_TEST
 
 /* The functions that enqueue tasks. */
 static vox_result call_step(vox_grid* grid) { return vox_grid_step(grid); }
-static vox_result call_readings(vox_grid* grid) { return vox_grid_prepare_readings(grid); }
+static vox_result call_constraints(vox_grid* grid) {
+    vox_constraint_desc desc = vox_default_constraint_desc();
+    desc.method = VOX_DEPTH_METHOD_CLOSEST; /* not what the step has found */
+    return vox_grid_find_constraints(grid, &desc);
+}
 static vox_result call_locator(vox_grid* grid) {
     vox_locator* locator = NULL;
     const vox_result result = vox_grid_update_locator(grid, &locator);
@@ -448,7 +458,7 @@ static vox_result call_locator(vox_grid* grid) {
 START_TEST(a_defect_in_any_one_task) {
     /* The scene is large enough that every stage is shared: each defect in each task of each function is
      * found, and the next call with a sound scheduler gives what it should. */
-    vox_result (*const calls[])(vox_grid*) = {call_step, call_readings, call_locator};
+    vox_result (*const calls[])(vox_grid*) = {call_step, call_constraints, call_locator};
     const uint32_t least[] = {suite_engine == ENGINE_FAST ? 8 : 1, 1, 1}; /* tasks there have to be */
     scheduler s;
     grid_counts counters;

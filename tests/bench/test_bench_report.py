@@ -1,4 +1,4 @@
-"""The report of the benchmark says which figures are of the default step and which of contacts alone."""
+"""The report of the benchmark says which figures are of a step with constraints and which of contacts alone."""
 
 import csv
 import os
@@ -55,13 +55,13 @@ class Report(unittest.TestCase):
         with open(path, encoding="utf-8") as file:
             return file.read()
 
-    def test_the_default_step_comes_first(self):
+    def test_the_step_with_constraints_comes_first(self):
         text = self.report()
-        self.assertIn("| scene | tets | default step, ms | contacts alone, ms | default / contacts alone | default with AVX2 / with AVX-512 |", text)
+        self.assertIn("| scene | tets | with constraints, ms | contacts alone, ms | constraints / contacts alone | constraints with AVX2 / with AVX-512 |", text)
         self.assertIn("| two bodies | 1000000 | 2.00 | 1.00 | 2.00 | 1.25 | 12.0 | 24.0 | Embree rebuild | 150 | 1.00 |", text)
-        self.assertIn("Memory of a default grid: at most 70.0 bytes", text)
-        self.assertIn("Memory of one without the depth stage: at most 35.0 bytes", text)
-        self.assertIn("Growth, self, default step: time grows with the 1.00th power", text)
+        self.assertIn("Memory of a grid with constraints: at most 70.0 bytes", text)
+        self.assertIn("Memory of a default grid: at most 35.0 bytes", text)
+        self.assertIn("Growth, self, with constraints: time grows with the 1.00th power", text)
         self.assertIn("Growth, self, contacts alone: time grows with the 1.00th power", text)
         self.assertIn("--meshes FOLDER", text)
 
@@ -69,11 +69,11 @@ class Report(unittest.TestCase):
         text = self.page("before\n<!-- bench/aims -->\nold\n<!-- /bench/aims -->\nafter\n", "--aims")
         self.assertTrue(text.startswith("before\n<!-- bench/aims -->\n") and text.endswith("<!-- /bench/aims -->\nafter\n"))
         self.assertNotIn("old", text)
-        default, alone = text.split("Contacts alone, without the depth stage:")
-        self.assertIn("| two bodies | 1000000 | 2.00 (≤ 1.5): **missed** | 12.0 (≥ 12): met |", default)
-        self.assertIn("| two bodies | 1000000 | 2.00 (≤ 5): met | - |", default)  # the tangled body
+        full, alone = text.split("Contacts alone, the default:")
+        self.assertIn("| two bodies | 1000000 | 2.00 (≤ 1.5): **missed** | 12.0 (≥ 12): met |", full)
+        self.assertIn("| two bodies | 1000000 | 2.00 (≤ 5): met | - |", full)  # the tangled body
         self.assertIn("| two bodies | 1000000 | 150 (≥ 60): met | 24.0 (≥ 12): met | 1.00 (≤ 1.2): met (F2) |", alone)
-        self.assertIn("Memory of a default grid, bytes a tetrahedron beyond the caller's arrays, the worst scene but for the "
+        self.assertIn("Memory of a grid with constraints, bytes a tetrahedron beyond the caller's arrays, the worst scene but for the "
                       "hard ones (contact-1", alone)
         self.assertIn("70.0 (≤ 40): **missed**", alone)
         self.assertIn("with AVX2 beside AVX-512, the worst scene (contact-1, 1000000 tets): 1.25 (≤ 1.3): met", alone)
@@ -85,11 +85,11 @@ class Report(unittest.TestCase):
         first, second = text.split("More.")
         for part in (first, second):
             self.assertIn("default step", part)
-            self.assertIn("contacts alone take 1.0 ms", part)
-        self.assertIn("2.0 ms on one thread, penetration depth included", first)
-        self.assertIn("takes 12 times as long as the default step, and 24 times as long as", second)
+            self.assertIn("constraints, ", part)
+        self.assertIn("1.0 ms on one thread; with constraints, penetration depth included, 2.0 ms.", first)
+        self.assertIn("takes 24 times as long as the default step, and 12 times as long as", second)
 
-    def test_results_without_the_default_step(self):
+    def test_results_without_constraints(self):
         self.write([name for name in TIMES if name != "vox"])
         self.assertIn("| two bodies | 1000000 | - | 1.00 | - | - | - | 24.0 | Embree rebuild | 150 | 1.00 |", self.report())
         run = subprocess.run([sys.executable, "-B", REPORT, self.results, "--headlines", self.results], capture_output=True)

@@ -7,13 +7,13 @@ BEGIN = """#include <vox/vox_cell_size.hpp>
 #include "cpp/scene.hpp"
 #include <cstdio>
 static std::uint64_t hits;
-static double height;
+static double depth;
 static const Scene scene;
 static const std::vector<float>& xyz = scene.a;
 static const std::vector<std::uint32_t>& tets = scene.tets;
 int main() {
 """
-END = """    const bool right = hits > 0 && height > 0 && best > 0.9 && best < 1.1 && kept.size() > 0 && a != b;
+END = """    const bool right = hits > 0 && depth > 0 && best > 0.9 && best < 1.1 && kept.size() > 0 && a != b;
     std::puts(right ? "all blocks ran" : "a block computed something else");
 }
 """

@@ -29,8 +29,7 @@ struct Scene {
 struct CGrid {
     vox_grid* grid = nullptr;
     vox_body meshes[2] = {0, 0};
-    explicit CGrid(const Scene& scene,
-                   std::uint32_t flags = VOX_GRID_PENETRATIONS | VOX_GRID_CONTACT_EVENTS) {
+    explicit CGrid(const Scene& scene, std::uint32_t flags = VOX_GRID_CONSTRAINTS) {
         vox_grid_desc desc = vox_default_grid_desc();
         desc.flags = flags;
         grid = grid_of(&desc);

@@ -32,7 +32,7 @@ std::string hash_words(const void* data, std::size_t size) {
     return digits_of(hash);
 }
 
-// [how many, the hash of their words], of a vector, span or view.
+// [how many, the hash of their words], of a vector or span.
 template <class R>
 json summary(const R& items) {
     std::vector<std::decay_t<decltype(*items.begin())>> copies(items.begin(), items.end());
@@ -132,9 +132,11 @@ private:
             grid_.step();
         } else if (name == "results") {
             results(call);
-        } else if (name == "readings") {
-            grid_.prepare_readings();
-            check(call, "readings", summary(grid_.readings()));
+        } else if (name == "find_constraints") {
+            vox_constraint_desc desc = vox_default_constraint_desc();
+            desc.method = call["method"];
+            grid_.find_constraints(desc);
+            constraints(call);
         } else if (name == "update_locator") {
             locator_.update(grid_);
         } else if (name == "find_point_hits") {
@@ -198,16 +200,12 @@ private:
         }
     }
 
-    // What only a flag prepares is refused without it.
-    template <class F>
-    void check_prepared(const json& call, const char* name, F&& read) const {
-        try {
-            const json found = summary(read());
-            check(call, name, found);
-        } catch (const vox::error& error) {
-            ck_assert_msg(!call.contains(name) && error.result() == VOX_ERROR_INVALID_STATE, "%s: %s: %s",
-                          name, error.what(), place_.c_str());
-        }
+    void constraints(const json& call) const {
+        std::vector<std::uint64_t> offsets = {0};
+        for (const vox_pair& pair : grid_.pairs())
+            offsets.push_back(offsets.back() + grid_.constraints_of(pair).size());
+        check(call, "constraints", summary(grid_.constraints()));
+        check(call, "pair_offsets", summary(offsets));
     }
 
     void results(const json& call) const {
@@ -219,19 +217,16 @@ private:
         check(call, "interior", interior);
         std::vector<std::uint32_t> pair_contacts;
         for (const vox_pair& pair : grid_.pairs())
-            for (std::uint32_t contact : grid_.pairs().contacts(pair)) pair_contacts.push_back(contact);
+            for (std::uint32_t contact : grid_.contacts_of(pair)) pair_contacts.push_back(contact);
         check(call, "pairs", summary(grid_.pairs()));
         check(call, "pair_contacts", summary(pair_contacts));
-        const auto touches = grid_.touch_events();
-        check(call, "touches", summary(touches));
-        check(call, "touches_began_persisted_ended",
-              {touches.began().size(), touches.persisted().size(), touches.ended().size()});
-        check_prepared(call, "penetrations", [&] { return grid_.penetrations(); });
-        check_prepared(call, "depths", [&] { return grid_.depths(); });
-        check_prepared(call, "contact_events", [&] { return grid_.contact_events(); });
-        if (!call.contains("contact_events")) return;
-        const auto events = grid_.contact_events();
-        check(call, "contact_events_began_ended", {events.began().size(), events.ended().size()});
+        if (call.contains("constraints")) return constraints(call);
+        try { // without the flag there are none
+            (void)grid_.constraints();
+            ck_abort_msg("constraints: %s", place_.c_str());
+        } catch (const vox::error& error) {
+            ck_assert_int_eq(error.result(), VOX_ERROR_INVALID_STATE);
+        }
     }
 
     void meshes(const json& call) const {

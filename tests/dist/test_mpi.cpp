@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
         vox_grid* grid = whole(scene, floats);
         std::uint64_t expected[2], hash[2];
         if (!grid || vox_grid_step(grid) != VOX_OK) return fail("one grid", seed, rank);
-        const std::vector<vox_dist_contact> of_grid = global_contacts(grid);
+        const std::vector<vox_dist_contact> of_grid = global_contacts(scene, grid);
         hash_of(of_grid, expected);
         contacts += of_grid.size();
         vox_grid_destroy(grid);

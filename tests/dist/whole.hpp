@@ -3,6 +3,7 @@
 
 #include "dist/hash.hpp" // of src/
 #include "dist/scenes.hpp"
+#include "exact/predicates.hpp" // of src/
 
 #include <set>
 #include <string>
@@ -12,7 +13,7 @@ namespace scenes {
 
 inline std::string text_of(const vox_dist_contact& c) {
     return std::to_string(c.body_a) + ' ' + std::to_string(c.vertex) + ' ' + std::to_string(c.body_b) + ' ' +
-           std::to_string(c.tet) + ' ' + std::to_string(c.interior) + ' ' + std::to_string(c.barycentric[0]);
+           std::to_string(c.tet) + ' ' + std::to_string(c.interior) + ' ' + std::to_string(c.weights[0]);
 }
 
 // A rank's share of a scene.
@@ -78,11 +79,30 @@ inline bool before(const vox_dist_contact& a, const vox_dist_contact& b) {
     return std::tie(a.body_a, a.vertex, a.body_b, a.tet) < std::tie(b.body_a, b.vertex, b.body_b, b.tet);
 }
 
-// The contacts that a step of such a grid found, in the order and with the numbers of a vox_dist_scene.
-// Without index and rank.
-inline std::vector<vox_dist_contact> global_contacts(const vox_grid* grid) {
+// Where a vertex is that a grid has read as floats or doubles.
+inline vox::Vec3d position_of(const vox_positions& positions, std::uint64_t vertex) {
+    const auto at = [&](const auto* numbers) {
+        return vox::Vec3d{numbers[3 * vertex], numbers[3 * vertex + 1], numbers[3 * vertex + 2]};
+    };
+    return positions.format == VOX_FORMAT_DOUBLE ? at(static_cast<const double*>(positions.data))
+                                                 : at(static_cast<const float*>(positions.data));
+}
+
+// The contacts that a step of such a grid of the scene found, in the order and with the numbers of a
+// vox_dist_scene. Without index and rank.
+inline std::vector<vox_dist_contact> global_contacts(const Scene& scene, const vox_grid* grid) {
     vox_contact_view contacts{};
     if (vox_grid_get_contacts(grid, &contacts) != VOX_OK) return {};
+    const auto tets_of = [&](std::uint64_t number) -> const std::vector<std::uint32_t>& {
+        return std::find_if(scene.begin(), scene.end(), [&](const Body& b) { return b.number == number; })
+            ->tets;
+    };
+    const auto positions_of = [&](vox_body body) {
+        vox_body_info info{};
+        info.struct_size = sizeof info;
+        (void)vox_body_get_info(grid, body, &info);
+        return info.positions;
+    };
     std::vector<vox_dist_contact> found(contacts.count);
     for (std::uint64_t i = 0; i < contacts.count; ++i) {
         const vox_contact& hit = contacts.data[i];
@@ -91,7 +111,12 @@ inline std::vector<vox_dist_contact> global_contacts(const vox_grid* grid) {
         (void)vox_body_get_user_data(grid, hit.body_b, &contact.body_b);
         contact.vertex = hit.vertex;
         contact.tet = hit.tet;
-        std::copy_n(hit.barycentric, 4, contact.barycentric);
+        const std::uint32_t* tet = &tets_of(contact.body_b)[4 * contact.tet];
+        const vox_positions of_b = positions_of(hit.body_b);
+        const auto corner = [&](std::size_t c) { return position_of(of_b, tet[c]); };
+        const vox::Vec3d vertex = position_of(positions_of(hit.body_a), contact.vertex);
+        const auto weights = vox::barycentric(vertex, corner(0), corner(1), corner(2), corner(3));
+        std::copy(weights.begin(), weights.end(), contact.weights);
         contact.interior = contacts.interiors[i];
     }
     std::sort(found.begin(), found.end(), before);
@@ -101,7 +126,7 @@ inline std::vector<vox_dist_contact> global_contacts(const vox_grid* grid) {
 // Whether two contacts are the same, on whatever sides and ranks.
 inline bool same(const vox_dist_contact& a, const vox_dist_contact& b) {
     return !before(a, b) && !before(b, a) && a.interior == b.interior &&
-           std::memcmp(a.barycentric, b.barycentric, sizeof a.barycentric) == 0;
+           std::memcmp(a.weights, b.weights, sizeof a.weights) == 0;
 }
 
 // What vox_dist_scene_get_hash gives for these contacts.

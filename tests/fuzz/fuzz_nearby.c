@@ -1,6 +1,6 @@
-/* libFuzzer target: edge contacts, margin contacts and passages of a grid. The bytes are a few small bodies
- * and where they were before. Both engines find the same, in canonical order and in range, in the first step
- * and in one in which some stand still; nothing of it changes the contacts. */
+/* libFuzzer target: constraints of all kinds. The bytes are a few small bodies and where they were before.
+ * Both engines find the same, in canonical order and in range, by each method, in the first step and in two
+ * in which some stand still; nothing of it changes the contacts. */
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -54,7 +54,7 @@ static vox_grid* grid_of(scene* s, const vox_reference_desc* reference, int near
     desc.reference = reference;
     desc.byte_budget = 64u << 20;
     if (nearby) {
-        desc.flags |= VOX_GRID_EDGE_CONTACTS;
+        desc.flags |= VOX_GRID_EDGES;
         desc.margin = s->margin;
     }
     vox_grid* grid = NULL;
@@ -87,59 +87,65 @@ static void sort3(uint32_t v[3]) {
             }
 }
 
-static void key_of(const vox_edge_contact* c, uint32_t key[7]) {
-    const uint32_t all[7] = {c->body_a,  c->edge[0], c->edge[1], c->body_b,
-                             c->face[0], c->face[1], c->face[2]};
-    memcpy(key, all, sizeof all);
-    sort3(key + 4);
+static void key_of(const vox_constraint* c, uint32_t key[8]) {
+    memset(key, 0, 8 * sizeof *key);
+    key[0] = c->pair;
+    key[1] = (uint32_t)c->kind;
+    key[2] = c->body_a;
+    key[3] = c->vertices[0];
+    if (c->kind != VOX_CONSTRAINT_EDGE) return;
+    memcpy(key + 4, c->vertices + 1, 4 * sizeof *key);
+    sort3(key + 5);
 }
 
-static void check(const vox_grid* grid, const scene* s) {
-    vox_edge_contact_view edges;
-    demand(vox_grid_edge_contacts(grid, &edges) == VOX_OK);
-    for (uint64_t i = 0; i < edges.count; ++i) {
-        const vox_edge_contact* c = &edges.data[i];
-        uint32_t key[7], last[7];
+static const small_body* body_of(const scene* s, const vox_body ids[most_bodies], vox_body id) {
+    uint32_t k = 0;
+    while (k < s->count && ids[k] != id) ++k;
+    demand(k < s->count);
+    return &s->bodies[k];
+}
+
+static void check(const vox_grid* grid, const scene* s, const vox_body ids[most_bodies]) {
+    vox_constraint_view view;
+    vox_pair_view pairs;
+    demand(vox_grid_get_constraints(grid, &view) == VOX_OK && vox_grid_get_pairs(grid, &pairs) == VOX_OK);
+    demand(view.pair_count == pairs.count && view.pair_offsets[pairs.count] == view.count);
+    for (uint64_t i = 0; i < view.count; ++i) {
+        const vox_constraint* c = &view.data[i];
+        const int is_edge = c->kind == VOX_CONSTRAINT_EDGE;
+        uint32_t key[8], last[8];
         key_of(c, key);
         if (i > 0) key_of(c - 1, last);
-        demand(i == 0 || before(last, key, 7));
-        demand(c->edge[0] < c->edge[1] && c->face[0] < c->face[1] && c->face[0] < c->face[2]);
-        for (int k = 0; k < 2; ++k) demand(c->edge_weights[k] >= 0 && c->edge_weights[k] <= 1);
-        for (int k = 0; k < 3; ++k) demand(c->face_weights[k] >= 0 && c->face_weights[k] <= 1);
+        demand(i == 0 || before(last, key, 8));
+        demand(c->pair < pairs.count && view.pair_offsets[c->pair] <= i &&
+               i < view.pair_offsets[c->pair + 1]);
+        demand(c->count_a == (is_edge ? 2u : 1u) && c->count <= VOX_STENCIL_CAPACITY);
+        for (uint32_t k = 0; k < c->count; ++k) {
+            const double weight = k < c->count_a ? c->weights[k] : -c->weights[k];
+            demand(c->vertices[k] < body_of(s, ids, k < c->count_a ? c->body_a : c->body_b)->vertices);
+            demand(weight >= 0 && weight <= 1);
+        }
         for (int k = 0; k < 3; ++k) demand(isfinite(c->position[k]) && fabs(c->normal[k]) <= 1 + 1e-9);
-    }
-    vox_margin_contact_view margins;
-    const vox_result has_margin = vox_grid_margin_contacts(grid, &margins);
-    demand(has_margin == (s->margin > 0 ? VOX_OK : VOX_ERROR_INVALID_STATE));
-    for (uint64_t i = 0; has_margin == VOX_OK && i < margins.count; ++i) {
-        const vox_margin_contact* c = &margins.data[i];
-        const uint32_t key[3] = {c->body_a, c->vertex, c->body_b};
-        const uint32_t last[3] = {i ? c[-1].body_a : 0, i ? c[-1].vertex : 0, i ? c[-1].body_b : 0};
-        demand(i == 0 || before(last, key, 3));
-        demand(c->body_a != c->body_b && c->distance >= 0 && c->distance <= s->margin);
-    }
-    vox_passage_view passages;
-    demand(vox_grid_passages(grid, &passages) == VOX_OK);
-    for (uint64_t i = 0; i < passages.count; ++i) {
-        const vox_passage* c = &passages.data[i];
-        const uint32_t key[3] = {c->body_a, c->vertex, c->body_b};
-        const uint32_t last[3] = {i ? c[-1].body_a : 0, i ? c[-1].vertex : 0, i ? c[-1].body_b : 0};
-        demand(i == 0 || before(last, key, 3));
-        demand(c->body_a != c->body_b && c->time >= 0 && c->time <= 1);
+        demand(isfinite(c->offset) && c->time >= 0 && c->time <= 1);
+        demand(c->element_b < body_of(s, ids, c->body_b)->tets);
+        if (is_edge) {
+            const uint32_t* face = c->vertices + 2;
+            demand(c->vertices[0] < c->vertices[1] && face[0] < face[1] && face[0] < face[2]);
+        }
+        if (c->kind == VOX_CONSTRAINT_PROXIMITY)
+            demand(c->gap >= 0 && c->gap <= s->margin);
+        else
+            demand(c->gap <= 0);
+        demand(is_edge || c->kind == VOX_CONSTRAINT_INSIDE || c->body_a != c->body_b);
     }
 }
 
-static void check_same(const vox_grid* x, const vox_grid* y, int margin) {
+static void check_same(const vox_grid* x, const vox_grid* y) {
     uint64_t a = 0, b = 1;
     demand(vox_grid_get_hash(x, &a) == VOX_OK && vox_grid_get_hash(y, &b) == VOX_OK && a == b);
-    demand(vox_grid_edge_hash(x, &a) == VOX_OK && vox_grid_edge_hash(y, &b) == VOX_OK && a == b);
-    vox_passage_view p, q;
-    demand(vox_grid_passages(x, &p) == VOX_OK && vox_grid_passages(y, &q) == VOX_OK);
-    demand(p.count == q.count && (p.count == 0 || memcmp(p.data, q.data, p.count * sizeof *p.data) == 0));
-    if (!margin) return;
-    vox_margin_contact_view m, n;
-    demand(vox_grid_margin_contacts(x, &m) == VOX_OK && vox_grid_margin_contacts(y, &n) == VOX_OK);
-    demand(m.count == n.count && (m.count == 0 || memcmp(m.data, n.data, m.count * sizeof *m.data) == 0));
+    vox_constraint_view c, d;
+    demand(vox_grid_get_constraints(x, &c) == VOX_OK && vox_grid_get_constraints(y, &d) == VOX_OK);
+    demand(c.count == d.count && (c.count == 0 || memcmp(c.data, d.data, c.count * sizeof *c.data) == 0));
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
@@ -157,12 +163,17 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         demand(result == VOX_OK || result == VOX_ERROR_BUDGET || result == VOX_ERROR_LIMIT ||
                result == VOX_ERROR_NON_FINITE);
         if (result != VOX_OK) break;
-        check(fast, &s);
-        check_same(fast, reference, s.margin > 0);
+        vox_constraint_desc by = vox_default_constraint_desc();
+        by.method = (vox_depth_method)step;
+        const vox_result found = vox_grid_find_constraints(fast, &by);
+        demand(vox_grid_find_constraints(reference, &by) == found);
+        demand(found == VOX_OK || found == VOX_ERROR_BUDGET);
+        if (found != VOX_OK) break;
+        check(fast, &s, ids);
+        check_same(fast, reference);
         uint64_t with = 0, without = 1;
         demand(vox_grid_get_hash(fast, &with) == VOX_OK && vox_grid_get_hash(plain, &without) == VOX_OK &&
                with == without);
-        demand(vox_grid_prepare_edge_depths(fast) == VOX_OK);
         if (step == 0) /* then one of them moves, and the others stand still */
             for (uint32_t i = 0; i < 3 * s.bodies[0].vertices; ++i) {
                 s.bodies[0].before[i] = s.bodies[0].now[i];

@@ -136,14 +136,12 @@ static int make_a_pair(const scene* s, int a, uint32_t i, int b, uint32_t j) {
 /* All pairs, asked for `step` features at a time. Where some are left out, no others may be there. */
 static void check_pairs(vox_surface* surface, const scene* s, int a, int b, uint64_t step, int culled) {
     for (uint64_t first = 0; first < s->counts[a];) {
-        vox_pair_lists lists;
-        lists.struct_size = sizeof lists;
+        vox_partner_lists lists;
         const vox_result result =
             vox_surface_find_pairs(surface, (vox_feature)a, (vox_feature)b, first, step, &lists);
         if (result == VOX_ERROR_BUDGET) return;
         demand(result == VOX_OK);
         demand(lists.first == first && lists.count >= 1 && lists.count <= step && lists.offsets[0] == 0);
-        demand(lists.offsets[lists.count] == lists.pair_count);
         for (uint64_t i = 0; i < lists.count; ++i) {
             uint64_t k = lists.offsets[i];
             for (uint32_t j = a == b ? (uint32_t)(first + i) + 1 : 0; j < s->counts[b]; ++j) {
@@ -168,13 +166,11 @@ static int answered(vox_result result, int has_budget) {
     return result == VOX_OK;
 }
 
-static void check_answers(vox_surface* surface, const scene* s, const vox_contact_time_desc* rule,
-                          int has_budget) {
+static void check_answers(vox_surface* surface, const scene* s, const vox_impact_desc* rule, int has_budget) {
     vox_crossing_view crossings;
-    crossings.struct_size = sizeof crossings;
     if (!answered(vox_surface_find_crossings(surface, &crossings), has_budget)) crossings.count = 0;
     for (uint64_t i = 0; i < crossings.count; ++i) {
-        const vox_crossing* c = &crossings.crossings[i];
+        const vox_crossing* c = &crossings.data[i];
         demand(c->edge < s->counts[1] && c->face < s->counts[2]);
         demand(i == 0 || in_order(c[-1].edge, c[-1].face, c->edge, c->face));
         for (int k = 0; k < 2; ++k) demand(c->edge_weights[k] >= 0 && c->edge_weights[k] <= 1);
@@ -183,32 +179,28 @@ static void check_answers(vox_surface* surface, const scene* s, const vox_contac
     static const int kinds[][2] = {{2, 0}, {1, 1}, {1, 0}, {0, 0}, {0, 1}, {0, 2}};
     const double distance = isinf(s->radius) ? 1 : s->radius;
     for (int k = 0; k < 6; ++k) {
-        vox_close_view close;
-        close.struct_size = sizeof close;
+        vox_proximity_view close;
         if (!answered(vox_surface_find_proximities(surface, (vox_feature)kinds[k][0],
                                                    (vox_feature)kinds[k][1], distance, &close),
                       has_budget))
             continue;
         for (uint64_t i = 0; i < close.count; ++i) {
-            const vox_close_pair* c = &close.pairs[i];
+            const vox_proximity* c = &close.data[i];
             demand(c->distance >= 0 && c->distance <= distance);
             demand(i == 0 || in_order(c[-1].a, c[-1].b, c->a, c->b));
         }
     }
     double clearance[most_vertices];
     for (uint32_t v = 0; v < s->vertices; ++v) clearance[v] = -1;
-    const int is_clear =
-        answered(vox_surface_find_clearances(surface, 1, clearance, s->vertices), has_budget);
+    const int is_clear = answered(vox_surface_find_clearances(surface, 1, clearance), has_budget);
     for (uint32_t v = 0; v < s->vertices; ++v)
         demand(is_clear ? clearance[v] >= 0 && clearance[v] <= 1 : clearance[v] == -1);
     vox_safe_step step;
-    step.struct_size = sizeof step;
     int all_there = answered(vox_surface_find_safe_step(surface, rule, &step), has_budget);
     demand(!all_there || (step.step >= 0 && step.step <= 1));
     double first = 1;
     for (int k = 0; k < 2; ++k) {
-        vox_timed_view times;
-        times.struct_size = sizeof times;
+        vox_impact_view times;
         if (!answered(vox_surface_find_impacts(surface, (vox_feature)kinds[k][0], (vox_feature)kinds[k][1],
                                                rule, &times),
                       has_budget)) {
@@ -216,7 +208,7 @@ static void check_answers(vox_surface* surface, const scene* s, const vox_contac
             continue;
         }
         for (uint64_t i = 0; i < times.count; ++i) {
-            const vox_timed_pair* t = &times.pairs[i];
+            const vox_impact* t = &times.data[i];
             demand(t->time >= 0 && t->time <= 1);
             demand(i == 0 || in_order(t[-1].a, t[-1].b, t->a, t->b));
             first = fmin(first, t->time);
@@ -226,11 +218,10 @@ static void check_answers(vox_surface* surface, const scene* s, const vox_contac
 
     for (int kind = 1; kind < 3; ++kind) {
         vox_feature_view view;
-        view.struct_size = sizeof view;
         demand(vox_surface_get_features(surface, (vox_feature)kind, &view) == VOX_OK &&
                view.count == s->counts[kind]);
         demand(memcmp(view.vertices, s->corners[kind],
-                      s->counts[kind] * view.vertices_each * sizeof(uint32_t)) == 0);
+                      s->counts[kind] * (uint32_t)(kind + 1) * sizeof(uint32_t)) == 0);
     }
     vox_foreign_suggestion suggestion;
     suggestion.struct_size = sizeof suggestion;
@@ -251,10 +242,10 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     const scene s = read_scene(&b);
     const double cell_size = how & 1 ? ldexp(1, (int)(how >> 1 & 63) - 32) : 0;
     const uint64_t budget = how & 128 ? 1000 * (uint64_t)(1 + next(&b)) : 0;
-    vox_contact_time_desc rule = vox_default_contact_time_desc();
+    vox_impact_desc rule = vox_default_impact_desc();
     const uint32_t of_rule = next(&b);
     if (of_rule & 1) rule.distance = ldexp(1, (int)(of_rule >> 1 & 15) - 12);
-    if (of_rule & 32) rule.most_iterations = 1 + (of_rule >> 6);
+    if (of_rule & 32) rule.max_iterations = 1 + (of_rule >> 6);
     vox_surface* const surface = surface_of(&s, budget == 0 && how & 64 ? 2 : 1, cell_size, budget);
     if (!surface) return 0;
     const vox_result moved = move(surface, &s, 0);
@@ -268,9 +259,10 @@ int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
             for (int c = 0; c < 3; ++c) check_pairs(surface, &s, a, c, UINT64_MAX, 1);
     } else {
         if (moved == VOX_OK) check_answers(surface, &s, &rule, 1);
-        vox_pair_counters counters;
-        counters.struct_size = sizeof counters;
-        demand(vox_surface_get_counters(surface, &counters) == VOX_OK && counters.peak_bytes <= budget);
+        vox_counter_view counters;
+        demand(vox_surface_get_counters(surface, &counters) == VOX_OK);
+        const vox_counter* const last = &counters.data[counters.count - 1];
+        demand(strcmp(last->name, "peak_bytes") == 0 && last->value <= budget);
     }
     vox_surface_destroy(surface);
     return 0;

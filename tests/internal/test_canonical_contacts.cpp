@@ -66,7 +66,6 @@ void check(const Mesh& mesh, const std::vector<Hit>& found) {
         ck_assert_uint_eq(contacts[i].vertex, expected[i].vertex);
         ck_assert_uint_eq(contacts[i].body_b, 1000 + 3 * expected[i].body_b);
         ck_assert_uint_eq(contacts[i].tet, expected[i].tet);
-        for (const float weight : contacts[i].barycentric) ck_assert_float_eq(weight, 0.25f);
     }
 }
 
@@ -165,88 +164,22 @@ START_TEST(workers_share_many_hits) {
                     ck_assert(key(left[i]) == expected[i]);
                     const vox_contact& c = contacts[i];
                     ck_assert(Key(c.body_a, c.vertex, c.body_b, c.tet) == expected[i]);
-                    for (const float weight : c.barycentric) ck_assert_float_eq(weight, 0.25f);
                 }
             }
         }
 }
 END_TEST
 
-// Strided positions, slivers that need exact arithmetic, coordinates of all magnitudes, and vertices on
-// faces, edges and corners: the bits of barycentric(), from every instruction set.
-START_TEST(weights_have_the_bits_of_the_scalar_function) {
-    struct Record {
-        float x, y, z, other;
-    };
-    Random random{4};
-    std::vector<Record> records;
-    Mesh mesh; // tets 5 t to 5 t + 3, and 5 t + 4 for the point
-    constexpr std::uint32_t count = 3000;
-    const auto add = [&records](const double* p) {
-        records.push_back({float(p[0]), float(p[1]), float(p[2]), 1e30f});
-    };
-    for (std::uint32_t t = 0; t < count; ++t) {
-        const double size = std::ldexp(1.0, int(random.below(3) == 0 ? random.below(200) : 100) - 100);
-        double corners[4][3], p[3] = {0, 0, 0}, weights[4], sum = 0;
-        for (auto& corner : corners)
-            for (double& c : corner) c = size * random.uniform(-1, 1);
-        if (t % 3 == 0) // flat but for rounding
-            for (int a = 0; a < 3; ++a)
-                corners[3][a] = double(float(corners[0][a])) + double(float(corners[1][a])) -
-                                double(float(corners[2][a])) + size * std::ldexp(1.0, -int(random.below(40)));
-        for (double& w : weights) sum += w = random.below(4) == 0 ? 0 : random.uniform(0, 1);
-        for (int a = 0; a < 3; ++a)
-            for (int c = 0; c < 4; ++c)
-                p[a] += sum > 0 ? weights[c] / sum * corners[c][a] : corners[c][a] / 4;
-        for (const auto& corner : corners) add(corner);
-        add(p);
-        mesh.tets.push_back({{5 * t, 5 * t + 1, 5 * t + 2, 5 * t + 3}});
-    }
-    const Positions positions{reinterpret_cast<const std::byte*>(records.data()), sizeof(Record)};
-    const Body body{7, std::uint32_t(records.size()), positions, mesh.tets, true};
-    std::vector<Hit> hits;
-    std::uint64_t exact_tests = 0;
-    for (std::uint32_t t = 0; t < count; ++t)
-        if (orientation(positions[5 * t], positions[5 * t + 1], positions[5 * t + 2], positions[5 * t + 3],
-                        exact_tests) != 0)
-            hits.push_back(hit(0, 5 * t + 4, 0, t, true));
-    ck_assert(exact_tests > 0 && hits.size() > count / 2);
-    for (int level = 0; level <= int(simd::best_level()); ++level) {
-        simd::force_level(simd::Level(level));
-        for (const std::size_t length : {hits.size(), std::size_t{67}, std::size_t{64}, std::size_t{1}}) {
-            vox::Array<Hit> some(hits.begin(), hits.begin() + std::ptrdiff_t(length), heap);
-            vox::Array<vox_contact> contacts(heap);
-            make_contacts({&body, 1}, some, contacts);
-            ck_assert_uint_eq(contacts.size(), length);
-            for (const vox_contact& contact : contacts) {
-                const Tet& tet = mesh.tets[contact.tet];
-                const std::array<float, 4> expected =
-                    barycentric<float>(positions[contact.vertex], positions[tet.v[0]], positions[tet.v[1]],
-                                       positions[tet.v[2]], positions[tet.v[3]]);
-                ck_assert_mem_eq(expected.data(), contact.barycentric, sizeof expected);
-            }
-        }
-    }
-    simd::force_level(simd::best_level());
-}
-END_TEST
-
-vox_contact contact(std::uint32_t a, std::uint32_t vertex, std::uint32_t b, std::uint32_t tet, float w0,
-                    float w1, float w2, float w3) {
-    return {a, vertex, b, tet, {w0, w1, w2, w3}};
-}
-
 START_TEST(hash_is_as_documented) {
     // Both numbers from a separate program after the words in contacts.hpp.
     ck_assert_uint_eq(hash_contacts({}), 0);
-    const vox_contact two[] = {contact(1, 2, 3, 4, 0.5f, 0.25f, 0.125f, 0.125f),
-                               contact(4294967295u, 0, 7, 2147483646u, 1, 0, 0, 0)};
-    ck_assert_uint_eq(hash_contacts(two), 0xf71c9ed4018d3c52u);
+    const vox_contact two[] = {{1, 2, 3, 4}, {4294967295u, 0, 7, 2147483646u}};
+    ck_assert_uint_eq(hash_contacts(two), 0x53ed032a00fc444eu);
 }
 END_TEST
 
 START_TEST(hash_tells_every_field_and_the_order) {
-    std::vector<vox_contact> list(3, contact(1, 2, 3, 4, 0.5f, 0.25f, 0.125f, 0.125f));
+    std::vector<vox_contact> list(3, vox_contact{1, 2, 3, 4});
     list[1].vertex = 9;
     std::set<std::uint64_t> hashes{hash_contacts(list)};
     const auto differs = [&hashes](std::vector<vox_contact> changed, auto&& change) {
@@ -259,9 +192,6 @@ START_TEST(hash_tells_every_field_and_the_order) {
         differs(list, [i](List l) { l[i].vertex += 20; });
         differs(list, [i](List l) { ++l[i].body_b; });
         differs(list, [i](List l) { ++l[i].tet; });
-        for (std::size_t w = 0; w < 4; ++w)
-            differs(list,
-                    [i, w](List l) { l[i].barycentric[w] = std::nextafter(l[i].barycentric[w], 2.0f); });
     }
     differs(list, [](List l) { std::swap(l[0], l[1]); });
     differs(list, [](List l) { l.pop_back(); });
@@ -275,6 +205,5 @@ END_TEST
 SUITE(canonical_contacts) {
     TCase* tests = add_case(suite, "contacts");
     tcase_add_each(tests, any_order_of_hits_becomes_canonical, interior_hits_hide_boundary_ones,
-                   workers_share_many_hits, weights_have_the_bits_of_the_scalar_function,
-                   hash_is_as_documented, hash_tells_every_field_and_the_order);
+                   workers_share_many_hits, hash_is_as_documented, hash_tells_every_field_and_the_order);
 }

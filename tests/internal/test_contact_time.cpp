@@ -239,28 +239,24 @@ START_TEST(a_safe_step_is_the_least_time_of_all_pairs) {
     std::uint64_t culled = 0;
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         const Sheets s(seed, seed == 6 ? .1 : .5 + double(seed) / 2);
-        std::vector<vox_timed_pair> first_times[2];
+        std::vector<vox_impact> first_times[2];
         vox_safe_step first_step{};
         for (const std::uint32_t workers : {1u, 3u}) {
             vox_surface* const surface = surface_of(s, workers);
             move(surface, s);
             vox_safe_step step{};
-            step.struct_size = sizeof step;
             ck_ok(vox_surface_find_safe_step(surface, nullptr, &step));
             double least = 1;
             vox_feature_view features[3]{};
-            for (int kind = 1; kind < 3; ++kind) {
-                features[kind].struct_size = sizeof features[kind];
+            for (int kind = 1; kind < 3; ++kind)
                 ck_ok(vox_surface_get_features(surface, vox_feature(kind), &features[kind]));
-            }
             for (int k = 0; k < 2; ++k) {
                 const vox_feature a = k ? VOX_FEATURE_EDGE : VOX_FEATURE_FACE,
                                   b = k ? VOX_FEATURE_EDGE : VOX_FEATURE_VERTEX;
-                vox_timed_view view{};
-                view.struct_size = sizeof view;
+                vox_impact_view view{};
                 ck_ok(vox_surface_find_impacts(surface, a, b, nullptr, &view));
-                const std::vector<vox_timed_pair> times(view.pairs, view.pairs + view.count);
-                for (const vox_timed_pair& pair : times) least = std::min(least, pair.time);
+                const std::vector<vox_impact> times(view.data, view.data + view.count);
+                for (const vox_impact& pair : times) least = std::min(least, pair.time);
                 if (workers == 1) {
                     first_times[k] = times;
                 } else {
@@ -269,7 +265,7 @@ START_TEST(a_safe_step_is_the_least_time_of_all_pairs) {
                                                            times.size() * sizeof times[0]) == 0);
                 }
                 // By definition: all pairs without a vertex in common.
-                std::vector<vox_timed_pair> expected;
+                std::vector<vox_impact> expected;
                 for (std::uint32_t i = 0; i < features[a].count && workers == 1; ++i)
                     for (std::uint32_t j = k ? i + 1 : 0; j < (k ? features[1].count : s.vertices()); ++j) {
                         const std::uint32_t* p = features[a].vertices + (k ? 2 : 3) * i;
@@ -291,14 +287,13 @@ START_TEST(a_safe_step_is_the_least_time_of_all_pairs) {
                         for (int t = 0; t <= 64; ++t)
                             nearest = std::min(nearest, distance_at(query, t / 64.));
                         const bool is_there =
-                            std::any_of(times.begin(), times.end(), [&](const vox_timed_pair& pair) {
-                                return pair.a == i && pair.b == j;
-                            });
+                            std::any_of(times.begin(), times.end(),
+                                        [&](const vox_impact& pair) { return pair.a == i && pair.b == j; });
                         ck_assert(is_there || nearest > 1e-6);
                         expected.push_back({i, j, found.time});
                     }
                 std::size_t next = 0; // of times; those that are not there were culled
-                for (const vox_timed_pair& pair : expected)
+                for (const vox_impact& pair : expected)
                     if (next < times.size() && times[next].a == pair.a && times[next].b == pair.b)
                         ck_assert(times[next++].time == pair.time);
                     else
@@ -322,23 +317,21 @@ START_TEST(what_is_refused) {
     const Sheets s(1, 1);
     vox_surface* const surface = surface_of(s, 1);
     vox_safe_step step{};
-    step.struct_size = sizeof step;
     step.step = 7;
     ck_fails(vox_surface_find_safe_step(surface, nullptr, &step), VOX_ERROR_INVALID_STATE, "no positions");
     move(surface, s);
-    vox_contact_time_desc desc = vox_default_contact_time_desc();
+    vox_impact_desc desc = vox_default_impact_desc();
     for (const double bad : {-1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
-        desc = vox_default_contact_time_desc();
+        desc = vox_default_impact_desc();
         desc.distance = bad;
         ck_fails(vox_surface_find_safe_step(surface, &desc, &step), VOX_ERROR_INVALID_ARGUMENT, "distance");
     }
     for (const double bad : {1.0, -1.0, std::nan("")}) {
-        desc = vox_default_contact_time_desc();
+        desc = vox_default_impact_desc();
         desc.slack = bad;
         ck_fails(vox_surface_find_safe_step(surface, &desc, &step), VOX_ERROR_INVALID_ARGUMENT, "slack");
     }
-    vox_timed_view view{};
-    view.struct_size = sizeof view;
+    vox_impact_view view{};
     ck_fails(vox_surface_find_impacts(surface, VOX_FEATURE_VERTEX, VOX_FEATURE_FACE, nullptr, &view),
              VOX_ERROR_INVALID_ARGUMENT, "VOX_FEATURE_FACE and VOX_FEATURE_VERTEX");
     ck_assert(step.step == 7);

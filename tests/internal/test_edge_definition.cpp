@@ -1,11 +1,11 @@
-// Edge contacts of random scenes against all edges and all faces, by definition: surfaces found by counting
-// facets, every pair decided by find_crossing(), which test_crossing compares with rational numbers.
+// Constraints of edges in random scenes against all edges and all faces, by definition: surfaces found by
+// counting facets, every pair decided by find_crossing(), which test_crossing compares with rational numbers.
 //
 // Environment: VOX_EDGE_SCENES, how many.
 #include "exact/crossing.hpp"
 #include "internal/random.hpp"
 #include "scenes/bodies.h"
-#include "support/suite.h"
+#include "support/constraint_checks.h"
 
 #include <algorithm>
 #include <array>
@@ -149,52 +149,65 @@ std::vector<Expected> brute_force(const std::vector<TestMesh>& meshes, const std
 Vec3d minus(const Vec3d& a, const Vec3d& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 double dotted(const Vec3d& a, const Vec3d& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
-void check_normal(const vox_edge_contact& c, const TestMesh& b, std::uint32_t apex) {
+void check_normal(const vox_constraint& c, const TestMesh& b, std::uint32_t apex) {
+    const std::uint32_t* const face = c.vertices + 2;
     const Vec3d n{c.normal[0], c.normal[1], c.normal[2]};
-    ck_assert_double_le(std::abs(dotted(n, n) - 1), 1e-12);
-    const Vec3d u = minus(b.at(c.face[1]), b.at(c.face[0])), v = minus(b.at(c.face[2]), b.at(c.face[0]));
+    const Vec3d u = minus(b.at(face[1]), b.at(face[0])), v = minus(b.at(face[2]), b.at(face[0]));
     const double size = std::max({1e-300, std::sqrt(dotted(u, u)), std::sqrt(dotted(v, v))});
     const Vec3d cross{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
     if (std::sqrt(dotted(cross, cross)) <= 1e-9 * size * size) return;
     ck_assert_double_le(std::abs(dotted(n, u)), 1e-6 * size);
     ck_assert_double_le(std::abs(dotted(n, v)), 1e-6 * size);
     ck_assert(dotted(n, cross) > 0);
-    const Vec3d in = minus(b.at(apex), b.at(c.face[0]));
+    const Vec3d in = minus(b.at(apex), b.at(face[0]));
     if (std::abs(dotted(n, in)) > 1e-9 * size) ck_assert(dotted(n, in) < 0);
 }
 
-vox_edge_contact_view edges_of(const vox_grid* grid) {
-    vox_edge_contact_view view{nullptr, 0, 99, 0};
-    ck_ok(vox_grid_edge_contacts(grid, &view));
-    return view;
-}
-
-void check_contacts(const vox_grid* grid, const std::vector<TestMesh>& meshes,
-                    const std::vector<Expected>& expected) {
-    const vox_edge_contact_view found = edges_of(grid);
-    ck_assert_uint_eq(found.count, expected.size());
+void check_edges(const vox_grid* grid, const std::vector<TestMesh>& meshes, std::vector<Expected> expected,
+                 bool with_depth) {
+    const auto order = [&](const Expected& e) {
+        const vox_body a = meshes[e.a].id, b = meshes[e.b].id;
+        return std::tuple(std::min(a, b), std::max(a, b), a, e.edge, e.face);
+    };
+    std::ranges::sort(expected, {}, order);
+    const vox_constraint_view view = checked_constraints(grid);
+    std::vector<vox_constraint> found;
+    std::copy_if(view.data, view.data + view.count, std::back_inserter(found),
+                 [](const vox_constraint& c) { return c.kind == VOX_CONSTRAINT_EDGE; });
+    ck_assert_uint_eq(found.size(), expected.size());
     ck_assert_uint_eq(counters_of(grid).edge_contacts, expected.size());
-    for (std::uint64_t i = 0; i < found.count; ++i) {
-        const vox_edge_contact& c = found.data[i];
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const vox_constraint& c = found[i];
         const Expected& e = expected[i];
         ck_assert(c.body_a == meshes[e.a].id && c.body_b == meshes[e.b].id);
-        ck_assert(c.edge[0] == e.edge[0] && c.edge[1] == e.edge[1]);
-        Face face{c.face[0], c.face[1], c.face[2]};
+        ck_assert(c.vertices[0] == e.edge[0] && c.vertices[1] == e.edge[1]);
+        Face face{c.vertices[2], c.vertices[3], c.vertices[4]};
         ck_assert(face[0] < face[1] && face[0] < face[2]);
         const bool swapped = face[1] > face[2];
         std::sort(face.begin(), face.end());
         ck_assert(face == e.face);
-        ck_assert_uint_eq(c.tet, e.tet);
-        ck_assert_int_eq(static_cast<int>(c.kind) + 1, static_cast<int>(e.crossing.kind));
-        ck_assert_uint_eq(c.reserved, 0);
-        ck_assert_mem_eq(c.edge_weights, e.crossing.edge_weights.data(), sizeof c.edge_weights);
+        ck_assert_uint_eq(c.element_b, e.tet);
+        ck_assert_mem_eq(c.weights, e.crossing.edge_weights.data(), 2 * sizeof(double));
         std::array<double, 3> weights = e.crossing.face_weights;
         if (swapped) std::swap(weights[1], weights[2]);
-        ck_assert_mem_eq(c.face_weights, weights.data(), sizeof c.face_weights);
+        for (std::size_t w = 0; w < 3; ++w) ck_assert_double_eq(c.weights[2 + w], -weights[w]);
         ck_assert_mem_eq(c.position, &e.crossing.position, sizeof c.position);
-        check_normal(c, meshes[e.b], e.apex);
+        const bool through = e.crossing.kind == CrossingKind::through;
+        if (!through)
+            ck_assert_int_eq(c.state, VOX_DEPTH_TOUCHING);
+        else if (!with_depth)
+            ck_assert_int_eq(c.state, VOX_DEPTH_UNKNOWN);
+        else if (c.gap < 0)
+            ck_assert_int_eq(c.state, e.a == e.b ? VOX_DEPTH_PLANE : VOX_DEPTH_CLOSEST);
+        else
+            ck_assert_int_eq(c.state, VOX_DEPTH_TOUCHING);
+        if (!through || c.state == VOX_DEPTH_PLANE) check_normal(c, meshes[e.b], e.apex);
     }
-    // Pairs of meshes that touch, by contacts or edges.
+}
+
+// Pairs of bodies that touch, by contacts or edges, and what they did in the step before.
+void check_pairs(const vox_grid* grid, const std::vector<TestMesh>& meshes,
+                 const std::vector<Expected>& expected, std::set<Edge>& last) {
     std::set<Edge> touching;
     for (const Expected& e : expected)
         touching.insert({std::min(meshes[e.a].id, meshes[e.b].id), std::max(meshes[e.a].id, meshes[e.b].id)});
@@ -202,19 +215,23 @@ void check_contacts(const vox_grid* grid, const std::vector<TestMesh>& meshes,
     for (std::uint64_t i = 0; i < contacts.count; ++i)
         touching.insert({std::min(contacts.data[i].body_a, contacts.data[i].body_b),
                          std::max(contacts.data[i].body_a, contacts.data[i].body_b)});
-    vox_pair_view pairs{};
-    ck_ok(vox_grid_get_pairs(grid, &pairs));
-    ck_assert_uint_eq(pairs.count, touching.size());
+    std::set<Edge> all = touching;
+    all.insert(last.begin(), last.end());
+    const vox_pair_view pairs = pairs_of(grid);
+    ck_assert_uint_eq(pairs.count, all.size());
     std::uint64_t first = 0;
-    for (std::uint64_t i = 0; i < pairs.count; ++i) {
+    auto next = all.begin();
+    for (std::uint64_t i = 0; i < pairs.count; ++i, ++next) {
         const vox_pair& pair = pairs.data[i];
-        ck_assert(touching.count({pair.body_a, pair.body_b}) == 1);
-        ck_assert(i == 0 || std::tie(pairs.data[i - 1].body_a, pairs.data[i - 1].body_b) <
-                                std::tie(pair.body_a, pair.body_b));
-        ck_assert_uint_eq(pair.first, first);
-        first += pair.a_in_b + pair.b_in_a;
+        ck_assert(*next == Edge({pair.body_a, pair.body_b}));
+        ck_assert_int_eq(pair.state, !touching.count(*next) ? VOX_PAIR_ENDED
+                                     : last.count(*next)    ? VOX_PAIR_PERSISTED
+                                                            : VOX_PAIR_BEGAN);
+        if (pair.contact_count > 0) ck_assert_uint_eq(pair.first_contact, first);
+        first += pair.contact_count;
     }
     ck_assert_uint_eq(first, contacts.count);
+    last = touching;
 }
 
 // ---- scenes ---------------------------------------------------------------------------------------
@@ -269,30 +286,6 @@ vox_body insert(vox_grid* grid, const TestMesh& mesh) {
     return insert_mesh(grid, &desc);
 }
 
-std::uint64_t edge_hash(const vox_grid* grid) {
-    std::uint64_t hash = 0;
-    ck_ok(vox_grid_edge_hash(grid, &hash));
-    return hash;
-}
-
-// The touch events agree with the pairs of this step and of the one before.
-void check_events(const vox_grid* grid, std::set<Edge>& last) {
-    vox_pair_view pairs{};
-    vox_touch_view events{};
-    ck_ok(vox_grid_get_pairs(grid, &pairs));
-    ck_ok(vox_grid_touch_events(grid, &events));
-    std::set<Edge> now;
-    for (std::uint64_t i = 0; i < pairs.count; ++i) now.insert({pairs.data[i].body_a, pairs.data[i].body_b});
-    ck_assert_uint_eq(events.began + events.persisted, now.size());
-    ck_assert_uint_eq(events.persisted + events.ended, last.size());
-    for (std::uint64_t i = 0; i < events.count; ++i) {
-        const vox_touch_event& e = events.data[i];
-        ck_assert_uint_eq(now.count({e.body_a, e.body_b}), e.kind != VOX_TOUCH_ENDED);
-        ck_assert_uint_eq(last.count({e.body_a, e.body_b}), e.kind != VOX_TOUCH_BEGAN);
-    }
-    last = now;
-}
-
 std::uint64_t counts[3], by_edges_alone, carried;
 
 // A scene that changes from step to step, in grids of both engines and several workers.
@@ -305,9 +298,10 @@ void run_scene(std::uint64_t seed, int steps) {
     constexpr int grid_count = 3;
     vox_grid* grids[grid_count];
     std::set<Edge> exceptions, touched[grid_count];
+    const bool with_depth = seed % 2 != 0;
     for (int g = 0; g < grid_count; ++g) {
         vox_grid_desc desc = vox_default_grid_desc();
-        desc.flags = VOX_GRID_EDGE_CONTACTS | (seed % 2 ? std::uint32_t{VOX_GRID_PENETRATIONS} : 0u);
+        desc.flags = VOX_GRID_EDGES | (with_depth ? std::uint32_t{VOX_GRID_CONSTRAINTS} : 0u);
         use_engine(&desc, g == 0 ? ENGINE_REFERENCE : ENGINE_FAST);
         desc.worker_count = g == 2 ? 3 : 1;
         grids[g] = grid_of(&desc);
@@ -317,9 +311,14 @@ void run_scene(std::uint64_t seed, int steps) {
         const std::vector<Expected> expected = brute_force(meshes, exceptions);
         for (int g = 0; g < grid_count; ++g) {
             ck_ok(vox_grid_step(grids[g]));
-            check_contacts(grids[g], meshes, expected);
-            ck_assert_uint_eq(edge_hash(grids[g]), edge_hash(grids[0]));
-            check_events(grids[g], touched[g]);
+            vox_constraint_desc bare = vox_default_constraint_desc();
+            bare.method = VOX_DEPTH_METHOD_NONE;
+            if (!with_depth) ck_ok(vox_grid_find_constraints(grids[g], &bare));
+            check_edges(grids[g], meshes, expected, with_depth);
+            check_pairs(grids[g], meshes, expected, touched[g]);
+            const vox_constraint_view found = constraints_of(grids[g]), first = constraints_of(grids[0]);
+            ck_assert_uint_eq(found.count, first.count);
+            if (found.count > 0) ck_assert_mem_eq(found.data, first.data, found.count * sizeof *found.data);
         }
         for (const Expected& e : expected) ++counts[static_cast<int>(e.crossing.kind) - 1];
         carried += counters_of(grids[1]).carried_edge_contacts;
@@ -393,12 +392,12 @@ START_TEST(large_bodies_equal_the_definition) {
         ck_assert_uint_gt(expected.size(), 100);
         for (const std::uint32_t workers : {1u, 4u}) {
             vox_grid_desc desc = vox_default_grid_desc();
-            desc.flags |= VOX_GRID_EDGE_CONTACTS;
+            desc.flags = VOX_GRID_EDGES | VOX_GRID_CONSTRAINTS;
             desc.worker_count = workers;
             vox_grid* grid = grid_of(&desc);
             for (TestMesh& mesh : meshes) mesh.id = insert(grid, mesh);
             ck_ok(vox_grid_step(grid));
-            check_contacts(grid, meshes, expected);
+            check_edges(grid, meshes, expected, true);
             vox_grid_destroy(grid);
         }
     }

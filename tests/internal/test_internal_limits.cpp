@@ -61,10 +61,10 @@ START_TEST(contacts_of_a_step) {
 }
 END_TEST
 
-// Of edges, margins and passages, whose stages ask this of what they have found.
+// Stages ask this of what they have found.
 START_TEST(other_contacts_of_a_step) {
     std::string text;
-    for (const char* const what : {"edge contacts", "margin contacts", "passages"}) {
+    for (const char* const what : {"edge contacts", "margin contacts", "passages", "constraints"}) {
         check_contact_count(VOX_MAX_CONTACTS, what);
         const vox_result result =
             thrown_by([&] { check_contact_count(std::size_t{VOX_MAX_CONTACTS} + 1, what); }, text);

@@ -276,7 +276,7 @@ START_TEST(a_suggestion_allocates_little) {
         Scene scene;
         fill(scene, tets, 1.95, false);
         ck_assert_uint_gt(heap::calls, 0); // that the scene is made of
-        Grid with(scene, VOX_GRID_PENETRATIONS), without(scene, 0);
+        Grid with(scene, VOX_GRID_CONSTRAINTS), without(scene, 0);
         for (Grid* grid : {&with, &without}) {
             for (int when = 0; when < 2; ++when) { // before the first step, and after
                 (void)grid->suggest();             // looks at the meshes

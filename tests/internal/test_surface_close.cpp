@@ -71,11 +71,10 @@ std::vector<std::vector<std::uint32_t>> features_of(vox_surface* surface, std::s
         return found;
     }
     vox_feature_view view{};
-    view.struct_size = sizeof view;
     ck_ok(vox_surface_get_features(surface, vox_feature(kind), &view));
+    const auto corners = std::uint64_t(kind) + 1;
     for (std::uint64_t i = 0; i < view.count; ++i)
-        found.emplace_back(view.vertices + i * view.vertices_each,
-                           view.vertices + (i + 1) * view.vertices_each);
+        found.emplace_back(view.vertices + i * corners, view.vertices + (i + 1) * corners);
     return found;
 }
 
@@ -113,8 +112,7 @@ START_TEST(close_pairs_are_those_within_the_distance) {
         for (const auto& kind : kinds) {
             const auto a = features_of(surface, s.at.size(), kind[0]),
                        b = features_of(surface, s.at.size(), kind[1]);
-            vox_close_view view{};
-            view.struct_size = sizeof view;
+            vox_proximity_view view{};
             ck_ok(vox_surface_find_proximities(surface, vox_feature(kind[0]), vox_feature(kind[1]), distance,
                                                &view));
             std::uint64_t next = 0;
@@ -123,12 +121,12 @@ START_TEST(close_pairs_are_those_within_the_distance) {
                     if (!may_pair(s, a[i], b[j])) continue;
                     const double expected = distance_of(s, a[i], b[j]);
                     const bool is_there =
-                        next < view.count && view.pairs[next].a == i && view.pairs[next].b == j;
+                        next < view.count && view.data[next].a == i && view.data[next].b == j;
                     if (std::abs(expected - distance) > 1e-9)
                         ck_assert_msg(is_there == (expected < distance), "seed %d, kinds %d %d: %u %u at %g",
                                       int(seed), kind[0], kind[1], i, j, expected);
                     if (!is_there) continue;
-                    const vox_close_pair& pair = view.pairs[next++];
+                    const vox_proximity& pair = view.data[next++];
                     ck_assert(std::abs(pair.distance - expected) < 1e-9);
                     const Vec3d p{pair.point_a[0], pair.point_a[1], pair.point_a[2]},
                         q{pair.point_b[0], pair.point_b[1], pair.point_b[2]};
@@ -159,7 +157,7 @@ START_TEST(nothing_touches_within_the_clearance) {
         vox_surface* const surface = surface_of(s, std::uint32_t(1 + seed % 4));
         put(surface, s.at);
         std::vector<double> clearance(s.at.size(), -1);
-        ck_ok(vox_surface_find_clearances(surface, most, clearance.data(), clearance.size()));
+        ck_ok(vox_surface_find_clearances(surface, most, clearance.data()));
         // By definition: half of the least distance, capped.
         std::vector<double> expected(s.at.size(), most);
         struct Pair {
@@ -205,27 +203,24 @@ END_TEST
 START_TEST(what_is_refused) {
     const Soup s(1, false);
     vox_surface* const surface = surface_of(s, 1);
-    vox_close_view view{};
-    view.struct_size = sizeof view;
+    vox_proximity_view view{};
     view.count = 5;
     std::vector<double> clearance(s.at.size());
     ck_fails(vox_surface_find_proximities(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 1, &view),
              VOX_ERROR_INVALID_STATE, "no positions");
-    ck_fails(vox_surface_find_clearances(surface, 1, clearance.data(), clearance.size()),
-             VOX_ERROR_INVALID_STATE, "no positions");
+    ck_fails(vox_surface_find_clearances(surface, 1, clearance.data()), VOX_ERROR_INVALID_STATE,
+             "no positions");
     put(surface, s.at);
     for (const double bad : {-1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
         ck_fails(vox_surface_find_proximities(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, bad, &view),
                  VOX_ERROR_INVALID_ARGUMENT, "distance");
-        ck_fails(vox_surface_find_clearances(surface, bad, clearance.data(), clearance.size()),
-                 VOX_ERROR_INVALID_ARGUMENT, "most");
+        ck_fails(vox_surface_find_clearances(surface, bad, clearance.data()), VOX_ERROR_INVALID_ARGUMENT,
+                 "max_distance");
     }
-    ck_fails(vox_surface_find_clearances(surface, 0, clearance.data(), clearance.size()),
-             VOX_ERROR_INVALID_ARGUMENT, "most is 0");
-    ck_fails(vox_surface_find_clearances(surface, 1, clearance.data(), 3), VOX_ERROR_INVALID_ARGUMENT,
-             "vertex_count is 3");
-    ck_fails(vox_surface_find_clearances(surface, 1, nullptr, clearance.size()), VOX_ERROR_INVALID_ARGUMENT,
-             "per_vertex is null");
+    ck_fails(vox_surface_find_clearances(surface, 0, clearance.data()), VOX_ERROR_INVALID_ARGUMENT,
+             "max_distance is 0");
+    ck_fails(vox_surface_find_clearances(surface, 1, nullptr), VOX_ERROR_INVALID_ARGUMENT,
+             "out_distances is null");
     ck_fails(vox_surface_find_proximities(surface, VOX_FEATURE_FACE, VOX_FEATURE_FACE, 1, &view),
              VOX_ERROR_INVALID_ARGUMENT, "FACE and VERTEX");
     ck_assert_uint_eq(view.count, 5);

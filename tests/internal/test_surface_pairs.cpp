@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "support/suite.h" // last: it defines macros with common names
+#include "support/surface_counter.h" // last: it defines macros with common names
 
 using namespace vox;
 
@@ -152,13 +152,11 @@ std::vector<std::vector<std::uint32_t>> asked(vox_surface* surface, int a, int b
                                               std::uint64_t step = ~0ull) {
     std::vector<std::vector<std::uint32_t>> lists;
     for (;;) {
-        vox_pair_lists view{};
-        view.struct_size = sizeof view;
+        vox_partner_lists view{};
         ck_assert_msg(vox_surface_find_pairs(surface, vox_feature(a), vox_feature(b), lists.size(), step,
                                              &view) == VOX_OK,
                       "%s", vox_last_error());
         ck_assert_uint_eq(view.first, lists.size());
-        ck_assert_uint_eq(view.offsets[view.count], view.pair_count);
         if (view.count == 0) return lists;
         for (std::uint64_t i = 0; i < view.count; ++i)
             lists.emplace_back(view.partners + view.offsets[i], view.partners + view.offsets[i + 1]);
@@ -356,20 +354,15 @@ START_TEST(a_budget_is_kept_in_pieces) {
     vox_surface* const whole = surface_of(s, 1, 0, 0);
     move(whole, s);
     const auto expected = asked(whole, 0, 0);
-    vox_pair_counters counters{};
-    counters.struct_size = sizeof counters;
-    ck_ok(vox_surface_get_counters(whole, &counters));
-    const std::uint64_t budget = counters.peak_bytes / 3;
+    const std::uint64_t budget = surface_counter(whole, "peak_bytes") / 3;
     vox_surface* const tight = surface_of(s, 1, 0, budget);
     move(tight, s);
-    vox_pair_lists first{};
-    first.struct_size = sizeof first;
+    vox_partner_lists first{};
     ck_ok(vox_surface_find_pairs(tight, VOX_FEATURE_VERTEX, VOX_FEATURE_VERTEX, 0, ~0ull, &first));
     ck_assert_uint_gt(first.count, 0);
     ck_assert_uint_lt(first.count, s.vertex_count);
     ck_assert(asked(tight, 0, 0) == expected);
-    ck_ok(vox_surface_get_counters(tight, &counters));
-    ck_assert_uint_le(counters.peak_bytes, budget);
+    ck_assert_uint_le(surface_counter(tight, "peak_bytes"), budget);
     vox_surface_destroy(tight);
     vox_surface_destroy(whole);
 }
@@ -384,12 +377,11 @@ struct Bytes : std::vector<unsigned char> {
     }
 };
 
-vox_safe_step safe_step(vox_surface* surface, double distance, std::uint32_t most_iterations) {
-    vox_contact_time_desc rule = vox_default_contact_time_desc();
+vox_safe_step safe_step(vox_surface* surface, double distance, std::uint32_t max_iterations) {
+    vox_impact_desc rule = vox_default_impact_desc();
     rule.distance = distance;
-    rule.most_iterations = most_iterations;
+    rule.max_iterations = max_iterations;
     vox_safe_step step{};
-    step.struct_size = sizeof step;
     ck_assert_msg(vox_surface_find_safe_step(surface, &rule, &step) == VOX_OK, "%s", vox_last_error());
     return step;
 }
@@ -399,17 +391,15 @@ Bytes all_else(vox_surface* surface, const Scene& s, double distance) {
     Bytes all;
     const auto ok = [](vox_result result) { ck_assert_msg(result == VOX_OK, "%s", vox_last_error()); };
     vox_crossing_view crossings{};
-    crossings.struct_size = sizeof crossings;
     ok(vox_surface_find_crossings(surface, &crossings));
-    all.add(crossings.crossings, crossings.count);
+    all.add(crossings.data, crossings.count);
     for (const auto& [a, b] : {std::pair(2, 0), {1, 1}, {1, 0}, {0, 0}, {0, 1}, {0, 2}}) {
-        vox_close_view close{};
-        close.struct_size = sizeof close;
+        vox_proximity_view close{};
         ok(vox_surface_find_proximities(surface, vox_feature(a), vox_feature(b), distance, &close));
-        all.add(close.pairs, close.count);
+        all.add(close.data, close.count);
     }
     std::vector<double> clearance(s.vertex_count);
-    ok(vox_surface_find_clearances(surface, distance > 0 ? distance : 1, clearance.data(), clearance.size()));
+    ok(vox_surface_find_clearances(surface, distance > 0 ? distance : 1, clearance.data()));
     all.add(clearance.data(), clearance.size());
     for (const double contact : {0.0, distance})
         for (const std::uint32_t iterations : {1u, 10000u}) {
@@ -417,10 +407,9 @@ Bytes all_else(vox_surface* surface, const Scene& s, double distance) {
             all.add(&step, 1);
         }
     for (const auto& [a, b] : {std::pair(2, 0), {1, 1}}) {
-        vox_timed_view times{};
-        times.struct_size = sizeof times;
+        vox_impact_view times{};
         ok(vox_surface_find_impacts(surface, vox_feature(a), vox_feature(b), nullptr, &times));
-        all.add(times.pairs, times.count);
+        all.add(times.data, times.count);
     }
     return all;
 }

@@ -22,9 +22,9 @@ OF_STEP = {"edges", "margin"}  # of either engine
 
 
 def stages_of_profile(text):
-    """The fields of Profile in src/base/counters.hpp that time a stage of the fast engine: those after events_ns but OF_STEP."""
+    """The fields of Profile in src/base/counters.hpp that time a stage of the fast engine: those after pairs_ns but OF_STEP."""
     fields = re.findall(r"uint64_t (\w+)_ns\b", re.search(r"struct Profile \{(.*?)\};", text, flags=re.S)[1])
-    return [name for name in fields[fields.index("events") + 1:] if name not in OF_STEP]
+    return [name for name in fields[fields.index("pairs") + 1:] if name not in OF_STEP]
 
 
 def rows_of_benchmark(text):
@@ -63,7 +63,7 @@ class StageNames(unittest.TestCase):
 
     README = "## Stages of a step\n\n1. **stream** reads\n2. **lookup** asks\n\n## Other\n\n1. **body** is\n"
     CODE = 'inline constexpr const char* stage_names[] = {"stream", "lookup"};\n'
-    PROFILE = ("struct Profile {\n uint64_t step_ns = 0;\n uint64_t events_ns = 0;\n uint64_t stream_ns = 0; // a\n"
+    PROFILE = ("struct Profile {\n uint64_t step_ns = 0;\n uint64_t pairs_ns = 0;\n uint64_t stream_ns = 0; // a\n"
                " uint64_t lookup_ns =\n 0;\n uint64_t edges_ns = 0;\n};\n")
     BENCH = '{"tiles", "tet", t},\n{"stream", "vertex", v,\n[] {}},\n{"sides", "box", b},\n{"lookup", "tet", t},\n'
     PICTURE = "  stream [class=stage]\n  hits [class=data]\n  lookup [class=stage]\n"

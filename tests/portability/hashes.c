@@ -1,5 +1,5 @@
 /* Steps built-in scenes and prints hashes of what every frame gives: contacts, vertices inside, pairs, edges,
- * proximities, impacts; penetrations, events, readings, answers of locators; answers of surfaces. The text
+ * proximities, impacts; closest points, answers of locators; answers of surfaces. The text
  * is the same on every machine, with every compiler and instruction set, engine, number of workers and format
  * of positions: matrix.py, `./dev hashes`, `./dev cross`. hashes [--engine fast|reference] [--workers N]
  * [--doubles] [--moved] [--level 0..3] [--cell-size FACTOR] */
@@ -8,6 +8,7 @@
 #include "scenes/scenes.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <vox/vox_query.h>
 #include <vox/vox_surface.h>
 
@@ -35,62 +36,6 @@ static void add_double(uint64_t* hash, double value) {
 
 static void add_doubles(uint64_t* hash, const double values[3]) {
     for (int i = 0; i < 3; ++i) add_double(hash, values[i]);
-}
-
-static void add_floats(uint64_t* hash, const float* values, int count) {
-    for (int i = 0; i < count; ++i) add_double(hash, (double)values[i]);
-}
-
-static int hash_penetrations(const vox_grid* grid, uint64_t* hash) {
-    vox_penetration_view view;
-    if (vox_grid_penetrations(grid, &view) != VOX_OK) return 0;
-    add_number(hash, view.count);
-    for (uint64_t i = 0; i < view.count; ++i) {
-        const vox_penetration* p = &view.data[i];
-        add_number(hash, p->body_a), add_number(hash, p->vertex), add_number(hash, p->body_b);
-        add_number(hash, (uint64_t)p->state), add_number(hash, p->contact);
-        add_floats(hash, &p->depth, 1), add_floats(hash, p->direction, 3);
-    }
-    return 1;
-}
-
-static int hash_events(const vox_grid* grid, uint64_t* hash) {
-    vox_pair_view pairs;
-    vox_touch_view touches;
-    vox_contact_event_view events;
-    if (vox_grid_get_pairs(grid, &pairs) != VOX_OK || vox_grid_touch_events(grid, &touches) != VOX_OK ||
-        vox_grid_contact_events(grid, &events) != VOX_OK)
-        return 0;
-    add_number(hash, pairs.count), add_number(hash, touches.count), add_number(hash, events.count);
-    for (uint64_t i = 0; i < pairs.count; ++i) {
-        const vox_pair* p = &pairs.data[i];
-        add_number(hash, p->body_a), add_number(hash, p->body_b), add_number(hash, p->user_data_a);
-        for (uint64_t c = 0; c < p->a_in_b + p->b_in_a; ++c) add_number(hash, pairs.contacts[p->first + c]);
-    }
-    for (uint64_t i = 0; i < touches.count; ++i) {
-        const vox_touch_event* e = &touches.data[i];
-        add_number(hash, e->body_a), add_number(hash, e->body_b), add_number(hash, (uint64_t)e->kind);
-    }
-    for (uint64_t i = 0; i < events.count; ++i) {
-        const vox_contact_event* e = &events.data[i];
-        add_number(hash, e->body_a), add_number(hash, e->vertex), add_number(hash, e->body_b);
-        add_number(hash, (uint64_t)e->kind);
-    }
-    return 1;
-}
-
-static int hash_readings(vox_grid* grid, uint64_t* hash) {
-    vox_reading_view view;
-    if (vox_grid_prepare_readings(grid) != VOX_OK || vox_grid_readings(grid, &view) != VOX_OK) return 0;
-    add_number(hash, view.count);
-    for (uint64_t i = 0; i < view.count; ++i) {
-        const vox_reading* r = &view.data[i];
-        add_number(hash, r->contact), add_number(hash, r->known), add_number(hash, r->user_data_b);
-        add_doubles(hash, r->position), add_doubles(hash, r->surface_position);
-        add_doubles(hash, r->barycentric), add_doubles(hash, r->normal), add_double(hash, r->distance);
-        for (int c = 0; c < 3; ++c) add_number(hash, r->triangle[c]);
-    }
-    return 1;
 }
 
 static void add_hit(uint64_t* hash, uint32_t question, vox_body body, uint32_t tet) {
@@ -169,90 +114,83 @@ static int hash_contacts(const vox_grid* grid, uint64_t* count, uint64_t* hash) 
     return 1;
 }
 
+static int touches(const vox_pair* p) { return p->state == VOX_PAIR_BEGAN || p->state == VOX_PAIR_PERSISTED; }
+
 /* Pairs that touch, then those that began to and those that ended. */
 static int hash_pairs_of_bodies(const vox_grid* grid, uint64_t* count, uint64_t* hash) {
     vox_pair_view pairs;
-    vox_touch_view touches;
-    if (vox_grid_get_pairs(grid, &pairs) != VOX_OK || vox_grid_touch_events(grid, &touches) != VOX_OK)
-        return 0;
-    *count = pairs.count;
+    if (vox_grid_get_pairs(grid, &pairs) != VOX_OK) return 0;
+    *count = 0;
     for (uint64_t i = 0; i < pairs.count; ++i) {
         const vox_pair* p = &pairs.data[i];
+        if (!touches(p)) continue;
+        ++*count;
         add_number(hash, p->body_a), add_number(hash, p->body_b);
         add_number(hash, p->user_data_a), add_number(hash, p->user_data_b);
-        for (uint64_t c = 0; c < p->a_in_b + p->b_in_a; ++c) add_number(hash, pairs.contacts[p->first + c]);
+        for (uint64_t c = 0; c < p->contact_count; ++c)
+            add_number(hash, pairs.contacts[p->first_contact + c]);
     }
     for (int ended = 0; ended < 2; ++ended)
-        for (uint64_t i = 0; i < touches.count; ++i)
-            if (touches.data[i].kind == (ended ? VOX_TOUCH_ENDED : VOX_TOUCH_BEGAN))
-                add_number(hash, touches.data[i].body_a), add_number(hash, touches.data[i].body_b);
+        for (uint64_t i = 0; i < pairs.count; ++i)
+            if (pairs.data[i].state == (ended ? VOX_PAIR_ENDED : VOX_PAIR_BEGAN))
+                add_number(hash, pairs.data[i].body_a), add_number(hash, pairs.data[i].body_b);
     return 1;
 }
 
-/* Vertices inside, with the lowest tetrahedron that contains each, their weights to the precision of a float.
- */
-static int hash_inside(const vox_grid* grid, uint64_t* count, uint64_t* hash) {
-    vox_penetration_view view;
-    vox_depth_view depths;
-    vox_contact_view contacts;
-    if (vox_grid_penetrations(grid, &view) != VOX_OK || vox_grid_depths(grid, &depths) != VOX_OK ||
-        vox_grid_get_contacts(grid, &contacts) != VOX_OK)
-        return 0;
-    *count = view.count;
-    for (uint64_t i = 0; i < view.count; ++i) {
-        const vox_penetration* p = &view.data[i];
-        add_number(hash, p->body_a), add_number(hash, p->vertex), add_number(hash, p->body_b);
-        add_number(hash, (uint64_t)p->state), add_number(hash, contacts.data[p->contact].tet);
-        add_floats(hash, contacts.data[p->contact].barycentric, 4);
-        add_double(hash, depths.data[i].depth), add_doubles(hash, depths.data[i].direction);
+static int by_number(uint32_t x, uint32_t y) { return (x > y) - (x < y); }
+
+/* The order of contacts: body_a, its vertices, body_b, and of a face the vertices in ascending order. */
+static int by_contact(const void* x, const void* y) {
+    const vox_constraint *c = *(const vox_constraint*const*)x, *d = *(const vox_constraint*const*)y;
+    int order = by_number(c->body_a, d->body_a);
+    for (uint32_t i = 0; i < c->count_a && !order; ++i) order = by_number(c->vertices[i], d->vertices[i]);
+    if (!order) order = by_number(c->body_b, d->body_b);
+    for (int k = 0; k < 3 && !order && c->kind == VOX_CONSTRAINT_EDGE; ++k) {
+        const uint32_t* const faces[2] = {c->vertices + 2, d->vertices + 2};
+        uint32_t nth[2];
+        for (int i = 0; i < 2; ++i) {
+            const uint32_t *f = faces[i], rest[2] = {f[1] < f[2] ? f[1] : f[2], f[1] < f[2] ? f[2] : f[1]};
+            nth[i] = k == 0 ? f[0] : rest[k - 1]; /* the first is the lowest */
+        }
+        order = by_number(nth[0], nth[1]);
     }
-    return 1;
+    return order;
 }
 
-static int hash_edges(vox_grid* grid, uint64_t* count, uint64_t* hash) {
-    vox_edge_contact_view view;
-    vox_depth_view depths;
-    if (vox_grid_edge_contacts(grid, &view) != VOX_OK || vox_grid_prepare_edge_depths(grid) != VOX_OK ||
-        vox_grid_edge_depths(grid, &depths) != VOX_OK)
-        return 0;
-    *count = view.count;
-    for (uint64_t i = 0; i < view.count; ++i) {
-        const vox_edge_contact* c = &view.data[i];
-        add_number(hash, c->body_a), add_number(hash, c->edge[0]), add_number(hash, c->edge[1]);
-        add_number(hash, c->body_b), add_number(hash, c->tet);
-        for (int k = 0; k < 3; ++k) add_number(hash, c->face[k]);
-        add_double(hash, c->edge_weights[0]), add_double(hash, c->edge_weights[1]);
-        add_doubles(hash, c->face_weights), add_doubles(hash, c->position);
-        add_double(hash, depths.data[i].depth), add_doubles(hash, depths.data[i].direction);
+/* Constraints of one kind, in the order of contacts. Edges and faces to the precision of a double, weights of
+ * tetrahedra to that of a float. */
+static int hash_constraints(const vox_grid* grid, vox_constraint_kind kind, uint64_t* count, uint64_t* hash) {
+    vox_constraint_view view;
+    const vox_constraint** sorted;
+    if (vox_grid_get_constraints(grid, &view) != VOX_OK) return 0;
+    sorted = (const vox_constraint**)malloc((size_t)(view.count + 1) * sizeof *sorted);
+    *count = 0;
+    for (uint64_t i = 0; i < view.count; ++i)
+        if (view.data[i].kind == kind) sorted[(*count)++] = &view.data[i];
+    qsort((void*)sorted, (size_t)*count, sizeof *sorted, by_contact);
+    for (uint64_t i = 0; i < *count; ++i) {
+        const vox_constraint* c = sorted[i];
+        const uint32_t* of_b = c->vertices + c->count_a;
+        const uint32_t count_b = c->count - c->count_a;
+        double weights[4];
+        for (uint32_t k = 0; k < count_b; ++k) weights[k] = -c->weights[c->count_a + k];
+        add_number(hash, c->body_a);
+        for (uint32_t k = 0; k < c->count_a; ++k) add_number(hash, c->vertices[k]);
+        add_number(hash, c->body_b);
+        if (kind == VOX_CONSTRAINT_INSIDE) add_number(hash, (uint64_t)c->state);
+        add_number(hash, c->element_b);
+        if (kind == VOX_CONSTRAINT_INSIDE) {
+            for (uint32_t k = 0; k < count_b; ++k) add_double(hash, (double)(float)weights[k]);
+        } else {
+            for (uint32_t k = 0; k < count_b; ++k) add_number(hash, of_b[k]);
+            if (kind == VOX_CONSTRAINT_EDGE) add_double(hash, c->weights[0]), add_double(hash, c->weights[1]);
+            add_doubles(hash, weights);
+        }
+        if (kind == VOX_CONSTRAINT_EDGE) add_doubles(hash, c->position);
+        if (kind == VOX_CONSTRAINT_IMPACT) add_double(hash, c->time);
+        add_double(hash, kind == VOX_CONSTRAINT_PROXIMITY ? c->gap : -c->gap), add_doubles(hash, c->normal);
     }
-    return 1;
-}
-
-static int hash_proximities(const vox_grid* grid, uint64_t* count, uint64_t* hash) {
-    vox_margin_contact_view view;
-    if (vox_grid_margin_contacts(grid, &view) != VOX_OK) return 0;
-    *count = view.count;
-    for (uint64_t i = 0; i < view.count; ++i) {
-        const vox_margin_contact* c = &view.data[i];
-        add_number(hash, c->body_a), add_number(hash, c->vertex), add_number(hash, c->body_b);
-        add_number(hash, c->tet);
-        for (int k = 0; k < 3; ++k) add_number(hash, c->face[k]);
-        add_doubles(hash, c->face_weights), add_double(hash, c->distance), add_doubles(hash, c->normal);
-    }
-    return 1;
-}
-
-static int hash_impacts(const vox_grid* grid, uint64_t* count, uint64_t* hash) {
-    vox_passage_view view;
-    if (vox_grid_passages(grid, &view) != VOX_OK) return 0;
-    *count = view.count;
-    for (uint64_t i = 0; i < view.count; ++i) {
-        const vox_passage* p = &view.data[i];
-        add_number(hash, p->body_a), add_number(hash, p->vertex), add_number(hash, p->body_b);
-        add_number(hash, p->tet);
-        for (int k = 0; k < 3; ++k) add_number(hash, p->face[k]);
-        add_double(hash, p->time);
-    }
+    free((void*)sorted);
     return 1;
 }
 
@@ -268,6 +206,17 @@ static void write_doubles(const scene* s, double* const* to) {
 
 /* The id of a fresh grid's meshes: the slot, and the first generation. */
 static vox_body mesh_of(uint32_t body) { return (body << 12) + 1; }
+
+/* The first body comes from as far as it is wide, so that vertices go through others. */
+static void write_previous(const scene* s) {
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    write_doubles(s, previous);
+    for (uint32_t i = 0; i < 3 * s->bodies[0].vertex_count; i += 3) {
+        least = fmin(least, previous[0][i]);
+        most = fmax(most, previous[0][i]);
+    }
+    for (uint32_t i = 0; i < 3 * s->bodies[0].vertex_count; i += 3) previous[0][i] -= most - least;
+}
 
 static int bind_previous(const scene* s, vox_grid* grid) {
     for (uint32_t b = 0; b < s->count; ++b) {
@@ -299,20 +248,24 @@ static int fit_meshes(const scene* s, const settings* how, uint32_t rings, vox_g
 /* What a frame gives. */
 static int print_contacts(vox_grid* grid, const scene* s, int frame) {
     vox_contact_view view;
-    uint64_t hash, parts[4] = {1, 2, 3, 4};
+    vox_constraint_desc desc = vox_default_constraint_desc();
+    uint64_t hash, count, parts[2] = {3, 4};
+    desc.method = VOX_DEPTH_METHOD_CLOSEST;
     if (vox_grid_get_contacts(grid, &view) != VOX_OK || vox_grid_get_hash(grid, &hash) != VOX_OK ||
-        !hash_penetrations(grid, &parts[0]) || !hash_events(grid, &parts[1]) ||
-        !hash_readings(grid, &parts[2]) || !hash_answers(grid, s, &parts[3]))
+        vox_grid_find_constraints(grid, &desc) != VOX_OK ||
+        !hash_constraints(grid, VOX_CONSTRAINT_INSIDE, &count, &parts[0]) ||
+        vox_grid_find_constraints(grid, NULL) != VOX_OK || !hash_answers(grid, s, &parts[1]))
         return 0;
-    printf("%s, frame %d: %" PRIu64 " contacts %016" PRIx64 ", penetrations %016" PRIx64
-           ", events %016" PRIx64 ", readings %016" PRIx64 ", queries %016" PRIx64 "\n",
-           s->name, frame, view.count, hash, parts[0], parts[1], parts[2], parts[3]);
+    printf("%s, frame %d: %" PRIu64 " contacts %016" PRIx64 ", closest %016" PRIx64 ", queries %016" PRIx64
+           "\n",
+           s->name, frame, view.count, hash, parts[0], parts[1]);
     return 1;
 }
 
 static int print_response(vox_grid* grid, const scene* s, int frame) {
     uint64_t counts[3] = {0}, parts[3] = {1, 2, 3};
-    if (!hash_contacts(grid, &counts[0], &parts[0]) || !hash_inside(grid, &counts[1], &parts[1]) ||
+    if (!hash_contacts(grid, &counts[0], &parts[0]) ||
+        !hash_constraints(grid, VOX_CONSTRAINT_INSIDE, &counts[1], &parts[1]) ||
         !hash_pairs_of_bodies(grid, &counts[2], &parts[2]))
         return 0;
     printf("%s, frame %d: %" PRIu64 " contacts %016" PRIx64 ", %" PRIu64 " inside %016" PRIx64 ", %" PRIu64
@@ -323,9 +276,9 @@ static int print_response(vox_grid* grid, const scene* s, int frame) {
 
 static int print_experimental(vox_grid* grid, const scene* s, int frame) {
     uint64_t counts[3] = {0}, parts[3] = {1, 2, 3};
-    if (!hash_edges(grid, &counts[0], &parts[0]) || !hash_proximities(grid, &counts[1], &parts[1]) ||
-        !hash_impacts(grid, &counts[2], &parts[2]))
-        return 0;
+    for (int i = 0; i < 3; ++i)
+        if (!hash_constraints(grid, (vox_constraint_kind)(VOX_CONSTRAINT_EDGE + i), &counts[i], &parts[i]))
+            return 0;
     printf("%s, frame %d: %" PRIu64 " edges %016" PRIx64 ", %" PRIu64 " proximities %016" PRIx64 ", %" PRIu64
            " impacts %016" PRIx64 "\n",
            s->name, frame, counts[0], parts[0], counts[1], parts[1], counts[2], parts[2]);
@@ -349,12 +302,12 @@ static int run(scene* s, const char* name, double factor, uint32_t rings, double
     use_engine(&desc, how->engine);
     desc.worker_count = how->workers;
     desc.cell_size = how->cell_size * factor;
-    desc.flags |= VOX_GRID_CONTACT_EVENTS | (margin > 0 ? VOX_GRID_EDGE_CONTACTS : 0);
+    desc.flags |= VOX_GRID_CONSTRAINTS | (margin > 0 ? VOX_GRID_EDGES : 0);
     desc.margin = margin * factor;
     ok = vox_grid_create(&desc, &grid) == VOX_OK && insert_scene(s, grid) &&
          fit_meshes(s, how, rings, grid) && (margin == 0 || bind_previous(s, grid));
     for (int frame = 0; ok && frame < frames; ++frame) {
-        write_doubles(s, previous);
+        write_previous(s);
         pose_scene(s, frame < 3 ? frame : 2);
         write_doubles(s, as_doubles);
         ok = vox_grid_step(grid) == VOX_OK && (margin > 0 || print_contacts(grid, s, frame)) &&
@@ -424,24 +377,22 @@ static int hash_pairs(vox_surface* surface, uint64_t* count, uint64_t* hash) {
         {VOX_FEATURE_EDGE, VOX_FEATURE_EDGE},     {VOX_FEATURE_FACE, VOX_FEATURE_VERTEX},
         {VOX_FEATURE_EDGE, VOX_FEATURE_FACE},     {VOX_FEATURE_FACE, VOX_FEATURE_FACE}};
     for (int k = 0; k < 6; ++k) {
-        vox_pair_lists lists;
-        lists.struct_size = sizeof lists;
+        vox_partner_lists lists;
         if (vox_surface_find_pairs(surface, kinds[k][0], kinds[k][1], 0, UINT64_MAX, &lists) != VOX_OK)
             return 0;
-        *count += lists.pair_count;
+        *count += lists.offsets[lists.count];
         for (uint64_t i = 0; i <= lists.count; ++i) add_number(hash, lists.offsets[i]);
-        for (uint64_t i = 0; i < lists.pair_count; ++i) add_number(hash, lists.partners[i]);
+        for (uint64_t i = 0; i < lists.offsets[lists.count]; ++i) add_number(hash, lists.partners[i]);
     }
     return 1;
 }
 
 static int hash_crossings(vox_surface* surface, uint64_t* hash) {
     vox_crossing_view view;
-    view.struct_size = sizeof view;
     if (vox_surface_find_crossings(surface, &view) != VOX_OK) return 0;
     add_number(hash, view.count);
     for (uint64_t i = 0; i < view.count; ++i) {
-        const vox_crossing* c = &view.crossings[i];
+        const vox_crossing* c = &view.data[i];
         add_number(hash, c->edge), add_number(hash, c->face), add_number(hash, (uint64_t)c->kind);
         add_double(hash, c->edge_weights[0]), add_double(hash, c->edge_weights[1]);
         add_doubles(hash, c->face_weights), add_doubles(hash, c->position);
@@ -451,19 +402,18 @@ static int hash_crossings(vox_surface* surface, uint64_t* hash) {
 
 static int hash_distances(vox_surface* surface, uint32_t vertices, double distance, uint64_t* hash) {
     double* clearance = (double*)malloc(sizeof(double) * vertices);
-    int ok = vox_surface_find_clearances(surface, distance, clearance, vertices) == VOX_OK;
+    int ok = vox_surface_find_clearances(surface, distance, clearance) == VOX_OK;
     for (uint32_t v = 0; ok && v < vertices; ++v) add_double(hash, clearance[v]);
     free(clearance);
     for (int k = 0; ok && k < 2; ++k) {
-        vox_close_view view;
-        view.struct_size = sizeof view;
+        vox_proximity_view view;
         ok = vox_surface_find_proximities(surface, k ? VOX_FEATURE_EDGE : VOX_FEATURE_FACE,
                                           k ? VOX_FEATURE_EDGE : VOX_FEATURE_VERTEX, distance,
                                           &view) == VOX_OK;
         if (!ok) break;
         add_number(hash, view.count);
         for (uint64_t i = 0; i < view.count; ++i) {
-            const vox_close_pair* p = &view.pairs[i];
+            const vox_proximity* p = &view.data[i];
             add_number(hash, p->a), add_number(hash, p->b), add_double(hash, p->distance);
             add_doubles(hash, p->weights_a), add_doubles(hash, p->weights_b);
             add_doubles(hash, p->point_a), add_doubles(hash, p->point_b);
@@ -474,9 +424,7 @@ static int hash_distances(vox_surface* surface, uint32_t vertices, double distan
 
 static int hash_times(vox_surface* surface, uint64_t* hash) {
     vox_safe_step step;
-    vox_timed_view view;
-    step.struct_size = sizeof step;
-    view.struct_size = sizeof view;
+    vox_impact_view view;
     if (vox_surface_find_safe_step(surface, NULL, &step) != VOX_OK ||
         vox_surface_find_impacts(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, NULL, &view) != VOX_OK)
         return 0;
@@ -484,8 +432,8 @@ static int hash_times(vox_surface* surface, uint64_t* hash) {
     add_number(hash, (uint64_t)step.kind_a), add_number(hash, step.a), add_number(hash, step.b);
     add_number(hash, view.count);
     for (uint64_t i = 0; i < view.count; ++i)
-        add_number(hash, view.pairs[i].a), add_number(hash, view.pairs[i].b),
-            add_double(hash, view.pairs[i].time);
+        add_number(hash, view.data[i].a), add_number(hash, view.data[i].b),
+            add_double(hash, view.data[i].time);
     return 1;
 }
 

@@ -105,11 +105,12 @@ static inline vox_sim_energies energies(const vox_sim* sim, vox_body body) {
 
 static inline double total(const vox_sim_energies* e) { return e->kinetic + e->potential + e->elastic; }
 
-static inline vox_sim_counts counts(const vox_sim* sim) {
-    vox_sim_counts counts;
-    counts.struct_size = sizeof counts;
-    ck_ok(vox_sim_get_counters(sim, &counts));
-    return counts;
+static inline uint64_t counter(const vox_sim* sim, const char* name) {
+    vox_counter_view view;
+    ck_ok(vox_sim_get_counters(sim, &view));
+    for (uint64_t i = 0; i < view.count; ++i)
+        if (strcmp(view.data[i].name, name) == 0) return view.data[i].value;
+    ck_abort_msg("no counter %s", name);
 }
 
 static inline void steps(vox_sim* sim, int count) {

@@ -45,7 +45,7 @@ static inline void rests_stacked(int count, double cell, int frames) {
     ck_assert_double_le(drift, 0.05); /* of a width of 2 */
     ck_assert_double_le(sunk, 0.05);
     ck_assert_double_le(fastest, 1);
-    ck_assert_uint_gt(counts(sim).penetrations, 0);
+    ck_assert_uint_gt(counter(sim, "constraints"), 0);
     vox_io_mesh_destroy(mesh);
     vox_sim_destroy(sim);
 }

@@ -9,7 +9,7 @@ static void stays_calm(vox_sim* sim, double speed) {
     double last = 0;
     for (int frame = 0; frame < 120; ++frame) {
         ck_ok(vox_sim_step(sim, 1.0 / 60));
-        if (frame == 0) ck_assert_uint_gt(counts(sim).penetrations, 0);
+        if (frame == 0) ck_assert_uint_gt(counter(sim, "constraints"), 0);
         const vox_sim_energies now = energies(sim, VOX_NULL_BODY);
         ck_assert(isfinite(total(&now)));
         ck_assert_msg(now.max_speed <= speed, "frame %d: speed %g", frame, now.max_speed);
@@ -130,13 +130,13 @@ START_TEST(flat_and_inverted_tets_are_counted) {
     desc.user_data = 77;
     vox_body body;
     ck_ok(vox_sim_body_insert(sim, &desc, &body));
-    const vox_sim_counts c = counts(sim);
-    ck_assert_uint_eq(c.tets, 3);
-    ck_assert_uint_eq(c.flat_tets, 1);
-    ck_assert_uint_eq(c.inverted_tets, 1);
-    ck_assert_uint_eq(c.volumes, 2);
-    ck_assert_uint_eq(c.edges, 12);
-    ck_assert_uint_eq(c.raised_masses, 2); /* of the flat tet's own corner, and of the loose vertex */
+    ck_assert_uint_eq(counter(sim, "tets"), 3);
+    ck_assert_uint_eq(counter(sim, "flat_tets"), 1);
+    ck_assert_uint_eq(counter(sim, "inverted_tets"), 1);
+    ck_assert_uint_eq(counter(sim, "volumes"), 2);
+    ck_assert_uint_eq(counter(sim, "edges"), 12);
+    ck_assert_uint_eq(counter(sim, "raised_masses"),
+                      2); /* of the flat tet's own corner, and of the loose vertex */
     ck_assert_int_eq(book.lines, 1);
     ck_assert_ptr_nonnull(
         strstr(book.text, "body 1 (slot 0, user data 77): 1 of 3 tets have no rest volume"));
@@ -166,8 +166,8 @@ START_TEST(too_large_a_step_is_cut_down) {
     }
     ck_assert_int_eq(book.lines, 1);
     ck_assert_ptr_nonnull(strstr(book.text, "time step 1e+300 clamped to max_time_step 0.0333333"));
-    ck_assert_uint_eq(counts(clamped).clamped_steps, 60);
-    ck_assert_uint_eq(counts(regular).clamped_steps, 0);
+    ck_assert_uint_eq(counter(clamped, "clamped_steps"), 60);
+    ck_assert_uint_eq(counter(regular, "clamped_steps"), 0);
     const vox_sim_body_view x = view_of(regular, a), y = view_of(clamped, b);
     ck_assert_mem_eq(x.positions, y.positions, 3 * sizeof(double) * x.vertex_count);
     vox_io_mesh_destroy(mesh);
@@ -193,8 +193,7 @@ START_TEST(absurd_stiffness_is_cut_down) {
         ck_ok(vox_sim_step(sim, 1.0 / 60));
         ck_assert_double_le(energies(sim, VOX_NULL_BODY).max_speed, 10);
     }
-    const vox_sim_counts c = counts(sim);
-    ck_assert_uint_eq(c.softened, c.edges + c.volumes);
+    ck_assert_uint_eq(counter(sim, "softened"), counter(sim, "edges") + counter(sim, "volumes"));
     ck_assert_int_eq(book.lines, 1);
     ck_assert_ptr_nonnull(strstr(book.text, "body 1 (slot 0, user data 0): "));
     ck_assert_ptr_nonnull(strstr(book.text, "are too stiff for substeps of 0.00166667"));
@@ -220,8 +219,8 @@ static size_t fall(engine_kind engine, uint32_t workers, double cell_size, doubl
     uint64_t most = 0;
     for (int frame = 0; frame < 60; ++frame) {
         ck_ok(vox_sim_step(sim, 1.0 / 60));
-        const vox_sim_counts c = counts(sim);
-        if (c.penetrations > most) most = c.penetrations;
+        const uint64_t found = counter(sim, "constraints");
+        if (found > most) most = found;
     }
     ck_assert_uint_gt(most, 10);
     const vox_sim_body_view view = view_of(sim, body);
@@ -278,11 +277,8 @@ START_TEST(refuses_bad_settings) {
     REFUSED(struct_size, 3, "struct_size is 3");
 #undef REFUSED
     vox_grid_desc grid = vox_default_grid_desc();
-    grid.flags = 0;
     desc = vox_default_sim_desc();
     desc.grid = &grid;
-    ck_fails(vox_sim_create(&desc, &sim), VOX_ERROR_INVALID_STATE, "PENETRATIONS");
-    grid = vox_default_grid_desc();
     grid.cell_size = -1;
     ck_fails(vox_sim_create(&desc, &sim), VOX_ERROR_INVALID_ARGUMENT, "cell_size is -1");
     ck_fails(vox_sim_create(NULL, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_sim is null");
@@ -323,7 +319,7 @@ START_TEST(refuses_bad_bodies) {
     for (int i = 2; i < 21; i += 3) bad[i] = 0;
     REFUSED(rest_positions, bad, VOX_ERROR_INVALID_ARGUMENT, "mass of 0: 3 of its 3 tets");
 #undef REFUSED
-    ck_assert_uint_eq(counts(sim).bodies, 0);
+    ck_assert_uint_eq(counter(sim, "bodies"), 0);
     ck_fails(vox_sim_body_insert(NULL, &desc, &body), VOX_ERROR_INVALID_ARGUMENT, "sim is null");
     ck_fails(vox_sim_body_insert(sim, NULL, &body), VOX_ERROR_INVALID_ARGUMENT, "desc is null");
     ck_fails(vox_sim_body_insert(sim, &desc, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_body is null");
@@ -359,7 +355,7 @@ START_TEST(refuses_bad_calls) {
     ck_fails(vox_sim_get_grid(sim, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_grid is null");
     ck_fails(vox_sim_body_get_view(sim, body, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_view is null");
     ck_fails(vox_sim_get_energy(sim, body, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_energies is null");
-    ck_fails(vox_sim_get_counters(sim, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_counts is null");
+    ck_fails(vox_sim_get_counters(sim, NULL), VOX_ERROR_INVALID_ARGUMENT, "out_view is null");
     e.struct_size = 2;
     ck_fails(vox_sim_get_energy(sim, body, &e), VOX_ERROR_INVALID_ARGUMENT, "struct_size is 2");
     e.struct_size = sizeof e;
@@ -383,12 +379,23 @@ START_TEST(structs_may_be_smaller) {
     memset(&desc.grid, 0xab, sizeof desc - offsetof(vox_sim_desc, grid));
     desc.struct_size = offsetof(vox_sim_desc, grid);
     vox_sim* sim = open_sim(&desc);
-    vox_sim_counts small;
-    memset(&small, 0xab, sizeof small);
-    small.struct_size = 8;
-    ck_ok(vox_sim_get_counters(sim, &small));
-    ck_assert_uint_eq(small.bodies, 0);
-    ck_assert_uint_eq(small.vertices, 0xababababababababull);
+    vox_sim_destroy(sim);
+}
+END_TEST
+
+/* Whatever the flags of its grid, it has the constraints that it responds to. */
+START_TEST(sets_the_flag_that_it_needs) {
+    vox_sim_desc desc = vox_default_sim_desc();
+    vox_grid_desc of_grid = vox_default_grid_desc();
+    vox_grid_info info;
+    vox_grid* grid;
+    info.struct_size = sizeof info;
+    of_grid.flags = VOX_GRID_EDGES;
+    desc.grid = &of_grid;
+    vox_sim* sim = open_sim(&desc);
+    ck_ok(vox_sim_get_grid(sim, &grid));
+    ck_ok(vox_grid_get_info(grid, &info));
+    ck_assert_uint_eq(info.flags, VOX_GRID_EDGES | VOX_GRID_CONSTRAINTS);
     vox_sim_destroy(sim);
 }
 END_TEST
@@ -418,7 +425,7 @@ START_TEST(the_grid_is_within_reach) {
     uint64_t user_data = 0;
     ck_ok(vox_body_get_user_data(grid, body, &user_data));
     ck_assert_uint_eq(user_data, 77);
-    ck_assert_uint_eq(counts(sim).penetrations, 0);
+    ck_assert_uint_eq(counter(sim, "constraints"), 0);
     ck_assert_double_le(energies(sim, body).max_speed, 1e-9);
     vox_io_mesh_destroy(mesh);
     vox_sim_destroy(sim);
@@ -445,21 +452,10 @@ static void more_vertices(vox_grid* grid, vox_body body) {
     desc.positions = vox_float_positions(crowd, 100);
     ck_ok(vox_mesh_append_vertices(grid, body, &desc, &first));
 }
-static void more_tets(vox_grid* grid, vox_body body) {
-    static const uint32_t all[5] = {0, 1, 2, 3, 4}, corners[4] = {0, 3, 5, 6};
-    uint32_t first;
-    ck_ok(vox_mesh_remove_tets(grid, body, all, 5));
-    ck_ok(vox_mesh_append_tets(grid, body, corners, 1, &first));
-}
-static void other_tets(vox_grid* grid, vox_body body) {
-    static const uint32_t tets[5] = {0, 1, 2, 3, 4},
-                          corners[20] = {0, 1, 2, 7, 0, 2, 4, 7, 0, 4, 1, 7, 1, 3, 2, 7, 4, 5, 1, 7};
-    ck_ok(vox_mesh_replace_tets(grid, body, tets, 5, corners));
-}
 static void other_positions(vox_grid* grid, vox_body body) {
     ck_ok(bind_array(grid, body, crowd, VOX_FORMAT_FLOAT, 0, 0));
 }
-static void no_penetrations(vox_grid* grid, vox_body body) {
+static void no_constraints(vox_grid* grid, vox_body body) {
     (void)body;
     ck_ok(vox_grid_set_flags(grid, 0));
 }
@@ -474,10 +470,8 @@ static const struct {
     const char* error; /* null: the simulation goes on without the body's contacts */
 } changes[] = {{other_topology, "changed through vox_sim_get_grid"},
                {more_vertices, "changed through vox_sim_get_grid"},
-               {more_tets, "changed through vox_sim_get_grid"},
-               {other_tets, "changed through vox_sim_get_grid"},
-               {other_positions, "off its place in tet"},
-               {no_penetrations, "VOX_GRID_PENETRATIONS"},
+               {other_positions, "changed through vox_sim_get_grid"},
+               {no_constraints, "VOX_GRID_CONSTRAINTS"},
                {removed, NULL},
                {cleared, NULL}};
 enum { change_count = sizeof changes / sizeof *changes };
@@ -503,21 +497,21 @@ START_TEST(changes_in_its_grid) {
         ck_ok(vox_sim_body_insert(sim, &desc, &bodies[b]));
     }
     ck_ok(vox_sim_step(sim, 1e-4));
-    ck_assert_uint_gt(counts(sim).penetrations, 0);
+    ck_assert_uint_gt(counter(sim, "constraints"), 0);
     ck_ok(vox_sim_get_grid(sim, &grid));
     changes[_i].change(grid, bodies[0]);
     if (changes[_i].error) {
         const double before = view_of(sim, bodies[1]).positions[5];
         ck_fails(vox_sim_step(sim, 1e-4), VOX_ERROR_INVALID_STATE, changes[_i].error);
-        if (changes[_i].change != no_penetrations)
+        if (changes[_i].change != no_constraints)
             ck_assert_ptr_nonnull(strstr(vox_last_error(), "body 4097 (slot 1, user data 51)"));
         ck_assert(view_of(sim, bodies[1]).positions[5] == before);
     } else {
         ck_ok(vox_sim_step(sim, 1e-4));
-        ck_assert_uint_eq(counts(sim).penetrations, 0);
+        ck_assert_uint_eq(counter(sim, "constraints"), 0);
     }
     ck_ok(vox_sim_body_remove(sim, bodies[0]));
-    if (changes[_i].change != no_penetrations) ck_ok(vox_sim_step(sim, 1e-4));
+    if (changes[_i].change != no_constraints) ck_ok(vox_sim_step(sim, 1e-4));
     vox_sim_destroy(sim);
 }
 END_TEST
@@ -527,6 +521,7 @@ SUITE(sim_bad_input) {
     tcase_add_each(tests, crossing_bars, coincident_bodies, enclosed_body, below_the_floor,
                    squashed_and_inverted, flat_and_inverted_tets_are_counted, too_large_a_step_is_cut_down,
                    absurd_stiffness_is_cut_down, the_same_bits_every_time, refuses_bad_settings,
-                   refuses_bad_bodies, refuses_bad_calls, structs_may_be_smaller, the_grid_is_within_reach);
+                   refuses_bad_bodies, refuses_bad_calls, structs_may_be_smaller, sets_the_flag_that_it_needs,
+                   the_grid_is_within_reach);
     tcase_add_loop_test(tests, changes_in_its_grid, 0, change_count);
 }

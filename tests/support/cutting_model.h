@@ -7,10 +7,10 @@
 
 #include "scenes/bodies.h"
 #include "scenes/random.h"
-#include "support/suite.h"
+#include "support/constraint_checks.h"
 
 enum { tet_on, tet_off, tet_removed };
-enum { most_cut_meshes = 4, slot_shift = 12 };
+enum { most_cut_meshes = 4 };
 #define no_number 0xffffffffu
 
 typedef struct cut_mesh {
@@ -33,9 +33,9 @@ typedef struct cut_scene {
     vox_grid* grid;
     cut_mesh meshes[most_cut_meshes];
     uint32_t count;
-    vox_contact* was; /* the contacts of the last step */
-    uint64_t was_count;
-    uint64_t contacts, penetrations, events, carried; /* sums over all steps */
+    uint8_t was[most_cut_meshes][most_cut_meshes];    /* which touched in the last step */
+    kept_constraints last;                            /* of the last step; none after a load */
+    uint64_t contacts, constraints, changes, carried; /* sums over all steps */
 } cut_scene;
 
 static inline size_t position_bytes(const cut_mesh* m) {
@@ -158,72 +158,43 @@ static inline rest_of_mesh leave_rest(const cut_mesh* m) {
     return r;
 }
 
-static inline int same_touch(const vox_contact* x, const vox_contact* y) {
-    return x->body_a == y->body_a && x->vertex == y->vertex && x->body_b == y->body_b;
-}
-
-static inline int touch_before(const vox_contact* x, const vox_contact* y) {
-    if (x->body_a != y->body_a) return x->body_a < y->body_a;
-    if (x->vertex != y->vertex) return x->vertex < y->vertex;
-    return x->body_b < y->body_b;
-}
-
-/* Checks that the touching pairs among `these` that `those` lack are events of one kind. Returns their
- * number. */
-static inline uint64_t expect_contact_events(const vox_contact* these, uint64_t these_count,
-                                             const vox_contact* those, uint64_t those_count,
-                                             const vox_contact_event* events, vox_touch kind) {
-    uint64_t found = 0, other = 0;
-    for (uint64_t i = 0; i < these_count; ++i) {
-        if (i > 0 && same_touch(&these[i], &these[i - 1])) continue;
-        while (other < those_count && touch_before(&those[other], &these[i])) ++other;
-        if (other < those_count && same_touch(&those[other], &these[i])) continue;
-        const vox_contact_event* e = &events[found++];
-        ck_assert(e->body_a == these[i].body_a && e->vertex == these[i].vertex &&
-                  e->body_b == these[i].body_b);
-        ck_assert_int_eq(e->kind, kind);
+/* Which pairs touched, and touch: each persists, begins or ends. */
+static inline void check_cut_pairs(cut_scene* s) {
+    const vox_contact_view contacts = contacts_of(s->grid);
+    const vox_pair_view pairs = pairs_of(s->grid);
+    uint8_t is[most_cut_meshes][most_cut_meshes] = {{0}};
+    uint64_t next = 0;
+    for (uint64_t i = 0; i < contacts.count; ++i) {
+        const uint32_t a = vox_body_slot(contacts.data[i].body_a), b = vox_body_slot(contacts.data[i].body_b);
+        is[a < b ? a : b][a < b ? b : a] = 1;
     }
-    return found;
-}
-
-static inline int touches(const vox_contact* contacts, uint64_t count, vox_body a, vox_body b) {
-    for (uint64_t i = 0; i < count; ++i)
-        if ((contacts[i].body_a == a && contacts[i].body_b == b) ||
-            (contacts[i].body_a == b && contacts[i].body_b == a))
-            return 1;
-    return 0;
-}
-
-static inline void check_cut_events(cut_scene* s, const vox_contact_view* view) {
-    vox_contact_event_view vertices;
-    vox_touch_view pairs;
-    ck_ok(vox_grid_contact_events(s->grid, &vertices));
-    ck_ok(vox_grid_touch_events(s->grid, &pairs));
-    ck_assert_uint_eq(
-        expect_contact_events(view->data, view->count, s->was, s->was_count, vertices.data, VOX_TOUCH_BEGAN),
-        vertices.began);
-    ck_assert_uint_eq(expect_contact_events(s->was, s->was_count, view->data, view->count,
-                                            vertices.data + (vertices.count ? vertices.began : 0),
-                                            VOX_TOUCH_ENDED),
-                      vertices.ended);
-    uint64_t expected = 0;
     for (uint32_t a = 0; a < s->count; ++a)
-        for (uint32_t b = a; b < s->count; ++b)
-            expected += touches(s->was, s->was_count, s->meshes[a].id, s->meshes[b].id) ||
-                        touches(view->data, view->count, s->meshes[a].id, s->meshes[b].id);
-    ck_assert_uint_eq(pairs.count, expected);
-    for (uint64_t i = 0; i < pairs.count; ++i) {
-        const vox_touch_event* e = &pairs.data[i];
-        const int was = touches(s->was, s->was_count, e->body_a, e->body_b),
-                  is = touches(view->data, view->count, e->body_a, e->body_b);
-        ck_assert_int_eq(e->kind, !was ? VOX_TOUCH_BEGAN : is ? VOX_TOUCH_PERSISTED : VOX_TOUCH_ENDED);
-    }
-    s->events += vertices.count;
+        for (uint32_t b = a; b < s->count; ++b) {
+            if (!s->was[a][b] && !is[a][b]) continue;
+            ck_assert_uint_lt(next, pairs.count);
+            const vox_pair* pair = &pairs.data[next++];
+            ck_assert(pair->body_a == s->meshes[a].id && pair->body_b == s->meshes[b].id);
+            ck_assert_int_eq(pair->state, !s->was[a][b] ? VOX_PAIR_BEGAN
+                                          : is[a][b]    ? VOX_PAIR_PERSISTED
+                                                        : VOX_PAIR_ENDED);
+            s->changes += pair->state != VOX_PAIR_PERSISTED;
+        }
+    ck_assert_uint_eq(next, pairs.count);
+    memcpy(s->was, is, sizeof is);
+}
+
+/* What a constraint of a new grid, whose slots are 0, 1, ..., is in the grid that it stands for. */
+static inline vox_constraint renamed(const cut_scene* s, const rest_of_mesh* rest, vox_constraint c) {
+    const uint32_t a = vox_body_slot(c.body_a), b = vox_body_slot(c.body_b);
+    c.body_a = s->meshes[a].id;
+    c.body_b = s->meshes[b].id;
+    for (uint32_t i = 0; i < c.count; ++i) c.vertices[i] = rest[i < c.count_a ? a : b].vertex[c.vertices[i]];
+    c.element_b = rest[b].tet[c.element_b];
+    return c;
 }
 
 /* Steps, and compares all results with those of a new grid over what is left of the meshes. */
 static inline void step_and_compare(cut_scene* s, const vox_grid_desc* desc) {
-    vox_penetration_view depths, fresh_depths;
     rest_of_mesh rest[most_cut_meshes];
     cut_scene other;
     memset(&other, 0, sizeof other);
@@ -239,8 +210,7 @@ static inline void step_and_compare(cut_scene* s, const vox_grid_desc* desc) {
     ck_assert_uint_eq(mine.count, fresh.count);
     for (uint64_t i = 0; i < mine.count; ++i) {
         vox_contact c = fresh.data[i];
-        const uint32_t a = c.body_a >> slot_shift,
-                       b = c.body_b >> slot_shift; /* slots of the new grid: 0, 1, ... */
+        const uint32_t a = vox_body_slot(c.body_a), b = vox_body_slot(c.body_b);
         c.body_a = s->meshes[a].id;
         c.body_b = s->meshes[b].id;
         c.vertex = rest[a].vertex[c.vertex];
@@ -251,35 +221,30 @@ static inline void step_and_compare(cut_scene* s, const vox_grid_desc* desc) {
             (unsigned long long)i, mine.data[i].vertex, mine.data[i].body_a, mine.data[i].tet,
             mine.data[i].body_b, c.vertex, c.body_a, c.tet, c.body_b);
     }
-    ck_ok(vox_grid_penetrations(s->grid, &depths));
-    ck_ok(vox_grid_penetrations(other.grid, &fresh_depths));
-    ck_assert_uint_eq(depths.count, fresh_depths.count);
-    for (uint64_t i = 0; i < depths.count; ++i) {
-        vox_penetration p = fresh_depths.data[i];
-        const uint32_t a = p.body_a >> slot_shift;
-        p.body_a = s->meshes[a].id;
-        p.body_b = s->meshes[p.body_b >> slot_shift].id;
-        p.vertex = rest[a].vertex[p.vertex];
-        ck_assert_msg(memcmp(&p, &depths.data[i], sizeof p) == 0,
-                      "penetration %llu: vertex %u of mesh %u in mesh %u, state %d depth %.9g (%.9g %.9g "
-                      "%.9g), expected "
-                      "state %d depth %.9g (%.9g %.9g %.9g)",
-                      (unsigned long long)i, p.vertex, p.body_a, p.body_b, depths.data[i].state,
-                      depths.data[i].depth, depths.data[i].direction[0], depths.data[i].direction[1],
-                      depths.data[i].direction[2], p.state, p.depth, p.direction[0], p.direction[1],
-                      p.direction[2]);
+    const vox_constraint_view found = constraints_of(s->grid), expected = constraints_of(other.grid);
+    ck_assert_uint_eq(found.count, expected.count);
+    for (uint64_t i = 0; i < found.count; ++i) {
+        vox_constraint c = renamed(s, rest, expected.data[i]);
+        c.pair = found.data[i].pair; /* there are pairs that ended, too */
+        c.previous = found.data[i].previous;
+        ck_assert_msg(memcmp(&c, &found.data[i], sizeof c) == 0,
+                      "constraint %llu: vertex %u of mesh %u in mesh %u, state %d gap %.17g, expected vertex "
+                      "%u of mesh "
+                      "%u in mesh %u, state %d gap %.17g",
+                      (unsigned long long)i, found.data[i].vertices[0], found.data[i].body_a,
+                      found.data[i].body_b, (int)found.data[i].state, found.data[i].gap, c.vertices[0],
+                      c.body_a, c.body_b, (int)c.state, c.gap);
     }
+    check_previous(s->grid, &s->last);
     const grid_counts counters = counters_of(s->grid), fresh_counters = counters_of(other.grid);
     ck_assert_uint_eq(counters.tets, fresh_counters.tets);
     if (suite_engine == ENGINE_REFERENCE && desc->reference) /* which meets all of them */
         ck_assert_uint_eq(counters.skipped_degenerate, fresh_counters.skipped_degenerate);
-    check_cut_events(s, &mine);
-
-    s->was = (vox_contact*)realloc(s->was, (size_t)(mine.count + 1) * sizeof(vox_contact));
-    if (mine.count) memcpy(s->was, mine.data, (size_t)mine.count * sizeof(vox_contact));
-    s->was_count = mine.count;
+    check_cut_pairs(s);
+    free(s->last.data);
+    s->last = keep_constraints(s->grid);
     s->contacts += mine.count;
-    s->penetrations += depths.count;
+    s->constraints += found.count;
     s->carried += counters.carried_contacts;
     vox_grid_destroy(other.grid);
     for (uint32_t i = 0; i < s->count; ++i) {

@@ -1,12 +1,11 @@
-/* Penetrations against their contacts and against surfaces, by brute force. */
+/* Depths against contacts and, by brute force, against surfaces. */
 #ifndef VOX_TESTS_DEPTH_CHECKS_H
 #define VOX_TESTS_DEPTH_CHECKS_H
 
-#include <math.h>
-#include <string.h>
-
 #include "scenes/bodies.h"
-#include "support/suite.h"
+#include "support/constraint_checks.h"
+
+/* ---- vectors ---- */
 
 typedef struct vector {
     double x, y, z;
@@ -21,135 +20,152 @@ static inline vector outer(vector a, vector b) {
     return (vector){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 static inline double norm(vector a) { return sqrt(inner(a, a)); }
+static inline vector vector_of(const double* x) { return (vector){x[0], x[1], x[2]}; }
 static inline vector place(const float* positions, uint32_t v) {
     return (vector){positions[3 * v], positions[3 * v + 1], positions[3 * v + 2]};
-}
-static inline vector direction_of(const vox_penetration* p) {
-    return (vector){p->direction[0], p->direction[1], p->direction[2]};
 }
 static inline double degrees_between(vector a, vector b) {
     return atan2(norm(outer(a, b)), inner(a, b)) * (180 / 3.14159265358979);
 }
 
-static inline vox_penetration_view penetrations_of(const vox_grid* grid) {
-    vox_penetration_view view = {NULL, 0, 0, 0};
-    ck_ok(vox_grid_penetrations(grid, &view));
-    ck_assert_uint_ge(view.byte_stride, sizeof(vox_penetration));
-    return view;
+/* ---- INSIDE constraints ---- */
+
+static inline vox_grid_desc depth_desc(void) {
+    vox_grid_desc desc = engine_desc();
+    desc.flags = VOX_GRID_CONSTRAINTS;
+    return desc;
 }
 
-static inline const vox_penetration* penetration_at(vox_penetration_view view, uint64_t i) {
-    return (const vox_penetration*)(const void*)((const char*)view.data + i * view.byte_stride);
+static inline vox_grid* depth_grid(void) {
+    const vox_grid_desc desc = depth_desc();
+    return grid_of(&desc);
 }
 
-/* The penetration of a vertex in a mesh, or null. */
-static inline const vox_penetration* penetration_of(const vox_grid* grid, vox_body a, uint32_t vertex,
-                                                    vox_body b) {
-    const vox_penetration_view view = penetrations_of(grid);
+static inline vector normal_of(const vox_constraint* c) { return vector_of(c->normal); }
+static inline double depth_of(const vox_constraint* c) { return -c->gap; }
+
+/* That of a vertex in a mesh, or null. */
+static inline const vox_constraint* inside_of(const vox_grid* grid, vox_body a, uint32_t vertex, vox_body b) {
+    const vox_constraint_view view = constraints_of(grid);
     for (uint64_t i = 0; i < view.count; ++i) {
-        const vox_penetration* p = penetration_at(view, i);
-        if (p->body_a == a && p->vertex == vertex && p->body_b == b) return p;
+        const vox_constraint* c = &view.data[i];
+        if (c->kind == VOX_CONSTRAINT_INSIDE && c->body_a == a && c->vertices[0] == vertex && c->body_b == b)
+            return c;
     }
     return NULL;
 }
 
-static inline uint64_t count_state(const vox_grid* grid, vox_body a, vox_penetration_state state) {
-    const vox_penetration_view view = penetrations_of(grid);
+static inline uint64_t count_state(const vox_grid* grid, vox_body a, vox_depth_state state) {
+    const vox_constraint_view view = constraints_of(grid);
     uint64_t count = 0;
     for (uint64_t i = 0; i < view.count; ++i)
-        count += penetration_at(view, i)->body_a == a && penetration_at(view, i)->state == state;
+        count += view.data[i].body_a == a && view.data[i].state == state;
     return count;
 }
 
-static inline vox_depth_view depths_of(const vox_grid* grid) {
-    vox_depth_view view = {NULL, 0, 0, 0};
-    ck_ok(vox_grid_depths(grid, &view));
-    ck_assert_uint_ge(view.byte_stride, sizeof(vox_depth));
-    return view;
+static inline uint32_t is_sensor(const vox_grid* grid, vox_body id) {
+    vox_filter filter = plain_filter();
+    ck_ok(get_filter(grid, id, &filter));
+    return filter.flags & VOX_FILTER_SENSOR;
 }
 
-/* Depth and direction in double are what the floats are rounded from. */
-static inline void check_rounded(const vox_depth* exact, float depth, const float direction[3]) {
-    ck_assert(depth == (float)exact->depth);
-    for (int axis = 0; axis < 3; ++axis) ck_assert(direction[axis] == (float)exact->direction[axis]);
-}
-
-/* Checks what holds in every scene: one penetration for each (body_a, vertex, body_b) of the contacts, in
- * their order, with finite numbers and a unit direction. */
-static inline void check_penetrations(const vox_grid* grid) {
-    const vox_penetration_view view = penetrations_of(grid);
-    const vox_depth_view depths = depths_of(grid);
-    ck_assert_uint_eq(depths.count, view.count);
-    ck_assert_uint_eq(depths.epoch, view.epoch);
-    for (uint64_t i = 0; i < view.count; ++i) {
-        const vox_depth* exact =
-            (const vox_depth*)(const void*)((const char*)depths.data + i * depths.byte_stride);
-        const vox_penetration* p = penetration_at(view, i);
-        check_rounded(exact, p->depth, p->direction);
-        const vector d = {exact->direction[0], exact->direction[1], exact->direction[2]};
-        ck_assert_msg(fabs(norm(d) - 1) < 1e-14, "vertex %u: a direction of length 1 + %g", p->vertex,
-                      norm(d) - 1);
-    }
-    vox_contact_view contacts = contacts_of(grid);
-    ck_assert_uint_eq(view.epoch, contacts.epoch);
-    uint64_t next = 0;
-    for (uint64_t i = 0; i < contacts.count; ++i) {
-        const vox_contact* c =
-            (const vox_contact*)(const void*)((const char*)contacts.data + i * contacts.byte_stride);
-        if (next > 0) {
-            const vox_penetration* last = penetration_at(view, next - 1);
-            if (last->body_a == c->body_a && last->vertex == c->vertex && last->body_b == c->body_b) continue;
+/* All constraints of a step of all pairs; and one INSIDE constraint for each vertex that has contacts with a
+ * body, sensors aside, with the tetrahedron of the first of these. */
+static inline vox_constraint_view check_depths(const vox_grid* grid) {
+    const vox_constraint_view view = checked_constraints(grid);
+    const vox_contact_view contacts = contacts_of(grid);
+    const vox_pair_view pairs = pairs_of(grid);
+    uint64_t count = 0;
+    for (uint64_t p = 0; p < pairs.count; ++p) {
+        const vox_pair* pair = &pairs.data[p];
+        const vox_contact* last = NULL;
+        uint64_t next = view.pair_offsets[p];
+        if (pair->contact_count == 0) continue; /* its bodies may be gone */
+        if (is_sensor(grid, pair->body_a) || is_sensor(grid, pair->body_b)) continue;
+        for (uint64_t i = 0; i < pair->contact_count; ++i) {
+            const vox_contact* contact = &contacts.data[pairs.contacts[pair->first_contact + i]];
+            const int is_first = !last || last->body_a != contact->body_a || last->vertex != contact->vertex;
+            last = contact;
+            if (!is_first) continue;
+            ck_assert_uint_lt(next, view.pair_offsets[p + 1]);
+            const vox_constraint* c = &view.data[next++];
+            ck_assert_int_eq(c->kind, VOX_CONSTRAINT_INSIDE);
+            ck_assert_uint_eq(c->body_a, contact->body_a);
+            ck_assert_uint_eq(c->vertices[0], contact->vertex);
+            ck_assert_uint_eq(c->body_b, contact->body_b);
+            ck_assert_uint_eq(c->element_b, contact->tet);
+            ck_assert_int_ne(c->state, VOX_DEPTH_PLANE);
+            if (c->state == VOX_DEPTH_SURFACE || c->state == VOX_DEPTH_PROPAGATED) ck_assert(c->gap < 0);
+            ++count;
         }
-        ck_assert_uint_lt(next, view.count);
-        const vox_penetration* p = penetration_at(view, next++);
-        ck_assert_uint_eq(p->body_a, c->body_a);
-        ck_assert_uint_eq(p->vertex, c->vertex);
-        ck_assert_uint_eq(p->body_b, c->body_b);
-        ck_assert_uint_eq(p->contact, i);
-        ck_assert_int_ge(p->state, VOX_PENETRATION_SURFACE);
-        ck_assert_int_le(p->state, VOX_PENETRATION_COINCIDENT);
-        ck_assert_msg(p->depth >= 0 && isfinite(p->depth), "vertex %u: depth %g", p->vertex,
-                      (double)p->depth);
-        ck_assert_msg(fabs(norm(direction_of(p)) - 1) < 1e-6, "vertex %u: a direction of length %g",
-                      p->vertex, norm(direction_of(p)));
-        if (p->state == VOX_PENETRATION_COINCIDENT) ck_assert(p->depth == 0);
-        if (p->state == VOX_PENETRATION_SURFACE || p->state == VOX_PENETRATION_PROPAGATED)
-            ck_assert(p->depth > 0);
     }
-    ck_assert_uint_eq(next, view.count);
-    ck_assert_uint_eq(counters_of(grid).penetrations, view.count);
+    ck_assert_uint_eq(count_constraints(grid, VOX_CONSTRAINT_INSIDE), count);
+    return view;
 }
 
 /* ---- surfaces ---- */
 
+typedef struct facet {
+    uint32_t v[3]; /* ascending */
+    uint32_t opposite;
+    uint32_t part; /* of the mesh, to which its tetrahedron belongs */
+} facet;
+
 typedef struct surface {
-    uint32_t (*triangles)[3];
+    double* positions; /* of the mesh */
+    facet* facets;
     uint32_t count;
 } surface;
 
-static inline int compare_facets(const void* x, const void* y) { return memcmp(x, y, 3 * sizeof(uint32_t)); }
+static inline int compare_facets(const void* x, const void* y) {
+    const uint32_t *p = (const uint32_t*)x, *q = (const uint32_t*)y; /* corners, then what is opposite */
+    for (int i = 0; i < 4; ++i)
+        if (p[i] != q[i]) return p[i] < q[i] ? -1 : 1;
+    return 0;
+}
 
-/* The facets of exactly one tetrahedron. */
-static inline surface surface_of(const uint32_t* tets, uint64_t tet_count) {
-    surface made = {(uint32_t(*)[3])malloc(tet_count * 12 * sizeof(uint32_t) + 1), 0};
+/* The facets of exactly one tetrahedron, doubled ones counted once. Part t / tets_a_part has tetrahedron t.
+ */
+static inline surface surface_of_parts(const body* b, uint32_t tets_a_part) {
+    facet* all = (facet*)malloc(sizeof(facet) * (4 * (size_t)b->tet_count + 1));
     uint32_t n = 0;
-    for (uint64_t t = 0; t < tet_count; ++t)
-        for (uint32_t left_out = 0; left_out < 4; ++left_out) {
-            uint32_t* facet = made.triangles[n++];
-            for (uint32_t i = 0, k = 0; i < 4; ++i) {
-                if (i == left_out) continue;
-                uint32_t j = k++;
-                for (; j > 0 && facet[j - 1] > tets[4 * t + i]; --j) facet[j] = facet[j - 1];
-                facet[j] = tets[4 * t + i];
+    for (uint32_t t = 0; t < b->tet_count; ++t) {
+        const uint32_t* v = b->tets + 4 * t;
+        int twice = 0;
+        for (int i = 0; i < 4; ++i)
+            for (int j = 0; j < i; ++j) twice |= v[i] == v[j];
+        for (int i = 0; i < 4 && !twice; ++i) {
+            facet* f = &all[n++];
+            for (int j = 0, k = 0; j < 4; ++j) {
+                if (j == i) continue;
+                int at = k++;
+                for (; at > 0 && f->v[at - 1] > v[j]; --at) f->v[at] = f->v[at - 1];
+                f->v[at] = v[j];
             }
+            f->opposite = v[i];
+            f->part = t / tets_a_part;
         }
-    qsort(made.triangles, n, sizeof *made.triangles, compare_facets);
-    for (uint32_t i = 0, end; i < n; i = end) {
-        for (end = i + 1; end < n && compare_facets(made.triangles[i], made.triangles[end]) == 0;) ++end;
-        if (end == i + 1) memmove(made.triangles[made.count++], made.triangles[i], sizeof *made.triangles);
+    }
+    qsort(all, n, sizeof *all, compare_facets);
+    surface made = {(double*)malloc((3 * (size_t)b->vertex_count + 1) * sizeof(double)), all, 0};
+    for (size_t i = 0; i < 3 * (size_t)b->vertex_count; ++i) made.positions[i] = (double)b->positions[i];
+    for (uint32_t first = 0, last; first < n; first = last) {
+        int sides = 1;
+        for (last = first + 1; last < n && memcmp(all[last].v, all[first].v, sizeof all->v) == 0; ++last)
+            sides += all[last].opposite != all[last - 1].opposite;
+        if (sides == 1) all[made.count++] = all[first];
     }
     return made;
 }
+
+static inline surface surface_of(const body* b) { return surface_of_parts(b, b->tet_count + 1); }
+
+static inline void free_surface(surface* s) {
+    free(s->positions);
+    free(s->facets);
+}
+
+static inline vector corner(const surface* s, uint32_t v) { return vector_of(s->positions + 3 * (size_t)v); }
 
 static inline vector closest_on_segment(vector p, vector a, vector b) {
     const vector ab = minus(b, a);
@@ -159,11 +175,14 @@ static inline vector closest_on_segment(vector p, vector a, vector b) {
 
 static inline vector closest_on_facet(vector p, vector a, vector b, vector c) {
     const vector n = outer(minus(b, a), minus(c, a));
-    const vector foot = plus_times(p, -inner(minus(p, a), n) / (inner(n, n) > 0 ? inner(n, n) : 1), n);
-    if (inner(n, n) > 0 && inner(outer(minus(b, a), minus(foot, a)), n) >= 0 &&
-        inner(outer(minus(c, b), minus(foot, b)), n) >= 0 &&
-        inner(outer(minus(a, c), minus(foot, c)), n) >= 0)
-        return foot;
+    const double area = inner(n, n);
+    if (area > 0) {
+        const vector foot = plus_times(p, -inner(minus(p, a), n) / area, n);
+        if (inner(outer(minus(b, a), minus(foot, a)), n) >= 0 &&
+            inner(outer(minus(c, b), minus(foot, b)), n) >= 0 &&
+            inner(outer(minus(a, c), minus(foot, c)), n) >= 0)
+            return foot;
+    }
     const vector on[3] = {closest_on_segment(p, a, b), closest_on_segment(p, b, c),
                           closest_on_segment(p, c, a)};
     int best = 0;
@@ -172,29 +191,40 @@ static inline vector closest_on_facet(vector p, vector a, vector b, vector c) {
     return on[best];
 }
 
-/* The way from p to the closest point of a surface. */
-static inline vector way_to(surface s, const float* positions, vector p) {
-    vector best = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
-    for (uint32_t t = 0; t < s.count; ++t) {
-        const uint32_t* v = s.triangles[t];
-        const vector way = minus(
-            closest_on_facet(p, place(positions, v[0]), place(positions, v[1]), place(positions, v[2])), p);
-        if (norm(way) < norm(best)) best = way;
+static const uint32_t all_parts = UINT32_MAX;
+
+/* The facet closest to p, of one part or of all; of those exactly as close, as computed here, the first. Null
+ * where there is none. */
+static inline const facet* closest_facet(const surface* s, vector p, uint32_t part, vector* way) {
+    const facet* best = NULL;
+    for (uint32_t i = 0; i < s->count; ++i) {
+        const facet* f = &s->facets[i];
+        if (part != all_parts && f->part != part) continue;
+        const vector found =
+            minus(closest_on_facet(p, corner(s, f->v[0]), corner(s, f->v[1]), corner(s, f->v[2])), p);
+        if (best && inner(found, found) >= inner(*way, *way)) continue;
+        best = f;
+        *way = found;
     }
     return best;
 }
 
-/* Checks a penetration that takes the closest point of the surface. */
-static inline void check_closest(const vox_penetration* p, vector vertex, surface s, const float* positions,
-                                 double unit) {
-    const vector way = way_to(s, positions, vertex);
-    ck_assert_msg(fabs(norm(way) - (double)p->depth) < 1e-6 * unit,
-                  "vertex %u: depth %g, the surface is %g away", p->vertex, (double)p->depth, norm(way));
+/* The way from p to the closest point of a surface. */
+static inline vector way_to(const surface* s, vector p) {
+    vector way = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
+    (void)closest_facet(s, p, all_parts, &way);
+    return way;
+}
+
+/* Checks a constraint that takes the closest point of the surface. */
+static inline void check_closest(const vox_constraint* c, const surface* s) {
+    const vector at = vector_of(c->position), way = way_to(s, at);
+    ck_assert_msg(fabs(norm(way) - depth_of(c)) < 1e-14, "vertex %u: depth %.17g, the surface is %.17g away",
+                  c->vertices[0], depth_of(c), norm(way));
     /* Where several points are as close, any of them. */
-    const vector end = plus_times(vertex, (double)p->depth, direction_of(p));
-    ck_assert_msg(norm(way_to(s, positions, end)) < 1e-6 * unit,
-                  "vertex %u: the direction misses the surface by %g", p->vertex,
-                  norm(way_to(s, positions, end)));
+    const double missed = norm(way_to(s, plus_times(at, depth_of(c), normal_of(c))));
+    ck_assert_msg(missed < 1e-14, "vertex %u: the direction misses the surface by %g", c->vertices[0],
+                  missed);
 }
 
 #endif

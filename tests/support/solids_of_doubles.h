@@ -7,8 +7,8 @@
 
 #include "scenes/bodies.h"
 #include "scenes/random.h"
+#include "support/constraint_checks.h"
 #include "support/oracle.h"
-#include "support/suite.h"
 
 static uint64_t state = 1;
 
@@ -89,26 +89,40 @@ static inline vox_body insert_self(vox_grid* grid, const solid* s) {
     return insert_mesh(grid, &desc);
 }
 
-/* The grid's contacts are those of the solids, which were inserted in this order. */
+/* The grid's contacts are those of the solids, which were inserted in this order, and so are the weights of
+ * each vertex in the first tetrahedron that it is in. */
 static inline size_t check_contacts(vox_grid* grid, const solid* solids, uint32_t count, const vox_body* ids,
                                     int self) {
     oracle_mesh_d meshes[4];
     oracle_contact* expected = NULL;
+    uint64_t vertices = 0;
     for (uint32_t m = 0; m < count; ++m)
         meshes[m] = (oracle_mesh_d){solids[m].positions, solids[m].tets, solids[m].vertex_count,
                                     solids[m].tet_count, self};
     const size_t expected_count = oracle_contacts_d(meshes, count, &expected);
     const vox_contact_view view = contacts_of(grid);
     ck_assert_uint_eq(view.count, expected_count);
+    find_weights(grid);
     for (size_t i = 0; i < expected_count; ++i) {
-        ck_assert_uint_eq(view.data[i].body_a, ids[expected[i].body_a]);
-        ck_assert_uint_eq(view.data[i].vertex, expected[i].vertex);
-        ck_assert_uint_eq(view.data[i].body_b, ids[expected[i].body_b]);
-        ck_assert_uint_eq(view.data[i].tet, expected[i].tet);
-        for (int c = 0; c < 4; ++c)
-            ck_assert_double_le(fabs((double)view.data[i].barycentric[c] - expected[i].barycentric[c]),
-                                0x1p-20);
+        const oracle_contact* e = &expected[i];
+        ck_assert_uint_eq(view.data[i].body_a, ids[e->body_a]);
+        ck_assert_uint_eq(view.data[i].vertex, e->vertex);
+        ck_assert_uint_eq(view.data[i].body_b, ids[e->body_b]);
+        ck_assert_uint_eq(view.data[i].tet, e->tet);
+        ck_assert_uint_eq(view.interiors[i], e->interior);
+        if (i > 0 && e->body_a == e[-1].body_a && e->vertex == e[-1].vertex && e->body_b == e[-1].body_b)
+            continue;
+        const vox_constraint* c = find_constraint(grid, ids[e->body_a], e->vertex, ids[e->body_b]);
+        ck_assert_ptr_nonnull(c);
+        ck_assert_int_eq(c->kind, VOX_CONSTRAINT_INSIDE);
+        ck_assert_uint_eq(c->element_b, e->tet);
+        for (uint32_t k = 0; k < 4; ++k) {
+            ck_assert_uint_eq(c->vertices[1 + k], solids[e->body_b].tets[4 * e->tet + k]);
+            ck_assert_double_le(fabs(-c->weights[1 + k] - e->barycentric[k]), 0x1p-41);
+        }
+        ++vertices;
     }
+    ck_assert_uint_eq(constraints_of(grid).count, vertices);
     free(expected);
     return expected_count;
 }

@@ -89,9 +89,30 @@ static inline vox_result bind_previous_array(vox_grid* grid, vox_body mesh, cons
     return vox_mesh_bind_previous_positions(grid, mesh, &positions);
 }
 
+/* Views: a count that is not written shows. */
 static inline vox_contact_view contacts_of(const vox_grid* grid) {
-    vox_contact_view view = {NULL, 0, 99, 0, NULL}; /* a count that is not written shows */
+    vox_contact_view view = {NULL, 99, NULL};
     ck_ok(vox_grid_get_contacts(grid, &view));
+    return view;
+}
+
+static inline vox_pair_view pairs_of(const vox_grid* grid) {
+    vox_pair_view view = {NULL, 99, NULL};
+    ck_ok(vox_grid_get_pairs(grid, &view));
+    return view;
+}
+
+/* How many pairs of the last step are in that state. */
+static inline uint64_t count_pairs(const vox_grid* grid, vox_pair_state state) {
+    const vox_pair_view view = pairs_of(grid);
+    uint64_t count = 0;
+    for (uint64_t i = 0; i < view.count; ++i) count += view.data[i].state == state;
+    return count;
+}
+
+static inline vox_constraint_view constraints_of(const vox_grid* grid) {
+    vox_constraint_view view = {NULL, 99, NULL, 99};
+    ck_ok(vox_grid_get_constraints(grid, &view));
     return view;
 }
 
@@ -176,7 +197,7 @@ static inline int have_meshes(const char* path) {
     return 0;
 }
 
-/* SUITE(events) { add_case(suite, ...) ... } adds the cases of the suite, which ctest knows by this name. */
+/* SUITE(pairs) { add_case(suite, ...) ... } adds the cases of the suite, which ctest knows by this name. */
 #if defined(__cplusplus)
 #define SUITE_LINKAGE_ extern "C"
 #else

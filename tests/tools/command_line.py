@@ -13,7 +13,7 @@ TWO_TETS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1), (9, 9, 9)]
 TETS = [(1, 2, 3, 4), (2, 3, 4, 5)]
 
 SUGGEST_KEYS = ["cell_size", "cells_per_axis", "zone", "predicted_cost", "model", "rules", "stats", "curve"]
-COLLIDE_KEYS = ["contact_count", "contacts", "penetrations", "hash", "cell_size", "profile", "counters"]
+COLLIDE_KEYS = ["contact_count", "contacts", "constraints", "hash", "cell_size", "profile", "counters"]
 INFO_KEYS = ["file", "format", "vertices", "tets", "surface_triangles", "mean_edge", "mean_longest_edge",
              "mean_facet_area", "mean_volume", "inverted", "degenerate", "duplicate_vertices", "bounds", "warnings"]
 
@@ -338,22 +338,28 @@ class CommandLine(Files):
 
     # ---- collide ----
 
-    def test_collide_penetrations(self):
+    def test_collide_constraints(self):
         found = run_json("collide", self.one, self.one, "--offset", 0.1, 0.2, 0.3)
         self.assertEqual(found["contact_count"], 1)
-        contact, (p,) = found["contacts"][0], found["penetrations"]
-        self.assertEqual((p["body_a"], p["vertex"], p["body_b"], p["contact"]),
-                         (contact["body_a"], contact["vertex"], contact["body_b"], 0))
+        contact, (c,) = found["contacts"][0], found["constraints"]
+        self.assertEqual((c["body_a"], c["vertices"][0], c["body_b"], c["element_b"]),
+                         (contact["body_a"], contact["vertex"], contact["body_b"], contact["tet"]))
         # Vertex 0 of B, at (0.1, 0.2, 0.3), is in A, and its edges lead out through the slanted face.
-        self.assertEqual((p["body_a"], p["vertex"], p["state"]), (1, 0, "surface"))
-        self.assertAlmostEqual(p["depth"], 0.4 / 3 ** 0.5, 6)
-        for coordinate in p["direction"]:
+        self.assertEqual((c["kind"], c["state"], c["body_a"], c["count_a"], c["vertices"]),
+                         ("inside", "surface", 1, 1, [0, 0, 1, 2, 3]))
+        self.assertAlmostEqual(c["gap"], -0.4 / 3 ** 0.5, 6)
+        for coordinate in c["normal"]:
             self.assertAlmostEqual(coordinate, 3 ** -0.5, 6)
+        for coordinate, expected in zip(c["position"], (0.1, 0.2, 0.3)):
+            self.assertAlmostEqual(coordinate, expected, 6)
+        self.assertEqual(c["time"], 1)
         self.assertEqual(found["counters"]["penetrations"], 1)
+        self.assertEqual(found["counters"]["constraints"], 1)
         self.assertEqual(found["counters"]["leaving_edges"], 3)
         self.assertGreater(found["profile"]["depth_ns"], 0)
         text = run("collide", self.one, self.one, "--offset", 0.1, 0.2, 0.3).stdout.decode()
-        self.assertRegex(text, r"1 penetrating vertex\n.*\n  B +0  A +0.23094 +0.577350 +0.577350 +0.577350, surface")
+        self.assertRegex(text, r"1 constraint: 1 inside\n.*\n  inside +B 0  A 0 1 2 3; -0.23094, 0.577350 0.577350 0.577350, "
+                         r"surface\n")
 
     def test_collide_threads(self):
         serial, *others = [run_json("collide", self.two, self.one, "--offset", 0.1, 0.2, 0.3, "--threads", threads)
@@ -371,7 +377,7 @@ class CommandLine(Files):
         self.assertEqual(found["contact_count"], 1)
         contact = found["contacts"][0]
         self.assertEqual([contact[k] for k in ("body_a", "vertex", "body_b", "tet")], [1, 0, 0, 0])
-        for weight, expected in zip(contact["barycentric"], (0.4, 0.1, 0.2, 0.3)):
+        for weight, expected in zip(found["constraints"][0]["weights"], (1, -0.4, -0.1, -0.2, -0.3)):
             self.assertAlmostEqual(weight, expected, 6)
         self.assertRegex(found["hash"], r"\A[0-9a-f]{16}\Z")
         self.assertEqual([m["file"] for m in found["meshes"]], [self.two, self.one])
@@ -383,8 +389,8 @@ class CommandLine(Files):
     def test_scale_comes_before_offset(self):
         # B's far corner (1, 0, 0) goes to 0.5 * 1 + 0.1; the other order would take it to 0.55.
         found = run_json("collide", self.one, self.one, "--scale", 0.5, "--offset", 0.1, 0.2, 0.1)
-        weights = {c["vertex"]: c["barycentric"] for c in found["contacts"] if c["body_a"] == 1}
-        self.assertAlmostEqual(weights[1][1], 0.6, 6)
+        positions = {c["vertices"][0]: c["position"] for c in found["constraints"] if c["body_a"] == 1}
+        self.assertAlmostEqual(positions[1][0], 0.6, 6)
 
     def test_double_keeps_what_a_float_rounds_away(self):
         # A's corner (1, 0, 0) is a hair outside B, moved by less than floats near 1 are apart.
@@ -421,7 +427,7 @@ class CommandLine(Files):
         for double in [], ["--double"]:
             placed = ["collide", self.two, self.one, "--offset", 0.1, 0.2, 0.3, *double]
             once, often = run_json(*placed), run_json(*placed, "--repeat", 20)
-            for key in "contacts", "penetrations", "hash", "meshes":
+            for key in "contacts", "constraints", "hash", "meshes":
                 self.assertEqual(once[key], often[key])
         self.assertIn("in which all vertices move", run(*placed, "--repeat", 3).stdout.decode())
         # A hair inside, the corner of B leaves A and comes back as it moves.
@@ -438,7 +444,7 @@ class CommandLine(Files):
         self.assertEqual(done.returncode, 0)
         self.assertEqual(done.stderr, b"")
         self.assertRegex(text, r"\n10 contacts\n")
-        self.assertEqual(len(re.findall(r"^  [AB] +\d+   [AB] +\d+ ", text, re.M)), 2)
+        self.assertEqual(len(re.findall(r"^  [AB] +\d+   [AB] +\d+$", text, re.M)), 2)
         self.assertIn("and 8 more", text)
 
     # ---- tetrahedralize ----

@@ -26,9 +26,9 @@ class Contacts(unittest.TestCase):
         self.assertEqual(len(found["contacts"]), count)
         order = [(c["body_a"], c["vertex"], c["body_b"], c["tet"]) for c in found["contacts"]]
         self.assertEqual(order, sorted(set(order)))
-        for contact in found["contacts"]:
-            self.assertAlmostEqual(sum(contact["barycentric"]), 1, 5)
-            self.assertTrue(all(0 <= weight <= 1 for weight in contact["barycentric"]))
+        for c in found["constraints"]:
+            self.assertAlmostEqual(sum(c["weights"]), 0, 12)
+            self.assertTrue(all(-1 <= weight <= 0 for weight in c["weights"][c["count_a"]:]))
         mean_edge = run_json("info", arguments[0])["meshes"][0]["mean_edge"]
         for settings in SETTINGS:
             for factor in edges:

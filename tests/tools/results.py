@@ -10,7 +10,8 @@ import zlib
 from command_line import TETS, TWO_TETS, msh
 from vox import Files, run, run_json
 
-STATES = ["surface", "propagated", "enclosed", "crossing", "coincident", "unknown"]
+KINDS = ["inside", "edge", "proximity", "impact"]
+STATES = ["surface", "propagated", "closest", "ambiguous", "touching", "unknown", "plane"]
 
 
 class Results(Files):
@@ -28,7 +29,7 @@ class Results(Files):
                 for section in root.find("UnstructuredGrid/Piece") for array in section}
 
     def check_drawing(self, path, found):
-        """The file has the contacts and penetrations that the JSON has."""
+        """The file has the contacts and constraints that the JSON has."""
         arrays = self.arrays(path)
         mesh, vertex = arrays["PointData", "mesh"], arrays["PointData", "vertex"]
         at = {(int(m), int(v)): i for i, (m, v) in enumerate(zip(mesh, vertex))}
@@ -40,14 +41,16 @@ class Results(Files):
             cells[cell_at[contact["body_b"], contact["tet"]]] += 1
         self.assertEqual(arrays["PointData", "contacts"], points)
         self.assertEqual(arrays["CellData", "contacts"], cells)
-        depth, state, direction = [0] * len(mesh), [-1] * len(mesh), [0] * 3 * len(mesh)
-        for p in found["penetrations"]:
-            i = at[p["body_a"], p["vertex"]]
-            if state[i] < 0 or p["depth"] > depth[i]:
-                depth[i], state[i] = p["depth"], STATES.index(p["state"])
-                direction[3 * i:3 * i + 3] = p["direction"]
+        kind, state, gap, normal = [-1] * len(mesh), [-1] * len(mesh), [0] * len(mesh), [0] * 3 * len(mesh)
+        for c in found["constraints"]:
+            for v in c["vertices"][:c["count_a"]]:
+                i = at[c["body_a"], v]
+                if state[i] < 0 or c["gap"] < gap[i]:
+                    kind[i], state[i], gap[i] = KINDS.index(c["kind"]), STATES.index(c["state"]), c["gap"]
+                    normal[3 * i:3 * i + 3] = c["normal"]
+        self.assertEqual(arrays["PointData", "kind"], kind)
         self.assertEqual(arrays["PointData", "state"], state)
-        for name, expected in ("depth", depth), ("direction", direction):
+        for name, expected in ("gap", gap), ("normal", normal):
             for x, y in zip(arrays["PointData", name], expected):
                 self.assertAlmostEqual(x, y, 6)
         return arrays
@@ -62,7 +65,7 @@ class Results(Files):
         for x, y in zip(arrays["Points", "Points"][3 * corner:3 * corner + 3], (0.1, 0.2, 0.3)):
             self.assertAlmostEqual(x, y, 6)
         self.check_drawing(out, run_json(*self.placed, "--repeat", 5, "--double", "-o", out))
-        self.check_drawing(out, run_json("collide", self.two, self.two, "--self", "-o", out))
+        self.check_drawing(out, run_json("collide", self.two, self.two, "--self", "--edges", "-o", out))
         written = run_json("info", out)["meshes"][0]
         self.assertEqual((written["vertices"], written["tets"]), (10, 4))
 
@@ -85,56 +88,54 @@ class Results(Files):
         run_json(*self.placed, "-o", out)
         with open(out, encoding="ascii") as file:
             text = file.read()
-        self.assertEqual((text.count("$NodeData"), text.count("$ElementData")), (6, 3))
+        self.assertEqual((text.count("$NodeData"), text.count("$ElementData")), (7, 3))
         self.assertEqual(run_json("info", out)["meshes"][0]["tets"], 3)
 
     def test_table(self):
         out = self.path("out.csv")
-        # Where the two tetrahedra overlap, a vertex has two contacts and one penetration.
+        # Where the two tetrahedra overlap, a vertex has two contacts and one constraint.
         folded = self.write("folded.msh", msh(TWO_TETS[:4] + [(0.1, 0.1, 0.1)], TETS))
-        found = run_json("collide", self.two, folded, "--offset", -0.2, -0.21, -0.22, "--self", "--csv", out)
-        self.assertGreater(found["contact_count"], len(found["penetrations"]))
-        self.assertGreater(len({p["depth"] for p in found["penetrations"]}), 1)
+        found = run_json("collide", self.two, folded, "--offset", -0.2, -0.21, -0.22, "--self", "--margin", 1, "--csv", out)
+        self.assertGreater(found["contact_count"], len([c for c in found["constraints"] if c["kind"] == "inside"]))
+        self.assertEqual({c["kind"] for c in found["constraints"]}, {"inside", "proximity"})
         with open(out, encoding="ascii", newline="") as file:
             rows = list(csv.DictReader(file))
-        self.assertEqual(len(rows), found["contact_count"])
-        depths = {(p["body_a"], p["vertex"], p["body_b"]): p for p in found["penetrations"]}
-        for row, contact in zip(rows, found["contacts"]):
-            for key in "body_a", "vertex", "body_b", "tet":
-                self.assertEqual(int(row[key]), contact[key])
-            for i in range(4):
-                self.assertAlmostEqual(float(row[f"weight_{i}"]), contact["barycentric"][i], 8)
-            p = depths[contact["body_a"], contact["vertex"], contact["body_b"]]
-            self.assertAlmostEqual(float(row["depth"]), p["depth"], 6)
-            self.assertEqual(row["state"], p["state"])
+        self.assertEqual(len(rows), len(found["constraints"]))
+        for row, c in zip(rows, found["constraints"]):
+            self.assertEqual([row["kind"], row["state"]], [c["kind"], c["state"]])
+            self.assertEqual([int(row[key]) for key in ("body_a", "body_b")], [c["body_a"], c["body_b"]])
+            for name, key in ("vertex", "vertices"), ("weight", "weights"):
+                self.assertEqual([float(row[f"{name}_{i}"]) for i in range(len(c[key]))], c[key])
+                self.assertEqual([row[f"{name}_{i}"] for i in range(len(c[key]), 5)], [""] * (5 - len(c[key])))
+            self.assertEqual([float(row[key]) for key in ("gap", "time")], [c["gap"], c["time"]])
+            for key in "normal", "position":
+                self.assertEqual([float(row[f"{key}_{axis}"]) for axis in "xyz"], c[key])
 
     def test_no_depth(self):
-        table, drawing = self.path("out.csv"), self.path("out.vtu")
-        found = run_json(*self.placed, "--no-depth", "--csv", table, "-o", drawing)
-        self.assertIsNone(found["penetrations"])
+        snapshot, drawing = self.path("bare.vox"), self.path("out.vtu")
+        found, deep = run_json(*self.placed, "--no-depth", "--save", snapshot), run_json(*self.placed)
         self.assertEqual(found["profile"]["depth_ns"], 0)
-        self.assertEqual(found["contacts"], run_json(*self.placed)["contacts"])
-        with open(table, encoding="ascii") as file:
-            self.assertEqual(file.readline(), "body_a,vertex,body_b,tet,weight_0,weight_1,weight_2,weight_3\n")
-        self.assertNotIn(("PointData", "depth"), self.arrays(drawing))
-        self.assertNotIn("penetrating", run(*self.placed, "--no-depth").stdout.decode())
+        self.assertEqual(found["contacts"], deep["contacts"])
+        (c,), (with_depth,) = found["constraints"], deep["constraints"]
+        self.assertEqual(c, {**with_depth, "state": "unknown", "gap": 0, "normal": [0, 0, 0]})
+        self.assertNotEqual(with_depth["gap"], 0)
+        run_json("replay", snapshot, "-o", drawing)  # which finds them in any case
+        self.check_drawing(drawing, deep)
 
     def test_margin(self):
         out = self.path("out.vtu")
         above = ["collide", self.one, self.one, "--offset", 0, 0, 1.125]
         found = run_json(*above, "--margin", 0.25, "-o", out)
         self.assertEqual(found["contacts"], [])
-        self.assertEqual([(c["body_a"], c["vertex"], c["body_b"], c["distance"], c["normal"])
-                          for c in found["margin_contacts"]],
-                         [(0, 3, 1, 0.125, [0, 0, -1]), (1, 0, 0, 0.125, [0, 0, 1])])
+        self.assertEqual([(c["kind"], c["body_a"], c["vertices"][0], c["body_b"], c["gap"], c["normal"])
+                          for c in found["constraints"]],
+                         [("proximity", 0, 3, 1, 0.125, [0, 0, -1]), ("proximity", 1, 0, 0, 0.125, [0, 0, 1])])
         self.assertEqual(found["counters"]["margin_contacts"], 2)
-        arrays = self.arrays(out)
-        self.assertEqual(arrays["PointData", "margin_distance"], [-1, -1, -1, 0.125, 0.125, -1, -1, -1])
-        self.assertEqual(arrays["PointData", "margin_normal"][9:15], [0, 0, -1, 0, 0, 1])
-        self.assertIn("2 vertices within the margin", run(*above, "--margin", 0.25).stdout.decode())
-        without = run_json(*above, "-o", out)
-        self.assertNotIn("margin_contacts", without)
-        self.assertNotIn(("PointData", "margin_distance"), self.arrays(out))
+        arrays = self.check_drawing(out, found)
+        self.assertEqual(arrays["PointData", "gap"], [0, 0, 0, 0.125, 0.125, 0, 0, 0])
+        self.assertEqual(arrays["PointData", "normal"][9:15], [0, 0, -1, 0, 0, 1])
+        self.assertIn("2 constraints: 2 proximity", run(*above, "--margin", 0.25).stdout.decode())
+        self.assertEqual(run_json(*above)["constraints"], [])
         self.assertEqual(run(*above, "--margin", -1).returncode, 2)
 
     def test_moving(self):
@@ -145,15 +146,16 @@ class Results(Files):
         falling = ["collide", now, self.one, "--offset", -0.25, -0.25, 0]
         found = run_json(*falling, "--moving", before, "-o", out)
         self.assertEqual(found["contacts"], [])
-        self.assertEqual([(p["body_a"], p["vertex"], p["body_b"], p["face"]) for p in found["passages"]],
-                         [(0, 0, 1, [1, 2, 3]), (0, 3, 1, [1, 2, 3])])
-        for passage, time in zip(found["passages"], (2.5 / 6, 3.5 / 6)):
-            self.assertLessEqual(passage["time"], time)
-            self.assertAlmostEqual(passage["time"], time, 12)
-        self.assertEqual([time >= 0 for time in self.arrays(out)["PointData", "passage_time"]],
-                         [True, False, False, True] + 4 * [False])
-        self.assertIn("2 vertices met a surface", run(*falling, "--moving", before).stdout.decode())
-        self.assertNotIn("passages", run_json(*falling))
+        self.assertEqual([(c["kind"], c["body_a"], c["vertices"], c["body_b"]) for c in found["constraints"]],
+                         [("impact", 0, [0, 1, 2, 3], 1), ("impact", 0, [3, 1, 2, 3], 1)])
+        for impact, time in zip(found["constraints"], (2.5 / 6, 3.5 / 6)):
+            self.assertLessEqual(impact["time"], time)
+            self.assertAlmostEqual(impact["time"], time, 12)
+            self.assertLess(impact["gap"], 0)
+        self.check_drawing(out, found)
+        self.assertRegex(run(*falling, "--moving", before).stdout.decode(),
+                         "2 constraints: 2 impact\n(.*\n){2}.* plane, at 0.583333333 of the way\n")
+        self.assertEqual(run_json(*falling)["constraints"], [])
         done = run(*falling, "--moving", self.two)
         self.assertEqual((done.returncode, done.stdout), (1, b""))
         self.assertIn("two.msh has 5 vertices, but " + now + " has 4", done.stderr.decode())

@@ -90,7 +90,7 @@ START_TEST(first_frame_by_hand) {
     std::vector<char> held(2 * tets());
     double count = 0;
     for (std::uint64_t i = 0; i < view.count; ++i) {
-        const vox_contact contact = tool::contact_at(view, i);
+        const vox_contact& contact = view.data[i];
         char& mark = held[contact.tet + (contact.body_b == view.data->body_b ? 0 : tets())];
         count += mark == 0;
         mark = 1;

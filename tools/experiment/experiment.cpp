@@ -45,7 +45,6 @@ Experiment::Experiment(const ExperimentSettings& settings, ExperimentBody a, Exp
     : bodies_{std::move(a), std::move(b)} {
     place_and_record(settings);
     vox_grid_desc desc = settings.grid;
-    desc.flags &= ~static_cast<std::uint32_t>(VOX_GRID_PENETRATIONS); // only detection is measured
     one_thread_ = desc.worker_count <= 1;
     grid_ = make_grid(desc, mesh_descs(frames_.front()), meshes_);
 }
@@ -120,7 +119,7 @@ std::vector<Experiment::Frame> Experiment::record(const ExperimentSettings& sett
                                       views[i].grid_positions + 3 * views[i].vertex_count);
         check(vox_sim_step(sim.get(), settings.time_step));
         frame.hash = hash_of(grid);
-        frame.contacts = contacts_of(grid).count;
+        frame.contacts = contacts_of(grid).size();
         frame.share = share_in_contact(grid, tets());
     }
     return frames;

@@ -61,13 +61,9 @@ vox_mesh_desc mesh_of(const std::vector<float>& positions, const std::vector<std
 // ---- shares -----------------------------------------------------------------------------------------
 
 double share_in_contact(const vox_grid* grid, std::uint64_t tet_count) {
-    const vox_contact_view view = contacts_of(grid);
     std::vector<std::uint64_t> held;
-    held.reserve(static_cast<std::size_t>(view.count));
-    for (std::uint64_t i = 0; i < view.count; ++i) {
-        const vox_contact contact = contact_at(view, i);
+    for (const vox_contact& contact : contacts_of(grid))
         held.push_back(std::uint64_t{contact.body_b} << 32 | contact.tet);
-    }
     std::sort(held.begin(), held.end());
     const auto end = std::unique(held.begin(), held.end());
     return static_cast<double>(end - held.begin()) / static_cast<double>(tet_count);

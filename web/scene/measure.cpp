@@ -14,7 +14,6 @@ vox_grid* grid_with(playground& play, std::uint32_t engine) {
     const vox_reference_desc reference = vox_default_reference_desc();
     vox_grid_desc desc = vox_default_grid_desc();
     if (engine == VOX_COST_MODEL_REFERENCE) desc.reference = &reference;
-    desc.flags = 0;
     vox_grid* made = nullptr;
     check(vox_grid_create(&desc, &made));
     Grid owned(made);

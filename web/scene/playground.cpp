@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 namespace play {
@@ -212,30 +213,20 @@ void pull(playground& play) {
     play.was_touched();
 }
 
-// Calls visit(record) for each record of a view of the library's.
-template <class View, class Visit>
-void for_each(const View& view, const Visit& visit) {
-    const auto* bytes = reinterpret_cast<const unsigned char*>(view.data);
-    for (std::uint64_t i = 0; i < view.count; ++i)
-        visit(*reinterpret_cast<decltype(view.data)>(bytes + i * view.byte_stride));
-}
-
-// The penetrations of the last detection; none before the first.
-vox_penetration_view penetrations_of(const playground& play) {
-    vox_penetration_view view{};
-    if (vox_grid_penetrations(play.grid, &view) != VOX_OK) view.count = 0;
-    return view;
+// The constraints of the last detection: vertices in other bodies; none before the first.
+std::span<const vox_constraint> constraints_of(const playground& play) {
+    vox_constraint_view view{};
+    if (vox_grid_get_constraints(play.grid, &view) != VOX_OK) return {};
+    return list(view.data, view.count);
 }
 
 void list_touches(playground& play) {
-    play.touches.clear();
-    vox_touch_view view;
-    check(vox_grid_touch_events(play.grid, &view));
-    for_each(view, [&play](const vox_touch_event& event) {
-        if (event.kind == VOX_TOUCH_PERSISTED) return;
-        play.touches.insert(play.touches.end(),
-                            {event.body_a, event.body_b, event.kind == VOX_TOUCH_BEGAN ? 1u : 0u});
-    });
+    vox_pair_view view;
+    check(vox_grid_get_pairs(play.grid, &view));
+    for (const vox_pair& pair : list(view.data, view.count))
+        if (pair.state == VOX_PAIR_BEGAN || pair.state == VOX_PAIR_ENDED)
+            play.touches.insert(play.touches.end(),
+                                {pair.body_a, pair.body_b, pair.state == VOX_PAIR_BEGAN ? 1u : 0u});
 }
 
 // Inserts the meshes of a grid; the first is the fixed ring if it has its tetrahedra, else a ring comes
@@ -250,7 +241,8 @@ void read_bodies(playground& play, const vox_grid* loaded, const Body& ring) {
         info.struct_size = sizeof info;
         check(vox_body_get_info(loaded, mesh, &info));
         if (info.tet_count == 0 || !info.positions.data) continue;
-        if (info.has_transform)
+        constexpr double none[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+        if (!std::equal(none, none + 12, info.transform))
             fail(VOX_ERROR_UNSUPPORTED,
                  "the snapshot has a mesh with a transform, which this page does not show");
         std::vector<std::uint32_t> corners(4 * static_cast<std::size_t>(info.tet_count)), tets;
@@ -534,13 +526,13 @@ const play_body* play_get_body(const playground* play, uint32_t index) {
 
 const float* play_penetrations(playground* play, uint32_t* out_count) {
     play->arrows.clear();
-    for_each(penetrations_of(*play), [play](const vox_penetration& p) {
-        const auto body = find_body(*play, p.body_a);
-        if (body == play->bodies.end()) return; // removed since the step
-        for (std::size_t c = 0; c < 3; ++c)
-            play->arrows.push_back(body->view.grid_positions[3 * p.vertex + c]);
-        for (const float d : p.direction) play->arrows.push_back(p.depth * d);
-    });
+    for (const vox_constraint& c : constraints_of(*play)) {
+        const auto body = find_body(*play, c.body_a);
+        if (body == play->bodies.end()) continue; // removed since the step
+        const float* vertex = body->view.grid_positions + 3 * std::size_t{c.vertices[0]};
+        play->arrows.insert(play->arrows.end(), vertex, vertex + 3);
+        for (const double n : c.normal) play->arrows.push_back(static_cast<float>(-c.gap * n));
+    }
     *out_count = static_cast<std::uint32_t>(play->arrows.size() / 6);
     return play->arrows.data();
 }
@@ -553,19 +545,21 @@ const uint32_t* play_touches(playground* play, uint32_t* out_count) {
 const play_facts* play_get_facts(playground* play) {
     play_facts& facts = play->facts;
     vox_contact_view contacts{};
-    vox_sim_counts counts{};
-    counts.struct_size = sizeof counts;
+    vox_counter_view counters{};
     if (vox_grid_get_contacts(play->grid, &contacts) == VOX_OK &&
-        vox_sim_get_counters(play->sim.get(), &counts) == VOX_OK) {
-        facts.tets = static_cast<double>(counts.tets);
+        vox_sim_get_counters(play->sim.get(), &counters) == VOX_OK) {
+        const auto counter = [&](std::string_view name) {
+            const auto at = std::find_if(counters.data, counters.data + counters.count,
+                                         [&](const vox_counter& c) { return c.name == name; });
+            return static_cast<double>(at->value); // a simulation always has the same ones
+        };
+        facts.tets = counter("tets");
         facts.contacts = static_cast<double>(contacts.count);
-        facts.step_ns = static_cast<double>(counts.step_ns);
-        facts.detect_ns = static_cast<double>(counts.detect_ns);
+        facts.step_ns = counter("step_ns");
+        facts.detect_ns = counter("detect_ns");
     }
     facts.deepest = 0;
-    for_each(penetrations_of(*play), [&facts](const vox_penetration& p) {
-        facts.deepest = std::max(facts.deepest, static_cast<double>(p.depth));
-    });
+    for (const vox_constraint& c : constraints_of(*play)) facts.deepest = std::max(facts.deepest, -c.gap);
     vox_grid_info info{};
     info.struct_size = sizeof info;
     if (vox_grid_get_info(play->grid, &info) == VOX_OK) facts.cell_size = info.cell_size;

@@ -68,12 +68,12 @@ typedef struct play_body {
     uint32_t triangle_count;
     uint32_t serial;
     uint32_t kind;
-    uint32_t mesh; /* its id in the grid, as events name it */
+    uint32_t mesh; /* its id in the grid, as pairs name it */
 } play_body;
 uint32_t play_body_count(const playground* play);
 const play_body* play_get_body(const playground* play, uint32_t index);
 
-/* Six floats for each penetration: the vertex, and the way out as a vector. */
+/* Six floats for each vertex in a body: the vertex, and the way out as a vector. */
 const float* play_penetrations(playground* play, uint32_t* out_count);
 
 /* Pairs that began or ended to touch in the last step: mesh, mesh, and 1 if they touch now. */

@@ -34,8 +34,8 @@ namespace Voxtet
             var desc = new GridDesc
             {
                 struct_size = (uint)sizeof(GridDesc), flags = options.Flags, worker_count = options.Workers,
-                cell_size = options.CellSize, byte_budget = options.ByteBudget, closest_budget = options.ClosestBudget,
-                log = &log, reference = options.Reference == null ? null : &reference
+                cell_size = options.CellSize, margin = options.Margin, byte_budget = options.ByteBudget, log = &log,
+                reference = options.Reference == null ? null : &reference
             };
             IntPtr grid;
             Result result = bytes == IntPtr.Zero ? Native.vox_grid_create(&desc, &grid)
@@ -114,6 +114,7 @@ namespace Voxtet
                 ++version;
                 ++layout;
                 VoxException.Check(Native.vox_grid_clear(use.Pointer));
+                handle.FreePrevious();
             }
         }
 
@@ -133,6 +134,21 @@ namespace Voxtet
         {
             get { return Info.cell_size; }
             set { using (var use = handle.Change()) VoxException.Check(Native.vox_grid_set_cell_size(use.Pointer, value)); }
+        }
+
+        /// <summary>Vertices outside another mesh, but no further from it than this, have constraints of
+        /// ConstraintKind.Proximity from the next step on; 0: none. Experimental.</summary>
+        public double Margin
+        {
+            get { return Info.margin; }
+            set
+            {
+                using (var use = handle.Change())
+                {
+                    ++version;
+                    VoxException.Check(Native.vox_grid_set_margin(use.Pointer, value));
+                }
+            }
         }
 
         /// <summary>As a number of workers: one per core.</summary>
@@ -230,6 +246,7 @@ namespace Voxtet
             {
                 ++layout;
                 VoxException.Check(Native.vox_body_remove(use.Pointer, mesh.Id));
+                handle.KeepPrevious(mesh.Id, IntPtr.Zero);
             }
         }
 
@@ -319,6 +336,29 @@ namespace Voxtet
 
         /// <summary>The same of a mesh that was added as doubles.</summary>
         public Positions<double> GetDoublePositions(Mesh mesh) { return Map<double>(mesh); }
+
+        void BindPrevious<T>(Mesh mesh, ReadOnlySpan<T> numbers) where T : struct
+        {
+            Positions positions = PositionsOf(numbers, "positions");
+            ReadOnlySpan<byte> bytes = MemoryMarshal.AsBytes(numbers);
+            using (var use = handle.Change())
+            {
+                positions.data = bytes.IsEmpty ? IntPtr.Zero : Marshal.AllocHGlobal(bytes.Length);
+                bytes.CopyTo(new Span<byte>((void*)positions.data, bytes.Length));
+                Result result = Native.vox_mesh_bind_previous_positions(use.Pointer, mesh.Id, &positions);
+                if (result == Result.Ok) handle.KeepPrevious(mesh.Id, positions.data);
+                else Marshal.FreeHGlobal(positions.data);
+                VoxException.Check(result);
+            }
+        }
+
+        /// <summary>The positions that the vertices of a mesh had before, copied; none: it stands still. From there they move
+        /// to their positions in the following steps, which also find impacts. Set them before each step. Experimental.
+        /// </summary>
+        public void SetPreviousPositions(Mesh mesh, ReadOnlySpan<float> positions) { BindPrevious(mesh, positions); }
+
+        /// <summary>The same of doubles.</summary>
+        public void SetPreviousPositions(Mesh mesh, ReadOnlySpan<double> positions) { BindPrevious(mesh, positions); }
 
         /// <summary>Moves a mesh as a whole by an affine map, three rows of four numbers; none: not at all.</summary>
         public void SetTransform(Mesh mesh, ReadOnlySpan<double> matrix)
@@ -488,7 +528,7 @@ namespace Voxtet
                 }
                 foreach (Grid grid in grids) ++grid.version;
                 fixed (IntPtr* p = pointers)
-                    VoxException.Check(Native.vox_grids_step(p, (ulong)pointers.Length, null, workers, null));
+                    VoxException.Check(Native.vox_grids_step(p, (ulong)pointers.Length, workers, null, null));
             }
             finally
             {
@@ -497,10 +537,10 @@ namespace Voxtet
         }
 
         // What a call that returned `result` has written. Inside its Use, where no other thread can end it yet.
-        View<T> ViewOf<T>(Result result, void* data, UIntPtr byteStride, ulong count) where T : struct
+        View<T> ViewOf<T>(Result result, void* data, ulong count) where T : struct
         {
             VoxException.Check(result);
-            return new View<T>(this, version, data, byteStride, count);
+            return new View<T>(this, version, data, count);
         }
 
         /// <summary>The contacts of the last step, in canonical order.</summary>
@@ -510,8 +550,7 @@ namespace Voxtet
             {
                 ContactView view;
                 using (var use = handle.Read())
-                    return ViewOf<Contact>(Native.vox_grid_get_contacts(use.Pointer, &view),
-                                           view.data, view.byte_stride, view.count);
+                    return ViewOf<Contact>(Native.vox_grid_get_contacts(use.Pointer, &view), view.data, view.count);
             }
         }
 
@@ -522,46 +561,22 @@ namespace Voxtet
             {
                 ContactView view;
                 using (var use = handle.Read())
-                    return ViewOf<byte>(Native.vox_grid_get_contacts(use.Pointer, &view), view.interiors, new UIntPtr(1), view.count);
+                    return ViewOf<byte>(Native.vox_grid_get_contacts(use.Pointer, &view), view.interiors, view.count);
             }
         }
 
-        /// <summary>How deep each vertex is in another mesh, and which way leads out.</summary>
-        public View<Penetration> Penetrations
-        {
-            get
-            {
-                PenetrationView view;
-                using (var use = handle.Read())
-                    return ViewOf<Penetration>(Native.vox_grid_penetrations(use.Pointer, &view),
-                                               view.data, view.byte_stride, view.count);
-            }
-        }
-
-        /// <summary>Depths and directions of the penetrations in double.</summary>
-        public View<Depth> Depths
-        {
-            get
-            {
-                DepthView view;
-                using (var use = handle.Read())
-                    return ViewOf<Depth>(Native.vox_grid_depths(use.Pointer, &view),
-                                         view.data, view.byte_stride, view.count);
-            }
-        }
-
-        /// <summary>The pairs of meshes that touched in the last step.</summary>
+        /// <summary>The pairs of meshes that touch, are within the margin, or ended in the last step: Pair.state says which.</summary>
         public View<Pair> Pairs
         {
             get
             {
                 PairView view;
                 using (var use = handle.Read())
-                    return ViewOf<Pair>(Native.vox_grid_get_pairs(use.Pointer, &view), view.data, view.byte_stride, view.count);
+                    return ViewOf<Pair>(Native.vox_grid_get_pairs(use.Pointer, &view), view.data, view.count);
             }
         }
 
-        /// <summary>Indices of the contacts, pair by pair: those of a pair begin at Pair.first.</summary>
+        /// <summary>Indices of the contacts, pair by pair: those of a pair begin at Pair.first_contact.</summary>
         public View<uint> PairContacts
         {
             get
@@ -571,56 +586,58 @@ namespace Voxtet
                 using (var use = handle.Read())
                 {
                     VoxException.Check(Native.vox_grid_get_contacts(use.Pointer, &contacts));
-                    return ViewOf<uint>(Native.vox_grid_get_pairs(use.Pointer, &view), view.contacts, (UIntPtr)sizeof(uint),
-                                        contacts.count);
+                    return ViewOf<uint>(Native.vox_grid_get_pairs(use.Pointer, &view), view.contacts, contacts.count);
                 }
             }
         }
 
-        /// <summary>Pairs that began, persisted and ended in the last step.</summary>
-        public Events<TouchEvent> TouchEvents
+        /// <summary>Finds the constraints of the last step, or those of one mesh, or of a mesh with another, or of pairs in
+        /// which the category of a mesh has a bit of the mask. It ends the views. With GridFlags.Constraints every step does
+        /// so itself. closestBudget: most searches for a closest point; 0: no limit.</summary>
+        public void FindConstraints(DepthMethod method = DepthMethod.Consistent, Mesh a = default(Mesh),
+                                    Mesh b = default(Mesh), ulong mask = 0, ulong closestBudget = 0)
         {
-            get
+            var desc = new ConstraintDesc
             {
-                TouchView view;
-                using (var use = handle.Read())
-                    return new Events<TouchEvent>(ViewOf<TouchEvent>(Native.vox_grid_touch_events(use.Pointer, &view), view.data,
-                                                                     view.byte_stride, view.count),
-                                                  view.began, view.persisted, view.ended);
+                struct_size = (uint)sizeof(ConstraintDesc), method = method, body_a = a.Id, body_b = b.Id, mask = mask,
+                closest_budget = closestBudget
+            };
+            using (var use = handle.Change())
+            {
+                ++version;
+                VoxException.Check(Native.vox_grid_find_constraints(use.Pointer, &desc));
             }
         }
 
-        /// <summary>Vertices that entered or left a mesh in the last step (GridFlags.ContactEvents).</summary>
-        public Events<ContactEvent> ContactEvents
+        /// <summary>The constraints that were found last, pair by pair: what a solver needs. vox.h explains each field under
+        /// vox_constraint.</summary>
+        public View<Constraint> Constraints
         {
             get
             {
-                ContactEventView view;
+                ConstraintView view;
                 using (var use = handle.Read())
-                    return new Events<ContactEvent>(ViewOf<ContactEvent>(Native.vox_grid_contact_events(use.Pointer, &view),
-                                                                         view.data, view.byte_stride, view.count),
-                                                    view.began, 0, view.ended);
+                    return ViewOf<Constraint>(Native.vox_grid_get_constraints(use.Pointer, &view), view.data, view.count);
             }
         }
 
-        /// <summary>The contacts in which a mesh takes part, or those between two meshes, copied.</summary>
-        public Contact[] CopyContacts(Mesh mesh, Mesh? other = null)
+        /// <summary>The constraints of Pairs[p] are those from element p on, and before element p + 1.</summary>
+        public View<ulong> PairOffsets
         {
-            using (var use = handle.Read())
+            get
             {
-                ulong count = 0;
-                var contacts = new Contact[0];
-                for (int pass = 0; pass < 2; ++pass)
-                {
-                    if (pass == 1) contacts = new Contact[count];
-                    fixed (Contact* c = contacts)
-                        VoxException.Check(
-                            other.HasValue
-                                ? Native.vox_pair_copy_contacts(use.Pointer, mesh.Id, other.Value.Id, c, count, &count)
-                                : Native.vox_mesh_copy_contacts(use.Pointer, mesh.Id, c, count, &count));
-                }
-                return contacts;
+                ConstraintView view;
+                using (var use = handle.Read())
+                    return ViewOf<ulong>(Native.vox_grid_get_constraints(use.Pointer, &view), view.pair_offsets,
+                                         view.pair_count + 1);
             }
+        }
+
+        /// <summary>The constraints of Pairs[pair].</summary>
+        public View<Constraint> ConstraintsOf(int pair)
+        {
+            View<ulong> offsets = PairOffsets;
+            return Constraints.Slice((int)offsets[pair], (int)(offsets[pair + 1] - offsets[pair]));
         }
 
         /// <summary>A hash of the contacts: the same on every machine and in every language.</summary>
@@ -640,7 +657,7 @@ namespace Voxtet
             get { return Info.epoch; }
         }
 
-        /// <summary>The index-th mesh that made the last step fail or that it left out; its `mesh` is 0 beyond the last.
+        /// <summary>The index-th mesh that made the last step fail or that it left out; its `body` is 0 beyond the last.
         /// </summary>
         public Failure GetFailure(uint index = 0)
         {
@@ -677,68 +694,6 @@ namespace Voxtet
                         counters.Add(VoxException.Text(view.data[i].name), view.data[i].value);
                 }
                 return counters;
-            }
-        }
-
-        // ---- readings ----
-
-        /// <summary>Computes position, closest surface and depth (or not all of them) of the contacts of the last step, or
-        /// those of one mesh, or of a mesh with another.</summary>
-        public void PrepareReadings(ReadingFlags what = 0, Mesh mesh = default(Mesh), Mesh other = default(Mesh))
-        {
-            var desc = new ReadingsDesc
-            {
-                struct_size = (uint)sizeof(ReadingsDesc), what = what, body_a = mesh.Id, body_b = other.Id
-            };
-            using (var use = handle.Change())
-            {
-                ++version;
-                VoxException.Check(Native.vox_grid_prepare_readings_of(use.Pointer, &desc));
-            }
-        }
-
-        /// <summary>The readings prepared since the last step.</summary>
-        public View<Reading> Readings
-        {
-            get
-            {
-                ReadingView view;
-                using (var use = handle.Read())
-                    return ViewOf<Reading>(Native.vox_grid_readings(use.Pointer, &view),
-                                           view.data, view.byte_stride, view.count);
-            }
-        }
-
-        /// <summary>The prepared readings of the contacts in which a mesh takes part, or of those between two meshes, copied.
-        /// </summary>
-        public Reading[] CopyReadings(Mesh mesh, Mesh? other = null)
-        {
-            using (var use = handle.Read())
-            {
-                ulong count = 0;
-                var readings = new Reading[0];
-                for (int pass = 0; pass < 2; ++pass)
-                {
-                    if (pass == 1) readings = new Reading[count];
-                    fixed (Reading* r = readings)
-                        VoxException.Check(
-                            other.HasValue
-                                ? Native.vox_pair_copy_readings(use.Pointer, mesh.Id, other.Value.Id, r, count, &count)
-                                : Native.vox_mesh_copy_readings(use.Pointer, mesh.Id, r, count, &count));
-                }
-                return readings;
-            }
-        }
-
-        /// <summary>Their depths and directions in double.</summary>
-        public View<Depth> ReadingDepths
-        {
-            get
-            {
-                DepthView view;
-                using (var use = handle.Read())
-                    return ViewOf<Depth>(Native.vox_grid_reading_depths(use.Pointer, &view),
-                                         view.data, view.byte_stride, view.count);
             }
         }
     }

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Runtime.InteropServices;
 using System.Threading;
 
@@ -74,12 +75,29 @@ namespace Voxtet
     internal sealed class GridHandle : Handle
     {
         internal Callbacks Callbacks; // for the library to call as long as the grid lives
+        readonly Dictionary<uint, IntPtr> previous = new Dictionary<uint, IntPtr>(); // positions that it borrows, by mesh
 
         internal GridHandle(IntPtr grid) : base(grid) { }
+
+        /// <summary>Owns the previous positions of a mesh in place of those before; zero: there are none any more.</summary>
+        internal void KeepPrevious(uint mesh, IntPtr positions)
+        {
+            IntPtr old;
+            if (previous.TryGetValue(mesh, out old)) Marshal.FreeHGlobal(old);
+            if (positions == IntPtr.Zero) previous.Remove(mesh);
+            else previous[mesh] = positions;
+        }
+
+        internal void FreePrevious()
+        {
+            foreach (IntPtr positions in previous.Values) Marshal.FreeHGlobal(positions);
+            previous.Clear();
+        }
 
         protected override bool ReleaseHandle()
         {
             Native.vox_grid_destroy(handle);
+            FreePrevious();
             if (Callbacks != null) Callbacks.Free();
             return true;
         }

@@ -10,28 +10,27 @@ namespace Voxtet
     public enum Result : int
     {
         Ok = 0,
-        /// <summary>a null pointer, an unknown enum, a bad number</summary>
+        /// <summary>a null pointer, an unknown enumerator, a bad number</summary>
         ErrorInvalidArgument = -1,
-        /// <summary>a mesh id that is null, stale or from another grid</summary>
+        /// <summary>an id that is null, stale or of another grid</summary>
         ErrorInvalidHandle = -2,
-        /// <summary>a tetrahedron names a vertex that does not exist</summary>
+        /// <summary>a tetrahedron or triangle names a vertex that does not exist</summary>
         ErrorInvalidMesh = -3,
-        /// <summary>the call does not fit the state, e.g. no positions bound</summary>
+        /// <summary>the call does not fit the state, e.g. a mesh has no positions yet</summary>
         ErrorInvalidState = -4,
         /// <summary>a position is NaN or infinite</summary>
         ErrorNonFinite = -5,
-        /// <summary>a documented limit would be passed</summary>
+        /// <summary>a documented limit would be exceeded</summary>
         ErrorLimit = -6,
-        /// <summary>the grid's byte budget would be passed</summary>
+        /// <summary>the byte budget would be exceeded</summary>
         ErrorBudget = -7,
         /// <summary>the allocator returned null</summary>
         ErrorOutOfMemory = -8,
-        /// <summary>recognised, but not supported by this build or version; or the processor is an x86-64 without
-        /// SSE4.2: nothing is created there, and no cell size found</summary>
+        /// <summary>not in this build or version</summary>
         ErrorUnsupported = -9,
         /// <summary>a file cannot be opened, read or written</summary>
         ErrorFile = -10,
-        /// <summary>a file is malformed</summary>
+        /// <summary>a file or a snapshot is malformed</summary>
         ErrorFormat = -11,
         /// <summary>a defect of the library: please report it</summary>
         ErrorInternal = -12,
@@ -39,26 +38,22 @@ namespace Voxtet
 
     public enum Format : int
     {
-        /// <summary>IEEE 754 singles</summary>
         Float = 0,
-        /// <summary>IEEE 754 doubles, of magnitudes below 2^128 - 2^103 (3.4028236e38), the largest float</summary>
+        /// <summary>magnitudes below 2^128 - 2^103, the largest float</summary>
         Double = 1,
     }
 
+    /// <summary>What a step does besides finding contacts and pairs.</summary>
     [Flags]
     public enum GridFlags : uint
     {
-        /// <summary>run the depth stage in a step (vox_grid_penetrations); on by default.</summary>
-        Penetrations = 1,
-        /// <summary>also report events of single vertices (vox_grid_contact_events)</summary>
-        ContactEvents = 2,
-        /// <summary>a mesh with a coordinate that VOX_FORMAT_DOUBLE does not allow (NaN, infinite, too large) takes no
-        /// part in a step, in vox_grid_suggest_cell_size and in locators (vox_query.h), as if it were disabled; without
-        /// this flag they fail.</summary>
+        /// <summary>also find constraints: as vox_grid_find_constraints with the defaults</summary>
+        Constraints = 1,
+        /// <summary>also find edges that pass through faces.</summary>
+        Edges = 2,
+        /// <summary>leave out a body with a bad coordinate (NaN, infinite, too large) instead of failing
+        /// (vox_grid_get_failure)</summary>
         SkipBadBodies = 4,
-        /// <summary>also find edges of surfaces through faces of others (vox_grid_edge_contacts);
-        /// experimental.</summary>
-        EdgeContacts = 8,
     }
 
     [Flags]
@@ -66,7 +61,7 @@ namespace Voxtet
     {
         /// <summary>the mesh also collides with itself</summary>
         SelfCollision = 1,
-        /// <summary>the mesh has contacts, but no penetrations; takes less memory</summary>
+        /// <summary>the body has contacts and pairs, but no constraints; takes less memory</summary>
         Sensor = 2,
     }
 
@@ -79,64 +74,66 @@ namespace Voxtet
         BorrowTets = 2,
     }
 
-    /// <summary>How a penetration's depth and direction were found.</summary>
-    public enum PenetrationState : int
+    /// <summary>What changed since the last successful step.</summary>
+    public enum PairState : int
     {
-        /// <summary>edges lead from p out of body_b; mean over the points where they cross the surface</summary>
-        Surface = 0,
-        /// <summary>all neighbours of p collide; mean over those closer to the surface</summary>
-        Propagated = 1,
-        /// <summary>closest: no edge leads out from p or from a colliding vertex connected with it, or p has no edges,
-        /// as in meshes without tetrahedra</summary>
-        Enclosed = 2,
-        /// <summary>the means are unusable, as the normals nearly cancel (edges leave on opposite sides), the depth
-        /// would not be positive, or an edge that leads out crosses no surface (inverted tetrahedra, non-manifold
-        /// facets); or this is the case for all vertices that p is connected with.</summary>
-        Crossing = 3,
-        /// <summary>p lies on the surface; depth is 0, direction the surface's normal at p</summary>
-        Coincident = 4,
-        /// <summary>the step's closest_budget was used up (see vox_grid_desc): depth is 0, direction the normal of a
-        /// facet of the contact's tetrahedron</summary>
-        Unknown = 5,
-    }
-
-    /// <summary>How an edge meets a face.</summary>
-    public enum CrossingKind : int
-    {
-        /// <summary>it passes through the interior of the face, with an end on either side</summary>
-        Through = 0,
-        /// <summary>an end is on the face, or it passes through an edge or a corner of the face</summary>
-        Touching = 1,
-        /// <summary>it lies in the plane of the face and meets it, or one of them is degenerate and they meet</summary>
-        Coplanar = 2,
-    }
-
-    /// <summary>What an event reports: how the last successful step differs from the successful step before
-    /// it.</summary>
-    public enum Touch : int
-    {
-        /// <summary>touches now, and did not before</summary>
+        /// <summary>does not touch, but is within the margin</summary>
+        Near = 0,
+        /// <summary>touches now and did not before</summary>
         Began = 1,
-        /// <summary>touches now, and did before</summary>
+        /// <summary>touches now and did before</summary>
         Persisted = 2,
-        /// <summary>no longer touches, for whatever reason</summary>
+        /// <summary>touched before and does not now</summary>
         Ended = 3,
     }
 
-    /// <summary>Which parts of a vox_reading are wanted, or present; all fields of the other parts are zero.</summary>
-    [Flags]
-    public enum ReadingFlags : uint
+    /// <summary>Why there is a constraint.</summary>
+    public enum ConstraintKind : int
     {
-        /// <summary>missing if the vertex or its mesh was removed after the step</summary>
-        Position = 1,
-        /// <summary>missing where POSITION is or would be, if body_b was removed or has no surface, or if all of its
-        /// tetrahedra that contained the vertex were removed or disabled</summary>
-        Surface = 2,
-        /// <summary>missing on grids without VOX_GRID_PENETRATIONS, and where one of the meshes is a sensor</summary>
-        Depth = 4,
+        /// <summary>a vertex of body_a is inside body_b</summary>
+        Inside = 0,
+        /// <summary>an edge of body_a meets a face of body_b (VOX_GRID_EDGES)</summary>
+        Edge = 1,
+        /// <summary>a vertex of body_a is outside body_b and within the margin (vox_grid_set_margin)</summary>
+        Proximity = 2,
+        /// <summary>a vertex of body_a is not inside body_b, but went in within the step and is behind the face that it
+        /// met first (vox_mesh_bind_previous_positions)</summary>
+        Impact = 3,
     }
 
-    /// <summary>Severity of a log line.</summary>
+    /// <summary>How gap and normal were found, and thus how far to trust them (docs/depth.md).</summary>
+    public enum DepthState : int
+    {
+        /// <summary>a mean over the edges that lead from the vertex out of body_b</summary>
+        Surface = 0,
+        /// <summary>a mean over neighbouring vertices that are closer to the surface</summary>
+        Propagated = 1,
+        /// <summary>the closest point of the surface, which may jump from step to step</summary>
+        Closest = 2,
+        /// <summary>the bodies pass through each other: the nearest way out, which may be the wrong side</summary>
+        Ambiguous = 3,
+        /// <summary>the bodies only touch here: gap 0</summary>
+        Touching = 4,
+        /// <summary>closest_budget was used up: gap 0; or no depth was asked for: gap and normal 0</summary>
+        Unknown = 5,
+        /// <summary>the plane of the face: for IMPACT, and for EDGE of a mesh with itself</summary>
+        Plane = 6,
+    }
+
+    /// <summary>How the depth of a vertex inside a mesh is found.</summary>
+    public enum DepthMethod : int
+    {
+        /// <summary>smooth along the surface; neighbouring vertices leave on the same side: for response (Heidelberger
+        /// et al. 2004)</summary>
+        Consistent = 0,
+        /// <summary>to the closest point of the surface, with the vertices of its face in place of those of the
+        /// tetrahedron: for finite elements, pictures, reports</summary>
+        Closest = 1,
+        /// <summary>none: vertices, weights and position alone.</summary>
+        None = 2,
+    }
+
+    /// <summary>How serious a line of the log is.</summary>
     public enum LogLevel : int
     {
         Info = 0,
@@ -311,18 +308,25 @@ namespace Voxtet
     public enum Feature : int
     {
         Vertex = 0,
-        /// <summary>of 2 vertices</summary>
         Edge = 1,
-        /// <summary>a triangle, of 3 vertices</summary>
         Face = 2,
     }
 
     [Flags]
     public enum MotionFlags : uint
     {
-        /// <summary>Leave out pairs that are proven to stay further apart than twice the radius, that is, whose
-        /// features thickened by the radius never touch.</summary>
+        /// <summary>leave out pairs of boxes whose features provably stay further apart than twice the radius</summary>
         Cull = 1,
+    }
+
+    public enum CrossingKind : int
+    {
+        /// <summary>the edge passes through the interior of the face</summary>
+        Through = 0,
+        /// <summary>an end of the edge is on the face, or it passes through a side or a corner of it</summary>
+        Touching = 1,
+        /// <summary>it lies in the plane of the face and meets it, or one of them is degenerate</summary>
+        Coplanar = 2,
     }
 
     public enum IoFormat : int
@@ -380,10 +384,23 @@ namespace Voxtet
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct Double12
+    public unsafe struct Uint5
     {
-        public double e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11;
-        public const int Length = 12;
+        public uint e0, e1, e2, e3, e4;
+        public const int Length = 5;
+        public uint this[int i]
+        {
+            get { Check(i); fixed (uint* p = &e0) return p[i]; }
+            set { Check(i); fixed (uint* p = &e0) p[i] = value; }
+        }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Double5
+    {
+        public double e0, e1, e2, e3, e4;
+        public const int Length = 5;
         public double this[int i]
         {
             get { Check(i); fixed (double* p = &e0) return p[i]; }
@@ -406,66 +423,14 @@ namespace Voxtet
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct Float4
+    public unsafe struct Double12
     {
-        public float x, y, z, w;
-        public const int Length = 4;
-        public float this[int i]
-        {
-            get { Check(i); fixed (float* p = &x) return p[i]; }
-            set { Check(i); fixed (float* p = &x) p[i] = value; }
-        }
-        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct Float3
-    {
-        public float x, y, z;
-        public const int Length = 3;
-        public float this[int i]
-        {
-            get { Check(i); fixed (float* p = &x) return p[i]; }
-            set { Check(i); fixed (float* p = &x) p[i] = value; }
-        }
-        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct Uint2
-    {
-        public uint x, y;
-        public const int Length = 2;
-        public uint this[int i]
-        {
-            get { Check(i); fixed (uint* p = &x) return p[i]; }
-            set { Check(i); fixed (uint* p = &x) p[i] = value; }
-        }
-        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct Uint3
-    {
-        public uint x, y, z;
-        public const int Length = 3;
-        public uint this[int i]
-        {
-            get { Check(i); fixed (uint* p = &x) return p[i]; }
-            set { Check(i); fixed (uint* p = &x) p[i] = value; }
-        }
-        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct Double2
-    {
-        public double x, y;
-        public const int Length = 2;
+        public double e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11;
+        public const int Length = 12;
         public double this[int i]
         {
-            get { Check(i); fixed (double* p = &x) return p[i]; }
-            set { Check(i); fixed (double* p = &x) p[i] = value; }
+            get { Check(i); fixed (double* p = &e0) return p[i]; }
+            set { Check(i); fixed (double* p = &e0) p[i] = value; }
         }
         static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
@@ -479,6 +444,19 @@ namespace Voxtet
         {
             get { Check(i); fixed (double* p = &x) return p[i]; }
             set { Check(i); fixed (double* p = &x) p[i] = value; }
+        }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Uint3
+    {
+        public uint x, y, z;
+        public const int Length = 3;
+        public uint this[int i]
+        {
+            get { Check(i); fixed (uint* p = &x) return p[i]; }
+            set { Check(i); fixed (uint* p = &x) p[i] = value; }
         }
         static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
@@ -598,6 +576,19 @@ namespace Voxtet
         static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
 
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Double2
+    {
+        public double x, y;
+        public const int Length = 2;
+        public double this[int i]
+        {
+            get { Check(i); fixed (double* p = &x) return p[i]; }
+            set { Check(i); fixed (double* p = &x) p[i] = value; }
+        }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
+    }
+
     /// <summary>An array of positions.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct Positions
@@ -614,68 +605,35 @@ namespace Voxtet
         public ulong component_byte_stride;
     }
 
-    /// <summary>Settings of a grid.</summary>
+    /// <summary>Settings of a grid; all 0 by default.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct GridDesc
     {
         public uint struct_size;
         /// <summary>vox_grid_flags, combined with |</summary>
         public GridFlags flags;
-        /// <summary>Threads that share a step, the calling one being one of them: up to VOX_MAX_WORKERS, or
-        /// VOX_ALL_CORES; 0: one.</summary>
+        /// <summary>threads that share a step: up to VOX_MAX_WORKERS, or VOX_ALL_CORES; 0: one</summary>
         public uint worker_count;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>Edge length of a cell; 0: the library chooses it.</summary>
+        /// <summary>edge length of a cell; 0: the library chooses it in every step.</summary>
         public double cell_size;
-        /// <summary>see vox_grid_set_margin.</summary>
+        /// <summary>see vox_grid_set_margin</summary>
         public double margin;
-        /// <summary>most bytes the grid may hold; a call that would exceed it fails with VOX_ERROR_BUDGET. 0: 4 GiB;
-        /// UINT64_MAX: no limit</summary>
+        /// <summary>most bytes the grid may hold; 0: 4 GiB; UINT64_MAX: no limit</summary>
         public ulong byte_budget;
-        /// <summary>Most searches for a closest point that the depth stage makes in one step: for penetrations that
-        /// would be ENCLOSED, or CROSSING with nothing but a closest point to go by.</summary>
-        public ulong closest_budget;
         /// <summary>null: the C++ runtime's heap</summary>
         public Allocator* allocator;
         /// <summary>null: no log</summary>
         public Log* log;
         /// <summary>null: the built-in scheduler</summary>
         public TaskSystem* tasks;
-        /// <summary>null: the fast engine; else the paper's</summary>
+        /// <summary>null: the fast engine; else the paper's engine, which is slower and finds the same
+        /// (vox_cell_size.h)</summary>
         public ReferenceDesc* reference;
     }
 
-    /// <summary>A grid as it is now, and what its last successful step did.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 88)]
-    public struct GridInfo
-    {
-        public uint struct_size;
-        /// <summary>vox_grid_flags, combined with |</summary>
-        public GridFlags flags;
-        /// <summary>Number of steps, clears, reserves and changes of flags or margin so far, failed steps
-        /// included.</summary>
-        public ulong epoch;
-        /// <summary>The cell size that was set, or else the last one that was chosen; 0 before the first
-        /// step.</summary>
-        public double cell_size;
-        public double margin;
-        /// <summary>held now, without the caller's arrays</summary>
-        public ulong bytes;
-        public ulong peak_bytes;
-        /// <summary>nanoseconds</summary>
-        public ulong step_ns;
-        /// <summary>bodies that were not at rest (see vox_grid_step)</summary>
-        public ulong moved_bodies;
-        /// <summary>bodies that were left out (VOX_GRID_SKIP_BAD_BODIES)</summary>
-        public ulong skipped_bodies;
-        /// <summary>pairs that began, in all steps so far</summary>
-        public ulong total_began;
-        /// <summary>pairs that ended, in all steps so far</summary>
-        public ulong total_ended;
-    }
-
-    /// <summary>What a mesh collides with.</summary>
+    /// <summary>What a body collides with.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 40)]
     public struct Filter
     {
@@ -687,16 +645,14 @@ namespace Voxtet
         /// <summary>0: all bits</summary>
         public ulong mask;
         public uint world;
-        /// <summary>Self-contact skips tetrahedra that have a corner within this many edges of the vertex, along the
-        /// edges of the mesh's tetrahedra; at most VOX_MAX_RINGS. 0 skips only tetrahedra that have the vertex as a
-        /// corner.</summary>
+        /// <summary>Self-contact ignores tetrahedra that have a corner within this many edges of the vertex; at most
+        /// VOX_MAX_RINGS.</summary>
         public uint self_rings;
-        /// <summary>Self-contact skips tetrahedra that are closer to the vertex than this in the rest pose (distance to
-        /// the closed tetrahedron, computed in double).</summary>
+        /// <summary>Self-contact ignores tetrahedra that are closer to the vertex than this in the rest pose.</summary>
         public double self_rest_distance;
     }
 
-    /// <summary>A body: vertices, and tetrahedra over them.</summary>
+    /// <summary>A mesh: vertices, and tetrahedra between them.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct MeshDesc
     {
@@ -705,43 +661,208 @@ namespace Voxtet
         public MeshFlags flags;
         /// <summary>positions.count is the number of vertices.</summary>
         public Positions positions;
-        /// <summary>tet_count * 4 vertex indices, copied unless VOX_MESH_BORROW_TETS is set.</summary>
+        /// <summary>4 * tet_count vertex indices, in either winding.</summary>
         public uint* tets;
         public ulong tet_count;
-        /// <summary>any number of the caller's, returned by vox_body_get_user_data</summary>
+        /// <summary>any number; results repeat it</summary>
         public ulong user_data;
         public Filter filter;
-        /// <summary>of all vertices, copied; none: see vox_filter.self_rest_distance</summary>
+        /// <summary>copied; see vox_filter.self_rest_distance</summary>
         public Positions rest_positions;
     }
 
-    /// <summary>A mesh as it is now, e.g. after vox_grid_load.</summary>
+    /// <summary>Vertex `vertex` of body_a lies in the closed tetrahedron `tet` of body_b and is not one of its
+    /// corners.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 16)]
+    public struct Contact
+    {
+        public uint body_a;
+        public uint vertex;
+        public uint body_b;
+        public uint tet;
+    }
+
+    /// <summary>Contacts, sorted by (body_a, vertex, body_b, tet).</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct ContactView
+    {
+        public Contact* data;
+        public ulong count;
+        /// <summary>one for each contact: 1 if the vertex is in the interior, 0 if on the boundary</summary>
+        public byte* interiors;
+    }
+
+    /// <summary>Two bodies that touch, or touched in the step before.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 48)]
+    public struct Pair
+    {
+        public uint body_a;
+        public uint body_b;
+        public ulong user_data_a;
+        public ulong user_data_b;
+        public PairState state;
+        public uint reserved;
+        /// <summary>see vox_pair_view.contacts</summary>
+        public ulong first_contact;
+        /// <summary>0 if the two touch in another way, or no longer</summary>
+        public ulong contact_count;
+    }
+
+    /// <summary>Pairs, sorted by (body_a, body_b).</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct PairView
+    {
+        public Pair* data;
+        public ulong count;
+        /// <summary>indices of contacts.</summary>
+        public uint* contacts;
+    }
+
+    /// <summary>A point of body_a and a point of body_b that must not pass through each other.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 192)]
+    public struct Constraint
+    {
+        public uint body_a;
+        public uint body_b;
+        public ConstraintKind kind;
+        public DepthState state;
+        /// <summary>how many vertices of body_a</summary>
+        public uint count_a;
+        /// <summary>how many vertices in all</summary>
+        public uint count;
+        /// <summary>those beyond `count` are 0, and so are their weights</summary>
+        public Uint5 vertices;
+        /// <summary>tetrahedron of body_b: the lowest that contains the vertex, or the one behind the face</summary>
+        public uint element_b;
+        public Double5 weights;
+        /// <summary>a unit vector out of body_b, the way for body_a</summary>
+        public Double3 normal;
+        public double gap;
+        public double offset;
+        /// <summary>of the point of body_a</summary>
+        public Double3 position;
+        /// <summary>when within the step, from 0 to 1, a vertex met the surface; 1 if that is not known</summary>
+        public double time;
+        public ulong user_data_a;
+        public ulong user_data_b;
+        /// <summary>index of its pair in vox_grid_get_pairs</summary>
+        public uint pair;
+        /// <summary>index of the same constraint in the list of the step before, for a warm start; VOX_NONE if it is
+        /// new.</summary>
+        public uint previous;
+        /// <summary>0</summary>
+        public ulong reserved;
+    }
+
+    /// <summary>Which constraints to find.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 32)]
+    public struct ConstraintDesc
+    {
+        public uint struct_size;
+        public DepthMethod method;
+        /// <summary>only pairs of this body; VOX_NULL_BODY: all pairs</summary>
+        public uint body_a;
+        /// <summary>only its pair with body_a; VOX_NULL_BODY: all pairs of body_a</summary>
+        public uint body_b;
+        /// <summary>only pairs in which the category of a body has a bit in common with it; 0: all pairs</summary>
+        public ulong mask;
+        /// <summary>most searches for a closest point; constraints that get none are UNKNOWN, and the log has a
+        /// warning. 0: no limit</summary>
+        public ulong closest_budget;
+    }
+
+    /// <summary>Constraints, sorted by pair, then by kind, body_a and vertices, those of a face in ascending
+    /// order.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct ConstraintView
+    {
+        public Constraint* data;
+        public ulong count;
+        /// <summary>pair_count + 1</summary>
+        public ulong* pair_offsets;
+        /// <summary>as in vox_pair_view.count</summary>
+        public ulong pair_count;
+    }
+
+    /// <summary>A body as it is now.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct BodyInfo
     {
         public uint struct_size;
-        /// <summary>from 0</summary>
-        public uint slot;
-        /// <summary>as given at insertion</summary>
-        public ulong user_data;
-        /// <summary>with those that are disabled or removed: indices of tetrahedra are below it</summary>
-        public ulong tet_count;
-        public ulong enabled_tet_count;
-        /// <summary>1, or 0 (see vox_body_set_enabled)</summary>
-        public uint enabled;
-        /// <summary>vox_mesh_flags: COPY_POSITIONS if the positions are the mesh's own (copied, mapped or loaded),
-        /// BORROW_TETS while the tetrahedra are the caller's</summary>
-        public MeshFlags flags;
-        /// <summary>1 if vox_body_set_transform gave it one</summary>
-        public uint has_transform;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>The positions, without the transform; removed vertices are among them.</summary>
+        public ulong user_data;
+        /// <summary>1 or 0</summary>
+        public uint enabled;
+        /// <summary>vox_mesh_flags: COPY_POSITIONS if the grid owns the positions, BORROW_TETS while the caller owns
+        /// the tetrahedra</summary>
+        public MeshFlags flags;
+        /// <summary>with disabled and removed ones: indices are below it</summary>
+        public ulong tet_count;
+        public ulong enabled_tet_count;
+        /// <summary>of a mesh, without its transform; valid as long as they stay bound or mapped</summary>
         public Positions positions;
-        /// <summary>as vox_body_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0</summary>
-        public Double12 transform;
-        /// <summary>in use: neither category nor mask is 0</summary>
         public Filter filter;
+        public Double12 transform;
+    }
+
+    /// <summary>A grid as it is now, and what its last successful step did.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 88)]
+    public struct GridInfo
+    {
+        public uint struct_size;
+        /// <summary>vox_grid_flags</summary>
+        public GridFlags flags;
+        /// <summary>counts up when an epoch ends (see Ownership above)</summary>
+        public ulong epoch;
+        /// <summary>the one that was set, or else the one used last; 0 before the first step</summary>
+        public double cell_size;
+        public double margin;
+        /// <summary>held now, without the caller's arrays</summary>
+        public ulong bytes;
+        public ulong peak_bytes;
+        /// <summary>nanoseconds</summary>
+        public ulong step_ns;
+        /// <summary>bodies that were not at rest</summary>
+        public ulong moved_bodies;
+        /// <summary>bodies that were left out (VOX_GRID_SKIP_BAD_BODIES)</summary>
+        public ulong skipped_bodies;
+        /// <summary>pairs that began, in all steps so far</summary>
+        public ulong total_began;
+        /// <summary>pairs that ended, in all steps so far</summary>
+        public ulong total_ended;
+    }
+
+    /// <summary>A count, or a time in nanoseconds, with its name.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct Counter
+    {
+        /// <summary>static text, e.g. "candidates" or "lookup_ns"</summary>
+        public IntPtr name;
+        public ulong value;
+    }
+
+    /// <summary>Counters.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct CounterView
+    {
+        public Counter* data;
+        public ulong count;
+    }
+
+    /// <summary>A body that made a step fail, or that a step left out.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 48)]
+    public struct Failure
+    {
+        public uint struct_size;
+        /// <summary>VOX_OK: there is no such body</summary>
+        public Result result;
+        public uint body;
+        /// <summary>the first vertex with a bad coordinate; VOX_NONE if the failure is not about a vertex</summary>
+        public uint vertex;
+        public ulong user_data;
+        /// <summary>of that vertex, transformed</summary>
+        public Double3 position;
     }
 
     /// <summary>Vertices to append.</summary>
@@ -752,350 +873,12 @@ namespace Voxtet
         /// <summary>0</summary>
         public uint reserved;
         public ulong count;
-        /// <summary>For a mesh that borrows its positions: an array of all positions, first those of the vertices it
-        /// has, then those of the new ones.</summary>
+        /// <summary>In the mesh's format.</summary>
         public Positions positions;
-        /// <summary>Null, or `count` indices of earlier vertices of the mesh: the vertex that each new one is a copy
-        /// of.</summary>
+        /// <summary>`count` indices: the vertex whose position and rest position each one gets</summary>
         public uint* copies_of;
-        /// <summary>For meshes with a rest pose (vox_filter.self_rest_distance): `count` positions in it,
-        /// copied.</summary>
+        /// <summary>of the new vertices, if the mesh has a rest pose.</summary>
         public Positions rest_positions;
-    }
-
-    /// <summary>A mesh that made a step fail, or that a step left out.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 56)]
-    public struct Failure
-    {
-        public uint struct_size;
-        /// <summary>NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE does not allow), INVALID_STATE (no
-        /// positions), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT); VOX_OK if there is none</summary>
-        public Result result;
-        /// <summary>VOX_NULL_BODY if there is none</summary>
-        public uint mesh;
-        /// <summary>of the mesh, from 0</summary>
-        public uint slot;
-        /// <summary>of the mesh, as given at insertion</summary>
-        public ulong user_data;
-        /// <summary>the first with such a coordinate; VOX_NO_VERTEX if the failure is about none</summary>
-        public uint vertex;
-        public uint reserved;
-        /// <summary>of that vertex, as it would collide: in double and transformed; else 0</summary>
-        public Double3 position;
-    }
-
-    /// <summary>Vertex `vertex` of body_a is in the closed tetrahedron `tet` of body_b and is not a corner of
-    /// it.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 32)]
-    public struct Contact
-    {
-        public uint body_a;
-        public uint vertex;
-        public uint body_b;
-        public uint tet;
-        public Float4 barycentric;
-    }
-
-    /// <summary>`count` contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b, tet).</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct ContactView
-    {
-        public Contact* data;
-        public UIntPtr byte_stride;
-        public ulong count;
-        public ulong epoch;
-        /// <summary>One for each contact: 1 if the vertex is in the interior of the tetrahedron, 0 if it is on its
-        /// boundary; exact.</summary>
-        public byte* interiors;
-    }
-
-    /// <summary>Vertex `vertex` of body_a is inside body_b (a = b: self-contact) and has to leave it: moving the vertex
-    /// by depth * direction leads to the surface of body_b, exactly if the state says closest, and otherwise as well as
-    /// edges and neighbours can estimate it.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 40)]
-    public struct Penetration
-    {
-        public uint body_a;
-        public uint vertex;
-        public uint body_b;
-        public PenetrationState state;
-        /// <summary>index in vox_grid_get_contacts of the first contact of (body_a, vertex, body_b)</summary>
-        public ulong contact;
-        /// <summary>&gt;= 0, in the caller's unit</summary>
-        public float depth;
-        /// <summary>in the frame of the positions, out of body_b</summary>
-        public Float3 direction;
-    }
-
-    /// <summary>`count` penetrations, `byte_stride` apart: one for each (body_a, vertex, body_b) that has contacts, in
-    /// that order, unless one of them is a sensor (VOX_FILTER_SENSOR).</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct PenetrationView
-    {
-        public Penetration* data;
-        public UIntPtr byte_stride;
-        public ulong count;
-        public ulong epoch;
-    }
-
-    /// <summary>Depth and direction of a vox_penetration as computed, in double; rounded to floats they are those of
-    /// the vox_penetration.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 32)]
-    public struct Depth
-    {
-        public double depth;
-        public Double3 direction;
-    }
-
-    /// <summary>`count` depths, `byte_stride` apart.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct DepthView
-    {
-        public Depth* data;
-        public UIntPtr byte_stride;
-        public ulong count;
-        public ulong epoch;
-    }
-
-    /// <summary>An edge of the surface of body_a and a face of the surface of body_b that have a point in common (a =
-    /// b: self-contact; then they have no vertex in common).</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 128)]
-    public struct EdgeContact
-    {
-        public uint body_a;
-        /// <summary>vertices of body_a, the lower first</summary>
-        public Uint2 edge;
-        public uint body_b;
-        /// <summary>vertices of body_b, the lowest first, counter-clockwise as seen from the side that the normal
-        /// points to</summary>
-        public Uint3 face;
-        /// <summary>of body_b, behind the face; of doubled ones the lowest</summary>
-        public uint tet;
-        public CrossingKind kind;
-        /// <summary>0</summary>
-        public uint reserved;
-        /// <summary>of the point, in [0, 1], with the sum 1 up to rounding</summary>
-        public Double2 edge_weights;
-        /// <summary>of the same point</summary>
-        public Double3 face_weights;
-        /// <summary>of the point, rounded</summary>
-        public Double3 position;
-        /// <summary>A unit vector out of `tet` or, if that is flat, to the side away from the lower vertex of the edge;
-        /// 0, 0, 1 if the face has no area.</summary>
-        public Double3 normal;
-    }
-
-    /// <summary>`count` edge contacts, `byte_stride` apart, sorted by body_a, edge, body_b and the three vertices of
-    /// the face in ascending order.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct EdgeContactView
-    {
-        public EdgeContact* data;
-        public UIntPtr byte_stride;
-        public ulong count;
-        public ulong epoch;
-    }
-
-    /// <summary>Vertex `vertex` of body_a is in no tetrahedron of body_b, but no further than the margin from its
-    /// surface.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 88)]
-    public struct MarginContact
-    {
-        public uint body_a;
-        public uint vertex;
-        /// <summary>never body_a</summary>
-        public uint body_b;
-        /// <summary>of body_b</summary>
-        public uint tet;
-        /// <summary>of the tetrahedron, as in vox_closest_hit</summary>
-        public uint facet;
-        /// <summary>its vertices, in the order given there</summary>
-        public Uint3 face;
-        /// <summary>of the closest point, in [0, 1], with the sum 1 up to rounding</summary>
-        public Double3 face_weights;
-        /// <summary>from the vertex to the closest point</summary>
-        public double distance;
-        /// <summary>a unit vector from the closest point to the vertex; out of the tetrahedron if there is no distance
-        /// between them</summary>
-        public Double3 normal;
-    }
-
-    /// <summary>`count` margin contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b), each of which has one
-    /// at most.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct MarginContactView
-    {
-        public MarginContact* data;
-        public UIntPtr byte_stride;
-        public ulong count;
-        public ulong epoch;
-    }
-
-    /// <summary>Vertex `vertex` of body_a met the surface of body_b while both moved from their previous positions to
-    /// the present ones (vox_mesh_bind_previous_positions; a mesh without previous positions stands still), wherever it
-    /// was before and is after: also where it went through a thin mesh and out again.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 40)]
-    public struct Passage
-    {
-        public uint body_a;
-        public uint vertex;
-        /// <summary>never body_a</summary>
-        public uint body_b;
-        /// <summary>of body_b</summary>
-        public uint tet;
-        /// <summary>of the tetrahedron, as in vox_closest_hit: the first that the vertex met; the lowest (tet, facet)
-        /// of several at the same time</summary>
-        public uint facet;
-        /// <summary>its vertices, in the order given there</summary>
-        public Uint3 face;
-        /// <summary>in [0, 1], 0 at the previous positions: when it met it; never too late, and too early by no more
-        /// than rounding errors make necessary</summary>
-        public double time;
-    }
-
-    /// <summary>`count` passages, `byte_stride` apart, sorted by (body_a, vertex, body_b), each of which has one at
-    /// most.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct PassageView
-    {
-        public Passage* data;
-        public UIntPtr byte_stride;
-        public ulong count;
-        public ulong epoch;
-    }
-
-    /// <summary>Two meshes that touch: a vertex of one of them is in a tetrahedron of the other, or they have edge
-    /// contacts (VOX_GRID_EDGE_CONTACTS). body_a &lt;= body_b; they are equal if a mesh touches itself.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 48)]
-    public struct Pair
-    {
-        public uint body_a;
-        public uint body_b;
-        /// <summary>of body_a, as given at insertion</summary>
-        public ulong user_data_a;
-        public ulong user_data_b;
-        public ulong first;
-        public ulong a_in_b;
-        public ulong b_in_a;
-    }
-
-    /// <summary>`count` pairs, `byte_stride` apart, sorted by (body_a, body_b).</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct PairView
-    {
-        public Pair* data;
-        public UIntPtr byte_stride;
-        public ulong count;
-        public ulong epoch;
-        public uint* contacts;
-    }
-
-    /// <summary>An event of a pair of meshes, body_a &lt;= body_b.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 32)]
-    public struct TouchEvent
-    {
-        public uint body_a;
-        public uint body_b;
-        public ulong user_data_a;
-        public ulong user_data_b;
-        public Touch kind;
-        /// <summary>index of the pair in vox_grid_get_pairs; VOX_NO_PAIR if it ended</summary>
-        public uint pair;
-    }
-
-    /// <summary>All pairs that began, then all that persisted, then all that ended: `count` in total, `byte_stride`
-    /// apart, each part sorted by (body_a, body_b).</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct TouchView
-    {
-        public TouchEvent* data;
-        public UIntPtr byte_stride;
-        public ulong count;
-        public ulong epoch;
-        public ulong began;
-        public ulong persisted;
-        public ulong ended;
-    }
-
-    /// <summary>Vertex `vertex` of body_a has entered body_b, or is in none of its tetrahedra any more.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 16)]
-    public struct ContactEvent
-    {
-        public uint body_a;
-        public uint vertex;
-        public uint body_b;
-        /// <summary>VOX_TOUCH_BEGAN or VOX_TOUCH_ENDED</summary>
-        public Touch kind;
-    }
-
-    /// <summary>All vertices that entered, then all that left, each part sorted by (body_a, vertex, body_b).</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct ContactEventView
-    {
-        public ContactEvent* data;
-        public UIntPtr byte_stride;
-        public ulong count;
-        public ulong epoch;
-        public ulong began;
-        public ulong ended;
-    }
-
-    /// <summary>Geometry of one contact.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 168)]
-    public struct Reading
-    {
-        /// <summary>index of the contact in vox_grid_get_contacts</summary>
-        public ulong contact;
-        /// <summary>vox_reading_flags, combined with |</summary>
-        public ReadingFlags known;
-        /// <summary>DEPTH: state, depth and direction of the vertex's vox_penetration</summary>
-        public PenetrationState state;
-        public float depth;
-        public Float3 direction;
-        /// <summary>POSITION: the vertex as it collides, in double and transformed</summary>
-        public Double3 position;
-        /// <summary>SURFACE (up to `triangle`): distance from the vertex to surface_position</summary>
-        public double distance;
-        /// <summary>the closest point of `triangle`</summary>
-        public Double3 surface_position;
-        /// <summary>its weights for the triangle's corners, in [0, 1], with the sum 1 up to rounding</summary>
-        public Double3 barycentric;
-        /// <summary>A unit vector out of the triangle's tetrahedron or, if that is flat, to the side away from the
-        /// vertex.</summary>
-        public Double3 normal;
-        /// <summary>vertices of body_b, the lowest first, counter-clockwise as seen from the side that the normal
-        /// points to</summary>
-        public Uint3 triangle;
-        public uint reserved;
-        /// <summary>of body_a, as given at insertion</summary>
-        public ulong user_data_a;
-        public ulong user_data_b;
-    }
-
-    /// <summary>`count` readings, `byte_stride` apart, one for each contact or for each that was asked for, in the
-    /// order of the contacts.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct ReadingView
-    {
-        public Reading* data;
-        public UIntPtr byte_stride;
-        public ulong count;
-        public ulong epoch;
-    }
-
-    /// <summary>What to read.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 24)]
-    public struct ReadingsDesc
-    {
-        public uint struct_size;
-        /// <summary>vox_reading_flags, combined with |; 0: all.</summary>
-        public ReadingFlags what;
-        /// <summary>VOX_NULL_BODY: all contacts; else those that vox_mesh_copy_contacts copies</summary>
-        public uint body_a;
-        /// <summary>VOX_NULL_BODY, or those that vox_pair_copy_contacts copies for body_a and it</summary>
-        public uint body_b;
-        /// <summary>Most searches for a closest point.</summary>
-        public ulong closest_budget;
     }
 
     /// <summary>An allocator.</summary>
@@ -1107,7 +890,7 @@ namespace Voxtet
         public IntPtr user;
     }
 
-    /// <summary>Receives one line of text (no newline), valid during the call only.</summary>
+    /// <summary>Receives lines of text, valid during the call, on the thread that called the library.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct Log
     {
@@ -1115,30 +898,13 @@ namespace Voxtet
         public IntPtr user;
     }
 
-    /// <summary>The caller's scheduler, designed as in Box3D.</summary>
+    /// <summary>The caller's scheduler, as in Box3D.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct TaskSystem
     {
         public IntPtr enqueue;
         public IntPtr finish;
         public IntPtr user;
-    }
-
-    /// <summary>A count, or a time in nanoseconds.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct Counter
-    {
-        /// <summary>static text, e.g. "candidates", or for a time "lookup_ns"</summary>
-        public IntPtr name;
-        public ulong value;
-    }
-
-    /// <summary>`count` counters.</summary>
-    [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct CounterView
-    {
-        public Counter* data;
-        public ulong count;
     }
 
     /// <summary>Which bodies answer, and how far to look.</summary>
@@ -1626,7 +1392,7 @@ namespace Voxtet
         public Byte256 note;
     }
 
-    /// <summary>What a surface is made of.</summary>
+    /// <summary>The topology of a surface, which is copied.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct SurfaceDesc
     {
@@ -1637,100 +1403,62 @@ namespace Voxtet
         public ulong vertex_count;
         public ulong edge_count;
         public ulong face_count;
-        /// <summary>2 * edge_count indices of vertices, copied.</summary>
+        /// <summary>2 * edge_count vertex indices.</summary>
         public uint* edges;
-        /// <summary>3 * face_count indices of vertices, copied</summary>
+        /// <summary>3 * face_count vertex indices</summary>
         public uint* faces;
-        /// <summary>The patch of each vertex, below patch_count, copied; null: all vertices are in one patch.</summary>
+        /// <summary>Patches say what may meet.</summary>
         public uint* patches;
-        /// <summary>copied; null: 1 each</summary>
+        /// <summary>patch_count numbers; null: 1 each</summary>
         public ulong* patch_categories;
-        /// <summary>copied; null: all bits</summary>
+        /// <summary>patch_count numbers; null: all bits</summary>
         public ulong* patch_masks;
         public ulong patch_count;
-        /// <summary>Edge length of a cell of the grid in which pairs are looked for. 0: chosen at every motion by the
-        /// cost model.</summary>
+        /// <summary>edge length of a cell; 0: the library chooses it for every motion.</summary>
         public double cell_size;
-        /// <summary>Most bytes the surface may hold at any time, its answers included.</summary>
+        /// <summary>most bytes the surface may hold, lists included; 0: 4 GiB; UINT64_MAX: no limit</summary>
         public ulong byte_budget;
         /// <summary>copied; null: the C++ runtime's heap</summary>
         public Allocator* allocator;
-        /// <summary>Copied; null: the built-in scheduler.</summary>
+        /// <summary>copied; null: the built-in scheduler</summary>
         public TaskSystem* tasks;
     }
 
-    /// <summary>The vertices of the edges or faces of a surface.</summary>
+    /// <summary>The vertices of edges or faces.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct FeatureView
     {
-        public uint struct_size;
-        /// <summary>2 of an edge, 3 of a face</summary>
-        public uint vertices_each;
-        /// <summary>edges or faces</summary>
-        public ulong count;
-        /// <summary>vertices_each * count numbers</summary>
+        /// <summary>2 * count indices for edges, 3 * count for faces</summary>
         public uint* vertices;
+        /// <summary>number of edges or faces</summary>
+        public ulong count;
     }
 
-    /// <summary>Positions of all vertices of a surface, or two, between which each vertex moves along a straight line
-    /// at constant speed.</summary>
+    /// <summary>Positions of all vertices, or a motion from one set of positions to another.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct Motion
     {
         public uint struct_size;
         /// <summary>vox_motion_flags, combined with |</summary>
         public MotionFlags flags;
-        /// <summary>at time 0, copied; as many as the surface has vertices</summary>
+        /// <summary>at time 0</summary>
         public Positions from;
-        /// <summary>at time 1, copied, in the same format; none: everything stands still</summary>
+        /// <summary>at time 1, in the same format; none: everything stands still</summary>
         public Positions to;
-        /// <summary>The box of a vertex holds both its positions and reaches further by this on each side, rounded
-        /// outward: to the next number of their format below and above.</summary>
+        /// <summary>grows the box of a vertex on all sides, rounded outward; may be infinite</summary>
         public double radius;
     }
 
-    /// <summary>The partners of features [first, first + count): those of feature first + i are partners[offsets[i]] to
-    /// partners[offsets[i + 1] - 1], ascending.</summary>
+    /// <summary>Lists of partners.</summary>
     [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct PairLists
+    internal unsafe struct PartnerLists
     {
-        public uint struct_size;
-        /// <summary>0</summary>
-        public uint reserved;
-        public ulong first;
-        /// <summary>features answered; where there is a byte budget they may be fewer than asked</summary>
-        public ulong count;
-        /// <summary>offsets[count]</summary>
-        public ulong pair_count;
         /// <summary>count + 1 numbers</summary>
         public ulong* offsets;
-        /// <summary>pair_count numbers</summary>
         public uint* partners;
-    }
-
-    /// <summary>What the last search for pairs did, also one by vox_surface_find_crossings and the like, and what the
-    /// surface holds.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 72)]
-    public struct PairCounters
-    {
-        public uint struct_size;
-        /// <summary>0</summary>
-        public uint reserved;
-        /// <summary>that was used; 0 where no grid was needed</summary>
-        public double cell_size;
-        /// <summary>with something in them; those that share a place in the hash table count once</summary>
-        public ulong cells;
-        /// <summary>tiles (at most 64 features each) whose boxes overlap those of tiles of the other kind</summary>
-        public ulong tile_pairs;
-        /// <summary>features compared with the 64 of a tile at once</summary>
-        public ulong boxes_compared;
-        /// <summary>pairs whose boxes overlap, before VOX_MOTION_CULL</summary>
-        public ulong overlaps;
-        /// <summary>of these, left out by VOX_MOTION_CULL</summary>
-        public ulong culled;
-        /// <summary>held now</summary>
-        public ulong bytes;
-        public ulong peak_bytes;
+        public ulong first;
+        /// <summary>features with a list; fewer than the range has if the byte budget is short</summary>
+        public ulong count;
     }
 
     /// <summary>An edge and a face that have a point in common.</summary>
@@ -1739,111 +1467,92 @@ namespace Voxtet
     {
         public uint edge;
         public uint face;
-        /// <summary>of vox.h</summary>
         public CrossingKind kind;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>of a common point; they add up to 1</summary>
+        /// <summary>of a common point; they add up to 1, as do the next</summary>
         public Double2 edge_weights;
-        /// <summary>of the same point</summary>
         public Double3 face_weights;
-        /// <summary>of the point, rounded</summary>
         public Double3 position;
     }
 
+    /// <summary>Crossings, sorted by (edge, face).</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct CrossingView
     {
-        public uint struct_size;
-        /// <summary>from one element to the next</summary>
-        public uint byte_stride;
+        public Crossing* data;
         public ulong count;
-        /// <summary>by edge, then face</summary>
-        public Crossing* crossings;
     }
 
     /// <summary>Two features and their closest points.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 112)]
-    public struct ClosePair
+    public struct Proximity
     {
         public uint a;
         public uint b;
         public double distance;
-        /// <summary>of the closest point on a: one for each of its vertices, then 0</summary>
+        /// <summary>of the closest point of a: one for each of its vertices, then 0</summary>
         public Double3 weights_a;
         public Double3 weights_b;
-        /// <summary>the closest points, rounded</summary>
         public Double3 point_a;
         public Double3 point_b;
     }
 
+    /// <summary>Proximities, sorted by (a, b).</summary>
     [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct CloseView
+    internal unsafe struct ProximityView
     {
-        public uint struct_size;
-        /// <summary>from one element to the next</summary>
-        public uint byte_stride;
+        public Proximity* data;
         public ulong count;
-        /// <summary>by a, then b</summary>
-        public ClosePair* pairs;
     }
 
-    /// <summary>How the time of contact is computed.</summary>
+    /// <summary>How times of impact are computed; all 0 by default.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 24)]
-    public struct ContactTimeDesc
+    public struct ImpactDesc
     {
         public uint struct_size;
-        /// <summary>of one pair; 0: 10000.</summary>
-        public uint most_iterations;
-        /// <summary>contact is where two features come this close, &gt;= 0</summary>
+        /// <summary>for a pair, after which its time is too early; 0: 10000</summary>
+        public uint max_iterations;
+        /// <summary>two features meet when they come this close</summary>
         public double distance;
-        /// <summary>At the time given, the features are still further apart than `distance` by at most this part of
-        /// what it was at time 0; below 1; 0: 0.1.</summary>
+        /// <summary>part of their first gap that may be left at the reported time, below 1; 0: 0.1.</summary>
         public double slack;
     }
 
-    /// <summary>A safe part of the motion, and the pair that ends it.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 48)]
+    /// <summary>How much of the motion is free of impacts, and which pair ends it.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 40)]
     public struct SafeStep
     {
-        public uint struct_size;
-        /// <summary>0</summary>
-        public uint reserved;
-        /// <summary>in [0, 1]: up to this time no two features touch. 1: not within the motion</summary>
+        /// <summary>nothing meets before this time; 1: nothing meets</summary>
         public double step;
-        /// <summary>that were examined</summary>
+        /// <summary>number of pairs examined</summary>
         public ulong pairs;
-        /// <summary>1: the time of the pair below was given up after most_iterations; else 0</summary>
-        public ulong unfinished;
-        /// <summary>the pair with the first time of contact, where step is below 1: FACE and VERTEX, or EDGE
-        /// and</summary>
+        /// <summary>the first pair to meet, if step is below 1: FACE and VERTEX, or EDGE and EDGE</summary>
         public Feature kind_a;
-        /// <summary>EDGE.</summary>
         public Feature kind_b;
         public uint a;
         public uint b;
+        /// <summary>1 if its time is early because of max_iterations, else 0</summary>
+        public uint unfinished;
+        /// <summary>0</summary>
+        public uint reserved;
     }
 
-    /// <summary>Two features that come into contact, and when at the earliest.</summary>
+    /// <summary>Two features that may meet, and the earliest time.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 16)]
-    public struct TimedPair
+    public struct Impact
     {
         public uint a;
         public uint b;
-        /// <summary>in [0, 1], not later than the exact one; earlier where it was given up after
-        /// most_iterations</summary>
         public double time;
     }
 
+    /// <summary>Impacts, sorted by (a, b).</summary>
     [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct TimedView
+    internal unsafe struct ImpactView
     {
-        public uint struct_size;
-        /// <summary>from one element to the next</summary>
-        public uint byte_stride;
+        public Impact* data;
         public ulong count;
-        /// <summary>by a, then b</summary>
-        public TimedPair* pairs;
     }
 
     [StructLayout(LayoutKind.Sequential)]
@@ -2122,43 +1831,6 @@ namespace Voxtet
         public double max_speed;
     }
 
-    [StructLayout(LayoutKind.Sequential, Size = 144)]
-    public struct SimCounts
-    {
-        public uint struct_size;
-        public uint bodies;
-        public ulong vertices;
-        public ulong tets;
-        /// <summary>edge constraints</summary>
-        public ulong edges;
-        /// <summary>volume constraints</summary>
-        public ulong volumes;
-        /// <summary>tets of zero rest volume</summary>
-        public ulong flat_tets;
-        /// <summary>tets of negative rest volume</summary>
-        public ulong inverted_tets;
-        /// <summary>vertices that would have been lighter than a hundredth of the body's mean</summary>
-        public ulong raised_masses;
-        /// <summary>constraints that were softened, as the last step's substeps cannot handle their stiffness</summary>
-        public ulong softened;
-        /// <summary>total since the creation, like the next three</summary>
-        public ulong steps;
-        public ulong substeps;
-        public ulong detections;
-        /// <summary>steps that were clamped to max_time_step</summary>
-        public ulong clamped_steps;
-        /// <summary>penetrations of the last detection</summary>
-        public ulong penetrations;
-        /// <summary>particles that the floor held in the last substep</summary>
-        public ulong floor_contacts;
-        /// <summary>nanoseconds of the last step</summary>
-        public ulong step_ns;
-        /// <summary>its part in vox_grid_step</summary>
-        public ulong detect_ns;
-        /// <summary>the rest of it</summary>
-        public ulong solve_ns;
-    }
-
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal delegate void Task(ulong begin, ulong end, uint worker, IntPtr context);
 
@@ -2194,33 +1866,31 @@ namespace Voxtet
 
     internal static unsafe class Native
     {
-        /// <summary>Version of the stable interface.</summary>
+        /// <summary>A program runs with any library of the ABI version that it was built with (docs/abi.md).</summary>
         internal const uint VOX_ABI_VERSION = 1;
-        /// <summary>as a worker_count: one worker per core</summary>
-        internal const uint VOX_ALL_CORES = 4294967295;
         /// <summary>as an index: none</summary>
         internal const uint VOX_NONE = 4294967295;
-        /// <summary>per grid, at one time, including retired slots</summary>
+        /// <summary>as a worker_count: one worker per core</summary>
+        internal const uint VOX_ALL_CORES = 4294967295;
+        /// <summary>in a grid at one time</summary>
         internal const uint VOX_MAX_BODIES = 1048576;
-        /// <summary>uses of one mesh slot before it is retired</summary>
-        internal const uint VOX_MAX_GENERATIONS = 4095;
-        /// <summary>per grid</summary>
+        /// <summary>in a grid</summary>
         internal const uint VOX_MAX_VERTICES = 2147483647;
-        /// <summary>per grid</summary>
+        /// <summary>in a grid</summary>
         internal const uint VOX_MAX_TETS = 2147483647;
-        /// <summary>workers of a grid</summary>
+        /// <summary>in a mesh whose surface is needed: constraints, edges, margin, queries</summary>
+        internal const uint VOX_MAX_SURFACE_TETS = 357913941;
+        /// <summary>in a step</summary>
+        internal const uint VOX_MAX_CONTACTS = 4294967295;
+        /// <summary>of a grid</summary>
         internal const uint VOX_MAX_WORKERS = 256;
-        /// <summary>names no mesh</summary>
+        /// <summary>names no body</summary>
         internal const uint VOX_NULL_BODY = 0;
         /// <summary>vox_filter.self_rings</summary>
         internal const uint VOX_MAX_RINGS = 8;
-        /// <summary>vox_failure.vertex where a failure is not about a vertex</summary>
-        internal const uint VOX_NO_VERTEX = 4294967295;
-        /// <summary>contacts of one step; a step with more fails with VOX_ERROR_LIMIT</summary>
-        internal const uint VOX_MAX_CONTACTS = 4294967295;
-        /// <summary>vox_touch_event.pair of a pair that ended</summary>
-        internal const uint VOX_NO_PAIR = 4294967295;
-        /// <summary>tasks enqueued in one step</summary>
+        /// <summary>most vertices of a constraint</summary>
+        internal const uint VOX_STENCIL_CAPACITY = 5;
+        /// <summary>in one call</summary>
         internal const uint VOX_MAX_TASKS = 64;
         /// <summary>numbers of vox_cost_weights</summary>
         internal const uint VOX_COST_WEIGHT_CAPACITY = 24;
@@ -2234,9 +1904,9 @@ namespace Voxtet
         internal const uint VOX_NOTE_CAPACITY = 256;
         /// <summary>most runs of vox_cost_tune</summary>
         internal const uint VOX_TUNE_RUN_CAPACITY = 32;
-        /// <summary>vertices, edges or faces of a surface; each.</summary>
+        /// <summary>vertices, edges or faces of a surface, each</summary>
         internal const uint VOX_MAX_FEATURES = 2147483647;
-        /// <summary>patches of a surface.</summary>
+        /// <summary>patches of a surface</summary>
         internal const uint VOX_MAX_PATCHES = 65536;
 
 #if (UNITY_IOS || UNITY_WEBGL) && !UNITY_EDITOR
@@ -2249,51 +1919,124 @@ namespace Voxtet
         const string vox_sim = "vox_sim";
 #endif
 
-        /// <summary>Name of a result code, e.g. "VOX_ERROR_BUDGET".</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern IntPtr vox_result_string(Result result);
-
-        /// <summary>The text of this thread's last failure, e.g. "tet 17 names vertex 900 of 812", or "" if nothing has
-        /// failed yet.</summary>
+        /// <summary>Why the last failing call on this thread failed, e.g. "tet 17 names vertex 900 of 812"; "" if no
+        /// call has failed.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern IntPtr vox_last_error();
 
-        /// <summary>Sets this thread's vox_last_error() text and returns `result`, so that libraries built on vox
-        /// (vox_io among them) can report failures the same way.</summary>
+        /// <summary>Name of a result, e.g. "VOX_ERROR_BUDGET".</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_fail(Result result, IntPtr text);
+        internal static extern IntPtr vox_result_string(Result result);
 
-        /// <summary>Version of the library that is running: major * 1000000 + minor * 1000 + patch.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern uint vox_version();
-
-        /// <summary>VOX_ABI_VERSION of the library that is running.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern uint vox_abi_version();
-
-        /// <summary>"vox", the version, compiler, language level, instruction sets, built-in scheduler and options of
-        /// this build, in one line.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern IntPtr vox_build_info();
-
-        /// <summary>Creates a grid. desc null: all defaults.</summary>
+        /// <summary>Creates a grid.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_create(GridDesc* desc, IntPtr* out_grid);
 
-        /// <summary>Destroys a grid and releases all its memory.</summary>
+        /// <summary>Destroys a grid, its bodies and results.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void vox_grid_destroy(IntPtr grid);
 
-        /// <summary>Removes all meshes and contacts and keeps the settings.</summary>
+        /// <summary>Adds a mesh, which takes part from the next step on.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_insert(IntPtr grid, MeshDesc* desc, uint* out_body);
+
+        /// <summary>Removes a body.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_body_remove(IntPtr grid, uint body);
+
+        /// <summary>Makes a mesh borrow another array of positions, one for each vertex, in place of the one that it
+        /// borrowed or owned.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_bind_positions(IntPtr grid, uint body, Positions* positions);
+
+        /// <summary>Finds all contacts of the bodies as they are now, and whatever the flags ask for.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_step(IntPtr grid);
+
+        /// <summary>Steps many different grids, several at a time: for many small scenes. worker_count and `tasks` are
+        /// those of vox_grid_desc; each grid is stepped by one thread and should have a worker_count of 0
+        /// itself.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grids_step(IntPtr* grids, ulong count, uint worker_count, TaskSystem* tasks,
+            Result* results);
+
+        /// <summary>Gets the contacts of the last step.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_get_contacts(IntPtr grid, ContactView* out_view);
+
+        /// <summary>Gets a hash of the contacts and their order, which is the same on every machine.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_get_hash(IntPtr grid, ulong* out_hash);
+
+        /// <summary>Gets the pairs of the last step.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_get_pairs(IntPtr grid, PairView* out_view);
+
+        /// <summary>Finds the constraints of the last step.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_find_constraints(IntPtr grid, ConstraintDesc* desc);
+
+        /// <summary>Gets the constraints that were found last.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_get_constraints(IntPtr grid, ConstraintView* out_view);
+
+        /// <summary>Places a body.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_body_set_transform(IntPtr grid, uint body, double* matrix);
+
+        /// <summary>Disables a body (0), or enables it again (1).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_body_set_enabled(IntPtr grid, uint body, uint enabled);
+
+        /// <summary>Sets what a body collides with from the next step on.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_body_set_filter(IntPtr grid, uint body, Filter* filter);
+
+        /// <summary>Keeps two bodies from colliding, whatever their filters say (0), or lets their filters decide again
+        /// (1).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_set_pair_enabled(IntPtr grid, uint body_a, uint body_b, uint enabled);
+
+        /// <summary>Makes the next step treat a body as if it had moved: for measurements.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_body_mark_moved(IntPtr grid, uint body);
+
+        /// <summary>Gives a mesh a packed array of its own, in its format, which the caller may write to between
+        /// steps.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_map_positions(IntPtr grid, uint body, IntPtr* out_positions);
+
+        /// <summary>Makes a mesh borrow the positions that its vertices had before.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_mesh_bind_previous_positions(IntPtr grid, uint body, Positions* positions);
+
+        /// <summary>Gets a body's state.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_body_get_info(IntPtr grid, uint body, BodyInfo* out_info);
+
+        /// <summary>Gets the user_data that a body was inserted with.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_body_get_user_data(IntPtr grid, uint body, ulong* out_user_data);
+
+        /// <summary>Returns 1 if `body` names a body of the grid, else 0; gives 0 for a null grid.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint vox_body_is_valid(IntPtr grid, uint body);
+
+        /// <summary>Gets the first `capacity` bodies of the grid in ascending order, disabled ones included; `bodies`
+        /// may be null if it is 0.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_grid_get_bodies(IntPtr grid, uint* bodies, ulong capacity, ulong* out_count);
+
+        /// <summary>Removes all bodies and results, and keeps the settings.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_clear(IntPtr grid);
 
-        /// <summary>Allocates memory for what a grid keeps of that many meshes and contacts beside the meshes
-        /// themselves, in advance; never releases any.</summary>
+        /// <summary>Allocates memory for this many bodies and contacts in advance, besides what the bodies themselves
+        /// need.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_reserve(IntPtr grid, uint mesh_count, ulong contact_count);
+        internal static extern Result vox_grid_reserve(IntPtr grid, uint body_count, ulong contact_count);
 
-        /// <summary>Sets the cell size of the following steps; 0: the library chooses.</summary>
+        /// <summary>Sets vox_grid_desc.cell_size for the following steps.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_set_cell_size(IntPtr grid, double cell_size);
 
@@ -2301,13 +2044,13 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_set_worker_count(IntPtr grid, uint worker_count);
 
-        /// <summary>Sets vox_grid_desc.flags (all of them) for the following steps.</summary>
+        /// <summary>Sets all vox_grid_desc.flags for the following steps.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_set_flags(IntPtr grid, GridFlags flags);
 
-        /// <summary>From the next step on, also find the vertices of other meshes that are outside of the tetrahedra of
-        /// a mesh, but within `margin` (in the caller's unit) of its surface: vox_grid_margin_contacts. 0 (the
-        /// default): none, at no cost, and the memory that this took is released.</summary>
+        /// <summary>Sets the margin for the following steps: vertices outside another body, but no further than this
+        /// from its surface, have PROXIMITY constraints, and the two bodies are a pair. 0, the default: none, at no
+        /// cost.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_set_margin(IntPtr grid, double margin);
 
@@ -2315,98 +2058,35 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_get_info(IntPtr grid, GridInfo* out_info);
 
-        /// <summary>Adds a mesh, which takes part from the next step on.</summary>
+        /// <summary>Gets counts and times of the last step, stage by stage (docs/engine.md lists them).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_insert(IntPtr grid, MeshDesc* desc, uint* out_body);
+        internal static extern Result vox_grid_get_counters(IntPtr grid, CounterView* out_view);
 
-        /// <summary>Removes a mesh.</summary>
+        /// <summary>Gets the body that made the last step fail, with index 0; or else the bodies that it left out, with
+        /// indices from 0 on.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_body_remove(IntPtr grid, uint body);
+        internal static extern Result vox_grid_get_failure(IntPtr grid, uint index, Failure* out_failure);
 
-        /// <summary>1 when `mesh` names a mesh of the grid, else 0 (also for a null grid).</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern uint vox_body_is_valid(IntPtr grid, uint body);
-
-        /// <summary>The user_data the mesh was inserted with.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_body_get_user_data(IntPtr grid, uint body, ulong* out_user_data);
-
-        /// <summary>Copies the ids of the first `capacity` meshes of the grid, disabled ones included,
-        /// ascending.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_get_bodies(IntPtr grid, uint* bodies, ulong capacity, ulong* out_count);
-
-        /// <summary>Writes the fields that out_info-&gt;struct_size covers (set it first).</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_body_get_info(IntPtr grid, uint body, BodyInfo* out_info);
-
-        /// <summary>Copies the first `capacity` tetrahedra of a mesh: of tetrahedron t the corners, as they were given,
-        /// to corners[4 * t] to corners[4 * t + 3], and to enabled[t] 1 or, if it is disabled or removed, 0.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_get_tets(IntPtr grid, uint body, uint* corners, byte* enabled, ulong
-            capacity, ulong* out_count);
-
-        /// <summary>Makes a mesh borrow another array of positions, one for each vertex, under the rule of
-        /// vox_mesh_desc.positions, and releases one that it owned.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_bind_positions(IntPtr grid, uint body, Positions* positions);
-
-        /// <summary>Borrows the positions that the vertices of a mesh had before they moved to those of
-        /// vox_mesh_bind_positions: in the following steps each vertex moves from one to the other in a straight line,
-        /// at constant speed, and such steps also find vox_grid_passages.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_bind_previous_positions(IntPtr grid, uint body, Positions* positions);
-
-        /// <summary>Makes the next step process a mesh even if it is at rest (see vox_grid_step).</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_body_mark_moved(IntPtr grid, uint body);
-
-        /// <summary>Sets what the mesh collides with, from the next step on (the filter is copied).</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_body_set_filter(IntPtr grid, uint body, Filter* filter);
-
-        /// <summary>Disables a mesh (enabled 0), so that it takes no part in the following steps and its positions are
-        /// not read, or enables it again (1, as at insertion).</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_body_set_enabled(IntPtr grid, uint body, uint enabled);
-
-        /// <summary>With enabled 0, the two meshes do not collide in the following steps, whatever their filters say;
-        /// with 1, their filters decide.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_set_pair_enabled(IntPtr grid, uint body_a, uint body_b, uint enabled);
-
-        /// <summary>Gives the mesh positions of its own that the caller may write to: one for each vertex, packed, in
-        /// the format it was inserted with or bound to last.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_map_positions(IntPtr grid, uint body, IntPtr* out_positions);
-
-        /// <summary>Moves a mesh as a whole.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_body_set_transform(IntPtr grid, uint body, double* matrix);
-
-        /// <summary>Replaces tetrahedra, vertices and positions, as if the mesh had been inserted with those of
-        /// `desc`.</summary>
+        /// <summary>Replaces vertices, tetrahedra and positions by those of desc.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_set_topology(IntPtr grid, uint body, MeshDesc* desc);
 
-        /// <summary>Disables the `count` tetrahedra named by `tets` (enabled 0), so that they contain no vertex and
-        /// have no edges and facets, or enables them again (1, as at insertion).</summary>
+        /// <summary>Disables tetrahedra (0), or enables them again (1).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_set_tets_enabled(IntPtr grid, uint body, uint* tets, ulong count, uint
             enabled);
 
-        /// <summary>Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3], copied, for each i
-        /// below count.</summary>
+        /// <summary>Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3].</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_replace_tets(IntPtr grid, uint body, uint* tets, ulong count, uint*
             corners);
 
-        /// <summary>Adds `count` tetrahedra with 4 corners each, copied.</summary>
+        /// <summary>Adds `count` tetrahedra with four corners each.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_append_tets(IntPtr grid, uint body, uint* corners, ulong count, uint*
             out_first);
 
-        /// <summary>Removes tetrahedra, disabled ones included.</summary>
+        /// <summary>Removes tetrahedra.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_remove_tets(IntPtr grid, uint body, uint* tets, ulong count);
 
@@ -2415,136 +2095,18 @@ namespace Voxtet
         internal static extern Result vox_mesh_append_vertices(IntPtr grid, uint body, VerticesDesc* desc, uint*
             out_first);
 
-        /// <summary>Removes vertices; a vertex of an enabled tetrahedron is an INVALID_ARGUMENT.</summary>
+        /// <summary>Removes vertices that belong to no enabled tetrahedron.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_mesh_remove_vertices(IntPtr grid, uint body, uint* vertices, ulong count);
 
-        /// <summary>Finds all contacts of the positions as they are now.</summary>
+        /// <summary>Copies the first `capacity` tetrahedra: four corners each, and 1 if it is enabled or 0 if it is
+        /// disabled or removed.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_step(IntPtr grid);
+        internal static extern Result vox_mesh_get_tets(IntPtr grid, uint body, uint* corners, byte* enabled, ulong
+            capacity, ulong* out_count);
 
-        /// <summary>Steps `count` grids, which must differ, each as by vox_grid_step, several at the same time: for
-        /// many small scenes that have nothing to do with each other.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grids_step(IntPtr* grids, ulong count, TaskSystem* tasks, uint worker_count,
-            Result* results);
-
-        /// <summary>The mesh that made the last step fail (index 0), or the meshes that it left out
-        /// (VOX_GRID_SKIP_BAD_BODIES): the index-th of them, in the order of ids.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_get_failure(IntPtr grid, uint index, Failure* out_failure);
-
-        /// <summary>The contacts of the last step; count 0 before the first, after a failed one and after a
-        /// clear.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_get_contacts(IntPtr grid, ContactView* out_view);
-
-        /// <summary>The contacts of `count` grids, one grid after the other: those of grid i begin at index offsets[i]
-        /// and end before offsets[i + 1], where offsets has count + 1 numbers, all of which are written.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grids_copy_contacts(IntPtr* grids, ulong count, Contact* contacts, ulong
-            capacity, ulong* offsets);
-
-        /// <summary>A hash of the contacts: all fields, in order.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_get_hash(IntPtr grid, ulong* out_hash);
-
-        /// <summary>The penetrations of the last step; count 0 if it found no contacts, before the first step, after a
-        /// failed one and after a clear.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_penetrations(IntPtr grid, PenetrationView* out_view);
-
-        /// <summary>The depths of vox_grid_penetrations, one for each, in that order.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_depths(IntPtr grid, DepthView* out_view);
-
-        /// <summary>The edge contacts of the last step: the same for every engine, cell size and number of
-        /// workers.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_edge_contacts(IntPtr grid, EdgeContactView* out_view);
-
-        /// <summary>A hash of the edge contacts: all fields, in order.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_edge_hash(IntPtr grid, ulong* out_hash);
-
-        /// <summary>Computes the way out for every edge contact of the last step (vox_grid_edge_depths).</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_prepare_edge_depths(IntPtr grid);
-
-        /// <summary>The depth and direction of each edge contact, in the order of vox_grid_edge_contacts.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_edge_depths(IntPtr grid, DepthView* out_view);
-
-        /// <summary>The margin contacts of the last step: the same for every engine, cell size and number of
-        /// workers.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_margin_contacts(IntPtr grid, MarginContactView* out_view);
-
-        /// <summary>The passages of the last step, between meshes of which one has previous positions: the same for
-        /// every engine, cell size and number of workers.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_passages(IntPtr grid, PassageView* out_view);
-
-        /// <summary>The pairs that touched in the last step; count 0 before the first, after a failed one and after a
-        /// clear.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_get_pairs(IntPtr grid, PairView* out_view);
-
-        /// <summary>Copies the first `capacity` of the last step's contacts in which `mesh` is body_a or body_b, pair
-        /// by pair, in the order of vox_grid_get_pairs.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_copy_contacts(IntPtr grid, uint body, Contact* contacts, ulong capacity,
-            ulong* out_count);
-
-        /// <summary>The same for the contacts between two meshes, given in either order, or of one mesh with itself
-        /// (body_a = body_b): the contacts of their vox_pair.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_pair_copy_contacts(IntPtr grid, uint body_a, uint body_b, Contact* contacts,
-            ulong capacity, ulong* out_count);
-
-        /// <summary>What the last step changed; count 0 before the first one.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_touch_events(IntPtr grid, TouchView* out_view);
-
-        /// <summary>The same for single vertices, under the same rules.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_contact_events(IntPtr grid, ContactEventView* out_view);
-
-        /// <summary>Computes the readings of the last step's contacts from the meshes as they are now, so borrowed
-        /// positions must still be those of the step. vox_reading.known shows what is missing because it was removed or
-        /// changed since.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_prepare_readings(IntPtr grid);
-
-        /// <summary>As vox_grid_prepare_readings, which is the same with desc null, but computes only the parts
-        /// desc-&gt;what of the readings of some contacts.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_prepare_readings_of(IntPtr grid, ReadingsDesc* desc);
-
-        /// <summary>The prepared readings.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_readings(IntPtr grid, ReadingView* out_view);
-
-        /// <summary>Depth and direction of the prepared readings in double, one for each, in that order; zero where
-        /// vox_reading.known lacks VOX_READING_DEPTH.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_reading_depths(IntPtr grid, DepthView* out_view);
-
-        /// <summary>As vox_mesh_copy_contacts, but copies the prepared readings of those contacts, in the same
-        /// order.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_mesh_copy_readings(IntPtr grid, uint body, Reading* readings, ulong capacity,
-            ulong* out_count);
-
-        /// <summary>As vox_pair_copy_contacts, but copies the prepared readings of those contacts, in the same
-        /// order.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_pair_copy_readings(IntPtr grid, uint body_a, uint body_b, Reading* readings,
-            ulong capacity, ulong* out_count);
-
-        /// <summary>Writes the grid as it is now to `bytes`, in a format that is the same on every machine
-        /// (docs/snapshot.md): settings, meshes with their ids, positions (borrowed ones too, read during the call),
-        /// and the state that the next events are derived from.</summary>
+        /// <summary>Writes a grid to `bytes`, in a format that is the same on every machine (docs/snapshot.md):
+        /// settings, bodies with their ids and positions, and which pairs touch.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_save(IntPtr grid, IntPtr bytes, ulong capacity, ulong* out_size);
 
@@ -2552,10 +2114,22 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_grid_load(IntPtr bytes, ulong size, GridDesc* desc, IntPtr* out_grid);
 
-        /// <summary>What the last successful step did, and how long each stage of it took: all 0 before the first.
-        /// docs/engine.md lists the names; what programs act on is in vox_grid_info.</summary>
+        /// <summary>The version of the library at run time: major * 1000000 + minor * 1000 + patch.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_get_counters(IntPtr grid, CounterView* out_view);
+        internal static extern uint vox_version();
+
+        /// <summary>The VOX_ABI_VERSION of the library at run time.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern uint vox_abi_version();
+
+        /// <summary>Version, compiler, instruction sets, scheduler and options of the library, in one line.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern IntPtr vox_build_info();
+
+        /// <summary>Sets this thread's vox_last_error() to a copy of `text`, of 1023 bytes at most, and returns
+        /// `result`: for libraries that report failures in the same way.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_fail(Result result, IntPtr text);
 
         /// <summary>Takes a locator of the grid as it is now, and releases the one that *locator held before, if
         /// any.</summary>
@@ -2662,62 +2236,59 @@ namespace Voxtet
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void vox_surface_destroy(IntPtr surface);
 
-        /// <summary>The edges or faces of a surface, numbered as everywhere in this header.</summary>
+        /// <summary>Gets the edges or faces of a surface, in the order of their indices.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_surface_get_features(IntPtr surface, Feature feature, FeatureView* out_view);
 
-        /// <summary>Sets the motion that the other functions answer for.</summary>
+        /// <summary>Sets the motion that all other functions answer for.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_surface_move(IntPtr surface, Motion* motion);
 
-        /// <summary>All features `b` whose boxes overlap those of the features [first, first + count) of kind `a`;
-        /// boxes that touch overlap.</summary>
+        /// <summary>Finds, for the features [first, first + count) of kind a, the features of kind b whose boxes
+        /// overlap or touch theirs.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_surface_find_pairs(IntPtr surface, Feature a, Feature b, ulong first, ulong
-            count, PairLists* out_lists);
+            count, PartnerLists* out_lists);
 
-        /// <summary>Sets vox_surface_desc.cell_size, from the next call on.</summary>
+        /// <summary>Finds all edges and faces that have a point in common, but no vertex, at the end of the motion:
+        /// none if the surface does not intersect itself.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_surface_find_crossings(IntPtr surface, CrossingView* out_view);
+
+        /// <summary>Finds all pairs of features of kinds a and b that are at most `distance` apart at the end of the
+        /// motion.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_surface_find_proximities(IntPtr surface, Feature a, Feature b, double
+            distance, ProximityView* out_view);
+
+        /// <summary>Finds a distance for each vertex, at most max_distance, such that nothing new touches while no
+        /// vertex moves further than its distance from the end of the motion (Chen et al. 2025, Offset Geometric
+        /// Contact, Sect. 3.3).</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_surface_find_clearances(IntPtr surface, double max_distance, double*
+            out_distances);
+
+        /// <summary>Finds the earliest time at which a face and a vertex, or two edges, may meet.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_surface_find_safe_step(IntPtr surface, ImpactDesc* desc, SafeStep* @out);
+
+        /// <summary>Finds all pairs of FACE and VERTEX, or of EDGE and EDGE, that may meet during the motion.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_surface_find_impacts(IntPtr surface, Feature a, Feature b, ImpactDesc* desc,
+            ImpactView* out_view);
+
+        /// <summary>Sets vox_surface_desc.cell_size for the following calls.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_surface_set_cell_size(IntPtr surface, double cell_size);
 
-        /// <summary>The cell size that minimises the cost of finding the pairs of kind `a` with kind `b` for the motion
-        /// that is set.</summary>
+        /// <summary>Suggests the cell size with the least cost for finding the pairs of kinds a and b.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_surface_suggest_cell_size(IntPtr surface, Feature a, Feature b,
             ForeignSuggestion* @out);
 
-        /// <summary>Writes the fields that out_counters-&gt;struct_size covers (set it first).</summary>
+        /// <summary>Gets counts of the last search and the bytes held (docs/surface-pairs.md lists them).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_surface_get_counters(IntPtr surface, PairCounters* out_counters);
-
-        /// <summary>All edges and faces that have a point in common and no vertex, at the end of the motion: whether
-        /// the surface is free of intersections, and where it is not.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_surface_find_crossings(IntPtr surface, CrossingView* out_view);
-
-        /// <summary>All pairs of features of kinds a and b that are at most `distance` apart, at the end of the motion:
-        /// face and vertex, edge and edge, edge and vertex, vertex and vertex, in either order.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_surface_find_proximities(IntPtr surface, Feature a, Feature b, double
-            distance, CloseView* out_view);
-
-        /// <summary>For each vertex a distance, at most `most`: while no vertex has moved further than its own, from
-        /// the end of the motion, no face and vertex and no two edges touch that do not touch now (Chen et al. 2025,
-        /// Offset Geometric Contact, Sect. 3.3).</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_surface_find_clearances(IntPtr surface, double most, double* per_vertex, ulong
-            vertex_count);
-
-        /// <summary>How much of the motion is free of contact: the least time of first contact of all pairs of faces
-        /// and vertices, and of edges and edges.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_surface_find_safe_step(IntPtr surface, ContactTimeDesc* desc, SafeStep* @out);
-
-        /// <summary>All pairs of FACE and VERTEX, or of EDGE and EDGE, that may come into contact within the motion,
-        /// each with its time; pairs that are left out are proven to stay apart. desc null: defaults.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_surface_find_impacts(IntPtr surface, Feature a, Feature b, ContactTimeDesc*
-            desc, TimedView* out_view);
+        internal static extern Result vox_surface_get_counters(IntPtr surface, CounterView* out_view);
 
         /// <summary>Reads the file at `path` (for TetGen either file of the pair; the other must be beside it, as must
         /// files that a .gltf names). desc null: defaults.</summary>
@@ -2812,8 +2383,8 @@ namespace Voxtet
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void vox_sim_destroy(IntPtr sim);
 
-        /// <summary>The grid inside, for reading the contacts and penetrations of the last detection, counters and
-        /// profile, and for setting the cell size and the number of workers.</summary>
+        /// <summary>The grid inside, for reading the contacts and constraints of the last detection and counters, and
+        /// for setting the cell size and the number of workers.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_sim_get_grid(IntPtr sim, IntPtr* out_grid);
 
@@ -2848,9 +2419,9 @@ namespace Voxtet
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_sim_get_energy(IntPtr sim, uint body, SimEnergies* out_energies);
 
-        /// <summary>Writes the fields that out_counts-&gt;struct_size covers (set it first).</summary>
+        /// <summary>Gets sizes, totals and times (docs/sim.md lists them).</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_sim_get_counters(IntPtr sim, SimCounts* out_counts);
+        internal static extern Result vox_sim_get_counters(IntPtr sim, CounterView* out_view);
     }
 
     /// <summary>A size or an offset here, and what it is for the library.</summary>
@@ -2885,7 +2456,7 @@ namespace Voxtet
         {
             GridDesc s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_grid_desc", sizeof(GridDesc), 80, 64));
+            entries.Add(Entry("vox_grid_desc", sizeof(GridDesc), 72, 56));
             entries.Add(Entry("vox_grid_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
             entries.Add(Entry("vox_grid_desc.flags", (byte*)&s.flags - begin, 4, 4));
             entries.Add(Entry("vox_grid_desc.worker_count", (byte*)&s.worker_count - begin, 8, 8));
@@ -2893,30 +2464,10 @@ namespace Voxtet
             entries.Add(Entry("vox_grid_desc.cell_size", (byte*)&s.cell_size - begin, 16, 16));
             entries.Add(Entry("vox_grid_desc.margin", (byte*)&s.margin - begin, 24, 24));
             entries.Add(Entry("vox_grid_desc.byte_budget", (byte*)&s.byte_budget - begin, 32, 32));
-            entries.Add(Entry("vox_grid_desc.closest_budget", (byte*)&s.closest_budget - begin, 40, 40));
-            entries.Add(Entry("vox_grid_desc.allocator", (byte*)&s.allocator - begin, 48, 48));
-            entries.Add(Entry("vox_grid_desc.log", (byte*)&s.log - begin, 56, 52));
-            entries.Add(Entry("vox_grid_desc.tasks", (byte*)&s.tasks - begin, 64, 56));
-            entries.Add(Entry("vox_grid_desc.reference", (byte*)&s.reference - begin, 72, 60));
-        }
-
-        static void AddGridInfo(List<LayoutEntry> entries)
-        {
-            GridInfo s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_grid_info", sizeof(GridInfo), 88, 88));
-            entries.Add(Entry("vox_grid_info.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_grid_info.flags", (byte*)&s.flags - begin, 4, 4));
-            entries.Add(Entry("vox_grid_info.epoch", (byte*)&s.epoch - begin, 8, 8));
-            entries.Add(Entry("vox_grid_info.cell_size", (byte*)&s.cell_size - begin, 16, 16));
-            entries.Add(Entry("vox_grid_info.margin", (byte*)&s.margin - begin, 24, 24));
-            entries.Add(Entry("vox_grid_info.bytes", (byte*)&s.bytes - begin, 32, 32));
-            entries.Add(Entry("vox_grid_info.peak_bytes", (byte*)&s.peak_bytes - begin, 40, 40));
-            entries.Add(Entry("vox_grid_info.step_ns", (byte*)&s.step_ns - begin, 48, 48));
-            entries.Add(Entry("vox_grid_info.moved_bodies", (byte*)&s.moved_bodies - begin, 56, 56));
-            entries.Add(Entry("vox_grid_info.skipped_bodies", (byte*)&s.skipped_bodies - begin, 64, 64));
-            entries.Add(Entry("vox_grid_info.total_began", (byte*)&s.total_began - begin, 72, 72));
-            entries.Add(Entry("vox_grid_info.total_ended", (byte*)&s.total_ended - begin, 80, 80));
+            entries.Add(Entry("vox_grid_desc.allocator", (byte*)&s.allocator - begin, 40, 40));
+            entries.Add(Entry("vox_grid_desc.log", (byte*)&s.log - begin, 48, 44));
+            entries.Add(Entry("vox_grid_desc.tasks", (byte*)&s.tasks - begin, 56, 48));
+            entries.Add(Entry("vox_grid_desc.reference", (byte*)&s.reference - begin, 64, 52));
         }
 
         static void AddFilter(List<LayoutEntry> entries)
@@ -2948,23 +2499,167 @@ namespace Voxtet
             entries.Add(Entry("vox_mesh_desc.rest_positions", (byte*)&s.rest_positions - begin, 112, 112));
         }
 
+        static void AddContact(List<LayoutEntry> entries)
+        {
+            Contact s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_contact", sizeof(Contact), 16, 16));
+            entries.Add(Entry("vox_contact.body_a", (byte*)&s.body_a - begin, 0, 0));
+            entries.Add(Entry("vox_contact.vertex", (byte*)&s.vertex - begin, 4, 4));
+            entries.Add(Entry("vox_contact.body_b", (byte*)&s.body_b - begin, 8, 8));
+            entries.Add(Entry("vox_contact.tet", (byte*)&s.tet - begin, 12, 12));
+        }
+
+        static void AddContactView(List<LayoutEntry> entries)
+        {
+            ContactView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_contact_view", sizeof(ContactView), 24, 24));
+            entries.Add(Entry("vox_contact_view.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_contact_view.count", (byte*)&s.count - begin, 8, 8));
+            entries.Add(Entry("vox_contact_view.interiors", (byte*)&s.interiors - begin, 16, 16));
+        }
+
+        static void AddPair(List<LayoutEntry> entries)
+        {
+            Pair s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_pair", sizeof(Pair), 48, 48));
+            entries.Add(Entry("vox_pair.body_a", (byte*)&s.body_a - begin, 0, 0));
+            entries.Add(Entry("vox_pair.body_b", (byte*)&s.body_b - begin, 4, 4));
+            entries.Add(Entry("vox_pair.user_data_a", (byte*)&s.user_data_a - begin, 8, 8));
+            entries.Add(Entry("vox_pair.user_data_b", (byte*)&s.user_data_b - begin, 16, 16));
+            entries.Add(Entry("vox_pair.state", (byte*)&s.state - begin, 24, 24));
+            entries.Add(Entry("vox_pair.reserved", (byte*)&s.reserved - begin, 28, 28));
+            entries.Add(Entry("vox_pair.first_contact", (byte*)&s.first_contact - begin, 32, 32));
+            entries.Add(Entry("vox_pair.contact_count", (byte*)&s.contact_count - begin, 40, 40));
+        }
+
+        static void AddPairView(List<LayoutEntry> entries)
+        {
+            PairView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_pair_view", sizeof(PairView), 24, 24));
+            entries.Add(Entry("vox_pair_view.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_pair_view.count", (byte*)&s.count - begin, 8, 8));
+            entries.Add(Entry("vox_pair_view.contacts", (byte*)&s.contacts - begin, 16, 16));
+        }
+
+        static void AddConstraint(List<LayoutEntry> entries)
+        {
+            Constraint s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_constraint", sizeof(Constraint), 192, 192));
+            entries.Add(Entry("vox_constraint.body_a", (byte*)&s.body_a - begin, 0, 0));
+            entries.Add(Entry("vox_constraint.body_b", (byte*)&s.body_b - begin, 4, 4));
+            entries.Add(Entry("vox_constraint.kind", (byte*)&s.kind - begin, 8, 8));
+            entries.Add(Entry("vox_constraint.state", (byte*)&s.state - begin, 12, 12));
+            entries.Add(Entry("vox_constraint.count_a", (byte*)&s.count_a - begin, 16, 16));
+            entries.Add(Entry("vox_constraint.count", (byte*)&s.count - begin, 20, 20));
+            entries.Add(Entry("vox_constraint.vertices", (byte*)&s.vertices - begin, 24, 24));
+            entries.Add(Entry("vox_constraint.element_b", (byte*)&s.element_b - begin, 44, 44));
+            entries.Add(Entry("vox_constraint.weights", (byte*)&s.weights - begin, 48, 48));
+            entries.Add(Entry("vox_constraint.normal", (byte*)&s.normal - begin, 88, 88));
+            entries.Add(Entry("vox_constraint.gap", (byte*)&s.gap - begin, 112, 112));
+            entries.Add(Entry("vox_constraint.offset", (byte*)&s.offset - begin, 120, 120));
+            entries.Add(Entry("vox_constraint.position", (byte*)&s.position - begin, 128, 128));
+            entries.Add(Entry("vox_constraint.time", (byte*)&s.time - begin, 152, 152));
+            entries.Add(Entry("vox_constraint.user_data_a", (byte*)&s.user_data_a - begin, 160, 160));
+            entries.Add(Entry("vox_constraint.user_data_b", (byte*)&s.user_data_b - begin, 168, 168));
+            entries.Add(Entry("vox_constraint.pair", (byte*)&s.pair - begin, 176, 176));
+            entries.Add(Entry("vox_constraint.previous", (byte*)&s.previous - begin, 180, 180));
+            entries.Add(Entry("vox_constraint.reserved", (byte*)&s.reserved - begin, 184, 184));
+        }
+
+        static void AddConstraintDesc(List<LayoutEntry> entries)
+        {
+            ConstraintDesc s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_constraint_desc", sizeof(ConstraintDesc), 32, 32));
+            entries.Add(Entry("vox_constraint_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_constraint_desc.method", (byte*)&s.method - begin, 4, 4));
+            entries.Add(Entry("vox_constraint_desc.body_a", (byte*)&s.body_a - begin, 8, 8));
+            entries.Add(Entry("vox_constraint_desc.body_b", (byte*)&s.body_b - begin, 12, 12));
+            entries.Add(Entry("vox_constraint_desc.mask", (byte*)&s.mask - begin, 16, 16));
+            entries.Add(Entry("vox_constraint_desc.closest_budget", (byte*)&s.closest_budget - begin, 24, 24));
+        }
+
+        static void AddConstraintView(List<LayoutEntry> entries)
+        {
+            ConstraintView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_constraint_view", sizeof(ConstraintView), 32, 32));
+            entries.Add(Entry("vox_constraint_view.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_constraint_view.count", (byte*)&s.count - begin, 8, 8));
+            entries.Add(Entry("vox_constraint_view.pair_offsets", (byte*)&s.pair_offsets - begin, 16, 16));
+            entries.Add(Entry("vox_constraint_view.pair_count", (byte*)&s.pair_count - begin, 24, 24));
+        }
+
         static void AddBodyInfo(List<LayoutEntry> entries)
         {
             BodyInfo s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_body_info", sizeof(BodyInfo), 224, 224));
+            entries.Add(Entry("vox_body_info", sizeof(BodyInfo), 216, 216));
             entries.Add(Entry("vox_body_info.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_body_info.slot", (byte*)&s.slot - begin, 4, 4));
+            entries.Add(Entry("vox_body_info.reserved", (byte*)&s.reserved - begin, 4, 4));
             entries.Add(Entry("vox_body_info.user_data", (byte*)&s.user_data - begin, 8, 8));
-            entries.Add(Entry("vox_body_info.tet_count", (byte*)&s.tet_count - begin, 16, 16));
-            entries.Add(Entry("vox_body_info.enabled_tet_count", (byte*)&s.enabled_tet_count - begin, 24, 24));
-            entries.Add(Entry("vox_body_info.enabled", (byte*)&s.enabled - begin, 32, 32));
-            entries.Add(Entry("vox_body_info.flags", (byte*)&s.flags - begin, 36, 36));
-            entries.Add(Entry("vox_body_info.has_transform", (byte*)&s.has_transform - begin, 40, 40));
-            entries.Add(Entry("vox_body_info.reserved", (byte*)&s.reserved - begin, 44, 44));
-            entries.Add(Entry("vox_body_info.positions", (byte*)&s.positions - begin, 48, 48));
-            entries.Add(Entry("vox_body_info.transform", (byte*)&s.transform - begin, 88, 88));
-            entries.Add(Entry("vox_body_info.filter", (byte*)&s.filter - begin, 184, 184));
+            entries.Add(Entry("vox_body_info.enabled", (byte*)&s.enabled - begin, 16, 16));
+            entries.Add(Entry("vox_body_info.flags", (byte*)&s.flags - begin, 20, 20));
+            entries.Add(Entry("vox_body_info.tet_count", (byte*)&s.tet_count - begin, 24, 24));
+            entries.Add(Entry("vox_body_info.enabled_tet_count", (byte*)&s.enabled_tet_count - begin, 32, 32));
+            entries.Add(Entry("vox_body_info.positions", (byte*)&s.positions - begin, 40, 40));
+            entries.Add(Entry("vox_body_info.filter", (byte*)&s.filter - begin, 80, 80));
+            entries.Add(Entry("vox_body_info.transform", (byte*)&s.transform - begin, 120, 120));
+        }
+
+        static void AddGridInfo(List<LayoutEntry> entries)
+        {
+            GridInfo s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_grid_info", sizeof(GridInfo), 88, 88));
+            entries.Add(Entry("vox_grid_info.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_grid_info.flags", (byte*)&s.flags - begin, 4, 4));
+            entries.Add(Entry("vox_grid_info.epoch", (byte*)&s.epoch - begin, 8, 8));
+            entries.Add(Entry("vox_grid_info.cell_size", (byte*)&s.cell_size - begin, 16, 16));
+            entries.Add(Entry("vox_grid_info.margin", (byte*)&s.margin - begin, 24, 24));
+            entries.Add(Entry("vox_grid_info.bytes", (byte*)&s.bytes - begin, 32, 32));
+            entries.Add(Entry("vox_grid_info.peak_bytes", (byte*)&s.peak_bytes - begin, 40, 40));
+            entries.Add(Entry("vox_grid_info.step_ns", (byte*)&s.step_ns - begin, 48, 48));
+            entries.Add(Entry("vox_grid_info.moved_bodies", (byte*)&s.moved_bodies - begin, 56, 56));
+            entries.Add(Entry("vox_grid_info.skipped_bodies", (byte*)&s.skipped_bodies - begin, 64, 64));
+            entries.Add(Entry("vox_grid_info.total_began", (byte*)&s.total_began - begin, 72, 72));
+            entries.Add(Entry("vox_grid_info.total_ended", (byte*)&s.total_ended - begin, 80, 80));
+        }
+
+        static void AddCounter(List<LayoutEntry> entries)
+        {
+            Counter s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_counter", sizeof(Counter), 16, 16));
+            entries.Add(Entry("vox_counter.name", (byte*)&s.name - begin, 0, 0));
+            entries.Add(Entry("vox_counter.value", (byte*)&s.value - begin, 8, 8));
+        }
+
+        static void AddCounterView(List<LayoutEntry> entries)
+        {
+            CounterView s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_counter_view", sizeof(CounterView), 16, 16));
+            entries.Add(Entry("vox_counter_view.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_counter_view.count", (byte*)&s.count - begin, 8, 8));
+        }
+
+        static void AddFailure(List<LayoutEntry> entries)
+        {
+            Failure s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_failure", sizeof(Failure), 48, 48));
+            entries.Add(Entry("vox_failure.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_failure.result", (byte*)&s.result - begin, 4, 4));
+            entries.Add(Entry("vox_failure.body", (byte*)&s.body - begin, 8, 8));
+            entries.Add(Entry("vox_failure.vertex", (byte*)&s.vertex - begin, 12, 12));
+            entries.Add(Entry("vox_failure.user_data", (byte*)&s.user_data - begin, 16, 16));
+            entries.Add(Entry("vox_failure.position", (byte*)&s.position - begin, 24, 24));
         }
 
         static void AddVerticesDesc(List<LayoutEntry> entries)
@@ -2978,292 +2673,6 @@ namespace Voxtet
             entries.Add(Entry("vox_vertices_desc.positions", (byte*)&s.positions - begin, 16, 16));
             entries.Add(Entry("vox_vertices_desc.copies_of", (byte*)&s.copies_of - begin, 56, 56));
             entries.Add(Entry("vox_vertices_desc.rest_positions", (byte*)&s.rest_positions - begin, 64, 64));
-        }
-
-        static void AddFailure(List<LayoutEntry> entries)
-        {
-            Failure s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_failure", sizeof(Failure), 56, 56));
-            entries.Add(Entry("vox_failure.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_failure.result", (byte*)&s.result - begin, 4, 4));
-            entries.Add(Entry("vox_failure.mesh", (byte*)&s.mesh - begin, 8, 8));
-            entries.Add(Entry("vox_failure.slot", (byte*)&s.slot - begin, 12, 12));
-            entries.Add(Entry("vox_failure.user_data", (byte*)&s.user_data - begin, 16, 16));
-            entries.Add(Entry("vox_failure.vertex", (byte*)&s.vertex - begin, 24, 24));
-            entries.Add(Entry("vox_failure.reserved", (byte*)&s.reserved - begin, 28, 28));
-            entries.Add(Entry("vox_failure.position", (byte*)&s.position - begin, 32, 32));
-        }
-
-        static void AddContact(List<LayoutEntry> entries)
-        {
-            Contact s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_contact", sizeof(Contact), 32, 32));
-            entries.Add(Entry("vox_contact.body_a", (byte*)&s.body_a - begin, 0, 0));
-            entries.Add(Entry("vox_contact.vertex", (byte*)&s.vertex - begin, 4, 4));
-            entries.Add(Entry("vox_contact.body_b", (byte*)&s.body_b - begin, 8, 8));
-            entries.Add(Entry("vox_contact.tet", (byte*)&s.tet - begin, 12, 12));
-            entries.Add(Entry("vox_contact.barycentric", (byte*)&s.barycentric - begin, 16, 16));
-        }
-
-        static void AddContactView(List<LayoutEntry> entries)
-        {
-            ContactView s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_contact_view", sizeof(ContactView), 40, 32));
-            entries.Add(Entry("vox_contact_view.data", (byte*)&s.data - begin, 0, 0));
-            entries.Add(Entry("vox_contact_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
-            entries.Add(Entry("vox_contact_view.count", (byte*)&s.count - begin, 16, 8));
-            entries.Add(Entry("vox_contact_view.epoch", (byte*)&s.epoch - begin, 24, 16));
-            entries.Add(Entry("vox_contact_view.interiors", (byte*)&s.interiors - begin, 32, 24));
-        }
-
-        static void AddPenetration(List<LayoutEntry> entries)
-        {
-            Penetration s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_penetration", sizeof(Penetration), 40, 40));
-            entries.Add(Entry("vox_penetration.body_a", (byte*)&s.body_a - begin, 0, 0));
-            entries.Add(Entry("vox_penetration.vertex", (byte*)&s.vertex - begin, 4, 4));
-            entries.Add(Entry("vox_penetration.body_b", (byte*)&s.body_b - begin, 8, 8));
-            entries.Add(Entry("vox_penetration.state", (byte*)&s.state - begin, 12, 12));
-            entries.Add(Entry("vox_penetration.contact", (byte*)&s.contact - begin, 16, 16));
-            entries.Add(Entry("vox_penetration.depth", (byte*)&s.depth - begin, 24, 24));
-            entries.Add(Entry("vox_penetration.direction", (byte*)&s.direction - begin, 28, 28));
-        }
-
-        static void AddPenetrationView(List<LayoutEntry> entries)
-        {
-            PenetrationView s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_penetration_view", sizeof(PenetrationView), 32, 24));
-            entries.Add(Entry("vox_penetration_view.data", (byte*)&s.data - begin, 0, 0));
-            entries.Add(Entry("vox_penetration_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
-            entries.Add(Entry("vox_penetration_view.count", (byte*)&s.count - begin, 16, 8));
-            entries.Add(Entry("vox_penetration_view.epoch", (byte*)&s.epoch - begin, 24, 16));
-        }
-
-        static void AddDepth(List<LayoutEntry> entries)
-        {
-            Depth s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_depth", sizeof(Depth), 32, 32));
-            entries.Add(Entry("vox_depth.depth", (byte*)&s.depth - begin, 0, 0));
-            entries.Add(Entry("vox_depth.direction", (byte*)&s.direction - begin, 8, 8));
-        }
-
-        static void AddDepthView(List<LayoutEntry> entries)
-        {
-            DepthView s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_depth_view", sizeof(DepthView), 32, 24));
-            entries.Add(Entry("vox_depth_view.data", (byte*)&s.data - begin, 0, 0));
-            entries.Add(Entry("vox_depth_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
-            entries.Add(Entry("vox_depth_view.count", (byte*)&s.count - begin, 16, 8));
-            entries.Add(Entry("vox_depth_view.epoch", (byte*)&s.epoch - begin, 24, 16));
-        }
-
-        static void AddEdgeContact(List<LayoutEntry> entries)
-        {
-            EdgeContact s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_edge_contact", sizeof(EdgeContact), 128, 128));
-            entries.Add(Entry("vox_edge_contact.body_a", (byte*)&s.body_a - begin, 0, 0));
-            entries.Add(Entry("vox_edge_contact.edge", (byte*)&s.edge - begin, 4, 4));
-            entries.Add(Entry("vox_edge_contact.body_b", (byte*)&s.body_b - begin, 12, 12));
-            entries.Add(Entry("vox_edge_contact.face", (byte*)&s.face - begin, 16, 16));
-            entries.Add(Entry("vox_edge_contact.tet", (byte*)&s.tet - begin, 28, 28));
-            entries.Add(Entry("vox_edge_contact.kind", (byte*)&s.kind - begin, 32, 32));
-            entries.Add(Entry("vox_edge_contact.reserved", (byte*)&s.reserved - begin, 36, 36));
-            entries.Add(Entry("vox_edge_contact.edge_weights", (byte*)&s.edge_weights - begin, 40, 40));
-            entries.Add(Entry("vox_edge_contact.face_weights", (byte*)&s.face_weights - begin, 56, 56));
-            entries.Add(Entry("vox_edge_contact.position", (byte*)&s.position - begin, 80, 80));
-            entries.Add(Entry("vox_edge_contact.normal", (byte*)&s.normal - begin, 104, 104));
-        }
-
-        static void AddEdgeContactView(List<LayoutEntry> entries)
-        {
-            EdgeContactView s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_edge_contact_view", sizeof(EdgeContactView), 32, 24));
-            entries.Add(Entry("vox_edge_contact_view.data", (byte*)&s.data - begin, 0, 0));
-            entries.Add(Entry("vox_edge_contact_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
-            entries.Add(Entry("vox_edge_contact_view.count", (byte*)&s.count - begin, 16, 8));
-            entries.Add(Entry("vox_edge_contact_view.epoch", (byte*)&s.epoch - begin, 24, 16));
-        }
-
-        static void AddMarginContact(List<LayoutEntry> entries)
-        {
-            MarginContact s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_margin_contact", sizeof(MarginContact), 88, 88));
-            entries.Add(Entry("vox_margin_contact.body_a", (byte*)&s.body_a - begin, 0, 0));
-            entries.Add(Entry("vox_margin_contact.vertex", (byte*)&s.vertex - begin, 4, 4));
-            entries.Add(Entry("vox_margin_contact.body_b", (byte*)&s.body_b - begin, 8, 8));
-            entries.Add(Entry("vox_margin_contact.tet", (byte*)&s.tet - begin, 12, 12));
-            entries.Add(Entry("vox_margin_contact.facet", (byte*)&s.facet - begin, 16, 16));
-            entries.Add(Entry("vox_margin_contact.face", (byte*)&s.face - begin, 20, 20));
-            entries.Add(Entry("vox_margin_contact.face_weights", (byte*)&s.face_weights - begin, 32, 32));
-            entries.Add(Entry("vox_margin_contact.distance", (byte*)&s.distance - begin, 56, 56));
-            entries.Add(Entry("vox_margin_contact.normal", (byte*)&s.normal - begin, 64, 64));
-        }
-
-        static void AddMarginContactView(List<LayoutEntry> entries)
-        {
-            MarginContactView s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_margin_contact_view", sizeof(MarginContactView), 32, 24));
-            entries.Add(Entry("vox_margin_contact_view.data", (byte*)&s.data - begin, 0, 0));
-            entries.Add(Entry("vox_margin_contact_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
-            entries.Add(Entry("vox_margin_contact_view.count", (byte*)&s.count - begin, 16, 8));
-            entries.Add(Entry("vox_margin_contact_view.epoch", (byte*)&s.epoch - begin, 24, 16));
-        }
-
-        static void AddPassage(List<LayoutEntry> entries)
-        {
-            Passage s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_passage", sizeof(Passage), 40, 40));
-            entries.Add(Entry("vox_passage.body_a", (byte*)&s.body_a - begin, 0, 0));
-            entries.Add(Entry("vox_passage.vertex", (byte*)&s.vertex - begin, 4, 4));
-            entries.Add(Entry("vox_passage.body_b", (byte*)&s.body_b - begin, 8, 8));
-            entries.Add(Entry("vox_passage.tet", (byte*)&s.tet - begin, 12, 12));
-            entries.Add(Entry("vox_passage.facet", (byte*)&s.facet - begin, 16, 16));
-            entries.Add(Entry("vox_passage.face", (byte*)&s.face - begin, 20, 20));
-            entries.Add(Entry("vox_passage.time", (byte*)&s.time - begin, 32, 32));
-        }
-
-        static void AddPassageView(List<LayoutEntry> entries)
-        {
-            PassageView s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_passage_view", sizeof(PassageView), 32, 24));
-            entries.Add(Entry("vox_passage_view.data", (byte*)&s.data - begin, 0, 0));
-            entries.Add(Entry("vox_passage_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
-            entries.Add(Entry("vox_passage_view.count", (byte*)&s.count - begin, 16, 8));
-            entries.Add(Entry("vox_passage_view.epoch", (byte*)&s.epoch - begin, 24, 16));
-        }
-
-        static void AddPair(List<LayoutEntry> entries)
-        {
-            Pair s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_pair", sizeof(Pair), 48, 48));
-            entries.Add(Entry("vox_pair.body_a", (byte*)&s.body_a - begin, 0, 0));
-            entries.Add(Entry("vox_pair.body_b", (byte*)&s.body_b - begin, 4, 4));
-            entries.Add(Entry("vox_pair.user_data_a", (byte*)&s.user_data_a - begin, 8, 8));
-            entries.Add(Entry("vox_pair.user_data_b", (byte*)&s.user_data_b - begin, 16, 16));
-            entries.Add(Entry("vox_pair.first", (byte*)&s.first - begin, 24, 24));
-            entries.Add(Entry("vox_pair.a_in_b", (byte*)&s.a_in_b - begin, 32, 32));
-            entries.Add(Entry("vox_pair.b_in_a", (byte*)&s.b_in_a - begin, 40, 40));
-        }
-
-        static void AddPairView(List<LayoutEntry> entries)
-        {
-            PairView s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_pair_view", sizeof(PairView), 40, 32));
-            entries.Add(Entry("vox_pair_view.data", (byte*)&s.data - begin, 0, 0));
-            entries.Add(Entry("vox_pair_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
-            entries.Add(Entry("vox_pair_view.count", (byte*)&s.count - begin, 16, 8));
-            entries.Add(Entry("vox_pair_view.epoch", (byte*)&s.epoch - begin, 24, 16));
-            entries.Add(Entry("vox_pair_view.contacts", (byte*)&s.contacts - begin, 32, 24));
-        }
-
-        static void AddTouchEvent(List<LayoutEntry> entries)
-        {
-            TouchEvent s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_touch_event", sizeof(TouchEvent), 32, 32));
-            entries.Add(Entry("vox_touch_event.body_a", (byte*)&s.body_a - begin, 0, 0));
-            entries.Add(Entry("vox_touch_event.body_b", (byte*)&s.body_b - begin, 4, 4));
-            entries.Add(Entry("vox_touch_event.user_data_a", (byte*)&s.user_data_a - begin, 8, 8));
-            entries.Add(Entry("vox_touch_event.user_data_b", (byte*)&s.user_data_b - begin, 16, 16));
-            entries.Add(Entry("vox_touch_event.kind", (byte*)&s.kind - begin, 24, 24));
-            entries.Add(Entry("vox_touch_event.pair", (byte*)&s.pair - begin, 28, 28));
-        }
-
-        static void AddTouchView(List<LayoutEntry> entries)
-        {
-            TouchView s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_touch_view", sizeof(TouchView), 56, 48));
-            entries.Add(Entry("vox_touch_view.data", (byte*)&s.data - begin, 0, 0));
-            entries.Add(Entry("vox_touch_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
-            entries.Add(Entry("vox_touch_view.count", (byte*)&s.count - begin, 16, 8));
-            entries.Add(Entry("vox_touch_view.epoch", (byte*)&s.epoch - begin, 24, 16));
-            entries.Add(Entry("vox_touch_view.began", (byte*)&s.began - begin, 32, 24));
-            entries.Add(Entry("vox_touch_view.persisted", (byte*)&s.persisted - begin, 40, 32));
-            entries.Add(Entry("vox_touch_view.ended", (byte*)&s.ended - begin, 48, 40));
-        }
-
-        static void AddContactEvent(List<LayoutEntry> entries)
-        {
-            ContactEvent s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_contact_event", sizeof(ContactEvent), 16, 16));
-            entries.Add(Entry("vox_contact_event.body_a", (byte*)&s.body_a - begin, 0, 0));
-            entries.Add(Entry("vox_contact_event.vertex", (byte*)&s.vertex - begin, 4, 4));
-            entries.Add(Entry("vox_contact_event.body_b", (byte*)&s.body_b - begin, 8, 8));
-            entries.Add(Entry("vox_contact_event.kind", (byte*)&s.kind - begin, 12, 12));
-        }
-
-        static void AddContactEventView(List<LayoutEntry> entries)
-        {
-            ContactEventView s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_contact_event_view", sizeof(ContactEventView), 48, 40));
-            entries.Add(Entry("vox_contact_event_view.data", (byte*)&s.data - begin, 0, 0));
-            entries.Add(Entry("vox_contact_event_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
-            entries.Add(Entry("vox_contact_event_view.count", (byte*)&s.count - begin, 16, 8));
-            entries.Add(Entry("vox_contact_event_view.epoch", (byte*)&s.epoch - begin, 24, 16));
-            entries.Add(Entry("vox_contact_event_view.began", (byte*)&s.began - begin, 32, 24));
-            entries.Add(Entry("vox_contact_event_view.ended", (byte*)&s.ended - begin, 40, 32));
-        }
-
-        static void AddReading(List<LayoutEntry> entries)
-        {
-            Reading s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_reading", sizeof(Reading), 168, 168));
-            entries.Add(Entry("vox_reading.contact", (byte*)&s.contact - begin, 0, 0));
-            entries.Add(Entry("vox_reading.known", (byte*)&s.known - begin, 8, 8));
-            entries.Add(Entry("vox_reading.state", (byte*)&s.state - begin, 12, 12));
-            entries.Add(Entry("vox_reading.depth", (byte*)&s.depth - begin, 16, 16));
-            entries.Add(Entry("vox_reading.direction", (byte*)&s.direction - begin, 20, 20));
-            entries.Add(Entry("vox_reading.position", (byte*)&s.position - begin, 32, 32));
-            entries.Add(Entry("vox_reading.distance", (byte*)&s.distance - begin, 56, 56));
-            entries.Add(Entry("vox_reading.surface_position", (byte*)&s.surface_position - begin, 64, 64));
-            entries.Add(Entry("vox_reading.barycentric", (byte*)&s.barycentric - begin, 88, 88));
-            entries.Add(Entry("vox_reading.normal", (byte*)&s.normal - begin, 112, 112));
-            entries.Add(Entry("vox_reading.triangle", (byte*)&s.triangle - begin, 136, 136));
-            entries.Add(Entry("vox_reading.reserved", (byte*)&s.reserved - begin, 148, 148));
-            entries.Add(Entry("vox_reading.user_data_a", (byte*)&s.user_data_a - begin, 152, 152));
-            entries.Add(Entry("vox_reading.user_data_b", (byte*)&s.user_data_b - begin, 160, 160));
-        }
-
-        static void AddReadingView(List<LayoutEntry> entries)
-        {
-            ReadingView s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_reading_view", sizeof(ReadingView), 32, 24));
-            entries.Add(Entry("vox_reading_view.data", (byte*)&s.data - begin, 0, 0));
-            entries.Add(Entry("vox_reading_view.byte_stride", (byte*)&s.byte_stride - begin, 8, 4));
-            entries.Add(Entry("vox_reading_view.count", (byte*)&s.count - begin, 16, 8));
-            entries.Add(Entry("vox_reading_view.epoch", (byte*)&s.epoch - begin, 24, 16));
-        }
-
-        static void AddReadingsDesc(List<LayoutEntry> entries)
-        {
-            ReadingsDesc s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_readings_desc", sizeof(ReadingsDesc), 24, 24));
-            entries.Add(Entry("vox_readings_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_readings_desc.what", (byte*)&s.what - begin, 4, 4));
-            entries.Add(Entry("vox_readings_desc.body_a", (byte*)&s.body_a - begin, 8, 8));
-            entries.Add(Entry("vox_readings_desc.body_b", (byte*)&s.body_b - begin, 12, 12));
-            entries.Add(Entry("vox_readings_desc.closest_budget", (byte*)&s.closest_budget - begin, 16, 16));
         }
 
         static void AddAllocator(List<LayoutEntry> entries)
@@ -3293,24 +2702,6 @@ namespace Voxtet
             entries.Add(Entry("vox_task_system.enqueue", (byte*)&s.enqueue - begin, 0, 0));
             entries.Add(Entry("vox_task_system.finish", (byte*)&s.finish - begin, 8, 4));
             entries.Add(Entry("vox_task_system.user", (byte*)&s.user - begin, 16, 8));
-        }
-
-        static void AddCounter(List<LayoutEntry> entries)
-        {
-            Counter s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_counter", sizeof(Counter), 16, 16));
-            entries.Add(Entry("vox_counter.name", (byte*)&s.name - begin, 0, 0));
-            entries.Add(Entry("vox_counter.value", (byte*)&s.value - begin, 8, 8));
-        }
-
-        static void AddCounterView(List<LayoutEntry> entries)
-        {
-            CounterView s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_counter_view", sizeof(CounterView), 16, 16));
-            entries.Add(Entry("vox_counter_view.data", (byte*)&s.data - begin, 0, 0));
-            entries.Add(Entry("vox_counter_view.count", (byte*)&s.count - begin, 8, 8));
         }
 
         static void AddQueryDesc(List<LayoutEntry> entries)
@@ -3712,11 +3103,9 @@ namespace Voxtet
         {
             FeatureView s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_feature_view", sizeof(FeatureView), 24, 24));
-            entries.Add(Entry("vox_feature_view.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_feature_view.vertices_each", (byte*)&s.vertices_each - begin, 4, 4));
+            entries.Add(Entry("vox_feature_view", sizeof(FeatureView), 16, 16));
+            entries.Add(Entry("vox_feature_view.vertices", (byte*)&s.vertices - begin, 0, 0));
             entries.Add(Entry("vox_feature_view.count", (byte*)&s.count - begin, 8, 8));
-            entries.Add(Entry("vox_feature_view.vertices", (byte*)&s.vertices - begin, 16, 16));
         }
 
         static void AddMotion(List<LayoutEntry> entries)
@@ -3731,35 +3120,15 @@ namespace Voxtet
             entries.Add(Entry("vox_motion.radius", (byte*)&s.radius - begin, 88, 88));
         }
 
-        static void AddPairLists(List<LayoutEntry> entries)
+        static void AddPartnerLists(List<LayoutEntry> entries)
         {
-            PairLists s;
+            PartnerLists s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_pair_lists", sizeof(PairLists), 48, 40));
-            entries.Add(Entry("vox_pair_lists.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_pair_lists.reserved", (byte*)&s.reserved - begin, 4, 4));
-            entries.Add(Entry("vox_pair_lists.first", (byte*)&s.first - begin, 8, 8));
-            entries.Add(Entry("vox_pair_lists.count", (byte*)&s.count - begin, 16, 16));
-            entries.Add(Entry("vox_pair_lists.pair_count", (byte*)&s.pair_count - begin, 24, 24));
-            entries.Add(Entry("vox_pair_lists.offsets", (byte*)&s.offsets - begin, 32, 32));
-            entries.Add(Entry("vox_pair_lists.partners", (byte*)&s.partners - begin, 40, 36));
-        }
-
-        static void AddPairCounters(List<LayoutEntry> entries)
-        {
-            PairCounters s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_pair_counters", sizeof(PairCounters), 72, 72));
-            entries.Add(Entry("vox_pair_counters.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_pair_counters.reserved", (byte*)&s.reserved - begin, 4, 4));
-            entries.Add(Entry("vox_pair_counters.cell_size", (byte*)&s.cell_size - begin, 8, 8));
-            entries.Add(Entry("vox_pair_counters.cells", (byte*)&s.cells - begin, 16, 16));
-            entries.Add(Entry("vox_pair_counters.tile_pairs", (byte*)&s.tile_pairs - begin, 24, 24));
-            entries.Add(Entry("vox_pair_counters.boxes_compared", (byte*)&s.boxes_compared - begin, 32, 32));
-            entries.Add(Entry("vox_pair_counters.overlaps", (byte*)&s.overlaps - begin, 40, 40));
-            entries.Add(Entry("vox_pair_counters.culled", (byte*)&s.culled - begin, 48, 48));
-            entries.Add(Entry("vox_pair_counters.bytes", (byte*)&s.bytes - begin, 56, 56));
-            entries.Add(Entry("vox_pair_counters.peak_bytes", (byte*)&s.peak_bytes - begin, 64, 64));
+            entries.Add(Entry("vox_partner_lists", sizeof(PartnerLists), 32, 24));
+            entries.Add(Entry("vox_partner_lists.offsets", (byte*)&s.offsets - begin, 0, 0));
+            entries.Add(Entry("vox_partner_lists.partners", (byte*)&s.partners - begin, 8, 4));
+            entries.Add(Entry("vox_partner_lists.first", (byte*)&s.first - begin, 16, 8));
+            entries.Add(Entry("vox_partner_lists.count", (byte*)&s.count - begin, 24, 16));
         }
 
         static void AddCrossing(List<LayoutEntry> entries)
@@ -3780,84 +3149,77 @@ namespace Voxtet
         {
             CrossingView s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_crossing_view", sizeof(CrossingView), 24, 24));
-            entries.Add(Entry("vox_crossing_view.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_crossing_view.byte_stride", (byte*)&s.byte_stride - begin, 4, 4));
+            entries.Add(Entry("vox_crossing_view", sizeof(CrossingView), 16, 16));
+            entries.Add(Entry("vox_crossing_view.data", (byte*)&s.data - begin, 0, 0));
             entries.Add(Entry("vox_crossing_view.count", (byte*)&s.count - begin, 8, 8));
-            entries.Add(Entry("vox_crossing_view.crossings", (byte*)&s.crossings - begin, 16, 16));
         }
 
-        static void AddClosePair(List<LayoutEntry> entries)
+        static void AddProximity(List<LayoutEntry> entries)
         {
-            ClosePair s;
+            Proximity s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_close_pair", sizeof(ClosePair), 112, 112));
-            entries.Add(Entry("vox_close_pair.a", (byte*)&s.a - begin, 0, 0));
-            entries.Add(Entry("vox_close_pair.b", (byte*)&s.b - begin, 4, 4));
-            entries.Add(Entry("vox_close_pair.distance", (byte*)&s.distance - begin, 8, 8));
-            entries.Add(Entry("vox_close_pair.weights_a", (byte*)&s.weights_a - begin, 16, 16));
-            entries.Add(Entry("vox_close_pair.weights_b", (byte*)&s.weights_b - begin, 40, 40));
-            entries.Add(Entry("vox_close_pair.point_a", (byte*)&s.point_a - begin, 64, 64));
-            entries.Add(Entry("vox_close_pair.point_b", (byte*)&s.point_b - begin, 88, 88));
+            entries.Add(Entry("vox_proximity", sizeof(Proximity), 112, 112));
+            entries.Add(Entry("vox_proximity.a", (byte*)&s.a - begin, 0, 0));
+            entries.Add(Entry("vox_proximity.b", (byte*)&s.b - begin, 4, 4));
+            entries.Add(Entry("vox_proximity.distance", (byte*)&s.distance - begin, 8, 8));
+            entries.Add(Entry("vox_proximity.weights_a", (byte*)&s.weights_a - begin, 16, 16));
+            entries.Add(Entry("vox_proximity.weights_b", (byte*)&s.weights_b - begin, 40, 40));
+            entries.Add(Entry("vox_proximity.point_a", (byte*)&s.point_a - begin, 64, 64));
+            entries.Add(Entry("vox_proximity.point_b", (byte*)&s.point_b - begin, 88, 88));
         }
 
-        static void AddCloseView(List<LayoutEntry> entries)
+        static void AddProximityView(List<LayoutEntry> entries)
         {
-            CloseView s;
+            ProximityView s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_close_view", sizeof(CloseView), 24, 24));
-            entries.Add(Entry("vox_close_view.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_close_view.byte_stride", (byte*)&s.byte_stride - begin, 4, 4));
-            entries.Add(Entry("vox_close_view.count", (byte*)&s.count - begin, 8, 8));
-            entries.Add(Entry("vox_close_view.pairs", (byte*)&s.pairs - begin, 16, 16));
+            entries.Add(Entry("vox_proximity_view", sizeof(ProximityView), 16, 16));
+            entries.Add(Entry("vox_proximity_view.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_proximity_view.count", (byte*)&s.count - begin, 8, 8));
         }
 
-        static void AddContactTimeDesc(List<LayoutEntry> entries)
+        static void AddImpactDesc(List<LayoutEntry> entries)
         {
-            ContactTimeDesc s;
+            ImpactDesc s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_contact_time_desc", sizeof(ContactTimeDesc), 24, 24));
-            entries.Add(Entry("vox_contact_time_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_contact_time_desc.most_iterations", (byte*)&s.most_iterations - begin, 4, 4));
-            entries.Add(Entry("vox_contact_time_desc.distance", (byte*)&s.distance - begin, 8, 8));
-            entries.Add(Entry("vox_contact_time_desc.slack", (byte*)&s.slack - begin, 16, 16));
+            entries.Add(Entry("vox_impact_desc", sizeof(ImpactDesc), 24, 24));
+            entries.Add(Entry("vox_impact_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_impact_desc.max_iterations", (byte*)&s.max_iterations - begin, 4, 4));
+            entries.Add(Entry("vox_impact_desc.distance", (byte*)&s.distance - begin, 8, 8));
+            entries.Add(Entry("vox_impact_desc.slack", (byte*)&s.slack - begin, 16, 16));
         }
 
         static void AddSafeStep(List<LayoutEntry> entries)
         {
             SafeStep s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_safe_step", sizeof(SafeStep), 48, 48));
-            entries.Add(Entry("vox_safe_step.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_safe_step.reserved", (byte*)&s.reserved - begin, 4, 4));
-            entries.Add(Entry("vox_safe_step.step", (byte*)&s.step - begin, 8, 8));
-            entries.Add(Entry("vox_safe_step.pairs", (byte*)&s.pairs - begin, 16, 16));
-            entries.Add(Entry("vox_safe_step.unfinished", (byte*)&s.unfinished - begin, 24, 24));
-            entries.Add(Entry("vox_safe_step.kind_a", (byte*)&s.kind_a - begin, 32, 32));
-            entries.Add(Entry("vox_safe_step.kind_b", (byte*)&s.kind_b - begin, 36, 36));
-            entries.Add(Entry("vox_safe_step.a", (byte*)&s.a - begin, 40, 40));
-            entries.Add(Entry("vox_safe_step.b", (byte*)&s.b - begin, 44, 44));
+            entries.Add(Entry("vox_safe_step", sizeof(SafeStep), 40, 40));
+            entries.Add(Entry("vox_safe_step.step", (byte*)&s.step - begin, 0, 0));
+            entries.Add(Entry("vox_safe_step.pairs", (byte*)&s.pairs - begin, 8, 8));
+            entries.Add(Entry("vox_safe_step.kind_a", (byte*)&s.kind_a - begin, 16, 16));
+            entries.Add(Entry("vox_safe_step.kind_b", (byte*)&s.kind_b - begin, 20, 20));
+            entries.Add(Entry("vox_safe_step.a", (byte*)&s.a - begin, 24, 24));
+            entries.Add(Entry("vox_safe_step.b", (byte*)&s.b - begin, 28, 28));
+            entries.Add(Entry("vox_safe_step.unfinished", (byte*)&s.unfinished - begin, 32, 32));
+            entries.Add(Entry("vox_safe_step.reserved", (byte*)&s.reserved - begin, 36, 36));
         }
 
-        static void AddTimedPair(List<LayoutEntry> entries)
+        static void AddImpact(List<LayoutEntry> entries)
         {
-            TimedPair s;
+            Impact s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_timed_pair", sizeof(TimedPair), 16, 16));
-            entries.Add(Entry("vox_timed_pair.a", (byte*)&s.a - begin, 0, 0));
-            entries.Add(Entry("vox_timed_pair.b", (byte*)&s.b - begin, 4, 4));
-            entries.Add(Entry("vox_timed_pair.time", (byte*)&s.time - begin, 8, 8));
+            entries.Add(Entry("vox_impact", sizeof(Impact), 16, 16));
+            entries.Add(Entry("vox_impact.a", (byte*)&s.a - begin, 0, 0));
+            entries.Add(Entry("vox_impact.b", (byte*)&s.b - begin, 4, 4));
+            entries.Add(Entry("vox_impact.time", (byte*)&s.time - begin, 8, 8));
         }
 
-        static void AddTimedView(List<LayoutEntry> entries)
+        static void AddImpactView(List<LayoutEntry> entries)
         {
-            TimedView s;
+            ImpactView s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_timed_view", sizeof(TimedView), 24, 24));
-            entries.Add(Entry("vox_timed_view.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_timed_view.byte_stride", (byte*)&s.byte_stride - begin, 4, 4));
-            entries.Add(Entry("vox_timed_view.count", (byte*)&s.count - begin, 8, 8));
-            entries.Add(Entry("vox_timed_view.pairs", (byte*)&s.pairs - begin, 16, 16));
+            entries.Add(Entry("vox_impact_view", sizeof(ImpactView), 16, 16));
+            entries.Add(Entry("vox_impact_view.data", (byte*)&s.data - begin, 0, 0));
+            entries.Add(Entry("vox_impact_view.count", (byte*)&s.count - begin, 8, 8));
         }
 
         static void AddIoLoadDesc(List<LayoutEntry> entries)
@@ -4070,70 +3432,30 @@ namespace Voxtet
             entries.Add(Entry("vox_sim_energies.max_speed", (byte*)&s.max_speed - begin, 88, 88));
         }
 
-        static void AddSimCounts(List<LayoutEntry> entries)
-        {
-            SimCounts s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_sim_counts", sizeof(SimCounts), 144, 144));
-            entries.Add(Entry("vox_sim_counts.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_sim_counts.bodies", (byte*)&s.bodies - begin, 4, 4));
-            entries.Add(Entry("vox_sim_counts.vertices", (byte*)&s.vertices - begin, 8, 8));
-            entries.Add(Entry("vox_sim_counts.tets", (byte*)&s.tets - begin, 16, 16));
-            entries.Add(Entry("vox_sim_counts.edges", (byte*)&s.edges - begin, 24, 24));
-            entries.Add(Entry("vox_sim_counts.volumes", (byte*)&s.volumes - begin, 32, 32));
-            entries.Add(Entry("vox_sim_counts.flat_tets", (byte*)&s.flat_tets - begin, 40, 40));
-            entries.Add(Entry("vox_sim_counts.inverted_tets", (byte*)&s.inverted_tets - begin, 48, 48));
-            entries.Add(Entry("vox_sim_counts.raised_masses", (byte*)&s.raised_masses - begin, 56, 56));
-            entries.Add(Entry("vox_sim_counts.softened", (byte*)&s.softened - begin, 64, 64));
-            entries.Add(Entry("vox_sim_counts.steps", (byte*)&s.steps - begin, 72, 72));
-            entries.Add(Entry("vox_sim_counts.substeps", (byte*)&s.substeps - begin, 80, 80));
-            entries.Add(Entry("vox_sim_counts.detections", (byte*)&s.detections - begin, 88, 88));
-            entries.Add(Entry("vox_sim_counts.clamped_steps", (byte*)&s.clamped_steps - begin, 96, 96));
-            entries.Add(Entry("vox_sim_counts.penetrations", (byte*)&s.penetrations - begin, 104, 104));
-            entries.Add(Entry("vox_sim_counts.floor_contacts", (byte*)&s.floor_contacts - begin, 112, 112));
-            entries.Add(Entry("vox_sim_counts.step_ns", (byte*)&s.step_ns - begin, 120, 120));
-            entries.Add(Entry("vox_sim_counts.detect_ns", (byte*)&s.detect_ns - begin, 128, 128));
-            entries.Add(Entry("vox_sim_counts.solve_ns", (byte*)&s.solve_ns - begin, 136, 136));
-        }
-
         /// <summary>All structs and fields. A program whose entries differ must not call the library.</summary>
         internal static List<LayoutEntry> Entries()
         {
             var entries = new List<LayoutEntry>();
             AddPositions(entries);
             AddGridDesc(entries);
-            AddGridInfo(entries);
             AddFilter(entries);
             AddMeshDesc(entries);
-            AddBodyInfo(entries);
-            AddVerticesDesc(entries);
-            AddFailure(entries);
             AddContact(entries);
             AddContactView(entries);
-            AddPenetration(entries);
-            AddPenetrationView(entries);
-            AddDepth(entries);
-            AddDepthView(entries);
-            AddEdgeContact(entries);
-            AddEdgeContactView(entries);
-            AddMarginContact(entries);
-            AddMarginContactView(entries);
-            AddPassage(entries);
-            AddPassageView(entries);
             AddPair(entries);
             AddPairView(entries);
-            AddTouchEvent(entries);
-            AddTouchView(entries);
-            AddContactEvent(entries);
-            AddContactEventView(entries);
-            AddReading(entries);
-            AddReadingView(entries);
-            AddReadingsDesc(entries);
+            AddConstraint(entries);
+            AddConstraintDesc(entries);
+            AddConstraintView(entries);
+            AddBodyInfo(entries);
+            AddGridInfo(entries);
+            AddCounter(entries);
+            AddCounterView(entries);
+            AddFailure(entries);
+            AddVerticesDesc(entries);
             AddAllocator(entries);
             AddLog(entries);
             AddTaskSystem(entries);
-            AddCounter(entries);
-            AddCounterView(entries);
             AddQueryDesc(entries);
             AddPointHit(entries);
             AddClosestHit(entries);
@@ -4161,16 +3483,15 @@ namespace Voxtet
             AddSurfaceDesc(entries);
             AddFeatureView(entries);
             AddMotion(entries);
-            AddPairLists(entries);
-            AddPairCounters(entries);
+            AddPartnerLists(entries);
             AddCrossing(entries);
             AddCrossingView(entries);
-            AddClosePair(entries);
-            AddCloseView(entries);
-            AddContactTimeDesc(entries);
+            AddProximity(entries);
+            AddProximityView(entries);
+            AddImpactDesc(entries);
             AddSafeStep(entries);
-            AddTimedPair(entries);
-            AddTimedView(entries);
+            AddImpact(entries);
+            AddImpactView(entries);
             AddIoLoadDesc(entries);
             AddIoSource(entries);
             AddIoMeshView(entries);
@@ -4184,7 +3505,6 @@ namespace Voxtet
             AddSimBodyDesc(entries);
             AddSimBodyView(entries);
             AddSimEnergies(entries);
-            AddSimCounts(entries);
             return entries;
         }
     }

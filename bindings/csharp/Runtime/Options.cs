@@ -6,7 +6,7 @@ namespace Voxtet
     /// </summary>
     public readonly struct Mesh : IEquatable<Mesh>
     {
-        /// <summary>The number that contacts, pairs and events have in body_a and body_b.</summary>
+        /// <summary>The number that contacts, pairs and constraints have in body_a and body_b.</summary>
         public readonly uint Id;
 
         public Mesh(uint id) { Id = id; }
@@ -30,9 +30,9 @@ namespace Voxtet
         public ulong ByteBudget;
         /// <summary>Threads of a step, or Grid.AllCores; 0: one.</summary>
         public uint Workers;
-        public GridFlags Flags = GridFlags.Penetrations;
-        /// <summary>Most searches for a closest point in a step; 0: no limit.</summary>
-        public ulong ClosestBudget;
+        public GridFlags Flags;
+        /// <summary>See Grid.Margin.</summary>
+        public double Margin;
         /// <summary>Receives warnings and notes, on the thread that called; it must not call the grid.</summary>
         public Action<LogLevel, string> Log;
         /// <summary>The paper's engine with these settings; null: the fast engine, and in Load the one that was saved.

@@ -1,13 +1,7 @@
 using System;
-using System.Runtime.InteropServices;
 
 namespace Voxtet
 {
-    static class SizeOf<T> where T : struct
-    {
-        internal static readonly int Value = Marshal.SizeOf(typeof(T));
-    }
-
     /// <summary>Records of the last step, or positions, in the library's memory: no copy, no allocation. It cannot leave the
     /// stack, and throws InvalidOperationException when it is used after what ended it: the next step, a change, Dispose.
     /// </summary>
@@ -17,25 +11,14 @@ namespace Voxtet
         readonly Grid grid;
         readonly ulong version;
 
-        internal unsafe View(Grid grid, ulong version, void* data, UIntPtr byteStride, ulong count)
+        internal unsafe View(Grid grid, ulong version, void* data, ulong count)
+            : this(grid, version, new ReadOnlySpan<T>(data, checked((int)count))) { }
+
+        View(Grid grid, ulong version, ReadOnlySpan<T> records)
         {
             this.grid = grid;
             this.version = version;
-            int size = SizeOf<T>.Value;
-            if (count == 0)
-                records = ReadOnlySpan<T>.Empty;
-            else if ((ulong)byteStride == (ulong)size)
-                records = new ReadOnlySpan<T>(data, checked((int)count));
-            else
-                records = Packed(data, byteStride, checked((int)count), size); // a later library: longer records
-        }
-
-        static unsafe ReadOnlySpan<T> Packed(void* data, UIntPtr byteStride, int count, int size)
-        {
-            var copy = new T[count];
-            for (int i = 0; i < count; ++i)
-                copy[i] = new ReadOnlySpan<T>((byte*)data + (ulong)i * (ulong)byteStride, 1)[0];
-            return copy;
+            this.records = records;
         }
 
         void Check()
@@ -46,6 +29,9 @@ namespace Voxtet
         public int Length { get { Check(); return records.Length; } }
 
         public ref readonly T this[int index] { get { Check(); return ref records[index]; } }
+
+        /// <summary>Some of them.</summary>
+        public View<T> Slice(int first, int count) { return new View<T>(grid, version, records.Slice(first, count)); }
 
         /// <summary>A copy of your own.</summary>
         public T[] ToArray()
@@ -142,26 +128,5 @@ namespace Voxtet
         /// <summary>The numbers as a span, which does not notice when they end: use it before a mesh is removed or changed,
         /// and while something still refers to the grid.</summary>
         public Span<T> AsSpan() { Check(); return numbers; }
-    }
-
-    /// <summary>What the last step changed: those that began, then those that persisted, then those that ended.</summary>
-    public readonly ref struct Events<T> where T : struct
-    {
-        /// <summary>All of them.</summary>
-        public readonly View<T> All;
-        /// <summary>How many began; they come first.</summary>
-        public readonly int Began;
-        /// <summary>How many persisted; they follow.</summary>
-        public readonly int Persisted;
-        /// <summary>How many ended; they come last.</summary>
-        public readonly int Ended;
-
-        internal Events(View<T> all, ulong began, ulong persisted, ulong ended)
-        {
-            All = all;
-            Began = (int)began;
-            Persisted = (int)persisted;
-            Ended = (int)ended;
-        }
     }
 }

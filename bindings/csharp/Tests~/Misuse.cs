@@ -68,12 +68,15 @@ namespace Voxtet.Tests
             Test.Throws<ArgumentException>(() => grid.GetDoublePositions(mesh), "are Float, asked for as Double");
             Test.Throws<ArgumentException>(() => grid.GetPositions(mesh).Set(new float[3]), "3 numbers, expected 12");
             Test.Throws<IndexOutOfRangeException>(() => Put(grid, mesh, 12, 0), "");
-            Test.Throws<VoxException>(() => { var r = grid.Readings; }, "");
+            Test.Throws<VoxException>(() => { var c = grid.Constraints; }, "VOX_GRID_CONSTRAINTS");
+            Test.Throws<VoxException>(() => grid.FindConstraints(), "call vox_grid_step first");
+            Test.Throws<VoxArgumentException>(() => grid.Margin = -1, "margin is -1");
+            Test.Throws<VoxArgumentException>(() => grid.SetPreviousPositions(mesh, new float[6]), "positions.count is 2, expected 4");
             Test.Throws<ArgumentException>(() => grid.SetTransform(mesh, new double[3]), "3 numbers, expected 12");
             Test.Throws<ArgumentException>(() => grid.ReplaceTets(mesh, new uint[1], new uint[3]), "3 corners, expected 4");
             Put(grid, mesh, 5, float.NaN);
             Test.Throws<VoxException>(() => grid.Step(), "vertex 1");
-            Test.Same(grid.GetFailure().mesh, mesh.Id, "failure");
+            Test.Same(grid.GetFailure().body, mesh.Id, "failure");
             Put(grid, mesh, 5, 0);
             grid.Step();
             grid.Remove(mesh);
@@ -86,7 +89,7 @@ namespace Voxtet.Tests
             Test.Throws<ObjectDisposedException>(() => { ulong hash = grid.Hash; }, "");
         }
 
-        /// <summary>The paper's engine finds the same, and a sensor has contacts without penetrations.</summary>
+        /// <summary>The paper's engine finds the same, and a sensor has contacts without constraints.</summary>
         public static void Settings()
         {
             Mesh a, b;
@@ -97,7 +100,9 @@ namespace Voxtet.Tests
                 fast.SetFilter(a, new Filter { flags = FilterFlags.Sensor });
                 fast.Step();
                 Test.Same(fast.Hash, paper.Hash, "hash");
-                Test.That(fast.Penetrations.Length == 0 && paper.Penetrations.Length > 0, "penetrations");
+                fast.FindConstraints();
+                paper.FindConstraints();
+                Test.That(fast.Constraints.Length == 0 && paper.Constraints.Length > 0, "constraints");
                 Test.That(fast.GetFilter(a).flags == FilterFlags.Sensor && fast.GetFilter(b).mask == ulong.MaxValue, "filters");
             }
         }
@@ -111,12 +116,9 @@ namespace Voxtet.Tests
             int count = contacts.Length;
             Test.That(count > 100, "contacts: " + count);
             Contact[] kept = contacts.ToArray();
-            Test.Same(grid.CopyContacts(a).Length, count, "contacts of a mesh");
-            Test.Same(grid.CopyContacts(a, b).Length, count, "contacts of a pair");
-            grid.PrepareReadings(ReadingFlags.Position, a);
-            Test.Same(grid.CopyReadings(a).Length, count, "readings of a mesh");
-            Test.Same(grid.CopyReadings(b, a).Length, count, "readings of a pair");
-            Test.Same(grid.ReadingDepths.Length, 0, "depths that were not asked for");
+            Pair pair = grid.Pairs[0];
+            Test.That(pair.state == PairState.Began && pair.contact_count == (ulong)count, "a pair that began");
+            Test.Same(grid.PairContacts.Slice((int)pair.first_contact, count).Length, count, "contacts of a pair");
             Test.That(Grid.LibraryBuild.Contains(Grid.LibraryVersion), Grid.LibraryBuild);
             string end = "";
             int read = 0;
@@ -140,7 +142,7 @@ namespace Voxtet.Tests
             try { end = ""; kept[0] = contacts[0]; } catch (InvalidOperationException error) { end = error.Message; }
             Test.That(end.Contains("this view ended"), end);
             Test.Same(grid.Contacts.Length, 0, "contacts");
-            Test.Same(grid.TouchEvents.Ended, 1, "pairs that ended");
+            Test.Same(grid.Pairs[0].state, PairState.Ended, "a pair");
             positions[0] = 0; // still there after a step
             grid.Remove(b);
             try { end = ""; positions[0] = 1; } catch (InvalidOperationException error) { end = error.Message; }
@@ -149,24 +151,85 @@ namespace Voxtet.Tests
             grid.Dispose();
             try { end = ""; count = last.Length; } catch (InvalidOperationException error) { end = error.Message; }
             Test.That(end.Contains("this view ended"), end);
-            Test.That(kept[0].barycentric[0] >= 0, "a copy");
+            Test.Same(kept[0].body_a, a.Id, "a copy");
         }
 
-        /// <summary>A later library may have longer records.</summary>
-        public static unsafe void LongerRecords()
+        static double Gap(Constraint c, double[] a, double[] b)
         {
-            var bytes = new byte[3 * 40];
-            for (int i = 0; i < bytes.Length; ++i) bytes[i] = (byte)(i / 40);
-            fixed (byte* data = bytes)
+            double gap = c.offset;
+            for (int i = 0; i < c.count; ++i)
+                for (int k = 0; k < 3; ++k)
+                    gap += c.weights[i] * c.normal[k] * (i < c.count_a ? a : b)[3 * c.vertices[i] + k];
+            return gap;
+        }
+
+        /// <summary>Each kind, where it is expected, and what it says of the positions.</summary>
+        public static void Constraints()
+        {
+            Mesh a, b;
+            Grid grid = TwoBlocks(out a, out b, new GridOptions { Flags = GridFlags.Constraints | GridFlags.Edges, Margin = 0.8 });
+            double[] atA = Array.ConvertAll(grid.GetPositions(a).ToArray(), x => (double)x);
+            double[] atB = Array.ConvertAll(grid.GetPositions(b).ToArray(), x => (double)x);
+            grid.Step();
+            var kinds = new int[4];
+            foreach (Constraint c in grid.Constraints)
             {
-                var longs = new View<ulong>(null, 0, data, (UIntPtr)40u, 3);
-                var ones = new View<byte>(null, 0, data, (UIntPtr)40u, 3);
-                Test.Same(longs.Length, 3, "records");
-                for (int i = 0; i < 3; ++i)
+                ++kinds[(int)c.kind];
+                double gap = c.body_a == a.Id ? Gap(c, atA, atB) : Gap(c, atB, atA);
+                Test.That(Math.Abs(gap - c.gap) < 1e-9, c.kind + ": its gap is " + c.gap + ", expected " + gap);
+                Test.That(c.gap >= 0 == (c.kind == ConstraintKind.Proximity) || c.gap == 0, c.kind + ": its gap is " + c.gap);
+            }
+            Test.That(kinds[0] > 0 && kinds[1] > 0 && kinds[2] > 0 && kinds[3] == 0, string.Join(" ", kinds));
+            Test.Same(grid.ConstraintsOf(0).Length, grid.Constraints.Length, "constraints of the only pair");
+            View<Constraint> before = grid.Constraints;
+            grid.FindConstraints(DepthMethod.None, b, a);
+            string end = "";
+            try { int count = before.Length; } catch (InvalidOperationException error) { end = error.Message; }
+            Test.That(end.Contains("this view ended"), end);
+            Test.Same(grid.Constraints[0].state, DepthState.Unknown, "state");
+            grid.FindConstraints(DepthMethod.Closest, closestBudget: 1);
+            int searched = 0;
+            foreach (Constraint c in grid.Constraints)
+                if (c.kind == ConstraintKind.Inside && c.state != DepthState.Unknown) ++searched;
+            Test.Same(searched, 1, "constraints within the budget");
+            grid.FindConstraints(mask: 2);
+            Test.Same(grid.Constraints.Length + grid.ConstraintsOf(0).Length, 0, "constraints of no category");
+            Test.Throws<VoxException>(() => grid.FindConstraints(b: a), "there is no body_a");
+            grid.Remove(b);
+            Test.Throws<VoxException>(() => grid.FindConstraints(), "was removed since the step");
+            grid.Dispose();
+        }
+
+        /// <summary>A vertex that went through a mesh within the step, until its mesh stands still.</summary>
+        public static void PreviousPositions()
+        {
+            using (var grid = new Grid())
+            {
+                grid.Add(unit, tet);
+                float[] past = { 0.2f, 0.2f, -0.1f };
+                Mesh point = grid.Add(past, new uint[0]);
+                var before = new double[] { 0.2, 0.2, 3 };
+                grid.SetPreviousPositions(point, before);
+                before[2] = -9; // copied
+                for (int i = 0; i < 2; ++i)
                 {
-                    Test.Same(longs[i], 0x0101010101010101ul * (ulong)i, "record " + i);
-                    Test.Same(ones.ToArray()[i], (byte)i, "byte " + i);
+                    grid.Step();
+                    grid.FindConstraints();
+                    Test.Same(grid.Constraints[0].kind, ConstraintKind.Impact, "kind");
+                    grid.SetPreviousPositions(point, new[] { 0.2f, 0.2f, 2 });
                 }
+                Test.Throws<VoxException>(() => grid.SetPreviousPositions(point, new double[6]), "positions.count is 2, expected 1");
+                grid.SetPreviousPositions(point, new float[0]);
+                grid.Step();
+                grid.FindConstraints();
+                Test.Same(grid.Constraints.Length, 0, "constraints of what stands still");
+                grid.SetPreviousPositions(point, past);
+                grid.Remove(point);
+                grid.Step();
+                Test.Throws<VoxException>(() => grid.SetPreviousPositions(point, past), "stale");
+                grid.SetPreviousPositions(grid.Add(past, new uint[0]), past);
+                grid.Clear();
+                grid.Step();
             }
         }
 
@@ -455,6 +518,8 @@ namespace Voxtet.Tests
                 Test.Same(grid.GetPositions(mesh)[3], 1f, "positions");
                 foreach (Contact contact in grid.Contacts) Test.That(false, "a contact of " + contact.vertex);
                 grid.Step();
+                grid.FindConstraints();
+                Test.Same(grid.Constraints.Length + (int)grid.PairOffsets[0], 0, "constraints");
             }
         }
 
@@ -477,7 +542,7 @@ namespace Voxtet.Tests
                 double number = new[] { 0, 1.5, -2, 1e300, double.NaN, double.PositiveInfinity }[random.Next(6)];
                 try
                 {
-                    switch (random.Next(17))
+                    switch (random.Next(19))
                     {
                         case 0: grid.RemoveTets(mesh, list); break;
                         case 1: grid.SetTetsEnabled(mesh, list, random.Next(2) == 0); break;
@@ -502,7 +567,9 @@ namespace Voxtet.Tests
                             if (meshes.Length < 4) grid.Add(positions, tets);
                             break;
                         case 14: locator.Update(grid); locator.FindPointHits(new[] { number, 0, 0 }, new PointHit[2]); break;
-                        case 15: grid.PrepareReadings((ReadingFlags)random.Next(9)); break;
+                        case 15: grid.FindConstraints((DepthMethod)random.Next(4), random.Next(2) == 0 ? mesh : Mesh.None); break;
+                        case 16: grid.SetPreviousPositions(mesh, grid.GetPositions(mesh).AsSpan().Slice(3 * random.Next(2))); break;
+                        case 17: grid.Margin = number / 100; break;
                         default: grid.Step(); break;
                     }
                     ++done;
@@ -521,7 +588,7 @@ namespace Voxtet.Tests
         public static void NoAllocation()
         {
             Mesh a, b;
-            Grid grid = TwoBlocks(out a, out b);
+            Grid grid = TwoBlocks(out a, out b, new GridOptions { Flags = GridFlags.Constraints });
             double sum = 0;
             Frame(grid, a, ref sum);
             GC.Collect();
@@ -539,8 +606,9 @@ namespace Voxtet.Tests
             Positions<float> positions = grid.GetPositions(mesh);
             positions[0] = positions[0] > 0 ? 0 : 0.01f;
             grid.Step();
-            foreach (Penetration penetration in grid.Penetrations) sum += penetration.depth;
-            sum += grid.TouchEvents.Persisted + (double)grid.Info.moved_bodies;
+            foreach (Constraint constraint in grid.Constraints) sum -= constraint.gap;
+            foreach (Pair pair in grid.Pairs) sum += pair.contact_count;
+            sum += grid.Info.moved_bodies;
         }
 
         static readonly List<WeakReference> forgotten = new List<WeakReference>();

@@ -33,7 +33,7 @@ namespace Voxtet.Tests
         {
             var tests = new System.Collections.Generic.List<Action>
             {
-                Layouts, () => Vectors.Run(arguments[0]), Misuse.Errors, Misuse.Settings, Misuse.Views, Misuse.LongerRecords,
+                Layouts, () => Vectors.Run(arguments[0]), Misuse.Errors, Misuse.Settings, Misuse.Views, Misuse.Constraints, Misuse.PreviousPositions,
                 Misuse.Threads, Misuse.Locators, Misuse.Log, Misuse.CellSizes, Misuse.GridsOfOthers, Misuse.Files, Misuse.ManyGrids,
                 Misuse.EmptyArrays, Misuse.AnythingGoes, Misuse.NoAllocation,
                 Misuse.LogHoldsGrid, Misuse.NothingLeaks

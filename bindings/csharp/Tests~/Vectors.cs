@@ -93,12 +93,6 @@ namespace Voxtet.Tests
 
         void Check(Call call, string name, double found) { Test.Same(found, call.Number(name), place + ": " + name); }
 
-        void CheckCounts(Call call, string name, params int[] found)
-        {
-            var expected = (List<object>)call.Fields[name];
-            for (int i = 0; i < found.Length; ++i) Test.Same((double)found[i], (double)expected[i], place + ": " + name);
-        }
-
         static Filter FilterOf(Call call)
         {
             var fields = new Call((Dictionary<string, object>)call.Fields["filter"]);
@@ -146,9 +140,9 @@ namespace Voxtet.Tests
                 case "results":
                     Results(call);
                     break;
-                case "readings":
-                    grid.PrepareReadings();
-                    Check(call, "readings", grid.Readings.AsSpan());
+                case "find_constraints":
+                    grid.FindConstraints((DepthMethod)call.Uint("method"));
+                    Constraints(call);
                     break;
                 case "update_locator":
                     if (locator == null) locator = grid.TakeLocator();
@@ -277,22 +271,14 @@ namespace Voxtet.Tests
             Check(call, "interior", interior);
             Check(call, "pairs", grid.Pairs.AsSpan());
             Check(call, "pair_contacts", grid.PairContacts.AsSpan());
-            Events<TouchEvent> touches = grid.TouchEvents;
-            Check(call, "touches", touches.All.AsSpan());
-            CheckCounts(call, "touches_began_persisted_ended", touches.Began, touches.Persisted, touches.Ended);
-            if (call.Has("penetrations"))
-            {
-                Check(call, "penetrations", grid.Penetrations.AsSpan());
-                Check(call, "depths", grid.Depths.AsSpan());
-            }
-            else
-            {
-                Test.Throws<VoxException>(() => { var p = grid.Penetrations; }, "VOX_GRID_PENETRATIONS");
-            }
-            if (!call.Has("contact_events")) return;
-            Events<ContactEvent> events = grid.ContactEvents;
-            Check(call, "contact_events", events.All.AsSpan());
-            CheckCounts(call, "contact_events_began_ended", events.Began, events.Ended);
+            if (call.Has("constraints")) Constraints(call);
+            else Test.Throws<VoxException>(() => { var c = grid.Constraints; }, "VOX_GRID_CONSTRAINTS");
+        }
+
+        void Constraints(Call call)
+        {
+            Check(call, "constraints", grid.Constraints.AsSpan());
+            Check(call, "pair_offsets", grid.PairOffsets.AsSpan());
         }
 
         void Meshes(Call call)

@@ -1,5 +1,4 @@
 import { Format } from "../enums.js";
-import { structs } from "../layout.js";
 import { bits, bytes, callback, fields, flag, float, floats, indices, integer, list, meshId, options, positions } from "./check.js";
 import { suggestion, suggestOptions, weighted } from "./cell_size.js";
 import { Locator } from "./locator.js";
@@ -7,15 +6,16 @@ import { meshArrays, meshDesc, same } from "./mesh_arrays.js";
 import { guarded, memoryOf, Owned, pointerOf, pointerOfKind } from "./owned.js";
 import { records } from "./records.js";
 
-const GRID = ["cellSize", "byteBudget", "flags", "closestBudget", "log", "reference"];
+const GRID = ["cellSize", "margin", "byteBudget", "flags", "log", "reference"];
 const REFERENCE = ["flags", "hashTableSize", "worldMin", "worldMax"];
 const FILTER = ["flags", "group", "category", "mask", "world", "selfRings", "selfRestDistance"];
 const MESH = ["positions", "tets", "userData", "filter", "restPositions"];
 const TOPOLOGY = ["positions", "tets", "restPositions"];
 const VERTICES = ["positions", "copiesOf", "restPositions"];
-const READINGS = ["what", "bodyA", "bodyB", "closestBudget"];
+const CONSTRAINTS = ["method", "bodyA", "bodyB", "mask", "closestBudget"];
 
 let logged;
+let lend;
 
 // The module's memory outlives grids, and what it calls must not hold them: a log may well hold its grid. So these functions
 // stand where they see nothing else.
@@ -29,16 +29,18 @@ function logOf(owner) {
   };
 }
 
-function closing(memory, id) {
+function closing(memory, id, lent) {
   return (pointer) => {
     memory.call.vox_grid_destroy(pointer);
     memory.removeCallback(id);
+    for (const at of lent.values()) memory.exports.free(at);
   };
 }
 
 /** A set of meshes that collide. */
 export class Grid extends Owned {
   #log;
+  #lent; // of meshes by id: where their previous positions are
 
   /** @param {Uint8Array} [snapshot] what save() gave, instead of an empty grid */
   constructor(memory, settings, snapshot) {
@@ -69,14 +71,20 @@ export class Grid extends Owned {
       memory.removeCallback(id);
       throw error;
     }
-    super(memory, "grid", pointer, closing(memory, id));
+    const lent = new Map();
+    super(memory, "grid", pointer, closing(memory, id, lent));
     this.#log = log;
+    this.#lent = lent;
     owner.grid = new WeakRef(this);
     owner.log = undefined;
   }
 
   static {
     logged = (grid, ...line) => guarded([grid], () => grid.#log(...line));
+    lend = (grid, id, at) => {
+      memoryOf(grid).exports.free(grid.#lent.get(id) ?? 0);
+      grid.#lent.set(id, at);
+    };
   }
 
   #call(name, ...given) {
@@ -88,16 +96,16 @@ export class Grid extends Owned {
   }
 
   /** The view that `name` gives, and its records in a copy. */
-  #view(name, viewStruct, struct) {
-    const view = this.#get(viewStruct, name);
-    const copy = memoryOf(this).items(view.data, view.count, view.byteStride);
-    return [view, records(struct, copy, view.count, view.byteStride)];
+  #view(name, struct) {
+    const view = this.#get(`${struct}_view`, name);
+    return [view, records(memoryOf(this), struct, view.data, view.count)];
   }
 
   // ---- settings ----
 
   clear() {
     this.#call("vox_grid_clear");
+    for (const id of this.#lent.keys()) lend(this, id, 0);
   }
 
   reserve(meshes, contacts) {
@@ -110,6 +118,14 @@ export class Grid extends Owned {
 
   set cellSize(value) {
     this.#call("vox_grid_set_cell_size", float(value, "cellSize"));
+  }
+
+  get margin() {
+    return this.info.margin;
+  }
+
+  set margin(value) {
+    this.#call("vox_grid_set_margin", float(value, "margin"));
   }
 
   get flags() {
@@ -173,81 +189,34 @@ export class Grid extends Owned {
   }
 
   get contacts() {
-    return this.#view("vox_grid_get_contacts", "vox_contact_view", "vox_contact")[1];
+    return this.#view("vox_grid_get_contacts", "vox_contact")[1];
   }
 
   get contactInteriors() {
     const view = this.#get("vox_contact_view", "vox_grid_get_contacts");
-    return memoryOf(this).items(view.interiors, view.count, 1);
-  }
-
-  get penetrations() {
-    return this.#view("vox_grid_penetrations", "vox_penetration_view", "vox_penetration")[1];
-  }
-
-  get depths() {
-    return this.#view("vox_grid_depths", "vox_depth_view", "vox_depth")[1];
+    return memoryOf(this).copy("u8", view.interiors, view.count);
   }
 
   get pairs() {
-    const [view, pairs] = this.#view("vox_grid_get_pairs", "vox_pair_view", "vox_pair");
+    const [view, pairs] = this.#view("vox_grid_get_pairs", "vox_pair");
     pairs.contacts = memoryOf(this).copy("u32", view.contacts, this.#get("vox_contact_view", "vox_grid_get_contacts").count);
     return pairs;
   }
 
-  get touchEvents() {
-    const [{ began, persisted }, all] = this.#view("vox_grid_touch_events", "vox_touch_view", "vox_touch_event");
-    return {
-      all,
-      began: all.slice(0, began),
-      persisted: all.slice(began, began + persisted),
-      ended: all.slice(began + persisted),
-    };
+  findConstraints(settings) {
+    const given = fields(settings, "options", "vox_constraint_desc", CONSTRAINTS);
+    memoryOf(this).frame((frame) => this.#call("vox_grid_find_constraints", frame.struct("vox_constraint_desc", given)));
   }
 
-  get contactEvents() {
-    const [{ began }, all] = this.#view("vox_grid_contact_events", "vox_contact_event_view", "vox_contact_event");
-    return { all, began: all.slice(0, began), ended: all.slice(began) };
-  }
-
-  /** Records that `name` copies for these meshes. */
-  copied(name, struct, ...ids) {
-    const memory = memoryOf(this);
-    const { size } = structs[struct];
-    return memory.frame((frame) => {
-      const count = memory.number("count", (out) => this.#call(name, ...ids, 0, 0, out));
-      const items = frame.take(count * size);
-      memory.number("count", (out) => this.#call(name, ...ids, items, count, out));
-      return records(struct, memory.items(items, count, size), count);
-    });
-  }
-
-  contactsBetween(bodyA, bodyB) {
-    return this.copied("vox_pair_copy_contacts", "vox_contact", meshId(bodyA, "bodyA"), meshId(bodyB, "bodyB"));
+  get constraints() {
+    const [view, constraints] = this.#view("vox_grid_get_constraints", "vox_constraint");
+    constraints.pairOffsets = Array.from(memoryOf(this).copy("u64", view.pairOffsets, view.pairCount + 1), Number);
+    return constraints;
   }
 
   failure(index = 0) {
     const failure = this.#get("vox_failure", "vox_grid_get_failure", integer(index, "index", "u32"));
-    return failure.mesh === 0 ? null : failure;
-  }
-
-  // ---- readings ----
-
-  prepareReadings(settings) {
-    const given = fields(settings, "options", "vox_readings_desc", READINGS);
-    memoryOf(this).frame((frame) => this.#call("vox_grid_prepare_readings_of", frame.struct("vox_readings_desc", given)));
-  }
-
-  get readings() {
-    return this.#view("vox_grid_readings", "vox_reading_view", "vox_reading")[1];
-  }
-
-  get readingDepths() {
-    return this.#view("vox_grid_reading_depths", "vox_depth_view", "vox_depth")[1];
-  }
-
-  readingsBetween(bodyA, bodyB) {
-    return this.copied("vox_pair_copy_readings", "vox_reading", meshId(bodyA, "bodyA"), meshId(bodyB, "bodyB"));
+    return failure.body === 0 ? null : failure;
   }
 
   // ---- locators, snapshots, measurements ----
@@ -272,8 +241,7 @@ export class Grid extends Owned {
 
   get counters() {
     const memory = memoryOf(this);
-    const { data, count } = this.#get("vox_counter_view", "vox_grid_get_counters");
-    const all = records("vox_counter", memory.items(data, count, structs.vox_counter.size), count);
+    const [, all] = this.#view("vox_grid_get_counters", "vox_counter");
     return Object.fromEntries(Array.from(all, ({ name, value }) => [memory.text(name), value]));
   }
 
@@ -314,6 +282,7 @@ export class Mesh {
 
   remove() {
     this.#call("vox_body_remove");
+    lend(this.#grid, this.#id, 0);
   }
 
   get info() {
@@ -347,6 +316,16 @@ export class Mesh {
     if (array.length !== own.length)
       throw new RangeError(`positions: this mesh has ${own.length / 3} vertices, got ${array.length / 3} positions`);
     own.set(array);
+  }
+
+  bindPreviousPositions(value) {
+    const memory = memoryOf(this.#grid);
+    const array = value === null ? undefined : positions(value, "positions", memory);
+    memory.frame((frame) => {
+      const given = frame.positions(array);
+      this.#call("vox_mesh_bind_previous_positions", array ? frame.struct("vox_positions", given) : 0);
+      lend(this.#grid, this.#id, array ? frame.keep(given.data) : 0);
+    });
   }
 
   get tets() {
@@ -393,14 +372,6 @@ export class Mesh {
 
   set enabled(value) {
     this.#call("vox_body_set_enabled", flag(value, "enabled"));
-  }
-
-  get contacts() {
-    return this.#grid.copied("vox_mesh_copy_contacts", "vox_contact", this.#id);
-  }
-
-  get readings() {
-    return this.#grid.copied("vox_mesh_copy_readings", "vox_reading", this.#id);
   }
 
   // ---- cutting and growing ----
@@ -474,24 +445,7 @@ export function stepGrids(memory, grids) {
   const pointers = gridPointers(memory, all);
   memory.frame((frame) => {
     const at = frame.array(pointers);
-    guarded(all, () => memory.call.vox_grids_step(at, pointers.length, 0, 1, 0));
-  });
-}
-
-/** The contacts of many grids in one copy; those of grid i begin at offsets[i]. */
-export function contactsOfGrids(memory, grids) {
-  const pointers = gridPointers(memory, grids);
-  const count = pointers.length;
-  return memory.frame((frame) => {
-    const list = frame.array(pointers);
-    const starts = frame.take(8 * (count + 1));
-    const offsets = () => Array.from({ length: count + 1 }, (_, i) => Number(memory.data.getBigUint64(starts + 8 * i, true)));
-    memory.call.vox_grids_copy_contacts(list, count, 0, 0, starts);
-    const all = offsets()[count];
-    const { size } = structs.vox_contact;
-    const items = frame.take(all * size);
-    memory.call.vox_grids_copy_contacts(list, count, items, all, starts);
-    return { contacts: records("vox_contact", memory.items(items, all, size), all), offsets: offsets() };
+    guarded(all, () => memory.call.vox_grids_step(at, pointers.length, 1, 0, 0));
   });
 }
 

@@ -62,7 +62,7 @@ export class Locator extends Owned {
         const hits = frame.take(capacity * size);
         ask(hits, capacity, count);
         const found = Number(memory.data.getBigUint64(count, true));
-        if (found <= capacity) return records(struct, memory.items(hits, found, size), found);
+        if (found <= capacity) return records(memory, struct, hits, found);
         capacity = found;
       }
     });
@@ -78,7 +78,7 @@ export class Locator extends Owned {
     return this.#ask("vox_locator_find_closest", { points }, settings, (frame, questions, ask) => {
       const hits = frame.take(questions * size);
       ask(hits);
-      return records("vox_closest_hit", memory.items(hits, questions, size), questions);
+      return records(memory, "vox_closest_hit", hits, questions);
     });
   }
 

@@ -8,7 +8,7 @@ import { sharedMemory, startAll, threadImports } from "./threads.js";
 const OUT_BYTES = 8192; // more than any struct that is only read
 const PAGE = 65536;
 
-const arrayOf = { u8: Uint8Array, u32: Uint32Array, f32: Float32Array, f64: Float64Array };
+const arrayOf = { u8: Uint8Array, u32: Uint32Array, u64: BigUint64Array };
 
 const readers = {
   u8: (data, at) => data.getUint8(at),
@@ -94,6 +94,12 @@ class Frame {
 
   numbers(numbers) {
     return this.array(Float64Array.from(numbers));
+  }
+
+  /** Leaves it to the caller to free what was taken at `at`. */
+  keep(at) {
+    this.#taken = this.#taken.filter((taken) => taken !== at);
+    return at;
   }
 
   /** The fields of a vox_positions of an array, of which there may be none. */
@@ -230,11 +236,6 @@ export class Memory {
   /** `count` elements at `at`, as they are now, in an array of JavaScript's. */
   copy(type, at, count) {
     return count === 0 ? new arrayOf[type]() : new arrayOf[type](this.buffer, at, count).slice();
-  }
-
-  /** `count` items of `stride` bytes, in a buffer of their own. */
-  items(at, count, stride) {
-    return this.copy("u8", at, count * stride);
   }
 
   /** Runs `use` with a Frame that lasts until it returns. */

@@ -14,17 +14,17 @@ const columnOf = {
 
 class Records {
   #struct;
-  #stride;
+  #size;
   #columns = {};
   /** The copy: records one after the other, as C has them. */
   bytes;
   length;
 
-  constructor(struct, bytes, length, stride = structs[struct].size) {
+  constructor(struct, bytes) {
     this.#struct = struct;
-    this.#stride = stride;
+    this.#size = structs[struct].size;
     this.bytes = bytes;
-    this.length = length;
+    this.length = bytes.length / this.#size;
   }
 
   /** Record `index` as an object; one below 0 counts from the end. Without such a record: undefined. */
@@ -32,7 +32,8 @@ class Records {
     const i = Math.trunc(index) || 0;
     const place = i < 0 ? i + this.length : i;
     if (place < 0 || place >= this.length) return undefined;
-    return readStruct(this.#data(), place * this.#stride, this.#struct);
+    const { buffer, byteOffset } = this.bytes;
+    return readStruct(new DataView(buffer, byteOffset + place * this.#size, this.#size), 0, this.#struct);
   }
 
   *[Symbol.iterator]() {
@@ -45,14 +46,7 @@ class Records {
       const i = Math.trunc(index) || 0;
       return Math.max(0, Math.min(i < 0 ? i + this.length : i, this.length));
     };
-    const from = place(begin);
-    const count = Math.max(0, place(end) - from);
-    const bytes = this.bytes.subarray(from * this.#stride, (from + count) * this.#stride);
-    return new this.constructor(this.#struct, bytes, count, this.#stride);
-  }
-
-  #data() {
-    return new DataView(this.bytes.buffer, this.bytes.byteOffset, this.bytes.byteLength);
+    return new this.constructor(this.#struct, this.bytes.subarray(place(begin) * this.#size, place(end) * this.#size));
   }
 
   column(offset, type, count) {
@@ -65,7 +59,7 @@ class Records {
     const { buffer, byteOffset, byteLength } = this.bytes;
     const from = new Source(buffer, byteOffset, byteLength / size);
     const to = new Column(this.length * count);
-    const step = this.#stride / size;
+    const step = this.#size / size;
     const first = offset / size;
     for (let i = 0, n = 0; i < this.length; ++i)
       for (let k = 0; k < count; ++k, ++n) {
@@ -92,7 +86,7 @@ function classOf(struct) {
   return (classes[struct] = Class);
 }
 
-/** `length` records out of `bytes`. */
-export function records(struct, bytes, length, stride) {
-  return new (classOf(struct))(struct, bytes, length, stride);
+/** A copy of `count` records at `at`. */
+export function records(memory, struct, at, count) {
+  return new (classOf(struct))(struct, memory.copy("u8", at, count * structs[struct].size));
 }

@@ -68,6 +68,11 @@ export function replay(vox, script, arrays, assert) {
     near({ cell_size: found.cellSize, zone_min: found.zoneMin, zone_max: found.zoneMax }, call);
     return { warnings: found.warnings, note: found.note };
   };
+  const constraints = () => {
+    const found = grid.constraints;
+    const offsets = BigUint64Array.from(found.pairOffsets, BigInt);
+    return { constraints: summary(found), pair_offsets: [offsets.length, hashWords(new Uint8Array(offsets.buffer))] };
+  };
   const calls = {
     create(call) {
       grid?.dispose();
@@ -88,7 +93,6 @@ export function replay(vox, script, arrays, assert) {
     step: () => grid.step(),
     results(call) {
       const pairs = grid.pairs;
-      const touches = grid.touchEvents;
       const found = {
         hash: grid.hash.toString(16).padStart(16, "0"),
         epoch: grid.epoch,
@@ -96,28 +100,15 @@ export function replay(vox, script, arrays, assert) {
         interior: grid.contactInteriors.reduce((sum, one) => sum + one, 0),
         pairs: summary(pairs),
         pair_contacts: [pairs.contacts.length, hashWords(new Uint8Array(pairs.contacts.buffer))],
-        touches: summary(touches.all),
-        touches_began_persisted_ended: [touches.began.length, touches.persisted.length, touches.ended.length],
       };
-      if (grid.flags & GridFlags.PENETRATIONS) {
-        found.penetrations = summary(grid.penetrations);
-        found.depths = summary(grid.depths);
-      } else {
-        assert.throws(() => grid.penetrations, VoxError);
-      }
-      if (grid.flags & GridFlags.CONTACT_EVENTS) {
-        const events = grid.contactEvents;
-        found.contact_events = summary(events.all);
-        found.contact_events_began_ended = [events.began.length, events.ended.length];
-      } else {
-        assert.throws(() => grid.contactEvents, VoxError);
-      }
-      for (const key of ["penetrations", "contact_events"]) assert.equal(key in found, key in call);
+      assert.equal("constraints" in call, (grid.flags & GridFlags.CONSTRAINTS) !== 0);
+      if ("constraints" in call) Object.assign(found, constraints());
+      else assert.throws(() => grid.constraints, VoxError);
       return found;
     },
-    readings() {
-      grid.prepareReadings();
-      return { readings: summary(grid.readings) };
+    find_constraints({ method }) {
+      grid.findConstraints({ method });
+      return constraints();
     },
     update_locator() {
       if (locator) locator.update(grid);

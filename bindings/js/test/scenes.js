@@ -1,5 +1,5 @@
 // Bodies for the tests and bench/wasm.mjs: blocks of cubes, cut into five tetrahedra each.
-import { load } from "../voxtet.js";
+import { GridFlags, load } from "../voxtet.js";
 
 /** The module that the tests are about: VOXTET_PLAIN=1 chooses the one without SIMD. */
 export function loaded() {
@@ -26,7 +26,7 @@ export function block(n, offset = [0, 0, 0], Type = Float32Array) {
 
 /** Contacts and hash of each step of two blocks, one of which moves; as text, for JSON. */
 export function stepped(vox) {
-  const grid = new vox.Grid();
+  const grid = new vox.Grid({ flags: GridFlags.CONSTRAINTS | GridFlags.EDGES, margin: 0.05 });
   const body = block(6, [0.9, 0.013, 0.017]);
   grid.add(block(6));
   const mesh = grid.add(body);
@@ -34,7 +34,7 @@ export function stepped(vox) {
   for (let i = 0; i < 5; ++i) {
     mesh.setTransform([1, 0, 0, -0.05 * i, 0, 1, 0, 0, 0, 0, 1, 0]);
     grid.step();
-    found.push([grid.contacts.length, grid.penetrations.length, grid.hash.toString(16)]);
+    found.push([grid.contacts.length, grid.constraints.length, grid.hash.toString(16)]);
   }
   grid.dispose();
   return found;

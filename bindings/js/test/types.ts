@@ -1,18 +1,21 @@
 // Compiled by tsc --strict, and never run: the types are those that a program can use.
-import { FilterFlags, GridFlags, KnownGrid, load, PenetrationState, PrimitiveType, QueryFlags, Result, VoxError, type Contacts, type Grid, type Tuning, type Vox } from "voxtet";
+import { ConstraintKind, DepthMethod, FilterFlags, GridFlags, KnownGrid, load, PrimitiveType, QueryFlags, Result, VoxError, type Contacts, type Grid, type Tuning, type Vox } from "voxtet";
 
 export async function program(): Promise<number> {
   const vox: Vox = await load({ simd: false });
-  using grid: Grid = new vox.Grid({ flags: GridFlags.PENETRATIONS | GridFlags.CONTACT_EVENTS, log: (level, text) => console.log(level, text) });
+  using grid: Grid = new vox.Grid({ flags: GridFlags.CONSTRAINTS | GridFlags.EDGES, margin: 0.1, log: (level, text) => console.log(level, text) });
   const mesh = grid.add({ positions: new Float32Array(12), tets: [0, 1, 2, 3], userData: 7n, filter: { flags: FilterFlags.SELF_COLLISION } });
   mesh.positions.set([0, 1, 2]);
   mesh.positions = new Float64Array(12);
+  mesh.bindPreviousPositions(mesh.positions);
   grid.step();
   const contacts: Contacts = grid.contacts;
   const vertices: Uint32Array = contacts.vertex;
   let sum = vertices.length;
-  for (const contact of contacts.slice(1)) sum += contact.barycentric[3];
-  for (const { state, depth } of grid.penetrations) if (state === PenetrationState.SURFACE) sum += depth;
+  for (const contact of contacts.slice(1)) sum += contact.tet;
+  grid.findConstraints({ method: DepthMethod.CLOSEST, bodyA: mesh, mask: 1n });
+  for (const { kind, gap, normal } of grid.constraints) if (kind === ConstraintKind.INSIDE) sum += gap * normal[2];
+  sum += grid.constraints.pairOffsets.length + grid.pairs.state[0];
   const last: number | undefined = contacts.at(-1)?.tet;
   using locator = grid.locator();
   const hit = locator.findClosest(new Float32Array(3), { mask: 1n, maxDistance: 2, excluded: mesh }).at(0);

@@ -2,8 +2,8 @@ import assert from "node:assert/strict";
 import { once } from "node:events";
 import test from "node:test";
 import { Worker } from "node:worker_threads";
-import { COST_WEIGHT_CAPACITY, ForeignWarnings, GridFlags, KnownGrid, LogLevel, PenetrationState, PrimitiveType, QueryFlags,
-  ReadingFlags, ReferenceFlags, Result, Side, VoxError } from "../voxtet.js";
+import { ConstraintKind, COST_WEIGHT_CAPACITY, DepthMethod, DepthState, ForeignWarnings, GridFlags, KnownGrid, LogLevel, NONE, PairState,
+  PrimitiveType, QueryFlags, ReferenceFlags, Result, Side, VoxError } from "../voxtet.js";
 import { block, loaded } from "./scenes.js";
 
 const vox = await loaded();
@@ -20,14 +20,12 @@ function touching(options) {
 test("results are columns and records of one copy", () => {
   const { grid, left, right } = touching();
   const contacts = grid.contacts;
-  const penetrations = grid.penetrations;
   assert.ok(contacts.length > 20);
   const all = [...contacts];
   assert.equal(all.length, contacts.length);
   all.forEach((contact, i) => {
     assert.deepEqual(contact, contacts.at(i));
     for (const key of ["bodyA", "vertex", "bodyB", "tet"]) assert.equal(contact[key], contacts[key][i]);
-    assert.deepEqual(contact.barycentric, [...contacts.barycentric.subarray(4 * i, 4 * i + 4)]);
   });
   assert.equal(contacts.vertex, contacts.vertex, "a column is made once");
   assert.deepEqual(contacts.at(-1), all.at(-1));
@@ -45,8 +43,6 @@ test("results are columns and records of one copy", () => {
   grid.clear();
   grid.dispose();
   assert.deepEqual(contacts.bytes, before);
-  assert.ok(penetrations.depth.every((depth) => depth >= 0));
-  assert.ok([...penetrations].every((p) => Object.values(PenetrationState).includes(p.state)));
   assert.equal(contacts.bodyA[0], left.id);
 });
 
@@ -54,9 +50,9 @@ test("columns of 64 bits", () => {
   const { grid, right } = touching();
   assert.deepEqual([...grid.pairs.userDataB], [2n ** 63n]);
   assert.equal(right.userData, 2n ** 63n);
-  assert.deepEqual([...grid.pairs.first], [0]);
-  assert.equal(grid.pairs.contacts.length, grid.contacts.length);
-  assert.equal(grid.pairs.at(0).aInB + grid.pairs.at(0).bInA, grid.contacts.length);
+  const { pairs } = grid;
+  assert.deepEqual([[...pairs.firstContact], [...pairs.contactCount]], [[0], [grid.contacts.length]]);
+  assert.deepEqual([...pairs.contacts].sort((a, b) => a - b), [...grid.contacts.vertex.keys()]);
   grid.dispose();
 });
 
@@ -74,7 +70,7 @@ test("positions survive the growth of the memory when they are taken anew", () =
   assert.deepEqual([...left.positions], values);
   grid.step();
   assert.equal(grid.hash, hash);
-  left.positions[3 * grid.contacts.vertex[0]] += 0.01;
+  left.positions[3 * grid.contacts.vertex[0]] += 9;
   grid.step();
   assert.notEqual(grid.hash, hash);
   // Arrays in the module's memory may be given to it, although it may grow before they are copied.
@@ -146,15 +142,94 @@ test("the log, and what it throws", () => {
   }
 });
 
-test("readings and locators", () => {
-  const { grid, left, right } = touching();
-  grid.prepareReadings({ what: ReadingFlags.POSITION | ReadingFlags.DEPTH });
-  assert.equal(grid.readings.length, grid.contacts.length);
-  assert.equal(grid.readingDepths.length, grid.contacts.length);
-  assert.ok(grid.readings.known.every((known) => known === 5));
-  assert.deepEqual(left.contacts.bytes, grid.contactsBetween(left, right).bytes);
-  assert.deepEqual(left.readings.bytes, grid.readingsBetween(right.id, left).bytes);
+/** The gap that a constraint has at these positions, by what it says itself. */
+function gapOf({ offset, normal, vertices, weights, count, countA }, a, b) {
+  let gap = offset;
+  for (let i = 0; i < count; ++i) {
+    const x = (i < countA ? a : b).positions.subarray(3 * vertices[i], 3 * vertices[i] + 3);
+    gap += weights[i] * normal.reduce((sum, n, axis) => sum + n * x[axis], 0);
+  }
+  return gap;
+}
 
+test("constraints of all kinds", () => {
+  const { grid, left, right } = touching({ flags: GridFlags.CONSTRAINTS | GridFlags.EDGES, margin: 0.125 });
+  const meshes = { [left.id]: left, [right.id]: right };
+  assert.equal(grid.margin, 0.125);
+  const all = [...grid.constraints];
+  assert.deepEqual(new Set(all.map((c) => c.kind)), new Set([ConstraintKind.INSIDE, ConstraintKind.EDGE, ConstraintKind.PROXIMITY]));
+  for (const c of all) {
+    assert.ok(Math.abs(gapOf(c, meshes[c.bodyA], meshes[c.bodyB]) - c.gap) < 1e-6);
+    assert.ok(c.kind === ConstraintKind.PROXIMITY ? c.gap >= 0 && c.gap <= 0.125 : c.gap <= 0);
+    assert.deepEqual(new Set([c.userDataA, c.userDataB]), new Set([0n, 2n ** 63n]));
+    assert.deepEqual([c.pair, c.previous, c.time], [0, NONE, 1]);
+  }
+  assert.deepEqual(grid.constraints.pairOffsets, [0, all.length]);
+  grid.step();
+  assert.deepEqual([...grid.constraints.previous], [...all.keys()]);
+
+  // Those that are asked for.
+  grid.flags = 0;
+  grid.margin = 0;
+  grid.step();
+  assert.throws(() => grid.constraints, failure(Result.ERROR_INVALID_STATE));
+  grid.findConstraints({ method: DepthMethod.CLOSEST, bodyA: right, bodyB: left.id });
+  const inside = new Set([...grid.contacts].map((c) => `${c.bodyA} ${c.vertex}`));
+  assert.equal(grid.constraints.length, inside.size);
+  assert.ok(grid.constraints.countA.every((count) => count === 1) && grid.constraints.count.every((count) => count === 4));
+  grid.findConstraints({ method: DepthMethod.CLOSEST, closestBudget: 1 });
+  assert.ok(grid.constraints.state.filter((state) => state === DepthState.UNKNOWN).length > 1);
+  grid.findConstraints({ mask: 2n });
+  assert.deepEqual([grid.constraints.length, grid.constraints.pairOffsets], [0, [0, 0]]);
+  grid.dispose();
+  const empty = new vox.Grid({ flags: GridFlags.CONSTRAINTS });
+  empty.step();
+  assert.deepEqual(empty.constraints.pairOffsets, [0]);
+  empty.dispose();
+});
+
+test("previous positions: vertices that went through a body within a step", () => {
+  const grid = new vox.Grid({ flags: GridFlags.CONSTRAINTS });
+  const wall = grid.add(block(2));
+  const points = grid.add({ positions: new Float32Array([0.3, 0.4, -2]) });
+  const impacts = () => [...grid.constraints].filter((c) => c.kind === ConstraintKind.IMPACT);
+  points.bindPreviousPositions(new Float32Array([0.3, 0.4, 2]));
+  touching().grid.dispose(); // whose arrays take any memory that is free
+  grid.step();
+  const [impact] = impacts();
+  assert.deepEqual([impact.bodyA, impact.bodyB, impact.count, impact.normal], [points.id, wall.id, 4, [0, 0, 1]]);
+  assert.ok(Math.abs(impact.time - 0.25) < 1e-9 && Math.abs(impact.gap + 3) < 1e-6);
+  assert.deepEqual([...grid.pairs.state], [PairState.BEGAN]);
+  points.bindPreviousPositions(points.positions); // copied
+  grid.step();
+  assert.deepEqual([impacts(), [...grid.pairs.state]], [[], [PairState.ENDED]]);
+  points.bindPreviousPositions(new Float64Array([0.3, 0.4, 2]));
+  grid.step();
+  assert.equal(impacts().length, 1);
+  assert.throws(() => points.bindPreviousPositions(new Float32Array(6)), failure(Result.ERROR_INVALID_ARGUMENT));
+  grid.step();
+  assert.equal(impacts().length, 1);
+  points.bindPreviousPositions(null);
+  grid.step();
+  assert.equal(impacts().length, 0);
+  grid.dispose();
+});
+
+test("pairs: what began, persisted, ended and is near", () => {
+  const { grid, right } = touching({ margin: 0.2 });
+  const found = [[...grid.pairs.state]];
+  for (const x of [0.7, 1.1, 1.1, 9]) {
+    right.positions = block(4, [x, 0.31, 0.17]).positions;
+    grid.step();
+    found.push([...grid.pairs.state]);
+  }
+  assert.deepEqual(found, [[PairState.BEGAN], [PairState.PERSISTED], [PairState.ENDED], [PairState.NEAR], []]);
+  assert.deepEqual([grid.info.totalBegan, grid.info.totalEnded], [1, 1]);
+  grid.dispose();
+});
+
+test("locators", () => {
+  const { grid, left, right } = touching();
   const locator = grid.locator();
   assert.equal(locator.epoch, 1);
   const middle = new Float64Array([0.85, 0.6, 0.6]);
@@ -195,7 +270,7 @@ test("edits, and meshes by name", () => {
   left.setTopology(block(2));
   assert.deepEqual(left.tets, block(2).tets);
   left.setTransform([1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0]);
-  assert.equal(left.info.hasTransform, 1);
+  assert.equal(left.info.transform[3], 0.5);
   left.setTransform(null);
   left.filter = { ...left.filter, group: -3 };
   right.filter = { group: -3 };
@@ -216,16 +291,12 @@ test("edits, and meshes by name", () => {
 
 test("settings, failures and measurements", () => {
   const { grid, left } = touching({
-    closestBudget: 1000,
     reference: { flags: ReferenceFlags.DENSE, worldMin: [-1, -1, -1], worldMax: new Float64Array([9, 9, 9]) },
   });
   grid.cellSize = 0.25;
   assert.equal(grid.cellSize, 0.25);
-  grid.flags = GridFlags.CONTACT_EVENTS;
-  assert.throws(() => grid.penetrations, failure(Result.ERROR_INVALID_STATE));
-  grid.step();
-  assert.equal(grid.contactEvents.began.length, new Set([...grid.contacts].map((c) => `${c.bodyA} ${c.vertex}`)).size);
-  assert.equal(grid.touchEvents.persisted.length, 1);
+  grid.flags = GridFlags.CONSTRAINTS;
+  assert.equal(grid.flags, GridFlags.CONSTRAINTS);
   grid.reserve(10, 1000);
   left.positions[4] = NaN;
   assert.throws(() => grid.step(), failure(Result.ERROR_NON_FINITE));
@@ -308,10 +379,6 @@ test("many grids", () => {
   grids.push(new vox.Grid());
   vox.stepGrids(grids);
   assert.deepEqual(grids.map((grid) => grid.epoch), [2, 2, 1]);
-  const { contacts, offsets } = vox.contactsOf(grids);
-  const count = grids[0].contacts.length;
-  assert.deepEqual(offsets, [0, count, 2 * count, 2 * count]);
-  assert.deepEqual(contacts.slice(count).bytes, grids[1].contacts.bytes);
   assert.throws(() => vox.stepGrids([grids[0], grids[0]]), failure(Result.ERROR_INVALID_ARGUMENT));
   for (const grid of grids) grid.dispose();
 });

@@ -57,20 +57,20 @@ def scenes():
     tets = tets[:1000]
     grids = []
     for i in range(4096):
-        grid = voxtet.Grid(penetrations=False)
+        grid = voxtet.Grid()
         grid.add(positions, tets, borrow_tets=True)
         grid.add(positions + np.float32(0.5 + i % 7 * 0.01), tets, borrow_tets=True)
         grids.append(grid)
     pointers = (ctypes.c_void_p * len(grids))(*[grid._pointer for grid in grids])
     step = ctypes.CDLL(_library.vox._name).vox_grids_step
-    step.argtypes = [ctypes.c_void_p, ctypes.c_uint64, ctypes.c_void_p, ctypes.c_uint32, ctypes.c_void_p]
+    step.argtypes = [ctypes.c_void_p, ctypes.c_uint64, ctypes.c_uint32, ctypes.c_void_p, ctypes.c_void_p]
 
     def moved():
         positions[0, 0] += np.float32(1e-6)
 
     def from_c():
         moved()
-        step(pointers, len(grids), None, 1, None)
+        step(pointers, len(grids), 1, None, None)
 
     def from_python():
         moved()

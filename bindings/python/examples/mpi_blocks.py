@@ -39,7 +39,7 @@ with voxtet.mpi.Scene(world) as scene:
     forces = np.zeros((len(scene.contacts), 3))
     forces[:, 0] = 1.0
     arrived, contacts = scene.send(forces), scene.tet_contacts
-    corners = contacts.barycentric[:, :, None] * arrived[:, None, :]
+    corners = contacts.weights[:, :, None] * arrived[:, None, :]
     total = world.allreduce(float(corners.sum()))
 
     # Where points of one rank are, on whichever rank.

@@ -17,7 +17,7 @@ def make(count):
 def step(grid):
     """Runs in the other process: what it finds there, as numbers and arrays, which are small beside the grid."""
     grid.step()
-    return grid.hash, grid.penetrations.depth.max(initial=0)
+    return grid.hash, abs(grid.find_constraints().gap.min(initial=0))
 
 
 def show(results):

@@ -31,7 +31,7 @@ def part_of(positions, tets, rank, size):
 
 def whole():
     """The whole bodies in one grid, and as a scene of this rank alone, which both borrow the positions."""
-    grid, alone = voxtet.Grid(penetrations=False), voxtet.mpi.Scene()
+    grid, alone = voxtet.Grid(), voxtet.mpi.Scene()
     kept = [positions.copy() for positions, _ in BODIES.values()]
     for (body, (_, tets)), positions in zip(BODIES.items(), kept):
         grid.add(positions, tets, user_data=body)
@@ -107,7 +107,7 @@ def main():
         random = np.random.default_rng(rank)
         points = random.integers(-2, 30, (500, 3)) * 0.125
         expected, located = alone.locate(points), scene.locate(points)
-        for name in ("body", "tet", "barycentric", "interior"):
+        for name in ("body", "tet", "weights", "interior"):
             assert np.array_equal(located[name], expected[name]), name
         assert 0 < np.count_nonzero(located.rank == voxtet.mpi.NONE) < len(points)
 
@@ -120,7 +120,7 @@ def main():
         grid.step()
         alone.step()
         expect_contacts(scene, grid, alone)
-        assert scene.counters.collectives == 2
+        assert scene.counters["collectives"] == 2
         assert [*scene.costs.body] == sorted(parts) and np.all(scene.costs.seconds >= 0)
 
         # A failure of one rank is one of all, and the next step works.

@@ -59,14 +59,14 @@ def global_contacts(grid):
     """What scenes of voxtet.mpi should find, field by field: the contacts of a grid of whole bodies, whose user_data are their numbers."""
     contacts, number_of = grid.contacts, {mesh.id: mesh.user_data for mesh in grid}
     found = {name: np.array([number_of[body] for body in contacts[name].tolist()], np.uint64) for name in ("body_a", "body_b")}
-    found.update({name: contacts[name] for name in ("vertex", "tet", "barycentric")}, interior=grid.interiors)
+    found.update({name: contacts[name] for name in ("vertex", "tet")}, interior=grid.interiors)
     return in_order(found)
 
 
 def in_order(contacts):
     """These fields of contacts, sorted by (body_a, vertex, body_b, tet)."""
     order = np.lexsort([contacts[name] for name in ("tet", "body_b", "vertex", "body_a")])
-    return {name: contacts[name][order] for name in ("body_a", "vertex", "body_b", "tet", "barycentric", "interior")}
+    return {name: contacts[name][order] for name in ("body_a", "vertex", "body_b", "tet", "interior")}
 
 
 def mpi_command(test, processes):

@@ -11,16 +11,15 @@ from support import GridCase, two_boxes
 
 
 class Borrowed(GridCase):
-    options = {"contact_events": True}
+    options = {"constraints": True}
 
     def setUp(self):
         super().setUp()
         self.grid.step()
 
     def test_equal_to_copies(self):
-        self.grid.prepare_readings()
         with self.grid.borrowed() as r:
-            for name in ("contacts", "interiors", "penetrations", "depths", "pairs", "pair_contacts", "reading_depths"):
+            for name in ("contacts", "interiors", "constraints", "pair_offsets", "pairs", "pair_contacts"):
                 with self.subTest(name):
                     mine, theirs = getattr(self.grid, name), getattr(r, name)
                     np.testing.assert_array_equal(mine, theirs)
@@ -28,10 +27,6 @@ class Borrowed(GridCase):
                     self.assertFalse(theirs.flags.writeable)
                     self.assertFalse(theirs.flags.owndata)
                     self.assertTrue(mine.flags.writeable)
-            np.testing.assert_array_equal(r.readings, self.grid.readings_between(self.a, self.b)[np.argsort(
-                self.grid.pair_contacts)])
-            for mine, theirs in zip((*self.grid.events, *self.grid.contact_events), (*r.events, *r.contact_events)):
-                np.testing.assert_array_equal(mine, theirs)
             with self.assertRaises(ValueError):
                 r.contacts["tet"] = 0
             with self.assertRaises(ValueError):
@@ -41,7 +36,7 @@ class Borrowed(GridCase):
     def changes(self):
         return {"step": self.grid.step, "close": self.grid.close, "clear": self.grid.clear,
                 "reserve": lambda: self.grid.reserve(4, 4), "step_all": lambda: voxtet.step_all([self.grid]),
-                "flags": lambda: self.grid.set_flags(penetrations=False)}
+                "flags": lambda: self.grid.set_flags(edges=True), "margin": lambda: setattr(self.grid, "margin", 0.1)}
 
     def refused(self, changes=None):
         for name, change in (changes or self.changes()).items():
@@ -55,9 +50,9 @@ class Borrowed(GridCase):
         self.grid.step()
 
     def test_slices_and_fields_hold_it(self):
-        expected = self.grid.contacts.barycentric[3].copy()
+        expected = self.grid.constraints.weights[3].copy()
         with self.grid.borrowed() as r:
-            kept = r.contacts["barycentric"][3][::-1]
+            kept = r.constraints["weights"][3][::-1]
         gc.collect()
         self.refused()
         np.testing.assert_array_equal(kept[::-1], expected)
@@ -101,22 +96,27 @@ class Borrowed(GridCase):
         self.assertIsNone(watched())
         np.testing.assert_array_equal(kept, expected)
 
-    def test_readings(self):
-        self.grid.prepare_readings()
+    def test_constraints(self):
         with self.grid.borrowed() as r:
-            self.grid.prepare_readings()  # no reading is borrowed yet
-            readings = r.readings
+            found = r.find_constraints("closest")  # no constraint is borrowed yet
+            self.assertFalse(found.flags.owndata)
+            offsets = r.pair_offsets
+            for held in (found, offsets):
+                with self.assertRaises(BufferError):
+                    self.grid.find_constraints()
+            del held, found
             with self.assertRaises(BufferError):
-                self.grid.prepare_readings()
+                r.find_constraints()
+            del offsets
+            found = r.find_constraints()
         with self.assertRaises(BufferError):
             self.grid.step()
-        del readings
+        del found
         self.grid.step()
 
     def test_another_thread_leaves_the_with(self):
         """... while this one waits for the grid: what it gets is guarded, or it raises."""
-        self.grid.prepare_readings()
-        for name in ("contacts", "pair_contacts", "events", "readings"):
+        for name in ("contacts", "pair_contacts", "constraints", "pair_offsets"):
             with self.subTest(name):
                 borrowed, lock = self.grid.borrowed(), self.grid._lock
                 results = borrowed.__enter__()
@@ -175,10 +175,10 @@ class OwnPositions(GridCase):
         before = self.grid.hash
         positions = self.own.positions
         self.assertTrue(positions.flags.writeable)
-        positions += 0.01
+        positions += 0.1
         self.grid.step()
         self.assertNotEqual(self.grid.hash, before)
-        self.own.positions -= np.float32(0.01)  # reads, subtracts in place, sets the same array
+        self.own.positions -= np.float32(0.1)  # reads, subtracts in place, sets the same array
         np.testing.assert_allclose(positions, self.first + np.float32(0.3), atol=1e-6)
         self.assertTrue(self.own.info.owns_positions)
 

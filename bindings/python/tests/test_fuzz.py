@@ -57,28 +57,27 @@ def value(random_):
     ])()
 
 
-GRID = ["add", "remove", "step", "clear", "reserve", "set_flags", "set_pair_enabled", "contacts_of", "contacts_between",
-        "prepare_readings", "readings", "readings_of", "readings_between", "locator", "suggest_cell_size", "snapshot",
-        "__getitem__", "__contains__", "close"]
+GRID = ["add", "remove", "step", "clear", "reserve", "set_flags", "set_pair_enabled", "find_constraints", "locator",
+        "suggest_cell_size", "snapshot", "__getitem__", "__contains__", "close"]
 LOCATOR = ["update", "find_point_hits", "find_closest", "find_box_hits", "find_ray_hits", "test_rays", "locate", "user_data"]
 MESH = ["append_tets", "append_vertices", "remove_tets", "remove_vertices", "replace_tets", "set_tets_enabled", "set_topology",
         "mark_moved", "remove"]
-READ = ["contacts", "penetrations", "pairs", "pair_contacts", "events", "contact_events", "reading_depths", "interiors", "depths",
-        "meshes", "counters", "info", "failures", "epoch", "hash", "flags"]
-SET_GRID = ["cell_size", "workers"]
-SET_MESH = ["positions", "transform", "filter", "enabled", "tag"]
+READ = ["contacts", "interiors", "pairs", "pair_contacts", "constraints", "pair_offsets", "meshes", "counters", "info", "failures",
+        "epoch", "hash", "flags"]
+SET_GRID = ["cell_size", "workers", "margin"]
+SET_MESH = ["positions", "previous_positions", "transform", "filter", "enabled", "tag"]
 NAMES = {"add": ["copy", "user_data", "vertex_count", "filter", "self_collision", "rest_positions", "borrow_tets", "tag"],
          "append_vertices": ["copies_of", "rest_positions"], "set_topology": ["vertex_count", "copy", "rest_positions",
                                                                               "borrow_tets"],
-         "set_flags": ["penetrations", "contact_events", "skip_bad_bodies"], "find_point_hits": ["mask", "excluded"],
+         "set_flags": ["constraints", "edges", "skip_bad_bodies"], "find_point_hits": ["mask", "excluded"],
          "find_closest": ["max_distance", "mask", "excluded"], "find_ray_hits": ["first", "mask"],
-         "prepare_readings": ["position", "surface", "closest_budget"]}
+         "find_constraints": ["method", "body_a", "body_b", "mask", "closest_budget"]}
 FREE = [lambda v: voxtet.Grid(v()), lambda v: voxtet.Grid(workers=v()), lambda v: voxtet.Grid(reference=v()),
         lambda v: voxtet.Grid(world=v()), lambda v: voxtet.Grid(log=v()), lambda v: voxtet.Grid(byte_budget=v()),
         lambda v: voxtet.Grid.from_snapshot(v()), lambda v: voxtet.suggest_cell_size(v(), v(), model=v()),
         lambda v: voxtet.suggest_cell_size(v()), lambda v: voxtet.suggest_cell_size(*box(2), weights=v()),
         lambda v: voxtet.Grid(reference=voxtet.Reference(weights=v())), lambda v: voxtet.minimise(v(), v(), v()),
-        lambda v: voxtet.locate(v(), v(), v()), lambda v: voxtet.step_all(v()), lambda v: voxtet.contacts_of_all(v()),
+        lambda v: voxtet.locate(v(), v(), v()), lambda v: voxtet.step_all(v()),
         lambda v: voxtet.suggest_for(v()), lambda v: voxtet.suggest_for(v(), v(), radius=v()), lambda v: voxtet.count_for(v(), v()),
         lambda v: voxtet.suggest_for((v(), v()), known=v()), lambda v: voxtet.Primitives.boxes(v(), v(), radii=v()),
         lambda v: voxtet.suggest_for(voxtet.Primitives(v(), v(), radii=v(), radius=v()), content=v(), look=v(), dense=v()),
@@ -98,16 +97,18 @@ class Fuzz(unittest.TestCase):
     def life(self, random_, steps):
         """One grid: good calls among garbage, on it, its meshes, and memory borrowed from it."""
         positions, tets = box(2)
-        grid = voxtet.Grid(contact_events=random_.random() < 0.5, byte_budget=1 << 26)
+        grid = voxtet.Grid(constraints=random_.random() < 0.5, edges=random_.random() < 0.5, byte_budget=1 << 26)
         meshes, held, locator = [], [], voxtet.Locator(positions, tets)
 
         def sane():
             p = positions + np.float32(random_.random())
             return random_.choice([
                 lambda: meshes.append(grid.add(p, tets, copy=random_.random() < 0.5)), grid.step,
+                lambda: setattr(meshes[0], "previous_positions", p), lambda: [grid.find_constraints(m) for m in ("closest", "none")],
                 lambda: held.append(meshes[-1].positions), held.clear, lambda: held.append(grid.locator()),
                 lambda: held.append(grid.borrowed().__enter__()),
                 lambda: [held.append(h.contacts) for h in held if isinstance(h, voxtet.Borrowed)],
+                lambda: [held.append(h.constraints) for h in held if isinstance(h, voxtet.Borrowed)],
                 lambda: [np.sum(h["tet"]) for h in held if isinstance(h, voxtet.Contacts) and h.dtype.names],
                 lambda: [h.__setitem__(0, 1) for h in held if isinstance(h, np.ndarray)],
                 lambda: [h.find_point_hits(p) for h in held if isinstance(h, voxtet.Locator)],

@@ -26,12 +26,13 @@ class ReadmeScene(unittest.TestCase):
             grid.step()
             contact, = grid.contacts
             self.assertEqual((contact.body_a, contact.vertex, contact.body_b, contact.tet), (a.id, 3, b.id, 0))
-            np.testing.assert_allclose(contact.barycentric, [.1, .2, .3, .4], atol=1e-6)
-            self.assertEqual(f"{grid.hash:016x}", "2812279c886bc8d6")
+            constraint, = grid.find_constraints()
+            np.testing.assert_allclose(constraint.weights, [1, -.1, -.2, -.3, -.4], atol=1e-6)
+            self.assertEqual(f"{grid.hash:016x}", "20dfe036a1d1bec0")
 
 
 class Results(GridCase):
-    options = {"contact_events": True}
+    options = {"constraints": True}
 
     def test_structured_arrays(self):
         self.grid.step()
@@ -41,16 +42,13 @@ class Results(GridCase):
         np.testing.assert_array_equal(contacts.body_a, contacts["body_a"])
         self.assertIs(type(contacts.body_a), np.ndarray)
         self.assertTrue(np.shares_memory(contacts.tet, contacts))
-        np.testing.assert_allclose(contacts.barycentric.sum(axis=1), 1, atol=1e-6)
-        self.assertEqual(contacts[:3].barycentric.shape, (3, 4))
+        self.assertEqual(self.grid.constraints[:3].weights.shape, (3, 5))
         self.assertEqual({self.grid[i].tag for i in contacts.body_a}, {"a", "b"})
-        self.assertIn("barycentric", dir(contacts))
+        self.assertIn("tet", dir(contacts))
         with self.assertRaises(AttributeError):
             contacts.nothing
-        positions = {self.a.id: self.first, self.b.id: self.second}
-        for c in contacts:  # the weights give the vertex back
-            corners = positions[c.body_b][self.tets[c.tet]]
-            np.testing.assert_allclose(c.barycentric @ corners, positions[c.body_a][c.vertex], atol=1e-6)
+        self.assertEqual(len(self.grid.interiors), len(contacts))
+        self.assertIs(self.grid.interiors.dtype.type, np.bool_)
 
     def test_results_are_the_callers_own(self):
         self.grid.step()
@@ -63,65 +61,138 @@ class Results(GridCase):
         self.grid.close()
         self.assertEqual(before[0].body_a, self.a.id)
 
-    def test_penetrations(self):
-        self.grid.step()
-        p = self.grid.penetrations
-        self.assertGreater(p.depth.max(), 0)
-        np.testing.assert_allclose(np.linalg.norm(p.direction, axis=1), 1, atol=1e-5)
-        np.testing.assert_array_equal(self.grid.depths.depth.astype(np.float32), p.depth)
-        self.assertTrue(set(p.state) <= set(voxtet.PenetrationState))
-        self.assertEqual(len(self.grid.interiors), len(self.grid.contacts))
-        self.assertIs(self.grid.interiors.dtype.type, np.bool_)
-        self.grid.set_flags(penetrations=False)
-        with self.assertRaises(voxtet.InvalidStateError):
-            self.grid.penetrations
-        self.assertEqual(self.grid.flags, voxtet.GridFlags.CONTACT_EVENTS)
+    def gaps(self, constraints):
+        """By the formula of the documentation."""
+        positions = {self.a.id: self.first, self.b.id: self.second}
+        for c in constraints:
+            x = [positions[c.body_a if i < c.count_a else c.body_b][v] for i, v in enumerate(c.vertices)]
+            yield c.offset + c.normal @ (c.weights @ x)
 
-    def test_pairs_and_events(self):
+    def test_constraints(self):
+        self.grid.step()
+        found = self.grid.constraints
+        self.assertEqual(len(found), len(self.grid.contacts))
+        self.assertTrue((found.kind == voxtet.ConstraintKind.INSIDE).all())
+        self.assertTrue(set(found.state) <= set(voxtet.DepthState))
+        self.assertLess(found.gap.min(), -0.1)
+        np.testing.assert_allclose(found.weights.sum(axis=1), 0, atol=1e-12)
+        np.testing.assert_allclose(list(self.gaps(found)), found.gap, atol=1e-6)
+        self.assertTrue((found.previous == voxtet.NONE).all())
+        self.grid.step()
+        np.testing.assert_array_equal(self.grid.constraints.previous, np.arange(len(found)))
+        self.grid.set_flags(constraints=False)
+        self.assertEqual(self.grid.flags, 0)
+        self.grid.step()
+        with self.assertRaises(voxtet.InvalidStateError):
+            self.grid.constraints
+
+    def test_find_constraints(self):
+        other = self.grid.add(self.first + np.float32(0.1), self.tets, filter=voxtet.Filter(category=2))
+        with self.assertRaises(voxtet.InvalidStateError):
+            self.grid.find_constraints()
+        self.grid.step()
+        consistent = self.grid.constraints
+        closest = self.grid.find_constraints("closest")
+        np.testing.assert_array_equal(self.grid.constraints, closest)
+        np.testing.assert_array_equal(closest.count, 4)
+        np.testing.assert_array_equal(consistent.count, 5)
+        plain = self.grid.find_constraints(voxtet.DepthMethod.NONE)
+        np.testing.assert_array_equal(plain.weights, consistent.weights)
+        self.assertEqual(set(plain.state), {voxtet.DepthState.UNKNOWN})
+        some = self.grid.find_constraints("closest", closest_budget=1)
+        self.assertEqual((some.state != voxtet.DepthState.UNKNOWN).sum(), 1)
+        np.testing.assert_array_equal(self.grid.find_constraints(), consistent)
+
+        ids = self.a.id, self.b.id, other.id
+        for options, pairs in (({"body_a": self.b}, [0, 2]), ({"body_a": other.id, "body_b": self.b.id}, [2]), ({"mask": 2}, [1, 2])):
+            with self.subTest(options):
+                few = self.grid.find_constraints(**options)
+                self.assertEqual(set(few.pair), set(pairs))
+                np.testing.assert_array_equal(few.position, consistent.position[np.isin(consistent.pair, pairs)])
+                offsets = self.grid.pair_offsets.tolist()
+                for p, (a, b) in enumerate(((0, 1), (0, 2), (1, 2))):
+                    of_pair = few[offsets[p]:offsets[p + 1]]
+                    self.assertEqual(len(of_pair) > 0, p in pairs)
+                    self.assertLessEqual(set(of_pair.body_a) | set(of_pair.body_b), {ids[a], ids[b]})
+        for wrong in ({"method": "deep"}, {"mask": -1}, {"body_b": self.a}, {"body_a": 99}):
+            with self.subTest(wrong), self.assertRaises((ValueError, LookupError)):
+                self.grid.find_constraints(**wrong)
+        other.remove()
+        with self.assertRaisesRegex(voxtet.InvalidStateError, "was removed"):
+            self.grid.find_constraints("closest")
+
+    def test_edges(self):
+        self.grid.set_flags(edges=True)
+        self.grid.step()
+        edges = self.grid.constraints[self.grid.constraints.kind == voxtet.ConstraintKind.EDGE]
+        self.assertGreater(len(edges), 10)
+        np.testing.assert_array_equal(edges.count_a, 2)
+        np.testing.assert_allclose(list(self.gaps(edges)), edges.gap, atol=1e-6)
+
+    def test_margin(self):
+        self.second += np.float32(0.4)  # 0.01 apart along x
+        self.grid.margin = 0.05
+        self.grid.step()
+        self.assertEqual((self.grid.margin, len(self.grid.contacts)), (0.05, 0))
+        self.assertEqual(self.grid.pairs.state.tolist(), [voxtet.PairState.NEAR])
+        near = self.grid.constraints
+        self.assertGreater(len(near), 0)
+        self.assertTrue((near.kind == voxtet.ConstraintKind.PROXIMITY).all())
+        np.testing.assert_allclose(near.gap, 0.01, atol=1e-6)
+        np.testing.assert_allclose(list(self.gaps(near)), near.gap, atol=1e-6)
+        with voxtet.Grid(margin=0.25) as grid:
+            for again in (grid, pickle.loads(pickle.dumps(grid))):
+                self.assertEqual(again.margin, 0.25)
+        with self.assertRaises(ValueError):
+            self.grid.margin = -1
+
+    def test_impacts(self):
+        """A body that flies through another one within a step."""
+        before = self.first.copy()
+        self.first += np.array([5, 0.4, 0.4], np.float32)
+        self.a.previous_positions = before
+        self.assertIs(self.a.previous_positions, before)
+        before[:, 0] -= 3
+        self.grid.step()
+        self.assertEqual(len(self.grid.contacts), 0)
+        self.assertEqual(self.grid.pairs.state.tolist(), [voxtet.PairState.BEGAN])
+        impacts = self.grid.constraints
+        self.assertGreater(len(impacts), 0)
+        self.assertTrue((impacts.kind == voxtet.ConstraintKind.IMPACT).all())
+        self.assertTrue(((0 < impacts.time) & (impacts.time < 1)).all())
+        np.testing.assert_allclose(list(self.gaps(impacts)), impacts.gap, atol=1e-5)
+        watched = weakref.ref(before)
+        del before
+        gc.collect()
+        self.grid.step()
+        self.assertEqual(len(self.grid.constraints), len(impacts))
+        self.a.previous_positions = None
+        self.assertIsNone(watched())
+        self.grid.step()
+        self.assertEqual(len(self.grid.constraints), 0)
+        self.a.previous_positions = self.first
+        self.a.append_vertices(np.vstack([self.first, self.first[:1]]))
+        self.assertIsNone(self.a.previous_positions)
+        for wrong in (self.first[:-1], self.first.astype(int), [[0, 0, 0]]):
+            with self.assertRaises((TypeError, ValueError)):
+                self.a.previous_positions = wrong
+
+    def test_pairs(self):
         self.grid.step()
         pair, = self.grid.pairs
         self.assertEqual((pair.user_data_a, pair.user_data_b), (7, 2**63))
         order = self.grid.pair_contacts
         np.testing.assert_array_equal(np.sort(order), np.arange(len(self.grid.contacts)))
-        in_b = self.grid.contacts[order[pair.first:pair.first + pair.a_in_b]]
-        self.assertEqual(set(in_b.body_a), {self.a.id})
-        self.assertEqual([len(part) for part in self.grid.events], [1, 0, 0])
-        self.assertEqual(self.grid.events.began[0].kind, voxtet.Touch.BEGAN)
-        entered = self.grid.contact_events.began
-        self.assertEqual(len(entered), len(self.grid.penetrations))
+        bodies = self.grid.contacts.body_a[order[pair.first_contact:][:pair.contact_count]]
+        np.testing.assert_array_equal(bodies, np.sort(bodies))
+        self.assertEqual(pair.state, voxtet.PairState.BEGAN)
         self.grid.step()
-        self.assertEqual([len(part) for part in self.grid.events], [0, 1, 0])
+        self.assertEqual(self.grid.pairs.state.tolist(), [voxtet.PairState.PERSISTED])
         self.first += 100
         self.grid.step()
-        self.assertEqual([len(part) for part in self.grid.events], [0, 0, 1])
-        self.assertEqual(len(self.grid.contact_events.ended), len(entered))
-
-    def test_contacts_of_meshes(self):
-        other = self.grid.add(self.first + np.float32(50), self.tets)
+        self.assertEqual(self.grid.pairs.state.tolist(), [voxtet.PairState.ENDED])
         self.grid.step()
-        both = self.grid.contacts_between(self.b, self.a)
-        self.assertEqual(len(both), len(self.grid.contacts))
-        np.testing.assert_array_equal(self.a.contacts, both)
-        self.assertEqual(len(other.contacts), 0)
-        np.testing.assert_array_equal(self.grid.contacts_of(self.a.id), both)
-
-    def test_readings(self):
-        self.grid.step()
-        readings = self.grid.readings()
-        self.assertEqual(len(readings), len(self.grid.contacts))
-        contacts = self.grid.contacts
-        positions = {self.a.id: self.first, self.b.id: self.second}
-        for c, r in zip(contacts, readings):
-            np.testing.assert_array_equal(r.position, positions[c.body_a][c.vertex].astype(float))
-        np.testing.assert_array_equal(np.linalg.norm(readings.position - readings.surface_position, axis=1) > 1,
-                                      np.zeros(len(readings), bool))
-        self.assertEqual(len(self.grid.reading_depths), len(readings))
-        np.testing.assert_array_equal(self.a.readings, self.grid.readings_between(self.a, self.b))
-        some = self.grid.readings(self.a, surface=False)
-        self.assertTrue((some.known == voxtet.ReadingFlags.POSITION | voxtet.ReadingFlags.DEPTH).all())
-        self.grid.step()
-        with self.assertRaises(voxtet.InvalidStateError):
-            self.grid.reading_depths
+        self.assertEqual(len(self.grid.pairs), 0)
 
     def test_measurements(self):
         self.grid.step()
@@ -132,11 +203,9 @@ class Results(GridCase):
     def test_fields_are_those_of_the_library(self):
         self.assertEqual({f.name for f in dataclasses.fields(voxtet.Filter)} - {"self_collision", "sensor"},
                          {name for name, _ in _c.vox_filter._fields_ if name != "flags"})
-        classes = [voxtet.Contacts, voxtet.Penetrations, voxtet.Depths, voxtet.Pairs, voxtet.TouchEvents,
-                   voxtet.ContactEvents, voxtet.Readings, voxtet.PointHits, voxtet.ClosestHits, voxtet.BoxHits,
+        classes = [voxtet.Contacts, voxtet.Pairs, voxtet.Constraints, voxtet.PointHits, voxtet.ClosestHits, voxtet.BoxHits,
                    voxtet.RayHits]
-        structs = ["contact", "penetration", "depth", "pair", "touch_event", "contact_event", "reading", "point_hit",
-                   "closest_hit", "box_hit", "ray_hit"]
+        structs = ["contact", "pair", "constraint", "point_hit", "closest_hit", "box_hit", "ray_hit"]
         for kind, struct in zip(classes, structs):
             fields = _c.dtypes["vox_" + struct].fields
             self.assertEqual(kind.__annotations__, {name: f"NDArray[np.{fields[name][0].base.name}]" for name in fields
@@ -149,7 +218,7 @@ class Settings(GridCase):
         for options in ({"cell_size": 0.1}, {"reference": voxtet.Reference()}, {"workers": voxtet.ALL_CORES},
                         {"reference": voxtet.Reference(dense=True, world=([0, 0, 0], [2, 2, 2]))},
                         {"reference": voxtet.Reference(paper_hash=True)},
-                        {"workers": 2}, {"reference": voxtet.Reference(hash_table_size=1000)}, {"penetrations": False}):
+                        {"workers": 2}, {"reference": voxtet.Reference(hash_table_size=1000)}, {"constraints": True, "edges": True}):
             with self.subTest(options), voxtet.Grid(**options) as grid:
                 grid.add(self.first, self.tets)
                 grid.add(self.second, self.tets)
@@ -243,7 +312,7 @@ class Meshes(GridCase):
         with voxtet.Grid() as other:
             stranger = other.add(self.first, self.tets)
             self.assertEqual(stranger.id, self.a.id)
-            for call in (self.grid.remove, self.grid.contacts_of, self.grid.__getitem__):
+            for call in (self.grid.remove, lambda mesh: self.grid.find_constraints(body_a=mesh), self.grid.__getitem__):
                 with self.assertRaises(voxtet.InvalidHandleError):
                     call(stranger)
             self.assertNotIn(stranger, self.grid)
@@ -300,14 +369,13 @@ class Meshes(GridCase):
         before = self.grid.hash
         self.b.transform = [[1, 0, 0, 100], [0, 1, 0, 0], [0, 0, 1, 0]]
         self.assertEqual(self.b.transform[0, 3], 100)
-        self.assertTrue(self.b.info.has_transform)
         self.grid.step()
         self.assertEqual(len(self.grid.contacts), 0)
         self.b.transform = np.eye(4)
         self.grid.step()
         self.assertEqual(self.grid.hash, before)
         self.b.transform = None
-        self.assertFalse(self.b.info.has_transform)
+        np.testing.assert_array_equal(self.b.transform, np.eye(3, 4))
         for wrong in (np.eye(3), np.ones((4, 4)), [[1, 2]], np.full((3, 4), np.nan)):
             with self.subTest(wrong), self.assertRaises(ValueError):
                 self.b.transform = wrong
@@ -326,11 +394,11 @@ class Meshes(GridCase):
             self.grid.step()
         self.assertIsInstance(caught.exception, ArithmeticError)
         failure, = self.grid.failures
-        self.assertEqual((failure.mesh, failure.vertex, failure.result), (self.b.id, 5, voxtet.Result.ERROR_NON_FINITE))
+        self.assertEqual((failure.body, failure.vertex, failure.result), (self.b.id, 5, voxtet.Result.ERROR_NON_FINITE))
         self.assertTrue(math.isnan(failure.position[0]))
         self.grid.set_flags(skip_bad_bodies=True)
         self.grid.step()
-        self.assertEqual([failure.mesh for failure in self.grid.failures], [self.b.id])
+        self.assertEqual([failure.body for failure in self.grid.failures], [self.b.id])
 
 
 class Cutting(GridCase):
@@ -467,12 +535,11 @@ class Many(unittest.TestCase):
         for grid in self.grids:
             grid.step()
         each = [grid.contacts for grid in self.grids]
-        for workers in (1, 2, 0):
+        for steps, workers in enumerate((1, 2, 0), 2):
             voxtet.step_all(self.grids, workers)
-            contacts, offsets = voxtet.contacts_of_all(self.grids)
-            self.assertEqual(offsets[-1], len(contacts))
-            for i, mine in enumerate(each):
-                np.testing.assert_array_equal(contacts[offsets[i]:offsets[i + 1]], mine)
+            for i, grid in enumerate(self.grids):
+                np.testing.assert_array_equal(grid.contacts, each[i])
+                self.assertEqual(grid.epoch, steps)
 
     def test_errors(self):
         with self.assertRaises(ValueError):
@@ -492,7 +559,6 @@ class Many(unittest.TestCase):
             voxtet.step_all(self.grids)
         self.grids[7].step()  # no lock is left behind
         voxtet.step_all([])
-        self.assertEqual(len(voxtet.contacts_of_all([])[0]), 0)
 
 
 if __name__ == "__main__":

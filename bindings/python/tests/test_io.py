@@ -150,7 +150,7 @@ class Files(unittest.TestCase):
 
     def test_fields_are_those_of_the_library(self):
         for kind, struct in ((voxtet.io.Report, _c.vox_io_report), (voxtet.io.Quality, _c.vox_io_quality),
-                             (voxtet.sim.Energies, _c.vox_sim_energies), (voxtet.sim.Counts, _c.vox_sim_counts)):
+                             (voxtet.sim.Energies, _c.vox_sim_energies)):
             self.assertEqual(list(kind._fields), [n for n, *_ in struct._fields_ if n not in ("struct_size", "reserved")])
 
 
@@ -167,7 +167,7 @@ class Simulation(unittest.TestCase):
         z = self.body.positions[:, 2]
         self.assertTrue(-0.05 < z.min() < 0.05)
         self.assertGreater(above.positions[:, 2].mean(), z.mean() + 0.5)
-        self.assertEqual(self.sim.counts.steps, 60)
+        self.assertEqual(self.sim.counters["steps"], 60)
         self.assertGreater(self.sim.energy.mass, 0)
         self.assertEqual({self.sim.grid[c.body_a].tag for c in self.sim.grid.contacts} - {"box", "above"}, set())
         self.assertEqual([b.tag for b in self.sim], ["box", "above"])
@@ -218,7 +218,7 @@ class Simulation(unittest.TestCase):
             self.body.positions
         self.sim.close()
         self.sim.close()
-        for use in (lambda: self.sim.step(0.1), lambda: self.sim.add(self.positions, self.tets), lambda: self.sim.counts,
+        for use in (lambda: self.sim.step(0.1), lambda: self.sim.add(self.positions, self.tets), lambda: self.sim.counters,
                     lambda: self.body.positions, lambda: self.sim.grid.contacts):
             with self.assertRaises(voxtet.InvalidStateError):
                 use()

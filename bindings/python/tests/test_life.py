@@ -26,12 +26,12 @@ class Close(GridCase):
         grid.close()
         grid.close()  # twice does nothing
         self.assertTrue(grid.closed)
-        calls = [grid.step, lambda: grid.contacts, lambda: grid.penetrations, lambda: grid.add(self.first, self.tets),
+        calls = [grid.step, lambda: grid.contacts, grid.find_constraints, lambda: grid.add(self.first, self.tets),
                  lambda: grid.remove(mesh), lambda: len(grid), lambda: grid.meshes, lambda: grid.hash, grid.snapshot,
                  grid.locator, lambda: locator.update(grid), lambda: grid.counters, lambda: grid.info,
                  lambda: voxtet.step_all([grid]), grid.borrowed().__enter__, grid.__enter__, lambda: grid[mesh.id],
                  lambda: mesh.positions, lambda: setattr(mesh, "positions", self.first), lambda: mesh.info,
-                 lambda: mesh.filter, mesh.remove, lambda: mesh in grid, grid.clear, lambda: grid.events,
+                 lambda: mesh.filter, mesh.remove, lambda: mesh in grid, grid.clear, lambda: grid.pairs,
                  lambda: setattr(mesh, "tag", 1)]
         for call in calls:
             with self.assertRaises(voxtet.InvalidStateError) as caught:
@@ -119,7 +119,7 @@ class Threads(GridCase):
                 for _ in range(40):
                     self.grid.step()
                     hashes.append(self.grid.hash)
-                    assert len(self.grid.contacts) == len(self.grid.readings())
+                    assert len(self.grid.contacts) == len(self.grid.find_constraints())
             except (voxtet.InvalidStateError, AssertionError):
                 pass  # another thread stepped between
             except BaseException as error:
@@ -163,7 +163,7 @@ class Threads(GridCase):
             locator.update(self.grid)
             locator.find_point_hits(self.first)
 
-        jobs = [self.grid.step, insert, borrow, ask, ask, lambda: self.grid.events, self.grid.clear,
+        jobs = [self.grid.step, insert, borrow, ask, ask, self.grid.find_constraints, self.grid.clear,
                 lambda: [m.tag for m in self.grid], add, self.grid.snapshot]
         threads = [threading.Thread(target=repeat, args=(job,)) for job in jobs]
         [t.start() for t in threads]
@@ -350,7 +350,7 @@ class Memory(unittest.TestCase):
             a = grid.add(first, tets, tag=i)
             b = grid.add(second, tets, copy=True)
             grid.step()
-            grid.contacts, grid.events, grid.penetrations
+            grid.contacts, grid.pairs, grid.find_constraints()
             with grid.borrowed() as r:
                 r.contacts
             b.positions[:] += 0
@@ -358,7 +358,6 @@ class Memory(unittest.TestCase):
             if i % 10 == 0:
                 grid.locator().find_point_hits(first)
                 voxtet.Grid.from_snapshot(grid.snapshot())
-                grid.readings()
                 try:
                     grid.add(first, [[0, 0, 0, 999]])
                 except voxtet.VoxError:
@@ -386,10 +385,10 @@ class Memory(unittest.TestCase):
                 grid.step()
                 with grid.borrowed() as r:
                     for _ in range(5):
-                        r.contacts, r.events
+                        r.contacts, r.pairs
                 for _ in range(5):
                     own.positions[:] += 0
-                grid.readings()
+                grid.find_constraints()
                 grid.add(first, tets).remove()
 
             for _ in range(500):

@@ -68,7 +68,7 @@ class OneRank(unittest.TestCase):
         random = np.random.default_rng(4)
         bodies = {5: random.uniform(0, 1, (40, 3)), 9: random.uniform(0.3, 1.3, (40, 3))}
         tets = np.array([random.permutation(40)[:4] for _ in range(200)])
-        grid = voxtet.Grid(penetrations=False)
+        grid = voxtet.Grid()
         for body, positions in bodies.items():
             self.scene.insert(body, positions, tets)
             grid.add(positions, tets, user_data=body)
@@ -80,6 +80,11 @@ class OneRank(unittest.TestCase):
             for side in (self.scene.contacts, self.scene.tet_contacts):
                 for name, values in global_contacts(grid).items():
                     self.assertEqual(side[name].tolist(), values.tolist(), name)
+            c = self.scene.contacts
+            for body, positions in bodies.items():  # the weights give the vertices back
+                mine = c[c.body_b == body]
+                corners, (vertices,) = positions[tets[mine.tet]], (p for b, p in bodies.items() if b != body)
+                np.testing.assert_allclose(np.einsum("ij,ijk->ik", mine.weights, corners), vertices[mine.vertex], atol=1e-9)
             hashes.add(self.scene.hash())
             for positions in bodies.values():
                 positions += random.uniform(-0.05, 0.05, positions.shape)
@@ -124,7 +129,7 @@ class OneRank(unittest.TestCase):
         self.assertEqual(located.rank.tolist(), [0, voxtet.mpi.NONE])
         self.assertEqual(self.scene.costs.body.tolist(), [1, 2])
         self.assertTrue(np.all((self.scene.costs.seconds > 0) & (self.scene.costs.seconds < 1e-3)), self.scene.costs.seconds)
-        self.assertEqual(self.scene.counters.contacts, 4)
+        self.assertEqual(self.scene.counters["contacts"], 4)
         self.scene.check()
 
     def test_a_rank_may_have_nothing(self):

@@ -85,6 +85,8 @@ class Packages(unittest.TestCase):
 
 
 class Pictures(GridCase):
+    options = {"constraints": True}
+
     @wants("matplotlib")
     def test_curves(self):
         import matplotlib

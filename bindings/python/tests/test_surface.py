@@ -65,7 +65,7 @@ class Pairs(unittest.TestCase):
         whole = Surface(faces)
         whole.move(start, end, radius=0.05)
         expected = whole.pairs("vertex", "vertex")
-        tight = Surface(faces, byte_budget=whole.counters.peak_bytes * 3 // 4)
+        tight = Surface(faces, byte_budget=whole.counters["peak_bytes"] * 3 // 4)
         tight.move(start, end, radius=0.05)
         self.assertGreater(len(list(tight.pieces("vertex", "vertex"))), 1)
         for one, other in zip(expected, tight.pairs("vertex", "vertex")):
@@ -80,13 +80,35 @@ class Pairs(unittest.TestCase):
         surface.move(start, end)
         pairs = {tuple(pair) for pair in surface.pairs("edge", "edge").array().tolist()}
         self.assertLess(kept, pairs)
-        self.assertEqual((counters.overlaps, counters.culled), (len(pairs), len(pairs) - len(kept)))
+        self.assertEqual((counters["overlaps"], counters["culled"]), (len(pairs), len(pairs) - len(kept)))
 
     def test_patches(self):
         start, _, faces = cloud(4)
         surface = Surface(faces, vertex_count=len(start), patches=np.zeros(len(start), int), patch_masks=[0])
         surface.move(start)
         self.assertEqual(len(surface.pairs("face", "face").partners), 0)
+
+
+class Lists(unittest.TestCase):
+    def test_a_triangle_falls_through_another(self):
+        start = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0.1, 0.1, 1], [0.2, 0.1, 1], [0.1, 0.2, 2]])
+        surface = Surface([[0, 1, 2], [3, 4, 5]])
+        self.assertEqual(surface.faces.tolist(), [[0, 1, 2], [3, 4, 5]])
+        surface.move(start, start - 1.5 * (np.arange(6) > 2)[:, None] * [0, 0, 1])
+        crossings = surface.crossings()
+        self.assertEqual(crossings["face"].tolist(), [0, 0])
+        self.assertEqual(surface.edges[crossings["edge"]].tolist(), [[3, 5], [4, 5]])
+        np.testing.assert_allclose(crossings["position"][0], [0.1, 0.15, 0])
+        near = surface.proximities("face", "vertex", 0.5)
+        self.assertEqual(near[["a", "b"]].tolist(), [(0, 3), (0, 4), (0, 5), (1, 0)])
+        np.testing.assert_allclose(near["distance"][:3], 0.5)
+        np.testing.assert_allclose(surface.clearances(1)[[3, 5]], 0.05) # half of the way from the edge at x = 0
+        impacts = surface.impacts("face", "vertex", slack=1e-6)
+        self.assertEqual(impacts[["a", "b"]].tolist(), [(0, 3), (0, 4)])
+        np.testing.assert_allclose(impacts["time"], 2 / 3, rtol=1e-5)
+        step = surface.safe_step(slack=1e-6)
+        self.assertEqual((step.kind_a.name, step.kind_b.name, step.a, step.step), ("FACE", "VERTEX", 0, impacts["time"].min()))
+        self.assertLess(surface.safe_step(0.1).step, step.step)
 
 
 class Refused(unittest.TestCase):

@@ -27,7 +27,7 @@ def counted(array):
 
 
 def flags_of(number):
-    return {"penetrations": bool(number & 1), "contact_events": bool(number & 2), "skip_bad_bodies": bool(number & 4)}
+    return {"constraints": bool(number & 1), "edges": bool(number & 2), "skip_bad_bodies": bool(number & 4)}
 
 
 @unittest.skipUnless(os.path.exists(FOLDER), "the vectors are not beside the tests")
@@ -72,20 +72,16 @@ class Vectors(unittest.TestCase):
     def results(self, call):
         grid = self.grid
         found = {"hash": f"{grid.hash:016x}", "epoch": grid.epoch, "contacts": counted(grid.contacts),
-                 "interior": int(grid.interiors.sum()), "pairs": counted(grid.pairs), "pair_contacts": counted(grid.pair_contacts),
-                 "touches": counted(np.concatenate(grid.events)),
-                 "touches_began_persisted_ended": [len(part) for part in grid.events]}
-        if "penetrations" in call:
-            found.update(penetrations=counted(grid.penetrations), depths=counted(grid.depths))
-        if "contact_events" in call:
-            found.update(contact_events=counted(np.concatenate(grid.contact_events)),
-                         contact_events_began_ended=[len(part) for part in grid.contact_events])
+                 "interior": int(grid.interiors.sum()), "pairs": counted(grid.pairs), "pair_contacts": counted(grid.pair_contacts)}
+        if grid.flags & voxtet.GridFlags.CONSTRAINTS:
+            found.update(constraints=counted(grid.constraints), pair_offsets=counted(grid.pair_offsets))
         with grid.borrowed() as r:
             self.assertEqual((counted(r.contacts), counted(r.pair_contacts)), (found["contacts"], found["pair_contacts"]))
         return found
 
-    def readings(self, call):
-        return {"readings": counted(self.grid.readings())}
+    def find_constraints(self, call):
+        return {"constraints": counted(self.grid.find_constraints(voxtet.DepthMethod(call["method"]))),
+                "pair_offsets": counted(self.grid.pair_offsets)}
 
     def update_locator(self, call):
         self.locator = self.grid.locator()

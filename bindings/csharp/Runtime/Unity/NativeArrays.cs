@@ -39,8 +39,8 @@ namespace Voxtet
         /// <summary>Contacts of the last step.</summary>
         public NativeArray<Contact> Contacts { get { return Array(grid.Contacts.AsSpan()); } }
 
-        /// <summary>Penetrations of the last step.</summary>
-        public NativeArray<Penetration> Penetrations { get { return Array(grid.Penetrations.AsSpan()); } }
+        /// <summary>The constraints that were found last. Grid.FindConstraints ends them, too, but no error says so.</summary>
+        public NativeArray<Constraint> Constraints { get { return Array(grid.Constraints.AsSpan()); } }
 
         /// <summary>Positions of a mesh that was added as floats, three numbers a vertex: as NativeArray of Vector3 with
         /// Reinterpret. They end when the mesh is removed or gets other or more vertices: dispose of this object then and

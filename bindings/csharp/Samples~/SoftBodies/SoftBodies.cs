@@ -13,7 +13,10 @@ public sealed class SoftBodies : MonoBehaviour
 
     void OnEnable()
     {
-        grid = new Grid(new GridOptions { Workers = Grid.AllCores, Log = (level, text) => Debug.Log(level + ": " + text) });
+        grid = new Grid(new GridOptions
+        {
+            Flags = GridFlags.Constraints, Workers = Grid.AllCores, Log = (level, text) => Debug.Log(level + ": " + text)
+        });
         using (MeshFile shape = MeshFile.Box(2, 0.5, 2, 0.25)) block = grid.Add(shape.GetFloatPositions(), shape.GetTets());
         using (MeshFile shape = MeshFile.Ball(0.5, 0.12))
         {
@@ -39,16 +42,14 @@ public sealed class SoftBodies : MonoBehaviour
     void OnDrawGizmos()
     {
         if (grid == null || !Application.isPlaying) return;
-        foreach (Penetration penetration in grid.Penetrations)
+        foreach (Constraint c in grid.Constraints)
         {
-            Positions<float> positions = grid.GetPositions(new Voxtet.Mesh(penetration.body_a));
-            int v = 3 * (int)penetration.vertex;
-            var at = new Vector3(positions[v], positions[v + 1], positions[v + 2]);
-            var way = new Vector3(penetration.direction[0], penetration.direction[1], penetration.direction[2]);
+            var at = new Vector3((float)c.position.x, (float)c.position.y, (float)c.position.z);
+            var way = new Vector3((float)c.normal.x, (float)c.normal.y, (float)c.normal.z);
             Gizmos.color = Color.red;
             Gizmos.DrawSphere(at, 0.01f);
             Gizmos.color = Color.yellow;
-            Gizmos.DrawRay(at, way * penetration.depth);
+            Gizmos.DrawRay(at, way * -(float)c.gap);
         }
     }
 }

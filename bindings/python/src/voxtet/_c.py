@@ -8,18 +8,17 @@ from typing import Any
 from numpy import dtype
 
 VOX_ABI_VERSION = 1
-VOX_ALL_CORES = 4294967295
 VOX_NONE = 4294967295
+VOX_ALL_CORES = 4294967295
 VOX_MAX_BODIES = 1048576
-VOX_MAX_GENERATIONS = 4095
 VOX_MAX_VERTICES = 2147483647
 VOX_MAX_TETS = 2147483647
+VOX_MAX_SURFACE_TETS = 357913941
+VOX_MAX_CONTACTS = 4294967295
 VOX_MAX_WORKERS = 256
 VOX_NULL_BODY = 0
 VOX_MAX_RINGS = 8
-VOX_NO_VERTEX = 4294967295
-VOX_MAX_CONTACTS = 4294967295
-VOX_NO_PAIR = 4294967295
+VOX_STENCIL_CAPACITY = 5
 VOX_MAX_TASKS = 64
 VOX_COST_WEIGHT_CAPACITY = 24
 VOX_COST_CURVE_CAPACITY = 64
@@ -53,10 +52,9 @@ class Format(enum.IntEnum):
 
 
 class GridFlags(enum.IntFlag):
-    PENETRATIONS = 1
-    CONTACT_EVENTS = 2
+    CONSTRAINTS = 1
+    EDGES = 2
     SKIP_BAD_BODIES = 4
-    EDGE_CONTACTS = 8
 
 
 class FilterFlags(enum.IntFlag):
@@ -69,31 +67,34 @@ class MeshFlags(enum.IntFlag):
     BORROW_TETS = 2
 
 
-class PenetrationState(enum.IntEnum):
-    SURFACE = 0
-    PROPAGATED = 1
-    ENCLOSED = 2
-    CROSSING = 3
-    COINCIDENT = 4
-    UNKNOWN = 5
-
-
-class CrossingKind(enum.IntEnum):
-    THROUGH = 0
-    TOUCHING = 1
-    COPLANAR = 2
-
-
-class Touch(enum.IntEnum):
+class PairState(enum.IntEnum):
+    NEAR = 0
     BEGAN = 1
     PERSISTED = 2
     ENDED = 3
 
 
-class ReadingFlags(enum.IntFlag):
-    POSITION = 1
-    SURFACE = 2
-    DEPTH = 4
+class ConstraintKind(enum.IntEnum):
+    INSIDE = 0
+    EDGE = 1
+    PROXIMITY = 2
+    IMPACT = 3
+
+
+class DepthState(enum.IntEnum):
+    SURFACE = 0
+    PROPAGATED = 1
+    CLOSEST = 2
+    AMBIGUOUS = 3
+    TOUCHING = 4
+    UNKNOWN = 5
+    PLANE = 6
+
+
+class DepthMethod(enum.IntEnum):
+    CONSISTENT = 0
+    CLOSEST = 1
+    NONE = 2
 
 
 class LogLevel(enum.IntEnum):
@@ -200,6 +201,12 @@ class Feature(enum.IntEnum):
 
 class MotionFlags(enum.IntFlag):
     CULL = 1
+
+
+class CrossingKind(enum.IntEnum):
+    THROUGH = 0
+    TOUCHING = 1
+    COPLANAR = 2
 
 
 class IoFormat(enum.IntEnum):
@@ -316,36 +323,11 @@ class vox_grid_desc(Structure):
         ("cell_size", c_double),
         ("margin", c_double),
         ("byte_budget", c_uint64),
-        ("closest_budget", c_uint64),
         ("allocator", POINTER(vox_allocator)),
         ("log", POINTER(vox_log)),
         ("tasks", POINTER(vox_task_system)),
         ("reference", POINTER(vox_reference_desc)),
     ]
-
-
-class vox_grid_info(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("flags", c_uint32),
-        ("epoch", c_uint64),
-        ("cell_size", c_double),
-        ("margin", c_double),
-        ("bytes", c_uint64),
-        ("peak_bytes", c_uint64),
-        ("step_ns", c_uint64),
-        ("moved_bodies", c_uint64),
-        ("skipped_bodies", c_uint64),
-        ("total_began", c_uint64),
-        ("total_ended", c_uint64),
-    ]
-
-dtypes["vox_grid_info"] = dtype({
-    "names": ["struct_size", "flags", "epoch", "cell_size", "margin", "bytes", "peak_bytes", "step_ns", "moved_bodies",
-        "skipped_bodies", "total_began", "total_ended"],
-    "formats": ["u4", "u4", "u8", "f8", "f8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
-    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80],
-    "itemsize": 88})
 
 
 class vox_filter(Structure):
@@ -379,214 +361,26 @@ class vox_mesh_desc(Structure):
     ]
 
 
-class vox_body_info(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("slot", c_uint32),
-        ("user_data", c_uint64),
-        ("tet_count", c_uint64),
-        ("enabled_tet_count", c_uint64),
-        ("enabled", c_uint32),
-        ("flags", c_uint32),
-        ("has_transform", c_uint32),
-        ("reserved", c_uint32),
-        ("positions", vox_positions),
-        ("transform", c_double * 12),
-        ("filter", vox_filter),
-    ]
-
-
-class vox_vertices_desc(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("count", c_uint64),
-        ("positions", vox_positions),
-        ("copies_of", c_void_p),
-        ("rest_positions", vox_positions),
-    ]
-
-
-class vox_failure(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("result", c_int32),
-        ("mesh", c_uint32),
-        ("slot", c_uint32),
-        ("user_data", c_uint64),
-        ("vertex", c_uint32),
-        ("reserved", c_uint32),
-        ("position", c_double * 3),
-    ]
-
-dtypes["vox_failure"] = dtype({
-    "names": ["struct_size", "result", "mesh", "slot", "user_data", "vertex", "reserved", "position"],
-    "formats": ["u4", "i4", "u4", "u4", "u8", "u4", "u4", ("f8", (3,))],
-    "offsets": [0, 4, 8, 12, 16, 24, 28, 32],
-    "itemsize": 56})
-
-
 class vox_contact(Structure):
     _fields_ = [
         ("body_a", c_uint32),
         ("vertex", c_uint32),
         ("body_b", c_uint32),
         ("tet", c_uint32),
-        ("barycentric", c_float * 4),
     ]
 
 dtypes["vox_contact"] = dtype({
-    "names": ["body_a", "vertex", "body_b", "tet", "barycentric"],
-    "formats": ["u4", "u4", "u4", "u4", ("f4", (4,))],
-    "offsets": [0, 4, 8, 12, 16],
-    "itemsize": 32})
+    "names": ["body_a", "vertex", "body_b", "tet"],
+    "formats": ["u4", "u4", "u4", "u4"],
+    "offsets": [0, 4, 8, 12],
+    "itemsize": 16})
 
 
 class vox_contact_view(Structure):
     _fields_ = [
         ("data", c_void_p),
-        ("byte_stride", c_size_t),
         ("count", c_uint64),
-        ("epoch", c_uint64),
         ("interiors", c_void_p),
-    ]
-
-
-class vox_penetration(Structure):
-    _fields_ = [
-        ("body_a", c_uint32),
-        ("vertex", c_uint32),
-        ("body_b", c_uint32),
-        ("state", c_int32),
-        ("contact", c_uint64),
-        ("depth", c_float),
-        ("direction", c_float * 3),
-    ]
-
-dtypes["vox_penetration"] = dtype({
-    "names": ["body_a", "vertex", "body_b", "state", "contact", "depth", "direction"],
-    "formats": ["u4", "u4", "u4", "i4", "u8", "f4", ("f4", (3,))],
-    "offsets": [0, 4, 8, 12, 16, 24, 28],
-    "itemsize": 40})
-
-
-class vox_penetration_view(Structure):
-    _fields_ = [
-        ("data", c_void_p),
-        ("byte_stride", c_size_t),
-        ("count", c_uint64),
-        ("epoch", c_uint64),
-    ]
-
-
-class vox_depth(Structure):
-    _fields_ = [
-        ("depth", c_double),
-        ("direction", c_double * 3),
-    ]
-
-dtypes["vox_depth"] = dtype({
-    "names": ["depth", "direction"],
-    "formats": ["f8", ("f8", (3,))],
-    "offsets": [0, 8],
-    "itemsize": 32})
-
-
-class vox_depth_view(Structure):
-    _fields_ = [
-        ("data", c_void_p),
-        ("byte_stride", c_size_t),
-        ("count", c_uint64),
-        ("epoch", c_uint64),
-    ]
-
-
-class vox_edge_contact(Structure):
-    _fields_ = [
-        ("body_a", c_uint32),
-        ("edge", c_uint32 * 2),
-        ("body_b", c_uint32),
-        ("face", c_uint32 * 3),
-        ("tet", c_uint32),
-        ("kind", c_int32),
-        ("reserved", c_uint32),
-        ("edge_weights", c_double * 2),
-        ("face_weights", c_double * 3),
-        ("position", c_double * 3),
-        ("normal", c_double * 3),
-    ]
-
-dtypes["vox_edge_contact"] = dtype({
-    "names": ["body_a", "edge", "body_b", "face", "tet", "kind", "reserved", "edge_weights", "face_weights", "position",
-        "normal"],
-    "formats": ["u4", ("u4", (2,)), "u4", ("u4", (3,)), "u4", "i4", "u4", ("f8", (2,)), ("f8", (3,)), ("f8", (3,)),
-        ("f8", (3,))],
-    "offsets": [0, 4, 12, 16, 28, 32, 36, 40, 56, 80, 104],
-    "itemsize": 128})
-
-
-class vox_edge_contact_view(Structure):
-    _fields_ = [
-        ("data", c_void_p),
-        ("byte_stride", c_size_t),
-        ("count", c_uint64),
-        ("epoch", c_uint64),
-    ]
-
-
-class vox_margin_contact(Structure):
-    _fields_ = [
-        ("body_a", c_uint32),
-        ("vertex", c_uint32),
-        ("body_b", c_uint32),
-        ("tet", c_uint32),
-        ("facet", c_uint32),
-        ("face", c_uint32 * 3),
-        ("face_weights", c_double * 3),
-        ("distance", c_double),
-        ("normal", c_double * 3),
-    ]
-
-dtypes["vox_margin_contact"] = dtype({
-    "names": ["body_a", "vertex", "body_b", "tet", "facet", "face", "face_weights", "distance", "normal"],
-    "formats": ["u4", "u4", "u4", "u4", "u4", ("u4", (3,)), ("f8", (3,)), "f8", ("f8", (3,))],
-    "offsets": [0, 4, 8, 12, 16, 20, 32, 56, 64],
-    "itemsize": 88})
-
-
-class vox_margin_contact_view(Structure):
-    _fields_ = [
-        ("data", c_void_p),
-        ("byte_stride", c_size_t),
-        ("count", c_uint64),
-        ("epoch", c_uint64),
-    ]
-
-
-class vox_passage(Structure):
-    _fields_ = [
-        ("body_a", c_uint32),
-        ("vertex", c_uint32),
-        ("body_b", c_uint32),
-        ("tet", c_uint32),
-        ("facet", c_uint32),
-        ("face", c_uint32 * 3),
-        ("time", c_double),
-    ]
-
-dtypes["vox_passage"] = dtype({
-    "names": ["body_a", "vertex", "body_b", "tet", "facet", "face", "time"],
-    "formats": ["u4", "u4", "u4", "u4", "u4", ("u4", (3,)), "f8"],
-    "offsets": [0, 4, 8, 12, 16, 20, 32],
-    "itemsize": 40})
-
-
-class vox_passage_view(Structure):
-    _fields_ = [
-        ("data", c_void_p),
-        ("byte_stride", c_size_t),
-        ("count", c_uint64),
-        ("epoch", c_uint64),
     ]
 
 
@@ -596,133 +390,122 @@ class vox_pair(Structure):
         ("body_b", c_uint32),
         ("user_data_a", c_uint64),
         ("user_data_b", c_uint64),
-        ("first", c_uint64),
-        ("a_in_b", c_uint64),
-        ("b_in_a", c_uint64),
+        ("state", c_int32),
+        ("reserved", c_uint32),
+        ("first_contact", c_uint64),
+        ("contact_count", c_uint64),
     ]
 
 dtypes["vox_pair"] = dtype({
-    "names": ["body_a", "body_b", "user_data_a", "user_data_b", "first", "a_in_b", "b_in_a"],
-    "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8"],
-    "offsets": [0, 4, 8, 16, 24, 32, 40],
+    "names": ["body_a", "body_b", "user_data_a", "user_data_b", "state", "reserved", "first_contact", "contact_count"],
+    "formats": ["u4", "u4", "u8", "u8", "i4", "u4", "u8", "u8"],
+    "offsets": [0, 4, 8, 16, 24, 28, 32, 40],
     "itemsize": 48})
 
 
 class vox_pair_view(Structure):
     _fields_ = [
         ("data", c_void_p),
-        ("byte_stride", c_size_t),
         ("count", c_uint64),
-        ("epoch", c_uint64),
         ("contacts", c_void_p),
     ]
 
 
-class vox_touch_event(Structure):
+class vox_constraint(Structure):
     _fields_ = [
         ("body_a", c_uint32),
         ("body_b", c_uint32),
-        ("user_data_a", c_uint64),
-        ("user_data_b", c_uint64),
         ("kind", c_int32),
-        ("pair", c_uint32),
-    ]
-
-dtypes["vox_touch_event"] = dtype({
-    "names": ["body_a", "body_b", "user_data_a", "user_data_b", "kind", "pair"],
-    "formats": ["u4", "u4", "u8", "u8", "i4", "u4"],
-    "offsets": [0, 4, 8, 16, 24, 28],
-    "itemsize": 32})
-
-
-class vox_touch_view(Structure):
-    _fields_ = [
-        ("data", c_void_p),
-        ("byte_stride", c_size_t),
-        ("count", c_uint64),
-        ("epoch", c_uint64),
-        ("began", c_uint64),
-        ("persisted", c_uint64),
-        ("ended", c_uint64),
-    ]
-
-
-class vox_contact_event(Structure):
-    _fields_ = [
-        ("body_a", c_uint32),
-        ("vertex", c_uint32),
-        ("body_b", c_uint32),
-        ("kind", c_int32),
-    ]
-
-dtypes["vox_contact_event"] = dtype({
-    "names": ["body_a", "vertex", "body_b", "kind"],
-    "formats": ["u4", "u4", "u4", "i4"],
-    "offsets": [0, 4, 8, 12],
-    "itemsize": 16})
-
-
-class vox_contact_event_view(Structure):
-    _fields_ = [
-        ("data", c_void_p),
-        ("byte_stride", c_size_t),
-        ("count", c_uint64),
-        ("epoch", c_uint64),
-        ("began", c_uint64),
-        ("ended", c_uint64),
-    ]
-
-
-class vox_reading(Structure):
-    _fields_ = [
-        ("contact", c_uint64),
-        ("known", c_uint32),
         ("state", c_int32),
-        ("depth", c_float),
-        ("direction", c_float * 3),
-        ("position", c_double * 3),
-        ("distance", c_double),
-        ("surface_position", c_double * 3),
-        ("barycentric", c_double * 3),
+        ("count_a", c_uint32),
+        ("count", c_uint32),
+        ("vertices", c_uint32 * 5),
+        ("element_b", c_uint32),
+        ("weights", c_double * 5),
         ("normal", c_double * 3),
-        ("triangle", c_uint32 * 3),
-        ("reserved", c_uint32),
+        ("gap", c_double),
+        ("offset", c_double),
+        ("position", c_double * 3),
+        ("time", c_double),
         ("user_data_a", c_uint64),
         ("user_data_b", c_uint64),
+        ("pair", c_uint32),
+        ("previous", c_uint32),
+        ("reserved", c_uint64),
     ]
 
-dtypes["vox_reading"] = dtype({
-    "names": ["contact", "known", "state", "depth", "direction", "position", "distance", "surface_position",
-        "barycentric", "normal", "triangle", "reserved", "user_data_a", "user_data_b"],
-    "formats": ["u8", "u4", "i4", "f4", ("f4", (3,)), ("f8", (3,)), "f8", ("f8", (3,)), ("f8", (3,)), ("f8", (3,)),
-        ("u4", (3,)), "u4", "u8", "u8"],
-    "offsets": [0, 8, 12, 16, 20, 32, 56, 64, 88, 112, 136, 148, 152, 160],
-    "itemsize": 168})
+dtypes["vox_constraint"] = dtype({
+    "names": ["body_a", "body_b", "kind", "state", "count_a", "count", "vertices", "element_b", "weights", "normal",
+        "gap", "offset", "position", "time", "user_data_a", "user_data_b", "pair", "previous", "reserved"],
+    "formats": ["u4", "u4", "i4", "i4", "u4", "u4", ("u4", (5,)), "u4", ("f8", (5,)), ("f8", (3,)), "f8", "f8", ("f8",
+        (3,)), "f8", "u8", "u8", "u4", "u4", "u8"],
+    "offsets": [0, 4, 8, 12, 16, 20, 24, 44, 48, 88, 112, 120, 128, 152, 160, 168, 176, 180, 184],
+    "itemsize": 192})
 
 
-class vox_reading_view(Structure):
-    _fields_ = [
-        ("data", c_void_p),
-        ("byte_stride", c_size_t),
-        ("count", c_uint64),
-        ("epoch", c_uint64),
-    ]
-
-
-class vox_readings_desc(Structure):
+class vox_constraint_desc(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
-        ("what", c_uint32),
+        ("method", c_int32),
         ("body_a", c_uint32),
         ("body_b", c_uint32),
+        ("mask", c_uint64),
         ("closest_budget", c_uint64),
     ]
 
-dtypes["vox_readings_desc"] = dtype({
-    "names": ["struct_size", "what", "body_a", "body_b", "closest_budget"],
-    "formats": ["u4", "u4", "u4", "u4", "u8"],
-    "offsets": [0, 4, 8, 12, 16],
-    "itemsize": 24})
+dtypes["vox_constraint_desc"] = dtype({
+    "names": ["struct_size", "method", "body_a", "body_b", "mask", "closest_budget"],
+    "formats": ["u4", "i4", "u4", "u4", "u8", "u8"],
+    "offsets": [0, 4, 8, 12, 16, 24],
+    "itemsize": 32})
+
+
+class vox_constraint_view(Structure):
+    _fields_ = [
+        ("data", c_void_p),
+        ("count", c_uint64),
+        ("pair_offsets", c_void_p),
+        ("pair_count", c_uint64),
+    ]
+
+
+class vox_body_info(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("user_data", c_uint64),
+        ("enabled", c_uint32),
+        ("flags", c_uint32),
+        ("tet_count", c_uint64),
+        ("enabled_tet_count", c_uint64),
+        ("positions", vox_positions),
+        ("filter", vox_filter),
+        ("transform", c_double * 12),
+    ]
+
+
+class vox_grid_info(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("flags", c_uint32),
+        ("epoch", c_uint64),
+        ("cell_size", c_double),
+        ("margin", c_double),
+        ("bytes", c_uint64),
+        ("peak_bytes", c_uint64),
+        ("step_ns", c_uint64),
+        ("moved_bodies", c_uint64),
+        ("skipped_bodies", c_uint64),
+        ("total_began", c_uint64),
+        ("total_ended", c_uint64),
+    ]
+
+dtypes["vox_grid_info"] = dtype({
+    "names": ["struct_size", "flags", "epoch", "cell_size", "margin", "bytes", "peak_bytes", "step_ns", "moved_bodies",
+        "skipped_bodies", "total_began", "total_ended"],
+    "formats": ["u4", "u4", "u8", "f8", "f8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80],
+    "itemsize": 88})
 
 
 class vox_counter(Structure):
@@ -736,6 +519,34 @@ class vox_counter_view(Structure):
     _fields_ = [
         ("data", c_void_p),
         ("count", c_uint64),
+    ]
+
+
+class vox_failure(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("result", c_int32),
+        ("body", c_uint32),
+        ("vertex", c_uint32),
+        ("user_data", c_uint64),
+        ("position", c_double * 3),
+    ]
+
+dtypes["vox_failure"] = dtype({
+    "names": ["struct_size", "result", "body", "vertex", "user_data", "position"],
+    "formats": ["u4", "i4", "u4", "u4", "u8", ("f8", (3,))],
+    "offsets": [0, 4, 8, 12, 16, 24],
+    "itemsize": 48})
+
+
+class vox_vertices_desc(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
+        ("count", c_uint64),
+        ("positions", vox_positions),
+        ("copies_of", c_void_p),
+        ("rest_positions", vox_positions),
     ]
 
 
@@ -1196,10 +1007,8 @@ class vox_surface_desc(Structure):
 
 class vox_feature_view(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
-        ("vertices_each", c_uint32),
-        ("count", c_uint64),
         ("vertices", c_void_p),
+        ("count", c_uint64),
     ]
 
 
@@ -1213,38 +1022,13 @@ class vox_motion(Structure):
     ]
 
 
-class vox_pair_lists(Structure):
+class vox_partner_lists(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("first", c_uint64),
-        ("count", c_uint64),
-        ("pair_count", c_uint64),
         ("offsets", c_void_p),
         ("partners", c_void_p),
+        ("first", c_uint64),
+        ("count", c_uint64),
     ]
-
-
-class vox_pair_counters(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
-        ("cell_size", c_double),
-        ("cells", c_uint64),
-        ("tile_pairs", c_uint64),
-        ("boxes_compared", c_uint64),
-        ("overlaps", c_uint64),
-        ("culled", c_uint64),
-        ("bytes", c_uint64),
-        ("peak_bytes", c_uint64),
-    ]
-
-dtypes["vox_pair_counters"] = dtype({
-    "names": ["struct_size", "reserved", "cell_size", "cells", "tile_pairs", "boxes_compared", "overlaps", "culled",
-        "bytes", "peak_bytes"],
-    "formats": ["u4", "u4", "f8", "u8", "u8", "u8", "u8", "u8", "u8", "u8"],
-    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64],
-    "itemsize": 72})
 
 
 class vox_crossing(Structure):
@@ -1267,14 +1051,12 @@ dtypes["vox_crossing"] = dtype({
 
 class vox_crossing_view(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
-        ("byte_stride", c_uint32),
+        ("data", c_void_p),
         ("count", c_uint64),
-        ("crossings", c_void_p),
     ]
 
 
-class vox_close_pair(Structure):
+class vox_proximity(Structure):
     _fields_ = [
         ("a", c_uint32),
         ("b", c_uint32),
@@ -1285,32 +1067,30 @@ class vox_close_pair(Structure):
         ("point_b", c_double * 3),
     ]
 
-dtypes["vox_close_pair"] = dtype({
+dtypes["vox_proximity"] = dtype({
     "names": ["a", "b", "distance", "weights_a", "weights_b", "point_a", "point_b"],
     "formats": ["u4", "u4", "f8", ("f8", (3,)), ("f8", (3,)), ("f8", (3,)), ("f8", (3,))],
     "offsets": [0, 4, 8, 16, 40, 64, 88],
     "itemsize": 112})
 
 
-class vox_close_view(Structure):
+class vox_proximity_view(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
-        ("byte_stride", c_uint32),
+        ("data", c_void_p),
         ("count", c_uint64),
-        ("pairs", c_void_p),
     ]
 
 
-class vox_contact_time_desc(Structure):
+class vox_impact_desc(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
-        ("most_iterations", c_uint32),
+        ("max_iterations", c_uint32),
         ("distance", c_double),
         ("slack", c_double),
     ]
 
-dtypes["vox_contact_time_desc"] = dtype({
-    "names": ["struct_size", "most_iterations", "distance", "slack"],
+dtypes["vox_impact_desc"] = dtype({
+    "names": ["struct_size", "max_iterations", "distance", "slack"],
     "formats": ["u4", "u4", "f8", "f8"],
     "offsets": [0, 4, 8, 16],
     "itemsize": 24})
@@ -1318,44 +1098,41 @@ dtypes["vox_contact_time_desc"] = dtype({
 
 class vox_safe_step(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
         ("step", c_double),
         ("pairs", c_uint64),
-        ("unfinished", c_uint64),
         ("kind_a", c_int32),
         ("kind_b", c_int32),
         ("a", c_uint32),
         ("b", c_uint32),
+        ("unfinished", c_uint32),
+        ("reserved", c_uint32),
     ]
 
 dtypes["vox_safe_step"] = dtype({
-    "names": ["struct_size", "reserved", "step", "pairs", "unfinished", "kind_a", "kind_b", "a", "b"],
-    "formats": ["u4", "u4", "f8", "u8", "u8", "i4", "i4", "u4", "u4"],
-    "offsets": [0, 4, 8, 16, 24, 32, 36, 40, 44],
-    "itemsize": 48})
+    "names": ["step", "pairs", "kind_a", "kind_b", "a", "b", "unfinished", "reserved"],
+    "formats": ["f8", "u8", "i4", "i4", "u4", "u4", "u4", "u4"],
+    "offsets": [0, 8, 16, 20, 24, 28, 32, 36],
+    "itemsize": 40})
 
 
-class vox_timed_pair(Structure):
+class vox_impact(Structure):
     _fields_ = [
         ("a", c_uint32),
         ("b", c_uint32),
         ("time", c_double),
     ]
 
-dtypes["vox_timed_pair"] = dtype({
+dtypes["vox_impact"] = dtype({
     "names": ["a", "b", "time"],
     "formats": ["u4", "u4", "f8"],
     "offsets": [0, 4, 8],
     "itemsize": 16})
 
 
-class vox_timed_view(Structure):
+class vox_impact_view(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
-        ("byte_stride", c_uint32),
+        ("data", c_void_p),
         ("count", c_uint64),
-        ("pairs", c_void_p),
     ]
 
 
@@ -1569,42 +1346,8 @@ dtypes["vox_sim_energies"] = dtype({
     "itemsize": 96})
 
 
-class vox_sim_counts(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("bodies", c_uint32),
-        ("vertices", c_uint64),
-        ("tets", c_uint64),
-        ("edges", c_uint64),
-        ("volumes", c_uint64),
-        ("flat_tets", c_uint64),
-        ("inverted_tets", c_uint64),
-        ("raised_masses", c_uint64),
-        ("softened", c_uint64),
-        ("steps", c_uint64),
-        ("substeps", c_uint64),
-        ("detections", c_uint64),
-        ("clamped_steps", c_uint64),
-        ("penetrations", c_uint64),
-        ("floor_contacts", c_uint64),
-        ("step_ns", c_uint64),
-        ("detect_ns", c_uint64),
-        ("solve_ns", c_uint64),
-    ]
-
-dtypes["vox_sim_counts"] = dtype({
-    "names": ["struct_size", "bodies", "vertices", "tets", "edges", "volumes", "flat_tets", "inverted_tets",
-        "raised_masses", "softened", "steps", "substeps", "detections", "clamped_steps", "penetrations",
-        "floor_contacts", "step_ns", "detect_ns", "solve_ns"],
-    "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8", "u8",
-        "u8", "u8"],
-    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120, 128, 136],
-    "itemsize": 144})
-
-
 # What vox_default_X sets in a struct, beside struct_size, where that is not all 0.
 DEFAULTS: dict[str, dict[str, Any]] = {
-    "vox_grid_desc": {'flags': 1},
     "vox_sim_desc": {'substeps': 10, 'detect_every': 1, 'gravity': [0, 0, -9.81], 'max_time_step': 0.03333333333333333, 'floor_normal': [0, 0, 1], 'friction': 0.5, 'max_push_speed': 1, 'contact_slop': -1},
     "vox_sim_body_desc": {'density': 1000, 'youngs_modulus': 1000000, 'bulk_modulus': 1000000, 'damping': 0.01},
 }
@@ -1613,14 +1356,31 @@ DEFAULTS: dict[str, dict[str, Any]] = {
 # Of each header: name, type of the result, types of the parameters.
 FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
     "vox": {
-        "vox_result_string": (c_char_p, (c_int32,)),
         "vox_last_error": (c_char_p, ()),
-        "vox_fail": (vox_result, (c_int32, c_char_p)),
-        "vox_version": (c_uint32, ()),
-        "vox_abi_version": (c_uint32, ()),
-        "vox_build_info": (c_char_p, ()),
+        "vox_result_string": (c_char_p, (c_int32,)),
         "vox_grid_create": (vox_result, (POINTER(vox_grid_desc), POINTER(c_void_p))),
         "vox_grid_destroy": (None, (c_void_p,)),
+        "vox_mesh_insert": (vox_result, (c_void_p, POINTER(vox_mesh_desc), POINTER(c_uint32))),
+        "vox_body_remove": (vox_result, (c_void_p, c_uint32)),
+        "vox_mesh_bind_positions": (vox_result, (c_void_p, c_uint32, POINTER(vox_positions))),
+        "vox_grid_step": (vox_result, (c_void_p,)),
+        "vox_grids_step": (vox_result, (c_void_p, c_uint64, c_uint32, POINTER(vox_task_system), c_void_p)),
+        "vox_grid_get_contacts": (vox_result, (c_void_p, POINTER(vox_contact_view))),
+        "vox_grid_get_hash": (vox_result, (c_void_p, POINTER(c_uint64))),
+        "vox_grid_get_pairs": (vox_result, (c_void_p, POINTER(vox_pair_view))),
+        "vox_grid_find_constraints": (vox_result, (c_void_p, POINTER(vox_constraint_desc))),
+        "vox_grid_get_constraints": (vox_result, (c_void_p, POINTER(vox_constraint_view))),
+        "vox_body_set_transform": (vox_result, (c_void_p, c_uint32, c_void_p)),
+        "vox_body_set_enabled": (vox_result, (c_void_p, c_uint32, c_uint32)),
+        "vox_body_set_filter": (vox_result, (c_void_p, c_uint32, POINTER(vox_filter))),
+        "vox_grid_set_pair_enabled": (vox_result, (c_void_p, c_uint32, c_uint32, c_uint32)),
+        "vox_body_mark_moved": (vox_result, (c_void_p, c_uint32)),
+        "vox_mesh_map_positions": (vox_result, (c_void_p, c_uint32, POINTER(c_void_p))),
+        "vox_mesh_bind_previous_positions": (vox_result, (c_void_p, c_uint32, POINTER(vox_positions))),
+        "vox_body_get_info": (vox_result, (c_void_p, c_uint32, POINTER(vox_body_info))),
+        "vox_body_get_user_data": (vox_result, (c_void_p, c_uint32, POINTER(c_uint64))),
+        "vox_body_is_valid": (c_uint32, (c_void_p, c_uint32)),
+        "vox_grid_get_bodies": (vox_result, (c_void_p, c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_grid_clear": (vox_result, (c_void_p,)),
         "vox_grid_reserve": (vox_result, (c_void_p, c_uint32, c_uint64)),
         "vox_grid_set_cell_size": (vox_result, (c_void_p, c_double)),
@@ -1628,21 +1388,8 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_grid_set_flags": (vox_result, (c_void_p, c_uint32)),
         "vox_grid_set_margin": (vox_result, (c_void_p, c_double)),
         "vox_grid_get_info": (vox_result, (c_void_p, POINTER(vox_grid_info))),
-        "vox_mesh_insert": (vox_result, (c_void_p, POINTER(vox_mesh_desc), POINTER(c_uint32))),
-        "vox_body_remove": (vox_result, (c_void_p, c_uint32)),
-        "vox_body_is_valid": (c_uint32, (c_void_p, c_uint32)),
-        "vox_body_get_user_data": (vox_result, (c_void_p, c_uint32, POINTER(c_uint64))),
-        "vox_grid_get_bodies": (vox_result, (c_void_p, c_void_p, c_uint64, POINTER(c_uint64))),
-        "vox_body_get_info": (vox_result, (c_void_p, c_uint32, POINTER(vox_body_info))),
-        "vox_mesh_get_tets": (vox_result, (c_void_p, c_uint32, c_void_p, c_void_p, c_uint64, POINTER(c_uint64))),
-        "vox_mesh_bind_positions": (vox_result, (c_void_p, c_uint32, POINTER(vox_positions))),
-        "vox_mesh_bind_previous_positions": (vox_result, (c_void_p, c_uint32, POINTER(vox_positions))),
-        "vox_body_mark_moved": (vox_result, (c_void_p, c_uint32)),
-        "vox_body_set_filter": (vox_result, (c_void_p, c_uint32, POINTER(vox_filter))),
-        "vox_body_set_enabled": (vox_result, (c_void_p, c_uint32, c_uint32)),
-        "vox_grid_set_pair_enabled": (vox_result, (c_void_p, c_uint32, c_uint32, c_uint32)),
-        "vox_mesh_map_positions": (vox_result, (c_void_p, c_uint32, POINTER(c_void_p))),
-        "vox_body_set_transform": (vox_result, (c_void_p, c_uint32, c_void_p)),
+        "vox_grid_get_counters": (vox_result, (c_void_p, POINTER(vox_counter_view))),
+        "vox_grid_get_failure": (vox_result, (c_void_p, c_uint32, POINTER(vox_failure))),
         "vox_mesh_set_topology": (vox_result, (c_void_p, c_uint32, POINTER(vox_mesh_desc))),
         "vox_mesh_set_tets_enabled": (vox_result, (c_void_p, c_uint32, c_void_p, c_uint64, c_uint32)),
         "vox_mesh_replace_tets": (vox_result, (c_void_p, c_uint32, c_void_p, c_uint64, c_void_p)),
@@ -1650,34 +1397,13 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_mesh_remove_tets": (vox_result, (c_void_p, c_uint32, c_void_p, c_uint64)),
         "vox_mesh_append_vertices": (vox_result, (c_void_p, c_uint32, POINTER(vox_vertices_desc), POINTER(c_uint32))),
         "vox_mesh_remove_vertices": (vox_result, (c_void_p, c_uint32, c_void_p, c_uint64)),
-        "vox_grid_step": (vox_result, (c_void_p,)),
-        "vox_grids_step": (vox_result, (c_void_p, c_uint64, POINTER(vox_task_system), c_uint32, c_void_p)),
-        "vox_grid_get_failure": (vox_result, (c_void_p, c_uint32, POINTER(vox_failure))),
-        "vox_grid_get_contacts": (vox_result, (c_void_p, POINTER(vox_contact_view))),
-        "vox_grids_copy_contacts": (vox_result, (c_void_p, c_uint64, c_void_p, c_uint64, c_void_p)),
-        "vox_grid_get_hash": (vox_result, (c_void_p, POINTER(c_uint64))),
-        "vox_grid_penetrations": (vox_result, (c_void_p, POINTER(vox_penetration_view))),
-        "vox_grid_depths": (vox_result, (c_void_p, POINTER(vox_depth_view))),
-        "vox_grid_edge_contacts": (vox_result, (c_void_p, POINTER(vox_edge_contact_view))),
-        "vox_grid_edge_hash": (vox_result, (c_void_p, POINTER(c_uint64))),
-        "vox_grid_prepare_edge_depths": (vox_result, (c_void_p,)),
-        "vox_grid_edge_depths": (vox_result, (c_void_p, POINTER(vox_depth_view))),
-        "vox_grid_margin_contacts": (vox_result, (c_void_p, POINTER(vox_margin_contact_view))),
-        "vox_grid_passages": (vox_result, (c_void_p, POINTER(vox_passage_view))),
-        "vox_grid_get_pairs": (vox_result, (c_void_p, POINTER(vox_pair_view))),
-        "vox_mesh_copy_contacts": (vox_result, (c_void_p, c_uint32, c_void_p, c_uint64, POINTER(c_uint64))),
-        "vox_pair_copy_contacts": (vox_result, (c_void_p, c_uint32, c_uint32, c_void_p, c_uint64, POINTER(c_uint64))),
-        "vox_grid_touch_events": (vox_result, (c_void_p, POINTER(vox_touch_view))),
-        "vox_grid_contact_events": (vox_result, (c_void_p, POINTER(vox_contact_event_view))),
-        "vox_grid_prepare_readings": (vox_result, (c_void_p,)),
-        "vox_grid_prepare_readings_of": (vox_result, (c_void_p, POINTER(vox_readings_desc))),
-        "vox_grid_readings": (vox_result, (c_void_p, POINTER(vox_reading_view))),
-        "vox_grid_reading_depths": (vox_result, (c_void_p, POINTER(vox_depth_view))),
-        "vox_mesh_copy_readings": (vox_result, (c_void_p, c_uint32, c_void_p, c_uint64, POINTER(c_uint64))),
-        "vox_pair_copy_readings": (vox_result, (c_void_p, c_uint32, c_uint32, c_void_p, c_uint64, POINTER(c_uint64))),
+        "vox_mesh_get_tets": (vox_result, (c_void_p, c_uint32, c_void_p, c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_grid_save": (vox_result, (c_void_p, c_void_p, c_uint64, POINTER(c_uint64))),
         "vox_grid_load": (vox_result, (c_void_p, c_uint64, POINTER(vox_grid_desc), POINTER(c_void_p))),
-        "vox_grid_get_counters": (vox_result, (c_void_p, POINTER(vox_counter_view))),
+        "vox_version": (c_uint32, ()),
+        "vox_abi_version": (c_uint32, ()),
+        "vox_build_info": (c_char_p, ()),
+        "vox_fail": (vox_result, (c_int32, c_char_p)),
     },
     "vox_query": {
         "vox_grid_update_locator": (vox_result, (c_void_p, POINTER(c_void_p))),
@@ -1714,16 +1440,17 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_surface_get_features": (vox_result, (c_void_p, c_int32, POINTER(vox_feature_view))),
         "vox_surface_move": (vox_result, (c_void_p, POINTER(vox_motion))),
         "vox_surface_find_pairs": (vox_result, (c_void_p, c_int32, c_int32, c_uint64, c_uint64,
-            POINTER(vox_pair_lists))),
+            POINTER(vox_partner_lists))),
+        "vox_surface_find_crossings": (vox_result, (c_void_p, POINTER(vox_crossing_view))),
+        "vox_surface_find_proximities": (vox_result, (c_void_p, c_int32, c_int32, c_double,
+            POINTER(vox_proximity_view))),
+        "vox_surface_find_clearances": (vox_result, (c_void_p, c_double, c_void_p)),
+        "vox_surface_find_safe_step": (vox_result, (c_void_p, POINTER(vox_impact_desc), POINTER(vox_safe_step))),
+        "vox_surface_find_impacts": (vox_result, (c_void_p, c_int32, c_int32, POINTER(vox_impact_desc),
+            POINTER(vox_impact_view))),
         "vox_surface_set_cell_size": (vox_result, (c_void_p, c_double)),
         "vox_surface_suggest_cell_size": (vox_result, (c_void_p, c_int32, c_int32, POINTER(vox_foreign_suggestion))),
-        "vox_surface_get_counters": (vox_result, (c_void_p, POINTER(vox_pair_counters))),
-        "vox_surface_find_crossings": (vox_result, (c_void_p, POINTER(vox_crossing_view))),
-        "vox_surface_find_proximities": (vox_result, (c_void_p, c_int32, c_int32, c_double, POINTER(vox_close_view))),
-        "vox_surface_find_clearances": (vox_result, (c_void_p, c_double, c_void_p, c_uint64)),
-        "vox_surface_find_safe_step": (vox_result, (c_void_p, POINTER(vox_contact_time_desc), POINTER(vox_safe_step))),
-        "vox_surface_find_impacts": (vox_result, (c_void_p, c_int32, c_int32, POINTER(vox_contact_time_desc),
-            POINTER(vox_timed_view))),
+        "vox_surface_get_counters": (vox_result, (c_void_p, POINTER(vox_counter_view))),
     },
     "vox_io": {
         "vox_io_load": (vox_result, (c_char_p, POINTER(vox_io_load_desc), POINTER(c_void_p))),
@@ -1757,7 +1484,7 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_sim_body_set_state": (vox_result, (c_void_p, c_uint32, c_void_p, c_void_p)),
         "vox_sim_body_set_acceleration": (vox_result, (c_void_p, c_uint32, c_void_p)),
         "vox_sim_get_energy": (vox_result, (c_void_p, c_uint32, POINTER(vox_sim_energies))),
-        "vox_sim_get_counters": (vox_result, (c_void_p, POINTER(vox_sim_counts))),
+        "vox_sim_get_counters": (vox_result, (c_void_p, POINTER(vox_counter_view))),
     },
 }
 

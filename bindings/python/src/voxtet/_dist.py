@@ -4,7 +4,7 @@ layout with the header's."""
 from __future__ import annotations
 
 import ctypes
-from ctypes import (CFUNCTYPE, POINTER, Structure, c_double, c_float, c_int32, c_uint32, c_uint64, c_void_p)
+from ctypes import (CFUNCTYPE, POINTER, Structure, c_double, c_int32, c_uint32, c_uint64, c_void_p)
 from typing import Any
 
 import numpy as np
@@ -36,7 +36,7 @@ class vox_dist_part_desc(Structure):
 
 class vox_dist_contact(Structure):
     _fields_ = [("body_a", c_uint64), ("vertex", c_uint64), ("body_b", c_uint64), ("tet", c_uint64),
-                ("barycentric", c_float * 4), ("index", c_uint32), ("rank", c_uint32), ("interior", c_uint32),
+                ("weights", c_double * 4), ("index", c_uint32), ("rank", c_uint32), ("interior", c_uint32),
                 ("reserved", c_uint32)]
 
 
@@ -45,7 +45,7 @@ class vox_dist_contact_view(Structure):
 
 
 class vox_dist_location(Structure):
-    _fields_ = [("body", c_uint64), ("tet", c_uint64), ("barycentric", c_float * 4), ("rank", c_uint32),
+    _fields_ = [("body", c_uint64), ("tet", c_uint64), ("weights", c_double * 4), ("rank", c_uint32),
                 ("interior", c_uint32)]
 
 
@@ -53,14 +53,8 @@ class vox_dist_cost(Structure):
     _fields_ = [("body", c_uint64), ("seconds", c_double)]
 
 
-class vox_dist_counters(Structure):
-    _fields_ = [("struct_size", c_uint32), ("neighbours", c_uint32)] + [(name, c_uint64) for name in (
-        "messages", "collectives", "replicated_bytes", "box_bytes", "vertex_bytes", "hit_bytes", "vertices_sent",
-        "vertices_received", "vertices_here", "hits_sent", "contacts", "incoming")]
-
-
 STRUCTS = [vox_dist_message, vox_dist_transport, vox_dist_part_desc, vox_dist_contact, vox_dist_contact_view,
-           vox_dist_location, vox_dist_cost, vox_dist_counters]
+           vox_dist_location, vox_dist_cost]
 
 
 def dtype_of(struct: type[Structure]) -> np.dtype[Any]:
@@ -89,7 +83,7 @@ _ARGUMENTS: dict[str, list[Any]] = {
     "vox_dist_scene_locate": [c_void_p, POINTER(_c.vox_positions), c_void_p],
     "vox_dist_scene_check": [c_void_p],
     "vox_dist_scene_get_costs": [c_void_p, c_void_p, c_uint64, POINTER(c_uint64)],
-    "vox_dist_scene_get_counters": [c_void_p, POINTER(vox_dist_counters)],
+    "vox_dist_scene_get_counters": [c_void_p, POINTER(_c.vox_counter_view)],
 }
 
 
@@ -105,4 +99,4 @@ def _declared() -> Any:
 dist: Any = _declared()
 
 __all__ = ["STRUCTS", "TETS", "VERTICES", "Agree", "Allgather", "Exchange", "contact_type", "cost_type", "dist", "location_type",
-           "vox_dist_message", "vox_dist_part_desc", "vox_dist_contact_view", "vox_dist_counters", "vox_dist_transport"]
+           "vox_dist_message", "vox_dist_part_desc", "vox_dist_contact_view", "vox_dist_transport"]

@@ -18,7 +18,7 @@ from ._library import Handle, described, sized, vox
 from .errors import InvalidArgumentError, InvalidHandleError, InvalidStateError
 from .mesh import Filter, Mesh, Topology
 from .reference import Reference, pointer_to
-from .results import Borrowed, Contacts, Depths, Exports, Readings, Results, copy_of, hits_of
+from .results import Borrowed, Exports, Results, copy_of, hits_of
 from .suggest import Suggestion, suggest_for_grid
 
 if TYPE_CHECKING:
@@ -26,10 +26,7 @@ if TYPE_CHECKING:
 
 ALL_CORES = _c.VOX_ALL_CORES
 Log = Callable[[int, str], Any]
-_KEEP: Any = object()
 _LEVELS: dict[int, int] = {_c.LogLevel.INFO: logging.INFO, _c.LogLevel.WARNING: logging.WARNING}
-_DTYPE_CONTACT = results.CONTACTS.dtype
-_DTYPE_READING = results.READINGS.dtype
 _step = vox.vox_grid_step
 
 
@@ -37,8 +34,7 @@ class Failure(NamedTuple):
     """A mesh that made a step fail, or that it left out."""
 
     result: _c.Result
-    mesh: int
-    slot: int
+    body: int
     user_data: int
     vertex: Optional[int]  # the first with a bad coordinate; None if the failure is about none
     position: tuple[float, float, float]
@@ -107,8 +103,9 @@ def _log_function(grid: Grid, log: Log) -> Any:
 class Grid(Results):
     """A set of meshes that collide. `step` finds all contacts of their positions as they are then.
 
-    cell_size, worker_count (`workers`: 0 or 1 thread, or ALL_CORES), the byte budget and closest_budget are those of
-    vox_grid_desc; `reference` chooses the paper's engine in place of the fast one. `log` is called with a level of `logging` and a text; `logging.getLogger("voxtet").log` is one.
+    cell_size, worker_count (`workers`: 0 or 1 thread, or ALL_CORES), margin and byte budget are those of vox_grid_desc;
+    constraints, edges and skip_bad_bodies its flags; `reference` chooses the paper's engine in place of the fast one. `log` is
+    called with a level of `logging` and a text; `logging.getLogger("voxtet").log` is one.
 
     Arrays that a grid returns are copies of yours. Any thread may use a grid; one at a time does. `with Grid() as grid:`
     closes it at the end.
@@ -125,29 +122,26 @@ class Grid(Results):
     vertex 3 of a in tet 0 of b
     """
 
-    def __init__(self, cell_size: float = 0.0, *, workers: int = 1, reference: Optional[Reference] = None,
-                 byte_budget: int = 0, penetrations: bool = True, contact_events: bool = False,
-                 skip_bad_bodies: bool = False, closest_budget: int = 0, log: Optional[Log] = None) -> None:
+    def __init__(self, cell_size: float = 0.0, *, workers: int = 1, reference: Optional[Reference] = None, byte_budget: int = 0,
+                 constraints: bool = False, edges: bool = False, skip_bad_bodies: bool = False, margin: float = 0.0,
+                 log: Optional[Log] = None) -> None:
         desc = described(_c.vox_grid_desc)
         desc.cell_size = real(cell_size, "cell_size")
         desc.reference = pointer_to(reference)
-        desc.flags = (switch(penetrations, "penetrations") * _c.GridFlags.PENETRATIONS
-                      | switch(contact_events, "contact_events") * _c.GridFlags.CONTACT_EVENTS
-                      | switch(skip_bad_bodies, "skip_bad_bodies") * _c.GridFlags.SKIP_BAD_BODIES)
-        self._prepare(desc, workers, byte_budget, closest_budget, log)
+        desc.flags = _changed(0, constraints=constraints, edges=edges, skip_bad_bodies=skip_bad_bodies)
+        self._prepare(desc, workers, byte_budget, margin, log)
         pointer = ctypes.c_void_p()
         vox.vox_grid_create(desc, pointer)
         self._hold(Handle(pointer.value or 0, vox.vox_grid_destroy, desc))
 
-    def _prepare(self, desc: Any, workers: int, byte_budget: int, closest_budget: int, log: Optional[Log]) -> None:
+    def _prepare(self, desc: Any, workers: int, byte_budget: int, margin: float, log: Optional[Log]) -> None:
         """The settings that a snapshot does not hold."""
         self._pointer: Optional[int] = None
         self._lock: Any = threading.Lock()
         desc.worker_count = integer(workers, "workers", 0, U32)
         desc.byte_budget = integer(byte_budget, "byte_budget")
-        desc.closest_budget = integer(closest_budget, "closest_budget")
-        self._settings = {"workers": desc.worker_count, "byte_budget": desc.byte_budget,
-                          "closest_budget": desc.closest_budget}
+        desc.margin = real(margin, "margin")
+        self._settings = {"workers": desc.worker_count, "byte_budget": desc.byte_budget, "margin": desc.margin}
         if log is not None:
             if not callable(log):
                 raise TypeError(f"log is of type {type(log).__name__}; it must be a function of a level and a text")
@@ -156,13 +150,13 @@ class Grid(Results):
     def _hold(self, handle: Handle) -> None:
         self._handle: Optional[Handle] = handle
         self._pointer = handle.pointer
-        # By id: the arrays of positions and of tets that the mesh borrows, and the caller's tags. Meshes themselves are
+        # By id: the arrays that the mesh borrows (positions, previous, tets), and the caller's tags. Meshes themselves are
         # made when asked for, so that nothing here refers to the grid, and a grid that is dropped goes at once.
-        self._kept: dict[int, tuple[Optional[Rows], Any]] = {}
+        self._kept: dict[int, dict[str, Any]] = {}
         self._lent: list[Any] = []
         self._tags: dict[int, Any] = {}
         self._borrowed = Exports()
-        self._borrowed_readings = Exports()
+        self._borrowed_constraints = Exports()
         self._mapped: dict[int, Exports] = {}
 
     # ---- life ----
@@ -222,8 +216,8 @@ class Grid(Results):
     def _refuse(self, what: str) -> None:
         if self._borrowed:
             self._borrowed.refuse(what)
-        if self._borrowed_readings:
-            self._borrowed_readings.refuse(what)
+        if self._borrowed_constraints:
+            self._borrowed_constraints.refuse(what)
 
     def _refuse_positions(self, mesh: int, what: str) -> None:
         exports = self._mapped.get(mesh)
@@ -233,14 +227,12 @@ class Grid(Results):
     def _exports_of(self, mesh: int) -> Exports:
         return self._mapped.setdefault(mesh, Exports())
 
-    def _keep(self, mesh: int, positions: Any = _KEEP, tets: Any = _KEEP) -> None:
+    def _keep(self, mesh: int, **arrays: Any) -> None:
         """Remembers what a mesh borrows, and forgets what it borrowed before."""
-        before = self._kept.get(mesh, (None, None))
-        now = (before[0] if positions is _KEEP else positions, before[1] if tets is _KEEP else tets)
-        if now[0] is None and now[1] is None:
-            self._kept.pop(mesh, None)
-        else:
-            self._kept[mesh] = now
+        self._kept.setdefault(mesh, {}).update(arrays)
+
+    def _keeps(self, mesh: int, what: str) -> Any:
+        return self._kept.get(mesh, {}).get(what)
 
     def _lending(self, arrays: Any) -> _Lending:
         return _Lending(self._lent, arrays)
@@ -277,17 +269,26 @@ class Grid(Results):
             vox.vox_grid_set_worker_count(self._pointer, count)
             self._settings["workers"] = count
 
-    def set_flags(self, *, penetrations: Optional[bool] = None, contact_events: Optional[bool] = None,
+    @property
+    def margin(self) -> float:
+        """How far from a surface the following steps find PROXIMITY constraints. Experimental."""
+        with self._lock:
+            return float(self._info().margin)
+
+    @margin.setter
+    def margin(self, margin: float) -> None:
+        distance = real(margin, "margin")
+        with self._lock:
+            self._refuse("a change of the margin")
+            vox.vox_grid_set_margin(self._pointer, distance)
+            self._settings["margin"] = distance
+
+    def set_flags(self, *, constraints: Optional[bool] = None, edges: Optional[bool] = None,
                   skip_bad_bodies: Optional[bool] = None) -> None:
         """Changes what the following steps do; what is None stays."""
-        wanted = [(penetrations, "penetrations", _c.GridFlags.PENETRATIONS),
-                  (contact_events, "contact_events", _c.GridFlags.CONTACT_EVENTS),
-                  (skip_bad_bodies, "skip_bad_bodies", _c.GridFlags.SKIP_BAD_BODIES)]
         with self._lock:
-            before = flags = self._info().flags
-            for value, name, flag in wanted:
-                if value is not None:
-                    flags = flags & ~flag | switch(value, name) * flag
+            before = self._info().flags
+            flags = _changed(before, constraints=constraints, edges=edges, skip_bad_bodies=skip_bad_bodies)
             if flags != before:
                 self._refuse("a change of the flags")
             vox.vox_grid_set_flags(self._pointer, flags)
@@ -311,7 +312,7 @@ class Grid(Results):
         the next step, and say how many by vertex_count.
         tets: integers, (m, 4), copied unless borrow_tets (uint32 only). None: a surface or points, whose vertices
         collide with the tetrahedra of others.
-        tag: any object, for `mesh.tag`. user_data: a number that events and readings repeat.
+        tag: any object, for `mesh.tag`. user_data: a number that pairs and constraints repeat.
         rest_positions: for `Filter.self_rest_distance`, copied.
         """
         new = Topology(positions, tets, vertex_count, copy, rest_positions, borrow_tets)
@@ -326,7 +327,7 @@ class Grid(Results):
             kept = new.kept()
             with self._lending(kept):
                 vox.vox_mesh_insert(self._pointer, new.desc, mesh)
-                self._keep(mesh.value, *kept)
+                self._keep(mesh.value, **kept)
             if tag is not None:
                 self._tags[mesh.value] = tag
         return Mesh(self, mesh.value)
@@ -342,7 +343,7 @@ class Grid(Results):
         with self._lock:
             self._refuse_positions(id, "removal of the mesh")
             vox.vox_body_remove(self._pointer, id)
-            self._keep(id, None, None)
+            self._kept.pop(id, None)
             self._tags.pop(id, None)
             self._mapped.pop(id, None)
 
@@ -396,7 +397,7 @@ class Grid(Results):
     def step(self) -> None:
         """Finds all contacts of the positions as they are now. Other Python threads run meanwhile."""
         with self._lock:
-            if self._borrowed or self._borrowed_readings:
+            if self._borrowed or self._borrowed_constraints:
                 self._refuse("step")
             _step(self._pointer)
 
@@ -407,58 +408,8 @@ class Grid(Results):
     def _source(self) -> Grid:
         return self
 
-    def _make(self, view: results.View, address: int, count: int, stride: int) -> Any:
-        return copy_of(address, count, stride, view.records, view.dtype)
-
-    def _copied(self, call: Any, records: Any, dtype: Any, *ids: int) -> Any:
-        with self._lock:
-            return hits_of(lambda to, room, count: call(self._pointer, *ids, to, room, count), records, dtype, 64)
-
-    def contacts_of(self, mesh: Union[Mesh, int]) -> Contacts:
-        """Contacts of the last step in which the mesh is on either side, pair by pair."""
-        return self._copied(vox.vox_mesh_copy_contacts, Contacts, _DTYPE_CONTACT, self._id(mesh))  # type: ignore[no-any-return]
-
-    def contacts_between(self, body_a: Union[Mesh, int], body_b: Union[Mesh, int]) -> Contacts:
-        """Contacts of the last step between two meshes, or of one with itself."""
-        return self._copied(vox.vox_pair_copy_contacts, Contacts, _DTYPE_CONTACT,  # type: ignore[no-any-return]
-                            self._id(body_a, "body_a"), self._id(body_b, "body_b"))
-
-    # ---- readings ----
-
-    def prepare_readings(self, body_a: Union[Mesh, int, None] = None, body_b: Union[Mesh, int, None] = None, *,
-                         position: bool = True, surface: bool = True, depth: bool = True,
-                         closest_budget: int = 0) -> None:
-        """Computes the readings of the last step's contacts, or of those of one mesh or of a pair of meshes."""
-        desc = described(_c.vox_readings_desc)
-        desc.what = (switch(position, "position") * _c.ReadingFlags.POSITION | switch(surface, "surface")
-                     * _c.ReadingFlags.SURFACE | switch(depth, "depth") * _c.ReadingFlags.DEPTH)
-        desc.body_a = 0 if body_a is None else self._id(body_a, "body_a")
-        desc.body_b = 0 if body_b is None else self._id(body_b, "body_b")
-        desc.closest_budget = integer(closest_budget, "closest_budget")
-        with self._lock:
-            self._borrowed_readings.refuse("prepare_readings")
-            vox.vox_grid_prepare_readings_of(self._pointer, desc)
-
-    def readings(self, body_a: Union[Mesh, int, None] = None, body_b: Union[Mesh, int, None] = None, *,
-                 position: bool = True, surface: bool = True, depth: bool = True, closest_budget: int = 0) -> Readings:
-        """Prepares readings and returns them: what a response, a picture or a report needs for each contact."""
-        self.prepare_readings(body_a, body_b, position=position, surface=surface, depth=depth,
-                              closest_budget=closest_budget)
-        return self._array(results.READINGS)  # type: ignore[no-any-return]
-
-    @property
-    def reading_depths(self) -> Depths:
-        """Depth and direction of the prepared readings in double."""
-        return self._array(results.READING_DEPTHS)  # type: ignore[no-any-return]
-
-    def readings_of(self, mesh: Union[Mesh, int]) -> Readings:
-        """The prepared readings of `contacts_of(mesh)`."""
-        return self._copied(vox.vox_mesh_copy_readings, Readings, _DTYPE_READING, self._id(mesh))  # type: ignore[no-any-return]
-
-    def readings_between(self, body_a: Union[Mesh, int], body_b: Union[Mesh, int]) -> Readings:
-        """The prepared readings of `contacts_between(body_a, body_b)`."""
-        return self._copied(vox.vox_pair_copy_readings, Readings, _DTYPE_READING,  # type: ignore[no-any-return]
-                            self._id(body_a, "body_a"), self._id(body_b, "body_b"))
+    def _make(self, view: results.View, address: int, count: int) -> Any:
+        return copy_of(address, count, view.records, view.dtype)
 
     # ---- queries ----
 
@@ -473,12 +424,12 @@ class Grid(Results):
         """As voxtet.suggest_cell_size for the meshes of the grid, from samples. Without a model, that of its engine."""
         return suggest_for_grid(self, model, options)
 
-    def plot(self, plotter: Any = None, *, opacity: float = 0.5, contacts: bool = True, penetrations: bool = True,
+    def plot(self, plotter: Any = None, *, opacity: float = 0.5, contacts: bool = True, constraints: bool = True,
              **options: Any) -> Any:
-        """Adds bodies, contacts and penetrations to a plotter of pyvista, or to a new one made with `options`, and returns
+        """Adds bodies, contacts and constraints to a plotter of pyvista, or to a new one made with `options`, and returns
         it: `grid.plot().show()`."""
         from .plot import plot
-        return plot(self, plotter, opacity=opacity, contacts=contacts, penetrations=penetrations, **options)
+        return plot(self, plotter, opacity=opacity, contacts=contacts, constraints=constraints, **options)
 
     def show(self, **options: Any) -> Any:
         """Shows the grid with pyvista."""
@@ -494,7 +445,7 @@ class Grid(Results):
 
     @property
     def epoch(self) -> int:
-        """Number of steps, clears, reserves and changes of the flags so far."""
+        """Number of steps, clears, reserves and changes of flags and margin so far."""
         with self._lock:
             return int(self._info().epoch)
 
@@ -527,16 +478,16 @@ class Grid(Results):
             while True:
                 f = sized(_c.vox_failure)
                 vox.vox_grid_get_failure(self._pointer, len(found), f)
-                if not f.mesh:
+                if not f.body:
                     return found
-                found.append(Failure(_c.Result(f.result), f.mesh, f.slot, f.user_data,
-                                     None if f.vertex == _c.VOX_NO_VERTEX else f.vertex, tuple(f.position)))
+                found.append(Failure(_c.Result(f.result), f.body, f.user_data,
+                                     None if f.vertex == _c.VOX_NONE else f.vertex, tuple(f.position)))
 
     # ---- snapshots ----
 
     def snapshot(self) -> bytes:
-        """The grid as it is now, in a format that is the same on every machine. Not in it: workers, the two budgets, the
-        log, tags, and the results of the last step. `pickle` uses this, and keeps workers, budgets and tags."""
+        """The grid as it is now, in a format that is the same on every machine. Not in it: workers, budget, margin, log, tags,
+        previous positions, and the results of the last step. `pickle` uses this, and keeps workers, budget, margin and tags."""
         size = ctypes.c_uint64()
         with self._lock:
             vox.vox_grid_save(self._pointer, None, 0, size)
@@ -546,14 +497,14 @@ class Grid(Results):
 
     @classmethod
     def from_snapshot(cls, snapshot: Union[bytes, bytearray, memoryview], *, reference: Optional[Reference] = None,
-                      workers: int = 1, byte_budget: int = 0, closest_budget: int = 0, log: Optional[Log] = None) -> Grid:
+                      workers: int = 1, byte_budget: int = 0, margin: float = 0.0, log: Optional[Log] = None) -> Grid:
         """A grid from a snapshot: the same ids, the same contacts, and without `reference` the same engine. Its meshes have
         positions of their own (`mesh.positions`). The bytes need not be trusted."""
         data = np.frombuffer(snapshot, np.uint8)
         grid = cls.__new__(cls)
         desc = described(_c.vox_grid_desc)
         desc.reference = pointer_to(reference)
-        grid._prepare(desc, workers, byte_budget, closest_budget, log)
+        grid._prepare(desc, workers, byte_budget, margin, log)
         pointer = ctypes.c_void_p()
         vox.vox_grid_load(data.ctypes.data, data.size, desc, pointer)
         grid._hold(Handle(pointer.value or 0, vox.vox_grid_destroy, desc))
@@ -561,6 +512,15 @@ class Grid(Results):
 
     def __reduce__(self) -> Any:
         return _restored, (type(self), self.snapshot(), dict(self._settings), dict(self._tags))
+
+
+def _changed(flags: int, **wanted: Optional[bool]) -> int:
+    """vox_grid_desc.flags with those changed that are not None."""
+    for name, value in wanted.items():
+        if value is not None:
+            flag = _c.GridFlags[name.upper()]
+            flags = flags & ~flag | switch(value, name) * flag
+    return flags
 
 
 def _restored(kind: type[Grid], snapshot: bytes, settings: dict[str, Any], tags: dict[int, Any]) -> Grid:
@@ -577,23 +537,9 @@ def step_all(grids: Iterable[Grid], workers: int = ALL_CORES) -> None:
     all_ = _distinct(grids)
     with _Locked(all_):
         for grid in all_:
-            if grid._borrowed or grid._borrowed_readings:
-                grid._refuse("step_all")
+            grid._refuse("step_all")
         pointers = (ctypes.c_void_p * len(all_))(*[grid._pointer for grid in all_])
-        vox.vox_grids_step(pointers, len(all_), None, count, None)
-
-
-def contacts_of_all(grids: Iterable[Grid]) -> tuple[Contacts, NDArray[np.uint64]]:
-    """The contacts of many grids, one grid after the other, and offsets: those of grid i are
-    `contacts[offsets[i]:offsets[i + 1]]`."""
-    all_ = _distinct(grids)
-    with _Locked(all_):
-        pointers = (ctypes.c_void_p * len(all_))(*[grid._pointer for grid in all_])
-        offsets = np.zeros(len(all_) + 1, np.uint64)
-        vox.vox_grids_copy_contacts(pointers, len(all_), None, 0, offsets.ctypes.data)
-        contacts = np.empty(int(offsets[-1]), _DTYPE_CONTACT)
-        vox.vox_grids_copy_contacts(pointers, len(all_), contacts.ctypes.data, len(contacts), offsets.ctypes.data)
-    return contacts.view(Contacts), offsets
+        vox.vox_grids_step(pointers, len(all_), count, None, None)
 
 
 def _distinct(grids: Iterable[Grid]) -> list[Grid]:

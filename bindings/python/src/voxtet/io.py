@@ -117,7 +117,7 @@ class MeshData:
         for name, address, count, width, dtype in (("positions", view.positions, view.vertex_count, 3, _DOUBLE),
                                                    ("tets", view.tets, view.tet_count, 4, _INDEX),
                                                    ("triangles", view.triangles, view.triangle_count, 3, _INDEX)):
-            flat = borrow_of(address, count * width, dtype.itemsize, np.ndarray, dtype, self._handle)
+            flat = borrow_of(address, count * width, np.ndarray, dtype, self._handle)
             setattr(self, name, flat.reshape(-1, width))
 
     @property

@@ -116,7 +116,7 @@ class Locator:
             self.update(where)
             return
         positions, found, cells = arrays_of(where, tets)
-        with Grid(penetrations=False) as grid:
+        with Grid() as grid:
             grid.add(positions, found, copy=True)
             self._take(grid, cells)
 

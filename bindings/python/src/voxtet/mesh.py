@@ -13,7 +13,7 @@ from . import _c
 from ._arguments import NOTHING, U32, U64, Rows, copied_rows, indices, integer, matrix, pinned, real, rows, switch
 from ._library import described, sized, vox
 from .errors import InvalidArgumentError
-from .results import Contacts, Lease, Readings, borrow_of
+from .results import Lease, borrow_of
 
 if TYPE_CHECKING:
     from .grid import Grid
@@ -30,7 +30,7 @@ class Filter:
     self_collision: bool = False  # vertices of the mesh inside its own tetrahedra are contacts
     self_rings: int = 0  # ... but not those within so many edges of the tetrahedron
     self_rest_distance: float = 0.0  # ... nor those closer to it than this in the rest pose
-    sensor: bool = False  # contacts of this mesh have no penetrations
+    sensor: bool = False  # the mesh has contacts and pairs, but no constraints
 
     def _struct(self) -> Any:
         out = _c.vox_filter()
@@ -47,7 +47,6 @@ class Filter:
 class MeshInfo(NamedTuple):
     """A mesh as it is now."""
 
-    slot: int
     user_data: int
     vertex_count: int  # with the removed ones
     tet_count: int  # with those that are disabled or removed
@@ -55,7 +54,6 @@ class MeshInfo(NamedTuple):
     enabled: bool
     owns_positions: bool  # copied, mapped or loaded
     borrows_tets: bool
-    has_transform: bool
 
 
 class Topology:
@@ -88,10 +86,11 @@ class Topology:
             self.rest = copied_rows(rest_positions, "rest_positions")
             desc.rest_positions = self.rest.struct
 
-    def kept(self) -> tuple[Optional[Rows], Any]:
-        """What the library goes on reading after the call: positions and tets."""
-        return (None if self.desc.flags & _c.MeshFlags.COPY_POSITIONS or self.rows.array is None else self.rows,
-                (self.tets, pinned(self.tets)) if self.tets is not None and self.desc.flags & _c.MeshFlags.BORROW_TETS else None)
+    def kept(self) -> dict[str, Any]:
+        """What the library goes on reading after the call."""
+        copies, borrows_tets = self.desc.flags & _c.MeshFlags.COPY_POSITIONS, self.desc.flags & _c.MeshFlags.BORROW_TETS
+        return {"positions": None if copies or self.rows.array is None else self.rows, "previous": None,
+                "tets": (self.tets, pinned(self.tets)) if self.tets is not None and borrows_tets else None}
 
 
 class Mesh:
@@ -143,9 +142,8 @@ class Mesh:
         """Counts and state, as they are now."""
         with self.grid._lock:
             i = self._raw_info()
-        return MeshInfo(i.slot, i.user_data, i.positions.count, i.tet_count, i.enabled_tet_count, bool(i.enabled),
-                        bool(i.flags & _c.MeshFlags.COPY_POSITIONS), bool(i.flags & _c.MeshFlags.BORROW_TETS),
-                        bool(i.has_transform))
+        return MeshInfo(i.user_data, i.positions.count, i.tet_count, i.enabled_tet_count, bool(i.enabled),
+                        bool(i.flags & _c.MeshFlags.COPY_POSITIONS), bool(i.flags & _c.MeshFlags.BORROW_TETS))
 
     @property
     def user_data(self) -> int:
@@ -165,10 +163,10 @@ class Mesh:
         borrowed."""
         grid = self.grid
         with grid._lock:
-            kept = grid._kept.get(self.id)
+            kept: Optional[Rows] = grid._keeps(self.id, "positions")
             info = self._raw_info()
-            if kept is not None and kept[0] is not None:
-                return kept[0].array
+            if kept is not None:
+                return kept.array
             at = info.positions
             if not at.data:
                 return None if at.count else np.empty((0, 3), np.float32)
@@ -177,8 +175,8 @@ class Mesh:
             if own:
                 vox.vox_mesh_map_positions(grid._pointer, self.id, address)
             kind = np.dtype(np.float64 if at.format == _c.Format.DOUBLE else np.float32)
-            flat = borrow_of(address.value or 0, 3 * at.count, kind.itemsize, np.ndarray, kind,
-                             Lease(grid._handle, grid._exports_of(self.id)), writable=own)
+            flat = borrow_of(address.value or 0, 3 * at.count, np.ndarray, kind, Lease(grid._handle, grid._exports_of(self.id)),
+                             writable=own)
             mapped: NDArray[Any] = flat.reshape(-1, 3)
             return mapped
 
@@ -194,6 +192,22 @@ class Mesh:
             with grid._lending(new):
                 vox.vox_mesh_bind_positions(grid._pointer, self.id, new.struct)
                 grid._keep(self.id, positions=new)
+
+    @property
+    def previous_positions(self) -> Optional[NDArray[Any]]:
+        """An array that the mesh borrows, of where its vertices were before: each step then looks for IMPACT constraints, on the
+        way from there to `positions`. None, as after a change of its vertices: the mesh stands still. Experimental."""
+        with self.grid._lock:
+            kept: Rows = self.grid._keeps(self.id, "previous") or NOTHING
+            return kept.array
+
+    @previous_positions.setter
+    def previous_positions(self, positions: Any) -> None:
+        grid = self.grid
+        new = None if positions is None else rows(positions, "previous_positions")
+        with grid._lock, grid._lending(new):
+            vox.vox_mesh_bind_previous_positions(grid._pointer, self.id, None if new is None else new.struct)
+            grid._keep(self.id, previous=new)
 
     @property
     def transform(self) -> NDArray[np.float64]:
@@ -244,27 +258,15 @@ class Mesh:
         with self.grid._lock:
             vox.vox_body_set_enabled(self.grid._pointer, self.id, number)
 
-    # ---- results ----
-
-    @property
-    def contacts(self) -> Contacts:
-        """Contacts of the last step in which the mesh takes part on either side, pair by pair."""
-        return self.grid.contacts_of(self)
-
-    @property
-    def readings(self) -> Readings:
-        """The prepared readings of these contacts."""
-        return self.grid.readings_of(self)
-
     # ---- tetrahedra and vertices ----
 
     def _as_it_collides(self) -> tuple[Any, NDArray[np.uint32], NDArray[np.bool_]]:
         """Positions with the transform, to the bit those that the grid computes; the tetrahedra that are there; and of all,
         which they are."""
-        positions, (tets, enabled) = self.positions, self._tets()
-        if positions is not None and self.info.has_transform:
+        positions, (tets, enabled), transform = self.positions, self._tets(), self.transform
+        if positions is not None and not np.array_equal(transform, np.eye(3, 4)):
             x, y, z = positions.T.astype(np.float64)
-            positions = np.stack([((m[0] * x + m[1] * y) + m[2] * z) + m[3] for m in self.transform], axis=1)
+            positions = np.stack([((m[0] * x + m[1] * y) + m[2] * z) + m[3] for m in transform], axis=1)
         return positions, tets[enabled], enabled
 
     @property
@@ -347,6 +349,8 @@ class Mesh:
                 vox.vox_mesh_append_vertices(grid._pointer, self.id, desc, first)
                 if borrowed:
                     grid._keep(self.id, positions=new)
+                if counts[0]:
+                    grid._keep(self.id, previous=None)
         return first.value
 
     def remove_vertices(self, vertices: ArrayLike) -> None:
@@ -368,17 +372,16 @@ class Mesh:
             keeps = positions is None and new.desc.positions.count == before.positions.count
             if not keeps:
                 grid._refuse_positions(self.id, "new positions")
-            kept, borrowed_tets = new.kept()
+            kept = new.kept()
             if keeps:
-                kept = grid._kept.get(self.id, (None, None))[0]
-            with grid._lending((kept, borrowed_tets)):
+                kept["positions"] = grid._keeps(self.id, "positions")
+            with grid._lending(kept):
                 vox.vox_mesh_set_topology(grid._pointer, self.id, new.desc)
-                grid._keep(self.id, positions=kept, tets=borrowed_tets)
+                grid._keep(self.id, **kept)
 
     def _own_tets(self) -> None:
         """After an edit: tetrahedra that were borrowed have been copied."""
-        kept = self.grid._kept.get(self.id)
-        if kept is not None and kept[1] is not None and not self._raw_info().flags & _c.MeshFlags.BORROW_TETS:
+        if not self._raw_info().flags & _c.MeshFlags.BORROW_TETS:
             self.grid._keep(self.id, tets=None)
 
     def remove(self) -> None:

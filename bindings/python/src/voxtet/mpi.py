@@ -52,7 +52,7 @@ class SceneContacts(Records):
     vertex: NDArray[np.uint64]
     body_b: NDArray[np.uint64]
     tet: NDArray[np.uint64]
-    barycentric: NDArray[np.float32]
+    weights: NDArray[np.float64]
     index: NDArray[np.uint32]
     rank: NDArray[np.uint32]
     interior: NDArray[np.uint32]
@@ -63,7 +63,7 @@ class SceneLocations(Records):
 
     body: NDArray[np.uint64]
     tet: NDArray[np.uint64]
-    barycentric: NDArray[np.float32]
+    weights: NDArray[np.float64]
     rank: NDArray[np.uint32]
     interior: NDArray[np.uint32]
 
@@ -73,24 +73,6 @@ class SceneCosts(Records):
 
     body: NDArray[np.uint64]
     seconds: NDArray[np.float64]
-
-
-class SceneCounters(NamedTuple):
-    """What the last step, or `Scene.locate` since, sent from this rank."""
-
-    neighbours: int
-    messages: int
-    collectives: int
-    replicated_bytes: int
-    box_bytes: int
-    vertex_bytes: int
-    hit_bytes: int
-    vertices_sent: int
-    vertices_received: int
-    vertices_here: int
-    hits_sent: int
-    contacts: int
-    incoming: int
 
 
 NONE = _c.VOX_NONE  # SceneLocations.rank of a point in no tetrahedron
@@ -332,7 +314,7 @@ class Scene:
         desc.vertex_ids, desc.tet_ids, desc.owned = (None if a is None else a.ctypes.data for a in arrays)
         with _Calls(self) as pointer:
             dist.vox_dist_scene_insert(pointer, desc)
-            self._kept[desc.body] = new.kept()[0]
+            self._kept[desc.body] = new.kept()["positions"]
 
     def remove(self, body: int) -> None:
         """Removes the part of a body that lies on this rank."""
@@ -359,7 +341,7 @@ class Scene:
         view = _dist.vox_dist_contact_view()
         with _Calls(self) as pointer:
             dist.vox_dist_scene_get_contacts(pointer, side, view)
-            found: SceneContacts = copy_of(view.data or 0, view.count, _dist.contact_type.itemsize, SceneContacts, _dist.contact_type)
+            found: SceneContacts = copy_of(view.data or 0, view.count, SceneContacts, _dist.contact_type)
             return found
 
     @property
@@ -435,9 +417,9 @@ class Scene:
         return out[:count.value].view(SceneCosts)
 
     @property
-    def counters(self) -> SceneCounters:
-        """What the last step sent."""
-        out = sized(_dist.vox_dist_counters)
+    def counters(self) -> dict[str, int]:
+        """What the last step, or `locate` since, sent from this rank (docs/distributed.md lists the names)."""
+        view = _c.vox_counter_view()
         with _Calls(self) as pointer:
-            dist.vox_dist_scene_get_counters(pointer, out)
-        return values_of(SceneCounters, out)
+            dist.vox_dist_scene_get_counters(pointer, view)
+            return {c.name.decode(): c.value for c in (_c.vox_counter * view.count).from_address(view.data)}

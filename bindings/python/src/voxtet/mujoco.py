@@ -48,7 +48,7 @@ class Flex:
 
     def step(self, data: Any) -> Grid:
         """Finds all contacts of data.flexvert_xpos as it is now (mj_step, mj_forward and mj_kinematics with mj_flex write
-        it). Returns the grid, whose `contacts`, `penetrations`, `events` are those of this step. The array is borrowed,
+        it). Returns the grid, whose `contacts`, `pairs` and `find_constraints()` are those of this step. The array is borrowed,
         never copied; the grid keeps `data` alive until it steps another one."""
         positions = data.flexvert_xpos
         if len(positions) != self._vertices:

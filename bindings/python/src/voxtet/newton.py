@@ -26,8 +26,8 @@ class Particles:
         self.mesh: Optional[Mesh] = None
 
     def step(self, state: Any) -> Grid:
-        """Finds all contacts of state.particle_q as it is now. Returns the grid, whose `contacts` and `penetrations` are those of
-        this step. An array on the CPU is borrowed, one on a GPU copied by Warp."""
+        """Finds all contacts of state.particle_q as it is now. Returns the grid, whose `contacts` and `find_constraints()` are
+        those of this step. An array on the CPU is borrowed, one on a GPU copied by Warp."""
         positions = state.particle_q.numpy()
         address = positions.ctypes.data
         if self.mesh is None:

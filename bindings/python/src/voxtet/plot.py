@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 from typing import TYPE_CHECKING, Any, Optional
 
 import numpy as np
 
-from ._c import GridFlags
+from .errors import InvalidStateError
 from .grid import Grid
 from .io import boundary
 
@@ -17,7 +18,7 @@ _COLOURS = ("#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377")
 
 
 def plot(grid: Grid, plotter: Optional[pyvista.Plotter] = None, *, opacity: float = 0.5, contacts: bool = True,
-         penetrations: bool = True, **options: Any) -> pyvista.Plotter:
+         constraints: bool = True, **options: Any) -> pyvista.Plotter:
     """As `Grid.plot`."""
     import pyvista
     if plotter is None:
@@ -39,9 +40,10 @@ def plot(grid: Grid, plotter: Optional[pyvista.Plotter] = None, *, opacity: floa
     if contacts and known.any():
         at = np.array([positions[c.body_a][c.vertex] for c in found[known]])
         plotter.add_mesh(pyvista.PolyData(at), color="red", point_size=8, render_points_as_spheres=True)
-    if penetrations and grid.flags & GridFlags.PENETRATIONS:
-        deep = [p for p in grid.penetrations if p.body_a in positions and p.depth > 0]
-        if deep:
-            at = np.array([positions[p.body_a][p.vertex] for p in deep])
-            plotter.add_arrows(at, np.array([p.direction * p.depth for p in deep]), mag=1, color="black")
+    if constraints:
+        with contextlib.suppress(InvalidStateError):  # none were looked for
+            deep = grid.constraints
+            deep = deep[deep.gap < 0]
+            if len(deep):
+                plotter.add_arrows(deep.position, deep.normal * -deep.gap[:, None], mag=1, color="black")
     return plotter

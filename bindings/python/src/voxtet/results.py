@@ -5,17 +5,19 @@ from __future__ import annotations
 import ctypes
 import sys
 import weakref
-from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional
+from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _c
-from ._library import vox
+from ._arguments import choice, integer
+from ._library import described, vox
 from .errors import InvalidStateError
 
 if TYPE_CHECKING:
     from .grid import Grid
+    from .mesh import Mesh
 
 
 class Records(np.ndarray[Any, Any]):
@@ -46,119 +48,69 @@ class Contacts(Records):
     vertex: NDArray[np.uint32]
     body_b: NDArray[np.uint32]
     tet: NDArray[np.uint32]
-    barycentric: NDArray[np.float32]
-
-
-class Penetrations(Records):
-    """How deep each vertex is in another body, and which way leads out. `state` is a PenetrationState."""
-
-    body_a: NDArray[np.uint32]
-    vertex: NDArray[np.uint32]
-    body_b: NDArray[np.uint32]
-    state: NDArray[np.int32]
-    contact: NDArray[np.uint64]
-    depth: NDArray[np.float32]
-    direction: NDArray[np.float32]
-
-
-class Depths(Records):
-    """Depth and direction in double."""
-
-    depth: NDArray[np.float64]
-    direction: NDArray[np.float64]
 
 
 class Pairs(Records):
-    """Meshes that touch, and where their contacts are in `Grid.pair_contacts`."""
+    """Bodies that touch, stopped touching in the last step, or are within the margin, sorted by (body_a, body_b). `state` is a
+    PairState. The contacts of a pair are contact_count from first_contact on in `Grid.pair_contacts`."""
 
     body_a: NDArray[np.uint32]
     body_b: NDArray[np.uint32]
     user_data_a: NDArray[np.uint64]
     user_data_b: NDArray[np.uint64]
-    first: NDArray[np.uint64]
-    a_in_b: NDArray[np.uint64]
-    b_in_a: NDArray[np.uint64]
-
-
-class TouchEvents(Records):
-    """Pairs of meshes that began to touch, still touch, or ended. `kind` is a Touch."""
-
-    body_a: NDArray[np.uint32]
-    body_b: NDArray[np.uint32]
-    user_data_a: NDArray[np.uint64]
-    user_data_b: NDArray[np.uint64]
-    kind: NDArray[np.int32]
-    pair: NDArray[np.uint32]
-
-
-class ContactEvents(Records):
-    """Vertices that entered a mesh or left it. `kind` is a Touch."""
-
-    body_a: NDArray[np.uint32]
-    vertex: NDArray[np.uint32]
-    body_b: NDArray[np.uint32]
-    kind: NDArray[np.int32]
-
-
-class Readings(Records):
-    """What responding to, drawing or reporting contacts needs. `known` are ReadingFlags: which parts are there."""
-
-    contact: NDArray[np.uint64]
-    known: NDArray[np.uint32]
     state: NDArray[np.int32]
-    depth: NDArray[np.float32]
-    direction: NDArray[np.float32]
-    position: NDArray[np.float64]
-    distance: NDArray[np.float64]
-    surface_position: NDArray[np.float64]
-    barycentric: NDArray[np.float64]
+    first_contact: NDArray[np.uint64]
+    contact_count: NDArray[np.uint64]
+
+
+class Constraints(Records):
+    """What a solver needs (vox_constraint). With x[i] for the position of vertices[i], of body_a for i < count_a and else of
+    body_b, gap = offset + normal @ sum(weights[i] * x[i]) is negative while the two overlap. Vertices beyond `count` are 0, and so
+    are their weights. `kind` is a ConstraintKind, `state` a DepthState; `pair` is an index of `Grid.pairs`, `previous` that of the
+    same constraint in the step before, or NONE. Sorted by pair (`Grid.pair_offsets`), kind, body_a and vertices."""
+
+    body_a: NDArray[np.uint32]
+    body_b: NDArray[np.uint32]
+    kind: NDArray[np.int32]
+    state: NDArray[np.int32]
+    count_a: NDArray[np.uint32]
+    count: NDArray[np.uint32]
+    vertices: NDArray[np.uint32]
+    element_b: NDArray[np.uint32]
+    weights: NDArray[np.float64]
     normal: NDArray[np.float64]
-    triangle: NDArray[np.uint32]
+    gap: NDArray[np.float64]
+    offset: NDArray[np.float64]
+    position: NDArray[np.float64]
+    time: NDArray[np.float64]
     user_data_a: NDArray[np.uint64]
     user_data_b: NDArray[np.uint64]
-
-
-class Touches(NamedTuple):
-    """The touch events of a step in three parts."""
-
-    began: TouchEvents
-    persisted: TouchEvents
-    ended: TouchEvents
-
-
-class Passages(NamedTuple):
-    """The events of single vertices of a step in two parts."""
-
-    began: ContactEvents
-    ended: ContactEvents
+    pair: NDArray[np.uint32]
+    previous: NDArray[np.uint32]
 
 
 class View(NamedTuple):
-    """How to get one kind of array: the function that gives a view, the view's type, and what its elements become."""
+    """How to get one kind of array: the function that gives a view, its type, and what the elements become; the field with the
+    array, that with its length, and how much longer it is."""
 
     function: Any
     struct: Any
     records: Any
     dtype: np.dtype[Any]
-    of_readings: bool
+    array: str = "data"
+    length: str = "count"
+    more: int = 0
 
 
-def _view(function: Any, records: Any, dtype: Any, of_readings: bool = False) -> View:
-    """`dtype`: or the name of the struct that the elements are."""
-    struct = function.argtypes[1]._type_
-    return View(function, struct, records, record_type(dtype) if isinstance(dtype, str) else dtype, of_readings)
-
-
-CONTACTS = _view(vox.vox_grid_get_contacts, Contacts, "vox_contact")
-INTERIORS = View(None, None, np.ndarray, np.dtype(np.bool_), False)  # beside the contacts
-PENETRATIONS = _view(vox.vox_grid_penetrations, Penetrations, "vox_penetration")
-DEPTHS = _view(vox.vox_grid_depths, Depths, "vox_depth")
-PAIRS = _view(vox.vox_grid_get_pairs, Pairs, "vox_pair")
-TOUCHES = _view(vox.vox_grid_touch_events, TouchEvents, "vox_touch_event")
-PASSAGES = _view(vox.vox_grid_contact_events, ContactEvents, "vox_contact_event")
-READINGS = _view(vox.vox_grid_readings, Readings, "vox_reading", of_readings=True)
-READING_DEPTHS = _view(vox.vox_grid_reading_depths, Depths, "vox_depth", of_readings=True)
-INDICES = View(None, None, np.ndarray, np.dtype(np.uint32), False)
+_contacts = vox.vox_grid_get_contacts, _c.vox_contact_view
+_pairs = vox.vox_grid_get_pairs, _c.vox_pair_view
+_constraints = vox.vox_grid_get_constraints, _c.vox_constraint_view
+CONTACTS = View(*_contacts, Contacts, record_type("vox_contact"))
+INTERIORS = View(*_contacts, np.ndarray, np.dtype(np.bool_), "interiors")
+PAIRS = View(*_pairs, Pairs, record_type("vox_pair"))
+INDICES = View(*_pairs, np.ndarray, np.dtype(np.uint32))  # of contacts
+CONSTRAINTS = View(*_constraints, Constraints, record_type("vox_constraint"))
+PAIR_OFFSETS = View(*_constraints, np.ndarray, np.dtype(np.uint64), "pair_offsets", "pair_count", 1)
 
 _BYTE = np.dtype(np.uint8)
 # ctypes makes a type for each length, which takes longer than all the rest: one that is long enough for all, and cut to size by
@@ -169,15 +121,12 @@ _new = np.ndarray.__new__
 _from_buffer: Any = ctypes.c_char.from_buffer
 
 
-def copy_of(address: int, count: int, stride: int, records: Any, dtype: np.dtype[Any]) -> Any:
+def copy_of(address: int, count: int, records: Any, dtype: np.dtype[Any]) -> Any:
     """An array of the caller's own."""
     if count == 0:
         return _new(records, 0, dtype)
-    size = dtype.itemsize
-    if stride != size:
-        return borrow_of(address, count, stride, records, dtype, None).copy()
-    memory = np.empty(count * size, _BYTE)
-    ctypes.memmove(ctypes.byref(_from_buffer(memory)), address, count * size)
+    memory = np.empty(count * dtype.itemsize, _BYTE)
+    ctypes.memmove(ctypes.byref(_from_buffer(memory)), address, memory.size)
     return _new(records, count, dtype, memory)
 
 
@@ -229,18 +178,14 @@ class Lease:
         exports.add(self)
 
 
-def borrow_of(address: int, count: int, stride: int, records: Any, dtype: np.dtype[Any], owner: Any,
-              writable: bool = False) -> Any:
+def borrow_of(address: int, count: int, records: Any, dtype: np.dtype[Any], owner: Any, writable: bool = False) -> Any:
     """An array over the library's memory. It, its slices and its fields keep `owner` alive."""
     if count == 0:
         return _new(records, 0, dtype)
-    size = (count - 1) * stride + dtype.itemsize
     span = _span_at(address)
     span.owner = owner
-    memory = memoryview(span)[:size] if writable else memoryview(span)[:size].toreadonly()
-    if stride == dtype.itemsize:
-        return np.frombuffer(memory, dtype).view(records)
-    return _new(records, count, dtype, np.frombuffer(memory, _BYTE), 0, (stride,))
+    memory = memoryview(span)[:count * dtype.itemsize]
+    return np.frombuffer(memory if writable else memory.toreadonly(), dtype).view(records)
 
 
 class Results:
@@ -249,16 +194,19 @@ class Results:
     def _source(self) -> Grid:
         raise NotImplementedError
 
-    def _make(self, view: View, address: int, count: int, stride: int) -> Any:
+    def _make(self, view: View, address: int, count: int) -> Any:
         """The array; called with the grid's lock held."""
         raise NotImplementedError
 
     def _array(self, view: View) -> Any:
         grid = self._source()
         with grid._lock:
-            out = view.struct()
-            view.function(grid._pointer, out)
-            return self._make(view, out.data, out.count, out.byte_stride)
+            return self._read(grid, view)
+
+    def _read(self, grid: Grid, view: View) -> Any:
+        out = view.struct()
+        view.function(grid._pointer, out)
+        return self._make(view, getattr(out, view.array), getattr(out, view.length) + view.more)
 
     @property
     def contacts(self) -> Contacts:
@@ -268,68 +216,59 @@ class Results:
     @property
     def interiors(self) -> NDArray[np.bool_]:
         """For each contact, whether the vertex is in the interior of the tetrahedron (and not on its boundary); exact."""
-        grid = self._source()
-        with grid._lock:
-            out = CONTACTS.struct()
-            CONTACTS.function(grid._pointer, out)
-            return self._make(INTERIORS, out.interiors, out.count, 1)  # type: ignore[no-any-return]
-
-    @property
-    def penetrations(self) -> Penetrations:
-        """The penetrations of the last step. Raises InvalidStateError for a grid without them."""
-        return self._array(PENETRATIONS)  # type: ignore[no-any-return]
-
-    @property
-    def depths(self) -> Depths:
-        """Depth and direction of each penetration in double."""
-        return self._array(DEPTHS)  # type: ignore[no-any-return]
+        return self._array(INTERIORS)  # type: ignore[no-any-return]
 
     @property
     def pairs(self) -> Pairs:
-        """The pairs of meshes that touched in the last step."""
+        """The pairs of the last step: those that began to touch, still touch, ended, or are near."""
         return self._array(PAIRS)  # type: ignore[no-any-return]
 
     @property
     def pair_contacts(self) -> NDArray[np.uint32]:
-        """The index of each contact, pair by pair: those of a pair begin at `pair.first`, first `a_in_b` vertices of
-        body_a, then `b_in_a` of body_b."""
+        """The index of each contact, pair by pair; of a pair first those of vertices of body_a, then those of body_b."""
         grid = self._source()
         with grid._lock:
             pairs, contacts = PAIRS.struct(), CONTACTS.struct()
             PAIRS.function(grid._pointer, pairs)
             CONTACTS.function(grid._pointer, contacts)
-            return self._make(INDICES, pairs.contacts, contacts.count, 4)  # type: ignore[no-any-return]
+            return self._make(INDICES, pairs.contacts, contacts.count)  # type: ignore[no-any-return]
+
+    def find_constraints(self, method: Union[str, _c.DepthMethod] = "consistent", *, body_a: Union[Mesh, int, None] = None,
+                         body_b: Union[Mesh, int, None] = None, mask: int = 0, closest_budget: int = 0) -> Constraints:
+        """Finds the constraints of the last step, in place of those found before, and returns them. Call it before anything
+        moves. method: "consistent" depth, smooth along the surface; to the "closest" point; "none". body_a, body_b: only pairs of
+        this mesh, or this one pair; mask: only where the category of a mesh has a bit in common. closest_budget: most searches
+        for a closest point; 0: no limit."""
+        desc, grid = described(_c.vox_constraint_desc), self._source()
+        desc.method = choice(_c.DepthMethod, method, "method")
+        desc.body_a = 0 if body_a is None else grid._id(body_a, "body_a")
+        desc.body_b = 0 if body_b is None else grid._id(body_b, "body_b")
+        desc.mask, desc.closest_budget = integer(mask, "mask"), integer(closest_budget, "closest_budget")
+        with grid._lock:
+            grid._borrowed_constraints.refuse("find_constraints")
+            vox.vox_grid_find_constraints(grid._pointer, desc)
+            return self._read(grid, CONSTRAINTS)  # type: ignore[no-any-return]
 
     @property
-    def events(self) -> Touches:
-        """Pairs that began to touch in the last step, that still touch, and that ended."""
-        grid = self._source()
-        with grid._lock:
-            view = TOUCHES.struct()
-            TOUCHES.function(grid._pointer, view)
-            events = self._make(TOUCHES, view.data, view.count, view.byte_stride)
-        middle = view.began + view.persisted
-        return Touches(events[:view.began], events[view.began:middle], events[middle:])
+    def constraints(self) -> Constraints:
+        """The constraints that the last step found (constraints=True) or `find_constraints` since. Raises InvalidStateError if
+        there are none yet."""
+        return self._array(CONSTRAINTS)  # type: ignore[no-any-return]
 
     @property
-    def contact_events(self) -> Passages:
-        """Vertices that entered a mesh in the last step, and that left one. For a grid with contact_events=True."""
-        grid = self._source()
-        with grid._lock:
-            view = PASSAGES.struct()
-            PASSAGES.function(grid._pointer, view)
-            events = self._make(PASSAGES, view.data, view.count, view.byte_stride)
-        return Passages(events[:view.began], events[view.began:])
+    def pair_offsets(self) -> NDArray[np.uint64]:
+        """Where the constraints of each pair are: those of pair p are constraints[pair_offsets[p]:pair_offsets[p + 1]]."""
+        return self._array(PAIR_OFFSETS)  # type: ignore[no-any-return]
 
 
 class Borrowed(Results):
     """Results of a step without a copy, by `with grid.borrowed() as results`. While it is open or an array of it lives (also
-    a slice or a field), whatever would end the memory raises BufferError: step, clear, reserve, flags, close."""
+    a slice or a field), whatever would end the memory raises BufferError: step, clear, reserve, flags, margin, close; while
+    constraints live, find_constraints, too."""
 
     def __init__(self, grid: Grid) -> None:
         self._grid = grid
         self._lease: Optional[Lease] = None
-        self._readings_lease: Optional[Lease] = None
 
     def _held(self) -> Lease:
         lease = self._lease  # read once: another thread may leave the `with` at any time
@@ -341,33 +280,11 @@ class Borrowed(Results):
         self._held()
         return self._grid
 
-    def _array(self, view: View) -> Any:  # as the general one, but for calls that take half a microsecond
-        function, struct, records, dtype, of_readings = view
-        lease = self._lease
-        if of_readings or lease is None:
-            return super()._array(view)
-        grid = self._grid
-        with grid._lock:
-            out = struct()
-            function(grid._pointer, out)
-            return borrow_of(out.data, out.count, out.byte_stride, records, dtype, lease)
-
-    def _make(self, view: View, address: int, count: int, stride: int) -> Any:
+    def _make(self, view: View, address: int, count: int) -> Any:
         lease = self._held()
-        if view.of_readings:
-            lease = self._readings_lease or Lease(self._grid._handle, self._grid._borrowed_readings)
-            self._readings_lease = lease
-        return borrow_of(address, count, stride, view.records, view.dtype, lease)
-
-    @property
-    def readings(self) -> Readings:
-        """The readings that `Grid.prepare_readings` made last."""
-        return self._array(READINGS)  # type: ignore[no-any-return]
-
-    @property
-    def reading_depths(self) -> Depths:
-        """Depth and direction of these readings in double."""
-        return self._array(READING_DEPTHS)  # type: ignore[no-any-return]
+        if view.struct is CONSTRAINTS.struct:
+            lease = Lease(self._grid._handle, self._grid._borrowed_constraints)
+        return borrow_of(address, count, view.records, view.dtype, lease)
 
     def __enter__(self) -> Borrowed:
         with self._grid._lock:
@@ -375,4 +292,4 @@ class Borrowed(Results):
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._lease = self._readings_lease = None
+        self._lease = None

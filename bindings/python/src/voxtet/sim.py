@@ -42,29 +42,6 @@ class Energies(NamedTuple):
     max_speed: float
 
 
-class Counts(NamedTuple):
-    """What a simulation has, and what it did (vox_sim_counts)."""
-
-    bodies: int
-    vertices: int
-    tets: int
-    edges: int
-    volumes: int
-    flat_tets: int
-    inverted_tets: int
-    raised_masses: int
-    softened: int
-    steps: int
-    substeps: int
-    detections: int
-    clamped_steps: int
-    penetrations: int
-    floor_contacts: int
-    step_ns: int
-    detect_ns: int
-    solve_ns: int
-
-
 class _SimGrid(Grid):
     """The grid of a simulation, which closes it."""
 
@@ -143,7 +120,7 @@ class Body:
             _sim.vox_sim_body_get_view(sim._pointer, self.id, view)
             lease = Lease(sim._handle, sim.grid._exports_of(self.id))
             count = view.tet_count if name == "tets" else view.vertex_count
-            flat = borrow_of(getattr(view, name), count * width, dtype.itemsize, np.ndarray, dtype, lease)
+            flat = borrow_of(getattr(view, name), count * width, np.ndarray, dtype, lease)
         return flat.reshape(-1, width) if width > 1 else flat
 
     @property
@@ -223,7 +200,7 @@ class Sim:
         _sim.vox_sim_get_grid(self._pointer, inside)
         grid._hold(self._handle)
         grid._pointer = inside.value
-        self.grid: Grid = grid  # contacts and penetrations of the last detection
+        self.grid: Grid = grid  # contacts and constraints of the last detection
         self._bodies: dict[int, None] = {}  # a set in the order of addition
 
     @property
@@ -313,9 +290,9 @@ class Sim:
         return self._energy(0)
 
     @property
-    def counts(self) -> Counts:
-        """What the simulation has, and what it did."""
-        out = sized(_c.vox_sim_counts)
+    def counters(self) -> dict[str, int]:
+        """Sizes, totals, and times in nanoseconds (names that end with _ns). docs/sim.md lists them."""
+        view = _c.vox_counter_view()
         with self._lock:
-            _sim.vox_sim_get_counters(self._pointer, out)
-        return values_of(Counts, out)
+            _sim.vox_sim_get_counters(self._pointer, view)
+            return {c.name.decode(): c.value for c in (_c.vox_counter * view.count).from_address(view.data)}

@@ -1,5 +1,5 @@
-"""Pairs of surface features: which vertices, edges and triangles of deforming surfaces can meet, cross, are close or come into
-contact while they move (docs/surface-pairs.md). Experimental: it may change in any release.
+"""Pairs of surface features: which vertices, edges and triangles of moving surfaces can meet, cross, are close, or how far they
+may move before they meet (docs/surface-pairs.md). Experimental: it may change in any release.
 
 >>> import numpy as np
 >>> square = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], float)
@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _c
 from ._arguments import U32, choice, copied_rows, indices, integer, real, switch
-from ._library import Handle, described, sized, vox
+from ._library import Handle, described, vox
 from .errors import InvalidArgumentError
 
 FeatureName = Union[str, _c.Feature]
@@ -40,19 +40,6 @@ class FeaturePairs(NamedTuple):
         offsets = self.offsets.astype(np.int64)
         firsts = np.repeat(np.arange(len(offsets) - 1, dtype=np.uint32), offsets[1:] - offsets[:-1])
         return np.stack([firsts, self.partners], axis=1)
-
-
-class SurfaceCounters(NamedTuple):
-    """What the last search for pairs did, and what the surface holds."""
-
-    cell_size: float
-    cells: int
-    tile_pairs: int
-    boxes_compared: int
-    overlaps: int
-    culled: int
-    bytes: int
-    peak_bytes: int
 
 
 class SafeStep(NamedTuple):
@@ -72,16 +59,6 @@ def _copy(address: Optional[int], count: int, dtype: Any) -> NDArray[Any]:
     if count:
         ctypes.memmove(out.ctypes.data, ctypes.c_void_p(address), out.nbytes)
     return out
-
-
-def _records(view: Any, address: Optional[int], name: str) -> NDArray[Any]:
-    """An array of records, for which numpy knows the fields."""
-    dtype = _c.dtypes[name]
-    if view.byte_stride == dtype.itemsize:
-        return _copy(address, view.count, dtype)
-    raw = _copy(address, view.count * view.byte_stride, np.uint8).reshape(view.count, view.byte_stride)
-    records: NDArray[Any] = np.ascontiguousarray(raw[:, :dtype.itemsize]).view(dtype)[:, 0]
-    return records
 
 
 class Surface:
@@ -135,10 +112,10 @@ class Surface:
         self._counts = (vertex_count, len(self.edges), len(self.faces))
 
     def _features(self, feature: _c.Feature) -> NDArray[np.uint32]:
-        view = sized(_c.vox_feature_view)
+        view, width = _c.vox_feature_view(), int(feature) + 1
         with self._lock:
             vox.vox_surface_get_features(self._handle.pointer, int(feature), view)
-            return _copy(view.vertices, view.count * view.vertices_each, np.uint32).reshape(-1, view.vertices_each)
+            return _copy(view.vertices, view.count * width, np.uint32).reshape(-1, width)
 
     @property
     def vertex_count(self) -> int:
@@ -177,11 +154,11 @@ class Surface:
         kind_a, kind_b = choice(_c.Feature, a, "a"), choice(_c.Feature, b, "b")
         first, count = 0, self._counts[kind_a]
         while True:
-            lists = sized(_c.vox_pair_lists)
+            lists = _c.vox_partner_lists()
             with self._lock:
                 vox.vox_surface_find_pairs(self._handle.pointer, kind_a, kind_b, first, count, lists)
-                piece = FeaturePairs(_copy(lists.offsets, lists.count + 1, np.uint64),
-                                     _copy(lists.partners, lists.pair_count, np.uint32))
+                offsets = _copy(lists.offsets, lists.count + 1, np.uint64)
+                piece = FeaturePairs(offsets, _copy(lists.partners, int(offsets[-1]), np.uint32))
             yield piece
             first += lists.count
             if first == count:
@@ -199,55 +176,51 @@ class Surface:
         return FeaturePairs(np.concatenate([*offsets, end]), np.concatenate([piece.partners for piece in found]))
 
     @property
-    def counters(self) -> SurfaceCounters:
-        out = sized(_c.vox_pair_counters)
+    def counters(self) -> dict[str, int]:
+        """What the last search did, and what the surface holds. docs/surface-pairs.md lists the names."""
+        view = _c.vox_counter_view()
         with self._lock:
-            vox.vox_surface_get_counters(self._handle.pointer, out)
-        return SurfaceCounters(*(getattr(out, name) for name in SurfaceCounters._fields))
+            vox.vox_surface_get_counters(self._handle.pointer, view)
+            return {c.name.decode(): c.value for c in (_c.vox_counter * view.count).from_address(view.data)}
+
+    def _list(self, function: Any, view: Any, element: str, *arguments: Any) -> NDArray[Any]:
+        """A copy of what it lists, as records of which numpy knows the fields."""
+        with self._lock:
+            function(self._handle.pointer, *arguments, view)
+            return _copy(view.data, view.count, _c.dtypes[element])
 
     def crossings(self) -> NDArray[Any]:
         """Edges that have a point in common with a face at the end of the motion, decided exactly: records with edge, face, kind,
         edge_weights, face_weights, position. Empty: the surface does not intersect itself."""
-        view = sized(_c.vox_crossing_view)
-        with self._lock:
-            vox.vox_surface_find_crossings(self._handle.pointer, view)
-            return _records(view, view.crossings, "vox_crossing")
+        return self._list(vox.vox_surface_find_crossings, _c.vox_crossing_view(), "vox_crossing")
 
-    def close(self, a: FeatureName, b: FeatureName, distance: float) -> NDArray[Any]:
+    def proximities(self, a: FeatureName, b: FeatureName, distance: float) -> NDArray[Any]:
         """Pairs at most this far apart at the end of the motion, with their closest points."""
-        kind_a, kind_b = choice(_c.Feature, a, "a"), choice(_c.Feature, b, "b")
-        view = sized(_c.vox_close_view)
-        with self._lock:
-            vox.vox_surface_find_proximities(self._handle.pointer, kind_a, kind_b, real(distance, "distance"), view)
-            return _records(view, view.pairs, "vox_close_pair")
+        return self._list(vox.vox_surface_find_proximities, _c.vox_proximity_view(), "vox_proximity", choice(_c.Feature, a, "a"),
+                          choice(_c.Feature, b, "b"), real(distance, "distance"))
 
-    def clearance(self, most: float) -> NDArray[np.float64]:
+    def clearances(self, max_distance: float) -> NDArray[np.float64]:
         """For each vertex how far it may move, at most this far, so that nothing touches what it does not touch now."""
         out = np.empty(self._vertex_count)
         with self._lock:
-            vox.vox_surface_find_clearances(self._handle.pointer, real(most, "most"), out.ctypes.data, len(out))
+            vox.vox_surface_find_clearances(self._handle.pointer, real(max_distance, "max_distance"), out.ctypes.data)
         return out
 
-    def _time_desc(self, distance: float, slack: float, most_iterations: int) -> Any:
-        desc = described(_c.vox_contact_time_desc)
+    def _impact_desc(self, distance: float, slack: float, max_iterations: int) -> Any:
+        desc = described(_c.vox_impact_desc)
         desc.distance, desc.slack = real(distance, "distance"), real(slack, "slack")
-        desc.most_iterations = integer(most_iterations, "most_iterations", high=U32)
+        desc.max_iterations = integer(max_iterations, "max_iterations", high=U32)
         return desc
 
-    def safe_step(self, distance: float = 0.0, *, slack: float = 0.1, most_iterations: int = 10000) -> SafeStep:
-        """How much of the motion is free of contact: never more than in truth."""
-        desc = self._time_desc(distance, slack, most_iterations)
-        out = sized(_c.vox_safe_step)
+    def safe_step(self, distance: float = 0.0, *, slack: float = 0.1, max_iterations: int = 10000) -> SafeStep:
+        """How much of the motion is free of impacts: never more than in truth."""
+        desc, out = self._impact_desc(distance, slack, max_iterations), _c.vox_safe_step()
         with self._lock:
             vox.vox_surface_find_safe_step(self._handle.pointer, desc, out)
         return SafeStep(out.step, out.pairs, out.unfinished, _c.Feature(out.kind_a), _c.Feature(out.kind_b), out.a, out.b)
 
-    def contact_times(self, a: FeatureName, b: FeatureName, distance: float = 0.0, *, slack: float = 0.1,
-                      most_iterations: int = 10000) -> NDArray[Any]:
-        """Pairs of face and vertex, or of edges, that may come into contact, each with the earliest time: records with a, b, time."""
-        kind_a, kind_b = choice(_c.Feature, a, "a"), choice(_c.Feature, b, "b")
-        desc = self._time_desc(distance, slack, most_iterations)
-        view = sized(_c.vox_timed_view)
-        with self._lock:
-            vox.vox_surface_find_impacts(self._handle.pointer, kind_a, kind_b, desc, view)
-            return _records(view, view.pairs, "vox_timed_pair")
+    def impacts(self, a: FeatureName, b: FeatureName, distance: float = 0.0, *, slack: float = 0.1,
+                max_iterations: int = 10000) -> NDArray[Any]:
+        """Pairs of face and vertex, or of edges, that may meet, each with the earliest time: records with a, b, time."""
+        return self._list(vox.vox_surface_find_impacts, _c.vox_impact_view(), "vox_impact", choice(_c.Feature, a, "a"),
+                          choice(_c.Feature, b, "b"), self._impact_desc(distance, slack, max_iterations))

@@ -4,34 +4,31 @@
 use core::ffi::{c_char, c_void};
 use core::marker::{PhantomData, PhantomPinned};
 
-/// Version of the stable interface. A program runs with every library that has the ABI version it was built with. It is
-/// part of the shared libraries' names (docs/abi.md).
+/// A program runs with any library of the ABI version that it was built with (docs/abi.md).
 pub const VOX_ABI_VERSION: u32 = 1;
-/// as a worker_count: one worker per core
-pub const VOX_ALL_CORES: u32 = 4294967295;
 /// as an index: none
 pub const VOX_NONE: u32 = 4294967295;
-/// per grid, at one time, including retired slots
+/// as a worker_count: one worker per core
+pub const VOX_ALL_CORES: u32 = 4294967295;
+/// in a grid at one time
 pub const VOX_MAX_BODIES: u32 = 1048576;
-/// uses of one mesh slot before it is retired
-pub const VOX_MAX_GENERATIONS: u32 = 4095;
-/// per grid
+/// in a grid
 pub const VOX_MAX_VERTICES: u32 = 2147483647;
-/// per grid
+/// in a grid
 pub const VOX_MAX_TETS: u32 = 2147483647;
-/// workers of a grid
+/// in a mesh whose surface is needed: constraints, edges, margin, queries
+pub const VOX_MAX_SURFACE_TETS: u32 = 357913941;
+/// in a step
+pub const VOX_MAX_CONTACTS: u32 = 4294967295;
+/// of a grid
 pub const VOX_MAX_WORKERS: u32 = 256;
-/// names no mesh
+/// names no body
 pub const VOX_NULL_BODY: u32 = 0;
 /// vox_filter.self_rings
 pub const VOX_MAX_RINGS: u32 = 8;
-/// vox_failure.vertex where a failure is not about a vertex
-pub const VOX_NO_VERTEX: u32 = 4294967295;
-/// contacts of one step; a step with more fails with VOX_ERROR_LIMIT
-pub const VOX_MAX_CONTACTS: u32 = 4294967295;
-/// vox_touch_event.pair of a pair that ended
-pub const VOX_NO_PAIR: u32 = 4294967295;
-/// tasks enqueued in one step
+/// most vertices of a constraint
+pub const VOX_STENCIL_CAPACITY: u32 = 5;
+/// in one call
 pub const VOX_MAX_TASKS: u32 = 64;
 /// numbers of vox_cost_weights
 pub const VOX_COST_WEIGHT_CAPACITY: u32 = 24;
@@ -45,63 +42,56 @@ pub const VOX_CELL_SIZE_LEVEL_CAPACITY: u32 = 4;
 pub const VOX_NOTE_CAPACITY: u32 = 256;
 /// most runs of vox_cost_tune
 pub const VOX_TUNE_RUN_CAPACITY: u32 = 32;
-/// vertices, edges or faces of a surface; each. More: VOX_ERROR_LIMIT
+/// vertices, edges or faces of a surface, each
 pub const VOX_MAX_FEATURES: u32 = 2147483647;
-/// patches of a surface. More: VOX_ERROR_LIMIT
+/// patches of a surface
 pub const VOX_MAX_PATCHES: u32 = 65536;
 
 pub type vox_result = i32;
 pub const VOX_OK: vox_result = 0;
-/// a null pointer, an unknown enum, a bad number
+/// a null pointer, an unknown enumerator, a bad number
 pub const VOX_ERROR_INVALID_ARGUMENT: vox_result = -1;
-/// a mesh id that is null, stale or from another grid
+/// an id that is null, stale or of another grid
 pub const VOX_ERROR_INVALID_HANDLE: vox_result = -2;
-/// a tetrahedron names a vertex that does not exist
+/// a tetrahedron or triangle names a vertex that does not exist
 pub const VOX_ERROR_INVALID_MESH: vox_result = -3;
-/// the call does not fit the state, e.g. no positions bound
+/// the call does not fit the state, e.g. a mesh has no positions yet
 pub const VOX_ERROR_INVALID_STATE: vox_result = -4;
 /// a position is NaN or infinite
 pub const VOX_ERROR_NON_FINITE: vox_result = -5;
-/// a documented limit would be passed
+/// a documented limit would be exceeded
 pub const VOX_ERROR_LIMIT: vox_result = -6;
-/// the grid's byte budget would be passed
+/// the byte budget would be exceeded
 pub const VOX_ERROR_BUDGET: vox_result = -7;
 /// the allocator returned null
 pub const VOX_ERROR_OUT_OF_MEMORY: vox_result = -8;
-/// recognised, but not supported by this build or version; or the processor is an x86-64 without SSE4.2: nothing is
-/// created there, and no cell size found
+/// not in this build or version
 pub const VOX_ERROR_UNSUPPORTED: vox_result = -9;
 /// a file cannot be opened, read or written
 pub const VOX_ERROR_FILE: vox_result = -10;
-/// a file is malformed
+/// a file or a snapshot is malformed
 pub const VOX_ERROR_FORMAT: vox_result = -11;
 /// a defect of the library: please report it
 pub const VOX_ERROR_INTERNAL: vox_result = -12;
 
 pub type vox_format = i32;
-/// IEEE 754 singles
 pub const VOX_FORMAT_FLOAT: vox_format = 0;
-/// IEEE 754 doubles, of magnitudes below 2^128 - 2^103 (3.4028236e38), the largest float
+/// magnitudes below 2^128 - 2^103, the largest float
 pub const VOX_FORMAT_DOUBLE: vox_format = 1;
 
+/// What a step does besides finding contacts and pairs.
 pub type vox_grid_flags = u32;
-/// run the depth stage in a step (vox_grid_penetrations); on by default. A mesh of more than 357913941 tets then gives
-/// VOX_ERROR_LIMIT, unless its filter does without
-pub const VOX_GRID_PENETRATIONS: vox_grid_flags = 1;
-/// also report events of single vertices (vox_grid_contact_events)
-pub const VOX_GRID_CONTACT_EVENTS: vox_grid_flags = 2;
-/// a mesh with a coordinate that VOX_FORMAT_DOUBLE does not allow (NaN, infinite, too large) takes no part in a step,
-/// in vox_grid_suggest_cell_size and in locators (vox_query.h), as if it were disabled; without this flag they fail.
-/// Counted (vox_grid_info.skipped_bodies), listed (vox_grid_get_failure), and logged once until the mesh is well again
+/// also find constraints: as vox_grid_find_constraints with the defaults
+pub const VOX_GRID_CONSTRAINTS: vox_grid_flags = 1;
+/// also find edges that pass through faces. Experimental
+pub const VOX_GRID_EDGES: vox_grid_flags = 2;
+/// leave out a body with a bad coordinate (NaN, infinite, too large) instead of failing (vox_grid_get_failure)
 pub const VOX_GRID_SKIP_BAD_BODIES: vox_grid_flags = 4;
-/// also find edges of surfaces through faces of others (vox_grid_edge_contacts); experimental. A mesh of more than
-/// 357913941 tets then gives VOX_ERROR_LIMIT
-pub const VOX_GRID_EDGE_CONTACTS: vox_grid_flags = 8;
 
 pub type vox_filter_flags = u32;
 /// the mesh also collides with itself
 pub const VOX_FILTER_SELF_COLLISION: vox_filter_flags = 1;
-/// the mesh has contacts, but no penetrations; takes less memory
+/// the body has contacts and pairs, but no constraints; takes less memory
 pub const VOX_FILTER_SENSOR: vox_filter_flags = 2;
 
 pub type vox_mesh_flags = u32;
@@ -110,60 +100,57 @@ pub const VOX_MESH_COPY_POSITIONS: vox_mesh_flags = 1;
 /// borrow the tetrahedra instead of copying them, 16 bytes each
 pub const VOX_MESH_BORROW_TETS: vox_mesh_flags = 2;
 
-/// How a penetration's depth and direction were found. In the following, p is the vertex; a colliding vertex is a
-/// vertex of body_a that has a contact with body_b; edges are those of body_a's tetrahedra; the surface of body_b
-/// consists of the facets of exactly one of its tetrahedra, duplicates counted once. SURFACE and PROPAGATED are the
-/// method of Heidelberger et al. 2004; the other states stand for cases in which it gives no answer. "Closest" means
-/// that depth is the distance from p to the closest point of body_b's surface, and direction points straight to it. For
-/// self-contact the surface is that of the fold that p has entered, never a triangle that has p as a corner.
-pub type vox_penetration_state = i32;
-/// edges lead from p out of body_b; mean over the points where they cross the surface
-pub const VOX_PENETRATION_SURFACE: vox_penetration_state = 0;
-/// all neighbours of p collide; mean over those closer to the surface
-pub const VOX_PENETRATION_PROPAGATED: vox_penetration_state = 1;
-/// closest: no edge leads out from p or from a colliding vertex connected with it, or p has no edges, as in meshes
-/// without tetrahedra
-pub const VOX_PENETRATION_ENCLOSED: vox_penetration_state = 2;
-/// the means are unusable, as the normals nearly cancel (edges leave on opposite sides), the depth would not be
-/// positive, or an edge that leads out crosses no surface (inverted tetrahedra, non-manifold facets); or this is the
-/// case for all vertices that p is connected with. The nearest way out alone: of the edges, or by a neighbour. Closest
-/// only if no edge of any of these vertices leads out
-pub const VOX_PENETRATION_CROSSING: vox_penetration_state = 3;
-/// p lies on the surface; depth is 0, direction the surface's normal at p
-pub const VOX_PENETRATION_COINCIDENT: vox_penetration_state = 4;
-/// the step's closest_budget was used up (see vox_grid_desc): depth is 0, direction the normal of a facet of the
-/// contact's tetrahedron
-pub const VOX_PENETRATION_UNKNOWN: vox_penetration_state = 5;
+/// What changed since the last successful step.
+pub type vox_pair_state = i32;
+/// does not touch, but is within the margin
+pub const VOX_PAIR_NEAR: vox_pair_state = 0;
+/// touches now and did not before
+pub const VOX_PAIR_BEGAN: vox_pair_state = 1;
+/// touches now and did before
+pub const VOX_PAIR_PERSISTED: vox_pair_state = 2;
+/// touched before and does not now
+pub const VOX_PAIR_ENDED: vox_pair_state = 3;
 
-/// How an edge meets a face.
-pub type vox_crossing_kind = i32;
-/// it passes through the interior of the face, with an end on either side
-pub const VOX_CROSSING_THROUGH: vox_crossing_kind = 0;
-/// an end is on the face, or it passes through an edge or a corner of the face
-pub const VOX_CROSSING_TOUCHING: vox_crossing_kind = 1;
-/// it lies in the plane of the face and meets it, or one of them is degenerate and they meet
-pub const VOX_CROSSING_COPLANAR: vox_crossing_kind = 2;
+/// Why there is a constraint. A vertex has at most one INSIDE, PROXIMITY or IMPACT constraint with each body.
+pub type vox_constraint_kind = i32;
+/// a vertex of body_a is inside body_b
+pub const VOX_CONSTRAINT_INSIDE: vox_constraint_kind = 0;
+/// an edge of body_a meets a face of body_b (VOX_GRID_EDGES)
+pub const VOX_CONSTRAINT_EDGE: vox_constraint_kind = 1;
+/// a vertex of body_a is outside body_b and within the margin (vox_grid_set_margin)
+pub const VOX_CONSTRAINT_PROXIMITY: vox_constraint_kind = 2;
+/// a vertex of body_a is not inside body_b, but went in within the step and is behind the face that it met first
+/// (vox_mesh_bind_previous_positions)
+pub const VOX_CONSTRAINT_IMPACT: vox_constraint_kind = 3;
 
-/// What an event reports: how the last successful step differs from the successful step before it.
-pub type vox_touch = i32;
-/// touches now, and did not before
-pub const VOX_TOUCH_BEGAN: vox_touch = 1;
-/// touches now, and did before
-pub const VOX_TOUCH_PERSISTED: vox_touch = 2;
-/// no longer touches, for whatever reason
-pub const VOX_TOUCH_ENDED: vox_touch = 3;
+/// How gap and normal were found, and thus how far to trust them (docs/depth.md).
+pub type vox_depth_state = i32;
+/// a mean over the edges that lead from the vertex out of body_b
+pub const VOX_DEPTH_SURFACE: vox_depth_state = 0;
+/// a mean over neighbouring vertices that are closer to the surface
+pub const VOX_DEPTH_PROPAGATED: vox_depth_state = 1;
+/// the closest point of the surface, which may jump from step to step
+pub const VOX_DEPTH_CLOSEST: vox_depth_state = 2;
+/// the bodies pass through each other: the nearest way out, which may be the wrong side
+pub const VOX_DEPTH_AMBIGUOUS: vox_depth_state = 3;
+/// the bodies only touch here: gap 0
+pub const VOX_DEPTH_TOUCHING: vox_depth_state = 4;
+/// closest_budget was used up: gap 0; or no depth was asked for: gap and normal 0
+pub const VOX_DEPTH_UNKNOWN: vox_depth_state = 5;
+/// the plane of the face: for IMPACT, and for EDGE of a mesh with itself
+pub const VOX_DEPTH_PLANE: vox_depth_state = 6;
 
-/// Which parts of a vox_reading are wanted, or present; all fields of the other parts are zero.
-pub type vox_reading_flags = u32;
-/// missing if the vertex or its mesh was removed after the step
-pub const VOX_READING_POSITION: vox_reading_flags = 1;
-/// missing where POSITION is or would be, if body_b was removed or has no surface, or if all of its tetrahedra that
-/// contained the vertex were removed or disabled
-pub const VOX_READING_SURFACE: vox_reading_flags = 2;
-/// missing on grids without VOX_GRID_PENETRATIONS, and where one of the meshes is a sensor
-pub const VOX_READING_DEPTH: vox_reading_flags = 4;
+/// How the depth of a vertex inside a mesh is found.
+pub type vox_depth_method = i32;
+/// smooth along the surface; neighbouring vertices leave on the same side: for response (Heidelberger et al. 2004)
+pub const VOX_DEPTH_METHOD_CONSISTENT: vox_depth_method = 0;
+/// to the closest point of the surface, with the vertices of its face in place of those of the tetrahedron: for finite
+/// elements, pictures, reports
+pub const VOX_DEPTH_METHOD_CLOSEST: vox_depth_method = 1;
+/// none: vertices, weights and position alone. Quick
+pub const VOX_DEPTH_METHOD_NONE: vox_depth_method = 2;
 
-/// Severity of a log line.
+/// How serious a line of the log is.
 pub type vox_log_level = i32;
 pub const VOX_LOG_INFO: vox_log_level = 0;
 pub const VOX_LOG_WARNING: vox_log_level = 1;
@@ -305,15 +292,20 @@ pub const VOX_RULE_RADIUS: vox_foreign_rule = 5;
 /// What a surface consists of.
 pub type vox_feature = i32;
 pub const VOX_FEATURE_VERTEX: vox_feature = 0;
-/// of 2 vertices
 pub const VOX_FEATURE_EDGE: vox_feature = 1;
-/// a triangle, of 3 vertices
 pub const VOX_FEATURE_FACE: vox_feature = 2;
 
 pub type vox_motion_flags = u32;
-/// Leave out pairs that are proven to stay further apart than twice the radius, that is, whose features thickened by
-/// the radius never touch. No other pair is left out.
+/// leave out pairs of boxes whose features provably stay further apart than twice the radius
 pub const VOX_MOTION_CULL: vox_motion_flags = 1;
+
+pub type vox_crossing_kind = i32;
+/// the edge passes through the interior of the face
+pub const VOX_CROSSING_THROUGH: vox_crossing_kind = 0;
+/// an end of the edge is on the face, or it passes through a side or a corner of it
+pub const VOX_CROSSING_TOUCHING: vox_crossing_kind = 1;
+/// it lies in the plane of the face and meets it, or one of them is degenerate
+pub const VOX_CROSSING_COPLANAR: vox_crossing_kind = 2;
 
 pub type vox_io_format = i32;
 /// determined from the content or, failing that, from the name's extension
@@ -361,12 +353,11 @@ pub const VOX_SIM_BODY_SELF_COLLISION: vox_sim_body_flags = 1;
 /// never moves; others collide with it
 pub const VOX_SIM_BODY_FIXED: vox_sim_body_flags = 2;
 
-/// Identifies a mesh in its grid: slot and generation in one number. 0 is no mesh. The ids of a grid ascend in slot
-/// order, so a fresh grid orders meshes as they were inserted. The id of a removed mesh is never used again in that
-/// grid.
+/// A body of a grid: a mesh. An id is never used again in the same grid. Ids ascend with slots, so in a new grid they
+/// ascend in the order of insertion.
 pub type vox_body = u32;
 
-/// An open grid: a set of meshes and the settings they collide under.
+/// A set of bodies, and the settings for finding their contacts.
 #[repr(C)]
 pub struct vox_grid {
     _data: [u8; 0],
@@ -380,7 +371,7 @@ pub struct vox_locator {
     _marker: PhantomData<(*mut u8, PhantomPinned)>,
 }
 
-/// Vertices, edges and faces, and the positions of the last vox_surface_move.
+/// Vertices, edges and faces, and their motion.
 #[repr(C)]
 pub struct vox_surface {
     _data: [u8; 0],
@@ -401,8 +392,8 @@ pub struct vox_sim {
     _marker: PhantomData<(*mut u8, PhantomPinned)>,
 }
 
-/// Handles the items [begin, end). `worker` is below worker_count; calls that run at the same time have different
-/// values of it.
+/// Does the items [begin, end) of a task, on any thread. `worker` is below worker_count; two calls at the same time
+/// have different ones.
 #[rustfmt::skip]
 pub type vox_task = Option<unsafe extern "C" fn(begin: u64, end: u64, worker: u32, context: *mut c_void)>;
 
@@ -437,82 +428,38 @@ pub struct vox_positions {
     pub component_byte_stride: u64,
 }
 
-/// Settings of a grid. What the pointers name is copied.
+/// Settings of a grid; all 0 by default. What the pointers name is copied.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_grid_desc {
     pub struct_size: u32,
     /// vox_grid_flags, combined with |
     pub flags: u32,
-    /// Threads that share a step, the calling one being one of them: up to VOX_MAX_WORKERS, or VOX_ALL_CORES; 0: one.
-    /// With `tasks`, the number of that system's workers. Contacts do not depend on it. The built-in scheduler never
-    /// uses more threads than there are cores, nor more than the system gives. It is oneTBB, or without it
-    /// (vox_build_info says which) each grid has threads of its own, from the first step that needs them until its end,
-    /// which sleep between steps; in a process made by fork it makes new ones. Builds for systems without threads are
-    /// serial.
+    /// threads that share a step: up to VOX_MAX_WORKERS, or VOX_ALL_CORES; 0: one
     pub worker_count: u32,
     /// 0
     pub reserved: u32,
-    /// Edge length of a cell; 0: the library chooses it. It never changes contacts. The fast engine chooses one for
-    /// each body in every step, from the size of the tiles near other bodies; for the reference engine see
-    /// vox_reference_desc.
+    /// edge length of a cell; 0: the library chooses it in every step. Never changes results
     pub cell_size: f64,
-    /// see vox_grid_set_margin. Experimental
+    /// see vox_grid_set_margin
     pub margin: f64,
-    /// most bytes the grid may hold; a call that would exceed it fails with VOX_ERROR_BUDGET. 0: 4 GiB; UINT64_MAX: no
-    /// limit
+    /// most bytes the grid may hold; 0: 4 GiB; UINT64_MAX: no limit
     pub byte_budget: u64,
-    /// Most searches for a closest point that the depth stage makes in one step: for penetrations that would be
-    /// ENCLOSED, or CROSSING with nothing but a closest point to go by. The first ones, in the order of the
-    /// penetrations, get them; the others become VOX_PENETRATION_UNKNOWN, which is counted (unknown_penetrations) and
-    /// written to the log. Those of meshes at rest, which are carried over from the last step, take nothing of it, and
-    /// stay UNKNOWN where they are. 0: no limit.
-    pub closest_budget: u64,
     /// null: the C++ runtime's heap
     pub allocator: *const vox_allocator,
     /// null: no log
     pub log: *const vox_log,
     /// null: the built-in scheduler
     pub tasks: *const vox_task_system,
-    /// null: the fast engine; else the paper's
+    /// null: the fast engine; else the paper's engine, which is slower and finds the same (vox_cell_size.h)
     pub reference: *const vox_reference_desc,
 }
 
-/// A grid as it is now, and what its last successful step did.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_grid_info {
-    pub struct_size: u32,
-    /// vox_grid_flags, combined with |
-    pub flags: u32,
-    /// Number of steps, clears, reserves and changes of flags or margin so far, failed steps included. A view is valid
-    /// while its epoch equals it.
-    pub epoch: u64,
-    /// The cell size that was set, or else the last one that was chosen; 0 before the first step. If a step chose
-    /// several, it is that of the smallest tetrahedra (reference engine) or of the last body that needed one (fast).
-    pub cell_size: f64,
-    pub margin: f64,
-    /// held now, without the caller's arrays
-    pub bytes: u64,
-    pub peak_bytes: u64,
-    /// nanoseconds
-    pub step_ns: u64,
-    /// bodies that were not at rest (see vox_grid_step)
-    pub moved_bodies: u64,
-    /// bodies that were left out (VOX_GRID_SKIP_BAD_BODIES)
-    pub skipped_bodies: u64,
-    /// pairs that began, in all steps so far
-    pub total_began: u64,
-    /// pairs that ended, in all steps so far
-    pub total_ended: u64,
-}
-
-/// What a mesh collides with. With all fields 0, the default, it collides with every other mesh, but not with itself.
-/// Two meshes in different worlds never collide; use worlds for copies of a scene in one grid. Two meshes with the same
+/// What a body collides with. With all fields 0, the default, it collides with every other body, but not with itself.
+/// Two bodies in different worlds never collide; use worlds for copies of a scene in one grid. Two bodies with the same
 /// group other than 0 collide if it is positive and do not collide if it is negative. Any other two collide if the
 /// category of each has a bit in common with the mask of the other, as in Box2D. A tetrahedron that is ruled out for a
-/// vertex is treated as if it did not exist: the rule of vox_contact (every tetrahedron with the vertex in its
-/// interior, or else the lowest with it on the boundary) is applied to the remaining ones.
+/// vertex is treated as if it did not exist.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_filter {
@@ -524,73 +471,241 @@ pub struct vox_filter {
     /// 0: all bits
     pub mask: u64,
     pub world: u32,
-    /// Self-contact skips tetrahedra that have a corner within this many edges of the vertex, along the edges of the
-    /// mesh's tetrahedra; at most VOX_MAX_RINGS. 0 skips only tetrahedra that have the vertex as a corner. Takes about
-    /// 60, 260 or 700 bytes a vertex for 1, 2 or 3.
+    /// Self-contact ignores tetrahedra that have a corner within this many edges of the vertex; at most VOX_MAX_RINGS.
+    /// Takes about 60, 260 or 700 bytes per vertex for 1, 2 or 3.
     pub self_rings: u32,
-    /// Self-contact skips tetrahedra that are closer to the vertex than this in the rest pose (distance to the closed
-    /// tetrahedron, computed in double). The rest pose is vox_mesh_desc.rest_positions or, without those, the positions
-    /// at the time this was first set.
+    /// Self-contact ignores tetrahedra that are closer to the vertex than this in the rest pose. The rest pose is
+    /// vox_mesh_desc.rest_positions or, without these, the positions when this distance is first set.
     pub self_rest_distance: f64,
 }
 
-/// A body: vertices, and tetrahedra over them. Without tetrahedra (a surface, a set of points) its vertices still
-/// collide with the tetrahedra of other meshes, but its edges and faces with nothing, so a thin blade may cross a body
-/// without a contact. The first such mesh that a grid gets is written to its log as a warning; the counter
-/// meshes_without_tets is how many.
+/// A mesh: vertices, and tetrahedra between them. A mesh without tetrahedra is a set of points: they collide with the
+/// tetrahedra of other meshes, the edges and faces between them with nothing.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_mesh_desc {
     pub struct_size: u32,
     /// vox_mesh_flags, combined with |
     pub flags: u32,
-    /// positions.count is the number of vertices. The data is borrowed until the mesh is removed, bound to other
-    /// positions or mapped. Every step reads it, and while it runs the data must stay unchanged: to move the mesh,
-    /// write to it between steps. If it is null, bind positions before the next step.
+    /// positions.count is the number of vertices. The data is borrowed until the mesh is removed or bound to other
+    /// positions. Every step reads it: to move the mesh, write to it between steps. If it is null, bind positions
+    /// before the next step.
     pub positions: vox_positions,
-    /// tet_count * 4 vertex indices, copied unless VOX_MESH_BORROW_TETS is set. Both windings are accepted. With that
-    /// flag, they must stay valid and unchanged, as any function of the grid may read them, until the mesh is removed
-    /// or gets another topology, or the grid is cleared or destroyed. The first call that turns tetrahedra off,
-    /// replaces, removes or appends some copies them, and leaves the caller's array as it is and no longer needed. A
-    /// grid made from a snapshot has its own copy.
+    /// 4 * tet_count vertex indices, in either winding. Copied; or borrowed until the mesh is removed or edited
     pub tets: *const u32,
     pub tet_count: u64,
-    /// any number of the caller's, returned by vox_body_get_user_data
+    /// any number; results repeat it
     pub user_data: u64,
     pub filter: vox_filter,
-    /// of all vertices, copied; none: see vox_filter.self_rest_distance
+    /// copied; see vox_filter.self_rest_distance
     pub rest_positions: vox_positions,
 }
 
-/// A mesh as it is now, e.g. after vox_grid_load.
+/// Vertex `vertex` of body_a lies in the closed tetrahedron `tet` of body_b and is not one of its corners. This is
+/// decided exactly. For each vertex and body_b there is a contact for every tetrahedron that has the vertex in its
+/// interior; if there is none, there is one for the lowest tetrahedron that has it on its boundary. A tetrahedron of
+/// zero volume contains nothing.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_contact {
+    pub body_a: vox_body,
+    pub vertex: u32,
+    pub body_b: vox_body,
+    pub tet: u32,
+}
+
+/// Contacts, sorted by (body_a, vertex, body_b, tet). The arrays live until the end of the epoch.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_contact_view {
+    pub data: *const vox_contact,
+    pub count: u64,
+    /// one for each contact: 1 if the vertex is in the interior, 0 if on the boundary
+    pub interiors: *const u8,
+}
+
+/// Two bodies that touch, or touched in the step before. They touch if a vertex of one is inside the other or went
+/// through it within the step, or if an edge of one meets a face of the other. body_a < body_b; they are equal for a
+/// mesh that touches itself. A pair that began ends exactly once, even if a body is removed, disabled or filtered out,
+/// or the grid is cleared. Its ids may be stale then.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_pair {
+    pub body_a: vox_body,
+    pub body_b: vox_body,
+    pub user_data_a: u64,
+    pub user_data_b: u64,
+    pub state: vox_pair_state,
+    pub reserved: u32,
+    /// see vox_pair_view.contacts
+    pub first_contact: u64,
+    /// 0 if the two touch in another way, or no longer
+    pub contact_count: u64,
+}
+
+/// Pairs, sorted by (body_a, body_b). The arrays live until the end of the epoch.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_pair_view {
+    pub data: *const vox_pair,
+    pub count: u64,
+    /// indices of contacts. A pair has contact_count of them, from contacts[first_contact] on: first for vertices of
+    /// body_a, then for vertices of body_b
+    pub contacts: *const u32,
+}
+
+/// A point of body_a and a point of body_b that must not pass through each other. Each is a weighted sum of vertices.
+/// All vertices are in one list: first those of body_a, whose weights add up to 1; then those of body_b, whose weights
+/// are negative and add up to -1. When vertex i is at x[i], gap = offset + dot(normal, sum of weights[i] * x[i])
+/// (vox_constraint_gap) is negative while the two overlap. Its gradient for vertex i is weights[i] * normal, so a
+/// solver pushes vertex i in that direction, whatever the kind. With velocities in place of x, the sum is the velocity
+/// of the point of body_a relative to that of body_b, for damping and friction. kind vertices of body_a vertices of
+/// body_b gap in the step INSIDE the vertex the tetrahedron that contains it minus the depth EDGE the edge the face
+/// minus the depth of its part inside, from the middle of that part PROXIMITY the vertex the face with the closest
+/// point the distance IMPACT the vertex the face that it met first minus the distance behind its plane
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_constraint {
+    pub body_a: vox_body,
+    pub body_b: vox_body,
+    pub kind: vox_constraint_kind,
+    pub state: vox_depth_state,
+    /// how many vertices of body_a
+    pub count_a: u32,
+    /// how many vertices in all
+    pub count: u32,
+    /// those beyond `count` are 0, and so are their weights
+    pub vertices: [u32; 5],
+    /// tetrahedron of body_b: the lowest that contains the vertex, or the one behind the face
+    pub element_b: u32,
+    pub weights: [f64; 5],
+    /// a unit vector out of body_b, the way for body_a
+    pub normal: [f64; 3],
+    pub gap: f64,
+    pub offset: f64,
+    /// of the point of body_a
+    pub position: [f64; 3],
+    /// when within the step, from 0 to 1, a vertex met the surface; 1 if that is not known
+    pub time: f64,
+    pub user_data_a: u64,
+    pub user_data_b: u64,
+    /// index of its pair in vox_grid_get_pairs
+    pub pair: u32,
+    /// index of the same constraint in the list of the step before, for a warm start; VOX_NONE if it is new. Same means
+    /// the same vertex and body_b, or the same edge and face
+    pub previous: u32,
+    /// 0
+    pub reserved: u64,
+}
+
+/// Which constraints to find. By default all fields are 0: all constraints, with consistent depth.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_constraint_desc {
+    pub struct_size: u32,
+    pub method: vox_depth_method,
+    /// only pairs of this body; VOX_NULL_BODY: all pairs
+    pub body_a: vox_body,
+    /// only its pair with body_a; VOX_NULL_BODY: all pairs of body_a
+    pub body_b: vox_body,
+    /// only pairs in which the category of a body has a bit in common with it; 0: all pairs
+    pub mask: u64,
+    /// most searches for a closest point; constraints that get none are UNKNOWN, and the log has a warning. 0: no limit
+    pub closest_budget: u64,
+}
+
+/// Constraints, sorted by pair, then by kind, body_a and vertices, those of a face in ascending order. Those of pair p
+/// of vox_grid_get_pairs are data[pair_offsets[p]] to data[pair_offsets[p + 1] - 1]. The arrays live until the end of
+/// the epoch, or until constraints are found again.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_constraint_view {
+    pub data: *const vox_constraint,
+    pub count: u64,
+    /// pair_count + 1
+    pub pair_offsets: *const u64,
+    /// as in vox_pair_view.count
+    pub pair_count: u64,
+}
+
+/// A body as it is now.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_body_info {
     pub struct_size: u32,
-    /// from 0
-    pub slot: u32,
-    /// as given at insertion
-    pub user_data: u64,
-    /// with those that are disabled or removed: indices of tetrahedra are below it
-    pub tet_count: u64,
-    pub enabled_tet_count: u64,
-    /// 1, or 0 (see vox_body_set_enabled)
-    pub enabled: u32,
-    /// vox_mesh_flags: COPY_POSITIONS if the positions are the mesh's own (copied, mapped or loaded), BORROW_TETS while
-    /// the tetrahedra are the caller's
-    pub flags: u32,
-    /// 1 if vox_body_set_transform gave it one
-    pub has_transform: u32,
     /// 0
     pub reserved: u32,
-    /// The positions, without the transform; removed vertices are among them. The data is null if the mesh has none. It
-    /// lives until the mesh is removed, bound to other positions, mapped, or gets other or more vertices, or the grid
-    /// is cleared or destroyed. No stride is 0 unless the data is null.
+    pub user_data: u64,
+    /// 1 or 0
+    pub enabled: u32,
+    /// vox_mesh_flags: COPY_POSITIONS if the grid owns the positions, BORROW_TETS while the caller owns the tetrahedra
+    pub flags: u32,
+    /// with disabled and removed ones: indices are below it
+    pub tet_count: u64,
+    pub enabled_tet_count: u64,
+    /// of a mesh, without its transform; valid as long as they stay bound or mapped
     pub positions: vox_positions,
-    /// as vox_body_set_transform; without one the rows 1 0 0 0, 0 1 0 0, 0 0 1 0
-    pub transform: [f64; 12],
-    /// in use: neither category nor mask is 0
     pub filter: vox_filter,
+    pub transform: [f64; 12],
+}
+
+/// A grid as it is now, and what its last successful step did.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_grid_info {
+    pub struct_size: u32,
+    /// vox_grid_flags
+    pub flags: u32,
+    /// counts up when an epoch ends (see Ownership above)
+    pub epoch: u64,
+    /// the one that was set, or else the one used last; 0 before the first step
+    pub cell_size: f64,
+    pub margin: f64,
+    /// held now, without the caller's arrays
+    pub bytes: u64,
+    pub peak_bytes: u64,
+    /// nanoseconds
+    pub step_ns: u64,
+    /// bodies that were not at rest
+    pub moved_bodies: u64,
+    /// bodies that were left out (VOX_GRID_SKIP_BAD_BODIES)
+    pub skipped_bodies: u64,
+    /// pairs that began, in all steps so far
+    pub total_began: u64,
+    /// pairs that ended, in all steps so far
+    pub total_ended: u64,
+}
+
+/// A count, or a time in nanoseconds, with its name.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_counter {
+    /// static text, e.g. "candidates" or "lookup_ns"
+    pub name: *const c_char,
+    pub value: u64,
+}
+
+/// Counters. A library always has the same ones in the same order.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_counter_view {
+    pub data: *const vox_counter,
+    pub count: u64,
+}
+
+/// A body that made a step fail, or that a step left out.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_failure {
+    pub struct_size: u32,
+    /// VOX_OK: there is no such body
+    pub result: vox_result,
+    pub body: vox_body,
+    /// the first vertex with a bad coordinate; VOX_NONE if the failure is not about a vertex
+    pub vertex: u32,
+    pub user_data: u64,
+    /// of that vertex, transformed
+    pub position: [f64; 3],
 }
 
 /// Vertices to append.
@@ -601,388 +716,19 @@ pub struct vox_vertices_desc {
     /// 0
     pub reserved: u32,
     pub count: u64,
-    /// For a mesh that borrows its positions: an array of all positions, first those of the vertices it has, then those
-    /// of the new ones. It is borrowed from now on instead of the old array, under the rule of vox_mesh_desc.positions.
-    /// For a mesh with positions of its own (copied, mapped, or loaded): `count` positions in its format, copied; the
-    /// array of vox_mesh_map_positions becomes invalid. There may be none for a mesh that has no positions yet and,
-    /// together with copies_of, for a mesh with positions of its own.
+    /// In the mesh's format. If the mesh borrows its positions: an array for all vertices, the old ones first, borrowed
+    /// from now on. If it owns them: the positions of the new vertices, copied; or none, with copies_of.
     pub positions: vox_positions,
-    /// Null, or `count` indices of earlier vertices of the mesh: the vertex that each new one is a copy of. A copy gets
-    /// the rest position of that vertex and, without `positions`, its position, too.
+    /// `count` indices: the vertex whose position and rest position each one gets
     pub copies_of: *const u32,
-    /// For meshes with a rest pose (vox_filter.self_rest_distance): `count` positions in it, copied. None: those of
-    /// copies_of or, if that is null too, the present positions of the new vertices.
+    /// of the new vertices, if the mesh has a rest pose. Default: those of copies_of, or else `positions`
     pub rest_positions: vox_positions,
 }
 
-/// A mesh that made a step fail, or that a step left out.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_failure {
-    pub struct_size: u32,
-    /// NON_FINITE or LIMIT (a coordinate that VOX_FORMAT_DOUBLE does not allow), INVALID_STATE (no positions),
-    /// INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT); VOX_OK if there is none
-    pub result: vox_result,
-    /// VOX_NULL_BODY if there is none
-    pub mesh: vox_body,
-    /// of the mesh, from 0
-    pub slot: u32,
-    /// of the mesh, as given at insertion
-    pub user_data: u64,
-    /// the first with such a coordinate; VOX_NO_VERTEX if the failure is about none
-    pub vertex: u32,
-    pub reserved: u32,
-    /// of that vertex, as it would collide: in double and transformed; else 0
-    pub position: [f64; 3],
-}
-
-/// Vertex `vertex` of body_a is in the closed tetrahedron `tet` of body_b and is not a corner of it. This is decided
-/// exactly for the coordinates given. For each (body_a, vertex, body_b) there is a contact for every tetrahedron that
-/// has the vertex in its interior; if there is none, one for the tetrahedron of lowest index that has it on its
-/// boundary. A tetrahedron of exactly zero volume contains nothing. `barycentric` are the vertex's weights for the
-/// tetrahedron's four corners in their given order. Each is in [0, 1], and their sum is 1 up to rounding.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_contact {
-    pub body_a: vox_body,
-    pub vertex: u32,
-    pub body_b: vox_body,
-    pub tet: u32,
-    pub barycentric: [f32; 4],
-}
-
-/// `count` contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b, tet). They live until the next step,
-/// clear, reserve, change of the flags or destroy of the grid; `epoch` is vox_grid_info.epoch of that state.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_contact_view {
-    pub data: *const vox_contact,
-    pub byte_stride: usize,
-    pub count: u64,
-    pub epoch: u64,
-    /// One for each contact: 1 if the vertex is in the interior of the tetrahedron, 0 if it is on its boundary; exact.
-    /// On a face that two tetrahedra share, a vertex has a contact with one of them (see vox_contact): who joins the
-    /// contacts of several grids, each with a part of a mesh, keeps the rule with this. No part of vox_grid_get_hash.
-    pub interiors: *const u8,
-}
-
-/// Vertex `vertex` of body_a is inside body_b (a = b: self-contact) and has to leave it: moving the vertex by depth *
-/// direction leads to the surface of body_b, exactly if the state says closest, and otherwise as well as edges and
-/// neighbours can estimate it. All values are finite, and direction is a unit vector up to rounding. If body_b has no
-/// surface (each facet belongs to several tetrahedra), depth is 0 and direction the normal of a facet of the contact's
-/// tetrahedron. Does not depend on engine, cell size, workers or machine.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_penetration {
-    pub body_a: vox_body,
-    pub vertex: u32,
-    pub body_b: vox_body,
-    pub state: vox_penetration_state,
-    /// index in vox_grid_get_contacts of the first contact of (body_a, vertex, body_b)
-    pub contact: u64,
-    /// >= 0, in the caller's unit
-    pub depth: f32,
-    /// in the frame of the positions, out of body_b
-    pub direction: [f32; 3],
-}
-
-/// `count` penetrations, `byte_stride` apart: one for each (body_a, vertex, body_b) that has contacts, in that order,
-/// unless one of them is a sensor (VOX_FILTER_SENSOR). A vertex inside two meshes has two. The data lives as long as
-/// that of the contacts' view.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_penetration_view {
-    pub data: *const vox_penetration,
-    pub byte_stride: usize,
-    pub count: u64,
-    pub epoch: u64,
-}
-
-/// Depth and direction of a vox_penetration as computed, in double; rounded to floats they are those of the
-/// vox_penetration.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_depth {
-    pub depth: f64,
-    pub direction: [f64; 3],
-}
-
-/// `count` depths, `byte_stride` apart. The data lives as long as the penetrations or readings that they belong to.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_depth_view {
-    pub data: *const vox_depth,
-    pub byte_stride: usize,
-    pub count: u64,
-    pub epoch: u64,
-}
-
-/// An edge of the surface of body_a and a face of the surface of body_b that have a point in common (a = b:
-/// self-contact; then they have no vertex in common). The surface of a mesh consists of the facets of exactly one of
-/// its enabled tetrahedra, duplicates counted once, and of their edges. Decided exactly for the coordinates given. So
-/// two bars laid across each other are seen, though no vertex of one is in the other. Where several points are common,
-/// the position is that of one of them: an end of the edge if one is, the lower vertex first.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_edge_contact {
-    pub body_a: vox_body,
-    /// vertices of body_a, the lower first
-    pub edge: [u32; 2],
-    pub body_b: vox_body,
-    /// vertices of body_b, the lowest first, counter-clockwise as seen from the side that the normal points to
-    pub face: [u32; 3],
-    /// of body_b, behind the face; of doubled ones the lowest
-    pub tet: u32,
-    pub kind: vox_crossing_kind,
-    /// 0
-    pub reserved: u32,
-    /// of the point, in [0, 1], with the sum 1 up to rounding
-    pub edge_weights: [f64; 2],
-    /// of the same point
-    pub face_weights: [f64; 3],
-    /// of the point, rounded
-    pub position: [f64; 3],
-    /// A unit vector out of `tet` or, if that is flat, to the side away from the lower vertex of the edge; 0, 0, 1 if
-    /// the face has no area.
-    pub normal: [f64; 3],
-}
-
-/// `count` edge contacts, `byte_stride` apart, sorted by body_a, edge, body_b and the three vertices of the face in
-/// ascending order. The data lives as long as that of the contacts' view.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_edge_contact_view {
-    pub data: *const vox_edge_contact,
-    pub byte_stride: usize,
-    pub count: u64,
-    pub epoch: u64,
-}
-
-/// Vertex `vertex` of body_a is in no tetrahedron of body_b, but no further than the margin from its surface. The point
-/// of the surface of body_b that is closest to it is on a facet of `tet`; of several at the same distance that of the
-/// lowest (tet, facet), as in vox_locator_find_closest (vox_query.h). Computed in double.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_margin_contact {
-    pub body_a: vox_body,
-    pub vertex: u32,
-    /// never body_a
-    pub body_b: vox_body,
-    /// of body_b
-    pub tet: u32,
-    /// of the tetrahedron, as in vox_closest_hit
-    pub facet: u32,
-    /// its vertices, in the order given there
-    pub face: [u32; 3],
-    /// of the closest point, in [0, 1], with the sum 1 up to rounding
-    pub face_weights: [f64; 3],
-    /// from the vertex to the closest point
-    pub distance: f64,
-    /// a unit vector from the closest point to the vertex; out of the tetrahedron if there is no distance between them
-    pub normal: [f64; 3],
-}
-
-/// `count` margin contacts, `byte_stride` apart, sorted by (body_a, vertex, body_b), each of which has one at most. The
-/// data lives as long as that of the contacts' view.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_margin_contact_view {
-    pub data: *const vox_margin_contact,
-    pub byte_stride: usize,
-    pub count: u64,
-    pub epoch: u64,
-}
-
-/// Vertex `vertex` of body_a met the surface of body_b while both moved from their previous positions to the present
-/// ones (vox_mesh_bind_previous_positions; a mesh without previous positions stands still), wherever it was before and
-/// is after: also where it went through a thin mesh and out again.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_passage {
-    pub body_a: vox_body,
-    pub vertex: u32,
-    /// never body_a
-    pub body_b: vox_body,
-    /// of body_b
-    pub tet: u32,
-    /// of the tetrahedron, as in vox_closest_hit: the first that the vertex met; the lowest (tet, facet) of several at
-    /// the same time
-    pub facet: u32,
-    /// its vertices, in the order given there
-    pub face: [u32; 3],
-    /// in [0, 1], 0 at the previous positions: when it met it; never too late, and too early by no more than rounding
-    /// errors make necessary
-    pub time: f64,
-}
-
-/// `count` passages, `byte_stride` apart, sorted by (body_a, vertex, body_b), each of which has one at most. The data
-/// lives as long as that of the contacts' view.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_passage_view {
-    pub data: *const vox_passage,
-    pub byte_stride: usize,
-    pub count: u64,
-    pub epoch: u64,
-}
-
-/// Two meshes that touch: a vertex of one of them is in a tetrahedron of the other, or they have edge contacts
-/// (VOX_GRID_EDGE_CONTACTS). body_a <= body_b; they are equal if a mesh touches itself. The contacts of the pair are
-/// those whose indices begin at vox_pair_view.contacts[first]: first the a_in_b contacts of vertices of body_a in tets
-/// of body_b, then the b_in_a contacts of vertices of body_b in tets of body_a (0 for a mesh with itself), each in the
-/// order of vox_grid_get_contacts.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_pair {
-    pub body_a: vox_body,
-    pub body_b: vox_body,
-    /// of body_a, as given at insertion
-    pub user_data_a: u64,
-    pub user_data_b: u64,
-    pub first: u64,
-    pub a_in_b: u64,
-    pub b_in_a: u64,
-}
-
-/// `count` pairs, `byte_stride` apart, sorted by (body_a, body_b). `contacts` holds the index of every contact of
-/// vox_grid_get_contacts() once, pair by pair. Both live as long as the data of the contacts' view.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_pair_view {
-    pub data: *const vox_pair,
-    pub byte_stride: usize,
-    pub count: u64,
-    pub epoch: u64,
-    pub contacts: *const u32,
-}
-
-/// An event of a pair of meshes, body_a <= body_b. A pair that began persists in every following step until it ends,
-/// which it does exactly once, also if a mesh was removed, disabled or filtered, or the grid cleared. Then `body_a` and
-/// `body_b` may be stale ids; the user data are those of the meshes that they named.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_touch_event {
-    pub body_a: vox_body,
-    pub body_b: vox_body,
-    pub user_data_a: u64,
-    pub user_data_b: u64,
-    pub kind: vox_touch,
-    /// index of the pair in vox_grid_get_pairs; VOX_NO_PAIR if it ended
-    pub pair: u32,
-}
-
-/// All pairs that began, then all that persisted, then all that ended: `count` in total, `byte_stride` apart, each part
-/// sorted by (body_a, body_b). `data` lives until the next step or destroy of the grid. These are the events of one
-/// step: a program that steps twice and reads once loses those of the first step. vox_grid_info.total_began and
-/// total_ended show the loss.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_touch_view {
-    pub data: *const vox_touch_event,
-    pub byte_stride: usize,
-    pub count: u64,
-    pub epoch: u64,
-    pub began: u64,
-    pub persisted: u64,
-    pub ended: u64,
-}
-
-/// Vertex `vertex` of body_a has entered body_b, or is in none of its tetrahedra any more. Moving from one tetrahedron
-/// of body_b to another is not an event.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_contact_event {
-    pub body_a: vox_body,
-    pub vertex: u32,
-    pub body_b: vox_body,
-    /// VOX_TOUCH_BEGAN or VOX_TOUCH_ENDED
-    pub kind: vox_touch,
-}
-
-/// All vertices that entered, then all that left, each part sorted by (body_a, vertex, body_b). `data` lives until the
-/// next step, change of the flags or destroy of the grid. Events of one step, too: see vox_touch_view, and the counters
-/// total_contacts_began and total_contacts_ended.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_contact_event_view {
-    pub data: *const vox_contact_event,
-    pub byte_stride: usize,
-    pub count: u64,
-    pub epoch: u64,
-    pub began: u64,
-    pub ended: u64,
-}
-
-/// Geometry of one contact. All contacts of the same (body_a, vertex, body_b) have the same reading except for the
-/// first field. `triangle` is the triangle closest to the vertex on the surface of body_b, which consists of the facets
-/// of exactly one of its tetrahedra, duplicates counted once. It is computed in double, as by vox_locator_find_closest;
-/// of several at the same distance it is the one with the lowest corners, compared in ascending order. For self-contact
-/// it belongs to the fold that the vertex has entered and never has the vertex as a corner (see vox_penetration_state).
-/// No reading depends on engine, cell size, workers or machine.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_reading {
-    /// index of the contact in vox_grid_get_contacts
-    pub contact: u64,
-    /// vox_reading_flags, combined with |
-    pub known: u32,
-    /// DEPTH: state, depth and direction of the vertex's vox_penetration
-    pub state: vox_penetration_state,
-    pub depth: f32,
-    pub direction: [f32; 3],
-    /// POSITION: the vertex as it collides, in double and transformed
-    pub position: [f64; 3],
-    /// SURFACE (up to `triangle`): distance from the vertex to surface_position
-    pub distance: f64,
-    /// the closest point of `triangle`
-    pub surface_position: [f64; 3],
-    /// its weights for the triangle's corners, in [0, 1], with the sum 1 up to rounding
-    pub barycentric: [f64; 3],
-    /// A unit vector out of the triangle's tetrahedron or, if that is flat, to the side away from the vertex. If the
-    /// triangle has no area, it points from the vertex to the closest point, or is 0, 0, 1 if both coincide.
-    pub normal: [f64; 3],
-    /// vertices of body_b, the lowest first, counter-clockwise as seen from the side that the normal points to
-    pub triangle: [u32; 3],
-    pub reserved: u32,
-    /// of body_a, as given at insertion
-    pub user_data_a: u64,
-    pub user_data_b: u64,
-}
-
-/// `count` readings, `byte_stride` apart, one for each contact or for each that was asked for, in the order of the
-/// contacts. With that stride a single field, e.g. position, can be used as an array. `data` lives until readings are
-/// prepared again or the next step, clear or destroy of the grid.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_reading_view {
-    pub data: *const vox_reading,
-    pub byte_stride: usize,
-    pub count: u64,
-    pub epoch: u64,
-}
-
-/// What to read.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_readings_desc {
-    pub struct_size: u32,
-    /// vox_reading_flags, combined with |; 0: all. Without SURFACE a reading takes about as long as copying it. The
-    /// other fields of vox_reading, such as user data, are always set
-    pub what: u32,
-    /// VOX_NULL_BODY: all contacts; else those that vox_mesh_copy_contacts copies
-    pub body_a: vox_body,
-    /// VOX_NULL_BODY, or those that vox_pair_copy_contacts copies for body_a and it
-    pub body_b: vox_body,
-    /// Most searches for a closest point. The first contacts that need one get it; the readings of the others lack
-    /// VOX_READING_SURFACE in `known`, and the log has a warning. 0: no limit.
-    pub closest_budget: u64,
-}
-
-/// An allocator. `allocate` returns memory of at least `size` bytes at `alignment` (a power of two), or null; `release`
-/// gets the same size and alignment back. If both are null, the C++ runtime's heap is used. They are called only from
-/// functions of the object they were given to, one call at a time. During a step, the calling thread may be one that
-/// runs its tasks. For locators (vox_query.h) that are released after vox_grid_destroy, `release` is called from
-/// vox_locator_release, so it must be usable until then.
+/// An allocator. `allocate` returns `size` bytes at `alignment` (a power of two), or null. `release` receives the same
+/// size and alignment again. If both are null, the C++ runtime's heap is used. They are called only from functions of
+/// the object they were given to, one call at a time, on the calling thread or on a thread that runs its tasks. A
+/// locator that outlives its grid calls `release` on the thread that releases it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_allocator {
@@ -993,8 +739,7 @@ pub struct vox_allocator {
     pub user: *mut c_void,
 }
 
-/// Receives one line of text (no newline), valid during the call only. A null `write` turns the log off. It is called
-/// on the thread that called the library, and must not call the grid it came from.
+/// Receives lines of text, valid during the call, on the thread that called the library. It must not call the grid.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_log {
@@ -1003,14 +748,11 @@ pub struct vox_log {
     pub user: *mut c_void,
 }
 
-/// The caller's scheduler, designed as in Box3D. `enqueue` splits the items [0, item_count) into ranges, of at least
-/// min_range items where possible, and arranges that `task` is called once for each range, now or later, on any thread.
-/// It returns a handle for `finish`, or null if all these calls have already returned. `finish` waits until they have.
-/// Both are called on the thread that called the library, at most VOX_MAX_TASKS times in a step, at most once by
-/// vox_grid_prepare_readings, and at most four times by vox_grid_update_locator. If not every item was run exactly
-/// once, or a worker index was out of range or had by two calls at the same time, the function fails with
-/// INVALID_ARGUMENT and leaves no contacts, no readings, or no new locator. If both are null, the built-in scheduler is
-/// used.
+/// The caller's scheduler, as in Box3D. `enqueue` splits the items [0, item_count) into ranges, of at least min_range
+/// items where possible, and has `task` called once for each, now or later, on any thread. It returns a handle, for
+/// which `finish` waits until these calls have returned; or null if they have already. If both are null, the built-in
+/// scheduler is used. Both are called on the thread that called the library, at most VOX_MAX_TASKS times in a call. If
+/// not every item is done exactly once, the library's call fails with INVALID_ARGUMENT.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_task_system {
@@ -1019,24 +761,6 @@ pub struct vox_task_system {
     #[rustfmt::skip]
     pub finish: Option<unsafe extern "C" fn(handle: *mut c_void, user: *mut c_void)>,
     pub user: *mut c_void,
-}
-
-/// A count, or a time in nanoseconds.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_counter {
-    /// static text, e.g. "candidates", or for a time "lookup_ns"
-    pub name: *const c_char,
-    pub value: u64,
-}
-
-/// `count` counters. A library always has the same ones, in the same order. `data` lives until the next step, clear or
-/// destroy of the grid.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_counter_view {
-    pub data: *const vox_counter,
-    pub count: u64,
 }
 
 /// Which bodies answer, and how far to look. All fields are 0 by default: all bodies, at any distance.
@@ -1536,8 +1260,8 @@ pub struct vox_tuning {
     pub note: [c_char; 256],
 }
 
-/// What a surface is made of. Faces may have any winding; edges and faces may be degenerate (name a vertex twice) and
-/// duplicated. A feature never makes a pair with itself, nor with one that has a vertex in common with it.
+/// The topology of a surface, which is copied. Faces may have any winding. Edges and faces may be degenerate or
+/// duplicated.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_surface_desc {
@@ -1548,220 +1272,159 @@ pub struct vox_surface_desc {
     pub vertex_count: u64,
     pub edge_count: u64,
     pub face_count: u64,
-    /// 2 * edge_count indices of vertices, copied. Null, with edge_count 0: the edges are those of the faces, each
-    /// once, lower vertex first, ascending (vox_surface_get_features lists them). Not null, with edge_count 0: no
-    /// edges.
+    /// 2 * edge_count vertex indices. Null: the edges of the faces, each once. Not null, with edge_count 0: no edges
     pub edges: *const u32,
-    /// 3 * face_count indices of vertices, copied
+    /// 3 * face_count vertex indices
     pub faces: *const u32,
-    /// The patch of each vertex, below patch_count, copied; null: all vertices are in one patch. Two features make no
-    /// pair unless some vertex of one and some vertex of the other may meet (as in IPC Toolkit). Two vertices may meet
-    /// if the category of the patch of each has a bit in common with the mask of the patch of the other. So static
-    /// obstacles are patches of a category that their own masks leave out.
+    /// Patches say what may meet. Two features may meet if a vertex of one and a vertex of the other may. Two vertices
+    /// may meet if the category of the patch of each has a bit in common with the mask of the patch of the other. the
+    /// patch of each vertex; null: one patch for all
     pub patches: *const u32,
-    /// copied; null: 1 each
+    /// patch_count numbers; null: 1 each
     pub patch_categories: *const u64,
-    /// copied; null: all bits
+    /// patch_count numbers; null: all bits
     pub patch_masks: *const u64,
     pub patch_count: u64,
-    /// Edge length of a cell of the grid in which pairs are looked for. 0: chosen at every motion by the cost model. No
-    /// answer depends on it.
+    /// edge length of a cell; 0: the library chooses it for every motion. Never changes answers
     pub cell_size: f64,
-    /// Most bytes the surface may hold at any time, its answers included. A call that would exceed it fails with
-    /// VOX_ERROR_BUDGET. 0: 4 GiB; UINT64_MAX: no limit.
+    /// most bytes the surface may hold, lists included; 0: 4 GiB; UINT64_MAX: no limit
     pub byte_budget: u64,
     /// copied; null: the C++ runtime's heap
     pub allocator: *const vox_allocator,
-    /// Copied; null: the built-in scheduler. A call enqueues as often as the size of its answer needs, and waits for
-    /// each before the next.
+    /// copied; null: the built-in scheduler
     pub tasks: *const vox_task_system,
 }
 
-/// The vertices of the edges or faces of a surface.
+/// The vertices of edges or faces.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_feature_view {
-    pub struct_size: u32,
-    /// 2 of an edge, 3 of a face
-    pub vertices_each: u32,
-    /// edges or faces
-    pub count: u64,
-    /// vertices_each * count numbers
+    /// 2 * count indices for edges, 3 * count for faces
     pub vertices: *const u32,
+    /// number of edges or faces
+    pub count: u64,
 }
 
-/// Positions of all vertices of a surface, or two, between which each vertex moves along a straight line at constant
-/// speed.
+/// Positions of all vertices, or a motion from one set of positions to another.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_motion {
     pub struct_size: u32,
     /// vox_motion_flags, combined with |
     pub flags: u32,
-    /// at time 0, copied; as many as the surface has vertices
+    /// at time 0
     pub from: vox_positions,
-    /// at time 1, copied, in the same format; none: everything stands still
+    /// at time 1, in the same format; none: everything stands still
     pub to: vox_positions,
-    /// The box of a vertex holds both its positions and reaches further by this on each side, rounded outward: to the
-    /// next number of their format below and above. That of an edge or a face holds those of its vertices. >= 0, may be
-    /// infinite.
+    /// grows the box of a vertex on all sides, rounded outward; may be infinite
     pub radius: f64,
 }
 
-/// The partners of features [first, first + count): those of feature first + i are partners[offsets[i]] to
-/// partners[offsets[i + 1] - 1], ascending.
+/// Lists of partners. Those of feature first + i are partners[offsets[i]] to partners[offsets[i + 1] - 1], ascending.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct vox_pair_lists {
-    pub struct_size: u32,
-    /// 0
-    pub reserved: u32,
-    pub first: u64,
-    /// features answered; where there is a byte budget they may be fewer than asked
-    pub count: u64,
-    /// offsets[count]
-    pub pair_count: u64,
+pub struct vox_partner_lists {
     /// count + 1 numbers
     pub offsets: *const u64,
-    /// pair_count numbers
     pub partners: *const u32,
+    pub first: u64,
+    /// features with a list; fewer than the range has if the byte budget is short
+    pub count: u64,
 }
 
-/// What the last search for pairs did, also one by vox_surface_find_crossings and the like, and what the surface holds.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_pair_counters {
-    pub struct_size: u32,
-    /// 0
-    pub reserved: u32,
-    /// that was used; 0 where no grid was needed
-    pub cell_size: f64,
-    /// with something in them; those that share a place in the hash table count once
-    pub cells: u64,
-    /// tiles (at most 64 features each) whose boxes overlap those of tiles of the other kind
-    pub tile_pairs: u64,
-    /// features compared with the 64 of a tile at once
-    pub boxes_compared: u64,
-    /// pairs whose boxes overlap, before VOX_MOTION_CULL
-    pub overlaps: u64,
-    /// of these, left out by VOX_MOTION_CULL
-    pub culled: u64,
-    /// held now
-    pub bytes: u64,
-    pub peak_bytes: u64,
-}
-
-/// An edge and a face that have a point in common. Of several such points it is an end of the edge if one is, the first
-/// one first, or else one of the first side of the face that the edge meets.
+/// An edge and a face that have a point in common.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_crossing {
     pub edge: u32,
     pub face: u32,
-    /// of vox.h
     pub kind: vox_crossing_kind,
     /// 0
     pub reserved: u32,
-    /// of a common point; they add up to 1
+    /// of a common point; they add up to 1, as do the next
     pub edge_weights: [f64; 2],
-    /// of the same point
     pub face_weights: [f64; 3],
-    /// of the point, rounded
     pub position: [f64; 3],
 }
 
+/// Crossings, sorted by (edge, face).
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_crossing_view {
-    pub struct_size: u32,
-    /// from one element to the next
-    pub byte_stride: u32,
+    pub data: *const vox_crossing,
     pub count: u64,
-    /// by edge, then face
-    pub crossings: *const vox_crossing,
 }
 
 /// Two features and their closest points.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_close_pair {
+pub struct vox_proximity {
     pub a: u32,
     pub b: u32,
     pub distance: f64,
-    /// of the closest point on a: one for each of its vertices, then 0
+    /// of the closest point of a: one for each of its vertices, then 0
     pub weights_a: [f64; 3],
     pub weights_b: [f64; 3],
-    /// the closest points, rounded
     pub point_a: [f64; 3],
     pub point_b: [f64; 3],
 }
 
+/// Proximities, sorted by (a, b).
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct vox_close_view {
-    pub struct_size: u32,
-    /// from one element to the next
-    pub byte_stride: u32,
+pub struct vox_proximity_view {
+    pub data: *const vox_proximity,
     pub count: u64,
-    /// by a, then b
-    pub pairs: *const vox_close_pair,
 }
 
-/// How the time of contact is computed.
+/// How times of impact are computed; all 0 by default.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_contact_time_desc {
+pub struct vox_impact_desc {
     pub struct_size: u32,
-    /// of one pair; 0: 10000. What is not finished then gives a time that is too early, never one that is late
-    pub most_iterations: u32,
-    /// contact is where two features come this close, >= 0
+    /// for a pair, after which its time is too early; 0: 10000
+    pub max_iterations: u32,
+    /// two features meet when they come this close
     pub distance: f64,
-    /// At the time given, the features are still further apart than `distance` by at most this part of what it was at
-    /// time 0; below 1; 0: 0.1. Less takes longer and gives greater steps. So a pair that comes that near and does not
-    /// touch limits the step, too. Where features are closer than some 1e-8 of their size, rounding may end it earlier.
+    /// part of their first gap that may be left at the reported time, below 1; 0: 0.1. Smaller values take longer and
+    /// allow larger steps
     pub slack: f64,
 }
 
-/// A safe part of the motion, and the pair that ends it.
+/// How much of the motion is free of impacts, and which pair ends it.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_safe_step {
-    pub struct_size: u32,
-    /// 0
-    pub reserved: u32,
-    /// in [0, 1]: up to this time no two features touch. 1: not within the motion
+    /// nothing meets before this time; 1: nothing meets
     pub step: f64,
-    /// that were examined
+    /// number of pairs examined
     pub pairs: u64,
-    /// 1: the time of the pair below was given up after most_iterations; else 0
-    pub unfinished: u64,
-    /// the pair with the first time of contact, where step is below 1: FACE and VERTEX, or EDGE and
+    /// the first pair to meet, if step is below 1: FACE and VERTEX, or EDGE and EDGE
     pub kind_a: vox_feature,
-    /// EDGE. Of several, the first in the order face-vertex, edge-edge, a, b
     pub kind_b: vox_feature,
     pub a: u32,
     pub b: u32,
+    /// 1 if its time is early because of max_iterations, else 0
+    pub unfinished: u32,
+    /// 0
+    pub reserved: u32,
 }
 
-/// Two features that come into contact, and when at the earliest.
+/// Two features that may meet, and the earliest time.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_timed_pair {
+pub struct vox_impact {
     pub a: u32,
     pub b: u32,
-    /// in [0, 1], not later than the exact one; earlier where it was given up after most_iterations
     pub time: f64,
 }
 
+/// Impacts, sorted by (a, b).
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
-pub struct vox_timed_view {
-    pub struct_size: u32,
-    /// from one element to the next
-    pub byte_stride: u32,
+pub struct vox_impact_view {
+    pub data: *const vox_impact,
     pub count: u64,
-    /// by a, then b
-    pub pairs: *const vox_timed_pair,
 }
 
 #[repr(C)]
@@ -2054,139 +1717,239 @@ pub struct vox_sim_energies {
     pub max_speed: f64,
 }
 
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_sim_counts {
-    pub struct_size: u32,
-    pub bodies: u32,
-    pub vertices: u64,
-    pub tets: u64,
-    /// edge constraints
-    pub edges: u64,
-    /// volume constraints
-    pub volumes: u64,
-    /// tets of zero rest volume
-    pub flat_tets: u64,
-    /// tets of negative rest volume
-    pub inverted_tets: u64,
-    /// vertices that would have been lighter than a hundredth of the body's mean
-    pub raised_masses: u64,
-    /// constraints that were softened, as the last step's substeps cannot handle their stiffness
-    pub softened: u64,
-    /// total since the creation, like the next three
-    pub steps: u64,
-    pub substeps: u64,
-    pub detections: u64,
-    /// steps that were clamped to max_time_step
-    pub clamped_steps: u64,
-    /// penetrations of the last detection
-    pub penetrations: u64,
-    /// particles that the floor held in the last substep
-    pub floor_contacts: u64,
-    /// nanoseconds of the last step
-    pub step_ns: u64,
-    /// its part in vox_grid_step
-    pub detect_ns: u64,
-    /// the rest of it
-    pub solve_ns: u64,
-}
-
 #[rustfmt::skip]
 extern "C" {
-    /// Name of a result code, e.g. "VOX_ERROR_BUDGET". Static text; never null. Any thread.
-    pub fn vox_result_string(result: vox_result) -> *const c_char;
-    /// The text of this thread's last failure, e.g. "tet 17 names vertex 900 of 812", or "" if nothing has failed yet.
-    /// It lives until the thread's next failing call. Successful calls leave it alone. Never null.
+    /// Why the last failing call on this thread failed, e.g. "tet 17 names vertex 900 of 812"; "" if no call has
+    /// failed. Bodies are named by id, slot and user data. Never null. The text lives until the next failing call on
+    /// this thread.
     pub fn vox_last_error() -> *const c_char;
-    /// Sets this thread's vox_last_error() text and returns `result`, so that libraries built on vox (vox_io among
-    /// them) can report failures the same way. The text is copied, its first 1023 bytes at most, and of UTF-8 no part
-    /// of a character. A null text counts as "". Cannot fail itself.
-    pub fn vox_fail(result: vox_result, text: *const c_char) -> vox_result;
-    /// Version of the library that is running: major * 1000000 + minor * 1000 + patch. Cannot fail.
-    pub fn vox_version() -> u32;
-    /// VOX_ABI_VERSION of the library that is running. A program that loads the library by its name at run time
-    /// compares it with that of the header it was written for. Cannot fail.
-    pub fn vox_abi_version() -> u32;
-    /// "vox", the version, compiler, language level, instruction sets, built-in scheduler and options of this build, in
-    /// one line. Static text. Cannot fail.
-    pub fn vox_build_info() -> *const c_char;
-    /// Creates a grid. desc null: all defaults. The caller owns *out_grid and releases it with vox_grid_destroy.
-    /// Errors: INVALID_ARGUMENT (names the field and its value), UNSUPPORTED (an x86-64 without SSE4.2), OUT_OF_MEMORY,
-    /// BUDGET.
+    /// Name of a result, e.g. "VOX_ERROR_BUDGET". Static text; never null.
+    pub fn vox_result_string(result: vox_result) -> *const c_char;
+    /// Creates a grid. The caller owns *out_grid and releases it with vox_grid_destroy. Errors: INVALID_ARGUMENT (names
+    /// the field), OUT_OF_MEMORY, BUDGET.
     pub fn vox_grid_create(desc: *const vox_grid_desc, out_grid: *mut *mut vox_grid) -> vox_result;
-    /// Destroys a grid and releases all its memory. Its views and mesh ids become invalid, except for locators
-    /// (vox_query.h), which live on with their memory until they are released. Null does nothing.
+    /// Destroys a grid, its bodies and results. Null does nothing.
     pub fn vox_grid_destroy(grid: *mut vox_grid);
-    /// Removes all meshes and contacts and keeps the settings. Old mesh ids become stale.
-    pub fn vox_grid_clear(grid: *mut vox_grid) -> vox_result;
-    /// Allocates memory for what a grid keeps of that many meshes and contacts beside the meshes themselves, in
-    /// advance; never releases any. A contact takes 69 bytes, with VOX_GRID_PENETRATIONS 88 more and with
-    /// VOX_GRID_CONTACT_EVENTS 56 more; the closest points that a step searches (docs/depth.md) take up to 24 each.
-    /// Contacts stay, views end. Errors: LIMIT (more than VOX_MAX_BODIES), BUDGET, OUT_OF_MEMORY.
-    pub fn vox_grid_reserve(grid: *mut vox_grid, mesh_count: u32, contact_count: u64) -> vox_result;
-    /// Sets the cell size of the following steps; 0: the library chooses. Never changes the contacts. Errors:
-    /// INVALID_ARGUMENT when negative, infinite or NaN.
-    pub fn vox_grid_set_cell_size(grid: *mut vox_grid, cell_size: f64) -> vox_result;
-    /// Sets vox_grid_desc.worker_count for the following steps. Errors: INVALID_ARGUMENT (also VOX_ALL_CORES if the
-    /// grid has a task system of the caller's).
-    pub fn vox_grid_set_worker_count(grid: *mut vox_grid, worker_count: u32) -> vox_result;
-    /// Sets vox_grid_desc.flags (all of them) for the following steps. With a changed flag, contacts stay, but views of
-    /// the last step's results end. VOX_GRID_PENETRATIONS switched on prepares all meshes at once, as their insertion
-    /// would have done, in time and memory proportional to them; vox_grid_penetrations is empty until the next step.
-    /// Switched off, it releases all that memory. VOX_GRID_CONTACT_EVENTS switched on lets the next step report each
-    /// vertex in contact as one that began, as a first step does. Switched off, it releases the memory of these events.
-    /// VOX_GRID_EDGE_CONTACTS switched on lets the next step prepare the surfaces of the meshes that are near others.
-    /// Switched off, it releases the memory of that. Errors: INVALID_ARGUMENT (unknown flags), UNSUPPORTED (edge
-    /// contacts in a build without), LIMIT, BUDGET, OUT_OF_MEMORY; after these all meshes are as they were.
-    pub fn vox_grid_set_flags(grid: *mut vox_grid, flags: u32) -> vox_result;
-    /// From the next step on, also find the vertices of other meshes that are outside of the tetrahedra of a mesh, but
-    /// within `margin` (in the caller's unit) of its surface: vox_grid_margin_contacts. 0 (the default): none, at no
-    /// cost, and the memory that this took is released. Contacts stay, but views of the last step's results end. A mesh
-    /// of more than 357913941 tets then makes a step fail with LIMIT. Snapshots do not keep the margin. Errors:
-    /// INVALID_ARGUMENT when negative, NaN or above 2^125; UNSUPPORTED in a build without.
-    pub fn vox_grid_set_margin(grid: *mut vox_grid, margin: f64) -> vox_result;
-    /// Gets a grid's state. Set out_info->struct_size first.
-    pub fn vox_grid_get_info(grid: *const vox_grid, out_info: *mut vox_grid_info) -> vox_result;
-    /// Adds a mesh, which takes part from the next step on. Packed positions in VOX_FORMAT_FLOAT that can only be
-    /// doubles are refused: from 16 vertices on, every other number would be of ordinary size, those between far too
-    /// large and far too small by turns (as most bit patterns are). They are looked at once for each format: here if
-    /// they are copied, else when a step, suggestion or locator reads them. Errors: INVALID_ARGUMENT, INVALID_MESH
-    /// ("tet 17 names vertex 900 of 812"), LIMIT, BUDGET, OUT_OF_MEMORY.
+    /// Adds a mesh, which takes part from the next step on. Positions whose format is FLOAT, but that can only be
+    /// doubles, are refused when they are first read. Errors: INVALID_ARGUMENT, INVALID_MESH, LIMIT, INVALID_STATE and
+    /// NON_FINITE (rest pose), BUDGET, OUT_OF_MEMORY.
     pub fn vox_mesh_insert(
         grid: *mut vox_grid,
         desc: *const vox_mesh_desc,
         out_body: *mut vox_body,
     ) -> vox_result;
-    /// Removes a mesh. The contacts of the last step stay as they are until the next one.
+    /// Removes a body. The results of the last step stay as they are; the next step ends the body's pairs.
     pub fn vox_body_remove(grid: *mut vox_grid, body: vox_body) -> vox_result;
-    /// 1 when `mesh` names a mesh of the grid, else 0 (also for a null grid). Cannot fail.
-    pub fn vox_body_is_valid(grid: *const vox_grid, body: vox_body) -> u32;
-    /// The user_data the mesh was inserted with.
+    /// Makes a mesh borrow another array of positions, one for each vertex, in place of the one that it borrowed or
+    /// owned. There is no need to bind the same array again after writing to it. Errors: INVALID_ARGUMENT (e.g. another
+    /// count).
+    pub fn vox_mesh_bind_positions(
+        grid: *mut vox_grid,
+        body: vox_body,
+        positions: *const vox_positions,
+    ) -> vox_result;
+    /// Finds all contacts of the bodies as they are now, and whatever the flags ask for. This replaces the results of
+    /// the previous step. If the step fails there are no results, and the grid stays usable. A body that has not moved
+    /// costs little more than reading its positions. In the steady state a step allocates no memory. Errors:
+    /// INVALID_STATE (a mesh without positions), NON_FINITE, LIMIT, INVALID_ARGUMENT (doubles read as floats; a task
+    /// system that broke its rules), BUDGET, OUT_OF_MEMORY. vox_grid_get_failure names the body.
+    pub fn vox_grid_step(grid: *mut vox_grid) -> vox_result;
+    /// Steps many different grids, several at a time: for many small scenes. worker_count and `tasks` are those of
+    /// vox_grid_desc; each grid is stepped by one thread and should have a worker_count of 0 itself. If a grid fails,
+    /// the others are stepped nevertheless; `results` receives the result of each. Returns the first failure, whose
+    /// text says which grid. Errors: as vox_grid_step; INVALID_ARGUMENT (a null or repeated grid) or OUT_OF_MEMORY
+    /// before any grid is stepped.
+    pub fn vox_grids_step(
+        grids: *const *mut vox_grid,
+        count: u64,
+        worker_count: u32,
+        tasks: *const vox_task_system,
+        results: *mut vox_result,
+    ) -> vox_result;
+    /// Gets the contacts of the last step. There are none before the first step and after a failed one.
+    pub fn vox_grid_get_contacts(
+        grid: *const vox_grid,
+        out_view: *mut vox_contact_view,
+    ) -> vox_result;
+    /// Gets a hash of the contacts and their order, which is the same on every machine.
+    pub fn vox_grid_get_hash(grid: *const vox_grid, out_hash: *mut u64) -> vox_result;
+    /// Gets the pairs of the last step. There are none before the first step and after a failed one. Read them after
+    /// every step, as each step reports only its own changes. The totals in vox_grid_info show whether a program has
+    /// missed some.
+    pub fn vox_grid_get_pairs(grid: *const vox_grid, out_view: *mut vox_pair_view) -> vox_result;
+    /// Finds the constraints of the last step. This replaces constraints that were found before. With
+    /// VOX_GRID_CONSTRAINTS every step does so itself. Call it before anything moves: positions must be those of the
+    /// step, and no body of a pair may have been removed or edited. Constraints between bodies at rest are carried
+    /// over. Errors: INVALID_STATE (no step yet; a body was removed or edited), INVALID_ARGUMENT, NON_FINITE, LIMIT,
+    /// BUDGET, OUT_OF_MEMORY.
+    pub fn vox_grid_find_constraints(
+        grid: *mut vox_grid,
+        desc: *const vox_constraint_desc,
+    ) -> vox_result;
+    /// Gets the constraints that were found last. Errors: INVALID_STATE if none were looked for since the last step.
+    pub fn vox_grid_get_constraints(
+        grid: *const vox_grid,
+        out_view: *mut vox_constraint_view,
+    ) -> vox_result;
+    /// Places a body. In the following steps a position x, y, z stands for x' = ((m[0] * x + m[1] * y) + m[2] * z) +
+    /// m[3], y' likewise with m[4..7], z' with m[8..11], computed in double in this order. Contacts are exact for x',
+    /// y', z'. It is any affine map, and copied; null: none. Errors: INVALID_ARGUMENT (a number that is not finite),
+    /// BUDGET, OUT_OF_MEMORY.
+    pub fn vox_body_set_transform(
+        grid: *mut vox_grid,
+        body: vox_body,
+        matrix: *const [f64; 12],
+    ) -> vox_result;
+    /// Disables a body (0), or enables it again (1). A disabled body takes no part in steps; its positions are not
+    /// read. Errors: INVALID_ARGUMENT (another number).
+    pub fn vox_body_set_enabled(grid: *mut vox_grid, body: vox_body, enabled: u32) -> vox_result;
+    /// Sets what a body collides with from the next step on. Rings and rest distance are prepared in the call. Errors:
+    /// INVALID_ARGUMENT, LIMIT, INVALID_STATE (no rest pose), NON_FINITE, BUDGET, OUT_OF_MEMORY.
+    pub fn vox_body_set_filter(
+        grid: *mut vox_grid,
+        body: vox_body,
+        filter: *const vox_filter,
+    ) -> vox_result;
+    /// Keeps two bodies from colliding, whatever their filters say (0), or lets their filters decide again (1). Ends
+    /// when either body is removed. Errors: INVALID_ARGUMENT (another number; twice the same body), BUDGET,
+    /// OUT_OF_MEMORY.
+    pub fn vox_grid_set_pair_enabled(
+        grid: *mut vox_grid,
+        body_a: vox_body,
+        body_b: vox_body,
+        enabled: u32,
+    ) -> vox_result;
+    /// Makes the next step treat a body as if it had moved: for measurements.
+    pub fn vox_body_mark_moved(grid: *mut vox_grid, body: vox_body) -> vox_result;
+    /// Gives a mesh a packed array of its own, in its format, which the caller may write to between steps. It starts
+    /// with the present positions, or zeros. It belongs to the grid and lives until other positions are bound, vertices
+    /// are appended or replaced, or the mesh is removed. Calling this again returns the same array. Errors: BUDGET,
+    /// OUT_OF_MEMORY.
+    pub fn vox_mesh_map_positions(
+        grid: *mut vox_grid,
+        body: vox_body,
+        out_positions: *mut *mut c_void,
+    ) -> vox_result;
+    /// Makes a mesh borrow the positions that its vertices had before. In the following steps each vertex moves from
+    /// there to its position, in a straight line at constant speed, and steps also find IMPACT constraints. None is
+    /// missed. A vertex that misses a surface by no more than rounding errors may be reported. Bodies without previous
+    /// positions stand still. The transform does not apply to previous positions. Null ends this, as does a change of
+    /// the mesh's vertices. Snapshots do not keep it. Errors: INVALID_ARGUMENT.
+    pub fn vox_mesh_bind_previous_positions(
+        grid: *mut vox_grid,
+        body: vox_body,
+        positions: *const vox_positions,
+    ) -> vox_result;
+    /// Gets a body's state. Set out_info->struct_size first. `positions` lives as its comment says.
+    pub fn vox_body_get_info(
+        grid: *const vox_grid,
+        body: vox_body,
+        out_info: *mut vox_body_info,
+    ) -> vox_result;
+    /// Gets the user_data that a body was inserted with.
     pub fn vox_body_get_user_data(
         grid: *const vox_grid,
         body: vox_body,
         out_user_data: *mut u64,
     ) -> vox_result;
-    /// Copies the ids of the first `capacity` meshes of the grid, disabled ones included, ascending. *out_count is how
-    /// many there are, which may be more than were copied. `bodies` may be null if capacity is 0. Errors:
-    /// INVALID_ARGUMENT.
+    /// Returns 1 if `body` names a body of the grid, else 0; gives 0 for a null grid. Cannot fail.
+    pub fn vox_body_is_valid(grid: *const vox_grid, body: vox_body) -> u32;
+    /// Gets the first `capacity` bodies of the grid in ascending order, disabled ones included; `bodies` may be null if
+    /// it is 0. *out_count is the number of all. Errors: INVALID_ARGUMENT.
     pub fn vox_grid_get_bodies(
         grid: *const vox_grid,
         bodies: *mut vox_body,
         capacity: u64,
         out_count: *mut u64,
     ) -> vox_result;
-    /// Writes the fields that out_info->struct_size covers (set it first). How long `positions` live: see
-    /// vox_body_info. Errors: INVALID_ARGUMENT, INVALID_HANDLE.
-    pub fn vox_body_get_info(
+    /// Removes all bodies and results, and keeps the settings. The next step ends all pairs.
+    pub fn vox_grid_clear(grid: *mut vox_grid) -> vox_result;
+    /// Allocates memory for this many bodies and contacts in advance, besides what the bodies themselves need. Errors:
+    /// LIMIT, BUDGET, OUT_OF_MEMORY.
+    pub fn vox_grid_reserve(grid: *mut vox_grid, body_count: u32, contact_count: u64) -> vox_result;
+    /// Sets vox_grid_desc.cell_size for the following steps. Errors: INVALID_ARGUMENT (negative, infinite, NaN).
+    pub fn vox_grid_set_cell_size(grid: *mut vox_grid, cell_size: f64) -> vox_result;
+    /// Sets vox_grid_desc.worker_count for the following steps. Errors: INVALID_ARGUMENT.
+    pub fn vox_grid_set_worker_count(grid: *mut vox_grid, worker_count: u32) -> vox_result;
+    /// Sets all vox_grid_desc.flags for the following steps. Memory that is no longer needed is released. Errors:
+    /// INVALID_ARGUMENT, UNSUPPORTED (in this build).
+    pub fn vox_grid_set_flags(grid: *mut vox_grid, flags: u32) -> vox_result;
+    /// Sets the margin for the following steps: vertices outside another body, but no further than this from its
+    /// surface, have PROXIMITY constraints, and the two bodies are a pair. 0, the default: none, at no cost. Snapshots
+    /// lack it. Errors: INVALID_ARGUMENT (negative, NaN, above 2^125), UNSUPPORTED (in this build).
+    pub fn vox_grid_set_margin(grid: *mut vox_grid, margin: f64) -> vox_result;
+    /// Gets a grid's state. Set out_info->struct_size first.
+    pub fn vox_grid_get_info(grid: *const vox_grid, out_info: *mut vox_grid_info) -> vox_result;
+    /// Gets counts and times of the last step, stage by stage (docs/engine.md lists them). They live until the end of
+    /// the epoch.
+    pub fn vox_grid_get_counters(
         grid: *const vox_grid,
-        body: vox_body,
-        out_info: *mut vox_body_info,
+        out_view: *mut vox_counter_view,
     ) -> vox_result;
-    /// Copies the first `capacity` tetrahedra of a mesh: of tetrahedron t the corners, as they were given, to corners[4
-    /// * t] to corners[4 * t + 3], and to enabled[t] 1 or, if it is disabled or removed, 0. Each of the two arrays may
-    /// be null, and is not written then. *out_count is how many tetrahedra there are (vox_body_info.tet_count). Errors:
-    /// INVALID_ARGUMENT, INVALID_HANDLE.
+    /// Gets the body that made the last step fail, with index 0; or else the bodies that it left out, with indices from
+    /// 0 on. Set out_failure->struct_size first. Errors: INVALID_ARGUMENT.
+    pub fn vox_grid_get_failure(
+        grid: *const vox_grid,
+        index: u32,
+        out_failure: *mut vox_failure,
+    ) -> vox_result;
+    /// Replaces vertices, tetrahedra and positions by those of desc. Id, user data, filter, transform and disabled
+    /// pairs stay. If desc has no positions, but as many vertices as the mesh, positions and rest pose stay, too.
+    /// Errors: also INVALID_STATE and NON_FINITE (rest pose).
+    pub fn vox_mesh_set_topology(
+        grid: *mut vox_grid,
+        body: vox_body,
+        desc: *const vox_mesh_desc,
+    ) -> vox_result;
+    /// Disables tetrahedra (0), or enables them again (1). A disabled tetrahedron contains no vertices and has no edges
+    /// and faces. Its vertices still collide with others.
+    pub fn vox_mesh_set_tets_enabled(
+        grid: *mut vox_grid,
+        body: vox_body,
+        tets: *const u32,
+        count: u64,
+        enabled: u32,
+    ) -> vox_result;
+    /// Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3].
+    pub fn vox_mesh_replace_tets(
+        grid: *mut vox_grid,
+        body: vox_body,
+        tets: *const u32,
+        count: u64,
+        corners: *const u32,
+    ) -> vox_result;
+    /// Adds `count` tetrahedra with four corners each. *out_first is the index of the first; the others follow.
+    pub fn vox_mesh_append_tets(
+        grid: *mut vox_grid,
+        body: vox_body,
+        corners: *const u32,
+        count: u64,
+        out_first: *mut u32,
+    ) -> vox_result;
+    /// Removes tetrahedra. Their vertices stay.
+    pub fn vox_mesh_remove_tets(
+        grid: *mut vox_grid,
+        body: vox_body,
+        tets: *const u32,
+        count: u64,
+    ) -> vox_result;
+    /// Adds vertices, which belong to no tetrahedron yet. *out_first is the index of the first; the others follow.
+    /// Errors: also INVALID_STATE (a mesh with a rest pose, a vertex without), NON_FINITE.
+    pub fn vox_mesh_append_vertices(
+        grid: *mut vox_grid,
+        body: vox_body,
+        desc: *const vox_vertices_desc,
+        out_first: *mut u32,
+    ) -> vox_result;
+    /// Removes vertices that belong to no enabled tetrahedron. Their positions are still read and must stay finite.
+    pub fn vox_mesh_remove_vertices(
+        grid: *mut vox_grid,
+        body: vox_body,
+        vertices: *const u32,
+        count: u64,
+    ) -> vox_result;
+    /// Copies the first `capacity` tetrahedra: four corners each, and 1 if it is enabled or 0 if it is disabled or
+    /// removed. *out_count is the number of all.
     pub fn vox_mesh_get_tets(
         grid: *const vox_grid,
         body: vox_body,
@@ -2195,354 +1958,36 @@ extern "C" {
         capacity: u64,
         out_count: *mut u64,
     ) -> vox_result;
-    /// Makes a mesh borrow another array of positions, one for each vertex, under the rule of vox_mesh_desc.positions,
-    /// and releases one that it owned. There is no need to bind the same array again after writing to it. Errors:
-    /// INVALID_ARGUMENT (e.g. another count).
-    pub fn vox_mesh_bind_positions(
-        grid: *mut vox_grid,
-        body: vox_body,
-        positions: *const vox_positions,
-    ) -> vox_result;
-    /// Borrows the positions that the vertices of a mesh had before they moved to those of vox_mesh_bind_positions: in
-    /// the following steps each vertex moves from one to the other in a straight line, at constant speed, and such
-    /// steps also find vox_grid_passages. Values may be written to the same memory between steps. The mesh's transform
-    /// does not apply to them: they are where the vertices were. Null ends it, as do vox_mesh_set_topology and
-    /// vox_mesh_append_vertices. Snapshots do not keep them. A step fails with NON_FINITE or LIMIT where they are not
-    /// as VOX_FORMAT_DOUBLE has it; VOX_GRID_SKIP_BAD_BODIES is about positions alone. Errors: as
-    /// vox_mesh_bind_positions.
-    pub fn vox_mesh_bind_previous_positions(
-        grid: *mut vox_grid,
-        body: vox_body,
-        positions: *const vox_positions,
-    ) -> vox_result;
-    /// Makes the next step process a mesh even if it is at rest (see vox_grid_step). Contacts are correct without it;
-    /// it serves to measure steps over positions that stay the same.
-    pub fn vox_body_mark_moved(grid: *mut vox_grid, body: vox_body) -> vox_result;
-    /// Sets what the mesh collides with, from the next step on (the filter is copied). The tables of the self-contact
-    /// filters, and what penetrations need of a mesh that was a sensor, are built in the call, in time and memory
-    /// proportional to the mesh. Errors: INVALID_ARGUMENT, LIMIT (self_rings; tetrahedra of a mesh with penetrations),
-    /// INVALID_STATE (a rest distance without a rest pose or positions), NON_FINITE (a rest position), BUDGET,
-    /// OUT_OF_MEMORY.
-    pub fn vox_body_set_filter(
-        grid: *mut vox_grid,
-        body: vox_body,
-        filter: *const vox_filter,
-    ) -> vox_result;
-    /// Disables a mesh (enabled 0), so that it takes no part in the following steps and its positions are not read, or
-    /// enables it again (1, as at insertion). Its contacts of the last step stay until the next one. Errors:
-    /// INVALID_ARGUMENT for other numbers.
-    pub fn vox_body_set_enabled(grid: *mut vox_grid, body: vox_body, enabled: u32) -> vox_result;
-    /// With enabled 0, the two meshes do not collide in the following steps, whatever their filters say; with 1, their
-    /// filters decide. The setting ends when either mesh is removed. Errors: INVALID_ARGUMENT for other numbers and for
-    /// body_a = body_b (see VOX_FILTER_SELF_COLLISION), BUDGET, OUT_OF_MEMORY.
-    pub fn vox_grid_set_pair_enabled(
-        grid: *mut vox_grid,
-        body_a: vox_body,
-        body_b: vox_body,
-        enabled: u32,
-    ) -> vox_result;
-    /// Gives the mesh positions of its own that the caller may write to: one for each vertex, packed, in the format it
-    /// was inserted with or bound to last. At first they hold the mesh's present positions, or zeros if it has none.
-    /// From the next step on, the mesh uses what the caller has written there between steps. Calling it again returns
-    /// the same array. The array belongs to the library and lives until the mesh is removed or bound, or the grid is
-    /// cleared or destroyed. It is null for a mesh without vertices. For a mesh inserted with VOX_MESH_COPY_POSITIONS
-    /// it is the copy made then. Errors: BUDGET, OUT_OF_MEMORY.
-    pub fn vox_mesh_map_positions(
-        grid: *mut vox_grid,
-        body: vox_body,
-        out_positions: *mut *mut c_void,
-    ) -> vox_result;
-    /// Moves a mesh as a whole. In the following steps a vertex has the position x' = ((m[0] * x + m[1] * y) + m[2] *
-    /// z) + m[3], y' likewise from m[4..7], z' from m[8..11], computed in double, in this order, each operation
-    /// rounded. Contacts are exact for the resulting x', y', z', as if these had been given as VOX_FORMAT_DOUBLE. If
-    /// they exceed the limits of that format, the step fails. `matrix` is any affine map, three rows of four numbers,
-    /// copied. Null (the default) means no transform. The transform stays when other positions are bound. Errors:
-    /// INVALID_ARGUMENT (an element that is not finite); BUDGET, OUT_OF_MEMORY (for a first transform).
-    pub fn vox_body_set_transform(
-        grid: *mut vox_grid,
-        body: vox_body,
-        matrix: *const [f64; 12],
-    ) -> vox_result;
-    /// Replaces tetrahedra, vertices and positions, as if the mesh had been inserted with those of `desc`. Its id, user
-    /// data, filter, transform, disabled pairs, and whether it is enabled stay as they are; of `desc`, user_data and
-    /// filter are ignored. If desc->positions is null, the mesh keeps its positions and its rest pose if the number of
-    /// vertices is unchanged; otherwise it has no positions until vox_mesh_bind_positions. The rest pose of a filter
-    /// with a rest distance is taken from desc as at insertion. Errors: also INVALID_STATE and NON_FINITE, as
-    /// vox_body_set_filter.
-    pub fn vox_mesh_set_topology(
-        grid: *mut vox_grid,
-        body: vox_body,
-        desc: *const vox_mesh_desc,
-    ) -> vox_result;
-    /// Disables the `count` tetrahedra named by `tets` (enabled 0), so that they contain no vertex and have no edges
-    /// and facets, or enables them again (1, as at insertion). Their vertices stay and collide with others either way.
-    /// Errors: INVALID_ARGUMENT for other numbers.
-    pub fn vox_mesh_set_tets_enabled(
-        grid: *mut vox_grid,
-        body: vox_body,
-        tets: *const u32,
-        count: u64,
-        enabled: u32,
-    ) -> vox_result;
-    /// Gives tetrahedron tets[i] the corners corners[4 * i] to corners[4 * i + 3], copied, for each i below count. If
-    /// an index is named twice, the last corners are used. A disabled tetrahedron stays disabled. To cut a mesh open,
-    /// append copies of the vertices on the cut and let the tetrahedra of one side use those.
-    pub fn vox_mesh_replace_tets(
-        grid: *mut vox_grid,
-        body: vox_body,
-        tets: *const u32,
-        count: u64,
-        corners: *const u32,
-    ) -> vox_result;
-    /// Adds `count` tetrahedra with 4 corners each, copied. *out_first is the index of the first; the others have the
-    /// following indices.
-    pub fn vox_mesh_append_tets(
-        grid: *mut vox_grid,
-        body: vox_body,
-        corners: *const u32,
-        count: u64,
-        out_first: *mut u32,
-    ) -> vox_result;
-    /// Removes tetrahedra, disabled ones included. Their vertices stay; see vox_mesh_remove_vertices.
-    pub fn vox_mesh_remove_tets(
-        grid: *mut vox_grid,
-        body: vox_body,
-        tets: *const u32,
-        count: u64,
-    ) -> vox_result;
-    /// Adds vertices, which belong to no tetrahedron yet. *out_first is the index of the first; the others have the
-    /// following indices. Errors: also INVALID_STATE (the mesh has a rest pose, but a new vertex has no position for
-    /// it), NON_FINITE (a position of the rest pose).
-    pub fn vox_mesh_append_vertices(
-        grid: *mut vox_grid,
-        body: vox_body,
-        desc: *const vox_vertices_desc,
-        out_first: *mut u32,
-    ) -> vox_result;
-    /// Removes vertices; a vertex of an enabled tetrahedron is an INVALID_ARGUMENT. Removed vertices make no more
-    /// contacts, and no tetrahedron may name them again. Their positions are still read and must stay finite, so it is
-    /// best to leave them as they are.
-    pub fn vox_mesh_remove_vertices(
-        grid: *mut vox_grid,
-        body: vox_body,
-        vertices: *const u32,
-        count: u64,
-    ) -> vox_result;
-    /// Finds all contacts of the positions as they are now. On success the previous contacts are replaced; on failure
-    /// they are gone and the grid stays usable. A mesh is at rest if its positions are bit for bit those of the last
-    /// step; the fast engine keeps a copy to compare. Contacts between meshes at rest, and of a mesh at rest with
-    /// itself, are carried over from the last step with their penetrations, so such meshes cost little more than
-    /// reading their positions. (When a moving mesh comes to rest, it is processed in one more step, in which the copy
-    /// is made.) A step after a failed one, or after a change of a setting, processes all meshes. In the steady state
-    /// (same meshes, no more work than before) it allocates nothing, with any number of workers. The memory of the
-    /// built-in scheduler, such as the stacks of its threads, is not the grid's and is not counted. Errors:
-    /// INVALID_STATE (a mesh has no positions), NON_FINITE and LIMIT (a coordinate that VOX_FORMAT_DOUBLE does not
-    /// allow), INVALID_ARGUMENT (doubles under VOX_FORMAT_FLOAT, see vox_mesh_insert); all these name the mesh, as does
-    /// vox_grid_get_failure. LIMIT (more than VOX_MAX_CONTACTS; dense storage of 2^31 cells or more), BUDGET,
-    /// OUT_OF_MEMORY.
-    pub fn vox_grid_step(grid: *mut vox_grid) -> vox_result;
-    /// Steps `count` grids, which must differ, each as by vox_grid_step, several at the same time: for many small
-    /// scenes that have nothing to do with each other. The grids are split among `worker_count` threads (as in
-    /// vox_grid_desc) of `tasks` (null: the built-in scheduler), as one task; within it each grid uses workers of its
-    /// own, so one of them is best. What a grid finds does not depend on the others. Its callbacks are called on the
-    /// thread that steps it. One thread at a time may change each of the grids, so none of them may be used until the
-    /// call returns. Threads of the built-in scheduler may be kept for a next call with as many workers: those of one
-    /// call at most, at most VOX_MAX_WORKERS - 1, which sleep, until the process ends or the library is unloaded.
-    /// results: null, or `count` results, of the grids in their order. If grids fail, the others are stepped
-    /// nevertheless, and the call returns the result of the first of them and its text, after its index ("grid 17:
-    /// ..."). Errors: as vox_grid_step; INVALID_ARGUMENT (a null or repeated grid, a worker_count) and OUT_OF_MEMORY,
-    /// after which no grid was stepped and `results` is not written, unless the task system broke its rules, see
-    /// vox_task_system.
-    pub fn vox_grids_step(
-        grids: *const *mut vox_grid,
-        count: u64,
-        tasks: *const vox_task_system,
-        worker_count: u32,
-        results: *mut vox_result,
-    ) -> vox_result;
-    /// The mesh that made the last step fail (index 0), or the meshes that it left out (VOX_GRID_SKIP_BAD_BODIES): the
-    /// index-th of them, in the order of ids. `mesh` is VOX_NULL_BODY beyond the last, after steps that failed for
-    /// another reason and after a clear. Writes the fields that out_failure->struct_size covers (set it first). The
-    /// mesh may have been removed since. Errors: INVALID_ARGUMENT (a null pointer, a bad struct_size).
-    pub fn vox_grid_get_failure(
-        grid: *const vox_grid,
-        index: u32,
-        out_failure: *mut vox_failure,
-    ) -> vox_result;
-    /// The contacts of the last step; count 0 before the first, after a failed one and after a clear.
-    pub fn vox_grid_get_contacts(
-        grid: *const vox_grid,
-        out_view: *mut vox_contact_view,
-    ) -> vox_result;
-    /// The contacts of `count` grids, one grid after the other: those of grid i begin at index offsets[i] and end
-    /// before offsets[i + 1], where offsets has count + 1 numbers, all of which are written. Copies the first
-    /// `capacity` contacts; `contacts` may be null if capacity is 0. Errors: INVALID_ARGUMENT.
-    pub fn vox_grids_copy_contacts(
-        grids: *const *const vox_grid,
-        count: u64,
-        contacts: *mut vox_contact,
-        capacity: u64,
-        offsets: *mut u64,
-    ) -> vox_result;
-    /// A hash of the contacts: all fields, in order. The same for any cell size, storage, hash and engine.
-    pub fn vox_grid_get_hash(grid: *const vox_grid, out_hash: *mut u64) -> vox_result;
-    /// The penetrations of the last step; count 0 if it found no contacts, before the first step, after a failed one
-    /// and after a clear. Errors: INVALID_STATE if the grid's flags lack VOX_GRID_PENETRATIONS.
-    pub fn vox_grid_penetrations(
-        grid: *const vox_grid,
-        out_view: *mut vox_penetration_view,
-    ) -> vox_result;
-    /// The depths of vox_grid_penetrations, one for each, in that order. Errors: as vox_grid_penetrations.
-    pub fn vox_grid_depths(grid: *const vox_grid, out_view: *mut vox_depth_view) -> vox_result;
-    /// The edge contacts of the last step: the same for every engine, cell size and number of workers. Count 0 before
-    /// the first step, after a failed one and after a clear. Which meshes collide is up to vox_filter and
-    /// vox_grid_set_pair_enabled, as for contacts; a self-contact is ruled out where vox_filter rules out the contact
-    /// of either end of the edge with `tet`. Meshes that touch by edges alone are pairs of vox_grid_get_pairs, with no
-    /// contacts, and have touch events. vox_grid_get_hash and readings are of contacts alone. Errors: INVALID_STATE if
-    /// the grid's flags lack VOX_GRID_EDGE_CONTACTS.
-    pub fn vox_grid_edge_contacts(
-        grid: *const vox_grid,
-        out_view: *mut vox_edge_contact_view,
-    ) -> vox_result;
-    /// A hash of the edge contacts: all fields, in order. The same for any cell size, storage, hash and engine. Errors:
-    /// as vox_grid_edge_contacts.
-    pub fn vox_grid_edge_hash(grid: *const vox_grid, out_hash: *mut u64) -> vox_result;
-    /// Computes the way out for every edge contact of the last step (vox_grid_edge_depths). It reads positions, which
-    /// must still be those of the step. A program that does not need it pays nothing. The part of an edge inside body_b
-    /// begins and ends at contacts with it, or at an end of the edge. Moving its middle by depth * direction leads to
-    /// the closest point of the surface of body_b; of several, that of the first triangle. Where no part begins or
-    /// ends, because the two only touch, depth is 0 and direction the normal. For self-contact the middle moves to the
-    /// plane of the face, along the normal, instead. Errors: INVALID_STATE (as vox_grid_edge_contacts; or a mesh of a
-    /// contact was removed or edited since the step, or lacks positions), NON_FINITE, BUDGET, OUT_OF_MEMORY.
-    pub fn vox_grid_prepare_edge_depths(grid: *mut vox_grid) -> vox_result;
-    /// The depth and direction of each edge contact, in the order of vox_grid_edge_contacts. Errors: INVALID_STATE
-    /// before vox_grid_prepare_edge_depths.
-    pub fn vox_grid_edge_depths(grid: *const vox_grid, out_view: *mut vox_depth_view) -> vox_result;
-    /// The margin contacts of the last step: the same for every engine, cell size and number of workers. Count 0 before
-    /// the first step, after a failed one and after a clear. Which meshes collide is up to vox_filter and
-    /// vox_grid_set_pair_enabled, as for contacts. They are not part of vox_grid_get_hash, and no pairs or events come
-    /// of them. Errors: INVALID_STATE if the margin is 0 (vox_grid_set_margin).
-    pub fn vox_grid_margin_contacts(
-        grid: *const vox_grid,
-        out_view: *mut vox_margin_contact_view,
-    ) -> vox_result;
-    /// The passages of the last step, between meshes of which one has previous positions: the same for every engine,
-    /// cell size and number of workers. None is missed; a vertex that comes as close to a surface as rounding errors
-    /// are large may be reported as well. Filters as for contacts. Count 0 where no mesh has previous positions, before
-    /// the first step, after a failed one and after a clear.
-    pub fn vox_grid_passages(grid: *const vox_grid, out_view: *mut vox_passage_view) -> vox_result;
-    /// The pairs that touched in the last step; count 0 before the first, after a failed one and after a clear.
-    pub fn vox_grid_get_pairs(grid: *const vox_grid, out_view: *mut vox_pair_view) -> vox_result;
-    /// Copies the first `capacity` of the last step's contacts in which `mesh` is body_a or body_b, pair by pair, in
-    /// the order of vox_grid_get_pairs. *out_count is how many there are, which may be more than were copied.
-    /// `contacts` may be null if capacity is 0. The mesh may have been disabled since the step, but not removed.
-    /// Errors: INVALID_ARGUMENT, INVALID_HANDLE.
-    pub fn vox_mesh_copy_contacts(
-        grid: *const vox_grid,
-        body: vox_body,
-        contacts: *mut vox_contact,
-        capacity: u64,
-        out_count: *mut u64,
-    ) -> vox_result;
-    /// The same for the contacts between two meshes, given in either order, or of one mesh with itself (body_a =
-    /// body_b): the contacts of their vox_pair.
-    pub fn vox_pair_copy_contacts(
-        grid: *const vox_grid,
-        body_a: vox_body,
-        body_b: vox_body,
-        contacts: *mut vox_contact,
-        capacity: u64,
-        out_count: *mut u64,
-    ) -> vox_result;
-    /// What the last step changed; count 0 before the first one. A failed step has no events, and none are lost: the
-    /// next step is compared with the last successful one. Removing meshes and clearing the grid give no events at
-    /// once; the next step ends their pairs. Destroying the grid ends them without events.
-    pub fn vox_grid_touch_events(
-        grid: *const vox_grid,
-        out_view: *mut vox_touch_view,
-    ) -> vox_result;
-    /// The same for single vertices, under the same rules. Errors: INVALID_STATE for a grid without
-    /// VOX_GRID_CONTACT_EVENTS.
-    pub fn vox_grid_contact_events(
-        grid: *const vox_grid,
-        out_view: *mut vox_contact_event_view,
-    ) -> vox_result;
-    /// Computes the readings of the last step's contacts from the meshes as they are now, so borrowed positions must
-    /// still be those of the step. vox_reading.known shows what is missing because it was removed or changed since. May
-    /// be called repeatedly; each call replaces what was prepared before. Takes time proportional to the contacts and,
-    /// for VOX_READING_SURFACE, to the vertices and surfaces of the meshes that the vertices are in. The memory for
-    /// contacts and triangles is kept until the grid is destroyed, so a call that needs no more of it than an earlier
-    /// one allocates nothing. Enqueues at most one task. Errors: NON_FINITE and LIMIT (positions that changed since the
-    /// step, where they are read, or a mesh of more tetrahedra than VOX_GRID_PENETRATIONS allows), BUDGET,
-    /// OUT_OF_MEMORY; after these the earlier readings stay. INVALID_ARGUMENT (see vox_task_system); after that there
-    /// are none.
-    pub fn vox_grid_prepare_readings(grid: *mut vox_grid) -> vox_result;
-    /// As vox_grid_prepare_readings, which is the same with desc null, but computes only the parts desc->what of the
-    /// readings of some contacts. All others are missing from the views and copies of the following functions. Errors:
-    /// as there; also INVALID_ARGUMENT (unknown parts, or body_b without body_a) and INVALID_HANDLE, after which the
-    /// earlier readings stay.
-    pub fn vox_grid_prepare_readings_of(
-        grid: *mut vox_grid,
-        desc: *const vox_readings_desc,
-    ) -> vox_result;
-    /// The prepared readings. Errors: INVALID_STATE if none were prepared since the last step or clear.
-    pub fn vox_grid_readings(grid: *const vox_grid, out_view: *mut vox_reading_view) -> vox_result;
-    /// Depth and direction of the prepared readings in double, one for each, in that order; zero where
-    /// vox_reading.known lacks VOX_READING_DEPTH. Count 0 if that part was not asked for. Errors: as vox_grid_readings.
-    pub fn vox_grid_reading_depths(
-        grid: *const vox_grid,
-        out_view: *mut vox_depth_view,
-    ) -> vox_result;
-    /// As vox_mesh_copy_contacts, but copies the prepared readings of those contacts, in the same order. Errors:
-    /// INVALID_ARGUMENT, INVALID_HANDLE, INVALID_STATE as vox_grid_readings.
-    pub fn vox_mesh_copy_readings(
-        grid: *const vox_grid,
-        body: vox_body,
-        readings: *mut vox_reading,
-        capacity: u64,
-        out_count: *mut u64,
-    ) -> vox_result;
-    /// As vox_pair_copy_contacts, but copies the prepared readings of those contacts, in the same order. Errors:
-    /// INVALID_ARGUMENT, INVALID_HANDLE, INVALID_STATE as vox_grid_readings.
-    pub fn vox_pair_copy_readings(
-        grid: *const vox_grid,
-        body_a: vox_body,
-        body_b: vox_body,
-        readings: *mut vox_reading,
-        capacity: u64,
-        out_count: *mut u64,
-    ) -> vox_result;
-    /// Writes the grid as it is now to `bytes`, in a format that is the same on every machine (docs/snapshot.md):
-    /// settings, meshes with their ids, positions (borrowed ones too, read during the call), and the state that the
-    /// next events are derived from. Allocator, log, task system, worker count, both budgets, and the results of the
-    /// last step are not saved. *out_size is the number of bytes; with `bytes` null nothing is written, so the size can
-    /// be asked first. Allocates nothing. Errors: INVALID_ARGUMENT if the capacity is too small (gives both numbers).
+    /// Writes a grid to `bytes`, in a format that is the same on every machine (docs/snapshot.md): settings, bodies
+    /// with their ids and positions, and which pairs touch. It does not contain allocator, log, tasks, worker_count,
+    /// byte_budget, margin, previous positions and results. *out_size is the number of bytes; with `bytes` null nothing
+    /// is written. Errors: INVALID_ARGUMENT (the capacity is too small).
     pub fn vox_grid_save(
         grid: *const vox_grid,
         bytes: *mut c_void,
         capacity: u64,
         out_size: *mut u64,
     ) -> vox_result;
-    /// Creates a grid from a snapshot. Ids name the same meshes, meshes inserted later get the same ids as they would
-    /// in the saved grid, and steps find the same contacts and events in the same order, with the same hash and epoch.
-    /// There are no contacts until the first step. The meshes own their positions; to move them, bind others. Of `desc`
-    /// only allocator, log, tasks, worker_count, both budgets, margin and reference are used; null: the defaults. If
-    /// reference is null, the engine is the one that was saved. The caller owns *out_grid and releases it with
-    /// vox_grid_destroy. The bytes need not be trusted: everything in them is checked, no memory is reserved for a
-    /// count before the bytes it stands for are known to be there, and the byte budget applies. Errors: FORMAT (names
-    /// chunk and byte), UNSUPPORTED (of a later version), INVALID_ARGUMENT, LIMIT, BUDGET, OUT_OF_MEMORY.
+    /// Creates a grid from a snapshot. Ids name the same bodies, and steps give the same results. Meshes own their
+    /// positions; map or bind positions to move them. desc supplies what snapshots do not contain; its flags and
+    /// cell_size are ignored. The bytes need not be trusted. The caller owns *out_grid and releases it with
+    /// vox_grid_destroy. Errors: FORMAT (names the place), UNSUPPORTED (a later version), INVALID_ARGUMENT, LIMIT,
+    /// BUDGET, OUT_OF_MEMORY.
     pub fn vox_grid_load(
         bytes: *const c_void,
         size: u64,
         desc: *const vox_grid_desc,
         out_grid: *mut *mut vox_grid,
     ) -> vox_result;
-    /// What the last successful step did, and how long each stage of it took: all 0 before the first. docs/engine.md
-    /// lists the names; what programs act on is in vox_grid_info.
-    pub fn vox_grid_get_counters(
-        grid: *const vox_grid,
-        out_view: *mut vox_counter_view,
-    ) -> vox_result;
+    /// The version of the library at run time: major * 1000000 + minor * 1000 + patch. Cannot fail.
+    pub fn vox_version() -> u32;
+    /// The VOX_ABI_VERSION of the library at run time. Cannot fail.
+    pub fn vox_abi_version() -> u32;
+    /// Version, compiler, instruction sets, scheduler and options of the library, in one line. Static text; never null.
+    pub fn vox_build_info() -> *const c_char;
+    /// Sets this thread's vox_last_error() to a copy of `text`, of 1023 bytes at most, and returns `result`: for
+    /// libraries that report failures in the same way. Null counts as "". Cannot fail itself.
+    pub fn vox_fail(result: vox_result, text: *const c_char) -> vox_result;
 }
 
 #[rustfmt::skip]
@@ -2736,116 +2181,95 @@ extern "C" {
 #[rustfmt::skip]
 extern "C" {
     /// Creates a surface without positions. The caller owns *out_surface and releases it with vox_surface_destroy.
-    /// Errors: INVALID_ARGUMENT (names the field and its value), INVALID_MESH ("face 17 names vertex 900 of 812"),
-    /// UNSUPPORTED (an x86-64 without SSE4.2), LIMIT, BUDGET, OUT_OF_MEMORY.
+    /// Errors: INVALID_ARGUMENT, INVALID_MESH ("face 17 names vertex 900 of 812"), LIMIT, BUDGET, OUT_OF_MEMORY.
     pub fn vox_surface_create(
         desc: *const vox_surface_desc,
         out_surface: *mut *mut vox_surface,
     ) -> vox_result;
-    /// Destroys a surface. Its views become invalid. Null does nothing.
+    /// Destroys a surface. Null does nothing.
     pub fn vox_surface_destroy(surface: *mut vox_surface);
-    /// The edges or faces of a surface, numbered as everywhere in this header. Set out_view->struct_size first. The
-    /// view lives as long as the surface. Errors: INVALID_ARGUMENT (also for VOX_FEATURE_VERTEX, whose numbers are
-    /// those of the positions).
+    /// Gets the edges or faces of a surface, in the order of their indices. They live as long as the surface. Errors:
+    /// INVALID_ARGUMENT (VERTEX).
     pub fn vox_surface_get_features(
         surface: *const vox_surface,
         feature: vox_feature,
         out_view: *mut vox_feature_view,
     ) -> vox_result;
-    /// Sets the motion that the other functions answer for. Views of answers end. The arrays are needed during the call
-    /// only. Errors: INVALID_ARGUMENT (names the field and its value), NON_FINITE (names the vertex, and which of its
-    /// positions), LIMIT (the same, for a coordinate of 2^128 or more), BUDGET, OUT_OF_MEMORY; the motion is then the
-    /// one of before.
+    /// Sets the motion that all other functions answer for. Positions are read during the call. Errors:
+    /// INVALID_ARGUMENT, NON_FINITE and LIMIT (name the vertex), BUDGET, OUT_OF_MEMORY.
     pub fn vox_surface_move(surface: *mut vox_surface, motion: *const vox_motion) -> vox_result;
-    /// All features `b` whose boxes overlap those of the features [first, first + count) of kind `a`; boxes that touch
-    /// overlap. Where a and b are the same kind, each pair comes once, in the list of its lower feature. Left out:
-    /// pairs with a vertex in common, pairs that patches rule out, and with VOX_MOTION_CULL those proven to stay apart.
-    /// Ranges that reach beyond the last feature end there, and may not begin beyond it. If not all of it fits into the
-    /// byte budget, the features up to lists->first + lists->count are answered, at least one; ask again from there. So
-    /// any number of pairs can be had from any budget that holds the lists of one feature. Set out_lists->struct_size
-    /// first. The view lives until the next vox_surface_find_pairs or vox_surface_move, or the end of the surface.
-    /// Errors: INVALID_ARGUMENT, INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
+    /// Finds, for the features [first, first + count) of kind a, the features of kind b whose boxes overlap or touch
+    /// theirs. The box of a feature contains it during the whole motion. If a and b are the same kind, the lower
+    /// feature lists the pair. Pairs with a common vertex, pairs ruled out by patches and culled pairs are left out.
+    /// The range ends at the last feature. If the byte budget is too short for all lists, call again with first =
+    /// out_lists->first + out_lists->count.
     pub fn vox_surface_find_pairs(
         surface: *mut vox_surface,
         a: vox_feature,
         b: vox_feature,
         first: u64,
         count: u64,
-        out_lists: *mut vox_pair_lists,
+        out_lists: *mut vox_partner_lists,
     ) -> vox_result;
-    /// Sets vox_surface_desc.cell_size, from the next call on. Changes no answer. Errors: INVALID_ARGUMENT when
-    /// negative, infinite or NaN.
+    /// Finds all edges and faces that have a point in common, but no vertex, at the end of the motion: none if the
+    /// surface does not intersect itself. Decided exactly. Pairs ruled out by patches are left out. The radius does not
+    /// matter.
+    pub fn vox_surface_find_crossings(
+        surface: *mut vox_surface,
+        out_view: *mut vox_crossing_view,
+    ) -> vox_result;
+    /// Finds all pairs of features of kinds a and b that are at most `distance` apart at the end of the motion. The
+    /// kinds are face and vertex, edge and edge, edge and vertex, or vertex and vertex, in either order. Pairs with a
+    /// common vertex and pairs ruled out by patches are left out. The radius does not matter. Errors: also
+    /// INVALID_ARGUMENT (other kinds; a negative, infinite or NaN distance).
+    pub fn vox_surface_find_proximities(
+        surface: *mut vox_surface,
+        a: vox_feature,
+        b: vox_feature,
+        distance: f64,
+        out_view: *mut vox_proximity_view,
+    ) -> vox_result;
+    /// Finds a distance for each vertex, at most max_distance, such that nothing new touches while no vertex moves
+    /// further than its distance from the end of the motion (Chen et al. 2025, Offset Geometric Contact, Sect. 3.3).
+    /// Pairs with a common vertex and pairs ruled out by patches do not count. out_distances has room for one number
+    /// per vertex. Errors: also INVALID_ARGUMENT (max_distance is not a finite number above 0).
+    pub fn vox_surface_find_clearances(
+        surface: *mut vox_surface,
+        max_distance: f64,
+        out_distances: *mut f64,
+    ) -> vox_result;
+    /// Finds the earliest time at which a face and a vertex, or two edges, may meet. Pairs that touch at time 0 give 0.
+    /// Pairs with a common vertex and pairs ruled out by patches are left out.
+    pub fn vox_surface_find_safe_step(
+        surface: *mut vox_surface,
+        desc: *const vox_impact_desc,
+        out: *mut vox_safe_step,
+    ) -> vox_result;
+    /// Finds all pairs of FACE and VERTEX, or of EDGE and EDGE, that may meet during the motion. Pairs with a common
+    /// vertex and pairs ruled out by patches are left out. All other pairs provably stay apart. Errors: also
+    /// INVALID_ARGUMENT (other kinds).
+    pub fn vox_surface_find_impacts(
+        surface: *mut vox_surface,
+        a: vox_feature,
+        b: vox_feature,
+        desc: *const vox_impact_desc,
+        out_view: *mut vox_impact_view,
+    ) -> vox_result;
+    /// Sets vox_surface_desc.cell_size for the following calls. Errors: INVALID_ARGUMENT (negative, infinite, NaN).
     pub fn vox_surface_set_cell_size(surface: *mut vox_surface, cell_size: f64) -> vox_result;
-    /// The cell size that minimises the cost of finding the pairs of kind `a` with kind `b` for the motion that is set.
-    /// The grid holds the boxes of tiles (at most 64 neighbouring features each) of kind b in all cells that they meet,
-    /// and is asked by those of kind a: described as a vox_foreign_grid, with weights of its own
-    /// (docs/surface-pairs.md). Set out->struct_size first. Errors: INVALID_ARGUMENT (also where there are no such
-    /// features, or the radius is so large that boxes have no ends), INVALID_STATE (no positions yet), BUDGET,
-    /// OUT_OF_MEMORY.
+    /// Suggests the cell size with the least cost for finding the pairs of kinds a and b. Set out->struct_size first.
+    /// Errors: also INVALID_ARGUMENT (no such features, an infinite radius).
     pub fn vox_surface_suggest_cell_size(
         surface: *mut vox_surface,
         a: vox_feature,
         b: vox_feature,
         out: *mut vox_foreign_suggestion,
     ) -> vox_result;
-    /// Writes the fields that out_counters->struct_size covers (set it first).
+    /// Gets counts of the last search and the bytes held (docs/surface-pairs.md lists them). They live until the next
+    /// call that uses the surface.
     pub fn vox_surface_get_counters(
         surface: *const vox_surface,
-        out_counters: *mut vox_pair_counters,
-    ) -> vox_result;
-    /// All edges and faces that have a point in common and no vertex, at the end of the motion: whether the surface is
-    /// free of intersections, and where it is not. Decided exactly. Patches rule out pairs as for
-    /// vox_surface_find_pairs; the radius does not count. Set out_view->struct_size first. The view lives until the
-    /// next vox_surface_find_crossings or vox_surface_move, or the end of the surface. Errors: INVALID_STATE (no
-    /// positions yet), BUDGET, OUT_OF_MEMORY.
-    pub fn vox_surface_find_crossings(
-        surface: *mut vox_surface,
-        out_view: *mut vox_crossing_view,
-    ) -> vox_result;
-    /// All pairs of features of kinds a and b that are at most `distance` apart, at the end of the motion: face and
-    /// vertex, edge and edge, edge and vertex, vertex and vertex, in either order. Which pairs are left out is as for
-    /// vox_surface_find_pairs; the radius does not count. Set out_view->struct_size first. The view lives until the
-    /// next vox_surface_find_proximities or vox_surface_move, or the end of the surface. While it grows, it may take
-    /// more than twice the bytes that it has in the end. Errors: INVALID_ARGUMENT (other kinds; a distance that is
-    /// negative, infinite or NaN), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
-    pub fn vox_surface_find_proximities(
-        surface: *mut vox_surface,
-        a: vox_feature,
-        b: vox_feature,
-        distance: f64,
-        out_view: *mut vox_close_view,
-    ) -> vox_result;
-    /// For each vertex a distance, at most `most`: while no vertex has moved further than its own, from the end of the
-    /// motion, no face and vertex and no two edges touch that do not touch now (Chen et al. 2025, Offset Geometric
-    /// Contact, Sect. 3.3). It is half of the least distance of such pairs that the vertex is part of, rounded
-    /// downwards. Pairs with a vertex in common, and those that patches rule out, do not count, and may touch.
-    /// vertex_count must be that of the surface. Errors: INVALID_ARGUMENT (another vertex_count; `most` is not above 0,
-    /// or not finite), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
-    pub fn vox_surface_find_clearances(
-        surface: *mut vox_surface,
-        most: f64,
-        per_vertex: *mut f64,
-        vertex_count: u64,
-    ) -> vox_result;
-    /// How much of the motion is free of contact: the least time of first contact of all pairs of faces and vertices,
-    /// and of edges and edges. Never later than the exact time. Pairs that touch at time 0 give the step 0. Pairs are
-    /// left out as for vox_surface_find_pairs. desc null: defaults. Set out->struct_size first. Errors:
-    /// INVALID_ARGUMENT, INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
-    pub fn vox_surface_find_safe_step(
-        surface: *mut vox_surface,
-        desc: *const vox_contact_time_desc,
-        out: *mut vox_safe_step,
-    ) -> vox_result;
-    /// All pairs of FACE and VERTEX, or of EDGE and EDGE, that may come into contact within the motion, each with its
-    /// time; pairs that are left out are proven to stay apart. desc null: defaults. Set out_view->struct_size first.
-    /// The view lives until the next vox_surface_find_impacts or vox_surface_move, or the end of the surface. Errors:
-    /// INVALID_ARGUMENT (also for other kinds), INVALID_STATE (no positions yet), BUDGET, OUT_OF_MEMORY.
-    pub fn vox_surface_find_impacts(
-        surface: *mut vox_surface,
-        a: vox_feature,
-        b: vox_feature,
-        desc: *const vox_contact_time_desc,
-        out_view: *mut vox_timed_view,
+        out_view: *mut vox_counter_view,
     ) -> vox_result;
 }
 
@@ -2988,10 +2412,10 @@ extern "C" {
     pub fn vox_sim_create(desc: *const vox_sim_desc, out_sim: *mut *mut vox_sim) -> vox_result;
     /// Destroys a simulation with its bodies and its grid. All views become invalid. Null does nothing.
     pub fn vox_sim_destroy(sim: *mut vox_sim);
-    /// The grid inside, for reading the contacts and penetrations of the last detection, counters and profile, and for
-    /// setting the cell size and the number of workers. It borrows the bodies' positions and belongs to the sim: do not
-    /// destroy it. Contacts with other meshes inserted into it are found, but the sim does not respond to them. A body
-    /// whose mesh was removed there moves on without contacts. Do not cut the mesh of a body there, move it or bind it
+    /// The grid inside, for reading the contacts and constraints of the last detection and counters, and for setting
+    /// the cell size and the number of workers. It borrows the bodies' positions and belongs to the sim: do not destroy
+    /// it. Contacts with other meshes inserted into it are found, but the sim does not respond to them. A body whose
+    /// mesh was removed there moves on without contacts. Do not cut the mesh of a body there, move it or bind it
     /// elsewhere: vox_sim_step fails once a contact does not fit the body.
     pub fn vox_sim_get_grid(sim: *const vox_sim, out_grid: *mut *mut vox_grid) -> vox_result;
     /// Moves everything forward by `time_step`, or by max_time_step if that is less. Errors: INVALID_ARGUMENT (not a
@@ -3039,8 +2463,9 @@ extern "C" {
         body: vox_body,
         out_energies: *mut vox_sim_energies,
     ) -> vox_result;
-    /// Writes the fields that out_counts->struct_size covers (set it first).
-    pub fn vox_sim_get_counters(sim: *const vox_sim, out_counts: *mut vox_sim_counts) -> vox_result;
+    /// Gets sizes, totals and times (docs/sim.md lists them). They live until the next call that changes the
+    /// simulation.
+    pub fn vox_sim_get_counters(sim: *const vox_sim, out_view: *mut vox_counter_view) -> vox_result;
 }
 
 // Of each struct size, alignment, and offsets of its fields: [on 64-bit machines, in WebAssembly and on other 32-bit
@@ -3065,72 +2490,41 @@ macro_rules! layouts {
 layouts! {
     vox_positions: size [40, 40], alignment [8, 8], { data: [0, 0], count: [8, 8], format: [16, 16], reserved: [20, 20],
         byte_stride: [24, 24], component_byte_stride: [32, 32] }
-    vox_grid_desc: size [80, 64], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], worker_count: [8, 8],
-        reserved: [12, 12], cell_size: [16, 16], margin: [24, 24], byte_budget: [32, 32], closest_budget: [40, 40],
-        allocator: [48, 48], log: [56, 52], tasks: [64, 56], reference: [72, 60] }
-    vox_grid_info: size [88, 88], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], epoch: [8, 8],
-        cell_size: [16, 16], margin: [24, 24], bytes: [32, 32], peak_bytes: [40, 40], step_ns: [48, 48],
-        moved_bodies: [56, 56], skipped_bodies: [64, 64], total_began: [72, 72], total_ended: [80, 80] }
+    vox_grid_desc: size [72, 56], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], worker_count: [8, 8],
+        reserved: [12, 12], cell_size: [16, 16], margin: [24, 24], byte_budget: [32, 32], allocator: [40, 40],
+        log: [48, 44], tasks: [56, 48], reference: [64, 52] }
     vox_filter: size [40, 40], alignment [8, 8], { flags: [0, 0], group: [4, 4], category: [8, 8], mask: [16, 16],
         world: [24, 24], self_rings: [28, 28], self_rest_distance: [32, 32] }
     vox_mesh_desc: size [152, 152], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], positions: [8, 8],
         tets: [48, 48], tet_count: [56, 56], user_data: [64, 64], filter: [72, 72], rest_positions: [112, 112] }
-    vox_body_info: size [224, 224], alignment [8, 8], { struct_size: [0, 0], slot: [4, 4], user_data: [8, 8],
-        tet_count: [16, 16], enabled_tet_count: [24, 24], enabled: [32, 32], flags: [36, 36], has_transform: [40, 40],
-        reserved: [44, 44], positions: [48, 48], transform: [88, 88], filter: [184, 184] }
+    vox_contact: size [16, 16], alignment [4, 4], { body_a: [0, 0], vertex: [4, 4], body_b: [8, 8], tet: [12, 12] }
+    vox_contact_view: size [24, 24], alignment [8, 8], { data: [0, 0], count: [8, 8], interiors: [16, 16] }
+    vox_pair: size [48, 48], alignment [8, 8], { body_a: [0, 0], body_b: [4, 4], user_data_a: [8, 8],
+        user_data_b: [16, 16], state: [24, 24], reserved: [28, 28], first_contact: [32, 32], contact_count: [40, 40] }
+    vox_pair_view: size [24, 24], alignment [8, 8], { data: [0, 0], count: [8, 8], contacts: [16, 16] }
+    vox_constraint: size [192, 192], alignment [8, 8], { body_a: [0, 0], body_b: [4, 4], kind: [8, 8], state: [12, 12],
+        count_a: [16, 16], count: [20, 20], vertices: [24, 24], element_b: [44, 44], weights: [48, 48],
+        normal: [88, 88], gap: [112, 112], offset: [120, 120], position: [128, 128], time: [152, 152],
+        user_data_a: [160, 160], user_data_b: [168, 168], pair: [176, 176], previous: [180, 180], reserved: [184, 184] }
+    vox_constraint_desc: size [32, 32], alignment [8, 8], { struct_size: [0, 0], method: [4, 4], body_a: [8, 8],
+        body_b: [12, 12], mask: [16, 16], closest_budget: [24, 24] }
+    vox_constraint_view: size [32, 32], alignment [8, 8], { data: [0, 0], count: [8, 8], pair_offsets: [16, 16],
+        pair_count: [24, 24] }
+    vox_body_info: size [216, 216], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], user_data: [8, 8],
+        enabled: [16, 16], flags: [20, 20], tet_count: [24, 24], enabled_tet_count: [32, 32], positions: [40, 40],
+        filter: [80, 80], transform: [120, 120] }
+    vox_grid_info: size [88, 88], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], epoch: [8, 8],
+        cell_size: [16, 16], margin: [24, 24], bytes: [32, 32], peak_bytes: [40, 40], step_ns: [48, 48],
+        moved_bodies: [56, 56], skipped_bodies: [64, 64], total_began: [72, 72], total_ended: [80, 80] }
+    vox_counter: size [16, 16], alignment [8, 8], { name: [0, 0], value: [8, 8] }
+    vox_counter_view: size [16, 16], alignment [8, 8], { data: [0, 0], count: [8, 8] }
+    vox_failure: size [48, 48], alignment [8, 8], { struct_size: [0, 0], result: [4, 4], body: [8, 8], vertex: [12, 12],
+        user_data: [16, 16], position: [24, 24] }
     vox_vertices_desc: size [104, 104], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], count: [8, 8],
         positions: [16, 16], copies_of: [56, 56], rest_positions: [64, 64] }
-    vox_failure: size [56, 56], alignment [8, 8], { struct_size: [0, 0], result: [4, 4], mesh: [8, 8], slot: [12, 12],
-        user_data: [16, 16], vertex: [24, 24], reserved: [28, 28], position: [32, 32] }
-    vox_contact: size [32, 32], alignment [4, 4], { body_a: [0, 0], vertex: [4, 4], body_b: [8, 8], tet: [12, 12],
-        barycentric: [16, 16] }
-    vox_contact_view: size [40, 32], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
-        epoch: [24, 16], interiors: [32, 24] }
-    vox_penetration: size [40, 40], alignment [8, 8], { body_a: [0, 0], vertex: [4, 4], body_b: [8, 8], state: [12, 12],
-        contact: [16, 16], depth: [24, 24], direction: [28, 28] }
-    vox_penetration_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
-        epoch: [24, 16] }
-    vox_depth: size [32, 32], alignment [8, 8], { depth: [0, 0], direction: [8, 8] }
-    vox_depth_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
-        epoch: [24, 16] }
-    vox_edge_contact: size [128, 128], alignment [8, 8], { body_a: [0, 0], edge: [4, 4], body_b: [12, 12],
-        face: [16, 16], tet: [28, 28], kind: [32, 32], reserved: [36, 36], edge_weights: [40, 40],
-        face_weights: [56, 56], position: [80, 80], normal: [104, 104] }
-    vox_edge_contact_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
-        epoch: [24, 16] }
-    vox_margin_contact: size [88, 88], alignment [8, 8], { body_a: [0, 0], vertex: [4, 4], body_b: [8, 8],
-        tet: [12, 12], facet: [16, 16], face: [20, 20], face_weights: [32, 32], distance: [56, 56], normal: [64, 64] }
-    vox_margin_contact_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
-        epoch: [24, 16] }
-    vox_passage: size [40, 40], alignment [8, 8], { body_a: [0, 0], vertex: [4, 4], body_b: [8, 8], tet: [12, 12],
-        facet: [16, 16], face: [20, 20], time: [32, 32] }
-    vox_passage_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
-        epoch: [24, 16] }
-    vox_pair: size [48, 48], alignment [8, 8], { body_a: [0, 0], body_b: [4, 4], user_data_a: [8, 8],
-        user_data_b: [16, 16], first: [24, 24], a_in_b: [32, 32], b_in_a: [40, 40] }
-    vox_pair_view: size [40, 32], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
-        epoch: [24, 16], contacts: [32, 24] }
-    vox_touch_event: size [32, 32], alignment [8, 8], { body_a: [0, 0], body_b: [4, 4], user_data_a: [8, 8],
-        user_data_b: [16, 16], kind: [24, 24], pair: [28, 28] }
-    vox_touch_view: size [56, 48], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
-        epoch: [24, 16], began: [32, 24], persisted: [40, 32], ended: [48, 40] }
-    vox_contact_event: size [16, 16], alignment [4, 4], { body_a: [0, 0], vertex: [4, 4], body_b: [8, 8],
-        kind: [12, 12] }
-    vox_contact_event_view: size [48, 40], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
-        epoch: [24, 16], began: [32, 24], ended: [40, 32] }
-    vox_reading: size [168, 168], alignment [8, 8], { contact: [0, 0], known: [8, 8], state: [12, 12], depth: [16, 16],
-        direction: [20, 20], position: [32, 32], distance: [56, 56], surface_position: [64, 64], barycentric: [88, 88],
-        normal: [112, 112], triangle: [136, 136], reserved: [148, 148], user_data_a: [152, 152],
-        user_data_b: [160, 160] }
-    vox_reading_view: size [32, 24], alignment [8, 8], { data: [0, 0], byte_stride: [8, 4], count: [16, 8],
-        epoch: [24, 16] }
-    vox_readings_desc: size [24, 24], alignment [8, 8], { struct_size: [0, 0], what: [4, 4], body_a: [8, 8],
-        body_b: [12, 12], closest_budget: [16, 16] }
     vox_allocator: size [24, 12], alignment [8, 4], { allocate: [0, 0], release: [8, 4], user: [16, 8] }
     vox_log: size [16, 8], alignment [8, 4], { write: [0, 0], user: [8, 4] }
     vox_task_system: size [24, 12], alignment [8, 4], { enqueue: [0, 0], finish: [8, 4], user: [16, 8] }
-    vox_counter: size [16, 16], alignment [8, 8], { name: [0, 0], value: [8, 8] }
-    vox_counter_view: size [16, 16], alignment [8, 8], { data: [0, 0], count: [8, 8] }
     vox_query_desc: size [32, 32], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], mask: [8, 8],
         excluded: [16, 16], reserved: [20, 20], max_distance: [24, 24] }
     vox_point_hit: size [48, 48], alignment [8, 8], { point: [0, 0], body: [4, 4], tet: [8, 8], reserved: [12, 12],
@@ -3195,30 +2589,23 @@ layouts! {
         vertex_count: [8, 8], edge_count: [16, 16], face_count: [24, 24], edges: [32, 32], faces: [40, 36],
         patches: [48, 40], patch_categories: [56, 44], patch_masks: [64, 48], patch_count: [72, 56],
         cell_size: [80, 64], byte_budget: [88, 72], allocator: [96, 80], tasks: [104, 84] }
-    vox_feature_view: size [24, 24], alignment [8, 8], { struct_size: [0, 0], vertices_each: [4, 4], count: [8, 8],
-        vertices: [16, 16] }
+    vox_feature_view: size [16, 16], alignment [8, 8], { vertices: [0, 0], count: [8, 8] }
     vox_motion: size [96, 96], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], from: [8, 8], to: [48, 48],
         radius: [88, 88] }
-    vox_pair_lists: size [48, 40], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], first: [8, 8],
-        count: [16, 16], pair_count: [24, 24], offsets: [32, 32], partners: [40, 36] }
-    vox_pair_counters: size [72, 72], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], cell_size: [8, 8],
-        cells: [16, 16], tile_pairs: [24, 24], boxes_compared: [32, 32], overlaps: [40, 40], culled: [48, 48],
-        bytes: [56, 56], peak_bytes: [64, 64] }
+    vox_partner_lists: size [32, 24], alignment [8, 8], { offsets: [0, 0], partners: [8, 4], first: [16, 8],
+        count: [24, 16] }
     vox_crossing: size [80, 80], alignment [8, 8], { edge: [0, 0], face: [4, 4], kind: [8, 8], reserved: [12, 12],
         edge_weights: [16, 16], face_weights: [32, 32], position: [56, 56] }
-    vox_crossing_view: size [24, 24], alignment [8, 8], { struct_size: [0, 0], byte_stride: [4, 4], count: [8, 8],
-        crossings: [16, 16] }
-    vox_close_pair: size [112, 112], alignment [8, 8], { a: [0, 0], b: [4, 4], distance: [8, 8], weights_a: [16, 16],
+    vox_crossing_view: size [16, 16], alignment [8, 8], { data: [0, 0], count: [8, 8] }
+    vox_proximity: size [112, 112], alignment [8, 8], { a: [0, 0], b: [4, 4], distance: [8, 8], weights_a: [16, 16],
         weights_b: [40, 40], point_a: [64, 64], point_b: [88, 88] }
-    vox_close_view: size [24, 24], alignment [8, 8], { struct_size: [0, 0], byte_stride: [4, 4], count: [8, 8],
-        pairs: [16, 16] }
-    vox_contact_time_desc: size [24, 24], alignment [8, 8], { struct_size: [0, 0], most_iterations: [4, 4],
-        distance: [8, 8], slack: [16, 16] }
-    vox_safe_step: size [48, 48], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], step: [8, 8],
-        pairs: [16, 16], unfinished: [24, 24], kind_a: [32, 32], kind_b: [36, 36], a: [40, 40], b: [44, 44] }
-    vox_timed_pair: size [16, 16], alignment [8, 8], { a: [0, 0], b: [4, 4], time: [8, 8] }
-    vox_timed_view: size [24, 24], alignment [8, 8], { struct_size: [0, 0], byte_stride: [4, 4], count: [8, 8],
-        pairs: [16, 16] }
+    vox_proximity_view: size [16, 16], alignment [8, 8], { data: [0, 0], count: [8, 8] }
+    vox_impact_desc: size [24, 24], alignment [8, 8], { struct_size: [0, 0], max_iterations: [4, 4], distance: [8, 8],
+        slack: [16, 16] }
+    vox_safe_step: size [40, 40], alignment [8, 8], { step: [0, 0], pairs: [8, 8], kind_a: [16, 16], kind_b: [20, 20],
+        a: [24, 24], b: [28, 28], unfinished: [32, 32], reserved: [36, 36] }
+    vox_impact: size [16, 16], alignment [8, 8], { a: [0, 0], b: [4, 4], time: [8, 8] }
+    vox_impact_view: size [16, 16], alignment [8, 8], { data: [0, 0], count: [8, 8] }
     vox_io_load_desc: size [40, 28], alignment [8, 4], { struct_size: [0, 0], format: [4, 4], mesh: [8, 8],
         reserved: [12, 12], allocator: [16, 16], progress: [24, 20], progress_user: [32, 24] }
     vox_io_source: size [24, 12], alignment [8, 4], { name: [0, 0], data: [8, 4], size: [16, 8] }
@@ -3255,9 +2642,4 @@ layouts! {
     vox_sim_energies: size [96, 96], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], kinetic: [8, 8],
         potential: [16, 16], elastic: [24, 24], mass: [32, 32], momentum: [40, 40], centre: [64, 64],
         max_speed: [88, 88] }
-    vox_sim_counts: size [144, 144], alignment [8, 8], { struct_size: [0, 0], bodies: [4, 4], vertices: [8, 8],
-        tets: [16, 16], edges: [24, 24], volumes: [32, 32], flat_tets: [40, 40], inverted_tets: [48, 48],
-        raised_masses: [56, 56], softened: [64, 64], steps: [72, 72], substeps: [80, 80], detections: [88, 88],
-        clamped_steps: [96, 96], penetrations: [104, 104], floor_contacts: [112, 112], step_ns: [120, 120],
-        detect_ns: [128, 128], solve_ns: [136, 136] }
 }

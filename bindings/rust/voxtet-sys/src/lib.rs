@@ -2,7 +2,7 @@
 //!
 //! Everything here is generated from the C headers, with their comments. Enumerations are integers: a later library may
 //! have more values of them. A struct with a `struct_size` begins as its size and zeros, which are the defaults, except for
-//! what `vox_default_X` of the C header sets: `VOX_GRID_PENETRATIONS` in a grid's `flags`, and fields in `vox_sim.h`.
+//! what `vox_default_X` of `vox_sim.h` sets.
 #![no_std]
 #![allow(non_camel_case_types)]
 

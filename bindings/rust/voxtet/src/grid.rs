@@ -1,4 +1,4 @@
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::ffi::CStr;
 use std::ptr::{null, null_mut, NonNull};
 use std::sync::atomic::Ordering;
@@ -10,10 +10,9 @@ use crate::callbacks::Callbacks;
 use crate::cell_size::{SuggestOptions, Suggestion};
 use crate::error::{check, sized};
 use crate::options::{grid_flags, weights_to_c, Scalar};
-use crate::view::{ContactEvents, TouchEvents};
 use crate::{
-    Contact, Contacts, Depth, Error, ErrorCode, Events, Filter, GridOptions, Locator, Mesh, MeshOptions, Pairs,
-    Penetration, Reading, Result, View,
+    Constraint, ConstraintOptions, Contact, Error, ErrorCode, Filter, GridOptions, Locator, Mesh, MeshOptions, Pair,
+    Result,
 };
 
 /// A grid as it is now, and what its last step did; `vox_grid_info` in vox.h.
@@ -36,8 +35,8 @@ pub struct MeshInfo {
     pub enabled: bool,
     /// Whether its positions are doubles.
     pub doubles: bool,
-    /// Its transform, if it has one: three rows of four.
-    pub transform: Option<[f64; 12]>,
+    /// Its transform: three rows of four.
+    pub transform: [f64; 12],
 }
 
 /// A set of meshes that collide. Its memory is returned when it is dropped.
@@ -54,7 +53,8 @@ pub struct MeshInfo {
 /// ```
 pub struct Grid {
     grid: NonNull<sys::vox_grid>,
-    callbacks: Arc<Callbacks>, // for C to call
+    callbacks: Arc<Callbacks>,              // for C to call
+    previous: HashMap<Mesh, Vec<[f64; 3]>>, // positions that C borrows
 }
 
 // SAFETY: vox.h: a grid belongs to no thread; different ones are independent; functions of a const grid may run on any
@@ -64,7 +64,7 @@ unsafe impl Sync for Grid {}
 
 impl Drop for Grid {
     fn drop(&mut self) {
-        // SAFETY: owned. The callbacks are dropped after it.
+        // SAFETY: owned. What it borrows is dropped after it.
         unsafe { sys::vox_grid_destroy(self.grid.as_ptr()) }
     }
 }
@@ -94,6 +94,16 @@ pub(crate) fn pointer<T>(slice: &[T]) -> *const T {
     } else {
         slice.as_ptr()
     }
+}
+
+/// An array of C.
+///
+/// SAFETY: null, or `count` elements that live and stay as they are for 'a.
+pub(crate) unsafe fn records<'a, T>(data: *const T, count: u64) -> &'a [T] {
+    if data.is_null() || count == 0 {
+        return &[];
+    }
+    unsafe { std::slice::from_raw_parts(data, count as usize) }
 }
 
 pub(crate) fn or_null<T>(value: &Option<T>) -> *const T {
@@ -144,8 +154,8 @@ impl Grid {
         Self::made(options, |desc, out| unsafe { sys::vox_grid_create(desc, out) })
     }
 
-    /// A grid from the bytes of [`Grid::save`], which need not be trusted. Of the options only log, tasks, workers, both
-    /// budgets and `reference` are used; without that, the engine is the one that was saved.
+    /// A grid from the bytes of [`Grid::save`], which need not be trusted. Of the options only log, tasks, workers,
+    /// margin, budget and `reference` are used; without that, the engine is the one that was saved.
     pub fn load(bytes: &[u8], options: GridOptions) -> Result<Self> {
         // SAFETY: as above; the bytes are checked.
         Self::made(options, |desc, out| unsafe {
@@ -164,11 +174,11 @@ impl Grid {
         let weights = options.reference.and_then(|reference| reference.weights).map(weights_to_c);
         let reference = options.reference.map(|reference| reference.to_c(&weights));
         let desc = sys::vox_grid_desc {
-            flags: grid_flags(options.penetrations, options.contact_events, options.skip_bad_bodies),
+            flags: grid_flags(options.constraints, options.edges, options.skip_bad_bodies),
             worker_count: callbacks.workers.load(Ordering::Relaxed),
             cell_size: options.cell_size,
             byte_budget: options.byte_budget,
-            closest_budget: options.closest_budget,
+            margin: options.margin,
             log: &log,
             tasks: &tasks,
             reference: or_null(&reference),
@@ -176,10 +186,11 @@ impl Grid {
         };
         let mut grid = null_mut();
         check(create(&desc, &mut grid))?;
-        Ok(Self { grid: NonNull::new(grid).expect("a grid"), callbacks })
+        Ok(Self { grid: NonNull::new(grid).expect("a grid"), callbacks, previous: HashMap::new() })
     }
 
-    /// The grid as bytes that are the same on every machine: settings, meshes, positions, state of the events.
+    /// The grid as bytes that are the same on every machine: settings, meshes, positions, and which pairs
+    /// touch.
     pub fn save(&self) -> Result<Vec<u8>> {
         let mut size = 0;
         // SAFETY: asks for the size, then has room for as much.
@@ -187,6 +198,16 @@ impl Grid {
         let mut bytes = vec![0u8; size as usize];
         check(unsafe { sys::vox_grid_save(self.get(), bytes.as_mut_ptr().cast(), size, &mut size) })?;
         Ok(bytes)
+    }
+
+    /// What a function that fills a view says. Reading a grid that lives cannot fail.
+    fn view<T>(&self, get: unsafe extern "C" fn(*const sys::vox_grid, *mut T) -> sys::vox_result) -> T {
+        // SAFETY: a view has pointers and numbers, each of which may be zero.
+        unsafe {
+            let mut view = std::mem::zeroed();
+            get(self.get(), &mut view);
+            view
+        }
     }
 
     fn get(&self) -> *const sys::vox_grid {
@@ -206,7 +227,9 @@ impl Grid {
     /// Removes all meshes and contacts and keeps the settings.
     pub fn clear(&mut self) -> Result<()> {
         // SAFETY: here and below, a grid that lives, and arrays that are as long as is said.
-        check(unsafe { sys::vox_grid_clear(self.get_mut()) })
+        check(unsafe { sys::vox_grid_clear(self.get_mut()) })?;
+        self.previous.clear();
+        Ok(())
     }
 
     /// Takes memory for that many meshes and contacts in advance.
@@ -231,9 +254,15 @@ impl Grid {
         Ok(())
     }
 
-    /// Whether the following steps find penetrations, report events of single vertices, and leave out bad meshes.
-    pub fn set_flags(&mut self, penetrations: bool, contact_events: bool, skip_bad_bodies: bool) -> Result<()> {
-        let flags = grid_flags(penetrations, contact_events, skip_bad_bodies);
+    /// Vertices outside another mesh, but no further from it than this, have constraints of kind
+    /// [`PROXIMITY`](crate::constraint_kind::PROXIMITY) from the next step on; 0: none. Experimental.
+    pub fn set_margin(&mut self, margin: f64) -> Result<()> {
+        check(unsafe { sys::vox_grid_set_margin(self.get_mut(), margin) })
+    }
+
+    /// Whether the following steps find constraints, find edges that pass through faces, and leave out bad meshes.
+    pub fn set_flags(&mut self, constraints: bool, edges: bool, skip_bad_bodies: bool) -> Result<()> {
+        let flags = grid_flags(constraints, edges, skip_bad_bodies);
         check(unsafe { sys::vox_grid_set_flags(self.get_mut(), flags) })
     }
 
@@ -241,7 +270,7 @@ impl Grid {
     pub fn flags(&self) -> (bool, bool, bool) {
         let flags = self.state().flags;
         let has = |flag| flags & flag != 0;
-        (has(sys::VOX_GRID_PENETRATIONS), has(sys::VOX_GRID_CONTACT_EVENTS), has(sys::VOX_GRID_SKIP_BAD_BODIES))
+        (has(sys::VOX_GRID_CONSTRAINTS), has(sys::VOX_GRID_EDGES), has(sys::VOX_GRID_SKIP_BAD_BODIES))
     }
 
     // ---- meshes ----
@@ -275,7 +304,9 @@ impl Grid {
 
     /// Removes a mesh. The contacts of the last step stay as they are until the next one.
     pub fn remove(&mut self, mesh: Mesh) -> Result<()> {
-        check(unsafe { sys::vox_body_remove(self.get_mut(), mesh.0) })
+        check(unsafe { sys::vox_body_remove(self.get_mut(), mesh.0) })?;
+        self.previous.remove(&mesh);
+        Ok(())
     }
 
     /// Whether `mesh` names a mesh of this grid.
@@ -308,7 +339,7 @@ impl Grid {
             enabled_tet_count: info.enabled_tet_count,
             enabled: info.enabled != 0,
             doubles: info.positions.format == sys::VOX_FORMAT_DOUBLE,
-            transform: (info.has_transform != 0).then_some(info.transform),
+            transform: info.transform,
         })
     }
 
@@ -336,11 +367,8 @@ impl Grid {
     pub fn positions<T: Scalar>(&self, mesh: Mesh) -> Result<&[[T; 3]]> {
         let info = self.info_of(mesh)?;
         check_format::<T>(&info)?;
-        if info.positions.data.is_null() || info.positions.count == 0 {
-            return Ok(&[]);
-        }
         // SAFETY: all meshes have positions of their own, one after the other, which only &mut self can change.
-        Ok(unsafe { std::slice::from_raw_parts(info.positions.data.cast(), info.positions.count as usize) })
+        Ok(unsafe { records(info.positions.data.cast(), info.positions.count) })
     }
 
     /// The positions of a mesh, to be written before a step, if they are of type `T`, that of the array given to
@@ -355,6 +383,22 @@ impl Grid {
         }
         // SAFETY: packed, and exclusively borrowed.
         Ok(unsafe { std::slice::from_raw_parts_mut(positions.cast(), info.positions.count as usize) })
+    }
+
+    /// The positions that the vertices of a mesh had before, copied. From there they move to their positions in the
+    /// following steps, which also find impacts. Set them before each step. Experimental.
+    pub fn set_previous_positions<T: Scalar>(&mut self, mesh: Mesh, positions: &[[T; 3]]) -> Result<()> {
+        let copy: Vec<[f64; 3]> = positions.iter().map(|p| p.map(T::into)).collect();
+        check(unsafe { sys::vox_mesh_bind_previous_positions(self.get_mut(), mesh.0, &positions_to_c(&copy)) })?;
+        self.previous.insert(mesh, copy); // what C borrowed before is dropped
+        Ok(())
+    }
+
+    /// The mesh stands still in the following steps.
+    pub fn end_previous_positions(&mut self, mesh: Mesh) -> Result<()> {
+        check(unsafe { sys::vox_mesh_bind_previous_positions(self.get_mut(), mesh.0, null()) })?;
+        self.previous.remove(&mesh);
+        Ok(())
     }
 
     /// Moves a mesh as a whole by an affine map, three rows of four; `None`: not at all.
@@ -474,96 +518,69 @@ impl Grid {
     }
 
     /// The contacts of the last step, in canonical order; none before the first and after a failed one.
-    pub fn contacts(&self) -> Contacts<'_> {
-        // SAFETY: here and below, the view lives until a change of the grid, which needs &mut self. Reading a grid
-        // that lives cannot fail.
-        unsafe {
-            let mut view: sys::vox_contact_view = std::mem::zeroed();
-            sys::vox_grid_get_contacts(self.get(), &mut view);
-            View::new(view.data, view.byte_stride, view.count)
-        }
+    pub fn contacts(&self) -> &[Contact] {
+        let view: sys::vox_contact_view = self.view(sys::vox_grid_get_contacts);
+        // SAFETY: here and below, they live until a change of the grid, which needs &mut self.
+        unsafe { records(view.data, view.count) }
     }
 
     /// For each contact 1 if the vertex is in the interior of the tetrahedron, 0 if on its boundary.
-    pub fn interiors(&self) -> View<'_, u8> {
+    pub fn interiors(&self) -> &[u8] {
+        let view: sys::vox_contact_view = self.view(sys::vox_grid_get_contacts);
+        unsafe { records(view.interiors, view.count) }
+    }
+
+    /// The pairs of meshes that touch, are within the margin, or ended in the last step, sorted. Who steps twice and
+    /// reads once misses what the first step began; [`total_began`](sys::vox_grid_info::total_began) of [`Grid::state`]
+    /// shows it.
+    pub fn pairs(&self) -> &[Pair] {
+        let view: sys::vox_pair_view = self.view(sys::vox_grid_get_pairs);
+        unsafe { records(view.data, view.count) }
+    }
+
+    /// Indices of the contacts, pair by pair: those of a pair begin at `first_contact`.
+    pub fn pair_contacts(&self) -> &[u32] {
+        let view: sys::vox_pair_view = self.view(sys::vox_grid_get_pairs);
+        unsafe { records(view.contacts, self.contacts().len() as u64) } // each is of one pair
+    }
+
+    /// Finds constraints of the last step. With `constraints` in the options every step does so itself.
+    pub fn find_constraints(&mut self, options: ConstraintOptions) -> Result<()> {
+        let desc = sys::vox_constraint_desc {
+            method: options.method as sys::vox_depth_method,
+            body_a: options.a.map_or(sys::VOX_NULL_BODY, Mesh::id),
+            body_b: options.b.map_or(sys::VOX_NULL_BODY, Mesh::id),
+            mask: options.mask,
+            closest_budget: options.closest_budget,
+            ..sized!(sys::vox_constraint_desc)
+        };
+        check(unsafe { sys::vox_grid_find_constraints(self.get_mut(), &desc) })
+    }
+
+    fn constraint_view(&self) -> Result<sys::vox_constraint_view> {
         unsafe {
-            let mut view: sys::vox_contact_view = std::mem::zeroed();
-            sys::vox_grid_get_contacts(self.get(), &mut view);
-            View::new(view.interiors, 1, view.count)
+            let mut view = std::mem::zeroed();
+            check(sys::vox_grid_get_constraints(self.get(), &mut view))?;
+            Ok(view)
         }
     }
 
-    /// How deep each vertex is in another mesh, and which way leads out. An error without penetrations in the options.
-    pub fn penetrations(&self) -> Result<View<'_, Penetration>> {
-        unsafe {
-            let mut view: sys::vox_penetration_view = std::mem::zeroed();
-            check(sys::vox_grid_penetrations(self.get(), &mut view))?;
-            Ok(View::new(view.data, view.byte_stride, view.count))
-        }
+    /// The constraints that were found last, pair by pair; an error if none were looked for since the last step.
+    pub fn constraints(&self) -> Result<&[Constraint]> {
+        let view = self.constraint_view()?;
+        Ok(unsafe { records(view.data, view.count) })
     }
 
-    /// Depths and directions of the penetrations in double.
-    pub fn depths(&self) -> Result<View<'_, Depth>> {
-        unsafe {
-            let mut view: sys::vox_depth_view = std::mem::zeroed();
-            check(sys::vox_grid_depths(self.get(), &mut view))?;
-            Ok(View::new(view.data, view.byte_stride, view.count))
-        }
+    /// The constraints of `pairs()[p]` are those from element `p` on, and before element `p + 1`.
+    pub fn pair_offsets(&self) -> Result<&[u64]> {
+        let view = self.constraint_view()?;
+        Ok(unsafe { records(view.pair_offsets, view.pair_count + 1) })
     }
 
-    /// The pairs of meshes that touched in the last step.
-    pub fn pairs(&self) -> Pairs<'_> {
-        let contacts = self.contacts().len();
-        unsafe {
-            let mut view: sys::vox_pair_view = std::mem::zeroed();
-            sys::vox_grid_get_pairs(self.get(), &mut view);
-            let indices = if view.count == 0 { 0 } else { contacts };
-            Pairs {
-                pairs: View::new(view.data, view.byte_stride, view.count),
-                contacts: View::new(view.contacts, std::mem::size_of::<u32>(), indices as u64),
-            }
-        }
-    }
-
-    /// Pairs that began, persisted and ended in the last step. Who steps twice and reads once loses those of the first
-    /// step; [`total_began`](sys::vox_grid_info::total_began) of [`Grid::state`] shows it.
-    pub fn touch_events(&self) -> TouchEvents<'_> {
-        unsafe {
-            let mut view: sys::vox_touch_view = std::mem::zeroed();
-            sys::vox_grid_touch_events(self.get(), &mut view);
-            Events {
-                all: View::new(view.data, view.byte_stride, view.count),
-                began: view.began as usize,
-                persisted: view.persisted as usize,
-            }
-        }
-    }
-
-    /// Vertices that entered or left a mesh in the last step. An error without contact events in the options.
-    pub fn contact_events(&self) -> Result<ContactEvents<'_>> {
-        unsafe {
-            let mut view: sys::vox_contact_event_view = std::mem::zeroed();
-            check(sys::vox_grid_contact_events(self.get(), &mut view))?;
-            Ok(Events {
-                all: View::new(view.data, view.byte_stride, view.count),
-                began: view.began as usize,
-                persisted: 0,
-            })
-        }
-    }
-
-    /// The contacts in which a mesh takes part, copied.
-    pub fn contacts_of(&self, mesh: Mesh) -> Result<Vec<Contact>> {
-        copy_all(|contacts, capacity, count| unsafe {
-            sys::vox_mesh_copy_contacts(self.get(), mesh.0, contacts, capacity, count)
-        })
-    }
-
-    /// The contacts between two meshes, copied.
-    pub fn contacts_between(&self, a: Mesh, b: Mesh) -> Result<Vec<Contact>> {
-        copy_all(|contacts, capacity, count| unsafe {
-            sys::vox_pair_copy_contacts(self.get(), a.0, b.0, contacts, capacity, count)
-        })
+    /// The constraints of `pairs()[pair]`. It panics if there are not so many pairs.
+    pub fn constraints_of(&self, pair: usize) -> Result<&[Constraint]> {
+        let offsets = self.pair_offsets()?;
+        Ok(&self.constraints()?[offsets[pair] as usize..offsets[pair + 1] as usize])
     }
 
     /// A hash of the contacts: the same on every machine and in every language.
@@ -584,7 +601,7 @@ impl Grid {
         loop {
             let mut failure = sized!(Failure);
             unsafe { sys::vox_grid_get_failure(self.get(), all.len() as u32, &mut failure) };
-            if failure.mesh == sys::VOX_NULL_BODY {
+            if failure.body == sys::VOX_NULL_BODY {
                 return all;
             }
             all.push(failure);
@@ -600,67 +617,9 @@ impl Grid {
 
     /// What the last step did, and how long each stage of it took; `vox_grid_get_counters` in vox.h.
     pub fn counters(&self) -> BTreeMap<&'static str, u64> {
-        unsafe {
-            let mut view: sys::vox_counter_view = std::mem::zeroed();
-            sys::vox_grid_get_counters(self.get(), &mut view);
-            let counters = View::new(view.data, std::mem::size_of::<sys::vox_counter>(), view.count);
-            counters.iter().map(|c| (CStr::from_ptr(c.name).to_str().unwrap_or_default(), c.value)).collect()
-        }
-    }
-
-    // ---- readings ----
-
-    /// Computes position, closest surface and depth of the contacts of the last step, or the parts of it in `what`
-    /// ([`reading`](crate::reading); 0: all).
-    pub fn prepare_readings(&mut self, what: u32) -> Result<()> {
-        self.prepare_some_readings(what, None, None)
-    }
-
-    /// The same for the contacts of one mesh, or of a mesh with another.
-    pub fn prepare_readings_of(&mut self, what: u32, mesh: Mesh, other: Option<Mesh>) -> Result<()> {
-        self.prepare_some_readings(what, Some(mesh), other)
-    }
-
-    fn prepare_some_readings(&mut self, what: u32, mesh: Option<Mesh>, other: Option<Mesh>) -> Result<()> {
-        let desc = sys::vox_readings_desc {
-            what,
-            body_a: mesh.map_or(sys::VOX_NULL_BODY, Mesh::id),
-            body_b: other.map_or(sys::VOX_NULL_BODY, Mesh::id),
-            ..sized!(sys::vox_readings_desc)
-        };
-        check(unsafe { sys::vox_grid_prepare_readings_of(self.get_mut(), &desc) })
-    }
-
-    /// The readings prepared since the last step.
-    pub fn readings(&self) -> Result<View<'_, Reading>> {
-        unsafe {
-            let mut view: sys::vox_reading_view = std::mem::zeroed();
-            check(sys::vox_grid_readings(self.get(), &mut view))?;
-            Ok(View::new(view.data, view.byte_stride, view.count))
-        }
-    }
-
-    /// Their depths and directions in double.
-    pub fn reading_depths(&self) -> Result<View<'_, Depth>> {
-        unsafe {
-            let mut view: sys::vox_depth_view = std::mem::zeroed();
-            check(sys::vox_grid_reading_depths(self.get(), &mut view))?;
-            Ok(View::new(view.data, view.byte_stride, view.count))
-        }
-    }
-
-    /// The prepared readings of the contacts in which a mesh takes part, copied.
-    pub fn readings_of(&self, mesh: Mesh) -> Result<Vec<Reading>> {
-        copy_all(|readings, capacity, count| unsafe {
-            sys::vox_mesh_copy_readings(self.get(), mesh.0, readings, capacity, count)
-        })
-    }
-
-    /// The prepared readings of the contacts between two meshes, copied.
-    pub fn readings_between(&self, a: Mesh, b: Mesh) -> Result<Vec<Reading>> {
-        copy_all(|readings, capacity, count| unsafe {
-            sys::vox_pair_copy_readings(self.get(), a.0, b.0, readings, capacity, count)
-        })
+        let view: sys::vox_counter_view = self.view(sys::vox_grid_get_counters);
+        let name = |c: &sys::vox_counter| unsafe { CStr::from_ptr(c.name) }.to_str().unwrap_or_default();
+        unsafe { records(view.data, view.count) }.iter().map(|c| (name(c), c.value)).collect()
     }
 
     // ---- locators and suggestions ----
@@ -703,7 +662,7 @@ pub fn step_grids(grids: &mut [Grid], workers: u32) -> std::result::Result<(), (
     let mut results = vec![NOT_STEPPED; grids.len()];
     // SAFETY: exclusively borrowed, and therefore different, grids.
     let all = unsafe {
-        sys::vox_grids_step(pointer(&pointers), pointers.len() as u64, null(), workers, results.as_mut_ptr())
+        sys::vox_grids_step(pointer(&pointers), pointers.len() as u64, workers, null(), results.as_mut_ptr())
     };
     check(all).map_err(|error| {
         results.retain(|&result| result != NOT_STEPPED);

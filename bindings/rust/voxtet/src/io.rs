@@ -8,7 +8,7 @@ use std::ptr::{null, null_mut, NonNull};
 use voxtet_sys as sys;
 
 use crate::error::{check, sized, Error, ErrorCode};
-use crate::grid::pointer;
+use crate::grid::{pointer, records};
 use crate::Result;
 
 /// What was read, and what is odd about it; `vox_io_report` in vox_io.h.
@@ -67,16 +67,6 @@ fn c_path(path: &Path) -> Result<CString> {
         .ok_or_else(|| Error::new(ErrorCode::InvalidArgument, format!("{} is not UTF-8", path.display())))?;
     CString::new(text)
         .map_err(|_| Error::new(ErrorCode::InvalidArgument, format!("{text:?} has a zero character in it")))
-}
-
-/// `count` records of N numbers each.
-///
-/// SAFETY: an array of the library's, which lives for 'a.
-unsafe fn records<'a, T, const N: usize>(data: *const T, count: u64) -> &'a [[T; N]] {
-    if count == 0 {
-        return &[];
-    }
-    unsafe { std::slice::from_raw_parts(data.cast(), count as usize) }
 }
 
 impl MeshFile {
@@ -184,19 +174,19 @@ impl MeshFile {
     pub fn positions(&self) -> &[[f64; 3]] {
         let view = self.view();
         // SAFETY: here and below, they live as long as the mesh.
-        unsafe { records(view.positions, view.vertex_count) }
+        unsafe { records(view.positions.cast(), view.vertex_count) }
     }
 
     /// The tetrahedra.
     pub fn tets(&self) -> &[[u32; 4]] {
         let view = self.view();
-        unsafe { records(view.tets, view.tet_count) }
+        unsafe { records(view.tets.cast(), view.tet_count) }
     }
 
     /// The triangles of the file.
     pub fn triangles(&self) -> &[[u32; 3]] {
         let view = self.view();
-        unsafe { records(view.triangles, view.triangle_count) }
+        unsafe { records(view.triangles.cast(), view.triangle_count) }
     }
 
     /// What was read, and what is odd about it.

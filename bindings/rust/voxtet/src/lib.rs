@@ -10,7 +10,6 @@ mod grid;
 pub mod io;
 mod locator;
 mod options;
-mod view;
 
 pub use callbacks::{LogLevel, TaskSystem};
 pub use cell_size::{
@@ -23,29 +22,21 @@ pub use foreign::{
 };
 pub use grid::{step_grids, Failure, Grid, MeshInfo};
 pub use locator::{Locator, QueryOptions};
-pub use options::{Filter, GridOptions, Mesh, MeshOptions, Reference};
-pub use view::{Contacts, Events, Pairs, View};
+pub use options::{ConstraintOptions, DepthMethod, Filter, GridOptions, Mesh, MeshOptions, Reference};
 
 #[cfg(feature = "rayon")]
 pub use callbacks::RayonTasks;
 
 pub use voxtet_sys as sys;
-pub use voxtet_sys::VOX_ALL_CORES as ALL_CORES;
+pub use voxtet_sys::{VOX_ALL_CORES as ALL_CORES, VOX_NONE as NONE};
 
 /// A vertex inside a tetrahedron; see `vox_contact` in vox.h.
 pub type Contact = sys::vox_contact;
-/// How deep a vertex is and which way leads out. `state` is one of the constants in [`penetration_state`].
-pub type Penetration = sys::vox_penetration;
-/// Depth and direction in double.
-pub type Depth = sys::vox_depth;
-/// Two meshes that touch.
+/// Two meshes that touch, or touched in the step before. `state` is one of the constants in [`pair_state`].
 pub type Pair = sys::vox_pair;
-/// A pair of meshes began to touch, still does, or ended. `kind` is one of the constants in [`touch`].
-pub type TouchEvent = sys::vox_touch_event;
-/// A vertex entered or left a mesh.
-pub type ContactEvent = sys::vox_contact_event;
-/// Geometry of a contact: where the vertex is, the closest part of the surface, how deep it is.
-pub type Reading = sys::vox_reading;
+/// What a solver needs to keep two points apart; see `vox_constraint` in vox.h. `kind` is one of the constants in
+/// [`constraint_kind`], `state` of those in [`depth_state`], and `previous` is [`NONE`] if it is new.
+pub type Constraint = sys::vox_constraint;
 /// A tetrahedron that contains a point.
 pub type PointHit = sys::vox_point_hit;
 /// The closest point of a surface, with a normal and a sign.
@@ -63,32 +54,33 @@ pub type GridWork = sys::vox_grid_work;
 /// Nanoseconds of each piece of a grid's work.
 pub type GridWeights = sys::vox_grid_weights;
 
-/// Values of [`Penetration::state`].
-pub mod penetration_state {
+/// Values of [`Pair::state`].
+pub mod pair_state {
     pub use voxtet_sys::{
-        VOX_PENETRATION_COINCIDENT as COINCIDENT, VOX_PENETRATION_CROSSING as CROSSING,
-        VOX_PENETRATION_ENCLOSED as ENCLOSED, VOX_PENETRATION_PROPAGATED as PROPAGATED,
-        VOX_PENETRATION_SURFACE as SURFACE, VOX_PENETRATION_UNKNOWN as UNKNOWN,
+        VOX_PAIR_BEGAN as BEGAN, VOX_PAIR_ENDED as ENDED, VOX_PAIR_NEAR as NEAR, VOX_PAIR_PERSISTED as PERSISTED,
     };
 }
 
-/// Values of [`TouchEvent::kind`] and [`ContactEvent::kind`].
-pub mod touch {
-    pub use voxtet_sys::{VOX_TOUCH_BEGAN as BEGAN, VOX_TOUCH_ENDED as ENDED, VOX_TOUCH_PERSISTED as PERSISTED};
+/// Values of [`Constraint::kind`].
+pub mod constraint_kind {
+    pub use voxtet_sys::{
+        VOX_CONSTRAINT_EDGE as EDGE, VOX_CONSTRAINT_IMPACT as IMPACT, VOX_CONSTRAINT_INSIDE as INSIDE,
+        VOX_CONSTRAINT_PROXIMITY as PROXIMITY,
+    };
+}
+
+/// Values of [`Constraint::state`].
+pub mod depth_state {
+    pub use voxtet_sys::{
+        VOX_DEPTH_AMBIGUOUS as AMBIGUOUS, VOX_DEPTH_CLOSEST as CLOSEST, VOX_DEPTH_PLANE as PLANE,
+        VOX_DEPTH_PROPAGATED as PROPAGATED, VOX_DEPTH_SURFACE as SURFACE, VOX_DEPTH_TOUCHING as TOUCHING,
+        VOX_DEPTH_UNKNOWN as UNKNOWN,
+    };
 }
 
 /// Values of [`RayHit::side`].
 pub mod side {
     pub use voxtet_sys::{VOX_SIDE_ENTERS as ENTERS, VOX_SIDE_LEAVES as LEAVES, VOX_SIDE_NONE as NONE};
-}
-
-/// Parts of a [`Reading`], for [`Grid::prepare_readings`] and [`Reading::known`](sys::vox_reading::known).
-pub mod reading {
-    pub use voxtet_sys::{
-        VOX_READING_DEPTH as DEPTH, VOX_READING_POSITION as POSITION, VOX_READING_SURFACE as SURFACE,
-    };
-    /// All of them.
-    pub const ALL: u32 = POSITION | SURFACE | DEPTH;
 }
 
 /// What [`ForeignSuggestion::warnings`] combines; `vox_foreign_warnings` in vox.h explains each.

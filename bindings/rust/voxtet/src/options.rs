@@ -13,7 +13,7 @@ use crate::CostWeights;
 pub struct Mesh(pub(crate) u32);
 
 impl Mesh {
-    /// The number that contacts, pairs and events have in `body_a` and `body_b`.
+    /// The number that contacts, pairs and constraints have in `body_a` and `body_b`.
     pub fn id(self) -> u32 {
         self.0
     }
@@ -80,6 +80,7 @@ pub(crate) type LogFunction = Box<dyn Fn(LogLevel, &str) + Send + Sync>;
 
 /// Settings of a grid; `vox_grid_desc` in vox.h explains each. Fields that are not named have their defaults:
 /// `GridOptions { workers: 4, ..Default::default() }`.
+#[derive(Default)]
 pub struct GridOptions {
     /// The paper's engine instead of the fast one, and how it stores cells. Contacts do not depend on it.
     pub reference: Option<Reference>,
@@ -90,41 +91,51 @@ pub struct GridOptions {
     /// Threads of a step; 0: one; [`ALL_CORES`](crate::ALL_CORES): one per core. Not used with a task system, which says
     /// how many it has.
     pub workers: u32,
-    /// Whether a step finds penetrations.
-    pub penetrations: bool,
-    /// Whether it reports events of single vertices.
-    pub contact_events: bool,
+    /// See [`Grid::set_margin`](crate::Grid::set_margin).
+    pub margin: f64,
+    /// Whether every step finds constraints.
+    pub constraints: bool,
+    /// Whether it also finds edges that pass through faces. Experimental.
+    pub edges: bool,
     /// Whether meshes with NaN or infinite coordinates are left out of a step instead of failing it.
     pub skip_bad_bodies: bool,
-    /// Most searches for a closest point in a step; 0: no limit.
-    pub closest_budget: u64,
     /// Receives warnings and notes, a line each.
     pub log: Option<LogFunction>,
     /// Runs the tasks of a step instead of the built-in threads.
     pub tasks: Option<Arc<dyn TaskSystem>>,
 }
 
-impl Default for GridOptions {
-    fn default() -> Self {
-        Self {
-            reference: None,
-            cell_size: 0.0,
-            byte_budget: 0,
-            workers: 0,
-            penetrations: true,
-            contact_events: false,
-            skip_bad_bodies: false,
-            closest_budget: 0,
-            log: None,
-            tasks: None,
-        }
-    }
+pub(crate) fn grid_flags(constraints: bool, edges: bool, skip_bad_bodies: bool) -> u32 {
+    (u32::from(constraints) * sys::VOX_GRID_CONSTRAINTS)
+        | (u32::from(edges) * sys::VOX_GRID_EDGES)
+        | (u32::from(skip_bad_bodies) * sys::VOX_GRID_SKIP_BAD_BODIES)
 }
 
-pub(crate) fn grid_flags(penetrations: bool, contact_events: bool, skip_bad_bodies: bool) -> u32 {
-    (u32::from(penetrations) * sys::VOX_GRID_PENETRATIONS)
-        | (u32::from(contact_events) * sys::VOX_GRID_CONTACT_EVENTS)
-        | (u32::from(skip_bad_bodies) * sys::VOX_GRID_SKIP_BAD_BODIES)
+/// How the depth of a vertex in a mesh is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DepthMethod {
+    /// Smooth along the surface: for response.
+    #[default]
+    Consistent = sys::VOX_DEPTH_METHOD_CONSISTENT as isize,
+    /// To the closest point of the surface.
+    Closest = sys::VOX_DEPTH_METHOD_CLOSEST as isize,
+    /// Not at all.
+    None = sys::VOX_DEPTH_METHOD_NONE as isize,
+}
+
+/// Which constraints to find: by default all. `vox_constraint_desc` in vox.h explains each field.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ConstraintOptions {
+    /// How depths are found.
+    pub method: DepthMethod,
+    /// Only pairs of this mesh.
+    pub a: Option<Mesh>,
+    /// Only its pair with `a`.
+    pub b: Option<Mesh>,
+    /// Only pairs in which the category of a mesh has a bit in common with it; 0: all.
+    pub mask: u64,
+    /// Most searches for a closest point; 0: no limit.
+    pub closest_budget: u64,
 }
 
 /// What a mesh collides with; `vox_filter` in vox.h explains each field.
@@ -132,7 +143,7 @@ pub(crate) fn grid_flags(penetrations: bool, contact_events: bool, skip_bad_bodi
 pub struct Filter {
     /// Whether vertices of the mesh inside its own tetrahedra are contacts.
     pub self_collision: bool,
-    /// Whether the mesh has contacts, but no penetrations.
+    /// Whether the mesh has contacts and pairs, but no constraints.
     pub sensor: bool,
     /// Meshes with the same group other than 0 collide if it is positive, and do not if it is negative.
     pub group: i32,
@@ -167,7 +178,7 @@ impl Filter {
 /// Of a mesh, beside its arrays.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MeshOptions<'arrays, T> {
-    /// Any number of the caller's, which comes back with pairs, events and readings.
+    /// Any number of the caller's, which comes back with pairs and constraints.
     pub user_data: u64,
     /// What the mesh collides with.
     pub filter: Filter,
@@ -182,7 +193,7 @@ mod sealed {
 }
 
 /// Numbers that positions can be made of.
-pub trait Scalar: Copy + sealed::Sealed + 'static {
+pub trait Scalar: Copy + Into<f64> + sealed::Sealed + 'static {
     #[doc(hidden)]
     const FORMAT: sys::vox_format;
 }

@@ -58,8 +58,10 @@ fn errors() {
     assert_eq!(code(Grid::load(b"no snapshot", GridOptions::default())), ErrorCode::Format);
     assert_eq!(code(grid.positions::<f64>(mesh)), ErrorCode::InvalidArgument);
     assert_eq!(code(grid.positions_mut::<f64>(mesh)), ErrorCode::InvalidArgument);
-    assert_eq!(code(grid.readings()), ErrorCode::InvalidState);
-    assert_eq!(code(grid.contact_events()), ErrorCode::InvalidState);
+    assert_eq!(code(grid.constraints()), ErrorCode::InvalidState);
+    assert_eq!(code(grid.find_constraints(ConstraintOptions::default())), ErrorCode::InvalidState);
+    assert_eq!(code(grid.set_margin(-1.0)), ErrorCode::InvalidArgument);
+    assert_eq!(code(grid.set_previous_positions(mesh, &UNIT[..3])), ErrorCode::InvalidArgument);
     assert_eq!(code(grid.replace_tets(mesh, &[0], &[])), ErrorCode::InvalidArgument);
     assert_eq!(code(grid.remove_tets(mesh, &[1])), ErrorCode::InvalidArgument);
     let options = MeshOptions { rest_positions: Some(&UNIT[..3]), ..MeshOptions::default() };
@@ -69,7 +71,7 @@ fn errors() {
     let error = grid.step().unwrap_err();
     assert_eq!(error.code(), ErrorCode::NonFinite);
     assert!(error.to_string().contains("vertex 1"), "{error}");
-    assert_eq!(grid.failures()[0].mesh, mesh);
+    assert_eq!(grid.failures()[0].body, mesh);
     grid.positions_mut(mesh).unwrap()[1][2] = 0.0f32;
     grid.step().unwrap();
     assert!(grid.failures().is_empty());
@@ -91,9 +93,10 @@ fn empty_arrays() {
     assert_eq!(grid.positions_mut::<f32>(mesh).unwrap().len(), 0);
     assert!(grid.tets(mesh).unwrap().is_empty());
     grid.step().unwrap();
-    assert_eq!(grid.contacts().as_slice(), Some(&[][..]));
-    assert_eq!(grid.contacts().iter().count(), 0);
-    assert!(grid.pairs().is_empty());
+    assert!(grid.contacts().is_empty() && grid.pairs().is_empty());
+    grid.find_constraints(ConstraintOptions::default()).unwrap();
+    assert!(grid.constraints().unwrap().is_empty());
+    assert_eq!(grid.pair_offsets().unwrap(), [0]);
     let (locator, all) = (grid.locator().unwrap(), QueryOptions::default());
     assert!(locator.find_point_hits(&none, all).unwrap().is_empty());
     assert!(locator.find_closest(&none, all).unwrap().is_empty());
@@ -111,26 +114,80 @@ fn views() {
     grid.step().unwrap();
     let kept = grid.contacts().to_vec();
     assert!(kept.len() > 100);
-    assert_eq!(grid.contacts().get(kept.len()), None);
-    assert!(grid.contacts().iter().skip(3).eq(&kept[3..]));
-    let mut iter = grid.contacts().iter();
-    assert_eq!((iter.nth(2), iter.len()), (Some(&kept[2]), kept.len() - 3));
-    assert_eq!((iter.nth(usize::MAX), iter.len()), (None, 0));
-    assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| grid.contacts()[kept.len()])).is_err());
-    assert_eq!(grid.contacts_of(a).unwrap().len(), kept.len());
-    assert_eq!(grid.contacts_between(b, a).unwrap().len(), kept.len());
-    grid.prepare_readings_of(reading::POSITION | reading::DEPTH, a, Some(b)).unwrap();
-    assert_eq!(grid.readings_between(a, b).unwrap().len(), kept.len());
-    assert_eq!(grid.readings_of(b).unwrap().len(), grid.reading_depths().unwrap().len());
+    let pair = grid.pairs()[0];
+    assert_eq!((pair.state, pair.contact_count, pair.first_contact), (pair_state::BEGAN, kept.len() as u64, 0));
+    assert_eq!(grid.pair_contacts().len(), kept.len());
     for p in grid.positions_mut::<f32>(b).unwrap() {
         p[0] += 100.0;
     }
     grid.step().unwrap();
     assert!(grid.contacts().is_empty());
-    assert_eq!(grid.touch_events().ended().len(), 1);
+    assert_eq!(grid.pairs()[0].state, pair_state::ENDED);
     assert!(kept.iter().all(|contact| contact.body_a == a || contact.body_a == b));
     assert_eq!(grid.counters()["contacts"], 0);
     assert!(grid.counters()["step_ns"] > 0);
+}
+
+/// Each kind, where it is expected, and what it says of the positions.
+#[test]
+fn constraints() {
+    let options = GridOptions { constraints: true, edges: true, margin: 0.8, ..GridOptions::default() };
+    let (mut grid, a, b) = two_blocks(options);
+    grid.step().unwrap();
+    let mut kinds = [0; 4];
+    for c in grid.constraints().unwrap() {
+        kinds[c.kind as usize] += 1;
+        let at = [c.body_a, c.body_b].map(|id| grid.positions::<f32>(Mesh::from_id(id)).unwrap());
+        let along = |i: usize| {
+            let x = at[usize::from(i >= c.count_a as usize)][c.vertices[i] as usize].map(f64::from);
+            c.weights[i] * (0..3).map(|k| c.normal[k] * x[k]).sum::<f64>()
+        };
+        let gap = c.offset + (0..c.count as usize).map(along).sum::<f64>();
+        assert!((gap - c.gap).abs() < 1e-9, "{gap}, {c:?}");
+        assert!((c.gap >= 0.0) == (c.kind == constraint_kind::PROXIMITY) || c.gap == 0.0, "{c:?}");
+        assert_eq!(c.previous, NONE);
+    }
+    assert!(kinds[..3].iter().all(|&count| count > 0) && kinds[3] == 0, "{kinds:?}");
+    assert_eq!(grid.constraints_of(0).unwrap(), grid.constraints().unwrap());
+    let all = ConstraintOptions::default();
+    grid.find_constraints(ConstraintOptions { method: DepthMethod::None, a: Some(b), b: Some(a), ..all }).unwrap();
+    assert!(grid.constraints().unwrap().iter().any(|c| c.state == depth_state::UNKNOWN));
+    let nearest = ConstraintOptions { method: DepthMethod::Closest, closest_budget: 1, ..all };
+    grid.find_constraints(nearest).unwrap();
+    let searched = |c: &&Constraint| c.kind == constraint_kind::INSIDE && c.state != depth_state::UNKNOWN;
+    assert_eq!(grid.constraints().unwrap().iter().filter(searched).count(), 1);
+    grid.find_constraints(ConstraintOptions { mask: 2, ..all }).unwrap();
+    assert!(grid.constraints().unwrap().is_empty() && grid.constraints_of(0).unwrap().is_empty());
+    assert_eq!(code(grid.find_constraints(ConstraintOptions { b: Some(a), ..all })), ErrorCode::InvalidArgument);
+    grid.remove(b).unwrap();
+    assert_eq!(code(grid.find_constraints(all)), ErrorCode::InvalidState);
+}
+
+/// A vertex that went through a mesh within the step, until its mesh stands still.
+#[test]
+fn previous_positions() {
+    let mut grid = Grid::with_options(GridOptions { constraints: true, ..GridOptions::default() }).unwrap();
+    grid.add(&UNIT, &TET).unwrap();
+    let past = [[0.2f32, 0.2, -0.1]];
+    let point = grid.add(&past, &[]).unwrap();
+    grid.set_previous_positions(point, &[[0.2, 0.2, 3.0]]).unwrap();
+    for _ in 0..2 {
+        grid.step().unwrap();
+        assert_eq!(grid.constraints().unwrap()[0].kind, constraint_kind::IMPACT);
+        grid.set_previous_positions(point, &[[0.2f32, 0.2, 2.0]]).unwrap();
+    }
+    assert_eq!(code(grid.set_previous_positions(point, &UNIT)), ErrorCode::InvalidArgument);
+    grid.end_previous_positions(point).unwrap();
+    grid.step().unwrap();
+    assert!(grid.constraints().unwrap().is_empty());
+    grid.set_previous_positions(point, &past).unwrap();
+    grid.remove(point).unwrap();
+    grid.step().unwrap();
+    assert_eq!(code(grid.set_previous_positions(point, &past)), ErrorCode::InvalidHandle);
+    let point = grid.add(&past, &[]).unwrap();
+    grid.set_previous_positions(point, &past).unwrap();
+    grid.clear().unwrap();
+    grid.step().unwrap();
 }
 
 #[test]
@@ -319,7 +376,8 @@ fn filters() {
     grid.set_filter(b, Filter { sensor: true, self_collision: true, ..Filter::default() }).unwrap();
     assert!(of(&grid, b).sensor && of(&grid, b).self_collision);
     grid.step().unwrap();
-    assert!(!grid.contacts().is_empty() && grid.penetrations().unwrap().is_empty());
+    grid.find_constraints(ConstraintOptions::default()).unwrap();
+    assert!(!grid.contacts().is_empty() && grid.constraints().unwrap().is_empty());
     grid.set_filter(b, Filter { world: 7, ..Filter::default() }).unwrap();
     assert_eq!(of(&grid, b).world, 7);
     grid.step().unwrap();
@@ -350,8 +408,8 @@ fn the_reference_engine() {
 #[test]
 fn flags_go_with_a_snapshot() {
     let mut grid = Grid::new().unwrap();
-    assert_eq!(grid.flags(), (true, false, false));
-    for flags in [(false, true, false), (true, false, true), (false, false, false)] {
+    assert_eq!(grid.flags(), (false, false, false));
+    for flags in [(false, true, false), (true, false, true), (true, true, false)] {
         grid.set_flags(flags.0, flags.1, flags.2).unwrap();
         assert_eq!(grid.flags(), flags);
         let copy = Grid::load(&grid.save().unwrap(), GridOptions::default()).unwrap();
@@ -469,14 +527,14 @@ fn anything_goes() {
         let list: Vec<u32> = (0..random(4)).map(|_| random(1500) as u32).collect();
         let corners: Vec<[u32; 4]> = list.iter().map(|_| [0; 4].map(|_| random(345) as u32)).collect();
         let number = [0.0, 1.5, -2.0, 1e300, f64::NAN, f64::INFINITY][random(6) as usize];
-        let result = match random(18) {
+        let result = match random(20) {
             0 => grid.remove_tets(mesh, &list),
             1 => grid.set_tets_enabled(mesh, &list, random(2) == 0),
             2 => grid.replace_tets(mesh, &list, &corners),
             3 => grid.append_tets(mesh, &corners).map(drop),
             4 => grid.append_copies(mesh, &list).map(drop),
             5 => grid.remove_vertices(mesh, &list),
-            6 => grid.set_transform(mesh, Some(&[number; 12])),
+            6 => grid.set_transform(mesh, Some(&[1.0, 0.0, 0.0, number, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0])),
             7 => grid.set_transform(mesh, None),
             8 => grid.set_cell_size(number),
             9 => grid.set_pair_enabled(mesh, Mesh::from_id(random(9000) as u32), random(2) == 0),
@@ -493,7 +551,16 @@ fn anything_goes() {
                 grid.add(&positions, &tets).map(drop)
             }
             15 => grid.locator().and_then(|l| l.find_point_hits(&[[number; 3]], QueryOptions::default()).map(drop)),
-            16 => grid.prepare_readings(random(9) as u32).and_then(|()| grid.readings().map(drop)),
+            16 => {
+                let method = [DepthMethod::Consistent, DepthMethod::Closest, DepthMethod::None][random(3) as usize];
+                let a = (random(2) == 0).then_some(mesh);
+                grid.find_constraints(ConstraintOptions { method, a, ..ConstraintOptions::default() })
+            }
+            17 => {
+                let past = grid.positions::<f32>(mesh).map(<[_]>::to_vec).unwrap_or_default();
+                grid.set_previous_positions(mesh, &past[past.len().min(random(2) as usize)..])
+            }
+            18 => grid.set_margin(number / 100.0),
             _ => grid.step(),
         };
         match result {

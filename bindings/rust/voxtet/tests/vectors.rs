@@ -3,8 +3,9 @@
 use serde_json::Value;
 use std::path::PathBuf;
 use voxtet::{
-    suggest_cell_size, CellContent, CellLook, CostModel, Filter, ForeignGrid, Grid, GridOptions, GridWeights,
-    KnownGrid, Locator, Mesh, MeshArrays, MeshOptions, Primitives, QueryOptions, SuggestOptions, TuneOptions,
+    suggest_cell_size, CellContent, CellLook, ConstraintOptions, CostModel, DepthMethod, Filter, ForeignGrid, Grid,
+    GridOptions, GridWeights, KnownGrid, Locator, Mesh, MeshArrays, MeshOptions, Primitives, QueryOptions,
+    SuggestOptions, TuneOptions,
 };
 
 fn bytes_of<T: Copy>(items: &[T]) -> &[u8] {
@@ -88,8 +89,8 @@ impl Replay {
                 let flags = call["flags"].as_u64().unwrap();
                 self.grid = Grid::with_options(GridOptions {
                     cell_size: call["cell_size"].as_f64().unwrap(),
-                    penetrations: flags & 1 != 0,
-                    contact_events: flags & 2 != 0,
+                    constraints: flags & 1 != 0,
+                    edges: flags & 2 != 0,
                     ..GridOptions::default()
                 })?;
             }
@@ -117,9 +118,11 @@ impl Replay {
             }
             "step" => self.grid.step()?,
             "results" => self.results(call),
-            "readings" => {
-                self.grid.prepare_readings(voxtet::reading::ALL)?;
-                self.check(call, "readings", summary(self.grid.readings()?.as_slice().unwrap()));
+            "find_constraints" => {
+                let methods = [DepthMethod::Consistent, DepthMethod::Closest, DepthMethod::None];
+                let method = methods[call["method"].as_u64().unwrap() as usize];
+                self.grid.find_constraints(ConstraintOptions { method, ..ConstraintOptions::default() })?;
+                self.constraints(call);
             }
             "update_locator" => self.locator.update(&mut self.grid)?,
             "find_point_hits" => {
@@ -197,30 +200,20 @@ impl Replay {
         let grid = &self.grid;
         self.check(call, "hash", format!("{:016x}", grid.hash()).into());
         self.check(call, "epoch", grid.epoch().into());
-        self.check(call, "contacts", summary(grid.contacts().as_slice().unwrap()));
+        self.check(call, "contacts", summary(grid.contacts()));
         self.check(call, "interior", grid.interiors().iter().map(|&i| u64::from(i)).sum::<u64>().into());
-        let pairs = grid.pairs();
-        self.check(call, "pairs", summary(pairs.view().as_slice().unwrap()));
-        self.check(call, "pair_contacts", summary(pairs.contact_indices().as_slice().unwrap()));
-        assert_eq!(pairs.iter().map(|pair| pairs.contacts_of(pair).len()).sum::<usize>(), grid.contacts().len());
-        let touches = grid.touch_events();
-        self.check(call, "touches", summary(touches.all().as_slice().unwrap()));
-        let counts = [touches.began().len(), touches.persisted().len(), touches.ended().len()];
-        self.check(call, "touches_began_persisted_ended", counts.to_vec().into());
-        if call.get("penetrations").is_some() {
-            self.check(call, "penetrations", summary(grid.penetrations().unwrap().as_slice().unwrap()));
-            self.check(call, "depths", summary(grid.depths().unwrap().as_slice().unwrap()));
+        self.check(call, "pairs", summary(grid.pairs()));
+        self.check(call, "pair_contacts", summary(grid.pair_contacts()));
+        if call.get("constraints").is_some() {
+            self.constraints(call);
         } else {
-            assert!(grid.penetrations().is_err());
+            assert!(grid.constraints().is_err());
         }
-        if call.get("contact_events").is_some() {
-            let events = grid.contact_events().unwrap();
-            self.check(call, "contact_events", summary(events.all().as_slice().unwrap()));
-            let counts = vec![events.began().len(), events.ended().len()];
-            self.check(call, "contact_events_began_ended", counts.into());
-        } else {
-            assert!(grid.contact_events().is_err());
-        }
+    }
+
+    fn constraints(&self, call: &Value) {
+        self.check(call, "constraints", summary(self.grid.constraints().unwrap()));
+        self.check(call, "pair_offsets", summary(self.grid.pair_offsets().unwrap()));
     }
 
     fn meshes(&self, call: &Value) {

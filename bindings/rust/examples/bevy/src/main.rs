@@ -5,7 +5,7 @@ use bevy_app::{App, Plugin, PostUpdate, Update};
 use bevy_ecs::prelude::*;
 use bevy_math::Vec3;
 use bevy_transform::{prelude::*, TransformSystems};
-use voxtet::{Grid, Mesh, MeshOptions};
+use voxtet::{pair_state, Grid, GridOptions, Mesh, MeshOptions};
 
 /// Vertices in the frame of the entity, which a simulation may move, and tetrahedra over them.
 #[derive(Component)]
@@ -37,7 +37,8 @@ struct SoftBodyPlugin;
 
 impl Plugin for SoftBodyPlugin {
     fn build(&self, app: &mut App) {
-        let grid = Grid::new().expect("a grid with the default options");
+        let options = GridOptions { constraints: true, ..Default::default() };
+        let grid = Grid::with_options(options).expect("a grid that finds constraints");
         app.insert_resource(Contacts(grid))
             .add_message::<Touch>()
             .add_observer(insert)
@@ -85,19 +86,20 @@ fn step(mut grid: ResMut<Contacts>) -> Result {
 }
 
 fn report(grid: Res<Contacts>, mut touches: MessageWriter<Touch>, mut pushes: Query<&mut Push>) -> Result {
-    let events = grid.0.touch_events();
-    for (event, began) in events.began().map(|e| (e, true)).chain(events.ended().map(|e| (e, false))) {
-        let bodies = [event.user_data_a, event.user_data_b].map(Entity::from_bits);
-        touches.write(Touch { bodies, began });
+    for pair in grid.0.pairs() {
+        let bodies = [pair.user_data_a, pair.user_data_b].map(Entity::from_bits);
+        if [pair_state::BEGAN, pair_state::ENDED].contains(&pair.state) {
+            touches.write(Touch { bodies, began: pair.state == pair_state::BEGAN });
+        }
     }
     for mut push in &mut pushes {
         push.0 = Vec3::ZERO;
     }
-    for penetration in grid.0.penetrations()? {
-        let entity = Entity::from_bits(grid.0.user_data(Mesh::from_id(penetration.body_a))?);
-        let mut push = pushes.get_mut(entity)?;
-        if penetration.depth > push.0.length() {
-            push.0 = Vec3::from(penetration.direction) * penetration.depth;
+    for c in grid.0.constraints()? {
+        let mut push = pushes.get_mut(Entity::from_bits(c.user_data_a))?;
+        let way = Vec3::from(c.normal.map(|x| (x * -c.gap) as f32));
+        if way.length() > push.0.length() {
+            push.0 = way;
         }
     }
     Ok(())

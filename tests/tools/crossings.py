@@ -26,7 +26,7 @@ ALONG_X = ((-4, -1, -1), (4, 1, 1))
 ALONG_Y = ((-1, -4, 0.5), (1, 4, 2.5))
 
 
-class Edges(Files):
+class Crossings(Files):
     def test_free(self):
         bar, far = obj(ALONG_X), obj(ALONG_X, ((-1, -4, 3), (1, 4, 5)))
         for name, text in ("bar.obj", bar), ("far.obj", far):
@@ -117,26 +117,24 @@ class Edges(Files):
         second = self.write("y.msh", msh(corners(*ALONG_Y), CUBE))
         without = run_json("collide", first, second)
         self.assertEqual(without["contact_count"], 0)
-        self.assertNotIn("edge_contacts", without)
+        self.assertEqual(without["constraints"], [])
         found = run_json("collide", first, second, "--edges")
         self.assertEqual(found["contact_count"], 0)
-        edges = found["edge_contacts"]
+        edges = found["constraints"]
         self.assertEqual(found["counters"]["edge_contacts"], len(edges))
         self.assertGreater(len(edges), 3)
         up = 0
         for e in edges:
+            self.assertEqual((e["kind"], e["count_a"], len(e["vertices"])), ("edge", 2, 5))
             self.assertEqual(sorted((e["body_a"], e["body_b"])), [0, 1])
             self.assertTrue(0.5 <= e["position"][2] <= 1)
-            if e["kind"] == "through" and e["depth"] == 0.5:
-                self.assertAlmostEqual(e["direction"][2], 1 if e["body_a"] == 1 else -1)
+            if e["state"] == "closest" and e["gap"] == -0.5:
+                self.assertAlmostEqual(e["normal"][2], 1 if e["body_a"] == 1 else -1)
                 up += 1
         self.assertGreater(up, 1)
         text = run("collide", first, second, "--edges", "--limit", 1, "--no-depth").stdout
-        self.assertIn(b"\n%d edge contacts\n" % len(edges), text)
-        out = self.path("out.vtu")
-        self.assertEqual(run("collide", first, second, "--edges", "-o", out).returncode, 0)
-        with open(out, encoding="ascii") as file:
-            self.assertIn('"edge_contacts"', file.read())
+        self.assertIn(b"\n%d constraints: %d edge\n" % (len(edges), len(edges)), text)
+        self.assertIn(b"  and %d more" % (len(edges) - 1), text)
         # A saved grid has the flag.
         saved = self.path("saved.vox")
         self.assertEqual(run("collide", first, second, "--edges", "--save", saved).returncode, 0)

@@ -1,4 +1,4 @@
-/* Results: a failing call says why, with the numbers in it, and changes nothing. */
+/* Errors: a failing call says why, with the numbers in it, and changes nothing. */
 #include "example.h"
 
 int main(void) {
@@ -14,7 +14,7 @@ int main(void) {
 
     desc.positions.count = 8;
     must(vox_mesh_insert(grid, &desc, &mesh));
-    printf("mesh %u is in\n", (unsigned)mesh);
+    printf("body %u is in\n", (unsigned)mesh);
 
     must(vox_body_remove(grid, mesh));
     printf("%s: %s\n", vox_result_string(vox_body_remove(grid, mesh)), vox_last_error());

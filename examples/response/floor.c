@@ -1,5 +1,5 @@
 /* A floor is a mesh like any other: a slab of a few large tetrahedra that never moves. It is at rest, so that
- * a step reads its few positions and nothing else, and the depth stage pushes what is in it straight up. */
+ * a step reads its few positions and nothing else, and constraints push what is in it straight up. */
 #include "example.h"
 
 #define SIDE 20 /* cubes of the falling body along each axis: 40,000 tetrahedra */
@@ -18,8 +18,10 @@ static body make_slab(uint32_t n) {
 
 /* Steps while a body sinks through z = 0, on a floor of n * n * 5 tetrahedra; none for 0. */
 static void measure(uint32_t n) {
+    vox_grid_desc desc = vox_default_grid_desc();
+    desc.flags = VOX_GRID_CONSTRAINTS;
     vox_grid* grid = NULL;
-    must(vox_grid_create(NULL, &grid));
+    must(vox_grid_create(&desc, &grid));
     body box = make_box(SIDE, 0.05f, 0, 0, 0.01f), slab = make_slab(n > 0 ? n : 1);
     const vox_mesh_desc box_desc = body_desc(&box), slab_desc = body_desc(&slab);
     vox_body body_id, slab_id;
@@ -37,12 +39,12 @@ static void measure(uint32_t n) {
         if (info.step_ns < *least) *least = info.step_ns;
     }
     uint64_t inside = 0, straight_up = 0; /* vertices of the body in the floor */
-    vox_penetration_view found;
-    must(vox_grid_penetrations(grid, &found));
+    vox_constraint_view found;
+    must(vox_grid_get_constraints(grid, &found));
     for (uint64_t i = 0; i < found.count; ++i) {
         if (found.data[i].body_a != body_id) continue;
         ++inside;
-        straight_up += found.data[i].direction[2] > 0.999f;
+        straight_up += found.data[i].normal[2] > 0.999;
     }
     printf("floor of %5" PRIu64 " tets: %4.0f us a step in the air, %4.0f us on it; meshes moved: %" PRIu64
            ", vertices in the floor: %" PRIu64 ", pushed straight up: %" PRIu64 "\n",

@@ -1,0 +1,50 @@
+// The exact location and the barycentric coordinates of many points in tetrahedra, a block at a time.
+#pragma once
+
+#include "exact/predicates.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace vox {
+
+inline constexpr std::size_t point_block = 64;
+
+// Points and the four corners of their tetrahedra, as a structure of arrays.
+struct PointBlock {
+    alignas(64) double point[3][point_block];
+    alignas(64) double corner[4][3][point_block];
+};
+
+// corner_volumes() of each point of a block, with the same bits.
+struct VolumeBlock {
+    alignas(64) double volume[4][point_block], error[4][point_block];
+
+    std::array<BoundedVolume, 4> of(std::size_t i) const {
+        return {{{volume[0][i], error[0][i]},
+                 {volume[1][i], error[1][i]},
+                 {volume[2][i], error[2][i]},
+                 {volume[3][i], error[3][i]}}};
+    }
+};
+
+// Where points of a block are, a bit for each, with the meaning of locate_in_solid(). Points without a bit
+// need exact arithmetic.
+struct CertainLocations {
+    std::uint64_t outside = 0, interior = 0, boundary = 0;
+};
+
+// For the first `count` points; what there is of others is unspecified. Reads and writes whole registers.
+CertainLocations locate(const PointBlock& block, std::size_t count, VolumeBlock& volumes);
+
+// The weights of points, and what they miss each point by: the sum of weight * (corner - point).
+struct WeightBlock {
+    alignas(64) double weight[4][point_block], miss[3][point_block];
+};
+
+// barycentric() for the first `count` points, which are in their tetrahedra, with the same bits. Reads and
+// writes whole registers.
+void weigh(const PointBlock& block, std::size_t count, WeightBlock& out);
+
+} // namespace vox

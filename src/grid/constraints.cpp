@@ -1,0 +1,488 @@
+// Two passes over what the stages found: the first counts constraints by pair and kind, the second lists
+// where each comes from. Then each is written by itself.
+#include "grid/constraints.hpp"
+
+#include "base/parallel.hpp"
+#include "base/room.hpp"
+#include "base/vectors.hpp"
+#include "depth/closest.hpp"
+#include "exact/point_location.hpp"
+#include "exact/predicates.hpp"
+#include "mesh/filter.hpp"
+
+#include <hwy/cache_control.h>
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace vox {
+
+namespace {
+
+void write_vector(double (&out)[3], const Vec3d& v) noexcept {
+    out[0] = v.x + 0.0; // never -0
+    out[1] = v.y + 0.0;
+    out[2] = v.z + 0.0;
+}
+
+// Of a contact of any kind of a vertex, in their order.
+template <class Contact>
+auto place_of(const Contact& contact) noexcept {
+    return std::tuple(contact.body_a, contact.vertex, contact.body_b);
+}
+
+// The index of the pair of two bodies. Calls with the same bodies follow each other as a rule.
+class PairIndex {
+public:
+    explicit PairIndex(std::span<const vox_pair> pairs) noexcept : pairs_(pairs) {}
+
+    std::size_t operator()(vox_body a, vox_body b) noexcept {
+        const IdPair pair{std::min(a, b), std::max(a, b)};
+        if (pair != last_) {
+            last_ = pair;
+            index_ = static_cast<std::size_t>(std::ranges::lower_bound(pairs_, pair, {},
+                                                                       [](const vox_pair& p) {
+                                                                           return IdPair{p.body_a, p.body_b};
+                                                                       }) -
+                                              pairs_.begin());
+        }
+        return index_;
+    }
+
+private:
+    std::span<const vox_pair> pairs_;
+    IdPair last_{};
+    std::size_t index_ = 0;
+};
+
+std::uint32_t body_index(std::span<const Body> bodies, vox_body id) noexcept {
+    return static_cast<std::uint32_t>(std::ranges::lower_bound(bodies, id, {}, &Body::mesh_id) -
+                                      bodies.begin());
+}
+
+// When a vertex inside met the surface; 1 if that is not known.
+double time_of(std::span<const Passage> passages, vox_body a, std::uint32_t vertex, vox_body b) noexcept {
+    const std::tuple sought(a, vertex, b);
+    const auto at = std::ranges::lower_bound(passages, sought, {}, place_of<Passage>);
+    return at != passages.end() && place_of(*at) == sought ? at->time : 1;
+}
+
+// The closest triangle in place of the tetrahedron: corners, the lowest first and counter-clockwise as seen
+// from outside, and weights.
+void write_triangle(const depth::Solid& solid, std::uint32_t index, const Vec3d& p,
+                    vox_constraint& c) noexcept {
+    const Triangle& triangle = solid.topology->triangles[index];
+    std::size_t order[3] = {0, 1, 2}; // of its corners
+    const auto lowest = static_cast<std::size_t>(std::min_element(triangle.v, triangle.v + 3) - triangle.v);
+    std::rotate(order, order + lowest, order + 3);
+    const auto corner = [&](std::size_t i) { return solid.at(triangle.v[order[i]]); };
+    std::uint64_t exact_tests = 0;
+    int inside = orientation(corner(0), corner(1), corner(2), solid.at(triangle.apex), exact_tests);
+    if (inside == 0) inside = orientation(corner(0), corner(1), corner(2), p, exact_tests);
+    if (inside > 0 || (inside == 0 && triangle.v[order[1]] > triangle.v[order[2]]))
+        std::swap(order[1], order[2]);
+    const std::array<double, 3> weights = normalised(depth::closest_point(solid, index, p).at.weight);
+    const Vec3d normal = vector_of(c.normal);
+    double sum = dot(normal, p);
+    for (std::size_t i = 0; i < 3; ++i) {
+        c.vertices[1 + i] = triangle.v[order[i]];
+        c.weights[1 + i] = -weights[order[i]];
+        sum += c.weights[1 + i] * dot(normal, corner(i));
+    }
+    c.count = 4;
+    c.vertices[4] = 0;
+    c.weights[4] = 0;
+    c.offset = c.gap - sum;
+}
+
+} // namespace
+
+Constraints::Constraints(std::pmr::memory_resource* memory)
+    : constraints_(memory), pair_offsets_(memory), ranges_(memory), sources_(memory), place_(memory),
+      keys_(memory), last_ranges_(memory), last_keys_(memory) {}
+
+void Constraints::clear(bool all) noexcept {
+    found_ = false; // the list keeps its size, as setting it again would fill it with zeros
+    if (!all) return;
+    last_ranges_.pairs.clear();
+    last_ranges_.first.clear();
+    last_keys_.clear();
+}
+
+void Constraints::begin_step(bool last_succeeded) noexcept {
+    if (found_) {
+        keys_.swap(last_keys_);
+        std::swap(ranges_, last_ranges_);
+    }
+    clear(!found_ && last_succeeded);
+}
+
+Constraints::Key Constraints::key_of(const vox_constraint& c) noexcept {
+    Key key{c.body_a, {c.vertices[0], 0, 0, 0, 0}};
+    if (c.kind != VOX_CONSTRAINT_EDGE) return key;
+    std::copy(c.vertices, c.vertices + 5, key.vertices.begin());
+    std::sort(key.vertices.begin() + 2, key.vertices.end());
+    return key;
+}
+
+// With room for a few more, so that a few more in a later step allocate nothing.
+void Constraints::make_room(std::size_t count, std::size_t pairs) {
+    reserve_sparingly(constraints_, count);
+    reserve_sparingly(sources_, count);
+    for (Array<Key>* keys : {&keys_, &last_keys_}) reserve_sparingly(*keys, count);
+    reserve_growing(place_, kinds * pairs);
+    reserve_growing(pair_offsets_, pairs + 1);
+    for (Ranges* ranges : {&ranges_, &last_ranges_}) {
+        reserve_growing(ranges->pairs, pairs);
+        reserve_growing(ranges->first, kinds * pairs + 1);
+    }
+}
+
+void Constraints::reserve(std::size_t body_count, std::size_t contact_count) {
+    make_room(contact_count, 2 * std::min(8 * body_count, contact_count));
+}
+
+// ---- where they come from --------------------------------------------------------------------------
+
+// Calls visit(pair, kind, source) for each constraint, and for those of one pair and kind in order.
+template <class Visit>
+void Constraints::for_each(const ConstraintSources& from, Visit&& visit) {
+    PairIndex index(from.pairs);
+    const auto add = [&](vox_body a, vox_body b, vox_constraint_kind kind, std::size_t source) {
+        const std::size_t pair = index(a, b);
+        if (pair < from.pairs.size() && from.chosen[pair])
+            visit(pair, static_cast<std::size_t>(kind), static_cast<std::uint32_t>(source));
+    };
+    if (from.penetrations) {
+        const std::span<const Penetration> all = from.penetrations->all();
+        for (std::size_t i = 0; i < all.size(); ++i)
+            add(all[i].body_a, all[i].body_b, VOX_CONSTRAINT_INSIDE, i);
+    } else {
+        for (std::size_t i = 0; i < from.hits.size(); ++i)
+            if (is_first_of_vertex(from.hits, i))
+                add(from.bodies[from.hits[i].body_a].mesh_id, from.bodies[from.hits[i].body_b].mesh_id,
+                    VOX_CONSTRAINT_INSIDE, i);
+    }
+    for (std::size_t i = 0; i < from.edges.size(); ++i)
+        add(from.edges[i].body_a, from.edges[i].body_b, VOX_CONSTRAINT_EDGE, i);
+    std::size_t impact = 0; // no vertex has two constraints with one body
+    for (std::size_t i = 0; i < from.margin_contacts.size(); ++i) {
+        const auto place = place_of(from.margin_contacts[i]);
+        while (impact < from.impacts.size() && place_of(from.impacts[impact]) < place) ++impact;
+        if (impact < from.impacts.size() && place_of(from.impacts[impact]) == place) continue;
+        add(from.margin_contacts[i].body_a, from.margin_contacts[i].body_b, VOX_CONSTRAINT_PROXIMITY, i);
+    }
+    for (std::size_t i = 0; i < from.impacts.size(); ++i)
+        add(from.impacts[i].body_a, from.impacts[i].body_b, VOX_CONSTRAINT_IMPACT, i);
+}
+
+void Constraints::list(const ConstraintSources& from) {
+    const std::size_t buckets = kinds * from.pairs.size();
+    place_.assign(buckets, 0);
+    std::size_t count = 0;
+    for_each(from, [&](std::size_t pair, std::size_t kind, std::uint32_t) {
+        ++place_[kinds * pair + kind];
+        ++count;
+    });
+    check_contact_count(count, "constraints");
+    make_room(count, from.pairs.size()); // all that can fail
+    found_ = false;
+    constraints_.resize(count);
+    sources_.resize(count);
+    keys_.resize(count);
+    pair_offsets_.resize(from.pairs.size() + 1);
+    ranges_.pairs.clear();
+    for (const vox_pair& pair : from.pairs) ranges_.pairs.push_back({pair.body_a, pair.body_b});
+    std::exclusive_scan(place_.begin(), place_.end(), place_.begin(), 0u);
+    ranges_.first.assign(place_.begin(), place_.end());
+    ranges_.first.push_back(static_cast<std::uint32_t>(count));
+    for (std::size_t p = 0; p <= from.pairs.size(); ++p) pair_offsets_[p] = ranges_.first[kinds * p];
+    for_each(from, [&](std::size_t pair, std::size_t kind, std::uint32_t source) {
+        sources_[place_[kinds * pair + kind]++] = source;
+    });
+}
+
+// ---- the same in the step before -------------------------------------------------------------------
+
+// Looks up constraints of one pair. Keys of a kind ascend, so each search begins where the last one ended.
+class Constraints::Previous {
+public:
+    explicit Previous(const Constraints& of) noexcept : of_(of) {}
+
+    void begin(const IdPair& pair) noexcept {
+        const auto& pairs = of_.last_ranges_.pairs;
+        const auto at = std::lower_bound(pairs.begin(), pairs.end(), pair);
+        known_ = at != pairs.end() && *at == pair;
+        if (!known_) return;
+        first_ = of_.last_ranges_.first.data() + kinds * static_cast<std::size_t>(at - pairs.begin());
+        std::copy(first_, first_ + kinds, next_.begin());
+    }
+
+    std::uint32_t find(vox_constraint_kind kind, const Key& key) noexcept {
+        if (!known_) return VOX_NONE;
+        // As a rule the next one is the same.
+        const std::uint32_t next = next_[kind];
+        if (next < first_[kind + 1] && of_.last_keys_[next] == key) return next_[kind]++;
+        std::uint32_t found = find_among(kind, key);
+        if (kind == VOX_CONSTRAINT_EDGE) return found;
+        for (const auto other : {VOX_CONSTRAINT_INSIDE, VOX_CONSTRAINT_PROXIMITY, VOX_CONSTRAINT_IMPACT})
+            if (found == VOX_NONE && other != kind) found = find_among(other, key);
+        return found;
+    }
+
+private:
+    // Constraints of another kind are looked up in any order, hence the first test.
+    std::uint32_t find_among(vox_constraint_kind kind, const Key& key) noexcept {
+        const Array<Key>& keys = of_.last_keys_;
+        const std::uint32_t end = first_[kind + 1];
+        std::uint32_t low = next_[kind];
+        if (low > first_[kind] && keys[low - 1] >= key) low = first_[kind];
+        std::uint32_t high = low;
+        for (std::uint32_t step = 1; high < end && keys[high] < key; step *= 2) {
+            low = high + 1;
+            high = end - high > step ? high + step : end;
+        }
+        const auto at = std::lower_bound(keys.begin() + low, keys.begin() + high, key);
+        next_[kind] = static_cast<std::uint32_t>(at - keys.begin());
+        return next_[kind] < end && keys[next_[kind]] == key ? next_[kind] : VOX_NONE;
+    }
+
+    const Constraints& of_;
+    const std::uint32_t* first_ = nullptr; // of the pair's kinds
+    std::array<std::uint32_t, kinds> next_{};
+    bool known_ = false;
+};
+
+// ---- each of them -----------------------------------------------------------------------------------
+
+namespace {
+
+// Writes what a source has that is no vertex inside: stencil, normal, gap, state, element, time.
+struct Writer {
+    const ConstraintSources& from;
+
+    void write_edge(std::uint32_t source, vox_constraint& c) const {
+        const EdgeContact& contact = from.edges[source];
+        c.count_a = 2;
+        c.count = 5;
+        std::copy_n(contact.edge, 2, c.vertices);
+        std::copy_n(contact.face, 3, c.vertices + 2);
+        c.element_b = contact.tet;
+        c.weights[0] = contact.edge_weights[0];
+        c.weights[1] = contact.edge_weights[1];
+        for (int i = 0; i < 3; ++i) c.weights[2 + i] = -contact.face_weights[i];
+        c.time = 1;
+        c.state = contact.kind == CrossingKind::through ? VOX_DEPTH_UNKNOWN : VOX_DEPTH_TOUCHING;
+        if (c.state == VOX_DEPTH_TOUCHING) std::copy_n(contact.normal, 3, c.normal);
+        if (from.edge_depths.empty() || c.state == VOX_DEPTH_TOUCHING) return;
+        const Depth& depth = from.edge_depths[source];
+        c.state = !(depth.depth > 0)                 ? VOX_DEPTH_TOUCHING
+                  : contact.body_a == contact.body_b ? VOX_DEPTH_PLANE
+                                                     : VOX_DEPTH_CLOSEST;
+        c.gap = depth.depth > 0 ? -depth.depth : 0;
+        std::copy_n(depth.direction, 3, c.normal);
+    }
+
+    // The vertex of a passage or a margin contact, and its face.
+    template <class Contact>
+    void write_face(const Contact& contact, const double (&weights)[3], vox_constraint& c) const {
+        c.count_a = 1;
+        c.count = 4;
+        c.vertices[0] = contact.vertex;
+        std::copy_n(contact.face, 3, c.vertices + 1);
+        for (int i = 0; i < 3; ++i) c.weights[1 + i] = -weights[i];
+        c.element_b = contact.tet;
+    }
+
+    void write_proximity(std::uint32_t source, vox_constraint& c) const {
+        const MarginContact& contact = from.margin_contacts[source];
+        write_face(contact, contact.face_weights, c);
+        c.gap = contact.distance;
+        c.state = contact.distance > 0 ? VOX_DEPTH_CLOSEST : VOX_DEPTH_TOUCHING;
+        std::copy_n(contact.normal, 3, c.normal);
+        c.time = 1;
+    }
+
+    void write_impact(std::uint32_t source, vox_constraint& c) const {
+        const Impact& impact = from.impacts[source];
+        write_face(impact, impact.weights, c);
+        c.gap = impact.gap;
+        c.state = VOX_DEPTH_PLANE;
+        std::copy_n(impact.normal, 3, c.normal);
+        c.time = impact.time;
+    }
+};
+
+} // namespace
+
+// Those of one pair and kind that are neither vertices inside nor in another pair or kind.
+void Constraints::write_others(const ConstraintSources& from, const Run& run, Previous& previous) noexcept {
+    const Writer writer{from};
+    const vox_pair& pair = from.pairs[run.pair];
+    const Body* const bodies[2] = {&from.bodies[body_index(from.bodies, pair.body_a)],
+                                   &from.bodies[body_index(from.bodies, pair.body_b)]};
+    for (std::size_t i = run.begin; i < run.end; ++i) {
+        const std::uint32_t source = sources_[i];
+        vox_constraint& c = constraints_[i];
+        c = {};
+        c.weights[0] = 1;
+        vox_body id_a = VOX_NULL_BODY;
+        if (run.kind == VOX_CONSTRAINT_EDGE) {
+            writer.write_edge(source, c);
+            id_a = from.edges[source].body_a;
+        } else if (run.kind == VOX_CONSTRAINT_PROXIMITY) {
+            writer.write_proximity(source, c);
+            id_a = from.margin_contacts[source].body_a;
+        } else {
+            writer.write_impact(source, c);
+            id_a = from.impacts[source].body_a;
+        }
+        const bool swapped = id_a != pair.body_a;
+        write_pair(run, pair, swapped, c);
+        write_vector(c.normal, vector_of(c.normal));
+        c.previous = previous.find(run.kind, keys_[i] = key_of(c));
+        double sum = 0;
+        for (std::uint32_t v = 0; v < c.count; ++v) {
+            const Vec3d x = bodies[swapped == (v < c.count_a)]->positions.exact(c.vertices[v]);
+            if (v == 0 && run.kind != VOX_CONSTRAINT_EDGE) write_vector(c.position, x);
+            sum += c.weights[v] * dot(vector_of(c.normal), x);
+        }
+        if (run.kind == VOX_CONSTRAINT_EDGE) std::copy_n(from.edges[source].position, 3, c.position);
+        c.offset = c.gap - sum;
+    }
+}
+
+void Constraints::write_pair(const Run& run, const vox_pair& pair, bool swapped, vox_constraint& c) noexcept {
+    c.body_a = swapped ? pair.body_b : pair.body_a;
+    c.body_b = swapped ? pair.body_a : pair.body_b;
+    c.user_data_a = swapped ? pair.user_data_b : pair.user_data_a;
+    c.user_data_b = swapped ? pair.user_data_a : pair.user_data_b;
+    c.kind = run.kind;
+    c.pair = run.pair;
+}
+
+// ---- vertices inside -------------------------------------------------------------------------------
+
+// A block at a time: gather the points and the corners of their tetrahedra, weigh them, write.
+void Constraints::write_inside(const ConstraintSources& from, const Run& run, Previous& previous) noexcept {
+    const auto hit_of = [&](std::size_t i) -> const Hit& {
+        const std::uint32_t source = sources_[i];
+        return from
+            .hits[from.penetrations ? static_cast<std::size_t>(from.penetrations->all()[source].contact)
+                                    : source];
+    };
+    // Tetrahedra and positions are anywhere in memory, and waiting for them takes longer than the arithmetic.
+    // Far enough ahead to hide that, and near enough that nothing is evicted before its use.
+    constexpr std::size_t tets_ahead = 32, positions_ahead = 16;
+    const auto prefetch = [&](std::size_t i) {
+        if (i + tets_ahead < run.end) {
+            const Hit& later = hit_of(i + tets_ahead);
+            hwy::Prefetch(from.bodies[later.body_b].tets.data() + later.tet);
+        }
+        if (i + positions_ahead < run.end) {
+            const Hit& later = hit_of(i + positions_ahead);
+            const Body &a = from.bodies[later.body_a], &b = from.bodies[later.body_b];
+            hwy::Prefetch(a.positions.data + later.vertex * a.positions.byte_stride);
+            for (const std::uint32_t v : b.tets[later.tet].v)
+                hwy::Prefetch(b.positions.data + v * b.positions.byte_stride);
+        }
+    };
+    const vox_pair& pair = from.pairs[run.pair];
+    const std::uint32_t lower = body_index(from.bodies, pair.body_a);
+    PointBlock block;
+    WeightBlock weights;
+    for (std::size_t begin = run.begin; begin < run.end; begin += point_block) {
+        const std::size_t count = std::min(point_block, run.end - begin);
+        const auto put = [](double(&to)[3][point_block], std::size_t i, const Vec3d& x) {
+            to[0][i] = x.x;
+            to[1][i] = x.y;
+            to[2][i] = x.z;
+        };
+        for (std::size_t i = 0; i < count; ++i) {
+            prefetch(begin + i);
+            const Hit& hit = hit_of(begin + i);
+            const Body& b = from.bodies[hit.body_b];
+            put(block.point, i, from.bodies[hit.body_a].positions.exact(hit.vertex));
+            for (std::size_t c = 0; c < 4; ++c)
+                put(block.corner[c], i, b.positions.exact(b.tets[hit.tet].v[c]));
+        }
+        for (std::size_t i = count; i % 8; ++i) { // whole registers are computed
+            put(block.point, i, {0, 0, 0});
+            for (auto& corner : block.corner) put(corner, i, {0, 0, 0});
+        }
+        weigh(block, count, weights);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Hit& hit = hit_of(begin + i);
+            const Body &a = from.bodies[hit.body_a], &b = from.bodies[hit.body_b];
+            vox_constraint& c = constraints_[begin + i];
+            write_pair(run, pair, hit.body_a != lower, c);
+            c.state = VOX_DEPTH_UNKNOWN;
+            c.count_a = 1;
+            c.count = 5;
+            c.vertices[0] = hit.vertex;
+            c.weights[0] = 1;
+            for (std::size_t k = 0; k < 4; ++k) {
+                c.vertices[1 + k] = b.tets[hit.tet].v[k];
+                c.weights[1 + k] = -weights.weight[k][i];
+            }
+            c.element_b = hit.tet;
+            const Vec3d p{block.point[0][i], block.point[1][i], block.point[2][i]};
+            write_vector(c.position, p);
+            c.time = from.passages.empty() ? 1 : time_of(from.passages, a.mesh_id, hit.vertex, b.mesh_id);
+            const Key& key = keys_[begin + i] = {c.body_a, {hit.vertex, 0, 0, 0, 0}};
+            c.previous = previous.find(VOX_CONSTRAINT_INSIDE, key);
+            c.reserved = 0;
+            Vec3d normal{0, 0, 0};
+            c.gap = 0;
+            if (from.penetrations) {
+                const std::uint32_t source = sources_[begin + i];
+                const Depth& depth = from.penetrations->depths()[source];
+                c.state = from.penetrations->all()[source].state;
+                c.gap = depth.depth > 0 ? -depth.depth : 0;
+                normal = depth.way_out();
+            }
+            write_vector(c.normal, normal);
+            c.offset = c.gap + dot(normal, Vec3d{weights.miss[0][i], weights.miss[1][i], weights.miss[2][i]});
+            if (!from.closest || c.state == VOX_DEPTH_UNKNOWN) continue;
+            const std::uint32_t triangle = from.penetrations->closest()[sources_[begin + i]];
+            if (triangle != no_triangle)
+                write_triangle({from.topologies[hit.body_b], b.tets, b.positions}, triangle, p, c);
+        }
+    }
+}
+
+// ---- all of them -----------------------------------------------------------------------------------
+
+void Constraints::write(const ConstraintSources& from, std::size_t begin, std::size_t end) noexcept {
+    Previous previous(*this);
+    const Array<std::uint32_t>& first = ranges_.first;
+    // The pair and kind that `begin` is in; empty ones are passed.
+    auto bucket = static_cast<std::size_t>(
+        std::upper_bound(first.begin(), first.end(), static_cast<std::uint32_t>(begin)) - first.begin() - 1);
+    while (begin < end) {
+        while (first[bucket + 1] <= begin) ++bucket;
+        const Run run{static_cast<std::uint32_t>(bucket / kinds),
+                      static_cast<vox_constraint_kind>(bucket % kinds), begin,
+                      std::min<std::size_t>(end, first[bucket + 1])};
+        previous.begin(ranges_.pairs[run.pair]);
+        if (run.kind == VOX_CONSTRAINT_INSIDE)
+            write_inside(from, run, previous);
+        else
+            write_others(from, run, previous);
+        begin = run.end;
+    }
+}
+
+void Constraints::find(const ConstraintSources& from, Workers& workers) {
+    list(from);
+    constexpr std::size_t least = 512; // that are worth a task
+    const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t) { write(from, begin, end); };
+    if (constraints_.size() > least)
+        workers.for_ranges(constraints_.size(), least, run);
+    else
+        run(0, constraints_.size(), 0);
+    found_ = true;
+}
+
+} // namespace vox

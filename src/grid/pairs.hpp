@@ -1,0 +1,90 @@
+// The pairs of bodies that touch, and what changed since the last successful step: the difference of two
+// sorted sets, so that nothing between two steps loses an event.
+#pragma once
+
+#include "base/array.hpp"
+#include "base/counters.hpp"
+#include "grid/contact_pairs.hpp"
+
+#include <vox/vox.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+
+namespace vox {
+
+// Whether the bodies of a pair touch now.
+inline bool touches(const vox_pair& pair) noexcept {
+    return pair.state == VOX_PAIR_BEGAN || pair.state == VOX_PAIR_PERSISTED;
+}
+
+class Pairs {
+public:
+    explicit Pairs(std::pmr::memory_resource* memory);
+
+    // When a step begins, or the grid is cleared: no pairs until a step ends.
+    void hide() noexcept { are_shown_ = is_pending_ = false; }
+
+    // Pairs with contacts, those that touch in another way, and those that are near, which take the place of
+    // the last step's with commit(). Calls user_data(body) for each body of a pair.
+    template <class UserData>
+    void update(std::span<const vox_contact> contacts, std::span<const IdPair> touching,
+                std::span<const IdPair> near, std::size_t slots, UserData&& user_data) {
+        find_touching(contacts, slots, buffers_, next(), by_pair_);
+        add_pairs(touching, VOX_PAIR_BEGAN, next());
+        add_pairs(near, VOX_PAIR_NEAR, next());
+        for (vox_pair& pair : next()) {
+            pair.user_data_a = user_data(pair.body_a);
+            pair.user_data_b = user_data(pair.body_b);
+        }
+        compare();
+    }
+
+    // The same for a step with the contacts of the last one, where no pair is near.
+    void repeat();
+    // Those of the step so far.
+    std::span<const vox_pair> pending() const noexcept { return pairs_[current_ ^ std::size_t{is_pending_}]; }
+    // When the step has succeeded: from now on they are shown, and the next step is compared with them.
+    void commit() noexcept;
+
+    // Room for what so many contacts need, and the pairs of so many bodies (eight each).
+    void reserve(std::size_t body_count, std::size_t contact_count);
+
+    std::span<const vox_pair> all() const noexcept;
+    // Their contacts, as vox_pair_view.contacts.
+    const std::uint32_t* contacts() const noexcept { return by_pair_.data(); }
+    std::span<const std::uint32_t> contacts_of(const vox_pair& pair) const noexcept {
+        return {contacts() + pair.first_contact, static_cast<std::size_t>(pair.contact_count)};
+    }
+    // Calls visit(pair) for all pairs, in order, those of one body, or that of two bodies.
+    template <class Visit>
+    void for_pairs_of(std::span<const vox_body> bodies, Visit&& visit) const {
+        for (const vox_pair& pair : of(bodies))
+            if (bodies.empty() || pair.body_a == bodies[0] || pair.body_b == bodies[0]) visit(pair);
+    }
+    // Sets total_touches_began and total_touches_ended.
+    void count(Counters& counters) const noexcept;
+
+private:
+    friend class Snapshot;
+
+    // The pair of two bodies, in either order; all pairs where less are given.
+    std::span<const vox_pair> of(std::span<const vox_body> bodies) const noexcept;
+
+    Array<vox_pair>& next() noexcept { return pairs_[1 - current_]; }
+    void compare();
+
+    TouchingBuffers buffers_;
+    std::array<Array<vox_pair>, 2> pairs_; // of this step and of the last one
+    Array<vox_pair> ended_;
+    Array<std::uint32_t> by_pair_; // contacts, of this step
+    std::size_t current_ = 0;      // of the two
+    bool are_shown_ = false, is_pending_ = false;
+    std::uint64_t began_ = 0; // of the pending ones
+    std::uint64_t total_began_ = 0, total_ended_ = 0;
+};
+
+} // namespace vox
