@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
+#include <span>
 #include <vector>
 
 namespace tool {
@@ -33,8 +34,8 @@ add(std::string& text, const char* pattern, ...) {
 
 class Axes {
 public:
-    explicit Axes(const CostCurve& c)
-        : first_(std::log(c.samples.front().cell_size)), last_(std::log(c.samples.back().cell_size)),
+    explicit Axes(const vox_cell_size_result& c)
+        : first_(std::log(c.curve[0].cell_size)), last_(std::log(c.curve[c.curve_count - 1].cell_size)),
           least_(c.cost) {}
 
     double x(double cell_size) const {
@@ -55,9 +56,9 @@ private:
 };
 
 // The numbers 1, 2, 5, 10, ... within the range of the axis.
-std::vector<double> round_sizes(const CostCurve& c) {
+std::vector<double> round_sizes(const vox_cell_size_result& c) {
     std::vector<double> sizes;
-    const double from = c.samples.front().cell_size, to = c.samples.back().cell_size;
+    const double from = c.curve[0].cell_size, to = c.curve[c.curve_count - 1].cell_size;
     for (int exponent = static_cast<int>(std::floor(std::log10(from))); std::pow(10.0, exponent) <= to;
          ++exponent)
         for (const double digit : {1.0, 2.0, 5.0}) {
@@ -69,20 +70,6 @@ std::vector<double> round_sizes(const CostCurve& c) {
 
 } // namespace
 
-CostCurve curve_of(const vox_suggestion& s) {
-    return {{s.curve, s.curve_count},
-            s.cell_size,
-            s.predicted_cost,
-            s.zone_min,
-            s.zone_max,
-            {{"mean edge", s.rules.mean_edge, s.rule_costs.mean_edge},
-             {"mean edge, multiple", s.rules.mean_edge_multiple, s.rule_costs.mean_edge_multiple},
-             {"512 an object", s.rules.object_512, s.rule_costs.object_512},
-             {"resolution", s.rules.resolution, s.rule_costs.resolution},
-             {"mean volume", s.rules.mean_volume, s.rule_costs.mean_volume},
-             {"median box side", s.rules.median_box_side, s.rule_costs.median_box_side}}};
-}
-
 std::string short_names(const std::vector<std::string>& files) {
     constexpr std::size_t most = 3;
     std::string names;
@@ -92,7 +79,7 @@ std::string short_names(const std::vector<std::string>& files) {
     return names;
 }
 
-std::string curve_svg(const CostCurve& c, const std::string& words) {
+std::string curve_svg(const vox_cell_size_result& c, const std::string& words) {
     const Axes axes(c);
     const double floor_y = height - below;
     std::string text;
@@ -125,12 +112,12 @@ std::string curve_svg(const CostCurve& c, const std::string& words) {
     add(text, "<text x=\"%g\" y=\"%g\" text-anchor=\"middle\">cell size</text>\n", (left + width - right) / 2,
         height - 12);
     text += "<polyline fill=\"none\" stroke=\"#1f5fa8\" stroke-width=\"2.5\" points=\"";
-    for (const vox_cost_sample& sample : c.samples)
+    for (const vox_cost_sample& sample : std::span(c.curve).first(c.curve_count))
         add(text, "%.2f,%.2f ", axes.x(sample.cell_size), axes.y(sample.cost));
     text += "\"/>\n";
 
     double label = above + 16; // labels are placed one below the other, so that they never overlap
-    for (const CostCurve::Rule& rule : c.rules) {
+    for (const vox_cell_size_rule& rule : std::span(c.rules).first(c.rule_count)) {
         if (!axes.shows(rule.cell_size)) continue;
         const double x = axes.x(rule.cell_size), y = axes.y(rule.cost);
         add(text,

@@ -35,7 +35,7 @@ void print_demo_json(TwoBalls& balls) {
                               {"cell_size", contender.cell_size},
                               {"step_ns", std::llround(contender.mean_step_ns())}});
     Json json = {{"meshes", meshes}, {"frames", frames}, {"comparison", comparison}};
-    add_suggestion(json, balls.suggestion());
+    add_suggestion(json, balls.suggestion(), VOX_COST_MODEL_PAPER, balls.geometry());
     // The keys shared with collide describe the frame with the most contacts.
     const auto busiest =
         static_cast<std::uint32_t>(std::max_element(contacts.begin(), contacts.end()) - contacts.begin());

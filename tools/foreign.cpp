@@ -4,7 +4,6 @@
 #include "failure.hpp"
 #include "output_file.hpp"
 #include "report.hpp"
-#include "terminal.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -25,7 +24,7 @@ namespace tool {
 
 namespace {
 
-constexpr Choice<vox_known_grid> known_grids[] = {{"any", VOX_KNOWN_GRID_ANY},
+constexpr Choice<vox_known_grid> known_grids[] = {{"none", VOX_KNOWN_GRID_NONE},
                                                   {"sorted", VOX_KNOWN_GRID_SORTED},
                                                   {"hashed", VOX_KNOWN_GRID_HASHED},
                                                   {"warp", VOX_KNOWN_GRID_WARP},
@@ -147,104 +146,22 @@ double run_program(double cell_size, void* user) {
 
 // ---- output ---------------------------------------------------------------------------------------
 
-struct RuleWords {
-    const char* name;
-    double vox_foreign_rules::*field;
-};
-constexpr RuleWords foreign_rules[] = {{"mean_edge", &vox_foreign_rules::mean_edge},
-                                       {"mean_box_side", &vox_foreign_rules::mean_box_side},
-                                       {"median_box_side", &vox_foreign_rules::median_box_side},
-                                       {"spacing", &vox_foreign_rules::spacing},
-                                       {"radius", &vox_foreign_rules::radius}};
-constexpr const char* shown_rules[] = {"mean edge", "mean box side", "median box side", "spacing", "radius"};
-
-Json weights_json(const vox_grid_weights& w) {
-    return {{"fixed", w.fixed}, {"entries", w.entries},   {"visits", w.visits}, {"found", w.found},
-            {"reads", w.reads}, {"occupied", w.occupied}, {"cells", w.cells}};
-}
-
-Json zone_json(double min, double max) { return {{"min", min}, {"max", max}}; }
-
-void print_note(const char* note) {
-    if (*note) std::printf("\n%s\n", note);
-}
-
-void print_suggestion(const vox_foreign_suggestion& found, const CostCurve& curve, const Primitives& held,
-                      bool json) {
-    if (json) {
-        Json all = Json::object();
-        all.add("cell_size", found.cell_size);
-        all.add("zone", zone_json(found.zone_min, found.zone_max));
-        all.add("least_cell_size", found.least_cell_size);
-        all.add("predicted_ns", found.predicted_cost);
-        all.add("rule", found.rule == VOX_RULE_NONE ? Json() : Json(foreign_rules[found.rule - 1].name));
-        all.add("note", found.note);
-        all.add("primitives", {{"type", held.word}, {"count", held.desc.count}});
-        const vox_grid_work& w = found.work;
-        all.add("work", {{"entries", w.entries},
-                         {"visits", w.visits},
-                         {"empty", w.empty},
-                         {"reads", w.reads},
-                         {"occupied", w.occupied},
-                         {"cells", w.cells}});
-        all.add("weights", weights_json(found.weights));
-        Json sizes = Json::object(), costs = Json::object(), terms = Json::array();
-        for (const RuleWords& rule : foreign_rules) {
-            sizes.add(rule.name, found.rules.*rule.field);
-            costs.add(rule.name, found.rule_costs.*rule.field);
-        }
-        all.add("rules", sizes);
-        all.add("rule_costs", costs);
-        all.add("curve", tool::curve(curve.samples));
-        for (std::uint32_t i = 0; i < found.term_count; ++i)
-            terms.push_back({{"name", found.terms[i].name},
-                             {"count", found.terms[i].count},
-                             {"cost", found.terms[i].cost},
-                             {"share", found.terms[i].share}});
-        all.add("terms", terms);
-        return print(all);
-    }
+void print_suggestion(const vox_cell_size_result& found, const Primitives& stored) {
     std::printf(
         "Suggested cell size %.9g for %llu %s.\nBetween %.9g and %.9g the predicted cost stays near its "
-        "minimum.\n\nPredicted cost over cell size, in units of the minimum (logarithmic in cell "
-        "size):\n%s\n",
-        found.cell_size, static_cast<unsigned long long>(held.desc.count), held.word, found.zone_min,
-        found.zone_max, cost_curve(curve).c_str());
-    for (const CostCurve::Rule& rule : curve.rules)
-        if (rule.cell_size > 0)
-            std::printf("  %-22s %-12.9g %+7.0f %%\n", rule.name, rule.cell_size,
-                        100 * (rule.cost / found.predicted_cost - 1));
-    std::printf("\nWhat the cost is made of:\n");
-    for (std::uint32_t i = 0; i < found.term_count; ++i)
-        if (found.terms[i].cost > 0)
-            std::printf("  %-22s %12.4g times %5.1f %%  %s\n", found.terms[i].name, found.terms[i].count,
-                        100 * found.terms[i].share, bar(found.terms[i].share, 30).c_str());
-    print_note(found.note);
+        "minimum.\n\n",
+        found.cell_size, static_cast<unsigned long long>(stored.desc.count), stored.word, found.zone_min,
+        found.zone_max);
+    print_reasons(found);
 }
 
-void print_tuning(const vox_tuning& found, const CostCurve& curve, bool json) {
-    if (json) {
-        Json all = Json::object();
-        all.add("cell_size", found.cell_size);
-        all.add("zone", zone_json(found.zone_min, found.zone_max));
-        all.add("seconds", found.seconds);
-        all.add("expected_loss", found.expected_loss);
-        all.add("noise", found.noise);
-        all.add("note", found.note);
-        all.add("weights", weights_json(found.weights));
-        Json runs = Json::array();
-        for (std::uint32_t i = 0; i < found.run_count; ++i)
-            runs.push_back({{"cell_size", found.runs[i].cell_size}, {"seconds", found.runs[i].seconds}});
-        all.add("runs", runs);
-        all.add("curve", tool::curve(curve.samples));
-        return print(all);
-    }
+void print_tuning(const vox_cell_size_result& found) {
     std::printf(
         "Best cell size %.9g: %.4g s a run, after %u runs. At most about %.1f %% slower than the best "
-        "there is.\nBetween %.9g and %.9g a run takes nearly as little.\n\n%s",
-        found.cell_size, found.seconds, found.run_count, 100 * found.expected_loss, found.zone_min,
-        found.zone_max, cost_curve(curve).c_str());
-    print_note(found.note);
+        "there is.\nBetween %.9g and %.9g a run takes nearly as little.\n\n",
+        found.cell_size, found.cost, found.timing_count, 100 * found.expected_loss, found.zone_min,
+        found.zone_max);
+    print_reasons(found);
 }
 
 } // namespace
@@ -252,17 +169,16 @@ void print_tuning(const vox_tuning& found, const CostCurve& curve, bool json) {
 void add_foreign(Command& command, ForeignOptions& options) {
     command.choice("--grid", options.known, known_grids,
                    "For another library's grid, or one of your own: which of these it resembles");
-    command.flag("--points", options.points, "The grid holds the vertices of the files");
-    command.flag("--triangles", options.triangles, "The grid holds the triangles of the files");
-    command.option("--asked-by", options.asking,
-                   "Mesh file whose elements ask the grid; else those it holds do");
-    command.option("--radius", options.radius, "What asks is a ball, or a box grown by this much")
-        .not_negative();
+    command.flag("--points", options.points, "The grid stores the vertices of the files");
+    command.flag("--triangles", options.triangles, "The grid stores the triangles of the files");
+    command.option("--querying", options.querying,
+                   "Mesh file whose elements are the queries; else the stored ones query each other");
+    command.option("--radius", options.radius, "Grows the boxes of the queries by this much").not_negative();
     command.option(
         "--tune", options.tune,
         "Run this command, {} standing for the cell size, to find the best size. Its last line may be "
         "the seconds it took");
-    command.option("--runs", options.most_runs, "Most runs of --tune").range(3, VOX_TUNE_RUN_CAPACITY);
+    command.option("--max-runs", options.max_runs, "Most runs of --tune").range(3, VOX_TIMING_CAPACITY);
     command.option("--first", options.first, "Cell size at which --tune begins; needed without a MESH")
         .positive();
 }
@@ -273,58 +189,44 @@ void suggest_foreign(const ForeignOptions& options, const std::vector<Body>& bod
     if (!options.tune.empty() && options.tune.find("{}") == std::string::npos)
         throw WrongUsage("--tune: the command does not say where the cell size goes: {}");
     if (bodies.empty() && !(options.first > 0)) throw WrongUsage("--tune without a MESH needs --first SIZE");
-    Primitives held, asking;
+    Primitives stored, querying;
     vox_foreign_grid grid = vox_default_foreign_grid();
-    check(vox_foreign_grid_set_known(&grid, options.known.value_or(VOX_KNOWN_GRID_ANY)));
+    grid.known = options.known.value_or(VOX_KNOWN_GRID_NONE);
     grid.radius = options.radius;
     grid.zone_loss = zone_loss;
     if (!bodies.empty()) {
-        gather(bodies, options, held);
-        grid.held = &held.desc;
+        gather(bodies, options, stored);
+        grid.stored = &stored.desc;
     }
-    if (!options.asking.empty()) {
+    if (!options.querying.empty()) {
         std::vector<Body> those;
-        for (const std::string& file : options.asking) those.push_back(load_body(file));
-        gather(those, options, asking);
-        grid.asking = &asking.desc;
+        for (const std::string& file : options.querying) those.push_back(load_body(file));
+        gather(those, options, querying);
+        grid.querying = &querying.desc;
     }
     std::vector<std::string> files;
     for (const Body& body : bodies) files.push_back(body.name);
-    const std::string names = short_names(files);
-    if (!options.tune.empty()) {
-        vox_tune_desc desc = vox_default_tune_desc();
-        desc.most_runs = options.most_runs;
-        desc.first = options.first;
-        desc.zone_loss = zone_loss;
-        vox_tuning found{};
-        found.struct_size = sizeof found;
-        Program program{options.tune, json};
-        check(vox_cost_tune(bodies.empty() ? nullptr : &grid, &desc, run_program, &program, &found));
-        const CostCurve curve{{found.curve, found.curve_count},
-                              found.cell_size,
-                              found.seconds,
-                              found.zone_min,
-                              found.zone_max,
-                              {}};
-        if (!svg.empty())
-            write_file(svg, curve_svg(curve, (names.empty() ? "" : names + "; ") + "fitted to " +
-                                                 std::to_string(found.run_count) + " runs"));
-        return print_tuning(found, curve, json);
-    }
-    vox_foreign_suggestion found{};
+    std::string words = short_names(files);
+    vox_cell_size_result found{};
     found.struct_size = sizeof found;
-    check(vox_suggest_for(&grid, &found));
-    CostCurve curve{{found.curve, found.curve_count},
-                    found.cell_size,
-                    found.predicted_cost,
-                    found.zone_min,
-                    found.zone_max,
-                    {}};
-    for (std::size_t i = 0; i < std::size(foreign_rules); ++i)
-        curve.rules.push_back(
-            {shown_rules[i], found.rules.*foreign_rules[i].field, found.rule_costs.*foreign_rules[i].field});
-    if (!svg.empty()) write_file(svg, curve_svg(curve, names + "; a grid of " + held.word));
-    print_suggestion(found, curve, held, json);
+    const bool tune = !options.tune.empty();
+    if (tune) {
+        vox_tune_desc desc = vox_default_tune_desc();
+        desc.max_runs = options.max_runs;
+        desc.first = options.first;
+        Program program{options.tune, json};
+        check(vox_foreign_grid_tune(bodies.empty() ? nullptr : &grid, &desc, run_program, &program, &found));
+        words += (words.empty() ? "" : "; ") + ("fitted to " + std::to_string(found.timing_count)) + " runs";
+    } else {
+        check(vox_foreign_grid_suggest(&grid, &found));
+        words += std::string("; a grid of ") + stored.word;
+    }
+    if (!svg.empty()) write_file(svg, curve_svg(found, words));
+    if (!json) return tune ? print_tuning(found) : print_suggestion(found, stored);
+    Json all = Json::object();
+    add_suggestion(all, found);
+    if (!bodies.empty()) all.add("primitives", {{"type", stored.word}, {"count", stored.desc.count}});
+    print(all);
 }
 
 } // namespace tool

@@ -17,13 +17,13 @@ namespace tool {
 struct ForeignOptions {
     std::optional<vox_known_grid> known;
     bool points = false, triangles = false;
-    std::vector<std::string> asking; // files whose primitives ask; none: those held ask themselves
+    std::vector<std::string> querying; // files with the queries; none: the stored primitives query each other
     double radius = 0, first = 0;
     std::string tune; // command to run; empty: none
-    std::uint32_t most_runs = 7;
+    std::uint32_t max_runs = 7;
 
     bool any() const {
-        return known.has_value() || points || triangles || !asking.empty() || radius > 0 || !tune.empty();
+        return known.has_value() || points || triangles || !querying.empty() || radius > 0 || !tune.empty();
     }
 };
 

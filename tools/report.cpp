@@ -2,24 +2,21 @@
 
 #include "failure.hpp"
 #include "grid.hpp"
+#include "terminal.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <functional>
+#include <span>
 
 namespace tool {
 
 namespace {
 
-// The library gives cell size 0 for a rule that does not apply.
-Json rule(double cell_size) { return cell_size > 0 ? Json(cell_size) : Json(); }
-
-Json rules(const vox_cell_size_rules& rules) {
-    return {{"mean_edge", rule(rules.mean_edge)},     {"mean_edge_multiple", rule(rules.mean_edge_multiple)},
-            {"object_512", rule(rules.object_512)},   {"resolution", rule(rules.resolution)},
-            {"mean_volume", rule(rules.mean_volume)}, {"median_box_side", rule(rules.median_box_side)}};
-}
+// The library gives 0 where there is no number.
+Json number(double value) { return value > 0 ? Json(value) : Json(); }
 
 Json constraints(const vox_grid* grid, const std::vector<vox_body>& ids) {
     Json list = Json::array();
@@ -93,57 +90,99 @@ Json bounds(const double (&min)[3], const double (&max)[3]) {
     return {{"min", Json::array_of(min)}, {"max", Json::array_of(max)}};
 }
 
-Json stats(const vox_geometry_stats& stats) {
-    return {{"vertices", stats.vertices},
-            {"tets", stats.tets},
-            {"edges", stats.edges},
-            {"facets", stats.facets},
-            {"boundary_facets", stats.boundary_facets},
-            {"degenerate_tets", stats.degenerate_tets},
-            {"mean_edge", stats.mean_edge},
-            {"mean_longest_edge", stats.mean_longest_edge},
-            {"mean_box_side", stats.mean_box_side},
-            {"median_box_side", stats.median_box_side},
-            {"mean_facet_area", stats.mean_facet_area},
-            {"mean_tet_facet_area", stats.mean_tet_facet_area},
-            {"mean_boundary_facet_area", stats.mean_boundary_facet_area},
-            {"mean_volume", stats.mean_volume},
-            {"bounds", bounds(stats.bounds_min, stats.bounds_max)}};
+Json geometry(const vox_geometry& geometry) {
+    return {{"vertices", geometry.vertices},
+            {"tets", geometry.tets},
+            {"edges", geometry.edges},
+            {"facets", geometry.facets},
+            {"boundary_facets", geometry.boundary_facets},
+            {"degenerate_tets", geometry.degenerate_tets},
+            {"mean_edge", geometry.mean_edge},
+            {"mean_longest_edge", geometry.mean_longest_edge},
+            {"mean_box_side", geometry.mean_box_side},
+            {"median_box_side", geometry.median_box_side},
+            {"mean_facet_area", geometry.mean_facet_area},
+            {"mean_tet_facet_area", geometry.mean_tet_facet_area},
+            {"mean_boundary_facet_area", geometry.mean_boundary_facet_area},
+            {"mean_volume", geometry.mean_volume},
+            {"bounds", bounds(geometry.bounds_min, geometry.bounds_max)}};
 }
 
-Json curve(std::span<const vox_cost_sample> samples) {
+Json curve(const vox_cell_size_result& result) {
     Json list = Json::array();
-    for (const vox_cost_sample& sample : samples)
+    for (const vox_cost_sample& sample : std::span(result.curve).first(result.curve_count))
         list.push_back({{"cell_size", sample.cell_size}, {"cost", sample.cost}});
     return list;
 }
 
-bool collides(const vox_suggestion& suggestion) { return suggestion.predicted_cost > 0; }
+bool collides(const vox_cell_size_result& result) { return result.cost > 0; }
 
-void add_suggestion(Json& json, const vox_suggestion& suggestion) {
-    json.add("cell_size", suggestion.cell_size);
-    json.add("cells_per_axis", suggestion.cells_per_axis);
-    const bool has_zone = collides(suggestion);
-    json.add("zone", {{"min", has_zone ? Json(suggestion.zone_min) : Json()},
-                      {"max", has_zone ? Json(suggestion.zone_max) : Json()}});
-    json.add("collides", has_zone);
-    json.add("predicted_cost", suggestion.predicted_cost);
-    json.add("model", model_name(suggestion.model));
-    json.add("rules", rules(suggestion.rules));
-    json.add("stats", stats(suggestion.stats));
-    json.add("curve", curve({suggestion.curve, suggestion.curve_count}));
-    json.add("rule_costs", rules(suggestion.rule_costs));
-    Json terms = Json::array();
-    for (std::uint32_t i = 0; i < suggestion.term_count; ++i) {
-        const vox_cost_share& term = suggestion.terms[i];
-        terms.push_back(
-            {{"name", term.name}, {"count", term.count}, {"cost", term.cost}, {"share", term.share}});
-    }
+void add_suggestion(Json& json, const vox_cell_size_result& result) {
+    const bool has_zone = collides(result);
+    json.add("cell_size", result.cell_size);
+    json.add("zone_min", has_zone ? Json(result.zone_min) : Json());
+    json.add("zone_max", has_zone ? Json(result.zone_max) : Json());
+    json.add("cost", result.cost);
+    json.add("min_cell_size", result.min_cell_size);
+    json.add("cells_per_axis", number(result.cells_per_axis));
+    json.add("fit_error", result.fit_error);
+    json.add("expected_loss", result.expected_loss);
+    json.add("curve", curve(result));
+    Json terms = Json::array(), rules = terms, timings = terms;
+    for (const vox_cost_term& term : std::span(result.terms).first(result.term_count))
+        terms.push_back({{"name", term.name}, {"count", term.count}, {"cost", term.cost}});
+    for (const vox_cell_size_rule& rule : std::span(result.rules).first(result.rule_count))
+        rules.push_back(
+            {{"name", rule.name}, {"cell_size", number(rule.cell_size)}, {"cost", number(rule.cost)}});
+    for (const vox_timing& timing : std::span(result.timings).first(result.timing_count))
+        timings.push_back({{"cell_size", timing.cell_size}, {"seconds", timing.seconds}});
     json.add("terms", terms);
-    json.add("uniform_loss", suggestion.uniform_loss);
-    Json levels = Json::array();
-    for (std::uint32_t i = 0; i < suggestion.level_count; ++i) levels.push_back(suggestion.levels[i]);
-    json.add("levels", levels);
+    json.add("rules", rules);
+    json.add("timings", timings);
+    const vox_foreign_weights& w = result.weights;
+    json.add("weights", {{"run", w.run},
+                         {"store", w.store},
+                         {"visit", w.visit},
+                         {"found", w.found},
+                         {"read", w.read},
+                         {"occupied", w.occupied},
+                         {"cell", w.cell}});
+    json.add("warnings", result.warnings);
+    json.add("note", result.note);
+}
+
+void add_suggestion(Json& json, const vox_cell_size_result& result, vox_cost_model model,
+                    const vox_geometry& measured) {
+    add_suggestion(json, result);
+    json.add("collides", collides(result));
+    json.add("model", model_name(model));
+    json.add("geometry", geometry(measured));
+}
+
+void print_reasons(const vox_cell_size_result& result, double mean_edge) {
+    std::printf("Predicted cost over cell size, in units of the minimum (logarithmic in cell size):\n%s",
+                cost_curve(result).c_str());
+    const auto print_rule = [&](const char* name, double cell_size, double cost) {
+        if (!(cell_size > 0)) return;
+        std::printf("  %-48s %-12.9g", name, cell_size);
+        if (mean_edge > 0) std::printf(" %6.2f", cell_size / mean_edge);
+        if (cost > 0) std::printf(" %+7.0f %%", 100 * (cost / result.cost - 1));
+        std::printf("\n");
+    };
+    if (result.rule_count > 0) {
+        std::printf("\n  %-48s %-12s%s %9s\n", "rule", "cell size", mean_edge > 0 ? "  edges" : "", "cost");
+        print_rule("this suggestion", result.cell_size, result.cost);
+    }
+    for (const vox_cell_size_rule& rule : std::span(result.rules).first(result.rule_count))
+        print_rule(rule.name, rule.cell_size, rule.cost);
+    std::vector<vox_cost_term> terms(result.terms, result.terms + result.term_count);
+    std::erase_if(terms, [](const vox_cost_term& term) { return !(term.cost > 0); });
+    std::ranges::sort(terms, std::greater(), &vox_cost_term::cost);
+    if (!terms.empty()) std::printf("\nWhat the cost is made of:\n");
+    for (const vox_cost_term& term : terms)
+        std::printf("  %-22s %12.4g times %5.1f %%  %s\n", term.name, term.count,
+                    100 * term.cost / result.cost, bar(term.cost / result.cost, 30).c_str());
+    if (*result.note) std::printf("\n%s\n", result.note);
 }
 
 void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_body>& ids,

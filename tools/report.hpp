@@ -7,21 +7,27 @@
 
 #include <vox/vox_cell_size.h>
 
-#include <span>
 #include <string>
 #include <vector>
 
 namespace tool {
 
 Json bounds(const double (&min)[3], const double (&max)[3]);
-Json stats(const vox_geometry_stats& stats);
-Json curve(std::span<const vox_cost_sample> samples);
+Json geometry(const vox_geometry& geometry);
+Json curve(const vox_cell_size_result& result);
 
 // Whether anything collides. If not, every cell size is as good as any other.
-bool collides(const vox_suggestion& suggestion);
+bool collides(const vox_cell_size_result& result);
 
-// Adds the keys of `vox suggest`.
-void add_suggestion(Json& json, const vox_suggestion& suggestion);
+// Adds the fields of the result; a number that does not exist is null.
+void add_suggestion(Json& json, const vox_cell_size_result& result);
+// Adds also the other keys of `vox suggest` for meshes.
+void add_suggestion(Json& json, const vox_cell_size_result& result, vox_cost_model model,
+                    const vox_geometry& measured);
+
+// Prints the curve, the rules, what the cost is made of, and the note. With a mean edge, the cell sizes of
+// rules are also given in mean edges.
+void print_reasons(const vox_cell_size_result& result, double mean_edge = 0);
 
 // Adds the keys of `vox collide` but for the cell size, for a grid whose constraints were looked for. In
 // contacts and constraints, a mesh is given by its index in `ids`.

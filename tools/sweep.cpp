@@ -21,6 +21,9 @@
 #include <ctime>
 #include <filesystem>
 #include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
 
 namespace tool {
 
@@ -74,9 +77,17 @@ struct Size {
     const SweepSample* sample = nullptr; // the first round's sample, for its counts
 };
 
+// The names of the library's rules here, which files of samples keep, and how the library's own begin.
+constexpr std::pair<const char*, const char*> rule_names[] = {{"traditional", "mean edge"},
+                                                              {"mean_edge_multiple", "2 mean edges"},
+                                                              {"object_512", "512 voxels"},
+                                                              {"mean_volume", "cube root of the mean volume"},
+                                                              {"median_box_side", "median box side"}};
+
 // The sizes of the range in ascending order, evenly spaced in the logarithm, and then those of the rules.
-std::vector<Size> choose_sizes(const SweepOptions& options, const vox_suggestion& suggestion, double world) {
-    std::array<double, 2> range = {0.5 * suggestion.rules.mean_edge, 4 * suggestion.rules.mean_edge};
+std::vector<Size> choose_sizes(const SweepOptions& options, const vox_cell_size_result& suggestion,
+                               double mean_edge, double world) {
+    std::array<double, 2> range = {0.5 * mean_edge, 4 * mean_edge};
     if (!options.cell_sizes.empty()) range = {options.cell_sizes[0], options.cell_sizes[1]};
     if (!options.cells_per_axis.empty())
         range = {world / options.cells_per_axis[1], world / options.cells_per_axis[0]};
@@ -91,19 +102,17 @@ std::vector<Size> choose_sizes(const SweepOptions& options, const vox_suggestion
                 : range[0] * std::pow(range[1] / range[0], double(i) / (options.count - 1));
         sizes.push_back({"", cell_size, {}, {}});
     }
-    const vox_cell_size_rules& rules = suggestion.rules;
-    for (const auto& [name, cell_size] :
-         {std::pair("suggestion", suggestion.cell_size), std::pair("traditional", rules.mean_edge),
-          std::pair("mean_edge_multiple", rules.mean_edge_multiple),
-          std::pair("object_512", rules.object_512), std::pair("mean_volume", rules.mean_volume),
-          std::pair("median_box_side", rules.median_box_side)})
-        if (cell_size > 0) sizes.push_back({name, cell_size, {}, {}});
+    sizes.push_back({"suggestion", suggestion.cell_size, {}, {}});
+    for (const auto& [name, words] : rule_names)
+        for (const vox_cell_size_rule& rule : std::span(suggestion.rules).first(suggestion.rule_count))
+            if (rule.cell_size > 0 && std::string_view(rule.name).starts_with(words))
+                sizes.push_back({name, rule.cell_size, {}, {}});
     return sizes;
 }
 
 // A size far from the optimum could take as much time as all others together, and its exact regret does not
 // matter.
-bool worth_measuring(const Size& size, const vox_suggestion& suggestion) {
+bool worth_measuring(const Size& size, const vox_cell_size_result& suggestion) {
     constexpr double far = 6;
     return size.rule.empty() ||
            (size.cell_size > suggestion.cell_size / far && size.cell_size < suggestion.cell_size * far);
@@ -128,7 +137,7 @@ void warn_if_busy(std::chrono::duration<double> passed, double processor) {
         passed.count(), processor);
 }
 
-void measure(const SweepOptions& options, Experiment& experiment, const vox_suggestion& suggestion,
+void measure(const SweepOptions& options, Experiment& experiment, const vox_cell_size_result& suggestion,
              SweepLog& log, const std::vector<Size>& sizes) {
     Progress progress;
     const auto begin = std::chrono::steady_clock::now();
@@ -226,7 +235,8 @@ struct Sweep {
     const SweepOptions& options;
     const std::vector<Body>& bodies;
     const Experiment& experiment;
-    vox_suggestion suggestion;
+    vox_cell_size_result suggestion;
+    vox_geometry geometry;
     double world;
     std::vector<Size> sizes;
     Evaluation found;
@@ -312,15 +322,13 @@ void print_sweep_json(const Sweep& sweep) {
     json.add("epsilon_5_percent", epsilon_percent);
     json.add("regret", measured);
     json.add("regret_fitted", fitted);
-    const vox_suggestion& predicted = sweep.suggestion;
-    json.add("predicted",
-             {{"stats", stats(predicted.stats)}, {"curve", curve({predicted.curve, predicted.curve_count})}});
+    json.add("predicted", {{"geometry", geometry(sweep.geometry)}, {"curve", curve(sweep.suggestion)}});
     print(json);
 }
 
 void print_sweep(const Sweep& sweep) {
     const Evaluation& found = sweep.found;
-    const double mean_edge = sweep.suggestion.rules.mean_edge;
+    const double mean_edge = sweep.geometry.mean_edge;
     std::printf("%s against %s, %llu tetrahedra, %.2f %% of them in contact (mean over %u frames).\n\n",
                 sweep.bodies.front().name.c_str(), sweep.bodies.back().name.c_str(),
                 static_cast<unsigned long long>(sweep.experiment.tets()), 100 * sweep.experiment.mean_share(),
@@ -391,16 +399,21 @@ void run_sweep(const SweepOptions& options) {
     settings.grid = grid.grid_desc();
     Experiment experiment(settings, experiment_body(bodies[0]), experiment_body(bodies[1]));
 
-    vox_suggest_desc paper = vox_default_suggest_desc();
-    paper.model = VOX_COST_MODEL_PAPER;
-    Sweep sweep{options, bodies, experiment, experiment.suggest(paper), options.world, {}, {}};
+    Sweep sweep{options,
+                bodies,
+                experiment,
+                experiment.suggest(vox_default_cell_size_desc()),
+                experiment.geometry(),
+                options.world,
+                {},
+                {}};
     if (!(sweep.world > 0)) {
         const Bounds bounds = experiment.bounds();
         for (std::size_t axis = 0; axis < 3; ++axis)
             sweep.world = std::max(sweep.world, bounds.max[axis] - bounds.min[axis]);
     }
 
-    sweep.sizes = choose_sizes(options, sweep.suggestion, sweep.world);
+    sweep.sizes = choose_sizes(options, sweep.suggestion, sweep.geometry.mean_edge, sweep.world);
     const double range_min = sweep.sizes.front().cell_size,
                  range_max = sweep.sizes[options.count - 1].cell_size;
     const std::string name = hexadecimal(experiment.hash()) + "/" + engine_name(options.grid);

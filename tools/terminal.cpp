@@ -141,8 +141,8 @@ std::string bar(double fraction, int width) {
     return repeated("█", eighths / 8) + rows_utf8[eighths % 8];
 }
 
-std::string cost_curve(const CostCurve& curve) {
-    const int columns = static_cast<int>(curve.samples.size());
+std::string cost_curve(const vox_cell_size_result& found) {
+    const int columns = static_cast<int>(found.curve_count);
     if (columns < 2) return {};
     const bool utf8 = locale_is_utf8();
     // The chart goes from 0 to three times the minimum, because the interesting part is near the minimum.
@@ -161,7 +161,7 @@ std::string cost_curve(const CostCurve& curve) {
         text += head;
         std::string line;
         for (int column = 0; column < columns; ++column) {
-            const double cost = curve.samples[static_cast<std::size_t>(column)].cost / curve.cost;
+            const double cost = found.curve[column].cost / found.cost;
             const int eighths = static_cast<int>(std::lround(cost / top * height * 8)) - (row - 1) * 8;
             if (utf8)
                 line += columns_utf8[std::clamp(eighths, 0, 8)];
@@ -173,21 +173,21 @@ std::string cost_curve(const CostCurve& curve) {
     }
 
     // The samples are evenly spaced in the logarithm of the cell size, which gives the column of a cell size.
-    const double first = std::log(curve.samples.front().cell_size);
-    const double last = std::log(curve.samples.back().cell_size);
+    const double first = std::log(found.curve[0].cell_size);
+    const double last = std::log(found.curve[columns - 1].cell_size);
     const auto column_of = [&](double cell_size) {
         const double place = (std::log(cell_size) - first) / (last - first) * (columns - 1);
         return std::clamp(static_cast<int>(std::lround(place)), 0, columns - 1);
     };
-    const int zone_begin = column_of(curve.zone_min), zone_end = column_of(curve.zone_max);
-    const int best = std::clamp(column_of(curve.cell_size), zone_begin, zone_end);
+    const int zone_begin = column_of(found.zone_min), zone_end = column_of(found.zone_max);
+    const int best = std::clamp(column_of(found.cell_size), zone_begin, zone_end);
     text += indent + repeated(" ", zone_begin) + repeated(utf8 ? "─" : "-", best - zone_begin) +
             (utf8 ? "▲" : "^") + repeated(utf8 ? "─" : "-", zone_end - best) + "\n";
 
     char left[32], right[32], middle[48];
-    std::snprintf(left, sizeof left, "%.3g", curve.samples.front().cell_size);
-    std::snprintf(right, sizeof right, "%.3g", curve.samples.back().cell_size);
-    std::snprintf(middle, sizeof middle, "%.4g", curve.cell_size);
+    std::snprintf(left, sizeof left, "%.3g", found.curve[0].cell_size);
+    std::snprintf(right, sizeof right, "%.3g", found.curve[columns - 1].cell_size);
+    std::snprintf(middle, sizeof middle, "%.4g", found.cell_size);
     std::string scale(static_cast<std::size_t>(columns), ' ');
     const auto write = [&](int column, const char* words) {
         const std::string_view word = words;

@@ -1,9 +1,7 @@
 // Output for people: progress on standard error, and bars and curves made of characters.
 #pragma once
 
-#include "curve_svg.hpp"
-
-#include <vox/vox.h>
+#include <vox/vox_cell_size.h>
 
 #include <chrono>
 #include <string>
@@ -61,6 +59,6 @@ bool locale_is_utf8();
 std::string bar(double fraction, int width);
 
 // The predicted cost over the cell size, one column a sample, with the zone and the suggestion marked below.
-std::string cost_curve(const CostCurve& curve);
+std::string cost_curve(const vox_cell_size_result& found);
 
 } // namespace tool

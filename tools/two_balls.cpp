@@ -127,10 +127,12 @@ TwoBalls::TwoBalls(std::span<const double> rest, std::span<const std::uint32_t> 
     move(0);
     suggestion_.struct_size = sizeof suggestion_;
     check(vox_suggest_cell_size(nullptr, balls.data(), balls.size(), &suggestion_));
+    geometry_.struct_size = sizeof geometry_;
+    check(vox_measure_geometry(balls.data(), balls.size(), &geometry_));
     const vox_reference_desc reference = vox_default_reference_desc();
     for (const vox_reference_desc* engine : {static_cast<const vox_reference_desc*>(nullptr), &reference}) {
         contenders_.push_back(make_contender(balls, engine, "suggested", suggestion_.cell_size));
-        contenders_.push_back(make_contender(balls, engine, "mean_edge", suggestion_.rules.mean_edge));
+        contenders_.push_back(make_contender(balls, engine, "mean_edge", geometry_.mean_edge));
     }
 }
 

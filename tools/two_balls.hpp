@@ -41,7 +41,8 @@ public:
 
     std::size_t vertex_count() const { return rest_.size() / 3; }
     std::size_t tet_count() const { return tets_.size() / 4; }
-    const vox_suggestion& suggestion() const { return suggestion_; }
+    const vox_cell_size_result& suggestion() const { return suggestion_; } // of the paper's model
+    const vox_geometry& geometry() const { return geometry_; }             // of the balls at rest
     // The fast engine with the suggested cell size and with the mean edge, then the reference engine.
     std::span<const Contender> contenders() const { return contenders_; }
     std::span<const std::uint64_t> contacts() const { return contacts_; } // of each frame
@@ -54,7 +55,8 @@ private:
     std::span<const double> rest_;
     std::span<const std::uint32_t> tets_;
     std::array<std::vector<float>, 2> positions_;
-    vox_suggestion suggestion_{};
+    vox_cell_size_result suggestion_{};
+    vox_geometry geometry_{};
     std::vector<Contender> contenders_;
     std::vector<std::uint64_t> contacts_;
 };

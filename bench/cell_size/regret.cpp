@@ -111,8 +111,8 @@ public:
     }
 
     struct Suggestion {
-        double step_seconds, steps; // of a step, and the suggestion's time over it: medians
-        vox_suggestion answer;      // the last one
+        double step_seconds, steps;  // of a step, and the suggestion's time over it: medians
+        vox_cell_size_result answer; // the last one
     };
     // Of some: the first ones are slower, the code and what it reads being far away.
     Suggestion suggest(int times) {
@@ -133,7 +133,7 @@ public:
     // The time of the first one, which looks at the meshes, over that of a step.
     double first_suggestion() {
         const double step = turn(0);
-        vox_suggestion answer;
+        vox_cell_size_result answer;
         answer.struct_size = sizeof answer;
         return seconds_of([&] { must(vox_grid_suggest_cell_size(grid_, nullptr, &answer)); }) / step;
     }
@@ -155,7 +155,7 @@ struct Settings {
 
 struct Sample {
     double size, seconds;
-    double predicted = 0; // nanoseconds
+    double predicted = 0; // seconds
 };
 
 constexpr double least = 0.2, most = 10;
@@ -244,7 +244,7 @@ struct Row {
     double asked = 0; // tetrahedra; 0: those of a file
     std::size_t tets = 0, rounds = 0;
     double best_seconds = 0, best_size = 0; // sizes in mean edges
-    double noise = 0, suggest_steps = 0, uniform_loss = 0;
+    double noise = 0, suggest_steps = 0;
     std::array<double, rules.size()> size{}, regret{};
 };
 
@@ -277,7 +277,7 @@ const Contender& best_of(const std::vector<Contender>& candidates, std::size_t h
 }
 
 // The cost that a suggestion predicts at a cell size, from its curve; 0 beyond its ends.
-double predicted(const vox_suggestion& suggestion, double size) {
+double predicted(const vox_cell_size_result& suggestion, double size) {
     for (std::uint32_t i = 1; i < suggestion.curve_count; ++i) {
         const vox_cost_sample &a = suggestion.curve[i - 1], &b = suggestion.curve[i];
         if (size < a.cell_size || size > b.cell_size) continue;
@@ -295,14 +295,16 @@ Row measure(Scene& scene, engine_kind engine, const Settings& settings, std::vec
     scene.pose(0);
 
     const std::vector<vox_mesh_desc> meshes = Grid::descs(scene);
-    vox_suggestion paper{}, model{};
-    paper.struct_size = model.struct_size = sizeof(vox_suggestion);
+    vox_cell_size_result paper{}, model{};
+    paper.struct_size = model.struct_size = sizeof(vox_cell_size_result);
     must(vox_suggest_cell_size(nullptr, meshes.data(), meshes.size(), &paper));
-    vox_suggest_desc desc = vox_default_suggest_desc();
+    vox_geometry geometry{};
+    geometry.struct_size = sizeof geometry;
+    must(vox_measure_geometry(meshes.data(), meshes.size(), &geometry));
+    vox_cell_size_desc desc = vox_default_cell_size_desc();
     desc.model = engine == ENGINE_FAST ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
     desc.weights = &settings.weights;
     must(vox_suggest_cell_size(&desc, meshes.data(), meshes.size(), &model));
-    row.uniform_loss = model.uniform_loss;
 
     // All sizes in one grid: memory at other addresses alone changes times by per cents.
     Grid grid(engine, scene, 0); // contacts alone
@@ -312,8 +314,8 @@ Row measure(Scene& scene, engine_kind engine, const Settings& settings, std::vec
     std::vector<Contender> best;
     for (const double size : candidates(curve)) best.push_back({size, {}});
     std::array<Contender, rules.size()> rule = {
-        Contender{model.cell_size, {}}, Contender{0, {}}, Contender{paper.rules.mean_edge, {}},
-        Contender{paper.cell_size, {}}, Contender{paper.rules.median_box_side, {}}};
+        Contender{model.cell_size, {}}, Contender{0, {}}, Contender{geometry.mean_edge, {}},
+        Contender{paper.cell_size, {}}, Contender{geometry.median_box_side, {}}};
     Contender again{model.cell_size, {}};
 
     std::vector<Contender*> all{&again};
@@ -352,8 +354,8 @@ Row measure(Scene& scene, engine_kind engine, const Settings& settings, std::vec
 // ---- suggestions alone ----------------------------------------------------------------------------
 
 // Seconds of vox_suggest_cell_size: the least of some, of which the first ones fault in their memory.
-double seconds_of_call(const vox_suggest_desc& desc, const std::vector<vox_mesh_desc>& meshes,
-                       vox_suggestion& answer) {
+double seconds_of_call(const vox_cell_size_desc& desc, const std::vector<vox_mesh_desc>& meshes,
+                       vox_cell_size_result& answer) {
     double least = std::numeric_limits<double>::infinity();
     answer.struct_size = sizeof answer;
     for (int i = 0; i < 9; ++i)
@@ -369,10 +371,10 @@ double seconds_of_call(const vox_suggest_desc& desc, const std::vector<vox_mesh_
 std::string suggestions(Scene& scene, engine_kind engine) {
     scene.pose(0);
     const std::vector<vox_mesh_desc> meshes = Grid::descs(scene);
-    vox_suggest_desc desc = vox_default_suggest_desc();
+    vox_cell_size_desc desc = vox_default_cell_size_desc();
     desc.model = engine == ENGINE_FAST ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
-    vox_suggestion model{};
-    const vox_suggest_desc paper = vox_default_suggest_desc();
+    vox_cell_size_result model{};
+    const vox_cell_size_desc paper = vox_default_cell_size_desc();
     const double paper_seconds = seconds_of_call(paper, meshes, model);
     const double model_seconds = seconds_of_call(desc, meshes, model);
     char calls[80];
@@ -385,8 +387,7 @@ std::string suggestions(Scene& scene, engine_kind engine) {
         for (int i = 0; i < 3; ++i) first.push_back(Grid(engine, scene, flags).first_suggestion());
         char part[120];
         std::snprintf(part, sizeof part, ",%.2f,%.3f,%.3f,%.3f,%.3f", found.step_seconds * 1e6, found.steps,
-                      median(first), size / model.cell_size,
-                      predicted(model, size) / model.predicted_cost - 1);
+                      median(first), size / model.cell_size, predicted(model, size) / model.cost - 1);
         text += part;
     }
     return text + "\n";
@@ -406,15 +407,15 @@ std::string key(const std::string& engine, const std::string& scene, double aske
 }
 
 std::string head() {
-    std::string text = "engine,scene,asked,tets,rounds,best_ms,best_size,noise,suggest_steps,uniform_loss";
+    std::string text = "engine,scene,asked,tets,rounds,best_ms,best_size,noise,suggest_steps";
     for (const std::string rule : rules) text += "," + rule + "_size," + rule + "_regret";
     return text + "\n";
 }
 
 std::string line(const Row& row) {
     char text[160];
-    std::snprintf(text, sizeof text, ",%zu,%zu,%.5f,%.4f,%.4f,%.3f,%.4f", row.tets, row.rounds,
-                  row.best_seconds * 1e3, row.best_size, row.noise, row.suggest_steps, row.uniform_loss);
+    std::snprintf(text, sizeof text, ",%zu,%zu,%.5f,%.4f,%.4f,%.3f", row.tets, row.rounds,
+                  row.best_seconds * 1e3, row.best_size, row.noise, row.suggest_steps);
     std::string all = key(row.engine, row.scene, row.asked) + text;
     for (std::size_t i = 0; i < rules.size(); ++i) {
         std::snprintf(text, sizeof text, ",%.4f,%.4f", row.size[i], row.regret[i]);
@@ -505,7 +506,7 @@ int run(int argc, char** argv) {
                         if (curves.empty()) break;
                         char text[120];
                         std::snprintf(text, sizeof text, ",%.5f,%.6f,%.6f\n", s.size / scene.mean_edge,
-                                      s.seconds * 1e3, s.predicted * 1e-6);
+                                      s.seconds * 1e3, s.predicted * 1e3);
                         append(curves, key(row.engine, row.scene, row.asked) + text);
                     }
                 }

@@ -11,14 +11,6 @@ import subprocess
 import sys
 
 ROUNDS, STEPS = 9, 5
-NAMES = {
-    "mean_edge": "mean edge (Teschner et al. 2003)",
-    "mean_edge_multiple": "twice the mean edge (after Gregory et al. 2000)",
-    "object_512": "512 cells an object (García-Alonso et al. 1994)",
-    "mean_volume": "cube root of the mean volume",
-    "median_box_side": "median box side (IPC Toolkit)",
-}
-
 
 def vox(*arguments):
     return json.loads(subprocess.run([*arguments, "--json"], check=True, capture_output=True).stdout)
@@ -29,14 +21,14 @@ def main():
         sys.exit(__doc__)
     program, mesh, *offset = sys.argv[1:]
     suggestion = vox(program, "suggest", mesh)
-    mean_edge = suggestion["rules"]["mean_edge"]
+    mean_edge = suggestion["geometry"]["mean_edge"]
     if not offset:
-        low, high = (suggestion["stats"]["bounds"][end] for end in ("min", "max"))
+        low, high = (suggestion["geometry"]["bounds"][end] for end in ("min", "max"))
         sides = [b - a for a, b in zip(low, high)]
         offset = [0.5 * s if s == max(sides) else 0 for s in sides]
 
     sizes = {"**suggested**": suggestion["cell_size"]}
-    sizes.update((NAMES[rule], size) for rule, size in suggestion["rules"].items() if rule in NAMES and size)
+    sizes.update((rule["name"], rule["cell_size"]) for rule in suggestion["rules"] if rule["cell_size"])
     sweep = {f"sweep {k}": mean_edge * 0.25 * 40 ** (k / 23) for k in range(24)}  # 0.25 to 10 mean edges
 
     times = {name: [] for name in [*sizes, *sweep]}

@@ -13,8 +13,8 @@ import numpy as np
 import losses
 import scenes
 
-BOXES, CENTRES = 0, 1  # vox_cell_content
-BOX, AROUND, PAIRS = 0, 1, 2  # vox_cell_look
+STORED_BOX, STORED_CENTRE = 1, 2  # vox_cells_stored
+BOX, AROUND, PAIRS = 1, 2, 3  # vox_cells_queried
 POINT, EDGE, TRIANGLE, TET, BOX_TYPE = range(5)  # vox_primitive_type
 _, SORTED, HASHED, WARP, IPC, IPC_PAIRS, VTK, PBAT, POINT_VOXELS, NUMPY = range(len(losses.KNOWN))
 
@@ -46,24 +46,24 @@ class Case:
     grid: str
     known: int
     scene: str
-    content: int
-    look: int
+    cells_stored: int
+    cells_queried: int
     dense: bool
-    held: Primitives
-    asking: Optional[Primitives]  # None: those held
+    stored: Primitives
+    querying: Optional[Primitives]  # None: those stored
     mean_edge: float  # of the scene; of a cloud the spacing of its points
     run: Callable[[float], object]  # at a cell size
     default: Optional[float] = None  # the cell size that the grid's own library chooses
     unit: Optional[float] = None  # of the sweep; None: mean_edge
 
-    def least(self):
+    def min_cell_size(self):
         """The smallest legal cell size."""
-        if self.look != AROUND:
+        if self.cells_queried != AROUND:
             return 0.0
-        return max(0.5 * (b[:, 3:] - b[:, :3]).max() for b in (self.held.boxes(), self.asked().boxes()))
+        return max(0.5 * (b[:, 3:] - b[:, :3]).max() for b in (self.stored.boxes(), self.queries().boxes()))
 
-    def asked(self):
-        return self.held if self.asking is None else self.asking
+    def queries(self):
+        return self.stored if self.querying is None else self.querying
 
 
 def doubles(array):
@@ -85,20 +85,20 @@ def plain(path):
 
 
 def count(library, case, cell_size, samples=2):
-    """The fields of vox_grid_work, counted."""
-    held, asked = case.held.boxes(), case.asked().boxes()
-    work = (ctypes.c_double * len(losses.WORK))()
-    library.plain_count(doubles(held), len(held), doubles(asked), len(asked), cell_size, case.content, case.look,
-                        samples, work)
-    return dict(zip(losses.WORK, work))
+    """The fields of vox_foreign_counts, counted."""
+    stored, queries = case.stored.boxes(), case.queries().boxes()
+    counts = (ctypes.c_double * len(losses.COUNTS))()
+    library.plain_count(doubles(stored), len(stored), doubles(queries), len(queries), cell_size, case.cells_stored, case.cells_queried,
+                        samples, counts)
+    return dict(zip(losses.COUNTS, counts))
 
 
 def tets(body):
     return Primitives(TET, body.vertices, body.tets.astype(np.uint32))
 
 
-def held_and_asking(scene):
-    """Its bodies: the one that is held, and the other, or None."""
+def stored_and_querying(scene):
+    """Its bodies: the one that is stored, and the other, or None."""
     return scene.bodies[0], scene.bodies[1] if len(scene.bodies) > 1 else None
 
 
@@ -106,16 +106,16 @@ def held_and_asking(scene):
 
 def plain_cases(source, run, name, known, dense):
     for scene in source.meshes():
-        body, other = held_and_asking(scene)
+        body, other = stored_and_querying(scene)
         edge = scenes.mean_edge(body)
-        for content, held in ((BOXES, tets(body)), (CENTRES, Primitives(POINT, body.vertices))):
-            asking = tets(other if other else body) if other or content == CENTRES else None
-            boxes, asked = held.boxes(), (asking or held).boxes()
+        for cells_stored, stored in ((STORED_BOX, tets(body)), (STORED_CENTRE, Primitives(POINT, body.vertices))):
+            querying = tets(other if other else body) if other or cells_stored == STORED_CENTRE else None
+            boxes, asked = stored.boxes(), (querying or stored).boxes()
 
-            def at(size, boxes=boxes, asked=asked, content=content):
-                return run(doubles(boxes), len(boxes), doubles(asked), len(asked), size, content, BOX)
-            title = f"{name}, {'boxes' if content == BOXES else 'points'}"
-            yield Case(title, known, scene.name, content, BOX, dense, held, asking, edge, at)
+            def at(size, boxes=boxes, asked=asked, cells_stored=cells_stored):
+                return run(doubles(boxes), len(boxes), doubles(asked), len(asked), size, cells_stored, BOX)
+            title = f"{name}, {'boxes' if cells_stored == STORED_BOX else 'points'}"
+            yield Case(title, known, scene.name, cells_stored, BOX, dense, stored, querying, edge, at)
 
 
 def sorted_cases(library, source):
@@ -138,7 +138,7 @@ def voxel_cases(library, source):
 
             def at(size, points=points, radius=radius):
                 return library.plain_run_voxels(doubles(points), len(points), radius, size)
-            yield Case("hashed voxels of points", POINT_VOXELS, f"{name}, {multiple:g}", CENTRES, BOX, False,
+            yield Case("hashed voxels of points", POINT_VOXELS, f"{name}, {multiple:g}", STORED_CENTRE, BOX, False,
                        Primitives(POINT, points), Primitives(POINT, points, radii=np.full(len(points), radius)), spacing,
                        at, radius, radius)
 
@@ -165,11 +165,11 @@ def cells_of(boxes, origin, size, dims):
     return (cell[:, 2] * dims[1] + cell[:, 1]) * dims[0] + cell[:, 0], owner
 
 
-def run_numpy(held, asked, size):
+def run_numpy(stored, asked, size):
     """How many pairs of boxes meet: keys of cells, sorted, and the run of each key that is asked."""
-    origin = np.minimum(held[:, :3].min(0), asked[:, :3].min(0))
-    dims = np.floor((np.maximum(held[:, 3:].max(0), asked[:, 3:].max(0)) - origin) / size).astype(np.int64) + 1
-    keys, owner = cells_of(held, origin, size, dims)
+    origin = np.minimum(stored[:, :3].min(0), asked[:, :3].min(0))
+    dims = np.floor((np.maximum(stored[:, 3:].max(0), asked[:, 3:].max(0)) - origin) / size).astype(np.int64) + 1
+    keys, owner = cells_of(stored, origin, size, dims)
     order = np.argsort(keys, kind="stable")
     keys, owner = keys[order], owner[order]
     found = 0
@@ -177,7 +177,7 @@ def run_numpy(held, asked, size):
         wanted, asker = cells_of(chunk, origin, size, dims)
         first = np.searchsorted(keys, wanted)
         which, index = expanded(np.searchsorted(keys, wanted, side="right") - first)
-        a, b = chunk[asker[which]], held[owner[first[which] + index]]
+        a, b = chunk[asker[which]], stored[owner[first[which] + index]]
         low = np.maximum(a[:, :3], b[:, :3])
         meet = (low <= np.minimum(a[:, 3:], b[:, 3:])).all(1)
         cell = np.floor((low[meet] - origin) / size).astype(np.int64)
@@ -187,10 +187,10 @@ def run_numpy(held, asked, size):
 
 def numpy_cases(_, source):
     for scene in source.meshes(0.08):
-        body, other = held_and_asking(scene)
-        held, asking = tets(body), tets(other) if other else None
-        boxes, asked = held.boxes(), (asking or held).boxes()
-        yield Case("numpy, sorted keys", NUMPY, scene.name, BOXES, BOX, False, held, asking, scenes.mean_edge(body),
+        body, other = stored_and_querying(scene)
+        stored, querying = tets(body), tets(other) if other else None
+        boxes, asked = stored.boxes(), (querying or stored).boxes()
+        yield Case("numpy, sorted keys", NUMPY, scene.name, STORED_BOX, BOX, False, stored, querying, scenes.mean_edge(body),
                    functools.partial(run_numpy, boxes, asked))
 
 
@@ -205,7 +205,7 @@ def warp_cases(_, source):
     kernel = warp_kernel(wp)
     found = []
     for scene in source.meshes():
-        body, other = held_and_asking(scene)
+        body, other = stored_and_querying(scene)
         found.append((scene.name, body.vertices, tets(other if other else body).boxes(), scenes.mean_edge(body), None))
     for scene in source.clouds():
         spacing = scenes.cloud_spacing(scene.points)
@@ -222,7 +222,7 @@ def warp_cases(_, source):
         def at(size, arrays=arrays, hits=hits):
             grid.build(points=arrays[0], radius=size)
             wp.launch(kernel, dim=len(hits), inputs=[grid.id, *arrays, hits], device="cpu")
-        yield Case("Warp HashGrid", WARP, name, CENTRES, BOX, False, Primitives(POINT, points),
+        yield Case("Warp HashGrid", WARP, name, STORED_CENTRE, BOX, False, Primitives(POINT, points),
                    Primitives(POINT, np.ascontiguousarray(centres), radii=radii), edge, at, float(radii.mean()), unit)
 
 
@@ -280,7 +280,7 @@ def ipc_cases(_, source):
             grid.detect_face_vertex_candidates()
             grid.clear()
         default = ipctk.suggest_good_voxel_size(fortran[0], fortran[1], grown)
-        yield Case("ipctk SpatialHash", IPC, scene.name, BOXES, BOX, False,
+        yield Case("ipctk SpatialHash", IPC, scene.name, STORED_BOX, BOX, False,
                    of_boxes(*lows_and_highs(vertices, alone, edges, faces, grown=grown)),
                    of_boxes(*lows_and_highs(vertices, alone, edges, grown=grown)), edge, at, default)
 
@@ -308,7 +308,7 @@ def ipc_pairs_cases(_, source):
         all_edges = ipctk.HashGrid()
         all_edges.build(np.asfortranarray(vertices), np.asfortranarray(edges), faces_in, grown)
         alone = np.arange(len(vertices))[:, None]
-        yield Case("ipctk HashGrid", IPC_PAIRS, scene.name, BOXES, PAIRS, False,
+        yield Case("ipctk HashGrid", IPC_PAIRS, scene.name, STORED_BOX, PAIRS, False,
                    of_boxes(*lows_and_highs(vertices, alone, faces, grown=grown)), None, edge, at, all_edges.cell_size)
 
 
@@ -320,7 +320,7 @@ def vtk_cases(_, source):
     import vtk
     from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     for scene in source.meshes():
-        body, other = held_and_asking(scene)
+        body, other = stored_and_querying(scene)
         low, high = body.vertices.min(0), body.vertices.max(0)
         points = (other if other else body).vertices
         points = np.ascontiguousarray(points[((points >= low) & (points <= high)).all(1)])
@@ -344,7 +344,7 @@ def vtk_cases(_, source):
         automatic.SetDataSet(mesh)
         automatic.BuildLocator()
         default = float(((high - low) / automatic.GetDivisions()).prod() ** (1 / 3))
-        yield Case("VTK static cell locator", VTK, scene.name, BOXES, BOX, True, tets(body), Primitives(POINT, points),
+        yield Case("VTK static cell locator", VTK, scene.name, STORED_BOX, BOX, True, tets(body), Primitives(POINT, points),
                    scenes.mean_edge(body), at, default)
 
 
@@ -354,10 +354,10 @@ def pbat_cases(_, source):
     """Centres of boxes in cells; vertices of the other body (or its own) look at 27."""
     from pbatoolkit import pbat
     for scene in source.meshes(0.1):
-        body, other = held_and_asking(scene)
+        body, other = stored_and_querying(scene)
         points = (other if other else body).vertices
-        held = tets(body)
-        boxes = held.boxes()
+        stored = tets(body)
+        boxes = stored.boxes()
         low, high, asked = (np.asfortranarray(a.T) for a in (boxes[:, :3], boxes[:, 3:], points))
         expected = 8
 
@@ -365,7 +365,7 @@ def pbat_cases(_, source):
             grid = pbat.geometry.HashGrid3(size, 2 * low.shape[1])
             grid.construct(low, high)
             grid.broad_phase(asked, expected)
-        yield Case("PBAT HashGrid3", PBAT, scene.name, CENTRES, AROUND, False, held, Primitives(POINT, np.ascontiguousarray(points)),
+        yield Case("PBAT HashGrid3", PBAT, scene.name, STORED_CENTRE, AROUND, False, stored, Primitives(POINT, np.ascontiguousarray(points)),
                    scenes.mean_edge(body), at, float((boxes[:, 3:] - boxes[:, :3]).max()))
 
 

@@ -21,7 +21,7 @@ import library  # noqa: E402
 import losses  # noqa: E402
 from page import put, quantile  # noqa: E402
 
-ANY = 0
+NONE = 0  # vox_known_grid
 CLOSE, FURTHER = 1.2, 2 ** 0.5  # to an end of the sizes timed, and beyond it
 FIXED = {"default": "its own default", "mean_edge": "mean edge", "mean_edge_multiple": "two mean edges",
          "mean_box_side": "mean box side", "median_box_side": "median box side", "spacing": "spacing", "radius": "radius"}
@@ -29,12 +29,12 @@ OURS = {"bare": "not even described", "unknown": "default call: times unknown", 
         "fitted": "fitted to three timings", "tuned": "tuned by a callback"}
 # Of the ways: median and worst that are wanted.
 AIMS = {"tuned": (0.02, 0.08), "fitted": (0.02, 0.10), "shipped": (0.05, 0.20), "unknown": (None, 0.40)}
-COUNTED = ("entries", "visits", "reads", "occupied", "cells")
+COUNTED = ("stored", "visits", "reads", "occupied", "cells")
 AGREE = 0.05
 
 
 def primitives(curve, folder):
-    """What is held and what asks: from the curve itself, or from the file that it names."""
+    """What is stored and what queries: from the curve itself, or from the file that it names."""
     saved = curve.record["primitives"]
     if isinstance(saved, str):
         import numpy
@@ -52,12 +52,13 @@ def primitives(curve, folder):
         numbers = values["vertex_count"] if indices is None else indices.size if hasattr(indices, "size") else len(indices)
         values["count"] = numbers // vertices
         return values
-    return of("held"), of("asking")
+    return of("stored"), of("querying")
 
 
 def described(vox, curve, folder):
     record = curve.record
-    return library.Described(vox, *primitives(curve, folder), record["content"], record["look"], record["dense"])
+    return library.Described(vox, *primitives(curve, folder), record["cells_stored"], record["cells_queried"],
+                             library.DENSE if record["dense"] else library.OCCUPIED)
 
 
 def fitted(told, timed, sizes, least):
@@ -80,22 +81,22 @@ def choices(vox, curve, folder, draws):
     bare, told = library.Described(vox, *primitives(curve, folder)), described(vox, curve, folder)
     found = {name: [size] for name, size in record["rules"].items()}
     found["bare"] = [bare.suggest().cell_size]
-    found["unknown"] = [told.weigh(ANY).suggest().cell_size]
+    found["unknown"] = [told.weigh(NONE).suggest().cell_size]
     found["shipped"] = [told.weigh(curve.known).suggest().cell_size]
-    told.weigh(ANY)
+    told.weigh(NONE)
     rng = random.Random(curve.grid + curve.scene)
-    found["fitted"] = [fitted(told, lambda size: curve.draw(size, rng, 3), curve.timing_sizes(), curve.least) for _ in range(draws)]
+    found["fitted"] = [fitted(told, lambda size: curve.draw(size, rng, 3), curve.timing_sizes(), curve.min_cell_size) for _ in range(draws)]
     rng = random.Random(curve.scene + curve.grid)
     tuned = [told.tune(lambda size: curve.draw(size, rng)) for _ in range(draws)]
     found["tuned"] = [t.cell_size for t in tuned]
-    return found, [t.run_count for t in tuned], told
+    return found, [t.timing_count for t in tuned], told
 
 
 def count_errors(curve, told):
     """Of each count, predicted over counted - 1 at sizes of the sweep."""
     errors = {name: [] for name in COUNTED}
     for i in curve.record["sweep"][::3]:
-        predicted, counted = told.count(curve.sizes[i]), curve.record["work"][i]
+        predicted, counted = told.count(curve.sizes[i]), curve.record["counts"][i]
         for name in COUNTED:
             if counted[name] > 0 and (name != "cells" or curve.record["dense"]):
                 errors[name].append(predicted[name] / counted[name] - 1)

@@ -4,7 +4,7 @@
 usage: fit_known.py CURVES.json [--only 1,3] [--tries 400]
 
 Weights of a grid are those with the least loss over its scenes, found from the non-negative least squares fit to all of
-its times. What a scene loses with weights fitted without it is printed too. Weights for ANY are those with which the worst loss
+its times. What a scene loses with weights fitted without it is printed too. Weights for NONE are those with which the worst loss
 of all grids is least."""
 
 import argparse
@@ -126,7 +126,7 @@ def worst_of_all(tables, weights):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("curves")
-    parser.add_argument("--only", help="numbers of vox_known_grid; 0: weights for ANY alone")
+    parser.add_argument("--only", help="numbers of vox_known_grid; 0: weights for NONE alone")
     parser.add_argument("--tries", type=int, default=400)
     options = parser.parse_args()
     _, curves = losses.load(options.curves)
@@ -153,20 +153,20 @@ def main():
         print(lines[known])
     if options.only and options.only != "0":
         return
-    # Where nothing is known of the times, what is described decides: what cells hold, how they are looked at and kept.
+    # Where nothing is known of the times, what is described decides: which cells store, are queried and exist.
     every = [t for own in tables.values() for t in own]
     kinds = {}
     for t in every:
         edge = t.curve.record["rules"].get("mean_edge")
         t.edge_loss = edge and t.curve.loss(edge)
-        kinds.setdefault((t.curve.record["content"], t.curve.record["look"], t.curve.record["dense"]), []).append(t)
+        kinds.setdefault((t.curve.record["cells_stored"], t.curve.record["cells_queried"], t.curve.record["dense"]), []).append(t)
     for kind, own in [("all", every), *sorted(kinds.items())]:
         starts = [least_squares(own)] + [fitted([t for t in own if t.curve.grid == grid], rng, 50)
                                          for grid in dict.fromkeys(t.curve.grid for t in own)]
         found, _ = min((search(own, start, worst_of_all, rng, options.tries) for start in starts), key=lambda pair: pair[1])
-        title = kind if kind == "all" else ", ".join((("centres", "boxes")[kind[0]], ("box", "around", "pairs")[kind[1]],
-                                                      "dense" if kind[2] else "hashed"))
-        print(line("ANY: " + title, own, found), flush=True)
+        title = kind if kind == "all" else ", ".join((("box", "centre")[kind[0] - 1], ("box", "27", "pairs")[kind[1] - 1],
+                                                      "dense" if kind[2] else "occupied"))
+        print(line("NONE: " + title, own, found), flush=True)
         print(f"{title}: {in_per_cent([t.loss(found) for t in own])}", file=sys.stderr)
         for grid in dict.fromkeys(t.curve.grid for t in own):
             some = [t for t in own if t.curve.grid == grid]

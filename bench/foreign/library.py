@@ -1,4 +1,4 @@
-"""vox_suggest_for, vox_count_for, vox_cost_fit and vox_cost_tune by ctypes. The structs are those of include/vox/vox.h.
+"""vox_foreign_grid_suggest, _count, _fit and _tune by ctypes. The structs are those of include/vox/vox_cell_size.h.
 Nothing but Python is needed, so that the test of the plain grids runs without numpy, which voxtet needs."""
 
 from __future__ import annotations
@@ -7,11 +7,11 @@ import ctypes
 from ctypes import (CFUNCTYPE, POINTER, Structure, byref, c_char, c_char_p, c_double, c_int, c_uint32, c_uint64, c_void_p,
                     sizeof)
 
-from losses import WEIGHTS, WORK
+from losses import COUNTS, WEIGHTS
 
-CURVE, TERMS, NOTE, RUNS = 64, 12, 256, 32
-DOUBLE = 1
-DENSE = 1
+CURVE, TERMS, RULES, TIMINGS, NOTE = 64, 12, 8, 32, 256  # capacities
+DOUBLE = 1  # vox_format
+OCCUPIED, DENSE = 1, 2  # vox_cells_kept
 
 
 class Positions(Structure):
@@ -25,8 +25,8 @@ class Primitives(Structure):
                 ("radius_byte_stride", c_uint64), ("radius_format", c_int), ("reserved", c_uint32), ("radius", c_double)]
 
 
-class Work(Structure):
-    _fields_ = [(name, c_double) for name in WORK]
+class Counts(Structure):
+    _fields_ = [(name, c_double) for name in COUNTS]
 
 
 class Weights(Structure):
@@ -34,52 +34,40 @@ class Weights(Structure):
 
 
 class Grid(Structure):
-    _fields_ = [("struct_size", c_uint32), ("flags", c_uint32), ("content", c_int), ("look", c_int),
-                ("held", POINTER(Primitives)), ("asking", POINTER(Primitives)), ("radius", c_double),
-                ("least_cell_size", c_double), ("zone_loss", c_double), ("known", c_int), ("reserved", c_uint32),
-                ("weights", Weights), ("allocator", c_void_p)]
-
-
-class Rules(Structure):
-    _fields_ = [(name, c_double) for name in ("mean_edge", "mean_box_side", "median_box_side", "spacing", "radius")]
+    _fields_ = [("struct_size", c_uint32), ("known", c_int), ("cells_stored", c_int), ("cells_queried", c_int),
+                ("cells_kept", c_int), ("reserved", c_uint32), ("stored", POINTER(Primitives)), ("querying", POINTER(Primitives)),
+                ("radius", c_double), ("min_cell_size", c_double), ("zone_loss", c_double), ("weights", Weights),
+                ("allocator", c_void_p)]
 
 
 class Sample(Structure):
     _fields_ = [("cell_size", c_double), ("cost", c_double)]
 
 
-class Share(Structure):
-    _fields_ = [("name", c_char * 24), ("count", c_double), ("cost", c_double), ("share", c_double)]
+class Term(Structure):
+    _fields_ = [("name", c_char_p), ("count", c_double), ("cost", c_double)]
 
 
-class Suggestion(Structure):
-    _fields_ = [("struct_size", c_uint32), ("warnings", c_uint32), ("cell_size", c_double), ("zone_min", c_double),
-                ("zone_max", c_double), ("predicted_cost", c_double), ("least_cell_size", c_double), ("work", Work),
-                ("weights", Weights), ("rules", Rules), ("rule_costs", Rules), ("curve", Sample * CURVE),
-                ("curve_count", c_uint32), ("term_count", c_uint32), ("terms", Share * TERMS), ("rule", c_int),
-                ("reserved", c_uint32), ("note", c_char * NOTE)]
+class Rule(Structure):
+    _fields_ = [("name", c_char_p), ("cell_size", c_double), ("cost", c_double)]
 
 
 class Timing(Structure):
     _fields_ = [("cell_size", c_double), ("seconds", c_double)]
 
 
-class Fit(Structure):
-    _fields_ = [("struct_size", c_uint32), ("warnings", c_uint32), ("weights", Weights), ("residual", c_double),
-                ("cell_size", c_double), ("zone_min", c_double), ("zone_max", c_double), ("predicted_seconds", c_double),
-                ("curve", Sample * CURVE), ("curve_count", c_uint32), ("reserved", c_uint32), ("note", c_char * NOTE)]
+class Result(Structure):
+    _fields_ = [("struct_size", c_uint32), ("warnings", c_uint32),
+                *((name, c_double) for name in ("cell_size", "zone_min", "zone_max", "cost", "min_cell_size", "cells_per_axis",
+                                                "fit_error", "expected_loss")),
+                *((name, c_uint32) for name in ("curve_count", "term_count", "rule_count", "timing_count")),
+                ("curve", Sample * CURVE), ("terms", Term * TERMS), ("rules", Rule * RULES), ("timings", Timing * TIMINGS),
+                ("weights", Weights), ("note", c_char * NOTE)]
 
 
 class TuneDesc(Structure):
-    _fields_ = [("struct_size", c_uint32), ("most_runs", c_uint32), ("min", c_double), ("max", c_double),
-                ("first", c_double), ("zone_loss", c_double), ("wanted_loss", c_double)]
-
-
-class Tuning(Structure):
-    _fields_ = [("struct_size", c_uint32), ("warnings", c_uint32), ("cell_size", c_double), ("zone_min", c_double),
-                ("zone_max", c_double), ("seconds", c_double), ("expected_loss", c_double), ("noise", c_double),
-                ("weights", Weights), ("runs", Timing * RUNS), ("run_count", c_uint32), ("curve_count", c_uint32),
-                ("curve", Sample * CURVE), ("note", c_char * NOTE)]
+    _fields_ = [("struct_size", c_uint32), ("max_runs", c_uint32), ("min", c_double), ("max", c_double),
+                ("first", c_double), ("wanted_loss", c_double)]
 
 
 Run = CFUNCTYPE(c_double, c_double, c_void_p)
@@ -97,18 +85,16 @@ def address(array):
 class Described:
     """A vox_foreign_grid, with the arrays that it points to."""
 
-    def __init__(self, vox, held, asking, content=None, look=None, dense=False):
-        """held, asking: {type, count, vertex_count, positions, indices, radii}, asking None for the same set; content and
-        look None: the library's defaults."""
-        self.vox, self.kept = vox, (held, asking)
-        self.grid = Grid(struct_size=sizeof(Grid))
-        self.held = self.primitives(held)
-        self.grid.held = ctypes.pointer(self.held)
-        if asking is not None:
-            self.asking = self.primitives(asking)
-            self.grid.asking = ctypes.pointer(self.asking)
-        if content is not None:
-            self.grid.content, self.grid.look, self.grid.flags = content, look, DENSE if dense else 0
+    def __init__(self, vox, stored, querying, cells_stored=0, cells_queried=0, cells_kept=0):
+        """stored, querying: {type, count, vertex_count, positions, indices, radii}, querying None for the same set; cells_stored,
+        cells_queried and cells_kept 0: the library's defaults."""
+        self.vox, self.kept = vox, (stored, querying)
+        self.grid = Grid(struct_size=sizeof(Grid), cells_stored=cells_stored, cells_queried=cells_queried, cells_kept=cells_kept)
+        self.stored = self.primitives(stored)
+        self.grid.stored = ctypes.pointer(self.stored)
+        if querying is not None:
+            self.querying = self.primitives(querying)
+            self.grid.querying = ctypes.pointer(self.querying)
 
     def primitives(self, values):
         p = Primitives(struct_size=sizeof(Primitives))
@@ -125,28 +111,26 @@ class Described:
         self.grid.known = known
         return self
 
-    def suggest(self):
-        found = Suggestion(struct_size=sizeof(Suggestion))
-        self.vox.call("vox_suggest_for", self.grid, found)
+    def call(self, name, *arguments):
+        found = Result(struct_size=sizeof(Result))
+        self.vox.call("vox_foreign_grid_" + name, self.grid, *arguments, found)
         return found
+
+    def suggest(self):
+        return self.call("suggest")
 
     def count(self, size):
-        found = Work()
-        self.vox.call("vox_count_for", self.grid, c_double(size), found)
-        return {name: getattr(found, name) for name in WORK}
+        found = Counts()
+        self.vox.call("vox_foreign_grid_count", self.grid, c_double(size), found)
+        return {name: getattr(found, name) for name in COUNTS}
 
     def fit(self, timings):
-        found = Fit(struct_size=sizeof(Fit))
-        given = (Timing * len(timings))(*timings)
-        self.vox.call("vox_cost_fit", self.grid, given, c_uint64(len(timings)), found)
-        return found
+        return self.call("fit", (Timing * len(timings))(*timings), c_uint64(len(timings)))
 
     def tune(self, run):
         """run(size) returns seconds."""
-        described, found = TuneDesc(struct_size=sizeof(TuneDesc)), Tuning(struct_size=sizeof(Tuning))
         callback = Run(lambda size, _: run(size))
-        self.vox.call("vox_cost_tune", self.grid, described, callback, c_void_p(), found)
-        return found
+        return self.call("tune", TuneDesc(struct_size=sizeof(TuneDesc)), callback, c_void_p())
 
 
 class Vox:

@@ -7,10 +7,10 @@ import json
 import math
 import statistics
 
-WORK = ("entries", "visits", "empty", "reads", "occupied", "cells")
-WEIGHTS = ("fixed", "entries", "visits", "found", "reads", "occupied", "cells")  # the fields of vox_grid_weights
+COUNTS = ("stored", "visits", "empty", "reads", "occupied", "cells")  # the fields of vox_foreign_counts
+WEIGHTS = ("run", "store", "visit", "found", "read", "occupied", "cell")  # of vox_foreign_weights
 
-KNOWN = ("ANY", "SORTED", "HASHED", "WARP", "IPC", "IPC_PAIRS", "VTK", "PBAT", "POINT_VOXELS", "NUMPY")  # vox_known_grid, in its order
+KNOWN = ("NONE", "SORTED", "HASHED", "WARP", "IPC", "IPC_PAIRS", "VTK", "PBAT", "POINT_VOXELS", "NUMPY")  # vox_known_grid, in its order
 
 
 class Through:
@@ -49,15 +49,15 @@ class Curve:
     def __init__(self, record):
         self.record = record
         self.grid, self.scene, self.known = record["grid"], record["scene"], record["known"]
-        self.sizes, self.unit, self.least = record["sizes"], record["unit"], record["least"]
+        self.sizes, self.unit, self.min_cell_size = record["sizes"], record["unit"], record["min_cell_size"]
         self.rounds = record["seconds"]
         self.halves = [[min(times) for times in zip(*self.rounds[h::2])] for h in (0, 1)]
         # Nobody has run it beyond the sweep: there it is as slow as at the end, or slower.
         self.smooth = [Through(self.sizes, half, rising=True) for half in self.halves]
-        self.work = [Through(self.sizes, [max(w[name], 1e-9) for w in record["work"]]) for name in WORK]
+        self.smooth_counts = [Through(self.sizes, [max(c[name], 1e-9) for c in record["counts"]]) for name in COUNTS]
 
     def legal(self, size):
-        return max(size, self.least)
+        return max(size, self.min_cell_size)
 
     def loss(self, size):
         """How much longer a run takes than at the best size of the sweep. One half of the rounds says which that is, the
@@ -87,15 +87,15 @@ class Curve:
         return least * min(rng.choice(times) for _ in range(runs)) / min(times)
 
     def timing_sizes(self):
-        """The three that vox_cost_fit is given: 0.6, 1.2 and 2.4 units, or as far apart from the least legal size."""
-        first = max(0.6 * self.unit, self.least)
+        """The three that vox_foreign_grid_fit is given: 0.6, 1.2 and 2.4 units, or as far apart from the smallest legal size."""
+        first = max(0.6 * self.unit, self.min_cell_size)
         return [first, 2 * first, 4 * first] if first == 0.6 * self.unit else [first, 1.5 * first, 2.25 * first]
 
     def counts(self, size):
         """What each weight is multiplied with, counted at the measured sizes."""
-        w = dict(zip(WORK, (f(size) for f in self.work)))
-        return [1, w["entries"], w["visits"], max(w["visits"] - w["empty"], 0), w["reads"], w["occupied"],
-                w["cells"] if self.record["dense"] else 0]
+        c = dict(zip(COUNTS, (f(size) for f in self.smooth_counts)))
+        return [1, c["stored"], c["visits"], max(c["visits"] - c["empty"], 0), c["reads"], c["occupied"],
+                c["cells"] if self.record["dense"] else 0]
 
 
 def load(path):

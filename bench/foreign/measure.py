@@ -7,7 +7,7 @@ usage: measure.py PLAIN_GRIDS CURVES.json [--seconds 300] [--scale 1] [--grids s
 PLAIN_GRIDS is the library made of plain_grids.cpp. Each grid on each scene is run at 14 sizes from 0.42 to 4 mean edges
 (or radii, where balls ask), further ones where the ends are not clearly worse than the best, and those that rules choose, in random
 order within each of several rounds. Times are of the thread, so that other programs on the machine disturb little. The file is
-written after each grid. --primitives also writes what is held and what asks, for evaluate.py."""
+written after each grid. --primitives also writes what is stored and what queries, for evaluate.py."""
 
 import argparse
 import json
@@ -28,16 +28,16 @@ FEWEST_ROUNDS = 4
 
 
 def rules(case):
-    """Cell sizes that fixed rules choose, as in vox_foreign_rules, and the grid's own default."""
-    held, asked = case.held.boxes(), case.asked().boxes()
-    sides = (held[:, 3:] - held[:, :3]).max(1)
-    extent = held[:, 3:].max(0) - held[:, :3].min(0)
+    """Cell sizes that fixed rules choose, as the library's result has them, and the grid's own default."""
+    stored, queries = case.stored.boxes(), case.queries().boxes()
+    sides = (stored[:, 3:] - stored[:, :3]).max(1)
+    extent = stored[:, 3:].max(0) - stored[:, :3].min(0)
     found = {"mean_box_side": float(sides.mean()), "median_box_side": float(np.median(sides)),
-             "spacing": float((extent.prod() / len(held)) ** (1 / 3))}
+             "spacing": float((extent.prod() / len(stored)) ** (1 / 3))}
     if case.unit is None:  # there are edges
         found.update(mean_edge=case.mean_edge, mean_edge_multiple=2 * case.mean_edge)
-    if case.asking is not None and case.asking.radii is not None:
-        found["radius"] = float(case.asking.radii.mean())
+    if case.querying is not None and case.querying.radii is not None:
+        found["radius"] = float(case.querying.radii.mean())
     if case.default:
         found["default"] = case.default
     return {name: size for name, size in found.items() if size > 0}
@@ -46,7 +46,7 @@ def rules(case):
 def counted(library, case, size):
     """The mean over as many positions of the lattice as take little time: counts in few cells vary much."""
     once = cases.count(library, case, size, 1)
-    positions = min(max(round(5e6 / (once["entries"] + once["visits"] + once["cells"])), 2), 64)
+    positions = min(max(round(5e6 / (once["stored"] + once["visits"] + once["cells"])), 2), 64)
     return cases.count(library, case, size, positions)
 
 
@@ -69,7 +69,7 @@ def extended(case, sweep, least):
 
 
 def measure(case, seconds, rng, library):
-    least = case.least()
+    least = case.min_cell_size()
     unit = case.unit or case.mean_edge
     sweep = [x * unit for x in SWEEP]
     if least > sweep[0]:  # as many sizes from the least legal one on
@@ -90,16 +90,16 @@ def measure(case, seconds, rng, library):
         rounds.append([times[i] for i in range(len(sizes))])
         spent += sum(rounds[-1])
     return {
-        "grid": case.grid, "known": case.known, "scene": case.scene, "content": case.content, "look": case.look,
-        "dense": case.dense, "held": len(case.held.boxes()), "asking": len(case.asked().boxes()),
-        "mean_edge": case.mean_edge, "unit": unit, "least": least, "rules": chosen, "sweep": [sizes.index(s) for s in sweep],
+        "grid": case.grid, "known": case.known, "scene": case.scene, "cells_stored": case.cells_stored, "cells_queried": case.cells_queried,
+        "dense": case.dense, "stored": len(case.stored.boxes()), "querying": len(case.queries().boxes()),
+        "mean_edge": case.mean_edge, "unit": unit, "min_cell_size": least, "rules": chosen, "sweep": [sizes.index(s) for s in sweep],
         "sizes": sizes, "seconds": rounds,  # [round][size]
-        "work": [counted(library, case, s) for s in sizes]}
+        "counts": [counted(library, case, s) for s in sizes]}
 
 
 def save_primitives(folder, name, case):
     arrays = {}
-    for role, p in (("held", case.held), ("asking", case.asking)):
+    for role, p in (("stored", case.stored), ("querying", case.querying)):
         if p is not None:
             arrays.update({f"{role}_{k}": v for k, v in vars(p).items() if v is not None})
     np.savez(os.path.join(folder, name + ".npz"), **arrays)

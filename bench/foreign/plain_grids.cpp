@@ -17,8 +17,8 @@
 
 namespace {
 
-enum Content { BOXES = 0, CENTRES = 1 };      // as vox_cell_content
-enum Look { BOX = 0, AROUND = 1, PAIRS = 2 }; // as vox_cell_look
+enum class Stored { box = 1, centre = 2 };             // as vox_cells_stored
+enum class Queried { box = 1, around = 2, pairs = 3 }; // as vox_cells_queried
 
 using Point = std::array<double, 3>;
 using Cell = std::array<std::int64_t, 3>;
@@ -82,16 +82,16 @@ struct Lattice {
         return c;
     }
 
-    Range held(const Box& box, Content content) const {
-        if (content == CENTRES) {
+    Range stored(const Box& box, Stored cells_stored) const {
+        if (cells_stored == Stored::centre) {
             const Cell c = cell(centre(box));
             return {c, c};
         }
         return {cell(box.low), cell(box.high)};
     }
 
-    Range asked(const Box& box, Look look) const {
-        if (look == AROUND) {
+    Range queried(const Box& box, Queried cells_queried) const {
+        if (cells_queried == Queried::around) {
             const Cell c = cell(centre(box));
             return {{c[0] - 1, c[1] - 1, c[2] - 1}, {c[0] + 1, c[1] + 1, c[2] + 1}};
         }
@@ -147,13 +147,14 @@ bool reports(const Cell& first_of_a, const Cell& first_of_b, const Cell& here) {
 // A counting sort into a dense lattice; its memory is kept from run to run.
 class SortedGrid {
 public:
-    std::uint64_t run(Boxes held, Boxes asking, double cell_size, Content content, Look look) {
-        const Box bounds = bounds_of(held);
+    std::uint64_t run(Boxes stored, Boxes querying, double cell_size, Stored cells_stored,
+                      Queried cells_queried) {
+        const Box bounds = bounds_of(stored);
         const DenseLattice dense(bounds, cell_size, bounds.low);
         ends_.assign(dense.cells() + 1, 0);
         ranges_.clear();
-        for (const Box& box : held) {
-            ranges_.push_back(dense.clipped(dense.lattice.held(box, content)));
+        for (const Box& box : stored) {
+            ranges_.push_back(dense.clipped(dense.lattice.stored(box, cells_stored)));
             for_each_cell(ranges_.back(), [&](const Cell& c) { ++ends_[dense.number(c) + 1]; });
         }
         for (std::size_t i = 1; i < ends_.size(); ++i) {
@@ -161,20 +162,20 @@ public:
         }
         entries_.resize(ends_.back());
         // Each start moves to its end, which is the start of the next.
-        for (std::size_t i = 0; i < held.count; ++i) {
+        for (std::size_t i = 0; i < stored.count; ++i) {
             for_each_cell(ranges_[i], [&](const Cell& c) {
                 entries_[ends_[dense.number(c)]++] = static_cast<std::uint32_t>(i);
             });
         }
         std::uint64_t found = 0;
-        for (const Box& box : asking) {
-            const Range range = dense.clipped(dense.lattice.asked(box, look));
+        for (const Box& box : querying) {
+            const Range range = dense.clipped(dense.lattice.queried(box, cells_queried));
             for_each_cell(range, [&](const Cell& c) {
                 const std::size_t cell = dense.number(c);
                 for (std::size_t k = cell == 0 ? 0 : ends_[cell - 1]; k < ends_[cell]; ++k) {
                     const std::uint32_t i = entries_[k];
-                    found += meet(box, held.data[i]) &&
-                             (content == CENTRES || reports(range.first, ranges_[i].first, c));
+                    found += meet(box, stored.data[i]) &&
+                             (cells_stored == Stored::centre || reports(range.first, ranges_[i].first, c));
                 }
             });
         }
@@ -182,7 +183,7 @@ public:
     }
 
 private:
-    std::vector<Range> ranges_; // of cells, of each that is held
+    std::vector<Range> ranges_; // of cells, of each that is stored
     std::vector<std::uint32_t> ends_, entries_;
 };
 
@@ -194,24 +195,25 @@ struct HashOfCell {
 
 using Lists = std::unordered_map<Cell, std::vector<std::uint32_t>, HashOfCell>;
 
-std::uint64_t run_hashed(Boxes held, Boxes asking, double cell_size, Content content, Look look) {
+std::uint64_t run_hashed(Boxes stored, Boxes querying, double cell_size, Stored cells_stored,
+                         Queried cells_queried) {
     const Lattice lattice{{0, 0, 0}, 1 / cell_size};
     Lists lists;
-    std::vector<Cell> firsts; // of each that is held
-    for (std::size_t i = 0; i < held.count; ++i) {
-        const Range range = lattice.held(held.data[i], content);
+    std::vector<Cell> firsts; // of each that is stored
+    for (std::size_t i = 0; i < stored.count; ++i) {
+        const Range range = lattice.stored(stored.data[i], cells_stored);
         firsts.push_back(range.first);
         for_each_cell(range, [&](const Cell& c) { lists[c].push_back(static_cast<std::uint32_t>(i)); });
     }
     std::uint64_t found = 0;
-    for (const Box& box : asking) {
-        const Range range = lattice.asked(box, look);
+    for (const Box& box : querying) {
+        const Range range = lattice.queried(box, cells_queried);
         for_each_cell(range, [&](const Cell& c) {
             const auto list = lists.find(c);
             if (list != lists.end()) {
                 for (const std::uint32_t i : list->second) {
-                    found +=
-                        meet(box, held.data[i]) && (content == CENTRES || reports(range.first, firsts[i], c));
+                    found += meet(box, stored.data[i]) &&
+                             (cells_stored == Stored::centre || reports(range.first, firsts[i], c));
                 }
             }
         });
@@ -221,24 +223,26 @@ std::uint64_t run_hashed(Boxes held, Boxes asking, double cell_size, Content con
 
 } // namespace
 
-// A run of a grid: all of `held` are put into cells, all of `asking` look for those they meet. Returns how
-// many pairs that are. look is BOX or AROUND.
-EXPORTED std::uint64_t plain_run_sorted(const double* held, std::size_t held_count, const double* asking,
-                                        std::size_t asking_count, double cell_size, int content, int look) {
+// A run of a grid: all of `stored` are stored in cells, all of `querying` look for those they meet. Returns
+// how many pairs that are. cells_queried is box or around.
+EXPORTED std::uint64_t plain_run_sorted(const double* stored, std::size_t stored_count,
+                                        const double* querying, std::size_t querying_count, double cell_size,
+                                        int cells_stored, int cells_queried) {
     static SortedGrid grid;
-    return grid.run({reinterpret_cast<const Box*>(held), held_count},
-                    {reinterpret_cast<const Box*>(asking), asking_count}, cell_size,
-                    static_cast<Content>(content), static_cast<Look>(look));
+    return grid.run({reinterpret_cast<const Box*>(stored), stored_count},
+                    {reinterpret_cast<const Box*>(querying), querying_count}, cell_size,
+                    static_cast<Stored>(cells_stored), static_cast<Queried>(cells_queried));
 }
 
-EXPORTED std::uint64_t plain_run_hashed(const double* held, std::size_t held_count, const double* asking,
-                                        std::size_t asking_count, double cell_size, int content, int look) {
-    return run_hashed({reinterpret_cast<const Box*>(held), held_count},
-                      {reinterpret_cast<const Box*>(asking), asking_count}, cell_size,
-                      static_cast<Content>(content), static_cast<Look>(look));
+EXPORTED std::uint64_t plain_run_hashed(const double* stored, std::size_t stored_count,
+                                        const double* querying, std::size_t querying_count, double cell_size,
+                                        int cells_stored, int cells_queried) {
+    return run_hashed({reinterpret_cast<const Box*>(stored), stored_count},
+                      {reinterpret_cast<const Box*>(querying), querying_count}, cell_size,
+                      static_cast<Stored>(cells_stored), static_cast<Queried>(cells_queried));
 }
 
-// Points (three doubles) in hashed voxels, each asked for all others within `radius`.
+// Points (three doubles) in hashed voxels, each asking for all others within `radius`.
 EXPORTED std::uint64_t plain_run_voxels(const double* points, std::size_t count, double radius,
                                         double cell_size) {
     const Point* p = reinterpret_cast<const Point*>(points);
@@ -251,7 +255,7 @@ EXPORTED std::uint64_t plain_run_voxels(const double* points, std::size_t count,
     for (std::size_t i = 0; i < count; ++i) {
         const Box ball{{p[i][0] - radius, p[i][1] - radius, p[i][2] - radius},
                        {p[i][0] + radius, p[i][1] + radius, p[i][2] + radius}};
-        for_each_cell(lattice.asked(ball, BOX), [&](const Cell& c) {
+        for_each_cell(lattice.queried(ball, Queried::box), [&](const Cell& c) {
             const auto list = lists.find(c);
             if (list == lists.end()) {
                 return;
@@ -265,13 +269,14 @@ EXPORTED std::uint64_t plain_run_voxels(const double* points, std::size_t count,
     return found;
 }
 
-// What a run does (the fields of vox_grid_work), the mean over `samples` positions of the lattice.
-EXPORTED void plain_count(const double* held_data, std::size_t held_count, const double* asking_data,
-                          std::size_t asking_count, double cell_size, int content, int look, int samples,
-                          double* work) {
-    const Boxes held{reinterpret_cast<const Box*>(held_data), held_count};
-    const Boxes asking{reinterpret_cast<const Box*>(asking_data), asking_count};
-    const Box bounds = bounds_of(held);
+// What a run does (the fields of vox_foreign_counts), the mean over `samples` positions of the lattice.
+EXPORTED void plain_count(const double* stored_data, std::size_t stored_count, const double* querying_data,
+                          std::size_t querying_count, double cell_size, int cells_stored, int cells_queried,
+                          int samples, double* counts) {
+    const Boxes stored{reinterpret_cast<const Box*>(stored_data), stored_count};
+    const Boxes querying{reinterpret_cast<const Box*>(querying_data), querying_count};
+    const Box bounds = bounds_of(stored);
+    const auto which = static_cast<Queried>(cells_queried);
     double entries = 0, visits = 0, empty = 0, reads = 0, occupied = 0, cells = 0;
     std::vector<std::uint32_t> lengths;
     for (int s = 0; s < samples; ++s) {
@@ -284,8 +289,8 @@ EXPORTED void plain_count(const double* held_data, std::size_t held_count, const
         }
         const DenseLattice dense(bounds, cell_size, origin);
         lengths.assign(dense.cells(), 0);
-        for (const Box& box : held) {
-            for_each_cell(dense.clipped(dense.lattice.held(box, static_cast<Content>(content))),
+        for (const Box& box : stored) {
+            for_each_cell(dense.clipped(dense.lattice.stored(box, static_cast<Stored>(cells_stored))),
                           [&](const Cell& c) {
                               ++lengths[dense.number(c)];
                               ++entries;
@@ -294,16 +299,16 @@ EXPORTED void plain_count(const double* held_data, std::size_t held_count, const
         cells += static_cast<double>(dense.cells());
         for (const std::uint32_t length : lengths) {
             occupied += length > 0;
-            if (look == PAIRS && length > 0) {
+            if (which == Queried::pairs && length > 0) {
                 ++visits;
                 reads += 0.5 * length * (length - 1.0);
             }
         }
-        if (look == PAIRS) {
+        if (which == Queried::pairs) {
             continue;
         }
-        for (const Box& box : asking) {
-            const Range wanted = dense.lattice.asked(box, static_cast<Look>(look));
+        for (const Box& box : querying) {
+            const Range wanted = dense.lattice.queried(box, which);
             const Range inside = dense.clipped(wanted);
             visits += static_cast<double>(wanted.count() - inside.count());
             empty += static_cast<double>(wanted.count() - inside.count());
@@ -317,6 +322,6 @@ EXPORTED void plain_count(const double* held_data, std::size_t held_count, const
     }
     const double sums[] = {entries, visits, empty, reads, occupied, cells};
     for (std::size_t i = 0; i < std::size(sums); ++i) {
-        work[i] = sums[i] / samples;
+        counts[i] = sums[i] / samples;
     }
 }

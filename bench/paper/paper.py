@@ -91,20 +91,20 @@ def body(options, model):
     return None
 
 
-def cost(stats, cell_size):
+def cost(geometry, cell_size):
     """The paper's z, Eqs. 3 to 7, as vox_suggest_cell_size reads it."""
     p_nc, ratio = 0.99, 5
-    k = (1 - p_nc) * ratio * 3 * 3 ** 0.5 / (2 * stats["mean_facet_area"])
-    return (stats["mean_edge"] / cell_size + 2) ** 3 * (p_nc + k * cell_size ** 2)
+    k = (1 - p_nc) * ratio * 3 * 3 ** 0.5 / (2 * geometry["mean_facet_area"])
+    return (geometry["mean_edge"] / cell_size + 2) ** 3 * (p_nc + k * cell_size ** 2)
 
 
 def sample_rows(model, sweep):
-    stats = sweep["predicted"]["stats"]
+    geometry = sweep["predicted"]["geometry"]
     for sample in sweep["samples"]:
         yield {"model": model.name, "rule": sample["rule"] or "", "cell_size": sample["cell_size"],
-               "n": sample["cells_per_axis"], "mean_edges": sample["cell_size"] / stats["mean_edge"],
+               "n": sample["cells_per_axis"], "mean_edges": sample["cell_size"] / geometry["mean_edge"],
                "time_ms": sample["time_ns"] / 1e6, "fitted_ms": (sample["fitted_ns"] or 0) / 1e6,
-               "worst_round_ms": max(sample["rounds_ns"]) / 1e6, "cost": cost(stats, sample["cell_size"]),
+               "worst_round_ms": max(sample["rounds_ns"]) / 1e6, "cost": cost(geometry, sample["cell_size"]),
                "visited_cells": sample["visited_cells"], "visited_entries": sample["visited_entries"],
                "candidates": sample["candidates"]}
 
@@ -114,7 +114,7 @@ def model_row(model, sweep, run):
            "rounds": sweep["rounds"], "share": sweep["contact_share"]["mean"],
            "first_share": sweep["contact_share"]["frames"][0], "last_share": sweep["contact_share"]["frames"][-1],
            "distance": sweep["distance"], "hash": sweep["hash"],
-           "mean_edge": sweep["predicted"]["stats"]["mean_edge"],
+           "mean_edge": sweep["predicted"]["geometry"]["mean_edge"],
            "n_a": sweep["suggestion"]["cells_per_axis"], "n_trad": sweep["traditional"]["cells_per_axis"],
            "n_opt": sweep["optimum"]["cells_per_axis"], "optimum_ms": sweep["optimum"]["time_ns"] / 1e6,
            "n_min": sweep["zone"]["n_min"], "n_max": sweep["zone"]["n_max"],

@@ -133,9 +133,9 @@ struct Losses {
 Losses measure(Scene& scene, const Surface& surface, bool moves, int rounds) {
     std::vector<vox_mesh_desc> meshes;
     for (const Body& body : scene.bodies) meshes.push_back(body.desc());
-    vox_suggest_desc desc = vox_default_suggest_desc();
+    vox_cell_size_desc desc = vox_default_cell_size_desc();
     desc.model = VOX_COST_MODEL_SURFACE;
-    vox_suggestion suggestion{};
+    vox_cell_size_result suggestion{};
     suggestion.struct_size = sizeof suggestion;
     must(vox_suggest_cell_size(&desc, meshes.data(), meshes.size(), &suggestion));
 

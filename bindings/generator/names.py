@@ -28,7 +28,8 @@ def short_values(enum):
     while all(len(s) > common + 1 and s[common] == split[0][common] for s in split) and split[0][common].lower() in known:
         common += 1
     for value, parts in zip(enum["values"], split):
-        yield "_".join(parts[common:]), value["value"], value["doc"]
+        name = "_".join(parts[common:])
+        yield f"{parts[common - 1]}_{name}" if name[0].isdigit() else name, value["value"], value["doc"]
 
 
 def sections(api, kind):

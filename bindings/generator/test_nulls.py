@@ -64,7 +64,7 @@ class Nulls:
         elif name == "vox_primitives":
             value.count = 4
         elif name == "vox_foreign_grid":
-            value.held = ctypes.pointer(self.struct("vox_primitives"))
+            value.stored = ctypes.pointer(self.struct("vox_primitives"))
         elif name == "vox_surface_desc":
             value.faces, value.face_count = ctypes.addressof(TETS), 1
         elif name == "vox_io_write_desc":

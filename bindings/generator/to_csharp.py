@@ -92,7 +92,8 @@ class CSharp:
         fields = ["x", "y", "z", "w"][:count] if count <= 4 and element != "byte" else [f"e{i}" for i in range(count)]
         yield ""
         yield "    [StructLayout(LayoutKind.Sequential)]"
-        yield f"    public unsafe struct {name}"
+        internal = {pascal(s["name"]) for s in sections(self.api, "structs") if s["name"] not in self.whole}
+        yield f"    {'internal' if element in internal else 'public'} unsafe struct {name}"
         yield "    {"
         yield from wrapped(f"public {element} {', '.join(fields)};", "        ", further=" " * 12)
         yield f"        public const int Length = {count};"

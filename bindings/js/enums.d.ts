@@ -147,8 +147,43 @@ export declare const Side: Readonly<{
 }>;
 export type Side = (typeof Side)[keyof typeof Side];
 
+/** What a result depends on, combined with |. vox_cell_size_result.note says it in words, with numbers. */
+export declare const CellSizeWarnings: Readonly<{
+  /** nothing is known of the grid's times; a few timings would help */
+  GUESSED_WEIGHTS: 1;
+  /** it is the mean edge: the weights do not show for certain that another is better */
+  BY_RULE: 2;
+  /** it is min_cell_size, though a smaller one would cost less */
+  AT_MINIMUM: 4;
+  /** the primitives have no size; it follows from the distances between them */
+  FROM_SPACING: 8;
+  /** all primitives are in one place; any large enough cell size will do */
+  ONE_PLACE: 16;
+  /** the timings do not follow the counts of the described grid */
+  MODEL_DISAGREES: 32;
+  /** timings at the same cell size differ widely */
+  TIMINGS_DISAGREE: 64;
+  /** the best cell size lies beyond those that were timed */
+  OUT_OF_RANGE: 128;
+  /** the callback stopped, or could not run at a cell size */
+  STOPPED: 256;
+}>;
+export type CellSizeWarnings = number;
+
+export declare const CostModel: Readonly<{
+  /** the paper's z(delta) (Sect. 4, Eqs. 3-8) */
+  PAPER: 0;
+  /** a step of the paper's engine, counted tetrahedron by tetrahedron */
+  REFERENCE: 1;
+  /** a step of the fast engine, with the same cell size everywhere */
+  FAST: 2;
+  /** the searches of vox_surface.h in the meshes' surfaces */
+  SURFACE: 3;
+}>;
+export type CostModel = (typeof CostModel)[keyof typeof CostModel];
+
 export declare const ReferenceFlags: Readonly<{
-  /** store a list for every cell of a box (linear id k*nx*ny + j*nx + i), instead of hashing cells into a table */
+  /** store a list for every cell of a box, instead of hashing cells into a table */
   DENSE: 1;
   /**
    * hash by i*73856093 xor j*19349663 xor k*83492791 (Teschner et al. 2003, Sect. 4.1), instead of by a well-mixed hash
@@ -156,43 +191,6 @@ export declare const ReferenceFlags: Readonly<{
   PAPER_HASH: 2;
 }>;
 export type ReferenceFlags = number;
-
-export declare const CostModel: Readonly<{
-  /** the paper's z(delta) (Sect. 4, Eqs. 3-8), from means; in cell visits */
-  PAPER: 0;
-  /** the reference engine, counted tet by tet; in nanoseconds of a step */
-  REFERENCE: 1;
-  /** the fast engine with one cell size in all windows; in nanoseconds of a step */
-  FAST: 2;
-  /**
-   * the searches of vox_surface.h in the meshes' surfaces, for pairs of edges and of faces and vertices; in
-   * nanoseconds, of their grids alone
-   */
-  SURFACE: 3;
-}>;
-export type CostModel = (typeof CostModel)[keyof typeof CostModel];
-
-/** How s, the size of a tetrahedron in Eq. 4, is measured. */
-export declare const SizeReading: Readonly<{
-  /** mean length of the unique edges; reproduces the paper's tables */
-  MEAN_EDGE: 0;
-  /** mean over tets of the longest edge; as worded in Sect. 4.2 */
-  MEAN_LONGEST_EDGE: 1;
-  /** mean over tets of the longest side of the bounding box */
-  MEAN_BOX_SIDE: 2;
-}>;
-export type SizeReading = (typeof SizeReading)[keyof typeof SizeReading];
-
-/** How A, the facet area in Eqs. 5-7, is measured. */
-export declare const AreaReading: Readonly<{
-  /** mean over all facets, shared ones counted once; reproduces the paper's tables */
-  UNIQUE_FACETS: 0;
-  /** mean over the four facets of every tet */
-  TET_FACETS: 1;
-  /** mean over the facets of exactly one tet */
-  BOUNDARY_FACETS: 2;
-}>;
-export type AreaReading = (typeof AreaReading)[keyof typeof AreaReading];
 
 export declare const PrimitiveType: Readonly<{
   /** one vertex */
@@ -203,102 +201,70 @@ export declare const PrimitiveType: Readonly<{
   TRIANGLE: 2;
   /** four */
   TET: 3;
-  /** two: opposite corners of a box along the axes, in any order */
+  /** two: opposite corners, in any order */
   BOX: 4;
 }>;
 export type PrimitiveType = (typeof PrimitiveType)[keyof typeof PrimitiveType];
 
-/** Which cells hold a primitive. */
-export declare const CellContent: Readonly<{
-  /** all that its box meets */
-  CELLS_HOLD_BOXES: 0;
-  /** the one with the centre of its box; for a point, with the point */
-  CELLS_HOLD_CENTRES: 1;
-}>;
-export type CellContent = (typeof CellContent)[keyof typeof CellContent];
-
-/** Which cells a primitive that asks looks at. */
-export declare const CellLook: Readonly<{
-  /** those that its box meets: one for a point, those of the ball's box for one with a radius */
-  BOX: 0;
-  /**
-   * 27: the one with the centre of its box, and those around. Only with HOLD_CENTRES, and only legal where a cell is as
-   * large as the distance that matters along any axis
-   */
-  AROUND: 1;
-  /**
-   * nobody asks: the grid goes through the cells and pairs what is in each. With two sets, both are put into cells, and
-   * pairs are of one of each
-   */
-  PAIRS: 2;
-}>;
-export type CellLook = (typeof CellLook)[keyof typeof CellLook];
-
-/** Grids that weights are shipped for, each measured by bench/foreign. */
+/** Grids whose layout and weights are known, as measured by bench/foreign. */
 export declare const KnownGrid: Readonly<{
-  /** nothing is known: weights that lose least in the worst of the grids below */
-  ANY: 0;
-  /** a plain grid in C++: a counting sort into a dense lattice */
+  /** the weights with the smallest worst loss over all grids below */
+  NONE: 0;
+  /** C++: a counting sort into a dense lattice */
   SORTED: 1;
-  /** a plain grid in C++: std::unordered_map from cell to list */
+  /** C++: std::unordered_map from cell to list */
   HASHED: 2;
-  /** NVIDIA Warp's HashGrid on the processor: points, asked by balls */
+  /** NVIDIA Warp's HashGrid on the processor */
   WARP: 3;
-  /** IPC Toolkit's SpatialHash: boxes in all their cells, asked by boxes */
+  /** IPC Toolkit's SpatialHash */
   IPC: 4;
-  /** IPC Toolkit's HashGrid: boxes in all their cells, paired cell by cell */
+  /** IPC Toolkit's HashGrid */
   IPC_PAIRS: 5;
-  /** VTK's vtkStaticCellLocator: boxes in all their cells, asked by points */
+  /** VTK's vtkStaticCellLocator */
   VTK: 6;
-  /** PBAT's HashGrid3: centres of boxes, asked from 27 cells */
+  /** PBAT's HashGrid3 */
   PBAT: 7;
-  /** hashed voxels of points asked by balls, as in PCL and Open3D */
+  /** hashed voxels of points, as in PCL and Open3D */
   POINT_VOXELS: 8;
-  /** a grid of sorted keys in numpy */
+  /** sorted keys in numpy */
   NUMPY: 9;
 }>;
 export type KnownGrid = (typeof KnownGrid)[keyof typeof KnownGrid];
 
-export declare const ForeignFlags: Readonly<{
-  /** the grid keeps a list for each cell of the box of all that it holds */
-  DENSE: 1;
+/** The cells that store a primitive. */
+export declare const CellsStored: Readonly<{
+  /** as in the known grid, else BOX */
+  DEFAULT: 0;
+  /** all cells that its box meets */
+  BOX: 1;
+  /** the cell that contains the centre of its box */
+  CENTRE: 2;
 }>;
-export type ForeignFlags = number;
+export type CellsStored = (typeof CellsStored)[keyof typeof CellsStored];
 
-/** What an answer was based on, combined with |. `note` says the same in words, with numbers. */
-export declare const ForeignWarnings: Readonly<{
-  /** nothing is known of the grid's times: a few timings would help */
-  WEIGHTS_UNKNOWN: 1;
-  /** cell_size is that of `rule`: by the weights, a guess, no gain over it is sure */
-  BY_RULE: 2;
-  /** the least legal size; a smaller one would be faster */
-  AT_LEAST_SIZE: 4;
-  /** the primitives have no size: the cell size follows from their distances */
-  NO_SIZE: 8;
-  /** all are in one place: any cell size that is large enough does */
-  ONE_PLACE: 16;
-  /** the timings do not follow the counts of the described grid */
-  MODEL_DISAGREES: 32;
-  /** timings at the same cell size differ widely */
-  TIMINGS_DISAGREE: 64;
-  /** the best cell size is beyond those timed */
-  OUT_OF_RANGE: 128;
-  /** the callback stopped, or failed at a cell size */
-  STOPPED: 256;
+/** The cells that a query visits. */
+export declare const CellsQueried: Readonly<{
+  /** as in the known grid, else BOX */
+  DEFAULT: 0;
+  /** all cells that its box meets; one for a point */
+  BOX: 1;
+  /** the cell that contains its centre, and the 26 cells around it. Only with CENTRE */
+  QUERIED_27: 2;
+  /** none: the grid goes through its cells and reports every pair within a cell */
+  PAIRS: 3;
 }>;
-export type ForeignWarnings = number;
+export type CellsQueried = (typeof CellsQueried)[keyof typeof CellsQueried];
 
-/** The rules of vox_foreign_rules, in its order. Suggestions are by NONE or MEAN_EDGE so far. */
-export declare const ForeignRule: Readonly<{
-  /** the model's minimum */
-  NONE: 0;
-  MEAN_EDGE: 1;
-  MEAN_BOX_SIDE: 2;
-  MEDIAN_BOX_SIDE: 3;
-  SPACING: 4;
-  RADIUS: 5;
+/** The cells that exist. */
+export declare const CellsKept: Readonly<{
+  /** as in the known grid, else OCCUPIED */
+  DEFAULT: 0;
+  /** those that store something */
+  OCCUPIED: 1;
+  /** all cells in the box of the stored primitives */
+  DENSE: 2;
 }>;
-export type ForeignRule = (typeof ForeignRule)[keyof typeof ForeignRule];
+export type CellsKept = (typeof CellsKept)[keyof typeof CellsKept];
 
 /** A program runs with any library of the ABI version that it was built with (docs/abi.md). */
 export declare const ABI_VERSION: 1;
@@ -326,15 +292,15 @@ export declare const MAX_RINGS: 8;
 export declare const STENCIL_CAPACITY: 5;
 /** in one call */
 export declare const MAX_TASKS: 64;
-/** numbers of vox_cost_weights */
-export declare const COST_WEIGHT_CAPACITY: 24;
 /** most samples of a curve */
-export declare const COST_CURVE_CAPACITY: 64;
-/** most terms of a cost, in any model */
-export declare const COST_TERM_CAPACITY: 12;
-/** most entries of vox_suggestion.levels */
-export declare const CELL_SIZE_LEVEL_CAPACITY: 4;
-/** bytes of a note, its zero included */
+export declare const CURVE_CAPACITY: 64;
+/** most terms of a cost */
+export declare const TERM_CAPACITY: 12;
+/** most rules that are compared */
+export declare const RULE_CAPACITY: 8;
+/** most runs of vox_foreign_grid_tune */
+export declare const TIMING_CAPACITY: 32;
+/** bytes of a note, its zero included; it is cut to that */
 export declare const NOTE_CAPACITY: 256;
-/** most runs of vox_cost_tune */
-export declare const TUNE_RUN_CAPACITY: 32;
+/** numbers in vox_cost_weights */
+export declare const COST_WEIGHT_CAPACITY: 24;

@@ -13,12 +13,12 @@ export const NULL_BODY = 0;
 export const MAX_RINGS = 8;
 export const STENCIL_CAPACITY = 5;
 export const MAX_TASKS = 64;
-export const COST_WEIGHT_CAPACITY = 24;
-export const COST_CURVE_CAPACITY = 64;
-export const COST_TERM_CAPACITY = 12;
-export const CELL_SIZE_LEVEL_CAPACITY = 4;
+export const CURVE_CAPACITY = 64;
+export const TERM_CAPACITY = 12;
+export const RULE_CAPACITY = 8;
+export const TIMING_CAPACITY = 32;
 export const NOTE_CAPACITY = 256;
-export const TUNE_RUN_CAPACITY = 32;
+export const COST_WEIGHT_CAPACITY = 24;
 
 export const Result = Object.freeze({
   OK: 0,
@@ -102,9 +102,16 @@ export const Side = Object.freeze({
   LEAVES: 2,
 });
 
-export const ReferenceFlags = Object.freeze({
-  DENSE: 1,
-  PAPER_HASH: 2,
+export const CellSizeWarnings = Object.freeze({
+  GUESSED_WEIGHTS: 1,
+  BY_RULE: 2,
+  AT_MINIMUM: 4,
+  FROM_SPACING: 8,
+  ONE_PLACE: 16,
+  MODEL_DISAGREES: 32,
+  TIMINGS_DISAGREE: 64,
+  OUT_OF_RANGE: 128,
+  STOPPED: 256,
 });
 
 export const CostModel = Object.freeze({
@@ -114,16 +121,9 @@ export const CostModel = Object.freeze({
   SURFACE: 3,
 });
 
-export const SizeReading = Object.freeze({
-  MEAN_EDGE: 0,
-  MEAN_LONGEST_EDGE: 1,
-  MEAN_BOX_SIDE: 2,
-});
-
-export const AreaReading = Object.freeze({
-  UNIQUE_FACETS: 0,
-  TET_FACETS: 1,
-  BOUNDARY_FACETS: 2,
+export const ReferenceFlags = Object.freeze({
+  DENSE: 1,
+  PAPER_HASH: 2,
 });
 
 export const PrimitiveType = Object.freeze({
@@ -134,19 +134,8 @@ export const PrimitiveType = Object.freeze({
   BOX: 4,
 });
 
-export const CellContent = Object.freeze({
-  CELLS_HOLD_BOXES: 0,
-  CELLS_HOLD_CENTRES: 1,
-});
-
-export const CellLook = Object.freeze({
-  BOX: 0,
-  AROUND: 1,
-  PAIRS: 2,
-});
-
 export const KnownGrid = Object.freeze({
-  ANY: 0,
+  NONE: 0,
   SORTED: 1,
   HASHED: 2,
   WARP: 3,
@@ -158,27 +147,21 @@ export const KnownGrid = Object.freeze({
   NUMPY: 9,
 });
 
-export const ForeignFlags = Object.freeze({
-  DENSE: 1,
+export const CellsStored = Object.freeze({
+  DEFAULT: 0,
+  BOX: 1,
+  CENTRE: 2,
 });
 
-export const ForeignWarnings = Object.freeze({
-  WEIGHTS_UNKNOWN: 1,
-  BY_RULE: 2,
-  AT_LEAST_SIZE: 4,
-  NO_SIZE: 8,
-  ONE_PLACE: 16,
-  MODEL_DISAGREES: 32,
-  TIMINGS_DISAGREE: 64,
-  OUT_OF_RANGE: 128,
-  STOPPED: 256,
+export const CellsQueried = Object.freeze({
+  DEFAULT: 0,
+  BOX: 1,
+  QUERIED_27: 2,
+  PAIRS: 3,
 });
 
-export const ForeignRule = Object.freeze({
-  NONE: 0,
-  MEAN_EDGE: 1,
-  MEAN_BOX_SIDE: 2,
-  MEDIAN_BOX_SIDE: 3,
-  SPACING: 4,
-  RADIUS: 5,
+export const CellsKept = Object.freeze({
+  DEFAULT: 0,
+  OCCUPIED: 1,
+  DENSE: 2,
 });

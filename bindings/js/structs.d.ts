@@ -1,7 +1,7 @@
 // Written by bindings/generate.py from bindings/api.json. Do not edit.
 
-import type { AreaReading, CellContent, CellLook, ConstraintKind, CostModel, DepthMethod, DepthState, ForeignRule,
-Format, KnownGrid, PairState, PrimitiveType, Result, Side, SizeReading } from "./enums.js";
+import type { CellsKept, CellsQueried, CellsStored, ConstraintKind, CostModel, DepthMethod, DepthState, Format,
+KnownGrid, PairState, PrimitiveType, Result, Side } from "./enums.js";
 
 /** Settings of a grid; all 0 by default. What the pointers name is copied. */
 export interface GridDesc {
@@ -354,138 +354,7 @@ export interface RayHitColumns {
   readonly weights: Float64Array;
 }
 
-/**
- * How many nanoseconds one unit of each piece of work takes on a machine: what the models REFERENCE and FAST, and the
- * reference engine, choose a cell size by. From vox_cost_calibrate; plain numbers, which may be saved and loaded.
- */
-export interface CostWeights {
-  /** 1: by vox_cost_calibrate */
-  measured: number;
-  /** in the library's own order, finite, >= 0; 0: the one shipped with the library */
-  ns: number[];
-}
-
-/**
- * The paper's engine (Sect. 3), for vox_grid_desc.reference. It is serial and finds what the fast engine finds. If the
- * grid's cell_size is 0, it chooses by its cost model, at the first step, and again when the counts of its steps show
- * that another size would be better; each change is written to the log and counted in cell_size_changes. If the sizes
- * of the tetrahedra differ so much that a single cell size would be expensive, it uses a few grids in turn: each has a
- * cell size of its own, holds all vertices, and serves the tetrahedra of a range of sizes. Where positions were chosen
- * so that many cells share a bucket, the step finds cells by binary search instead, so its time stays bounded.
- */
-export interface ReferenceDesc {
-  /** vox_reference_flags, combined with | */
-  flags: number;
-  /**
-   * buckets, at most VOX_MAX_VERTICES, raised to the next prime; 0: the first prime that is at least twice the number
-   * of vertices
-   */
-  hashTableSize: number;
-  /** DENSE: the box that has cells, min < max on each axis. Points outside go to */
-  worldMin: [number, number, number];
-  /** the nearest cell. All 0: the box of all positions, in every step */
-  worldMax: [number, number, number];
-}
-
-export interface SuggestDesc {
-  model: CostModel;
-  sizeReading: SizeReading;
-  areaReading: AreaReading;
-  /** probability that a tet has no collision, in (0, 1); 0: 0.99 */
-  pNc: number;
-  /** the paper's r: cost of a particle test divided by that of a cell visit; 0: 5 */
-  costRatio: number;
-  /** edge of the cubic world, for cells_per_axis; 0: longest side of the bounds */
-  worldEdge: number;
-  /** the zone is where predicted cost <= (1 + zone_loss) * minimum; at most 1e6; 0: 0.05 */
-  zoneLoss: number;
-  /** for rules.mean_edge_multiple (Gregory et al. 2000); 0: 2 */
-  meanEdgeFactor: number;
-  /** for rules.resolution (McNeely et al. 1999): the required detail; 0: none */
-  resolution: number;
-  /** REFERENCE with DENSE cells: most bytes that these may take; 0: no limit */
-  byteBudget: number;
-  /** REFERENCE: vox_reference_flags, combined with | */
-  referenceFlags: number;
-}
-
-/**
- * Geometry of all meshes together, in the caller's unit. Above 1500 tets, and in grids, the means and the counts of
- * edges, facets and flat tets are estimates from samples. Tets that name a vertex twice have no edges and facets.
- */
-export interface GeometryStats {
-  vertices: number;
-  tets: number;
-  /** unique */
-  edges: number;
-  /** unique triangles */
-  facets: number;
-  /** facets of exactly one tet */
-  boundaryFacets: number;
-  /** of exactly zero volume */
-  degenerateTets: number;
-  meanEdge: number;
-  meanLongestEdge: number;
-  meanBoxSide: number;
-  /** median over tets of the longest side of the bounding box */
-  medianBoxSide: number;
-  meanFacetArea: number;
-  meanTetFacetArea: number;
-  meanBoundaryFacetArea: number;
-  /** mean over tets of |volume| */
-  meanVolume: number;
-  /** of the vertices that tets use; of all vertices for a mesh without tets */
-  boundsMin: [number, number, number];
-  boundsMax: [number, number, number];
-}
-
-/** Columns of GeometryStats: of an array field, its elements one after the other. */
-export interface GeometryStatsColumns {
-  readonly vertices: Float64Array;
-  readonly tets: Float64Array;
-  readonly edges: Float64Array;
-  readonly facets: Float64Array;
-  readonly boundaryFacets: Float64Array;
-  readonly degenerateTets: Float64Array;
-  readonly meanEdge: Float64Array;
-  readonly meanLongestEdge: Float64Array;
-  readonly meanBoxSide: Float64Array;
-  readonly medianBoxSide: Float64Array;
-  readonly meanFacetArea: Float64Array;
-  readonly meanTetFacetArea: Float64Array;
-  readonly meanBoundaryFacetArea: Float64Array;
-  readonly meanVolume: Float64Array;
-  readonly boundsMin: Float64Array;
-  readonly boundsMax: Float64Array;
-}
-
-/** Cell sizes that other rules would choose; 0 where a rule does not apply. */
-export interface CellSizeRules {
-  /** Teschner et al. 2003 */
-  meanEdge: number;
-  /** Gregory et al. 2000: a constant times the mean edge */
-  meanEdgeMultiple: number;
-  /** Garcia-Alonso et al. 1994: 512 voxels in an object's box, mean over meshes whose box has a volume */
-  object512: number;
-  /** McNeely et al. 1999: the required resolution */
-  resolution: number;
-  /** cube root of the mean tet volume (tried and rejected in Sect. 5) */
-  meanVolume: number;
-  /** IPC Toolkit: median of the longest box sides */
-  medianBoxSide: number;
-}
-
-/** Columns of CellSizeRules: of an array field, its elements one after the other. */
-export interface CellSizeRulesColumns {
-  readonly meanEdge: Float64Array;
-  readonly meanEdgeMultiple: Float64Array;
-  readonly object512: Float64Array;
-  readonly resolution: Float64Array;
-  readonly meanVolume: Float64Array;
-  readonly medianBoxSide: Float64Array;
-}
-
-/** A point of a curve of costs. */
+/** A point of a cost curve. */
 export interface CostSample {
   cellSize: number;
   cost: number;
@@ -497,83 +366,191 @@ export interface CostSampleColumns {
   readonly cost: Float64Array;
 }
 
-/** One term of a cost: a piece of work, how often it is done, and what that costs. */
-export interface CostShare {
-  /** what is done, e.g. "visit a cell"; zero-terminated */
-  name: string;
+/** One kind of work: how often it is done at the suggested cell size, and what that costs. */
+export interface CostTerm {
   count: number;
-  /** count times the weight */
   cost: number;
-  /** fraction of the whole cost, 0 to 1 */
-  share: number;
 }
 
-/** A cell size and the reasons for it. Costs are in cell visits per tetrahedron (PAPER), or nanoseconds. */
-export interface Suggestion {
-  model: CostModel;
+/** The cell size that a rule of thumb gives, and the predicted cost there. */
+export interface CellSizeRule {
+  /** 0: the rule does not apply */
   cellSize: number;
-  /** world edge / cell size, as the paper counts */
-  cellsPerAxis: number;
-  /** smallest and largest cell size of the zone */
+  /** 0: not known */
+  cost: number;
+}
+
+/** A run at one cell size, and how long it took. */
+export interface Timing {
+  /** > 0 */
+  cellSize: number;
+  /** 1e-30 to 1e30; in a result infinity if the run was impossible */
+  seconds: number;
+}
+
+/** Columns of Timing: of an array field, its elements one after the other. */
+export interface TimingColumns {
+  readonly cellSize: Float64Array;
+  readonly seconds: Float64Array;
+}
+
+/** How many nanoseconds a foreign grid takes for each kind of work, >= 0. */
+export interface ForeignWeights {
+  /** for a run, whatever the cell size */
+  run: number;
+  /** to store a primitive in a cell */
+  store: number;
+  /** to visit a cell in a query */
+  visit: number;
+  /** extra, to visit a cell that is not empty */
+  found: number;
+  /** to read a primitive in a visited cell */
+  read: number;
+  /** to create and drop a cell that is not empty */
+  occupied: number;
+  /** to clear a cell of a dense grid */
+  cell: number;
+}
+
+/** Columns of ForeignWeights: of an array field, its elements one after the other. */
+export interface ForeignWeightsColumns {
+  readonly run: Float64Array;
+  readonly store: Float64Array;
+  readonly visit: Float64Array;
+  readonly found: Float64Array;
+  readonly read: Float64Array;
+  readonly occupied: Float64Array;
+  readonly cell: Float64Array;
+}
+
+/**
+ * A cell size and the reasons for it. Costs are seconds of a step or a run; for the model PAPER they are visits of
+ * cells per tetrahedron. Fields that a function does not know are 0.
+ */
+export interface CellSizeResult {
+  /** vox_cell_size_warnings */
+  warnings: number;
+  cellSize: number;
+  /** the range around cell_size where the cost is at most (1 + zone_loss) times the least */
   zoneMin: number;
   zoneMax: number;
-  /** at cell_size */
-  predictedCost: number;
-  rules: CellSizeRules;
-  stats: GeometryStats;
-  /** ascending in cell_size, evenly spaced in its logarithm */
-  curve: CostSample[];
+  /** predicted at cell_size */
+  cost: number;
+  /** the smallest that gives right answers, or fits the byte budget; 0: any */
+  minCellSize: number;
+  /** edge of the world divided by cell_size, as the paper counts */
+  cellsPerAxis: number;
+  /** of fit and tune: root mean square of (fitted time / measured time - 1) */
+  fitError: number;
+  /** of tune: how much longer a run may take than at the best cell size; 0.03 means 3 % */
+  expectedLoss: number;
   curveCount: number;
   termCount: number;
-  /** at cell_size; their costs add up to predicted_cost */
-  terms: CostShare[];
-  /** predicted cost at the cell size of each rule; 0 if the rule does not apply */
-  ruleCosts: CellSizeRules;
-  /** smallest cell size within the byte budget; 0: the budget does not limit it */
-  budgetCellSize: number;
-  /**
-   * REFERENCE: the loss of using one cell size for tetrahedra of all sizes. It is predicted_cost divided by the
-   * predicted cost of a few grids, each with the cell size that is best for its share of the tetrahedra, minus 1. About
-   * 0 if one size is as good as several, and for the other models. A vox_grid with cell_size 0 uses several sizes if
-   * there are several `levels`.
-   */
-  uniformLoss: number;
-  /** level_count cell sizes, that of the smallest tets first */
-  levels: [number, number, number, number];
-  levelCount: number;
-}
-
-/** The least cost, and where it is. */
-export interface CostMinimum {
-  curveCount: number;
-  cellSize: number;
-  cost: number;
-  /** the range around cell_size, within [min, max], where the cost is at most (1 + zone_loss) times the least */
-  zoneMin: number;
-  zoneMax: number;
-  /** from min to max, evenly spaced in the logarithm */
+  ruleCount: number;
+  timingCount: number;
+  /** ascending, evenly spaced in the logarithm of the cell size */
   curve: CostSample[];
+  /** their costs add up to `cost` */
+  terms: CostTerm[];
+  rules: CellSizeRule[];
+  /** of tune: the runs, in order */
+  timings: Timing[];
+  /** of foreign grids: those used, or those found by fit and tune */
+  weights: ForeignWeights;
+  /** the warnings in words; "" if there are none */
+  note: string;
 }
 
-/** What a run of a grid does at one cell size. The means over all positions of the lattice. */
-export interface GridWork {
-  /** primitives put into a cell */
-  entries: number;
-  /** cells looked at; with PAIRS, those that hold something */
+/**
+ * How many nanoseconds each kind of work takes on a machine, for the models REFERENCE and FAST. Measured by
+ * vox_cost_calibrate; may be saved and loaded.
+ */
+export interface CostWeights {
+  /** 1 if vox_cost_calibrate filled it */
+  measured: number;
+  /** in the library's own order; 0: the value shipped with the library */
+  ns: number[];
+}
+
+/**
+ * The paper's engine (Sect. 3), for vox_grid_desc.reference. It is serial and finds what the fast engine finds. If the
+ * grid's cell_size is 0, it chooses by its cost model, and again when its counters call for another size.
+ */
+export interface ReferenceDesc {
+  /** vox_reference_flags, combined with | */
+  flags: number;
+  /** raised to the next prime; 0: twice the number of vertices */
+  hashTableSize: number;
+  /** DENSE: the box that has cells. Points outside go to the nearest cell. Both 0: the */
+  worldMin: [number, number, number];
+  /** box of all positions, in every step */
+  worldMax: [number, number, number];
+}
+
+/** How to suggest a cell size; all 0 by default. */
+export interface CellSizeDesc {
+  model: CostModel;
+  /** REFERENCE: vox_reference_flags, combined with | */
+  referenceFlags: number;
+  /** 0: 0.05 */
+  zoneLoss: number;
+  /** PAPER: the share of tetrahedra without a contact, in (0, 1); 0: 0.99 */
+  pNc: number;
+  /** PAPER: r, the cost of a particle test divided by that of a cell visit; 0: 5 */
+  costRatio: number;
+  /** for cells_per_axis; 0: the longest side of the box of all vertices */
+  worldEdge: number;
+  /** REFERENCE with DENSE cells: most bytes that these may take; 0: no limit */
+  byteBudget: number;
+}
+
+/** Sizes in meshes, as in the paper's tables. */
+export interface Geometry {
+  vertices: number;
+  tets: number;
+  /** unique */
+  edges: number;
+  /** unique */
+  facets: number;
+  /** of exactly one tetrahedron */
+  boundaryFacets: number;
+  /** of zero volume; exact */
+  degenerateTets: number;
+  meanEdge: number;
+  /** over tetrahedra */
+  meanLongestEdge: number;
+  /** over tetrahedra, the longest side of the box */
+  meanBoxSide: number;
+  medianBoxSide: number;
+  /** over unique facets */
+  meanFacetArea: number;
+  /** over the four facets of each tetrahedron */
+  meanTetFacetArea: number;
+  meanBoundaryFacetArea: number;
+  meanVolume: number;
+  boundsMin: [number, number, number];
+  boundsMax: [number, number, number];
+}
+
+/** How often a run does what, on average over all positions of the lattice. */
+export interface ForeignCounts {
+  /** primitives stored in a cell */
+  stored: number;
+  /** cells visited; with PAIRS, cells that store something */
   visits: number;
-  /** visits of a cell that holds nothing */
+  /** visited cells that store nothing */
   empty: number;
-  /** entries of the cells looked at; with PAIRS, pairs in a cell */
+  /** primitives read in visited cells; with PAIRS, pairs within a cell */
   reads: number;
-  /** cells that hold something */
+  /** cells that store something */
   occupied: number;
-  /** of the box of all that is held: cells of a dense grid */
+  /** cells in the box of the stored primitives */
   cells: number;
 }
 
-/** Columns of GridWork: of an array field, its elements one after the other. */
-export interface GridWorkColumns {
-  readonly entries: Float64Array;
+/** Columns of ForeignCounts: of an array field, its elements one after the other. */
+export interface ForeignCountsColumns {
+  readonly stored: Float64Array;
   readonly visits: Float64Array;
   readonly empty: Float64Array;
   readonly reads: Float64Array;
@@ -581,162 +558,15 @@ export interface GridWorkColumns {
   readonly cells: Float64Array;
 }
 
-/** Nanoseconds for one of each, >= 0. */
-export interface GridWeights {
-  /** a run, whatever the cell size */
-  fixed: number;
-  entries: number;
-  visits: number;
-  /** what a visit of a cell that holds something takes more than one of an empty cell */
-  found: number;
-  reads: number;
-  /** making and forgetting a cell */
-  occupied: number;
-  /** for grids with dense storage: clearing one */
-  cells: number;
-}
-
-/** Columns of GridWeights: of an array field, its elements one after the other. */
-export interface GridWeightsColumns {
-  readonly fixed: Float64Array;
-  readonly entries: Float64Array;
-  readonly visits: Float64Array;
-  readonly found: Float64Array;
-  readonly reads: Float64Array;
-  readonly occupied: Float64Array;
-  readonly cells: Float64Array;
-}
-
-/** Cell sizes that other rules would choose; 0 where a rule does not apply. */
-export interface ForeignRules {
-  /** mean length of the edges of the primitives held, shared ones counted each time */
-  meanEdge: number;
-  /** mean of the longest sides of their boxes */
-  meanBoxSide: number;
-  /** median of these */
-  medianBoxSide: number;
-  /** cube root of the volume of the box of all, over their number */
-  spacing: number;
-  /** mean radius of those that ask */
-  radius: number;
-}
-
-/** Columns of ForeignRules: of an array field, its elements one after the other. */
-export interface ForeignRulesColumns {
-  readonly meanEdge: Float64Array;
-  readonly meanBoxSide: Float64Array;
-  readonly medianBoxSide: Float64Array;
-  readonly spacing: Float64Array;
-  readonly radius: Float64Array;
-}
-
-/** A cell size for a foreign grid, and the reasons for it. Costs are nanoseconds of a run. */
-export interface ForeignSuggestion {
-  /** vox_foreign_warnings */
-  warnings: number;
-  cellSize: number;
-  /** as in vox_suggestion, and not below least_cell_size */
-  zoneMin: number;
-  zoneMax: number;
-  /** at cell_size */
-  predictedCost: number;
-  /** the smallest legal size; 0: any */
-  leastCellSize: number;
-  /** at cell_size */
-  work: GridWork;
-  /** that were used */
-  weights: GridWeights;
-  rules: ForeignRules;
-  /**
-   * predicted cost at the cell size of each rule; 0 if it does not apply, or that size is too small for vox_count_for
-   */
-  ruleCosts: ForeignRules;
-  /** ascending in cell_size, evenly spaced in its logarithm */
-  curve: CostSample[];
-  curveCount: number;
-  termCount: number;
-  /** at cell_size; their costs add up to predicted_cost */
-  terms: CostShare[];
-  /** whose size it is */
-  rule: ForeignRule;
-  /** zero-terminated; "" if there is no warning */
-  note: string;
-}
-
-/** One timing of a grid: a run at this cell size took so long. */
-export interface GridTiming {
-  /** > 0 */
-  cellSize: number;
-  /** 1e-30 to 1e30 */
-  seconds: number;
-}
-
-/** Columns of GridTiming: of an array field, its elements one after the other. */
-export interface GridTimingColumns {
-  readonly cellSize: Float64Array;
-  readonly seconds: Float64Array;
-}
-
-/** Weights from timings, and the cell size they lead to. */
-export interface GridFit {
-  /** vox_foreign_warnings */
-  warnings: number;
-  /**
-   * >= 0; the best fit to the timings. To be put into vox_foreign_grid.weights, also for other scenes of the same grid
-   */
-  weights: GridWeights;
-  /** root mean square of (fitted time / measured time - 1) over the timings */
-  residual: number;
-  cellSize: number;
-  zoneMin: number;
-  zoneMax: number;
-  /** at cell_size */
-  predictedSeconds: number;
-  /** in seconds */
-  curve: CostSample[];
-  curveCount: number;
-  note: string;
-}
-
 /** How to tune; all 0 by default. */
 export interface TuneDesc {
-  /** 3 to VOX_TUNE_RUN_CAPACITY; 0: 7 */
-  mostRuns: number;
-  /** cell sizes to try, 0 < min <= max; both 0: an eighth to eight times the first */
+  /** 3 to VOX_TIMING_CAPACITY; 0: 7 */
+  maxRuns: number;
+  /** the range of cell sizes to try; both 0: from 1/8 to 8 times the first */
   min: number;
   max: number;
-  /** the cell size to begin with; 0: what vox_suggest_for says. Must be set where there is no grid */
+  /** the cell size to begin with; 0: the one that vox_foreign_grid_suggest gives */
   first: number;
-  /** as vox_suggest_desc.zone_loss */
-  zoneLoss: number;
-  /** stops where the cell size is within this of the best one, as far as it can tell; 0: 0.02 */
+  /** stop when the expected loss is below this; 0: 0.02 */
   wantedLoss: number;
-}
-
-/** What tuning found. */
-export interface Tuning {
-  /** vox_foreign_warnings */
-  warnings: number;
-  cellSize: number;
-  zoneMin: number;
-  zoneMax: number;
-  /** of a run at cell_size, as fitted */
-  seconds: number;
-  /**
-   * how much longer a run may take than at the best cell size, as far as it can tell: 0.03 for 3 %. The most by any of
-   * several fits: without each of the timings, and with each moved by the noise. Infinite if only one cell size of
-   * several was timed
-   */
-  expectedLoss: number;
-  /** relative: how far timings are from the fitted curve, root mean square */
-  noise: number;
-  /** as in vox_grid_fit; all 0 where there is no grid */
-  weights: GridWeights;
-  /** run_count runs, in order; seconds may be infinite */
-  runs: GridTiming[];
-  runCount: number;
-  curveCount: number;
-  /** in seconds */
-  curve: CostSample[];
-  note: string;
 }

@@ -1,18 +1,17 @@
 /// <reference lib="esnext.disposable" />
 // voxtet: vox in WebAssembly. Fields of options and results are those of the structs of vox.h, whose comments they have.
-import type { CellContent, CellLook, Format, KnownGrid, LogLevel, PrimitiveType, Result } from "./enums.js";
+import type { CellsKept, CellsQueried, CellsStored, Format, KnownGrid, LogLevel, PrimitiveType, Result } from "./enums.js";
 import type {
-  BodyInfo, BoxHit, BoxHitColumns, ClosestHit, ClosestHitColumns, Constraint, ConstraintColumns, ConstraintDesc, Contact,
-  ContactColumns, CostMinimum, CostWeights, Failure, Filter, ForeignSuggestion as ForeignSuggestionStruct, GridDesc,
-  GridFit as GridFitStruct, GridInfo, GridTiming, GridWeights, GridWork, Pair, PairColumns, PointHit, PointHitColumns,
-  QueryDesc, RayHit, RayHitColumns, ReferenceDesc, SuggestDesc, Suggestion as SuggestionStruct, TuneDesc,
-  Tuning as TuningStruct,
+  BodyInfo, BoxHit, BoxHitColumns, CellSizeDesc, CellSizeResult as CellSizeResultStruct, CellSizeRule as CellSizeRuleStruct,
+  ClosestHit, ClosestHitColumns, Constraint, ConstraintColumns, ConstraintDesc, Contact, ContactColumns,
+  CostTerm as CostTermStruct, CostWeights, Failure, Filter, ForeignCounts, ForeignWeights, Geometry, GridDesc, GridInfo, Pair,
+  PairColumns, PointHit, PointHitColumns, QueryDesc, RayHit, RayHitColumns, ReferenceDesc, Timing, TuneDesc,
 } from "./structs.js";
 
 export * from "./enums.js";
 export type {
-  BodyInfo, BoxHit, CellSizeRules, ClosestHit, Constraint, Contact, CostSample, CostShare, CostWeights, Failure, Filter,
-  ForeignRules, GeometryStats, GridInfo, GridTiming, GridWeights, GridWork, Pair, PointHit, RayHit,
+  BodyInfo, BoxHit, ClosestHit, Constraint, Contact, CostSample, CostWeights, Failure, Filter, ForeignCounts, ForeignWeights,
+  Geometry, GridInfo, Pair, PointHit, RayHit, Timing,
 } from "./structs.js";
 
 /** A call that vox refused. The message says what was wrong, with numbers in it; `code` is one of `Result`. */
@@ -63,23 +62,25 @@ export interface Vox {
   stepGrids(grids: readonly Grid[]): void;
 
   /** The cell size that minimises the cost model for these meshes. */
-  suggestCellSize(meshes: readonly SuggestMesh[], options?: SuggestOptions): Suggestion;
+  suggestCellSize(meshes: readonly SuggestMesh[], options?: SuggestOptions): CellSizeResult;
+  /** Sizes in these meshes. */
+  measureGeometry(meshes: readonly SuggestMesh[]): Geometry;
   /** Measures what work costs on this machine, for `weights` of SuggestOptions and ReferenceOptions; plain numbers. */
   calibrate(): CostWeights;
   /** The cell size of least cost between min and max, for a cost function of one's own; `zoneLoss` as in SuggestOptions. */
-  minimiseCost(cost: (cellSize: number) => number, min: number, max: number, zoneLoss?: number): Omit<CostMinimum, "curveCount">;
+  minimiseCost(cost: (cellSize: number) => number, min: number, max: number, zoneLoss?: number): CellSizeResult;
 
-  /** The cell size that costs a grid of another program least. Costs are nanoseconds of a run. */
-  suggestFor(grid: ForeignGridOptions): ForeignSuggestion;
+  /** The cell size that costs a grid of another program least. */
+  foreignGridSuggest(grid: ForeignGridOptions): CellSizeResult;
   /** What a run of that grid does at one cell size. */
-  countFor(grid: ForeignGridOptions, cellSize: number): GridWork;
-  /** Its weights and best cell size from timings at three cell sizes or more. Costs are seconds of a run. */
-  costFit(grid: ForeignGridOptions, timings: readonly GridTiming[]): GridFit;
+  foreignGridCount(grid: ForeignGridOptions, cellSize: number): ForeignCounts;
+  /** Its weights and best cell size from timings at three cell sizes or more. */
+  foreignGridFit(grid: ForeignGridOptions, timings: readonly Timing[]): CellSizeResult;
   /**
    * Its best cell size by running it: `run` runs it once at a cell size and returns how many seconds that took, Infinity if it
    * cannot run at this size, NaN to stop. What it throws is thrown here. Without a `grid`, `first` must be set.
    */
-  tune(run: (cellSize: number) => number, options?: TuneOptions): Tuning;
+  foreignGridTune(run: (cellSize: number) => number, options?: TuneOptions): CellSizeResult;
 }
 
 // ---- arrays ----
@@ -165,13 +166,21 @@ export interface SuggestMesh {
   selfCollision?: boolean;
 }
 
-export interface SuggestOptions extends Partial<SuggestDesc> {
+export interface SuggestOptions extends Partial<CellSizeDesc> {
   /** Of the models REFERENCE and FAST. Missing: those of the grid's reference engine, or those shipped with the library. */
   weights?: CostWeights;
 }
-export type Suggestion = Omit<SuggestionStruct, "curveCount" | "termCount" | "levelCount">;
+export type CostTerm = CostTermStruct & { name: string };
+export type CellSizeRule = CellSizeRuleStruct & { name: string };
+/** A cell size and the reasons for it; its arrays have as many elements as there are. */
+export interface CellSizeResult
+  extends Omit<CellSizeResultStruct, "curveCount" | "termCount" | "ruleCount" | "timingCount" | "terms" | "rules"> {
+  /** Their costs add up to `cost`. */
+  terms: CostTerm[];
+  rules: CellSizeRule[];
+}
 
-/** What a grid holds, or what asks it. Of each primitive only the box counts. */
+/** What a grid stores, or what queries it. Of each primitive only the box counts. */
 export interface Primitives {
   /** Default: points. */
   type?: PrimitiveType;
@@ -188,28 +197,24 @@ export interface Primitives {
 /** A uniform grid of another program. What is missing is as `known` has it. */
 export interface ForeignGridOptions {
   /** What is put into cells. */
-  held: Primitives;
-  /** What asks; missing: those held ask themselves. */
-  asking?: Primitives;
-  /** The grid that it is like; default: any. */
+  stored: Primitives;
+  /** The queries; missing: those stored query each other. */
+  querying?: Primitives;
+  /** The grid that it is like; default: none. */
   known?: KnownGrid;
-  content?: CellContent;
-  look?: CellLook;
-  /** ForeignFlags, combined with |. */
-  flags?: number;
-  /** Boxes that ask are larger by this on all sides. */
+  cellsStored?: CellsStored;
+  cellsQueried?: CellsQueried;
+  cellsKept?: CellsKept;
+  /** The boxes of queries are larger by this on all sides. */
   radius?: number;
-  /** The smallest that gives right answers; 0: follows from the look. */
-  leastCellSize?: number;
+  /** The smallest that gives right answers; 0: any, or with 27 what the boxes demand. */
+  minCellSize?: number;
   zoneLoss?: number;
-  /** In nanoseconds; those that are missing are those of `known`. */
-  weights?: Partial<GridWeights>;
+  /** In nanoseconds; those that are missing are 0. All 0: those of `known`. */
+  weights?: Partial<ForeignWeights>;
 }
 
-export type ForeignSuggestion = Omit<ForeignSuggestionStruct, "curveCount" | "termCount">;
-export type GridFit = Omit<GridFitStruct, "curveCount">;
 export type TuneOptions = Partial<TuneDesc> & { grid?: ForeignGridOptions };
-export type Tuning = Omit<TuningStruct, "curveCount" | "runCount">;
 
 /** Which constraints to find; by default all, with consistent depth. */
 export interface ConstraintOptions extends Partial<Pick<ConstraintDesc, "method" | "closestBudget">> {
@@ -319,7 +324,7 @@ export interface Grid extends Owned {
   /** What the last step did, and how long each stage of it took, by the names of vox_grid_get_counters. */
   readonly counters: Record<string, number>;
   /** The cell size that minimises the cost model for the meshes of the grid. */
-  suggestCellSize(options?: SuggestOptions): Suggestion;
+  suggestCellSize(options?: SuggestOptions): CellSizeResult;
 }
 
 /** A mesh of a grid. It is a name: the grid owns what it names, and a removed mesh is an error when it is used. */

@@ -347,11 +347,30 @@ static void meshes(void) {
 }
 
 /* To nine digits: models use functions of the C library, which machines may round differently. */
+static void result_fields(const vox_cell_size_result* found) {
+    field("cell_size", "%.9g", found->cell_size);
+    field("zone_min", "%.9g", found->zone_min);
+    field("zone_max", "%.9g", found->zone_max);
+    field("cost", "%.9g", found->cost);
+    field("result_min_cell_size", "%.9g", found->min_cell_size);
+    field("curve_count", "%u", found->curve_count);
+    field("term_count", "%u", found->term_count);
+    fprintf(script, ", \"rules\": [");
+    for (uint32_t i = 0; i < found->rule_count; ++i)
+        fprintf(script, "%s%.9g", i ? ", " : "", found->rules[i].cell_size);
+    fprintf(script, "], \"runs\": [");
+    for (uint32_t i = 0; i < found->timing_count; ++i)
+        fprintf(script, "%s%.9g", i ? ", " : "", found->timings[i].cell_size);
+    fprintf(script, "]");
+    field("warnings", "%u", found->warnings);
+    field("note", "\"%s\"", found->note);
+}
+
 static void suggest(const scene* s, vox_cost_model model) {
-    vox_suggest_desc desc = vox_default_suggest_desc();
+    vox_cell_size_desc desc = vox_default_cell_size_desc();
     vox_mesh_desc descs[MOST_BODIES];
-    vox_suggestion suggestion;
-    suggestion.struct_size = sizeof suggestion;
+    vox_cell_size_result found;
+    found.struct_size = sizeof found;
     desc.model = model;
     for (uint32_t i = 0; i < s->count; ++i) descs[i] = body_desc(&s->bodies[i]);
     begin_call("suggest");
@@ -366,13 +385,8 @@ static void suggest(const scene* s, vox_cost_model model) {
                 i ? ", " : "", positions, b->vertex_count, tets, b->tet_count);
     }
     fprintf(script, "]");
-    expect(vox_suggest_cell_size(&desc, descs, s->count, &suggestion), "suggest");
-    field("cell_size", "%.9g", suggestion.cell_size);
-    field("zone_min", "%.9g", suggestion.zone_min);
-    field("zone_max", "%.9g", suggestion.zone_max);
-    field("predicted_cost", "%.9g", suggestion.predicted_cost);
-    field("mean_edge", "%.9g", suggestion.stats.mean_edge);
-    field("curve_count", "%u", suggestion.curve_count);
+    expect(vox_suggest_cell_size(&desc, descs, s->count, &found), "suggest");
+    result_fields(&found);
     end_call();
 }
 
@@ -413,83 +427,60 @@ static void primitives_field(const char* name, const vox_primitives* p) {
     fprintf(script, "}");
 }
 
-/* What differs from what is known of the grid. */
 static void foreign_fields(const vox_foreign_grid* g) {
-    primitives_field("held", g->held);
-    if (g->asking) primitives_field("asking", g->asking);
-    vox_foreign_grid known = vox_default_foreign_grid();
-    expect(vox_foreign_grid_set_known(&known, g->known), "known");
+    const vox_foreign_weights* w = &g->weights;
+    const double weights[7] = {w->run, w->store, w->visit, w->found, w->read, w->occupied, w->cell};
+    primitives_field("stored", g->stored);
+    if (g->querying) primitives_field("querying", g->querying);
     field("known", "%d", (int)g->known);
-    if (g->content != known.content) field("content", "%d", (int)g->content);
-    if (g->look != known.look) field("look", "%d", (int)g->look);
-    if (g->flags != known.flags) field("dense", "%d", g->flags & VOX_FOREIGN_DENSE ? 1 : 0);
-    const vox_grid_weights* w = &g->weights;
-    const double weights[7] = {w->fixed, w->entries, w->visits, w->found, w->reads, w->occupied, w->cells};
-    if (memcmp(w, &known.weights, sizeof *w) != 0) numbers_field("weights", weights, 7);
+    field("cells_stored", "%d", (int)g->cells_stored);
+    field("cells_queried", "%d", (int)g->cells_queried);
+    field("cells_kept", "%d", (int)g->cells_kept);
+    numbers_field("weights", weights, 7);
     field("radius", "%.17g", g->radius);
-    field("least_cell_size", "%.17g", g->least_cell_size);
+    field("min_cell_size", "%.17g", g->min_cell_size);
     field("zone_loss", "%.17g", g->zone_loss);
 }
 
-/* Numbers to nine digits, as those of suggest(). */
-static void size_fields(double cell_size, double zone_min, double zone_max, uint32_t warnings,
-                        const char* note) {
-    field("cell_size", "%.9g", cell_size);
-    field("zone_min", "%.9g", zone_min);
-    field("zone_max", "%.9g", zone_max);
-    field("warnings", "%u", warnings);
-    field("note", "\"%s\"", note);
-}
-
-static void suggest_for(const vox_foreign_grid* g) {
-    vox_foreign_suggestion found;
-    found.struct_size = sizeof found;
-    begin_call("suggest_for");
-    foreign_fields(g);
-    const vox_result result = vox_suggest_for(g, &found);
-    if (result == VOX_OK) {
-        size_fields(found.cell_size, found.zone_min, found.zone_max, found.warnings, found.note);
-        field("predicted_cost", "%.9g", found.predicted_cost);
-        field("legal_cell_size", "%.9g", found.least_cell_size);
-        field("rule", "%d", (int)found.rule);
-        field("mean_box_side", "%.9g", found.rules.mean_box_side);
-        field("curve_count", "%u", found.curve_count);
-    }
+/* Ends a call that gives a result. */
+static void finish_result(vox_result result, const vox_cell_size_result* found) {
+    if (result == VOX_OK) result_fields(found);
     finish(result);
 }
 
-static void count_for(const vox_foreign_grid* g, double at) {
-    vox_grid_work work = {0, 0, 0, 0, 0, 0};
-    begin_call("count_for");
+static void foreign_suggest(const vox_foreign_grid* g) {
+    vox_cell_size_result found;
+    found.struct_size = sizeof found;
+    begin_call("foreign_suggest");
+    foreign_fields(g);
+    finish_result(vox_foreign_grid_suggest(g, &found), &found);
+}
+
+static void foreign_count(const vox_foreign_grid* g, double at) {
+    vox_foreign_counts c = {0, 0, 0, 0, 0, 0};
+    begin_call("foreign_count");
     foreign_fields(g);
     field("at", "%.17g", at);
-    const vox_result result = vox_count_for(g, at, &work);
+    const vox_result result = vox_foreign_grid_count(g, at, &c);
     if (result == VOX_OK) {
-        const double counts[6] = {work.entries, work.visits,   work.empty,
-                                  work.reads,   work.occupied, work.cells};
-        fprintf(script, ", \"work\": [");
+        const double counts[6] = {c.stored, c.visits, c.empty, c.reads, c.occupied, c.cells};
+        fprintf(script, ", \"counts\": [");
         for (int i = 0; i < 6; ++i) fprintf(script, "%s%.9g", i ? ", " : "", counts[i]);
         fprintf(script, "]");
     }
     finish(result);
 }
 
-static void cost_fit(const vox_foreign_grid* g, const vox_grid_timing* timings, int count) {
-    vox_grid_fit fit;
-    fit.struct_size = sizeof fit;
-    begin_call("cost_fit");
+static void foreign_fit(const vox_foreign_grid* g, const vox_timing* timings, int count) {
+    vox_cell_size_result found;
+    found.struct_size = sizeof found;
+    begin_call("foreign_fit");
     foreign_fields(g);
     fprintf(script, ", \"timings\": [");
     for (int i = 0; i < count; ++i)
         fprintf(script, "%s[%.17g, %.17g]", i ? ", " : "", timings[i].cell_size, timings[i].seconds);
     fprintf(script, "]");
-    const vox_result result = vox_cost_fit(g, timings, (uint64_t)count, &fit);
-    if (result == VOX_OK) {
-        size_fields(fit.cell_size, fit.zone_min, fit.zone_max, fit.warnings, fit.note);
-        field("predicted_seconds", "%.9g", fit.predicted_seconds);
-        field("curve_count", "%u", fit.curve_count);
-    }
-    finish(result);
+    finish_result(vox_foreign_grid_fit(g, timings, (uint64_t)count, &found), &found);
 }
 
 /* Stands for a program that is timed. */
@@ -508,29 +499,20 @@ static double run_made_up(double d, void* user) {
 }
 
 /* grid null: nothing is known of it. */
-static void cost_tune(const vox_foreign_grid* g, double first, uint32_t most_runs, made_up_run run) {
-    vox_tuning found;
+static void foreign_tune(const vox_foreign_grid* g, double first, uint32_t max_runs, made_up_run run) {
+    vox_cell_size_result found;
     vox_tune_desc desc = vox_default_tune_desc();
     found.struct_size = sizeof found;
     desc.first = first;
-    desc.most_runs = most_runs;
-    begin_call("cost_tune");
+    desc.max_runs = max_runs;
+    begin_call("foreign_tune");
     if (g) foreign_fields(g);
     field("first", "%.17g", first);
-    field("most_runs", "%u", most_runs);
+    field("max_runs", "%u", max_runs);
     field("run", "[%.17g, %.17g, %.17g]", run.fixed, run.falls, run.grows);
     field("fails_below", "%.17g", run.fails_below);
     field("stops_after", "%d", run.stops_after);
-    const vox_result result = vox_cost_tune(g, &desc, run_made_up, &run, &found);
-    if (result == VOX_OK) {
-        size_fields(found.cell_size, found.zone_min, found.zone_max, found.warnings, found.note);
-        field("seconds", "%.9g", found.seconds);
-        fprintf(script, ", \"runs\": [");
-        for (uint32_t i = 0; i < found.run_count; ++i)
-            fprintf(script, "%s%.9g", i ? ", " : "", found.runs[i].cell_size);
-        fprintf(script, "]");
-    }
-    finish(result);
+    finish_result(vox_foreign_grid_tune(g, &desc, run_made_up, &run, &found), &found);
 }
 
 static void transform(vox_body mesh, const double matrix[12]) {
@@ -858,9 +840,9 @@ static vox_primitives primitives_of(const body* b, vox_primitive_type type) {
 static void foreign_grids(void) {
     enum { grids = 4 };
     static const vox_known_grid known[grids] = {VOX_KNOWN_GRID_SORTED, VOX_KNOWN_GRID_WARP,
-                                                VOX_KNOWN_GRID_IPC_PAIRS, VOX_KNOWN_GRID_ANY};
+                                                VOX_KNOWN_GRID_IPC_PAIRS, VOX_KNOWN_GRID_NONE};
     static scene s;
-    vox_grid_timing timings[4] = {{1.5, 7.25e-5}, {3, 5.04e-5}, {6, 9.98e-5}, {12, 2.51e-4}};
+    vox_timing timings[4] = {{1.5, 7.25e-5}, {3, 5.04e-5}, {6, 9.98e-5}, {12, 2.51e-4}};
     double radii[16];
     begin_scene("foreign grids",
                 "the cell size for grids of other programs, by description, timings and runs", 0, 0);
@@ -870,25 +852,25 @@ static void foreign_grids(void) {
     vox_primitives tets = primitives_of(first, VOX_PRIMITIVE_TET);
     vox_primitives points = primitives_of(&s.bodies[1], VOX_PRIMITIVE_POINT);
     vox_foreign_grid g = vox_default_foreign_grid();
-    g.held = &tets;
-    g.asking = &points;
-    expect(vox_foreign_grid_set_known(&g, VOX_KNOWN_GRID_HASHED), "known");
-    const vox_grid_weights weights = {100, 20, 9, 5, 3, 40, 0};
+    g.stored = &tets;
+    g.querying = &points;
+    g.known = VOX_KNOWN_GRID_HASHED;
+    const vox_foreign_weights weights = {100, 20, 9, 5, 3, 40, 0};
     g.weights = weights;
-    suggest_for(&g);
-    count_for(&g, 0.75);
-    count_for(&g, 3);
-    cost_fit(&g, timings, 4);
+    foreign_suggest(&g);
+    foreign_count(&g, 0.75);
+    foreign_count(&g, 3);
+    foreign_fit(&g, timings, 4);
     timings[2].seconds *= 3;
-    cost_fit(&g, timings, 4);
-    g.flags = VOX_FOREIGN_DENSE;
-    g.weights.cells = 0.5;
-    suggest_for(&g);
+    foreign_fit(&g, timings, 4);
+    g.cells_kept = VOX_CELLS_KEPT_DENSE;
+    g.weights.cell = 0.5;
+    foreign_suggest(&g);
     for (int i = 0; i < grids; ++i) {
         g.radius = 0.25 * i;
-        g.asking = i == 2 ? NULL : &points;
-        expect(vox_foreign_grid_set_known(&g, known[i]), "known");
-        suggest_for(&g);
+        g.querying = i == 2 ? NULL : &points;
+        g.known = known[i];
+        foreign_suggest(&g);
     }
     /* Points with radii, in doubles, from 27 cells. */
     double* doubles = as_doubles(&s.bodies[1]);
@@ -900,54 +882,54 @@ static void foreign_grids(void) {
     points.radius_format = VOX_FORMAT_DOUBLE;
     points.radius = 0.5;
     g = vox_default_foreign_grid();
-    g.held = &points;
-    expect(vox_foreign_grid_set_known(&g, VOX_KNOWN_GRID_PBAT), "known");
-    suggest_for(&g);
+    g.stored = &points;
+    g.known = VOX_KNOWN_GRID_PBAT;
+    foreign_suggest(&g);
 
-    g.held = &tets;
-    expect(vox_foreign_grid_set_known(&g, VOX_KNOWN_GRID_HASHED), "known");
+    g.stored = &tets;
+    g.known = VOX_KNOWN_GRID_HASHED;
     g.weights = weights;
     const made_up_run run = {1e-3, 2e-3, 1e-3, 0, 0, 0};
     made_up_run other = run;
-    cost_tune(NULL, 0.5, 7, run);
-    cost_tune(&g, 0, 7, run);
+    foreign_tune(NULL, 0.5, 7, run);
+    foreign_tune(&g, 0, 7, run);
     other.fails_below = 0.75;
-    cost_tune(NULL, 1, 9, other);
+    foreign_tune(NULL, 1, 9, other);
     other.fails_below = 0;
     other.stops_after = 3;
-    cost_tune(NULL, 1, 9, other);
+    foreign_tune(NULL, 1, 9, other);
 
     /* What is refused. */
     other.stops_after = 0;
     other.fails_below = 1e30;
-    cost_tune(NULL, 1, 7, other);
-    cost_tune(NULL, 0, 7, run);
-    cost_tune(NULL, 1, 2, run);
+    foreign_tune(NULL, 1, 7, other);
+    foreign_tune(NULL, 0, 7, run);
+    foreign_tune(NULL, 1, 2, run);
     other.fails_below = other.fixed = other.falls = other.grows = 0;
-    cost_tune(NULL, 1, 7, other);
-    cost_fit(&g, timings, 2);
+    foreign_tune(NULL, 1, 7, other);
+    foreign_fit(&g, timings, 2);
     timings[1].seconds = 0;
-    cost_fit(&g, timings, 3);
-    count_for(&g, 0);
+    foreign_fit(&g, timings, 3);
+    foreign_count(&g, 0);
     g.radius = -1;
-    suggest_for(&g);
+    foreign_suggest(&g);
     g.radius = 0;
-    g.look = VOX_LOOK_AROUND;
-    suggest_for(&g);
-    g.look = VOX_LOOK_BOX;
+    g.cells_queried = VOX_CELLS_QUERIED_27;
+    foreign_suggest(&g);
+    g.cells_queried = VOX_CELLS_QUERIED_BOX;
     g.zone_loss = -0.5;
-    suggest_for(&g);
+    foreign_suggest(&g);
     g.zone_loss = 0.05;
     const uint32_t corner = first->tets[70];
     first->tets[70] = first->vertex_count;
-    suggest_for(&g);
+    foreign_suggest(&g);
     first->tets[70] = corner;
     radii[7] = -2;
-    g.held = &points;
-    suggest_for(&g);
+    g.stored = &points;
+    foreign_suggest(&g);
     radii[7] = 0;
     doubles[10] = NAN;
-    suggest_for(&g);
+    foreign_suggest(&g);
     free(doubles);
     end_scene();
     free_scene(&s);

@@ -29,7 +29,7 @@ static double cost(double d, void* user) {
 }
 
 int main(void) {
-    vox_cost_minimum best;
+    vox_cell_size_result best;
     best.struct_size = sizeof best;
     must(vox_cost_minimise(cost, NULL, 0.001, 0.4, 0, &best));
     const vox_cost_sample* largest = &best.curve[best.curve_count - 1];

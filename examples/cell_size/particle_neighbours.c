@@ -168,7 +168,7 @@ int main(void) {
     for (int i = 0; i < measured; ++i) times[i] = measure(sizes[i] = parts[i] * radius, &done);
     fit(sizes, times, measured, weight);
 
-    vox_cost_minimum best;
+    vox_cell_size_result best;
     best.struct_size = sizeof best;
     must(vox_cost_minimise(cost, weight, radius / 6, 4 * radius, 0, &best));
     printf("a row %.1f ns, a particle %.2f ns, a surprise %.1f ns: cells of %.2f radii, good from %.2f to "

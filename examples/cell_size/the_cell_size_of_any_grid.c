@@ -1,4 +1,4 @@
-/* The best cell size of a grid that is not vox's, in three ways: from what it holds, from three timings, and
+/* The best cell size of a grid that is not vox's, in three ways: from what it stores, from three timings, and
  * by running it. The grid puts boxes into all cells that they meet; then each box looks at its cells for
  * others that it overlaps. */
 #include <vox/vox_cell_size.h>
@@ -20,7 +20,7 @@ enum {
 static float boxes[count][2][3];  /* opposite corners, in a cube of side 1 */
 static int begin[most_cells + 2]; /* where the list of each cell begins in `list` */
 static int list[most_entries];
-static vox_grid_work done; /* what the last run did */
+static vox_foreign_counts done; /* what the last run did */
 static int overlaps;
 
 static int cell_of(float x, double d) { return (int)(x / d); }
@@ -54,7 +54,7 @@ static int run(double d) {
     for (int i = 0; i < count; ++i) /* and which */
         for_cells(i, d, x, y, z) list[begin[(z * n + y) * n + x + 1]++] = i;
 
-    done.entries = begin[n * n * n];
+    done.stored = begin[n * n * n];
     done.visits = done.reads = overlaps = 0;
     for (int i = 0; i < count; ++i) for_cells(i, d, x, y, z) {
             const int c = (z * n + y) * n + x, cell[3] = {x, y, z};
@@ -101,49 +101,49 @@ int main(void) {
         }
 
     /* What it is like. */
-    vox_primitives held = vox_default_primitives();
-    held.type = VOX_PRIMITIVE_BOX;
-    held.positions = vox_float_positions(boxes[0][0], 2 * count);
-    held.count = count;
+    vox_primitives stored = vox_default_primitives();
+    stored.type = VOX_PRIMITIVE_BOX;
+    stored.positions = vox_float_positions(boxes[0][0], 2 * count);
+    stored.count = count;
     vox_foreign_grid grid = vox_default_foreign_grid();
-    must(vox_foreign_grid_set_known(&grid, VOX_KNOWN_GRID_SORTED)); /* boxes in cells, a dense lattice */
-    grid.held = &held;
+    grid.known = VOX_KNOWN_GRID_SORTED; /* boxes in cells, a dense lattice */
+    grid.stored = &stored;
 
-    vox_foreign_suggestion from_boxes;
+    vox_cell_size_result from_boxes;
     from_boxes.struct_size = sizeof from_boxes;
-    must(vox_suggest_for(&grid, &from_boxes));
+    must(vox_foreign_grid_suggest(&grid, &from_boxes));
     printf("described: %.4f, good from %.4f to %.4f\n", from_boxes.cell_size, from_boxes.zone_min,
            from_boxes.zone_max);
 
     /* What it does at some cell sizes, beside what vox says. */
     int found = -1;
     for (double d = 0.01; d < 0.2; d *= 1.7) {
-        vox_grid_work work;
-        must(vox_count_for(&grid, d, &work));
-        if (!run(d) || !near(work.entries, done.entries) || !near(work.visits, done.visits) ||
-            !near(work.reads, done.reads) || (found >= 0 && overlaps != found)) {
+        vox_foreign_counts counts;
+        must(vox_foreign_grid_count(&grid, d, &counts));
+        if (!run(d) || !near(counts.stored, done.stored) || !near(counts.visits, done.visits) ||
+            !near(counts.reads, done.reads) || (found >= 0 && overlaps != found)) {
             printf("at %.4f: %.0f visits, %.0f predicted; %.0f reads, %.0f predicted; %d overlaps\n", d,
-                   done.visits, work.visits, done.reads, work.reads, overlaps);
+                   done.visits, counts.visits, done.reads, counts.reads, overlaps);
             return 1;
         }
         found = overlaps;
     }
 
     /* Three timings. The weights that they lead to hold for other boxes, too. */
-    const double edge = from_boxes.rules.mean_edge;
-    vox_grid_timing timings[3] = {{0.6 * edge, 0}, {1.2 * edge, 0}, {2.4 * edge, 0}};
+    const double edge = from_boxes.rules[0].cell_size; /* the mean edge */
+    vox_timing timings[3] = {{0.6 * edge, 0}, {1.2 * edge, 0}, {2.4 * edge, 0}};
     for (int i = 0; i < 3; ++i) timings[i].seconds = seconds_of(timings[i].cell_size, NULL);
-    vox_grid_fit fit;
+    vox_cell_size_result fit;
     fit.struct_size = sizeof fit;
-    must(vox_cost_fit(&grid, timings, 3, &fit));
-    printf("fitted: %.4f, %.3g ms a run\n", fit.cell_size, 1e3 * fit.predicted_seconds);
+    must(vox_foreign_grid_fit(&grid, timings, 3, &fit));
+    printf("fitted: %.4f, %.3g ms a run\n", fit.cell_size, 1e3 * fit.cost);
 
     /* Runs where vox wants them. */
-    vox_tuning tuned;
+    vox_cell_size_result tuned;
     tuned.struct_size = sizeof tuned;
-    must(vox_cost_tune(&grid, NULL, seconds_of, NULL, &tuned));
+    must(vox_foreign_grid_tune(&grid, NULL, seconds_of, NULL, &tuned));
     printf("tuned in %u runs: %.4f, %.3g ms a run, at most about %.0f %% more than the best\n",
-           tuned.run_count, tuned.cell_size, 1e3 * tuned.seconds, 100 * tuned.expected_loss);
+           tuned.timing_count, tuned.cell_size, 1e3 * tuned.cost, 100 * tuned.expected_loss);
     printf("%d overlaps at every cell size, and what runs do as predicted within 10 %%\n", found);
     return 0;
 }

@@ -14,7 +14,7 @@ static double cost(double cell_size, void* user) {
 
 int main(void) {
     double per_particle = 0.2;
-    vox_cost_minimum best;
+    vox_cell_size_result best;
     best.struct_size = sizeof best;
     must(vox_cost_minimise(cost, &per_particle, 0.01, 10, 0, &best));
     printf("cell size %.2f, good from %.2f to %.2f; cost %.1f, with the radius as the cell size %.1f\n",

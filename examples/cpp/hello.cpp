@@ -16,7 +16,7 @@ int main() try {
                     (unsigned)grid.user_data(c.body_a), c.tet, (unsigned)grid.user_data(c.body_b));
 
     // No grid yet? One call gives the cell size for these meshes.
-    const vox_suggestion best =
+    const vox_cell_size_result best =
         vox::suggest_cell_size(std::array{vox::describe(first, tet), vox::describe(second, tet)});
     std::printf("cell size %.3f, good from %.3f to %.3f\n", best.cell_size, best.zone_min, best.zone_max);
 } catch (const std::exception& error) {

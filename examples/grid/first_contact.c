@@ -34,7 +34,7 @@ int main(void) {
     vox_grid_destroy(grid);
 
     /* No grid yet? One call gives the cell size for these meshes. */
-    vox_suggestion suggestion;
+    vox_cell_size_result suggestion;
     suggestion.struct_size = sizeof suggestion;
     if (vox_suggest_cell_size(NULL, bodies, 2, &suggestion) != VOX_OK) return failed();
     printf("cell size %.3f, good from %.3f to %.3f\n", suggestion.cell_size, suggestion.zone_min,

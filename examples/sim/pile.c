@@ -145,12 +145,12 @@ int main(int argc, char** argv) {
     for (int frame = 0; frame < frames; ++frame) {
         write_frame(&s, argv[1], frame);
         for (int i = 0; i < STEPS_PER_FRAME; ++i) must(vox_sim_step(s.sim, 1.0 / STEPS_PER_SECOND));
-        vox_sim_energies energies = {.struct_size = sizeof energies};
-        must(vox_sim_get_energy(s.sim, VOX_NULL_BODY, &energies));
+        vox_sim_energy energy;
+        must(vox_sim_get_energy(s.sim, VOX_NULL_BODY, &energy));
         if (frame % 10 == 0 || frame == frames - 1)
             printf("frame %3d: %5llu constraints, fastest particle %5.2f, step %6.2f ms of which detection "
                    "%6.2f ms\n",
-                   frame, (unsigned long long)counter(s.sim, "constraints"), energies.max_speed,
+                   frame, (unsigned long long)counter(s.sim, "constraints"), energy.max_speed,
                    1e-6 * (double)counter(s.sim, "step_ns"), 1e-6 * (double)counter(s.sim, "detect_ns"));
         fflush(stdout);
     }

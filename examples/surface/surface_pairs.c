@@ -59,7 +59,7 @@ int main(void) {
     printf("faces and vertices: %" PRIu64 " touch, the first at %.3f\n", times.count, first);
 
     /* The surface chooses its cell size by this; one may also set it. No answer depends on it. */
-    vox_foreign_suggestion suggestion;
+    vox_cell_size_result suggestion;
     vox_counter_view counters;
     suggestion.struct_size = sizeof suggestion;
     must(vox_surface_suggest_cell_size(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, &suggestion));

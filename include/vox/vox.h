@@ -36,17 +36,17 @@
  *   Exact      Which vertex is in which tetrahedron is decided as if in infinite precision, for the coordinates
  *              given. All results come in one order and have the same bits for any cell size, number of threads and
  *              machine.
- *   Errors     A function that can fail returns a vox_result: 0 or an error. After an error nothing has changed,
- *              outputs are not written, and vox_last_error() gives the reason with numbers in it. Nothing prints,
- *              exits or throws. Not repeated below: INVALID_ARGUMENT for a null pointer that is not VOX_OPTIONAL, and
- *              INVALID_HANDLE for an id that names no body of the grid.
+ *   Errors     A function that can fail returns a vox_result: 0 or an error. After an error nothing has changed
+ *              (but a step that fails leaves no results), outputs are not written, and vox_last_error() gives the
+ *              reason with numbers in it. Nothing prints, exits or throws. Not repeated below: INVALID_ARGUMENT for a
+ *              null pointer that is not VOX_OPTIONAL, and INVALID_HANDLE for an id that names no body of the grid.
  *   Names      vox_X_get_Y reads; vox_X_set_Y and every other verb changes X.
  *   Structs    A struct that begins with struct_size may grow in later versions. Begin with vox_default_X(): it sets
  *              struct_size and leaves the rest 0, the defaults. Where a function fills such a struct, set its
  *              struct_size to its sizeof before the call. Other structs never change.
- *   Ownership  The library copies what it is given, except borrowed positions and tetrahedra. What it hands out
- *              belongs to it and lives as long as the comment says. "The epoch" lasts until the grid is next stepped,
- *              cleared, reserved or destroyed, or its flags or margin set.
+ *   Ownership  A mesh borrows its positions: write to that array, and step again. All else is copied, unless a flag
+ *              says otherwise. What the library hands out belongs to it and lives as long as the comment says. "The
+ *              epoch" lasts until the grid is next stepped, cleared, reserved or destroyed, or its flags or margin set.
  *   Threads    One thread at a time may change a grid. Between changes any number of threads may read it: functions
  *              that take a const grid. Different grids are independent. vox_last_error() is per thread.
  *   Floats     Results do not depend on the caller's floating-point environment, which stays as it was.
@@ -499,8 +499,8 @@ static inline vox_constraint_desc vox_default_constraint_desc(void) {
 }
 
 /* Constraints, sorted by pair, then by kind, body_a and vertices, those of a face in ascending order. Those of pair p
- * of vox_grid_get_pairs are data[pair_offsets[p]] to data[pair_offsets[p + 1] - 1]. The arrays live until the end of the
- * epoch, or until constraints are found again. */
+ * of vox_grid_get_pairs are data[pair_offsets[p]] to data[pair_offsets[p + 1] - 1]. The arrays live until the end of
+ * the epoch, or until constraints are found again. */
 typedef struct vox_constraint_view {
     const vox_constraint* data;
     uint64_t count;

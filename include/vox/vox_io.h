@@ -47,8 +47,8 @@ typedef struct vox_io_load_desc {
     vox_io_format format;
     uint32_t mesh; /* which mesh of a scene file to take, from 1; 0: all, joined */
     uint32_t reserved; /* 0 */
-    /* Where the arrays of the mesh live until vox_io_mesh_destroy. Copied; null: the C++ runtime's heap. The memory that
-     * reading needs besides is taken from that heap and released at the end of the call. */
+    /* Where the arrays of the mesh live until vox_io_mesh_destroy. Copied; null: the C++ runtime's heap. Other memory
+     * that reading needs is taken from that heap and released at the end of the call. */
     VOX_OPTIONAL const vox_allocator* allocator;
     /* Called now and then, on the calling thread, with the fraction of the work done, ascending from 0 to 1: about half
      * of it is reading, the rest the report. A result other than 0 cancels. May be null. */

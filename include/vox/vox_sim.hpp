@@ -63,13 +63,11 @@ public:
         detail::check(vox_sim_body_set_state(get(), body, positions.empty() ? nullptr : positions.data(),
                                              velocities.empty() ? nullptr : velocities.data()));
     }
-    // vox_sim_body_set_acceleration
-    void set_acceleration(vox_body body, const std::array<double, 3>& acceleration) {
-        detail::check(vox_sim_body_set_acceleration(get(), body, acceleration.data()));
-    }
     // vox_sim_get_energy
-    vox_sim_energies energy(vox_body body = VOX_NULL_BODY) const {
-        return detail::filled<vox_sim_energies>(vox_sim_get_energy, get(), body);
+    vox_sim_energy energy(vox_body body = VOX_NULL_BODY) const {
+        vox_sim_energy energy{};
+        detail::check(vox_sim_get_energy(get(), body, &energy));
+        return energy;
     }
     // vox_sim_get_counters
     std::span<const vox_counter> counters() const {

@@ -250,7 +250,7 @@ VOX_EXPERIMENTAL vox_result vox_surface_set_cell_size(vox_surface* surface, doub
 /* Suggests the cell size with the least cost for finding the pairs of kinds a and b. Set out->struct_size first.
  * Errors: also INVALID_ARGUMENT (no such features, an infinite radius). */
 VOX_EXPERIMENTAL vox_result vox_surface_suggest_cell_size(vox_surface* surface, vox_feature a, vox_feature b,
-                                                          vox_foreign_suggestion* out);
+                                                          vox_cell_size_result* out);
 
 /* Gets counts of the last search and the bytes held (docs/surface-pairs.md lists them). They live until the next call
  * that uses the surface. */

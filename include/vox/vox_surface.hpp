@@ -81,8 +81,8 @@ public:
     // vox_surface_set_cell_size
     void set_cell_size(double size) { detail::check(vox_surface_set_cell_size(get(), size)); }
     // vox_surface_suggest_cell_size
-    vox_foreign_suggestion suggest_cell_size(vox_feature a, vox_feature b) {
-        return detail::filled<vox_foreign_suggestion>(vox_surface_suggest_cell_size, get(), a, b);
+    vox_cell_size_result suggest_cell_size(vox_feature a, vox_feature b) {
+        return detail::filled<vox_cell_size_result>(vox_surface_suggest_cell_size, get(), a, b);
     }
     // vox_surface_get_counters
     span<const vox_counter> counters() const& { return all<vox_counter_view>(vox_surface_get_counters, get()); }

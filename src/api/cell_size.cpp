@@ -29,9 +29,9 @@ constexpr bool has_surfaces = false;
 constexpr bool has_surfaces = true;
 #endif
 
-vox_suggest_desc read_suggest_desc(const vox_suggest_desc* desc, const vox_grid* grid = nullptr) {
-    vox_suggest_desc settings{};
-    if (desc) settings = read_struct(desc, "vox_suggest_desc");
+vox_cell_size_desc read_suggest_desc(const vox_cell_size_desc* desc, const vox_grid* grid = nullptr) {
+    vox_cell_size_desc settings{};
+    if (desc) settings = read_struct(desc, "desc");
     if (grid) grid->describe(settings, desc != nullptr);
     check_suggest_desc(settings);
     if (!has_surfaces && settings.model == VOX_COST_MODEL_SURFACE)
@@ -80,12 +80,13 @@ void read_bodies(const vox_mesh_desc* meshes, std::uint64_t count, vox_cost_mode
 }
 
 // Whether the surfaces of the meshes are what is asked about.
-bool is_of_surfaces(const vox_suggest_desc& settings) {
+bool is_of_surfaces(const vox_cell_size_desc& settings) {
     return has_surfaces && settings.model == VOX_COST_MODEL_SURFACE;
 }
 
 // `usual`: the weights of a scene for which none are given.
-vox_suggestion suggestion(const vox_suggest_desc& settings, CellSizeScene& scene, const CostWeights& usual) {
+vox_cell_size_result suggestion(const vox_cell_size_desc& settings, CellSizeScene& scene,
+                                const CostWeights& usual) {
     return is_of_surfaces(settings)
                ? suggest_for_surfaces(settings, scene)
                : suggest(settings, scene, settings.weights ? read_weights(settings.weights) : usual);
@@ -93,11 +94,11 @@ vox_suggestion suggestion(const vox_suggest_desc& settings, CellSizeScene& scene
 
 } // namespace
 
-vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_desc* meshes,
-                                 uint64_t mesh_count, vox_suggestion* out) {
+vox_result vox_suggest_cell_size(const vox_cell_size_desc* desc, const vox_mesh_desc* meshes,
+                                 uint64_t mesh_count, vox_cell_size_result* out) {
     return border([&] {
         check_out_struct(out, "out");
-        const vox_suggest_desc settings = read_suggest_desc(desc);
+        const vox_cell_size_desc settings = read_suggest_desc(desc);
         CallerMemory memory(settings.allocator);
         CellSizeScene scene(&memory);
         read_bodies(meshes, mesh_count, settings.model, scene);
@@ -105,16 +106,27 @@ vox_result vox_suggest_cell_size(const vox_suggest_desc* desc, const vox_mesh_de
     });
 }
 
-vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_suggest_desc* desc,
-                                      vox_suggestion* out) {
+vox_result vox_grid_suggest_cell_size(const vox_grid* grid, const vox_cell_size_desc* desc,
+                                      vox_cell_size_result* out) {
     return border(grid, "grid", [&] {
         check_out_struct(out, "out");
-        const vox_suggest_desc settings = read_suggest_desc(desc, grid);
+        const vox_cell_size_desc settings = read_suggest_desc(desc, grid);
         CallerMemory caller(settings.allocator);
         Scratch<std::size_t{1} << 16> memory(&caller); // enough for a small scene
         CellSizeScene scene(&memory);
         grid->describe(scene);
         write_struct(out, suggestion(settings, scene, grid->weights()), "out");
+    });
+}
+
+vox_result vox_measure_geometry(const vox_mesh_desc* meshes, uint64_t mesh_count, vox_geometry* out) {
+    return border([&] {
+        check_out_struct(out, "out");
+        CallerMemory memory(nullptr);
+        CellSizeScene scene(&memory);
+        read_bodies(meshes, mesh_count, VOX_COST_MODEL_PAPER, scene);
+        scene.prepare(VOX_COST_MODEL_PAPER);
+        write_struct(out, scene.geometry.stats, "out");
     });
 }
 
@@ -129,7 +141,7 @@ vox_result vox_cost_calibrate(vox_cost_weights* out) {
 }
 
 vox_result vox_cost_minimise(vox_cost_function* cost, void* user, double min, double max, double zone_loss,
-                             vox_cost_minimum* out) {
+                             vox_cell_size_result* out) {
     return border([&] {
         check_out_struct(out, "out");
         if (!cost) throw Error(VOX_ERROR_INVALID_ARGUMENT, "cost is null");

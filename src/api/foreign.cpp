@@ -1,10 +1,9 @@
-// The C border of vox.h's section on the cell size of any grid. What needs timings is in tune.cpp.
+// The C border of vox_cell_size.h's section on other uniform grids. What needs timings is in tune.cpp.
 
 #include "base/border.hpp"
 #include "base/caller_memory.hpp"
 #include "base/structs.hpp"
 #include "cell_size/foreign/grid.hpp"
-#include "cell_size/foreign/known_grids.hpp"
 #include "cell_size/foreign/suggest.hpp"
 
 #include <cmath>
@@ -13,21 +12,7 @@
 
 using namespace vox;
 
-vox_result vox_foreign_grid_set_known(vox_foreign_grid* grid, vox_known_grid known) {
-    return border([&] {
-        vox_foreign_grid filled = read_struct(grid, "grid");
-        check_enum(known, VOX_KNOWN_GRID_NUMPY, "known");
-        const KnownGrid& described = known_grid(known);
-        filled.content = described.content;
-        filled.look = described.look;
-        filled.flags = described.flags;
-        filled.known = known;
-        filled.weights = described.weights;
-        write_struct(grid, filled, "grid");
-    });
-}
-
-vox_result vox_suggest_for(const vox_foreign_grid* grid, vox_foreign_suggestion* out) {
+vox_result vox_foreign_grid_suggest(const vox_foreign_grid* grid, vox_cell_size_result* out) {
     return border([&] {
         check_out_struct(out, "out");
         const ForeignGrid described(grid);
@@ -40,7 +25,7 @@ vox_result vox_suggest_for(const vox_foreign_grid* grid, vox_foreign_suggestion*
     });
 }
 
-vox_result vox_count_for(const vox_foreign_grid* grid, double cell_size, vox_grid_work* out) {
+vox_result vox_foreign_grid_count(const vox_foreign_grid* grid, double cell_size, vox_foreign_counts* out) {
     return border([&] {
         require(out, "out");
         const ForeignGrid described(grid);

@@ -79,7 +79,7 @@ vox_result vox_surface_set_cell_size(vox_surface* surface, double cell_size) {
 }
 
 vox_result vox_surface_suggest_cell_size(vox_surface* surface, vox_feature a, vox_feature b,
-                                         vox_foreign_suggestion* out) {
+                                         vox_cell_size_result* out) {
     return border(surface, "surface", [&] {
         check_out_struct(out, "out");
         check_enum(a, VOX_FEATURE_FACE, "a");

@@ -1,4 +1,4 @@
-// The C border of vox.h's section on the cell size of any grid, as far as timings go in.
+// The C border of vox_cell_size.h's section on other uniform grids, as far as timings go in.
 
 #include "cell_size/foreign/tune.hpp"
 #include "base/border.hpp"
@@ -23,8 +23,8 @@ struct DescribedGrid {
         : grid(from_caller), memory(grid.desc.allocator), work(grid, quick_look(grid), &memory),
           basis(described_basis(
               [this](double cell_size) {
-                  vox_grid_work counts = work.at(cell_size);
-                  if (!(grid.desc.flags & VOX_FOREIGN_DENSE)) counts.cells = 0;
+                  vox_foreign_counts counts = work.at(cell_size);
+                  if (!grid.dense()) counts.cells = 0;
                   return counts;
               },
               grid.desc.weights)) {}
@@ -47,8 +47,8 @@ vox_tune_desc read_tune_desc(const vox_tune_desc* desc) {
 
 } // namespace
 
-vox_result vox_cost_fit(const vox_foreign_grid* grid, const vox_grid_timing* timings, uint64_t count,
-                        vox_grid_fit* out) {
+vox_result vox_foreign_grid_fit(const vox_foreign_grid* grid, const vox_timing* timings, uint64_t count,
+                                vox_cell_size_result* out) {
     return border([&] {
         check_out_struct(out, "out");
         if (count > 0) require(timings, "timings");
@@ -64,8 +64,8 @@ vox_result vox_cost_fit(const vox_foreign_grid* grid, const vox_grid_timing* tim
     });
 }
 
-vox_result vox_cost_tune(const vox_foreign_grid* grid, const vox_tune_desc* desc, vox_grid_run* run,
-                         void* user, vox_tuning* out) {
+vox_result vox_foreign_grid_tune(const vox_foreign_grid* grid, const vox_tune_desc* desc,
+                                 vox_foreign_run* run, void* user, vox_cell_size_result* out) {
     return border([&] {
         check_out_struct(out, "out");
         if (!run) refuse("run is null");
@@ -75,13 +75,14 @@ vox_result vox_cost_tune(const vox_foreign_grid* grid, const vox_tune_desc* desc
             return run(cell_size, user);
         };
         if (!grid) {
-            const TuneSettings settings(asked, 0, 0);
+            const TuneSettings settings(asked, default_zone_loss, 0, 0);
             write_struct(out, tune(nullptr, settings, run_of_caller, std::pmr::new_delete_resource()), "out");
             return;
         }
         DescribedGrid described(grid);
         const double suggested = asked.first > 0 ? 0 : suggest_for(described.grid, described.work).cell_size;
-        const TuneSettings settings(asked, suggested, described.work.least_cell_size());
+        const TuneSettings settings(asked, described.grid.desc.zone_loss, suggested,
+                                    described.work.least_cell_size());
         write_struct(out, tune(&described.basis, settings, run_of_caller, &described.memory), "out");
     });
 }

@@ -145,7 +145,7 @@ void for_sample(const Items& items, std::uint64_t count, double wanted, double p
 // Adds the part of a mesh's sample that it has of the scene's tetrahedra, edges and facets (`stats`). at(v)
 // is the exact position of a vertex.
 template <class At>
-void add_sample(const Body& body, const MeshSample& sample, const vox_geometry_stats& stats, double samples,
+void add_sample(const Body& body, const MeshSample& sample, const vox_geometry& stats, double samples,
                 double place, Means& means, At&& at) {
     const auto share = [&](std::uint64_t own, std::uint64_t all) {
         return samples * (static_cast<double>(own) / static_cast<double>(std::max<std::uint64_t>(all, 1)));
@@ -258,7 +258,7 @@ std::size_t most_measured(std::uint64_t tets) {
 }
 
 // Of a body in such a scene: its part of the scene's tetrahedra.
-SampleSize sample_size(const Body& body, const vox_geometry_stats& stats) {
+SampleSize sample_size(const Body& body, const vox_geometry& stats) {
     if (stats.tets <= measured_tets) return {body.vertex_count, body.tets.size()};
     const auto part = [&](std::uint64_t of_all) {
         const double own = static_cast<double>(body.tets.size()) / static_cast<double>(stats.tets);
@@ -271,7 +271,7 @@ SampleSize sample_size(const Body& body, const vox_geometry_stats& stats) {
 
 Geometry measure(const CellSizeScene& scene) {
     Geometry result{};
-    vox_geometry_stats& stats = result.stats;
+    vox_geometry& stats = result.stats;
     for (const Body& body : scene.bodies) {
         stats.vertices += body.vertex_count;
         stats.tets += body.tets.size() - body.off_count;

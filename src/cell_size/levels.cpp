@@ -65,7 +65,7 @@ Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range) {
     }
 
     // best(l)[j]: the first j exponents in l + 1 levels.
-    constexpr std::size_t most = VOX_CELL_SIZE_LEVEL_CAPACITY;
+    constexpr std::size_t most = most_levels;
     Array<Split> splits(most * (n + 1), memory);
     const auto best = [&](std::size_t l) { return splits.data() + l * (n + 1); };
     for (std::size_t i = 0; i < n; ++i)

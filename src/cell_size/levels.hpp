@@ -11,16 +11,18 @@
 
 namespace vox {
 
+inline constexpr std::size_t most_levels = 4;
+
 struct Levels {
     double cost = 0; // of a step
-    std::array<CellLevel, VOX_CELL_SIZE_LEVEL_CAPACITY> level{};
+    std::array<CellLevel, most_levels> level{};
     std::uint32_t count = 0; // 0: there are no tetrahedra of any size
 
     std::span<const CellLevel> list() const noexcept { return {level.data(), count}; }
 };
 
 // The best way to distribute the size classes of the tetrahedra, in order of size, over up to
-// VOX_CELL_SIZE_LEVEL_CAPACITY levels with cell sizes in the range. Every vertex is in each of the grids. A
+// most_levels levels with cell sizes in the range. Every vertex is in each of the grids. A
 // further level is only used where it pays.
 Levels choose_levels(const ReferenceModel& cost, const CellSizeRange& range);
 

@@ -4,56 +4,27 @@
 
 #include <cinttypes>
 #include <cmath>
-#include <limits>
-#include <utility>
 
 namespace vox {
 
-namespace {
-
-std::pair<double, const char*> tet_size(vox_size_reading reading, const vox_geometry_stats& stats) {
-    switch (reading) {
-    case VOX_SIZE_MEAN_LONGEST_EDGE:
-        return {stats.mean_longest_edge, "mean longest edge"};
-    case VOX_SIZE_MEAN_BOX_SIDE:
-        return {stats.mean_box_side, "mean box side"};
-    default:
-        return {stats.mean_edge, "mean edge"};
-    }
-}
-
-std::pair<double, const char*> facet_area(vox_area_reading reading, const vox_geometry_stats& stats) {
-    switch (reading) {
-    case VOX_AREA_TET_FACETS:
-        return {stats.mean_tet_facet_area, "mean facet area over tets"};
-    case VOX_AREA_BOUNDARY_FACETS:
-        return {stats.mean_boundary_facet_area, "mean boundary facet area"};
-    default:
-        return {stats.mean_facet_area, "mean facet area"};
-    }
-}
-
-} // namespace
-
-PaperModel::PaperModel(const CellSizeScene& scene, const vox_suggest_desc& desc)
+PaperModel::PaperModel(const CellSizeScene& scene, const vox_cell_size_desc& desc)
     : p_nc_(desc.p_nc), cost_ratio_(desc.cost_ratio) {
-    const vox_geometry_stats& stats = scene.geometry.stats;
-    const auto [s, s_name] = tet_size(desc.size_reading, stats);
-    const auto [area, area_name] = facet_area(desc.area_reading, stats);
+    const vox_geometry& stats = scene.geometry.stats;
+    const double s = stats.mean_edge, area = stats.mean_facet_area;
     if (stats.tets == 0)
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("no tetrahedra: %" PRIu64 " vertices alone give no cell size", stats.vertices));
     if (!(s > 0) || !(area > 0))
-        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%" PRIu64 " tets of no size: %s %g, %s %g",
-                                                       stats.tets, s_name, s, area_name, area));
+        throw Error(
+            VOX_ERROR_INVALID_ARGUMENT,
+            format("%" PRIu64 " tets of no size: mean edge %g, mean facet area %g", stats.tets, s, area));
     s_ = s;
     k_ = (1 - p_nc_) * cost_ratio_ * 1.5 * std::sqrt(3.0) * (s * s / area);
     if (!(k_ >= 1e-290 && k_ <= 1e290))
-        throw Error(
-            VOX_ERROR_INVALID_ARGUMENT,
-            format("p_nc %.9g, cost_ratio %g, %s %g and %s %g are beyond the cost model: its k is %g, "
-                   "expected 1e-290 to 1e290",
-                   p_nc_, cost_ratio_, s_name, s, area_name, area, k_));
+        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("p_nc %.9g, cost_ratio %g, mean edge %g and mean "
+                                                       "facet area %g are beyond the cost model: its "
+                                                       "k is %g, expected 1e-290 to 1e290",
+                                                       p_nc_, cost_ratio_, s, area, k_));
 }
 
 // dz/dx = 0 (Eq. 8) is 4 x^3 - x^2 = c with c = 3 p_nc / k. With x = 1/12 + w/6 it is 4 w^3 - 3 w = 1 + 216

@@ -16,9 +16,9 @@ namespace vox {
 
 class PaperModel {
 public:
-    // With the scene's geometry read as `desc` says. Throws INVALID_ARGUMENT where there are no tetrahedra,
+    // Throws INVALID_ARGUMENT where there are no tetrahedra,
     // none of any size, or k would leave [1e-290, 1e290], within which no number here overflows.
-    PaperModel(const CellSizeScene& scene, const vox_suggest_desc& desc);
+    PaperModel(const CellSizeScene& scene, const vox_cell_size_desc& desc);
 
     double operator()(double cell_size) const { return cost(cell_size / s_); }
     CostMinimum minimum() const;

@@ -18,7 +18,7 @@ namespace vox {
 
 // The counts and means of a scene that cost models and cell-size rules are written in.
 struct Geometry {
-    vox_geometry_stats stats;
+    vox_geometry stats;
     // Mean over the bodies whose bounding box has a volume, of the side of the cube of equal volume. 0 where
     // none has.
     double mean_object_side;

@@ -122,8 +122,8 @@ CellSizeRange zone_around(const CostMinimum& minimum, double limit, const CostFu
 }
 
 void draw_curve(const CostFunction& cost, const CellSizeRange& range,
-                vox_cost_sample (&curve)[VOX_COST_CURVE_CAPACITY], std::uint32_t& count) {
-    count = VOX_COST_CURVE_CAPACITY;
+                vox_cost_sample (&curve)[VOX_CURVE_CAPACITY], std::uint32_t& count) {
+    count = VOX_CURVE_CAPACITY;
     const double low = std::log2(range.min), high = std::log2(range.max);
     curve[0] = {range.min, cost(low)};
     for (std::uint32_t i = 1; i + 1 < count; ++i) {
@@ -169,10 +169,16 @@ double CostTable::operator()(double log_size) {
     return std::isfinite(cubic) ? std::exp2(cubic) : cost_(log_size);
 }
 
+void write_terms(const CostTerms& terms, double scale, vox_cell_size_result& result) noexcept {
+    result.term_count = 0;
+    for (const CostTerm& term : terms)
+        result.terms[result.term_count++] = {term.name, term.count, scale * term.count * term.weight};
+}
+
 // ---- cost functions of users ------------------------------------------------------------------------
 
-vox_cost_minimum minimise_within(const std::function<double(double cell_size)>& cost_at,
-                                 const CellSizeRange& range, double zone_loss) {
+vox_cell_size_result minimise_within(const std::function<double(double cell_size)>& cost_at,
+                                     const CellSizeRange& range, double zone_loss) {
     if (!(range.min > 0 && range.min <= range.max && std::isfinite(range.max)))
         throw Error(VOX_ERROR_INVALID_ARGUMENT,
                     format("min is %g, max is %g, expected 0 < min <= max", range.min, range.max));
@@ -189,7 +195,7 @@ vox_cost_minimum minimise_within(const std::function<double(double cell_size)>& 
             VOX_ERROR_INVALID_ARGUMENT,
             format("the cost is %g at cell size %g, expected none below 0", best.cost, best.cell_size));
     const CellSizeRange zone = zone_around(best, (1 + zone_loss) * best.cost, cost, range);
-    vox_cost_minimum result{};
+    vox_cell_size_result result{};
     result.cell_size = best.cell_size;
     result.cost = best.cost;
     result.zone_min = zone.min;

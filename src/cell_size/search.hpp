@@ -33,7 +33,7 @@ struct CellSizeRange {
 
 // A cost at one cell size, term by term: how often a piece of work is done, and what it costs each time.
 struct CostTerm {
-    const char* name; // at most 23 characters
+    const char* name; // static text
     double count;
     double weight; // nanoseconds each
 };
@@ -53,7 +53,7 @@ public:
     const CostTerm* end() const noexcept { return terms_.data() + count_; }
 
 private:
-    std::array<CostTerm, VOX_COST_TERM_CAPACITY> terms_{};
+    std::array<CostTerm, VOX_TERM_CAPACITY> terms_{};
     std::uint32_t count_ = 0;
 };
 
@@ -78,9 +78,12 @@ CostMinimum minimise(const CostFunction& cost, const CellSizeRange& range, const
 CellSizeRange zone_around(const CostMinimum& minimum, double limit, const CostFunction& cost,
                           const CellSizeRange& range, const Fineness& fineness = {});
 
+// Lists the terms of a result, whose unit is `scale` of theirs.
+void write_terms(const CostTerms& terms, double scale, vox_cell_size_result& result) noexcept;
+
 // Costs at sizes that are evenly spaced in the logarithm, both ends included.
 void draw_curve(const CostFunction& cost, const CellSizeRange& range,
-                vox_cost_sample (&curve)[VOX_COST_CURVE_CAPACITY], std::uint32_t& count);
+                vox_cost_sample (&curve)[VOX_CURVE_CAPACITY], std::uint32_t& count);
 
 // A cost function that is expensive to call, from its values at two sizes an octave: the logarithm of the
 // cost is a cubic in that of the cell size between them. For functions that are smooth in logarithms, as sums
@@ -106,7 +109,7 @@ private:
 
 // Takes the cost at a size. Throws INVALID_ARGUMENT for bounds that vox_cell_size.h does not allow, and for a
 // cost that is nowhere finite or negative where it is least.
-vox_cost_minimum minimise_within(const std::function<double(double cell_size)>& cost_at,
-                                 const CellSizeRange& range, double zone_loss);
+vox_cell_size_result minimise_within(const std::function<double(double cell_size)>& cost_at,
+                                     const CellSizeRange& range, double zone_loss);
 
 } // namespace vox

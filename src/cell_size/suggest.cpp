@@ -3,7 +3,6 @@
 #include "base/error.hpp"
 #include "base/structs.hpp"
 #include "cell_size/fast_model.hpp"
-#include "cell_size/levels.hpp"
 #include "cell_size/paper_model.hpp"
 #include "cell_size/reference_model.hpp"
 #include "cell_size/search.hpp"
@@ -12,7 +11,6 @@
 #include <cinttypes>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 namespace vox {
 
@@ -39,22 +37,17 @@ void check_reference_flags(std::uint32_t flags, const char* name) {
                            flags & ~known_flags));
 }
 
-void check_suggest_desc(vox_suggest_desc& desc) {
+void check_suggest_desc(vox_cell_size_desc& desc) {
     set_default(desc.p_nc, 0.99);
     set_default(desc.cost_ratio, 5.0);
     set_default(desc.zone_loss, default_zone_loss);
-    set_default(desc.mean_edge_factor, 2.0);
     check_enum(desc.model, VOX_COST_MODEL_SURFACE, "suggest model");
-    check_enum(desc.size_reading, VOX_SIZE_MEAN_BOX_SIDE, "suggest size_reading");
-    check_enum(desc.area_reading, VOX_AREA_BOUNDARY_FACETS, "suggest area_reading");
     check_number(desc.p_nc > 0 && desc.p_nc < 1, desc.p_nc, "p_nc",
                  "a number between 0 and 1, both excluded");
     check_number(desc.cost_ratio > 0, desc.cost_ratio, "cost_ratio", "a number above 0");
     check_number(desc.world_edge >= 0, desc.world_edge, "world_edge", "0 or a length");
     check_number(desc.zone_loss >= 0 && desc.zone_loss <= max_zone_loss, desc.zone_loss, "zone_loss",
                  "a number from 0 to 1e6");
-    check_number(desc.mean_edge_factor > 0, desc.mean_edge_factor, "mean_edge_factor", "a number above 0");
-    check_number(desc.resolution >= 0, desc.resolution, "resolution", "0 or a length");
     check_reference_flags(desc.reference_flags, "suggest reference_flags");
     (void)read_weights(desc.weights);
     if (desc.reserved != 0)
@@ -66,21 +59,9 @@ void check_suggest_desc(vox_suggest_desc& desc) {
 
 namespace {
 
-bool is_dense(const vox_suggest_desc& desc) noexcept { return desc.reference_flags & VOX_REFERENCE_DENSE; }
+bool is_dense(const vox_cell_size_desc& desc) noexcept { return desc.reference_flags & VOX_REFERENCE_DENSE; }
 
-// References at vox_cell_size_rules.
-vox_cell_size_rules other_rules(const vox_suggest_desc& desc, const Geometry& geometry) {
-    vox_cell_size_rules rules{};
-    rules.mean_edge = geometry.stats.mean_edge;
-    rules.mean_edge_multiple = desc.mean_edge_factor * geometry.stats.mean_edge;
-    rules.object_512 = geometry.mean_object_side / 8; // 8 * 8 * 8 = 512
-    rules.resolution = desc.resolution;
-    rules.mean_volume = std::cbrt(geometry.stats.mean_volume);
-    rules.median_box_side = geometry.stats.median_box_side;
-    return rules;
-}
-
-double world_edge(const vox_suggest_desc& desc, const vox_geometry_stats& stats) {
+double world_edge(const vox_cell_size_desc& desc, const vox_geometry& stats) {
     if (desc.world_edge > 0) return desc.world_edge;
     double edge = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -88,50 +69,41 @@ double world_edge(const vox_suggest_desc& desc, const vox_geometry_stats& stats)
     return edge;
 }
 
-void write_shares(const CostTerms& terms, vox_cost_share (&out)[VOX_COST_TERM_CAPACITY],
-                  std::uint32_t& count) {
-    const double cost = terms.cost();
-    count = 0;
-    for (const CostTerm& term : terms) {
-        vox_cost_share& share = out[count++];
-        const std::size_t length = std::min(std::strlen(term.name), sizeof share.name - 1);
-        *std::copy_n(term.name, length, share.name) = '\0';
-        share.count = term.count;
-        share.cost = term.count * term.weight;
-        share.share = cost > 0 ? share.cost / cost : 0;
-    }
-}
-
 // Everything that is written in the same way for all models. `cost` is below the least one nowhere.
-void write(vox_suggestion& result, const vox_suggest_desc& desc, const Geometry& geometry,
+void write(vox_cell_size_result& result, const vox_cell_size_desc& desc, const Geometry& geometry,
            const CostMinimum& best, const CellSizeRange& zone, const CostFunction& cost,
            const CostTerms& terms) {
-    result.model = desc.model;
+    const vox_geometry& stats = geometry.stats;
+    const double unit = desc.model == VOX_COST_MODEL_PAPER ? 1 : 1e-9; // else nanoseconds become seconds
+    const CostFunction scaled = [&](double log_size) { return unit * cost(log_size); };
     result.cell_size = best.cell_size;
-    result.predicted_cost = best.cost;
+    result.cost = unit * best.cost;
     result.zone_min = zone.min;
     result.zone_max = zone.max;
-    result.cells_per_axis = world_edge(desc, geometry.stats) / best.cell_size;
-    result.rules = other_rules(desc, geometry);
-    result.stats = geometry.stats;
-    const auto cost_of = [&](double cell_size) { return cell_size > 0 ? cost(std::log2(cell_size)) : 0; };
-    result.rule_costs = {cost_of(result.rules.mean_edge),   cost_of(result.rules.mean_edge_multiple),
-                         cost_of(result.rules.object_512),  cost_of(result.rules.resolution),
-                         cost_of(result.rules.mean_volume), cost_of(result.rules.median_box_side)};
-    draw_curve(cost, {best.cell_size / 8, best.cell_size * 8}, result.curve, result.curve_count);
-    write_shares(terms, result.terms, result.term_count);
+    result.cells_per_axis = world_edge(desc, stats) / best.cell_size;
+    const auto add_rule = [&](const char* name, double cell_size) {
+        result.rules[result.rule_count++] = {name, cell_size,
+                                             cell_size > 0 ? scaled(std::log2(cell_size)) : 0};
+    };
+    add_rule("mean edge (Teschner et al. 2003)", stats.mean_edge);
+    add_rule("2 mean edges (Gregory et al. 2000)", 2 * stats.mean_edge);
+    add_rule("512 voxels an object (Garcia-Alonso et al. 1994)", geometry.mean_object_side / 8);
+    add_rule("cube root of the mean volume", std::cbrt(stats.mean_volume));
+    add_rule("median box side (IPC Toolkit)", stats.median_box_side);
+    draw_curve(scaled, {best.cell_size / 8, best.cell_size * 8}, result.curve, result.curve_count);
+    write_terms(terms, unit, result);
 }
 
-vox_suggestion suggest_paper(const vox_suggest_desc& desc, const CellSizeScene& scene) {
+vox_cell_size_result suggest_paper(const vox_cell_size_desc& desc, const CellSizeScene& scene) {
     const PaperModel cost(scene, desc);
     const CostMinimum best = cost.minimum();
-    vox_suggestion result{};
+    vox_cell_size_result result{};
     write(result, desc, scene.geometry, best, cost.zone(desc.zone_loss), of_size(cost),
           cost.terms(best.cell_size));
     return result;
 }
 
-[[noreturn]] void throw_no_size(const vox_geometry_stats& stats) {
+[[noreturn]] void throw_no_size(const vox_geometry& stats) {
     throw Error(
         VOX_ERROR_INVALID_ARGUMENT,
         stats.tets == 0
@@ -141,15 +113,15 @@ vox_suggestion suggest_paper(const vox_suggest_desc& desc, const CellSizeScene& 
 
 constexpr double near = 1e-4; // of the cell size; no model is more accurate
 
-vox_suggestion suggest_reference(const vox_suggest_desc& desc, const CellSizeScene& scene,
-                                 const CostWeights& weights) {
+vox_cell_size_result suggest_reference(const vox_cell_size_desc& desc, const CellSizeScene& scene,
+                                       const CostWeights& weights) {
     const ReferenceModel model(scene, is_dense(desc), weights);
     std::optional<CellSizeRange> range = model.range();
     if (!range) throw_no_size(scene.geometry.stats);
-    vox_suggestion result{};
+    vox_cell_size_result result{};
     if (is_dense(desc))
-        result.budget_cell_size = model.least_cell_size(static_cast<double>(desc.byte_budget), *range);
-    range->min = std::max(range->min, result.budget_cell_size);
+        result.min_cell_size = model.least_cell_size(static_cast<double>(desc.byte_budget), *range);
+    range->min = std::max(range->min, result.min_cell_size);
     range->max = std::max(range->max, range->min);
     const Fineness coarse{.scans_per_octave = 5, .least_scans = 24, .tolerance = near};
     CostMinimum best = minimise(of_size(model), *range, coarse);
@@ -169,19 +141,15 @@ vox_suggestion suggest_reference(const vox_suggest_desc& desc, const CellSizeSce
     write(result, desc, scene.geometry, best,
           zone_around(best, (1 + desc.zone_loss) * best.cost, curve, *range, fineness), curve,
           model.terms(best.cell_size));
-    const Levels levels = choose_levels(model, *range);
-    if (levels.count > 1) result.uniform_loss = std::max(best.cost / levels.cost - 1, 0.0);
-    result.level_count = levels.count;
-    for (std::uint32_t l = 0; l < levels.count; ++l) result.levels[l] = levels.level[l].cell_size;
     return result;
 }
 
-vox_suggestion suggest_fast(const vox_suggest_desc& desc, const CellSizeScene& scene,
-                            const CostWeights& weights) {
-    const vox_geometry_stats& stats = scene.geometry.stats;
+vox_cell_size_result suggest_fast(const vox_cell_size_desc& desc, const CellSizeScene& scene,
+                                  const CostWeights& weights) {
+    const vox_geometry& stats = scene.geometry.stats;
     const FastModel model(scene, weights);
     if (stats.tets == 0 || !(stats.mean_box_side > 0)) throw_no_size(stats);
-    vox_suggestion result{};
+    vox_cell_size_result result{};
     const std::optional<CellSizeRange> range = model.range();
     if (!range) { // no body is near another one: any size will do, so a usual one for when some are
         const double usual = 2 * stats.mean_box_side;
@@ -205,7 +173,8 @@ vox_suggestion suggest_fast(const vox_suggest_desc& desc, const CellSizeScene& s
 
 } // namespace
 
-vox_suggestion suggest(const vox_suggest_desc& desc, CellSizeScene& scene, const CostWeights& weights) {
+vox_cell_size_result suggest(const vox_cell_size_desc& desc, CellSizeScene& scene,
+                             const CostWeights& weights) {
     scene.prepare(desc.model);
     switch (desc.model) {
     case VOX_COST_MODEL_REFERENCE:
@@ -217,15 +186,15 @@ vox_suggestion suggest(const vox_suggest_desc& desc, CellSizeScene& scene, const
     }
 }
 
-vox_suggestion suggest_by(const vox_suggest_desc& desc, const Geometry& geometry,
-                          const std::function<CostTerms(double cell_size)>& terms,
-                          const CellSizeRange& range) {
+vox_cell_size_result suggest_by(const vox_cell_size_desc& desc, const Geometry& geometry,
+                                const std::function<CostTerms(double cell_size)>& terms,
+                                const CellSizeRange& range) {
     const Fineness fineness{.tolerance = near};
     const CostFunction cost = [&](double log_size) { return terms(std::exp2(log_size)).cost(); };
     const CostMinimum best = minimise(cost, range, fineness);
     // Sizes between those of the search may cost a little less.
     const CostFunction curve = [&](double log_size) { return std::max(cost(log_size), best.cost); };
-    vox_suggestion result{};
+    vox_cell_size_result result{};
     write(
         result, desc, geometry, best,
         zone_around(best, (1 + desc.zone_loss) * best.cost, curve, {range.min / 8, range.max * 8}, fineness),

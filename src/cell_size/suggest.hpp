@@ -18,16 +18,17 @@ void check_reference_flags(std::uint32_t flags, const char* name);
 
 // Sets the fields whose 0 stands for something else. Throws INVALID_ARGUMENT for one that
 // vox_cell_size.h does not allow.
-void check_suggest_desc(vox_suggest_desc& desc);
+void check_suggest_desc(vox_cell_size_desc& desc);
 
 // Takes a desc that passed the check, prepares the scene for its model, and sets all fields but struct_size.
 // Throws INVALID_ARGUMENT where the scene has no tetrahedra, none of any size, or sizes beyond computation.
-vox_suggestion suggest(const vox_suggest_desc& desc, CellSizeScene& scene, const CostWeights& weights);
+vox_cell_size_result suggest(const vox_cell_size_desc& desc, CellSizeScene& scene,
+                             const CostWeights& weights);
 
 // The same for a cost that is described elsewhere, whose terms are given: it is least in `range`, and the
 // zone reaches three octaves beyond that at most.
-vox_suggestion suggest_by(const vox_suggest_desc& desc, const Geometry& geometry,
-                          const std::function<CostTerms(double cell_size)>& terms,
-                          const CellSizeRange& range);
+vox_cell_size_result suggest_by(const vox_cell_size_desc& desc, const Geometry& geometry,
+                                const std::function<CostTerms(double cell_size)>& terms,
+                                const CellSizeRange& range);
 
 } // namespace vox

@@ -104,12 +104,12 @@ std::uint64_t vox_dist_scene::costs(vox_dist_cost* costs, std::uint64_t capacity
     for (const Part* part : parts_) tets += part->tet_count;
     double seconds = 0; // of a step of this rank
     if (tets > 0) {
-        vox_suggest_desc desc = vox_default_suggest_desc();
+        vox_cell_size_desc desc = vox_default_cell_size_desc();
         desc.model = VOX_COST_MODEL_FAST;
-        vox_suggestion suggestion{};
+        vox_cell_size_result suggestion{};
         suggestion.struct_size = sizeof suggestion;
         check(vox_grid_suggest_cell_size(contacts_side_.grid.get(), &desc, &suggestion));
-        seconds = suggestion.predicted_cost / 1e9;
+        seconds = suggestion.cost;
     }
     for (std::size_t i = 0; i < parts_.size() && i < capacity; ++i)
         costs[i] = {parts_[i]->body, tets > 0 ? seconds * parts_[i]->tet_count / tets : 0.0};

@@ -422,7 +422,7 @@ void vox_grid::describe(CellSizeScene& scene) const {
     if (fast_ && meshes_hold_) scene.last_step = &fast_engine_;
 }
 
-void vox_grid::describe(vox_suggest_desc& desc, bool chosen) const noexcept {
+void vox_grid::describe(vox_cell_size_desc& desc, bool chosen) const noexcept {
     if (!chosen) {
         desc.model = fast_ ? VOX_COST_MODEL_FAST : VOX_COST_MODEL_REFERENCE;
         desc.reference_flags = settings_.dense ? VOX_REFERENCE_DENSE : 0;

@@ -60,7 +60,7 @@ public:
     // budget unless the caller chose these, and 1 - contacts / tets of the last step as a p_nc left at its
     // default. The first throws INVALID_STATE for a mesh without positions.
     void describe(vox::CellSizeScene& scene) const;
-    void describe(vox_suggest_desc& desc, bool chosen) const noexcept;
+    void describe(vox_cell_size_desc& desc, bool chosen) const noexcept;
     const vox::CostWeights& weights() const noexcept { return adaptive_.weights(); }
 
     // `view` is what check_mesh() makes of `desc`, whose filter is not looked at; `filter` is checked.

@@ -81,26 +81,13 @@ vox_result vox_sim_body_set_state(vox_sim* sim, vox_body body, const double* pos
     });
 }
 
-vox_result vox_sim_body_set_acceleration(vox_sim* sim, vox_body body, const double acceleration[3]) {
-    return border([&] {
-        require(sim, "sim");
-        sim::Body& target = sim->body(body);
-        require(acceleration, "acceleration");
-        for (int axis = 0; axis < 3; ++axis)
-            if (!(std::abs(acceleration[axis]) <= 1e15))
-                refuse(format("acceleration is %g on axis %d, expected a number of at most 1e15 in size",
-                              acceleration[axis], axis));
-        target.acceleration = sim::Vec3(acceleration[0], acceleration[1], acceleration[2]);
-    });
-}
-
 // ---- measurements ---------------------------------------------------------------------------------
 
-vox_result vox_sim_get_energy(const vox_sim* sim, vox_body body, vox_sim_energies* out_energies) {
+vox_result vox_sim_get_energy(const vox_sim* sim, vox_body body, vox_sim_energy* out_energy) {
     return border([&] {
         require(sim, "sim");
-        check_out_struct(out_energies, "out_energies");
-        write_struct(out_energies, sim->energies(body), "out_energies");
+        require(out_energy, "out_energy");
+        *out_energy = sim->energy(body);
     });
 }
 

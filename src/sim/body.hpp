@@ -59,7 +59,6 @@ struct Body {
     double substep = 0;         // length of the substep that the constraints are set up for; 0: not yet
     std::uint64_t softened = 0; // constraints whose stiffness that substep cannot handle
 
-    Vec3 acceleration = Vec3::Zero(); // in addition to gravity
     double mean_edge = 0;
     std::uint64_t flat_tets = 0;
     std::uint64_t inverted_tets = 0;

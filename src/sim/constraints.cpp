@@ -35,7 +35,7 @@ void set_substep(Body& body, double h) {
 void move_freely(Body& body, const Vec3& gravity, double h) {
     body.previous = body.positions;
     if (body.fixed) return;
-    const Vec3 gained = h * (gravity + body.acceleration);
+    const Vec3 gained = h * gravity;
     for (std::size_t v = 0; v < body.positions.size(); ++v) {
         body.velocities[v] += gained;
         body.positions[v] += h * body.velocities[v];

@@ -181,8 +181,8 @@ void vox_sim::remove(vox_body mesh) {
 
 // ---- measurements ---------------------------------------------------------------------------------
 
-vox_sim_energies vox_sim::energies(vox_body mesh) const {
-    vox_sim_energies sum{};
+vox_sim_energy vox_sim::energy(vox_body mesh) const {
+    vox_sim_energy sum{};
     Vec3 momentum = Vec3::Zero(), moment = Vec3::Zero();
     const auto add = [&](const Body& body) {
         for (std::size_t v = 0; v < body.positions.size(); ++v) {

@@ -39,7 +39,7 @@ public:
     void remove(vox_body mesh);
     vox::sim::Body& body(vox_body mesh) const;
 
-    vox_sim_energies energies(vox_body mesh) const;
+    vox_sim_energy energy(vox_body mesh) const;
     vox_counter_view counters() const;
 
 private:

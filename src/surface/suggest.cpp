@@ -21,7 +21,7 @@ namespace {
 
 // Nanoseconds, estimates: the time of a search is nearly all in comparing features, so the cells' own share
 // is hard to measure, and what its minimum is off by costs little (bench/surface/pairs.py --sweep).
-constexpr vox_grid_weights tile_weights{0, 12, 6, 2, 2, 2, 0};
+constexpr vox_foreign_weights tile_weights{0, 12, 6, 2, 2, 2, 0};
 
 vox_primitives boxes_as_primitives(const Array<Box>& boxes) {
     static_assert(sizeof(Box) == 2 * sizeof(Box::lo) && sizeof(Box::lo) == 4 * sizeof(float));
@@ -49,8 +49,8 @@ struct DescribedTiles {
 private:
     ForeignGrid description(bool same) const {
         vox_foreign_grid desc = vox_default_foreign_grid();
-        desc.held = &held;
-        desc.asking = same ? nullptr : &asking;
+        desc.stored = &held;
+        desc.querying = same ? nullptr : &asking;
         desc.weights = tile_weights;
         return ForeignGrid(&desc);
     }
@@ -112,20 +112,20 @@ public:
 
     // The sizes among which the one of least cost is: it lies between those that are best for either search.
     CellSizeRange range() {
-        const vox_foreign_suggestion of_edges = suggest_for(edges_->grid, edges_->work),
-                                     of_faces = suggest_for(faces_->grid, faces_->work);
+        const vox_cell_size_result of_edges = suggest_for(edges_->grid, edges_->work),
+                                   of_faces = suggest_for(faces_->grid, faces_->work);
         return {std::min(of_edges.zone_min, of_faces.zone_min),
                 std::max(of_edges.zone_max, of_faces.zone_max)};
     }
 
     CostTerms terms(double cell_size) {
-        const vox_grid_work e = edges_->work.at(cell_size), f = faces_->work.at(cell_size);
-        const vox_grid_weights& w = tile_weights;
+        const vox_foreign_counts e = edges_->work.at(cell_size), f = faces_->work.at(cell_size);
+        const vox_foreign_weights& w = tile_weights;
         CostTerms terms;
-        terms.add("put a tile into a cell", e.entries + f.entries, w.entries);
-        terms.add("look at a cell", e.visits + f.visits, w.visits);
+        terms.add("put a tile into a cell", e.stored + f.stored, w.store);
+        terms.add("visit a cell", e.visits + f.visits, w.visit);
         terms.add("find a list there", e.visits - e.empty + f.visits - f.empty, w.found);
-        terms.add("read a tile's number", e.reads + f.reads, w.reads);
+        terms.add("read a tile's number", e.reads + f.reads, w.read);
         terms.add("make a cell", e.occupied + f.occupied, w.occupied);
         return terms;
     }
@@ -137,7 +137,7 @@ private:
     std::optional<DescribedTiles> edges_, faces_;
 };
 
-void check_size(const vox_geometry_stats& stats) {
+void check_size(const vox_geometry& stats) {
     if (stats.tets == 0)
         refuse(format("no tetrahedra: %" PRIu64 " vertices alone give no surface", stats.vertices));
     if (!(stats.mean_box_side > 0))
@@ -146,13 +146,13 @@ void check_size(const vox_geometry_stats& stats) {
 
 } // namespace
 
-vox_foreign_suggestion suggest_for_tiles(const FeatureTiles& a, const FeatureTiles& b,
-                                         std::pmr::memory_resource* memory) {
+vox_cell_size_result suggest_for_tiles(const FeatureTiles& a, const FeatureTiles& b,
+                                       std::pmr::memory_resource* memory) {
     DescribedTiles tiles(a, b, memory);
     return suggest_for(tiles.grid, tiles.work);
 }
 
-vox_suggestion suggest_for_surfaces(const vox_suggest_desc& desc, CellSizeScene& scene) {
+vox_cell_size_result suggest_for_surfaces(const vox_cell_size_desc& desc, CellSizeScene& scene) {
     scene.prepare(desc.model); // finds positions that are not finite
     check_size(scene.geometry.stats);
     SurfaceModel model(scene.bodies, scene.memory);

@@ -152,7 +152,7 @@ const FeaturePairs& vox_surface::pairs(vox_feature a, vox_feature b, std::uint64
     return answer_;
 }
 
-vox_foreign_suggestion vox_surface::suggest_cell_size(vox_feature a, vox_feature b) {
+vox_cell_size_result vox_surface::suggest_cell_size(vox_feature a, vox_feature b) {
     const SurfaceMotion& moving = motion();
     for (const vox_feature kind : {a, b})
         if (topology_.count(kind) == 0) refuse("there are no features of one of the kinds");

@@ -55,7 +55,7 @@ public:
     const vox::FeaturePairs& pairs(vox_feature a, vox_feature b, std::uint64_t first, std::uint64_t count);
 
     // Throws as vox_surface_suggest_cell_size.
-    vox_foreign_suggestion suggest_cell_size(vox_feature a, vox_feature b);
+    vox_cell_size_result suggest_cell_size(vox_feature a, vox_feature b);
     // The least time of contact of faces and vertices, and of edges. Throws as vox_surface_find_safe_step.
     vox_safe_step safe_step(const vox::ContactTimeRule& rule);
     // Pairs within a distance; they live until the next call or move(). Throws as

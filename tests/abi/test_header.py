@@ -16,8 +16,8 @@ INCLUDE = os.path.join(ROOT, "include", "vox")
 HEADERS = ["vox.h", "vox_query.h", "vox_cell_size.h", "vox_surface.h", "vox_io.h", "vox_sim.h", "vox_dist.h"]
 
 # Functions, structs and fields of each header, which are not to grow unseen: a new function has two users outside of tests.
-BUDGETS = {"vox.h": (48, 20, 125), "vox_query.h": (10, 5, 32), "vox_cell_size.h": (9, 19, 173), "vox_surface.h": (13, 12, 61),
-           "vox_io.h": (19, 9, 75), "vox_sim.h": (11, 4, 44), "vox_dist.h": (13, 7, 35)}
+BUDGETS = {"vox.h": (48, 20, 125), "vox_query.h": (10, 5, 32), "vox_cell_size.h": (9, 14, 111), "vox_surface.h": (13, 12, 61),
+           "vox_io.h": (19, 9, 75), "vox_sim.h": (10, 4, 42), "vox_dist.h": (13, 7, 35)}
 LIBRARIES = {name[:-2] for name in BUDGETS} | {"vox_mpi"}
 
 # Everything that a foreign-function interface can carry.
@@ -27,7 +27,7 @@ NUMBERS = {"uint8_t", "int32_t", "uint32_t", "int64_t", "uint64_t", "size_t", "f
 CONVENTIONS = {
     "Errors": ["vox_result", "vox_last_error", "INVALID_ARGUMENT for a null pointer", "INVALID_HANDLE"],
     "Structs": ["struct_size", "vox_default_X", "before the call"],
-    "Ownership": ["copies", "borrowed", "lives"],
+    "Ownership": ["borrows", "copied", "lives"],
     "Threads": ["One thread at a time may change a grid", "any number of threads may read", "take a const grid", "per thread"],
     "Units": ["caller's unit"],
 }

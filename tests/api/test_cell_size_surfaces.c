@@ -8,8 +8,8 @@
 #include "support/ledger.h"
 #include "support/suggest_scenes.h"
 
-static vox_suggest_desc surface_desc(void) {
-    vox_suggest_desc desc = vox_default_suggest_desc();
+static vox_cell_size_desc surface_desc(void) {
+    vox_cell_size_desc desc = vox_default_cell_size_desc();
     desc.model = VOX_COST_MODEL_SURFACE;
     return desc;
 }
@@ -36,8 +36,8 @@ static uint32_t* surface_of(const body* b, uint64_t* out_count) {
     return faces;
 }
 
-static vox_foreign_suggestion of_kinds(vox_surface* surface, vox_feature a, vox_feature b) {
-    vox_foreign_suggestion found;
+static vox_cell_size_result of_kinds(vox_surface* surface, vox_feature a, vox_feature b) {
+    vox_cell_size_result found;
     found.struct_size = sizeof found;
     ck_ok(vox_surface_suggest_cell_size(surface, a, b, &found));
     return found;
@@ -49,9 +49,8 @@ START_TEST(the_size_of_the_surface_that_the_meshes_make) {
     body box = make_box(10, 0.5f, 0, 0, 0);
     jitter_body(&box, 0.05, 3);
     const vox_mesh_desc mesh = body_desc(&box);
-    const vox_suggest_desc desc = surface_desc();
-    const vox_suggestion found = suggest_ok(&desc, &mesh, 1);
-    ck_assert_int_eq(found.model, VOX_COST_MODEL_SURFACE);
+    const vox_cell_size_desc desc = surface_desc();
+    const vox_cell_size_result found = suggest_ok(&desc, &mesh, 1);
 
     vox_surface_desc surface_of_box = vox_default_surface_desc();
     uint32_t* faces = surface_of(&box, &surface_of_box.face_count);
@@ -65,14 +64,15 @@ START_TEST(the_size_of_the_surface_that_the_meshes_make) {
     motion.from.count = motion.to.count = box.vertex_count;
     motion.from.format = motion.to.format = VOX_FORMAT_FLOAT;
     ck_ok(vox_surface_move(surface, &motion));
-    const vox_foreign_suggestion edges = of_kinds(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE);
-    ck_assert_double_gt(edges.predicted_cost, 0);
-    ck_assert_double_ge(found.predicted_cost, edges.predicted_cost);
+    const vox_cell_size_result edges = of_kinds(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE);
+    ck_assert_double_gt(edges.cost, 0);
+    ck_assert_double_ge(found.cost, edges.cost);
+    ck_assert_double_lt(found.cost, 10 * edges.cost); /* both in seconds */
     ck_assert_double_gt(found.cell_size, edges.zone_min / 4);
     ck_assert_double_lt(found.cell_size, edges.zone_max * 4);
     ck_assert_uint_gt(found.curve_count, 30);
     for (uint32_t i = 0; i < found.curve_count; ++i) /* none is better */
-        ck_assert_double_ge(found.curve[i].cost, found.predicted_cost * (1 - 1e-3));
+        ck_assert_double_ge(found.curve[i].cost, found.cost * (1 - 1e-3));
     /* The surface takes it, and answers the same. */
     vox_partner_lists lists;
     ck_ok(vox_surface_find_pairs(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, 0, UINT64_MAX, &lists));
@@ -93,8 +93,8 @@ START_TEST(of_the_tetrahedra_that_are_there) {
     vox_grid* grid = grid_of(NULL);
     const vox_mesh_desc whole = body_desc(&box), part = body_desc(&half);
     const vox_body mesh = insert_mesh(grid, &whole);
-    const vox_suggest_desc desc = surface_desc();
-    vox_suggestion in_grid;
+    const vox_cell_size_desc desc = surface_desc();
+    vox_cell_size_result in_grid;
     in_grid.struct_size = sizeof in_grid;
     ck_ok(vox_grid_suggest_cell_size(grid, &desc, &in_grid));
     ck_assert_double_eq(in_grid.cell_size, suggest_ok(&desc, &whole, 1).cell_size);
@@ -111,11 +111,11 @@ START_TEST(of_the_tetrahedra_that_are_there) {
 END_TEST
 
 START_TEST(what_has_no_surface) {
-    const vox_suggest_desc desc = surface_desc();
-    vox_suggestion out;
+    const vox_cell_size_desc desc = surface_desc();
+    vox_cell_size_result out;
     memset(&out, 0x55, sizeof out);
     out.struct_size = sizeof out;
-    const vox_suggestion before = out;
+    const vox_cell_size_result before = out;
     float at[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
     const uint32_t sphere[20] = {0, 1, 2, 3, 0, 1, 2, 4, 0, 1, 3, 4, 0, 2, 3, 4, 1, 2, 3, 4};
     vox_mesh_desc mesh = vox_mesh_desc_floats(at, 5, sphere, 0);
@@ -138,10 +138,10 @@ START_TEST(what_has_no_surface) {
         const float a = sizes[i];
         const float corners[12] = {0, 0, 0, a, 0, 0, 0, a, 0, 0, 0, a};
         mesh = vox_mesh_desc_floats(corners, 4, doubled, 2);
-        const vox_suggestion found = suggest_ok(&desc, &mesh, 1);
+        const vox_cell_size_result found = suggest_ok(&desc, &mesh, 1);
         ck_assert(found.cell_size > 0 && isfinite(found.cell_size));
         ck_assert(found.zone_min <= found.cell_size && found.cell_size <= found.zone_max);
-        ck_assert(isfinite(found.predicted_cost));
+        ck_assert(isfinite(found.cost));
     }
 }
 END_TEST
@@ -154,9 +154,9 @@ START_TEST(memory_is_the_callers) {
     for (uint64_t fail_at = 0; fail_at <= calls; fail_at += 1 + fail_at / 8) {
         ledger book = {0};
         book.fail_at = fail_at;
-        vox_suggest_desc desc = surface_desc();
+        vox_cell_size_desc desc = surface_desc();
         desc.allocator = ledger_allocator(&book);
-        vox_suggestion out;
+        vox_cell_size_result out;
         out.struct_size = sizeof out;
         const vox_result result = vox_suggest_cell_size(&desc, &mesh, 1, &out);
         ck_assert_int_eq(result, fail_at == 0 ? VOX_OK : VOX_ERROR_OUT_OF_MEMORY);

@@ -159,7 +159,7 @@ static void same_answers(const scene* s) {
     const vox_positions begin = vox_double_positions(from, 1), end = vox_double_positions(to, 1);
     vox_ray_hit hits[2];
     vox_closest_hit closest[2];
-    vox_suggestion suggested[2];
+    vox_cell_size_result suggested[2];
     vox_grid* const grids[2] = {s->packed, s->grid};
     vox_constraint_desc by_closest = vox_default_constraint_desc();
     by_closest.method = VOX_DEPTH_METHOD_CLOSEST;
@@ -177,9 +177,9 @@ static void same_answers(const scene* s) {
     }
     ck_assert_mem_eq(&hits[0], &hits[1], sizeof hits[0]);
     ck_assert_mem_eq(&closest[0], &closest[1], sizeof closest[0]);
-    ck_assert_double_eq(suggested[0].stats.mean_edge, suggested[1].stats.mean_edge);
-    ck_assert_mem_eq(suggested[0].stats.bounds_max, suggested[1].stats.bounds_max,
-                     sizeof suggested[0].stats.bounds_max);
+    ck_assert_double_eq(suggested[0].rules[0].cell_size, suggested[1].rules[0].cell_size);
+    ck_assert_double_eq_tol(suggested[0].cells_per_axis * suggested[0].cell_size,
+                            suggested[1].cells_per_axis * suggested[1].cell_size, 1e-12);
     ck_assert_double_eq_tol(suggested[0].cell_size, suggested[1].cell_size, 0.05 * suggested[0].cell_size);
     same_view(constraints_of);
 }
@@ -308,13 +308,18 @@ START_TEST(suggested_and_asked) {
     body box = make_box(4, 0.37f, 0, 0, 0);
     laid_out array = lay_out(l, box.positions, box.vertex_count);
     const vox_mesh_desc usual = body_desc(&box), desc = laid_out_desc(&box, &array);
-    vox_suggestion suggested[2];
+    vox_cell_size_result suggested[2];
     memset(suggested, 0, sizeof suggested);
     suggested[0].struct_size = suggested[1].struct_size = sizeof suggested[0];
     ck_ok(vox_suggest_cell_size(NULL, &usual, 1, &suggested[0]));
     ck_ok(vox_suggest_cell_size(NULL, &desc, 1, &suggested[1]));
     ck_assert_double_eq(suggested[0].cell_size, suggested[1].cell_size);
-    ck_assert_mem_eq(&suggested[0].stats, &suggested[1].stats, sizeof suggested[0].stats);
+    vox_geometry measured[2];
+    memset(measured, 0, sizeof measured);
+    measured[0].struct_size = measured[1].struct_size = sizeof measured[0];
+    ck_ok(vox_measure_geometry(&usual, 1, &measured[0]));
+    ck_ok(vox_measure_geometry(&desc, 1, &measured[1]));
+    ck_assert_mem_eq(&measured[0], &measured[1], sizeof measured[0]);
 
     vox_grid* grid = engine_grid();
     (void)insert_mesh(grid, &usual);

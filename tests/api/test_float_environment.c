@@ -196,7 +196,7 @@ static record results(int scene, const float_mode* mode, uint32_t workers, callb
     record r = {NULL, 0};
     vox_grid* grid;
     vox_grid_desc desc = engine_desc();
-    vox_suggestion suggestion;
+    vox_cell_size_result suggestion;
     uint64_t size = 0;
     memset(c, 0, sizeof *c);
     memset(&suggestion, 0, sizeof suggestion);
@@ -229,7 +229,7 @@ static record results(int scene, const float_mode* mode, uint32_t workers, callb
     if (scene == scene_of_boxes) {
         ck_in_mode(mode, vox_grid_suggest_cell_size(grid, NULL, &suggestion));
         put(&r, &suggestion, sizeof suggestion);
-        vox_suggest_desc suggest = vox_default_suggest_desc();
+        vox_cell_size_desc suggest = vox_default_cell_size_desc();
         const vox_mesh_desc described[2] = {body_desc(&boxes[0]), body_desc(&boxes[1])};
         const uint32_t calls = c->calls[in_allocator];
         suggest.allocator = desc.allocator;

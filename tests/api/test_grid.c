@@ -390,9 +390,16 @@ START_TEST(cell_size_is_chosen) {
     cell_size = grid_info(grid).cell_size;
 
     /* The model of its engine: over a sample here, over all there. */
-    vox_suggestion suggestion = {.struct_size = sizeof suggestion};
+    vox_cell_size_result suggestion = {.struct_size = sizeof suggestion};
     ck_ok(vox_grid_suggest_cell_size(grid, NULL, &suggestion));
-    ck_assert_int_eq(suggestion.model, VOX_COST_MODEL_REFERENCE);
+    vox_cell_size_desc named = vox_default_cell_size_desc();
+    vox_cell_size_result same = {.struct_size = sizeof same};
+    named.model = VOX_COST_MODEL_REFERENCE;
+    ck_ok(vox_grid_suggest_cell_size(grid, &named, &same));
+    ck_assert_double_eq(suggestion.cost, same.cost);
+    named.model = VOX_COST_MODEL_FAST;
+    ck_ok(vox_grid_suggest_cell_size(grid, &named, &same));
+    ck_assert_double_ne(suggestion.cost, same.cost);
     ck_assert_double_ge(cell_size, suggestion.zone_min);
     ck_assert_double_le(cell_size, suggestion.zone_max);
     ck_assert_int_eq(log_lines, 1);

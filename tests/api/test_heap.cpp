@@ -67,7 +67,7 @@ void live(const Scene& scene, const vox_grid_desc& desc, heap::Life& life) {
     const vox_positions to = vox_double_positions(scene.many[point_count / 2], point_count / 2);
     vox_closest_hit closest[point_count];
     std::uint8_t blocked[point_count / 2];
-    vox_suggestion suggestion;
+    vox_cell_size_result suggestion;
     suggestion.struct_size = sizeof suggestion;
     std::uint64_t count = 0;
     std::uint32_t first = 0;
@@ -127,9 +127,9 @@ START_TEST(each_allocation_of_a_suggestion) {
     for (const vox_cost_model model :
          {VOX_COST_MODEL_PAPER, VOX_COST_MODEL_REFERENCE, VOX_COST_MODEL_FAST, VOX_COST_MODEL_SURFACE})
         heap::fail_each([&](heap::Life& life) {
-            vox_suggest_desc desc = vox_default_suggest_desc();
+            vox_cell_size_desc desc = vox_default_cell_size_desc();
             desc.model = model;
-            vox_suggestion suggestion;
+            vox_cell_size_result suggestion;
             suggestion.struct_size = sizeof suggestion;
             if (life([&] { return vox_suggest_cell_size(&desc, meshes, 2, &suggestion); }))
                 std::memcpy(&life.hash, &suggestion.cell_size, sizeof life.hash);

@@ -150,20 +150,20 @@ START_TEST(capacities) {
     body box = make_box(3, 1, 0, 0, 0);
     const vox_mesh_desc mesh = body_desc(&box);
     for (int model = VOX_COST_MODEL_PAPER; model <= VOX_COST_MODEL_SURFACE; ++model) {
-        vox_suggest_desc desc = vox_default_suggest_desc();
-        vox_suggestion found;
+        vox_cell_size_desc desc = vox_default_cell_size_desc();
+        vox_cell_size_result found;
         memset(&found, 0, sizeof found);
         found.struct_size = sizeof found;
         desc.model = (vox_cost_model)model;
         ck_ok(vox_suggest_cell_size(&desc, &mesh, 1, &found));
-        ck_assert_uint_eq(found.curve_count, VOX_COST_CURVE_CAPACITY);
+        ck_assert_uint_eq(found.curve_count, VOX_CURVE_CAPACITY);
         ck_assert_uint_gt(found.term_count, 0);
-        ck_assert_uint_le(found.term_count, VOX_COST_TERM_CAPACITY);
-        ck_assert_uint_le(found.level_count, VOX_CELL_SIZE_LEVEL_CAPACITY);
+        ck_assert_uint_le(found.term_count, VOX_TERM_CAPACITY);
+        ck_assert_uint_le(found.rule_count, VOX_RULE_CAPACITY);
         double sum = 0; /* so there is none that had no place */
         for (uint32_t i = 0; i < found.term_count; ++i) sum += found.terms[i].cost;
-        ck_assert_double_ge(sum, found.predicted_cost * (1 - 1e-9));
-        ck_assert_double_le(sum, found.predicted_cost * (1 + 1e-9));
+        ck_assert_double_ge(sum, found.cost * (1 - 1e-9));
+        ck_assert_double_le(sum, found.cost * (1 + 1e-9));
     }
     free_body(&box);
 }
@@ -177,51 +177,54 @@ static double one_run(double cell_size, void* user) {
 /* The same of described grids: counts, terms, notes, runs. */
 START_TEST(any_grid) {
     body box = make_box(3, 1, 0, 0, 0);
-    vox_primitives held = vox_default_primitives();
-    held.type = VOX_PRIMITIVE_TET;
-    held.positions.data = box.positions;
-    held.positions.count = box.vertex_count;
-    held.indices = box.tets;
-    held.count = box.tet_count;
+    vox_primitives stored = vox_default_primitives();
+    stored.type = VOX_PRIMITIVE_TET;
+    stored.positions.data = box.positions;
+    stored.positions.count = box.vertex_count;
+    stored.indices = box.tets;
+    stored.count = box.tet_count;
     vox_foreign_grid grid = vox_default_foreign_grid();
-    grid.held = &held;
-    for (int known = VOX_KNOWN_GRID_ANY; known <= VOX_KNOWN_GRID_NUMPY; ++known) {
-        vox_foreign_suggestion found;
+    grid.stored = &stored;
+    for (int known = VOX_KNOWN_GRID_NONE; known <= VOX_KNOWN_GRID_NUMPY; ++known) {
+        vox_cell_size_result found;
         memset(&found, 0, sizeof found);
         found.struct_size = sizeof found;
-        ck_ok(vox_foreign_grid_set_known(&grid, (vox_known_grid)known));
-        ck_ok(vox_suggest_for(&grid, &found));
+        grid.known = (vox_known_grid)known;
+        ck_ok(vox_foreign_grid_suggest(&grid, &found));
         ck_assert_uint_gt(found.curve_count, 1);
-        ck_assert_uint_le(found.curve_count, VOX_COST_CURVE_CAPACITY);
-        ck_assert_uint_le(found.term_count, VOX_COST_TERM_CAPACITY);
+        ck_assert_uint_le(found.curve_count, VOX_CURVE_CAPACITY);
+        ck_assert_uint_le(found.term_count, VOX_TERM_CAPACITY);
+        ck_assert_uint_le(found.rule_count, VOX_RULE_CAPACITY);
         ck_assert_ptr_nonnull(memchr(found.note, 0, VOX_NOTE_CAPACITY));
         double sum = 0;
         for (uint32_t i = 0; i < found.term_count; ++i) sum += found.terms[i].cost;
-        ck_assert_double_eq_tol(sum / found.predicted_cost, 1, 1e-9);
+        ck_assert_double_eq_tol(sum / found.cost, 1, 1e-9);
     }
 
     vox_tune_desc desc = vox_default_tune_desc();
-    vox_tuning tuning;
+    vox_cell_size_result tuning;
     uint32_t runs = 0;
     memset(&tuning, 0, sizeof tuning);
     tuning.struct_size = sizeof tuning;
-    desc.most_runs = VOX_TUNE_RUN_CAPACITY + 1;
-    ck_fails(vox_cost_tune(&grid, &desc, one_run, &runs, &tuning), VOX_ERROR_INVALID_ARGUMENT,
-             "most_runs is 33");
+    desc.max_runs = VOX_TIMING_CAPACITY + 1;
+    ck_fails(vox_foreign_grid_tune(&grid, &desc, one_run, &runs, &tuning), VOX_ERROR_INVALID_ARGUMENT,
+             "max_runs is 33");
     ck_assert_uint_eq(runs, 0);
-    desc.most_runs = VOX_TUNE_RUN_CAPACITY;
+    desc.max_runs = VOX_TIMING_CAPACITY;
     desc.wanted_loss = 0;
-    ck_ok(vox_cost_tune(&grid, &desc, one_run, &runs, &tuning));
-    ck_assert_uint_eq(tuning.run_count, runs);
-    ck_assert_uint_le(runs, VOX_TUNE_RUN_CAPACITY);
+    ck_ok(vox_foreign_grid_tune(&grid, &desc, one_run, &runs, &tuning));
+    ck_assert_uint_eq(tuning.timing_count, runs);
+    ck_assert_uint_le(runs, VOX_TIMING_CAPACITY);
     ck_assert_ptr_nonnull(memchr(tuning.note, 0, VOX_NOTE_CAPACITY));
 
-    vox_grid_fit fit;
+    vox_cell_size_result fit;
     fit.struct_size = sizeof fit;
-    ck_fails(vox_cost_fit(&grid, tuning.runs, (uint64_t)1 << 32, &fit), VOX_ERROR_LIMIT, "4294967296");
-    held.count = (uint64_t)1 << 32;
-    ck_fails(vox_suggest_for(&grid, &(vox_foreign_suggestion){.struct_size = sizeof(vox_foreign_suggestion)}),
-             VOX_ERROR_LIMIT, "2^32 - 1");
+    ck_fails(vox_foreign_grid_fit(&grid, tuning.timings, (uint64_t)1 << 32, &fit), VOX_ERROR_LIMIT,
+             "4294967296");
+    stored.count = (uint64_t)1 << 32;
+    ck_fails(
+        vox_foreign_grid_suggest(&grid, &(vox_cell_size_result){.struct_size = sizeof(vox_cell_size_result)}),
+        VOX_ERROR_LIMIT, "2^32 - 1");
     free_body(&box);
 }
 END_TEST

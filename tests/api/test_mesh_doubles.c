@@ -273,7 +273,8 @@ END_TEST
 
 START_TEST(suggested_cell_size) {
     solid s = make_solid(4);
-    vox_suggestion out[3];
+    vox_cell_size_result out[3];
+    vox_geometry measured[3];
     for (int i = 0; i < 3; ++i) {
         if (i == 2)
             for (uint32_t v = 0; v < 3 * s.vertex_count; ++v)
@@ -283,8 +284,10 @@ START_TEST(suggested_cell_size) {
         out[i].struct_size = sizeof out[i];
         ck_ok(vox_suggest_cell_size(NULL, &desc, 1, &out[i]));
         ck_assert_double_eq(out[i].cell_size, out[0].cell_size);
-        ck_assert_double_eq(out[i].stats.mean_volume, out[0].stats.mean_volume);
-        ck_assert_double_eq(out[i].stats.bounds_max[1], 4 + (i == 2 ? 0x1p40 : 0));
+        measured[i].struct_size = sizeof measured[i];
+        ck_ok(vox_measure_geometry(&desc, 1, &measured[i]));
+        ck_assert_double_eq(measured[i].mean_volume, measured[0].mean_volume);
+        ck_assert_double_eq(measured[i].bounds_max[1], 4 + (i == 2 ? 0x1p40 : 0));
     }
     s.positions[4] = 1e200;
     write_solid(&s, VOX_FORMAT_DOUBLE, 24);

@@ -165,7 +165,7 @@ typedef struct asker {
 static void* ask_many(void* context) {
     asker* a = (asker*)context;
     uint64_t random = a->seed;
-    vox_suggestion suggestion;
+    vox_cell_size_result suggestion;
     suggestion.struct_size = sizeof suggestion;
     if (vox_grid_suggest_cell_size(a->w->grid, NULL, &suggestion)) return NULL;
     a->sum = (uint64_t)(suggestion.cell_size * 1e9);

@@ -124,7 +124,7 @@ static vox_result ask(vox_surface* surface, int which, uint64_t* hash) {
         if (result == VOX_OK) add(hash, view.data, view.count * sizeof *view.data);
         return result;
     }
-    vox_foreign_suggestion suggestion = {.struct_size = sizeof suggestion};
+    vox_cell_size_result suggestion = {.struct_size = sizeof suggestion};
     result = vox_surface_suggest_cell_size(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, &suggestion);
     if (result == VOX_OK) add(hash, &suggestion.cell_size, sizeof suggestion.cell_size);
     return result;

@@ -183,7 +183,7 @@ START_TEST(questions_that_are_refused) {
     ck_assert_uint_eq(view.count, 6);
     ck_assert_uint_eq(view.vertices[0], 0);
     ck_assert_uint_eq(view.vertices[1], 1);
-    vox_foreign_suggestion suggestion;
+    vox_cell_size_result suggestion;
     suggestion.struct_size = sizeof suggestion;
     ck_ok(vox_surface_suggest_cell_size(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, &suggestion));
     ck_assert(suggestion.cell_size > 0);
@@ -265,7 +265,7 @@ START_TEST(suggestions_that_are_refused) {
     for (int i = 0; i < 2; ++i) {
         motion.radius = radii[i];
         ck_ok(vox_surface_move(surface, &motion));
-        vox_foreign_suggestion out = {.struct_size = sizeof out};
+        vox_cell_size_result out = {.struct_size = sizeof out};
         ck_fails(vox_surface_suggest_cell_size(surface, VOX_FEATURE_EDGE, VOX_FEATURE_EDGE, &out),
                  VOX_ERROR_INVALID_ARGUMENT, i == 0 ? "radius is inf" : "radius is 1e+300");
     }
@@ -274,7 +274,7 @@ START_TEST(suggestions_that_are_refused) {
     vox_surface* const points = surface_from(&desc);
     motion.radius = 0;
     ck_ok(vox_surface_move(points, &motion));
-    vox_foreign_suggestion out = {.struct_size = sizeof out};
+    vox_cell_size_result out = {.struct_size = sizeof out};
     ck_fails(vox_surface_suggest_cell_size(points, VOX_FEATURE_FACE, VOX_FEATURE_VERTEX, &out),
              VOX_ERROR_INVALID_ARGUMENT, "no features");
     vox_surface_destroy(points);

@@ -49,7 +49,7 @@ START_TEST(doubles_under_floats_are_refused) {
     for (size_t i = 0; i < sizeof scales / sizeof *scales; ++i) {
         double* positions = doubles_of(&box, scales[i]);
         vox_mesh_desc desc = vox_mesh_desc_doubles(positions, box.vertex_count, box.tets, box.tet_count);
-        vox_suggestion suggestion;
+        vox_cell_size_result suggestion;
         vox_body mesh = VOX_NULL_BODY;
         desc.user_data = 77;
         desc.positions.format = VOX_FORMAT_FLOAT; /* the mistake */

@@ -19,8 +19,8 @@ import library  # noqa: E402
 import losses  # noqa: E402
 
 POINT, BOX_TYPE = 0, 4  # vox_primitive_type
-BOXES, CENTRES = 0, 1
-BOX, AROUND, PAIRS = 0, 1, 2
+STORED_BOX, STORED_CENTRE = 1, 2  # vox_cells_stored
+BOX, AROUND, PAIRS = 1, 2, 3  # vox_cells_queried
 SORTED, HASHED, IPC_PAIRS, PBAT = 1, 2, 5, 7  # vox_known_grid
 SIZES = [0.6 * 2 ** (k / 2) for k in range(-1, 5)]  # mean sides of boxes
 POSITIONS = 24  # of the lattice, whose mean is taken
@@ -48,24 +48,24 @@ def pointer(values):
     return ctypes.cast(values.buffer_info()[0], ctypes.POINTER(ctypes.c_double)), ctypes.c_size_t(len(values) // 6)
 
 
-def run(name, held, asking, size, content, look=BOX):
+def run(name, stored, querying, size, cells_stored, cells_queried=BOX):
     function = getattr(PLAIN, name)
     function.restype = ctypes.c_uint64
-    return function(*pointer(held), *pointer(asking), ctypes.c_double(size), content, look)
+    return function(*pointer(stored), *pointer(querying), ctypes.c_double(size), cells_stored, cells_queried)
 
 
-def counted(held, asking, size, content, look):
-    work = (ctypes.c_double * len(losses.WORK))()
-    PLAIN.plain_count(*pointer(held), *pointer(asking), ctypes.c_double(size), content, look, POSITIONS, work)
-    return dict(zip(losses.WORK, work))
+def counted(stored, querying, size, cells_stored, cells_queried):
+    counts = (ctypes.c_double * len(losses.COUNTS))()
+    PLAIN.plain_count(*pointer(stored), *pointer(querying), ctypes.c_double(size), cells_stored, cells_queried, POSITIONS, counts)
+    return dict(zip(losses.COUNTS, counts))
 
 
-def brute_force(held, asking):
+def brute_force(stored, querying):
     found = 0
-    for i in range(0, len(asking), 6):
-        a = asking[i:i + 6]
-        for j in range(0, len(held), 6):
-            found += all(held[j + k] <= a[k + 3] and a[k] <= held[j + k + 3] for k in range(3))
+    for i in range(0, len(querying), 6):
+        a = querying[i:i + 6]
+        for j in range(0, len(stored), 6):
+            found += all(stored[j + k] <= a[k + 3] and a[k] <= stored[j + k + 3] for k in range(3))
     return found
 
 
@@ -73,47 +73,47 @@ def saved(role, values):
     return {f"{role}_type": BOX_TYPE, f"{role}_positions": list(values)}
 
 
-# Name, vox_known_grid, content, look, dense, held, asking (None: those held).
+# Name, vox_known_grid, cells_stored, cells_queried, dense, stored, querying (None: those stored).
 def kinds():
     one, other = boxes(4000, 1), boxes(4000, 2, 0.6)
-    return [("sorted, boxes", SORTED, BOXES, BOX, True, one, None), ("sorted, points", SORTED, CENTRES, BOX, True, points_of(one), other),
-            ("hashed, boxes", HASHED, BOXES, BOX, False, one, other), ("hashed, points", HASHED, CENTRES, BOX, False, points_of(one), one),
-            ("around", PBAT, CENTRES, AROUND, False, one, points_of(other)), ("pairs", IPC_PAIRS, BOXES, PAIRS, False, one, None)]
+    return [("sorted, boxes", SORTED, STORED_BOX, BOX, True, one, None), ("sorted, points", SORTED, STORED_CENTRE, BOX, True, points_of(one), other),
+            ("hashed, boxes", HASHED, STORED_BOX, BOX, False, one, other), ("hashed, points", HASHED, STORED_CENTRE, BOX, False, points_of(one), one),
+            ("around", PBAT, STORED_CENTRE, AROUND, False, one, points_of(other)), ("pairs", IPC_PAIRS, STORED_BOX, PAIRS, False, one, None)]
 
 
 def record(kind):
     """As measure.py writes, of times that follow from the counts."""
-    name, known, content, look, dense, held, asking = kind
-    sizes = [s for s in SIZES if look != AROUND or s > 0.76]
-    work = [counted(held, asking or held, s, content, look) for s in sizes]
+    name, known, cells_stored, cells_queried, dense, stored, querying = kind
+    sizes = [s for s in SIZES if cells_queried != AROUND or s > 0.76]
+    counts = [counted(stored, querying or stored, s, cells_stored, cells_queried) for s in sizes]
     rng = random.Random(3)
-    seconds = [[1e-9 * (10 * w["entries"] + 5 * w["visits"] + 2 * w["reads"]) * rng.uniform(1, 1.02) for w in work] for _ in range(4)]
-    return {"grid": name, "known": known, "scene": "boxes", "content": content, "look": look, "dense": dense, "mean_edge": 1, "unit": 1,
-            "least": 0.75 if look == AROUND else 0, "rules": {"mean_edge": 1, "mean_box_side": 1.25}, "sweep": list(range(len(sizes))),
-            "sizes": sizes, "seconds": seconds, "work": work,
-            "primitives": {**saved("held", held), **(saved("asking", asking) if asking else {})}}
+    seconds = [[1e-9 * (10 * w["stored"] + 5 * w["visits"] + 2 * w["reads"]) * rng.uniform(1, 1.02) for w in counts] for _ in range(4)]
+    return {"grid": name, "known": known, "scene": "boxes", "cells_stored": cells_stored, "cells_queried": cells_queried,
+            "dense": dense, "mean_edge": 1, "unit": 1, "min_cell_size": 0.75 if cells_queried == AROUND else 0,
+            "rules": {"mean_edge": 1, "mean_box_side": 1.25}, "sweep": list(range(len(sizes))), "sizes": sizes, "seconds": seconds, "counts": counts,
+            "primitives": {**saved("stored", stored), **(saved("querying", querying) if querying else {})}}
 
 
 class ForeignGrids(unittest.TestCase):
     def test_plain_grids_find_the_same_pairs(self):
-        held, asking = boxes(600, 4), boxes(500, 5)
-        for content, inside in ((BOXES, held), (CENTRES, points_of(held))):
-            expected = brute_force(inside, asking)
+        stored, querying = boxes(600, 4), boxes(500, 5)
+        for cells_stored, inside in ((STORED_BOX, stored), (STORED_CENTRE, points_of(stored))):
+            expected = brute_force(inside, querying)
             self.assertGreater(expected, 100)
             for size in SIZES:
                 for grid in ("plain_run_sorted", "plain_run_hashed"):
-                    self.assertEqual(run(grid, inside, asking, size, content), expected, (grid, content, size))
+                    self.assertEqual(run(grid, inside, querying, size, cells_stored), expected, (grid, cells_stored, size))
 
     def test_counts_agree(self):
         for kind in kinds():
-            name, _, content, look, dense, held, asking = kind
+            name, _, cells_stored, cells_queried, dense, stored, querying = kind
             of = record(kind)
             told = evaluate.described(VOX, losses.Curve(of), None)
-            for size, work in zip(of["sizes"], of["work"]):
+            for size, counts in zip(of["sizes"], of["counts"]):
                 found = told.count(size)
-                for count in ("entries", "visits", "reads", "occupied"):
+                for count in ("stored", "visits", "reads", "occupied"):
                     # A twentieth, and what chance does to a mean over few positions of the lattice.
-                    self.assertAlmostEqual(found[count], work[count], delta=0.05 * work[count], msg=f"{name}: {count} at {size:.2f}")
+                    self.assertAlmostEqual(found[count], counts[count], delta=0.05 * counts[count], msg=f"{name}: {count} at {size:.2f}")
 
     def test_the_report_has_all_parts(self):
         with tempfile.TemporaryDirectory() as folder:

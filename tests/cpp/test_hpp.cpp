@@ -780,11 +780,10 @@ END_TEST
 
 START_TEST(cost_functions_are_callables) {
     const auto cost = [](double d) { return d + 1 / d; };
-    vox_cost_minimum expected = sized_struct<vox_cost_minimum>();
+    vox_cell_size_result expected = sized_struct<vox_cell_size_result>();
     ck_ok(vox_cost_minimise([](double d, void*) { return d + 1 / d; }, nullptr, 0.125, 8, 0, &expected));
-    const vox_cost_minimum minimum = vox::minimise(cost, 0.125, 8);
+    const vox_cell_size_result minimum = vox::minimise(cost, 0.125, 8);
     ck_assert_mem_eq(&minimum, &expected, sizeof minimum);
-    ck_assert_uint_eq(vox::curve(minimum).size(), minimum.curve_count);
     int calls = 0;
     try {
         vox::minimise(
@@ -942,57 +941,54 @@ START_TEST(primitives_are_those_of_c) {
     static_assert(!std::is_constructible_v<vox::borrowed_indices, const std::vector<float>&>);
     // None are given, which is not the same as that none are needed.
     const vox_primitives none = vox::primitives(VOX_PRIMITIVE_EDGE, xyz, vox::span<const std::uint32_t>());
-    throws([&] { (void)vox::suggest_for(vox::foreign_grid(none)); }, VOX_ERROR_INVALID_ARGUMENT,
+    throws([&] { (void)vox::foreign_grid_suggest(vox::foreign_grid(none)); }, VOX_ERROR_INVALID_ARGUMENT,
            "count is 0");
 }
 END_TEST
 
-START_TEST(cell_sizes_of_any_grid_equal_those_of_c) {
+START_TEST(cell_sizes_of_foreign_grids_equal_those_of_c) {
     Stepped with;
-    const vox_primitives held = vox::primitives(VOX_PRIMITIVE_TET, with.scene.a, with.scene.tets),
-                         asking = vox::primitives(VOX_PRIMITIVE_POINT, with.scene.b);
-    vox_foreign_grid grid = vox::foreign_grid(held, VOX_KNOWN_GRID_SORTED);
-    grid.asking = &asking;
-    ck_assert_uint_eq(grid.flags, VOX_FOREIGN_DENSE);
-    vox_foreign_suggestion suggestion = sized_struct<vox_foreign_suggestion>();
-    ck_ok(vox_suggest_for(&grid, &suggestion));
-    const vox_foreign_suggestion suggested = vox::suggest_for(grid);
-    ck_assert_mem_eq(&suggested, &suggestion, sizeof suggestion);
-    ck_assert_uint_eq(vox::curve(suggested).size(), suggestion.curve_count);
-    ck_assert_uint_eq(vox::terms(suggested).size(), suggestion.term_count);
-    vox_grid_work work;
-    ck_ok(vox_count_for(&grid, 0.5, &work));
-    const vox_grid_work counted = vox::count_for(grid, 0.5);
-    ck_assert_mem_eq(&counted, &work, sizeof work);
-    throws([&] { (void)vox::count_for(grid, 0); }, VOX_ERROR_INVALID_ARGUMENT, "cell_size is 0");
+    const vox_primitives stored = vox::primitives(VOX_PRIMITIVE_TET, with.scene.a, with.scene.tets),
+                         querying = vox::primitives(VOX_PRIMITIVE_POINT, with.scene.b);
+    vox_foreign_grid grid = vox::foreign_grid(stored, VOX_KNOWN_GRID_SORTED);
+    ck_assert_ptr_eq(grid.stored, &stored);
+    ck_assert_int_eq(grid.known, VOX_KNOWN_GRID_SORTED);
+    grid.querying = &querying;
+    vox_cell_size_result expected = sized_struct<vox_cell_size_result>();
+    ck_ok(vox_foreign_grid_suggest(&grid, &expected));
+    const vox_cell_size_result suggested = vox::foreign_grid_suggest(grid);
+    ck_assert_mem_eq(&suggested, &expected, sizeof expected);
+    vox_foreign_counts counts;
+    ck_ok(vox_foreign_grid_count(&grid, 0.5, &counts));
+    const vox_foreign_counts counted = vox::foreign_grid_count(grid, 0.5);
+    ck_assert_mem_eq(&counted, &counts, sizeof counts);
+    throws([&] { (void)vox::foreign_grid_count(grid, 0); }, VOX_ERROR_INVALID_ARGUMENT, "cell_size is 0");
 
     const auto run = [](double d) { return 1e-3 * (d + 1 / d); };
-    std::vector<vox_grid_timing> timings;
+    std::vector<vox_timing> timings;
     for (double d : {0.25, 0.5, 1.0, 2.0}) timings.push_back({d, run(d)});
-    vox_grid_fit fit = sized_struct<vox_grid_fit>();
-    ck_ok(vox_cost_fit(&grid, timings.data(), timings.size(), &fit));
-    const vox_grid_fit fitted = vox::cost_fit(grid, timings);
-    ck_assert_mem_eq(&fitted, &fit, sizeof fit);
+    ck_ok(vox_foreign_grid_fit(&grid, timings.data(), timings.size(), &expected));
+    const vox_cell_size_result fitted = vox::foreign_grid_fit(grid, timings);
+    ck_assert_mem_eq(&fitted, &expected, sizeof expected);
     throws(
         [&] {
-            (void)vox::cost_fit(grid, {timings.data(), 2});
+            (void)vox::foreign_grid_fit(grid, {timings.data(), 2});
         },
         VOX_ERROR_INVALID_ARGUMENT, "2 different");
 
-    vox_tuning tuning = sized_struct<vox_tuning>();
-    ck_ok(vox_cost_tune(
-        &grid, nullptr, [](double d, void*) { return 1e-3 * (d + 1 / d); }, nullptr, &tuning));
-    const vox_tuning tuned = vox::cost_tune(&grid, run);
-    ck_assert_mem_eq(&tuned, &tuning, sizeof tuning);
-    ck_assert_uint_eq(vox::runs(tuned).size(), tuning.run_count);
+    ck_ok(vox_foreign_grid_tune(
+        &grid, nullptr, [](double d, void*) { return 1e-3 * (d + 1 / d); }, nullptr, &expected));
+    const vox_cell_size_result tuned = vox::foreign_grid_tune(&grid, run);
+    ck_assert_mem_eq(&tuned, &expected, sizeof expected);
     vox_tune_desc desc = vox_default_tune_desc();
     desc.first = 0.5;
-    const vox_tuning begun = vox::cost_tune(nullptr, run, desc);
-    ck_assert_double_eq(vox::runs(begun)[0].cell_size, 0.5);
-    throws([&] { (void)vox::cost_tune(nullptr, run); }, VOX_ERROR_INVALID_ARGUMENT, "desc.first is 0");
+    const vox_cell_size_result begun = vox::foreign_grid_tune(nullptr, run, desc);
+    ck_assert_double_eq(vox::timings(begun)[0].cell_size, 0.5);
+    throws([&] { (void)vox::foreign_grid_tune(nullptr, run); }, VOX_ERROR_INVALID_ARGUMENT,
+           "desc.first is 0");
     int calls = 0;
     try {
-        vox::cost_tune(&grid, [&](double) -> double {
+        vox::foreign_grid_tune(&grid, [&](double) -> double {
             ++calls;
             throw std::out_of_range("no time");
         });
@@ -1004,24 +1000,58 @@ START_TEST(cell_sizes_of_any_grid_equal_those_of_c) {
 }
 END_TEST
 
+template <class R>
+concept has_spans = requires(R&& result) {
+    vox::curve(std::forward<R>(result));
+}
+|| requires(R&& result) { vox::terms(std::forward<R>(result)); }
+|| requires(R&& result) { vox::rules(std::forward<R>(result)); }
+|| requires(R&& result) { vox::timings(std::forward<R>(result)); };
+
+START_TEST(results_have_spans) {
+    static_assert(has_spans<const vox_cell_size_result&> && !has_spans<vox_cell_size_result>);
+    vox_cell_size_result result = {};
+    result.curve_count = 1;
+    result.term_count = 2;
+    result.rule_count = 3;
+    result.timing_count = 4;
+    const auto are = [](auto span, const auto* data, std::size_t count) {
+        ck_assert_ptr_eq(span.data(), data);
+        ck_assert_uint_eq(span.size(), count);
+    };
+    are(vox::curve(result), result.curve, 1);
+    are(vox::terms(result), result.terms, 2);
+    are(vox::rules(result), result.rules, 3);
+    are(vox::timings(result), result.timings, 4);
+}
+END_TEST
+
 START_TEST(cell_sizes_equal_those_of_c) {
     Stepped with;
     const std::vector<vox_mesh_desc> meshes = {vox::describe(with.scene.a, with.scene.tets),
                                                vox::describe(with.scene.b, with.scene.tets)};
-    vox_suggest_desc desc = vox_default_suggest_desc();
-    vox_suggestion expected = sized_struct<vox_suggestion>();
+    vox_cell_size_desc desc = vox_default_cell_size_desc();
+    vox_cell_size_result expected = sized_struct<vox_cell_size_result>();
+    const auto equals_expected = [&](const vox_cell_size_result& found) {
+        ck_assert_mem_eq(&found, &expected, sizeof expected);
+    };
     ck_ok(vox_suggest_cell_size(nullptr, meshes.data(), 2, &expected));
-    const vox_suggestion suggestion = vox::suggest_cell_size(meshes);
-    ck_assert_mem_eq(&suggestion, &expected, sizeof expected);
-    ck_assert_uint_eq(vox::curve(suggestion).size(), expected.curve_count);
-    ck_assert_uint_eq(vox::terms(suggestion).size(), expected.term_count);
+    equals_expected(vox::suggest_cell_size(meshes));
     ck_ok(vox_grid_suggest_cell_size(with.grid.get(), nullptr, &expected));
-    ck_assert_double_eq(vox::suggest_cell_size(with.grid).cell_size, expected.cell_size);
-    ck_assert_int_eq(vox::suggest_cell_size(with.grid).model, VOX_COST_MODEL_FAST);
+    equals_expected(vox::suggest_cell_size(with.grid));
     desc.model = VOX_COST_MODEL_REFERENCE;
-    ck_assert_int_eq(vox::suggest_cell_size(with.grid, desc).model, VOX_COST_MODEL_REFERENCE);
+    ck_ok(vox_grid_suggest_cell_size(with.grid.get(), &desc, &expected));
+    equals_expected(vox::suggest_cell_size(with.grid, desc));
+    ck_ok(vox_suggest_cell_size(&desc, meshes.data(), 2, &expected));
+    equals_expected(vox::suggest_cell_size(meshes, desc));
     throws([&] { (void)vox::suggest_cell_size(vox::span<const vox_mesh_desc>()); },
            VOX_ERROR_INVALID_ARGUMENT, "");
+
+    vox_geometry geometry = sized_struct<vox_geometry>();
+    ck_ok(vox_measure_geometry(meshes.data(), 2, &geometry));
+    const vox_geometry measured = vox::measure_geometry(meshes);
+    ck_assert_mem_eq(&measured, &geometry, sizeof geometry);
+    ck_assert_uint_eq(measured.tets, 2 * with.scene.tet_count());
 
     const vox_cost_weights weights = vox::calibrate();
     ck_assert_uint_eq(weights.measured, 1);
@@ -1089,8 +1119,8 @@ SUITE(hpp) {
                    constraints_are_found_as_in_c, margins_and_previous_positions, arrays_are_matrices,
                    meshes_tell_what_c_tells, transforms, locators_equal_those_of_c, meshes_are_cut_as_in_c,
                    cell_sizes_equal_those_of_c, primitives_are_those_of_c,
-                   cell_sizes_of_any_grid_equal_those_of_c, snapshots_hold_the_grid, many_grids_in_one_call,
-                   versions);
+                   cell_sizes_of_foreign_grids_equal_those_of_c, results_have_spans, snapshots_hold_the_grid,
+                   many_grids_in_one_call, versions);
     tcase_add_each(add_case(suite, "errors"), errors_have_code_and_text, arrays_of_another_size_are_errors);
     tcase_add_each(add_case(suite, "ownership"), grids_move_and_release, meshes_are_removed_by_their_owner,
                    grids_of_c_and_back);

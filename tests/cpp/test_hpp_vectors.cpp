@@ -192,8 +192,7 @@ private:
             grid_ = vox::grid::load(array<std::byte>(call["bytes"], call["size"]));
         } else if (name == "suggest") {
             suggest(call);
-        } else if (name == "suggest_for" || name == "count_for" || name == "cost_fit" ||
-                   name == "cost_tune") {
+        } else if (name.starts_with("foreign_")) {
             foreign(name, call);
         } else {
             ck_abort_msg("a call that is not known: %s", place_.c_str());
@@ -256,23 +255,33 @@ private:
         }
         std::vector<vox_mesh_desc> meshes;
         for (std::size_t i = 0; i < tets.size(); ++i) meshes.push_back(vox::describe(positions[i], tets[i]));
-        vox_suggest_desc desc = vox_default_suggest_desc();
+        vox_cell_size_desc desc = vox_default_cell_size_desc();
         desc.model = call["model"];
-        const vox_suggestion found = vox::suggest_cell_size(meshes, desc);
-        check_near(call, {{"cell_size", found.cell_size},
-                          {"zone_min", found.zone_min},
-                          {"zone_max", found.zone_max},
-                          {"predicted_cost", found.predicted_cost},
-                          {"mean_edge", found.stats.mean_edge},
-                          {"curve_count", static_cast<double>(vox::curve(found).size())}});
+        check_result(call, vox::suggest_cell_size(meshes, desc));
+    }
+
+    void check_result(const json& call, const vox_cell_size_result& found) const {
+        check(call, "warnings", found.warnings);
+        check(call, "note", found.note);
+        check(call, "curve_count", vox::curve(found).size());
+        check(call, "term_count", vox::terms(found).size());
+        check_near(call["cell_size"], "cell_size", found.cell_size);
+        check_near(call["zone_min"], "zone_min", found.zone_min);
+        check_near(call["zone_max"], "zone_max", found.zone_max);
+        check_near(call["cost"], "cost", found.cost);
+        check_near(call["result_min_cell_size"], "min_cell_size", found.min_cell_size);
+        check_sizes(call["rules"], "rules", vox::rules(found));
+        check_sizes(call["runs"], "runs", vox::timings(found));
+    }
+    template <class T>
+    void check_sizes(const json& expected, const char* name, vox::span<const T> found) const {
+        ck_assert_uint_eq(found.size(), expected.size());
+        for (std::size_t i = 0; i < found.size(); ++i) check_near(expected[i], name, found[i].cell_size);
     }
 
     void check_near(const json& expected, const char* name, double value) const {
         ck_assert_msg(std::abs(value - expected.get<double>()) <= 1e-6 * std::abs(value), "%s is %.9g: %s",
                       name, value, place_.c_str());
-    }
-    void check_near(const json& call, std::initializer_list<std::pair<const char*, double>> values) const {
-        for (const auto& [name, value] : values) check_near(call.at(name), name, value);
     }
 
     // Primitives, and the arrays that they are of.
@@ -307,62 +316,41 @@ private:
         to.of.radius = given["radius"];
     }
 
-    // What the answers have in common.
-    template <class A>
-    void check_answer(const json& call, const A& found) const {
-        check(call, "warnings", found.warnings);
-        check(call, "note", found.note);
-        check_near(
-            call,
-            {{"cell_size", found.cell_size}, {"zone_min", found.zone_min}, {"zone_max", found.zone_max}});
-    }
-
     void foreign(const std::string& name, const json& call) const {
-        primitives held, asking;
+        primitives stored, querying;
         vox_foreign_grid grid = vox_default_foreign_grid();
-        const bool described = call.contains("held");
+        const bool described = call.contains("stored");
         if (described) {
-            read(call["held"], held);
-            grid = vox::foreign_grid(held.of, call["known"]);
-            if (call.contains("asking")) {
-                read(call["asking"], asking);
-                grid.asking = &asking.of;
+            read(call["stored"], stored);
+            grid = vox::foreign_grid(stored.of, call["known"]);
+            if (call.contains("querying")) {
+                read(call["querying"], querying);
+                grid.querying = &querying.of;
             }
-            if (call.contains("content")) grid.content = call["content"];
-            if (call.contains("look")) grid.look = call["look"];
-            if (call.contains("dense")) grid.flags = call["dense"] == 1 ? VOX_FOREIGN_DENSE : 0;
-            if (call.contains("weights")) {
-                const std::array<double, 7> w = call["weights"];
-                grid.weights = {w[0], w[1], w[2], w[3], w[4], w[5], w[6]};
-            }
+            grid.cells_stored = call["cells_stored"];
+            grid.cells_queried = call["cells_queried"];
+            grid.cells_kept = call["cells_kept"];
+            const std::array<double, 7> w = call["weights"];
+            grid.weights = {w[0], w[1], w[2], w[3], w[4], w[5], w[6]};
             grid.radius = call["radius"];
-            grid.least_cell_size = call["least_cell_size"];
+            grid.min_cell_size = call["min_cell_size"];
             grid.zone_loss = call["zone_loss"];
         }
-        if (name == "suggest_for") {
-            const vox_foreign_suggestion found = vox::suggest_for(grid);
-            check_answer(call, found);
-            check(call, "rule", found.rule);
-            check(call, "curve_count", vox::curve(found).size());
-            check_near(call, {{"predicted_cost", found.predicted_cost},
-                              {"legal_cell_size", found.least_cell_size},
-                              {"mean_box_side", found.rules.mean_box_side}});
-        } else if (name == "count_for") {
-            const vox_grid_work w = vox::count_for(grid, call["at"]);
-            const double counts[] = {w.entries, w.visits, w.empty, w.reads, w.occupied, w.cells};
+        if (name == "foreign_suggest") {
+            check_result(call, vox::foreign_grid_suggest(grid));
+        } else if (name == "foreign_count") {
+            const vox_foreign_counts c = vox::foreign_grid_count(grid, call["at"]);
+            const double counts[] = {c.stored, c.visits, c.empty, c.reads, c.occupied, c.cells};
             for (std::size_t i = 0; i < std::size(counts); ++i)
-                check_near(call["work"][i], "work", counts[i]);
-        } else if (name == "cost_fit") {
-            std::vector<vox_grid_timing> timings;
+                check_near(call["counts"][i], "counts", counts[i]);
+        } else if (name == "foreign_fit") {
+            std::vector<vox_timing> timings;
             for (const json& timing : call["timings"]) timings.push_back({timing[0], timing[1]});
-            const vox_grid_fit found = vox::cost_fit(grid, timings);
-            check_answer(call, found);
-            check(call, "curve_count", vox::curve(found).size());
-            check_near(call, {{"predicted_seconds", found.predicted_seconds}});
-        } else {
+            check_result(call, vox::foreign_grid_fit(grid, timings));
+        } else if (name == "foreign_tune") {
             vox_tune_desc desc = vox_default_tune_desc();
             desc.first = call["first"];
-            desc.most_runs = call["most_runs"];
+            desc.max_runs = call["max_runs"];
             const std::array<double, 3> seconds = call["run"];
             const double fails_below = call["fails_below"];
             int left = call["stops_after"] == 0 ? -1 : call["stops_after"].get<int>();
@@ -371,13 +359,9 @@ private:
                 return d < fails_below ? std::numeric_limits<double>::infinity()
                                        : seconds[0] + seconds[1] / (d * d) + seconds[2] * (d * d);
             };
-            const vox_tuning found = vox::cost_tune(described ? &grid : nullptr, run, desc);
-            check_answer(call, found);
-            check_near(call, {{"seconds", found.seconds}});
-            const auto runs = vox::runs(found);
-            ck_assert_uint_eq(runs.size(), call["runs"].size());
-            for (std::size_t i = 0; i < runs.size(); ++i)
-                check_near(call["runs"][i], "runs", runs[i].cell_size);
+            check_result(call, vox::foreign_grid_tune(described ? &grid : nullptr, run, desc));
+        } else {
+            ck_abort_msg("a call that is not known: %s", place_.c_str());
         }
     }
 };

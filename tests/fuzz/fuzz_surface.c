@@ -223,7 +223,7 @@ static void check_answers(vox_surface* surface, const scene* s, const vox_impact
         demand(memcmp(view.vertices, s->corners[kind],
                       s->counts[kind] * (uint32_t)(kind + 1) * sizeof(uint32_t)) == 0);
     }
-    vox_foreign_suggestion suggestion;
+    vox_cell_size_result suggestion;
     suggestion.struct_size = sizeof suggestion;
     const vox_result suggested =
         vox_surface_suggest_cell_size(surface, VOX_FEATURE_EDGE, VOX_FEATURE_FACE, &suggestion);

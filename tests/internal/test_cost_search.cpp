@@ -62,10 +62,10 @@ START_TEST(table_of_a_cost) {
     ck_assert_double_eq(all.max, range.max);
     ck_assert_double_eq(none.min, found.cell_size);
     ck_assert_double_eq(none.max, found.cell_size);
-    vox_cost_sample curve[VOX_COST_CURVE_CAPACITY];
+    vox_cost_sample curve[VOX_CURVE_CAPACITY];
     std::uint32_t count = 0;
     draw_curve(tabulated, {0.1, 6.4}, curve, count);
-    ck_assert_uint_eq(count, VOX_COST_CURVE_CAPACITY);
+    ck_assert_uint_eq(count, VOX_CURVE_CAPACITY);
     for (std::uint32_t i = 0; i < count; ++i) {
         ck_assert_double_eq_tol(curve[i].cell_size, 0.1 * std::pow(64, i / (count - 1.0)),
                                 1e-12 * curve[i].cell_size);

@@ -191,28 +191,29 @@ struct Lattice {
 
 struct Kind {
     const char* name;
-    vox_cell_content content;
-    vox_cell_look look;
+    vox_cells_stored stored;
+    vox_cells_queried queried;
     bool two_sets;
     double radius; // in mean box sides of the ones held; of points: in spacings
 };
 const Kind kinds[] = {
-    {"boxes in cells, boxes ask", VOX_CELLS_HOLD_BOXES, VOX_LOOK_BOX, false, 0},
-    {"boxes in cells, boxes ask around", VOX_CELLS_HOLD_BOXES, VOX_LOOK_BOX, false, 0.3},
-    {"boxes in cells, others ask", VOX_CELLS_HOLD_BOXES, VOX_LOOK_BOX, true, 0},
-    {"boxes in cells, pairs", VOX_CELLS_HOLD_BOXES, VOX_LOOK_PAIRS, false, 0},
-    {"boxes in cells, pairs of two sets", VOX_CELLS_HOLD_BOXES, VOX_LOOK_PAIRS, true, 0.1},
-    {"centres, balls ask", VOX_CELLS_HOLD_CENTRES, VOX_LOOK_BOX, false, 0.7},
-    {"centres, others ask", VOX_CELLS_HOLD_CENTRES, VOX_LOOK_BOX, true, 0.2},
-    {"centres, 27 around", VOX_CELLS_HOLD_CENTRES, VOX_LOOK_AROUND, false, 0},
-    {"centres, 27 around others", VOX_CELLS_HOLD_CENTRES, VOX_LOOK_AROUND, true, 0},
-    {"centres, pairs", VOX_CELLS_HOLD_CENTRES, VOX_LOOK_PAIRS, false, 0},
+    {"boxes in cells, boxes ask", VOX_CELLS_STORED_BOX, VOX_CELLS_QUERIED_BOX, false, 0},
+    {"boxes in cells, boxes ask around", VOX_CELLS_STORED_BOX, VOX_CELLS_QUERIED_BOX, false, 0.3},
+    {"boxes in cells, others ask", VOX_CELLS_STORED_BOX, VOX_CELLS_QUERIED_BOX, true, 0},
+    {"boxes in cells, pairs", VOX_CELLS_STORED_BOX, VOX_CELLS_QUERIED_PAIRS, false, 0},
+    {"boxes in cells, pairs of two sets", VOX_CELLS_STORED_BOX, VOX_CELLS_QUERIED_PAIRS, true, 0.1},
+    {"centres, balls ask", VOX_CELLS_STORED_CENTRE, VOX_CELLS_QUERIED_BOX, false, 0.7},
+    {"centres, others ask", VOX_CELLS_STORED_CENTRE, VOX_CELLS_QUERIED_BOX, true, 0.2},
+    {"centres, 27 around", VOX_CELLS_STORED_CENTRE, VOX_CELLS_QUERIED_27, false, 0},
+    {"centres, 27 around others", VOX_CELLS_STORED_CENTRE, VOX_CELLS_QUERIED_27, true, 0},
+    {"centres, pairs", VOX_CELLS_STORED_CENTRE, VOX_CELLS_QUERIED_PAIRS, false, 0},
 };
 
-vox_grid_work count_once(const Kind& kind, const Boxes& held, const Boxes& asking, double radius,
-                         const Lattice& lattice) {
-    vox_grid_work work{};
-    const bool pairs = kind.look == VOX_LOOK_PAIRS, centres = kind.content == VOX_CELLS_HOLD_CENTRES;
+vox_foreign_counts count_once(const Kind& kind, const Boxes& held, const Boxes& asking, double radius,
+                              const Lattice& lattice) {
+    vox_foreign_counts work{};
+    const bool pairs = kind.queried == VOX_CELLS_QUERIED_PAIRS,
+               centres = kind.stored == VOX_CELLS_STORED_CENTRE;
     Cells cells(held.count() + asking.count());
     const auto put = [&](const Boxes& boxes, double grown, bool second) {
         for (std::size_t i = 0; i < boxes.count(); ++i) {
@@ -220,7 +221,7 @@ vox_grid_work count_once(const Kind& kind, const Boxes& held, const Boxes& askin
             box.grow(grown);
             lattice.cells(centres ? box.centre() : box, [&](const Key& k) {
                 cells.add(k, !second, second);
-                ++work.entries;
+                ++work.stored;
             });
         }
     };
@@ -242,7 +243,7 @@ vox_grid_work count_once(const Kind& kind, const Boxes& held, const Boxes& askin
     for (std::size_t i = 0; i < asking.count(); ++i) {
         PlainBox box = asking.box(i);
         box.grow(radius);
-        if (kind.look == VOX_LOOK_AROUND) {
+        if (kind.queried == VOX_CELLS_QUERIED_27) {
             const Key c = lattice.cell(box.centre().lo);
             for (int x = -1; x <= 1; ++x)
                 for (int y = -1; y <= 1; ++y)
@@ -253,18 +254,18 @@ vox_grid_work count_once(const Kind& kind, const Boxes& held, const Boxes& askin
     return work;
 }
 
-vox_grid_work mean_count(const Kind& kind, const Boxes& held, const Boxes& asking, double radius, double d,
-                         int positions, std::uint64_t seed) {
+vox_foreign_counts mean_count(const Kind& kind, const Boxes& held, const Boxes& asking, double radius,
+                              double d, int positions, std::uint64_t seed) {
     // Additive recurrences with powers of the plastic number of three dimensions: evenly spread positions.
     Random random{seed};
     double at[3] = {random.unit(), random.unit(), random.unit()};
     constexpr double step[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
-    vox_grid_work sum{};
+    vox_foreign_counts sum{};
     for (int i = 0; i < positions; ++i) {
         for (int a = 0; a < 3; ++a) at[a] = std::fmod(at[a] + step[a], 1);
         const Lattice lattice{d, {at[0] * d, at[1] * d, at[2] * d}};
-        const vox_grid_work w = count_once(kind, held, asking, radius, lattice);
-        sum.entries += w.entries / positions;
+        const vox_foreign_counts w = count_once(kind, held, asking, radius, lattice);
+        sum.stored += w.stored / positions;
         sum.visits += w.visits / positions;
         sum.empty += w.empty / positions;
         sum.reads += w.reads / positions;
@@ -282,10 +283,10 @@ double typical_size(const Boxes& boxes) {
 vox_foreign_grid describe(const Kind& kind, const vox_primitives& held, const vox_primitives& asking,
                           double radius) {
     vox_foreign_grid grid = vox_default_foreign_grid();
-    grid.content = kind.content;
-    grid.look = kind.look;
-    grid.held = &held;
-    if (kind.two_sets) grid.asking = &asking;
+    grid.cells_stored = kind.stored;
+    grid.cells_queried = kind.queried;
+    grid.stored = &held;
+    if (kind.two_sets) grid.querying = &asking;
     grid.radius = radius;
     return grid;
 }
@@ -333,7 +334,7 @@ START_TEST(counts_are_those_of_a_filled_grid) {
             // runs.
             if (test_volume() == 1 && f != (n + std::size_t(_i)) % std::size(factors)) continue;
             const double d = factors[f] * size;
-            vox_grid_work got{};
+            vox_foreign_counts got{};
             const double cells = [&] {
                 double sum = 0;
                 for (std::size_t i = 0; i < held.count(); ++i) {
@@ -344,13 +345,13 @@ START_TEST(counts_are_those_of_a_filled_grid) {
             }();
             if (cells > 2e5) continue;
             const int positions = int(std::clamp(2e6 / (cells + 27e3), 24.0, 200.0));
-            ck_assert_int_eq(vox_count_for(&grid, d, &got), VOX_OK);
-            const vox_grid_work real = mean_count(kind, held, asking, radius, d, positions, 7);
+            ck_assert_int_eq(vox_foreign_grid_count(&grid, d, &got), VOX_OK);
+            const vox_foreign_counts real = mean_count(kind, held, asking, radius, d, positions, 7);
             const auto near = [&](double a, double b, double whole, const char* what) {
                 ck_assert_msg(std::abs(a - b) <= 0.05 * whole, "%s, %s %d, cell size %g: %s %g, counted %g",
                               kind.name, scene_names[s], int(seed), d, what, a, b);
             };
-            near(got.entries, real.entries, real.entries, "entries");
+            near(got.stored, real.stored, real.stored, "stored");
             near(got.visits, real.visits, real.visits, "visits");
             near(got.reads, real.reads, real.reads, "reads");
             near(got.empty, real.empty, real.visits, "empty");
@@ -367,7 +368,7 @@ double loss_of_quick(const vox_foreign_grid& desc, double* quick_size, double* b
     const ForeignGrid grid(&desc);
     ForeignWork quick(grid, quick_look(grid), heap),
         thorough(grid, {~std::uint64_t{0}, 1 << 16, 4096, 1024, 1, 1024, 0, 1024}, heap);
-    const vox_foreign_suggestion found = suggest_for(grid, quick), best = suggest_for(grid, thorough);
+    const vox_cell_size_result found = suggest_for(grid, quick), best = suggest_for(grid, thorough);
     const auto cost = [&](double d) { return grid_cost(thorough.exactly_at(d), found.weights); };
     *quick_size = found.cell_size;
     *best_size = best.cell_size;

@@ -88,19 +88,19 @@ WorkAt boxes_in_cells(double large, double volume) {
     return [=](double size) {
         constexpr double count = 1e4;
         const double of_one = 0.9 * std::pow(1 / size + 1, 3) + 0.1 * std::pow(large / size + 1, 3);
-        vox_grid_work work{};
+        vox_foreign_counts work{};
         work.cells = volume / (size * size * size) + 1;
-        work.entries = work.visits = count * of_one;
-        work.occupied = work.cells * (1 - std::exp(-work.entries / work.cells));
+        work.stored = work.visits = count * of_one;
+        work.occupied = work.cells * (1 - std::exp(-work.stored / work.cells));
         work.empty = work.visits * (1 - work.occupied / work.cells);
-        work.reads = work.visits * work.entries / work.cells;
+        work.reads = work.visits * work.stored / work.cells;
         return work;
     };
 }
 
-constexpr vox_grid_weights true_weights{5e4, 12, 8, 10, 2, 20, 0.5};
+constexpr vox_foreign_weights true_weights{5e4, 12, 8, 10, 2, 20, 0.5};
 
-double seconds_of(const WorkAt& work, const vox_grid_weights& weights, double size) {
+double seconds_of(const WorkAt& work, const vox_foreign_weights& weights, double size) {
     return 1e-9 * grid_cost(work(size), weights);
 }
 
@@ -112,8 +112,8 @@ double least_cost(const Cost& cost, double middle) {
     return least;
 }
 
-std::vector<vox_grid_timing> timings_of(const Cost& cost, const std::vector<double>& sizes) {
-    std::vector<vox_grid_timing> timings;
+std::vector<vox_timing> timings_of(const Cost& cost, const std::vector<double>& sizes) {
+    std::vector<vox_timing> timings;
     for (const double size : sizes) timings.push_back({size, cost(size)});
     return timings;
 }
@@ -126,26 +126,25 @@ START_TEST(fit_of_three_timings) {
     std::vector<double> losses;
     for (int trial = 0; trial < 60; ++trial) {
         const WorkAt work = boxes_in_cells(random.uniform(1, 4), random.uniform(3e3f, 1e5f));
-        vox_grid_weights actual = true_weights, expected = true_weights;
-        for (double* w : {&actual.fixed, &actual.entries, &actual.visits, &actual.found, &actual.reads,
-                          &actual.occupied, &actual.cells})
+        vox_foreign_weights actual = true_weights, expected = true_weights;
+        for (double* w : {&actual.run, &actual.store, &actual.visit, &actual.found, &actual.read,
+                          &actual.occupied, &actual.cell})
             *w *= std::exp(random.uniform(-1.1f, 1.1f));
         const Cost cost = [&](double size) { return seconds_of(work, actual, size); };
         const double noise[] = {1 + random.uniform(-0.04f, 0.04f), 1 + random.uniform(-0.04f, 0.04f),
                                 1 + random.uniform(-0.04f, 0.04f)};
-        std::vector<vox_grid_timing> timings = timings_of(cost, {0.6, 1.2, 2.4});
+        std::vector<vox_timing> timings = timings_of(cost, {0.6, 1.2, 2.4});
         for (int i = 0; i < 3; ++i) timings[static_cast<std::size_t>(i)].seconds *= noise[i];
-        const vox_grid_fit fit = fit_timings(described_basis(work, expected), {}, timings, heap);
-        ck_assert_double_le(fit.residual, 0.05);
+        const vox_cell_size_result fit = fit_timings(described_basis(work, expected), {}, timings, heap);
+        ck_assert_double_le(fit.fit_error, 0.05);
         ck_assert_double_le(fit.zone_min, fit.cell_size);
         ck_assert_double_ge(fit.zone_max, fit.cell_size);
         // The weights are those of the curve.
-        ck_assert_double_eq_tol(seconds_of(work, fit.weights, fit.cell_size), fit.predicted_seconds,
-                                1e-9 * fit.predicted_seconds);
+        ck_assert_double_eq_tol(seconds_of(work, fit.weights, fit.cell_size), fit.cost, 1e-9 * fit.cost);
         for (std::uint32_t i = 0; i < fit.curve_count; ++i) ck_assert_double_ge(fit.curve[i].cost, 0);
         losses.push_back(cost(fit.cell_size) / least_cost(cost, 1) - 1);
         // Where the best size is beyond those timed, it says so.
-        ck_assert_double_le(losses.back(), fit.warnings & VOX_FOREIGN_OUT_OF_RANGE ? 0.25 : 0.04);
+        ck_assert_double_le(losses.back(), fit.warnings & VOX_CELL_SIZE_OUT_OF_RANGE ? 0.25 : 0.04);
     }
     std::sort(losses.begin(), losses.end());
     ck_assert_double_le(losses[losses.size() / 2], 0.01);
@@ -156,26 +155,26 @@ END_TEST
 START_TEST(what_cannot_be_told_apart) {
     const WorkAt work = boxes_in_cells(1, 2e4);
     const Cost cost = [&](double size) { return seconds_of(work, true_weights, size); };
-    vox_grid_weights expected = true_weights;
-    expected.entries = 3;
-    expected.visits = 9;
-    const vox_grid_fit fit =
+    vox_foreign_weights expected = true_weights;
+    expected.store = 3;
+    expected.visit = 9;
+    const vox_cell_size_result fit =
         fit_timings(described_basis(work, expected), {}, timings_of(cost, {0.5, 0.7, 1, 1.4, 2, 2.8}), heap);
-    ck_assert_double_gt(fit.weights.visits, fit.weights.entries);
-    ck_assert_double_gt(fit.weights.entries, 0);
+    ck_assert_double_gt(fit.weights.visit, fit.weights.store);
+    ck_assert_double_gt(fit.weights.store, 0);
     // A count that is 0 everywhere has its share of what was expected, in proportion.
     const WorkAt without_cells = [&](double size) {
-        vox_grid_work counts = work(size);
+        vox_foreign_counts counts = work(size);
         counts.cells = 0;
         return counts;
     };
-    const vox_grid_fit same =
+    const vox_cell_size_result same =
         fit_timings(described_basis(without_cells, true_weights), {},
                     timings_of([&](double size) { return 2 * seconds_of(without_cells, true_weights, size); },
                                {0.6, 1.2, 2.4}),
                     heap);
-    ck_assert_double_eq_tol(same.weights.cells, 2 * true_weights.cells, 1e-6);
-    ck_assert_double_eq_tol(same.weights.reads, 2 * true_weights.reads, 1e-6);
+    ck_assert_double_eq_tol(same.weights.cell, 2 * true_weights.cell, 1e-6);
+    ck_assert_double_eq_tol(same.weights.read, 2 * true_weights.read, 1e-6);
 }
 END_TEST
 
@@ -183,11 +182,11 @@ START_TEST(warnings_of_a_fit) {
     const WorkAt work = boxes_in_cells(1.5, 2e4);
     const CostBasis basis = described_basis(work, true_weights);
     const Cost cost = [&](double size) { return seconds_of(work, true_weights, size); };
-    const auto fit = [&](const std::vector<vox_grid_timing>& timings, double least = 0) {
+    const auto fit = [&](const std::vector<vox_timing>& timings, double least = 0) {
         return fit_timings(basis, {least, 0.05}, timings, heap);
     };
-    std::vector<vox_grid_timing> timings = timings_of(cost, {0.6, 1.2, 2.4});
-    vox_grid_fit result = fit(timings);
+    std::vector<vox_timing> timings = timings_of(cost, {0.6, 1.2, 2.4});
+    vox_cell_size_result result = fit(timings);
     ck_assert_uint_eq(result.warnings, 0);
     ck_assert_str_eq(result.note, "");
     const double best = result.cell_size;
@@ -197,20 +196,20 @@ START_TEST(warnings_of_a_fit) {
     ck_assert_uint_eq(fit(timings).warnings, 0);
     timings.insert(timings.begin(), {1.2, 3 * cost(1.2)});
     result = fit(timings);
-    ck_assert_uint_eq(result.warnings, VOX_FOREIGN_TIMINGS_DISAGREE);
+    ck_assert_uint_eq(result.warnings, VOX_CELL_SIZE_TIMINGS_DISAGREE);
     ck_assert_ptr_nonnull(std::strstr(result.note, "size 1.2 differ 3.00 times"));
     ck_assert_double_eq(result.cell_size, best);
     // Times that rise and fall as no sum of these counts does.
     result = fit({{0.4, 1}, {0.8, 3}, {1.6, 1}, {3.2, 3}, {6.4, 1}});
-    ck_assert_uint_ne(result.warnings & VOX_FOREIGN_MODEL_DISAGREES, 0);
-    ck_assert_double_gt(result.residual, disagreeing_model);
+    ck_assert_uint_ne(result.warnings & VOX_CELL_SIZE_MODEL_DISAGREES, 0);
+    ck_assert_double_gt(result.fit_error, disagreeing_model);
     ck_assert_ptr_nonnull(std::strstr(result.note, "miss the timings by"));
     // Only small sizes were timed.
     result = fit(timings_of(cost, {best / 8, best / 6, best / 4}));
-    ck_assert_uint_eq(result.warnings, VOX_FOREIGN_OUT_OF_RANGE);
+    ck_assert_uint_eq(result.warnings, VOX_CELL_SIZE_OUT_OF_RANGE);
     ck_assert_double_eq_tol(result.cell_size, best / 4 * 1.2, 1e-3 * best);
     result = fit(timings_of(cost, {2 * best, 3 * best, 4 * best}), 2 * best);
-    ck_assert_uint_eq(result.warnings, VOX_FOREIGN_AT_LEAST_SIZE);
+    ck_assert_uint_eq(result.warnings, VOX_CELL_SIZE_AT_MINIMUM);
     ck_assert_double_eq_tol(result.cell_size, 2 * best, 1e-3 * best);
 }
 END_TEST
@@ -220,9 +219,9 @@ START_TEST(one_slow_timing) {
     const WorkAt work = boxes_in_cells(1.5, 2e4);
     const Cost cost = [&](double size) { return seconds_of(work, true_weights, size); };
     for (std::size_t slow = 0; slow < 5; ++slow) {
-        std::vector<vox_grid_timing> timings = timings_of(cost, {0.5, 0.8, 1.3, 2, 3.2});
+        std::vector<vox_timing> timings = timings_of(cost, {0.5, 0.8, 1.3, 2, 3.2});
         timings[slow].seconds *= 2;
-        const vox_grid_fit fit = fit_timings(described_basis(work, true_weights), {}, timings, heap);
+        const vox_cell_size_result fit = fit_timings(described_basis(work, true_weights), {}, timings, heap);
         ck_assert_double_le(cost(fit.cell_size), 1.05 * least_cost(cost, 1));
     }
 }
@@ -230,12 +229,12 @@ END_TEST
 
 // ---- tuning -----------------------------------------------------------------------------------------
 
-TuneSettings settings_for(double first, std::uint32_t most_runs = 7, double least = 0) {
+TuneSettings settings_for(double first, std::uint32_t max_runs = 7, double least = 0) {
     vox_tune_desc desc{};
     complete(desc);
     desc.first = first;
-    desc.most_runs = most_runs;
-    return TuneSettings(desc, 0, least);
+    desc.max_runs = max_runs;
+    return TuneSettings(desc, default_zone_loss, 0, least);
 }
 
 // A machine: noise of so much, about normal, and now and then a run that takes twice as long.
@@ -256,12 +255,12 @@ struct Losses {
     std::vector<double> all;
     int runs = 0, within_expected = 0;
 
-    void add(const vox_tuning& tuning, const Cost& cost, double middle) {
+    void add(const vox_cell_size_result& tuning, const Cost& cost, double middle) {
         const double loss = cost(tuning.cell_size) / least_cost(cost, middle) - 1;
         all.push_back(loss);
-        runs += static_cast<int>(tuning.run_count);
+        runs += static_cast<int>(tuning.timing_count);
         within_expected += loss <= std::max(tuning.expected_loss, 0.02);
-        ck_assert_uint_le(tuning.run_count, 7);
+        ck_assert_uint_le(tuning.timing_count, 7);
     }
     double at(double share) {
         std::sort(all.begin(), all.end());
@@ -281,9 +280,9 @@ START_TEST(tuned_on_a_noisy_machine) {
             for (double& c : coefficients)
                 c = 0.005 + (random.unit() < 0.4 ? 0 : std::exp(random.uniform(-4, 0)));
             const double wave = trial % 3 == 0 ? 0.05 : 0;
-            vox_grid_weights expected = true_weights;
-            expected.reads *= std::exp(random.uniform(-1.5f, 1.5f));
-            expected.entries *= std::exp(random.uniform(-1.5f, 1.5f));
+            vox_foreign_weights expected = true_weights;
+            expected.read *= std::exp(random.uniform(-1.5f, 1.5f));
+            expected.store *= std::exp(random.uniform(-1.5f, 1.5f));
             const Cost cost = [&](double size) {
                 if (is_described) return seconds_of(work, true_weights, size);
                 double sum = 0;
@@ -321,35 +320,37 @@ START_TEST(tuned_without_disturbances) {
 }
 END_TEST
 
-bool same_bits(const vox_tuning& a, const vox_tuning& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same_bits(const vox_cell_size_result& a, const vox_cell_size_result& b) {
+    return std::memcmp(&a, &b, sizeof a) == 0;
+}
 
 // Exact times of a known grid: the best size, its time and weights; the same runs twice give the same bits.
 START_TEST(tuned_with_exact_times) {
     const WorkAt work = boxes_in_cells(2, 2e4);
     const Cost cost = [&](double size) { return seconds_of(work, true_weights, size); };
     const CostBasis basis = described_basis(work, true_weights);
-    const vox_tuning tuning = tune(&basis, settings_for(1), cost, heap);
-    ck_assert_uint_eq(tuning.run_count, 4);
+    const vox_cell_size_result tuning = tune(&basis, settings_for(1), cost, heap);
+    ck_assert_uint_eq(tuning.timing_count, 4);
     ck_assert_uint_eq(tuning.warnings, 0);
-    ck_assert_double_eq(tuning.runs[0].cell_size, 1);
-    ck_assert_double_eq(tuning.runs[1].cell_size, 0.5);
-    ck_assert_double_eq(tuning.runs[2].cell_size, 2);
-    ck_assert_double_eq(tuning.runs[2].seconds, cost(2));
+    ck_assert_double_eq(tuning.timings[0].cell_size, 1);
+    ck_assert_double_eq(tuning.timings[1].cell_size, 0.5);
+    ck_assert_double_eq(tuning.timings[2].cell_size, 2);
+    ck_assert_double_eq(tuning.timings[2].seconds, cost(2));
     ck_assert_double_le(cost(tuning.cell_size), 1.01 * least_cost(cost, 1));
-    ck_assert_double_eq_tol(tuning.seconds, cost(tuning.cell_size), 0.02 * tuning.seconds);
-    ck_assert_double_le(tuning.noise, 0.01);
+    ck_assert_double_eq_tol(tuning.cost, cost(tuning.cell_size), 0.02 * tuning.cost);
+    ck_assert_double_le(tuning.fit_error, 0.01);
     ck_assert_double_le(tuning.expected_loss, 0.02);
-    ck_assert_double_eq_tol(tuning.weights.reads, true_weights.reads, 0.01 * true_weights.reads);
+    ck_assert_double_eq_tol(tuning.weights.read, true_weights.read, 0.01 * true_weights.read);
     ck_assert_double_lt(tuning.zone_min, tuning.cell_size);
     ck_assert_double_gt(tuning.zone_max, tuning.cell_size);
     ck_assert_double_le(cost(tuning.zone_max), 1.08 * least_cost(cost, 1));
     ck_assert(same_bits(tuning, tune(&basis, settings_for(1), cost, heap)));
     // Neither the unit of time nor that of length matters.
     for (const double unit : {1e-12, 1e12}) {
-        const vox_tuning other = tune(
+        const vox_cell_size_result other = tune(
             nullptr, settings_for(unit), [&](double size) { return unit * cost(size / unit); }, heap);
-        const vox_tuning plain = tune(nullptr, settings_for(1), cost, heap);
-        ck_assert_uint_eq(other.run_count, plain.run_count);
+        const vox_cell_size_result plain = tune(nullptr, settings_for(1), cost, heap);
+        ck_assert_uint_eq(other.timing_count, plain.timing_count);
         ck_assert_double_eq_tol(other.cell_size / unit, plain.cell_size, 1e-6);
         ck_assert_double_eq_tol(other.expected_loss, plain.expected_loss, 1e-6);
     }
@@ -361,18 +362,18 @@ const Cost valley = [](double size) { return 1e-3 * (1 / (size * size * size) + 
 START_TEST(sizes_that_cannot_run) {
     // Memory for cells of 0.8 and more; the best that can run is there.
     const auto wall = [](double size) { return size < 0.8 ? infinity : size; };
-    vox_tuning tuning = tune(nullptr, settings_for(1), wall, heap);
+    vox_cell_size_result tuning = tune(nullptr, settings_for(1), wall, heap);
     ck_assert_double_le(tuning.cell_size, 0.8 * 1.1);
     ck_assert_double_ge(tuning.cell_size, 0.8);
-    ck_assert_uint_ne(tuning.warnings & VOX_FOREIGN_STOPPED, 0);
+    ck_assert_uint_ne(tuning.warnings & VOX_CELL_SIZE_STOPPED, 0);
     ck_assert_ptr_nonnull(std::strstr(tuning.note, "cannot run at cell size 0.5"));
-    ck_assert(std::isinf(tuning.runs[1].seconds));
+    ck_assert(std::isinf(tuning.timings[1].seconds));
     // The first size cannot, nor can a few others.
     const auto late = [](double size) { return size < 3 ? 1e300 : valley(size / 4); };
     tuning = tune(nullptr, settings_for(1), late, heap);
     ck_assert_double_ge(tuning.cell_size, 3);
     ck_assert_double_le(tuning.cell_size, 5.5);
-    ck_assert_uint_le(tuning.run_count, 7);
+    ck_assert_uint_le(tuning.timing_count, 7);
     // None can.
     try {
         (void)tune(
@@ -387,12 +388,12 @@ END_TEST
 START_TEST(stopped_and_too_short) {
     for (int runs = 1; runs < 6; ++runs) {
         int left = runs;
-        const vox_tuning tuning = tune(
+        const vox_cell_size_result tuning = tune(
             nullptr, settings_for(1),
             [&](double size) { return left-- > 0 ? valley(size) + 1e-4 / size : -1; }, heap);
         if (runs >= 4) continue; // it may have been sure before
-        ck_assert_uint_eq(tuning.run_count, runs);
-        ck_assert_uint_ne(tuning.warnings & VOX_FOREIGN_STOPPED, 0);
+        ck_assert_uint_eq(tuning.timing_count, runs);
+        ck_assert_uint_ne(tuning.warnings & VOX_CELL_SIZE_STOPPED, 0);
         ck_assert_ptr_nonnull(std::strstr(tuning.note, "stopped at run"));
         ck_assert_double_ge(tuning.cell_size, 0.5);
         ck_assert_double_le(tuning.cell_size, 2);
@@ -426,33 +427,33 @@ START_TEST(ends_of_the_range) {
     desc.min = 0.9;
     desc.max = 4;
     // The best size is one that may not be run.
-    vox_tuning tuning = tune(
-        nullptr, TuneSettings(desc, 0, 0), [](double size) { return size; }, heap);
+    vox_cell_size_result tuning = tune(
+        nullptr, TuneSettings(desc, default_zone_loss, 0, 0), [](double size) { return size; }, heap);
     ck_assert_double_eq(tuning.cell_size, 0.9);
     tuning = tune(
-        nullptr, TuneSettings(desc, 0, 0), [](double size) { return 1 / size; }, heap);
+        nullptr, TuneSettings(desc, default_zone_loss, 0, 0), [](double size) { return 1 / size; }, heap);
     ck_assert_double_eq(tuning.cell_size, 4);
-    for (std::uint32_t i = 0; i < tuning.run_count; ++i) {
-        ck_assert_double_ge(tuning.runs[i].cell_size, 0.9);
-        ck_assert_double_le(tuning.runs[i].cell_size, 4);
+    for (std::uint32_t i = 0; i < tuning.timing_count; ++i) {
+        ck_assert_double_ge(tuning.timings[i].cell_size, 0.9);
+        ck_assert_double_le(tuning.timings[i].cell_size, 4);
     }
     // The least legal size.
     tuning = tune(
         nullptr, settings_for(1, 7, 0.97), [](double size) { return size; }, heap);
     ck_assert_double_eq(tuning.cell_size, 0.97);
-    ck_assert_uint_eq(tuning.warnings, VOX_FOREIGN_AT_LEAST_SIZE);
+    ck_assert_uint_eq(tuning.warnings, VOX_CELL_SIZE_AT_MINIMUM);
     // One size only.
     desc.min = desc.max = 1;
-    tuning = tune(nullptr, TuneSettings(desc, 0, 0), valley, heap);
-    ck_assert_uint_eq(tuning.run_count, 1);
+    tuning = tune(nullptr, TuneSettings(desc, default_zone_loss, 0, 0), valley, heap);
+    ck_assert_uint_eq(tuning.timing_count, 1);
     ck_assert_double_eq(tuning.cell_size, 1);
     ck_assert_double_eq(tuning.expected_loss, 0);
     // It is further away than three runs reach; seven do.
     const auto far = [](double size) { return valley(size / 6); };
     tuning = tune(nullptr, settings_for(1, 3), far, heap);
-    ck_assert_uint_eq(tuning.run_count, 3);
+    ck_assert_uint_eq(tuning.timing_count, 3);
     ck_assert_double_eq(tuning.cell_size, 2);
-    ck_assert_uint_ne(tuning.warnings & VOX_FOREIGN_OUT_OF_RANGE, 0);
+    ck_assert_uint_ne(tuning.warnings & VOX_CELL_SIZE_OUT_OF_RANGE, 0);
     tuning = tune(nullptr, settings_for(1), far, heap);
     ck_assert_double_le(valley(tuning.cell_size / 6), 1.05 * valley(1));
 }
@@ -461,7 +462,7 @@ END_TEST
 // A grid that is faster at its least legal size than a smooth curve shows: that size is taken where the fit
 // sees hardly a difference, and only there.
 START_TEST(the_least_legal_size) {
-    const vox_grid_timing timings[] = {{0.73, 1.3}, {1.1, 1.7}, {1.65, 4.4}};
+    const vox_timing timings[] = {{0.73, 1.3}, {1.1, 1.7}, {1.65, 4.4}};
     const CostBasis basis = power_basis(1);
     const auto fitted = [&](double least) {
         return fit_timings(basis, {least, 0.05}, timings, heap).cell_size;
@@ -500,15 +501,15 @@ START_TEST(unusual_costs) {
         [](double size) { return 1e29 / size; },
     };
     for (const Cost& cost : costs) {
-        for (const std::uint32_t most_runs : {3u, 7u, 32u}) {
-            const vox_tuning tuning = tune(nullptr, settings_for(1.1, most_runs), cost, heap);
+        for (const std::uint32_t max_runs : {3u, 7u, 32u}) {
+            const vox_cell_size_result tuning = tune(nullptr, settings_for(1.1, max_runs), cost, heap);
             double best = infinity;
-            for (std::uint32_t i = 0; i < tuning.run_count; ++i)
-                best = std::min(best, tuning.runs[i].seconds);
+            for (std::uint32_t i = 0; i < tuning.timing_count; ++i)
+                best = std::min(best, tuning.timings[i].seconds);
             // Three runs say little of a notch.
-            const double most = most_runs == 3 ? 2.5 : 1.35;
+            const double most = max_runs == 3 ? 2.5 : 1.35;
             ck_assert_double_le(cost(tuning.cell_size), most * best);
-            ck_assert_uint_le(tuning.run_count, most_runs);
+            ck_assert_uint_le(tuning.timing_count, max_runs);
         }
     }
 }
@@ -521,9 +522,9 @@ START_TEST(a_notch_beside_the_minimum) {
         const Cost cost = [=](double size) {
             return valley(size) * (std::fabs(std::log2(size) - at) < 0.1 ? 0.8 : 1);
         };
-        const vox_tuning tuning = tune(nullptr, settings_for(1), cost, heap);
+        const vox_cell_size_result tuning = tune(nullptr, settings_for(1), cost, heap);
         ck_assert_double_eq_tol(std::log2(tuning.cell_size), at, 0.1);
-        ck_assert_uint_le(tuning.run_count, 7);
+        ck_assert_uint_le(tuning.timing_count, 7);
     }
 }
 END_TEST
@@ -538,10 +539,10 @@ START_TEST(costs_with_a_jump) {
             Random random{trial};
             const double at = std::exp2(3 * random.unit() - 1.5), first = std::exp2(2 * random.unit() - 1);
             const Cost cost = [&](double size) { return 1e-3 * (size + 1 / size) * (size > at ? jump : 1); };
-            const vox_tuning tuning = tune(nullptr, settings_for(first), cost, heap);
+            const vox_cell_size_result tuning = tune(nullptr, settings_for(first), cost, heap);
             double best = infinity;
-            for (std::uint32_t i = 0; i < tuning.run_count; ++i)
-                best = std::min(best, tuning.runs[i].seconds);
+            for (std::uint32_t i = 0; i < tuning.timing_count; ++i)
+                best = std::min(best, tuning.timings[i].seconds);
             slower_than_a_run += cost(tuning.cell_size) > 1.06 * best;
             losses.push_back(cost(tuning.cell_size) / std::min(least_cost(cost, 1), best) - 1);
         }
@@ -558,8 +559,8 @@ START_TEST(one_run_did_nothing) {
     for (double fast = 1e-5; fast < 1; fast *= 1.7) {
         for (const double few : {0.3, 0.03, 0.003}) {
             const WorkAt work = [&](double size) {
-                vox_grid_work w{};
-                w.entries = 12;
+                vox_foreign_counts w{};
+                w.stored = 12;
                 w.reads = size < 0.9 ? 0 : size < 1.1 ? few : 3.4;
                 w.visits = w.occupied = 2 - 0.04 * w.reads;
                 return w;
@@ -567,10 +568,10 @@ START_TEST(one_run_did_nothing) {
             const CostBasis basis = described_basis(work, {0, 73, 36, 0, 6.2, 2.6, 0});
             const double seconds[] = {fast, 2.5, 2.5, 4.25, 8.125, 8.125, 8.125};
             int run = 0;
-            const vox_tuning tuning = tune(
+            const vox_cell_size_result tuning = tune(
                 &basis, settings_for(1), [&](double) { return seconds[run++]; }, heap);
-            ck_assert(std::isfinite(tuning.seconds) && std::isfinite(tuning.expected_loss));
-            ck_assert_double_gt(tuning.seconds, 0);
+            ck_assert(std::isfinite(tuning.cost) && std::isfinite(tuning.expected_loss));
+            ck_assert_double_gt(tuning.cost, 0);
         }
     }
 }
@@ -579,17 +580,17 @@ END_TEST
 // A weight beyond all measure, of what is not there at the size that was fastest.
 START_TEST(expected_beyond_measure) {
     const WorkAt work = [](double size) {
-        vox_grid_work w{};
+        vox_foreign_counts w{};
         w.visits = 10 / size;
         w.empty = size < 2 ? 0 : w.visits;
         w.reads = size;
         return w;
     };
     const CostBasis basis = described_basis(work, {1, 1, 1, 1e38, 1, 0, 0});
-    const vox_tuning tuning = tune(
+    const vox_cell_size_result tuning = tune(
         &basis, settings_for(4), [](double size) { return size / 4 + 4 / size; }, heap);
-    ck_assert(std::isfinite(tuning.seconds) && std::isfinite(tuning.noise));
-    ck_assert_double_lt(tuning.seconds, 100);
+    ck_assert(std::isfinite(tuning.cost) && std::isfinite(tuning.fit_error));
+    ck_assert_double_lt(tuning.cost, 100);
 }
 END_TEST
 
@@ -598,8 +599,8 @@ START_TEST(what_is_said_of_noise) {
     int said = 0;
     for (std::uint64_t trial = 0; trial < 20; ++trial) {
         Machine machine{valley, 0.3, 0.3, {trial}};
-        const vox_tuning tuning = tune(nullptr, settings_for(1), std::ref(machine), heap);
-        said += (tuning.warnings & VOX_FOREIGN_TIMINGS_DISAGREE) != 0;
+        const vox_cell_size_result tuning = tune(nullptr, settings_for(1), std::ref(machine), heap);
+        said += (tuning.warnings & VOX_CELL_SIZE_TIMINGS_DISAGREE) != 0;
     }
     ck_assert_int_ge(said, 12);
 }
@@ -611,8 +612,8 @@ START_TEST(wrong_description) {
     const WorkAt wrong = [&](double size) { return work(64 * size); };
     const CostBasis basis = described_basis(wrong, {0, 1, 1, 0, 50, 0, 0});
     const Cost& cost = valley;
-    const vox_tuning tuning = tune(&basis, settings_for(1), cost, heap);
-    ck_assert_uint_ne(tuning.warnings & VOX_FOREIGN_MODEL_DISAGREES, 0);
+    const vox_cell_size_result tuning = tune(&basis, settings_for(1), cost, heap);
+    ck_assert_uint_ne(tuning.warnings & VOX_CELL_SIZE_MODEL_DISAGREES, 0);
     ck_assert_double_le(cost(tuning.cell_size), 1.05 * least_cost(cost, 1));
 }
 END_TEST

@@ -10,8 +10,8 @@ static vox_io_mesh* loaded(const char* folder, const char* name) {
     return mesh;
 }
 
-/* Statistics that the core computes, over positions in single precision. */
-static vox_geometry_stats stats_of(const vox_io_mesh* mesh) {
+/* What the core measures, over positions in single precision. */
+static vox_geometry geometry_of(const vox_io_mesh* mesh) {
     vox_io_mesh_view view;
     ck_ok(vox_io_mesh_get_arrays(mesh, &view));
     float* positions = (float*)malloc(3 * sizeof(float) * view.vertex_count);
@@ -21,11 +21,11 @@ static vox_geometry_stats stats_of(const vox_io_mesh* mesh) {
     desc.positions.count = view.vertex_count;
     desc.tets = view.tets;
     desc.tet_count = view.tet_count;
-    vox_suggestion suggestion;
-    suggestion.struct_size = (uint32_t)sizeof suggestion;
-    ck_ok(vox_suggest_cell_size(NULL, &desc, 1, &suggestion));
+    vox_geometry geometry;
+    geometry.struct_size = (uint32_t)sizeof geometry;
+    ck_ok(vox_measure_geometry(&desc, 1, &geometry));
     free(positions);
-    return suggestion.stats;
+    return geometry;
 }
 
 static uint64_t boundary_vertices(const vox_io_mesh* mesh) {
@@ -63,7 +63,7 @@ START_TEST(ball_in_every_format) {
         line[strcspn(line, "\t")] = 0;
         vox_io_mesh* mesh = loaded("formats", line);
         const vox_io_report report = report_of(mesh);
-        const vox_geometry_stats stats = stats_of(mesh);
+        const vox_geometry geometry = geometry_of(mesh);
         ck_assert_msg(report.vertices == 256 && report.tets == 883, "%s: %llu vertices, %llu tets", line,
                       (unsigned long long)report.vertices, (unsigned long long)report.tets);
         ck_assert_msg(close_to(report.volume, 4.0641183218, 1e-10), "%s: volume %.12g", line, report.volume);
@@ -72,10 +72,10 @@ START_TEST(ball_in_every_format) {
         ck_assert_uint_eq(report.components, 1);
         ck_assert(report.triangles == 0 || report.triangles == 380);
         ck_assert_str_eq(vox_io_mesh_get_warnings(mesh), "");
-        ck_assert_uint_eq(stats.edges, 1328);
-        ck_assert_uint_eq(stats.facets, 1956);
-        ck_assert(close_to(stats.mean_edge, 0.3522863976, 1e-6));
-        ck_assert(close_to(stats.mean_facet_area, 0.05258673656, 1e-6));
+        ck_assert_uint_eq(geometry.edges, 1328);
+        ck_assert_uint_eq(geometry.facets, 1956);
+        ck_assert(close_to(geometry.mean_edge, 0.3522863976, 1e-6));
+        ck_assert(close_to(geometry.mean_facet_area, 0.05258673656, 1e-6));
         if (!first) {
             ck_assert_uint_eq(boundary_vertices(mesh), 192);
             first = mesh;

@@ -35,7 +35,7 @@ START_TEST(described) {
     const uint64_t count = contacts_with_copy(&desc);
     ck_assert_uint_gt(count, 0);
     ck_assert_uint_eq(count, contacts_with_copy(&by_hand));
-    vox_suggestion suggestion;
+    vox_cell_size_result suggestion;
     suggestion.struct_size = sizeof suggestion;
     ck_ok(vox_suggest_cell_size(NULL, &desc, 1, &suggestion));
     ck_assert_double_lt(suggestion.cell_size, 1);
@@ -82,7 +82,7 @@ START_TEST(doubles_of_a_file_as_floats) {
     vox_io_mesh* mesh = NULL;
     vox_io_mesh_view view;
     vox_mesh_desc desc = vox_default_mesh_desc();
-    vox_suggestion suggestion;
+    vox_cell_size_result suggestion;
     ck_ok(vox_io_make_lattice_ball(2000, 1, &mesh));
     ck_ok(vox_io_mesh_get_arrays(mesh, &view));
     desc.positions.data = view.positions;

@@ -96,14 +96,13 @@ static inline void set_velocity(vox_sim* sim, vox_body body, double x, double y,
     free(velocities);
 }
 
-static inline vox_sim_energies energies(const vox_sim* sim, vox_body body) {
-    vox_sim_energies energies;
-    energies.struct_size = sizeof energies;
-    ck_ok(vox_sim_get_energy(sim, body, &energies));
-    return energies;
+static inline vox_sim_energy energy_of(const vox_sim* sim, vox_body body) {
+    vox_sim_energy energy;
+    ck_ok(vox_sim_get_energy(sim, body, &energy));
+    return energy;
 }
 
-static inline double total(const vox_sim_energies* e) { return e->kinetic + e->potential + e->elastic; }
+static inline double total(const vox_sim_energy* e) { return e->kinetic + e->potential + e->elastic; }
 
 static inline uint64_t counter(const vox_sim* sim, const char* name) {
     vox_counter_view view;

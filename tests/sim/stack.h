@@ -16,25 +16,25 @@ static inline void rests_stacked(int count, double cell, int frames) {
     like.bulk_modulus = 5e6;
     vox_io_mesh* mesh = box(2, 2, 0.7, cell);
     vox_body bodies[10];
-    vox_sim_energies start[10];
+    vox_sim_energy start[10];
     for (int i = 0; i < count; ++i) {
         bodies[i] = insert(sim, mesh, &like, 0.3 * i, 0, 0, 0.351 + 0.701 * i);
-        start[i] = energies(sim, bodies[i]);
+        start[i] = energy_of(sim, bodies[i]);
     }
-    const vox_sim_energies before = energies(sim, VOX_NULL_BODY);
+    const vox_sim_energy before = energy_of(sim, VOX_NULL_BODY);
     double fastest = 0; /* in the last tenth */
     for (int frame = 0; frame < frames; ++frame) {
         ck_ok(vox_sim_step(sim, 1.0 / 60));
-        const vox_sim_energies now = energies(sim, VOX_NULL_BODY);
+        const vox_sim_energy now = energy_of(sim, VOX_NULL_BODY);
         ck_assert_msg(total(&now) <= total(&before), "frame %d: energy %.3f, at first %.3f", frame,
                       total(&now), total(&before));
         ck_assert_msg(now.max_speed < 3, "frame %d: %g", frame, now.max_speed);
         if (frame >= frames - frames / 10) fastest = fmax(fastest, now.max_speed);
     }
-    const vox_sim_energies after = energies(sim, VOX_NULL_BODY);
+    const vox_sim_energy after = energy_of(sim, VOX_NULL_BODY);
     double drift = 0, sunk = 0;
     for (int i = 0; i < count; ++i) {
-        const vox_sim_energies now = energies(sim, bodies[i]);
+        const vox_sim_energy now = energy_of(sim, bodies[i]);
         drift = fmax(drift, hypot(now.centre[0] - start[i].centre[0], now.centre[1] - start[i].centre[1]));
         sunk = fmax(sunk, fabs(now.centre[2] - start[i].centre[2]) / start[i].centre[2]);
     }

@@ -8,10 +8,10 @@ START_TEST(falls_as_the_formula_says) {
     vox_sim* sim = open_sim(NULL);
     vox_io_mesh* mesh = ball(0.5, 0.25);
     const vox_body body = insert(sim, mesh, NULL, 0, 1, 2, 100);
-    const vox_sim_energies before = energies(sim, body);
+    const vox_sim_energy before = energy_of(sim, body);
     const int frames = 90;
     steps(sim, frames);
-    const vox_sim_energies after = energies(sim, body);
+    const vox_sim_energy after = energy_of(sim, body);
     const vox_sim_body_view view = view_of(sim, body);
     vox_io_mesh_view rest;
     ck_ok(vox_io_mesh_get_arrays(mesh, &rest));
@@ -41,7 +41,7 @@ START_TEST(rests_on_the_floor) {
         for (uint64_t v = 0; v < view.vertex_count; ++v)
             ck_assert_double_ge(view.positions[3 * v + 2], -1e-12);
     }
-    const vox_sim_energies at_rest = energies(sim, body);
+    const vox_sim_energy at_rest = energy_of(sim, body);
     ck_assert_double_le(at_rest.max_speed, 0.05); /* it may roll */
     ck_assert_double_le(fabs(at_rest.momentum[2]), 1e-3 * at_rest.mass);
     ck_assert_double_gt(at_rest.centre[2], 0.4); /* it sags, but is still a ball */
@@ -82,12 +82,12 @@ START_TEST(a_free_body_keeps_its_momentum) {
     }
     ck_ok(vox_sim_body_set_state(sim, body, state, velocities));
     free(state);
-    const vox_sim_energies before = energies(sim, body);
+    const vox_sim_energy before = energy_of(sim, body);
     double spin_before[3] = {0, 0, 0}, spin_after[3] = {0, 0, 0};
     angular_momentum(sim, body, spin_before);
     ck_assert_double_gt(before.elastic, 0);
     steps(sim, 120);
-    const vox_sim_energies after = energies(sim, body);
+    const vox_sim_energy after = energy_of(sim, body);
     angular_momentum(sim, body, spin_after);
     for (int axis = 0; axis < 3; ++axis) {
         ck_assert_double_le(fabs(after.momentum[axis] - before.momentum[axis]), 1e-8 * before.mass);
@@ -112,19 +112,19 @@ START_TEST(two_bodies_collide_and_part) {
                    b = insert(sim, mesh, NULL, 0.5, 0.8, -0.1, 0);
     set_velocity(sim, a, 2, 0, 0);
     set_velocity(sim, b, -2, 0, 0);
-    const vox_sim_energies before = energies(sim, VOX_NULL_BODY);
+    const vox_sim_energy before = energy_of(sim, VOX_NULL_BODY);
     int touching = 0;
     for (int frame = 0; frame < 120; ++frame) {
         ck_ok(vox_sim_step(sim, 1.0 / 60));
         touching += counter(sim, "constraints") > 0;
-        const vox_sim_energies now = energies(sim, VOX_NULL_BODY);
+        const vox_sim_energy now = energy_of(sim, VOX_NULL_BODY);
         ck_assert_double_le(total(&now), total(&before) * (1 + 1e-9));
         for (int axis = 0; axis < 3; ++axis)
             ck_assert_double_le(fabs(now.momentum[axis] - before.momentum[axis]), 1e-8 * before.mass);
     }
     ck_assert_int_gt(touching, 3);
     ck_assert_uint_eq(counter(sim, "constraints"), 0);
-    const vox_sim_energies left = energies(sim, a), right = energies(sim, b);
+    const vox_sim_energy left = energy_of(sim, a), right = energy_of(sim, b);
     ck_assert_double_lt(left.momentum[0] / left.mass, -0.5); /* they bounced */
     ck_assert_double_gt(right.momentum[0] / right.mass, 0.5);
     ck_assert_double_lt(left.momentum[1],
@@ -150,10 +150,10 @@ START_TEST(energy_does_not_grow) {
             like.bulk_modulus = moduli[m];
             like.damping = 0;
             const vox_body body = insert(sim, mesh, &like, 0, 0, 0, 1);
-            const vox_sim_energies before = energies(sim, body);
+            const vox_sim_energy before = energy_of(sim, body);
             for (int frame = 0; frame < 60; ++frame) {
                 ck_ok(vox_sim_step(sim, 1.0 / 60));
-                const vox_sim_energies now = energies(sim, body);
+                const vox_sim_energy now = energy_of(sim, body);
                 ck_assert_msg(total(&now) <= total(&before) * 1.001,
                               "modulus %g, %u substeps, frame %d: %g after %g", moduli[m], substeps[s], frame,
                               total(&now), total(&before));
@@ -181,11 +181,11 @@ static double slid(double friction, int on_a_body) {
     vox_sim_body_desc fixed = vox_default_sim_body_desc();
     fixed.flags = VOX_SIM_BODY_FIXED;
     if (on_a_body) insert(sim, ground, &fixed, 0, 4, 0, -0.5);
-    const double start = energies(sim, body).centre[0];
+    const double start = energy_of(sim, body).centre[0];
     steps(sim, 60);
-    const double end = energies(sim, body).centre[0];
+    const double end = energy_of(sim, body).centre[0];
     ck_finite(sim, body);
-    ck_assert_double_gt(energies(sim, body).centre[2], 0.2);
+    ck_assert_double_gt(energy_of(sim, body).centre[2], 0.2);
     vox_io_mesh_destroy(mesh);
     vox_io_mesh_destroy(ground);
     vox_sim_destroy(sim);

@@ -32,8 +32,7 @@ static double* moved(const float_mode* mode, size_t* size) {
     log_state log = {0, 0, 0};
     vox_sim* sim;
     vox_body ids[bodies];
-    vox_sim_energies energies;
-    energies.struct_size = sizeof energies;
+    vox_sim_energy energy;
     set_float_mode(mode);
     log.state = float_state();
     set_float_mode(&float_modes[0]);
@@ -52,13 +51,13 @@ static double* moved(const float_mode* mode, size_t* size) {
         ck_in_mode(mode, vox_sim_body_insert(sim, &desc, &ids[b]));
     }
     for (int frame = 0; frame < frames; ++frame) ck_in_mode(mode, vox_sim_step(sim, 1.0 / 60));
-    ck_in_mode(mode, vox_sim_get_energy(sim, VOX_NULL_BODY, &energies));
+    ck_in_mode(mode, vox_sim_get_energy(sim, VOX_NULL_BODY, &energy));
     for (int b = 0; b < bodies; ++b) {
         vox_sim_body_view view;
         ck_in_mode(mode, vox_sim_body_get_view(sim, ids[b], &view));
         memcpy(out + (size_t)b * count, view.positions, count * sizeof(double));
     }
-    out[0] += energies.kinetic;
+    out[0] += energy.kinetic;
     ck_assert_int_gt(log.lines, 0);
     ck_assert_msg(log.wrong == 0, "%s: the log saw another environment", mode->name);
     vox_sim_destroy(sim);

@@ -12,7 +12,8 @@ from vox import Files, run, run_json
 TWO_TETS = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1), (9, 9, 9)]
 TETS = [(1, 2, 3, 4), (2, 3, 4, 5)]
 
-SUGGEST_KEYS = ["cell_size", "cells_per_axis", "zone", "predicted_cost", "model", "rules", "stats", "curve"]
+SUGGEST_KEYS = ["cell_size", "zone_min", "zone_max", "cost", "min_cell_size", "cells_per_axis", "curve", "terms", "rules",
+                "collides", "model", "geometry"]
 COLLIDE_KEYS = ["contact_count", "contacts", "constraints", "hash", "cell_size", "profile", "counters"]
 INFO_KEYS = ["file", "format", "vertices", "tets", "surface_triangles", "mean_edge", "mean_longest_edge",
              "mean_facet_area", "mean_volume", "inverted", "degenerate", "duplicate_vertices", "bounds", "warnings"]
@@ -85,8 +86,10 @@ class CommandLine(Files):
             ["collide", self.two, self.two, "--threads", 257],
             ["suggest", self.two, "--p-nc", 1], ["suggest", self.two, "--p-nc", 0],
             ["suggest", self.two, "--ratio", 0], ["suggest", self.two, "--world", -4],
-            ["suggest", self.two, "--model", "guess"], ["suggest", self.two, "--size-reading", "guess"],
-            ["suggest", self.two, "--area-reading", "guess"], ["suggest", self.two, "--factor", "nan"],
+            ["suggest", self.two, "--model", "guess"], ["suggest", self.two, "--grid", "guess"],
+            ["suggest", self.two, "--zone-loss", -1], ["suggest", self.two, "--radius", "nan"],
+            ["suggest", "--tune", "true {}", "--first", 1, "--max-runs", 2],
+            ["suggest", "--tune", "true {}", "--first", 1, "--max-runs", 33],
             ["tetrahedralize"], ["tetrahedralize", self.surface], ["tetrahedralize", "-o", "out.msh"],
             ["tetrahedralize", self.surface, "-o", "out.msh", "--cell", -1],
             ["tetrahedralize", self.surface, "-o", "out.msh", "--kind", "spheres"],
@@ -215,45 +218,50 @@ class CommandLine(Files):
             self.assertNotIn("Between", text)
             found = run_json("suggest", *arguments, "--model", "fast")
             self.assertFalse(found["collides"])
-            self.assertEqual(found["zone"], {"min": None, "max": None})
+            self.assertEqual((found["zone_min"], found["zone_max"]), (None, None))
         self.refused(1, "nothing collides", "suggest", self.one, "--model", "fast", "--svg",
                      self.path("none.svg"))
         for model in "paper", "reference", "surface":  # these cost something even then
-            self.assertIsNotNone(run_json("suggest", self.one, "--model", model)["zone"]["min"])
+            self.assertIsNotNone(run_json("suggest", self.one, "--model", model)["zone_min"])
 
     def test_suggest(self):
         self.assertEqual(run_json("suggest", self.two, "--model", "surface")["model"], "surface")
         self.assertRegex(run("suggest", self.two, "--model", "surface").stdout.decode(), "ms a search, of the grid alone")
-        found = run_json("suggest", self.two, self.one, "--world", 8, "--factor", 3, "--resolution", 0.25)
+        found = run_json("suggest", self.two, self.one, "--world", 8)
         for key in SUGGEST_KEYS:
             self.assertIn(key, found)
         self.assertEqual(found["model"], "paper")
-        self.assertLess(found["zone"]["min"], found["cell_size"])
-        self.assertGreater(found["zone"]["max"], found["cell_size"])
+        self.assertLess(found["zone_min"], found["cell_size"])
+        self.assertGreater(found["zone_max"], found["cell_size"])
         self.assertAlmostEqual(found["cells_per_axis"], 8 / found["cell_size"], 9)
-        self.assertAlmostEqual(found["rules"]["mean_edge_multiple"], 3 * found["rules"]["mean_edge"], 9)
-        self.assertEqual(found["rules"]["resolution"], 0.25)
-        self.assertEqual(found["stats"]["tets"], 3)
+        edge = found["geometry"]["mean_edge"]
+        sizes = [(rule["name"], rule["cell_size"]) for rule in found["rules"]]
+        self.assertIn(("mean edge (Teschner et al. 2003)", edge), sizes)
+        self.assertIn(("2 mean edges (Gregory et al. 2000)", 2 * edge), sizes)
+        self.assertEqual(found["geometry"]["tets"], 3)
         sizes = [sample["cell_size"] for sample in found["curve"]]
         self.assertEqual(sizes, sorted(sizes))
         self.assertGreater(len(sizes), 1)
-        self.assertLessEqual(found["predicted_cost"], min(s["cost"] for s in found["curve"]) * (1 + 1e-12))
-        self.assertIsNone(run_json("suggest", self.two)["rules"]["resolution"])
+        self.assertLessEqual(found["cost"], min(s["cost"] for s in found["curve"]) * (1 + 1e-12))
+        flat = self.write("flat.msh", msh([(x, y, 0) for x, y, _ in TWO_TETS[:4]], TETS[:1]))  # its box has no volume
+        self.assertEqual([rule["cell_size"] for rule in run_json("suggest", flat)["rules"] if "512" in rule["name"]], [None])
 
     def test_suggest_models(self):
         """Every model: terms that add up to the cost at the minimum, and rules that cost no less."""
         for model in "paper", "reference", "fast":
             found = run_json("suggest", self.two, self.one, "--self", "--model", model)
             self.assertEqual(found["model"], model)
-            cost = found["predicted_cost"]
+            cost = found["cost"]
             self.assertAlmostEqual(sum(term["cost"] for term in found["terms"]) / cost, 1, 9)
-            self.assertAlmostEqual(sum(term["share"] for term in found["terms"]), 1, 9)
-            for rule, size in found["rules"].items():
-                if size:
-                    self.assertGreaterEqual(found["rule_costs"][rule], cost * (1 - 1e-6))
-            self.assertGreaterEqual(found["uniform_loss"], 0)
-            text = run("suggest", self.two, "--self", "--model", model).stdout.decode()
+            self.assertLess(cost, 1000 if model == "paper" else 1e-3)  # cell visits, or seconds
+            for rule in found["rules"]:
+                if rule["cell_size"]:
+                    self.assertGreaterEqual(rule["cost"], cost * (1 - 1e-6))
+            text = run("suggest", self.two, self.one, "--self", "--model", model).stdout.decode()
             self.assertIn("What the cost is made of", text)
+            shown = re.search(r"predicted cost ([0-9.e+-]+) (cell visits a tetrahedron|ms a step)\.\n", text)
+            self.assertEqual(shown[2], "cell visits a tetrahedron" if model == "paper" else "ms a step")
+            self.assertAlmostEqual(float(shown[1]) / (cost if model == "paper" else 1e3 * cost), 1, delta=1e-3)
         run_json("suggest", self.two, "--self", "--model", "reference", "--calibrate")
 
     def test_suggest_picture(self):
@@ -275,17 +283,18 @@ class CommandLine(Files):
     def test_suggest_for_other_grids(self):
         surface = run_json("suggest", self.surface)
         self.assertEqual(surface["primitives"]["type"], "triangles")
-        self.assertLessEqual(surface["zone"]["min"], surface["cell_size"])
-        self.assertGreaterEqual(surface["zone"]["max"], surface["cell_size"])
+        self.assertLessEqual(surface["zone_min"], surface["cell_size"])
+        self.assertGreaterEqual(surface["zone_max"], surface["cell_size"])
         cost = sum(term["cost"] for term in surface["terms"])
-        self.assertAlmostEqual(cost / surface["predicted_ns"], 1, 9)
+        self.assertAlmostEqual(cost / surface["cost"], 1, 9)
         self.assertEqual(run_json("suggest", self.two, "--grid", "ipc")["primitives"],
                          {"type": "tetrahedra", "count": 2})
         balls = run_json("suggest", self.two, "--points", "--radius", 0.25, "--grid", "warp")
         self.assertEqual(balls["primitives"], {"type": "points", "count": 5})
-        self.assertEqual(balls["rules"]["radius"], 0.25)
-        asked = run_json("suggest", self.two, "--grid", "vtk", "--asked-by", self.one)
-        self.assertGreater(asked["work"]["visits"], 0)
+        self.assertIn(("mean radius", 0.25), [(rule["name"], rule["cell_size"]) for rule in balls["rules"]])
+        one, two = (run_json("suggest", self.two, "--grid", "vtk", "--querying", file) for file in (self.one, self.two))
+        self.assertLess(one["cost"], two["cost"])  # of fewer queries
+        self.assertGreater(one["weights"]["store"], 0)
         text = run("suggest", self.surface, "--svg", self.path("surface.svg")).stdout.decode()
         self.assertIn("Suggested cell size", text)
         self.assertIn("What the cost is made of", text)
@@ -298,13 +307,13 @@ class CommandLine(Files):
         """A command whose time is (d - 0.5)^2 + 1, which it prints, at the cell size d."""
         prints = "echo cells; echo {} | awk '{print ($1-0.5)*($1-0.5)+1; print \"\"}'"
         found = run_json("suggest", "--tune", prints, "--first", 0.3)
-        self.assertLessEqual(len(found["runs"]), 7)
+        self.assertLessEqual(len(found["timings"]), 7)
         self.assertLess((found["cell_size"] - 0.5) ** 2, 0.05)
-        for r in found["runs"]:
+        for r in found["timings"]:
             self.assertAlmostEqual((r["cell_size"] - 0.5) ** 2 + 1, r["seconds"], 4)
-        self.assertEqual(len(run_json("suggest", "--tune", prints, "--first", 0.3, "--runs", 3)["runs"]), 3)
+        self.assertEqual(len(run_json("suggest", "--tune", prints, "--first", 0.3, "--max-runs", 3)["timings"]), 3)
         timed = run_json("suggest", self.two, "--tune", "echo nothing like a number {}")
-        self.assertTrue(all(0 < r["seconds"] < 60 for r in timed["runs"]))
+        self.assertTrue(all(0 < r["seconds"] < 60 for r in timed["timings"]))
         text = run("suggest", "--tune", prints, "--first", 0.3, "--svg", self.path("tuned.svg")).stdout.decode()
         self.assertIn("Best cell size", text)
         failed = run("suggest", "--tune", "exit 3 # {}", "--first", 0.3)
@@ -315,17 +324,12 @@ class CommandLine(Files):
         self.refused(2, "MESH", "suggest")
 
     def test_suggest_solves_the_cubic(self):
-        """4 K d^3 - s K d^2 - 3 s p_nc = 0 with K = (1 - p_nc) r 3 sqrt(3) / (2 A), Sect. 4, for each reading."""
-        for size, s_key in (("mean-edge", "mean_edge"), ("mean-longest-edge", "mean_longest_edge"),
-                            ("mean-box-side", "mean_box_side")):
-            for area, a_key in (("unique-facets", "mean_facet_area"), ("tet-facets", "mean_tet_facet_area"),
-                                ("boundary-facets", "mean_boundary_facet_area")):
-                for p_nc, ratio in ((0.99, 5), (0.9, 0.5)):
-                    found = run_json("suggest", self.two, "--size-reading", size, "--area-reading", area, "--p-nc",
-                                     p_nc, "--ratio", ratio, "--model", "paper")
-                    s, a, d = found["stats"][s_key], found["stats"][a_key], found["cell_size"]
-                    k = (1 - p_nc) * ratio * 3 * 3 ** 0.5 / (2 * a)
-                    self.assertAlmostEqual((4 * k * d ** 3 - s * k * d ** 2) / (3 * s * p_nc), 1, 6)
+        """4 K d^3 - s K d^2 - 3 s p_nc = 0 with K = (1 - p_nc) r 3 sqrt(3) / (2 A), Sect. 4."""
+        for p_nc, ratio in ((0.99, 5), (0.9, 0.5)):
+            found = run_json("suggest", self.two, "--p-nc", p_nc, "--ratio", ratio, "--model", "paper")
+            s, a, d = found["geometry"]["mean_edge"], found["geometry"]["mean_facet_area"], found["cell_size"]
+            k = (1 - p_nc) * ratio * 3 * 3 ** 0.5 / (2 * a)
+            self.assertAlmostEqual((4 * k * d ** 3 - s * k * d ** 2) / (3 * s * p_nc), 1, 6)
 
     def test_suggest_as_text(self):
         plain = run("suggest", self.two, LC_ALL="C").stdout
@@ -514,7 +518,7 @@ class CommandLine(Files):
         self.assertEqual(found["frames"][found["frame"]]["contacts"], most)
         self.assertEqual(found["contact_count"], most)
         self.assertEqual(len(found["contacts"]), most)
-        sizes = {"suggested": found["cell_size"], "mean_edge": found["rules"]["mean_edge"]}
+        sizes = {"suggested": found["cell_size"], "mean_edge": found["geometry"]["mean_edge"]}
         self.assertEqual([(c["engine"], c["rule"], c["cell_size"]) for c in found["comparison"]],
                          [(engine, *rule) for engine in ("fast", "reference") for rule in sizes.items()])
         again = run_json("demo", "--tets", 1500, "--frames", 5)
@@ -533,7 +537,7 @@ class CommandLine(Files):
                                   (72631, 50.29, 34.48), (80927, 51.90, 35.65)):
             with self.subTest(tets=tets):
                 found = run_json("demo", "--tets", tets, "--frames", 1)  # frame 0 has the shape at rest
-                self.assertAlmostEqual(4 / found["rules"]["mean_edge"] / n_trad, 1, delta=0.01)
+                self.assertAlmostEqual(4 / found["geometry"]["mean_edge"] / n_trad, 1, delta=0.01)
                 self.assertAlmostEqual(4 / found["cell_size"] / n_a, 1, delta=0.01)
 
 

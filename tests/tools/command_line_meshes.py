@@ -63,18 +63,18 @@ class Suggest(unittest.TestCase):
     def test_table_2(self):
         for name, n_trad, n_a in (("sphere01", 41.90, 28.73), ("sphere03", 47.40, 32.49)):
             found = run_json("suggest", "--model", "paper", "--world", 4, mesh(f"paper-lattice/{name}_lattice.msh"))
-            self.assertAlmostEqual(4 / found["rules"]["mean_edge"] / n_trad, 1, delta=0.01)
+            self.assertAlmostEqual(4 / found["geometry"]["mean_edge"] / n_trad, 1, delta=0.01)
             self.assertAlmostEqual(found["cells_per_axis"] / n_a, 1, delta=0.01)
 
     def test_agrees_with_info(self):
         for name in "bunny", "cow", "armadillo":
-            stats = run_json("suggest", mesh(f"paper/{name}.msh"))["stats"]
+            geometry = run_json("suggest", mesh(f"paper/{name}.msh"))["geometry"]
             info = run_json("info", mesh(f"paper/{name}.msh"))["meshes"][0]
-            self.assertEqual((stats["vertices"], stats["tets"]), (info["vertices"], info["tets"]))
+            self.assertEqual((geometry["vertices"], geometry["tets"]), (info["vertices"], info["tets"]))
             # Above 5000 tetrahedra these are of samples. Volumes vary most.
             for key, delta in ("mean_edge", 0.02), ("mean_longest_edge", 0.02), ("mean_facet_area", 0.02), ("mean_volume", 0.05):
-                self.assertAlmostEqual(stats[key] / info[key], 1, delta=delta)
-            self.assertAlmostEqual(stats["boundary_facets"] / info["surface_triangles"], 1, delta=0.1)
+                self.assertAlmostEqual(geometry[key] / info[key], 1, delta=delta)
+            self.assertAlmostEqual(geometry["boundary_facets"] / info["surface_triangles"], 1, delta=0.1)
 
 
 class Info(unittest.TestCase):

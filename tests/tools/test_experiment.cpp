@@ -142,9 +142,10 @@ START_TEST(samples) {
     // Every tet visits a cell at least, in each frame.
     ck_assert_uint_ge(large.visited_cells, 4 * 2 * tets());
 
-    const vox_suggestion suggestion = experiment.suggest(vox_default_suggest_desc());
-    ck_assert_uint_eq(suggestion.stats.tets, 2 * tets());
-    ck_assert_double_eq_tol(suggestion.cell_size / suggestion.rules.mean_edge, 1.46, 0.05);
+    const vox_geometry geometry = experiment.geometry();
+    ck_assert_uint_eq(geometry.tets, 2 * tets());
+    ck_assert_double_eq_tol(experiment.suggest(vox_default_cell_size_desc()).cell_size / geometry.mean_edge,
+                            1.46, 0.05);
 }
 END_TEST
 
@@ -154,7 +155,7 @@ START_TEST(from_bodies_to_epsilon) {
     ExperimentSettings settings;
     settings.frames = 3;
     Experiment experiment(settings, ball, ball);
-    const double suggested = experiment.suggest(vox_default_suggest_desc()).cell_size;
+    const double suggested = experiment.suggest(vox_default_cell_size_desc()).cell_size;
     std::vector<double> sizes, times;
     for (std::size_t i = 0; i < count; ++i) sizes.push_back(suggested * std::pow(2, (double(i) - 3.5) / 2));
     std::vector<std::vector<std::uint64_t>> ns[count];

@@ -154,12 +154,20 @@ std::array<vox_mesh_desc, 2> Experiment::mesh_descs(const Frame& frame) const {
     return {mesh_of(frame.positions[0], bodies_[0].tets), mesh_of(frame.positions[1], bodies_[1].tets)};
 }
 
-vox_suggestion Experiment::suggest(const vox_suggest_desc& desc) const {
+vox_cell_size_result Experiment::suggest(const vox_cell_size_desc& desc) const {
     const std::array<vox_mesh_desc, 2> meshes = mesh_descs(frames_.front());
-    vox_suggestion suggestion{};
-    suggestion.struct_size = sizeof suggestion;
-    check(vox_suggest_cell_size(&desc, meshes.data(), meshes.size(), &suggestion));
-    return suggestion;
+    vox_cell_size_result result{};
+    result.struct_size = sizeof result;
+    check(vox_suggest_cell_size(&desc, meshes.data(), meshes.size(), &result));
+    return result;
+}
+
+vox_geometry Experiment::geometry() const {
+    const std::array<vox_mesh_desc, 2> meshes = mesh_descs(frames_.front());
+    vox_geometry geometry{};
+    geometry.struct_size = sizeof geometry;
+    check(vox_measure_geometry(meshes.data(), meshes.size(), &geometry));
+    return geometry;
 }
 
 double Experiment::step(const Frame& frame) {

@@ -46,7 +46,9 @@ public:
     const std::vector<double>& shares() const { return shares_; } // of tets in contact, in each frame
     double mean_share() const;
 
-    vox_suggestion suggest(const vox_suggest_desc& desc) const; // for the first frame
+    // Of the first frame.
+    vox_cell_size_result suggest(const vox_cell_size_desc& desc) const;
+    vox_geometry geometry() const;
 
     // Measures one sample, after one step that is not timed. The times are those of detection, without depth.
     // Of a grid with one worker, they are the processor time of this thread, which a busy machine lengthens

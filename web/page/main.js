@@ -163,7 +163,7 @@ function setSize(size) {
 }
 
 function showSize() {
-  const edge = curves[chosen.engine].rules.find((rule) => rule.name === "the mean edge").size;
+  const edge = curves[chosen.engine].rules[0].size; // the mean edge
   const text = `${length(chosen.size)}, ${(chosen.size / edge).toFixed(2)} mean edges`;
   find("size-text").textContent = text;
   find("size").setAttribute("aria-valuetext", text);

@@ -1,11 +1,10 @@
 // The scene's module: WebAssembly and the few functions that it asks for, with arrays and texts of JavaScript.
 
-/** Engines have the numbers of the vox_cost_model that predicts their nanoseconds. */
+/** Engines have the numbers of the vox_cost_model that predicts their times. */
 export const ENGINE = { paper: 1, fast: 2 };
 /** play_kind. */
 export const KINDS = ["ball", "box", "ring", "capsule", "bar", "file"];
 export const FIXED = KINDS.length;
-export const RULES = ["the mean edge", "two mean edges", "512 cells a body", "a given resolution", "the mean volume's side", "the median box's side"];
 const FACTS = ["tets", "contacts", "deepest", "stepNs", "detectNs", "cellSize", "maxSpeed", "steps", "asleep", "bytes", "byteLimit"];
 
 /** A module with one instruction of the SIMD of 128 bits. */
@@ -204,21 +203,31 @@ export class Scene {
 
   /** The curve of an engine's predicted milliseconds, with what else is known of it. */
   suggest(engine) {
-    const milliseconds = (ns) => Math.max(ns / 1e6, 1e-5); // bodies that are far apart cost the fast engine nothing
+    const milliseconds = (seconds) => Math.max(1000 * seconds, 1e-5); // bodies that are far apart cost the fast engine nothing
     const at = this.#exports.play_suggest_numbers(this.#play, engine);
     if (at === 0) throw new SceneError(this.#text(this.#exports.vox_last_error()));
-    const n = new Float64Array(this.#exports.memory.buffer, at, 18 + 2 * 64 + 3 * 12);
-    const [samples, terms] = [n[16], n[17]];
-    const curve = Array.from({ length: samples }, (_, i) => ({ size: n[18 + 2 * i], ms: milliseconds(n[19 + 2 * i]) }));
-    const rules = RULES.map((name, i) => ({ name, size: n[4 + i], ms: milliseconds(n[10 + i]) })).filter((rule) => rule.size > 0);
-    const work = Array.from({ length: terms }, (_, i) => {
-      const [count, , share] = n.subarray(18 + 2 * samples + 3 * i);
-      return { count, share };
+    const numbers = (begin, length) => new Float64Array(this.#exports.memory.buffer, at + 8 * begin, length);
+    const [size, min, max, cost, ...counts] = numbers(0, 7);
+    const [curve, terms, rules] = counts.map((count, kind) => {
+      const begin = 7 + 2 * counts.slice(0, kind).reduce((sum, one) => sum + one, 0);
+      return Array.from({ length: count }, (_, i) => numbers(begin + 2 * i, 2));
     });
-    const found = { size: n[0], zone: [n[1], n[2]], ms: milliseconds(n[3]), curve, rules, work };
-    const odd = [found, ...curve].find(({ size, ms }) => !(size > 0 && ms > 0 && ms < Infinity));
+    const timed = ([size, cost]) => ({ size, ms: milliseconds(cost) });
+    const found = {
+      ...timed([size, cost]),
+      zone: [min, max],
+      curve: curve.map(timed),
+      work: terms.map(([count, part], i) => ({
+        name: this.#text(this.#exports.play_term(this.#play, i)),
+        count,
+        share: cost > 0 ? part / cost : 0,
+      })),
+      rules: rules
+        .map((rule, i) => ({ name: this.#text(this.#exports.play_rule(this.#play, i)), ...timed(rule) }))
+        .filter((rule) => rule.size > 0),
+    };
+    const odd = [found, ...found.curve].find(({ size, ms }) => !(size > 0 && ms > 0 && ms < Infinity));
     if (odd) throw new SceneError(`a step is predicted to take ${odd.ms} ms at the cell size ${odd.size}`);
-    work.forEach((term, i) => (term.name = this.#text(this.#exports.play_term(this.#play, i))));
     return found;
   }
 

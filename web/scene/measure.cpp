@@ -66,9 +66,9 @@ vox_result play_measure(playground* play, uint32_t engine, double cell_size, uin
 }
 
 const double* play_suggest_numbers(playground* play, uint32_t model) {
-    vox_suggestion& s = play->suggestion;
+    vox_cell_size_result& s = play->suggestion;
     const vox_result result = guard([&] {
-        vox_suggest_desc desc = vox_default_suggest_desc();
+        vox_cell_size_desc desc = vox_default_cell_size_desc();
         desc.model = static_cast<vox_cost_model>(model);
         desc.weights = &play->weights;
         vox_grid* grid = grid_with(*play, model == VOX_COST_MODEL_FAST ? model : VOX_COST_MODEL_REFERENCE);
@@ -77,21 +77,16 @@ const double* play_suggest_numbers(playground* play, uint32_t model) {
     });
     if (result != VOX_OK) return nullptr;
     double* next = play->suggestion_numbers;
-    const auto put_rules = [&next](const vox_cell_size_rules& rules) {
-        for (const double value : {rules.mean_edge, rules.mean_edge_multiple, rules.object_512,
-                                   rules.resolution, rules.mean_volume, rules.median_box_side})
-            *next++ = value;
-    };
-    for (const double value : {s.cell_size, s.zone_min, s.zone_max, s.predicted_cost}) *next++ = value;
-    put_rules(s.rules);
-    put_rules(s.rule_costs);
-    *next++ = s.curve_count;
-    *next++ = s.term_count;
+    for (const double value : {s.cell_size, s.zone_min, s.zone_max, s.cost}) *next++ = value;
+    for (const std::uint32_t count : {s.curve_count, s.term_count, s.rule_count}) *next++ = count;
     for (std::uint32_t i = 0; i < s.curve_count; ++i)
         *next++ = s.curve[i].cell_size, *next++ = s.curve[i].cost;
-    for (std::uint32_t i = 0; i < s.term_count; ++i)
-        *next++ = s.terms[i].count, *next++ = s.terms[i].cost, *next++ = s.terms[i].share;
+    for (std::uint32_t i = 0; i < s.term_count; ++i) *next++ = s.terms[i].count, *next++ = s.terms[i].cost;
+    for (std::uint32_t i = 0; i < s.rule_count; ++i)
+        *next++ = s.rules[i].cell_size, *next++ = s.rules[i].cost;
     return play->suggestion_numbers;
 }
 
 const char* play_term(const playground* play, uint32_t index) { return play->suggestion.terms[index].name; }
+
+const char* play_rule(const playground* play, uint32_t index) { return play->suggestion.rules[index].name; }

@@ -414,12 +414,11 @@ vox_result play_step(playground* play) {
         play->hash = (play->hash ^ hash) * 0x100000001b3u + 1;
         ++play->steps;
         list_touches(*play);
-        vox_sim_energies energies;
-        energies.struct_size = sizeof energies;
-        check(vox_sim_get_energy(play->sim.get(), VOX_NULL_BODY, &energies));
-        play->facts.max_speed = energies.max_speed;
+        vox_sim_energy energy;
+        check(vox_sim_get_energy(play->sim.get(), VOX_NULL_BODY, &energy));
+        play->facts.max_speed = energy.max_speed;
         play->still_steps =
-            2 * energies.kinetic < still_speed * still_speed * energies.mass ? play->still_steps + 1 : 0;
+            2 * energy.kinetic < still_speed * still_speed * energy.mass ? play->still_steps + 1 : 0;
     });
 }
 

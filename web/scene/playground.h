@@ -103,11 +103,12 @@ uint64_t play_hash(const playground* play);
 vox_result play_measure(playground* play, uint32_t engine, double cell_size, uint32_t steps, double* out_ns,
                         uint32_t* out_same);
 /* What vox_grid_suggest_cell_size says of those bodies for a model (vox_cost_model), as numbers alone: cell
- * size, zone (2), cost, rules (6) and their costs (6), number of samples, of terms, samples (2 each), terms
- * (count, cost, share; 3 each). Null where it fails. */
+ * size, zone (2), cost, numbers of samples, terms and rules; then samples (cell size, cost), terms (count,
+ * cost) and rules (cell size, cost). Costs are seconds. Null where it fails. */
 const double* play_suggest_numbers(playground* play, uint32_t model);
-/* Name of a term of the last suggestion. */
+/* Names of a term and of a rule of the last suggestion. */
 const char* play_term(const playground* play, uint32_t index);
+const char* play_rule(const playground* play, uint32_t index);
 
 /* ---- snapshots, as `vox replay` reads them ---- */
 

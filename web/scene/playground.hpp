@@ -85,8 +85,8 @@ struct playground {
     std::uint64_t version = 0; // of the bodies and their positions
 
     vox_cost_weights weights{};
-    vox_suggestion suggestion;
-    double suggestion_numbers[18 + 2 * VOX_COST_CURVE_CAPACITY + 3 * VOX_COST_TERM_CAPACITY];
+    vox_cell_size_result suggestion;
+    double suggestion_numbers[7 + 2 * (VOX_CURVE_CAPACITY + VOX_TERM_CAPACITY + VOX_RULE_CAPACITY)];
     std::vector<float> arrows, boxes;
     std::vector<std::uint32_t> touches;
     std::vector<unsigned char> snapshot;

@@ -4,6 +4,98 @@ using System.Runtime.InteropServices;
 
 namespace Voxtet
 {
+    /// <summary>A cell size and the reasons for it. Costs are seconds of a step or a run; those of CostModel.Paper are visits of
+    /// cells per tetrahedron, and those of CellSize.Minimise are the function's. What a call does not know is 0 or empty.
+    /// </summary>
+    public sealed class Suggestion
+    {
+        /// <summary>One kind of work: how often it is done at the cell size, and what that costs.</summary>
+        public struct Term
+        {
+            public string Name;
+            public double Count, Cost;
+        }
+
+        /// <summary>The cell size that a rule of thumb gives (0: the rule does not apply), and the cost there (0: not known).
+        /// </summary>
+        public struct Rule
+        {
+            public string Name;
+            public double CellSize, Cost;
+        }
+
+        internal unsafe Suggestion(CellSizeResult* found)
+        {
+            CellSize = found->cell_size;
+            ZoneMin = found->zone_min;
+            ZoneMax = found->zone_max;
+            Cost = found->cost;
+            MinCellSize = found->min_cell_size;
+            CellsPerAxis = found->cells_per_axis;
+            FitError = found->fit_error;
+            ExpectedLoss = found->expected_loss;
+            Curve = new CostSample[found->curve_count];
+            for (int i = 0; i < Curve.Length; ++i) Curve[i] = found->curve[i];
+            Terms = new Term[found->term_count];
+            for (int i = 0; i < Terms.Length; ++i)
+            {
+                CostTerm term = found->terms[i];
+                Terms[i] = new Term { Name = VoxException.Text(term.name), Count = term.count, Cost = term.cost };
+            }
+            Rules = new Rule[found->rule_count];
+            for (int i = 0; i < Rules.Length; ++i)
+            {
+                CellSizeRule rule = found->rules[i];
+                Rules[i] = new Rule { Name = VoxException.Text(rule.name), CellSize = rule.cell_size, Cost = rule.cost };
+            }
+            Timings = new Timing[found->timing_count];
+            for (int i = 0; i < Timings.Length; ++i) Timings[i] = found->timings[i];
+            Weights = found->weights;
+            Warnings = found->warnings;
+            Note = found->note.ToString();
+        }
+
+        public double CellSize { get; private set; }
+
+        /// <summary>The range around CellSize where the cost is at most 1 + the zone loss times the least.</summary>
+        public double ZoneMin { get; private set; }
+        public double ZoneMax { get; private set; }
+
+        /// <summary>Predicted at CellSize.</summary>
+        public double Cost { get; private set; }
+
+        /// <summary>The smallest that gives right answers; 0: any.</summary>
+        public double MinCellSize { get; private set; }
+
+        /// <summary>Edge of the world divided by CellSize.</summary>
+        public double CellsPerAxis { get; private set; }
+
+        /// <summary>Of Fit and Tune: root mean square of (fitted time / measured time - 1).</summary>
+        public double FitError { get; private set; }
+
+        /// <summary>Of Tune: how much longer a run may take than at the best cell size; 0.03 means 3 %.</summary>
+        public double ExpectedLoss { get; private set; }
+
+        /// <summary>Ascending in the cell size.</summary>
+        public CostSample[] Curve { get; private set; }
+
+        /// <summary>Their costs add up to Cost.</summary>
+        public Term[] Terms { get; private set; }
+
+        public Rule[] Rules { get; private set; }
+
+        /// <summary>Of Tune: the runs, in order.</summary>
+        public Timing[] Timings { get; private set; }
+
+        /// <summary>Of a described grid: those used, or those found by Fit and Tune.</summary>
+        public ForeignWeights Weights { get; private set; }
+
+        public CellSizeWarnings Warnings { get; private set; }
+
+        /// <summary>The warnings in words, with numbers; "" if there are none.</summary>
+        public string Note { get; private set; }
+    }
+
     /// <summary>A cell size for anybody's grid, and the reasons for it.</summary>
     public static unsafe class CellSize
     {
@@ -19,6 +111,27 @@ namespace Voxtet
         /// <summary>The same for several meshes, positions[i] with tets[i].</summary>
         public static Suggestion Suggest(float[][] positions, uint[][] tets, CostModel model = CostModel.Paper,
                                          CostWeights? weights = null)
+        {
+            CostWeights w = Sized(weights);
+            var settings = new CellSizeDesc { struct_size = (uint)sizeof(CellSizeDesc), model = model, weights = &w };
+            CellSizeDesc* s = &settings;
+            return Ask(found => Describe(positions, tets, (d, n) => Native.vox_suggest_cell_size(s, d, n, found)));
+        }
+
+        /// <summary>Sizes in meshes, positions[i] with tets[i].</summary>
+        public static Geometry MeasureGeometry(float[][] positions, uint[][] tets)
+        {
+            Geometry geometry;
+            geometry.struct_size = (uint)sizeof(Geometry);
+            Geometry* g = &geometry;
+            VoxException.Check(Describe(positions, tets, (d, n) => Native.vox_measure_geometry(d, n, g)));
+            return geometry;
+        }
+
+        delegate Result UseMeshes(MeshDesc* descs, ulong count);
+
+        /// <summary>Makes a call with descriptions of the meshes.</summary>
+        static Result Describe(float[][] positions, uint[][] tets, UseMeshes use)
         {
             if (positions == null) throw new ArgumentNullException("positions");
             if (tets == null) throw new ArgumentNullException("tets");
@@ -43,19 +156,24 @@ namespace Voxtet
                     descs[i].tets = (uint*)pins[2 * i + 1].AddrOfPinnedObject();
                     descs[i].tet_count = (ulong)tets[i].Length / 4;
                 }
-                CostWeights w = Sized(weights);
-                var settings = new SuggestDesc { struct_size = (uint)sizeof(SuggestDesc), model = model, weights = &w };
-                Suggestion suggestion;
-                suggestion.struct_size = (uint)sizeof(Suggestion);
-                fixed (MeshDesc* d = descs)
-                    VoxException.Check(Native.vox_suggest_cell_size(&settings, d, (ulong)descs.Length, &suggestion));
-                return suggestion;
+                fixed (MeshDesc* d = descs) return use(d, (ulong)descs.Length);
             }
             finally
             {
                 foreach (GCHandle pin in pins)
                     if (pin.IsAllocated) pin.Free();
             }
+        }
+
+        internal delegate Result Fill(CellSizeResult* found);
+
+        /// <summary>What a call of the library finds.</summary>
+        internal static Suggestion Ask(Fill fill)
+        {
+            CellSizeResult found;
+            found.struct_size = (uint)sizeof(CellSizeResult);
+            VoxException.Check(fill(&found));
+            return new Suggestion(&found);
         }
 
         // As the library reads them: zeros are those shipped with it.
@@ -101,7 +219,7 @@ namespace Voxtet
         delegate Result Use(IntPtr function, IntPtr user);
 
         /// <summary>Makes a call of the library that calls the function, whose exception goes on here.</summary>
-        static void Calling(Func<double, double> function, Use use)
+        static Result Calling(Func<double, double> function, Use use)
         {
             var caller = new Caller { Cost = function };
             GCHandle user = GCHandle.Alloc(caller);
@@ -109,7 +227,7 @@ namespace Voxtet
             {
                 Result result = use(Marshal.GetFunctionPointerForDelegate(call), GCHandle.ToIntPtr(user));
                 if (caller.Error != null) caller.Error.Throw();
-                VoxException.Check(result);
+                return result;
             }
             finally
             {
@@ -119,70 +237,55 @@ namespace Voxtet
 
         /// <summary>The method for any algorithm: the cell size between min and max of least cost. What the function throws
         /// goes on here. zoneLoss as GridDescription has it.</summary>
-        public static CostMinimum Minimise(Func<double, double> cost, double min, double max, double zoneLoss = 0)
+        public static Suggestion Minimise(Func<double, double> cost, double min, double max, double zoneLoss = 0)
         {
             if (cost == null) throw new ArgumentNullException("cost");
-            CostMinimum minimum;
-            minimum.struct_size = (uint)sizeof(CostMinimum);
-            CostMinimum* m = &minimum;
-            Calling(cost, (function, user) => Native.vox_cost_minimise(function, user, min, max, zoneLoss, m));
-            return minimum;
+            return Ask(found => Calling(cost, (f, user) => Native.vox_cost_minimise(f, user, min, max, zoneLoss, found)));
         }
 
-        /// <summary>The best cell size for a grid that is described.</summary>
-        public static ForeignSuggestion SuggestFor(GridDescription grid)
+        /// <summary>The cell size with the least cost for a described grid.</summary>
+        public static Suggestion Suggest(GridDescription grid)
+        {
+            using (var described = new DescribedGrid(grid))
+                return Ask(found => Native.vox_foreign_grid_suggest(described.Grid, found));
+        }
+
+        /// <summary>How often a run of a grid does what at a cell size.</summary>
+        public static ForeignCounts Count(GridDescription grid, double cellSize)
         {
             using (var described = new DescribedGrid(grid))
             {
-                ForeignSuggestion suggestion;
-                suggestion.struct_size = (uint)sizeof(ForeignSuggestion);
-                VoxException.Check(Native.vox_suggest_for(described.Grid, &suggestion));
-                return suggestion;
-            }
-        }
-
-        /// <summary>What a run of a grid does at one cell size.</summary>
-        public static GridWork CountFor(GridDescription grid, double cellSize)
-        {
-            using (var described = new DescribedGrid(grid))
-            {
-                GridWork work;
-                VoxException.Check(Native.vox_count_for(described.Grid, cellSize, &work));
-                return work;
+                ForeignCounts counts;
+                VoxException.Check(Native.vox_foreign_grid_count(described.Grid, cellSize, &counts));
+                return counts;
             }
         }
 
         /// <summary>The weights of a grid, and its best cell size, from timings at three cell sizes or more.</summary>
-        public static GridFit Fit(GridDescription grid, params GridTiming[] timings)
+        public static Suggestion Fit(GridDescription grid, params Timing[] timings)
         {
             if (timings == null) throw new ArgumentNullException("timings");
             using (var described = new DescribedGrid(grid))
-            fixed (GridTiming* t = timings)
+            fixed (Timing* first = timings)
             {
-                GridFit fit;
-                fit.struct_size = (uint)sizeof(GridFit);
-                VoxException.Check(Native.vox_cost_fit(described.Grid, t, (ulong)timings.Length, &fit));
-                return fit;
+                Timing* t = first;
+                return Ask(found => Native.vox_foreign_grid_fit(described.Grid, t, (ulong)timings.Length, found));
             }
         }
 
         /// <summary>Runs a grid at the cell sizes that tell most about the best one. The function runs it once and returns
         /// how many seconds that took: infinity if it cannot run at this size, NaN to stop. What it throws goes on here.
         /// Without a description the first cell size must be set: new TuneDesc { first = 0.1 }.</summary>
-        public static Tuning Tune(Func<double, double> run, GridDescription grid = null, TuneDesc settings = default(TuneDesc))
+        public static Suggestion Tune(Func<double, double> run, GridDescription grid = null, TuneDesc settings = default(TuneDesc))
         {
             if (run == null) throw new ArgumentNullException("run");
             settings.struct_size = (uint)sizeof(TuneDesc);
-            Tuning tuning;
-            tuning.struct_size = (uint)sizeof(Tuning);
-            TuneDesc* d = &settings;
-            Tuning* t = &tuning;
+            TuneDesc* s = &settings;
             using (DescribedGrid described = grid == null ? null : new DescribedGrid(grid))
             {
                 ForeignGrid* g = described == null ? null : described.Grid;
-                Calling(run, (function, user) => Native.vox_cost_tune(g, d, function, user, t));
+                return Ask(found => Calling(run, (f, user) => Native.vox_foreign_grid_tune(g, s, f, user, found)));
             }
-            return tuning;
         }
     }
 
@@ -194,16 +297,17 @@ namespace Voxtet
         {
             if (weights.HasValue && !model.HasValue) throw new ArgumentException("weights need a model", "weights");
             CostWeights w = Voxtet.CellSize.Sized(weights);
-            var settings = new SuggestDesc
+            var settings = new CellSizeDesc
             {
-                struct_size = (uint)sizeof(SuggestDesc), model = model.GetValueOrDefault(), weights = weights.HasValue ? &w : null
+                struct_size = (uint)sizeof(CellSizeDesc), model = model.GetValueOrDefault(),
+                weights = weights.HasValue ? &w : null
             };
-            Suggestion suggestion;
-            suggestion.struct_size = (uint)sizeof(Suggestion);
+            CellSizeDesc* s = model.HasValue ? &settings : null;
             using (var use = handle.Read())
-                VoxException.Check(Native.vox_grid_suggest_cell_size(use.Pointer, model.HasValue ? &settings : null,
-                                                                     &suggestion));
-            return suggestion;
+            {
+                IntPtr grid = use.Pointer;
+                return Voxtet.CellSize.Ask(found => Native.vox_grid_suggest_cell_size(grid, s, found));
+            }
         }
     }
 }

@@ -3,7 +3,7 @@ using System.Runtime.InteropServices;
 
 namespace Voxtet
 {
-    /// <summary>What is put into a grid, or asks it: each primitive is a few vertices, of which only the box counts.</summary>
+    /// <summary>What a grid stores, or what queries it: each primitive is a few vertices, of which only the box counts.</summary>
     public sealed class PrimitiveArrays
     {
         readonly Array positions;
@@ -78,35 +78,35 @@ namespace Voxtet
         }
     }
 
-    /// <summary>A uniform grid that is not this library's. What is null is as `Known` has it.</summary>
+    /// <summary>A uniform grid of another library. What is Default, or 0, is as `Known` has it.</summary>
     public sealed class GridDescription
     {
-        public GridDescription(PrimitiveArrays held, KnownGrid known = KnownGrid.Any)
+        public GridDescription(PrimitiveArrays stored, KnownGrid known = KnownGrid.None)
         {
-            if (held == null) throw new ArgumentNullException("held");
-            Held = held;
+            if (stored == null) throw new ArgumentNullException("stored");
+            Stored = stored;
             Known = known;
         }
 
-        /// <summary>What is put into cells.</summary>
-        public PrimitiveArrays Held { get; private set; }
+        /// <summary>The primitives in cells.</summary>
+        public PrimitiveArrays Stored { get; private set; }
 
-        /// <summary>What asks; null: those held ask themselves.</summary>
-        public PrimitiveArrays Asking { get; set; }
+        /// <summary>The queries; null: the stored primitives query each other.</summary>
+        public PrimitiveArrays Querying { get; set; }
 
         public KnownGrid Known { get; private set; }
-        public CellContent? Content { get; set; }
-        public CellLook? Look { get; set; }
-        public ForeignFlags? Flags { get; set; }
+        public CellsStored CellsStored { get; set; }
+        public CellsQueried CellsQueried { get; set; }
+        public CellsKept CellsKept { get; set; }
 
-        /// <summary>Nanoseconds, as in GridFit.weights.</summary>
-        public GridWeights? Weights { get; set; }
+        /// <summary>Nanoseconds, as in Suggestion.Weights.</summary>
+        public ForeignWeights Weights { get; set; }
 
-        /// <summary>Boxes that ask are larger by this on all sides.</summary>
+        /// <summary>Boxes of queries are larger by this on all sides.</summary>
         public double Radius { get; set; }
 
-        /// <summary>The smallest that gives right answers; 0: follows from the look.</summary>
-        public double LeastCellSize { get; set; }
+        /// <summary>The smallest that gives right answers; 0: any, or what 27 cells demand.</summary>
+        public double MinCellSize { get; set; }
 
         /// <summary>The zone is where the predicted cost is at most 1 + this of the least; 0: 0.05.</summary>
         public double ZoneLoss { get; set; }
@@ -131,21 +131,14 @@ namespace Voxtet
                 var primitives = (Primitives*)(desc + 1);
                 *desc = new ForeignGrid
                 {
-                    struct_size = (uint)sizeof(ForeignGrid), zone_loss = grid.ZoneLoss, radius = grid.Radius,
-                    least_cell_size = grid.LeastCellSize
+                    struct_size = (uint)sizeof(ForeignGrid), known = grid.Known, cells_stored = grid.CellsStored,
+                    cells_queried = grid.CellsQueried, cells_kept = grid.CellsKept, stored = primitives, radius = grid.Radius,
+                    min_cell_size = grid.MinCellSize, zone_loss = grid.ZoneLoss, weights = grid.Weights
                 };
-                VoxException.Check(Native.vox_foreign_grid_set_known(desc, grid.Known));
-                primitives[0] = grid.Held.Describe(Pin);
-                desc->held = primitives;
-                if (grid.Asking != null)
-                {
-                    primitives[1] = grid.Asking.Describe(Pin);
-                    desc->asking = primitives + 1;
-                }
-                desc->content = grid.Content ?? desc->content;
-                desc->look = grid.Look ?? desc->look;
-                desc->flags = grid.Flags ?? desc->flags;
-                desc->weights = grid.Weights ?? desc->weights;
+                primitives[0] = grid.Stored.Describe(Pin);
+                if (grid.Querying == null) return;
+                primitives[1] = grid.Querying.Describe(Pin);
+                desc->querying = primitives + 1;
             }
             catch
             {

@@ -156,50 +156,51 @@ namespace Voxtet
         Leaves = 2,
     }
 
+    /// <summary>What a result depends on, combined with |. vox_cell_size_result.note says it in words, with
+    /// numbers.</summary>
     [Flags]
-    public enum ReferenceFlags : uint
+    public enum CellSizeWarnings : uint
     {
-        /// <summary>store a list for every cell of a box (linear id k*nx*ny + j*nx + i), instead of hashing cells into
-        /// a table</summary>
-        Dense = 1,
-        /// <summary>hash by i*73856093 xor j*19349663 xor k*83492791 (Teschner et al. 2003, Sect. 4.1), instead of by a
-        /// well-mixed hash</summary>
-        PaperHash = 2,
+        /// <summary>nothing is known of the grid's times; a few timings would help</summary>
+        GuessedWeights = 1,
+        /// <summary>it is the mean edge: the weights do not show for certain that another is better</summary>
+        ByRule = 2,
+        /// <summary>it is min_cell_size, though a smaller one would cost less</summary>
+        AtMinimum = 4,
+        /// <summary>the primitives have no size; it follows from the distances between them</summary>
+        FromSpacing = 8,
+        /// <summary>all primitives are in one place; any large enough cell size will do</summary>
+        OnePlace = 16,
+        /// <summary>the timings do not follow the counts of the described grid</summary>
+        ModelDisagrees = 32,
+        /// <summary>timings at the same cell size differ widely</summary>
+        TimingsDisagree = 64,
+        /// <summary>the best cell size lies beyond those that were timed</summary>
+        OutOfRange = 128,
+        /// <summary>the callback stopped, or could not run at a cell size</summary>
+        Stopped = 256,
     }
 
     public enum CostModel : int
     {
-        /// <summary>the paper's z(delta) (Sect. 4, Eqs. 3-8), from means; in cell visits</summary>
+        /// <summary>the paper's z(delta) (Sect. 4, Eqs. 3-8)</summary>
         Paper = 0,
-        /// <summary>the reference engine, counted tet by tet; in nanoseconds of a step</summary>
+        /// <summary>a step of the paper's engine, counted tetrahedron by tetrahedron</summary>
         Reference = 1,
-        /// <summary>the fast engine with one cell size in all windows; in nanoseconds of a step</summary>
+        /// <summary>a step of the fast engine, with the same cell size everywhere</summary>
         Fast = 2,
-        /// <summary>the searches of vox_surface.h in the meshes' surfaces, for pairs of edges and of faces and
-        /// vertices; in nanoseconds, of their grids alone</summary>
+        /// <summary>the searches of vox_surface.h in the meshes' surfaces</summary>
         Surface = 3,
     }
 
-    /// <summary>How s, the size of a tetrahedron in Eq. 4, is measured.</summary>
-    public enum SizeReading : int
+    [Flags]
+    public enum ReferenceFlags : uint
     {
-        /// <summary>mean length of the unique edges; reproduces the paper's tables</summary>
-        MeanEdge = 0,
-        /// <summary>mean over tets of the longest edge; as worded in Sect. 4.2</summary>
-        MeanLongestEdge = 1,
-        /// <summary>mean over tets of the longest side of the bounding box</summary>
-        MeanBoxSide = 2,
-    }
-
-    /// <summary>How A, the facet area in Eqs. 5-7, is measured.</summary>
-    public enum AreaReading : int
-    {
-        /// <summary>mean over all facets, shared ones counted once; reproduces the paper's tables</summary>
-        UniqueFacets = 0,
-        /// <summary>mean over the four facets of every tet</summary>
-        TetFacets = 1,
-        /// <summary>mean over the facets of exactly one tet</summary>
-        BoundaryFacets = 2,
+        /// <summary>store a list for every cell of a box, instead of hashing cells into a table</summary>
+        Dense = 1,
+        /// <summary>hash by i*73856093 xor j*19349663 xor k*83492791 (Teschner et al. 2003, Sect. 4.1), instead of by a
+        /// well-mixed hash</summary>
+        PaperHash = 2,
     }
 
     public enum PrimitiveType : int
@@ -212,96 +213,68 @@ namespace Voxtet
         Triangle = 2,
         /// <summary>four</summary>
         Tet = 3,
-        /// <summary>two: opposite corners of a box along the axes, in any order</summary>
+        /// <summary>two: opposite corners, in any order</summary>
         Box = 4,
     }
 
-    /// <summary>Which cells hold a primitive.</summary>
-    public enum CellContent : int
-    {
-        /// <summary>all that its box meets</summary>
-        CellsHoldBoxes = 0,
-        /// <summary>the one with the centre of its box; for a point, with the point</summary>
-        CellsHoldCentres = 1,
-    }
-
-    /// <summary>Which cells a primitive that asks looks at.</summary>
-    public enum CellLook : int
-    {
-        /// <summary>those that its box meets: one for a point, those of the ball's box for one with a radius</summary>
-        Box = 0,
-        /// <summary>27: the one with the centre of its box, and those around.</summary>
-        Around = 1,
-        /// <summary>nobody asks: the grid goes through the cells and pairs what is in each.</summary>
-        Pairs = 2,
-    }
-
-    /// <summary>Grids that weights are shipped for, each measured by bench/foreign.</summary>
+    /// <summary>Grids whose layout and weights are known, as measured by bench/foreign.</summary>
     public enum KnownGrid : int
     {
-        /// <summary>nothing is known: weights that lose least in the worst of the grids below</summary>
-        Any = 0,
-        /// <summary>a plain grid in C++: a counting sort into a dense lattice</summary>
+        /// <summary>the weights with the smallest worst loss over all grids below</summary>
+        None = 0,
+        /// <summary>C++: a counting sort into a dense lattice</summary>
         Sorted = 1,
-        /// <summary>a plain grid in C++: std::unordered_map from cell to list</summary>
+        /// <summary>C++: std::unordered_map from cell to list</summary>
         Hashed = 2,
-        /// <summary>NVIDIA Warp's HashGrid on the processor: points, asked by balls</summary>
+        /// <summary>NVIDIA Warp's HashGrid on the processor</summary>
         Warp = 3,
-        /// <summary>IPC Toolkit's SpatialHash: boxes in all their cells, asked by boxes</summary>
+        /// <summary>IPC Toolkit's SpatialHash</summary>
         Ipc = 4,
-        /// <summary>IPC Toolkit's HashGrid: boxes in all their cells, paired cell by cell</summary>
+        /// <summary>IPC Toolkit's HashGrid</summary>
         IpcPairs = 5,
-        /// <summary>VTK's vtkStaticCellLocator: boxes in all their cells, asked by points</summary>
+        /// <summary>VTK's vtkStaticCellLocator</summary>
         Vtk = 6,
-        /// <summary>PBAT's HashGrid3: centres of boxes, asked from 27 cells</summary>
+        /// <summary>PBAT's HashGrid3</summary>
         Pbat = 7,
-        /// <summary>hashed voxels of points asked by balls, as in PCL and Open3D</summary>
+        /// <summary>hashed voxels of points, as in PCL and Open3D</summary>
         PointVoxels = 8,
-        /// <summary>a grid of sorted keys in numpy</summary>
+        /// <summary>sorted keys in numpy</summary>
         Numpy = 9,
     }
 
-    [Flags]
-    public enum ForeignFlags : uint
+    /// <summary>The cells that store a primitive.</summary>
+    public enum CellsStored : int
     {
-        /// <summary>the grid keeps a list for each cell of the box of all that it holds</summary>
-        Dense = 1,
+        /// <summary>as in the known grid, else BOX</summary>
+        Default = 0,
+        /// <summary>all cells that its box meets</summary>
+        Box = 1,
+        /// <summary>the cell that contains the centre of its box</summary>
+        Centre = 2,
     }
 
-    /// <summary>What an answer was based on, combined with |.</summary>
-    [Flags]
-    public enum ForeignWarnings : uint
+    /// <summary>The cells that a query visits.</summary>
+    public enum CellsQueried : int
     {
-        /// <summary>nothing is known of the grid's times: a few timings would help</summary>
-        WeightsUnknown = 1,
-        /// <summary>cell_size is that of `rule`: by the weights, a guess, no gain over it is sure</summary>
-        ByRule = 2,
-        /// <summary>the least legal size; a smaller one would be faster</summary>
-        AtLeastSize = 4,
-        /// <summary>the primitives have no size: the cell size follows from their distances</summary>
-        NoSize = 8,
-        /// <summary>all are in one place: any cell size that is large enough does</summary>
-        OnePlace = 16,
-        /// <summary>the timings do not follow the counts of the described grid</summary>
-        ModelDisagrees = 32,
-        /// <summary>timings at the same cell size differ widely</summary>
-        TimingsDisagree = 64,
-        /// <summary>the best cell size is beyond those timed</summary>
-        OutOfRange = 128,
-        /// <summary>the callback stopped, or failed at a cell size</summary>
-        Stopped = 256,
+        /// <summary>as in the known grid, else BOX</summary>
+        Default = 0,
+        /// <summary>all cells that its box meets; one for a point</summary>
+        Box = 1,
+        /// <summary>the cell that contains its centre, and the 26 cells around it.</summary>
+        Queried27 = 2,
+        /// <summary>none: the grid goes through its cells and reports every pair within a cell</summary>
+        Pairs = 3,
     }
 
-    /// <summary>The rules of vox_foreign_rules, in its order.</summary>
-    public enum ForeignRule : int
+    /// <summary>The cells that exist.</summary>
+    public enum CellsKept : int
     {
-        /// <summary>the model's minimum</summary>
-        None = 0,
-        MeanEdge = 1,
-        MeanBoxSide = 2,
-        MedianBoxSide = 3,
-        Spacing = 4,
-        Radius = 5,
+        /// <summary>as in the known grid, else OCCUPIED</summary>
+        Default = 0,
+        /// <summary>those that store something</summary>
+        Occupied = 1,
+        /// <summary>all cells in the box of the stored primitives</summary>
+        Dense = 2,
     }
 
     /// <summary>What a surface consists of.</summary>
@@ -377,7 +350,6 @@ namespace Voxtet
     [Flags]
     public enum SimBodyFlags : uint
     {
-        /// <summary>collides with itself too</summary>
         SelfCollision = 1,
         /// <summary>never moves; others collide with it</summary>
         Fixed = 2,
@@ -462,43 +434,6 @@ namespace Voxtet
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct Double24
-    {
-        public double e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11, e12, e13, e14, e15, e16, e17, e18, e19, e20,
-            e21, e22, e23;
-        public const int Length = 24;
-        public double this[int i]
-        {
-            get { Check(i); fixed (double* p = &e0) return p[i]; }
-            set { Check(i); fixed (double* p = &e0) p[i] = value; }
-        }
-        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct Byte24
-    {
-        public byte e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11, e12, e13, e14, e15, e16, e17, e18, e19, e20, e21,
-            e22, e23;
-        public const int Length = 24;
-        public byte this[int i]
-        {
-            get { Check(i); fixed (byte* p = &e0) return p[i]; }
-            set { Check(i); fixed (byte* p = &e0) p[i] = value; }
-        }
-        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
-        public override string ToString()
-        {
-            fixed (byte* p = &e0)
-            {
-                int end = 0;
-                while (end < 24 && p[end] != 0) ++end;
-                return System.Text.Encoding.UTF8.GetString(p, end);
-            }
-        }
-    }
-
-    [StructLayout(LayoutKind.Sequential)]
     public unsafe struct CostSample64
     {
         public CostSample e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11, e12, e13, e14, e15, e16, e17, e18, e19, e20,
@@ -515,14 +450,41 @@ namespace Voxtet
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct CostShare12
+    internal unsafe struct CostTerm12
     {
-        public CostShare e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11;
+        public CostTerm e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11;
         public const int Length = 12;
-        public CostShare this[int i]
+        public CostTerm this[int i]
         {
-            get { Check(i); fixed (CostShare* p = &e0) return p[i]; }
-            set { Check(i); fixed (CostShare* p = &e0) p[i] = value; }
+            get { Check(i); fixed (CostTerm* p = &e0) return p[i]; }
+            set { Check(i); fixed (CostTerm* p = &e0) p[i] = value; }
+        }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct CellSizeRule8
+    {
+        public CellSizeRule e0, e1, e2, e3, e4, e5, e6, e7;
+        public const int Length = 8;
+        public CellSizeRule this[int i]
+        {
+            get { Check(i); fixed (CellSizeRule* p = &e0) return p[i]; }
+            set { Check(i); fixed (CellSizeRule* p = &e0) p[i] = value; }
+        }
+        static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe struct Timing32
+    {
+        public Timing e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11, e12, e13, e14, e15, e16, e17, e18, e19, e20,
+            e21, e22, e23, e24, e25, e26, e27, e28, e29, e30, e31;
+        public const int Length = 32;
+        public Timing this[int i]
+        {
+            get { Check(i); fixed (Timing* p = &e0) return p[i]; }
+            set { Check(i); fixed (Timing* p = &e0) p[i] = value; }
         }
         static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
@@ -563,15 +525,15 @@ namespace Voxtet
     }
 
     [StructLayout(LayoutKind.Sequential)]
-    public unsafe struct GridTiming32
+    public unsafe struct Double24
     {
-        public GridTiming e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11, e12, e13, e14, e15, e16, e17, e18, e19, e20,
-            e21, e22, e23, e24, e25, e26, e27, e28, e29, e30, e31;
-        public const int Length = 32;
-        public GridTiming this[int i]
+        public double e0, e1, e2, e3, e4, e5, e6, e7, e8, e9, e10, e11, e12, e13, e14, e15, e16, e17, e18, e19, e20,
+            e21, e22, e23;
+        public const int Length = 24;
+        public double this[int i]
         {
-            get { Check(i); fixed (GridTiming* p = &e0) return p[i]; }
-            set { Check(i); fixed (GridTiming* p = &e0) p[i] = value; }
+            get { Check(i); fixed (double* p = &e0) return p[i]; }
+            set { Check(i); fixed (double* p = &e0) p[i] = value; }
         }
         static void Check(int i) { if ((uint)i >= Length) throw new IndexOutOfRangeException(); }
     }
@@ -990,15 +952,112 @@ namespace Voxtet
         public Double3 weights;
     }
 
-    /// <summary>How many nanoseconds one unit of each piece of work takes on a machine: what the models REFERENCE and
-    /// FAST, and the reference engine, choose a cell size by.</summary>
+    /// <summary>A point of a cost curve.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 16)]
+    public struct CostSample
+    {
+        public double cell_size;
+        public double cost;
+    }
+
+    /// <summary>One kind of work: how often it is done at the suggested cell size, and what that costs.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct CostTerm
+    {
+        /// <summary>static text, e.g. "visit a cell"</summary>
+        public IntPtr name;
+        public double count;
+        public double cost;
+    }
+
+    /// <summary>The cell size that a rule of thumb gives, and the predicted cost there.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct CellSizeRule
+    {
+        /// <summary>static text, e.g. "mean edge (Teschner et al. 2003)"</summary>
+        public IntPtr name;
+        /// <summary>0: the rule does not apply</summary>
+        public double cell_size;
+        /// <summary>0: not known</summary>
+        public double cost;
+    }
+
+    /// <summary>A run at one cell size, and how long it took.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 16)]
+    public struct Timing
+    {
+        /// <summary>&gt; 0</summary>
+        public double cell_size;
+        /// <summary>1e-30 to 1e30; in a result infinity if the run was impossible</summary>
+        public double seconds;
+    }
+
+    /// <summary>How many nanoseconds a foreign grid takes for each kind of work, &gt;= 0.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 56)]
+    public struct ForeignWeights
+    {
+        /// <summary>for a run, whatever the cell size</summary>
+        public double run;
+        /// <summary>to store a primitive in a cell</summary>
+        public double store;
+        /// <summary>to visit a cell in a query</summary>
+        public double visit;
+        /// <summary>extra, to visit a cell that is not empty</summary>
+        public double found;
+        /// <summary>to read a primitive in a visited cell</summary>
+        public double read;
+        /// <summary>to create and drop a cell that is not empty</summary>
+        public double occupied;
+        /// <summary>to clear a cell of a dense grid</summary>
+        public double cell;
+    }
+
+    /// <summary>A cell size and the reasons for it.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    internal unsafe struct CellSizeResult
+    {
+        public uint struct_size;
+        /// <summary>vox_cell_size_warnings</summary>
+        public CellSizeWarnings warnings;
+        public double cell_size;
+        /// <summary>the range around cell_size where the cost is at most (1 + zone_loss) times the least</summary>
+        public double zone_min;
+        public double zone_max;
+        /// <summary>predicted at cell_size</summary>
+        public double cost;
+        /// <summary>the smallest that gives right answers, or fits the byte budget; 0: any</summary>
+        public double min_cell_size;
+        /// <summary>edge of the world divided by cell_size, as the paper counts</summary>
+        public double cells_per_axis;
+        /// <summary>of fit and tune: root mean square of (fitted time / measured time - 1)</summary>
+        public double fit_error;
+        /// <summary>of tune: how much longer a run may take than at the best cell size; 0.03 means 3 %</summary>
+        public double expected_loss;
+        public uint curve_count;
+        public uint term_count;
+        public uint rule_count;
+        public uint timing_count;
+        /// <summary>ascending, evenly spaced in the logarithm of the cell size</summary>
+        public CostSample64 curve;
+        /// <summary>their costs add up to `cost`</summary>
+        public CostTerm12 terms;
+        public CellSizeRule8 rules;
+        /// <summary>of tune: the runs, in order</summary>
+        public Timing32 timings;
+        /// <summary>of foreign grids: those used, or those found by fit and tune</summary>
+        public ForeignWeights weights;
+        /// <summary>the warnings in words; "" if there are none</summary>
+        public Byte256 note;
+    }
+
+    /// <summary>How many nanoseconds each kind of work takes on a machine, for the models REFERENCE and FAST.</summary>
     [StructLayout(LayoutKind.Sequential, Size = 200)]
     public struct CostWeights
     {
         public uint struct_size;
-        /// <summary>1: by vox_cost_calibrate</summary>
+        /// <summary>1 if vox_cost_calibrate filled it</summary>
         public uint measured;
-        /// <summary>in the library's own order, finite, &gt;= 0; 0: the one shipped with the library</summary>
+        /// <summary>in the library's own order; 0: the value shipped with the library</summary>
         public Double24 ns;
     }
 
@@ -1009,168 +1068,75 @@ namespace Voxtet
         public uint struct_size;
         /// <summary>vox_reference_flags, combined with |</summary>
         public ReferenceFlags flags;
-        /// <summary>buckets, at most VOX_MAX_VERTICES, raised to the next prime; 0: the first prime that is at least
-        /// twice the number of vertices</summary>
+        /// <summary>raised to the next prime; 0: twice the number of vertices</summary>
         public ulong hash_table_size;
-        /// <summary>DENSE: the box that has cells, min &lt; max on each axis.</summary>
+        /// <summary>DENSE: the box that has cells.</summary>
         public Double3 world_min;
-        /// <summary>the nearest cell.</summary>
+        /// <summary>box of all positions, in every step</summary>
         public Double3 world_max;
         /// <summary>copied; null: those shipped with the library</summary>
         public CostWeights* weights;
     }
 
+    /// <summary>How to suggest a cell size; all 0 by default.</summary>
     [StructLayout(LayoutKind.Sequential)]
-    internal unsafe struct SuggestDesc
+    internal unsafe struct CellSizeDesc
     {
         public uint struct_size;
         public CostModel model;
-        public SizeReading size_reading;
-        public AreaReading area_reading;
-        /// <summary>probability that a tet has no collision, in (0, 1); 0: 0.99</summary>
-        public double p_nc;
-        /// <summary>the paper's r: cost of a particle test divided by that of a cell visit; 0: 5</summary>
-        public double cost_ratio;
-        /// <summary>edge of the cubic world, for cells_per_axis; 0: longest side of the bounds</summary>
-        public double world_edge;
-        /// <summary>the zone is where predicted cost &lt;= (1 + zone_loss) * minimum; at most 1e6; 0: 0.05</summary>
-        public double zone_loss;
-        /// <summary>for rules.mean_edge_multiple (Gregory et al. 2000); 0: 2</summary>
-        public double mean_edge_factor;
-        /// <summary>for rules.resolution (McNeely et al. 1999): the required detail; 0: none</summary>
-        public double resolution;
-        /// <summary>REFERENCE with DENSE cells: most bytes that these may take; 0: no limit</summary>
-        public ulong byte_budget;
         /// <summary>REFERENCE: vox_reference_flags, combined with |</summary>
         public uint reference_flags;
         /// <summary>0</summary>
         public uint reserved;
+        /// <summary>0: 0.05</summary>
+        public double zone_loss;
+        /// <summary>PAPER: the share of tetrahedra without a contact, in (0, 1); 0: 0.99</summary>
+        public double p_nc;
+        /// <summary>PAPER: r, the cost of a particle test divided by that of a cell visit; 0: 5</summary>
+        public double cost_ratio;
+        /// <summary>for cells_per_axis; 0: the longest side of the box of all vertices</summary>
+        public double world_edge;
+        /// <summary>REFERENCE with DENSE cells: most bytes that these may take; 0: no limit</summary>
+        public ulong byte_budget;
         /// <summary>REFERENCE and FAST; null: those shipped with the library</summary>
         public CostWeights* weights;
-        /// <summary>of the call's memory; null: the C++ runtime's heap</summary>
+        /// <summary>null: the C++ runtime's heap</summary>
         public Allocator* allocator;
     }
 
-    /// <summary>Geometry of all meshes together, in the caller's unit.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 160)]
-    public struct GeometryStats
+    /// <summary>Sizes in meshes, as in the paper's tables.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 168)]
+    public struct Geometry
     {
+        public uint struct_size;
+        public uint reserved;
         public ulong vertices;
         public ulong tets;
         /// <summary>unique</summary>
         public ulong edges;
-        /// <summary>unique triangles</summary>
+        /// <summary>unique</summary>
         public ulong facets;
-        /// <summary>facets of exactly one tet</summary>
+        /// <summary>of exactly one tetrahedron</summary>
         public ulong boundary_facets;
-        /// <summary>of exactly zero volume</summary>
+        /// <summary>of zero volume; exact</summary>
         public ulong degenerate_tets;
         public double mean_edge;
+        /// <summary>over tetrahedra</summary>
         public double mean_longest_edge;
+        /// <summary>over tetrahedra, the longest side of the box</summary>
         public double mean_box_side;
-        /// <summary>median over tets of the longest side of the bounding box</summary>
         public double median_box_side;
+        /// <summary>over unique facets</summary>
         public double mean_facet_area;
+        /// <summary>over the four facets of each tetrahedron</summary>
         public double mean_tet_facet_area;
         public double mean_boundary_facet_area;
-        /// <summary>mean over tets of |volume|</summary>
         public double mean_volume;
-        /// <summary>of the vertices that tets use; of all vertices for a mesh without tets</summary>
         public Double3 bounds_min;
         public Double3 bounds_max;
     }
 
-    /// <summary>Cell sizes that other rules would choose; 0 where a rule does not apply.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 48)]
-    public struct CellSizeRules
-    {
-        /// <summary>Teschner et al. 2003</summary>
-        public double mean_edge;
-        /// <summary>Gregory et al. 2000: a constant times the mean edge</summary>
-        public double mean_edge_multiple;
-        /// <summary>Garcia-Alonso et al. 1994: 512 voxels in an object's box, mean over meshes whose box has a
-        /// volume</summary>
-        public double object_512;
-        /// <summary>McNeely et al. 1999: the required resolution</summary>
-        public double resolution;
-        /// <summary>cube root of the mean tet volume (tried and rejected in Sect. 5)</summary>
-        public double mean_volume;
-        /// <summary>IPC Toolkit: median of the longest box sides</summary>
-        public double median_box_side;
-    }
-
-    /// <summary>A point of a curve of costs.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 16)]
-    public struct CostSample
-    {
-        public double cell_size;
-        public double cost;
-    }
-
-    /// <summary>One term of a cost: a piece of work, how often it is done, and what that costs.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 48)]
-    public struct CostShare
-    {
-        /// <summary>what is done, e.g. "visit a cell"; zero-terminated</summary>
-        public Byte24 name;
-        public double count;
-        /// <summary>count times the weight</summary>
-        public double cost;
-        /// <summary>fraction of the whole cost, 0 to 1</summary>
-        public double share;
-    }
-
-    /// <summary>A cell size and the reasons for it.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 1968)]
-    public struct Suggestion
-    {
-        public uint struct_size;
-        public CostModel model;
-        public double cell_size;
-        /// <summary>world edge / cell size, as the paper counts</summary>
-        public double cells_per_axis;
-        /// <summary>smallest and largest cell size of the zone</summary>
-        public double zone_min;
-        public double zone_max;
-        /// <summary>at cell_size</summary>
-        public double predicted_cost;
-        public CellSizeRules rules;
-        public GeometryStats stats;
-        /// <summary>ascending in cell_size, evenly spaced in its logarithm</summary>
-        public CostSample64 curve;
-        public uint curve_count;
-        public uint term_count;
-        /// <summary>at cell_size; their costs add up to predicted_cost</summary>
-        public CostShare12 terms;
-        /// <summary>predicted cost at the cell size of each rule; 0 if the rule does not apply</summary>
-        public CellSizeRules rule_costs;
-        /// <summary>smallest cell size within the byte budget; 0: the budget does not limit it</summary>
-        public double budget_cell_size;
-        /// <summary>REFERENCE: the loss of using one cell size for tetrahedra of all sizes.</summary>
-        public double uniform_loss;
-        /// <summary>level_count cell sizes, that of the smallest tets first</summary>
-        public Double4 levels;
-        public uint level_count;
-        public uint reserved;
-    }
-
-    /// <summary>The least cost, and where it is.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 1064)]
-    public struct CostMinimum
-    {
-        public uint struct_size;
-        public uint curve_count;
-        public double cell_size;
-        public double cost;
-        /// <summary>the range around cell_size, within [min, max], where the cost is at most (1 + zone_loss) times the
-        /// least</summary>
-        public double zone_min;
-        public double zone_max;
-        /// <summary>from min to max, evenly spaced in the logarithm</summary>
-        public CostSample64 curve;
-    }
-
-    /// <summary>Primitives: each is a few vertices.</summary>
+    /// <summary>An array of primitives.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct Primitives
     {
@@ -1178,218 +1144,82 @@ namespace Voxtet
         public PrimitiveType type;
         /// <summary>of vertices</summary>
         public Positions positions;
-        /// <summary>The vertices of each primitive: two numbers an edge or a box, three a triangle, four a tetrahedron,
-        /// one a point.</summary>
+        /// <summary>the vertices of each primitive; null: 0, 1, 2, ... in order</summary>
         public uint* indices;
-        /// <summary>from one primitive to the next; 0: tightly packed</summary>
+        /// <summary>from one primitive to the next; 0: packed</summary>
         public ulong index_byte_stride;
-        /// <summary>primitives, at most 2^32 - 1</summary>
+        /// <summary>number of primitives</summary>
         public ulong count;
-        /// <summary>one number of each primitive, &gt;= 0; null: 0</summary>
+        /// <summary>one number &gt;= 0 for each primitive; null: 0</summary>
         public IntPtr radii;
-        /// <summary>0: tightly packed</summary>
+        /// <summary>0: packed</summary>
         public ulong radius_byte_stride;
         public Format radius_format;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>of all primitives, added to their own, &gt;= 0</summary>
+        /// <summary>added to all radii</summary>
         public double radius;
     }
 
-    /// <summary>What a run of a grid does at one cell size.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 48)]
-    public struct GridWork
-    {
-        /// <summary>primitives put into a cell</summary>
-        public double entries;
-        /// <summary>cells looked at; with PAIRS, those that hold something</summary>
-        public double visits;
-        /// <summary>visits of a cell that holds nothing</summary>
-        public double empty;
-        /// <summary>entries of the cells looked at; with PAIRS, pairs in a cell</summary>
-        public double reads;
-        /// <summary>cells that hold something</summary>
-        public double occupied;
-        /// <summary>of the box of all that is held: cells of a dense grid</summary>
-        public double cells;
-    }
-
-    /// <summary>Nanoseconds for one of each, &gt;= 0.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 56)]
-    public struct GridWeights
-    {
-        /// <summary>a run, whatever the cell size</summary>
-        public double @fixed;
-        public double entries;
-        public double visits;
-        /// <summary>what a visit of a cell that holds something takes more than one of an empty cell</summary>
-        public double found;
-        public double reads;
-        /// <summary>making and forgetting a cell</summary>
-        public double occupied;
-        /// <summary>for grids with dense storage: clearing one</summary>
-        public double cells;
-    }
-
-    /// <summary>A uniform grid that is not this library's.</summary>
+    /// <summary>A uniform grid of another library.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct ForeignGrid
     {
         public uint struct_size;
-        /// <summary>vox_foreign_flags, combined with |</summary>
-        public ForeignFlags flags;
-        public CellContent content;
-        public CellLook look;
-        /// <summary>what is put into cells</summary>
-        public Primitives* held;
-        /// <summary>null: those held ask themselves, each of all, itself included</summary>
-        public Primitives* asking;
-        /// <summary>boxes that ask are larger by this on all sides, &gt;= 0.</summary>
-        public double radius;
-        /// <summary>The smallest cell size that gives right answers. 0: with AROUND, half the longest side of a box
-        /// held, and half that of one that asks with its radius; otherwise none.</summary>
-        public double least_cell_size;
-        /// <summary>as vox_suggest_desc.zone_loss</summary>
-        public double zone_loss;
-        /// <summary>whose weights are used where `weights` are all 0</summary>
         public KnownGrid known;
+        public CellsStored cells_stored;
+        public CellsQueried cells_queried;
+        public CellsKept cells_kept;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>all 0: those of `known`</summary>
-        public GridWeights weights;
-        /// <summary>of the call's memory; null: the C++ runtime's heap</summary>
+        /// <summary>the primitives in cells; must be set</summary>
+        public Primitives* stored;
+        /// <summary>the queries; null: the stored primitives query each other.</summary>
+        public Primitives* querying;
+        /// <summary>grows the boxes of queries on all sides</summary>
+        public double radius;
+        /// <summary>the smallest that gives right answers; 0: any, or with 27 what the boxes demand</summary>
+        public double min_cell_size;
+        /// <summary>0: 0.05</summary>
+        public double zone_loss;
+        /// <summary>all 0: those of the known grid</summary>
+        public ForeignWeights weights;
+        /// <summary>null: the C++ runtime's heap</summary>
         public Allocator* allocator;
     }
 
-    /// <summary>Cell sizes that other rules would choose; 0 where a rule does not apply.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 40)]
-    public struct ForeignRules
+    /// <summary>How often a run does what, on average over all positions of the lattice.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 48)]
+    public struct ForeignCounts
     {
-        /// <summary>mean length of the edges of the primitives held, shared ones counted each time</summary>
-        public double mean_edge;
-        /// <summary>mean of the longest sides of their boxes</summary>
-        public double mean_box_side;
-        /// <summary>median of these</summary>
-        public double median_box_side;
-        /// <summary>cube root of the volume of the box of all, over their number</summary>
-        public double spacing;
-        /// <summary>mean radius of those that ask</summary>
-        public double radius;
-    }
-
-    /// <summary>A cell size for a foreign grid, and the reasons for it.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 2104)]
-    public struct ForeignSuggestion
-    {
-        public uint struct_size;
-        /// <summary>vox_foreign_warnings</summary>
-        public ForeignWarnings warnings;
-        public double cell_size;
-        /// <summary>as in vox_suggestion, and not below least_cell_size</summary>
-        public double zone_min;
-        public double zone_max;
-        /// <summary>at cell_size</summary>
-        public double predicted_cost;
-        /// <summary>the smallest legal size; 0: any</summary>
-        public double least_cell_size;
-        /// <summary>at cell_size</summary>
-        public GridWork work;
-        /// <summary>that were used</summary>
-        public GridWeights weights;
-        public ForeignRules rules;
-        /// <summary>predicted cost at the cell size of each rule; 0 if it does not apply, or that size is too small for
-        /// vox_count_for</summary>
-        public ForeignRules rule_costs;
-        /// <summary>ascending in cell_size, evenly spaced in its logarithm</summary>
-        public CostSample64 curve;
-        public uint curve_count;
-        public uint term_count;
-        /// <summary>at cell_size; their costs add up to predicted_cost</summary>
-        public CostShare12 terms;
-        /// <summary>whose size it is</summary>
-        public ForeignRule rule;
-        public uint reserved;
-        /// <summary>zero-terminated; "" if there is no warning</summary>
-        public Byte256 note;
-    }
-
-    /// <summary>One timing of a grid: a run at this cell size took so long.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 16)]
-    public struct GridTiming
-    {
-        /// <summary>&gt; 0</summary>
-        public double cell_size;
-        /// <summary>1e-30 to 1e30</summary>
-        public double seconds;
-    }
-
-    /// <summary>Weights from timings, and the cell size they lead to.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 1392)]
-    public struct GridFit
-    {
-        public uint struct_size;
-        /// <summary>vox_foreign_warnings</summary>
-        public ForeignWarnings warnings;
-        /// <summary>&gt;= 0; the best fit to the timings.</summary>
-        public GridWeights weights;
-        /// <summary>root mean square of (fitted time / measured time - 1) over the timings</summary>
-        public double residual;
-        public double cell_size;
-        public double zone_min;
-        public double zone_max;
-        /// <summary>at cell_size</summary>
-        public double predicted_seconds;
-        /// <summary>in seconds</summary>
-        public CostSample64 curve;
-        public uint curve_count;
-        public uint reserved;
-        public Byte256 note;
+        /// <summary>primitives stored in a cell</summary>
+        public double stored;
+        /// <summary>cells visited; with PAIRS, cells that store something</summary>
+        public double visits;
+        /// <summary>visited cells that store nothing</summary>
+        public double empty;
+        /// <summary>primitives read in visited cells; with PAIRS, pairs within a cell</summary>
+        public double reads;
+        /// <summary>cells that store something</summary>
+        public double occupied;
+        /// <summary>cells in the box of the stored primitives</summary>
+        public double cells;
     }
 
     /// <summary>How to tune; all 0 by default.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 48)]
+    [StructLayout(LayoutKind.Sequential, Size = 40)]
     public struct TuneDesc
     {
         public uint struct_size;
-        /// <summary>3 to VOX_TUNE_RUN_CAPACITY; 0: 7</summary>
-        public uint most_runs;
-        /// <summary>cell sizes to try, 0 &lt; min &lt;= max; both 0: an eighth to eight times the first</summary>
+        /// <summary>3 to VOX_TIMING_CAPACITY; 0: 7</summary>
+        public uint max_runs;
+        /// <summary>the range of cell sizes to try; both 0: from 1/8 to 8 times the first</summary>
         public double min;
         public double max;
-        /// <summary>the cell size to begin with; 0: what vox_suggest_for says.</summary>
+        /// <summary>the cell size to begin with; 0: the one that vox_foreign_grid_suggest gives</summary>
         public double first;
-        /// <summary>as vox_suggest_desc.zone_loss</summary>
-        public double zone_loss;
-        /// <summary>stops where the cell size is within this of the best one, as far as it can tell; 0: 0.02</summary>
+        /// <summary>stop when the expected loss is below this; 0: 0.02</summary>
         public double wanted_loss;
-    }
-
-    /// <summary>What tuning found.</summary>
-    [StructLayout(LayoutKind.Sequential, Size = 1912)]
-    public struct Tuning
-    {
-        public uint struct_size;
-        /// <summary>vox_foreign_warnings</summary>
-        public ForeignWarnings warnings;
-        public double cell_size;
-        public double zone_min;
-        public double zone_max;
-        /// <summary>of a run at cell_size, as fitted</summary>
-        public double seconds;
-        /// <summary>how much longer a run may take than at the best cell size, as far as it can tell: 0.03 for 3
-        /// %.</summary>
-        public double expected_loss;
-        /// <summary>relative: how far timings are from the fitted curve, root mean square</summary>
-        public double noise;
-        /// <summary>as in vox_grid_fit; all 0 where there is no grid</summary>
-        public GridWeights weights;
-        /// <summary>run_count runs, in order; seconds may be infinite</summary>
-        public GridTiming32 runs;
-        public uint run_count;
-        public uint curve_count;
-        /// <summary>in seconds</summary>
-        public CostSample64 curve;
-        public Byte256 note;
     }
 
     /// <summary>The topology of a surface, which is copied.</summary>
@@ -1731,103 +1561,101 @@ namespace Voxtet
         public IntPtr user;
     }
 
+    /// <summary>Settings of a simulation.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct SimDesc
     {
         public uint struct_size;
-        /// <summary>Substeps of a step, 1 to 10000; default 10.</summary>
+        /// <summary>of a step, 1 to 10000; 10</summary>
         public uint substeps;
-        /// <summary>Contacts are detected before the first substep of a step and after every `detect_every` substeps of
-        /// it. 1 (the default): in every substep; the number of substeps or more: once a step; 0: never, so that bodies
-        /// pass through each other.</summary>
+        /// <summary>substeps from one detection of contacts to the next, or 0 for no detection; 1</summary>
         public uint detect_every;
         /// <summary>0</summary>
         public uint reserved;
-        /// <summary>acceleration; default 0, 0, -9.81</summary>
+        /// <summary>0, 0, -9.81</summary>
         public Double3 gravity;
-        /// <summary>a longer step is clamped to this, with a log line; 1e-12 to 1e12, default 1/30</summary>
+        /// <summary>longer steps are shortened to this; 1/30</summary>
         public double max_time_step;
-        /// <summary>The floor keeps particles where floor_normal . x &gt;= floor_offset.</summary>
+        /// <summary>particles stay where dot(floor_normal, x) &gt;= floor_offset; all 0: no floor; 0, 0, 1</summary>
         public Double3 floor_normal;
+        /// <summary>0</summary>
         public double floor_offset;
-        /// <summary>Coulomb's coefficient, between bodies and with the floor; &gt;= 0, default 0.5</summary>
+        /// <summary>Coulomb's coefficient; 0.5</summary>
         public double friction;
-        /// <summary>A penetrating vertex is pushed out by a force of depth / contact_compliance along the direction of
-        /// the depth stage, integrated implicitly, so that any stiffness is stable. &gt;= 0; 0 (the default): the
-        /// greatest stiffness that a substep can handle.</summary>
+        /// <summary>inverse stiffness of contacts, or 0 for the stiffest that a substep can handle; 0</summary>
         public double contact_compliance;
-        /// <summary>greatest speed at which earlier penetrations are undone, &gt;= 0; default 1.</summary>
+        /// <summary>greatest speed at which older overlap is undone; 1</summary>
         public double max_push_speed;
-        /// <summary>penetration depth that is tolerated, so that resting contacts persist.</summary>
+        /// <summary>depth that is tolerated, or -1 for a hundredth of the mean edge; -1</summary>
         public double contact_slop;
-        /// <summary>settings of the grid inside, read during create; null: defaults</summary>
+        /// <summary>settings of the grid inside; null: the defaults</summary>
         public GridDesc* grid;
-        /// <summary>of the simulation, copied; the grid has one of its own in its desc</summary>
         public Log* log;
-        /// <summary>Where the simulation and its bodies live, as does its grid unless `grid` names another
-        /// allocator.</summary>
+        /// <summary>of the simulation and, unless `grid` has one, its grid</summary>
         public Allocator* allocator;
     }
 
+    /// <summary>A soft body, which is copied.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct SimBodyDesc
     {
         public uint struct_size;
         /// <summary>vox_sim_body_flags, combined with |</summary>
         public SimBodyFlags flags;
-        /// <summary>within 1e15 of the origin on each axis</summary>
+        /// <summary>3 * vertex_count</summary>
         public double* positions;
-        /// <summary>The undeformed shape; null (the default): `positions`.</summary>
+        /// <summary>3 * vertex_count: the undeformed shape; null: positions</summary>
         public double* rest_positions;
-        /// <summary>null (the default): at rest</summary>
+        /// <summary>3 * vertex_count; null: 0</summary>
         public double* velocities;
-        /// <summary>both windings are accepted</summary>
+        /// <summary>4 * tet_count vertex indices, in either winding</summary>
         public uint* tets;
         public ulong vertex_count;
         /// <summary>at least 1</summary>
         public ulong tet_count;
-        /// <summary>mass per rest volume, &gt; 0; default 1000.</summary>
+        /// <summary>mass over rest volume; 1000</summary>
         public double density;
-        /// <summary>Resistance to stretching.</summary>
+        /// <summary>resistance to stretching; 1e6</summary>
         public double youngs_modulus;
-        /// <summary>resistance to change of volume, beyond that of the edges; &gt;= 0, default 1e6</summary>
+        /// <summary>resistance to changes of volume, beyond that of the edges; 1e6</summary>
         public double bulk_modulus;
-        /// <summary>a time: edges resist the rate of their strain with damping times their stiffness; &gt;= 0, default
-        /// 0.01</summary>
+        /// <summary>a time: damping of the edges over their stiffness; 0.01</summary>
         public double damping;
-        /// <summary>returned by vox_body_get_user_data on the sim's grid</summary>
+        /// <summary>of the body in the grid</summary>
         public ulong user_data;
     }
 
-    /// <summary>Arrays of a body with its state after the last step.</summary>
+    /// <summary>The arrays of a body.</summary>
     [StructLayout(LayoutKind.Sequential)]
     internal unsafe struct SimBodyView
     {
+        /// <summary>3 * vertex_count</summary>
         public double* positions;
+        /// <summary>3 * vertex_count</summary>
         public double* velocities;
+        /// <summary>vertex_count</summary>
         public double* masses;
-        /// <summary>`positions` rounded to float, which the grid borrows.</summary>
+        /// <summary>3 * vertex_count: positions rounded to float, which the grid borrows</summary>
         public float* grid_positions;
+        /// <summary>4 * tet_count</summary>
         public uint* tets;
         public ulong vertex_count;
         public ulong tet_count;
     }
 
-    [StructLayout(LayoutKind.Sequential, Size = 96)]
-    public struct SimEnergies
+    /// <summary>Energy and motion.</summary>
+    [StructLayout(LayoutKind.Sequential, Size = 88)]
+    public struct SimEnergy
     {
-        public uint struct_size;
-        public uint reserved;
         public double kinetic;
-        /// <summary>energy in gravity, 0 at the origin</summary>
+        /// <summary>in gravity, 0 at the origin</summary>
         public double potential;
-        /// <summary>energy of edges and volumes</summary>
         public double elastic;
         public double mass;
         public Double3 momentum;
-        /// <summary>centre of mass</summary>
+        /// <summary>of mass</summary>
         public Double3 centre;
-        /// <summary>speed of the fastest particle</summary>
+        /// <summary>of the fastest particle</summary>
         public double max_speed;
     }
 
@@ -1838,7 +1666,7 @@ namespace Voxtet
     internal delegate double CostFunction(double cell_size, IntPtr user);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
-    internal delegate double GridRun(double cell_size, IntPtr user);
+    internal delegate double ForeignRun(double cell_size, IntPtr user);
 
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     internal delegate IntPtr AllocatorAllocate(UIntPtr size, UIntPtr alignment, IntPtr user);
@@ -1892,18 +1720,18 @@ namespace Voxtet
         internal const uint VOX_STENCIL_CAPACITY = 5;
         /// <summary>in one call</summary>
         internal const uint VOX_MAX_TASKS = 64;
-        /// <summary>numbers of vox_cost_weights</summary>
-        internal const uint VOX_COST_WEIGHT_CAPACITY = 24;
         /// <summary>most samples of a curve</summary>
-        internal const uint VOX_COST_CURVE_CAPACITY = 64;
-        /// <summary>most terms of a cost, in any model</summary>
-        internal const uint VOX_COST_TERM_CAPACITY = 12;
-        /// <summary>most entries of vox_suggestion.levels</summary>
-        internal const uint VOX_CELL_SIZE_LEVEL_CAPACITY = 4;
-        /// <summary>bytes of a note, its zero included</summary>
+        internal const uint VOX_CURVE_CAPACITY = 64;
+        /// <summary>most terms of a cost</summary>
+        internal const uint VOX_TERM_CAPACITY = 12;
+        /// <summary>most rules that are compared</summary>
+        internal const uint VOX_RULE_CAPACITY = 8;
+        /// <summary>most runs of vox_foreign_grid_tune</summary>
+        internal const uint VOX_TIMING_CAPACITY = 32;
+        /// <summary>bytes of a note, its zero included; it is cut to that</summary>
         internal const uint VOX_NOTE_CAPACITY = 256;
-        /// <summary>most runs of vox_cost_tune</summary>
-        internal const uint VOX_TUNE_RUN_CAPACITY = 32;
+        /// <summary>numbers in vox_cost_weights</summary>
+        internal const uint VOX_COST_WEIGHT_CAPACITY = 24;
         /// <summary>vertices, edges or faces of a surface, each</summary>
         internal const uint VOX_MAX_FEATURES = 2147483647;
         /// <summary>patches of a surface</summary>
@@ -2181,52 +2009,48 @@ namespace Voxtet
         internal static extern Result vox_locator_test_rays(IntPtr locator, Positions* from, Positions* to, QueryDesc*
             desc, byte* out_blocked);
 
-        /// <summary>The cell size that minimises the cost model for these meshes (their positions as they are now).
-        /// desc null: defaults.</summary>
+        /// <summary>Suggests the cell size with the least cost for these meshes as they are now.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_suggest_cell_size(SuggestDesc* desc, MeshDesc* meshes, ulong mesh_count,
-            Suggestion* @out);
+        internal static extern Result vox_suggest_cell_size(CellSizeDesc* desc, MeshDesc* meshes, ulong mesh_count,
+            CellSizeResult* @out);
 
-        /// <summary>The same for the meshes of a grid.</summary>
+        /// <summary>Suggests a cell size for the meshes of a grid.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_grid_suggest_cell_size(IntPtr grid, SuggestDesc* desc, Suggestion* @out);
+        internal static extern Result vox_grid_suggest_cell_size(IntPtr grid, CellSizeDesc* desc, CellSizeResult* @out);
 
-        /// <summary>Measures this machine's weights by steps of both engines over a small built-in scene, in about ten
-        /// milliseconds.</summary>
+        /// <summary>Measures this machine's weights with steps over a small scene, in about ten milliseconds.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_cost_calibrate(CostWeights* @out);
 
-        /// <summary>Finds the cell size between min and max with the least cost: a scan that is even in the logarithm
-        /// of the cell size, then a golden-section search around its best point.</summary>
+        /// <summary>Measures meshes, which are given as for vox_suggest_cell_size.</summary>
+        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        internal static extern Result vox_measure_geometry(MeshDesc* meshes, ulong mesh_count, Geometry* @out);
+
+        /// <summary>Finds the cell size between min and max with the least cost: a scan evenly spaced in the logarithm,
+        /// then a golden-section search, in about a hundred calls. zone_loss 0 means 0.05.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_cost_minimise(IntPtr cost, IntPtr user, double min, double max, double
-            zone_loss, CostMinimum* @out);
+            zone_loss, CellSizeResult* @out);
 
-        /// <summary>Sets what is known of a grid that people have: content, look, flags, known, weights.</summary>
+        /// <summary>Suggests the cell size with the least cost.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_foreign_grid_set_known(ForeignGrid* grid, KnownGrid known);
+        internal static extern Result vox_foreign_grid_suggest(ForeignGrid* grid, CellSizeResult* @out);
 
-        /// <summary>The cell size that costs this grid least.</summary>
+        /// <summary>Predicts the counts of a run at a cell size, for comparison with a program's own
+        /// counters.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_suggest_for(ForeignGrid* grid, ForeignSuggestion* @out);
+        internal static extern Result vox_foreign_grid_count(ForeignGrid* grid, double cell_size, ForeignCounts* @out);
 
-        /// <summary>What a run of this grid does at one cell size.</summary>
+        /// <summary>Finds weights and cell size from timings of whole runs at three or more cell sizes; 0.6, 1.2 and
+        /// 2.4 mean edges will do.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_count_for(ForeignGrid* grid, double cell_size, GridWork* @out);
+        internal static extern Result vox_foreign_grid_fit(ForeignGrid* grid, Timing* timings, ulong count,
+            CellSizeResult* @out);
 
-        /// <summary>Fits the weights of a grid to timings of the whole run at three different cell sizes or more (0.6,
-        /// 1.2 and 2.4 mean edges do), by non-negative least squares, and minimises the cost, from the smallest size
-        /// timed over 1.2 to 1.2 times the largest.</summary>
+        /// <summary>Finds the best cell size by running the grid a few times.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_cost_fit(ForeignGrid* grid, GridTiming* timings, ulong count, GridFit* @out);
-
-        /// <summary>Finds the best cell size by running the grid: at three cell sizes an octave apart first, then where
-        /// the fit to all timings so far is lowest or least sure, which may be where it was run before, until that is
-        /// sure enough (desc-&gt;wanted_loss, after four runs at the earliest) and it was run a quarter of an octave to
-        /// either side of the best, or desc-&gt;most_runs are made.</summary>
-        [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_cost_tune(ForeignGrid* grid, TuneDesc* desc, IntPtr run, IntPtr user, Tuning*
-            @out);
+        internal static extern Result vox_foreign_grid_tune(ForeignGrid* grid, TuneDesc* desc, IntPtr run, IntPtr user,
+            CellSizeResult* @out);
 
         /// <summary>Creates a surface without positions.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2284,7 +2108,7 @@ namespace Voxtet
         /// <summary>Suggests the cell size with the least cost for finding the pairs of kinds a and b.</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_surface_suggest_cell_size(IntPtr surface, Feature a, Feature b,
-            ForeignSuggestion* @out);
+            CellSizeResult* @out);
 
         /// <summary>Gets counts of the last search and the bytes held (docs/surface-pairs.md lists them).</summary>
         [DllImport(vox, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2375,7 +2199,7 @@ namespace Voxtet
         internal static extern Result vox_io_make_box(double size_x, double size_y, double size_z, double cell, IntPtr*
             out_mesh);
 
-        /// <summary>Creates a simulation without bodies. desc null: all defaults.</summary>
+        /// <summary>Creates a simulation without bodies.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_sim_create(SimDesc* desc, IntPtr* out_sim);
 
@@ -2383,12 +2207,11 @@ namespace Voxtet
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern void vox_sim_destroy(IntPtr sim);
 
-        /// <summary>The grid inside, for reading the contacts and constraints of the last detection and counters, and
-        /// for setting the cell size and the number of workers.</summary>
+        /// <summary>Gets the grid inside, for reading results and for setting cell size and workers.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_sim_get_grid(IntPtr sim, IntPtr* out_grid);
 
-        /// <summary>Moves everything forward by `time_step`, or by max_time_step if that is less.</summary>
+        /// <summary>Advances everything by time_step.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_sim_step(IntPtr sim, double time_step);
 
@@ -2396,28 +2219,24 @@ namespace Voxtet
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_sim_body_insert(IntPtr sim, SimBodyDesc* desc, uint* out_body);
 
-        /// <summary>Removes a body from the simulation and from its grid.</summary>
+        /// <summary>Removes a body from the simulation and its grid.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_sim_body_remove(IntPtr sim, uint body);
 
-        /// <summary>The body's arrays.</summary>
+        /// <summary>Gets the arrays of a body.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_sim_body_get_view(IntPtr sim, uint body, SimBodyView* out_view);
 
-        /// <summary>Sets a body's positions and velocities, 3 * vertex_count numbers each; null leaves them as they
+        /// <summary>Sets positions and velocities of a body, 3 * vertex_count numbers each; null leaves them as they
         /// are.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         internal static extern Result vox_sim_body_set_state(IntPtr sim, uint body, double* positions, double*
             velocities);
 
-        /// <summary>Accelerates all particles of a body from now on, in addition to gravity; 0, 0, 0 at
-        /// first.</summary>
+        /// <summary>Gets energy and motion of a body, or of all bodies that are not fixed (VOX_NULL_BODY), in the
+        /// middle of the last substep.</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_sim_body_set_acceleration(IntPtr sim, uint body, double* acceleration);
-
-        /// <summary>Energy and motion of a body, or of all bodies that are not fixed (body VOX_NULL_BODY).</summary>
-        [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        internal static extern Result vox_sim_get_energy(IntPtr sim, uint body, SimEnergies* out_energies);
+        internal static extern Result vox_sim_get_energy(IntPtr sim, uint body, SimEnergy* out_energy);
 
         /// <summary>Gets sizes, totals and times (docs/sim.md lists them).</summary>
         [DllImport(vox_sim, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2771,6 +2590,85 @@ namespace Voxtet
             entries.Add(Entry("vox_ray_hit.weights", (byte*)&s.weights - begin, 40, 40));
         }
 
+        static void AddCostSample(List<LayoutEntry> entries)
+        {
+            CostSample s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_cost_sample", sizeof(CostSample), 16, 16));
+            entries.Add(Entry("vox_cost_sample.cell_size", (byte*)&s.cell_size - begin, 0, 0));
+            entries.Add(Entry("vox_cost_sample.cost", (byte*)&s.cost - begin, 8, 8));
+        }
+
+        static void AddCostTerm(List<LayoutEntry> entries)
+        {
+            CostTerm s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_cost_term", sizeof(CostTerm), 24, 24));
+            entries.Add(Entry("vox_cost_term.name", (byte*)&s.name - begin, 0, 0));
+            entries.Add(Entry("vox_cost_term.count", (byte*)&s.count - begin, 8, 8));
+            entries.Add(Entry("vox_cost_term.cost", (byte*)&s.cost - begin, 16, 16));
+        }
+
+        static void AddCellSizeRule(List<LayoutEntry> entries)
+        {
+            CellSizeRule s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_cell_size_rule", sizeof(CellSizeRule), 24, 24));
+            entries.Add(Entry("vox_cell_size_rule.name", (byte*)&s.name - begin, 0, 0));
+            entries.Add(Entry("vox_cell_size_rule.cell_size", (byte*)&s.cell_size - begin, 8, 8));
+            entries.Add(Entry("vox_cell_size_rule.cost", (byte*)&s.cost - begin, 16, 16));
+        }
+
+        static void AddTiming(List<LayoutEntry> entries)
+        {
+            Timing s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_timing", sizeof(Timing), 16, 16));
+            entries.Add(Entry("vox_timing.cell_size", (byte*)&s.cell_size - begin, 0, 0));
+            entries.Add(Entry("vox_timing.seconds", (byte*)&s.seconds - begin, 8, 8));
+        }
+
+        static void AddForeignWeights(List<LayoutEntry> entries)
+        {
+            ForeignWeights s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_foreign_weights", sizeof(ForeignWeights), 56, 56));
+            entries.Add(Entry("vox_foreign_weights.run", (byte*)&s.run - begin, 0, 0));
+            entries.Add(Entry("vox_foreign_weights.store", (byte*)&s.store - begin, 8, 8));
+            entries.Add(Entry("vox_foreign_weights.visit", (byte*)&s.visit - begin, 16, 16));
+            entries.Add(Entry("vox_foreign_weights.found", (byte*)&s.found - begin, 24, 24));
+            entries.Add(Entry("vox_foreign_weights.read", (byte*)&s.read - begin, 32, 32));
+            entries.Add(Entry("vox_foreign_weights.occupied", (byte*)&s.occupied - begin, 40, 40));
+            entries.Add(Entry("vox_foreign_weights.cell", (byte*)&s.cell - begin, 48, 48));
+        }
+
+        static void AddCellSizeResult(List<LayoutEntry> entries)
+        {
+            CellSizeResult s;
+            byte* begin = (byte*)&s;
+            entries.Add(Entry("vox_cell_size_result", sizeof(CellSizeResult), 2416, 2416));
+            entries.Add(Entry("vox_cell_size_result.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_cell_size_result.warnings", (byte*)&s.warnings - begin, 4, 4));
+            entries.Add(Entry("vox_cell_size_result.cell_size", (byte*)&s.cell_size - begin, 8, 8));
+            entries.Add(Entry("vox_cell_size_result.zone_min", (byte*)&s.zone_min - begin, 16, 16));
+            entries.Add(Entry("vox_cell_size_result.zone_max", (byte*)&s.zone_max - begin, 24, 24));
+            entries.Add(Entry("vox_cell_size_result.cost", (byte*)&s.cost - begin, 32, 32));
+            entries.Add(Entry("vox_cell_size_result.min_cell_size", (byte*)&s.min_cell_size - begin, 40, 40));
+            entries.Add(Entry("vox_cell_size_result.cells_per_axis", (byte*)&s.cells_per_axis - begin, 48, 48));
+            entries.Add(Entry("vox_cell_size_result.fit_error", (byte*)&s.fit_error - begin, 56, 56));
+            entries.Add(Entry("vox_cell_size_result.expected_loss", (byte*)&s.expected_loss - begin, 64, 64));
+            entries.Add(Entry("vox_cell_size_result.curve_count", (byte*)&s.curve_count - begin, 72, 72));
+            entries.Add(Entry("vox_cell_size_result.term_count", (byte*)&s.term_count - begin, 76, 76));
+            entries.Add(Entry("vox_cell_size_result.rule_count", (byte*)&s.rule_count - begin, 80, 80));
+            entries.Add(Entry("vox_cell_size_result.timing_count", (byte*)&s.timing_count - begin, 84, 84));
+            entries.Add(Entry("vox_cell_size_result.curve", (byte*)&s.curve - begin, 88, 88));
+            entries.Add(Entry("vox_cell_size_result.terms", (byte*)&s.terms - begin, 1112, 1112));
+            entries.Add(Entry("vox_cell_size_result.rules", (byte*)&s.rules - begin, 1400, 1400));
+            entries.Add(Entry("vox_cell_size_result.timings", (byte*)&s.timings - begin, 1592, 1592));
+            entries.Add(Entry("vox_cell_size_result.weights", (byte*)&s.weights - begin, 2104, 2104));
+            entries.Add(Entry("vox_cell_size_result.note", (byte*)&s.note - begin, 2160, 2160));
+        }
+
         static void AddCostWeights(List<LayoutEntry> entries)
         {
             CostWeights s;
@@ -2794,122 +2692,47 @@ namespace Voxtet
             entries.Add(Entry("vox_reference_desc.weights", (byte*)&s.weights - begin, 64, 64));
         }
 
-        static void AddSuggestDesc(List<LayoutEntry> entries)
+        static void AddCellSizeDesc(List<LayoutEntry> entries)
         {
-            SuggestDesc s;
+            CellSizeDesc s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_suggest_desc", sizeof(SuggestDesc), 96, 88));
-            entries.Add(Entry("vox_suggest_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_suggest_desc.model", (byte*)&s.model - begin, 4, 4));
-            entries.Add(Entry("vox_suggest_desc.size_reading", (byte*)&s.size_reading - begin, 8, 8));
-            entries.Add(Entry("vox_suggest_desc.area_reading", (byte*)&s.area_reading - begin, 12, 12));
-            entries.Add(Entry("vox_suggest_desc.p_nc", (byte*)&s.p_nc - begin, 16, 16));
-            entries.Add(Entry("vox_suggest_desc.cost_ratio", (byte*)&s.cost_ratio - begin, 24, 24));
-            entries.Add(Entry("vox_suggest_desc.world_edge", (byte*)&s.world_edge - begin, 32, 32));
-            entries.Add(Entry("vox_suggest_desc.zone_loss", (byte*)&s.zone_loss - begin, 40, 40));
-            entries.Add(Entry("vox_suggest_desc.mean_edge_factor", (byte*)&s.mean_edge_factor - begin, 48, 48));
-            entries.Add(Entry("vox_suggest_desc.resolution", (byte*)&s.resolution - begin, 56, 56));
-            entries.Add(Entry("vox_suggest_desc.byte_budget", (byte*)&s.byte_budget - begin, 64, 64));
-            entries.Add(Entry("vox_suggest_desc.reference_flags", (byte*)&s.reference_flags - begin, 72, 72));
-            entries.Add(Entry("vox_suggest_desc.reserved", (byte*)&s.reserved - begin, 76, 76));
-            entries.Add(Entry("vox_suggest_desc.weights", (byte*)&s.weights - begin, 80, 80));
-            entries.Add(Entry("vox_suggest_desc.allocator", (byte*)&s.allocator - begin, 88, 84));
+            entries.Add(Entry("vox_cell_size_desc", sizeof(CellSizeDesc), 72, 64));
+            entries.Add(Entry("vox_cell_size_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_cell_size_desc.model", (byte*)&s.model - begin, 4, 4));
+            entries.Add(Entry("vox_cell_size_desc.reference_flags", (byte*)&s.reference_flags - begin, 8, 8));
+            entries.Add(Entry("vox_cell_size_desc.reserved", (byte*)&s.reserved - begin, 12, 12));
+            entries.Add(Entry("vox_cell_size_desc.zone_loss", (byte*)&s.zone_loss - begin, 16, 16));
+            entries.Add(Entry("vox_cell_size_desc.p_nc", (byte*)&s.p_nc - begin, 24, 24));
+            entries.Add(Entry("vox_cell_size_desc.cost_ratio", (byte*)&s.cost_ratio - begin, 32, 32));
+            entries.Add(Entry("vox_cell_size_desc.world_edge", (byte*)&s.world_edge - begin, 40, 40));
+            entries.Add(Entry("vox_cell_size_desc.byte_budget", (byte*)&s.byte_budget - begin, 48, 48));
+            entries.Add(Entry("vox_cell_size_desc.weights", (byte*)&s.weights - begin, 56, 56));
+            entries.Add(Entry("vox_cell_size_desc.allocator", (byte*)&s.allocator - begin, 64, 60));
         }
 
-        static void AddGeometryStats(List<LayoutEntry> entries)
+        static void AddGeometry(List<LayoutEntry> entries)
         {
-            GeometryStats s;
+            Geometry s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_geometry_stats", sizeof(GeometryStats), 160, 160));
-            entries.Add(Entry("vox_geometry_stats.vertices", (byte*)&s.vertices - begin, 0, 0));
-            entries.Add(Entry("vox_geometry_stats.tets", (byte*)&s.tets - begin, 8, 8));
-            entries.Add(Entry("vox_geometry_stats.edges", (byte*)&s.edges - begin, 16, 16));
-            entries.Add(Entry("vox_geometry_stats.facets", (byte*)&s.facets - begin, 24, 24));
-            entries.Add(Entry("vox_geometry_stats.boundary_facets", (byte*)&s.boundary_facets - begin, 32, 32));
-            entries.Add(Entry("vox_geometry_stats.degenerate_tets", (byte*)&s.degenerate_tets - begin, 40, 40));
-            entries.Add(Entry("vox_geometry_stats.mean_edge", (byte*)&s.mean_edge - begin, 48, 48));
-            entries.Add(Entry("vox_geometry_stats.mean_longest_edge", (byte*)&s.mean_longest_edge - begin, 56, 56));
-            entries.Add(Entry("vox_geometry_stats.mean_box_side", (byte*)&s.mean_box_side - begin, 64, 64));
-            entries.Add(Entry("vox_geometry_stats.median_box_side", (byte*)&s.median_box_side - begin, 72, 72));
-            entries.Add(Entry("vox_geometry_stats.mean_facet_area", (byte*)&s.mean_facet_area - begin, 80, 80));
-            entries.Add(Entry("vox_geometry_stats.mean_tet_facet_area", (byte*)&s.mean_tet_facet_area - begin, 88, 88));
-            entries.Add(Entry("vox_geometry_stats.mean_boundary_facet_area", (byte*)&s.mean_boundary_facet_area - begin, 96, 96));
-            entries.Add(Entry("vox_geometry_stats.mean_volume", (byte*)&s.mean_volume - begin, 104, 104));
-            entries.Add(Entry("vox_geometry_stats.bounds_min", (byte*)&s.bounds_min - begin, 112, 112));
-            entries.Add(Entry("vox_geometry_stats.bounds_max", (byte*)&s.bounds_max - begin, 136, 136));
-        }
-
-        static void AddCellSizeRules(List<LayoutEntry> entries)
-        {
-            CellSizeRules s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_cell_size_rules", sizeof(CellSizeRules), 48, 48));
-            entries.Add(Entry("vox_cell_size_rules.mean_edge", (byte*)&s.mean_edge - begin, 0, 0));
-            entries.Add(Entry("vox_cell_size_rules.mean_edge_multiple", (byte*)&s.mean_edge_multiple - begin, 8, 8));
-            entries.Add(Entry("vox_cell_size_rules.object_512", (byte*)&s.object_512 - begin, 16, 16));
-            entries.Add(Entry("vox_cell_size_rules.resolution", (byte*)&s.resolution - begin, 24, 24));
-            entries.Add(Entry("vox_cell_size_rules.mean_volume", (byte*)&s.mean_volume - begin, 32, 32));
-            entries.Add(Entry("vox_cell_size_rules.median_box_side", (byte*)&s.median_box_side - begin, 40, 40));
-        }
-
-        static void AddCostSample(List<LayoutEntry> entries)
-        {
-            CostSample s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_cost_sample", sizeof(CostSample), 16, 16));
-            entries.Add(Entry("vox_cost_sample.cell_size", (byte*)&s.cell_size - begin, 0, 0));
-            entries.Add(Entry("vox_cost_sample.cost", (byte*)&s.cost - begin, 8, 8));
-        }
-
-        static void AddCostShare(List<LayoutEntry> entries)
-        {
-            CostShare s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_cost_share", sizeof(CostShare), 48, 48));
-            entries.Add(Entry("vox_cost_share.name", (byte*)&s.name - begin, 0, 0));
-            entries.Add(Entry("vox_cost_share.count", (byte*)&s.count - begin, 24, 24));
-            entries.Add(Entry("vox_cost_share.cost", (byte*)&s.cost - begin, 32, 32));
-            entries.Add(Entry("vox_cost_share.share", (byte*)&s.share - begin, 40, 40));
-        }
-
-        static void AddSuggestion(List<LayoutEntry> entries)
-        {
-            Suggestion s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_suggestion", sizeof(Suggestion), 1968, 1968));
-            entries.Add(Entry("vox_suggestion.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_suggestion.model", (byte*)&s.model - begin, 4, 4));
-            entries.Add(Entry("vox_suggestion.cell_size", (byte*)&s.cell_size - begin, 8, 8));
-            entries.Add(Entry("vox_suggestion.cells_per_axis", (byte*)&s.cells_per_axis - begin, 16, 16));
-            entries.Add(Entry("vox_suggestion.zone_min", (byte*)&s.zone_min - begin, 24, 24));
-            entries.Add(Entry("vox_suggestion.zone_max", (byte*)&s.zone_max - begin, 32, 32));
-            entries.Add(Entry("vox_suggestion.predicted_cost", (byte*)&s.predicted_cost - begin, 40, 40));
-            entries.Add(Entry("vox_suggestion.rules", (byte*)&s.rules - begin, 48, 48));
-            entries.Add(Entry("vox_suggestion.stats", (byte*)&s.stats - begin, 96, 96));
-            entries.Add(Entry("vox_suggestion.curve", (byte*)&s.curve - begin, 256, 256));
-            entries.Add(Entry("vox_suggestion.curve_count", (byte*)&s.curve_count - begin, 1280, 1280));
-            entries.Add(Entry("vox_suggestion.term_count", (byte*)&s.term_count - begin, 1284, 1284));
-            entries.Add(Entry("vox_suggestion.terms", (byte*)&s.terms - begin, 1288, 1288));
-            entries.Add(Entry("vox_suggestion.rule_costs", (byte*)&s.rule_costs - begin, 1864, 1864));
-            entries.Add(Entry("vox_suggestion.budget_cell_size", (byte*)&s.budget_cell_size - begin, 1912, 1912));
-            entries.Add(Entry("vox_suggestion.uniform_loss", (byte*)&s.uniform_loss - begin, 1920, 1920));
-            entries.Add(Entry("vox_suggestion.levels", (byte*)&s.levels - begin, 1928, 1928));
-            entries.Add(Entry("vox_suggestion.level_count", (byte*)&s.level_count - begin, 1960, 1960));
-            entries.Add(Entry("vox_suggestion.reserved", (byte*)&s.reserved - begin, 1964, 1964));
-        }
-
-        static void AddCostMinimum(List<LayoutEntry> entries)
-        {
-            CostMinimum s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_cost_minimum", sizeof(CostMinimum), 1064, 1064));
-            entries.Add(Entry("vox_cost_minimum.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_cost_minimum.curve_count", (byte*)&s.curve_count - begin, 4, 4));
-            entries.Add(Entry("vox_cost_minimum.cell_size", (byte*)&s.cell_size - begin, 8, 8));
-            entries.Add(Entry("vox_cost_minimum.cost", (byte*)&s.cost - begin, 16, 16));
-            entries.Add(Entry("vox_cost_minimum.zone_min", (byte*)&s.zone_min - begin, 24, 24));
-            entries.Add(Entry("vox_cost_minimum.zone_max", (byte*)&s.zone_max - begin, 32, 32));
-            entries.Add(Entry("vox_cost_minimum.curve", (byte*)&s.curve - begin, 40, 40));
+            entries.Add(Entry("vox_geometry", sizeof(Geometry), 168, 168));
+            entries.Add(Entry("vox_geometry.struct_size", (byte*)&s.struct_size - begin, 0, 0));
+            entries.Add(Entry("vox_geometry.reserved", (byte*)&s.reserved - begin, 4, 4));
+            entries.Add(Entry("vox_geometry.vertices", (byte*)&s.vertices - begin, 8, 8));
+            entries.Add(Entry("vox_geometry.tets", (byte*)&s.tets - begin, 16, 16));
+            entries.Add(Entry("vox_geometry.edges", (byte*)&s.edges - begin, 24, 24));
+            entries.Add(Entry("vox_geometry.facets", (byte*)&s.facets - begin, 32, 32));
+            entries.Add(Entry("vox_geometry.boundary_facets", (byte*)&s.boundary_facets - begin, 40, 40));
+            entries.Add(Entry("vox_geometry.degenerate_tets", (byte*)&s.degenerate_tets - begin, 48, 48));
+            entries.Add(Entry("vox_geometry.mean_edge", (byte*)&s.mean_edge - begin, 56, 56));
+            entries.Add(Entry("vox_geometry.mean_longest_edge", (byte*)&s.mean_longest_edge - begin, 64, 64));
+            entries.Add(Entry("vox_geometry.mean_box_side", (byte*)&s.mean_box_side - begin, 72, 72));
+            entries.Add(Entry("vox_geometry.median_box_side", (byte*)&s.median_box_side - begin, 80, 80));
+            entries.Add(Entry("vox_geometry.mean_facet_area", (byte*)&s.mean_facet_area - begin, 88, 88));
+            entries.Add(Entry("vox_geometry.mean_tet_facet_area", (byte*)&s.mean_tet_facet_area - begin, 96, 96));
+            entries.Add(Entry("vox_geometry.mean_boundary_facet_area", (byte*)&s.mean_boundary_facet_area - begin, 104, 104));
+            entries.Add(Entry("vox_geometry.mean_volume", (byte*)&s.mean_volume - begin, 112, 112));
+            entries.Add(Entry("vox_geometry.bounds_min", (byte*)&s.bounds_min - begin, 120, 120));
+            entries.Add(Entry("vox_geometry.bounds_max", (byte*)&s.bounds_max - begin, 144, 144));
         }
 
         static void AddPrimitives(List<LayoutEntry> entries)
@@ -2930,151 +2753,50 @@ namespace Voxtet
             entries.Add(Entry("vox_primitives.radius", (byte*)&s.radius - begin, 96, 96));
         }
 
-        static void AddGridWork(List<LayoutEntry> entries)
-        {
-            GridWork s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_grid_work", sizeof(GridWork), 48, 48));
-            entries.Add(Entry("vox_grid_work.entries", (byte*)&s.entries - begin, 0, 0));
-            entries.Add(Entry("vox_grid_work.visits", (byte*)&s.visits - begin, 8, 8));
-            entries.Add(Entry("vox_grid_work.empty", (byte*)&s.empty - begin, 16, 16));
-            entries.Add(Entry("vox_grid_work.reads", (byte*)&s.reads - begin, 24, 24));
-            entries.Add(Entry("vox_grid_work.occupied", (byte*)&s.occupied - begin, 32, 32));
-            entries.Add(Entry("vox_grid_work.cells", (byte*)&s.cells - begin, 40, 40));
-        }
-
-        static void AddGridWeights(List<LayoutEntry> entries)
-        {
-            GridWeights s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_grid_weights", sizeof(GridWeights), 56, 56));
-            entries.Add(Entry("vox_grid_weights.fixed", (byte*)&s.@fixed - begin, 0, 0));
-            entries.Add(Entry("vox_grid_weights.entries", (byte*)&s.entries - begin, 8, 8));
-            entries.Add(Entry("vox_grid_weights.visits", (byte*)&s.visits - begin, 16, 16));
-            entries.Add(Entry("vox_grid_weights.found", (byte*)&s.found - begin, 24, 24));
-            entries.Add(Entry("vox_grid_weights.reads", (byte*)&s.reads - begin, 32, 32));
-            entries.Add(Entry("vox_grid_weights.occupied", (byte*)&s.occupied - begin, 40, 40));
-            entries.Add(Entry("vox_grid_weights.cells", (byte*)&s.cells - begin, 48, 48));
-        }
-
         static void AddForeignGrid(List<LayoutEntry> entries)
         {
             ForeignGrid s;
             byte* begin = (byte*)&s;
             entries.Add(Entry("vox_foreign_grid", sizeof(ForeignGrid), 128, 120));
             entries.Add(Entry("vox_foreign_grid.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_foreign_grid.flags", (byte*)&s.flags - begin, 4, 4));
-            entries.Add(Entry("vox_foreign_grid.content", (byte*)&s.content - begin, 8, 8));
-            entries.Add(Entry("vox_foreign_grid.look", (byte*)&s.look - begin, 12, 12));
-            entries.Add(Entry("vox_foreign_grid.held", (byte*)&s.held - begin, 16, 16));
-            entries.Add(Entry("vox_foreign_grid.asking", (byte*)&s.asking - begin, 24, 20));
-            entries.Add(Entry("vox_foreign_grid.radius", (byte*)&s.radius - begin, 32, 24));
-            entries.Add(Entry("vox_foreign_grid.least_cell_size", (byte*)&s.least_cell_size - begin, 40, 32));
-            entries.Add(Entry("vox_foreign_grid.zone_loss", (byte*)&s.zone_loss - begin, 48, 40));
-            entries.Add(Entry("vox_foreign_grid.known", (byte*)&s.known - begin, 56, 48));
-            entries.Add(Entry("vox_foreign_grid.reserved", (byte*)&s.reserved - begin, 60, 52));
+            entries.Add(Entry("vox_foreign_grid.known", (byte*)&s.known - begin, 4, 4));
+            entries.Add(Entry("vox_foreign_grid.cells_stored", (byte*)&s.cells_stored - begin, 8, 8));
+            entries.Add(Entry("vox_foreign_grid.cells_queried", (byte*)&s.cells_queried - begin, 12, 12));
+            entries.Add(Entry("vox_foreign_grid.cells_kept", (byte*)&s.cells_kept - begin, 16, 16));
+            entries.Add(Entry("vox_foreign_grid.reserved", (byte*)&s.reserved - begin, 20, 20));
+            entries.Add(Entry("vox_foreign_grid.stored", (byte*)&s.stored - begin, 24, 24));
+            entries.Add(Entry("vox_foreign_grid.querying", (byte*)&s.querying - begin, 32, 28));
+            entries.Add(Entry("vox_foreign_grid.radius", (byte*)&s.radius - begin, 40, 32));
+            entries.Add(Entry("vox_foreign_grid.min_cell_size", (byte*)&s.min_cell_size - begin, 48, 40));
+            entries.Add(Entry("vox_foreign_grid.zone_loss", (byte*)&s.zone_loss - begin, 56, 48));
             entries.Add(Entry("vox_foreign_grid.weights", (byte*)&s.weights - begin, 64, 56));
             entries.Add(Entry("vox_foreign_grid.allocator", (byte*)&s.allocator - begin, 120, 112));
         }
 
-        static void AddForeignRules(List<LayoutEntry> entries)
+        static void AddForeignCounts(List<LayoutEntry> entries)
         {
-            ForeignRules s;
+            ForeignCounts s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_foreign_rules", sizeof(ForeignRules), 40, 40));
-            entries.Add(Entry("vox_foreign_rules.mean_edge", (byte*)&s.mean_edge - begin, 0, 0));
-            entries.Add(Entry("vox_foreign_rules.mean_box_side", (byte*)&s.mean_box_side - begin, 8, 8));
-            entries.Add(Entry("vox_foreign_rules.median_box_side", (byte*)&s.median_box_side - begin, 16, 16));
-            entries.Add(Entry("vox_foreign_rules.spacing", (byte*)&s.spacing - begin, 24, 24));
-            entries.Add(Entry("vox_foreign_rules.radius", (byte*)&s.radius - begin, 32, 32));
-        }
-
-        static void AddForeignSuggestion(List<LayoutEntry> entries)
-        {
-            ForeignSuggestion s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_foreign_suggestion", sizeof(ForeignSuggestion), 2104, 2104));
-            entries.Add(Entry("vox_foreign_suggestion.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_foreign_suggestion.warnings", (byte*)&s.warnings - begin, 4, 4));
-            entries.Add(Entry("vox_foreign_suggestion.cell_size", (byte*)&s.cell_size - begin, 8, 8));
-            entries.Add(Entry("vox_foreign_suggestion.zone_min", (byte*)&s.zone_min - begin, 16, 16));
-            entries.Add(Entry("vox_foreign_suggestion.zone_max", (byte*)&s.zone_max - begin, 24, 24));
-            entries.Add(Entry("vox_foreign_suggestion.predicted_cost", (byte*)&s.predicted_cost - begin, 32, 32));
-            entries.Add(Entry("vox_foreign_suggestion.least_cell_size", (byte*)&s.least_cell_size - begin, 40, 40));
-            entries.Add(Entry("vox_foreign_suggestion.work", (byte*)&s.work - begin, 48, 48));
-            entries.Add(Entry("vox_foreign_suggestion.weights", (byte*)&s.weights - begin, 96, 96));
-            entries.Add(Entry("vox_foreign_suggestion.rules", (byte*)&s.rules - begin, 152, 152));
-            entries.Add(Entry("vox_foreign_suggestion.rule_costs", (byte*)&s.rule_costs - begin, 192, 192));
-            entries.Add(Entry("vox_foreign_suggestion.curve", (byte*)&s.curve - begin, 232, 232));
-            entries.Add(Entry("vox_foreign_suggestion.curve_count", (byte*)&s.curve_count - begin, 1256, 1256));
-            entries.Add(Entry("vox_foreign_suggestion.term_count", (byte*)&s.term_count - begin, 1260, 1260));
-            entries.Add(Entry("vox_foreign_suggestion.terms", (byte*)&s.terms - begin, 1264, 1264));
-            entries.Add(Entry("vox_foreign_suggestion.rule", (byte*)&s.rule - begin, 1840, 1840));
-            entries.Add(Entry("vox_foreign_suggestion.reserved", (byte*)&s.reserved - begin, 1844, 1844));
-            entries.Add(Entry("vox_foreign_suggestion.note", (byte*)&s.note - begin, 1848, 1848));
-        }
-
-        static void AddGridTiming(List<LayoutEntry> entries)
-        {
-            GridTiming s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_grid_timing", sizeof(GridTiming), 16, 16));
-            entries.Add(Entry("vox_grid_timing.cell_size", (byte*)&s.cell_size - begin, 0, 0));
-            entries.Add(Entry("vox_grid_timing.seconds", (byte*)&s.seconds - begin, 8, 8));
-        }
-
-        static void AddGridFit(List<LayoutEntry> entries)
-        {
-            GridFit s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_grid_fit", sizeof(GridFit), 1392, 1392));
-            entries.Add(Entry("vox_grid_fit.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_grid_fit.warnings", (byte*)&s.warnings - begin, 4, 4));
-            entries.Add(Entry("vox_grid_fit.weights", (byte*)&s.weights - begin, 8, 8));
-            entries.Add(Entry("vox_grid_fit.residual", (byte*)&s.residual - begin, 64, 64));
-            entries.Add(Entry("vox_grid_fit.cell_size", (byte*)&s.cell_size - begin, 72, 72));
-            entries.Add(Entry("vox_grid_fit.zone_min", (byte*)&s.zone_min - begin, 80, 80));
-            entries.Add(Entry("vox_grid_fit.zone_max", (byte*)&s.zone_max - begin, 88, 88));
-            entries.Add(Entry("vox_grid_fit.predicted_seconds", (byte*)&s.predicted_seconds - begin, 96, 96));
-            entries.Add(Entry("vox_grid_fit.curve", (byte*)&s.curve - begin, 104, 104));
-            entries.Add(Entry("vox_grid_fit.curve_count", (byte*)&s.curve_count - begin, 1128, 1128));
-            entries.Add(Entry("vox_grid_fit.reserved", (byte*)&s.reserved - begin, 1132, 1132));
-            entries.Add(Entry("vox_grid_fit.note", (byte*)&s.note - begin, 1136, 1136));
+            entries.Add(Entry("vox_foreign_counts", sizeof(ForeignCounts), 48, 48));
+            entries.Add(Entry("vox_foreign_counts.stored", (byte*)&s.stored - begin, 0, 0));
+            entries.Add(Entry("vox_foreign_counts.visits", (byte*)&s.visits - begin, 8, 8));
+            entries.Add(Entry("vox_foreign_counts.empty", (byte*)&s.empty - begin, 16, 16));
+            entries.Add(Entry("vox_foreign_counts.reads", (byte*)&s.reads - begin, 24, 24));
+            entries.Add(Entry("vox_foreign_counts.occupied", (byte*)&s.occupied - begin, 32, 32));
+            entries.Add(Entry("vox_foreign_counts.cells", (byte*)&s.cells - begin, 40, 40));
         }
 
         static void AddTuneDesc(List<LayoutEntry> entries)
         {
             TuneDesc s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_tune_desc", sizeof(TuneDesc), 48, 48));
+            entries.Add(Entry("vox_tune_desc", sizeof(TuneDesc), 40, 40));
             entries.Add(Entry("vox_tune_desc.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_tune_desc.most_runs", (byte*)&s.most_runs - begin, 4, 4));
+            entries.Add(Entry("vox_tune_desc.max_runs", (byte*)&s.max_runs - begin, 4, 4));
             entries.Add(Entry("vox_tune_desc.min", (byte*)&s.min - begin, 8, 8));
             entries.Add(Entry("vox_tune_desc.max", (byte*)&s.max - begin, 16, 16));
             entries.Add(Entry("vox_tune_desc.first", (byte*)&s.first - begin, 24, 24));
-            entries.Add(Entry("vox_tune_desc.zone_loss", (byte*)&s.zone_loss - begin, 32, 32));
-            entries.Add(Entry("vox_tune_desc.wanted_loss", (byte*)&s.wanted_loss - begin, 40, 40));
-        }
-
-        static void AddTuning(List<LayoutEntry> entries)
-        {
-            Tuning s;
-            byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_tuning", sizeof(Tuning), 1912, 1912));
-            entries.Add(Entry("vox_tuning.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_tuning.warnings", (byte*)&s.warnings - begin, 4, 4));
-            entries.Add(Entry("vox_tuning.cell_size", (byte*)&s.cell_size - begin, 8, 8));
-            entries.Add(Entry("vox_tuning.zone_min", (byte*)&s.zone_min - begin, 16, 16));
-            entries.Add(Entry("vox_tuning.zone_max", (byte*)&s.zone_max - begin, 24, 24));
-            entries.Add(Entry("vox_tuning.seconds", (byte*)&s.seconds - begin, 32, 32));
-            entries.Add(Entry("vox_tuning.expected_loss", (byte*)&s.expected_loss - begin, 40, 40));
-            entries.Add(Entry("vox_tuning.noise", (byte*)&s.noise - begin, 48, 48));
-            entries.Add(Entry("vox_tuning.weights", (byte*)&s.weights - begin, 56, 56));
-            entries.Add(Entry("vox_tuning.runs", (byte*)&s.runs - begin, 112, 112));
-            entries.Add(Entry("vox_tuning.run_count", (byte*)&s.run_count - begin, 624, 624));
-            entries.Add(Entry("vox_tuning.curve_count", (byte*)&s.curve_count - begin, 628, 628));
-            entries.Add(Entry("vox_tuning.curve", (byte*)&s.curve - begin, 632, 632));
-            entries.Add(Entry("vox_tuning.note", (byte*)&s.note - begin, 1656, 1656));
+            entries.Add(Entry("vox_tune_desc.wanted_loss", (byte*)&s.wanted_loss - begin, 32, 32));
         }
 
         static void AddSurfaceDesc(List<LayoutEntry> entries)
@@ -3416,20 +3138,18 @@ namespace Voxtet
             entries.Add(Entry("vox_sim_body_view.tet_count", (byte*)&s.tet_count - begin, 48, 32));
         }
 
-        static void AddSimEnergies(List<LayoutEntry> entries)
+        static void AddSimEnergy(List<LayoutEntry> entries)
         {
-            SimEnergies s;
+            SimEnergy s;
             byte* begin = (byte*)&s;
-            entries.Add(Entry("vox_sim_energies", sizeof(SimEnergies), 96, 96));
-            entries.Add(Entry("vox_sim_energies.struct_size", (byte*)&s.struct_size - begin, 0, 0));
-            entries.Add(Entry("vox_sim_energies.reserved", (byte*)&s.reserved - begin, 4, 4));
-            entries.Add(Entry("vox_sim_energies.kinetic", (byte*)&s.kinetic - begin, 8, 8));
-            entries.Add(Entry("vox_sim_energies.potential", (byte*)&s.potential - begin, 16, 16));
-            entries.Add(Entry("vox_sim_energies.elastic", (byte*)&s.elastic - begin, 24, 24));
-            entries.Add(Entry("vox_sim_energies.mass", (byte*)&s.mass - begin, 32, 32));
-            entries.Add(Entry("vox_sim_energies.momentum", (byte*)&s.momentum - begin, 40, 40));
-            entries.Add(Entry("vox_sim_energies.centre", (byte*)&s.centre - begin, 64, 64));
-            entries.Add(Entry("vox_sim_energies.max_speed", (byte*)&s.max_speed - begin, 88, 88));
+            entries.Add(Entry("vox_sim_energy", sizeof(SimEnergy), 88, 88));
+            entries.Add(Entry("vox_sim_energy.kinetic", (byte*)&s.kinetic - begin, 0, 0));
+            entries.Add(Entry("vox_sim_energy.potential", (byte*)&s.potential - begin, 8, 8));
+            entries.Add(Entry("vox_sim_energy.elastic", (byte*)&s.elastic - begin, 16, 16));
+            entries.Add(Entry("vox_sim_energy.mass", (byte*)&s.mass - begin, 24, 24));
+            entries.Add(Entry("vox_sim_energy.momentum", (byte*)&s.momentum - begin, 32, 32));
+            entries.Add(Entry("vox_sim_energy.centre", (byte*)&s.centre - begin, 56, 56));
+            entries.Add(Entry("vox_sim_energy.max_speed", (byte*)&s.max_speed - begin, 80, 80));
         }
 
         /// <summary>All structs and fields. A program whose entries differ must not call the library.</summary>
@@ -3461,25 +3181,20 @@ namespace Voxtet
             AddClosestHit(entries);
             AddBoxHit(entries);
             AddRayHit(entries);
+            AddCostSample(entries);
+            AddCostTerm(entries);
+            AddCellSizeRule(entries);
+            AddTiming(entries);
+            AddForeignWeights(entries);
+            AddCellSizeResult(entries);
             AddCostWeights(entries);
             AddReferenceDesc(entries);
-            AddSuggestDesc(entries);
-            AddGeometryStats(entries);
-            AddCellSizeRules(entries);
-            AddCostSample(entries);
-            AddCostShare(entries);
-            AddSuggestion(entries);
-            AddCostMinimum(entries);
+            AddCellSizeDesc(entries);
+            AddGeometry(entries);
             AddPrimitives(entries);
-            AddGridWork(entries);
-            AddGridWeights(entries);
             AddForeignGrid(entries);
-            AddForeignRules(entries);
-            AddForeignSuggestion(entries);
-            AddGridTiming(entries);
-            AddGridFit(entries);
+            AddForeignCounts(entries);
             AddTuneDesc(entries);
-            AddTuning(entries);
             AddSurfaceDesc(entries);
             AddFeatureView(entries);
             AddMotion(entries);
@@ -3504,7 +3219,7 @@ namespace Voxtet
             AddSimDesc(entries);
             AddSimBodyDesc(entries);
             AddSimBodyView(entries);
-            AddSimEnergies(entries);
+            AddSimEnergy(entries);
             return entries;
         }
     }

@@ -363,13 +363,17 @@ namespace Voxtet.Tests
             uint[] tets;
             Block(5, 0, out positions, out tets);
             Suggestion suggestion = CellSize.Suggest(positions, tets);
-            Test.That(suggestion.zone_min < suggestion.cell_size && suggestion.cell_size < suggestion.zone_max, "the zone");
-            Test.That(suggestion.curve[1].cell_size > suggestion.curve[0].cell_size, "the curve");
+            Test.That(suggestion.ZoneMin < suggestion.CellSize && suggestion.CellSize < suggestion.ZoneMax, "the zone");
+            Test.That(suggestion.Curve[1].cell_size > suggestion.Curve[0].cell_size, "the curve");
+            Geometry geometry = CellSize.MeasureGeometry(new[] { positions, positions }, new[] { tets, tets });
+            Test.Same(geometry.tets, (ulong)tets.Length / 2, "tets");
+            Test.That(geometry.mean_edge > 0 && geometry.bounds_min.x < geometry.bounds_max.x, "lengths");
+            Test.Throws<VoxArgumentException>(() => CellSize.MeasureGeometry(new[] { unit }, new[] { new uint[] { 0, 1, 2, 9 } }), "");
             Test.Throws<ArgumentException>(() => CellSize.Suggest(new float[1][], new uint[2][]), "2 arrays of tets");
             Test.Throws<ArgumentNullException>(() => CellSize.Suggest(new float[1][], new uint[1][]), "mesh 0");
             Test.Throws<VoxArgumentException>(() => CellSize.Suggest(unit, new uint[0]), "");
-            CostMinimum least = CellSize.Minimise(x => (x - 2) * (x - 2) + 1, 0.1, 10);
-            Test.That(Math.Abs(least.cell_size - 2) < 1e-3, "least at " + least.cell_size);
+            Suggestion least = CellSize.Minimise(x => (x - 2) * (x - 2) + 1, 0.1, 10);
+            Test.That(Math.Abs(least.CellSize - 2) < 1e-3 && Math.Abs(least.Cost - 1) < 1e-6, "least at " + least.CellSize);
             Test.Throws<FormatException>(() => CellSize.Minimise(x => { throw new FormatException("of a cost"); }, 0.1, 10),
                                          "of a cost");
             try
@@ -383,14 +387,14 @@ namespace Voxtet.Tests
             Test.Throws<VoxArgumentException>(() => CellSize.Minimise(x => x, 2, 1), "");
             CostWeights weights = CellSize.Calibrate(), twice = weights;
             for (int i = 0; i < Double24.Length; ++i) twice.ns[i] *= 2;
-            Test.Same(CellSize.Suggest(positions, tets, CostModel.Reference, twice).predicted_cost,
-                      2 * CellSize.Suggest(positions, tets, CostModel.Reference, weights).predicted_cost, "weights");
+            Test.Same(CellSize.Suggest(positions, tets, CostModel.Reference, twice).Cost,
+                      2 * CellSize.Suggest(positions, tets, CostModel.Reference, weights).Cost, "weights");
             Mesh a, b;
             using (Grid grid = TwoBlocks(out a, out b))
-                Test.That(grid.SuggestCellSize().cell_size > 0 && grid.SuggestCellSize(CostModel.Paper).cell_size > 0, "a grid");
+                Test.That(grid.SuggestCellSize().CellSize > 0 && grid.SuggestCellSize(CostModel.Paper).CellSize > 0, "a grid");
             using (Grid grid = TwoBlocks(out a, out b, new GridOptions { Reference = new ReferenceOptions { Weights = weights } }))
             {
-                Test.Same(grid.SuggestCellSize(CostModel.Reference, twice).predicted_cost, 2 * grid.SuggestCellSize().predicted_cost,
+                Test.Same(grid.SuggestCellSize(CostModel.Reference, twice).Cost, 2 * grid.SuggestCellSize().Cost,
                           "weights of a grid");
                 Test.Throws<ArgumentException>(() => grid.SuggestCellSize(null, weights), "need a model");
             }
@@ -403,49 +407,53 @@ namespace Voxtet.Tests
             float[] positions;
             uint[] tets;
             Block(4, 0, out positions, out tets);
-            var held = new PrimitiveArrays(PrimitiveType.Tet, positions, tets);
-            var asking = new PrimitiveArrays(PrimitiveType.Point, Array.ConvertAll(positions, x => (double)x)) { Radius = 0.2 };
-            var grid = new GridDescription(held, KnownGrid.Hashed) { Asking = asking };
-            ForeignSuggestion suggestion = CellSize.SuggestFor(grid);
-            Test.That(suggestion.zone_min <= suggestion.cell_size && suggestion.cell_size <= suggestion.zone_max, "the zone");
-            Test.That(suggestion.terms[0].name.ToString().Length > 0, "a term");
-            Test.That((suggestion.note.ToString() == "") == (suggestion.warnings == 0), "note");
-            ForeignSuggestion unknown = CellSize.SuggestFor(new GridDescription(held));
-            Test.That((unknown.warnings & ForeignWarnings.WeightsUnknown) != 0 && unknown.note.ToString() != "", "a warning");
+            var stored = new PrimitiveArrays(PrimitiveType.Tet, positions, tets);
+            var querying = new PrimitiveArrays(PrimitiveType.Point, Array.ConvertAll(positions, x => (double)x)) { Radius = 0.2 };
+            var grid = new GridDescription(stored, KnownGrid.Hashed) { Querying = querying };
+            Suggestion suggestion = CellSize.Suggest(grid);
+            Test.That(suggestion.ZoneMin <= suggestion.CellSize && suggestion.CellSize <= suggestion.ZoneMax, "the zone");
+            Test.That(suggestion.Terms[0].Name.Length > 0 && suggestion.Rules[0].Name.Length > 0, "names");
+            double sum = 0;
+            foreach (Suggestion.Term term in suggestion.Terms) sum += term.Cost;
+            Test.That(Math.Abs(sum - suggestion.Cost) <= 1e-9 * sum, "terms");
+            Test.That((suggestion.Note == "") == (suggestion.Warnings == 0), "note");
+            Suggestion unknown = CellSize.Suggest(new GridDescription(stored));
+            Test.That((unknown.Warnings & CellSizeWarnings.GuessedWeights) != 0 && unknown.Note != "", "a warning");
 
             // A grid that takes as long as its counts say.
             Func<double, double> seconds = d =>
             {
-                GridWork work = CellSize.CountFor(grid, d);
-                return 1e-9 * (20 * work.entries + 9 * work.visits + 3 * work.reads);
+                ForeignCounts counts = CellSize.Count(grid, d);
+                return 1e-9 * (20 * counts.stored + 9 * counts.visits + 3 * counts.reads);
             };
-            GridTiming[] timings = Array.ConvertAll(new[] { 0.3, 0.6, 1.2, 2.4 },
-                                                    d => new GridTiming { cell_size = d, seconds = seconds(d) });
-            GridFit fit = CellSize.Fit(grid, timings);
-            Test.That(fit.residual < 0.02 && fit.weights.entries > 0, "residual " + fit.residual);
-            grid.Weights = fit.weights;
-            Test.Same(CellSize.SuggestFor(grid).weights.entries, fit.weights.entries, "weights");
+            Timing[] timings = Array.ConvertAll(new[] { 0.3, 0.6, 1.2, 2.4 },
+                                                d => new Timing { cell_size = d, seconds = seconds(d) });
+            Suggestion fit = CellSize.Fit(grid, timings);
+            Test.That(fit.FitError < 0.02 && fit.Weights.store > 0, "fit error " + fit.FitError);
+            grid.Weights = fit.Weights;
+            Test.Same(CellSize.Suggest(grid).Weights.store, fit.Weights.store, "weights");
             int runs = 0;
-            Tuning tuning = CellSize.Tune(d => { ++runs; return seconds(d); }, grid);
-            Test.Same((double)tuning.run_count, (double)runs, "runs");
-            Test.That(seconds(tuning.cell_size) <= 1.1 * seconds(fit.cell_size), "tuned to " + tuning.cell_size);
+            Suggestion tuning = CellSize.Tune(d => { ++runs; return seconds(d); }, grid);
+            Test.Same(tuning.Timings.Length, runs, "runs");
+            Test.That(tuning.ExpectedLoss < 0.1, "expected loss " + tuning.ExpectedLoss);
+            Test.That(seconds(tuning.CellSize) <= 1.1 * seconds(fit.CellSize), "tuned to " + tuning.CellSize);
 
             runs = 0;
             Test.Throws<FormatException>(() => CellSize.Tune(d => { ++runs; throw new FormatException("of a run"); }, grid), "of a run");
             Test.Same(runs, 1, "runs");
             Test.Throws<VoxArgumentException>(() => CellSize.Tune(d => 1), "desc.first is 0");
             Test.Throws<VoxArgumentException>(() => CellSize.Fit(grid, timings[0]), "expected at least 3");
-            Test.Throws<VoxArgumentException>(() => CellSize.CountFor(grid, 0), "cell_size is 0");
-            Test.Throws<ArgumentNullException>(() => CellSize.SuggestFor(null), "grid");
-            Test.Throws<ArgumentNullException>(() => new GridDescription(null), "held");
+            Test.Throws<VoxArgumentException>(() => CellSize.Count(grid, 0), "cell_size is 0");
+            Test.Throws<ArgumentNullException>(() => CellSize.Suggest((GridDescription)null), "grid");
+            Test.Throws<ArgumentNullException>(() => new GridDescription(null), "stored");
             Test.Throws<ArgumentException>(() => new PrimitiveArrays(PrimitiveType.Triangle, positions, new uint[4]),
                                            "4 vertices, expected 3 for each");
             Test.Throws<ArgumentException>(() => new PrimitiveArrays(PrimitiveType.Point, new float[4]), "4 numbers");
-            asking.Radii = new double[3];
-            Test.Throws<ArgumentException>(() => CellSize.SuggestFor(grid), "3 radii, expected");
-            Test.Throws<VoxArgumentException>(() => CellSize.SuggestFor(new GridDescription(held, (KnownGrid)99)), "known is 99");
+            querying.Radii = new double[3];
+            Test.Throws<ArgumentException>(() => CellSize.Suggest(grid), "3 radii, expected");
+            Test.Throws<VoxArgumentException>(() => CellSize.Suggest(new GridDescription(stored, (KnownGrid)99)), "known is 99");
             var wrong = new PrimitiveArrays(PrimitiveType.Edge, positions, new uint[] { 0, 9999 });
-            Test.Throws<VoxArgumentException>(() => CellSize.SuggestFor(new GridDescription(wrong)), "names vertex 9999");
+            Test.Throws<VoxArgumentException>(() => CellSize.Suggest(new GridDescription(wrong)), "names vertex 9999");
         }
 
         public static void Files()

@@ -241,19 +241,19 @@ namespace Voxtet.Tests
                 case "suggest":
                     Suggest(call);
                     break;
-                case "suggest_for":
-                    SuggestFor(call);
+                case "foreign_suggest":
+                    CheckSuggestion(call, CellSize.Suggest(GridOf(call)));
                     break;
-                case "count_for":
+                case "foreign_count":
                 {
-                    GridWork w = CellSize.CountFor(GridOf(call), call.Number("at"));
-                    Near(call, "work", w.entries, w.visits, w.empty, w.reads, w.occupied, w.cells);
+                    ForeignCounts c = CellSize.Count(GridOf(call), call.Number("at"));
+                    Near(call, "counts", c.stored, c.visits, c.empty, c.reads, c.occupied, c.cells);
                     break;
                 }
-                case "cost_fit":
+                case "foreign_fit":
                     Fit(call);
                     break;
-                case "cost_tune":
+                case "foreign_tune":
                     Tune(call);
                     break;
                 default:
@@ -314,14 +314,22 @@ namespace Voxtet.Tests
                 positions[i] = Array<float>(mesh, "positions", 3 * mesh.Uint("vertices"));
                 tets[i] = Array<uint>(mesh, "tets", 4 * mesh.Uint("tet_count"));
             }
-            Suggestion found = CellSize.Suggest(positions, tets, (CostModel)call.Uint("model"));
-            var pairs = new Dictionary<string, double>
-            {
-                { "cell_size", found.cell_size }, { "zone_min", found.zone_min }, { "zone_max", found.zone_max },
-                { "predicted_cost", found.predicted_cost }, { "mean_edge", found.stats.mean_edge },
-                { "curve_count", found.curve_count }
-            };
-            foreach (KeyValuePair<string, double> pair in pairs) Near(call, pair.Key, pair.Value);
+            CheckSuggestion(call, CellSize.Suggest(positions, tets, (CostModel)call.Uint("model")));
+        }
+
+        void CheckSuggestion(Call call, Suggestion found)
+        {
+            Near(call, "cell_size", found.CellSize);
+            Near(call, "zone_min", found.ZoneMin);
+            Near(call, "zone_max", found.ZoneMax);
+            Near(call, "cost", found.Cost);
+            Near(call, "result_min_cell_size", found.MinCellSize);
+            Near(call, "rules", System.Array.ConvertAll(found.Rules, rule => rule.CellSize));
+            Near(call, "runs", System.Array.ConvertAll(found.Timings, timing => timing.cell_size));
+            Check(call, "curve_count", found.Curve.Length);
+            Check(call, "term_count", found.Terms.Length);
+            Check(call, "warnings", (uint)found.Warnings);
+            Test.Same(found.Note, call.Text("note"), place);
         }
 
         /// <summary>Within one part in a million: a number, or a list of them.</summary>
@@ -351,58 +359,31 @@ namespace Voxtet.Tests
 
         GridDescription GridOf(Call call)
         {
-            var grid = new GridDescription(PrimitivesOf(call, "held"), (KnownGrid)call.Uint("known"))
-            {
-                Radius = call.Number("radius"), LeastCellSize = call.Number("least_cell_size"), ZoneLoss = call.Number("zone_loss")
-            };
-            if (call.Has("asking")) grid.Asking = PrimitivesOf(call, "asking");
-            if (call.Has("content")) grid.Content = (CellContent)call.Uint("content");
-            if (call.Has("look")) grid.Look = (CellLook)call.Uint("look");
-            if (call.Has("dense")) grid.Flags = (ForeignFlags)call.Uint("dense");
-            if (!call.Has("weights")) return grid;
             List<double> w = ((List<object>)call.Fields["weights"]).ConvertAll(x => (double)x);
-            grid.Weights = new GridWeights
+            return new GridDescription(PrimitivesOf(call, "stored"), (KnownGrid)call.Uint("known"))
             {
-                @fixed = w[0], entries = w[1], visits = w[2], found = w[3], reads = w[4], occupied = w[5], cells = w[6]
+                Querying = call.Has("querying") ? PrimitivesOf(call, "querying") : null,
+                CellsStored = (CellsStored)call.Uint("cells_stored"), CellsQueried = (CellsQueried)call.Uint("cells_queried"),
+                CellsKept = (CellsKept)call.Uint("cells_kept"), Radius = call.Number("radius"),
+                MinCellSize = call.Number("min_cell_size"), ZoneLoss = call.Number("zone_loss"),
+                Weights = new ForeignWeights
+                {
+                    run = w[0], store = w[1], visit = w[2], found = w[3], read = w[4], occupied = w[5], cell = w[6]
+                }
             };
-            return grid;
-        }
-
-        /// <summary>What the answers have in common.</summary>
-        void CheckAnswer(Call call, double cellSize, double zoneMin, double zoneMax, ForeignWarnings warnings, Byte256 note)
-        {
-            Near(call, "cell_size", cellSize);
-            Near(call, "zone_min", zoneMin);
-            Near(call, "zone_max", zoneMax);
-            Check(call, "warnings", (uint)warnings);
-            Test.Same(note.ToString(), call.Text("note"), place);
-        }
-
-        void SuggestFor(Call call)
-        {
-            ForeignSuggestion found = CellSize.SuggestFor(GridOf(call));
-            CheckAnswer(call, found.cell_size, found.zone_min, found.zone_max, found.warnings, found.note);
-            Check(call, "rule", (int)found.rule);
-            Check(call, "curve_count", found.curve_count);
-            Near(call, "predicted_cost", found.predicted_cost);
-            Near(call, "legal_cell_size", found.least_cell_size);
-            Near(call, "mean_box_side", found.rules.mean_box_side);
         }
 
         void Fit(Call call)
         {
-            var timings = new List<GridTiming>();
+            var timings = new List<Timing>();
             foreach (List<object> pair in (List<object>)call.Fields["timings"])
-                timings.Add(new GridTiming { cell_size = (double)pair[0], seconds = (double)pair[1] });
-            GridFit found = CellSize.Fit(GridOf(call), timings.ToArray());
-            CheckAnswer(call, found.cell_size, found.zone_min, found.zone_max, found.warnings, found.note);
-            Check(call, "curve_count", found.curve_count);
-            Near(call, "predicted_seconds", found.predicted_seconds);
+                timings.Add(new Timing { cell_size = (double)pair[0], seconds = (double)pair[1] });
+            CheckSuggestion(call, CellSize.Fit(GridOf(call), timings.ToArray()));
         }
 
         void Tune(Call call)
         {
-            var desc = new TuneDesc { first = call.Number("first"), most_runs = call.Uint("most_runs") };
+            var desc = new TuneDesc { first = call.Number("first"), max_runs = call.Uint("max_runs") };
             List<double> seconds = ((List<object>)call.Fields["run"]).ConvertAll(x => (double)x);
             double most = call.Number("stops_after"), below = call.Number("fails_below");
             int runs = 0;
@@ -411,12 +392,7 @@ namespace Voxtet.Tests
                 if (++runs > most && most != 0) return -1;
                 return d < below ? double.PositiveInfinity : seconds[0] + seconds[1] / (d * d) + seconds[2] * (d * d);
             };
-            Tuning found = CellSize.Tune(run, call.Has("held") ? GridOf(call) : null, desc);
-            CheckAnswer(call, found.cell_size, found.zone_min, found.zone_max, found.warnings, found.note);
-            Near(call, "seconds", found.seconds);
-            var sizes = new double[found.run_count];
-            for (int i = 0; i < sizes.Length; ++i) sizes[i] = found.runs[i].cell_size;
-            Near(call, "runs", sizes);
+            CheckSuggestion(call, CellSize.Tune(run, call.Has("stored") ? GridOf(call) : null, desc));
         }
     }
 }

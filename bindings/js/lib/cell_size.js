@@ -4,9 +4,8 @@ import { callback, fields, float, list, options } from "./check.js";
 import { foreignGrid } from "./foreign.js";
 import { meshArrays, meshFields } from "./mesh_arrays.js";
 
-const SUGGEST = ["model", "sizeReading", "areaReading", "pNc", "costRatio", "worldEdge", "zoneLoss", "meanEdgeFactor",
-  "resolution", "byteBudget", "referenceFlags"];
-const TUNE = ["mostRuns", "min", "max", "first", "zoneLoss", "wantedLoss"];
+const SUGGEST = ["model", "referenceFlags", "zoneLoss", "pNc", "costRatio", "worldEdge", "byteBudget"];
+const TUNE = ["maxRuns", "min", "max", "first", "wantedLoss"];
 
 /** Settings with weights, checked: a function that makes the struct of C of them. */
 export function weighted(settings, what, struct, known) {
@@ -16,33 +15,39 @@ export function weighted(settings, what, struct, known) {
 }
 
 export function suggestOptions(settings) {
-  return weighted(settings, "options", "vox_suggest_desc", SUGGEST);
+  return weighted(settings, "options", "vox_cell_size_desc", SUGGEST);
 }
 
-/** Arrays that C fills in part, cut to what there is. */
-export function suggestion({ curveCount, termCount, levelCount, runCount, ...found }) {
-  const { curve, terms, levels, runs } = found;
-  if (curve) found.curve = curve.slice(0, curveCount);
-  if (terms) found.terms = terms.slice(0, termCount);
-  if (levels) found.levels = levels.slice(0, levelCount);
-  if (runs) found.runs = runs.slice(0, runCount);
-  return found;
+/** The result that `ask` has C write, with its arrays cut to what there is, and names as text. */
+export function cellSizeResult(memory, ask) {
+  const { curveCount, termCount, ruleCount, timingCount, ...found } = memory.frame((frame) => {
+    const out = frame.struct("vox_cell_size_result"); // not that of memory.get, which callbacks may use
+    ask(frame, out);
+    return memory.read("vox_cell_size_result", out);
+  });
+  const named = (items) => items.map((item) => ({ ...item, name: memory.text(item.name) }));
+  return {
+    ...found,
+    curve: found.curve.slice(0, curveCount),
+    terms: named(found.terms.slice(0, termCount)),
+    rules: named(found.rules.slice(0, ruleCount)),
+    timings: found.timings.slice(0, timingCount),
+  };
 }
 
-/** Runs `use` with options and meshes as C wants them. */
-function withMeshes(memory, meshes, settings, use) {
-  const described = suggestOptions(settings);
+/** Meshes, checked: a function that makes an array and a count of C of them. */
+function meshArray(meshes, memory) {
   const all = list(meshes, "meshes", "{ positions, tets }").map((mesh, i) => {
     const { selfCollision = false, ...arrays } = options(mesh, `meshes[${i}]`, ["positions", "tets", "selfCollision"]);
     if (typeof selfCollision !== "boolean") throw new TypeError(`meshes[${i}].selfCollision: expected true or false`);
     return [meshArrays(arrays, memory), { flags: selfCollision ? FilterFlags.SELF_COLLISION : 0 }];
   });
-  return memory.frame((frame) => {
+  return (frame) => {
     const { size } = structs.vox_mesh_desc;
-    const list = frame.take(all.length * size);
-    all.forEach(([arrays, filter], i) => memory.fill(list + i * size, "vox_mesh_desc", meshFields(frame, arrays, { filter })));
-    return use(described(frame), list, all.length);
-  });
+    const array = frame.take(all.length * size);
+    all.forEach(([arrays, filter], i) => memory.fill(array + i * size, "vox_mesh_desc", meshFields(frame, arrays, { filter })));
+    return [array, all.length];
+  };
 }
 
 /** The functions of a module about cell sizes. */
@@ -59,61 +64,58 @@ export function cellSizes(memory) {
     }
   };
   return {
-    suggestCellSize: (meshes, settings) =>
-      withMeshes(memory, meshes, settings, (desc, list, count) =>
-        suggestion(memory.get("vox_suggestion", (out) => call.vox_suggest_cell_size(desc, list, count, out))),
-      ),
+    suggestCellSize(meshes, settings) {
+      const described = suggestOptions(settings);
+      const listed = meshArray(meshes, memory);
+      return cellSizeResult(memory, (frame, out) => call.vox_suggest_cell_size(described(frame), ...listed(frame), out));
+    },
+
+    measureGeometry(meshes) {
+      const listed = meshArray(meshes, memory);
+      return memory.frame((frame) => memory.get("vox_geometry", (out) => call.vox_measure_geometry(...listed(frame), out)));
+    },
 
     calibrate: () => memory.get("vox_cost_weights", (out) => call.vox_cost_calibrate(out)),
 
     minimiseCost(cost, min, max, zoneLoss = 0) {
       const given = Object.entries({ min, max, zoneLoss }).map(([name, value]) => float(value, name));
       return calling(cost, "cost", (id) =>
-        memory.frame((frame) => {
-          const out = frame.struct("vox_cost_minimum");
-          call.voxtet_cost_minimise(id, ...given, out);
-          return suggestion(memory.read("vox_cost_minimum", out));
-        }),
+        cellSizeResult(memory, (_, out) => call.voxtet_cost_minimise(id, ...given, out)),
       );
     },
 
-    suggestFor(grid) {
+    foreignGridSuggest(grid) {
       const described = foreignGrid(grid, memory);
-      return memory.frame((frame) =>
-        suggestion(memory.get("vox_foreign_suggestion", (out) => call.vox_suggest_for(described(frame), out))),
-      );
+      return cellSizeResult(memory, (frame, out) => call.vox_foreign_grid_suggest(described(frame), out));
     },
 
-    countFor(grid, cellSize) {
+    foreignGridCount(grid, cellSize) {
       const described = foreignGrid(grid, memory);
       const size = float(cellSize, "cellSize");
-      return memory.frame((frame) => memory.get("vox_grid_work", (out) => call.vox_count_for(described(frame), size, out)));
+      return memory.frame((frame) =>
+        memory.get("vox_foreign_counts", (out) => call.vox_foreign_grid_count(described(frame), size, out)),
+      );
     },
 
-    costFit(grid, timings) {
+    foreignGridFit(grid, timings) {
       const described = foreignGrid(grid, memory);
       const numbers = list(timings, "timings", "{ cellSize, seconds }").flatMap((timing, i) => {
         const { cellSize, seconds } = options(timing, `timings[${i}]`, ["cellSize", "seconds"]);
         return [float(cellSize, `timings[${i}].cellSize`), float(seconds, `timings[${i}].seconds`)];
       });
-      return memory.frame((frame) => {
-        const given = frame.numbers(numbers);
-        return suggestion(
-          memory.get("vox_grid_fit", (out) => call.vox_cost_fit(described(frame), given, numbers.length / 2, out)),
-        );
-      });
+      return cellSizeResult(memory, (frame, out) =>
+        call.vox_foreign_grid_fit(described(frame), frame.numbers(numbers), numbers.length / 2, out),
+      );
     },
 
-    tune(run, settings) {
+    foreignGridTune(run, settings) {
       const { grid, ...rest } = options(settings, "options", ["grid", ...TUNE]);
       const described = grid === undefined ? () => 0 : foreignGrid(grid, memory);
       const given = fields(rest, "options", "vox_tune_desc", TUNE);
       return calling(run, "run", (id) =>
-        memory.frame((frame) => {
-          const out = frame.struct("vox_tuning");
-          call.voxtet_cost_tune(described(frame), frame.struct("vox_tune_desc", given), id, out);
-          return suggestion(memory.read("vox_tuning", out));
-        }),
+        cellSizeResult(memory, (frame, out) =>
+          call.voxtet_foreign_grid_tune(described(frame), frame.struct("vox_tune_desc", given), id, out),
+        ),
       );
     },
   };

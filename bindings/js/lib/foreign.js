@@ -4,8 +4,8 @@ import { structs } from "../layout.js";
 import { camel, fields, floats, indices, positions } from "./check.js";
 
 const PRIMITIVES = ["type", "positions", "indices", "radii", "radius"];
-const GRID = ["held", "asking", "known", "content", "look", "flags", "radius", "leastCellSize", "zoneLoss", "weights"];
-const WEIGHTS = Object.keys(structs.vox_grid_weights.fields).map(camel);
+const GRID = ["stored", "querying", "known", "cellsStored", "cellsQueried", "cellsKept", "radius", "minCellSize", "zoneLoss", "weights"];
+const WEIGHTS = Object.keys(structs.vox_foreign_weights.fields).map(camel);
 const WIDTHS = {
   [PrimitiveType.POINT]: 1,
   [PrimitiveType.EDGE]: 2,
@@ -42,21 +42,10 @@ function primitives(given, what, memory) {
 
 /** A described grid, checked: a function that makes the struct of C of it. */
 export function foreignGrid(given, memory) {
-  const { known, weights, ...found } = fields(given, "grid", "vox_foreign_grid", GRID);
-  const held = primitives(found.held, "grid.held", memory);
-  const asking = found.asking === undefined ? () => 0 : primitives(found.asking, "grid.asking", memory);
-  const nanoseconds = weights === undefined ? {} : fields(weights, "grid.weights", "vox_grid_weights", WEIGHTS);
-  return (frame) => {
-    const at = frame.struct("vox_foreign_grid");
-    memory.call.vox_foreign_grid_set_known(at, known ?? 0);
-    const like = memory.read("vox_foreign_grid", at);
-    memory.fill(at, "vox_foreign_grid", {
-      ...like,
-      ...found,
-      held: held(frame),
-      asking: asking(frame),
-      weights: { ...like.weights, ...nanoseconds },
-    });
-    return at;
-  };
+  const { weights, ...found } = fields(given, "grid", "vox_foreign_grid", GRID);
+  const stored = primitives(found.stored, "grid.stored", memory);
+  const querying = found.querying === undefined ? () => 0 : primitives(found.querying, "grid.querying", memory);
+  const nanoseconds = weights === undefined ? {} : fields(weights, "grid.weights", "vox_foreign_weights", WEIGHTS);
+  return (frame) =>
+    frame.struct("vox_foreign_grid", { ...found, stored: stored(frame), querying: querying(frame), weights: nanoseconds });
 }

@@ -1,6 +1,6 @@
 import { Format } from "../enums.js";
 import { bits, bytes, callback, fields, flag, float, floats, indices, integer, list, meshId, options, positions } from "./check.js";
-import { suggestion, suggestOptions, weighted } from "./cell_size.js";
+import { cellSizeResult, suggestOptions, weighted } from "./cell_size.js";
 import { Locator } from "./locator.js";
 import { meshArrays, meshDesc, same } from "./mesh_arrays.js";
 import { guarded, memoryOf, Owned, pointerOf, pointerOfKind } from "./owned.js";
@@ -247,10 +247,7 @@ export class Grid extends Owned {
 
   suggestCellSize(settings) {
     const described = settings === undefined ? () => 0 : suggestOptions(settings);
-    const memory = memoryOf(this);
-    return memory.frame((frame) =>
-      suggestion(this.#get("vox_suggestion", "vox_grid_suggest_cell_size", described(frame))),
-    );
+    return cellSizeResult(memoryOf(this), (frame, out) => this.#call("vox_grid_suggest_cell_size", described(frame), out));
   }
 }
 

@@ -185,7 +185,7 @@ export class Memory {
     if (found !== ABI_VERSION)
       throw new VoxError(Result.ERROR_UNSUPPORTED, `the module has ABI version ${found}, voxtet was made for ${ABI_VERSION}`);
     for (const [name, [result, parameters]] of Object.entries(functions)) this.call[name] = this.#wrap(name, result, parameters);
-    for (const name of ["voxtet_cost_minimise", "voxtet_cost_tune"]) this.call[name] = this.#wrap(name, "result", []);
+    for (const name of ["voxtet_cost_minimise", "voxtet_foreign_grid_tune"]) this.call[name] = this.#wrap(name, "result", []);
     this.#out = exports.malloc(OUT_BYTES) >>> 0;
   }
 

@@ -55,15 +55,15 @@ test("errors say what was wrong", () => {
     [() => vox.minimiseCost(() => 1, 1), TypeError, /max: expected a number, got undefined/],
     [() => vox.suggestCellSize([], { weights: { ns: [1] } }), RangeError, /options.weights.ns: expected 24 numbers, got 1/],
     [() => new vox.Grid({ reference: { weights: { ns: Array(24).fill(-1) } } }), VoxError, /weights.ns\[0\] is -1/],
-    [() => vox.suggestFor({ hold: {} }), TypeError, /"hold" is not known; there are held, asking/],
-    [() => vox.suggestFor({}), TypeError, /grid.held.positions: expected a Float32Array or Float64Array/],
-    [() => vox.suggestFor({ held: { positions: new Float32Array(9), type: 3 } }), RangeError, /3 vertices, which is not a multiple of 4/],
-    [() => vox.suggestFor({ held: { positions: new Float32Array(9), radii: [1] } }), RangeError, /radii: expected 3 numbers, got 1/],
-    [() => vox.suggestFor({ held: { positions: new Float32Array(9), type: 9 } }), VoxError, /type is 9/],
-    [() => vox.suggestFor({ held: { positions: new Float32Array(9) }, weights: { read: 1 } }), TypeError, /grid.weights: "read" is not known/],
-    [() => vox.costFit({ held: { positions: new Float32Array(9) } }, [[1, 2]]), TypeError, /timings\[0\]/],
-    [() => vox.tune(() => 1n, { first: 1 }), TypeError, /what run returned: expected a number, got 1n/],
-    [() => vox.tune(() => 1, { firs: 1 }), TypeError, /"firs" is not known/],
+    [() => vox.foreignGridSuggest({ store: {} }), TypeError, /"store" is not known; there are stored, querying/],
+    [() => vox.foreignGridSuggest({}), TypeError, /grid.stored.positions: expected a Float32Array or Float64Array/],
+    [() => vox.foreignGridSuggest({ stored: { positions: new Float32Array(9), type: 3 } }), RangeError, /3 vertices, which is not a multiple of 4/],
+    [() => vox.foreignGridSuggest({ stored: { positions: new Float32Array(9), radii: [1] } }), RangeError, /radii: expected 3 numbers, got 1/],
+    [() => vox.foreignGridSuggest({ stored: { positions: new Float32Array(9), type: 9 } }), VoxError, /type is 9/],
+    [() => vox.foreignGridSuggest({ stored: { positions: new Float32Array(9) }, weights: { reads: 1 } }), TypeError, /grid.weights: "reads" is not known/],
+    [() => vox.foreignGridFit({ stored: { positions: new Float32Array(9) } }, [[1, 2]]), TypeError, /timings\[0\]/],
+    [() => vox.foreignGridTune(() => 1n, { first: 1 }), TypeError, /what run returned: expected a number, got 1n/],
+    [() => vox.foreignGridTune(() => 1, { firs: 1 }), TypeError, /"firs" is not known/],
   ];
   for (const [call, Kind, text] of cases)
     assert.throws(call, (error) => {
@@ -147,9 +147,9 @@ test("garbage in every argument", (t) => {
     () => ({ category: value(), selfRings: value(), selfRestDistance: value() }), () => ({ maxDistance: value(), excluded: value() }),
     () => ({ copiesOf: value(), positions: value() }), () => ({ method: value(), bodyA: value(), bodyB: value() }), () => ({ min: value(), max: value() }),
     () => ({ reference: value(), cellSize: value(), flags: value(), log: value() }), () => ({ model: value(), pNc: value(), weights: { ns: value() } }),
-    () => ({ held: value(), asking: value(), known: value(), look: value(), weights: value(), radius: value() }),
-    () => ({ held: { positions: block(1).positions, radius: value(), radii: value() }, leastCellSize: value() }),
-    () => ({ first: value(), mostRuns: value(), grid: value() }), () => [{ cellSize: value(), seconds: value() }], () => value,
+    () => ({ stored: value(), querying: value(), known: value(), cellsQueried: value(), weights: value(), radius: value() }),
+    () => ({ stored: { positions: block(1).positions, radius: value(), radii: value() }, minCellSize: value() }),
+    () => ({ first: value(), maxRuns: value(), grid: value() }), () => [{ cellSize: value(), seconds: value() }], () => value,
     () => [{ positions: block(1).positions, tets: block(1).tets, selfCollision: value() }],
   ];
   const value = () => pick(values)();

@@ -49,24 +49,29 @@ export function replay(vox, script, arrays, assert) {
     radius: given.radius,
   });
   const foreignGridOf = (call) => {
-    const [fixed, entries, visits, found, reads, occupied, cells] = call.weights ?? [];
+    const [run, store, visit, found, read, occupied, cell] = call.weights;
     return {
-      held: primitivesOf(call.held),
-      asking: call.asking && primitivesOf(call.asking),
+      stored: primitivesOf(call.stored),
+      querying: call.querying && primitivesOf(call.querying),
       known: call.known,
-      content: call.content,
-      look: call.look,
-      flags: call.dense,
-      weights: call.weights && { fixed, entries, visits, found, reads, occupied, cells },
+      cellsStored: call.cells_stored,
+      cellsQueried: call.cells_queried,
+      cellsKept: call.cells_kept,
+      weights: { run, store, visit, found, read, occupied, cell },
       radius: call.radius,
-      leastCellSize: call.least_cell_size,
+      minCellSize: call.min_cell_size,
       zoneLoss: call.zone_loss,
     };
   };
-  /** What the answers for such grids have in common. */
-  const answer = (found, call) => {
-    near({ cell_size: found.cellSize, zone_min: found.zoneMin, zone_max: found.zoneMax }, call);
-    return { warnings: found.warnings, note: found.note };
+  const sizes = (items) => items.map((item) => item.cellSize);
+  /** A CellSizeResult. */
+  const result = (found, call) => {
+    const { cellSize, zoneMin, zoneMax, cost, minCellSize } = found;
+    near({ cell_size: cellSize, zone_min: zoneMin, zone_max: zoneMax, cost, result_min_cell_size: minCellSize }, call);
+    near(sizes(found.rules), call.rules);
+    near(sizes(found.timings), call.runs);
+    assert.deepEqual([found.rules.length, found.timings.length], [call.rules.length, call.runs.length]);
+    return { warnings: found.warnings, note: found.note, curve_count: found.curve.length, term_count: found.terms.length };
   };
   const constraints = () => {
     const found = grid.constraints;
@@ -172,48 +177,25 @@ export function replay(vox, script, arrays, assert) {
         positions: array(Float32Array, mesh.positions, 3 * mesh.vertices),
         tets: array(Uint32Array, mesh.tets, 4 * mesh.tet_count),
       }));
-      const found = vox.suggestCellSize(meshes, { model: call.model });
-      const numbers = {
-        cell_size: found.cellSize,
-        zone_min: found.zoneMin,
-        zone_max: found.zoneMax,
-        predicted_cost: found.predictedCost,
-        mean_edge: found.stats.meanEdge,
-        curve_count: found.curve.length,
-      };
-      near(numbers, call);
+      return result(vox.suggestCellSize(meshes, { model: call.model }), call);
     },
-    suggest_for(call) {
-      const found = vox.suggestFor(foreignGridOf(call));
-      near({
-        predicted_cost: found.predictedCost,
-        legal_cell_size: found.leastCellSize,
-        mean_box_side: found.rules.meanBoxSide,
-      }, call);
-      return { ...answer(found, call), rule: found.rule, curve_count: found.curve.length };
+    foreign_suggest: (call) => result(vox.foreignGridSuggest(foreignGridOf(call)), call),
+    foreign_count(call) {
+      const { stored, visits, empty, reads, occupied, cells } = vox.foreignGridCount(foreignGridOf(call), call.at);
+      near([stored, visits, empty, reads, occupied, cells], call.counts);
     },
-    count_for(call) {
-      const { entries, visits, empty, reads, occupied, cells } = vox.countFor(foreignGridOf(call), call.at);
-      near([entries, visits, empty, reads, occupied, cells], call.work);
-    },
-    cost_fit(call) {
+    foreign_fit(call) {
       const timings = call.timings.map(([cellSize, seconds]) => ({ cellSize, seconds }));
-      const found = vox.costFit(foreignGridOf(call), timings);
-      near({ predicted_seconds: found.predictedSeconds }, call);
-      return { ...answer(found, call), curve_count: found.curve.length };
+      return result(vox.foreignGridFit(foreignGridOf(call), timings), call);
     },
-    cost_tune(call) {
+    foreign_tune(call) {
       let count = 0;
       const run = (d) => {
         if (call.stops_after && ++count > call.stops_after) return -1;
         return d < call.fails_below ? Infinity : call.run[0] + call.run[1] / (d * d) + call.run[2] * (d * d);
       };
-      const grid = call.held && foreignGridOf(call);
-      const found = vox.tune(run, { grid, first: call.first, mostRuns: call.most_runs });
-      near({ seconds: found.seconds }, call);
-      assert.equal(found.runs.length, call.runs.length);
-      near(found.runs.map((one) => one.cellSize), call.runs);
-      return answer(found, call);
+      const grid = call.stored && foreignGridOf(call);
+      return result(vox.foreignGridTune(run, { grid, first: call.first, maxRuns: call.max_runs }), call);
     },
   };
   let count = 0;

@@ -1,5 +1,5 @@
 // Compiled by tsc --strict, and never run: the types are those that a program can use.
-import { ConstraintKind, DepthMethod, FilterFlags, GridFlags, KnownGrid, load, PrimitiveType, QueryFlags, Result, VoxError, type Contacts, type Grid, type Tuning, type Vox } from "voxtet";
+import { CellsQueried, ConstraintKind, DepthMethod, FilterFlags, GridFlags, KnownGrid, load, PrimitiveType, QueryFlags, Result, VoxError, type CellSizeResult, type Contacts, type Grid, type Vox } from "voxtet";
 
 export async function program(): Promise<number> {
   const vox: Vox = await load({ simd: false });
@@ -23,9 +23,11 @@ export async function program(): Promise<number> {
   const hash: bigint = grid.hash;
   locator.update(grid);
   const size: number = vox.suggestCellSize([{ positions: new Float32Array(12), tets: new Uint32Array(4) }], { pNc: 0.5, weights: vox.calibrate() }).cellSize;
-  const grids = { held: { type: PrimitiveType.TET, positions: new Float32Array(12), radii: [1] }, known: KnownGrid.VTK };
-  const tuned: Tuning = vox.tune((cell) => 1 + cell, { grid: grids, mostRuns: 5 });
-  const note: string = vox.costFit(grids, tuned.runs).note + vox.suggestFor({ ...grids, weights: { reads: 2 } }).note;
+  const edge: number = vox.measureGeometry([{ positions: new Float32Array(12) }]).meanEdge;
+  const grids = { stored: { type: PrimitiveType.TET, positions: new Float32Array(12), radii: [1] }, known: KnownGrid.VTK };
+  const tuned: CellSizeResult = vox.foreignGridTune((cell) => edge + cell, { grid: grids, maxRuns: 5 });
+  const found = vox.foreignGridSuggest({ ...grids, cellsQueried: CellsQueried.PAIRS, weights: { read: 2 } });
+  const note: string = vox.foreignGridFit(grids, tuned.timings).note + found.rules[0].name;
   const copy: Grid = vox.Grid.load(grid.save());
   vox.stepGrids([grid, copy]);
   try {

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { once } from "node:events";
 import test from "node:test";
 import { Worker } from "node:worker_threads";
-import { ConstraintKind, COST_WEIGHT_CAPACITY, DepthMethod, DepthState, ForeignWarnings, GridFlags, KnownGrid, LogLevel, NONE, PairState,
+import { CellSizeWarnings, ConstraintKind, COST_WEIGHT_CAPACITY, CURVE_CAPACITY, DepthMethod, DepthState, GridFlags, KnownGrid, LogLevel, NONE, PairState,
   PrimitiveType, QueryFlags, ReferenceFlags, Result, Side, VoxError } from "../voxtet.js";
 import { block, loaded } from "./scenes.js";
 
@@ -308,7 +308,7 @@ test("settings, failures and measurements", () => {
   assert.ok(grid.counters.step_ns > 0);
   assert.equal(grid.counters.meshes, 2);
   assert.ok(grid.suggestCellSize().cellSize > 0);
-  assert.equal(grid.suggestCellSize({ model: 0 }).model, 0);
+  assert.notEqual(grid.suggestCellSize({ model: 0 }).terms[0].name, grid.suggestCellSize({ model: 1 }).terms[0].name);
   assert.throws(() => new vox.Grid({ byteBudget: 10 }), failure(Result.ERROR_BUDGET));
   grid.dispose();
   assert.equal(grid.disposed, true);
@@ -318,13 +318,20 @@ test("settings, failures and measurements", () => {
 test("costs and cell sizes", () => {
   const meshes = [block(3), { ...block(3, [0.5, 0, 0]), selfCollision: true }];
   const found = vox.suggestCellSize(meshes, { model: 1, pNc: 0.9 });
-  assert.equal(found.curve.length, 64);
+  assert.equal(found.curve.length, CURVE_CAPACITY);
   assert.ok(found.terms.length > 0 && found.terms.every((term) => term.name.length > 0));
+  const sum = found.terms.reduce((all, term) => all + term.cost, 0);
+  assert.ok(Math.abs(sum / found.cost - 1) < 1e-9);
+  const { tets, boundsMax, meanEdge } = vox.measureGeometry(meshes);
+  assert.deepEqual([tets, ...boundsMax], [(meshes[0].tets.length + meshes[1].tets.length) / 4, 1.5, 1, 1]);
+  assert.match(found.rules[0].name, /^mean edge/);
+  assert.ok(Math.abs(found.rules[0].cellSize / meanEdge - 1) < 1e-6);
+  assert.equal(found.timings.length, 0);
   const weights = vox.calibrate();
   assert.ok(weights.measured === 1 && weights.ns.length === COST_WEIGHT_CAPACITY && weights.ns.some((ns) => ns > 0));
   weights.ns = weights.ns.map((ns) => 1000 * ns); // of a machine that is far slower
   const shipped = { ns: new Float64Array(COST_WEIGHT_CAPACITY) };
-  const costs = (suggest) => [{ weights }, { weights: shipped }, {}].map((more) => suggest({ model: 1, ...more }).predictedCost);
+  const costs = (suggest) => [{ weights }, { weights: shipped }, {}].map((more) => suggest({ model: 1, ...more }).cost);
   const [slow, zeros, none] = costs((settings) => vox.suggestCellSize(meshes, settings));
   assert.ok(slow > 10 * none && zeros === none);
   const grid = new vox.Grid({ reference: { weights } });
@@ -342,36 +349,38 @@ test("costs and cell sizes", () => {
 test("the cell size of a grid of another program", () => {
   const { positions, tets } = block(4);
   const grid = {
-    held: { type: PrimitiveType.TET, positions, indices: tets },
-    asking: { positions: new Float64Array(positions), radius: 0.0625, radii: new Float32Array(positions.length / 3).fill(0.03125) },
+    stored: { type: PrimitiveType.TET, positions, indices: tets },
+    querying: { positions: new Float64Array(positions), radius: 0.0625, radii: new Float32Array(positions.length / 3).fill(0.03125) },
     known: KnownGrid.HASHED,
   };
-  const found = vox.suggestFor(grid);
+  const found = vox.foreignGridSuggest(grid);
   assert.ok(found.zoneMin <= found.cellSize && found.cellSize <= found.zoneMax && found.terms.length > 1);
-  assert.ok(Math.abs(found.rules.radius - 0.09375) < 1e-6);
+  assert.ok(Math.abs(found.rules.find((rule) => rule.name === "mean radius").cellSize - 0.09375) < 1e-6);
   assert.equal(found.note === "", found.warnings === 0);
-  assert.deepEqual(vox.suggestFor({ ...grid, weights: { reads: 3 } }).weights, { ...found.weights, reads: 3 });
-  const unknown = vox.suggestFor({ held: grid.held });
-  assert.ok(unknown.warnings & ForeignWarnings.WEIGHTS_UNKNOWN && unknown.note.length > 0);
+  const none = Object.fromEntries(Object.keys(found.weights).map((name) => [name, 0]));
+  assert.notDeepEqual(found.weights, none);
+  assert.deepEqual(vox.foreignGridSuggest({ ...grid, weights: { read: 3 } }).weights, { ...none, read: 3 });
+  const unknown = vox.foreignGridSuggest({ stored: grid.stored });
+  assert.ok(unknown.warnings & CellSizeWarnings.GUESSED_WEIGHTS && unknown.note.length > 0);
 
   // A grid that takes as long as its counts say.
   const seconds = (size) => {
-    const work = vox.countFor(grid, size);
-    return 1e-9 * (20 * work.entries + 9 * work.visits + 3 * work.reads);
+    const counts = vox.foreignGridCount(grid, size);
+    return 1e-9 * (20 * counts.stored + 9 * counts.visits + 3 * counts.reads);
   };
-  const fit = vox.costFit(grid, [0.075, 0.15, 0.3, 0.6].map((cellSize) => ({ cellSize, seconds: seconds(cellSize) })));
-  assert.ok(fit.residual < 0.02 && fit.weights.entries > 0);
+  const fit = vox.foreignGridFit(grid, [0.075, 0.15, 0.3, 0.6].map((cellSize) => ({ cellSize, seconds: seconds(cellSize) })));
+  assert.ok(fit.fitError < 0.02 && fit.weights.store > 0);
   const sizes = [];
-  const tuning = vox.tune((size) => (sizes.push(size), seconds(size)), { grid });
-  assert.deepEqual(tuning.runs.map((run) => run.cellSize), sizes);
+  const tuning = vox.foreignGridTune((size) => (sizes.push(size), seconds(size)), { grid });
+  assert.deepEqual(tuning.timings.map((timing) => timing.cellSize), sizes);
   assert.ok(seconds(tuning.cellSize) <= 1.1 * seconds(fit.cellSize) && tuning.expectedLoss < 0.1);
 
   const calls = sizes.length;
-  assert.throws(() => vox.tune((size) => { throw new Error(`at ${sizes.push(size)}`); }, { first: 1 }), /^Error: at \d+$/);
+  assert.throws(() => vox.foreignGridTune((size) => { throw new Error(`at ${sizes.push(size)}`); }, { first: 1 }), /^Error: at \d+$/);
   assert.equal(sizes.length, calls + 1);
-  assert.throws(() => vox.tune(() => 1), failure(Result.ERROR_INVALID_ARGUMENT));
-  assert.throws(() => vox.tune(() => Infinity, { first: 1 }), failure(Result.ERROR_INVALID_STATE));
-  assert.throws(() => vox.countFor(grid, NaN), failure(Result.ERROR_INVALID_ARGUMENT));
+  assert.throws(() => vox.foreignGridTune(() => 1), failure(Result.ERROR_INVALID_ARGUMENT));
+  assert.throws(() => vox.foreignGridTune(() => Infinity, { first: 1 }), failure(Result.ERROR_INVALID_STATE));
+  assert.throws(() => vox.foreignGridCount(grid, NaN), failure(Result.ERROR_INVALID_ARGUMENT));
 });
 
 test("many grids", () => {

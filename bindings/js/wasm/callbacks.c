@@ -20,12 +20,12 @@ EXPORT void voxtet_set_log(vox_log* log, void* user) {
 
 /* vox_cost_minimise with the function `user`. */
 EXPORT vox_result voxtet_cost_minimise(void* user, double min, double max, double zone_loss,
-                                       vox_cost_minimum* out) {
+                                       vox_cell_size_result* out) {
     return vox_cost_minimise(cost, user, min, max, zone_loss, out);
 }
 
-/* vox_cost_tune with the function `user`. */
-EXPORT vox_result voxtet_cost_tune(const vox_foreign_grid* grid, const vox_tune_desc* desc, void* user,
-                                   vox_tuning* out) {
-    return vox_cost_tune(grid, desc, cost, user, out);
+/* vox_foreign_grid_tune with the function `user`. */
+EXPORT vox_result voxtet_foreign_grid_tune(const vox_foreign_grid* grid, const vox_tune_desc* desc,
+                                           void* user, vox_cell_size_result* out) {
+    return vox_foreign_grid_tune(grid, desc, cost, user, out);
 }

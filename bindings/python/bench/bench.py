@@ -129,14 +129,14 @@ def locate():
 
 def suggest():
     """Of the library; Python adds less than 0.1 ms."""
-    names = ("any", "sorted", "hashed", "ipc", "ipc_pairs", "vtk", "numpy", "pbat", "warp", "point_voxels")
+    names = ("none", "sorted", "hashed", "ipc", "ipc_pairs", "vtk", "numpy", "pbat", "warp", "point_voxels")
     for count, rounds in ((20000, 30), (1000000, 8)):
         ball = voxtet.io.make_lattice_ball(count, 1)
         positions, tets = np.asarray(ball.positions, np.float32), np.asarray(ball.tets, np.uint32)
         of_tets, of_points = voxtet.Primitives(positions, tets), voxtet.Primitives(positions, radius=0.05)
-        times = least([lambda name=name: voxtet.suggest_for(of_points if name in names[-2:] else of_tets, known=name)
-                       for name in names], 1, rounds)
-        print(f"suggest_for, {len(tets)} tetrahedra, the last two their {len(positions)} vertices: "
+        grids = [voxtet.ForeignGrid(of_points if name in names[-2:] else of_tets, known=name) for name in names]
+        times = least([grid.suggest for grid in grids], 1, rounds)
+        print(f"ForeignGrid.suggest, {len(tets)} tetrahedra, the last two their {len(positions)} vertices: "
               + ", ".join(f"{name} {us / 1000:.2f}" for name, us in zip(names, times)) + " ms")
 
 

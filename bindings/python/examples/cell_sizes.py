@@ -7,7 +7,7 @@ import voxtet.io
 ball = voxtet.io.make_ball(1.0, 0.1)
 first, second = ball.positions, ball.positions + [1.9, 0.2, 0.1]
 suggested = voxtet.suggest_cell_size(ball.positions, ball.tets)
-mean_edge = suggested.stats.mean_edge
+mean_edge = voxtet.measure_geometry(ball.positions, ball.tets).mean_edge
 print(
     f"{len(ball.tets)} tetrahedra each, mean edge {mean_edge:.3f}, suggested {suggested.cell_size / mean_edge:.2f} mean edges"
 )

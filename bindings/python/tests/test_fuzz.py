@@ -78,13 +78,15 @@ FREE = [lambda v: voxtet.Grid(v()), lambda v: voxtet.Grid(workers=v()), lambda v
         lambda v: voxtet.suggest_cell_size(v()), lambda v: voxtet.suggest_cell_size(*box(2), weights=v()),
         lambda v: voxtet.Grid(reference=voxtet.Reference(weights=v())), lambda v: voxtet.minimise(v(), v(), v()),
         lambda v: voxtet.locate(v(), v(), v()), lambda v: voxtet.step_all(v()),
-        lambda v: voxtet.suggest_for(v()), lambda v: voxtet.suggest_for(v(), v(), radius=v()), lambda v: voxtet.count_for(v(), v()),
-        lambda v: voxtet.suggest_for((v(), v()), known=v()), lambda v: voxtet.Primitives.boxes(v(), v(), radii=v()),
-        lambda v: voxtet.suggest_for(voxtet.Primitives(v(), v(), radii=v(), radius=v()), content=v(), look=v(), dense=v()),
-        lambda v: voxtet.suggest_for(v(), weights=v(), least_cell_size=v(), zone_loss=v()),
-        lambda v: voxtet.cost_fit(v(), v()), lambda v: voxtet.cost_fit([(v(), v()) for _ in range(3)], v()),
-        lambda v: voxtet.tune(v(), v(), first=v()), lambda v: voxtet.tune(lambda size: v(), first=v() or 1, most_runs=v()),
-        lambda v: voxtet.tune(lambda size: v(), first=1)]
+        lambda v: voxtet.measure_geometry(v(), v()), lambda v: voxtet.Primitives.boxes(v(), v(), radii=v()),
+        lambda v: voxtet.ForeignGrid(v()).suggest(), lambda v: voxtet.ForeignGrid(v(), v(), radius=v()).suggest(),
+        lambda v: voxtet.ForeignGrid((v(), v()), known=v()).suggest(), lambda v: voxtet.ForeignGrid(v()).count(v()),
+        lambda v: voxtet.ForeignGrid(voxtet.Primitives(v(), v(), radii=v(), radius=v()), cells_stored=v(), cells_queried=v(),
+                                     cells_kept=v()).suggest(),
+        lambda v: voxtet.ForeignGrid(v(), weights=v(), min_cell_size=v(), zone_loss=v()).suggest(),
+        lambda v: voxtet.ForeignGrid(v()).fit(v()), lambda v: voxtet.ForeignGrid(v()).fit([(v(), v()) for _ in range(3)]),
+        lambda v: voxtet.ForeignGrid(v()).tune(v(), first=v()), lambda v: voxtet.tune(lambda size: v(), v() or 1, max_runs=v()),
+        lambda v: voxtet.tune(lambda size: v(), 1)]
 
 
 class Fuzz(unittest.TestCase):

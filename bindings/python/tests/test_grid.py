@@ -503,8 +503,8 @@ class Snapshots(GridCase):
         with voxtet.Grid(reference=voxtet.Reference()) as grid:
             grid.add(self.first, self.tets)
             again = pickle.loads(pickle.dumps(grid))
-        self.assertEqual(again.suggest_cell_size().model, voxtet.CostModel.REFERENCE)  # that of its engine
-        self.assertEqual(self.grid.suggest_cell_size().model, voxtet.CostModel.FAST)
+        self.assertEqual(again.suggest_cell_size().cost, again.suggest_cell_size("reference").cost)  # that of its engine
+        self.assertEqual(self.grid.suggest_cell_size().cost, self.grid.suggest_cell_size("fast").cost)
 
     def test_pickled_mesh(self):
         grid, mesh = pickle.loads(pickle.dumps((self.grid, self.b)))

@@ -96,6 +96,7 @@ class Pictures(GridCase):
             axes = drawn.plot()
             self.assertIs(drawn.plot(axes), axes)
             self.assertGreater(len(axes.lines), 1)
+            self.assertIn("cost" if len(drawn.rules) == 0 else "cell visits", axes.get_ylabel())
             pyplot.close("all")
             self.assertEqual(drawn._repr_png_()[:4], b"\x89PNG")
 

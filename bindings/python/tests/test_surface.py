@@ -88,6 +88,21 @@ class Pairs(unittest.TestCase):
         surface.move(start)
         self.assertEqual(len(surface.pairs("face", "face").partners), 0)
 
+    def test_suggested_cell_size(self):
+        start, end, faces = cloud(4)
+        surface = Surface(faces, vertex_count=len(start))
+        with self.assertRaises(voxtet.InvalidStateError):
+            surface.suggest_cell_size("face", "vertex")
+        surface.move(start, end)
+        s = surface.suggest_cell_size("face", "vertex")
+        self.assertTrue(0 < s.zone[0] <= s.cell_size <= s.zone[1])
+        self.assertAlmostEqual(s.terms.cost.sum() / s.cost, 1, 6)
+        again = Surface(faces, vertex_count=len(start), cell_size=s.cell_size)
+        again.move(start, end)
+        self.assertEqual(again.pairs("face", "vertex").array().tolist(), surface.pairs("face", "vertex").array().tolist())
+        with self.assertRaises(ValueError):
+            surface.suggest_cell_size("tet", "vertex")
+
 
 class Lists(unittest.TestCase):
     def test_a_triangle_falls_through_another(self):

@@ -163,10 +163,12 @@ class Vectors(unittest.TestCase):
 
     def suggest(self, call):
         meshes = [(self.positions({**m, "format": 0}), self.array(m["tets"], "<u4", m["tet_count"], 4)) for m in call["meshes"]]
-        s = voxtet.suggest_cell_size(meshes, model=voxtet.CostModel(call["model"]))
-        found = {"cell_size": s.cell_size, "zone_min": s.zone[0], "zone_max": s.zone[1], "predicted_cost": s.predicted_cost,
-                 "mean_edge": s.stats.mean_edge, "curve_count": len(s.curve)}
-        self.near(found, call)
+        return self.result(voxtet.suggest_cell_size(meshes, model=voxtet.CostModel(call["model"])), call)
+
+    def result(self, found, call):
+        self.near({"cell_size": found.cell_size, "zone_min": found.zone[0], "zone_max": found.zone[1], "cost": found.cost,
+                   "result_min_cell_size": found.min_cell_size, "rules": found.rules.cell_size, "runs": found.timings.cell_size}, call)
+        return {"warnings": found.warnings, "note": found.note, "curve_count": len(found.curve), "term_count": len(found.terms)}
 
     def near(self, found, call):
         for name, value in found.items():
@@ -182,38 +184,23 @@ class Vectors(unittest.TestCase):
         return found
 
     def foreign_grid(self, call):
-        description = {name: call[name] for name in ("radius", "least_cell_size", "zone_loss")}
-        if "content" in call:
-            description["content"] = ("centres", "boxes")[call["content"]]
-        if "look" in call:
-            description["look"] = voxtet.CellLook(call["look"])
-        if "dense" in call:
-            description["dense"] = bool(call["dense"])
-        if "weights" in call:
-            description["weights"] = voxtet.GridWeights(*call["weights"])
-        asking = self.primitives(call["asking"]) if "asking" in call else None
-        return voxtet.ForeignGrid(self.primitives(call["held"]), asking, known=voxtet.KnownGrid(call["known"]), **description)
+        return voxtet.ForeignGrid(
+            self.primitives(call["stored"]), self.primitives(call["querying"]) if "querying" in call else None,
+            known=voxtet.KnownGrid(call["known"]), cells_stored=voxtet.CellsStored(call["cells_stored"]),
+            cells_queried=voxtet.CellsQueried(call["cells_queried"]), cells_kept=voxtet.CellsKept(call["cells_kept"]),
+            weights=voxtet.ForeignWeights(*call["weights"]),
+            **{name: call[name] for name in ("radius", "min_cell_size", "zone_loss")})
 
-    def answer(self, found, call):
-        """What the answers have in common."""
-        self.near({"cell_size": found.cell_size, "zone_min": found.zone[0], "zone_max": found.zone[1]}, call)
-        return {"warnings": found.warnings, "note": found.note}
+    def foreign_suggest(self, call):
+        return self.result(self.foreign_grid(call).suggest(), call)
 
-    def suggest_for(self, call):
-        found = voxtet.suggest_for(self.foreign_grid(call))
-        self.near({"predicted_cost": found.predicted_cost, "legal_cell_size": found.least_cell_size,
-                   "mean_box_side": found.rules.mean_box_side}, call)
-        return {**self.answer(found, call), "rule": found.rule, "curve_count": len(found.curve)}
+    def foreign_count(self, call):
+        self.near({"counts": self.foreign_grid(call).count(call["at"])}, call)
 
-    def count_for(self, call):
-        self.near({"work": voxtet.count_for(call["at"], self.foreign_grid(call))}, call)
+    def foreign_fit(self, call):
+        return self.result(self.foreign_grid(call).fit(call["timings"]), call)
 
-    def cost_fit(self, call):
-        found = voxtet.cost_fit(call["timings"], self.foreign_grid(call))
-        self.near({"predicted_seconds": found.predicted_seconds}, call)
-        return {**self.answer(found, call), "curve_count": len(found.curve)}
-
-    def cost_tune(self, call):
+    def foreign_tune(self, call):
         sizes = []
 
         def run(d):
@@ -223,10 +210,8 @@ class Vectors(unittest.TestCase):
             fixed, falls, grows = call["run"]
             return math.inf if d < call["fails_below"] else fixed + falls / (d * d) + grows * (d * d)
 
-        found = voxtet.tune(run, self.foreign_grid(call) if "held" in call else None, first=call["first"],
-                            most_runs=call["most_runs"])
-        self.near({"seconds": found.seconds, "runs": [timing.cell_size for timing in found.runs]}, call)
-        return self.answer(found, call)
+        tune = self.foreign_grid(call).tune if "stored" in call else voxtet.tune
+        return self.result(tune(run, first=call["first"], max_runs=call["max_runs"]), call)
 
     def replay(self, call):
         return getattr(self, call["call"].replace("test_rays", "rays"))(call)  # unittest takes test_... for tests

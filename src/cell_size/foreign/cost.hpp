@@ -9,15 +9,15 @@
 namespace vox {
 
 // What a run of a grid does at a cell size. Counts are 0 or more.
-using WorkAt = std::function<vox_grid_work(double cell_size)>;
+using WorkAt = std::function<vox_foreign_counts(double cell_size)>;
 
 // Beyond this a count is of no use: products of such counts and of times leave the range of doubles.
 inline constexpr double most_counted = 1e80;
 
-inline double grid_cost(const vox_grid_work& work, const vox_grid_weights& weights) noexcept {
-    return weights.fixed + weights.entries * work.entries + weights.visits * work.visits +
-           weights.found * (work.visits - work.empty) + weights.reads * work.reads +
-           weights.occupied * work.occupied + weights.cells * work.cells;
+inline double grid_cost(const vox_foreign_counts& work, const vox_foreign_weights& weights) noexcept {
+    return weights.run + weights.store * work.stored + weights.visit * work.visits +
+           weights.found * (work.visits - work.empty) + weights.read * work.reads +
+           weights.occupied * work.occupied + weights.cell * work.cells;
 }
 
 } // namespace vox

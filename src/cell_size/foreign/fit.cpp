@@ -15,16 +15,16 @@ namespace vox {
 
 // ---- terms ----------------------------------------------------------------------------------------
 
-CostBasis described_basis(const WorkAt& work, const vox_grid_weights& expected) {
+CostBasis described_basis(const WorkAt& work, const vox_foreign_weights& expected) {
     const auto values = [work](double cell_size) {
-        const vox_grid_work w = work(cell_size);
-        return Coefficients{1,       w.entries,  w.visits, std::max(w.visits - w.empty, 0.0),
+        const vox_foreign_counts w = work(cell_size);
+        return Coefficients{1,       w.stored,   w.visits, std::max(w.visits - w.empty, 0.0),
                             w.reads, w.occupied, w.cells};
     };
     return {7,
             values,
-            {expected.fixed, expected.entries, expected.visits, expected.found, expected.reads,
-             expected.occupied, expected.cells}};
+            {expected.run, expected.store, expected.visit, expected.found, expected.read, expected.occupied,
+             expected.cell}};
 }
 
 CostBasis power_basis(double middle) {
@@ -49,7 +49,7 @@ double cost_of(const Coefficients& values, const Coefficients& coefficients) noe
     return sum;
 }
 
-vox_grid_weights weights_of(const Coefficients& seconds) noexcept {
+vox_foreign_weights weights_of(const Coefficients& seconds) noexcept {
     constexpr double ns = 1e9;
     return {ns * seconds[0], ns * seconds[1], ns * seconds[2], ns * seconds[3],
             ns * seconds[4], ns * seconds[5], ns * seconds[6]};
@@ -145,7 +145,7 @@ double plain_error(std::span<const TimedTerms> timings, const Coefficients& coef
 
 // ---- warnings -------------------------------------------------------------------------------------
 
-void Notes::add(vox_foreign_warnings warning, const std::string& text) {
+void Notes::add(vox_cell_size_warnings warning, const std::string& text) {
     warnings_ |= static_cast<std::uint32_t>(warning);
     text_ += text_.empty() ? text : "; " + text;
 }
@@ -154,7 +154,7 @@ void Notes::write(char (&note)[VOX_NOTE_CAPACITY]) const noexcept {
     *std::copy_n(text_.data(), std::min(text_.size(), sizeof note - 1), note) = '\0';
 }
 
-// ---- the least legal size ----
+// ---- the smallest cell size ----
 
 void prefer_least(CostMinimum& best, const CostMinimum& at_least) noexcept {
     constexpr double hardly_more = 1.03;
@@ -170,7 +170,7 @@ constexpr double same_size = 1e-6;
 // How far beyond the sizes timed the least cost is looked for.
 constexpr double beyond = 1.2;
 
-void check_timings(std::span<const vox_grid_timing> timings, double least_cell_size) {
+void check_timings(std::span<const vox_timing> timings, double least_cell_size) {
     for (std::size_t i = 0; i < timings.size(); ++i) {
         const auto [size, seconds] = timings[i];
         const auto fail = [&](const char* what, double value, const std::string& expected) {
@@ -179,7 +179,8 @@ void check_timings(std::span<const vox_grid_timing> timings, double least_cell_s
         };
         if (!(size > 0) || !std::isfinite(size)) fail("cell_size", size, "a finite number above 0");
         if (size < least_cell_size * (1 - same_size))
-            fail("cell_size", size, format("at least the least legal one, %.9g", least_cell_size));
+            fail("cell_size", size,
+                 format("at least the smallest that gives right answers, %.9g", least_cell_size));
         if (!(seconds >= least_seconds && seconds <= most_seconds))
             fail("seconds", seconds, format("%g to %g", least_seconds, most_seconds));
     }
@@ -187,11 +188,11 @@ void check_timings(std::span<const vox_grid_timing> timings, double least_cell_s
 
 } // namespace
 
-vox_grid_fit fit_timings(const CostBasis& described, const FitSettings& settings,
-                         std::span<const vox_grid_timing> timings, std::pmr::memory_resource* memory) {
+vox_cell_size_result fit_timings(const CostBasis& described, const FitSettings& settings,
+                                 std::span<const vox_timing> timings, std::pmr::memory_resource* memory) {
     check_timings(timings, settings.least_cell_size);
-    Array<vox_grid_timing> sorted(timings.begin(), timings.end(), memory);
-    std::sort(sorted.begin(), sorted.end(), [](const vox_grid_timing& a, const vox_grid_timing& b) {
+    Array<vox_timing> sorted(timings.begin(), timings.end(), memory);
+    std::sort(sorted.begin(), sorted.end(), [](const vox_timing& a, const vox_timing& b) {
         return a.cell_size != b.cell_size ? a.cell_size < b.cell_size : a.seconds < b.seconds;
     });
     // Of those at one size the shortest; they are counted from the smallest of them.
@@ -200,7 +201,7 @@ vox_grid_fit fit_timings(const CostBasis& described, const FitSettings& settings
     double widest = 1, widest_at = 0;
     for (std::size_t i = 0; i < sorted.size();) {
         std::size_t end = i;
-        vox_grid_timing shortest = sorted[i], longest = sorted[i];
+        vox_timing shortest = sorted[i], longest = sorted[i];
         for (; end < sorted.size() && sorted[end].cell_size <= sorted[i].cell_size * (1 + same_size); ++end) {
             if (sorted[end].seconds < shortest.seconds) shortest = sorted[end];
             if (sorted[end].seconds > longest.seconds) longest = sorted[end];
@@ -220,7 +221,7 @@ vox_grid_fit fit_timings(const CostBasis& described, const FitSettings& settings
     check_countable(described, sorted.front().cell_size, "the smallest cell size timed");
     Array<TimedTerms> timed(memory);
     timed.reserve(sizes);
-    for (const vox_grid_timing& timing : sorted)
+    for (const vox_timing& timing : sorted)
         timed.push_back({timing.seconds, described.values(timing.cell_size)});
     const double smallest = sorted.front().cell_size, largest = sorted.back().cell_size;
     const CostFit fit(described, described.values(std::sqrt(smallest) * std::sqrt(largest)));
@@ -238,27 +239,29 @@ vox_grid_fit fit_timings(const CostBasis& described, const FitSettings& settings
     const CellSizeRange zone =
         zone_around(best, (1 + settings.zone_loss) * best.cost, cost, range, {.tolerance = 1e-4});
 
-    vox_grid_fit result{};
+    vox_cell_size_result result{};
     result.weights = weights_of(coefficients);
-    result.residual = plain_error(timed, coefficients);
+    result.fit_error = plain_error(timed, coefficients);
     result.cell_size = best.cell_size;
     result.zone_min = zone.min;
     result.zone_max = zone.max;
-    result.predicted_seconds = best.cost;
+    result.cost = best.cost;
+    result.min_cell_size = settings.least_cell_size;
     draw_curve(cost, {best.cell_size / 8, best.cell_size * 8}, result.curve, result.curve_count);
     if (widest > disagreeing_timings)
         notes.add(
-            VOX_FOREIGN_TIMINGS_DISAGREE,
+            VOX_CELL_SIZE_TIMINGS_DISAGREE,
             format("timings at cell size %g differ %.2f times; the shortest counts", widest_at, widest));
-    if (result.residual > disagreeing_model)
-        notes.add(VOX_FOREIGN_MODEL_DISAGREES,
+    if (result.fit_error > disagreeing_model)
+        notes.add(VOX_CELL_SIZE_MODEL_DISAGREES,
                   format("the counts of this grid miss the timings by %.0f %%, expected at most %.0f %%",
-                         100 * result.residual, 100 * disagreeing_model));
+                         100 * result.fit_error, 100 * disagreeing_model));
     if (best.cell_size < smallest || best.cell_size > largest)
-        notes.add(VOX_FOREIGN_OUT_OF_RANGE, format("the best cell size %g is beyond those timed, %g to %g",
-                                                   best.cell_size, smallest, largest));
+        notes.add(VOX_CELL_SIZE_OUT_OF_RANGE, format("the best cell size %g is beyond those timed, %g to %g",
+                                                     best.cell_size, smallest, largest));
     if (settings.least_cell_size > 0 && best.cell_size <= settings.least_cell_size * (1 + same_size))
-        notes.add(VOX_FOREIGN_AT_LEAST_SIZE, format("%g is the least legal size", settings.least_cell_size));
+        notes.add(VOX_CELL_SIZE_AT_MINIMUM,
+                  format("%g is the smallest cell size that gives right answers", settings.least_cell_size));
     result.warnings = notes.warnings();
     notes.write(result.note);
     return result;

@@ -25,8 +25,8 @@ struct CostBasis {
     Coefficients expected{}; // coefficients in any unit: what timings cannot tell apart is divided like these
 };
 
-// The terms of vox_grid_weights, in its order.
-CostBasis described_basis(const WorkAt& work, const vox_grid_weights& expected);
+// The terms of vox_foreign_weights, in its order.
+CostBasis described_basis(const WorkAt& work, const vox_foreign_weights& expected);
 
 // Powers -3 to 3 of the cell size. A sum of them is convex in the logarithm. That of the expected
 // coefficients is least at `middle`, and costs 5 % more at 0.78 and 1.29 of it, as the paper's cost does.
@@ -36,7 +36,7 @@ CostBasis power_basis(double middle);
 void check_countable(const CostBasis& basis, double cell_size, const char* what);
 
 double cost_of(const Coefficients& values, const Coefficients& coefficients) noexcept;
-vox_grid_weights weights_of(const Coefficients& seconds) noexcept; // of described_basis; in nanoseconds
+vox_foreign_weights weights_of(const Coefficients& seconds) noexcept; // of described_basis; in nanoseconds
 
 // A timing, and the terms at its cell size.
 struct TimedTerms {
@@ -74,9 +74,10 @@ double weigh(const CostFit& fit, std::span<TimedTerms> timings) noexcept;
 double weighted_error(std::span<const TimedTerms> timings, const Coefficients& coefficients) noexcept;
 double plain_error(std::span<const TimedTerms> timings, const Coefficients& coefficients) noexcept;
 
-// Takes the least legal size, which was run, for the best one where the fit sees hardly a difference: no box
-// of a grid that needs cells as large as its boxes covers more than two of them along an axis, and a run at
-// the least such size can be far faster than one close to it, which smooth terms do not show.
+// Takes the smallest cell size that gives right answers, which was run, for the best one where the fit sees
+// hardly a difference: no box of a grid that needs cells as large as its boxes covers more than two of them
+// along an axis, and a run at the least such size can be far faster than one close to it, which smooth terms
+// do not show.
 void prefer_least(CostMinimum& best, const CostMinimum& at_least) noexcept;
 
 // Beyond this error the counts do not describe the grid.
@@ -87,7 +88,7 @@ inline constexpr double disagreeing_timings = 1.25;
 // Warnings with their texts.
 class Notes {
 public:
-    void add(vox_foreign_warnings warning, const std::string& text);
+    void add(vox_cell_size_warnings warning, const std::string& text);
     std::uint32_t warnings() const noexcept { return warnings_; }
     void write(char (&note)[VOX_NOTE_CAPACITY]) const noexcept;
 
@@ -96,14 +97,14 @@ private:
     std::string text_;
 };
 
-// What vox_cost_fit is asked.
+// What vox_foreign_grid_fit is asked.
 struct FitSettings {
     double least_cell_size = 0; // that is legal; 0: any
     double zone_loss = 0.05;
 };
 
 // Throws INVALID_ARGUMENT for timings that vox_cell_size.h does not allow.
-vox_grid_fit fit_timings(const CostBasis& described, const FitSettings& settings,
-                         std::span<const vox_grid_timing> timings, std::pmr::memory_resource* memory);
+vox_cell_size_result fit_timings(const CostBasis& described, const FitSettings& settings,
+                                 std::span<const vox_timing> timings, std::pmr::memory_resource* memory);
 
 } // namespace vox

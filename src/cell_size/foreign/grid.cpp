@@ -20,12 +20,12 @@ namespace {
 
 constexpr struct {
     const char* name;
-    double vox_grid_weights::*field;
+    double vox_foreign_weights::*field;
 } weight_fields[] = {
-    {"fixed", &vox_grid_weights::fixed},   {"entries", &vox_grid_weights::entries},
-    {"visits", &vox_grid_weights::visits}, {"found", &vox_grid_weights::found},
-    {"reads", &vox_grid_weights::reads},   {"occupied", &vox_grid_weights::occupied},
-    {"cells", &vox_grid_weights::cells},
+    {"run", &vox_foreign_weights::run},     {"store", &vox_foreign_weights::store},
+    {"visit", &vox_foreign_weights::visit}, {"found", &vox_foreign_weights::found},
+    {"read", &vox_foreign_weights::read},   {"occupied", &vox_foreign_weights::occupied},
+    {"cell", &vox_foreign_weights::cell},
 };
 
 void check_grid_number(bool good, double value, const char* name, const char* expected) {
@@ -34,19 +34,20 @@ void check_grid_number(bool good, double value, const char* name, const char* ex
 
 vox_foreign_grid checked(vox_foreign_grid grid) {
     set_default(grid.zone_loss, default_zone_loss);
-    check_enum(grid.content, VOX_CELLS_HOLD_CENTRES, "grid content");
-    check_enum(grid.look, VOX_LOOK_PAIRS, "grid look");
+    check_enum(grid.cells_stored, VOX_CELLS_STORED_CENTRE, "grid cells_stored");
+    check_enum(grid.cells_queried, VOX_CELLS_QUERIED_PAIRS, "grid cells_queried");
+    check_enum(grid.cells_kept, VOX_CELLS_KEPT_DENSE, "grid cells_kept");
     check_enum(grid.known, VOX_KNOWN_GRID_NUMPY, "grid known");
-    if (grid.look == VOX_LOOK_AROUND && grid.content != VOX_CELLS_HOLD_CENTRES)
-        refuse("grid look is AROUND and content HOLD_BOXES: 27 cells around are looked at where cells hold "
-               "centres");
-    constexpr std::uint32_t known_flags = VOX_FOREIGN_DENSE;
-    if (grid.flags & ~known_flags)
-        refuse(format("grid flags is 0x%" PRIx32 ", of which 0x%" PRIx32 " is unknown", grid.flags,
-                      grid.flags & ~known_flags));
+    const KnownGrid& known = known_grid(grid.known);
+    set_default(grid.cells_stored, known.stored);
+    set_default(grid.cells_queried, known.queried);
+    set_default(grid.cells_kept, known.kept);
+    if (grid.cells_queried == VOX_CELLS_QUERIED_27 && grid.cells_stored != VOX_CELLS_STORED_CENTRE)
+        refuse(
+            "grid cells_queried is 27 and cells_stored BOX: 27 cells are visited where cells store centres");
     if (grid.reserved != 0) refuse(format("grid reserved is %" PRIu32 ", expected 0", grid.reserved));
     check_grid_number(grid.radius >= 0, grid.radius, "radius", "0 or a length");
-    check_grid_number(grid.least_cell_size >= 0, grid.least_cell_size, "least_cell_size", "0 or a length");
+    check_grid_number(grid.min_cell_size >= 0, grid.min_cell_size, "min_cell_size", "0 or a length");
     check_grid_number(grid.zone_loss >= 0 && grid.zone_loss <= 1e6, grid.zone_loss, "zone_loss",
                       "a number from 0 to 1e6");
     for (const auto& [name, field] : weight_fields) {
@@ -55,27 +56,27 @@ vox_foreign_grid checked(vox_foreign_grid grid) {
                           "0 or more nanoseconds");
     }
     check_allocator(grid.allocator, "grid.allocator");
-    require(grid.held, "grid.held");
+    require(grid.stored, "grid.stored");
     return grid;
 }
 
 } // namespace
 
 ForeignGrid::ForeignGrid(const vox_foreign_grid* from_caller)
-    : desc(checked(read_struct(from_caller, "grid"))), held(read_struct(desc.held, "held"), "held: ") {
-    if (desc.asking) asking.emplace(read_struct(desc.asking, "asking"), "asking: ");
+    : desc(checked(read_struct(from_caller, "grid"))), held(read_struct(desc.stored, "stored"), "stored: ") {
+    if (desc.querying) asking.emplace(read_struct(desc.querying, "querying"), "querying: ");
     const bool given = std::any_of(std::begin(weight_fields), std::end(weight_fields),
                                    [&](const auto& f) { return desc.weights.*f.field > 0; });
-    const bool dense = desc.flags & VOX_FOREIGN_DENSE;
-    weights_known = given || desc.known != VOX_KNOWN_GRID_ANY;
+    weights_known = given || desc.known != VOX_KNOWN_GRID_NONE;
     if (!weights_known) {
         // A point is in one cell, whatever cells hold.
         const bool points = held.corners() == 1 && !held.has_radii() && held.common_radius() == 0;
-        desc.weights = weights_of_any(points ? VOX_CELLS_HOLD_CENTRES : desc.content, desc.look, dense);
+        desc.weights =
+            weights_of_any(points ? VOX_CELLS_STORED_CENTRE : desc.cells_stored, desc.cells_queried, dense());
     } else if (!given) {
         desc.weights = known_grid(desc.known).weights;
     }
-    if (!dense) desc.weights.cells = 0;
+    if (!dense()) desc.weights.cell = 0;
 }
 
 // ---- looking at the primitives --------------------------------------------------------------------
@@ -111,7 +112,7 @@ double mean_edge(const Primitives& primitives) {
     return sum / count;
 }
 
-void set_sides(const BoxSample& sample, vox_foreign_rules& rules, std::pmr::memory_resource* memory) {
+void set_sides(const BoxSample& sample, ForeignRules& rules, std::pmr::memory_resource* memory) {
     Array<double> sides(memory);
     double sum = 0;
     for_stratified(sample.boxes.size(), measured, 0.5, [&](std::uint64_t i) {
@@ -144,8 +145,9 @@ ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget,
 ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, const BoxSample& held,
                          const BoxSample& asking, std::pmr::memory_resource* memory)
     : centres_(grid.centres()), pairs_(grid.pairs()), same_set_(grid.same_set()),
-      around_(grid.desc.look == VOX_LOOK_AROUND), chosen_(budget.chosen), looked_cells_(budget.cells),
-      singly_(budget.singly), rough_(budget.rough), held_(held, centres_, share_of(held, grid.held), memory),
+      around_(grid.desc.cells_queried == VOX_CELLS_QUERIED_27), chosen_(budget.chosen),
+      looked_cells_(budget.cells), singly_(budget.singly), rough_(budget.rough),
+      held_(held, centres_, share_of(held, grid.held), memory),
       asking_(asking, around_ || (pairs_ && centres_), share_of(asking, grid.those_asking()), memory),
       asking_chosen_(choose_asking(asking_, budget.chosen, memory)), held_chosen_(memory),
       read_(sum_pairs(asking_, asking_chosen_, held_, coarseness(budget, asking_chosen_.size()),
@@ -155,7 +157,7 @@ ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, c
     asking_sums_ = same_set_
                        ? grown_sums(held_sums_, grid.desc.radius - grid.held_grown())
                        : sum_boxes(grid.those_asking(), grid.desc.radius, centres_ && pairs_, budget.summed);
-    least_ = grid.desc.least_cell_size;
+    least_ = grid.desc.min_cell_size;
     if (around_ && least_ == 0) { // of all: it must not be missed
         const double longest = longest_side(grid.held);
         least_ = grid.desc.radius + (longest + (same_set_ ? longest : longest_side(*grid.asking))) / 2;
@@ -186,14 +188,14 @@ ForeignWork::ForeignWork(const ForeignGrid& grid, const ForeignBudget& budget, c
 
 // ---- counts ---------------------------------------------------------------------------------------
 
-vox_grid_work ForeignWork::smooth_at(double d) const noexcept {
-    vox_grid_work work{};
+vox_foreign_counts ForeignWork::smooth_at(double d) const noexcept {
+    vox_foreign_counts work{};
     const double held_cells = centres_ ? held_sums_.count : held_sums_.cells.at(d);
-    work.entries = held_cells;
+    work.stored = held_cells;
     const double others = read_.at(d);
     if (pairs_) {
-        if (!same_set_) work.entries += centres_ ? asking_sums_.count : asking_sums_.cells.at(d);
-        work.visits = work.entries;
+        if (!same_set_) work.stored += centres_ ? asking_sums_.count : asking_sums_.cells.at(d);
+        work.visits = work.stored;
         work.reads = same_set_ ? others / 2 : others;
     } else {
         work.visits = around_ ? 27 * asking_sums_.count : asking_sums_.cells.at(d);
@@ -208,22 +210,25 @@ vox_grid_work ForeignWork::smooth_at(double d) const noexcept {
 }
 
 bool ForeignWork::is_countable(double d) const noexcept {
-    const vox_grid_work work = smooth_at(d);
-    return work.entries <= most_counted && work.visits <= most_counted && work.reads <= most_counted &&
+    const vox_foreign_counts work = smooth_at(d);
+    return work.stored <= most_counted && work.visits <= most_counted && work.reads <= most_counted &&
            work.cells <= most_counted;
 }
 
-vox_grid_work ForeignWork::with_shares(double d, double empty_part, double occupied_part) const noexcept {
-    vox_grid_work work = smooth_at(d);
-    work.occupied = occupied_part * work.entries;
+vox_foreign_counts ForeignWork::with_shares(double d, double empty_part,
+                                            double occupied_part) const noexcept {
+    vox_foreign_counts work = smooth_at(d);
+    work.occupied = occupied_part * work.stored;
     if (pairs_) work.visits = work.occupied;
     work.empty = pairs_ ? 0 : empty_part * work.visits;
     return work;
 }
 
-vox_grid_work ForeignWork::exactly_at(double d) { return with_shares(d, empty_share(d), occupied_share(d)); }
+vox_foreign_counts ForeignWork::exactly_at(double d) {
+    return with_shares(d, empty_share(d), occupied_share(d));
+}
 
-vox_grid_work ForeignWork::at(double d, CellsWanted wanted) {
+vox_foreign_counts ForeignWork::at(double d, CellsWanted wanted) {
     const auto share = [&](Share which) {
         const double place = shares_per_octave * (std::log2(d / range_.min) + curve_octaves);
         if (!(place >= 0 && place < static_cast<double>(table_[which].size() - 1)))
@@ -370,12 +375,12 @@ double ForeignWork::occupied_of_few(double d, double cells_there) const {
 
 double ForeignWork::occupied_share(double d) {
     if (held_chosen_.empty()) held_chosen_ = choose_asking(held_, chosen_, table_[0].memory());
-    const vox_grid_work smooth = smooth_at(d);
+    const vox_foreign_counts smooth = smooth_at(d);
     const bool both = pairs_ && !same_set_, all_kept = held_.share() == 1 && (!both || asking_.share() == 1);
     // More of them are few where none can be missed for want of what is not in the sample.
     if (smooth.cells * least_positions <=
         static_cast<double>(all_kept ? singly_ : std::min(singly_, looked_cells_)))
-        return occupied_of_few(d, smooth.cells) / smooth.entries;
+        return occupied_of_few(d, smooth.cells) / smooth.stored;
     std::uint64_t random = 4;
     double entries = 0, cells = 0;
     CellCounts counts;

@@ -24,18 +24,28 @@ struct ForeignGrid {
     // Throws INVALID_ARGUMENT, INVALID_MESH, LIMIT.
     explicit ForeignGrid(const vox_foreign_grid* from_caller);
 
-    vox_foreign_grid desc; // with the weights that are in use
+    vox_foreign_grid desc; // without defaults: with the weights that are in use
     bool weights_known;    // whether they are of some grid, not those for any
     Primitives held;
     std::optional<Primitives> asking; // another set
 
     bool same_set() const noexcept { return !asking; }
     const Primitives& those_asking() const noexcept { return asking ? *asking : held; }
-    bool pairs() const noexcept { return desc.look == VOX_LOOK_PAIRS; }
-    bool centres() const noexcept { return desc.content == VOX_CELLS_HOLD_CENTRES; }
+    bool pairs() const noexcept { return desc.cells_queried == VOX_CELLS_QUERIED_PAIRS; }
+    bool dense() const noexcept { return desc.cells_kept == VOX_CELLS_KEPT_DENSE; }
+    bool centres() const noexcept { return desc.cells_stored == VOX_CELLS_STORED_CENTRE; }
     // By how much boxes are larger than their primitives with radii. Where the same boxes are put into cells
     // and paired there, the radius of the grid is theirs.
     double held_grown() const noexcept { return pairs() && same_set() ? desc.radius : 0; }
+};
+
+// Cell sizes that rules of thumb would choose; 0 where a rule does not apply.
+struct ForeignRules {
+    double mean_edge;       // of the primitives held, shared ones counted each time
+    double mean_box_side;   // mean of the longest sides of their boxes
+    double median_box_side; // median of these
+    double spacing;         // cube root of the volume of the box of all, over their number
+    double radius;          // mean radius of those that ask
 };
 
 // How closely the primitives are looked at.
@@ -50,7 +60,8 @@ struct ForeignBudget {
     std::size_t singly;   // cells looked at for whether there is anything in them, where those of some
                           // positions of the lattice are no more
 };
-// For vox_suggest_for: a look at 20,000 primitives takes less than half a millisecond, at a million a few.
+// For vox_foreign_grid_suggest: a look at 20,000 primitives takes less than half a millisecond, at a million
+// a few.
 inline ForeignBudget quick_look(const ForeignGrid& grid) noexcept {
     const std::uint64_t count = std::max(grid.held.count(), grid.those_asking().count());
     const std::uint64_t held = std::clamp<std::uint64_t>(count / 10, 2048, 8192);
@@ -59,7 +70,7 @@ inline ForeignBudget quick_look(const ForeignGrid& grid) noexcept {
 }
 // What that takes, about.
 inline constexpr std::size_t quick_look_bytes = std::size_t{1} << 19;
-// For vox_count_for. The tests hold its counts to within 5 % of those in a filled grid.
+// For vox_foreign_grid_count. The tests hold its counts to within 5 % of those in a filled grid.
 inline constexpr ForeignBudget thorough_look{
     ~std::uint64_t{0}, std::uint64_t{1} << 18, std::uint64_t{1} << 15, 4096, 1, 16384, 0, 131072};
 
@@ -79,11 +90,11 @@ public:
 
     // All counts that are wanted; those not wanted are 0. They come from a table over the sizes that fills as
     // it is asked.
-    vox_grid_work at(double cell_size, CellsWanted wanted = {});
+    vox_foreign_counts at(double cell_size, CellsWanted wanted = {});
     // All, with occupied and empty cells counted at this very size.
-    vox_grid_work exactly_at(double cell_size);
+    vox_foreign_counts exactly_at(double cell_size);
     // All but occupied and empty cells, of which the former are 0 here and the latter as many as visits.
-    vox_grid_work smooth_at(double cell_size) const noexcept;
+    vox_foreign_counts smooth_at(double cell_size) const noexcept;
     // Whether all counts are numbers of at most most_counted; those at larger sizes are, too.
     bool is_countable(double cell_size) const noexcept;
 
@@ -91,7 +102,7 @@ public:
     // Cell sizes that can matter, none below the least one: from tiny ones to one cell that holds all. Where
     // all are in one place and have no size, min and max are the least size, or 1.
     const CellSizeRange& range() const noexcept { return range_; }
-    const vox_foreign_rules& rules() const noexcept { return rules_; }
+    const ForeignRules& rules() const noexcept { return rules_; }
     bool without_size() const noexcept { return !has_size_; } // points that ask points
     bool in_one_place() const noexcept { return !(extent_ > 0); }
     double asking_count() const noexcept { return asking_sums_.count; }
@@ -105,7 +116,7 @@ private:
     double empty_share(double cell_size) const;
     double occupied_share(double cell_size);
     double occupied_of_few(double cell_size, double cells_there) const;
-    vox_grid_work with_shares(double cell_size, double empty_part, double occupied_part) const noexcept;
+    vox_foreign_counts with_shares(double cell_size, double empty_part, double occupied_part) const noexcept;
 
     bool centres_, pairs_, same_set_, around_;
     std::size_t chosen_, looked_cells_, singly_; // of a ForeignBudget
@@ -117,7 +128,7 @@ private:
     double extent_ = 0, least_ = 0;
     bool has_size_ = false, never_empty_ = false;
     CellSizeRange range_{1, 1};
-    vox_foreign_rules rules_{};
+    ForeignRules rules_{};
     std::array<Array<double>, 2> table_; // of each Share, from range_.min on; -1 where not known yet
 };
 

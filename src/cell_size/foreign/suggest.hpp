@@ -8,6 +8,6 @@
 namespace vox {
 
 // Sets all fields but struct_size.
-vox_foreign_suggestion suggest_for(const ForeignGrid& grid, ForeignWork& work);
+vox_cell_size_result suggest_for(const ForeignGrid& grid, ForeignWork& work);
 
 } // namespace vox

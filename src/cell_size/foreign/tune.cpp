@@ -22,8 +22,7 @@
 namespace vox {
 
 void complete(vox_tune_desc& desc) {
-    set_default(desc.most_runs, 7u);
-    set_default(desc.zone_loss, default_zone_loss);
+    set_default(desc.max_runs, 7u);
     set_default(desc.wanted_loss, 0.02);
 }
 
@@ -32,8 +31,8 @@ void check_tune_desc(const vox_tune_desc& desc) {
         if (!(value >= 0) || !std::isfinite(value))
             refuse(format("desc.%s is %g, expected a finite number of at least 0", name, value));
     };
-    if (desc.most_runs < 3 || desc.most_runs > VOX_TUNE_RUN_CAPACITY)
-        refuse(format("desc.most_runs is %u, expected 3 to %u", desc.most_runs, VOX_TUNE_RUN_CAPACITY));
+    if (desc.max_runs < 3 || desc.max_runs > VOX_TIMING_CAPACITY)
+        refuse(format("desc.max_runs is %u, expected 3 to %u", desc.max_runs, VOX_TIMING_CAPACITY));
     at_least_0("min", desc.min);
     at_least_0("max", desc.max);
     at_least_0("first", desc.first);
@@ -42,20 +41,19 @@ void check_tune_desc(const vox_tune_desc& desc) {
             format("desc.min and max are %g and %g, expected 0 < min <= max, or both 0", desc.min, desc.max));
     if (desc.first > 0 && desc.max > 0 && !(desc.first >= desc.min && desc.first <= desc.max))
         refuse(format("desc.first is %g, expected from min, %g, to max, %g", desc.first, desc.min, desc.max));
-    if (!(desc.zone_loss >= 0 && desc.zone_loss <= 1e6))
-        refuse(format("desc.zone_loss is %g, expected a number from 0 to 1e6", desc.zone_loss));
     at_least_0("wanted_loss", desc.wanted_loss);
 }
 
-TuneSettings::TuneSettings(const vox_tune_desc& desc, double suggested, double least_legal)
-    : most_runs(desc.most_runs), zone_loss(desc.zone_loss), wanted_loss(desc.wanted_loss), least(least_legal),
+TuneSettings::TuneSettings(const vox_tune_desc& desc, double loss_in_zone, double suggested,
+                           double least_legal)
+    : max_runs(desc.max_runs), zone_loss(loss_in_zone), wanted_loss(desc.wanted_loss), least(least_legal),
       first(desc.first > 0 ? desc.first : suggested), range{desc.min, desc.max} {
     constexpr double reach = 8;
     if (!(first > 0)) refuse("desc.first is 0, and no grid is described that a first cell size follows from");
     if (desc.first > 0 && first < least)
-        refuse(format("desc.first is %g, the least legal cell size is %g", first, least));
+        refuse(format("desc.first is %g, the smallest that gives right answers is %g", first, least));
     if (range.max > 0 && range.max < least)
-        refuse(format("desc.max is %g, the least legal cell size is %g", range.max, least));
+        refuse(format("desc.max is %g, the smallest that gives right answers is %g", range.max, least));
     if (!(range.max > 0)) range = {first / reach, first * reach};
     range.min = std::max(range.min, least);
     first = std::clamp(first, range.min, range.max);
@@ -89,13 +87,13 @@ public:
         if (described_) check_countable(*described_, size(low_), "the smallest cell size to be tried");
     }
 
-    vox_tuning operator()() {
+    vox_cell_size_result operator()() {
         run_first();
         if (timed_.empty())
             throw Error(VOX_ERROR_INVALID_STATE,
                         format("no run succeeded: %u could not run, the first at cell size %g%s", run_count_,
                                settings_.first, stopped_ ? ", then the callback stopped" : ""));
-        for (judge(); !stopped_ && run_count_ < settings_.most_runs; judge()) {
+        for (judge(); !stopped_ && run_count_ < settings_.max_runs; judge()) {
             if (low_ == high_) break;
             if (run_count_ >= least_runs && open_side() == 0 && !doubtful_ && !unproven_ &&
                 loss_ <= settings_.wanted_loss) {
@@ -132,7 +130,7 @@ private:
     void run_first() {
         const int step = std::clamp((high_ - low_) / 2, 1, nodes_per_octave);
         for (const int steps : {0, -1, 1, 2, -2, 3, -3}) {
-            if (stopped_ || run_count_ == settings_.most_runs || timed_.size() == 3) break;
+            if (stopped_ || run_count_ == settings_.max_runs || timed_.size() == 3) break;
             const int node = std::clamp(steps * step, low_, high_);
             if (std::find(nodes_.begin(), nodes_.end(), node) == nodes_.end()) time(node);
         }
@@ -142,7 +140,7 @@ private:
         const double cell_size = size(node), seconds = run_(cell_size);
         if (!(seconds >= 0)) {
             stopped_ = true;
-            notes_.add(VOX_FOREIGN_STOPPED,
+            notes_.add(VOX_CELL_SIZE_STOPPED,
                        format("stopped at run %u, at cell size %g", run_count_ + 1, cell_size));
             return;
         }
@@ -158,7 +156,7 @@ private:
             nodes_.push_back(node);
         } else {
             if (failed_.empty())
-                notes_.add(VOX_FOREIGN_STOPPED, format("it cannot run at cell size %g", cell_size));
+                notes_.add(VOX_CELL_SIZE_STOPPED, format("it cannot run at cell size %g", cell_size));
             failed_.push_back(node);
         }
         if (!timed_.empty()) narrow();
@@ -356,7 +354,7 @@ private:
 
     // ---- the answer -----------------------------------------------------------------------------------
 
-    vox_tuning answer() {
+    vox_cell_size_result answer() {
         // Nothing is known beyond the sizes that were run.
         const int node = std::clamp(chosen_, smallest(), largest());
         const CostFunction cost = [&](double log_size) {
@@ -377,24 +375,26 @@ private:
         const CellSizeRange zone =
             zone_around(best, (1 + settings_.zone_loss) * best.cost, cost, view, fineness);
 
-        vox_tuning result{};
+        vox_cell_size_result result{};
         result.cell_size = best.cell_size;
         result.zone_min = zone.min;
         result.zone_max = zone.max;
-        result.seconds = best.cost;
+        result.cost = best.cost;
+        result.min_cell_size = settings_.least;
         result.expected_loss = smallest() == largest() && low_ != high_
                                    ? without_end
                                    : std::max(greatest_loss(values_at(best.cell_size)), doubt_);
-        result.noise = plain_error(timed_, (*fit_)(timed_));
-        std::copy_n(runs_.begin(), run_count_, result.runs);
-        result.run_count = run_count_;
+        result.fit_error = plain_error(timed_, (*fit_)(timed_));
+        std::copy_n(runs_.begin(), run_count_, result.timings);
+        result.timing_count = run_count_;
         draw_curve(cost, {best.cell_size / 8, best.cell_size * 8}, result.curve, result.curve_count);
         if (chosen_ != node)
-            notes_.add(VOX_FOREIGN_OUT_OF_RANGE, format("the best cell size is beyond those run, %g to %g",
-                                                        size(smallest()), size(largest())));
+            notes_.add(VOX_CELL_SIZE_OUT_OF_RANGE, format("the best cell size is beyond those run, %g to %g",
+                                                          size(smallest()), size(largest())));
         if (settings_.least > 0 && best.cell_size <= settings_.least * 1.001)
-            notes_.add(VOX_FOREIGN_AT_LEAST_SIZE, format("%g is the least legal size", settings_.least));
-        compare_timings(result.noise);
+            notes_.add(VOX_CELL_SIZE_AT_MINIMUM,
+                       format("%g is the smallest cell size that gives right answers", settings_.least));
+        compare_timings(result.fit_error);
         if (described_) result.weights = fit_described();
         result.warnings = notes_.warnings();
         notes_.write(result.note);
@@ -442,15 +442,15 @@ private:
                     widest_at = nodes_[i];
                 }
         if (widest > disagreeing_timings)
-            notes_.add(VOX_FOREIGN_TIMINGS_DISAGREE,
+            notes_.add(VOX_CELL_SIZE_TIMINGS_DISAGREE,
                        format("runs at cell size %g differ %.2f times", size(widest_at), widest));
         else if (noise > most_noise)
-            notes_.add(VOX_FOREIGN_TIMINGS_DISAGREE,
+            notes_.add(VOX_CELL_SIZE_TIMINGS_DISAGREE,
                        format("runs are %.0f %% away from the best curve", 100 * noise));
     }
 
     // The weights of the described grid, without powers.
-    vox_grid_weights fit_described() {
+    vox_foreign_weights fit_described() {
         const double error_of_both = weighted_error(timed_, (*fit_)(timed_));
         const auto described_alone = [&](Coefficients values) {
             std::fill(values.begin() + static_cast<std::ptrdiff_t>(described_->count), values.end(), 0.0);
@@ -464,7 +464,7 @@ private:
         const double error = weighted_error(trial_, coefficients);
         if (error > disagreeing_model && error > 2 * error_of_both)
             notes_.add(
-                VOX_FOREIGN_MODEL_DISAGREES,
+                VOX_CELL_SIZE_MODEL_DISAGREES,
                 format(
                     "the counts of this grid miss the times by %.0f %%, powers of the cell size by %.0f %%",
                     100 * error, 100 * error_of_both));
@@ -482,7 +482,7 @@ private:
     int view_low_ = 0, view_high_ = 0;         // those up to an octave beyond what was run
     Array<std::optional<Coefficients>> known_; // values of the terms
 
-    std::array<vox_grid_timing, VOX_TUNE_RUN_CAPACITY> runs_{};
+    std::array<vox_timing, VOX_TIMING_CAPACITY> runs_{};
     std::uint32_t run_count_ = 0;
     Array<TimedTerms> timed_; // the runs that succeeded, and their nodes
     Array<int> nodes_;
@@ -503,8 +503,8 @@ private:
 
 } // namespace
 
-vox_tuning tune(const CostBasis* described, const TuneSettings& settings, const GridRun& run,
-                std::pmr::memory_resource* memory) {
+vox_cell_size_result tune(const CostBasis* described, const TuneSettings& settings, const GridRun& run,
+                          std::pmr::memory_resource* memory) {
     return Tuner(described, settings, run, memory)();
 }
 

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ._c import (VOX_NONE as NONE, AreaReading, CellLook, ConstraintKind, CostModel, DepthMethod, DepthState, ForeignRule,
-                 ForeignWarnings, GridFlags, KnownGrid, PairState, Result, Side, SizeReading)
+from ._c import (VOX_NONE as NONE, CellSizeWarnings, CellsKept, CellsQueried, CellsStored, ConstraintKind, CostModel, DepthMethod,
+                 DepthState, GridFlags, KnownGrid, PairState, Result, Side)
 from ._library import vox as _vox
 from .errors import (BudgetError, FileError, FormatError, InternalError, InvalidArgumentError, InvalidHandleError,
                      InvalidMeshError, InvalidStateError, LimitError, MissingFileError, NonFiniteError, OutOfMemoryError,
                      UnsupportedError, VoxError)
-from .foreign import (CostFit, ForeignGrid, ForeignRules, ForeignSuggestion, GridWeights, GridWork, Primitives, Timing, Tuning,
-                      cost_fit, count_for, suggest_for, tune)
+from .foreign import ForeignCounts, ForeignGrid, Primitives, tune
 from .grid import ALL_CORES, Failure, Grid, step_all
 from .locate import BoxHits, ClosestHits, Located, Locator, PointHits, RayHits, locate
 from .mesh import Filter, Mesh, MeshInfo
 from .reference import Reference
 from .results import Borrowed, Constraints, Contacts, Pairs
-from .suggest import Curve, Minimum, Rules, Stats, Suggestion, Terms, calibrate, minimise, suggest_cell_size
+from .suggest import (CellSizeResult, Curve, ForeignWeights, Geometry, Rules, Terms, Timings, calibrate, measure_geometry, minimise,
+                      suggest_cell_size)
 
 if TYPE_CHECKING:
     from . import experiment, io, ipctk, mpi, mujoco, newton, sim, surface

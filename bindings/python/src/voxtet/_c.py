@@ -20,12 +20,12 @@ VOX_NULL_BODY = 0
 VOX_MAX_RINGS = 8
 VOX_STENCIL_CAPACITY = 5
 VOX_MAX_TASKS = 64
-VOX_COST_WEIGHT_CAPACITY = 24
-VOX_COST_CURVE_CAPACITY = 64
-VOX_COST_TERM_CAPACITY = 12
-VOX_CELL_SIZE_LEVEL_CAPACITY = 4
+VOX_CURVE_CAPACITY = 64
+VOX_TERM_CAPACITY = 12
+VOX_RULE_CAPACITY = 8
+VOX_TIMING_CAPACITY = 32
 VOX_NOTE_CAPACITY = 256
-VOX_TUNE_RUN_CAPACITY = 32
+VOX_COST_WEIGHT_CAPACITY = 24
 VOX_MAX_FEATURES = 2147483647
 VOX_MAX_PATCHES = 65536
 
@@ -112,9 +112,16 @@ class Side(enum.IntEnum):
     LEAVES = 2
 
 
-class ReferenceFlags(enum.IntFlag):
-    DENSE = 1
-    PAPER_HASH = 2
+class CellSizeWarnings(enum.IntFlag):
+    GUESSED_WEIGHTS = 1
+    BY_RULE = 2
+    AT_MINIMUM = 4
+    FROM_SPACING = 8
+    ONE_PLACE = 16
+    MODEL_DISAGREES = 32
+    TIMINGS_DISAGREE = 64
+    OUT_OF_RANGE = 128
+    STOPPED = 256
 
 
 class CostModel(enum.IntEnum):
@@ -124,16 +131,9 @@ class CostModel(enum.IntEnum):
     SURFACE = 3
 
 
-class SizeReading(enum.IntEnum):
-    MEAN_EDGE = 0
-    MEAN_LONGEST_EDGE = 1
-    MEAN_BOX_SIDE = 2
-
-
-class AreaReading(enum.IntEnum):
-    UNIQUE_FACETS = 0
-    TET_FACETS = 1
-    BOUNDARY_FACETS = 2
+class ReferenceFlags(enum.IntFlag):
+    DENSE = 1
+    PAPER_HASH = 2
 
 
 class PrimitiveType(enum.IntEnum):
@@ -144,19 +144,8 @@ class PrimitiveType(enum.IntEnum):
     BOX = 4
 
 
-class CellContent(enum.IntEnum):
-    CELLS_HOLD_BOXES = 0
-    CELLS_HOLD_CENTRES = 1
-
-
-class CellLook(enum.IntEnum):
-    BOX = 0
-    AROUND = 1
-    PAIRS = 2
-
-
 class KnownGrid(enum.IntEnum):
-    ANY = 0
+    NONE = 0
     SORTED = 1
     HASHED = 2
     WARP = 3
@@ -168,29 +157,23 @@ class KnownGrid(enum.IntEnum):
     NUMPY = 9
 
 
-class ForeignFlags(enum.IntFlag):
-    DENSE = 1
+class CellsStored(enum.IntEnum):
+    DEFAULT = 0
+    BOX = 1
+    CENTRE = 2
 
 
-class ForeignWarnings(enum.IntFlag):
-    WEIGHTS_UNKNOWN = 1
-    BY_RULE = 2
-    AT_LEAST_SIZE = 4
-    NO_SIZE = 8
-    ONE_PLACE = 16
-    MODEL_DISAGREES = 32
-    TIMINGS_DISAGREE = 64
-    OUT_OF_RANGE = 128
-    STOPPED = 256
+class CellsQueried(enum.IntEnum):
+    DEFAULT = 0
+    BOX = 1
+    QUERIED_27 = 2
+    PAIRS = 3
 
 
-class ForeignRule(enum.IntEnum):
-    NONE = 0
-    MEAN_EDGE = 1
-    MEAN_BOX_SIDE = 2
-    MEDIAN_BOX_SIDE = 3
-    SPACING = 4
-    RADIUS = 5
+class CellsKept(enum.IntEnum):
+    DEFAULT = 0
+    OCCUPIED = 1
+    DENSE = 2
 
 
 class Feature(enum.IntEnum):
@@ -248,7 +231,7 @@ dtypes: dict[str, Any] = {}
 
 vox_task = CFUNCTYPE(None, c_uint64, c_uint64, c_uint32, c_void_p)
 vox_cost_function = CFUNCTYPE(c_double, c_double, c_void_p)
-vox_grid_run = CFUNCTYPE(c_double, c_double, c_void_p)
+vox_foreign_run = CFUNCTYPE(c_double, c_double, c_void_p)
 
 class vox_positions(Structure):
     _fields_ = [
@@ -637,28 +620,111 @@ dtypes["vox_ray_hit"] = dtype({
     "itemsize": 64})
 
 
-class vox_suggest_desc(Structure):
+class vox_cost_sample(Structure):
+    _fields_ = [
+        ("cell_size", c_double),
+        ("cost", c_double),
+    ]
+
+dtypes["vox_cost_sample"] = dtype({
+    "names": ["cell_size", "cost"],
+    "formats": ["f8", "f8"],
+    "offsets": [0, 8],
+    "itemsize": 16})
+
+
+class vox_cost_term(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("count", c_double),
+        ("cost", c_double),
+    ]
+
+
+class vox_cell_size_rule(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("cell_size", c_double),
+        ("cost", c_double),
+    ]
+
+
+class vox_timing(Structure):
+    _fields_ = [
+        ("cell_size", c_double),
+        ("seconds", c_double),
+    ]
+
+dtypes["vox_timing"] = dtype({
+    "names": ["cell_size", "seconds"],
+    "formats": ["f8", "f8"],
+    "offsets": [0, 8],
+    "itemsize": 16})
+
+
+class vox_foreign_weights(Structure):
+    _fields_ = [
+        ("run", c_double),
+        ("store", c_double),
+        ("visit", c_double),
+        ("found", c_double),
+        ("read", c_double),
+        ("occupied", c_double),
+        ("cell", c_double),
+    ]
+
+dtypes["vox_foreign_weights"] = dtype({
+    "names": ["run", "store", "visit", "found", "read", "occupied", "cell"],
+    "formats": ["f8", "f8", "f8", "f8", "f8", "f8", "f8"],
+    "offsets": [0, 8, 16, 24, 32, 40, 48],
+    "itemsize": 56})
+
+
+class vox_cell_size_result(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32),
+        ("warnings", c_uint32),
+        ("cell_size", c_double),
+        ("zone_min", c_double),
+        ("zone_max", c_double),
+        ("cost", c_double),
+        ("min_cell_size", c_double),
+        ("cells_per_axis", c_double),
+        ("fit_error", c_double),
+        ("expected_loss", c_double),
+        ("curve_count", c_uint32),
+        ("term_count", c_uint32),
+        ("rule_count", c_uint32),
+        ("timing_count", c_uint32),
+        ("curve", vox_cost_sample * 64),
+        ("terms", vox_cost_term * 12),
+        ("rules", vox_cell_size_rule * 8),
+        ("timings", vox_timing * 32),
+        ("weights", vox_foreign_weights),
+        ("note", c_char * 256),
+    ]
+
+
+class vox_cell_size_desc(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
         ("model", c_int32),
-        ("size_reading", c_int32),
-        ("area_reading", c_int32),
+        ("reference_flags", c_uint32),
+        ("reserved", c_uint32),
+        ("zone_loss", c_double),
         ("p_nc", c_double),
         ("cost_ratio", c_double),
         ("world_edge", c_double),
-        ("zone_loss", c_double),
-        ("mean_edge_factor", c_double),
-        ("resolution", c_double),
         ("byte_budget", c_uint64),
-        ("reference_flags", c_uint32),
-        ("reserved", c_uint32),
         ("weights", POINTER(vox_cost_weights)),
         ("allocator", POINTER(vox_allocator)),
     ]
 
 
-class vox_geometry_stats(Structure):
+class vox_geometry(Structure):
     _fields_ = [
+        ("struct_size", c_uint32),
+        ("reserved", c_uint32),
         ("vertices", c_uint64),
         ("tets", c_uint64),
         ("edges", c_uint64),
@@ -677,111 +743,14 @@ class vox_geometry_stats(Structure):
         ("bounds_max", c_double * 3),
     ]
 
-dtypes["vox_geometry_stats"] = dtype({
-    "names": ["vertices", "tets", "edges", "facets", "boundary_facets", "degenerate_tets", "mean_edge",
-        "mean_longest_edge", "mean_box_side", "median_box_side", "mean_facet_area", "mean_tet_facet_area",
+dtypes["vox_geometry"] = dtype({
+    "names": ["struct_size", "reserved", "vertices", "tets", "edges", "facets", "boundary_facets", "degenerate_tets",
+        "mean_edge", "mean_longest_edge", "mean_box_side", "median_box_side", "mean_facet_area", "mean_tet_facet_area",
         "mean_boundary_facet_area", "mean_volume", "bounds_min", "bounds_max"],
-    "formats": ["u8", "u8", "u8", "u8", "u8", "u8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", ("f8", (3,)), ("f8",
-        (3,))],
-    "offsets": [0, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 136],
-    "itemsize": 160})
-
-
-class vox_cell_size_rules(Structure):
-    _fields_ = [
-        ("mean_edge", c_double),
-        ("mean_edge_multiple", c_double),
-        ("object_512", c_double),
-        ("resolution", c_double),
-        ("mean_volume", c_double),
-        ("median_box_side", c_double),
-    ]
-
-dtypes["vox_cell_size_rules"] = dtype({
-    "names": ["mean_edge", "mean_edge_multiple", "object_512", "resolution", "mean_volume", "median_box_side"],
-    "formats": ["f8", "f8", "f8", "f8", "f8", "f8"],
-    "offsets": [0, 8, 16, 24, 32, 40],
-    "itemsize": 48})
-
-
-class vox_cost_sample(Structure):
-    _fields_ = [
-        ("cell_size", c_double),
-        ("cost", c_double),
-    ]
-
-dtypes["vox_cost_sample"] = dtype({
-    "names": ["cell_size", "cost"],
-    "formats": ["f8", "f8"],
-    "offsets": [0, 8],
-    "itemsize": 16})
-
-
-class vox_cost_share(Structure):
-    _fields_ = [
-        ("name", c_char * 24),
-        ("count", c_double),
-        ("cost", c_double),
-        ("share", c_double),
-    ]
-
-dtypes["vox_cost_share"] = dtype({
-    "names": ["name", "count", "cost", "share"],
-    "formats": ["S24", "f8", "f8", "f8"],
-    "offsets": [0, 24, 32, 40],
-    "itemsize": 48})
-
-
-class vox_suggestion(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("model", c_int32),
-        ("cell_size", c_double),
-        ("cells_per_axis", c_double),
-        ("zone_min", c_double),
-        ("zone_max", c_double),
-        ("predicted_cost", c_double),
-        ("rules", vox_cell_size_rules),
-        ("stats", vox_geometry_stats),
-        ("curve", vox_cost_sample * 64),
-        ("curve_count", c_uint32),
-        ("term_count", c_uint32),
-        ("terms", vox_cost_share * 12),
-        ("rule_costs", vox_cell_size_rules),
-        ("budget_cell_size", c_double),
-        ("uniform_loss", c_double),
-        ("levels", c_double * 4),
-        ("level_count", c_uint32),
-        ("reserved", c_uint32),
-    ]
-
-dtypes["vox_suggestion"] = dtype({
-    "names": ["struct_size", "model", "cell_size", "cells_per_axis", "zone_min", "zone_max", "predicted_cost", "rules",
-        "stats", "curve", "curve_count", "term_count", "terms", "rule_costs", "budget_cell_size", "uniform_loss",
-        "levels", "level_count", "reserved"],
-    "formats": ["u4", "i4", "f8", "f8", "f8", "f8", "f8", dtypes["vox_cell_size_rules"], dtypes["vox_geometry_stats"],
-        (dtypes["vox_cost_sample"], (64,)), "u4", "u4", (dtypes["vox_cost_share"], (12,)),
-        dtypes["vox_cell_size_rules"], "f8", "f8", ("f8", (4,)), "u4", "u4"],
-    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 96, 256, 1280, 1284, 1288, 1864, 1912, 1920, 1928, 1960, 1964],
-    "itemsize": 1968})
-
-
-class vox_cost_minimum(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("curve_count", c_uint32),
-        ("cell_size", c_double),
-        ("cost", c_double),
-        ("zone_min", c_double),
-        ("zone_max", c_double),
-        ("curve", vox_cost_sample * 64),
-    ]
-
-dtypes["vox_cost_minimum"] = dtype({
-    "names": ["struct_size", "curve_count", "cell_size", "cost", "zone_min", "zone_max", "curve"],
-    "formats": ["u4", "u4", "f8", "f8", "f8", "f8", (dtypes["vox_cost_sample"], (64,))],
-    "offsets": [0, 4, 8, 16, 24, 32, 40],
-    "itemsize": 1064})
+    "formats": ["u4", "u4", "u8", "u8", "u8", "u8", "u8", "u8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", "f8", ("f8",
+        (3,)), ("f8", (3,))],
+    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 64, 72, 80, 88, 96, 104, 112, 120, 144],
+    "itemsize": 168})
 
 
 class vox_primitives(Structure):
@@ -800,9 +769,27 @@ class vox_primitives(Structure):
     ]
 
 
-class vox_grid_work(Structure):
+class vox_foreign_grid(Structure):
     _fields_ = [
-        ("entries", c_double),
+        ("struct_size", c_uint32),
+        ("known", c_int32),
+        ("cells_stored", c_int32),
+        ("cells_queried", c_int32),
+        ("cells_kept", c_int32),
+        ("reserved", c_uint32),
+        ("stored", POINTER(vox_primitives)),
+        ("querying", POINTER(vox_primitives)),
+        ("radius", c_double),
+        ("min_cell_size", c_double),
+        ("zone_loss", c_double),
+        ("weights", vox_foreign_weights),
+        ("allocator", POINTER(vox_allocator)),
+    ]
+
+
+class vox_foreign_counts(Structure):
+    _fields_ = [
+        ("stored", c_double),
         ("visits", c_double),
         ("empty", c_double),
         ("reads", c_double),
@@ -810,179 +797,28 @@ class vox_grid_work(Structure):
         ("cells", c_double),
     ]
 
-dtypes["vox_grid_work"] = dtype({
-    "names": ["entries", "visits", "empty", "reads", "occupied", "cells"],
+dtypes["vox_foreign_counts"] = dtype({
+    "names": ["stored", "visits", "empty", "reads", "occupied", "cells"],
     "formats": ["f8", "f8", "f8", "f8", "f8", "f8"],
     "offsets": [0, 8, 16, 24, 32, 40],
     "itemsize": 48})
 
 
-class vox_grid_weights(Structure):
-    _fields_ = [
-        ("fixed", c_double),
-        ("entries", c_double),
-        ("visits", c_double),
-        ("found", c_double),
-        ("reads", c_double),
-        ("occupied", c_double),
-        ("cells", c_double),
-    ]
-
-dtypes["vox_grid_weights"] = dtype({
-    "names": ["fixed", "entries", "visits", "found", "reads", "occupied", "cells"],
-    "formats": ["f8", "f8", "f8", "f8", "f8", "f8", "f8"],
-    "offsets": [0, 8, 16, 24, 32, 40, 48],
-    "itemsize": 56})
-
-
-class vox_foreign_grid(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("flags", c_uint32),
-        ("content", c_int32),
-        ("look", c_int32),
-        ("held", POINTER(vox_primitives)),
-        ("asking", POINTER(vox_primitives)),
-        ("radius", c_double),
-        ("least_cell_size", c_double),
-        ("zone_loss", c_double),
-        ("known", c_int32),
-        ("reserved", c_uint32),
-        ("weights", vox_grid_weights),
-        ("allocator", POINTER(vox_allocator)),
-    ]
-
-
-class vox_foreign_rules(Structure):
-    _fields_ = [
-        ("mean_edge", c_double),
-        ("mean_box_side", c_double),
-        ("median_box_side", c_double),
-        ("spacing", c_double),
-        ("radius", c_double),
-    ]
-
-dtypes["vox_foreign_rules"] = dtype({
-    "names": ["mean_edge", "mean_box_side", "median_box_side", "spacing", "radius"],
-    "formats": ["f8", "f8", "f8", "f8", "f8"],
-    "offsets": [0, 8, 16, 24, 32],
-    "itemsize": 40})
-
-
-class vox_foreign_suggestion(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("warnings", c_uint32),
-        ("cell_size", c_double),
-        ("zone_min", c_double),
-        ("zone_max", c_double),
-        ("predicted_cost", c_double),
-        ("least_cell_size", c_double),
-        ("work", vox_grid_work),
-        ("weights", vox_grid_weights),
-        ("rules", vox_foreign_rules),
-        ("rule_costs", vox_foreign_rules),
-        ("curve", vox_cost_sample * 64),
-        ("curve_count", c_uint32),
-        ("term_count", c_uint32),
-        ("terms", vox_cost_share * 12),
-        ("rule", c_int32),
-        ("reserved", c_uint32),
-        ("note", c_char * 256),
-    ]
-
-dtypes["vox_foreign_suggestion"] = dtype({
-    "names": ["struct_size", "warnings", "cell_size", "zone_min", "zone_max", "predicted_cost", "least_cell_size",
-        "work", "weights", "rules", "rule_costs", "curve", "curve_count", "term_count", "terms", "rule", "reserved",
-        "note"],
-    "formats": ["u4", "u4", "f8", "f8", "f8", "f8", "f8", dtypes["vox_grid_work"], dtypes["vox_grid_weights"],
-        dtypes["vox_foreign_rules"], dtypes["vox_foreign_rules"], (dtypes["vox_cost_sample"], (64,)), "u4", "u4",
-        (dtypes["vox_cost_share"], (12,)), "i4", "u4", "S256"],
-    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 96, 152, 192, 232, 1256, 1260, 1264, 1840, 1844, 1848],
-    "itemsize": 2104})
-
-
-class vox_grid_timing(Structure):
-    _fields_ = [
-        ("cell_size", c_double),
-        ("seconds", c_double),
-    ]
-
-dtypes["vox_grid_timing"] = dtype({
-    "names": ["cell_size", "seconds"],
-    "formats": ["f8", "f8"],
-    "offsets": [0, 8],
-    "itemsize": 16})
-
-
-class vox_grid_fit(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("warnings", c_uint32),
-        ("weights", vox_grid_weights),
-        ("residual", c_double),
-        ("cell_size", c_double),
-        ("zone_min", c_double),
-        ("zone_max", c_double),
-        ("predicted_seconds", c_double),
-        ("curve", vox_cost_sample * 64),
-        ("curve_count", c_uint32),
-        ("reserved", c_uint32),
-        ("note", c_char * 256),
-    ]
-
-dtypes["vox_grid_fit"] = dtype({
-    "names": ["struct_size", "warnings", "weights", "residual", "cell_size", "zone_min", "zone_max",
-        "predicted_seconds", "curve", "curve_count", "reserved", "note"],
-    "formats": ["u4", "u4", dtypes["vox_grid_weights"], "f8", "f8", "f8", "f8", "f8", (dtypes["vox_cost_sample"],
-        (64,)), "u4", "u4", "S256"],
-    "offsets": [0, 4, 8, 64, 72, 80, 88, 96, 104, 1128, 1132, 1136],
-    "itemsize": 1392})
-
-
 class vox_tune_desc(Structure):
     _fields_ = [
         ("struct_size", c_uint32),
-        ("most_runs", c_uint32),
+        ("max_runs", c_uint32),
         ("min", c_double),
         ("max", c_double),
         ("first", c_double),
-        ("zone_loss", c_double),
         ("wanted_loss", c_double),
     ]
 
 dtypes["vox_tune_desc"] = dtype({
-    "names": ["struct_size", "most_runs", "min", "max", "first", "zone_loss", "wanted_loss"],
-    "formats": ["u4", "u4", "f8", "f8", "f8", "f8", "f8"],
-    "offsets": [0, 4, 8, 16, 24, 32, 40],
-    "itemsize": 48})
-
-
-class vox_tuning(Structure):
-    _fields_ = [
-        ("struct_size", c_uint32),
-        ("warnings", c_uint32),
-        ("cell_size", c_double),
-        ("zone_min", c_double),
-        ("zone_max", c_double),
-        ("seconds", c_double),
-        ("expected_loss", c_double),
-        ("noise", c_double),
-        ("weights", vox_grid_weights),
-        ("runs", vox_grid_timing * 32),
-        ("run_count", c_uint32),
-        ("curve_count", c_uint32),
-        ("curve", vox_cost_sample * 64),
-        ("note", c_char * 256),
-    ]
-
-dtypes["vox_tuning"] = dtype({
-    "names": ["struct_size", "warnings", "cell_size", "zone_min", "zone_max", "seconds", "expected_loss", "noise",
-        "weights", "runs", "run_count", "curve_count", "curve", "note"],
-    "formats": ["u4", "u4", "f8", "f8", "f8", "f8", "f8", "f8", dtypes["vox_grid_weights"], (dtypes["vox_grid_timing"],
-        (32,)), "u4", "u4", (dtypes["vox_cost_sample"], (64,)), "S256"],
-    "offsets": [0, 4, 8, 16, 24, 32, 40, 48, 56, 112, 624, 628, 632, 1656],
-    "itemsize": 1912})
+    "names": ["struct_size", "max_runs", "min", "max", "first", "wanted_loss"],
+    "formats": ["u4", "u4", "f8", "f8", "f8", "f8"],
+    "offsets": [0, 4, 8, 16, 24, 32],
+    "itemsize": 40})
 
 
 class vox_surface_desc(Structure):
@@ -1326,10 +1162,8 @@ class vox_sim_body_view(Structure):
     ]
 
 
-class vox_sim_energies(Structure):
+class vox_sim_energy(Structure):
     _fields_ = [
-        ("struct_size", c_uint32),
-        ("reserved", c_uint32),
         ("kinetic", c_double),
         ("potential", c_double),
         ("elastic", c_double),
@@ -1339,11 +1173,11 @@ class vox_sim_energies(Structure):
         ("max_speed", c_double),
     ]
 
-dtypes["vox_sim_energies"] = dtype({
-    "names": ["struct_size", "reserved", "kinetic", "potential", "elastic", "mass", "momentum", "centre", "max_speed"],
-    "formats": ["u4", "u4", "f8", "f8", "f8", "f8", ("f8", (3,)), ("f8", (3,)), "f8"],
-    "offsets": [0, 4, 8, 16, 24, 32, 40, 64, 88],
-    "itemsize": 96})
+dtypes["vox_sim_energy"] = dtype({
+    "names": ["kinetic", "potential", "elastic", "mass", "momentum", "centre", "max_speed"],
+    "formats": ["f8", "f8", "f8", "f8", ("f8", (3,)), ("f8", (3,)), "f8"],
+    "offsets": [0, 8, 16, 24, 32, 56, 80],
+    "itemsize": 88})
 
 
 # What vox_default_X sets in a struct, beside struct_size, where that is not all 0.
@@ -1422,17 +1256,20 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
             POINTER(vox_query_desc), c_void_p)),
     },
     "vox_cell_size": {
-        "vox_suggest_cell_size": (vox_result, (POINTER(vox_suggest_desc), c_void_p, c_uint64, POINTER(vox_suggestion))),
-        "vox_grid_suggest_cell_size": (vox_result, (c_void_p, POINTER(vox_suggest_desc), POINTER(vox_suggestion))),
+        "vox_suggest_cell_size": (vox_result, (POINTER(vox_cell_size_desc), c_void_p, c_uint64,
+            POINTER(vox_cell_size_result))),
+        "vox_grid_suggest_cell_size": (vox_result, (c_void_p, POINTER(vox_cell_size_desc),
+            POINTER(vox_cell_size_result))),
         "vox_cost_calibrate": (vox_result, (POINTER(vox_cost_weights),)),
+        "vox_measure_geometry": (vox_result, (c_void_p, c_uint64, POINTER(vox_geometry))),
         "vox_cost_minimise": (vox_result, (vox_cost_function, c_void_p, c_double, c_double, c_double,
-            POINTER(vox_cost_minimum))),
-        "vox_foreign_grid_set_known": (vox_result, (POINTER(vox_foreign_grid), c_int32)),
-        "vox_suggest_for": (vox_result, (POINTER(vox_foreign_grid), POINTER(vox_foreign_suggestion))),
-        "vox_count_for": (vox_result, (POINTER(vox_foreign_grid), c_double, POINTER(vox_grid_work))),
-        "vox_cost_fit": (vox_result, (POINTER(vox_foreign_grid), c_void_p, c_uint64, POINTER(vox_grid_fit))),
-        "vox_cost_tune": (vox_result, (POINTER(vox_foreign_grid), POINTER(vox_tune_desc), vox_grid_run, c_void_p,
-            POINTER(vox_tuning))),
+            POINTER(vox_cell_size_result))),
+        "vox_foreign_grid_suggest": (vox_result, (POINTER(vox_foreign_grid), POINTER(vox_cell_size_result))),
+        "vox_foreign_grid_count": (vox_result, (POINTER(vox_foreign_grid), c_double, POINTER(vox_foreign_counts))),
+        "vox_foreign_grid_fit": (vox_result, (POINTER(vox_foreign_grid), c_void_p, c_uint64,
+            POINTER(vox_cell_size_result))),
+        "vox_foreign_grid_tune": (vox_result, (POINTER(vox_foreign_grid), POINTER(vox_tune_desc), vox_foreign_run,
+            c_void_p, POINTER(vox_cell_size_result))),
     },
     "vox_surface": {
         "vox_surface_create": (vox_result, (POINTER(vox_surface_desc), POINTER(c_void_p))),
@@ -1449,7 +1286,7 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_surface_find_impacts": (vox_result, (c_void_p, c_int32, c_int32, POINTER(vox_impact_desc),
             POINTER(vox_impact_view))),
         "vox_surface_set_cell_size": (vox_result, (c_void_p, c_double)),
-        "vox_surface_suggest_cell_size": (vox_result, (c_void_p, c_int32, c_int32, POINTER(vox_foreign_suggestion))),
+        "vox_surface_suggest_cell_size": (vox_result, (c_void_p, c_int32, c_int32, POINTER(vox_cell_size_result))),
         "vox_surface_get_counters": (vox_result, (c_void_p, POINTER(vox_counter_view))),
     },
     "vox_io": {
@@ -1482,8 +1319,7 @@ FUNCTIONS: dict[str, dict[str, tuple[Any, Any]]] = {
         "vox_sim_body_remove": (vox_result, (c_void_p, c_uint32)),
         "vox_sim_body_get_view": (vox_result, (c_void_p, c_uint32, POINTER(vox_sim_body_view))),
         "vox_sim_body_set_state": (vox_result, (c_void_p, c_uint32, c_void_p, c_void_p)),
-        "vox_sim_body_set_acceleration": (vox_result, (c_void_p, c_uint32, c_void_p)),
-        "vox_sim_get_energy": (vox_result, (c_void_p, c_uint32, POINTER(vox_sim_energies))),
+        "vox_sim_get_energy": (vox_result, (c_void_p, c_uint32, POINTER(vox_sim_energy))),
         "vox_sim_get_counters": (vox_result, (c_void_p, POINTER(vox_counter_view))),
     },
 }

@@ -1,9 +1,9 @@
-"""The best cell size of a uniform grid of your own, whatever is in it: from what it holds, from timings, or by running it.
+"""The best cell size of a uniform grid of your own, whatever is in it: from what it stores, from timings, or by running it.
 docs/your-own-grid.md says how, and why.
 
 >>> import numpy as np
 >>> points = np.random.default_rng(1).random((2000, 3))
->>> suggest_for(points, known="point_voxels", radius=0.1).zone[1] < 0.5
+>>> ForeignGrid(points, known="point_voxels", radius=0.1).suggest().zone[1] < 0.5
 True
 """
 
@@ -13,65 +13,34 @@ import ctypes
 import math
 import time
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any, Callable, Iterable, NamedTuple, Optional, Union
+from typing import Any, Callable, Iterable, NamedTuple, Optional, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _c
-from ._arguments import U32, choice, indices, integer, pinned, points, real, rows, switch
+from ._arguments import U32, choice, indices, integer, pinned, points, real, rows
 from ._interop import primitives_of
 from ._library import Relay, described, sized, values_of, vox
 from .errors import InvalidArgumentError
-from .suggest import Plotted, curve_of, terms_of
+from .suggest import CellSizeResult, ForeignWeights
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
+_UNIT = "seconds of a run"
 _TYPES = {2: _c.PrimitiveType.EDGE, 3: _c.PrimitiveType.TRIANGLE, 4: _c.PrimitiveType.TET}
 
 
-class GridWork(NamedTuple):
-    """What a run of a grid does at one cell size: the means over all positions of its cells."""
+class ForeignCounts(NamedTuple):
+    """How often a run does what, on average over all positions of the lattice (vox_foreign_counts)."""
 
-    entries: float  # primitives put into a cell
-    visits: float  # cells looked at; with look="pairs", those that hold something
-    empty: float  # visits of a cell that holds nothing
-    reads: float  # entries of the cells looked at; with look="pairs", pairs in a cell
-    occupied: float  # cells that hold something
-    cells: float  # of the box of all that is held: cells of a dense grid
-
-
-class GridWeights(NamedTuple):
-    """Nanoseconds for one of each piece of work."""
-
-    fixed: float = 0.0  # a run, whatever the cell size
-    entries: float = 0.0
-    visits: float = 0.0
-    found: float = 0.0  # what a visit of a cell that holds something takes more than one of an empty cell
-    reads: float = 0.0
-    occupied: float = 0.0  # making and forgetting a cell
-    cells: float = 0.0  # for grids with dense storage: clearing one
+    stored: float  # primitives stored in a cell
+    visits: float  # cells visited; with cells_queried="pairs", cells that store something
+    empty: float  # visited cells that store nothing
+    reads: float  # primitives read in visited cells; with cells_queried="pairs", pairs within a cell
+    occupied: float  # cells that store something
+    cells: float  # cells in the box of the stored primitives
 
 
-class ForeignRules(NamedTuple):
-    """Cell sizes that other rules would choose, or their predicted costs; 0 where a rule does not apply."""
-
-    mean_edge: float
-    mean_box_side: float
-    median_box_side: float
-    spacing: float  # cube root of the volume of the box of all, over their number
-    radius: float  # mean radius of those that ask
-
-
-class Timing(NamedTuple):
-    """A run at this cell size took so long; infinity: it could not run."""
-
-    cell_size: float
-    seconds: float
-
-
-# ---- what a grid holds ------------------------------------------------------------------------------------------------
+# ---- what a grid stores -----------------------------------------------------------------------------------------------
 
 
 def _is_array(value: Any) -> bool:
@@ -89,7 +58,7 @@ def _followed(value: Any, name: str) -> Any:
 
 
 class Primitives:
-    """What a grid holds, or what asks it: points, edges, triangles, tetrahedra or boxes, each of which may have a radius. Only
+    """What a grid stores, or its queries: points, edges, triangles, tetrahedra or boxes, each of which may have a radius. Only
     the box of each counts, larger by the radius on all sides.
 
     positions: points, (n, 3); or a mesh of pyvista, meshio, trimesh, voxtet.io, or of a grid: its tetrahedra, else its triangles,
@@ -199,238 +168,124 @@ def _primitives(value: Any) -> Primitives:
 
 # ---- grids ------------------------------------------------------------------------------------------------------------
 
-_CONTENTS = {"centres": _c.CellContent.CELLS_HOLD_CENTRES, "boxes": _c.CellContent.CELLS_HOLD_BOXES}
-
-
 class ForeignGrid:
-    """A uniform grid that is not this library's. A run of it puts primitives into cells; then each of those that ask looks at
-    cells and reads what is in them.
+    """A uniform grid of another library. A run stores primitives in cells; then each query visits cells and reads the primitives
+    stored there.
 
-    held: what is put into cells: Primitives, or points, (n, 3), a pair of positions and indices, or a mesh, as Primitives takes
-    them. asking: what asks; None: those held ask themselves, each of all.
-    known: the grid that it is like, which sets content, look, dense and weights where these are not given: "any", "sorted",
-    "hashed", "warp", "ipc", "ipc_pairs", "vtk", "pbat", "point_voxels" or "numpy" (vox_known_grid).
-    content: which cells hold a primitive: "boxes", all that its box meets, or "centres", the one with the centre of its box.
-    look: which cells one that asks looks at: "box", those that its box meets; "around", 27, the one with its centre and those
-    around; "pairs": nobody asks, and what is in a cell is paired.
-    dense: whether there is a list for each cell of the box of all that is held.
-    radius: boxes that ask are larger by this on all sides.
-    least_cell_size: the smallest one that gives right answers; 0: with "around" it follows from the boxes, otherwise any.
-    weights: GridWeights, or a dict of some of them: nanoseconds of each piece of work.
-    zone_loss: the zone is where the cost is at most 1 + zone_loss times its minimum.
+    stored: Primitives, or points, (n, 3), a pair of positions and indices, or a mesh, as Primitives takes them. querying: the
+    queries; None: the stored primitives query each other.
+    known: the grid that it is like: "none", "sorted", "hashed", "warp", "ipc", "ipc_pairs", "vtk", "pbat", "point_voxels" or
+    "numpy" (vox_known_grid). What is not given below is as in this grid.
+    cells_stored: the cells that store a primitive: "box", all that its box meets, or "centre", the one with the centre of its box.
+    cells_queried: the cells that a query visits: "box", all that its box meets; "27", the one with its centre and those around it,
+    only with "centre"; "pairs", none: the grid reports every pair within a cell.
+    cells_kept: the cells that exist: "occupied", those that store something, or "dense", all in the box of the stored primitives.
+    radius: grows the boxes of queries on all sides.
+    min_cell_size: the smallest one that gives right answers; 0: with "27" what the boxes demand, otherwise any.
+    weights: ForeignWeights, or a dict of some of them.
+    zone_loss: the zone is where the cost is at most 1 + zone_loss times the least.
 
     Nothing is computed here, and what is in the arrays is read in each call. Any thread.
     """
 
-    __slots__ = ("_asking", "_held", "_struct")
+    __slots__ = ("_querying", "_stored", "_struct")
 
-    def __init__(self, held: Any, asking: Any = None, *, known: Union[str, _c.KnownGrid] = "any",
-                 content: Optional[str] = None, look: Union[str, _c.CellLook, None] = None, dense: Optional[bool] = None,
-                 radius: float = 0.0, least_cell_size: float = 0.0,
-                 weights: Union[GridWeights, Mapping[str, float], None] = None, zone_loss: float = 0.05) -> None:
+    def __init__(self, stored: Any, querying: Any = None, *, known: Union[str, _c.KnownGrid] = "none",
+                 cells_stored: Union[str, _c.CellsStored] = "default", cells_queried: Union[str, _c.CellsQueried] = "default",
+                 cells_kept: Union[str, _c.CellsKept] = "default", radius: float = 0.0, min_cell_size: float = 0.0,
+                 weights: Union[ForeignWeights, Mapping[str, float], None] = None, zone_loss: float = 0.05) -> None:
         self._struct = struct = described(_c.vox_foreign_grid)
-        number = choice(_c.KnownGrid, known, "known")
-        if number != _c.KnownGrid.ANY:
-            vox.vox_foreign_grid_set_known(struct, number)
-        if content is not None:
-            if not isinstance(content, str):
-                raise TypeError(f"content is of type {type(content).__name__}; it must be a string")
-            if content not in _CONTENTS:
-                raise InvalidArgumentError(f"content is {content!r}; it must be 'boxes' or 'centres'")
-            struct.content = _CONTENTS[content]
-        if look is not None:
-            struct.look = choice(_c.CellLook, look, "look")
-        if dense is not None:
-            struct.flags = _c.ForeignFlags.DENSE * switch(dense, "dense")
+        struct.known = choice(_c.KnownGrid, known, "known")
+        struct.cells_stored = choice(_c.CellsStored, cells_stored, "cells_stored")
+        if isinstance(cells_queried, str) and cells_queried == "27":
+            cells_queried = _c.CellsQueried(2)  # no name begins with a digit
+        struct.cells_queried = choice(_c.CellsQueried, cells_queried, "cells_queried")
+        struct.cells_kept = choice(_c.CellsKept, cells_kept, "cells_kept")
         if weights is not None:
-            if not isinstance(weights, (GridWeights, Mapping)):
-                raise TypeError(f"weights is of type {type(weights).__name__}; it must be GridWeights or a dict")
-            given = weights._asdict() if isinstance(weights, GridWeights) else weights
-            unknown = set(given) - set(GridWeights._fields)
+            if not isinstance(weights, (ForeignWeights, Mapping)):
+                raise TypeError(f"weights is of type {type(weights).__name__}; it must be ForeignWeights or a dict")
+            given = weights._asdict() if isinstance(weights, ForeignWeights) else weights
+            unknown = set(given) - set(ForeignWeights._fields)
             if unknown:
                 raise InvalidArgumentError(f"weights has the keys {', '.join(sorted(map(repr, unknown)))}; they must be of "
-                                           f"{', '.join(GridWeights._fields)}")
-            struct.weights = _c.vox_grid_weights(**{name: real(value, f"weights[{name!r}]") for name, value in given.items()})
+                                           f"{', '.join(ForeignWeights._fields)}")
+            for name, value in given.items():
+                setattr(struct.weights, name, real(value, f"weights[{name!r}]"))
         struct.radius, struct.zone_loss = real(radius, "radius"), real(zone_loss, "zone_loss")
-        struct.least_cell_size = real(least_cell_size, "least_cell_size")
-        self._held = _primitives(held)
-        self._asking = None if asking is None else _primitives(asking)
-        struct.held = ctypes.pointer(self._held._struct)
-        if self._asking is not None:
-            struct.asking = ctypes.pointer(self._asking._struct)
+        struct.min_cell_size = real(min_cell_size, "min_cell_size")
+        self._stored = _primitives(stored)
+        self._querying = None if querying is None else _primitives(querying)
+        struct.stored = ctypes.pointer(self._stored._struct)
+        if self._querying is not None:
+            struct.querying = ctypes.pointer(self._querying._struct)
 
     # Not to be set: the struct points into their arrays.
     @property
-    def held(self) -> Primitives:
-        """What is put into cells."""
-        return self._held
+    def stored(self) -> Primitives:
+        """The primitives in cells."""
+        return self._stored
 
     @property
-    def asking(self) -> Optional[Primitives]:
-        """What asks; None: those held."""
-        return self._asking
-
-    @property
-    def weights(self) -> GridWeights:
-        """The weights that it was given, or those of the known grid; all 0 where nothing is known."""
-        return values_of(GridWeights, self._struct.weights)
+    def querying(self) -> Optional[Primitives]:
+        """The queries; None: the stored primitives."""
+        return self._querying
 
     def __repr__(self) -> str:
-        return f"<voxtet.ForeignGrid of {self._held!r}" + (">" if self._asking is None else f", asked by {self._asking!r}>")
+        return f"<voxtet.ForeignGrid of {self._stored!r}" + (">" if self._querying is None else f", queried by {self._querying!r}>")
 
+    def suggest(self) -> CellSizeResult:
+        """The cell size with the least cost. Many primitives are sampled.
 
-def _grid(held: Any, asking: Any, description: dict[str, Any]) -> ForeignGrid:
-    if not isinstance(held, ForeignGrid):
-        return ForeignGrid(held, asking, **description)
-    if asking is not None or description:
-        raise InvalidArgumentError("a ForeignGrid has its description already")
-    return held
+        >>> import numpy as np
+        >>> points = np.random.default_rng(1).random((2000, 3))
+        >>> s = ForeignGrid(points, known="hashed", cells_stored="centre", radius=0.1).suggest()
+        >>> s.zone[0] <= s.cell_size <= s.zone[1]
+        True
+        >>> bool(abs(s.terms.cost.sum() / s.cost - 1) < 1e-6)
+        True
+        >>> ForeignGrid(points, radius=0.1).suggest().warnings
+        <CellSizeWarnings.GUESSED_WEIGHTS: 1>
+        """
+        out = sized(_c.vox_cell_size_result)
+        vox.vox_foreign_grid_suggest(self._struct, out)
+        return CellSizeResult(out, _UNIT)
 
+    def count(self, cell_size: float) -> ForeignCounts:
+        """How often a run does what at a cell size.
 
-class _Answer(Plotted):
-    """What the answers have in common."""
+        >>> import numpy as np
+        >>> unit = np.eye(3)
+        >>> ForeignGrid(Primitives.boxes(unit, unit + 1)).count(0.5).stored  # three boxes, 1 / 0.5 + 1 cells along each axis
+        81.0
+        """
+        out = _c.vox_foreign_counts()
+        vox.vox_foreign_grid_count(self._struct, real(cell_size, "cell_size"), out)
+        return values_of(ForeignCounts, out)
 
-    def __init__(self, out: Any) -> None:
-        self.cell_size: float = out.cell_size
-        self.zone: tuple[float, float] = (out.zone_min, out.zone_max)
-        self.weights = values_of(GridWeights, out.weights)
-        self.warnings = _c.ForeignWarnings(out.warnings)
-        self.note: str = out.note.decode("utf-8", "replace")
-        self.curve = curve_of(out)
+    def fit(self, timings: Iterable[tuple[float, float]]) -> CellSizeResult:
+        """The weights from timings of whole runs, (cell size, seconds), at three or more cell sizes, and the cell size that they
+        lead to. 0.6, 1.2 and 2.4 mean edges will do. The weights also hold for other scenes in the same grid.
 
-    def __repr__(self) -> str:
-        note = f"; {self.note}" if self.note else ""
-        return (f"<voxtet.{type(self).__name__}: cell size {self.cell_size:.6g}, good from {self.zone[0]:.6g} to "
-                f"{self.zone[1]:.6g}{note}>")
+        >>> import numpy as np
+        >>> grid = ForeignGrid(np.random.default_rng(1).random((2000, 3)), cells_stored="centre", radius=0.1)
+        >>> def seconds(size):  # of a grid that needs 10 ns to visit a cell, and 2 ns to read a primitive
+        ...     counts = grid.count(size)
+        ...     return 1e-9 * (10 * counts.visits + 2 * counts.reads)
+        >>> fit = grid.fit([(size, seconds(size)) for size in (0.05, 0.1, 0.2)])
+        >>> fit.fit_error < 0.05
+        True
+        >>> abs(fit.weights.read - 2) < 0.4
+        True
+        """
+        given = [_c.vox_timing(real(size, "a cell size"), real(seconds, "a time")) for size, seconds in timings]
+        out = sized(_c.vox_cell_size_result)
+        vox.vox_foreign_grid_fit(self._struct, (_c.vox_timing * len(given))(*given), len(given), out)
+        return CellSizeResult(out, _UNIT)
 
-    def _unit(self) -> str:
-        return "seconds of a run"
-
-
-class ForeignSuggestion(_Answer):
-    """The cell size that costs a grid least, and the reasons for it. Costs are nanoseconds of a run.
-
-    cell_size, zone: the best size, and (min, max) of those nearly as good. predicted_cost: at cell_size. work: what a run does
-    there. terms: what that costs. weights: those that were used. rules, rule_costs: what other rules would choose, and its cost.
-    rule: whose size cell_size is; ForeignRule.NONE: the minimum of the model. least_cell_size: the smallest legal size; 0: any.
-    warnings: ForeignWarnings; note: the same in words, with numbers. curve: predicted costs."""
-
-    def __init__(self, out: Any) -> None:
-        super().__init__(out)
-        self.predicted_cost: float = out.predicted_cost
-        self.least_cell_size: float = out.least_cell_size
-        self.work = values_of(GridWork, out.work)
-        self.terms = terms_of(out)
-        self.rules = values_of(ForeignRules, out.rules)
-        self.rule_costs = values_of(ForeignRules, out.rule_costs)
-        self.rule = _c.ForeignRule(out.rule)
-
-    def _unit(self) -> str:
-        return "nanoseconds of a run"
-
-    def _draw(self, ax: Axes) -> None:
-        self._draw_rules(ax, self.rules, self.rule_costs)
-        super()._draw(ax)
-
-
-class CostFit(_Answer):
-    """Weights from timings, and the cell size that they lead to.
-
-    weights: of the best fit, for this grid in other scenes, too. residual: root mean square of fitted / measured - 1.
-    predicted_seconds: of a run at cell_size. timings: those that it was given. cell_size, zone, curve (in seconds), warnings,
-    note: as of a ForeignSuggestion."""
-
-    def __init__(self, out: Any, timings: tuple[Timing, ...]) -> None:
-        super().__init__(out)
-        self.residual: float = out.residual
-        self.predicted_seconds: float = out.predicted_seconds
-        self.timings = timings
-
-    def _draw(self, ax: Axes) -> None:
-        _draw_timings(ax, self.timings)
-        super()._draw(ax)
-
-
-class Tuning(_Answer):
-    """What tuning found.
-
-    seconds: of a run at cell_size, as fitted. expected_loss: how much longer a run may take than at the best cell size, as far as
-    it can tell; 0.03 for 3 %. noise: how far the runs are from the fitted curve, root mean square of the relative errors.
-    runs: all of them, in order. weights: for a grid that was described, else all 0. cell_size, zone, curve (in seconds),
-    warnings, note: as of a ForeignSuggestion."""
-
-    def __init__(self, out: Any) -> None:
-        super().__init__(out)
-        self.seconds: float = out.seconds
-        self.expected_loss: float = out.expected_loss
-        self.noise: float = out.noise
-        self.runs = tuple(values_of(Timing, run) for run in out.runs[:out.run_count])
-
-    def _draw(self, ax: Axes) -> None:
-        _draw_timings(ax, self.runs)
-        super()._draw(ax)
-
-
-def _draw_timings(ax: Axes, timings: tuple[Timing, ...]) -> None:
-    ran = [timing for timing in timings if math.isfinite(timing.seconds)]
-    ax.plot([t.cell_size for t in ran], [t.seconds for t in ran], "o", color="C1", markersize=4, label="measured")
-
-
-# ---- calls ------------------------------------------------------------------------------------------------------------
-
-
-def suggest_for(held: Any, asking: Any = None, **description: Any) -> ForeignSuggestion:
-    """The cell size that costs a grid least. held: a ForeignGrid; or what the arguments of ForeignGrid say: what is held, what
-    asks, and known, content, look, dense, radius, least_cell_size, weights, zone_loss.
-
-    >>> import numpy as np
-    >>> points = np.random.default_rng(1).random((2000, 3))
-    >>> s = suggest_for(points, known="hashed", content="centres", radius=0.1)
-    >>> s.zone[0] <= s.cell_size <= s.zone[1]
-    True
-    >>> bool(abs(s.terms.cost.sum() / s.predicted_cost - 1) < 1e-6)
-    True
-    >>> suggest_for(points, radius=0.1).warnings
-    <ForeignWarnings.WEIGHTS_UNKNOWN: 1>
-    """
-    grid, out = _grid(held, asking, description), sized(_c.vox_foreign_suggestion)
-    vox.vox_suggest_for(grid._struct, out)
-    return ForeignSuggestion(out)
-
-
-def count_for(cell_size: float, held: Any, asking: Any = None, **description: Any) -> GridWork:
-    """What a run of a grid does at one cell size. The grid: as for `suggest_for`.
-
-    >>> import numpy as np
-    >>> unit = np.eye(3)
-    >>> work = count_for(0.5, Primitives.boxes(unit, unit + 1))
-    >>> work.entries  # three boxes of side 1 meet 1 / 0.5 + 1 cells along each axis, on average
-    81.0
-    """
-    grid, out = _grid(held, asking, description), _c.vox_grid_work()
-    vox.vox_count_for(grid._struct, real(cell_size, "cell_size"), out)
-    return values_of(GridWork, out)
-
-
-def cost_fit(timings: Iterable[tuple[float, float]], held: Any, asking: Any = None, **description: Any) -> CostFit:
-    """The weights of a grid from timings of whole runs, (cell size, seconds), at three different cell sizes or more, and the
-    cell size that they lead to. 0.6, 1.2 and 2.4 mean edges do. The grid: as for `suggest_for`.
-
-    >>> import numpy as np
-    >>> grid = ForeignGrid(np.random.default_rng(1).random((2000, 3)), content="centres", radius=0.1)
-    >>> def seconds(size):  # of a grid that needs 10 ns to look at a cell, and 2 ns to read an entry
-    ...     work = count_for(size, grid)
-    ...     return 1e-9 * (10 * work.visits + 2 * work.reads)
-    >>> fit = cost_fit([(size, seconds(size)) for size in (0.05, 0.1, 0.2)], grid)
-    >>> fit.residual < 0.05
-    True
-    >>> abs(fit.weights.reads - 2) < 0.4
-    True
-    """
-    read = tuple(Timing(real(size, "a cell size"), real(seconds, "a time")) for size, seconds in timings)
-    grid, out = _grid(held, asking, description), sized(_c.vox_grid_fit)
-    vox.vox_cost_fit(grid._struct, (_c.vox_grid_timing * len(read))(*(_c.vox_grid_timing(*t) for t in read)), len(read), out)
-    return CostFit(out, read)
+    def tune(self, run: Callable[[float], Optional[float]], *, first: float = 0.0, low: float = 0.0, high: float = 0.0,
+             max_runs: int = 7, wanted_loss: float = 0.02) -> CellSizeResult:
+        """As voxtet.tune, with what is known of this grid. first: the one that `suggest` gives, if it is not given."""
+        return _tune(self._struct, run, first, low, high, max_runs, wanted_loss)
 
 
 def _timed(run: Callable[[float], Optional[float]], cell_size: float) -> float:
@@ -440,36 +295,32 @@ def _timed(run: Callable[[float], Optional[float]], cell_size: float) -> float:
     return taken if seconds is None else real(seconds, "what run returned")
 
 
-def tune(run: Callable[[float], Optional[float]], held: Any = None, asking: Any = None, *, first: float = 0.0, low: float = 0.0,
-         high: float = 0.0, most_runs: int = 7, wanted_loss: float = 0.02, zone_loss: Optional[float] = None,
-         **description: Any) -> Tuning:
-    """The best cell size of a grid, by running it: at three sizes first, then where the fit to all runs so far is lowest or least
-    sure, until that is within `wanted_loss` of the best one, as far as it can tell, or `most_runs` are made (3 to 32).
-
-    run(cell_size) runs the grid once and returns the seconds that took; or None, and the call is timed. Infinity: it cannot run
-    at this size, and others are tried. NaN or a negative number: stop, and the answer is from the runs so far. What it raises
-    comes out of here, Ctrl-C too.
-    The grid: as for `suggest_for`; if nothing is said of it, `first` is needed, the cell size to begin with. low, high: the sizes
-    to try, an eighth to eight times the first if not given. zone_loss: as in ForeignGrid, 0.05 if not given.
-
-    >>> tuning = tune(lambda size: 1e-3 * (size + 4 / size), first=1)
-    >>> bool(1.6 < tuning.cell_size < 2.5), len(tuning.runs) <= 7
-    (True, True)
-    """
+def _tune(grid: Any, run: Callable[[float], Optional[float]], first: float, low: float, high: float, max_runs: int,
+          wanted_loss: float) -> CellSizeResult:
     if not callable(run):
         raise TypeError(f"run is of type {type(run).__name__}; it must be a function of the cell size")
-    desc, out = described(_c.vox_tune_desc), sized(_c.vox_tuning)
+    desc, out = described(_c.vox_tune_desc), sized(_c.vox_cell_size_result)
     desc.first, desc.min, desc.max = real(first, "first"), real(low, "low"), real(high, "high")
-    desc.most_runs, desc.wanted_loss = integer(most_runs, "most_runs", 0, U32), real(wanted_loss, "wanted_loss")
-    grid = None
-    if held is not None:
-        grid = _grid(held, asking, description)
-        desc.zone_loss = grid._struct.zone_loss
-    elif asking is not None or description:
-        raise InvalidArgumentError("a grid is described by what it holds: held is None")
-    if zone_loss is not None:
-        desc.zone_loss = real(zone_loss, "zone_loss")
+    desc.max_runs, desc.wanted_loss = integer(max_runs, "max_runs", 0, U32), real(wanted_loss, "wanted_loss")
     called = Relay(lambda size, _user: _timed(run, size), math.nan)
     with called:
-        vox.vox_cost_tune(None if grid is None else grid._struct, desc, _c.vox_grid_run(called), None, out)
-    return Tuning(out)
+        vox.vox_foreign_grid_tune(grid, desc, _c.vox_foreign_run(called), None, out)
+    return CellSizeResult(out, _UNIT)
+
+
+def tune(run: Callable[[float], Optional[float]], first: float, *, low: float = 0.0, high: float = 0.0, max_runs: int = 7,
+         wanted_loss: float = 0.02) -> CellSizeResult:
+    """The best cell size of a grid of which nothing else is known, by running it: at three sizes first, then where the fit to all
+    runs so far is lowest or least sure, until the expected loss is below `wanted_loss`, or `max_runs` are made (3 to 32).
+    `ForeignGrid.tune` needs fewer runs.
+
+    run(cell_size) runs the grid once and returns the seconds that took; or None, and the call is timed. Infinity: this size is
+    impossible, and others are tried. NaN or a negative number: stop, and the result is from the runs so far. What it raises
+    comes out of here, Ctrl-C too.
+    first: the cell size to begin with. low, high: the sizes to try, an eighth to eight times the first if not given.
+
+    >>> result = tune(lambda size: 1e-3 * (size + 4 / size), 1)
+    >>> bool(1.6 < result.cell_size < 2.5), len(result.timings) <= 7
+    (True, True)
+    """
+    return _tune(None, run, first, low, high, max_runs, wanted_loss)

@@ -19,7 +19,7 @@ from .errors import InvalidArgumentError, InvalidHandleError, InvalidStateError
 from .mesh import Filter, Mesh, Topology
 from .reference import Reference, pointer_to
 from .results import Borrowed, Exports, Results, copy_of, hits_of
-from .suggest import Suggestion, suggest_for_grid
+from .suggest import CellSizeResult, suggest_for_grid
 
 if TYPE_CHECKING:
     from .locate import Locator
@@ -420,7 +420,7 @@ class Grid(Results):
 
     # ---- cell size and pictures ----
 
-    def suggest_cell_size(self, model: Union[str, _c.CostModel, None] = None, **options: Any) -> Suggestion:
+    def suggest_cell_size(self, model: Union[str, _c.CostModel, None] = None, **options: Any) -> CellSizeResult:
         """As voxtet.suggest_cell_size for the meshes of the grid, from samples. Without a model, that of its engine."""
         return suggest_for_grid(self, model, options)
 

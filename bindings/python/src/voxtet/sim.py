@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _c
 from ._arguments import DOUBLES, U32, copied_rows, indices, integer, real, switch, vector
-from ._library import Handle, described, load_part, sized, values_of
+from ._library import Handle, described, load_part, values_of
 from .errors import InvalidArgumentError, InvalidHandleError, InvalidStateError
 from .grid import Grid, Log
 from .results import Lease, borrow_of
@@ -30,8 +30,8 @@ _sim = load_part("vox_sim")
 _DOUBLE = np.dtype(np.float64)
 
 
-class Energies(NamedTuple):
-    """Energy and motion of a body, or of all that are not fixed (vox_sim_energies)."""
+class Energy(NamedTuple):
+    """Energy and motion of a body, or of all that are not fixed (vox_sim_energy)."""
 
     kinetic: float
     potential: float
@@ -155,14 +155,8 @@ class Body:
             _sim.vox_sim_body_set_state(sim._pointer, self.id, None if p is None else p.ctypes.data,
                                         None if v is None else v.ctypes.data)
 
-    def accelerate(self, acceleration: ArrayLike) -> None:
-        """Accelerates all particles of the body from now on, in addition to gravity."""
-        numbers = vector(acceleration, "acceleration")
-        with self.sim._lock:
-            _sim.vox_sim_body_set_acceleration(self.sim._pointer, self.id, numbers)
-
     @property
-    def energy(self) -> Energies:
+    def energy(self) -> Energy:
         """Energy and motion of this body."""
         return self.sim._energy(self.id)
 
@@ -278,14 +272,14 @@ class Sim:
     def __iter__(self) -> Iterator[Body]:
         return iter(self.bodies)
 
-    def _energy(self, id: int) -> Energies:
-        out = sized(_c.vox_sim_energies)
+    def _energy(self, id: int) -> Energy:
+        out = _c.vox_sim_energy()
         with self._lock:
             _sim.vox_sim_get_energy(self._pointer, id, out)
-        return values_of(Energies, out)
+        return values_of(Energy, out)
 
     @property
-    def energy(self) -> Energies:
+    def energy(self) -> Energy:
         """Energy and motion of all bodies that are not fixed."""
         return self._energy(0)
 

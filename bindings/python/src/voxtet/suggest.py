@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import math
-from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, Union
+from typing import TYPE_CHECKING, Any, Callable, NamedTuple, Optional, TypeVar, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,8 +21,7 @@ if TYPE_CHECKING:
 
     from .grid import Grid
 
-_DTYPE_SAMPLE = record_type("vox_cost_sample")
-_DTYPE_TERM = np.dtype((np.record, [("name", "U24"), ("count", "f8"), ("cost", "f8"), ("share", "f8")]))
+_Records = TypeVar("_Records", bound=Records)
 
 
 class Curve(Records):
@@ -33,27 +32,42 @@ class Curve(Records):
 
 
 class Terms(Records):
-    """Terms of a cost: a piece of work, how often it is done, what that costs, and its share of the whole."""
+    """Kinds of work: how often each is done at the suggested cell size, and what that costs."""
 
     name: NDArray[np.str_]
     count: NDArray[np.float64]
     cost: NDArray[np.float64]
-    share: NDArray[np.float64]
 
 
-class Rules(NamedTuple):
-    """Cell sizes that other rules would choose, or their predicted costs; 0 where a rule does not apply."""
+class Rules(Records):
+    """Cell sizes that rules of thumb give, 0 where a rule does not apply, and the predicted costs there, 0 where unknown."""
 
-    mean_edge: float  # Teschner et al. 2003
-    mean_edge_multiple: float  # Gregory et al. 2000
-    object_512: float  # Garcia-Alonso et al. 1994
-    resolution: float  # McNeely et al. 1999
-    mean_volume: float
-    median_box_side: float  # IPC Toolkit
+    name: NDArray[np.str_]
+    cell_size: NDArray[np.float64]
+    cost: NDArray[np.float64]
 
 
-class Stats(NamedTuple):
-    """Geometry of all meshes together (vox_geometry_stats)."""
+class Timings(Records):
+    """Runs at cell sizes, and how long each took; infinity where it was impossible."""
+
+    cell_size: NDArray[np.float64]
+    seconds: NDArray[np.float64]
+
+
+class ForeignWeights(NamedTuple):
+    """How many nanoseconds a foreign grid takes for each kind of work (vox_foreign_weights)."""
+
+    run: float = 0.0  # for a run, whatever the cell size
+    store: float = 0.0  # to store a primitive in a cell
+    visit: float = 0.0  # to visit a cell in a query
+    found: float = 0.0  # extra, to visit a cell that is not empty
+    read: float = 0.0  # to read a primitive in a visited cell
+    occupied: float = 0.0  # to create and drop a cell that is not empty
+    cell: float = 0.0  # to clear a cell of a dense grid
+
+
+class Geometry(NamedTuple):
+    """Sizes in meshes, of all together (vox_geometry)."""
 
     vertices: int
     tets: int
@@ -73,26 +87,51 @@ class Stats(NamedTuple):
     bounds_max: tuple[float, float, float]
 
 
-def curve_of(out: Any) -> Curve:
-    """The curve of an answer of the library."""
-    return np.ctypeslib.as_array(out.curve)[:out.curve_count].astype(_DTYPE_SAMPLE).view(Curve)
+def _plain(kind: type[_Records], items: Any, count: int) -> _Records:
+    """Structs of numbers as records."""
+    return np.ctypeslib.as_array(items)[:count].astype(record_type(items._type_.__name__)).view(kind)
 
 
-def terms_of(out: Any) -> Terms:
-    """The terms of an answer of the library."""
-    return np.array([(t.name.decode(), t.count, t.cost, t.share) for t in out.terms[:out.term_count]],
-                    _DTYPE_TERM).view(Terms)
+def _named(kind: type[_Records], items: Any, count: int) -> _Records:
+    """Structs of a name and two numbers as records."""
+    _, first, second = (name for name, _ in items._type_._fields_)
+    rows = [(item.name.decode(), getattr(item, first), getattr(item, second)) for item in items[:count]]
+    width = max((len(name) for name, *_ in rows), default=1)
+    dtype = np.dtype((np.record, [("name", f"U{width}"), (first, "f8"), (second, "f8")]))
+    return np.array(rows, dtype).view(kind)
 
 
-class Plotted:
-    """Draws a cost curve with its minimum and zone."""
+class CellSizeResult:
+    """A cell size and the reasons for it. What a function does not know is 0 or empty.
 
-    cell_size: float
-    zone: tuple[float, float]
-    curve: Curve
+    cell_size, zone: the best size, and (min, max) of those nearly as good. cost: predicted at cell_size: seconds of a step or a
+    run, for the model "paper" visits of cells per tetrahedron, for `minimise` what its function gives. min_cell_size: the smallest
+    that gives right answers, or fits the byte budget; 0: any. cells_per_axis: edge of the world divided by cell_size. curve:
+    predicted costs. terms: kinds of work, whose costs add up to `cost`. rules: what rules of thumb would choose.
+    warnings: CellSizeWarnings; note: the same in words, with numbers.
+    Of foreign grids: weights: those used, or those found by `fit` and `tune`. fit_error: root mean square of fitted / measured - 1.
+    timings: the runs of `tune`, in order. expected_loss: how much longer one may take than at the best cell size; 0.03 for 3 %."""
 
-    def _unit(self) -> str:
-        return "cost"
+    def __init__(self, out: Any, unit: str = "seconds") -> None:
+        self.cell_size: float = out.cell_size
+        self.zone: tuple[float, float] = (out.zone_min, out.zone_max)
+        self.cost: float = out.cost
+        self.min_cell_size: float = out.min_cell_size
+        self.cells_per_axis: float = out.cells_per_axis
+        self.fit_error: float = out.fit_error
+        self.expected_loss: float = out.expected_loss
+        self.curve = _plain(Curve, out.curve, out.curve_count)
+        self.terms = _named(Terms, out.terms, out.term_count)
+        self.rules = _named(Rules, out.rules, out.rule_count)
+        self.timings = _plain(Timings, out.timings, out.timing_count)
+        self.weights = values_of(ForeignWeights, out.weights)
+        self.warnings = _c.CellSizeWarnings(out.warnings)
+        self.note: str = out.note.decode("utf-8", "replace")
+        self._unit = unit
+
+    def __repr__(self) -> str:
+        note = f"; {self.note}" if self.note else ""
+        return f"<voxtet.CellSizeResult: cell size {self.cell_size:.6g}, good from {self.zone[0]:.6g} to {self.zone[1]:.6g}{note}>"
 
     def plot(self, ax: Optional[Axes] = None) -> Axes:
         """Draws the curve of predicted costs with matplotlib, into `ax` or into new axes, which are returned."""
@@ -103,18 +142,17 @@ class Plotted:
         return ax
 
     def _draw(self, ax: Axes) -> None:
+        for rule in self.rules[(self.rules.cell_size > 0) & (self.rules.cost > 0)]:
+            ax.plot([rule.cell_size], [rule.cost], "o", markersize=4, label=rule.name)
+        ran = self.timings[np.isfinite(self.timings.seconds)]
+        if len(ran):
+            ax.plot(ran.cell_size, ran.seconds, "o", color="C1", markersize=4, label="measured")
         ax.loglog(self.curve.cell_size, self.curve.cost, color="C0")
         ax.axvspan(*self.zone, color="C0", alpha=0.15, label=f"zone {self.zone[0]:.3g} to {self.zone[1]:.3g}")
         ax.axvline(self.cell_size, color="C0", linestyle="--", label=f"suggested {self.cell_size:.4g}")
         ax.set_xlabel("cell size")
-        ax.set_ylabel(self._unit())
+        ax.set_ylabel(self._unit)
         ax.legend()
-
-    @staticmethod
-    def _draw_rules(ax: Axes, rules: Any, costs: Any) -> None:
-        for name, size, cost in zip(rules._fields, rules, costs):
-            if size > 0 and cost > 0:
-                ax.plot([size], [cost], "o", markersize=4, label=name.replace("_", " "))
 
     def _repr_png_(self) -> Optional[bytes]:
         """For notebooks; nothing where matplotlib is not installed."""
@@ -131,57 +169,12 @@ class Plotted:
         return png.getvalue()
 
 
-class Suggestion(Plotted):
-    """A cell size and the reasons for it. Costs are in cell visits for each tetrahedron (paper), or nanoseconds of a
-    step."""
-
-    def __init__(self, out: Any) -> None:
-        self.model = _c.CostModel(out.model)
-        self.cell_size: float = out.cell_size
-        self.cells_per_axis: float = out.cells_per_axis
-        self.zone: tuple[float, float] = (out.zone_min, out.zone_max)
-        self.predicted_cost: float = out.predicted_cost
-        self.rules = values_of(Rules, out.rules)
-        self.rule_costs = values_of(Rules, out.rule_costs)
-        self.stats = values_of(Stats, out.stats)
-        self.curve = curve_of(out)
-        self.terms = terms_of(out)
-        self.budget_cell_size: float = out.budget_cell_size
-        self.uniform_loss: float = out.uniform_loss
-        self.levels: tuple[float, ...] = tuple(out.levels[:out.level_count])
-
-    def __repr__(self) -> str:
-        return (f"<voxtet.Suggestion: cell size {self.cell_size:.6g}, good from {self.zone[0]:.6g} to {self.zone[1]:.6g}, "
-                f"by the model {self.model.name.lower()}>")
-
-    def _unit(self) -> str:
-        return "cell visits a tetrahedron" if self.model == _c.CostModel.PAPER else "nanoseconds of a step"
-
-    def _draw(self, ax: Axes) -> None:
-        self._draw_rules(ax, self.rules, self.rule_costs)
-        super()._draw(ax)
-
-
-class Minimum(Plotted):
-    """The cell size of least cost, and the zone around it."""
-
-    def __init__(self, out: Any) -> None:
-        self.cell_size: float = out.cell_size
-        self.cost: float = out.cost
-        self.zone: tuple[float, float] = (out.zone_min, out.zone_max)
-        self.curve = curve_of(out)
-
-    def __repr__(self) -> str:
-        return (f"<voxtet.Minimum: cell size {self.cell_size:.6g}, cost {self.cost:.6g}, zone {self.zone[0]:.6g} to "
-                f"{self.zone[1]:.6g}>")
-
-
-_REALS = ("p_nc", "cost_ratio", "world_edge", "zone_loss", "mean_edge_factor", "resolution")
+_REALS = ("p_nc", "cost_ratio", "world_edge", "zone_loss")
 
 
 def suggest_desc(model: Union[str, _c.CostModel], options: dict[str, Any]) -> Any:
     """The struct of the options."""
-    desc = described(_c.vox_suggest_desc)
+    desc = described(_c.vox_cell_size_desc)
     desc.model = choice(_c.CostModel, model, "model")
     for name, value in options.items():
         if name in _REALS:
@@ -190,15 +183,11 @@ def suggest_desc(model: Union[str, _c.CostModel], options: dict[str, Any]) -> An
             desc.byte_budget = integer(value, name)
         elif name == "dense":
             desc.reference_flags = switch(value, name) * _c.ReferenceFlags.DENSE
-        elif name == "size_reading":
-            desc.size_reading = choice(_c.SizeReading, value, name)
-        elif name == "area_reading":
-            desc.area_reading = choice(_c.AreaReading, value, name)
         elif name == "weights":
             desc.weights = weights_pointer(value)
         else:
-            raise TypeError(f"there is no option {name!r}; those of vox_suggest_desc are {', '.join(_REALS)}, byte_budget, "
-                            "dense, size_reading, area_reading, weights")
+            raise TypeError(f"there is no option {name!r}; those of vox_cell_size_desc are {', '.join(_REALS)}, "
+                            "byte_budget, dense, weights")
     return desc
 
 
@@ -222,12 +211,17 @@ class _Scene:
         return len(self.topologies)
 
 
+def _result(desc: Any, out: Any) -> CellSizeResult:
+    paper = desc is not None and desc.model == _c.CostModel.PAPER
+    return CellSizeResult(out, "cell visits a tetrahedron" if paper else "seconds of a step")
+
+
 def suggest_cell_size(positions: Any, tets: Optional[ArrayLike] = None, *, model: Union[str, _c.CostModel] = "paper",
-                      self_collision: bool = False, **options: Any) -> Suggestion:
+                      self_collision: bool = False, **options: Any) -> CellSizeResult:
     """The cell size that minimises a cost model for a mesh, or for several: `suggest_cell_size([(p, t), (q, u)])`.
 
-    model: "paper", "reference", "fast" or "surface". options: the other fields of vox_suggest_desc, e.g. zone_loss, p_nc,
-    size_reading="mean_edge", weights=calibrate().
+    model: "paper", "reference", "fast" or "surface". options: the other fields of vox_cell_size_desc, e.g. zone_loss, p_nc,
+    weights=calibrate().
 
     >>> import numpy as np
     >>> cube = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], float)
@@ -235,19 +229,33 @@ def suggest_cell_size(positions: Any, tets: Optional[ArrayLike] = None, *, model
     >>> s.zone[0] < s.cell_size < s.zone[1]
     True
     """
-    desc, scene, out = suggest_desc(model, options), _Scene(positions, tets, self_collision), sized(_c.vox_suggestion)
+    desc, scene, out = suggest_desc(model, options), _Scene(positions, tets, self_collision), sized(_c.vox_cell_size_result)
     vox.vox_suggest_cell_size(desc, scene.array, len(scene), out)
-    return Suggestion(out)
+    return _result(desc, out)
 
 
-def suggest_for_grid(grid: Grid, model: Union[str, _c.CostModel, None], options: dict[str, Any]) -> Suggestion:
+def measure_geometry(positions: Any, tets: Optional[ArrayLike] = None) -> Geometry:
+    """Sizes in a mesh, or in several, which are given as for `suggest_cell_size`. Above 1500 tetrahedra, means are estimated
+    from samples.
+
+    >>> import numpy as np
+    >>> corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+    >>> measure_geometry(corners, [[0, 1, 2, 3]]).mean_box_side
+    1.0
+    """
+    scene, out = _Scene(positions, tets, False), sized(_c.vox_geometry)
+    vox.vox_measure_geometry(scene.array, len(scene), out)
+    return values_of(Geometry, out)
+
+
+def suggest_for_grid(grid: Grid, model: Union[str, _c.CostModel, None], options: dict[str, Any]) -> CellSizeResult:
     """As `Grid.suggest_cell_size`."""
     if model is None and options:
         raise InvalidArgumentError("options of a suggestion need a model")
-    desc, out = None if model is None else suggest_desc(model, options), sized(_c.vox_suggestion)
+    desc, out = None if model is None else suggest_desc(model, options), sized(_c.vox_cell_size_result)
     with grid._lock:
         vox.vox_grid_suggest_cell_size(grid._pointer, desc, out)
-    return Suggestion(out)
+    return _result(desc, out)
 
 
 def calibrate() -> NDArray[np.float64]:
@@ -258,14 +266,14 @@ def calibrate() -> NDArray[np.float64]:
     return np.array(out.ns)
 
 
-def minimise(cost: Callable[[float], float], low: float, high: float, *, zone_loss: float = 0.05) -> Minimum:
+def minimise(cost: Callable[[float], float], low: float, high: float, *, zone_loss: float = 0.05) -> CellSizeResult:
     """The cell size from low to high of least cost, for an algorithm of your own. `cost` is a function of the cell size.
 
     >>> round(minimise(lambda size: size + 4 / size, 0.1, 100).cell_size, 3)
     2.0
     """
-    out, called = sized(_c.vox_cost_minimum), Relay(lambda size, _user: float(cost(size)), math.nan)
+    out, called = sized(_c.vox_cell_size_result), Relay(lambda size, _user: float(cost(size)), math.nan)
     with called:
         vox.vox_cost_minimise(_c.vox_cost_function(called), None, real(low, "low"), real(high, "high"),
                               real(zone_loss, "zone_loss"), out)
-    return Minimum(out)
+    return CellSizeResult(out, "cost")

@@ -23,8 +23,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _c
 from ._arguments import U32, choice, copied_rows, indices, integer, real, switch
-from ._library import Handle, described, vox
+from ._library import Handle, described, sized, vox
 from .errors import InvalidArgumentError
+from .suggest import CellSizeResult
 
 FeatureName = Union[str, _c.Feature]
 
@@ -174,6 +175,13 @@ class Surface:
         offsets = [piece.offsets[:-1] + start for piece, start in zip(found, starts)]
         end = found[-1].offsets[-1:] + starts[-1]
         return FeaturePairs(np.concatenate([*offsets, end]), np.concatenate([piece.partners for piece in found]))
+
+    def suggest_cell_size(self, a: FeatureName, b: FeatureName) -> CellSizeResult:
+        """The cell size with the least cost for finding the pairs of kinds a and b."""
+        out = sized(_c.vox_cell_size_result)
+        with self._lock:
+            vox.vox_surface_suggest_cell_size(self._handle.pointer, choice(_c.Feature, a, "a"), choice(_c.Feature, b, "b"), out)
+        return CellSizeResult(out)
 
     @property
     def counters(self) -> dict[str, int]:

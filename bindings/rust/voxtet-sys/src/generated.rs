@@ -30,18 +30,18 @@ pub const VOX_MAX_RINGS: u32 = 8;
 pub const VOX_STENCIL_CAPACITY: u32 = 5;
 /// in one call
 pub const VOX_MAX_TASKS: u32 = 64;
-/// numbers of vox_cost_weights
-pub const VOX_COST_WEIGHT_CAPACITY: u32 = 24;
 /// most samples of a curve
-pub const VOX_COST_CURVE_CAPACITY: u32 = 64;
-/// most terms of a cost, in any model
-pub const VOX_COST_TERM_CAPACITY: u32 = 12;
-/// most entries of vox_suggestion.levels
-pub const VOX_CELL_SIZE_LEVEL_CAPACITY: u32 = 4;
-/// bytes of a note, its zero included
+pub const VOX_CURVE_CAPACITY: u32 = 64;
+/// most terms of a cost
+pub const VOX_TERM_CAPACITY: u32 = 12;
+/// most rules that are compared
+pub const VOX_RULE_CAPACITY: u32 = 8;
+/// most runs of vox_foreign_grid_tune
+pub const VOX_TIMING_CAPACITY: u32 = 32;
+/// bytes of a note, its zero included; it is cut to that
 pub const VOX_NOTE_CAPACITY: u32 = 256;
-/// most runs of vox_cost_tune
-pub const VOX_TUNE_RUN_CAPACITY: u32 = 32;
+/// numbers in vox_cost_weights
+pub const VOX_COST_WEIGHT_CAPACITY: u32 = 24;
 /// vertices, edges or faces of a surface, each
 pub const VOX_MAX_FEATURES: u32 = 2147483647;
 /// patches of a surface
@@ -166,40 +166,42 @@ pub const VOX_SIDE_NONE: vox_side = 0;
 pub const VOX_SIDE_ENTERS: vox_side = 1;
 pub const VOX_SIDE_LEAVES: vox_side = 2;
 
+/// What a result depends on, combined with |. vox_cell_size_result.note says it in words, with numbers.
+pub type vox_cell_size_warnings = u32;
+/// nothing is known of the grid's times; a few timings would help
+pub const VOX_CELL_SIZE_GUESSED_WEIGHTS: vox_cell_size_warnings = 1;
+/// it is the mean edge: the weights do not show for certain that another is better
+pub const VOX_CELL_SIZE_BY_RULE: vox_cell_size_warnings = 2;
+/// it is min_cell_size, though a smaller one would cost less
+pub const VOX_CELL_SIZE_AT_MINIMUM: vox_cell_size_warnings = 4;
+/// the primitives have no size; it follows from the distances between them
+pub const VOX_CELL_SIZE_FROM_SPACING: vox_cell_size_warnings = 8;
+/// all primitives are in one place; any large enough cell size will do
+pub const VOX_CELL_SIZE_ONE_PLACE: vox_cell_size_warnings = 16;
+/// the timings do not follow the counts of the described grid
+pub const VOX_CELL_SIZE_MODEL_DISAGREES: vox_cell_size_warnings = 32;
+/// timings at the same cell size differ widely
+pub const VOX_CELL_SIZE_TIMINGS_DISAGREE: vox_cell_size_warnings = 64;
+/// the best cell size lies beyond those that were timed
+pub const VOX_CELL_SIZE_OUT_OF_RANGE: vox_cell_size_warnings = 128;
+/// the callback stopped, or could not run at a cell size
+pub const VOX_CELL_SIZE_STOPPED: vox_cell_size_warnings = 256;
+
+pub type vox_cost_model = i32;
+/// the paper's z(delta) (Sect. 4, Eqs. 3-8)
+pub const VOX_COST_MODEL_PAPER: vox_cost_model = 0;
+/// a step of the paper's engine, counted tetrahedron by tetrahedron
+pub const VOX_COST_MODEL_REFERENCE: vox_cost_model = 1;
+/// a step of the fast engine, with the same cell size everywhere
+pub const VOX_COST_MODEL_FAST: vox_cost_model = 2;
+/// the searches of vox_surface.h in the meshes' surfaces
+pub const VOX_COST_MODEL_SURFACE: vox_cost_model = 3;
+
 pub type vox_reference_flags = u32;
-/// store a list for every cell of a box (linear id k*nx*ny + j*nx + i), instead of hashing cells into a table
+/// store a list for every cell of a box, instead of hashing cells into a table
 pub const VOX_REFERENCE_DENSE: vox_reference_flags = 1;
 /// hash by i*73856093 xor j*19349663 xor k*83492791 (Teschner et al. 2003, Sect. 4.1), instead of by a well-mixed hash
 pub const VOX_REFERENCE_PAPER_HASH: vox_reference_flags = 2;
-
-pub type vox_cost_model = i32;
-/// the paper's z(delta) (Sect. 4, Eqs. 3-8), from means; in cell visits
-pub const VOX_COST_MODEL_PAPER: vox_cost_model = 0;
-/// the reference engine, counted tet by tet; in nanoseconds of a step
-pub const VOX_COST_MODEL_REFERENCE: vox_cost_model = 1;
-/// the fast engine with one cell size in all windows; in nanoseconds of a step
-pub const VOX_COST_MODEL_FAST: vox_cost_model = 2;
-/// the searches of vox_surface.h in the meshes' surfaces, for pairs of edges and of faces and vertices; in nanoseconds,
-/// of their grids alone
-pub const VOX_COST_MODEL_SURFACE: vox_cost_model = 3;
-
-/// How s, the size of a tetrahedron in Eq. 4, is measured.
-pub type vox_size_reading = i32;
-/// mean length of the unique edges; reproduces the paper's tables
-pub const VOX_SIZE_MEAN_EDGE: vox_size_reading = 0;
-/// mean over tets of the longest edge; as worded in Sect. 4.2
-pub const VOX_SIZE_MEAN_LONGEST_EDGE: vox_size_reading = 1;
-/// mean over tets of the longest side of the bounding box
-pub const VOX_SIZE_MEAN_BOX_SIDE: vox_size_reading = 2;
-
-/// How A, the facet area in Eqs. 5-7, is measured.
-pub type vox_area_reading = i32;
-/// mean over all facets, shared ones counted once; reproduces the paper's tables
-pub const VOX_AREA_UNIQUE_FACETS: vox_area_reading = 0;
-/// mean over the four facets of every tet
-pub const VOX_AREA_TET_FACETS: vox_area_reading = 1;
-/// mean over the facets of exactly one tet
-pub const VOX_AREA_BOUNDARY_FACETS: vox_area_reading = 2;
 
 pub type vox_primitive_type = i32;
 /// one vertex
@@ -210,84 +212,60 @@ pub const VOX_PRIMITIVE_EDGE: vox_primitive_type = 1;
 pub const VOX_PRIMITIVE_TRIANGLE: vox_primitive_type = 2;
 /// four
 pub const VOX_PRIMITIVE_TET: vox_primitive_type = 3;
-/// two: opposite corners of a box along the axes, in any order
+/// two: opposite corners, in any order
 pub const VOX_PRIMITIVE_BOX: vox_primitive_type = 4;
 
-/// Which cells hold a primitive.
-pub type vox_cell_content = i32;
-/// all that its box meets
-pub const VOX_CELLS_HOLD_BOXES: vox_cell_content = 0;
-/// the one with the centre of its box; for a point, with the point
-pub const VOX_CELLS_HOLD_CENTRES: vox_cell_content = 1;
-
-/// Which cells a primitive that asks looks at.
-pub type vox_cell_look = i32;
-/// those that its box meets: one for a point, those of the ball's box for one with a radius
-pub const VOX_LOOK_BOX: vox_cell_look = 0;
-/// 27: the one with the centre of its box, and those around. Only with HOLD_CENTRES, and only legal where a cell is as
-/// large as the distance that matters along any axis
-pub const VOX_LOOK_AROUND: vox_cell_look = 1;
-/// nobody asks: the grid goes through the cells and pairs what is in each. With two sets, both are put into cells, and
-/// pairs are of one of each
-pub const VOX_LOOK_PAIRS: vox_cell_look = 2;
-
-/// Grids that weights are shipped for, each measured by bench/foreign.
+/// Grids whose layout and weights are known, as measured by bench/foreign.
 pub type vox_known_grid = i32;
-/// nothing is known: weights that lose least in the worst of the grids below
-pub const VOX_KNOWN_GRID_ANY: vox_known_grid = 0;
-/// a plain grid in C++: a counting sort into a dense lattice
+/// the weights with the smallest worst loss over all grids below
+pub const VOX_KNOWN_GRID_NONE: vox_known_grid = 0;
+/// C++: a counting sort into a dense lattice
 pub const VOX_KNOWN_GRID_SORTED: vox_known_grid = 1;
-/// a plain grid in C++: std::unordered_map from cell to list
+/// C++: std::unordered_map from cell to list
 pub const VOX_KNOWN_GRID_HASHED: vox_known_grid = 2;
-/// NVIDIA Warp's HashGrid on the processor: points, asked by balls
+/// NVIDIA Warp's HashGrid on the processor
 pub const VOX_KNOWN_GRID_WARP: vox_known_grid = 3;
-/// IPC Toolkit's SpatialHash: boxes in all their cells, asked by boxes
+/// IPC Toolkit's SpatialHash
 pub const VOX_KNOWN_GRID_IPC: vox_known_grid = 4;
-/// IPC Toolkit's HashGrid: boxes in all their cells, paired cell by cell
+/// IPC Toolkit's HashGrid
 pub const VOX_KNOWN_GRID_IPC_PAIRS: vox_known_grid = 5;
-/// VTK's vtkStaticCellLocator: boxes in all their cells, asked by points
+/// VTK's vtkStaticCellLocator
 pub const VOX_KNOWN_GRID_VTK: vox_known_grid = 6;
-/// PBAT's HashGrid3: centres of boxes, asked from 27 cells
+/// PBAT's HashGrid3
 pub const VOX_KNOWN_GRID_PBAT: vox_known_grid = 7;
-/// hashed voxels of points asked by balls, as in PCL and Open3D
+/// hashed voxels of points, as in PCL and Open3D
 pub const VOX_KNOWN_GRID_POINT_VOXELS: vox_known_grid = 8;
-/// a grid of sorted keys in numpy
+/// sorted keys in numpy
 pub const VOX_KNOWN_GRID_NUMPY: vox_known_grid = 9;
 
-pub type vox_foreign_flags = u32;
-/// the grid keeps a list for each cell of the box of all that it holds
-pub const VOX_FOREIGN_DENSE: vox_foreign_flags = 1;
+/// The cells that store a primitive.
+pub type vox_cells_stored = i32;
+/// as in the known grid, else BOX
+pub const VOX_CELLS_STORED_DEFAULT: vox_cells_stored = 0;
+/// all cells that its box meets
+pub const VOX_CELLS_STORED_BOX: vox_cells_stored = 1;
+/// the cell that contains the centre of its box
+pub const VOX_CELLS_STORED_CENTRE: vox_cells_stored = 2;
 
-/// What an answer was based on, combined with |. `note` says the same in words, with numbers.
-pub type vox_foreign_warnings = u32;
-/// nothing is known of the grid's times: a few timings would help
-pub const VOX_FOREIGN_WEIGHTS_UNKNOWN: vox_foreign_warnings = 1;
-/// cell_size is that of `rule`: by the weights, a guess, no gain over it is sure
-pub const VOX_FOREIGN_BY_RULE: vox_foreign_warnings = 2;
-/// the least legal size; a smaller one would be faster
-pub const VOX_FOREIGN_AT_LEAST_SIZE: vox_foreign_warnings = 4;
-/// the primitives have no size: the cell size follows from their distances
-pub const VOX_FOREIGN_NO_SIZE: vox_foreign_warnings = 8;
-/// all are in one place: any cell size that is large enough does
-pub const VOX_FOREIGN_ONE_PLACE: vox_foreign_warnings = 16;
-/// the timings do not follow the counts of the described grid
-pub const VOX_FOREIGN_MODEL_DISAGREES: vox_foreign_warnings = 32;
-/// timings at the same cell size differ widely
-pub const VOX_FOREIGN_TIMINGS_DISAGREE: vox_foreign_warnings = 64;
-/// the best cell size is beyond those timed
-pub const VOX_FOREIGN_OUT_OF_RANGE: vox_foreign_warnings = 128;
-/// the callback stopped, or failed at a cell size
-pub const VOX_FOREIGN_STOPPED: vox_foreign_warnings = 256;
+/// The cells that a query visits.
+pub type vox_cells_queried = i32;
+/// as in the known grid, else BOX
+pub const VOX_CELLS_QUERIED_DEFAULT: vox_cells_queried = 0;
+/// all cells that its box meets; one for a point
+pub const VOX_CELLS_QUERIED_BOX: vox_cells_queried = 1;
+/// the cell that contains its centre, and the 26 cells around it. Only with CENTRE
+pub const VOX_CELLS_QUERIED_27: vox_cells_queried = 2;
+/// none: the grid goes through its cells and reports every pair within a cell
+pub const VOX_CELLS_QUERIED_PAIRS: vox_cells_queried = 3;
 
-/// The rules of vox_foreign_rules, in its order. Suggestions are by NONE or MEAN_EDGE so far.
-pub type vox_foreign_rule = i32;
-/// the model's minimum
-pub const VOX_RULE_NONE: vox_foreign_rule = 0;
-pub const VOX_RULE_MEAN_EDGE: vox_foreign_rule = 1;
-pub const VOX_RULE_MEAN_BOX_SIDE: vox_foreign_rule = 2;
-pub const VOX_RULE_MEDIAN_BOX_SIDE: vox_foreign_rule = 3;
-pub const VOX_RULE_SPACING: vox_foreign_rule = 4;
-pub const VOX_RULE_RADIUS: vox_foreign_rule = 5;
+/// The cells that exist.
+pub type vox_cells_kept = i32;
+/// as in the known grid, else OCCUPIED
+pub const VOX_CELLS_KEPT_DEFAULT: vox_cells_kept = 0;
+/// those that store something
+pub const VOX_CELLS_KEPT_OCCUPIED: vox_cells_kept = 1;
+/// all cells in the box of the stored primitives
+pub const VOX_CELLS_KEPT_DENSE: vox_cells_kept = 2;
 
 /// What a surface consists of.
 pub type vox_feature = i32;
@@ -348,7 +326,6 @@ pub const VOX_IO_WRITE_MSH_41: vox_io_write_format = 2;
 pub const VOX_IO_WRITE_VTU: vox_io_write_format = 3;
 
 pub type vox_sim_body_flags = u32;
-/// collides with itself too
 pub const VOX_SIM_BODY_SELF_COLLISION: vox_sim_body_flags = 1;
 /// never moves; others collide with it
 pub const VOX_SIM_BODY_FIXED: vox_sim_body_flags = 2;
@@ -385,7 +362,7 @@ pub struct vox_io_mesh {
     _marker: PhantomData<(*mut u8, PhantomPinned)>,
 }
 
-/// Bodies, and the grid they collide in.
+/// Soft bodies and the grid they collide in.
 #[repr(C)]
 pub struct vox_sim {
     _data: [u8; 0],
@@ -397,16 +374,14 @@ pub struct vox_sim {
 #[rustfmt::skip]
 pub type vox_task = Option<unsafe extern "C" fn(begin: u64, end: u64, worker: u32, context: *mut c_void)>;
 
-/// Cost at a cell size. A result that is not a finite number counts as infinite cost. Called on the thread that calls
-/// vox_cost_minimise.
+/// Returns the cost at a cell size; infinity or NaN if it is impossible. Called on the calling thread. Must not throw.
 #[rustfmt::skip]
 pub type vox_cost_function = Option<unsafe extern "C" fn(cell_size: f64, user: *mut c_void) -> f64>;
 
-/// Runs the caller's grid once at a cell size. Returns how many seconds that took, at least 1e-30; infinity, or more
-/// than 1e30, if it cannot run at this size (it is then tried at others, none of them further away); or a negative
-/// number or NaN to stop. Called on the thread that calls vox_cost_tune. Must not throw.
+/// Runs the caller's grid once, and returns how many seconds that took; infinity if this cell size is impossible; a
+/// negative number or NaN to stop tuning. Called on the calling thread. Must not throw.
 #[rustfmt::skip]
-pub type vox_grid_run = Option<unsafe extern "C" fn(cell_size: f64, user: *mut c_void) -> f64>;
+pub type vox_foreign_run = Option<unsafe extern "C" fn(cell_size: f64, user: *mut c_void) -> f64>;
 
 /// An array of positions. Coordinate k (0, 1, 2 for x, y, z) of position i is at byte i * byte_stride + k *
 /// component_byte_stride of `data`. With both strides 0 the array is packed: x y z, x y z, ... If positions are part of
@@ -848,121 +823,7 @@ pub struct vox_ray_hit {
     pub weights: [f64; 3],
 }
 
-/// How many nanoseconds one unit of each piece of work takes on a machine: what the models REFERENCE and FAST, and the
-/// reference engine, choose a cell size by. From vox_cost_calibrate; plain numbers, which may be saved and loaded.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_cost_weights {
-    pub struct_size: u32,
-    /// 1: by vox_cost_calibrate
-    pub measured: u32,
-    /// in the library's own order, finite, >= 0; 0: the one shipped with the library
-    pub ns: [f64; 24],
-}
-
-/// The paper's engine (Sect. 3), for vox_grid_desc.reference. It is serial and finds what the fast engine finds. If the
-/// grid's cell_size is 0, it chooses by its cost model, at the first step, and again when the counts of its steps show
-/// that another size would be better; each change is written to the log and counted in cell_size_changes. If the sizes
-/// of the tetrahedra differ so much that a single cell size would be expensive, it uses a few grids in turn: each has a
-/// cell size of its own, holds all vertices, and serves the tetrahedra of a range of sizes. Where positions were chosen
-/// so that many cells share a bucket, the step finds cells by binary search instead, so its time stays bounded.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_reference_desc {
-    pub struct_size: u32,
-    /// vox_reference_flags, combined with |
-    pub flags: u32,
-    /// buckets, at most VOX_MAX_VERTICES, raised to the next prime; 0: the first prime that is at least twice the
-    /// number of vertices
-    pub hash_table_size: u64,
-    /// DENSE: the box that has cells, min < max on each axis. Points outside go to
-    pub world_min: [f64; 3],
-    /// the nearest cell. All 0: the box of all positions, in every step
-    pub world_max: [f64; 3],
-    /// copied; null: those shipped with the library
-    pub weights: *const vox_cost_weights,
-}
-
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct vox_suggest_desc {
-    pub struct_size: u32,
-    pub model: vox_cost_model,
-    pub size_reading: vox_size_reading,
-    pub area_reading: vox_area_reading,
-    /// probability that a tet has no collision, in (0, 1); 0: 0.99
-    pub p_nc: f64,
-    /// the paper's r: cost of a particle test divided by that of a cell visit; 0: 5
-    pub cost_ratio: f64,
-    /// edge of the cubic world, for cells_per_axis; 0: longest side of the bounds
-    pub world_edge: f64,
-    /// the zone is where predicted cost <= (1 + zone_loss) * minimum; at most 1e6; 0: 0.05
-    pub zone_loss: f64,
-    /// for rules.mean_edge_multiple (Gregory et al. 2000); 0: 2
-    pub mean_edge_factor: f64,
-    /// for rules.resolution (McNeely et al. 1999): the required detail; 0: none
-    pub resolution: f64,
-    /// REFERENCE with DENSE cells: most bytes that these may take; 0: no limit
-    pub byte_budget: u64,
-    /// REFERENCE: vox_reference_flags, combined with |
-    pub reference_flags: u32,
-    /// 0
-    pub reserved: u32,
-    /// REFERENCE and FAST; null: those shipped with the library
-    pub weights: *const vox_cost_weights,
-    /// of the call's memory; null: the C++ runtime's heap
-    pub allocator: *const vox_allocator,
-}
-
-/// Geometry of all meshes together, in the caller's unit. Above 1500 tets, and in grids, the means and the counts of
-/// edges, facets and flat tets are estimates from samples. Tets that name a vertex twice have no edges and facets.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_geometry_stats {
-    pub vertices: u64,
-    pub tets: u64,
-    /// unique
-    pub edges: u64,
-    /// unique triangles
-    pub facets: u64,
-    /// facets of exactly one tet
-    pub boundary_facets: u64,
-    /// of exactly zero volume
-    pub degenerate_tets: u64,
-    pub mean_edge: f64,
-    pub mean_longest_edge: f64,
-    pub mean_box_side: f64,
-    /// median over tets of the longest side of the bounding box
-    pub median_box_side: f64,
-    pub mean_facet_area: f64,
-    pub mean_tet_facet_area: f64,
-    pub mean_boundary_facet_area: f64,
-    /// mean over tets of |volume|
-    pub mean_volume: f64,
-    /// of the vertices that tets use; of all vertices for a mesh without tets
-    pub bounds_min: [f64; 3],
-    pub bounds_max: [f64; 3],
-}
-
-/// Cell sizes that other rules would choose; 0 where a rule does not apply.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_cell_size_rules {
-    /// Teschner et al. 2003
-    pub mean_edge: f64,
-    /// Gregory et al. 2000: a constant times the mean edge
-    pub mean_edge_multiple: f64,
-    /// Garcia-Alonso et al. 1994: 512 voxels in an object's box, mean over meshes whose box has a volume
-    pub object_512: f64,
-    /// McNeely et al. 1999: the required resolution
-    pub resolution: f64,
-    /// cube root of the mean tet volume (tried and rejected in Sect. 5)
-    pub mean_volume: f64,
-    /// IPC Toolkit: median of the longest box sides
-    pub median_box_side: f64,
-}
-
-/// A point of a curve of costs.
+/// A point of a cost curve.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_cost_sample {
@@ -970,72 +831,186 @@ pub struct vox_cost_sample {
     pub cost: f64,
 }
 
-/// One term of a cost: a piece of work, how often it is done, and what that costs.
+/// One kind of work: how often it is done at the suggested cell size, and what that costs.
 #[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_cost_share {
-    /// what is done, e.g. "visit a cell"; zero-terminated
-    pub name: [c_char; 24],
+#[derive(Clone, Copy, Debug)]
+pub struct vox_cost_term {
+    /// static text, e.g. "visit a cell"
+    pub name: *const c_char,
     pub count: f64,
-    /// count times the weight
     pub cost: f64,
-    /// fraction of the whole cost, 0 to 1
-    pub share: f64,
 }
 
-/// A cell size and the reasons for it. Costs are in cell visits per tetrahedron (PAPER), or nanoseconds.
+/// The cell size that a rule of thumb gives, and the predicted cost there.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_cell_size_rule {
+    /// static text, e.g. "mean edge (Teschner et al. 2003)"
+    pub name: *const c_char,
+    /// 0: the rule does not apply
+    pub cell_size: f64,
+    /// 0: not known
+    pub cost: f64,
+}
+
+/// A run at one cell size, and how long it took.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_suggestion {
-    pub struct_size: u32,
-    pub model: vox_cost_model,
+pub struct vox_timing {
+    /// > 0
     pub cell_size: f64,
-    /// world edge / cell size, as the paper counts
-    pub cells_per_axis: f64,
-    /// smallest and largest cell size of the zone
+    /// 1e-30 to 1e30; in a result infinity if the run was impossible
+    pub seconds: f64,
+}
+
+/// How many nanoseconds a foreign grid takes for each kind of work, >= 0.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_foreign_weights {
+    /// for a run, whatever the cell size
+    pub run: f64,
+    /// to store a primitive in a cell
+    pub store: f64,
+    /// to visit a cell in a query
+    pub visit: f64,
+    /// extra, to visit a cell that is not empty
+    pub found: f64,
+    /// to read a primitive in a visited cell
+    pub read: f64,
+    /// to create and drop a cell that is not empty
+    pub occupied: f64,
+    /// to clear a cell of a dense grid
+    pub cell: f64,
+}
+
+/// A cell size and the reasons for it. Costs are seconds of a step or a run; for the model PAPER they are visits of
+/// cells per tetrahedron. Fields that a function does not know are 0.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_cell_size_result {
+    pub struct_size: u32,
+    /// vox_cell_size_warnings
+    pub warnings: u32,
+    pub cell_size: f64,
+    /// the range around cell_size where the cost is at most (1 + zone_loss) times the least
     pub zone_min: f64,
     pub zone_max: f64,
-    /// at cell_size
-    pub predicted_cost: f64,
-    pub rules: vox_cell_size_rules,
-    pub stats: vox_geometry_stats,
-    /// ascending in cell_size, evenly spaced in its logarithm
-    pub curve: [vox_cost_sample; 64],
+    /// predicted at cell_size
+    pub cost: f64,
+    /// the smallest that gives right answers, or fits the byte budget; 0: any
+    pub min_cell_size: f64,
+    /// edge of the world divided by cell_size, as the paper counts
+    pub cells_per_axis: f64,
+    /// of fit and tune: root mean square of (fitted time / measured time - 1)
+    pub fit_error: f64,
+    /// of tune: how much longer a run may take than at the best cell size; 0.03 means 3 %
+    pub expected_loss: f64,
     pub curve_count: u32,
     pub term_count: u32,
-    /// at cell_size; their costs add up to predicted_cost
-    pub terms: [vox_cost_share; 12],
-    /// predicted cost at the cell size of each rule; 0 if the rule does not apply
-    pub rule_costs: vox_cell_size_rules,
-    /// smallest cell size within the byte budget; 0: the budget does not limit it
-    pub budget_cell_size: f64,
-    /// REFERENCE: the loss of using one cell size for tetrahedra of all sizes. It is predicted_cost divided by the
-    /// predicted cost of a few grids, each with the cell size that is best for its share of the tetrahedra, minus 1.
-    /// About 0 if one size is as good as several, and for the other models. A vox_grid with cell_size 0 uses several
-    /// sizes if there are several `levels`.
-    pub uniform_loss: f64,
-    /// level_count cell sizes, that of the smallest tets first
-    pub levels: [f64; 4],
-    pub level_count: u32,
-    pub reserved: u32,
+    pub rule_count: u32,
+    pub timing_count: u32,
+    /// ascending, evenly spaced in the logarithm of the cell size
+    pub curve: [vox_cost_sample; 64],
+    /// their costs add up to `cost`
+    pub terms: [vox_cost_term; 12],
+    pub rules: [vox_cell_size_rule; 8],
+    /// of tune: the runs, in order
+    pub timings: [vox_timing; 32],
+    /// of foreign grids: those used, or those found by fit and tune
+    pub weights: vox_foreign_weights,
+    /// the warnings in words; "" if there are none
+    pub note: [c_char; 256],
 }
 
-/// The least cost, and where it is.
+/// How many nanoseconds each kind of work takes on a machine, for the models REFERENCE and FAST. Measured by
+/// vox_cost_calibrate; may be saved and loaded.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_cost_minimum {
+pub struct vox_cost_weights {
     pub struct_size: u32,
-    pub curve_count: u32,
-    pub cell_size: f64,
-    pub cost: f64,
-    /// the range around cell_size, within [min, max], where the cost is at most (1 + zone_loss) times the least
-    pub zone_min: f64,
-    pub zone_max: f64,
-    /// from min to max, evenly spaced in the logarithm
-    pub curve: [vox_cost_sample; 64],
+    /// 1 if vox_cost_calibrate filled it
+    pub measured: u32,
+    /// in the library's own order; 0: the value shipped with the library
+    pub ns: [f64; 24],
 }
 
-/// Primitives: each is a few vertices. Only its box counts: that of its vertices, grown by its radius on all sides.
+/// The paper's engine (Sect. 3), for vox_grid_desc.reference. It is serial and finds what the fast engine finds. If the
+/// grid's cell_size is 0, it chooses by its cost model, and again when its counters call for another size.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_reference_desc {
+    pub struct_size: u32,
+    /// vox_reference_flags, combined with |
+    pub flags: u32,
+    /// raised to the next prime; 0: twice the number of vertices
+    pub hash_table_size: u64,
+    /// DENSE: the box that has cells. Points outside go to the nearest cell. Both 0: the
+    pub world_min: [f64; 3],
+    /// box of all positions, in every step
+    pub world_max: [f64; 3],
+    /// copied; null: those shipped with the library
+    pub weights: *const vox_cost_weights,
+}
+
+/// How to suggest a cell size; all 0 by default.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct vox_cell_size_desc {
+    pub struct_size: u32,
+    pub model: vox_cost_model,
+    /// REFERENCE: vox_reference_flags, combined with |
+    pub reference_flags: u32,
+    /// 0
+    pub reserved: u32,
+    /// 0: 0.05
+    pub zone_loss: f64,
+    /// PAPER: the share of tetrahedra without a contact, in (0, 1); 0: 0.99
+    pub p_nc: f64,
+    /// PAPER: r, the cost of a particle test divided by that of a cell visit; 0: 5
+    pub cost_ratio: f64,
+    /// for cells_per_axis; 0: the longest side of the box of all vertices
+    pub world_edge: f64,
+    /// REFERENCE with DENSE cells: most bytes that these may take; 0: no limit
+    pub byte_budget: u64,
+    /// REFERENCE and FAST; null: those shipped with the library
+    pub weights: *const vox_cost_weights,
+    /// null: the C++ runtime's heap
+    pub allocator: *const vox_allocator,
+}
+
+/// Sizes in meshes, as in the paper's tables.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct vox_geometry {
+    pub struct_size: u32,
+    pub reserved: u32,
+    pub vertices: u64,
+    pub tets: u64,
+    /// unique
+    pub edges: u64,
+    /// unique
+    pub facets: u64,
+    /// of exactly one tetrahedron
+    pub boundary_facets: u64,
+    /// of zero volume; exact
+    pub degenerate_tets: u64,
+    pub mean_edge: f64,
+    /// over tetrahedra
+    pub mean_longest_edge: f64,
+    /// over tetrahedra, the longest side of the box
+    pub mean_box_side: f64,
+    pub median_box_side: f64,
+    /// over unique facets
+    pub mean_facet_area: f64,
+    /// over the four facets of each tetrahedron
+    pub mean_tet_facet_area: f64,
+    pub mean_boundary_facet_area: f64,
+    pub mean_volume: f64,
+    pub bounds_min: [f64; 3],
+    pub bounds_max: [f64; 3],
+}
+
+/// An array of primitives. Only the box of each one matters: the box of its vertices, grown by its radius on all sides.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_primitives {
@@ -1043,174 +1018,68 @@ pub struct vox_primitives {
     pub r#type: vox_primitive_type,
     /// of vertices
     pub positions: vox_positions,
-    /// The vertices of each primitive: two numbers an edge or a box, three a triangle, four a tetrahedron, one a point.
-    /// Null: 0, 1, 2, and so on, without sharing.
+    /// the vertices of each primitive; null: 0, 1, 2, ... in order
     pub indices: *const u32,
-    /// from one primitive to the next; 0: tightly packed
+    /// from one primitive to the next; 0: packed
     pub index_byte_stride: u64,
-    /// primitives, at most 2^32 - 1
+    /// number of primitives
     pub count: u64,
-    /// one number of each primitive, >= 0; null: 0
+    /// one number >= 0 for each primitive; null: 0
     pub radii: *const c_void,
-    /// 0: tightly packed
+    /// 0: packed
     pub radius_byte_stride: u64,
     pub radius_format: vox_format,
     /// 0
     pub reserved: u32,
-    /// of all primitives, added to their own, >= 0
+    /// added to all radii
     pub radius: f64,
 }
 
-/// What a run of a grid does at one cell size. The means over all positions of the lattice.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_grid_work {
-    /// primitives put into a cell
-    pub entries: f64,
-    /// cells looked at; with PAIRS, those that hold something
-    pub visits: f64,
-    /// visits of a cell that holds nothing
-    pub empty: f64,
-    /// entries of the cells looked at; with PAIRS, pairs in a cell
-    pub reads: f64,
-    /// cells that hold something
-    pub occupied: f64,
-    /// of the box of all that is held: cells of a dense grid
-    pub cells: f64,
-}
-
-/// Nanoseconds for one of each, >= 0.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_grid_weights {
-    /// a run, whatever the cell size
-    pub fixed: f64,
-    pub entries: f64,
-    pub visits: f64,
-    /// what a visit of a cell that holds something takes more than one of an empty cell
-    pub found: f64,
-    pub reads: f64,
-    /// making and forgetting a cell
-    pub occupied: f64,
-    /// for grids with dense storage: clearing one
-    pub cells: f64,
-}
-
-/// A uniform grid that is not this library's.
+/// A uniform grid of another library. A run stores primitives in cells; then each query visits cells and reads the
+/// primitives stored there.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_foreign_grid {
     pub struct_size: u32,
-    /// vox_foreign_flags, combined with |
-    pub flags: u32,
-    pub content: vox_cell_content,
-    pub look: vox_cell_look,
-    /// what is put into cells
-    pub held: *const vox_primitives,
-    /// null: those held ask themselves, each of all, itself included
-    pub asking: *const vox_primitives,
-    /// boxes that ask are larger by this on all sides, >= 0. With PAIRS, the boxes of `asking` are, or those held where
-    /// it is null
-    pub radius: f64,
-    /// The smallest cell size that gives right answers. 0: with AROUND, half the longest side of a box held, and half
-    /// that of one that asks with its radius; otherwise none.
-    pub least_cell_size: f64,
-    /// as vox_suggest_desc.zone_loss
-    pub zone_loss: f64,
-    /// whose weights are used where `weights` are all 0
     pub known: vox_known_grid,
+    pub cells_stored: vox_cells_stored,
+    pub cells_queried: vox_cells_queried,
+    pub cells_kept: vox_cells_kept,
     /// 0
     pub reserved: u32,
-    /// all 0: those of `known`
-    pub weights: vox_grid_weights,
-    /// of the call's memory; null: the C++ runtime's heap
+    /// the primitives in cells; must be set
+    pub stored: *const vox_primitives,
+    /// the queries; null: the stored primitives query each other. With PAIRS it is a second set: each pair has one of
+    /// either
+    pub querying: *const vox_primitives,
+    /// grows the boxes of queries on all sides
+    pub radius: f64,
+    /// the smallest that gives right answers; 0: any, or with 27 what the boxes demand
+    pub min_cell_size: f64,
+    /// 0: 0.05
+    pub zone_loss: f64,
+    /// all 0: those of the known grid
+    pub weights: vox_foreign_weights,
+    /// null: the C++ runtime's heap
     pub allocator: *const vox_allocator,
 }
 
-/// Cell sizes that other rules would choose; 0 where a rule does not apply.
+/// How often a run does what, on average over all positions of the lattice.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_foreign_rules {
-    /// mean length of the edges of the primitives held, shared ones counted each time
-    pub mean_edge: f64,
-    /// mean of the longest sides of their boxes
-    pub mean_box_side: f64,
-    /// median of these
-    pub median_box_side: f64,
-    /// cube root of the volume of the box of all, over their number
-    pub spacing: f64,
-    /// mean radius of those that ask
-    pub radius: f64,
-}
-
-/// A cell size for a foreign grid, and the reasons for it. Costs are nanoseconds of a run.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_foreign_suggestion {
-    pub struct_size: u32,
-    /// vox_foreign_warnings
-    pub warnings: u32,
-    pub cell_size: f64,
-    /// as in vox_suggestion, and not below least_cell_size
-    pub zone_min: f64,
-    pub zone_max: f64,
-    /// at cell_size
-    pub predicted_cost: f64,
-    /// the smallest legal size; 0: any
-    pub least_cell_size: f64,
-    /// at cell_size
-    pub work: vox_grid_work,
-    /// that were used
-    pub weights: vox_grid_weights,
-    pub rules: vox_foreign_rules,
-    /// predicted cost at the cell size of each rule; 0 if it does not apply, or that size is too small for
-    /// vox_count_for
-    pub rule_costs: vox_foreign_rules,
-    /// ascending in cell_size, evenly spaced in its logarithm
-    pub curve: [vox_cost_sample; 64],
-    pub curve_count: u32,
-    pub term_count: u32,
-    /// at cell_size; their costs add up to predicted_cost
-    pub terms: [vox_cost_share; 12],
-    /// whose size it is
-    pub rule: vox_foreign_rule,
-    pub reserved: u32,
-    /// zero-terminated; "" if there is no warning
-    pub note: [c_char; 256],
-}
-
-/// One timing of a grid: a run at this cell size took so long.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_grid_timing {
-    /// > 0
-    pub cell_size: f64,
-    /// 1e-30 to 1e30
-    pub seconds: f64,
-}
-
-/// Weights from timings, and the cell size they lead to.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_grid_fit {
-    pub struct_size: u32,
-    /// vox_foreign_warnings
-    pub warnings: u32,
-    /// >= 0; the best fit to the timings. To be put into vox_foreign_grid.weights, also for other scenes of the same
-    /// grid
-    pub weights: vox_grid_weights,
-    /// root mean square of (fitted time / measured time - 1) over the timings
-    pub residual: f64,
-    pub cell_size: f64,
-    pub zone_min: f64,
-    pub zone_max: f64,
-    /// at cell_size
-    pub predicted_seconds: f64,
-    /// in seconds
-    pub curve: [vox_cost_sample; 64],
-    pub curve_count: u32,
-    pub reserved: u32,
-    pub note: [c_char; 256],
+pub struct vox_foreign_counts {
+    /// primitives stored in a cell
+    pub stored: f64,
+    /// cells visited; with PAIRS, cells that store something
+    pub visits: f64,
+    /// visited cells that store nothing
+    pub empty: f64,
+    /// primitives read in visited cells; with PAIRS, pairs within a cell
+    pub reads: f64,
+    /// cells that store something
+    pub occupied: f64,
+    /// cells in the box of the stored primitives
+    pub cells: f64,
 }
 
 /// How to tune; all 0 by default.
@@ -1218,46 +1087,15 @@ pub struct vox_grid_fit {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct vox_tune_desc {
     pub struct_size: u32,
-    /// 3 to VOX_TUNE_RUN_CAPACITY; 0: 7
-    pub most_runs: u32,
-    /// cell sizes to try, 0 < min <= max; both 0: an eighth to eight times the first
+    /// 3 to VOX_TIMING_CAPACITY; 0: 7
+    pub max_runs: u32,
+    /// the range of cell sizes to try; both 0: from 1/8 to 8 times the first
     pub min: f64,
     pub max: f64,
-    /// the cell size to begin with; 0: what vox_suggest_for says. Must be set where there is no grid
+    /// the cell size to begin with; 0: the one that vox_foreign_grid_suggest gives
     pub first: f64,
-    /// as vox_suggest_desc.zone_loss
-    pub zone_loss: f64,
-    /// stops where the cell size is within this of the best one, as far as it can tell; 0: 0.02
+    /// stop when the expected loss is below this; 0: 0.02
     pub wanted_loss: f64,
-}
-
-/// What tuning found.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_tuning {
-    pub struct_size: u32,
-    /// vox_foreign_warnings
-    pub warnings: u32,
-    pub cell_size: f64,
-    pub zone_min: f64,
-    pub zone_max: f64,
-    /// of a run at cell_size, as fitted
-    pub seconds: f64,
-    /// how much longer a run may take than at the best cell size, as far as it can tell: 0.03 for 3 %. The most by any
-    /// of several fits: without each of the timings, and with each moved by the noise. Infinite if only one cell size
-    /// of several was timed
-    pub expected_loss: f64,
-    /// relative: how far timings are from the fitted curve, root mean square
-    pub noise: f64,
-    /// as in vox_grid_fit; all 0 where there is no grid
-    pub weights: vox_grid_weights,
-    /// run_count runs, in order; seconds may be infinite
-    pub runs: [vox_grid_timing; 32],
-    pub run_count: u32,
-    pub curve_count: u32,
-    /// in seconds
-    pub curve: [vox_cost_sample; 64],
-    pub note: [c_char; 256],
 }
 
 /// The topology of a surface, which is copied. Faces may have any winding. Edges and faces may be degenerate or
@@ -1436,8 +1274,8 @@ pub struct vox_io_load_desc {
     pub mesh: u32,
     /// 0
     pub reserved: u32,
-    /// Where the arrays of the mesh live until vox_io_mesh_destroy. Copied; null: the C++ runtime's heap. The memory
-    /// that reading needs besides is taken from that heap and released at the end of the call.
+    /// Where the arrays of the mesh live until vox_io_mesh_destroy. Copied; null: the C++ runtime's heap. Other memory
+    /// that reading needs is taken from that heap and released at the end of the call.
     pub allocator: *const vox_allocator,
     #[rustfmt::skip]
     /// Called now and then, on the calling thread, with the fraction of the work done, ascending from 0 to 1: about
@@ -1611,109 +1449,101 @@ pub struct vox_io_sink {
     pub user: *mut c_void,
 }
 
+/// Settings of a simulation. Each comment ends with the default, which vox_default_sim_desc() sets.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_sim_desc {
     pub struct_size: u32,
-    /// Substeps of a step, 1 to 10000; default 10. The stiffness that can be simulated grows with the square of this
-    /// number and of the edge lengths; greater stiffness is reduced to it, with a log line.
+    /// of a step, 1 to 10000; 10
     pub substeps: u32,
-    /// Contacts are detected before the first substep of a step and after every `detect_every` substeps of it. 1 (the
-    /// default): in every substep; the number of substeps or more: once a step; 0: never, so that bodies pass through
-    /// each other.
+    /// substeps from one detection of contacts to the next, or 0 for no detection; 1
     pub detect_every: u32,
     /// 0
     pub reserved: u32,
-    /// acceleration; default 0, 0, -9.81
+    /// 0, 0, -9.81
     pub gravity: [f64; 3],
-    /// a longer step is clamped to this, with a log line; 1e-12 to 1e12, default 1/30
+    /// longer steps are shortened to this; 1/30
     pub max_time_step: f64,
-    /// The floor keeps particles where floor_normal . x >= floor_offset. The default is normal 0, 0, 1 and offset 0.
-    /// The normal is scaled to unit length, and floor_offset applies to that. All zero: no floor.
+    /// particles stay where dot(floor_normal, x) >= floor_offset; all 0: no floor; 0, 0, 1
     pub floor_normal: [f64; 3],
+    /// 0
     pub floor_offset: f64,
-    /// Coulomb's coefficient, between bodies and with the floor; >= 0, default 0.5
+    /// Coulomb's coefficient; 0.5
     pub friction: f64,
-    /// A penetrating vertex is pushed out by a force of depth / contact_compliance along the direction of the depth
-    /// stage, integrated implicitly, so that any stiffness is stable. >= 0; 0 (the default): the greatest stiffness
-    /// that a substep can handle.
+    /// inverse stiffness of contacts, or 0 for the stiffest that a substep can handle; 0
     pub contact_compliance: f64,
-    /// greatest speed at which earlier penetrations are undone, >= 0; default 1. It does not add to the velocities of
-    /// the bodies
+    /// greatest speed at which older overlap is undone; 1
     pub max_push_speed: f64,
-    /// penetration depth that is tolerated, so that resting contacts persist. Negative (the default is -1): a hundredth
-    /// of the mean rest edge of the two bodies
+    /// depth that is tolerated, or -1 for a hundredth of the mean edge; -1
     pub contact_slop: f64,
-    /// settings of the grid inside, read during create; null: defaults
+    /// settings of the grid inside; null: the defaults
     pub grid: *const vox_grid_desc,
-    /// of the simulation, copied; the grid has one of its own in its desc
     pub log: *const vox_log,
-    /// Where the simulation and its bodies live, as does its grid unless `grid` names another allocator. Called only
-    /// from functions of the simulation and its grid, one call at a time. Copied; null: the C++ runtime's heap.
+    /// of the simulation and, unless `grid` has one, its grid
     pub allocator: *const vox_allocator,
 }
 
+/// A soft body, which is copied. Numbers in comments are the defaults, which vox_default_sim_body_desc() sets.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_sim_body_desc {
     pub struct_size: u32,
     /// vox_sim_body_flags, combined with |
     pub flags: u32,
-    /// within 1e15 of the origin on each axis
+    /// 3 * vertex_count
     pub positions: *const f64,
-    /// The undeformed shape; null (the default): `positions`.
+    /// 3 * vertex_count: the undeformed shape; null: positions
     pub rest_positions: *const f64,
-    /// null (the default): at rest
+    /// 3 * vertex_count; null: 0
     pub velocities: *const f64,
-    /// both windings are accepted
+    /// 4 * tet_count vertex indices, in either winding
     pub tets: *const u32,
     pub vertex_count: u64,
     /// at least 1
     pub tet_count: u64,
-    /// mass per rest volume, > 0; default 1000. Lumped to the vertices. No vertex gets less than a hundredth of their
-    /// mean mass; a vertex in no tet gets the mean
+    /// mass over rest volume; 1000
     pub density: f64,
-    /// Resistance to stretching. The edges are springs with the stiffness that gives a material of this Young's modulus
-    /// if the edges run evenly in all directions. >= 0, default 1e6.
+    /// resistance to stretching; 1e6
     pub youngs_modulus: f64,
-    /// resistance to change of volume, beyond that of the edges; >= 0, default 1e6
+    /// resistance to changes of volume, beyond that of the edges; 1e6
     pub bulk_modulus: f64,
-    /// a time: edges resist the rate of their strain with damping times their stiffness; >= 0, default 0.01
+    /// a time: damping of the edges over their stiffness; 0.01
     pub damping: f64,
-    /// returned by vox_body_get_user_data on the sim's grid
+    /// of the body in the grid
     pub user_data: u64,
 }
 
-/// Arrays of a body with its state after the last step. Until the body is removed, the pointers stay the same and every
-/// step updates the contents.
+/// The arrays of a body. The pointers stay valid until the body is removed; steps change the contents.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct vox_sim_body_view {
+    /// 3 * vertex_count
     pub positions: *const f64,
+    /// 3 * vertex_count
     pub velocities: *const f64,
+    /// vertex_count
     pub masses: *const f64,
-    /// `positions` rounded to float, which the grid borrows.
+    /// 3 * vertex_count: positions rounded to float, which the grid borrows
     pub grid_positions: *const f32,
+    /// 4 * tet_count
     pub tets: *const u32,
     pub vertex_count: u64,
     pub tet_count: u64,
 }
 
+/// Energy and motion.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct vox_sim_energies {
-    pub struct_size: u32,
-    pub reserved: u32,
+pub struct vox_sim_energy {
     pub kinetic: f64,
-    /// energy in gravity, 0 at the origin
+    /// in gravity, 0 at the origin
     pub potential: f64,
-    /// energy of edges and volumes
     pub elastic: f64,
     pub mass: f64,
     pub momentum: [f64; 3],
-    /// centre of mass
+    /// of mass
     pub centre: [f64; 3],
-    /// speed of the fastest particle
+    /// of the fastest particle
     pub max_speed: f64,
 }
 
@@ -2077,104 +1907,79 @@ extern "C" {
 
 #[rustfmt::skip]
 extern "C" {
-    /// The cell size that minimises the cost model for these meshes (their positions as they are now). desc null:
-    /// defaults. Set out->struct_size first; the fields it covers are written. `meshes` is an array whose elements are
-    /// meshes[0].struct_size bytes apart, a multiple of 8, and all have that struct_size. Of their filters, only
-    /// VOX_FILTER_SELF_COLLISION is used, by REFERENCE and FAST. Errors name a mesh by its index in the array and its
-    /// user data. All tets and vertices are checked; the models look at samples of them (docs/cell-size.md has times).
-    /// Memory is from desc->allocator until the end of the call. SURFACE suggests the cell size of one surface
-    /// (vox_surface.h) of all meshes, standing still with the radius 0: the facets of exactly one enabled tetrahedron,
-    /// duplicates counted once, their edges and their vertices. It reads all of them. For surfaces without tetrahedra
-    /// behind them, and for motions, vox_surface.h has a function of its own. Errors: INVALID_ARGUMENT (also if there
-    /// is no tetrahedron, or all have zero size; SURFACE: no such facet), INVALID_MESH, NON_FINITE, LIMIT (SURFACE: a
-    /// mesh of more than 357913941 tets), OUT_OF_MEMORY; UNSUPPORTED for SURFACE in a build without surfaces, as for
-    /// WebAssembly.
+    /// Suggests the cell size with the least cost for these meshes as they are now. Set out->struct_size first. The
+    /// elements of `meshes` are meshes[0].struct_size bytes apart. Their filters count only for self-collision. Large
+    /// meshes are sampled. Errors: INVALID_ARGUMENT (also if no tetrahedron has a size), INVALID_MESH, NON_FINITE,
+    /// LIMIT, OUT_OF_MEMORY, UNSUPPORTED (SURFACE in a build without surfaces).
     pub fn vox_suggest_cell_size(
-        desc: *const vox_suggest_desc,
+        desc: *const vox_cell_size_desc,
         meshes: *const vox_mesh_desc,
         mesh_count: u64,
-        out: *mut vox_suggestion,
+        out: *mut vox_cell_size_result,
     ) -> vox_result;
-    /// The same for the meshes of a grid. With desc null, the model is that of the grid's engine, with the grid's
-    /// storage and byte budget. PAPER takes p_nc from the last step if that had contacts and p_nc is 0. FAST takes from
-    /// the last step which meshes are at rest and which need no cells for self-collision; both cost nothing. It is
-    /// quicker than vox_suggest_cell_size because its samples are smaller: means are accurate to a few per cent. The
-    /// first call after a mesh was inserted or edited reads all of that mesh, and keeps up to 11 KB on the C++
-    /// runtime's heap (docs/cell-size.md lists what each costs). Where weights are null, those of the grid's reference
-    /// engine hold. Positions must be bound. Errors: as vox_suggest_cell_size, and INVALID_STATE for a mesh without
-    /// positions.
+    /// Suggests a cell size for the meshes of a grid. It is faster, as samples are smaller. Without desc the model is
+    /// that of the grid's engine. If p_nc is 0, it is taken from the last step. Errors: as vox_suggest_cell_size; also
+    /// INVALID_STATE (a mesh without positions).
     pub fn vox_grid_suggest_cell_size(
         grid: *const vox_grid,
-        desc: *const vox_suggest_desc,
-        out: *mut vox_suggestion,
+        desc: *const vox_cell_size_desc,
+        out: *mut vox_cell_size_result,
     ) -> vox_result;
-    /// Measures this machine's weights by steps of both engines over a small built-in scene, in about ten milliseconds.
-    /// Set out->struct_size first. Errors: UNSUPPORTED (an x86-64 without SSE4.2), OUT_OF_MEMORY.
+    /// Measures this machine's weights with steps over a small scene, in about ten milliseconds. Set out->struct_size
+    /// first. Errors: OUT_OF_MEMORY.
     pub fn vox_cost_calibrate(out: *mut vox_cost_weights) -> vox_result;
-    /// Finds the cell size between min and max with the least cost: a scan that is even in the logarithm of the cell
-    /// size, then a golden-section search around its best point. `cost` is called on this thread, some hundred times,
-    /// and must not throw. zone_loss is as in vox_suggest_desc. Set out->struct_size first. Errors: INVALID_ARGUMENT
-    /// (unless 0 < min <= max, finite; a bad zone_loss; also if the cost was finite at no cell size that was tried, or
-    /// if the least cost is negative).
+    /// Measures meshes, which are given as for vox_suggest_cell_size. Above 1500 tetrahedra, means are estimated from
+    /// samples. Set out->struct_size first. Errors: INVALID_ARGUMENT, INVALID_MESH, NON_FINITE, OUT_OF_MEMORY.
+    pub fn vox_measure_geometry(
+        meshes: *const vox_mesh_desc,
+        mesh_count: u64,
+        out: *mut vox_geometry,
+    ) -> vox_result;
+    /// Finds the cell size between min and max with the least cost: a scan evenly spaced in the logarithm, then a
+    /// golden-section search, in about a hundred calls. zone_loss 0 means 0.05. Set out->struct_size first. Errors:
+    /// INVALID_ARGUMENT (unless 0 < min <= max; no finite cost; a negative least cost).
     pub fn vox_cost_minimise(
         cost: vox_cost_function,
         user: *mut c_void,
         min: f64,
         max: f64,
         zone_loss: f64,
-        out: *mut vox_cost_minimum,
+        out: *mut vox_cell_size_result,
     ) -> vox_result;
-    /// Sets what is known of a grid that people have: content, look, flags, known, weights. Other fields keep their
-    /// values. Set grid->struct_size first. Errors: INVALID_ARGUMENT.
-    pub fn vox_foreign_grid_set_known(
-        grid: *mut vox_foreign_grid,
-        known: vox_known_grid,
-    ) -> vox_result;
-    /// The cell size that costs this grid least. Set out->struct_size first; the fields it covers are written. Works on
-    /// a sample of the primitives where there are many (docs/your-own-grid.md has its loss): those that are not in it
-    /// are not checked either. Memory (from grid->allocator, released at the end of the call) in proportion to it.
-    /// Errors: INVALID_ARGUMENT (also for no primitive, or AROUND with HOLD_BOXES), INVALID_MESH (a primitive names a
-    /// vertex that does not exist), NON_FINITE, LIMIT, OUT_OF_MEMORY.
-    pub fn vox_suggest_for(
+    /// Suggests the cell size with the least cost. Set out->struct_size first. Many primitives are sampled. Errors:
+    /// INVALID_ARGUMENT (also for no primitives, and for 27 without CENTRE), INVALID_MESH, NON_FINITE, LIMIT,
+    /// OUT_OF_MEMORY.
+    pub fn vox_foreign_grid_suggest(
         grid: *const vox_foreign_grid,
-        out: *mut vox_foreign_suggestion,
+        out: *mut vox_cell_size_result,
     ) -> vox_result;
-    /// What a run of this grid does at one cell size. Errors: as vox_suggest_for; also INVALID_ARGUMENT for a cell size
-    /// that is not a finite number above 0, LIMIT for one so small that a count is beyond 1e80.
-    pub fn vox_count_for(
+    /// Predicts the counts of a run at a cell size, for comparison with a program's own counters. Errors: as
+    /// vox_foreign_grid_suggest; also INVALID_ARGUMENT (not a finite number above 0) and LIMIT (much too small).
+    pub fn vox_foreign_grid_count(
         grid: *const vox_foreign_grid,
         cell_size: f64,
-        out: *mut vox_grid_work,
+        out: *mut vox_foreign_counts,
     ) -> vox_result;
-    /// Fits the weights of a grid to timings of the whole run at three different cell sizes or more (0.6, 1.2 and 2.4
-    /// mean edges do), by non-negative least squares, and minimises the cost, from the smallest size timed over 1.2 to
-    /// 1.2 times the largest. The least legal size, where it was timed, is the answer if less than 3 % is to be gained
-    /// elsewhere: some grids are much faster at exactly that size. Of several timings at one cell size the shortest
-    /// counts. Slow timings count less than fast ones, and less still if they are far above the fit. What few timings
-    /// cannot tell apart is divided as in the weights that the grid has (`weights`, else `known`). Errors: as
-    /// vox_suggest_for; also INVALID_ARGUMENT for fewer than three different cell sizes (those within a millionth are
-    /// one), sizes below the least legal one, and timings out of their range, and LIMIT as vox_count_for.
-    pub fn vox_cost_fit(
+    /// Finds weights and cell size from timings of whole runs at three or more cell sizes; 0.6, 1.2 and 2.4 mean edges
+    /// will do. It fits by non-negative least squares of relative errors. The weights also hold for other scenes in the
+    /// same grid. Set out->struct_size first. Errors: as vox_foreign_grid_suggest; also INVALID_ARGUMENT (too few
+    /// timings, or one out of range).
+    pub fn vox_foreign_grid_fit(
         grid: *const vox_foreign_grid,
-        timings: *const vox_grid_timing,
+        timings: *const vox_timing,
         count: u64,
-        out: *mut vox_grid_fit,
+        out: *mut vox_cell_size_result,
     ) -> vox_result;
-    /// Finds the best cell size by running the grid: at three cell sizes an octave apart first, then where the fit to
-    /// all timings so far is lowest or least sure, which may be where it was run before, until that is sure enough
-    /// (desc->wanted_loss, after four runs at the earliest) and it was run a quarter of an octave to either side of the
-    /// best, or desc->most_runs are made. The answer is never beyond the sizes that were run. The same times give the
-    /// same runs and the same answer, bit for bit. grid: what is known of it; null: nothing, so the curve is a sum of
-    /// powers of the cell size, and desc->first must be set. desc null: defaults. If the callback stops, or cannot run
-    /// at a size, the answer is from the other runs, with a warning. Errors: as vox_suggest_for; also INVALID_STATE if
-    /// no run succeeded, INVALID_ARGUMENT for a run of less than 1e-30 seconds, as a clock that is too coarse gives,
-    /// LIMIT as vox_count_for at the smallest size to be tried.
-    pub fn vox_cost_tune(
+    /// Finds the best cell size by running the grid a few times. Without a description of the grid, desc->first must be
+    /// set. The same times lead to the same runs and the same result. Set out->struct_size first. Errors: as
+    /// vox_foreign_grid_suggest; also INVALID_STATE (no run succeeded), INVALID_ARGUMENT (a run of less than 1e-30
+    /// seconds).
+    pub fn vox_foreign_grid_tune(
         grid: *const vox_foreign_grid,
         desc: *const vox_tune_desc,
-        run: vox_grid_run,
+        run: vox_foreign_run,
         user: *mut c_void,
-        out: *mut vox_tuning,
+        out: *mut vox_cell_size_result,
     ) -> vox_result;
 }
 
@@ -2263,7 +2068,7 @@ extern "C" {
         surface: *mut vox_surface,
         a: vox_feature,
         b: vox_feature,
-        out: *mut vox_foreign_suggestion,
+        out: *mut vox_cell_size_result,
     ) -> vox_result;
     /// Gets counts of the last search and the bytes held (docs/surface-pairs.md lists them). They live until the next
     /// call that uses the surface.
@@ -2407,61 +2212,47 @@ extern "C" {
 #[cfg(feature = "sim")]
 #[rustfmt::skip]
 extern "C" {
-    /// Creates a simulation without bodies. desc null: all defaults. The caller owns *out_sim and releases it with
-    /// vox_sim_destroy. Errors: INVALID_ARGUMENT (names the field and its value), OUT_OF_MEMORY, BUDGET.
+    /// Creates a simulation without bodies. The caller owns *out_sim and releases it with vox_sim_destroy. Errors:
+    /// INVALID_ARGUMENT (names the field), OUT_OF_MEMORY, BUDGET.
     pub fn vox_sim_create(desc: *const vox_sim_desc, out_sim: *mut *mut vox_sim) -> vox_result;
-    /// Destroys a simulation with its bodies and its grid. All views become invalid. Null does nothing.
+    /// Destroys a simulation with its bodies and its grid. Null does nothing.
     pub fn vox_sim_destroy(sim: *mut vox_sim);
-    /// The grid inside, for reading the contacts and constraints of the last detection and counters, and for setting
-    /// the cell size and the number of workers. It borrows the bodies' positions and belongs to the sim: do not destroy
-    /// it. Contacts with other meshes inserted into it are found, but the sim does not respond to them. A body whose
-    /// mesh was removed there moves on without contacts. Do not cut the mesh of a body there, move it or bind it
-    /// elsewhere: vox_sim_step fails once a contact does not fit the body.
+    /// Gets the grid inside, for reading results and for setting cell size and workers. It lives as long as the
+    /// simulation. Do not destroy it, and do not edit, move or bind the bodies' meshes there.
     pub fn vox_sim_get_grid(sim: *const vox_sim, out_grid: *mut *mut vox_grid) -> vox_result;
-    /// Moves everything forward by `time_step`, or by max_time_step if that is less. Errors: INVALID_ARGUMENT (not a
-    /// finite number of at least 1e-12), and those of vox_grid_step, which leave the bodies as they were after the last
-    /// completed substep; so does INVALID_STATE, for a body or the flags of the grid changed through vox_sim_get_grid,
-    /// which names the two bodies of a contact.
+    /// Advances everything by time_step. Errors: INVALID_ARGUMENT (not a finite number of at least 1e-12), and those of
+    /// vox_grid_step and vox_grid_find_constraints. After these the bodies are as they were after the last completed
+    /// substep.
     pub fn vox_sim_step(sim: *mut vox_sim, time_step: f64) -> vox_result;
-    /// Adds a body. Tets of zero rest volume get no volume constraint, and inverted ones keep their negative volume;
-    /// both are counted and reported in one log line. Errors: INVALID_ARGUMENT (names the field and its value; also: no
-    /// tet, or all of them flat, so that the body has no mass), INVALID_MESH, NON_FINITE (names the vertex), LIMIT,
-    /// BUDGET, OUT_OF_MEMORY.
+    /// Adds a body. *out_body is also its id in the grid. Errors: INVALID_ARGUMENT (also a body without volume),
+    /// INVALID_MESH, NON_FINITE, LIMIT, BUDGET, OUT_OF_MEMORY.
     pub fn vox_sim_body_insert(
         sim: *mut vox_sim,
         desc: *const vox_sim_body_desc,
         out_body: *mut vox_body,
     ) -> vox_result;
-    /// Removes a body from the simulation and from its grid.
+    /// Removes a body from the simulation and its grid.
     pub fn vox_sim_body_remove(sim: *mut vox_sim, body: vox_body) -> vox_result;
-    /// The body's arrays.
+    /// Gets the arrays of a body. They live until the body is removed.
     pub fn vox_sim_body_get_view(
         sim: *const vox_sim,
         body: vox_body,
         out_view: *mut vox_sim_body_view,
     ) -> vox_result;
-    /// Sets a body's positions and velocities, 3 * vertex_count numbers each; null leaves them as they are. The rest
-    /// shape stays. Errors: NON_FINITE (names the vertex), INVALID_ARGUMENT (beyond 1e15).
+    /// Sets positions and velocities of a body, 3 * vertex_count numbers each; null leaves them as they are. Errors:
+    /// NON_FINITE, INVALID_ARGUMENT (beyond 1e15).
     pub fn vox_sim_body_set_state(
         sim: *mut vox_sim,
         body: vox_body,
         positions: *const f64,
         velocities: *const f64,
     ) -> vox_result;
-    /// Accelerates all particles of a body from now on, in addition to gravity; 0, 0, 0 at first. Errors:
-    /// INVALID_ARGUMENT (a component that is not a number of at most 1e15 in size).
-    pub fn vox_sim_body_set_acceleration(
-        sim: *mut vox_sim,
-        body: vox_body,
-        acceleration: *const [f64; 3],
-    ) -> vox_result;
-    /// Energy and motion of a body, or of all bodies that are not fixed (body VOX_NULL_BODY). They are those of the
-    /// middle of the last substep, to which the velocities belong; the positions of vox_sim_body_get_view are half a
-    /// substep later. Writes the fields that out_energies->struct_size covers (set it first).
+    /// Gets energy and motion of a body, or of all bodies that are not fixed (VOX_NULL_BODY), in the middle of the last
+    /// substep.
     pub fn vox_sim_get_energy(
         sim: *const vox_sim,
         body: vox_body,
-        out_energies: *mut vox_sim_energies,
+        out_energy: *mut vox_sim_energy,
     ) -> vox_result;
     /// Gets sizes, totals and times (docs/sim.md lists them). They live until the next call that changes the
     /// simulation.
@@ -2535,56 +2326,38 @@ layouts! {
     vox_box_hit: size [12, 12], alignment [4, 4], { r#box: [0, 0], body: [4, 4], tet: [8, 8] }
     vox_ray_hit: size [64, 64], alignment [8, 8], { ray: [0, 0], body: [4, 4], tet: [8, 8], facet: [12, 12],
         side: [16, 16], face: [20, 20], t: [32, 32], weights: [40, 40] }
+    vox_cost_sample: size [16, 16], alignment [8, 8], { cell_size: [0, 0], cost: [8, 8] }
+    vox_cost_term: size [24, 24], alignment [8, 8], { name: [0, 0], count: [8, 8], cost: [16, 16] }
+    vox_cell_size_rule: size [24, 24], alignment [8, 8], { name: [0, 0], cell_size: [8, 8], cost: [16, 16] }
+    vox_timing: size [16, 16], alignment [8, 8], { cell_size: [0, 0], seconds: [8, 8] }
+    vox_foreign_weights: size [56, 56], alignment [8, 8], { run: [0, 0], store: [8, 8], visit: [16, 16],
+        found: [24, 24], read: [32, 32], occupied: [40, 40], cell: [48, 48] }
+    vox_cell_size_result: size [2416, 2416], alignment [8, 8], { struct_size: [0, 0], warnings: [4, 4],
+        cell_size: [8, 8], zone_min: [16, 16], zone_max: [24, 24], cost: [32, 32], min_cell_size: [40, 40],
+        cells_per_axis: [48, 48], fit_error: [56, 56], expected_loss: [64, 64], curve_count: [72, 72],
+        term_count: [76, 76], rule_count: [80, 80], timing_count: [84, 84], curve: [88, 88], terms: [1112, 1112],
+        rules: [1400, 1400], timings: [1592, 1592], weights: [2104, 2104], note: [2160, 2160] }
     vox_cost_weights: size [200, 200], alignment [8, 8], { struct_size: [0, 0], measured: [4, 4], ns: [8, 8] }
     vox_reference_desc: size [72, 72], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], hash_table_size: [8, 8],
         world_min: [16, 16], world_max: [40, 40], weights: [64, 64] }
-    vox_suggest_desc: size [96, 88], alignment [8, 8], { struct_size: [0, 0], model: [4, 4], size_reading: [8, 8],
-        area_reading: [12, 12], p_nc: [16, 16], cost_ratio: [24, 24], world_edge: [32, 32], zone_loss: [40, 40],
-        mean_edge_factor: [48, 48], resolution: [56, 56], byte_budget: [64, 64], reference_flags: [72, 72],
-        reserved: [76, 76], weights: [80, 80], allocator: [88, 84] }
-    vox_geometry_stats: size [160, 160], alignment [8, 8], { vertices: [0, 0], tets: [8, 8], edges: [16, 16],
-        facets: [24, 24], boundary_facets: [32, 32], degenerate_tets: [40, 40], mean_edge: [48, 48],
-        mean_longest_edge: [56, 56], mean_box_side: [64, 64], median_box_side: [72, 72], mean_facet_area: [80, 80],
-        mean_tet_facet_area: [88, 88], mean_boundary_facet_area: [96, 96], mean_volume: [104, 104],
-        bounds_min: [112, 112], bounds_max: [136, 136] }
-    vox_cell_size_rules: size [48, 48], alignment [8, 8], { mean_edge: [0, 0], mean_edge_multiple: [8, 8],
-        object_512: [16, 16], resolution: [24, 24], mean_volume: [32, 32], median_box_side: [40, 40] }
-    vox_cost_sample: size [16, 16], alignment [8, 8], { cell_size: [0, 0], cost: [8, 8] }
-    vox_cost_share: size [48, 48], alignment [8, 8], { name: [0, 0], count: [24, 24], cost: [32, 32], share: [40, 40] }
-    vox_suggestion: size [1968, 1968], alignment [8, 8], { struct_size: [0, 0], model: [4, 4], cell_size: [8, 8],
-        cells_per_axis: [16, 16], zone_min: [24, 24], zone_max: [32, 32], predicted_cost: [40, 40], rules: [48, 48],
-        stats: [96, 96], curve: [256, 256], curve_count: [1280, 1280], term_count: [1284, 1284], terms: [1288, 1288],
-        rule_costs: [1864, 1864], budget_cell_size: [1912, 1912], uniform_loss: [1920, 1920], levels: [1928, 1928],
-        level_count: [1960, 1960], reserved: [1964, 1964] }
-    vox_cost_minimum: size [1064, 1064], alignment [8, 8], { struct_size: [0, 0], curve_count: [4, 4],
-        cell_size: [8, 8], cost: [16, 16], zone_min: [24, 24], zone_max: [32, 32], curve: [40, 40] }
+    vox_cell_size_desc: size [72, 64], alignment [8, 8], { struct_size: [0, 0], model: [4, 4], reference_flags: [8, 8],
+        reserved: [12, 12], zone_loss: [16, 16], p_nc: [24, 24], cost_ratio: [32, 32], world_edge: [40, 40],
+        byte_budget: [48, 48], weights: [56, 56], allocator: [64, 60] }
+    vox_geometry: size [168, 168], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], vertices: [8, 8],
+        tets: [16, 16], edges: [24, 24], facets: [32, 32], boundary_facets: [40, 40], degenerate_tets: [48, 48],
+        mean_edge: [56, 56], mean_longest_edge: [64, 64], mean_box_side: [72, 72], median_box_side: [80, 80],
+        mean_facet_area: [88, 88], mean_tet_facet_area: [96, 96], mean_boundary_facet_area: [104, 104],
+        mean_volume: [112, 112], bounds_min: [120, 120], bounds_max: [144, 144] }
     vox_primitives: size [104, 104], alignment [8, 8], { struct_size: [0, 0], r#type: [4, 4], positions: [8, 8],
         indices: [48, 48], index_byte_stride: [56, 56], count: [64, 64], radii: [72, 72], radius_byte_stride: [80, 80],
         radius_format: [88, 88], reserved: [92, 92], radius: [96, 96] }
-    vox_grid_work: size [48, 48], alignment [8, 8], { entries: [0, 0], visits: [8, 8], empty: [16, 16], reads: [24, 24],
-        occupied: [32, 32], cells: [40, 40] }
-    vox_grid_weights: size [56, 56], alignment [8, 8], { fixed: [0, 0], entries: [8, 8], visits: [16, 16],
-        found: [24, 24], reads: [32, 32], occupied: [40, 40], cells: [48, 48] }
-    vox_foreign_grid: size [128, 120], alignment [8, 8], { struct_size: [0, 0], flags: [4, 4], content: [8, 8],
-        look: [12, 12], held: [16, 16], asking: [24, 20], radius: [32, 24], least_cell_size: [40, 32],
-        zone_loss: [48, 40], known: [56, 48], reserved: [60, 52], weights: [64, 56], allocator: [120, 112] }
-    vox_foreign_rules: size [40, 40], alignment [8, 8], { mean_edge: [0, 0], mean_box_side: [8, 8],
-        median_box_side: [16, 16], spacing: [24, 24], radius: [32, 32] }
-    vox_foreign_suggestion: size [2104, 2104], alignment [8, 8], { struct_size: [0, 0], warnings: [4, 4],
-        cell_size: [8, 8], zone_min: [16, 16], zone_max: [24, 24], predicted_cost: [32, 32], least_cell_size: [40, 40],
-        work: [48, 48], weights: [96, 96], rules: [152, 152], rule_costs: [192, 192], curve: [232, 232],
-        curve_count: [1256, 1256], term_count: [1260, 1260], terms: [1264, 1264], rule: [1840, 1840],
-        reserved: [1844, 1844], note: [1848, 1848] }
-    vox_grid_timing: size [16, 16], alignment [8, 8], { cell_size: [0, 0], seconds: [8, 8] }
-    vox_grid_fit: size [1392, 1392], alignment [8, 8], { struct_size: [0, 0], warnings: [4, 4], weights: [8, 8],
-        residual: [64, 64], cell_size: [72, 72], zone_min: [80, 80], zone_max: [88, 88], predicted_seconds: [96, 96],
-        curve: [104, 104], curve_count: [1128, 1128], reserved: [1132, 1132], note: [1136, 1136] }
-    vox_tune_desc: size [48, 48], alignment [8, 8], { struct_size: [0, 0], most_runs: [4, 4], min: [8, 8],
-        max: [16, 16], first: [24, 24], zone_loss: [32, 32], wanted_loss: [40, 40] }
-    vox_tuning: size [1912, 1912], alignment [8, 8], { struct_size: [0, 0], warnings: [4, 4], cell_size: [8, 8],
-        zone_min: [16, 16], zone_max: [24, 24], seconds: [32, 32], expected_loss: [40, 40], noise: [48, 48],
-        weights: [56, 56], runs: [112, 112], run_count: [624, 624], curve_count: [628, 628], curve: [632, 632],
-        note: [1656, 1656] }
+    vox_foreign_grid: size [128, 120], alignment [8, 8], { struct_size: [0, 0], known: [4, 4], cells_stored: [8, 8],
+        cells_queried: [12, 12], cells_kept: [16, 16], reserved: [20, 20], stored: [24, 24], querying: [32, 28],
+        radius: [40, 32], min_cell_size: [48, 40], zone_loss: [56, 48], weights: [64, 56], allocator: [120, 112] }
+    vox_foreign_counts: size [48, 48], alignment [8, 8], { stored: [0, 0], visits: [8, 8], empty: [16, 16],
+        reads: [24, 24], occupied: [32, 32], cells: [40, 40] }
+    vox_tune_desc: size [40, 40], alignment [8, 8], { struct_size: [0, 0], max_runs: [4, 4], min: [8, 8], max: [16, 16],
+        first: [24, 24], wanted_loss: [32, 32] }
     vox_surface_desc: size [112, 88], alignment [8, 8], { struct_size: [0, 0], worker_count: [4, 4],
         vertex_count: [8, 8], edge_count: [16, 16], face_count: [24, 24], edges: [32, 32], faces: [40, 36],
         patches: [48, 40], patch_categories: [56, 44], patch_masks: [64, 48], patch_count: [72, 56],
@@ -2639,7 +2412,6 @@ layouts! {
         density: [56, 40], youngs_modulus: [64, 48], bulk_modulus: [72, 56], damping: [80, 64], user_data: [88, 72] }
     vox_sim_body_view: size [56, 40], alignment [8, 8], { positions: [0, 0], velocities: [8, 4], masses: [16, 8],
         grid_positions: [24, 12], tets: [32, 16], vertex_count: [40, 24], tet_count: [48, 32] }
-    vox_sim_energies: size [96, 96], alignment [8, 8], { struct_size: [0, 0], reserved: [4, 4], kinetic: [8, 8],
-        potential: [16, 16], elastic: [24, 24], mass: [32, 32], momentum: [40, 40], centre: [64, 64],
-        max_speed: [88, 88] }
+    vox_sim_energy: size [88, 88], alignment [8, 8], { kinetic: [0, 0], potential: [8, 8], elastic: [16, 16],
+        mass: [24, 24], momentum: [32, 32], centre: [56, 56], max_speed: [80, 80] }
 }

@@ -1,4 +1,4 @@
-use std::ffi::{c_void, CStr};
+use std::ffi::{c_char, c_void, CStr};
 use std::marker::PhantomData;
 use std::panic::{catch_unwind, resume_unwind, AssertUnwindSafe};
 
@@ -7,39 +7,35 @@ use voxtet_sys as sys;
 use crate::error::{check, sized};
 use crate::grid::{mesh_desc, or_null, pointer};
 use crate::options::{weights_to_c, Scalar};
-use crate::{CostWeights, GeometryStats, Result};
+use crate::{CostSample, CostWeights, ForeignWeights, Geometry, Result, Timing};
 
 /// Whose cost is minimised.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CostModel {
-    /// The paper's, from means, in cell visits.
+    /// The paper's, in visits of cells per tetrahedron.
     #[default]
     Paper = sys::VOX_COST_MODEL_PAPER as isize,
-    /// The reference engine's, counted tetrahedron by tetrahedron, in nanoseconds.
+    /// A step of the paper's engine, counted tetrahedron by tetrahedron.
     Reference = sys::VOX_COST_MODEL_REFERENCE as isize,
-    /// The fast engine's, with one cell size in all windows, in nanoseconds.
+    /// A step of the fast engine, with the same cell size everywhere.
     Fast = sys::VOX_COST_MODEL_FAST as isize,
-    /// That of the surfaces of the meshes, as `vox_surface.h` has them, in nanoseconds of their grid alone.
+    /// The searches of `vox_surface.h` in the surfaces of the meshes.
     Surface = sys::VOX_COST_MODEL_SURFACE as isize,
 }
 
-/// How a cell size is chosen; `vox_suggest_desc` in vox.h explains each field.
+/// How to suggest a cell size; `vox_cell_size_desc` in vox_cell_size.h explains each field.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SuggestOptions {
+pub struct CellSizeOptions {
     /// Whose cost is minimised.
     pub model: CostModel,
-    /// Probability that a tetrahedron has no collision; 0: 0.99.
+    /// The zone is where the predicted cost is at most 1 + this times the least; 0: 0.05.
+    pub zone_loss: f64,
+    /// Share of tetrahedra without a contact; 0: 0.99.
     pub p_nc: f64,
     /// Cost of a particle test divided by that of a cell visit; 0: 5.
     pub cost_ratio: f64,
-    /// Edge of the cubic world; 0: the longest side of the bounds.
+    /// For `cells_per_axis`; 0: the longest side of the box of all vertices.
     pub world_edge: f64,
-    /// The zone is where the predicted cost is at most 1 + this times the minimum; 0: 0.05.
-    pub zone_loss: f64,
-    /// For the rule of a multiple of the mean edge; 0: 2.
-    pub mean_edge_factor: f64,
-    /// For the rule of a required resolution; 0: none.
-    pub resolution: f64,
     /// Most bytes of dense cells; 0: no limit.
     pub byte_budget: u64,
     /// Of the reference engine; see [`Reference::dense`](crate::Reference::dense).
@@ -48,20 +44,18 @@ pub struct SuggestOptions {
     pub weights: Option<CostWeights>,
 }
 
-impl SuggestOptions {
-    fn desc(&self, weights: &Option<sys::vox_cost_weights>) -> sys::vox_suggest_desc {
-        sys::vox_suggest_desc {
+impl CellSizeOptions {
+    fn desc(&self, weights: &Option<sys::vox_cost_weights>) -> sys::vox_cell_size_desc {
+        sys::vox_cell_size_desc {
             model: self.model as sys::vox_cost_model,
+            zone_loss: self.zone_loss,
             p_nc: self.p_nc,
             cost_ratio: self.cost_ratio,
             world_edge: self.world_edge,
-            zone_loss: self.zone_loss,
-            mean_edge_factor: self.mean_edge_factor,
-            resolution: self.resolution,
             byte_budget: self.byte_budget,
             reference_flags: u32::from(self.dense) * sys::VOX_REFERENCE_DENSE,
             weights: or_null(weights),
-            ..sized!(sys::vox_suggest_desc)
+            ..sized!(sys::vox_cell_size_desc)
         }
     }
 }
@@ -94,99 +88,130 @@ fn descs(meshes: &[MeshArrays<'_>]) -> Vec<sys::vox_mesh_desc> {
     meshes.iter().map(|mesh| mesh.desc).collect()
 }
 
-/// A cell size, and why. Its fields are those of `vox_suggestion` in vox.h, read through [`Suggestion::raw`].
-#[derive(Clone, Debug)]
-pub struct Suggestion(Box<sys::vox_suggestion>);
+/// One kind of work.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CostTerm {
+    /// What it is.
+    pub name: &'static str,
+    /// How often it is done at the suggested cell size.
+    pub count: f64,
+    /// What that costs.
+    pub cost: f64,
+}
 
-impl Suggestion {
-    pub(crate) fn ask(
-        options: Option<SuggestOptions>,
-        call: impl FnOnce(*const sys::vox_suggest_desc, *mut sys::vox_suggestion) -> sys::vox_result,
+/// The cell size that a rule of thumb gives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CellSizeRule {
+    /// The rule.
+    pub name: &'static str,
+    /// 0: it does not apply.
+    pub cell_size: f64,
+    /// The predicted cost there; 0: not known.
+    pub cost: f64,
+}
+
+/// A cell size and the reasons for it. Costs are seconds of a step or a run; those of [`CostModel::Paper`] are visits of
+/// cells per tetrahedron, and those of [`minimise`] are the function's. What a call does not know is 0 or empty.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CellSizeResult {
+    /// The best cell size.
+    pub cell_size: f64,
+    /// Smallest cell size that is nearly as good.
+    pub zone_min: f64,
+    /// Largest cell size that is nearly as good.
+    pub zone_max: f64,
+    /// The cost at the best cell size.
+    pub cost: f64,
+    /// The smallest cell size that gives right answers, or fits the byte budget; 0: any.
+    pub min_cell_size: f64,
+    /// Edge of the world divided by the cell size.
+    pub cells_per_axis: f64,
+    /// Of fits and tuning: root mean square of (fitted time / measured time - 1).
+    pub fit_error: f64,
+    /// Of tuning: how much longer a run may take than at the best cell size; 0.03 means 3 %.
+    pub expected_loss: f64,
+    /// Costs by cell size, ascending.
+    pub curve: Vec<CostSample>,
+    /// Their costs add up to `cost`.
+    pub terms: Vec<CostTerm>,
+    /// Rules of thumb.
+    pub rules: Vec<CellSizeRule>,
+    /// Of tuning: the runs, in order.
+    pub timings: Vec<Timing>,
+    /// Of foreign grids: those used, or those found by fits and tuning.
+    pub weights: ForeignWeights,
+    /// Constants of [`cell_size_warning`](crate::cell_size_warning), combined with |.
+    pub warnings: u32,
+    /// The same in words, with numbers; empty if there are none.
+    pub note: String,
+}
+
+impl CellSizeResult {
+    /// What a call of the library finds.
+    pub(crate) fn ask(call: impl FnOnce(*mut sys::vox_cell_size_result) -> Result<()>) -> Result<Self> {
+        let mut found = sized!(sys::vox_cell_size_result);
+        call(&mut found)?;
+        // SAFETY: names are static texts, and the note ends with 0 within its array.
+        let name = |name: *const c_char| unsafe { CStr::from_ptr(name) }.to_str().unwrap_or_default();
+        let note = unsafe { CStr::from_ptr(found.note.as_ptr()) }.to_string_lossy().into_owned();
+        let (terms, rules) = (&found.terms[..found.term_count as usize], &found.rules[..found.rule_count as usize]);
+        Ok(Self {
+            cell_size: found.cell_size,
+            zone_min: found.zone_min,
+            zone_max: found.zone_max,
+            cost: found.cost,
+            min_cell_size: found.min_cell_size,
+            cells_per_axis: found.cells_per_axis,
+            fit_error: found.fit_error,
+            expected_loss: found.expected_loss,
+            curve: found.curve[..found.curve_count as usize].to_vec(),
+            terms: terms.iter().map(|t| CostTerm { name: name(t.name), count: t.count, cost: t.cost }).collect(),
+            rules: rules
+                .iter()
+                .map(|r| CellSizeRule { name: name(r.name), cell_size: r.cell_size, cost: r.cost })
+                .collect(),
+            timings: found.timings[..found.timing_count as usize].to_vec(),
+            weights: found.weights,
+            warnings: found.warnings,
+            note,
+        })
+    }
+
+    /// Of meshes.
+    pub(crate) fn of_meshes(
+        options: Option<CellSizeOptions>,
+        call: impl FnOnce(*const sys::vox_cell_size_desc, *mut sys::vox_cell_size_result) -> sys::vox_result,
     ) -> Result<Self> {
         let weights = options.and_then(|options| options.weights).map(weights_to_c);
         let desc = options.map(|options| options.desc(&weights));
-        let mut suggestion = Box::new(sized!(sys::vox_suggestion));
-        check(call(or_null(&desc), &mut *suggestion))?;
-        Ok(Self(suggestion))
-    }
-
-    /// The best cell size.
-    pub fn cell_size(&self) -> f64 {
-        self.0.cell_size
-    }
-
-    /// Smallest and largest cell size that are nearly as good.
-    pub fn zone(&self) -> (f64, f64) {
-        (self.0.zone_min, self.0.zone_max)
-    }
-
-    /// The cost at the best cell size.
-    pub fn predicted_cost(&self) -> f64 {
-        self.0.predicted_cost
-    }
-
-    /// Cell sizes and their costs.
-    pub fn curve(&self) -> impl ExactSizeIterator<Item = (f64, f64)> + '_ {
-        samples(&self.0.curve[..self.0.curve_count as usize])
-    }
-
-    /// What the cost is made of: name of a piece of work, how often it is done, what that costs.
-    pub fn terms(&self) -> impl ExactSizeIterator<Item = (String, f64, f64)> + '_ {
-        terms(&self.0.terms[..self.0.term_count as usize])
-    }
-
-    /// Of the meshes.
-    pub fn stats(&self) -> &GeometryStats {
-        &self.0.stats
-    }
-
-    /// All fields.
-    pub fn raw(&self) -> &sys::vox_suggestion {
-        &self.0
+        Self::ask(|out| check(call(or_null(&desc), out)))
     }
 }
 
-pub(crate) fn samples(curve: &[sys::vox_cost_sample]) -> impl ExactSizeIterator<Item = (f64, f64)> + '_ {
-    curve.iter().map(|sample| (sample.cell_size, sample.cost))
-}
-
-pub(crate) fn terms(terms: &[sys::vox_cost_share]) -> impl ExactSizeIterator<Item = (String, f64, f64)> + '_ {
-    terms.iter().map(|term| {
-        // SAFETY: zero-terminated within its 24 bytes.
-        let name = unsafe { CStr::from_ptr(term.name.as_ptr()) };
-        (name.to_string_lossy().into_owned(), term.count, term.cost)
-    })
-}
-
-/// The cell size that minimises the cost model for these meshes.
-pub fn suggest_cell_size(meshes: &[MeshArrays<'_>], options: SuggestOptions) -> Result<Suggestion> {
+/// The cell size with the least cost for these meshes.
+pub fn suggest_cell_size(meshes: &[MeshArrays<'_>], options: CellSizeOptions) -> Result<CellSizeResult> {
     let descs = descs(meshes);
-    // SAFETY: descriptions of slices that live during the call.
-    Suggestion::ask(Some(options), |desc, out| unsafe {
+    // SAFETY: here and below, descriptions of slices that live during the call.
+    CellSizeResult::of_meshes(Some(options), |desc, out| unsafe {
         sys::vox_suggest_cell_size(desc, pointer(&descs), descs.len() as u64, out)
     })
 }
 
-/// Measures what work costs on this machine, for [`SuggestOptions::weights`] and
+/// Sizes in meshes.
+pub fn measure_geometry(meshes: &[MeshArrays<'_>]) -> Result<Geometry> {
+    let descs = descs(meshes);
+    let mut geometry = sized!(sys::vox_geometry);
+    check(unsafe { sys::vox_measure_geometry(pointer(&descs), descs.len() as u64, &mut geometry) })?;
+    Ok(geometry)
+}
+
+/// Measures what work costs on this machine, for [`CellSizeOptions::weights`] and
 /// [`Reference::weights`](crate::Reference::weights), in about ten milliseconds.
 pub fn calibrate() -> Result<CostWeights> {
     let mut weights = sized!(sys::vox_cost_weights);
     // SAFETY: a struct of its own size.
     check(unsafe { sys::vox_cost_calibrate(&mut weights) })?;
     Ok(weights.ns)
-}
-
-/// Where a cost function is least.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Minimum {
-    /// The best cell size.
-    pub cell_size: f64,
-    /// The cost there.
-    pub cost: f64,
-    /// The range around it with nearly that cost.
-    pub zone: (f64, f64),
-    /// Cell sizes and their costs.
-    pub curve: Vec<(f64, f64)>,
 }
 
 /// A closure that C calls, and its panic.
@@ -225,17 +250,12 @@ impl<'f> Call<'f> {
 }
 
 /// The method for any algorithm: the cell size between `min` and `max` of least `cost`; `zone_loss` is as in
-/// [`SuggestOptions`]. A panic of `cost` goes on here.
-pub fn minimise(mut cost: impl FnMut(f64) -> f64, min: f64, max: f64, zone_loss: f64) -> Result<Minimum> {
-    let mut minimum = sized!(sys::vox_cost_minimum);
-    // SAFETY: a struct of its own size; the closure lives during the call.
-    Call::make(&mut cost, |call, user| unsafe {
-        sys::vox_cost_minimise(Some(call), user, min, max, zone_loss, &mut minimum)
-    })?;
-    Ok(Minimum {
-        cell_size: minimum.cell_size,
-        cost: minimum.cost,
-        zone: (minimum.zone_min, minimum.zone_max),
-        curve: samples(&minimum.curve[..minimum.curve_count as usize]).collect(),
+/// [`CellSizeOptions`]. A panic of `cost` goes on here.
+pub fn minimise(mut cost: impl FnMut(f64) -> f64, min: f64, max: f64, zone_loss: f64) -> Result<CellSizeResult> {
+    // SAFETY: the closure lives during the call.
+    CellSizeResult::ask(|out| {
+        Call::make(&mut cost, |call, user| unsafe {
+            sys::vox_cost_minimise(Some(call), user, min, max, zone_loss, out)
+        })
     })
 }

@@ -1,43 +1,60 @@
 //! The cell size of grids that are not this library's.
 
-use std::ffi::{c_char, CStr};
 use std::marker::PhantomData;
 use std::ptr::null;
 
 use voxtet_sys as sys;
 
-use crate::cell_size::{samples, terms, Call};
+use crate::cell_size::{Call, CellSizeResult};
 use crate::error::{check, sized};
-use crate::grid::{pointer, positions_to_c};
+use crate::grid::{or_null, pointer, positions_to_c};
 use crate::options::Scalar;
-use crate::{Error, ErrorCode, GridWeights, GridWork, Result};
+use crate::{Error, ErrorCode, ForeignCounts, ForeignWeights, Result, Timing};
 
-/// Which cells hold a primitive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CellContent {
-    /// The one with the centre of its box.
-    Centres = sys::VOX_CELLS_HOLD_CENTRES as isize,
-    /// All that its box meets.
-    Boxes = sys::VOX_CELLS_HOLD_BOXES as isize,
+/// The cells that store a primitive.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CellsStored {
+    /// As in the known grid, else `Box`.
+    #[default]
+    Default = sys::VOX_CELLS_STORED_DEFAULT as isize,
+    /// All cells that its box meets.
+    Box = sys::VOX_CELLS_STORED_BOX as isize,
+    /// The cell that contains the centre of its box.
+    Centre = sys::VOX_CELLS_STORED_CENTRE as isize,
 }
 
-/// Which cells a primitive that asks looks at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CellLook {
-    /// Those that its box meets.
-    Box = sys::VOX_LOOK_BOX as isize,
-    /// The one with the centre of its box, and the 26 around.
-    Around = sys::VOX_LOOK_AROUND as isize,
-    /// Nobody asks: what is in a cell is paired.
-    Pairs = sys::VOX_LOOK_PAIRS as isize,
+/// The cells that a query visits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CellsQueried {
+    /// As in the known grid, else `Box`.
+    #[default]
+    Default = sys::VOX_CELLS_QUERIED_DEFAULT as isize,
+    /// All cells that its box meets.
+    Box = sys::VOX_CELLS_QUERIED_BOX as isize,
+    /// The cell that contains its centre, and the 26 cells around it. Only with [`CellsStored::Centre`].
+    Queried27 = sys::VOX_CELLS_QUERIED_27 as isize,
+    /// None: every pair within a cell is reported.
+    Pairs = sys::VOX_CELLS_QUERIED_PAIRS as isize,
 }
 
-/// Grids that weights are shipped for; `vox_known_grid` in vox.h explains each.
+/// The cells that exist.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CellsKept {
+    /// As in the known grid, else `Occupied`.
+    #[default]
+    Default = sys::VOX_CELLS_KEPT_DEFAULT as isize,
+    /// Those that store something.
+    Occupied = sys::VOX_CELLS_KEPT_OCCUPIED as isize,
+    /// All cells in the box of the stored primitives.
+    Dense = sys::VOX_CELLS_KEPT_DENSE as isize,
+}
+
+/// Grids whose layout and weights are known; `vox_known_grid` in vox_cell_size.h explains each.
 #[allow(missing_docs)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum KnownGrid {
     #[default]
-    Any = sys::VOX_KNOWN_GRID_ANY as isize,
+    None = sys::VOX_KNOWN_GRID_NONE as isize,
     Sorted = sys::VOX_KNOWN_GRID_SORTED as isize,
     Hashed = sys::VOX_KNOWN_GRID_HASHED as isize,
     Warp = sys::VOX_KNOWN_GRID_WARP as isize,
@@ -49,7 +66,7 @@ pub enum KnownGrid {
     Numpy = sys::VOX_KNOWN_GRID_NUMPY as isize,
 }
 
-/// What a grid holds, or what asks it. Of each primitive only the box counts.
+/// What a grid stores, or what queries it. Of each primitive only the box counts.
 #[derive(Clone, Copy)]
 pub struct Primitives<'arrays> {
     desc: sys::vox_primitives,
@@ -122,228 +139,115 @@ impl<'arrays> Primitives<'arrays> {
     }
 }
 
-/// A uniform grid that is not this library's. What is `None` is as `known` has it.
+/// A uniform grid of another library. What is `Default`, or 0, is as `known` has it.
 #[derive(Clone, Copy)]
 pub struct ForeignGrid<'arrays> {
-    /// What is put into cells.
-    pub held: Primitives<'arrays>,
-    /// What asks; `None`: those held ask themselves.
-    pub asking: Option<Primitives<'arrays>>,
     /// The grid that it is like.
     pub known: KnownGrid,
-    /// Which cells hold a primitive.
-    pub content: Option<CellContent>,
-    /// Which cells one that asks looks at.
-    pub look: Option<CellLook>,
-    /// Whether there is a list for each cell of the box of all that is held.
-    pub dense: Option<bool>,
-    /// Nanoseconds of each piece of work.
-    pub weights: Option<GridWeights>,
-    /// Boxes that ask are larger by this on all sides.
+    /// The cells that store a primitive.
+    pub cells_stored: CellsStored,
+    /// The cells that a query visits.
+    pub cells_queried: CellsQueried,
+    /// The cells that exist.
+    pub cells_kept: CellsKept,
+    /// The primitives in cells.
+    pub stored: Primitives<'arrays>,
+    /// The queries; `None`: the stored primitives query each other.
+    pub querying: Option<Primitives<'arrays>>,
+    /// Boxes of queries are larger by this on all sides.
     pub radius: f64,
-    /// The smallest cell size that gives right answers; 0: follows from `look`.
-    pub least_cell_size: f64,
-    /// The zone is where the cost is at most 1 + this times its minimum; 0: 0.05.
+    /// The smallest cell size that gives right answers; 0: any, or what 27 cells demand.
+    pub min_cell_size: f64,
+    /// The zone is where the cost is at most 1 + this times the least; 0: 0.05.
     pub zone_loss: f64,
+    /// Nanoseconds of each kind of work.
+    pub weights: ForeignWeights,
 }
 
 impl<'arrays> ForeignGrid<'arrays> {
     /// A grid like a known one.
-    pub fn new(known: KnownGrid, held: Primitives<'arrays>) -> Self {
+    pub fn new(known: KnownGrid, stored: Primitives<'arrays>) -> Self {
         Self {
-            held,
-            asking: None,
             known,
-            content: None,
-            look: None,
-            dense: None,
-            weights: None,
+            cells_stored: CellsStored::Default,
+            cells_queried: CellsQueried::Default,
+            cells_kept: CellsKept::Default,
+            stored,
+            querying: None,
             radius: 0.0,
-            least_cell_size: 0.0,
+            min_cell_size: 0.0,
             zone_loss: 0.0,
+            weights: sized!(sys::vox_foreign_grid).weights,
         }
     }
 
-    /// Makes a call with the description as C has it.
-    fn described<R>(&self, call: impl FnOnce(&sys::vox_foreign_grid) -> Result<R>) -> Result<R> {
-        let mut desc = sized!(sys::vox_foreign_grid);
-        // SAFETY: a struct of its own size.
-        check(unsafe { sys::vox_foreign_grid_set_known(&mut desc, self.known as sys::vox_known_grid) })?;
-        desc.held = &self.held.desc;
-        desc.asking = self.asking.as_ref().map_or(null(), |asking| &asking.desc);
-        desc.content = self.content.map_or(desc.content, |content| content as sys::vox_cell_content);
-        desc.look = self.look.map_or(desc.look, |look| look as sys::vox_cell_look);
-        desc.flags = self.dense.map_or(desc.flags, |dense| if dense { sys::VOX_FOREIGN_DENSE } else { 0 });
-        desc.weights = self.weights.unwrap_or(desc.weights);
-        desc.radius = self.radius;
-        desc.least_cell_size = self.least_cell_size;
-        desc.zone_loss = self.zone_loss;
-        call(&desc)
-    }
-}
-
-/// A cell size for a grid, and why. Costs are nanoseconds of a run.
-#[derive(Clone, Debug)]
-pub struct ForeignSuggestion(Box<sys::vox_foreign_suggestion>);
-
-/// Weights from timings, and the cell size that they lead to. Costs are seconds of a run.
-#[derive(Clone, Debug)]
-pub struct GridFit(Box<sys::vox_grid_fit>);
-
-/// What tuning found. Costs are seconds of a run.
-#[derive(Clone, Debug)]
-pub struct Tuning(Box<sys::vox_tuning>);
-
-/// What the three have in common.
-macro_rules! answer {
-    ($answer:ident, $raw:ty) => {
-        impl $answer {
-            fn ask(call: impl FnOnce(*mut $raw) -> Result<()>) -> Result<Self> {
-                let mut found = Box::new(sized!($raw));
-                call(&mut *found)?;
-                Ok(Self(found))
-            }
-
-            /// The best cell size.
-            pub fn cell_size(&self) -> f64 {
-                self.0.cell_size
-            }
-
-            /// Smallest and largest cell size that are nearly as good.
-            pub fn zone(&self) -> (f64, f64) {
-                (self.0.zone_min, self.0.zone_max)
-            }
-
-            /// The weights that were used, or found.
-            pub fn weights(&self) -> GridWeights {
-                self.0.weights
-            }
-
-            /// What it was based on: constants of [`foreign_warning`](crate::foreign_warning), combined with |.
-            pub fn warnings(&self) -> u32 {
-                self.0.warnings
-            }
-
-            /// The same in words, with numbers.
-            pub fn note(&self) -> String {
-                text(&self.0.note)
-            }
-
-            /// Cell sizes and their costs.
-            pub fn curve(&self) -> impl ExactSizeIterator<Item = (f64, f64)> + '_ {
-                samples(&self.0.curve[..self.0.curve_count as usize])
-            }
-
-            /// All fields.
-            pub fn raw(&self) -> &$raw {
-                &self.0
-            }
+    /// As C has it, for as long as this lives.
+    fn desc(&self) -> sys::vox_foreign_grid {
+        sys::vox_foreign_grid {
+            known: self.known as sys::vox_known_grid,
+            cells_stored: self.cells_stored as sys::vox_cells_stored,
+            cells_queried: self.cells_queried as sys::vox_cells_queried,
+            cells_kept: self.cells_kept as sys::vox_cells_kept,
+            stored: &self.stored.desc,
+            querying: self.querying.as_ref().map_or(null(), |querying| &querying.desc),
+            radius: self.radius,
+            min_cell_size: self.min_cell_size,
+            zone_loss: self.zone_loss,
+            weights: self.weights,
+            ..sized!(sys::vox_foreign_grid)
         }
-    };
-}
-answer!(ForeignSuggestion, sys::vox_foreign_suggestion);
-answer!(GridFit, sys::vox_grid_fit);
-answer!(Tuning, sys::vox_tuning);
-
-fn text(characters: &[c_char]) -> String {
-    // SAFETY: zero-terminated within its array.
-    unsafe { CStr::from_ptr(characters.as_ptr()) }.to_string_lossy().into_owned()
-}
-
-impl ForeignSuggestion {
-    /// The cost at the best cell size.
-    pub fn predicted_cost(&self) -> f64 {
-        self.0.predicted_cost
     }
 
-    /// What the cost is made of: name of a piece of work, how often it is done, what that costs.
-    pub fn terms(&self) -> impl ExactSizeIterator<Item = (String, f64, f64)> + '_ {
-        terms(&self.0.terms[..self.0.term_count as usize])
-    }
-}
-
-impl GridFit {
-    /// Of a run at the best cell size.
-    pub fn seconds(&self) -> f64 {
-        self.0.predicted_seconds
+    /// The cell size with the least cost.
+    pub fn suggest(&self) -> Result<CellSizeResult> {
+        // SAFETY: here and below, a description of slices that live during the call.
+        CellSizeResult::ask(|out| check(unsafe { sys::vox_foreign_grid_suggest(&self.desc(), out) }))
     }
 
-    /// How far the fit is from the timings: root mean square of the relative errors.
-    pub fn residual(&self) -> f64 {
-        self.0.residual
+    /// How often a run does what at a cell size.
+    pub fn count(&self, cell_size: f64) -> Result<ForeignCounts> {
+        let mut counts = ForeignCounts { stored: 0.0, visits: 0.0, empty: 0.0, reads: 0.0, occupied: 0.0, cells: 0.0 };
+        check(unsafe { sys::vox_foreign_grid_count(&self.desc(), cell_size, &mut counts) })?;
+        Ok(counts)
+    }
+
+    /// The weights, and the best cell size, from timings at three cell sizes or more.
+    pub fn fit(&self, timings: &[Timing]) -> Result<CellSizeResult> {
+        let count = timings.len() as u64;
+        CellSizeResult::ask(|out| {
+            check(unsafe { sys::vox_foreign_grid_fit(&self.desc(), pointer(timings), count, out) })
+        })
     }
 }
 
-impl Tuning {
-    /// Of a run at the best cell size, as fitted.
-    pub fn seconds(&self) -> f64 {
-        self.0.seconds
-    }
-
-    /// How much longer a run may take than at the best cell size, as far as it can tell; 0.03 for 3 %.
-    pub fn expected_loss(&self) -> f64 {
-        self.0.expected_loss
-    }
-
-    /// All runs in order: cell size and seconds.
-    pub fn runs(&self) -> impl ExactSizeIterator<Item = (f64, f64)> + '_ {
-        self.0.runs[..self.0.run_count as usize].iter().map(|run| (run.cell_size, run.seconds))
-    }
-}
-
-/// The cell size that costs a grid least.
-pub fn suggest_for(grid: &ForeignGrid<'_>) -> Result<ForeignSuggestion> {
-    // SAFETY: here and below, a description of slices that live during the call.
-    ForeignSuggestion::ask(|out| grid.described(|desc| check(unsafe { sys::vox_suggest_for(desc, out) })))
-}
-
-/// What a run of a grid does at one cell size.
-pub fn count_for(grid: &ForeignGrid<'_>, cell_size: f64) -> Result<GridWork> {
-    grid.described(|desc| unsafe {
-        let mut work: GridWork = std::mem::zeroed();
-        check(sys::vox_count_for(desc, cell_size, &mut work))?;
-        Ok(work)
-    })
-}
-
-/// The weights of a grid, and its best cell size, from timings at three cell sizes or more: cell size and seconds of each.
-pub fn fit(grid: &ForeignGrid<'_>, timings: &[(f64, f64)]) -> Result<GridFit> {
-    let timings: Vec<_> =
-        timings.iter().map(|&(cell_size, seconds)| sys::vox_grid_timing { cell_size, seconds }).collect();
-    GridFit::ask(|out| {
-        grid.described(|desc| check(unsafe { sys::vox_cost_fit(desc, pointer(&timings), timings.len() as u64, out) }))
-    })
-}
-
-/// How to tune; `vox_tune_desc` in vox.h explains each field.
+/// How to tune; `vox_tune_desc` in vox_cell_size.h explains each field.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TuneOptions {
     /// 3 to 32; 0: 7.
-    pub most_runs: u32,
+    pub max_runs: u32,
     /// Cell sizes to try; both 0: an eighth to eight times the first.
     pub min: f64,
     /// See `min`.
     pub max: f64,
-    /// The cell size to begin with; 0: what [`suggest_for`] says. Must be set where no grid is described.
+    /// The cell size to begin with; 0: what [`ForeignGrid::suggest`] says. Must be set where no grid is described.
     pub first: f64,
-    /// The zone is where a run takes at most 1 + this times the shortest time; 0: 0.05.
-    pub zone_loss: f64,
-    /// Stops where the cell size is within this of the best one, as far as it can tell; 0: 0.02.
+    /// Stops when the expected loss is below this; 0: 0.02.
     pub wanted_loss: f64,
 }
 
 /// The best cell size of a grid, by running it. `run` runs it once at a cell size and returns how many seconds that took:
 /// infinity if it cannot run at this size, NaN to stop. A panic of it goes on here.
-pub fn tune(grid: Option<&ForeignGrid<'_>>, mut run: impl FnMut(f64) -> f64, options: TuneOptions) -> Result<Tuning> {
-    let TuneOptions { most_runs, min, max, first, zone_loss, wanted_loss } = options;
-    let desc = sys::vox_tune_desc { most_runs, min, max, first, zone_loss, wanted_loss, ..sized!(sys::vox_tune_desc) };
-    Tuning::ask(|out| {
-        let mut call = |grid: *const sys::vox_foreign_grid| {
-            Call::make(&mut run, |function, user| unsafe { sys::vox_cost_tune(grid, &desc, Some(function), user, out) })
-        };
-        match grid {
-            Some(grid) => grid.described(|desc| call(desc)),
-            None => call(null()),
-        }
+pub fn tune(
+    grid: Option<&ForeignGrid<'_>>,
+    mut run: impl FnMut(f64) -> f64,
+    options: TuneOptions,
+) -> Result<CellSizeResult> {
+    let TuneOptions { max_runs, min, max, first, wanted_loss } = options;
+    let desc = sys::vox_tune_desc { max_runs, min, max, first, wanted_loss, ..sized!(sys::vox_tune_desc) };
+    let grid = grid.map(ForeignGrid::desc);
+    CellSizeResult::ask(|out| {
+        Call::make(&mut run, |call, user| unsafe {
+            sys::vox_foreign_grid_tune(or_null(&grid), &desc, Some(call), user, out)
+        })
     })
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use voxtet_sys as sys;
 
 use crate::callbacks::Callbacks;
-use crate::cell_size::{SuggestOptions, Suggestion};
+use crate::cell_size::{CellSizeOptions, CellSizeResult};
 use crate::error::{check, sized};
 use crate::options::{grid_flags, weights_to_c, Scalar};
 use crate::{
@@ -629,9 +629,11 @@ impl Grid {
         Locator::of(self)
     }
 
-    /// The cell size that minimises the cost model for the meshes of this grid. Without options, that of its engine.
-    pub fn suggest_cell_size(&self, options: Option<SuggestOptions>) -> Result<Suggestion> {
-        Suggestion::ask(options, |desc, out| unsafe { sys::vox_grid_suggest_cell_size(self.get(), desc, out) })
+    /// The cell size with the least cost for the meshes of this grid. Without options, that of its engine.
+    pub fn suggest_cell_size(&self, options: Option<CellSizeOptions>) -> Result<CellSizeResult> {
+        CellSizeResult::of_meshes(options, |desc, out| unsafe {
+            sys::vox_grid_suggest_cell_size(self.get(), desc, out)
+        })
     }
 }
 

@@ -13,13 +13,11 @@ mod options;
 
 pub use callbacks::{LogLevel, TaskSystem};
 pub use cell_size::{
-    calibrate, minimise, suggest_cell_size, CostModel, MeshArrays, Minimum, SuggestOptions, Suggestion,
+    calibrate, measure_geometry, minimise, suggest_cell_size, CellSizeOptions, CellSizeResult, CellSizeRule, CostModel,
+    CostTerm, MeshArrays,
 };
 pub use error::{Error, ErrorCode, Result};
-pub use foreign::{
-    count_for, fit, suggest_for, tune, CellContent, CellLook, ForeignGrid, ForeignSuggestion, GridFit, KnownGrid,
-    Primitives, TuneOptions, Tuning,
-};
+pub use foreign::{tune, CellsKept, CellsQueried, CellsStored, ForeignGrid, KnownGrid, Primitives, TuneOptions};
 pub use grid::{step_grids, Failure, Grid, MeshInfo};
 pub use locator::{Locator, QueryOptions};
 pub use options::{ConstraintOptions, DepthMethod, Filter, GridOptions, Mesh, MeshOptions, Reference};
@@ -46,13 +44,17 @@ pub type BoxHit = sys::vox_box_hit;
 /// A facet that a ray meets. `side` is one of the constants in [`side`].
 pub type RayHit = sys::vox_ray_hit;
 /// Lengths, areas, volumes and counts of meshes.
-pub type GeometryStats = sys::vox_geometry_stats;
+pub type Geometry = sys::vox_geometry;
 /// Nanoseconds of each piece of the engines' work, for their models, from [`calibrate`]; 0: as shipped with the library.
 pub type CostWeights = [f64; sys::VOX_COST_WEIGHT_CAPACITY as usize];
-/// What a run of a grid does at one cell size.
-pub type GridWork = sys::vox_grid_work;
-/// Nanoseconds of each piece of a grid's work.
-pub type GridWeights = sys::vox_grid_weights;
+/// A point of a cost curve.
+pub type CostSample = sys::vox_cost_sample;
+/// A run at one cell size, and how long it took.
+pub type Timing = sys::vox_timing;
+/// How often a run of a foreign grid does what.
+pub type ForeignCounts = sys::vox_foreign_counts;
+/// How many nanoseconds a foreign grid takes for each kind of work.
+pub type ForeignWeights = sys::vox_foreign_weights;
 
 /// Values of [`Pair::state`].
 pub mod pair_state {
@@ -83,13 +85,14 @@ pub mod side {
     pub use voxtet_sys::{VOX_SIDE_ENTERS as ENTERS, VOX_SIDE_LEAVES as LEAVES, VOX_SIDE_NONE as NONE};
 }
 
-/// What [`ForeignSuggestion::warnings`] combines; `vox_foreign_warnings` in vox.h explains each.
-pub mod foreign_warning {
+/// What [`CellSizeResult::warnings`] combines; `vox_cell_size_warnings` in vox_cell_size.h explains each.
+pub mod cell_size_warning {
     pub use voxtet_sys::{
-        VOX_FOREIGN_AT_LEAST_SIZE as AT_LEAST_SIZE, VOX_FOREIGN_BY_RULE as BY_RULE,
-        VOX_FOREIGN_MODEL_DISAGREES as MODEL_DISAGREES, VOX_FOREIGN_NO_SIZE as NO_SIZE,
-        VOX_FOREIGN_ONE_PLACE as ONE_PLACE, VOX_FOREIGN_OUT_OF_RANGE as OUT_OF_RANGE, VOX_FOREIGN_STOPPED as STOPPED,
-        VOX_FOREIGN_TIMINGS_DISAGREE as TIMINGS_DISAGREE, VOX_FOREIGN_WEIGHTS_UNKNOWN as WEIGHTS_UNKNOWN,
+        VOX_CELL_SIZE_AT_MINIMUM as AT_MINIMUM, VOX_CELL_SIZE_BY_RULE as BY_RULE,
+        VOX_CELL_SIZE_FROM_SPACING as FROM_SPACING, VOX_CELL_SIZE_GUESSED_WEIGHTS as GUESSED_WEIGHTS,
+        VOX_CELL_SIZE_MODEL_DISAGREES as MODEL_DISAGREES, VOX_CELL_SIZE_ONE_PLACE as ONE_PLACE,
+        VOX_CELL_SIZE_OUT_OF_RANGE as OUT_OF_RANGE, VOX_CELL_SIZE_STOPPED as STOPPED,
+        VOX_CELL_SIZE_TIMINGS_DISAGREE as TIMINGS_DISAGREE,
     };
 }
 

@@ -42,7 +42,7 @@ impl PartialEq<Mesh> for u32 {
     }
 }
 
-/// The paper's engine, to compare with; `vox_reference_desc` in vox.h explains each field.
+/// The paper's engine, to compare with; `vox_reference_desc` in vox_cell_size.h explains each field.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reference {
     /// One list for each cell of a box, instead of a hash table.

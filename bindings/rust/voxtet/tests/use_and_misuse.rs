@@ -421,17 +421,20 @@ fn flags_go_with_a_snapshot() {
 fn cell_sizes() {
     let (positions, tets) = block(4, 0.0);
     let meshes = [MeshArrays::new(&positions, &tets).with_self_collision()];
-    let suggestion = suggest_cell_size(&meshes, SuggestOptions::default()).unwrap();
-    let (low, high) = suggestion.zone();
-    assert!(low < suggestion.cell_size() && suggestion.cell_size() < high);
-    assert!(suggestion.terms().all(|(name, ..)| !name.is_empty()));
-    assert_eq!(code(suggest_cell_size(&[], SuggestOptions::default())), ErrorCode::InvalidArgument);
+    let suggestion = suggest_cell_size(&meshes, CellSizeOptions::default()).unwrap();
+    assert!(suggestion.zone_min < suggestion.cell_size && suggestion.cell_size < suggestion.zone_max);
+    assert!(suggestion.terms.iter().all(|term| !term.name.is_empty()));
+    let geometry = measure_geometry(&meshes).unwrap();
+    assert_eq!((geometry.vertices, geometry.tets), (positions.len() as u64, tets.len() as u64));
+    assert!(geometry.mean_edge > 0.0 && geometry.bounds_min[0] < geometry.bounds_max[0]);
+    assert_eq!(code(measure_geometry(&[MeshArrays::new(&positions, &[[0, 1, 2, 9999]])])), ErrorCode::InvalidMesh);
+    assert_eq!(code(suggest_cell_size(&[], CellSizeOptions::default())), ErrorCode::InvalidArgument);
     let least = minimise(|x| (x - 2.0).powi(2) + 1.0, 0.1, 10.0, 0.05).unwrap();
     assert!((least.cell_size - 2.0).abs() < 1e-3 && (least.cost - 1.0).abs() < 1e-6);
     assert!(std::panic::catch_unwind(|| minimise(|_| panic!("of a cost"), 0.1, 10.0, 0.05)).is_err());
     assert_eq!(code(minimise(|x| x, 2.0, 1.0, 0.0)), ErrorCode::InvalidArgument);
     let (grid, ..) = two_blocks(GridOptions::default());
-    assert!(grid.suggest_cell_size(None).unwrap().cell_size() > 0.0);
+    assert!(grid.suggest_cell_size(None).unwrap().cell_size > 0.0);
 }
 
 #[test]
@@ -441,11 +444,11 @@ fn weights() {
     let slow = calibrate().unwrap().map(|ns| 1000.0 * ns); // of a machine that is far slower
     let reference = Some(Reference { weights: Some(slow), ..Reference::default() });
     let (grid, ..) = two_blocks(GridOptions { reference, ..GridOptions::default() });
-    let options = |weights| SuggestOptions { model: CostModel::Reference, weights, ..SuggestOptions::default() };
+    let options = |weights| CellSizeOptions { model: CostModel::Reference, weights, ..CellSizeOptions::default() };
     let costs = [Some(slow), Some([0.0; 24]), None].map(|weights| {
         let of_meshes = suggest_cell_size(&meshes, options(weights)).unwrap();
         let of_grid = grid.suggest_cell_size(Some(options(weights))).unwrap();
-        (of_meshes.predicted_cost(), of_grid.predicted_cost())
+        (of_meshes.cost, of_grid.cost)
     });
     assert!(costs[0].0 > 10.0 * costs[1].0 && costs[0].1 > 10.0 * costs[1].1);
     assert_eq!(costs[2], (costs[1].0, costs[0].1)); // those shipped, those of the grid's engine
@@ -455,55 +458,55 @@ fn weights() {
 #[test]
 fn grids_of_others() {
     let (positions, tets) = block(4, 0.0);
-    let held = Primitives::tets(&positions, &tets);
+    let stored = Primitives::tets(&positions, &tets);
     let radii = vec![0.1f32; positions.len()];
-    let asking = Primitives::points(&positions).with_radii(&radii).unwrap().with_radius(0.2);
-    let grid = ForeignGrid { asking: Some(asking), ..ForeignGrid::new(KnownGrid::Hashed, held) };
-    let suggestion = suggest_for(&grid).unwrap();
-    let (low, high) = suggestion.zone();
-    assert!(low <= suggestion.cell_size() && suggestion.cell_size() <= high);
-    assert!((suggestion.raw().rules.radius - 0.3).abs() < 1e-6);
-    assert_eq!(suggestion.note().is_empty(), suggestion.warnings() == 0);
-    let unknown = suggest_for(&ForeignGrid::new(KnownGrid::Any, held)).unwrap();
-    assert_ne!(unknown.warnings() & voxtet::foreign_warning::WEIGHTS_UNKNOWN, 0);
-    assert!(!unknown.note().is_empty());
+    let querying = Primitives::points(&positions).with_radii(&radii).unwrap().with_radius(0.2);
+    let grid = ForeignGrid { querying: Some(querying), ..ForeignGrid::new(KnownGrid::Hashed, stored) };
+    let suggestion = grid.suggest().unwrap();
+    assert!(suggestion.zone_min <= suggestion.cell_size && suggestion.cell_size <= suggestion.zone_max);
+    let sum: f64 = suggestion.terms.iter().map(|term| term.cost).sum();
+    assert!((sum - suggestion.cost).abs() <= 1e-9 * sum);
+    assert!(suggestion.rules.iter().any(|rule| (rule.cell_size - 0.3).abs() < 1e-6 && rule.name.contains("radius")));
+    assert_eq!(suggestion.note.is_empty(), suggestion.warnings == 0);
+    let unknown = ForeignGrid::new(KnownGrid::None, stored).suggest().unwrap();
+    assert_ne!(unknown.warnings & voxtet::cell_size_warning::GUESSED_WEIGHTS, 0);
+    assert!(!unknown.note.is_empty());
 
     // A grid that takes as long as its counts say.
     let seconds = |size: f64| {
-        let work = count_for(&grid, size).unwrap();
-        1e-9 * (20.0 * work.entries + 9.0 * work.visits + 3.0 * work.reads)
+        let counts = grid.count(size).unwrap();
+        1e-9 * (20.0 * counts.stored + 9.0 * counts.visits + 3.0 * counts.reads)
     };
-    let timings = [0.3, 0.6, 1.2, 2.4].map(|size| (size, seconds(size)));
-    let fitted = fit(&grid, &timings).unwrap();
-    assert!(fitted.residual() < 0.02 && fitted.weights().entries > 0.0);
-    let mut sizes = Vec::new();
-    let run = |size| {
-        sizes.push(size);
-        seconds(size)
+    let timings = [0.3, 0.6, 1.2, 2.4].map(|cell_size| Timing { cell_size, seconds: seconds(cell_size) });
+    let fitted = grid.fit(&timings).unwrap();
+    assert!(fitted.fit_error < 0.02 && fitted.weights.store > 0.0);
+    let weighed = ForeignGrid { weights: fitted.weights, ..grid };
+    assert_eq!(weighed.suggest().unwrap().weights, fitted.weights);
+    let mut runs = Vec::new();
+    let run = |cell_size| {
+        runs.push(Timing { cell_size, seconds: seconds(cell_size) });
+        seconds(cell_size)
     };
-    let tuning = tune(Some(&grid), run, TuneOptions::default()).unwrap();
-    assert_eq!(tuning.runs().map(|(size, _)| size).collect::<Vec<_>>(), sizes);
-    assert!(seconds(tuning.cell_size()) <= 1.1 * seconds(fitted.cell_size()));
-    assert!(tuning.expected_loss() < 0.1 && tuning.curve().len() > 1);
+    let tuned = tune(Some(&grid), run, TuneOptions::default()).unwrap();
+    assert_eq!(tuned.timings, runs);
+    assert!(seconds(tuned.cell_size) <= 1.1 * seconds(fitted.cell_size));
+    assert!(tuned.expected_loss < 0.1 && tuned.curve.len() > 1);
 
     // What is wrong.
     let first = TuneOptions { first: 1.0, ..TuneOptions::default() };
     assert!(std::panic::catch_unwind(|| tune(None, |_| panic!("of a run"), first)).is_err());
     assert_eq!(code(tune(None, |_| 1.0, TuneOptions::default())), ErrorCode::InvalidArgument);
     assert_eq!(code(tune(None, |_| f64::INFINITY, first)), ErrorCode::InvalidState);
-    assert_eq!(code(fit(&grid, &timings[..2])), ErrorCode::InvalidArgument);
-    assert_eq!(code(count_for(&grid, f64::NAN)), ErrorCode::InvalidArgument);
-    assert_eq!(code(held.with_radii(&[1.0])), ErrorCode::InvalidArgument);
-    assert_eq!(
-        code(suggest_for(&ForeignGrid::new(KnownGrid::Any, Primitives::boxes::<f64>(&[])))),
-        ErrorCode::InvalidArgument
-    );
+    assert_eq!(code(grid.fit(&timings[..2])), ErrorCode::InvalidArgument);
+    assert_eq!(code(grid.count(f64::NAN)), ErrorCode::InvalidArgument);
+    assert_eq!(code(stored.with_radii(&[1.0])), ErrorCode::InvalidArgument);
+    let suggest = |stored| ForeignGrid::new(KnownGrid::None, stored).suggest();
+    assert_eq!(code(suggest(Primitives::boxes::<f64>(&[]))), ErrorCode::InvalidArgument);
     for wrong in [Primitives::edges(&positions, &[[0, 9999]]), Primitives::triangles(&positions, &[[0, 1, 9999]])] {
-        assert_eq!(code(suggest_for(&ForeignGrid::new(KnownGrid::Any, wrong))), ErrorCode::InvalidMesh);
+        assert_eq!(code(suggest(wrong)), ErrorCode::InvalidMesh);
     }
     let boxes = [[[0.0, 0.0, 0.0], [1.0, 1.0, f64::NAN]]];
-    let grid = ForeignGrid::new(KnownGrid::Any, Primitives::boxes(&boxes));
-    assert_eq!(code(suggest_for(&grid)), ErrorCode::NonFinite);
+    assert_eq!(code(suggest(Primitives::boxes(&boxes))), ErrorCode::NonFinite);
 }
 
 /// Calls with arguments at random: each succeeds or fails with a text, and the grid still steps.

@@ -3,9 +3,9 @@
 use serde_json::Value;
 use std::path::PathBuf;
 use voxtet::{
-    suggest_cell_size, CellContent, CellLook, ConstraintOptions, CostModel, DepthMethod, Filter, ForeignGrid, Grid,
-    GridOptions, GridWeights, KnownGrid, Locator, Mesh, MeshArrays, MeshOptions, Primitives, QueryOptions,
-    SuggestOptions, TuneOptions,
+    suggest_cell_size, CellSizeOptions, CellSizeResult, CellsKept, CellsQueried, CellsStored, ConstraintOptions,
+    CostModel, DepthMethod, Filter, ForeignGrid, ForeignWeights, Grid, GridOptions, KnownGrid, Locator, Mesh,
+    MeshArrays, MeshOptions, Primitives, QueryOptions, Timing, TuneOptions,
 };
 
 fn bytes_of<T: Copy>(items: &[T]) -> &[u8] {
@@ -190,7 +190,7 @@ impl Replay {
                 self.grid = Grid::load(bytes, GridOptions::default())?;
             }
             "suggest" => self.suggest(call)?,
-            "suggest_for" | "count_for" | "cost_fit" | "cost_tune" => self.foreign(name, call)?,
+            "foreign_suggest" | "foreign_count" | "foreign_fit" | "foreign_tune" => self.foreign(name, call)?,
             other => panic!("a call that is not known: {other}"),
         }
         Ok(())
@@ -246,19 +246,7 @@ impl Replay {
             })
             .collect();
         let meshes: Vec<MeshArrays> = arrays.iter().map(|(p, t)| MeshArrays::new(p, t)).collect();
-        let found = suggest_cell_size(&meshes, SuggestOptions { model, ..SuggestOptions::default() })?;
-        let (zone_min, zone_max) = found.zone();
-        check_near(
-            call,
-            &[
-                ("cell_size", found.cell_size()),
-                ("zone_min", zone_min),
-                ("zone_max", zone_max),
-                ("predicted_cost", found.predicted_cost()),
-                ("mean_edge", found.stats().mean_edge),
-                ("curve_count", found.curve().len() as f64),
-            ],
-        );
+        self.check_result(call, &suggest_cell_size(&meshes, CellSizeOptions { model, ..CellSizeOptions::default() })?);
         Ok(())
     }
 
@@ -285,9 +273,9 @@ impl Replay {
     }
 
     fn foreign(&self, name: &str, call: &Value) -> voxtet::Result<()> {
-        let [held, asking] = ["held", "asking"].map(|name| self.primitive_arrays(&call[name]));
+        let [stored, querying] = ["stored", "querying"].map(|name| self.primitive_arrays(&call[name]));
         let known = [
-            KnownGrid::Any,
+            KnownGrid::None,
             KnownGrid::Sorted,
             KnownGrid::Hashed,
             KnownGrid::Warp,
@@ -296,56 +284,44 @@ impl Replay {
             KnownGrid::Vtk,
             KnownGrid::Pbat,
         ];
-        let number = |name: &str| call[name].as_f64();
-        let grid = |held| ForeignGrid {
-            asking: call.get("asking").map(|value| asking.primitives(value)),
-            content: call["content"].as_u64().map(|n| [CellContent::Boxes, CellContent::Centres][n as usize]),
-            look: call["look"].as_u64().map(|n| [CellLook::Box, CellLook::Around, CellLook::Pairs][n as usize]),
-            dense: call["dense"].as_u64().map(|n| n == 1),
-            weights: call["weights"].as_array().map(|w| {
-                let [fixed, entries, visits, found, reads, occupied, cells] =
-                    std::array::from_fn(|i| w[i].as_f64().unwrap());
-                GridWeights { fixed, entries, visits, found, reads, occupied, cells }
-            }),
-            radius: number("radius").unwrap(),
-            least_cell_size: number("least_cell_size").unwrap(),
-            zone_loss: number("zone_loss").unwrap(),
-            ..ForeignGrid::new(known[call["known"].as_u64().unwrap() as usize], held)
-        };
-        let grid = call.get("held").map(|value| grid(held.primitives(value)));
+        let (cells_stored, cells_kept) = (
+            [CellsStored::Default, CellsStored::Box, CellsStored::Centre],
+            [CellsKept::Default, CellsKept::Occupied, CellsKept::Dense],
+        );
+        let cells_queried = [CellsQueried::Default, CellsQueried::Box, CellsQueried::Queried27, CellsQueried::Pairs];
+        let number = |name: &str| call[name].as_f64().unwrap();
+        let index = |name: &str| call[name].as_u64().unwrap() as usize;
+        let grid = call.get("stored").map(|value| {
+            let [run, store, visit, found, read, occupied, cell] =
+                std::array::from_fn(|i| call["weights"][i].as_f64().unwrap());
+            ForeignGrid {
+                cells_stored: cells_stored[index("cells_stored")],
+                cells_queried: cells_queried[index("cells_queried")],
+                cells_kept: cells_kept[index("cells_kept")],
+                querying: call.get("querying").map(|value| querying.primitives(value)),
+                radius: number("radius"),
+                min_cell_size: number("min_cell_size"),
+                zone_loss: number("zone_loss"),
+                weights: ForeignWeights { run, store, visit, found, read, occupied, cell },
+                ..ForeignGrid::new(known[index("known")], stored.primitives(value))
+            }
+        });
         match name {
-            "suggest_for" => {
-                let found = voxtet::suggest_for(&grid.unwrap())?;
-                self.check_answer(call, found.cell_size(), found.zone(), found.warnings(), found.note());
-                self.check(call, "rule", found.raw().rule.into());
-                self.check(call, "curve_count", found.curve().len().into());
-                check_near(
-                    call,
-                    &[
-                        ("predicted_cost", found.predicted_cost()),
-                        ("legal_cell_size", found.raw().least_cell_size),
-                        ("mean_box_side", found.raw().rules.mean_box_side),
-                        ("predicted_cost", found.terms().map(|(_, _, cost)| cost).sum()),
-                    ],
-                );
+            "foreign_suggest" => self.check_result(call, &grid.unwrap().suggest()?),
+            "foreign_count" => {
+                let counts = grid.unwrap().count(number("at"))?;
+                let found = [counts.stored, counts.visits, counts.empty, counts.reads, counts.occupied, counts.cells];
+                check_numbers(call, "counts", &found);
             }
-            "count_for" => {
-                let work = voxtet::count_for(&grid.unwrap(), number("at").unwrap())?;
-                let found = [work.entries, work.visits, work.empty, work.reads, work.occupied, work.cells];
-                found.iter().enumerate().for_each(|(i, &value)| check_number(&call["work"][i], value, call));
-            }
-            "cost_fit" => {
-                let timings: Vec<_> = call["timings"].as_array().unwrap().iter().map(pair_of).collect();
-                let found = voxtet::fit(&grid.unwrap(), &timings)?;
-                self.check_answer(call, found.cell_size(), found.zone(), found.warnings(), found.note());
-                self.check(call, "curve_count", found.curve().len().into());
-                check_near(call, &[("predicted_seconds", found.seconds())]);
+            "foreign_fit" => {
+                let timings: Vec<_> = call["timings"].as_array().unwrap().iter().map(timing_of).collect();
+                self.check_result(call, &grid.unwrap().fit(&timings)?);
             }
             _ => {
-                let [first, below] = ["first", "fails_below"].map(|name| number(name).unwrap());
+                let [first, below] = ["first", "fails_below"].map(number);
                 let [fixed, falls, grows]: [f64; 3] = std::array::from_fn(|i| call["run"][i].as_f64().unwrap());
-                let [most_runs, most] = ["most_runs", "stops_after"].map(|name| call[name].as_u64().unwrap());
-                let options = TuneOptions { first, most_runs: most_runs as u32, ..TuneOptions::default() };
+                let [max_runs, most] = ["max_runs", "stops_after"].map(index);
+                let options = TuneOptions { first, max_runs: max_runs as u32, ..TuneOptions::default() };
                 let mut runs = 0;
                 let run = |d: f64| {
                     runs += 1;
@@ -357,20 +333,28 @@ impl Replay {
                         fixed + falls / (d * d) + grows * (d * d)
                     }
                 };
-                let found = voxtet::tune(grid.as_ref(), run, options)?;
-                self.check_answer(call, found.cell_size(), found.zone(), found.warnings(), found.note());
-                check_near(call, &[("seconds", found.seconds())]);
-                assert_eq!(found.runs().len(), call["runs"].as_array().unwrap().len(), "{call}");
-                found.runs().enumerate().for_each(|(i, (size, _))| check_number(&call["runs"][i], size, call));
+                self.check_result(call, &voxtet::tune(grid.as_ref(), run, options)?);
             }
         }
         Ok(())
     }
 
-    fn check_answer(&self, call: &Value, cell_size: f64, zone: (f64, f64), warnings: u32, note: String) {
-        self.check(call, "warnings", warnings.into());
-        self.check(call, "note", note.into());
-        check_near(call, &[("cell_size", cell_size), ("zone_min", zone.0), ("zone_max", zone.1)]);
+    fn check_result(&self, call: &Value, found: &CellSizeResult) {
+        self.check(call, "curve_count", found.curve.len().into());
+        self.check(call, "term_count", found.terms.len().into());
+        self.check(call, "warnings", found.warnings.into());
+        self.check(call, "note", found.note.as_str().into());
+        for (name, value) in [
+            ("cell_size", found.cell_size),
+            ("zone_min", found.zone_min),
+            ("zone_max", found.zone_max),
+            ("cost", found.cost),
+            ("result_min_cell_size", found.min_cell_size),
+        ] {
+            check_number(&call[name], value, call);
+        }
+        check_numbers(call, "rules", &found.rules.iter().map(|rule| rule.cell_size).collect::<Vec<_>>());
+        check_numbers(call, "runs", &found.timings.iter().map(|timing| timing.cell_size).collect::<Vec<_>>());
     }
 }
 
@@ -404,14 +388,13 @@ fn check_number(expected: &Value, found: f64, call: &Value) {
     assert!((found - expected).abs() <= 1e-6 * expected.abs(), "{found}, expected {expected}: {call}");
 }
 
-fn check_near(call: &Value, found: &[(&str, f64)]) {
-    for &(name, value) in found {
-        check_number(&call[name], value, call);
-    }
+fn check_numbers(call: &Value, name: &str, found: &[f64]) {
+    assert_eq!(found.len(), call[name].as_array().unwrap().len(), "{name} of {call}");
+    found.iter().enumerate().for_each(|(i, &value)| check_number(&call[name][i], value, call));
 }
 
-fn pair_of(value: &Value) -> (f64, f64) {
-    (value[0].as_f64().unwrap(), value[1].as_f64().unwrap())
+fn timing_of(value: &Value) -> Timing {
+    Timing { cell_size: value[0].as_f64().unwrap(), seconds: value[1].as_f64().unwrap() }
 }
 
 fn u32_of(bytes: &[u8]) -> u32 {
