@@ -8,45 +8,19 @@
 #include <string.h>
 #include <vox/vox.h>
 
-#define GRID_COUNTS(X)                                                                                       \
-    X(meshes)                                                                                                \
-    X(vertices)                                                                                              \
-    X(tets)                                                                                                  \
-    X(cells)                                                                                                 \
-    X(entries)                                                                                               \
-    X(fullest_cell)                                                                                          \
-    X(visited_cells)                                                                                         \
-    X(visited_entries)                                                                                       \
-    X(candidates)                                                                                            \
-    X(exact_tests)                                                                                           \
-    X(contacts)                                                                                              \
-    X(skipped_degenerate)                                                                                    \
-    X(carried_contacts)                                                                                      \
-    X(penetrations)                                                                                          \
-    X(leaving_edges)                                                                                         \
-    X(edge_tests)                                                                                            \
-    X(closest_searches)                                                                                      \
-    X(closest_tests)                                                                                         \
-    X(disabled_meshes)                                                                                       \
-    X(filtered)                                                                                              \
-    X(cell_size_changes)                                                                                     \
-    X(unknown_penetrations)                                                                                  \
-    X(carried_penetrations)                                                                                  \
-    X(meshes_without_tets)                                                                                   \
-    X(edge_contacts)                                                                                         \
-    X(carried_edge_contacts)                                                                                 \
+/* clang-format off */
+#define GRID_COUNTS(X) \
+    X(meshes) X(vertices) X(tets) X(cells) X(entries) X(fullest_cell) X(visited_cells) \
+    X(visited_entries) X(candidates) X(exact_tests) X(contacts) X(skipped_degenerate) \
+    X(carried_contacts) X(penetrations) X(leaving_edges) X(edge_tests) X(closest_searches) \
+    X(closest_tests) X(disabled_meshes) X(filtered) X(cell_size_changes) X(unknown_penetrations) \
+    X(carried_penetrations) X(meshes_without_tets) X(edge_contacts) X(carried_edge_contacts) \
     X(edge_candidates) X(margin_contacts) X(carried_margin_contacts) X(passages) X(constraints)
-#define GRID_TIMES(X)                                                                                        \
-    X(step_ns)                                                                                               \
-    X(bin_ns)                                                                                                \
-    X(broad_ns)                                                                                              \
-    X(narrow_ns)                                                                                             \
-    X(contacts_ns)                                                                                           \
-    X(depth_ns)                                                                                              \
-    X(constraints_ns)                                                                                        \
-    X(pairs_ns)                                                                                              \
-    X(stream_ns)                                                                                             \
-    X(winding_ns) X(broad_phase_ns) X(windows_ns) X(lookup_ns) X(decide_ns) X(edges_ns) X(margin_ns)
+#define GRID_TIMES(X) \
+    X(step_ns) X(bin_ns) X(broad_ns) X(narrow_ns) X(contacts_ns) X(depth_ns) X(constraints_ns) \
+    X(pairs_ns) X(stream_ns) X(winding_ns) X(broad_phase_ns) X(windows_ns) X(lookup_ns) X(decide_ns) \
+    X(edges_ns) X(margin_ns)
+/* clang-format on */
 
 #define GRID_FIELD(name) uint64_t name;
 typedef struct grid_counts {

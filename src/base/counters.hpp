@@ -61,7 +61,7 @@ struct Profile {
     std::uint64_t bin_ns = 0;      // classify the vertices, recompute the boxes: stream + winding + windows
     std::uint64_t broad_ns = 0;    // cells and box tests: broad_phase + lookup
     std::uint64_t narrow_ns = 0;   // exact decisions: decide
-    std::uint64_t contacts_ns = 0; // canonical order, barycentric coordinates
+    std::uint64_t contacts_ns = 0; // canonical order
     std::uint64_t depth_ns = 0;    // penetrations
     std::uint64_t constraints_ns = 0; // what constraints take beside depth
     std::uint64_t pairs_ns = 0;       // which bodies touch

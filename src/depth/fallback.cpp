@@ -169,7 +169,7 @@ void Fallback::search_one(const Scene& scene, const Item& item, const SurfaceTre
     const bool found = tree && (!self         ? tree->find(p, SurfaceTree::no_vertex, state, closest)
                                 : is_crossing ? tree->find_in_part(p, hit.vertex, tet, state, closest)
                                               : tree->find_in_fold(p, hit.vertex, tet, state, closest));
-    // A reading of a vertex in its own mesh wants the point of the fold, which this one need not be.
+    // For a vertex in its own mesh it has to be the point of the fold, which this one need not be.
     if (found && !(self && is_crossing)) scene.penetrations.closest_of(item.place) = closest.at.triangle;
     Vec3d direction = found ? normalised(closest.way) : Vec3d{0, 0, 0};
     if (length(direction) > 0) return out.set(length(closest.way), direction);

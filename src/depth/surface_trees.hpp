@@ -1,5 +1,5 @@
-// The trees over surfaces that were searched, one for each such mesh, kept from step to step. The depth stage
-// and the readings of contacts share them.
+// The trees over surfaces that were searched, one for each such mesh, kept from step to step. Depths of
+// vertices and of edges share them.
 #pragma once
 
 #include "base/array.hpp"

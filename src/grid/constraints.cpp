@@ -8,6 +8,7 @@
 #include "depth/closest.hpp"
 #include "exact/point_location.hpp"
 #include "exact/predicates.hpp"
+#include "grid/pairs.hpp"
 #include "mesh/filter.hpp"
 
 #include <hwy/cache_control.h>
@@ -26,35 +27,11 @@ void write_vector(double (&out)[3], const Vec3d& v) noexcept {
     out[2] = v.z + 0.0;
 }
 
-// Of a contact of any kind of a vertex, in their order.
+// What contacts of a vertex are sorted by, whatever their kind.
 template <class Contact>
 auto place_of(const Contact& contact) noexcept {
     return std::tuple(contact.body_a, contact.vertex, contact.body_b);
 }
-
-// The index of the pair of two bodies. Calls with the same bodies follow each other as a rule.
-class PairIndex {
-public:
-    explicit PairIndex(std::span<const vox_pair> pairs) noexcept : pairs_(pairs) {}
-
-    std::size_t operator()(vox_body a, vox_body b) noexcept {
-        const IdPair pair{std::min(a, b), std::max(a, b)};
-        if (pair != last_) {
-            last_ = pair;
-            index_ = static_cast<std::size_t>(std::ranges::lower_bound(pairs_, pair, {},
-                                                                       [](const vox_pair& p) {
-                                                                           return IdPair{p.body_a, p.body_b};
-                                                                       }) -
-                                              pairs_.begin());
-        }
-        return index_;
-    }
-
-private:
-    std::span<const vox_pair> pairs_;
-    IdPair last_{};
-    std::size_t index_ = 0;
-};
 
 std::uint32_t body_index(std::span<const Body> bodies, vox_body id) noexcept {
     return static_cast<std::uint32_t>(std::ranges::lower_bound(bodies, id, {}, &Body::mesh_id) -
@@ -258,7 +235,7 @@ private:
 
 namespace {
 
-// Writes what a source has that is no vertex inside: stencil, normal, gap, state, element, time.
+// Writes stencil, normal, gap, state, element and time of a constraint that is not INSIDE.
 struct Writer {
     const ConstraintSources& from;
 
@@ -316,7 +293,7 @@ struct Writer {
 
 } // namespace
 
-// Those of one pair and kind that are neither vertices inside nor in another pair or kind.
+// The constraints of one pair and one kind other than INSIDE.
 void Constraints::write_others(const ConstraintSources& from, const Run& run, Previous& previous) noexcept {
     const Writer writer{from};
     const vox_pair& pair = from.pairs[run.pair];

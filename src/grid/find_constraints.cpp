@@ -117,19 +117,10 @@ void vox_grid::find_depths(const FoundDepths& wanted, Counters& counters) {
     std::span<const Hit> hits = hits_;
     if (!wanted.all) {
         chosen_hits_.clear();
-        const auto id_of = [](const vox_pair& pair) { return IdPair{pair.body_a, pair.body_b}; };
-        IdPair last{};
-        bool is_chosen = false;
-        for (std::size_t i = 0; i < contacts_.size(); ++i) {
-            const auto [low, high] = std::minmax(contacts_[i].body_a, contacts_[i].body_b);
-            if (const IdPair pair{low, high}; pair != last) {
-                last = pair;
-                is_chosen = chosen_pairs_[static_cast<std::size_t>(
-                                std::ranges::lower_bound(pairs, pair, {}, id_of) - pairs.begin())] != 0;
-            }
-            if (!is_chosen) continue;
-            chosen_hits_.push_back(hits_[i]);
-        }
+        PairIndex index(pairs);
+        for (std::size_t i = 0; i < contacts_.size(); ++i)
+            if (chosen_pairs_[index(contacts_[i].body_a, contacts_[i].body_b)])
+                chosen_hits_.push_back(hits_[i]);
         hits = chosen_hits_;
     }
     depths_ = {};
@@ -188,15 +179,12 @@ void vox_grid::make_constraints(const vox_constraint_desc& desc, bool in_step, C
 
 // The way out for the edges of the chosen pairs.
 void vox_grid::find_edge_depths() {
-    const std::span<const vox_pair> pairs = pairs_.pending();
+    PairIndex index(pairs_.pending());
     Array<EdgeBody>& bodies = edge_bodies_;
     bodies.clear();
     reserve_growing(bodies, 2 * edges_->pairs().size());
-    const auto id_of = [](const vox_pair& pair) { return IdPair{pair.body_a, pair.body_b}; };
     for (const IdPair& pair : edges_->pairs()) {
-        const auto at =
-            static_cast<std::size_t>(std::ranges::lower_bound(pairs, pair, {}, id_of) - pairs.begin());
-        if (!chosen_pairs_[at]) continue;
+        if (!chosen_pairs_[index(pair.body_a, pair.body_b)]) continue;
         for (const vox_body id : {pair.body_a, pair.body_b})
             bodies.push_back({bodies_[meshes_.find(id)->body], nullptr});
     }

@@ -37,8 +37,8 @@ void check_flags(std::uint32_t flags);
 
 } // namespace vox
 
-// What the public functions of a grid do; those of a mesh, of pairs, readings, queries and snapshots go on
-// from here to their own classes. Members that are not noexcept throw; one that throws has changed nothing
+// What the public functions of a grid do; those of a mesh, of pairs, queries and snapshots go on from here
+// to their own classes. Members that are not noexcept throw; one that throws has changed nothing
 // (for step, see vox_grid_step).
 struct vox_grid {
 public:
@@ -174,7 +174,7 @@ private:
     vox::FastEngine fast_engine_;
     vox::ReferenceEngine reference_;
     vox::Array<const vox::Topology*> topologies_; // of each body, for the depth stage
-    vox::depth::SurfaceTrees trees_;              // that depths and readings search
+    vox::depth::SurfaceTrees trees_;              // that depths search
     bool finds_constraints_;                      // every step does
     std::optional<vox::DepthStage> depth_;        // once depths were looked for
     vox::Array<vox::Hit> hits_;

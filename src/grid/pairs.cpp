@@ -82,14 +82,6 @@ std::span<const vox_pair> Pairs::all() const noexcept {
     return are_shown_ ? std::span<const vox_pair>(pairs_[current_]) : std::span<const vox_pair>();
 }
 
-std::span<const vox_pair> Pairs::of(std::span<const vox_body> bodies) const noexcept {
-    if (bodies.size() < 2) return all();
-    vox_pair wanted{};
-    std::tie(wanted.body_a, wanted.body_b) = std::minmax(bodies[0], bodies[1]);
-    const auto [first, last] = std::equal_range(all().begin(), all().end(), wanted, pair_before);
-    return {first, last};
-}
-
 void Pairs::count(Counters& counters) const noexcept {
     counters.total_touches_began = total_began_;
     counters.total_touches_ended = total_ended_;

@@ -8,6 +8,7 @@
 
 #include <vox/vox.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +21,29 @@ namespace vox {
 inline bool touches(const vox_pair& pair) noexcept {
     return pair.state == VOX_PAIR_BEGAN || pair.state == VOX_PAIR_PERSISTED;
 }
+
+// Finds pairs among those of a step. Calls with the same bodies follow each other as a rule.
+class PairIndex {
+public:
+    explicit PairIndex(std::span<const vox_pair> pairs) noexcept : pairs_(pairs) {}
+
+    // The index of the pair of two bodies, in either order. If there is none, that of the next one.
+    std::size_t operator()(vox_body a, vox_body b) noexcept {
+        const IdPair pair{std::min(a, b), std::max(a, b)};
+        if (pair != last_) {
+            last_ = pair;
+            const auto ids = [](const vox_pair& p) { return IdPair{p.body_a, p.body_b}; };
+            index_ =
+                static_cast<std::size_t>(std::ranges::lower_bound(pairs_, pair, {}, ids) - pairs_.begin());
+        }
+        return index_;
+    }
+
+private:
+    std::span<const vox_pair> pairs_;
+    IdPair last_{};
+    std::size_t index_ = 0;
+};
 
 class Pairs {
 public:
@@ -56,23 +80,11 @@ public:
     std::span<const vox_pair> all() const noexcept;
     // Their contacts, as vox_pair_view.contacts.
     const std::uint32_t* contacts() const noexcept { return by_pair_.data(); }
-    std::span<const std::uint32_t> contacts_of(const vox_pair& pair) const noexcept {
-        return {contacts() + pair.first_contact, static_cast<std::size_t>(pair.contact_count)};
-    }
-    // Calls visit(pair) for all pairs, in order, those of one body, or that of two bodies.
-    template <class Visit>
-    void for_pairs_of(std::span<const vox_body> bodies, Visit&& visit) const {
-        for (const vox_pair& pair : of(bodies))
-            if (bodies.empty() || pair.body_a == bodies[0] || pair.body_b == bodies[0]) visit(pair);
-    }
     // Sets total_touches_began and total_touches_ended.
     void count(Counters& counters) const noexcept;
 
 private:
     friend class Snapshot;
-
-    // The pair of two bodies, in either order; all pairs where less are given.
-    std::span<const vox_pair> of(std::span<const vox_body> bodies) const noexcept;
 
     Array<vox_pair>& next() noexcept { return pairs_[1 - current_]; }
     void compare();

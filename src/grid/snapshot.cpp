@@ -177,7 +177,7 @@ void Snapshot::save_pairs(const vox_grid& grid, SnapshotWriter& out) {
     out.end_chunk();
 }
 
-// The id of a mesh that is in the grid or was: events end pairs of meshes that were removed.
+// The id of a mesh that is in the grid or was: pairs of meshes that were removed end in the next step.
 vox_body Snapshot::mesh_that_was(SnapshotChunk& in, const vox_grid& grid) {
     const vox_body id = in.u32();
     const std::uint32_t slot = slot_of(id), generation = generation_of(id);

@@ -1,5 +1,5 @@
-// Neighbours of vertices, tetrahedra across facets, and the surface of a mesh, for depths, queries and
-// readings. Positions play no part in it. Made once, and repaired where the mesh is edited.
+// Neighbours of vertices, tetrahedra across facets, and the surface of a mesh, for depths and queries.
+// Positions play no part in it. Made once, and repaired where the mesh is edited.
 //
 // Tetrahedra that name a vertex twice have no edges and facets, and doubled ones count once.
 #pragma once
