@@ -7,6 +7,7 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/prefetch.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -44,6 +45,10 @@ public:
     // The place of a number, or none.
     std::uint32_t operator[](std::uint32_t number) const noexcept {
         return find(number, [] {});
+    }
+    // Ahead of add().
+    void prefetch(std::uint32_t number) const noexcept {
+        if (!slots_.empty()) vox::prefetch(&slots_[hash(number)]);
     }
     // How many slots and nodes that takes.
     std::uint32_t probes(std::uint32_t number) const noexcept {

@@ -3,12 +3,11 @@
 // and why.
 #include "depth/consistent.hpp"
 
+#include "base/prefetch.hpp"
 #include "base/vectors.hpp"
 #include "depth/closest.hpp"
 #include "depth/walks.hpp"
 #include "exact/predicates.hpp"
-
-#include <hwy/cache_control.h>
 
 #include <algorithm>
 #include <array>
@@ -188,10 +187,9 @@ void Stages::prefetch_links(std::size_t next) const {
     const VertexLinks& links = pair_.topology_a->links;
     if (links.empty()) return;
     const std::span<const std::uint32_t> places = pair_.places;
-    if (next + places_ahead < places.size())
-        hwy::Prefetch(links.place_of(vertex_at(places[next + places_ahead])));
+    if (next + places_ahead < places.size()) prefetch(links.place_of(vertex_at(places[next + places_ahead])));
     if (next + records_ahead < places.size())
-        hwy::Prefetch(links.record_of(vertex_at(places[next + records_ahead])));
+        prefetch(links.record_of(vertex_at(places[next + records_ahead])));
 }
 
 // The same for points in the queue.
@@ -200,11 +198,11 @@ void Stages::prefetch_queued(std::size_t next) const {
     const VertexLinks& links = pair_.topology_a->links;
     if (next + points_ahead < queued_) {
         const std::uint32_t place = waves_[queue_[next + points_ahead]].place;
-        hwy::Prefetch(&penetrations_.of(place));
-        hwy::Prefetch(&penetrations_.depth_of(place));
+        prefetch(&penetrations_.of(place));
+        prefetch(&penetrations_.depth_of(place));
     }
-    if (next + places_ahead < queued_) hwy::Prefetch(links.place_of(queue_[next + places_ahead]));
-    if (next + records_ahead < queued_) hwy::Prefetch(links.record_of(queue_[next + records_ahead]));
+    if (next + places_ahead < queued_) prefetch(links.place_of(queue_[next + places_ahead]));
+    if (next + records_ahead < queued_) prefetch(links.record_of(queue_[next + records_ahead]));
 }
 
 // The first wave is made of the points with an edge that leads out.

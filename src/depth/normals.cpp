@@ -7,6 +7,7 @@
 // and the sum is the same for each.
 #include "depth/normals.hpp"
 
+#include "base/prefetch.hpp"
 #include "base/simd.hpp"
 #include "base/vectors.hpp"
 
@@ -16,8 +17,6 @@
 #undef VOX_SOURCE
 #define VOX_SOURCE "depth/normals.cpp"
 #include "base/each_target.hpp"
-
-#include <hwy/cache_control.h>
 
 #ifndef VOX_DEPTH_NORMALS_ONCE
 #define VOX_DEPTH_NORMALS_ONCE
@@ -160,7 +159,7 @@ void Normals::prepare(std::span<const std::uint32_t> triangles) {
         if (asked_places_.add(triangle) < asked_.size()) continue;
         Asked& asked = asked_.emplace_back();
         asked.face = add_face(triangle);
-        for (const std::uint32_t v : faces_[asked.face].v) hwy::Prefetch(solid_.topology->links.place_of(v));
+        for (const std::uint32_t v : faces_[asked.face].v) prefetch(solid_.topology->links.place_of(v));
     }
     if (first_asked == asked_.size()) return;
     list_rings(first_asked);
@@ -178,7 +177,10 @@ void Normals::prepare(std::span<const std::uint32_t> triangles) {
 void Normals::list_rings(std::size_t first_asked) {
     const Topology& topology = *solid_.topology;
     for (std::size_t i = first_asked; i < asked_.size(); ++i)
-        for (const std::uint32_t v : faces_[asked_[i].face].v) hwy::Prefetch(topology.links.record_of(v));
+        for (const std::uint32_t v : faces_[asked_[i].face].v) {
+            prefetch(topology.links.record_of(v));
+            ring_places_.prefetch(v);
+        }
     const std::size_t first_ring = rings_.size();
     for (std::size_t i = first_asked; i < asked_.size(); ++i)
         for (std::size_t c = 0; c < 3; ++c) {
@@ -188,7 +190,8 @@ void Normals::list_rings(std::size_t first_asked) {
             const auto first = static_cast<std::uint32_t>(ring_faces_.size());
             for (const std::uint32_t triangle : topology.ring_of(v)) {
                 ring_faces_.push_back(triangle); // its place comes later
-                hwy::Prefetch(&topology.triangles[triangle]);
+                prefetch(&topology.triangles[triangle]);
+                face_places_.prefetch(triangle);
             }
             rings_.push_back({first, static_cast<std::uint32_t>(ring_faces_.size()), false, false, {}});
         }

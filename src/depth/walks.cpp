@@ -3,6 +3,7 @@
 // wait for memory at the same time. What has an index in it (which tetrahedron, which facet) is plain code.
 #include "depth/walks.hpp"
 
+#include "base/prefetch.hpp"
 #include "base/simd.hpp"
 #include "base/vectors.hpp"
 
@@ -13,8 +14,6 @@
 #undef VOX_SOURCE
 #define VOX_SOURCE "depth/walks.cpp"
 #include "base/each_target.hpp"
-
-#include <hwy/cache_control.h>
 
 #ifndef VOX_DEPTH_WALKS_ONCE
 #define VOX_DEPTH_WALKS_ONCE
@@ -363,7 +362,7 @@ public:
 
     WalkGroup(const Solid& solid, std::span<Walk> walks)
         : solid_(solid), topology_(*solid.topology), walks_(walks) {
-        for (const Walk& walk : walks_) prefetch(walk.tet);
+        for (const Walk& walk : walks_) prefetch_start(walk.tet);
         for (std::size_t i = 0; i < walks_.size(); ++i) begin(i);
         // Whole registers are computed, so the last one is filled up.
         for (std::size_t i = walks_.size(); i % walk_lanes; ++i) set_segment(i, walks_.back());
@@ -404,9 +403,9 @@ private:
         std::uint64_t remember_at;
     };
 
-    void prefetch(std::uint32_t tet) const {
-        hwy::Prefetch(&solid_.tets[tet]);
-        hwy::Prefetch(topology_.across.place_of(tet));
+    void prefetch_start(std::uint32_t tet) const {
+        prefetch(&solid_.tets[tet]);
+        prefetch(topology_.across.place_of(tet));
     }
 
     void set_segment(std::size_t i, const Walk& walk) {
@@ -436,9 +435,9 @@ private:
         trail.behind = behind;
         trail.across = topology_.across(trail.tet, facet);
         if (trail.across & Topology::surface_bit)
-            hwy::Prefetch(topology_.triangles.data() + (trail.across & ~Topology::surface_bit));
+            prefetch(topology_.triangles.data() + (trail.across & ~Topology::surface_bit));
         else
-            hwy::Prefetch(&solid_.tets[trail.across]);
+            prefetch(&solid_.tets[trail.across]);
     }
 
     // Whether the walk goes on in the tetrahedron across the gate.
@@ -466,7 +465,7 @@ private:
                                                      block.gate[2].vertex[lane]);
         set_lane(block.corner[0], lane, solid_, v[0] ^ v[1] ^ v[2] ^ v[3] ^ gate);
         trail.tet = trail.across;
-        hwy::Prefetch(topology_.across.place_of(trail.tet));
+        prefetch(topology_.across.place_of(trail.tet));
         return true;
     }
 

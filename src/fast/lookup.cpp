@@ -4,6 +4,7 @@
 // that are left in single precision (narrow-inl.hpp).
 #include "fast/lookup.hpp"
 #include "base/array.hpp"
+#include "base/prefetch.hpp"
 #include "base/simd.hpp"
 
 #include <algorithm>
@@ -11,8 +12,6 @@
 #undef VOX_SOURCE
 #define VOX_SOURCE "fast/lookup.cpp"
 #include "base/each_target.hpp"
-
-#include <hwy/cache_control.h>
 
 #include "base/lanes-inl.hpp"
 #include "fast/narrow-inl.hpp"
@@ -272,7 +271,7 @@ HWY_INLINE std::uint32_t Fetch(TileWork& w, const Source& source, bool own, std:
 
 HWY_INLINE void PrefetchRange(const void* from, std::size_t bytes) {
     const char* line = static_cast<const char*>(from);
-    for (std::size_t i = 0; i < bytes; i += 64) hwy::Prefetch(line + i);
+    for (std::size_t i = 0; i < bytes; i += 64) prefetch(line + i);
 }
 
 // What is read of the tile when it has candidates arrives in the cache while those are fetched.

@@ -3,6 +3,7 @@
 #include "grid/constraints.hpp"
 
 #include "base/parallel.hpp"
+#include "base/prefetch.hpp"
 #include "base/room.hpp"
 #include "base/vectors.hpp"
 #include "depth/closest.hpp"
@@ -10,8 +11,6 @@
 #include "exact/predicates.hpp"
 #include "grid/pairs.hpp"
 #include "mesh/filter.hpp"
-
-#include <hwy/cache_control.h>
 
 #include <algorithm>
 #include <numeric>
@@ -36,6 +35,21 @@ auto place_of(const Contact& contact) noexcept {
 std::uint32_t body_index(std::span<const Body> bodies, vox_body id) noexcept {
     return static_cast<std::uint32_t>(std::ranges::lower_bound(bodies, id, {}, &Body::mesh_id) -
                                       bodies.begin());
+}
+
+// The body_a of a constraint of a kind.
+vox_body body_a(const ConstraintSources& from, vox_constraint_kind kind, std::uint32_t source) noexcept {
+    switch (kind) {
+    case VOX_CONSTRAINT_EDGE:
+        return from.edges[source].body_a;
+    case VOX_CONSTRAINT_PROXIMITY:
+        return from.margin_contacts[source].body_a;
+    case VOX_CONSTRAINT_IMPACT:
+        return from.impacts[source].body_a;
+    default:
+        return from.penetrations ? from.penetrations->all()[source].body_a
+                                 : from.bodies[from.hits[source].body_a].mesh_id;
+    }
 }
 
 // When a vertex inside met the surface; 1 if that is not known.
@@ -98,8 +112,8 @@ void Constraints::begin_step(bool last_succeeded) noexcept {
 Constraints::Key Constraints::key_of(const vox_constraint& c) noexcept {
     Key key{c.body_a, {c.vertices[0], 0, 0, 0, 0}};
     if (c.kind != VOX_CONSTRAINT_EDGE) return key;
-    std::copy(c.vertices, c.vertices + 5, key.vertices.begin());
-    std::sort(key.vertices.begin() + 2, key.vertices.end());
+    std::copy(c.vertices, c.vertices + 5, key.vertices);
+    std::sort(key.vertices + 2, key.vertices + 5);
     return key;
 }
 
@@ -293,35 +307,26 @@ struct Writer {
 
 } // namespace
 
-// The constraints of one pair and one kind other than INSIDE.
+// The constraints of one pair and one kind other than INSIDE, in one direction.
 void Constraints::write_others(const ConstraintSources& from, const Run& run, Previous& previous) noexcept {
     const Writer writer{from};
-    const vox_pair& pair = from.pairs[run.pair];
-    const Body* const bodies[2] = {&from.bodies[body_index(from.bodies, pair.body_a)],
-                                   &from.bodies[body_index(from.bodies, pair.body_b)]};
     for (std::size_t i = run.begin; i < run.end; ++i) {
         const std::uint32_t source = sources_[i];
         vox_constraint& c = constraints_[i];
         c = {};
         c.weights[0] = 1;
-        vox_body id_a = VOX_NULL_BODY;
-        if (run.kind == VOX_CONSTRAINT_EDGE) {
+        if (run.kind == VOX_CONSTRAINT_EDGE)
             writer.write_edge(source, c);
-            id_a = from.edges[source].body_a;
-        } else if (run.kind == VOX_CONSTRAINT_PROXIMITY) {
+        else if (run.kind == VOX_CONSTRAINT_PROXIMITY)
             writer.write_proximity(source, c);
-            id_a = from.margin_contacts[source].body_a;
-        } else {
+        else
             writer.write_impact(source, c);
-            id_a = from.impacts[source].body_a;
-        }
-        const bool swapped = id_a != pair.body_a;
-        write_pair(run, pair, swapped, c);
+        write_pair(run, c);
         write_vector(c.normal, vector_of(c.normal));
         c.previous = previous.find(run.kind, keys_[i] = key_of(c));
         double sum = 0;
         for (std::uint32_t v = 0; v < c.count; ++v) {
-            const Vec3d x = bodies[swapped == (v < c.count_a)]->positions.exact(c.vertices[v]);
+            const Vec3d x = (v < c.count_a ? run.a : run.b).positions.exact(c.vertices[v]);
             if (v == 0 && run.kind != VOX_CONSTRAINT_EDGE) write_vector(c.position, x);
             sum += c.weights[v] * dot(vector_of(c.normal), x);
         }
@@ -330,11 +335,11 @@ void Constraints::write_others(const ConstraintSources& from, const Run& run, Pr
     }
 }
 
-void Constraints::write_pair(const Run& run, const vox_pair& pair, bool swapped, vox_constraint& c) noexcept {
-    c.body_a = swapped ? pair.body_b : pair.body_a;
-    c.body_b = swapped ? pair.body_a : pair.body_b;
-    c.user_data_a = swapped ? pair.user_data_b : pair.user_data_a;
-    c.user_data_b = swapped ? pair.user_data_a : pair.user_data_b;
+void Constraints::write_pair(const Run& run, vox_constraint& c) noexcept {
+    c.body_a = run.a.mesh_id;
+    c.body_b = run.b.mesh_id;
+    c.user_data_a = run.a.user_data;
+    c.user_data_b = run.b.user_data;
     c.kind = run.kind;
     c.pair = run.pair;
 }
@@ -343,30 +348,30 @@ void Constraints::write_pair(const Run& run, const vox_pair& pair, bool swapped,
 
 // A block at a time: gather the points and the corners of their tetrahedra, weigh them, write.
 void Constraints::write_inside(const ConstraintSources& from, const Run& run, Previous& previous) noexcept {
+    // Copies, which need no second look after each write.
+    const Positions points = run.a.positions, corners = run.b.positions;
+    const std::span<const Tet> tets = run.b.tets;
+    const std::span<const Hit> hits = from.hits;
+    const std::span<const Penetration> penetrations =
+        from.penetrations ? from.penetrations->all() : std::span<const Penetration>{};
+    const std::span<const Depth> depths =
+        from.penetrations ? from.penetrations->depths() : std::span<const Depth>{};
+    const std::span<const std::uint32_t> sources(sources_);
     const auto hit_of = [&](std::size_t i) -> const Hit& {
-        const std::uint32_t source = sources_[i];
-        return from
-            .hits[from.penetrations ? static_cast<std::size_t>(from.penetrations->all()[source].contact)
-                                    : source];
+        return hits[penetrations.empty() ? sources[i]
+                                         : static_cast<std::size_t>(penetrations[sources[i]].contact)];
     };
     // Tetrahedra and positions are anywhere in memory, and waiting for them takes longer than the arithmetic.
     // Far enough ahead to hide that, and near enough that nothing is evicted before its use.
     constexpr std::size_t tets_ahead = 32, positions_ahead = 16;
-    const auto prefetch = [&](std::size_t i) {
-        if (i + tets_ahead < run.end) {
-            const Hit& later = hit_of(i + tets_ahead);
-            hwy::Prefetch(from.bodies[later.body_b].tets.data() + later.tet);
-        }
+    const auto prefetch_after = [&](std::size_t i) {
+        if (i + tets_ahead < run.end) prefetch(&tets[hit_of(i + tets_ahead).tet]);
         if (i + positions_ahead < run.end) {
             const Hit& later = hit_of(i + positions_ahead);
-            const Body &a = from.bodies[later.body_a], &b = from.bodies[later.body_b];
-            hwy::Prefetch(a.positions.data + later.vertex * a.positions.byte_stride);
-            for (const std::uint32_t v : b.tets[later.tet].v)
-                hwy::Prefetch(b.positions.data + v * b.positions.byte_stride);
+            prefetch(points.data + later.vertex * points.byte_stride);
+            for (const std::uint32_t v : tets[later.tet].v) prefetch(corners.data + v * corners.byte_stride);
         }
     };
-    const vox_pair& pair = from.pairs[run.pair];
-    const std::uint32_t lower = body_index(from.bodies, pair.body_a);
     PointBlock block;
     WeightBlock weights;
     for (std::size_t begin = run.begin; begin < run.end; begin += point_block) {
@@ -377,12 +382,10 @@ void Constraints::write_inside(const ConstraintSources& from, const Run& run, Pr
             to[2][i] = x.z;
         };
         for (std::size_t i = 0; i < count; ++i) {
-            prefetch(begin + i);
+            prefetch_after(begin + i);
             const Hit& hit = hit_of(begin + i);
-            const Body& b = from.bodies[hit.body_b];
-            put(block.point, i, from.bodies[hit.body_a].positions.exact(hit.vertex));
-            for (std::size_t c = 0; c < 4; ++c)
-                put(block.corner[c], i, b.positions.exact(b.tets[hit.tet].v[c]));
+            put(block.point, i, points.exact(hit.vertex));
+            for (std::size_t c = 0; c < 4; ++c) put(block.corner[c], i, corners.exact(tets[hit.tet].v[c]));
         }
         for (std::size_t i = count; i % 8; ++i) { // whole registers are computed
             put(block.point, i, {0, 0, 0});
@@ -391,40 +394,38 @@ void Constraints::write_inside(const ConstraintSources& from, const Run& run, Pr
         weigh(block, count, weights);
         for (std::size_t i = 0; i < count; ++i) {
             const Hit& hit = hit_of(begin + i);
-            const Body &a = from.bodies[hit.body_a], &b = from.bodies[hit.body_b];
             vox_constraint& c = constraints_[begin + i];
-            write_pair(run, pair, hit.body_a != lower, c);
-            c.state = VOX_DEPTH_UNKNOWN;
+            write_pair(run, c);
             c.count_a = 1;
             c.count = 5;
             c.vertices[0] = hit.vertex;
             c.weights[0] = 1;
             for (std::size_t k = 0; k < 4; ++k) {
-                c.vertices[1 + k] = b.tets[hit.tet].v[k];
+                c.vertices[1 + k] = tets[hit.tet].v[k];
                 c.weights[1 + k] = -weights.weight[k][i];
             }
             c.element_b = hit.tet;
             const Vec3d p{block.point[0][i], block.point[1][i], block.point[2][i]};
             write_vector(c.position, p);
-            c.time = from.passages.empty() ? 1 : time_of(from.passages, a.mesh_id, hit.vertex, b.mesh_id);
-            const Key& key = keys_[begin + i] = {c.body_a, {hit.vertex, 0, 0, 0, 0}};
+            c.time = from.passages.empty() ? 1 : time_of(from.passages, c.body_a, hit.vertex, c.body_b);
+            const Key key = keys_[begin + i] = {c.body_a, {hit.vertex, 0, 0, 0, 0}};
             c.previous = previous.find(VOX_CONSTRAINT_INSIDE, key);
             c.reserved = 0;
+            c.state = VOX_DEPTH_UNKNOWN;
             Vec3d normal{0, 0, 0};
             c.gap = 0;
-            if (from.penetrations) {
-                const std::uint32_t source = sources_[begin + i];
-                const Depth& depth = from.penetrations->depths()[source];
-                c.state = from.penetrations->all()[source].state;
-                c.gap = depth.depth > 0 ? -depth.depth : 0;
-                normal = depth.way_out();
+            if (!penetrations.empty()) {
+                const std::uint32_t source = sources[begin + i];
+                c.state = penetrations[source].state;
+                c.gap = depths[source].depth > 0 ? -depths[source].depth : 0;
+                normal = depths[source].way_out();
             }
             write_vector(c.normal, normal);
             c.offset = c.gap + dot(normal, Vec3d{weights.miss[0][i], weights.miss[1][i], weights.miss[2][i]});
             if (!from.closest || c.state == VOX_DEPTH_UNKNOWN) continue;
-            const std::uint32_t triangle = from.penetrations->closest()[sources_[begin + i]];
+            const std::uint32_t triangle = from.penetrations->closest()[sources[begin + i]];
             if (triangle != no_triangle)
-                write_triangle({from.topologies[hit.body_b], b.tets, b.positions}, triangle, p, c);
+                write_triangle({from.topologies[hit.body_b], tets, corners}, triangle, p, c);
         }
     }
 }
@@ -439,15 +440,26 @@ void Constraints::write(const ConstraintSources& from, std::size_t begin, std::s
         std::upper_bound(first.begin(), first.end(), static_cast<std::uint32_t>(begin)) - first.begin() - 1);
     while (begin < end) {
         while (first[bucket + 1] <= begin) ++bucket;
-        const Run run{static_cast<std::uint32_t>(bucket / kinds),
-                      static_cast<vox_constraint_kind>(bucket % kinds), begin,
-                      std::min<std::size_t>(end, first[bucket + 1])};
-        previous.begin(ranges_.pairs[run.pair]);
-        if (run.kind == VOX_CONSTRAINT_INSIDE)
-            write_inside(from, run, previous);
-        else
-            write_others(from, run, previous);
-        begin = run.end;
+        const auto kind = static_cast<vox_constraint_kind>(bucket % kinds);
+        const IdPair pair = ranges_.pairs[bucket / kinds];
+        const Body* a = &from.bodies[body_index(from.bodies, pair.body_a)];
+        const Body* b = &from.bodies[body_index(from.bodies, pair.body_b)];
+        const std::size_t end_of_both = std::min<std::size_t>(end, first[bucket + 1]);
+        // As body_a ascends, the constraints in one direction come before those in the other.
+        const auto turn = static_cast<std::size_t>(
+            std::partition_point(sources_.begin() + begin, sources_.begin() + end_of_both,
+                                 [&](std::uint32_t s) { return body_a(from, kind, s) == pair.body_a; }) -
+            sources_.begin());
+        previous.begin(pair);
+        for (const std::size_t end_of_run : {turn, end_of_both}) {
+            const Run run{static_cast<std::uint32_t>(bucket / kinds), kind, *a, *b, begin, end_of_run};
+            if (kind == VOX_CONSTRAINT_INSIDE)
+                write_inside(from, run, previous);
+            else
+                write_others(from, run, previous);
+            begin = end_of_run;
+            std::swap(a, b);
+        }
     }
 }
 

@@ -68,7 +68,7 @@ private:
     // What makes two constraints the same: the vertex, or the edge and the sorted face.
     struct Key {
         vox_body body_a;
-        std::array<std::uint32_t, 5> vertices;
+        std::uint32_t vertices[5]; // an array of the library's would be compared by a call
 
         auto operator<=>(const Key&) const = default;
     };
@@ -86,15 +86,16 @@ private:
     static void for_each(const ConstraintSources& sources, Visit&& visit);
     void make_room(std::size_t count, std::size_t pairs);
     void list(const ConstraintSources& sources);
-    struct Run { // constraints of one pair and kind
+    struct Run { // constraints of one pair and kind, all of them of a with b
         std::uint32_t pair;
         vox_constraint_kind kind;
+        const Body &a, &b;
         std::size_t begin, end;
     };
     void write(const ConstraintSources& sources, std::size_t begin, std::size_t end) noexcept;
     void write_inside(const ConstraintSources& sources, const Run& run, Previous& previous) noexcept;
     void write_others(const ConstraintSources& sources, const Run& run, Previous& previous) noexcept;
-    static void write_pair(const Run& run, const vox_pair& pair, bool swapped, vox_constraint& c) noexcept;
+    static void write_pair(const Run& run, vox_constraint& c) noexcept;
 
     Array<vox_constraint> constraints_;
     Array<std::uint64_t> pair_offsets_;

@@ -1,11 +1,10 @@
 #include "surface/lane_lists.hpp"
+#include "base/prefetch.hpp"
 #include "base/simd.hpp"
 
 #undef VOX_SOURCE
 #define VOX_SOURCE "surface/lane_lists.cpp"
 #include "base/each_target.hpp"
-
-#include <hwy/cache_control.h>
 
 #include "base/compress-inl.hpp"
 
@@ -72,7 +71,7 @@ void Write(const std::uint64_t* HWY_RESTRICT words, std::size_t blocks,
            const std::uint32_t* HWY_RESTRICT partners, std::uint32_t* const* HWY_RESTRICT lists,
            const std::uint32_t* HWY_RESTRICT counts) {
     for (std::size_t lane = 0; lane < partners_a_block; ++lane) // they lie anywhere
-        if (lists[lane]) hwy::Prefetch(lists[lane]);
+        if (lists[lane]) prefetch(lists[lane]);
     for (std::size_t lane = 0; lane < partners_a_block; ++lane)
         if (lists[lane]) WriteList(words + lane, blocks, partners, lists[lane], counts[lane]);
 }
