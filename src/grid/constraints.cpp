@@ -37,19 +37,14 @@ std::uint32_t body_index(std::span<const Body> bodies, vox_body id) noexcept {
                                       bodies.begin());
 }
 
-// The body_a of a constraint of a kind.
-vox_body body_a(const ConstraintSources& from, vox_constraint_kind kind, std::uint32_t source) noexcept {
-    switch (kind) {
-    case VOX_CONSTRAINT_EDGE:
-        return from.edges[source].body_a;
-    case VOX_CONSTRAINT_PROXIMITY:
-        return from.margin_contacts[source].body_a;
-    case VOX_CONSTRAINT_IMPACT:
-        return from.impacts[source].body_a;
-    default:
-        return from.penetrations ? from.penetrations->all()[source].body_a
-                                 : from.bodies[from.hits[source].body_a].mesh_id;
-    }
+void write_pair(const Body& a, const Body& b, vox_constraint_kind kind, std::uint32_t pair,
+                vox_constraint& c) noexcept {
+    c.body_a = a.mesh_id;
+    c.body_b = b.mesh_id;
+    c.user_data_a = a.user_data;
+    c.user_data_b = b.user_data;
+    c.kind = kind;
+    c.pair = pair;
 }
 
 // When a vertex inside met the surface; 1 if that is not known.
@@ -90,22 +85,15 @@ void write_triangle(const depth::Solid& solid, std::uint32_t index, const Vec3d&
 } // namespace
 
 Constraints::Constraints(std::pmr::memory_resource* memory)
-    : constraints_(memory), pair_offsets_(memory), ranges_(memory), sources_(memory), place_(memory),
-      keys_(memory), last_ranges_(memory), last_keys_(memory) {}
+    : now_(memory), last_(memory), pair_offsets_(memory), sources_(memory), listed_(memory), place_(memory) {}
 
 void Constraints::clear(bool all) noexcept {
     found_ = false; // the list keeps its size, as setting it again would fill it with zeros
-    if (!all) return;
-    last_ranges_.pairs.clear();
-    last_ranges_.first.clear();
-    last_keys_.clear();
+    if (all) last_.pairs.clear();
 }
 
 void Constraints::begin_step(bool last_succeeded) noexcept {
-    if (found_) {
-        keys_.swap(last_keys_);
-        std::swap(ranges_, last_ranges_);
-    }
+    if (found_) std::swap(now_, last_);
     clear(!found_ && last_succeeded);
 }
 
@@ -119,14 +107,14 @@ Constraints::Key Constraints::key_of(const vox_constraint& c) noexcept {
 
 // With room for a few more, so that a few more in a later step allocate nothing.
 void Constraints::make_room(std::size_t count, std::size_t pairs) {
-    reserve_sparingly(constraints_, count);
     reserve_sparingly(sources_, count);
-    for (Array<Key>* keys : {&keys_, &last_keys_}) reserve_sparingly(*keys, count);
+    reserve_sparingly(listed_, count);
     reserve_growing(place_, kinds * pairs);
     reserve_growing(pair_offsets_, pairs + 1);
-    for (Ranges* ranges : {&ranges_, &last_ranges_}) {
-        reserve_growing(ranges->pairs, pairs);
-        reserve_growing(ranges->first, kinds * pairs + 1);
+    for (List* list : {&now_, &last_}) {
+        reserve_sparingly(list->all, count);
+        reserve_growing(list->pairs, pairs);
+        reserve_growing(list->first, kinds * pairs + 1);
     }
 }
 
@@ -136,14 +124,21 @@ void Constraints::reserve(std::size_t body_count, std::size_t contact_count) {
 
 // ---- where they come from --------------------------------------------------------------------------
 
-// Calls visit(pair, kind, source) for each constraint, and for those of one pair and kind in order.
-template <class Visit>
-void Constraints::for_each(const ConstraintSources& from, Visit&& visit) {
-    PairIndex index(from.pairs);
+// Where constraints come from, kind by kind.
+void Constraints::list(const ConstraintSources& from) {
+    place_.assign(kinds * from.pairs.size(), 0);
+    listed_.clear();
+    reserve_sparingly(listed_, from.hits.size() + from.edges.size() + from.margin_contacts.size() +
+                                   from.impacts.size());
+    reserve_growing(now_.pairs, from.pairs.size()); // which are the same for all constraints of a step
+    now_.pairs.clear();
+    for (const vox_pair& pair : from.pairs) now_.pairs.push_back({pair.body_a, pair.body_b});
+    PairIndex<IdPair> index(now_.pairs);
     const auto add = [&](vox_body a, vox_body b, vox_constraint_kind kind, std::size_t source) {
         const std::size_t pair = index(a, b);
-        if (pair < from.pairs.size() && from.chosen[pair])
-            visit(pair, static_cast<std::size_t>(kind), static_cast<std::uint32_t>(source));
+        if (pair >= from.pairs.size() || !from.chosen[pair]) return;
+        ++place_[kinds * pair + kind];
+        listed_.push_back({static_cast<std::uint32_t>(pair), static_cast<std::uint32_t>(source)});
     };
     if (from.penetrations) {
         const std::span<const Penetration> all = from.penetrations->all();
@@ -155,8 +150,10 @@ void Constraints::for_each(const ConstraintSources& from, Visit&& visit) {
                 add(from.bodies[from.hits[i].body_a].mesh_id, from.bodies[from.hits[i].body_b].mesh_id,
                     VOX_CONSTRAINT_INSIDE, i);
     }
+    ends_[VOX_CONSTRAINT_INSIDE] = listed_.size();
     for (std::size_t i = 0; i < from.edges.size(); ++i)
         add(from.edges[i].body_a, from.edges[i].body_b, VOX_CONSTRAINT_EDGE, i);
+    ends_[VOX_CONSTRAINT_EDGE] = listed_.size();
     std::size_t impact = 0; // no vertex has two constraints with one body
     for (std::size_t i = 0; i < from.margin_contacts.size(); ++i) {
         const auto place = place_of(from.margin_contacts[i]);
@@ -164,34 +161,30 @@ void Constraints::for_each(const ConstraintSources& from, Visit&& visit) {
         if (impact < from.impacts.size() && place_of(from.impacts[impact]) == place) continue;
         add(from.margin_contacts[i].body_a, from.margin_contacts[i].body_b, VOX_CONSTRAINT_PROXIMITY, i);
     }
+    ends_[VOX_CONSTRAINT_PROXIMITY] = listed_.size();
     for (std::size_t i = 0; i < from.impacts.size(); ++i)
         add(from.impacts[i].body_a, from.impacts[i].body_b, VOX_CONSTRAINT_IMPACT, i);
+    ends_[VOX_CONSTRAINT_IMPACT] = listed_.size();
 }
 
-void Constraints::list(const ConstraintSources& from) {
-    const std::size_t buckets = kinds * from.pairs.size();
-    place_.assign(buckets, 0);
-    std::size_t count = 0;
-    for_each(from, [&](std::size_t pair, std::size_t kind, std::uint32_t) {
-        ++place_[kinds * pair + kind];
-        ++count;
-    });
+// Those of one pair and kind next to each other, in the order in which they were listed.
+void Constraints::order(const ConstraintSources& from) {
+    const std::size_t count = listed_.size();
     check_contact_count(count, "constraints");
     make_room(count, from.pairs.size()); // all that can fail
     found_ = false;
-    constraints_.resize(count);
+    now_.all.resize(count);
+    now_.method = from.method;
+    now_.carry = from.carry;
     sources_.resize(count);
-    keys_.resize(count);
     pair_offsets_.resize(from.pairs.size() + 1);
-    ranges_.pairs.clear();
-    for (const vox_pair& pair : from.pairs) ranges_.pairs.push_back({pair.body_a, pair.body_b});
     std::exclusive_scan(place_.begin(), place_.end(), place_.begin(), 0u);
-    ranges_.first.assign(place_.begin(), place_.end());
-    ranges_.first.push_back(static_cast<std::uint32_t>(count));
-    for (std::size_t p = 0; p <= from.pairs.size(); ++p) pair_offsets_[p] = ranges_.first[kinds * p];
-    for_each(from, [&](std::size_t pair, std::size_t kind, std::uint32_t source) {
-        sources_[place_[kinds * pair + kind]++] = source;
-    });
+    now_.first.assign(place_.begin(), place_.end());
+    now_.first.push_back(static_cast<std::uint32_t>(count));
+    for (std::size_t p = 0; p <= from.pairs.size(); ++p) pair_offsets_[p] = now_.first[kinds * p];
+    std::size_t i = 0;
+    for (std::size_t kind = 0; kind < kinds; ++kind)
+        for (; i < ends_[kind]; ++i) sources_[place_[kinds * listed_[i].pair + kind]++] = listed_[i].source;
 }
 
 // ---- the same in the step before -------------------------------------------------------------------
@@ -199,22 +192,29 @@ void Constraints::list(const ConstraintSources& from) {
 // Looks up constraints of one pair. Keys of a kind ascend, so each search begins where the last one ended.
 class Constraints::Previous {
 public:
-    explicit Previous(const Constraints& of) noexcept : of_(of) {}
+    explicit Previous(const List& last) noexcept : last_(last) {}
 
+    // Pairs in ascending order.
     void begin(const IdPair& pair) noexcept {
-        const auto& pairs = of_.last_ranges_.pairs;
-        const auto at = std::lower_bound(pairs.begin(), pairs.end(), pair);
-        known_ = at != pairs.end() && *at == pair;
+        if (at_ == none)
+            at_ = static_cast<std::size_t>(std::ranges::lower_bound(last_.pairs, pair) - last_.pairs.begin());
+        while (at_ < last_.pairs.size() && last_.pairs[at_] < pair) ++at_;
+        known_ = at_ < last_.pairs.size() && last_.pairs[at_] == pair;
         if (!known_) return;
-        first_ = of_.last_ranges_.first.data() + kinds * static_cast<std::size_t>(at - pairs.begin());
+        first_ = last_.first.data() + kinds * at_;
         std::copy(first_, first_ + kinds, next_.begin());
+    }
+
+    // The index of the first constraint of a kind, of which there have to be so many; or VOX_NONE.
+    std::uint32_t first(vox_constraint_kind kind, std::size_t count) const noexcept {
+        return known_ && first_[kind + 1] - first_[kind] == count ? first_[kind] : VOX_NONE;
     }
 
     std::uint32_t find(vox_constraint_kind kind, const Key& key) noexcept {
         if (!known_) return VOX_NONE;
         // As a rule the next one is the same.
         const std::uint32_t next = next_[kind];
-        if (next < first_[kind + 1] && of_.last_keys_[next] == key) return next_[kind]++;
+        if (next < first_[kind + 1] && key_of(last_.all[next]) == key) return next_[kind]++;
         std::uint32_t found = find_among(kind, key);
         if (kind == VOX_CONSTRAINT_EDGE) return found;
         for (const auto other : {VOX_CONSTRAINT_INSIDE, VOX_CONSTRAINT_PROXIMITY, VOX_CONSTRAINT_IMPACT})
@@ -225,22 +225,25 @@ public:
 private:
     // Constraints of another kind are looked up in any order, hence the first test.
     std::uint32_t find_among(vox_constraint_kind kind, const Key& key) noexcept {
-        const Array<Key>& keys = of_.last_keys_;
+        const auto key_at = [&](std::uint32_t i) { return key_of(last_.all[i]); };
         const std::uint32_t end = first_[kind + 1];
         std::uint32_t low = next_[kind];
-        if (low > first_[kind] && keys[low - 1] >= key) low = first_[kind];
+        if (low > first_[kind] && key_at(low - 1) >= key) low = first_[kind];
         std::uint32_t high = low;
-        for (std::uint32_t step = 1; high < end && keys[high] < key; step *= 2) {
+        for (std::uint32_t step = 1; high < end && key_at(high) < key; step *= 2) {
             low = high + 1;
             high = end - high > step ? high + step : end;
         }
-        const auto at = std::lower_bound(keys.begin() + low, keys.begin() + high, key);
-        next_[kind] = static_cast<std::uint32_t>(at - keys.begin());
-        return next_[kind] < end && keys[next_[kind]] == key ? next_[kind] : VOX_NONE;
+        const auto between = std::span(last_.all).subspan(low, high - low);
+        const auto at = std::ranges::lower_bound(between, key, {}, key_of);
+        next_[kind] = low + static_cast<std::uint32_t>(at - between.begin());
+        return next_[kind] < end && key_at(next_[kind]) == key ? next_[kind] : VOX_NONE;
     }
 
-    const Constraints& of_;
-    const std::uint32_t* first_ = nullptr; // of the pair's kinds
+    const List& last_;
+    static constexpr std::size_t none = ~std::size_t{0};
+    std::size_t at_ = none;                // of the pair
+    const std::uint32_t* first_ = nullptr; // of its kinds
     std::array<std::uint32_t, kinds> next_{};
     bool known_ = false;
 };
@@ -307,26 +310,36 @@ struct Writer {
 
 } // namespace
 
-// The constraints of one pair and one kind other than INSIDE, in one direction.
+// The constraints of one pair and one kind other than INSIDE.
 void Constraints::write_others(const ConstraintSources& from, const Run& run, Previous& previous) noexcept {
     const Writer writer{from};
+    const auto& [lower, higher] = now_.pairs[run.pair];
+    const Body* const bodies[2] = {&from.bodies[body_index(from.bodies, lower)],
+                                   &from.bodies[body_index(from.bodies, higher)]};
     for (std::size_t i = run.begin; i < run.end; ++i) {
         const std::uint32_t source = sources_[i];
-        vox_constraint& c = constraints_[i];
+        vox_constraint& c = now_.all[i];
         c = {};
         c.weights[0] = 1;
-        if (run.kind == VOX_CONSTRAINT_EDGE)
+        vox_body id_a = VOX_NULL_BODY;
+        if (run.kind == VOX_CONSTRAINT_EDGE) {
             writer.write_edge(source, c);
-        else if (run.kind == VOX_CONSTRAINT_PROXIMITY)
+            id_a = from.edges[source].body_a;
+        } else if (run.kind == VOX_CONSTRAINT_PROXIMITY) {
             writer.write_proximity(source, c);
-        else
+            id_a = from.margin_contacts[source].body_a;
+        } else {
             writer.write_impact(source, c);
-        write_pair(run, c);
+            id_a = from.impacts[source].body_a;
+        }
+        const bool swapped = id_a != lower;
+        const Body &a = *bodies[swapped], &b = *bodies[!swapped];
+        write_pair(a, b, run.kind, run.pair, c);
         write_vector(c.normal, vector_of(c.normal));
-        c.previous = previous.find(run.kind, keys_[i] = key_of(c));
+        c.previous = previous.find(run.kind, key_of(c));
         double sum = 0;
         for (std::uint32_t v = 0; v < c.count; ++v) {
-            const Vec3d x = (v < c.count_a ? run.a : run.b).positions.exact(c.vertices[v]);
+            const Vec3d x = (v < c.count_a ? a : b).positions.exact(c.vertices[v]);
             if (v == 0 && run.kind != VOX_CONSTRAINT_EDGE) write_vector(c.position, x);
             sum += c.weights[v] * dot(vector_of(c.normal), x);
         }
@@ -335,43 +348,62 @@ void Constraints::write_others(const ConstraintSources& from, const Run& run, Pr
     }
 }
 
-void Constraints::write_pair(const Run& run, vox_constraint& c) noexcept {
-    c.body_a = run.a.mesh_id;
-    c.body_b = run.b.mesh_id;
-    c.user_data_a = run.a.user_data;
-    c.user_data_b = run.b.user_data;
-    c.kind = run.kind;
-    c.pair = run.pair;
-}
-
 // ---- vertices inside -------------------------------------------------------------------------------
 
-// A block at a time: gather the points and the corners of their tetrahedra, weigh them, write.
+namespace {
+
+// The contact that a constraint of a vertex inside comes from.
+const Hit& hit_of(const ConstraintSources& from, std::uint32_t source) noexcept {
+    return from.hits[from.penetrations ? static_cast<std::size_t>(from.penetrations->all()[source].contact)
+                                       : source];
+}
+
+} // namespace
+
+// If a pair's constraints are those of the step before, copies them.
+bool Constraints::carry_inside(const ConstraintSources& from, const Run& run,
+                               const Previous& previous) noexcept {
+    if (!now_.carry || !last_.carry || now_.method != last_.method) return false;
+    const Hit& hit = hit_of(from, sources_[run.begin]);
+    if (!from.bodies[hit.body_a].carried || !from.bodies[hit.body_b].carried) return false;
+    const std::uint32_t* const bounds = now_.first.data() + kinds * run.pair;
+    const std::uint32_t old = previous.first(VOX_CONSTRAINT_INSIDE, bounds[1] - bounds[0]);
+    if (old == VOX_NONE) return false;
+    for (std::size_t i = run.begin; i < run.end; ++i) {
+        const std::size_t same = old + (i - bounds[0]);
+        vox_constraint& c = now_.all[i];
+        c = last_.all[same];
+        c.pair = run.pair;
+        c.previous = static_cast<std::uint32_t>(same);
+        c.time = time_of(from.passages, c.body_a, c.vertices[0], c.body_b);
+    }
+    return true;
+}
+
+// A block at a time, whatever pairs they are of: gather the points and the corners of their tetrahedra, weigh
+// them, write.
 void Constraints::write_inside(const ConstraintSources& from, const Run& run, Previous& previous) noexcept {
-    // Copies, which need no second look after each write.
-    const Positions points = run.a.positions, corners = run.b.positions;
-    const std::span<const Tet> tets = run.b.tets;
-    const std::span<const Hit> hits = from.hits;
-    const std::span<const Penetration> penetrations =
-        from.penetrations ? from.penetrations->all() : std::span<const Penetration>{};
-    const std::span<const Depth> depths =
-        from.penetrations ? from.penetrations->depths() : std::span<const Depth>{};
-    const std::span<const std::uint32_t> sources(sources_);
-    const auto hit_of = [&](std::size_t i) -> const Hit& {
-        return hits[penetrations.empty() ? sources[i]
-                                         : static_cast<std::size_t>(penetrations[sources[i]].contact)];
-    };
+    const std::span<const Body> bodies = from.bodies;
+    const auto hit_at = [&](std::size_t i) -> const Hit& { return hit_of(from, sources_[i]); };
     // Tetrahedra and positions are anywhere in memory, and waiting for them takes longer than the arithmetic.
     // Far enough ahead to hide that, and near enough that nothing is evicted before its use.
     constexpr std::size_t tets_ahead = 32, positions_ahead = 16;
     const auto prefetch_after = [&](std::size_t i) {
-        if (i + tets_ahead < run.end) prefetch(&tets[hit_of(i + tets_ahead).tet]);
+        if (i + tets_ahead < run.end) {
+            const Hit& later = hit_at(i + tets_ahead);
+            prefetch(&bodies[later.body_b].tets[later.tet]);
+        }
         if (i + positions_ahead < run.end) {
-            const Hit& later = hit_of(i + positions_ahead);
-            prefetch(points.data + later.vertex * points.byte_stride);
-            for (const std::uint32_t v : tets[later.tet].v) prefetch(corners.data + v * corners.byte_stride);
+            const Hit& later = hit_at(i + positions_ahead);
+            const Body &a = bodies[later.body_a], &b = bodies[later.body_b];
+            prefetch(a.positions.data + later.vertex * a.positions.byte_stride);
+            for (const std::uint32_t v : b.tets[later.tet].v)
+                prefetch(b.positions.data + v * b.positions.byte_stride);
         }
     };
+    if (run.begin == run.end) return;
+    std::uint32_t pair = run.pair;
+    previous.begin(now_.pairs[pair]);
     PointBlock block;
     WeightBlock weights;
     for (std::size_t begin = run.begin; begin < run.end; begin += point_block) {
@@ -383,9 +415,11 @@ void Constraints::write_inside(const ConstraintSources& from, const Run& run, Pr
         };
         for (std::size_t i = 0; i < count; ++i) {
             prefetch_after(begin + i);
-            const Hit& hit = hit_of(begin + i);
-            put(block.point, i, points.exact(hit.vertex));
-            for (std::size_t c = 0; c < 4; ++c) put(block.corner[c], i, corners.exact(tets[hit.tet].v[c]));
+            const Hit& hit = hit_at(begin + i);
+            const Body& b = bodies[hit.body_b];
+            put(block.point, i, bodies[hit.body_a].positions.exact(hit.vertex));
+            for (std::size_t c = 0; c < 4; ++c)
+                put(block.corner[c], i, b.positions.exact(b.tets[hit.tet].v[c]));
         }
         for (std::size_t i = count; i % 8; ++i) { // whole registers are computed
             put(block.point, i, {0, 0, 0});
@@ -393,39 +427,44 @@ void Constraints::write_inside(const ConstraintSources& from, const Run& run, Pr
         }
         weigh(block, count, weights);
         for (std::size_t i = 0; i < count; ++i) {
-            const Hit& hit = hit_of(begin + i);
-            vox_constraint& c = constraints_[begin + i];
-            write_pair(run, c);
+            const Hit& hit = hit_at(begin + i);
+            const Body &a = bodies[hit.body_a], &b = bodies[hit.body_b];
+            if (begin + i >= pair_offsets_[pair + 1]) {
+                while (begin + i >= pair_offsets_[pair + 1]) ++pair;
+                previous.begin(now_.pairs[pair]);
+            }
+            vox_constraint& c = now_.all[begin + i];
+            write_pair(a, b, VOX_CONSTRAINT_INSIDE, pair, c);
             c.count_a = 1;
             c.count = 5;
             c.vertices[0] = hit.vertex;
             c.weights[0] = 1;
             for (std::size_t k = 0; k < 4; ++k) {
-                c.vertices[1 + k] = tets[hit.tet].v[k];
+                c.vertices[1 + k] = b.tets[hit.tet].v[k];
                 c.weights[1 + k] = -weights.weight[k][i];
             }
             c.element_b = hit.tet;
             const Vec3d p{block.point[0][i], block.point[1][i], block.point[2][i]};
             write_vector(c.position, p);
-            c.time = from.passages.empty() ? 1 : time_of(from.passages, c.body_a, hit.vertex, c.body_b);
-            const Key key = keys_[begin + i] = {c.body_a, {hit.vertex, 0, 0, 0, 0}};
-            c.previous = previous.find(VOX_CONSTRAINT_INSIDE, key);
+            c.time = from.passages.empty() ? 1 : time_of(from.passages, a.mesh_id, hit.vertex, b.mesh_id);
+            c.previous = previous.find(VOX_CONSTRAINT_INSIDE, {a.mesh_id, {hit.vertex, 0, 0, 0, 0}});
             c.reserved = 0;
             c.state = VOX_DEPTH_UNKNOWN;
-            Vec3d normal{0, 0, 0};
             c.gap = 0;
-            if (!penetrations.empty()) {
-                const std::uint32_t source = sources[begin + i];
-                c.state = penetrations[source].state;
-                c.gap = depths[source].depth > 0 ? -depths[source].depth : 0;
-                normal = depths[source].way_out();
+            Vec3d normal{0, 0, 0};
+            if (from.penetrations) {
+                const std::uint32_t source = sources_[begin + i];
+                const Depth& depth = from.penetrations->depths()[source];
+                c.state = from.penetrations->all()[source].state;
+                c.gap = depth.depth > 0 ? -depth.depth : 0;
+                normal = depth.way_out();
             }
             write_vector(c.normal, normal);
             c.offset = c.gap + dot(normal, Vec3d{weights.miss[0][i], weights.miss[1][i], weights.miss[2][i]});
-            if (!from.closest || c.state == VOX_DEPTH_UNKNOWN) continue;
-            const std::uint32_t triangle = from.penetrations->closest()[sources[begin + i]];
+            if (from.method != VOX_DEPTH_METHOD_CLOSEST || c.state == VOX_DEPTH_UNKNOWN) continue;
+            const std::uint32_t triangle = from.penetrations->closest()[sources_[begin + i]];
             if (triangle != no_triangle)
-                write_triangle({from.topologies[hit.body_b], tets, corners}, triangle, p, c);
+                write_triangle({from.topologies[hit.body_b], b.tets, b.positions}, triangle, p, c);
         }
     }
 }
@@ -433,44 +472,41 @@ void Constraints::write_inside(const ConstraintSources& from, const Run& run, Pr
 // ---- all of them -----------------------------------------------------------------------------------
 
 void Constraints::write(const ConstraintSources& from, std::size_t begin, std::size_t end) noexcept {
-    Previous previous(*this);
-    const Array<std::uint32_t>& first = ranges_.first;
+    Previous previous(last_), previous_inside(last_);
+    Run inside{}; // vertices inside that wait, as long as they follow each other
+    const Array<std::uint32_t>& first = now_.first;
     // The pair and kind that `begin` is in; empty ones are passed.
     auto bucket = static_cast<std::size_t>(
         std::upper_bound(first.begin(), first.end(), static_cast<std::uint32_t>(begin)) - first.begin() - 1);
     while (begin < end) {
         while (first[bucket + 1] <= begin) ++bucket;
-        const auto kind = static_cast<vox_constraint_kind>(bucket % kinds);
-        const IdPair pair = ranges_.pairs[bucket / kinds];
-        const Body* a = &from.bodies[body_index(from.bodies, pair.body_a)];
-        const Body* b = &from.bodies[body_index(from.bodies, pair.body_b)];
-        const std::size_t end_of_both = std::min<std::size_t>(end, first[bucket + 1]);
-        // As body_a ascends, the constraints in one direction come before those in the other.
-        const auto turn = static_cast<std::size_t>(
-            std::partition_point(sources_.begin() + begin, sources_.begin() + end_of_both,
-                                 [&](std::uint32_t s) { return body_a(from, kind, s) == pair.body_a; }) -
-            sources_.begin());
-        previous.begin(pair);
-        for (const std::size_t end_of_run : {turn, end_of_both}) {
-            const Run run{static_cast<std::uint32_t>(bucket / kinds), kind, *a, *b, begin, end_of_run};
-            if (kind == VOX_CONSTRAINT_INSIDE)
-                write_inside(from, run, previous);
-            else
-                write_others(from, run, previous);
-            begin = end_of_run;
-            std::swap(a, b);
+        const Run run{static_cast<std::uint32_t>(bucket / kinds),
+                      static_cast<vox_constraint_kind>(bucket % kinds), begin,
+                      std::min<std::size_t>(end, first[bucket + 1])};
+        begin = run.end;
+        previous.begin(now_.pairs[run.pair]);
+        if (run.kind != VOX_CONSTRAINT_INSIDE) {
+            write_others(from, run, previous);
+        } else if (!carry_inside(from, run, previous)) {
+            if (inside.end != run.begin) {
+                write_inside(from, inside, previous_inside);
+                inside = run;
+            }
+            inside.end = run.end;
         }
     }
+    write_inside(from, inside, previous_inside);
 }
 
 void Constraints::find(const ConstraintSources& from, Workers& workers) {
     list(from);
+    order(from);
     constexpr std::size_t least = 512; // that are worth a task
     const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t) { write(from, begin, end); };
-    if (constraints_.size() > least)
-        workers.for_ranges(constraints_.size(), least, run);
+    if (now_.all.size() > least)
+        workers.for_ranges(now_.all.size(), least, run);
     else
-        run(0, constraints_.size(), 0);
+        run(0, now_.all.size(), 0);
     found_ = true;
 }
 

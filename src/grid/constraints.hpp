@@ -32,7 +32,10 @@ struct ConstraintSources {
     // Vertices inside, in the order of make_contacts(). Without penetrations there is no depth.
     std::span<const Hit> hits;
     const Penetrations* penetrations;
-    bool closest; // the method is VOX_DEPTH_METHOD_CLOSEST
+    vox_depth_method method;
+    // Whether constraints of the step before, of all pairs and by the same method, are those of now where
+    // both bodies are carried (Body::carried). If so, those of this step will be.
+    bool carry;
     std::span<const EdgeContact> edges;
     std::span<const Depth> edge_depths; // of each, or none
     std::span<const MarginContact> margin_contacts;
@@ -59,7 +62,7 @@ public:
     bool found() const noexcept { return found_; }
     // `data` of constraints of which none were found is null.
     vox_constraint_view view() const noexcept {
-        return {constraints_.data(), constraints_.size(), pair_offsets_.data(), ranges_.pairs.size()};
+        return {now_.all.data(), now_.all.size(), pair_offsets_.data(), now_.pairs.size()};
     }
 
 private:
@@ -73,40 +76,41 @@ private:
         auto operator<=>(const Key&) const = default;
     };
     // The constraints of one step, in order: pair by pair, and of each pair kind by kind.
-    struct Ranges {
-        explicit Ranges(std::pmr::memory_resource* memory) : pairs(memory), first(memory) {}
+    struct List {
+        explicit List(std::pmr::memory_resource* memory) : all(memory), pairs(memory), first(memory) {}
 
+        Array<vox_constraint> all;
         Array<IdPair> pairs;
         Array<std::uint32_t> first; // of each pair and kind, and the end
+        vox_depth_method method{};
+        bool carry = false; // see ConstraintSources
     };
     class Previous;
 
     static Key key_of(const vox_constraint& constraint) noexcept;
-    template <class Visit>
-    static void for_each(const ConstraintSources& sources, Visit&& visit);
     void make_room(std::size_t count, std::size_t pairs);
     void list(const ConstraintSources& sources);
-    struct Run { // constraints of one pair and kind, all of them of a with b
+    void order(const ConstraintSources& sources);
+    struct Run { // constraints of one kind from those of `pair` on
         std::uint32_t pair;
         vox_constraint_kind kind;
-        const Body &a, &b;
         std::size_t begin, end;
     };
     void write(const ConstraintSources& sources, std::size_t begin, std::size_t end) noexcept;
+    bool carry_inside(const ConstraintSources& sources, const Run& run, const Previous& previous) noexcept;
     void write_inside(const ConstraintSources& sources, const Run& run, Previous& previous) noexcept;
     void write_others(const ConstraintSources& sources, const Run& run, Previous& previous) noexcept;
-    static void write_pair(const Run& run, vox_constraint& c) noexcept;
 
-    Array<vox_constraint> constraints_;
+    List now_, last_; // of this step, and of the one before
     Array<std::uint64_t> pair_offsets_;
-    Ranges ranges_;
     Array<std::uint32_t> sources_; // of each constraint, its index among those of its kind
-    Array<std::uint32_t> place_;   // while sources are listed
-    Array<Key> keys_;              // of each constraint
+    struct Listed {                // before they are in order
+        std::uint32_t pair, source;
+    };
+    Array<Listed> listed_;
+    std::array<std::size_t, kinds> ends_{}; // of each kind there
+    Array<std::uint32_t> place_;            // where the next of each pair and kind goes
     bool found_ = false;
-    // Of the step before.
-    Ranges last_ranges_;
-    Array<Key> last_keys_;
 };
 
 } // namespace vox

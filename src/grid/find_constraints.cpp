@@ -154,7 +154,8 @@ void vox_grid::make_constraints(const vox_constraint_desc& desc, bool in_step, C
     sources.chosen = chosen_pairs_;
     sources.hits = with_depth && !all ? chosen_hits_ : hits_;
     sources.penetrations = with_depth ? &penetrations_ : nullptr;
-    sources.closest = desc.method == VOX_DEPTH_METHOD_CLOSEST;
+    sources.method = desc.method;
+    sources.carry = all && desc.closest_budget == 0;
     if (with_edges) {
         sources.edges = edges_->all();
         if (with_depth) sources.edge_depths = edges_->depths();

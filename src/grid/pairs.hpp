@@ -22,27 +22,34 @@ inline bool touches(const vox_pair& pair) noexcept {
     return pair.state == VOX_PAIR_BEGAN || pair.state == VOX_PAIR_PERSISTED;
 }
 
-// Finds pairs among those of a step. Calls with the same bodies follow each other as a rule.
+// Finds pairs, vox_pair or IdPair, among those of a step. Calls with the same few bodies follow each other as
+// a rule.
+template <class Pair>
 class PairIndex {
 public:
-    explicit PairIndex(std::span<const vox_pair> pairs) noexcept : pairs_(pairs) {}
+    explicit PairIndex(std::span<const Pair> pairs) noexcept : pairs_(pairs) {}
 
     // The index of the pair of two bodies, in either order. If there is none, that of the next one.
     std::size_t operator()(vox_body a, vox_body b) noexcept {
         const IdPair pair{std::min(a, b), std::max(a, b)};
-        if (pair != last_) {
-            last_ = pair;
-            const auto ids = [](const vox_pair& p) { return IdPair{p.body_a, p.body_b}; };
-            index_ =
+        const std::uint64_t both = std::uint64_t{pair.body_a} << 32 | pair.body_b;
+        auto& [known, index] = known_[both * 0x9e3779b97f4a7c15u >> 56]; // multiplicative hashing
+        if (pair != known) {
+            known = pair;
+            const auto ids = [](const Pair& p) { return IdPair{p.body_a, p.body_b}; };
+            index =
                 static_cast<std::size_t>(std::ranges::lower_bound(pairs_, pair, {}, ids) - pairs_.begin());
         }
-        return index_;
+        return index;
     }
 
 private:
-    std::span<const vox_pair> pairs_;
-    IdPair last_{};
-    std::size_t index_ = 0;
+    struct Known {
+        IdPair pair;
+        std::size_t index;
+    };
+    std::span<const Pair> pairs_;
+    std::array<Known, 256> known_{};
 };
 
 class Pairs {

@@ -253,13 +253,13 @@ static contact_bytes bytes_of_contacts(int whole, uint64_t reserved, uint32_t fl
     return held;
 }
 
-/* A contact takes at most 48 bytes, with its constraint 500; with vox_grid_reserve a step takes no more than
- * what vertices need and a search for a closest point. */
+/* A contact takes at most 48 bytes, with its constraint and the one of the step before 640; with
+ * vox_grid_reserve a step takes no more than what vertices need and a search for a closest point. */
 START_TEST(contacts_in_a_step) {
     enum { each_searched = 24, for_vertices = 12 };
     for (int whole = 0; whole < 2; ++whole)
         for (uint32_t flags = 0; flags < 2; ++flags) {
-            const uint64_t each = flags & VOX_GRID_CONSTRAINTS ? 500 : 48;
+            const uint64_t each = flags & VOX_GRID_CONSTRAINTS ? 640 : 48;
             const contact_bytes grown = bytes_of_contacts(whole, 0, flags);
             const uint64_t count = grown.counts.contacts;
             ck_assert_uint_ge(count, 19000);
