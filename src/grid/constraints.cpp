@@ -175,7 +175,7 @@ void Constraints::order(const ConstraintSources& from) {
     found_ = false;
     now_.all.resize(count);
     now_.method = from.method;
-    now_.carry = from.carry;
+    now_.closest_budget = from.closest_budget;
     sources_.resize(count);
     pair_offsets_.resize(from.pairs.size() + 1);
     std::exclusive_scan(place_.begin(), place_.end(), place_.begin(), 0u);
@@ -363,7 +363,7 @@ const Hit& hit_of(const ConstraintSources& from, std::uint32_t source) noexcept 
 // If a pair's constraints are those of the step before, copies them.
 bool Constraints::carry_inside(const ConstraintSources& from, const Run& run,
                                const Previous& previous) noexcept {
-    if (!now_.carry || !last_.carry || now_.method != last_.method) return false;
+    if (now_.method != last_.method || now_.closest_budget != last_.closest_budget) return false;
     const Hit& hit = hit_of(from, sources_[run.begin]);
     if (!from.bodies[hit.body_a].carried || !from.bodies[hit.body_b].carried) return false;
     const std::uint32_t* const bounds = now_.first.data() + kinds * run.pair;

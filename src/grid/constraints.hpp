@@ -32,10 +32,10 @@ struct ConstraintSources {
     // Vertices inside, in the order of make_contacts(). Without penetrations there is no depth.
     std::span<const Hit> hits;
     const Penetrations* penetrations;
+    // How depths were found. The constraints of the step before that were found in the same way are those of
+    // now where both bodies are carried (Body::carried).
     vox_depth_method method;
-    // Whether constraints of the step before, of all pairs and by the same method, are those of now where
-    // both bodies are carried (Body::carried). If so, those of this step will be.
-    bool carry;
+    std::uint64_t closest_budget;
     std::span<const EdgeContact> edges;
     std::span<const Depth> edge_depths; // of each, or none
     std::span<const MarginContact> margin_contacts;
@@ -83,7 +83,7 @@ private:
         Array<IdPair> pairs;
         Array<std::uint32_t> first; // of each pair and kind, and the end
         vox_depth_method method{};
-        bool carry = false; // see ConstraintSources
+        std::uint64_t closest_budget = 0;
     };
     class Previous;
 

@@ -60,6 +60,7 @@ bool vox_grid::choose_pairs(const vox_constraint_desc& desc, bool in_step) {
     const std::span<const vox_pair> pairs = in_step ? pairs_.pending() : pairs_.all();
     bool all = true;
     chosen_pairs_.assign(pairs.size(), 0);
+    chosen_bodies_.assign(bodies_.size(), 0);
     for (std::size_t p = 0; p < pairs.size(); ++p) {
         const vox_pair& pair = pairs[p];
         const bool named =
@@ -93,9 +94,10 @@ bool vox_grid::choose_pairs(const vox_constraint_desc& desc, bool in_step) {
             continue;
         }
         chosen_pairs_[p] = 1;
-        if (in_step) continue;
-        for (const vox_body id : {pair.body_a, pair.body_b}) check_finite(bodies_[meshes_.find(id)->body]);
+        for (const vox_body id : {pair.body_a, pair.body_b}) chosen_bodies_[meshes_.find(id)->body] = 1;
     }
+    for (std::size_t b = 0; b < bodies_.size() && !in_step; ++b)
+        if (chosen_bodies_[b]) check_finite(bodies_[b]);
     return all;
 }
 
@@ -155,7 +157,7 @@ void vox_grid::make_constraints(const vox_constraint_desc& desc, bool in_step, C
     sources.hits = with_depth && !all ? chosen_hits_ : hits_;
     sources.penetrations = with_depth ? &penetrations_ : nullptr;
     sources.method = desc.method;
-    sources.carry = all && desc.closest_budget == 0;
+    sources.closest_budget = desc.closest_budget;
     if (with_edges) {
         sources.edges = edges_->all();
         if (with_depth) sources.edge_depths = edges_->depths();

@@ -91,8 +91,8 @@ vox_grid::vox_grid(const vox_grid_desc& desc, const MemoryShare& memory)
       finds_constraints_((desc.flags & VOX_GRID_CONSTRAINTS) != 0), hits_(&memory_),
       surface_versions_(&memory_), contacts_(&memory_), interiors_(&memory_), left_out_(&memory_),
       penetrations_(&memory_), pairs_(&memory_), touching_pairs_(&memory_), constraints_(&memory_),
-      chosen_pairs_(&memory_), chosen_hits_(&memory_), edge_bodies_(&memory_), entered_bodies_(&memory_),
-      locators_(share_), query_bodies_(&memory_) {
+      chosen_pairs_(&memory_), chosen_bodies_(&memory_), chosen_hits_(&memory_), edge_bodies_(&memory_),
+      entered_bodies_(&memory_), locators_(share_), query_bodies_(&memory_) {
     if (finds_constraints_) depth_.emplace(&memory_, trees_);
     if (desc.flags & VOX_GRID_EDGES) edges_.emplace(&memory_);
     set_margin(desc.margin);
@@ -361,6 +361,7 @@ void vox_grid::stop_finding_penetrations() noexcept {
     penetrations_ = Penetrations(&memory_);
     constraints_ = Constraints(&memory_);
     chosen_pairs_ = Array<std::uint8_t>(&memory_);
+    chosen_bodies_ = Array<std::uint8_t>(&memory_);
     chosen_hits_ = Array<Hit>(&memory_);
     depths_ = {};
     depths_may_carry_ = false;

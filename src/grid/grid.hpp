@@ -202,9 +202,9 @@ private:
     vox::Pairs pairs_;
     vox::Array<vox::IdPair> touching_pairs_; // in one step
     vox::Constraints constraints_;
-    vox::Array<std::uint8_t> chosen_pairs_; // in one call
-    vox::Array<vox::Hit> chosen_hits_;      // of some pairs, once they alone were asked for
-    vox::Array<vox::EdgeBody> edge_bodies_; // while depths of edges are looked for
+    vox::Array<std::uint8_t> chosen_pairs_, chosen_bodies_; // in one call
+    vox::Array<vox::Hit> chosen_hits_;                      // of some pairs, once they alone were asked for
+    vox::Array<vox::EdgeBody> edge_bodies_;                 // while depths of edges are looked for
     vox::Array<vox_body> entered_bodies_;
     vox::Locators locators_;
     vox::Array<vox::QueryBody> query_bodies_; // in one call
