@@ -10,12 +10,12 @@
 
 /* clang-format off */
 #define GRID_COUNTS(X) \
-    X(meshes) X(vertices) X(tets) X(cells) X(entries) X(fullest_cell) X(visited_cells) \
+    X(bodies) X(vertices) X(tets) X(cells) X(entries) X(fullest_cell) X(visited_cells) \
     X(visited_entries) X(candidates) X(exact_tests) X(contacts) X(skipped_degenerate) \
     X(carried_contacts) X(penetrations) X(leaving_edges) X(edge_tests) X(closest_searches) \
-    X(closest_tests) X(disabled_meshes) X(filtered) X(cell_size_changes) X(unknown_penetrations) \
-    X(carried_penetrations) X(meshes_without_tets) X(edge_contacts) X(carried_edge_contacts) \
-    X(edge_candidates) X(margin_contacts) X(carried_margin_contacts) X(passages) X(constraints)
+    X(closest_tests) X(disabled_bodies) X(filtered) X(cell_size_changes) X(unknown_penetrations) \
+    X(carried_penetrations) X(bodies_without_tets) X(edge_contacts) X(carried_edge_contacts) \
+    X(edge_candidates) X(proximities) X(carried_proximities) X(passages) X(constraints)
 #define GRID_TIMES(X) \
     X(step_ns) X(bin_ns) X(broad_ns) X(narrow_ns) X(contacts_ns) X(depth_ns) X(constraints_ns) \
     X(pairs_ns) X(stream_ns) X(winding_ns) X(broad_phase_ns) X(windows_ns) X(lookup_ns) X(decide_ns) \
@@ -25,7 +25,7 @@
 #define GRID_FIELD(name) uint64_t name;
 typedef struct grid_counts {
     GRID_COUNTS(GRID_FIELD)
-    uint64_t moved_meshes, skipped_meshes, total_touches_began, total_touches_ended, bytes, peak_bytes;
+    uint64_t moved_bodies, skipped_bodies, total_touches_began, total_touches_ended, bytes, peak_bytes;
 } grid_counts;
 typedef struct grid_times {
     GRID_TIMES(GRID_FIELD)
@@ -49,8 +49,8 @@ static inline grid_counts counters_of(const vox_grid* grid) {
     if (vox_grid_get_info(grid, &info) != VOX_OK) abort();
 #define GRID_READ(name) counts.name = counter_of(grid, #name);
     GRID_COUNTS(GRID_READ)
-    counts.moved_meshes = info.moved_bodies;
-    counts.skipped_meshes = info.skipped_bodies;
+    counts.moved_bodies = info.moved_bodies;
+    counts.skipped_bodies = info.skipped_bodies;
     counts.total_touches_began = info.total_began;
     counts.total_touches_ended = info.total_ended;
     counts.bytes = info.bytes;

@@ -93,7 +93,7 @@ static void measure(scene* s, const char* name, int frames) {
     counters = counters_of(variants[MARGIN].grid);
     printf("         margin %g: %8.3f ms: %.3f; %.3f of it margin; %llu vertices within it\n", margin,
            1e3 * near, near / without, 1e3 * quartile(variants[MARGIN].part, frames),
-           (unsigned long long)counters.margin_contacts);
+           (unsigned long long)counters.proximities);
     fflush(stdout);
     for (int k = 0; k < VARIANTS; ++k) {
         vox_grid_destroy(variants[k].grid);

@@ -308,7 +308,7 @@ struct Result {
 std::uint64_t found(What what, const grid_counts& counters) {
     return what == What::depth    ? counters.penetrations
            : what == What::edges  ? counters.edge_contacts
-           : what == What::margin ? counters.margin_contacts
+           : what == What::margin ? counters.proximities
                                   : counters.passages;
 }
 

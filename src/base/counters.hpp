@@ -11,7 +11,7 @@ namespace vox {
 // `skipped_degenerate` counts tetrahedra of exactly zero volume: with the reference engine all of them, with
 // the fast engine those that had a vertex to test.
 struct Counters {
-    std::uint64_t meshes = 0;
+    std::uint64_t bodies = 0;
     std::uint64_t vertices = 0;
     std::uint64_t tets = 0;
     std::uint64_t cells = 0;           // occupied cells, summed over the cell sizes if there are several
@@ -23,34 +23,34 @@ struct Counters {
     std::uint64_t exact_tests = 0; // orientations that needed exact arithmetic
     std::uint64_t contacts = 0;
     std::uint64_t skipped_degenerate = 0;
-    std::uint64_t moved_meshes = 0; // meshes that were not at rest (see vox_grid_step)
+    std::uint64_t moved_bodies = 0; // bodies that were not at rest (see vox_grid_step)
     std::uint64_t carried_contacts =
-        0; // part of `contacts` carried over from the step before, between meshes at rest
+        0; // part of `contacts` carried over from the step before, between bodies at rest
     std::uint64_t penetrations = 0;
     std::uint64_t leaving_edges = 0;    // edges from a colliding vertex to one outside body_b
     std::uint64_t edge_tests = 0;       // tetrahedra visited along those edges
     std::uint64_t closest_searches = 0; // penetrations that needed the closest point of the surface
     std::uint64_t closest_tests = 0;    // triangles whose closest point was computed for that
-    std::uint64_t disabled_meshes = 0;  // not included in `meshes` (see vox_body_set_enabled)
+    std::uint64_t disabled_bodies = 0;  // not included in `bodies` (see vox_body_set_enabled)
     std::uint64_t filtered =
         0; // (vertex, tet) pairs of one mesh that self_rings or self_rest_distance ruled out
     std::uint64_t cell_size_changes =
         0; // how often the reference engine chose another cell size (see vox_grid_desc)
     std::uint64_t unknown_penetrations = 0; // part of `penetrations` for which closest_budget left no search
     std::uint64_t carried_penetrations = 0; // part of `penetrations` carried over with their contacts
-    std::uint64_t skipped_meshes =
-        0; // left out for a coordinate (VOX_GRID_SKIP_BAD_BODIES); not included in `meshes`
-    std::uint64_t meshes_without_tets =
-        0; // part of `meshes`: their vertices collide, their edges and faces do not
+    std::uint64_t skipped_bodies =
+        0; // left out for a coordinate (VOX_GRID_SKIP_BAD_BODIES); not included in `bodies`
+    std::uint64_t bodies_without_tets =
+        0; // part of `bodies`: their vertices collide, their edges and faces do not
     // Pairs that began and ended in all steps since the grid was created or loaded.
     std::uint64_t total_touches_began = 0;
     std::uint64_t total_touches_ended = 0;
-    std::uint64_t edge_contacts = 0;           // 0 without VOX_GRID_EDGES, as are the next two
-    std::uint64_t carried_edge_contacts = 0;   // part of `edge_contacts` carried over from the step before
-    std::uint64_t edge_candidates = 0;         // edges and faces whose boxes overlap
-    std::uint64_t margin_contacts = 0;         // 0 without a margin (vox_grid_set_margin), as is the next one
-    std::uint64_t carried_margin_contacts = 0; // part of `margin_contacts` carried over from the step before
-    std::uint64_t constraints = 0;             // that were found last; 0 where none were looked for
+    std::uint64_t edge_contacts = 0;         // 0 without VOX_GRID_EDGES, as are the next two
+    std::uint64_t carried_edge_contacts = 0; // part of `edge_contacts` carried over from the step before
+    std::uint64_t edge_candidates = 0;       // edges and faces whose boxes overlap
+    std::uint64_t proximities = 0;           // 0 without a margin (vox_grid_set_margin), as is the next one
+    std::uint64_t carried_proximities = 0;   // part of `proximities` carried over from the step before
+    std::uint64_t constraints = 0;           // that were found last; 0 where none were looked for
     std::uint64_t passages = 0; // 0 without previous positions (vox_mesh_bind_previous_positions)
 };
 
@@ -65,10 +65,10 @@ struct Profile {
     std::uint64_t depth_ns = 0;    // penetrations
     std::uint64_t constraints_ns = 0; // what constraints take beside depth
     std::uint64_t pairs_ns = 0;       // which bodies touch
-    std::uint64_t stream_ns = 0;      // read all positions: boxes, and which meshes moved
+    std::uint64_t stream_ns = 0;      // read all positions: boxes, and which bodies moved
     std::uint64_t winding_ns =
         0; // rule out self-contacts by winding numbers; of the worker that took longest over them
-    std::uint64_t broad_phase_ns = 0; // regions in which meshes may be in contact
+    std::uint64_t broad_phase_ns = 0; // regions in which bodies may be in contact
     std::uint64_t windows_ns = 0;     // bin the vertices that lie there
     std::uint64_t lookup_ns = 0;      // tetrahedra against these: box tests, and all that floats can decide
     std::uint64_t decide_ns = 0;      // decide the rest exactly; of the worker that took longest over it
@@ -87,7 +87,7 @@ struct NamedTime {
 };
 
 inline constexpr NamedCounter named_counters[] = {
-    {"meshes", &Counters::meshes},
+    {"bodies", &Counters::bodies},
     {"vertices", &Counters::vertices},
     {"tets", &Counters::tets},
     {"cells", &Counters::cells},
@@ -105,17 +105,17 @@ inline constexpr NamedCounter named_counters[] = {
     {"edge_tests", &Counters::edge_tests},
     {"closest_searches", &Counters::closest_searches},
     {"closest_tests", &Counters::closest_tests},
-    {"disabled_meshes", &Counters::disabled_meshes},
+    {"disabled_bodies", &Counters::disabled_bodies},
     {"filtered", &Counters::filtered},
     {"cell_size_changes", &Counters::cell_size_changes},
     {"unknown_penetrations", &Counters::unknown_penetrations},
     {"carried_penetrations", &Counters::carried_penetrations},
-    {"meshes_without_tets", &Counters::meshes_without_tets},
+    {"bodies_without_tets", &Counters::bodies_without_tets},
     {"edge_contacts", &Counters::edge_contacts},
     {"carried_edge_contacts", &Counters::carried_edge_contacts},
     {"edge_candidates", &Counters::edge_candidates},
-    {"margin_contacts", &Counters::margin_contacts},
-    {"carried_margin_contacts", &Counters::carried_margin_contacts},
+    {"proximities", &Counters::proximities},
+    {"carried_proximities", &Counters::carried_proximities},
     {"constraints", &Counters::constraints},
     {"passages", &Counters::passages},
 };

@@ -97,7 +97,7 @@ struct PairFilter {
 };
 
 // One mesh as the stages see it. mesh_id ascends from body to body, so that the order of body indices is the
-// canonical order of mesh ids.
+// canonical order of body ids.
 struct Body {
     static constexpr std::uint32_t in_array = ~0u, no_slot = ~1u;
 

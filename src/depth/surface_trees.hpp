@@ -32,7 +32,7 @@ private:
     // The place of a mesh's tree, or where it would be.
     Tree* place(std::uint32_t mesh_id) noexcept;
 
-    Array<Tree> trees_; // by mesh id
+    Array<Tree> trees_; // by body id
 };
 
 } // namespace vox::depth

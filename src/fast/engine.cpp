@@ -90,8 +90,8 @@ void FastEngine::look_up(Array<Hit>& hits) {
 void FastEngine::count(Counters& counters) {
     counters.cells = counters.entries = counters.fullest_cell = 0;
     counters.visited_cells = counters.visited_entries = counters.candidates = 0;
-    counters.exact_tests = counters.filtered = counters.moved_meshes = 0;
-    for (const fast::StepBody& body : step_.of) counters.moved_meshes += body.moved;
+    counters.exact_tests = counters.filtered = counters.moved_bodies = 0;
+    for (const fast::StepBody& body : step_.of) counters.moved_bodies += body.moved;
     for (const fast::BodyWindow& window : windows_.of)
         if (window.bins) cell_size_ = window.cell_size;
     for (const fast::Bins& bins : windows_.bins) {

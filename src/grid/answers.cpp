@@ -62,8 +62,8 @@ vox_grid_info vox_grid::info() const noexcept {
             .bytes = memory_.bytes(),
             .peak_bytes = memory_.peak_bytes(),
             .step_ns = profile_.step_ns,
-            .moved_bodies = counters_.moved_meshes,
-            .skipped_bodies = counters_.skipped_meshes,
+            .moved_bodies = counters_.moved_bodies,
+            .skipped_bodies = counters_.skipped_bodies,
             .total_began = counters_.total_touches_began,
             .total_ended = counters_.total_touches_ended};
 }

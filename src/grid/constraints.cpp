@@ -128,8 +128,8 @@ void Constraints::reserve(std::size_t body_count, std::size_t contact_count) {
 void Constraints::list(const ConstraintSources& from) {
     place_.assign(kinds * from.pairs.size(), 0);
     listed_.clear();
-    reserve_sparingly(listed_, from.hits.size() + from.edges.size() + from.margin_contacts.size() +
-                                   from.impacts.size());
+    reserve_sparingly(listed_,
+                      from.hits.size() + from.edges.size() + from.proximities.size() + from.impacts.size());
     reserve_growing(now_.pairs, from.pairs.size()); // which are the same for all constraints of a step
     now_.pairs.clear();
     for (const vox_pair& pair : from.pairs) now_.pairs.push_back({pair.body_a, pair.body_b});
@@ -155,11 +155,11 @@ void Constraints::list(const ConstraintSources& from) {
         add(from.edges[i].body_a, from.edges[i].body_b, VOX_CONSTRAINT_EDGE, i);
     ends_[VOX_CONSTRAINT_EDGE] = listed_.size();
     std::size_t impact = 0; // no vertex has two constraints with one body
-    for (std::size_t i = 0; i < from.margin_contacts.size(); ++i) {
-        const auto place = place_of(from.margin_contacts[i]);
+    for (std::size_t i = 0; i < from.proximities.size(); ++i) {
+        const auto place = place_of(from.proximities[i]);
         while (impact < from.impacts.size() && place_of(from.impacts[impact]) < place) ++impact;
         if (impact < from.impacts.size() && place_of(from.impacts[impact]) == place) continue;
-        add(from.margin_contacts[i].body_a, from.margin_contacts[i].body_b, VOX_CONSTRAINT_PROXIMITY, i);
+        add(from.proximities[i].body_a, from.proximities[i].body_b, VOX_CONSTRAINT_PROXIMITY, i);
     }
     ends_[VOX_CONSTRAINT_PROXIMITY] = listed_.size();
     for (std::size_t i = 0; i < from.impacts.size(); ++i)
@@ -290,7 +290,7 @@ struct Writer {
     }
 
     void write_proximity(std::uint32_t source, vox_constraint& c) const {
-        const MarginContact& contact = from.margin_contacts[source];
+        const MarginContact& contact = from.proximities[source];
         write_face(contact, contact.face_weights, c);
         c.gap = contact.distance;
         c.state = contact.distance > 0 ? VOX_DEPTH_CLOSEST : VOX_DEPTH_TOUCHING;
@@ -327,7 +327,7 @@ void Constraints::write_others(const ConstraintSources& from, const Run& run, Pr
             id_a = from.edges[source].body_a;
         } else if (run.kind == VOX_CONSTRAINT_PROXIMITY) {
             writer.write_proximity(source, c);
-            id_a = from.margin_contacts[source].body_a;
+            id_a = from.proximities[source].body_a;
         } else {
             writer.write_impact(source, c);
             id_a = from.impacts[source].body_a;

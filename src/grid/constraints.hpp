@@ -38,7 +38,7 @@ struct ConstraintSources {
     std::uint64_t closest_budget;
     std::span<const EdgeContact> edges;
     std::span<const Depth> edge_depths; // of each, or none
-    std::span<const MarginContact> margin_contacts;
+    std::span<const MarginContact> proximities;
     std::span<const Passage> passages;
     std::span<const Impact> impacts;
 };

@@ -162,7 +162,7 @@ void vox_grid::make_constraints(const vox_constraint_desc& desc, bool in_step, C
         sources.edges = edges_->all();
         if (with_depth) sources.edge_depths = edges_->depths();
     }
-    if (margin_contacts_) sources.margin_contacts = margin_contacts_->all();
+    if (margin_contacts_) sources.proximities = margin_contacts_->all();
     if (passages_) {
         sources.passages = passages_->all();
         sources.impacts = passages_->impacts();

@@ -127,12 +127,12 @@ vox_body vox_grid::insert(const vox_mesh_desc& desc, const Body& view, const vox
 void vox_grid::warn_of_traps(const Mesh& mesh, vox_body id) {
     if (!log_.write) return;
     const auto warn_of = [&](const char* text) noexcept {
-        warn("mesh %u (slot %u, user data %llu) %s", id, slot_of(id), llu(mesh.user_data()), text);
+        warn("body %u (slot %u, user data %llu) %s", id, slot_of(id), llu(mesh.user_data()), text);
     };
     if (warned_of_edges_ || mesh.tet_count() > 0 || mesh.vertex_count() == 0) return;
     warned_of_edges_ = true;
     warn_of("has no tetrahedra: its vertices collide with the tetrahedra of other meshes, its edges and "
-            "faces with nothing (said once for a grid; the counter meshes_without_tets counts such "
+            "faces with nothing (said once for a grid; the counter bodies_without_tets counts such "
             "meshes)");
 }
 

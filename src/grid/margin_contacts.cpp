@@ -62,7 +62,7 @@ void MarginContacts::find(const EdgeScene& scene, double margin, std::span<const
     }
     found_.clear();
     carry(scene);
-    counters.carried_margin_contacts = found_.size();
+    counters.carried_proximities = found_.size();
     search.find_near(scene, margin, *this);
     std::size_t count = found_.size();
     for (const Worker& worker : workers_) count += worker.found.size();
@@ -75,7 +75,7 @@ void MarginContacts::find(const EdgeScene& scene, double margin, std::span<const
     }
     workers_.level();
     put_in_order();
-    counters.margin_contacts = contacts_.size();
+    counters.proximities = contacts_.size();
 }
 
 // Those of the last step between bodies that have not moved since.

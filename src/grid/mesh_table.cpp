@@ -24,7 +24,7 @@ void MeshTable::reserve(std::uint32_t mesh_count) {
 
 void MeshTable::check_room(const Body& mesh, const Mesh* old) const {
     check_growth(mesh.vertex_count, mesh.tets.size(), old);
-    if (!old && free_slots_.empty()) check_limit(slots_.size(), 1, VOX_MAX_BODIES, "mesh slots");
+    if (!old && free_slots_.empty()) check_limit(slots_.size(), 1, VOX_MAX_BODIES, "body slots");
 }
 
 vox_body MeshTable::insert(Mesh&& mesh, fast::MeshState&& state) {
@@ -107,13 +107,13 @@ const MeshSlot* MeshTable::find(vox_body id) const noexcept {
 
 const MeshSlot& MeshTable::operator[](vox_body id) const {
     if (const MeshSlot* found = find(id)) return *found;
-    if (id == VOX_NULL_BODY) throw Error(VOX_ERROR_INVALID_HANDLE, "mesh id is 0, which names no mesh");
+    if (id == VOX_NULL_BODY) throw Error(VOX_ERROR_INVALID_HANDLE, "body id is 0, which names no body");
     const std::uint32_t slot = slot_of(id);
     if (slot >= slots_.size())
         throw Error(VOX_ERROR_INVALID_HANDLE,
-                    format("mesh id %u names slot %u, the grid has %zu", id, slot, slots_.size()));
+                    format("body id %u names slot %u, the grid has %zu", id, slot, slots_.size()));
     throw Error(VOX_ERROR_INVALID_HANDLE,
-                format("mesh id %u (slot %u, generation %u) is stale: the slot %s generation %u", id, slot,
+                format("body id %u (slot %u, generation %u) is stale: the slot %s generation %u", id, slot,
                        generation_of(id), slots_[slot].live ? "holds" : "is empty after",
                        slots_[slot].generation));
 }

@@ -183,7 +183,7 @@ vox_body Snapshot::mesh_that_was(SnapshotChunk& in, const vox_grid& grid) {
     const std::uint32_t slot = slot_of(id), generation = generation_of(id);
     if (generation == 0 || slot >= grid.meshes_.slots_.size() ||
         generation > grid.meshes_.slots_[slot].generation)
-        in.refuse(format("mesh %" PRIu32 " was never in the grid", id));
+        in.refuse(format("body %" PRIu32 " was never in the grid", id));
     return id;
 }
 
@@ -261,7 +261,7 @@ void Snapshot::load(SnapshotReader in, vox_grid& grid) {
             throw Error(VOX_ERROR_FORMAT, format("snapshot: it has no chunk %s", parts[part].name));
     if (to.next != to.awaited.size())
         throw Error(VOX_ERROR_FORMAT,
-                    format("snapshot: it has %zu of %zu meshes, mesh %" PRIu32 " is missing", to.next,
+                    format("snapshot: it has %zu of %zu bodies, body %" PRIu32 " is missing", to.next,
                            to.awaited.size(), to.awaited[to.next]));
     grid.meshes_.free_slots_.assign(to.free_slots.begin(), to.free_slots.end()); // within the capacity
 }

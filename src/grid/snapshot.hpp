@@ -31,7 +31,7 @@ void or_refuse(const SnapshotChunk& in, vox_body id, Function&& function) {
     } catch (const Error& error) {
         const vox_result result = error.result();
         if (result == VOX_ERROR_LIMIT || result == VOX_ERROR_BUDGET) throw;
-        in.refuse(format("mesh %" PRIu32 ": %s", id, error.what()));
+        in.refuse(format("body %" PRIu32 ": %s", id, error.what()));
     }
 }
 

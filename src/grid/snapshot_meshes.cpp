@@ -97,9 +97,9 @@ void Snapshot::load_mesh(SnapshotChunk& in, Loading& to) {
     vox_grid& grid = to.grid;
     const vox_body id = in.u32();
     if (to.next == to.awaited.size())
-        in.refuse(format("it is of mesh %" PRIu32 ", expected no more meshes", id));
+        in.refuse(format("it is of body %" PRIu32 ", expected no more bodies", id));
     if (id != to.awaited[to.next])
-        in.refuse(format("it is of mesh %" PRIu32 ", expected mesh %" PRIu32, id, to.awaited[to.next]));
+        in.refuse(format("it is of body %" PRIu32 ", expected body %" PRIu32, id, to.awaited[to.next]));
     ++to.next;
 
     vox_mesh_desc desc = vox_default_mesh_desc();
@@ -174,8 +174,8 @@ void Snapshot::save_cuts(const vox_grid& grid, SnapshotWriter& out) {
 
 void Snapshot::load_cuts(SnapshotChunk& in, Loading& to) {
     const vox_body id = in.u32();
-    if (!to.grid.is_valid(id)) in.refuse(format("mesh %" PRIu32 " is not in it", id));
-    if (id <= to.last_cut) in.refuse(format("mesh %" PRIu32 " comes after mesh %" PRIu32, id, to.last_cut));
+    if (!to.grid.is_valid(id)) in.refuse(format("body %" PRIu32 " is not in it", id));
+    if (id <= to.last_cut) in.refuse(format("body %" PRIu32 " comes after body %" PRIu32, id, to.last_cut));
     to.last_cut = id;
     if (const std::uint32_t reserved = in.u32(); reserved != 0)
         in.refuse(format("a reserved word is %" PRIu32 ", expected 0", reserved));
@@ -220,9 +220,9 @@ void Snapshot::save_filters(const vox_grid& grid, SnapshotWriter& out) {
 
 void Snapshot::load_filter(SnapshotChunk& in, Loading& to) {
     const vox_body id = in.u32();
-    if (!to.grid.is_valid(id)) in.refuse(format("mesh %" PRIu32 " is not in it", id));
+    if (!to.grid.is_valid(id)) in.refuse(format("body %" PRIu32 " is not in it", id));
     if (id <= to.last_filtered)
-        in.refuse(format("mesh %" PRIu32 " comes after mesh %" PRIu32, id, to.last_filtered));
+        in.refuse(format("body %" PRIu32 " comes after body %" PRIu32, id, to.last_filtered));
     to.last_filtered = id;
 
     Mesh& mesh = to.grid.mesh(id);

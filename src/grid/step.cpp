@@ -37,7 +37,7 @@ void vox_grid::step() {
         drop_removed_vertices();
 
         const std::uint64_t detected = nanoseconds();
-        if (carry && counters.moved_meshes < bodies_.size()) counters.carried_contacts = carry_contacts();
+        if (carry && counters.moved_bodies < bodies_.size()) counters.carried_contacts = carry_contacts();
         // If every old contact was carried and no new one found, contacts, depth and pairs are unchanged.
         const bool all_carried =
             counters.carried_contacts == contacts_.size() && hits_.size() == contacts_.size();
@@ -77,16 +77,16 @@ void vox_grid::step() {
         throw;
     }
 
-    counters.meshes = static_cast<std::uint32_t>(bodies_.size() + lone_.totals().bodies);
+    counters.bodies = static_cast<std::uint32_t>(bodies_.size() + lone_.totals().bodies);
     counters.vertices = lone_.totals().vertices;
     counters.tets = lone_.totals().tets;
-    counters.moved_meshes += carry ? lone_.totals().moved : lone_.totals().bodies;
+    counters.moved_bodies += carry ? lone_.totals().moved : lone_.totals().bodies;
     for (const Body& body : bodies_) {
         counters.vertices += body.vertex_count;
         counters.tets += body.tets.size() - body.off_count;
-        counters.meshes_without_tets += body.tets.empty() && body.vertex_count > 0;
+        counters.bodies_without_tets += body.tets.empty() && body.vertex_count > 0;
     }
-    counters.skipped_meshes = left_out_.size();
+    counters.skipped_bodies = left_out_.size();
     counters.contacts = contacts_.size();
     pairs_.commit();
     pairs_.count(counters);
@@ -204,7 +204,7 @@ vox_failure vox_grid::failure_of(vox_result result, vox_body id, std::uint32_t v
 }
 
 void vox_grid::gather_bodies(Counters& counters) {
-    counters.disabled_meshes = 0;
+    counters.disabled_bodies = 0;
     left_out_.clear();
     bodies_.clear();
     topologies_.clear();
@@ -214,7 +214,7 @@ void vox_grid::gather_bodies(Counters& counters) {
         Mesh& mesh = slot.mesh;
         slot.body = MeshSlot::none;
         if (!mesh.is_enabled()) {
-            ++counters.disabled_meshes;
+            ++counters.disabled_bodies;
             return;
         }
         if (!mesh.has_positions())
@@ -296,7 +296,7 @@ std::uint64_t vox_grid::carry_contacts() {
 
 void vox_grid::detect_reference(Counters& counters, Profile& profile) {
     choose_cell_size();
-    counters.moved_meshes = bodies_.size();
+    counters.moved_bodies = bodies_.size();
     reference_.detect(bodies_, settings_, hits_, counters, profile);
 }
 

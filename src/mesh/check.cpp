@@ -61,7 +61,7 @@ std::string name_of(const Body& body) {
     if (body.slot == Body::no_slot) return format("the mesh (user data %" PRIu64 ")", body.user_data);
     if (body.slot == Body::in_array)
         return format("mesh %" PRIu32 " (user data %" PRIu64 ")", body.mesh_id, body.user_data);
-    return format("mesh %" PRIu32 " (slot %" PRIu32 ", user data %" PRIu64 ")", body.mesh_id, body.slot,
+    return format("body %" PRIu32 " (slot %" PRIu32 ", user data %" PRIu64 ")", body.mesh_id, body.slot,
                   body.user_data);
 }
 

@@ -168,7 +168,7 @@ vox_body vox_sim::insert(const vox_sim_body_desc& desc) {
 Body& vox_sim::body(vox_body mesh) const {
     if (Body* found = find_body(bodies_, mesh)) return *found;
     throw Error(VOX_ERROR_INVALID_HANDLE,
-                format("mesh id %u names no body of the simulation, which has %zu", mesh, bodies_.size()));
+                format("body id %u names no body of the simulation, which has %zu", mesh, bodies_.size()));
 }
 
 void vox_sim::remove(vox_body mesh) {

@@ -95,7 +95,7 @@ START_TEST(what_is_left_out_is_logged_once) {
     bodies[1].positions[7] = NAN;
     for (int i = 0; i < 3; ++i) ck_ok(vox_grid_step(grid));
     ck_assert_int_eq(log.count, 1);
-    ck_assert_ptr_nonnull(strstr(log.last, "mesh 4097 (slot 1, user data 0), vertex 2: position ("));
+    ck_assert_ptr_nonnull(strstr(log.last, "body 4097 (slot 1, user data 0), vertex 2: position ("));
     bodies[0].positions[7] = INFINITY;
     for (int i = 0; i < 3; ++i) ck_ok(vox_grid_step(grid));
     ck_assert_int_eq(log.count, 2);
@@ -126,18 +126,18 @@ START_TEST(which_mesh_failed) {
     const float kept = *coordinate;
     *coordinate = NAN;
     ck_fails(vox_grid_step(s.grid), VOX_ERROR_NON_FINITE,
-             "mesh 8193 (slot 2, user data 102), vertex 11: position (");
+             "body 8193 (slot 2, user data 102), vertex 11: position (");
     is_failure(failure_of(s.grid, 0), &s, 2, 11, VOX_ERROR_NON_FINITE);
     no_failure(s.grid, 1);
     vox_locator* locator = NULL;
     ck_fails(vox_grid_update_locator(s.grid, &locator), VOX_ERROR_NON_FINITE,
-             "mesh 8193 (slot 2, user data 102), vertex 11");
+             "body 8193 (slot 2, user data 102), vertex 11");
     *coordinate = kept;
     ck_ok(vox_grid_step(s.grid));
     no_failure(s.grid, 0);
 
     ck_ok(vox_body_set_transform(s.grid, s.ids[1], huge));
-    ck_fails(vox_grid_step(s.grid), VOX_ERROR_LIMIT, "mesh 4097 (slot 1, user data 101), vertex ");
+    ck_fails(vox_grid_step(s.grid), VOX_ERROR_LIMIT, "body 4097 (slot 1, user data 101), vertex ");
     failure = failure_of(s.grid, 0);
     ck_assert_int_eq(failure.result, VOX_ERROR_LIMIT);
     ck_assert_double_gt(fabs(failure.position[0]), 1e299);
@@ -183,7 +183,7 @@ START_TEST(bad_meshes_are_left_out) {
     ck_assert_uint_eq(grid_info(s.grid).flags, VOX_GRID_CONSTRAINTS | VOX_GRID_SKIP_BAD_BODIES);
     const uint64_t all = hash_of_step(s.grid);
     ck_assert_uint_eq(all, hash_without(&s, NULL, 0));
-    ck_assert_uint_eq(counters_of(s.grid).skipped_meshes, 0);
+    ck_assert_uint_eq(counters_of(s.grid).skipped_bodies, 0);
 
     float* const x = &s.bodies[1].positions[3 * 20];
     float* const y = &s.bodies[3].positions[3 * 5 + 1];
@@ -194,9 +194,9 @@ START_TEST(bad_meshes_are_left_out) {
         ck_assert_uint_ne(without_one, all);
         for (int step = 0; step < 3; ++step) {
             ck_assert_uint_eq(hash_of_step(s.grid), without_one);
-            ck_assert_uint_eq(counters_of(s.grid).skipped_meshes, 1);
-            ck_assert_uint_eq(counters_of(s.grid).meshes, 3);
-            ck_assert_uint_eq(counters_of(s.grid).disabled_meshes, 0);
+            ck_assert_uint_eq(counters_of(s.grid).skipped_bodies, 1);
+            ck_assert_uint_eq(counters_of(s.grid).bodies, 3);
+            ck_assert_uint_eq(counters_of(s.grid).disabled_bodies, 0);
             is_failure(failure_of(s.grid, 0), &s, 1, 20, VOX_ERROR_NON_FINITE);
             no_failure(s.grid, 1);
         }
@@ -205,7 +205,7 @@ START_TEST(bad_meshes_are_left_out) {
         *y = -INFINITY;
         s.bodies[1].positions[1] = NAN; /* an earlier vertex */
         ck_assert_uint_eq(hash_of_step(s.grid), hash_without(&s, two, 2));
-        ck_assert_uint_eq(counters_of(s.grid).skipped_meshes, 2);
+        ck_assert_uint_eq(counters_of(s.grid).skipped_bodies, 2);
         is_failure(failure_of(s.grid, 0), &s, 1, 0, VOX_ERROR_NON_FINITE);
         is_failure(failure_of(s.grid, 1), &s, 3, 5, VOX_ERROR_NON_FINITE);
         no_failure(s.grid, 2);
@@ -228,7 +228,7 @@ START_TEST(bad_meshes_are_left_out) {
         *x = kept_x;
         *y = kept_y;
         ck_assert_uint_eq(hash_of_step(s.grid), all);
-        ck_assert_uint_eq(counters_of(s.grid).skipped_meshes, 0);
+        ck_assert_uint_eq(counters_of(s.grid).skipped_bodies, 0);
         no_failure(s.grid, 0);
         ck_assert_uint_eq(hash_of_step(s.grid), all);
     }
@@ -254,7 +254,7 @@ START_TEST(all_are_bad) {
     for (int b = 0; b < most; ++b) kept[b] = s.bodies[b].positions[7], s.bodies[b].positions[7] = NAN;
     ck_ok(vox_grid_step(s.grid));
     ck_assert_uint_eq(contacts_of(s.grid).count, 0);
-    ck_assert_uint_eq(counters_of(s.grid).skipped_meshes, most);
+    ck_assert_uint_eq(counters_of(s.grid).skipped_bodies, most);
     for (int b = 0; b < most; ++b)
         is_failure(failure_of(s.grid, (uint32_t)b), &s, b, 2, VOX_ERROR_NON_FINITE);
     for (int b = 0; b < most; ++b) s.bodies[b].positions[7] = kept[b];
@@ -294,7 +294,7 @@ START_TEST(steady_state) {
         for (uint32_t v = 0; v < s.bodies[1].vertex_count; ++v)
             s.bodies[1].positions[3 * v] += step % 2 ? 0.01f : -0.01f;
         ck_ok(vox_grid_step(s.grid));
-        ck_assert_uint_eq(counters_of(s.grid).skipped_meshes, 1);
+        ck_assert_uint_eq(counters_of(s.grid).skipped_bodies, 1);
     }
     ck_assert_uint_eq(memory.calls, calls);
     free_scene(&s);

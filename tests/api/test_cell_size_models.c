@@ -198,7 +198,7 @@ START_TEST(bodies_at_rest_cost_nothing) {
     ck_ok(vox_grid_suggest_cell_size(grid, NULL, &moving));
     ck_assert_double_gt(term(&moving, "visit a row"), 0);
     for (int i = 0; i < 3; ++i) ck_ok(vox_grid_step(grid));
-    ck_assert_uint_eq(counters_of(grid).moved_meshes, 0);
+    ck_assert_uint_eq(counters_of(grid).moved_bodies, 0);
     ck_ok(vox_grid_suggest_cell_size(grid, NULL, &resting));
     ck_assert_double_eq(resting.cost, 0);
     ck_assert_double_gt(resting.cell_size, 0);

@@ -196,7 +196,7 @@ START_TEST(same_as_packed) {
         step_both(&s);
         if (step % 3 == 0) same_answers(&s);
     }
-    ck_assert_uint_eq(counters_of(s.grid).moved_meshes, suite_engine == ENGINE_FAST ? 0 : most);
+    ck_assert_uint_eq(counters_of(s.grid).moved_bodies, suite_engine == ENGINE_FAST ? 0 : most);
     free_scene(&s);
 }
 END_TEST

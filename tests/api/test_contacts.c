@@ -325,7 +325,7 @@ START_TEST(non_finite_positions) {
     for (int chosen = 0; chosen < 2; ++chosen) { /* the cell size given, and chosen at that very step */
         scene s = new_scene(&a, &b, chosen ? 0 : 0.5);
         char words[64];
-        snprintf(words, sizeof words, "mesh %u (slot 1, user data 0), vertex 5", s.b);
+        snprintf(words, sizeof words, "body %u (slot 1, user data 0), vertex 5", s.b);
         for (int i = 0; i < 3; ++i)
             for (int axis = 0; axis < 3; ++axis) {
                 const float good = other.positions[15 + axis];
@@ -508,7 +508,7 @@ START_TEST(counters_and_profile) {
     grid_times p;
     grid_counts c = counters_of(s.grid);
     p = times_of(s.grid);
-    ck_assert_uint_eq(c.meshes, 2);
+    ck_assert_uint_eq(c.bodies, 2);
     ck_assert_uint_eq(c.vertices, box.vertex_count + other.vertex_count);
     ck_assert_uint_eq(c.tets, box.tet_count + other.tet_count);
     ck_assert_uint_eq(c.contacts, view.count);

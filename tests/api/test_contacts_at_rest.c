@@ -141,7 +141,7 @@ static grid_counts check_step(scene* s) {
 /* Two steps to see that a body stays where it is, and one that knows. */
 static void come_to_rest(scene* s) {
     for (int step = 0; step < 2; ++step) (void)check_step(s);
-    ck_assert_uint_eq(check_step(s).moved_meshes, 0);
+    ck_assert_uint_eq(check_step(s).moved_bodies, 0);
 }
 
 START_TEST(some_move) {
@@ -160,8 +160,8 @@ START_TEST(some_move) {
                 ++moving;
             }
             const grid_counts counters = check_step(&s);
-            ck_assert_uint_eq(counters.meshes, present);
-            if (step == 0) ck_assert_uint_eq(counters.moved_meshes, present);
+            ck_assert_uint_eq(counters.bodies, present);
+            if (step == 0) ck_assert_uint_eq(counters.moved_bodies, present);
             carried += counters.carried_contacts;
             found += counters.contacts - counters.carried_contacts;
             depths_carried += counters.carried_penetrations;
@@ -183,11 +183,11 @@ START_TEST(nothing_moves) {
     grid_counts counters = check_step(&s);
     const uint64_t contacts = counters.contacts;
     ck_assert_uint_gt(contacts, 20);
-    ck_assert_uint_eq(counters.moved_meshes, 8);
+    ck_assert_uint_eq(counters.moved_bodies, 8);
     ck_assert_uint_eq(counters.carried_contacts, 0);
     for (int step = 0; step < 3; ++step) {
         counters = check_step(&s);
-        ck_assert_uint_eq(counters.moved_meshes, 0);
+        ck_assert_uint_eq(counters.moved_bodies, 0);
         ck_assert_uint_eq(counters.carried_contacts, contacts);
         ck_assert_uint_eq(counters.carried_penetrations, counters.penetrations);
         ck_assert_uint_eq(counters.leaving_edges + counters.closest_searches, 0);
@@ -201,7 +201,7 @@ START_TEST(nothing_moves) {
             moved(&s, i);
         }
         counters = check_step(&s);
-        ck_assert_uint_eq(counters.moved_meshes, 8);
+        ck_assert_uint_eq(counters.moved_bodies, 8);
     }
     come_to_rest(&s);
     free_scene(&s);
@@ -222,11 +222,11 @@ START_TEST(small_and_hidden_moves) {
         come_to_rest(&s);
         p[3 * inner] = -0.0f;
         moved(&s, i);
-        ck_assert_uint_eq(check_step(&s).moved_meshes, 1);
+        ck_assert_uint_eq(check_step(&s).moved_bodies, 1);
         come_to_rest(&s);
         p[3 * inner] = nextafterf(p[3 * inner + 1], 9); /* inside the box */
         moved(&s, i);
-        ck_assert_uint_eq(check_step(&s).moved_meshes, 1);
+        ck_assert_uint_eq(check_step(&s).moved_bodies, 1);
         /* There and back again: at rest, but not since the last step. */
         const float was = p[3 * inner + 1];
         p[3 * inner + 1] = somewhere();
@@ -234,7 +234,7 @@ START_TEST(small_and_hidden_moves) {
         (void)check_step(&s);
         p[3 * inner + 1] = was;
         moved(&s, i);
-        ck_assert_uint_eq(check_step(&s).moved_meshes, 1);
+        ck_assert_uint_eq(check_step(&s).moved_bodies, 1);
     }
     free_scene(&s);
 }
@@ -247,7 +247,7 @@ START_TEST(failed_steps) {
     make_scene(&s, 6);
     for (int i = 0; i < 6; ++i) {
         (void)check_step(&s);
-        ck_assert_uint_eq(check_step(&s).moved_meshes, 0);
+        ck_assert_uint_eq(check_step(&s).moved_bodies, 0);
         float* const p = &s.bodies[i].positions[3 * below(s.bodies[i].vertex_count)];
         const float was = *p;
         *p = i % 2 ? NAN : INFINITY;
@@ -261,7 +261,7 @@ START_TEST(failed_steps) {
         *p = was;
         moved(&s, i);
         const grid_counts counters = check_step(&s);
-        ck_assert_uint_eq(counters.moved_meshes, 6);
+        ck_assert_uint_eq(counters.moved_bodies, 6);
         ck_assert_uint_eq(counters.carried_contacts, 0);
     }
     free_scene(&s);
@@ -331,7 +331,7 @@ START_TEST(meshes_come_and_go) {
             ck_ok(vox_body_remove(s.grid, old));
             insert(&s, i);
         }
-    ck_assert_uint_eq(check_step(&s).moved_meshes, 1);
+    ck_assert_uint_eq(check_step(&s).moved_bodies, 1);
     ck_ok(vox_grid_clear(s.grid));
     memset(s.ids, 0, sizeof s.ids);
     ck_assert_uint_eq(check_step(&s).contacts, 0);
@@ -349,14 +349,14 @@ START_TEST(bound_elsewhere) {
     float* const copy = (float*)malloc(bytes);
     memcpy(copy, s.bodies[0].positions, bytes);
     ck_ok(bind_array(s.grid, s.ids[0], copy, VOX_FORMAT_FLOAT, 0, 0));
-    ck_assert_uint_eq(check_step(&s).moved_meshes, 0);
+    ck_assert_uint_eq(check_step(&s).moved_bodies, 0);
     s.bodies[0].positions[0] += 0.5f;
     memcpy(copy, s.bodies[0].positions, bytes);
-    ck_assert_uint_eq(check_step(&s).moved_meshes, 1);
+    ck_assert_uint_eq(check_step(&s).moved_bodies, 1);
     s.bodies[0].positions[0] += 0.5f;
     s.bodies[0].positions[7] += 0.5f;
     ck_ok(bind_array(s.grid, s.ids[0], s.bodies[0].positions, VOX_FORMAT_FLOAT, 0, 0));
-    ck_assert_uint_eq(check_step(&s).moved_meshes, 1);
+    ck_assert_uint_eq(check_step(&s).moved_bodies, 1);
     free(copy);
     free_scene(&s);
 }
@@ -367,19 +367,19 @@ START_TEST(settings_and_marks) {
     random_state = 8;
     make_scene(&s, 5);
     (void)check_step(&s);
-    ck_assert_uint_eq(check_step(&s).moved_meshes, 0);
+    ck_assert_uint_eq(check_step(&s).moved_bodies, 0);
     ck_ok(vox_grid_set_cell_size(s.grid, 0.5));
-    ck_assert_uint_eq(check_step(&s).moved_meshes, 5);
-    ck_assert_uint_eq(check_step(&s).moved_meshes, 0);
+    ck_assert_uint_eq(check_step(&s).moved_bodies, 5);
+    ck_assert_uint_eq(check_step(&s).moved_bodies, 0);
     ck_ok(vox_grid_set_worker_count(s.grid, 2));
-    ck_assert_uint_eq(check_step(&s).moved_meshes, 5);
+    ck_assert_uint_eq(check_step(&s).moved_bodies, 5);
     ck_ok(vox_grid_reserve(s.grid, 100, 10000)); /* contacts stay */
-    ck_assert_uint_eq(check_step(&s).moved_meshes, 0);
+    ck_assert_uint_eq(check_step(&s).moved_bodies, 0);
     ck_ok(vox_body_mark_moved(s.grid, s.ids[2]));
-    ck_assert_uint_eq(check_step(&s).moved_meshes, 1);
-    ck_assert_uint_eq(check_step(&s).moved_meshes, 0);
+    ck_assert_uint_eq(check_step(&s).moved_bodies, 1);
+    ck_assert_uint_eq(check_step(&s).moved_bodies, 0);
     ck_fails(vox_body_mark_moved(NULL, s.ids[2]), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
-    ck_fails(vox_body_mark_moved(s.grid, 77), VOX_ERROR_INVALID_HANDLE, "mesh id 77");
+    ck_fails(vox_body_mark_moved(s.grid, 77), VOX_ERROR_INVALID_HANDLE, "body id 77");
     free_scene(&s);
 }
 END_TEST
@@ -434,7 +434,7 @@ START_TEST(reference_engine_rests_never) {
     make_scene_of(&s, 4, &desc);
     for (int step = 0; step < 3; ++step) {
         const grid_counts counters = check_step(&s);
-        ck_assert_uint_eq(counters.moved_meshes, 4);
+        ck_assert_uint_eq(counters.moved_bodies, 4);
         ck_assert_uint_eq(counters.carried_contacts, 0);
         ck_assert_uint_gt(counters.candidates, 0);
     }

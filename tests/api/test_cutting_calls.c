@@ -27,13 +27,13 @@ START_TEST(arguments) {
              "grid is null");
     ck_fails(vox_mesh_remove_vertices(NULL, mesh, zero, 1), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
 
-    ck_fails(vox_mesh_set_topology(grid, 0, &desc), VOX_ERROR_INVALID_HANDLE, "mesh id is 0");
-    ck_fails(vox_mesh_set_tets_enabled(grid, 2, zero, 1, 0), VOX_ERROR_INVALID_HANDLE, "mesh id 2");
-    ck_fails(vox_mesh_replace_tets(grid, 2, zero, 1, zero), VOX_ERROR_INVALID_HANDLE, "mesh id 2");
-    ck_fails(vox_mesh_append_tets(grid, 2, zero, 1, &first), VOX_ERROR_INVALID_HANDLE, "mesh id 2");
-    ck_fails(vox_mesh_remove_tets(grid, 2, zero, 1), VOX_ERROR_INVALID_HANDLE, "mesh id 2");
-    ck_fails(vox_mesh_append_vertices(grid, 2, &vertices, &first), VOX_ERROR_INVALID_HANDLE, "mesh id 2");
-    ck_fails(vox_mesh_remove_vertices(grid, 2, zero, 1), VOX_ERROR_INVALID_HANDLE, "mesh id 2");
+    ck_fails(vox_mesh_set_topology(grid, 0, &desc), VOX_ERROR_INVALID_HANDLE, "body id is 0");
+    ck_fails(vox_mesh_set_tets_enabled(grid, 2, zero, 1, 0), VOX_ERROR_INVALID_HANDLE, "body id 2");
+    ck_fails(vox_mesh_replace_tets(grid, 2, zero, 1, zero), VOX_ERROR_INVALID_HANDLE, "body id 2");
+    ck_fails(vox_mesh_append_tets(grid, 2, zero, 1, &first), VOX_ERROR_INVALID_HANDLE, "body id 2");
+    ck_fails(vox_mesh_remove_tets(grid, 2, zero, 1), VOX_ERROR_INVALID_HANDLE, "body id 2");
+    ck_fails(vox_mesh_append_vertices(grid, 2, &vertices, &first), VOX_ERROR_INVALID_HANDLE, "body id 2");
+    ck_fails(vox_mesh_remove_vertices(grid, 2, zero, 1), VOX_ERROR_INVALID_HANDLE, "body id 2");
 
     ck_fails(vox_mesh_set_topology(grid, mesh, NULL), VOX_ERROR_INVALID_ARGUMENT, "desc is null");
     ck_fails(vox_mesh_set_tets_enabled(grid, mesh, NULL, 1, 0), VOX_ERROR_INVALID_ARGUMENT, "tets is null");
@@ -130,7 +130,7 @@ START_TEST(nothing_to_do) {
     insert_mesh(grid, &more);
     for (int step = 0; step < 3; ++step) ck_ok(vox_grid_step(grid));
     const grid_counts before = counters_of(grid);
-    ck_assert_uint_eq(before.moved_meshes, suite_engine == ENGINE_FAST ? 0 : 2);
+    ck_assert_uint_eq(before.moved_bodies, suite_engine == ENGINE_FAST ? 0 : 2);
     for (int kind = 0; kind < 6; ++kind) {
         if (kind == 0) ck_ok(vox_mesh_set_tets_enabled(grid, mesh, NULL, 0, 0));
         if (kind == 1) ck_ok(vox_mesh_remove_tets(grid, mesh, NULL, 0));
@@ -140,7 +140,7 @@ START_TEST(nothing_to_do) {
         if (kind == 5) ck_ok(vox_mesh_remove_vertices(grid, mesh, NULL, 0));
         ck_ok(vox_grid_step(grid));
         const grid_counts after = counters_of(grid);
-        ck_assert_uint_eq(after.moved_meshes, before.moved_meshes);
+        ck_assert_uint_eq(after.moved_bodies, before.moved_bodies);
         ck_assert_uint_eq(after.carried_contacts, before.carried_contacts);
         ck_assert_uint_eq(after.bytes, before.bytes);
     }

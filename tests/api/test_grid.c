@@ -252,12 +252,12 @@ START_TEST(mesh_desc_fields) {
 #undef REFUSED
     ck_ok(vox_grid_step(grid));
     grid_counts counters = counters_of(grid);
-    ck_assert_uint_eq(counters.meshes, 0);
+    ck_assert_uint_eq(counters.bodies, 0);
     vox_grid_destroy(grid);
 }
 END_TEST
 
-/* ---- mesh ids ---- */
+/* ---- body ids ---- */
 
 START_TEST(ids) {
     vox_grid* grid = grid_of(NULL);
@@ -273,10 +273,10 @@ START_TEST(ids) {
     const vox_body wrong[] = {VOX_NULL_BODY, elsewhere, 0xffffffffu, a + 1, b ^ 0x800u};
     uint64_t data = 5;
     for (int i = 0; i < 5; ++i) {
-        ck_fails(vox_body_remove(grid, wrong[i]), VOX_ERROR_INVALID_HANDLE, "mesh id");
-        ck_fails(vox_body_get_user_data(grid, wrong[i], &data), VOX_ERROR_INVALID_HANDLE, "mesh id");
+        ck_fails(vox_body_remove(grid, wrong[i]), VOX_ERROR_INVALID_HANDLE, "body id");
+        ck_fails(vox_body_get_user_data(grid, wrong[i], &data), VOX_ERROR_INVALID_HANDLE, "body id");
         ck_fails(bind_array(grid, wrong[i], unit_tet_positions, VOX_FORMAT_FLOAT, 0, 0),
-                 VOX_ERROR_INVALID_HANDLE, "mesh id");
+                 VOX_ERROR_INVALID_HANDLE, "body id");
         ck_assert_uint_eq(vox_body_is_valid(grid, wrong[i]), 0);
     }
     ck_ok(vox_body_remove(grid, a));
@@ -356,7 +356,7 @@ START_TEST(info_of_the_last_step) {
     ck_assert_uint_gt(info.bytes, 0);
     ck_assert_uint_eq(info.bytes, counters.bytes);
     ck_assert_uint_eq(info.peak_bytes, counters.peak_bytes);
-    ck_assert_uint_eq(info.moved_bodies, counters.moved_meshes);
+    ck_assert_uint_eq(info.moved_bodies, counters.moved_bodies);
     ck_assert_uint_gt(info.step_ns, 0);
     ck_assert_uint_eq(info.step_ns, profile.step_ns);
     vox_grid_destroy(grid);

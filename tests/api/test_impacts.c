@@ -467,7 +467,7 @@ START_TEST(arguments) {
     ck_fails(bind_previous_array(NULL, m.id, m.before, VOX_FORMAT_FLOAT, 0, 0), VOX_ERROR_INVALID_ARGUMENT,
              "grid");
     ck_fails(bind_previous_array(grid, m.id + 1, m.before, VOX_FORMAT_FLOAT, 0, 0), VOX_ERROR_INVALID_HANDLE,
-             "mesh");
+             "body");
     ck_fails(bind_previous_array(grid, m.id, m.before, (vox_format)7, 0, 0), VOX_ERROR_INVALID_ARGUMENT,
              "format");
     const vox_positions too_few = vox_float_positions(m.before, m.now.vertex_count - 1);

@@ -54,7 +54,7 @@ START_TEST(meshes_of_a_grid) {
     }
     if (result == VOX_OK) {
         ck_fails(vox_mesh_insert(grid, &desc, &mesh), VOX_ERROR_LIMIT,
-                 "holds 1048576 mesh slots and cannot take 1 more, the limit is 1048576");
+                 "holds 1048576 body slots and cannot take 1 more, the limit is 1048576");
         ck_ok(vox_body_remove(grid, last));
         ck_ok(vox_mesh_insert(grid, &desc, &mesh)); /* in its place */
         ck_assert_uint_ne(mesh, last);

@@ -119,7 +119,7 @@ static uint64_t check_margin(const margin_scene* s, vox_grid* grid, double margi
             }
     vox_locator_release(locator);
     for (; next < view.count; ++next) ck_assert_int_eq(view.data[next].kind, VOX_CONSTRAINT_INSIDE);
-    ck_assert_uint_eq(counters_of(grid).margin_contacts, count_near(grid));
+    ck_assert_uint_eq(counters_of(grid).proximities, count_near(grid));
     for (uint64_t p = 0; p < pairs.count; ++p) { /* those without contacts are near */
         const int is_near =
             pairs.data[p].contact_count == 0 && view.pair_offsets[p] < view.pair_offsets[p + 1];
@@ -235,7 +235,7 @@ START_TEST(at_rest_and_edited) {
         ck_ok(vox_grid_step(grid));
         ck_assert_uint_eq(check_margin(&s, grid, 0.5), all);
     }
-    if (suite_engine == ENGINE_FAST) ck_assert_uint_eq(counters_of(grid).carried_margin_contacts, all);
+    if (suite_engine == ENGINE_FAST) ck_assert_uint_eq(counters_of(grid).carried_proximities, all);
     for (uint32_t i = 0; i < s.count; ++i) {
         move_body(&s.bodies[i], 0.1, 0.05, -0.1);
         ck_ok(vox_grid_step(grid));
@@ -353,7 +353,7 @@ START_TEST(off_releases_its_memory) {
         ck_ok(vox_grid_set_margin(grid, 0.5));
         ck_ok(vox_grid_step(grid));
         ck_assert_uint_gt(count_pairs(grid, VOX_PAIR_NEAR), 0);
-        ck_assert_uint_gt(counters_of(grid).margin_contacts, 0);
+        ck_assert_uint_gt(counters_of(grid).proximities, 0);
         ck_ok(vox_grid_set_margin(grid, 0));
         ck_ok(vox_grid_step(grid));
         ck_assert_uint_eq(count_pairs(grid, VOX_PAIR_NEAR), 0);

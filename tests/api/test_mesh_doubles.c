@@ -211,7 +211,7 @@ START_TEST(limits) {
         const vox_body other = insert(grid, &a, 0), mesh = insert(grid, &b, 0);
         const uint64_t hash = hash_of_step(grid);
         char text[64];
-        snprintf(text, sizeof text, "mesh %u (slot 1, user data 0), vertex 7: position (", mesh);
+        snprintf(text, sizeof text, "body %u (slot 1, user data 0), vertex 7: position (", mesh);
         for (size_t i = 0; i < sizeof refused / sizeof *refused; ++i) {
             const double kept = b.positions[3 * 7 + 1];
             memcpy(b.bytes + 7 * b.stride + 8, &refused[i], sizeof(double));

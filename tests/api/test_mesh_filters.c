@@ -136,7 +136,7 @@ START_TEST(pair_exceptions) {
 }
 END_TEST
 
-START_TEST(disabled_meshes) {
+START_TEST(disabled_bodies) {
     vox_grid* grid = new_grid();
     body box = make_box(2, 1, 0, 0, 0), other = make_box(2, 1, 0.5f, 0.5f, 0.5f);
     const vox_mesh_desc desc = body_desc(&box);
@@ -148,8 +148,8 @@ START_TEST(disabled_meshes) {
     ck_ok(vox_body_set_enabled(grid, mesh, 0));
     ck_assert_uint_eq(stepped(grid).count, 0); /* its positions are not missed */
     grid_counts counters = counters_of(grid);
-    ck_assert_uint_eq(counters.meshes, 1);
-    ck_assert_uint_eq(counters.disabled_meshes, 1);
+    ck_assert_uint_eq(counters.bodies, 1);
+    ck_assert_uint_eq(counters.disabled_bodies, 1);
     ck_assert_uint_eq(counters.tets, box.tet_count);
     ck_ok(bind_array(grid, mesh, other.positions, VOX_FORMAT_FLOAT, 0, 0));
     ck_ok(vox_body_set_enabled(grid, mesh, 1));
@@ -162,7 +162,7 @@ START_TEST(disabled_meshes) {
     other.positions[0] = 0.5f;
     ck_ok(vox_body_set_enabled(grid, mesh, 1));
     ck_assert_uint_eq(stepped(grid).count, count);
-    ck_assert_uint_eq(counters_of(grid).disabled_meshes, 0);
+    ck_assert_uint_eq(counters_of(grid).disabled_bodies, 0);
     vox_grid_destroy(grid);
     free_body(&box);
     free_body(&other);
@@ -212,7 +212,7 @@ START_TEST(arguments) {
     ck_assert_uint_eq(filter_of(grid, mesh).mask, UINT64_MAX);
     ck_fails(vox_body_set_filter(NULL, mesh, &filter), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     ck_fails(vox_body_set_filter(grid, mesh, NULL), VOX_ERROR_INVALID_ARGUMENT, "filter is null");
-    ck_fails(vox_body_set_filter(grid, 0, &filter), VOX_ERROR_INVALID_HANDLE, "mesh id is 0");
+    ck_fails(vox_body_set_filter(grid, 0, &filter), VOX_ERROR_INVALID_HANDLE, "body id is 0");
     filter.self_rings = VOX_MAX_RINGS;
     ck_ok(vox_body_set_filter(grid, mesh, &filter));
     filter.self_rings = VOX_MAX_RINGS + 1;
@@ -253,11 +253,11 @@ START_TEST(arguments) {
 
     ck_fails(vox_body_set_enabled(NULL, mesh, 1), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     ck_fails(vox_body_set_enabled(grid, mesh, 2), VOX_ERROR_INVALID_ARGUMENT, "enabled is 2");
-    ck_fails(vox_body_set_enabled(grid, 0, 1), VOX_ERROR_INVALID_HANDLE, "mesh id is 0");
+    ck_fails(vox_body_set_enabled(grid, 0, 1), VOX_ERROR_INVALID_HANDLE, "body id is 0");
     ck_fails(vox_grid_set_pair_enabled(NULL, mesh, other, 0), VOX_ERROR_INVALID_ARGUMENT, "grid is null");
     ck_fails(vox_grid_set_pair_enabled(grid, mesh, other, 7), VOX_ERROR_INVALID_ARGUMENT, "enabled is 7");
     ck_fails(vox_grid_set_pair_enabled(grid, mesh, mesh, 0), VOX_ERROR_INVALID_ARGUMENT, "self-collision");
-    ck_fails(vox_grid_set_pair_enabled(grid, mesh, 0, 0), VOX_ERROR_INVALID_HANDLE, "mesh id is 0");
+    ck_fails(vox_grid_set_pair_enabled(grid, mesh, 0, 0), VOX_ERROR_INVALID_HANDLE, "body id is 0");
     ck_ok(vox_body_remove(grid, other));
     ck_fails(vox_grid_set_pair_enabled(grid, mesh, other, 0), VOX_ERROR_INVALID_HANDLE, "stale");
     vox_grid_destroy(grid);
@@ -266,7 +266,7 @@ START_TEST(arguments) {
 END_TEST
 
 static void add_tests(TCase* tests) {
-    tcase_add_each(tests, category_mask_and_group, worlds, pair_exceptions, disabled_meshes,
+    tcase_add_each(tests, category_mask_and_group, worlds, pair_exceptions, disabled_bodies,
                    many_bodies_in_one_place, arguments);
 }
 

@@ -299,7 +299,7 @@ static int has_key(const key_set* set, vox_body a, vox_body b) {
     return 0;
 }
 
-/* User data by mesh id, for as many ids as the model sees. */
+/* User data by body id, for as many ids as the model sees. */
 static uint64_t given[16 << 12];
 
 /* What touches and what is near, by the contacts and the constraints of the step. */

@@ -37,7 +37,7 @@ START_TEST(bytes_of_a_body) {
     }
     ck_ok(vox_grid_step(grid));
     const grid_counts counters = counters_of(grid);
-    ck_assert_uint_eq(counters.meshes, count);
+    ck_assert_uint_eq(counters.bodies, count);
     ck_assert_uint_eq(counters.vertices, 4 * count);
     ck_assert_uint_eq(counters.tets, count);
     ck_assert_uint_eq(counters.contacts, 0);
@@ -149,7 +149,7 @@ START_TEST(contacts_of_wandering_bodies) {
         const uint64_t hash = hash_of_step(grid), expected = hash_of_step(reference);
         ck_assert_msg(hash == expected, "step %d", step);
         const grid_counts found = counters_of(grid), by_reference = counters_of(reference);
-        ck_assert_uint_eq(found.meshes, by_reference.meshes);
+        ck_assert_uint_eq(found.bodies, by_reference.bodies);
         ck_assert_uint_eq(found.vertices, by_reference.vertices);
         ck_assert_uint_eq(found.tets, by_reference.tets);
         contacts += found.contacts;
@@ -158,8 +158,8 @@ START_TEST(contacts_of_wandering_bodies) {
         ck_assert_uint_eq(kept.count > 0, found.contacts > 0);
         free(kept.data);
         if (step % 4 == 2 && suite_engine == ENGINE_FAST) {
-            ck_assert_msg(found.moved_meshes == 0, "step %d: %llu moved", step,
-                          (unsigned long long)found.moved_meshes);
+            ck_assert_msg(found.moved_bodies == 0, "step %d: %llu moved", step,
+                          (unsigned long long)found.moved_bodies);
             ck_assert_uint_eq(found.carried_contacts, found.contacts);
             ++rested;
         }
@@ -220,10 +220,10 @@ START_TEST(bad_positions) {
         ck_assert_uint_eq(failure.body, bad);
         ck_assert_uint_eq(failure.vertex, 1);
         ck_assert_int_eq(result, skip ? VOX_OK : VOX_ERROR_NON_FINITE);
-        if (skip) ck_assert_uint_eq(counters_of(grid).meshes, count - 1);
+        if (skip) ck_assert_uint_eq(counters_of(grid).bodies, count - 1);
         at[70][4] = 0;
         ck_ok(vox_grid_step(grid));
-        ck_assert_uint_eq(counters_of(grid).meshes, count);
+        ck_assert_uint_eq(counters_of(grid).bodies, count);
         vox_grid_destroy(grid);
     }
 }
@@ -244,8 +244,8 @@ START_TEST(bytes_beside_a_bad_body) {
     }
     for (int step = 0; step < 2; ++step) ck_ok(vox_grid_step(grid));
     const grid_counts counters = counters_of(grid);
-    ck_assert_uint_eq(counters.skipped_meshes, 1);
-    ck_assert_uint_eq(counters.meshes, count - 1);
+    ck_assert_uint_eq(counters.skipped_bodies, 1);
+    ck_assert_uint_eq(counters.bodies, count - 1);
     if (suite_engine == ENGINE_FAST) ck_assert_uint_le(counters.peak_bytes / count, 650);
     vox_grid_destroy(grid);
 }

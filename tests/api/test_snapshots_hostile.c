@@ -38,7 +38,7 @@ typedef struct defect {
     const char* words;
 } defect;
 
-/* The scene has slots 0 to 7, of which slot 2 is empty; mesh ids are slot << 12 | 1. */
+/* The scene has slots 0 to 7, of which slot 2 is empty; body ids are slot << 12 | 1. */
 static const defect defects[] = {
     {"GRID", 0, -16, 4, 0x41414141u, VOX_ERROR_FORMAT, "chunk AAAA at byte 24: expected chunk GRID first"},
     {"GRID", 0, -12, 4, 5, VOX_ERROR_FORMAT, "its second word is 5"},
@@ -69,13 +69,13 @@ static const defect defects[] = {
     {"SLOT", 0, 8, 4, 0x80000000u, VOX_ERROR_FORMAT, "slot 0 has generation 0"},
     {"SLOT", 0, 8, 4, 4096, VOX_ERROR_FORMAT, "slot 0 has generation 4096"},
     {"SLOT", 0, 8, 4, 1, VOX_ERROR_FORMAT, "1 free slots are listed, 2 are free"},
-    {"SLOT", 0, 12, 4, 0x80000002u, VOX_ERROR_FORMAT, "it is of mesh 4097, expected mesh 4098"},
+    {"SLOT", 0, 12, 4, 0x80000002u, VOX_ERROR_FORMAT, "it is of body 4097, expected body 4098"},
     {"SLOT", 0, 16, 4, 4095, VOX_ERROR_FORMAT, "1 free slots are listed, 0 are free"},
     {"SLOT", 0, 40, 4, 8, VOX_ERROR_FORMAT, "free slot 8 of 8 slots"},
     {"SLOT", 0, 40, 4, 3, VOX_ERROR_FORMAT, "slot 3 is listed as free, but"},
-    {"MESH", 0, 0, 4, 4097, VOX_ERROR_FORMAT, "it is of mesh 4097, expected mesh 1"},
-    {"MESH", 1, 0, 4, 1, VOX_ERROR_FORMAT, "it is of mesh 1, expected mesh 4097"},
-    {"MESH", 1, 0, 4, 0, VOX_ERROR_FORMAT, "it is of mesh 0, expected mesh 4097"},
+    {"MESH", 0, 0, 4, 4097, VOX_ERROR_FORMAT, "it is of body 4097, expected body 1"},
+    {"MESH", 1, 0, 4, 1, VOX_ERROR_FORMAT, "it is of body 1, expected body 4097"},
+    {"MESH", 1, 0, 4, 0, VOX_ERROR_FORMAT, "it is of body 0, expected body 4097"},
     {"MESH", 0, 4, 4, 64, VOX_ERROR_FORMAT, "of which 0x40 is unknown"},
     {"MESH", 2, 40, 8, 0x7ff0000000000000ull, VOX_ERROR_FORMAT, "its transform has the element inf"},
     {"MESH", 0, 4, 4, 4, VOX_ERROR_FORMAT,
@@ -89,23 +89,23 @@ static const defect defects[] = {
     {"MESH", 0, 36, 4, 77, VOX_ERROR_FORMAT, "position format is 77"},
     {"MESH", 0, 36, 4, 1, VOX_ERROR_FORMAT, "27 positions of 24 bytes each, it has 324 more bytes"},
     {"MESH", 4, 36, 4, 0, VOX_ERROR_FORMAT, "bytes, expected"},
-    {"MESH", 0, 40, 4, 27, VOX_ERROR_FORMAT, "mesh 1: tet 0 names vertex 27 of 27"},
+    {"MESH", 0, 40, 4, 27, VOX_ERROR_FORMAT, "body 1: tet 0 names vertex 27 of 27"},
     {"MESH", 5, 16, 8, 1ull << 60, VOX_ERROR_FORMAT, "positions"},
     {"MESH", 6, 16, 8, 1ull << 60, VOX_ERROR_LIMIT,
      "positions.count is 1152921504606846976"}, /* without positions */
-    {"MESH", 6, -16, 4, 0x544c4946u, VOX_ERROR_FORMAT, "mesh 28673 is not in it"},
-    {"CUTS", 0, 0, 4, 0, VOX_ERROR_FORMAT, "mesh 0 is not in it"},
-    {"CUTS", 1, 0, 4, 1, VOX_ERROR_FORMAT, "mesh 1 comes after mesh 1"},
+    {"MESH", 6, -16, 4, 0x544c4946u, VOX_ERROR_FORMAT, "body 28673 is not in it"},
+    {"CUTS", 0, 0, 4, 0, VOX_ERROR_FORMAT, "body 0 is not in it"},
+    {"CUTS", 1, 0, 4, 1, VOX_ERROR_FORMAT, "body 1 comes after body 1"},
     {"CUTS", 0, 4, 4, 1, VOX_ERROR_FORMAT, "a reserved word is 1"},
     {"CUTS", 0, 8, 8, UINT64_MAX, VOX_ERROR_FORMAT, "tetrahedra that are off past the last one, number 40"},
-    {"CUTS", 0, 16, 8, 1u << 2, VOX_ERROR_FORMAT, "mesh 1: tet 2 is removed, but not off"},
+    {"CUTS", 0, 16, 8, 1u << 2, VOX_ERROR_FORMAT, "body 1: tet 2 is removed, but not off"},
     {"CUTS", 0, 24, 8, 1u << 26, VOX_ERROR_FORMAT, "names vertex 26, which was removed"},
     {"CUTS", 0, 24, 8, 1u << 27, VOX_ERROR_FORMAT, "vertices that are removed past the last one, number 27"},
     {"CUTS", 0, -8, 8, 24, VOX_ERROR_FORMAT,
      "1 vertices that are removed of 8 bytes each, it has 0 more bytes"},
     {"CUTS", 0, -8, 8, 40, VOX_ERROR_FORMAT, "40 bytes, expected 32"},
-    {"FILT", 0, 0, 4, 0, VOX_ERROR_FORMAT, "mesh 0 is not in it"},
-    {"FILT", 1, 0, 4, 1, VOX_ERROR_FORMAT, "mesh 1 comes after mesh 1"},
+    {"FILT", 0, 0, 4, 0, VOX_ERROR_FORMAT, "body 0 is not in it"},
+    {"FILT", 1, 0, 4, 1, VOX_ERROR_FORMAT, "body 1 comes after body 1"},
     {"FILT", 0, 28, 4, 9, VOX_ERROR_LIMIT, "9"},
     {"FILT", 0, 32, 4, 1, VOX_ERROR_FORMAT, "a reserved word is 1"},
     {"FILT", 0, 40, 8, 0x7ff0000000000000ull, VOX_ERROR_FORMAT, "self_rest_distance"},
@@ -114,13 +114,13 @@ static const defect defects[] = {
     {"FILT", 1, 36, 4, 0, VOX_ERROR_FORMAT, "bytes, expected"},
     {"FILT", 1, 48, 4, 0x7f800000u, VOX_ERROR_FORMAT, "not finite"},
     {"PAIR", 0, 0, 4, 20481, VOX_ERROR_FORMAT, "pair (20481, 20481) is out of order"},
-    {"PAIR", 0, 4, 4, 8193, VOX_ERROR_FORMAT, "mesh id 8193 (slot 2, generation 1) is stale"},
+    {"PAIR", 0, 4, 4, 8193, VOX_ERROR_FORMAT, "body id 8193 (slot 2, generation 1) is stale"},
     {"PAIR", 0, -8, 8, 4, VOX_ERROR_FORMAT, "1 number of 4 bytes each, it has 0 more"},
     {"EVNT", 0, 0, 8, 1ull << 60, VOX_ERROR_FORMAT, "1152921504606846976 pairs of 24 bytes each"},
     {"EVNT", 0, 8, 8, 1, VOX_ERROR_FORMAT, "a reserved number is 1, expected 0"},
-    {"EVNT", 0, 16, 4, 2, VOX_ERROR_FORMAT, "mesh 2 was never in the grid"},
-    {"EVNT", 0, 16, 4, 0, VOX_ERROR_FORMAT, "mesh 0 was never in the grid"},
-    {"EVNT", 0, 16, 4, 8u << 12 | 1, VOX_ERROR_FORMAT, "mesh 32769 was never in the grid"},
+    {"EVNT", 0, 16, 4, 2, VOX_ERROR_FORMAT, "body 2 was never in the grid"},
+    {"EVNT", 0, 16, 4, 0, VOX_ERROR_FORMAT, "body 0 was never in the grid"},
+    {"EVNT", 0, 16, 4, 8u << 12 | 1, VOX_ERROR_FORMAT, "body 32769 was never in the grid"},
     {"EVNT", 0, 16, 4, 7u << 12 | 1, VOX_ERROR_FORMAT, "pair 0 (28673, "},
     {"EVNT", 0, -16, 4, 0x44495247u, VOX_ERROR_FORMAT, "it comes after chunk PAIR"},
     {"EVNT", 0, -16, 4, 0x52494150u, VOX_ERROR_FORMAT, "it comes a second time"},
@@ -159,12 +159,12 @@ START_TEST(missing_and_additional_chunks) {
         free(g.bytes);
     }
     const file fewer = without_chunk(f, "MESH", 2);
-    refused(fewer, VOX_ERROR_FORMAT, "it is of mesh 16385, expected mesh 12289");
+    refused(fewer, VOX_ERROR_FORMAT, "it is of body 16385, expected body 12289");
     const file last = without_chunk(f, "MESH", 6);
-    refused(last, VOX_ERROR_FORMAT, "it has 6 of 7 meshes, mesh 28673 is missing");
+    refused(last, VOX_ERROR_FORMAT, "it has 6 of 7 bodies, body 28673 is missing");
     const unsigned char* mesh = find_chunk(f, "MESH", 6);
     const file twice = with_bytes(f, (size_t)(mesh - f.bytes), mesh, chunk_bytes(mesh));
-    refused(twice, VOX_ERROR_FORMAT, "it is of mesh 28673, expected no more meshes");
+    refused(twice, VOX_ERROR_FORMAT, "it is of body 28673, expected no more bodies");
     const file grid_twice =
         with_bytes(f, header_bytes, f.bytes + header_bytes, chunk_bytes(f.bytes + header_bytes));
     refused(grid_twice, VOX_ERROR_FORMAT, "chunk GRID at byte 136: it comes a second time");

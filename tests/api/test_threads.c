@@ -241,7 +241,7 @@ START_TEST(non_finite_is_the_same_vertex) {
     large[1].positions[3 * 2000] = 1 / zero;
     large[1].positions[3 * 1234 + 2] = 1 / zero;
     small[3].positions[0] = 1 / zero;
-    ck_fails(vox_grid_step(grid), VOX_ERROR_NON_FINITE, "mesh 4097 (slot 1, user data 0), vertex 1234");
+    ck_fails(vox_grid_step(grid), VOX_ERROR_NON_FINITE, "body 4097 (slot 1, user data 0), vertex 1234");
     vox_grid_destroy(grid);
     free_bodies();
 }
@@ -276,7 +276,7 @@ START_TEST(a_bad_mesh_costs_few_tasks) {
             mark_all(grid);
             s.enqueued = 0;
             ck_assert_uint_eq(stepped_hash(grid, &counters), expected);
-            ck_assert_uint_eq(counters.skipped_meshes, 1);
+            ck_assert_uint_eq(counters.skipped_bodies, 1);
             ck_assert_uint_le(s.enqueued, VOX_MAX_TASKS);
             if (suite_engine == ENGINE_FAST) {
                 ck_assert_uint_ge(without, 5);

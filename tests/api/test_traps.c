@@ -62,7 +62,7 @@ START_TEST(doubles_under_floats_are_refused) {
         (void)insert_mesh(grid, &good);
         mesh = insert_mesh(grid, &desc);
         ck_fails(vox_grid_step(grid), VOX_ERROR_INVALID_ARGUMENT, "its positions are doubles");
-        ck_assert_ptr_nonnull(strstr(vox_last_error(), "mesh 4097 (slot 1, user data 77)"));
+        ck_assert_ptr_nonnull(strstr(vox_last_error(), "body 4097 (slot 1, user data 77)"));
         vox_failure failure;
         failure.struct_size = sizeof failure;
         ck_ok(vox_grid_get_failure(grid, 0, &failure));
@@ -244,15 +244,15 @@ START_TEST(edges_collide_with_nothing) {
     ck_assert_uint_eq(log.warnings, 0);
     (void)insert_mesh(grid, &b);
     ck_assert_uint_eq(log.warnings, 1);
-    ck_assert(says(&log, "mesh 4097 (slot 1, user data 12) has no tetrahedra"));
+    ck_assert(says(&log, "body 4097 (slot 1, user data 12) has no tetrahedra"));
     ck_assert(says(&log, "its edges and faces with nothing"));
     (void)insert_mesh(grid, &b);
     ck_assert_uint_eq(log.warnings, 1);
     ck_ok(vox_grid_step(grid));
     ck_assert_uint_eq(contacts_of(grid).count, 0);
     const grid_counts counters = counters_of(grid);
-    ck_assert_uint_eq(counters.meshes, 3);
-    ck_assert_uint_eq(counters.meshes_without_tets, 2);
+    ck_assert_uint_eq(counters.bodies, 3);
+    ck_assert_uint_eq(counters.bodies_without_tets, 2);
     vox_grid_destroy(grid);
 }
 END_TEST

@@ -130,7 +130,7 @@ class Results(Files):
         self.assertEqual([(c["kind"], c["body_a"], c["vertices"][0], c["body_b"], c["gap"], c["normal"])
                           for c in found["constraints"]],
                          [("proximity", 0, 3, 1, 0.125, [0, 0, -1]), ("proximity", 1, 0, 0, 0.125, [0, 0, 1])])
-        self.assertEqual(found["counters"]["margin_contacts"], 2)
+        self.assertEqual(found["counters"]["proximities"], 2)
         arrays = self.check_drawing(out, found)
         self.assertEqual(arrays["PointData", "gap"], [0, 0, 0, 0.125, 0.125, 0, 0, 0])
         self.assertEqual(arrays["PointData", "normal"][9:15], [0, 0, -1, 0, 0, 1])

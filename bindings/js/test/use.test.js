@@ -94,7 +94,7 @@ test("positions of doubles, and of meshes without vertices", () => {
   assert.equal(empty.tets.length, 0);
   grid.add({ positions: new Float32Array([0.5, 0.5, 0.5]) });
   grid.step();
-  assert.equal(grid.counters.meshes_without_tets, 1);
+  assert.equal(grid.counters.bodies_without_tets, 1);
   grid.dispose();
 });
 
@@ -306,7 +306,7 @@ test("settings, failures and measurements", () => {
   grid.step();
   assert.equal(grid.failure(), null);
   assert.ok(grid.counters.step_ns > 0);
-  assert.equal(grid.counters.meshes, 2);
+  assert.equal(grid.counters.bodies, 2);
   assert.ok(grid.suggestCellSize().cellSize > 0);
   assert.notEqual(grid.suggestCellSize({ model: 0 }).terms[0].name, grid.suggestCellSize({ model: 1 }).terms[0].name);
   assert.throws(() => new vox.Grid({ byteBudget: 10 }), failure(Result.ERROR_BUDGET));
