@@ -53,6 +53,20 @@ class Files(unittest.TestCase):
         self.assertEqual(again.report.tets, len(self.tets))
         self.assertEqual(again.warnings, [])
 
+    def test_assimp(self):
+        path = self.path("triangle.obj")
+        with open(path, "w") as file:
+            file.write("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        own = voxtet.io.load(path)
+        try:
+            other = voxtet.io.load(path, format="assimp")
+        except voxtet.UnsupportedError as error:  # the library was built without it
+            self.assertIn("VOX_IO_ASSIMP", str(error))
+            return
+        self.assertEqual(other.format, "assimp")
+        np.testing.assert_array_equal(other.positions, own.positions)
+        np.testing.assert_array_equal(other.triangles, own.triangles)
+
     def test_memory(self):
         for format in ("msh_22", "msh_41", "vtu"):
             content = voxtet.io.write(self.data, format, point_data={"x": self.positions[:, 0], "p": self.positions},
