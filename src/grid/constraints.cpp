@@ -214,7 +214,7 @@ public:
         if (!known_) return VOX_NONE;
         // As a rule the next one is the same.
         const std::uint32_t next = next_[kind];
-        if (next < first_[kind + 1] && key_of(last_.all[next]) == key) return next_[kind]++;
+        if (next < first_[kind + 1] && has_key(last_.all[next], key)) return next_[kind]++;
         std::uint32_t found = find_among(kind, key);
         if (kind == VOX_CONSTRAINT_EDGE) return found;
         for (const auto other : {VOX_CONSTRAINT_INSIDE, VOX_CONSTRAINT_PROXIMITY, VOX_CONSTRAINT_IMPACT})
@@ -223,6 +223,12 @@ public:
     }
 
 private:
+    // As a rule the first two numbers say it.
+    static bool has_key(const vox_constraint& c, const Key& key) noexcept {
+        return c.vertices[0] == key.vertices[0] && c.body_a == key.body_a &&
+               (c.kind != VOX_CONSTRAINT_EDGE || key_of(c) == key);
+    }
+
     // Constraints of another kind are looked up in any order, hence the first test.
     std::uint32_t find_among(vox_constraint_kind kind, const Key& key) noexcept {
         const auto key_at = [&](std::uint32_t i) { return key_of(last_.all[i]); };
@@ -237,7 +243,7 @@ private:
         const auto between = std::span(last_.all).subspan(low, high - low);
         const auto at = std::ranges::lower_bound(between, key, {}, key_of);
         next_[kind] = low + static_cast<std::uint32_t>(at - between.begin());
-        return next_[kind] < end && key_at(next_[kind]) == key ? next_[kind] : VOX_NONE;
+        return next_[kind] < end && has_key(last_.all[next_[kind]], key) ? next_[kind] : VOX_NONE;
     }
 
     const List& last_;
@@ -381,53 +387,59 @@ bool Constraints::carry_inside(const ConstraintSources& from, const Run& run,
 }
 
 // A block at a time, whatever pairs they are of: gather the points and the corners of their tetrahedra, weigh
-// them, write.
+// them, write. Tetrahedra and positions are anywhere in memory, and waiting for them takes longer than the
+// arithmetic: while a block is written, those of the next one arrive in the cache.
 void Constraints::write_inside(const ConstraintSources& from, const Run& run, Previous& previous) noexcept {
+    if (run.begin == run.end) return;
     const std::span<const Body> bodies = from.bodies;
-    const auto hit_at = [&](std::size_t i) -> const Hit& { return hit_of(from, sources_[i]); };
-    // Tetrahedra and positions are anywhere in memory, and waiting for them takes longer than the arithmetic.
-    // Far enough ahead to hide that, and near enough that nothing is evicted before its use.
-    constexpr std::size_t tets_ahead = 32, positions_ahead = 16;
-    const auto prefetch_after = [&](std::size_t i) {
-        if (i + tets_ahead < run.end) {
-            const Hit& later = hit_at(i + tets_ahead);
-            prefetch(&bodies[later.body_b].tets[later.tet]);
-        }
-        if (i + positions_ahead < run.end) {
-            const Hit& later = hit_at(i + positions_ahead);
-            const Body &a = bodies[later.body_a], &b = bodies[later.body_b];
-            prefetch(a.positions.data + later.vertex * a.positions.byte_stride);
-            for (const std::uint32_t v : b.tets[later.tet].v)
-                prefetch(b.positions.data + v * b.positions.byte_stride);
+    std::array<Hit, point_block> hits, next_hits;
+    std::size_t next_count = 0;
+    const auto prefetch_tets = [&](std::size_t begin) {
+        next_count = std::min(point_block, run.end - begin);
+        for (std::size_t i = 0; i < next_count; ++i) {
+            next_hits[i] = hit_of(from, sources_[begin + i]);
+            prefetch(&bodies[next_hits[i].body_b].tets[next_hits[i].tet]);
         }
     };
-    if (run.begin == run.end) return;
+    const auto prefetch_positions = [&] {
+        for (std::size_t i = 0; i < next_count; ++i) {
+            const Hit& hit = next_hits[i];
+            const Body& b = bodies[hit.body_b];
+            const Positions &of_a = bodies[hit.body_a].positions, &of_b = b.positions;
+            prefetch(of_a.data + hit.vertex * of_a.byte_stride);
+            for (const std::uint32_t v : b.tets[hit.tet].v) prefetch(of_b.data + v * of_b.byte_stride);
+        }
+    };
     std::uint32_t pair = run.pair;
     previous.begin(now_.pairs[pair]);
     PointBlock block;
     WeightBlock weights;
+    prefetch_tets(run.begin);
+    prefetch_positions();
     for (std::size_t begin = run.begin; begin < run.end; begin += point_block) {
-        const std::size_t count = std::min(point_block, run.end - begin);
+        const std::size_t count = next_count;
+        hits = next_hits;
+        prefetch_tets(begin + count);
         const auto put = [](double(&to)[3][point_block], std::size_t i, const Vec3d& x) {
             to[0][i] = x.x;
             to[1][i] = x.y;
             to[2][i] = x.z;
         };
         for (std::size_t i = 0; i < count; ++i) {
-            prefetch_after(begin + i);
-            const Hit& hit = hit_at(begin + i);
+            const Hit& hit = hits[i];
             const Body& b = bodies[hit.body_b];
             put(block.point, i, bodies[hit.body_a].positions.exact(hit.vertex));
             for (std::size_t c = 0; c < 4; ++c)
                 put(block.corner[c], i, b.positions.exact(b.tets[hit.tet].v[c]));
         }
+        prefetch_positions();
         for (std::size_t i = count; i % 8; ++i) { // whole registers are computed
             put(block.point, i, {0, 0, 0});
             for (auto& corner : block.corner) put(corner, i, {0, 0, 0});
         }
         weigh(block, count, weights);
         for (std::size_t i = 0; i < count; ++i) {
-            const Hit& hit = hit_at(begin + i);
+            const Hit& hit = hits[i];
             const Body &a = bodies[hit.body_a], &b = bodies[hit.body_b];
             if (begin + i >= pair_offsets_[pair + 1]) {
                 while (begin + i >= pair_offsets_[pair + 1]) ++pair;
