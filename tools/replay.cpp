@@ -43,7 +43,7 @@ void print_replay(const ReplayOptions& options, const std::string& file, std::ui
         return static_cast<unsigned long long>(value_of(counters, name));
     };
     std::printf("%s: %llu meshes, %llu vertices, %llu tetrahedra, saved at epoch %llu\n", file.c_str(),
-                count("meshes"), count("vertices"), count("tets"), static_cast<unsigned long long>(epoch));
+                count("bodies"), count("vertices"), count("tets"), static_cast<unsigned long long>(epoch));
     std::printf("%llu %s, hash %s, cell size %.9g, last of %u %s in %.3f ms\n", count("contacts"),
                 count("contacts") == 1 ? "contact" : "contacts", hexadecimal(hash_of(grid)).c_str(),
                 info_of(grid).cell_size, options.steps, options.steps == 1 ? "step" : "steps",
