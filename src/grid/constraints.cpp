@@ -100,8 +100,8 @@ void Constraints::begin_step(bool last_succeeded) noexcept {
 Constraints::Key Constraints::key_of(const vox_constraint& c) noexcept {
     Key key{c.body_a, {c.vertices[0], 0, 0, 0, 0}};
     if (c.kind != VOX_CONSTRAINT_EDGE) return key;
-    std::copy(c.vertices, c.vertices + 5, key.vertices);
-    std::sort(key.vertices + 2, key.vertices + 5);
+    std::copy(c.vertices, c.vertices + 5, key.vertices.begin());
+    std::sort(key.vertices.begin() + 2, key.vertices.end());
     return key;
 }
 

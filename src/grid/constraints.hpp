@@ -71,7 +71,7 @@ private:
     // What makes two constraints the same: the vertex, or the edge and the sorted face.
     struct Key {
         vox_body body_a;
-        std::uint32_t vertices[5]; // an array of the library's would be compared by a call
+        std::array<std::uint32_t, 5> vertices;
 
         auto operator<=>(const Key&) const = default;
     };
