@@ -63,7 +63,7 @@ class Files(unittest.TestCase):
         except voxtet.UnsupportedError as error:  # the library was built without it
             self.assertIn("VOX_IO_ASSIMP", str(error))
             return
-        self.assertEqual(other.format, "assimp")
+        self.assertEqual(other.format, "surface, by assimp")
         np.testing.assert_array_equal(other.positions, own.positions)
         np.testing.assert_array_equal(other.triangles, own.triangles)
 
