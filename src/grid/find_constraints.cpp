@@ -94,9 +94,10 @@ bool vox_grid::choose_pairs(const vox_constraint_desc& desc, bool in_step) {
             continue;
         }
         chosen_pairs_[p] = 1;
+        if (in_step) continue;
         for (const vox_body id : {pair.body_a, pair.body_b}) chosen_bodies_[meshes_.find(id)->body] = 1;
     }
-    for (std::size_t b = 0; b < bodies_.size() && !in_step; ++b)
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
         if (chosen_bodies_[b]) check_finite(bodies_[b]);
     return all;
 }
