@@ -124,8 +124,9 @@ void Constraints::reserve(std::size_t body_count, std::size_t contact_count) {
 
 // ---- where they come from --------------------------------------------------------------------------
 
-// Where constraints come from, kind by kind.
-void Constraints::list(const ConstraintSources& from) {
+// Where constraints come from, kind by kind. Returns where each kind ends.
+Constraints::Ends Constraints::list(const ConstraintSources& from) {
+    Ends ends{};
     place_.assign(kinds * from.pairs.size(), 0);
     listed_.clear();
     reserve_sparingly(listed_,
@@ -150,10 +151,10 @@ void Constraints::list(const ConstraintSources& from) {
                 add(from.bodies[from.hits[i].body_a].mesh_id, from.bodies[from.hits[i].body_b].mesh_id,
                     VOX_CONSTRAINT_INSIDE, i);
     }
-    ends_[VOX_CONSTRAINT_INSIDE] = listed_.size();
+    ends[VOX_CONSTRAINT_INSIDE] = listed_.size();
     for (std::size_t i = 0; i < from.edges.size(); ++i)
         add(from.edges[i].body_a, from.edges[i].body_b, VOX_CONSTRAINT_EDGE, i);
-    ends_[VOX_CONSTRAINT_EDGE] = listed_.size();
+    ends[VOX_CONSTRAINT_EDGE] = listed_.size();
     std::size_t impact = 0; // no vertex has two constraints with one body
     for (std::size_t i = 0; i < from.proximities.size(); ++i) {
         const auto place = place_of(from.proximities[i]);
@@ -161,14 +162,15 @@ void Constraints::list(const ConstraintSources& from) {
         if (impact < from.impacts.size() && place_of(from.impacts[impact]) == place) continue;
         add(from.proximities[i].body_a, from.proximities[i].body_b, VOX_CONSTRAINT_PROXIMITY, i);
     }
-    ends_[VOX_CONSTRAINT_PROXIMITY] = listed_.size();
+    ends[VOX_CONSTRAINT_PROXIMITY] = listed_.size();
     for (std::size_t i = 0; i < from.impacts.size(); ++i)
         add(from.impacts[i].body_a, from.impacts[i].body_b, VOX_CONSTRAINT_IMPACT, i);
-    ends_[VOX_CONSTRAINT_IMPACT] = listed_.size();
+    ends[VOX_CONSTRAINT_IMPACT] = listed_.size();
+    return ends;
 }
 
 // Those of one pair and kind next to each other, in the order in which they were listed.
-void Constraints::order(const ConstraintSources& from) {
+void Constraints::order(const ConstraintSources& from, const Ends& ends) {
     const std::size_t count = listed_.size();
     check_contact_count(count, "constraints");
     make_room(count, from.pairs.size()); // all that can fail
@@ -184,7 +186,7 @@ void Constraints::order(const ConstraintSources& from) {
     for (std::size_t p = 0; p <= from.pairs.size(); ++p) pair_offsets_[p] = now_.first[kinds * p];
     std::size_t i = 0;
     for (std::size_t kind = 0; kind < kinds; ++kind)
-        for (; i < ends_[kind]; ++i) sources_[place_[kinds * listed_[i].pair + kind]++] = listed_[i].source;
+        for (; i < ends[kind]; ++i) sources_[place_[kinds * listed_[i].pair + kind]++] = listed_[i].source;
 }
 
 // ---- the same in the step before -------------------------------------------------------------------
@@ -511,8 +513,7 @@ void Constraints::write(const ConstraintSources& from, std::size_t begin, std::s
 }
 
 void Constraints::find(const ConstraintSources& from, Workers& workers) {
-    list(from);
-    order(from);
+    order(from, list(from));
     constexpr std::size_t least = 512; // that are worth a task
     const auto run = [&](std::size_t begin, std::size_t end, std::uint32_t) { write(from, begin, end); };
     if (now_.all.size() > least)

@@ -89,8 +89,9 @@ private:
 
     static Key key_of(const vox_constraint& constraint) noexcept;
     void make_room(std::size_t count, std::size_t pairs);
-    void list(const ConstraintSources& sources);
-    void order(const ConstraintSources& sources);
+    using Ends = std::array<std::size_t, kinds>;
+    Ends list(const ConstraintSources& sources);
+    void order(const ConstraintSources& sources, const Ends& ends);
     struct Run { // constraints of one kind from those of `pair` on
         std::uint32_t pair;
         vox_constraint_kind kind;
@@ -108,8 +109,7 @@ private:
         std::uint32_t pair, source;
     };
     Array<Listed> listed_;
-    std::array<std::size_t, kinds> ends_{}; // of each kind there
-    Array<std::uint32_t> place_;            // where the next of each pair and kind goes
+    Array<std::uint32_t> place_; // where the next of each pair and kind goes
     bool found_ = false;
 };
 
