@@ -12,17 +12,12 @@ import os
 import statistics
 import sys
 
-import matplotlib
-
-matplotlib.use("svg")
-matplotlib.rcParams["svg.hashsalt"] = "vox"
-import matplotlib.pyplot as plt  # noqa: E402
-
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from chart import Axis, Chart, Panel, round_ticks  # noqa: E402
 from page import put  # noqa: E402
 
 WINDOW = 10
-COLOURS = {"chosen": "#1f5fa8", "best": "#b0762b"}
+COLOURS = {"chosen": "blue", "best": "orange"}
 TITLES = {"contact": "light contact", "inflated": "inflated tenfold", "sinking": "sinking in", "cut": "cut in half",
           "added": "fine ball added", "removed": "removed"}
 
@@ -81,37 +76,45 @@ def table(runs):
     return "\n".join(lines) + "\n"
 
 
+def steps_of(middles, values):
+    """A line that is level from halfway to the last window to halfway to the next."""
+    edges = [middles[0], *((a + b) / 2 for a, b in zip(middles, middles[1:])), middles[-1]]
+    return [(x, value) for left, right, value in zip(edges, edges[1:], values) for x in (left, right)]
+
+
 def draw(runs, path):
-    figure, axes = plt.subplots(3, len(runs), figsize=(5.6 * len(runs), 7.4), sharex=True, squeeze=False,
-                                gridspec_kw={"height_ratios": [3, 3, 2]})
+    """A column for each engine: times, cell sizes and regrets, step by step."""
+    chart = Chart(760, 660, "A long run of a grid that chooses its cell size")
     for column, (engine, rows, found) in enumerate(runs):
-        time, size, regret = (axes[i][column] for i in range(3))
         steps = [int(r["step"]) for r in rows]
         middle = [int(w[0]["step"]) + len(w[1]) / 2 for w in found]
-        time.plot(steps, [float(r["chosen_ms"]) for r in rows], color=COLOURS["chosen"], lw=1, alpha=0.5,
-                  label="a grid with cell_size 0")
-        time.step(middle, [w[3] for w in found], where="mid", color=COLOURS["best"], lw=1.6,
-                  label="best of 20 fixed sizes, each window")
-        time.set_ylim(0, 1.25 * max(w[3] for w in found))
-        time.set_title(f"{engine} engine")
-        size.plot(steps, [float(r["cell_size"]) * float(r["inflation"]) for r in rows], color=COLOURS["chosen"], lw=1.4)
-        size.plot(middle, [w[4] * float(w[1][len(w[1]) // 2]["inflation"]) for w in found], ".", color=COLOURS["best"])
-        size.set_yscale("log")
-        regret.axhline(0, color="#888", lw=0.8)
-        regret.axhline(10, color="#c33", lw=0.8, ls="--")
-        regret.step(middle, [100 * w[2] for w in found], where="mid", color=COLOURS["chosen"], lw=1.6)
-        regret.set_ylim(-105, 30)
-        regret.set_xlabel("step")
+        sizes = [float(r["cell_size"]) * float(r["inflation"]) for r in rows]
+        best_sizes = [w[4] * float(w[1][len(w[1]) // 2]["inflation"]) for w in found]
+        slowest = 1.25 * max(w[3] for w in found)
+
+        def panel(top, height, y, name=""):
+            x = Axis(0, steps[-1] + 6, round_ticks(0, steps[-1], 8) if name else [], name=name)
+            return Panel(chart, 48 + 376 * column, top, 326, height, x, y, f"{engine} engine" if top < 30 else "")
+
+        time = panel(26, 170, Axis(0, slowest, round_ticks(0, slowest), name="ms a step"))
+        size = panel(216, 170, Axis(1, 40, [1, 2, 5, 10, 20, 40], log=True, name="cell size, first edges"))
+        regret = panel(406, 140, Axis(-100, 30, {-50: "-50", 0: "0", 10: "10"}, name="regret, %"), "step")
         for name, first, last in phases(rows):
-            for axis in (time, size, regret):
-                axis.axvline(first, color="#ccc", lw=0.8, zorder=0)
-            regret.text((first + last) / 2, -102, TITLES[name].replace(" ", "\n"), ha="center", va="bottom", fontsize=7)
-    axes[0][0].set_ylabel("ms a step")
-    axes[0][0].legend(fontsize=8, loc="upper left")
-    axes[1][0].set_ylabel("cell size, first edges")
-    axes[2][0].set_ylabel("regret, %")
-    figure.tight_layout()
-    figure.savefig(path, metadata={"Date": None})
+            for part in (time, size, regret):
+                part.upright(first, "grid", 1)
+            for i, word in enumerate(reversed(TITLES[name].split())):
+                chart.text(regret.at((first + last) / 2, 0)[0], 540 - 11 * i, word, "middle", 9)
+        time.line([(s, float(r["chosen_ms"])) for s, r in zip(steps, rows)], COLOURS["chosen"], 1)
+        time.line(steps_of(middle, [w[3] for w in found]), COLOURS["best"])
+        size.line(list(zip(steps, sizes)), COLOURS["chosen"])
+        size.dots(zip(middle, best_sizes), COLOURS["best"], size=2.5)
+        regret.level(0, "axis", 1)
+        regret.level(10, "vox", 1, "5 4")
+        regret.line(steps_of(middle, [100 * w[2] for w in found]), COLOURS["chosen"])
+    chart.legend(60, 612, [("a grid that chooses its size", chart.line_key(COLOURS["chosen"])),
+                           ("best of 20 fixed sizes, each window", chart.line_key(COLOURS["best"])),
+                           ("the best size", chart.mark_key(COLOURS["best"], size=2.5)), ("regret of 10 %", chart.line_key("vox", 1, "5 4"))], 2, 350)
+    chart.write(path)
 
 
 def main():

@@ -10,6 +10,7 @@ import statistics
 import sys
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from chart import Axis, Chart, Panel  # noqa: E402
 from page import put, quantile  # noqa: E402
 
 RULES = {"model": "model", "grid": "grid", "mean_edge": "mean edge", "paper": "paper", "median_box": "median box"}
@@ -68,37 +69,28 @@ def details(rows):
 
 def draw(path, curves):
     """Times of the reference engine over those of the best size, and its model as lines, fitted to them in height."""
-    import matplotlib
-    matplotlib.use("svg")
-    matplotlib.rcParams["svg.hashsalt"] = "vox"
-    import matplotlib.pyplot as plt
-
     lines = {}
     with open(curves, newline="", encoding="utf-8") as file:
         for engine, scene, _, size, ms, model in csv.reader(file):
             if engine == "reference":
                 lines.setdefault(scene, []).append((float(size), float(ms), float(model)))
-    figure, axes = plt.subplots(figsize=(7, 4.2))
-    colours = ("#1f5fa8", "#b0762b", "#2c7a2c", "#8a3a8a")
+    chart = Chart(760, 420, "Measured times, and the model of the reference engine")
+    panel = Panel(chart, 44, 16, 700, 290, Axis(0.22, 8, [0.25, 0.5, 1, 2, 4, 8], log=True, name="cell size, mean edges"),
+                  Axis(0, 4, [0, 1, 2, 3, 4], name="time of a step, best = 1"))
+    colours = ("blue", "orange", "green", "violet")
     for i, (colour, (scene, points)) in enumerate(zip(colours, lines.items())):
         sizes, times, models = zip(*(p for p in sorted(points) if p[2] > 0))
         best = statistics.median(sorted(times)[:3])
         height = statistics.median(m / t for t, m in zip(times, models) if t < 2 * best)
         curve = [m / height / best for m in models]
         zone = [s for s, c in zip(sizes, curve) if c <= 1.05 * min(curve)]
-        axes.plot(sizes, [t / best for t in times], ".", color=colour, ms=5)
-        axes.plot(sizes, curve, color=colour, lw=1.5, label=scene)
-        axes.plot([zone[0], zone[-1]], [0.15 * (i + 1)] * 2, color=colour, lw=4, solid_capstyle="butt")
-    axes.text(0.26, 0.15, "zones of 5 %", fontsize=8, va="bottom")
-    axes.set_xscale("log")
-    axes.set_xticks([0.25, 0.5, 1, 2, 4, 8], ["0.25", "0.5", "1", "2", "4", "8"])
-    axes.set_xticks([], minor=True)
-    axes.set_ylim(0, 4)
-    axes.set_xlabel("cell size, mean edges")
-    axes.set_ylabel("time of a step, best = 1")
-    axes.legend(fontsize=8, loc="upper center")
-    figure.tight_layout()
-    figure.savefig(path, **({"metadata": {"Date": None}} if path.endswith(".svg") else {}))
+        panel.dots([(s, t / best) for s, t in zip(sizes, times)], colour, size=2.5)
+        panel.line(list(zip(sizes, curve)), colour)
+        panel.bar(zone[0], zone[-1], 0.15 * (i + 1), colour)
+    keys = [(scene, chart.line_key(colour)) for colour, scene in zip(colours, lines)]
+    keys += [("model", chart.line_key("dark")), ("measured", chart.mark_key("dark", size=2.5)), ("zone of 5 %", chart.line_key("dark", 4))]
+    chart.legend(60, 366, keys, 4, 170)
+    chart.write(path)
 
 
 def main():

@@ -19,6 +19,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path[:0] = [HERE, os.path.dirname(HERE)]
 import library  # noqa: E402
 import losses  # noqa: E402
+from chart import Axis, Chart, Panel  # noqa: E402
 from page import put, quantile  # noqa: E402
 
 NONE = 0  # vox_known_grid
@@ -27,6 +28,9 @@ FIXED = {"default": "its own default", "mean_edge": "mean edge", "mean_edge_mult
          "mean_box_side": "mean box side", "median_box_side": "median box side", "spacing": "spacing", "radius": "radius"}
 OURS = {"bare": "not even described", "unknown": "default call: times unknown", "shipped": "shipped weights",
         "fitted": "fitted to three timings", "tuned": "tuned by a callback"}
+# Of the ways that are drawn: colour, and what the picture calls them.
+DRAWN = {"default": ("grey", "the grid's own default"), "mean_edge": ("orange", "mean edge"), "unknown": ("blue", "described to vox"),
+         "tuned": ("vox", "tuned by vox")}
 # Of the ways: median and worst that are wanted.
 AIMS = {"tuned": (0.02, 0.08), "fitted": (0.02, 0.10), "shipped": (0.05, 0.20), "unknown": (None, 0.40)}
 COUNTED = ("stored", "visits", "reads", "occupied", "cells")
@@ -196,43 +200,26 @@ def print_scenes(rows):
         print(f"{'':40}" + "  ".join(f"{name} {per_cent(min(e))}..{per_cent(max(e))}%" for name, e in row["counts"].items() if e))
 
 
-def draw(path, curves, rows):
-    import matplotlib
-    matplotlib.use("svg")
-    import matplotlib.pyplot as plt
-    plt.rcParams.update({"font.family": "DejaVu Sans", "svg.hashsalt": "vox"})
-    grids = list(dict.fromkeys(c.grid for c in curves))
-    across = 4
-    down = -(-len(grids) // across)
-    figure, axes = plt.subplots(down, across, figsize=(3.1 * across, 2.5 * down), sharex=True, squeeze=False)
-    for axis in axes.flat[len(grids):]:
-        axis.set_visible(False)
-    for axis in axes.flat[max(len(grids) - across, 0):len(grids)]:
-        axis.tick_params(labelbottom=True)
-    for axis, grid in zip(axes.flat, grids):
-        for k, curve in enumerate(c for c in curves if c.grid == grid):
-            sizes = [s / curve.unit for s in curve.sizes]
-            times = [min(a, b) for a, b in zip(*curve.halves)]
-            best = min(times[i] for i in curve.record["sweep"])
-            colour = f"C{k % 10}"
-            axis.plot(sizes, [t / best for t in times], "-", color=colour, lw=0.9, alpha=0.8)
-            row = next(r for r in rows if r["grid"] == grid and r["scene"] == curve.scene)
-            for way, mark in (("shipped", "o"), ("tuned", "v")):
-                if way in row["sizes"]:
-                    axis.plot(row["sizes"][way][0], 1 + row["losses"][way][0], mark, color=colour, ms=4,
-                              mfc="white" if way == "tuned" else colour)
-        axis.axvline(1, color="#bbbbbb", lw=0.8, zorder=0)
-        axis.set_title(grid, fontsize=9)
-        axis.set_xscale("log")
-        axis.set_ylim(0.9, 2.5)
-        axis.set_xlim(0.2, 8)
-        axis.set_xticks([0.25, 0.5, 1, 2, 4, 8], ["¼", "½", "1", "2", "4", "8"], fontsize=8)
-        axis.set_xticks([], minor=True)
-        axis.tick_params(axis="y", labelsize=8)
-    figure.supxlabel("cell size in mean edges; where balls ask, in radii", fontsize=9)
-    figure.supylabel("time of a run, best = 1", fontsize=9)
-    figure.tight_layout()
-    figure.savefig(path, metadata={"Date": None})
+def spans_of(rows):
+    """Of each grid and way that is drawn, the median and the worst loss."""
+    found = {grid: {way: of_way([r for r in rows if r["grid"] == grid], way) for way in DRAWN} for grid in grids_of(rows)}
+    return {grid: {way: (statistics.median(f), max(f)) for way, f in ways.items() if f} for grid, ways in found.items()}
+
+
+def draw(path, spans):
+    """A row for each grid, with a bar from the median to the worst time of each way of choosing."""
+    chart = Chart(760, 42 * len(spans) + 100, "What a cell size costs in grids that are not ours")
+    times = Axis(0.99, 7, [1, 1.1, 1.25, 1.5, 2, 3, 5, 7], log=True, name="time of a run, best = 1, from the median scene to the worst")
+    panel = Panel(chart, 190, 12, 550, 42 * len(spans), times,
+                  Axis(len(spans) - 0.5, -0.5, dict(enumerate(spans))), grid=True)
+    for y, ways in enumerate(spans.values()):
+        for i, (way, (colour, _)) in enumerate(DRAWN.items()):
+            if way in ways:
+                middle, worst = (1 + max(loss, 0) for loss in ways[way])
+                panel.bar(middle, worst, y + 0.17 * (i - 1.5), colour, 3)
+                panel.dots([(middle, y + 0.17 * (i - 1.5))], colour, size=3)
+    chart.legend(20, 42 * len(spans) + 66, [(words, chart.line_key(colour, 3)) for colour, words in DRAWN.values()], 4, 185)
+    chart.write(path)
 
 
 def main():
@@ -253,7 +240,7 @@ def main():
         with open(options.report, "w", encoding="utf-8") as file:
             json.dump(rows, file, indent=1)
     if options.picture:
-        draw(options.picture, curves, rows)
+        draw(options.picture, spans_of(rows))
     if options.page:
         put(options.page, "foreign", "\n" + text)
     else:

@@ -9,7 +9,7 @@ bunny.obj, cow.obj and armadillo.obj, which are filled with as many tetrahedra a
 these three are left out. A run that was cut off goes on where it was (the samples are kept in --work). --page writes the
 page and the plots again from the CSV files, without measuring.
 
-Needs matplotlib and numpy (Debian: /usr/bin/python3, python3-matplotlib).
+Needs numpy (Debian: /usr/bin/python3, python3-numpy).
 """
 import argparse
 import csv

@@ -2,13 +2,13 @@
 import csv
 import math
 import os
+import sys
 from dataclasses import dataclass
 
-import matplotlib
-
-matplotlib.use("svg")
-import matplotlib.pyplot as plt
 import numpy
+
+sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+from chart import Axis, Chart, Panel, round_ticks  # noqa: E402
 
 
 @dataclass
@@ -46,7 +46,7 @@ RULES = {
     "median_box_side": "median box side (IPC Toolkit)",
 }
 
-OURS, TRADITIONAL, MEASURED, COST, PAPERS = "#c2185b", "#e07b00", "#333333", "#1f77b4", "#7b5ea7"
+OURS, TRADITIONAL, MEASURED, COST, PAPERS, NEAR, NEARER = "vox", "orange", "dark", "blue", "violet", "sky", "green"
 
 
 class Model:
@@ -106,73 +106,73 @@ def read(folder):
 # ---- plots -------------------------------------------------------------------------------------------
 
 
-def draw_times(axes, model):
+def draw_times(panel, model):
     """Time over cells per axis with the fit, the zone, both rules, and the paper's zone and optimum below."""
+    panel.band(model["n_min"], model["n_max"], NEAR)
+    panel.band(model["n_min_5"], model["n_max_5"], NEARER)
     line = model.fitted_range()
-    top = 2.6 * model["optimum_ms"]
-    axes.axvspan(model["n_min"], model["n_max"], color="#9fc5e8", alpha=0.5, lw=0,
-                 label="at most 1 ms above the optimum")
-    axes.axvspan(model["n_min_5"], model["n_max_5"], color="#a9d18e", alpha=0.5, lw=0, label="at most 5 % above it")
-    axes.plot(line, model.fitted(line), color=MEASURED, lw=1, label="fit and its optimum")
-    axes.plot([model["n_opt"]], [model["optimum_ms"]], "o", mfc="white", mec=MEASURED, ms=7, zorder=4)
-    axes.plot(model.column("n"), model.column("time_ms"), "o", color=MEASURED, ms=3, label="measured")
-    axes.axvline(model["n_a"], color=OURS, lw=1.4, label="cost function, $n_a$")
-    axes.axvline(model["n_trad"], color=TRADITIONAL, lw=1.4, ls="--", label="mean edge, $n_{trad}$")
-    paper = model.paper
-    low = 0.1 * top
-    axes.plot([paper.n_min, paper.n_max], [low, low], color=PAPERS, lw=3, solid_capstyle="butt",
-              label="the paper's zone and optimum")
-    axes.plot([paper.n_opt], [low], "D", color=PAPERS, ms=6)
-    axes.set_ylim(0, top)
-    axes.set_ylabel("detection in a frame (ms)", fontsize=8)
+    panel.line(list(zip(line, model.fitted(line))), MEASURED, 1)
+    panel.dots(zip(model.column("n"), model.column("time_ms")), MEASURED, size=2)
+    panel.upright(model["n_a"], OURS)
+    panel.upright(model["n_trad"], TRADITIONAL, dash="5 3")
+    panel.dots([(model["n_opt"], model["optimum_ms"])], MEASURED, "circle", 4, hollow=True)
+    paper, low = model.paper, 0.1 * panel.y.high
+    panel.bar(paper.n_min, paper.n_max, low, PAPERS)
+    panel.dots([(paper.n_opt, low)], PAPERS, "diamond", 6)
 
 
-def draw_cost(axes, model):
+def keys_of_times(chart):
+    return [("at most 1 ms above the optimum", chart.area_key(NEAR)), ("measured", chart.mark_key(MEASURED, size=2)),
+            ("mean edge, n_trad", chart.line_key(TRADITIONAL, dash="5 3")), ("at most 5 % above it", chart.area_key(NEARER)),
+            ("cost function, n_a", chart.line_key(OURS)), ("the paper's zone and optimum", chart.line_key(PAPERS, 4)),
+            ("fit and its optimum", chart.line_key(MEASURED, 1))]
+
+
+def draw_cost(panel, model):
     """The cost function and the measured time, both over their least."""
     n = model.column("n")
     order = numpy.argsort(n)
     cost = model.column("cost")
-    axes.plot(n[order], (cost / cost.min())[order], color=COST, lw=1.4, label="cost function z over its least")
-    axes.plot(n, model.column("time_ms") / model["optimum_ms"], "o", color=MEASURED, ms=3,
-              label="measured time over the fit's least")
-    axes.axvline(model["n_a"], color=OURS, lw=1.2, label="least of the cost function, $n_a$")
-    axes.set_ylim(0.9, 3.6)
-    axes.set_ylabel("over the least", fontsize=8)
+    panel.line(list(zip(n[order], (cost / cost.min())[order])), COST)
+    panel.dots(zip(n, model.column("time_ms") / model["optimum_ms"]), MEASURED, size=2)
+    panel.upright(model["n_a"], OURS)
 
 
-def finish(axes, model):
-    axes.set_xlim(0, 1.7 * model["n_trad"])
-    axes.set_title(f"{model.name}: $n_a$ = {model['n_a']:.1f}, measured optimum {model['n_opt']:.1f}", fontsize=8.5)
-    axes.set_xlabel("voxels per axis, n", fontsize=8)
-    axes.tick_params(labelsize=8)
+def keys_of_cost(chart):
+    return [("cost function z over its least", chart.line_key(COST)), ("measured time over the fit's least", chart.mark_key(MEASURED, size=2)),
+            ("least of the cost function, n_a", chart.line_key(OURS))]
 
 
-def save(figure, folder, name):
-    figure.savefig(os.path.join(folder, name), bbox_inches="tight", metadata={"Date": None})
-    plt.close(figure)
+def axis_of_times(model):
+    top = 2.6 * model["optimum_ms"]
+    return Axis(0, top, round_ticks(0, top), name="ms a frame")
+
+
+def axis_of_cost(_):
+    return Axis(0.9, 3.6, [1, 1.5, 2, 2.5, 3, 3.5], name="over the least")
+
+
+def plot(path, title, models, y_axis, draw, keys, columns, height):
+    """A panel for each model."""
+    width = (760 - 50 * columns) // columns
+    rows = -(-len(models) // columns)
+    legend = keys(Chart(0, 0, ""))
+    chart = Chart(760, rows * (height + 70) + 20 + 17 * -(-len(legend) // 3), title)
+    for i, model in enumerate(models):
+        right = 1.7 * model["n_trad"]
+        draw(Panel(chart, 44 + i % columns * (width + 50), 24 + i // columns * (height + 70), width, height,
+                   Axis(0, right, round_ticks(0, right, 8), name="voxels per axis, n"), y_axis(model),
+                   f"{model.name}: n_a = {model['n_a']:.1f}, measured optimum {model['n_opt']:.1f}"), model)
+    chart.legend(44, rows * (height + 70) + 16, keys(chart), 3, 240)
+    chart.write(path)
 
 
 def plots(models, folder):
-    # svg.hashsalt: the same results give the same file.
-    plt.rcParams.update({"font.family": "DejaVu Sans", "svg.hashsalt": "vox", "axes.spines.top": False,
-                         "axes.spines.right": False})
-    def panels(shown, draw, name, columns, height):
-        rows = (len(shown) + columns - 1) // columns
-        figure, axes = plt.subplots(rows, columns, figsize=(4.6 * columns if columns > 1 else 7, height * rows),
-                                    squeeze=False, gridspec_kw={"hspace": 0.5, "wspace": 0.2})
-        for panel in axes.flat[len(shown):]:
-            panel.axis("off")
-        for panel, model in zip(axes.flat, shown):
-            draw(panel, model)
-            finish(panel, model)
-        lines, words = axes.flat[0].get_legend_handles_labels()
-        figure.legend(lines, words, loc="upper center", bbox_to_anchor=(0.5, 0.11 - 0.45 / (height * rows)), ncol=3,
-                      fontsize=8, frameon=False)
-        save(figure, folder, name)
-
-    panels(models[:1], draw_times, "paper-figure-3.svg", 1, 3.8)
-    panels(models, draw_times, "paper-times.svg", 2, 2.4)
-    panels(models, draw_cost, "paper-cost.svg", 2, 2.4)
+    times = "Time of detection against voxels per axis", axis_of_times, draw_times, keys_of_times
+    for name, shown, (title, axis, draw, keys), columns, height in (
+            ("paper-figure-3.svg", models[:1], times, 1, 240), ("paper-times.svg", models, times, 2, 110),
+            ("paper-cost.svg", models, ("The cost function and the measured times", axis_of_cost, draw_cost, keys_of_cost), 2, 110)):
+        plot(os.path.join(folder, name), title, shown, axis, draw, keys, columns, height)
 
 
 # ---- tables ------------------------------------------------------------------------------------------
