@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Pictures of the example examples/sim/pile.c: a strip of four frames and an animation.
+"""The moving picture of the example examples/sim/pile.c.
 
-usage: render_pile.py FOLDER STRIP.png ANIMATION.gif
+usage: render_pile.py FOLDER ANIMATION.webp
 
 FOLDER holds the example's pile_*.vtu. Needs numpy and PIL (Debian: python3-numpy, python3-pil). Triangles are
 rasterised into a depth buffer, the same way from the eye and from the light (whose buffer tells what lies in
@@ -18,6 +18,7 @@ LIGHT = np.array([-0.45, -0.35, 0.82]) / np.linalg.norm([-0.45, -0.35, 0.82])
 EYE, TARGET = np.array([5.6, -7.6, 5.0]), np.array([0.0, 0.0, 0.75])
 COLOURS = np.array([[226, 87, 76], [243, 156, 72], [246, 205, 97], [124, 184, 110], [72, 166, 167], [86, 130, 199],
                     [143, 108, 189], [214, 120, 162]]) / 255
+WIDTH, HEIGHT, STRIDE, QUALITY = 520, 400, 2, 40  # of 30 frames a second
 RING, FLOOR, SKY = np.array([0.62, 0.60, 0.58]), np.array([0.93, 0.92, 0.90]), np.array([0.985, 0.98, 0.975])
 
 
@@ -172,44 +173,19 @@ def render(positions, triangles, bodies, width, height, zoom):
     return (255 * image ** (1 / 1.1) + 0.5).astype(np.uint8)
 
 
-def shared_palette(frames):
-    """256 colours for all frames: most for the bodies, which cover few pixels, the others for greys."""
-    pixels = np.concatenate([f.reshape(-1, 3) for f in frames])
-    vivid = pixels.max(1).astype(int) - pixels.min(1) > 24
-    colours = []
-    for part, count in (pixels[vivid], 190), (pixels[~vivid], 66):
-        part = np.concatenate([part, part[: -len(part) % 64]])
-        image = Image.fromarray(part.reshape(64, -1, 3)).quantize(count, method=Image.Quantize.MAXCOVERAGE)
-        colours += image.getpalette()[: 3 * count]
-    palette = Image.new("P", (1, 1))
-    palette.putpalette(colours)
-    return palette
-
-
 def main():
-    if len(sys.argv) != 4:
+    if len(sys.argv) != 3:
         sys.exit(__doc__)
-    folder, strip_path, animation_path = sys.argv[1:]
+    folder, animation = sys.argv[1:]
     paths = sorted(glob.glob(os.path.join(folder, "pile_*.vtu")))
-    if len(paths) < 4:
-        sys.exit(f"{folder}: {len(paths)} files pile_*.vtu, expected at least 4")
+    if not paths:
+        sys.exit(f"{folder}: no files pile_*.vtu")
     positions, tets, bodies = read_vtu(paths[0])
     triangles = boundary(positions, tets)
-
-    def frame(i, width, height, zoom):
-        return render(read_vtu(paths[i])[0], triangles, bodies, width, height, zoom)
-
-    last = len(paths) - 1
-    strip = [frame(last * share // 100, 300, 320, 1.3) for share in (10, 22, 45, 100)]
-    Image.fromarray(np.hstack(strip)).save(strip_path, optimize=True)
-    print(strip_path, os.path.getsize(strip_path))
-
-    frames = [frame(i, 360, 320, 1.15) for i in range(0, len(paths), 2)]
-    palette = shared_palette(frames[::8])
-    frames = [Image.fromarray(f).quantize(palette=palette, dither=Image.Dither.NONE) for f in frames]
-    frames[0].save(animation_path, save_all=True, append_images=frames[1:], duration=[70] * (len(frames) - 1) + [1500],
-                   loop=0, optimize=True)
-    print(animation_path, os.path.getsize(animation_path))
+    frames = [Image.fromarray(render(read_vtu(path)[0], triangles, bodies, WIDTH, HEIGHT, 1.15)) for path in paths[::STRIDE]]
+    frames[0].save(animation, save_all=True, append_images=frames[1:], quality=QUALITY, method=6, loop=0,
+                   duration=[STRIDE * 1000 // 30] * (len(frames) - 1) + [1500])
+    print(animation, os.path.getsize(animation))
 
 
 if __name__ == "__main__":
