@@ -18,7 +18,7 @@ LIGHT = np.array([-0.45, -0.35, 0.82]) / np.linalg.norm([-0.45, -0.35, 0.82])
 EYE, TARGET = np.array([5.6, -7.6, 5.0]), np.array([0.0, 0.0, 0.75])
 COLOURS = np.array([[226, 87, 76], [243, 156, 72], [246, 205, 97], [124, 184, 110], [72, 166, 167], [86, 130, 199],
                     [143, 108, 189], [214, 120, 162]]) / 255
-WIDTH, HEIGHT, STRIDE, QUALITY = 520, 400, 2, 40  # of 30 frames a second
+WIDTH, HEIGHT, STRIDE, QUALITY = 416, 320, 2, 20  # of 30 frames a second
 RING, FLOOR, SKY = np.array([0.62, 0.60, 0.58]), np.array([0.93, 0.92, 0.90]), np.array([0.985, 0.98, 0.975])
 
 

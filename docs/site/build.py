@@ -91,6 +91,7 @@ NAVIGATION = [
             "docs/abi.md",
             "docs/renamed.md",
             {"Speed": "bench/README.md"},
+            {"Tried for speed": "bench/TRIED.md"},
             {"Tests": "tests/README.md"},
             "CONTRIBUTING.md",
             "RELEASING.md",

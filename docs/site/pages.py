@@ -22,7 +22,7 @@ ROOT = os.path.normpath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 
 # Beginnings: everything that they link to, and so on, is on the site.
 FIRST = ["docs/README.md", "README.md", "CHANGELOG.md", "tests/README.md", "scenes/README.md", "examples/README.md"]
-PICTURES = (".svg", ".png", ".gif", ".csv")
+PICTURES = (".svg", ".webp", ".csv")
 MOST_SHOWN = 100000  # bytes of a description for programs; a longer one is a file to download
 MOST_NUMBERED = 500  # lines: numbers beside the lines of longer files would make their pages slow
 LANGUAGES = {

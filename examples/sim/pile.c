@@ -1,5 +1,5 @@
-/* Bodies dropped in a pile, frame by frame as .vtu files: docs/pile.png and docs/pile.gif are made from them,
- * and ParaView opens them.
+/* Bodies dropped in a pile, frame by frame as .vtu files: docs/pile.webp is made from them, and ParaView
+ * opens them.
  *
  *     example_pile FOLDER [FRAMES]
  *
