@@ -58,6 +58,8 @@ def read(path):
         rows = list(csv.DictReader(file))
     if not rows:
         raise SystemExit(f"{path} has no results")
+    for row in rows:  # what is empty is that of the first row
+        row.update({column: row[column] or rows[0][column] for column in ("date", "cpu", "build", "command")})
     scenes = []
     for row in rows:
         # The runs of vox alone may repeat a scene and size: a repeated entrant starts another run.

@@ -10,6 +10,7 @@ usage: report.py RESULTS.csv [CHART] > performance.md
 import contextlib
 import io
 import math
+import os
 import re
 import sys
 from collections import namedtuple
@@ -257,8 +258,8 @@ def main():
     run = rows[0]
     command = re.sub(r"(--meshes)[ =]\S+", r"\1 FOLDER", run["command"])
     print("# Performance\n")
-    print("Written by `bench/report.py` from the benchmark's results; [bench/README.md](../bench/README.md) says what is "
-          f"timed and how, what was tried, and what is aimed at. `{SUBJECT}` is a grid with constraints with all that its step "
+    print(f"Written by `bench/report.py` from [the benchmark's results]({os.path.basename(sys.argv[1])}); "
+          f"[bench/README.md](../bench/README.md) says what is timed and how, what was tried, and what is aimed at. `{SUBJECT}` is a grid with constraints with all that its step "
           f"does, `{CONTACTS}` the default grid.\n")
     print(f"    {command}\n")
     print(f"* Machine: {run['cpu']}, one thread\n* Build: {run['build']}\n* Date: {run['date']}\n"

@@ -42,7 +42,7 @@ public:
 
 private:
     std::FILE* file_;
-    std::string run_; // the fields that all rows share
+    std::string run_; // the fields that all rows share, empty after the first
 };
 
 std::string cpu_name();

@@ -2,6 +2,7 @@
 
 import csv
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -9,6 +10,7 @@ import unittest
 
 ROOT = os.path.abspath(os.path.join(os.path.dirname(__file__), "..", ".."))
 REPORT = os.path.join(ROOT, "bench", "report.py")
+DOCS = os.path.join(ROOT, "docs")
 FIELDS = ("date cpu build command scene title tets vertices bodies contacts mean_edge entrant kind steps median_ns fastest_ns "
           "setup_ns bytes cell_size agrees").split()
 # Milliseconds of a step, bytes a tetrahedron.
@@ -94,6 +96,64 @@ class Report(unittest.TestCase):
         self.assertIn("| two bodies | 1000000 | - | 1.00 | - | - | - | 24.0 | Embree rebuild | 150 | 1.00 |", self.report())
         run = subprocess.run([sys.executable, "-B", REPORT, self.results, "--headlines", self.results], capture_output=True)
         self.assertNotEqual(run.returncode, 0)
+
+
+class Charts(unittest.TestCase):
+    def setUp(self):
+        sys.path.insert(0, os.path.join(ROOT, "bench"))
+        import chart
+        self.chart = chart
+
+    def test_only_what_can_be_seen(self):
+        line = [(x, 0.001 * (x % 2)) for x in range(100)] + [(100, 50), (101, 0)]
+        self.assertEqual(self.chart.thinned(line), [(0, 0), (99, 0.001), (100, 50), (101, 0)])
+        chart = self.chart.Chart(100, 100, "a chart")
+        panel = self.chart.Panel(chart, 0, 0, 100, 100, self.chart.Axis(0, 10, []), self.chart.Axis(0, 10, []))
+        del chart.lines[:]
+        panel.line([(0, 5), (5, 5), (6, 15), (7, 15), (8, 5)], "blue")
+        panel.dots([(5, 5), (5, 11)], "blue")
+        self.assertEqual(chart.lines, ['<path class="l blue" d="M0 50L50 50L55 0M75 0L80 50"/>',
+                                       '<path class="d blue" stroke-width="6" d="M50 50h0"/>'])
+
+    def test_ticks(self):
+        self.assertEqual(self.chart.round_ticks(0, 24.7), [0, 5, 10, 15, 20])
+        self.assertEqual(self.chart.decades(0.03, 1500), {0.1: "0.1", 1: "1", 10: "10", 100: "100", 1000: "1,000"})
+
+
+class Pages(unittest.TestCase):
+    """What is checked in is what the programs make of the results beside it."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def same(self, name, text=None):
+        if text is None:
+            with open(os.path.join(self.folder, name), encoding="utf-8") as file:
+                text = file.read()
+        with open(os.path.join(DOCS, name), encoding="utf-8") as file:
+            self.assertTrue(text == file.read(), f"docs/{name} is not what its program makes of docs/*.csv")
+
+    def test_performance(self):
+        results, picture = os.path.join(DOCS, "performance.csv"), os.path.join(self.folder, "performance.svg")
+        self.same("performance.md", subprocess.run([sys.executable, "-B", REPORT, results, "performance.svg"], capture_output=True,
+                                                   encoding="utf-8", check=True).stdout)
+        subprocess.run([sys.executable, "-B", os.path.join(ROOT, "bench", "plot.py"), results, picture], check=True)
+        self.same("performance.svg")
+
+    def test_paper(self):
+        try:
+            import numpy  # noqa: F401
+        except ImportError:
+            self.skipTest("there is no numpy")
+        sys.path.insert(0, os.path.join(ROOT, "bench", "paper"))
+        import paper_page
+        for name in ("paper.csv", "paper-models.csv"):
+            shutil.copy(os.path.join(DOCS, name), self.folder)
+        paper_page.write(self.folder)
+        for name in ("paper.md", "paper-times.svg", "paper-cost.svg", "paper-figure-3.svg"):
+            self.same(name)
 
 
 if __name__ == "__main__":

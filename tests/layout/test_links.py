@@ -7,6 +7,8 @@ import unittest
 
 from repository import ROOT, files, text_of
 
+# Endings of what is drawn or measured for pages.
+DATA = (".svg", ".gif", ".png", ".webp", ".csv")
 # Folders of the repository that paths in documents begin with.
 TREE = ("src", "tests", "bench", "docs", "examples", "include", "tools", "cmake", "scenes", "bindings")
 # In src/README.md also those of src/.
@@ -96,6 +98,13 @@ class Links(unittest.TestCase):
         found += faults_of("docs/paper.md.in", text_of("bench/paper/paper.md.in"), in_repository, text_or_names)
         if found:
             self.fail("\n" + "\n".join(found))
+
+    def test_pictures_are_shown(self):
+        """Every picture and every table of figures in docs/ is on a page, or linked from one."""
+        shown = {name.rsplit("/", 1)[-1] for path in files(".md") for _, name in links_of(text_of(path))}
+        data = [path for path in files(*DATA, under="docs") if not path.startswith("docs/site/")]
+        self.assertGreater(len(data), 5)
+        self.assertEqual([path for path in data if os.path.basename(path) not in shown], [])
 
     def test_quotes(self):
         found = [fault for path in files(".md") for fault in quotes_that_differ(path, text_of(path), text_of)]
