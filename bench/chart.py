@@ -117,7 +117,7 @@ class Chart:
         light, dark = ("".join(f".{row[0]}{{color:{row[scheme]}}}" for row in COLOURS) for scheme in (1, 2))
         style = ("text{fill:currentColor}.l,.d{fill:none;stroke:currentColor}.d{stroke-linecap:round}"
                  f".f{{fill:currentColor}}.h{{fill:{COLOURS[0][1]};stroke:currentColor}}{light}"
-                 f"@media(prefers-color-scheme:dark){{.h{{fill:{COLOURS[0][2]}}}{dark}}}")
+                 f"@media (prefers-color-scheme:dark){{.h{{fill:{COLOURS[0][2]}}}{dark}}}")
         with open(path, "w", encoding="utf-8", newline="\n") as file:
             print(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {self.width} {self.height}" width="{self.width}" '
                   f'height="{self.height}" class="ink" stroke-width="1.5" '
