@@ -69,27 +69,33 @@ int run(int argc, char** argv) {
     return code;
 }
 
-} // namespace
-
-#ifdef _WIN32
-int wmain(int argc, wchar_t** argv) {
-#else
-int main(int argc, char** argv) {
-#endif
+// What `body` returns; an exception is reported on stderr.
+template <class Body>
+int reported(Body&& body) {
     try {
-#ifdef _WIN32
-        const tool::Console console;
-        std::vector<std::string> texts;
-        for (int i = 0; i < argc; ++i) texts.push_back(tool::utf8_of(argv[i]));
-        std::vector<char*> arguments;
-        for (std::string& text : texts) arguments.push_back(text.data());
-        return run(argc, arguments.data());
-#else
-        return run(argc, argv);
-#endif
+        return body();
     } catch (const std::bad_alloc&) {
         return fail("out of memory");
     } catch (const std::exception& error) {
         return fail(error.what());
     }
 }
+
+} // namespace
+
+#ifdef _WIN32
+int wmain(int argc, wchar_t** argv) {
+    return reported([&] {
+        const tool::Console console;
+        std::vector<std::string> texts;
+        for (int i = 0; i < argc; ++i) texts.push_back(tool::utf8_of(argv[i]));
+        std::vector<char*> arguments;
+        for (std::string& text : texts) arguments.push_back(text.data());
+        return run(argc, arguments.data());
+    });
+}
+#else
+int main(int argc, char** argv) {
+    return reported([&] { return run(argc, argv); });
+}
+#endif

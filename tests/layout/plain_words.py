@@ -27,3 +27,16 @@ def found_in(text):
         phrase = " ".join(re.sub(r"\s(?://|\*|#)\s", " ", match[0]).split())
         say = next(say for words, say in WORDS.items() if re.fullmatch(words, phrase, flags=re.I))
         yield text.count("\n", 0, match.start()) + 1, phrase, say
+
+
+HEADLESS = re.compile(r'([^"]*)(?://|/\*)\s*(Of|The same|As)\b')
+
+
+def headless_in(text):
+    """(line, word, what to say) for each comment that begins in the middle of a sentence."""
+    lines = text.split("\n")
+    for number, (line, before) in enumerate(zip(lines, ["", *lines]), 1):
+        match = HEADLESS.match(line)
+        goes_on = match and not match[1].strip() and before.lstrip().startswith("//")
+        if match and not goes_on:
+            yield number, match[2], "begin with a noun or a verb"
