@@ -1,4 +1,4 @@
-// The C border of cell sizes for meshes and for any algorithm (vox_cell_size.h).
+// The C border of vox_cell_size.h: cell sizes for meshes and for any cost function.
 
 #include "base/array.hpp"
 #include "base/border.hpp"
@@ -40,8 +40,8 @@ vox_cell_size_desc read_suggest_desc(const vox_cell_size_desc* desc, const vox_g
     return settings;
 }
 
-// Reads the caller's array, whose elements are as far apart as the caller's own vox_mesh_desc is large. A
-// model is to look at samples of the bodies.
+// Reads the caller's array; its stride is the size of the caller's vox_mesh_desc. Sets the model's sampling
+// budget.
 void read_bodies(const vox_mesh_desc* meshes, std::uint64_t count, vox_cost_model model,
                  CellSizeScene& scene) {
     simd::require_instructions();
@@ -54,20 +54,18 @@ void read_bodies(const vox_mesh_desc* meshes, std::uint64_t count, vox_cost_mode
     check_out_struct(meshes, "meshes[0]");
     const std::uint32_t stride = meshes->struct_size;
     if (stride % alignof(vox_mesh_desc) != 0)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("meshes[0].struct_size is %u, expected a multiple of %zu", stride,
-                           alignof(vox_mesh_desc)));
+        refuse(format("meshes[0].struct_size is %u, expected a multiple of %zu", stride,
+                      alignof(vox_mesh_desc)));
     bodies.reserve(static_cast<std::size_t>(count));
     std::uint64_t tets = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
         const auto* element = reinterpret_cast<const vox_mesh_desc*>(
             reinterpret_cast<const std::byte*>(meshes) + std::size_t{i} * stride);
         if (element->struct_size != stride)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("meshes[%u].struct_size is %u, that of meshes[0] is %u", i,
-                               element->struct_size, stride));
+            refuse(format("meshes[%u].struct_size is %u, that of meshes[0] is %u", i, element->struct_size,
+                          stride));
         const vox_mesh_desc desc = read_struct(element, "mesh");
-        Body named; // a mesh of an array: it has no slot
+        Body named; // for errors: a mesh of an array, which has no slot
         named.mesh_id = i;
         named.user_data = desc.user_data;
         Body body = check_mesh(desc, (name_of(named) + ": ").c_str(), NullPositions::rejected);
@@ -79,15 +77,10 @@ void read_bodies(const vox_mesh_desc* meshes, std::uint64_t count, vox_cost_mode
     scene.budget = usual(model, tets);
 }
 
-// Whether the surfaces of the meshes are what is asked about.
-bool is_of_surfaces(const vox_cell_size_desc& settings) {
-    return has_surfaces && settings.model == VOX_COST_MODEL_SURFACE;
-}
-
-// `usual`: the weights of a scene for which none are given.
+// `usual` are the weights if the settings have none.
 vox_cell_size_result suggestion(const vox_cell_size_desc& settings, CellSizeScene& scene,
                                 const CostWeights& usual) {
-    return is_of_surfaces(settings)
+    return has_surfaces && settings.model == VOX_COST_MODEL_SURFACE
                ? suggest_for_surfaces(settings, scene)
                : suggest(settings, scene, settings.weights ? read_weights(settings.weights) : usual);
 }
@@ -144,7 +137,7 @@ vox_result vox_cost_minimise(vox_cost_function* cost, void* user, double min, do
                              vox_cell_size_result* out) {
     return border([&] {
         check_out_struct(out, "out");
-        if (!cost) throw Error(VOX_ERROR_INVALID_ARGUMENT, "cost is null");
+        if (!cost) refuse("cost is null");
         set_default(zone_loss, default_zone_loss);
         write_struct(
             out,

@@ -1,6 +1,5 @@
 // The C border of cutting and growing.
 
-#include "api/filter.hpp"
 #include "base/border.hpp"
 #include "base/structs.hpp"
 #include "grid/grid.hpp"
@@ -12,15 +11,14 @@ using namespace vox;
 
 namespace {
 
-// `count` elements of `each` numbers; no more than there can be indices.
+// Reads `count` elements of `each` numbers.
 std::span<const std::uint32_t> read_numbers(const std::uint32_t* numbers, std::uint64_t count,
                                             std::size_t each, const char* name) {
     if (count > 0) require(numbers, name);
     if (count > VOX_MAX_TETS)
         throw Error(VOX_ERROR_LIMIT, format("count is %" PRIu64 ", the limit is %u", count, VOX_MAX_TETS));
     if (reinterpret_cast<std::uintptr_t>(numbers) % alignof(std::uint32_t) != 0)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%s is not aligned to %zu bytes", name, alignof(std::uint32_t)));
+        refuse(format("%s is not aligned to %zu bytes", name, alignof(std::uint32_t)));
     return {numbers, static_cast<std::size_t>(count) * each};
 }
 
@@ -29,7 +27,7 @@ std::span<const Tet> read_corners(const std::uint32_t* corners, std::uint64_t co
     return {reinterpret_cast<const Tet*>(corners), static_cast<std::size_t>(count)};
 }
 
-// Calls function(mesh), which edits `count` tets or vertices of it.
+// Calls function(mesh), which edits `count` tets or vertices.
 template <class Function>
 vox_result edit(vox_grid* grid, vox_body body, std::uint64_t count, Function&& function) {
     return border(grid, "grid", [&] {
@@ -42,7 +40,7 @@ vox_result edit(vox_grid* grid, vox_body body, std::uint64_t count, Function&& f
 
 vox_result vox_mesh_set_topology(vox_grid* grid, vox_body body, const vox_mesh_desc* desc) {
     return border(grid, "grid", [&] {
-        (void)grid->mesh(body); // throws for an id that names no body
+        (void)grid->mesh(body); // throws for an invalid id
         const vox_mesh_desc settings = read_struct(desc, "desc");
         grid->set_topology(body, settings, check_mesh(settings, "", NullPositions::allowed));
     });
@@ -51,7 +49,7 @@ vox_result vox_mesh_set_topology(vox_grid* grid, vox_body body, const vox_mesh_d
 vox_result vox_mesh_set_tets_enabled(vox_grid* grid, vox_body body, const uint32_t* tets, uint64_t count,
                                      uint32_t enabled) {
     return edit(grid, body, count, [&](Mesh& edited) {
-        const bool is_on = read_enabled(enabled); // complains before read_numbers() does
+        const bool is_on = read_bool(enabled, "enabled"); // fails before read_numbers() does
         edited.set_tets_enabled(read_numbers(tets, count, 1, "tets"), is_on);
     });
 }
@@ -84,8 +82,7 @@ vox_result vox_mesh_append_vertices(vox_grid* grid, vox_body body, const vox_ver
         require(out_first, "out_first");
         const vox_vertices_desc vertices = read_struct(desc, "desc");
         if (vertices.reserved != 0)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("desc reserved is %" PRIu32 ", expected 0", vertices.reserved));
+            refuse(format("desc reserved is %" PRIu32 ", expected 0", vertices.reserved));
         if (vertices.copies_of) (void)read_numbers(vertices.copies_of, vertices.count, 1, "copies_of");
         *out_first = grid->append_vertices(body, vertices);
     });

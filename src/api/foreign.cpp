@@ -1,4 +1,5 @@
-// The C border of vox_cell_size.h's section on other uniform grids. What needs timings is in tune.cpp.
+// The C border of vox_cell_size.h's section on other uniform grids. Functions that take timings are in
+// tune.cpp.
 
 #include "base/border.hpp"
 #include "base/caller_memory.hpp"
@@ -17,7 +18,7 @@ vox_result vox_foreign_grid_suggest(const vox_foreign_grid* grid, vox_cell_size_
         check_out_struct(out, "out");
         const ForeignGrid described(grid);
         CallerMemory caller(described.desc.allocator);
-        // In one piece: an allocator that gives what is free back to the system would fetch it anew each
+        // One allocation: the allocator might return freed memory to the system, and fetch it again each
         // time.
         std::pmr::monotonic_buffer_resource memory(quick_look_bytes, &caller);
         ForeignWork work(described, quick_look(described), &memory);

@@ -1,18 +1,20 @@
 // The C border of the core: read the caller's structs, forward to the grid, nothing else.
 
 #include "grid/grid.hpp"
-#include "api/filter.hpp"
 #include "base/border.hpp"
+#include "base/llu.hpp"
 #include "base/memory.hpp"
 #include "base/scheduler.hpp"
 #include "base/simd.hpp"
 #include "base/structs.hpp"
 #include "mesh/check.hpp"
+#include "mesh/filter.hpp"
 #include "mesh/ids.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <memory_resource>
+#include <span>
 
 using namespace vox;
 
@@ -70,9 +72,8 @@ vox_result vox_grid_create(const vox_grid_desc* desc, vox_grid** out_grid) {
         check_grid_desc(settings);
         constexpr std::size_t least = sizeof(GridMemory) + sizeof(vox_grid);
         if (settings.byte_budget < least)
-            throw Error(VOX_ERROR_BUDGET,
-                        format("an empty grid needs %zu bytes, its byte budget is %llu", least,
-                               static_cast<unsigned long long>(settings.byte_budget)));
+            throw Error(VOX_ERROR_BUDGET, format("an empty grid needs %zu bytes, its byte budget is %llu",
+                                                 least, llu(settings.byte_budget)));
         const MemoryShare memory(settings.allocator, settings.byte_budget);
         std::pmr::polymorphic_allocator<> allocator(&*memory);
         *out_grid = allocator.new_object<vox_grid>(settings, memory);
@@ -104,6 +105,10 @@ vox_result vox_grid_set_worker_count(vox_grid* grid, uint32_t worker_count) {
 
 vox_result vox_grid_set_flags(vox_grid* grid, uint32_t flags) {
     return border(grid, "grid", [&] { grid->set_flags(flags); });
+}
+
+vox_result vox_grid_set_margin(vox_grid* grid, double margin) {
+    return border(grid, "grid", [&] { grid->set_margin(margin); });
 }
 
 vox_result vox_grid_get_info(const vox_grid* grid, vox_grid_info* out_info) {
@@ -182,14 +187,38 @@ vox_result vox_body_set_transform(vox_grid* grid, vox_body body, const double ma
         Mesh& target = grid->mesh(body);
         for (int i = 0; matrix && i < 12; ++i)
             if (!std::isfinite(matrix[i]))
-                throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                            format("matrix[%d] is %g, expected a finite number", i, matrix[i]));
+                refuse(format("matrix[%d] is %g, expected a finite number", i, matrix[i]));
         target.set_transform(matrix);
     });
 }
 
 vox_result vox_body_mark_moved(vox_grid* grid, vox_body body) {
     return border(grid, "grid", [&] { grid->mark_moved(body); });
+}
+
+vox_result vox_mesh_bind_previous_positions(vox_grid* grid, vox_body body, const vox_positions* positions) {
+    return border(grid, "grid", [&] {
+        const std::uint32_t vertices = grid->mesh(body).vertex_count();
+        grid->bind_previous(body, positions && positions->data
+                                      ? check_positions_of(vertices, *positions, "positions")
+                                      : Positions{});
+    });
+}
+
+vox_result vox_body_set_filter(vox_grid* grid, vox_body body, const vox_filter* filter) {
+    return border(grid, "grid", [&] {
+        require(filter, "filter");
+        grid->set_filter(body, checked_filter(*filter));
+    });
+}
+
+vox_result vox_body_set_enabled(vox_grid* grid, vox_body body, uint32_t enabled) {
+    return border(grid, "grid", [&] { grid->set_enabled(body, read_bool(enabled, "enabled")); });
+}
+
+vox_result vox_grid_set_pair_enabled(vox_grid* grid, vox_body body_a, vox_body body_b, uint32_t enabled) {
+    return border(grid, "grid",
+                  [&] { grid->set_pair_enabled(body_a, body_b, read_bool(enabled, "enabled")); });
 }
 
 // ---- step and results -----------------------------------------------------------------------------
@@ -212,4 +241,20 @@ vox_result vox_grid_get_hash(const vox_grid* grid, uint64_t* out_hash) {
 
 vox_result vox_grid_get_counters(const vox_grid* grid, vox_counter_view* out_view) {
     return border(grid, "grid", out_view, "out_view", [&] { return grid->counters(); });
+}
+
+vox_result vox_grid_get_pairs(const vox_grid* grid, vox_pair_view* out_view) {
+    return border(grid, "grid", out_view, "out_view", [&]() -> vox_pair_view {
+        const std::span<const vox_pair> pairs = grid->pairs().all();
+        return {pairs.data(), pairs.size(), grid->pairs().contacts()};
+    });
+}
+
+vox_result vox_grid_find_constraints(vox_grid* grid, const vox_constraint_desc* desc) {
+    return border(grid, "grid",
+                  [&] { grid->find_constraints(desc ? read_struct(desc, "desc") : vox_constraint_desc{}); });
+}
+
+vox_result vox_grid_get_constraints(const vox_grid* grid, vox_constraint_view* out_view) {
+    return border(grid, "grid", out_view, "out_view", [&] { return grid->constraints(); });
 }

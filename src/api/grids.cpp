@@ -1,4 +1,4 @@
-// The C border of calls for many grids at once.
+// The C border of calls for many grids.
 
 #include "base/border.hpp"
 #include "base/llu.hpp"
@@ -34,7 +34,7 @@ void check_different(vox_grid* const* grids, std::uint64_t count) {
             refuse(format("grids[%llu] and grids[%llu] are the same", llu(order[i - 1]), llu(order[i])));
 }
 
-// The failed grid of the lowest index. Texts of failures are per thread, so it is kept here.
+// The failure of the grid with the lowest index. Its text is copied, as vox_last_error() is one a thread.
 class FirstFailure {
 public:
     void add(std::uint64_t grid, vox_result result, const char* text) {
@@ -52,7 +52,7 @@ private:
     std::mutex mutex_;
     std::uint64_t grid_ = 0;
     vox_result result_ = VOX_OK;
-    char text_[1024]; // as long as a text can be
+    char text_[1024]; // the longest error text
 };
 
 } // namespace
@@ -65,7 +65,7 @@ vox_result vox_grids_step(vox_grid* const* grids, uint64_t count, uint32_t worke
         const vox_task_system system = tasks ? *tasks : vox_task_system{};
         check_workers(system, worker_count);
         FirstFailure failure;
-        Workers(system, worker_count, Workers::Threads::of_calls)
+        Workers(system, worker_count, Workers::Threads::of_process)
             .for_ranges(count, 1, [&](std::size_t begin, std::size_t end, std::uint32_t) {
                 for (std::size_t i = begin; i < end; ++i) {
                     const vox_result result = vox_grid_step(grids[i]);

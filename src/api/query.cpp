@@ -21,20 +21,18 @@ Positions check_questions(const vox_positions* given, const char* name) {
     require(given, name);
     const Positions positions = check_positions(*given, name);
     if (given->count > 0 && !given->data)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%s.data is null, %s.count is %" PRIu64, name, name, given->count));
+        refuse(format("%s.data is null, %s.count is %" PRIu64, name, name, given->count));
     if (given->count > UINT32_MAX)
         throw Error(VOX_ERROR_LIMIT,
                     format("%s.count is %" PRIu64 ", the limit is 2^32 - 1", name, given->count));
     return positions;
 }
 
-// There is one of each kind for every question.
+// Both arrays have one element for each question.
 void check_same_count(const vox_positions& a, const char* name_a, const vox_positions& b,
                       const char* name_b) {
     if (a.count != b.count)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s.count is %" PRIu64 ", %s.count is %" PRIu64,
-                                                       name_a, a.count, name_b, b.count));
+        refuse(format("%s.count is %" PRIu64 ", %s.count is %" PRIu64, name_a, a.count, name_b, b.count));
 }
 
 void check_point(const Vec3d& p, const char* name, std::size_t index) {
@@ -70,14 +68,10 @@ Asked read_desc(const vox_query_desc* given) {
     vox_query_desc desc{};
     if (given) desc = read_struct(given, "desc");
     if (desc.flags & ~std::uint32_t{VOX_QUERY_FIRST_HIT})
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("desc.flags is 0x%" PRIx32 ", expected vox_query_flags", desc.flags));
-    if (desc.reserved != 0)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("desc.reserved is %" PRIu32 ", expected 0", desc.reserved));
+        refuse(format("desc.flags is 0x%" PRIx32 ", expected vox_query_flags", desc.flags));
+    if (desc.reserved != 0) refuse(format("desc.reserved is %" PRIu32 ", expected 0", desc.reserved));
     if (!(desc.max_distance >= 0))
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("desc.max_distance is %g, expected a number >= 0", desc.max_distance));
+        refuse(format("desc.max_distance is %g, expected a number >= 0", desc.max_distance));
     set_default(desc.mask, UINT64_MAX);
     set_default(desc.max_distance, std::numeric_limits<double>::infinity());
     return {{desc.mask, desc.excluded}, (desc.flags & VOX_QUERY_FIRST_HIT) != 0, desc.max_distance};
@@ -89,7 +83,7 @@ void check_list(const Hit* hits, std::uint64_t capacity, const std::uint64_t* ou
     require(out_count, "out_count");
 }
 
-// The hits of one question after those of the questions before.
+// Appends the hits of one question to the list.
 template <class Hit>
 void append(HitList<Hit>& list, const Array<Hit>& found, std::uint32_t Hit::*question, std::size_t index) {
     for (const Hit& hit : found)
@@ -163,9 +157,8 @@ vox_result vox_locator_find_box_hits(const vox_locator* locator, const vox_posit
         for (std::size_t i = 0; i < min->count; ++i) {
             const Vec3d low = lows.exact(i), high = highs.exact(i);
             if (!(low.x <= high.x && low.y <= high.y && low.z <= high.z))
-                throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                            format("box %zu is from (%g, %g, %g) to (%g, %g, %g), expected min <= max", i,
-                                   low.x, low.y, low.z, high.x, high.y, high.z));
+                refuse(format("box %zu is from (%g, %g, %g) to (%g, %g, %g), expected min <= max", i, low.x,
+                              low.y, low.z, high.x, high.y, high.z));
         }
         CallMemory memory;
         Array<vox_box_hit> found(&memory);

@@ -1,4 +1,4 @@
-// The C border of vox_cell_size.h's section on other uniform grids, as far as timings go in.
+// The C border of vox_cell_size.h's section on other uniform grids: functions that take timings.
 
 #include "cell_size/foreign/tune.hpp"
 #include "base/border.hpp"

@@ -1,9 +1,9 @@
-// A growing array whose memory comes from a resource: std::pmr::vector as far as this library needs it, for a
-// compiler half as many functions. What the two share is named and behaves alike. They differ:
+// A growing array whose memory comes from a resource: the part of std::pmr::vector that this library needs,
+// with half as many functions to compile. What both have is named and behaves alike. The differences:
 //
-// - Growing moves bytes by one function for all element types, and iterators are pointers.
-// - The memory is always named: there is neither a default constructor nor a copy without it.
-// - Elements move without exceptions.
+// - One function moves bytes for all element types, and iterators are pointers.
+// - The memory resource is always given: there is no default constructor and no copy constructor without it.
+// - Moving an element throws nothing.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,8 @@
 
 namespace vox {
 
-// Takes memory for `wanted` bytes, moves the first `used` of the `room` bytes at `data` there, and releases
-// these. Throws what the resource throws, and has changed nothing then. No bytes: null.
+// Allocates `wanted` bytes, moves the first `used` of the `room` bytes at `data` there, and releases these.
+// Returns null for no bytes. If it throws what the resource throws, nothing has changed.
 inline void* move_bytes(std::pmr::memory_resource* memory, void* data, std::size_t used, std::size_t room,
                         std::size_t wanted, std::size_t alignment) {
     void* made = wanted ? memory->allocate(wanted, alignment) : nullptr;
@@ -60,7 +60,7 @@ public:
           room_(std::exchange(other.room_, 0)), memory_(other.memory_) {}
     ~Array() { release(); }
 
-    // Each keeps its memory resource.
+    // Assignment keeps the memory resource of the left side.
     Array& operator=(const Array& other) {
         if (this != &other) assign(other.begin(), other.end());
         return *this;
@@ -79,7 +79,7 @@ public:
         room_ = std::exchange(other.room_, 0);
         return *this;
     }
-    // Of the same memory.
+    // Both must have the same memory resource.
     void swap(Array& other) noexcept {
         VOX_ASSERT_INSIDE(memory_ == other.memory_);
         std::swap(data_, other.data_);
@@ -114,11 +114,11 @@ public:
     T& back() noexcept { return (*this)[size_ - 1]; }
     const T& back() const noexcept { return (*this)[size_ - 1]; }
 
-    // What makes room throws what the resource throws, and has changed nothing then.
+    // If a function that makes room throws what the resource throws, nothing has changed.
     void reserve(std::size_t count) {
         if (count > room_) move_to(count);
     }
-    // Keeps its room where there is no memory to move to.
+    // Keeps its room if there is no memory to move to.
     void shrink_to_fit() noexcept {
         try {
             if (size_ < room_) move_to(size_);
@@ -140,13 +140,13 @@ public:
     }
     void assign(std::size_t count, const T& value) {
         const T copy = value;
-        make_room_for_others(count);
+        make_room_without_moving(count);
         resize(count, copy);
     }
-    // Of another array.
+    // The items must not be in this array.
     template <std::forward_iterator Iterator>
     void assign(Iterator first, Iterator last) {
-        make_room_for_others(static_cast<std::size_t>(std::distance(first, last)));
+        make_room_without_moving(static_cast<std::size_t>(std::distance(first, last)));
         append(first, last);
     }
     void push_back(const T& value) { emplace_back(value); }
@@ -158,7 +158,7 @@ public:
         ::new (static_cast<void*>(data_ + size_)) T(std::forward<Arguments>(arguments)...);
         return data_[size_++];
     }
-    // Insert before `place`; the one of a range takes items of another array.
+    // Insert before `place`. The items of a range must not be in this array.
     T* insert(const T* place, const T& value) {
         const std::size_t at = static_cast<std::size_t>(place - data_);
         emplace_back(value);
@@ -203,7 +203,7 @@ private:
         clear();
         if (data_) memory_->deallocate(data_, room_ * sizeof(T), alignof(T));
     }
-    // At least twice the room when there is too little, so that n additions move O(n) elements.
+    // Room is at least doubled, so that n additions move O(n) elements.
     std::size_t grown(std::size_t count) const noexcept {
         return std::max(count, room_ <= max_size() / 2 ? 2 * room_ : max_size());
     }
@@ -227,8 +227,8 @@ private:
         }
         return data_[size_++];
     }
-    // Takes the new memory before it gives up what is there.
-    void make_room_for_others(std::size_t count) {
+    // Allocates before it releases, so that a failure changes nothing.
+    void make_room_without_moving(std::size_t count) {
         if (count > room_) {
             Array made(memory_);
             made.move_to(count);

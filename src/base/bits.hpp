@@ -23,14 +23,14 @@ inline std::uint32_t bit_count(std::uint64_t x) noexcept {
     return static_cast<std::uint32_t>(x * 0x0101010101010101u >> 56);
 }
 
-// A set that was never added to holds no memory.
+// A set of numbers. It holds no memory before reserve().
 class Bits {
 public:
     explicit Bits(std::pmr::memory_resource* memory) noexcept : words_(memory) {}
 
     bool operator[](std::size_t i) const noexcept { return has_bit(words_, i); }
     std::size_t count() const noexcept { return count_; }
-    // Empty until reserve() gives it a length.
+    // Empty before reserve().
     std::span<const std::uint64_t> words() const noexcept { return words_; }
 
     // Makes room for numbers below `end`, so that adding them cannot fail.

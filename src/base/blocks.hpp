@@ -1,4 +1,4 @@
-// A list in small blocks: what is in it never moves, and there is hardly more room than is needed.
+// A list in small blocks: items never move, and little memory is unused.
 #pragma once
 
 #include "base/array.hpp"
@@ -22,7 +22,7 @@ public:
     T& operator[](std::size_t i) noexcept { return blocks_[i / block][i % block]; }
     const T& operator[](std::size_t i) const noexcept { return blocks_[i / block][i % block]; }
 
-    // Room for `count` in all. Throws what the memory throws.
+    // Makes room for `count` items in total. Throws what the memory throws.
     void reserve(std::uint64_t count) {
         if (count > blocks_.max_size()) throw std::bad_alloc();
         reserve_growing(blocks_, static_cast<std::size_t>((count + block - 1) / block));
@@ -33,7 +33,7 @@ public:
         }
     }
 
-    // Throws what the memory throws, and has changed nothing then.
+    // If it throws what the memory throws, nothing has changed.
     template <class... Arguments>
     T& emplace_back(Arguments&&... arguments) {
         reserve(size_ + 1);

@@ -1,5 +1,5 @@
-// Axis-aligned boxes. Those of the fast engine have four floats a corner, so that a box is two vector
-// registers; those of the reference engine and of trees have three floats or doubles.
+// Axis-aligned boxes. The fast engine's have four floats a corner and fit two vector registers; those of the
+// reference engine and of trees have three floats or doubles.
 #pragma once
 
 #include "base/scene.hpp"
@@ -48,7 +48,7 @@ inline bool overlap(const Box& a, const Box& b) noexcept {
 #endif
 }
 
-// Whether no side is infinite.
+// Whether all sides are finite.
 inline bool has_ends(const Box& a) noexcept {
     bool all = true;
     for (int i = 0; i < 3; ++i) all &= std::isfinite(a.lo[i]) && std::isfinite(a.hi[i]);
@@ -60,9 +60,9 @@ inline bool contains(const Box& outer, const Box& inner) noexcept {
            (inner.hi[0] <= outer.hi[0]) & (inner.hi[1] <= outer.hi[1]) & (inner.hi[2] <= outer.hi[2]);
 }
 
-// The sides of `region` on which a whole box is. Bits 0 to 2 are set when it is above hi[0], hi[1] and hi[2]
-// of the region, bits 4 to 6 when it is below lo[0], lo[1] and lo[2]; no bit is set where the two overlap.
-// Boxes that have a bit in common are all on that side.
+// The sides of `region` beyond which a whole box lies. Bits 0 to 2 are set if it is above hi[0], hi[1] and
+// hi[2] of the region, bits 4 to 6 if it is below lo[0], lo[1] and lo[2]; no bit is set if the two overlap.
+// Boxes with a common bit are all on that side.
 inline unsigned sides_of(const Box& box, const Box& region) noexcept {
 #if defined(__SSE2__)
     const int above = _mm_movemask_ps(_mm_cmpgt_ps(_mm_load_ps(box.lo), _mm_load_ps(region.hi))) & 7;
@@ -107,15 +107,15 @@ inline void extend(Box3f& box, const Vec3f& p) noexcept {
 template <class AnyBox>
 double squared_distance_bound(const Vec3d& p, const AnyBox& box) noexcept {
     constexpr double slack = 1 - 0x1p-48;
-    const auto beyond = [](double x, double min, double max) { return std::max({min - x, x - max, 0.0}); };
-    const double x = beyond(p.x, box.min.x, box.max.x), y = beyond(p.y, box.min.y, box.max.y),
-                 z = beyond(p.z, box.min.z, box.max.z);
+    const auto outside = [](double x, double min, double max) { return std::max({min - x, x - max, 0.0}); };
+    const double x = outside(p.x, box.min.x, box.max.x), y = outside(p.y, box.min.y, box.max.y),
+                 z = outside(p.z, box.min.z, box.max.z);
     return (x * x + y * y + z * z) * slack;
 }
 
-inline bool contains(const Box3f& box, const Vec3f& p) noexcept {
-    // No &&, because most vertices fail one of the six comparisons at random, and one branch is cheaper than
-    // six.
+template <class Point>
+bool contains(const Box3f& box, const Point& p) noexcept {
+    // No &&: most vertices fail one of the six comparisons at random, and one branch is cheaper than six.
     return bool(int(p.x >= box.min.x) & int(p.x <= box.max.x) & int(p.y >= box.min.y) &
                 int(p.y <= box.max.y) & int(p.z >= box.min.z) & int(p.z <= box.max.z));
 }

@@ -19,7 +19,7 @@ inline void check_allocator(const vox_allocator* allocator, const char* name) {
         refuse(format("%s has one of allocate and release, expected both or none", name));
 }
 
-// Of null, or without functions, it is the C++ heap. One thread at a time may use it.
+// The C++ heap if the allocator is null or has no functions. One thread at a time may use it.
 class CallerMemory final : public std::pmr::memory_resource {
 public:
     explicit CallerMemory(const vox_allocator* allocator) noexcept

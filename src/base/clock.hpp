@@ -1,4 +1,4 @@
-// The clock of the times in Profile.
+// The clock for the times in Profile.
 #pragma once
 
 #include <chrono>

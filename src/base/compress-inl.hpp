@@ -31,7 +31,7 @@ inline constexpr struct CompressTable {
     }
 } compress_table;
 
-// The same for sets of four lanes of four bytes, in bytes.
+// The table for sets of four lanes of four bytes, in bytes.
 inline constexpr struct CompressBytesTable {
     alignas(16) std::uint8_t byte[16][16]{};
 

@@ -1,4 +1,4 @@
-// What a step counts, and how long its stages take: vox_counter has the names, but for those in
+// The counters of a step and the times of its stages. vox_counter lists the names, except those in
 // vox_grid_info.
 #pragma once
 
@@ -23,25 +23,20 @@ struct Counters {
     std::uint64_t exact_tests = 0; // orientations that needed exact arithmetic
     std::uint64_t contacts = 0;
     std::uint64_t skipped_degenerate = 0;
-    std::uint64_t moved_bodies = 0; // bodies that were not at rest (see vox_grid_step)
-    std::uint64_t carried_contacts =
-        0; // part of `contacts` carried over from the step before, between bodies at rest
+    std::uint64_t moved_bodies = 0;     // bodies that were not at rest (see vox_grid_step)
+    std::uint64_t carried_contacts = 0; // part of `contacts` from the previous step, between bodies at rest
     std::uint64_t penetrations = 0;
-    std::uint64_t leaving_edges = 0;    // edges from a colliding vertex to one outside body_b
-    std::uint64_t edge_tests = 0;       // tetrahedra visited along those edges
-    std::uint64_t closest_searches = 0; // penetrations that needed the closest point of the surface
-    std::uint64_t closest_tests = 0;    // triangles whose closest point was computed for that
-    std::uint64_t disabled_bodies = 0;  // not included in `bodies` (see vox_body_set_enabled)
-    std::uint64_t filtered =
-        0; // (vertex, tet) pairs of one mesh that self_rings or self_rest_distance ruled out
-    std::uint64_t cell_size_changes =
-        0; // how often the reference engine chose another cell size (see vox_grid_desc)
+    std::uint64_t leaving_edges = 0;     // edges from a colliding vertex to one outside body_b
+    std::uint64_t edge_tests = 0;        // tetrahedra visited along those edges
+    std::uint64_t closest_searches = 0;  // penetrations that needed the closest point of the surface
+    std::uint64_t closest_tests = 0;     // triangles whose closest point was computed for that
+    std::uint64_t disabled_bodies = 0;   // not included in `bodies` (see vox_body_set_enabled)
+    std::uint64_t filtered = 0;          // (vertex, tet) pairs excluded by self_rings or self_rest_distance
+    std::uint64_t cell_size_changes = 0; // how often the reference engine chose another one
     std::uint64_t unknown_penetrations = 0; // part of `penetrations` for which closest_budget left no search
     std::uint64_t carried_penetrations = 0; // part of `penetrations` carried over with their contacts
-    std::uint64_t skipped_bodies =
-        0; // left out for a coordinate (VOX_GRID_SKIP_BAD_BODIES); not included in `bodies`
-    std::uint64_t bodies_without_tets =
-        0; // part of `bodies`: their vertices collide, their edges and faces do not
+    std::uint64_t skipped_bodies = 0;       // not included in `bodies` (VOX_GRID_SKIP_BAD_BODIES)
+    std::uint64_t bodies_without_tets = 0;  // part of `bodies`; only their vertices collide
     // Pairs that began and ended in all steps since the grid was created or loaded.
     std::uint64_t total_touches_began = 0;
     std::uint64_t total_touches_ended = 0;
@@ -55,7 +50,7 @@ struct Counters {
 };
 
 // Nanoseconds. stream_ns to decide_ns are the stages of the fast engine, and bin_ns, broad_ns and narrow_ns
-// are sums of them. The reference engine has just those three stages.
+// are their sums. The reference engine has only these three stages.
 struct Profile {
     std::uint64_t step_ns = 0;
     std::uint64_t bin_ns = 0;      // classify the vertices, recompute the boxes: stream + winding + windows
@@ -63,11 +58,10 @@ struct Profile {
     std::uint64_t narrow_ns = 0;   // exact decisions: decide
     std::uint64_t contacts_ns = 0; // canonical order
     std::uint64_t depth_ns = 0;    // penetrations
-    std::uint64_t constraints_ns = 0; // what constraints take beside depth
+    std::uint64_t constraints_ns = 0; // constraints, without depth
     std::uint64_t pairs_ns = 0;       // which bodies touch
     std::uint64_t stream_ns = 0;      // read all positions: boxes, and which bodies moved
-    std::uint64_t winding_ns =
-        0; // rule out self-contacts by winding numbers; of the worker that took longest over them
+    std::uint64_t winding_ns = 0;     // rule out self-contacts by winding numbers; of the slowest worker
     std::uint64_t broad_phase_ns = 0; // regions in which bodies may be in contact
     std::uint64_t windows_ns = 0;     // bin the vertices that lie there
     std::uint64_t lookup_ns = 0;      // tetrahedra against these: box tests, and all that floats can decide

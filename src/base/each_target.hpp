@@ -4,8 +4,8 @@
 //   #define VOX_SOURCE "folder/file.cpp"
 //   #include "base/each_target.hpp"
 //
-// Highway's headers take as long to compile as most of these files. So a build compiles several of them
-// together, within a source that has itself compiled for each target (cmake/vox_target.cmake).
+// Highway's headers take as long to compile as most of these files. So a build compiles several of them in
+// one source, which has itself compiled for each target (cmake/vox_target.cmake).
 #include "base/simd.hpp"
 
 #if !defined(HIGHWAY_HWY_FOREACH_TARGET_H_) // not together with others

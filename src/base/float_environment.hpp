@@ -1,9 +1,9 @@
 // The floating-point environment: how results are rounded, whether denormals count as zero, what traps.
-// Whatever the program around the library has set (-ffast-math does, games and audio do), the library
-// computes in the default environment, and leaves the program's own as it found it, flags included.
+// Programs change it (games, audio, -ffast-math). The library computes in the default environment and
+// restores the program's, flags included.
 //
-// A compiler may move arithmetic across a change of the environment. So what computes is called, not inlined,
-// where a DefaultFloats lives (border.hpp, parallel.cpp).
+// A compiler may move arithmetic across a change of the environment. So code that computes is called, not
+// inlined, while a DefaultFloats exists (border.hpp, parallel.cpp).
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ namespace vox {
 
 #if defined(__GNUC__) && defined(__x86_64__)
 
-// MXCSR, and the control word of the x87, which C libraries ask for the direction of rounding. That of
-// MinGW-w64 also computes by the x87, so that ldexp or log2 raises flags there; elsewhere only long double
-// would, which vox does not use.
+// MXCSR and the control word of the x87, in which C libraries look up the rounding mode. MinGW-w64's C
+// library also computes with the x87, so ldexp and log2 raise its flags; elsewhere only long double does,
+// which vox does not use.
 struct FloatEnvironment {
     std::uint32_t mxcsr = 0x1f80; // the defaults: to nearest, with denormals, no traps, no flags
     std::uint16_t x87_control = 0x037f, x87_flags = 0;
@@ -74,7 +74,7 @@ struct FloatEnvironment {
         asm volatile("mrs %0, fpcr\n\tmrs %1, fpsr" : "=r"(e.control), "=r"(e.status) : : "memory");
         return e;
     }
-    void set() const noexcept { // where it differs, as writing takes longer than reading
+    void set() const noexcept { // only what differs: writing takes longer than reading
         const FloatEnvironment now = of_thread();
         if (now.control != control) asm volatile("msr fpcr, %0" : : "r"(control) : "memory");
         if (now.status != status) asm volatile("msr fpsr, %0" : : "r"(status) : "memory");
@@ -101,7 +101,7 @@ struct FloatEnvironment {
 // The caller's environment, on a thread that is in a call of the library; null elsewhere.
 inline constinit thread_local const FloatEnvironment* callers_floats = nullptr;
 
-// The default environment, as long as it lives; then the one before, flags included.
+// Sets the default environment while it exists, then restores the previous one, flags included.
 class DefaultFloats {
 public:
     DefaultFloats() noexcept
@@ -120,7 +120,7 @@ private:
     const FloatEnvironment* const outer_;
 };
 
-// The caller's environment again, as long as it lives: around calls of the caller's functions.
+// Restores the caller's environment while it exists: around calls of the caller's functions.
 class CallersFloats {
 public:
     CallersFloats() noexcept : callers_(std::exchange(callers_floats, nullptr)) {

@@ -1,5 +1,5 @@
-// Operations on lanes for which WebAssembly has an instruction each, and Highway 1.0.3 a loop or a way
-// through memory. Elsewhere they are Highway's. Included once for each SIMD target, after hwy/highway.h.
+// Operations on lanes that are one instruction in WebAssembly, but a loop or a detour through memory in
+// Highway 1.0.3. Elsewhere they are Highway's. Included once for each SIMD target, after hwy/highway.h.
 #if defined(VOX_BASE_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef VOX_BASE_LANES_INL
 #undef VOX_BASE_LANES_INL

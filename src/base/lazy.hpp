@@ -1,4 +1,4 @@
-// Values that are made when they are needed.
+// Values that are made on demand.
 #pragma once
 
 #include <atomic>
@@ -10,8 +10,8 @@
 
 namespace vox {
 
-// Made by the first const call that needs it, and then kept. If several threads call at the same time, each
-// makes one, and the first that is ready is kept.
+// Made by the first call of get(), and then kept. If several threads call at the same time, each makes a
+// value, and the first one ready is kept.
 template <class T>
 class Lazy {
 public:
@@ -27,12 +27,12 @@ public:
     template <class Make>
     const T& get(Make&& make) const {
         if (const T* made = made_.load(std::memory_order_acquire)) return *made;
-        auto own = std::make_unique<T>(std::forward<Make>(make)());
-        const T* there = nullptr;
-        if (!made_.compare_exchange_strong(there, own.get(), std::memory_order_acq_rel,
+        auto value = std::make_unique<T>(std::forward<Make>(make)());
+        const T* first = nullptr;
+        if (!made_.compare_exchange_strong(first, value.get(), std::memory_order_acq_rel,
                                            std::memory_order_acquire))
-            return *there;
-        return *own.release();
+            return *first;
+        return *value.release();
     }
 
     void reset() noexcept { delete made_.exchange(nullptr); }

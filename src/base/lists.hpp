@@ -1,7 +1,6 @@
-// Lists of numbers, numbered 0, 1, 2, ... and held in one array (compressed rows). They may change. A list
-// that outgrows its room moves to the end of the array and gets half as much again as it needs. When half of
-// the array is abandoned, all lists move together. So a change costs time in proportion to the length of its
-// list, amortised.
+// Lists of numbers in one array (compressed rows), which may change. A list that outgrows its room moves to
+// the end of the array and gets half as much again as it needs. When half of the array is abandoned, all
+// lists are compacted. So the amortised cost of a change is proportional to the length of its list.
 #pragma once
 
 #include "base/array.hpp"

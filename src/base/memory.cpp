@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/float_environment.hpp"
+#include "base/llu.hpp"
 
 #include <algorithm>
 #include <new>
@@ -16,12 +17,11 @@ namespace vox {
 
 namespace {
 
-// Asks for huge pages in those of a large block that has whole ones. The arrays of a large scene are read in
-// the order of tiles, not of addresses, and every other read would first have to look up its page. Nothing
-// depends on the answer.
+// Asks for huge pages within a large block. The arrays of a large scene are read in the order of tiles, not
+// of addresses, so with small pages every other read would miss the TLB. Nothing depends on the answer.
 void advise_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t size) noexcept {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
-    constexpr std::uintptr_t page = std::uintptr_t{1} << 21; // of x86-64, and of Arm with pages of 4 KiB
+    constexpr std::uintptr_t page = std::uintptr_t{1} << 21; // on x86-64, and on Arm with pages of 4 KiB
     const auto begin = (reinterpret_cast<std::uintptr_t>(memory) + page - 1) & ~(page - 1),
                end = (reinterpret_cast<std::uintptr_t>(memory) + size) & ~(page - 1);
     if (!memory || end <= begin) return;
@@ -81,8 +81,7 @@ void* GridMemory::do_allocate(std::size_t size, std::size_t alignment) {
     if (size > budget_ || bytes_ > budget_ - size)
         throw Error(VOX_ERROR_BUDGET,
                     format("%llu bytes are held and %llu more are needed; the byte budget is %llu",
-                           static_cast<unsigned long long>(bytes_), static_cast<unsigned long long>(size),
-                           static_cast<unsigned long long>(budget_)));
+                           llu(bytes_), llu(size), llu(budget_)));
     void* memory = allocated(allocator_, size, alignment);
     bytes_ += size;
     peak_bytes_ = std::max(peak_bytes_, bytes_);

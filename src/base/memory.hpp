@@ -36,8 +36,8 @@ private:
     std::atomic<std::uint64_t> shares_ = 1;
 };
 
-// A share in the memory of a grid. The grid has one and each of its query views, which may outlive it; the
-// memory lives as long as there is a share. Many threads may copy and destroy shares at once.
+// A share in the memory of a grid. The grid has one, and so has each of its locators, which may outlive it;
+// the memory lives as long as there is a share. Many threads may copy and destroy shares at once.
 class MemoryShare {
 public:
     // The first share. Takes the memory for the GridMemory itself from the allocator; throws std::bad_alloc.
@@ -62,7 +62,7 @@ inline std::uint64_t byte_limit(std::uint64_t byte_budget) noexcept {
     return byte_budget == 0 ? std::uint64_t{4} << 30 : byte_budget;
 }
 
-// One allocation from the caller's functions, or from the C++ heap when there are none. Null when there is no
+// One allocation by the caller's functions, or from the C++ heap if there are none. Null if there is no
 // memory.
 void* allocate(const vox_allocator& allocator, std::size_t size, std::size_t alignment) noexcept;
 void release(const vox_allocator& allocator, void* memory, std::size_t size, std::size_t alignment) noexcept;

@@ -10,16 +10,14 @@ namespace vox {
 
 void check_workers(const vox_task_system& tasks, std::uint32_t worker_count) {
     if (!tasks.enqueue != !tasks.finish)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    "grid tasks has one of enqueue and finish, expected both or none");
+        refuse("grid tasks has one of enqueue and finish, expected both or none");
     if (worker_count == VOX_ALL_CORES) {
         if (!tasks.enqueue) return;
-        throw Error(VOX_ERROR_INVALID_ARGUMENT, "grid worker_count is VOX_ALL_CORES with a task system of "
-                                                "the caller's, expected how many it has");
+        refuse("grid worker_count is VOX_ALL_CORES with a task system of "
+               "the caller's, expected how many it has");
     }
     if (worker_count > VOX_MAX_WORKERS)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("grid worker_count is %u, the limit is %u", worker_count, VOX_MAX_WORKERS));
+        refuse(format("grid worker_count is %u, the limit is %u", worker_count, VOX_MAX_WORKERS));
 }
 
 Workers::Workers(const vox_task_system& tasks, std::uint32_t worker_count, Threads threads)
@@ -28,7 +26,7 @@ Workers::Workers(const vox_task_system& tasks, std::uint32_t worker_count, Threa
 }
 
 Workers::~Workers() {
-    if (scheduler_ && threads_ == Threads::of_calls) Scheduler::leave(std::move(scheduler_));
+    if (scheduler_ && threads_ == Threads::of_process) Scheduler::leave(std::move(scheduler_));
 }
 
 void Workers::set_count(std::uint32_t worker_count) {
@@ -39,17 +37,17 @@ void Workers::set_count(std::uint32_t worker_count) {
     }
     const std::uint32_t count = Scheduler::most_workers(worker_count);
     if (count == count_) return; // and keep the threads
-    scheduler_ = count == 1                      ? nullptr
-                 : threads_ == Threads::of_calls ? Scheduler::of_last_call(count)
-                                                 : std::make_unique<Scheduler>(count);
+    scheduler_ = count == 1                        ? nullptr
+                 : threads_ == Threads::of_process ? Scheduler::of_last_call(count)
+                                                   : std::make_unique<Scheduler>(count);
     count_ = count;
 }
 
 namespace {
 
-// A hash of the end less one of the beginning. Of ranges that follow each other from 0 to `items`, all but
-// the hashes of 0 and `items` cancel in the sum. Of any other set of ranges some end is the beginning of
-// none, as each range goes forwards; then the sum is another one, but for a chance of 2^-64.
+// A hash of the end minus one of the beginning. If ranges follow each other from 0 to `items`, all hashes but
+// those of 0 and `items` cancel in their sum. In any other set of ranges some end is the beginning of no
+// range, as each range goes forwards; then the sum differs, except with probability 2^-64.
 std::uint64_t way(std::uint64_t begin, std::uint64_t end) noexcept {
     return next_random(end) - next_random(begin);
 }
@@ -62,15 +60,14 @@ Workers::Job::Job(Call* call_, void* callable_, std::uint32_t worker_count_, std
 
 void Workers::run_range(std::uint64_t begin, std::uint64_t end, std::uint32_t worker,
                         void* context) noexcept {
-    const DefaultFloats floats; // of a thread that may have any
+    const DefaultFloats floats; // the thread's own environment may be any
     Job& job = *static_cast<Job*>(context);
     std::exception_ptr failure;
     bool runs = false, has_failed = false;
     try {
         if (worker >= job.worker_count || begin > end || end > job.items)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("the task system ran items %llu to %llu of %zu on worker %u of %u", llu(begin),
-                               llu(end), job.items, worker, job.worker_count));
+            refuse(format("the task system ran items %llu to %llu of %zu on worker %u of %u", llu(begin),
+                          llu(end), job.items, worker, job.worker_count));
         {
             const std::lock_guard lock(job.mutex);
             runs = !job.busy[worker];
@@ -78,11 +75,10 @@ void Workers::run_range(std::uint64_t begin, std::uint64_t end, std::uint32_t wo
             has_failed = job.failure != nullptr;
         }
         if (!runs)
-            throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                        format("the task system ran two ranges on worker %u at the same time, one of them "
-                               "items %llu to %llu of %zu",
-                               worker, llu(begin), llu(end), job.items));
-        // After a failure nobody needs the rest, and what a worker has for itself may be half done.
+            refuse(format("the task system ran two ranges on worker %u at the same time, one of them "
+                          "items %llu to %llu of %zu",
+                          worker, llu(begin), llu(end), job.items));
+        // After a failure the rest is not needed, and a worker's buffers may be half written.
         if (!has_failed)
             job.call(job.callable, static_cast<std::size_t>(begin), static_cast<std::size_t>(end), worker);
     } catch (...) {
@@ -104,12 +100,9 @@ void Workers::run(Job& job, std::size_t items, std::size_t min_range) {
         scheduler_->run(&run_range, items, min_range, &job);
     }
     if (job.failure) std::rethrow_exception(job.failure);
-    if (job.done != items)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("the task system ran %zu of %zu items", job.done, items));
+    if (job.done != items) refuse(format("the task system ran %zu of %zu items", job.done, items));
     if (job.uncovered != 0)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("the task system ran some of %zu items twice and others not at all", items));
+        refuse(format("the task system ran some of %zu items twice and others not at all", items));
 }
 
 } // namespace vox

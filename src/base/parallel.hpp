@@ -18,12 +18,12 @@ namespace vox {
 
 class Workers {
 public:
-    // Who keeps the threads of the built-in scheduler: these workers, which are a grid's, or the process,
-    // from one call to the next.
-    enum class Threads { own, of_calls };
+    // Who keeps the threads of the built-in scheduler: this object, or the process, from one call to the
+    // next.
+    enum class Threads { of_object, of_process };
 
     // `worker_count` as in vox_grid_desc, checked (check_workers).
-    Workers(const vox_task_system& tasks, std::uint32_t worker_count, Threads threads = Threads::own);
+    Workers(const vox_task_system& tasks, std::uint32_t worker_count, Threads threads = Threads::of_object);
     ~Workers();
     Workers(const Workers&) = delete;
     Workers& operator=(const Workers&) = delete;
@@ -32,9 +32,8 @@ public:
     std::uint32_t count() const noexcept { return count_; }
 
     // Calls function(begin, end, worker) for ranges that make up [0, items), each of at least min_range items
-    // where that can be, and returns when all have. The first exception that one of them throws is thrown
-    // here. Throws INVALID_ARGUMENT where the caller's task system does not keep to vox_task_system. Counts
-    // as one task of the step.
+    // if possible, and returns after the last call. Rethrows the first exception of a call. Throws
+    // INVALID_ARGUMENT if the caller's task system violates vox_task_system. Counts as one task of the step.
     template <class Function>
     void for_ranges(std::size_t items, std::size_t min_range, Function&& function) {
         if (items == 0) return;
@@ -59,7 +58,7 @@ private:
         void* const callable;
         const std::uint32_t worker_count;
         const std::size_t items;
-        std::mutex mutex{}; // for what follows
+        std::mutex mutex{}; // guards the members below
         std::exception_ptr failure{};
         std::bitset<VOX_MAX_WORKERS> busy{}; // workers that run a range
         std::size_t done = 0;

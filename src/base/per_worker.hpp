@@ -1,4 +1,4 @@
-// What each worker of a step has for itself: buffers kept from step to step, counts of the step.
+// What each worker of a step has of its own: buffers kept from step to step, counts of the step.
 #pragma once
 
 #include "base/array.hpp"
@@ -12,14 +12,14 @@
 
 namespace vox {
 
-// A T is made from a memory_resource*. T::buffers() returns a tuple of references to all its buffers: what
-// has capacity() and reserve(). Nothing else needs to know of them.
+// T is constructed from a memory_resource*. T::buffers() returns a tuple of references to all its buffers,
+// which have capacity() and reserve().
 template <class T>
 class PerWorker {
 public:
     explicit PerWorker(std::pmr::memory_resource* memory) : slots_(memory) {}
 
-    // There are never less of them than there once were.
+    // Never shrinks.
     void grow(std::size_t count) {
         while (slots_.size() < count) slots_.emplace_back(slots_.memory());
     }
@@ -28,8 +28,8 @@ public:
     auto begin() noexcept { return slots_.begin(); }
     auto end() noexcept { return slots_.end(); }
 
-    // Gives the buffers of all workers the same room: in a later step each may have to do what another did in
-    // this one, and the steady state allocates nothing.
+    // Resizes the buffers of all workers to the largest: in a later step each may have to do what another did
+    // in this one, and the steady state must not allocate.
     void level() {
         if (slots_.size() < 2) return;
         using Buffers = decltype(slots_[0].buffers());

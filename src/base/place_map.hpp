@@ -1,9 +1,9 @@
-// A hash table of numbers in the order in which they were added (multiplicative hashing and linear probing,
-// D. E. Knuth, The Art of Computer Programming 3, Sect. 6.4). Emptying it takes no time.
+// A hash table that numbers its keys in the order in which they were added (multiplicative hashing and linear
+// probing, D. E. Knuth, The Art of Computer Programming 3, Sect. 6.4). Clearing it takes constant time.
 //
-// Whoever numbers a mesh can choose numbers whose hashes lie next to each other. So a number that finds the
-// first few slots taken goes to a digital search tree (Sect. 6.3 there), where the bits of a number say which
-// way it is: after 32 of them no other number is on its way.
+// The author of a mesh can choose vertex numbers with neighbouring hashes. So a number that finds the first
+// few slots taken goes to a digital search tree (Sect. 6.3 there), whose depth is bounded by the 32 bits of a
+// number.
 #pragma once
 
 #include "base/array.hpp"
@@ -22,7 +22,7 @@ public:
     explicit PlaceMap(std::pmr::memory_resource* memory) noexcept : slots_(memory), nodes_(memory) {}
 
     static constexpr std::uint32_t none = 0xffffffffu;
-    static constexpr std::uint32_t most_slots = 16, most_nodes = 33; // that are looked at for a number
+    static constexpr std::uint32_t most_slots = 16, most_nodes = 33; // visited for a number
 
     std::uint32_t size() const noexcept { return size_; }
     void clear() {
@@ -33,8 +33,8 @@ public:
         age_ = 1;
     }
 
-    // The place of a number, which is size() as it was before when the number is new. Throws what the memory
-    // throws, and changes nothing then.
+    // The place of a number; a new number gets the next one. If it throws what the memory throws, nothing has
+    // changed.
     std::uint32_t add(std::uint32_t number) {
         if (2 * (std::size_t{size_} + 1) > slots_.size())
             reserve(std::max<std::size_t>(2 * slots_.size(), 64));
@@ -46,11 +46,11 @@ public:
     std::uint32_t operator[](std::uint32_t number) const noexcept {
         return find(number, [] {});
     }
-    // Ahead of add().
+    // Loads the cache line that add() will read.
     void prefetch(std::uint32_t number) const noexcept {
         if (!slots_.empty()) vox::prefetch(&slots_[hash(number)]);
     }
-    // How many slots and nodes that takes.
+    // How many slots and nodes a search for a number visits.
     std::uint32_t probes(std::uint32_t number) const noexcept {
         std::uint32_t count = 0;
         (void)find(number, [&] { ++count; });
@@ -73,12 +73,12 @@ public:
         shift_ = larger.shift_;
         age_ = larger.age_;
     }
-    auto& tree() noexcept { return nodes_; } // the other buffer, of which reserve() knows nothing
+    auto& tree() noexcept { return nodes_; } // a buffer of its own, which reserve() does not enlarge
 
 private:
     struct Slot {
         std::uint32_t number = 0, place = 0;
-        std::uint32_t age = 0; // age_ when it was used last
+        std::uint32_t age = 0; // in use if it equals age_
     };
     struct Node {
         std::uint32_t number, place;

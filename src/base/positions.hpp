@@ -14,32 +14,27 @@
 
 namespace vox {
 
-// Checks format and strides of the caller's positions, and views them. They may be null. `name` is how errors
-// call them, e.g. "mesh 1: positions". Throws Error(INVALID_ARGUMENT).
+// Checks format and strides of the caller's positions, and views them. They may be null. Errors call them
+// `name`, for example "mesh 1: positions". Throws INVALID_ARGUMENT.
 inline Positions check_positions(const vox_positions& given, const char* name) {
     const std::int32_t format_value = enum_value(given.format);
     if (format_value != VOX_FORMAT_FLOAT && format_value != VOX_FORMAT_DOUBLE)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%s.format is %" PRId32 ", not a vox_format", name, format_value));
-    if (given.reserved != 0)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%s.reserved is %" PRIu32 ", expected 0", name, given.reserved));
+        refuse(format("%s.format is %" PRId32 ", not a vox_format", name, format_value));
+    if (given.reserved != 0) refuse(format("%s.reserved is %" PRIu32 ", expected 0", name, given.reserved));
     const bool doubles = format_value == VOX_FORMAT_DOUBLE;
     const std::uint64_t count = given.count, number = doubles ? sizeof(double) : sizeof(float);
     const std::uint64_t component = given.component_byte_stride == 0 ? number : given.component_byte_stride;
     const bool together = component == number;
     const std::uint64_t stride = given.byte_stride != 0 ? given.byte_stride : together ? 3 * number : number;
-    // No array is larger than this; a stride that would make it so is a mistake, not a huge mesh.
+    // No array is larger; a stride that says so is a mistake, not a huge mesh.
     constexpr std::uint64_t most_bytes = std::numeric_limits<std::ptrdiff_t>::max();
     if (count > 0 && stride > most_bytes / count)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%s.byte_stride is %" PRIu64 ", too large for %" PRIu64 " positions", name, stride,
-                           count));
+        refuse(format("%s.byte_stride is %" PRIu64 ", too large for %" PRIu64 " positions", name, stride,
+                      count));
     if (component > most_bytes / 4 || (count > 0 && stride > (most_bytes - 2 * component) / count))
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%s.component_byte_stride is %" PRIu64 ", too large for %" PRIu64
-                           " positions %" PRIu64 " bytes apart",
-                           name, component, count, stride));
+        refuse(format("%s.component_byte_stride is %" PRIu64 ", too large for %" PRIu64 " positions %" PRIu64
+                      " bytes apart",
+                      name, component, count, stride));
     const std::uint64_t least = together ? 3 * number : number;
     if (stride < least && (together || count > 1))
         throw Error(
@@ -48,27 +43,25 @@ inline Positions check_positions(const vox_positions& given, const char* name) {
     const bool rows = stride >= 2 * component + number;
     const bool columns = count <= 1 || component >= (count - 1) * stride + number;
     if (component < number || (!rows && !columns))
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%s.component_byte_stride is %" PRIu64 ", byte_stride %" PRIu64 ": %" PRIu64
-                           " positions would overlap; columns need at least %" PRIu64,
-                           name, component, stride, count, count * stride));
+        refuse(format("%s.component_byte_stride is %" PRIu64 ", byte_stride %" PRIu64 ": %" PRIu64
+                      " positions would overlap; columns need at least %" PRIu64,
+                      name, component, stride, count, count * stride));
     return {.data = static_cast<const std::byte*>(given.data),
             .byte_stride = static_cast<std::size_t>(stride),
             .doubles = doubles,
             .component_gap = static_cast<std::size_t>(component - number)};
 }
 
-// The same, and there must be one for each vertex of a mesh.
+// Checks in addition that there is one position for each vertex of a mesh.
 inline Positions check_positions_of(std::uint64_t vertex_count, const vox_positions& given,
                                     const char* name) {
     if (given.count != vertex_count)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%s.count is %" PRIu64 ", expected %" PRIu64 ", one for each vertex", name,
-                           given.count, vertex_count));
+        refuse(format("%s.count is %" PRIu64 ", expected %" PRIu64 ", one for each vertex", name, given.count,
+                      vertex_count));
     return check_positions(given, name);
 }
 
-// The other way round: the caller's view of positions, in which no stride is 0.
+// The opposite of check_positions(); no stride is 0.
 inline vox_positions as_given(const Positions& positions, std::uint64_t count) noexcept {
     const std::size_t number = positions.doubles ? sizeof(double) : sizeof(float);
     return {.data = positions.data,

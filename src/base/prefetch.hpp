@@ -3,11 +3,11 @@
 
 namespace vox {
 
-// Does nothing where compilers have no word for it.
+// Does nothing if the compiler has no such function.
 inline void prefetch([[maybe_unused]] const void* line) noexcept {
 #ifdef __GNUC__
     __builtin_prefetch(line);
-    // gcc takes a function that only prefetches for one without effect, and drops calls of it unless they are
+    // gcc considers a function that only prefetches free of effects, and drops calls of it unless they are
     // inlined early. The empty statement is an effect.
     asm volatile("");
 #endif

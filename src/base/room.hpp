@@ -1,4 +1,4 @@
-// Room in vectors, made ahead of what must not fail.
+// Reserves room in vectors, before code that must not fail.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace vox {
 
-// Room for `count` elements in all, and no more.
+// Makes room for exactly `count` elements in total.
 template <class Vector>
 void reserve_exactly(Vector& vector, std::uint64_t count) {
     if (count > vector.max_size()) throw std::bad_alloc();
@@ -21,7 +21,7 @@ void reserve_growing(Vector& vector, std::size_t count) {
     if (count > vector.capacity()) vector.reserve(std::max(count, vector.capacity() + vector.capacity() / 2));
 }
 
-// Grows by a quarter: for what there may be many of, since twice as much room would stay allocated.
+// Grows by a quarter: for long lists, of which twice the room would stay allocated.
 template <class Vector>
 void reserve_sparingly(Vector& vector, std::size_t count) {
     if (count > vector.capacity()) vector.reserve(count + count / 4);

@@ -30,9 +30,9 @@ inline double next_place(double place) noexcept {
 }
 
 // Stratified sampling (W. G. Cochran, Sampling Techniques, 1977): cuts a list of `count` items into `wanted`
-// equal parts and takes one item from each, at a place that changes from part to part, so that a pattern that
-// repeats in the list, as in a lattice, is met in all its phases. Calls visit(index) in ascending order, for
-// every item where there are no more than wanted.
+// equal parts and takes one item from each. The place within the part changes from part to part, so that a
+// repeating pattern, as in a lattice, is sampled in all its phases. Calls visit(index) in ascending order;
+// for every item if there are at most `wanted`.
 template <class Visit>
 void for_stratified(std::uint64_t count, std::uint64_t wanted, double place, Visit&& visit) {
     if (count <= wanted) {

@@ -27,10 +27,10 @@ struct Box3f {
     Vec3f min, max;
 };
 
-// The caller's positions, strided and borrowed, valid during the step only. They are floats or doubles, with
-// or without a transform, one after the other or in columns. Every contact is decided by exact(). Candidates
-// are found with the nearest floats, operator[], and none is missed: rounding keeps the order of numbers, so
-// a point in a box is, once rounded, in the rounded box.
+// The caller's positions, strided and borrowed, valid during the step only: floats or doubles, with or
+// without a transform, in rows or columns. Every contact is decided by exact(). Candidates are found with the
+// nearest floats, operator[], and none is missed: rounding is monotonic, so a point in a box is, once
+// rounded, in the rounded box.
 struct Positions {
     const std::byte* data = nullptr;
     std::size_t byte_stride = 0;
@@ -72,7 +72,7 @@ struct Positions {
     }
 
 private:
-    // Number by number: copied as a whole, a point would go through memory.
+    // Three copies: a point copied as a whole would go through memory.
     template <class Point, class Number>
     Point read(std::size_t vertex) const noexcept {
         const std::byte* from = data + vertex * byte_stride;
@@ -95,9 +95,14 @@ struct PairFilter {
 
     bool operator==(const PairFilter&) const = default;
 };
+inline bool collide(const PairFilter& a, const PairFilter& b) noexcept {
+    if (a.world != b.world) return false;
+    if (a.group != 0 && a.group == b.group) return a.group > 0;
+    return (a.category & b.mask) != 0 && (b.category & a.mask) != 0;
+}
 
-// One mesh as the stages see it. mesh_id ascends from body to body, so that the order of body indices is the
-// canonical order of body ids.
+// One mesh as the stages see it. mesh_id ascends from body to body, so the order of body indices is the
+// canonical order of ids.
 struct Body {
     static constexpr std::uint32_t in_array = ~0u, no_slot = ~1u;
 
@@ -108,18 +113,18 @@ struct Body {
     bool self_collision = false;
     bool sensor = false; // VOX_FILTER_SENSOR
     PairFilter filter{};
-    // Ids of the meshes that it never collides with, ascending. Their lists have its id, too.
+    // Ids of the meshes that it never collides with, ascending. Both meshes of a pair list each other.
     std::span<const std::uint32_t> exceptions{};
     const SelfFilter* self_filter = nullptr; // null without a filter
-    // Tetrahedra that are off, as bits (bits.hpp); empty when all are on. They hold no vertex and have no
-    // edges and facets, because all four of their corners are one vertex.
+    // Tetrahedra that are off, as bits (bits.hpp); empty if all are on. All four corners of such a
+    // tetrahedron are one vertex, so it contains nothing and has no edges and facets.
     std::span<const std::uint64_t> off{};
     std::uint64_t off_count = 0;
     std::span<const std::uint64_t> removed_vertices{}; // vertices that are in no tetrahedron, as bits
-    // Set once contacts are found: those with others that are carried, too, are those of the last step.
+    // Set once contacts are found: contacts of two carried bodies are those of the last step.
     bool carried = false;
-    // Of the mesh in its grid; no_slot for one that is not in a grid yet, in_array for an element of an
-    // array, of which mesh_id is the index.
+    // The mesh's slot in its grid; no_slot if it is not in a grid yet, in_array for an element of an array,
+    // whose index is mesh_id.
     std::uint32_t slot = in_array;
     std::uint64_t user_data = 0;
 };

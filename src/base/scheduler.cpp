@@ -31,7 +31,7 @@ struct Scheduler::Pool : tbb::task_arena {
     using task_arena::task_arena;
 };
 
-// oneTBB has no more threads than there are cores, and prints a warning when asked for more.
+// oneTBB has no more threads than cores, and prints a warning if more are requested.
 std::uint32_t Scheduler::most_workers(std::uint32_t asked) {
     if (asked == 1) return 1;
     const int cores = tbb::task_arena(tbb::task_arena::automatic).max_concurrency();
@@ -49,14 +49,14 @@ void Scheduler::run(vox_task* task, std::uint64_t items, std::uint64_t min_range
     pool_->execute([&] {
         using Range = tbb::blocked_range<std::uint64_t>;
         // Isolated, so that it is not cancelled with the caller's tasks.
-        tbb::task_group_context own(tbb::task_group_context::isolated);
+        tbb::task_group_context context_of_task(tbb::task_group_context::isolated);
         tbb::parallel_for(
             Range(0, items, std::max<std::uint64_t>(min_range, 1)),
             [&](const Range& range) {
                 const int worker = tbb::this_task_arena::current_thread_index();
                 task(range.begin(), range.end(), static_cast<std::uint32_t>(worker), context);
             },
-            own);
+            context_of_task);
     });
 }
 
@@ -64,8 +64,8 @@ void Scheduler::run(vox_task* task, std::uint64_t items, std::uint64_t min_range
 
 namespace {
 
-// How long a thread looks for what it waits for before it sleeps: the next task of the same step mostly comes
-// sooner, and to wake a thread takes as long.
+// How long a thread spins before it sleeps: the next task of the step mostly comes sooner, and waking a
+// thread takes as long.
 constexpr std::uint64_t patience_ns = 30'000;
 
 void relax() noexcept {
@@ -78,7 +78,7 @@ void relax() noexcept {
 #endif
 }
 
-// Whether `ready` came true before patience ended.
+// Spins. Whether `ready` became true within patience_ns.
 template <class Ready>
 bool came_soon(Ready&& ready) noexcept {
     const std::uint64_t end = nanoseconds() + patience_ns;
@@ -87,16 +87,16 @@ bool came_soon(Ready&& ready) noexcept {
             if (ready()) return true;
             relax();
         }
-        std::this_thread::yield(); // to whom it waits for, where threads share a core
+        std::this_thread::yield(); // to the awaited thread, if it shares this core
     } while (nanoseconds() < end);
     return false;
 }
 
 } // namespace
 
-// The caller of run() is worker 0. It announces a task with the number of threads that have something to do
-// in it, takes part, and when there is nothing left to take, withdraws the offer and waits for those who had
-// accepted. So a thread that comes late is not waited for, and never sees a task that has ended.
+// The caller of run() is worker 0. It announces a task with the number of threads that can help, takes part,
+// and when no range is left, withdraws the offer and waits for the threads that accepted it. So a late thread
+// is not waited for, and never sees a task that has ended.
 struct Scheduler::Pool {
     explicit Pool(std::uint32_t workers) : worker_count(workers) { threads_.reserve(workers - 1); }
 
@@ -109,8 +109,8 @@ struct Scheduler::Pool {
         for (std::thread& thread : threads_) thread.join();
     }
 
-    // Whether this is a copy, made by fork, of a pool whose threads are in the parent. To such a pool nothing
-    // can be done, its destruction included.
+    // Whether this is a copy, made by fork, of a pool whose threads are in the parent. Such a pool cannot be
+    // used, and not even destroyed.
     bool is_parents() const noexcept {
 #if defined(VOX_CAN_FORK)
         return !threads_.empty() && process_ != getpid();
@@ -119,7 +119,7 @@ struct Scheduler::Pool {
 #endif
     }
 
-    // Whether the system gave fewer threads than there should be. It may give a new pool more.
+    // Whether the system gave too few threads. It may give a new pool more.
     bool lacks_threads() const noexcept { return tried_ && threads_.size() + 1 < worker_count; }
 
     void run(vox_task* task, std::uint64_t items, std::uint64_t min_range, void* context) {
@@ -150,7 +150,7 @@ private:
         try {
             for (std::uint32_t worker = 1; worker < worker_count; ++worker)
                 threads_.emplace_back(&Pool::serve, this, worker);
-        } catch (const std::exception&) { // no more of them, or no memory: those that there are do all
+        } catch (const std::exception&) { // no more threads or no memory: the others do all
         }
     }
 
@@ -158,11 +158,11 @@ private:
 
     void announce(std::uint32_t offers) {
         state_.store(offers * one_offer);
-        // A thread counts itself as asleep before it looks at state_ for the last time; so one of the two
-        // sees the other.
+        // A thread counts itself as asleep before it reads state_ for the last time; so one of the two sees
+        // the other.
         const std::uint32_t asleep = asleep_.load();
         if (asleep == 0 || offers == 0) return;
-        { const std::lock_guard lock(mutex_); } // those that have looked are waiting now
+        { const std::lock_guard lock(mutex_); } // threads that have read state_ are waiting now
         if (offers >= asleep)
             wake_.notify_all();
         else
@@ -213,7 +213,7 @@ private:
 
     // ---- on both ----
 
-    // Ranges become smaller towards the end, for all to end together.
+    // Ranges become smaller towards the end, so that all workers end together.
     bool take(std::uint64_t& begin, std::uint64_t& end) {
         const std::uint64_t shares = 4 * (threads_.size() + 1);
         begin = taken_.load(std::memory_order_relaxed);
@@ -234,7 +234,7 @@ private:
     void* context_ = nullptr;
     std::uint64_t items_ = 0, least_ = 1;
 
-    alignas(64) std::atomic<std::uint64_t> taken_ = 0; // items that were handed out
+    alignas(64) std::atomic<std::uint64_t> taken_ = 0; // items handed out
     // High: threads that may still join the task. Low: those that have joined and not left.
     alignas(64) std::atomic<std::uint32_t> state_ = 0;
     std::atomic<std::uint32_t> asleep_ = 0;
@@ -243,7 +243,7 @@ private:
     alignas(64) std::mutex mutex_;
     std::condition_variable wake_, left_; // for a task, or the end; for the last member to leave
     std::vector<std::thread> threads_;
-    bool tried_ = false; // to make them
+    bool tried_ = false; // to make the threads
 #if defined(VOX_CAN_FORK)
     pid_t process_ = 0;
 #endif
@@ -264,9 +264,9 @@ Scheduler::~Scheduler() {
 
 void Scheduler::run(vox_task* task, std::uint64_t items, std::uint64_t min_range, void* context) {
     if (pool_->is_parents()) {
-        auto own = std::make_unique<Pool>(pool_->worker_count);
+        auto childs = std::make_unique<Pool>(pool_->worker_count);
         (void)pool_.release();
-        pool_ = std::move(own);
+        pool_ = std::move(childs);
     }
     pool_->run(task, items, min_range, context);
 }
@@ -287,12 +287,12 @@ void Scheduler::run(vox_task* task, std::uint64_t items, std::uint64_t, void* co
 
 #endif
 
-// A thread that ends waits, on Windows, for the unloading of a library that would wait for the thread.
+// On Windows, a thread that ends waits until a library is unloaded, which would wait for the thread.
 #if defined(VOX_SCHEDULER_THREADS) && !defined(_WIN32)
 
 namespace {
 
-// No mutex: a fork could copy it locked. A scheduler that it copies makes threads of its own.
+// No mutex: a fork could copy it locked. A copied scheduler makes threads of its own.
 constinit std::atomic<Scheduler*> last_calls = nullptr;
 // Whether at_end was destroyed. Grids may be stepped after that, in the destructors of other objects.
 constinit std::atomic<bool> has_ended = false;

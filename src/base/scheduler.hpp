@@ -1,4 +1,4 @@
-// The built-in scheduler: oneTBB where the library is built with it (VOX_TBB), else threads of its own, else
+// The built-in scheduler: oneTBB if the library is built with it (VOX_TBB), else threads of its own, else
 // none.
 #pragma once
 
@@ -23,26 +23,26 @@ namespace vox {
 
 class Scheduler {
 public:
-    // The number of workers that there can be when `asked` are asked for, where 0 asks for one per core.
+    // The number of workers for a request, where 0 requests one per core.
     static std::uint32_t most_workers(std::uint32_t asked);
 
-    // Threads are made when a task first needs them, and kept. Where the system gives fewer, these and the
-    // caller's do all.
+    // Threads are made when a task first needs them, and kept. If the system gives fewer, these and the
+    // caller's do all the work.
     explicit Scheduler(std::uint32_t worker_count);
     ~Scheduler();
 
-    // For a call that has no object to keep a scheduler in: the one that the last such call left, if it has
-    // as many workers and no other call has it now, else a new one.
+    // For a call without an object to keep a scheduler in: the one that the last such call left, if it has as
+    // many workers and no other call uses it, else a new one.
     static std::unique_ptr<Scheduler> of_last_call(std::uint32_t worker_count);
-    // Leaves it to the next such call. One is kept at most, until the process ends or the library is
-    // unloaded, and none where its threads would be as quick to make, or could not be joined then.
+    // Leaves it to the next such call. At most one is kept, until the process ends or the library is
+    // unloaded; none if making its threads is as quick, or if they could not be joined then.
     static void leave(std::unique_ptr<Scheduler> scheduler) noexcept;
 
     Scheduler(const Scheduler&) = delete;
     Scheduler& operator=(const Scheduler&) = delete;
 
-    // Does what vox_task_system.enqueue and finish do together. Not from two threads at the same time. After
-    // a fork, the child gets threads of its own.
+    // Does the work of vox_task_system.enqueue and finish. One thread at a time may call it. After a fork,
+    // the child gets threads of its own.
     void run(vox_task* task, std::uint64_t items, std::uint64_t min_range, void* context);
 
 private:

@@ -1,6 +1,5 @@
-// Memory for one call. It comes from a buffer in the object and, when that is full, from `beyond`, the heap
-// unless another is given. Space in the buffer can be used again only when the last allocation in it is
-// released first.
+// Memory for one call. It comes from a buffer in the object and, when that is full, from `upstream`, by
+// default the heap. Space in the buffer is reused only if allocations are released last to first.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +12,8 @@ template <std::size_t bytes>
 class Scratch final : public std::pmr::memory_resource {
 public:
     // Leaves the buffer uninitialised.
-    explicit Scratch(std::pmr::memory_resource* beyond = std::pmr::new_delete_resource()) noexcept
-        : beyond_(beyond) {}
+    explicit Scratch(std::pmr::memory_resource* upstream = std::pmr::new_delete_resource()) noexcept
+        : upstream_(upstream) {}
 
 private:
     bool is_in_buffer(const void* memory) const noexcept {
@@ -25,14 +24,14 @@ private:
     void* do_allocate(std::size_t size, std::size_t alignment) override {
         const std::size_t first = (used_ + alignment - 1) / alignment * alignment;
         if (alignment > alignof(std::max_align_t) || first > bytes || size > bytes - first)
-            return beyond_->allocate(size, alignment);
+            return upstream_->allocate(size, alignment);
         used_ = first + size;
         return buffer_ + first;
     }
     void do_deallocate(void* memory, std::size_t size, std::size_t alignment) override {
         auto* place = static_cast<std::byte*>(memory);
         if (!is_in_buffer(memory))
-            beyond_->deallocate(memory, size, alignment);
+            upstream_->deallocate(memory, size, alignment);
         else if (place + size == buffer_ + used_)
             used_ -= size;
     }
@@ -40,7 +39,7 @@ private:
 
     alignas(std::max_align_t) std::byte buffer_[bytes];
     std::size_t used_ = 0;
-    std::pmr::memory_resource* beyond_;
+    std::pmr::memory_resource* upstream_;
 };
 
 } // namespace vox

@@ -16,13 +16,13 @@ namespace vox::simd {
 
 namespace {
 
-// Of leaf 1, ecx.
+// Bits in ecx of cpuid's leaf 1.
 constexpr std::uint32_t ssse3 = 1u << 9, fma = 1u << 12, sse4_1 = 1u << 19, sse4_2 = 1u << 20,
                         popcnt = 1u << 23, osxsave = 1u << 27, avx = 1u << 28;
-// Of leaf 7, ebx.
+// Bits in ebx of leaf 7.
 constexpr std::uint32_t bmi = 1u << 3, avx2 = 1u << 5, bmi2 = 1u << 8, avx512f = 1u << 16,
                         avx512dq = 1u << 17, avx512cd = 1u << 28, avx512bw = 1u << 30, avx512vl = 1u << 31;
-// Of XCR0: registers of 16 and 32 bytes; masks, registers of 64 bytes and the second 16 registers.
+// Bits in XCR0: registers of 16 and 32 bytes; masks, registers of 64 bytes and the second 16 registers.
 constexpr std::uint64_t avx_state = 0x06, avx512_state = 0xe6;
 
 #if defined(VOX_MSVC_X64)

@@ -12,8 +12,8 @@
 #include <array>
 #include <cstdint>
 
-// Targets better than AVX3, or than NEON, have lower bits, and newer versions of Highway have more of them:
-// for instructions that are of no use here, or for vectors of unknown length.
+// Targets better than AVX3, or than NEON, have lower bits. Newer versions of Highway have more of them, for
+// instructions that are of no use here, or for vectors of unknown length.
 #if defined(__x86_64__) || defined(_M_X64)
 // Every x86-64 since 2011 has SSE4.2. Older ones are refused (require_instructions): Highway's emulation for
 // them would take gcc longer to compile than all other targets together.
@@ -46,7 +46,7 @@
 
 namespace vox::simd {
 
-// Portable: Highway's code for the machine that is compiled for, where that is not an x86.
+// `portable`: Highway's code for a machine that is not an x86.
 enum class Level : int { portable = 0, sse4 = 1, avx2 = 2, avx512 = 3 };
 
 #if defined(__x86_64__) || defined(_M_X64)
@@ -63,15 +63,15 @@ Level level() noexcept;
 Level force_level(Level wanted) noexcept;
 Level best_level() noexcept;
 
-// What an x86 says of itself, by the instructions cpuid (of leaf 7: subleaf 0) and xgetbv; all 0 of other
-// machines. For tests.
+// What cpuid (in leaf 7: subleaf 0) and xgetbv return on an x86; all 0 on other machines. For tests.
 struct Processor {
     std::uint32_t leaf_1_ecx = 0, leaf_7_ebx = 0;
     std::uint64_t xcr0 = 0;
 };
 Level level_of(const Processor& processor) noexcept;
 
-// Throws UNSUPPORTED on an x86 without the instructions of the least level. What creates an object calls it.
+// Throws UNSUPPORTED on an x86 without the instructions of the least level. Functions that create objects
+// call it.
 void require_instructions(Level best = best_level());
 
 // A name for messages, such as "AVX2".

@@ -1,5 +1,5 @@
-// Structs of the caller that may grow from version to version. Their first field is uint32_t struct_size, and
-// only the bytes it covers are read or written.
+// Structs of the caller that may grow from version to version. Their first field is uint32_t struct_size;
+// only the bytes that it covers are read or written.
 #pragma once
 
 #include "base/error.hpp"
@@ -12,8 +12,7 @@ namespace vox {
 
 inline void check_struct_size(std::uint32_t struct_size, const char* name) {
     if (struct_size < sizeof(std::uint32_t) || struct_size > 65536)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT,
-                    format("%s.struct_size is %u, expected the size of the struct", name, struct_size));
+        refuse(format("%s.struct_size is %u, expected the size of the struct", name, struct_size));
 }
 
 inline std::uint32_t checked_struct_size(const void* from_caller, const char* name) {
@@ -36,8 +35,13 @@ std::int32_t enum_value(const Enum& field) noexcept {
 template <class Enum>
 void check_enum(const Enum& field, std::int32_t last, const char* name) {
     const std::int32_t value = enum_value(field);
-    if (value < 0 || value > last)
-        throw Error(VOX_ERROR_INVALID_ARGUMENT, format("%s is %d, expected 0 to %d", name, value, last));
+    if (value < 0 || value > last) refuse(format("%s is %d, expected 0 to %d", name, value, last));
+}
+
+// A number of the caller that stands for a bool.
+inline bool read_bool(std::uint32_t value, const char* name) {
+    if (value > 1) refuse(format("%s is %u, expected 0 or 1", name, value));
+    return value != 0;
 }
 
 // Returns the caller's struct. Fields that its struct_size does not cover are 0, the default.
@@ -49,13 +53,13 @@ T read_struct(const T* in, const char* name) {
     return read;
 }
 
-// What an optional pointer of a desc names, or zeros.
+// What an optional pointer of a desc points to, or zeros.
 template <class T>
 T value_of(const T* in) {
     return in ? *in : T{};
 }
 
-// A field of which 0 stands for this.
+// Replaces 0 by the value that it stands for.
 template <class T>
 void set_default(T& field, T value) {
     if (field == T{}) field = value;
@@ -64,7 +68,7 @@ void set_default(T& field, T value) {
 // Throws when `out` cannot be written. Call it before any work whose result goes there.
 inline void check_out_struct(const void* out, const char* name) { (void)checked_struct_size(out, name); }
 
-// Writes `value` to the caller's struct, as far as its struct_size reaches, which itself stays.
+// Writes `value` to the caller's struct, as far as its struct_size reaches. struct_size stays.
 template <class T>
 void write_struct(T* out, T value, const char* name) {
     value.struct_size = checked_struct_size(out, name);

@@ -25,7 +25,8 @@ inline Vec3d min(const Vec3d& a, const Vec3d& b) noexcept {
 inline Vec3d max(const Vec3d& a, const Vec3d& b) noexcept {
     return {b.x > a.x ? b.x : a.x, b.y > a.y ? b.y : a.y, b.z > a.z ? b.z : a.z};
 }
-// Of the matrix with these rows: six times the signed volume of the tetrahedron that they span.
+// The determinant of the matrix with these rows: six times the signed volume of the tetrahedron that they
+// span.
 inline double determinant(const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept {
     return dot(a, cross(b, c));
 }

@@ -20,8 +20,8 @@ double largest_coordinate(const Vec3d& v) noexcept {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// By how many powers of two to enlarge a triangle from a with these edges, and the way from a to p, so that
-// its area does not underflow, as far as p allows. 0 where that is not the reason for its having none.
+// The power of two by which to enlarge a triangle and the distance to p, so that its area does not underflow;
+// as far as p allows. 0 if the triangle is not that small.
 int enlargement(const Vec3d& ap, const Vec3d& ab, const Vec3d& ac) noexcept {
     const double size = std::max(largest_coordinate(ab), largest_coordinate(ac)),
                  reach = largest_coordinate(ap);
@@ -54,7 +54,7 @@ ClosestPoint closest_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b,
             std::abs(weight[0] + weight[1] + weight[2] - 1) < 0x1p-26) {
             const double squared_length = squared(b - a) + squared(c - a);
             const double height = dot(p - a, normal);
-            // Of a triangle still thinner, 2^-45 of its length, `height` is little but rounding.
+            // In a triangle thinner than 2^-45 of its length, `height` is mostly rounding error.
             if (area > 0x1p-90 * (squared_length * squared_length))
                 return {height * height > small ? height * height / area : height * (height / area),
                         {weight[0], weight[1], weight[2]}};

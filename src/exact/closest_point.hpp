@@ -14,16 +14,15 @@ struct ClosestPoint {
     double weight[3];
 };
 
-// The point of the closed triangle abc that is closest to p. The triangle may be a segment or a point, and of
-// any size that positions have, down to denormals. The weights are not negative, and add up to 1 within
-// 2^-26.
+// The point of the closed triangle abc that is closest to p. The triangle may be a segment or a point, of any
+// size down to denormals. The weights are not negative, and add up to 1 within 2^-26.
 ClosestPoint closest_on_triangle(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept;
 
-// The same, computed relative to p, so that rounding errors are in proportion to the distance and not to the
-// coordinates. All searches for the closest point of a surface compare the distances of this function.
+// The closest point, computed relative to p, so that rounding errors are in proportion to the distance and
+// not to the coordinates. All searches for the closest point of a surface compare these distances.
 struct SeenPoint {
     ClosestPoint at;
-    Vec3d way; // from p
+    Vec3d way; // from p to the point
 };
 SeenPoint closest_seen_from(const Vec3d& p, const Vec3d& a, const Vec3d& b, const Vec3d& c) noexcept;
 

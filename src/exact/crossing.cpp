@@ -1,8 +1,7 @@
-// The signs of the volumes that the ends make with the triangle, and its sides with the segment, decide it
+// Decided by the signs of the volumes that the ends make with the triangle, and its sides with the segment
 // (P. Guigue and O. Devillers, "Fast and Robust Triangle-Triangle Overlap Test Using Orientation Predicates",
-// Journal of Graphics Tools 8, 2003). What lies in one plane is projected along an axis along which it keeps
-// its dimension. An area in the plane z = 0 is the volume over it of height 1, so that one predicate decides
-// all.
+// Journal of Graphics Tools 8, 2003). Coplanar input is projected along an axis that preserves its dimension.
+// An area in the plane z = 0 is a volume of height 1 over it, so one predicate decides all.
 #include "exact/crossing.hpp"
 
 #include <algorithm>
@@ -22,7 +21,7 @@ Vec3d projected(const Vec3d& p, int axis) {
 
 bool same(const Vec3d& p, const Vec3d& q) { return p.x == q.x && p.y == q.y && p.z == q.z; }
 
-// Volumes in proportion: each is off by less than 2^-40 of the sum of all of them in magnitude. Not all are
+// Volumes up to a common factor; each is off by less than 2^-40 of the sum of their magnitudes. Not all are
 // zero.
 template <std::size_t Count>
 std::array<double, Count> volumes_in_proportion(const VolumePoints& points,
@@ -40,7 +39,7 @@ std::array<double, Count> volumes_in_proportion(const VolumePoints& points,
     return volumes;
 }
 
-// From volumes and their signs, which are not all zero, and of which no two are opposite.
+// Weights in proportion to volumes. Their signs are not all zero, and no two are opposite.
 template <std::size_t Count>
 std::array<double, Count> weights_of(const std::array<double, Count>& volumes, const int (&sign)[Count]) {
     std::array<double, Count> weights;
@@ -74,7 +73,7 @@ public:
                 if (holds(end_[1], axis, winding, found.face_weights)) return at_end(1, found);
                 break;
             }
-        // What is left meets a side, if it meets anything. A triangle without area is the union of its sides.
+        // Otherwise the segment meets a side, or nothing. A triangle without area is the union of its sides.
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t j = (i + 1) % 3;
             std::array<double, 2> side_weights{};
@@ -100,7 +99,7 @@ private:
         return found;
     }
 
-    // Whether the triangle, whose projection has an area of that sign, holds a point of its plane.
+    // Whether the triangle contains p, a point of its plane. `winding` is the sign of its projected area.
     bool holds(const Vec3d& p, int axis, int winding, std::array<double, 3>& weights) {
         const auto& [a, b, c] = corner_;
         const int sign[3] = {area(axis, p, b, c), area(axis, a, p, c), area(axis, a, b, p)};
@@ -112,7 +111,7 @@ private:
         return true;
     }
 
-    // Whether x, which may be anywhere, is on the closed segment rs, and with which weights.
+    // Whether x, which may be anywhere, is on the closed segment rs. Sets its weights.
     bool is_on(const Vec3d& x, const Vec3d& r, const Vec3d& s, std::array<double, 2>& weights) {
         const double at[3] = {x.x, x.y, x.z}, from[3] = {r.x, r.y, r.z}, to[3] = {s.x, s.y, s.z};
         int longest = 0;
@@ -126,7 +125,7 @@ private:
             weights = {same(x, r) ? 1.0 : 0.0, same(x, r) ? 0.0 : 1.0};
             return true;
         }
-        const double length = to[longest] - from[longest]; // rounded once, as are the two parts of it
+        const double length = to[longest] - from[longest]; // rounded once, and so are its two parts
         weights = {(to[longest] - at[longest]) / length, (at[longest] - from[longest]) / length};
         return true;
     }
@@ -147,7 +146,7 @@ private:
                 found.position = *corner;
                 return true;
             }
-        // No end of either is on the other. So they cross, or the four points are on one line and apart.
+        // No end of one is on the other. So they cross, or the four points are on one line and apart.
         for (int axis = 0; axis < 3; ++axis) {
             const int of_r = area(axis, p, q, r), of_s = area(axis, p, q, s);
             if (of_r == 0 && of_s == 0) continue; // seen along this axis they may be on one line

@@ -17,9 +17,9 @@ inline Vec3d scaled(const Vec3d& v) noexcept {
     return largest > 0 ? Vec3d{v.x / largest, v.y / largest, v.z / largest} : v;
 }
 
-// The unit normal of triangle abc out of the tetrahedron abcd. If that is flat, it points away from p, and if
-// p is in the plane of the triangle as well, to the side from which abc is counter-clockwise. If the triangle
-// has no area, it is along `way`, and (0, 0, 1) if that is zero.
+// The unit normal of triangle abc out of the tetrahedron abcd. If that is flat, the normal points away from
+// p; if p is in the plane of the triangle, too, to the side from which abc is counter-clockwise. If the
+// triangle has no area, the normal is along `way`, or (0, 0, 1) if that is zero.
 inline Vec3d facet_normal(Vec3d a, Vec3d b, Vec3d c, const Vec3d& d, const Vec3d& p, const Vec3d& way) {
     std::uint64_t exact_tests = 0;
     int side = orientation(a, b, c, d, exact_tests);

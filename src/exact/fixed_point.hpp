@@ -1,9 +1,9 @@
-// Volumes of points whose coordinates are near each other in size: exact in three words, without a loop.
+// Volumes of points whose coordinates are of similar size: exact in three words, without a loop.
 //
-// On each axis, coordinates are integers in units of 2^-60 of a power of two above the largest. Those of
-// floats are when none but zero is below 2^-36 of the largest, those of doubles when none is below 2^-7 or as
-// many bits at the end of it are zero. The unit is of no account for the sign of a volume, as it is a product
-// of three coordinates, one of each axis. With differences below 2^61, minors are no more than 2^123.
+// On each axis, coordinates are integers in units of 2^-60 of a power of two above the largest. For floats
+// this holds if none but zero is below 2^-36 of the largest; for doubles if none is below 2^-7, or enough of
+// its last bits are zero. The unit does not change the sign of a volume, a product of three coordinates, one
+// an axis. With differences below 2^61, minors are at most 2^123.
 #pragma once
 
 #include "base/vectors.hpp"
@@ -35,12 +35,12 @@ struct FixedVolume {
 template <std::size_t Count>
 class FixedPoints {
 public:
-    // False where the coordinates are too far apart; the points are unspecified then. All is read from the
-    // bits of the coordinates, so that no floating-point environment matters.
+    // False if the coordinates differ too much in size; the points are unspecified then. Reads the bits of
+    // the coordinates, so the floating-point environment does not matter.
     bool read(const std::array<const Vec3d*, Count>& points) {
         std::uint64_t lost = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            std::uint64_t bits[Count], largest = 1; // exponent, as it is stored; of denormals as well
+            std::uint64_t bits[Count], largest = 1; // stored exponent, at least that of denormals
             for (std::size_t i = 0; i < Count; ++i) {
                 bits[i] = std::bit_cast<std::uint64_t>(axis == 0   ? points[i]->x
                                                        : axis == 1 ? points[i]->y
@@ -67,7 +67,7 @@ public:
             v[axis] = at_[c][axis] - at_[a][axis];
             w[axis] = at_[d][axis] - at_[a][axis];
         }
-        FixedVolume sum{0, 0}; // of three terms, so that low stays below 3 * 2^125
+        FixedVolume sum{0, 0}; // three terms: low stays below 3 * 2^125
         add(minor(v, w), u[2], sum);
         add(minor(w, u), v[2], sum);
         add(minor(u, v), w[2], sum);

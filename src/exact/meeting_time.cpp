@@ -1,12 +1,12 @@
 // Bisection of time, as in inclusion-based methods (J. M. Snyder, Interval analysis for computer graphics,
 // SIGGRAPH 1992; B. Wang et al., A large-scale benchmark and an inclusion-based algorithm for continuous
-// collision detection, ACM Transactions on Graphics 40, 2021). An interval is done with if, during all of it,
-// - the point is on one side of the triangle's plane: the volume of the two is a cubic polynomial of time,
-// whose
-//   Bernstein coefficients are blossoms, that is, volumes of corners at the beginning and the end of the
-//   interval mixed (L. Ramshaw, Blossoms are polar forms, Computer Aided Geometric Design 6, 1989); or
-// - an axis separates the two at its beginning and at its end: what moves linearly is then apart in between
-// as well.
+// collision detection, ACM Transactions on Graphics 40, 2021). An interval is excluded if the
+// point stays on one side of the triangle's plane, or if an axis separates the two at both ends of the
+// interval, since linear motion then keeps them apart in between.
+//
+// The volume of point and triangle is a cubic polynomial of time. Its Bernstein coefficients are blossoms,
+// that is, volumes that mix corners at the beginning and the end of the interval (L. Ramshaw, Blossoms are
+// polar forms, Computer Aided Geometric Design 6, 1989).
 #include "exact/meeting_time.hpp"
 
 #include "base/vectors.hpp"
@@ -19,16 +19,16 @@ namespace vox {
 
 namespace {
 
-// Coordinates are scaled to at most 1. A corner at some time is off by 2^-51 at most on each axis, from the
-// subtraction and the interpolation; a dot product with an axis by 3 * 2^-51 + 3 * 2^-52 times the axis'
-// largest coordinate; a determinant by 18 times the first, as each of its six products has three factors, and
-// 6 * 2^-50 for rounding, and the mean of three no more.
+// Coordinates are scaled to at most 1. Subtraction and interpolation put a corner off by at most 2^-51 on
+// each axis; a dot product with an axis is off by 3 * 2^-51 + 3 * 2^-52 times the axis' largest coordinate; a
+// determinant by 18 * 2^-51, as each of its six products has three factors, and 6 * 2^-50 for rounding; the
+// mean of three by no more.
 constexpr double dot_error = 0x1p-48;
 constexpr double volume_error = 0x1p-45;
 
-// Intervals shorter than this are not divided, and no more than so many are looked at: then the result is the
-// beginning of the one whose turn it is. Only a point that slides along the plane of a triangle as it turns
-// takes more than some tens.
+// Intervals divided so often are not divided further, and at most so many are tested: then the result is the
+// beginning of the present one. Only a point that slides along the plane of a turning triangle takes more
+// than some tens.
 constexpr int most_divisions = 48;
 constexpr int most_intervals = 2000;
 
@@ -75,7 +75,7 @@ bool stay_apart(const SeenMotion& motion, double begin_time, double end_time) no
     const Corners middle = corners_at(motion, 0.5 * begin_time + 0.5 * end_time);
     const Vec3d way = closest_seen_from({0, 0, 0}, middle.at[0], middle.at[1], middle.at[2]).way;
     if (is_separated(begin, end, way)) return true;
-    // Close to the triangle, rounding errors turn that way more than they turn the normal.
+    // Close to the triangle, rounding errors turn `way` more than the normal.
     const Vec3d* c = middle.at;
     const Vec3d normal = cross(c[1] - c[0], c[2] - c[0]);
     return is_separated(begin, end, dot(normal, c[0]) > 0 ? normal : -1.0 * normal);
@@ -103,13 +103,13 @@ double meeting_time(const SeenMotion& given, double latest) noexcept {
         int divisions;
     };
     Interval stack[most_divisions + 2] = {{0, 0}};
-    int size = 1, looked_at = 0;
+    int size = 1, tested = 0;
     while (size > 0) {
         const Interval interval = stack[--size];
         if (interval.begin > latest) return no_meeting;
         const double length = std::ldexp(1.0, -interval.divisions);
         if (stay_apart(motion, interval.begin, interval.begin + length)) continue;
-        if (interval.divisions == most_divisions || ++looked_at == most_intervals) return interval.begin;
+        if (interval.divisions == most_divisions || ++tested == most_intervals) return interval.begin;
         stack[size++] = {interval.begin + 0.5 * length, interval.divisions + 1};
         stack[size++] = {interval.begin, interval.divisions + 1};
     }

@@ -1,5 +1,5 @@
 // The arithmetic of corner_volumes() and barycentric() (predicates.hpp) for many points at once, operation by
-// operation, so that the bits are the same. What needs exact arithmetic is left to those functions.
+// operation, with the same bits. Points that need exact arithmetic are left to those functions.
 #include "exact/point_location.hpp"
 
 #include "base/simd.hpp"
@@ -47,7 +47,7 @@ HWY_INLINE void Determinant(D uz, const MinorOf& vw, D vz, const MinorOf& uw, D 
 struct VolumesOf {
     D volume[4], error[4]; // without underflow_error
 
-    HWY_INLINE VolumesOf() {} // one that gcc makes by itself is not for these instructions: on Arm an error
+    HWY_INLINE VolumesOf() {} // gcc's implicit one is not compiled for these instructions: an error on Arm
 };
 
 // corner_volumes() of the points from i on; `e` are the corners relative to them.
@@ -75,7 +75,7 @@ HWY_INLINE std::uint64_t BitsFrom(hn::Mask<Doubles> mask, std::size_t i) {
     return std::uint64_t{bits[0]} << i;
 }
 
-// locate_in_solid() as far as no exact arithmetic is needed.
+// locate_in_solid() for points that need no exact arithmetic.
 HWY_INLINE CertainLocations Locations(const PointBlock& block, std::size_t count, VolumeBlock& volumes) {
     const Doubles d;
     const D zero = hn::Zero(d);

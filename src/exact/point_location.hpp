@@ -29,16 +29,16 @@ struct VolumeBlock {
     }
 };
 
-// Where points of a block are, a bit for each, with the meaning of locate_in_solid(). Points without a bit
-// need exact arithmetic.
+// Where the points of a block are: a bit for each, as locate_in_solid() defines it. Points without a bit need
+// exact arithmetic.
 struct CertainLocations {
     std::uint64_t outside = 0, interior = 0, boundary = 0;
 };
 
-// For the first `count` points; what there is of others is unspecified. Reads and writes whole registers.
+// Locates the first `count` points; results of others are unspecified. Reads and writes whole registers.
 CertainLocations locate(const PointBlock& block, std::size_t count, VolumeBlock& volumes);
 
-// The weights of points, and what they miss each point by: the sum of weight * (corner - point).
+// The weights of points, and how far they miss each point: the sum of weight * (corner - point).
 struct WeightBlock {
     alignas(64) double weight[4][point_block], miss[3][point_block];
 };

@@ -134,7 +134,7 @@ Integer in_units(double value, int unit) {
     return result;
 }
 
-// All is read from the bits of the coordinates, so that no floating-point environment makes a shift negative.
+// Reads the bits of the coordinates, so that no floating-point environment makes a shift negative.
 template <std::size_t Count>
 std::array<IntegerPoint, Count> in_units(const std::array<Vec3d, Count>& points) {
     int unit = 1024;
@@ -160,8 +160,7 @@ int bit_count(const Integer& i) {
     return i.size == 0 ? 0 : 32 * i.size - std::countl_zero(i.word[i.size - 1]);
 }
 
-// i / 2^bits, rounded to nearest once. What is rounded are the top 64 bits, the last of which is set when any
-// bit below is.
+// i / 2^bits, rounded to nearest once: rounds the top 64 bits, the last of which is set if any lower bit is.
 double scaled(const Integer& i, int bits) {
     if (i.size == 0) return 0;
     const auto word = [&i](int index) { return index >= 0 ? std::uint64_t{i.word[index]} : 0; };
@@ -210,7 +209,7 @@ int uncertain_orientation(const BoundedVolume& volume, const Vec3d& a, const Vec
 void scaled_volumes(const VolumePoints& points, std::span<const VolumeCorners> of,
                     std::span<double> volumes) {
     const auto p = in_units(points);
-    int bits = 0; // of the largest
+    int bits = 0; // of the largest volume
     for (const auto& [a, b, c, d] : of)
         bits = std::max(bits, bit_count(exact_volume(p[a], p[b], p[c], p[d])));
     for (std::size_t i = 0; i < of.size(); ++i) {
@@ -232,7 +231,7 @@ std::array<double, 4> barycentric(const Vec3d& p, const Vec3d& a, const Vec3d& b
         const auto q = in_units(std::array{a, b, c, d, p});
         const Integer exact[4] = {exact_volume(q[4], q[1], q[2], q[3]), exact_volume(q[0], q[4], q[2], q[3]),
                                   exact_volume(q[0], q[1], q[4], q[3]), exact_volume(q[0], q[1], q[2], q[4])};
-        int bits = 0; // of the largest volume, which becomes about 1; what underflows then is no loss
+        int bits = 0; // of the largest volume, which becomes about 1; what then underflows is negligible
         for (const Integer& v : exact) bits = std::max(bits, bit_count(v));
         for (int i = 0; i < 4; ++i) volume[i] = scaled(exact[i], bits);
         total = volume[0] + volume[1] + volume[2] + volume[3];

@@ -8,8 +8,8 @@
 // The bound assumes that no operation overflows or underflows. None overflows, since differences are below
 // 2^129 and products of three below 2^387. Sums and differences do not underflow. A product that underflows
 // is off by at most 2^-1075. The determinant has three minors of two products each, times a third factor of
-// less than 2^129. Even if all of these products underflow, it is off by less than 2^-940, for which the
-// bound has a summand of 2^-900.
+// less than 2^129. If all of these products underflow, it is off by less than 2^-940; the summand 2^-900 of
+// the bound covers that.
 #pragma once
 
 #include "base/vectors.hpp"
@@ -35,12 +35,12 @@ struct BoundedVolume {
     bool certain() const { return volume > error || -volume > error; }
 };
 
-// The orientation of points whose volume is not certain. Counts an exact test, unless the volume is seen to
-// be zero without one.
+// The orientation of points whose volume is not certain. Counts an exact test, unless the volume is
+// recognised as zero without one.
 int uncertain_orientation(const BoundedVolume& volume, const Vec3d& a, const Vec3d& b, const Vec3d& c,
                           const Vec3d& d, std::uint64_t& exact_tests);
 
-// The minor ux*vy - vx*uy and, for the error bound, the same with absolute values.
+// The minor ux*vy - vx*uy and, for the error bound, |ux*vy| + |vx*uy|.
 struct Minor {
     double value;
     double magnitude;
@@ -73,7 +73,7 @@ inline BoundedVolume bounded_volume(const Vec3d& a, const Vec3d& b, const Vec3d&
 // its matrix is transposed, so the bound is that of determinant().
 struct TrianglePlane {
     Vec3d a;
-    Minor x, y, z; // of b - a and c - a, without that coordinate
+    Minor x, y, z; // minors of b - a and c - a that leave out this coordinate
 
     TrianglePlane() = default;
     TrianglePlane(const Vec3d& corner_a, const Vec3d& b, const Vec3d& c) : a(corner_a) {
@@ -88,7 +88,7 @@ struct TrianglePlane {
         const Minor minus_y{-y.value, y.magnitude};
         return determinant(w.x, x, w.y, minus_y, w.z, z);
     }
-    // Whether both are certainly on the same side, and not on the plane.
+    // Whether p and q are certainly on the same side, and not on the plane.
     bool has_on_one_side(const Vec3d& p, const Vec3d& q) const {
         const BoundedVolume of_p = volume(p), of_q = volume(q);
         return (of_p.volume > of_p.error && of_q.volume > of_q.error) ||
@@ -105,11 +105,11 @@ inline int orientation(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec
     return uncertain_orientation(det, a, b, c, d, exact_tests);
 }
 
-// The volumes of some quadruples of a few points, by their indices, times one power of two, so that the
-// largest is about 1: each rounded to double once. What underflows then is 0.
+// Volumes of quadruples of points, given by indices, times one power of two that makes the largest about 1.
+// Each is rounded to double once, or 0 if it underflows.
 inline constexpr std::size_t most_volume_points = 6;
 using VolumePoints = std::array<Vec3d, most_volume_points>;
-using VolumeCorners = std::array<std::uint8_t, 4>; // as the arguments of orientation()
+using VolumeCorners = std::array<std::uint8_t, 4>; // indices of the arguments of orientation()
 void scaled_volumes(const VolumePoints& points, std::span<const VolumeCorners> of, std::span<double> volumes);
 
 enum class Containment : std::uint8_t {
@@ -134,8 +134,8 @@ inline std::array<BoundedVolume, 4> corner_volumes(const Vec3d& p, const Vec3d& 
     return volumes;
 }
 
-// Like locate(), but for a tetrahedron of non-zero volume. That is the sum of the four corner volumes, which
-// are given. So p is in the closed tetrahedron exactly when no two of them have opposite signs, whatever the
+// Like locate(), but for a tetrahedron of non-zero volume, and from its corner volumes. These add up to its
+// volume, so p is in the closed tetrahedron exactly if no two of them have opposite signs, for either
 // winding.
 inline Containment locate_in_solid(const std::array<BoundedVolume, 4>& volumes, const Vec3d& p,
                                    const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d,
@@ -147,7 +147,8 @@ inline Containment locate_in_solid(const std::array<BoundedVolume, 4>& volumes, 
     }
     bool positive = above > 0, negative = below > 0, zero = false;
     if (positive && negative) return Containment::outside; // decided without exact arithmetic
-    // At a corner: the volumes that this is part of are zero, exactly, so that the certain one is the fourth.
+    // At a corner, the three volumes that contain the corner are exactly zero, and the certain one is the
+    // fourth.
     const auto is_p = [&p](const Vec3d& q) { return p.x == q.x && p.y == q.y && p.z == q.z; };
     if (above + below == 1 && (is_p(a) || is_p(b) || is_p(c) || is_p(d))) return Containment::boundary;
     for (int i = 0; i < 4; ++i) {
@@ -177,7 +178,7 @@ inline Containment locate(const Vec3d& p, const Vec3d& a, const Vec3d& b, const 
     return in_solid;
 }
 
-// Volumes that are off by less than this part of their sum are good enough for barycentric().
+// Volumes that are off by less than this part of their sum are accurate enough for barycentric().
 inline constexpr double barycentric_error = 0x1p-44;
 
 // The barycentric coordinates of a point p in the closed tetrahedron abcd of non-zero volume. Each is in [0,

@@ -16,11 +16,11 @@ namespace vox {
 enum class NullPositions : bool { rejected, allowed };
 
 // Checks a description that read_struct() has completed and views it as a body (mesh_id 0; the caller sets
-// it). `where` starts every error text: "" or e.g. "mesh 1: ". Throws Error: INVALID_ARGUMENT, INVALID_MESH,
-// LIMIT. The positions are not looked at: whether they are finite is known only when they are used.
+// it). Every error text starts with `where`, for example "mesh 1: ". Throws INVALID_ARGUMENT, INVALID_MESH,
+// LIMIT. Does not read the positions: whether they are finite is checked when they are used.
 Body check_mesh(const vox_mesh_desc& desc, const char* where, NullPositions null_positions);
 
-// How errors and the log call a mesh: by its id, slot and user data, as far as it has these.
+// The name of a mesh in errors and the log: its id, slot and user data, if it has these.
 std::string name_of(const Body& body);
 
 // A failure that is about one mesh.
@@ -35,24 +35,21 @@ public:
 // Whether a coordinate is finite, and rounds to a finite float.
 bool is_finite(const Body& body, std::uint32_t vertex) noexcept;
 
-// The first vertex of which that is not so; VOX_NONE if there is none.
+// The first vertex that is not; VOX_NONE if all are.
 std::uint32_t first_bad_vertex(const Body& body) noexcept;
 
-// Why: NON_FINITE, or LIMIT where the coordinates are finite.
+// Why a vertex is not: NON_FINITE, or LIMIT if its coordinates are finite.
 vox_result bad_position(const Body& body, std::uint32_t vertex) noexcept;
 
 // The error about such a vertex.
 MeshError position_error(const Body& body, std::uint32_t vertex);
 
-// Throws MeshError with NON_FINITE for the first vertex whose position is not finite, with LIMIT when it is
-// finite but rounds to no finite float.
+// Throws position_error() for the first bad vertex, or for the given one if it is bad.
 void check_finite(const Body& body);
-
-// The same for one vertex.
 void check_finite(const Body& body, std::uint32_t vertex);
 
-// Throws MeshError with INVALID_ARGUMENT for positions that are read as floats, but can only be doubles.
-// Returns false where there are too few of them to tell.
+// Throws MeshError with INVALID_ARGUMENT for positions that are read as floats but can only be doubles.
+// Returns false if there are too few of them to tell.
 bool check_not_doubles(const Body& body);
 
 } // namespace vox

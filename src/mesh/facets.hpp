@@ -1,5 +1,4 @@
-// Facets of tetrahedra, matched in one place: the topology, the boundary and the geometry of a mesh all need
-// to know which tetrahedra share one.
+// Facets of tetrahedra, matched in one place, for the topology, the boundary and the geometry of a mesh.
 #pragma once
 
 #include "base/array.hpp"
@@ -54,7 +53,7 @@ inline SortedFacet sorted_facet(const Tet& tet, std::uint32_t i) noexcept {
     return sorted_facet(tet.v[a], tet.v[b], tet.v[c]);
 }
 
-// A facet as one tetrahedron has it, among those with the same lowest vertex.
+// A facet of one tetrahedron, in a list of facets with the same lowest vertex.
 struct TetFacet {
     std::uint64_t others;   // the middle vertex << 32 | the highest one
     std::uint32_t opposite; // the tetrahedron's fourth vertex
@@ -69,13 +68,14 @@ struct TetFacet {
     }
 };
 
-// The facets whose lowest vertex is `vertex`; `around` lists the tetrahedra there. They are in `room`, which
-// grows as needed.
+// Lists the facets whose lowest vertex is `vertex` in `room`, which grows as needed. `around` are the
+// tetrahedra at the vertex.
 std::span<TetFacet> list_facets_at(std::uint32_t vertex, std::span<const Tet> tets,
                                    std::span<const std::uint32_t> around, Array<TetFacet>& room);
 void sort_facets(std::span<TetFacet> facets);
 
-// Calls visit(same) for each facet of a sorted list: `same` are those of all tetrahedra that have it.
+// Calls visit(same) for each facet of a sorted list; `same` has an element for each tetrahedron with this
+// facet.
 template <class Visit>
 void for_equal_facets(std::span<const TetFacet> facets, Visit&& visit) {
     for (std::size_t first = 0, last = 0; first < facets.size(); first = last) {
@@ -84,7 +84,8 @@ void for_equal_facets(std::span<const TetFacet> facets, Visit&& visit) {
     }
 }
 
-// The tetrahedra of which a vertex is one of the two lowest corners: enough for list_facets_at().
+// For each vertex the tetrahedra that have it as one of their two lowest corners, which list_facets_at()
+// needs.
 IndexLists list_by_lowest(std::span<const Tet> tets, std::uint32_t vertex_count,
                           std::pmr::memory_resource* memory);
 
@@ -94,15 +95,15 @@ struct Triangle {
     std::uint32_t apex; // the tetrahedron's other vertex
 };
 
-// What lies across each facet of each tetrahedron, mostly in 16 bits: neighbours are near each other in the
-// caller's numbering, and so are the triangles of tetrahedra near each other.
+// What lies across each facet of each tetrahedron, mostly in 16 bits: neighbours, and the triangles of
+// neighbours, have similar numbers.
 class Across {
 public:
     explicit Across(std::pmr::memory_resource* memory) noexcept
         : codes_(memory), blocks_(memory), far_(memory), unsorted_(memory), wide_(memory) {}
 
-    // What lies there: a tetrahedron, or with this bit a triangle of the surface, or nothing that can be
-    // determined where three or more tetrahedra meet.
+    // A value is a tetrahedron, or with surface_bit a triangle of the surface, or `nothing` if three or more
+    // tetrahedra share the facet.
     static constexpr std::uint32_t surface_bit = 0x80000000u;
     static constexpr std::uint32_t nothing = 0xffffffffu;
 
@@ -122,14 +123,13 @@ public:
         const auto t = static_cast<std::uint32_t>(tet);
         return {(*this)(t, 0), (*this)(t, 1), (*this)(t, 2), (*this)(t, 3)};
     }
-    // For a tetrahedron that is looked at soon.
+    // The address to prefetch for a tetrahedron.
     const void* place_of(std::uint32_t tet) const noexcept {
         return is_wide_ ? static_cast<const void*>(wide_.data() + tet) : codes_.data() + 4 * std::size_t{tet};
     }
 
-    // Each throws what the memory throws.
-    // Building. At first nothing is across the facets. Then each is set at most once, to something else, with
-    // triangles ascending. The result can be read after finish().
+    // Building, which throws what the memory throws. At first nothing is across the facets. Each is set at
+    // most once, with triangles ascending. The result can be read after finish().
     void begin(std::size_t tets);
     void build(std::uint32_t tet, std::uint32_t facet, std::uint32_t value) {
         if (is_wide_) {
@@ -145,8 +145,7 @@ public:
     }
     void finish();
 
-    // Changes, of which the first takes 16 bytes a tetrahedron: widen() prepares for them. Nothing is across
-    // new facets.
+    // Changing. widen() comes first, and takes 16 bytes a tetrahedron. Nothing is across new facets.
     void widen();
     void resize(std::size_t tets);
     void set(std::uint32_t tet, std::uint32_t facet, std::uint32_t value) noexcept {
@@ -154,8 +153,9 @@ public:
     }
 
 private:
-    // Codes: tetrahedra from first_near() on, triangles and places in `far_` from the first one of the block
-    // on, and `nothing`.
+    // Codes below near_codes count tetrahedra from first_near() on, those below first_far_code triangles from
+    // the block's first one on, and the others, but for nothing_code, places in `far_` from the block's first
+    // one on.
     static constexpr std::uint32_t block_size = 256; // tetrahedra
     static constexpr std::uint32_t nothing_code = 0xffff, first_far_code = nothing_code - 4 * block_size,
                                    near_codes = 0xe000;
@@ -174,15 +174,15 @@ private:
     void build_far(std::uint32_t tet, std::uint32_t facet, std::uint32_t value);
 
     std::size_t size_ = 0;
-    bool is_wide_ = false; // where differences are large, and after edits
+    bool is_wide_ = false; // if differences are large, and after edits
     Array<std::uint16_t> codes_;
     Array<Block> blocks_;
     Array<std::uint32_t> far_;
-    Array<Far> unsorted_; // of `far_`, while it is built
+    Array<Far> unsorted_; // becomes `far_` in finish()
     Array<std::array<std::uint32_t, 4>> wide_;
 };
 
-// Doubled tetrahedra count once.
+// The facets of a mesh, matched. Doubled tetrahedra count once.
 struct MatchedFacets {
     explicit MatchedFacets(std::pmr::memory_resource* memory) noexcept : across(memory), triangles(memory) {}
 
@@ -190,11 +190,11 @@ struct MatchedFacets {
 
     Across across; // a triangle of the surface is one of `triangles`
     Array<Triangle> triangles;
-    bool is_repaired = false; // else the triangles are sorted by their FacetKey
+    bool is_repaired = false; // if not, the triangles are sorted by their FacetKey
 
-    // Prepares for `tets` tetrahedra, of which none is matched yet.
+    // Prepares for `tets` tetrahedra, none of them matched.
     void clear(std::size_t tets);
-    // Matches the tetrahedra that have one facet: calls set(tet, facet, what is across).
+    // Matches the tetrahedra that share a facet. Calls set(tet, facet, value of `across`).
     template <class Set>
     void match(std::span<const Tet> tets, std::span<const TetFacet> same, Set&& set) {
         const auto set_across = [&](std::span<const TetFacet> of, std::uint32_t value) {
@@ -222,7 +222,7 @@ public:
     FacetMatcher(std::span<const Tet> tets, MatchedFacets& out)
         : tets_(tets), out_(out), room_(out.triangles.memory()) {}
 
-    // Those whose lowest vertex is `vertex`; `around` lists the tetrahedra there.
+    // Matches the facets whose lowest vertex is `vertex`; `around` are the tetrahedra at the vertex.
     void match_at(std::uint32_t vertex, std::span<const std::uint32_t> around);
 
 private:
@@ -230,7 +230,7 @@ private:
     struct Slot {
         std::uint64_t others = 0;
         std::uint32_t used_at = 0; // the vertex plus 1
-        std::uint32_t first = 0;   // of facets_
+        std::uint32_t first = 0;   // the index of the facet
     };
 
     void match(std::span<const TetFacet> same);
@@ -243,10 +243,10 @@ private:
     std::array<Slot, std::size_t{1} << table_bits> table_{};
 };
 
-// More tetrahedra cannot be matched: lists of three corners of four facets have 32-bit ends.
+// The most tetrahedra that can be matched: lists of three corners of four facets have 32-bit ends.
 inline constexpr std::uint32_t most_tets = UINT32_MAX / 12;
 
-// For at most `most_tets`. Throws what the memory throws and leaves `out` unchanged then.
+// Matches at most `most_tets` tetrahedra. If it throws what the memory throws, `out` is unchanged.
 void match_facets(std::span<const Tet> tets, std::uint32_t vertex_count, MatchedFacets& out);
 
 } // namespace vox

@@ -35,13 +35,7 @@ vox_filter checked_filter(vox_filter filter) {
 }
 
 bool collide(const Body& a, const Body& b) noexcept {
-    const PairFilter &f = a.filter, &g = b.filter;
-    if (f.world != g.world) return false;
-    if (f.group != 0 && f.group == g.group) {
-        if (f.group < 0) return false;
-    } else if ((f.category & g.mask) == 0 || (g.category & f.mask) == 0) {
-        return false;
-    }
+    if (!collide(a.filter, b.filter)) return false;
     // Both meshes of an excepted pair list each other: the shorter list is searched.
     const bool a_is_shorter = a.exceptions.size() < b.exceptions.size();
     const std::span<const std::uint32_t> exceptions = a_is_shorter ? a.exceptions : b.exceptions;

@@ -1,5 +1,5 @@
-// Which pairs never collide: of meshes by category, mask, group and exception; of a vertex and a tetrahedron
-// of one mesh by their distance along edges and in the rest pose.
+// Which pairs never collide: meshes, by category, mask, group and exception; a vertex and a tetrahedron of
+// one mesh, by their distance along edges and in the rest pose.
 #pragma once
 
 #include "base/array.hpp"
@@ -28,39 +28,40 @@ inline bool collides_with_itself(const vox_filter& filter) noexcept {
 // Whether vertices of one body may make contacts with tetrahedra of another one.
 bool collide(const Body& a, const Body& b) noexcept;
 
-// Whether contacts between the two, either way, have penetrations.
+// Whether contacts between the two bodies have penetrations.
 inline bool have_penetrations(const Body& a, const Body& b) noexcept { return !a.sensor && !b.sensor; }
 
 // The vertices within so many edges of each vertex.
 struct Rings {
     explicit Rings(std::pmr::memory_resource* memory) noexcept : near(memory), reached_from(memory) {}
-    // Takes time and memory in proportion to the rings. Empty for count 0.
+    // `count` is the number of edges; the rings are empty for 0. Time and memory are proportional to their
+    // size.
     Rings(std::span<const Tet> tets, std::uint32_t vertex_count, std::uint32_t count,
           std::pmr::memory_resource* memory);
 
     // Applies changes. `tets` and `tets_of`, which lists the tets at each vertex, are the state after them.
-    // Throws what the memory throws; then the rings are to be made anew.
+    // Throws what the memory throws; then the rings must be made again.
     void repair(std::span<const Tet> tets, const IndexLists& tets_of, std::span<const TetChange> changes,
                 std::uint32_t count);
 
-    // Adds vertices, at the end, that no tetrahedron names. Throws as repair().
+    // Appends vertices that are in no tetrahedron. Throws like repair().
     void add_vertices(std::size_t vertex_count);
 
-    IndexLists near; // of each vertex, which is among them; ascending
+    IndexLists near; // one list a vertex, which contains it; ascending
 
 private:
     void search(std::span<const Tet> tets, const IndexLists& tets_of, std::uint32_t vertex,
                 std::uint32_t count, Array<std::uint32_t>& found);
 
-    Array<std::uint32_t> reached_from; // of each vertex, the last search that met it
+    Array<std::uint32_t> reached_from; // for each vertex, the last search that reached it
     std::uint32_t searches = 0;
 };
 
-// Positions of a mesh at rest: in floats as long as these hold them exactly, otherwise in doubles.
+// Positions of a mesh at rest: as floats while these are exact, otherwise as doubles.
 class RestPose {
 public:
     explicit RestPose(std::pmr::memory_resource* memory) noexcept : floats_(memory), doubles_(memory) {}
-    // Of `count` finite positions. Throws what the memory throws.
+    // Copies `count` finite positions. Throws what the memory throws.
     RestPose(const Positions& positions, std::uint32_t count, std::pmr::memory_resource* memory);
 
     bool empty() const noexcept { return size() == 0; }
@@ -72,7 +73,7 @@ public:
 
     // The positions of some vertices.
     RestPose of(std::span<const std::uint32_t> vertices) const;
-    // Afterwards append() of the same positions cannot fail.
+    // Makes append(more) unable to fail.
     void reserve_for(const RestPose& more);
     void append(const RestPose& more) noexcept;
 
@@ -89,7 +90,7 @@ struct SelfFilter {
     explicit SelfFilter(std::pmr::memory_resource* memory) noexcept : rings(memory), rest(memory) {}
 
     Rings rings;              // empty: no such filter
-    RestPose rest;            // once it is known
+    RestPose rest;            // empty until it is known
     double rest_distance = 0; // 0: no such filter
 
     // Whether the filters drop a contact of `vertex` with `tet`: a corner of the tet is within the rings, or

@@ -1,5 +1,5 @@
-// One inserted mesh: tetrahedra and positions (borrowed or copied), settings, and what the stages prepare of
-// them, which edits (edit.cpp) keep up to date.
+// One inserted mesh: tetrahedra and positions (borrowed or copied), settings, and what stages prepare from
+// them. Edits (edit.cpp) keep it up to date.
 #pragma once
 
 #include "base/array.hpp"
@@ -21,15 +21,15 @@
 
 namespace vox {
 
-// What edits make of a mesh.
+// The state of an edited mesh.
 struct MeshEdits {
     explicit MeshEdits(std::pmr::memory_resource* memory) noexcept
         : given(memory), off(memory), removed(memory), removed_vertices(memory), tets_of(memory) {}
 
     Array<Tet> given;  // corners as given by the caller; empty while no tet is off
-    Bits off, removed; // tets; those that are removed are off as well
+    Bits off, removed; // tets; removed ones are off, too
     Bits removed_vertices;
-    IndexLists tets_of; // the tets around each vertex, from the first edit on
+    IndexLists tets_of; // the tets at each vertex, from the first edit on
     bool has_tets_of = false;
 };
 
@@ -62,10 +62,10 @@ public:
     bool has_topology() const noexcept { return has_topology_; }
     // Grows when the topology is made, changed or dropped.
     std::uint32_t topology_version() const noexcept { return topology_version_; }
-    // Gives its memory back.
+    // Releases its memory.
     void drop_topology() noexcept;
 
-    // What suggestions of a cell size look at, made at the first call.
+    // The sample from which cell sizes are suggested, made by the first call.
     const MeshSample& sample() const;
 
     // Makes the tiles, unless that is done; needs positions.
@@ -76,12 +76,12 @@ public:
     // Null before they are made.
     const Tiles* tiles_if_made() const noexcept { return has_tiles_ ? &tiled().tiles : nullptr; }
 
-    // Makes the rings of the filter, unless that is done.
+    // Makes the rings of the filter if necessary.
     void make_rings();
 
     // Edits. Each checks its arguments and takes the memory that it needs, then changes the mesh, then
-    // repairs what was prepared of it. What cannot be repaired for lack of memory, or is cheaper to make
-    // anew, is invalidated. Throw Error or what the memory throws, and have changed nothing then.
+    // repairs its prepared data, or invalidates what there is no memory to repair and what is cheaper to make
+    // again. If an edit throws Error or what the memory throws, nothing has changed.
     void set_tets_enabled(std::span<const std::uint32_t> tets, bool enabled);
     void replace_tets(std::span<const std::uint32_t> tets, std::span<const Tet> corners);
     std::uint32_t append_tets(std::span<const Tet> corners); // the index of the first
@@ -89,14 +89,14 @@ public:
     std::uint32_t append_vertices(const vox_vertices_desc& desc);
     void remove_vertices(std::span<const std::uint32_t> vertices);
 
-    // For a mesh that was not edited yet: which tets are off, which of these are removed, and which vertices
-    // are (bits). Throws Error(INVALID_MESH) where these contradict each other or the tets.
+    // For a mesh without edits: sets which tets are off, which of these are removed, and which vertices are
+    // removed (bits). Throws INVALID_MESH if these contradict each other or the tets.
     void restore_edits(std::span<const std::uint64_t> off, std::span<const std::uint64_t> removed,
                        std::span<const std::uint64_t> removed_vertices);
 
-    // A mesh of another topology with this one's settings; `desc` and `view` as for the constructor. Without
-    // desc.positions, and with as many vertices as before, it keeps positions and rest pose. take_over()
-    // completes it and cannot fail.
+    // A mesh of another topology with this one's settings; `desc` and `view` are those of the constructor.
+    // Without desc.positions, and with as many vertices as before, it keeps positions and rest pose.
+    // take_over() completes it and cannot fail.
     Mesh with_topology(const vox_mesh_desc& desc, const Body& view) const;
     void take_over(Mesh&& before) noexcept;
 
@@ -104,14 +104,14 @@ public:
     void bind(const Positions& positions) noexcept;
 
     // The mesh's own positions, for the caller to write to: at first a copy of the borrowed ones in their
-    // format, or zeros where there are none.
+    // format, or zeros if there are none.
     void* map_positions();
 
-    // Throws MeshError(INVALID_ARGUMENT) where the positions are not of their format, which is looked at once
-    // there are enough of them, and again when another format is bound.
+    // Throws MeshError(INVALID_ARGUMENT) if the positions are not of their format. Checks it once there are
+    // enough of them, and again when another format is bound.
     void check_format_once(vox_body id);
     bool is_format_checked() const noexcept { return format_checked_; }
-    // As they collide, where it has some.
+    // Positions with the transform; null before they are bound.
     Positions positions() const noexcept {
         Positions positions = positions_;
         if (has_transform_) positions.transform = transform_->rows.data();
@@ -154,13 +154,13 @@ public:
 private:
     friend class Snapshot;
 
-    // Of the vertices to append, or of `count` in all.
+    // The positions of vertices to append, or of all `count` vertices.
     Positions check_appended(const vox_vertices_desc& desc, std::uint32_t count) const;
 
-    // One after the other, in the mesh's format.
+    // A view of packed positions in the mesh's format.
     Positions packed(const void* data) const noexcept;
 
-    // For a rest pose. Throws Error(NON_FINITE or LIMIT).
+    // Throws NON_FINITE or LIMIT.
     RestPose rest_pose(const Positions& positions, std::uint32_t count) const;
 
     // Edits.
@@ -211,7 +211,7 @@ private:
     bool owns_positions_ = false; // may be true while there are no vertices yet
     bool has_topology_ = false, has_tiles_ = false, has_rings_ = false;
     bool has_transform_ = false;
-    bool format_checked_ = false; // that the positions are of their format
+    bool format_checked_ = false; // the positions are of their format
     bool enabled_ = true;
 };
 

@@ -1,5 +1,5 @@
-// Some tetrahedra, edges and facets of a mesh, and how many of each there are in all. Its geometry is
-// estimated from them while it deforms. They depend on the topology alone, so they are chosen once.
+// Some tetrahedra, edges and facets of a mesh, and how many it has of each. Its geometry is estimated from
+// these while it deforms. They depend on the topology alone, so they are chosen once.
 //
 // Edges and facets are sampled by their lowest vertex (cluster sampling: W. G. Cochran, Sampling Techniques,
 // 1977): those of some vertices are listed, all of them, each once, however many tetrahedra share it. That
@@ -24,52 +24,51 @@ struct MeshSample {
 
     struct Edge {
         std::array<std::uint32_t, 2> v;
-        std::uint32_t tets; // that share it
+        std::uint32_t tets; // how many share it
     };
     struct Facet {
         std::array<std::uint32_t, 3> v;
         std::uint32_t tets;
     };
 
-    // Spread evenly over the lists of all; all where there are few. None of a tetrahedron that is off, and no
-    // edges and facets of one that names a vertex twice.
+    // Spread evenly over the lists of all; all if there are few. Without tetrahedra that are off, and without
+    // edges and facets of those that name a vertex twice.
     Array<Tet> tets;
     Array<Edge> edges;
     Array<Facet> facets, boundary_facets;
 
-    // Of all. Estimates, unless the edges and facets of all vertices were listed.
+    // Counts for the whole mesh: estimates, unless the edges and facets of all vertices were listed.
     std::uint64_t edge_count = 0, facet_count = 0, boundary_facet_count = 0;
-    bool is_whole = false; // whether they were
-    // As of unused_vertices() below, where they were asked for.
+    bool is_whole = false; // the counts are exact
+    // unused_vertices() below, if requested.
     Array<std::uint64_t> unused_vertices;
 };
 
-// How much of a mesh is listed and kept, about.
+// About how much of a mesh is listed and kept.
 struct SampleSize {
     std::size_t vertices; // whose edges and facets are listed
-    // Kept of what is listed; of boundary facets half as many.
+    // How many of the listed ones are kept; half as many boundary facets.
     std::size_t tets, edges = std::numeric_limits<std::size_t>::max();
     bool unused_vertices = false; // whether to find them
 };
 
-// How many tetrahedra are looked at in a grid's scene of so many.
+// How many tetrahedra of a grid's scene are sampled.
 std::size_t sampled_tets(std::uint64_t tets) noexcept;
-// What a mesh of a grid keeps: as many tetrahedra and edges.
+// The sample of a mesh of a grid.
 SampleSize kept_sample(std::uint64_t tets) noexcept;
 
-// `tiles` of a body without tetrahedra that are off, as they were made, save most of the time; the result is
-// the same without. Throws what the memory throws.
+// `tiles`, of a body without edits or tetrahedra that are off, save most of the time and do not change the
+// result. Throws what the memory throws.
 MeshSample make_sample(const Body& body, const SampleSize& size, std::pmr::memory_resource* memory,
                        const Tiles* tiles = nullptr);
 
-// By tetrahedra that are not off, as bits (bits.hpp). Empty: none; also where there are no such tetrahedra.
-// `tiles` as above.
+// Vertices that no enabled tetrahedron uses, as bits (bits.hpp). Empty if there are none, or no enabled
+// tetrahedra. `tiles` are as above.
 Array<std::uint64_t> unused_vertices(const Body& body, std::pmr::memory_resource* memory,
                                      const Tiles* tiles = nullptr);
 
-// Whether a tetrahedron of a body, none of which is off, has a vertex. Looks first at those whose place in
-// their list is that of the vertex in its own: numbers that are near in one are mostly near in the other, and
-// where they are random, it takes a part of the list.
+// Whether a tetrahedron of a body has a vertex; no tetrahedron is off. Starts at the tetrahedra whose
+// relative place in their list is that of the vertex in its own, as neighbours mostly have similar places.
 bool is_used(const Body& body, std::uint32_t vertex) noexcept;
 
 } // namespace vox

@@ -1,5 +1,5 @@
-// How an edit changes tetrahedra, and which facets and vertices it touches: only around these is what was
-// prepared of a mesh repaired.
+// How an edit changes tetrahedra, and which facets and vertices it touches. Prepared data is repaired only
+// there.
 #pragma once
 
 #include "base/array.hpp"
@@ -18,7 +18,7 @@ namespace vox {
 struct TetChange {
     std::uint32_t tet;
     bool was_on, is_on;
-    Tet before, after; // valid where it was on, is on
+    Tet before, after; // valid if was_on and if is_on
 };
 
 // Calls function(vertex) for each different corner of a tetrahedron.
@@ -31,17 +31,17 @@ void for_corners(const Tet& tet, Function&& function) {
     }
 }
 
-// Lists the tetrahedra around each vertex: those that are on, in any order.
+// Lists the enabled tetrahedra at each vertex, in any order.
 void list_tets(std::span<const Tet> tets, std::span<const std::uint64_t> off, std::uint32_t vertex_count,
                IndexLists& tets_of);
-// Throws what the memory throws; then `tets_of` is to be made anew.
+// Throws what the memory throws; then `tets_of` must be made again.
 void apply_changes(std::span<const TetChange> changes, IndexLists& tets_of);
 
 // The facets, and the vertices, of the tetrahedra that changed, before and after. Sorted, each once.
 void list_changed_facets(std::span<const TetChange> changes, Array<FacetKey>& facets);
 void list_changed_vertices(std::span<const TetChange> changes, Array<std::uint32_t>& vertices);
 
-// Calls function(tet, i) for each tetrahedron of which `key` is facet i.
+// Calls function(tet, i) for each tetrahedron whose facet i is `key`.
 template <class Function>
 void for_tets_at(const FacetKey& key, std::span<const Tet> tets, const IndexLists& tets_of,
                  Function&& function) {

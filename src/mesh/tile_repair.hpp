@@ -1,6 +1,6 @@
 // Edits of a mesh that is in tiles. The last tet of a tile fills the gap that a tet leaves. A new tet joins
-// its neighbours while their tile has room, else a new tile at the end. The tiles stay correct whatever is
-// done, but become less compact: after enough changes they are to be made anew.
+// its neighbours while their tile has room, else a new tile at the end. The tiles stay correct, but become
+// less compact: after enough changes they must be made again.
 #pragma once
 
 #include "base/lists.hpp"
@@ -13,16 +13,16 @@
 
 namespace vox {
 
-// Applies changes of `body`, which is the state after them; `tets_of` lists the tets at each vertex. When it
-// returns false, or throws what the memory throws, `mesh` is to be made anew. The boundary is emptied when it
-// does not pay any more.
+// Applies changes. `body` and `tets_of`, which lists the tets at each vertex, are the state after them. If it
+// returns false, or throws what the memory throws, `mesh` must be made again. The boundary is emptied if it
+// no longer pays.
 bool repair(TiledMesh& mesh, const Body& body, std::span<const TetChange> changes, const IndexLists& tets_of);
 
-// Adds vertices that no tet names yet, [count_before, count_after). When it returns false, or throws what the
-// memory throws, `mesh` is to be made anew.
+// Adds the vertices [count_before, count_after), which are in no tet yet. If it returns false, or throws what
+// the memory throws, `mesh` must be made again.
 bool add_vertices(TiledMesh& mesh, std::uint32_t count_before, std::uint32_t count_after);
 
-// A vertex that will never make contacts need not be looked at for belonging to no tet.
+// Removes a vertex that cannot make contacts from Boundary::loose.
 void remove_loose(Boundary& boundary, std::uint32_t vertex) noexcept;
 
 } // namespace vox

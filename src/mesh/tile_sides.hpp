@@ -5,11 +5,11 @@
 
 namespace vox {
 
-// The harmonic mean of the sides of tiles: a few that reach across the world do not count.
+// The harmonic mean of the sides of tiles: a few that reach across the world have little weight.
 struct TileSize {
     double inverse_sum = 0, count = 0;
 
-    // Of as many tiles of that size.
+    // Adds `tiles` tiles of the size of `box`.
     void add(const Box& box, double tiles = 1) noexcept {
         const double sides = (double{box.hi[0]} - double{box.lo[0]}) +
                              (double{box.hi[1]} - double{box.lo[1]}) +

@@ -1,4 +1,5 @@
-// What is prepared of a mesh's tetrahedra to search them: tiles, boundary, and where things are, for edits.
+// What is prepared from a mesh's tetrahedra to search them: tiles, boundary, and, for edits, where everything
+// is.
 #pragma once
 
 #include "base/array.hpp"
@@ -16,38 +17,37 @@
 
 namespace vox {
 
-// Where things are. The first edit makes the lists.
+// Where tetrahedra and triangles are. The first edit makes the lists.
 struct TilePlaces {
     explicit TilePlaces(std::pmr::memory_resource* memory) noexcept
         : of_tet(memory), room(memory), triangles(memory), changed_at(memory) {}
 
     static constexpr std::uint32_t none = ~0u;
-    Array<std::uint32_t> of_tet; // 64 * tile + place in it, or none
+    Array<std::uint32_t> of_tet; // 64 * tile + place in the tile, or none
     std::uint32_t tile_of(std::uint32_t tet) const noexcept { return of_tet[tet] / tile_size; }
     struct Room {
         std::uint8_t tets, vertices; // how many fit into a tile without moving its lists
     };
     Array<Room> room;
-    IndexLists triangles;                // of the boundary, by their lowest vertex
+    IndexLists triangles;                // the boundary's, by their lowest vertex
     std::uint32_t first_young_super = 0; // super-tiles and vertices from here on came with edits
     std::uint32_t first_young_vertex = 0;
-    std::uint64_t changes = 0;       // of tets since the tiles were made
+    std::uint64_t changes = 0;       // how many tets changed since the tiles were made
     Array<std::uint64_t> changed_at; // for each super-tile, `changes` when a tet last joined it
 };
 
-// An empty one is prepared for an empty mesh.
+// Without tiles for an empty mesh.
 struct TiledMesh {
     explicit TiledMesh(std::pmr::memory_resource* memory) noexcept
         : tiles(memory), boundary(memory), places(memory) {}
 
     Tiles tiles;
-    Boundary boundary; // of bodies with self-collision, where it pays
+    Boundary boundary; // empty without self-collision, and if it does not pay
     TilePlaces places;
 };
 
 // The positions only decide how compact tiles are; they may move later. `facets` are those of the body's
-// tets; null: they are matched here where they are needed. Throws what the memory throws and leaves `out`
-// unchanged then.
+// tets; if null, they are matched here if needed. If it throws what the memory throws, `out` is unchanged.
 void make_tiled_mesh(const Body& body, TiledMesh& out, const MatchedFacets* facets = nullptr);
 
 // What is prepared of the tetrahedra of a mesh while they stay as they are. Small meshes whose tetrahedra are

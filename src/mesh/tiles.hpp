@@ -21,9 +21,9 @@ inline constexpr std::uint32_t block_size = 8;       // most vertices of a block
 struct Tile {
     std::uint32_t first_tet;    // in Tiles::tets
     std::uint32_t first_vertex; // in Tiles::vertices and Tiles::own; a multiple of four
-    std::uint8_t tet_count;     // 1 to 64; 0 where all were switched off
+    std::uint8_t tet_count;     // 1 to 64; 0 if all were switched off
     std::uint8_t vertex_count;  // 1 to 64; the list is padded with its last vertex to a multiple of four
-    bool holds_last_vertex;     // of the mesh: 16 bytes from its position on reach past the caller's array
+    bool holds_last_vertex;     // the mesh's: 16 bytes from its position on reach past the caller's array
 
     // A bit for each tet.
     std::uint64_t all_tets() const noexcept {
@@ -41,14 +41,15 @@ struct Tiles {
     Array<std::uint32_t> tets;     // the caller's tet index, tile after tile
     Array<std::uint32_t> vertices; // the caller's vertex index, tile after tile
     // For each of `vertices`: the tile's tets that have it as a corner. Empty for bodies without
-    // self-collision, and mostly for those that are culled by winding numbers: the lookup then finds them.
+    // self-collision, and mostly for those culled by winding numbers: the lookup then finds these tets
+    // itself.
     Array<std::uint64_t> own;
     // Blocks: runs of vertices in the caller's numbering, mostly close together in space. Block i is vertices
     // [block_first[i], block_first[i + 1]).
     Array<std::uint32_t> block_first;
     // Super-tile s is tiles [super_first[s], super_first[s + 1]), a subtree of the k-d tree.
     Array<std::uint32_t> super_first;
-    IndexLists blocks; // of each super-tile, ascending: those that hold its vertices
+    IndexLists blocks; // for each super-tile those that contain its vertices, ascending
 
     std::uint32_t block_count() const noexcept { return intervals(block_first); }
     std::uint32_t super_tile_count() const noexcept { return intervals(super_first); }
@@ -56,7 +57,7 @@ struct Tiles {
     std::uint32_t super_tile_of(std::uint32_t tile) const noexcept { return interval(super_first, tile); }
 
 private:
-    // How many intervals a list of ends makes; 0 before make_tiles().
+    // The number of intervals between ends; 0 before make_tiles().
     static std::uint32_t intervals(const Array<std::uint32_t>& ends) noexcept {
         return ends.empty() ? 0 : static_cast<std::uint32_t>(ends.size() - 1);
     }
@@ -67,15 +68,15 @@ private:
 };
 
 // Splits `tets` by a k-d tree over their centroids. Positions only decide how compact the tiles are: they may
-// have any values, and may move later. Tetrahedra that are `off` (bits) are in no tile. Throws what the
-// memory throws and leaves `out` empty then.
+// have any values, and may move later. Tetrahedra that are `off` (bits) are in no tile. If it throws what the
+// memory throws, `out` is empty.
 void make_tiles(std::span<const Tet> tets, std::uint32_t vertex_count, Positions positions, Tiles& out,
                 std::span<const std::uint64_t> off = {});
 
 // Writes block_first alone.
 void cut_blocks(std::uint32_t vertex_count, Positions positions, Tiles& out);
 
-// How a range of the tree's items is cut, by their number, until a tile holds them.
+// Into which parts a range of items of the tree is cut, until they fit into a tile.
 inline constexpr std::uint32_t target_tets =
     60; // a little below 64, so that tiles of an uneven cut still fit
 constexpr std::uint32_t lower_part(std::uint32_t count) noexcept {

@@ -1,5 +1,5 @@
 // Neighbours of vertices, tetrahedra across facets, and the surface of a mesh, for depths and queries.
-// Positions play no part in it. Made once, and repaired where the mesh is edited.
+// Independent of positions. Made once, and repaired by edits.
 //
 // Tetrahedra that name a vertex twice have no edges and facets, and doubled ones count once.
 #pragma once
@@ -19,11 +19,11 @@ namespace vox {
 
 struct TetChange;
 
-// All empty for a mesh without tetrahedra.
+// Empty for a mesh without tetrahedra.
 struct Topology : MatchedFacets {
     explicit Topology(std::pmr::memory_resource* memory) noexcept : MatchedFacets(memory), links(memory) {}
 
-    // Of each vertex the neighbours over edges, and the triangles around it in the order of before().
+    // For each vertex the neighbours over edges, and the triangles around it in the order of before().
     VertexLinks links;
 
     LinkRange neighbours_of(std::uint32_t vertex) const noexcept {
@@ -47,15 +47,15 @@ struct Topology : MatchedFacets {
 // Throws Error(LIMIT) for more than most_tets.
 void check_tet_count(std::uint64_t tets);
 
-// Throws what the memory throws and leaves `out` unchanged then.
+// If it throws what the memory throws, `out` is unchanged.
 void make_topology(std::span<const Tet> tets, std::uint32_t vertex_count, Topology& out);
 
-// Adds vertices, at the end, that no tetrahedron names. Throws as repair_topology().
+// Appends vertices that are in no tetrahedron. Throws like repair_topology().
 void add_vertices(std::uint32_t vertex_count, Topology& topology);
 
 // Applies changes. `tets` and `tets_of`, which lists the tets at each vertex, are the state after them; tets
-// that are off name a vertex twice. The result is that of make_topology() but for the order of triangles.
-// Throws what the memory throws; then the topology is to be made anew.
+// that are off name a vertex twice. The result is that of make_topology(), except for the order of triangles.
+// Throws what the memory throws; then the topology must be made again.
 void repair_topology(std::span<const Tet> tets, const IndexLists& tets_of, std::span<const TetChange> changes,
                      Topology& topology);
 

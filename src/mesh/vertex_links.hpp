@@ -1,6 +1,6 @@
-// What the topology knows of each vertex: its neighbours over edges, and the triangles of the surface around
-// it, in one place. Numbers ascend, so all but the first are stored as differences, in 16 bits where those
-// of a vertex fit. A vertex inside takes about 35 bytes, mostly in one cache line.
+// The links of each vertex in one place: its neighbours over edges, and the triangles of the surface around
+// it. Numbers ascend, so all but the first are stored as differences, in 16 bits if those of the vertex fit.
+// An interior vertex takes about 35 bytes, mostly in one cache line.
 #pragma once
 
 #include "base/array.hpp"
@@ -14,7 +14,7 @@
 
 namespace vox {
 
-// Vertices or triangles in their order, as they are stored.
+// A stored list of vertices or triangles, ascending.
 class LinkRange {
 public:
     class Iterator {
@@ -59,7 +59,7 @@ public:
     };
 
     LinkRange() = default;
-    // `next` are the differences between `count` numbers, of which the first is given.
+    // `next` are the differences between `count` numbers, which begin with `first`.
     LinkRange(std::uint32_t first, const std::uint16_t* next, std::uint32_t count, bool wide) noexcept {
         first_.number_ = first;
         first_.next_ = next;
@@ -100,26 +100,25 @@ public:
         return {read32(record.ring), record.ring + 2, record.ring_count, record.wide};
     }
 
-    // For a vertex that is looked at soon, the first some time before the second.
+    // Addresses to prefetch for a vertex; the first one some time before the second.
     const void* place_of(std::uint32_t vertex) const noexcept { return places_.data() + vertex; }
     const void* record_of(std::uint32_t vertex) const noexcept { return words_.data() + places_[vertex]; }
 
-    // Each throws what the memory throws, and Error(LIMIT) where 2^32 words are not enough, and changes
-    // nothing then.
-    // Sets the number of vertices; new ones have neither neighbours nor triangles.
+    // Changes. One that throws what the memory throws, or LIMIT if 2^32 words are not enough, has changed
+    // nothing. Sets the number of vertices; new ones have neither neighbours nor triangles.
     void resize(std::size_t vertices);
-    void reserve(std::size_t words) { words_.reserve(words); } // of 16 bits
+    void reserve(std::size_t words) { words_.reserve(words); } // 16 bits each
     void shrink_to_fit() { words_.shrink_to_fit(); }
-    // `neighbours` ascend. A ring takes the least room if it does.
+    // `neighbours` ascend. A ring that ascends, too, takes the least room.
     void assign(std::uint32_t vertex, std::span<const std::uint32_t> neighbours,
                 std::span<const std::uint32_t> ring);
 
 private:
-    // A record begins with a word: 7 bits for the number of neighbours, 7 for that of triangles. Then come
-    // the ring and the neighbours, each as its first number and the differences between the others. The first
-    // neighbour is a difference, too, from the vertex. Where all this does not fit, the first word is the bit
-    // for wide records, and all that follows has 32 bits: the two numbers, the ring and the neighbours. The
-    // differences are modulo 2^32 then.
+    // A record begins with a word: 7 bits for the number of neighbours, 7 for that of triangles. The ring and
+    // the neighbours follow, each as its first number and the differences between the others. The first
+    // neighbour is a difference, too, from the vertex. If this does not fit, the first word is the bit for
+    // wide records, and all that follows has 32 bits: the two numbers, the ring and the neighbours, with
+    // differences modulo 2^32.
     static constexpr std::uint32_t wide_record = 0x8000u, few_bits = 7, few = 1u << few_bits;
 
     struct Record {
@@ -129,7 +128,7 @@ private:
 
         std::size_t ring_length() const noexcept { return vox::VertexLinks::ring_length(ring_count, wide); }
     };
-    // In words.
+    // The length in words.
     static std::size_t ring_length(std::uint32_t count, bool wide) noexcept {
         return count == 0 ? 0 : wide ? 2 * std::size_t{count} : std::size_t{count} + 1;
     }
@@ -151,9 +150,9 @@ private:
     std::size_t length_of(std::uint32_t vertex) const noexcept;
     void compact();
 
-    Array<std::uint32_t> places_; // of each vertex, where its record begins in words_
-    Array<std::uint16_t> words_;  // the first record is that of all vertices without links
-    std::size_t abandoned_ = 0;   // words that are in no record
+    Array<std::uint32_t> places_; // for each vertex, where its record begins in words_
+    Array<std::uint16_t> words_;  // the first record serves all vertices without links
+    std::size_t abandoned_ = 0;   // words in no record
 };
 
 } // namespace vox

@@ -11,15 +11,15 @@ namespace vox {
 
 namespace {
 
-// Edge length of a cell, in harmonic mean box sides of tiles, as in a step (fast/windows.cpp).
+// The edge length of a cell in harmonic mean box sides of tiles, the value of a step (fast/windows.cpp).
 constexpr double cell_in_tile_sides = 0.6;
 
 } // namespace
 
 Queries::Batch::Batch(const Queries& queries, QueryMeshes which, std::pmr::memory_resource* memory,
                       Array<PointHit>& found)
-    : queries_(queries), which_(which), found_(found), collected_(memory), bins_(memory), near_(memory),
-      on_boundary_(memory), scratch_(1, memory) {
+    : queries_(queries), which_(which), found_(found), collected_(memory), bins_(memory), windows_(memory),
+      boundary_hits_(memory), scratch_(1, memory) {
     for (const Mesh& mesh : queries.meshes_)
         if (wants(mesh, which)) add(region_, mesh.box);
 }
@@ -45,19 +45,20 @@ bool Queries::Batch::collect(std::span<const Vec3d> points) {
     std::uint32_t n = 0;
     bool exact = true;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
-        const Vec3d& exactly = points[i];
-        const Vec3f p = nearest_floats(exactly);
+        const Vec3d& exact_point = points[i];
+        const Vec3f p = nearest_floats(exact_point);
         collected_.x[n] = p.x;
         collected_.y[n] = p.y;
         collected_.z[n] = p.z;
         collected_.id[n] = i;
-        exact &= (double{p.x} == exactly.x) & (double{p.y} == exactly.y) & (double{p.z} == exactly.z);
+        exact &=
+            (double{p.x} == exact_point.x) & (double{p.y} == exact_point.y) & (double{p.z} == exact_point.z);
         n += (p.x >= region_.lo[0]) & (p.x <= region_.hi[0]) & (p.y >= region_.lo[1]) &
              (p.y <= region_.hi[1]) & (p.z >= region_.lo[2]) & (p.z <= region_.hi[2]);
     }
     collected_.count = n;
     rounded_ = !exact;
-    on_boundary_.assign(points.size(), none);
+    boundary_hits_.assign(points.size(), none);
     return n > 0;
 }
 
@@ -75,19 +76,19 @@ void Queries::Batch::find_in_mesh(std::uint32_t m, std::uint32_t root) {
     tile_ = 0;
     tets_.reset();
     for (std::uint32_t first = 0, group = 0; first < count; first += super_tile_size, ++group) {
-        near_.clear();
+        windows_.clear();
         fast::for_windows(bins_, root, queries_.groups_[mesh.first_group + group],
                           [&](const fast::Window& window) {
-                              near_.push_back({window, window.box, 0});
+                              windows_.push_back({window, window.box, 0});
                           });
-        if (near_.empty()) continue;
-        fast::look_up_tiles(body, near_, first, std::min(first + super_tile_size, count), scratch_[0], *this);
+        if (windows_.empty()) continue;
+        fast::look_up_tiles(body, windows_, first, std::min(first + super_tile_size, count), scratch_[0],
+                            *this);
     }
     fast::flush(scratch_[0], *this);
 }
 
-// The lookup goes from tile to tile, so that the tile of a finding is that of the one before, or one of the
-// next.
+// The lookup goes from tile to tile, so the tile of a finding is that of the previous finding or a later one.
 void Queries::Batch::take(std::span<const fast::Finding> findings) {
     const Mesh& mesh = queries_.meshes_[mesh_];
     const Array<Tile>& tiles = mesh.tets->tiles.tiles;
@@ -124,7 +125,7 @@ void Queries::Batch::locate_later(std::uint32_t point, std::uint32_t leaf, std::
 void Queries::Batch::locate_all() {
     const std::size_t count = std::exchange(unlocated_count_, 0);
     if (count == 0) return;
-    for (std::size_t i = count; i % 8; ++i) // fill up the last register
+    for (std::size_t i = count; i % 8; ++i) // fill the last register
         for (std::size_t a = 0; a < 3; ++a) {
             block_.point[a][i] = block_.point[a][0];
             for (std::size_t c = 0; c < 4; ++c) block_.corner[c][a][i] = block_.corner[c][a][0];
@@ -152,10 +153,10 @@ void Queries::Batch::locate_all() {
     }
 }
 
-// Of the tetrahedra of a mesh that have a point on their boundary, no more than the lowest is asked for: a
-// vertex has dozens.
+// Keeps only the lowest tetrahedron of a mesh that has the point on its boundary, as a vertex may be in
+// dozens.
 void Queries::Batch::keep_lowest(const PointHit& hit) {
-    std::uint32_t& kept = on_boundary_[hit.point];
+    std::uint32_t& kept = boundary_hits_[hit.point];
     if (kept == none || found_[kept].mesh != hit.mesh) {
         kept = static_cast<std::uint32_t>(found_.size());
         found_.push_back(hit);

@@ -1,4 +1,4 @@
-// Many points at once against the tiles of all meshes, by stages of the fast engine.
+// Locates many points at once in the tiles of all meshes, by stages of the fast engine.
 #pragma once
 
 #include "base/array.hpp"
@@ -17,8 +17,8 @@ namespace vox {
 
 class Queries::Batch final : public fast::Findings {
 public:
-    // Appends what it finds to `found`, in no particular order; of tetrahedra of a mesh with a point on their
-    // boundary, the lowest only.
+    // find() appends hits to `found`, in no particular order. If a point is on the boundary of several
+    // tetrahedra of a mesh, only the lowest one is reported.
     Batch(const Queries& queries, QueryMeshes which, std::pmr::memory_resource* memory,
           Array<PointHit>& found);
 
@@ -36,26 +36,24 @@ private:
     const QueryMeshes which_;
     Array<PointHit>& found_;
     Box region_ = empty_box;        // around the meshes
-    std::span<const Vec3d> points_; // those asked for
-    bool rounded_ = false;          // whether the nearest floats are not all exact
-    fast::Points collected_;        // those of them in the region
+    std::span<const Vec3d> points_; // of this call
+    bool rounded_ = false;          // some are not floats
+    fast::Points collected_;        // those in the region, as floats
     fast::Bins bins_;
-    Array<fast::Source> near_;
-    // Of each of points_: its last hit on a boundary, in found_.
+    Array<fast::Source> windows_;
     static constexpr std::uint32_t none = ~0u;
-    Array<std::uint32_t> on_boundary_;
+    Array<std::uint32_t> boundary_hits_; // for each of points_ its last hit on a boundary, in found_
     Array<fast::LookupScratch> scratch_; // one
-    // While findings are taken, in the order of tiles: where they are.
+    // The place of the present finding. Findings come in the order of tiles.
     std::uint32_t mesh_ = 0, tile_ = 0;
     std::optional<LeafTets> tets_;
-    // Points that wait until there are enough of them for whole registers, and the tetrahedra that they may
-    // be in.
+    // Points that wait until they fill whole registers, each with a tetrahedron that may contain it.
     struct Unlocated {
-        std::uint32_t point, mesh, leaf, place; // as in PointHit
+        std::uint32_t point, mesh, leaf, place; // see PointHit
     };
     Unlocated unlocated_[point_block];
     std::size_t unlocated_count_ = 0;
-    PointBlock block_; // of unlocated_
+    PointBlock block_; // the coordinates of unlocated_
 };
 
 } // namespace vox

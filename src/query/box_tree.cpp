@@ -10,7 +10,7 @@ namespace vox {
 
 namespace {
 
-// Of one side of a box; a side without an end counts as if it were around zero.
+// The centre of one side of a box; 0 if the side is infinite.
 float centre(float lo, float hi) noexcept {
     const float middle = 0.5f * lo + 0.5f * hi;
     return std::isfinite(middle) ? middle : 0;
@@ -51,8 +51,8 @@ void BoxTree::build(std::span<const Box3f> boxes, Workers& workers) {
     items_.resize(centres_.size());
     boxes_.resize(2 * centres_.size());
     if (centres_.empty()) return;
-    // The top of the tree is split here, what is below it by the workers.
-    constexpr std::size_t most_parts = 16, least_items = 1024; // of a tree that is worth a task
+    // The top of the tree is split here, the parts below it by the workers, if there are enough items.
+    constexpr std::size_t most_parts = 16, least_items = 1024;
     std::array<Part, most_parts> parts;
     std::size_t count = 0;
     const auto split_top = [&](const auto& self, const Part& part) -> void {
@@ -73,7 +73,7 @@ void BoxTree::build(std::span<const Box3f> boxes, Workers& workers) {
     for (std::size_t node = std::min(most_parts, items_.size()) - 1; node > 0; --node) join(node);
 }
 
-// Leaves are on two levels, since the nodes with numbers below twice their count are all there.
+// Leaves are on two levels, since nodes are numbered without gaps.
 std::size_t BoxTree::leaves_below(std::size_t node) const noexcept {
     const std::size_t leaves = items_.size();
     std::size_t first = node, last = node; // below `node`, on one level
@@ -85,7 +85,7 @@ std::size_t BoxTree::leaves_below(std::size_t node) const noexcept {
     return (last + 1 - first - inner) + 2 * inner;
 }
 
-// Puts the centres of the left child of a node first, and returns how many there are.
+// Moves the centres of the left child of a node to the front, and returns their number.
 std::size_t BoxTree::halve(std::size_t node, std::span<Centre> centres) const noexcept {
     const std::size_t left = leaves_below(2 * node);
     const int axis = longest_side(std::span<const Centre>(centres));

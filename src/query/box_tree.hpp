@@ -16,26 +16,26 @@
 
 namespace vox {
 
-// A binary tree with as many nodes as there must be: node 1 is the root, 2 i and 2 i + 1 are the children of
-// i, and the second half are the leaves. Each leaf is an item, by its index in what the tree was built from.
+// A complete binary tree: node 1 is the root, 2 i and 2 i + 1 are the children of i, and the second half are
+// the leaves. Each leaf is an item: the index of a box that the tree was built from.
 class BoxTree {
 public:
     explicit BoxTree(std::pmr::memory_resource* memory) noexcept
         : boxes_(memory), items_(memory), centres_(memory) {}
 
-    // Makes room for that many items, so that build() needs no memory.
+    // Makes room for so many items, so that build() needs no memory.
     void reserve(std::size_t items);
-    // Enqueues at most one task; throws what the workers throw. Empty boxes are left out. Splits by the
-    // median along the longest side of the box around the centres (J. L. Bentley, Multidimensional binary
-    // search trees used for associative searching, CACM 18, 1975).
+    // Splits at the median along the longest side of the box around the centres (J. L. Bentley,
+    // Multidimensional binary search trees used for associative searching, CACM 18, 1975). Skips empty boxes.
+    // Enqueues at most one task; throws what the workers throw.
     void build(std::span<const Box3f> boxes, Workers& workers);
 
     bool is_leaf(std::size_t node) const noexcept { return node >= items_.size(); }
     const Box3f& box(std::size_t node) const noexcept { return boxes_[node]; }
     std::uint32_t item(std::size_t leaf) const noexcept { return items_[leaf - items_.size()]; }
 
-    // Calls visit(item) for each leaf whose bound(box) is at most `most`, which visit() may lower; the nearer
-    // child comes first.
+    // Calls visit(item) for each leaf whose bound(box) is at most `most`, which visit() may lower. The child
+    // with the lower bound comes first.
     template <class Bound, class Visit>
     void visit_nearest_first(const double& most, Bound&& bound, Visit&& visit) const {
         struct Entry {
@@ -52,20 +52,20 @@ public:
         put({1, bound(boxes_[1])});
         while (size > 0) {
             const Entry entry = stack[--size];
-            if (!(entry.bound <= most)) continue; // `most` was lowered in between
+            if (!(entry.bound <= most)) continue; // `most` was lowered meanwhile
             if (is_leaf(entry.node)) {
                 visit(item(entry.node));
                 continue;
             }
-            Entry near{2 * entry.node, bound(boxes_[2 * entry.node])};
-            Entry far{near.node + 1, bound(boxes_[near.node + 1])};
-            if (far.bound < near.bound) std::swap(near, far);
-            put(far);
-            put(near);
+            Entry nearer{2 * entry.node, bound(boxes_[2 * entry.node])};
+            Entry farther{nearer.node + 1, bound(boxes_[nearer.node + 1])};
+            if (farther.bound < nearer.bound) std::swap(nearer, farther);
+            put(farther);
+            put(nearer);
         }
     }
 
-    // Calls visit(item) for each leaf that accepts(box) holds for, as it does for all above it.
+    // Calls visit(item) for each leaf for which accepts(box) holds. It must hold for the nodes above, too.
     template <class Accepts, class Visit>
     void visit_accepted(Accepts&& accepts, Visit&& visit, std::size_t node = 1) const {
         if (items_.empty() || !accepts(boxes_[node])) return;
@@ -80,7 +80,7 @@ private:
         std::uint32_t item;
     };
 
-    struct Part { // a node with what is below it, not split yet
+    struct Part { // a node that is not split yet, and the items below it
         std::size_t node;
         std::span<Centre> centres;
     };
@@ -90,9 +90,9 @@ private:
     void join(std::size_t node) noexcept; // its children's boxes
     void split(std::size_t node, std::span<Centre> centres, std::span<const Box3f> boxes) noexcept;
 
-    Array<Box3f> boxes_;         // of nodes; the first is not used
-    Array<std::uint32_t> items_; // of leaves
-    Array<Centre> centres_;      // while it is built
+    Array<Box3f> boxes_;         // one a node; the first is not used
+    Array<std::uint32_t> items_; // one a leaf
+    Array<Centre> centres_;      // for build()
 };
 
 } // namespace vox

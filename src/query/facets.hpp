@@ -5,10 +5,10 @@
 
 namespace vox {
 
-// Calls visit(leaf, tets, tet, facet, least) for each facet of a surface whose tetrahedron's bound is no more
-// than `most`, as BoxTree::visit_nearest_first() does: `tets` are those of the leaf, `tet` is the place
-// there, and `least` is that bound. What is computed of the facet, rounded, must not be less than it: then
-// the answer does not depend on the tree, as no box around the tetrahedron has a greater bound.
+// Calls visit(leaf, tets, tet, facet, least) for each facet of a surface whose tetrahedron's bound is at most
+// `most`, in the order of BoxTree::visit_nearest_first(). `tets` are those of the leaf, `tet` is the place
+// among them, and `least` is the bound. A result for the facet must not be less than `least`, despite
+// rounding: then it does not depend on the tree, as no box around the tetrahedron has a greater bound.
 template <class Bound, class Visit>
 void Queries::visit_facets(QueryMeshes which, const double& most, const Bound& bound, Visit&& visit) const {
     surface_tree_.visit_nearest_first(most, bound, [&](std::uint32_t leaf) {

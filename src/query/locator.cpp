@@ -8,7 +8,7 @@ namespace vox {
 
 namespace {
 
-// What the last other owner did with the locator has happened before.
+// Synchronises with the last release by another owner.
 bool is_unused(const vox_locator* locator) noexcept {
     return locator->owners.load(std::memory_order_acquire) == 1;
 }

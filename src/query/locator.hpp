@@ -1,4 +1,4 @@
-// Locators: what was prepared for queries at one moment, owned by whoever asks it.
+// Locators: the state of a grid at one moment, prepared for queries and owned by its users.
 #pragma once
 
 #include "base/array.hpp"
@@ -13,14 +13,13 @@
 #include <memory_resource>
 #include <span>
 
-// The grid is an owner as long as it lives, so that it can use the memory again. When it is the only one, no
-// thread has the locator any more.
+// The grid is an owner as long as it lives, so that it can use the memory again once it is the only owner.
 struct vox_locator {
     explicit vox_locator(const vox::MemoryShare& memory) : share(memory), queries(&*memory) {}
     vox_locator(const vox_locator&) = delete;
     vox_locator& operator=(const vox_locator&) = delete;
 
-    vox::MemoryShare share; // first, as all else is released to it
+    vox::MemoryShare share; // first: the other members are released to it
     vox::Queries queries;
     std::uint64_t epoch = 0;
     std::atomic<std::uint64_t> owners = 1;
@@ -29,10 +28,10 @@ struct vox_locator {
 namespace vox {
 
 void retain(vox_locator& locator) noexcept;
-// Destroys the locator when this was its last owner.
+// Destroys the locator if this was its last owner.
 void release(vox_locator& locator) noexcept;
 
-// The locators of a grid that are in use, and those that wait for the next use.
+// The locators of a grid: those in use, and those to be used again.
 class Locators {
 public:
     explicit Locators(const MemoryShare& memory) : share_(memory), locators_(&*memory) {}
@@ -40,9 +39,9 @@ public:
     Locators& operator=(const Locators&) = delete;
     ~Locators();
 
-    // One more owner of it is the caller's. Throws as Queries::prepare(), and has taken none then.
+    // The caller becomes an owner of the result. Throws like Queries::prepare().
     vox_locator* take(std::span<const QueryBody> bodies, Workers& workers, std::uint64_t epoch);
-    // Gives up the memory of those that nobody uses.
+    // Releases the memory of unused ones.
     void clear() noexcept;
 
 private:

@@ -1,13 +1,13 @@
 // Queries with points and boxes. A few points descend the tree together, partitioned in place at every node,
-// so that each node is read once for all of them. Many go the way of the vertices in a step of the fast
-// engine (docs/engine.md): they are sorted into windows, and tile after tile is tested against those in its
-// box, which takes a fifth of the time.
+// so that each node is read once. Many points are treated like the vertices in a step of the fast engine
+// (docs/engine.md): they are sorted into windows, and each tile is tested against those in its box, which
+// takes a fifth of the time.
 #include "base/array.hpp"
 #include "query/batch.hpp"
 
 #include "base/boxes.hpp"
+#include "base/rounding.hpp"
 #include "exact/predicates.hpp"
-#include "query/rounding.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,16 +19,11 @@ namespace vox {
 
 namespace {
 
-// So many points are worth windows, and one for so many tiles.
+// The least number of points for windows, and the most tiles a point.
 constexpr std::size_t least_batch = 64, most_tiles_a_point = 4;
-// Points handled at a time, so that their buffers stay in the cache, and for each tile at least: a tile takes
+// Points handled at a time, so that their buffers stay in the cache; at least so many a tile, as a tile takes
 // as long to prepare as some points.
 constexpr std::size_t points_at_once = 65536, points_a_tile = 16;
-
-Box3f box_of(const Vec3d& p) noexcept {
-    return {{rounded_down(p.x), rounded_down(p.y), rounded_down(p.z)},
-            {rounded_up(p.x), rounded_up(p.y), rounded_up(p.z)}};
-}
 
 } // namespace
 
@@ -38,11 +33,11 @@ void Queries::find_few(std::span<const Vec3d> points, QueryMeshes which, std::pm
     std::iota(indices.begin(), indices.end(), 0u);
     Array<Box3f> boxes(memory);
     boxes.reserve(points.size());
-    for (const Vec3d& p : points) boxes.push_back(box_of(p));
+    for (const Vec3d& p : points) boxes.push_back(rounded_box(p));
     if (!leaves_.empty()) find(1, indices, {points, boxes, which}, found);
 }
 
-// Sorts what was found by (point, mesh, tet). Points are at most `points`, so they are counted.
+// Sorts hits by (point, mesh, tet), by a counting sort over the points.
 void Queries::sort_found(Array<PointHit>& found, std::size_t points) {
     const auto before = [](const PointHit& x, const PointHit& y) {
         return std::tie(x.point, x.mesh, x.tet) < std::tie(y.point, y.mesh, y.tet);
@@ -53,7 +48,7 @@ void Queries::sort_found(Array<PointHit>& found, std::size_t points) {
         return;
     }
     std::pmr::memory_resource* const memory = found.memory();
-    Array<std::uint32_t> end(points + 1, 0u, memory); // of each point, after it is sorted
+    Array<std::uint32_t> end(points + 1, 0u, memory); // each point's, after sorting
     for (const PointHit& hit : found) ++end[hit.point + 1];
     std::partial_sum(end.begin(), end.end(), end.begin());
     Array<PointHit> sorted(found.size(), memory);
@@ -95,8 +90,8 @@ void Queries::points(std::span<const Vec3d> points, QueryMeshes which, std::pmr:
     for_found(points, which, memory, [&](std::size_t point, std::span<const PointHit> found) {
         const bool any_interior =
             std::any_of(found.begin(), found.end(), [](const PointHit& hit) { return hit.interior; });
-        // Report every tetrahedron with the point in its interior, or if there is none, the first with the
-        // point on its boundary.
+        // Report the tetrahedra with the point in their interior; if there are none, the first with the point
+        // on its boundary.
         for (const PointHit& hit : any_interior ? found : found.first(1)) {
             if (any_interior && !hit.interior) continue;
             vox_point_hit* const out = hits.add();
@@ -120,7 +115,7 @@ void Queries::count_inside(std::span<const Vec3d> points, QueryMeshes which,
     });
 }
 
-// Searches below the node for the points in `which`, whose order changes.
+// Searches below the node for the points in `which`, and changes their order.
 void Queries::find(std::size_t node, std::span<std::uint32_t> which, const Points& asked,
                    Array<PointHit>& found) const {
     const Box3f& box = tree_.box(node);
@@ -146,7 +141,7 @@ void Queries::find_in_leaf(std::uint32_t leaf, std::uint32_t point, const Points
     const LeafTets tets = tets_of(leaves_[leaf]);
     for (std::size_t i = 0; i < tets.size(); ++i) {
         if (!overlap(tets.box(i), at)) continue;
-        // A tetrahedron of zero volume never holds the point, as its corner volumes have both signs, or none.
+        // A tetrahedron of zero volume contains no point: its corner volumes have both signs, or none.
         const Containment where = locate_in_solid(p, tets.corner(i, 0), tets.corner(i, 1), tets.corner(i, 2),
                                                   tets.corner(i, 3), exact_tests);
         if (where == Containment::interior || where == Containment::boundary)
@@ -156,7 +151,7 @@ void Queries::find_in_leaf(std::uint32_t leaf, std::uint32_t point, const Points
 }
 
 void Queries::box(const Vec3d& min, const Vec3d& max, QueryMeshes which, Array<vox_box_hit>& hits) const {
-    // A finite box, which meets no empty one; no vertex is beyond.
+    // Made finite, so that it meets no empty box; all vertices are finite.
     const auto low = [](double x) { return std::max(rounded_down(x), -std::numeric_limits<float>::max()); };
     const auto high = [](double x) { return std::min(rounded_up(x), std::numeric_limits<float>::max()); };
     const Box3f around{{low(min.x), low(min.y), low(min.z)}, {high(max.x), high(max.y), high(max.z)}};

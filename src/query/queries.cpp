@@ -1,12 +1,12 @@
-// A bounding volume hierarchy over the tiles of all meshes. The trees are built in every call, so that they
+// A bounding volume hierarchy over the tiles of all meshes. Each call builds the trees again, so that they
 // suit bodies that deform; this is quick, as there are few tiles.
 #include "query/queries.hpp"
 
 #include "base/boxes.hpp"
 #include "base/error.hpp"
 #include "base/room.hpp"
+#include "base/rounding.hpp"
 #include "base/vectors.hpp"
-#include "query/rounding.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +46,7 @@ void Queries::prepare(std::span<const QueryBody> bodies, Workers& workers) {
         leaves += body.tets->tiles.tiles.size();
         groups += group_count(*body.tets);
     }
-    // Reserve everything first, so that no memory can be missing after it.
+    // Reserve everything first: nothing below may lack memory.
     reserve_growing(meshes_, bodies.size());
     reserve_growing(vertices_, vertices);
     reserve_growing(floats_, vertices);
@@ -59,7 +59,7 @@ void Queries::prepare(std::span<const QueryBody> bodies, Workers& workers) {
     tree_.reserve(leaves);
     surface_tree_.reserve(leaves);
 
-    meshes_.clear(); // and with it what is shared
+    meshes_.clear(); // releases shared data, too
     vertices_.resize(vertices);
     floats_.resize(vertices);
     boxes_.resize(tets);
@@ -78,7 +78,7 @@ void Queries::prepare(std::span<const QueryBody> bodies, Workers& workers) {
         tets += body.tets->facets.size();
         groups += group_count(*body.tets);
     }
-    constexpr std::size_t least_vertices = 16384, least_leaves = 128; // that are worth a task
+    constexpr std::size_t least_vertices = 16384, least_leaves = 128; // a task
     workers.for_ranges(vertices, least_vertices, [&](std::size_t begin, std::size_t end, std::uint32_t) {
         copy_positions(bodies, begin, end);
     });
@@ -90,7 +90,7 @@ void Queries::prepare(std::span<const QueryBody> bodies, Workers& workers) {
     surface_tree_.build(surface_boxes_, workers);
 }
 
-// Those with indices [begin, end) in vertices_.
+// Copies the positions with indices [begin, end) in vertices_.
 void Queries::copy_positions(std::span<const QueryBody> bodies, std::size_t begin, std::size_t end) noexcept {
     const auto after = std::ranges::upper_bound(meshes_, begin, {}, &Mesh::first_vertex);
     for (auto m = static_cast<std::size_t>(after - meshes_.begin()) - 1; begin < end; ++m) {
@@ -104,8 +104,8 @@ void Queries::copy_positions(std::span<const QueryBody> bodies, std::size_t begi
     }
 }
 
-// A vertex is rounded once for all tetrahedra of the tile that share it: as rounding keeps the order of
-// numbers, the box of rounded corners is the rounded box.
+// Rounds each vertex of the tile once: as rounding is monotonic, the box of rounded corners is the rounded
+// box.
 void Queries::make_boxes(std::uint32_t leaf) noexcept {
     const Mesh& mesh = meshes_[leaves_[leaf].mesh];
     const Tiles& tiles = mesh.tets->tiles;
@@ -116,7 +116,7 @@ void Queries::make_boxes(std::uint32_t leaf) noexcept {
     const std::uint8_t* const facets = mesh.tets->facets.data() + tile.first_tet;
     Box3f* const boxes = boxes_.data() + mesh.first_tet + tile.first_tet;
 
-    Box around[tile_size]; // each vertex
+    Box around[tile_size]; // one a vertex
     if (mesh.rounded) {
         for (std::size_t v = 0; v < tile.vertex_count; ++v) {
             const Vec3d& p = vertices_[mesh.first_vertex + vertices[v]];
@@ -140,7 +140,7 @@ void Queries::make_boxes(std::uint32_t leaf) noexcept {
         vox::add(all, box);
         if (facets[i] == 0) continue;
         for (std::size_t c = 0; c < 4; ++c)
-            // A corner belongs to the three facets that are not opposite to it.
+            // A corner is in the three facets that are not opposite to it.
             if (facets[i] & ~(1u << c)) vox::add(surface, corner(c));
     }
     leaf_boxes_[leaf] = box3f(all);
@@ -148,7 +148,7 @@ void Queries::make_boxes(std::uint32_t leaf) noexcept {
     tile_boxes_[leaf] = all;
 }
 
-// The boxes of groups and meshes, and how large tiles are.
+// Computes the boxes of groups and meshes, and the sizes of tiles.
 void Queries::join_tiles() noexcept {
     std::fill(groups_.begin(), groups_.end(), empty_box);
     for (std::size_t l = 0; l < leaves_.size(); ++l) {

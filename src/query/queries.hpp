@@ -1,5 +1,5 @@
-// Queries on a copy of the enabled meshes at one moment and a tree of boxes over it: what a locator holds.
-// Once prepared, it is only read, by any number of threads.
+// Queries on a copy of the enabled meshes at one moment, with a tree of boxes: the content of a locator. Any
+// number of threads may read it.
 #pragma once
 
 #include "base/array.hpp"
@@ -22,25 +22,25 @@
 
 namespace vox {
 
-// A mesh as prepare() takes it.
+// A mesh for prepare().
 struct QueryBody {
     Body body;
     std::shared_ptr<const QueryTets> tets;
     std::uint64_t user_data;
 };
 
-// Which meshes take part in a query.
+// The meshes that take part in a query.
 struct QueryMeshes {
     std::uint64_t mask;
     vox_body excluded;
 };
 
-// A list of the caller: the first `capacity` hits are kept, all are counted.
+// A caller's list: the first `capacity` hits are kept, all are counted.
 template <class Hit>
 class HitList {
 public:
     HitList(Hit* hits, std::uint64_t capacity) noexcept : hits_(hits), capacity_(capacity) {}
-    // Where the next one goes; null where there is no room.
+    // The place of the next hit; null if there is no room.
     Hit* add() noexcept { return ++count_ <= capacity_ ? hits_ + (count_ - 1) : nullptr; }
     std::uint64_t count() const noexcept { return count_; }
 
@@ -53,11 +53,11 @@ class Queries {
 public:
     explicit Queries(std::pmr::memory_resource* memory);
 
-    // Copies the bodies, which are in the order of their ids and whose positions must be finite. Throws what
-    // the memory resource throws, and changes nothing then; also what a task system of the caller makes the
-    // workers throw, and is of no use then. Enqueues at most four tasks.
+    // Copies the bodies, which ascend in id and must have finite positions. If it throws what the memory
+    // resource throws, nothing has changed; if it throws what the workers throw, the object must be prepared
+    // again. Enqueues at most four tasks.
     void prepare(std::span<const QueryBody> bodies, Workers& workers);
-    // Throws Error(INVALID_HANDLE) for a body that took no part.
+    // Throws INVALID_HANDLE for a body that is not in the copy.
     std::uint64_t user_data(vox_body body) const;
 
     // Hits of points[0], points[1], ... in canonical order; `memory` is for temporary use.
@@ -81,24 +81,24 @@ private:
         std::shared_ptr<const QueryTets> tets;
         std::size_t first_vertex, first_tet, first_leaf; // in vertices_, boxes_ and leaves_
         std::size_t first_group;                         // in groups_
-        bool rounded;                                    // whether floats_ are not exact
+        bool rounded;                                    // floats_ are not exact
         Box box = empty_box;
         TileSize tile_size{};
     };
     // A tile of a mesh, that is, up to 64 tetrahedra that are close together.
     struct Leaf {
-        std::uint32_t mesh, tile; // in meshes_, in the tiles of its tets
+        std::uint32_t mesh, tile; // in meshes_; in the tiles of its tets
     };
     class LeafTets;
     struct Points {
         std::span<const Vec3d> points;
-        std::span<const Box3f> boxes; // around each
+        std::span<const Box3f> boxes; // one around each
         QueryMeshes which;
     };
     struct PointHit {
         std::uint32_t point, mesh, tet; // the mesh in meshes_
         bool interior;
-        std::uint32_t leaf, place; // where the tetrahedron is, in leaves_ and in the tile
+        std::uint32_t leaf, place; // of the tetrahedron in leaves_, and in the tile
     };
     class Batch;
     using FacetKey = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>; // mesh in meshes_, tet, facet
@@ -114,13 +114,14 @@ private:
     }
     LeafTets tets_of(const Leaf& leaf) const noexcept;
     void join_tiles() noexcept;
-    // Calls visit(point, found) for each mesh that each point is in, in canonical order. Of tetrahedra with
-    // the point on their boundary, some after the lowest may be missing.
+    // Calls visit(point, found) for each point and each mesh that contains it, in canonical order. `found`
+    // are the tetrahedra that contain the point; with the point on their boundary, all but the lowest may be
+    // missing.
     template <class Visit>
     void for_found(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
                    Visit&& visit) const;
     static void sort_found(Array<PointHit>& found, std::size_t points);
-    // Sets what `hits`, of the closest points, say of meshes that the points are in.
+    // Sets the signs of distances and the counts of meshes that contain the points in `hits`.
     void count_inside(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
                       vox_closest_hit* hits) const;
     void find_few(std::span<const Vec3d> points, QueryMeshes which, std::pmr::memory_resource* memory,
@@ -135,16 +136,14 @@ private:
 
     Array<Mesh> meshes_;    // ascending by id
     Array<Vec3d> vertices_; // mesh after mesh
-    Array<Vec3f> floats_;   // the nearest floats
-    // Of the tetrahedra, mesh after mesh, each in the order of its tiles. All boxes are rounded outwards, so
-    // that they miss nothing that doubles decide.
-    Array<Box3f> boxes_;
+    Array<Vec3f> floats_;   // vertices_, rounded to nearest
+    // All boxes are rounded outwards, so that they exclude nothing that doubles decide.
+    Array<Box3f> boxes_;                      // around tetrahedra, in the order of tiles, mesh after mesh
     Array<Leaf> leaves_;                      // mesh after mesh
     BoxTree tree_;                            // over leaves_
-    BoxTree surface_tree_;                    // over the facets on the surface of those that have some
-    Array<Box3f> leaf_boxes_, surface_boxes_; // what the trees are built from
-    // For many points at once: the boxes of leaves_ again, and of groups of some that follow each other.
-    Array<Box> tile_boxes_, groups_;
+    BoxTree surface_tree_;                    // over the surface facets of leaves_
+    Array<Box3f> leaf_boxes_, surface_boxes_; // from which the trees are built
+    Array<Box> tile_boxes_, groups_;          // for Batch: leaf_boxes_ again; boxes of super_tile_size leaves
 };
 
 // The tetrahedra of a leaf, 0 to size() - 1.
@@ -157,12 +156,11 @@ public:
 
     std::size_t size() const noexcept { return tile_.tet_count; }
     const Box3f& box(std::size_t i) const noexcept { return boxes_[i]; }
-    std::uint32_t index(std::size_t i) const noexcept {
-        return tets_.tiles.tets[tile_.first_tet + i];
-    } // in its mesh
+    // The index in its mesh.
+    std::uint32_t index(std::size_t i) const noexcept { return tets_.tiles.tets[tile_.first_tet + i]; }
     // Bit f is set when facet f is on the surface.
     unsigned facets(std::size_t i) const noexcept { return tets_.facets[tile_.first_tet + i]; }
-    std::uint32_t vertex(std::size_t i, std::size_t corner) const noexcept { // in its mesh
+    std::uint32_t vertex(std::size_t i, std::size_t corner) const noexcept {
         return tets_.tiles.vertices[tile_.first_vertex + corners_[corner * tile_size + i]];
     }
     const Vec3d& at(std::uint32_t vertex) const noexcept { return positions_[vertex]; }

@@ -1,6 +1,6 @@
 // Queries for what a segment meets, by branch and bound over the tree. Whether it meets a facet is decided
-// exactly, by the sides of the facet on which its ends are, and the sides of the segment on which the edges
-// of the facet are.
+// exactly: by the sides of the facet on which its ends are, and the sides of the segment on which the facet's
+// edges are.
 #include "base/array.hpp"
 #include "base/vectors.hpp"
 #include "exact/predicates.hpp"
@@ -17,7 +17,7 @@ namespace vox {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// What is computed of boxes is off by a few roundings, in proportion by less than this.
+// The relative error of computations with boxes, a few roundings, is below this.
 constexpr double slack = 0x1p-48;
 
 double volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) noexcept {
@@ -27,9 +27,9 @@ double volume(const Vec3d& a, const Vec3d& b, const Vec3d& c, const Vec3d& d) no
 
 // Where a segment meets a closed triangle. `t` runs from 0 at its beginning to 1 at its end, and is rounded.
 struct Crossing {
-    double t = infinity; // infinite when it does not
+    double t = infinity; // infinite if it does not
     double weight[3] = {};
-    int from_side = 0, to_side = 0; // the ends' orientation() to the triangle
+    int from_side = 0, to_side = 0; // orientation() of the ends
 };
 
 Crossing find_crossing(const Vec3d& from, const Vec3d& to, const Vec3d& a, const Vec3d& b,
@@ -63,14 +63,13 @@ Crossing find_crossing(const Vec3d& from, const Vec3d& to, const Vec3d& a, const
     return crossing;
 }
 
-// A lower bound of the t at which a segment enters a box, at most 1; infinite when the segment misses the
-// box.
+// A lower bound of the t at which a segment enters a box, at most 1; infinite if it misses the box.
 class EntryBound {
 public:
     EntryBound(const Vec3d& from, const Vec3d& to) noexcept
         : from_{from.x, from.y, from.z}, least_(min(from, to)), most_(max(from, to)) {
         const double way[3] = {to.x - from.x, to.y - from.y, to.z - from.z};
-        constexpr double small = 0x1p-1000; // the inverse of much less is infinite
+        constexpr double small = 0x1p-1000; // the inverse of smaller numbers may be infinite
         for (int axis = 0; axis < 3; ++axis) inverse_[axis] = std::abs(way[axis]) < small ? 0 : 1 / way[axis];
     }
 
@@ -94,7 +93,7 @@ public:
 
 private:
     double from_[3], inverse_[3];
-    Vec3d least_, most_; // of the segment's box
+    Vec3d least_, most_; // the segment's box
 };
 
 // A segment and a facet of a tetrahedron.
@@ -103,8 +102,8 @@ Crossing find_crossing(const Vec3d& from, const Vec3d& to, const Tets& tets, con
     return find_crossing(from, to, tets.at(f.vertex[0]), tets.at(f.vertex[1]), tets.at(f.vertex[2]));
 }
 
-// The t at which a segment first meets a closed tetrahedron; infinite when it does not, or when the
-// tetrahedron has no volume.
+// The t at which a segment first meets a closed tetrahedron; infinite if it does not, or if the tetrahedron
+// has no volume.
 template <class Tets>
 double find_entry(const Vec3d& from, const Vec3d& to, const Tets& tets, std::size_t tet) noexcept {
     const Vec3d &a = tets.corner(tet, 0), &b = tets.corner(tet, 1), &c = tets.corner(tet, 2),
@@ -118,7 +117,7 @@ double find_entry(const Vec3d& from, const Vec3d& to, const Tets& tets, std::siz
     return t < infinity && orientation(a, b, c, d, exact_tests) == 0 ? infinity : t;
 }
 
-// Whether a segment goes into the tetrahedron through its facet, or out of it.
+// Whether a segment enters or leaves a tetrahedron through a facet.
 template <class Tets>
 vox_side side_of(const Crossing& crossing, const Tets& tets, std::size_t tet, std::uint32_t facet,
                  const OrderedFacet& f) noexcept {
@@ -171,7 +170,7 @@ bool Queries::blocks(const Vec3d& from, const Vec3d& to, QueryMeshes which) cons
         const LeafTets tets = tets_of(leaves_[leaf]);
         for (std::size_t i = 0; i < tets.size() && most > 0; ++i)
             if (bound(tets.box(i)) <= most && find_entry(from, to, tets, i) <= most)
-                most = -1; // no bound is that small: the search ends
+                most = -1; // ends the search, as no bound is negative
     });
     return most < 0;
 }

@@ -22,10 +22,10 @@ void write(double (&out)[3], const Vec3d& v) noexcept {
 }
 
 constexpr std::size_t least_points_to_sort = 256;
-constexpr std::size_t least_leaves_to_sort = 16; // below, a search costs little more than its place in a sort
+constexpr std::size_t least_leaves_to_sort = 16; // with fewer, a search costs little more than sorting
 
-// The indices of the points along a Z-shaped curve, in the low 32 bits, or none where points that follow each
-// other are close together already, or too few.
+// The indices of the points along a Z-shaped curve, in the low 32 bits; none if there are few points, or if
+// consecutive points are close together already.
 Array<std::uint64_t> order_along_curve(std::span<const Vec3d> points, double max_distance,
                                        std::pmr::memory_resource* memory) {
     Array<std::uint64_t> order(memory);
@@ -39,10 +39,11 @@ Array<std::uint64_t> order_along_curve(std::span<const Vec3d> points, double max
         steps += std::abs(step.x) + std::abs(step.y) + std::abs(step.z);
     }
     const Vec3d side = high - low;
-    // Points at random have steps of a third of the box on each axis. The facet before is no better a bound
-    // than a small max_distance.
-    const double near = (side.x + side.y + side.z) / 16;
-    if (!(steps > near * static_cast<double>(points.size())) || !(max_distance > near)) return order;
+    // Random points have steps of a third of the box on each axis. A small max_distance is as good a bound as
+    // the previous point's facet.
+    const double short_step = (side.x + side.y + side.z) / 16;
+    if (!(steps > short_step * static_cast<double>(points.size())) || !(max_distance > short_step))
+        return order;
     const double cells = 1023 / std::max({side.x, side.y, side.z}); // an axis
     order.reserve(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -58,16 +59,16 @@ Array<std::uint64_t> order_along_curve(std::span<const Vec3d> points, double max
 
 } // namespace
 
-// The closest facet so far. Of several at the same distance it is the one with the lowest key.
+// The closest facet so far; if several are equally close, the one with the lowest key.
 struct Queries::ClosestFacet {
-    double squared; // distance; at first the most that is asked for
+    double squared; // distance; at first the square of max_distance
     bool any = false;
     FacetKey key{};
     SeenPoint seen{};
     std::uint32_t leaf = 0;
-    std::size_t place = 0; // where its tetrahedron is, as in PointHit
+    std::size_t place = 0; // see PointHit
 
-    // `least` as in visit_facets().
+    // `least`: see visit_facets().
     void try_facet(const Vec3d& p, std::uint32_t mesh, std::uint32_t of_leaf, const LeafTets& tets,
                    std::size_t tet, std::uint32_t facet, double least) noexcept {
         const std::uint8_t* c = facet_corners[facet];
@@ -92,8 +93,8 @@ void Queries::find_closest(const Vec3d& p, QueryMeshes which, ClosestFacet& clos
 void Queries::closest_points(std::span<const Vec3d> points, double max_distance, QueryMeshes which,
                              std::pmr::memory_resource* memory, vox_closest_hit* hits) const {
     const double most = max_distance * max_distance;
-    // The facet found is the least by (distance, key) of all, as no bound is greater than the distance: what
-    // a search begins with, and so the order of points, changes its cost alone.
+    // No bound is greater than the distance, so a search finds the least facet by (distance, key). Its first
+    // bound, and so the order of points, changes only its cost.
     Array<std::uint64_t> order(memory);
     if (leaves_.size() >= least_leaves_to_sort) order = order_along_curve(points, max_distance, memory);
     ClosestFacet closest{.squared = most};
@@ -101,7 +102,7 @@ void Queries::closest_points(std::span<const Vec3d> points, double max_distance,
         const Vec3d& p = points[i];
         const ClosestFacet before = closest;
         closest = {.squared = most};
-        if (before.any) { // the facet that is closest to the point before is a first bound
+        if (before.any) { // the previous point's closest facet is a first bound
             const LeafTets tets = tets_of(leaves_[before.leaf]);
             closest.try_facet(p, std::get<0>(before.key), before.leaf, tets, before.place,
                               std::get<2>(before.key), squared_distance_bound(p, tets.box(before.place)));

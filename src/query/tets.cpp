@@ -35,16 +35,15 @@ std::shared_ptr<const QueryTets> make_query_tets(const Tiles& tiles, const Topol
     for (std::size_t t = 0; t < tiles.tiles.size(); ++t) {
         Tile tile = tiles.tiles[t];
         if (tile.tet_count == 0) continue;
-        const std::uint32_t *const tets = tiles.tets.data() + tile.first_tet, *const of_tile =
-                                                                                  tiles.vertices.data() +
-                                                                                  tile.first_vertex;
+        const std::uint32_t* const tets = tiles.tets.data() + tile.first_tet;
+        const std::uint32_t* const vertices_of_tile = tiles.vertices.data() + tile.first_vertex;
         const std::uint8_t* const corners = tiles.corners.data() + t * 4 * tile_size;
         tile.first_tet = static_cast<std::uint32_t>(to.tets.size());
         tile.first_vertex = static_cast<std::uint32_t>(to.vertices.size());
         to.tiles.push_back(tile);
         to.tets.insert(to.tets.end(), tets, tets + tile.tet_count);
         to.corners.insert(to.corners.end(), corners, corners + 4 * tile_size);
-        to.vertices.insert(to.vertices.end(), of_tile, of_tile + padded(tile));
+        to.vertices.insert(to.vertices.end(), vertices_of_tile, vertices_of_tile + padded(tile));
         for (std::size_t i = 0; i < tile.tet_count; ++i)
             made->facets.push_back(surface_facets(topology.across[tets[i]]));
     }

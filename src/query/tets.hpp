@@ -1,4 +1,4 @@
-// The tetrahedra of one mesh as queries need them: the part that does not change while the mesh only moves.
+// The tetrahedra of one mesh, for queries: the part that does not change while the mesh only moves.
 #pragma once
 
 #include "base/array.hpp"
@@ -11,13 +11,12 @@
 
 namespace vox {
 
-// Never changed once it is made, so that all that is prepared of the same tetrahedra shares it.
+// Never changed, so that all locators of the same tetrahedra share it.
 struct QueryTets {
     explicit QueryTets(std::pmr::memory_resource* memory) noexcept : tiles(memory), facets(memory) {}
 
-    Tiles tiles; // those that hold tetrahedra: tiles, corners, tets and vertices
-    // Of each of tiles.tets: a bit for each facet (facet_corners) on the surface.
-    Array<std::uint8_t> facets;
+    Tiles tiles;                // those that hold tetrahedra: tiles, corners, tets and vertices
+    Array<std::uint8_t> facets; // for each of tiles.tets, a bit for each facet (facet_corners) on the surface
 };
 
 // Throws what the memory throws.

@@ -26,42 +26,27 @@ void vox_sim_destroy(vox_sim* sim) {
 }
 
 vox_result vox_sim_get_grid(const vox_sim* sim, vox_grid** out_grid) {
-    return border([&] {
-        require(sim, "sim");
-        require(out_grid, "out_grid");
-        *out_grid = sim->grid();
-    });
+    return border(sim, "sim", out_grid, "out_grid", [&] { return sim->grid(); });
 }
 
 vox_result vox_sim_step(vox_sim* sim, double time_step) {
-    return border([&] {
-        require(sim, "sim");
-        sim->step(time_step);
-    });
+    return border(sim, "sim", [&] { sim->step(time_step); });
 }
 
 // ---- bodies ---------------------------------------------------------------------------------------
 
 vox_result vox_sim_body_insert(vox_sim* sim, const vox_sim_body_desc* desc, vox_body* out_body) {
-    return border([&] {
-        require(sim, "sim");
-        require(out_body, "out_body");
-        *out_body = sim->insert(read_struct(desc, "desc"));
-    });
+    return border(sim, "sim", out_body, "out_body", [&] { return sim->insert(read_struct(desc, "desc")); });
 }
 
 vox_result vox_sim_body_remove(vox_sim* sim, vox_body body) {
-    return border([&] {
-        require(sim, "sim");
-        sim->remove(body);
-    });
+    return border(sim, "sim", [&] { sim->remove(body); });
 }
 
 vox_result vox_sim_body_get_view(const vox_sim* sim, vox_body body, vox_sim_body_view* out_view) {
-    return border([&] {
-        require(sim, "sim");
+    return border(sim, "sim", [&] {
         require(out_view, "out_view");
-        const sim::Body& b = sim->body(body);
+        const sim::SoftBody& b = sim->body(body);
         static_assert(sizeof(sim::Vec3) == 3 * sizeof(double));
         *out_view = {.positions = b.positions[0].data(),
                      .velocities = b.velocities[0].data(),
@@ -75,26 +60,15 @@ vox_result vox_sim_body_get_view(const vox_sim* sim, vox_body body, vox_sim_body
 
 vox_result vox_sim_body_set_state(vox_sim* sim, vox_body body, const double* positions,
                                   const double* velocities) {
-    return border([&] {
-        require(sim, "sim");
-        sim::set_state(sim->body(body), positions, velocities);
-    });
+    return border(sim, "sim", [&] { sim::set_state(sim->body(body), positions, velocities); });
 }
 
 // ---- measurements ---------------------------------------------------------------------------------
 
 vox_result vox_sim_get_energy(const vox_sim* sim, vox_body body, vox_sim_energy* out_energy) {
-    return border([&] {
-        require(sim, "sim");
-        require(out_energy, "out_energy");
-        *out_energy = sim->energy(body);
-    });
+    return border(sim, "sim", out_energy, "out_energy", [&] { return sim->energy(body); });
 }
 
 vox_result vox_sim_get_counters(const vox_sim* sim, vox_counter_view* out_view) {
-    return border([&] {
-        require(sim, "sim");
-        require(out_view, "out_view");
-        *out_view = sim->counters();
-    });
+    return border(sim, "sim", out_view, "out_view", [&] { return sim->counters(); });
 }

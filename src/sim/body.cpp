@@ -66,7 +66,7 @@ Vec3 vector_at(const double* values, std::size_t i) {
 
 // Gives a quarter of each tet's mass to each of its corners. Much lighter particles would stall the solver,
 // so none gets less than a hundredth of the mean. Particles of no tet get the mean.
-void lump_masses(Body& body, std::span<const double> volumes6, double density) {
+void lump_masses(SoftBody& body, std::span<const double> volumes6, double density) {
     const std::size_t count = body.positions.size();
     Array<bool> used(count, false, body.masses.memory());
     body.masses.assign(count, 0);
@@ -98,7 +98,8 @@ void lump_masses(Body& body, std::span<const double> volumes6, double density) {
 // it). If the directions of the edges are evenly distributed, springs of stiffness 6 E V / l^2 resist a
 // uniform stretch like an isotropic material of Young's modulus E and Poisson's ratio 1/4, whose C1111 is 6 E
 // times the mean of cos^4, which is 1/5.
-void make_edges(Body& body, std::span<const Vec3> rest, std::span<const double> volumes6, double modulus) {
+void make_edges(SoftBody& body, std::span<const Vec3> rest, std::span<const double> volumes6,
+                double modulus) {
     struct Side {
         std::uint32_t a, b;
         std::uint64_t place; // among the sides of all tets
@@ -114,8 +115,7 @@ void make_edges(Body& body, std::span<const Vec3> rest, std::span<const double> 
                     sides.push_back({std::min(corners[i], corners[j]), std::max(corners[i], corners[j]),
                                      sides.size(), std::abs(volumes6[t]) / 36});
     }
-    // The place makes the order of the sums below always the same. A stable sort would take memory of its
-    // own.
+    // `place` fixes the order of the sums below. A stable sort would need more memory.
     std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) {
         return std::tie(s.a, s.b, s.place) < std::tie(t.a, t.b, t.place);
     });
@@ -147,7 +147,8 @@ void make_edges(Body& body, std::span<const Vec3> rest, std::span<const double> 
 
 // Makes one constraint for each tet that has a volume at rest. Its energy is K V0 / 2 times the square of the
 // relative change.
-void make_volumes(Body& body, std::span<const Vec3> rest, std::span<const double> volumes6, double modulus) {
+void make_volumes(SoftBody& body, std::span<const Vec3> rest, std::span<const double> volumes6,
+                  double modulus) {
     if (modulus == 0) return;
     body.volumes.reserve(volumes6.size());
     for (std::size_t t = 0; t < volumes6.size(); ++t) {
@@ -172,8 +173,7 @@ template <class Constraint, class Particles>
 void sort_by_color(Array<Constraint>& constraints, std::size_t particle_count, Particles particles) {
     constexpr std::size_t color_count = 64;
     std::pmr::memory_resource* memory = constraints.memory();
-    Array<std::uint64_t> taken(particle_count, 0,
-                               memory); // the colours used at each particle, one bit each
+    Array<std::uint64_t> taken(particle_count, 0, memory); // a bit for each colour used at a particle
     Array<std::uint8_t> color_of(memory);
     color_of.reserve(constraints.size());
     std::array<std::size_t, color_count + 2> first{}; // constraint of each colour, once sorted
@@ -198,14 +198,14 @@ double volume6(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec3& p3) {
     return (p1 - p0).cross(p2 - p0).dot(p3 - p0);
 }
 
-void DestroyBody::operator()(Body* body) const noexcept {
+void DestroyBody::operator()(SoftBody* body) const noexcept {
     std::pmr::polymorphic_allocator<>(body->positions.memory()).delete_object(body);
 }
 
 BodyHandle make_body(const vox_sim_body_desc& desc, std::pmr::memory_resource* memory) {
     check_desc(desc);
-    BodyHandle made(std::pmr::polymorphic_allocator<>(memory).new_object<Body>(memory));
-    Body& body = *made;
+    BodyHandle made(std::pmr::polymorphic_allocator<>(memory).new_object<SoftBody>(memory));
+    SoftBody& body = *made;
     body.fixed = (desc.flags & VOX_SIM_BODY_FIXED) != 0;
     body.damping = desc.damping;
     body.tets.assign(desc.tets, desc.tets + 4 * desc.tet_count);
@@ -240,11 +240,11 @@ BodyHandle make_body(const vox_sim_body_desc& desc, std::pmr::memory_resource* m
     return made;
 }
 
-std::string name_of(const Body& body) {
+std::string name_of(const SoftBody& body) {
     return format("body %u (slot %u, user data %llu)", body.mesh, body.slot, llu(body.user_data));
 }
 
-void set_state(Body& body, const double* positions, const double* velocities) {
+void set_state(SoftBody& body, const double* positions, const double* velocities) {
     const std::size_t count = body.positions.size();
     if (positions) check_vectors(positions, count, "positions");
     if (velocities) check_vectors(velocities, count, "velocities");
@@ -255,7 +255,7 @@ void set_state(Body& body, const double* positions, const double* velocities) {
     write_grid_positions(body);
 }
 
-void write_grid_positions(Body& body) {
+void write_grid_positions(SoftBody& body) {
     for (std::size_t v = 0; v < body.positions.size(); ++v)
         for (std::size_t axis = 0; axis < 3; ++axis)
             body.grid_positions[3 * v + axis] =

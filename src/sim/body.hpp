@@ -19,7 +19,7 @@ using Vec3 = Eigen::Vector3d;
 struct EdgeConstraint {
     std::uint32_t a, b;
     double rest_length;
-    double compliance; // of the length
+    double compliance; // to a change of length
     double softness;   // compliance / substep^2, raised to what the substep can handle (see set_substep)
 };
 
@@ -28,13 +28,13 @@ struct EdgeConstraint {
 struct VolumeConstraint {
     std::uint32_t corners[4];
     double rest_volume6;
-    double compliance; // of the six-fold volume
+    double compliance; // to a change of the six-fold volume
     double softness;
     double rest_answer; // sum at rest of the squares of the constraint's gradients divided by the masses
 };
 
-struct Body {
-    explicit Body(std::pmr::memory_resource* memory)
+struct SoftBody {
+    explicit SoftBody(std::pmr::memory_resource* memory)
         : positions(memory), previous(memory), velocities(memory), masses(memory), inverse_masses(memory),
           grid_positions(memory), tets(memory), edges(memory), volumes(memory) {}
 
@@ -66,21 +66,23 @@ struct Body {
 };
 
 struct DestroyBody {
-    void operator()(Body* body) const noexcept;
+    void operator()(SoftBody* body) const noexcept;
 };
-using BodyHandle = std::unique_ptr<Body, DestroyBody>; // in the memory of its arrays
+using BodyHandle = std::unique_ptr<SoftBody, DestroyBody>; // allocated where its arrays are
+
+inline vox_body mesh_of(const BodyHandle& body) noexcept { return body->mesh; }
 
 // Checks the caller's arrays and numbers (throws) and computes masses and constraints from them.
 BodyHandle make_body(const vox_sim_body_desc& desc, std::pmr::memory_resource* memory);
 
-// For messages, as vox.h names a mesh.
-std::string name_of(const Body& body);
+// The name of the body in messages.
+std::string name_of(const SoftBody& body);
 
 // Replaces positions and velocities (3 a particle; null: keeps them). Changes nothing if it throws.
-void set_state(Body& body, const double* positions, const double* velocities);
+void set_state(SoftBody& body, const double* positions, const double* velocities);
 
 // Rounds the positions for the grid.
-void write_grid_positions(Body& body);
+void write_grid_positions(SoftBody& body);
 
 // Determinant of the edges from corner 0: six times the signed volume.
 double volume6(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec3& p3);

@@ -14,11 +14,11 @@ namespace {
 constexpr double least_softness = 4;
 
 // The position of a particle in the middle of the substep, which is the time its velocity belongs to.
-Vec3 middle(const Body& body, std::uint32_t v) { return (body.positions[v] + body.previous[v]) / 2; }
+Vec3 middle(const SoftBody& body, std::uint32_t v) { return (body.positions[v] + body.previous[v]) / 2; }
 
 } // namespace
 
-void set_substep(Body& body, double h) {
+void set_substep(SoftBody& body, double h) {
     if (body.substep == h) return;
     body.substep = h;
     body.softened = 0;
@@ -32,7 +32,7 @@ void set_substep(Body& body, double h) {
     for (VolumeConstraint& tet : body.volumes) tet.softness = softness(tet.compliance, tet.rest_answer);
 }
 
-void move_freely(Body& body, const Vec3& gravity, double h) {
+void move_freely(SoftBody& body, const Vec3& gravity, double h) {
     body.previous = body.positions;
     if (body.fixed) return;
     const Vec3 gained = h * gravity;
@@ -42,10 +42,10 @@ void move_freely(Body& body, const Vec3& gravity, double h) {
     }
 }
 
-// As there is one sweep a substep, the multipliers start at 0, and Eq. 18 becomes
+// With one sweep a substep, the multipliers start at 0, and Eq. 18 becomes
 //     lambda = -C / (grad C M^-1 grad C^T + compliance / h^2).
 
-void solve_edges(Body& body) {
+void solve_edges(SoftBody& body) {
     if (body.fixed) return;
     const double* w = body.inverse_masses.data();
     Vec3* x = body.positions.data();
@@ -64,7 +64,7 @@ void solve_edges(Body& body) {
 // arbitrarily far. Therefore the sum over the gradients is never taken as less than a quarter of its value at
 // rest. Then no corner moves farther than about the tet's height. Momentum is kept, since this only scales
 // the multiplier.
-void solve_volumes(Body& body) {
+void solve_volumes(SoftBody& body) {
     if (body.fixed) return;
     const double* w = body.inverse_masses.data();
     Vec3* x = body.positions.data();
@@ -84,7 +84,7 @@ void solve_volumes(Body& body) {
     }
 }
 
-void take_velocities(Body& body, double h) {
+void take_velocities(SoftBody& body, double h) {
     if (body.fixed) return;
     const double per_h = 1 / h;
     for (std::size_t v = 0; v < body.positions.size(); ++v)
@@ -94,7 +94,7 @@ void take_velocities(Body& body, double h) {
 // The Kelvin-Voigt model: each spring has a parallel dashpot of `damping` times its stiffness. It is
 // integrated implicitly and takes the share 1 - 1 / (1 + g) of the edge's rate, so that no damping can
 // overshoot.
-void damp(Body& body, double h) {
+void damp(SoftBody& body, double h) {
     if (body.fixed || body.damping == 0) return;
     const double* w = body.inverse_masses.data();
     Vec3* velocities = body.velocities.data();
@@ -114,7 +114,7 @@ void damp(Body& body, double h) {
 // With a single sweep a substep, a constraint responds with the force of a spring of compliance
 // compliance + h^2 grad C M^-1 grad C^T, also at rest, so the energy is that of this spring. It is computed
 // for the middle of the substep, to which velocities belong.
-double elastic_energy(const Body& body) {
+double elastic_energy(const SoftBody& body) {
     const double h2 = body.substep * body.substep;
     const double* w = body.inverse_masses.data();
     const auto at = [&](std::uint32_t v) { return middle(body, v); };

@@ -12,21 +12,21 @@ namespace vox::sim {
 
 // Sets the constraints up for substeps of h. Stiffness that one sweep a substep cannot handle is reduced and
 // counted, because it would add energy.
-void set_substep(Body& body, double h);
+void set_substep(SoftBody& body, double h);
 
 // Semi-implicit Euler: velocities first, then positions with them.
-void move_freely(Body& body, const Vec3& gravity, double h);
+void move_freely(SoftBody& body, const Vec3& gravity, double h);
 
-void solve_edges(Body& body);
-void solve_volumes(Body& body);
+void solve_edges(SoftBody& body);
+void solve_volumes(SoftBody& body);
 
 // Computes velocities from how far the substep has moved the particles.
-void take_velocities(Body& body, double h);
+void take_velocities(SoftBody& body, double h);
 
 // Damps the edges' change of length. Keeps momentum and angular momentum.
-void damp(Body& body, double h);
+void damp(SoftBody& body, double h);
 
 // Energy stored in the constraints.
-double elastic_energy(const Body& body);
+double elastic_energy(const SoftBody& body);
 
 } // namespace vox::sim

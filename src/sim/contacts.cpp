@@ -2,7 +2,7 @@
 
 #include "base/array.hpp"
 #include "base/error.hpp"
-#include "sim/library.hpp"
+#include "base/library.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,14 +13,14 @@ namespace vox::sim {
 namespace {
 
 // The point of a relative to the point of b.
-Vec3 relative(const Contact& c, const Array<Vec3> Body::*positions) {
+Vec3 relative(const Contact& c, const Array<Vec3> SoftBody::*positions) {
     Vec3 r = Vec3::Zero();
     for (std::uint32_t i = 0; i < c.count; ++i) r += c.weights[i] * (c.body(i).*positions)[c.vertices[i]];
     return r;
 }
 
 // Moves each vertex by its part of `impulse`, over its mass.
-void apply(const Contact& c, Array<Vec3> Body::*positions, const Vec3& impulse) {
+void apply(const Contact& c, Array<Vec3> SoftBody::*positions, const Vec3& impulse) {
     for (std::uint32_t i = 0; i < c.count; ++i)
         (c.body(i).*positions)[c.vertices[i]] +=
             (c.weights[i] * c.body(i).inverse_masses[c.vertices[i]]) * impulse;
@@ -52,17 +52,17 @@ Vec3 friction_impulse(const Vec3& moved, const Vec3& normal, double normal_impul
     return (-bound / length) * slipped;
 }
 
-// The caller may have cut a body, or bound other positions to it, through vox_sim_get_grid. Its constraints
-// are not those of the particles that move here then. Throws INVALID_STATE where that shows: a constraint
-// names a vertex that the body does not have, or its gap is another one.
-void check_contact(const Body& a, const Body& b, const vox_constraint& c) {
+// Throws INVALID_STATE if a constraint does not fit the bodies: it names a vertex that the body does not
+// have, or its gap differs. The caller may have cut a body, or bound other positions to it, through
+// vox_sim_get_grid.
+void check_contact(const SoftBody& a, const SoftBody& b, const vox_constraint& c) {
     const auto changed = [&](const std::string& what) {
         throw Error(VOX_ERROR_INVALID_STATE, format("%s or %s was changed through vox_sim_get_grid: %s",
                                                     name_of(a).c_str(), name_of(b).c_str(), what.c_str()));
     };
     double gap = c.offset, size = 0;
     for (std::uint32_t i = 0; i < c.count; ++i) {
-        const Body& body = i < c.count_a ? a : b;
+        const SoftBody& body = i < c.count_a ? a : b;
         if (c.vertices[i] >= body.positions.size())
             changed(format("a constraint names vertex %u of %zu", c.vertices[i], body.positions.size()));
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -77,9 +77,8 @@ void check_contact(const Body& a, const Body& b, const vox_constraint& c) {
 
 } // namespace
 
-Body* find_body(std::span<const BodyHandle> bodies, vox_body mesh) {
-    const auto found = std::lower_bound(bodies.begin(), bodies.end(), mesh,
-                                        [](const auto& body, vox_body id) { return body->mesh < id; });
+SoftBody* find_body(std::span<const BodyHandle> bodies, vox_body mesh) {
+    const auto found = std::ranges::lower_bound(bodies, mesh, {}, mesh_of);
     return found != bodies.end() && (*found)->mesh == mesh ? found->get() : nullptr;
 }
 
@@ -109,21 +108,21 @@ void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies,
 
 void solve_contacts(std::span<const Contact> contacts, const ContactSettings& settings, double h) {
     for (const Contact& c : contacts) {
-        const Vec3 before = relative(c, &Body::previous);
+        const Vec3 before = relative(c, &SoftBody::previous);
         const double depth_before = c.depth - c.direction.dot(before);
-        const double depth = c.depth - c.direction.dot(relative(c, &Body::positions));
+        const double depth = c.depth - c.direction.dot(relative(c, &SoftBody::positions));
         const Answer answer = answer_depth(depth, depth_before, c.slop, c.inverse_mass, settings, h);
         if (answer.whole == 0) continue;
-        apply(c, &Body::positions, answer.whole * c.direction);
-        apply(c, &Body::previous, answer.push * c.direction);
-        const Vec3 moved = relative(c, &Body::positions) - before;
-        apply(c, &Body::positions,
+        apply(c, &SoftBody::positions, answer.whole * c.direction);
+        apply(c, &SoftBody::previous, answer.push * c.direction);
+        const Vec3 moved = relative(c, &SoftBody::positions) - before;
+        apply(c, &SoftBody::positions,
               friction_impulse(moved, c.direction, answer.whole - answer.push, c.inverse_mass,
                                settings.friction));
     }
 }
 
-std::uint64_t solve_floor(Body& body, const Floor& floor, const ContactSettings& settings, double h) {
+std::uint64_t solve_floor(SoftBody& body, const Floor& floor, const ContactSettings& settings, double h) {
     if (body.fixed || floor.normal.isZero(0)) return 0;
     std::uint64_t held = 0;
     for (std::size_t v = 0; v < body.positions.size(); ++v) {

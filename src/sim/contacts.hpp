@@ -18,17 +18,17 @@ namespace vox::sim {
 
 // A point of body a and one of body b, which may be the same (vox_constraint).
 struct Contact {
-    Body* a;
-    Body* b;
-    std::uint32_t count_a, count; // of vertices: first those of a
+    SoftBody* a;
+    SoftBody* b;
+    std::uint32_t count_a, count; // vertices of a, which come first, and of both
     std::uint32_t vertices[VOX_STENCIL_CAPACITY];
     double weights[VOX_STENCIL_CAPACITY];
     Vec3 direction; // out of b
     double depth;   // where the two points coincide
     double slop;
-    double inverse_mass; // of the relative motion of the two points
+    double inverse_mass; // for the relative motion of the two points
 
-    Body& body(std::uint32_t i) const noexcept { return i < count_a ? *a : *b; }
+    SoftBody& body(std::uint32_t i) const noexcept { return i < count_a ? *a : *b; }
 };
 
 struct ContactSettings {
@@ -45,7 +45,7 @@ struct Floor {
 };
 
 // The body of a mesh, or null if there is none. `bodies` must ascend in mesh.
-Body* find_body(std::span<const BodyHandle> bodies, vox_body mesh);
+SoftBody* find_body(std::span<const BodyHandle> bodies, vox_body mesh);
 
 // Reads the constraints of the grid's last step, except those of meshes not in `bodies` and of pairs of fixed
 // bodies.
@@ -55,6 +55,6 @@ void gather_contacts(const vox_grid* grid, std::span<const BodyHandle> bodies,
 void solve_contacts(std::span<const Contact> contacts, const ContactSettings& settings, double h);
 
 // Returns how many particles the floor held.
-std::uint64_t solve_floor(Body& body, const Floor& floor, const ContactSettings& settings, double h);
+std::uint64_t solve_floor(SoftBody& body, const Floor& floor, const ContactSettings& settings, double h);
 
 } // namespace vox::sim

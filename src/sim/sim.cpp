@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/float_environment.hpp"
 #include "base/llu.hpp"
+#include "base/room.hpp"
 #include "base/structs.hpp"
 #include "sim/constraints.hpp"
 
@@ -62,7 +63,7 @@ vox_sim::vox_sim(const vox_sim_desc& desc)
     if (desc.grid) settings = read_struct(desc.grid, "sim grid");
     if (!settings.allocator) settings.allocator = desc.allocator;
     settings.flags |= VOX_GRID_CONSTRAINTS; // which the response needs
-    grid_ = create_grid(&settings);
+    grid_ = create_grid(settings);
 }
 
 // ---- step -----------------------------------------------------------------------------------------
@@ -136,8 +137,8 @@ void vox_sim::substep(double h) {
 
 vox_body vox_sim::insert(const vox_sim_body_desc& desc) {
     auto body = make_body(desc, &memory_);
-    // Nothing may fail after the insertion into the grid, so memory is reserved before.
-    if (bodies_.size() == bodies_.capacity()) bodies_.reserve(2 * bodies_.size() + 8);
+    // Before the insertion into the grid, as nothing may fail after it.
+    reserve_growing(bodies_, bodies_.size() + 1);
 
     vox_mesh_desc mesh = vox_default_mesh_desc();
     if (desc.flags & VOX_SIM_BODY_SELF_COLLISION) mesh.filter.flags |= VOX_FILTER_SELF_COLLISION;
@@ -150,10 +151,9 @@ vox_body vox_sim::insert(const vox_sim_body_desc& desc) {
     body->slot = vox_body_slot(body->mesh);
     body->user_data = desc.user_data;
 
-    const Body& inserted = *body;
+    const SoftBody& inserted = *body;
     // The grid may reuse a slot, so the new body's id need not be the greatest.
-    const auto place = std::upper_bound(bodies_.begin(), bodies_.end(), body->mesh,
-                                        [](vox_body id, const auto& other) { return id < other->mesh; });
+    const auto place = std::ranges::upper_bound(bodies_, body->mesh, {}, mesh_of);
     bodies_.insert(place, std::move(body));
     if (inserted.flat_tets + inserted.inverted_tets + inserted.raised_masses > 0)
         write_log(VOX_LOG_WARNING,
@@ -165,14 +165,14 @@ vox_body vox_sim::insert(const vox_sim_body_desc& desc) {
     return inserted.mesh;
 }
 
-Body& vox_sim::body(vox_body mesh) const {
-    if (Body* found = find_body(bodies_, mesh)) return *found;
+SoftBody& vox_sim::body(vox_body mesh) const {
+    if (SoftBody* found = find_body(bodies_, mesh)) return *found;
     throw Error(VOX_ERROR_INVALID_HANDLE,
                 format("body id %u names no body of the simulation, which has %zu", mesh, bodies_.size()));
 }
 
 void vox_sim::remove(vox_body mesh) {
-    const Body* removed = &body(mesh);
+    const SoftBody* removed = &body(mesh);
     if (vox_body_is_valid(grid(), mesh))
         check(vox_body_remove(grid(), mesh)); // else the caller did, in the grid
     contacts_.clear();
@@ -184,7 +184,7 @@ void vox_sim::remove(vox_body mesh) {
 vox_sim_energy vox_sim::energy(vox_body mesh) const {
     vox_sim_energy sum{};
     Vec3 momentum = Vec3::Zero(), moment = Vec3::Zero();
-    const auto add = [&](const Body& body) {
+    const auto add = [&](const SoftBody& body) {
         for (std::size_t v = 0; v < body.positions.size(); ++v) {
             const double mass = body.masses[v], speed = body.velocities[v].norm();
             sum.mass += mass;
@@ -210,27 +210,20 @@ vox_sim_energy vox_sim::energy(vox_body mesh) const {
 }
 
 vox_counter_view vox_sim::counters() const {
-    std::uint64_t vertices = 0, tets = 0, edges = 0, volumes = 0, flat = 0, inverted = 0, raised = 0,
-                  softened = 0;
-    for (const auto& body : bodies_) {
-        vertices += body->positions.size();
-        tets += body->tets.size() / 4;
-        edges += body->edges.size();
-        volumes += body->volumes.size();
-        flat += body->flat_tets;
-        inverted += body->inverted_tets;
-        raised += body->raised_masses;
-        softened += body->softened;
-    }
+    const auto sum = [&](auto&& of_body) {
+        std::uint64_t total = 0;
+        for (const auto& body : bodies_) total += of_body(*body);
+        return total;
+    };
     const vox_counter list[] = {{"bodies", bodies_.size()},
-                                {"vertices", vertices},
-                                {"tets", tets},
-                                {"edges", edges},
-                                {"volumes", volumes},
-                                {"flat_tets", flat},
-                                {"inverted_tets", inverted},
-                                {"raised_masses", raised},
-                                {"softened", softened},
+                                {"vertices", sum([](const SoftBody& b) { return b.positions.size(); })},
+                                {"tets", sum([](const SoftBody& b) { return b.tets.size() / 4; })},
+                                {"edges", sum([](const SoftBody& b) { return b.edges.size(); })},
+                                {"volumes", sum([](const SoftBody& b) { return b.volumes.size(); })},
+                                {"flat_tets", sum([](const SoftBody& b) { return b.flat_tets; })},
+                                {"inverted_tets", sum([](const SoftBody& b) { return b.inverted_tets; })},
+                                {"raised_masses", sum([](const SoftBody& b) { return b.raised_masses; })},
+                                {"softened", sum([](const SoftBody& b) { return b.softened; })},
                                 {"steps", counts_.steps},
                                 {"substeps", counts_.substeps},
                                 {"detections", counts_.detections},
@@ -240,7 +233,7 @@ vox_counter_view vox_sim::counters() const {
                                 {"step_ns", counts_.step_ns},
                                 {"detect_ns", counts_.detect_ns},
                                 {"solve_ns", counts_.solve_ns}};
-    static_assert(std::size(list) == vox::sim::counter_count);
+    static_assert(std::size(list) == counter_count);
     std::ranges::copy(list, counter_list_);
     return {counter_list_, std::size(counter_list_)};
 }

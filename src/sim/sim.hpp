@@ -3,9 +3,9 @@
 
 #include "base/array.hpp"
 #include "base/caller_memory.hpp"
+#include "base/library.hpp"
 #include "sim/body.hpp"
 #include "sim/contacts.hpp"
-#include "sim/library.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -14,7 +14,7 @@
 namespace vox::sim {
 
 // Totals since the creation, and times of the last step.
-struct Counts {
+struct SimCounts {
     std::uint64_t steps = 0, substeps = 0, detections = 0, clamped_steps = 0;
     std::uint64_t constraints = 0, floor_contacts = 0;
     std::uint64_t step_ns = 0, detect_ns = 0, solve_ns = 0;
@@ -37,7 +37,7 @@ public:
 
     vox_body insert(const vox_sim_body_desc& desc);
     void remove(vox_body mesh);
-    vox::sim::Body& body(vox_body mesh) const;
+    vox::sim::SoftBody& body(vox_body mesh) const;
 
     vox_sim_energy energy(vox_body mesh) const;
     vox_counter_view counters() const;
@@ -48,7 +48,7 @@ private:
     void substep(double h);
     void write_log(vox_log_level level, const std::string& text) const;
 
-    vox::CallerMemory memory_; // first, as all else is released to it
+    vox::CallerMemory memory_; // first: the other members are released to it
     vox_log log_;
     vox::sim::Vec3 gravity_;
     double max_time_step_;
@@ -57,11 +57,11 @@ private:
     vox::sim::ContactSettings contact_settings_;
     vox::sim::Floor floor_;
 
-    vox::sim::GridHandle grid_;
+    vox::GridHandle grid_;
     vox::Array<vox::sim::BodyHandle> bodies_; // ascending in mesh
-    vox::Array<vox::sim::Contact> contacts_;  // of the last detection
+    vox::Array<vox::sim::Contact> contacts_;  // from the last detection
 
     bool softening_logged_ = false;
-    vox::sim::Counts counts_;
-    mutable vox_counter counter_list_[vox::sim::counter_count]; // as they are when asked for
+    vox::sim::SimCounts counts_;
+    mutable vox_counter counter_list_[vox::sim::counter_count]; // for a vox_counter_view
 };

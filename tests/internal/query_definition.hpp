@@ -2,12 +2,12 @@
 #pragma once
 
 #include "base/boxes.hpp"
+#include "base/rounding.hpp"
 #include "base/vectors.hpp"
 #include "exact/closest_point.hpp"
 #include "exact/predicates.hpp"
 #include "internal/random.hpp"
 #include "mesh/facets.hpp"
-#include "query/rounding.hpp"
 
 #include <algorithm>
 #include <cmath>

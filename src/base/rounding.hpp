@@ -1,6 +1,8 @@
 // Doubles rounded to floats on a known side.
 #pragma once
 
+#include "base/scene.hpp"
+
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -20,5 +22,11 @@ inline float rounded_down(double x) noexcept {
 
 // The smallest float that is not below x.
 inline float rounded_up(double x) noexcept { return -rounded_down(-x); }
+
+// The smallest box of floats around a point.
+inline Box3f rounded_box(const Vec3d& p) noexcept {
+    return {{rounded_down(p.x), rounded_down(p.y), rounded_down(p.z)},
+            {rounded_up(p.x), rounded_up(p.y), rounded_up(p.z)}};
+}
 
 } // namespace vox

@@ -1,4 +1,4 @@
-// Calls of the core library: its failures as exceptions, and an owned grid.
+// Calls of the core library by what is built on it: failures as exceptions, and an owned grid.
 #pragma once
 
 #include "base/error.hpp"
@@ -7,7 +7,7 @@
 
 #include <memory>
 
-namespace vox::sim {
+namespace vox {
 
 // Throws the failure of a call.
 inline void check(vox_result result) {
@@ -19,11 +19,10 @@ struct GridDeleter {
 };
 using GridHandle = std::unique_ptr<vox_grid, GridDeleter>;
 
-// `desc` may be null.
-inline GridHandle create_grid(const vox_grid_desc* desc) {
+inline GridHandle create_grid(const vox_grid_desc& desc) {
     vox_grid* grid = nullptr;
-    check(vox_grid_create(desc, &grid));
+    check(vox_grid_create(&desc, &grid));
     return GridHandle(grid);
 }
 
-} // namespace vox::sim
+} // namespace vox
