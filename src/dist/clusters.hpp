@@ -1,49 +1,74 @@
-// Clusters along a curve of Morton's through the points.
+// Items in groups of near ones, each with a box.
 #pragma once
 
-#include "dist/part.hpp"
+#include "base/array.hpp"
+#include "base/bits.hpp"
+#include "base/boxes.hpp"
+#include "base/rounding.hpp"
+#include "base/scene.hpp"
+#include "base/vectors.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <memory_resource>
+#include <span>
 
 namespace vox::dist {
 
-// Three numbers of 10 bits, interleaved.
-inline std::uint32_t interleaved(const std::uint32_t cell[3]) noexcept {
-    std::uint32_t code = 0;
-    for (std::uint32_t bit = 0; bit < 10; ++bit)
-        for (std::uint32_t axis = 0; axis < 3; ++axis) code |= (cell[axis] >> bit & 1) << (3 * bit + axis);
-    return code;
-}
+// `order` lists the items of the first cluster, then of the next.
+class Clusters {
+public:
+    explicit Clusters(std::pmr::memory_resource* memory) : order(memory), begins(memory), boxes(memory) {}
 
-template <class Point>
-void Clusters::make(std::uint32_t count, std::uint32_t size, Point&& point) {
-    double low[3] = {}, high[3] = {};
-    double at[3];
-    for (std::uint32_t i = 0; i < count; ++i) {
-        point(i, at);
-        for (int axis = 0; axis < 3; ++axis) {
-            if (i == 0 || at[axis] < low[axis]) low[axis] = at[axis];
-            if (i == 0 || at[axis] > high[axis]) high[axis] = at[axis];
+    // Clusters of `size` items that follow each other on a Z-shaped curve through point(0), ...,
+    // point(count - 1). Their boxes are empty.
+    template <class Point>
+    void make(std::uint32_t count, std::uint32_t size, Point&& point) {
+        Vec3d low{}, high{};
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Vec3d p = point(i);
+            low = i == 0 ? p : min(low, p);
+            high = i == 0 ? p : max(high, p);
         }
-    }
-    Array<std::uint64_t> keys(order.memory());
-    keys.resize(count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        point(i, at);
-        std::uint32_t cell[3];
-        for (int axis = 0; axis < 3; ++axis) {
-            const double width = high[axis] - low[axis];
-            cell[axis] = width > 0 ? static_cast<std::uint32_t>((at[axis] - low[axis]) / width * 1023) : 0;
+        const auto cell = [](double x, double least, double most) {
+            return most > least ? static_cast<std::uint32_t>((x - least) / (most - least) * 1023) : 0u;
+        };
+        Array<std::uint64_t> keys(order.memory());
+        keys.reserve(count);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Vec3d p = point(i);
+            const std::uint32_t code =
+                morton_code(cell(p.x, low.x, high.x), cell(p.y, low.y, high.y), cell(p.z, low.z, high.z));
+            keys.push_back(std::uint64_t{code} << 32 | i);
         }
-        keys[i] = std::uint64_t{interleaved(cell)} << 32 | i;
+        std::ranges::sort(keys);
+        order.resize(count);
+        for (std::uint32_t i = 0; i < count; ++i) order[i] = static_cast<std::uint32_t>(keys[i]);
+        begins.clear();
+        for (std::uint32_t i = 0; i < count; i += size) begins.push_back(i);
+        boxes.assign(begins.size(), empty_box3f());
+        begins.push_back(count);
     }
-    std::sort(keys.begin(), keys.end());
-    order.resize(count);
-    for (std::uint32_t i = 0; i < count; ++i) order[i] = static_cast<std::uint32_t>(keys[i]);
-    begins.clear();
-    for (std::uint32_t i = 0; i < count; i += size) begins.push_back(i);
-    boxes.assign(begins.size(), Box{});
-    begins.push_back(count);
-}
+
+    // Computes the boxes of items that are points. Returns a box around all.
+    Box3f update_boxes(const Positions& positions) {
+        Box3f all = empty_box3f();
+        for (std::uint32_t c = 0; c < size(); ++c) {
+            boxes[c] = empty_box3f();
+            for (const std::uint32_t item : of(c)) extend(boxes[c], rounded_box(positions.exact(item)));
+            extend(all, boxes[c]);
+        }
+        return all;
+    }
+
+    std::uint32_t size() const noexcept { return static_cast<std::uint32_t>(boxes.size()); }
+    std::span<const std::uint32_t> of(std::uint32_t cluster) const noexcept {
+        return {order.data() + begins[cluster], order.data() + begins[cluster + 1]};
+    }
+
+    Array<std::uint32_t> order;
+    Array<std::uint64_t> begins;
+    Array<Box3f> boxes;
+};
 
 } // namespace vox::dist

@@ -1,6 +1,8 @@
-// A hash of contacts that does not depend on their order: a sum, modulo 2^128, of a mix of each. The tests
-// compute it of other contacts.
+// A hash of contacts that does not depend on their order: the sum of a hash of each, modulo 2^128. The tests
+// compare it with that of contacts found otherwise.
 #pragma once
+
+#include "base/sampling.hpp"
 
 #include <vox/vox_dist.h>
 
@@ -9,22 +11,14 @@
 
 namespace vox::dist {
 
-// The finaliser of SplitMix64 (Steele, Lea and Flood 2014).
-inline std::uint64_t split_mix(std::uint64_t x) noexcept {
-    x += 0x9e3779b97f4a7c15u;
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-    return x ^ x >> 31;
-}
-
 struct ContactSum {
     void add(const vox_dist_contact& c) noexcept {
         std::uint64_t words[9] = {c.body_a, c.vertex, c.body_b, c.tet, 0, 0, 0, 0, c.interior};
         std::memcpy(&words[4], c.weights, sizeof c.weights);
         std::uint64_t low = 1, high = 2;
         for (const std::uint64_t word : words) {
-            low = split_mix(low ^ word);
-            high = split_mix(high + word * 0x9fb21c651e98df25u);
+            low = next_random(low ^= word);
+            high = next_random(high += word * 0x9fb21c651e98df25u);
         }
         limbs[0] += low & 0xffffffff;
         limbs[1] += low >> 32;

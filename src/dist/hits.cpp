@@ -1,51 +1,50 @@
-// From the contacts of the grid to those of the vertices' owners.
+// Turns contacts of the grid into hits for the owners of the vertices.
+#include "base/llu.hpp"
 #include "dist/rounds.hpp"
 
 #include "exact/predicates.hpp"
 
 #include <algorithm>
-#include <tuple>
+#include <utility>
 
 namespace vox::dist {
 
-void Rounds::take_points_of_this_rank(std::span<const Source> sources) {
-    const Box& tets = scene_.overviews_[scene_.transport_.rank()].tets;
-    const auto group = static_cast<std::uint32_t>(groups_.size());
-    groups_.push_back({0, {}, no_neighbour});
-    for (const Source& source : sources)
+void Rounds::take_points_of_this_rank(std::span<const VertexSource> sources) {
+    const Box3f& tets = scene_.overviews_[scene_.transport_.rank()].tets;
+    const auto group = static_cast<std::uint32_t>(foreign_groups_.size());
+    foreign_groups_.push_back({0, {}, no_neighbour});
+    for (const VertexSource& source : sources)
         for (const std::uint32_t v : source.clusters->order) {
-            double position[3];
-            get(source.positions, v, position);
-            if (!tets.holds(position)) continue;
-            strangers_.push_back({v, group, v});
-            xyz_.insert(xyz_.end(), position, position + 3);
+            const Vec3d p = source.positions.exact(v);
+            if (!contains(tets, p)) continue;
+            foreign_vertices_.push_back({v, group, v});
+            foreign_positions_.push_back(p);
         }
 }
 
 void Rounds::step_grid() {
-    side_.set_points(xyz_);
-    check(vox_grid_step(side_.grid.get()));
+    grid_.set_points(foreign_positions_);
+    check(vox_grid_step(grid_.grid.get()));
 }
 
 void Rounds::collect_here() {
     vox_contact_view contacts;
-    check(vox_grid_get_contacts(side_.grid.get(), &contacts));
+    check(vox_grid_get_contacts(grid_.grid.get(), &contacts));
     for (std::uint64_t i = 0; i < contacts.count; ++i) {
         const vox_contact& hit = contacts.data[i];
         const bool inside = contacts.interiors[i] != 0;
-        const Part& part = side_.part_of(hit.body_b);
-        if (hit.body_a == side_.points)
-            collect_stranger(part, hit, inside);
+        const Part& part = grid_.part_of(hit.body_b);
+        if (hit.body_a == grid_.points)
+            collect_foreign(part, hit, inside);
         else
             collect(part, hit, inside);
     }
-    std::stable_sort(outgoing.begin(), outgoing.end(),
-                     [](const Outgoing& a, const Outgoing& b) { return a.neighbour < b.neighbour; });
+    std::ranges::stable_sort(tet_hits, {}, &TetHit::neighbour);
 }
 
 namespace {
 
-// Without index and rank, which differ from side to side. The vertex is at p.
+// A contact without index and rank. The vertex is at p.
 vox_dist_contact between(std::uint64_t body_a, std::uint64_t vertex, const Vec3d& p, const Part& part,
                          const vox_contact& hit, bool interior) {
     vox_dist_contact contact{};
@@ -63,73 +62,67 @@ vox_dist_contact between(std::uint64_t body_a, std::uint64_t vertex, const Vec3d
 
 } // namespace
 
-void Rounds::collect_stranger(const Part& part, const vox_contact& hit, bool interior) {
-    const Stranger& stranger = strangers_[hit.vertex];
-    const Group& group = groups_[stranger.group];
+void Rounds::collect_foreign(const Part& part, const vox_contact& hit, bool interior) {
+    const ForeignVertex& foreign = foreign_vertices_[hit.vertex];
+    const ForeignGroup& group = foreign_groups_[foreign.group];
     if (!points_ && !collide(group.body, group.filter, part.body, part.filter)) return;
-    const double* x = side_.xyz.data() + 3 * std::size_t{hit.vertex};
-    vox_dist_contact contact = between(group.body, stranger.id, {x[0], x[1], x[2]}, part, hit, interior);
+    vox_dist_contact contact =
+        between(group.body, foreign.id, grid_.positions[hit.vertex], part, hit, interior);
     if (group.neighbour == no_neighbour) {
-        contact.index = stranger.place;
+        contact.index = foreign.place;
         contact.rank = scene_.transport_.rank();
-        found.push_back({contact, no_neighbour, part.index_of_tet(hit.tet)});
+        vertex_hits.push_back({contact, no_neighbour, part.index_of_tet(hit.tet)});
         return;
     }
     contact.index = part.index_of_tet(hit.tet);
     contact.rank = scene_.ranks_[group.neighbour];
-    outgoing.push_back({contact, group.neighbour, stranger.place, 0});
+    tet_hits.push_back({contact, group.neighbour, foreign.place});
 }
 
 void Rounds::collect(const Part& part, const vox_contact& hit, bool interior) {
-    const Part& part_a = side_.part_of(hit.body_a);
+    const Part& part_a = grid_.part_of(hit.body_a);
     if (!collide(part_a.body, part_a.filter, part.body, part.filter)) return;
     vox_dist_contact contact = between(part_a.body, part_a.id_of(hit.vertex),
                                        part_a.positions.exact(hit.vertex), part, hit, interior);
     if (part_a.owns(hit.vertex)) {
         contact.index = hit.vertex;
         contact.rank = scene_.transport_.rank();
-        found.push_back({contact, no_neighbour, part.index_of_tet(hit.tet)});
+        vertex_hits.push_back({contact, no_neighbour, part.index_of_tet(hit.tet)});
         return;
     }
-    const auto owner =
-        std::lower_bound(known_.begin(), known_.end(), std::tuple(part_a.body, hit.vertex),
-                         [](const Known& k, const std::tuple<std::uint64_t, std::uint32_t>& key) {
-                             return std::tuple(k.part->body, k.vertex) < key;
-                         });
-    if (owner == known_.end() || owner->part != &part_a || owner->vertex != hit.vertex)
+    const std::pair key(part_a.body, hit.vertex);
+    const auto owner = std::ranges::lower_bound(copied_vertices_, key, {}, &CopiedVertex::key);
+    if (owner == copied_vertices_.end() || owner->part != &part_a || owner->vertex != hit.vertex)
         throw Error(
             VOX_ERROR_INVALID_STATE,
             format("rank %u has a copy of vertex %llu of body %llu, which is in a tetrahedron there, but no "
                    "rank owns such a vertex at that position",
-                   scene_.transport_.rank(), static_cast<unsigned long long>(contact.vertex),
-                   static_cast<unsigned long long>(part_a.body)));
+                   scene_.transport_.rank(), llu(contact.vertex), llu(part_a.body)));
     contact.index = part.index_of_tet(hit.tet);
     contact.rank = scene_.ranks_[owner->neighbour];
-    outgoing.push_back({contact, owner->neighbour, owner->place, 0});
+    tet_hits.push_back({contact, owner->neighbour, owner->place});
 }
 
 void Rounds::write_hits() {
-    auto hit = outgoing.begin();
+    auto hit = tet_hits.begin();
     for (std::uint32_t i = 0; i < scene_.rank_count_; ++i) {
         writers_[i].clear();
-        if (hit != outgoing.end() && hit->neighbour == i) {
-            Hits header{};
+        if (hit != tet_hits.end() && hit->neighbour == i) {
+            HitsHeader header{};
             const std::size_t at = writers_[i].add(header);
-            const auto split = told_split_.begin() + static_cast<std::ptrdiff_t>(told_split_begin_[i]);
-            const auto split_end =
-                told_split_.begin() + static_cast<std::ptrdiff_t>(told_split_begin_[i + 1]);
-            for (; hit != outgoing.end() && hit->neighbour == i; ++hit) {
+            const std::uint32_t* const reported = reported_parts_.data();
+            for (; hit != tet_hits.end() && hit->neighbour == i; ++hit) {
                 const vox_dist_contact& c = hit->contact;
-                Hit message{c.tet, hit->place, 0, {}};
+                SentHit message{c.tet, hit->place, 0, {}};
                 std::copy_n(c.weights, 4, message.weights);
-                const auto part =
-                    std::lower_bound(scene_.parts_.begin(), scene_.parts_.end(), c.body_b,
-                                     [](const Part* p, std::uint64_t b) { return p->body < b; });
+                const auto part = std::ranges::lower_bound(scene_.parts_, c.body_b, {}, &Part::body);
                 const auto number = static_cast<std::uint32_t>(part - scene_.parts_.begin());
                 message.part = number | (c.interior ? interior_bit : 0);
                 writers_[i].add(message);
                 ++header.count;
-                header.undecided += !c.interior && std::binary_search(split, split_end, number);
+                header.undecided +=
+                    !c.interior && std::binary_search(reported + reported_begins_[i],
+                                                      reported + reported_begins_[i + 1], number);
             }
             writers_[i].set(at, header);
             scene_.counters_.hits_sent += header.count;
@@ -138,23 +131,22 @@ void Rounds::write_hits() {
     }
 }
 
-void Rounds::read_hits(std::span<const Source> sources) {
+void Rounds::read_hits(std::span<const VertexSource> sources) {
     for (std::uint32_t i = 0; i < scene_.rank_count_; ++i) {
         Reader reader(scene_.in_[i]);
         if (!reader.more()) continue;
-        const auto header = reader.take<Hits>();
-        const std::span<const Remote> parts(remote_.data() + remote_begin_[i],
-                                            remote_.data() + remote_begin_[i + 1]);
+        const auto header = reader.take<HitsHeader>();
+        const std::span<const RemotePart> parts(remote_parts_.data() + remote_begins_[i],
+                                                remote_parts_.data() + remote_begins_[i + 1]);
         for (std::uint32_t h = 0; h < header.count; ++h) {
-            const auto hit = reader.take<Hit>();
+            const auto hit = reader.take<SentHit>();
             const std::uint32_t number = hit.part & ~interior_bit;
-            const auto part = std::lower_bound(parts.begin(), parts.end(), number,
-                                               [](const Remote& p, std::uint32_t n) { return p.part < n; });
+            const auto part = std::ranges::lower_bound(parts, number, {}, &RemotePart::part);
             if (part == parts.end() || part->part != number ||
-                hit.vertex >= sent_begin_[i + 1] - sent_begin_[i])
+                hit.vertex >= sent_begins_[i + 1] - sent_begins_[i])
                 throw Error(VOX_ERROR_INTERNAL, "another rank hit what it was not sent");
-            const Sent& sent = sent_[sent_begin_[i] + hit.vertex];
-            const Source& source = sources[sent.source];
+            const Sent& sent = sent_[sent_begins_[i] + hit.vertex];
+            const VertexSource& source = sources[sent.source];
             vox_dist_contact contact{};
             contact.body_a = source.part ? source.part->body : 0;
             contact.vertex = source.part ? source.part->id_of(sent.vertex) : sent.vertex;
@@ -164,7 +156,7 @@ void Rounds::read_hits(std::span<const Source> sources) {
             contact.index = sent.vertex;
             contact.rank = scene_.ranks_[i];
             contact.interior = (hit.part & interior_bit) != 0;
-            found.push_back({contact, i, h});
+            vertex_hits.push_back({contact, i, h});
         }
     }
 }

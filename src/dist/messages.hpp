@@ -2,116 +2,93 @@
 #pragma once
 
 #include "base/array.hpp"
+#include "base/boxes.hpp"
 #include "base/error.hpp"
 
 #include <vox/vox_dist.h>
 
 #include <cstddef>
 #include <cstring>
-#include <limits>
 #include <memory_resource>
 #include <type_traits>
 
 namespace vox::dist {
 
-// Closed; empty if a minimum is above its maximum.
-struct Box {
-    static constexpr float far = std::numeric_limits<float>::infinity();
-    float min[3] = {far, far, far};
-    float max[3] = {-far, -far, -far};
-
-    bool empty() const noexcept { return !(min[0] <= max[0]); }
-    void add(const Box& other) noexcept {
-        for (int axis = 0; axis < 3; ++axis) {
-            if (other.min[axis] < min[axis]) min[axis] = other.min[axis];
-            if (other.max[axis] > max[axis]) max[axis] = other.max[axis];
-        }
-    }
-    bool meets(const Box& other) const noexcept {
-        for (int axis = 0; axis < 3; ++axis)
-            if (!(min[axis] <= other.max[axis] && other.min[axis] <= max[axis])) return false;
-        return true;
-    }
-    bool holds(const double point[3]) const noexcept {
-        for (int axis = 0; axis < 3; ++axis)
-            if (!(min[axis] <= point[axis] && point[axis] <= max[axis])) return false;
-        return true;
-    }
-};
-
-// What the ranks are in.
+// The collective function that the ranks are in.
 enum class Call : std::uint16_t { step, locate, check };
 
 // What every rank knows of every rank: 64 bytes.
 struct Overview {
-    Box tets;     // of the tetrahedra there
-    Box vertices; // of the vertices owned there, or the points asked for
+    Box3f tets = empty_box3f();     // around its tetrahedra
+    Box3f vertices = empty_box3f(); // around the vertices that it owns, or the points that it asks about
     std::int32_t result = VOX_OK;
     Call call = Call::step;
-    std::uint16_t one_body = 0; // 1: all vertices are of `body`, which does not collide with itself
+    std::uint16_t one_body = 0; // 1: it has `body` alone, which does not collide with itself
     std::uint64_t body = 0;
 
-    // Whether vertices there can be in tetrahedra of `of`, as far as bodies decide.
-    bool collides_with(std::uint64_t of) const noexcept { return one_body == 0 || body != of; }
-    // The same for the tetrahedra of all parts of a rank.
-    bool collides_with(const Overview& tets_of) const noexcept {
-        return tets_of.one_body == 0 || collides_with(tets_of.body);
+    // Whether its vertices can be in tetrahedra of `other`, judging by body numbers alone.
+    bool collides_with(std::uint64_t other) const noexcept { return one_body == 0 || body != other; }
+    bool collides_with(const Overview& other) const noexcept {
+        return other.one_body == 0 || collides_with(other.body);
     }
 };
 static_assert(sizeof(Overview) == 64);
 
-// Which bodies collide: as vox_filter says.
-struct Filter {
-    std::uint64_t category = 1, mask = UINT64_MAX;
-    std::int32_t group = 0;
-    std::uint32_t world = 0, self_collision = 0, reserved = 0; // sent as they lie
-    friend bool operator==(const Filter&, const Filter&) = default;
+// Which bodies collide (vox_filter), in the bytes of a message.
+struct Filter : PairFilter {
+    std::uint32_t self_collision = 0, reserved = 0;
+    bool operator==(const Filter&) const = default;
 };
+static_assert(sizeof(Filter) == 32);
 
-// Of a part, before its filter, a box around its boxes, and these, packed. One box is the box around it, and
-// is not sent again.
+inline bool collide(std::uint64_t body_a, const Filter& a, std::uint64_t body_b, const Filter& b) noexcept {
+    return body_a == body_b ? a.self_collision != 0 : vox::collide(a, b);
+}
+
+// Precedes the filter of a part, if it has one, a frame around its boxes, and these, packed. A single box is
+// its own frame, and is not sent again.
 struct PartBoxes {
     std::uint64_t body;
-    std::uint32_t part;  // a number of the sender's, which hits come back with
-    std::uint32_t boxes; // the highest bit: a filter follows
+    std::uint32_t part;  // the sender's number, which hits name
+    std::uint32_t boxes; // with filter_bit: a filter follows
 };
 constexpr std::uint32_t filter_bit = 0x80000000u;
 
-// A vertex, with its position as it is: in 32 bytes, or in 20.
+// A vertex in 32 bytes, or in 20 where floats hold its position.
 struct VertexDoubles {
     std::uint64_t id;
-    double position[3];
+    Vec3d position;
 };
 #pragma pack(push, 4)
 struct VertexFloats {
     std::uint64_t id;
-    float position[3];
+    Vec3f position;
 };
 #pragma pack(pop)
 static_assert(sizeof(VertexDoubles) == 32 && sizeof(VertexFloats) == 20);
 
-// Vertices of a body, before its filter and them. Points that are asked for have no body.
-struct Vertices {
+// Precedes the filter of a body, if it has one, and its vertices. Points that are asked about have no body.
+struct VerticesHeader {
     std::uint64_t body;
     std::uint32_t count;
     std::uint16_t doubles;    // 1 or 0
-    std::uint16_t has_filter; // 1; or 0: it has the default one
+    std::uint16_t has_filter; // 1, or 0 for the default filter
 };
 
-// Hits of one rank for another, before them.
-struct Hits {
+// Precedes the hits of one rank for another.
+struct HitsHeader {
     std::uint64_t count;
-    std::uint64_t undecided; // on a boundary, of a body that other ranks have tetrahedra of
+    std::uint64_t undecided; // on a boundary, in a body with tetrahedra on several ranks
 };
 
-// A vertex that was sent, in a tetrahedron.
-struct Hit {
+// A received vertex in a tetrahedron.
+struct SentHit {
     std::uint64_t tet;
-    std::uint32_t vertex; // its place among those that were sent to the rank
-    std::uint32_t part;   // as in PartBoxes; the highest bit: the vertex is in the interior
+    std::uint32_t vertex; // its place among those that the rank was sent
+    std::uint32_t part;   // PartBoxes::part; with interior_bit: the vertex is in the interior
     double weights[4];
 };
-static_assert(sizeof(Hit) == 48);
+static_assert(sizeof(SentHit) == 48);
 constexpr std::uint32_t interior_bit = 0x80000000u;
 
 using Memory = std::pmr::memory_resource;
@@ -151,11 +128,9 @@ public:
     bool more() const noexcept { return left_ != 0; }
     template <class T>
     T take() {
-        if (left_ < sizeof(T)) throw Error(VOX_ERROR_INTERNAL, "a message of another rank is too short");
         T value;
-        std::memcpy(&value, at_, sizeof value);
-        at_ += sizeof value;
-        left_ -= sizeof value;
+        if (!take(&value, sizeof value))
+            throw Error(VOX_ERROR_INTERNAL, "a message of another rank is too short");
         return value;
     }
     // False if there are fewer bytes.

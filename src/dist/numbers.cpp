@@ -1,5 +1,6 @@
-// Whether owners, copies and numbers fit together: every number goes to the rank that its hash names, which
-// compares.
+// Checks that owners, copies and numbers fit together: what has a number goes to the rank that a hash of the
+// number chooses, which compares.
+#include "base/llu.hpp"
 #include "dist/scene.hpp"
 
 #include <algorithm>
@@ -12,14 +13,14 @@ namespace {
 
 struct Numbered {
     std::uint64_t body, id;
-    double position[3]; // 0 for a tetrahedron
+    Vec3d position; // 0 for a tetrahedron
     std::uint32_t rank;
     std::uint32_t kind; // 0: a vertex's owner; 1: a copy; 2: a tetrahedron
 };
 
 void compare(const Numbered* begin, const Numbered* end) {
-    const auto number = static_cast<unsigned long long>(begin->id);
-    const auto body = static_cast<unsigned long long>(begin->body);
+    const auto number = llu(begin->id);
+    const auto body = llu(begin->body);
     const Numbered* const second = end - begin > 1 ? begin + 1 : nullptr;
     if (begin->kind == 2) {
         if (second)
@@ -34,14 +35,16 @@ void compare(const Numbered* begin, const Numbered* end) {
     if (second && second->kind == 0)
         throw Error(VOX_ERROR_INVALID_STATE, format("vertex %llu of body %llu is owned by ranks %u and %u",
                                                     number, body, begin->rank, second->rank));
-    for (const Numbered* copy = begin; ++copy != end;)
-        if (std::memcmp(copy->position, begin->position, sizeof copy->position) != 0)
+    const Vec3d& p = begin->position;
+    for (const Numbered* copy = begin; ++copy != end;) {
+        const Vec3d& q = copy->position;
+        if (std::memcmp(&q, &p, sizeof q) != 0)
             throw Error(
                 VOX_ERROR_INVALID_STATE,
                 format("vertex %llu of body %llu is at %.17g %.17g %.17g on rank %u, which owns it, and at "
                        "%.17g %.17g %.17g on rank %u",
-                       number, body, begin->position[0], begin->position[1], begin->position[2], begin->rank,
-                       copy->position[0], copy->position[1], copy->position[2], copy->rank));
+                       number, body, p.x, p.y, p.z, begin->rank, q.x, q.y, q.z, copy->rank));
+    }
 }
 
 } // namespace
@@ -50,16 +53,13 @@ void vox_dist_scene::check_numbers() {
     Failure failure;
     Overview mine;
     mine.call = Call::check;
-    failure.guard([&] { look(); });
-    meet(mine, failure);
+    failure.guard([&] { read_positions(); });
+    exchange_overviews(mine, failure);
     const std::uint32_t size = transport_.size(), me = transport_.rank();
     Array<Writer> writers(&memory_);
     rank_count_ = 0;
     for (std::uint32_t rank = 0; rank < size; ++rank)
-        if (rank != me) {
-            out_[rank_count_] = {nullptr, 0};
-            ranks_[rank_count_++] = rank;
-        }
+        if (rank != me) ranks_[rank_count_++] = rank;
     failure.guard([&] {
         for (std::uint32_t rank = 0; rank < size; ++rank) writers.emplace_back(&memory_);
         const auto send = [&](const Numbered& item) {
@@ -68,9 +68,8 @@ void vox_dist_scene::check_numbers() {
         };
         for (const Part* part : parts_) {
             for (std::uint32_t v = 0; v < part->vertex_count; ++v) {
-                Numbered item{part->body, part->id_of(v), {}, me, part->owns(v) ? 0u : 1u};
-                get(part->positions, v, item.position);
-                send(item);
+                const std::uint32_t kind = part->owns(v) ? 0 : 1;
+                send({part->body, part->id_of(v), part->positions.exact(v), me, kind});
             }
             for (std::uint32_t t = 0; t < part->tet_count; ++t)
                 send({part->body, part->id_of_tet(t), {}, me, 2});
@@ -102,13 +101,13 @@ void vox_dist_scene::check_numbers() {
 std::uint64_t vox_dist_scene::costs(vox_dist_cost* costs, std::uint64_t capacity) const {
     double tets = 0;
     for (const Part* part : parts_) tets += part->tet_count;
-    double seconds = 0; // of a step of this rank
+    double seconds = 0; // a step of this rank
     if (tets > 0) {
         vox_cell_size_desc desc = vox_default_cell_size_desc();
         desc.model = VOX_COST_MODEL_FAST;
         vox_cell_size_result suggestion{};
         suggestion.struct_size = sizeof suggestion;
-        check(vox_grid_suggest_cell_size(contacts_side_.grid.get(), &desc, &suggestion));
+        check(vox_grid_suggest_cell_size(contact_grid_.grid.get(), &desc, &suggestion));
         seconds = suggestion.cost;
     }
     for (std::size_t i = 0; i < parts_.size() && i < capacity; ++i)

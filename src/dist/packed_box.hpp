@@ -1,32 +1,34 @@
 // Boxes in 8 bytes: 10 bits for each of the six sides, relative to a frame around all of them.
 #pragma once
 
-#include "dist/messages.hpp"
+#include "base/boxes.hpp"
 
 #include <cmath>
+#include <cstdint>
 
 namespace vox::dist {
 
-class Frame {
+class BoxPacking {
 public:
-    explicit Frame(const Box& box) noexcept : box_(box) {}
+    explicit BoxPacking(const Box3f& frame) noexcept : frame_(frame) {}
 
-    // A box inside the frame, or one a little larger: never smaller.
-    std::uint64_t pack(const Box& box) const noexcept {
+    // `box` is inside the frame. Unpacked, it is at least as large.
+    std::uint64_t pack(const Box3f& box) const noexcept {
         std::uint64_t packed = 0;
         for (int axis = 0; axis < 3; ++axis) {
-            std::uint32_t min = near(axis, box.min[axis]), max = near(axis, box.max[axis]);
-            while (side(axis, min) > box.min[axis]) --min;
-            while (side(axis, max) < box.max[axis]) ++max;
-            packed = packed << 2 * bits | min << bits | max;
+            const float least = (&box.min.x)[axis], most = (&box.max.x)[axis];
+            std::uint32_t low = nearest(axis, least), high = nearest(axis, most);
+            while (side(axis, low) > least) --low;
+            while (side(axis, high) < most) ++high;
+            packed = packed << 2 * bits | low << bits | high;
         }
         return packed;
     }
-    Box unpack(std::uint64_t packed) const noexcept {
-        Box box;
+    Box3f unpack(std::uint64_t packed) const noexcept {
+        Box3f box;
         for (int axis = 2; axis >= 0; --axis, packed >>= 2 * bits) {
-            box.min[axis] = side(axis, packed >> bits & last);
-            box.max[axis] = side(axis, packed & last);
+            (&box.min.x)[axis] = side(axis, packed >> bits & last);
+            (&box.max.x)[axis] = side(axis, packed & last);
         }
         return box;
     }
@@ -35,18 +37,18 @@ private:
     static constexpr int bits = 10;
     static constexpr std::uint32_t last = (1u << bits) - 1;
 
-    // The same on both sides of a message. It never falls as `at` rises; the ends are those of the frame.
+    // Sender and receiver compute the same. It never falls as `at` rises; the ends are those of the frame.
     float side(int axis, std::uint64_t at) const noexcept {
-        if (at == last) return box_.max[axis];
-        const double min = box_.min[axis], width = box_.max[axis] - min;
+        const double min = (&frame_.min.x)[axis], width = (&frame_.max.x)[axis] - min;
+        if (at == last) return (&frame_.max.x)[axis];
         return static_cast<float>(min + static_cast<double>(at) * (width / last));
     }
-    std::uint32_t near(int axis, float value) const noexcept {
-        const double min = box_.min[axis], width = box_.max[axis] - min;
+    std::uint32_t nearest(int axis, float value) const noexcept {
+        const double min = (&frame_.min.x)[axis], width = (&frame_.max.x)[axis] - min;
         return width > 0 ? static_cast<std::uint32_t>(std::lround((value - min) / width * last)) : 0;
     }
 
-    Box box_;
+    Box3f frame_;
 };
 
 } // namespace vox::dist

@@ -2,67 +2,39 @@
 #pragma once
 
 #include "base/positions.hpp"
+#include "dist/clusters.hpp"
 #include "dist/messages.hpp"
 
+#include <cmath>
 #include <optional>
-#include <span>
 
 namespace vox::dist {
 
-inline void get(const Positions& positions, std::uint64_t vertex, double out[3]) noexcept {
-    const Vec3d p = positions.exact(static_cast<std::size_t>(vertex));
-    out[0] = p.x, out[1] = p.y, out[2] = p.z;
-}
-
-// Throws NON_FINITE or LIMIT for a position that vox does not allow; `name` is printf's, with the number of
-// the vertex.
-struct PositionName {
-    const char* what; // "vertex" or "point"
-    std::uint64_t id;
-    std::uint64_t body;
-    bool has_body;
-};
-void check_position(const double position[3], const PositionName& name);
-
-// The box of points, rounded outward to floats.
-void add_point(Box& box, const double position[3]) noexcept;
-
-// As vox_filter says.
-inline bool collide(std::uint64_t body_a, const Filter& a, std::uint64_t body_b, const Filter& b) noexcept {
-    if (body_a == body_b) return a.self_collision != 0;
-    if (a.world != b.world) return false;
-    if (a.group == b.group && a.group != 0) return a.group > 0;
-    return (a.category & b.mask) != 0 && (b.category & a.mask) != 0;
-}
-
-// Items in groups of near ones, each with a box. `order` lists the items of the first group, then of the
-// next.
-class Clusters {
-public:
-    explicit Clusters(Memory* memory) : order(memory), begins(memory), boxes(memory) {}
-    // Of `count` points.
-    template <class Point>
-    void make(std::uint32_t count, std::uint32_t size, Point&& point);
-
-    std::uint32_t size() const noexcept { return static_cast<std::uint32_t>(boxes.size()); }
-    std::span<const std::uint32_t> of(std::uint32_t cluster) const noexcept {
-        return {order.data() + begins[cluster], order.data() + begins[cluster + 1]};
+// Throws NON_FINITE or LIMIT for a position that vox does not allow; name() is what the message calls it.
+template <class Name>
+void check_position(const Vec3d& p, Name&& name) {
+    const double numbers[3] = {p.x, p.y, p.z};
+    for (int axis = 0; axis < 3; ++axis) {
+        const double number = numbers[axis];
+        if (!std::isfinite(number))
+            throw Error(VOX_ERROR_NON_FINITE, name() + format(" has coordinate %g on axis %d", number, axis));
+        if (!(std::abs(number) < 0x1.ffffffp127))
+            throw Error(VOX_ERROR_LIMIT,
+                        name() +
+                            format(" has coordinate %g on axis %d, expected less than 2^128 - 2^103 in size",
+                                   number, axis));
     }
-
-    Array<std::uint32_t> order;
-    Array<std::uint64_t> begins;
-    Array<Box> boxes;
-};
+}
 
 struct Part {
     explicit Part(Memory* memory)
         : tets(memory), tet_ids(memory), tet_indices(memory), vertex_ids(memory), by_id(memory),
           owned(memory), tet_clusters(memory), vertex_clusters(memory) {}
 
-    // The arrays of the caller, checked; tetrahedra in the order of their numbers.
+    // Checks and copies the caller's arrays; sorts tetrahedra by their numbers.
     void take(const vox_dist_part_desc& desc, const vox_mesh_desc& mesh);
-    // Looks at all positions: checks them, and computes the boxes.
-    void look(Memory* memory);
+    // Checks all positions and computes the boxes.
+    void read_positions(Memory* memory);
 
     std::uint64_t id_of(std::uint32_t vertex) const noexcept {
         return vertex_ids.empty() ? vertex : vertex_ids[vertex];
@@ -74,7 +46,10 @@ struct Part {
         return tet_indices.empty() ? sorted : tet_indices[sorted];
     }
     bool owns(std::uint32_t vertex) const noexcept { return owned.empty() || owned[vertex] != 0; }
-    std::optional<std::uint32_t> find(std::uint64_t id) const noexcept; // a vertex
+    // The vertex with that number.
+    std::optional<std::uint32_t> find(std::uint64_t id) const noexcept;
+
+    void make_clusters(Memory* memory);
 
     vox_body mesh = VOX_NULL_BODY; // in the grid that finds contacts
     std::uint64_t body = 0;
@@ -89,9 +64,9 @@ struct Part {
 
     Positions positions;
     bool clustered = false;
-    Clusters tet_clusters;    // of vertices: all that the tetrahedra of a cluster name
-    Clusters vertex_clusters; // of owned vertices
-    Box tet_box, vertex_box;
+    Clusters tet_clusters;    // near tetrahedra; the items are their vertices
+    Clusters vertex_clusters; // near owned vertices
+    Box3f tet_box, vertex_box;
 };
 
 } // namespace vox::dist

@@ -1,7 +1,8 @@
-// The parts of this rank, and what they found.
+// The parts of bodies on this rank, and their contacts.
 #pragma once
 
 #include "base/caller_memory.hpp"
+#include "base/library.hpp"
 #include "dist/part.hpp"
 #include "dist/transport.hpp"
 
@@ -14,58 +15,55 @@
 
 namespace vox::dist {
 
-struct GridDeleter {
-    void operator()(vox_grid* grid) const noexcept { vox_grid_destroy(grid); }
-};
-using GridHandle = std::unique_ptr<vox_grid, GridDeleter>;
-
 // A part in a grid of the scene.
-struct Placed {
+struct InsertedPart {
     vox_body mesh;
     Part* part;
 };
 
-// A grid with the parts, and with the vertices or points of other ranks as a mesh without tetrahedra.
-struct Side {
-    explicit Side(Memory* memory) : placed(memory), xyz(memory) {}
+// A grid with the parts of this rank, and with vertices or points of other ranks as a mesh without
+// tetrahedra.
+struct SearchGrid {
+    explicit SearchGrid(Memory* memory) : inserted(memory), positions(memory) {}
     const Part& part_of(vox_body mesh) const noexcept;
-    // Gives the grid these points, and keeps them.
-    void set_points(Array<double>& positions);
+    void insert(vox_body mesh, Part* part);
+    // Gives the grid these points and keeps them.
+    void set_points(Array<Vec3d>& new_positions);
 
-    Array<Placed> placed; // ascending
-    Array<double> xyz;    // of the points, which the grid borrows
+    Array<InsertedPart> inserted; // ascending in mesh
+    Array<Vec3d> positions;       // of `points`; the grid borrows them
     GridHandle grid;
     vox_body points = VOX_NULL_BODY;
 };
 
-vox_filter everything() noexcept;
+vox_filter unfiltered() noexcept;
 
-// What a step sends from this rank.
-struct Counts {
+// What this rank sent and received in a collective function.
+struct Traffic {
     std::uint64_t neighbours = 0, messages = 0, collectives = 0;
     std::uint64_t replicated_bytes = 0, box_bytes = 0, vertex_bytes = 0, hit_bytes = 0;
     std::uint64_t vertices_sent = 0, vertices_received = 0, vertices_here = 0, hits_sent = 0;
     std::uint64_t contacts = 0, incoming = 0;
 };
 
-struct NamedCount {
+struct TrafficName {
     const char* name;
-    std::uint64_t Counts::*field;
+    std::uint64_t Traffic::*field;
 };
-inline constexpr NamedCount named_counts[] = {
-    {"neighbours", &Counts::neighbours},
-    {"messages", &Counts::messages},
-    {"collectives", &Counts::collectives},
-    {"replicated_bytes", &Counts::replicated_bytes},
-    {"box_bytes", &Counts::box_bytes},
-    {"vertex_bytes", &Counts::vertex_bytes},
-    {"hit_bytes", &Counts::hit_bytes},
-    {"vertices_sent", &Counts::vertices_sent},
-    {"vertices_received", &Counts::vertices_received},
-    {"vertices_here", &Counts::vertices_here},
-    {"hits_sent", &Counts::hits_sent},
-    {"contacts", &Counts::contacts},
-    {"incoming", &Counts::incoming},
+inline constexpr TrafficName traffic_names[] = {
+    {"neighbours", &Traffic::neighbours},
+    {"messages", &Traffic::messages},
+    {"collectives", &Traffic::collectives},
+    {"replicated_bytes", &Traffic::replicated_bytes},
+    {"box_bytes", &Traffic::box_bytes},
+    {"vertex_bytes", &Traffic::vertex_bytes},
+    {"hit_bytes", &Traffic::hit_bytes},
+    {"vertices_sent", &Traffic::vertices_sent},
+    {"vertices_received", &Traffic::vertices_received},
+    {"vertices_here", &Traffic::vertices_here},
+    {"hits_sent", &Traffic::hits_sent},
+    {"contacts", &Traffic::contacts},
+    {"incoming", &Traffic::incoming},
 };
 
 } // namespace vox::dist
@@ -88,18 +86,19 @@ struct vox_dist_scene {
     std::uint64_t costs(vox_dist_cost* costs, std::uint64_t capacity) const;
     vox_counter_view counters() const noexcept;
 
-    // Reads where the positions of all parts are now, checks them and computes their boxes.
-    void look();
-    // Tells all ranks this one's overview, and throws what the lowest failing rank says.
-    void meet(vox::dist::Overview mine, const vox::dist::Failure& failure);
-    // Sends out_[i] to ranks_[i], below rank_count_, and gets in_[i]. After a failure, here or there, it gets
-    // nothing, and goes on with what all ranks call next.
+    // Looks up where the positions of all parts are now, checks them and computes boxes.
+    void read_positions();
+    // Exchanges overviews with all ranks, and throws the failure of the lowest rank that has one. Neighbours
+    // are then in ranks_.
+    void exchange_overviews(vox::dist::Overview mine, const vox::dist::Failure& failure);
+    // Sends out_[i] to ranks_[i] and receives in_[i], for i below rank_count_. After a failure, here or
+    // there, in_[i] are empty, and this rank goes on, as the others wait for it.
     void exchange(std::uint64_t* sent_bytes, vox::dist::Failure& failure);
     vox::dist::Part* find_body(std::uint64_t body) const noexcept;
-    // Throws INVALID_HANDLE where it has none.
+    // Throws INVALID_HANDLE if there is none.
     vox::dist::Part& part_of(std::uint64_t body) const;
 
-    // A copy of a desc, with all that it names.
+    // A copy of a desc and of all that it points to.
     class OwnDesc {
     public:
         explicit OwnDesc(const vox_grid_desc& desc);
@@ -120,15 +119,15 @@ struct vox_dist_scene {
     vox::CallerMemory memory_;
     vox::dist::Transport transport_;
     vox::Array<vox::dist::Part*> parts_; // in the order of bodies
-    vox::dist::Side contacts_side_, points_side_;
-    vox::Array<vox_dist_contact> contacts_;     // of the vertices owned here
-    vox::Array<vox_dist_contact> tet_contacts_; // with the tetrahedra here
-    vox::dist::Counts counters_;
-    mutable vox_counter counter_list_[std::size(vox::dist::named_counts)]; // as they are when asked for
+    vox::dist::SearchGrid contact_grid_, point_grid_;
+    vox::Array<vox_dist_contact> contacts_;     // whose vertices are owned here
+    vox::Array<vox_dist_contact> tet_contacts_; // whose tetrahedra are here
+    vox::dist::Traffic counters_;
+    mutable vox_counter counter_list_[std::size(vox::dist::traffic_names)]; // for a vox_counter_view
 
-    vox::Array<vox::dist::Overview> overviews_; // of all ranks
-    vox::Array<std::uint32_t> ranks_;           // who is talked to
+    vox::Array<vox::dist::Overview> overviews_; // one a rank
+    vox::Array<std::uint32_t> ranks_;           // that messages go to
     vox::Array<vox_dist_message> out_, in_;
     std::uint32_t rank_count_ = 0;
-    vox::Array<std::uint8_t> in_contact_; // each rank: whether it is, with this one
+    vox::Array<std::uint8_t> has_contacts_; // one a rank: whether it has contacts with this one
 };

@@ -1,5 +1,6 @@
-// One item a contact, from one side to the other. Between two ranks both sides have the same contacts in the
-// same order, so that no numbers need to be sent. Before the items it says what they are.
+// Sends an item for each contact from one side to the other. Two ranks have their common contacts in the same
+// order, so that no numbers need to be sent.
+#include "base/llu.hpp"
 #include "base/structs.hpp"
 #include "dist/scene.hpp"
 
@@ -10,9 +11,9 @@ using namespace vox::dist;
 
 namespace {
 
-struct Items {
-    std::uint64_t bytes; // of one
-    std::uint64_t from;  // the side
+struct ItemsHeader {
+    std::uint64_t bytes; // an item
+    std::uint64_t from;  // a vox_dist_side
 };
 
 const char* name_of(std::uint64_t side) noexcept { return side == VOX_DIST_VERTICES ? "vertices" : "tets"; }
@@ -26,17 +27,14 @@ void vox_dist_scene::send(std::int32_t from, std::uint64_t item_bytes, const voi
     const Array<vox_dist_contact>& senders = from_vertices ? contacts_ : tet_contacts_;
     const Array<vox_dist_contact>& receivers = from_vertices ? tet_contacts_ : contacts_;
 
-    // Whom there is something to send to, or to get from: the same on both sides, and no memory is needed.
+    // The ranks to exchange items with. Both sides find the same, and need no memory, so this cannot fail.
     const std::uint32_t me = transport_.rank();
-    std::fill(in_contact_.begin(), in_contact_.end(), std::uint8_t{0});
-    for (const vox_dist_contact& contact : contacts_) in_contact_[contact.rank] = 1;
-    for (const vox_dist_contact& contact : tet_contacts_) in_contact_[contact.rank] = 1;
+    std::fill(has_contacts_.begin(), has_contacts_.end(), std::uint8_t{0});
+    for (const vox_dist_contact& contact : contacts_) has_contacts_[contact.rank] = 1;
+    for (const vox_dist_contact& contact : tet_contacts_) has_contacts_[contact.rank] = 1;
     rank_count_ = 0;
     for (std::uint32_t rank = 0; rank < transport_.size(); ++rank)
-        if (rank != me && in_contact_[rank]) {
-            out_[rank_count_] = {nullptr, 0};
-            ranks_[rank_count_++] = rank;
-        }
+        if (rank != me && has_contacts_[rank]) ranks_[rank_count_++] = rank;
 
     Array<Writer> writers(&memory_);
     Array<const std::byte*> here(&memory_); // items for this rank itself
@@ -48,12 +46,11 @@ void vox_dist_scene::send(std::int32_t from, std::uint64_t item_bytes, const voi
     failure.guard([&] {
         check_enum(from, VOX_DIST_TETS, "from");
         if (item_bytes == 0 || item_bytes > 65536)
-            refuse(format("item_bytes is %llu, expected 1 to 65536",
-                          static_cast<unsigned long long>(item_bytes)));
+            refuse(format("item_bytes is %llu, expected 1 to 65536", llu(item_bytes)));
         if (!senders.empty()) require(in, "in");
         if (!receivers.empty()) require(out, "out");
         for (std::uint32_t i = 0; i < rank_count_; ++i)
-            writers.emplace_back(&memory_).add(Items{item_bytes, side});
+            writers.emplace_back(&memory_).add(ItemsHeader{item_bytes, side});
         for (std::size_t i = 0; i < senders.size(); ++i)
             if (senders[i].rank == me)
                 here.push_back(items + i * item_bytes);
@@ -65,13 +62,12 @@ void vox_dist_scene::send(std::int32_t from, std::uint64_t item_bytes, const voi
     failure.guard([&] {
         Array<Reader> readers(&memory_);
         for (std::uint32_t i = 0; i < rank_count_; ++i) {
-            const auto items_of = readers.emplace_back(in_[i]).take<Items>();
+            const auto items_of = readers.emplace_back(in_[i]).take<ItemsHeader>();
             if (items_of.bytes != item_bytes || items_of.from != side)
-                refuse(
-                    format("rank %u sends items of %llu bytes from the side of %s, this rank items of %llu "
-                           "bytes from that of %s",
-                           ranks_[i], static_cast<unsigned long long>(items_of.bytes), name_of(items_of.from),
-                           static_cast<unsigned long long>(item_bytes), name_of(side)));
+                refuse(format(
+                    "rank %u sends items of %llu bytes from the side of %s, this rank items of %llu "
+                    "bytes from that of %s",
+                    ranks_[i], llu(items_of.bytes), name_of(items_of.from), llu(item_bytes), name_of(side)));
         }
         auto* result = static_cast<std::byte*>(out);
         auto next_here = here.begin();

@@ -1,4 +1,4 @@
-// The caller's transport: its failures as exceptions, and what it carried.
+// The caller's transport: its failures as exceptions, and counts of its messages.
 #pragma once
 
 #include "base/error.hpp"
@@ -13,11 +13,6 @@
 
 namespace vox::dist {
 
-// Throws the failure of a call of the core library.
-inline void check(vox_result result) {
-    if (result != VOX_OK) throw Error(result, vox_last_error());
-}
-
 class Transport {
 public:
     explicit Transport(const vox_dist_transport& callbacks) : callbacks_(callbacks) {}
@@ -28,27 +23,27 @@ public:
         ++collectives;
         if (!callbacks_.allgather) return static_cast<void>(std::memcpy(out, in, bytes));
         const CallersFloats floats;
-        carried(callbacks_.allgather(in, bytes, out, callbacks_.user), "allgather");
+        check_transport(callbacks_.allgather(in, bytes, out, callbacks_.user), "allgather");
     }
     void exchange(const std::uint32_t* ranks, std::uint32_t count, const vox_dist_message* out,
                   vox_dist_message* in) {
         messages += count;
         if (!callbacks_.exchange) return;
         const CallersFloats floats;
-        carried(callbacks_.exchange(ranks, count, out, in, callbacks_.user), "exchange");
+        check_transport(callbacks_.exchange(ranks, count, out, in, callbacks_.user), "exchange");
     }
     void agree(std::uint64_t* minima, std::uint32_t minimum_count, std::uint64_t* sums,
                std::uint32_t sum_count) {
         ++collectives;
         if (!callbacks_.agree) return;
         const CallersFloats floats;
-        carried(callbacks_.agree(minima, minimum_count, sums, sum_count, callbacks_.user), "agree");
+        check_transport(callbacks_.agree(minima, minimum_count, sums, sum_count, callbacks_.user), "agree");
     }
 
     std::uint64_t messages = 0, collectives = 0;
 
 private:
-    static void carried(vox_result result, const char* function) {
+    static void check_transport(vox_result result, const char* function) {
         if (result == VOX_OK) return;
         throw Error(result, format("the transport's %s failed with %s", function, vox_result_string(result)));
     }
@@ -56,9 +51,8 @@ private:
     vox_dist_transport callbacks_;
 };
 
-// What went wrong on this rank in a collective function, which goes on with messages that say so, so that no
-// rank waits. A rank that gets such a message stops, too, with no failure of its own: what it lacks is no
-// fault of its data.
+// A failure of this rank in a collective function. The rank goes on with messages that say so, so that no
+// rank waits. A rank that receives such a message stops, too, without a failure of its own.
 class Failure {
 public:
     template <class Function>
@@ -74,7 +68,7 @@ public:
             set(VOX_ERROR_INTERNAL, error.what());
         }
     }
-    // Another failure, unless there is one.
+    // Adopts another failure, unless there is one already.
     void take(const Failure& other) noexcept {
         if (result_ == VOX_OK) set(other.result_, other.text_);
     }
@@ -83,10 +77,10 @@ public:
     vox_result result() const noexcept { return result_; }
     explicit operator bool() const noexcept { return result_ != VOX_OK || follows_; }
 
-    // As a number of which the least is that of the lowest rank that failed.
-    std::uint64_t as_minimum(std::uint32_t rank) const noexcept {
-        if (result_ == VOX_OK) return UINT64_MAX;
-        return std::uint64_t{rank} << 32 | static_cast<std::uint32_t>(-result_);
+    // The failure of a rank as a number; the least is that of the lowest rank that failed.
+    static std::uint64_t as_minimum(std::int32_t result, std::uint32_t rank) noexcept {
+        if (result == VOX_OK) return UINT64_MAX;
+        return std::uint64_t{rank} << 32 | static_cast<std::uint32_t>(-result);
     }
     // Throws the failure that all ranks agreed upon, if there is one.
     void throw_agreed(std::uint64_t minimum, std::uint32_t rank) const {
@@ -99,7 +93,7 @@ public:
     }
     // Takes part in the agreement that ends a collective function, and throws what it says.
     void agree(Transport& transport) const {
-        std::uint64_t minimum = as_minimum(transport.rank());
+        std::uint64_t minimum = as_minimum(result_, transport.rank());
         transport.agree(&minimum, 1, nullptr, 0);
         throw_agreed(minimum, transport.rank());
     }

@@ -16,8 +16,8 @@ namespace vox::mpi {
 namespace {
 
 constexpr int tag = 21;
-constexpr std::uint64_t longest =
-    1u << 30; // an exchange sends longer messages as several, the last one shorter
+// An exchange sends longer messages in parts, the last one shorter.
+constexpr std::uint64_t longest = 1u << 30;
 
 void check(int error, const char* function) {
     if (error == MPI_SUCCESS) return;
@@ -27,7 +27,7 @@ void check(int error, const char* function) {
     throw Error(VOX_ERROR_INTERNAL, format("%s: %s", function, text));
 }
 
-// What agree combines: eight minima, then eight sums.
+// The operands of agree: eight minima, then eight sums.
 struct Numbers {
     std::uint64_t of[16];
 };
@@ -71,8 +71,7 @@ vox_result allgather(const void* in, std::uint64_t bytes, void* out, void* user)
     });
 }
 
-// Receives one message. What there is no memory for is taken from MPI and lost, and the rest goes on; true if
-// not.
+// Receives one message. Returns false if there is no memory; the message is then taken from MPI and lost.
 bool receive(Duplicate& mpi, std::uint32_t rank, std::vector<std::byte>& bytes) {
     bytes.clear();
     bool memory = true;
@@ -90,7 +89,7 @@ bool receive(Duplicate& mpi, std::uint32_t rank, std::vector<std::byte>& bytes) 
         if (memory) {
             check(MPI_Mrecv(bytes.data() + at, count, MPI_BYTE, &message, MPI_STATUS_IGNORE), "MPI_Mrecv");
         } else {
-            // Cut off. Not into a short buffer: Open MPI 4.1 writes the whole of a long message past its end.
+            // Truncated. Not into a short buffer: Open MPI 4.1 writes a whole long message past its end.
             (void)MPI_Mrecv(nullptr, 0, MPI_BYTE, &message, MPI_STATUS_IGNORE);
         }
     }

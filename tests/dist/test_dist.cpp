@@ -434,31 +434,31 @@ START_TEST(packed_boxes_hold_the_boxes_and_stay_near_them) {
     Random random(5);
     std::uniform_real_distribution<float> unit(0, 1);
     for (int round = 0; round < 200000; ++round) {
-        vox::dist::Box frame, box;
+        vox::Box3f frame, box;
         for (int axis = 0; axis < 3; ++axis) {
             const float size = std::ldexp(unit(random), static_cast<int>(below(random, 60)) - 30);
-            const float at = std::ldexp(unit(random) - 0.5f, static_cast<int>(below(random, 60)) - 30);
-            frame.min[axis] = at;
-            frame.max[axis] = below(random, 8) ? at + size : at;
+            const float low = std::ldexp(unit(random) - 0.5f, static_cast<int>(below(random, 60)) - 30);
+            const float high = below(random, 8) ? low + size : low;
             const auto inside = [&] {
                 const float part = below(random, 4) ? unit(random) : static_cast<float>(below(random, 2));
-                return std::clamp(at + part * (frame.max[axis] - at), at, frame.max[axis]);
+                return std::clamp(low + part * (high - low), low, high);
             };
             const float a = inside(), b = inside();
-            box.min[axis] = std::min(a, b);
-            box.max[axis] = std::max(a, b);
+            (&frame.min.x)[axis] = low;
+            (&frame.max.x)[axis] = high;
+            (&box.min.x)[axis] = std::min(a, b);
+            (&box.max.x)[axis] = std::max(a, b);
         }
-        const vox::dist::Frame packing(frame);
-        const vox::dist::Box back = packing.unpack(packing.pack(box));
+        const vox::dist::BoxPacking packing(frame);
+        const vox::Box3f back = packing.unpack(packing.pack(box));
         for (int axis = 0; axis < 3; ++axis) {
-            const double width = static_cast<double>(frame.max[axis]) - static_cast<double>(frame.min[axis]);
-            const double off = width / 1000 + 1e-6 * std::fabs(static_cast<double>(frame.min[axis]));
-            ck_assert(back.min[axis] <= box.min[axis] && back.max[axis] >= box.max[axis]);
-            ck_assert(back.min[axis] >= frame.min[axis] && back.max[axis] <= frame.max[axis]);
-            ck_assert_double_le(static_cast<double>(box.min[axis]) - static_cast<double>(back.min[axis]),
-                                off);
-            ck_assert_double_le(static_cast<double>(back.max[axis]) - static_cast<double>(box.max[axis]),
-                                off);
+            const auto low = [axis](const vox::Box3f& of) { return double{(&of.min.x)[axis]}; };
+            const auto high = [axis](const vox::Box3f& of) { return double{(&of.max.x)[axis]}; };
+            const double off = (high(frame) - low(frame)) / 1000 + 1e-6 * std::fabs(low(frame));
+            ck_assert(low(back) <= low(box) && high(back) >= high(box));
+            ck_assert(low(back) >= low(frame) && high(back) <= high(frame));
+            ck_assert_double_le(low(box) - low(back), off);
+            ck_assert_double_le(high(back) - high(box), off);
         }
     }
 }
