@@ -1,4 +1,4 @@
-/* Small bodies cut from lattices of cubes, and what is done to them. Whoever makes a body frees it. */
+/* Small bodies cut from lattices of cubes, and operations on them. The maker of a body frees it. */
 #ifndef VOX_SCENES_BODIES_H
 #define VOX_SCENES_BODIES_H
 
@@ -23,7 +23,7 @@ static const cube_cut five_cut = {5,
                                   {{{0, 1, 2, 4}, {3, 2, 1, 7}, {5, 4, 7, 1}, {6, 7, 4, 2}, {1, 2, 4, 7}},
                                    {{1, 3, 0, 5}, {2, 0, 3, 6}, {4, 6, 5, 0}, {7, 5, 6, 3}, {0, 5, 3, 6}}}};
 
-/* The same with the two ways exchanged, and other numbers. */
+/* The cut with the two ways exchanged, and other numbers. */
 static const cube_cut five_cut_exchanged = {
     5,
     {{{0, 1, 3, 5}, {0, 3, 2, 6}, {0, 5, 6, 4}, {3, 6, 5, 7}, {0, 3, 6, 5}},
@@ -61,7 +61,7 @@ static inline body make_box(uint32_t n, float h, float x, float y, float z) {
     return box;
 }
 
-/* Leaves out the tets that `kept` has 0 for, and the vertices that no other tet has. */
+/* Removes the tets for which `kept` is 0, and vertices that no other tet has. */
 static inline void keep_tets(body* b, const uint8_t* kept) {
     uint32_t* number = (uint32_t*)calloc((size_t)b->vertex_count + 1, sizeof(uint32_t));
     uint32_t tets = 0, vertices = 0;

@@ -1,5 +1,5 @@
-/* What a grid counts and times, as fields, for tests and benchmarks: by the names of vox_grid_get_counters,
- * and from vox_grid_info. */
+/* A grid's counters and times as fields, for tests and benchmarks: by the names of vox_grid_get_counters, and
+ * from vox_grid_info. */
 #ifndef VOX_SCENES_COUNTERS_H
 #define VOX_SCENES_COUNTERS_H
 
@@ -32,7 +32,7 @@ typedef struct grid_times {
 } grid_times;
 #undef GRID_FIELD
 
-/* The counter of this name, which there must be. */
+/* The counter of this name, which must exist. */
 static inline uint64_t counter_of(const vox_grid* grid, const char* name) {
     vox_counter_view view = {NULL, 0};
     if (vox_grid_get_counters(grid, &view) == VOX_OK)

@@ -1,4 +1,4 @@
-/* Which engine a grid runs: a pointer in vox_grid_desc says it. */
+/* The engine of a grid, which a pointer in vox_grid_desc chooses. */
 #ifndef VOX_SCENES_ENGINES_H
 #define VOX_SCENES_ENGINES_H
 

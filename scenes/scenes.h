@@ -1,6 +1,5 @@
-/* Scenes that are the same bit for bit on every machine: no function of the C library takes part in their
- * numbers, only additions, products and divisions of doubles. For the portability check and the speed guard.
- */
+/* Scenes that are the same bit for bit on every machine: they use no function of the C library, only
+ * additions, products and divisions of doubles. For the portability check and the speed guard. */
 #ifndef VOX_SCENES_SCENES_H
 #define VOX_SCENES_SCENES_H
 
@@ -15,9 +14,9 @@ typedef struct scene {
     const char* name;
     uint32_t count;
     int self_collision;
-    double amplitude, wave_length; /* of the deformation that runs through the frames */
+    double amplitude, wave_length; /* of the deformation of the frames */
     body bodies[MOST_BODIES];
-    float* rest[MOST_BODIES]; /* positions before it */
+    float* rest[MOST_BODIES]; /* undeformed positions */
 } scene;
 
 static inline void add_body(scene* s, body b) {
@@ -48,7 +47,7 @@ static inline void make_self(scene* s, uint32_t radius) {
     add_body(s, b);
 }
 
-/* One ball whose vertices are moved at random by up to the edge of a cube: hardly a tet is where it was. */
+/* One ball whose vertices are moved at random by up to the edge of a cube. */
 static inline void make_tangled(scene* s, uint32_t radius) {
     body b = make_lattice_ball(&five_cut, radius, radius);
     jitter_body(&b, 1, 6);
@@ -92,8 +91,7 @@ static inline void make_ring(scene* s, uint32_t n) {
     add_body(s, b);
 }
 
-/* Tets over vertices at random, all on a coarse lattice: flat, inverted, coincident, touching in every way.
- */
+/* Tets over random vertices of a coarse lattice: flat, inverted, coincident, touching in every way. */
 static inline void make_soup(scene* s, uint32_t vertices, uint32_t tets) {
     uint64_t seed = 5;
     s->self_collision = 1;
@@ -142,7 +140,7 @@ static inline void free_scene(scene* s) {
     memset(s, 0, sizeof *s);
 }
 
-/* Inserts all bodies; 0 and the reason on stderr where that fails. */
+/* Inserts all bodies; if that fails, returns 0 and prints the reason on stderr. */
 static inline int insert_scene(const scene* s, vox_grid* grid) {
     for (uint32_t i = 0; i < s->count; ++i) {
         vox_body mesh;

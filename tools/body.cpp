@@ -13,8 +13,8 @@ namespace tool {
 
 namespace {
 
-// A double beyond the range of float must not be converted. Everything that rounds to a finite float is below
-// this bound, which is midway between the largest float and the next power of two.
+// Doubles below this bound round to finite floats. It is midway between the largest float and the next power
+// of two.
 constexpr double float_range = 0x1.ffffffp127;
 
 void place(Body& body, const Placement& placement) {

@@ -21,10 +21,10 @@ namespace tool {
 
 namespace {
 
-constexpr rlim_t most_seconds = 60;            // of processor time, and twice that in all
-constexpr rlim_t most_bytes = rlim_t{4} << 30; // beyond what this process has
+constexpr rlim_t most_seconds = 60;            // of processor time; twice as much in total
+constexpr rlim_t most_bytes = rlim_t{4} << 30; // in addition to what this process has
 
-// What the process writes into its pipe: this, the text of an error, positions, triangles.
+// The process writes this header into its pipe, then the text of an error, positions, triangles.
 struct Answer {
     vox_result result;
     std::uint64_t text_size, vertices, triangles;
@@ -73,7 +73,7 @@ void put(int pipe, const void* data, std::size_t size) {
     limit(RLIMIT_CPU, most_seconds);
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_FSIZE, 0);                          // it has no file to write
-    const int nowhere = open("/dev/null", O_WRONLY); // what a library says as it dies
+    const int nowhere = open("/dev/null", O_WRONLY); // for messages of a library that aborts
     if (nowhere >= 0) dup2(nowhere, STDERR_FILENO);
     vox_io_load_desc desc = vox_default_io_load_desc();
     desc.format = VOX_IO_FORMAT_ASSIMP;
@@ -99,7 +99,7 @@ void put(int pipe, const void* data, std::size_t size) {
     _exit(0);
 }
 
-// The other end: nothing that comes out of the pipe is trusted, as the file may have taken the process over.
+// The reading end. It trusts nothing in the pipe, as the file may have taken over the process.
 class Child {
 public:
     Child(const std::string& path, std::string refused) : refused_(std::move(refused)) {
@@ -152,8 +152,8 @@ private:
         return status;
     }
 
-    // The pipe is at its end although more should come, and nothing says that the process is. One that has
-    // ended by itself keeps its status.
+    // The pipe ended too early, but the process may still run. If it has ended by itself, it keeps its
+    // status.
     std::string how_it_ended() {
         const int status = end();
         if (!WIFSIGNALED(status)) return "it ended without an answer";

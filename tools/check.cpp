@@ -32,14 +32,14 @@ const char* crossing_name(vox_crossing_kind kind) {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-// The surface of a mesh: its triangles, or the facets of exactly one of its tetrahedra. Vertices at the same
-// place are one, the lowest of them, as files often repeat a vertex for each triangle.
+// The surface of a mesh: its triangles, or the facets that only one tetrahedron has. Vertices at the same
+// place are merged into the lowest one, as files often repeat a vertex for each triangle.
 struct CheckedSurface {
     std::vector<double> positions;
     std::vector<Triangle> triangles;
 };
 
-// Of each vertex the lowest one at the same place.
+// For each vertex the lowest one at the same place.
 std::vector<std::uint32_t> merge_vertices(const std::vector<double>& positions) {
     const auto count = static_cast<std::uint32_t>(positions.size() / 3);
     const auto at = [&](std::uint32_t v) {
@@ -65,7 +65,7 @@ CheckedSurface surface_of(const Body& body) {
         const std::uint32_t* v = view.triangles + 3 * i;
         surface.triangles.push_back({lowest[v[0]], lowest[v[1]], lowest[v[2]]});
     }
-    // Facets by their corners in ascending order; a second tetrahedron takes one away.
+    // Facets sorted by their corners; a facet of a second tetrahedron is no surface.
     struct Facet {
         Triangle sorted, as_given;
         std::uint32_t opposite;
@@ -84,10 +84,10 @@ CheckedSurface surface_of(const Body& body) {
     std::stable_sort(facets.begin(), facets.end(),
                      [](const Facet& x, const Facet& y) { return x.sorted < y.sorted; });
     for (std::size_t first = 0, end; first < facets.size(); first = end) {
-        bool is_one = true; // tetrahedron, counting doubled ones once
+        bool has_one_tet = true; // doubled ones count once
         for (end = first; end < facets.size() && facets[end].sorted == facets[first].sorted; ++end)
-            is_one &= facets[end].opposite == facets[first].opposite;
-        if (is_one) surface.triangles.push_back(facets[first].as_given);
+            has_one_tet &= facets[end].opposite == facets[first].opposite;
+        if (has_one_tet) surface.triangles.push_back(facets[first].as_given);
     }
     return surface;
 }
@@ -138,16 +138,15 @@ Checked check_file(const std::string& file, const CheckOptions& options) {
 }
 
 void print_check(const Checked& checked, std::uint64_t limit) {
-    const auto number = [](std::size_t count) { return static_cast<unsigned long long>(count); };
     std::printf("%s: %llu triangles, %llu edges: ", checked.file.c_str(),
-                number(checked.surface.triangles.size()), number(checked.edges.size() / 2));
+                llu(checked.surface.triangles.size()), llu(checked.edges.size() / 2));
     if (checked.crossings.empty()) {
         std::printf("free of self-intersection\n");
         return;
     }
     std::printf("%llu edges meet triangles (%llu through, %llu touching, %llu coplanar)\n",
-                number(checked.crossings.size()), number(checked.count(VOX_CROSSING_THROUGH)),
-                number(checked.count(VOX_CROSSING_TOUCHING)), number(checked.count(VOX_CROSSING_COPLANAR)));
+                llu(checked.crossings.size()), llu(checked.count(VOX_CROSSING_THROUGH)),
+                llu(checked.count(VOX_CROSSING_TOUCHING)), llu(checked.count(VOX_CROSSING_COPLANAR)));
     const std::size_t shown =
         static_cast<std::size_t>(std::min<std::uint64_t>(limit, checked.crossings.size()));
     for (std::size_t i = 0; i < shown; ++i) {
@@ -157,9 +156,7 @@ void print_check(const Checked& checked, std::uint64_t limit) {
                     checked.edges[2 * c.edge + 1], face[0], face[1], face[2], c.position[0], c.position[1],
                     c.position[2], crossing_name(c.kind));
     }
-    if (shown < checked.crossings.size())
-        std::printf("  and %llu more (--limit N prints N of them, --json all of them)\n",
-                    number(checked.crossings.size() - shown));
+    print_rest(checked.crossings.size() - shown);
 }
 
 Json check_json(const Checked& checked) {
@@ -180,7 +177,7 @@ Json check_json(const Checked& checked) {
             {"crossings", list}};
 }
 
-// The surface, with how many crossings each vertex (by its edges) and each triangle takes part in.
+// Writes the surface, with the number of crossings of each vertex (by its edges) and each triangle.
 void write_surface(const Checked& checked, const std::string& path) {
     const std::vector<Triangle>& triangles = checked.surface.triangles;
     std::vector<double> of_vertex(checked.surface.positions.size() / 3, 0), of_triangle(triangles.size(), 0);

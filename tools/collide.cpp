@@ -31,14 +31,6 @@ struct CollideOptions {
     bool json = false;
 };
 
-double milliseconds(std::uint64_t nanoseconds) { return static_cast<double>(nanoseconds) * 1e-6; }
-
-void print_rest(std::uint64_t count) {
-    if (count > 0)
-        std::printf("  and %llu more (--limit N prints N of them, --json all of them)\n",
-                    static_cast<unsigned long long>(count));
-}
-
 void print_constraints(const CollideOptions& options, const vox_grid* grid,
                        const std::vector<vox_body>& ids) {
     const std::span<const vox_constraint> all = constraints_of(grid);
@@ -70,10 +62,10 @@ void print_constraints(const CollideOptions& options, const vox_grid* grid,
 
 void print_collide(const CollideOptions& options, const vox_grid* grid, const std::vector<Body>& bodies,
                    const std::vector<vox_body>& ids, const Counters& times) {
+    const auto ms = [&](const char* name) { return static_cast<double>(value_of(times, name)) * 1e-6; };
     for (std::size_t i = 0; i < bodies.size(); ++i)
         std::printf("%c  %s: %llu vertices, %llu tetrahedra%s\n", i == 0 ? 'A' : 'B', bodies[i].name.c_str(),
-                    static_cast<unsigned long long>(bodies[i].view.vertex_count),
-                    static_cast<unsigned long long>(bodies[i].view.tet_count),
+                    llu(bodies[i].view.vertex_count), llu(bodies[i].view.tet_count),
                     bodies[i].view.tet_count > 0
                         ? ""
                         : " (a surface: its vertices collide, but it has no inside; --fill makes one)");
@@ -88,28 +80,24 @@ void print_collide(const CollideOptions& options, const vox_grid* grid, const st
     print_rest(contacts.size() - shown);
     print_constraints(options, grid, ids);
     std::printf("\nhash %s, cell size %.9g\n", hexadecimal(hash_of(grid)).c_str(), info_of(grid).cell_size);
-    std::printf("step %.3f ms: ", milliseconds(value_of(times, "step_ns")));
+    std::printf("step %.3f ms: ", ms("step_ns"));
     if (value_of(times, "stream_ns") > 0) // the fast engine
         std::printf("stream %.3f, winding %.3f, broad phase %.3f, windows %.3f, lookup %.3f, decide %.3f",
-                    milliseconds(value_of(times, "stream_ns")), milliseconds(value_of(times, "winding_ns")),
-                    milliseconds(value_of(times, "broad_phase_ns")),
-                    milliseconds(value_of(times, "windows_ns")), milliseconds(value_of(times, "lookup_ns")),
-                    milliseconds(value_of(times, "decide_ns")));
+                    ms("stream_ns"), ms("winding_ns"), ms("broad_phase_ns"), ms("windows_ns"),
+                    ms("lookup_ns"), ms("decide_ns"));
     else
-        std::printf("bin %.3f, broad phase %.3f, narrow phase %.3f", milliseconds(value_of(times, "bin_ns")),
-                    milliseconds(value_of(times, "broad_ns")), milliseconds(value_of(times, "narrow_ns")));
-    if (options.edges) std::printf(", edges %.3f", milliseconds(value_of(times, "edges_ns")));
-    std::printf(", contacts %.3f, depth %.3f, constraints %.3f (%s)\n",
-                milliseconds(value_of(times, "contacts_ns")), milliseconds(value_of(times, "depth_ns")),
-                milliseconds(value_of(times, "constraints_ns")),
+        std::printf("bin %.3f, broad phase %.3f, narrow phase %.3f", ms("bin_ns"), ms("broad_ns"),
+                    ms("narrow_ns"));
+    if (options.edges) std::printf(", edges %.3f", ms("edges_ns"));
+    std::printf(", contacts %.3f, depth %.3f, constraints %.3f (%s)\n", ms("contacts_ns"), ms("depth_ns"),
+                ms("constraints_ns"),
                 options.repeat == 1
                     ? "one step, in which all vertices move; --repeat N gives medians"
                     : ("medians of " + std::to_string(options.repeat) + " steps, in which all vertices move")
                           .c_str());
 }
 
-// Without a tetrahedron there is nothing that a vertex can be in, so the answer would be 0 whatever the
-// meshes.
+// Without tetrahedra the answer would always be 0.
 void require_inside(const std::vector<Body>& bodies) {
     if (std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.view.tet_count > 0; }))
         return;

@@ -22,8 +22,7 @@ int wrong_usage(const CLI::App& app, const char* words) {
     return 2;
 }
 
-// The arguments as CLI11 needs them: in reverse order, and with -.5 as -0.5, because it takes -.5 for an
-// option.
+// The arguments for CLI11: in reverse order, and -.5 as -0.5, which it would mistake for an option.
 std::vector<std::string> arguments_of(int argc, char** argv) {
     std::vector<std::string> arguments(std::make_reverse_iterator(argv + argc),
                                        std::make_reverse_iterator(argv + std::min(argc, 1)));
@@ -33,7 +32,7 @@ std::vector<std::string> arguments_of(int argc, char** argv) {
     return arguments;
 }
 
-// How many letters must be put in, left out, replaced or swapped with the next to make `b` of `a`.
+// How many letters to insert, delete, replace or swap with the next one to turn `a` into `b`.
 std::size_t distance(const std::string& a, const std::string& b) {
     std::vector<std::size_t> two_before(b.size() + 1), before(b.size() + 1), row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) before[j] = j;
@@ -76,14 +75,14 @@ std::vector<std::string> option_names(const CLI::App& app) {
     return names;
 }
 
-// `vox help` and `vox help COMMAND` are what other programs have for --help.
+// `vox help` and `vox help COMMAND`, equivalent to --help.
 void replace_help(std::vector<std::string>& arguments) {
     if (arguments.empty() || arguments.back() != "help") return;
     arguments.pop_back();
     arguments.insert(arguments.empty() ? arguments.end() : arguments.end() - 1, "--help");
 }
 
-// Words for what CLI11 did not expect: the first such argument and the name that it may have meant.
+// Names the first argument that CLI11 did not expect, and the name that it may mean.
 std::string unexpected(const CLI::App& app) {
     const std::vector<std::string> rest = app.remaining(true);
     const auto chosen = app.get_subcommands();
@@ -280,7 +279,7 @@ Command CommandLine::add(const std::string& name, const std::string& description
 int CommandLine::run(int argc, char** argv) {
     std::vector<std::string> arguments = arguments_of(argc, argv);
     replace_help(arguments);
-    // A word in the place of the command: CLI11 would only say that a command is missing.
+    // An unknown command: CLI11 would only say that a command is missing.
     if (!arguments.empty() && !arguments.back().starts_with('-')) {
         const std::vector<std::string> names = command_names(*app_);
         if (std::find(names.begin(), names.end(), arguments.back()) == names.end())
@@ -295,7 +294,7 @@ int CommandLine::run(int argc, char** argv) {
         app_->exit(request);
         return 0;
     } catch (const CLI::ParseError& error) {
-        // What is missing may be there, but misspelt.
+        // A missing argument may be a misspelt one.
         const bool odd = error.get_exit_code() == int(CLI::ExitCodes::ExtrasError) ||
                          error.get_exit_code() == int(CLI::ExitCodes::RequiredError);
         return wrong_usage(*app_,

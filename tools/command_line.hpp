@@ -1,5 +1,5 @@
-// The command line: commands with options. CLI11 parses it, in command_line.cpp alone, because every file
-// that includes CLI11 takes seconds to compile.
+// The command line: commands with options. Only command_line.cpp includes CLI11, which takes seconds to
+// compile.
 #pragma once
 
 #include <cstddef>
@@ -17,26 +17,26 @@ class Option;
 
 namespace tool {
 
-// What a command throws when it is used in a wrong way; exit code 2.
+// Thrown by a command for wrong usage; exit code 2.
 class WrongUsage : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
 };
 
-// A name that a user may give, and what it means. In a list of them, the first is the default.
+// A name that a user may give, and what it means. The first one of a list is the default.
 template <class Value>
 struct Choice {
     const char* name;
     Value value;
 };
 
-// An option or argument of a command. A value that it does not accept is wrong usage.
+// An option or argument of a command. Other values than it accepts are wrong usage.
 class Option {
 public:
     explicit Option(CLI::Option* option) : option_(option) {}
 
     Option& required();
-    Option& count(int values);                  // takes so many values
+    Option& count(int values);                  // the number of values
     Option& shown_as(const std::string& value); // in the usage
     Option& needs(const Option& other);
     Option& excludes(const Option& other);
@@ -46,7 +46,7 @@ public:
     Option& positive();
     Option& not_negative();
     Option& fraction(); // between 0 and 1
-    // A whole number. CLI11 alone takes -1 for the largest one there is.
+    // A whole number. CLI11 by itself would read -1 as the largest one.
     Option& range(std::uint64_t least, std::uint64_t most);
 
 private:
@@ -57,8 +57,7 @@ private:
     CLI::Option* option_;
 };
 
-// One command. What an option refers to must live until the command has run, and has its default value
-// before.
+// One command. The variable of an option holds the default value, and must live until the command has run.
 class Command {
 public:
     explicit Command(CLI::App* app) : app_(app) {}
@@ -93,11 +92,11 @@ private:
     CLI::App* app_;
 };
 
-// An option, or an argument, as the usage shows it.
+// An option or an argument in the usage.
 struct OptionUsage {
-    std::vector<std::string> names; // "-o", "--output"; empty for an argument
-    std::string value; // what it takes, e.g. FLOAT or FILE; the name of an argument; empty for a flag
-    std::vector<std::string> choices; // the values that it accepts, if these are few words
+    std::vector<std::string> names;   // "-o", "--output"; empty for an argument
+    std::string value;                // FLOAT, FILE, ...; the name of an argument; empty for a flag
+    std::vector<std::string> choices; // the accepted values, if they are a few words
     std::string description;
     bool required = false, repeated = false;
 };
@@ -113,7 +112,7 @@ struct Usage {
     std::vector<CommandUsage> commands;
 };
 
-// The program with its commands, of which one has to be named.
+// The program with its commands.
 class CommandLine {
 public:
     CommandLine(const std::string& name, const std::string& version, const std::string& description);

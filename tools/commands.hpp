@@ -1,4 +1,4 @@
-// The commands of vox. Each function adds one to the command line, which runs the one that is named there.
+// The commands of vox. Each function adds one to the command line.
 #pragma once
 
 #include "command_line.hpp"

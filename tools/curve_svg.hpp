@@ -8,7 +8,7 @@
 
 namespace tool {
 
-// The text of an SVG file. `words` say what the costs are of.
+// The text of an SVG file. `words` say what costs.
 std::string curve_svg(const vox_cell_size_result& found, const std::string& words);
 
 // The names of up to three files without their folders.

@@ -1,5 +1,4 @@
-// vox_demo: the demo as a program of its own, which compiles in seconds. It needs the core, and of vox_io the
-// ball.
+// vox_demo: the demo as a separate program, which compiles in seconds. It needs the core, and vox_io's ball.
 #include "failure.hpp"
 #include "io/solids/bodies.hpp"
 #include "two_balls.hpp"

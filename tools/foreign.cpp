@@ -35,7 +35,7 @@ constexpr Choice<vox_known_grid> known_grids[] = {{"none", VOX_KNOWN_GRID_NONE},
                                                   {"point-voxels", VOX_KNOWN_GRID_POINT_VOXELS},
                                                   {"numpy", VOX_KNOWN_GRID_NUMPY}};
 
-// ---- what the files hold --------------------------------------------------------------------------
+// ---- primitives of files --------------------------------------------------------------------------
 
 struct Primitives {
     std::vector<double> positions;
@@ -44,8 +44,7 @@ struct Primitives {
     const char* word = "points";
 };
 
-// The primitives of all bodies together: tetrahedra, else triangles, else points; or the kind that was asked
-// for.
+// The primitives of all bodies together: of the requested kind, or else tetrahedra, triangles or points.
 void gather(const std::vector<Body>& bodies, const ForeignOptions& options, Primitives& out) {
     bool tets = false, triangles = false;
     for (const Body& body : bodies) {
@@ -76,7 +75,7 @@ void gather(const std::vector<Body>& bodies, const ForeignOptions& options, Prim
     out.desc.count = tets || triangles ? out.indices.size() / corners : first;
 }
 
-// ---- a program of the user's ----------------------------------------------------------------------
+// ---- the user's program ----------------------------------------------------------------------
 
 std::string with_cell_size(const std::string& command, double cell_size) {
     char number[32];
@@ -103,7 +102,7 @@ std::optional<double> last_number(const std::string& output) {
 
 struct Program {
     const std::string& command;
-    bool quiet; // only failures are shown
+    bool quiet; // shows only failures
     std::uint32_t runs = 0;
 };
 
@@ -115,7 +114,7 @@ std::FILE* open_output(const std::string& command) { return popen(command.c_str(
 int close_output(std::FILE* output) { return pclose(output); }
 #endif
 
-// Runs the command once. The seconds are those on the last line that it prints, or else those that it took.
+// Runs the command once. Returns the seconds on the last line that it prints, or else those that it took.
 double run_program(double cell_size, void* user) {
     Program& program = *static_cast<Program*>(user);
     std::fflush(nullptr);
@@ -150,8 +149,7 @@ void print_suggestion(const vox_cell_size_result& found, const Primitives& store
     std::printf(
         "Suggested cell size %.9g for %llu %s.\nBetween %.9g and %.9g the predicted cost stays near its "
         "minimum.\n\n",
-        found.cell_size, static_cast<unsigned long long>(stored.desc.count), stored.word, found.zone_min,
-        found.zone_max);
+        found.cell_size, llu(stored.desc.count), stored.word, found.zone_min, found.zone_max);
     print_reasons(found);
 }
 
@@ -207,8 +205,7 @@ void suggest_foreign(const ForeignOptions& options, const std::vector<Body>& bod
     std::vector<std::string> files;
     for (const Body& body : bodies) files.push_back(body.name);
     std::string words = short_names(files);
-    vox_cell_size_result found{};
-    found.struct_size = sizeof found;
+    auto found = sized<vox_cell_size_result>();
     const bool tune = !options.tune.empty();
     if (tune) {
         vox_tune_desc desc = vox_default_tune_desc();

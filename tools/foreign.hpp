@@ -1,4 +1,4 @@
-// vox suggest for grids that are not vox's: any primitives, and a program of the user's that is run at cell
+// vox suggest for other grids than vox's: any primitives, and a program of the user that is run at cell
 // sizes.
 #pragma once
 
@@ -29,7 +29,8 @@ struct ForeignOptions {
 
 void add_foreign(Command& command, ForeignOptions& options);
 
-// Prints the suggestion for what these bodies hold, or what tuning found. There may be none for tuning.
+// Prints the suggestion for these bodies' primitives, or the result of tuning, for which there may be no
+// bodies.
 void suggest_foreign(const ForeignOptions& options, const std::vector<Body>& bodies, double zone_loss,
                      const std::string& svg, bool json);
 

@@ -32,8 +32,7 @@ std::uint64_t value_of(const Counters& counters, std::string_view name) {
 }
 
 vox_grid_info info_of(const vox_grid* grid) {
-    vox_grid_info info{};
-    info.struct_size = sizeof info;
+    auto info = sized<vox_grid_info>();
     check(vox_grid_get_info(grid, &info));
     return info;
 }

@@ -19,7 +19,7 @@ using Grid = std::unique_ptr<vox_grid, GridDeleter>;
 // Creates a grid and inserts the meshes, whose positions it borrows. ids[i] names meshes[i].
 Grid make_grid(const vox_grid_desc& desc, std::span<const vox_mesh_desc> meshes, std::vector<vox_body>& ids);
 
-// What the grid counts and times, by name: a copy of its counters.
+// A copy of the grid's counters and times, by name.
 using Counters = std::vector<vox_counter>;
 Counters counters_of(const vox_grid* grid);
 std::uint64_t value_of(const Counters& counters, std::string_view name);
@@ -27,10 +27,10 @@ inline bool is_time(const vox_counter& counter) { return std::string_view(counte
 vox_grid_info info_of(const vox_grid* grid);
 std::uint64_t hash_of(const vox_grid* grid);
 std::span<const vox_contact> contacts_of(const vox_grid* grid);
-// Throws Failure if none were looked for since the last step.
+// Throws Failure if constraints were not found since the last step.
 std::span<const vox_constraint> constraints_of(const vox_grid* grid);
 
-// The median of each, taken separately. There must be at least one.
+// The median of each counter. There must be at least one sample.
 Counters median(std::span<const Counters> steps);
 
 // Runs a step for timing, which processes all meshes even if none has moved since the last step.

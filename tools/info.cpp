@@ -77,9 +77,7 @@ Json info_json(const Info& info) {
             {"warnings", Json::array_of(info.warnings)}};
 }
 
-void print_count(const char* name, std::uint64_t value) {
-    std::printf("  %-18s %llu\n", name, static_cast<unsigned long long>(value));
-}
+void print_count(const char* name, std::uint64_t value) { std::printf("  %-18s %llu\n", name, llu(value)); }
 
 void print_number(const char* name, std::optional<double> value) {
     if (!value) return;

@@ -37,7 +37,7 @@ void Json::add(const std::string& key, const Json& value) { append(quoted(key) +
 
 void Json::push_back(const Json& element) { append(element.text_); }
 
-// Before the bracket at the end.
+// Inserts before the closing bracket.
 void Json::append(const std::string& text) {
     const char bracket = text_.back();
     text_.back() = ',';

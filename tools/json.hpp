@@ -9,7 +9,7 @@
 
 namespace tool {
 
-// A value, held as its text. A number that is not finite is null, and so is one that does not exist.
+// A value, held as its text. Numbers that are missing or not finite are null.
 class Json {
 public:
     struct Member;
@@ -33,7 +33,7 @@ public:
         return array;
     }
 
-    // Adds to an object a key that it does not have, or to an array an element behind the others.
+    // Adds a new key to an object, or an element at the end of an array.
     void add(const std::string& key, const Json& value);
     void push_back(const Json& element);
 

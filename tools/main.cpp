@@ -1,5 +1,5 @@
-// The command line tool vox. Its exit codes are 0 for success, 1 for bad input, 2 for wrong usage, and
-// 3 where vox check finds what it looks for.
+// The command line tool vox. Exit codes: 0 for success, 1 for bad input, 2 for wrong usage, 3 if vox check
+// finds crossings.
 #include "commands.hpp"
 #include "failure.hpp"
 #include "manual.hpp"
@@ -29,7 +29,7 @@ std::string version() { // "vox 0.1.0, gcc ..."
     return info.substr(4, info.find(',') - 4);
 }
 
-// What cmake runs to make the files that are installed beside the program.
+// The command that writes the installed manual page and completions, run by cmake.
 void add_generate(tool::CommandLine& line) {
     using Make = std::string (*)(const tool::Usage&);
     static constexpr tool::Choice<Make> makes[] = {

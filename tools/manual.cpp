@@ -18,8 +18,7 @@ std::string joined(const std::vector<std::string>& parts, const std::string& bet
 
 // ---- the manual page --------------------------------------------------------------------------------
 
-// A backslash and a dash have meanings of their own in troff, and a line must not begin with a dot or a
-// quote.
+// Escapes backslashes and dashes for troff, and a dot or a quote at the beginning of a line.
 std::string troff(const std::string& text) {
     const std::string escaped = replaced(replaced(text, "\\", "\\e"), "-", "\\-");
     return escaped.starts_with('.') || escaped.starts_with('\'') ? "\\&" + escaped : escaped;
@@ -51,10 +50,10 @@ std::vector<std::string> command_names(const Usage& usage) {
     return names;
 }
 
-// Within single quotes of a shell.
+// Escapes text within single quotes of a shell.
 std::string shell_quoted(const std::string& text) { return "'" + replaced(text, "'", "'\\''") + "'"; }
 
-// Within a specification of zsh's _arguments, where brackets and colons end parts of it.
+// Escapes brackets and colons, which end parts of a specification of zsh's _arguments.
 std::string zsh_part(const std::string& text) {
     return replaced(replaced(replaced(replaced(text, "\\", "\\\\"), "[", "\\["), "]", "\\]"), ":", "\\:");
 }
@@ -122,7 +121,7 @@ std::string bash_completion(const Usage& usage) {
             words.insert(words.end(), argument.choices.begin(), argument.choices.end());
         text += "        " + command.name + ") words='" + joined(words, " ") + "' ;;\n";
     }
-    // Without an answer bash completes names of files.
+    // Without an answer bash completes file names.
     return text +
            "        esac\n"
            "    fi\n"

@@ -1,4 +1,4 @@
-// The manual page and the completions of shells, made from the usage of the command line.
+// The manual page and shell completions, made from the usage of the command line.
 #pragma once
 
 #include "command_line.hpp"
@@ -7,7 +7,7 @@
 
 namespace tool {
 
-// In troff with the macros of man(7).
+// The manual page in troff, with the macros of man(7).
 std::string manual_page(const Usage& usage, const std::string& version);
 
 std::string bash_completion(const Usage& usage);

@@ -20,7 +20,7 @@ inline constexpr Choice<Cells> storages[] = {
     {"auto", Cells::automatic}, {"hashed", Cells::hashed}, {"dense", Cells::dense}};
 inline constexpr Choice<CellHash> hashes[] = {{"mixed", CellHash::mixed}, {"paper", CellHash::paper}};
 
-// Settings of a grid, as options name them.
+// Settings of a grid from options.
 struct GridOptions {
     vox_grid_desc desc = vox_default_grid_desc();
     std::uint32_t threads = 1;
@@ -28,11 +28,11 @@ struct GridOptions {
     Cells cells = Cells::automatic;
     CellHash hash = CellHash::mixed;
 
-    // Who names how cells are stored means the engine that does.
+    // The storage option implies the reference engine.
     bool is_reference() const {
         return engine == Engine::reference || (engine == Engine::automatic && cells != Cells::automatic);
     }
-    // Points into this object.
+    // The result points into this object.
     vox_grid_desc grid_desc() {
         vox_grid_desc made = desc;
         made.worker_count = threads == 0 ? VOX_ALL_CORES : threads;

@@ -39,12 +39,12 @@ void check_output(const std::string& path, std::initializer_list<const char*> en
     if (std::filesystem::is_directory(status)) fail(path, std::strerror(EISDIR));
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
         return; // a pipe, a terminal
-    // Nothing but opening a file tells whether one can be made; one that is there is opened and not changed.
+    // Only opening a file tells whether it can be written. An existing one is opened, but not changed.
     const bool existed = std::filesystem::exists(status);
     std::FILE* const file = open_file(path, "ab");
     if (!file) fail(path, std::strerror(errno));
     std::fclose(file);
-    // Of a symbolic link that led nowhere, the file that is there now is removed, and not the link.
+    // If `path` was a symbolic link to no file, removes the new file, not the link.
     if (!existed) std::filesystem::remove(std::filesystem::canonical(path_of(path), error), error);
 }
 

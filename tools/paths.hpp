@@ -1,4 +1,4 @@
-// Names of files are UTF-8 on every system, as in vox_io: here they become what the system wants.
+// File names are UTF-8 on every system, as in vox_io. Converts them to the system's form.
 #pragma once
 
 #include <cstdio>
@@ -11,7 +11,7 @@ inline std::filesystem::path path_of(const std::string& utf8) {
 #if defined(_WIN32)
     return std::u8string(utf8.begin(), utf8.end());
 #else
-    return utf8; // any bytes, as the system takes them
+    return utf8; // any bytes
 #endif
 }
 
@@ -20,7 +20,7 @@ inline std::string utf8_of(const std::filesystem::path& path) {
     return std::string(text.begin(), text.end());
 }
 
-// As fopen.
+// Like fopen.
 inline std::FILE* open_file(const std::string& utf8, const char* mode) {
 #if defined(_WIN32)
     return _wfopen(path_of(utf8).c_str(), path_of(mode).c_str());

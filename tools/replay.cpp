@@ -29,7 +29,7 @@ struct ReplayOptions {
 
 bool is_series(const std::string& out) { return has_ending(out, ".pvd"); }
 
-// The file of one snapshot of a series, beside it: of run.pvd, run_0007.vtu.
+// The name of the file of one step of a series: run_0007.vtu for run.pvd.
 std::string file_in_series(const std::string& out, std::size_t index) {
     char number[32];
     std::snprintf(number, sizeof number, "_%04zu.vtu", index);
@@ -39,11 +39,9 @@ std::string file_in_series(const std::string& out, std::size_t index) {
 void print_replay(const ReplayOptions& options, const std::string& file, std::uint64_t epoch,
                   const vox_grid* grid) {
     const Counters counters = counters_of(grid);
-    const auto count = [&](const char* name) {
-        return static_cast<unsigned long long>(value_of(counters, name));
-    };
+    const auto count = [&](const char* name) { return llu(value_of(counters, name)); };
     std::printf("%s: %llu meshes, %llu vertices, %llu tetrahedra, saved at epoch %llu\n", file.c_str(),
-                count("bodies"), count("vertices"), count("tets"), static_cast<unsigned long long>(epoch));
+                count("bodies"), count("vertices"), count("tets"), llu(epoch));
     std::printf("%llu %s, hash %s, cell size %.9g, last of %u %s in %.3f ms\n", count("contacts"),
                 count("contacts") == 1 ? "contact" : "contacts", hexadecimal(hash_of(grid)).c_str(),
                 info_of(grid).cell_size, options.steps, options.steps == 1 ? "step" : "steps",
@@ -96,7 +94,7 @@ void run_replay(const ReplayOptions& options) {
         grids.push_back(json);
     }
     progress.hide();
-    // Files of one time would be drawn over each other.
+    // Files with the same time would be drawn over each other.
     if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end())
         std::iota(times.begin(), times.end(), 0u);
     if (is_series(options.out)) write_file(options.out, pvd_series(series, times));

@@ -15,7 +15,7 @@ namespace tool {
 
 namespace {
 
-// The library gives 0 where there is no number.
+// The library returns 0 if there is no number.
 Json number(double value) { return value > 0 ? Json(value) : Json(); }
 
 Json constraints(const vox_grid* grid, const std::vector<vox_body>& ids) {
@@ -84,6 +84,11 @@ const char* state_name(vox_depth_state state) {
         break;
     }
     return "unknown";
+}
+
+void print_rest(std::uint64_t count) {
+    if (count > 0)
+        std::printf("  and %llu more (--limit N prints N of them, --json all of them)\n", llu(count));
 }
 
 Json bounds(const double (&min)[3], const double (&max)[3]) {
@@ -231,7 +236,7 @@ std::size_t place_of(const std::vector<vox_body>& ids, vox_body mesh) {
 
 std::string hexadecimal(std::uint64_t value) {
     char text[17];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
+    std::snprintf(text, sizeof text, "%016llx", llu(value));
     return text;
 }
 

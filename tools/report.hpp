@@ -25,12 +25,12 @@ void add_suggestion(Json& json, const vox_cell_size_result& result);
 void add_suggestion(Json& json, const vox_cell_size_result& result, vox_cost_model model,
                     const vox_geometry& measured);
 
-// Prints the curve, the rules, what the cost is made of, and the note. With a mean edge, the cell sizes of
-// rules are also given in mean edges.
+// Prints the curve, the rules, the terms of the cost, and the note. With a mean edge, the cell sizes of rules
+// are also given in mean edges.
 void print_reasons(const vox_cell_size_result& result, double mean_edge = 0);
 
-// Adds the keys of `vox collide` but for the cell size, for a grid whose constraints were looked for. In
-// contacts and constraints, a mesh is given by its index in `ids`.
+// Adds the keys of `vox collide` except the cell size, for a grid whose constraints were found. In contacts
+// and constraints, a mesh is its index in `ids`.
 void add_collision(Json& json, const vox_grid* grid, const std::vector<vox_body>& ids, const Counters& times);
 
 // Returns "paper", "reference", "fast" or "surface".
@@ -45,7 +45,7 @@ const char* state_name(vox_depth_state state);
 // Adds the results of a step other than contacts: hash, profile, counters.
 void add_result(Json& json, const vox_grid* grid, const Counters& times);
 
-// A list of {file, vertices, tets} for each body, in the order that contacts refer to.
+// A list of {file, vertices, tets}, one a body, in the order of the indices in contacts.
 Json body_list(const std::vector<Body>& bodies);
 
 // The index of `mesh` in `ids`, which must contain it.
@@ -53,8 +53,11 @@ std::size_t place_of(const std::vector<vox_body>& ids, vox_body mesh);
 
 std::string hexadecimal(std::uint64_t value); // sixteen digits
 
-// The text as XML has it, with bytes that are not UTF-8 replaced.
+// The text escaped for XML, with bytes that are not UTF-8 replaced.
 std::string xml_text(const std::string& text);
+
+// Says how many more there are than --limit lets commands print.
+void print_rest(std::uint64_t count);
 
 // Prints one line on standard output.
 void print(const Json& json);

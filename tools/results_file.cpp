@@ -18,8 +18,8 @@ struct Start {
 };
 
 struct Results {
-    std::vector<double> mesh, number, contacts;   // of vertices, or of cells
-    std::vector<double> kind, state, gap, normal; // of vertices
+    std::vector<double> mesh, number, contacts;   // one a vertex, or one a cell
+    std::vector<double> kind, state, gap, normal; // one a vertex
 };
 
 vox_io_point_data data(const char* name, const std::vector<double>& values, std::uint32_t components = 1) {

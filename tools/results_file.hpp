@@ -1,4 +1,4 @@
-// The results of a step as files: meshes with what collided for ParaView, and a table of the constraints.
+// The results of a step as files: meshes with their contacts for ParaView, and a table of the constraints.
 #pragma once
 
 #include "body.hpp"
@@ -11,18 +11,18 @@
 
 namespace tool {
 
-// A mesh of the grid as it is drawn.
+// A mesh of the grid, to be drawn.
 struct DrawnMesh {
     vox_body id;
     std::vector<double> positions;        // 3 for each vertex
     std::vector<std::uint32_t> tets;      // 4 corners each
-    std::vector<std::uint32_t> numbers;   // of the tets in the grid; empty: 0, 1, 2, ...
+    std::vector<std::uint32_t> numbers;   // of tets in the grid; empty: 0, 1, 2, ...
     std::vector<std::uint32_t> triangles; // 3 corners each
 };
 
 DrawnMesh drawn_mesh(const Body& body, vox_body id);
 
-// Writes the meshes, one behind the other, to a .vtu or .msh file, with the constraints that were found last.
+// Writes the meshes one after the other to a .vtu or .msh file, with the constraints found last.
 // For each vertex: `mesh` (index in `meshes`), `vertex` (its number there), `contacts` (tetrahedra that it is
 // in), and `kind`, `state` (-1: none), `gap` and `normal` of the constraint with the least gap that has it
 // among the vertices of body_a. For each cell: `mesh`, `tet` (its number; -1: a triangle), `contacts`

@@ -40,8 +40,7 @@ std::optional<double> mean(const std::vector<Element>& elements, Size size) {
 } // namespace
 
 Shape measure_shape(const vox_io_mesh_view& mesh) {
-    // Everything is measured in a unit, a power of two, in which coordinates are below 1, so that no product
-    // overflows. Only the means themselves may.
+    // Scales by a power of two so that coordinates are below 1 and no product overflows. Only the means may.
     double largest = 0;
     for (std::size_t i = 0; i < 3 * mesh.vertex_count; ++i)
         largest = std::max(largest, std::abs(mesh.positions[i]));

@@ -53,7 +53,7 @@ void place(const std::array<double, 12>& m, std::vector<double>& positions) {
     }
 }
 
-// Leaves out the tetrahedra whose bit is set.
+// Removes the tetrahedra whose bit is set.
 void keep_on(DrawnMesh& mesh, Numbers off) {
     const std::size_t tets = mesh.tets.size() / 4;
     std::vector<std::uint32_t> kept;
@@ -128,11 +128,11 @@ std::vector<DrawnMesh> drawn_meshes(const std::vector<unsigned char>& bytes) {
                     x = doubles ? chunk.next<double>() : static_cast<double>(chunk.next<float>());
             if (bits & is_transformed) place(transform, mesh.positions);
             for (double& x : mesh.positions)
-                if (!std::isfinite(x)) x = 0; // a vertex that was removed
+                if (!std::isfinite(x)) x = 0; // a removed vertex
             if (!placed || (bits & is_disabled)) continue;
             place_of.emplace(mesh.id, meshes.size());
             meshes.push_back(std::move(mesh));
-        } else if (name == "CUTS") { // these come after the meshes
+        } else if (name == "CUTS") { // after the meshes
             const auto id = chunk.next<std::uint32_t>();
             (void)chunk.next<std::uint32_t>();
             if (const auto found = place_of.find(id); found != place_of.end())

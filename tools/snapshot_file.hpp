@@ -22,8 +22,8 @@ struct Snapshot {
 // vox_grid_load.
 Snapshot load_snapshot(const std::string& path, const vox_grid_desc& machine);
 
-// The meshes of a snapshot that vox_grid_load has accepted, by id, where they are and without the tetrahedra
-// that are off. Meshes that are disabled or without positions are left out.
+// The meshes of a snapshot that vox_grid_load has accepted, by id, at their present positions and without the
+// tetrahedra that are off. Skips disabled meshes and meshes without positions.
 std::vector<DrawnMesh> drawn_meshes(const std::vector<unsigned char>& bytes);
 
 } // namespace tool

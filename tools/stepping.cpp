@@ -13,8 +13,8 @@ namespace tool {
 
 namespace {
 
-// A body's positions and how they sway about them: each coordinate follows a wave of the body's length along
-// the next axis. The strain is below 1 %.
+// A body that wobbles about its positions: each coordinate follows a wave of the body's length along the next
+// axis. The strain is below 1 %.
 class Wobble {
 public:
     explicit Wobble(const Body& body) : floats_(body.positions), doubles_(body.exact) {
@@ -32,7 +32,7 @@ public:
     void move(Body& body, double time) const {
         doubles_.empty() ? move(floats_, body.positions, time) : move(doubles_, body.exact, time);
     }
-    // Keeps the arrays where they are, because the grid borrows them.
+    // Keeps the arrays in place, as the grid borrows them.
     void restore(Body& body) const {
         std::copy(floats_.begin(), floats_.end(), body.positions.begin());
         std::copy(doubles_.begin(), doubles_.end(), body.exact.begin());
@@ -47,7 +47,7 @@ private:
             const std::size_t along = i % 3 == 2 ? i - 2 : i + 1;
             const double phase = waves * (static_cast<double>(rest[along]) - least_[along % 3]) + time;
             const double x = static_cast<double>(rest[i]) + 0.001 * size_ * std::sin(phase);
-            // Coordinates near the largest float stay.
+            // Coordinates near the largest float do not move.
             if (std::abs(x) < static_cast<double>(std::numeric_limits<float>::max()))
                 moved[i] = static_cast<Real>(x);
         }

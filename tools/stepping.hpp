@@ -6,9 +6,9 @@
 
 namespace tool {
 
-// Runs one step to warm up, then returns the median of `repeat` more, in each of which every vertex moves:
-// the bodies wobble by a thousandth of their size, because a body at rest would cost less than one that
-// moves. At the end the positions are again what they were, and a last step finds their contacts.
+// Runs one step to warm up, then returns the median of `repeat` more. In each, the bodies wobble by a
+// thousandth of their size, as a body at rest would cost less. At the end the positions are restored, and a
+// last step finds their contacts.
 Counters measure_steps(vox_grid* grid, std::span<Body> bodies, std::span<const vox_body> ids,
                        std::uint32_t repeat);
 

@@ -52,9 +52,8 @@ void print_suggest(const vox_cell_size_result& found, vox_cost_model model, cons
                 found.zone_max);
     print_reasons(found, mean_edge);
     std::printf("\n%zu %s, %llu vertices, %llu tetrahedra, mean edge %.9g, mean facet area %.9g.\n",
-                mesh_count, mesh_count == 1 ? "mesh" : "meshes",
-                static_cast<unsigned long long>(geometry.vertices),
-                static_cast<unsigned long long>(geometry.tets), mean_edge, geometry.mean_facet_area);
+                mesh_count, mesh_count == 1 ? "mesh" : "meshes", llu(geometry.vertices), llu(geometry.tets),
+                mean_edge, geometry.mean_facet_area);
     std::printf("%.4g cells along an edge of the world; predicted cost ", found.cells_per_axis);
     if (model == VOX_COST_MODEL_PAPER)
         std::printf("%.4g cell visits a tetrahedron.\n", found.cost);
@@ -73,23 +72,20 @@ void run_suggest(const SuggestOptions& options) {
         std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return body.view.tet_count > 0; });
     if (!has_tets && options.desc.model == VOX_COST_MODEL_SURFACE)
         throw Failure("--model surface is for the surfaces of tetrahedra, and there are none");
-    if (options.foreign.any() || !has_tets) // nothing that a grid of vox's own could be tuned for
+    if (options.foreign.any() || !has_tets) // not for a grid of vox
         return suggest_foreign(options.foreign, bodies, options.desc.zone_loss, options.svg, options.json);
     for (const Body& body : bodies) meshes.push_back(mesh_desc(body));
     if (options.self)
         for (vox_mesh_desc& mesh : meshes) mesh.filter.flags |= VOX_FILTER_SELF_COLLISION;
     vox_cell_size_desc desc = options.desc;
-    vox_cost_weights weights{};
-    weights.struct_size = sizeof weights;
+    auto weights = sized<vox_cost_weights>();
     if (options.calibrate) {
         check(vox_cost_calibrate(&weights));
         desc.weights = &weights;
     }
-    vox_cell_size_result found{};
-    found.struct_size = sizeof found;
+    auto found = sized<vox_cell_size_result>();
     check(vox_suggest_cell_size(&desc, meshes.data(), meshes.size(), &found));
-    vox_geometry geometry{};
-    geometry.struct_size = sizeof geometry;
+    auto geometry = sized<vox_geometry>();
     check(vox_measure_geometry(meshes.data(), meshes.size(), &geometry));
     if (!options.svg.empty()) {
         if (!collides(found))

@@ -63,8 +63,8 @@ ExperimentBody experiment_body(const Body& body) {
             {view.tets, view.tets + 4 * view.tet_count}};
 }
 
-// Of one thread the time in which it has a processor is taken; of several the time that passes, as they share
-// work.
+// Measures processor time for one thread, and elapsed time for several, which share
+// the work.
 const char* clock_name(const GridOptions& grid) { return grid.threads == 1 ? "processor" : "wall"; }
 
 // ---- cell sizes and samples -------------------------------------------------------------------------
@@ -331,7 +331,7 @@ void print_sweep(const Sweep& sweep) {
     const double mean_edge = sweep.geometry.mean_edge;
     std::printf("%s against %s, %llu tetrahedra, %.2f %% of them in contact (mean over %u frames).\n\n",
                 sweep.bodies.front().name.c_str(), sweep.bodies.back().name.c_str(),
-                static_cast<unsigned long long>(sweep.experiment.tets()), 100 * sweep.experiment.mean_share(),
+                llu(sweep.experiment.tets()), 100 * sweep.experiment.mean_share(),
                 sweep.options.experiment.frames);
     std::printf("  %12s %8s %8s %11s\n", "cell size", "edges", "n", "time (ms)");
     double most = 0;

@@ -102,12 +102,9 @@ void SweepLog::add(const SweepSample& sample) {
     samples_.push_back(sample);
     if (!file_) return;
     char numbers[192];
-    std::snprintf(numbers, sizeof numbers, ",%llu,%.17g,%llu,%llu,%llu,%llu,",
-                  static_cast<unsigned long long>(sample.round), sample.cell_size,
-                  static_cast<unsigned long long>(sample.contacts),
-                  static_cast<unsigned long long>(sample.visited_cells),
-                  static_cast<unsigned long long>(sample.visited_entries),
-                  static_cast<unsigned long long>(sample.candidates));
+    std::snprintf(numbers, sizeof numbers, ",%llu,%.17g,%llu,%llu,%llu,%llu,", llu(sample.round),
+                  sample.cell_size, llu(sample.contacts), llu(sample.visited_cells),
+                  llu(sample.visited_entries), llu(sample.candidates));
     std::string line = experiment_ + ',' + sample.name + numbers;
     for (std::size_t i = 0; i < sample.frame_ns.size(); ++i)
         line.append(i == 0 ? "" : " ").append(std::to_string(sample.frame_ns[i]));

@@ -85,7 +85,7 @@ void Progress::begin_reading(const std::string& path) {
     reading_ = "reading " + path;
     std::error_code error;
     const double bytes = static_cast<double>(std::filesystem::file_size(path_of(path), error));
-    if (error) return; // of a pipe the size is not known; of what cannot be read, the reader says why
+    if (error) return; // the size of a pipe is unknown; if the file cannot be read, the reader says why
     char words[48];
     if (bytes < 1e6)
         std::snprintf(words, sizeof words, ", %.0f kB", std::ceil(bytes * 1e-3));

@@ -9,7 +9,7 @@
 namespace tool {
 
 #ifdef _WIN32
-// As long as it lives, what is printed is UTF-8, and as everywhere else to the byte, without carriage
+// While it exists, output is UTF-8 and, as on other systems, unchanged to the byte, without carriage
 // returns.
 class Console {
 public:
@@ -39,7 +39,7 @@ public:
     void show(const std::string& where);
     // Names the file and its size, at once if it is so large that reading it will take long.
     void begin_reading(const std::string& path);
-    // The same, and which fraction of the work is done.
+    // Shows which fraction of the work is done, too.
     void show_read(double fraction);
     // Erases the line, before something else is printed where it may stand.
     void hide();

@@ -43,9 +43,8 @@ void write(const vox_io_mesh* mesh, const TetrahedralizeOptions& options) {
 }
 
 void print_tetrahedralize(const TetrahedralizeOptions& options, const vox_io_quality& quality) {
-    std::printf("%s: %llu tetrahedra, %llu vertices\n", options.out.c_str(),
-                static_cast<unsigned long long>(quality.tets),
-                static_cast<unsigned long long>(quality.vertices));
+    std::printf("%s: %llu tetrahedra, %llu vertices\n", options.out.c_str(), llu(quality.tets),
+                llu(quality.vertices));
     std::printf("  %-20s %.9g to %.9g degrees\n", "dihedral angles", quality.min_dihedral,
                 quality.max_dihedral);
     std::printf("  %-20s %.9g (of the mesh's boundary and the surface)\n", "Hausdorff distance",
@@ -58,8 +57,7 @@ void run_tetrahedralize(const TetrahedralizeOptions& options) {
     const Mesh surface = load_mesh(options.surface);
     const Mesh mesh = fill(surface.get(), options.desc);
     write(mesh.get(), options);
-    vox_io_quality quality{};
-    quality.struct_size = sizeof quality;
+    auto quality = sized<vox_io_quality>();
     check(vox_io_mesh_measure(mesh.get(), surface.get(), &quality));
     if (!options.json) return print_tetrahedralize(options, quality);
     print({{"file", options.out},

@@ -75,7 +75,7 @@ void print_frames(std::span<const std::uint64_t> contacts, const Contender& fast
     std::printf("%5s %9s %14s %18s\n", "frame", "contacts", "fast engine", "paper's algorithm");
     for (std::size_t i = 0; i < contacts.size(); ++i) {
         const double share = most > 0 ? static_cast<double>(contacts[i]) / most : 0.0;
-        std::printf("%5zu %9llu %11.3f ms %15.3f ms%s%s\n", i, static_cast<unsigned long long>(contacts[i]),
+        std::printf("%5zu %9llu %11.3f ms %15.3f ms%s%s\n", i, llu(contacts[i]),
                     milliseconds(static_cast<double>(fast.frames[i])),
                     milliseconds(static_cast<double>(reference.frames[i])), share > 0 ? "  " : "",
                     bar(share, 25).c_str());
@@ -125,9 +125,7 @@ TwoBalls::TwoBalls(std::span<const double> rest, std::span<const std::uint32_t> 
         ball.tet_count = tet_count();
     }
     move(0);
-    suggestion_.struct_size = sizeof suggestion_;
     check(vox_suggest_cell_size(nullptr, balls.data(), balls.size(), &suggestion_));
-    geometry_.struct_size = sizeof geometry_;
     check(vox_measure_geometry(balls.data(), balls.size(), &geometry_));
     const vox_reference_desc reference = vox_default_reference_desc();
     for (const vox_reference_desc* engine : {static_cast<const vox_reference_desc*>(nullptr), &reference}) {

@@ -2,6 +2,7 @@
 // the right cell size saves. Both `vox demo` and vox_demo run it.
 #pragma once
 
+#include "failure.hpp"
 #include "grid.hpp"
 
 #include <vox/vox_cell_size.h>
@@ -55,8 +56,8 @@ private:
     std::span<const double> rest_;
     std::span<const std::uint32_t> tets_;
     std::array<std::vector<float>, 2> positions_;
-    vox_cell_size_result suggestion_{};
-    vox_geometry geometry_{};
+    vox_cell_size_result suggestion_ = sized<vox_cell_size_result>();
+    vox_geometry geometry_ = sized<vox_geometry>();
     std::vector<Contender> contenders_;
     std::vector<std::uint64_t> contacts_;
 };

@@ -1,4 +1,4 @@
-/* What must hold for the constraints of any step whose positions are still the same. */
+/* Checks of the constraints of a step whose positions have not changed since. */
 #ifndef VOX_TESTS_CONSTRAINT_CHECKS_H
 #define VOX_TESTS_CONSTRAINT_CHECKS_H
 
@@ -7,7 +7,7 @@
 
 #include "support/suite.h"
 
-/* A body as constraints see it: packed doubles, transformed, and its tetrahedra. */
+/* A body's transformed positions as packed doubles, and its tetrahedra. */
 typedef struct placed_body {
     double* x;
     uint32_t* tets;
@@ -52,7 +52,7 @@ static inline void free_placed(placed_body* b) {
     free(b->tets);
 }
 
-/* What constraints of one pair and kind are sorted by. */
+/* The sort key of the constraints of one pair and kind. */
 static inline void constraint_key(const vox_constraint* c, uint32_t key[6]) {
     memset(key, 0, 6 * sizeof *key);
     key[0] = c->body_a;
@@ -78,7 +78,7 @@ static inline int compare_constraints(const vox_constraint* x, const vox_constra
     return 0;
 }
 
-/* One by itself. */
+/* Checks one constraint. */
 static inline void check_constraint(const vox_constraint* c, const placed_body* a, const placed_body* b) {
     const int of_vertex = c->kind != VOX_CONSTRAINT_EDGE;
     double sums[2] = {0, 0}, point[3] = {0, 0, 0};
@@ -120,7 +120,7 @@ static inline void check_constraint(const vox_constraint* c, const placed_body* 
         ck_assert_double_eq(c->time, 1);
 }
 
-/* The view, after checks of it all. */
+/* Checks all constraints and returns the view. */
 static inline vox_constraint_view checked_constraints(const vox_grid* grid) {
     const vox_constraint_view view = constraints_of(grid);
     const vox_pair_view pairs = pairs_of(grid);
@@ -143,7 +143,7 @@ static inline vox_constraint_view checked_constraints(const vox_grid* grid) {
             if (i > first) ck_assert_int_lt(compare_constraints(c - 1, c), 0);
             if (pair->state == VOX_PAIR_NEAR || pair->state == VOX_PAIR_ENDED) /* which may be near still */
                 ck_assert_int_eq(c->kind, VOX_CONSTRAINT_PROXIMITY);
-            /* At most one of a vertex, of whatever kind. */
+            /* A vertex has at most one, of any kind. */
             for (uint64_t other = first; other < i && c->kind > VOX_CONSTRAINT_EDGE; ++other)
                 ck_assert(view.data[other].kind == VOX_CONSTRAINT_EDGE ||
                           view.data[other].body_a != c->body_a ||

@@ -44,7 +44,7 @@ static inline vox_grid* depth_grid(void) {
 static inline vector normal_of(const vox_constraint* c) { return vector_of(c->normal); }
 static inline double depth_of(const vox_constraint* c) { return -c->gap; }
 
-/* That of a vertex in a mesh, or null. */
+/* The constraint of a vertex in a mesh, or null. */
 static inline const vox_constraint* inside_of(const vox_grid* grid, vox_body a, uint32_t vertex, vox_body b) {
     const vox_constraint_view view = constraints_of(grid);
     for (uint64_t i = 0; i < view.count; ++i) {

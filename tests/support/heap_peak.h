@@ -15,7 +15,7 @@
 
 #ifdef VOX_TESTS_HEAP_IS_MEASURED
 
-/* As in <sanitizer/allocator_interface.h>, which Debian's gcc does not come with. */
+/* From <sanitizer/allocator_interface.h>, which Debian's gcc lacks. */
 size_t __sanitizer_get_allocated_size(const volatile void* pointer);
 int __sanitizer_install_malloc_and_free_hooks(void (*allocated)(const volatile void* pointer, size_t size),
                                               void (*freed)(const volatile void* pointer));

@@ -62,11 +62,12 @@ static inline vox_io_report report_of(const vox_io_mesh* mesh) {
     return report;
 }
 
-/* Whatever was read: indices name vertices, positions are finite, the report agrees with the arrays. */
+/* Checks any mesh that was read: indices name vertices, positions are finite, the report agrees with the
+ * arrays. */
 static inline void check_sound(const vox_io_mesh* mesh) {
     vox_io_mesh_view view;
     ck_ok(vox_io_mesh_get_arrays(mesh, &view));
-    int unsound = 0; /* one assertion in all: each costs far more than what it checks */
+    int unsound = 0; /* a single assertion, as each costs far more than its check */
     for (uint64_t i = 0; i < 3 * view.vertex_count; ++i) unsound |= !isfinite(view.positions[i]);
     for (uint64_t i = 0; i < 4 * view.tet_count; ++i) unsound |= view.tets[i] >= view.vertex_count;
     for (uint64_t i = 0; i < 3 * view.triangle_count; ++i) unsound |= view.triangles[i] >= view.vertex_count;
@@ -79,7 +80,7 @@ static inline void check_sound(const vox_io_mesh* mesh) {
     ck_assert_ptr_nonnull(vox_io_mesh_get_warnings(mesh));
 }
 
-/* The same vertices, tets and triangles, bit for bit. */
+/* Checks for equal vertices, tets and triangles, bit for bit. */
 static inline void check_same(const vox_io_mesh* a, const vox_io_mesh* b) {
     vox_io_mesh_view p, q;
     ck_ok(vox_io_mesh_get_arrays(a, &p));

@@ -42,19 +42,18 @@ typedef struct oracle_contact {
     double barycentric[4];
 } oracle_contact;
 
-/* All pairs of a vertex and a closed tetrahedron that holds it and does not own it, sorted by (body_a,
- * vertex, body_b, tet). The caller frees *out with free(). Returns their number; ends the program when memory
- * runs out. */
+/* All pairs of a vertex and a closed tetrahedron that contains it without having it as a corner, sorted by
+ * (body_a, vertex, body_b, tet). The caller frees *out with free(). Returns their number; ends the program if
+ * memory runs out. */
 size_t oracle_hits(const oracle_mesh* meshes, uint32_t mesh_count, oracle_contact** out);
 
-/* The same with the rule of vox_contact: per (body_a, vertex, body_b) the interior ones, or else the first.
- */
+/* Contacts by the rule of vox_contact: per (body_a, vertex, body_b) the interior ones, or else the first. */
 size_t oracle_contacts(const oracle_mesh* meshes, uint32_t mesh_count, oracle_contact** out);
 
 /* Tetrahedra of exactly zero volume. */
 size_t oracle_degenerate_tets(const oracle_mesh* meshes, uint32_t mesh_count);
 
-/* The same of doubles. */
+/* For doubles. */
 typedef struct oracle_mesh_d {
     const double* positions;
     const uint32_t* tets;

@@ -167,7 +167,8 @@ static inline void check_pairs(soak* s, const vox_grid* grid) {
     demand(is == s->is_count && was == s->was_count);
 }
 
-/* One for each vertex in another body, the same from both engines; and which were there before. */
+/* Checks INSIDE constraints: one for each vertex in another body, the same in both grids, `previous`
+ * included. */
 static inline void check_constraints(soak* s) {
     const vox_contact_view contacts = contacts_of(s->grids[0]);
     uint64_t inside = 0;
@@ -184,7 +185,7 @@ static inline void check_constraints(soak* s) {
     if (s->step % 8 == 0) (void)checked_constraints(s->grids[s->step % 16 == 0]);
 }
 
-/* The same meshes in a new grid have the same contacts. */
+/* Checks that the meshes have the same contacts in a new grid. */
 static inline void check_against_fresh(soak* s, const vox_contact_view* view) {
     vox_grid_desc desc = vox_default_grid_desc();
     vox_grid* fresh = NULL;

@@ -74,8 +74,8 @@ static void solid_sort3(uint32_t* v) {
     if (v[0] > v[1]) t = v[0], v[0] = v[1], v[1] = t;
 }
 
-/* Every tet positive, every vertex used, every facet of one tet or two that lie on different sides of it, the
- * boundary closed. */
+/* Checks that every tet is positive, every vertex used, every facet of one tet or of two on different sides
+ * of it, and the boundary closed. */
 static solid_facts check_solid(const vox_io_mesh* mesh) {
     const vox_io_mesh_view view = solid_view(mesh);
     solid_facts facts = {180, 0, 0, 0, 0, 0};
@@ -169,7 +169,7 @@ static solid_facts check_solid(const vox_io_mesh* mesh) {
     return facts;
 }
 
-/* The same with the angles of isosurface stuffing. */
+/* Checks a solid, and the angles of isosurface stuffing. */
 static solid_facts check_stuffed(const vox_io_mesh* mesh) {
     const solid_facts facts = check_solid(mesh);
     ck_assert_msg(facts.min_dihedral >= LEAST_DIHEDRAL && facts.max_dihedral <= MOST_DIHEDRAL,

@@ -1,4 +1,4 @@
-/* What the suites share: checks of results, grids and meshes in one call, cases, one case an engine. */
+/* Shared by the suites: checks of results, grids and meshes in one call, cases, one case an engine. */
 #ifndef VOX_TESTS_SUITE_H
 #define VOX_TESTS_SUITE_H
 
@@ -62,7 +62,7 @@ static inline vox_body insert_mesh(vox_grid* grid, const vox_mesh_desc* desc) {
     return mesh;
 }
 
-/* As many positions as the mesh has vertices, wherever they are. */
+/* A description of `data` as one position for each vertex of the mesh. */
 static inline vox_positions positions_for(const vox_grid* grid, vox_body mesh, const void* data,
                                           vox_format format, uint64_t byte_stride,
                                           uint64_t component_byte_stride) {

@@ -156,16 +156,14 @@ std::array<vox_mesh_desc, 2> Experiment::mesh_descs(const Frame& frame) const {
 
 vox_cell_size_result Experiment::suggest(const vox_cell_size_desc& desc) const {
     const std::array<vox_mesh_desc, 2> meshes = mesh_descs(frames_.front());
-    vox_cell_size_result result{};
-    result.struct_size = sizeof result;
+    auto result = sized<vox_cell_size_result>();
     check(vox_suggest_cell_size(&desc, meshes.data(), meshes.size(), &result));
     return result;
 }
 
 vox_geometry Experiment::geometry() const {
     const std::array<vox_mesh_desc, 2> meshes = mesh_descs(frames_.front());
-    vox_geometry geometry{};
-    geometry.struct_size = sizeof geometry;
+    auto geometry = sized<vox_geometry>();
     check(vox_measure_geometry(meshes.data(), meshes.size(), &geometry));
     return geometry;
 }

@@ -46,14 +46,13 @@ public:
     const std::vector<double>& shares() const { return shares_; } // of tets in contact, in each frame
     double mean_share() const;
 
-    // Of the first frame.
+    // For the first frame.
     vox_cell_size_result suggest(const vox_cell_size_desc& desc) const;
     vox_geometry geometry() const;
 
-    // Measures one sample, after one step that is not timed. The times are those of detection, without depth.
-    // Of a grid with one worker, they are the processor time of this thread, which a busy machine lengthens
-    // much less; of several, the time that passes. Throws Failure if the contacts are not those found during
-    // the simulation.
+    // Measures one sample, after one step that is not timed: times of detection, without depth. With one
+    // worker, they are processor time of this thread, which a busy machine lengthens much less; with several,
+    // elapsed time. Throws Failure if the contacts are not those found during the simulation.
     SweepSample measure(double cell_size);
 
 private:

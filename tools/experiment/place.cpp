@@ -128,11 +128,11 @@ double place_at_share(ContactShare& share, const ExperimentBody& a, const Experi
     while (std::abs(reached - wanted) > 0.005 * wanted) {
         const double middle = inside + (outside - inside) / 2;
         if (middle == inside || middle == outside) break;
-        const double there = share_at(middle);
-        if (there >= wanted) {
+        const double middle_share = share_at(middle);
+        if (middle_share >= wanted) {
             inside = middle;
-            reached = there;
-        } else if (wanted - there <= 0.005 * wanted) {
+            reached = middle_share;
+        } else if (wanted - middle_share <= 0.005 * wanted) {
             return middle;
         } else {
             outside = middle;
