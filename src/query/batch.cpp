@@ -18,7 +18,7 @@ constexpr double cell_in_tile_sides = 0.6;
 
 Queries::Batch::Batch(const Queries& queries, QueryMeshes which, std::pmr::memory_resource* memory,
                       Array<PointHit>& found)
-    : queries_(queries), which_(which), found_(found), collected_(memory), bins_(memory), windows_(memory),
+    : queries_(queries), which_(which), hits_(found), collected_(memory), bins_(memory), windows_(memory),
       boundary_hits_(memory), scratch_(1, memory) {
     for (const Mesh& mesh : queries.meshes_)
         if (wants(mesh, which)) add(region_, mesh.box);
@@ -100,7 +100,7 @@ void Queries::Batch::take(std::span<const fast::Finding> findings) {
         const LeafTets& tets = *tets_;
         const std::uint32_t place = f.tet - tiles[tile_].first_tet;
         if (f.certain)
-            found_.push_back({f.vertex, mesh_, tets.index(place), true, leaf, place});
+            hits_.push_back({f.vertex, mesh_, tets.index(place), true, leaf, place});
         else
             locate_later(f.vertex, leaf, place);
     }
@@ -147,7 +147,7 @@ void Queries::Batch::locate_all() {
         }
         const PointHit hit{one.point, one.mesh, tets.index(one.place), interior, one.leaf, one.place};
         if (interior)
-            found_.push_back(hit);
+            hits_.push_back(hit);
         else
             keep_lowest(hit);
     }
@@ -157,11 +157,11 @@ void Queries::Batch::locate_all() {
 // dozens.
 void Queries::Batch::keep_lowest(const PointHit& hit) {
     std::uint32_t& kept = boundary_hits_[hit.point];
-    if (kept == none || found_[kept].mesh != hit.mesh) {
-        kept = static_cast<std::uint32_t>(found_.size());
-        found_.push_back(hit);
-    } else if (hit.tet < found_[kept].tet) {
-        found_[kept] = hit;
+    if (kept == none || hits_[kept].mesh != hit.mesh) {
+        kept = static_cast<std::uint32_t>(hits_.size());
+        hits_.push_back(hit);
+    } else if (hit.tet < hits_[kept].tet) {
+        hits_[kept] = hit;
     }
 }
 

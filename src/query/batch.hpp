@@ -34,7 +34,7 @@ private:
 
     const Queries& queries_;
     const QueryMeshes which_;
-    Array<PointHit>& found_;
+    Array<PointHit>& hits_;
     Box region_ = empty_box;        // around the meshes
     std::span<const Vec3d> points_; // of this call
     bool rounded_ = false;          // some are not floats
@@ -42,7 +42,7 @@ private:
     fast::Bins bins_;
     Array<fast::Source> windows_;
     static constexpr std::uint32_t none = ~0u;
-    Array<std::uint32_t> boundary_hits_; // for each of points_ its last hit on a boundary, in found_
+    Array<std::uint32_t> boundary_hits_; // for each of points_ its last hit on a boundary, in hits_
     Array<fast::LookupScratch> scratch_; // one
     // The place of the present finding. Findings come in the order of tiles.
     std::uint32_t mesh_ = 0, tile_ = 0;
